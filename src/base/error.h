@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// What went wrong, for whom, and where in *their* file; and the program's exit codes.
+
+#include <stdexcept>
+#include <string>
+
+namespace gonio {
+
+/// Exit codes of the program, part of its contract.
+enum class Exit {
+  done = 0,
+  check_failed = 1,   ///< a check that the user asked for
+  usage = 2,          ///< the words of the call
+  bad_input = 3,      ///< a file that cannot be read as what it claims, or an output not written
+  not_converged = 4,  ///< the fit
+};
+
+/// One line that a user can act on.  Bugs are asserted, outcomes of a fit are values in its result;
+/// this is for what people bring.
+class Error : public std::runtime_error {
+ public:
+  Error(Exit code, const std::string& line) : std::runtime_error(line), code_(code) {}
+  Exit code() const { return code_; }
+
+ private:
+  Exit code_;
+};
+
+/// "FILE: PLACE: found FOUND, expected EXPECTED"; control characters in `found` are made visible and
+/// a long one is cut, since it comes from the file.
+Error bad_input(const std::string& file, const std::string& place, const std::string& found,
+                const std::string& expected);
+Error wrong_usage(const std::string& line);
+
+}  // namespace gonio

@@ -1,0 +1,91 @@
+#include "base/file.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "base/error.h"
+
+namespace gonio {
+
+InputFile::InputFile(std::string path) : path_(std::move(path)) {
+  // The kind is asked before opening: opening a pipe would wait for its writer.
+  struct stat s {};
+  if (::stat(path_.c_str(), &s) != 0)
+    throw bad_input(path_, "opening", std::strerror(errno), "a readable file");
+  if (S_ISDIR(s.st_mode)) throw bad_input(path_, "opening", "a directory", "a file");
+  if (!S_ISREG(s.st_mode)) throw bad_input(path_, "opening", "a device or pipe", "a regular file");
+  if (s.st_size == 0) throw bad_input(path_, "byte 0", "an empty file", "data");
+  file_.reset(std::fopen(path_.c_str(), "rb"));
+  if (!file_) throw bad_input(path_, "opening", std::strerror(errno), "a readable file");
+  size_ = static_cast<std::uint64_t>(s.st_size);
+}
+
+void InputFile::read(void* to, std::size_t n) {
+  const std::size_t got = std::fread(to, 1, n, file_.get());
+  if (got != n)
+    throw bad_input(path_, fmt::format("byte {}", position_ + got), "the end of the file",
+                    fmt::format("{} more bytes", n - got));
+  position_ += n;
+}
+
+std::string InputFile::peek(std::size_t n) {
+  std::string bytes(n, '\0');
+  bytes.resize(std::fread(bytes.data(), 1, n, file_.get()));
+  if (std::fseek(file_.get(), static_cast<long>(position_), SEEK_SET) != 0)
+    throw bad_input(path_, fmt::format("byte {}", position_), std::strerror(errno), "a seek");
+  return bytes;
+}
+
+std::string InputFile::read_rest(std::uint64_t most) {
+  const std::uint64_t n = size_ > position_ ? size_ - position_ : 0;
+  if (n > most)
+    throw bad_input(path_, fmt::format("byte {}", position_), fmt::format("{} bytes", n),
+                    fmt::format("at most {}", most));
+  std::string bytes(static_cast<std::size_t>(n), '\0');
+  read(bytes.data(), bytes.size());
+  return bytes;
+}
+
+OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
+  const std::filesystem::path p(path_);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(p, ignored))
+    throw bad_input(path_, "writing", "a directory", "the name of a file");
+  temporary_ = (p.parent_path() / fmt::format(".{}.{}.tmp", p.filename().string(), ::getpid())).string();
+  file_ = std::fopen(temporary_.c_str(), "wb");
+  if (!file_) fail("writing");
+}
+
+OutputFile::~OutputFile() {
+  if (file_) std::fclose(file_);
+  if (!committed_) std::remove(temporary_.c_str());
+}
+
+void OutputFile::fail(const std::string& doing) const {
+  throw bad_input(path_, doing, std::strerror(errno), "a place that can be written");
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("writing");
+}
+
+void OutputFile::commit() {
+  const bool closed = std::fclose(file_) == 0;
+  file_ = nullptr;
+  if (!closed) fail("writing");
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("renaming");
+  committed_ = true;
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  OutputFile out(path);
+  out.write(bytes);
+  out.commit();
+}
+
+}  // namespace gonio

@@ -1,0 +1,63 @@
+#pragma once
+/// \file
+/// Files in, files out: a reader that says where a file ends too early, and a writer that leaves
+/// either the whole file or none.
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace gonio {
+
+/// A regular file opened for reading.  Every failure is Error(bad_input) with the place.
+class InputFile {
+ public:
+  explicit InputFile(std::string path);
+  const std::string& path() const { return path_; }
+  std::uint64_t size() const { return size_; }
+  std::uint64_t position() const { return position_; }
+
+  /// Reads exactly n bytes; a file that is shorter is an error naming the byte where it ends.
+  void read(void* to, std::size_t n);
+  /// The next bytes, at most n, without moving on.
+  std::string peek(std::size_t n);
+  /// The rest of the file; refuses more than `most` bytes.
+  std::string read_rest(std::uint64_t most = std::uint64_t{1} << 31);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* f) const { std::fclose(f); }
+  };
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::uint64_t size_ = 0, position_ = 0;
+};
+
+/// A file being made under a temporary name beside its own; it appears under its own name when
+/// commit() has succeeded and leaves nothing behind otherwise.
+class OutputFile {
+ public:
+  explicit OutputFile(std::string path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// For libraries that write by name.
+  const std::string& temporary_path() const { return temporary_; }
+  void write(std::string_view bytes);
+  /// Flushes and renames.
+  void commit();
+
+ private:
+  [[noreturn]] void fail(const std::string& doing) const;
+  std::string path_, temporary_;
+  std::FILE* file_ = nullptr;
+  bool committed_ = false;
+};
+
+/// The whole of a small file at once.
+void write_file(const std::string& path, std::string_view bytes);
+
+}  // namespace gonio

@@ -1,0 +1,28 @@
+#pragma once
+/// \file
+/// Every term, once.  A new term is its struct and its name in this list; a hot combination is one
+/// line in the second.
+
+#include "brdf/diffuse.h"
+#include "brdf/masking.h"
+#include "brdf/ndf.h"
+#include "optics/fresnel.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+template <template <class> class... Terms>
+struct TermList {};
+
+using Catalogue = TermList<Ggx, Gtr,                               // D
+                           SmithGgxSeparable, SmithGgxCorrelated,  // V
+                           Schlick, Dielectric, Conductor,         // F
+                           Lambert, LambertCoupled>;               // diffuse
+
+template <class... Lists>
+struct FusedList {};
+
+/// D·V·F inlined into one loop: the same three formulas, worth it where a profile says so.
+using Hot = FusedList<TermList<Ggx, SmithGgxCorrelated, Schlick>,
+                      TermList<Ggx, SmithGgxCorrelated, Conductor>>;
+
+}  // namespace gonio::inline GONIO_ARCH

@@ -1,0 +1,83 @@
+#pragma once
+/// \file
+/// f_r of a model over columns of angles.
+
+#include <array>
+#include <memory>
+#include <new>
+#include <span>
+#include <vector>
+
+#include "brdf/kernels.h"
+#include "brdf/model.h"
+#include "geometry/angles.h"
+
+namespace gonio {
+
+/// A 64-byte aligned array.
+template <class F>
+class Column {
+ public:
+  Column() = default;
+  explicit Column(std::size_t n, F fill = F(0));
+  F* data() { return data_.get(); }
+  const F* data() const { return data_.get(); }
+  F& operator[](std::size_t i) { return data_[i]; }
+  F operator[](std::size_t i) const { return data_[i]; }
+
+ private:
+  struct Free {
+    void operator()(F* p) const { ::operator delete[](p, std::align_val_t(64)); }
+  };
+  std::unique_ptr<F[], Free> data_;
+};
+
+/// Angles as columns, padded.
+template <class F>
+class AngleColumns {
+ public:
+  explicit AngleColumns(std::size_t n);
+  std::size_t size() const { return size_; }
+  std::size_t padded() const { return padded_; }
+  void set(std::size_t i, const Angles<double>& a) {
+    const double v[] = {a.nol, a.nov, a.noh, a.voh, a.sin2_theta_h};
+    for (std::size_t k = 0; k < column_.size(); ++k) column_[k][i] = static_cast<F>(v[k]);
+  }
+  Block<F> block() const {
+    return {column_[0].data(), column_[1].data(), column_[2].data(), column_[3].data(),
+            column_[4].data(), padded_};
+  }
+
+ private:
+  std::size_t size_, padded_;
+  std::array<Column<F>, 5> column_;
+};
+
+/// Scratch columns of one block, made on demand; one per thread.
+template <class F>
+class Scratch {
+ public:
+  /// Samples per block: the columns of a pass then stay in the L2 cache.
+  static constexpr std::size_t block = 256;
+  Scratch();
+  F* operator[](std::size_t i);
+  const F* ones() { return (*this)[0]; }
+  const F* zeros() { return (*this)[1]; }
+  const F* minus_ones() { return (*this)[2]; }
+  static constexpr std::size_t first_free = 3;
+
+ private:
+  std::vector<Column<F>> columns_;
+};
+
+/// f_c for every sample of x.  values: model.value_count of them; out: one column per channel, as
+/// long as x.  Below the horizon the terms are not defined: the caller leaves such samples out.
+template <class F>
+void evaluate(const Model& model, std::span<const F> values, const Block<F>& x,
+              std::span<F* const> out, const Kernels<F>& k = kernels<F>());
+
+/// The same for a list of angles, in double: [channel][sample].  0 below the horizon.
+std::vector<std::vector<double>> evaluate(const BoundModel& model,
+                                          std::span<const Angles<double>> angles);
+
+}  // namespace gonio

@@ -1,0 +1,251 @@
+// Compiled once per instruction set (GONIO_ARCH): every loop of the program over samples.
+#include "brdf/kernels.h"
+
+#include <utility>
+
+#include "brdf/catalogue.h"
+#include "number/batch.h"
+#include "number/dual.h"
+
+namespace gonio::inline GONIO_ARCH {
+namespace {
+
+#ifdef GONIO_SCALAR
+template <class F>
+using Lane = F;
+#else
+template <class F>
+using Lane = Batch<F>;
+#endif
+
+template <class F>
+Angles<Lane<F>> angles(const Block<F>& x, std::size_t i) {
+  using B = Lane<F>;
+  return {load<B>(x.nol + i), load<B>(x.nov + i), load<B>(x.noh + i), load<B>(x.voh + i),
+          load<B>(x.sin2_theta_h + i)};
+}
+
+// ---- a term over a column -----------------------------------------------------------------------
+
+template <class Term, class T, class F>
+Term bind(const F* p, auto lift) {
+  std::array<T, Term::parameters.size()> a;
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] = lift(p[k], k);
+  return Term(std::span<const T, Term::parameters.size()>(a));
+}
+template <template <class> class Term, class F>
+auto bind_value(const F* p) {
+  using B = Lane<F>;
+  static_assert(TermOver<Term<B>, B>);
+  return bind<Term<B>, B>(p, [](F x, std::size_t) { return B(x); });
+}
+
+template <template <class> class Term, class F>
+void extend(const Block<F>& x, const F* p, const Join<F>& j) {
+  using B = Lane<F>;
+  const auto term = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto q = as_quotient<B>(term(angles(x, i)));
+    store<B>(j.out + i, load<B>(j.num + i) * q.num);
+    store<B>(j.out_den + i, load<B>(j.den + i) * q.den);
+  }
+}
+
+template <template <class> class Term, class F>
+void close(const Block<F>& x, const F* p, const Join<F>& j) {
+  using B = Lane<F>;
+  const auto term = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto q = as_quotient<B>(term(angles(x, i)));
+    store<B>(j.out + i, load<B>(j.num + i) * q.num / (load<B>(j.den + i) * q.den));
+  }
+}
+
+template <template <class> class Term, class F>
+void add(const Block<F>& x, const F* p, const Join<F>& j) {
+  using B = Lane<F>;
+  const auto term = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>)
+    store<B>(j.out + i, load<B>(j.base + i) + load<B>(j.num + i) * as_value<B>(term(angles(x, i))));
+}
+
+template <template <class> class Term, class F>
+void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
+  using B = Lane<F>;
+  constexpr std::size_t N = Term<B>::parameters.size();
+  using T = Dual<B, N>;
+  const auto term = bind<Term<T>, T>(p, [](F v, std::size_t k) { return T::variable(B(v), k); });
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const T t = as_value<T>(term(angles(x, i)));
+    store<B>(value + i, t.v);
+    for (std::size_t k = 0; k < N; ++k) store<B>(d[k] + i, t.d[k]);
+  }
+}
+
+template <template <class> class D, template <class> class V, template <class> class Fr, class F>
+void fused(const Block<F>& x, const std::array<const F*, 3>& p, const F* base, F* out) {
+  using B = Lane<F>;
+  const auto d = bind_value<D, F>(p[0]);
+  const auto v = bind_value<V, F>(p[1]);
+  const auto f = bind_value<Fr, F>(p[2]);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto a = angles(x, i);
+    const auto qd = as_quotient<B>(d(a)), qv = as_quotient<B>(v(a)), qf = as_quotient<B>(f(a));
+    const B num = qd.num * qv.num * qf.num, den = qd.den * qv.den * qf.den;
+    store<B>(out + i, load<B>(base + i) + num / den);
+  }
+}
+
+// ---- columns with columns -----------------------------------------------------------------------
+
+template <class F>
+void product(std::size_t n, const F* a, const F* b, F* out) {
+  using B = Lane<F>;
+  for (std::size_t i = 0; i < n; i += lanes<B>) store<B>(out + i, load<B>(a + i) * load<B>(b + i));
+}
+template <class F>
+void product_sum(std::size_t n, const F* a, const F* b, const F* c, const F* d, F* out) {
+  using B = Lane<F>;
+  for (std::size_t i = 0; i < n; i += lanes<B>)
+    store<B>(out + i, load<B>(a + i) * load<B>(b + i) + load<B>(c + i) * load<B>(d + i));
+}
+template <class F>
+void add_product(std::size_t n, const F* a, const F* b, const F* c, F* out) {
+  using B = Lane<F>;
+  for (std::size_t i = 0; i < n; i += lanes<B>)
+    store<B>(out + i, load<B>(a + i) + load<B>(b + i) * load<B>(c + i));
+}
+
+// ---- residuals ----------------------------------------------------------------------------------
+// A metric is a formula too: with Dual it gives its slope.
+
+struct LogMetric {
+  template <Real T>
+  T operator()(const T& f, const plain_t<T>& y, const plain_t<T>&, const plain_t<T>& offset) const {
+    using B = plain_t<T>;
+    // A model value of 0 (kd = 0 without a lobe) counts as tiny and has no slope: log never sees it.
+    const B tiny = constant<B>(1e-30L);
+    return log(max<T>(f + offset, T(tiny))) - log(max<B>(y + offset, tiny));
+  }
+};
+struct CosineMetric {
+  template <Real T>
+  T operator()(const T& f, const plain_t<T>& y, const plain_t<T>& nol, const plain_t<T>&) const {
+    return (f - y) * nol;
+  }
+};
+struct RelativeMetric {
+  template <Real T>
+  T operator()(const T& f, const plain_t<T>& y, const plain_t<T>&, const plain_t<T>&) const {
+    return (f - y) / y;
+  }
+};
+
+/// Masked values must not reach a sum whatever they are (0·NaN is NaN), so they are chosen away.
+/// Huber:  ρ(r²) = 2 m |r| − m²,  ρ' = m/|r|,  m = min(|r|, huber).
+template <class Metric, bool influence, class F>
+void residual(std::size_t n, const ResidualArguments<F>& a) {
+  using B = Lane<F>;
+  using T = Dual<B, 1>;
+  const B zero(0), one(1), offset(a.offset), huber(a.huber);
+  B cost = load<B>(a.cost);
+  for (std::size_t i = 0; i < n; i += lanes<B>) {
+    const B weight = load<B>(a.root_weight + i), datum = load<B>(a.y + i);
+    const auto on = zero < weight && zero <= datum;
+    const B w = select<B>(on, weight, zero), y = select<B>(on, datum, one);
+    const B f = select<B>(on, load<B>(a.f + i), one);
+    const T t = Metric()(T::variable(f, 0), y, load<B>(a.nol + i), offset);
+    const B r = w * t.v, slope = w * t.d[0];
+    const B size = max<B>(r, -r), m = min<B>(size, huber);
+    const B rho1 = m / select<B>(zero < size, size, one) + select<B>(zero < size, zero, one);
+    cost = cost + (2 * size - m) * m;
+    if constexpr (influence) {
+      store<B>(a.r + i, rho1 * r * slope);
+      store<B>(a.slope + i, select<B>(huber < size, zero, slope));
+    } else {
+      const B root = sqrt(rho1);
+      store<B>(a.r + i, root * r);
+      store<B>(a.slope + i, root * slope);
+    }
+  }
+  store<B>(a.cost, cost);
+}
+
+// ---- normal equations ---------------------------------------------------------------------------
+
+/// K (K + 1)/2 sums in registers over one block.
+template <class F, std::size_t K>
+void gram(std::size_t n, const F* r, const F* slope, const F* const* j, F* sums) {
+  using B = Lane<F>;
+  constexpr std::size_t size = K * (K + 1) / 2;
+  std::array<B, size> s;
+  for (std::size_t e = 0; e < size; ++e) s[e] = load<B>(sums + e * padding);
+  for (std::size_t i = 0; i < n; i += lanes<B>) {
+    std::array<B, K> c;
+    c[0] = load<B>(r + i);
+    const B w = load<B>(slope + i), zero(0);
+    const auto on = w < zero || zero < w;  // where masked, the derivatives may be NaN
+#pragma GCC unroll 12
+    for (std::size_t k = 1; k < K; ++k) c[k] = select<B>(on, w * load<B>(j[k - 1] + i), zero);
+    std::size_t e = 0;
+#pragma GCC unroll 12
+    for (std::size_t a = 0; a < K; ++a)
+#pragma GCC unroll 12
+      for (std::size_t b = a; b < K; ++b, ++e) s[e] = s[e] + c[a] * c[b];
+  }
+  for (std::size_t e = 0; e < size; ++e) store<B>(sums + e * padding, s[e]);
+}
+
+// ---- tables -------------------------------------------------------------------------------------
+
+template <template <class> class Term, class F>
+constexpr TermKernels<F> term_entry() {
+  bool coupled = false;
+  if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
+  return {&Term<F>::about,  Term<F>::parameters, coupled,
+          extend<Term, F>, close<Term, F>,      add<Term, F>, derivatives<Term, F>};
+}
+template <class F, template <class> class... Terms>
+constexpr auto term_table(TermList<Terms...>) {
+  return std::array{term_entry<Terms, F>()...};
+}
+template <class F, template <class> class D, template <class> class V, template <class> class Fr>
+constexpr FusedKernel<F> fused_entry(TermList<D, V, Fr>) {
+  return {{D<F>::about.id, V<F>::about.id, Fr<F>::about.id}, fused<D, V, Fr, F>};
+}
+template <class F, class... Lists>
+constexpr auto fused_table(FusedList<Lists...>) {
+  return std::array{fused_entry<F>(Lists{})...};
+}
+
+template <class F>
+constexpr auto terms = term_table<F>(Catalogue{});
+template <class F>
+constexpr auto hot = fused_table<F>(Hot{});
+
+#define GONIO_TEXT_(x) #x
+#define GONIO_TEXT(x) GONIO_TEXT_(x)
+
+template <class F, std::size_t... K>
+constexpr Kernels<F> table(std::index_sequence<K...>) {
+  return {GONIO_TEXT(GONIO_ARCH),
+          terms<F>,
+          hot<F>,
+          product<F>,
+          product_sum<F>,
+          add_product<F>,
+          {residual<LogMetric, false, F>, residual<CosineMetric, false, F>,
+           residual<RelativeMetric, false, F>},
+          {residual<LogMetric, true, F>, residual<CosineMetric, true, F>,
+           residual<RelativeMetric, true, F>},
+          {nullptr, gram<F, K + 1>...}};
+}
+
+}  // namespace
+
+extern const Kernels<float> table_float;
+extern const Kernels<double> table_double;
+constinit const Kernels<float> table_float = table<float>(std::make_index_sequence<max_columns>{});
+constinit const Kernels<double> table_double = table<double>(std::make_index_sequence<max_columns>{});
+
+}  // namespace gonio::inline GONIO_ARCH

@@ -1,0 +1,111 @@
+#pragma once
+/// \file
+/// The border between plain code and code compiled per instruction set: structs of function
+/// pointers, no templates over Real.  Every loop over samples stands behind it.
+///
+/// A column is a 64-byte aligned array, padded to a multiple of `padding` with harmless values and
+/// weight 0, so that no kernel has a tail.  Kernels may write over what they read, element by
+/// element.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "brdf/term.h"
+
+namespace gonio {
+
+inline constexpr std::size_t padding = 16;
+/// The most columns of one channel's normal equations: the residual and its derivatives.
+inline constexpr std::size_t max_columns = 10;
+
+/// The angles of n samples, as columns.
+template <class F>
+struct Block {
+  const F *nol, *nov, *noh, *voh, *sin2_theta_h;
+  std::size_t n;  ///< a multiple of `padding`
+  Block part(std::size_t first, std::size_t count) const {
+    return {nol + first, nov + first, noh + first, voh + first, sin2_theta_h + first, count};
+  }
+};
+
+/// What a term does to the columns that the terms before it left.
+template <class F>
+struct Join {
+  const F *num, *den, *base;  ///< in
+  F *out, *out_den;           ///< out (out_den for `extend` only)
+};
+
+template <class F>
+struct TermKernels {
+  const About* about;
+  std::span<const Parameter> parameters;
+  bool coupled;  ///< a diffuse term below the first lobe's interface
+  using Value = void (*)(const Block<F>&, const F* parameters, const Join<F>&);
+  Value extend;  ///< out/out_den = num/den · term, still a fraction
+  Value close;   ///< out = num/den · term, divided
+  Value add;     ///< out = base + num · term
+  /// value and ∂value/∂parameter, one column each
+  void (*derivatives)(const Block<F>&, const F* parameters, F* value, F* const* d);
+};
+
+/// D·V·F as one loop.
+template <class F>
+struct FusedKernel {
+  std::array<std::string_view, 3> ids;
+  /// out = base + D·V·F; parameters: those of D, of V, of F
+  void (*value)(const Block<F>&, const std::array<const F*, 3>& parameters, const F* base, F* out);
+};
+
+/// How far model f is from datum y:
+///   log        ln(f + offset) − ln(y + offset)
+///   l2_cosine  (f − y) NoL
+///   relative   f/y − 1
+enum class Metric { log, l2_cosine, relative };
+inline constexpr std::array<std::string_view, 3> metric_names{"log", "l2_cosine", "relative"};
+
+/// One channel of one block.  y < 0 or NaN means masked, whatever else stands there.
+template <class F>
+struct ResidualArguments {
+  const F *f, *y, *root_weight, *nol;
+  F offset;  ///< of the log metric, ≥ 0
+  F huber;   ///< residuals beyond it count linearly
+  F *r, *slope;
+  F* cost;  ///< lane sums of ρ(r²), `padding` of them
+};
+
+/// Column kernels in F, for one instruction set.
+template <class F>
+struct Kernels {
+  std::string_view instruction_set;
+  std::span<const TermKernels<F>> terms;
+  std::span<const FusedKernel<F>> fused;
+
+  /// The product rule, column by column: out = a·b, a·b + c·d, a + b·c.
+  void (*product)(std::size_t n, const F* a, const F* b, F* out);
+  void (*product_sum)(std::size_t n, const F* a, const F* b, const F* c, const F* d, F* out);
+  void (*add_product)(std::size_t n, const F* a, const F* b, const F* c, F* out);
+
+  using Residual = void (*)(std::size_t n, const ResidualArguments<F>&);
+  /// For the normal equations: r ← √ρ' r, slope ← √ρ' ∂r/∂f.
+  std::array<Residual, metric_names.size()> residual;
+  /// For the sandwich: r ← ρ' r ∂r/∂f (times j: the score), slope ← ∂r/∂f where not clipped.
+  std::array<Residual, metric_names.size()> influence;
+
+  /// [r, slope·J]ᵀ[r, slope·J], upper triangle row by row, added lane by lane to
+  /// `sums[entry][padding]`, which the caller adds up every few thousand samples; [k]: k columns
+  std::array<void (*)(std::size_t n, const F* r, const F* slope, const F* const* j, F* sums),
+             max_columns + 1>
+      gram;
+};
+
+/// The best set that this machine and build have, or the named one.
+template <class F>
+const Kernels<F>& kernels(std::string_view instruction_set = {});
+/// The sets that this machine can run, "scalar" first, best last.
+std::vector<std::string> instruction_sets();
+
+}  // namespace gonio

@@ -1,0 +1,135 @@
+#include "brdf/registry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "base/error.h"
+#include "brdf/evaluate.h"
+
+namespace gonio {
+namespace {
+
+/// Levenshtein distance: how many letters a typing error changed.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::size_t find(std::string_view id, auto&& name, auto&& eligible, std::string_view what) {
+  const auto terms = catalogue();
+  std::vector<std::pair<std::size_t, std::string_view>> near;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (!eligible(terms[i].about->id)) continue;
+    const std::string_view n = name(terms[i].about->id);
+    if (n == id) return i;
+    near.emplace_back(distance(id, n), n);
+  }
+  std::ranges::stable_sort(near, {}, [](const auto& p) { return p.first; });
+  if (near.size() > 3) near.resize(3);
+  std::vector<std::string_view> names;
+  for (const auto& n : near) names.push_back(n.second);
+  throw wrong_usage(fmt::format("no {} '{}'; nearest: {}", what, id, fmt::join(names, ", ")));
+}
+
+template <class F>
+std::vector<double> values(std::size_t term, std::span<const double> parameters,
+                           std::span<const Angles<double>> rows) {
+  const auto& k = kernels<F>("scalar");
+  std::vector<F> p(parameters.begin(), parameters.end());
+  AngleColumns<F> x(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) x.set(i, rows[i]);
+  const std::size_t n = x.padded();
+  const Column<F> ones(n, F(1)), zeros(n, F(0));
+  Column<F> out(n);
+  k.terms[term].add(x.block(), p.data(), {ones.data(), nullptr, zeros.data(), out.data(), nullptr});
+  if (role_of(k.terms[term].about->id) == Role::masking)
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      out[i] = 4 * F(rows[i].nol) * F(rows[i].nov) * out[i];
+  return {out.data(), out.data() + rows.size()};
+}
+
+}  // namespace
+
+std::span<const TermKernels<double>> catalogue() { return kernels<double>("scalar").terms; }
+
+std::size_t find_term(std::string_view id) {
+  return find(id, [](std::string_view s) { return s; }, [](std::string_view) { return true; }, "term");
+}
+
+std::size_t find_term(std::string_view id, Role role) {
+  static constexpr std::string_view names[] = {"normal distribution", "masking", "Fresnel term",
+                                               "diffuse term"};
+  return find(id, short_id, [=](std::string_view s) { return role_of(s) == role; },
+              names[static_cast<int>(role)]);
+}
+
+void check_range(const Parameter& p, std::string_view name, double value) {
+  if (!p.legal.holds(value))
+    throw wrong_usage(
+        fmt::format("{} = {} is outside [{}, {}]", name, value, p.legal.low, p.legal.high));
+}
+
+TermValues evaluate_term(std::size_t term, Number number,
+                         const std::map<std::string, double>& parameters,
+                         const std::map<std::string, std::vector<double>>& at) {
+  const auto& t = catalogue()[term];
+  TermValues result;
+  std::vector<double> p;
+  for (const auto& q : t.parameters) {
+    const auto given = parameters.find(std::string(q.name));
+    const double v = given == parameters.end() ? q.start : given->second;
+    check_range(q, q.name, v);
+    p.push_back(v);
+    result.parameters.emplace_back(q.name, v);
+  }
+  for (const auto& [name, value] : parameters)
+    if (std::ranges::none_of(t.parameters, [&, n = name](const auto& q) { return q.name == n; }))
+      throw wrong_usage(fmt::format("{} has no parameter '{}'", t.about->id, name));
+
+  static constexpr std::string_view known[] = {"nol", "nov", "noh", "voh", "cos", "sin2_theta_h"};
+  std::size_t rows = 1;
+  for (const auto& [name, column] : at) {
+    if (std::ranges::find(known, name) == std::end(known))
+      throw wrong_usage(fmt::format("unknown angle '{}'; known: {}", name, fmt::join(known, ", ")));
+    for (const double v : column)
+      if (!(0 <= v && v <= 1)) throw wrong_usage(fmt::format("{} = {} is outside [0, 1]", name, v));
+    if (column.size() == 1) continue;
+    if (rows != 1 && rows != column.size())
+      throw wrong_usage(fmt::format("'{}' has {} values where another has {}", name, column.size(), rows));
+    rows = column.size();
+  }
+  if (at.contains("cos") && at.contains("voh")) throw wrong_usage("cos and voh are the same angle");
+
+  std::vector<Angles<double>> angles(rows, Angles<double>{1, 1, 1, 1, 0});
+  const auto fill = [&](const char* name, double Angles<double>::*member) {
+    const auto it = at.find(name);
+    if (it == at.end()) return false;
+    for (std::size_t i = 0; i < rows; ++i)
+      angles[i].*member = it->second[it->second.size() == 1 ? 0 : i];
+    return true;
+  };
+  fill("nol", &Angles<double>::nol);
+  fill("nov", &Angles<double>::nov);
+  fill("noh", &Angles<double>::noh);
+  fill("voh", &Angles<double>::voh);
+  fill("cos", &Angles<double>::voh);
+  if (!fill("sin2_theta_h", &Angles<double>::sin2_theta_h))
+    for (auto& a : angles) a.sin2_theta_h = (1 - a.noh) * (1 + a.noh);
+  result.values = number == Number::double_ ? values<double>(term, p, angles)
+                                            : values<float>(term, p, angles);
+  return result;
+}
+
+}  // namespace gonio

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// The catalogue at run time: what terms there are, and one term evaluated on its own.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "brdf/kernels.h"
+
+namespace gonio {
+
+enum class Number { double_, float_ };
+inline constexpr std::array<std::string_view, 2> number_names{"double", "float"};
+
+/// Every term, in the order of the catalogue; an index here is an index into Kernels::terms.
+std::span<const TermKernels<double>> catalogue();
+
+/// \param id  with its prefix ("ndf.ggx") or, within a role, without ("ggx")
+/// Throws wrong usage naming the nearest ids.
+std::size_t find_term(std::string_view id);
+std::size_t find_term(std::string_view short_id, Role role);
+
+/// Refuses a value outside the parameter's legal range, naming the range.
+void check_range(const Parameter& p, std::string_view name, double value);
+
+/// One term at the given angles.  D and F: their value.  A masking term gives G2 = 4 NoL NoV V; with
+/// NoL left at 1, where Λ is 0, that is G1(NoV).  A diffuse term: its value in 1/sr, uncoupled.
+///
+/// Each name of `at` (noh, nol, nov, voh or cos, sin2_theta_h) is a column; columns of one value
+/// serve all rows.  sin2_theta_h is (1 − noh)(1 + noh) unless given.
+struct TermValues {
+  std::vector<std::pair<std::string, double>> parameters;  ///< all of them, defaults included
+  std::vector<double> values;
+};
+TermValues evaluate_term(std::size_t term, Number number,
+                         const std::map<std::string, double>& parameters,
+                         const std::map<std::string, std::vector<double>>& at);
+
+}  // namespace gonio

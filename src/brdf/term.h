@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// What a term is: one factor of a model (D, V, F or diffuse), a struct template over its number.
+///
+///   about, parameters    what it is called, what it may be given
+///   Term(span of T)      what depends on the parameters alone: computed once per block
+///   operator()(angles)   the formula: computed once per sample; answers T or Quotient<T>
+///
+/// The parameters are T (they may carry derivatives), the angles are plain_t<T> (they never do).
+/// A term is added by writing its struct and naming it in catalogue.h; the registry, the command
+/// line, composition, the fit and the tests find it from there.
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "geometry/angles.h"
+#include "number/parameter.h"
+#include "number/quotient.h"
+#include "number/real.h"
+
+namespace gonio {
+
+/// A term's role in a model, told from its id.
+enum class Role { ndf, masking, fresnel, diffuse };
+
+constexpr Role role_of(std::string_view id) {
+  if (id.starts_with("ndf.")) return Role::ndf;
+  if (id.starts_with("masking.")) return Role::masking;
+  if (id.starts_with("fresnel.")) return Role::fresnel;
+  return Role::diffuse;
+}
+
+/// The id without the role's prefix, as a model spec writes it.
+constexpr std::string_view short_id(std::string_view id) { return id.substr(id.find('.') + 1); }
+
+}  // namespace gonio
+
+namespace gonio::inline GONIO_ARCH {
+
+template <class Term, class T>
+concept TermOver = Real<T> && requires(const Term t, const Angles<plain_t<T>> a,
+                                       std::span<const T, Term::parameters.size()> p) {
+  { Term::about } -> std::same_as<const About&>;
+  Term(p);
+  { as_value(t(a)) } -> std::same_as<T>;
+};
+
+}  // namespace gonio::inline GONIO_ARCH

@@ -1,0 +1,17 @@
+#pragma once
+/// \file
+/// What a term may ask about one sample: the cosines between n (normal), l (light), v (view) and
+/// h (half vector).
+
+#include "number/real.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+/// sin²θ_h is given beside NoH because 1 − NoH² cancels at the peak: from 1 − c·c the GGX
+/// distribution is wrong by 4e4 ulp in double, from |n×h|² by 5.
+template <class B>
+struct Angles {
+  B nol, nov, noh, voh, sin2_theta_h;
+};
+
+}  // namespace gonio::inline GONIO_ARCH

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// Half and difference angles of a direction pair [Rusinkiewicz 1998].
+///
+///   h = normalize(wi + wo);   d = wi turned by −phi_h about the normal, then by −theta_h about
+///   the binormal
+///
+/// With phi_h = 0:
+///   wi_z = cos θ_h cos θ_d − sin θ_h sin θ_d cos φ_d
+///   wo_z = cos θ_h cos θ_d + sin θ_h sin θ_d cos φ_d
+
+#include "geometry/angles.h"
+#include "geometry/direction.h"
+
+namespace gonio {
+
+/// [rad]; theta_h and theta_d in [0, π/2].  φ_d has the period π on a reciprocal surface.
+struct HalfDifference {
+  double theta_h = 0, phi_h = 0, theta_d = 0, phi_d = 0;
+};
+
+/// h = (wi + wo)/|wi + wo|;  VoH = |wi + wo|/2;  sin²θ_h = (h_x² + h_y²)
+inline Angles<double> angles(const DirectionPair& p) {
+  const double x = p.wi.x + p.wo.x, y = p.wi.y + p.wo.y, z = p.wi.z + p.wo.z;
+  const double xy2 = x * x + y * y, length2 = xy2 + z * z;
+  if (length2 <= 0) return {p.wi.z, p.wo.z, 0, 0, 1};  // opposite directions have no half vector
+  const double length = std::sqrt(length2);
+  return {p.wi.z, p.wo.z, z / length, length / 2, xy2 / length2};
+}
+
+DirectionPair directions(const HalfDifference&);
+/// phi_d is 0 where theta_d is 0, phi_h is 0 where theta_h is 0: they are undefined there.
+HalfDifference half_difference(const DirectionPair&);
+
+/// Sine and cosine of one angle, so that a grid computes them once per row.
+struct SinCos {
+  double sin = 0, cos = 1;
+  SinCos() = default;
+  explicit SinCos(double angle) : sin(std::sin(angle)), cos(std::cos(angle)) {}
+};
+
+inline Angles<double> angles(const SinCos& theta_h, const SinCos& theta_d, double cos_phi_d) {
+  const double a = theta_h.cos * theta_d.cos, b = theta_h.sin * theta_d.sin * cos_phi_d;
+  return {a - b, a + b, theta_h.cos, theta_d.cos, theta_h.sin * theta_h.sin};
+}
+
+}  // namespace gonio

@@ -1,0 +1,80 @@
+#include "image/exr.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <exception>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace gonio {
+
+void write_exr(const std::string& path, const Image& image) {
+  OutputFile out(path);
+  try {
+    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const auto& [name, text] : image.attributes)
+      header.insert(name, Imf::StringAttribute(text));
+    Imf::FrameBuffer buffer;
+    for (std::size_t c = 0; c < image.channels.size(); ++c) {
+      header.channels().insert(image.channels[c], Imf::Channel(Imf::FLOAT));
+      // Imf::Slice takes a pointer to mutable bytes also for writing.
+      char* base = reinterpret_cast<char*>(const_cast<float*>(image.planes[c].data()));
+      buffer.insert(image.channels[c],
+                    Imf::Slice(Imf::FLOAT, base, sizeof(float), sizeof(float) * image.width));
+    }
+    Imf::OutputFile file(out.temporary_path().c_str(), header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(static_cast<int>(image.height));
+  } catch (const std::exception& e) {
+    throw bad_input(path, "writing", e.what(), "a place that can be written");
+  }
+  out.commit();
+}
+
+Image read_exr(const std::string& path) {
+  const InputFile exists(path);  // says plainly what is no file at all
+  try {
+    Imf::InputFile file(path.c_str(), 1);
+    const Imf::Header& header = file.header();
+    const auto box = header.dataWindow();
+    Image image;
+    image.width = static_cast<std::size_t>(box.max.x - box.min.x + 1);
+    image.height = static_cast<std::size_t>(box.max.y - box.min.y + 1);
+    constexpr std::size_t most = std::size_t{1} << 26;
+    if (image.width > most || image.height > most / image.width)
+      throw bad_input(path, "header", std::to_string(image.width) + " × " + std::to_string(image.height),
+                      "at most 2^26 pixels");
+    for (auto a = header.begin(); a != header.end(); ++a)
+      if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
+        image.attributes[a.name()] = s->value();
+    const auto stride = sizeof(float) * image.width;
+    Imf::FrameBuffer buffer;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+      image.channels.emplace_back(c.name());
+      image.planes.emplace_back(image.width * image.height);
+    }
+    for (std::size_t c = 0; c < image.channels.size(); ++c) {
+      // The slice's base is the address of pixel (0, 0), which the data window may leave out.
+      const auto shift = static_cast<std::ptrdiff_t>(box.min.y) * static_cast<std::ptrdiff_t>(stride) +
+                         static_cast<std::ptrdiff_t>(box.min.x) * static_cast<std::ptrdiff_t>(sizeof(float));
+      char* base = reinterpret_cast<char*>(image.planes[c].data()) - shift;
+      buffer.insert(image.channels[c], Imf::Slice(Imf::FLOAT, base, sizeof(float), stride));
+    }
+    file.setFrameBuffer(buffer);
+    file.readPixels(box.min.y, box.max.y);
+    return image;
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw bad_input(path, "OpenEXR", e.what(), "a readable image");
+  }
+}
+
+}  // namespace gonio

@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// What is said about a parameter of a formula, and about the formula itself: the registry, the
+/// command line, the fit and the tests all read it from here.
+
+#include <string_view>
+
+namespace gonio {
+
+struct Range {
+  double low, high;
+  constexpr bool holds(double x) const { return low <= x && x <= high; }  // false for NaN
+};
+
+struct Parameter {
+  std::string_view name;
+  Range legal;      ///< where the formula is defined
+  Range fit;        ///< where a fit may look
+  double start;     ///< where a fit begins that knows nothing better
+  bool per_channel = false;
+  std::string_view meaning = {};
+};
+
+/// What a term says of itself.
+struct About {
+  std::string_view id;       ///< the catalogue's name, prefix included
+  std::string_view title;
+  std::string_view formula;
+  std::string_view source;
+};
+
+}  // namespace gonio

@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// A fraction that is not divided yet: a product of terms then costs one division, not one a term.
+
+#include "number/real.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+template <Real T>
+struct Quotient {
+  T num, den;
+  T value() const { return num / den; }
+};
+
+template <Real T>
+Quotient<T> as_quotient(const Quotient<T>& q) {
+  return q;
+}
+template <Real T>
+Quotient<T> as_quotient(const T& x) {
+  return {x, T(1)};
+}
+template <Real T>
+T as_value(const Quotient<T>& q) {
+  return q.value();
+}
+template <Real T>
+T as_value(const T& x) {
+  return x;
+}
+
+}  // namespace gonio::inline GONIO_ARCH

@@ -1,0 +1,123 @@
+#pragma once
+/// \file
+/// Fresnel reflectance of a smooth interface, exact and approximate, as a function of
+/// c = VoH = cos θ_d, the cosine between the direction and the facet's normal.
+///
+/// Each is a term (brdf/term.h): the constructor takes the parameters, which may carry derivatives;
+/// operator() takes the cosines of one sample, which never do.  Unpolarised light, from vacuum.
+
+#include <array>
+#include <span>
+
+#include "geometry/angles.h"
+#include "number/parameter.h"
+#include "number/quotient.h"
+#include "number/real.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+/// Schlick's approximation.
+///
+///   F = f0 + (1 − f0)(1 − c)⁵                                          [Schlick 1994, Eq. 15]
+///
+/// \param f0  reflectance at normal incidence, in [0, 1]
+template <Real T>
+struct Schlick {
+  static constexpr About about{"fresnel.schlick", "Schlick's approximation",
+                               "F = f0 + (1 − f0)(1 − VoH)⁵", "Schlick 1994, Eq. 15"};
+  static constexpr std::array parameters{
+      Parameter{"f0", {0, 1}, {0, 1}, 0.04, true, "reflectance at normal incidence"}};
+
+  T f0;
+
+  explicit Schlick(std::span<const T, 1> p) : f0(p[0]) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const auto m = 1 - a.voh;
+    const auto m5 = square(square(m)) * m;
+    return f0 * (1 - m5) + m5;
+  }
+};
+
+/// Exact Fresnel reflectance of a dielectric, from either side, with total internal reflection.
+///
+///   g² = η² − 1 + c²,   r_s = (g − c)/(g + c),   r_p = r_s (c (g + c) − 1)/(c (g − c) + 1)
+///   F = (r_s² + r_p²)/2;   F = 1 where g² < 0                            [Walter 2007, Eq. 22]
+///
+/// Computed with e = (η − 1)(η + 1) and u = g + c, so that nothing cancels as η → 1:
+///   r_s = e/u²,   r_p/r_s = u (c g − s²)/(c e + u),   s² = (1 − c)(1 + c)
+///
+/// \param eta  refractive index, transmitted over incident side, > 0; below 1: seen from inside
+template <Real T>
+struct Dielectric {
+  static constexpr About about{
+      "fresnel.dielectric", "Dielectric, exact",
+      "F = ½ ((g−c)/(g+c))² (1 + ((c(g+c)−1)/(c(g−c)+1))²), g² = η²−1+c², c = VoH",
+      "Walter et al. 2007, Eq. 22"};
+  static constexpr std::array parameters{
+      Parameter{"eta", {0.2, 10}, {1, 4}, 1.5, true, "refractive index, transmitted / incident"}};
+
+  T e;
+
+  explicit Dielectric(std::span<const T, 1> p) : e((p[0] - 1) * (p[0] + 1)) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const auto c = a.voh, s2 = (1 - c) * (1 + c);
+    const T g2 = e + square(c);
+    const auto refracts = T(0) < g2;  // else: total internal reflection, or η = 1 at c = 0
+    const T g = sqrt(select<T>(refracts, g2, T(1)));
+    const T u = g + c;
+    const T rs = e / square(u);
+    const T rp_over_rs = u * (c * g - s2) / (c * e + u);
+    const T f = square(rs) * (1 + square(rp_over_rs)) / 2;
+    const T beyond = select<T>(e < T(0), T(1), T(0));
+    return select<T>(refracts, f, beyond);
+  }
+};
+
+/// Exact Fresnel reflectance of a conductor with refractive index N = η + i k.
+///
+///   (a + i b)² = N² − s²,   s² = 1 − c²
+///   R_s = ((a − c)² + b²)/((a + c)² + b²)
+///   R_p = R_s ((a c − s²)² + b² c²)/((a c + s²)² + b² c²),   F = (R_s + R_p)/2
+///                                              [Born & Wolf, Principles of Optics, §14.2]
+///
+/// Computed so that nothing cancels: the larger of a and b from the root, the smaller as η k over it;
+///   a − c = ((η − 1)(η + 1) + b² − k²)/(a + c)
+///
+/// \param eta  real part, > 0   \param k  extinction coefficient, ≥ 0
+template <Real T>
+struct Conductor {
+  static constexpr About about{
+      "fresnel.conductor", "Conductor, exact",
+      "F = (R_s + R_p)/2 for N = η + i k: (a+ib)² = N² − sin²θ, R_s = |(a+ib−c)/(a+ib+c)|², "
+      "R_p = R_s |(c(a+ib)−s²)/(c(a+ib)+s²)|², c = VoH",
+      "Born & Wolf, Principles of Optics, 14.2"};
+  static constexpr std::array parameters{
+      Parameter{"eta", {0.001, 20}, {0.01, 10}, 1.5, true, "refractive index, real part"},
+      Parameter{"k", {0, 1000}, {0, 20}, 3, true, "extinction coefficient"}};
+
+  T k2, re, im;  // k²; Re N² − 1; η k = Im N² / 2
+
+  explicit Conductor(std::span<const T, 2> p)
+      : k2(square(p[1])), re((p[0] - 1) * (p[0] + 1) - k2), im(p[0] * p[1]) {}
+
+  Quotient<T> operator()(const Angles<plain_t<T>>& x) const {
+    const auto c = x.voh, s2 = (1 - c) * (1 + c);
+    const T t = re + square(c);  // Re (N² − s²)
+    const auto dielectric_like = T(0) < t;
+    const T abs_t = select<T>(dielectric_like, t, -t);
+    // tiny: N² = s² exactly (k = 0 at the critical angle) has the root 0, which has no slope
+    const T tiny = constant<T>(1e-30L);
+    const T big = sqrt((sqrt(max<T>(square(t) + 4 * square(im), square(tiny))) + abs_t) / 2);
+    const T small = im / big;
+    const T a = select<T>(dielectric_like, big, small);
+    const T b = select<T>(dielectric_like, small, big);
+    const T b2 = square(b);
+    const T s_num = square((re + b2) / (a + c)) + b2, s_den = square(a + c) + b2;
+    const T p_num = square(a * c - s2) + b2 * square(c), p_den = square(a * c + s2) + b2 * square(c);
+    return {s_num * (p_den + p_num), 2 * s_den * p_den};
+  }
+};
+
+}  // namespace gonio::inline GONIO_ARCH

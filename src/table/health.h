@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// What a table can be trusted for, before anything is fitted to it.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "table/table.h"
+
+namespace gonio {
+
+/// ∫ f cos θ_o dω_o at one incident angle, per channel; `coverage` is the share of the
+/// cosine-weighted hemisphere that valid samples speak for, what lacks counts as their mean.
+struct AlbedoSample {
+  double theta_i_deg;
+  std::vector<double> albedo;
+  double coverage;
+};
+
+/// The specular peak as the samples near θ_h = 0 show it, from the channels' mean.
+struct Peak {
+  double half_width_deg;     ///< θ_h at which the value above the base has halved
+  double alpha;              ///< of the GGX lobe with that width: tan(half width)/√(√2 − 1)
+  double samples_within;     ///< distinct θ_h within the half width
+  bool resolved;             ///< at least three of them
+  double height, base;       ///< [1/sr]
+};
+
+struct Health {
+  std::size_t samples = 0, values = 0, valid = 0;
+  std::array<std::size_t, 4> masked{};  ///< values by Mask; [valid] is `valid`
+  double largest = 0, smallest_positive = 0;
+  double noise_floor = 0;  ///< 1.4826 · median |negative|, where negatives are noise; else 0
+  std::vector<AlbedoSample> albedo;
+  /// median |f(wi,wo) − f(wo,wi)| / mean; absent where the layout cannot tell
+  std::optional<double> reciprocity_error;
+  std::string reciprocity_note;
+  std::optional<Peak> peak;
+  /// relative change of Peak::alpha under the other bin convention; absent without bins
+  std::optional<double> bin_sensitivity;
+};
+
+Health inspect(const Table&);
+
+}  // namespace gonio

@@ -1,0 +1,138 @@
+#pragma once
+/// \file
+/// The table: reflectance samples, where each was taken, and what is known about them.  Every reader
+/// ends in one, every instrument starts from one.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "geometry/half_difference.h"
+
+namespace gonio {
+
+/// Where a stored sample sits in its bin.  Files do not say, tools disagree, and half a bin shifts
+/// alpha by 4 to 15 %: so it is explicit everywhere.
+enum class Bins { centre, edge };
+inline constexpr std::array<const char*, 2> bins_names{"centre", "edge"};
+
+/// One axis of a grid: size bins over [0, span].
+struct Axis {
+  enum class Spacing {
+    uniform,    ///< angle = span (i + offset)/size
+    quadratic,  ///< angle = span ((i + offset)/size)², MERL's theta_h
+    inclusive,  ///< angle = span i/(size − 1): both ends are samples, there are no bins
+    constant    ///< one sample, at span
+  };
+  std::string name;  ///< theta_h, theta_d, phi_d, theta_i, theta_o or phi
+  Spacing spacing;
+  std::size_t size;
+  double span;  ///< [rad]
+
+  bool has_bins() const { return spacing == Spacing::uniform || spacing == Spacing::quadratic; }
+  /// The angle of sample i [rad].
+  double angle(double i, Bins) const;
+  /// Its inverse: fractional sample index of an angle; may lie outside [0, size − 1].
+  double index(double angle, Bins) const;
+};
+
+/// Samples on three axes, the last fastest.
+struct Grid {
+  enum class Kind {
+    half_difference,  ///< theta_h, theta_d, phi_d; phi_h = 0
+    in_out            ///< theta_i, theta_o, phi = phi_o − phi_i; phi = π is the mirror direction
+  };
+  Kind kind;
+  std::array<Axis, 3> axes;
+  Bins bins = Bins::centre;
+
+  std::size_t size() const { return axes[0].size * axes[1].size * axes[2].size; }
+  std::array<std::size_t, 3> unravel(std::size_t i) const {
+    const std::size_t row = i / axes[2].size;
+    return {row / axes[1].size, row % axes[1].size, i % axes[2].size};
+  }
+};
+
+/// Samples anywhere, in degrees as their file has them.
+struct DirectionList {
+  std::vector<double> theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg;
+};
+
+/// What a synthesized table was made from.
+struct Truth {
+  std::string model;
+  std::vector<std::pair<std::string, std::vector<double>>> parameters;
+  double noise = 0;     ///< σ of the multiplicative noise exp(σ z)
+  double floor = 0;     ///< added to every value [1/sr]
+  double outliers = 0;  ///< share of samples replaced
+  std::uint64_t seed = 0;
+};
+
+/// Values as stored: f_r in 1/sr, without the cosine; invalid ones included (see mask()).
+struct Table {
+  std::string path;
+  std::string format;                  ///< "csv", "merl", "mbsdf", "exr"
+  std::vector<std::string> channels;   ///< "r", "g", "b"; "f" if there is one
+  std::variant<Grid, DirectionList> where;
+  std::vector<std::vector<double>> values;  ///< [channel][sample]
+  std::vector<double> weights;              ///< per sample; empty: all 1
+  bool negative_is_noise = true;  ///< else a negative value is the format's mark for "no data"
+  std::optional<Truth> truth;     ///< if gonio made it
+  std::vector<std::pair<std::string, std::string>> notes;  ///< further metadata, as strings
+
+  std::size_t size() const { return values.empty() ? 0 : values[0].size(); }
+  const Grid* grid() const { return std::get_if<Grid>(&where); }
+  const DirectionList* list() const { return std::get_if<DirectionList>(&where); }
+  /// Whether a bin convention matters here.
+  bool has_bins() const;
+};
+
+/// The angles of each sample, quickly: sines and cosines of a grid's axes are computed once.
+class SampleAngles {
+ public:
+  explicit SampleAngles(const Table& t) : SampleAngles(t, t.grid() ? t.grid()->bins : Bins::centre) {}
+  /// As if the grid followed the other convention.
+  SampleAngles(const Table&, Bins);
+
+  Angles<double> operator()(std::size_t i) const;
+  DirectionPair directions(std::size_t i) const;
+  HalfDifference half_difference(std::size_t i) const;
+  /// Incident zenith angle [rad].
+  double theta_i(std::size_t i) const;
+
+ private:
+  const Table& table_;
+  Bins bins_;
+  std::array<std::vector<SinCos>, 3> axes_;
+};
+
+/// Why a value is not used.
+enum class Mask { valid, below_horizon, negative, not_finite };
+inline constexpr std::array<const char*, 4> mask_names{"valid", "below_horizon", "negative",
+                                                       "not_finite"};
+/// Geometry first: a value below the horizon is that, whatever is stored there.
+inline Mask mask(const Angles<double>& a, double value) {
+  if (!(a.nol > 0 && a.nov > 0)) return Mask::below_horizon;
+  if (!std::isfinite(value)) return Mask::not_finite;
+  return value < 0 ? Mask::negative : Mask::valid;
+}
+
+/// f_r of a grid between its samples.
+class Interpolator {
+ public:
+  explicit Interpolator(const Table& t) : table_(t), at_(t) {}
+  /// Trilinear over the valid corners of the cell; NaN where they carry half of its weight or less,
+  /// outside the grid by more than a bin, or for a list of samples.
+  double operator()(const DirectionPair&, std::size_t channel) const;
+
+ private:
+  const Table& table_;
+  SampleAngles at_;
+};
+
+}  // namespace gonio
