@@ -79,10 +79,10 @@ struct FitDocument {
   std::vector<BinSensitivity> sensitivity;    ///< empty where there are no bins
 };
 
-/// The document as JSON text, schema "gonio.fit/1".
+/// The document as JSON text, schema "gonio.fit/1"; what is not a finite number is null.
 std::string to_json(const FitDocument&);
 
-/// What compare needs of a fit.json: the model and its parameters' values.
+/// What compare needs of a fit.json: the model and its parameters' values; NaN where null.
 struct FittedModel {
   std::string model;
   std::vector<std::pair<std::string, std::vector<double>>> parameters;

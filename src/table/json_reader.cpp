@@ -1,0 +1,81 @@
+#include "table/json_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.h"
+
+namespace gonio {
+
+std::string text_of(const Json& j) {
+  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json parse_json(const std::string& file, const std::string& bytes) {
+  try {
+    return Json::parse(bytes);
+  } catch (const Json::parse_error& e) {
+    const auto end = std::min(bytes.size(), e.byte > 0 ? e.byte - 1 : 0);
+    const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    const auto start = end == 0 ? std::string::npos : bytes.rfind('\n', end - 1);
+    throw bad_input(file, fmt::format("line {}, column {}", line, end - (start == std::string::npos ? 0 : start + 1) + 1),
+                    end < bytes.size() ? bytes.substr(end, 12) : "the end of the file", "JSON");
+  } catch (const Json::exception& e) {
+    throw bad_input(file, "JSON", e.what(), "values that can be held");
+  }
+}
+
+void JsonReader::fail(const std::string& expected) const {
+  throw bad_input(file_, place_.empty() ? "the document" : place_,
+                  value_.dump(-1, ' ', false, Json::error_handler_t::replace), expected);
+}
+
+void JsonReader::expect_object() const {
+  if (!value_.is_object()) fail("an object");
+}
+
+bool JsonReader::has(const std::string& key) const { return value_.is_object() && value_.contains(key); }
+
+JsonReader JsonReader::at(const std::string& key) const {
+  expect_object();
+  const auto place = place_.empty() ? key : place_ + "." + key;
+  const auto found = value_.find(key);
+  if (found == value_.end()) throw bad_input(file_, place, "nothing", "a value");
+  return {file_, *found, place};
+}
+
+std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
+  expect_object();
+  std::vector<std::pair<std::string, JsonReader>> out;
+  for (const auto& [key, value] : value_.items()) out.emplace_back(key, at(key));
+  return out;
+}
+
+std::string JsonReader::string() const {
+  if (!value_.is_string()) fail("a string");
+  return value_.get<std::string>();
+}
+
+double JsonReader::number() const {
+  if (value_.is_null()) return std::numeric_limits<double>::quiet_NaN();
+  if (!value_.is_number()) fail("a number or null");
+  return value_.get<double>();
+}
+
+std::uint64_t JsonReader::whole_number() const {
+  if (!value_.is_number_unsigned()) fail("a whole number");
+  return value_.get<std::uint64_t>();
+}
+
+std::vector<double> JsonReader::numbers() const {
+  if (!value_.is_array()) return {number()};
+  if (value_.empty()) fail("at least one number");
+  std::vector<double> out;
+  for (std::size_t i = 0; i < value_.size(); ++i)
+    out.push_back(JsonReader(file_, value_[i], fmt::format("{}[{}]", place_, i)).number());
+  return out;
+}
+
+}  // namespace gonio

@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// Reading JSON that others wrote: every value knows its place, so an error can name it.
+/// Dear to compile: for the .cpp files of this room only.
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+using Json = nlohmann::ordered_json;
+
+/// The text of a document for people and programs alike: indented, ends with a new line.
+std::string text_of(const Json&);
+/// The bytes as a document; bytes that are not JSON are bad_input with line and column.
+Json parse_json(const std::string& file, const std::string& bytes);
+
+/// A value of a document and where it stands ("parameters.alpha.value"); the document must outlive
+/// it.  A value that is not what is asked for is bad_input.
+class JsonReader {
+ public:
+  JsonReader(const std::string& file, const Json& value, std::string place = "")
+      : file_(file), value_(value), place_(std::move(place)) {}
+
+  JsonReader at(const std::string& key) const;  ///< of an object; must be there
+  bool has(const std::string& key) const;
+  std::vector<std::pair<std::string, JsonReader>> members() const;
+  std::string string() const;
+  double number() const;  ///< NaN where null
+  std::uint64_t whole_number() const;
+  std::vector<double> numbers() const;  ///< one number or an array of at least one
+
+  [[noreturn]] void fail(const std::string& expected) const;
+
+ private:
+  void expect_object() const;
+  const std::string& file_;
+  const Json& value_;
+  std::string place_;
+};
+
+}  // namespace gonio
