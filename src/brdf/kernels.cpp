@@ -136,8 +136,8 @@ struct CosineMetric {
 };
 struct RelativeMetric {
   template <Real T>
-  T operator()(const T& f, const plain_t<T>& y, const plain_t<T>&, const plain_t<T>&) const {
-    return (f - y) / y;
+  T operator()(const T& f, const plain_t<T>& y, const plain_t<T>&, const plain_t<T>& offset) const {
+    return (f - y) / (y + offset);
   }
 };
 

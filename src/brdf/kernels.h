@@ -63,7 +63,7 @@ struct FusedKernel {
 /// How far model f is from datum y:
 ///   log        ln(f + offset) − ln(y + offset)
 ///   l2_cosine  (f − y) NoL
-///   relative   f/y − 1
+///   relative   (f − y)/(y + offset)
 enum class Metric { log, l2_cosine, relative };
 inline constexpr std::array<std::string_view, 3> metric_names{"log", "l2_cosine", "relative"};
 
@@ -71,7 +71,7 @@ inline constexpr std::array<std::string_view, 3> metric_names{"log", "l2_cosine"
 template <class F>
 struct ResidualArguments {
   const F *f, *y, *root_weight, *nol;
-  F offset;  ///< of the log metric, ≥ 0
+  F offset;  ///< of the log and relative metrics, ≥ 0
   F huber;   ///< residuals beyond it count linearly
   F *r, *slope;
   F* cost;  ///< lane sums of ρ(r²), `padding` of them

@@ -137,8 +137,8 @@ Model compose(std::string_view spec, std::size_t channels, std::span<const std::
   return m;
 }
 
-BoundModel bind(std::string_view spec, std::vector<Setting> settings,
-                std::optional<std::size_t> channels) {
+BoundModel bind_model(std::string_view spec, std::vector<Setting> settings,
+                std::optional<std::size_t> channels, std::span<const std::string> grey) {
   const std::string resolved = resolve_base_color(std::string(spec), settings);
   if (find(settings, "f0") && find(settings, "eta"))
     throw wrong_usage("f0 and eta say the same: give one of them");
@@ -147,7 +147,7 @@ BoundModel bind(std::string_view spec, std::vector<Setting> settings,
   for (const auto& s : settings) longest = std::max(longest, s.values.size());
   const std::size_t n = channels.value_or(longest > 1 ? longest : 3);
 
-  BoundModel b{compose(resolved, n), {}};
+  BoundModel b{compose(resolved, n, grey), {}, {}};
   b.values.resize(b.model.value_count);
   for (const auto& p : b.model.parameters)
     std::fill_n(b.values.begin() + static_cast<std::ptrdiff_t>(p.first), p.count, p.about->start);
@@ -163,6 +163,7 @@ BoundModel bind(std::string_view spec, std::vector<Setting> settings,
       throw wrong_usage(fmt::format("{}: {} values where {} fit", s.name, s.values.size(),
                                     p->count == 1 ? std::string("one")
                                                   : fmt::format("one or {}", p->count)));
+    b.given.push_back(p->name);
     for (std::size_t c = 0; c < p->count; ++c) {
       const double v = s.values[s.values.size() == 1 ? 0 : c];
       check_range(*p->about, s.name, v);

@@ -1,0 +1,158 @@
+#include "data_synth/synth.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "brdf/evaluate.h"
+#include "table/formats.h"
+
+namespace gonio {
+namespace {
+
+/// Random numbers without a state: the k-th draw of a sample is a hash (SplitMix64's finaliser).
+class Draws {
+ public:
+  Draws(std::uint64_t seed, std::uint64_t sample) : state_(mix(mix(seed) ^ sample)) {}
+  /// uniform in (0, 1)
+  double uniform() {
+    state_ += 0x9e3779b97f4a7c15U;
+    return (static_cast<double>(mix(state_) >> 11U) + 0.5) * 0x1p-53;
+  }
+  /// standard normal (Box–Muller)
+  double normal() {
+    const double radius = std::sqrt(-2 * std::log(uniform()));
+    return radius * std::cos(2 * std::numbers::pi * uniform());
+  }
+
+ private:
+  static std::uint64_t mix(std::uint64_t x) {
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31U);
+  }
+  std::uint64_t state_;
+};
+
+void push(DirectionList& l, double theta_i, double phi_i, double theta_o, double phi_o) {
+  l.theta_i_deg.push_back(theta_i);
+  l.phi_i_deg.push_back(phi_i);
+  l.theta_o_deg.push_back(theta_o);
+  l.phi_o_deg.push_back(phi_o);
+}
+
+DirectionList in_plane() {
+  DirectionList l;
+  for (const int in : {10, 30, 45, 60, 75})
+    for (int out = -85; out <= 85; ++out) push(l, in, 0, std::abs(out), out > 0 ? 180 : 0);
+  return l;
+}
+
+DirectionList hemisphere() {
+  DirectionList l;
+  for (const int in : {0, 15, 30, 45, 60, 75})
+    for (int out = 0; out <= 85; out += 5)
+      for (int phi = 0; phi < (out == 0 ? 10 : 360); phi += 10) push(l, in, 0, out, phi);
+  return l;
+}
+
+DirectionList random_pairs(std::size_t n, std::uint64_t seed) {
+  DirectionList l;
+  constexpr double lowest = 0.01, grazing = 87;  // [deg]
+  for (std::uint64_t attempt = 0; l.theta_i_deg.size() < n; ++attempt) {
+    Draws draw(seed ^ 0x5851f42d4c957f2dU, attempt);
+    const auto upwards = [&] {
+      const double z = draw.uniform();
+      return direction(std::acos(z), 2 * std::numbers::pi * draw.uniform());
+    };
+    DirectionPair p;
+    if (attempt % 2 == 0) {
+      p.wi = upwards();
+      p.wo = upwards();
+    } else {
+      const double theta_h = lowest * std::pow(60 / lowest, draw.uniform()) * degree;
+      const double phi_h = 2 * std::numbers::pi * draw.uniform();
+      const double theta_d = std::acos(draw.uniform());
+      p = directions(HalfDifference{theta_h, phi_h, theta_d, 2 * std::numbers::pi * draw.uniform()});
+    }
+    const double in = theta_of(p.wi) / degree, out = theta_of(p.wo) / degree;
+    if (in < grazing && out < grazing)
+      push(l, in, phi_of(p.wi) / degree, out, phi_of(p.wo) / degree);
+  }
+  return l;
+}
+
+void lay_out(Table& t, const SynthOptions& o) {
+  switch (o.layout) {
+    case Layout::merl:
+      t.format = "merl";
+      t.where = merl_grid(o.bins);
+      t.negative_is_noise = false;
+      break;
+    case Layout::mbsdf:
+      t.format = "mbsdf";
+      t.where = mbsdf_grid(45, 90, o.bins);
+      break;
+    case Layout::image_slice:
+      t.format = "exr";
+      t.where = image_slice_grid(90, 90, 90 * degree, o.bins);
+      break;
+    case Layout::in_plane: t.format = "csv"; t.where = in_plane(); break;
+    case Layout::hemisphere: t.format = "csv"; t.where = hemisphere(); break;
+    case Layout::random: t.format = "csv"; t.where = random_pairs(o.samples, o.seed); break;
+  }
+}
+
+}  // namespace
+
+Table synthesize(const BoundModel& b, const SynthOptions& o) {
+  const std::size_t channels = b.model.channels;
+  if (o.layout == Layout::merl && channels != 3)
+    throw wrong_usage(fmt::format("a MERL table has 3 channels, the colours given have {}", channels));
+  if (o.layout == Layout::mbsdf && channels != 3 && channels != 1)
+    throw wrong_usage(fmt::format("an MBSDF table has 1 or 3 channels, the colours given have {}", channels));
+
+  Table t;
+  lay_out(t, o);
+  for (std::size_t c = 0; c < channels; ++c)
+    t.channels.push_back(channels == 1   ? "f"
+                         : channels == 3 ? std::string(1, "rgb"[c])
+                                         : std::to_string(c + 1));
+  const std::size_t n = t.grid() ? t.grid()->size() : t.list()->theta_i_deg.size();
+  t.values.assign(channels, std::vector<double>(n));
+
+  const SampleAngles at(t);
+  constexpr std::size_t chunk = 16384;
+  tbb::parallel_for(std::size_t{0}, (n + chunk - 1) / chunk, [&](std::size_t k) {
+    const std::size_t first = k * chunk, count = std::min(chunk, n - first);
+    std::vector<Angles<double>> angles(count);
+    for (std::size_t i = 0; i < count; ++i) angles[i] = at(first + i);
+    const auto f = evaluate(b, angles);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool above = angles[i].nol > 0 && angles[i].nov > 0;
+      Draws draw(o.seed, first + i);
+      double outlier = 1;
+      if (o.outliers > 0 && draw.uniform() < o.outliers)
+        outlier = std::pow(10, 4 * draw.uniform() - 2);
+      for (std::size_t c = 0; c < channels; ++c) {
+        double v = above ? f[c][i] + o.floor : 0;
+        if (o.noise > 0) v *= std::exp(o.noise * draw.normal());
+        t.values[c][first + i] = v * outlier;
+      }
+    }
+  });
+
+  Truth truth{b.model.spec, {}, o.noise, o.floor, o.outliers, o.seed};
+  for (const auto& p : b.model.parameters) {
+    const auto first = b.values.begin() + static_cast<std::ptrdiff_t>(p.first);
+    truth.parameters.emplace_back(p.name, std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count)));
+  }
+  t.truth = std::move(truth);
+  t.notes.emplace_back("layout", layout_names[static_cast<std::size_t>(o.layout)]);
+  return t;
+}
+
+}  // namespace gonio

@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// Tables sampled from the models, with noise: what a perfect or an imperfect instrument would have
+/// measured.
+
+#include <array>
+#include <cstdint>
+
+#include "brdf/model.h"
+#include "table/table.h"
+
+namespace gonio {
+
+/// Where the samples are taken, and the file format that goes with it.
+enum class Layout {
+  merl,         ///< 90 × 90 × 180 over theta_h, theta_d, phi_d; MERL binary, three channels
+  mbsdf,        ///< 45 × 45 × 90 over theta_i, theta_o, phi; NVIDIA MBSDF
+  in_plane,     ///< 5 incident angles × theta_o −85° to 85° by 1° in the plane of incidence; CSV
+  image_slice,  ///< 90 × 90 over theta_h, theta_d at phi_d = 90°; OpenEXR
+  hemisphere,   ///< 6 incident angles × theta_o by 5° × phi_o by 10°; CSV
+  random        ///< half uniform over both hemispheres, half with theta_h log-uniform; CSV
+};
+inline constexpr std::array<const char*, 6> layout_names{"merl",        "mbsdf",      "in_plane",
+                                                         "image_slice", "hemisphere", "random"};
+
+struct SynthOptions {
+  Layout layout = Layout::merl;
+  Bins bins = Bins::centre;    ///< of grids with bins
+  std::size_t samples = 2000;  ///< of the random layout
+  double noise = 0;            ///< values are multiplied by exp(noise · z), z standard normal
+  double floor = 0;            ///< added to every value before the noise [1/sr]
+  double outliers = 0;         ///< share of samples multiplied by 10^u, u uniform in [−2, 2]
+  std::uint64_t seed = 1;
+};
+
+/// Values below the horizon are 0 in the table (a format's writer marks them its way).  The same for
+/// a seed whatever the threads: every draw is a hash of seed, sample and channel.
+Table synthesize(const BoundModel&, const SynthOptions&);
+
+}  // namespace gonio

@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// Minimises a cost of which only the normal equations are known, inside bounds, with Ceres.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fitting/accumulate.h"
+
+namespace gonio {
+
+struct Bounds {
+  std::vector<double> low, high;
+};
+
+struct Solution {
+  std::vector<double> x;
+  NormalEquations at;  ///< the normal equations at x
+  bool converged = false;
+  int iterations = 0, passes = 0;
+  std::vector<double> cost_per_iteration;
+  std::string message;
+};
+
+struct SolveOptions {
+  int max_iterations = 100;
+  double function_tolerance = 1e-12;
+  double parameter_tolerance = 1e-10;
+};
+
+/// Ceres sees n + 1 residuals that have the same gradient, Gauss–Newton matrix and cost as the
+/// samples themselves:  with S H S = V Λ Vᵀ, S = diag(H)^(−1/2),
+///
+///   J = Λ^(1/2) Vᵀ S⁻¹,   r = Λ^(−1/2) Vᵀ S g   (rows with Λ ≈ 0 left out),
+///   r_(n+1) = √(2 cost − |r|²), constant
+///
+/// so that Jᵀr = g, JᵀJ = H and ½|r|² = cost, also where H is singular.
+Solution solve(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
+               std::vector<double> start, const Bounds&, const SolveOptions& = {});
+
+}  // namespace gonio
