@@ -83,6 +83,7 @@ struct Dielectric {
 ///                                              [Born & Wolf, Principles of Optics, §14.2]
 ///
 /// Computed so that nothing cancels: the larger of a and b from the root, the smaller as η k over it;
+/// Re (N² − s²) from the two of η² − k², 1 and c² that lie closest; and where a > b
 ///   a − c = ((η − 1)(η + 1) + b² − k²)/(a + c)
 ///
 /// \param eta  real part, > 0   \param k  extinction coefficient, ≥ 0
@@ -97,26 +98,30 @@ struct Conductor {
       Parameter{"eta", {0.001, 20}, {0.01, 10}, 1.5, true, "refractive index, real part"},
       Parameter{"k", {0, 1000}, {0, 20}, 3, true, "extinction coefficient"}};
 
-  T k2, re, im;  // k²; Re N² − 1; η k = Im N² / 2
+  T re, less_one, im;  // Re N², Re N² − 1, η k = Im N² / 2
 
   explicit Conductor(std::span<const T, 2> p)
-      : k2(square(p[1])), re((p[0] - 1) * (p[0] + 1) - k2), im(p[0] * p[1]) {}
+      : re((p[0] - p[1]) * (p[0] + p[1])),
+        less_one((p[0] - 1) * (p[0] + 1) - square(p[1])),
+        im(p[0] * p[1]) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& x) const {
-    const auto c = x.voh, s2 = (1 - c) * (1 + c);
-    const T t = re + square(c);  // Re (N² − s²)
-    const auto dielectric_like = T(0) < t;
-    const T abs_t = select<T>(dielectric_like, t, -t);
-    // tiny: N² = s² exactly (k = 0 at the critical angle) has the root 0, which has no slope
-    const T tiny = constant<T>(1e-30L);
-    const T big = sqrt((sqrt(max<T>(square(t) + 4 * square(im), square(tiny))) + abs_t) / 2);
-    const T small = im / big;
-    const T a = select<T>(dielectric_like, big, small);
-    const T b = select<T>(dielectric_like, small, big);
-    const T b2 = square(b);
-    const T s_num = square((re + b2) / (a + c)) + b2, s_den = square(a + c) + b2;
-    const T p_num = square(a * c - s2) + b2 * square(c), p_den = square(a * c + s2) + b2 * square(c);
-    return {s_num * (p_den + p_num), 2 * s_den * p_den};
+    const auto c = x.voh, c2 = square(c), s2 = (1 - c) * (1 + c);
+    const T t = select<T>(s2 < c2, re - s2, less_one + c2);  // Re (N² − s²)
+    const T t2 = square(t) + 4 * square(im);                 // |N² − s²|²
+    // N = s has the root 0, which has no slope: the critical angle, or η = 1 without k at c = 0.
+    const auto off = T(0) < t2;
+    const auto a_larger = T(0) < t;
+    const T abs_t = select<T>(a_larger, t, -t);
+    const T larger = sqrt((sqrt(select<T>(off, t2, T(1))) + abs_t) / 2);
+    const T smaller = im / larger;
+    const T a = select<T>(a_larger, larger, smaller);
+    const T b2 = square(select<T>(a_larger, smaller, larger));
+    const T a_less_c = select<T>(a_larger, less_one + b2, a - c) / select<T>(a_larger, a + c, T(1));
+    const T s_num = square(a_less_c) + b2, s_den = square(a + c) + b2;
+    const T p_num = square(a * c - s2) + b2 * c2, p_den = square(a * c + s2) + b2 * c2;
+    const T beyond = select<T>(less_one < T(0), T(1), T(0));
+    return {select<T>(off, s_num * (p_den + p_num), beyond), select<T>(off, 2 * s_den * p_den, T(1))};
   }
 };
 
