@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// Masking and shadowing as visibility V = G₂ / (4 NoL NoV) [1/sr]: the cosines cancel on paper, so
-/// nothing divides by zero at grazing angles.  Defined for NoL, NoV in [0, 1].
+/// nothing divides by zero at grazing angles.  Defined for NoL, NoV in [0, 1], not both 0, where the
+/// correlated V has no bound.
 
 #include "brdf/ndf.h"
 #include "brdf/term.h"

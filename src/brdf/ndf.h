@@ -2,7 +2,7 @@
 /// \file
 /// Normal distributions D(h) [1/sr], normalised as ∫ D(m) (n·m) dω = 1.
 ///
-/// All use t = α² cos²θ_h + sin²θ_h, which is (NoH² (α² − 1) + 1) without its cancellation.
+/// t = α² cos²θ_h + sin²θ_h is (NoH² (α² − 1) + 1) without its cancellation.
 
 #include "brdf/term.h"
 
@@ -44,12 +44,12 @@ T expm1_over(const T& z) {
 ///
 ///   D = N / t^γ,   N = (γ − 1)(α² − 1) / (π (1 − α^(2(1−γ))))          [Burley 2012, App. B]
 ///
-/// With L = ln α² and E(z) = (eᶻ − 1)/z the same is
+/// With L = ln α², E(z) = (eᶻ − 1)/z = eᶻ E(−z) and u = t/α² = cos²θ_h + sin²θ_h/α² the same is
 ///
-///   N = E(L) / (π E((1 − γ) L))
+///   D = E(L) / (π α² E((γ − 1) L)) · u^−γ
 ///
-/// and E has no hole: neither γ = 1 (Berry, GTR1) nor α = 1 (D = 1/π) is a special case, no digit
-/// is lost near them.  γ = 2 is GGX.
+/// E has no hole: neither γ = 1 (Berry, GTR1) nor α = 1 (D = 1/π) is a special case, no digit is
+/// lost near them; and nothing overflows on the way, as α^−2γ does in float.  γ = 2 is GGX.
 template <Real T>
 struct Gtr {
   static constexpr About about{
@@ -60,18 +60,18 @@ struct Gtr {
       alpha_parameter,
       Parameter{"gamma", {0.5, 10}, {0.5, 10}, 2, false, "tail exponent; 1 Berry, 2 GGX"}};
 
-  T alpha2, gamma, norm;
+  T per_alpha2, gamma, peak;
 
   explicit Gtr(std::span<const T, 2> p)
-      : alpha2(square(p[0])), gamma(p[1]), norm(normalisation(log(alpha2), gamma)) {}
+      : per_alpha2(1 / square(p[0])), gamma(p[1]), peak(d_at_peak(-log(per_alpha2))) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
-    return norm * exp(-gamma * log(alpha2 * square(a.noh) + a.sin2_theta_h));
+    return peak * exp(-gamma * log(square(a.noh) + a.sin2_theta_h * per_alpha2));
   }
 
  private:
-  static T normalisation(const T& l, const T& gamma) {
-    return expm1_over<T>(l) / (pi<plain_t<T>>() * expm1_over<T>((1 - gamma) * l));
+  T d_at_peak(const T& l) const {
+    return expm1_over<T>(l) * per_alpha2 / (pi<plain_t<T>>() * expm1_over<T>((gamma - 1) * l));
   }
 };
 

@@ -55,8 +55,10 @@ std::vector<double> values(std::size_t term, std::span<const double> parameters,
   Column<F> out(n);
   k.terms[term].add(x.block(), p.data(), {ones.data(), nullptr, zeros.data(), out.data(), nullptr});
   if (role_of(k.terms[term].about->id) == Role::masking)
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      out[i] = 4 * F(rows[i].nol) * F(rows[i].nov) * out[i];
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const F cosines = 4 * F(rows[i].nol) * F(rows[i].nov);
+      out[i] = cosines > 0 ? cosines * out[i] : 0;  // at grazing G2 is 0, even where V has no bound
+    }
   return {out.data(), out.data() + rows.size()};
 }
 
