@@ -74,10 +74,15 @@ void OutputFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("writing");
 }
 
-void OutputFile::commit() {
+void OutputFile::close() {
+  if (!file_) return;
   const bool closed = std::fclose(file_) == 0;
   file_ = nullptr;
   if (!closed) fail("writing");
+}
+
+void OutputFile::commit() {
+  close();
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("renaming");
   committed_ = true;
 }

@@ -47,7 +47,9 @@ class OutputFile {
   /// For libraries that write by name.
   const std::string& temporary_path() const { return temporary_; }
   void write(std::string_view bytes);
-  /// Flushes and renames.
+  /// Flushes; what is left to fail in commit() is the renaming.
+  void close();
+  /// Closes and renames.
   void commit();
 
  private:

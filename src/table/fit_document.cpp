@@ -8,18 +8,6 @@ namespace {
 
 constexpr const char* kSchema = "gonio.fit/1";
 
-/// One entry as itself, several as an array.
-template <class Entry>
-Json per_channel(std::size_t n, Entry entry) {
-  if (n == 1) return entry(0);
-  Json all = Json::array();
-  for (std::size_t c = 0; c < n; ++c) all.push_back(entry(c));
-  return all;
-}
-Json per_channel(const std::vector<double>& v) {
-  return per_channel(v.size(), [&](std::size_t c) { return Json(v[c]); });
-}
-
 Json parameters(const FitDocument& d) {
   Json all = Json::object();
   for (const auto& p : d.parameters) {

@@ -13,14 +13,19 @@ std::string text_of(const Json& j) {
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+Json per_channel(const std::vector<double>& v) {
+  return per_channel(v.size(), [&](std::size_t c) { return Json(v[c]); });
+}
+
 Json parse_json(const std::string& file, const std::string& bytes) {
   try {
     return Json::parse(bytes);
   } catch (const Json::parse_error& e) {
     const auto end = std::min(bytes.size(), e.byte > 0 ? e.byte - 1 : 0);
-    const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    const auto start = end == 0 ? std::string::npos : bytes.rfind('\n', end - 1);
-    throw bad_input(file, fmt::format("line {}, column {}", line, end - (start == std::string::npos ? 0 : start + 1) + 1),
+    const std::string_view before(bytes.data(), end);
+    const auto line = 1 + std::ranges::count(before, '\n');
+    const auto column = end - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+    throw bad_input(file, fmt::format("line {}, column {}", line, column),
                     end < bytes.size() ? bytes.substr(end, 12) : "the end of the file", "JSON");
   } catch (const Json::exception& e) {
     throw bad_input(file, "JSON", e.what(), "values that can be held");

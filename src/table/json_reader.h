@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Reading JSON that others wrote: every value knows its place, so an error can name it.
+/// JSON out in the contract's form, and in from others: every value read knows its place, so an
+/// error can name it.
 /// Dear to compile: for the .cpp files of this room only.
 
 #include <nlohmann/json.hpp>
@@ -9,14 +10,28 @@
 #include <utility>
 #include <vector>
 
+#include "table/table.h"
+
 namespace gonio {
 
 using Json = nlohmann::ordered_json;
 
 /// The text of a document for people and programs alike: indented, ends with a new line.
 std::string text_of(const Json&);
+/// What a synthesized table was made from.
+Json truth_json(const Truth&);
 /// The bytes as a document; bytes that are not JSON are bad_input with line and column.
 Json parse_json(const std::string& file, const std::string& bytes);
+
+/// One entry as itself, several as an array: how the contract writes what may have channels.
+template <class Entry>
+Json per_channel(std::size_t n, Entry entry) {
+  if (n == 1) return entry(0);
+  Json all = Json::array();
+  for (std::size_t c = 0; c < n; ++c) all.push_back(entry(c));
+  return all;
+}
+Json per_channel(const std::vector<double>&);
 
 /// A value of a document and where it stands ("parameters.alpha.value"); the document must outlive
 /// it.  A value that is not what is asked for is bad_input.

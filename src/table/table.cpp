@@ -79,7 +79,7 @@ double Interpolator::operator()(const DirectionPair& p, std::size_t channel) con
   std::array<double, 3> angle;
   if (g->kind == Grid::Kind::half_difference) {
     const auto a = half_difference(p);
-    angle = {a.theta_h, a.theta_d, a.phi_d < 0 ? a.phi_d + std::numbers::pi : a.phi_d};
+    angle = {a.theta_h, a.theta_d, a.phi_d < 0 ? a.phi_d + g->axes[2].span : a.phi_d};
   } else {
     const double phi = std::remainder(phi_of(p.wo) - phi_of(p.wi), 2 * std::numbers::pi);
     angle = {theta_of(p.wi), theta_of(p.wo), std::abs(phi)};

@@ -39,12 +39,13 @@ struct Axis {
   double angle(double i, Bins) const;
   /// Its inverse: fractional sample index of an angle; may lie outside [0, size − 1].
   double index(double angle, Bins) const;
+  bool operator==(const Axis&) const = default;
 };
 
 /// Samples on three axes, the last fastest.
 struct Grid {
   enum class Kind {
-    half_difference,  ///< theta_h, theta_d, phi_d; phi_h = 0
+    half_difference,  ///< theta_h, theta_d, phi_d; phi_h = 0; over 2π in phi_d if not reciprocal
     in_out            ///< theta_i, theta_o, phi = phi_o − phi_i; phi = π is the mirror direction
   };
   Kind kind;
@@ -56,6 +57,7 @@ struct Grid {
     const std::size_t row = i / axes[2].size;
     return {row / axes[1].size, row % axes[1].size, i % axes[2].size};
   }
+  bool operator==(const Grid&) const = default;
 };
 
 /// Samples anywhere, in degrees as their file has them.

@@ -1,0 +1,110 @@
+#include "table/exr_slice.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <numbers>
+
+#include "base/error.h"
+#include "image/exr.h"
+#include "table/metadata.h"
+
+namespace gonio {
+namespace {
+
+constexpr const char *kLayout = "gonio:layout", *kPhi = "gonio:phi_d_rad",
+                     *kChannels = "gonio:channels", *kTable = "gonio:table", *kSlice = "image_slice";
+
+std::string exr_name(const std::string& channel) {
+  if (channel == "f") return "Y";
+  if (channel == "r" || channel == "g" || channel == "b")
+    return {static_cast<char>(channel[0] - 'a' + 'A')};
+  return channel;
+}
+
+double angle(const std::string& path, const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(std::abs(value) <= 2 * std::numbers::pi))
+    throw bad_input(path, kPhi, text, "an angle in radians");
+  return value;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts{""};
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// Turns [x][y] into [y][x] or back; `width` is that of the result.
+template <class To, class From>
+std::vector<To> turned(const std::vector<From>& from, std::size_t width) {
+  std::vector<To> to(from.size());
+  const std::size_t height = from.size() / width;
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x) to[y * width + x] = static_cast<To>(from[x * height + y]);
+  return to;
+}
+
+}  // namespace
+
+Grid image_slice_grid(std::size_t n_theta_h, std::size_t n_theta_d, double phi_d, Bins bins) {
+  using enum Axis::Spacing;
+  using std::numbers::pi;
+  return {Grid::Kind::half_difference,
+          {{{"theta_h", quadratic, n_theta_h, pi / 2},
+            {"theta_d", uniform, n_theta_d, pi / 2},
+            {"phi_d", constant, 1, phi_d}}},
+          bins};
+}
+
+Table read_exr_slice(const std::string& path) {
+  const Image image = read_exr(path);
+  const auto attribute = [&](const char* name) {
+    const auto found = image.attributes.find(name);
+    if (found == image.attributes.end())
+      throw bad_input(path, "header", fmt::format("no attribute {}", name), "an image slice made by gonio");
+    return found->second;
+  };
+  if (attribute(kLayout) != kSlice) throw bad_input(path, kLayout, attribute(kLayout), kSlice);
+  Table t;
+  t.path = path;
+  t.format = "exr";
+  t.where = image_slice_grid(image.width, image.height, angle(path, attribute(kPhi)), Bins::centre);
+  t.channels = split(attribute(kChannels));
+  for (const auto& channel : t.channels) {
+    const auto found = std::ranges::find(image.channels, exr_name(channel));
+    if (found == image.channels.end())
+      throw bad_input(path, "channels", fmt::format("{}", fmt::join(image.channels, ", ")),
+                      exr_name(channel) + " among them");
+    const auto c = static_cast<std::size_t>(found - image.channels.begin());
+    t.values.push_back(turned<double>(image.planes[c], image.height));
+  }
+  apply_metadata(t, path, attribute(kTable));
+  return t;
+}
+
+void write_exr_slice(const Table& t, const std::string& path) {
+  const Grid* g = t.grid();
+  if (!g || *g != image_slice_grid(g->axes[0].size, g->axes[1].size, g->axes[2].span, g->bins))
+    throw bad_input(path, "writing", "a table of another shape", "an image slice over theta_h, theta_d");
+  Image image;
+  image.width = g->axes[0].size;
+  image.height = g->axes[1].size;
+  for (const auto& channel : t.channels) image.channels.push_back(exr_name(channel));
+  for (const auto& plane : t.values) image.planes.push_back(turned<float>(plane, image.width));
+  image.attributes = {{kLayout, kSlice},
+                      {kPhi, fmt::format("{}", g->axes[2].span)},
+                      {kChannels, fmt::format("{}", fmt::join(t.channels, ","))},
+                      {kTable, metadata_text(t)}};
+  write_exr(path, image);
+}
+
+}  // namespace gonio

@@ -1,0 +1,64 @@
+#include "table/formats.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "table/metadata.h"
+
+namespace gonio {
+namespace {
+
+Table read_by_format(InputFile& in) {
+  const std::string head = in.peek(1 << 16);
+  if (head.starts_with(std::string_view("\x76\x2f\x31\x01", 4))) return read_exr_slice(in.path());
+  if (is_mbsdf(head)) return read_mbsdf(in);
+  if (is_csv(head)) return read_csv(in);
+  if (is_merl(head, in.size())) return read_merl(in);
+  throw bad_input(in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
+                  "a MERL or MBSDF file, an image slice in OpenEXR, or CSV with theta_i,phi_i,theta_o,phi_o");
+}
+
+void write_by_format(const Table& t, OutputFile& out, const std::string& path) {
+  if (t.format == "merl") return write_merl(t, out, path);
+  if (t.format == "mbsdf") return write_mbsdf(t, out, path);
+  if (t.format == "csv") return write_csv(t, out);
+  throw wrong_usage("unknown table format '" + t.format + "': use csv, merl, mbsdf or exr");
+}
+
+}  // namespace
+
+Table read_table(const std::string& path, std::optional<Bins> bins) {
+  InputFile in(path);
+  Table t = read_by_format(in);
+  t.path = path;
+  if (t.format != "exr" && std::filesystem::exists(side_path(path))) {
+    InputFile side(side_path(path));
+    apply_metadata(t, side.path(), side.read_rest(std::uint64_t{1} << 24));
+  }
+  if (auto* g = std::get_if<Grid>(&t.where); g && bins) g->bins = *bins;
+  return t;
+}
+
+void write_table(const Table& t, const std::string& path) {
+  if (t.format == "exr") return write_exr_slice(t, path);
+  OutputFile out(path);
+  write_by_format(t, out, path);
+  out.close();
+  // The side file goes first and an old one never stays: between the two steps, or after a failure,
+  // a table may lack what was said about it, but has nothing false beside it for long.
+  const std::string side = side_path(path);
+  if (needs_metadata(t))
+    write_file(side, metadata_text(t));
+  else
+    std::remove(side.c_str());
+  try {
+    out.commit();
+  } catch (...) {
+    std::remove(side.c_str());
+    throw;
+  }
+}
+
+}  // namespace gonio

@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// Tables from files and into files, whatever the format.
+
+#include <optional>
+#include <string>
+
+#include "table/csv.h"
+#include "table/exr_slice.h"
+#include "table/mbsdf.h"
+#include "table/merl.h"
+#include "table/table.h"
+
+namespace gonio {
+
+/// The format is found from the bytes, not from the name.
+/// \param bins  beats what the file or its side file (table/metadata.h) says, which beats `centre`
+Table read_table(const std::string& path, std::optional<Bins> bins = {});
+
+/// In the format of Table::format: the table and, where there is more to say than the format holds,
+/// its side file; both or neither.
+void write_table(const Table&, const std::string& path);
+
+}  // namespace gonio

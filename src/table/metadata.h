@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// What gonio knows of a table beyond its format: bin convention, truth, notes; as JSON in a side
+/// file (FILE.gonio.json) or an attribute.
+///
+///   {"schema": "gonio.table/1", "bins": "centre"|"edge" (where there are bins),
+///    "truth": {"model", "parameters": {NAME: number or array}, "noise", "floor", "outliers", "seed"},
+///    "notes": {NAME: string}}
+
+#include <string>
+
+#include "table/table.h"
+
+namespace gonio {
+
+std::string side_path(const std::string& path);
+/// Whether there is anything that a reader would not assume anyway.
+bool needs_metadata(const Table&);
+std::string metadata_text(const Table&);
+/// \param file  named in errors
+void apply_metadata(Table&, const std::string& file, const std::string& text);
+
+}  // namespace gonio
