@@ -1,0 +1,144 @@
+// Files that are not what they claim: one error that says so, and never anything else.
+#include "base/error.h"
+#include "support.h"
+#include "example.h"
+
+namespace gonio {
+namespace {
+
+using namespace test;
+
+/// What reading says; "" if it reads.
+std::string complaint(const std::string& path) {
+  try {
+    read_table(path);
+    return "";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), Exit::bad_input);
+    return e.what();
+  }
+}
+#define EXPECT_COMPLAINT(path, part) \
+  EXPECT_NE(complaint(path).find(part), std::string::npos) << "instead: " << complaint(path)
+
+TEST(ReadTable, NamesWhatIsNoFile) {
+  const Folder folder;
+  EXPECT_COMPLAINT(folder / "missing", "No such file");
+  EXPECT_COMPLAINT(folder / "", "a directory");
+  EXPECT_COMPLAINT(folder.write("empty", ""), "an empty file");
+  EXPECT_COMPLAINT(folder.write("text", "dear reader"), "unknown format: dear reader");
+  EXPECT_COMPLAINT(folder.write("zeros", std::string(100, '\0')), "unknown format");
+  EXPECT_COMPLAINT("/dev/null", "a device");
+}
+
+std::string merl_header(std::int32_t a, std::int32_t b, std::int32_t c) {
+  const std::array<std::int32_t, 3> dims{a, b, c};
+  return {reinterpret_cast<const char*>(dims.data()), sizeof dims};
+}
+
+TEST(MerlFile, ChecksEachDimensionAndTheSize) {
+  const Folder folder;
+  EXPECT_COMPLAINT(folder.write("short", merl_header(90, 90, 180)), "size: found 12 bytes, expected 34992012");
+  EXPECT_COMPLAINT(folder.write("short", merl_header(90, 90, 360) + "x"), "expected 69984012");
+  EXPECT_COMPLAINT(folder.write("other", merl_header(2, 1, 3) + std::string(3 * 6 * 8, '\0')),
+                   "dimensions (2, 1, 3), expected (90, 90, 180)");
+  EXPECT_COMPLAINT(folder.write("product", merl_header(180, 90, 90) + std::string(34'992'000, '\0')),
+                   "dimensions (180, 90, 90)");
+  for (const auto& d : {merl_header(-1, -1, 180), merl_header(INT32_MIN, 90, 180), merl_header(0, 0, 0),
+                        merl_header(INT32_MAX, INT32_MAX, INT32_MAX)})
+    EXPECT_COMPLAINT(folder.write("dims", d + std::string(80, '\0')), "unknown format");
+}
+
+std::string mbsdf_header(std::uint32_t type, std::uint32_t n_theta, std::uint32_t n_phi) {
+  const std::array<std::uint32_t, 3> h{type, n_theta, n_phi};
+  return "NVIDIA ARC MBSDF V1\nMBSDF_DATA_REFLECTION=\n" +
+         std::string(reinterpret_cast<const char*>(h.data()), sizeof h);
+}
+
+TEST(MbsdfFile, ChecksItsHeaderBeforeItAllocates) {
+  const Folder folder;
+  const std::string four(16, '\0');
+  EXPECT_EQ(complaint(folder.write("good", mbsdf_header(0, 1, 4) + four)), "");
+  EXPECT_COMPLAINT(folder.write("type", mbsdf_header(2, 1, 4) + four), "type 2");
+  constexpr std::uint32_t huge = 0x80000000, all = 0xffffffff;
+  for (const auto& h : {mbsdf_header(1, huge, huge), mbsdf_header(1, all, all), mbsdf_header(0, 0, 4),
+                        mbsdf_header(0, 2, 1), mbsdf_header(0, 1, 0), mbsdf_header(0, 1, huge),
+                        mbsdf_header(0, huge, 2), mbsdf_header(0, 4, 1), mbsdf_header(1, 1, 4)})
+    EXPECT_COMPLAINT(folder.write("dims", h + four), "values in 16 bytes");
+  EXPECT_COMPLAINT(folder.write("odd", mbsdf_header(0, 1, 4) + four + "x"), "values in 17 bytes");
+  EXPECT_COMPLAINT(folder.write("trans", "NVIDIA ARC MBSDF V1\nMBSDF_DATA_TRANSMISSION=\n" + four),
+                   "byte 20: found MBSDF_DATA_TRANSMISSIO");
+  EXPECT_COMPLAINT(folder.write("v2", "NVIDIA ARC MBSDF V2\n" + four), "V2");
+}
+
+TEST(CsvFile, NamesLineAndColumn) {
+  const Folder folder;
+  const auto csv = [&](const std::string& text) { return folder.write("t.csv", text); };
+  const std::string head = "theta_i,phi_i,theta_o,phi_o,f,weight\n";
+  EXPECT_COMPLAINT(csv("theta_i,phi_i,theta_o,f\n0,0,0,0\n"), "line 1, column phi_o: found no such column");
+  EXPECT_COMPLAINT(csv("theta_i,phi_i,theta_o,phi_o\n0,0,0,0\n"), "column f: found no such column");
+  EXPECT_COMPLAINT(csv("theta_i,phi_i,theta_o,phi_o,f,f\n"), "column f: found a second");
+  EXPECT_COMPLAINT(csv("theta_i,phi_i,theta_o,phi_o,f,speed\n"), "column speed: found an unknown column");
+  EXPECT_COMPLAINT(csv(head), "found no samples");
+  EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,1\n\n1,2,3,4,5\n"), "line 4: found 5 fields, expected 6");
+  EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,1,1\n"), "line 2: found 7 fields, expected 6");
+  EXPECT_COMPLAINT(csv(head + "1,2,3,4,,1\n"), "line 2, column f: found ''");
+  EXPECT_COMPLAINT(csv(head + "1,2,3,4,1.5x,1\n"), "line 2, column f: found '1.5x'");
+  EXPECT_COMPLAINT(csv(head + "1,2,3,4,1e999,1\n"), "column f");
+  EXPECT_COMPLAINT(csv(head + "1,2,nan,4,5,1\n"), "line 2, column theta_o: found nan, expected a number in [0, 180]");
+  EXPECT_COMPLAINT(csv(head + "-1,2,3,4,5,1\n"), "column theta_i: found -1");
+  EXPECT_COMPLAINT(csv(head + "181,2,3,4,5,1\n"), "column theta_i");
+  EXPECT_COMPLAINT(csv(head + "1,361,3,4,5,1\n"), "column phi_i: found 361, expected a number in [-360, 360]");
+  EXPECT_COMPLAINT(csv(head + "1,2,3,inf,5,1\n"), "column phi_o");
+  EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,-1\n"), "column weight: found -1");
+  EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,inf\n"), "column weight: found inf");
+  EXPECT_EQ(complaint(csv(head + "1,2,3,4,inf,1\n")), "") << "a value may be anything: it is masked";
+}
+
+TEST(SideFile, IsNamedWhereItIsBroken) {
+  const Folder folder;
+  write_table(mbsdf_example(2, 3), folder / "m");
+  for (const char* text : {"", "{", "[]", "{}", R"({"schema":"gonio.table/2"})",
+                           R"({"schema":"gonio.table/1","bins":"middle"})", R"({"schema":"gonio.table/1","bins":1})",
+                           R"({"schema":"gonio.table/1","truth":1})", R"({"schema":"gonio.table/1","notes":{"a":1}})"}) {
+    folder.write("m.gonio.json", text);
+    EXPECT_COMPLAINT(folder / "m", "m.gonio.json") << text;
+  }
+  write_table(csv_example(), folder / "c");
+  folder.write("c.gonio.json", R"({"schema":"gonio.table/1","bins":"edge"})");
+  EXPECT_COMPLAINT(folder / "c", "this table has no bins");
+}
+
+TEST(ReadTable, EitherReadsOrRefusesDamagedFiles) {
+  const Folder folder;
+  std::mt19937_64 random(11);
+  std::vector<std::string> originals;
+  for (const Table& t : {mbsdf_example(3, 5), slice_example(), csv_example()}) {
+    write_table(t, folder / "t");
+    originals.push_back(read_bytes(folder / "t"));
+  }
+  originals.push_back(merl_header(90, 90, 180) + std::string(1000, 'x'));
+  for (const auto& original : originals) {
+    for (int round = 0; round < 400; ++round) {
+      std::string bytes = original;
+      for (auto flips = random() % 4; flips > 0; --flips)
+        bytes[random() % (round % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 64))] =
+            static_cast<char>(random());
+      if (round % 3 == 0) bytes.resize(random() % bytes.size());
+      complaint(folder.write("damaged", bytes));  // any other exception fails the test
+    }
+  }
+}
+
+TEST(ReadTable, RefusesEveryTruncation) {
+  const Folder folder;
+  for (const Table& t : {mbsdf_example(3, 5), slice_example()}) {
+    write_table(t, folder / "t");
+    const std::string bytes = read_bytes(folder / "t");
+    for (std::size_t n = 0; n < bytes.size(); n += 1 + bytes.size() / 300)
+      EXPECT_NE(complaint(folder.write("cut", bytes.substr(0, n))), "") << t.format << " at " << n;
+  }
+}
+
+}  // namespace
+}  // namespace gonio
