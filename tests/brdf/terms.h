@@ -1,0 +1,120 @@
+#pragma once
+/// \file
+/// What the tests of the catalogue share: a term evaluated on its own, its parameters' legal values
+/// as a grid, angles of random direction pairs, and differences.
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "brdf/evaluate.h"
+#include "brdf/kernels.h"
+#include "brdf/registry.h"
+#include "geometry/half_difference.h"
+
+namespace gonio::test {
+
+using Parameters = std::vector<double>;
+
+inline std::vector<std::size_t> terms_of(Role role) {
+  std::vector<std::size_t> terms;
+  for (std::size_t i = 0; i < catalogue().size(); ++i)
+    if (role_of(catalogue()[i].about->id) == role) terms.push_back(i);
+  return terms;
+}
+
+template <class F>
+AngleColumns<F> columns(std::span<const Angles<double>> rows) {
+  AngleColumns<F> x(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) x.set(i, rows[i]);
+  return x;
+}
+
+template <class F = double>
+std::vector<F> values_of(std::size_t term, const Parameters& parameters,
+                         std::span<const Angles<double>> rows,
+                         const Kernels<F>& k = kernels<F>("scalar")) {
+  const auto x = columns<F>(rows);
+  const std::vector<F> p(parameters.begin(), parameters.end());
+  const Column<F> ones(x.padded(), 1), zeros(x.padded(), 0);
+  Column<F> out(x.padded());
+  k.terms[term].add(x.block(), p.data(), {ones.data(), nullptr, zeros.data(), out.data(), nullptr});
+  return {out.data(), out.data() + rows.size()};
+}
+inline double value_of(std::size_t term, const Parameters& parameters, const Angles<double>& at) {
+  return values_of(term, parameters, {&at, 1})[0];
+}
+
+/// [0]: the value; [1 + k]: its derivative by the k-th parameter.
+template <class F = double>
+std::vector<std::vector<F>> derivatives_of(std::size_t term, const Parameters& parameters,
+                                           std::span<const Angles<double>> rows,
+                                           const Kernels<F>& k = kernels<F>("scalar")) {
+  const auto x = columns<F>(rows);
+  const std::vector<F> p(parameters.begin(), parameters.end());
+  std::vector<Column<F>> out;
+  std::vector<F*> d;
+  for (std::size_t i = 0; i <= p.size(); ++i) {
+    out.emplace_back(x.padded());
+    if (i > 0) d.push_back(out.back().data());
+  }
+  k.terms[term].derivatives(x.block(), p.data(), out[0].data(), d.data());
+  std::vector<std::vector<F>> result;
+  for (const auto& c : out) result.emplace_back(c.data(), c.data() + rows.size());
+  return result;
+}
+
+/// `steps` + 1 values of a range with both its ends; by equal factors where it spans decades.
+inline Parameters spread(const Range& r, int steps) {
+  const bool decades = r.low > 0 && r.high / r.low > 100;
+  Parameters p;
+  for (int i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps;
+    p.push_back(decades ? r.low * std::pow(r.high / r.low, t) : r.low + (r.high - r.low) * t);
+  }
+  p.back() = r.high;
+  return p;
+}
+/// All combinations of the legal values of a term's parameters.
+inline std::vector<Parameters> legal_grid(std::span<const Parameter> parameters, int steps) {
+  std::vector<Parameters> grid{{}};
+  for (const auto& p : parameters) {
+    std::vector<Parameters> more;
+    for (const auto& row : grid)
+      for (const double v : spread(p.legal, steps)) {
+        more.push_back(row);
+        more.back().push_back(v);
+      }
+    grid = std::move(more);
+  }
+  return grid;
+}
+
+inline std::string text(const Parameters& p) { return testing::PrintToString(p); }
+inline std::string text(const Angles<double>& a) {
+  return testing::PrintToString(Parameters{a.nol, a.nov, a.noh, a.voh, a.sin2_theta_h});
+}
+
+/// Directions above the surface: their half vectors from the peak outwards, some of them grazing.
+inline std::vector<Angles<double>> random_angles(std::size_t n, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  std::vector<Angles<double>> rows;
+  while (rows.size() < n) {
+    const double h = rows.size() % 2 ? uniform(0, 1.5) : std::exp(uniform(std::log(1e-5), 0));
+    const double d = rows.size() % 3 ? uniform(0, 1.5) : 1.5707 - std::exp(uniform(std::log(1e-3), 0));
+    const auto a = angles(SinCos(h), SinCos(d), std::cos(uniform(0, 3.1416)));
+    if (a.nol > 1e-4 && a.nov > 1e-4) rows.push_back(a);
+  }
+  return rows;
+}
+
+/// ∂f/∂x by central differences of two steps, the error's h² taken out.
+double slope(auto&& f, double x, double h) {
+  const auto central = [&](double step) { return (f(x + step) - f(x - step)) / (2 * step); };
+  return (4 * central(h / 2) - central(h)) / 3;
+}
+
+}  // namespace gonio::test

@@ -1,0 +1,175 @@
+// Fifty digits: how many of sixteen the terms keep.  The only file that pays for Boost.Multiprecision.
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include "brdf/catalogue.h"
+#include "brdf/terms.h"
+
+namespace gonio {
+
+/// Expression templates off: `auto x = a * b` must be a number.
+using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
+                                           boost::multiprecision::et_off>;
+
+inline namespace GONIO_ARCH {
+template <>
+struct RealTraits<Wide> {
+  using Base = Wide;
+  using Plain = Wide;
+  using Mask = bool;
+  static Wide select(bool m, const Wide& a, const Wide& b) { return m ? a : b; }
+};
+}  // namespace GONIO_ARCH
+
+namespace {
+
+using test::Parameters;
+using test::text;
+
+/// |x/truth − 1|; 0 if both are 0.
+double relative_error(double x, const Wide& truth) {
+  if (truth == 0) return x == 0 ? 0 : 1;
+  return static_cast<double>(abs((Wide(x) - truth) / truth));
+}
+
+// ---- Every term against itself in fifty digits --------------------------------------------------
+
+/// What a term reads: its parameters, then the five angles.
+using Inputs = std::vector<Wide>;
+
+template <template <class> class Term>
+Wide wide(const Inputs& x) {
+  constexpr std::size_t n = Term<Wide>::parameters.size();
+  const Term<Wide> term{std::span<const Wide, n>(x.data(), n)};
+  return as_value<Wide>(term(Angles<Wide>{x[n], x[n + 1], x[n + 2], x[n + 3], x[n + 4]}));
+}
+using WideTerm = Wide (*)(const Inputs&);
+template <template <class> class... Terms>
+std::vector<WideTerm> wide_terms(TermList<Terms...>) {
+  return {wide<Terms>...};
+}
+
+/// Σ |∂ ln f / ∂ ln xᵢ|: by how much the last digit of an input moves the value.
+double condition(WideTerm f, const Inputs& x) {
+  const Wide value = f(x), h = 1e-20;
+  Wide sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    Inputs y = x;
+    y[i] *= 1 + h;
+    sum += abs(f(y) - value);
+  }
+  return static_cast<double>(sum / (h * abs(value)));
+}
+
+template <class F>
+void check_digits(double bound) {
+  std::mt19937_64 random(9);
+  const auto f = wide_terms(Catalogue{});
+  const auto rows = test::random_angles(300, 10);
+  for (std::size_t t = 0; t < f.size(); ++t) {
+    double worst = 0;
+    std::string where;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      Parameters p;
+      for (const auto& q : catalogue()[t].parameters) {
+        const auto s = test::spread(q.legal, 1000);
+        p.push_back(static_cast<double>(static_cast<F>(s[random() % s.size()])));
+        p.back() = std::clamp(p.back(), q.legal.low, q.legal.high);
+      }
+      const double value = static_cast<double>(test::values_of<F>(t, p, {&rows[i], 1})[0]);
+      Inputs x(p.begin(), p.end());
+      for (const double a : {rows[i].nol, rows[i].nov, rows[i].noh, rows[i].voh, rows[i].sin2_theta_h})
+        x.emplace_back(static_cast<F>(a));
+      for (std::size_t k = 0; k < p.size(); ++k) x[k] = static_cast<F>(p[k]);
+      const Wide truth = f[t](x);
+      if (abs(truth) < std::numeric_limits<F>::min() / std::numeric_limits<F>::epsilon()) continue;
+      const double eps = static_cast<double>(std::numeric_limits<F>::epsilon());
+      const double error = relative_error(value, truth) / eps / (1 + condition(f[t], x));
+      if (error > worst) worst = error, where = text(p) + text(rows[i]);
+    }
+    EXPECT_LT(worst, bound) << catalogue()[t].about->id << " in " << where;
+    testing::Test::RecordProperty(std::string(catalogue()[t].about->id), std::to_string(worst));
+  }
+}
+
+TEST(Catalogue, NoTermLosesMoreThanItsInputsLastDigitsAreWorth) {
+  check_digits<double>(8);
+  check_digits<float>(8);
+}
+
+// ---- Fresnel against the textbook ---------------------------------------------------------------
+
+/// The amplitudes of Born & Wolf with the complex root written out.
+Wide fresnel(const Wide& eta, const Wide& k, const Wide& c) {
+  const Wide s2 = 1 - c * c, re = eta * eta - k * k, im = 2 * eta * k;
+  const Wide x = re - s2, length = sqrt(x * x + im * im);
+  if (length == 0) return eta == 1 ? 0 : 1;
+  // a + ib = √(N² − s²) by its larger part
+  const Wide larger = sqrt((length + abs(x)) / 2), smaller = im / (2 * larger);
+  const Wide a = x > 0 ? larger : smaller, b = x > 0 ? smaller : larger;
+  const auto norm = [](const Wide& u, const Wide& v) { return u * u + v * v; };
+  const Wide rs = norm(c - a, b) / norm(c + a, b);
+  const Wide rp = norm(re * c - a, im * c - b) / norm(re * c + a, im * c + b);
+  return (rs + rp) / 2;
+}
+
+constexpr double hard_eta[] = {0.3, 0.7, 1 - 1e-10, 1, 1 + 1e-10, 1.001, 1.5, 3, 10};
+constexpr double hard_c[] = {0,    1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.02, 0.05, 0.1,  0.2, 0.3,   0.4,
+                             0.5, 0.55, 0.6,  0.7,  0.72, 0.75, 0.8,  0.9,  0.95, 0.96, 0.99, 0.999, 1};
+
+TEST(Dielectric, KeepsTwelveDigitsOverTheHardGrid) {
+  const auto term = find_term("fresnel.dielectric");
+  double worst = 0;
+  for (const double eta : hard_eta)
+    for (const double c : hard_c) {
+      const double f = test::value_of(term, {eta}, {c, c, 1, c, 0});
+      const double error = relative_error(f, fresnel(eta, 0, c));
+      EXPECT_LT(error, 1e-12) << eta << " " << c << ": " << f;
+      worst = std::max(worst, error);
+    }
+  RecordProperty("worst", std::to_string(worst / 2.2e-16) + " eps");
+}
+
+TEST(Conductor, KeepsTwelveDigitsOverTheHardGrid) {
+  const auto term = find_term("fresnel.conductor");
+  Parameters etas{0.001, 0.01, 0.1, 20};
+  etas.insert(etas.end(), std::begin(hard_eta), std::end(hard_eta));
+  double worst = 0;
+  for (const double eta : etas)
+    for (const double k : {0.0, 1e-20, 1e-12, 1e-8, 1e-4, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 10.0, 100.0, 1000.0})
+      for (const double c : hard_c) {
+        const double f = test::value_of(term, {eta, k}, {c, c, 1, c, 0});
+        const double error = relative_error(f, fresnel(eta, k, c));
+        EXPECT_LT(error, 1e-12) << eta << " " << k << " " << c << ": " << f;
+        worst = std::max(worst, error);
+      }
+  RecordProperty("worst", std::to_string(worst / 2.2e-16) + " eps");
+}
+
+// ---- GTR against Burley -------------------------------------------------------------------------
+
+/// N / t^γ with Burley's normalisation as printed, and its limits.
+Wide burley(const Wide& alpha, const Wide& gamma, const Angles<double>& x) {
+  const Wide pi = boost::math::constants::pi<Wide>(), a2 = alpha * alpha;
+  const Wide t = a2 * Wide(x.noh) * x.noh + x.sin2_theta_h;
+  if (alpha == 1) return 1 / pi / pow(t, gamma);
+  if (gamma == 1) return (a2 - 1) / (pi * log(a2) * t);
+  return (gamma - 1) * (a2 - 1) / (pi * (1 - pow(a2, 1 - gamma)) * pow(t, gamma));
+}
+
+TEST(GtrNdf, KeepsTwelveDigitsThroughTheHolesOfItsPrintedForm) {
+  const auto gtr = find_term("ndf.gtr");
+  double worst = 0;
+  for (const double gamma : {0.5, 1 - 1e-3, 1 - 1e-9, 1.0, 1 + 1e-9, 1 + 1e-3, 1.5, 2.0, 5.0, 10.0})
+    for (const double alpha : {1e-4, 1e-2, 0.3, 0.77, 0.78, 0.9, 1 - 1e-3, 1 - 1e-9, 1.0})
+      for (const double tangent : {0.0, 1e-6, 1e-3, 0.1, 1.0, 30.0, 1e6}) {
+        const double t2 = tangent * tangent;
+        const Angles<double> x{1, 1, 1 / std::sqrt(1 + t2), 1, t2 / (1 + t2)};
+        const double error = relative_error(test::value_of(gtr, {alpha, gamma}, x), burley(alpha, gamma, x));
+        EXPECT_LT(error, 1e-12) << alpha << " " << gamma << " " << tangent;
+        worst = std::max(worst, error);
+      }
+  RecordProperty("worst", std::to_string(worst / 2.2e-16) + " eps");
+}
+
+}  // namespace
+}  // namespace gonio
