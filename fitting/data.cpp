@@ -44,7 +44,7 @@ class IncidentAngle {
 constexpr std::size_t chunk = 16384;
 
 struct Counts {
-  std::size_t samples = 0, zero = 0;
+  std::size_t samples = 0, used = 0, zero = 0, zero_weight = 0;
   std::array<std::size_t, mask_names.size()> masked{};
 };
 
@@ -83,9 +83,12 @@ FitData fit_data(const Table& t, Bins bins, Metric metric, double offset) {
       for (const auto& channel : t.values) {
         const Mask m = mask(a, channel[i]);
         ++c.masked[static_cast<std::size_t>(m)];
-        const bool zero = m == Mask::valid && needs_positive && channel[i] == 0;
+        if (m != Mask::valid) continue;
+        const bool zero = needs_positive && channel[i] == 0, weightless = !(weight(i) > 0);
         c.zero += zero;
-        any = any || (m == Mask::valid && !zero && weight(i) > 0);
+        c.zero_weight += weightless && !zero;
+        c.used += !zero && !weightless;
+        any = any || (!zero && !weightless);
       }
       c.samples += any;
     }
@@ -98,12 +101,15 @@ FitData fit_data(const Table& t, Bins bins, Metric metric, double offset) {
   for (const auto& c : counts) {
     first.push_back(total.samples);
     total.samples += c.samples;
+    total.used += c.used;
     total.zero += c.zero;
+    total.zero_weight += c.zero_weight;
     for (std::size_t m = 0; m < c.masked.size(); ++m) total.masked[m] += c.masked[m];
   }
   for (std::size_t m = 1; m < mask_names.size(); ++m) d.masked[mask_names[m]] = total.masked[m];
   if (needs_positive) d.masked["zero"] = total.zero;
-  d.values_used = total.masked[0] - total.zero;
+  if (!t.weights.empty()) d.masked["zero_weight"] = total.zero_weight;
+  d.values_used = total.used;
   if (total.samples == 0) {
     std::string reasons;
     for (const auto& [reason, count] : d.masked)

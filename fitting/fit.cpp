@@ -132,6 +132,10 @@ void describe(FitDocument& d, const Problem& p, const Fitted& f, const Uncertain
         const std::size_t i = p.free.index(s);
         status = u.status[i];
         error = u.std_error[i];
+        // A width at the low end of all that is looked at: narrower ones, or no lobe, would do as well.
+        if (status == ParameterStatus::at_bound && is_alpha(q.name) &&
+            value <= q.about->fit.low * (1 + 1e-3))
+          status = ParameterStatus::not_identifiable;
         if (status == ParameterStatus::not_identifiable) value = error = nan;
       }
       e.value.push_back(value);

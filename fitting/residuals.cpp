@@ -72,26 +72,30 @@ FitResiduals residual_statistics(const BoundModel& b, const FitData& d) {
     for (std::size_t c = 0; c < d.y.size(); ++c) out.push_back(f.emplace_back(n).data());
     evaluate<double>(b.model, b.values, x, out);
     const auto& k = kernels<double>();
-    Column<double> ratio(n), slope(n);
+    std::vector<Column<double>> ratio;  // ln f − ln y, times the weight
+    Column<double> slope(n);
     alignas(64) std::array<double, padding> cost{};
-    Part& part = parts[number];
+    const double* const w = d.root_weight.data() + first;
     for (std::size_t c = 0; c < f.size(); ++c) {
-      const double* const y = d.y[c].data() + first;
-      const double* const w = d.root_weight.data() + first;
+      ratio.emplace_back(n);
       k.residual[static_cast<std::size_t>(Metric::log)](
-          n, {out[c], y, w, x.nol, 0, std::numeric_limits<double>::max(), ratio.data(), slope.data(),
-              cost.data()});
-      for (std::size_t i = 0; i < n; ++i) {
-        if (!(w[i] > 0 && y[i] >= 0)) continue;
-        const double difference = out[c][i] - y[i], log_ratio = ratio[i] / w[i];
-        const bool positive = y[i] > 0 && out[c][i] > 0;
-        part.all.add(difference, log_ratio, positive);
-        for (std::size_t a = 0; a < 3; ++a) {
-          const double cosine = (x.*bands()[a].cosine)[i];
-          std::size_t at = 0;
-          while (at + 2 < cosines[a].size() && cosine < cosines[a][at + 1]) ++at;
-          part.band[a][at].add(difference, log_ratio, positive);
-        }
+          n, {out[c], d.y[c].data() + first, w, x.nol, 0, std::numeric_limits<double>::max(),
+              ratio[c].data(), slope.data(), cost.data()});
+    }
+    Part& part = parts[number];
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!(w[i] > 0)) continue;
+      Sums sample;
+      for (std::size_t c = 0; c < f.size(); ++c) {
+        const double y = d.y[c][first + i], model = out[c][i];
+        if (y >= 0) sample.add(model - y, ratio[c][i] / w[i], y > 0 && model > 0);
+      }
+      part.all.add(sample);
+      for (std::size_t a = 0; a < 3; ++a) {
+        const double cosine = (x.*bands()[a].cosine)[i];
+        std::size_t at = 0;
+        while (at + 2 < cosines[a].size() && cosine < cosines[a][at + 1]) ++at;
+        part.band[a][at].add(sample);
       }
     }
   });

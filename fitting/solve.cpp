@@ -68,20 +68,12 @@ class Reduced : public ceres::CostFunction {
   mutable int passes_ = 0;
 };
 
-}  // namespace
-
-Solution solve(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
+/// One run of Ceres, all unknowns free inside their bounds.
+Solution solve_once(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
                std::vector<double> start, const Bounds& bounds, const SolveOptions& options) {
   Solution s;
   s.x = std::move(start);
   const std::size_t n = s.x.size();
-  if (n == 0) {
-    s.at = evaluate(s.x);
-    s.converged = true;
-    s.message = "nothing to fit";
-    return s;
-  }
-  for (std::size_t i = 0; i < n; ++i) s.x[i] = std::clamp(s.x[i], bounds.low[i], bounds.high[i]);
 
   ceres::Problem::Options ours;
   ours.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -108,6 +100,82 @@ Solution solve(const std::function<NormalEquations(const std::vector<double>&)>&
   s.iterations = static_cast<int>(summary.iterations.size());
   for (const auto& i : summary.iterations) s.cost_per_iteration.push_back(i.cost);
   s.message = summary.message;
+  return s;
+}
+
+/// The problem in a subset of its unknowns, the others held.
+NormalEquations restricted(const NormalEquations& e, std::size_t n, const std::vector<std::size_t>& moving) {
+  NormalEquations r{Matrix(), {}, e.cost};
+  for (const std::size_t a : moving) {
+    r.g.push_back(e.g[a]);
+    for (const std::size_t b : moving) r.h.push_back(e.h[a * n + b]);
+  }
+  return r;
+}
+
+}  // namespace
+
+Solution solve(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
+               std::vector<double> start, const Bounds& bounds, const SolveOptions& options) {
+  const std::size_t n = start.size();
+  Solution s;
+  s.x = std::move(start);
+  s.message = "nothing to fit";
+  s.converged = true;
+  for (std::size_t i = 0; i < n; ++i) s.x[i] = std::clamp(s.x[i], bounds.low[i], bounds.high[i]);
+  if (n == 0) {
+    s.at = evaluate(s.x);
+    return s;
+  }
+  std::vector<bool> held(n, false);
+  for (std::size_t round = 0; round < n + 2; ++round) {
+    std::vector<std::size_t> moving;
+    Bounds inside;
+    std::vector<double> x;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (held[i]) continue;
+      moving.push_back(i);
+      inside.low.push_back(bounds.low[i]);
+      inside.high.push_back(bounds.high[i]);
+      x.push_back(s.x[i]);
+    }
+    const auto whole = [&](const std::vector<double>& part) {
+      auto all = s.x;
+      for (std::size_t k = 0; k < moving.size(); ++k) all[moving[k]] = part[k];
+      return all;
+    };
+    NormalEquations last;  // of the whole problem where the part was evaluated last
+    std::vector<double> last_x;
+    const std::function<NormalEquations(const std::vector<double>&)> part =
+        [&](const std::vector<double>& p) {
+          last_x = whole(p);
+          last = evaluate(last_x);
+          return restricted(last, n, moving);
+        };
+    if (moving.empty()) {
+      s.converged = true;
+      s.message = "every unknown is at a bound";
+    } else {
+      const Solution once = solve_once(part, std::move(x), inside, options);
+      const auto at = whole(once.x);
+      s.x = at;
+      s.at = at == last_x ? std::move(last) : evaluate(at);
+      s.converged = once.converged;
+      s.message = once.message;
+      s.iterations += once.iterations;
+      s.passes += once.passes;
+      s.cost_per_iteration.insert(s.cost_per_iteration.end(), once.cost_per_iteration.begin(),
+                                  once.cost_per_iteration.end());
+    }
+    // What stands at a bound and is pushed outwards is held; what is pulled inside is let go.
+    auto now = held;
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool low = s.x[i] <= bounds.low[i], high = s.x[i] >= bounds.high[i];
+      now[i] = (low && s.at.g[i] >= 0) || (high && s.at.g[i] <= 0);
+    }
+    if (now == held) break;
+    held = std::move(now);
+  }
   return s;
 }
 

@@ -36,6 +36,9 @@ struct SolveOptions {
 ///   r_(n+1) = √(2 cost − |r|²), constant
 ///
 /// so that Jᵀr = g, JᵀJ = H and ½|r|² = cost, also where H is singular.
+///
+/// Ceres projects its steps onto the bounds and so creeps along them: what it leaves at a bound is held
+/// there and the rest solved again, until no held unknown is pulled back inside.
 Solution solve(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
                std::vector<double> start, const Bounds&, const SolveOptions& = {});
 

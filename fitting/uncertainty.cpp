@@ -51,10 +51,14 @@ Uncertainty uncertainty(const Sandwich& s, std::span<const double> x, const Boun
   const auto effect = [&](std::size_t i) { return s.bread[i * n + i] * range(i) * range(i); };
   double strongest = 0;
   for (std::size_t i = 0; i < n; ++i) strongest = std::max(strongest, effect(i));
+  // The error that a parameter would have if all others were known: the least it can be.
+  const auto least_error = [&](std::size_t i) {
+    return std::sqrt(s.meat[i * n + i]) / s.bread[i * n + i];
+  };
   std::vector<std::size_t> known;
   for (std::size_t i = 0; i < n; ++i) {
     const double near = 1e-7 * range(i);
-    if (!(effect(i) > 1e-18 * strongest))
+    if (!(effect(i) > 1e-18 * strongest) || 2 * u.t * least_error(i) >= range(i))
       u.status[i] = ParameterStatus::not_identifiable;
     else if (x[i] <= bounds.low[i] + near || x[i] >= bounds.high[i] - near)
       u.status[i] = ParameterStatus::at_bound;

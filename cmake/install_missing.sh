@@ -1,0 +1,39 @@
+# Sourced by ./quickstart and ./check: installs what the build needs and this machine lacks.
+# On Debian and its relatives by apt, with sudo when not root, asking nothing; elsewhere it names it.
+
+gonio_tools=(g++:g++ cmake:cmake ninja:ninja-build ccache:ccache npm:npm)  # command:package
+gonio_libraries=(libceres-dev libeigen3-dev libopenexr-dev libtbb-dev libfmt-dev
+  nlohmann-json3-dev libcli11-dev libxsimd-dev libgtest-dev libboost-dev)
+
+install_missing() {
+  local missing=() entry
+  for entry in "${gonio_tools[@]}"; do
+    command -v "${entry%%:*}" >/dev/null || missing+=("${entry##*:}")
+  done
+  if ! command -v apt-get >/dev/null; then
+    echo "Needed: ${gonio_tools[*]%%:*}, and the libraries Ceres, Eigen 3, OpenEXR 3, oneTBB, fmt," \
+      "nlohmann-json, CLI11, xsimd 8, GoogleTest and Boost.Multiprecision where CMake finds them" \
+      "(Debian's names: ${gonio_libraries[*]})."
+    [ ${#missing[@]} -eq 0 ] || { echo "Not found here: ${missing[*]}" >&2; return 1; }
+    return 0
+  fi
+  for entry in "${gonio_libraries[@]}"; do
+    [ "$(dpkg-query -W -f '${db:Status-Abbrev}' "$entry" 2>/dev/null)" = "ii " ] || missing+=("$entry")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "Install as root: apt-get install ${missing[*]}" >&2; return 1; }
+    as_root=(sudo)
+  fi
+  echo "Installing ${missing[*]}"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+    "${missing[@]}" >/dev/null
+}
+
+# build PRESET: configures and builds; what a compiler says is shown if it fails.
+build() {
+  cmake --preset "$1" --log-level=WARNING
+  cmake --build --preset "$1"
+}

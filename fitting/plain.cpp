@@ -1,0 +1,80 @@
+#include "fitting/plain.h"
+
+#include <ceres/ceres.h>
+
+#include <chrono>
+
+#include "brdf/catalogue.h"
+#include "number/dual.h"
+
+namespace gonio {
+namespace {
+
+constexpr int parameters = 7;
+
+template <class T>
+std::span<const T, 1> one(const T& x) {
+  return std::span<const T, 1>(&x, 1);
+}
+
+class Bin : public ceres::SizedCostFunction<3, parameters> {
+ public:
+  Bin(const Angles<double>& a, const std::array<double, 3>& y) : a_(a), y_(y) {}
+
+  bool Evaluate(double const* const* p, double* r, double** jacobians) const override {
+    using T = Dual<double, parameters>;
+    std::array<T, parameters> x;
+    for (std::size_t i = 0; i < parameters; ++i) x[i] = T::variable(p[0][i], i);
+    const T dv = Ggx<T>(one(x[0]))(a_).value() * SmithGgxCorrelated<T>(one(x[0]))(a_).value();
+    for (std::size_t c = 0; c < 3; ++c) {
+      const T f = dv * Schlick<T>(one(x[1 + c]))(a_) + Lambert<T>(one(x[4 + c]))(a_);
+      const bool on = y_[c] > 0;
+      const T residual = on ? log(f) - std::log(y_[c]) : T(0.0);
+      r[c] = residual.v;
+      if (jacobians && jacobians[0])
+        std::copy(residual.d.begin(), residual.d.end(), jacobians[0] + c * parameters);
+    }
+    return true;
+  }
+
+ private:
+  Angles<double> a_;
+  std::array<double, 3> y_;
+};
+
+}  // namespace
+
+PlainFit fit_plainly(const FitData& d, std::vector<double> start, int threads) {
+  using Clock = std::chrono::steady_clock;
+  const auto ms = [](Clock::time_point from) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
+  };
+  PlainFit f{std::move(start), 0, 0, 0, 0};
+  auto begin = Clock::now();
+  const auto x = d.angles.block();
+  ceres::Problem problem;
+  for (std::size_t i = 0; i < d.samples(); ++i)
+    problem.AddResidualBlock(
+        new Bin({x.nol[i], x.nov[i], x.noh[i], x.voh[i], x.sin2_theta_h[i]},
+                {d.y[0][i], d.y[1][i], d.y[2][i]}),
+        nullptr, f.values.data());
+  for (int i = 0; i < parameters; ++i) {
+    problem.SetParameterLowerBound(f.values.data(), i, i == 0 ? alpha_parameter.fit.low : 0);
+    problem.SetParameterUpperBound(f.values.data(), i, 1);
+  }
+  f.build_ms = ms(begin);
+  begin = Clock::now();
+  ceres::Solver::Options o;
+  o.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  o.num_threads = threads;
+  o.function_tolerance = 1e-8;
+  o.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(o, &problem, &summary);
+  f.solve_ms = ms(begin);
+  f.cost = summary.final_cost;
+  f.iterations = static_cast<int>(summary.iterations.size());
+  return f;
+}
+
+}  // namespace gonio

@@ -1,0 +1,133 @@
+// gonio fit: a table in, parameters and a page out.
+#include "fitting/fit.h"
+
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "base/file.h"
+#include "base/sha256.h"
+#include "cli/command.h"
+#include "cli/terminal.h"
+#include "reports/fit_page.h"
+#include "table/formats.h"
+#include "table/health.h"
+
+namespace gonio::cli {
+namespace {
+
+struct Options {
+  std::string file, metric = "log", intervals = "automatic", robust = "none", output, html;
+  std::vector<std::string> fix, bounds;
+  FitOptions fit;
+  std::optional<std::string> bins;
+  bool json = false, quiet = false;
+  int jobs = 0;
+};
+
+void print(const FitDocument& d) {
+  fmt::print("model   {}\n", d.model);
+  fmt::print("values  {} used", d.values_used);
+  for (const auto& [reason, count] : d.masked)
+    if (count) fmt::print(", {} {}", count, reason);
+  fmt::print("\n");
+  for (const auto& p : d.parameters)
+    for (std::size_t c = 0; c < p.value.size(); ++c) {
+      const std::string name = p.value.size() == 1 ? p.name : fmt::format("{}[{}]", p.name, c);
+      fmt::print("{:<14}{:<28}{}\n", name, with_error(p.value[c], p.std_error[c]),
+                 p.status[c] == ParameterStatus::free ? "" : status_names[static_cast<std::size_t>(p.status[c])]);
+    }
+  fmt::print("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}\n", d.residuals.log_rms,
+             d.residuals.rms, d.intervals);
+  for (const auto& s : d.sensitivity) {
+    fmt::print("bins    {} assumed; with {}:", d.bins, s.other);
+    for (const auto& [name, change] : s.relative_change)
+      fmt::print(" {} {:+.2f} %", name, 100 * change[0]);
+    fmt::print("\n");
+  }
+  fmt::print("{} after {} iterations: {}\n", d.solver.termination, d.solver.iterations, d.solver.message);
+}
+
+Exit run(const Options& o) {
+  use_jobs(o.jobs);
+  FitOptions options = o.fit;
+  options.metric = static_cast<Metric>(index_of(metric_names, o.metric));
+  options.intervals = static_cast<Intervals>(index_of(intervals_names, o.intervals));
+  options.robust = o.robust == "huber";
+  options.fixed = parse_settings(o.fix);
+  options.bounds = parse_settings(o.bounds);
+
+  Progress progress(o.quiet);
+  progress("reading " + o.file);
+  const auto begin = std::chrono::steady_clock::now();
+  const Table t = read_table(o.file, bins_from(o.bins));
+  const double load_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+
+  auto result = fit(t, options, [&](const char* phase) { progress(phase); });
+  FitDocument& d = result.document;
+  d.input_path = o.file;
+  d.input_sha256 = sha256_of_file(o.file);
+  d.solver.threads = tbb::this_task_arena::max_concurrency();
+  d.solver.phase_ms.insert(d.solver.phase_ms.begin(), {"load_ms", load_ms});
+
+  const std::string json = to_json(d);
+  std::optional<OutputFile> document, page, page_data;
+  if (!o.output.empty()) {
+    document.emplace(o.output);
+    document->write(json + "\n");
+  }
+  if (!o.html.empty()) {
+    progress("making the page");
+    const Health health = inspect(t);
+    const std::string data = to_json(make_fit_page(t, result.model), json, to_json(t, health));
+    page.emplace(o.html);
+    page->write(fit_page_html(o.file, data));
+    page_data.emplace(std::filesystem::path(o.html).replace_extension(".page.json").string());
+    page_data->write(data + "\n");
+  }
+  for (auto* f : {&document, &page_data, &page})
+    if (*f) (*f)->commit();
+  progress.clear();
+  if (o.json)
+    fmt::print("{}\n", json);
+  else
+    print(d);
+  return d.solver.termination == "converged" ? Exit::done : Exit::not_converged;
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app, Action& action) {
+  auto o = std::make_shared<Options>();
+  auto* c = add_command(app, action, "fit", "Fits a model to a table",
+                        "gonio fit paint.binary --model lambert+ggx/smith_ggx.correlated/schlick "
+                        "-o paint.json --html paint.html",
+                        o, run);
+  c->add_option("FILE", o->file, "MERL, MBSDF, CSV or OpenEXR slice; found from the bytes")->required();
+  c->add_option("--model", o->fit.model, "Model; all its parameters are fitted")->capture_default_str();
+  c->add_option("--fix", o->fix, "Parameters held at a value: NAME=VALUE …")->expected(1, 64);
+  c->add_option("--bounds", o->bounds, "Where a parameter is looked for: NAME=LOW,HIGH …")->expected(1, 64);
+  c->add_option("--grey", o->fit.grey, "Colour parameters with one value for all channels: NAME …")
+      ->expected(1, 64);
+  c->add_option("--metric", o->metric, "log, l2_cosine or relative")
+      ->check(one_of(metric_names))
+      ->capture_default_str();
+  c->add_option("--robust", o->robust, "none, or huber against outliers")
+      ->check(CLI::IsMember({"none", "huber"}))
+      ->capture_default_str();
+  c->add_option("--intervals", o->intervals,
+                "Whether the values of one incident angle share their errors: independent, by_angle, or "
+                "automatic (by_angle for measured tables)")
+      ->check(one_of(intervals_names))
+      ->capture_default_str();
+  add_bins(c, o->bins);
+  c->add_option("-o,--output", o->output, "The result as JSON");
+  c->add_option("--html", o->html, "A page of the result, NAME.html, and its data beside it, NAME.page.json");
+  c->add_flag("--json", o->json, "The result as JSON on standard output");
+  c->add_flag("--quiet", o->quiet, "No progress");
+  add_jobs(c, o->jobs);
+}
+
+}  // namespace gonio::cli

@@ -1,0 +1,49 @@
+// gonio: reads the words, runs one subcommand, turns its outcome into an exit code.
+#include <cstdio>
+#include <new>
+
+#include "cli/command.h"
+
+namespace {
+
+int finish(gonio::Exit code) { return static_cast<int>(code); }
+
+int fail(gonio::Exit code, const char* what) {
+  fmt::print(stderr, "gonio: {}\n", what);
+  return finish(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using gonio::Exit;
+  CLI::App app{"gonio fits analytic BRDF models to tabulated reflectance and says how far to trust the result."};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", GONIO_VERSION);
+  app.footer(
+      "Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input or output, 4 the fit did not converge.");
+  gonio::cli::Action action;
+  gonio::cli::add_models(app, action);
+  gonio::cli::add_term(app, action);
+  gonio::cli::add_synth(app, action);
+  gonio::cli::add_inspect(app, action);
+  gonio::cli::add_fit(app, action);
+  gonio::cli::add_compare(app, action);
+  gonio::cli::add_bench(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {  // --help, --version
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    return fail(Exit::usage, e.what());
+  }
+  try {
+    const Exit code = action();
+    if (std::fflush(stdout) != 0) return fail(Exit::bad_input, "standard output: cannot be written");
+    return finish(code);
+  } catch (const gonio::Error& e) {
+    return fail(e.code(), e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(Exit::bad_input, "out of memory");
+  }
+}

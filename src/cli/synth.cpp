@@ -1,0 +1,63 @@
+// gonio synth: a table sampled from a model.
+#include "cli/command.h"
+#include "cli/terminal.h"
+#include "data_synth/synth.h"
+#include "table/formats.h"
+
+namespace gonio::cli {
+namespace {
+
+struct Options {
+  std::string spec, layout, output;
+  std::vector<std::string> set;
+  std::optional<std::string> bins;
+  SynthOptions synth;
+  int jobs = 0;
+  bool quiet = false;
+};
+
+Exit run(const Options& o) {
+  use_jobs(o.jobs);
+  SynthOptions s = o.synth;
+  s.layout = static_cast<Layout>(index_of(layout_names, o.layout));
+  s.bins = bins_from(o.bins).value_or(Bins::centre);
+  const auto model = bind_model(o.spec, parse_settings(o.set));
+  Progress progress(o.quiet);
+  progress("sampling");
+  const Table t = synthesize(model, s);
+  progress("writing " + o.output);
+  write_table(t, o.output);
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_synth(CLI::App& app, Action& action) {
+  auto o = std::make_shared<Options>();
+  auto* c = add_command(
+      app, action, "synth", "Samples a table from a model, with noise if asked",
+      "gonio synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.15 kd=0.2,0.1,0.05 "
+      "--layout merl --noise 0.02 -o paint.binary",
+      o, run);
+  c->add_option("SPEC", o->spec, "Model")->required();
+  add_set(c, o->set);
+  c->add_option("--layout", o->layout, "merl, mbsdf, in_plane, image_slice, hemisphere or random")
+      ->check(one_of(layout_names))
+      ->required();
+  add_bins(c, o->bins);
+  c->add_option("--samples", o->synth.samples, "Number of samples of the random layout")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  c->add_option("--noise", o->synth.noise, "Multiplies each value by exp(NOISE · z), z standard normal")
+      ->check(CLI::Range(0.0, 5.0));
+  c->add_option("--floor", o->synth.floor, "Added to every value before the noise [1/sr]")
+      ->check(CLI::Range(0.0, 1e6));
+  c->add_option("--outliers", o->synth.outliers, "Share of samples thrown off by up to 100 times")
+      ->check(CLI::Range(0.0, 1.0));
+  c->add_option("--seed", o->synth.seed, "Seed of all that is random")->capture_default_str();
+  c->add_option("-o,--output", o->output, "File to write")->required();
+  add_jobs(c, o->jobs);
+  c->add_flag("--quiet", o->quiet, "No progress");
+}
+
+}  // namespace gonio::cli

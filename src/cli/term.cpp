@@ -1,0 +1,66 @@
+// gonio term: one factor of a model, evaluated on its own.
+#include <nlohmann/json.hpp>
+
+#include "brdf/registry.h"
+#include "cli/command.h"
+
+namespace gonio::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string id, number = "double";
+  std::vector<std::string> set, at;
+  bool json = false;
+};
+
+Exit run(const Options& o) {
+  const std::size_t term = find_term(o.id);
+  std::map<std::string, double> parameters;
+  for (auto& s : parse_settings(o.set)) {
+    if (s.values.size() != 1)
+      throw wrong_usage(fmt::format("{}: one number, a term has no channels", s.name));
+    if (s.name == "roughness")
+      parameters["alpha"] = s.values[0] * s.values[0];
+    else
+      parameters[s.name] = s.values[0];
+  }
+  std::map<std::string, std::vector<double>> at;
+  for (auto& s : parse_settings(o.at)) at[s.name] = s.values;
+  const auto number = static_cast<Number>(index_of(number_names, o.number));
+  const auto result = evaluate_term(term, number, parameters, at);
+
+  if (!o.json) {
+    for (const double v : result.values) fmt::print("{}\n", v);
+    return Exit::done;
+  }
+  Json used = Json::object(), where = Json::object();
+  for (const auto& [name, value] : result.parameters) used[name] = value;
+  for (const auto& [name, values] : at) where[name] = values;
+  fmt::print("{}\n", Json{{"id", catalogue()[term].about->id},
+                          {"number", o.number},
+                          {"parameters", used},
+                          {"at", where},
+                          {"values", result.values}}
+                         .dump(2));
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_term(CLI::App& app, Action& action) {
+  auto o = std::make_shared<Options>();
+  auto* c = add_command(app, action, "term",
+                        "Evaluates one term; a masking term gives G2, or G1 when only nov is given",
+                        "gonio term ndf.ggx --set alpha=0.25 --at noh=1,0.9 --json", o, run);
+  c->add_option("ID", o->id, "Term, as `gonio models` lists it")->required();
+  add_set(c, o->set);
+  c->add_option("--at", o->at, "Angles: cos (Fresnel), noh, nol, nov, voh, sin2_theta_h = values")
+      ->expected(1, 64)
+      ->required();
+  c->add_option("--number", o->number, "Number type: double or float")->check(one_of(number_names));
+  c->add_flag("--json", o->json, "JSON on standard output");
+}
+
+}  // namespace gonio::cli
