@@ -34,14 +34,17 @@ struct Health {
   double largest = 0, smallest_positive = 0;
   double noise_floor = 0;  ///< 1.4826 · median |negative|, where negatives are noise; else 0
   std::vector<AlbedoSample> albedo;
-  /// median |f(wi,wo) − f(wo,wi)| / mean; absent where the layout cannot tell
+  /// median |f(wi,wo) − f(wo,wi)| / mean (table/reciprocity.h); absent where the layout cannot tell
   std::optional<double> reciprocity_error;
   std::string reciprocity_note;
   std::optional<Peak> peak;
-  /// relative change of Peak::alpha under the other bin convention; absent without bins
+  /// relative change of Peak::alpha, with its sign, under the other bin convention; absent without bins
   std::optional<double> bin_sensitivity;
 };
 
 Health inspect(const Table&);
+
+/// What `gonio inspect --json` prints.
+std::string to_json(const Table&, const Health&);
 
 }  // namespace gonio

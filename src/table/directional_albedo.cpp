@@ -1,0 +1,91 @@
+#include "table/directional_albedo.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "integrate/quadrature.h"
+
+namespace gonio {
+namespace {
+
+/// Mean over the nodes where there is a value, times π; `value(node, channel)` is NaN elsewhere.
+template <class Value>
+AlbedoSample integrate(double theta_i_deg, const std::vector<HemisphereNode>& nodes,
+                       std::size_t channels, Value value) {
+  AlbedoSample a{theta_i_deg, {}, 1};
+  for (std::size_t c = 0; c < channels; ++c) {
+    double sum = 0, weight = 0;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const double v = value(k, c);
+      if (!std::isfinite(v)) continue;
+      sum += nodes[k].weight * v;
+      weight += nodes[k].weight;
+    }
+    a.albedo.push_back(weight > 0 ? sum / weight * std::numbers::pi : 0);
+    a.coverage = std::min(a.coverage, weight / std::numbers::pi);
+  }
+  return a;
+}
+
+std::vector<AlbedoSample> of_grid(const Table& t) {
+  const Interpolator f(t);
+  const auto nodes = cosine_hemisphere(48, 96);
+  std::vector<AlbedoSample> all(6);
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
+    const double theta_deg = 15 * static_cast<double>(k);
+    const Direction wi = direction(theta_deg * degree, 0);
+    all[k] = integrate(theta_deg, nodes, t.channels.size(), [&](std::size_t node, std::size_t c) {
+      return f({wi, nodes[node].direction}, c);
+    });
+  });
+  return all;
+}
+
+std::vector<AlbedoSample> of_list(const Table& t) {
+  const double reach = std::cos(12 * degree);
+  const auto fewest = static_cast<std::size_t>(1 / (1 - reach));  // caps of that size in a hemisphere
+  const auto nodes = cosine_hemisphere(24, 48);
+  const DirectionList& l = *t.list();
+  std::map<std::pair<double, double>, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (l.theta_i_deg[i] < 90 && l.theta_o_deg[i] < 90)
+      groups[{l.theta_i_deg[i], l.phi_i_deg[i]}].push_back(i);
+  const SampleAngles at(t);
+  std::vector<AlbedoSample> all;
+  for (const auto& [incident, samples] : groups) {
+    if (samples.size() < fewest) continue;
+    std::vector<Direction> wo;
+    for (const auto i : samples) wo.push_back(at.directions(i).wo);
+    std::vector<std::size_t> nearest(nodes.size());
+    std::vector<double> closeness(nodes.size(), -1);
+    tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t k) {
+      for (std::size_t s = 0; s < wo.size(); ++s)
+        if (const double c = dot(wo[s], nodes[k].direction); c > closeness[k]) {
+          closeness[k] = c;
+          nearest[k] = samples[s];
+        }
+    });
+    if (*std::ranges::min_element(closeness) < reach) continue;
+    all.push_back(integrate(incident.first, nodes, t.channels.size(), [&](std::size_t k, std::size_t c) {
+      const std::size_t i = nearest[k];
+      const double v = t.values[c][i];
+      return mask(at(i), v) == Mask::valid ? v : std::nan("");
+    }));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<AlbedoSample> directional_albedo(const Table& t) {
+  if (t.list()) return of_list(t);
+  const bool slice = std::ranges::any_of(t.grid()->axes, [](const Axis& a) {
+    return a.spacing == Axis::Spacing::constant;
+  });
+  return slice ? std::vector<AlbedoSample>{} : of_grid(t);
+}
+
+}  // namespace gonio

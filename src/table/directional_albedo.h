@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// How much of the light that comes in goes out again, as far as a table's samples say.
+
+#include <vector>
+
+#include "table/health.h"
+
+namespace gonio {
+
+/// Grids: at θ_i = 0, 15, 30, 45, 60 and 75°, by quadrature over the interpolated table.
+/// Lists: at each incident direction whose samples leave no place of the hemisphere further than 12°
+/// away, every place taking its nearest sample's value.  An image slice holds no hemisphere: empty.
+std::vector<AlbedoSample> directional_albedo(const Table&);
+
+}  // namespace gonio

@@ -1,0 +1,87 @@
+#include "table/reciprocity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "table/quantile.h"
+
+namespace gonio {
+namespace {
+
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+Pairs of_in_out(const Grid& g) {
+  Pairs pairs;
+  const std::size_t n = g.axes[0].size, n_phi = g.axes[2].size;
+  if (g.axes[1] != Axis{"theta_o", g.axes[0].spacing, n, g.axes[0].span}) return pairs;
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = a + 1; b < n; ++b)
+      for (std::size_t k = 0; k < n_phi; ++k)
+        pairs.emplace_back((a * n + b) * n_phi + k, (b * n + a) * n_phi + k);
+  return pairs;
+}
+
+/// φ_d and φ_d + π, where the axis goes all the way round.
+Pairs of_half_difference(const Grid& g) {
+  Pairs pairs;
+  const Axis& phi = g.axes[2];
+  if (!phi.has_bins() || phi.span < 6) return pairs;
+  for (std::size_t start = 0; start < g.size(); start += phi.size)
+    for (std::size_t k = 0; k < phi.size / 2; ++k)
+      pairs.emplace_back(start + k, start + k + phi.size / 2);
+  return pairs;
+}
+
+Pairs of_list(const DirectionList& l) {
+  using Key = std::array<long, 4>;  // [1e-6 degrees]
+  const auto part = [](double deg) { return std::lround(deg * 1e6); };
+  const auto around = [&](double deg) { return (part(deg) % 360'000'000 + 360'000'000) % 360'000'000; };
+  const auto& phi_i = l.phi_i_deg;
+  const bool one_azimuth = std::ranges::all_of(phi_i, [&](double p) { return p == phi_i[0]; });
+  const auto key = [&](std::size_t i, bool swapped) -> Key {
+    const long ti = part(l.theta_i_deg[i]), to = part(l.theta_o_deg[i]);
+    if (one_azimuth) {
+      const double turn = l.phi_o_deg[i] - phi_i[i];
+      return swapped ? Key{to, 0, ti, around(-turn)} : Key{ti, 0, to, around(turn)};
+    }
+    const long pi = around(phi_i[i]), po = around(l.phi_o_deg[i]);
+    return swapped ? Key{to, po, ti, pi} : Key{ti, pi, to, po};
+  };
+  std::vector<std::pair<Key, std::size_t>> sorted;
+  for (std::size_t i = 0; i < phi_i.size(); ++i) sorted.emplace_back(key(i, false), i);
+  std::ranges::sort(sorted);
+  Pairs pairs;
+  for (std::size_t i = 0; i < phi_i.size(); ++i) {
+    const Key wanted = key(i, true);
+    const auto found = std::ranges::lower_bound(sorted, std::pair{wanted, std::size_t{0}});
+    if (found != sorted.end() && found->first == wanted && found->second > i)
+      pairs.emplace_back(i, found->second);
+  }
+  return pairs;
+}
+
+}  // namespace
+
+Reciprocity reciprocity(const Table& t) {
+  const Grid* g = t.grid();
+  const bool half = g && g->kind == Grid::Kind::half_difference;
+  const Pairs pairs = !g ? of_list(*t.list()) : half ? of_half_difference(*g) : of_in_out(*g);
+  if (pairs.empty())
+    return {{}, half ? "the layout holds each reciprocal pair once" : "no sample has its reciprocal pair"};
+  const SampleAngles at(t);
+  std::vector<double> errors;
+  for (const auto& [i, j] : pairs) {
+    const auto here = at(i), there = at(j);
+    for (const auto& plane : t.values) {
+      const double a = plane[i], b = plane[j];
+      if (mask(here, a) == Mask::valid && mask(there, b) == Mask::valid)
+        errors.push_back(a + b > 0 ? std::abs(a - b) / ((a + b) / 2) : 0);
+    }
+  }
+  if (errors.empty()) return {{}, "no reciprocal pair has two valid values"};
+  const auto note = fmt::format("median over {} pairs of values", errors.size());
+  return {median(errors), note};
+}
+
+}  // namespace gonio
