@@ -1,0 +1,13 @@
+#pragma once
+/// \file
+/// The files a page is made of, as embedded by embed.cmake: UTF-8 text.
+
+#include <string_view>
+
+namespace gonio::assets {
+
+extern const std::string_view uplot_js, uplot_css, uplot_license;  ///< uPlot, MIT
+extern const std::string_view page_css, page_js, plots_js;         ///< of every page
+extern const std::string_view fit_js;                              ///< of one page each
+
+}  // namespace gonio::assets

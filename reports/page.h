@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// The shell of every page: one HTML file that opens from disk, with its data, styles and scripts in
+/// it and nothing fetched (its own content policy forbids it).
+
+#include <string>
+#include <string_view>
+
+namespace gonio {
+
+/// \param title      plain text
+/// \param json_data  one JSON document; the script finds it as `page_data()`
+/// \param script     builds the page in <main>; what it may use is in page/page.js and page/plots.js
+std::string make_page(std::string_view title, std::string_view json_data, std::string_view script);
+
+}  // namespace gonio

@@ -1,0 +1,320 @@
+"use strict";
+// The page of a fit.
+
+const page = page_data();
+const { fit, health, channels, curves, residual_map } = page;
+const several = channels.length > 1;
+const file_name = fit.input.path.split("/").pop();
+
+/// Parameters as rows: one per channel where they have channels.
+function parameter_rows() {
+  const truth = true_values();
+  return Object.entries(fit.parameters).flatMap(([name, p]) => {
+    const values = list_of(p.value), errors = list_of(p.std_error), states = list_of(p.status);
+    const intervals = values.length > 1 ? p.ci95 : [p.ci95];
+    const true_value = truth[name] ? list_of(truth[name]) : null;
+    return values.map((value, c) => ({
+      name, channel: values.length > 1 ? c : null, first: c === 0,
+      label: values.length > 1 ? `${name}.${channels[c]}` : name,
+      value, error: errors[c], status: states[c], low: intervals[c]?.[0], high: intervals[c]?.[1],
+      truth: true_value ? true_value[Math.min(c, true_value.length - 1)] : null,
+    }));
+  });
+}
+/// Of a synthesized table; alpha and roughness from each other (alpha = roughness²).
+function true_values() {
+  const out = { ...(health.truth?.parameters ?? {}) };
+  for (const [name, v] of Object.entries(out)) {
+    if (/^alpha/.test(name)) out[name.replace("alpha", "roughness")] ??= list_of(v).map(Math.sqrt);
+    if (/^roughness/.test(name)) out[name.replace("roughness", "alpha")] ??= list_of(v).map((r) => r * r);
+  }
+  return out;
+}
+const rows = parameter_rows();
+const above_horizon = health.values - (health.masked?.below_horizon ?? 0);
+
+// --- What it says at the top ---------------------------------------------------------------------
+function verdict() {
+  const ln = fit.residuals.log_rms;
+  return el("p", { class: "verdict" },
+    el("code", {}, fit.model), ` reproduces the ${count(fit.input.values_used)} values used of `,
+    el("code", {}, file_name), " to a typical factor of ",
+    el("b", {}, "×/÷\u202f" + ratio(ln).slice(1)), ` (log RMS ${percent(ln)}); the fit `,
+    fit.solver.termination === "converged" ? "converged" : el("b", {}, "did not converge"),
+    ` in ${count(fit.solver.iterations)} iterations.`);
+}
+function warnings() {
+  const out = [];
+  const warn = (what, ...rest) => out.push(el("li", {}, el("b", {}, what), " ", rest));
+  if (fit.solver.termination !== "converged") warn("Not converged.", fit.solver.message);
+  const named = (status) => rows.filter((r) => r.status === status).map((r) => r.label).join(", ");
+  if (named("not_identifiable")) warn("Not identifiable:", named("not_identifiable"), ". These data do not determine it; no value is given.");
+  if (named("at_bound")) warn("At a bound:", named("at_bound"), ". The best value may lie beyond it; its interval does not know of the bound.");
+  const tied = strongest_correlation();
+  if (tied && Math.abs(tied.rho) > 0.95) warn("Hardly separable:", `${tied.a} and ${tied.b} (correlation ${minus(tied.rho.toFixed(3))}).`);
+  if (health.peak && !health.peak.resolved)
+    warn("Peak not resolved:", `${plain(health.peak.samples_within, 3)} samples within its half width of ${degrees(health.peak.half_width_deg, 2)}.`);
+  const lost = (health.masked?.negative ?? 0) + (health.masked?.not_finite ?? 0);
+  if (above_horizon > 0 && lost > 0.02 * above_horizon)
+    warn("Many masked values:", `${percent(lost / above_horizon)} of those above the horizon.`);
+  for (const s of fit.bin_sensitivity ?? []) {
+    const changes = Object.entries(s.relative_change)
+      .flatMap(([name, v]) => list_of(v).map((x) => ({ name, x }))).filter((c) => known(c.x));
+    const most = changes.sort((a, b) => Math.abs(b.x) - Math.abs(a.x))[0];
+    if (most && Math.abs(most.x) > 0.01)
+      warn("Bin convention matters:", `with samples at the ${s.other} of their bins, ${most.name} changes by ${signed_percent(most.x)}.`);
+  }
+  if (health.reciprocity_error > 0.05) warn("Not reciprocal:", `exchanging the directions changes a value by ${percent(health.reciprocity_error)} (median).`);
+  const bright = (health.albedo ?? []).filter((a) => list_of(a.albedo).some((x) => x > 1));
+  if (bright.length) warn("Albedo above 1", `at θ_i = ${bright.map((a) => degrees(a.theta_i_deg)).join(", ")}: more light leaves than arrives.`);
+  return out.length ? el("ul", { class: "warnings", "aria-label": "Warnings" }, out) : null;
+}
+function facts() {
+  const total = Object.values(fit.solver.time_ms).reduce((a, t) => a + t, 0);
+  const fact = (name, value, rest = null) => el("div", {}, el("dt", {}, name), el("dd", {}, value, rest ? el("small", {}, " " + rest) : null));
+  return el("dl", { class: "facts" },
+    fact("typical factor", "×/÷\u202f" + ratio(fit.residuals.log_rms).slice(1)),
+    fact("log RMS", percent(fit.residuals.log_rms)),
+    fact("RMS", significant(fit.residuals.rms), "1/sr"),
+    fact("values used", count(fit.input.values_used), `of ${count(health.values)}`),
+    fact("metric", words(fit.metric), fit.robust === "none" ? null : `robust: ${words(fit.robust)}`),
+    fact("time", milliseconds(total)));
+}
+
+// --- Parameters ----------------------------------------------------------------------------------
+function parameters() {
+  const with_truth = rows.some((r) => known(r.truth));
+  const relative = (r, x) => (x - r.value) / Math.abs(r.value);
+  const widths = rows.filter((r) => known(r.value) && r.value !== 0 && known(r.low) && known(r.high))
+    .map((r) => Math.max(-relative(r, r.low), relative(r, r.high)));
+  const reach = Math.min(1, 1.1 * Math.max(...widths, 0)) || 1;
+  const drawing = (r) => {
+    if (!known(r.value) || r.value === 0 || !known(r.low) || !known(r.high)) return "–";
+    const [low, high] = [relative(r, r.low), relative(r, r.high)];
+    return interval_drawing(low, high, known(r.truth) ? relative(r, r.truth) : null, reach,
+      `95 % interval ${signed_percent(low)} to ${signed_percent(high)} of the value`);
+  };
+  const sigma = (r) => (known(r.value) && known(r.error) && r.error > 0
+    ? `${minus(((r.value - r.truth) / r.error).toFixed(1))} σ` : null);
+  const head = ["", { n: "value" }, { n: "standard error" }, { n: "95 % interval" }, "status",
+    ...(with_truth ? [{ n: "truth" }, { n: "off by" }] : []),
+    `interval relative to the value, ±${percent(reach)}`];
+  const body = rows.map((r) => [
+    r.channel === null ? el("code", {}, r.name)
+      : [chip(channel_color(channels[r.channel], r.channel)), el("code", {}, r.label)],
+    { n: known(r.value) ? with_error(r.value, r.error) : "–" },
+    { n: known(r.error) ? significant(r.error, 2) : "–" },
+    { n: known(r.low) && known(r.high) ? `${with_error(r.low, r.error)} … ${with_error(r.high, r.error)}` : "–" },
+    el("span", { class: `status ${r.status}` }, words(r.status)),
+    ...(with_truth ? [{ n: known(r.truth) ? plain(r.truth) : "–" }, { n: known(r.truth) ? sigma(r) ?? "–" : "–" }] : []),
+    drawing(r),
+  ]);
+  const clusters = fit.clusters > 0 ? `, ${count(fit.clusters)} clusters` : "";
+  return section("Parameters",
+    `Values are written to the second digit of their standard error. Intervals: ${fit.intervals}${clusters}.`
+      + (with_truth ? " The table is synthetic: the orange tick is the value it was made with." : ""),
+    scroll(table(head, body.map((b) => b.map((c) => (Array.isArray(c) ? el("span", {}, c) : c))),
+      { row_class: (i) => (rows[i].first ? "first" : null) })));
+}
+
+// --- Data against the model ----------------------------------------------------------------------
+const symbol = { theta_i: "θ_i", theta_o: "θ_o", theta_d: "θ_d", theta_h: "θ_h" };
+function curve_text(cut) {
+  const peak = (series) => series[0].reduce((best, v, i) => (v !== null && (best === null || v > series[0][best]) ? i : best), null);
+  const [d, m] = [peak(cut.data), peak(cut.model)];
+  const at = (series, i) => (i === null ? "none" : `${significant(series[0][i])} per steradian at ${degrees(cut.deg[i])}`);
+  return `Curves at ${symbol[cut.at]} ${degrees(cut.at_deg)} over ${symbol[cut.along]}, channel ${channels[0]}: `
+    + `largest value of the data ${at(cut.data, d)}, of the model ${at(cut.model, m)}.`;
+}
+function curve_panel(cut, state) {
+  const readout = el("div", { class: "readout", style: { "min-height": `${1.5 * channels.length}em` } });
+  const rest = () => readout.replaceChildren();
+  const hover = (at) => {
+    if (!at) return rest();
+    readout.replaceChildren(el("table", {}, channels.map((name, c) => {
+      if (!state.on[c]) return null;
+      const d = at[1 + c], i = at[0];
+      const y = d === null || d === undefined ? null : cut.data[c][d], f = cut.model[c][d ?? i];
+      return el("tr", {}, several ? el("td", {}, chip(channel_color(name, c)), name) : null,
+        el("td", {}, angle_name(cut.along), ` ${degrees(cut.deg[d ?? i], 2)}`),
+        el("td", {}, "data ", el("b", {}, significant(y, 4))), el("td", {}, "model ", el("b", {}, significant(f, 4))),
+        el("td", {}, y > 0 && f > 0 ? ratio(Math.log(f / y)) : ""));
+    })));
+  };
+  rest();
+  const signed = cut.along === "theta_o";
+  // Grazing values would set the scale for all others.
+  const inside = (i) => Math.abs(cut.deg[i]) <= 85;
+  const plot = curve_plot([cut.deg, ...cut.data, ...cut.model],
+    [...channels.map((name, c) => ({ color: channel_color(name, c), kind: "points" })),
+     ...channels.map((name, c) => ({ color: several ? channel_color(name, c) : "ink", kind: "line" }))],
+    { x_label: signed ? "θ_o [°], mirror side positive" : `${symbol[cut.along]} [°]`,
+      x_ends: signed ? [-90, 90] : [0, 90], x_steps: [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 30], y_label: "f_r [1/sr]",
+      log: state.log, mark: signed ? cut.at_deg : null, y_of: inside, hover, text: curve_text(cut) });
+  return {
+    plot,
+    node: el("figure", {}, el("figcaption", {}, angle_name(cut.at), ` = ${degrees(cut.at_deg, 2)}`,
+      cut.within_deg > 0 ? el("small", {}, ` data within ±${degrees(cut.within_deg)}`) : null),
+      plot.node, readout),
+  };
+}
+function data_and_model() {
+  const state = { log: true, on: channels.map(() => true) };
+  const panels = curves.map((c) => curve_panel(c, state));
+  const apply = () => panels.forEach((p) => p.plot.set({ log: state.log, shown: [...state.on, ...state.on] }));
+  const in_plane = curves.some((c) => c.along === "theta_o");
+  const keys = el("span", { class: "keys" }, channels.map((name, c) => el("label", {},
+    several ? el("input", { type: "checkbox", checked: "", onchange: (e) => { state.on[c] = e.target.checked; apply(); } }) : null,
+    several ? [chip(channel_color(name, c)), name] : [chip(channel_color(name, c)), "data", chip("ink"), "model"])));
+  const out = section("Data and model",
+    "Points are the table's samples" + (curves.some((c) => c.at === "theta_i") && fit.input.bins !== "none" ? " (where the grid has them, interpolated in the other angles)" : "")
+      + ", lines the fitted model, without the cosine. " + (in_plane ? "The dashed line is the mirror direction. " : "")
+      + "Drag across a plot to look closer; double click to go back.",
+    curves.length === 0 ? el("p", {}, "No valid sample lies in the plane of incidence.") : [
+      el("div", { class: "controls" },
+        choice("Scale of f_r", [[true, "logarithmic"], [false, "linear"]], state.log, (v) => { state.log = v; apply(); }), keys),
+      el("div", { class: "panels" }, panels.map((p) => p.node))]);
+  out.classList.add("long");
+  return out;
+}
+
+// --- Where the model is off ----------------------------------------------------------------------
+function map_text() {
+  const seen = residual_map.mean.map((v, k) => ({ v, k })).filter((c) => c.v !== null);
+  if (!seen.length) return "No cell has valid values.";
+  const worst = seen.reduce((a, b) => (Math.abs(b.v) > Math.abs(a.v) ? b : a));
+  const nd = residual_map.theta_d_deg.length - 1;
+  const place = (edges, i) => degrees((edges[i] + edges[i + 1]) / 2);
+  const median = seen.map((c) => Math.abs(c.v)).sort((a, b) => a - b)[seen.length >> 1];
+  return `Model over data by half-vector and difference angle, ${seen.length} cells: half of them within a factor of `
+    + `${ratio(median).slice(1)}; farthest ${ratio(worst.v)} at half-vector angle `
+    + `${place(residual_map.theta_h_deg, Math.floor(worst.k / nd))}, difference angle ${place(residual_map.theta_d_deg, worst.k % nd)}.`;
+}
+function residuals() {
+  const map = heat_map(residual_map, map_text());
+  const bands = fit.residuals.bands ?? [];
+  const most = Math.max(...bands.map((b) => b.log_rms ?? 0), 1e-12);
+  const bar = (b) => (known(b.log_rms) ? el("span", { class: "bar", style: { width: `${Math.round(70 * b.log_rms / most)}px` } }) : "");
+  const band_tables = [...new Set(bands.map((b) => b.angle))].map((angle) => table(
+    [el("span", {}, angle_name(angle), " [°]"), { n: "values" }, { n: "RMS [1/sr]" }, { n: "log RMS" }, ""],
+    bands.filter((b) => b.angle === angle).map((b) => [`${plain(b.from_deg, 3)}–${plain(b.to_deg, 3)}`,
+      { n: count(b.values) }, { n: significant(b.rms, 2) }, { n: known(b.log_rms) ? percent(b.log_rms) : "–" }, bar(b)])));
+  return section("Where the model is off",
+    "Each cell compares model and data by their ratio, over all channels and all valid positive values in it. Blue: the model is too dark; orange: too bright.",
+    el("div", { class: "columns map" },
+      el("div", {},
+        el("div", { class: "controls" }, choice("Shown", [["mean", "mean ratio"], ["rms", "RMS"]], "mean", (w) => map.set(w))),
+        map.node, el("p", { class: "small muted" }, map_text())),
+      el("div", {}, band_tables.map((t) => el("div", { class: "scroll", style: { "margin-bottom": "18px" } }, t)))));
+}
+
+// --- How sure -------------------------------------------------------------------------------------
+function strongest_correlation() {
+  const { names, correlations } = fit.identifiability;
+  let best = null;
+  names.forEach((a, i) => names.slice(0, i).forEach((b, j) => {
+    const rho = correlations[i]?.[j];
+    if (known(rho) && (best === null || Math.abs(rho) > Math.abs(best.rho))) best = { a: b, b: a, rho };
+  }));
+  return best;
+}
+function correlation_matrix() {
+  const { names, correlations } = fit.identifiability;
+  const cell = (rho, i, j) => {
+    if (j > i) return el("td");
+    if (i === j) return el("td", { class: "muted" }, "1");
+    if (!known(rho)) return el("td", {}, "–");
+    const share = Math.round(70 * Math.abs(rho));
+    return el("td", { style: { background: `color-mix(in srgb, var(--${rho < 0 ? "low-1" : "high-1"}) ${share}%, transparent)` } },
+      minus(rho.toFixed(2)));
+  };
+  return el("table", { class: "matrix" },
+    el("caption", {}, "Correlation of the estimates"),
+    el("tbody", {}, names.map((name, i) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, name)),
+      names.slice(0, i + 1).map((_, j) => cell(correlations[i]?.[j], i, j)))),
+      el("tr", {}, el("th"), names.map((name) => el("td", { class: "muted" }, el("code", {}, name))))));
+}
+function confidence() {
+  const sensitivity = (fit.bin_sensitivity ?? []).map((s) => table(
+    ["", { n: "relative change" }],
+    [...Object.entries(s.relative_change).map(([name, v]) => [el("code", {}, name), { n: list_of(v).map((x) => (known(x) ? signed_percent(x) : "–")).join(", ") }]),
+     ["log RMS then", { n: percent(s.log_rms) }]],
+    { caption: `If samples sat at the ${s.other} of their bins` }));
+  const tied = strongest_correlation();
+  return section("How well the parameters are separated",
+    `Condition number of the scaled normal matrix: ${significant(fit.identifiability.condition)}.`
+      + (tied ? ` The pair hardest to tell apart: ${tied.a} and ${tied.b}, correlation ${minus(tied.rho.toFixed(3))}.` : ""),
+    el("div", { class: "columns" },
+      fit.identifiability.names.length > 1 ? scroll(correlation_matrix()) : null,
+      sensitivity.map((t) => scroll(t))));
+}
+
+// --- The table --------------------------------------------------------------------------------------
+function table_health() {
+  const masked = Object.entries(health.masked ?? {}).filter(([reason]) => reason !== "valid");
+  const of = (n) => `${count(n)} (${percent(n / health.values)})`;
+  const peak = health.peak;
+  const facts = pairs([
+    ["samples", `${count(health.samples)}, ${several ? `${channels.length} channels (${channels.join(", ")})` : "1 channel"}`],
+    ["valid values", of(health.valid)],
+    ...masked.map(([reason, n]) => [words(reason), of(n)]),
+    ["range", `${significant(health.smallest_positive)} (smallest positive) to ${significant(health.largest)} 1/sr`],
+    ["noise floor", health.noise_floor > 0 ? `${significant(health.noise_floor)} 1/sr, from the negative values` : "not seen: no negative values that are noise"],
+    ["reciprocity", known(health.reciprocity_error) ? `${percent(health.reciprocity_error)} median difference of exchanged directions${health.reciprocity_note ? "; " + health.reciprocity_note : ""}` : health.reciprocity_note || "cannot be told from this layout"],
+    ["peak", peak ? `half width ${degrees(peak.half_width_deg, 3)} of θ_h, as of a GGX lobe with alpha ${significant(peak.alpha)}; ${plain(peak.samples_within, 3)} samples within, ${peak.resolved ? "resolved" : "not resolved"}; height ${significant(peak.height)}, base ${significant(peak.base)} 1/sr` : "none found"],
+    ["bin convention", known(health.bin_sensitivity) ? `${health.bins}; the other one would change the peak's alpha by ${signed_percent(health.bin_sensitivity)}` : null],
+  ]);
+  const albedo = (health.albedo ?? []).length ? table(
+    [angle_name("theta_i"), ...channels.map((c) => ({ n: several ? c : "albedo" })), { n: "coverage" }],
+    health.albedo.map((a) => [degrees(a.theta_i_deg), ...list_of(a.albedo).map((x) => ({ n: significant(x) })), { n: percent(a.coverage) }]),
+    { caption: "Directional albedo of the data" }) : null;
+  const truth = health.truth ? pairs([["made by gonio from", el("code", {}, health.truth.model)],
+    ["noise", percent(health.truth.noise ?? 0)], ["floor", `${significant(health.truth.floor ?? 0)} 1/sr`],
+    ["outliers", percent(health.truth.outliers ?? 0)], ["seed", String(health.truth.seed)]]) : null;
+  return section("What the table can be trusted for",
+    "From the data alone, before any fit. Coverage is the share of the cosine-weighted hemisphere that valid samples speak for.",
+    el("div", { class: "columns" }, el("div", {}, facts),
+      el("div", {}, albedo ? scroll(albedo) : null, truth ? el("div", { style: { "margin-top": "16px" } }, el("h3", {}, "Truth"), truth) : null)));
+}
+
+// --- Solver and input ---------------------------------------------------------------------------------
+function solver() {
+  const s = fit.solver;
+  const phases = Object.entries(s.time_ms), total = phases.reduce((a, [, t]) => a + t, 0);
+  const tones = ["accent", "grey", "green", "extra", "red", "blue"];
+  const name = (key) => words(key.replace(/_ms$/, ""));
+  const times = total > 0 ? el("div", {},
+    el("h3", {}, `Time, ${milliseconds(total)}`),
+    el("div", { class: "phases", "aria-hidden": "true" }, phases.map(([, t], i) => el("span", { style: { flex: `${t} 0 0`, background: `var(--${tones[i % tones.length]})` } }))),
+    table(["", { n: "time" }, { n: "share" }], phases.map(([key, t], i) => [
+      el("span", {}, chip(tones[i % tones.length]), name(key)), { n: milliseconds(t) }, { n: percent(t / total) }]))) : null;
+  const cost = s.cost_per_iteration;
+  const plot = cost.length > 1 ? curve_plot([cost.map((_, i) => i), cost], [{ color: "accent", kind: "line" }], {
+    x_label: "iteration", y_label: "cost", height: 200, log: cost.every((c) => c > 0), y_of: () => true, text:
+      `Cost over ${cost.length - 1} iterations, from ${significant(cost[0])} to ${significant(cost.at(-1))}.` }) : null;
+  return section("How the solver got there", s.message,
+    el("div", { class: "columns" },
+      plot ? el("figure", {}, el("figcaption", {}, "Cost per iteration ", el("small", {}, `${significant(cost[0])} → ${significant(fit.cost)}`)), plot.node) : null,
+      times,
+      pairs([["termination", words(s.termination)], ["iterations", count(s.iterations)], ["cost", significant(fit.cost, 6)],
+        ["instruction set", s.instruction_set], ["threads", count(s.threads)],
+        ["metric", words(fit.metric)], ["log offset", fit.log_offset > 0 ? `${significant(fit.log_offset)} 1/sr` : null],
+        ["robust loss", words(fit.robust)]])));
+}
+function input() {
+  const i = fit.input;
+  return section("Input", null, pairs([
+    ["file", el("code", {}, i.path)], ["SHA-256", el("code", {}, i.sha256)], ["format", i.format],
+    ["bins", i.bins === "none" ? "none: samples are points" : `samples at the ${i.bins} of their bins`],
+    ["values used", count(i.values_used)],
+    ["left out", Object.entries(i.masked).filter(([, n]) => n > 0).map(([why, n]) => `${count(n)} ${words(why)}`).join(", ") || "none"],
+  ]));
+}
+
+document.getElementById("page").replaceChildren(
+  el("p", { class: "over" }, "gonio fit"),
+  el("h1", {}, `${fit.model} fitted to ${file_name}`),
+  verdict(), ...[warnings()].filter(Boolean), facts(),
+  parameters(), data_and_model(), residuals(), confidence(), table_health(), solver(), input(),
+  el("footer", {}, "f_r is in 1/sr, without the cosine. alpha is the width of the distribution, roughness = √alpha. ",
+    "Every figure of this page is in its data block, and the fit's in fit.json. Plots drawn with uPlot, © Leon Sorokin, MIT licence."));

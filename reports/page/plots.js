@@ -1,0 +1,268 @@
+"use strict";
+// Plots: curves by uPlot, a heat map on a canvas, an interval as a line.
+
+const plot_font = "12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+
+/// Ticks of a logarithmic axis: decades; 1, 2, 5 where few decades are seen; every digit in one.
+function log_ticks(low, high) {
+  const span = Math.log10(high / low);
+  const digits = span > 3 ? [1] : span > 0.9 ? [1, 2, 5] : [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8];
+  const step = Math.max(1, Math.ceil(span / 6));
+  const ticks = [];
+  for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); ++e)
+    if (e % step === 0)
+      for (const d of digits) {
+        const x = Number(`${d}e${e}`);
+        if (x >= low && x <= high) ticks.push(x);
+      }
+  return ticks;
+}
+function tick_text(x) {
+  if (x === null) return "";
+  if (x === 0) return "0";
+  const power = Math.floor(Math.log10(Math.abs(x)) + 1e-9);
+  if (power >= -3 && power <= 3) return minus(String(Number(x.toPrecision(6))));
+  const lead = Number((x / 10 ** power).toPrecision(3));
+  return (lead === 1 ? "" : minus(String(lead)) + "·") + "10" + superscript(power);
+}
+
+/// \param data    [x, y…] for uPlot; null where there is no value
+/// \param series  [{color, kind: "points" | "line"}] of the y
+/// \param o       {x_label, x_ends, x_steps, y_label, height, log, mark: x of a dashed line, text: the plot
+///                in words, y_of(i): whether point i sets the range of y, hover(indices or null)}
+/// Returns {node, set({log, shown})}.
+function curve_plot(data, series, o) {
+  const node = el("div", { role: "img", "aria-label": o.text });
+  const state = { log: o.log, shown: series.map(() => true) };
+  let plot = null;
+
+  const y_range = (u, low, high) => {
+    let least = Infinity, most = -Infinity;
+    const [from, to] = u.series[0].idxs ?? [0, data[0].length - 1];  // what of x is seen
+    series.forEach((_, s) => {
+      if (!state.shown[s]) return;
+      data[s + 1].forEach((v, i) => {
+        if (v === null || i < from || i > to || !o.y_of(i) || (state.log && v <= 0)) return;
+        least = Math.min(least, v);
+        most = Math.max(most, v);
+      });
+    });
+    if (least > most) return state.log ? [0.1, 1] : [0, 1];
+    if (state.log) return [least / (most / least) ** 0.06 / 1.05, most * (most / least) ** 0.06 * 1.05];
+    return [Math.min(0, least), most + 0.06 * (most - Math.min(0, least)) || 1];
+  };
+  const [first, last] = [data[0][0], data[0].at(-1)];
+  const x_range = (u, low, high) => (low <= first && high >= last ? o.x_ends ?? [first, last] : [low, high]);
+  const nearest = (u, s, i) => {  // points lie apart: the one next to the cursor speaks
+    const y = u.data[s];
+    if (s === 0 || y[i] !== null) return i;
+    for (let k = 1; k < y.length; ++k)
+      for (const j of [i - k, i + k])
+        if (j >= 0 && j < y.length && y[j] !== null)
+          return Math.abs(u.valToPos(u.data[0][j], "x") - u.valToPos(u.data[0][i], "x")) < 12 ? j : null;
+    return null;
+  };
+  const filled = (s) => data[s + 1].filter((v) => v !== null).length;
+  const axis = (label, extra) => ({
+    stroke: () => color("muted"), font: plot_font, label, labelFont: plot_font, labelSize: 20, labelGap: 0,
+    grid: { stroke: () => color("faint"), width: 1 }, ticks: { stroke: () => color("rule"), width: 1, size: 4 },
+    gap: 4, ...extra,
+  });
+  function build(width) {
+    plot?.destroy();
+    const shown_data = state.log
+      ? [data[0], ...data.slice(1).map((y) => y.map((v) => (v !== null && v > 0 ? v : null)))] : data;
+    plot = new uPlot({
+      width, height: o.height ?? 250, legend: { show: false }, padding: [8, 8, 0, 0],
+      cursor: { y: false, drag: { x: true, y: false }, dataIdx: nearest, points: { size: 7 } },
+      scales: { x: { time: false, range: x_range },
+                y: { distr: state.log ? 3 : 1, range: y_range } },
+      axes: [
+        axis(o.x_label, { size: 30, space: 40, incrs: o.x_steps, values: (u, ticks) => ticks.map(tick_text) }),
+        axis(o.y_label, { size: 52, values: (u, ticks) => ticks.map(tick_text),
+                          ...(state.log ? { splits: (u, a, low, high) => log_ticks(low, high), filter: (u, ticks) => ticks } : {}) }),
+      ],
+      series: [{}, ...series.map((s, i) => (s.kind === "points"
+        ? { show: state.shown[i], stroke: () => color(s.color), paths: () => null,
+            points: { show: true, size: filled(i) > 60 ? 4.5 : 7, width: 0, fill: () => color(s.color) + "8c" } }
+        : { show: state.shown[i], stroke: () => color(s.color), width: 1.6, spanGaps: false,
+            points: { show: false } }))],
+      hooks: {
+        drawClear: [(u) => {
+          if (!known(o.mark)) return;
+          const x = u.valToPos(o.mark, "x", true);
+          if (x < u.bbox.left || x > u.bbox.left + u.bbox.width) return;
+          u.ctx.save();
+          u.ctx.strokeStyle = color("muted");
+          u.ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
+          u.ctx.beginPath();
+          u.ctx.moveTo(x, u.bbox.top);
+          u.ctx.lineTo(x, u.bbox.top + u.bbox.height);
+          u.ctx.stroke();
+          u.ctx.restore();
+        }],
+        setCursor: [(u) => o.hover?.(u.cursor.idxs[0] === null || u.cursor.left < 0 ? null : u.cursor.idxs)],
+      },
+    }, shown_data, node);
+  }
+  when_resized(node, build);
+  when_colors_change(() => plot && build(plot.width));
+  return { node, set(change) { Object.assign(state, change); if (plot) build(plot.width); } };
+}
+
+/// A colour between those of a list, at t in [0, 1].
+function between_colors(list, t) {
+  const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+  const x = Math.min(1, Math.max(0, t)) * (list.length - 1), i = Math.min(list.length - 2, Math.floor(x));
+  const a = rgb(list[i]), b = rgb(list[i + 1]);
+  return `rgb(${a.map((v, k) => Math.round(v + (x - i) * (b[k] - v))).join(",")})`;
+}
+const diverging = () => ["low-2", "low-1", "zero", "high-1", "high-2"].map(color);
+const sequential = () => ["zero", "rms-1", "rms-2"].map(color);
+
+/// Cells over theta_h (its axis as its square root, so that the peak is seen) and theta_d.
+/// \param map  {theta_h_deg, theta_d_deg: edges, mean, rms: ln ratios or null, count}
+/// \param text  what the picture shows, in words
+function heat_map(map, text) {
+  const nh = map.theta_h_deg.length - 1, nd = map.theta_d_deg.length - 1;
+  const canvas = el("canvas", { class: "map", role: "img", tabindex: 0, "aria-label": text });
+  const readout = el("div", { class: "readout", "aria-live": "polite" });
+  const state = { what: "mean", cell: null };
+
+  // The scale holds 95 % of the cells; the rest is shown as its ends.
+  const limit_of = (values) => {
+    const sizes = values.filter(known).map(Math.abs).sort((a, b) => a - b);
+    const most = sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0;
+    return Math.log([1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 3, 5, 10, 30, 100, 1000].find((f) => Math.log(f) >= most) ?? 1e4);
+  };
+  const limits = { mean: limit_of(map.mean), rms: limit_of(map.rms) };
+
+  const box = { left: 46, top: 8, right: 10, bottom: 84 };
+  let width = 0, height = 0;
+  const x_of = (theta_h) => box.left + (width - box.left - box.right) * Math.sqrt(theta_h / 90);
+  const y_of = (theta_d) => height - box.bottom - (height - box.bottom - box.top) * (theta_d / 90);
+
+  function draw() {
+    const scale = devicePixelRatio || 1;
+    height = Math.round(Math.min(470, Math.max(330, width * 0.52)));
+    canvas.width = width * scale;
+    canvas.height = height * scale;
+    canvas.style.height = height + "px";
+    const g = canvas.getContext("2d");
+    g.scale(scale, scale);
+    g.font = plot_font;
+    const limit = limits[state.what], values = map[state.what];
+    const colors = state.what === "mean" ? diverging() : sequential();
+    const paint = (v) => between_colors(colors, state.what === "mean" ? 0.5 + v / limit / 2 : v / limit);
+    const [x0, x1, y0, y1] = [x_of(0), x_of(90), y_of(0), y_of(90)];
+
+    for (let h = 0; h < nh; ++h)
+      for (let d = 0; d < nd; ++d) {
+        const v = values[h * nd + d];
+        if (v === null) continue;
+        const [l, r] = [Math.round(x_of(map.theta_h_deg[h])), Math.round(x_of(map.theta_h_deg[h + 1]))];
+        const [t, b] = [Math.round(y_of(map.theta_d_deg[d + 1])), Math.round(y_of(map.theta_d_deg[d]))];
+        g.fillStyle = paint(v);
+        g.fillRect(l, t, r - l, b - t);
+      }
+    g.strokeStyle = color("rule");
+    g.strokeRect(x0 + 0.5, y1 + 0.5, x1 - x0 - 1, y0 - y1 - 1);
+
+    g.fillStyle = color("muted");
+    g.textAlign = "center";
+    g.textBaseline = "top";
+    for (const t of width > 520 ? [0, 0.5, 2, 5, 10, 20, 30, 45, 60, 90] : [0, 2, 10, 30, 60, 90]) {
+      g.fillRect(Math.round(x_of(t)), y0, 1, 4);
+      g.fillText(String(t), x_of(t), y0 + 7);
+    }
+    g.fillText("θ_h [°], half-vector angle (axis grows as √θ_h)".slice(0, width > 420 ? 99 : 7), (x0 + x1) / 2, y0 + 22);
+    g.textAlign = "right";
+    g.textBaseline = "middle";
+    for (const t of [0, 15, 30, 45, 60, 75, 90]) {
+      g.fillRect(x0 - 4, Math.round(y_of(t)), 4, 1);
+      g.fillText(String(t), x0 - 7, y_of(t));
+    }
+    g.save();
+    g.translate(9, (y0 + y1) / 2);
+    g.rotate(-Math.PI / 2);
+    g.textAlign = "center";
+    g.fillText("θ_d [°], difference angle", 0, 0);
+    g.restore();
+
+    // Legend
+    const [lx, lw, ly] = [x0, Math.min(360, x1 - x0), height - 33];
+    const low = state.what === "mean" ? -limit : 0;
+    for (let i = 0; i < lw; ++i) {
+      g.fillStyle = paint(low + (limit - low) * (i + 0.5) / lw);
+      g.fillRect(lx + i, ly, 1.5, 10);
+    }
+    g.fillStyle = color("muted");
+    g.textBaseline = "top";
+    const ticks = state.what === "mean"
+      ? lw < 300 ? [-limit, 0, limit] : [-limit, -limit / 2, 0, limit / 2, limit]
+      : [0, limit / 2, limit];
+    ticks.forEach((t, i) => {
+      g.textAlign = i === 0 ? "left" : i === ticks.length - 1 ? "right" : "center";
+      const more = Math.abs(t) === limit ? (t < 0 ? "≤ " : "≥ ") : "";
+      g.fillText(more + ratio(t), lx + lw * (t - low) / (limit - low), ly + 14);
+    });
+    if (x1 - x0 > 620) {
+      g.textAlign = "left";
+      g.textBaseline = "middle";
+      g.fillText(state.what === "mean" ? "model/data, geometric mean of the cell" : "typical factor between model and data",
+                 lx + lw + 16, ly + 5);
+    }
+    if (state.cell) {
+      const [h, d] = state.cell;
+      g.strokeStyle = color("ink");
+      g.lineWidth = 1.5;
+      g.strokeRect(x_of(map.theta_h_deg[h]), y_of(map.theta_d_deg[d + 1]),
+        x_of(map.theta_h_deg[h + 1]) - x_of(map.theta_h_deg[h]), y_of(map.theta_d_deg[d]) - y_of(map.theta_d_deg[d + 1]));
+    }
+  }
+  function say() {
+    if (!state.cell) {
+      readout.replaceChildren(el("span", { class: "hint" }, "Point at a cell, or move with the arrow keys, to read it."));
+      return;
+    }
+    const [h, d] = state.cell, k = h * nd + d;
+    const from_to = (edges, i) => `${plain(edges[i], 3)}–${plain(edges[i + 1], 3)}°`;
+    readout.replaceChildren(angle_name("theta_h"), ` ${from_to(map.theta_h_deg, h)}, `, angle_name("theta_d"), ` ${from_to(map.theta_d_deg, d)}: `,
+      ...(map.count[k] === 0 ? ["no valid values"]
+        : [el("b", {}, `model/data ${ratio(map.mean[k])}`), `, RMS ×/÷ ${ratio(map.rms[k]).slice(1)}, ${count(map.count[k])} values`]));
+  }
+  const point_at = (cell) => { state.cell = cell; draw(); say(); };
+  canvas.addEventListener("pointermove", (e) => {
+    const r = canvas.getBoundingClientRect(), x = e.clientX - r.left, y = e.clientY - r.top;
+    const u = (x - x_of(0)) / (x_of(90) - x_of(0)), v = (y_of(0) - y) / (y_of(0) - y_of(90));
+    if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return point_at(null);
+    const find = (edges, a) => edges.findLastIndex((e) => e <= a);
+    point_at([Math.min(nh - 1, find(map.theta_h_deg, 90 * u * u)), Math.min(nd - 1, find(map.theta_d_deg, 90 * v))]);
+  });
+  canvas.addEventListener("pointerleave", () => point_at(null));
+  canvas.addEventListener("keydown", (e) => {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key];
+    if (!step) return;
+    e.preventDefault();
+    const [h, d] = state.cell ?? [0, 0];
+    point_at([Math.min(nh - 1, Math.max(0, h + step[0])), Math.min(nd - 1, Math.max(0, d + step[1]))]);
+  });
+  const node = el("div", {}, canvas, readout);
+  when_resized(node, (w) => { width = w; draw(); });
+  when_colors_change(() => width && draw());
+  say();
+  return { node, set(what) { state.what = what; draw(); } };
+}
+
+/// An interval around a value on a common scale of relative distance; truth as a tick.
+/// \param low, high, truth  relative to the value; `reach` is the end of the scale
+function interval_drawing(low, high, truth, reach, text) {
+  const w = 180, h = 16, x = (r) => w / 2 + (w / 2 - 8) * Math.max(-1, Math.min(1, r / reach));
+  const line = (x1, x2, y1, y2, stroke, width) => el("line", { x1, x2, y1, y2, stroke: `var(--${stroke})`, "stroke-width": width });
+  return el("svg", { width: w, height: h, viewBox: `0 0 ${w} ${h}`, role: "img", "aria-label": text },
+    line(2, w - 2, h / 2, h / 2, "rule", 1),
+    line(x(low), x(high), h / 2, h / 2, "accent", 4),
+    el("circle", { cx: w / 2, cy: h / 2, r: 3, fill: "var(--ink)" }),
+    known(truth) ? (Math.abs(truth) <= reach ? line(x(truth), x(truth), 1, h - 1, "red", 2)
+      : el("path", { d: truth > 0 ? `M${w - 7} 3 l6 5 l-6 5z` : "M7 3 l-6 5 l6 5z", fill: "var(--red)" })) : null);
+}
