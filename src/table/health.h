@@ -22,7 +22,7 @@ struct AlbedoSample {
 /// The specular peak as the samples near θ_h = 0 show it, from the channels' mean.
 struct Peak {
   double half_width_deg;     ///< θ_h at which the value above the base has halved
-  double alpha;              ///< of the GGX lobe with that width: tan(half width)/√(√2 − 1)
+  double alpha;              ///< of the GGX lobe with that width: s/√(√2 − 1 + s²), s = sin(half width)
   double samples_within;     ///< distinct θ_h within the half width
   bool resolved;             ///< at least three of them
   double height, base;       ///< [1/sr]

@@ -109,7 +109,9 @@ std::optional<Peak> find_peak(const Table& t, Bins bins) {
   }
   if (2 * found[0].size() <= usable) return {};
   Peak p{median(found[0]), 0, median(found[1]), false, median(found[2]), median(found[3])};
-  p.alpha = std::tan(p.half_width_deg * degree) / std::sqrt(std::numbers::sqrt2 - 1);
+  // D(θ)/D(0) = (1 + sin²θ (1 − α²)/α²)⁻² is ½ where sin²θ (1 − α²)/α² = √2 − 1.
+  const double s = std::sin(p.half_width_deg * degree);
+  p.alpha = s / std::sqrt(std::numbers::sqrt2 - 1 + s * s);
   p.resolved = p.samples_within >= 3;
   return p;
 }

@@ -16,7 +16,7 @@ Pairs of_in_out(const Grid& g) {
   const std::size_t n = g.axes[0].size, n_phi = g.axes[2].size;
   if (g.axes[1] != Axis{"theta_o", g.axes[0].spacing, n, g.axes[0].span}) return pairs;
   for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = a + 1; b < n; ++b)
+    for (std::size_t b = 0; b < n; ++b)
       for (std::size_t k = 0; k < n_phi; ++k)
         pairs.emplace_back((a * n + b) * n_phi + k, (b * n + a) * n_phi + k);
   return pairs;
@@ -55,10 +55,10 @@ Pairs of_list(const DirectionList& l) {
   for (std::size_t i = 0; i < phi_i.size(); ++i) {
     const Key wanted = key(i, true);
     const auto found = std::ranges::lower_bound(sorted, std::pair{wanted, std::size_t{0}});
-    if (found != sorted.end() && found->first == wanted && found->second > i)
-      pairs.emplace_back(i, found->second);
+    if (found != sorted.end() && found->first == wanted) pairs.emplace_back(i, found->second);
   }
-  return pairs;
+  const bool only_own = std::ranges::all_of(pairs, [](const auto& p) { return p.first == p.second; });
+  return only_own ? Pairs{} : pairs;
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ Reciprocity reciprocity(const Table& t) {
   const bool half = g && g->kind == Grid::Kind::half_difference;
   const Pairs pairs = !g ? of_list(*t.list()) : half ? of_half_difference(*g) : of_in_out(*g);
   if (pairs.empty())
-    return {{}, half ? "the layout holds each reciprocal pair once" : "no sample has its reciprocal pair"};
+    return {{}, half ? "the layout holds each reciprocal pair once" : "no sample has a reciprocal partner"};
   const SampleAngles at(t);
   std::vector<double> errors;
   for (const auto& [i, j] : pairs) {
@@ -79,8 +79,8 @@ Reciprocity reciprocity(const Table& t) {
         errors.push_back(a + b > 0 ? std::abs(a - b) / ((a + b) / 2) : 0);
     }
   }
-  if (errors.empty()) return {{}, "no reciprocal pair has two valid values"};
-  const auto note = fmt::format("median over {} pairs of values", errors.size());
+  if (errors.empty()) return {{}, "no valid value has a valid partner"};
+  const auto note = fmt::format("median over {} values", errors.size());
   return {median(errors), note};
 }
 

@@ -10,12 +10,13 @@
 namespace gonio {
 
 struct Reciprocity {
-  std::optional<double> error;  ///< median |a − b| / ((a + b)/2) over channels and valid pairs
+  std::optional<double> error;  ///< median |a − b| / ((a + b)/2) over channels and samples
   std::string note;             ///< why there is none, or from what it is
 };
 
-/// Pairs are samples with wi and wo exchanged.  In a list whose light always comes from one azimuth
-/// the pair may also be turned about the normal: the surface is taken as isotropic.
+/// Each sample against the one with wi and wo exchanged, where both are valid; a sample that is its
+/// own partner (θ_i = θ_o on a grid) counts, with no error.  In a list whose light always comes from
+/// one azimuth the partner may be turned about the normal: the surface is taken as isotropic.
 Reciprocity reciprocity(const Table&);
 
 }  // namespace gonio

@@ -1,0 +1,198 @@
+#include "table/health.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "example.h"
+#include "support.h"
+
+namespace gonio {
+namespace {
+
+using namespace test;
+using std::numbers::pi;
+
+Table lambertian(const Grid& g, const std::string& format) {
+  return on_grid(g, format, {"r", "g", "b"},
+                 [](const auto&, std::size_t c) { return 0.25 * static_cast<double>(c + 1) / pi; });
+}
+
+TEST(Albedo, OfALambertianTableIsItsReflectance) {
+  for (const auto bins : {Bins::centre, Bins::edge})
+    for (const Table& t : {lambertian(merl_grid(bins), "merl"), lambertian(merl_grid(bins, false), "merl"),
+                           lambertian(mbsdf_grid(45, 90, bins), "mbsdf")}) {
+      const auto h = inspect(t);
+      ASSERT_EQ(h.albedo.size(), 6U);
+      for (std::size_t k = 0; k < 6; ++k) {
+        EXPECT_EQ(h.albedo[k].theta_i_deg, 15 * static_cast<double>(k));
+        EXPECT_GT(h.albedo[k].coverage, 0.98) << t.format << " at " << h.albedo[k].theta_i_deg;
+        for (std::size_t c = 0; c < 3; ++c)
+          EXPECT_NEAR(h.albedo[k].albedo[c], 0.25 * static_cast<double>(c + 1), 1e-12);
+      }
+      EXPECT_FALSE(h.peak) << "a Lambertian surface has none";
+      EXPECT_FALSE(h.bin_sensitivity);
+    }
+}
+
+Table hemisphere(double step) {
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  DirectionList l;
+  std::vector<double> f;
+  for (const double in : {0.0, 40.0})
+    for (double out = 0; out < 88; out += step)
+      for (double phi = 0; phi < 360; phi += 10) {
+        l.theta_i_deg.push_back(in);
+        l.phi_i_deg.push_back(0);
+        l.theta_o_deg.push_back(out);
+        l.phi_o_deg.push_back(phi);
+        f.push_back(std::cos(out * degree) * 3 / (2 * pi));
+      }
+  t.where = l;
+  t.values = {f};
+  return t;
+}
+
+TEST(Albedo, OfAListThatCoversTheHemisphereIsItsIntegral) {
+  const auto h = inspect(hemisphere(4));
+  ASSERT_EQ(h.albedo.size(), 2U);
+  EXPECT_EQ(h.albedo[1].theta_i_deg, 40);
+  EXPECT_NEAR(h.albedo[1].albedo[0], 1, 0.01);
+  EXPECT_EQ(h.albedo[1].coverage, 1);
+}
+
+TEST(Albedo, IsLeftOutWhereTheSamplesDoNotSpeakForAHemisphere) {
+  EXPECT_TRUE(inspect(hemisphere(30)).albedo.empty());
+  EXPECT_TRUE(inspect(csv_example()).albedo.empty());
+  EXPECT_TRUE(inspect(slice_example()).albedo.empty());
+}
+
+TEST(Health, CountsEachValueOnce) {
+  Table t = lambertian(mbsdf_grid(45, 90, Bins::centre), "mbsdf");
+  t.values[0][0] = -0.5;
+  t.values[0][1] = -1.5;
+  t.values[0][2] = -1;
+  t.values[1][0] = std::numeric_limits<double>::quiet_NaN();
+  t.values[1][1] = std::numeric_limits<double>::infinity();
+  t.values[2][7] = 9;
+  const auto h = inspect(t);
+  EXPECT_EQ(h.samples, 45U * 45 * 90);
+  EXPECT_EQ(h.values, 3 * h.samples);
+  EXPECT_EQ(h.masked[static_cast<std::size_t>(Mask::negative)], 3U);
+  EXPECT_EQ(h.masked[static_cast<std::size_t>(Mask::not_finite)], 2U);
+  EXPECT_EQ(h.valid, h.values - 5);
+  EXPECT_EQ(h.largest, 9);
+  EXPECT_NEAR(h.smallest_positive, 0.25 / pi, 1e-15);
+  EXPECT_NEAR(h.noise_floor, 1.4826, 1e-12);
+}
+
+TEST(Health, TakesMerlsNegativesForNoDataAndNotForNoise) {
+  Table t = merl_example();
+  t.values[0][0] = -1;
+  const auto h = inspect(t);
+  EXPECT_EQ(h.noise_floor, 0);
+  EXPECT_EQ(h.masked[static_cast<std::size_t>(Mask::negative)], 1U);
+  EXPECT_GT(h.masked[static_cast<std::size_t>(Mask::below_horizon)], 0U);
+}
+
+TEST(Reciprocity, IsExactForAReciprocalTable) {
+  const auto h = inspect(mbsdf_example());
+  ASSERT_TRUE(h.reciprocity_error);
+  EXPECT_LT(*h.reciprocity_error, 1e-6);
+  EXPECT_LT(*inspect(merl_example(0.2, Bins::centre, false)).reciprocity_error, 1e-12);
+}
+
+TEST(Reciprocity, IsTheMedianOverExchangedPairs) {
+  Table t = lambertian(mbsdf_grid(6, 3, Bins::centre), "mbsdf");
+  for (auto& plane : t.values)
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const auto [a, b, c] = t.grid()->unravel(i);
+      if (a > b) plane[i] *= 1.5;
+    }
+  EXPECT_NEAR(*inspect(t).reciprocity_error, 0.5 / 1.25, 1e-12);
+}
+
+TEST(Reciprocity, IsAbsentWhereTheLayoutHoldsEachPairOnce) {
+  for (const Table& t : {merl_example(), slice_example()}) {
+    const auto h = inspect(t);
+    EXPECT_FALSE(h.reciprocity_error);
+    EXPECT_EQ(h.reciprocity_note, "the layout holds each reciprocal pair once");
+  }
+}
+
+TEST(Reciprocity, FindsPairsInAList) {
+  Table t;
+  t.channels = {"f"};
+  t.where = DirectionList{{10, 30, 50}, {0, 0, 0}, {30, 10, 20}, {180, -180, 0}};
+  t.values = {{1, 2, 3}};
+  EXPECT_NEAR(*inspect(t).reciprocity_error, 1 / 1.5, 1e-12) << "turned by 180 degrees: one azimuth";
+  t.where = DirectionList{{10, 30, 50}, {5, 180, 0}, {30, 10, 20}, {180, 365, 0}};
+  EXPECT_NEAR(*inspect(t).reciprocity_error, 1 / 1.5, 1e-12);
+  t.where = DirectionList{{10, 30, 50}, {5, 180, 0}, {30, 10, 20}, {180, 4, 0}};
+  EXPECT_FALSE(inspect(t).reciprocity_error);
+}
+
+TEST(Reciprocity, OfTheMeasuredTablesIsAsDocumented) {
+  GONIO_NEEDS_SHARED(paint, "data/mbsdf/carpaint_blue.mbsdf");
+  GONIO_NEEDS_SHARED(modules, "data/mbsdf/example_modules.mbsdf");
+  const auto h = inspect(read_table(paint));
+  EXPECT_EQ(h.masked[static_cast<std::size_t>(Mask::negative)], 75'159U);
+  EXPECT_EQ(h.values, 546'750U);
+  EXPECT_NEAR(h.largest, 8.9, 0.05);
+  EXPECT_NEAR(*h.reciprocity_error, 0.23, 0.0005);
+  EXPECT_NEAR(*inspect(read_table(modules)).reciprocity_error, 0.0505, 0.0005);
+}
+
+TEST(Peak, GivesTheWidthOfAGgxLobeBack) {
+  for (const double alpha : {0.02, 0.05, 0.1, 0.2, 0.35}) {
+    for (const auto bins : {Bins::centre, Bins::edge}) {
+      const auto h = inspect(merl_example(alpha, bins));
+      ASSERT_TRUE(h.peak) << alpha;
+      EXPECT_NEAR(h.peak->alpha / alpha, 1, 0.03) << alpha;
+      EXPECT_TRUE(h.peak->resolved);
+      ASSERT_TRUE(h.bin_sensitivity);
+      EXPECT_EQ(*h.bin_sensitivity < 0, bins == Bins::centre) << "edges are below centres";
+    }
+    const auto slice = on_grid(image_slice_grid(90, 90, pi / 2, Bins::centre), "exr", {"f"},
+                               [&](const auto& a, std::size_t) { return lobe(a, alpha, 0.2); });
+    EXPECT_NEAR(inspect(slice).peak->alpha / alpha, 1, 0.03) << alpha;
+  }
+  const auto coarse = on_grid(mbsdf_grid(45, 90, Bins::centre), "mbsdf", {"f"},
+                              [&](const auto& a, std::size_t) { return lobe(a, 0.2, 0.2); });
+  EXPECT_NEAR(inspect(coarse).peak->alpha / 0.2, 1, 0.04);
+}
+
+TEST(Peak, NarrowerThanTheSamplesIsNotResolved) {
+  const auto narrow = on_grid(mbsdf_grid(45, 90, Bins::centre), "mbsdf", {"f"},
+                              [&](const auto& a, std::size_t) { return lobe(a, 0.002, 0.2); });
+  const auto h = inspect(narrow);
+  ASSERT_TRUE(h.peak);
+  EXPECT_FALSE(h.peak->resolved);
+}
+
+TEST(Inspect, OfMerlsSizeIsQuick) {
+  const Table t = merl_example();
+  const auto start = std::chrono::steady_clock::now();
+  const auto h = inspect(t);
+  const auto ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  RecordProperty("inspect_ms", std::to_string(ms));
+  EXPECT_GT(h.valid, 0U);
+  EXPECT_LT(ms, 3000) << "0.3 s on a quiet machine";
+}
+
+TEST(InspectJson, HasTheDocumentedKeys) {
+  Table t = mbsdf_example();
+  const auto text = to_json(t, inspect(t));
+  for (const char* key : {"path", "format", "channels", "samples", "values", "valid", "masked", "below_horizon", "negative",
+                          "not_finite", "bins", "bin_sensitivity", "noise_floor", "largest", "smallest_positive", "albedo",
+                          "theta_i_deg", "coverage", "reciprocity_error", "reciprocity_note", "peak", "truth"})
+    EXPECT_NE(text.find(std::string("\"").append(key).append("\": ")), std::string::npos) << key;
+  EXPECT_NE(text.find("\"truth\": null"), std::string::npos);
+  t.truth = truth_example();
+  EXPECT_NE(to_json(t, inspect(t)).find("\"seed\": 18446744073709551615"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gonio
