@@ -1,0 +1,209 @@
+#include "brdf/evaluate.h"
+
+#include <numbers>
+
+#include "brdf/model.h"
+#include "brdf/terms.h"
+
+namespace gonio {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double pi = std::numbers::pi;
+
+/// One term of a bound model for one channel, by the scalar kernel on its own.
+double term(const BoundModel& b, const TermUse& t, std::size_t channel, const Angles<double>& x) {
+  test::Parameters p;
+  for (const auto i : t.parameters) p.push_back(b.values[b.model.parameters[i].slot(channel)]);
+  return test::value_of(t.term, p, x);
+}
+
+/// f_c as model.h writes it.
+double by_hand(const BoundModel& b, std::size_t channel, const Angles<double>& x) {
+  double f = 0;
+  for (const auto& l : b.model.lobes)
+    f += term(b, l.ndf, 0, x) * term(b, l.masking, 0, x) * term(b, l.fresnel, channel, x);
+  for (const auto& d : b.model.diffuse) {
+    const bool coupled = catalogue()[d.term].coupled;
+    const double through = coupled ? 1 - term(b, b.model.lobes[0].fresnel, channel, x) : 1;
+    f += through * term(b, d, channel, x);
+  }
+  return f;
+}
+
+/// Every combination of the catalogue as one lobe, with each diffuse term and without.
+std::vector<std::string> one_lobe_specs() {
+  std::vector<std::string> specs;
+  const auto name = [](std::size_t t) { return std::string(short_id(catalogue()[t].about->id)); };
+  for (const auto d : test::terms_of(Role::ndf))
+    for (const auto v : test::terms_of(Role::masking))
+      for (const auto f : test::terms_of(Role::fresnel)) {
+        specs.push_back(name(d) + "/" + name(v) + "/" + name(f));
+        const std::string lobe = specs.back();
+        for (const auto diffuse : test::terms_of(Role::diffuse))
+          specs.push_back(name(diffuse) + "+" + lobe);
+      }
+  return specs;
+}
+
+const std::vector<std::string> two_lobe_specs{
+    "lambert+ggx/smith_ggx.correlated/schlick+gtr/smith_ggx.separable/schlick",
+    "lambert.coupled+ggx/smith_ggx.correlated/dielectric+ggx/smith_ggx.correlated/conductor",
+    "gtr/smith_ggx.separable/conductor+gtr/smith_ggx.correlated/dielectric+ggx/smith_ggx.separable/schlick"};
+
+std::vector<std::string> specs() {
+  auto s = one_lobe_specs();
+  s.insert(s.end(), two_lobe_specs.begin(), two_lobe_specs.end());
+  s.push_back("lambert");
+  return s;
+}
+
+/// Random values where a fit may look.
+BoundModel draw(const std::string& spec, std::size_t channels, std::mt19937_64& random) {
+  BoundModel b{compose(spec, channels), {}, {}};
+  for (const auto& p : b.model.parameters)
+    for (std::size_t c = 0; c < p.count; ++c)
+      b.values.push_back(std::uniform_real_distribution(p.about->fit.low, p.about->fit.high)(random));
+  return b;
+}
+
+TEST(Evaluate, IsTheSumOfTheModelsTerms) {
+  std::mt19937_64 random(11);
+  const auto rows = test::random_angles(40, 12);
+  for (const auto& spec : specs())
+    for (const std::size_t channels : {1U, 3U}) {
+      const auto b = draw(spec, channels, random);
+      const auto f = evaluate(b, rows);
+      ASSERT_EQ(f.size(), channels);
+      for (std::size_t c = 0; c < channels; ++c)
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+          const double expected = by_hand(b, c, rows[i]);
+          // F (D V − d) + d rounds at D V F + F d where 1 − F is small: the sum's parts are the measure.
+          EXPECT_NEAR(f[c][i], expected, 32 * eps * (expected + 1 / pi)) << spec << " " << c;
+        }
+    }
+}
+
+TEST(Evaluate, GivesTheSameInEveryInstructionSetAndInFloat) {
+  std::mt19937_64 random(13);
+  const auto rows = test::random_angles(300, 14);
+  for (const auto& spec : specs()) {
+    const auto b = draw(spec, 3, random);
+    const auto expected = evaluate(b, rows);
+    const auto run = [&]<class F>(F tolerance, const std::string& set) {
+      const auto x = test::columns<F>(rows);
+      const std::vector<F> values(b.values.begin(), b.values.end());
+      std::vector<Column<F>> columns;
+      std::vector<F*> out;
+      for (int c = 0; c < 3; ++c) out.push_back(columns.emplace_back(x.padded()).data());
+      evaluate<F>(b.model, values, x.block(), out, kernels<F>(set));
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < rows.size(); ++i)
+          EXPECT_NEAR(out[c][i], expected[c][i], static_cast<double>(tolerance) * (expected[c][i] + 1 / pi))
+              << set << " " << spec;
+    };
+    for (const auto& set : instruction_sets()) {
+      run(1e-12, set);
+      run(2e-3F, set);  // a narrow peak multiplies the rounding of sin²θ_h to float
+    }
+  }
+}
+
+TEST(Evaluate, FusedEqualsComposed) {
+  std::mt19937_64 random(15);
+  const auto rows = test::random_angles(300, 16);
+  ASSERT_FALSE(kernels<double>().fused.empty());
+  const auto check = [&]<class F>(F) {
+    constexpr F few = 8 * std::numeric_limits<F>::epsilon();
+    for (const auto& set : instruction_sets()) {
+      const auto& k = kernels<F>(set);
+      auto composed = k;
+      composed.fused = {};
+      EXPECT_EQ(k.fused.size(), kernels<F>("scalar").fused.size());
+      for (const auto& fused : k.fused)
+        for (const std::string diffuse : {"", "lambert+"}) {
+          std::string spec = diffuse;
+          for (const auto id : fused.ids) spec.append(short_id(id)).append(id == fused.ids[2] ? "" : "/");
+          const auto b = draw(spec, 1, random);
+          const std::vector<F> values(b.values.begin(), b.values.end());
+          const auto x = test::columns<F>(rows);
+          Column<F> one(x.padded()), other(x.padded());
+          F* const to_one[] = {one.data()};
+          F* const to_other[] = {other.data()};
+          evaluate<F>(b.model, values, x.block(), to_one, k);
+          evaluate<F>(b.model, values, x.block(), to_other, composed);
+          for (std::size_t i = 0; i < x.padded(); ++i)
+            EXPECT_NEAR(one[i], other[i], few * other[i]) << set << " " << spec;
+        }
+    }
+  };
+  check(1.0);
+  check(1.0F);
+}
+
+TEST(Evaluate, IsTheSameForAColumnOfAnyLength) {
+  std::mt19937_64 random(17);
+  const auto rows = test::random_angles(1000, 18);
+  const auto b = draw("lambert.coupled+gtr/smith_ggx.correlated/conductor", 3, random);
+  const auto all = evaluate(b, rows);
+  for (const std::size_t n : {0UL, 1UL, 15UL, 16UL, 17UL, 255UL, 256UL, 257UL, 999UL}) {
+    const auto some = evaluate(b, {rows.data(), n});
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_EQ(some[c], std::vector<double>(all[c].begin(), all[c].begin() + static_cast<long>(n)));
+  }
+}
+
+TEST(Evaluate, IsZeroBelowTheHorizonAndOnIt) {
+  const auto b = bind_model("lambert+ggx/smith_ggx.correlated/schlick", {});
+  const std::vector<Angles<double>> rows{
+      {0.5, 0.5, 1, 0.5, 0}, {-0.1, 0.5, 0.5, 0.5, 0.75}, {0.5, 0, 0.5, 0.5, 0.75}, {0.5, std::nan(""), 1, 1, 0}};
+  const auto f = evaluate(b, rows);
+  EXPECT_GT(f[0][0], 0);
+  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_EQ(f[1][i], 0);
+}
+
+TEST(Evaluate, OfLambertIsItsAlbedoOverPi) {
+  const auto b = bind_model("lambert", {{"kd", {0.1, 0.5, 1}}});
+  const std::vector<Angles<double>> rows{{0.5, 0.5, 1, 0.5, 0}};
+  const auto f = evaluate(b, rows);
+  EXPECT_EQ(f[0][0], 0.1 / pi);
+  EXPECT_EQ(f[1][0], 0.5 / pi);
+  EXPECT_EQ(f[2][0], 1 / pi);
+}
+
+TEST(Evaluate, OfACoupledDiffuseKeepsWhatTheInterfaceReflects) {
+  // α = 1 at normal incidence: D = 1/π, V = 1/4;  f = F/(4π) + (1 − F) kd/π
+  const auto b = bind_model("lambert.coupled+ggx/smith_ggx.correlated/schlick",
+                            {{"alpha", {1}}, {"f0", {0, 0.04, 1}}, {"kd", {0.6}}});
+  const std::vector<Angles<double>> rows{{1, 1, 1, 1, 0}};
+  const auto f = evaluate(b, rows);
+  const double f0[] = {0, 0.04, 1};
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(f[c][0], f0[c] / (4 * pi) + (1 - f0[c]) * 0.6 / pi, 2 * eps);
+}
+
+TEST(Column, IsAlignedAndFilled) {
+  for (const std::size_t n : {0UL, 1UL, 1000UL}) {
+    Column<float> c(n, 2.5F);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(c.data()) % 64, 0U);
+    for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(c[i], 2.5F);
+  }
+}
+
+TEST(AngleColumns, ArePaddedWithHarmlessAngles) {
+  AngleColumns<double> x(17);
+  EXPECT_EQ(x.size(), 17U);
+  EXPECT_EQ(x.padded() % padding, 0U);
+  x.set(3, {0.1, 0.2, 0.3, 0.4, 0.91});
+  const auto b = x.block();
+  EXPECT_EQ(b.nol[3], 0.1);
+  EXPECT_EQ(b.nov[3], 0.2);
+  EXPECT_EQ(b.noh[3], 0.3);
+  EXPECT_EQ(b.voh[3], 0.4);
+  EXPECT_EQ(b.sin2_theta_h[3], 0.91);
+  for (const auto* column : {b.nol, b.nov, b.noh, b.voh, b.sin2_theta_h})
+    for (std::size_t i = x.size(); i < b.n; ++i) EXPECT_TRUE(0 < column[i] && column[i] < 1);
+}
+
+}  // namespace
+}  // namespace gonio
