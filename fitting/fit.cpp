@@ -20,7 +20,7 @@ namespace gonio {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t coarse_samples = 2048;
+constexpr std::size_t coarse_samples = 2048, middle_samples = 65536;
 
 /// What stays the same for both bin conventions.
 struct Problem {
@@ -107,7 +107,8 @@ double huber_threshold(const Problem& p, const FitData& data, const Fitted& f) {
   return std::max(1.345 * 1.4826 * *middle, 1e-12);
 }
 
-/// From nothing to a start on a thinned table, the robust threshold included.
+/// From nothing to a start on thinned tables, the robust threshold included.  A model that does not
+/// fit converges slowly: most of its steps are made where they are cheap.
 Fitted coarse(const Problem& p, const FitData& data) {
   const FitData thin = thinned(data, coarse_samples);
   Objective objective{p.options.metric};
@@ -118,6 +119,8 @@ Fitted coarse(const Problem& p, const FitData& data) {
       objective.huber = huber_threshold(p, thin, f);
       f = minimise(p, thin, f.values, objective);
     }
+  if (data.samples() > 4 * middle_samples)
+    f = minimise(p, thinned(data, middle_samples), f.values, objective);
   return f;
 }
 
@@ -214,6 +217,7 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
     d.solver.termination = f.solution.converged ? "converged" : "not_converged";
     d.solver.message = f.solution.message;
     d.solver.iterations = f.solution.iterations;
+    d.solver.passes = f.solution.passes;
     d.solver.cost_per_iteration = f.solution.cost_per_iteration;
     d.residuals = residual_statistics(result.model, data);
     watch.lap("residuals_ms");
@@ -227,18 +231,22 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
   if (t.has_bins() && o.bin_sensitivity) {
     announce("fitting under the other bin convention");
     const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
-    const FitData data = fit_data(t, other, o.metric, p.offset);
-    SolveOptions loose;  // a sensitivity needs no ten digits
-    loose.function_tolerance = 1e-8;
-    const Fitted f = minimise(p, data, result.model.values, objective, loose);
-    BinSensitivity s{bins_names[static_cast<std::size_t>(other)], {}, 0};
+    // Both conventions on the same thinned bins: a ratio needs no million of them.
+    const auto refit = [&](Bins convention) {
+      const FitData data = thinned(fit_data(t, convention, o.metric, p.offset), middle_samples);
+      auto values = minimise(p, data, result.model.values, objective).values;
+      const double log_rms = residual_statistics({p.start.model, values, {}}, data).log_rms;
+      return std::pair(std::move(values), log_rms);
+    };
+    const auto [here, ignored] = refit(bins);
+    const auto [there, log_rms] = refit(other);
+    BinSensitivity s{bins_names[static_cast<std::size_t>(other)], {}, log_rms};
     for (const auto& q : p.start.model.parameters) {
       std::vector<double> change;
       for (std::size_t i = q.first; i < q.first + q.count; ++i)
-        change.push_back(f.values[i] / result.model.values[i] - 1);
+        change.push_back(here[i] == 0 ? nan : there[i] / here[i] - 1);
       s.relative_change.emplace_back(q.name, std::move(change));
     }
-    s.log_rms = residual_statistics({p.start.model, f.values, {}}, data).log_rms;
     d.sensitivity.push_back(std::move(s));
     watch.lap("bin_sensitivity_ms");
   }

@@ -90,6 +90,7 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
   o.function_tolerance = options.function_tolerance;
   o.parameter_tolerance = options.parameter_tolerance;
   o.gradient_tolerance = 1e-16;
+  o.initial_trust_region_radius = 1e6;  // the start is close: nearly a Gauss–Newton step
   o.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(o, &problem, &summary);
@@ -127,7 +128,23 @@ Solution solve(const std::function<NormalEquations(const std::vector<double>&)>&
     s.at = evaluate(s.x);
     return s;
   }
+  const auto at_low = [&](std::size_t i) { return s.x[i] <= bounds.low[i]; };
+  const auto at_high = [&](std::size_t i) { return s.x[i] >= bounds.high[i]; };
+  // What stands at a bound and is pushed outwards is held; what is pulled inside is let go.
+  const auto pushed_outwards = [&] {
+    std::vector<bool> pushed(n);
+    for (std::size_t i = 0; i < n; ++i)
+      pushed[i] = (at_low(i) && s.at.g[i] >= 0) || (at_high(i) && s.at.g[i] <= 0);
+    return pushed;
+  };
   std::vector<bool> held(n, false);
+  for (std::size_t i = 0; i < n; ++i)
+    if (at_low(i) || at_high(i)) {
+      s.at = evaluate(s.x);
+      ++s.passes;
+      held = pushed_outwards();
+      break;
+    }
   for (std::size_t round = 0; round < n + 2; ++round) {
     std::vector<std::size_t> moving;
     Bounds inside;
@@ -167,12 +184,7 @@ Solution solve(const std::function<NormalEquations(const std::vector<double>&)>&
       s.cost_per_iteration.insert(s.cost_per_iteration.end(), once.cost_per_iteration.begin(),
                                   once.cost_per_iteration.end());
     }
-    // What stands at a bound and is pushed outwards is held; what is pulled inside is let go.
-    auto now = held;
-    for (std::size_t i = 0; i < n; ++i) {
-      const bool low = s.x[i] <= bounds.low[i], high = s.x[i] >= bounds.high[i];
-      now[i] = (low && s.at.g[i] >= 0) || (high && s.at.g[i] <= 0);
-    }
+    auto now = pushed_outwards();
     if (now == held) break;
     held = std::move(now);
   }

@@ -25,7 +25,7 @@ struct Solution {
 
 struct SolveOptions {
   int max_iterations = 100;
-  double function_tolerance = 1e-12;
+  double function_tolerance = 1e-10;
   double parameter_tolerance = 1e-10;
 };
 

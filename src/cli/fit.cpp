@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
 #include "base/file.h"
@@ -43,7 +44,7 @@ void print(const FitDocument& d) {
   for (const auto& s : d.sensitivity) {
     fmt::print("bins    {} assumed; with {}:", d.bins, s.other);
     for (const auto& [name, change] : s.relative_change)
-      fmt::print(" {} {:+.2f} %", name, 100 * change[0]);
+      if (!std::isnan(change[0])) fmt::print(" {} {:+.2f} %", name, 100 * change[0]);
     fmt::print("\n");
   }
   fmt::print("{} after {} iterations: {}\n", d.solver.termination, d.solver.iterations, d.solver.message);

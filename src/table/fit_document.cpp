@@ -38,19 +38,20 @@ Json residuals(const FitResiduals& r) {
 
 Json solver(const FitSolver& s) {
   Json times = Json::object();
-  for (const auto& [phase, ms] : s.phase_ms) times[phase.ends_with("_ms") ? phase : phase + "_ms"] = ms;
+  for (const auto& [phase, ms] : s.phase_ms)
+    times[phase.ends_with("_ms") ? phase : phase + "_ms"] = ms;
   return {{"termination", s.termination},
           {"message", s.message},
           {"iterations", s.iterations},
+          {"passes", s.passes},
           {"cost_per_iteration", s.cost_per_iteration},
           {"instruction_set", s.instruction_set},
-          {"threads", s.threads},
           {"time_ms", times}};
 }
 
 Json input(const FitDocument& d) {
-  return {{"path", d.input_path},      {"sha256", d.input_sha256},    {"format", d.input_format},
-          {"bins", d.bins},            {"values_used", d.values_used}, {"masked", d.masked}};
+  return {{"path", d.input_path}, {"sha256", d.input_sha256},     {"format", d.input_format},
+          {"bins", d.bins},       {"values_used", d.values_used}, {"masked", d.masked}};
 }
 
 Json bin_sensitivity(const std::vector<BinSensitivity>& all) {
@@ -66,23 +67,22 @@ Json bin_sensitivity(const std::vector<BinSensitivity>& all) {
 }  // namespace
 
 std::string to_json(const FitDocument& d) {
-  return text_of({{"schema", kSchema},
-                  {"model", d.model},
-                  {"parameters", parameters(d)},
-                  {"metric", d.metric},
-                  {"log_offset", d.log_offset},
-                  {"robust", d.robust},
-                  {"cost", d.cost},
-                  {"intervals", d.intervals},
-                  {"clusters", d.clusters},
-                  {"residuals", residuals(d.residuals)},
-                  {"identifiability",
-                   {{"names", d.free_names},
-                    {"correlations", d.correlations},
-                    {"condition", d.condition}}},
-                  {"solver", solver(d.solver)},
-                  {"input", input(d)},
-                  {"bin_sensitivity", bin_sensitivity(d.sensitivity)}});
+  return text_of(
+      {{"schema", kSchema},
+       {"model", d.model},
+       {"parameters", parameters(d)},
+       {"metric", d.metric},
+       {"log_offset", d.log_offset},
+       {"robust", d.robust},
+       {"cost", d.cost},
+       {"intervals", d.intervals},
+       {"clusters", d.clusters},
+       {"residuals", residuals(d.residuals)},
+       {"identifiability",
+        {{"names", d.free_names}, {"correlations", d.correlations}, {"condition", d.condition}}},
+       {"solver", solver(d.solver)},
+       {"input", input(d)},
+       {"bin_sensitivity", bin_sensitivity(d.sensitivity)}});
 }
 
 FittedModel read_fitted_model(const std::string& path) {

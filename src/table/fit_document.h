@@ -26,9 +26,9 @@ struct FittedParameter {
 };
 
 struct FitSolver {
-  std::string termination;  ///< "converged" or "not_converged"
-  std::string message;      ///< in the solver's words
-  int iterations = 0;
+  std::string termination;         ///< "converged" or "not_converged"
+  std::string message;             ///< in the solver's words
+  int iterations = 0, passes = 0;  ///< over the full data, the passes of trial steps included
   std::vector<double> cost_per_iteration;  ///< of the full data, ½ Σ ρ
   std::string instruction_set;
   int threads = 1;
@@ -67,9 +67,9 @@ struct FitDocument {
   std::size_t clusters = 0;
 
   FitResiduals residuals;
-  std::vector<std::string> free_names;             ///< "alpha", "f0.r" …, rows of the matrix below
-  std::vector<std::vector<double>> correlations;   ///< of the free parameters' estimates
-  double condition = 0;                            ///< of the scaled normal matrix
+  std::vector<std::string> free_names;            ///< "alpha", "f0.r" …, rows of the matrix below
+  std::vector<std::vector<double>> correlations;  ///< of the free parameters' estimates
+  double condition = 0;                           ///< of the scaled normal matrix
   FitSolver solver;
 
   std::string input_path, input_sha256, input_format;
