@@ -99,6 +99,8 @@ void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
       throw wrong_usage(fmt::format("no metal '{}'; known: {}", s->text, fmt::join(names, ", ")));
     }
     if (find(settings, "eta") || find(settings, "k")) throw wrong_usage("metal sets eta and k");
+    if (!m.find("eta") || !m.find("k"))
+      throw wrong_usage(fmt::format("metal sets eta and k, but model '{}' has no conductor", m.spec));
     forget(settings, "metal");
     settings.push_back({"eta", {metal->n.begin(), metal->n.end()}});
     settings.push_back({"k", {metal->k.begin(), metal->k.end()}});

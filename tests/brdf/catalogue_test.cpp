@@ -47,9 +47,10 @@ double least(const Parameters& p, const Angles<double>& x) {
   for (const double v : p) a.emplace_back(v);
   constexpr std::size_t n = Term<Archetype>::parameters.size();
   const Term<Archetype> term{std::span<const Archetype, n>(a)};
-  return as_value<Archetype>(term(Angles<Archetype>{Archetype(x.nol), Archetype(x.nov),
-                                                    Archetype(x.noh), Archetype(x.voh),
-                                                    Archetype(x.sin2_theta_h)})).value();
+  return as_value<Archetype>(
+             term(Angles<Archetype>{Archetype(x.nol), Archetype(x.nov), Archetype(x.noh),
+                                    Archetype(x.voh), Archetype(x.sin2_theta_h)}))
+      .value();
 }
 
 using Least = double (*)(const Parameters&, const Angles<double>&);
@@ -88,7 +89,8 @@ TEST(Catalogue, EveryParameterStartsWhereAFitMayLookAndAFitLooksWhereItIsLegal) 
     EXPECT_LE(t.parameters.size(), 4U) << t.about->id;  // what evaluate() and Plan gather
     for (const auto& p : t.parameters) {
       EXPECT_TRUE(p.fit.holds(p.start)) << t.about->id << " " << p.name;
-      EXPECT_TRUE(p.legal.holds(p.fit.low) && p.legal.holds(p.fit.high)) << t.about->id << " " << p.name;
+      EXPECT_TRUE(p.legal.holds(p.fit.low) && p.legal.holds(p.fit.high))
+          << t.about->id << " " << p.name;
       EXPECT_FALSE(p.name.empty() || p.meaning.empty()) << t.about->id;
     }
   }
@@ -125,7 +127,8 @@ std::vector<Angles<double>> corners() {
   for (const double nol : cosines)
     for (const double nov : cosines)
       for (const double voh : cosines)
-        for (const auto& [noh, sin2] : {std::pair{1.0, 0.0}, {1.0, 1e-16}, {0.6, 0.64}, {1e-8, 1.0}, {0.0, 1.0}})
+        for (const auto& [noh, sin2] :
+             {std::pair{1.0, 0.0}, {1.0, 1e-16}, {0.6, 0.64}, {1e-8, 1.0}, {0.0, 1.0}})
           if (nol + nov > 0) rows.push_back({nol, nov, noh, voh, sin2});
   return rows;
 }
@@ -204,7 +207,8 @@ TEST(Catalogue, DerivativesAreThoseOfDifferences) {
           };
           const double expected = test::slope(f, p[k], 1e-3 * p[k]);
           EXPECT_NEAR(d[1 + k][i], expected, 1e-6 * std::abs(expected) + 1e-7 * d[0][i] / p[k])
-              << catalogue()[t].about->id << text(p) << " by " << about[k].name << " at " << text(rows[i]);
+              << catalogue()[t].about->id << text(p) << " by " << about[k].name << " at "
+              << text(rows[i]);
         }
     }
   }
@@ -214,7 +218,8 @@ TEST(Catalogue, DerivativesAreThoseOfDifferences) {
 
 /// scale: what an error is measured by, beside the value itself
 template <class F>
-void expect_same(const F* a, const F* b, std::size_t n, F tolerance, auto&& scale, const std::string& where) {
+void expect_same(const F* a, const F* b, std::size_t n, F tolerance, auto&& scale,
+                 const std::string& where) {
   F largest = 0;
   for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(b[i]) + scale(i));
   for (std::size_t i = 0; i < n; ++i) {
@@ -236,7 +241,8 @@ TYPED_TEST(Everywhere, EveryInstructionSetGivesTheBitsOfTheScalar) {
   std::mt19937_64 random(8);
   Column<F> num(b.n), den(b.n), base(b.n);
   for (std::size_t i = 0; i < b.n; ++i)
-    for (auto* c : {&num, &den, &base}) (*c)[i] = std::uniform_real_distribution<F>(F(0.5), 2)(random);
+    for (auto* c : {&num, &den, &base})
+      (*c)[i] = std::uniform_real_distribution<F>(F(0.5), 2)(random);
 
   for (const auto& name : instruction_sets())
     for (std::size_t t = 0; t < catalogue().size(); ++t)
@@ -253,8 +259,10 @@ TYPED_TEST(Everywhere, EveryInstructionSetGivesTheBitsOfTheScalar) {
         std::array<Column<F>, 2> out, out_den;
         for (auto* c : {&out[0], &out[1], &out_den[0], &out_den[1]}) *c = Column<F>(b.n);
         const auto run = [&](auto kernel) {
-          (lane.*kernel)(b, p.data(), {num.data(), den.data(), base.data(), out[0].data(), out_den[0].data()});
-          (one.*kernel)(b, p.data(), {num.data(), den.data(), base.data(), out[1].data(), out_den[1].data()});
+          (lane.*kernel)(b, p.data(),
+                         {num.data(), den.data(), base.data(), out[0].data(), out_den[0].data()});
+          (one.*kernel)(b, p.data(),
+                        {num.data(), den.data(), base.data(), out[1].data(), out_den[1].data()});
           expect_same(out[0].data(), out[1].data(), b.n, few, none, where);
           expect_same(out_den[0].data(), out_den[1].data(), b.n, few, none, where);
         };

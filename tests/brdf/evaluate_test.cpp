@@ -49,7 +49,8 @@ std::vector<std::string> one_lobe_specs() {
 const std::vector<std::string> two_lobe_specs{
     "lambert+ggx/smith_ggx.correlated/schlick+gtr/smith_ggx.separable/schlick",
     "lambert.coupled+ggx/smith_ggx.correlated/dielectric+ggx/smith_ggx.correlated/conductor",
-    "gtr/smith_ggx.separable/conductor+gtr/smith_ggx.correlated/dielectric+ggx/smith_ggx.separable/schlick"};
+    "gtr/smith_ggx.separable/conductor+gtr/smith_ggx.correlated/dielectric+ggx/smith_ggx.separable/"
+    "schlick"};
 
 std::vector<std::string> specs() {
   auto s = one_lobe_specs();
@@ -63,7 +64,8 @@ BoundModel draw(const std::string& spec, std::size_t channels, std::mt19937_64& 
   BoundModel b{compose(spec, channels), {}, {}};
   for (const auto& p : b.model.parameters)
     for (std::size_t c = 0; c < p.count; ++c)
-      b.values.push_back(std::uniform_real_distribution(p.about->fit.low, p.about->fit.high)(random));
+      b.values.push_back(
+          std::uniform_real_distribution(p.about->fit.low, p.about->fit.high)(random));
   return b;
 }
 
@@ -78,7 +80,8 @@ TEST(Evaluate, IsTheSumOfTheModelsTerms) {
       for (std::size_t c = 0; c < channels; ++c)
         for (std::size_t i = 0; i < rows.size(); ++i) {
           const double expected = by_hand(b, c, rows[i]);
-          // F (D V − d) + d rounds at D V F + F d where 1 − F is small: the sum's parts are the measure.
+          // F (D V − d) + d rounds at D V F + F d where 1 − F is small: the sum's parts are the
+          // measure.
           EXPECT_NEAR(f[c][i], expected, 32 * eps * (expected + 1 / pi)) << spec << " " << c;
         }
     }
@@ -99,7 +102,8 @@ TEST(Evaluate, GivesTheSameInEveryInstructionSetAndInFloat) {
       evaluate<F>(b.model, values, x.block(), out, kernels<F>(set));
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < rows.size(); ++i)
-          EXPECT_NEAR(out[c][i], expected[c][i], static_cast<double>(tolerance) * (expected[c][i] + 1 / pi))
+          EXPECT_NEAR(out[c][i], expected[c][i],
+                      static_cast<double>(tolerance) * (expected[c][i] + 1 / pi))
               << set << " " << spec;
     };
     for (const auto& set : instruction_sets()) {
@@ -123,7 +127,8 @@ TEST(Evaluate, FusedEqualsComposed) {
       for (const auto& fused : k.fused)
         for (const std::string diffuse : {"", "lambert+"}) {
           std::string spec = diffuse;
-          for (const auto id : fused.ids) spec.append(short_id(id)).append(id == fused.ids[2] ? "" : "/");
+          for (const auto id : fused.ids)
+            spec.append(short_id(id)).append(id == fused.ids[2] ? "" : "/");
           const auto b = draw(spec, 1, random);
           const std::vector<F> values(b.values.begin(), b.values.end());
           const auto x = test::columns<F>(rows);
@@ -149,14 +154,17 @@ TEST(Evaluate, IsTheSameForAColumnOfAnyLength) {
   for (const std::size_t n : {0UL, 1UL, 15UL, 16UL, 17UL, 255UL, 256UL, 257UL, 999UL}) {
     const auto some = evaluate(b, {rows.data(), n});
     for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_EQ(some[c], std::vector<double>(all[c].begin(), all[c].begin() + static_cast<long>(n)));
+      EXPECT_EQ(some[c],
+                std::vector<double>(all[c].begin(), all[c].begin() + static_cast<long>(n)));
   }
 }
 
 TEST(Evaluate, IsZeroBelowTheHorizonAndOnIt) {
   const auto b = bind_model("lambert+ggx/smith_ggx.correlated/schlick", {});
-  const std::vector<Angles<double>> rows{
-      {0.5, 0.5, 1, 0.5, 0}, {-0.1, 0.5, 0.5, 0.5, 0.75}, {0.5, 0, 0.5, 0.5, 0.75}, {0.5, std::nan(""), 1, 1, 0}};
+  const std::vector<Angles<double>> rows{{0.5, 0.5, 1, 0.5, 0},
+                                         {-0.1, 0.5, 0.5, 0.5, 0.75},
+                                         {0.5, 0, 0.5, 0.5, 0.75},
+                                         {0.5, std::nan(""), 1, 1, 0}};
   const auto f = evaluate(b, rows);
   EXPECT_GT(f[0][0], 0);
   for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_EQ(f[1][i], 0);

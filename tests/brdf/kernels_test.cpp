@@ -35,7 +35,8 @@ TYPED_TEST(ColumnKernels, MultiplyAndAdd) {
     k.product(n, a.data(), b.data(), out.data());
     for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(out[i], F(a[i] * b[i])) << set;
     k.product_sum(n, a.data(), b.data(), c.data(), d.data(), out.data());
-    for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(out[i], F(F(a[i] * b[i]) + F(c[i] * d[i]))) << set;
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_EQ(out[i], F(F(a[i] * b[i]) + F(c[i] * d[i]))) << set;
     k.add_product(n, a.data(), b.data(), c.data(), out.data());
     for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(out[i], F(a[i] + F(b[i] * c[i]))) << set;
   }
@@ -60,9 +61,12 @@ struct Sample {
 };
 Sample metric(Metric m, double f, double y, double nol, double offset) {
   switch (m) {
-    case Metric::log: return {std::log((f + offset) / (y + offset)), 1 / (f + offset)};
-    case Metric::l2_cosine: return {(f - y) * nol, nol};
-    case Metric::relative: return {(f - y) / (y + offset), 1 / (y + offset)};
+    case Metric::log:
+      return {std::log((f + offset) / (y + offset)), 1 / (f + offset)};
+    case Metric::l2_cosine:
+      return {(f - y) * nol, nol};
+    case Metric::relative:
+      return {(f - y) / (y + offset), 1 / (y + offset)};
   }
   return {};
 }
@@ -82,7 +86,8 @@ struct Residuals {
   F offset = F(0.01), huber = F(0.3);
 
   void run(const typename Kernels<F>::Residual& kernel) {
-    kernel(n, {f.data(), y.data(), weight.data(), nol.data(), offset, huber, r.data(), slope.data(), cost.data()});
+    kernel(n, {f.data(), y.data(), weight.data(), nol.data(), offset, huber, r.data(), slope.data(),
+               cost.data()});
   }
 };
 
@@ -91,9 +96,13 @@ TYPED_TEST(ColumnKernels, ResidualsAreThoseOfOneSampleAtATime) {
   for (const auto& set : instruction_sets())
     for (const Metric m : metrics)
       for (const F huber : {F(0.01), F(0.3), std::numeric_limits<F>::infinity()}) {
-        Residuals<F> x{this->random_column(0, 3), this->random_column(F(0.01), 3),
-                       this->random_column(F(0.1), 2), this->random_column(0, 1),
-                       Column<F>(n), Column<F>(n), Column<F>(padding, 0)};
+        Residuals<F> x{this->random_column(0, 3),
+                       this->random_column(F(0.01), 3),
+                       this->random_column(F(0.1), 2),
+                       this->random_column(0, 1),
+                       Column<F>(n),
+                       Column<F>(n),
+                       Column<F>(padding, 0)};
         x.huber = huber;
         x.f[5] = x.y[5];  // met exactly: r = 0
         x.cost[0] = 3;    // the sum goes on from what is there
@@ -103,33 +112,41 @@ TYPED_TEST(ColumnKernels, ResidualsAreThoseOfOneSampleAtATime) {
         double cost = 3, parts = 0;
         for (std::size_t i = 0; i < n; ++i) {
           const double w = double(x.weight[i]);
-          const auto s = metric(m, double(x.f[i]), double(x.y[i]), double(x.nol[i]), double(x.offset));
+          const auto s =
+              metric(m, double(x.f[i]), double(x.y[i]), double(x.nol[i]), double(x.offset));
           const auto h = huber_loss(w * s.r, double(huber));
           // r cancels where f is near y; it is measured by what it cancels from
-          const double tolerance = double(this->few) * (1 + std::abs(s.r) + s.slope * double(x.f[i])) * w;
-          EXPECT_NEAR(double(x.r[i]), std::sqrt(h.rho1) * w * s.r, 2 * tolerance) << set << " " << i;
+          const double tolerance =
+              double(this->few) * (1 + std::abs(s.r) + s.slope * double(x.f[i])) * w;
+          EXPECT_NEAR(double(x.r[i]), std::sqrt(h.rho1) * w * s.r, 2 * tolerance)
+              << set << " " << i;
           EXPECT_NEAR(double(x.slope[i]), std::sqrt(h.rho1) * w * s.slope,
-                      double(this->few) * w * s.slope + std::sqrt(h.rho1) * w * s.slope * tolerance / std::max(std::abs(w * s.r), 1e-3))
+                      double(this->few) * w * s.slope + std::sqrt(h.rho1) * w * s.slope *
+                                                            tolerance /
+                                                            std::max(std::abs(w * s.r), 1e-3))
               << set << " " << i;
           cost += h.rho;
           parts += 2 * std::abs(w * s.r) * tolerance + tolerance * tolerance;
         }
         EXPECT_NEAR(double(std::accumulate(x.cost.data(), x.cost.data() + padding, F(0))), cost,
-                    parts + double(this->few) * cost) << set;
+                    parts + double(this->few) * cost)
+            << set;
         EXPECT_EQ(x.r[5], 0);
 
         x.run(k.influence[which]);
         for (std::size_t i = 0; i < n; ++i) {
           const double w = double(x.weight[i]);
-          const auto s = metric(m, double(x.f[i]), double(x.y[i]), double(x.nol[i]), double(x.offset));
+          const auto s =
+              metric(m, double(x.f[i]), double(x.y[i]), double(x.nol[i]), double(x.offset));
           const auto h = huber_loss(w * s.r, double(huber));
-          const double tolerance =
-              2 * double(this->few) * (1 + std::abs(s.r) + s.slope * double(x.f[i])) * w * w * s.slope;
+          const double tolerance = 2 * double(this->few) *
+                                   (1 + std::abs(s.r) + s.slope * double(x.f[i])) * w * w * s.slope;
           EXPECT_NEAR(double(x.r[i]), h.rho1 * w * s.r * w * s.slope, tolerance) << set << " " << i;
           const bool near_the_edge = std::abs(std::abs(w * s.r) - double(huber)) < 1e-4;
           if (!near_the_edge) {
             const double expected = std::abs(w * s.r) > double(huber) ? 0 : w * s.slope;
-            EXPECT_NEAR(double(x.slope[i]), expected, double(this->few) * expected) << set << " " << i;
+            EXPECT_NEAR(double(x.slope[i]), expected, double(this->few) * expected)
+                << set << " " << i;
           }
         }
       }
@@ -142,18 +159,19 @@ TYPED_TEST(ColumnKernels, MaskedSamplesAreZeroWhateverStandsThere) {
     F f, y, weight;
     bool masked;
   };
-  const Case cases[] = {{1, -1, 1, true},       {nan, -1, 1, true},   {1, nan, 1, true},
-                        {nan, nan, nan, true},  {1, 2, 0, true},      {nan, 2, 0, true},
-                        {infinite, 2, 0, true}, {1, 2, -1, true},     {1, 2, nan, true},
-                        {1, F(-1e-30), 1, true}, {1, 2, 1, false},    {1, 0, 1, false},
+  const Case cases[] = {{1, -1, 1, true},        {nan, -1, 1, true}, {1, nan, 1, true},
+                        {nan, nan, nan, true},   {1, 2, 0, true},    {nan, 2, 0, true},
+                        {infinite, 2, 0, true},  {1, 2, -1, true},   {1, 2, nan, true},
+                        {1, F(-1e-30), 1, true}, {1, 2, 1, false},   {1, 0, 1, false},
                         {0, 2, 1, false}};
   for (const auto& set : instruction_sets())
     for (const Metric m : metrics)
       for (const auto kind : {0, 1}) {
         const auto& k = kernels<F>(set);
         for (const auto& c : cases) {
-          Residuals<F> x{Column<F>(n, c.f), Column<F>(n, c.y), Column<F>(n, c.weight), Column<F>(n, F(0.5)),
-                         Column<F>(n, 9), Column<F>(n, 9), Column<F>(padding, 0)};
+          Residuals<F> x{Column<F>(n, c.f),    Column<F>(n, c.y), Column<F>(n, c.weight),
+                         Column<F>(n, F(0.5)), Column<F>(n, 9),   Column<F>(n, 9),
+                         Column<F>(padding, 0)};
           const auto which = static_cast<std::size_t>(m);
           x.run(kind ? k.influence[which] : k.residual[which]);
           const F cost = std::accumulate(x.cost.data(), x.cost.data() + padding, F(0));
@@ -173,8 +191,8 @@ TYPED_TEST(ColumnKernels, MaskedSamplesAreZeroWhateverStandsThere) {
 TYPED_TEST(ColumnKernels, LogOfNothingIsTinyAndHasNoSlope) {
   using F = TypeParam;
   for (const auto& set : instruction_sets()) {
-    Residuals<F> x{Column<F>(n, 0), Column<F>(n, 1), Column<F>(n, 1), Column<F>(n, F(0.5)),
-                   Column<F>(n), Column<F>(n, 9), Column<F>(padding, 0)};
+    Residuals<F> x{Column<F>(n, 0), Column<F>(n, 1), Column<F>(n, 1),      Column<F>(n, F(0.5)),
+                   Column<F>(n),    Column<F>(n, 9), Column<F>(padding, 0)};
     x.offset = 0;
     x.huber = std::numeric_limits<F>::infinity();
     x.run(kernels<F>(set).residual[static_cast<std::size_t>(Metric::log)]);
@@ -225,7 +243,8 @@ TYPED_TEST(ColumnKernels, GramIsTheNaiveSumOfProducts) {
           }
           const F* const lanes = sums.data() + e * padding;
           EXPECT_NEAR(double(std::accumulate(lanes, lanes + padding, F(0))), expected,
-                      double(this->few) * size) << set << " " << columns << ": " << a << ", " << b;
+                      double(this->few) * size)
+              << set << " " << columns << ": " << a << ", " << b;
         }
     }
 }

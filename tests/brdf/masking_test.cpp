@@ -29,7 +29,8 @@ TEST(Masking, IsReciprocal) {
     for (const double alpha : alphas)
       for (const double l : cosines)
         for (const double v : cosines)
-          EXPECT_EQ(visibility(m, alpha, l, v), visibility(m, alpha, v, l)) << catalogue()[m].about->id;
+          EXPECT_EQ(visibility(m, alpha, l, v), visibility(m, alpha, v, l))
+              << catalogue()[m].about->id;
 }
 
 TEST(Masking, OfBothDirectionsIsNoLessThanOfEither) {
@@ -51,10 +52,12 @@ TEST(Masking, GrowsTowardsGrazingAndWithRoughness) {
       for (std::size_t c = 0; c < std::size(cosines); ++c) {
         const double g = g1(m, alphas[a], cosines[c]);
         if (c > 0) {
-          EXPECT_GE(g * (1 + 4 * eps), g1(m, alphas[a], cosines[c - 1])) << catalogue()[m].about->id;
+          EXPECT_GE(g * (1 + 4 * eps), g1(m, alphas[a], cosines[c - 1]))
+              << catalogue()[m].about->id;
         }
         if (a > 0) {
-          EXPECT_LE(g, g1(m, alphas[a - 1], cosines[c]) * (1 + 4 * eps)) << catalogue()[m].about->id;
+          EXPECT_LE(g, g1(m, alphas[a - 1], cosines[c]) * (1 + 4 * eps))
+              << catalogue()[m].about->id;
         }
       }
 }
@@ -136,7 +139,8 @@ TEST(SmithGgx, LeavesAsMuchFacetAreaAsTheSurfaceShows) {  // [Heitz 2014, Eq. 23
   for (const auto m : {separable(), correlated()})
     for (const double alpha : alphas)
       for (const double nov : {0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0})
-        EXPECT_NEAR(g1(m, alpha, nov) * visible_area(find_term("ndf.ggx"), {alpha}, nov) / nov, 1, 1e-9)
+        EXPECT_NEAR(g1(m, alpha, nov) * visible_area(find_term("ndf.ggx"), {alpha}, nov) / nov, 1,
+                    1e-9)
             << alpha << " " << nov;
 }
 
@@ -164,8 +168,10 @@ double albedo(const std::string& spec, double alpha, double mu) {
 
 TEST(SmithGgx, HasTheAlbedoOfAlphaOneInClosedForm) {  // D = 1/π
   for (const double mu : {0.1, 0.3, 0.5, 0.8, 1.0}) {
-    EXPECT_NEAR(albedo("ggx/smith_ggx.correlated/schlick", 1, mu), 1 - mu * std::log(1 + 1 / mu), 1e-6);
-    EXPECT_NEAR(albedo("ggx/smith_ggx.separable/schlick", 1, mu), 2 * (1 - std::log(2)) / (1 + mu), 1e-6);
+    EXPECT_NEAR(albedo("ggx/smith_ggx.correlated/schlick", 1, mu), 1 - mu * std::log(1 + 1 / mu),
+                1e-6);
+    EXPECT_NEAR(albedo("ggx/smith_ggx.separable/schlick", 1, mu), 2 * (1 - std::log(2)) / (1 + mu),
+                1e-6);
   }
 }
 

@@ -12,7 +12,9 @@ using test::text;
 constexpr double pi = std::numbers::pi;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-std::vector<Parameters> grid(std::size_t ndf) { return test::legal_grid(catalogue()[ndf].parameters, 8); }
+std::vector<Parameters> grid(std::size_t ndf) {
+  return test::legal_grid(catalogue()[ndf].parameters, 8);
+}
 
 /// The half vector whose θ_h has this tangent; nothing cancels at either end.
 Angles<double> half_vector(double tangent) {
@@ -23,7 +25,8 @@ Angles<double> half_vector(double tangent) {
 /// ∫ f(θ_h) cos θ_h dω = 2π ∫ f sin²θ cos²θ dx with x = ln tan θ, in which a peak of any width is
 /// as wide as any other, the integrand falls off exponentially at both ends and has no pole within
 /// π/2 of the axis: the trapezoidal rule errs by e^(−π²/step), far below rounding.
-double projected_integral(const std::vector<double>& f, std::span<const Angles<double>> at, double step) {
+double projected_integral(const std::vector<double>& f, std::span<const Angles<double>> at,
+                          double step) {
   double sum = 0;
   for (std::size_t i = 0; i < f.size(); ++i)
     sum += f[i] * at[i].sin2_theta_h * at[i].noh * at[i].noh;

@@ -12,12 +12,13 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 class PlanOf : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(
     Models, PlanOf,
-    testing::Values("lambert", "ggx/smith_ggx.correlated/schlick", "lambert+ggx/smith_ggx.correlated/schlick",
-                    "lambert.coupled+ggx/smith_ggx.separable/schlick", "gtr/smith_ggx.correlated/conductor",
-                    "lambert+gtr/smith_ggx.separable/dielectric",
-                    "lambert.coupled+gtr/smith_ggx.correlated/conductor",
-                    "lambert+ggx/smith_ggx.correlated/schlick+gtr/smith_ggx.separable/schlick",
-                    "lambert.coupled+ggx/smith_ggx.correlated/dielectric+ggx/smith_ggx.correlated/conductor"));
+    testing::Values(
+        "lambert", "ggx/smith_ggx.correlated/schlick", "lambert+ggx/smith_ggx.correlated/schlick",
+        "lambert.coupled+ggx/smith_ggx.separable/schlick", "gtr/smith_ggx.correlated/conductor",
+        "lambert+gtr/smith_ggx.separable/dielectric",
+        "lambert.coupled+gtr/smith_ggx.correlated/conductor",
+        "lambert+ggx/smith_ggx.correlated/schlick+gtr/smith_ggx.separable/schlick",
+        "lambert.coupled+ggx/smith_ggx.correlated/dielectric+ggx/smith_ggx.correlated/conductor"));
 
 /// Values away from the ends of where a fit may look, so that differences can be taken.
 std::vector<double> draw(const Model& m, std::mt19937_64& random) {
@@ -35,8 +36,9 @@ struct Result {
   std::vector<double> value;
   std::map<std::size_t, std::vector<double>> d;
 };
-std::vector<Result> run(const Model& m, std::span<const double> values, const std::vector<bool>& free,
-                        std::span<const Angles<double>> rows, const Kernels<double>& k = kernels<double>()) {
+std::vector<Result> run(const Model& m, std::span<const double> values,
+                        const std::vector<bool>& free, std::span<const Angles<double>> rows,
+                        const Kernels<double>& k = kernels<double>()) {
   const auto x = test::columns<double>(rows);
   const Plan<double> plan(m, values, free, k);
   std::vector<Result> results(m.channels);
@@ -128,7 +130,8 @@ TEST_P(PlanOf, GivesTheSameInEveryInstructionSet) {
     const auto lanes = run(m, values, free, rows, kernels<double>(set));
     for (std::size_t c = 0; c < 2; ++c)
       for (std::size_t i = 0; i < rows.size(); ++i) {
-        EXPECT_NEAR(lanes[c].value[i], scalar[c].value[i], 1e-13 * std::abs(scalar[c].value[i])) << set;
+        EXPECT_NEAR(lanes[c].value[i], scalar[c].value[i], 1e-13 * std::abs(scalar[c].value[i]))
+            << set;
         for (const auto& [slot, d] : scalar[c].d) {
           const double scale = std::abs(d[i]) + scalar[c].value[i] / values[slot];
           EXPECT_NEAR(lanes[c].d.at(slot)[i], d[i], 1e-12 * scale) << set << " " << slot;

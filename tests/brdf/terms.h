@@ -100,11 +100,14 @@ inline std::string text(const Angles<double>& a) {
 /// Directions above the surface: their half vectors from the peak outwards, some of them grazing.
 inline std::vector<Angles<double>> random_angles(std::size_t n, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  const auto uniform = [&](double a, double b) {
+    return std::uniform_real_distribution(a, b)(random);
+  };
   std::vector<Angles<double>> rows;
   while (rows.size() < n) {
     const double h = rows.size() % 2 ? uniform(0, 1.5) : std::exp(uniform(std::log(1e-5), 0));
-    const double d = rows.size() % 3 ? uniform(0, 1.5) : 1.5707 - std::exp(uniform(std::log(1e-3), 0));
+    const double d =
+        rows.size() % 3 ? uniform(0, 1.5) : 1.5707 - std::exp(uniform(std::log(1e-3), 0));
     const auto a = angles(SinCos(h), SinCos(d), std::cos(uniform(0, 3.1416)));
     if (a.nol > 1e-4 && a.nov > 1e-4) rows.push_back(a);
   }

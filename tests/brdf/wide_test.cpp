@@ -1,4 +1,5 @@
-// Fifty digits: how many of sixteen the terms keep.  The only file that pays for Boost.Multiprecision.
+// Fifty digits: how many of sixteen the terms keep.  The only file that pays for
+// Boost.Multiprecision.
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "brdf/catalogue.h"
@@ -77,7 +78,8 @@ void check_digits(double bound) {
       }
       const double value = static_cast<double>(test::values_of<F>(t, p, {&rows[i], 1})[0]);
       Inputs x(p.begin(), p.end());
-      for (const double a : {rows[i].nol, rows[i].nov, rows[i].noh, rows[i].voh, rows[i].sin2_theta_h})
+      for (const double a :
+           {rows[i].nol, rows[i].nov, rows[i].noh, rows[i].voh, rows[i].sin2_theta_h})
         x.emplace_back(static_cast<F>(a));
       for (std::size_t k = 0; k < p.size(); ++k) x[k] = static_cast<F>(p[k]);
       const Wide truth = f[t](x);
@@ -113,8 +115,9 @@ Wide fresnel(const Wide& eta, const Wide& k, const Wide& c) {
 }
 
 constexpr double hard_eta[] = {0.3, 0.7, 1 - 1e-10, 1, 1 + 1e-10, 1.001, 1.5, 3, 10};
-constexpr double hard_c[] = {0,    1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.02, 0.05, 0.1,  0.2, 0.3,   0.4,
-                             0.5, 0.55, 0.6,  0.7,  0.72, 0.75, 0.8,  0.9,  0.95, 0.96, 0.99, 0.999, 1};
+constexpr double hard_c[] = {0,    1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 0.01,  0.02, 0.05,
+                             0.1,  0.2,  0.3,  0.4,  0.5,  0.55, 0.6,   0.7,  0.72,
+                             0.75, 0.8,  0.9,  0.95, 0.96, 0.99, 0.999, 1};
 
 TEST(Dielectric, KeepsTwelveDigitsOverTheHardGrid) {
   const auto term = find_term("fresnel.dielectric");
@@ -135,7 +138,8 @@ TEST(Conductor, KeepsTwelveDigitsOverTheHardGrid) {
   etas.insert(etas.end(), std::begin(hard_eta), std::end(hard_eta));
   double worst = 0;
   for (const double eta : etas)
-    for (const double k : {0.0, 1e-20, 1e-12, 1e-8, 1e-4, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 10.0, 100.0, 1000.0})
+    for (const double k :
+         {0.0, 1e-20, 1e-12, 1e-8, 1e-4, 0.01, 0.1, 0.5, 1.0, 1.5, 3.0, 10.0, 100.0, 1000.0})
       for (const double c : hard_c) {
         const double f = test::value_of(term, {eta, k}, {c, c, 1, c, 0});
         const double error = relative_error(f, fresnel(eta, k, c));
@@ -164,7 +168,8 @@ TEST(GtrNdf, KeepsTwelveDigitsThroughTheHolesOfItsPrintedForm) {
       for (const double tangent : {0.0, 1e-6, 1e-3, 0.1, 1.0, 30.0, 1e6}) {
         const double t2 = tangent * tangent;
         const Angles<double> x{1, 1, 1 / std::sqrt(1 + t2), 1, t2 / (1 + t2)};
-        const double error = relative_error(test::value_of(gtr, {alpha, gamma}, x), burley(alpha, gamma, x));
+        const double error =
+            relative_error(test::value_of(gtr, {alpha, gamma}, x), burley(alpha, gamma, x));
         EXPECT_LT(error, 1e-12) << alpha << " " << gamma << " " << tangent;
         worst = std::max(worst, error);
       }

@@ -23,14 +23,15 @@ class HalfDifferenceAngles : public testing::Test {
   /// Anywhere, and often where it hurts: at the pole, at grazing, nearly opposite.
   double zenith() {
     switch (random_() % 4) {
-      case 0: return std::exp(uniform(std::log(1e-9), std::log(1e-2)));
-      case 1: return pi / 2 - std::exp(uniform(std::log(1e-9), std::log(1e-2)));
-      default: return uniform(0, pi / 2);
+      case 0:
+        return std::exp(uniform(std::log(1e-9), std::log(1e-2)));
+      case 1:
+        return pi / 2 - std::exp(uniform(std::log(1e-9), std::log(1e-2)));
+      default:
+        return uniform(0, pi / 2);
     }
   }
-  HalfDifference draw() {
-    return {zenith(), uniform(-pi, pi), zenith(), uniform(-pi, pi)};
-  }
+  HalfDifference draw() { return {zenith(), uniform(-pi, pi), zenith(), uniform(-pi, pi)}; }
 
  private:
   std::mt19937_64 random_{3};
@@ -67,8 +68,9 @@ TEST_F(HalfDifferenceAngles, DirectionsAreUnitVectorsWithTheirHalfVectorBetweenT
     EXPECT_NEAR(dot(p.wi, h), std::cos(a.theta_d), 8 * eps);
     EXPECT_NEAR(dot(p.wo, h), std::cos(a.theta_d), 8 * eps);
     const double c = 2 * std::cos(a.theta_d);
-    EXPECT_LT(distance({p.wi.x + p.wo.x, p.wi.y + p.wo.y, p.wi.z + p.wo.z},
-                       {c * h.x, c * h.y, c * h.z}), 8 * eps);
+    EXPECT_LT(
+        distance({p.wi.x + p.wo.x, p.wi.y + p.wo.y, p.wi.z + p.wo.z}, {c * h.x, c * h.y, c * h.z}),
+        8 * eps);
   }
 }
 
@@ -90,7 +92,8 @@ TEST_F(HalfDifferenceAngles, RoundTripThroughDirections) {
 
 TEST_F(HalfDifferenceAngles, RoundTripFromDirections) {
   for (int trial = 0; trial < 2000; ++trial) {
-    const DirectionPair p{direction(zenith(), uniform(-pi, pi)), direction(zenith(), uniform(-pi, pi))};
+    const DirectionPair p{direction(zenith(), uniform(-pi, pi)),
+                          direction(zenith(), uniform(-pi, pi))};
     const auto a = half_difference(p);
     EXPECT_TRUE(0 <= a.theta_h && a.theta_h <= pi / 2);
     EXPECT_TRUE(0 <= a.theta_d && a.theta_d <= pi / 2);
@@ -148,8 +151,8 @@ TEST_F(HalfDifferenceAngles, KeepSinSquaredAtThePeak) {
     a.phi_d = uniform(-pi, pi);
     const long double sine = std::sin(static_cast<long double>(a.theta_h));
     const auto expected = static_cast<double>(sine * sine);
-    EXPECT_NEAR(angles(SinCos(a.theta_h), SinCos(a.theta_d), std::cos(a.phi_d)).sin2_theta_h, expected,
-                4 * eps * expected);
+    EXPECT_NEAR(angles(SinCos(a.theta_h), SinCos(a.theta_d), std::cos(a.phi_d)).sin2_theta_h,
+                expected, 4 * eps * expected);
 
     // From directions: as exact as the directions are, which are rounded at 1 (eps/1e-5 of θ_h).
     const auto p = directions(a);
@@ -185,8 +188,7 @@ double half_vector_stretch(const Direction& l, const Direction& v) {
   };
   const Direction t1 = normalised(cross(s, l)), t2 = cross(l, t1);
   const auto half = [&](const Direction& t, double h) {
-    const auto a = half_difference(
-        {normalised({l.x + h * t.x, l.y + h * t.y, l.z + h * t.z}), v});
+    const auto a = half_difference({normalised({l.x + h * t.x, l.y + h * t.y, l.z + h * t.z}), v});
     return direction(a.theta_h, a.phi_h);
   };
   const auto slope = [&](const Direction& t) {

@@ -10,7 +10,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 class GaussLegendre : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Orders, GaussLegendre, testing::Values(1, 2, 3, 4, 7, 8, 16, 33, 64, 128, 255, 256),
+INSTANTIATE_TEST_SUITE_P(Orders, GaussLegendre,
+                         testing::Values(1, 2, 3, 4, 7, 8, 16, 33, 64, 128, 255, 256),
                          testing::PrintToStringParamName());
 
 TEST_P(GaussLegendre, NodesAscendInsideTheIntervalAndMirrorEachOther) {
@@ -94,11 +95,11 @@ TEST(CosineHemisphere, CoversTheWholeAzimuthAndTheWholeHeight) {
   }
   EXPECT_NEAR(first, 0, 1e-13);
   EXPECT_NEAR(second, 0, 1e-13);
-  EXPECT_NEAR(x2, pi / 4, 1e-13);        // ∫ sin²θ cos²φ cos θ dω
+  EXPECT_NEAR(x2, pi / 4, 1e-13);  // ∫ sin²θ cos²φ cos θ dω
   EXPECT_NEAR(y2, pi / 4, 1e-13);
-  EXPECT_NEAR(x2y2, pi / 24, 1e-13);     // π/4 · ∫ (1 − u)² du / 2
-  EXPECT_NEAR(z2, pi / 2, 1e-13);        // ∫ cos³θ dω
-  EXPECT_NEAR(z, 2 * pi / 3, 1e-5);      // ∫ cos²θ dω: √u is no polynomial
+  EXPECT_NEAR(x2y2, pi / 24, 1e-13);  // π/4 · ∫ (1 − u)² du / 2
+  EXPECT_NEAR(z2, pi / 2, 1e-13);     // ∫ cos³θ dω
+  EXPECT_NEAR(z, 2 * pi / 3, 1e-5);   // ∫ cos²θ dω: √u is no polynomial
 }
 
 }  // namespace

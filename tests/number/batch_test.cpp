@@ -55,7 +55,8 @@ TYPED_TEST(BatchOf, ArithmeticEqualsTheScalarBitForBit) {
   this->same_bits([](const auto& a, const auto&) { return -a; }, "-a");
   this->same_bits([](const auto& a, const auto&) { return sqrt(a); }, "sqrt(a)");
   this->same_bits([](const auto& a, const auto& b) { return 1 - a * b / 2 + 3 * a; }, "with int");
-  this->same_bits([]<class T>(const T& a, const T& b) { return max<T>(a, b) - min<T>(b, a); }, "max");
+  this->same_bits([]<class T>(const T& a, const T& b) { return max<T>(a, b) - min<T>(b, a); },
+                  "max");
   this->same_bits([]<class T>(const T& a, const T& b) { return select<T>(a < b, a + b, a - b); },
                   "select");
 }

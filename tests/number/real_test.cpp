@@ -25,11 +25,17 @@ static_assert(std::same_as<mask_t<Dual<double, 2>>, bool>);
 
 // What a formula may not do must not compile for the least of numbers.
 template <class T>
-concept BranchesOnMasks = requires(T a) { (a < a) ? a : a; };
+concept BranchesOnMasks = requires(T a) {
+  (a < a) ? a : a;
+};
 template <class T>
-concept MixesWithDouble = requires(T a) { 0.5 * a; };
+concept MixesWithDouble = requires(T a) {
+  0.5 * a;
+};
 template <class T>
-concept FallsBackToDouble = requires(T a) { std::sqrt(a); };
+concept FallsBackToDouble = requires(T a) {
+  std::sqrt(a);
+};
 template <class T>
 concept ComesFromDoubleUnasked = std::convertible_to<double, T>;
 static_assert(BranchesOnMasks<double> && MixesWithDouble<double> && FallsBackToDouble<double> &&
@@ -38,8 +44,8 @@ static_assert(!BranchesOnMasks<Archetype> && !MixesWithDouble<Archetype> &&
               !FallsBackToDouble<Archetype> && !ComesFromDoubleUnasked<Archetype>);
 
 // Unqualified functions keep the precision of their argument.
-static_assert(std::same_as<decltype(sqrt(1.0F)), float> && std::same_as<decltype(exp(1.0F)), float> &&
-              std::same_as<decltype(log(1.0F)), float>);
+static_assert(std::same_as<decltype(sqrt(1.0F)), float> &&
+              std::same_as<decltype(exp(1.0F)), float> && std::same_as<decltype(log(1.0F)), float>);
 
 TEST(Constant, IsRoundedOnceToTheBaseType) {
   EXPECT_EQ(constant<double>(0.1L), 0.1);

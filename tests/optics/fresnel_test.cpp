@@ -29,7 +29,8 @@ double conductor(double eta, double k, double c) { return reflectance<Conductor>
 /// The textbook's amplitudes in complex numbers, for a conductor and, with k = 0, a dielectric.
 double textbook(double eta, double k, double c) {
   using Complex = std::complex<long double>;
-  const Complex n(eta, k), cos(c), root = std::sqrt(n * n - Complex(1 - static_cast<long double>(c) * c));
+  const Complex n(eta, k), cos(c),
+      root = std::sqrt(n * n - Complex(1 - static_cast<long double>(c) * c));
   const Complex rs = (cos - root) / (cos + root);
   const Complex rp = (n * n * cos - root) / (n * n * cos + root);
   return static_cast<double>((std::norm(rs) + std::norm(rp)) / 2);
@@ -72,7 +73,8 @@ TEST(Dielectric, ReflectsOnlySAtBrewstersAngle) {
 }
 
 TEST(Dielectric, ReflectsAllAtGrazing) {
-  for (const double eta : {0.3, 0.99, 1.001, 1.5, 10.0}) EXPECT_NEAR(dielectric(eta, 0), 1, 4 * eps);
+  for (const double eta : {0.3, 0.99, 1.001, 1.5, 10.0})
+    EXPECT_NEAR(dielectric(eta, 0), 1, 4 * eps);
 }
 
 TEST(Dielectric, ReflectsAllBeyondTheCriticalAngleFromInside) {
@@ -109,7 +111,8 @@ TEST(Conductor, IsTheTextbook) {
   for (const double eta : {0.001, 0.2, 0.7, 1.0, 1.5, 3.0, 20.0})
     for (const double k : {1e-6, 0.01, 0.5, 1.0, 3.0, 10.0, 1000.0})
       for (const double c : cosines)
-        EXPECT_NEAR(conductor(eta, k, c), textbook(eta, k, c), 1e-14) << eta << " " << k << " " << c;
+        EXPECT_NEAR(conductor(eta, k, c), textbook(eta, k, c), 1e-14)
+            << eta << " " << k << " " << c;
 }
 
 TEST(Conductor, WithoutAbsorptionIsTheDielectric) {
@@ -153,7 +156,9 @@ void check_corners() {
     for (const T d : f.d) EXPECT_TRUE(std::isfinite(d)) << where;
   };
   for (const T c : {T(0), T(1e-30), T(1e-12), T(1e-8), T(1e-3), T(0.5), T(0.8), T(1)}) {
-    const auto at = [&](auto... x) { return (... + (std::to_string(x) + " ")) + std::to_string(c); };
+    const auto at = [&](auto... x) {
+      return (... + (std::to_string(x) + " ")) + std::to_string(c);
+    };
     for (const T f0 : {T(0), T(0.04), T(1)})
       check(reflectance<Schlick>(c, D1::variable(f0, 0)), at(f0));
     for (const T eta : {T(0.2), T(0.6), T(1 - 1e-7), T(1), T(1 + 1e-7), T(1.5), T(10)}) {
@@ -183,8 +188,10 @@ TEST(Fresnel, DerivativesAreThoseOfDifferences) {
       }
       for (const double k : {0.01, 0.5, 3.0}) {
         const auto f = reflectance<Conductor>(c, D2::variable(eta, 0), D2::variable(k, 1));
-        EXPECT_NEAR(f.d[0], (conductor(eta + h, k, c) - conductor(eta - h, k, c)) / (2 * h), 1e-7 / c);
-        EXPECT_NEAR(f.d[1], (conductor(eta, k + h, c) - conductor(eta, k - h, c)) / (2 * h), 1e-7 / c);
+        EXPECT_NEAR(f.d[0], (conductor(eta + h, k, c) - conductor(eta - h, k, c)) / (2 * h),
+                    1e-7 / c);
+        EXPECT_NEAR(f.d[1], (conductor(eta, k + h, c) - conductor(eta, k - h, c)) / (2 * h),
+                    1e-7 / c);
       }
     }
   }
@@ -196,7 +203,8 @@ TEST(Conductor, DoesNotFeelTheSignOfAbsorptionAtItsZero) {
     for (const double c : cosines) {
       const auto f = reflectance<Conductor>(c, D2::variable(eta, 0), D2::variable(0, 1));
       EXPECT_EQ(f.d[1], 0) << "F is even in k";
-      EXPECT_NEAR(f.d[0], reflectance<Dielectric>(c, Dual<double, 1>::variable(eta, 0)).d[0], 1e-13);
+      EXPECT_NEAR(f.d[0], reflectance<Dielectric>(c, Dual<double, 1>::variable(eta, 0)).d[0],
+                  1e-13);
     }
 }
 
@@ -207,12 +215,13 @@ struct PublishedIndex {
   double n, k;  // at 550 nm
 };
 class MetalTest : public testing::TestWithParam<PublishedIndex> {};
-INSTANTIATE_TEST_SUITE_P(Green, MetalTest,
-                         testing::Values(PublishedIndex{"Au", 0.424, 2.472}, PublishedIndex{"Ag", 0.060, 3.597},
-                                         PublishedIndex{"Cu", 1.007, 2.582}, PublishedIndex{"Al", 1.015, 6.627},
-                                         PublishedIndex{"Cr", 3.181, 3.329}, PublishedIndex{"Fe", 2.950, 2.932},
-                                         PublishedIndex{"Ni", 1.921, 3.616}, PublishedIndex{"W", 3.522, 2.741}),
-                         [](const auto& test) { return test.param.symbol; });
+INSTANTIATE_TEST_SUITE_P(
+    Green, MetalTest,
+    testing::Values(PublishedIndex{"Au", 0.424, 2.472}, PublishedIndex{"Ag", 0.060, 3.597},
+                    PublishedIndex{"Cu", 1.007, 2.582}, PublishedIndex{"Al", 1.015, 6.627},
+                    PublishedIndex{"Cr", 3.181, 3.329}, PublishedIndex{"Fe", 2.950, 2.932},
+                    PublishedIndex{"Ni", 1.921, 3.616}, PublishedIndex{"W", 3.522, 2.741}),
+    [](const auto& test) { return test.param.symbol; });
 
 TEST_P(MetalTest, HasItsPublishedIndexAt550Nanometres) {
   const Metal* m = find_metal(GetParam().symbol);
