@@ -1,14 +1,14 @@
 #include "base/file.h"
 
-#include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
 #include "base/error.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace gonio {
 
@@ -56,7 +56,8 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   std::error_code ignored;
   if (std::filesystem::is_directory(p, ignored))
     throw bad_input(path_, "writing", "a directory", "the name of a file");
-  temporary_ = (p.parent_path() / fmt::format(".{}.{}.tmp", p.filename().string(), ::getpid())).string();
+  temporary_ =
+      (p.parent_path() / fmt::format(".{}.{}.tmp", p.filename().string(), ::getpid())).string();
   file_ = std::fopen(temporary_.c_str(), "wb");
   if (!file_) fail("writing");
 }

@@ -1,12 +1,12 @@
 #include "base/sha256.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
 #include "base/file.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -73,7 +73,8 @@ std::string sha256_of_file(const std::string& path) {
   Sha256 sum;
   std::string chunk;
   while (in.position() < in.size()) {
-    chunk.resize(static_cast<std::size_t>(std::min<std::uint64_t>(in.size() - in.position(), 1 << 16)));
+    chunk.resize(
+        static_cast<std::size_t>(std::min<std::uint64_t>(in.size() - in.position(), 1 << 16)));
     in.read(chunk.data(), chunk.size());
     sum.add(chunk);
   }

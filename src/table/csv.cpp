@@ -1,12 +1,12 @@
 #include "table/csv.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <limits>
 
 #include "base/error.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -67,7 +67,8 @@ std::string channel_of(std::string_view name) {
 
 class Reader {
  public:
-  explicit Reader(InputFile& in) : path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 30)), lines_(text_) {}
+  explicit Reader(InputFile& in)
+      : path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 30)), lines_(text_) {}
 
   Table table() {
     header();
@@ -86,9 +87,12 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void fail(std::string_view column, std::string_view found, const std::string& expected) const {
+  [[noreturn]] void fail(std::string_view column,
+                         std::string_view found,
+                         const std::string& expected) const {
     const std::string name = column.empty() ? "" : fmt::format(", column {}", column);
-    throw bad_input(path_, fmt::format("line {}{}", lines_.number, name), std::string(found), expected);
+    throw bad_input(path_, fmt::format("line {}{}", lines_.number, name), std::string(found),
+                    expected);
   }
 
   void header() {
@@ -100,7 +104,8 @@ class Reader {
       if (!c.is_value && name != "weight" && std::ranges::find(kAngles, name) == kAngles.end())
         fail(name, "an unknown column", "theta_i, phi_i, theta_o, phi_o, f, f_NAME or weight");
       const auto same = [&](const Column& o) {
-        return o.name == name || (c.is_value && o.is_value && channel_of(o.name) == channel_of(name));
+        return o.name == name ||
+               (c.is_value && o.is_value && channel_of(o.name) == channel_of(name));
       };
       if (std::ranges::any_of(columns_, same)) fail(name, "a second column of that name", "one");
       columns_.push_back(std::move(c));
@@ -108,7 +113,8 @@ class Reader {
     for (const auto name : kAngles)
       if (std::ranges::find(columns_, name, &Column::name) == columns_.end())
         fail(name, "no such column", "theta_i, phi_i, theta_o, phi_o");
-    if (std::ranges::none_of(columns_, &Column::is_value)) fail("f", "no such column", "f or f_NAME");
+    if (std::ranges::none_of(columns_, &Column::is_value))
+      fail("f", "no such column", "f or f_NAME");
   }
 
   void row() {
@@ -117,7 +123,8 @@ class Reader {
       const bool last = k + 1 == columns_.size();
       const auto end = rest.find(',');
       if ((end == rest.npos) != last)
-        fail("", fmt::format("{} fields", fields(lines_.text).size()), fmt::format("{}", columns_.size()));
+        fail("", fmt::format("{} fields", fields(lines_.text).size()),
+             fmt::format("{}", columns_.size()));
       number(columns_[k], trimmed(rest.substr(0, end)));
       if (!last) rest.remove_prefix(end + 1);
     }
@@ -166,7 +173,9 @@ bool is_csv(std::string_view head) {
   });
 }
 
-Table read_csv(InputFile& in) { return Reader(in).table(); }
+Table read_csv(InputFile& in) {
+  return Reader(in).table();
+}
 
 void write_csv(const Table& t, OutputFile& out) {
   std::string text = "theta_i,phi_i,theta_o,phi_o";

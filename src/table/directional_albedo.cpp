@@ -1,20 +1,23 @@
 #include "table/directional_albedo.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <map>
 #include <numbers>
 
 #include "integrate/quadrature.h"
 
+#include <tbb/parallel_for.h>
+
 namespace gonio {
 namespace {
 
 /// Mean over the nodes where there is a value, times π; `value(node, channel)` is NaN elsewhere.
+/// Less than half of the hemisphere says nothing about its mean: noisy dark channels keep their peak.
 template <class Value>
-AlbedoSample integrate(double theta_i_deg, const std::vector<HemisphereNode>& nodes,
-                       std::size_t channels, Value value) {
+AlbedoSample integrate(double theta_i_deg,
+                       const std::vector<HemisphereNode>& nodes,
+                       std::size_t channels,
+                       Value value) {
   AlbedoSample a{theta_i_deg, {}, 1};
   for (std::size_t c = 0; c < channels; ++c) {
     double sum = 0, weight = 0;
@@ -24,10 +27,31 @@ AlbedoSample integrate(double theta_i_deg, const std::vector<HemisphereNode>& no
       sum += nodes[k].weight * v;
       weight += nodes[k].weight;
     }
-    a.albedo.push_back(weight > 0 ? sum / weight * std::numbers::pi : 0);
+    a.albedo.push_back(weight > std::numbers::pi / 2 ? sum / weight * std::numbers::pi
+                                                     : std::nan(""));
     a.coverage = std::min(a.coverage, weight / std::numbers::pi);
   }
   return a;
+}
+
+/// The part of the sum that one sample makes, in the channel where that is most.
+template <class Value>
+double largest_share(const std::vector<HemisphereNode>& nodes,
+                     const std::vector<std::size_t>& nearest,
+                     std::size_t channels,
+                     Value value) {
+  double share = 0;
+  for (std::size_t c = 0; c < channels; ++c) {
+    std::map<std::size_t, double> parts;
+    double sum = 0;
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (const double v = value(k, c); std::isfinite(v)) {
+        parts[nearest[k]] += nodes[k].weight * v;
+        sum += nodes[k].weight * v;
+      }
+    for (const auto& [sample, part] : parts) share = std::max(share, sum > 0 ? part / sum : 0);
+  }
+  return share;
 }
 
 std::vector<AlbedoSample> of_grid(const Table& t) {
@@ -46,7 +70,8 @@ std::vector<AlbedoSample> of_grid(const Table& t) {
 
 std::vector<AlbedoSample> of_list(const Table& t) {
   const double reach = std::cos(12 * degree);
-  const auto fewest = static_cast<std::size_t>(1 / (1 - reach));  // caps of that size in a hemisphere
+  const auto fewest =
+      static_cast<std::size_t>(1 / (1 - reach));  // caps of that size in a hemisphere
   const auto nodes = cosine_hemisphere(24, 48);
   const DirectionList& l = *t.list();
   std::map<std::pair<double, double>, std::vector<std::size_t>> groups;
@@ -69,11 +94,13 @@ std::vector<AlbedoSample> of_list(const Table& t) {
         }
     });
     if (*std::ranges::min_element(closeness) < reach) continue;
-    all.push_back(integrate(incident.first, nodes, t.channels.size(), [&](std::size_t k, std::size_t c) {
+    const auto value = [&](std::size_t k, std::size_t c) {
       const std::size_t i = nearest[k];
       const double v = t.values[c][i];
       return mask(at(i), v) == Mask::valid ? v : std::nan("");
-    }));
+    };
+    if (largest_share(nodes, nearest, t.channels.size(), value) <= 0.1)
+      all.push_back(integrate(incident.first, nodes, t.channels.size(), value));
   }
   return all;
 }
@@ -82,9 +109,8 @@ std::vector<AlbedoSample> of_list(const Table& t) {
 
 std::vector<AlbedoSample> directional_albedo(const Table& t) {
   if (t.list()) return of_list(t);
-  const bool slice = std::ranges::any_of(t.grid()->axes, [](const Axis& a) {
-    return a.spacing == Axis::Spacing::constant;
-  });
+  const bool slice = std::ranges::any_of(
+      t.grid()->axes, [](const Axis& a) { return a.spacing == Axis::Spacing::constant; });
   return slice ? std::vector<AlbedoSample>{} : of_grid(t);
 }
 

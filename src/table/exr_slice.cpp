@@ -1,8 +1,5 @@
 #include "table/exr_slice.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <charconv>
 #include <numbers>
@@ -11,11 +8,15 @@
 #include "image/exr.h"
 #include "table/metadata.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace gonio {
 namespace {
 
 constexpr const char *kLayout = "gonio:layout", *kPhi = "gonio:phi_d_rad",
-                     *kChannels = "gonio:channels", *kTable = "gonio:table", *kSlice = "image_slice";
+                     *kChannels = "gonio:channels", *kTable = "gonio:table",
+                     *kSlice = "image_slice";
 
 std::string exr_name(const std::string& channel) {
   if (channel == "f") return "Y";
@@ -27,7 +28,8 @@ std::string exr_name(const std::string& channel) {
 double angle(const std::string& path, const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !(std::abs(value) <= 2 * std::numbers::pi))
+  if (error != std::errc() || end != text.data() + text.size() ||
+      !(std::abs(value) <= 2 * std::numbers::pi))
     throw bad_input(path, kPhi, text, "an angle in radians");
   return value;
 }
@@ -49,7 +51,8 @@ std::vector<To> turned(const std::vector<From>& from, std::size_t width) {
   std::vector<To> to(from.size());
   const std::size_t height = from.size() / width;
   for (std::size_t y = 0; y < height; ++y)
-    for (std::size_t x = 0; x < width; ++x) to[y * width + x] = static_cast<To>(from[x * height + y]);
+    for (std::size_t x = 0; x < width; ++x)
+      to[y * width + x] = static_cast<To>(from[x * height + y]);
   return to;
 }
 
@@ -70,7 +73,8 @@ Table read_exr_slice(const std::string& path) {
   const auto attribute = [&](const char* name) {
     const auto found = image.attributes.find(name);
     if (found == image.attributes.end())
-      throw bad_input(path, "header", fmt::format("no attribute {}", name), "an image slice made by gonio");
+      throw bad_input(path, "header", fmt::format("no attribute {}", name),
+                      "an image slice made by gonio");
     return found->second;
   };
   if (attribute(kLayout) != kSlice) throw bad_input(path, kLayout, attribute(kLayout), kSlice);
@@ -94,7 +98,8 @@ Table read_exr_slice(const std::string& path) {
 void write_exr_slice(const Table& t, const std::string& path) {
   const Grid* g = t.grid();
   if (!g || *g != image_slice_grid(g->axes[0].size, g->axes[1].size, g->axes[2].span, g->bins))
-    throw bad_input(path, "writing", "a table of another shape", "an image slice over theta_h, theta_d");
+    throw bad_input(path, "writing", "a table of another shape",
+                    "an image slice over theta_h, theta_d");
   Image image;
   image.width = g->axes[0].size;
   image.height = g->axes[1].size;

@@ -16,8 +16,9 @@ Table read_by_format(InputFile& in) {
   if (is_mbsdf(head)) return read_mbsdf(in);
   if (is_csv(head)) return read_csv(in);
   if (is_merl(head, in.size())) return read_merl(in);
-  throw bad_input(in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
-                  "a MERL or MBSDF file, an image slice in OpenEXR, or CSV with theta_i,phi_i,theta_o,phi_o");
+  throw bad_input(
+      in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
+      "a MERL or MBSDF file, an image slice in OpenEXR, or CSV with theta_i,phi_i,theta_o,phi_o");
 }
 
 void write_by_format(const Table& t, OutputFile& out, const std::string& path) {

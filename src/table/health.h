@@ -12,7 +12,8 @@
 namespace gonio {
 
 /// ∫ f cos θ_o dω_o at one incident angle, per channel; `coverage` is the share of the
-/// cosine-weighted hemisphere that valid samples speak for, what lacks counts as their mean.
+/// cosine-weighted hemisphere that valid samples speak for in the channel that has the fewest; what
+/// lacks counts as their mean.  NaN for a channel where more than half lacks.
 struct AlbedoSample {
   double theta_i_deg;
   std::vector<double> albedo;
@@ -21,11 +22,11 @@ struct AlbedoSample {
 
 /// The specular peak as the samples near θ_h = 0 show it, from the channels' mean.
 struct Peak {
-  double half_width_deg;     ///< θ_h at which the value above the base has halved
-  double alpha;              ///< of the GGX lobe with that width: s/√(√2 − 1 + s²), s = sin(half width)
-  double samples_within;     ///< distinct θ_h within the half width
-  bool resolved;             ///< at least three of them
-  double height, base;       ///< [1/sr]
+  double half_width_deg;  ///< θ_h at which the value above the base has halved
+  double alpha;  ///< of the GGX lobe with that width: s/√(√2 − 1 + s²), s = sin(half width)
+  double samples_within;  ///< distinct θ_h within the half width
+  bool resolved;          ///< at least three of them
+  double height, base;    ///< [1/sr]
 };
 
 struct Health {

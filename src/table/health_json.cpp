@@ -13,27 +13,31 @@ std::string to_json(const Table& t, const Health& h) {
                           {"coverage", a.coverage}});
   Json peak;
   if (h.peak)
-    peak = {{"half_width_deg", h.peak->half_width_deg}, {"alpha", h.peak->alpha},
-            {"samples_within", h.peak->samples_within}, {"resolved", h.peak->resolved},
-            {"height", h.peak->height},                 {"base", h.peak->base}};
+    peak = {{"half_width_deg", h.peak->half_width_deg},
+            {"alpha", h.peak->alpha},
+            {"samples_within", h.peak->samples_within},
+            {"resolved", h.peak->resolved},
+            {"height", h.peak->height},
+            {"base", h.peak->base}};
   const auto number_or_null = [](const std::optional<double>& v) { return v ? Json(*v) : Json(); };
-  return text_of({{"path", t.path},
-                  {"format", t.format},
-                  {"channels", t.channels},
-                  {"samples", h.samples},
-                  {"values", h.values},
-                  {"valid", h.valid},
-                  {"masked", masked},
-                  {"bins", t.has_bins() ? bins_names[static_cast<std::size_t>(t.grid()->bins)] : "none"},
-                  {"bin_sensitivity", number_or_null(h.bin_sensitivity)},
-                  {"noise_floor", h.noise_floor},
-                  {"largest", h.largest},
-                  {"smallest_positive", h.smallest_positive},
-                  {"albedo", albedo},
-                  {"reciprocity_error", number_or_null(h.reciprocity_error)},
-                  {"reciprocity_note", h.reciprocity_note},
-                  {"peak", peak},
-                  {"truth", t.truth ? truth_json(*t.truth) : Json()}});
+  return text_of(
+      {{"path", t.path},
+       {"format", t.format},
+       {"channels", t.channels},
+       {"samples", h.samples},
+       {"values", h.values},
+       {"valid", h.valid},
+       {"masked", masked},
+       {"bins", t.has_bins() ? bins_names[static_cast<std::size_t>(t.grid()->bins)] : "none"},
+       {"bin_sensitivity", number_or_null(h.bin_sensitivity)},
+       {"noise_floor", h.noise_floor},
+       {"largest", h.largest},
+       {"smallest_positive", h.smallest_positive},
+       {"albedo", albedo},
+       {"reciprocity_error", number_or_null(h.reciprocity_error)},
+       {"reciprocity_note", h.reciprocity_note},
+       {"peak", peak},
+       {"truth", t.truth ? truth_json(*t.truth) : Json()}});
 }
 
 }  // namespace gonio

@@ -1,11 +1,11 @@
 #include "table/json_reader.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "base/error.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 
@@ -41,7 +41,9 @@ void JsonReader::expect_object() const {
   if (!value_.is_object()) fail("an object");
 }
 
-bool JsonReader::has(const std::string& key) const { return value_.is_object() && value_.contains(key); }
+bool JsonReader::has(const std::string& key) const {
+  return value_.is_object() && value_.contains(key);
+}
 
 JsonReader JsonReader::at(const std::string& key) const {
   expect_object();

@@ -4,13 +4,13 @@
 /// error can name it.
 /// Dear to compile: for the .cpp files of this room only.
 
-#include <nlohmann/json.hpp>
-
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "table/table.h"
+
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 

@@ -1,10 +1,10 @@
 #include "table/mbsdf.h"
 
-#include <fmt/format.h>
-
 #include <numbers>
 
 #include "base/error.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -33,7 +33,9 @@ Grid mbsdf_grid(std::size_t n_theta, std::size_t n_phi, Bins bins) {
           bins};
 }
 
-bool is_mbsdf(std::string_view head) { return head.starts_with(kMagic); }
+bool is_mbsdf(std::string_view head) {
+  return head.starts_with(kMagic);
+}
 
 Table read_mbsdf(InputFile& in) {
   expect(in, kVersion);
@@ -45,7 +47,8 @@ Table read_mbsdf(InputFile& in) {
   const std::size_t channels = type == 0 ? 1 : 3;
   const std::uint64_t floats = (in.size() - in.position()) / sizeof(float);
   const bool even = (in.size() - in.position()) % sizeof(float) == 0;
-  if (type > 1) throw bad_input(in.path(), place, fmt::format("type {}", type), "0 (scalar) or 1 (RGB)");
+  if (type > 1)
+    throw bad_input(in.path(), place, fmt::format("type {}", type), "0 (scalar) or 1 (RGB)");
   // Divided, not multiplied: the product of three 32-bit numbers may not fit.
   const std::uint64_t row = channels * std::uint64_t{n_phi};
   if (n_theta < 1 || n_phi < 2 || !even || floats % row != 0 || floats / row % n_theta != 0 ||

@@ -1,12 +1,12 @@
 #include "table/merl.h"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <cstring>
 #include <numbers>
 
 #include "base/error.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -17,7 +17,9 @@ using Dims = std::array<std::int32_t, 3>;
 constexpr Dims kReciprocal{90, 90, 180}, kNonReciprocal{90, 90, 360};
 constexpr std::array<double, 3> kScale{1.0 / 1500, 1.15 / 1500, 1.66 / 1500};
 
-bool known(const Dims& d) { return d == kReciprocal || d == kNonReciprocal; }
+bool known(const Dims& d) {
+  return d == kReciprocal || d == kNonReciprocal;
+}
 
 /// Size of a file with these dimensions [bytes]; 0 where no file can have it.
 std::uint64_t file_size(const Dims& d) {
@@ -52,7 +54,8 @@ Table read_merl(InputFile& in) {
   Dims dims{};
   in.read(dims.data(), sizeof dims);
   if (!known(dims))
-    throw bad_input(in.path(), "byte 0", fmt::format("dimensions ({}, {}, {})", dims[0], dims[1], dims[2]),
+    throw bad_input(in.path(), "byte 0",
+                    fmt::format("dimensions ({}, {}, {})", dims[0], dims[1], dims[2]),
                     "(90, 90, 180) or (90, 90, 360)");
   if (in.size() != file_size(dims))
     throw bad_input(in.path(), "size", fmt::format("{} bytes", in.size()),
@@ -74,7 +77,8 @@ Table read_merl(InputFile& in) {
 void write_merl(const Table& t, OutputFile& out, const std::string& path) {
   const Grid* g = t.grid();
   const bool reciprocal = g && *g == merl_grid(g->bins, true);
-  if (!g || !(reciprocal || *g == merl_grid(g->bins, false)) || (t.values.size() != 1 && t.values.size() != 3))
+  if (!g || !(reciprocal || *g == merl_grid(g->bins, false)) ||
+      (t.values.size() != 1 && t.values.size() != 3))
     throw bad_input(path, "writing", "a table of another shape",
                     "one or three channels on MERL's 90 × 90 × 180 or 360");
   const Dims dims = reciprocal ? kReciprocal : kNonReciprocal;

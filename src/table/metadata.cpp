@@ -28,6 +28,11 @@ Bins read_bins(const JsonReader& j) {
   return static_cast<Bins>(found - bins_names.begin());
 }
 
+/// CSV writes a grid's angles out: nothing is left to agree on.
+bool keeps_bins(const Table& t) {
+  return t.has_bins() && t.format != "csv";
+}
+
 }  // namespace
 
 Json truth_json(const Truth& t) {
@@ -37,15 +42,17 @@ Json truth_json(const Truth& t) {
           {"floor", t.floor}, {"outliers", t.outliers},   {"seed", t.seed}};
 }
 
-std::string side_path(const std::string& path) { return path + ".gonio.json"; }
+std::string side_path(const std::string& path) {
+  return path + ".gonio.json";
+}
 
 bool needs_metadata(const Table& t) {
-  return t.truth || !t.notes.empty() || (t.has_bins() && t.grid()->bins != Bins::centre);
+  return t.truth || !t.notes.empty() || (keeps_bins(t) && t.grid()->bins != Bins::centre);
 }
 
 std::string metadata_text(const Table& t) {
   Json j = {{"schema", kSchema}};
-  if (t.has_bins()) j["bins"] = bins_names[static_cast<std::size_t>(t.grid()->bins)];
+  if (keeps_bins(t)) j["bins"] = bins_names[static_cast<std::size_t>(t.grid()->bins)];
   if (t.truth) j["truth"] = truth_json(*t.truth);
   for (const auto& [name, text] : t.notes) j["notes"][name] = text;
   return text_of(j);
@@ -61,7 +68,8 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
   }
   if (root.has("truth")) t.truth = read_truth(root.at("truth"));
   if (root.has("notes"))
-    for (const auto& [name, note] : root.at("notes").members()) t.notes.emplace_back(name, note.string());
+    for (const auto& [name, note] : root.at("notes").members())
+      t.notes.emplace_back(name, note.string());
 }
 
 }  // namespace gonio

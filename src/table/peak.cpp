@@ -41,7 +41,8 @@ std::array<Profile, kProfiles> collect(const Table& t, Bins bins) {
     const auto [n_h, n_d, n_phi] = std::array{g->axes[0].size, g->axes[1].size, g->axes[2].size};
     for (std::size_t band = 0; band < kProfiles; ++band) {
       const double middle = kFirst + (static_cast<double>(band) + 0.5) * kStep;
-      const auto row = std::lround(std::clamp(g->axes[1].index(middle, bins), 0.0, static_cast<double>(n_d - 1)));
+      const auto row = std::lround(
+          std::clamp(g->axes[1].index(middle, bins), 0.0, static_cast<double>(n_d - 1)));
       for (std::size_t h = 0; h < n_h; ++h)
         for (std::size_t k = 0; k < n_phi; ++k) {
           const std::size_t i = (h * n_d + static_cast<std::size_t>(row)) * n_phi + k;
@@ -88,7 +89,8 @@ std::optional<Peak> peak_of(const Profile& p) {
   if (k + 2 >= p.size()) return {};
   const double part = std::clamp((p[k].value - half) / (p[k].value - p[k + 1].value), 0.0, 1.0);
   const double width = std::lerp(p[k].theta_h, p[k + 1].theta_h, part);
-  const double within = static_cast<double>(std::ranges::count_if(p, [&](const Point& s) { return s.theta_h <= width; }));
+  const double within = static_cast<double>(
+      std::ranges::count_if(p, [&](const Point& s) { return s.theta_h <= width; }));
   return Peak{width / degree, 0, within, false, height, base};
 }
 

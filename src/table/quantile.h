@@ -14,6 +14,8 @@ inline double quantile(std::vector<double>& values, double q) {
   std::nth_element(values.begin(), values.begin() + k, values.end());
   return values[static_cast<std::size_t>(k)];
 }
-inline double median(std::vector<double>& values) { return quantile(values, 0.5); }
+inline double median(std::vector<double>& values) {
+  return quantile(values, 0.5);
+}
 
 }  // namespace gonio

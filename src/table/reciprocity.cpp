@@ -1,10 +1,10 @@
 #include "table/reciprocity.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "table/quantile.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -36,7 +36,9 @@ Pairs of_half_difference(const Grid& g) {
 Pairs of_list(const DirectionList& l) {
   using Key = std::array<long, 4>;  // [1e-6 degrees]
   const auto part = [](double deg) { return std::lround(deg * 1e6); };
-  const auto around = [&](double deg) { return (part(deg) % 360'000'000 + 360'000'000) % 360'000'000; };
+  const auto around = [&](double deg) {
+    return (part(deg) % 360'000'000 + 360'000'000) % 360'000'000;
+  };
   const auto& phi_i = l.phi_i_deg;
   const bool one_azimuth = std::ranges::all_of(phi_i, [&](double p) { return p == phi_i[0]; });
   const auto key = [&](std::size_t i, bool swapped) -> Key {
@@ -57,7 +59,8 @@ Pairs of_list(const DirectionList& l) {
     const auto found = std::ranges::lower_bound(sorted, std::pair{wanted, std::size_t{0}});
     if (found != sorted.end() && found->first == wanted) pairs.emplace_back(i, found->second);
   }
-  const bool only_own = std::ranges::all_of(pairs, [](const auto& p) { return p.first == p.second; });
+  const bool only_own =
+      std::ranges::all_of(pairs, [](const auto& p) { return p.first == p.second; });
   return only_own ? Pairs{} : pairs;
 }
 
@@ -68,7 +71,9 @@ Reciprocity reciprocity(const Table& t) {
   const bool half = g && g->kind == Grid::Kind::half_difference;
   const Pairs pairs = !g ? of_list(*t.list()) : half ? of_half_difference(*g) : of_in_out(*g);
   if (pairs.empty())
-    return {{}, half ? "the layout holds each reciprocal pair once" : "no sample has a reciprocal partner"};
+    return {
+        {},
+        half ? "the layout holds each reciprocal pair once" : "no sample has a reciprocal partner"};
   const SampleAngles at(t);
   std::vector<double> errors;
   for (const auto& [i, j] : pairs) {

@@ -9,10 +9,14 @@ namespace gonio {
 double Axis::angle(double i, Bins bins) const {
   const double x = i + (bins == Bins::centre ? 0.5 : 0.0), n = static_cast<double>(size);
   switch (spacing) {
-    case Spacing::uniform: return span * x / n;
-    case Spacing::quadratic: return span * (x / n) * (x / n);
-    case Spacing::inclusive: return span * i / (n - 1);
-    case Spacing::constant: break;
+    case Spacing::uniform:
+      return span * x / n;
+    case Spacing::quadratic:
+      return span * (x / n) * (x / n);
+    case Spacing::inclusive:
+      return span * i / (n - 1);
+    case Spacing::constant:
+      break;
   }
   return span;
 }
@@ -20,10 +24,14 @@ double Axis::angle(double i, Bins bins) const {
 double Axis::index(double angle, Bins bins) const {
   const double offset = bins == Bins::centre ? 0.5 : 0.0, n = static_cast<double>(size);
   switch (spacing) {
-    case Spacing::uniform: return angle / span * n - offset;
-    case Spacing::quadratic: return std::sqrt(std::max(angle, 0.0) / span) * n - offset;
-    case Spacing::inclusive: return angle / span * (n - 1);
-    case Spacing::constant: break;
+    case Spacing::uniform:
+      return angle / span * n - offset;
+    case Spacing::quadratic:
+      return std::sqrt(std::max(angle, 0.0) / span) * n - offset;
+    case Spacing::inclusive:
+      return angle / span * (n - 1);
+    case Spacing::constant:
+      break;
   }
   return 0;
 }

@@ -78,8 +78,8 @@ struct Truth {
 /// Values as stored: f_r in 1/sr, without the cosine; invalid ones included (see mask()).
 struct Table {
   std::string path;
-  std::string format;                  ///< "csv", "merl", "mbsdf", "exr"
-  std::vector<std::string> channels;   ///< "r", "g", "b"; "f" if there is one
+  std::string format;                 ///< "csv", "merl", "mbsdf", "exr"
+  std::vector<std::string> channels;  ///< "r", "g", "b"; "f" if there is one
   std::variant<Grid, DirectionList> where;
   std::vector<std::vector<double>> values;  ///< [channel][sample]
   std::vector<double> weights;              ///< per sample; empty: all 1
@@ -97,7 +97,8 @@ struct Table {
 /// The angles of each sample, quickly: sines and cosines of a grid's axes are computed once.
 class SampleAngles {
  public:
-  explicit SampleAngles(const Table& t) : SampleAngles(t, t.grid() ? t.grid()->bins : Bins::centre) {}
+  explicit SampleAngles(const Table& t)
+      : SampleAngles(t, t.grid() ? t.grid()->bins : Bins::centre) {}
   /// As if the grid followed the other convention.
   SampleAngles(const Table&, Bins);
 

@@ -23,10 +23,12 @@ std::string complaint(const std::function<void()>& f) {
 
 TEST(InputFile, SaysWhatIsNoRegularFile) {
   const Folder folder;
-  EXPECT_NE(complaint([&] { InputFile(folder / "missing"); }).find("No such file"), std::string::npos);
+  EXPECT_NE(complaint([&] { InputFile(folder / "missing"); }).find("No such file"),
+            std::string::npos);
   EXPECT_NE(complaint([&] { InputFile(folder / ""); }).find("a directory"), std::string::npos);
   EXPECT_NE(complaint([] { InputFile("/dev/null"); }).find("a device"), std::string::npos);
-  EXPECT_NE(complaint([&] { InputFile(folder.write("e", "")); }).find("an empty file"), std::string::npos);
+  EXPECT_NE(complaint([&] { InputFile(folder.write("e", "")); }).find("an empty file"),
+            std::string::npos);
 }
 
 TEST(InputFile, ReadsInPiecesAndNamesTheByteWhereItEnds) {
@@ -40,14 +42,17 @@ TEST(InputFile, ReadsInPiecesAndNamesTheByteWhereItEnds) {
   EXPECT_EQ(in.position(), 4U);
   EXPECT_EQ(in.peek(100), "456789");
   std::string many(20, ' ');
-  EXPECT_NE(complaint([&] { in.read(many.data(), 20); }).find("byte 10: found the end of the file, expected 14 more"),
+  EXPECT_NE(complaint([&] {
+              in.read(many.data(), 20);
+            }).find("byte 10: found the end of the file, expected 14 more"),
             std::string::npos);
 }
 
 TEST(InputFile, RefusesARestThatIsTooLong) {
   const Folder folder;
   InputFile in(folder.write("f", "0123456789"));
-  EXPECT_NE(complaint([&] { in.read_rest(9); }).find("found 10 bytes, expected at most 9"), std::string::npos);
+  EXPECT_NE(complaint([&] { in.read_rest(9); }).find("found 10 bytes, expected at most 9"),
+            std::string::npos);
   EXPECT_EQ(in.read_rest(10), "0123456789");
 }
 
@@ -71,13 +76,15 @@ TEST(OutputFile, AppearsWholeOrNotAtAll) {
 
 TEST(OutputFile, SaysWhereItCannotWrite) {
   const Folder folder;
-  EXPECT_NE(complaint([&] { OutputFile(folder / "none/such"); }).find("No such file"), std::string::npos);
+  EXPECT_NE(complaint([&] { OutputFile(folder / "none/such"); }).find("No such file"),
+            std::string::npos);
   EXPECT_NE(complaint([&] { OutputFile(folder / ""); }).find("a directory"), std::string::npos);
   EXPECT_EQ(folder.entries(), 0U);
 }
 
 TEST(BadInput, MakesControlCharactersVisibleAndCutsLongOnes) {
-  const std::string line = bad_input("f", "byte 1", std::string("a\n\x01") + std::string(200, 'x'), "y").what();
+  const std::string line =
+      bad_input("f", "byte 1", std::string("a\n\x01") + std::string(200, 'x'), "y").what();
   EXPECT_TRUE(line.starts_with("f: byte 1: found a\\x0a\\x01xx")) << line;
   EXPECT_LT(line.size(), 150U);
 }

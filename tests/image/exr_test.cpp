@@ -17,7 +17,8 @@ Image example() {
   i.channels = {"B", "G", "R"};  // OpenEXR keeps them in this order
   for (int c = 0; c < 3; ++c) {
     auto& plane = i.planes.emplace_back();
-    for (int k = 0; k < 21; ++k) plane.push_back(static_cast<float>(c) + 0.1F * static_cast<float>(k));
+    for (int k = 0; k < 21; ++k)
+      plane.push_back(static_cast<float>(c) + 0.1F * static_cast<float>(k));
   }
   i.attributes = {{"gonio:a", "text with\nlines"}, {"gonio:b", ""}};
   return i;
@@ -51,7 +52,8 @@ TEST(Exr, EitherReadsOrRefusesDamagedFiles) {
   std::mt19937 random(5);
   for (int round = 0; round < 300; ++round) {
     std::string bytes = original;
-    for (auto flips = random() % 5; flips > 0; --flips) bytes[random() % bytes.size()] = static_cast<char>(random());
+    for (auto flips = random() % 5; flips > 0; --flips)
+      bytes[random() % bytes.size()] = static_cast<char>(random());
     if (round % 3 == 0) bytes.resize(random() % bytes.size());
     try {
       read_exr(folder.write("damaged.exr", bytes));

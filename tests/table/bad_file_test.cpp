@@ -1,7 +1,7 @@
 // Files that are not what they claim: one error that says so, and never anything else.
 #include "base/error.h"
-#include "support.h"
 #include "example.h"
+#include "support.h"
 
 namespace gonio {
 namespace {
@@ -38,14 +38,16 @@ std::string merl_header(std::int32_t a, std::int32_t b, std::int32_t c) {
 
 TEST(MerlFile, ChecksEachDimensionAndTheSize) {
   const Folder folder;
-  EXPECT_COMPLAINT(folder.write("short", merl_header(90, 90, 180)), "size: found 12 bytes, expected 34992012");
+  EXPECT_COMPLAINT(folder.write("short", merl_header(90, 90, 180)),
+                   "size: found 12 bytes, expected 34992012");
   EXPECT_COMPLAINT(folder.write("short", merl_header(90, 90, 360) + "x"), "expected 69984012");
   EXPECT_COMPLAINT(folder.write("other", merl_header(2, 1, 3) + std::string(3 * 6 * 8, '\0')),
                    "dimensions (2, 1, 3), expected (90, 90, 180)");
-  EXPECT_COMPLAINT(folder.write("product", merl_header(180, 90, 90) + std::string(34'992'000, '\0')),
-                   "dimensions (180, 90, 90)");
-  for (const auto& d : {merl_header(-1, -1, 180), merl_header(INT32_MIN, 90, 180), merl_header(0, 0, 0),
-                        merl_header(INT32_MAX, INT32_MAX, INT32_MAX)})
+  EXPECT_COMPLAINT(
+      folder.write("product", merl_header(180, 90, 90) + std::string(34'992'000, '\0')),
+      "dimensions (180, 90, 90)");
+  for (const auto& d : {merl_header(-1, -1, 180), merl_header(INT32_MIN, 90, 180),
+                        merl_header(0, 0, 0), merl_header(INT32_MAX, INT32_MAX, INT32_MAX)})
     EXPECT_COMPLAINT(folder.write("dims", d + std::string(80, '\0')), "unknown format");
 }
 
@@ -61,9 +63,10 @@ TEST(MbsdfFile, ChecksItsHeaderBeforeItAllocates) {
   EXPECT_EQ(complaint(folder.write("good", mbsdf_header(0, 1, 4) + four)), "");
   EXPECT_COMPLAINT(folder.write("type", mbsdf_header(2, 1, 4) + four), "type 2");
   constexpr std::uint32_t huge = 0x80000000, all = 0xffffffff;
-  for (const auto& h : {mbsdf_header(1, huge, huge), mbsdf_header(1, all, all), mbsdf_header(0, 0, 4),
-                        mbsdf_header(0, 2, 1), mbsdf_header(0, 1, 0), mbsdf_header(0, 1, huge),
-                        mbsdf_header(0, huge, 2), mbsdf_header(0, 4, 1), mbsdf_header(1, 1, 4)})
+  for (const auto& h :
+       {mbsdf_header(1, huge, huge), mbsdf_header(1, all, all), mbsdf_header(0, 0, 4),
+        mbsdf_header(0, 2, 1), mbsdf_header(0, 1, 0), mbsdf_header(0, 1, huge),
+        mbsdf_header(0, huge, 2), mbsdf_header(0, 4, 1), mbsdf_header(1, 1, 4)})
     EXPECT_COMPLAINT(folder.write("dims", h + four), "values in 16 bytes");
   EXPECT_COMPLAINT(folder.write("odd", mbsdf_header(0, 1, 4) + four + "x"), "values in 17 bytes");
   EXPECT_COMPLAINT(folder.write("trans", "NVIDIA ARC MBSDF V1\nMBSDF_DATA_TRANSMISSION=\n" + four),
@@ -75,32 +78,39 @@ TEST(CsvFile, NamesLineAndColumn) {
   const Folder folder;
   const auto csv = [&](const std::string& text) { return folder.write("t.csv", text); };
   const std::string head = "theta_i,phi_i,theta_o,phi_o,f,weight\n";
-  EXPECT_COMPLAINT(csv("theta_i,phi_i,theta_o,f\n0,0,0,0\n"), "line 1, column phi_o: found no such column");
+  EXPECT_COMPLAINT(csv("theta_i,phi_i,theta_o,f\n0,0,0,0\n"),
+                   "line 1, column phi_o: found no such column");
   EXPECT_COMPLAINT(csv("theta_i,phi_i,theta_o,phi_o\n0,0,0,0\n"), "column f: found no such column");
   EXPECT_COMPLAINT(csv("theta_i,phi_i,theta_o,phi_o,f,f\n"), "column f: found a second");
-  EXPECT_COMPLAINT(csv("theta_i,phi_i,theta_o,phi_o,f,speed\n"), "column speed: found an unknown column");
+  EXPECT_COMPLAINT(csv("theta_i,phi_i,theta_o,phi_o,f,speed\n"),
+                   "column speed: found an unknown column");
   EXPECT_COMPLAINT(csv(head), "found no samples");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,1\n\n1,2,3,4,5\n"), "line 4: found 5 fields, expected 6");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,1,1\n"), "line 2: found 7 fields, expected 6");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,,1\n"), "line 2, column f: found ''");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,1.5x,1\n"), "line 2, column f: found '1.5x'");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,1e999,1\n"), "column f");
-  EXPECT_COMPLAINT(csv(head + "1,2,nan,4,5,1\n"), "line 2, column theta_o: found nan, expected a number in [0, 180]");
+  EXPECT_COMPLAINT(csv(head + "1,2,nan,4,5,1\n"),
+                   "line 2, column theta_o: found nan, expected a number in [0, 180]");
   EXPECT_COMPLAINT(csv(head + "-1,2,3,4,5,1\n"), "column theta_i: found -1");
   EXPECT_COMPLAINT(csv(head + "181,2,3,4,5,1\n"), "column theta_i");
-  EXPECT_COMPLAINT(csv(head + "1,361,3,4,5,1\n"), "column phi_i: found 361, expected a number in [-360, 360]");
+  EXPECT_COMPLAINT(csv(head + "1,361,3,4,5,1\n"),
+                   "column phi_i: found 361, expected a number in [-360, 360]");
   EXPECT_COMPLAINT(csv(head + "1,2,3,inf,5,1\n"), "column phi_o");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,-1\n"), "column weight: found -1");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,inf\n"), "column weight: found inf");
-  EXPECT_EQ(complaint(csv(head + "1,2,3,4,inf,1\n")), "") << "a value may be anything: it is masked";
+  EXPECT_EQ(complaint(csv(head + "1,2,3,4,inf,1\n")), "")
+      << "a value may be anything: it is masked";
 }
 
 TEST(SideFile, IsNamedWhereItIsBroken) {
   const Folder folder;
   write_table(mbsdf_example(2, 3), folder / "m");
-  for (const char* text : {"", "{", "[]", "{}", R"({"schema":"gonio.table/2"})",
-                           R"({"schema":"gonio.table/1","bins":"middle"})", R"({"schema":"gonio.table/1","bins":1})",
-                           R"({"schema":"gonio.table/1","truth":1})", R"({"schema":"gonio.table/1","notes":{"a":1}})"}) {
+  for (const char* text :
+       {"", "{", "[]", "{}", R"({"schema":"gonio.table/2"})",
+        R"({"schema":"gonio.table/1","bins":"middle"})", R"({"schema":"gonio.table/1","bins":1})",
+        R"({"schema":"gonio.table/1","truth":1})",
+        R"({"schema":"gonio.table/1","notes":{"a":1}})"}) {
     folder.write("m.gonio.json", text);
     EXPECT_COMPLAINT(folder / "m", "m.gonio.json") << text;
   }

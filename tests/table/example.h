@@ -33,20 +33,23 @@ inline double lobe(const Angles<double>& a, double alpha, double kd) {
 }
 
 inline Table merl_example(double alpha = 0.2, Bins bins = Bins::centre, bool reciprocal = true) {
-  return on_grid(merl_grid(bins, reciprocal), "merl", {"r", "g", "b"}, [&](const auto& a, std::size_t c) {
-    return lobe(a, alpha, 0.1 * static_cast<double>(c + 1));
-  });
+  return on_grid(merl_grid(bins, reciprocal), "merl", {"r", "g", "b"},
+                 [&](const auto& a, std::size_t c) {
+                   return lobe(a, alpha, 0.1 * static_cast<double>(c + 1));
+                 });
 }
 inline Table mbsdf_example(std::size_t n_theta = 12, std::size_t n_phi = 19) {
   return on_grid(mbsdf_grid(n_theta, n_phi, Bins::centre), "mbsdf", {"r", "g", "b"},
                  [&](const auto& a, std::size_t c) {
-                   return static_cast<double>(static_cast<float>(lobe(a, 0.3, 0.1 * static_cast<double>(c + 1))));
+                   return static_cast<double>(
+                       static_cast<float>(lobe(a, 0.3, 0.1 * static_cast<double>(c + 1))));
                  });
 }
 inline Table slice_example() {
   return on_grid(image_slice_grid(20, 15, 1.0, Bins::edge), "exr", {"g", "r", "x"},
                  [&](const auto& a, std::size_t c) {
-                   return static_cast<double>(static_cast<float>(lobe(a, 0.3, 0.1 * static_cast<double>(c + 1))));
+                   return static_cast<double>(
+                       static_cast<float>(lobe(a, 0.3, 0.1 * static_cast<double>(c + 1))));
                  });
 }
 inline Table csv_example() {
@@ -69,7 +72,8 @@ inline Table csv_example() {
   return t;
 }
 inline Truth truth_example() {
-  return {"lambert+ggx", {{"alpha", {0.2}}, {"kd", {0.1, 0.2, 0.3}}}, 0.01, 1e-4, 0.5, 18446744073709551615U};
+  return {"lambert+ggx",        {{"alpha", {0.2}}, {"kd", {0.1, 0.2, 0.3}}}, 0.01, 1e-4, 0.5,
+          18446744073709551615U};
 }
 
 }  // namespace gonio::test

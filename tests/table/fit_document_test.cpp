@@ -16,7 +16,11 @@ FitDocument example() {
   FitDocument d;
   d.model = "lambert+ggx/smith_ggx.correlated/schlick";
   d.parameters = {{"alpha", {0.25}, {0.01}, {0.23}, {0.27}, {free}},
-                  {"f0", {0.04, none, 1}, {1e-3, none, none}, {0.03, none, none}, {0.05, none, none},
+                  {"f0",
+                   {0.04, none, 1},
+                   {1e-3, none, none},
+                   {0.03, none, none},
+                   {0.05, none, none},
                    {free, not_identifiable, at_bound}}};
   d.metric = "log";
   d.residuals = {0.1, 0.2, {{"theta_i", 0, 30, 12, 0.1, 0.2}}};
@@ -32,11 +36,13 @@ std::string without_space(std::string s) {
   std::erase_if(s, [](char c) { return c == ' ' || c == '\n'; });
   return s;
 }
-#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (part) << " in " << (text)
+#define EXPECT_HAS(text, part) \
+  EXPECT_NE((text).find(part), std::string::npos) << (part) << " in " << (text)
 
 TEST(FitDocument, FollowsTheContract) {
   const auto text = without_space(to_json(example()));
-  EXPECT_HAS(text, R"({"schema":"gonio.fit/1","model":"lambert+ggx/smith_ggx.correlated/schlick",)");
+  EXPECT_HAS(text,
+             R"({"schema":"gonio.fit/1","model":"lambert+ggx/smith_ggx.correlated/schlick",)");
   EXPECT_HAS(text, R"("alpha":{"value":0.25,"std_error":0.01,"ci95":[0.23,0.27],"status":"free"})");
   EXPECT_HAS(text, R"("f0":{"value":[0.04,null,1.0],"std_error":[0.001,null,null],)");
   EXPECT_HAS(text, R"("ci95":[[0.03,0.05],[null,null],[null,null]],)");
@@ -78,7 +84,8 @@ TEST(FitDocument, SaysWhereItIsWrong) {
   EXPECT_HAS(complaint(head + "[1]}"), "parameters: found [1]");
   EXPECT_HAS(complaint(head + R"({"a":{}}})"), "parameters.a.value: found nothing");
   EXPECT_HAS(complaint(head + R"({"a":{"value":[]}}})"), "parameters.a.value: found []");
-  EXPECT_HAS(complaint(head + R"({"a":{"value":[1,"x"]}}})"), R"(parameters.a.value[1]: found "x")");
+  EXPECT_HAS(complaint(head + R"({"a":{"value":[1,"x"]}}})"),
+             R"(parameters.a.value[1]: found "x")");
   EXPECT_HAS(complaint(head + R"({"a":{"value":1e999}}})"), "JSON");
 }
 

@@ -20,8 +20,9 @@ Table lambertian(const Grid& g, const std::string& format) {
 
 TEST(Albedo, OfALambertianTableIsItsReflectance) {
   for (const auto bins : {Bins::centre, Bins::edge})
-    for (const Table& t : {lambertian(merl_grid(bins), "merl"), lambertian(merl_grid(bins, false), "merl"),
-                           lambertian(mbsdf_grid(45, 90, bins), "mbsdf")}) {
+    for (const Table& t :
+         {lambertian(merl_grid(bins), "merl"), lambertian(merl_grid(bins, false), "merl"),
+          lambertian(mbsdf_grid(45, 90, bins), "mbsdf")}) {
       const auto h = inspect(t);
       ASSERT_EQ(h.albedo.size(), 6U);
       for (std::size_t k = 0; k < 6; ++k) {
@@ -65,8 +66,21 @@ TEST(Albedo, OfAListThatCoversTheHemisphereIsItsIntegral) {
 
 TEST(Albedo, IsLeftOutWhereTheSamplesDoNotSpeakForAHemisphere) {
   EXPECT_TRUE(inspect(hemisphere(30)).albedo.empty());
+  Table peaked = hemisphere(4);
+  peaked.values[0].back() = 1000;
+  EXPECT_EQ(inspect(peaked).albedo.size(), 1U) << "one sample would decide";
   EXPECT_TRUE(inspect(csv_example()).albedo.empty());
   EXPECT_TRUE(inspect(slice_example()).albedo.empty());
+}
+
+TEST(Albedo, IsNotANumberWhereMostOfTheHemisphereLacks) {
+  Table t = lambertian(mbsdf_grid(45, 90, Bins::centre), "mbsdf");
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (t.grid()->unravel(i)[1] < 35) t.values[0][i] = -1e-3;
+  const auto h = inspect(t);
+  EXPECT_TRUE(std::isnan(h.albedo[2].albedo[0]));
+  EXPECT_NEAR(h.albedo[2].albedo[1], 0.5, 1e-12);
+  EXPECT_LT(h.albedo[2].coverage, 0.2);
 }
 
 TEST(Health, CountsEachValueOnce) {
@@ -127,7 +141,8 @@ TEST(Reciprocity, FindsPairsInAList) {
   t.channels = {"f"};
   t.where = DirectionList{{10, 30, 50}, {0, 0, 0}, {30, 10, 20}, {180, -180, 0}};
   t.values = {{1, 2, 3}};
-  EXPECT_NEAR(*inspect(t).reciprocity_error, 1 / 1.5, 1e-12) << "turned by 180 degrees: one azimuth";
+  EXPECT_NEAR(*inspect(t).reciprocity_error, 1 / 1.5, 1e-12)
+      << "turned by 180 degrees: one azimuth";
   t.where = DirectionList{{10, 30, 50}, {5, 180, 0}, {30, 10, 20}, {180, 365, 0}};
   EXPECT_NEAR(*inspect(t).reciprocity_error, 1 / 1.5, 1e-12);
   t.where = DirectionList{{10, 30, 50}, {5, 180, 0}, {30, 10, 20}, {180, 4, 0}};
@@ -176,7 +191,8 @@ TEST(Inspect, OfMerlsSizeIsQuick) {
   const Table t = merl_example();
   const auto start = std::chrono::steady_clock::now();
   const auto h = inspect(t);
-  const auto ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const auto ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   RecordProperty("inspect_ms", std::to_string(ms));
   EXPECT_GT(h.valid, 0U);
   EXPECT_LT(ms, 3000) << "0.3 s on a quiet machine";
@@ -185,9 +201,28 @@ TEST(Inspect, OfMerlsSizeIsQuick) {
 TEST(InspectJson, HasTheDocumentedKeys) {
   Table t = mbsdf_example();
   const auto text = to_json(t, inspect(t));
-  for (const char* key : {"path", "format", "channels", "samples", "values", "valid", "masked", "below_horizon", "negative",
-                          "not_finite", "bins", "bin_sensitivity", "noise_floor", "largest", "smallest_positive", "albedo",
-                          "theta_i_deg", "coverage", "reciprocity_error", "reciprocity_note", "peak", "truth"})
+  for (const char* key : {"path",
+                          "format",
+                          "channels",
+                          "samples",
+                          "values",
+                          "valid",
+                          "masked",
+                          "below_horizon",
+                          "negative",
+                          "not_finite",
+                          "bins",
+                          "bin_sensitivity",
+                          "noise_floor",
+                          "largest",
+                          "smallest_positive",
+                          "albedo",
+                          "theta_i_deg",
+                          "coverage",
+                          "reciprocity_error",
+                          "reciprocity_note",
+                          "peak",
+                          "truth"})
     EXPECT_NE(text.find(std::string("\"").append(key).append("\": ")), std::string::npos) << key;
   EXPECT_NE(text.find("\"truth\": null"), std::string::npos);
   t.truth = truth_example();

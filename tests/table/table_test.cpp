@@ -11,7 +11,9 @@ namespace {
 using namespace test;
 using std::numbers::pi;
 
-double angle_deg(const Grid& g, std::size_t axis, double i) { return g.axes[axis].angle(i, g.bins) / degree; }
+double angle_deg(const Grid& g, std::size_t axis, double i) {
+  return g.axes[axis].angle(i, g.bins) / degree;
+}
 
 TEST(Bins, GiveMerlsDocumentedAngles) {
   const Grid centre = merl_grid(Bins::centre), edge = merl_grid(Bins::edge);
@@ -38,16 +40,16 @@ TEST(Bins, GiveMbsdfsDocumentedAngles) {
 }
 
 TEST(Axis, IndexIsTheInverseOfAngle) {
-  for (const Grid& g : {merl_grid(Bins::centre), merl_grid(Bins::edge), merl_grid(Bins::centre, false),
-                        mbsdf_grid(7, 9, Bins::edge)})
+  for (const Grid& g : {merl_grid(Bins::centre), merl_grid(Bins::edge),
+                        merl_grid(Bins::centre, false), mbsdf_grid(7, 9, Bins::edge)})
     for (const Axis& axis : g.axes)
       for (double i = 0; i < static_cast<double>(axis.size); i += 0.75)
         EXPECT_NEAR(axis.index(axis.angle(i, g.bins), g.bins), i, 1e-9) << axis.name;
 }
 
 TEST(Interpolator, GivesTheStoredValueAtEverySample) {
-  for (const Table& t : {merl_example(), merl_example(0.2, Bins::centre, false), merl_example(0.2, Bins::edge),
-                         mbsdf_example(), slice_example()}) {
+  for (const Table& t : {merl_example(), merl_example(0.2, Bins::centre, false),
+                         merl_example(0.2, Bins::edge), mbsdf_example(), slice_example()}) {
     const Interpolator f(t);
     const SampleAngles at(t);
     for (std::size_t i = 0; i < t.size(); i += 1 + t.size() / 3001) {
