@@ -1,4 +1,5 @@
 // gonio eval: a model at given directions.
+#include "base/file.h"
 #include "brdf/evaluate.h"
 #include "cli/command.h"
 #include "table/csv.h"
@@ -13,14 +14,17 @@ struct Options {
 
 Exit run(const Options& o) {
   const auto model = bind_model(o.spec, parse_settings(o.set), 3);
-  Table t = read_directions_csv(o.directions);
+  InputFile in(o.directions);
+  Table t = read_directions_csv(in);
   const SampleAngles at(t);
   std::vector<Angles<double>> angles;
   for (std::size_t i = 0; i < t.list()->theta_i_deg.size(); ++i) angles.push_back(at(i));
   t.channels = {"r", "g", "b"};
   t.values = evaluate(model, angles);
   t.weights.clear();
-  write_csv(t, o.output);
+  OutputFile out(o.output);
+  write_csv(t, out);
+  out.commit();
   return Exit::done;
 }
 

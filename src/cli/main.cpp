@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   gonio::cli::Action action;
   gonio::cli::add_models(app, action);
   gonio::cli::add_term(app, action);
+  gonio::cli::add_eval(app, action);
   gonio::cli::add_synth(app, action);
   gonio::cli::add_inspect(app, action);
   gonio::cli::add_fit(app, action);

@@ -67,8 +67,10 @@ std::string channel_of(std::string_view name) {
 
 class Reader {
  public:
-  explicit Reader(InputFile& in)
-      : path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 30)), lines_(text_) {}
+  Reader(InputFile& in, bool needs_values)
+      : needs_values_(needs_values),
+        path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 30)),
+        lines_(text_) {}
 
   Table table() {
     header();
@@ -113,7 +115,7 @@ class Reader {
     for (const auto name : kAngles)
       if (std::ranges::find(columns_, name, &Column::name) == columns_.end())
         fail(name, "no such column", "theta_i, phi_i, theta_o, phi_o");
-    if (std::ranges::none_of(columns_, &Column::is_value))
+    if (needs_values_ && std::ranges::none_of(columns_, &Column::is_value))
       fail("f", "no such column", "f or f_NAME");
   }
 
@@ -145,6 +147,7 @@ class Reader {
     return found == columns_.end() ? std::vector<double>{} : std::move(found->data);
   }
 
+  bool needs_values_;
   std::string path_, text_;
   Lines lines_;
   std::vector<Column> columns_;
@@ -174,7 +177,11 @@ bool is_csv(std::string_view head) {
 }
 
 Table read_csv(InputFile& in) {
-  return Reader(in).table();
+  return Reader(in, true).table();
+}
+
+Table read_directions_csv(InputFile& in) {
+  return Reader(in, false).table();
 }
 
 void write_csv(const Table& t, OutputFile& out) {

@@ -17,6 +17,8 @@ bool is_csv(std::string_view head);
 /// Refuses angles outside [0, 180] (theta) and [−360, 360] (phi) and weights that are negative or not
 /// finite; values may be anything, also nan (see mask()).
 Table read_csv(InputFile&);
+/// Directions alone: value columns may be missing.
+Table read_directions_csv(InputFile&);
 /// A grid is written as the list of its directions; what its format marks as "no data" as nan.
 void write_csv(const Table&, OutputFile&);
 
