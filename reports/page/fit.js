@@ -30,6 +30,8 @@ function true_values() {
   }
   return out;
 }
+/// "f0[1]" of a matrix as "f0.g"
+const parameter_label = (name) => name.replace(/\[(\d+)\]$/, (_, c) => "." + (channels[c] ?? c));
 const rows = parameter_rows();
 const above_horizon = health.values - (health.masked?.below_horizon ?? 0);
 
@@ -41,7 +43,7 @@ function verdict() {
     el("code", {}, file_name), " to a typical factor of ",
     el("b", {}, "×/÷\u202f" + ratio(ln).slice(1)), ` (log RMS ${percent(ln)}); the fit `,
     fit.solver.termination === "converged" ? "converged" : el("b", {}, "did not converge"),
-    ` in ${count(fit.solver.iterations)} iterations.`);
+    ` in ${many(fit.solver.iterations, "iteration")}.`);
 }
 function warnings() {
   const out = [];
@@ -49,7 +51,7 @@ function warnings() {
   if (fit.solver.termination !== "converged") warn("Not converged.", fit.solver.message);
   const named = (status) => rows.filter((r) => r.status === status).map((r) => r.label).join(", ");
   if (named("not_identifiable")) warn("Not identifiable:", named("not_identifiable"), ". These data do not determine it; no value is given.");
-  if (named("at_bound")) warn("At a bound:", named("at_bound"), ". The best value may lie beyond it; its interval does not know of the bound.");
+  if (named("at_bound")) warn("At a bound:", named("at_bound"), ". The best value may lie beyond it.");
   const tied = strongest_correlation();
   if (tied && Math.abs(tied.rho) > 0.95) warn("Hardly separable:", `${tied.a} and ${tied.b} (correlation ${minus(tied.rho.toFixed(3))}).`);
   if (health.peak && !health.peak.resolved)
@@ -59,10 +61,12 @@ function warnings() {
     warn("Many masked values:", `${percent(lost / above_horizon)} of those above the horizon.`);
   for (const s of fit.bin_sensitivity ?? []) {
     const changes = Object.entries(s.relative_change)
-      .flatMap(([name, v]) => list_of(v).map((x) => ({ name, x }))).filter((c) => known(c.x));
-    const most = changes.sort((a, b) => Math.abs(b.x) - Math.abs(a.x))[0];
-    if (most && Math.abs(most.x) > 0.01)
-      warn("Bin convention matters:", `with samples at the ${s.other} of their bins, ${most.name} changes by ${signed_percent(most.x)}.`);
+      .map(([name, v]) => [name, list_of(v).filter(known).sort((a, b) => Math.abs(b) - Math.abs(a))[0]])
+      .filter(([, x]) => Math.abs(x) > 0.01);
+    if (changes.length)
+      warn("Bin convention matters:", `with samples at the ${s.other} of their bins, `
+        + changes.map(([name, x]) => `${name} changes by ${signed_percent(x)}`).join(", ")
+        + `; the log RMS would be ${percent(s.log_rms)} instead of ${percent(fit.residuals.log_rms)}.`);
   }
   if (health.reciprocity_error > 0.05) warn("Not reciprocal:", `exchanging the directions changes a value by ${percent(health.reciprocity_error)} (median).`);
   const bright = (health.albedo ?? []).filter((a) => list_of(a.albedo).some((x) => x > 1));
@@ -187,7 +191,7 @@ function map_text() {
   const place = (edges, i) => degrees((edges[i] + edges[i + 1]) / 2);
   const median = seen.map((c) => Math.abs(c.v)).sort((a, b) => a - b)[seen.length >> 1];
   return `Model over data by half-vector and difference angle, ${seen.length} cells: half of them within a factor of `
-    + `${ratio(median).slice(1)}; farthest ${ratio(worst.v)} at half-vector angle `
+    + `${Math.exp(median).toFixed(4)}; farthest ${ratio(worst.v)} at half-vector angle `
     + `${place(residual_map.theta_h_deg, Math.floor(worst.k / nd))}, difference angle ${place(residual_map.theta_d_deg, worst.k % nd)}.`;
 }
 function residuals() {
@@ -198,13 +202,15 @@ function residuals() {
   const band_tables = [...new Set(bands.map((b) => b.angle))].map((angle) => table(
     [el("span", {}, angle_name(angle), " [°]"), { n: "values" }, { n: "RMS [1/sr]" }, { n: "log RMS" }, ""],
     bands.filter((b) => b.angle === angle).map((b) => [`${plain(b.from_deg, 3)}–${plain(b.to_deg, 3)}`,
-      { n: count(b.values) }, { n: significant(b.rms, 2) }, { n: known(b.log_rms) ? percent(b.log_rms) : "–" }, bar(b)])));
+      { n: count(b.values) }, ...(b.values > 0
+        ? [{ n: significant(b.rms, 2) }, { n: known(b.log_rms) ? percent(b.log_rms) : "–" }, bar(b)]
+        : [{ n: "–" }, { n: "–" }, ""])])));
   return section("Where the model is off",
     "Each cell compares model and data by their ratio, over all channels and all valid positive values in it. Blue: the model is too dark; orange: too bright.",
     el("div", { class: "columns map" },
       el("div", {},
         el("div", { class: "controls" }, choice("Shown", [["mean", "mean ratio"], ["rms", "RMS"]], "mean", (w) => map.set(w))),
-        map.node, el("p", { class: "small muted" }, map_text())),
+        map.node, el("p", { class: "small muted", "aria-hidden": "true" }, map_text())),
       el("div", {}, band_tables.map((t) => el("div", { class: "scroll", style: { "margin-bottom": "18px" } }, t)))));
 }
 
@@ -214,7 +220,7 @@ function strongest_correlation() {
   let best = null;
   names.forEach((a, i) => names.slice(0, i).forEach((b, j) => {
     const rho = correlations[i]?.[j];
-    if (known(rho) && (best === null || Math.abs(rho) > Math.abs(best.rho))) best = { a: b, b: a, rho };
+    if (known(rho) && (best === null || Math.abs(rho) > Math.abs(best.rho))) best = { a: parameter_label(b), b: parameter_label(a), rho };
   }));
   return best;
 }
@@ -230,9 +236,9 @@ function correlation_matrix() {
   };
   return el("table", { class: "matrix" },
     el("caption", {}, "Correlation of the estimates"),
-    el("tbody", {}, names.map((name, i) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, name)),
+    el("tbody", {}, names.map((name, i) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, parameter_label(name))),
       names.slice(0, i + 1).map((_, j) => cell(correlations[i]?.[j], i, j)))),
-      el("tr", {}, el("th"), names.map((name) => el("td", { class: "muted" }, el("code", {}, name))))));
+      el("tr", {}, el("th"), names.map((name) => el("td", { class: "muted" }, el("code", {}, parameter_label(name)))))));
 }
 function confidence() {
   const sensitivity = (fit.bin_sensitivity ?? []).map((s) => table(
@@ -281,7 +287,7 @@ function table_health() {
 function solver() {
   const s = fit.solver;
   const phases = Object.entries(s.time_ms), total = phases.reduce((a, [, t]) => a + t, 0);
-  const tones = ["accent", "grey", "green", "extra", "red", "blue"];
+  const tones = ["accent", "grey", "green", "extra", "red", "low-1", "high-1"];
   const name = (key) => words(key.replace(/_ms$/, ""));
   const times = total > 0 ? el("div", {},
     el("h3", {}, `Time, ${milliseconds(total)}`),
@@ -289,12 +295,14 @@ function solver() {
     table(["", { n: "time" }, { n: "share" }], phases.map(([key, t], i) => [
       el("span", {}, chip(tones[i % tones.length]), name(key)), { n: milliseconds(t) }, { n: percent(t / total) }]))) : null;
   const cost = s.cost_per_iteration;
-  const plot = cost.length > 1 ? curve_plot([cost.map((_, i) => i), cost], [{ color: "accent", kind: "line" }], {
+  const span = cost.length > 1 ? Math.max(...cost) / Math.min(...cost) - 1 : 0;
+  const plot = span > 0.01 ? curve_plot([cost.map((_, i) => i), cost], [{ color: "accent", kind: "line" }], {
     x_label: "iteration", y_label: "cost", height: 200, log: cost.every((c) => c > 0), y_of: () => true, text:
-      `Cost over ${cost.length - 1} iterations, from ${significant(cost[0])} to ${significant(cost.at(-1))}.` }) : null;
+      `Cost over ${many(cost.length - 1, "step")}, from ${significant(cost[0])} to ${significant(cost.at(-1))}.` }) : null;
   return section("How the solver got there", s.message,
     el("div", { class: "columns" },
-      plot ? el("figure", {}, el("figcaption", {}, "Cost per iteration ", el("small", {}, `${significant(cost[0])} → ${significant(fit.cost)}`)), plot.node) : null,
+      plot ? el("figure", {}, el("figcaption", {}, "Cost per iteration ", el("small", {}, `${significant(cost[0])} → ${significant(fit.cost)}`)), plot.node)
+        : cost.length > 1 ? el("p", {}, `The cost changed by ${percent(span)} over ${many(cost.length - 1, "step")}: too little to draw.`) : null,
       times,
       pairs([["termination", words(s.termination)], ["iterations", count(s.iterations)], ["cost", significant(fit.cost, 6)],
         ["instruction set", s.instruction_set], ["threads", count(s.threads)],

@@ -63,6 +63,7 @@ function with_error(x, error) {
   return decimals === null || !known(x) ? significant(x, 5) : minus(x.toFixed(decimals));
 }
 const count = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+const many = (n, thing) => `${count(n)} ${thing}${n === 1 ? "" : "s"}`;
 const percent = (x, digits = 2) => significant(100 * x, digits) + "\u202f%";
 const signed_percent = (x) => (x > 0 ? "+" : "") + percent(x);
 /// ln of a ratio as people say it: ×1.05, or ÷1.05 where it is below one

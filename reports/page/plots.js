@@ -15,7 +15,10 @@ function log_ticks(low, high) {
         const x = Number(`${d}e${e}`);
         if (x >= low && x <= high) ticks.push(x);
       }
-  return ticks;
+  if (ticks.length > 1) return ticks;
+  const step_now = 10 ** Math.floor(Math.log10((high - low) / 2));  // hardly a range: even steps
+  return Array.from({ length: 21 }, (_, i) => (Math.ceil(low / step_now) + i) * step_now)
+    .filter((x) => x <= high).filter((_, i, all) => i % Math.ceil(all.length / 5) === 0);
 }
 function tick_text(x) {
   if (x === null) return "";
@@ -48,7 +51,7 @@ function curve_plot(data, series, o) {
       });
     });
     if (least > most) return state.log ? [0.1, 1] : [0, 1];
-    if (state.log) return [least / (most / least) ** 0.06 / 1.05, most * (most / least) ** 0.06 * 1.05];
+    if (state.log) return [least / (most / least) ** 0.06 / 1.02, most * (most / least) ** 0.06 * 1.02];
     return [Math.min(0, least), most + 0.06 * (most - Math.min(0, least)) || 1];
   };
   const [first, last] = [data[0][0], data[0].at(-1)];
