@@ -247,6 +247,7 @@ function confidence() {
      ["log RMS then", { n: percent(s.log_rms) }]],
     { caption: `If samples sat at the ${s.other} of their bins` }));
   const tied = strongest_correlation();
+  if (fit.identifiability.names.length === 0) return null;  // nothing was fitted
   return section("How well the parameters are separated",
     `Condition number of the scaled normal matrix: ${significant(fit.identifiability.condition)}.`
       + (tied ? ` The pair hardest to tell apart: ${tied.a} and ${tied.b}, correlation ${minus(tied.rho.toFixed(3))}.` : ""),
@@ -305,7 +306,7 @@ function solver() {
         : cost.length > 1 ? el("p", {}, `The cost changed by ${percent(span)} over ${many(cost.length - 1, "step")}: too little to draw.`) : null,
       times,
       pairs([["termination", words(s.termination)], ["iterations", count(s.iterations)], ["cost", significant(fit.cost, 6)],
-        ["instruction set", s.instruction_set], ["threads", count(s.threads)],
+        ["instruction set", s.instruction_set], ["passes over the data", known(s.passes) ? count(s.passes) : null], ["threads", known(s.threads) ? count(s.threads) : null],
         ["metric", words(fit.metric)], ["log offset", fit.log_offset > 0 ? `${significant(fit.log_offset)} 1/sr` : null],
         ["robust loss", words(fit.robust)]])));
 }
@@ -323,6 +324,6 @@ document.getElementById("page").replaceChildren(
   el("p", { class: "over" }, "gonio fit"),
   el("h1", {}, `${fit.model} fitted to ${file_name}`),
   verdict(), ...[warnings()].filter(Boolean), facts(),
-  parameters(), data_and_model(), residuals(), confidence(), table_health(), solver(), input(),
+  ...[parameters(), data_and_model(), residuals(), confidence(), table_health(), solver(), input()].filter(Boolean),
   el("footer", {}, "f_r is in 1/sr, without the cosine. alpha is the width of the distribution, roughness = √alpha. ",
     "Every figure of this page is in its data block, and the fit's in fit.json. Plots drawn with uPlot, © Leon Sorokin, MIT licence."));

@@ -60,7 +60,7 @@ function decimals_for(error) {
 }
 function with_error(x, error) {
   const decimals = decimals_for(error);
-  return decimals === null || !known(x) ? significant(x, 5) : minus(x.toFixed(decimals));
+  return decimals === null || !known(x) ? plain(x) : minus(x.toFixed(decimals));
 }
 const count = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 const many = (n, thing) => `${count(n)} ${thing}${n === 1 ? "" : "s"}`;

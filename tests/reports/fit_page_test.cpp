@@ -35,6 +35,24 @@ TEST(FitPage, WhatIsNotKnownIsNull) {
   EXPECT_EQ(curve.at("model"), json::parse("[[1, null]]"));
 }
 
+TEST(FitPage, WhatTheScriptReadsIsInTheDocuments) {
+  const Table t = test::filled(test::in_out_grid(), test::glossy());
+  const json fit = json::parse(to_json(FitDocument{})), health = json::parse(to_json(t, inspect(t)));
+  for (const char* at : {"/model", "/parameters", "/metric", "/log_offset", "/robust", "/cost", "/intervals",
+                         "/clusters", "/residuals/rms", "/residuals/log_rms", "/residuals/bands",
+                         "/identifiability/names", "/identifiability/correlations",
+                         "/identifiability/condition", "/solver/termination", "/solver/message",
+                         "/solver/iterations", "/solver/cost_per_iteration", "/solver/instruction_set",
+                         "/solver/time_ms", "/input/path", "/input/sha256", "/input/format",
+                         "/input/bins", "/input/values_used", "/input/masked", "/bin_sensitivity"})
+    EXPECT_TRUE(fit.contains(json::json_pointer(at))) << at;
+  for (const char* at : {"/samples", "/values", "/valid", "/masked/below_horizon", "/masked/negative",
+                         "/masked/not_finite", "/bins", "/bin_sensitivity", "/noise_floor", "/largest",
+                         "/smallest_positive", "/albedo/0/theta_i_deg", "/albedo/0/albedo",
+                         "/albedo/0/coverage", "/reciprocity_error", "/reciprocity_note", "/peak", "/truth"})
+    EXPECT_TRUE(health.contains(json::json_pointer(at))) << at;
+}
+
 TEST(FitPage, AFitDocumentOfANastyFileMakesAPage) {
   FitDocument d;
   d.model = "lambert";
