@@ -1,8 +1,6 @@
 // gonio fit: a table in, parameters and a page out.
 #include "fitting/fit.h"
 
-#include <tbb/task_arena.h>
-
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -59,6 +57,14 @@ Exit run(const Options& o) {
   options.fixed = parse_settings(o.fix);
   options.bounds = parse_settings(o.bounds);
 
+  // Opened first: nobody waits for a fit to learn that its result has no place.
+  std::optional<OutputFile> document, page, page_data;
+  if (!o.output.empty()) document.emplace(o.output);
+  if (!o.html.empty()) {
+    page.emplace(o.html);
+    page_data.emplace(std::filesystem::path(o.html).replace_extension(".page.json").string());
+  }
+
   Progress progress(o.quiet);
   progress("reading " + o.file);
   const auto begin = std::chrono::steady_clock::now();
@@ -70,24 +76,19 @@ Exit run(const Options& o) {
   FitDocument& d = result.document;
   d.input_path = o.file;
   d.input_sha256 = sha256_of_file(o.file);
-  d.solver.threads = tbb::this_task_arena::max_concurrency();
   d.solver.phase_ms.insert(d.solver.phase_ms.begin(), {"load_ms", load_ms});
 
   const std::string json = to_json(d);
-  std::optional<OutputFile> document, page, page_data;
-  if (!o.output.empty()) {
-    document.emplace(o.output);
-    document->write(json + "\n");
-  }
-  if (!o.html.empty()) {
+  if (document) document->write(json + "\n");
+  if (page) {
     progress("making the page");
     const Health health = inspect(t);
     const std::string data = to_json(make_fit_page(t, result.model), json, to_json(t, health));
-    page.emplace(o.html);
     page->write(fit_page_html(o.file, data));
-    page_data.emplace(std::filesystem::path(o.html).replace_extension(".page.json").string());
     page_data->write(data + "\n");
   }
+  for (auto* f : {&document, &page_data, &page})
+    if (*f) (*f)->close();  // all whole before the first takes its name
   for (auto* f : {&document, &page_data, &page})
     if (*f) (*f)->commit();
   progress.clear();

@@ -1,6 +1,7 @@
 // gonio: reads the words, runs one subcommand, turns its outcome into an exit code.
 #include <cstdio>
 #include <new>
+#include <system_error>
 
 #include "cli/command.h"
 
@@ -36,6 +37,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& e) {  // --help, --version
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
+    if (app.get_subcommands().empty() && argc > 1)
+      return fail(Exit::usage, fmt::format("no subcommand '{}'; see gonio --help", argv[1]).c_str());
     return fail(Exit::usage, e.what());
   }
   try {
@@ -44,6 +47,8 @@ int main(int argc, char** argv) {
     return finish(code);
   } catch (const gonio::Error& e) {
     return fail(e.code(), e.what());
+  } catch (const std::system_error& e) {  // fmt::print and the like
+    return fail(Exit::bad_input, e.what());
   } catch (const std::bad_alloc&) {
     return fail(Exit::bad_input, "out of memory");
   }

@@ -31,7 +31,6 @@ struct FitSolver {
   int iterations = 0, passes = 0;  ///< over the full data, the passes of trial steps included
   std::vector<double> cost_per_iteration;  ///< of the full data, ½ Σ ρ
   std::string instruction_set;
-  int threads = 1;
   std::vector<std::pair<std::string, double>> phase_ms;  ///< load, columns, start, solve, …
 };
 

@@ -187,7 +187,6 @@ TEST(Fit, IsTheSameDocumentForAnyNumberOfThreads) {
   o.robust = true;
   const auto strip = [](FitDocument d) {
     d.solver.phase_ms.clear();
-    d.solver.threads = 0;
     return to_json(d);
   };
   const auto many = strip(fit(t, o).document);

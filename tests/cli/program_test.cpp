@@ -1,0 +1,218 @@
+// The program as others call it: exit codes, one document on stdout, one line on stderr, whole files
+// or none.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "support.h"
+
+namespace gonio::test {
+namespace {
+
+struct Outcome {
+  int code;
+  std::string out, err;
+  nlohmann::json json() const { return nlohmann::json::parse(out); }
+};
+
+/// Runs `gonio WORDS` in a shell, in the folder.
+Outcome gonio(const Folder& folder, const std::string& words) {
+  const std::string command = "cd '" + folder / "" + "' && '" GONIO_PROGRAM "' " + words +
+                              " >.out 2>.err </dev/null";
+  const int status = std::system(command.c_str());
+  Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(folder / ".out"),
+            read_bytes(folder / ".err")};
+  std::filesystem::remove(folder / ".out");
+  std::filesystem::remove(folder / ".err");
+  return o;
+}
+
+void expect_one_line(const Outcome& o, int code, const std::string& holding) {
+  EXPECT_EQ(o.code, code) << o.err;
+  EXPECT_EQ(o.out, "");
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  EXPECT_NE(o.err.find(holding), std::string::npos) << o.err;
+}
+
+constexpr const char* paint =
+    "lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.15 f0=0.05 kd=0.2,0.1,0.05";
+
+TEST(Program, GoesFromSynthOverInspectAndFitToCompare) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf --noise 0.02 -o p.mbsdf").code, 0);
+  const auto health = gonio(f, "inspect p.mbsdf --json").json();
+  EXPECT_EQ(health["format"], "mbsdf");
+  EXPECT_EQ(health["masked"]["negative"], 0);
+  EXPECT_TRUE(health["peak"]["resolved"]);
+
+  const auto fit = gonio(f, "fit p.mbsdf -o p.json --html p.html --json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_EQ(fit.err, "");
+  const auto document = fit.json();
+  EXPECT_EQ(document, nlohmann::json::parse(read_bytes(f / "p.json")));
+  EXPECT_EQ(document["schema"], "gonio.fit/1");
+  const auto& alpha = document["parameters"]["alpha"];
+  EXPECT_NEAR(alpha["value"], 0.15, 4 * alpha["std_error"].get<double>());
+  EXPECT_LT(alpha["ci95"][0], alpha["value"]);
+  EXPECT_EQ(alpha["status"], "free");
+  EXPECT_NEAR(document["parameters"]["roughness"]["value"], std::sqrt(0.15), 1e-3);
+  EXPECT_EQ(document["parameters"]["kd"]["value"].size(), 3U);
+  EXPECT_EQ(document["input"]["sha256"].get<std::string>().size(), 64U);
+  EXPECT_NE(read_bytes(f / "p.html").find("<html"), std::string::npos);
+
+  const auto same = gonio(f, "compare p.mbsdf p.json --json").json();
+  EXPECT_NEAR(same["residuals"]["log_rms"], 0.02, 0.001);
+  EXPECT_NEAR(same["residuals"]["log_rms"], document["residuals"]["log_rms"], 1e-9);
+  const auto truth = gonio(f, std::string("compare p.mbsdf ") + paint + " --json").json();
+  EXPECT_NEAR(truth["residuals"]["log_rms"], 0.02, 0.001);
+  const auto other = gonio(f, "compare p.mbsdf lambert --set kd=0.2 --json").json();
+  EXPECT_GT(other["residuals"]["log_rms"], 0.1);
+}
+
+TEST(Program, GivesTheSameFilesForASeedWhateverTheThreads) {
+  const Folder f;
+  for (const char* jobs : {"1", "2"}) {
+    const std::string n(jobs);
+    ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf --noise 0.1 --seed 9 --jobs " + n + " -o t" + n).code, 0);
+    ASSERT_EQ(gonio(f, "fit t" + n + " --robust huber --jobs " + n + " -o r" + n).code, 0);
+  }
+  EXPECT_EQ(read_bytes(f / "t1"), read_bytes(f / "t2"));
+  auto a = nlohmann::json::parse(read_bytes(f / "r1")), b = nlohmann::json::parse(read_bytes(f / "r2"));
+  for (auto* d : {&a, &b}) {
+    (*d)["solver"].erase("time_ms");
+    (*d)["input"].erase("path");
+  }
+  EXPECT_EQ(a, b);
+}
+
+TEST(Program, EvaluatesTermsAsItsContractSays) {
+  const Folder f;
+  const auto d = gonio(f, "term ndf.ggx --set alpha=0.25 --at noh=1,0.9 --json").json();
+  EXPECT_EQ(d["id"], "ndf.ggx");
+  EXPECT_EQ(d["number"], "double");
+  EXPECT_EQ(d["parameters"]["alpha"], 0.25);
+  EXPECT_NEAR(d["values"][0], 1 / (M_PI * 0.0625), 1e-12);
+  const auto g1 = gonio(f, "term masking.smith_ggx.separable --set alpha=0.25 --at nov=0.1 --json").json();
+  EXPECT_NEAR(g1["values"][0], 2 * 0.1 / (0.1 + std::sqrt(0.0625 + (1 - 0.0625) * 0.01)), 1e-14);
+  const auto g2 = gonio(f, "term masking.smith_ggx.separable --set alpha=0.25 --at nov=0.1 nol=0.1 --json").json();
+  EXPECT_NEAR(g2["values"][0], std::pow(g1["values"][0].get<double>(), 2), 1e-14);
+  const auto single = gonio(f, "term fresnel.schlick --set f0=0.04 --at cos=0.5 --number float --json").json();
+  const auto full = gonio(f, "term fresnel.schlick --set f0=0.04 --at cos=0.5 --json").json();
+  EXPECT_NE(single["values"][0], full["values"][0]);
+  EXPECT_NEAR(single["values"][0], full["values"][0], 1e-7);
+}
+
+TEST(Program, ListsEveryTermWithItsFormulaAndSource) {
+  const Folder f;
+  const auto m = gonio(f, "models --json").json();
+  std::vector<std::string> ids;
+  for (const auto& t : m["terms"]) {
+    ids.push_back(t["id"]);
+    EXPECT_FALSE(t["formula"].get<std::string>().empty()) << ids.back();
+    EXPECT_FALSE(t["source"].get<std::string>().empty()) << ids.back();
+  }
+  for (const char* id : {"ndf.ggx", "ndf.gtr", "masking.smith_ggx.correlated", "masking.smith_ggx.separable",
+                         "fresnel.schlick", "fresnel.dielectric", "fresnel.conductor", "diffuse.lambert",
+                         "diffuse.lambert.coupled"})
+    EXPECT_NE(std::find(ids.begin(), ids.end(), id), ids.end()) << id;
+  EXPECT_EQ(m["metals"].size(), 9U);
+}
+
+TEST(Program, EvaluatesAModelAtTheDirectionsOfAFile) {
+  const Folder f;
+  f.write("in.csv", "theta_i,phi_i,theta_o,phi_o\n0,0,0,0\n30,0,30,180\n95,0,10,0\n");
+  ASSERT_EQ(gonio(f, "eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
+                     "--directions in.csv -o out.csv").code, 0);
+  const std::string text = read_bytes(f / "out.csv");
+  EXPECT_TRUE(text.starts_with("theta_i,phi_i,theta_o,phi_o,f_r,f_g,f_b\n0,0,0,0,"));
+  EXPECT_NE(text.find("\n95,0,10,0,0,0,0\n"), std::string::npos) << text;
+}
+
+TEST(Program, TellsWrongUsageByExitCodeTwo) {
+  const Folder f;
+  f.write("t.csv", "theta_i,phi_i,theta_o,phi_o,f\n0,0,0,0,0.3\n");
+  for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"", "subcommand"},
+           {"nonsense", "no subcommand 'nonsense'"},
+           {"fit", "FILE"},
+           {"fit t.csv --metric squares", "squares"},
+           {"fit t.csv --model ggx", "ggx"},
+           {"fit t.csv --model foo/smith_ggx.correlated/schlick", "nearest: ggx"},
+           {"fit t.csv --fix alpha=3", "[0.0001, 1]"},
+           {"fit t.csv --fix beta=3", "no parameter 'beta'"},
+           {"fit t.csv --bounds alpha=0.5,0.1", "bounds"},
+           {"term ndf.gx --at noh=1", "ndf.ggx"},
+           {"term ndf.ggx --at noh=2", "[0, 1]"},
+           {"term ndf.ggx --set alpha=nan --at noh=1", "nan"},
+           {"synth lambert --set kd=0.2 kd=0.3 --layout random -o x", "twice"},
+           {"synth ggx/smith_ggx.correlated/schlick --set f0=0.1 base_color=0.5 --layout random -o x", "f0"},
+           {"synth lambert --layout merl --noise -1 -o x", "noise"},
+           {"compare t.csv fit --set kd", "NAME=VALUE"}})
+    expect_one_line(gonio(f, words), 2, holding);
+  EXPECT_EQ(f.entries(), 1U);
+}
+
+TEST(Program, TellsBadInputByExitCodeThreeAndLeavesNothing) {
+  const Folder f;
+  f.write("empty", "");
+  f.write("unknown", "PK\x03\x04 not a table");
+  f.write("masked.csv", "theta_i,phi_i,theta_o,phi_o,f\n0,0,0,0,-1\n10,0,10,0,nan\n91,0,0,0,1\n");
+  f.write("angle.csv", "theta_i,phi_i,theta_o,phi_o,f\n0,0,nan,0,1\n");
+  f.write("fine.csv", "theta_i,phi_i,theta_o,phi_o,f\n0,0,0,0,0.3\n30,0,30,180,0.4\n");
+  f.write("broken.json", "{");
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf -o whole").code, 0);
+  f.write("cut", read_bytes(f / "whole").substr(0, 100000));
+  const std::size_t before = f.entries();
+  for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"fit missing -o r.json --html r.html", "missing: opening"},
+           {"fit . -o r.json", "a directory"},
+           {"fit /dev/null -o r.json", "/dev/null"},
+           {"fit empty -o r.json", "byte 0"},
+           {"fit unknown -o r.json", "unknown"},
+           {"fit cut -o r.json", "cut: "},
+           {"fit masked.csv -o r.json", "none that can be used"},
+           {"fit angle.csv -o r.json", "line 2, column theta_o"},
+           {"fit fine.csv --model lambert -o no/such/folder/r.json", "writing"},
+           {"fit fine.csv --model lambert -o r.json --html no/such/r.html", "writing"},
+           {"synth lambert --layout random -o no/such/t.csv", "writing"},
+           {"synth lambert --layout image_slice -o no/such/t.exr", "writing"},
+           {"inspect cut", "cut: "},
+           {"compare fine.csv missing.json", "missing.json"},
+           {"compare fine.csv broken.json", "broken.json"},
+           {"eval lambert --directions unknown -o o.csv", "unknown"}})
+    expect_one_line(gonio(f, words), 3, holding);
+  EXPECT_EQ(f.entries(), before);
+}
+
+TEST(Program, SaysWhenStandardOutputCannotBeWritten) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full, which is not here";
+  EXPECT_EQ(WEXITSTATUS(std::system("'" GONIO_PROGRAM "' models --json >/dev/full 2>/dev/null")), 3);
+}
+
+TEST(Program, ShowsAnExampleWithEveryHelp) {
+  const Folder f;
+  for (const char* command : {"models", "term", "eval", "synth", "inspect", "fit", "compare", "bench"}) {
+    const auto o = gonio(f, std::string(command) + " --help");
+    EXPECT_EQ(o.code, 0);
+    EXPECT_NE(o.out.find("Example:\n  gonio " + std::string(command)), std::string::npos) << command;
+  }
+}
+
+TEST(Program, FitsTheMeasuredCarPaintAndSaysWhatItMasked) {
+  GONIO_NEEDS_SHARED(file, "data/mbsdf/carpaint_blue.mbsdf");
+  const Folder f;
+  const auto r = gonio(f, "fit '" + file + "' --html c.html --json");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const auto d = r.json();
+  EXPECT_EQ(d["input"]["masked"]["negative"], 75159);
+  EXPECT_EQ(d["intervals"], "clustered by incident angle");
+  EXPECT_EQ(d["clusters"], 45);
+  // blue: the last channel's diffuse albedo is several times the others'
+  EXPECT_GT(d["parameters"]["kd"]["value"][2].get<double>(), 2 * d["parameters"]["kd"]["value"][1].get<double>());
+}
+
+}  // namespace
+}  // namespace gonio::test
