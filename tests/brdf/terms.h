@@ -77,13 +77,16 @@ inline Parameters spread(const Range& r, int steps) {
   p.back() = r.high;
   return p;
 }
-/// All combinations of the legal values of a term's parameters.
+/// All combinations of legal values of a term's parameters; 1 among them, where formulas have
+/// holes.
 inline std::vector<Parameters> legal_grid(std::span<const Parameter> parameters, int steps) {
   std::vector<Parameters> grid{{}};
   for (const auto& p : parameters) {
+    Parameters values = spread(p.legal, steps);
+    if (p.legal.holds(1) && p.legal.high > 1) values.push_back(1);
     std::vector<Parameters> more;
     for (const auto& row : grid)
-      for (const double v : spread(p.legal, steps)) {
+      for (const double v : values) {
         more.push_back(row);
         more.back().push_back(v);
       }

@@ -60,6 +60,7 @@ TEST(Constant, OfADualOfBatchesIsNotTruncatedToAnInteger) {
   const auto half = constant<Dual<Batch<double>, 2>>(0.5L);
   for (std::size_t i = 0; i < lanes<Batch<double>>; ++i) {
     EXPECT_EQ(half.v.get(i), 0.5);
+    EXPECT_EQ((Dual<Batch<float>, 2>(0.5).v.get(i)), 0.5F);
     EXPECT_EQ(half.d[0].get(i), 0);
     EXPECT_EQ(half.d[1].get(i), 0);
   }
