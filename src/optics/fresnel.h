@@ -109,8 +109,9 @@ struct Conductor {
     const auto c = x.voh, c2 = square(c), s2 = (1 - c) * (1 + c);
     const T t = select<T>(s2 < c2, re - s2, less_one + c2);  // Re (N² − s²)
     const T t2 = square(t) + 4 * square(im);                 // |N² − s²|²
-    // N = s has the root 0, which has no slope: the critical angle, or η = 1 without k at c = 0.
-    const auto off = T(0) < t2;
+    // N = s has the root 0, which has no slope.  At the critical angle any b in its place gives 1;
+    // with η = 1 and no k at c = 0 there is nothing to reflect.
+    const auto off = T(0) < t2, there = off || less_one < T(0);
     const auto a_larger = T(0) < t;
     const T abs_t = select<T>(a_larger, t, -t);
     const T larger = sqrt((sqrt(select<T>(off, t2, T(1))) + abs_t) / 2);
@@ -120,8 +121,7 @@ struct Conductor {
     const T a_less_c = select<T>(a_larger, less_one + b2, a - c) / select<T>(a_larger, a + c, T(1));
     const T s_num = square(a_less_c) + b2, s_den = square(a + c) + b2;
     const T p_num = square(a * c - s2) + b2 * c2, p_den = square(a * c + s2) + b2 * c2;
-    const T beyond = select<T>(less_one < T(0), T(1), T(0));
-    return {select<T>(off, s_num * (p_den + p_num), beyond), select<T>(off, 2 * s_den * p_den, T(1))};
+    return {select<T>(there, s_num * (p_den + p_num), T(0)), 2 * s_den * p_den};
   }
 };
 
