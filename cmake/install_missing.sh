@@ -32,8 +32,8 @@ install_missing() {
     "${missing[@]}" >/dev/null
 }
 
-# build PRESET: configures and builds; what a compiler says is shown if it fails.
+# build PRESET [OPTIONS of cmake --build]
 build() {
   cmake --preset "$1" --log-level=WARNING
-  cmake --build --preset "$1"
+  cmake --build --preset "$@"
 }
