@@ -306,7 +306,7 @@ function solver() {
         : cost.length > 1 ? el("p", {}, `The cost changed by ${percent(span)} over ${many(cost.length - 1, "step")}: too little to draw.`) : null,
       times,
       pairs([["termination", words(s.termination)], ["iterations", count(s.iterations)], ["cost", significant(fit.cost, 6)],
-        ["instruction set", s.instruction_set], ["passes over the data", known(s.passes) ? count(s.passes) : null], ["threads", known(s.threads) ? count(s.threads) : null],
+        ["instruction set", s.instruction_set], ["passes over the data", known(s.passes) ? count(s.passes) : null],
         ["metric", words(fit.metric)], ["log offset", fit.log_offset > 0 ? `${significant(fit.log_offset)} 1/sr` : null],
         ["robust loss", words(fit.robust)]])));
 }

@@ -85,10 +85,11 @@ function curve_plot(data, series, o) {
         axis(o.y_label, { size: 52, values: (u, ticks) => ticks.map(tick_text),
                           ...(state.log ? { splits: (u, a, low, high) => log_ticks(low, high), filter: (u, ticks) => ticks } : {}) }),
       ],
+      // pxAlign 0: rounded to whole pixels, points would stand beside their line
       series: [{}, ...series.map((s, i) => (s.kind === "points"
-        ? { show: state.shown[i], stroke: () => color(s.color), paths: () => null,
+        ? { pxAlign: 0, show: state.shown[i], stroke: () => color(s.color), paths: () => null,
             points: { show: true, size: filled(i) > 60 ? 4.5 : 7, width: 0, fill: () => color(s.color) + "8c" } }
-        : { show: state.shown[i], stroke: () => color(s.color), width: 1.6, spanGaps: false,
+        : { pxAlign: 0, show: state.shown[i], stroke: () => color(s.color), width: 1.6, spanGaps: false,
             points: { show: false } }))],
       hooks: {
         drawClear: [(u) => {
