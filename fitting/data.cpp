@@ -119,24 +119,30 @@ FitData fit_data(const Table& t, Bins bins, Metric metric, double offset) {
 
   d.angles = AngleColumns<double>(total.samples);
   const std::size_t padded = d.angles.padded();
-  for (std::size_t c = 0; c < channels; ++c) d.y.emplace_back(padded, -1.0);
-  d.root_weight = Column<double>(padded, 0.0);
+  const auto column = [&](double in_padding) {
+    auto c = Column<double>::for_overwrite(padded);
+    std::fill(c.data() + total.samples, c.data() + padded, in_padding);
+    return c;
+  };
+  for (std::size_t c = 0; c < channels; ++c) d.y.push_back(column(-1));
+  d.root_weight = column(0);
   d.incident.resize(total.samples);
   const IncidentAngle incident(t);
   d.clusters = incident.count();
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t k) {
     std::size_t to = first[k];
+    std::vector<double> value(channels);
     for (std::size_t i = k * chunk; i < std::min(n, (k + 1) * chunk); ++i) {
       if (!(weight(i) > 0)) continue;
       const auto a = at(i);
       bool any = false;
       for (std::size_t c = 0; c < channels; ++c) {
         const double v = t.values[c][i];
-        if (!usable(a, v)) continue;
-        d.y[c][to] = v;
-        any = true;
+        value[c] = usable(a, v) ? v : -1;
+        any = any || value[c] >= 0;
       }
       if (!any) continue;
+      for (std::size_t c = 0; c < channels; ++c) d.y[c][to] = value[c];
       d.angles.set(to, a);
       d.root_weight[to] = std::sqrt(weight(i));
       d.incident[to] = incident(i, a);

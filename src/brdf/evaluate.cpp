@@ -5,16 +5,25 @@
 namespace gonio {
 
 template <class F>
-Column<F>::Column(std::size_t n, F fill)
-    : data_(static_cast<F*>(::operator new[](std::max<std::size_t>(n, 1) * sizeof(F),
-                                             std::align_val_t(64)))) {
+Column<F> Column<F>::for_overwrite(std::size_t n) {
+  Column c;
+  c.data_.reset(static_cast<F*>(
+      ::operator new[](std::max<std::size_t>(n, 1) * sizeof(F), std::align_val_t(64))));
+  return c;
+}
+
+template <class F>
+Column<F>::Column(std::size_t n, F fill) : Column(for_overwrite(n)) {
   std::fill_n(data_.get(), n, fill);
 }
 
 template <class F>
 AngleColumns<F>::AngleColumns(std::size_t n)
     : size_(n), padded_((n + padding - 1) / padding * padding) {
-  for (auto& c : column_) c = Column<F>(padded_, F(0.5));
+  for (auto& c : column_) {
+    c = Column<F>::for_overwrite(padded_);
+    std::fill(c.data() + n, c.data() + padded_, F(0.5));
+  }
 }
 
 template <class F>
@@ -42,12 +51,15 @@ std::array<F, 4> gather(const Model& m, const TermUse& t, std::span<const F> val
   return p;
 }
 
+constexpr std::size_t max_fused = std::tuple_size_v<decltype(FusedKernel<float>::value)>;
+
+/// nullptr if this combination is not a hot one
 template <class F>
-const FusedKernel<F>* find_fused(const Kernels<F>& k, const Lobe& l) {
+typename FusedKernel<F>::Value find_fused(const Kernels<F>& k, const Lobe& l, std::size_t channels) {
   const std::array ids{k.terms[l.ndf.term].about->id, k.terms[l.masking.term].about->id,
                        k.terms[l.fresnel.term].about->id};
   const auto it = std::ranges::find(k.fused, ids, &FusedKernel<F>::ids);
-  return it == k.fused.end() ? nullptr : &*it;
+  return it == k.fused.end() || channels >= max_fused ? nullptr : it->value[channels];
 }
 
 }  // namespace
@@ -75,11 +87,17 @@ void evaluate(const Model& m, std::span<const F> values, const Block<F>& x,
       const auto& lobe = m.lobes[l];
       const auto pd = gather(m, lobe.ndf, values, 0), pv = gather(m, lobe.masking, values, 0);
       const bool under = coupled && l == 0;
-      const auto* fused = find_fused(k, lobe);
-      if (fused && !under && m.channels == 1) {
-        const auto pf = gather(m, lobe.fresnel, values, 0);
-        fused->value(b, {pd.data(), pv.data(), pf.data()}, base[0], out[0] + at);
-        base[0] = out[0] + at;
+      if (const auto fused = find_fused(k, lobe, m.channels); fused && !under) {
+        std::array<std::array<F, 4>, max_fused> pf;
+        std::array<const F*, max_fused> p;
+        std::array<F*, max_fused> to;
+        for (std::size_t c = 0; c < m.channels; ++c) {
+          pf[c] = gather(m, lobe.fresnel, values, c);
+          p[c] = pf[c].data();
+          to[c] = out[c] + at;
+        }
+        fused(b, pd.data(), pv.data(), p.data(), base.data(), to.data());
+        std::copy_n(to.begin(), m.channels, base.begin());
         continue;
       }
       k.terms[lobe.ndf.term].extend(b, pd.data(), {scratch.ones(), scratch.ones(), nullptr, num, den});
@@ -104,7 +122,8 @@ std::vector<std::vector<double>> evaluate(const BoundModel& b,
                                           std::span<const Angles<double>> angles) {
   AngleColumns<double> x(angles.size());
   for (std::size_t i = 0; i < angles.size(); ++i)
-    if (angles[i].nol > 0 && angles[i].nov > 0) x.set(i, angles[i]);
+    x.set(i, angles[i].nol > 0 && angles[i].nov > 0 ? angles[i]
+                                                    : Angles<double>{0.5, 0.5, 0.5, 0.5, 0.75});
   std::vector<Column<double>> columns;
   std::vector<double*> out;
   for (std::size_t c = 0; c < b.model.channels; ++c) {

@@ -20,6 +20,8 @@ class Column {
  public:
   Column() = default;
   explicit Column(std::size_t n, F fill = F(0));
+  /// Not filled: its pages are first touched by whoever writes them, on all threads.
+  static Column for_overwrite(std::size_t n);
   F* data() { return data_.get(); }
   const F* data() const { return data_.get(); }
   F& operator[](std::size_t i) { return data_[i]; }
@@ -32,7 +34,7 @@ class Column {
   std::unique_ptr<F[], Free> data_;
 };
 
-/// Angles as columns, padded.
+/// Angles as columns, padded with harmless ones; every sample is to be set.
 template <class F>
 class AngleColumns {
  public:

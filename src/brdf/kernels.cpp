@@ -82,17 +82,24 @@ void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
   }
 }
 
-template <template <class> class D, template <class> class V, template <class> class Fr, class F>
-void fused(const Block<F>& x, const std::array<const F*, 3>& p, const F* base, F* out) {
+template <template <class> class D, template <class> class V, template <class> class Fr, class F,
+          std::size_t channels>
+void fused(const Block<F>& x, const F* pd, const F* pv, const F* const* pf, const F* const* base,
+           F* const* out) {
   using B = Lane<F>;
-  const auto d = bind_value<D, F>(p[0]);
-  const auto v = bind_value<V, F>(p[1]);
-  const auto f = bind_value<Fr, F>(p[2]);
+  const auto d = bind_value<D, F>(pd);
+  const auto v = bind_value<V, F>(pv);
+  const auto f = [&]<std::size_t... C>(std::index_sequence<C...>) {
+    return std::array{bind_value<Fr, F>(pf[C])...};
+  }(std::make_index_sequence<channels>{});
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
     const auto a = angles(x, i);
-    const auto qd = as_quotient<B>(d(a)), qv = as_quotient<B>(v(a)), qf = as_quotient<B>(f(a));
-    const B num = qd.num * qv.num * qf.num, den = qd.den * qv.den * qf.den;
-    store<B>(out + i, load<B>(base + i) + num / den);
+    const auto qd = as_quotient<B>(d(a)), qv = as_quotient<B>(v(a));
+    const B num = qd.num * qv.num, den = qd.den * qv.den;
+    for (std::size_t c = 0; c < channels; ++c) {
+      const auto q = as_quotient<B>(f[c](a));
+      store<B>(out[c] + i, load<B>(base[c] + i) + num * q.num / (den * q.den));
+    }
   }
 }
 
@@ -211,7 +218,7 @@ constexpr auto term_table(TermList<Terms...>) {
 }
 template <class F, template <class> class D, template <class> class V, template <class> class Fr>
 constexpr FusedKernel<F> fused_entry(TermList<D, V, Fr>) {
-  return {{D<F>::about.id, V<F>::about.id, Fr<F>::about.id}, fused<D, V, Fr, F>};
+  return {{D<F>::about.id, V<F>::about.id, Fr<F>::about.id}, {nullptr, fused<D, V, Fr, F, 1>, nullptr, fused<D, V, Fr, F, 3>}};
 }
 template <class F, class... Lists>
 constexpr auto fused_table(FusedList<Lists...>) {

@@ -52,12 +52,15 @@ struct TermKernels {
   void (*derivatives)(const Block<F>&, const F* parameters, F* value, F* const* d);
 };
 
-/// D·V·F as one loop.
+/// D·V·F as one loop over all channels, which share D·V.
 template <class F>
 struct FusedKernel {
   std::array<std::string_view, 3> ids;
-  /// out = base + D·V·F; parameters: those of D, of V, of F
-  void (*value)(const Block<F>&, const std::array<const F*, 3>& parameters, const F* base, F* out);
+  /// out_c = base_c + D·V·F_c; parameters: those of D, of V, of F per channel
+  using Value = void (*)(const Block<F>&, const F* d, const F* v, const F* const* f,
+                         const F* const* base, F* const* out);
+  /// by the number of channels; nullptr where there is none
+  std::array<Value, 4> value;
 };
 
 /// How far model f is from datum y:

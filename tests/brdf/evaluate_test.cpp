@@ -129,16 +129,22 @@ TEST(Evaluate, FusedEqualsComposed) {
           std::string spec = diffuse;
           for (const auto id : fused.ids)
             spec.append(short_id(id)).append(id == fused.ids[2] ? "" : "/");
-          const auto b = draw(spec, 1, random);
-          const std::vector<F> values(b.values.begin(), b.values.end());
-          const auto x = test::columns<F>(rows);
-          Column<F> one(x.padded()), other(x.padded());
-          F* const to_one[] = {one.data()};
-          F* const to_other[] = {other.data()};
-          evaluate<F>(b.model, values, x.block(), to_one, k);
-          evaluate<F>(b.model, values, x.block(), to_other, composed);
-          for (std::size_t i = 0; i < x.padded(); ++i)
-            EXPECT_NEAR(one[i], other[i], few * other[i]) << set << " " << spec;
+          for (const std::size_t channels : {1UL, 2UL, 3UL}) {
+            const auto b = draw(spec, channels, random);
+            const std::vector<F> values(b.values.begin(), b.values.end());
+            const auto x = test::columns<F>(rows);
+            std::vector<Column<F>> one, other;
+            std::vector<F*> to_one, to_other;
+            for (std::size_t c = 0; c < channels; ++c) {
+              to_one.push_back(one.emplace_back(x.padded()).data());
+              to_other.push_back(other.emplace_back(x.padded()).data());
+            }
+            evaluate<F>(b.model, values, x.block(), to_one, k);
+            evaluate<F>(b.model, values, x.block(), to_other, composed);
+            for (std::size_t c = 0; c < channels; ++c)
+              for (std::size_t i = 0; i < x.padded(); ++i)
+                EXPECT_NEAR(one[c][i], other[c][i], few * other[c][i]) << set << " " << spec;
+          }
         }
     }
   };
