@@ -83,8 +83,9 @@ TEST(OutputFile, SaysWhereItCannotWrite) {
 }
 
 TEST(BadInput, MakesControlCharactersVisibleAndCutsLongOnes) {
-  const std::string line =
-      bad_input("f", "byte 1", std::string("a\n\x01") + std::string(200, 'x'), "y").what();
+  const std::string found = "a\n\x01" + std::string(200, 'x');
+  const Error error = bad_input("f", "byte 1", found, "y");
+  const std::string line = error.what();
   EXPECT_TRUE(line.starts_with("f: byte 1: found a\\x0a\\x01xx")) << line;
   EXPECT_LT(line.size(), 150U);
 }
