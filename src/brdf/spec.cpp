@@ -6,21 +6,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace gonio {
-namespace {
-
-std::vector<std::string> split(std::string_view s, char at) {
-  std::vector<std::string> parts;
-  for (;;) {
-    const auto i = s.find(at);
-    parts.emplace_back(s.substr(0, i));
-    if (i == s.npos) return parts;
-    s.remove_prefix(i + 1);
-  }
-}
-
-}  // namespace
 
 std::vector<std::vector<std::string>> parse_spec(std::string_view spec) {
   std::vector<std::vector<std::string>> parts;

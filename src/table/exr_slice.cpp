@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "image/exr.h"
 #include "table/metadata.h"
 
@@ -32,17 +33,6 @@ double angle(const std::string& path, const std::string& text) {
       !(std::abs(value) <= 2 * std::numbers::pi))
     throw bad_input(path, kPhi, text, "an angle in radians");
   return value;
-}
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts{""};
-  for (const char c : text) {
-    if (c == ',')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
 }
 
 /// Turns [x][y] into [y][x] or back; `width` is that of the result.
@@ -82,7 +72,7 @@ Table read_exr_slice(const std::string& path) {
   t.path = path;
   t.format = "exr";
   t.where = image_slice_grid(image.width, image.height, angle(path, attribute(kPhi)), Bins::centre);
-  t.channels = split(attribute(kChannels));
+  t.channels = split(attribute(kChannels), ',');
   for (const auto& channel : t.channels) {
     const auto found = std::ranges::find(image.channels, exr_name(channel));
     if (found == image.channels.end())
