@@ -27,8 +27,8 @@ class Error : public std::runtime_error {
   Exit code_;
 };
 
-/// "FILE: PLACE: found FOUND, expected EXPECTED"; control characters in `found` are made visible and
-/// a long one is cut, since it comes from the file.
+/// "FILE: PLACE: found FOUND, expected EXPECTED", each made printable (base/text.h), since any may
+/// come from the file, and cut where it is long, the file's name excepted.
 Error bad_input(const std::string& file, const std::string& place, const std::string& found,
                 const std::string& expected);
 Error wrong_usage(const std::string& line);

@@ -1,6 +1,31 @@
 #include "base/text.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 namespace gonio {
+namespace {
+
+/// Bytes of the character that s begins with; 0 for a control character or what is not UTF-8.
+std::size_t length_if_printable(std::string_view s) {
+  const auto byte = [&](std::size_t i) -> unsigned {
+    return i < s.size() ? static_cast<unsigned char>(s[i]) : 0;
+  };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f;
+  if (lead < 0xc2 || lead > 0xf4) return 0;
+  // The second byte's bounds [Unicode, table 3-7]; 0xc2 0x80 to 0xc2 0x9f are control characters.
+  const unsigned low = lead == 0xc2 || lead == 0xe0 ? 0xa0 : lead == 0xf0 ? 0x90 : 0x80;
+  const unsigned high = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
+  if (byte(1) < low || byte(1) > high) return 0;
+  const std::size_t length = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+  for (std::size_t i = 2; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  return length;
+}
+
+}  // namespace
 
 std::vector<std::string> split(std::string_view s, char at) {
   std::vector<std::string> parts;
@@ -10,6 +35,20 @@ std::vector<std::string> split(std::string_view s, char at) {
     if (i == s.npos) return parts;
     s.remove_prefix(i + 1);
   }
+}
+
+std::string printable(std::string_view s, std::size_t most) {
+  std::string out;
+  while (!s.empty()) {
+    if (out.size() >= most) return out + "…";
+    const std::size_t n = length_if_printable(s);
+    if (n == 0)
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(s[0]));
+    else
+      out += s.substr(0, n);
+    s.remove_prefix(std::max<std::size_t>(n, 1));
+  }
+  return out;
 }
 
 }  // namespace gonio

@@ -90,5 +90,14 @@ TEST(BadInput, MakesControlCharactersVisibleAndCutsLongOnes) {
   EXPECT_LT(line.size(), 150U);
 }
 
+TEST(BadInput, IsOneHarmlessLineWhateverStandsInItsParts) {
+  const std::string evil = "a\n\x1b[31m\xff" + std::string(1000, 'x');
+  const std::string line = bad_input(evil, evil, evil, evil).what();
+  EXPECT_EQ(line.find_first_of("\n\x1b\xff"), std::string::npos) << line;
+  EXPECT_TRUE(line.starts_with("a\\x0a\\x1b[31m\\xff" + std::string(1000, 'x') + ": a\\x0a"))
+      << "the file's name is whole";
+  EXPECT_LT(line.size(), 1600U);
+}
+
 }  // namespace
 }  // namespace gonio
