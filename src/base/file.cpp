@@ -1,5 +1,6 @@
 #include "base/file.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -7,10 +8,22 @@
 #include "base/error.h"
 
 #include <fmt/format.h>
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 namespace gonio {
+namespace {
+
+/// What a path leads to; that need not be there yet.  \param path  not a circle of links
+std::filesystem::path behind_links(std::filesystem::path path) {
+  std::error_code none_there;
+  while (std::filesystem::is_symlink(path, none_there))
+    path = path.parent_path() / std::filesystem::read_symlink(path);
+  return path;
+}
+
+}  // namespace
 
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
   // The kind is asked before opening: opening a pipe would wait for its writer.
@@ -52,14 +65,30 @@ std::string InputFile::read_rest(std::uint64_t most) {
 }
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
-  const std::filesystem::path p(path_);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(p, ignored))
-    throw bad_input(path_, "writing", "a directory", "the name of a file");
-  temporary_ =
-      (p.parent_path() / fmt::format(".{}.{}.tmp", p.filename().string(), ::getpid())).string();
-  file_ = std::fopen(temporary_.c_str(), "wb");
-  if (!file_) fail("writing");
+  struct stat s {};
+  if (::stat(path_.c_str(), &s) == 0) {
+    if (S_ISDIR(s.st_mode)) throw bad_input(path_, "writing", "a directory", "the name of a file");
+    if (!S_ISREG(s.st_mode))
+      throw bad_input(path_, "writing", "a device or pipe", "the name of a file");
+  } else if (errno != ENOENT) {
+    fail("writing");
+  }
+  const auto target = behind_links(path_);
+  target_ = target.string();
+  static std::atomic<unsigned> counter = 0;
+  int descriptor = -1;
+  do {
+    temporary_ = (target.parent_path() / fmt::format(".{}.{}.{}.tmp", target.filename().string(),
+                                                     ::getpid(), counter++)).string();
+    descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor < 0 && errno == EEXIST);
+  if (descriptor < 0) fail("writing");
+  file_ = ::fdopen(descriptor, "wb");
+  if (!file_) {
+    ::close(descriptor);
+    std::remove(temporary_.c_str());
+    fail("writing");
+  }
 }
 
 OutputFile::~OutputFile() {
@@ -84,7 +113,7 @@ void OutputFile::close() {
 
 void OutputFile::commit() {
   close();
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("renaming");
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail("renaming");
   committed_ = true;
 }
 

@@ -36,7 +36,8 @@ class InputFile {
 };
 
 /// A file being made under a temporary name beside its own; it appears under its own name when
-/// commit() has succeeded and leaves nothing behind otherwise.
+/// commit() has succeeded and leaves nothing behind otherwise.  A link is followed, not replaced;
+/// a directory, device or pipe is refused.
 class OutputFile {
  public:
   explicit OutputFile(std::string path);
@@ -54,7 +55,7 @@ class OutputFile {
 
  private:
   [[noreturn]] void fail(const std::string& doing) const;
-  std::string path_, temporary_;
+  std::string path_, target_, temporary_;  ///< target_: path_ after its links
   std::FILE* file_ = nullptr;
   bool committed_ = false;
 };

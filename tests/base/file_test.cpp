@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "support.h"
 
+#include <sys/stat.h>
+
 namespace gonio {
 namespace {
 
@@ -80,6 +82,54 @@ TEST(OutputFile, SaysWhereItCannotWrite) {
             std::string::npos);
   EXPECT_NE(complaint([&] { OutputFile(folder / ""); }).find("a directory"), std::string::npos);
   EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(OutputFile, TwoOfOneNameDoNotMeet) {
+  const Folder folder;
+  OutputFile a(folder / "f"), b(folder / "f");
+  EXPECT_NE(a.temporary_path(), b.temporary_path());
+  a.write("aa");
+  b.write("b");
+  a.commit();
+  EXPECT_EQ(test::read_bytes(folder / "f"), "aa");
+  b.commit();
+  EXPECT_EQ(test::read_bytes(folder / "f"), "b");
+  EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(OutputFile, RefusesADeviceOrPipe) {
+  const Folder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const std::string& path : {folder / "pipe", std::string("/dev/null")})
+    EXPECT_TRUE(complaint([&] {
+                  OutputFile out(path);
+                }).ends_with("writing: found a device or pipe, expected the name of a file"));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(OutputFile, FollowsLinks) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "there");
+  std::filesystem::create_symlink("there/f", folder / "near");
+  std::filesystem::create_symlink(folder / "near", folder / "far");
+  for (const char* bytes : {"the first dangles", "the second does not"}) {
+    write_file(folder / "far", bytes);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "far"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "near"));
+    EXPECT_EQ(test::read_bytes(folder / "there/f"), bytes);
+  }
+  std::filesystem::create_symlink("circle", folder / "circle");
+  EXPECT_NE(complaint([&] { OutputFile(folder / "circle"); }).find("symbolic links"),
+            std::string::npos);
+}
+
+TEST(OutputFile, IsReadableByWhomTheUserLets) {
+  const Folder folder;
+  const auto before = ::umask(022);
+  write_file(folder / "f", "x");
+  ::umask(before);
+  EXPECT_EQ(std::filesystem::status(folder / "f").permissions(), std::filesystem::perms{0644});
 }
 
 TEST(BadInput, MakesControlCharactersVisibleAndCutsLongOnes) {
