@@ -8,6 +8,45 @@
 #include <fmt/format.h>
 
 namespace gonio {
+namespace {
+
+constexpr int kDeepest = 64;  ///< nested brackets; the contract's documents need 5
+
+/// The byte where brackets nest deeper than that, or npos.
+std::size_t too_deep(std::string_view bytes) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const char c = bytes[i];
+    if (in_string && c == '\\')
+      ++i;
+    else if (c == '"')
+      in_string = !in_string;
+    else if (in_string)
+      continue;
+    else if (c == '[' || c == '{')
+      ++depth;
+    else if (c == ']' || c == '}')
+      --depth;
+    if (depth > kDeepest) return i;
+  }
+  return bytes.npos;
+}
+
+std::string place_of(std::string_view bytes, std::size_t at) {
+  const auto before = bytes.substr(0, at);
+  const auto column = at - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+  return fmt::format("line {}, column {}", 1 + std::ranges::count(before, '\n'), column);
+}
+
+/// A simple value as it is written, of others the kind: they may hold anything.
+std::string name_of(const Json& j) {
+  if (j.is_structured())
+    return fmt::format("{} {}", j.empty() ? "an empty" : "an", j.is_object() ? "object" : "array");
+  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
 
 std::string text_of(const Json& j) {
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -18,14 +57,14 @@ Json per_channel(const std::vector<double>& v) {
 }
 
 Json parse_json(const std::string& file, const std::string& bytes) {
+  if (const auto at = too_deep(bytes); at != bytes.npos)
+    throw bad_input(file, place_of(bytes, at), fmt::format("{} levels of brackets", kDeepest + 1),
+                    fmt::format("at most {}", kDeepest));
   try {
     return Json::parse(bytes);
   } catch (const Json::parse_error& e) {
     const auto end = std::min(bytes.size(), e.byte > 0 ? e.byte - 1 : 0);
-    const std::string_view before(bytes.data(), end);
-    const auto line = 1 + std::ranges::count(before, '\n');
-    const auto column = end - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
-    throw bad_input(file, fmt::format("line {}, column {}", line, column),
+    throw bad_input(file, place_of(bytes, end),
                     end < bytes.size() ? bytes.substr(end, 12) : "the end of the file", "JSON");
   } catch (const Json::exception& e) {
     throw bad_input(file, "JSON", e.what(), "values that can be held");
@@ -33,8 +72,7 @@ Json parse_json(const std::string& file, const std::string& bytes) {
 }
 
 void JsonReader::fail(const std::string& expected) const {
-  throw bad_input(file_, place_.empty() ? "the document" : place_,
-                  value_.dump(-1, ' ', false, Json::error_handler_t::replace), expected);
+  throw bad_input(file_, place_.empty() ? "the document" : place_, name_of(value_), expected);
 }
 
 void JsonReader::expect_object() const {

@@ -20,7 +20,8 @@ using Json = nlohmann::ordered_json;
 std::string text_of(const Json&);
 /// What a synthesized table was made from.
 Json truth_json(const Truth&);
-/// The bytes as a document; bytes that are not JSON are bad_input with line and column.
+/// The bytes as a document; bytes that are not JSON, or nest deeper than 64 levels, are bad_input
+/// with line and column.
 Json parse_json(const std::string& file, const std::string& bytes);
 
 /// One entry as itself, several as an array: how the contract writes what may have channels.

@@ -119,6 +119,30 @@ TEST(SideFile, IsNamedWhereItIsBroken) {
   EXPECT_COMPLAINT(folder / "c", "this table has no bins");
 }
 
+TEST(SideFile, MayNotNestWithoutEnd) {
+  const Folder folder;
+  write_table(mbsdf_example(2, 3), folder / "m");
+  const auto side = [&](const std::string& text) {
+    folder.write("m.gonio.json", text);
+    return folder / "m";
+  };
+  const auto nested = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
+  EXPECT_COMPLAINT(side(std::string(200'000, '[')), "line 1, column 65: found 65 levels");
+  EXPECT_COMPLAINT(side("{\n\"schema\":" + nested(200'000) + "}"), "line 2, column 73");
+  EXPECT_COMPLAINT(side("{\"schema\":" + nested(63) + "}"),
+                   "schema: found an array, expected a string");
+  const std::string brackets = "\\\"" + std::string(100, '[');
+  EXPECT_EQ(complaint(side(R"({"schema":"gonio.table/1","notes":{"a":")" + brackets + "\"}}")), "")
+      << "brackets in a string do not nest";
+}
+
+TEST(SideFile, ShowsNoControlCharactersOfItsKeys) {
+  const Folder folder;
+  write_table(mbsdf_example(2, 3), folder / "m");
+  folder.write("m.gonio.json", R"({"schema":"gonio.table/1","notes":{"\n\u001b[31m":1}})");
+  EXPECT_COMPLAINT(folder / "m", "notes.\\x0a\\x1b[31m: found 1, expected a string");
+}
+
 TEST(ReadTable, EitherReadsOrRefusesDamagedFiles) {
   const Folder folder;
   std::mt19937_64 random(11);
