@@ -7,12 +7,46 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <algorithm>
 #include <exception>
 
 #include "base/error.h"
 #include "base/file.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace gonio {
+namespace {
+
+Image without_planes(const Imf::Header& header) {
+  const auto box = header.dataWindow();
+  Image image;
+  image.width = static_cast<std::size_t>(box.max.x - box.min.x + 1);
+  image.height = static_cast<std::size_t>(box.max.y - box.min.y + 1);
+  for (auto a = header.begin(); a != header.end(); ++a)
+    if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
+      image.attributes[a.name()] = s->value();
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+    image.channels.emplace_back(c.name());
+  return image;
+}
+
+/// read(file); what OpenEXR throws becomes bad_input.
+template <class Read>
+Image reading(const std::string& path, Read read) {
+  const InputFile exists(path);  // says plainly what is no file at all
+  try {
+    Imf::InputFile file(path.c_str(), 1);
+    return read(file);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw bad_input(path, "OpenEXR", e.what(), "a readable image");
+  }
+}
+
+}  // namespace
 
 void write_exr(const std::string& path, const Image& image) {
   OutputFile out(path);
@@ -38,28 +72,26 @@ void write_exr(const std::string& path, const Image& image) {
   out.commit();
 }
 
-Image read_exr(const std::string& path) {
-  const InputFile exists(path);  // says plainly what is no file at all
-  try {
-    Imf::InputFile file(path.c_str(), 1);
-    const Imf::Header& header = file.header();
-    const auto box = header.dataWindow();
-    Image image;
-    image.width = static_cast<std::size_t>(box.max.x - box.min.x + 1);
-    image.height = static_cast<std::size_t>(box.max.y - box.min.y + 1);
-    constexpr std::size_t most = std::size_t{1} << 26;
-    if (image.width > most || image.height > most / image.width)
-      throw bad_input(path, "header", std::to_string(image.width) + " × " + std::to_string(image.height),
-                      "at most 2^26 pixels");
-    for (auto a = header.begin(); a != header.end(); ++a)
-      if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
-        image.attributes[a.name()] = s->value();
+Image read_exr(const std::string& path, std::size_t most, const std::vector<std::string>& only) {
+  return reading(path, [&](Imf::InputFile& file) {
+    Image image = without_planes(file.header());
+    if (!only.empty()) {
+      for (const auto& name : only)
+        if (std::ranges::find(image.channels, name) == image.channels.end())
+          throw bad_input(path, "channels", fmt::format("{}", fmt::join(image.channels, ", ")),
+                          name + " among them");
+      image.channels = only;
+    }
+    const std::size_t pixels = image.width * image.height;  // of two ints: fits
+    if (pixels > most / std::max<std::size_t>(image.channels.size(), 1))
+      throw bad_input(path, "header",
+                      fmt::format("{} × {} pixels × {} channels", image.width, image.height,
+                                  image.channels.size()),
+                      fmt::format("at most {} values", most));
+    const auto box = file.header().dataWindow();
     const auto stride = sizeof(float) * image.width;
     Imf::FrameBuffer buffer;
-    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
-      image.channels.emplace_back(c.name());
-      image.planes.emplace_back(image.width * image.height);
-    }
+    image.planes.assign(image.channels.size(), std::vector<float>(pixels));
     for (std::size_t c = 0; c < image.channels.size(); ++c) {
       // The slice's base is the address of pixel (0, 0), which the data window may leave out.
       const auto shift = static_cast<std::ptrdiff_t>(box.min.y) * static_cast<std::ptrdiff_t>(stride) +
@@ -70,11 +102,11 @@ Image read_exr(const std::string& path) {
     file.setFrameBuffer(buffer);
     file.readPixels(box.min.y, box.max.y);
     return image;
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& e) {
-    throw bad_input(path, "OpenEXR", e.what(), "a readable image");
-  }
+  });
+}
+
+Image read_exr_header(const std::string& path) {
+  return reading(path, [](Imf::InputFile& file) { return without_planes(file.header()); });
 }
 
 }  // namespace gonio

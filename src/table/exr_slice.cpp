@@ -18,6 +18,7 @@ namespace {
 constexpr const char *kLayout = "gonio:layout", *kPhi = "gonio:phi_d_rad",
                      *kChannels = "gonio:channels", *kTable = "gonio:table",
                      *kSlice = "image_slice";
+constexpr std::size_t kMost = std::size_t{1} << 24;  ///< values of a slice that is read
 
 std::string exr_name(const std::string& channel) {
   if (channel == "f") return "Y";
@@ -59,10 +60,10 @@ Grid image_slice_grid(std::size_t n_theta_h, std::size_t n_theta_d, double phi_d
 }
 
 Table read_exr_slice(const std::string& path) {
-  const Image image = read_exr(path);
+  const Image header = read_exr_header(path);
   const auto attribute = [&](const char* name) {
-    const auto found = image.attributes.find(name);
-    if (found == image.attributes.end())
+    const auto found = header.attributes.find(name);
+    if (found == header.attributes.end())
       throw bad_input(path, "header", fmt::format("no attribute {}", name),
                       "an image slice made by gonio");
     return found->second;
@@ -71,16 +72,16 @@ Table read_exr_slice(const std::string& path) {
   Table t;
   t.path = path;
   t.format = "exr";
-  t.where = image_slice_grid(image.width, image.height, angle(path, attribute(kPhi)), Bins::centre);
+  t.where = image_slice_grid(header.width, header.height, angle(path, attribute(kPhi)), Bins::centre);
   t.channels = split(attribute(kChannels), ',');
+  std::vector<std::string> names;
   for (const auto& channel : t.channels) {
-    const auto found = std::ranges::find(image.channels, exr_name(channel));
-    if (found == image.channels.end())
-      throw bad_input(path, "channels", fmt::format("{}", fmt::join(image.channels, ", ")),
-                      exr_name(channel) + " among them");
-    const auto c = static_cast<std::size_t>(found - image.channels.begin());
-    t.values.push_back(turned<double>(image.planes[c], image.height));
+    if (std::ranges::find(names, exr_name(channel)) != names.end())
+      throw bad_input(path, kChannels, exr_name(channel) + " twice", "each channel once");
+    names.push_back(exr_name(channel));
   }
+  for (const auto& plane : read_exr(path, kMost, names).planes)
+    t.values.push_back(turned<double>(plane, header.height));
   apply_metadata(t, path, attribute(kTable));
   return t;
 }

@@ -5,7 +5,7 @@
 ///
 /// Channels r, g, b are named R, G, B, the channel f is Y; others keep their names.  String
 /// attributes, all needed: gonio:layout "image_slice", gonio:phi_d_rad, gonio:channels (names with
-/// commas between) and gonio:table (see table/metadata.h).
+/// commas between) and gonio:table (see table/metadata.h).  Other channels are left unread.
 
 #include <string>
 
@@ -16,6 +16,7 @@ namespace gonio {
 /// theta_h quadratic as in MERL, theta_d uniform.  \param phi_d  [rad]
 Grid image_slice_grid(std::size_t n_theta_h, std::size_t n_theta_d, double phi_d, Bins);
 
+/// Refuses more than 2^24 values.
 Table read_exr_slice(const std::string& path);
 /// Values are rounded to float.
 void write_exr_slice(const Table&, const std::string& path);

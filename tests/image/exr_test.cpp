@@ -5,6 +5,10 @@
 #include "base/error.h"
 #include "support.h"
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+
 namespace gonio {
 namespace {
 
@@ -33,6 +37,49 @@ TEST(Exr, ReadsBackWhatItWrote) {
   EXPECT_EQ(back.channels, example().channels);
   EXPECT_EQ(back.planes, example().planes);
   for (const auto& [name, text] : example().attributes) EXPECT_EQ(back.attributes.at(name), text);
+}
+
+TEST(Exr, ReadsTheChannelsAskedForInTheirOrder) {
+  const Folder folder;
+  write_exr(folder / "i.exr", example());
+  const Image back = read_exr(folder / "i.exr", 42, {"R", "B"});
+  EXPECT_EQ(back.channels, (std::vector<std::string>{"R", "B"}));
+  EXPECT_EQ(back.planes, (std::vector{example().planes[2], example().planes[0]}));
+  EXPECT_THROW(read_exr(folder / "i.exr", 42, {"R", "Z"}), Error);
+  const Image header = read_exr_header(folder / "i.exr");
+  EXPECT_EQ(header.channels, example().channels);
+  EXPECT_EQ(header.attributes.at("gonio:a"), "text with\nlines");
+  EXPECT_EQ(header.width * header.height, 21U);
+  EXPECT_TRUE(header.planes.empty());
+}
+
+TEST(Exr, RefusesMoreValuesThanItMayAllocate) {
+  const Folder folder;
+  write_exr(folder / "i.exr", example());
+  EXPECT_EQ(read_exr(folder / "i.exr", 63).planes.size(), 3U);
+  EXPECT_THROW(read_exr(folder / "i.exr", 62), Error);
+}
+
+/// A file of a few kilobytes: OpenEXR's table of line offsets, and no pixels.
+void write_header_of_many(const std::string& path) {
+  Imf::Header header(8192, 8192);
+  header.compression() = Imf::DWAB_COMPRESSION;
+  for (int c = 0; c < 60; ++c) header.channels().insert(std::to_string(c), Imf::Channel(Imf::FLOAT));
+  const Imf::OutputFile file(path.c_str(), header);
+}
+
+TEST(Exr, RefusesASmallFileThatClaimsManyChannels) {
+  const Folder folder;
+  write_header_of_many(folder / "i.exr");
+  EXPECT_LT(std::filesystem::file_size(folder / "i.exr"), 10'000U);
+  EXPECT_EQ(read_exr_header(folder / "i.exr").channels.size(), 60U);
+  try {
+    read_exr(folder / "i.exr");
+    ADD_FAILURE() << "16 GB read";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("8192 × 8192 pixels × 60 channels"), std::string::npos)
+        << e.what();
+  }
 }
 
 TEST(Exr, SaysWhereItCannotWriteAndLeavesNothing) {

@@ -1,6 +1,7 @@
 // Files that are not what they claim: one error that says so, and never anything else.
 #include "base/error.h"
 #include "example.h"
+#include "image/exr.h"
 #include "support.h"
 
 namespace gonio {
@@ -101,6 +102,32 @@ TEST(CsvFile, NamesLineAndColumn) {
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,inf\n"), "column weight: found inf");
   EXPECT_EQ(complaint(csv(head + "1,2,3,4,inf,1\n")), "")
       << "a value may be anything: it is masked";
+}
+
+TEST(ImageSlice, ReadsItsChannelsOnceAndNoOthers) {
+  const Folder folder;
+  write_table(slice_example(), folder / "s.exr");
+  Image image = read_exr(folder / "s.exr");
+  const auto with_channels = [&](const char* names) {
+    image.attributes["gonio:channels"] = names;
+    write_exr(folder / "t.exr", image);
+    return folder / "t.exr";
+  };
+  EXPECT_COMPLAINT(with_channels("g,r,g"), "gonio:channels: found G twice");
+  EXPECT_COMPLAINT(with_channels("r,R"), "gonio:channels: found R twice");
+  EXPECT_COMPLAINT(with_channels("r,y"), "channels: found G, R, x, expected y among them");
+  EXPECT_COMPLAINT(with_channels(""), "among them");
+  EXPECT_EQ(read_table(with_channels("r")).channels, std::vector<std::string>{"r"});
+}
+
+TEST(ImageSlice, OfMoreValuesThanATableHoldsIsRefused) {
+  const Folder folder;
+  write_table(slice_example(), folder / "s.exr");
+  Image image = read_exr(folder / "s.exr");
+  image.width = image.height = 2400;
+  image.planes.assign(3, std::vector<float>(image.width * image.height));
+  write_exr(folder / "s.exr", image);
+  EXPECT_COMPLAINT(folder / "s.exr", "2400 × 2400 pixels × 3 channels");
 }
 
 TEST(SideFile, IsNamedWhereItIsBroken) {
