@@ -13,7 +13,6 @@ namespace {
 
 void count_values(const Table& t, Health& h) {
   const SampleAngles at(t);
-  std::vector<double> negatives;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < t.size(); ++i) {
     const auto a = at(i);
@@ -21,7 +20,6 @@ void count_values(const Table& t, Health& h) {
       const double v = plane[i];
       const Mask m = mask(a, v);
       ++h.masked[static_cast<std::size_t>(m)];
-      if (m == Mask::negative) negatives.push_back(-v);
       if (m != Mask::valid) continue;
       h.largest = std::max(h.largest, v);
       if (v > 0) smallest = std::min(smallest, v);
@@ -31,10 +29,30 @@ void count_values(const Table& t, Health& h) {
   h.values = t.size() * t.values.size();
   h.valid = h.masked[static_cast<std::size_t>(Mask::valid)];
   if (std::isfinite(smallest)) h.smallest_positive = smallest;
-  if (t.negative_is_noise && !negatives.empty()) h.noise_floor = 1.4826 * median(negatives);
+  h.noise_floor = noise_floor(t);
 }
 
 }  // namespace
+
+double noise_floor(const Table& t) {
+  if (!t.negative_is_noise) return 0;
+  const SampleAngles at(t);
+  std::vector<double> sizes;
+  std::size_t above_horizon = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto a = at(i);
+    for (const auto& plane : t.values) {
+      const Mask m = mask(a, plane[i]);
+      above_horizon += m != Mask::below_horizon;
+      if (m == Mask::negative) sizes.push_back(-plane[i]);
+    }
+  }
+  if (sizes.empty() || sizes.size() * 1000 < above_horizon) return 0;
+  const double middle = median(sizes);
+  // More than half of them one number: a mark for missing data, as a format would have one.
+  const auto same = static_cast<std::size_t>(std::ranges::count(sizes, middle));
+  return 2 * same > sizes.size() ? 0 : 1.4826 * middle;
+}
 
 Health inspect(const Table& t) {
   Health h;

@@ -33,7 +33,7 @@ struct Health {
   std::size_t samples = 0, values = 0, valid = 0;
   std::array<std::size_t, 4> masked{};  ///< values by Mask; [valid] is `valid`
   double largest = 0, smallest_positive = 0;
-  double noise_floor = 0;  ///< 1.4826 · median |negative|, where negatives are noise; else 0
+  double noise_floor = 0;  ///< see noise_floor()
   std::vector<AlbedoSample> albedo;
   /// median |f(wi,wo) − f(wo,wi)| / mean (table/reciprocity.h); absent where the layout cannot tell
   std::optional<double> reciprocity_error;
@@ -44,6 +44,11 @@ struct Health {
 };
 
 Health inspect(const Table&);
+
+/// The noise floor that negative values betray [1/sr]: 1.4826 · median |negative| above the horizon,
+/// where negatives are noise, make up at least 0.1 % of the values there, and are not one number that
+/// marks missing data; else 0.
+double noise_floor(const Table&);
 
 /// What `gonio inspect --json` prints.
 std::string to_json(const Table&, const Health&);

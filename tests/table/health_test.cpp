@@ -99,7 +99,51 @@ TEST(Health, CountsEachValueOnce) {
   EXPECT_EQ(h.valid, h.values - 5);
   EXPECT_EQ(h.largest, 9);
   EXPECT_NEAR(h.smallest_positive, 0.25 / pi, 1e-15);
-  EXPECT_NEAR(h.noise_floor, 1.4826, 1e-12);
+  EXPECT_EQ(h.noise_floor, 0) << "three of half a million tell nothing";
+}
+
+/// A tenth of the values is negative, −k/1000.
+Table noisy() {
+  Table t = lambertian(mbsdf_grid(10, 10, Bins::centre), "mbsdf");
+  for (auto& plane : t.values)
+    for (std::size_t i = 0; i < plane.size(); i += 10)
+      plane[i] = -1e-3 * static_cast<double>(i / 10 + 1);
+  return t;
+}
+
+TEST(NoiseFloor, IsTheSpreadOfTheNegativeValues) {
+  Table t = noisy();
+  EXPECT_NEAR(noise_floor(t), 1.4826 * 0.05, 2e-3);
+  EXPECT_EQ(inspect(t).noise_floor, noise_floor(t));
+  t.values[0][0] = -std::numeric_limits<double>::infinity();
+  t.values[0][10] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NEAR(noise_floor(t), 1.4826 * 0.05, 2e-3);
+}
+
+TEST(NoiseFloor, IsZeroWhereNegativesAreAMarkOrFew) {
+  Table t = noisy();
+  t.negative_is_noise = false;
+  EXPECT_EQ(noise_floor(t), 0);
+  t = noisy();
+  for (auto& plane : t.values)
+    for (std::size_t i = 0; i < 600; i += 10) plane[i] = -1;
+  EXPECT_EQ(noise_floor(t), 0) << "more than half are -1";
+  t = lambertian(mbsdf_grid(10, 10, Bins::centre), "mbsdf");
+  t.values[0][0] = -1;
+  t.values[1][0] = -2;
+  EXPECT_EQ(noise_floor(t), 0) << "2 of 3000";
+  t.values[2][0] = -3;
+  EXPECT_NEAR(noise_floor(t), 2 * 1.4826, 1e-12) << "3 of 3000";
+}
+
+TEST(NoiseFloor, CountsNoValueBelowTheHorizon) {
+  Table t = hemisphere(4);
+  auto& theta_o = std::get<DirectionList>(t.where).theta_o_deg;
+  for (std::size_t i = 0; i < t.size(); i += 3) {
+    theta_o[i] = 100;
+    t.values[0][i] = -1 - static_cast<double>(i);
+  }
+  EXPECT_EQ(noise_floor(t), 0);
 }
 
 TEST(Health, TakesMerlsNegativesForNoDataAndNotForNoise) {
