@@ -1,14 +1,14 @@
 #include "data_synth/synth.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <numbers>
 
 #include "base/error.h"
 #include "brdf/evaluate.h"
 #include "table/formats.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -76,7 +76,8 @@ DirectionList random_pairs(std::size_t n, std::uint64_t seed) {
       const double theta_h = lowest * std::pow(60 / lowest, draw.uniform()) * degree;
       const double phi_h = 2 * std::numbers::pi * draw.uniform();
       const double theta_d = std::acos(draw.uniform());
-      p = directions(HalfDifference{theta_h, phi_h, theta_d, 2 * std::numbers::pi * draw.uniform()});
+      p = directions(
+          HalfDifference{theta_h, phi_h, theta_d, 2 * std::numbers::pi * draw.uniform()});
     }
     const double in = theta_of(p.wi) / degree, out = theta_of(p.wo) / degree;
     if (in < grazing && out < grazing)
@@ -100,9 +101,18 @@ void lay_out(Table& t, const SynthOptions& o) {
       t.format = "exr";
       t.where = image_slice_grid(90, 90, 90 * degree, o.bins);
       break;
-    case Layout::in_plane: t.format = "csv"; t.where = in_plane(); break;
-    case Layout::hemisphere: t.format = "csv"; t.where = hemisphere(); break;
-    case Layout::random: t.format = "csv"; t.where = random_pairs(o.samples, o.seed); break;
+    case Layout::in_plane:
+      t.format = "csv";
+      t.where = in_plane();
+      break;
+    case Layout::hemisphere:
+      t.format = "csv";
+      t.where = hemisphere();
+      break;
+    case Layout::random:
+      t.format = "csv";
+      t.where = random_pairs(o.samples, o.seed);
+      break;
   }
 }
 
@@ -111,9 +121,11 @@ void lay_out(Table& t, const SynthOptions& o) {
 Table synthesize(const BoundModel& b, const SynthOptions& o) {
   const std::size_t channels = b.model.channels;
   if (o.layout == Layout::merl && channels != 3)
-    throw wrong_usage(fmt::format("a MERL table has 3 channels, the colours given have {}", channels));
+    throw wrong_usage(
+        fmt::format("a MERL table has 3 channels, the colours given have {}", channels));
   if (o.layout == Layout::mbsdf && channels != 3 && channels != 1)
-    throw wrong_usage(fmt::format("an MBSDF table has 1 or 3 channels, the colours given have {}", channels));
+    throw wrong_usage(
+        fmt::format("an MBSDF table has 1 or 3 channels, the colours given have {}", channels));
 
   Table t;
   lay_out(t, o);
@@ -148,7 +160,8 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
   Truth truth{b.model.spec, {}, o.noise, o.floor, o.outliers, o.seed};
   for (const auto& p : b.model.parameters) {
     const auto first = b.values.begin() + static_cast<std::ptrdiff_t>(p.first);
-    truth.parameters.emplace_back(p.name, std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count)));
+    truth.parameters.emplace_back(
+        p.name, std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count)));
   }
   t.truth = std::move(truth);
   t.notes.emplace_back("layout", layout_names[static_cast<std::size_t>(o.layout)]);

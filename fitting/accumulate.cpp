@@ -1,17 +1,18 @@
 #include "fitting/accumulate.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 
 #include "brdf/plan.h"
 
+#include <tbb/parallel_for.h>
+
 namespace gonio {
 namespace {
 
 constexpr std::size_t block = Scratch<double>::block;
-constexpr std::size_t chunk = 64 * block;  ///< one task; fixed, so that sums do not depend on threads
+constexpr std::size_t chunk =
+    64 * block;  ///< one task; fixed, so that sums do not depend on threads
 
 /// The sums of one channel of one chunk: lanes during a chunk, added up after it.
 struct GramSums {
@@ -33,8 +34,12 @@ class ChunkPass {
     std::array<const double*, max_columns> j{};  ///< ∂f/∂slot
   };
 
-  ChunkPass(const Model& m, const FitData& d, const FreeSlots& free, const Objective& o,
-            std::span<const double> values, std::size_t number)
+  ChunkPass(const Model& m,
+            const FitData& d,
+            const FreeSlots& free,
+            const Objective& o,
+            std::span<const double> values,
+            std::size_t number)
       : kernels_(kernels<double>()),
         plan_(m, values, free.mask(), kernels_),
         data_(d),
@@ -65,7 +70,8 @@ class ChunkPass {
 
   /// visit(c, first sample, n) with r and slope made by `kernel` for that block and channel
   template <class Visit>
-  void run(const std::array<Kernels<double>::Residual, metric_names.size()>& kernel, Visit&& visit) {
+  void run(const std::array<Kernels<double>::Residual, metric_names.size()>& kernel,
+           Visit&& visit) {
     for (std::size_t at = first_; at < last_; at += block) {
       const auto b = data_.angles.block().part(at, std::min(block, last_ - at));
       plan_.run(b, [&](std::size_t c) {
@@ -88,10 +94,15 @@ class ChunkPass {
   alignas(64) std::array<double, padding> cost_{};
 };
 
-std::size_t chunks(const FitData& d) { return (d.angles.padded() + chunk - 1) / chunk; }
+std::size_t chunks(const FitData& d) {
+  return (d.angles.padded() + chunk - 1) / chunk;
+}
 
 /// Adds [r, J]ᵀ[r, J] of one channel, whose row 0 is r, where it belongs.
-void scatter(const GramSums& s, const std::vector<std::size_t>& free, std::size_t n, Matrix& h,
+void scatter(const GramSums& s,
+             const std::vector<std::size_t>& free,
+             std::size_t n,
+             Matrix& h,
              std::vector<double>* g) {
   const std::size_t k = free.size();
   if (g)
@@ -148,14 +159,25 @@ Sandwich Accumulator::sandwich(std::span<const double> values, bool by_incident_
   const std::size_t n = free_.size(), clusters = by_incident_angle ? data_.clusters : 0;
   struct Part {
     Matrix bread, meat;
-    std::vector<double> scores;  ///< [cluster][free slot]
+    std::vector<std::uint32_t> clusters;  ///< those of the chunk's samples, ascending
+    std::vector<double> scores;           ///< [of those][free slot]
   };
   std::vector<Part> parts(chunks(data_));
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t number) {
     ChunkPass pass(model_, data_, free_, objective_, values, number);
     std::vector<GramSums> bread(model_.channels), meat(model_.channels);
     auto& part = parts[number];
-    part = {Matrix(n * n), Matrix(n * n), std::vector<double>(clusters * n)};
+    part = {Matrix(n * n), Matrix(n * n), {}, {}};
+    if (by_incident_angle) {
+      const auto from = data_.incident.begin();
+      part.clusters.assign(
+          from + static_cast<std::ptrdiff_t>(std::min(number * chunk, data_.samples())),
+          from + static_cast<std::ptrdiff_t>(std::min((number + 1) * chunk, data_.samples())));
+      std::ranges::sort(part.clusters);
+      part.clusters.erase(std::unique(part.clusters.begin(), part.clusters.end()),
+                          part.clusters.end());
+      part.scores.resize(part.clusters.size() * n);
+    }
     pass.run(pass.kernel().influence, [&](std::size_t c, std::size_t first, std::size_t count) {
       const auto& x = pass.channel(c);
       const std::size_t k = x.free.size();
@@ -164,10 +186,13 @@ Sandwich Accumulator::sandwich(std::span<const double> values, bool by_incident_
         pass.kernel().gram[k + 1](count, pass.r(), pass.r(), x.j.data(), meat[c].lanes.data());
         return;
       }
-      for (std::size_t i = 0; i < std::min(count, data_.samples() - std::min(first, data_.samples())); ++i) {
+      for (std::size_t i = 0;
+           i < std::min(count, data_.samples() - std::min(first, data_.samples())); ++i) {
         const double score = pass.r()[i];
         if (score == 0) continue;  // masked values, whose derivatives may be NaN
-        double* const to = part.scores.data() + data_.incident[first + i] * n;
+        const auto at = std::ranges::lower_bound(part.clusters, data_.incident[first + i]);
+        double* const to =
+            part.scores.data() + static_cast<std::size_t>(at - part.clusters.begin()) * n;
         for (std::size_t p = 0; p < k; ++p) to[x.free[p]] += score * x.j[p][i];
       }
     });
@@ -182,7 +207,8 @@ Sandwich Accumulator::sandwich(std::span<const double> values, bool by_incident_
   for (const auto& p : parts) {
     add(total.bread, p.bread);
     add(total.meat, p.meat);
-    add(scores, p.scores);
+    for (std::size_t k = 0; k < p.clusters.size(); ++k)
+      for (std::size_t a = 0; a < n; ++a) scores[p.clusters[k] * n + a] += p.scores[k * n + a];
   }
   for (std::size_t c = 0; c < clusters; ++c)
     for (std::size_t a = 0; a < n; ++a)
@@ -198,7 +224,8 @@ std::vector<double> Accumulator::residuals(std::span<const double> values) const
     ChunkPass pass(model_, data_, free_, plain, values, number);
     pass.run(pass.kernel().residual, [&](std::size_t c, std::size_t first, std::size_t count) {
       for (std::size_t i = 0; i < count; ++i)
-        if (data_.root_weight[first + i] > 0 && data_.y[c][first + i] >= 0)
+        if (data_.root_weight[first + i] > 0 &&
+            usable(objective_.metric, data_.y[c][first + i], data_.offset))
           by_channel[c].push_back(pass.r()[i]);
     });
   }

@@ -1,77 +1,52 @@
 #include "fitting/data.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 
 #include "base/error.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
 
-/// Numbers the incident angles: the rows of a theta_i axis, the distinct angles of a list (to
-/// 0.001°), whole degrees on a half/difference grid, where every sample has its own.
-class IncidentAngle {
- public:
-  explicit IncidentAngle(const Table& t) : table_(t) {
-    if (const auto* l = t.list())
-      for (const double theta : l->theta_i_deg) ids_.try_emplace(key(theta), 0);
-    std::uint16_t next = 0;
-    for (auto& [k, id] : ids_) id = std::min<std::uint16_t>(next++, 65534);
-  }
-  std::size_t count() const {
-    if (table_.list()) return std::min<std::size_t>(ids_.size(), 65535);
-    return by_row() ? table_.grid()->axes[0].size : 90;
-  }
-  std::uint16_t operator()(std::size_t i, const Angles<double>& a) const {
-    if (const auto* l = table_.list()) return ids_.at(key(l->theta_i_deg[i]));
-    if (by_row()) return static_cast<std::uint16_t>(table_.grid()->unravel(i)[0]);
-    const double deg = std::acos(std::clamp(a.nol, 0.0, 1.0)) / degree;
-    return static_cast<std::uint16_t>(std::min(deg, 89.0));
-  }
+/// Tells incident angles apart: the rows of a theta_i axis, the angles of a list to 0.001°, whole
+/// degrees on a half/difference grid, where every sample has its own.
+std::uint32_t incident_key(const Table& t, std::size_t i, const Angles<double>& a) {
+  if (const auto* l = t.list())
+    return static_cast<std::uint32_t>(std::lround(l->theta_i_deg[i] * 1000));
+  if (t.grid()->kind == Grid::Kind::in_out)
+    return static_cast<std::uint32_t>(t.grid()->unravel(i)[0]);
+  return static_cast<std::uint32_t>(std::acos(std::clamp(a.nol, 0.0, 1.0)) / degree);
+}
 
- private:
-  bool by_row() const { return table_.grid()->kind == Grid::Kind::in_out; }
-  static long key(double theta_deg) { return std::lround(theta_deg * 1000); }
-  const Table& table_;
-  std::map<long, std::uint16_t> ids_;
-};
+/// Replaces the keys, which are small numbers, by those from 0 on; returns how many there are.
+std::size_t compact(std::vector<std::uint32_t>& keys) {
+  if (keys.empty()) return 0;
+  std::vector<std::uint32_t> number(*std::ranges::max_element(keys) + std::size_t{1});
+  for (const auto k : keys) number[k] = 1;
+  std::uint32_t next = 0;
+  for (auto& n : number)
+    if (n) n = next++;
+  for (auto& k : keys) k = number[k];
+  return next;
+}
 
 constexpr std::size_t chunk = 16384;
 
 struct Counts {
   std::size_t samples = 0, used = 0, zero = 0, zero_weight = 0;
+  double weight = 0;
   std::array<std::size_t, mask_names.size()> masked{};
 };
 
 }  // namespace
 
-double noise_offset(const Table& t) {
-  if (!t.negative_is_noise) return 0;
-  std::vector<double> negative;
-  std::size_t all = 0;
-  for (const auto& channel : t.values)
-    for (const double v : channel) {
-      ++all;
-      if (v < 0 && std::isfinite(v)) negative.push_back(-v);
-    }
-  if (negative.size() * 1000 < all || negative.empty()) return 0;
-  const auto middle = negative.begin() + static_cast<std::ptrdiff_t>(negative.size() / 2);
-  std::ranges::nth_element(negative, middle);
-  return 1.4826 * *middle;
-}
-
 FitData fit_data(const Table& t, Bins bins, Metric metric, double offset) {
   const SampleAngles at(t, bins);
   const std::size_t n = t.size(), channels = t.values.size(), chunks = (n + chunk - 1) / chunk;
-  const bool needs_positive = metric != Metric::l2_cosine && offset == 0;
-  const auto usable = [&](const Angles<double>& a, double v) {
-    return mask(a, v) == Mask::valid && !(needs_positive && v == 0);
-  };
+  if (metric == Metric::l2_cosine) offset = 0;
   const auto weight = [&](std::size_t i) { return t.weights.empty() ? 1.0 : t.weights[i]; };
 
   std::vector<Counts> counts(chunks);
@@ -84,18 +59,20 @@ FitData fit_data(const Table& t, Bins bins, Metric metric, double offset) {
         const Mask m = mask(a, channel[i]);
         ++c.masked[static_cast<std::size_t>(m)];
         if (m != Mask::valid) continue;
-        const bool zero = needs_positive && channel[i] == 0, weightless = !(weight(i) > 0);
+        const bool zero = !usable(metric, channel[i], offset), weightless = !(weight(i) > 0);
         c.zero += zero;
         c.zero_weight += weightless && !zero;
         c.used += !zero && !weightless;
-        any = any || (!zero && !weightless);
+        any = any || !weightless;
       }
       c.samples += any;
+      if (any) c.weight += weight(i);
     }
   });
 
   FitData d;
-  d.offset = metric == Metric::l2_cosine ? 0 : offset;
+  d.metric = metric;
+  d.offset = offset;
   Counts total;
   std::vector<std::size_t> first;
   for (const auto& c : counts) {
@@ -103,18 +80,20 @@ FitData fit_data(const Table& t, Bins bins, Metric metric, double offset) {
     total.samples += c.samples;
     total.used += c.used;
     total.zero += c.zero;
+    total.weight += c.weight;
     total.zero_weight += c.zero_weight;
     for (std::size_t m = 0; m < c.masked.size(); ++m) total.masked[m] += c.masked[m];
   }
   for (std::size_t m = 1; m < mask_names.size(); ++m) d.masked[mask_names[m]] = total.masked[m];
-  if (needs_positive) d.masked["zero"] = total.zero;
+  if (!usable(metric, 0, offset)) d.masked["zero"] = total.zero;
   if (!t.weights.empty()) d.masked["zero_weight"] = total.zero_weight;
   d.values_used = total.used;
-  if (total.samples == 0) {
+  if (total.used == 0) {
     std::string reasons;
     for (const auto& [reason, count] : d.masked)
       if (count) reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
-    throw bad_input(t.path, "values", fmt::format("none that can be used ({})", reasons), "at least one");
+    throw bad_input(t.path, "values", fmt::format("none that can be used ({})", reasons),
+                    "at least one");
   }
 
   d.angles = AngleColumns<double>(total.samples);
@@ -127,8 +106,9 @@ FitData fit_data(const Table& t, Bins bins, Metric metric, double offset) {
   for (std::size_t c = 0; c < channels; ++c) d.y.push_back(column(-1));
   d.root_weight = column(0);
   d.incident.resize(total.samples);
-  const IncidentAngle incident(t);
-  d.clusters = incident.count();
+  const double mean_weight = total.weight / static_cast<double>(total.samples);
+  if (!std::isfinite(mean_weight))
+    throw bad_input(t.path, "weights", "a sum that is not finite", "weights of a usual size");
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t k) {
     std::size_t to = first[k];
     std::vector<double> value(channels);
@@ -138,17 +118,18 @@ FitData fit_data(const Table& t, Bins bins, Metric metric, double offset) {
       bool any = false;
       for (std::size_t c = 0; c < channels; ++c) {
         const double v = t.values[c][i];
-        value[c] = usable(a, v) ? v : -1;
+        value[c] = mask(a, v) == Mask::valid ? v : -1;
         any = any || value[c] >= 0;
       }
       if (!any) continue;
       for (std::size_t c = 0; c < channels; ++c) d.y[c][to] = value[c];
       d.angles.set(to, a);
-      d.root_weight[to] = std::sqrt(weight(i));
-      d.incident[to] = incident(i, a);
+      d.root_weight[to] = std::sqrt(weight(i) / mean_weight);
+      d.incident[to] = incident_key(t, i, a);
       ++to;
     }
   });
+  d.clusters = compact(d.incident);
   return d;
 }
 
@@ -162,6 +143,7 @@ FitData thinned(const FitData& d, std::size_t most) {
   for (std::size_t c = 0; c < d.y.size(); ++c) s.y.emplace_back(s.angles.padded(), -1.0);
   s.incident.resize(n);
   s.clusters = d.clusters;
+  s.metric = d.metric;
   s.offset = d.offset;
   const auto x = d.angles.block();
   for (std::size_t i = 0; i < n; ++i) {
@@ -171,7 +153,7 @@ FitData thinned(const FitData& d, std::size_t most) {
     s.incident[i] = d.incident[from];
     for (std::size_t c = 0; c < d.y.size(); ++c) {
       s.y[c][i] = d.y[c][from];
-      s.values_used += d.y[c][from] >= 0;
+      s.values_used += usable(d.metric, d.y[c][from], d.offset);
     }
   }
   return s;

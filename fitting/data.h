@@ -13,14 +13,14 @@
 
 namespace gonio {
 
-/// Values that a metric cannot use are masked for it: the log and relative metrics need y > 0 unless
-/// they have an offset.
+/// A valid 0 stays in the columns: the kernels leave it out where the metric cannot use it.
 struct FitData {
   AngleColumns<double> angles{0};
-  std::vector<Column<double>> y;  ///< [channel]; −1 where masked
-  Column<double> root_weight;     ///< √weight; 0 in the padding
-  std::vector<std::uint16_t> incident;  ///< cluster of each sample: its incident angle
-  std::size_t clusters = 0;
+  std::vector<Column<double>> y;        ///< [channel]; −1 where masked
+  Column<double> root_weight;           ///< √(weight over its mean); 0 in the padding
+  std::vector<std::uint32_t> incident;  ///< cluster of each sample: its incident angle
+  std::size_t clusters = 0;             ///< how many of them there are
+  Metric metric = Metric::log;
   double offset = 0;  ///< of the log and relative metrics [1/sr]
 
   std::size_t values_used = 0;
@@ -28,11 +28,6 @@ struct FitData {
 
   std::size_t samples() const { return angles.size(); }
 };
-
-/// The noise floor that a table's negative values betray: 1.4826 · median |negative| where they are
-/// noise and make up at least 0.1 % of the values, else 0.  As the offset of the log and relative
-/// metrics it keeps values that are mostly noise from counting as much as real ones.
-double noise_offset(const Table&);
 
 /// Throws bad_input if nothing is left.
 FitData fit_data(const Table&, Bins, Metric, double offset);

@@ -1,7 +1,5 @@
 #include "fitting/fit.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,19 +13,23 @@
 #include "fitting/solve.h"
 #include "fitting/start.h"
 #include "fitting/uncertainty.h"
+#include "table/health.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t coarse_samples = 2048, middle_samples = 65536;
+constexpr std::size_t coarse_samples = 2048, scan_samples = 16384, middle_samples = 65536;
 
 /// What stays the same for both bin conventions.
 struct Problem {
   const FitOptions& options;
   BoundModel start;  ///< fixed values in place
   FreeSlots free;
-  Bounds bounds;     ///< of the free slots
+  Bounds bounds;               ///< of the free slots
+  std::vector<bool> narrowed;  ///< of the free slots: whether the user gave the bounds
   double offset;
 };
 
@@ -53,37 +55,67 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-Range fit_range(const FitOptions& o, const ModelParameter& p) {
-  const auto own = std::ranges::find(o.bounds, p.name, &Setting::name);
-  if (own == o.bounds.end()) return p.about->fit;
-  if (own->values.size() != 2 || !(own->values[0] < own->values[1]))
-    throw wrong_usage(fmt::format("bounds of {}: two numbers, the lower first", p.name));
-  for (const double v : own->values) check_range(*p.about, p.name, v);
-  return {own->values[0], own->values[1]};
+/// The user's bounds by the names of the model's parameters.
+std::vector<Setting> resolved_bounds(const FitOptions& o, const BoundModel& b) {
+  std::vector<Setting> all = o.bounds;
+  for (auto& s : all) {
+    if (!b.model.find(s.name))
+      for (const auto& p : b.model.parameters)
+        if (is_alpha(p.name) && roughness_name(p.name) == s.name) {
+          s.name = p.name;
+          for (auto& v : s.values) v *= v;
+        }
+    const auto* p = b.model.find(s.name);
+    if (!p) throw wrong_usage(fmt::format("bounds: the model has no parameter '{}'", s.name));
+    if (std::ranges::find(b.given, s.name) != b.given.end())
+      throw wrong_usage(fmt::format("{} is held at a value and has bounds", s.name));
+    if (s.values.size() != 2 || !(s.values[0] < s.values[1]))
+      throw wrong_usage(fmt::format("bounds of {}: two numbers, the lower first", s.name));
+    for (const double v : s.values) check_range(*p->about, s.name, v);
+  }
+  return all;
 }
 
 Problem pose(const Table& t, const FitOptions& o) {
   BoundModel b = bind_model(o.model, o.fixed, t.channels.size(), o.grey);
-  for (const auto& s : o.bounds)
-    if (!b.model.find(s.name))
-      throw wrong_usage(fmt::format("bounds: the model has no parameter '{}'", s.name));
+  const auto own = resolved_bounds(o, b);
   std::vector<bool> free(b.model.value_count, true);
   Bounds bounds;
+  std::vector<bool> narrowed;
   for (const auto& p : b.model.parameters) {
     const bool fixed = std::ranges::find(b.given, p.name) != b.given.end();
-    const Range range = fit_range(o, p);
+    const auto mine = std::ranges::find(own, p.name, &Setting::name);
+    const bool user = mine != own.end();
+    const Range range = user ? Range{mine->values[0], mine->values[1]} : p.about->fit;
     for (std::size_t c = 0; c < p.count; ++c) {
       free[p.first + c] = !fixed;
       if (fixed) continue;
       bounds.low.push_back(range.low);
       bounds.high.push_back(range.high);
+      narrowed.push_back(user);
     }
   }
-  return {o, std::move(b), FreeSlots(std::move(free)), std::move(bounds), noise_offset(t)};
+  for (std::size_t c = 0; c < b.model.channels; ++c) {
+    std::size_t count = 0;
+    for (const auto& p : b.model.parameters) count += free[p.slot(c)];
+    if (count >= max_columns)
+      throw wrong_usage(
+          fmt::format("{} free parameters per channel; at most {} can be fitted at once", count,
+                      max_columns - 1));
+  }
+  return {o,
+          std::move(b),
+          FreeSlots(std::move(free)),
+          std::move(bounds),
+          std::move(narrowed),
+          noise_floor(t)};
 }
 
-Fitted minimise(const Problem& p, const FitData& data, std::vector<double> values,
-                const Objective& objective, const SolveOptions& options = {}) {
+Fitted minimise(const Problem& p,
+                const FitData& data,
+                std::vector<double> values,
+                const Objective& objective,
+                const SolveOptions& options = {}) {
   const auto slots = p.free.slots();
   const Accumulator accumulate(p.start.model, data, p.free, objective);
   std::vector<double> x;
@@ -124,6 +156,44 @@ Fitted coarse(const Problem& p, const FitData& data) {
   return f;
 }
 
+/// Takes the value from parameters that can be anything: moved over its whole range, the others as
+/// they are, such a one lowers or raises the cost by no more than luck does.  A lobe that may be put
+/// anywhere can always please one of N noisy values, which is worth 2 ln N [the largest of N squared
+/// normal deviates].  Asked of the widths and exponents, which a vanished lobe leaves free, and of
+/// what stands at a bound.
+void find_undetermined(const Problem& p, const FitData& data, const Fitted& f, Uncertainty& u) {
+  const FitData thin = thinned(data, scan_samples);
+  const Accumulator accumulate(p.start.model, thin, p.free, f.objective);
+  const NormalEquations here = accumulate.normal_equations(f.values);
+  const std::size_t n = p.free.size();
+  const double count = static_cast<double>(thin.values_used);
+  double effect = 0;  // rounding is not evidence: residuals below 1e-7 of what a parameter can do
+  for (std::size_t i = 0; i < n; ++i) {
+    const double range = p.bounds.high[i] - p.bounds.low[i];
+    effect = std::max(effect, here.h[i * n + i] * range * range);
+  }
+  const double variance = std::max(2 * here.cost, 1e-14 * effect) / count;
+  const double all = static_cast<double>(data.values_used);
+  const double luck = (3.84 + 2 * std::log(all)) * count / all;
+  for (const auto& q : p.start.model.parameters)
+    for (std::size_t s = q.first; s < q.first + q.count; ++s) {
+      if (!p.free.mask()[s]) continue;
+      const std::size_t i = p.free.index(s);
+      if (q.about->per_channel && u.status[i] != ParameterStatus::at_bound) continue;
+      auto moved = f.values;
+      const double low = p.bounds.low[i], high = p.bounds.high[i];
+      double most = 0;
+      for (const double part : {0.0, 0.03, 0.1, 0.3, 0.6, 1.0}) {
+        moved[s] = low + part * (high - low);
+        most = std::max(most, std::abs(accumulate.normal_equations(moved).cost - here.cost));
+      }
+      if (2 * most < luck * variance) {
+        u.status[i] = ParameterStatus::not_identifiable;
+        u.std_error[i] = nan;
+      }
+    }
+}
+
 /// One document entry per parameter, alpha followed by roughness.
 void describe(FitDocument& d, const Problem& p, const Fitted& f, const Uncertainty& u) {
   for (const auto& q : p.start.model.parameters) {
@@ -135,9 +205,9 @@ void describe(FitDocument& d, const Problem& p, const Fitted& f, const Uncertain
         const std::size_t i = p.free.index(s);
         status = u.status[i];
         error = u.std_error[i];
-        // A width at the low end of all that is looked at: narrower ones, or no lobe, would do as well.
-        if (status == ParameterStatus::at_bound && is_alpha(q.name) &&
-            value <= q.about->fit.low * (1 + 1e-3))
+        // A width at the low end of all there are: narrower ones, or no lobe, would do as well.
+        if (status == ParameterStatus::at_bound && is_alpha(q.name) && !p.narrowed[i] &&
+            value <= p.bounds.low[i] * (1 + 1e-3))
           status = ParameterStatus::not_identifiable;
         if (status == ParameterStatus::not_identifiable) value = error = nan;
       }
@@ -159,16 +229,52 @@ void describe(FitDocument& d, const Problem& p, const Fitted& f, const Uncertain
   for (const auto& q : p.start.model.parameters)
     for (std::size_t c = 0; c < q.count; ++c)
       if (p.free.mask()[q.first + c])
-        d.free_names.push_back(q.count == 1 ? q.name : fmt::format("{}[{}]", q.name, c));
+        d.free_names.push_back(q.count == 1 ? q.name : fmt::format("{}.{}", q.name, d.channels[c]));
   d.correlations = u.correlations;
   d.condition = u.condition;
 }
 
+/// With few clusters the sums of their scores say too little: at the optimum they add up to zero.
+bool enough_angles(std::size_t clusters, std::size_t free) {
+  return clusters >= std::max<std::size_t>(8, 2 * free);
+}
+
 bool clustered(const FitOptions& o, const Table& t, std::size_t clusters, std::size_t free) {
   if (o.intervals == Intervals::independent) return false;
-  if (o.intervals == Intervals::automatic && t.truth) return false;
-  // With few clusters the sums of their scores say too little: at the optimum they add up to zero.
-  return clusters >= std::max<std::size_t>(8, 2 * free);
+  if (o.intervals == Intervals::by_angle) {
+    if (clusters < 2) throw wrong_usage("intervals by_angle: the table has one incident angle");
+    return true;
+  }
+  return !t.truth && enough_angles(clusters, free);
+}
+
+/// What a reader must know before believing the numbers.
+std::vector<std::string> warnings(const FitOptions& o,
+                                  const Table& t,
+                                  const FitDocument& d,
+                                  std::size_t angles,
+                                  std::size_t free) {
+  std::vector<std::string> all;
+  constexpr double far_off = 0.25;
+  if (d.residuals.log_rms > far_off)
+    all.push_back(fmt::format(
+        "the model does not describe the table: they differ by a typical factor of {:.3g}; "
+        "the intervals say nothing of that",
+        std::exp(d.residuals.log_rms)));
+  if (d.values_used <= free)
+    all.push_back(
+        fmt::format("{} values cannot tell the errors of {} unknowns", d.values_used, free));
+  if (!t.truth && o.intervals != Intervals::independent && !enough_angles(angles, free))
+    all.push_back(fmt::format(
+        "{} incident angles are few for {} unknowns: errors that the values of one angle share "
+        "make the intervals too narrow",
+        angles, free));
+  if (d.log_offset > 0)
+    all.push_back(fmt::format(
+        "negative values betray a noise floor of {:.2g} 1/sr; they are masked, which lifts what "
+        "is fitted where the signal is not well above it",
+        d.log_offset));
+  return all;
 }
 
 }  // namespace
@@ -185,12 +291,16 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
 
   const Bins bins = t.grid() ? t.grid()->bins : Bins::centre;
   Objective objective;
+  std::size_t angles = 0;
   {
     announce("reading columns");
     const FitData data = fit_data(t, bins, o.metric, p.offset);
     watch.lap("columns_ms");
     announce("finding a start");
     const Fitted start = coarse(p, data);
+    if (!std::isfinite(start.solution.at.cost))
+      throw bad_input(t.path, "values", "numbers whose squares have no finite sum",
+                      "reflectances [1/sr]");
     watch.lap("start_ms");
     announce("fitting all samples");
     const Fitted f = minimise(p, data, start.values, start.objective);
@@ -201,18 +311,21 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
     const bool by_angle = clustered(o, t, data.clusters, p.free.size());
     const Accumulator accumulate(p.start.model, data, p.free, f.objective);
     const std::size_t clusters = by_angle ? data.clusters : 0;
-    const auto u = uncertainty(accumulate.sandwich(f.values, by_angle), f.solution.x, p.bounds,
-                               data.values_used, clusters);
+    auto u = uncertainty(accumulate.sandwich(f.values, by_angle), f.solution.x, p.bounds,
+                         data.values_used, clusters);
+    find_undetermined(p, data, f, u);
     watch.lap("errors_ms");
 
     result.model.values = f.values;
     d.model = p.start.model.spec;
+    d.channels = t.channels;
     describe(d, p, f, u);
     d.metric = metric_names[static_cast<std::size_t>(o.metric)];
     d.log_offset = data.offset;
     d.robust = o.robust ? "huber" : "none";
     d.cost = f.solution.at.cost;
     d.intervals = by_angle ? "clustered by incident angle" : "independent values";
+    angles = data.clusters;
     d.clusters = clusters;
     d.solver.termination = f.solution.converged ? "converged" : "not_converged";
     d.solver.message = f.solution.message;
@@ -231,25 +344,31 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
   if (t.has_bins() && o.bin_sensitivity) {
     announce("fitting under the other bin convention");
     const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
-    // Both conventions on the same thinned bins: a ratio needs no million of them.
+    // Both conventions on equally thinned tables: a ratio needs no million bins.
     const auto refit = [&](Bins convention) {
       const FitData data = thinned(fit_data(t, convention, o.metric, p.offset), middle_samples);
-      auto values = minimise(p, data, result.model.values, objective).values;
-      const double log_rms = residual_statistics({p.start.model, values, {}}, data).log_rms;
-      return std::pair(std::move(values), log_rms);
+      Fitted f = minimise(p, data, result.model.values, objective);
+      const double log_rms = residual_statistics({p.start.model, f.values, {}}, data).log_rms;
+      return std::pair(std::move(f), log_rms);
     };
-    const auto [here, ignored] = refit(bins);
+    const auto here = refit(bins).first;
     const auto [there, log_rms] = refit(other);
-    BinSensitivity s{bins_names[static_cast<std::size_t>(other)], {}, log_rms};
-    for (const auto& q : p.start.model.parameters) {
-      std::vector<double> change;
-      for (std::size_t i = q.first; i < q.first + q.count; ++i)
-        change.push_back(here[i] == 0 ? nan : there[i] / here[i] - 1);
-      s.relative_change.emplace_back(q.name, std::move(change));
+    if (here.solution.converged && there.solution.converged) {
+      BinSensitivity s{bins_names[static_cast<std::size_t>(other)], {}, log_rms};
+      for (const auto& q : p.start.model.parameters) {
+        const auto& known = std::ranges::find(d.parameters, q.name, &FittedParameter::name)->value;
+        std::vector<double> change;
+        for (std::size_t c = 0; c < q.count; ++c) {
+          const double a = here.values[q.first + c], b = there.values[q.first + c];
+          change.push_back(std::isnan(known[c]) || a == 0 ? nan : b / a - 1);
+        }
+        s.relative_change.emplace_back(q.name, std::move(change));
+      }
+      d.sensitivity.push_back(std::move(s));
     }
-    d.sensitivity.push_back(std::move(s));
     watch.lap("bin_sensitivity_ms");
   }
+  d.warnings = warnings(o, t, d, angles, p.free.size());
   return result;
 }
 

@@ -14,16 +14,17 @@
 namespace gonio {
 
 enum class Intervals {
-  automatic,   ///< independent for tables that gonio synthesized, by_angle for measured ones
+  automatic,  ///< by_angle for measured tables with enough incident angles, else independent
   independent,
-  by_angle     ///< values of one incident angle share their errors
+  by_angle  ///< values of one incident angle share their errors; needs two angles
 };
 inline constexpr std::array<const char*, 3> intervals_names{"automatic", "independent", "by_angle"};
 
 struct FitOptions {
   std::string model = "lambert+ggx/smith_ggx.correlated/schlick";
-  std::vector<Setting> fixed;   ///< parameters held at a value
-  std::vector<Setting> bounds;  ///< NAME=low,high instead of the parameter's own fit range
+  std::vector<Setting> fixed;  ///< parameters held at a value
+  std::vector<Setting>
+      bounds;  ///< NAME=low,high instead of the parameter's own range; roughness too
   std::vector<std::string> grey;  ///< colour parameters with one value for all channels
   Metric metric = Metric::log;
   bool robust = false;  ///< Huber's loss beyond 1.345 robust standard deviations

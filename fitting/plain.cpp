@@ -1,11 +1,11 @@
 #include "fitting/plain.h"
 
-#include <ceres/ceres.h>
-
 #include <chrono>
 
 #include "brdf/catalogue.h"
 #include "number/dual.h"
+
+#include <ceres/ceres.h>
 
 namespace gonio {
 namespace {
@@ -54,10 +54,9 @@ PlainFit fit_plainly(const FitData& d, std::vector<double> start, int threads) {
   const auto x = d.angles.block();
   ceres::Problem problem;
   for (std::size_t i = 0; i < d.samples(); ++i)
-    problem.AddResidualBlock(
-        new Bin({x.nol[i], x.nov[i], x.noh[i], x.voh[i], x.sin2_theta_h[i]},
-                {d.y[0][i], d.y[1][i], d.y[2][i]}),
-        nullptr, f.values.data());
+    problem.AddResidualBlock(new Bin({x.nol[i], x.nov[i], x.noh[i], x.voh[i], x.sin2_theta_h[i]},
+                                     {d.y[0][i], d.y[1][i], d.y[2][i]}),
+                             nullptr, f.values.data());
   for (int i = 0; i < parameters; ++i) {
     problem.SetParameterLowerBound(f.values.data(), i, i == 0 ? alpha_parameter.fit.low : 0);
     problem.SetParameterUpperBound(f.values.data(), i, 1);

@@ -1,11 +1,11 @@
 #include "fitting/residuals.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {

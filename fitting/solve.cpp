@@ -1,10 +1,10 @@
 // The one file that knows Ceres.
 #include "fitting/solve.h"
 
-#include <ceres/ceres.h>
+#include <cmath>
 
 #include <Eigen/Eigenvalues>
-#include <cmath>
+#include <ceres/ceres.h>
 
 namespace gonio {
 namespace {
@@ -15,8 +15,11 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 /// for its Jacobian after accepting it: one pass over the samples serves both.
 class Reduced : public ceres::CostFunction {
  public:
-  Reduced(const std::function<NormalEquations(const std::vector<double>&)>& evaluate, std::size_t n)
-      : evaluate_(evaluate) {
+  /// \param scale  of the cost, so that none of Ceres' absolute limits depends on the data's unit
+  Reduced(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
+          std::size_t n,
+          double scale)
+      : evaluate_(evaluate), scale_(scale) {
     set_num_residuals(static_cast<int>(n) + 1);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(n));
   }
@@ -30,14 +33,21 @@ class Reduced : public ceres::CostFunction {
     return e_;
   }
   int passes() const { return passes_; }
+  /// What is known already.
+  void known(const std::vector<double>& x, const NormalEquations& e) {
+    x_ = x;
+    e_ = e;
+    passes_ = 1;
+  }
 
-  bool Evaluate(double const* const* parameters, double* residuals,
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
                 double** jacobians) const override {
     const auto n = static_cast<Eigen::Index>(parameter_block_sizes()[0]);
     const auto& e = at({parameters[0], parameters[0] + n});
     if (!std::isfinite(e.cost)) return false;
-    const Eigen::Map<const RowMajor> h(e.h.data(), n, n);
-    const Eigen::Map<const Eigen::VectorXd> g(e.g.data(), n);
+    const RowMajor h = scale_ * Eigen::Map<const RowMajor>(e.h.data(), n, n);
+    const Eigen::VectorXd g = scale_ * Eigen::Map<const Eigen::VectorXd>(e.g.data(), n);
     Eigen::VectorXd s = h.diagonal().cwiseSqrt();
     for (auto& d : s) d = d > 0 ? 1 / d : 1;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
@@ -49,7 +59,7 @@ class Reduced : public ceres::CostFunction {
     const Eigen::VectorXd rotated = eigen.eigenvectors().transpose() * (s.asDiagonal() * g);
     for (Eigen::Index i = 0; i < n; ++i)
       if (eigen.eigenvalues()[i] > tiny) r[i] = rotated[i] / std::sqrt(eigen.eigenvalues()[i]);
-    r[n] = std::sqrt(std::max(0.0, 2 * e.cost - r.head(n).squaredNorm()));
+    r[n] = std::sqrt(std::max(0.0, 2 * scale_ * e.cost - r.head(n).squaredNorm()));
     if (jacobians && jacobians[0]) {
       Eigen::Map<RowMajor> j(jacobians[0], n + 1, n);
       j.setZero();
@@ -63,6 +73,7 @@ class Reduced : public ceres::CostFunction {
 
  private:
   const std::function<NormalEquations(const std::vector<double>&)>& evaluate_;
+  double scale_;
   mutable std::vector<double> x_;
   mutable NormalEquations e_;
   mutable int passes_ = 0;
@@ -70,7 +81,9 @@ class Reduced : public ceres::CostFunction {
 
 /// One run of Ceres, all unknowns free inside their bounds.
 Solution solve_once(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
-               std::vector<double> start, const Bounds& bounds, const SolveOptions& options) {
+                    std::vector<double> start,
+                    const Bounds& bounds,
+                    const SolveOptions& options) {
   Solution s;
   s.x = std::move(start);
   const std::size_t n = s.x.size();
@@ -78,7 +91,20 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
   ceres::Problem::Options ours;
   ours.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(ours);
-  Reduced cost(evaluate, n);
+  // One for the sum of what each unknown changes over its range.
+  double effect = 0;
+  s.at = evaluate(s.x);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double range = bounds.high[i] - bounds.low[i];
+    effect += s.at.h[i * n + i] * range * range;
+  }
+  if (!std::isfinite(s.at.cost) || !std::isfinite(effect)) {
+    s.message = "the sum of squares is not finite at the start";
+    return s;
+  }
+  const double scale = effect > 0 ? 1 / effect : 1;
+  Reduced cost(evaluate, n, scale);
+  cost.known(s.x, s.at);
   problem.AddResidualBlock(&cost, nullptr, s.x.data());
   for (std::size_t i = 0; i < n; ++i) {
     problem.SetParameterLowerBound(s.x.data(), static_cast<int>(i), bounds.low[i]);
@@ -89,7 +115,7 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
   o.max_num_iterations = options.max_iterations;
   o.function_tolerance = options.function_tolerance;
   o.parameter_tolerance = options.parameter_tolerance;
-  o.gradient_tolerance = 1e-16;
+  o.gradient_tolerance = 0;             // absolute: it would depend on the data's unit
   o.initial_trust_region_radius = 1e6;  // the start is close: nearly a Gauss–Newton step
   o.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
@@ -98,14 +124,16 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
   s.at = cost.at(s.x);
   s.passes = cost.passes();
   s.converged = summary.termination_type == ceres::CONVERGENCE;
-  s.iterations = static_cast<int>(summary.iterations.size());
-  for (const auto& i : summary.iterations) s.cost_per_iteration.push_back(i.cost);
+  s.iterations = static_cast<int>(summary.iterations.size()) - 1;  // the first is the start
+  for (const auto& i : summary.iterations) s.cost_per_iteration.push_back(i.cost / scale);
   s.message = summary.message;
   return s;
 }
 
 /// The problem in a subset of its unknowns, the others held.
-NormalEquations restricted(const NormalEquations& e, std::size_t n, const std::vector<std::size_t>& moving) {
+NormalEquations restricted(const NormalEquations& e,
+                           std::size_t n,
+                           const std::vector<std::size_t>& moving) {
   NormalEquations r{Matrix(), {}, e.cost};
   for (const std::size_t a : moving) {
     r.g.push_back(e.g[a]);
@@ -117,7 +145,9 @@ NormalEquations restricted(const NormalEquations& e, std::size_t n, const std::v
 }  // namespace
 
 Solution solve(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
-               std::vector<double> start, const Bounds& bounds, const SolveOptions& options) {
+               std::vector<double> start,
+               const Bounds& bounds,
+               const SolveOptions& options) {
   const std::size_t n = start.size();
   Solution s;
   s.x = std::move(start);
@@ -181,13 +211,16 @@ Solution solve(const std::function<NormalEquations(const std::vector<double>&)>&
       s.message = once.message;
       s.iterations += once.iterations;
       s.passes += once.passes;
-      s.cost_per_iteration.insert(s.cost_per_iteration.end(), once.cost_per_iteration.begin(),
-                                  once.cost_per_iteration.end());
+      const auto& costs = once.cost_per_iteration;  // a later round starts where the last one ended
+      const bool repeats = !s.cost_per_iteration.empty() && !costs.empty();
+      s.cost_per_iteration.insert(s.cost_per_iteration.end(), costs.begin() + repeats, costs.end());
     }
     auto now = pushed_outwards();
-    if (now == held) break;
+    if (now == held || !s.converged) return s;
     held = std::move(now);
   }
+  s.converged = false;
+  s.message = "the unknowns at their bounds keep changing";
   return s;
 }
 

@@ -18,7 +18,7 @@ struct Solution {
   std::vector<double> x;
   NormalEquations at;  ///< the normal equations at x
   bool converged = false;
-  int iterations = 0, passes = 0;
+  int iterations = 0, passes = 0;  ///< trial steps; evaluations
   std::vector<double> cost_per_iteration;
   std::string message;
 };
@@ -40,6 +40,8 @@ struct SolveOptions {
 /// Ceres projects its steps onto the bounds and so creeps along them: what it leaves at a bound is held
 /// there and the rest solved again, until no held unknown is pulled back inside.
 Solution solve(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
-               std::vector<double> start, const Bounds&, const SolveOptions& = {});
+               std::vector<double> start,
+               const Bounds&,
+               const SolveOptions& = {});
 
 }  // namespace gonio

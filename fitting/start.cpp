@@ -1,10 +1,10 @@
 #include "fitting/start.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <numbers>
 #include <utility>
+
+#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -25,7 +25,10 @@ bool is_named(std::string_view name, std::string_view base) {
 }
 
 /// Sets every free slot of the parameters called `base` (or base_2 …).
-void set(const Model& m, const FreeSlots& free, std::string_view base, std::vector<double>& values,
+void set(const Model& m,
+         const FreeSlots& free,
+         std::string_view base,
+         std::vector<double>& values,
          double value) {
   for (const auto& p : m.parameters)
     if (is_named(p.name, base))
@@ -35,8 +38,11 @@ void set(const Model& m, const FreeSlots& free, std::string_view base, std::vect
 
 }  // namespace
 
-std::vector<double> find_start(const Model& m, const FitData& thin, const FreeSlots& free,
-                               const Objective& objective, const Bounds& bounds,
+std::vector<double> find_start(const Model& m,
+                               const FitData& thin,
+                               const FreeSlots& free,
+                               const Objective& objective,
+                               const Bounds& bounds,
                                std::vector<double> values) {
   for (const auto& p : m.parameters)
     if (is_named(p.name, "kd"))
@@ -46,7 +52,7 @@ std::vector<double> find_start(const Model& m, const FitData& thin, const FreeSl
 
   // A ladder of widths; later lobes are wider by two rungs each.
   std::vector<std::vector<double>> candidates;
-  constexpr std::array widths{0.01, 0.03, 0.07, 0.15, 0.3, 0.5, 0.8};
+  constexpr std::array widths{0.001, 0.003, 0.01, 0.03, 0.07, 0.15, 0.3, 0.5, 0.8};
   for (std::size_t w = 0; w < widths.size(); ++w)
     for (const double f0 : {0.04, 0.6}) {
       auto v = values;

@@ -12,7 +12,11 @@ namespace gonio {
 /// table from a ladder of widths and reflectances, the best of which is the start.
 /// \param values  fixed values where they are fixed
 /// \return        values for all slots
-std::vector<double> find_start(const Model&, const FitData& thin, const FreeSlots&,
-                               const Objective&, const Bounds&, std::vector<double> values);
+std::vector<double> find_start(const Model&,
+                               const FitData& thin,
+                               const FreeSlots&,
+                               const Objective&,
+                               const Bounds&,
+                               std::vector<double> values);
 
 }  // namespace gonio

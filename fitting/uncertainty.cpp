@@ -1,8 +1,9 @@
 #include "fitting/uncertainty.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+
+#include <Eigen/Eigenvalues>
 
 namespace gonio {
 namespace {
@@ -31,6 +32,9 @@ struct Decomposed {
 }  // namespace
 
 double student_t_975(double nu) {
+  if (nu < 1.5) return 12.7062;
+  if (nu < 2.5) return 4.30265;
+  if (nu < 3.5) return 3.18245;
   // Cornish–Fisher expansion about the normal quantile [Abramowitz & Stegun 26.7.5].
   const double z = 1.959963984540054, z2 = z * z;
   const double g1 = z * (z2 + 1) / 4, g2 = z * ((5 * z2 + 16) * z2 + 3) / 96;
@@ -38,30 +42,27 @@ double student_t_975(double nu) {
   return z + g1 / nu + g2 / (nu * nu) + g3 / (nu * nu * nu);
 }
 
-Uncertainty uncertainty(const Sandwich& s, std::span<const double> x, const Bounds& bounds,
-                        std::size_t values_used, std::size_t clusters) {
+Uncertainty uncertainty(const Sandwich& s,
+                        std::span<const double> x,
+                        const Bounds& bounds,
+                        std::size_t values_used,
+                        std::size_t clusters) {
   const std::size_t n = x.size();
   Uncertainty u;
   u.status.assign(n, ParameterStatus::free);
   u.std_error.assign(n, nan);
   u.correlations.assign(n, std::vector<double>(n, nan));
-  if (clusters) u.t = student_t_975(static_cast<double>(clusters - 1));
-
   const auto range = [&](std::size_t i) { return bounds.high[i] - bounds.low[i]; };
   const auto effect = [&](std::size_t i) { return s.bread[i * n + i] * range(i) * range(i); };
   double strongest = 0;
   for (std::size_t i = 0; i < n; ++i) strongest = std::max(strongest, effect(i));
-  // The error that a parameter would have if all others were known: the least it can be.
-  const auto least_error = [&](std::size_t i) {
-    return std::sqrt(s.meat[i * n + i]) / s.bread[i * n + i];
-  };
   std::vector<std::size_t> known;
   for (std::size_t i = 0; i < n; ++i) {
     const double near = 1e-7 * range(i);
-    if (!(effect(i) > 1e-18 * strongest) || 2 * u.t * least_error(i) >= range(i))
-      u.status[i] = ParameterStatus::not_identifiable;
-    else if (x[i] <= bounds.low[i] + near || x[i] >= bounds.high[i] - near)
+    if (x[i] <= bounds.low[i] + near || x[i] >= bounds.high[i] - near)
       u.status[i] = ParameterStatus::at_bound;
+    else if (!(effect(i) > 1e-18 * strongest))
+      u.status[i] = ParameterStatus::not_identifiable;
     else
       known.push_back(i);
   }
@@ -85,7 +86,11 @@ Uncertainty uncertainty(const Sandwich& s, std::span<const double> x, const Boun
     else
       determined.push_back(known[k]);
   }
-  if (determined.empty()) return u;
+  const double count = static_cast<double>(values_used), p = static_cast<double>(determined.size());
+  const double g = static_cast<double>(clusters);
+  const double freedom = clusters ? g - 1 : count - p;
+  if (determined.empty() || freedom < 1) return u;
+  u.t = student_t_975(freedom);
 
   const Decomposed d(part(s.bread, n, determined));
   const Eigen::MatrixXd inverse =
@@ -93,8 +98,6 @@ Uncertainty uncertainty(const Sandwich& s, std::span<const double> x, const Boun
       (d.eigen.eigenvectors() * d.eigen.eigenvalues().cwiseInverse().asDiagonal() *
        d.eigen.eigenvectors().transpose()) *
       d.scale.asDiagonal();
-  const double count = static_cast<double>(values_used), p = static_cast<double>(determined.size());
-  const double g = static_cast<double>(clusters);
   const double correction =
       (clusters ? g / (g - 1) * (count - 1) : count) / std::max(count - p, 1.0);
   const Eigen::MatrixXd covariance = correction * inverse * part(s.meat, n, determined) * inverse;

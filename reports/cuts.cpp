@@ -36,7 +36,11 @@ DirectionPair place(const Cut& cut, double phi_d, double deg) {
 
 /// Fills in the model over the data's points and over steps of half a degree, finer around `peak`,
 /// and the data where they are.  False if no data are valid.
-bool finish(Cut& cut, std::vector<Point> points, double peak_deg, double from_deg, double phi_d,
+bool finish(Cut& cut,
+            std::vector<Point> points,
+            double peak_deg,
+            double from_deg,
+            double phi_d,
             const BoundModel& fitted) {
   const std::size_t channels = fitted.model.channels;
   const bool any = std::ranges::any_of(points, [](const Point& p) {
@@ -59,7 +63,8 @@ bool finish(Cut& cut, std::vector<Point> points, double peak_deg, double from_de
   for (const Point& p : points) {
     cut.deg.push_back(p.deg);
     x.push_back(angles(place(cut, phi_d, p.deg)));
-    for (std::size_t c = 0; c < channels; ++c) cut.data[c].push_back(p.data.empty() ? none : p.data[c]);
+    for (std::size_t c = 0; c < channels; ++c)
+      cut.data[c].push_back(p.data.empty() ? none : p.data[c]);
   }
   cut.model = evaluate(fitted, x);
   for (auto& channel : cut.model)
@@ -72,7 +77,8 @@ bool finish(Cut& cut, std::vector<Point> points, double peak_deg, double from_de
 bool at_its_azimuth(const Grid& g, const DirectionPair& p) {
   const Axis& axis = g.axes[2];
   if (axis.size > 1) return true;
-  const double phi = g.kind == Grid::Kind::in_out ? phi_of(p.wo) - phi_of(p.wi) : half_difference(p).phi_d;
+  const double phi =
+      g.kind == Grid::Kind::in_out ? phi_of(p.wo) - phi_of(p.wi) : half_difference(p).phi_d;
   const double period = g.kind == Grid::Kind::in_out ? 2 * std::numbers::pi : std::numbers::pi;
   const double span = axis.angle(0, g.bins);
   return std::min(std::abs(std::remainder(phi - span, period)),
@@ -91,7 +97,8 @@ std::vector<double> choose(const std::vector<double>& nodes) {
   if (nodes.size() <= most_cuts) return nodes;
   std::vector<double> out;
   for (const double w : wanted_deg) {
-    const double next = *std::ranges::min_element(nodes, {}, [&](double a) { return std::abs(a - w); });
+    const double next =
+        *std::ranges::min_element(nodes, {}, [&](double a) { return std::abs(a - w); });
     if (out.empty() || next != out.back()) out.push_back(next);
   }
   return out;
@@ -156,7 +163,8 @@ std::vector<InPlane> in_plane_samples(const Table& table) {
     const double along = p.wo.x * std::cos(phi_i) + p.wo.y * std::sin(phi_i);
     const double across = p.wo.y * std::cos(phi_i) - p.wo.x * std::sin(phi_i);
     if (std::abs(across) <= std::sin(near_deg * degree))
-      out.push_back({i, list.theta_i_deg[i], along > 0 ? -list.theta_o_deg[i] : list.theta_o_deg[i]});
+      out.push_back(
+          {i, list.theta_i_deg[i], along > 0 ? -list.theta_o_deg[i] : list.theta_o_deg[i]});
   }
   return out;
 }
@@ -164,11 +172,12 @@ std::vector<InPlane> in_plane_samples(const Table& table) {
 std::vector<Cut> list_cuts(const Table& table, const BoundModel& fitted) {
   auto samples = in_plane_samples(table);
   std::ranges::stable_sort(samples, {}, &InPlane::theta_i_deg);
-  // Incident angles closer than 0.1° are one; a table with hardly two samples at each has directions
-  // at random.
+  // Incident angles closer than 0.1° are one; a table with hardly two samples at each has
+  // directions at random.
   std::vector<double> distinct;
   for (const auto& s : samples)
-    if (distinct.empty() || s.theta_i_deg - distinct.back() > 0.1) distinct.push_back(s.theta_i_deg);
+    if (distinct.empty() || s.theta_i_deg - distinct.back() > 0.1)
+      distinct.push_back(s.theta_i_deg);
   const bool random = samples.size() < 3 * distinct.size();
   const double within = random ? near_deg : 0;
   const std::vector<double> at =
@@ -180,7 +189,8 @@ std::vector<Cut> list_cuts(const Table& table, const BoundModel& fitted) {
     Cut cut{"theta_i", at_deg, within, "theta_o", {}, {}, {}};
     std::vector<Point> points;
     for (const auto& s : samples) {
-      if (s.theta_i_deg < at_deg - within || s.theta_i_deg > at_deg + (random ? within : 0.1)) continue;
+      if (s.theta_i_deg < at_deg - within || s.theta_i_deg > at_deg + (random ? within : 0.1))
+        continue;
       const auto a = angles_of(s.sample);
       Point point{s.theta_o_deg, {}};
       for (const auto& channel : table.values)

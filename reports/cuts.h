@@ -18,9 +18,9 @@ namespace gonio {
 struct Cut {
   std::string at;  ///< "theta_i" or "theta_d"
   double at_deg;
-  double within_deg = 0;   ///< data of `at` this far off are shown too (directions at random)
-  std::string along;       ///< "theta_o" or "theta_h"
-  std::vector<double> deg;                 ///< ascending, of the data and of a dense grid
+  double within_deg = 0;    ///< data of `at` this far off are shown too (directions at random)
+  std::string along;        ///< "theta_o" or "theta_h"
+  std::vector<double> deg;  ///< ascending, of the data and of a dense grid
   std::vector<std::vector<double>> data;   ///< [channel][point], 1/sr; NaN: no valid sample here
   std::vector<std::vector<double>> model;  ///< [channel][point], 1/sr; NaN below the horizon
 };

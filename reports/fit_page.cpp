@@ -1,13 +1,13 @@
 #include "reports/fit_page.h"
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 #include <cstdlib>
 
 #include "reports/assets.h"
 #include "reports/page.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {
@@ -33,8 +33,12 @@ Json numbers(const std::vector<std::vector<double>>& v) {
 }
 
 Json json(const Cut& c) {
-  return {{"at", c.at},           {"at_deg", number(c.at_deg)}, {"within_deg", number(c.within_deg)},
-          {"along", c.along},     {"deg", numbers(c.deg)},      {"data", numbers(c.data)},
+  return {{"at", c.at},
+          {"at_deg", number(c.at_deg)},
+          {"within_deg", number(c.within_deg)},
+          {"along", c.along},
+          {"deg", numbers(c.deg)},
+          {"data", numbers(c.data)},
           {"model", numbers(c.model)}};
 }
 

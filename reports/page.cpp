@@ -1,8 +1,8 @@
 #include "reports/page.h"
 
-#include <fmt/format.h>
-
 #include "reports/assets.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -10,11 +10,20 @@ namespace {
 std::string html_text(std::string_view text) {
   std::string out;
   for (const char c : text) switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   return out;
 }

@@ -22,7 +22,8 @@ std::size_t bin(double x, std::size_t bins) {
 std::size_t cell(const Angles<double>& a) {
   const double theta_h = std::atan2(std::sqrt(a.sin2_theta_h), a.noh);
   const double theta_d = std::acos(std::min(a.voh, 1.0));
-  return bin(std::sqrt(theta_h / (90 * degree)), bins_h) * bins_d + bin(theta_d / (90 * degree), bins_d);
+  return bin(std::sqrt(theta_h / (90 * degree)), bins_h) * bins_d +
+         bin(theta_d / (90 * degree), bins_d);
 }
 
 }  // namespace
@@ -62,8 +63,8 @@ ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
     }
   }
   for (std::size_t k = 0; k < map.count.size(); ++k) {
-    const double n = map.count[k] ? static_cast<double>(map.count[k])
-                                  : std::numeric_limits<double>::quiet_NaN();
+    const double n =
+        map.count[k] ? static_cast<double>(map.count[k]) : std::numeric_limits<double>::quiet_NaN();
     map.mean[k] /= n;
     map.rms[k] = std::sqrt(map.rms[k] / n);
   }

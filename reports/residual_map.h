@@ -13,8 +13,8 @@ namespace gonio {
 /// both are positive.  Rows of theta_h grow as its square: fine at the peak.
 struct ResidualMap {
   std::vector<double> theta_h_deg, theta_d_deg;  ///< edges, one more than there are bins
-  std::vector<double> mean, rms;                 ///< [h · bins of theta_d + d]; NaN where count is 0
-  std::vector<std::size_t> count;                ///< values
+  std::vector<double> mean, rms;   ///< [h · bins of theta_d + d]; NaN where count is 0
+  std::vector<std::size_t> count;  ///< values
 };
 
 ResidualMap make_residual_map(const Table&, const BoundModel& fitted);

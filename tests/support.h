@@ -2,13 +2,13 @@
 /// \file
 /// What tests of several rooms need: a folder of their own, files in it, and the shared data.
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+
+#include <gtest/gtest.h>
 
 namespace gonio::test {
 
@@ -47,7 +47,7 @@ inline std::string shared(const std::string& name) {
   const auto p = std::filesystem::path(GONIO_SOURCE_DIR) / ".." / "shared" / name;
   return std::filesystem::exists(p) ? p.string() : "";
 }
-#define GONIO_NEEDS_SHARED(variable, name)             \
+#define GONIO_NEEDS_SHARED(variable, name)                \
   const std::string variable = gonio::test::shared(name); \
   if (variable.empty()) GTEST_SKIP() << "needs ../shared/" name ", which is not here"
 

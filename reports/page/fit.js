@@ -30,24 +30,25 @@ function true_values() {
   }
   return out;
 }
-/// "f0[1]" of a matrix as "f0.g"
-const parameter_label = (name) => name.replace(/\[(\d+)\]$/, (_, c) => "." + (channels[c] ?? c));
 const rows = parameter_rows();
 const above_horizon = health.values - (health.masked?.below_horizon ?? 0);
 
 // --- What it says at the top ---------------------------------------------------------------------
+// A log RMS is a relative error while it is small.
+const log_rms_text = (x) => (x < 0.3 ? percent(x) : significant(x, 3));
 function verdict() {
-  const ln = fit.residuals.log_rms;
+  const ln = fit.residuals.log_rms, fits = ln <= 0.25;
   return el("p", { class: "verdict" },
-    el("code", {}, fit.model), ` reproduces the ${count(fit.input.values_used)} values used of `,
-    el("code", {}, file_name), " to a typical factor of ",
-    el("b", {}, "×/÷\u202f" + ratio(ln).slice(1)), ` (log RMS ${percent(ln)}); the fit `,
+    el("code", {}, fit.model), ` ${fits ? "reproduces" : "misses"} the ${count(fit.input.values_used)} values used of `,
+    el("code", {}, file_name), ` ${fits ? "to" : "by"} a typical factor of `,
+    el("b", {}, "×/÷\u202f" + ratio(ln).slice(1)), ` (log RMS ${log_rms_text(ln)}); the fit `,
     fit.solver.termination === "converged" ? "converged" : el("b", {}, "did not converge"),
     ` in ${many(fit.solver.iterations, "iteration")}.`);
 }
 function warnings() {
   const out = [];
   const warn = (what, ...rest) => out.push(el("li", {}, el("b", {}, what), " ", rest));
+  for (const w of fit.warnings ?? []) warn("Beware:", w + ".");
   if (fit.solver.termination !== "converged") warn("Not converged.", fit.solver.message);
   const named = (status) => rows.filter((r) => r.status === status).map((r) => r.label).join(", ");
   if (named("not_identifiable")) warn("Not identifiable:", named("not_identifiable"), ". These data do not determine it; no value is given.");
@@ -66,7 +67,7 @@ function warnings() {
     if (changes.length)
       warn("Bin convention matters:", `with samples at the ${s.other} of their bins, `
         + changes.map(([name, x]) => `${name} changes by ${signed_percent(x)}`).join(", ")
-        + `; the log RMS would be ${percent(s.log_rms)} instead of ${percent(fit.residuals.log_rms)}.`);
+        + `; the log RMS would be ${log_rms_text(s.log_rms)} instead of ${log_rms_text(fit.residuals.log_rms)}.`);
   }
   if (health.reciprocity_error > 0.05) warn("Not reciprocal:", `exchanging the directions changes a value by ${percent(health.reciprocity_error)} (median).`);
   const bright = (health.albedo ?? []).filter((a) => list_of(a.albedo).some((x) => x > 1));
@@ -78,7 +79,7 @@ function facts() {
   const fact = (name, value, rest = null) => el("div", {}, el("dt", {}, name), el("dd", {}, value, rest ? el("small", {}, " " + rest) : null));
   return el("dl", { class: "facts" },
     fact("typical factor", "×/÷\u202f" + ratio(fit.residuals.log_rms).slice(1)),
-    fact("log RMS", percent(fit.residuals.log_rms)),
+    fact("log RMS", log_rms_text(fit.residuals.log_rms)),
     fact("RMS", significant(fit.residuals.rms), "1/sr"),
     fact("values used", count(fit.input.values_used), `of ${count(health.values)}`),
     fact("metric", words(fit.metric), fit.robust === "none" ? null : `robust: ${words(fit.robust)}`),
@@ -203,7 +204,7 @@ function residuals() {
     [el("span", {}, angle_name(angle), " [°]"), { n: "values" }, { n: "RMS [1/sr]" }, { n: "log RMS" }, ""],
     bands.filter((b) => b.angle === angle).map((b) => [`${plain(b.from_deg, 3)}–${plain(b.to_deg, 3)}`,
       { n: count(b.values) }, ...(b.values > 0
-        ? [{ n: significant(b.rms, 2) }, { n: known(b.log_rms) ? percent(b.log_rms) : "–" }, bar(b)]
+        ? [{ n: significant(b.rms, 2) }, { n: known(b.log_rms) ? log_rms_text(b.log_rms) : "–" }, bar(b)]
         : [{ n: "–" }, { n: "–" }, ""])])));
   return section("Where the model is off",
     "Each cell compares model and data by their ratio, over all channels and all valid positive values in it. Blue: the model is too dark; orange: too bright.",
@@ -220,7 +221,7 @@ function strongest_correlation() {
   let best = null;
   names.forEach((a, i) => names.slice(0, i).forEach((b, j) => {
     const rho = correlations[i]?.[j];
-    if (known(rho) && (best === null || Math.abs(rho) > Math.abs(best.rho))) best = { a: parameter_label(b), b: parameter_label(a), rho };
+    if (known(rho) && (best === null || Math.abs(rho) > Math.abs(best.rho))) best = { a: b, b: a, rho };
   }));
   return best;
 }
@@ -236,15 +237,15 @@ function correlation_matrix() {
   };
   return el("table", { class: "matrix" },
     el("caption", {}, "Correlation of the estimates"),
-    el("tbody", {}, names.map((name, i) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, parameter_label(name))),
+    el("tbody", {}, names.map((name, i) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, name)),
       names.slice(0, i + 1).map((_, j) => cell(correlations[i]?.[j], i, j)))),
-      el("tr", {}, el("th"), names.map((name) => el("td", { class: "muted" }, el("code", {}, parameter_label(name)))))));
+      el("tr", {}, el("th"), names.map((name) => el("td", { class: "muted" }, el("code", {}, name))))));
 }
 function confidence() {
   const sensitivity = (fit.bin_sensitivity ?? []).map((s) => table(
     ["", { n: "relative change" }],
     [...Object.entries(s.relative_change).map(([name, v]) => [el("code", {}, name), { n: list_of(v).map((x) => (known(x) ? signed_percent(x) : "–")).join(", ") }]),
-     ["log RMS then", { n: percent(s.log_rms) }]],
+     ["log RMS then", { n: log_rms_text(s.log_rms) }]],
     { caption: `If samples sat at the ${s.other} of their bins` }));
   const tied = strongest_correlation();
   if (fit.identifiability.names.length === 0) return null;  // nothing was fitted

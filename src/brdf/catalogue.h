@@ -13,10 +13,15 @@ namespace gonio::inline GONIO_ARCH {
 template <template <class> class... Terms>
 struct TermList {};
 
-using Catalogue = TermList<Ggx, Gtr,                               // D
-                           SmithGgxSeparable, SmithGgxCorrelated,  // V
-                           Schlick, Dielectric, Conductor,         // F
-                           Lambert, LambertCoupled>;               // diffuse
+using Catalogue = TermList<Ggx,
+                           Gtr,  // D
+                           SmithGgxSeparable,
+                           SmithGgxCorrelated,  // V
+                           Schlick,
+                           Dielectric,
+                           Conductor,  // F
+                           Lambert,
+                           LambertCoupled>;  // diffuse
 
 template <class... Lists>
 struct FusedList {};

@@ -10,8 +10,7 @@ namespace gonio::inline GONIO_ARCH {
 /// Lambert:  kd/π
 template <Real T>
 struct Lambert {
-  static constexpr About about{"diffuse.lambert", "Lambert, uncoupled", "f = kd/π",
-                               "Lambert 1760"};
+  static constexpr About about{"diffuse.lambert", "Lambert, uncoupled", "f = kd/π", "Lambert 1760"};
   static constexpr std::array parameters{
       Parameter{"kd", {0, 1}, {0, 1}, 0.2, true, "diffuse albedo"}};
   static constexpr bool coupled = false;
@@ -26,8 +25,9 @@ struct Lambert {
 /// Lambert under an interface:  (1 − F(VoH)) kd/π
 template <Real T>
 struct LambertCoupled : Lambert<T> {
-  static constexpr About about{"diffuse.lambert.coupled", "Lambert under the first lobe's interface",
-                               "f = (1 − F(VoH)) kd/π", "Burley 2012; glTF 2.0, Appendix B"};
+  static constexpr About about{"diffuse.lambert.coupled",
+                               "Lambert under the first lobe's interface", "f = (1 − F(VoH)) kd/π",
+                               "Burley 2012; glTF 2.0, Appendix B"};
   static constexpr bool coupled = true;
   using Lambert<T>::Lambert;
 };

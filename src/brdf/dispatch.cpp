@@ -4,9 +4,9 @@
 
 namespace gonio {
 
-#define GONIO_SET(set)                     \
-  namespace set {                          \
-  extern const Kernels<float> table_float; \
+#define GONIO_SET(set)                       \
+  namespace set {                            \
+  extern const Kernels<float> table_float;   \
   extern const Kernels<double> table_double; \
   }
 #include "instruction_sets.inc"

@@ -43,7 +43,9 @@ namespace {
 
 /// A term's parameters for one channel, gathered.
 template <class F>
-std::array<F, 4> gather(const Model& m, const TermUse& t, std::span<const F> values,
+std::array<F, 4> gather(const Model& m,
+                        const TermUse& t,
+                        std::span<const F> values,
                         std::size_t channel) {
   std::array<F, 4> p{};
   for (std::size_t k = 0; k < t.parameters.size(); ++k)
@@ -55,7 +57,9 @@ constexpr std::size_t max_fused = std::tuple_size_v<decltype(FusedKernel<float>:
 
 /// nullptr if this combination is not a hot one
 template <class F>
-typename FusedKernel<F>::Value find_fused(const Kernels<F>& k, const Lobe& l, std::size_t channels) {
+typename FusedKernel<F>::Value find_fused(const Kernels<F>& k,
+                                          const Lobe& l,
+                                          std::size_t channels) {
   const std::array ids{k.terms[l.ndf.term].about->id, k.terms[l.masking.term].about->id,
                        k.terms[l.fresnel.term].about->id};
   const auto it = std::ranges::find(k.fused, ids, &FusedKernel<F>::ids);
@@ -65,8 +69,11 @@ typename FusedKernel<F>::Value find_fused(const Kernels<F>& k, const Lobe& l, st
 }  // namespace
 
 template <class F>
-void evaluate(const Model& m, std::span<const F> values, const Block<F>& x,
-              std::span<F* const> out, const Kernels<F>& k) {
+void evaluate(const Model& m,
+              std::span<const F> values,
+              const Block<F>& x,
+              std::span<F* const> out,
+              const Kernels<F>& k) {
   Scratch<F> scratch;
   constexpr std::size_t first = Scratch<F>::first_free;
   F *const num = scratch[first], *const den = scratch[first + 1], *const less = scratch[first + 2];
@@ -75,7 +82,8 @@ void evaluate(const Model& m, std::span<const F> values, const Block<F>& x,
     std::vector<const F*> base(m.channels, scratch.zeros());
     const auto add = [&](const TermUse& t, const F* factor, std::size_t c) {
       F* const to = out[c] + at;
-      k.terms[t.term].add(b, gather(m, t, values, c).data(), {factor, nullptr, base[c], to, nullptr});
+      k.terms[t.term].add(b, gather(m, t, values, c).data(),
+                          {factor, nullptr, base[c], to, nullptr});
       base[c] = to;
     };
     bool coupled = false;
@@ -100,7 +108,8 @@ void evaluate(const Model& m, std::span<const F> values, const Block<F>& x,
         std::copy_n(to.begin(), m.channels, base.begin());
         continue;
       }
-      k.terms[lobe.ndf.term].extend(b, pd.data(), {scratch.ones(), scratch.ones(), nullptr, num, den});
+      k.terms[lobe.ndf.term].extend(b, pd.data(),
+                                    {scratch.ones(), scratch.ones(), nullptr, num, den});
       k.terms[lobe.masking.term].close(b, pv.data(), {num, den, nullptr, num, nullptr});
       for (std::size_t c = 0; c < m.channels; ++c) {  // the channels share D·V
         const F* factor = num;
@@ -140,10 +149,10 @@ std::vector<std::vector<double>> evaluate(const BoundModel& b,
   return f;
 }
 
-#define GONIO_INSTANTIATE(F)                                                               \
-  template class Column<F>;                                                                \
-  template class AngleColumns<F>;                                                          \
-  template class Scratch<F>;                                                               \
+#define GONIO_INSTANTIATE(F)                                                                     \
+  template class Column<F>;                                                                      \
+  template class AngleColumns<F>;                                                                \
+  template class Scratch<F>;                                                                     \
   template void evaluate(const Model&, std::span<const F>, const Block<F>&, std::span<F* const>, \
                          const Kernels<F>&);
 GONIO_INSTANTIATE(float)

@@ -46,8 +46,8 @@ class AngleColumns {
     for (std::size_t k = 0; k < column_.size(); ++k) column_[k][i] = static_cast<F>(v[k]);
   }
   Block<F> block() const {
-    return {column_[0].data(), column_[1].data(), column_[2].data(), column_[3].data(),
-            column_[4].data(), padded_};
+    return {column_[0].data(), column_[1].data(), column_[2].data(),
+            column_[3].data(), column_[4].data(), padded_};
   }
 
  private:
@@ -75,8 +75,11 @@ class Scratch {
 /// f_c for every sample of x.  values: model.value_count of them; out: one column per channel, as
 /// long as x.  Below the horizon the terms are not defined: the caller leaves such samples out.
 template <class F>
-void evaluate(const Model& model, std::span<const F> values, const Block<F>& x,
-              std::span<F* const> out, const Kernels<F>& k = kernels<F>());
+void evaluate(const Model& model,
+              std::span<const F> values,
+              const Block<F>& x,
+              std::span<F* const> out,
+              const Kernels<F>& k = kernels<F>());
 
 /// The same for a list of angles, in double: [channel][sample].  0 below the horizon.
 std::vector<std::vector<double>> evaluate(const BoundModel& model,

@@ -82,16 +82,26 @@ void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
   }
 }
 
-template <template <class> class D, template <class> class V, template <class> class Fr, class F,
+template <template <class> class D,
+          template <class>
+          class V,
+          template <class>
+          class Fr,
+          class F,
           std::size_t channels>
-void fused(const Block<F>& x, const F* pd, const F* pv, const F* const* pf, const F* const* base,
+void fused(const Block<F>& x,
+           const F* pd,
+           const F* pv,
+           const F* const* pf,
+           const F* const* base,
            F* const* out) {
   using B = Lane<F>;
   const auto d = bind_value<D, F>(pd);
   const auto v = bind_value<V, F>(pv);
   const auto f = [&]<std::size_t... C>(std::index_sequence<C...>) {
     return std::array{bind_value<Fr, F>(pf[C])...};
-  }(std::make_index_sequence<channels>{});
+  }
+  (std::make_index_sequence<channels>{});
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
     const auto a = angles(x, i);
     const auto qd = as_quotient<B>(d(a)), qv = as_quotient<B>(v(a));
@@ -127,21 +137,25 @@ void add_product(std::size_t n, const F* a, const F* b, const F* c, F* out) {
 // A metric is a formula too: with Dual it gives its slope.
 
 struct LogMetric {
+  static constexpr bool needs_positive = true;
   template <Real T>
   T operator()(const T& f, const plain_t<T>& y, const plain_t<T>&, const plain_t<T>& offset) const {
     using B = plain_t<T>;
-    // A model value of 0 (kd = 0 without a lobe) counts as tiny and has no slope: log never sees it.
+    // A model value of 0 (kd = 0 without a lobe) counts as tiny and has no slope: log never sees
+    // it.
     const B tiny = constant<B>(1e-30L);
     return log(max<T>(f + offset, T(tiny))) - log(max<B>(y + offset, tiny));
   }
 };
 struct CosineMetric {
+  static constexpr bool needs_positive = false;
   template <Real T>
   T operator()(const T& f, const plain_t<T>& y, const plain_t<T>& nol, const plain_t<T>&) const {
     return (f - y) * nol;
   }
 };
 struct RelativeMetric {
+  static constexpr bool needs_positive = true;
   template <Real T>
   T operator()(const T& f, const plain_t<T>& y, const plain_t<T>&, const plain_t<T>& offset) const {
     return (f - y) / (y + offset);
@@ -158,7 +172,8 @@ void residual(std::size_t n, const ResidualArguments<F>& a) {
   B cost = load<B>(a.cost);
   for (std::size_t i = 0; i < n; i += lanes<B>) {
     const B weight = load<B>(a.root_weight + i), datum = load<B>(a.y + i);
-    const auto on = zero < weight && zero <= datum;
+    auto on = zero < weight && zero <= datum;
+    if constexpr (Metric::needs_positive) on = on && zero < datum + offset;
     const B w = select<B>(on, weight, zero), y = select<B>(on, datum, one);
     const B f = select<B>(on, load<B>(a.f + i), one);
     const T t = Metric()(T::variable(f, 0), y, load<B>(a.nol + i), offset);
@@ -209,8 +224,8 @@ template <template <class> class Term, class F>
 constexpr TermKernels<F> term_entry() {
   bool coupled = false;
   if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
-  return {&Term<F>::about,  Term<F>::parameters, coupled,
-          extend<Term, F>, close<Term, F>,      add<Term, F>, derivatives<Term, F>};
+  return {&Term<F>::about, Term<F>::parameters, coupled, extend<Term, F>, close<Term, F>,
+          add<Term, F>,    derivatives<Term, F>};
 }
 template <class F, template <class> class... Terms>
 constexpr auto term_table(TermList<Terms...>) {
@@ -218,7 +233,8 @@ constexpr auto term_table(TermList<Terms...>) {
 }
 template <class F, template <class> class D, template <class> class V, template <class> class Fr>
 constexpr FusedKernel<F> fused_entry(TermList<D, V, Fr>) {
-  return {{D<F>::about.id, V<F>::about.id, Fr<F>::about.id}, {nullptr, fused<D, V, Fr, F, 1>, nullptr, fused<D, V, Fr, F, 3>}};
+  return {{D<F>::about.id, V<F>::about.id, Fr<F>::about.id},
+          {nullptr, fused<D, V, Fr, F, 1>, nullptr, fused<D, V, Fr, F, 3>}};
 }
 template <class F, class... Lists>
 constexpr auto fused_table(FusedList<Lists...>) {
@@ -253,6 +269,7 @@ constexpr Kernels<F> table(std::index_sequence<K...>) {
 extern const Kernels<float> table_float;
 extern const Kernels<double> table_double;
 constinit const Kernels<float> table_float = table<float>(std::make_index_sequence<max_columns>{});
-constinit const Kernels<double> table_double = table<double>(std::make_index_sequence<max_columns>{});
+constinit const Kernels<double> table_double =
+    table<double>(std::make_index_sequence<max_columns>{});
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -57,8 +57,12 @@ template <class F>
 struct FusedKernel {
   std::array<std::string_view, 3> ids;
   /// out_c = base_c + D·V·F_c; parameters: those of D, of V, of F per channel
-  using Value = void (*)(const Block<F>&, const F* d, const F* v, const F* const* f,
-                         const F* const* base, F* const* out);
+  using Value = void (*)(const Block<F>&,
+                         const F* d,
+                         const F* v,
+                         const F* const* f,
+                         const F* const* base,
+                         F* const* out);
   /// by the number of channels; nullptr where there is none
   std::array<Value, 4> value;
 };
@@ -70,7 +74,13 @@ struct FusedKernel {
 enum class Metric { log, l2_cosine, relative };
 inline constexpr std::array<std::string_view, 3> metric_names{"log", "l2_cosine", "relative"};
 
-/// One channel of one block.  y < 0 or NaN means masked, whatever else stands there.
+/// Whether a datum that is valid (≥ 0) can be used: log and relative need y + offset > 0.
+constexpr bool usable(Metric m, double y, double offset) {
+  return y >= 0 && (m == Metric::l2_cosine || y + offset > 0);
+}
+
+/// One channel of one block.  y < 0 or NaN means masked, whatever else stands there; so does what
+/// is not usable() for the metric.
 template <class F>
 struct ResidualArguments {
   const F *f, *y, *root_weight, *nol;

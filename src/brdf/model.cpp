@@ -1,7 +1,5 @@
 #include "brdf/model.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,10 +7,15 @@
 #include "brdf/registry.h"
 #include "optics/refractive_index.h"
 
+#include <fmt/format.h>
+
 namespace gonio {
 namespace {
 
-TermUse use(Model& m, std::size_t term, const std::string& ending, std::span<const std::string> grey) {
+TermUse use(Model& m,
+            std::size_t term,
+            const std::string& ending,
+            std::span<const std::string> grey) {
   TermUse t{term, {}};
   for (const auto& p : catalogue()[term].parameters) {
     const std::string name = std::string(p.name) + ending;
@@ -100,7 +103,8 @@ void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
     }
     if (find(settings, "eta") || find(settings, "k")) throw wrong_usage("metal sets eta and k");
     if (!m.find("eta") || !m.find("k"))
-      throw wrong_usage(fmt::format("metal sets eta and k, but model '{}' has no conductor", m.spec));
+      throw wrong_usage(
+          fmt::format("metal sets eta and k, but model '{}' has no conductor", m.spec));
     forget(settings, "metal");
     settings.push_back({"eta", {metal->n.begin(), metal->n.end()}});
     settings.push_back({"k", {metal->k.begin(), metal->k.end()}});
@@ -135,12 +139,18 @@ Model compose(std::string_view spec, std::size_t channels, std::span<const std::
       throw wrong_usage(fmt::format("model '{}': {} needs a lobe to be coupled to", spec,
                                     catalogue()[d.term].about->id));
   for (const auto& name : grey)
-    if (!m.find(name)) throw wrong_usage(fmt::format("model '{}' has no parameter '{}'", spec, name));
+    if (const auto* p = m.find(name); p && !p->about->per_channel)
+      throw wrong_usage(fmt::format("'{}' is no colour: it has one value anyway", name));
+  for (const auto& name : grey)
+    if (!m.find(name))
+      throw wrong_usage(fmt::format("model '{}' has no parameter '{}'", spec, name));
   return m;
 }
 
-BoundModel bind_model(std::string_view spec, std::vector<Setting> settings,
-                std::optional<std::size_t> channels, std::span<const std::string> grey) {
+BoundModel bind_model(std::string_view spec,
+                      std::vector<Setting> settings,
+                      std::optional<std::size_t> channels,
+                      std::span<const std::string> grey) {
   const std::string resolved = resolve_base_color(std::string(spec), settings);
   if (find(settings, "f0") && find(settings, "eta"))
     throw wrong_usage("f0 and eta say the same: give one of them");
@@ -158,13 +168,13 @@ BoundModel bind_model(std::string_view spec, std::vector<Setting> settings,
     if (!p) {
       std::vector<std::string_view> names;
       for (const auto& q : b.model.parameters) names.push_back(q.name);
-      throw wrong_usage(fmt::format("model '{}' has no parameter '{}'; it has: {}", resolved, s.name,
-                                    fmt::join(names, ", ")));
+      throw wrong_usage(fmt::format("model '{}' has no parameter '{}'; it has: {}", resolved,
+                                    s.name, fmt::join(names, ", ")));
     }
     if (s.values.size() != 1 && s.values.size() != p->count)
-      throw wrong_usage(fmt::format("{}: {} values where {} fit", s.name, s.values.size(),
-                                    p->count == 1 ? std::string("one")
-                                                  : fmt::format("one or {}", p->count)));
+      throw wrong_usage(
+          fmt::format("{}: {} values where {} fit", s.name, s.values.size(),
+                      p->count == 1 ? std::string("one") : fmt::format("one or {}", p->count)));
     b.given.push_back(p->name);
     for (std::size_t c = 0; c < p->count; ++c) {
       const double v = s.values[s.values.size() == 1 ? 0 : c];
@@ -175,7 +185,9 @@ BoundModel bind_model(std::string_view spec, std::vector<Setting> settings,
   return b;
 }
 
-bool is_alpha(std::string_view name) { return name == "alpha" || name.starts_with("alpha_"); }
+bool is_alpha(std::string_view name) {
+  return name == "alpha" || name.starts_with("alpha_");
+}
 
 std::string roughness_name(std::string_view alpha_name) {
   return "roughness" + std::string(alpha_name.substr(std::string_view("alpha").size()));

@@ -61,8 +61,10 @@ struct BoundModel {
 /// Settings resolved: roughness (alpha = roughness²), f0 of a dielectric term (eta), metal=Au (eta
 /// and k), and base_color with metallic (f0 and kd, diffuse coupled).  What is not set keeps its
 /// default.  Channels: as many as the longest colour has, or three.
-BoundModel bind_model(std::string_view spec, std::vector<Setting> settings,
-                std::optional<std::size_t> channels = {}, std::span<const std::string> grey = {});
+BoundModel bind_model(std::string_view spec,
+                      std::vector<Setting> settings,
+                      std::optional<std::size_t> channels = {},
+                      std::span<const std::string> grey = {});
 
 /// alpha and roughness, with the lobe's ending kept: "alpha_2" ↔ "roughness_2".
 std::string roughness_name(std::string_view alpha_name);

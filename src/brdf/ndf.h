@@ -8,8 +8,8 @@
 
 namespace gonio::inline GONIO_ARCH {
 
-inline constexpr Parameter alpha_parameter{
-    "alpha", {1e-4, 1}, {1e-3, 1}, 0.3, false, "width, roughness²"};
+inline constexpr Parameter alpha_parameter{"alpha", {1e-4, 1}, {1e-4, 1},
+                                           0.3,     false,     "width, roughness²"};
 
 /// GGX (Trowbridge–Reitz).
 ///
@@ -22,8 +22,7 @@ struct Ggx {
 
   T alpha2, num;
 
-  explicit Ggx(std::span<const T, 1> p)
-      : alpha2(square(p[0])), num(alpha2 / pi<plain_t<T>>()) {}
+  explicit Ggx(std::span<const T, 1> p) : alpha2(square(p[0])), num(alpha2 / pi<plain_t<T>>()) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
     return {num, square(alpha2 * square(a.noh) + a.sin2_theta_h)};

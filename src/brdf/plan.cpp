@@ -14,7 +14,9 @@ const F* derivative(const DualColumn<F>& a, std::size_t slot) {
 }  // namespace
 
 template <class F>
-Plan<F>::Plan(const Model& m, std::span<const F> values, const std::vector<bool>& free,
+Plan<F>::Plan(const Model& m,
+              std::span<const F> values,
+              const std::vector<bool>& free,
               const Kernels<F>& k)
     : model_(m), values_(values), free_(free), k_(k), channel_steps_(m.channels) {
   std::vector<DualColumn<F>> dv;  // D·V, shared by the channels

@@ -1,13 +1,13 @@
 #include "brdf/registry.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include "base/error.h"
 #include "brdf/evaluate.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -44,7 +44,8 @@ std::size_t find(std::string_view id, auto&& name, auto&& eligible, std::string_
 }
 
 template <class F>
-std::vector<double> values(std::size_t term, std::span<const double> parameters,
+std::vector<double> values(std::size_t term,
+                           std::span<const double> parameters,
                            std::span<const Angles<double>> rows) {
   const auto& k = kernels<F>("scalar");
   std::vector<F> p(parameters.begin(), parameters.end());
@@ -64,17 +65,21 @@ std::vector<double> values(std::size_t term, std::span<const double> parameters,
 
 }  // namespace
 
-std::span<const TermKernels<double>> catalogue() { return kernels<double>("scalar").terms; }
+std::span<const TermKernels<double>> catalogue() {
+  return kernels<double>("scalar").terms;
+}
 
 std::size_t find_term(std::string_view id) {
-  return find(id, [](std::string_view s) { return s; }, [](std::string_view) { return true; }, "term");
+  return find(
+      id, [](std::string_view s) { return s; }, [](std::string_view) { return true; }, "term");
 }
 
 std::size_t find_term(std::string_view id, Role role) {
   static constexpr std::string_view names[] = {"normal distribution", "masking", "Fresnel term",
                                                "diffuse term"};
-  return find(id, short_id, [=](std::string_view s) { return role_of(s) == role; },
-              names[static_cast<int>(role)]);
+  return find(
+      id, short_id, [=](std::string_view s) { return role_of(s) == role; },
+      names[static_cast<int>(role)]);
 }
 
 void check_range(const Parameter& p, std::string_view name, double value) {
@@ -83,7 +88,8 @@ void check_range(const Parameter& p, std::string_view name, double value) {
         fmt::format("{} = {} is outside [{}, {}]", name, value, p.legal.low, p.legal.high));
 }
 
-TermValues evaluate_term(std::size_t term, Number number,
+TermValues evaluate_term(std::size_t term,
+                         Number number,
                          const std::map<std::string, double>& parameters,
                          const std::map<std::string, std::vector<double>>& at) {
   const auto& t = catalogue()[term];
@@ -109,7 +115,8 @@ TermValues evaluate_term(std::size_t term, Number number,
       if (!(0 <= v && v <= 1)) throw wrong_usage(fmt::format("{} = {} is outside [0, 1]", name, v));
     if (column.size() == 1) continue;
     if (rows != 1 && rows != column.size())
-      throw wrong_usage(fmt::format("'{}' has {} values where another has {}", name, column.size(), rows));
+      throw wrong_usage(
+          fmt::format("'{}' has {} values where another has {}", name, column.size(), rows));
     rows = column.size();
   }
   if (at.contains("cos") && at.contains("voh")) throw wrong_usage("cos and voh are the same angle");
@@ -129,8 +136,8 @@ TermValues evaluate_term(std::size_t term, Number number,
   fill("cos", &Angles<double>::voh);
   if (!fill("sin2_theta_h", &Angles<double>::sin2_theta_h))
     for (auto& a : angles) a.sin2_theta_h = (1 - a.noh) * (1 + a.noh);
-  result.values = number == Number::double_ ? values<double>(term, p, angles)
-                                            : values<float>(term, p, angles);
+  result.values =
+      number == Number::double_ ? values<double>(term, p, angles) : values<float>(term, p, angles);
   return result;
 }
 

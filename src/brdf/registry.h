@@ -34,7 +34,8 @@ struct TermValues {
   std::vector<std::pair<std::string, double>> parameters;  ///< all of them, defaults included
   std::vector<double> values;
 };
-TermValues evaluate_term(std::size_t term, Number number,
+TermValues evaluate_term(std::size_t term,
+                         Number number,
                          const std::map<std::string, double>& parameters,
                          const std::map<std::string, std::vector<double>>& at);
 

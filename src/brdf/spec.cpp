@@ -1,12 +1,12 @@
 #include "brdf/spec.h"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/text.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 

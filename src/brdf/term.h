@@ -32,14 +32,17 @@ constexpr Role role_of(std::string_view id) {
 }
 
 /// The id without the role's prefix, as a model spec writes it.
-constexpr std::string_view short_id(std::string_view id) { return id.substr(id.find('.') + 1); }
+constexpr std::string_view short_id(std::string_view id) {
+  return id.substr(id.find('.') + 1);
+}
 
 }  // namespace gonio
 
 namespace gonio::inline GONIO_ARCH {
 
 template <class Term, class T>
-concept TermOver = Real<T> && requires(const Term t, const Angles<plain_t<T>> a,
+concept TermOver = Real<T> && requires(const Term t,
+                                       const Angles<plain_t<T>> a,
                                        std::span<const T, Term::parameters.size()> p) {
   { Term::about } -> std::same_as<const About&>;
   Term(p);

@@ -1,10 +1,6 @@
 // gonio bench: what the program costs, beside the plain way of doing the same, in one run.
-#include <sys/resource.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -12,14 +8,18 @@
 #include "fitting/fit.h"
 #include "fitting/plain.h"
 
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <tbb/task_arena.h>
+
 namespace gonio::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
-  bool json = false, quiet = false, plain = true;
-  int repeats = 7, jobs = 0;
+struct Options : Common {
+  bool plain = true;
+  int repeats = 7;
 };
 
 /// Median with the smallest and largest of a few repeats.
@@ -53,8 +53,9 @@ Exit run(const Options& o) {
   progress("synthesizing a MERL table");
   FitOptions options;
   options.bin_sensitivity = false;
-  const auto truth = bind_model(
-      options.model, parse_settings(std::vector<std::string>{"alpha=0.15,f0=0.05,kd=0.2,0.1,0.05"}), 3);
+  const auto truth =
+      bind_model(options.model,
+                 parse_settings(std::vector<std::string>{"alpha=0.15,f0=0.05,kd=0.2,0.1,0.05"}), 3);
   SynthOptions synth;
   synth.noise = 0.02;
   const Table t = synthesize(truth, synth);
@@ -87,7 +88,8 @@ Exit run(const Options& o) {
                        {"solve_ms", plain.solve_ms},
                        {"iterations", plain.iterations},
                        {"peak_megabytes", peak_megabytes()}};
-    result["ratio"] = {{"median", ms / ours.median}, {"least", ms / ours.most}, {"most", ms / ours.least}};
+    result["ratio"] = {
+        {"median", ms / ours.median}, {"least", ms / ours.most}, {"most", ms / ours.least}};
     result["largest_difference_of_values"] = [&] {
       double worst = 0;
       for (std::size_t i = 0; i < plain.values.size(); ++i) {
@@ -104,14 +106,18 @@ Exit run(const Options& o) {
     return Exit::done;
   }
   fmt::print("fit of {} values ({} on {} threads): {:.1f} ms [{:.1f}, {:.1f}], {:.0f} MB\n", values,
-             last.document.solver.instruction_set, threads, ours.median, ours.least, ours.most, megabytes);
-  for (const auto& [phase, ms] : last.document.solver.phase_ms) fmt::print("  {:<14}{:.1f}\n", phase, ms);
+             last.document.solver.instruction_set, threads, ours.median, ours.least, ours.most,
+             megabytes);
+  for (const auto& [phase, ms] : last.document.solver.phase_ms)
+    fmt::print("  {:<14}{:.1f}\n", phase, ms);
   if (o.plain)
-    fmt::print("one Ceres block per bin: {:.0f} ms, {:.0f} MB; ratio {:.0f} [{:.0f}, {:.0f}], "
-               "largest relative difference of the parameters {:.1e}\n",
-               result["plain"]["total_ms"].get<double>(), result["plain"]["peak_megabytes"].get<double>(),
-               result["ratio"]["median"].get<double>(), result["ratio"]["least"].get<double>(),
-               result["ratio"]["most"].get<double>(), result["largest_difference_of_values"].get<double>());
+    fmt::print(
+        "one Ceres block per bin: {:.0f} ms, {:.0f} MB; ratio {:.0f} [{:.0f}, {:.0f}], "
+        "largest relative difference of the parameters {:.1e}\n",
+        result["plain"]["total_ms"].get<double>(), result["plain"]["peak_megabytes"].get<double>(),
+        result["ratio"]["median"].get<double>(), result["ratio"]["least"].get<double>(),
+        result["ratio"]["most"].get<double>(),
+        result["largest_difference_of_values"].get<double>());
   return Exit::done;
 }
 
@@ -122,11 +128,12 @@ void add_bench(CLI::App& app, Action& action) {
   auto* c = add_command(app, action, "bench",
                         "Times the fit of a MERL table beside the plain way of doing it",
                         "gonio bench --json", o, run);
-  c->add_option("--repeats", o->repeats, "Fits to time")->check(CLI::Range(1, 1000))->capture_default_str();
+  c->add_option("--repeats", o->repeats, "Fits to time")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   c->add_flag("!--no-plain", o->plain, "Without the plain way, which takes seconds and 1 GB");
-  c->add_flag("--json", o->json, "JSON on standard output");
-  c->add_flag("--quiet", o->quiet, "No progress");
-  add_jobs(c, o->jobs);
+  add_jobs(c, *o);
+  add_output(c, *o);
 }
 
 }  // namespace gonio::cli

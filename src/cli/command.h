@@ -2,7 +2,6 @@
 /// \file
 /// A subcommand: it declares its options and says what to run; parsing and printing only.
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,6 +11,8 @@
 #include "base/error.h"
 #include "brdf/model.h"
 #include "table/table.h"
+
+#include <CLI/CLI.hpp>
 
 namespace gonio::cli {
 
@@ -29,9 +30,13 @@ void add_bench(CLI::App&, Action&);
 
 /// A subcommand with its example under the help, running `run` on options that it keeps alive.
 template <class Options>
-CLI::App* add_command(CLI::App& app, Action& action, const std::string& name,
-                      const std::string& description, const std::string& example,
-                      std::shared_ptr<Options> options, Exit (*run)(const Options&)) {
+CLI::App* add_command(CLI::App& app,
+                      Action& action,
+                      const std::string& name,
+                      const std::string& description,
+                      const std::string& example,
+                      std::shared_ptr<Options> options,
+                      Exit (*run)(const Options&)) {
   auto* c = app.add_subcommand(name, description);
   c->footer("Example:\n  " + example);
   c->callback([options, run, &action] { action = [options, run] { return run(*options); }; });
@@ -45,18 +50,28 @@ inline void add_set(CLI::App* c, std::vector<std::string>& words) {
 }
 /// --bins centre|edge
 inline void add_bins(CLI::App* c, std::optional<std::string>& name) {
-  c->add_option("--bins", name,
-                "Where a sample sits in its bin: centre or edge (default: as the file says, or centre)")
+  c->add_option(
+       "--bins", name,
+       "Where a sample sits in its bin: centre or edge (default: as the file says, or centre)")
       ->check(CLI::IsMember({"centre", "edge"}));
 }
 inline std::optional<Bins> bins_from(const std::optional<std::string>& name) {
   if (!name) return {};
   return *name == "edge" ? Bins::edge : Bins::centre;
 }
+/// What most subcommands share.
+struct Common {
+  bool json = false, quiet = false;
+  int jobs = 0;
+};
+/// --json, --quiet
+void add_output(CLI::App* c, Common&);
 /// --jobs N
-void add_jobs(CLI::App* c, int& jobs);
+void add_jobs(CLI::App* c, Common&);
 /// Threads from now on: at most `jobs`, 0 for all.
 void use_jobs(int jobs);
+/// Refuses outputs that are an input, or its side file, or each other.
+void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 /// The position of a name among the fixed names of a contract.
 template <std::size_t N, class Name>

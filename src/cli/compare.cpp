@@ -1,7 +1,7 @@
 // gonio compare: how far a model is from a table.
+#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <filesystem>
 
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -13,19 +13,15 @@
 namespace gonio::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct Options {
+struct Options : Common {
   std::string file, model;
   std::vector<std::string> set;
   std::optional<std::string> bins;
-  bool json = false, quiet = false;
-  int jobs = 0;
 };
 
 /// A spec with its --set, or a fit.json: what the user named is a file if there is one.
 BoundModel model_of(const Options& o, std::size_t channels) {
-  if (!std::ifstream(o.model).good()) {
+  if (!std::filesystem::exists(o.model)) {
     if (o.model.ends_with(".json"))
       throw bad_input(o.model, "opening", "no such file", "the fit.json of a fit, or a model");
     return bind_model(o.model, parse_settings(o.set), channels);
@@ -35,47 +31,42 @@ BoundModel model_of(const Options& o, std::size_t channels) {
   std::vector<Setting> settings;
   for (const auto& [name, values] : fitted.parameters) {
     if (name.starts_with("roughness")) continue;  // alpha says the same
-    Setting s{name, {}};
-    for (const double v : values) {
+    for (const double v : values)
       if (std::isnan(v))
         throw bad_input(o.model, "parameters." + name, "null (not identifiable)",
                         "a value; fit again with --fix " + name + "=…");
-      s.values.push_back(v);
-    }
-    settings.push_back(std::move(s));
+    settings.push_back({name, values});
   }
-  return bind_model(fitted.model, settings, channels);
+  try {
+    BoundModel b = bind_model(fitted.model, settings, channels);
+    for (const auto& p : b.model.parameters)
+      if (std::ranges::find(b.given, p.name) == b.given.end())
+        throw wrong_usage("nothing for '" + p.name + "'");
+    return b;
+  } catch (const Error& e) {  // the words are the file's, not the user's
+    throw bad_input(o.model, "model and parameters", e.what(),
+                    "a model for the " + std::to_string(channels) + " channels of " + o.file);
+  }
 }
 
-void print(const FitResiduals& r) {
+FittedModel fitted_model(const BoundModel& b) {
+  FittedModel m{b.model.spec, {}};
+  for (const auto& p : b.model.parameters) {
+    const auto first = b.values.begin() + static_cast<std::ptrdiff_t>(p.first);
+    m.parameters.emplace_back(
+        p.name, std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count)));
+  }
+  return m;
+}
+
+void print(std::size_t values, const FitResiduals& r) {
   fmt::print("{:<22}{:>12}{:>16}{:>16}\n", "", "values", "RMS [1/sr]", "log RMS");
-  fmt::print("{:<22}{:>12}{:>16.6g}{:>16.6g}\n", "all", "", r.rms, r.log_rms);
+  fmt::print("{:<22}{:>12}{:>16.6g}{:>16.6g}\n", "all", values, r.rms, r.log_rms);
   for (const auto& b : r.bands)
     if (b.values)
       fmt::print("{:<22}{:>12}{:>16.6g}{:>16.6g}\n",
-                 fmt::format("{} {}° to {}°", b.angle, b.from_deg, b.to_deg), b.values, b.rms, b.log_rms);
-}
-
-Json to_json(const Options& o, const BoundModel& m, const FitResiduals& r) {
-  Json bands = Json::array(), parameters = Json::object();
-  for (const auto& b : r.bands)
-    bands.push_back({{"angle", b.angle},
-                     {"from_deg", b.from_deg},
-                     {"to_deg", b.to_deg},
-                     {"values", b.values},
-                     {"rms", b.rms},
-                     {"log_rms", b.log_rms}});
-  for (const auto& p : m.model.parameters) {
-    if (p.count == 1)
-      parameters[p.name] = m.values[p.first];
-    else
-      parameters[p.name] = std::vector<double>(m.values.begin() + static_cast<std::ptrdiff_t>(p.first),
-                                               m.values.begin() + static_cast<std::ptrdiff_t>(p.first + p.count));
-  }
-  return {{"path", o.file},
-          {"model", m.model.spec},
-          {"parameters", parameters},
-          {"residuals", {{"rms", r.rms}, {"log_rms", r.log_rms}, {"bands", bands}}}};
+                 fmt::format("{} {}° to {}°", b.angle, b.from_deg, b.to_deg), b.values, b.rms,
+                 b.log_rms);
 }
 
 Exit run(const Options& o) {
@@ -89,9 +80,9 @@ Exit run(const Options& o) {
   const auto r = residual_statistics(m, data);
   progress.clear();
   if (o.json)
-    fmt::print("{}\n", to_json(o, m, r).dump(2));
+    fmt::print("{}", to_json(Comparison{o.file, fitted_model(m), r}));
   else
-    print(r);
+    print(data.values_used, r);
   return Exit::done;
 }
 
@@ -105,9 +96,8 @@ void add_compare(CLI::App& app, Action& action) {
   c->add_option("MODEL", o->model, "The fit.json of a fit, or a model")->required();
   add_set(c, o->set);
   add_bins(c, o->bins);
-  c->add_flag("--json", o->json, "JSON on standard output");
-  c->add_flag("--quiet", o->quiet, "No progress");
-  add_jobs(c, o->jobs);
+  add_jobs(c, *o);
+  add_output(c, *o);
 }
 
 }  // namespace gonio::cli

@@ -4,15 +4,19 @@
 #include "cli/command.h"
 #include "table/csv.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gonio::cli {
 namespace {
 
-struct Options {
+struct Options : Common {
   std::string spec, directions, output;
   std::vector<std::string> set;
 };
 
 Exit run(const Options& o) {
+  if (o.output.empty() && !o.json) throw wrong_usage("eval needs -o FILE or --json");
+  check_outputs({o.directions}, {o.output});
   const auto model = bind_model(o.spec, parse_settings(o.set), 3);
   InputFile in(o.directions);
   Table t = read_directions_csv(in);
@@ -22,9 +26,22 @@ Exit run(const Options& o) {
   t.channels = {"r", "g", "b"};
   t.values = evaluate(model, angles);
   t.weights.clear();
-  OutputFile out(o.output);
-  write_csv(t, out);
-  out.commit();
+  if (!o.output.empty()) {
+    OutputFile out(o.output);
+    write_csv(t, out);
+    out.commit();
+  }
+  if (o.json) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    const auto& l = *t.list();
+    for (std::size_t i = 0; i < t.size(); ++i)
+      rows.push_back({{"theta_i", l.theta_i_deg[i]},
+                      {"phi_i", l.phi_i_deg[i]},
+                      {"theta_o", l.theta_o_deg[i]},
+                      {"phi_o", l.phi_o_deg[i]},
+                      {"f", {t.values[0][i], t.values[1][i], t.values[2][i]}}});
+    fmt::print("{}\n", nlohmann::ordered_json{{"model", model.model.spec}, {"rows", rows}}.dump(2));
+  }
   return Exit::done;
 }
 
@@ -32,15 +49,18 @@ Exit run(const Options& o) {
 
 void add_eval(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(app, action, "eval",
-                        "Evaluates a model at the directions of a CSV file: f_r, f_g, f_b in 1/sr, no cosine",
-                        "gonio eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
-                        "--directions in.csv -o out.csv",
-                        o, run);
+  auto* c = add_command(
+      app, action, "eval",
+      "Evaluates a model at the directions of a CSV file: f_r, f_g, f_b in 1/sr, no cosine",
+      "gonio eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
+      "--directions in.csv -o out.csv",
+      o, run);
   c->add_option("SPEC", o->spec, "Model")->required();
   add_set(c, o->set);
-  c->add_option("--directions", o->directions, "CSV with theta_i,phi_i,theta_o,phi_o in degrees")->required();
-  c->add_option("-o,--output", o->output, "CSV to write")->required();
+  c->add_option("--directions", o->directions, "CSV with theta_i,phi_i,theta_o,phi_o in degrees")
+      ->required();
+  c->add_option("-o,--output", o->output, "CSV to write");
+  add_output(c, *o);
 }
 
 }  // namespace gonio::cli

@@ -16,13 +16,11 @@
 namespace gonio::cli {
 namespace {
 
-struct Options {
+struct Options : Common {
   std::string file, metric = "log", intervals = "automatic", robust = "none", output, html;
   std::vector<std::string> fix, bounds;
   FitOptions fit;
   std::optional<std::string> bins;
-  bool json = false, quiet = false;
-  int jobs = 0;
 };
 
 void print(const FitDocument& d) {
@@ -33,19 +31,28 @@ void print(const FitDocument& d) {
   fmt::print("\n");
   for (const auto& p : d.parameters)
     for (std::size_t c = 0; c < p.value.size(); ++c) {
-      const std::string name = p.value.size() == 1 ? p.name : fmt::format("{}[{}]", p.name, c);
+      const std::string name =
+          p.value.size() == 1 ? p.name : fmt::format("{}.{}", p.name, d.channels[c]);
       fmt::print("{:<14}{:<28}{}\n", name, with_error(p.value[c], p.std_error[c]),
-                 p.status[c] == ParameterStatus::free ? "" : status_names[static_cast<std::size_t>(p.status[c])]);
+                 p.status[c] == ParameterStatus::free
+                     ? ""
+                     : status_names[static_cast<std::size_t>(p.status[c])]);
     }
   fmt::print("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}\n", d.residuals.log_rms,
              d.residuals.rms, d.intervals);
   for (const auto& s : d.sensitivity) {
     fmt::print("bins    {} assumed; with {}:", d.bins, s.other);
-    for (const auto& [name, change] : s.relative_change)
-      if (!std::isnan(change[0])) fmt::print(" {} {:+.2f} %", name, 100 * change[0]);
+    for (const auto& [name, change] : s.relative_change) {
+      std::vector<std::string> known;
+      for (const double x : change)
+        if (!std::isnan(x)) known.push_back(fmt::format("{:+.2f}", 100 * x));
+      if (!known.empty()) fmt::print(" {} {} %", name, fmt::join(known, ", "));
+    }
     fmt::print("\n");
   }
-  fmt::print("{} after {} iterations: {}\n", d.solver.termination, d.solver.iterations, d.solver.message);
+  for (const auto& w : d.warnings) fmt::print("beware  {}\n", w);
+  fmt::print("{} after {} iterations: {}\n", d.solver.termination, d.solver.iterations,
+             d.solver.message);
 }
 
 Exit run(const Options& o) {
@@ -58,11 +65,14 @@ Exit run(const Options& o) {
   options.bounds = parse_settings(o.bounds);
 
   // Opened first: nobody waits for a fit to learn that its result has no place.
+  const std::string data_path =
+      o.html.empty() ? "" : std::filesystem::path(o.html).replace_extension(".page.json").string();
+  check_outputs({o.file}, {o.output, o.html, data_path});
   std::optional<OutputFile> document, page, page_data;
   if (!o.output.empty()) document.emplace(o.output);
   if (!o.html.empty()) {
     page.emplace(o.html);
-    page_data.emplace(std::filesystem::path(o.html).replace_extension(".page.json").string());
+    page_data.emplace(data_path);
   }
 
   Progress progress(o.quiet);
@@ -75,11 +85,11 @@ Exit run(const Options& o) {
   auto result = fit(t, options, [&](const char* phase) { progress(phase); });
   FitDocument& d = result.document;
   d.input_path = o.file;
-  d.input_sha256 = sha256_of_file(o.file);
+  d.input_sha256 = t.sha256.empty() ? sha256_of_file(o.file) : t.sha256;
   d.solver.phase_ms.insert(d.solver.phase_ms.begin(), {"load_ms", load_ms});
 
   const std::string json = to_json(d);
-  if (document) document->write(json + "\n");
+  if (document) document->write(json);
   if (page) {
     progress("making the page");
     const Health health = inspect(t);
@@ -93,7 +103,7 @@ Exit run(const Options& o) {
     if (*f) (*f)->commit();
   progress.clear();
   if (o.json)
-    fmt::print("{}\n", json);
+    fmt::print("{}", json);
   else
     print(d);
   return d.solver.termination == "converged" ? Exit::done : Exit::not_converged;
@@ -107,10 +117,13 @@ void add_fit(CLI::App& app, Action& action) {
                         "gonio fit paint.binary --model lambert+ggx/smith_ggx.correlated/schlick "
                         "-o paint.json --html paint.html",
                         o, run);
-  c->add_option("FILE", o->file, "MERL, MBSDF, CSV or OpenEXR slice; found from the bytes")->required();
-  c->add_option("--model", o->fit.model, "Model; all its parameters are fitted")->capture_default_str();
+  c->add_option("FILE", o->file, "MERL, MBSDF, CSV or OpenEXR slice; found from the bytes")
+      ->required();
+  c->add_option("--model", o->fit.model, "Model; all its parameters are fitted")
+      ->capture_default_str();
   c->add_option("--fix", o->fix, "Parameters held at a value: NAME=VALUE …")->expected(1, 64);
-  c->add_option("--bounds", o->bounds, "Where a parameter is looked for: NAME=LOW,HIGH …")->expected(1, 64);
+  c->add_option("--bounds", o->bounds, "Where a parameter is looked for: NAME=LOW,HIGH …")
+      ->expected(1, 64);
   c->add_option("--grey", o->fit.grey, "Colour parameters with one value for all channels: NAME …")
       ->expected(1, 64);
   c->add_option("--metric", o->metric, "log, l2_cosine or relative")
@@ -119,17 +132,18 @@ void add_fit(CLI::App& app, Action& action) {
   c->add_option("--robust", o->robust, "none, or huber against outliers")
       ->check(CLI::IsMember({"none", "huber"}))
       ->capture_default_str();
-  c->add_option("--intervals", o->intervals,
-                "Whether the values of one incident angle share their errors: independent, by_angle, or "
-                "automatic (by_angle for measured tables)")
+  c->add_option(
+       "--intervals", o->intervals,
+       "Whether the values of one incident angle share their errors: independent, by_angle, or "
+       "automatic (by_angle for measured tables)")
       ->check(one_of(intervals_names))
       ->capture_default_str();
   add_bins(c, o->bins);
   c->add_option("-o,--output", o->output, "The result as JSON");
-  c->add_option("--html", o->html, "A page of the result, NAME.html, and its data beside it, NAME.page.json");
-  c->add_flag("--json", o->json, "The result as JSON on standard output");
-  c->add_flag("--quiet", o->quiet, "No progress");
-  add_jobs(c, o->jobs);
+  c->add_option("--html", o->html,
+                "A page of the result, NAME.html, and its data beside it, NAME.page.json");
+  add_jobs(c, *o);
+  add_output(c, *o);
 }
 
 }  // namespace gonio::cli

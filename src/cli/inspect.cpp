@@ -1,4 +1,6 @@
 // gonio inspect: what a table is and what it can be trusted for.
+#include <cmath>
+
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "table/formats.h"
@@ -7,19 +9,16 @@
 namespace gonio::cli {
 namespace {
 
-struct Options {
+struct Options : Common {
   std::string file;
   std::optional<std::string> bins;
-  bool json = false, quiet = false;
-  int jobs = 0;
 };
 
 std::string layout(const Table& t) {
   const Grid* g = t.grid();
   if (!g) return fmt::format("{} samples", t.size());
   std::string s;
-  for (const auto& a : g->axes)
-    s += fmt::format("{}{} {}", s.empty() ? "" : " × ", a.size, a.name);
+  for (const auto& a : g->axes) s += fmt::format("{}{} {}", s.empty() ? "" : " × ", a.size, a.name);
   return s;
 }
 
@@ -32,33 +31,42 @@ void print(const Table& t, const Health& h) {
     fmt::print("{:<14}{}\n", what, text);
   };
   line("file", t.path);
-  line("layout", fmt::format("{}, {}, channels {}", t.format, layout(t), fmt::join(t.channels, " ")));
-  line("values", fmt::format("{} of {} valid ({:.1f} %)", h.valid, h.values, percent(h.valid, h.values)));
+  line("layout",
+       fmt::format("{}, {}, channels {}", t.format, layout(t), fmt::join(t.channels, " ")));
+  line("values",
+       fmt::format("{} of {} valid ({:.1f} %)", h.valid, h.values, percent(h.valid, h.values)));
   for (std::size_t m = 1; m < mask_names.size(); ++m)
     if (h.masked[m])
-      line("masked", fmt::format("{} {} ({:.1f} %)", h.masked[m], mask_names[m], percent(h.masked[m], h.values)));
+      line("masked", fmt::format("{} {} ({:.1f} %)", h.masked[m], mask_names[m],
+                                 percent(h.masked[m], h.values)));
   line("range", fmt::format("{:.4g} to {:.4g} 1/sr", h.smallest_positive, h.largest));
   if (h.noise_floor > 0)
     line("noise floor", fmt::format("{:.3g} 1/sr, from the negative values", h.noise_floor));
   for (const auto& a : h.albedo) {
     std::string channels;
-    for (const double v : a.albedo) channels += fmt::format(" {:.4f}", v);
-    line("albedo", fmt::format("{:>4.1f}°:{}  (samples cover {:.0f} %)", a.theta_i_deg, channels, 100 * a.coverage));
+    for (const double v : a.albedo)
+      channels += std::isnan(v) ? std::string("      –") : fmt::format(" {:.4f}", v);
+    line("albedo", fmt::format("{:>4.1f}°:{}  (samples cover {:.0f} %)", a.theta_i_deg, channels,
+                               100 * a.coverage));
   }
-  line("reciprocity", h.reciprocity_error ? fmt::format("median error {:.1f} %", 100 * *h.reciprocity_error)
-                                          : h.reciprocity_note);
+  line("reciprocity", h.reciprocity_error
+                          ? fmt::format("median error {:.1f} %", 100 * *h.reciprocity_error)
+                          : h.reciprocity_note);
   if (h.peak)
-    line("peak", fmt::format("half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} samples within: {}",
-                             h.peak->half_width_deg, h.peak->alpha, h.peak->samples_within,
-                             h.peak->resolved ? "resolved" : "not resolved"));
+    line("peak",
+         fmt::format("half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} samples within: {}",
+                     h.peak->half_width_deg, h.peak->alpha, h.peak->samples_within,
+                     h.peak->resolved ? "resolved" : "not resolved"));
   else
-    line("peak", "none above the base");
+    line("peak", "none seen: no highlight above the base, or too few samples to tell");
   if (const Grid* g = t.grid(); g && t.has_bins())
-    line("bins", fmt::format("{} assumed{}", bins_names[static_cast<std::size_t>(g->bins)],
-                             h.bin_sensitivity
-                                 ? fmt::format("; the other convention changes the peak's alpha by {:+.2f} %",
-                                               100 * *h.bin_sensitivity)
-                                 : ""));
+    line("bins",
+         fmt::format(
+             "{} assumed{}", bins_names[static_cast<std::size_t>(g->bins)],
+             h.bin_sensitivity
+                 ? fmt::format("; the other convention changes the peak's alpha by {:+.2f} %",
+                               100 * *h.bin_sensitivity)
+                 : ""));
   if (t.truth) {
     std::string truth = t.truth->model;
     for (const auto& [name, values] : t.truth->parameters)
@@ -88,11 +96,11 @@ void add_inspect(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
   auto* c = add_command(app, action, "inspect", "What a table holds and what it can be trusted for",
                         "gonio inspect paint.binary", o, run);
-  c->add_option("FILE", o->file, "MERL, MBSDF, CSV or OpenEXR slice; found from the bytes")->required();
+  c->add_option("FILE", o->file, "MERL, MBSDF, CSV or OpenEXR slice; found from the bytes")
+      ->required();
   add_bins(c, o->bins);
-  c->add_flag("--json", o->json, "JSON on standard output");
-  c->add_flag("--quiet", o->quiet, "No progress");
-  add_jobs(c, o->jobs);
+  add_jobs(c, *o);
+  add_output(c, *o);
 }
 
 }  // namespace gonio::cli

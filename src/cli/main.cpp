@@ -7,7 +7,9 @@
 
 namespace {
 
-int finish(gonio::Exit code) { return static_cast<int>(code); }
+int finish(gonio::Exit code) {
+  return static_cast<int>(code);
+}
 
 int fail(gonio::Exit code, const char* what) {
   fmt::print(stderr, "gonio: {}\n", what);
@@ -18,11 +20,14 @@ int fail(gonio::Exit code, const char* what) {
 
 int main(int argc, char** argv) {
   using gonio::Exit;
-  CLI::App app{"gonio fits analytic BRDF models to tabulated reflectance and says how far to trust the result."};
+  CLI::App app{
+      "gonio fits analytic BRDF models to tabulated reflectance and says how far to trust the "
+      "result."};
   app.require_subcommand(1);
   app.set_version_flag("--version", GONIO_VERSION);
   app.footer(
-      "Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input or output, 4 the fit did not converge.");
+      "Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input or output, 4 the fit did "
+      "not converge.");
   gonio::cli::Action action;
   gonio::cli::add_models(app, action);
   gonio::cli::add_term(app, action);
@@ -38,18 +43,23 @@ int main(int argc, char** argv) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
     if (app.get_subcommands().empty() && argc > 1)
-      return fail(Exit::usage, fmt::format("no subcommand '{}'; see gonio --help", argv[1]).c_str());
+      return fail(Exit::usage,
+                  fmt::format("no subcommand '{}'; see gonio --help", argv[1]).c_str());
     return fail(Exit::usage, e.what());
   }
   try {
     const Exit code = action();
-    if (std::fflush(stdout) != 0) return fail(Exit::bad_input, "standard output: cannot be written");
+    if (std::fflush(stdout) != 0)
+      return fail(Exit::bad_input, "standard output: cannot be written");
     return finish(code);
   } catch (const gonio::Error& e) {
     return fail(e.code(), e.what());
   } catch (const std::system_error& e) {  // fmt::print and the like
-    return fail(Exit::bad_input, e.what());
+    return fail(Exit::bad_input,
+                fmt::format("standard output: writing: found {}, expected room", e.what()).c_str());
   } catch (const std::bad_alloc&) {
     return fail(Exit::bad_input, "out of memory");
+  } catch (const std::exception& e) {
+    return fail(Exit::bad_input, e.what());
   }
 }

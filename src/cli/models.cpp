@@ -1,18 +1,16 @@
 // gonio models: what there is.
-#include <nlohmann/json.hpp>
-
 #include "brdf/registry.h"
 #include "cli/command.h"
 #include "optics/refractive_index.h"
+
+#include <nlohmann/json.hpp>
 
 namespace gonio::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
-  bool json = false;
-};
+struct Options : Common {};
 
 Json describe(const TermKernels<double>& t) {
   Json parameters = Json::array();
@@ -37,19 +35,21 @@ Exit run(const Options& o) {
     Json terms = Json::array(), metal = Json::array();
     for (const auto& t : catalogue()) terms.push_back(describe(t));
     for (const auto& m : metals())
-      metal.push_back({{"symbol", m.symbol}, {"name", m.name}, {"n", m.n}, {"k", m.k}, {"source", m.source}});
+      metal.push_back(
+          {{"symbol", m.symbol}, {"name", m.name}, {"n", m.n}, {"k", m.k}, {"source", m.source}});
     fmt::print("{}\n", Json{{"terms", terms}, {"metals", metal}}.dump(2));
     return Exit::done;
   }
   for (const auto& t : catalogue()) {
     fmt::print("{:<30}{}\n{:30}{}\n", t.about->id, t.about->title, "", t.about->formula);
     for (const auto& p : t.parameters)
-      fmt::print("{:30}{} in [{}, {}]{}: {}\n", "", p.name, p.legal.low, p.legal.high,
-                 p.per_channel ? ", per channel" : "", p.meaning);
+      fmt::print("{:30}{} in [{}, {}]{}, default {}: {}\n", "", p.name, p.legal.low, p.legal.high,
+                 p.per_channel ? ", per channel" : "", p.start, p.meaning);
   }
-  fmt::print("\nA model is [DIFFUSE+]NDF/MASKING/FRESNEL[+LOBE…], by these names less their prefix:\n"
-             "  lambert+ggx/smith_ggx.correlated/schlick\n"
-             "Metals (metal=Au sets eta and k at 650, 550 and 450 nm):");
+  fmt::print(
+      "\nA model is [DIFFUSE+]NDF/MASKING/FRESNEL[+LOBE…], by these names less their prefix:\n"
+      "  lambert+ggx/smith_ggx.correlated/schlick\n"
+      "Metals (metal=Au sets eta and k at 650, 550 and 450 nm):");
   for (const auto& m : metals()) fmt::print(" {}", m.symbol);
   fmt::print("\n");
   return Exit::done;
@@ -61,7 +61,7 @@ void add_models(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
   auto* c = add_command(app, action, "models", "The terms that models are composed of",
                         "gonio models --json", o, run);
-  c->add_flag("--json", o->json, "JSON on standard output");
+  add_output(c, *o);
 }
 
 }  // namespace gonio::cli

@@ -1,19 +1,22 @@
 // gonio synth: a table sampled from a model.
+#include "data_synth/synth.h"
+
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "data_synth/synth.h"
 #include "table/formats.h"
+
+#include <nlohmann/json.hpp>
 
 namespace gonio::cli {
 namespace {
 
-struct Options {
+using Json = nlohmann::ordered_json;
+
+struct Options : Common {
   std::string spec, layout, output;
   std::vector<std::string> set;
   std::optional<std::string> bins;
   SynthOptions synth;
-  int jobs = 0;
-  bool quiet = false;
 };
 
 Exit run(const Options& o) {
@@ -27,6 +30,12 @@ Exit run(const Options& o) {
   const Table t = synthesize(model, s);
   progress("writing " + o.output);
   write_table(t, o.output);
+  progress.clear();
+  if (o.json)
+    fmt::print(
+        "{}\n",
+        Json{{"path", o.output}, {"format", t.format}, {"layout", o.layout}, {"samples", t.size()}}
+            .dump(2, ' ', false, Json::error_handler_t::replace));
   return Exit::done;
 }
 
@@ -48,7 +57,8 @@ void add_synth(CLI::App& app, Action& action) {
   c->add_option("--samples", o->synth.samples, "Number of samples of the random layout")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
-  c->add_option("--noise", o->synth.noise, "Multiplies each value by exp(NOISE · z), z standard normal")
+  c->add_option("--noise", o->synth.noise,
+                "Multiplies each value by exp(NOISE · z), z standard normal")
       ->check(CLI::Range(0.0, 5.0));
   c->add_option("--floor", o->synth.floor, "Added to every value before the noise [1/sr]")
       ->check(CLI::Range(0.0, 1e6));
@@ -56,8 +66,8 @@ void add_synth(CLI::App& app, Action& action) {
       ->check(CLI::Range(0.0, 1.0));
   c->add_option("--seed", o->synth.seed, "Seed of all that is random")->capture_default_str();
   c->add_option("-o,--output", o->output, "File to write")->required();
-  add_jobs(c, o->jobs);
-  c->add_flag("--quiet", o->quiet, "No progress");
+  add_jobs(c, *o);
+  add_output(c, *o);
 }
 
 }  // namespace gonio::cli

@@ -1,18 +1,17 @@
 // gonio term: one factor of a model, evaluated on its own.
-#include <nlohmann/json.hpp>
-
 #include "brdf/registry.h"
 #include "cli/command.h"
+
+#include <nlohmann/json.hpp>
 
 namespace gonio::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct Options : Common {
   std::string id, number = "double";
   std::vector<std::string> set, at;
-  bool json = false;
 };
 
 Exit run(const Options& o) {
@@ -60,7 +59,7 @@ void add_term(CLI::App& app, Action& action) {
       ->expected(1, 64)
       ->required();
   c->add_option("--number", o->number, "Number type: double or float")->check(one_of(number_names));
-  c->add_flag("--json", o->json, "JSON on standard output");
+  add_output(c, *o);
 }
 
 }  // namespace gonio::cli

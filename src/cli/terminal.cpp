@@ -1,20 +1,24 @@
 #include "cli/terminal.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "cli/command.h"
+#include "table/metadata.h"
+
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <memory>
-
-#include "cli/command.h"
-
 namespace gonio::cli {
 
 Progress::Progress(bool quiet) : on_(!quiet && ::isatty(STDERR_FILENO) == 1) {}
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+  clear();
+}
 void Progress::clear() {
   if (on_) std::fputs("\r\033[K", stderr);
 }
@@ -31,8 +35,31 @@ std::string with_error(double value, double error) {
   return fmt::format("{:.{}f} ± {:.{}f}", value, digits, error, digits);
 }
 
-void add_jobs(CLI::App* c, int& jobs) {
-  c->add_option("--jobs,-j", jobs, "Threads (default: all)")->check(CLI::Range(1, 4096));
+void add_output(CLI::App* c, Common& o) {
+  c->add_flag("--json", o.json, "One JSON document on standard output");
+  c->add_flag("--quiet", o.quiet, "No progress");
+}
+
+void add_jobs(CLI::App* c, Common& o) {
+  c->add_option("--jobs,-j", o.jobs, "Threads (default: all)")->check(CLI::Range(1, 4096));
+}
+
+void check_outputs(const std::vector<std::string>& inputs,
+                   const std::vector<std::string>& outputs) {
+  namespace fs = std::filesystem;
+  const auto same = [](const std::string& a, const std::string& b) {
+    std::error_code ignored;
+    return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (outputs[i].empty()) continue;
+    for (const auto& in : inputs)
+      if (same(outputs[i], in) || same(outputs[i], side_path(in)))
+        throw wrong_usage(fmt::format("{} is an input; it would be overwritten", outputs[i]));
+    for (std::size_t k = 0; k < i; ++k)
+      if (!outputs[k].empty() && same(outputs[i], outputs[k]))
+        throw wrong_usage(fmt::format("{} is named for two outputs", outputs[i]));
+  }
 }
 
 void use_jobs(int jobs) {

@@ -28,8 +28,12 @@ inline Direction direction(double theta, double phi) {
 }
 
 /// Zenith angle in [0, π].  By atan2: acos(z) loses half the digits near the pole.
-inline double theta_of(const Direction& d) { return std::atan2(std::hypot(d.x, d.y), d.z); }
+inline double theta_of(const Direction& d) {
+  return std::atan2(std::hypot(d.x, d.y), d.z);
+}
 /// Azimuth in (−π, π]; 0 at the pole.
-inline double phi_of(const Direction& d) { return std::atan2(d.y, d.x); }
+inline double phi_of(const Direction& d) {
+  return std::atan2(d.y, d.x);
+}
 
 }  // namespace gonio

@@ -3,9 +3,9 @@
 /// A register full of numbers as a Real, and how numbers enter it from a column and leave it.
 /// A scalar is a batch of one, so a loop over a column is written once.
 
-#include <xsimd/xsimd.hpp>
-
 #include "number/real.h"
+
+#include <xsimd/xsimd.hpp>
 
 namespace gonio::inline GONIO_ARCH {
 

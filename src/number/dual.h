@@ -22,8 +22,7 @@ struct Dual {
   constexpr Dual(B value) : v(value) {}  // NOLINT: a plain number is a dual with no derivatives
   // Exactly int or exactly the base type: a plain Dual(int) would take 0.5 for 0 when B is a batch.
   constexpr explicit Dual(std::same_as<int> auto value) : v(B(static_cast<base_t<B>>(value))) {}
-  constexpr explicit Dual(std::same_as<base_t<B>> auto value)
-    requires(!std::same_as<B, base_t<B>>)
+  constexpr explicit Dual(std::same_as<base_t<B>> auto value) requires(!std::same_as<B, base_t<B>>)
       : v(B(value)) {}
 
   /// The i-th unknown: dᵢ = 1.

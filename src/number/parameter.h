@@ -14,16 +14,16 @@ struct Range {
 
 struct Parameter {
   std::string_view name;
-  Range legal;      ///< where the formula is defined
-  Range fit;        ///< where a fit may look
-  double start;     ///< where a fit begins that knows nothing better
+  Range legal;   ///< where the formula is defined
+  Range fit;     ///< where a fit may look
+  double start;  ///< where a fit begins that knows nothing better
   bool per_channel = false;
   std::string_view meaning = {};
 };
 
 /// What a term says of itself.
 struct About {
-  std::string_view id;       ///< the catalogue's name, prefix included
+  std::string_view id;  ///< the catalogue's name, prefix included
   std::string_view title;
   std::string_view formula;
   std::string_view source;

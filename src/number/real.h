@@ -64,7 +64,7 @@ concept Real = requires(const T a, const T b, const mask_t<T> m) {
   T(1);
   { a + b } -> std::same_as<T>;
   { a - b } -> std::same_as<T>;
-  { a * b } -> std::same_as<T>;
+  { a* b } -> std::same_as<T>;
   { a / b } -> std::same_as<T>;
   { -a } -> std::same_as<T>;
   { 1 - a } -> std::same_as<T>;

@@ -218,8 +218,8 @@ TEST(Catalogue, DerivativesAreThoseOfDifferences) {
 
 /// scale: what an error is measured by, beside the value itself
 template <class F>
-void expect_same(const F* a, const F* b, std::size_t n, F tolerance, auto&& scale,
-                 const std::string& where) {
+void expect_same(
+    const F* a, const F* b, std::size_t n, F tolerance, auto&& scale, const std::string& where) {
   F largest = 0;
   for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(b[i]) + scale(i));
   for (std::size_t i = 0; i < n; ++i) {

@@ -16,7 +16,9 @@ double visibility(std::size_t masking, double alpha, double nol, double nov) {
 double g2(std::size_t masking, double alpha, double nol, double nov) {
   return 4 * nol * nov * visibility(masking, alpha, nol, nov);
 }
-double g1(std::size_t masking, double alpha, double nov) { return g2(masking, alpha, 1, nov); }
+double g1(std::size_t masking, double alpha, double nov) {
+  return g2(masking, alpha, 1, nov);
+}
 
 const auto separable = [] { return find_term("masking.smith_ggx.separable"); };
 const auto correlated = [] { return find_term("masking.smith_ggx.correlated"); };

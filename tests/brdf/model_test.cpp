@@ -12,7 +12,8 @@ namespace {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// Wrong usage, answered by one line that names each of `parts`.
-void expect_refused(auto&& call, std::initializer_list<std::string> parts,
+void expect_refused(auto&& call,
+                    std::initializer_list<std::string> parts,
                     std::source_location where = std::source_location::current()) {
   const testing::ScopedTrace trace(where.file_name(), static_cast<int>(where.line()),
                                    "called here");

@@ -25,7 +25,8 @@ Angles<double> half_vector(double tangent) {
 /// ∫ f(θ_h) cos θ_h dω = 2π ∫ f sin²θ cos²θ dx with x = ln tan θ, in which a peak of any width is
 /// as wide as any other, the integrand falls off exponentially at both ends and has no pole within
 /// π/2 of the axis: the trapezoidal rule errs by e^(−π²/step), far below rounding.
-double projected_integral(const std::vector<double>& f, std::span<const Angles<double>> at,
+double projected_integral(const std::vector<double>& f,
+                          std::span<const Angles<double>> at,
                           double step) {
   double sum = 0;
   for (std::size_t i = 0; i < f.size(); ++i)

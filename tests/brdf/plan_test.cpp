@@ -11,10 +11,14 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 class PlanOf : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(
-    Models, PlanOf,
+    Models,
+    PlanOf,
     testing::Values(
-        "lambert", "ggx/smith_ggx.correlated/schlick", "lambert+ggx/smith_ggx.correlated/schlick",
-        "lambert.coupled+ggx/smith_ggx.separable/schlick", "gtr/smith_ggx.correlated/conductor",
+        "lambert",
+        "ggx/smith_ggx.correlated/schlick",
+        "lambert+ggx/smith_ggx.correlated/schlick",
+        "lambert.coupled+ggx/smith_ggx.separable/schlick",
+        "gtr/smith_ggx.correlated/conductor",
         "lambert+gtr/smith_ggx.separable/dielectric",
         "lambert.coupled+gtr/smith_ggx.correlated/conductor",
         "lambert+ggx/smith_ggx.correlated/schlick+gtr/smith_ggx.separable/schlick",
@@ -36,8 +40,10 @@ struct Result {
   std::vector<double> value;
   std::map<std::size_t, std::vector<double>> d;
 };
-std::vector<Result> run(const Model& m, std::span<const double> values,
-                        const std::vector<bool>& free, std::span<const Angles<double>> rows,
+std::vector<Result> run(const Model& m,
+                        std::span<const double> values,
+                        const std::vector<bool>& free,
+                        std::span<const Angles<double>> rows,
                         const Kernels<double>& k = kernels<double>()) {
   const auto x = test::columns<double>(rows);
   const Plan<double> plan(m, values, free, k);

@@ -33,7 +33,8 @@ AngleColumns<F> columns(std::span<const Angles<double>> rows) {
 }
 
 template <class F = double>
-std::vector<F> values_of(std::size_t term, const Parameters& parameters,
+std::vector<F> values_of(std::size_t term,
+                         const Parameters& parameters,
                          std::span<const Angles<double>> rows,
                          const Kernels<F>& k = kernels<F>("scalar")) {
   const auto x = columns<F>(rows);
@@ -49,7 +50,8 @@ inline double value_of(std::size_t term, const Parameters& parameters, const Ang
 
 /// [0]: the value; [1 + k]: its derivative by the k-th parameter.
 template <class F = double>
-std::vector<std::vector<F>> derivatives_of(std::size_t term, const Parameters& parameters,
+std::vector<std::vector<F>> derivatives_of(std::size_t term,
+                                           const Parameters& parameters,
                                            std::span<const Angles<double>> rows,
                                            const Kernels<F>& k = kernels<F>("scalar")) {
   const auto x = columns<F>(rows);
@@ -95,7 +97,9 @@ inline std::vector<Parameters> legal_grid(std::span<const Parameter> parameters,
   return grid;
 }
 
-inline std::string text(const Parameters& p) { return testing::PrintToString(p); }
+inline std::string text(const Parameters& p) {
+  return testing::PrintToString(p);
+}
 inline std::string text(const Angles<double>& a) {
   return testing::PrintToString(Parameters{a.nol, a.nov, a.noh, a.voh, a.sin2_theta_h});
 }

@@ -1,9 +1,9 @@
 // Fifty digits: how many of sixteen the terms keep.  The only file that pays for
 // Boost.Multiprecision.
-#include <boost/multiprecision/cpp_bin_float.hpp>
-
 #include "brdf/catalogue.h"
 #include "brdf/terms.h"
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
 
 namespace gonio {
 

@@ -1,13 +1,14 @@
-// The program as others call it: exit codes, one document on stdout, one line on stderr, whole files
-// or none.
-#include <gtest/gtest.h>
-
+// The program as others call it: exit codes, one document on stdout, one line on stderr, whole
+// files or none.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "support.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 namespace gonio::test {
 namespace {
@@ -20,8 +21,8 @@ struct Outcome {
 
 /// Runs `gonio WORDS` in a shell, in the folder.
 Outcome gonio(const Folder& folder, const std::string& words) {
-  const std::string command = "cd '" + folder / "" + "' && '" GONIO_PROGRAM "' " + words +
-                              " >.out 2>.err </dev/null";
+  const std::string command =
+      "cd '" + folder / "" + "' && '" GONIO_PROGRAM "' " + words + " >.out 2>.err </dev/null";
   const int status = std::system(command.c_str());
   Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(folder / ".out"),
             read_bytes(folder / ".err")};
@@ -42,7 +43,8 @@ constexpr const char* paint =
 
 TEST(Program, GoesFromSynthOverInspectAndFitToCompare) {
   const Folder f;
-  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf --noise 0.02 -o p.mbsdf").code, 0);
+  ASSERT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout mbsdf --noise 0.02 -o p.mbsdf").code, 0);
   const auto health = gonio(f, "inspect p.mbsdf --json").json();
   EXPECT_EQ(health["format"], "mbsdf");
   EXPECT_EQ(health["masked"]["negative"], 0);
@@ -72,15 +74,31 @@ TEST(Program, GoesFromSynthOverInspectAndFitToCompare) {
   EXPECT_GT(other["residuals"]["log_rms"], 0.1);
 }
 
+TEST(Program, FindsTheSameResidualsInFitAndCompareAlsoWhereValuesAreZero) {
+  const Folder f;
+  std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";
+  for (int i = 0; i < 80; ++i)
+    csv += std::to_string(i) + ",0,30,180," + (i % 7 ? "0.1" : "0") + "\n";
+  f.write("t.csv", csv);
+  const auto fit = gonio(f, "fit t.csv --model lambert -o r.json --json").json();
+  EXPECT_EQ(fit["input"]["masked"]["zero"], 12);
+  const auto compared = gonio(f, "compare t.csv r.json --json").json();
+  EXPECT_EQ(fit["residuals"], compared["residuals"]);
+}
+
 TEST(Program, GivesTheSameFilesForASeedWhateverTheThreads) {
   const Folder f;
   for (const char* jobs : {"1", "2"}) {
     const std::string n(jobs);
-    ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf --noise 0.1 --seed 9 --jobs " + n + " -o t" + n).code, 0);
+    ASSERT_EQ(gonio(f, std::string("synth ") + paint +
+                           " --layout mbsdf --noise 0.1 --seed 9 --jobs " + n + " -o t" + n)
+                  .code,
+              0);
     ASSERT_EQ(gonio(f, "fit t" + n + " --robust huber --jobs " + n + " -o r" + n).code, 0);
   }
   EXPECT_EQ(read_bytes(f / "t1"), read_bytes(f / "t2"));
-  auto a = nlohmann::json::parse(read_bytes(f / "r1")), b = nlohmann::json::parse(read_bytes(f / "r2"));
+  auto a = nlohmann::json::parse(read_bytes(f / "r1")),
+       b = nlohmann::json::parse(read_bytes(f / "r2"));
   for (auto* d : {&a, &b}) {
     (*d)["solver"].erase("time_ms");
     (*d)["input"].erase("path");
@@ -95,11 +113,15 @@ TEST(Program, EvaluatesTermsAsItsContractSays) {
   EXPECT_EQ(d["number"], "double");
   EXPECT_EQ(d["parameters"]["alpha"], 0.25);
   EXPECT_NEAR(d["values"][0], 1 / (M_PI * 0.0625), 1e-12);
-  const auto g1 = gonio(f, "term masking.smith_ggx.separable --set alpha=0.25 --at nov=0.1 --json").json();
+  const auto g1 =
+      gonio(f, "term masking.smith_ggx.separable --set alpha=0.25 --at nov=0.1 --json").json();
   EXPECT_NEAR(g1["values"][0], 2 * 0.1 / (0.1 + std::sqrt(0.0625 + (1 - 0.0625) * 0.01)), 1e-14);
-  const auto g2 = gonio(f, "term masking.smith_ggx.separable --set alpha=0.25 --at nov=0.1 nol=0.1 --json").json();
+  const auto g2 =
+      gonio(f, "term masking.smith_ggx.separable --set alpha=0.25 --at nov=0.1 nol=0.1 --json")
+          .json();
   EXPECT_NEAR(g2["values"][0], std::pow(g1["values"][0].get<double>(), 2), 1e-14);
-  const auto single = gonio(f, "term fresnel.schlick --set f0=0.04 --at cos=0.5 --number float --json").json();
+  const auto single =
+      gonio(f, "term fresnel.schlick --set f0=0.04 --at cos=0.5 --number float --json").json();
   const auto full = gonio(f, "term fresnel.schlick --set f0=0.04 --at cos=0.5 --json").json();
   EXPECT_NE(single["values"][0], full["values"][0]);
   EXPECT_NEAR(single["values"][0], full["values"][0], 1e-7);
@@ -114,9 +136,9 @@ TEST(Program, ListsEveryTermWithItsFormulaAndSource) {
     EXPECT_FALSE(t["formula"].get<std::string>().empty()) << ids.back();
     EXPECT_FALSE(t["source"].get<std::string>().empty()) << ids.back();
   }
-  for (const char* id : {"ndf.ggx", "ndf.gtr", "masking.smith_ggx.correlated", "masking.smith_ggx.separable",
-                         "fresnel.schlick", "fresnel.dielectric", "fresnel.conductor", "diffuse.lambert",
-                         "diffuse.lambert.coupled"})
+  for (const char* id : {"ndf.ggx", "ndf.gtr", "masking.smith_ggx.correlated",
+                         "masking.smith_ggx.separable", "fresnel.schlick", "fresnel.dielectric",
+                         "fresnel.conductor", "diffuse.lambert", "diffuse.lambert.coupled"})
     EXPECT_NE(std::find(ids.begin(), ids.end(), id), ids.end()) << id;
   EXPECT_EQ(m["metals"].size(), 9U);
 }
@@ -124,8 +146,11 @@ TEST(Program, ListsEveryTermWithItsFormulaAndSource) {
 TEST(Program, EvaluatesAModelAtTheDirectionsOfAFile) {
   const Folder f;
   f.write("in.csv", "theta_i,phi_i,theta_o,phi_o\n0,0,0,0\n30,0,30,180\n95,0,10,0\n");
-  ASSERT_EQ(gonio(f, "eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
-                     "--directions in.csv -o out.csv").code, 0);
+  ASSERT_EQ(gonio(f,
+                  "eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
+                  "--directions in.csv -o out.csv")
+                .code,
+            0);
   const std::string text = read_bytes(f / "out.csv");
   EXPECT_TRUE(text.starts_with("theta_i,phi_i,theta_o,phi_o,f_r,f_g,f_b\n0,0,0,0,"));
   EXPECT_NE(text.find("\n95,0,10,0,0,0,0\n"), std::string::npos) << text;
@@ -148,9 +173,21 @@ TEST(Program, TellsWrongUsageByExitCodeTwo) {
            {"term ndf.ggx --at noh=2", "[0, 1]"},
            {"term ndf.ggx --set alpha=nan --at noh=1", "nan"},
            {"synth lambert --set kd=0.2 kd=0.3 --layout random -o x", "twice"},
-           {"synth ggx/smith_ggx.correlated/schlick --set f0=0.1 base_color=0.5 --layout random -o x", "f0"},
+           {"synth ggx/smith_ggx.correlated/schlick --set f0=0.1 base_color=0.5 --layout random -o "
+            "x",
+            "f0"},
            {"synth lambert --layout merl --noise -1 -o x", "noise"},
-           {"compare t.csv fit --set kd", "NAME=VALUE"}})
+           {"compare t.csv fit --set kd", "NAME=VALUE"},
+           {"fit t.csv --model lambert --fix kd=0.3 --bounds kd=0.1,0.2", "held"},
+           {"fit t.csv --grey alpha", "no colour"},
+           {"fit t.csv --model lambert --intervals by_angle", "one incident angle"},
+           {"fit t.csv -o t.csv", "is an input"},
+           {"fit t.csv --html ./t.csv", "is an input"},
+           {"fit t.csv -o t.csv.gonio.json", "is an input"},
+           {"fit t.csv -o r --html r", "two outputs"},
+           {"fit t.csv -o r.page.json --html r.html", "two outputs"},
+           {"eval lambert --directions t.csv -o t.csv", "is an input"},
+           {"eval lambert --directions t.csv", "-o FILE or --json"}})
     expect_one_line(gonio(f, words), 2, holding);
   EXPECT_EQ(f.entries(), 1U);
 }
@@ -163,6 +200,11 @@ TEST(Program, TellsBadInputByExitCodeThreeAndLeavesNothing) {
   f.write("angle.csv", "theta_i,phi_i,theta_o,phi_o,f\n0,0,nan,0,1\n");
   f.write("fine.csv", "theta_i,phi_i,theta_o,phi_o,f\n0,0,0,0,0.3\n30,0,30,180,0.4\n");
   f.write("broken.json", "{");
+  ASSERT_EQ(::mkfifo((f / "pipe").c_str(), 0600), 0);
+  f.write("other.json",
+          R"({"schema":"gonio.fit/1","model":"lambert","parameters":{"kd":{"value":5}}})");
+  f.write("bare.json", R"({"schema":"gonio.fit/1","model":"ggx/smith_ggx.correlated/schlick",)"
+                       R"("parameters":{"f0":{"value":0.5}}})");
   ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf -o whole").code, 0);
   f.write("cut", read_bytes(f / "whole").substr(0, 100000));
   const std::size_t before = f.entries();
@@ -182,6 +224,10 @@ TEST(Program, TellsBadInputByExitCodeThreeAndLeavesNothing) {
            {"inspect cut", "cut: "},
            {"compare fine.csv missing.json", "missing.json"},
            {"compare fine.csv broken.json", "broken.json"},
+           {"compare fine.csv other.json", "other.json: model and parameters"},
+           {"compare fine.csv bare.json", "nothing for 'alpha'"},
+           {"fit fine.csv --model lambert -o pipe", "a device or pipe"},
+           {"fit pipe -o r.json", "a device or pipe"},
            {"eval lambert --directions unknown -o o.csv", "unknown"}})
     expect_one_line(gonio(f, words), 3, holding);
   EXPECT_EQ(f.entries(), before);
@@ -189,15 +235,18 @@ TEST(Program, TellsBadInputByExitCodeThreeAndLeavesNothing) {
 
 TEST(Program, SaysWhenStandardOutputCannotBeWritten) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full, which is not here";
-  EXPECT_EQ(WEXITSTATUS(std::system("'" GONIO_PROGRAM "' models --json >/dev/full 2>/dev/null")), 3);
+  EXPECT_EQ(WEXITSTATUS(std::system("'" GONIO_PROGRAM "' models --json >/dev/full 2>/dev/null")),
+            3);
 }
 
 TEST(Program, ShowsAnExampleWithEveryHelp) {
   const Folder f;
-  for (const char* command : {"models", "term", "eval", "synth", "inspect", "fit", "compare", "bench"}) {
+  for (const char* command :
+       {"models", "term", "eval", "synth", "inspect", "fit", "compare", "bench"}) {
     const auto o = gonio(f, std::string(command) + " --help");
     EXPECT_EQ(o.code, 0);
-    EXPECT_NE(o.out.find("Example:\n  gonio " + std::string(command)), std::string::npos) << command;
+    EXPECT_NE(o.out.find("Example:\n  gonio " + std::string(command)), std::string::npos)
+        << command;
   }
 }
 
@@ -211,7 +260,8 @@ TEST(Program, FitsTheMeasuredCarPaintAndSaysWhatItMasked) {
   EXPECT_EQ(d["intervals"], "clustered by incident angle");
   EXPECT_EQ(d["clusters"], 45);
   // blue: the last channel's diffuse albedo is several times the others'
-  EXPECT_GT(d["parameters"]["kd"]["value"][2].get<double>(), 2 * d["parameters"]["kd"]["value"][1].get<double>());
+  EXPECT_GT(d["parameters"]["kd"]["value"][2].get<double>(),
+            2 * d["parameters"]["kd"]["value"][1].get<double>());
 }
 
 }  // namespace

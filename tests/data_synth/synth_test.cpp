@@ -1,21 +1,22 @@
 // Synthesized tables are what they say they are.
 #include "data_synth/synth.h"
 
-#include <gtest/gtest.h>
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "brdf/evaluate.h"
 
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
 namespace gonio {
 namespace {
 
 BoundModel paint() {
   return bind_model("lambert+ggx/smith_ggx.correlated/schlick",
-                    parse_settings(std::vector<std::string>{"alpha=0.15,f0=0.05,kd=0.2,0.1,0.05"}), 3);
+                    parse_settings(std::vector<std::string>{"alpha=0.15,f0=0.05,kd=0.2,0.1,0.05"}),
+                    3);
 }
 
 TEST(Synth, WithoutNoiseHoldsTheModelAtEverySampleOfEveryLayout) {
@@ -38,7 +39,8 @@ TEST(Synth, WithoutNoiseHoldsTheModelAtEverySampleOfEveryLayout) {
 
 TEST(Synth, NoiseHasTheSpreadAskedForAndItsMedianIsTheModel) {
   const Table clean = synthesize(paint(), {.layout = Layout::random, .samples = 20000});
-  const Table noisy = synthesize(paint(), {.layout = Layout::random, .samples = 20000, .noise = 0.05});
+  const Table noisy =
+      synthesize(paint(), {.layout = Layout::random, .samples = 20000, .noise = 0.05});
   double sum = 0, squares = 0;
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < clean.size(); ++i) {

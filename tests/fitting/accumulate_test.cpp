@@ -1,8 +1,6 @@
-// The sums over columns are the sums over samples, whatever the threads; Ceres sees the same problem.
+// The sums over columns are the sums over samples, whatever the threads; Ceres sees the same
+// problem.
 #include "fitting/accumulate.h"
-
-#include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 
@@ -11,12 +9,16 @@
 #include "fitting/solve.h"
 #include "fitting/uncertainty.h"
 
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
 namespace gonio {
 namespace {
 
 BoundModel paint() {
-  return bind_model("lambert.coupled+gtr/smith_ggx.correlated/schlick",
-                    parse_settings(std::vector<std::string>{"alpha=0.2,gamma=1.7,f0=0.05,kd=0.2,0.1,0.05"}), 3);
+  return bind_model(
+      "lambert.coupled+gtr/smith_ggx.correlated/schlick",
+      parse_settings(std::vector<std::string>{"alpha=0.2,gamma=1.7,f0=0.05,kd=0.2,0.1,0.05"}), 3);
 }
 
 struct Case {
@@ -46,7 +48,8 @@ TEST(NormalEquations, GradientIsTheSlopeOfTheCost) {
         const double h = 1e-5 * c.off[i];
         low[i] -= h;
         high[i] += h;
-        const double slope = (a.normal_equations(high).cost - a.normal_equations(low).cost) / (2 * h);
+        const double slope =
+            (a.normal_equations(high).cost - a.normal_equations(low).cost) / (2 * h);
         EXPECT_NEAR(e.g[i], slope, 1e-5 * std::abs(slope) + 1e-7 * e.cost) << metric_names[m] << i;
       }
     }
@@ -89,10 +92,11 @@ TEST(Sandwich, OfIndependentValuesIsTheSumOfSquaredScoresAndOfClustersTheSquareO
   const Accumulator a(c.model.model, c.data, c.free, {Metric::l2_cosine});
   const auto e = a.normal_equations(c.off);
   const auto independent = a.sandwich(c.off, false);
-  for (std::size_t i = 0; i < 64; ++i) EXPECT_NEAR(independent.bread[i], e.h[i], 1e-12 * std::abs(e.h[i]));
+  for (std::size_t i = 0; i < 64; ++i)
+    EXPECT_NEAR(independent.bread[i], e.h[i], 1e-12 * std::abs(e.h[i]));
   // One cluster holding all: its score is the whole gradient.
   Case one(Metric::l2_cosine, 500);
-  std::fill(one.data.incident.begin(), one.data.incident.end(), std::uint16_t{0});
+  std::fill(one.data.incident.begin(), one.data.incident.end(), std::uint32_t{0});
   one.data.clusters = 1;
   const Accumulator b(one.model.model, one.data, one.free, {Metric::l2_cosine});
   const auto s = b.sandwich(one.off, true);
@@ -101,7 +105,8 @@ TEST(Sandwich, OfIndependentValuesIsTheSumOfSquaredScoresAndOfClustersTheSquareO
       EXPECT_NEAR(s.meat[p * 8 + q], e.g[p] * e.g[q], 1e-9 * std::abs(e.g[p] * e.g[q]) + 1e-20);
   // Each value its own cluster.
   Case each(Metric::l2_cosine, 500);
-  for (std::size_t i = 0; i < each.data.incident.size(); ++i) each.data.incident[i] = static_cast<std::uint16_t>(i);
+  for (std::size_t i = 0; i < each.data.incident.size(); ++i)
+    each.data.incident[i] = static_cast<std::uint32_t>(i);
   each.data.clusters = each.data.samples();
   for (std::size_t ch = 1; ch < 3; ++ch)
     for (std::size_t i = 0; i < each.data.samples(); ++i) each.data.y[ch][i] = -1;
@@ -162,7 +167,8 @@ TEST(Uncertainty, TellsSingularDirectionsFromKnownParameters) {
   s.bread[18] = 100;
   s.meat = s.bread;
   const std::vector<double> x{0.3, 0.3, 0.5, 1, 0.5};
-  const auto u = uncertainty(s, x, {std::vector<double>(5, 0), std::vector<double>(5, 1)}, 1'000'000, 0);
+  const auto u =
+      uncertainty(s, x, {std::vector<double>(5, 0), std::vector<double>(5, 1)}, 1'000'000, 0);
   EXPECT_EQ(u.status[0], ParameterStatus::not_identifiable);
   EXPECT_EQ(u.status[1], ParameterStatus::not_identifiable);
   EXPECT_EQ(u.status[2], ParameterStatus::free);

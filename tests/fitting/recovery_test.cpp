@@ -1,10 +1,11 @@
 // What was put in comes out: parameters recovered from synthesized tables.
-#include <gtest/gtest.h>
-
 #include <cmath>
 
+#include "base/error.h"
 #include "data_synth/synth.h"
 #include "fitting/fit.h"
+
+#include <gtest/gtest.h>
 
 namespace gonio {
 namespace {
@@ -66,10 +67,11 @@ TEST_P(Recovery, FromANoisyMerlTableIsWithinFourStandardErrors) {
   FitOptions o;
   o.bin_sensitivity = false;
   const auto r = fit_synthetic(GetParam(), s, o);
-  each_value(GetParam(), r.document, [](const auto& name, double truth, double fitted, double error) {
-    EXPECT_LT(std::abs(fitted - truth), 4 * error) << name;
-    EXPECT_LT(error, 0.01 * truth) << name;  // a million bins know it well
-  });
+  each_value(GetParam(), r.document,
+             [](const auto& name, double truth, double fitted, double error) {
+               EXPECT_LT(std::abs(fitted - truth), 4 * error) << name;
+               EXPECT_LT(error, 0.01 * truth) << name;  // a million bins know it well
+             });
 }
 
 TEST_P(Recovery, WorksFromEveryLayoutAndMetric) {
@@ -82,17 +84,21 @@ TEST_P(Recovery, WorksFromEveryLayoutAndMetric) {
       o.metric = static_cast<Metric>(k);
       o.bin_sensitivity = false;
       const auto r = fit_synthetic(GetParam(), s, o);
-      each_value(GetParam(), r.document, [&](const auto& name, double truth, double fitted, double) {
-        EXPECT_NEAR(fitted / truth, 1, 1e-5) << name << " " << layout_names[l] << " " << metric_names[k];
-      });
+      each_value(GetParam(), r.document,
+                 [&](const auto& name, double truth, double fitted, double) {
+                   EXPECT_NEAR(fitted / truth, 1, 1e-5)
+                       << name << " " << layout_names[l] << " " << metric_names[k];
+                 });
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Materials, Recovery, testing::ValuesIn(materials),
-                         [](const auto& i) { return std::string(i.param.name); });
+INSTANTIATE_TEST_SUITE_P(Materials, Recovery, testing::ValuesIn(materials), [](const auto& i) {
+  return std::string(i.param.name);
+});
 
 TEST(Fit, RecoversIndicesOfDielectricAndConductor) {
-  const Material plastic{"plastic", "lambert.coupled+ggx/smith_ggx.separable/dielectric",
+  const Material plastic{"plastic",
+                         "lambert.coupled+ggx/smith_ggx.separable/dielectric",
                          {"alpha=0.2", "eta=1.6", "kd=0.5,0.3,0.1"}};
   const Material copper{"copper", "ggx/smith_ggx.correlated/conductor", {"alpha=0.25", "metal=Cu"}};
   SynthOptions s;
@@ -146,7 +152,8 @@ TEST(Fit, WithHuberSurvivesOutliersThatBendThePlainFit) {
 
 TEST(Fit, SaysThatAWidthWithoutALobeIsNotIdentifiable) {
   // η = 1 reflects nothing: the table is Lambertian and says nothing of alpha.
-  const Material m{"lambert", "lambert+ggx/smith_ggx.correlated/dielectric",
+  const Material m{"lambert",
+                   "lambert+ggx/smith_ggx.correlated/dielectric",
                    {"alpha=0.2", "eta=1", "kd=0.5,0.3,0.1"}};
   SynthOptions s;
   s.layout = Layout::random;
@@ -157,6 +164,89 @@ TEST(Fit, SaysThatAWidthWithoutALobeIsNotIdentifiable) {
     EXPECT_TRUE(std::isnan(parameter(d, "alpha").value[0]));
     EXPECT_NEAR(parameter(d, "kd").value[0], 0.5, noise > 0 ? 0.01 : 1e-6);
   }
+}
+
+TEST(Fit, FindsAPeakMuchNarrowerThanTheFirstGuess) {
+  const Material needle{"needle", metal, {"alpha=0.0005", "f0=0.5"}};
+  FitOptions o;
+  o.bin_sensitivity = false;
+  const auto r = fit_synthetic(needle, {.layout = Layout::merl, .noise = 0.02}, o);
+  EXPECT_NEAR(parameter(r.document, "alpha").value[0], 0.0005, 1e-6);
+  EXPECT_NEAR(parameter(r.document, "f0").value[0], 0.5, 1e-3);
+}
+
+TEST(Fit, AtTheEndOfItsRangeIsAtABoundAndNotUnidentifiable) {
+  Table t = synthesize(bind_model("lambert", {}, 1), {.layout = Layout::random, .samples = 5});
+  t.values[0] = {0.3, 0.5, 0.9, 1.4, 1.9};  // kd = 1 gives 0.318
+  FitOptions o;
+  o.model = "lambert";
+  const auto d = fit(t, o).document;
+  EXPECT_EQ(d.parameters[0].status[0], ParameterStatus::at_bound);
+  EXPECT_EQ(d.parameters[0].value[0], 1);
+}
+
+TEST(Fit, KnowsNoErrorsWithoutADegreeOfFreedomAndSaysSo) {
+  Table t = synthesize(bind_model("lambert", {}, 1), {.layout = Layout::random, .samples = 1});
+  FitOptions o;
+  o.model = "lambert";
+  const auto d = fit(t, o).document;
+  EXPECT_NEAR(d.parameters[0].value[0], 0.2, 1e-6);
+  EXPECT_TRUE(std::isnan(d.parameters[0].std_error[0]));
+  ASSERT_FALSE(d.warnings.empty());
+  EXPECT_NE(d.warnings[0].find("1 values cannot tell"), std::string::npos) << d.warnings[0];
+}
+
+TEST(Fit, DoesNotDependOnTheUnitOfTheWeightsOrTheValues) {
+  Table t = synthesize(bind_model(paint, parse_settings(materials[0].settings), 3),
+                       {.layout = Layout::random, .noise = 0.05});
+  const auto plain = fit(t, {}).document;
+  t.weights.assign(t.size(), 1e-20);
+  const auto weighted = fit(t, {}).document;
+  for (std::size_t p = 0; p < plain.parameters.size(); ++p)
+    for (std::size_t c = 0; c < plain.parameters[p].value.size(); ++c) {
+      EXPECT_NEAR(weighted.parameters[p].value[c] / plain.parameters[p].value[c], 1, 1e-9);
+      EXPECT_NEAR(weighted.parameters[p].std_error[c] / plain.parameters[p].std_error[c], 1, 1e-6);
+    }
+  // A dim table under the metric that has a unit: kd scales with it.
+  Table bright =
+      synthesize(bind_model("lambert", {}, 1), {.layout = Layout::random, .noise = 0.05});
+  Table dim = bright;
+  for (auto& v : dim.values[0]) v *= 1e-6;
+  FitOptions o;
+  o.model = "lambert";
+  o.metric = Metric::l2_cosine;
+  EXPECT_NEAR(
+      fit(dim, o).document.parameters[0].value[0] / fit(bright, o).document.parameters[0].value[0],
+      1e-6, 1e-13);
+}
+
+TEST(Fit, RefusesMoreFreeParametersThanItCanAccumulate) {
+  const std::string lobe = "+gtr/smith_ggx.correlated/conductor";
+  const Table t = synthesize(bind_model(paint, {}, 3), {.layout = Layout::random});
+  FitOptions o;
+  o.model = "lambert" + lobe + lobe + lobe;
+  EXPECT_THROW(fit(t, o), Error);
+  o.fixed = parse_settings(std::vector<std::string>{"eta=1.5,k=3,eta_2=1.5,k_2=3,gamma=2"});
+  EXPECT_NO_THROW(fit(t, o));
+}
+
+TEST(Fit, RefusesSquaresThatHaveNoFiniteSum) {
+  Table t = synthesize(bind_model(paint, {}, 3), {.layout = Layout::random});
+  for (auto& v : t.values[0]) v = 1e200;
+  FitOptions o;
+  o.metric = Metric::l2_cosine;
+  EXPECT_THROW(fit(t, o), Error);
+}
+
+TEST(Fit, SaysWhenTheModelDoesNotDescribeTheTable) {
+  const Table t = synthesize(bind_model(metal, parse_settings(materials[1].settings), 3),
+                             {.layout = Layout::random});
+  FitOptions o;
+  o.model = "lambert";
+  const auto d = fit(t, o).document;
+  ASSERT_FALSE(d.warnings.empty());
+  EXPECT_NE(d.warnings[0].find("does not describe"), std::string::npos);
+  EXPECT_TRUE(fit_synthetic(materials[1], {.layout = Layout::random}).document.warnings.empty());
 }
 
 TEST(Fit, HalfABinChangesAlphaByFourToTwelvePercentAndMoreWhereThePeakIsSharp) {

@@ -45,7 +45,9 @@ class BatchOf : public testing::Test {
 using Floats = testing::Types<float, double>;
 TYPED_TEST_SUITE(BatchOf, Floats);
 
-TYPED_TEST(BatchOf, MoreThanOneLane) { EXPECT_GT(this->n, 1U); }
+TYPED_TEST(BatchOf, MoreThanOneLane) {
+  EXPECT_GT(this->n, 1U);
+}
 
 TYPED_TEST(BatchOf, ArithmeticEqualsTheScalarBitForBit) {
   this->same_bits([](const auto& a, const auto& b) { return a + b; }, "a + b");

@@ -1,13 +1,13 @@
 // Dual against an independent implementation (ceres::Jet), against differences, and lane by lane.
 #include "number/dual.h"
 
-#include <ceres/jet.h>
-
 #include <limits>
 #include <random>
 #include <string>
 
 #include "number/batch.h"
+
+#include <ceres/jet.h>
 
 namespace gonio {
 namespace {

@@ -22,9 +22,15 @@ T reflectance(plain_t<T> c, const T& first, const std::same_as<T> auto&... other
   const Term<T> term{std::span<const T, 1 + sizeof...(others)>(p)};
   return as_value<T>(term(Angles<plain_t<T>>{c, c, 1, c, 0}));
 }
-double schlick(double f0, double c) { return reflectance<Schlick>(c, f0); }
-double dielectric(double eta, double c) { return reflectance<Dielectric>(c, eta); }
-double conductor(double eta, double k, double c) { return reflectance<Conductor>(c, eta, k); }
+double schlick(double f0, double c) {
+  return reflectance<Schlick>(c, f0);
+}
+double dielectric(double eta, double c) {
+  return reflectance<Dielectric>(c, eta);
+}
+double conductor(double eta, double k, double c) {
+  return reflectance<Conductor>(c, eta, k);
+}
 
 /// The textbook's amplitudes in complex numbers, for a conductor and, with k = 0, a dielectric.
 double textbook(double eta, double k, double c) {
@@ -215,13 +221,17 @@ struct PublishedIndex {
   double n, k;  // at 550 nm
 };
 class MetalTest : public testing::TestWithParam<PublishedIndex> {};
-INSTANTIATE_TEST_SUITE_P(
-    Green, MetalTest,
-    testing::Values(PublishedIndex{"Au", 0.424, 2.472}, PublishedIndex{"Ag", 0.060, 3.597},
-                    PublishedIndex{"Cu", 1.007, 2.582}, PublishedIndex{"Al", 1.015, 6.627},
-                    PublishedIndex{"Cr", 3.181, 3.329}, PublishedIndex{"Fe", 2.950, 2.932},
-                    PublishedIndex{"Ni", 1.921, 3.616}, PublishedIndex{"W", 3.522, 2.741}),
-    [](const auto& test) { return test.param.symbol; });
+INSTANTIATE_TEST_SUITE_P(Green,
+                         MetalTest,
+                         testing::Values(PublishedIndex{"Au", 0.424, 2.472},
+                                         PublishedIndex{"Ag", 0.060, 3.597},
+                                         PublishedIndex{"Cu", 1.007, 2.582},
+                                         PublishedIndex{"Al", 1.015, 6.627},
+                                         PublishedIndex{"Cr", 3.181, 3.329},
+                                         PublishedIndex{"Fe", 2.950, 2.932},
+                                         PublishedIndex{"Ni", 1.921, 3.616},
+                                         PublishedIndex{"W", 3.522, 2.741}),
+                         [](const auto& test) { return test.param.symbol; });
 
 TEST_P(MetalTest, HasItsPublishedIndexAt550Nanometres) {
   const Metal* m = find_metal(GetParam().symbol);

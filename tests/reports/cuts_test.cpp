@@ -1,12 +1,12 @@
 #include "reports/cuts.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "tables.h"
+
+#include <gtest/gtest.h>
 
 namespace gonio {
 namespace {
@@ -14,7 +14,8 @@ namespace {
 using test::glossy;
 
 std::size_t points(const std::vector<double>& data) {
-  return static_cast<std::size_t>(std::ranges::count_if(data, [](double v) { return std::isfinite(v); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(data, [](double v) { return std::isfinite(v); }));
 }
 
 /// Largest |data/model − 1| where both are there.
@@ -56,7 +57,9 @@ TEST(Cuts, OfHalfAnglesFollowTheModelToTheirInterpolation) {
   ASSERT_EQ(cuts.size(), 5U);
   for (const Cut& cut : cuts) {
     EXPECT_GT(points(cut.data[0]), 60U);
-    if (cut.at_deg < 70) { EXPECT_LT(farthest(cut), 0.06) << cut.at_deg; }
+    if (cut.at_deg < 70) {
+      EXPECT_LT(farthest(cut), 0.06) << cut.at_deg;
+    }
   }
 }
 
@@ -90,7 +93,9 @@ TEST(Cuts, AGridOfOneAzimuthSaysNothingAboutTheOtherSide) {
   ASSERT_EQ(cuts.size(), 5U);
   for (const Cut& cut : cuts)
     for (std::size_t i = 0; i < cut.deg.size(); ++i)
-      if (cut.deg[i] < 0) { EXPECT_TRUE(std::isnan(cut.data[0][i])) << cut.deg[i]; }
+      if (cut.deg[i] < 0) {
+        EXPECT_TRUE(std::isnan(cut.data[0][i])) << cut.deg[i];
+      }
 }
 
 TEST(Cuts, OfAListAreItsSamplesInThePlane) {
@@ -105,7 +110,7 @@ TEST(Cuts, OfAListAreItsSamplesInThePlane) {
     add(20, 90, deg, 270);  // mirror side
     add(20, 90, deg, 90);
     add(50, 0, deg, 180);
-    add(50, 0, deg, 60);    // out of the plane, but for none
+    add(50, 0, deg, 60);  // out of the plane, but for none
   }
   Table t = test::filled(l, glossy());
   t.values[0][0] = -1;
@@ -120,7 +125,9 @@ TEST(Cuts, OfAListAreItsSamplesInThePlane) {
   EXPECT_EQ(points(cuts[1].data[0]), 17U);
   for (const Cut& cut : cuts) EXPECT_LT(farthest(cut), 1e-12);
   for (std::size_t i = 0; i < cuts[1].deg.size(); ++i)
-    if (cuts[1].deg[i] < 0) { EXPECT_TRUE(std::isnan(cuts[1].data[0][i])); }
+    if (cuts[1].deg[i] < 0) {
+      EXPECT_TRUE(std::isnan(cuts[1].data[0][i]));
+    }
 }
 
 TEST(Cuts, OfScatteredDirectionsSayHowFarTheirDataAreOff) {

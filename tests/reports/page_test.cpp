@@ -1,11 +1,11 @@
 #include "reports/page.h"
 
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "reports/assets.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {
@@ -32,7 +32,8 @@ TEST(Page, FetchesNothing) {
   for (const auto css : {assets::page_css, assets::uplot_css})
     for (const char* load : {"@import", "url("}) EXPECT_EQ(css.find(load), css.npos) << load;
   for (const auto js : {assets::page_js, assets::plots_js, assets::fit_js})
-    for (const char* load : {"fetch(", "XMLHttpRequest", "import(", "WebSocket", "sendBeacon", "new Image"})
+    for (const char* load :
+         {"fetch(", "XMLHttpRequest", "import(", "WebSocket", "sendBeacon", "new Image"})
       EXPECT_EQ(js.find(load), js.npos) << load;
 }
 

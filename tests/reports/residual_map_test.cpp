@@ -1,12 +1,12 @@
 #include "reports/residual_map.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "tables.h"
+
+#include <gtest/gtest.h>
 
 namespace gonio {
 namespace {

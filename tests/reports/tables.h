@@ -35,9 +35,10 @@ inline constexpr double right_angle = std::numbers::pi / 2;
 /// The layout of MERL, smaller.
 inline Grid half_difference_grid(std::size_t size = 45) {
   using enum Axis::Spacing;
-  return {Grid::Kind::half_difference,
-          {Axis{"theta_h", quadratic, size, right_angle}, Axis{"theta_d", uniform, size, right_angle},
-           Axis{"phi_d", uniform, 2 * size, 2 * right_angle}}};
+  return {
+      Grid::Kind::half_difference,
+      {Axis{"theta_h", quadratic, size, right_angle}, Axis{"theta_d", uniform, size, right_angle},
+       Axis{"phi_d", uniform, 2 * size, 2 * right_angle}}};
 }
 
 /// Every 10° of theta_i, every 5° of theta_o, phi from 0 to π.
