@@ -56,11 +56,10 @@ Json input(const FitDocument& d) {
 
 Json bin_sensitivity(const std::vector<BinSensitivity>& all) {
   Json out = Json::array();
-  for (const auto& s : all) {
-    Json change = Json::object();
-    for (const auto& [name, v] : s.relative_change) change[name] = per_channel(v);
-    out.push_back({{"other", s.other}, {"relative_change", change}, {"log_rms", s.log_rms}});
-  }
+  for (const auto& s : all)
+    out.push_back({{"other", s.other},
+                   {"relative_change", per_name(s.relative_change)},
+                   {"log_rms", s.log_rms}});
   return out;
 }
 
@@ -70,6 +69,8 @@ std::string to_json(const FitDocument& d) {
   return text_of(
       {{"schema", kSchema},
        {"model", d.model},
+       {"channels", d.channels},
+       {"warnings", d.warnings},
        {"parameters", parameters(d)},
        {"metric", d.metric},
        {"log_offset", d.log_offset},
@@ -83,6 +84,13 @@ std::string to_json(const FitDocument& d) {
        {"solver", solver(d.solver)},
        {"input", input(d)},
        {"bin_sensitivity", bin_sensitivity(d.sensitivity)}});
+}
+
+std::string to_json(const Comparison& c) {
+  return text_of({{"path", c.path},
+                  {"model", c.model.model},
+                  {"parameters", per_name(c.model.parameters)},
+                  {"residuals", residuals(c.residuals)}});
 }
 
 FittedModel read_fitted_model(const std::string& path) {

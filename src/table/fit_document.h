@@ -57,6 +57,8 @@ struct BinSensitivity {
 
 struct FitDocument {
   std::string model;
+  std::vector<std::string> channels;  ///< of the table, as parameters with channels are indexed
+  std::vector<std::string> warnings;  ///< what a reader must know before believing the numbers
   std::vector<FittedParameter> parameters;  ///< alpha and roughness both
   std::string metric;
   double log_offset = 0;  ///< [1/sr] of the log metric
@@ -87,5 +89,14 @@ struct FittedModel {
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
 };
 FittedModel read_fitted_model(const std::string& path);
+
+/// How far a model is from a table.
+struct Comparison {
+  std::string path;  ///< of the table
+  FittedModel model;
+  FitResiduals residuals;
+};
+/// {"path", "model", "parameters": {NAME: number or array}, "residuals" as in a fit document}
+std::string to_json(const Comparison&);
 
 }  // namespace gonio

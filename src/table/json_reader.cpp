@@ -56,6 +56,12 @@ Json per_channel(const std::vector<double>& v) {
   return per_channel(v.size(), [&](std::size_t c) { return Json(v[c]); });
 }
 
+Json per_name(const std::vector<std::pair<std::string, std::vector<double>>>& all) {
+  Json out = Json::object();
+  for (const auto& [name, values] : all) out[name] = per_channel(values);
+  return out;
+}
+
 Json parse_json(const std::string& file, const std::string& bytes) {
   if (const auto at = too_deep(bytes); at != bytes.npos)
     throw bad_input(file, place_of(bytes, at), fmt::format("{} levels of brackets", kDeepest + 1),

@@ -33,6 +33,8 @@ Json per_channel(std::size_t n, Entry entry) {
   return all;
 }
 Json per_channel(const std::vector<double>&);
+/// {NAME: number or array}
+Json per_name(const std::vector<std::pair<std::string, std::vector<double>>>&);
 
 /// A value of a document and where it stands ("parameters.alpha.value"); the document must outlive
 /// it.  A value that is not what is asked for is bad_input.

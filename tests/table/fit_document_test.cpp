@@ -54,6 +54,25 @@ TEST(FitDocument, FollowsTheContract) {
   EXPECT_HAS(text, R"("relative_change":{"alpha":0.04,"f0":[0.1,0.2,0.3]})");
 }
 
+TEST(FitDocument, NamesTheChannelsAfterTheModel) {
+  auto d = example();
+  d.channels = {"r", "g", "b"};
+  EXPECT_HAS(without_space(to_json(d)), R"(schlick","channels":["r","g","b"],)");
+}
+
+TEST(Comparison, WritesItsPartsAsTheFitDocumentDoes) {
+  const Comparison c{"t.csv", {"lambert", {{"alpha", {0.25}}, {"kd", {0.1, none}}}}, example().residuals};
+  const auto text = without_space(to_json(c));
+  EXPECT_HAS(text, R"({"path":"t.csv","model":"lambert","parameters":{"alpha":0.25,"kd":[0.1,null]},)");
+  const auto fit = without_space(to_json(example()));
+  const auto from = fit.find(R"("residuals":)");
+  EXPECT_HAS(text, fit.substr(from, fit.find(R"(,"identifiability")") - from) + "}");
+}
+
+TEST(Comparison, OfAPathThatIsNotUtf8IsStillJson) {
+  EXPECT_HAS(to_json(Comparison{"a\xff", {}, {}}), "\"path\": \"a\xef\xbf\xbd\"");
+}
+
 TEST(FitDocument, ReadsBackItsModel) {
   const test::Folder folder;
   const auto fit = read_fitted_model(folder.write("fit.json", to_json(example())));
