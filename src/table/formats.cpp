@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/sha256.h"
 #include "table/metadata.h"
 
 namespace gonio {
@@ -34,7 +35,8 @@ Table read_table(const std::string& path, std::optional<Bins> bins) {
   InputFile in(path);
   Table t = read_by_format(in);
   t.path = path;
-  if (t.format != "exr" && std::filesystem::exists(side_path(path))) {
+  std::error_code no_such_name;
+  if (t.format != "exr" && std::filesystem::exists(side_path(path), no_such_name)) {
     InputFile side(side_path(path));
     apply_metadata(t, side.path(), side.read_rest(std::uint64_t{1} << 24));
   }
@@ -51,7 +53,7 @@ void write_table(const Table& t, const std::string& path) {
   // a table may lack what was said about it, but has nothing false beside it for long.
   const std::string side = side_path(path);
   if (needs_metadata(t))
-    write_file(side, metadata_text(t));
+    write_file(side, metadata_text(t, sha256_of_file(out.temporary_path())));
   else
     std::remove(side.c_str());
   try {

@@ -3,7 +3,8 @@
 /// What gonio knows of a table beyond its format: bin convention, truth, notes; as JSON in a side
 /// file (FILE.gonio.json) or an attribute.
 ///
-///   {"schema": "gonio.table/1", "bins": "centre"|"edge" (where there are bins),
+///   {"schema": "gonio.table/1", "sha256": of the table's file (in a side file that gonio wrote),
+///    "bins": "centre"|"edge" (where there are bins),
 ///    "truth": {"model", "parameters": {NAME: number or array}, "noise", "floor", "outliers", "seed"},
 ///    "notes": {NAME: string}}
 
@@ -16,7 +17,9 @@ namespace gonio {
 std::string side_path(const std::string& path);
 /// Whether there is anything that a reader would not assume anyway.
 bool needs_metadata(const Table&);
-std::string metadata_text(const Table&);
+/// \param sha256  of the file that this goes beside; empty: said nothing of
+std::string metadata_text(const Table&, const std::string& sha256 = "");
+/// A sha256 that is not that of the file at Table::path is an error: the text speaks of another.
 /// \param file  named in errors
 void apply_metadata(Table&, const std::string& file, const std::string& text);
 

@@ -78,6 +78,7 @@ struct Truth {
 /// Values as stored: f_r in 1/sr, without the cosine; invalid ones included (see mask()).
 struct Table {
   std::string path;
+  std::string sha256;                 ///< of the file, where reading it had a reason to know
   std::string format;                 ///< "csv", "merl", "mbsdf", "exr"
   std::vector<std::string> channels;  ///< "r", "g", "b"; "f" if there is one
   std::variant<Grid, DirectionList> where;

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/sha256.h"
 #include "example.h"
 #include "support.h"
 
@@ -150,6 +151,42 @@ TEST(SideFile, GivesWayToAnExplicitConvention) {
   EXPECT_EQ(folder.entries(), 2U);
   EXPECT_EQ(through_file(mbsdf_example(), folder).grid()->bins, Bins::centre);
   EXPECT_EQ(folder.entries(), 1U) << "the old side file does not speak for the new table";
+}
+
+TEST(SideFile, SpeaksForTheTableItWasWrittenWithAlone) {
+  const Folder folder;
+  Table t = csv_example();
+  t.truth = truth_example();
+  write_table(t, folder / "t.csv");
+  EXPECT_EQ(read_table(folder / "t.csv").sha256, sha256_of_file(folder / "t.csv"));
+  const std::string other = "theta_i,phi_i,theta_o,phi_o,f\n1,2,3,4,5\n";
+  folder.write("t.csv", other);
+  try {
+    read_table(folder / "t.csv");
+    ADD_FAILURE() << "another table's truth was believed";
+  } catch (const Error& e) {
+    const std::string line = e.what();
+    EXPECT_TRUE(line.starts_with((folder / "t.csv.gonio.json") + ": sha256: found ")) << line;
+    EXPECT_TRUE(line.ends_with("… (it describes another table and may be removed)")) << line;
+  }
+  std::filesystem::remove(folder / "t.csv.gonio.json");
+  EXPECT_TRUE(read_table(folder / "t.csv").sha256.empty()) << "nobody asked";
+}
+
+TEST(SideFile, MadeByHandNeedsNoSha256) {
+  const Folder folder;
+  write_table(mbsdf_example(), folder / "m");
+  folder.write("m.gonio.json", R"({"schema":"gonio.table/1","bins":"edge"})");
+  const Table t = read_table(folder / "m");
+  EXPECT_EQ(t.grid()->bins, Bins::edge);
+  EXPECT_TRUE(t.sha256.empty());
+}
+
+TEST(SideFile, IsNotLookedForUnderANameThatIsTooLong) {
+  const Folder folder;
+  const std::string name(250, 'n');
+  folder.write(name, "theta_i,phi_i,theta_o,phi_o,f\n1,2,3,4,5\n");
+  EXPECT_EQ(read_table(folder / name).size(), 1U);
 }
 
 TEST(WriteTable, LeavesNothingWhereItFails) {
