@@ -1,7 +1,9 @@
 #include "base/file.h"
 
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 
@@ -64,6 +66,36 @@ std::string InputFile::read_rest(std::uint64_t most) {
   return bytes;
 }
 
+namespace {
+
+/// The names of the files being made, for the signal handler, which may only read and unlink.
+std::array<std::atomic<const char*>, 16> unfinished;
+
+void enter(const char* name) {
+  for (auto& slot : unfinished) {
+    const char* empty = nullptr;
+    if (slot.compare_exchange_strong(empty, name)) return;
+  }
+}
+void leave(const char* name) {
+  for (auto& slot : unfinished) {
+    const char* there = name;
+    if (slot.compare_exchange_strong(there, nullptr)) return;
+  }
+}
+void remove_unfinished(int signal) {
+  for (auto& slot : unfinished)
+    if (const char* name = slot.load()) ::unlink(name);
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+}  // namespace
+
+void remove_unfinished_files_on_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, remove_unfinished);
+}
+
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   struct stat s {};
   if (::stat(path_.c_str(), &s) == 0) {
@@ -83,9 +115,11 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0) fail("writing");
+  enter(temporary_.c_str());
   file_ = ::fdopen(descriptor, "wb");
   if (!file_) {
     ::close(descriptor);
+    leave(temporary_.c_str());
     std::remove(temporary_.c_str());
     fail("writing");
   }
@@ -93,6 +127,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
 
 OutputFile::~OutputFile() {
   if (file_) std::fclose(file_);
+  leave(temporary_.c_str());
   if (!committed_) std::remove(temporary_.c_str());
 }
 

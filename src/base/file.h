@@ -60,6 +60,9 @@ class OutputFile {
   bool committed_ = false;
 };
 
+/// From now on an interrupt, hang-up or termination takes the files being made with it.
+void remove_unfinished_files_on_signals();
+
 /// The whole of a small file at once.
 void write_file(const std::string& path, std::string_view bytes);
 

@@ -3,6 +3,7 @@
 #include <new>
 #include <system_error>
 
+#include "base/file.h"
 #include "cli/command.h"
 
 namespace {
@@ -20,6 +21,7 @@ int fail(gonio::Exit code, const char* what) {
 
 int main(int argc, char** argv) {
   using gonio::Exit;
+  gonio::remove_unfinished_files_on_signals();
   CLI::App app{
       "gonio fits analytic BRDF models to tabulated reflectance and says how far to trust the "
       "result."};
