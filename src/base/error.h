@@ -29,7 +29,9 @@ class Error : public std::runtime_error {
 
 /// "FILE: PLACE: found FOUND, expected EXPECTED", each made printable (base/text.h), since any may
 /// come from the file, and cut where it is long, the file's name excepted.
-Error bad_input(const std::string& file, const std::string& place, const std::string& found,
+Error bad_input(const std::string& file,
+                const std::string& place,
+                const std::string& found,
                 const std::string& expected);
 Error wrong_usage(const std::string& line);
 

@@ -9,8 +9,8 @@
 
 #include "base/error.h"
 
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -110,8 +110,9 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   static std::atomic<unsigned> counter = 0;
   int descriptor = -1;
   do {
-    temporary_ = (target.parent_path() / fmt::format(".{}.{}.{}.tmp", target.filename().string(),
-                                                     ::getpid(), counter++)).string();
+    temporary_ = (target.parent_path() /
+                  fmt::format(".{}.{}.{}.tmp", target.filename().string(), ::getpid(), counter++))
+                     .string();
     descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0) fail("writing");

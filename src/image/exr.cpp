@@ -1,18 +1,17 @@
 #include "image/exr.h"
 
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfStringAttribute.h>
-
 #include <algorithm>
 #include <exception>
 
 #include "base/error.h"
 #include "base/file.h"
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -94,8 +93,9 @@ Image read_exr(const std::string& path, std::size_t most, const std::vector<std:
     image.planes.assign(image.channels.size(), std::vector<float>(pixels));
     for (std::size_t c = 0; c < image.channels.size(); ++c) {
       // The slice's base is the address of pixel (0, 0), which the data window may leave out.
-      const auto shift = static_cast<std::ptrdiff_t>(box.min.y) * static_cast<std::ptrdiff_t>(stride) +
-                         static_cast<std::ptrdiff_t>(box.min.x) * static_cast<std::ptrdiff_t>(sizeof(float));
+      const auto shift =
+          static_cast<std::ptrdiff_t>(box.min.y) * static_cast<std::ptrdiff_t>(stride) +
+          static_cast<std::ptrdiff_t>(box.min.x) * static_cast<std::ptrdiff_t>(sizeof(float));
       char* base = reinterpret_cast<char*>(image.planes[c].data()) - shift;
       buffer.insert(image.channels[c], Imf::Slice(Imf::FLOAT, base, sizeof(float), stride));
     }

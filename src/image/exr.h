@@ -21,7 +21,8 @@ void write_exr(const std::string& path, const Image&);
 /// Any single-part scan line or tiled file; half and integer channels are widened.
 /// \param most  pixels × channels; an image with more is refused before anything is allocated
 /// \param only  the channels to read, in this order; empty: all.  One that the file lacks is refused
-Image read_exr(const std::string& path, std::size_t most = std::size_t{1} << 28,
+Image read_exr(const std::string& path,
+               std::size_t most = std::size_t{1} << 28,
                const std::vector<std::string>& only = {});
 /// The same without its planes.
 Image read_exr_header(const std::string& path);

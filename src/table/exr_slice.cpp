@@ -72,7 +72,8 @@ Table read_exr_slice(const std::string& path) {
   Table t;
   t.path = path;
   t.format = "exr";
-  t.where = image_slice_grid(header.width, header.height, angle(path, attribute(kPhi)), Bins::centre);
+  t.where =
+      image_slice_grid(header.width, header.height, angle(path, attribute(kPhi)), Bins::centre);
   t.channels = split(attribute(kChannels), ',');
   std::vector<std::string> names;
   for (const auto& channel : t.channels) {

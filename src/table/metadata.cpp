@@ -46,8 +46,9 @@ bool keeps_bins(const Table& t) {
 }  // namespace
 
 Json truth_json(const Truth& t) {
-  return {{"model", t.model}, {"parameters", per_name(t.parameters)}, {"noise", t.noise},
-          {"floor", t.floor}, {"outliers", t.outliers},               {"seed", t.seed}};
+  return {{"model", t.model},       {"parameters", per_name(t.parameters)},
+          {"noise", t.noise},       {"floor", t.floor},
+          {"outliers", t.outliers}, {"seed", t.seed}};
 }
 
 std::string side_path(const std::string& path) {

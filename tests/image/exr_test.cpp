@@ -64,7 +64,8 @@ TEST(Exr, RefusesMoreValuesThanItMayAllocate) {
 void write_header_of_many(const std::string& path) {
   Imf::Header header(8192, 8192);
   header.compression() = Imf::DWAB_COMPRESSION;
-  for (int c = 0; c < 60; ++c) header.channels().insert(std::to_string(c), Imf::Channel(Imf::FLOAT));
+  for (int c = 0; c < 60; ++c)
+    header.channels().insert(std::to_string(c), Imf::Channel(Imf::FLOAT));
   const Imf::OutputFile file(path.c_str(), header);
 }
 

@@ -61,9 +61,11 @@ TEST(FitDocument, NamesTheChannelsAfterTheModel) {
 }
 
 TEST(Comparison, WritesItsPartsAsTheFitDocumentDoes) {
-  const Comparison c{"t.csv", {"lambert", {{"alpha", {0.25}}, {"kd", {0.1, none}}}}, example().residuals};
+  const Comparison c{
+      "t.csv", {"lambert", {{"alpha", {0.25}}, {"kd", {0.1, none}}}}, example().residuals};
   const auto text = without_space(to_json(c));
-  EXPECT_HAS(text, R"({"path":"t.csv","model":"lambert","parameters":{"alpha":0.25,"kd":[0.1,null]},)");
+  EXPECT_HAS(text,
+             R"({"path":"t.csv","model":"lambert","parameters":{"alpha":0.25,"kd":[0.1,null]},)");
   const auto fit = without_space(to_json(example()));
   const auto from = fit.find(R"("residuals":)");
   EXPECT_HAS(text, fit.substr(from, fit.find(R"(,"identifiability")") - from) + "}");
@@ -102,7 +104,8 @@ TEST(FitDocument, SaysWhereItIsWrong) {
   const std::string head = R"({"schema":"gonio.fit/1","model":"m","parameters":)";
   EXPECT_HAS(complaint(head + "[1]}"), "parameters: found an array, expected an object");
   EXPECT_HAS(complaint(head + R"({"a":{}}})"), "parameters.a.value: found nothing");
-  EXPECT_HAS(complaint(head + R"({"a":{"value":[]}}})"), "parameters.a.value: found an empty array");
+  EXPECT_HAS(complaint(head + R"({"a":{"value":[]}}})"),
+             "parameters.a.value: found an empty array");
   EXPECT_HAS(complaint(head + R"({"a":{"value":[1,"x"]}}})"),
              R"(parameters.a.value[1]: found "x")");
   EXPECT_HAS(complaint(head + R"({"a":{"value":1e999}}})"), "JSON");
