@@ -118,8 +118,9 @@ function parameters() {
   return section("Parameters",
     `Values are written to the second digit of their standard error. Intervals: ${fit.intervals}${clusters}.`
       + (with_truth ? " The table is synthetic: the orange tick is the value it was made with." : ""),
-    scroll(table(head, body.map((b) => b.map((c) => (Array.isArray(c) ? el("span", {}, c) : c))),
-      { row_class: (i) => (rows[i].first ? "first" : null) })));
+    el("div", { class: "parameters" }, scroll(table(head,
+      body.map((b) => b.map((c) => (Array.isArray(c) ? el("span", {}, c) : c))),
+      { row_class: (i) => (rows[i].first ? "first" : null) }))));
 }
 
 // --- Data against the model ----------------------------------------------------------------------
