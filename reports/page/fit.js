@@ -200,12 +200,13 @@ function residuals() {
   const map = heat_map(residual_map, map_text());
   const bands = fit.residuals.bands ?? [];
   const most = Math.max(...bands.map((b) => b.log_rms ?? 0), 1e-12);
+  const text = most < 0.3 ? percent : (x) => significant(x, 3);  // one form for all of them
   const bar = (b) => (known(b.log_rms) ? el("span", { class: "bar", style: { width: `${Math.round(70 * b.log_rms / most)}px` } }) : "");
   const band_tables = [...new Set(bands.map((b) => b.angle))].map((angle) => table(
     [el("span", {}, angle_name(angle), " [°]"), { n: "values" }, { n: "RMS [1/sr]" }, { n: "log RMS" }, ""],
     bands.filter((b) => b.angle === angle).map((b) => [`${plain(b.from_deg, 3)}–${plain(b.to_deg, 3)}`,
       { n: count(b.values) }, ...(b.values > 0
-        ? [{ n: significant(b.rms, 2) }, { n: known(b.log_rms) ? log_rms_text(b.log_rms) : "–" }, bar(b)]
+        ? [{ n: significant(b.rms, 2) }, { n: known(b.log_rms) ? text(b.log_rms) : "–" }, bar(b)]
         : [{ n: "–" }, { n: "–" }, ""])])));
   return section("Where the model is off",
     "Each cell compares model and data by their ratio, over all channels and all valid positive values in it. Blue: the model is too dark; orange: too bright.",
