@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "table/health.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -11,15 +12,22 @@
 namespace gonio {
 namespace {
 
-/// Tells incident angles apart: the rows of a theta_i axis, the angles of a list to 0.001°, whole
-/// degrees on a half/difference grid, where every sample has its own.
-std::uint32_t incident_key(const Table& t, std::size_t i, const Angles<double>& a) {
-  if (const auto* l = t.list())
-    return static_cast<std::uint32_t>(std::lround(l->theta_i_deg[i] * 1000));
-  if (t.grid()->kind == Grid::Kind::in_out)
-    return static_cast<std::uint32_t>(t.grid()->unravel(i)[0]);
-  return static_cast<std::uint32_t>(std::acos(std::clamp(a.nol, 0.0, 1.0)) / degree);
-}
+/// Tells incident angles apart: the rows of a theta_i axis that are no copies, the angles of a list to
+/// 0.001°, whole degrees on a half/difference grid, where every sample has its own.
+class IncidentKey {
+ public:
+  explicit IncidentKey(const Table& t) : table_(t), first_(first_of_copies(t)) {}
+  std::uint32_t operator()(std::size_t i, const Angles<double>& a) const {
+    if (const auto* l = table_.list())
+      return static_cast<std::uint32_t>(std::lround(l->theta_i_deg[i] * 1000));
+    if (!first_.empty()) return static_cast<std::uint32_t>(first_[table_.grid()->unravel(i)[0]]);
+    return static_cast<std::uint32_t>(std::acos(std::clamp(a.nol, 0.0, 1.0)) / degree);
+  }
+
+ private:
+  const Table& table_;
+  std::vector<std::size_t> first_;
+};
 
 /// Replaces the keys, which are small numbers, by those from 0 on; returns how many there are.
 std::size_t compact(std::vector<std::uint32_t>& keys) {
@@ -106,6 +114,7 @@ FitData fit_data(const Table& t, Bins bins, Metric metric, double offset) {
   for (std::size_t c = 0; c < channels; ++c) d.y.push_back(column(-1));
   d.root_weight = column(0);
   d.incident.resize(total.samples);
+  const IncidentKey key(t);
   const double mean_weight = total.weight / static_cast<double>(total.samples);
   if (!std::isfinite(mean_weight))
     throw bad_input(t.path, "weights", "a sum that is not finite", "weights of a usual size");
@@ -125,7 +134,7 @@ FitData fit_data(const Table& t, Bins bins, Metric metric, double offset) {
       for (std::size_t c = 0; c < channels; ++c) d.y[c][to] = value[c];
       d.angles.set(to, a);
       d.root_weight[to] = std::sqrt(weight(i) / mean_weight);
-      d.incident[to] = incident_key(t, i, a);
+      d.incident[to] = key(i, a);
       ++to;
     }
   });

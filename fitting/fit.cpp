@@ -269,6 +269,14 @@ std::vector<std::string> warnings(const FitOptions& o,
         "{} incident angles are few for {} unknowns: errors that the values of one angle share "
         "make the intervals too narrow",
         angles, free));
+  const auto first = first_of_copies(t);
+  std::size_t copies = 0;
+  for (std::size_t row = 0; row < first.size(); ++row) copies += first[row] != row;
+  if (copies > 0)
+    all.push_back(
+        fmt::format("{} of the table's incident angles repeat another value for value: no "
+                    "measurements of their own",
+                    copies));
   if (d.log_offset > 0)
     all.push_back(fmt::format(
         "negative values betray a noise floor of {:.2g} 1/sr; they are masked, which lifts what "

@@ -42,6 +42,8 @@ void print(const Table& t, const Health& h) {
   line("range", fmt::format("{:.4g} to {:.4g} 1/sr", h.smallest_positive, h.largest));
   if (h.noise_floor > 0)
     line("noise floor", fmt::format("{:.3g} 1/sr, from the negative values", h.noise_floor));
+  if (h.copied_rows > 0)
+    line("copies", fmt::format("{} incident angles repeat another value for value", h.copied_rows));
   for (const auto& a : h.albedo) {
     std::string channels;
     for (const double v : a.albedo)

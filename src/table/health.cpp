@@ -1,6 +1,7 @@
 #include "table/health.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "table/directional_albedo.h"
@@ -54,9 +55,29 @@ double noise_floor(const Table& t) {
   return 2 * same > sizes.size() ? 0 : 1.4826 * middle;
 }
 
+std::vector<std::size_t> first_of_copies(const Table& t) {
+  const Grid* g = t.grid();
+  if (!g || g->kind != Grid::Kind::in_out) return {};
+  const std::size_t rows = g->axes[0].size, width = g->size() / rows;
+  const auto copies = [&](std::size_t row) {
+    bool varies = false;
+    for (const auto& plane : t.values) {
+      const double* const here = plane.data() + row * width;
+      if (std::memcmp(here, here - width, width * sizeof(double)) != 0) return false;
+      varies = varies || std::any_of(here, here + width, [&](double v) { return v != here[0]; });
+    }
+    return varies;
+  };
+  std::vector<std::size_t> first(rows);
+  for (std::size_t row = 1; row < rows; ++row) first[row] = copies(row) ? first[row - 1] : row;
+  return first;
+}
+
 Health inspect(const Table& t) {
   Health h;
   count_values(t, h);
+  const auto first = first_of_copies(t);
+  for (std::size_t row = 0; row < first.size(); ++row) h.copied_rows += first[row] != row;
   h.albedo = directional_albedo(t);
   auto [error, note] = reciprocity(t);
   h.reciprocity_error = error;

@@ -33,7 +33,8 @@ struct Health {
   std::size_t samples = 0, values = 0, valid = 0;
   std::array<std::size_t, 4> masked{};  ///< values by Mask; [valid] is `valid`
   double largest = 0, smallest_positive = 0;
-  double noise_floor = 0;  ///< see noise_floor()
+  double noise_floor = 0;       ///< see noise_floor()
+  std::size_t copied_rows = 0;  ///< incident angles that only repeat another, see first_of_copies()
   std::vector<AlbedoSample> albedo;
   /// median |f(wi,wo) − f(wo,wi)| / mean (table/reciprocity.h); absent where the layout cannot tell
   std::optional<double> reciprocity_error;
@@ -49,6 +50,11 @@ Health inspect(const Table&);
 /// where negatives are noise, make up at least 0.1 % of the values there, and are not one number that
 /// marks missing data; else 0.
 double noise_floor(const Table&);
+
+/// For each incident angle of an in/out grid the first of the run of angles that hold the very same
+/// values, bit for bit: itself, unless it was filled in from its neighbour.  A table of one value has
+/// no copies.  Empty for other tables.
+std::vector<std::size_t> first_of_copies(const Table&);
 
 /// What `gonio inspect --json` prints.
 std::string to_json(const Table&, const Health&);

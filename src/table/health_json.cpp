@@ -31,6 +31,7 @@ std::string to_json(const Table& t, const Health& h) {
        {"bins", t.has_bins() ? bins_names[static_cast<std::size_t>(t.grid()->bins)] : "none"},
        {"bin_sensitivity", number_or_null(h.bin_sensitivity)},
        {"noise_floor", h.noise_floor},
+       {"copied_rows", h.copied_rows},
        {"largest", h.largest},
        {"smallest_positive", h.smallest_positive},
        {"albedo", albedo},

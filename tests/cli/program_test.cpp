@@ -270,7 +270,7 @@ TEST(Program, FitsTheMeasuredCarPaintAndSaysWhatItMasked) {
   const auto d = r.json();
   EXPECT_EQ(d["input"]["masked"]["negative"], 75159);
   EXPECT_EQ(d["intervals"], "clustered by incident angle");
-  EXPECT_EQ(d["clusters"], 45);
+  EXPECT_EQ(d["clusters"], 34);  // 11 of its 45 incident angles only repeat another
   // blue: the last channel's diffuse albedo is several times the others'
   EXPECT_GT(d["parameters"]["kd"]["value"][2].get<double>(),
             2 * d["parameters"]["kd"]["value"][1].get<double>());

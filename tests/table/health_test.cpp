@@ -1,6 +1,5 @@
 #include "table/health.h"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -231,17 +230,6 @@ TEST(Peak, NarrowerThanTheSamplesIsNotResolved) {
   EXPECT_FALSE(h.peak->resolved);
 }
 
-TEST(Inspect, OfMerlsSizeIsQuick) {
-  const Table t = merl_example();
-  const auto start = std::chrono::steady_clock::now();
-  const auto h = inspect(t);
-  const auto ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  RecordProperty("inspect_ms", std::to_string(ms));
-  EXPECT_GT(h.valid, 0U);
-  EXPECT_LT(ms, 3000) << "0.3 s on a quiet machine";
-}
-
 TEST(InspectJson, HasTheDocumentedKeys) {
   Table t = mbsdf_example();
   const auto text = to_json(t, inspect(t));
@@ -271,6 +259,23 @@ TEST(InspectJson, HasTheDocumentedKeys) {
   EXPECT_NE(text.find("\"truth\": null"), std::string::npos);
   t.truth = truth_example();
   EXPECT_NE(to_json(t, inspect(t)).find("\"seed\": 18446744073709551615"), std::string::npos);
+}
+
+TEST(Health, CountsIncidentAnglesThatOnlyRepeatAnother) {
+  Table t;
+  t.format = "mbsdf";
+  t.channels = {"f"};
+  t.where = mbsdf_grid(5, 4, Bins::centre);
+  t.values.resize(1);
+  for (std::size_t row = 0; row < 5; ++row)
+    for (std::size_t i = 0; i < 20; ++i)
+      t.values[0].push_back(static_cast<double>(i + 100 * std::min<std::size_t>(row, 2)));
+  EXPECT_EQ(first_of_copies(t), (std::vector<std::size_t>{0, 1, 2, 2, 2}));
+  EXPECT_EQ(inspect(t).copied_rows, 2U);
+  t.values[0].assign(100, 0.3);  // the same everywhere is no copy
+  EXPECT_EQ(inspect(t).copied_rows, 0U);
+  t.where = merl_grid(Bins::centre);
+  EXPECT_TRUE(first_of_copies(t).empty());
 }
 
 }  // namespace
