@@ -114,8 +114,7 @@ Problem pose(const Table& t, const FitOptions& o) {
 Fitted minimise(const Problem& p,
                 const FitData& data,
                 std::vector<double> values,
-                const Objective& objective,
-                const SolveOptions& options = {}) {
+                const Objective& objective) {
   const auto slots = p.free.slots();
   const Accumulator accumulate(p.start.model, data, p.free, objective);
   std::vector<double> x;
@@ -124,7 +123,7 @@ Fitted minimise(const Problem& p,
     for (std::size_t i = 0; i < at.size(); ++i) values[slots[i]] = at[i];
     return accumulate.normal_equations(values);
   };
-  Fitted f{{}, objective, solve(evaluate, std::move(x), p.bounds, options)};
+  Fitted f{{}, objective, solve(evaluate, std::move(x), p.bounds)};
   for (std::size_t i = 0; i < slots.size(); ++i) values[slots[i]] = f.solution.x[i];
   f.values = std::move(values);
   return f;
@@ -257,10 +256,11 @@ std::vector<std::string> warnings(const FitOptions& o,
   std::vector<std::string> all;
   constexpr double far_off = 0.25;
   if (d.residuals.log_rms > far_off)
-    all.push_back(fmt::format(
-        "the model does not describe the table: they differ by a typical factor of {:.3g}; "
-        "the intervals say nothing of that",
-        std::exp(d.residuals.log_rms)));
+    all.push_back(
+        fmt::format("model and table differ by a typical factor of {:.3g}: unless that is noise, "
+                    "the model does "
+                    "not describe the table, and the intervals say nothing of it",
+                    std::exp(d.residuals.log_rms)));
   if (d.values_used <= free)
     all.push_back(
         fmt::format("{} values cannot tell the errors of {} unknowns", d.values_used, free));
@@ -269,10 +269,7 @@ std::vector<std::string> warnings(const FitOptions& o,
         "{} incident angles are few for {} unknowns: errors that the values of one angle share "
         "make the intervals too narrow",
         angles, free));
-  const auto first = first_of_copies(t);
-  std::size_t copies = 0;
-  for (std::size_t row = 0; row < first.size(); ++row) copies += first[row] != row;
-  if (copies > 0)
+  if (const std::size_t copies = copied_rows(t))
     all.push_back(
         fmt::format("{} of the table's incident angles repeat another value for value: no "
                     "measurements of their own",

@@ -73,11 +73,17 @@ std::vector<std::size_t> first_of_copies(const Table& t) {
   return first;
 }
 
+std::size_t copied_rows(const Table& t) {
+  const auto first = first_of_copies(t);
+  std::size_t copies = 0;
+  for (std::size_t row = 0; row < first.size(); ++row) copies += first[row] != row;
+  return copies;
+}
+
 Health inspect(const Table& t) {
   Health h;
   count_values(t, h);
-  const auto first = first_of_copies(t);
-  for (std::size_t row = 0; row < first.size(); ++row) h.copied_rows += first[row] != row;
+  h.copied_rows = copied_rows(t);
   h.albedo = directional_albedo(t);
   auto [error, note] = reciprocity(t);
   h.reciprocity_error = error;

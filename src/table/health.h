@@ -34,7 +34,7 @@ struct Health {
   std::array<std::size_t, 4> masked{};  ///< values by Mask; [valid] is `valid`
   double largest = 0, smallest_positive = 0;
   double noise_floor = 0;       ///< see noise_floor()
-  std::size_t copied_rows = 0;  ///< incident angles that only repeat another, see first_of_copies()
+  std::size_t copied_rows = 0;  ///< incident angles that only repeat another, see copied_rows()
   std::vector<AlbedoSample> albedo;
   /// median |f(wi,wo) − f(wo,wi)| / mean (table/reciprocity.h); absent where the layout cannot tell
   std::optional<double> reciprocity_error;
@@ -55,6 +55,8 @@ double noise_floor(const Table&);
 /// values, bit for bit: itself, unless it was filled in from its neighbour.  A table of one value has
 /// no copies.  Empty for other tables.
 std::vector<std::size_t> first_of_copies(const Table&);
+/// How many incident angles are not the first of their run.
+std::size_t copied_rows(const Table&);
 
 /// What `gonio inspect --json` prints.
 std::string to_json(const Table&, const Health&);
