@@ -170,7 +170,7 @@ TEST(Fit, FindsAPeakMuchNarrowerThanTheFirstGuess) {
   const Material needle{"needle", metal, {"alpha=0.0005", "f0=0.5"}};
   FitOptions o;
   o.bin_sensitivity = false;
-  const auto r = fit_synthetic(needle, {.layout = Layout::merl, .noise = 0.02}, o);
+  const auto r = fit_synthetic(needle, {.layout = Layout::image_slice, .noise = 0.02}, o);
   EXPECT_NEAR(parameter(r.document, "alpha").value[0], 0.0005, 1e-6);
   EXPECT_NEAR(parameter(r.document, "f0").value[0], 0.5, 1e-3);
 }
@@ -222,7 +222,7 @@ TEST(Fit, DoesNotDependOnTheUnitOfTheWeightsOrTheValues) {
 
 TEST(Fit, RefusesMoreFreeParametersThanItCanAccumulate) {
   const std::string lobe = "+gtr/smith_ggx.correlated/conductor";
-  const Table t = synthesize(bind_model(paint, {}, 3), {.layout = Layout::random});
+  const Table t = synthesize(bind_model(paint, {}, 3), {.layout = Layout::random, .samples = 200});
   FitOptions o;
   o.model = "lambert" + lobe + lobe + lobe;
   EXPECT_THROW(fit(t, o), Error);
