@@ -157,13 +157,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
     }
   });
 
-  Truth truth{b.model.spec, {}, o.noise, o.floor, o.outliers, o.seed};
-  for (const auto& p : b.model.parameters) {
-    const auto first = b.values.begin() + static_cast<std::ptrdiff_t>(p.first);
-    truth.parameters.emplace_back(
-        p.name, std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count)));
-  }
-  t.truth = std::move(truth);
+  t.truth = Truth{b.model.spec, named_values(b), o.noise, o.floor, o.outliers, o.seed};
   t.notes.emplace_back("layout", layout_names[static_cast<std::size_t>(o.layout)]);
   return t;
 }

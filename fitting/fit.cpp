@@ -14,6 +14,7 @@
 #include "fitting/start.h"
 #include "fitting/uncertainty.h"
 #include "table/health.h"
+#include "table/quantile.h"
 
 #include <fmt/format.h>
 
@@ -133,9 +134,7 @@ Fitted minimise(const Problem& p,
 double huber_threshold(const Problem& p, const FitData& data, const Fitted& f) {
   auto r = Accumulator(p.start.model, data, p.free, f.objective).residuals(f.values);
   for (auto& x : r) x = std::abs(x);
-  const auto middle = r.begin() + static_cast<std::ptrdiff_t>(r.size() / 2);
-  std::ranges::nth_element(r, middle);
-  return std::max(1.345 * 1.4826 * *middle, 1e-12);
+  return std::max(1.345 * 1.4826 * median(r), 1e-12);
 }
 
 /// From nothing to a start on thinned tables, the robust threshold included.  A model that does not
@@ -294,9 +293,10 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
   d.solver.instruction_set = kernels<double>().instruction_set;
   Stopwatch watch(d.solver.phase_ms);
 
-  const Bins bins = t.grid() ? t.grid()->bins : Bins::centre;
+  const Bins bins = t.bins();
   Objective objective;
   std::size_t angles = 0;
+  FitData thin;  // for the bin sensitivity, when the whole is gone
   {
     announce("reading columns");
     const FitData data = fit_data(t, bins, o.metric, p.offset);
@@ -341,6 +341,7 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
     watch.lap("residuals_ms");
     d.values_used = data.values_used;
     d.masked = data.masked;
+    if (t.has_bins() && o.bin_sensitivity) thin = thinned(data, middle_samples);
   }
   d.input_path = t.path;
   d.input_format = t.format;
@@ -350,14 +351,14 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
     announce("fitting under the other bin convention");
     const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
     // Both conventions on equally thinned tables: a ratio needs no million bins.
-    const auto refit = [&](Bins convention) {
-      const FitData data = thinned(fit_data(t, convention, o.metric, p.offset), middle_samples);
+    const auto refit = [&](const FitData& data) {
       Fitted f = minimise(p, data, result.model.values, objective);
       const double log_rms = residual_statistics({p.start.model, f.values, {}}, data).log_rms;
       return std::pair(std::move(f), log_rms);
     };
-    const auto here = refit(bins).first;
-    const auto [there, log_rms] = refit(other);
+    const auto here = refit(thin).first;
+    const auto [there, log_rms] =
+        refit(thinned(fit_data(t, other, o.metric, p.offset), middle_samples));
     if (here.solution.converged && there.solution.converged) {
       BinSensitivity s{bins_names[static_cast<std::size_t>(other)], {}, log_rms};
       for (const auto& q : p.start.model.parameters) {

@@ -49,7 +49,7 @@ PlainFit fit_plainly(const FitData& d, std::vector<double> start, int threads) {
   const auto ms = [](Clock::time_point from) {
     return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
   };
-  PlainFit f{std::move(start), 0, 0, 0, 0};
+  PlainFit f{std::move(start), 0, 0, 0};
   auto begin = Clock::now();
   const auto x = d.angles.block();
   ceres::Problem problem;
@@ -71,7 +71,6 @@ PlainFit fit_plainly(const FitData& d, std::vector<double> start, int threads) {
   ceres::Solver::Summary summary;
   ceres::Solve(o, &problem, &summary);
   f.solve_ms = ms(begin);
-  f.cost = summary.final_cost;
   f.iterations = static_cast<int>(summary.iterations.size());
   return f;
 }

@@ -11,7 +11,6 @@ namespace gonio {
 
 struct PlainFit {
   std::vector<double> values;  ///< alpha, f0 r g b, kd r g b
-  double cost = 0;
   int iterations = 0;
   double build_ms = 0, solve_ms = 0;
 };

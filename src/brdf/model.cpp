@@ -185,6 +185,16 @@ BoundModel bind_model(std::string_view spec,
   return b;
 }
 
+std::vector<std::pair<std::string, std::vector<double>>> named_values(const BoundModel& b) {
+  std::vector<std::pair<std::string, std::vector<double>>> all;
+  for (const auto& p : b.model.parameters) {
+    const auto first = b.values.begin() + static_cast<std::ptrdiff_t>(p.first);
+    all.emplace_back(p.name,
+                     std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count)));
+  }
+  return all;
+}
+
 bool is_alpha(std::string_view name) {
   return name == "alpha" || name.starts_with("alpha_");
 }

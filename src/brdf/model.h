@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "brdf/spec.h"
@@ -57,6 +58,9 @@ struct BoundModel {
   std::vector<double> values;      ///< model.value_count of them
   std::vector<std::string> given;  ///< names of the parameters that were set, others have defaults
 };
+
+/// Each parameter's name and values: one, or one per channel.
+std::vector<std::pair<std::string, std::vector<double>>> named_values(const BoundModel&);
 
 /// Settings resolved: roughness (alpha = roughness²), f0 of a dielectric term (eta), metal=Au (eta
 /// and k), and base_color with metallic (f0 and kd, diffuse coupled).  What is not set keeps its

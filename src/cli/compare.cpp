@@ -49,16 +49,6 @@ BoundModel model_of(const Options& o, std::size_t channels) {
   }
 }
 
-FittedModel fitted_model(const BoundModel& b) {
-  FittedModel m{b.model.spec, {}};
-  for (const auto& p : b.model.parameters) {
-    const auto first = b.values.begin() + static_cast<std::ptrdiff_t>(p.first);
-    m.parameters.emplace_back(
-        p.name, std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count)));
-  }
-  return m;
-}
-
 void print(std::size_t values, const FitResiduals& r) {
   fmt::print("{:<22}{:>12}{:>16}{:>16}\n", "", "values", "RMS [1/sr]", "log RMS");
   fmt::print("{:<22}{:>12}{:>16.6g}{:>16.6g}\n", "all", values, r.rms, r.log_rms);
@@ -76,11 +66,11 @@ Exit run(const Options& o) {
   const Table t = read_table(o.file, bins_from(o.bins));
   const BoundModel m = model_of(o, t.channels.size());
   progress("comparing");
-  const auto data = fit_data(t, t.grid() ? t.grid()->bins : Bins::centre, Metric::l2_cosine, 0);
+  const auto data = fit_data(t, t.bins(), Metric::l2_cosine, 0);
   const auto r = residual_statistics(m, data);
   progress.clear();
   if (o.json)
-    fmt::print("{}", to_json(Comparison{o.file, fitted_model(m), r}));
+    fmt::print("{}", to_json(Comparison{o.file, {m.model.spec, named_values(m)}, r}));
   else
     print(data.values_used, r);
   return Exit::done;

@@ -88,7 +88,7 @@ Health inspect(const Table& t) {
   auto [error, note] = reciprocity(t);
   h.reciprocity_error = error;
   h.reciprocity_note = note;
-  const Bins bins = t.grid() ? t.grid()->bins : Bins::centre;
+  const Bins bins = t.bins();
   h.peak = find_peak(t, bins);
   if (h.peak && t.has_bins())
     if (const auto other = find_peak(t, bins == Bins::centre ? Bins::edge : Bins::centre))

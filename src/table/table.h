@@ -91,6 +91,8 @@ struct Table {
   std::size_t size() const { return values.empty() ? 0 : values[0].size(); }
   const Grid* grid() const { return std::get_if<Grid>(&where); }
   const DirectionList* list() const { return std::get_if<DirectionList>(&where); }
+  /// The convention assumed; of a list, which has no bins, the default.
+  Bins bins() const { return grid() ? grid()->bins : Bins::centre; }
   /// Whether a bin convention matters here.
   bool has_bins() const;
 };
@@ -99,7 +101,7 @@ struct Table {
 class SampleAngles {
  public:
   explicit SampleAngles(const Table& t)
-      : SampleAngles(t, t.grid() ? t.grid()->bins : Bins::centre) {}
+      : SampleAngles(t, t.bins()) {}
   /// As if the grid followed the other convention.
   SampleAngles(const Table&, Bins);
 
