@@ -134,7 +134,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
                          : channels == 3 ? std::string(1, "rgb"[c])
                                          : std::to_string(c + 1));
   const std::size_t n = t.grid() ? t.grid()->size() : t.list()->theta_i_deg.size();
-  t.values.assign(channels, std::vector<double>(n));
+  for (std::size_t c = 0; c < channels; ++c) t.values.emplace_back(n);
 
   const SampleAngles at(t);
   constexpr std::size_t chunk = 16384;

@@ -37,7 +37,37 @@ InputFile::InputFile(std::string path) : path_(std::move(path)) {
   if (s.st_size == 0) throw bad_input(path_, "byte 0", "an empty file", "data");
   file_.reset(std::fopen(path_.c_str(), "rb"));
   if (!file_) throw bad_input(path_, "opening", std::strerror(errno), "a readable file");
-  size_ = static_cast<std::uint64_t>(s.st_size);
+  opened_ = stamp();
+  size_ = opened_.size;
+}
+
+InputFile::Stamp InputFile::stamp() const {
+  struct stat s {};
+  if (::fstat(::fileno(file_.get()), &s) != 0)
+    throw bad_input(path_, "reading", std::strerror(errno), "a readable file");
+  return {static_cast<std::uint64_t>(s.st_size),
+          static_cast<std::int64_t>(s.st_mtim.tv_sec) * 1'000'000'000 + s.st_mtim.tv_nsec};
+}
+
+void InputFile::expect_unchanged() const {
+  if (stamp() != opened_)
+    throw bad_input(path_, "reading", "the file changed meanwhile", "one that stays as it is");
+}
+
+void InputFile::read_at(std::uint64_t offset, void* to, std::size_t n) const {
+  std::size_t done = 0;
+  while (done < n) {
+    const auto got = ::pread(::fileno(file_.get()), static_cast<char*>(to) + done, n - done,
+                             static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0)
+      throw bad_input(path_, fmt::format("byte {}", offset + done), std::strerror(errno),
+                      "a readable file");
+    if (got == 0)
+      throw bad_input(path_, fmt::format("byte {}", offset + done), "the end of the file",
+                      fmt::format("{} more bytes", n - done));
+    done += static_cast<std::size_t>(got);
+  }
 }
 
 void InputFile::read(void* to, std::size_t n) {

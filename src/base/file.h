@@ -23,6 +23,11 @@ class InputFile {
   void read(void* to, std::size_t n);
   /// The next bytes, at most n, without moving on.
   std::string peek(std::size_t n);
+  /// Reads exactly n bytes at an offset, wherever the position is; from any thread.
+  void read_at(std::uint64_t offset, void* to, std::size_t n) const;
+  /// Fails if the file was written to, or became another, since it was opened: what was read of it may
+  /// be a mixture.
+  void expect_unchanged() const;
   /// The rest of the file; refuses more than `most` bytes.
   std::string read_rest(std::uint64_t most = std::uint64_t{1} << 31);
 
@@ -30,9 +35,18 @@ class InputFile {
   struct Close {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };
+  /// What changes when a file is written to: its size and its time [ns].
+  struct Stamp {
+    std::uint64_t size = 0;
+    std::int64_t written = 0;
+    bool operator==(const Stamp&) const = default;
+  };
+  Stamp stamp() const;
+
   std::string path_;
   std::unique_ptr<std::FILE, Close> file_;
   std::uint64_t size_ = 0, position_ = 0;
+  Stamp opened_;
 };
 
 /// A file being made under a temporary name beside its own; it appears under its own name when

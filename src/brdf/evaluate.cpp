@@ -7,8 +7,7 @@ namespace gonio {
 template <class F>
 Column<F> Column<F>::for_overwrite(std::size_t n) {
   Column c;
-  c.data_.reset(static_cast<F*>(
-      ::operator new[](std::max<std::size_t>(n, 1) * sizeof(F), std::align_val_t(64))));
+  c.data_.reset(static_cast<F*>(allocate_array(n * sizeof(F))));
   return c;
 }
 

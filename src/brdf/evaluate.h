@@ -4,10 +4,10 @@
 
 #include <array>
 #include <memory>
-#include <new>
 #include <span>
 #include <vector>
 
+#include "base/memory.h"
 #include "brdf/kernels.h"
 #include "brdf/model.h"
 #include "geometry/angles.h"
@@ -29,7 +29,7 @@ class Column {
 
  private:
   struct Free {
-    void operator()(F* p) const { ::operator delete[](p, std::align_val_t(64)); }
+    void operator()(F* p) const { free_array(p); }
   };
   std::unique_ptr<F[], Free> data_;
 };

@@ -24,7 +24,7 @@ Exit run(const Options& o) {
   std::vector<Angles<double>> angles;
   for (std::size_t i = 0; i < t.list()->theta_i_deg.size(); ++i) angles.push_back(at(i));
   t.channels = {"r", "g", "b"};
-  t.values = evaluate(model, angles);
+  for (const auto& f : evaluate(model, angles)) t.values.emplace_back(f.begin(), f.end());
   t.weights.clear();
   if (!o.output.empty()) {
     OutputFile out(o.output);

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "base/file.h"
-#include "base/sha256.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "reports/fit_page.h"
@@ -78,14 +77,14 @@ Exit run(const Options& o) {
   Progress progress(o.quiet);
   progress("reading " + o.file);
   const auto begin = std::chrono::steady_clock::now();
-  const Table t = read_table(o.file, bins_from(o.bins));
+  const Table t = read_table(o.file, bins_from(o.bins), true);
   const double load_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 
   auto result = fit(t, options, [&](const char* phase) { progress(phase); });
   FitDocument& d = result.document;
   d.input_path = o.file;
-  d.input_sha256 = t.sha256.empty() ? sha256_of_file(o.file) : t.sha256;
+  d.input_sha256 = t.sha256;
   d.solver.phase_ms.insert(d.solver.phase_ms.begin(), {"load_ms", load_ms});
 
   const std::string json = to_json(d);

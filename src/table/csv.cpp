@@ -69,7 +69,8 @@ class Reader {
  public:
   Reader(InputFile& in, bool needs_values)
       : needs_values_(needs_values),
-        path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 30)),
+        path_(in.path()),
+        text_(in.read_rest(std::uint64_t{1} << 30)),
         lines_(text_) {}
 
   Table table() {
@@ -82,7 +83,7 @@ class Reader {
     for (auto& column : columns_)
       if (column.is_value) {
         t.channels.push_back(channel_of(column.name));
-        t.values.push_back(std::move(column.data));
+        t.values.emplace_back(column.data.begin(), column.data.end());
       }
     t.weights = take("weight");
     return t;

@@ -38,12 +38,12 @@ double angle(const std::string& path, const std::string& text) {
 
 /// Turns [x][y] into [y][x] or back; `width` is that of the result.
 template <class To, class From>
-std::vector<To> turned(const std::vector<From>& from, std::size_t width) {
-  std::vector<To> to(from.size());
+To turned(const From& from, std::size_t width) {
+  To to(from.size());
   const std::size_t height = from.size() / width;
   for (std::size_t y = 0; y < height; ++y)
     for (std::size_t x = 0; x < width; ++x)
-      to[y * width + x] = static_cast<To>(from[x * height + y]);
+      to[y * width + x] = static_cast<typename To::value_type>(from[x * height + y]);
   return to;
 }
 
@@ -82,7 +82,7 @@ Table read_exr_slice(const std::string& path) {
     names.push_back(exr_name(channel));
   }
   for (const auto& plane : read_exr(path, kMost, names).planes)
-    t.values.push_back(turned<double>(plane, header.height));
+    t.values.push_back(turned<Values>(plane, header.height));
   apply_metadata(t, path, attribute(kTable));
   return t;
 }
@@ -96,7 +96,8 @@ void write_exr_slice(const Table& t, const std::string& path) {
   image.width = g->axes[0].size;
   image.height = g->axes[1].size;
   for (const auto& channel : t.channels) image.channels.push_back(exr_name(channel));
-  for (const auto& plane : t.values) image.planes.push_back(turned<float>(plane, image.width));
+  for (const auto& plane : t.values)
+    image.planes.push_back(turned<std::vector<float>>(plane, image.width));
   image.attributes = {{kLayout, kSlice},
                       {kPhi, fmt::format("{}", g->axes[2].span)},
                       {kChannels, fmt::format("{}", fmt::join(t.channels, ","))},

@@ -8,6 +8,8 @@
 #include "base/sha256.h"
 #include "table/metadata.h"
 
+#include <tbb/parallel_invoke.h>
+
 namespace gonio {
 namespace {
 
@@ -31,14 +33,22 @@ void write_by_format(const Table& t, OutputFile& out, const std::string& path) {
 
 }  // namespace
 
-Table read_table(const std::string& path, std::optional<Bins> bins) {
+Table read_table(const std::string& path, std::optional<Bins> bins, bool digest) {
   InputFile in(path);
-  Table t = read_by_format(in);
-  t.path = path;
+  Table t;
+  std::string sha256;
   std::error_code no_such_name;
-  if (t.format != "exr" && std::filesystem::exists(side_path(path), no_such_name)) {
-    InputFile side(side_path(path));
-    apply_metadata(t, side.path(), side.read_rest(std::uint64_t{1} << 24));
+  const bool side = std::filesystem::exists(side_path(path), no_such_name);
+  tbb::parallel_invoke([&] { t = read_by_format(in); },
+                       [&] {
+                         if (side || digest) sha256 = sha256_of_file(path);
+                       });
+  in.expect_unchanged();
+  t.path = path;
+  t.sha256 = std::move(sha256);
+  if (side && t.format != "exr") {
+    InputFile file(side_path(path));
+    apply_metadata(t, file.path(), file.read_rest(std::uint64_t{1} << 24));
   }
   if (auto* g = std::get_if<Grid>(&t.where); g && bins) g->bins = *bins;
   return t;

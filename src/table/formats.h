@@ -15,7 +15,8 @@ namespace gonio {
 
 /// The format is found from the bytes, not from the name.
 /// \param bins  beats what the file or its side file (table/metadata.h) says, which beats `centre`
-Table read_table(const std::string& path, std::optional<Bins> bins = {});
+/// \param digest  whether Table::sha256 is wanted even where reading has no need of it
+Table read_table(const std::string& path, std::optional<Bins> bins = {}, bool digest = false);
 
 /// In the format of Table::format: the table and, where there is more to say than the format holds,
 /// its side file; both or neither.

@@ -62,7 +62,7 @@ Table read_mbsdf(InputFile& in) {
   t.channels = type == 0 ? std::vector<std::string>{"f"} : std::vector<std::string>{"r", "g", "b"};
   const Grid grid = mbsdf_grid(n_theta, n_phi, Bins::centre);
   t.where = grid;
-  t.values.assign(channels, std::vector<double>(grid.size()));
+  for (std::size_t c = 0; c < channels; ++c) t.values.emplace_back(grid.size());
   std::vector<float> pixels(row);
   for (std::size_t i = 0; i < grid.size(); i += n_phi) {
     in.read(pixels.data(), pixels.size() * sizeof(float));

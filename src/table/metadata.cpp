@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/sha256.h"
 #include "table/json_reader.h"
 
 namespace gonio {
@@ -72,10 +71,7 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
   const Json document = parse_json(file, text);
   const JsonReader root(file, document);
   if (root.at("schema").string() != kSchema) root.at("schema").fail(kSchema);
-  if (root.has("sha256")) {
-    t.sha256 = sha256_of_file(t.path);
-    expect_same_table(file, root.at("sha256").string(), t.sha256);
-  }
+  if (root.has("sha256")) expect_same_table(file, root.at("sha256").string(), t.sha256);
   if (root.has("bins")) {
     if (!t.has_bins()) root.at("bins").fail("none: this table has no bins");
     std::get<Grid>(t.where).bins = read_bins(root.at("bins"));

@@ -19,7 +19,7 @@ std::string side_path(const std::string& path);
 bool needs_metadata(const Table&);
 /// \param sha256  of the file that this goes beside; empty: said nothing of
 std::string metadata_text(const Table&, const std::string& sha256 = "");
-/// A sha256 that is not that of the file at Table::path is an error: the text speaks of another.
+/// A sha256 that is not the table's is an error: the text speaks of another.
 /// \param file  named in errors
 void apply_metadata(Table&, const std::string& file, const std::string& text);
 

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/memory.h"
 #include "geometry/half_difference.h"
 
 namespace gonio {
@@ -75,6 +76,9 @@ struct Truth {
   std::uint64_t seed = 0;
 };
 
+/// The values of one channel; `Values(n)` is not filled.
+using Values = std::vector<double, ArrayAllocator<double>>;
+
 /// Values as stored: f_r in 1/sr, without the cosine; invalid ones included (see mask()).
 struct Table {
   std::string path;
@@ -82,8 +86,8 @@ struct Table {
   std::string format;                 ///< "csv", "merl", "mbsdf", "exr"
   std::vector<std::string> channels;  ///< "r", "g", "b"; "f" if there is one
   std::variant<Grid, DirectionList> where;
-  std::vector<std::vector<double>> values;  ///< [channel][sample]
-  std::vector<double> weights;              ///< per sample; empty: all 1
+  std::vector<Values> values;     ///< [channel][sample]
+  std::vector<double> weights;    ///< per sample; empty: all 1
   bool negative_is_noise = true;  ///< else a negative value is the format's mark for "no data"
   std::optional<Truth> truth;     ///< if gonio made it
   std::vector<std::pair<std::string, std::string>> notes;  ///< further metadata, as strings
@@ -100,8 +104,7 @@ struct Table {
 /// The angles of each sample, quickly: sines and cosines of a grid's axes are computed once.
 class SampleAngles {
  public:
-  explicit SampleAngles(const Table& t)
-      : SampleAngles(t, t.bins()) {}
+  explicit SampleAngles(const Table& t) : SampleAngles(t, t.bins()) {}
   /// As if the grid followed the other convention.
   SampleAngles(const Table&, Bins);
 

@@ -1,5 +1,6 @@
 #include "base/file.h"
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 
@@ -31,6 +32,32 @@ TEST(InputFile, SaysWhatIsNoRegularFile) {
   EXPECT_NE(complaint([] { InputFile("/dev/null"); }).find("a device"), std::string::npos);
   EXPECT_NE(complaint([&] { InputFile(folder.write("e", "")); }).find("an empty file"),
             std::string::npos);
+}
+
+TEST(InputFile, ReadsAtAnyPlaceAndNamesTheByteWhereItEnds) {
+  const Folder folder;
+  const InputFile in(folder.write("f", "0123456789"));
+  std::string two(2, ' ');
+  in.read_at(7, two.data(), 2);
+  EXPECT_EQ(two, "78");
+  EXPECT_NE(complaint([&] { in.read_at(9, two.data(), 2); }).find("byte 10: found the end"),
+            std::string::npos);
+}
+
+TEST(InputFile, KnowsWhetherItWasWrittenToMeanwhile) {
+  const Folder folder;
+  const auto changed = [](const InputFile& in) {
+    return complaint([&] { in.expect_unchanged(); }).find("changed meanwhile") != std::string::npos;
+  };
+  const std::string path = folder.write("f", "0123456789");
+  const InputFile in(path);
+  EXPECT_FALSE(changed(in));
+  std::filesystem::resize_file(path, 5);
+  EXPECT_TRUE(changed(in));
+  const InputFile again(path);
+  std::filesystem::last_write_time(
+      path, std::filesystem::last_write_time(path) + std::chrono::seconds(1));
+  EXPECT_TRUE(changed(again));
 }
 
 TEST(InputFile, ReadsInPiecesAndNamesTheByteWhereItEnds) {

@@ -64,7 +64,7 @@ Table drifting(const BoundModel& truth, unsigned seed) {
       }
   }
   t.where = std::move(l);
-  t.values.assign(3, std::vector<double>(gain.size()));
+  t.values.assign(3, Values(gain.size()));
   const SampleAngles at(t);
   std::vector<Angles<double>> angles;
   for (std::size_t i = 0; i < gain.size(); ++i) angles.push_back(at(i));

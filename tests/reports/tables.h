@@ -26,7 +26,7 @@ inline Table filled(std::variant<Grid, DirectionList> where, const BoundModel& m
   const SampleAngles at(t);
   std::vector<Angles<double>> x;
   for (std::size_t i = 0; i < n; ++i) x.push_back(at(i));
-  t.values = evaluate(m, x);
+  for (const auto& f : evaluate(m, x)) t.values.emplace_back(f.begin(), f.end());
   return t;
 }
 

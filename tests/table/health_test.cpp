@@ -51,7 +51,7 @@ Table hemisphere(double step) {
         f.push_back(std::cos(out * degree) * 3 / (2 * pi));
       }
   t.where = l;
-  t.values = {f};
+  t.values.emplace_back(f.begin(), f.end());
   return t;
 }
 

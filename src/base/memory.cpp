@@ -1,0 +1,28 @@
+#include "base/memory.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <sys/mman.h>
+
+namespace gonio {
+
+void* allocate_array(std::size_t bytes) {
+  constexpr std::size_t huge = std::size_t{1} << 21, line = 64;
+  const bool large = bytes >= 2 * huge;
+  const std::size_t alignment = large ? huge : line;
+  const std::size_t rounded = (std::max<std::size_t>(bytes, 1) + line - 1) / line * line;
+  if (rounded < bytes) throw std::bad_alloc();
+  void* const p = std::aligned_alloc(alignment, rounded);
+  if (!p) throw std::bad_alloc();
+#ifdef MADV_HUGEPAGE
+  if (large) ::madvise(p, rounded / huge * huge, MADV_HUGEPAGE);  // a wish: it may be refused
+#endif
+  return p;
+}
+
+void free_array(void* p) noexcept {
+  std::free(p);
+}
+
+}  // namespace gonio
