@@ -1,4 +1,5 @@
 // gonio: reads the words, runs one subcommand, turns its outcome into an exit code.
+#include <csignal>
 #include <cstdio>
 #include <new>
 #include <system_error>
@@ -6,21 +7,34 @@
 #include "base/file.h"
 #include "cli/command.h"
 
+#include <fcntl.h>
+
 namespace {
 
 int finish(gonio::Exit code) {
   return static_cast<int>(code);
 }
 
+/// Not by fmt::print, which throws where standard error cannot be written.
 int fail(gonio::Exit code, const char* what) {
-  fmt::print(stderr, "gonio: {}\n", what);
+  std::fprintf(stderr, "gonio: %s\n", what);
   return finish(code);
+}
+
+/// A write that fails is told by its result, like any other: a closed pipe and the limit of a file's
+/// size kill nobody.  A standard stream that the caller closed keeps its number, as something that
+/// cannot be written: the next file opened would get it, and what is printed would land there.
+void make_writes_fail_in_the_open() {
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  for (const int stream : {0, 1, 2})
+    if (::fcntl(stream, F_GETFD) < 0) static_cast<void>(::open("/", O_RDONLY));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   using gonio::Exit;
+  make_writes_fail_in_the_open();
   gonio::remove_unfinished_files_on_signals();
   CLI::App app{
       "gonio fits analytic BRDF models to tabulated reflectance and says how far to trust the "

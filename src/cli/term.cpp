@@ -1,4 +1,6 @@
 // gonio term: one factor of a model, evaluated on its own.
+#include <algorithm>
+
 #include "brdf/registry.h"
 #include "cli/command.h"
 
@@ -14,6 +16,20 @@ struct Options : Common {
   std::vector<std::string> set, at;
 };
 
+/// An angle that no formula of the term's role reads would be ignored without a word.
+void expect_read(std::string_view id, const std::map<std::string, std::vector<double>>& at) {
+  static const std::map<Role, std::vector<std::string>> read{
+      {Role::ndf, {"noh", "sin2_theta_h"}},
+      {Role::masking, {"nol", "nov"}},
+      {Role::fresnel, {"cos", "voh"}},
+      {Role::diffuse, {"nol", "nov", "cos", "voh"}}};
+  const auto& names = read.at(role_of(id));
+  for (const auto& [name, values] : at)
+    if (std::ranges::find(names, name) == names.end())
+      throw wrong_usage(fmt::format("{} does not read '{}'; terms of its kind read: {}", id, name,
+                                    fmt::join(names, ", ")));
+}
+
 Exit run(const Options& o) {
   const std::size_t term = find_term(o.id);
   std::map<std::string, double> parameters;
@@ -27,6 +43,7 @@ Exit run(const Options& o) {
   }
   std::map<std::string, std::vector<double>> at;
   for (auto& s : parse_settings(o.at)) at[s.name] = s.values;
+  expect_read(catalogue()[term].about->id, at);
   const auto number = static_cast<Number>(index_of(number_names, o.number));
   const auto result = evaluate_term(term, number, parameters, at);
 

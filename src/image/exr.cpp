@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -45,10 +46,32 @@ Image reading(const std::string& path, Read read) {
   }
 }
 
+/// A file in memory.  OpenEXR writes the end of a file where errors are lost, on closing: a full
+/// disk would leave half a file and say nothing.
+class Memory : public Imf::OStream {
+ public:
+  Memory() : OStream("memory") {}
+  const std::string& bytes() const { return bytes_; }
+
+  void write(const char* from, int n) override {
+    const auto count = static_cast<std::size_t>(n);
+    bytes_.resize(std::max(bytes_.size(), at_ + count));
+    bytes_.replace(at_, count, from, count);
+    at_ += count;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t to) override { at_ = to; }
+
+ private:
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
 }  // namespace
 
 void write_exr(const std::string& path, const Image& image) {
   OutputFile out(path);
+  Memory memory;
   try {
     Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
     header.compression() = Imf::ZIP_COMPRESSION;
@@ -62,12 +85,13 @@ void write_exr(const std::string& path, const Image& image) {
       buffer.insert(image.channels[c],
                     Imf::Slice(Imf::FLOAT, base, sizeof(float), sizeof(float) * image.width));
     }
-    Imf::OutputFile file(out.temporary_path().c_str(), header);
+    Imf::OutputFile file(memory, header);
     file.setFrameBuffer(buffer);
     file.writePixels(static_cast<int>(image.height));
   } catch (const std::exception& e) {
-    throw bad_input(path, "writing", e.what(), "a place that can be written");
+    throw bad_input(path, "writing", e.what(), "an image that OpenEXR can hold");
   }
+  out.write(memory.bytes());
   out.commit();
 }
 

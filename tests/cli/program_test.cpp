@@ -1,45 +1,16 @@
 // The program as others call it: exit codes, one document on stdout, one line on stderr, whole
 // files or none.
+#include "program.h"
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
-#include "support.h"
-
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 namespace gonio::test {
 namespace {
-
-struct Outcome {
-  int code;
-  std::string out, err;
-  nlohmann::json json() const { return nlohmann::json::parse(out); }
-};
-
-/// Runs `gonio WORDS` in a shell, in the folder.
-Outcome gonio(const Folder& folder, const std::string& words) {
-  const std::string command =
-      "cd '" + folder / "" + "' && '" GONIO_PROGRAM "' " + words + " >.out 2>.err </dev/null";
-  const int status = std::system(command.c_str());
-  Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(folder / ".out"),
-            read_bytes(folder / ".err")};
-  std::filesystem::remove(folder / ".out");
-  std::filesystem::remove(folder / ".err");
-  return o;
-}
-
-void expect_one_line(const Outcome& o, int code, const std::string& holding) {
-  EXPECT_EQ(o.code, code) << o.err;
-  EXPECT_EQ(o.out, "");
-  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
-  EXPECT_NE(o.err.find(holding), std::string::npos) << o.err;
-}
-
-constexpr const char* paint =
-    "lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.15 f0=0.05 kd=0.2,0.1,0.05";
 
 TEST(Program, GoesFromSynthOverInspectAndFitToCompare) {
   const Folder f;
@@ -171,6 +142,9 @@ TEST(Program, TellsWrongUsageByExitCodeTwo) {
            {"fit t.csv --bounds alpha=0.5,0.1", "bounds"},
            {"term ndf.gx --at noh=1", "ndf.ggx"},
            {"term ndf.ggx --at noh=2", "[0, 1]"},
+           {"term ndf.ggx --at noh=1 nol=0.5", "does not read 'nol'"},
+           {"term masking.smith_ggx.correlated --at noh=1", "nol, nov"},
+           {"term fresnel.schlick --at theta=1", "cos, voh"},
            {"term ndf.ggx --set alpha=nan --at noh=1", "nan"},
            {"synth lambert --set kd=0.2 kd=0.3 --layout random -o x", "twice"},
            {"synth ggx/smith_ggx.correlated/schlick --set f0=0.1 base_color=0.5 --layout random -o "
@@ -237,11 +211,13 @@ TEST(Program, LeavesNothingWhenItIsInterrupted) {
   const Folder f;
   for (int tenths = 1; tenths < 8; tenths += 2) {
     const std::string after = "0.0" + std::to_string(tenths);
-    const std::string command = "cd '" + f / "" + "' && timeout -s INT " + after + " '" GONIO_PROGRAM "' synth " +
-                                paint + " --layout hemisphere -o t.csv >/dev/null 2>&1; true";
+    const std::string command = "cd '" + f / "" + "' && timeout -s INT " + after +
+                                " '" GONIO_PROGRAM "' synth " + paint +
+                                " --layout hemisphere -o t.csv >/dev/null 2>&1; true";
     ASSERT_EQ(std::system(command.c_str()), 0);
     for (const auto& e : std::filesystem::directory_iterator(f / ""))
-      EXPECT_TRUE(e.path().filename() == "t.csv" || e.path().filename() == "t.csv.gonio.json") << e.path();
+      EXPECT_TRUE(e.path().filename() == "t.csv" || e.path().filename() == "t.csv.gonio.json")
+          << e.path();
   }
 }
 

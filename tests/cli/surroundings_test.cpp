@@ -1,0 +1,136 @@
+// The program where things go wrong around it: full disks, kills, limits, closed streams.
+#include <algorithm>
+#include <csignal>
+#include <map>
+
+#include "program.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace gonio::test {
+namespace {
+
+int status_of(const std::string& command) {
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string small_table() {
+  std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";
+  for (int i = 0; i < 80; ++i)
+    csv += std::to_string(i) + ",0,30,180,0." + std::to_string(i + 10) + "\n";
+  return csv;
+}
+
+/// Every file of a folder with what it holds, the hidden ones left out.
+std::map<std::string, std::string> visible(const Folder& folder) {
+  std::map<std::string, std::string> all;
+  for (const auto& e : std::filesystem::directory_iterator(folder / ""))
+    if (const auto name = e.path().filename().string(); name[0] != '.')
+      all[name] = read_bytes(e.path().string());
+  return all;
+}
+
+TEST(Surroundings, AFullDiskLeavesNothingBehind) {
+  const Folder f;
+  f.write("t.csv", small_table());
+  // A limit of the size of files fails the write as a full disk does, in the middle of a file.
+  for (const char* words :
+       {"fit t.csv --model lambert -o r.json", "fit t.csv --model lambert --html r.html",
+        "fit t.csv --model lambert -o r.json --html r.html", "synth lambert --layout mbsdf -o s",
+        "synth lambert --layout random -o s.csv", "synth lambert --layout image_slice -o s.exr",
+        "eval lambert --directions t.csv -o e.csv"}) {
+    const auto o = gonio(f, words, "ulimit -f 1; ");
+    expect_one_line(o, 3, ": ");
+    EXPECT_EQ(f.entries(), 1U) << words;
+  }
+}
+
+TEST(Surroundings, AKillLeavesWholeFilesOrNone) {
+  const Folder whole;
+  const std::string words = std::string("synth ") + paint + " --layout mbsdf --seed 3 -o t.mbsdf";
+  ASSERT_EQ(gonio(whole, words).code, 0);
+  const auto expected = visible(whole);
+  for (const char* signal : {"TERM", "KILL"})
+    for (const char* after : {"0.005", "0.01", "0.02", "0.03", "0.05"}) {
+      const Folder f;
+      status_of("cd '" + f / "" + "' && timeout -s " + signal + " " + after +
+                " '" GONIO_PROGRAM "' " + words + " >/dev/null 2>&1");
+      for (const auto& [name, bytes] : visible(f)) {
+        ASSERT_TRUE(expected.contains(name)) << name;
+        EXPECT_EQ(bytes, expected.at(name)) << name;
+      }
+      if (std::string(signal) == "TERM") {
+        EXPECT_EQ(f.entries(), visible(f).size()) << "what was being made is gone";
+      }
+    }
+}
+
+TEST(Surroundings, ALimitOfMemoryIsOneLine) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer needs more addresses than any limit leaves";
+#endif
+  const Folder f;
+  ASSERT_EQ(gonio(f, "synth lambert --layout merl -o t.binary").code, 0);
+  const std::size_t before = f.entries();
+  std::size_t refused = 0;
+  for (int mebibytes = 60; mebibytes <= 160; mebibytes += 10) {
+    const auto o =
+        gonio(f, "fit t.binary -o r.json", "ulimit -v " + std::to_string(1024 * mebibytes) + "; ");
+    if (o.code == 0 || o.code == 127) {  // enough, or not even for the program's libraries
+      std::filesystem::remove(f / "r.json");
+      continue;
+    }
+    ++refused;
+    expect_one_line(o, 3, "gonio: ");  // no memory, or none for another thread
+    EXPECT_EQ(f.entries(), before);
+  }
+  EXPECT_GT(refused, 0U);
+}
+
+TEST(Surroundings, StreamsThatAreClosedCrashNothing) {
+  const Folder f;
+  f.write("t.csv", small_table());
+  const std::string here = "cd '" + f / "" + "' && ",
+                    fit = "'" GONIO_PROGRAM "' fit t.csv --model lambert ";
+  const auto whole = gonio(f, "fit t.csv --model lambert -o whole.json");
+  ASSERT_EQ(whole.code, 0);
+  EXPECT_EQ(status_of(here + fit + "-o r.json --json >&- 2>/dev/null"), 3);
+  const auto number = [&](const char* name) {
+    return nlohmann::json::parse(read_bytes(f / name))["cost"];
+  };
+  EXPECT_EQ(number("r.json"), number("whole.json")) << "the result's own file is whole";
+  EXPECT_EQ(status_of(here + fit + "-o r.json <&- >/dev/null 2>&-"), 0);
+  EXPECT_EQ(status_of(here + "'" GONIO_PROGRAM "' fit nothing <&- >&- 2>&-"), 3);
+  EXPECT_EQ(status_of(here + "'" GONIO_PROGRAM "' nonsense 2>&-"), 2);
+  EXPECT_EQ(status_of(here + "{ sleep 0.3; '" GONIO_PROGRAM
+                             "' models --json 2>err; echo $? >code; } | true"),
+            0);
+  EXPECT_EQ(read_bytes(f / "code"), "3\n");
+  EXPECT_NE(read_bytes(f / "err").find("standard output"), std::string::npos);
+}
+
+TEST(Surroundings, AnOutputThatHasNoPlaceIsToldBeforeTheFit) {
+  const Folder f;
+  f.write("t.csv", small_table());
+  const std::string long_name(300, 'x');
+  for (const std::string& place : {std::string("t.csv/r.json"), long_name, long_name + "/r.json"})
+    expect_one_line(gonio(f, "fit t.csv --model lambert -o " + place), 3, "writing");
+  EXPECT_EQ(f.entries(), 1U);
+}
+
+TEST(Surroundings, AnInputNeedNotBeWritableNorItsFolder) {
+  const Folder f;
+  std::filesystem::create_directory(f / "in");
+  f.write("in/t.csv", small_table());
+  ASSERT_EQ(::chmod((f / "in/t.csv").c_str(), 0444), 0);
+  ASSERT_EQ(::chmod((f / "in").c_str(), 0555), 0);
+  EXPECT_EQ(gonio(f, "fit in/t.csv --model lambert -o r.json").code, 0);
+  if (::geteuid() != 0)  // root writes anywhere
+    expect_one_line(gonio(f, "fit in/t.csv --model lambert -o in/r.json"), 3, "Permission denied");
+  ASSERT_EQ(::chmod((f / "in").c_str(), 0755), 0);
+}
+
+}  // namespace
+}  // namespace gonio::test
