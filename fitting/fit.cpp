@@ -375,6 +375,7 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
     watch.lap("bin_sensitivity_ms");
   }
   d.warnings = warnings(o, t, d, angles, p.free.size());
+  d.warnings.insert(d.warnings.begin(), t.warnings.begin(), t.warnings.end());
   return result;
 }
 

@@ -75,6 +75,7 @@ void print(const Table& t, const Health& h) {
       truth += fmt::format(" {}={}", name, fmt::join(values, ","));
     line("truth", truth);
   }
+  for (const auto& w : t.warnings) line("beware", w);
 }
 
 Exit run(const Options& o) {

@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   gonio::cli::add_term(app, action);
   gonio::cli::add_eval(app, action);
   gonio::cli::add_synth(app, action);
+  gonio::cli::add_columns(app, action);
   gonio::cli::add_inspect(app, action);
   gonio::cli::add_fit(app, action);
   gonio::cli::add_compare(app, action);

@@ -93,8 +93,12 @@ std::vector<AlbedoSample> of_list(const Table& t) {
           nearest[k] = samples[s];
         }
     });
-    if (*std::ranges::min_element(closeness) < reach) continue;
+    double within = 0;
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (closeness[k] >= reach) within += nodes[k].weight;
+    if (within < 0.95 * std::numbers::pi) continue;
     const auto value = [&](std::size_t k, std::size_t c) {
+      if (closeness[k] < reach) return std::nan("");
       const std::size_t i = nearest[k];
       const double v = t.values[c][i];
       return mask(at(i), v) == Mask::valid ? v : std::nan("");

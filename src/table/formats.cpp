@@ -13,15 +13,18 @@
 namespace gonio {
 namespace {
 
-Table read_by_format(InputFile& in) {
+bool is_exr(std::string_view head) {
+  return head.starts_with(std::string_view("\x76\x2f\x31\x01", 4));
+}
+
+Table read_by_format(InputFile& in, const ColumnMap* map) {
   const std::string head = in.peek(1 << 16);
-  if (head.starts_with(std::string_view("\x76\x2f\x31\x01", 4))) return read_exr_slice(in.path());
+  if (is_exr(head)) return read_exr_slice(in.path());
   if (is_mbsdf(head)) return read_mbsdf(in);
-  if (is_csv(head)) return read_csv(in);
   if (is_merl(head, in.size())) return read_merl(in);
-  throw bad_input(
-      in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
-      "a MERL or MBSDF file, an image slice in OpenEXR, or CSV with theta_i,phi_i,theta_o,phi_o");
+  if (map || is_csv(head)) return read_csv(in, map);
+  throw bad_input(in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
+                  "a MERL or MBSDF file, an image slice in OpenEXR, or CSV");
 }
 
 void write_by_format(const Table& t, OutputFile& out, const std::string& path) {
@@ -33,23 +36,27 @@ void write_by_format(const Table& t, OutputFile& out, const std::string& path) {
 
 }  // namespace
 
+std::string side_text(const std::string& path) {
+  std::error_code no_such_name;
+  if (!std::filesystem::exists(side_path(path), no_such_name)) return "";
+  return InputFile(side_path(path)).read_rest(std::uint64_t{1} << 24);
+}
+
 Table read_table(const std::string& path, std::optional<Bins> bins, bool digest) {
   InputFile in(path);
   Table t;
   std::string sha256;
-  std::error_code no_such_name;
-  const bool side = std::filesystem::exists(side_path(path), no_such_name);
-  tbb::parallel_invoke([&] { t = read_by_format(in); },
+  // An image has its metadata in itself.
+  const std::string side = is_exr(in.peek(4)) ? "" : side_text(path);
+  const auto map = side.empty() ? std::nullopt : column_map(side_path(path), side);
+  tbb::parallel_invoke([&] { t = read_by_format(in, map ? &*map : nullptr); },
                        [&] {
-                         if (side || digest) sha256 = sha256_of_file(path);
+                         if (!side.empty() || digest) sha256 = sha256_of_file(path);
                        });
   in.expect_unchanged();
   t.path = path;
   t.sha256 = std::move(sha256);
-  if (side && t.format != "exr") {
-    InputFile file(side_path(path));
-    apply_metadata(t, file.path(), file.read_rest(std::uint64_t{1} << 24));
-  }
+  if (!side.empty()) apply_metadata(t, side_path(path), side);
   if (auto* g = std::get_if<Grid>(&t.where); g && bins) g->bins = *bins;
   return t;
 }

@@ -18,6 +18,9 @@ namespace gonio {
 /// \param digest  whether Table::sha256 is wanted even where reading has no need of it
 Table read_table(const std::string& path, std::optional<Bins> bins = {}, bool digest = false);
 
+/// What stands in the side file of a table; "" if there is none.
+std::string side_text(const std::string& path);
+
 /// In the format of Table::format: the table and, where there is more to say than the format holds,
 /// its side file; both or neither.
 void write_table(const Table&, const std::string& path);

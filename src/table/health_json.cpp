@@ -38,6 +38,7 @@ std::string to_json(const Table& t, const Health& h) {
        {"reciprocity_error", number_or_null(h.reciprocity_error)},
        {"reciprocity_note", h.reciprocity_note},
        {"peak", peak},
+       {"warnings", t.warnings},
        {"truth", t.truth ? truth_json(*t.truth) : Json()}});
 }
 

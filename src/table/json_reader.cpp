@@ -109,6 +109,11 @@ std::string JsonReader::string() const {
   return value_.get<std::string>();
 }
 
+bool JsonReader::boolean() const {
+  if (!value_.is_boolean()) fail("true or false");
+  return value_.get<bool>();
+}
+
 double JsonReader::number() const {
   if (value_.is_null()) return std::numeric_limits<double>::quiet_NaN();
   if (!value_.is_number()) fail("a number or null");

@@ -47,6 +47,7 @@ class JsonReader {
   bool has(const std::string& key) const;
   std::vector<std::pair<std::string, JsonReader>> members() const;
   std::string string() const;
+  bool boolean() const;
   double number() const;  ///< NaN where null
   std::uint64_t whole_number() const;
   std::vector<double> numbers() const;  ///< one number or an array of at least one

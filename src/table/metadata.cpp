@@ -1,6 +1,7 @@
 #include "table/metadata.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "table/json_reader.h"
@@ -42,7 +43,62 @@ bool keeps_bins(const Table& t) {
   return t.has_bins() && t.format != "csv";
 }
 
+double finite_number(const JsonReader& j) {
+  const double v = j.number();
+  if (!std::isfinite(v)) j.fail("a number");
+  return v;
+}
+
+ColumnMap read_column_map(const JsonReader& j) {
+  ColumnMap map;
+  for (const auto& [key, value] : j.members()) {
+    if (is_role(key))
+      map.columns.emplace_back(key, value.string());
+    else if (key == "unit" && (value.string() == "radians" || value.string() == "degrees"))
+      map.radians = value.string() == "radians";
+    else if (key == "forward")
+      map.forward_deg = finite_number(value);
+    else if (key == "cosine")
+      map.cosine = value.boolean();
+    else if (key == "scale")
+      map.scale = finite_number(value);
+    else if (key == "skip")
+      map.skip = value.whole_number();
+    else
+      value.fail(key == "unit" ? "\"degrees\" or \"radians\""
+                               : "no such key; theta_i, phi_i, theta_o, phi_o, f, f_NAME, weight, "
+                                 "channel, unit, forward, cosine, scale or skip");
+  }
+  return map;
+}
+
+Json column_map_json(const ColumnMap& map) {
+  const ColumnMap usual;
+  Json j = Json::object();
+  for (const auto& [role, column] : map.columns) j[role] = column;
+  if (map.radians != usual.radians) j["unit"] = "radians";
+  if (map.forward_deg != usual.forward_deg) j["forward"] = map.forward_deg;
+  if (map.cosine != usual.cosine) j["cosine"] = map.cosine;
+  if (map.scale != usual.scale) j["scale"] = map.scale;
+  if (map.skip != usual.skip) j["skip"] = map.skip;
+  return j;
+}
+
+Json parse_side(const std::string& file, const std::string& text) {
+  Json document = parse_json(file, text);
+  const JsonReader schema = JsonReader(file, document).at("schema");
+  if (schema.string() != kSchema) schema.fail(kSchema);
+  return document;
+}
+
 }  // namespace
+
+bool is_role(const std::string& name) {
+  constexpr std::array<std::string_view, 7> roles{"theta_i", "phi_i",  "theta_o", "phi_o",
+                                                  "f",       "weight", "channel"};
+  return std::ranges::find(roles, name) != roles.end() ||
+         (name.starts_with("f_") && name.size() > 2);
+}
 
 Json truth_json(const Truth& t) {
   return {{"model", t.model},       {"parameters", per_name(t.parameters)},
@@ -68,18 +124,31 @@ std::string metadata_text(const Table& t, const std::string& sha256) {
 }
 
 void apply_metadata(Table& t, const std::string& file, const std::string& text) {
-  const Json document = parse_json(file, text);
+  const Json document = parse_side(file, text);
   const JsonReader root(file, document);
-  if (root.at("schema").string() != kSchema) root.at("schema").fail(kSchema);
   if (root.has("sha256")) expect_same_table(file, root.at("sha256").string(), t.sha256);
   if (root.has("bins")) {
     if (!t.has_bins()) root.at("bins").fail("none: this table has no bins");
     std::get<Grid>(t.where).bins = read_bins(root.at("bins"));
   }
+  if (root.has("columns") && t.format != "csv")
+    root.at("columns").fail("none: this table is not CSV");
   if (root.has("truth")) t.truth = read_truth(root.at("truth"));
   if (root.has("notes"))
     for (const auto& [name, note] : root.at("notes").members())
       t.notes.emplace_back(name, note.string());
+}
+
+std::optional<ColumnMap> column_map(const std::string& file, const std::string& text) {
+  const Json document = parse_side(file, text);
+  const JsonReader root(file, document);
+  return root.has("columns") ? std::optional(read_column_map(root.at("columns"))) : std::nullopt;
+}
+
+std::string with_columns(const std::string& file, const std::string& text, const ColumnMap& map) {
+  Json document = text.empty() ? Json{{"schema", kSchema}} : parse_side(file, text);
+  document["columns"] = column_map_json(map);
+  return text_of(document);
 }
 
 }  // namespace gonio

@@ -91,6 +91,7 @@ struct Table {
   bool negative_is_noise = true;  ///< else a negative value is the format's mark for "no data"
   std::optional<Truth> truth;     ///< if gonio made it
   std::vector<std::pair<std::string, std::string>> notes;  ///< further metadata, as strings
+  std::vector<std::string> warnings;  ///< what is odd about the file, though it could be read
 
   std::size_t size() const { return values.empty() ? 0 : values[0].size(); }
   const Grid* grid() const { return std::get_if<Grid>(&where); }
@@ -124,9 +125,11 @@ class SampleAngles {
 enum class Mask { valid, below_horizon, negative, not_finite };
 inline constexpr std::array<const char*, 4> mask_names{"valid", "below_horizon", "negative",
                                                        "not_finite"};
+/// The cosine up to which a direction is below the horizon: that of 90° in radians is not quite 0.
+inline constexpr double kHorizon = 1e-9;
 /// Geometry first: a value below the horizon is that, whatever is stored there.
 inline Mask mask(const Angles<double>& a, double value) {
-  if (!(a.nol > 0 && a.nov > 0)) return Mask::below_horizon;
+  if (!(a.nol > kHorizon && a.nov > kHorizon)) return Mask::below_horizon;
   if (!std::isfinite(value)) return Mask::not_finite;
   return value < 0 ? Mask::negative : Mask::valid;
 }
