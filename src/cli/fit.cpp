@@ -1,22 +1,22 @@
 // gonio fit: a table in, parameters and a page out.
 #include "fitting/fit.h"
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
 #include "base/file.h"
 #include "cli/command.h"
+#include "cli/fit_files.h"
 #include "cli/terminal.h"
 #include "reports/fit_page.h"
-#include "table/formats.h"
 #include "table/health.h"
 
 namespace gonio::cli {
 namespace {
 
 struct Options : Common {
-  std::string file, metric = "log", intervals = "automatic", robust = "none", output, html;
+  std::vector<std::string> files;
+  std::string metric = "log", intervals = "automatic", robust = "none", output, html;
   std::vector<std::string> fix, bounds;
   FitOptions fit;
   std::optional<std::string> bins;
@@ -63,10 +63,17 @@ Exit run(const Options& o) {
   options.fixed = parse_settings(o.fix);
   options.bounds = parse_settings(o.bounds);
 
+  if (is_batch(o.files)) {
+    if (!o.html.empty())
+      throw wrong_usage("--html is of one table; the page of many is summary.html in their folder");
+    return fit_batch({o.files, o.output, bins_from(o.bins), options, o.json, o.quiet});
+  }
+  const std::string& file = o.files[0];
+
   // Opened first: nobody waits for a fit to learn that its result has no place.
   const std::string data_path =
       o.html.empty() ? "" : std::filesystem::path(o.html).replace_extension(".page.json").string();
-  check_outputs({o.file}, {o.output, o.html, data_path});
+  check_outputs({file}, {o.output, o.html, data_path});
   std::optional<OutputFile> document, page, page_data;
   if (!o.output.empty()) document.emplace(o.output);
   if (!o.html.empty()) {
@@ -75,17 +82,8 @@ Exit run(const Options& o) {
   }
 
   Progress progress(o.quiet);
-  progress("reading " + o.file);
-  const auto begin = std::chrono::steady_clock::now();
-  const Table t = read_table(o.file, bins_from(o.bins), true);
-  const double load_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-
-  auto result = fit(t, options, [&](const char* phase) { progress(phase); });
-  FitDocument& d = result.document;
-  d.input_path = o.file;
-  d.input_sha256 = t.sha256;
-  d.solver.phase_ms.insert(d.solver.phase_ms.begin(), {"load_ms", load_ms});
+  const auto [t, result] = fit_file(file, bins_from(o.bins), options, std::ref(progress));
+  const FitDocument& d = result.document;
 
   const std::string json = to_json(d);
   if (document) document->write(json);
@@ -93,7 +91,7 @@ Exit run(const Options& o) {
     progress("making the page");
     const Health health = inspect(t);
     const std::string data = to_json(make_fit_page(t, result.model), json, to_json(t, health));
-    page->write(fit_page_html(o.file, data));
+    page->write(fit_page_html(file, data));
     page_data->write(data + "\n");
   }
   for (auto* f : {&document, &page_data, &page})
@@ -112,11 +110,14 @@ Exit run(const Options& o) {
 
 void add_fit(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(app, action, "fit", "Fits a model to a table",
+  auto* c = add_command(app, action, "fit", "Fits a model to a table, or to each of many",
                         "gonio fit paint.binary --model lambert+ggx/smith_ggx.correlated/schlick "
-                        "-o paint.json --html paint.html",
+                        "-o paint.json --html paint.html\n  gonio fit tables/ --jobs 2 -o results/",
                         o, run);
-  c->add_option("FILE", o->file, "MERL, MBSDF, CSV or OpenEXR slice; found from the bytes")
+  c->add_option(
+       "FILE", o->files,
+       "MERL, MBSDF, CSV or OpenEXR slice, found from the bytes; or many: several files, a "
+       "folder, or @LIST with a path on each line")
       ->required();
   c->add_option("--model", o->fit.model, "Model; all its parameters are fitted")
       ->capture_default_str();
@@ -138,7 +139,9 @@ void add_fit(CLI::App& app, Action& action) {
       ->check(one_of(intervals_names))
       ->capture_default_str();
   add_bins(c, o->bins);
-  c->add_option("-o,--output", o->output, "The result as JSON");
+  c->add_option("-o,--output", o->output,
+                "The result as JSON; of many, the folder for theirs and for summary.csv and .html. "
+                "What is there already, of the same bytes and options, is kept");
   c->add_option("--html", o->html,
                 "A page of the result, NAME.html, and its data beside it, NAME.page.json");
   add_jobs(c, *o);

@@ -104,6 +104,14 @@ std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
   return out;
 }
 
+std::vector<JsonReader> JsonReader::elements() const {
+  if (!value_.is_array()) return {*this};
+  std::vector<JsonReader> out;
+  for (std::size_t i = 0; i < value_.size(); ++i)
+    out.emplace_back(file_, value_[i], fmt::format("{}[{}]", place_, i));
+  return out;
+}
+
 std::string JsonReader::string() const {
   if (!value_.is_string()) fail("a string");
   return value_.get<std::string>();
@@ -126,11 +134,9 @@ std::uint64_t JsonReader::whole_number() const {
 }
 
 std::vector<double> JsonReader::numbers() const {
-  if (!value_.is_array()) return {number()};
-  if (value_.empty()) fail("at least one number");
   std::vector<double> out;
-  for (std::size_t i = 0; i < value_.size(); ++i)
-    out.push_back(JsonReader(file_, value_[i], fmt::format("{}[{}]", place_, i)).number());
+  for (const auto& e : elements()) out.push_back(e.number());
+  if (out.empty()) fail("at least one number");
   return out;
 }
 

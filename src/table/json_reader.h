@@ -46,6 +46,8 @@ class JsonReader {
   JsonReader at(const std::string& key) const;  ///< of an object; must be there
   bool has(const std::string& key) const;
   std::vector<std::pair<std::string, JsonReader>> members() const;
+  std::vector<JsonReader> elements() const;  ///< of an array, which may be empty; else it alone
+  bool is_null() const { return value_.is_null(); }
   std::string string() const;
   bool boolean() const;
   double number() const;  ///< NaN where null

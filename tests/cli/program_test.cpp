@@ -184,7 +184,7 @@ TEST(Program, TellsBadInputByExitCodeThreeAndLeavesNothing) {
   const std::size_t before = f.entries();
   for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
            {"fit missing -o r.json --html r.html", "missing: opening"},
-           {"fit . -o r.json", "a directory"},
+           {"inspect .", "a directory"},
            {"fit /dev/null -o r.json", "/dev/null"},
            {"fit empty -o r.json", "byte 0"},
            {"fit unknown -o r.json", "unknown"},

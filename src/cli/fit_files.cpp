@@ -1,0 +1,385 @@
+#include "cli/fit_files.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <new>
+#include <set>
+
+#include "base/file.h"
+#include "base/sha256.h"
+#include "base/text.h"
+#include "cli/command.h"
+#include "cli/terminal.h"
+#include "reports/batch_page.h"
+#include "table/formats.h"
+#include "table/metadata.h"
+
+#include <fmt/ranges.h>
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+namespace gonio::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// --- What is fitted
+// ---------------------------------------------------------------------------------
+
+/// What may be a table: not a folder, nothing hidden, none of gonio's own documents and pages.
+bool may_be_table(const fs::directory_entry& e) {
+  std::error_code unknown;
+  const std::string name = e.path().filename().string(), ending = e.path().extension().string();
+  return !name.starts_with('.') && ending != ".json" && ending != ".html" &&
+         !e.is_directory(unknown);
+}
+
+std::vector<std::string> in_folder(const std::string& folder) {
+  std::vector<std::string> all;
+  try {
+    for (const auto& e : fs::directory_iterator(folder))
+      if (may_be_table(e)) all.push_back(e.path().string());
+  } catch (const fs::filesystem_error& e) {
+    throw bad_input(folder, "opening", e.code().message(), "a readable folder");
+  }
+  std::ranges::sort(all);
+  if (all.empty()) throw bad_input(folder, "entries", "no files", "tables");
+  return all;
+}
+
+/// One path a line.
+std::vector<std::string> in_list(const std::string& list) {
+  InputFile file(list);
+  std::vector<std::string> all;
+  for (auto& line : split(file.read_rest(std::uint64_t{1} << 26), '\n')) {
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.find('\0') != line.npos) throw bad_input(list, "a path", line, "text");
+    if (!line.empty()) all.push_back(std::move(line));
+  }
+  if (all.empty()) throw bad_input(list, "lines", "none", "the path of a table on each");
+  return all;
+}
+
+std::vector<std::string> tables_of(const std::vector<std::string>& inputs) {
+  std::vector<std::string> all;
+  for (const auto& in : inputs) {
+    if (in.starts_with('@'))
+      std::ranges::move(in_list(in.substr(1)), std::back_inserter(all));
+    else if (fs::is_directory(in))
+      std::ranges::move(in_folder(in), std::back_inserter(all));
+    else
+      all.push_back(in);
+  }
+  return all;
+}
+
+/// The names of the documents, as fit_batch() says.
+std::vector<std::string> document_names(const std::vector<std::string>& tables) {
+  constexpr std::size_t longest = 200;  // room for what goes around it while it is written
+  std::map<std::string, int> sharing;
+  for (const auto& t : tables) ++sharing[fs::path(t).stem().string()];
+  std::set<std::string> taken{"summary.page"};
+  std::vector<std::string> names;
+  for (const auto& t : tables) {
+    const fs::path p(t);
+    const bool alone = sharing[p.stem().string()] == 1;
+    const std::string wanted = (alone ? p.stem() : p.filename()).string().substr(0, longest);
+    std::string name = wanted;
+    for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}-{}", wanted, k);
+    names.push_back(name + ".json");
+  }
+  return names;
+}
+
+/// Refuses results that would overwrite a table, or be taken for tables the next time.
+void expect_apart(const Batch& b,
+                  const std::vector<std::string>& tables,
+                  const std::vector<std::string>& results) {
+  std::error_code none;
+  for (const auto& in : b.inputs)
+    if (fs::is_directory(in, none) && fs::equivalent(in, b.output, none))
+      throw wrong_usage(fmt::format("{} is a folder of tables; results go elsewhere", b.output));
+  std::set<fs::path> places;
+  for (const auto& r : results) places.insert(fs::weakly_canonical(fs::path(b.output) / r, none));
+  for (const auto& t : tables)
+    for (const auto& path : {t, side_path(t)})
+      if (const auto at = fs::weakly_canonical(path, none); places.contains(at))
+        throw wrong_usage(fmt::format("{} is an input; it would be overwritten", at.string()));
+  for (const auto& in : b.inputs)
+    if (in.starts_with('@') && places.contains(fs::weakly_canonical(in.substr(1), none)))
+      throw wrong_usage(fmt::format("{} is an input; it would be overwritten", in.substr(1)));
+}
+
+/// All that the options say of a result, in words.
+std::string made_with(const Batch& b) {
+  const FitOptions& o = b.options;
+  std::string text = fmt::format(
+      "gonio {}; {}; metric {}; robust {}; intervals {}; bins {}", GONIO_VERSION, o.model,
+      metric_names[static_cast<std::size_t>(o.metric)], o.robust ? "huber" : "none",
+      intervals_names[static_cast<std::size_t>(o.intervals)],
+      b.bins ? bins_names[static_cast<std::size_t>(*b.bins)] : "as each table says");
+  for (const auto& s : o.fixed)
+    text += fmt::format("; fix {}={}", s.name, fmt::join(s.values, ","));
+  for (const auto& s : o.bounds)
+    text += fmt::format("; bounds {}={}", s.name, fmt::join(s.values, ","));
+  for (const auto& name : o.grey) text += "; grey " + name;
+  return text;
+}
+
+/// Options that no table could be fitted with are refused before any is read.
+void check_options(const FitOptions& o) {
+  bind_model(o.model, o.fixed, {}, o.grey);
+}
+
+// --- How many at a time
+// -------------------------------------------------------------------------------
+
+/// As many tables as there are threads, but no more than half of the memory holds: a table and its
+/// columns take several times the bytes of its file.
+std::size_t tables_at_a_time(const std::vector<std::string>& tables) {
+  constexpr double times_the_file = 8, most = 64;
+  double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (rlimit r{}; ::getrlimit(RLIMIT_AS, &r) == 0 && r.rlim_cur != RLIM_INFINITY)
+    memory = std::min(memory, static_cast<double>(r.rlim_cur));
+  std::vector<double> sizes;
+  for (const auto& t : tables) {
+    std::error_code unknown;
+    const auto size = fs::file_size(t, unknown);
+    sizes.push_back(unknown ? 0 : static_cast<double>(size));
+  }
+  std::ranges::sort(sizes, std::greater());
+  const auto threads = std::min<double>(static_cast<double>(tbb::global_control::active_value(
+                                            tbb::global_control::max_allowed_parallelism)),
+                                        most);
+  std::size_t n = 0;
+  double needed = 0;
+  while (n < sizes.size() && static_cast<double>(n) < threads) {
+    needed += times_the_file * sizes[n];
+    if (n > 0 && needed > memory / 2) break;
+    ++n;
+  }
+  return n;
+}
+
+// --- One table
+// ----------------------------------------------------------------------------------------
+
+/// The side file speaks for the table: a change of it is a change of the input.
+std::string with_side_file(const std::string& made_with, const std::string& table) {
+  std::error_code unknown;
+  const auto side = side_path(table);
+  return fs::exists(side, unknown) ? made_with + "; side file " + sha256_of_file(side) : made_with;
+}
+
+struct Place {
+  std::string path, name;  ///< of the document
+};
+
+/// The row of a table that was fitted before, in the same way, if it was.
+std::optional<BatchRow> kept(const std::string& table, const Place& to, const std::string& made) {
+  std::error_code unknown;
+  if (!fs::exists(to.path, unknown)) return {};
+  auto row = read_batch_document(to.path, sha256_of_file(table), made);
+  if (!row) return {};
+  row->path = table;
+  row->document = to.name;
+  return row;
+}
+
+/// Why there is no fit.
+BatchRow failed(const std::string& table, const Place& to, Exit outcome, const std::string& line) {
+  if (is_batch_document(to.path)) std::remove(to.path.c_str());  // of what the table was before
+  return {table, "", outcome, line, {}, {}};
+}
+
+struct Fitted {
+  BatchRow row;
+  std::string document;
+};
+Fitted fitted(const Batch& b, const std::string& table, const Place& to, const std::string& made) {
+  FittedFile f = fit_file(table, b.bins, b.options);
+  FitDocument& d = f.result.document;
+  const bool converged = d.solver.termination == "converged";
+  BatchRow row{table,
+               to.name,
+               converged ? Exit::done : Exit::not_converged,
+               d.solver.message,
+               {},
+               make_preview(f.table, f.result.model)};
+  std::string document = batch_document(d, row.preview, made);
+  row.fit = std::move(d);
+  return {std::move(row), std::move(document)};
+}
+
+/// Progress of many: how far, and how long still.
+class Count {
+ public:
+  Count(bool quiet, std::size_t all) : progress_(quiet), all_(all) { say(); }
+  void add(const BatchRow& row, bool was_kept) {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    kept_ += was_kept;
+    failed_ += row.document.empty();
+    say();
+  }
+  void clear() { progress_.clear(); }
+  std::size_t kept() const { return kept_; }
+
+ private:
+  void say() {
+    std::string line = fmt::format("{} of {} tables", done_, all_);
+    if (failed_) line += fmt::format(", {} failed", failed_);
+    if (done_ > kept_) {
+      const auto left =
+          static_cast<long>(std::ceil(seconds_since(begin_) / static_cast<double>(done_ - kept_) *
+                                      static_cast<double>(all_ - done_)));
+      line += fmt::format(", {}:{:02} left", left / 60, left % 60);
+    }
+    progress_(line);
+  }
+  std::mutex mutex_;
+  Progress progress_;
+  Clock::time_point begin_ = Clock::now();
+  std::size_t all_, done_ = 0, kept_ = 0, failed_ = 0;
+};
+
+void print(const Batch& b, const std::vector<BatchRow>& rows, std::size_t kept) {
+  const auto of = [&](Exit outcome) {
+    return std::ranges::count(rows, outcome, &BatchRow::outcome);
+  };
+  const auto failures = of(Exit::bad_input) + of(Exit::usage);
+  fmt::print("tables   {}: {} fitted", rows.size(), of(Exit::done));
+  if (const auto n = of(Exit::not_converged)) fmt::print(", {} not converged", n);
+  if (failures) fmt::print(", {} failed", failures);
+  if (kept) fmt::print("; {} of them kept from before", kept);
+  fmt::print("\n");
+  constexpr long shown = 5;
+  long k = 0;
+  for (const auto& r : rows)
+    if (r.document.empty() && k++ < shown) fmt::print("failed   {}\n", r.message);
+  if (failures > shown) fmt::print("         and {} more, see the summary\n", failures - shown);
+  fmt::print("results  {}, .csv\n", (fs::path(b.output) / "summary.html").string());
+}
+
+}  // namespace
+
+FittedFile fit_file(const std::string& path,
+                    std::optional<Bins> bins,
+                    const FitOptions& options,
+                    const std::function<void(const std::string&)>& phase) {
+  const auto say = [&](const std::string& what) {
+    if (phase) phase(what);
+  };
+  say("reading " + path);
+  const auto begin = Clock::now();
+  FittedFile f{read_table(path, bins, true), {}};
+  const double load_ms = 1000 * seconds_since(begin);
+  f.result = fit(f.table, options, say);
+  FitDocument& d = f.result.document;
+  d.input_path = path;
+  d.input_sha256 = f.table.sha256;
+  d.solver.phase_ms.insert(d.solver.phase_ms.begin(), {"load_ms", load_ms});
+  return f;
+}
+
+bool is_batch(const std::vector<std::string>& inputs) {
+  std::error_code none;
+  return inputs.size() > 1 || inputs[0].starts_with('@') || fs::is_directory(inputs[0], none);
+}
+
+Exit fit_batch(const Batch& b) {
+  if (b.output.empty()) throw wrong_usage("many tables need a folder for their results: -o DIR");
+  check_options(b.options);
+  const auto tables = tables_of(b.inputs);
+  const auto names = document_names(tables);
+  const std::string made = made_with(b);
+
+  std::vector<std::string> results{"summary.csv", "summary.page.json", "summary.html"};
+  results.insert(results.end(), names.begin(), names.end());
+  expect_apart(b, tables, results);
+  std::error_code error;
+  fs::create_directories(b.output, error);
+  if (error) throw bad_input(b.output, "making the folder", error.message(), "a place to write");
+  const auto place = [&](const std::string& name) { return (fs::path(b.output) / name).string(); };
+  OutputFile(place("summary.csv"));  // nobody waits for a batch to learn that it has no place
+
+  std::vector<BatchRow> rows(tables.size());
+  Count count(b.quiet, tables.size());
+  const auto one = [&](std::size_t i) {
+    const Place to{place(names[i]), names[i]};
+    std::optional<Fitted> fresh;
+    try {
+      const std::string how = with_side_file(made, tables[i]);
+      if (auto row = kept(tables[i], to, how)) {
+        rows[i] = std::move(*row);
+        return count.add(rows[i], true);
+      }
+      fresh = fitted(b, tables[i], to, how);
+    } catch (const Error& e) {
+      rows[i] = failed(tables[i], to, e.code(), e.what());
+    } catch (const std::bad_alloc&) {
+      rows[i] = failed(tables[i], to, Exit::bad_input, printable(tables[i]) + ": out of memory");
+    } catch (const std::exception& e) {
+      rows[i] =
+          failed(tables[i], to, Exit::bad_input, printable(tables[i]) + ": " + printable(e.what()));
+    }
+    if (fresh) {
+      write_file(to.path, fresh->document);
+      rows[i] = std::move(fresh->row);
+    }
+    count.add(rows[i], false);
+  };
+
+  // A thread that waits for its table's loops takes none of another table meanwhile (isolate): no
+  // more tables are in memory than there are lanes.  Threads without a lane help those that have
+  // one.  No exception leaves a lane: it would cancel the loops of the others halfway, and their
+  // results would be wrong, not missing.
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> stop = false;
+  std::exception_ptr fatal;
+  tbb::parallel_for(
+      std::size_t{0}, tables_at_a_time(tables),
+      [&](std::size_t) {
+        for (std::size_t i; !stop && (i = next++) < tables.size();) try {
+            tbb::this_task_arena::isolate([&] { one(i); });
+          } catch (...) {
+            if (!stop.exchange(true)) fatal = std::current_exception();
+          }
+      },
+      tbb::simple_partitioner());
+  if (fatal) std::rethrow_exception(fatal);
+
+  const std::string data = batch_json(rows, made, true);
+  OutputFile csv(place("summary.csv")), page_data(place("summary.page.json")),
+      page(place("summary.html"));
+  csv.write(batch_csv(rows));
+  page_data.write(data + "\n");
+  page.write(batch_page_html(fs::path(b.output).filename().string(), data));
+  for (auto* f : {&csv, &page_data, &page})
+    f->close();  // all whole before the first takes its name
+  for (auto* f : {&csv, &page_data, &page}) f->commit();
+  count.clear();
+  if (b.json)
+    fmt::print("{}", batch_json(rows, made, false));
+  else
+    print(b, rows, count.kept());
+  for (const Exit worst : {Exit::bad_input, Exit::usage, Exit::not_converged})
+    if (std::ranges::find(rows, worst, &BatchRow::outcome) != rows.end()) return worst;
+  return Exit::done;
+}
+
+}  // namespace gonio::cli
