@@ -26,6 +26,14 @@ double percent(std::size_t part, std::size_t whole) {
   return whole ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
+std::string noise_text(const Noise& n) {
+  if (!n.sigma) return "cannot be told: no nine samples lie on a line along one angle";
+  const std::string from =
+      n.along == "repeats" ? "from repeated samples" : "from neighbours along " + n.along;
+  if (n.bound) return fmt::format("below {:.2g} %, {}", std::max(100 * *n.sigma, 0.01), from);
+  return fmt::format("about {:.2g} % of each value, {}", 100 * *n.sigma, from);
+}
+
 void print(const Table& t, const Health& h) {
   const auto line = [](const char* what, const std::string& text) {
     fmt::print("{:<14}{}\n", what, text);
@@ -42,8 +50,10 @@ void print(const Table& t, const Health& h) {
   line("range", fmt::format("{:.4g} to {:.4g} 1/sr", h.smallest_positive, h.largest));
   if (h.noise_floor > 0)
     line("noise floor", fmt::format("{:.3g} 1/sr, from the negative values", h.noise_floor));
-  if (h.copied_rows > 0)
-    line("copies", fmt::format("{} incident angles repeat another value for value", h.copied_rows));
+  for (const auto& [copies, which] :
+       {std::pair(h.copied_rows, "incident"), std::pair(h.copied_columns, "outgoing")})
+    if (copies > 0)
+      line("copies", fmt::format("{} {} angles repeat another value for value", copies, which));
   for (const auto& a : h.albedo) {
     std::string channels;
     for (const double v : a.albedo)
@@ -54,20 +64,25 @@ void print(const Table& t, const Health& h) {
   line("reciprocity", h.reciprocity_error
                           ? fmt::format("median error {:.1f} %", 100 * *h.reciprocity_error)
                           : h.reciprocity_note);
+  line("noise", noise_text(h.noise));
+  if (h.retro)
+    line("retro", fmt::format("the highlight, {:.3g} 1/sr and {:.3g}° wide, sits at wo = wi",
+                              h.retro->height, h.retro->half_width_deg));
   if (h.peak)
-    line("peak",
-         fmt::format("half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} samples within: {}",
-                     h.peak->half_width_deg, h.peak->alpha, h.peak->samples_within,
-                     h.peak->resolved ? "resolved" : "not resolved"));
+    line("peak", peak_in_words(*h.peak));
   else
-    line("peak", "none seen: no highlight above the base, or too few samples to tell");
+    line("peak",
+         h.peak_profiles == 0
+             ? "none seen: too few samples near the half vector to tell"
+             : fmt::format("none seen: near the half vector values are {:.3g} times the base",
+                           h.peak_contrast));
   if (const Grid* g = t.grid(); g && t.has_bins())
     line("bins",
          fmt::format(
              "{} assumed{}", bins_names[static_cast<std::size_t>(g->bins)],
-             h.bin_sensitivity
+             h.peak && h.peak->bin_sensitivity
                  ? fmt::format("; the other convention changes the peak's alpha by {:+.2f} %",
-                               100 * *h.bin_sensitivity)
+                               100 * *h.peak->bin_sensitivity)
                  : ""));
   if (t.truth) {
     std::string truth = t.truth->model;
@@ -76,6 +91,10 @@ void print(const Table& t, const Health& h) {
     line("truth", truth);
   }
   for (const auto& w : t.warnings) line("beware", w);
+  fmt::print("what a fit can hope to determine\n");
+  for (const auto& p : h.prospects)
+    fmt::print("  {:<10}{:<8}{}\n", p.of, verdict_names[static_cast<std::size_t>(p.verdict)],
+               p.because);
 }
 
 Exit run(const Options& o) {

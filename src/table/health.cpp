@@ -5,32 +5,47 @@
 #include <limits>
 
 #include "table/directional_albedo.h"
-#include "table/peak.h"
+#include "table/prospects.h"
 #include "table/quantile.h"
 #include "table/reciprocity.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 namespace gonio {
 namespace {
 
-void count_values(const Table& t, Health& h) {
+struct Tally {
+  std::array<std::size_t, mask_names.size()> masked{};
+  double largest = 0, smallest = std::numeric_limits<double>::infinity();
+};
+
+Tally tally(const Table& t) {
   const SampleAngles at(t);
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    const auto a = at(i);
-    for (const auto& plane : t.values) {
-      const double v = plane[i];
-      const Mask m = mask(a, v);
-      ++h.masked[static_cast<std::size_t>(m)];
-      if (m != Mask::valid) continue;
-      h.largest = std::max(h.largest, v);
-      if (v > 0) smallest = std::min(smallest, v);
-    }
-  }
-  h.samples = t.size();
-  h.values = t.size() * t.values.size();
-  h.valid = h.masked[static_cast<std::size_t>(Mask::valid)];
-  if (std::isfinite(smallest)) h.smallest_positive = smallest;
-  h.noise_floor = noise_floor(t);
+  using Range = tbb::blocked_range<std::size_t>;
+  return tbb::parallel_reduce(
+      Range(0, t.size(), 1 << 14), Tally{},
+      [&](const Range& r, Tally sum) {
+        for (std::size_t i = r.begin(); i < r.end(); ++i) {
+          const auto a = at(i);
+          for (const auto& plane : t.values) {
+            const double v = plane[i];
+            const Mask m = mask(a, v);
+            ++sum.masked[static_cast<std::size_t>(m)];
+            if (m != Mask::valid) continue;
+            sum.largest = std::max(sum.largest, v);
+            if (v > 0) sum.smallest = std::min(sum.smallest, v);
+          }
+        }
+        return sum;
+      },
+      [](Tally a, const Tally& b) {
+        for (std::size_t m = 0; m < a.masked.size(); ++m) a.masked[m] += b.masked[m];
+        a.largest = std::max(a.largest, b.largest);
+        a.smallest = std::min(a.smallest, b.smallest);
+        return a;
+      });
 }
 
 }  // namespace
@@ -55,44 +70,88 @@ double noise_floor(const Table& t) {
   return 2 * same > sizes.size() ? 0 : 1.4826 * middle;
 }
 
-std::vector<std::size_t> first_of_copies(const Table& t) {
+std::vector<std::size_t> first_of_copies(const Table& t, std::size_t axis) {
   const Grid* g = t.grid();
   if (!g || g->kind != Grid::Kind::in_out) return {};
-  const std::size_t rows = g->axes[0].size, width = g->size() / rows;
-  const auto copies = [&](std::size_t row) {
+  // A slice of axis 0 is one run of values, one of axis 1 a run for each incident angle.
+  const std::size_t n = g->axes[axis].size, width = axis == 0 ? g->size() / n : g->axes[2].size;
+  const std::size_t runs = g->size() / n / width;
+  const auto copies = [&](std::size_t slice) {
     bool varies = false;
     for (const auto& plane : t.values) {
-      const double* const here = plane.data() + row * width;
-      if (std::memcmp(here, here - width, width * sizeof(double)) != 0) return false;
-      varies = varies || std::any_of(here, here + width, [&](double v) { return v != here[0]; });
+      const double first = plane[slice * width];
+      for (std::size_t r = 0; r < runs; ++r) {
+        const double* const here = plane.data() + (r * n + slice) * width;
+        if (std::memcmp(here, here - width, width * sizeof(double)) != 0) return false;
+        varies = varies || std::any_of(here, here + width, [&](double v) { return v != first; });
+      }
     }
     return varies;
   };
-  std::vector<std::size_t> first(rows);
-  for (std::size_t row = 1; row < rows; ++row) first[row] = copies(row) ? first[row - 1] : row;
+  std::vector<std::size_t> first(n);
+  for (std::size_t i = 1; i < n; ++i) first[i] = copies(i) ? first[i - 1] : i;
   return first;
 }
 
-std::size_t copied_rows(const Table& t) {
-  const auto first = first_of_copies(t);
+std::size_t copied_rows(const Table& t, std::size_t axis) {
+  const auto first = first_of_copies(t, axis);
   std::size_t copies = 0;
-  for (std::size_t row = 0; row < first.size(); ++row) copies += first[row] != row;
+  for (std::size_t i = 0; i < first.size(); ++i) copies += first[i] != i;
   return copies;
+}
+
+std::string peak_in_words(const Highlight& p) {
+  std::string s = fmt::format(
+      "half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} sample{} within: ", p.half_width_deg,
+      p.alpha, p.samples_within, p.samples_within == 1 ? "" : "s");
+  switch (p.limit) {
+    case PeakLimit::none:
+      return s + "resolved";
+    case PeakLimit::samples:
+      return s + (p.samples_within <= 1
+                      ? "one sample wide, so limited by the instrument: alpha is at most that"
+                      : "not resolved: alpha is at most about that");
+    case PeakLimit::bins:
+      break;
+  }
+  return s +
+         fmt::format("limited by the bins: where samples sit in them changes alpha by {:+.0f} %",
+                     100 * p.bin_sensitivity.value_or(0));
 }
 
 Health inspect(const Table& t) {
   Health h;
-  count_values(t, h);
-  h.copied_rows = copied_rows(t);
+  const Tally counts = tally(t);
+  h.samples = t.size();
+  h.values = t.size() * t.values.size();
+  h.masked = counts.masked;
+  h.valid = h.masked[static_cast<std::size_t>(Mask::valid)];
+  h.largest = counts.largest;
+  if (std::isfinite(counts.smallest)) h.smallest_positive = counts.smallest;
+  h.noise_floor = noise_floor(t);
+  h.copied_rows = copied_rows(t, 0);
+  h.copied_columns = copied_rows(t, 1);
   h.albedo = directional_albedo(t);
   auto [error, note] = reciprocity(t);
   h.reciprocity_error = error;
   h.reciprocity_note = note;
+  h.noise = estimate_noise(t);
   const Bins bins = t.bins();
-  h.peak = find_peak(t, bins);
-  if (h.peak && t.has_bins())
-    if (const auto other = find_peak(t, bins == Bins::centre ? Bins::edge : Bins::centre))
-      h.bin_sensitivity = other->alpha / h.peak->alpha - 1;
+  const PeakSearch search = find_peak(t, bins);
+  h.peak_profiles = search.profiles;
+  h.peak_contrast = search.contrast;
+  if (search.peak) {
+    Highlight& p = h.peak.emplace(Highlight{*search.peak, PeakLimit::none, {}});
+    if (t.has_bins())
+      if (const auto other = find_peak(t, bins == Bins::centre ? Bins::edge : Bins::centre).peak)
+        p.bin_sensitivity = other->alpha / p.alpha - 1;
+    if (!p.resolved)
+      p.limit = PeakLimit::samples;
+    else if (std::abs(p.bin_sensitivity.value_or(0)) > 0.1)
+      p.limit = PeakLimit::bins;
+  }
+  h.retro = retro_peak(t, search.peak);
+  h.prospects = prospects(t, h);
   return h;
 }
 

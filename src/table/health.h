@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "table/noise.h"
+#include "table/peak.h"
 #include "table/table.h"
 
 namespace gonio {
@@ -20,28 +22,50 @@ struct AlbedoSample {
   double coverage;
 };
 
-/// The specular peak as the samples near θ_h = 0 show it, from the channels' mean.
-struct Peak {
-  double half_width_deg;  ///< θ_h at which the value above the base has halved
-  double alpha;  ///< of the GGX lobe with that width: s/√(√2 − 1 + s²), s = sin(half width)
-  double samples_within;  ///< distinct θ_h within the half width
-  bool resolved;          ///< at least three of them
-  double height, base;    ///< [1/sr]
+/// Why a highlight's width is not the surface's alone.
+enum class PeakLimit {
+  none,
+  samples,  ///< fewer than three samples within the half width
+  bins      ///< the other bin convention changes alpha by more than a tenth
+};
+inline constexpr std::array<const char*, 3> peak_limit_names{"none", "samples", "bins"};
+
+/// The specular peak, and what limits it.
+struct Highlight : Peak {
+  PeakLimit limit = PeakLimit::none;
+  /// relative change of Peak::alpha, with its sign, under the other bin convention; absent without bins
+  std::optional<double> bin_sensitivity;
+};
+/// "half width 5.6° (like GGX alpha 0.15), 23 samples within: resolved"
+std::string peak_in_words(const Highlight&);
+
+enum class Verdict { no, weakly, yes };
+inline constexpr std::array<const char*, 3> verdict_names{"no", "weakly", "yes"};
+
+/// Whether the table can determine something, and the figure that says so.
+struct Prospect {
+  std::string of;
+  Verdict verdict;
+  std::string because;
 };
 
 struct Health {
   std::size_t samples = 0, values = 0, valid = 0;
   std::array<std::size_t, 4> masked{};  ///< values by Mask; [valid] is `valid`
   double largest = 0, smallest_positive = 0;
-  double noise_floor = 0;       ///< see noise_floor()
-  std::size_t copied_rows = 0;  ///< incident angles that only repeat another, see copied_rows()
+  double noise_floor = 0;          ///< see noise_floor()
+  std::size_t copied_rows = 0;     ///< incident angles that only repeat another, see copied_rows()
+  std::size_t copied_columns = 0;  ///< outgoing angles likewise
   std::vector<AlbedoSample> albedo;
   /// median |f(wi,wo) − f(wo,wi)| / mean (table/reciprocity.h); absent where the layout cannot tell
   std::optional<double> reciprocity_error;
   std::string reciprocity_note;
-  std::optional<Peak> peak;
-  /// relative change of Peak::alpha, with its sign, under the other bin convention; absent without bins
-  std::optional<double> bin_sensitivity;
+  Noise noise;
+  std::optional<Highlight> peak;
+  std::size_t peak_profiles = 0;  ///< PeakSearch::profiles
+  double peak_contrast = 0;       ///< PeakSearch::contrast
+  std::optional<Peak> retro;      ///< see retro_peak()
+  std::vector<Prospect> prospects;
 };
 
 Health inspect(const Table&);
@@ -51,12 +75,12 @@ Health inspect(const Table&);
 /// marks missing data; else 0.
 double noise_floor(const Table&);
 
-/// For each incident angle of an in/out grid the first of the run of angles that hold the very same
-/// values, bit for bit: itself, unless it was filled in from its neighbour.  A table of one value has
-/// no copies.  Empty for other tables.
-std::vector<std::size_t> first_of_copies(const Table&);
-/// How many incident angles are not the first of their run.
-std::size_t copied_rows(const Table&);
+/// For each angle of an in/out grid's axis 0 (incident) or 1 (outgoing) the first of the run of angles
+/// that hold the very same values, bit for bit: itself, unless it was filled in from its neighbour.  A
+/// slice of one value is no copy.  Empty for other tables.
+std::vector<std::size_t> first_of_copies(const Table&, std::size_t axis = 0);
+/// How many angles are not the first of their run.
+std::size_t copied_rows(const Table&, std::size_t axis = 0);
 
 /// What `gonio inspect --json` prints.
 std::string to_json(const Table&, const Health&);

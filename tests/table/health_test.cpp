@@ -31,7 +31,6 @@ TEST(Albedo, OfALambertianTableIsItsReflectance) {
           EXPECT_NEAR(h.albedo[k].albedo[c], 0.25 * static_cast<double>(c + 1), 1e-12);
       }
       EXPECT_FALSE(h.peak) << "a Lambertian surface has none";
-      EXPECT_FALSE(h.bin_sensitivity);
     }
 }
 
@@ -210,8 +209,8 @@ TEST(Peak, GivesTheWidthOfAGgxLobeBack) {
       ASSERT_TRUE(h.peak) << alpha;
       EXPECT_NEAR(h.peak->alpha / alpha, 1, 0.03) << alpha;
       EXPECT_TRUE(h.peak->resolved);
-      ASSERT_TRUE(h.bin_sensitivity);
-      EXPECT_EQ(*h.bin_sensitivity < 0, bins == Bins::centre) << "edges are below centres";
+      ASSERT_TRUE(h.peak->bin_sensitivity);
+      EXPECT_EQ(*h.peak->bin_sensitivity < 0, bins == Bins::centre) << "edges are below centres";
     }
     const auto slice = on_grid(image_slice_grid(90, 90, pi / 2, Bins::centre), "exr", {"f"},
                                [&](const auto& a, std::size_t) { return lobe(a, alpha, 0.2); });
@@ -254,6 +253,19 @@ TEST(InspectJson, HasTheDocumentedKeys) {
                           "reciprocity_error",
                           "reciprocity_note",
                           "peak",
+                          "limit",
+                          "in_words",
+                          "peak_profiles",
+                          "peak_contrast",
+                          "retro",
+                          "noise",
+                          "sigma",
+                          "over_zenith",
+                          "over_value",
+                          "copied_columns",
+                          "prospects",
+                          "verdict",
+                          "because",
                           "truth"})
     EXPECT_NE(text.find(std::string("\"").append(key).append("\": ")), std::string::npos) << key;
   EXPECT_NE(text.find("\"truth\": null"), std::string::npos);
@@ -276,6 +288,75 @@ TEST(Health, CountsIncidentAnglesThatOnlyRepeatAnother) {
   EXPECT_EQ(inspect(t).copied_rows, 0U);
   t.where = merl_grid(Bins::centre);
   EXPECT_TRUE(first_of_copies(t).empty());
+}
+
+TEST(Health, CountsOutgoingAnglesThatOnlyRepeatAnother) {
+  Table t = mbsdf_example(5, 4);
+  EXPECT_EQ(inspect(t).copied_columns, 0U);
+  for (auto& plane : t.values)
+    for (std::size_t row = 0; row < 5; ++row)
+      std::copy_n(&plane[row * 20 + 2 * 4], 4, &plane[row * 20 + 3 * 4]);
+  EXPECT_EQ(first_of_copies(t, 1), (std::vector<std::size_t>{0, 1, 2, 2, 4}));
+  EXPECT_EQ(inspect(t).copied_columns, 1U);
+  EXPECT_EQ(inspect(t).copied_rows, 0U);
+  t.values[2][3 * 4] += 1;  // one value of one channel differs
+  EXPECT_EQ(inspect(t).copied_columns, 0U);
+}
+
+TEST(Peak, OneSampleWideIsTheInstruments) {
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  DirectionList l;
+  std::vector<double> f;
+  for (const double in : {10.0, 20.0, 30.0, 40.0})
+    for (double out = -80; out <= 80; out += 1) {
+      l.theta_i_deg.push_back(in);
+      l.phi_i_deg.push_back(0);
+      l.theta_o_deg.push_back(std::abs(out));
+      l.phi_o_deg.push_back(out < 0 ? 0 : 180);
+      f.push_back(out == in ? 8000 : 1e-4);
+    }
+  t.where = l;
+  t.values.emplace_back(f.begin(), f.end());
+  const auto h = inspect(t);
+  ASSERT_TRUE(h.peak);
+  EXPECT_EQ(h.peak->limit, PeakLimit::samples);
+  EXPECT_EQ(h.peak->samples_within, 1);
+  EXPECT_NE(peak_in_words(*h.peak).find("one sample wide"), std::string::npos);
+  EXPECT_EQ(h.prospects[0].verdict, Verdict::weakly);
+}
+
+TEST(Peak, OfAlphaBelow002InMerlIsLimitedByTheBins) {
+  EXPECT_EQ(inspect(merl_example(0.01)).peak->limit, PeakLimit::bins);
+  EXPECT_EQ(inspect(merl_example(0.05)).peak->limit, PeakLimit::none);
+}
+
+/// A lobe around wo = wi as the other is around the half vector.
+Table retro_reflective(const Grid& g, const std::string& format, double share) {
+  return on_grid(g, format, {"f"}, [&](const auto& a, std::size_t) {
+    const double q = a.voh * a.voh * 0.04 + (1 - a.voh * a.voh);
+    return 0.1 + share * 0.04 / (q * q) + (1 - share) * lobe(a, 0.2, 0);
+  });
+}
+
+TEST(Retro, IsSeenWhereTheHighlightSitsAtTheIncidentDirection) {
+  for (const auto& [grid, format] : {std::pair(mbsdf_grid(45, 90, Bins::centre), "mbsdf"),
+                                     std::pair(merl_grid(Bins::centre), "merl")}) {
+    const auto h = inspect(retro_reflective(grid, format, 1));
+    ASSERT_TRUE(h.retro) << format;
+    EXPECT_GT(h.retro->height, 10 * h.retro->base);
+    EXPECT_EQ(h.prospects[0].verdict, Verdict::no);
+    EXPECT_NE(h.prospects[0].because.find("wo = wi"), std::string::npos);
+    EXPECT_TRUE(inspect(retro_reflective(grid, format, 0.9)).retro) << "with a little gloss";
+    EXPECT_FALSE(inspect(retro_reflective(grid, format, 0.05)).retro) << "the gloss is higher";
+  }
+}
+
+TEST(Retro, IsNotSeenInGlossOrLambertian) {
+  EXPECT_FALSE(inspect(mbsdf_example()).retro);
+  for (const double alpha : {0.02, 0.2, 0.9}) EXPECT_FALSE(inspect(merl_example(alpha)).retro);
+  EXPECT_FALSE(inspect(lambertian(merl_grid(Bins::centre), "merl")).retro);
 }
 
 }  // namespace
