@@ -283,6 +283,10 @@ std::vector<std::string> warnings(const FitOptions& o,
 
 }  // namespace
 
+void check(const FitOptions& o) {
+  resolved_bounds(o, bind_model(o.model, o.fixed, {}, o.grey));
+}
+
 FitResult fit(const Table& t, const FitOptions& o, const std::function<void(const char*)>& phase) {
   const auto announce = [&](const char* what) {
     if (phase) phase(what);

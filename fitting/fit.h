@@ -37,6 +37,9 @@ struct FitResult {
   BoundModel model;  ///< with the fitted values, also of parameters that are not identifiable
 };
 
+/// Throws wrong usage for options that no table could be fitted with.
+void check(const FitOptions&);
+
 /// Input path and hash are the caller's to fill in.  Throws wrong usage for options that do not fit
 /// the model, bad_input for a table without a usable value.
 FitResult fit(const Table&, const FitOptions&, const std::function<void(const char*)>& phase = {});

@@ -16,8 +16,7 @@
 namespace gonio {
 namespace {
 
-// --- Bytes as text, RFC 4648
-// ------------------------------------------------------------------------
+// --- Bytes as text, RFC 4648 ---
 constexpr std::string_view digits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -48,8 +47,7 @@ std::string from_base64(std::string_view text) {
   return out;
 }
 
-// --- A preview in a document
-// ------------------------------------------------------------------------
+// --- A preview in a document ---
 Json rows_json(const std::vector<std::vector<double>>& v) {
   Json out = Json::array();
   for (const auto& row : v) out.push_back(row);
@@ -63,6 +61,7 @@ Json json(const Preview& p) {
     curve = {{"at", t.at},
              {"at_deg", t.at_deg},
              {"along", t.along},
+             {"channels", t.channels},
              {"data_deg", t.data_deg},
              {"data", rows_json(t.data)},
              {"model_deg", t.model_deg},
@@ -80,14 +79,15 @@ Preview read_preview(const JsonReader& j) {
   Preview p{{}, j.at("albedo").numbers(), from_base64(j.at("sphere").string())};
   const JsonReader c = j.at("curve");
   if (c.is_null()) return p;
-  p.curve = {c.at("at").string(),        c.at("at_deg").number(),     c.at("along").string(),
-             c.at("data_deg").numbers(), c.at("model_deg").numbers(), rows_of(c.at("data")),
-             rows_of(c.at("model"))};
+  p.curve = {c.at("at").string(),        c.at("at_deg").number(),
+             c.at("along").string(),     {},
+             c.at("data_deg").numbers(), c.at("model_deg").numbers(),
+             rows_of(c.at("data")),      rows_of(c.at("model"))};
+  for (const auto& k : c.at("channels").elements()) p.curve.channels.push_back(k.whole_number());
   return p;
 }
 
-// --- A fit document, as far as the summary shows it
-// -------------------------------------------------
+// --- A fit document, as far as the summary shows it ---
 FitDocument read_fit(const JsonReader& j) {
   FitDocument d;
   d.model = j.at("model").string();
@@ -130,8 +130,7 @@ std::size_t masked_values(const FitDocument& d) {
                          [](std::size_t sum, const auto& m) { return sum + m.second; });
 }
 
-// --- CSV
-// --------------------------------------------------------------------------------------------
+// --- CSV ---
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quoted = "\"";

@@ -70,9 +70,16 @@ Thumbnail thumbnail(const Table& table, const BoundModel& fitted) {
   if (cuts.empty()) return {};
   const Cut& cut =
       *std::ranges::min_element(cuts, {}, [](const Cut& c) { return std::abs(c.at_deg - 30); });
-  Thumbnail t{cut.at, rounded(cut.at_deg, 4), cut.along, {}, {}, {}, {}};
-  thin(cut, cut.data, t.data_deg, t.data);
-  thin(cut, cut.model, t.model_deg, t.model);
+  Thumbnail t{cut.at, rounded(cut.at_deg, 4), cut.along, {}, {}, {}, {}, {}};
+  const std::size_t all = cut.data.size(), shown = std::min<std::size_t>(all, 4);
+  std::vector<std::vector<double>> data, model;
+  for (std::size_t k = 0; k < shown; ++k) {
+    t.channels.push_back(shown == all ? k : k * (all - 1) / (shown - 1));
+    data.push_back(cut.data[t.channels[k]]);
+    model.push_back(cut.model[t.channels[k]]);
+  }
+  thin(cut, data, t.data_deg, t.data);
+  thin(cut, model, t.model_deg, t.model);
   return t;
 }
 

@@ -17,8 +17,9 @@ struct Thumbnail {
   std::string at;  ///< as in Cut; empty if the table has no cut that shows data
   double at_deg = 0;
   std::string along;
+  std::vector<std::size_t> channels;             ///< those shown: all, or four of more
   std::vector<double> data_deg, model_deg;       ///< ascending
-  std::vector<std::vector<double>> data, model;  ///< [channel][point], 1/sr; NaN: none
+  std::vector<std::vector<double>> data, model;  ///< [channel shown][point], 1/sr; NaN: none
 };
 
 struct Preview {

@@ -12,7 +12,7 @@ const mean = (list) => { const v = list_of(list).filter(known); return v.length 
 const names = [...new Set(fitted.flatMap((t) => Object.keys(t.parameters)))];
 const quantities = [
   ...names.map((name) => ({ name, of: (t) => (t.parameters?.[name] ? mean(t.parameters[name].value) : null) })),
-  { name: "log_rms", of: (t) => t.log_rms ?? null },
+  { name: "log_rms", label: "log RMS", of: (t) => t.log_rms ?? null },
   { name: "albedo", label: "albedo at 30°", of: (t) => (t.preview ? mean(t.preview.albedo) : null) },
   { name: "values_used", of: (t) => t.values_used ?? null },
   { name: "masked", of: (t) => t.masked ?? null },
@@ -106,13 +106,13 @@ function draw_curve(canvas, t, width, height) {
   }
   g.beginPath(); g.rect(0, 0, width, height); g.clip();
   c.data.forEach((values, k) => {
-    g.fillStyle = color(channel_color(t.channels[k], k));
+    g.fillStyle = color(channel_color(t.channels[c.channels[k]], k));
     g.globalAlpha = 0.55;
     values.forEach((v, i) => { if (v > 0) { g.beginPath(); g.arc(x_of(c.data_deg[i]), y_of(v), 1.7, 0, 2 * Math.PI); g.fill(); } });
     g.globalAlpha = 1;
   });
   c.model.forEach((values, k) => {
-    g.strokeStyle = color(t.channels.length > 1 ? channel_color(t.channels[k], k) : "ink");
+    g.strokeStyle = color(t.channels.length > 1 ? channel_color(t.channels[c.channels[k]], k) : "ink");
     g.lineWidth = 1.3;
     g.beginPath();
     let down = false;
@@ -164,7 +164,7 @@ function facts() {
     failed.length ? fact("failed", count(failed.length)) : null,
     fact("with flags", count(fitted.filter((t) => t.flags.length).length)),
     fact("values", count(fitted.reduce((sum, t) => sum + t.values_used, 0))),
-    fact("time of the fits", milliseconds(time)));
+    fact("time of all fits", milliseconds(time), "in sum"));
 }
 function failures() {
   if (!failed.length) return null;
@@ -206,7 +206,7 @@ function overview() {
     canvas.style.width = "100%";
     const there = fitted.filter((t) => known(state.x.of(t)));
     const sx = span_of(there.map(state.x.of)), sy = span_of(there.map(state.y.of));
-    const box = { left: 52, right: width - 10, top: 10, bottom: height - 128 }, bars = { top: height - 112, bottom: height - 40 };
+    const box = { left: 62, right: width - 10, top: 10, bottom: height - 128 }, bars = { top: height - 112, bottom: height - 40 };
     const x_of = (v) => box.left + (box.right - box.left) * place_on(sx, v);
     const y_of = (v) => box.bottom - (box.bottom - box.top) * place_on(sy, v);
     g.font = plot_font;
@@ -295,7 +295,10 @@ function overview() {
 // --- Each ------------------------------------------------------------------------------------------------
 function values_text(p) {
   const values = list_of(p.value);
-  return values.every((v) => !known(v)) ? "–" : values.map((v) => significant(v, 3)).join(" ");
+  if (values.every((v) => !known(v))) return "–";
+  if (values.length <= 4) return values.map((v) => significant(v, 3)).join(" ");
+  const there = sorted_numbers(values);  // a spectrum
+  return `${significant(there[0], 3)} to ${significant(there.at(-1), 3)}`;
 }
 const shown_names = names.filter((n) => !n.startsWith("roughness"));
 function flag_list(t) {

@@ -36,8 +36,7 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// --- What is fitted
-// ---------------------------------------------------------------------------------
+// --- What is fitted ---
 
 /// What may be a table: not a folder, nothing hidden, none of gonio's own documents and pages.
 bool may_be_table(const fs::directory_entry& e) {
@@ -139,13 +138,7 @@ std::string made_with(const Batch& b) {
   return text;
 }
 
-/// Options that no table could be fitted with are refused before any is read.
-void check_options(const FitOptions& o) {
-  bind_model(o.model, o.fixed, {}, o.grey);
-}
-
-// --- How many at a time
-// -------------------------------------------------------------------------------
+// --- How many at a time ---
 
 /// As many tables as there are threads, but no more than half of the memory holds: a table and its
 /// columns take several times the bytes of its file.
@@ -175,8 +168,7 @@ std::size_t tables_at_a_time(const std::vector<std::string>& tables) {
   return n;
 }
 
-// --- One table
-// ----------------------------------------------------------------------------------------
+// --- One table ---
 
 /// The side file speaks for the table: a change of it is a change of the input.
 std::string with_side_file(const std::string& made_with, const std::string& table) {
@@ -303,7 +295,7 @@ bool is_batch(const std::vector<std::string>& inputs) {
 
 Exit fit_batch(const Batch& b) {
   if (b.output.empty()) throw wrong_usage("many tables need a folder for their results: -o DIR");
-  check_options(b.options);
+  check(b.options);
   const auto tables = tables_of(b.inputs);
   const auto names = document_names(tables);
   const std::string made = made_with(b);

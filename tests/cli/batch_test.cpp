@@ -239,6 +239,7 @@ TEST(Batch, RefusesACallThatCannotBeMeant) {
            {"fit in -o out --html p.html", "summary.html"},
            {"fit in -o out --model lambertt", "lambert"},
            {"fit in -o out --fix gamma=2", "no parameter 'gamma'"},
+           {"fit in -o out --bounds alpha=0.5,0.1", "the lower first"},
            {"fit b.csv summary.csv -o .", "is an input"}})
     expect_one_line(gonio(f, words), 2, holding);
   for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{

@@ -40,6 +40,7 @@ BatchRow a_row() {
   r.preview.curve = {"theta_i",
                      30,
                      "theta_o",
+                     {0, 1, 2},
                      {-10, 10},
                      {-20, 20},
                      {{1, nan}, {1, 2}, {1, 2}},
@@ -159,6 +160,17 @@ TEST(Preview, ThumbnailKeepsThePeakAndFewPoints) {
       for (std::size_t i = 0; i < cut.deg.size(); ++i)
         if (std::abs(cut.deg[i]) < 80) largest = std::max(largest, cut.model[0][i]);
   EXPECT_NEAR(std::ranges::max(c.model[0]), largest, 0.01 * largest);
+}
+
+TEST(Preview, ShowsFourCurvesOfASpectrum) {
+  const BoundModel grey = bind_model("lambert", {{"kd", {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}}});
+  Table t = test::filled(test::in_out_grid(), grey);
+  t.channels = {"400", "450", "500", "550", "600", "650", "700"};
+  const Preview p = make_preview(t, grey);
+  EXPECT_EQ(p.curve.channels, (std::vector<std::size_t>{0, 2, 4, 6}));
+  ASSERT_EQ(p.curve.model.size(), 4U);
+  EXPECT_NEAR(p.curve.model[1][0], 0.3 / 3.14159, 1e-3);
+  EXPECT_EQ(p.albedo.size(), 7U);
 }
 
 TEST(Preview, SphereOfAWhiteLambertianIsWhiteToTheLightAndNothingOutside) {
