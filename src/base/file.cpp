@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 
 #include "base/error.h"
@@ -99,7 +100,8 @@ std::string InputFile::read_rest(std::uint64_t most) {
 namespace {
 
 /// The names of the files being made, for the signal handler, which may only read and unlink.
-std::array<std::atomic<const char*>, 16> unfinished;
+std::array<std::atomic<const char*>, 128> unfinished;
+std::atomic<bool> ending = false;  ///< a signal came: no file is begun any more
 
 void enter(const char* name) {
   for (auto& slot : unfinished) {
@@ -114,8 +116,13 @@ void leave(const char* name) {
   }
 }
 void remove_unfinished(int signal) {
-  for (auto& slot : unfinished)
-    if (const char* name = slot.load()) ::unlink(name);
+  ending = true;
+  for (int round = 0; round < 2; ++round) {
+    for (auto& slot : unfinished)
+      if (const char* name = slot.load()) ::unlink(name);
+    const timespec for_who_was_opening{0, 10'000'000};
+    if (round == 0) ::nanosleep(&for_who_was_opening, nullptr);
+  }
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -140,26 +147,31 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   static std::atomic<unsigned> counter = 0;
   int descriptor = -1;
   do {
+    leave(temporary_.c_str());
     temporary_ = (target.parent_path() /
                   fmt::format(".{}.{}.{}.tmp", target.filename().string(), ::getpid(), counter++))
                      .string();
+    enter(temporary_.c_str());  // before it is there: a signal may come in between
+    while (ending) ::pause();
     descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor < 0 && errno == EEXIST);
-  if (descriptor < 0) fail("writing");
-  enter(temporary_.c_str());
+  if (descriptor < 0) {
+    leave(temporary_.c_str());
+    fail("writing");
+  }
   file_ = ::fdopen(descriptor, "wb");
   if (!file_) {
     ::close(descriptor);
-    leave(temporary_.c_str());
     std::remove(temporary_.c_str());
+    leave(temporary_.c_str());
     fail("writing");
   }
 }
 
 OutputFile::~OutputFile() {
   if (file_) std::fclose(file_);
-  leave(temporary_.c_str());
   if (!committed_) std::remove(temporary_.c_str());
+  leave(temporary_.c_str());
 }
 
 void OutputFile::fail(const std::string& doing) const {

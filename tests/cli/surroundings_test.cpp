@@ -89,6 +89,23 @@ TEST(Surroundings, ALimitOfMemoryIsOneLine) {
   EXPECT_GT(refused, 0U);
 }
 
+TEST(Surroundings, AFileThatChangesWhileItIsReadIsRefused) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, "synth lambert --layout merl -o t.binary").code, 0);
+  std::filesystem::remove(f / "t.binary.gonio.json");
+  const std::string size = std::to_string(std::filesystem::file_size(f / "t.binary"));
+  // Cut and grown again, over and over, until all is seen.
+  status_of("cd '" + f / "" + "' && touch go && (while [ -e go ]; do truncate -s 5000 t.binary; " +
+            "truncate -s " + size + " t.binary; done; touch done) >/dev/null 2>&1 &");
+  for (int i = 0; i < 4; ++i) {
+    const auto o = gonio(f, "fit t.binary --model lambert -o r.json");
+    expect_one_line(o, 3, "t.binary");
+    EXPECT_FALSE(std::filesystem::exists(f / "r.json")) << "of a mixture";
+  }
+  std::filesystem::remove(f / "go");
+  while (!std::filesystem::exists(f / "done")) ::usleep(1000);
+}
+
 TEST(Surroundings, StreamsThatAreClosedCrashNothing) {
   const Folder f;
   f.write("t.csv", small_table());
