@@ -3,7 +3,7 @@
 
 gonio_tools=(g++:g++ cmake:cmake ninja:ninja-build ccache:ccache npm:npm)  # command:package
 gonio_libraries=(libceres-dev libeigen3-dev libopenexr-dev libtbb-dev libfmt-dev
-  nlohmann-json3-dev libcli11-dev libxsimd-dev libgtest-dev libboost-dev libssl-dev)
+  nlohmann-json3-dev libcli11-dev libxsimd-dev libgtest-dev libboost-dev libssl-dev libpugixml-dev)
 
 install_missing() {
   local missing=() entry
@@ -11,7 +11,7 @@ install_missing() {
     command -v "${entry%%:*}" >/dev/null || missing+=("${entry##*:}")
   done
   if ! command -v apt-get >/dev/null; then
-    echo "Needed: ${gonio_tools[*]%%:*}, and the libraries Ceres, Eigen 3, OpenEXR 3, oneTBB, OpenSSL, fmt," \
+    echo "Needed: ${gonio_tools[*]%%:*}, and the libraries Ceres, Eigen 3, OpenEXR 3, oneTBB, OpenSSL, pugixml, fmt," \
       "nlohmann-json, CLI11, xsimd 8, GoogleTest and Boost.Multiprecision where CMake finds them" \
       "(Debian's names: ${gonio_libraries[*]})."
     [ ${#missing[@]} -eq 0 ] || { echo "Not found here: ${missing[*]}" >&2; return 1; }

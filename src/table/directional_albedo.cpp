@@ -54,16 +54,10 @@ double largest_share(const std::vector<HemisphereNode>& nodes,
   return share;
 }
 
-std::vector<AlbedoSample> of_grid(const Table& t) {
-  const Interpolator f(t);
-  const auto nodes = cosine_hemisphere(48, 96);
+std::vector<AlbedoSample> of_function(const Table& t) {
   std::vector<AlbedoSample> all(6);
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
-    const double theta_deg = 15 * static_cast<double>(k);
-    const Direction wi = direction(theta_deg * degree, 0);
-    all[k] = integrate(theta_deg, nodes, t.channels.size(), [&](std::size_t node, std::size_t c) {
-      return f({wi, nodes[node].direction}, c);
-    });
+    all[k] = directional_albedo(t, 15 * static_cast<double>(k));
   });
   return all;
 }
@@ -111,11 +105,21 @@ std::vector<AlbedoSample> of_list(const Table& t) {
 
 }  // namespace
 
+AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
+  const Interpolator f(t);
+  const auto nodes = cosine_hemisphere(48, 96);
+  const Direction wi = direction(theta_i_deg * degree, 0);
+  return integrate(theta_i_deg, nodes, t.channels.size(), [&](std::size_t node, std::size_t c) {
+    return f({wi, nodes[node].direction}, c);
+  });
+}
+
 std::vector<AlbedoSample> directional_albedo(const Table& t) {
+  if (t.between) return of_function(t);
   if (t.list()) return of_list(t);
   const bool slice = std::ranges::any_of(
       t.grid()->axes, [](const Axis& a) { return a.spacing == Axis::Spacing::constant; });
-  return slice ? std::vector<AlbedoSample>{} : of_grid(t);
+  return slice ? std::vector<AlbedoSample>{} : of_function(t);
 }
 
 }  // namespace gonio

@@ -8,10 +8,15 @@
 
 namespace gonio {
 
-/// Grids: at θ_i = 0, 15, 30, 45, 60 and 75°, by quadrature over the interpolated table.
-/// Lists: at each incident direction whose samples leave less than a twentieth of the cosine-weighted
-/// hemisphere further than 12° away, every place taking its nearest sample's value, unless one sample
-/// then makes more than a tenth of the sum: a peak between samples that far apart cannot be integrated.
+/// At one θ_i (φ_i = 0), of a grid or where Table::between says f: by quadrature over f between
+/// samples.
+AlbedoSample directional_albedo(const Table&, double theta_i_deg);
+
+/// Grids, and lists with Table::between: at θ_i = 0, 15, 30, 45, 60 and 75°, likewise.
+/// Other lists: at each incident direction whose samples leave less than a twentieth of the
+/// cosine-weighted hemisphere further than 12° away, every place taking its nearest sample's value,
+/// unless one sample then makes more than a tenth of the sum: a peak between samples that far apart
+/// cannot be integrated.
 /// An image slice holds no hemisphere: empty.
 std::vector<AlbedoSample> directional_albedo(const Table&);
 

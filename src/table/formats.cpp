@@ -21,10 +21,13 @@ Table read_by_format(InputFile& in, const ColumnMap* map) {
   const std::string head = in.peek(1 << 16);
   if (is_exr(head)) return read_exr_slice(in.path());
   if (is_mbsdf(head)) return read_mbsdf(in);
+  if (is_rgl(head)) return read_rgl(in);
+  if (is_klems(head)) return read_klems(in);
+  if (!map && is_alta(head)) return read_alta(in);
   if (is_merl(head, in.size())) return read_merl(in);
   if (map || is_csv(head)) return read_csv(in, map);
   throw bad_input(in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
-                  "a MERL or MBSDF file, an image slice in OpenEXR, or CSV");
+                  "a MERL, MBSDF, RGL, Klems XML or ALTA file, an image slice in OpenEXR, or CSV");
 }
 
 void write_by_format(const Table& t, OutputFile& out, const std::string& path) {

@@ -5,10 +5,13 @@
 #include <optional>
 #include <string>
 
+#include "table/alta.h"
 #include "table/csv.h"
 #include "table/exr_slice.h"
+#include "table/klems.h"
 #include "table/mbsdf.h"
 #include "table/merl.h"
+#include "table/rgl.h"
 #include "table/table.h"
 
 namespace gonio {

@@ -25,7 +25,7 @@ struct AlbedoSample {
 /// Why a highlight's width is not the surface's alone.
 enum class PeakLimit {
   none,
-  samples,  ///< fewer than three samples within the half width
+  samples,  ///< fewer than three within the half width, or each an average over more than that
   bins      ///< the other bin convention changes alpha by more than a tenth
 };
 inline constexpr std::array<const char*, 3> peak_limit_names{"none", "samples", "bins"};

@@ -157,7 +157,7 @@ PeakSearch find_peak(const Table& t, Bins bins, Around around) {
   // D(θ)/D(0) = (1 + sin²θ (1 − α²)/α²)⁻² is ½ where sin²θ (1 − α²)/α² = √2 − 1.
   const double s = std::sin(p.half_width_deg * degree);
   p.alpha = s / std::sqrt(std::numbers::sqrt2 - 1 + s * s);
-  p.resolved = p.samples_within >= 3;
+  p.resolved = p.samples_within >= 3 && p.half_width_deg >= t.patch_deg;
   search.peak = p;
   return search;
 }

@@ -20,7 +20,7 @@ struct Peak {
   double
       alpha;  ///< of the GGX lobe with that width over θ_h: s/√(√2 − 1 + s²), s = sin(half width)
   double samples_within;  ///< distinct angles within the half width
-  bool resolved;          ///< at least three of them
+  bool resolved;          ///< at least three of them, and no narrower than Table::patch_deg
   double height, base;    ///< [1/sr]
   double base_deg;        ///< angle that a tenth of the samples, which show the base, lie beyond
 };

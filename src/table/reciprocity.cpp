@@ -64,12 +64,29 @@ Pairs of_list(const DirectionList& l) {
   return only_own ? Pairs{} : pairs;
 }
 
+/// Against f between the samples, at some of them if there are many.
+Reciprocity by_function(const Table& t) {
+  const SampleAngles at(t);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < t.size(); i += 1 + t.size() * t.values.size() / 100'000)
+    for (std::size_t c = 0; c < t.values.size(); ++c) {
+      const auto [wi, wo] = at.directions(i);
+      const double a = t.values[c][i], b = t.between({wo, wi}, c);
+      if (mask(at(i), a) == Mask::valid && b >= 0)
+        errors.push_back(a + b > 0 ? std::abs(a - b) / ((a + b) / 2) : 0);
+    }
+  if (errors.empty()) return {{}, "no valid value has a valid partner"};
+  const auto note = fmt::format("median over {} values against f between samples", errors.size());
+  return {median(errors), note};
+}
+
 }  // namespace
 
 Reciprocity reciprocity(const Table& t) {
   const Grid* g = t.grid();
   const bool half = g && g->kind == Grid::Kind::half_difference;
   const Pairs pairs = !g ? of_list(*t.list()) : half ? of_half_difference(*g) : of_in_out(*g);
+  if (pairs.empty() && t.between) return by_function(t);
   if (pairs.empty())
     return {
         {},

@@ -17,6 +17,7 @@ struct Reciprocity {
 /// Each sample against the one with wi and wo exchanged, where both are valid; a sample that is its
 /// own partner (θ_i = θ_o on a grid) counts, with no error.  In a list whose light always comes from
 /// one azimuth the partner may be turned about the normal: the surface is taken as isotropic.
+/// Where no sample has a partner, against Table::between.
 Reciprocity reciprocity(const Table&);
 
 }  // namespace gonio

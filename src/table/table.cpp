@@ -83,7 +83,7 @@ double SampleAngles::theta_i(std::size_t i) const {
 double Interpolator::operator()(const DirectionPair& p, std::size_t channel) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Grid* g = table_.grid();
-  if (!g) return none;
+  if (!g) return table_.between ? table_.between(p, channel) : none;
   std::array<double, 3> angle;
   if (g->kind == Grid::Kind::half_difference) {
     const auto a = half_difference(p);

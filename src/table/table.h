@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -79,11 +80,18 @@ struct Truth {
 /// The values of one channel; `Values(n)` is not filled.
 using Values = std::vector<double, ArrayAllocator<double>>;
 
+/// A reader refuses a table of more values, directions included, than this: 0.5 GB.
+inline constexpr std::size_t most_values = std::size_t{1} << 26;
+
+/// Where a format stores f cos θ_o, the cosine is divided out, but not below this: within 0.6° of the
+/// horizon the quotient is noise over the angle's own error.  There the value becomes NaN.
+inline constexpr double least_cosine = 0.01;
+
 /// Values as stored: f_r in 1/sr, without the cosine; invalid ones included (see mask()).
 struct Table {
   std::string path;
   std::string sha256;                 ///< of the file, where reading it had a reason to know
-  std::string format;                 ///< "csv", "merl", "mbsdf", "exr"
+  std::string format;                 ///< "csv", "merl", "mbsdf", "exr", "rgl", "klems", "alta"
   std::vector<std::string> channels;  ///< "r", "g", "b"; "f" if there is one
   std::variant<Grid, DirectionList> where;
   std::vector<Values> values;     ///< [channel][sample]
@@ -92,6 +100,11 @@ struct Table {
   std::optional<Truth> truth;     ///< if gonio made it
   std::vector<std::pair<std::string, std::string>> notes;  ///< further metadata, as strings
   std::vector<std::string> warnings;  ///< what is odd about the file, though it could be read
+  /// f_r of a channel between the samples of a list, where the format itself defines it everywhere;
+  /// NaN where it does not.
+  std::function<double(const DirectionPair&, std::size_t channel)> between;
+  /// The angle that each value of a list is an average over, for wi and wo alike; 0: points.
+  double patch_deg = 0;
 
   std::size_t size() const { return values.empty() ? 0 : values[0].size(); }
   const Grid* grid() const { return std::get_if<Grid>(&where); }
@@ -134,12 +147,12 @@ inline Mask mask(const Angles<double>& a, double value) {
   return value < 0 ? Mask::negative : Mask::valid;
 }
 
-/// f_r of a grid between its samples.
+/// f_r between samples.
 class Interpolator {
  public:
   explicit Interpolator(const Table& t) : table_(t), at_(t) {}
-  /// Trilinear over the valid corners of the cell; NaN where they carry half of its weight or less,
-  /// outside the grid by more than a bin, or for a list of samples.
+  /// Of a grid: trilinear over the valid corners of the cell; NaN where they carry half of its weight
+  /// or less, or outside the grid by more than a bin.  Of a list: Table::between, or NaN.
   double operator()(const DirectionPair&, std::size_t channel) const;
 
  private:
