@@ -13,8 +13,8 @@ void* allocate_array(std::size_t bytes) {
   const std::size_t alignment = large ? huge : line;
   const std::size_t rounded = (std::max<std::size_t>(bytes, 1) + line - 1) / line * line;
   if (rounded < bytes) throw std::bad_alloc();
-  void* const p = std::aligned_alloc(alignment, rounded);
-  if (!p) throw std::bad_alloc();
+  void* p = nullptr;  // aligned_alloc wants a multiple of the alignment
+  if (::posix_memalign(&p, alignment, rounded) != 0) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
   if (large) ::madvise(p, rounded / huge * huge, MADV_HUGEPAGE);  // a wish: it may be refused
 #endif
