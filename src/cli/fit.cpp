@@ -114,10 +114,9 @@ void add_fit(CLI::App& app, Action& action) {
                         "gonio fit paint.binary --model lambert+ggx/smith_ggx.correlated/schlick "
                         "-o paint.json --html paint.html\n  gonio fit tables/ --jobs 2 -o results/",
                         o, run);
-  c->add_option(
-       "FILE", o->files,
-       "MERL, MBSDF, CSV or OpenEXR slice, found from the bytes; or many: several files, a "
-       "folder, or @LIST with a path on each line")
+  c->add_option("FILE", o->files,
+                "A table, its format found from the bytes; or many: several files, a "
+                "folder, or @LIST with a path on each line")
       ->required();
   c->add_option("--model", o->fit.model, "Model; all its parameters are fitted")
       ->capture_default_str();
