@@ -34,15 +34,14 @@ DirectionPair place(const Cut& cut, double phi_d, double deg) {
   return directions(HalfDifference{deg * degree, 0, cut.at_deg * degree, phi_d});
 }
 
-/// Fills in the model over the data's points and over steps of half a degree, finer around `peak`,
-/// and the data where they are.  False if no data are valid.
+/// Fills in the data where they are and, if there is one, the model there and over steps of half a
+/// degree, finer around `peak`.  False if no data are valid.
 bool finish(Cut& cut,
             std::vector<Point> points,
             double peak_deg,
             double from_deg,
             double phi_d,
-            const BoundModel& fitted) {
-  const std::size_t channels = fitted.model.channels;
+            const BoundModel* fitted) {
   const bool any = std::ranges::any_of(points, [](const Point& p) {
     return std::ranges::any_of(p.data, [](double v) { return std::isfinite(v); });
   });
@@ -50,11 +49,14 @@ bool finish(Cut& cut,
   const auto add = [&](double deg) {
     if (deg >= from_deg && deg < 90) points.push_back({deg, {}});
   };
-  for (double deg = from_deg; deg < 90; deg += 0.5) add(deg);
-  add(peak_deg);
-  for (double d = 0.01; d < 15; d *= 1.15) {
-    add(peak_deg - d);
-    add(peak_deg + d);
+  const std::size_t channels = points[0].data.size();
+  if (fitted) {
+    for (double deg = from_deg; deg < 90; deg += 0.5) add(deg);
+    add(peak_deg);
+    for (double d = 0.01; d < 15; d *= 1.15) {
+      add(peak_deg - d);
+      add(peak_deg + d);
+    }
   }
   std::ranges::stable_sort(points, {}, &Point::deg);
 
@@ -66,7 +68,8 @@ bool finish(Cut& cut,
     for (std::size_t c = 0; c < channels; ++c)
       cut.data[c].push_back(p.data.empty() ? none : p.data[c]);
   }
-  cut.model = evaluate(fitted, x);
+  if (!fitted) return true;
+  cut.model = evaluate(*fitted, x);
   for (auto& channel : cut.model)
     for (std::size_t i = 0; i < x.size(); ++i)
       if (!(x[i].nol > 0 && x[i].nov > 0)) channel[i] = none;
@@ -104,7 +107,7 @@ std::vector<double> choose(const std::vector<double>& nodes) {
   return out;
 }
 
-std::vector<Cut> grid_cuts(const Table& table, const BoundModel& fitted) {
+std::vector<Cut> grid_cuts(const Table& table, const BoundModel* fitted) {
   const Grid& g = *table.grid();
   const Interpolator between(table);
   const auto nodes = [&](std::size_t axis) { return nodes_deg(g.axes[axis], g.bins); };
@@ -169,7 +172,7 @@ std::vector<InPlane> in_plane_samples(const Table& table) {
   return out;
 }
 
-std::vector<Cut> list_cuts(const Table& table, const BoundModel& fitted) {
+std::vector<Cut> list_cuts(const Table& table, const BoundModel* fitted) {
   auto samples = in_plane_samples(table);
   std::ranges::stable_sort(samples, {}, &InPlane::theta_i_deg);
   // Incident angles closer than 0.1° are one; a table with hardly two samples at each has
@@ -206,7 +209,11 @@ std::vector<Cut> list_cuts(const Table& table, const BoundModel& fitted) {
 
 std::vector<Cut> make_cuts(const Table& table, const BoundModel& fitted) {
   assert(fitted.model.channels == table.values.size());
-  return table.grid() ? grid_cuts(table, fitted) : list_cuts(table, fitted);
+  return table.grid() ? grid_cuts(table, &fitted) : list_cuts(table, &fitted);
+}
+
+std::vector<Cut> make_cuts(const Table& table) {
+  return table.grid() ? grid_cuts(table, nullptr) : list_cuts(table, nullptr);
 }
 
 }  // namespace gonio

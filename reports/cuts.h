@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Cuts through a table and the fitted model: curves over one angle that people can look at.
+/// Cuts through a table, and a fitted model if there is one: curves over one angle that people can look at.
 
 #include <string>
 #include <vector>
@@ -20,14 +20,16 @@ struct Cut {
   double at_deg;
   double within_deg = 0;    ///< data of `at` this far off are shown too (directions at random)
   std::string along;        ///< "theta_o" or "theta_h"
-  std::vector<double> deg;  ///< ascending, of the data and of a dense grid
+  std::vector<double> deg;  ///< ascending, of the data and, with a model, of a dense grid
   std::vector<std::vector<double>> data;   ///< [channel][point], 1/sr; NaN: no valid sample here
-  std::vector<std::vector<double>> model;  ///< [channel][point], 1/sr; NaN below the horizon
+  std::vector<std::vector<double>> model;  ///< likewise; NaN below the horizon; empty without one
 };
 
 /// At most six cuts, only such that show data.  Data of grids are shown where the grid has nodes:
 /// theta_i and theta_o, or theta_h, are the grid's own, the other angles interpolated; data of lists
 /// as they are, up to 1.5° out of the plane.
 std::vector<Cut> make_cuts(const Table&, const BoundModel& fitted);
+/// Without a model.
+std::vector<Cut> make_cuts(const Table&);
 
 }  // namespace gonio

@@ -6,40 +6,23 @@
 #include <limits>
 
 #include "brdf/evaluate.h"
+#include "reports/angle_bins.h"
 
 namespace gonio {
 namespace {
 
-constexpr std::size_t bins_h = 45, bins_d = 30;
-
-/// Samples that lie on an edge, as those of many grids do, belong to the bin above it whatever the
-/// rounding of their angle.
-std::size_t bin(double x, std::size_t bins) {
-  const double i = std::floor(x * static_cast<double>(bins) + 1e-9);
-  return static_cast<std::size_t>(std::clamp(i, 0.0, static_cast<double>(bins - 1)));
-}
-
-std::size_t cell(const Angles<double>& a) {
-  const double theta_h = std::atan2(std::sqrt(a.sin2_theta_h), a.noh);
-  const double theta_d = std::acos(std::min(a.voh, 1.0));
-  return bin(std::sqrt(theta_h / (90 * degree)), bins_h) * bins_d +
-         bin(theta_d / (90 * degree), bins_d);
-}
+constexpr AngleBins bins{Grid::Kind::half_difference, 45, 30};
 
 }  // namespace
 
 ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
   assert(fitted.model.channels == table.values.size());
   ResidualMap map;
-  for (std::size_t i = 0; i <= bins_h; ++i) {
-    const double x = static_cast<double>(i) / static_cast<double>(bins_h);
-    map.theta_h_deg.push_back(90 * x * x);
-  }
-  for (std::size_t i = 0; i <= bins_d; ++i)
-    map.theta_d_deg.push_back(90 * static_cast<double>(i) / static_cast<double>(bins_d));
-  map.mean.assign(bins_h * bins_d, 0);
-  map.rms.assign(bins_h * bins_d, 0);
-  map.count.assign(bins_h * bins_d, 0);
+  map.theta_h_deg = bins.x_deg();
+  map.theta_d_deg = bins.y_deg();
+  map.mean.assign(bins.x * bins.y, 0);
+  map.rms.assign(bins.x * bins.y, 0);
+  map.count.assign(bins.x * bins.y, 0);
 
   const SampleAngles at(table);
   constexpr std::size_t chunk = 1 << 15;  // samples whose angles and model values are held at once
@@ -51,7 +34,7 @@ ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
     const auto model = evaluate(fitted, x);
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!(x[i].nol > 0 && x[i].nov > 0)) continue;
-      const std::size_t k = cell(x[i]);
+      const std::size_t k = bins.cell(x[i]);
       for (std::size_t c = 0; c < table.values.size(); ++c) {
         const double y = table.values[c][first + i], f = model[c][i];
         if (mask(x[i], y) != Mask::valid || !(y > 0) || !(f > 0) || !std::isfinite(f)) continue;

@@ -1,10 +1,7 @@
 "use strict";
 // The page of a fit.
 
-const page = page_data();
-const { fit, health, channels, curves, residual_map } = page;
-const several = channels.length > 1;
-const file_name = fit.input.path.split("/").pop();
+const { fit, residual_map } = page;
 
 /// Parameters as rows: one per channel where they have channels.
 function parameter_rows() {
@@ -31,7 +28,6 @@ function true_values() {
   return out;
 }
 const rows = parameter_rows();
-const above_horizon = health.values - (health.masked?.below_horizon ?? 0);
 
 // --- What it says at the top ---------------------------------------------------------------------
 // A log RMS is a relative error while it is small.
@@ -47,7 +43,7 @@ function verdict() {
 }
 function warnings() {
   const out = [];
-  const warn = (what, ...rest) => out.push(el("li", {}, el("b", {}, what), " ", rest));
+  const warn = (...parts) => out.push(warning(...parts));
   for (const w of fit.warnings ?? []) warn("Beware:", w + ".");
   if (fit.solver.termination !== "converged") warn("Not converged.", fit.solver.message);
   const named = (status) => rows.filter((r) => r.status === status).map((r) => r.label).join(", ");
@@ -55,11 +51,6 @@ function warnings() {
   if (named("at_bound")) warn("At a bound:", named("at_bound"), ". The best value may lie beyond it.");
   const tied = strongest_correlation();
   if (tied && Math.abs(tied.rho) > 0.95) warn("Hardly separable:", `${tied.a} and ${tied.b} (correlation ${minus(tied.rho.toFixed(3))}).`);
-  if (health.peak && !health.peak.resolved)
-    warn("Peak not resolved:", `${plain(health.peak.samples_within, 3)} samples within its half width of ${degrees(health.peak.half_width_deg, 2)}.`);
-  const lost = (health.masked?.negative ?? 0) + (health.masked?.not_finite ?? 0);
-  if (above_horizon > 0 && lost > 0.02 * above_horizon)
-    warn("Many masked values:", `${percent(lost / above_horizon)} of those above the horizon.`);
   for (const s of fit.bin_sensitivity ?? []) {
     const changes = Object.entries(s.relative_change)
       .map(([name, v]) => [name, list_of(v).filter(known).sort((a, b) => Math.abs(b) - Math.abs(a))[0]])
@@ -69,10 +60,7 @@ function warnings() {
         + changes.map(([name, x]) => `${name} changes by ${signed_percent(x)}`).join(", ")
         + `; the log RMS would be ${log_rms_text(s.log_rms)} instead of ${log_rms_text(fit.residuals.log_rms)}.`);
   }
-  if (health.reciprocity_error > 0.05) warn("Not reciprocal:", `exchanging the directions changes a value by ${percent(health.reciprocity_error)} (median).`);
-  const bright = (health.albedo ?? []).filter((a) => list_of(a.albedo).some((x) => x > 1));
-  if (bright.length) warn("Albedo above 1", `at θ_i = ${bright.map((a) => degrees(a.theta_i_deg)).join(", ")}: more light leaves than arrives.`);
-  return out.length ? el("ul", { class: "warnings", "aria-label": "Warnings" }, out) : null;
+  return warning_list([...out, ...health_warnings(true)]);
 }
 function facts() {
   const total = Object.values(fit.solver.time_ms).reduce((a, t) => a + t, 0);
@@ -123,67 +111,6 @@ function parameters() {
       { row_class: (i) => (rows[i].first ? "first" : null) }))));
 }
 
-// --- Data against the model ----------------------------------------------------------------------
-const symbol = { theta_i: "θ_i", theta_o: "θ_o", theta_d: "θ_d", theta_h: "θ_h" };
-function curve_text(cut) {
-  const peak = (series) => series[0].reduce((best, v, i) => (v !== null && (best === null || v > series[0][best]) ? i : best), null);
-  const [d, m] = [peak(cut.data), peak(cut.model)];
-  const at = (series, i) => (i === null ? "none" : `${significant(series[0][i])} per steradian at ${degrees(cut.deg[i])}`);
-  return `Curves at ${symbol[cut.at]} ${degrees(cut.at_deg)} over ${symbol[cut.along]}, channel ${channels[0]}: `
-    + `largest value of the data ${at(cut.data, d)}, of the model ${at(cut.model, m)}.`;
-}
-function curve_panel(cut, state) {
-  const readout = el("div", { class: "readout", style: { "min-height": `${1.5 * channels.length}em` } });
-  const rest = () => readout.replaceChildren();
-  const hover = (at) => {
-    if (!at) return rest();
-    readout.replaceChildren(el("table", {}, channels.map((name, c) => {
-      if (!state.on[c]) return null;
-      const d = at[1 + c], i = at[0];
-      const y = d === null || d === undefined ? null : cut.data[c][d], f = cut.model[c][d ?? i];
-      return el("tr", {}, several ? el("td", {}, chip(channel_color(name, c)), name) : null,
-        el("td", {}, angle_name(cut.along), ` ${degrees(cut.deg[d ?? i], 2)}`),
-        el("td", {}, "data ", el("b", {}, significant(y, 4))), el("td", {}, "model ", el("b", {}, significant(f, 4))),
-        el("td", {}, y > 0 && f > 0 ? ratio(Math.log(f / y)) : ""));
-    })));
-  };
-  rest();
-  const signed = cut.along === "theta_o";
-  // Grazing values would set the scale for all others.
-  const inside = (i) => Math.abs(cut.deg[i]) <= 85;
-  const plot = curve_plot([cut.deg, ...cut.data, ...cut.model],
-    [...channels.map((name, c) => ({ color: channel_color(name, c), kind: "points" })),
-     ...channels.map((name, c) => ({ color: several ? channel_color(name, c) : "ink", kind: "line" }))],
-    { x_label: signed ? "θ_o [°], mirror side positive" : `${symbol[cut.along]} [°]`,
-      x_ends: signed ? [-90, 90] : [0, 90], x_steps: [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 30], y_label: "f_r [1/sr]",
-      log: state.log, mark: signed ? cut.at_deg : null, y_of: inside, hover, text: curve_text(cut) });
-  return {
-    plot,
-    node: el("figure", {}, el("figcaption", {}, angle_name(cut.at), ` = ${degrees(cut.at_deg, 2)}`,
-      cut.within_deg > 0 ? el("small", {}, ` data within ±${degrees(cut.within_deg)}`) : null),
-      plot.node, readout),
-  };
-}
-function data_and_model() {
-  const state = { log: true, on: channels.map(() => true) };
-  const panels = curves.map((c) => curve_panel(c, state));
-  const apply = () => panels.forEach((p) => p.plot.set({ log: state.log, shown: [...state.on, ...state.on] }));
-  const in_plane = curves.some((c) => c.along === "theta_o");
-  const keys = el("span", { class: "keys" }, channels.map((name, c) => el("label", {},
-    several ? el("input", { type: "checkbox", checked: "", onchange: (e) => { state.on[c] = e.target.checked; apply(); } }) : null,
-    several ? [chip(channel_color(name, c)), name] : [chip(channel_color(name, c)), "data", chip("ink"), "model"])));
-  const out = section("Data and model",
-    "Points are the table's samples" + (curves.some((c) => c.at === "theta_i") && fit.input.bins !== "none" ? " (where the grid has them, interpolated in the other angles)" : "")
-      + ", lines the fitted model, without the cosine. " + (in_plane ? "The dashed line is the mirror direction. " : "")
-      + "Drag across a plot to look closer; double click to go back.",
-    curves.length === 0 ? el("p", {}, "No valid sample lies in the plane of incidence.") : [
-      el("div", { class: "controls" },
-        choice("Scale of f_r", [[true, "logarithmic"], [false, "linear"]], state.log, (v) => { state.log = v; apply(); }), keys),
-      el("div", { class: "panels" }, panels.map((p) => p.node))]);
-  out.classList.add("long");
-  return out;
-}
-
 // --- Where the model is off ----------------------------------------------------------------------
 function map_text() {
   const seen = residual_map.mean.map((v, k) => ({ v, k })).filter((c) => c.v !== null);
@@ -196,8 +123,30 @@ function map_text() {
     + `${Math.exp(median).toFixed(4)}; farthest ${ratio(worst.v)} at half-vector angle `
     + `${place(residual_map.theta_h_deg, Math.floor(worst.k / nd))}, difference angle ${place(residual_map.theta_d_deg, worst.k % nd)}.`;
 }
+function residual_heat_map() {
+  const m = residual_map;
+  // The scale holds 95 % of the cells; the rest is shown as its ends.
+  const limit_of = (values) => {
+    const sizes = values.filter(known).map(Math.abs).sort((a, b) => a - b);
+    const most = sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0;
+    return Math.log([1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 3, 5, 10, 30, 100, 1000].find((f) => Math.log(f) >= most) ?? 1e4);
+  };
+  const layer = (values, signed, colors, label) => {
+    const limit = limit_of(values), low = signed ? -limit : 0;
+    const more = (t) => (Math.abs(t) === limit ? (t < 0 ? "≤ " : "≥ ") : "") + ratio(t);
+    const at = (v) => (v - low) / (limit - low);
+    return { at: (k) => (known(values[k]) ? at(values[k]) : null), colors, label,
+      ticks: (signed ? [-limit, -limit / 2, 0, limit / 2, limit] : [0, limit / 2, limit]).map((t) => [at(t), more(t)]) };
+  };
+  return heat_map(map_axis("theta_h", m.theta_h_deg), map_axis("theta_d", m.theta_d_deg),
+    { mean: layer(m.mean, true, diverging, "model/data, geometric mean of the cell"),
+      rms: layer(m.rms, false, sequential, "typical factor between model and data") },
+    (k) => (m.count[k] === 0 ? ["no valid values"]
+      : [el("b", {}, `model/data ${ratio(m.mean[k])}`), `, RMS ×/÷ ${ratio(m.rms[k]).slice(1)}, ${count(m.count[k])} values`]),
+    map_text());
+}
 function residuals() {
-  const map = heat_map(residual_map, map_text());
+  const map = residual_heat_map();
   const bands = fit.residuals.bands ?? [];
   const most = Math.max(...bands.map((b) => b.log_rms ?? 0), 1e-12);
   const text = most < 0.3 ? percent : (x) => significant(x, 3);  // one form for all of them
@@ -259,34 +208,6 @@ function confidence() {
       sensitivity.map((t) => scroll(t))));
 }
 
-// --- The table --------------------------------------------------------------------------------------
-function table_health() {
-  const masked = Object.entries(health.masked ?? {}).filter(([reason]) => reason !== "valid");
-  const of = (n) => `${count(n)} (${percent(n / health.values)})`;
-  const peak = health.peak;
-  const facts = pairs([
-    ["samples", `${count(health.samples)}, ${several ? `${channels.length} channels (${channels.join(", ")})` : "1 channel"}`],
-    ["valid values", of(health.valid)],
-    ...masked.map(([reason, n]) => [words(reason), of(n)]),
-    ["range", `${significant(health.smallest_positive)} (smallest positive) to ${significant(health.largest)} 1/sr`],
-    ["noise floor", health.noise_floor > 0 ? `${significant(health.noise_floor)} 1/sr, from the negative values` : "not seen: no negative values that are noise"],
-    ["reciprocity", known(health.reciprocity_error) ? `${percent(health.reciprocity_error)} median difference of exchanged directions${health.reciprocity_note ? "; " + health.reciprocity_note : ""}` : health.reciprocity_note || "cannot be told from this layout"],
-    ["peak", peak ? `half width ${degrees(peak.half_width_deg, 3)} of θ_h, as of a GGX lobe with alpha ${significant(peak.alpha)}; ${plain(peak.samples_within, 3)} samples within, ${peak.resolved ? "resolved" : "not resolved"}; height ${significant(peak.height)}, base ${significant(peak.base)} 1/sr` : "none found"],
-    ["bin convention", known(health.bin_sensitivity) ? `${health.bins}; the other one would change the peak's alpha by ${signed_percent(health.bin_sensitivity)}` : null],
-  ]);
-  const albedo = (health.albedo ?? []).length ? table(
-    [angle_name("theta_i"), ...channels.map((c) => ({ n: several ? c : "albedo" })), { n: "coverage" }],
-    health.albedo.map((a) => [degrees(a.theta_i_deg), ...list_of(a.albedo).map((x) => ({ n: significant(x) })), { n: percent(a.coverage) }]),
-    { caption: "Directional albedo of the data" }) : null;
-  const truth = health.truth ? pairs([["made by gonio from", el("code", {}, health.truth.model)],
-    ["noise", percent(health.truth.noise ?? 0)], ["floor", `${significant(health.truth.floor ?? 0)} 1/sr`],
-    ["outliers", percent(health.truth.outliers ?? 0)], ["seed", String(health.truth.seed)]]) : null;
-  return section("What the table can be trusted for",
-    "From the data alone, before any fit. Coverage is the share of the cosine-weighted hemisphere that valid samples speak for.",
-    el("div", { class: "columns" }, el("div", {}, facts),
-      el("div", {}, albedo ? scroll(albedo) : null, truth ? el("div", { style: { "margin-top": "16px" } }, el("h3", {}, "Truth"), truth) : null)));
-}
-
 // --- Solver and input ---------------------------------------------------------------------------------
 function solver() {
   const s = fit.solver;
@@ -327,6 +248,6 @@ document.getElementById("page").replaceChildren(
   el("p", { class: "over" }, "gonio fit"),
   el("h1", {}, `${fit.model} fitted to ${file_name}`),
   verdict(), ...[warnings()].filter(Boolean), facts(),
-  ...[parameters(), data_and_model(), residuals(), confidence(), table_health(), solver(), input()].filter(Boolean),
+  ...[parameters(), curve_section(), residuals(), confidence(), health_section(), solver(), input()].filter(Boolean),
   el("footer", {}, "f_r is in 1/sr, without the cosine. alpha is the width of the distribution, roughness = √alpha. ",
     "Every figure of this page is in its data block, and the fit's in fit.json. Plots drawn with uPlot, © Leon Sorokin, MIT licence."));

@@ -35,7 +35,7 @@ function tick_text(x) {
 ///                in words, y_of(i): whether point i sets the range of y, hover(indices or null)}
 /// Returns {node, set({log, shown})}.
 function curve_plot(data, series, o) {
-  const node = el("div", { role: "img", "aria-label": o.text });
+  const node = el("div", { class: "curve", role: "img", tabindex: 0, "aria-label": o.text });
   const state = { log: o.log, shown: series.map(() => true) };
   let plot = null;
 
@@ -109,6 +109,16 @@ function curve_plot(data, series, o) {
       },
     }, shown_data, node);
   }
+  // The arrow keys go from point to point of what is seen.
+  node.addEventListener("keydown", (e) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
+    if (!step || !plot) return;
+    e.preventDefault();
+    const points = plot.data[0].map((_, i) => i).filter((i) => plot.data.slice(1).some((y, s) => state.shown[s] && series[s].kind === "points" && y[i] !== null));
+    const to = points.length ? points : plot.data[0].map((_, i) => i), now = plot.cursor.idx ?? -1;
+    const next = step > 0 ? to.find((i) => i > now) ?? to.at(-1) : to.findLast((i) => i < now) ?? to[0];
+    plot.setCursor({ left: plot.valToPos(plot.data[0][next], "x"), top: 0 });
+  });
   when_resized(node, build);
   when_colors_change(() => plot && build(plot.width));
   return { node, set(change) { Object.assign(state, change); if (plot) build(plot.width); } };
@@ -124,27 +134,32 @@ function between_colors(list, t) {
 const diverging = () => ["low-2", "low-1", "zero", "high-1", "high-2"].map(color);
 const sequential = () => ["zero", "rms-1", "rms-2"].map(color);
 
-/// Cells over theta_h (its axis as its square root, so that the peak is seen) and theta_d.
-/// \param map  {theta_h_deg, theta_d_deg: edges, mean, rms: ln ratios or null, count}
-/// \param text  what the picture shows, in words
-function heat_map(map, text) {
-  const nh = map.theta_h_deg.length - 1, nd = map.theta_d_deg.length - 1;
+/// An axis of a map: {edges [°], …how it is drawn}.  theta_h grows as its square root: the peak is seen.
+function map_axis(name, edges) {
+  const root = name === "theta_h";
+  const label = { theta_h: "θ_h [°], half-vector angle (axis grows as √θ_h)", theta_d: "θ_d [°], difference angle",
+                  theta_i: "θ_i [°], incident angle", theta_o: "θ_o [°], outgoing angle" }[name];
+  const even = [0, 15, 30, 45, 60, 75, 90];
+  return { name, edges, label, part: (deg) => (root ? Math.sqrt(deg / 90) : deg / 90), deg: (part) => 90 * (root ? part * part : part),
+           ticks: root ? [0, 0.5, 2, 5, 10, 20, 30, 45, 60, 90] : even, few: root ? [0, 2, 10, 30, 60, 90] : even };
+}
+
+/// Cells over two angles, one of several layers at a time.
+/// \param layers  {name: {at(k): place on the scale in [0, 1], or null; colors: function to a list, or
+///                 color(k); ticks: [[place, text]…]; label; ground: colour where nothing is}}, of cell
+///                 k = x · cells of y + y
+/// \param say(k)  what is at a cell   \param text  the picture in words
+/// Returns {node, set(name)}.
+function heat_map(x, y, layers, say, text) {
+  const nx = x.edges.length - 1, ny = y.edges.length - 1;
   const canvas = el("canvas", { class: "map", role: "img", tabindex: 0, "aria-label": text });
   const readout = el("div", { class: "readout", "aria-live": "polite" });
-  const state = { what: "mean", cell: null };
-
-  // The scale holds 95 % of the cells; the rest is shown as its ends.
-  const limit_of = (values) => {
-    const sizes = values.filter(known).map(Math.abs).sort((a, b) => a - b);
-    const most = sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0;
-    return Math.log([1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 3, 5, 10, 30, 100, 1000].find((f) => Math.log(f) >= most) ?? 1e4);
-  };
-  const limits = { mean: limit_of(map.mean), rms: limit_of(map.rms) };
+  const state = { layer: Object.values(layers)[0], cell: null };
 
   const box = { left: 46, top: 8, right: 10, bottom: 84 };
   let width = 0, height = 0;
-  const x_of = (theta_h) => box.left + (width - box.left - box.right) * Math.sqrt(theta_h / 90);
-  const y_of = (theta_d) => height - box.bottom - (height - box.bottom - box.top) * (theta_d / 90);
+  const x_of = (deg) => box.left + (width - box.left - box.right) * x.part(deg);
+  const y_of = (deg) => height - box.bottom - (height - box.bottom - box.top) * y.part(deg);
 
   function draw() {
     const scale = devicePixelRatio || 1;
@@ -155,18 +170,20 @@ function heat_map(map, text) {
     const g = canvas.getContext("2d");
     g.scale(scale, scale);
     g.font = plot_font;
-    const limit = limits[state.what], values = map[state.what];
-    const colors = state.what === "mean" ? diverging() : sequential();
-    const paint = (v) => between_colors(colors, state.what === "mean" ? 0.5 + v / limit / 2 : v / limit);
+    const layer = state.layer, colors = layer.colors?.();
     const [x0, x1, y0, y1] = [x_of(0), x_of(90), y_of(0), y_of(90)];
 
-    for (let h = 0; h < nh; ++h)
-      for (let d = 0; d < nd; ++d) {
-        const v = values[h * nd + d];
-        if (v === null) continue;
-        const [l, r] = [Math.round(x_of(map.theta_h_deg[h])), Math.round(x_of(map.theta_h_deg[h + 1]))];
-        const [t, b] = [Math.round(y_of(map.theta_d_deg[d + 1])), Math.round(y_of(map.theta_d_deg[d]))];
-        g.fillStyle = paint(v);
+    if (layer.ground) {
+      g.fillStyle = color(layer.ground);
+      g.fillRect(x0, y1, x1 - x0, y0 - y1);
+    }
+    for (let i = 0; i < nx; ++i)
+      for (let j = 0; j < ny; ++j) {
+        const k = i * ny + j, at = layer.at(k);
+        if (at === null) continue;
+        const [l, r] = [Math.round(x_of(x.edges[i])), Math.round(x_of(x.edges[i + 1]))];
+        const [t, b] = [Math.round(y_of(y.edges[j + 1])), Math.round(y_of(y.edges[j]))];
+        g.fillStyle = layer.color ? layer.color(k) : between_colors(colors, at);
         g.fillRect(l, t, r - l, b - t);
       }
     g.strokeStyle = color("rule");
@@ -175,14 +192,14 @@ function heat_map(map, text) {
     g.fillStyle = color("muted");
     g.textAlign = "center";
     g.textBaseline = "top";
-    for (const t of width > 520 ? [0, 0.5, 2, 5, 10, 20, 30, 45, 60, 90] : [0, 2, 10, 30, 60, 90]) {
+    for (const t of width > 520 ? x.ticks : x.few) {
       g.fillRect(Math.round(x_of(t)), y0, 1, 4);
       g.fillText(String(t), x_of(t), y0 + 7);
     }
-    g.fillText("θ_h [°], half-vector angle (axis grows as √θ_h)".slice(0, width > 420 ? 99 : 7), (x0 + x1) / 2, y0 + 22);
+    g.fillText(x.label.slice(0, width > 420 ? 99 : 7), (x0 + x1) / 2, y0 + 22);
     g.textAlign = "right";
     g.textBaseline = "middle";
-    for (const t of [0, 15, 30, 45, 60, 75, 90]) {
+    for (const t of y.ticks) {
       g.fillRect(x0 - 4, Math.round(y_of(t)), 4, 1);
       g.fillText(String(t), x0 - 7, y_of(t));
     }
@@ -190,72 +207,65 @@ function heat_map(map, text) {
     g.translate(9, (y0 + y1) / 2);
     g.rotate(-Math.PI / 2);
     g.textAlign = "center";
-    g.fillText("θ_d [°], difference angle", 0, 0);
+    g.fillText(y.label, 0, 0);
     g.restore();
 
     // Legend
     const [lx, lw, ly] = [x0, Math.min(360, x1 - x0), height - 33];
-    const low = state.what === "mean" ? -limit : 0;
+    const scale_colors = colors ?? ["#000000", "#ffffff"];
     for (let i = 0; i < lw; ++i) {
-      g.fillStyle = paint(low + (limit - low) * (i + 0.5) / lw);
+      g.fillStyle = between_colors(scale_colors, (i + 0.5) / lw);
       g.fillRect(lx + i, ly, 1.5, 10);
     }
     g.fillStyle = color("muted");
     g.textBaseline = "top";
-    const ticks = state.what === "mean"
-      ? lw < 300 ? [-limit, 0, limit] : [-limit, -limit / 2, 0, limit / 2, limit]
-      : [0, limit / 2, limit];
-    ticks.forEach((t, i) => {
-      g.textAlign = i === 0 ? "left" : i === ticks.length - 1 ? "right" : "center";
-      const more = Math.abs(t) === limit ? (t < 0 ? "≤ " : "≥ ") : "";
-      g.fillText(more + ratio(t), lx + lw * (t - low) / (limit - low), ly + 14);
+    const ticks = lw < 300 && layer.ticks.length > 3 ? layer.ticks.filter((_, i) => i % 2 === 0) : layer.ticks;
+    ticks.forEach(([at, name]) => {
+      g.textAlign = at < 0.05 ? "left" : at > 0.95 ? "right" : "center";
+      g.fillText(name, lx + lw * at, ly + 14);
     });
     if (x1 - x0 > 620) {
       g.textAlign = "left";
       g.textBaseline = "middle";
-      g.fillText(state.what === "mean" ? "model/data, geometric mean of the cell" : "typical factor between model and data",
-                 lx + lw + 16, ly + 5);
+      g.fillText(layer.label, lx + lw + 16, ly + 5);
     }
     if (state.cell) {
-      const [h, d] = state.cell;
+      const [i, j] = state.cell;
       g.strokeStyle = color("ink");
       g.lineWidth = 1.5;
-      g.strokeRect(x_of(map.theta_h_deg[h]), y_of(map.theta_d_deg[d + 1]),
-        x_of(map.theta_h_deg[h + 1]) - x_of(map.theta_h_deg[h]), y_of(map.theta_d_deg[d]) - y_of(map.theta_d_deg[d + 1]));
+      g.strokeRect(x_of(x.edges[i]), y_of(y.edges[j + 1]), x_of(x.edges[i + 1]) - x_of(x.edges[i]), y_of(y.edges[j]) - y_of(y.edges[j + 1]));
     }
   }
-  function say() {
+  function tell() {
     if (!state.cell) {
       readout.replaceChildren(el("span", { class: "hint" }, "Point at a cell, or move with the arrow keys, to read it."));
       return;
     }
-    const [h, d] = state.cell, k = h * nd + d;
-    const from_to = (edges, i) => `${plain(edges[i], 3)}–${plain(edges[i + 1], 3)}°`;
-    readout.replaceChildren(angle_name("theta_h"), ` ${from_to(map.theta_h_deg, h)}, `, angle_name("theta_d"), ` ${from_to(map.theta_d_deg, d)}: `,
-      ...(map.count[k] === 0 ? ["no valid values"]
-        : [el("b", {}, `model/data ${ratio(map.mean[k])}`), `, RMS ×/÷ ${ratio(map.rms[k]).slice(1)}, ${count(map.count[k])} values`]));
+    const [i, j] = state.cell;
+    const from_to = (edges, n) => `${plain(edges[n], 3)}–${plain(edges[n + 1], 3)}°`;
+    readout.replaceChildren(angle_name(x.name), ` ${from_to(x.edges, i)}, `, angle_name(y.name), ` ${from_to(y.edges, j)}: `, ...say(i * ny + j));
   }
-  const point_at = (cell) => { state.cell = cell; draw(); say(); };
+  const point_at = (cell) => { state.cell = cell; draw(); tell(); };
   canvas.addEventListener("pointermove", (e) => {
-    const r = canvas.getBoundingClientRect(), x = e.clientX - r.left, y = e.clientY - r.top;
-    const u = (x - x_of(0)) / (x_of(90) - x_of(0)), v = (y_of(0) - y) / (y_of(0) - y_of(90));
+    const r = canvas.getBoundingClientRect();
+    const u = (e.clientX - r.left - x_of(0)) / (x_of(90) - x_of(0)), v = (y_of(0) - e.clientY + r.top) / (y_of(0) - y_of(90));
     if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return point_at(null);
     const find = (edges, a) => edges.findLastIndex((e) => e <= a);
-    point_at([Math.min(nh - 1, find(map.theta_h_deg, 90 * u * u)), Math.min(nd - 1, find(map.theta_d_deg, 90 * v))]);
+    point_at([Math.min(nx - 1, find(x.edges, x.deg(u))), Math.min(ny - 1, find(y.edges, y.deg(v)))]);
   });
   canvas.addEventListener("pointerleave", () => point_at(null));
   canvas.addEventListener("keydown", (e) => {
     const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[e.key];
     if (!step) return;
     e.preventDefault();
-    const [h, d] = state.cell ?? [0, 0];
-    point_at([Math.min(nh - 1, Math.max(0, h + step[0])), Math.min(nd - 1, Math.max(0, d + step[1]))]);
+    const [i, j] = state.cell ?? [0, 0];
+    point_at([Math.min(nx - 1, Math.max(0, i + step[0])), Math.min(ny - 1, Math.max(0, j + step[1]))]);
   });
   const node = el("div", {}, canvas, readout);
   when_resized(node, (w) => { width = w; draw(); });
   when_colors_change(() => width && draw());
-  say();
-  return { node, set(what) { state.what = what; draw(); } };
+  tell();
+  return { node, set(name) { state.layer = layers[name]; draw(); } };
 }
 
 /// An interval around a value on a common scale of relative distance; truth as a tick.

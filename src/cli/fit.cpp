@@ -2,7 +2,6 @@
 #include "fitting/fit.h"
 
 #include <cmath>
-#include <filesystem>
 
 #include "base/file.h"
 #include "cli/command.h"
@@ -71,8 +70,7 @@ Exit run(const Options& o) {
   const std::string& file = o.files[0];
 
   // Opened first: nobody waits for a fit to learn that its result has no place.
-  const std::string data_path =
-      o.html.empty() ? "" : std::filesystem::path(o.html).replace_extension(".page.json").string();
+  const std::string data_path = page_data_path(o.html);
   check_outputs({file}, {o.output, o.html, data_path});
   std::optional<OutputFile> document, page, page_data;
   if (!o.output.empty()) document.emplace(o.output);

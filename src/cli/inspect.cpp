@@ -1,8 +1,10 @@
 // gonio inspect: what a table is and what it can be trusted for.
 #include <cmath>
 
+#include "base/file.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "reports/inspect_page.h"
 #include "table/formats.h"
 #include "table/health.h"
 
@@ -10,17 +12,9 @@ namespace gonio::cli {
 namespace {
 
 struct Options : Common {
-  std::string file;
+  std::string file, html;
   std::optional<std::string> bins;
 };
-
-std::string layout(const Table& t) {
-  const Grid* g = t.grid();
-  if (!g) return fmt::format("{} samples", t.size());
-  std::string s;
-  for (const auto& a : g->axes) s += fmt::format("{}{} {}", s.empty() ? "" : " × ", a.size, a.name);
-  return s;
-}
 
 double percent(std::size_t part, std::size_t whole) {
   return whole ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0;
@@ -40,7 +34,7 @@ void print(const Table& t, const Health& h) {
   };
   line("file", t.path);
   line("layout",
-       fmt::format("{}, {}, channels {}", t.format, layout(t), fmt::join(t.channels, " ")));
+       fmt::format("{}, {}, channels {}", t.format, layout_text(t), fmt::join(t.channels, " ")));
   line("values",
        fmt::format("{} of {} valid ({:.1f} %)", h.valid, h.values, percent(h.valid, h.values)));
   for (std::size_t m = 1; m < mask_names.size(); ++m)
@@ -99,14 +93,31 @@ void print(const Table& t, const Health& h) {
 
 Exit run(const Options& o) {
   use_jobs(o.jobs);
+  const std::string data_path = page_data_path(o.html);
+  check_outputs({o.file}, {o.html, data_path});
+  std::optional<OutputFile> page, page_data;
+  if (!o.html.empty()) {
+    page.emplace(o.html);
+    page_data.emplace(data_path);
+  }
   Progress progress(o.quiet);
   progress("reading " + o.file);
   const Table t = read_table(o.file, bins_from(o.bins));
   progress("inspecting");
   const Health h = inspect(t);
+  const std::string json = to_json(t, h);
+  if (page) {
+    progress("making the page");
+    const std::string data = to_json(make_inspect_page(t), json);
+    page->write(inspect_page_html(o.file, data));
+    page_data->write(data + "\n");
+    for (auto* f : {&page_data, &page})
+      (*f)->close();  // both whole before the first takes its name
+    for (auto* f : {&page_data, &page}) (*f)->commit();
+  }
   progress.clear();
   if (o.json)
-    fmt::print("{}\n", to_json(t, h));
+    fmt::print("{}\n", json);
   else
     print(t, h);
   return Exit::done;
@@ -117,9 +128,11 @@ Exit run(const Options& o) {
 void add_inspect(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
   auto* c = add_command(app, action, "inspect", "What a table holds and what it can be trusted for",
-                        "gonio inspect paint.binary", o, run);
+                        "gonio inspect paint.binary --html paint.html", o, run);
   c->add_option("FILE", o->file, "MERL, MBSDF, CSV or OpenEXR slice; found from the bytes")
       ->required();
+  c->add_option("--html", o->html,
+                "A page of the table, NAME.html, and its data beside it, NAME.page.json");
   add_bins(c, o->bins);
   add_jobs(c, *o);
   add_output(c, *o);

@@ -44,6 +44,10 @@ void add_jobs(CLI::App* c, Common& o) {
   c->add_option("--jobs,-j", o.jobs, "Threads (default: all)")->check(CLI::Range(1, 4096));
 }
 
+std::string page_data_path(const std::string& html) {
+  return html.empty() ? "" : std::filesystem::path(html).replace_extension(".page.json").string();
+}
+
 void check_outputs(const std::vector<std::string>& inputs,
                    const std::vector<std::string>& outputs) {
   namespace fs = std::filesystem;

@@ -1,6 +1,7 @@
 #include "table/directional_albedo.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -54,10 +55,10 @@ double largest_share(const std::vector<HemisphereNode>& nodes,
   return share;
 }
 
-std::vector<AlbedoSample> of_function(const Table& t) {
-  std::vector<AlbedoSample> all(6);
+std::vector<AlbedoSample> of_function(const Table& t, double step_deg) {
+  std::vector<AlbedoSample> all(static_cast<std::size_t>(std::ceil(90 / step_deg)));
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
-    all[k] = directional_albedo(t, 15 * static_cast<double>(k));
+    all[k] = directional_albedo(t, step_deg * static_cast<double>(k));
   });
   return all;
 }
@@ -114,12 +115,16 @@ AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
   });
 }
 
-std::vector<AlbedoSample> directional_albedo(const Table& t) {
-  if (t.between) return of_function(t);
+std::vector<AlbedoSample> albedo_curve(const Table& t, double step_deg) {
+  if (t.between) return of_function(t, step_deg);
   if (t.list()) return of_list(t);
   const bool slice = std::ranges::any_of(
       t.grid()->axes, [](const Axis& a) { return a.spacing == Axis::Spacing::constant; });
-  return slice ? std::vector<AlbedoSample>{} : of_function(t);
+  return slice ? std::vector<AlbedoSample>{} : of_function(t, step_deg);
+}
+
+std::vector<AlbedoSample> directional_albedo(const Table& t) {
+  return albedo_curve(t, 15);
 }
 
 }  // namespace gonio

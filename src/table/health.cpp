@@ -100,6 +100,14 @@ std::size_t copied_rows(const Table& t, std::size_t axis) {
   return copies;
 }
 
+std::string layout_text(const Table& t) {
+  const Grid* g = t.grid();
+  if (!g) return fmt::format("{} samples", t.size());
+  std::string s;
+  for (const auto& a : g->axes) s += fmt::format("{}{} {}", s.empty() ? "" : " × ", a.size, a.name);
+  return s;
+}
+
 std::string peak_in_words(const Highlight& p) {
   std::string s = fmt::format(
       "half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} sample{} within: ", p.half_width_deg,

@@ -82,6 +82,9 @@ std::vector<std::size_t> first_of_copies(const Table&, std::size_t axis = 0);
 /// How many angles are not the first of their run.
 std::size_t copied_rows(const Table&, std::size_t axis = 0);
 
+/// "45 theta_i × 45 theta_o × 90 phi", "855 samples"
+std::string layout_text(const Table&);
+
 /// What `gonio inspect --json` prints.
 std::string to_json(const Table&, const Health&);
 

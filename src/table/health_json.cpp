@@ -42,6 +42,7 @@ std::string to_json(const Table& t, const Health& h) {
   return text_of(
       {{"path", t.path},
        {"format", t.format},
+       {"layout", layout_text(t)},
        {"channels", t.channels},
        {"samples", h.samples},
        {"values", h.values},

@@ -64,45 +64,51 @@ Pairs of_list(const DirectionList& l) {
   return only_own ? Pairs{} : pairs;
 }
 
-/// Against f between the samples, at some of them if there are many.
-Reciprocity by_function(const Table& t) {
+}  // namespace
+
+Partners for_each_reciprocal(const Table& t, const ReciprocalVisitor& visit) {
+  const Grid* g = t.grid();
+  const Pairs pairs = !g                                       ? of_list(*t.list())
+                      : g->kind == Grid::Kind::half_difference ? of_half_difference(*g)
+                                                               : of_in_out(*g);
   const SampleAngles at(t);
-  std::vector<double> errors;
+  for (const auto& [i, j] : pairs) {
+    const auto here = at(i), there = at(j);
+    for (std::size_t c = 0; c < t.values.size(); ++c) {
+      const double a = t.values[c][i], b = t.values[c][j];
+      if (mask(here, a) == Mask::valid && mask(there, b) == Mask::valid) visit(i, c, a, b);
+    }
+  }
+  if (!pairs.empty()) return Partners::samples;
+  if (!t.between) return Partners::none;
   for (std::size_t i = 0; i < t.size(); i += 1 + t.size() * t.values.size() / 100'000)
     for (std::size_t c = 0; c < t.values.size(); ++c) {
       const auto [wi, wo] = at.directions(i);
       const double a = t.values[c][i], b = t.between({wo, wi}, c);
-      if (mask(at(i), a) == Mask::valid && b >= 0)
-        errors.push_back(a + b > 0 ? std::abs(a - b) / ((a + b) / 2) : 0);
+      if (mask(at(i), a) == Mask::valid && b >= 0) visit(i, c, a, b);
     }
-  if (errors.empty()) return {{}, "no valid value has a valid partner"};
-  const auto note = fmt::format("median over {} values against f between samples", errors.size());
-  return {median(errors), note};
+  return Partners::between;
 }
 
-}  // namespace
+double reciprocity_error(double a, double b) {
+  return a + b > 0 ? std::abs(a - b) / ((a + b) / 2) : 0;
+}
 
 Reciprocity reciprocity(const Table& t) {
-  const Grid* g = t.grid();
-  const bool half = g && g->kind == Grid::Kind::half_difference;
-  const Pairs pairs = !g ? of_list(*t.list()) : half ? of_half_difference(*g) : of_in_out(*g);
-  if (pairs.empty() && t.between) return by_function(t);
-  if (pairs.empty())
+  std::vector<double> errors;
+  const Partners partners =
+      for_each_reciprocal(t, [&](std::size_t, std::size_t, double a, double b) {
+        errors.push_back(reciprocity_error(a, b));
+      });
+  if (partners == Partners::none) {
+    const bool half = t.grid() && t.grid()->kind == Grid::Kind::half_difference;
     return {
         {},
         half ? "the layout holds each reciprocal pair once" : "no sample has a reciprocal partner"};
-  const SampleAngles at(t);
-  std::vector<double> errors;
-  for (const auto& [i, j] : pairs) {
-    const auto here = at(i), there = at(j);
-    for (const auto& plane : t.values) {
-      const double a = plane[i], b = plane[j];
-      if (mask(here, a) == Mask::valid && mask(there, b) == Mask::valid)
-        errors.push_back(a + b > 0 ? std::abs(a - b) / ((a + b) / 2) : 0);
-    }
   }
   if (errors.empty()) return {{}, "no valid value has a valid partner"};
-  const auto note = fmt::format("median over {} values", errors.size());
+  const auto note = fmt::format("median over {} values{}", errors.size(),
+                                partners == Partners::between ? " against f between samples" : "");
   return {median(errors), note};
 }
 

@@ -221,6 +221,23 @@ TEST(Program, LeavesNothingWhenItIsInterrupted) {
   }
 }
 
+TEST(Program, InspectMakesAPageAndItsData) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout in_plane --noise 0.02 -o p.csv").code, 0);
+  const auto o = gonio(f, "inspect p.csv --html p.html --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NEAR(o.json()["noise"]["sigma"], 0.02, 0.004);
+  EXPECT_EQ(o.json()["prospects"][0]["verdict"], "yes");
+  EXPECT_NE(read_bytes(f / "p.html").find("<html"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(read_bytes(f / "p.page.json"))["health"], o.json());
+  EXPECT_NE(gonio(f, "inspect p.csv").out.find("what a fit can hope to determine"), std::string::npos);
+  const std::size_t before = f.entries();
+  expect_one_line(gonio(f, "inspect p.csv --html p.csv"), 2, "p.csv");
+  expect_one_line(gonio(f, "inspect missing --html q.html"), 3, "missing");
+  expect_one_line(gonio(f, "inspect p.csv --html no/such/q.html"), 3, "writing");
+  EXPECT_EQ(f.entries(), before);
+}
+
 TEST(Program, SaysWhenStandardOutputCannotBeWritten) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full, which is not here";
   EXPECT_EQ(WEXITSTATUS(std::system("'" GONIO_PROGRAM "' models --json >/dev/full 2>/dev/null")),

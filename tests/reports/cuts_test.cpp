@@ -63,6 +63,15 @@ TEST(Cuts, OfHalfAnglesFollowTheModelToTheirInterpolation) {
   }
 }
 
+TEST(Cuts, WithoutAModelAreTheDataAlone) {
+  const Table t = test::filled(test::in_out_grid(), glossy());
+  const auto with = make_cuts(t, glossy()), without = make_cuts(t);
+  ASSERT_EQ(without.size(), with.size());
+  EXPECT_TRUE(without[1].model.empty());
+  EXPECT_EQ(without[1].deg.size(), 2U * 17 - 1);
+  EXPECT_EQ(points(without[1].data[2]), points(with[1].data[2]));
+}
+
 TEST(Cuts, MirrorSideIsPositive) {
   const auto cuts = make_cuts(test::filled(test::in_out_grid(), glossy(0)), glossy(0));
   const Cut& at_60 = cuts[3];
