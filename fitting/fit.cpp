@@ -268,6 +268,11 @@ std::vector<std::string> warnings(const FitOptions& o,
         "{} incident angles are few for {} unknowns: errors that the values of one angle share "
         "make the intervals too narrow",
         angles, free));
+  if (const auto retro = retro_peak(t))
+    all.push_back(
+        fmt::format("the highlight ({:.3g} 1/sr) sits at wo = wi and not at the half vector: a "
+                    "microfacet lobe cannot describe it",
+                    retro->height));
   if (const std::size_t copies = copied_rows(t))
     all.push_back(
         fmt::format("{} of the table's incident angles repeat another value for value: no "

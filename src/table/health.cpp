@@ -158,7 +158,7 @@ Health inspect(const Table& t) {
     else if (std::abs(p.bin_sensitivity.value_or(0)) > 0.1)
       p.limit = PeakLimit::bins;
   }
-  h.retro = retro_peak(t, search.peak);
+  h.retro = retro_peak(t);
   h.prospects = prospects(t, h);
   return h;
 }

@@ -221,16 +221,33 @@ TEST(Program, LeavesNothingWhenItIsInterrupted) {
   }
 }
 
+TEST(Program, SaysThatAMicrofacetLobeCannotFitRetroReflection) {
+  const Folder f;
+  std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";
+  for (int in = 10; in <= 60; in += 5)
+    for (int out = -80; out <= 80; out += 1) {
+      const double off = (out + in) / 3.0;  // −in: back to the light
+      csv += std::to_string(in) + ",0," + std::to_string(std::abs(out)) +
+             (out < 0 ? ",0," : ",180,") + std::to_string(0.1 + 2 / (1 + off * off)) + "\n";
+    }
+  f.write("retro.csv", csv);
+  const auto d = gonio(f, "fit retro.csv --json").json();
+  EXPECT_NE(d["warnings"].dump().find("sits at wo = wi"), std::string::npos) << d["warnings"];
+  EXPECT_NE(gonio(f, "inspect retro.csv").out.find("sits at wo = wi"), std::string::npos);
+}
+
 TEST(Program, InspectMakesAPageAndItsData) {
   const Folder f;
-  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout in_plane --noise 0.02 -o p.csv").code, 0);
+  ASSERT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout in_plane --noise 0.02 -o p.csv").code, 0);
   const auto o = gonio(f, "inspect p.csv --html p.html --json");
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_NEAR(o.json()["noise"]["sigma"], 0.02, 0.004);
   EXPECT_EQ(o.json()["prospects"][0]["verdict"], "yes");
   EXPECT_NE(read_bytes(f / "p.html").find("<html"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(read_bytes(f / "p.page.json"))["health"], o.json());
-  EXPECT_NE(gonio(f, "inspect p.csv").out.find("what a fit can hope to determine"), std::string::npos);
+  EXPECT_NE(gonio(f, "inspect p.csv").out.find("what a fit can hope to determine"),
+            std::string::npos);
   const std::size_t before = f.entries();
   expect_one_line(gonio(f, "inspect p.csv --html p.csv"), 2, "p.csv");
   expect_one_line(gonio(f, "inspect missing --html q.html"), 3, "missing");
