@@ -79,7 +79,8 @@ std::string resolve_base_color(std::string spec, std::vector<Setting>& settings)
 /// Names that stand for others: roughness, f0 of a dielectric, metal.
 void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
   for (auto& s : settings) {
-    const auto [name, ending] = split_ending(s.name);
+    const auto parts = split_ending(s.name);
+    const auto &name = parts.first, &ending = parts.second;
     const auto replace = [&](const std::string& by, auto&& map) {
       if (find(settings, by + ending))
         throw wrong_usage(fmt::format("{} and {} are the same parameter", s.name, by + ending));

@@ -1,6 +1,8 @@
 #include "image/exr.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <exception>
 
 #include "base/error.h"
@@ -32,10 +34,40 @@ Image without_planes(const Imf::Header& header) {
   return image;
 }
 
+constexpr int kLargest = 1 << 14;  ///< width or height
+
+/// OpenEXR allocates what an attribute claims to be long, 2 GB in a file of 1 kB: each must fit in
+/// the file.
+void check_attributes(InputFile& in) {
+  const auto text = [&] {
+    std::string s;
+    for (char c = 0; in.read(&c, 1), c != '\0';) s += c;
+    return s;
+  };
+  std::array<std::uint32_t, 2> magic_and_version{};
+  in.read(magic_and_version.data(), sizeof magic_and_version);
+  if (magic_and_version[1] & 0x1000U)
+    throw bad_input(in.path(), "byte 4", "an image of several parts", "one part");
+  for (std::string name = text(); !name.empty(); name = text()) {
+    text();  // its type
+    std::int32_t size = 0;
+    in.read(&size, sizeof size);
+    if (size < 0 || static_cast<std::uint64_t>(size) > in.size() - in.position())
+      throw bad_input(in.path(), "attribute " + name, fmt::format("{} bytes", size),
+                      "as many as the file has");
+    std::string value(static_cast<std::size_t>(size), '\0');
+    in.read(value.data(), value.size());
+  }
+}
+
 /// read(file); what OpenEXR throws becomes bad_input.
 template <class Read>
 Image reading(const std::string& path, Read read) {
-  const InputFile exists(path);  // says plainly what is no file at all
+  InputFile in(path);  // says plainly what is no file at all
+  check_attributes(in);
+  // For rows and columns, too, it allocates on opening.
+  Imf::Header::setMaxImageSize(kLargest, kLargest);
+  Imf::Header::setMaxTileSize(kLargest, kLargest);
   try {
     Imf::InputFile file(path.c_str(), 1);
     return read(file);

@@ -19,6 +19,7 @@ struct Image {
 /// Channels are stored as 32-bit float, lossless compression.
 void write_exr(const std::string& path, const Image&);
 /// Any single-part scan line or tiled file; half and integer channels are widened.
+/// At most 16384 pixels wide or high.
 /// \param most  pixels × channels; an image with more is refused before anything is allocated
 /// \param only  the channels to read, in this order; empty: all.  One that the file lacks is refused
 Image read_exr(const std::string& path,

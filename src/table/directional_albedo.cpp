@@ -75,7 +75,8 @@ std::vector<AlbedoSample> of_list(const Table& t) {
       groups[{l.theta_i_deg[i], l.phi_i_deg[i]}].push_back(i);
   const SampleAngles at(t);
   std::vector<AlbedoSample> all;
-  for (const auto& [incident, samples] : groups) {
+  for (const auto& [incident, group] : groups) {
+    const auto& samples = group;  // clang 14 lets no lambda have a structured binding
     if (samples.size() < fewest) continue;
     std::vector<Direction> wo;
     for (const auto i : samples) wo.push_back(at.directions(i).wo);

@@ -83,6 +83,28 @@ TEST(Exr, RefusesASmallFileThatClaimsManyChannels) {
   }
 }
 
+TEST(Exr, RefusesAnAttributeLongerThanTheFile) {
+  const Folder folder;
+  Image image;
+  image.width = image.height = 1;
+  image.channels = {"Y"};
+  image.planes = {{0.5F}};
+  image.attributes["note"] = "four";
+  write_exr(folder / "a.exr", image);
+  std::string bytes = test::read_bytes(folder / "a.exr");
+  const auto at = bytes.find("four");
+  ASSERT_NE(at, bytes.npos);
+  bytes.replace(at - 4, 4, "\xff\xff\xff\x7f");
+  try {
+    read_exr(folder.write("b.exr", bytes));
+    FAIL() << "2 GB from a file of 400 bytes";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("attribute note: found 2147483647 bytes"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
 TEST(Exr, SaysWhereItCannotWriteAndLeavesNothing) {
   const Folder folder;
   EXPECT_THROW(write_exr(folder / "none/such", example()), Error);

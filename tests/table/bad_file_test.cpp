@@ -1,26 +1,12 @@
 // Files that are not what they claim: one error that says so, and never anything else.
-#include "base/error.h"
+#include "complaint.h"
 #include "example.h"
 #include "image/exr.h"
-#include "support.h"
 
 namespace gonio {
 namespace {
 
 using namespace test;
-
-/// What reading says; "" if it reads.
-std::string complaint(const std::string& path) {
-  try {
-    read_table(path);
-    return "";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), Exit::bad_input);
-    return e.what();
-  }
-}
-#define EXPECT_COMPLAINT(path, part) \
-  EXPECT_NE(complaint(path).find(part), std::string::npos) << "instead: " << complaint(path)
 
 TEST(ReadTable, NamesWhatIsNoFile) {
   const Folder folder;
@@ -168,37 +154,6 @@ TEST(SideFile, ShowsNoControlCharactersOfItsKeys) {
   write_table(mbsdf_example(2, 3), folder / "m");
   folder.write("m.gonio.json", R"({"schema":"gonio.table/1","notes":{"\n\u001b[31m":1}})");
   EXPECT_COMPLAINT(folder / "m", "notes.\\x0a\\x1b[31m: found 1, expected a string");
-}
-
-TEST(ReadTable, EitherReadsOrRefusesDamagedFiles) {
-  const Folder folder;
-  std::mt19937_64 random(11);
-  std::vector<std::string> originals;
-  for (const Table& t : {mbsdf_example(3, 5), slice_example(), csv_example()}) {
-    write_table(t, folder / "t");
-    originals.push_back(read_bytes(folder / "t"));
-  }
-  originals.push_back(merl_header(90, 90, 180) + std::string(1000, 'x'));
-  for (const auto& original : originals) {
-    for (int round = 0; round < 400; ++round) {
-      std::string bytes = original;
-      for (auto flips = random() % 4; flips > 0; --flips)
-        bytes[random() % (round % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 64))] =
-            static_cast<char>(random());
-      if (round % 3 == 0) bytes.resize(random() % bytes.size());
-      complaint(folder.write("damaged", bytes));  // any other exception fails the test
-    }
-  }
-}
-
-TEST(ReadTable, RefusesEveryTruncation) {
-  const Folder folder;
-  for (const Table& t : {mbsdf_example(3, 5), slice_example()}) {
-    write_table(t, folder / "t");
-    const std::string bytes = read_bytes(folder / "t");
-    for (std::size_t n = 0; n < bytes.size(); n += 1 + bytes.size() / 300)
-      EXPECT_NE(complaint(folder.write("cut", bytes.substr(0, n))), "") << t.format << " at " << n;
-  }
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+// Any bytes given to one reader: it reads them or says bad_input, and nothing else happens.
+#include <cstdint>
+#include <cstdlib>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "table/formats.h"
+#include "table/metadata.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace {
+
+using namespace gonio;
+
+Table read(InputFile& in) {
+#if defined(GONIO_FUZZ_merl)
+  return read_merl(in);
+#elif defined(GONIO_FUZZ_mbsdf)
+  return read_mbsdf(in);
+#elif defined(GONIO_FUZZ_csv)
+  return read_csv(in);
+#elif defined(GONIO_FUZZ_exr)
+  return read_exr_slice(in.path());
+#elif defined(GONIO_FUZZ_rgl)
+  return read_rgl(in);
+#elif defined(GONIO_FUZZ_klems)
+  return read_klems(in);
+#elif defined(GONIO_FUZZ_alta)
+  return read_alta(in);
+#elif defined(GONIO_FUZZ_side)
+  const std::string text = in.read_rest();
+  column_map("side", text);
+  Table t;
+  t.where = mbsdf_grid(1, 2, Bins::centre);
+  t.channels = {"f"};
+  t.values.emplace_back(2, 0.5);
+  apply_metadata(t, "side", text);
+  return t;
+#endif
+}
+
+/// What every user of a table asks of it.
+void use(const Table& t) {
+  const SampleAngles at(t);
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto a = at(i);
+    for (const auto& plane : t.values) valid += mask(a, plane[i]) == Mask::valid;
+  }
+  if (valid > t.size() * t.values.size()) std::abort();
+  const Interpolator f(t);
+  for (const double theta : {0.0, 0.7, 1.5})
+    for (const double phi : {-3.1, 0.0, 2.0})
+      for (std::size_t c = 0; c < t.values.size(); ++c)
+        f({direction(theta, phi), direction(theta + 0.05, -phi)}, c);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const int file = ::memfd_create("input", 0);
+  static const std::string path = "/proc/self/fd/" + std::to_string(file);
+  if (::ftruncate(file, 0) != 0 || ::pwrite(file, data, size, 0) != static_cast<ssize_t>(size))
+    std::abort();
+  try {
+    InputFile in(path);
+    use(read(in));
+  } catch (const Error& e) {
+    if (e.code() != Exit::bad_input || std::string(e.what()).find('\n') != std::string::npos)
+      std::abort();
+  }
+  return 0;
+}

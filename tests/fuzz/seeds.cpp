@@ -1,0 +1,76 @@
+// gonio_fuzz_seeds DIR: for each reader small files that it reads, to begin from.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "table/example.h"
+#include "table/foreign.h"
+#include "table/formats.h"
+#include "table/metadata.h"
+
+namespace {
+
+using namespace gonio;
+using namespace gonio::test;
+
+std::filesystem::path folder;
+
+std::string place(const std::string& reader, const std::string& name) {
+  std::filesystem::create_directories(folder / reader);
+  return (folder / reader / name).string();
+}
+void save(const std::string& reader, const std::string& name, const std::string& bytes) {
+  std::ofstream(place(reader, name), std::ios::binary) << bytes;
+}
+
+double f(const DirectionPair& p, std::size_t channel) {
+  return 0.1 * static_cast<double>(channel + 1) + 0.05 * p.wi.x * p.wo.x;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: gonio_fuzz_seeds DIR\n", stderr);
+    return 2;
+  }
+  folder = argv[1];
+  save("merl", "header", bytes_of(std::array<std::int32_t, 3>{90, 90, 180}));
+  write_table(mbsdf_example(2, 3), place("mbsdf", "rgb"));
+  Table csv = csv_example();
+  write_table(csv, place("csv", "weights"));
+  save("csv", "plain", "theta_i,phi_i,theta_o,phi_o,f\r\n30,0,28,180,0.412\r\n30,0,10,0,nan\r\n");
+  Table slice = slice_example();
+  slice.truth = truth_example();
+  write_table(slice, place("exr", "slice"));
+  RglFile rgl{.size = 3, .f = f};
+  save("rgl", "rgb", rgl.bytes());
+  rgl.wavelengths = {400, 700};
+  rgl.theta_i = {0, 1};
+  rgl.phi_i = {-3, -1.5F, 0, 1.5F, 3};
+  save("rgl", "spectral", rgl.bytes());
+  save("klems", "small", KlemsFile{.rings = {{0, 30, 1}, {30, 90, 2}}, .f = f}.bytes());
+  save("klems", "rows",
+       KlemsFile{.rings = {{0, 90, 1}}, .columns = false, .directions = {"Reflection Back"}, .f = f}
+           .bytes());
+  for (const auto& [name, size] :
+       std::initializer_list<std::pair<const char*, std::size_t>>{{"ISOTROPIC_TL_TV_PROJ_DPHI", 3},
+                                                                  {"SPHERICAL_TL_PL_TV_PV", 4},
+                                                                  {"RUSIN_TH_TD_PD", 3},
+                                                                  {"COS_TH_TD", 2}})
+    save("alta", name,
+         alta_file(name, "INV_STERADIAN_COSINE_FACTOR", size, 1,
+                   {std::vector<double>(size + 1, 0.3), std::vector<double>(size + 1, 0.7)}));
+  save("alta", "binary",
+       "#FORMAT binary\n#SAMPLE_COUNT 1\n#ENDIAN little\n#DIM 2 1\n#VS 0\n#PARAM_IN "
+       "ISOTROPIC_TV_TL\n"
+       "#PARAM_OUT INV_STERADIAN\n#BEGIN_STREAM\n" +
+           bytes_of(std::array<double, 3>{0.1, 0.2, 0.3}));
+  Table t = mbsdf_example(1, 2);
+  t.truth = truth_example();
+  t.notes = {{"a", "b"}};
+  save("side", "truth", metadata_text(t));
+  save("side", "columns", with_columns("side", "", ColumnMap{}));
+  return 0;
+}
