@@ -23,6 +23,7 @@ target_compile_features(gonio_flags INTERFACE cxx_std_20)
 target_compile_options(gonio_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Wold-style-cast
   -ffp-contract=off             # the same bits for a scalar and for a lane of a batch
+  -fno-math-errno               # nobody asks errno after a square root, and loops with one can be vectors
   # g++ 12 raises these for std::string code that is fine
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-array-bounds -Wno-stringop-overflow>
   $<$<CONFIG:Release>:-O3>

@@ -4,6 +4,7 @@
 /// the same sums whatever the number of threads.
 
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -37,36 +38,51 @@ struct NormalEquations {
   double cost = 0;        ///< ½ Σ ρ(r²)
 };
 
-/// The parts of the sandwich (bread)⁻¹ meat (bread)⁻¹.
-struct Sandwich {
-  Matrix bread;  ///< Σ j jᵀ over the residuals that the robust loss does not clip
-  Matrix meat;   ///< Σ s sᵀ, s = ρ' r j: of each value, or summed over each cluster first
+/// Residuals beyond it count linearly.
+inline constexpr double no_huber = std::numeric_limits<double>::max();
+
+/// The sums of [r, J]ᵀ[r, J] of one channel: lanes during a task, added up after it.
+template <class F>
+class GramSums {
+ public:
+  F* lanes() { return lanes_.data(); }
+  double entry(std::size_t e) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < padding; ++i) sum += static_cast<double>(lanes_[e * padding + i]);
+    return sum;
+  }
+  /// Adds the part of J (and of r to g, unless that is null) where it belongs.
+  /// \param free  the position among n unknowns of each column of J
+  void scatter(const std::vector<std::size_t>& free,
+               std::size_t n,
+               Matrix& h,
+               std::vector<double>* g) const;
+
+ private:
+  static constexpr std::size_t most = max_columns * (max_columns + 1) / 2;
+  alignas(64) std::array<F, most * padding> lanes_{};
 };
 
-/// What is minimised: ½ Σ ρ(w² residual(f, y)²) over all valid values.
-struct Objective {
-  Metric metric = Metric::log;
-  double huber = std::numeric_limits<double>::max();  ///< max: plain least squares
-};
-
+/// One pass is one evaluation of the model with its derivatives at every sample.
+template <class F>
 class Accumulator {
  public:
-  /// Keeps references to all but the objective.
-  Accumulator(const Model& model, const FitData& data, const FreeSlots& free, Objective objective)
-      : model_(model), data_(data), free_(free), objective_(objective) {}
+  /// Keeps references.
+  Accumulator(const Model&, const FitData<F>&, const FreeSlots&, double huber = no_huber);
+  ~Accumulator();
 
   /// \param values  model.value_count of them
   NormalEquations normal_equations(std::span<const double> values) const;
-  /// \param by_incident_angle  whether scores are summed over each incident angle first
-  Sandwich sandwich(std::span<const double> values, bool by_incident_angle) const;
-  /// Weighted residuals of the valid values, channel after channel.
+  /// Weighted residuals of what is compared, task by task, channel by channel in each block.
   std::vector<double> residuals(std::span<const double> values) const;
 
  private:
+  struct Plans;
   const Model& model_;
-  const FitData& data_;
+  const FitData<F>& data_;
   const FreeSlots& free_;
-  Objective objective_;
+  F huber_;
+  std::unique_ptr<Plans> plans_;
 };
 
 }  // namespace gonio

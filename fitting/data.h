@@ -1,38 +1,39 @@
 #pragma once
 /// \file
-/// A table as the fit reads it: valid samples as columns, cosines ready.
+/// A table as the solver reads it: one column entry for each group of samples that a model cannot tell
+/// apart, cosines ready.
 
-#include <cstdint>
-#include <map>
-#include <string>
 #include <vector>
 
-#include "brdf/evaluate.h"
-#include "brdf/kernels.h"
-#include "table/table.h"
+#include "fitting/sampling.h"
 
 namespace gonio {
 
-/// A valid 0 stays in the columns: the kernels leave it out where the metric cannot use it.
-struct FitData {
-  AngleColumns<double> angles{0};
-  std::vector<Column<double>> y;        ///< [channel]; −1 where masked
-  Column<double> root_weight;           ///< √(weight over its mean); 0 in the padding
-  std::vector<std::uint32_t> incident;  ///< cluster of each sample: its incident angle
-  std::size_t clusters = 0;             ///< how many of them there are
-  Metric metric = Metric::log;
-  double offset = 0;  ///< of the log and relative metrics [1/sr]
+/// Σ w_k² (m − t_k)² over the members of a group is W² (m − T)² + rest with W² = Σ w_k² and
+/// T = Σ w_k² t_k / W²: what is minimised stays the same to the last bit but rounding.
+template <class F>
+struct FitBlock {
+  std::size_t n = 0;  ///< groups; a multiple of `padding` with masked ones at the end
+  Column<F> columns;  ///< five of angles, then target and weight of each channel
 
-  std::size_t values_used = 0;
-  std::map<std::string, std::size_t> masked;  ///< values left out, by reason
-
-  std::size_t samples() const { return angles.size(); }
+  Block<F> angles() const;
+  const F* target(std::size_t channel) const { return columns.data() + (5 + 2 * channel) * n; }
+  const F* weight(std::size_t channel) const { return target(channel) + n; }
 };
 
-/// Throws bad_input if nothing is left.
-FitData fit_data(const Table&, Bins, Metric, double offset);
+template <class F>
+struct FitData {
+  /// Blocks of a task: a fixed number, so that sums do not depend on threads.
+  std::vector<std::vector<FitBlock<F>>> tasks;
+  Link link = Link::log;
+  F offset = 0;     ///< the link's
+  double rest = 0;  ///< Σ rest: what no model can explain
+  std::size_t groups = 0;
+  SampleCounts counts;
+};
 
-/// Every k-th sample, so that about `most` remain.
-FitData thinned(const FitData&, std::size_t most);
+/// All groups, or about `most` of them, evenly spread.
+template <class F>
+FitData<F> fit_data(const Sampling&, std::size_t most = static_cast<std::size_t>(-1));
 
 }  // namespace gonio

@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "brdf/registry.h"
 #include "fitting/accumulate.h"
+#include "fitting/assess.h"
 #include "fitting/data.h"
-#include "fitting/residuals.h"
 #include "fitting/solve.h"
 #include "fitting/start.h"
 #include "fitting/uncertainty.h"
@@ -32,12 +32,14 @@ struct Problem {
   Bounds bounds;               ///< of the free slots
   std::vector<bool> narrowed;  ///< of the free slots: whether the user gave the bounds
   double offset;
+  double rounding = 0;  ///< of the cost of one value in float, see SolveOptions; 0: in double alone
 };
 
 struct Fitted {
   std::vector<double> values;
-  Objective objective;
+  double huber = no_huber;
   Solution solution;
+  bool in_float = false;  ///< whether that was enough
 };
 
 /// Milliseconds since the last call, under a name.
@@ -45,15 +47,21 @@ class Stopwatch {
  public:
   explicit Stopwatch(std::vector<std::pair<std::string, double>>& into) : into_(into) {}
   void lap(std::string name) {
-    const auto now = std::chrono::steady_clock::now();
-    into_.emplace_back(std::move(name),
-                       std::chrono::duration<double, std::milli>(now - last_).count());
-    last_ = now;
+    timespec ts;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &ts);
+    double now = ts.tv_sec * 1e3 + ts.tv_nsec / 1e6;
+    into_.emplace_back(std::move(name), now - last2_);
+    last2_ = now;
   }
 
  private:
   std::vector<std::pair<std::string, double>>& into_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  double last2_ = [] {
+    timespec ts;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &ts);
+    return ts.tv_sec * 1e3 + ts.tv_nsec / 1e6;
+  }();
 };
 
 /// The user's bounds by the names of the model's parameters.
@@ -112,46 +120,128 @@ Problem pose(const Table& t, const FitOptions& o) {
           noise_floor(t)};
 }
 
+template <class F>
 Fitted minimise(const Problem& p,
-                const FitData& data,
+                const FitData<F>& data,
                 std::vector<double> values,
-                const Objective& objective) {
+                double huber) {
   const auto slots = p.free.slots();
-  const Accumulator accumulate(p.start.model, data, p.free, objective);
+  const Accumulator<F> accumulate(p.start.model, data, p.free, huber);
   std::vector<double> x;
   for (const std::size_t s : slots) x.push_back(values[s]);
   const auto evaluate = [&](const std::vector<double>& at) {
     for (std::size_t i = 0; i < at.size(); ++i) values[slots[i]] = at[i];
     return accumulate.normal_equations(values);
   };
-  Fitted f{{}, objective, solve(evaluate, std::move(x), p.bounds)};
+  SolveOptions options;
+  if (std::is_same_v<F, float>)
+    options = {.function_tolerance = 1e-8,
+               .rounding = p.rounding * static_cast<double>(data.counts.used)};
+  Fitted f{{}, huber, solve(evaluate, std::move(x), p.bounds, options)};
   for (std::size_t i = 0; i < slots.size(); ++i) values[slots[i]] = f.solution.x[i];
   f.values = std::move(values);
   return f;
 }
 
 /// Huber's threshold: 1.345 times the spread that the residuals' median size tells.
-double huber_threshold(const Problem& p, const FitData& data, const Fitted& f) {
-  auto r = Accumulator(p.start.model, data, p.free, f.objective).residuals(f.values);
+template <class F>
+double huber_threshold(const Problem& p, const FitData<F>& data, const Fitted& f) {
+  auto r = Accumulator<F>(p.start.model, data, p.free).residuals(f.values);
+  if (r.empty()) return no_huber;
   for (auto& x : r) x = std::abs(x);
   return std::max(1.345 * 1.4826 * median(r), 1e-12);
 }
 
 /// From nothing to a start on thinned tables, the robust threshold included.  A model that does not
 /// fit converges slowly: most of its steps are made where they are cheap.
-Fitted coarse(const Problem& p, const FitData& data) {
-  const FitData thin = thinned(data, coarse_samples);
-  Objective objective{p.options.metric};
-  auto values = find_start(p.start.model, thin, p.free, objective, p.bounds, p.start.values);
-  Fitted f = minimise(p, thin, std::move(values), objective);
+template <class F>
+Fitted coarse(const Problem& p, const Sampling& sampling) {
+  const auto thin = fit_data<F>(sampling, coarse_samples);
+  auto values = find_start(p.start.model, thin, p.free, p.bounds, p.start.values);
+  Fitted f = minimise(p, thin, std::move(values), no_huber);
   if (p.options.robust)
-    for (int round = 0; round < 2; ++round) {
-      objective.huber = huber_threshold(p, thin, f);
-      f = minimise(p, thin, f.values, objective);
-    }
-  if (data.samples() > 4 * middle_samples)
-    f = minimise(p, thinned(data, middle_samples), f.values, objective);
+    for (int round = 0; round < 2; ++round)
+      f = minimise(p, thin, f.values, huber_threshold(p, thin, f));
+  if (sampling.groups().size() > 4 * middle_samples)
+    f = minimise(p, fit_data<F>(sampling, middle_samples), f.values, f.huber);
   return f;
+}
+
+/// The cost of one value's rounding in float; 0 where sums of squares leave what a float holds.
+double rounding_in_float(const FitData<double>& thin, std::size_t channels) {
+  constexpr double most = 1e10, relative = 5e-7;
+  double squares = 0, count = 0, largest = 0;
+  for (const auto& task : thin.tasks)
+    for (const auto& b : task)
+      for (std::size_t c = 0; c < channels; ++c)
+        for (std::size_t i = 0; i < b.n; ++i) {
+          const double w = b.weight(c)[i];
+          if (w == 0) continue;
+          const double x = w * (thin.link == Link::log ? 1 : b.target(c)[i]);
+          if (w < 1 / most || w > most || std::abs(x) > most) return 0;
+          largest = std::max(largest, std::abs(x));
+          squares += x * x;
+          ++count;
+        }
+  return largest < 1 / most ? 0 : relative * relative * squares / count / 2;
+}
+
+/// Whether what float rounds off is less than a twentieth of each standard error, as a first look at
+/// JᵀJ gives it.
+bool float_suffices(const Problem& p, const Fitted& f, std::size_t values_used) {
+  constexpr double rounding = 1e-7;
+  const std::size_t n = p.free.size();
+  const double variance = 2 * f.solution.at.cost / static_cast<double>(values_used);
+  for (std::size_t i = 0; i < n; ++i) {
+    // 1/H_ii is the variance with all others known: not more than that of the parameter
+    const double h = f.solution.at.h[i * n + i];
+    if (h > 0 && std::sqrt(variance / h) < 20 * rounding * std::abs(f.solution.x[i])) return false;
+  }
+  return true;
+}
+
+/// All samples: in float as far as that goes, in double to the end where the data know more.
+Fitted fine(const Problem& p, const Sampling& sampling, Fitted f, Stopwatch& watch) {
+  const bool with_float = p.rounding > 0 && sampling.groups().size() > 4 * middle_samples;
+  if (with_float) {
+    const auto data = fit_data<float>(sampling);
+    watch.lap("columns_ms");
+    f = minimise(p, data, f.values, f.huber);
+    watch.lap("solve_ms");
+    f.in_float = float_suffices(p, f, data.counts.used);
+    if (f.in_float) return f;
+  }
+  const auto data = fit_data<double>(sampling);
+  watch.lap(with_float ? "columns_double_ms" : "columns_ms");
+  f = minimise(p, data, f.values, f.huber);
+  watch.lap(with_float ? "solve_double_ms" : "solve_ms");
+  return f;
+}
+
+/// Whether f stays the same with light and viewer exchanged: then such samples are one to the fit.
+bool is_reciprocal(const BoundModel& b) {
+  std::vector<Angles<double>> there, back;
+  for (const double theta_h : {2.0, 15.0, 40.0})
+    for (const double theta_d : {5.0, 30.0, 45.0})
+      for (const double phi_d : {10.0, 70.0}) {
+        const auto a =
+            angles(SinCos(theta_h * degree), SinCos(theta_d * degree), std::cos(phi_d * degree));
+        there.push_back(a);
+        back.push_back({a.nov, a.nol, a.noh, a.voh, a.sin2_theta_h});
+      }
+  const auto f = evaluate(b, there), g = evaluate(b, back);
+  for (std::size_t c = 0; c < f.size(); ++c)
+    for (std::size_t i = 0; i < f[c].size(); ++i)
+      if (std::abs(f[c][i] - g[c][i]) > 1e-12 * f[c][i]) return false;
+  return true;
+}
+
+[[noreturn]] void no_values(const Table& t, const SampleCounts& counts, const Sampling& sampling) {
+  std::string reasons;
+  for (const auto& [reason, count] : counts.by_reason(sampling))
+    if (count) reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
+  throw bad_input(t.path, "values", fmt::format("none that can be used ({})", reasons),
+                  "at least one");
 }
 
 /// Takes the value from parameters that can be anything: moved over its whole range, the others as
@@ -159,19 +249,22 @@ Fitted coarse(const Problem& p, const FitData& data) {
 /// anywhere can always please one of N noisy values, which is worth 2 ln N [the largest of N squared
 /// normal deviates].  Asked of the widths and exponents, which a vanished lobe leaves free, and of
 /// what stands at a bound.
-void find_undetermined(const Problem& p, const FitData& data, const Fitted& f, Uncertainty& u) {
-  const FitData thin = thinned(data, scan_samples);
-  const Accumulator accumulate(p.start.model, thin, p.free, f.objective);
+void find_undetermined(const Problem& p,
+                       const FitData<double>& thin,
+                       const Fitted& f,
+                       std::size_t values_used,
+                       Uncertainty& u) {
+  const Accumulator<double> accumulate(p.start.model, thin, p.free, f.huber);
   const NormalEquations here = accumulate.normal_equations(f.values);
   const std::size_t n = p.free.size();
-  const double count = static_cast<double>(thin.values_used);
+  const double count = static_cast<double>(thin.counts.used);
   double effect = 0;  // rounding is not evidence: residuals below 1e-7 of what a parameter can do
   for (std::size_t i = 0; i < n; ++i) {
     const double range = p.bounds.high[i] - p.bounds.low[i];
     effect = std::max(effect, here.h[i * n + i] * range * range);
   }
   const double variance = std::max(2 * here.cost, 1e-14 * effect) / count;
-  const double all = static_cast<double>(data.values_used);
+  const double all = static_cast<double>(values_used);
   const double luck = (3.84 + 2 * std::log(all)) * count / all;
   for (const auto& q : p.start.model.parameters)
     for (std::size_t s = q.first; s < q.first + q.count; ++s) {
@@ -237,15 +330,6 @@ bool enough_angles(std::size_t clusters, std::size_t free) {
   return clusters >= std::max<std::size_t>(8, 2 * free);
 }
 
-bool clustered(const FitOptions& o, const Table& t, std::size_t clusters, std::size_t free) {
-  if (o.intervals == Intervals::independent) return false;
-  if (o.intervals == Intervals::by_angle) {
-    if (clusters < 2) throw wrong_usage("intervals by_angle: the table has one incident angle");
-    return true;
-  }
-  return !t.truth && enough_angles(clusters, free);
-}
-
 /// What a reader must know before believing the numbers.
 std::vector<std::string> warnings(const FitOptions& o,
                                   const Table& t,
@@ -296,62 +380,67 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
   const auto announce = [&](const char* what) {
     if (phase) phase(what);
   };
-  const Problem p = pose(t, o);
+  Problem p = pose(t, o);
   FitResult result{{}, p.start};
   FitDocument& d = result.document;
   d.solver.instruction_set = kernels<double>().instruction_set;
   Stopwatch watch(d.solver.phase_ms);
 
   const Bins bins = t.bins();
-  Objective objective;
-  std::size_t angles = 0;
-  FitData thin;  // for the bin sensitivity, when the whole is gone
-  {
-    announce("reading columns");
-    const FitData data = fit_data(t, bins, o.metric, p.offset);
-    watch.lap("columns_ms");
-    announce("finding a start");
-    const Fitted start = coarse(p, data);
-    if (!std::isfinite(start.solution.at.cost))
-      throw bad_input(t.path, "values", "numbers whose squares have no finite sum",
-                      "reflectances [1/sr]");
-    watch.lap("start_ms");
-    announce("fitting all samples");
-    const Fitted f = minimise(p, data, start.values, start.objective);
-    watch.lap("solve_ms");
-    objective = f.objective;
+  const bool reciprocal = is_reciprocal(p.start);
+  const auto sampling_of = [&](Bins convention) {
+    return Sampling(t, convention, o.metric, p.offset, reciprocal && !o.robust);
+  };
+  const Sampling sampling = sampling_of(bins);
 
-    announce("standard errors");
-    const bool by_angle = clustered(o, t, data.clusters, p.free.size());
-    const Accumulator accumulate(p.start.model, data, p.free, f.objective);
-    const std::size_t clusters = by_angle ? data.clusters : 0;
-    auto u = uncertainty(accumulate.sandwich(f.values, by_angle), f.solution.x, p.bounds,
-                         data.values_used, clusters);
-    find_undetermined(p, data, f, u);
-    watch.lap("errors_ms");
+  announce("finding a start");
+  const auto scanned = fit_data<double>(sampling, scan_samples);
+  if (scanned.counts.used == 0)
+    if (const auto counts = fit_data<double>(sampling).counts; counts.used == 0)
+      no_values(t, counts, sampling);
+  p.rounding = rounding_in_float(scanned, t.channels.size());
+  const Fitted start = p.rounding > 0 ? coarse<float>(p, sampling) : coarse<double>(p, sampling);
+  if (!std::isfinite(start.solution.at.cost))
+    throw bad_input(t.path, "values", "numbers whose squares have no finite sum",
+                    "reflectances [1/sr]");
+  watch.lap("start_ms");
+  announce("fitting all samples");
+  const Fitted f = fine(p, sampling, start, watch);
 
-    result.model.values = f.values;
-    d.model = p.start.model.spec;
-    d.channels = t.channels;
-    describe(d, p, f, u);
-    d.metric = metric_names[static_cast<std::size_t>(o.metric)];
-    d.log_offset = data.offset;
-    d.robust = o.robust ? "huber" : "none";
-    d.cost = f.solution.at.cost;
-    d.intervals = by_angle ? "clustered by incident angle" : "independent values";
-    angles = data.clusters;
-    d.clusters = clusters;
-    d.solver.termination = f.solution.converged ? "converged" : "not_converged";
-    d.solver.message = f.solution.message;
-    d.solver.iterations = f.solution.iterations;
-    d.solver.passes = f.solution.passes;
-    d.solver.cost_per_iteration = f.solution.cost_per_iteration;
-    d.residuals = residual_statistics(result.model, data);
-    watch.lap("residuals_ms");
-    d.values_used = data.values_used;
-    d.masked = data.masked;
-    if (t.has_bins() && o.bin_sensitivity) thin = thinned(data, middle_samples);
+  announce("standard errors");
+  result.model.values = f.values;
+  bool by_angle =
+      o.intervals == Intervals::by_angle || (o.intervals == Intervals::automatic && !t.truth);
+  auto a = assess(sampling, result.model, p.free, f.huber, by_angle, f.in_float);
+  if (o.intervals == Intervals::by_angle && a.incident_angles < 2)
+    throw wrong_usage("intervals by_angle: the table has one incident angle");
+  if (by_angle && o.intervals == Intervals::automatic &&
+      !enough_angles(a.incident_angles, p.free.size())) {
+    by_angle = false;
+    a = assess(sampling, result.model, p.free, f.huber, by_angle, f.in_float);
   }
+  const std::size_t clusters = by_angle ? a.incident_angles : 0;
+  auto u = uncertainty(a.sandwich, f.solution.x, p.bounds, a.counts.used, clusters);
+  find_undetermined(p, scanned, f, a.counts.used, u);
+  watch.lap("errors_ms");
+
+  d.model = p.start.model.spec;
+  d.channels = t.channels;
+  describe(d, p, f, u);
+  d.metric = metric_names[static_cast<std::size_t>(o.metric)];
+  d.log_offset = sampling.offset();
+  d.robust = o.robust ? "huber" : "none";
+  d.cost = f.solution.at.cost;
+  d.intervals = by_angle ? "clustered by incident angle" : "independent values";
+  d.clusters = clusters;
+  d.solver.termination = f.solution.converged ? "converged" : "not_converged";
+  d.solver.message = f.solution.message;
+  d.solver.iterations = f.solution.iterations;
+  d.solver.passes = f.solution.passes;
+  d.solver.cost_per_iteration = f.solution.cost_per_iteration;
+  d.residuals = a.residuals;
+  d.values_used = a.counts.used;
+  d.masked = a.counts.by_reason(sampling);
   d.input_path = t.path;
   d.input_format = t.format;
   d.bins = t.has_bins() ? bins_names[static_cast<std::size_t>(bins)] : "none";
@@ -360,22 +449,22 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
     announce("fitting under the other bin convention");
     const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
     // Both conventions on equally thinned tables: a ratio needs no million bins.
-    const auto refit = [&](const FitData& data) {
-      Fitted f = minimise(p, data, result.model.values, objective);
-      const double log_rms = residual_statistics({p.start.model, f.values, {}}, data).log_rms;
-      return std::pair(std::move(f), log_rms);
+    const auto refit = [&](const Sampling& s) {
+      return p.rounding > 0 ? minimise(p, fit_data<float>(s, middle_samples), f.values, f.huber)
+                            : minimise(p, fit_data<double>(s, middle_samples), f.values, f.huber);
     };
-    const auto here = refit(thin).first;
-    const auto [there, log_rms] =
-        refit(thinned(fit_data(t, other, o.metric, p.offset), middle_samples));
+    const Sampling elsewhere = sampling_of(other);
+    const Fitted here = refit(sampling), there = refit(elsewhere);
     if (here.solution.converged && there.solution.converged) {
+      const double log_rms =
+          residual_statistics({p.start.model, there.values, {}}, elsewhere, middle_samples).log_rms;
       BinSensitivity s{bins_names[static_cast<std::size_t>(other)], {}, log_rms};
       for (const auto& q : p.start.model.parameters) {
         const auto& known = std::ranges::find(d.parameters, q.name, &FittedParameter::name)->value;
         std::vector<double> change;
         for (std::size_t c = 0; c < q.count; ++c) {
-          const double a = here.values[q.first + c], b = there.values[q.first + c];
-          change.push_back(std::isnan(known[c]) || a == 0 ? nan : b / a - 1);
+          const double x = here.values[q.first + c], y = there.values[q.first + c];
+          change.push_back(std::isnan(known[c]) || x == 0 ? nan : y / x - 1);
         }
         s.relative_change.emplace_back(q.name, std::move(change));
       }
@@ -383,7 +472,7 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
     }
     watch.lap("bin_sensitivity_ms");
   }
-  d.warnings = warnings(o, t, d, angles, p.free.size());
+  d.warnings = warnings(o, t, d, a.incident_angles, p.free.size());
   d.warnings.insert(d.warnings.begin(), t.warnings.begin(), t.warnings.end());
   return result;
 }

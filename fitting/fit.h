@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "brdf/kernels.h"
 #include "brdf/model.h"
+#include "fitting/sampling.h"
 #include "table/fit_document.h"
 #include "table/table.h"
 

@@ -1,5 +1,6 @@
 #include "fitting/plain.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "brdf/catalogue.h"
@@ -44,19 +45,23 @@ class Bin : public ceres::SizedCostFunction<3, parameters> {
 
 }  // namespace
 
-PlainFit fit_plainly(const FitData& d, std::vector<double> start, int threads) {
+PlainFit fit_plainly(const Table& t, std::vector<double> start, int threads) {
   using Clock = std::chrono::steady_clock;
   const auto ms = [](Clock::time_point from) {
     return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
   };
   PlainFit f{std::move(start), 0, 0, 0};
   auto begin = Clock::now();
-  const auto x = d.angles.block();
+  const SampleAngles at(t);
   ceres::Problem problem;
-  for (std::size_t i = 0; i < d.samples(); ++i)
-    problem.AddResidualBlock(new Bin({x.nol[i], x.nov[i], x.noh[i], x.voh[i], x.sin2_theta_h[i]},
-                                     {d.y[0][i], d.y[1][i], d.y[2][i]}),
-                             nullptr, f.values.data());
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto a = at(i);
+    std::array<double, 3> y;
+    for (std::size_t c = 0; c < 3; ++c)
+      y[c] = mask(a, t.values[c][i]) == Mask::valid ? t.values[c][i] : -1;
+    if (std::ranges::any_of(y, [](double v) { return v > 0; }))
+      problem.AddResidualBlock(new Bin(a, y), nullptr, f.values.data());
+  }
   for (int i = 0; i < parameters; ++i) {
     problem.SetParameterLowerBound(f.values.data(), i, i == 0 ? alpha_parameter.fit.low : 0);
     problem.SetParameterUpperBound(f.values.data(), i, 1);

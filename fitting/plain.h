@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "fitting/data.h"
+#include "table/table.h"
 
 namespace gonio {
 
@@ -16,6 +16,6 @@ struct PlainFit {
 };
 
 /// lambert+ggx/smith_ggx.correlated/schlick under the log metric, three channels, from `start`.
-PlainFit fit_plainly(const FitData&, std::vector<double> start, int threads);
+PlainFit fit_plainly(const Table&, std::vector<double> start, int threads);
 
 }  // namespace gonio

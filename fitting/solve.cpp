@@ -1,6 +1,7 @@
 // Ceres stays in this file (and in plain.cpp, which is measured against it).
 #include "fitting/solve.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -10,6 +11,28 @@ namespace gonio {
 namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+bool is_finite(const NormalEquations& e) {
+  return std::isfinite(e.cost) &&
+         std::ranges::all_of(e.h, [](double x) { return std::isfinite(x); }) &&
+         std::ranges::all_of(e.g, [](double x) { return std::isfinite(x); });
+}
+
+/// Stops where only rounding is left to work on.
+class Enough : public ceres::IterationCallback {
+ public:
+  Enough(double rounding, double scale) : rounding_(rounding), scale_(scale) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& i) override {
+    const double cost = i.cost / scale_, change = std::abs(i.cost_change) / scale_;
+    const bool in_vain =
+        i.iteration > 0 && !i.step_is_successful && change < std::max(rounding_, 1e-7 * cost);
+    return in_vain || cost < rounding_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                       : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  double rounding_, scale_;
+};
 
 /// The cost function described in the header.  Ceres asks for the cost at a trial point first and
 /// for its Jacobian after accepting it: one pass over the samples serves both.
@@ -24,19 +47,16 @@ class Reduced : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(n));
   }
 
-  const NormalEquations& at(const std::vector<double>& x) const {
-    if (x != x_) {
-      x_ = x;
-      e_ = evaluate_(x);
-      ++passes_;
-    }
-    return e_;
-  }
+  struct Evaluation {
+    std::vector<double> x;
+    NormalEquations at;
+  };
+  /// The lowest cost seen: Ceres stops without taking the last step that it looked at.
+  const Evaluation& best() const { return best_; }
   int passes() const { return passes_; }
   /// What is known already.
   void known(const std::vector<double>& x, const NormalEquations& e) {
-    x_ = x;
-    e_ = e;
+    best_ = last_ = {x, e};
     passes_ = 1;
   }
 
@@ -45,7 +65,7 @@ class Reduced : public ceres::CostFunction {
                 double** jacobians) const override {
     const auto n = static_cast<Eigen::Index>(parameter_block_sizes()[0]);
     const auto& e = at({parameters[0], parameters[0] + n});
-    if (!std::isfinite(e.cost)) return false;
+    if (!is_finite(e)) return false;
     const RowMajor h = scale_ * Eigen::Map<const RowMajor>(e.h.data(), n, n);
     const Eigen::VectorXd g = scale_ * Eigen::Map<const Eigen::VectorXd>(e.g.data(), n);
     Eigen::VectorXd s = h.diagonal().cwiseSqrt();
@@ -72,10 +92,19 @@ class Reduced : public ceres::CostFunction {
   }
 
  private:
+  const NormalEquations& at(const std::vector<double>& x) const {
+    if (x == best_.x) return best_.at;
+    if (x == last_.x) return last_.at;
+    last_ = {x, evaluate_(x)};
+    ++passes_;
+    if (!(last_.at.cost < best_.at.cost)) return last_.at;
+    best_ = last_;
+    return best_.at;
+  }
+
   const std::function<NormalEquations(const std::vector<double>&)>& evaluate_;
   double scale_;
-  mutable std::vector<double> x_;
-  mutable NormalEquations e_;
+  mutable Evaluation best_, last_;
   mutable int passes_ = 0;
 };
 
@@ -98,7 +127,7 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
     const double range = bounds.high[i] - bounds.low[i];
     effect += s.at.h[i * n + i] * range * range;
   }
-  if (!std::isfinite(s.at.cost) || !std::isfinite(effect)) {
+  if (!is_finite(s.at) || !std::isfinite(effect)) {
     s.message = "the sum of squares is not finite at the start";
     return s;
   }
@@ -118,12 +147,16 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
   o.gradient_tolerance = 0;             // absolute: it would depend on the data's unit
   o.initial_trust_region_radius = 1e6;  // the start is close: nearly a Gauss–Newton step
   o.logging_type = ceres::SILENT;
+  Enough enough(options.rounding, scale);
+  if (options.rounding > 0) o.callbacks.push_back(&enough);
   ceres::Solver::Summary summary;
   ceres::Solve(o, &problem, &summary);
 
-  s.at = cost.at(s.x);
+  s.x = cost.best().x;
+  s.at = cost.best().at;
   s.passes = cost.passes();
-  s.converged = summary.termination_type == ceres::CONVERGENCE;
+  s.converged = summary.termination_type == ceres::CONVERGENCE ||
+                summary.termination_type == ceres::USER_SUCCESS;
   s.iterations = static_cast<int>(summary.iterations.size()) - 1;  // the first is the start
   for (const auto& i : summary.iterations) s.cost_per_iteration.push_back(i.cost / scale);
   s.message = summary.message;
@@ -191,13 +224,17 @@ Solution solve(const std::function<NormalEquations(const std::vector<double>&)>&
       for (std::size_t k = 0; k < moving.size(); ++k) all[moving[k]] = part[k];
       return all;
     };
-    NormalEquations last;  // of the whole problem where the part was evaluated last
-    std::vector<double> last_x;
+    NormalEquations best;  // of the whole problem where the part was lowest
+    std::vector<double> best_x;
     const std::function<NormalEquations(const std::vector<double>&)> part =
         [&](const std::vector<double>& p) {
-          last_x = whole(p);
-          last = evaluate(last_x);
-          return restricted(last, n, moving);
+          auto all = whole(p);
+          const NormalEquations e = evaluate(all);
+          if (best_x.empty() || e.cost < best.cost) {
+            best = e;
+            best_x = std::move(all);
+          }
+          return restricted(e, n, moving);
         };
     if (moving.empty()) {
       s.converged = true;
@@ -206,7 +243,7 @@ Solution solve(const std::function<NormalEquations(const std::vector<double>&)>&
       const Solution once = solve_once(part, std::move(x), inside, options);
       const auto at = whole(once.x);
       s.x = at;
-      s.at = at == last_x ? std::move(last) : evaluate(at);
+      s.at = at == best_x ? std::move(best) : evaluate(at);
       s.converged = once.converged;
       s.message = once.message;
       s.iterations += once.iterations;

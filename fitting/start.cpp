@@ -1,8 +1,13 @@
 #include "fitting/start.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
+
+#include "table/quantile.h"
 
 #include <tbb/parallel_for.h>
 
@@ -10,14 +15,16 @@ namespace gonio {
 namespace {
 
 /// The brightness below which a fifth of a channel's samples lie: where no highlight is.
-double dim(const FitData& d, std::size_t channel) {
-  std::vector<double> y;
-  for (std::size_t i = 0; i < d.samples(); ++i)
-    if (d.y[channel][i] >= 0) y.push_back(d.y[channel][i]);
-  if (y.empty()) return 0;
-  const auto at = y.begin() + static_cast<std::ptrdiff_t>(y.size() / 5);
-  std::ranges::nth_element(y, at);
-  return *at;
+template <class F>
+double dim(const FitData<F>& d, std::size_t channel) {
+  std::vector<double> targets;
+  for (const auto& task : d.tasks)
+    for (const auto& b : task)
+      for (std::size_t i = 0; i < b.n; ++i)
+        if (b.weight(channel)[i] > 0) targets.push_back(static_cast<double>(b.target(channel)[i]));
+  if (targets.empty()) return 0;
+  const double t = quantile(targets, 0.2);
+  return d.link == Link::log ? std::exp(t) - static_cast<double>(d.offset) : t;
 }
 
 bool is_named(std::string_view name, std::string_view base) {
@@ -38,10 +45,10 @@ void set(const Model& m,
 
 }  // namespace
 
+template <class F>
 std::vector<double> find_start(const Model& m,
-                               const FitData& thin,
+                               const FitData<F>& thin,
                                const FreeSlots& free,
-                               const Objective& objective,
                                const Bounds& bounds,
                                std::vector<double> values) {
   for (const auto& p : m.parameters)
@@ -51,25 +58,32 @@ std::vector<double> find_start(const Model& m,
           values[p.first + c] = std::clamp(std::numbers::pi * dim(thin, c), 1e-3, 0.95);
 
   // A ladder of widths; later lobes are wider by two rungs each.
-  std::vector<std::vector<double>> candidates;
   constexpr std::array widths{0.001, 0.003, 0.01, 0.03, 0.07, 0.15, 0.3, 0.5, 0.8};
-  for (std::size_t w = 0; w < widths.size(); ++w)
-    for (const double f0 : {0.04, 0.6}) {
-      auto v = values;
-      set(m, free, "f0", v, f0);
-      for (std::size_t l = 0; l < m.lobes.size(); ++l) {
-        const auto* alpha = m.find(l == 0 ? "alpha" : "alpha_" + std::to_string(l + 1));
-        if (alpha && free.mask()[alpha->first])
-          v[alpha->first] = widths[std::min(w + 2 * l, widths.size() - 1)];
-      }
-      if (std::ranges::find(candidates, v) == candidates.end()) candidates.push_back(std::move(v));
+  constexpr std::array reflectances{0.02, 0.06, 0.2, 0.6, 0.95};
+  const Accumulator<F> accumulate(m, thin, free);
+  using Tried = std::pair<double, std::vector<double>>;
+  std::vector<Tried> rungs(widths.size());
+  tbb::parallel_for(std::size_t{0}, widths.size(), [&](std::size_t w) {
+    auto v = values;
+    for (std::size_t l = 0; l < m.lobes.size(); ++l) {
+      const auto* alpha = m.find(l == 0 ? "alpha" : "alpha_" + std::to_string(l + 1));
+      if (alpha && free.mask()[alpha->first])
+        v[alpha->first] = widths[std::min(w + 2 * l, widths.size() - 1)];
     }
+    rungs[w].first = std::numeric_limits<double>::infinity();
+    for (const double f0 : reflectances) {
+      set(m, free, "f0", v, f0);
+      const double cost = accumulate.normal_equations(v).cost;
+      if (rungs[w].second.empty() || cost < rungs[w].first) rungs[w] = {cost, v};
+    }
+  });
+  std::ranges::stable_sort(rungs, {}, &Tried::first);
+  constexpr std::size_t kept = 4;
+  rungs.resize(kept);
 
   const auto slots = free.slots();
-  const Accumulator accumulate(m, thin, free, objective);
-  std::vector<std::pair<double, std::vector<double>>> tried(candidates.size());
-  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t k) {
-    auto v = candidates[k];
+  tbb::parallel_for(std::size_t{0}, rungs.size(), [&](std::size_t k) {
+    auto& v = rungs[k].second;
     const auto evaluate = [&](const std::vector<double>& x) {
       for (std::size_t i = 0; i < x.size(); ++i) v[slots[i]] = x[i];
       return accumulate.normal_equations(v);
@@ -81,9 +95,14 @@ std::vector<double> find_start(const Model& m,
     o.function_tolerance = 1e-4;
     const auto s = solve(evaluate, std::move(x), bounds, o);
     for (std::size_t i = 0; i < slots.size(); ++i) v[slots[i]] = s.x[i];
-    tried[k] = {s.at.cost, std::move(v)};
+    rungs[k].first = s.at.cost;
   });
-  return std::ranges::min_element(tried, {}, [](const auto& t) { return t.first; })->second;
+  return std::ranges::min_element(rungs, {}, &Tried::first)->second;
 }
+
+template std::vector<double> find_start(
+    const Model&, const FitData<float>&, const FreeSlots&, const Bounds&, std::vector<double>);
+template std::vector<double> find_start(
+    const Model&, const FitData<double>&, const FreeSlots&, const Bounds&, std::vector<double>);
 
 }  // namespace gonio

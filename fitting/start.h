@@ -8,14 +8,15 @@
 
 namespace gonio {
 
-/// Computed from the data: kd from the dim samples of each channel, then short fits of a thinned
-/// table from a ladder of widths and reflectances, the best of which is the start.
+/// Computed from the data: kd from the dim samples of each channel; a ladder of widths, each with the
+/// best of a few reflectances; short fits of a thinned table from the best rungs, the best of which is
+/// the start.
 /// \param values  fixed values where they are fixed
 /// \return        values for all slots
+template <class F>
 std::vector<double> find_start(const Model&,
-                               const FitData& thin,
+                               const FitData<F>& thin,
                                const FreeSlots&,
-                               const Objective&,
                                const Bounds&,
                                std::vector<double> values);
 

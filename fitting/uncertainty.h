@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fitting/accumulate.h"
+#include "fitting/assess.h"
 #include "fitting/solve.h"
 #include "table/fit_document.h"
 

@@ -134,60 +134,53 @@ void add_product(std::size_t n, const F* a, const F* b, const F* c, F* out) {
 }
 
 // ---- residuals ----------------------------------------------------------------------------------
-// A metric is a formula too: with Dual it gives its slope.
 
-struct LogMetric {
-  static constexpr bool needs_positive = true;
-  template <Real T>
-  T operator()(const T& f, const plain_t<T>& y, const plain_t<T>&, const plain_t<T>& offset) const {
-    using B = plain_t<T>;
-    // A model value of 0 (kd = 0 without a lobe) counts as tiny and has no slope: log never sees
-    // it.
-    const B tiny = constant<B>(1e-30L);
-    return log(max<T>(f + offset, T(tiny))) - log(max<B>(y + offset, tiny));
+template <class F>
+void link_identity(std::size_t n, const F* f, F offset, F* value, F* slope) {
+  using B = Lane<F>;
+  const B o(offset), one(1);
+  for (std::size_t i = 0; i < n; i += lanes<B>) {
+    store<B>(value + i, load<B>(f + i) + o);
+    store<B>(slope + i, one);
   }
-};
-struct CosineMetric {
-  static constexpr bool needs_positive = false;
-  template <Real T>
-  T operator()(const T& f, const plain_t<T>& y, const plain_t<T>& nol, const plain_t<T>&) const {
-    return (f - y) * nol;
+}
+
+/// A model value of 0 (kd = 0 without a lobe) counts as tiny and has no slope: the log never sees it.
+template <class F>
+void link_log(std::size_t n, const F* f, F offset, F* value, F* slope) {
+  using B = Lane<F>;
+  const B o(offset), zero(0), tiny = constant<B>(1e-30L);
+  for (std::size_t i = 0; i < n; i += lanes<B>) {
+    const B x = load<B>(f + i) + o;
+    const auto positive = tiny < x;
+    const B y = select<B>(positive, x, tiny);
+    store<B>(value + i, log(y));
+    store<B>(slope + i, select<B>(positive, 1 / y, zero));
   }
-};
-struct RelativeMetric {
-  static constexpr bool needs_positive = true;
-  template <Real T>
-  T operator()(const T& f, const plain_t<T>& y, const plain_t<T>&, const plain_t<T>& offset) const {
-    return (f - y) / (y + offset);
-  }
-};
+}
 
 /// Masked values must not reach a sum whatever they are (0·NaN is NaN), so they are chosen away.
 /// Huber:  ρ(r²) = 2 m |r| − m²,  ρ' = m/|r|,  m = min(|r|, huber).
-template <class Metric, bool influence, class F>
+template <bool influence, class F>
 void residual(std::size_t n, const ResidualArguments<F>& a) {
   using B = Lane<F>;
-  using T = Dual<B, 1>;
-  const B zero(0), one(1), offset(a.offset), huber(a.huber);
+  const B zero(0), one(1), huber(a.huber);
   B cost = load<B>(a.cost);
   for (std::size_t i = 0; i < n; i += lanes<B>) {
-    const B weight = load<B>(a.root_weight + i), datum = load<B>(a.y + i);
-    auto on = zero < weight && zero <= datum;
-    if constexpr (Metric::needs_positive) on = on && zero < datum + offset;
-    const B w = select<B>(on, weight, zero), y = select<B>(on, datum, one);
-    const B f = select<B>(on, load<B>(a.f + i), one);
-    const T t = Metric()(T::variable(f, 0), y, load<B>(a.nol + i), offset);
-    const B r = w * t.v, slope = w * t.d[0];
+    const B w = load<B>(a.weight + i);
+    const auto on = zero < w;
+    const B r = select<B>(on, w * (load<B>(a.value + i) - load<B>(a.target + i)), zero);
+    const B slope = select<B>(on, w * load<B>(a.slope + i), zero);
     const B size = max<B>(r, -r), m = min<B>(size, huber);
     const B rho1 = m / select<B>(zero < size, size, one) + select<B>(zero < size, zero, one);
     cost = cost + (2 * size - m) * m;
     if constexpr (influence) {
       store<B>(a.r + i, rho1 * r * slope);
-      store<B>(a.slope + i, select<B>(huber < size, zero, slope));
+      store<B>(a.weighted_slope + i, select<B>(huber < size, zero, slope));
     } else {
       const B root = sqrt(rho1);
       store<B>(a.r + i, root * r);
-      store<B>(a.slope + i, root * slope);
+      store<B>(a.weighted_slope + i, root * slope);
     }
   }
   store<B>(a.cost, cost);
@@ -257,10 +250,9 @@ constexpr Kernels<F> table(std::index_sequence<K...>) {
           product<F>,
           product_sum<F>,
           add_product<F>,
-          {residual<LogMetric, false, F>, residual<CosineMetric, false, F>,
-           residual<RelativeMetric, false, F>},
-          {residual<LogMetric, true, F>, residual<CosineMetric, true, F>,
-           residual<RelativeMetric, true, F>},
+          {link_identity<F>, link_log<F>},
+          residual<false, F>,
+          residual<true, F>,
           {nullptr, gram<F, K + 1>...}};
 }
 

@@ -67,26 +67,17 @@ struct FusedKernel {
   std::array<Value, 4> value;
 };
 
-/// How far model f is from datum y:
-///   log        ln(f + offset) − ln(y + offset)
-///   l2_cosine  (f − y) NoL
-///   relative   (f − y)/(y + offset)
-enum class Metric { log, l2_cosine, relative };
-inline constexpr std::array<std::string_view, 3> metric_names{"log", "l2_cosine", "relative"};
+/// How a model's value f is compared with a target t: r = w (link(f + offset) − t).
+enum class Link { identity, log };
 
-/// Whether a datum that is valid (≥ 0) can be used: log and relative need y + offset > 0.
-constexpr bool usable(Metric m, double y, double offset) {
-  return y >= 0 && (m == Metric::l2_cosine || y + offset > 0);
-}
-
-/// One channel of one block.  y < 0 or NaN means masked, whatever else stands there; so does what
-/// is not usable() for the metric.
+/// One channel of one block.  Where the weight is not above 0 the sample is masked, whatever else
+/// stands there.
 template <class F>
 struct ResidualArguments {
-  const F *f, *y, *root_weight, *nol;
-  F offset;  ///< of the log and relative metrics, ≥ 0
-  F huber;   ///< residuals beyond it count linearly
-  F *r, *slope;
+  const F *value, *slope;  ///< link(f + offset) and its derivative by f
+  const F *target, *weight;
+  F huber;  ///< residuals beyond it count linearly
+  F *r, *weighted_slope;
   F* cost;  ///< lane sums of ρ(r²), `padding` of them
 };
 
@@ -102,11 +93,16 @@ struct Kernels {
   void (*product_sum)(std::size_t n, const F* a, const F* b, const F* c, const F* d, F* out);
   void (*add_product)(std::size_t n, const F* a, const F* b, const F* c, F* out);
 
+  /// value ← link(f + offset), slope ← its derivative by f; of the log below 1e-30 that of 1e-30,
+  /// and no slope.
+  using LinkKernel = void (*)(std::size_t n, const F* f, F offset, F* value, F* slope);
+  std::array<LinkKernel, 2> link;
+
   using Residual = void (*)(std::size_t n, const ResidualArguments<F>&);
-  /// For the normal equations: r ← √ρ' r, slope ← √ρ' ∂r/∂f.
-  std::array<Residual, metric_names.size()> residual;
-  /// For the sandwich: r ← ρ' r ∂r/∂f (times j: the score), slope ← ∂r/∂f where not clipped.
-  std::array<Residual, metric_names.size()> influence;
+  /// For the normal equations: r ← √ρ' r, weighted_slope ← √ρ' ∂r/∂f.
+  Residual residual;
+  /// For the sandwich: r ← ρ' r ∂r/∂f (times j: the score), weighted_slope ← ∂r/∂f where not clipped.
+  Residual influence;
 
   /// [r, slope·J]ᵀ[r, slope·J], upper triangle row by row, added lane by lane to
   /// `sums[entry][padding]`, which the caller adds up every few thousand samples; [k]: k columns

@@ -14,11 +14,8 @@ const F* derivative(const DualColumn<F>& a, std::size_t slot) {
 }  // namespace
 
 template <class F>
-Plan<F>::Plan(const Model& m,
-              std::span<const F> values,
-              const std::vector<bool>& free,
-              const Kernels<F>& k)
-    : model_(m), values_(values), free_(free), k_(k), channel_steps_(m.channels) {
+Plan<F>::Plan(const Model& m, const std::vector<bool>& free, const Kernels<F>& k)
+    : model_(m), free_(free), k_(k), channel_steps_(m.channels) {
   std::vector<DualColumn<F>> dv;  // D·V, shared by the channels
   for (const auto& l : m.lobes) {
     const auto d = term(l.ndf, 0);
@@ -51,19 +48,25 @@ Plan<F>::Plan(const Model& m,
 }
 
 template <class F>
+void Plan<F>::set(std::span<const F> values) {
+  for (auto& g : parameters_)
+    for (std::size_t i = 0; i < g.slots.size(); ++i) g.p[i] = values[g.slots[i]];
+}
+
+template <class F>
 DualColumn<F> Plan<F>::term(const TermUse& t, std::size_t c) {
-  std::array<F, 4> p{};
+  Gathered& gathered = parameters_.emplace_back();
   std::array<F*, 4> d{};
   F* const value = fresh();
   DualColumn<F> r{value, {}};
   for (std::size_t i = 0; i < t.parameters.size(); ++i) {
     const std::size_t slot = model_.parameters[t.parameters[i]].slot(c);
-    p[i] = values_[slot];
+    gathered.slots.push_back(slot);
     d[i] = fresh();
     if (free_[slot]) r.d.emplace_back(slot, d[i]);
   }
-  into_->push_back([=, f = k_.terms[t.term].derivatives](const Block<F>& b) {
-    f(b, p.data(), value, d.data());
+  into_->push_back([=, p = gathered.p.data(), f = k_.terms[t.term].derivatives](const Block<F>& b) {
+    f(b, p, value, d.data());
   });
   return r;
 }

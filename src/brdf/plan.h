@@ -2,6 +2,8 @@
 /// \file
 /// A composed model with its derivatives, block by block: the product rule over columns.
 
+#include <array>
+#include <deque>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -27,7 +29,11 @@ template <class F>
 class Plan {
  public:
   /// \param free  per value slot: whether its derivative is wanted; others are left out
-  Plan(const Model&, std::span<const F> values, const std::vector<bool>& free, const Kernels<F>&);
+  Plan(const Model&, const std::vector<bool>& free, const Kernels<F>&);
+  Plan(const Plan&) = delete;
+
+  /// The values, model.value_count of them, of the runs that follow.
+  void set(std::span<const F> values);
 
   /// The columns of channel c during visit(c) in run().
   const DualColumn<F>& channel(std::size_t c) const { return channels_[c]; }
@@ -54,12 +60,18 @@ class Plan {
   const F* times_sum(const F* a, const F* b, const F* c, const F* d);
   const F* plus(const F* a, const F* b, const F* sign);
 
+  /// A term's parameters and the slots that they are values of.
+  struct Gathered {
+    std::array<F, 4> p{};
+    std::vector<std::size_t> slots;
+  };
+
   const Model& model_;
-  std::span<const F> values_;
   const std::vector<bool>& free_;
   const Kernels<F>& k_;
   Scratch<F> scratch_;
   std::size_t next_ = Scratch<F>::first_free;
+  std::deque<Gathered> parameters_;  ///< the steps point into it
   std::vector<Step> shared_steps_;
   std::vector<std::vector<Step>> channel_steps_;
   std::vector<Step>* into_ = &shared_steps_;

@@ -80,8 +80,7 @@ Exit run(const Options& o) {
   if (o.plain) {
     progress("the plain way: one Ceres block per bin");
     const auto begin = std::chrono::steady_clock::now();
-    const FitData data = fit_data(t, Bins::centre, Metric::log, 0);
-    const auto plain = fit_plainly(data, {0.5, 0.5, 0.5, 0.5, 0.1, 0.1, 0.1}, threads);
+    const auto plain = fit_plainly(t, {0.5, 0.5, 0.5, 0.5, 0.1, 0.1, 0.1}, threads);
     const double ms = since(begin);
     result["plain"] = {{"total_ms", ms},
                        {"build_ms", plain.build_ms},

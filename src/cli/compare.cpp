@@ -5,8 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "fitting/data.h"
-#include "fitting/residuals.h"
+#include "fitting/assess.h"
 #include "table/fit_document.h"
 #include "table/formats.h"
 
@@ -66,13 +65,14 @@ Exit run(const Options& o) {
   const Table t = read_table(o.file, bins_from(o.bins));
   const BoundModel m = model_of(o, t.channels.size());
   progress("comparing");
-  const auto data = fit_data(t, t.bins(), Metric::l2_cosine, 0);
-  const auto r = residual_statistics(m, data);
+  const Sampling sampling(t, t.bins(), Metric::l2_cosine, 0, false);
+  const FreeSlots nothing(std::vector<bool>(m.model.value_count, false));
+  const auto [sandwich, r, angles, counts] = assess(sampling, m, nothing, no_huber, false);
   progress.clear();
   if (o.json)
     fmt::print("{}", to_json(Comparison{o.file, {m.model.spec, named_values(m)}, r}));
   else
-    print(data.values_used, r);
+    print(counts.used, r);
   return Exit::done;
 }
 

@@ -47,6 +47,18 @@ SampleAngles::SampleAngles(const Table& t, Bins bins) : table_(t), bins_(bins) {
         axes_[a].emplace_back(g->axes[a].angle(static_cast<double>(i), bins));
 }
 
+std::size_t SampleAngles::row_size() const {
+  return table_.grid() ? axes_[2].size() : 1;
+}
+
+SampleAngles::Row::Row(const SampleAngles& at, std::size_t number)
+    : at_(&at), first_(number * at.row_size()) {
+  const Grid* g = at.table_.grid();
+  if (!g || g->kind != Grid::Kind::half_difference) return;
+  theta_h_ = &at.axes_[0][number / g->axes[1].size];
+  theta_d_ = &at.axes_[1][number % g->axes[1].size];
+}
+
 DirectionPair SampleAngles::directions(std::size_t i) const {
   if (const auto* l = table_.list())
     return {direction(l->theta_i_deg[i] * degree, l->phi_i_deg[i] * degree),

@@ -123,6 +123,11 @@ class SampleAngles {
   SampleAngles(const Table&, Bins);
 
   Angles<double> operator()(std::size_t i) const;
+  /// Samples that differ in the last axis alone: those of a grid's row, or one of a list.
+  std::size_t row_size() const;
+  /// Of one row, sample by sample.
+  class Row;
+  Row row(std::size_t number) const;
   DirectionPair directions(std::size_t i) const;
   HalfDifference half_difference(std::size_t i) const;
   /// Incident zenith angle [rad].
@@ -133,6 +138,24 @@ class SampleAngles {
   Bins bins_;
   std::array<std::vector<SinCos>, 3> axes_;
 };
+
+class SampleAngles::Row {
+ public:
+  Row(const SampleAngles& at, std::size_t number);
+  Angles<double> operator()(std::size_t column) const {
+    if (!theta_h_) return (*at_)(first_ + column);
+    return angles(*theta_h_, *theta_d_, at_->axes_[2][column].cos);
+  }
+
+ private:
+  const SampleAngles* at_;
+  std::size_t first_;
+  const SinCos *theta_h_ = nullptr, *theta_d_ = nullptr;  ///< of a half/difference grid
+};
+
+inline SampleAngles::Row SampleAngles::row(std::size_t number) const {
+  return Row(*this, number);
+}
 
 /// Why a value is not used.
 enum class Mask { valid, below_horizon, negative, not_finite };

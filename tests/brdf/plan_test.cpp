@@ -46,7 +46,8 @@ std::vector<Result> run(const Model& m,
                         std::span<const Angles<double>> rows,
                         const Kernels<double>& k = kernels<double>()) {
   const auto x = test::columns<double>(rows);
-  const Plan<double> plan(m, values, free, k);
+  Plan<double> plan(m, free, k);
+  plan.set(values);
   std::vector<Result> results(m.channels);
   plan.run(x.block(), [&](std::size_t c) {
     const auto& column = plan.channel(c);
@@ -167,7 +168,8 @@ TEST(Plan, LendsScratchColumnsThatItDoesNotWriteItself) {
   const auto rows = test::random_angles(32, 32);
   const auto x = test::columns<double>(rows);
   const std::vector<bool> free(m.value_count, true);
-  Plan<double> plan(m, values, free, kernels<double>());
+  Plan<double> plan(m, free, kernels<double>());
+  plan.set(values);
   double* const mine = plan.fresh();
   double* const also_mine = plan.fresh();
   EXPECT_NE(mine, also_mine);

@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "data_synth/synth.h"
+#include "fitting/assess.h"
 #include "fitting/fit.h"
 #include "fitting/solve.h"
 #include "fitting/uncertainty.h"
+#include "table/formats.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -21,27 +23,38 @@ BoundModel paint() {
       parse_settings(std::vector<std::string>{"alpha=0.2,gamma=1.7,f0=0.05,kd=0.2,0.1,0.05"}), 3);
 }
 
+/// A table with masked values and weights, and values away from the optimum.
 struct Case {
   BoundModel model = paint();
-  FitData data;
+  Table table;
   FreeSlots free{std::vector<bool>(8, true)};
-  std::vector<double> off;  ///< values away from the optimum
-  explicit Case(Metric metric, std::size_t samples = 3000) {
-    Table t = synthesize(model, {.layout = Layout::random, .samples = samples, .noise = 0.1});
-    for (std::size_t i = 0; i < t.size(); i += 11) t.values[i % 3][i] = i % 2 ? -1 : std::nan("");
-    t.weights.assign(t.size(), 1);
-    for (std::size_t i = 0; i < t.size(); i += 7) t.weights[i] = 0.5 * static_cast<double>(i % 5);
-    data = fit_data(t, Bins::centre, metric, 0);
+  std::vector<double> off;
+  explicit Case(const SynthOptions& o = {.layout = Layout::random, .samples = 3000, .noise = 0.1}) {
+    table = synthesize(model, o);
+    for (std::size_t i = 0; i < table.size(); i += 11)
+      table.values[i % 3][i] = i % 2 ? -1 : std::nan("");
+    table.weights.assign(table.size(), 1);
+    for (std::size_t i = 0; i < table.size(); i += 7)
+      table.weights[i] = 0.5 * static_cast<double>(i % 5);
     off = model.values;
     for (auto& v : off) v *= 1.1;
   }
+  Sampling sampling(Metric m, bool fold = false) const {
+    return Sampling(table, table.bins(), m, 0, fold);
+  }
+  BoundModel at_off() const { return {model.model, off, {}}; }
 };
 
+Case small() {
+  return Case({.layout = Layout::random, .samples = 500, .noise = 0.1});
+}
+
 TEST(NormalEquations, GradientIsTheSlopeOfTheCost) {
+  const Case c;
   for (std::size_t m = 0; m < metric_names.size(); ++m)
-    for (const double huber : {std::numeric_limits<double>::max(), 0.05}) {
-      const Case c(static_cast<Metric>(m));
-      const Accumulator a(c.model.model, c.data, c.free, {static_cast<Metric>(m), huber});
+    for (const double huber : {no_huber, 0.05}) {
+      const auto data = fit_data<double>(c.sampling(static_cast<Metric>(m)));
+      const Accumulator<double> a(c.model.model, data, c.free, huber);
       const auto e = a.normal_equations(c.off);
       for (std::size_t i = 0; i < c.off.size(); ++i) {
         auto low = c.off, high = c.off;
@@ -56,11 +69,12 @@ TEST(NormalEquations, GradientIsTheSlopeOfTheCost) {
 }
 
 TEST(NormalEquations, AreTheNaiveSumsOverResiduals) {
-  const Case c(Metric::log, 500);
-  const Accumulator a(c.model.model, c.data, c.free, {Metric::log});
+  const Case c = small();
+  const auto data = fit_data<double>(c.sampling(Metric::log));
+  const Accumulator<double> a(c.model.model, data, c.free);
   const auto e = a.normal_equations(c.off);
   const auto r = a.residuals(c.off);
-  ASSERT_EQ(r.size(), c.data.values_used);
+  ASSERT_EQ(r.size(), data.counts.used);
   double cost = 0;
   for (const double x : r) cost += x * x / 2;
   EXPECT_NEAR(e.cost, cost, 1e-12 * cost);
@@ -87,38 +101,126 @@ TEST(NormalEquations, AreTheNaiveSumsOverResiduals) {
     }
 }
 
+/// MERL's two ways, mirrored and exchanged, and the two halves of an in/out grid.
+std::vector<Case> layouts_that_fold() {
+  std::vector<Case> all;
+  const auto add = [&](Grid grid) {
+    for (auto& axis : grid.axes) axis.size = axis.name.starts_with("phi") ? 2 * axis.size / 15 : 18;
+    Case c({.layout = Layout::random, .samples = grid.size(), .noise = 0.1});
+    Table t = std::move(c.table);
+    t.where = grid;  // the values are noise to the angles: nothing is met by luck
+    c.table = std::move(t);
+    all.push_back(std::move(c));
+  };
+  add(merl_grid(Bins::centre));
+  add(merl_grid(Bins::edge));
+  add(merl_grid(Bins::centre, false));
+  add(mbsdf_grid(18, 90, Bins::centre));
+  return all;
+}
+
+TEST(Folding, ChangesNoSum) {
+  for (const Case& c : layouts_that_fold())
+    for (std::size_t m = 0; m < metric_names.size(); ++m) {
+      const auto alone = c.sampling(static_cast<Metric>(m)),
+                 folded = c.sampling(static_cast<Metric>(m), true);
+      EXPECT_LT(folded.groups().size(), 0.6 * static_cast<double>(alone.groups().size()));
+      const auto all = fit_data<double>(alone), less = fit_data<double>(folded);
+      EXPECT_EQ(all.counts.used, less.counts.used);
+      EXPECT_EQ(all.counts.by_reason(alone), less.counts.by_reason(folded));
+      const auto e = Accumulator<double>(c.model.model, all, c.free).normal_equations(c.off);
+      const auto f = Accumulator<double>(c.model.model, less, c.free).normal_equations(c.off);
+      EXPECT_NEAR(f.cost, e.cost, 1e-11 * e.cost) << metric_names[m];
+      for (std::size_t i = 0; i < e.g.size(); ++i)
+        EXPECT_NEAR(f.g[i], e.g[i], 1e-10 * std::sqrt(e.cost * e.h[i * 9])) << metric_names[m];
+      for (std::size_t i = 0; i < e.h.size(); ++i)
+        EXPECT_NEAR(f.h[i], e.h[i], 1e-11 * std::abs(e.h[i]) + 1e-12) << metric_names[m];
+    }
+}
+
+TEST(Folding, ChangesNothingThatAnAssessmentSays) {
+  for (const Case& c : layouts_that_fold())
+    for (const bool by_angle : {false, true}) {
+      const auto a = assess(c.sampling(Metric::log), c.at_off(), c.free, no_huber, by_angle);
+      const auto b = assess(c.sampling(Metric::log, true), c.at_off(), c.free, no_huber, by_angle);
+      EXPECT_EQ(a.incident_angles, b.incident_angles);
+      EXPECT_NEAR(a.residuals.rms, b.residuals.rms, 1e-11 * a.residuals.rms);
+      ASSERT_EQ(a.residuals.bands.size(), b.residuals.bands.size());
+      for (std::size_t i = 0; i < a.residuals.bands.size(); ++i) {
+        EXPECT_EQ(a.residuals.bands[i].values, b.residuals.bands[i].values) << i;
+        EXPECT_NEAR(a.residuals.bands[i].log_rms, b.residuals.bands[i].log_rms, 1e-10);
+      }
+      for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t k = 0; k < 8; ++k) {
+          const auto size = [&](const Matrix& m) { return std::sqrt(m[i * 9] * m[k * 9]); };
+          const std::size_t at = i * 8 + k;
+          EXPECT_NEAR(a.sandwich.bread[at], b.sandwich.bread[at], 1e-11 * size(a.sandwich.bread));
+          EXPECT_NEAR(a.sandwich.meat[at], b.sandwich.meat[at], 1e-11 * size(a.sandwich.meat));
+        }
+    }
+}
+
+TEST(Folding, InFloatLosesSixDigitsAtMost) {
+  for (const Case& c : layouts_that_fold()) {
+    const auto s = c.sampling(Metric::log, true);
+    const auto e =
+        Accumulator<double>(c.model.model, fit_data<double>(s), c.free).normal_equations(c.off);
+    const auto f =
+        Accumulator<float>(c.model.model, fit_data<float>(s), c.free).normal_equations(c.off);
+    EXPECT_NEAR(f.cost, e.cost, 1e-5 * e.cost);
+    for (std::size_t i = 0; i < 8; ++i) {
+      EXPECT_NEAR(f.g[i], e.g[i], 2e-5 * std::sqrt(e.cost * e.h[i * 9]));
+      EXPECT_NEAR(f.h[i * 9], e.h[i * 9], 2e-5 * e.h[i * 9]);
+    }
+    const auto a = assess(s, c.at_off(), c.free, no_huber, true, false);
+    const auto b = assess(s, c.at_off(), c.free, no_huber, true, true);
+    EXPECT_NEAR(a.residuals.log_rms, b.residuals.log_rms, 1e-5 * a.residuals.log_rms);
+    for (std::size_t i = 0; i < 8; ++i)
+      EXPECT_NEAR(a.sandwich.meat[i * 9], b.sandwich.meat[i * 9], 1e-4 * a.sandwich.meat[i * 9]);
+  }
+}
+
 TEST(Sandwich, OfIndependentValuesIsTheSumOfSquaredScoresAndOfClustersTheSquareOfTheirSums) {
-  const Case c(Metric::l2_cosine, 500);
-  const Accumulator a(c.model.model, c.data, c.free, {Metric::l2_cosine});
-  const auto e = a.normal_equations(c.off);
-  const auto independent = a.sandwich(c.off, false);
+  const Case c = small();
+  const auto s = c.sampling(Metric::l2_cosine);
+  const auto data = fit_data<double>(s);
+  const auto e = Accumulator<double>(c.model.model, data, c.free).normal_equations(c.off);
+  const auto independent = assess(s, c.at_off(), c.free, no_huber, false);
   for (std::size_t i = 0; i < 64; ++i)
-    EXPECT_NEAR(independent.bread[i], e.h[i], 1e-12 * std::abs(e.h[i]));
-  // One cluster holding all: its score is the whole gradient.
-  Case one(Metric::l2_cosine, 500);
-  std::fill(one.data.incident.begin(), one.data.incident.end(), std::uint32_t{0});
-  one.data.clusters = 1;
-  const Accumulator b(one.model.model, one.data, one.free, {Metric::l2_cosine});
-  const auto s = b.sandwich(one.off, true);
+    EXPECT_NEAR(independent.sandwich.bread[i], e.h[i], 1e-12 * std::abs(e.h[i]));
+  // One incident angle for all: its score is the whole gradient.
+  Case one = small();
+  auto& where = std::get<DirectionList>(one.table.where);
+  where.theta_i_deg.assign(one.table.size(), 30);
+  const auto together = one.sampling(Metric::l2_cosine);
+  const auto g = Accumulator<double>(one.model.model, fit_data<double>(together), one.free)
+                     .normal_equations(one.off)
+                     .g;
+  const auto a = assess(together, one.at_off(), one.free, no_huber, true);
+  EXPECT_EQ(a.incident_angles, 1U);
   for (std::size_t p = 0; p < 8; ++p)
     for (std::size_t q = 0; q < 8; ++q)
-      EXPECT_NEAR(s.meat[p * 8 + q], e.g[p] * e.g[q], 1e-9 * std::abs(e.g[p] * e.g[q]) + 1e-20);
-  // Each value its own cluster.
-  Case each(Metric::l2_cosine, 500);
-  for (std::size_t i = 0; i < each.data.incident.size(); ++i)
-    each.data.incident[i] = static_cast<std::uint32_t>(i);
-  each.data.clusters = each.data.samples();
-  for (std::size_t ch = 1; ch < 3; ++ch)
-    for (std::size_t i = 0; i < each.data.samples(); ++i) each.data.y[ch][i] = -1;
-  const Accumulator d(each.model.model, each.data, each.free, {Metric::l2_cosine});
-  const auto lone = d.sandwich(each.off, true), free = d.sandwich(each.off, false);
+      EXPECT_NEAR(a.sandwich.meat[p * 8 + q], g[p] * g[q], 1e-9 * std::abs(g[p] * g[q]) + 1e-20);
+  // Each value its own: one channel, no angle twice.
+  Case each = small();
+  auto& apart = std::get<DirectionList>(each.table.where);
+  for (std::size_t i = 0; i < each.table.size(); ++i) {
+    apart.theta_i_deg[i] = 0.1 * static_cast<double>(i);
+    for (std::size_t ch = 1; ch < 3; ++ch) each.table.values[ch][i] = -1;
+  }
+  const auto lone =
+      assess(each.sampling(Metric::l2_cosine), each.at_off(), each.free, no_huber, true);
+  const auto every =
+      assess(each.sampling(Metric::l2_cosine), each.at_off(), each.free, no_huber, false);
   for (std::size_t i = 0; i < 64; ++i)
-    EXPECT_NEAR(lone.meat[i], free.meat[i], 1e-10 * std::abs(free.meat[i]) + 1e-20);
+    EXPECT_NEAR(lone.sandwich.meat[i], every.sandwich.meat[i],
+                1e-10 * std::abs(every.sandwich.meat[i]) + 1e-20);
 }
 
 TEST(NormalEquations, AreTheSameBitsForAnyNumberOfThreads) {
-  const Case c(Metric::log, 60000);
-  const Accumulator a(c.model.model, c.data, c.free, {Metric::log});
+  const Case c({.layout = Layout::random, .samples = 60000, .noise = 0.1});
+  const auto data = fit_data<float>(c.sampling(Metric::log));
+  const Accumulator<float> a(c.model.model, data, c.free);
   const auto many = a.normal_equations(c.off);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const auto single = a.normal_equations(c.off);

@@ -1,0 +1,367 @@
+#include "fitting/assess.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "brdf/plan.h"
+#include "table/health.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio {
+namespace {
+
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+/// Which interval between given angles a cosine lies in.
+class AngleBands {
+ public:
+  explicit AngleBands(std::vector<double> edges_deg) : edges_deg_(std::move(edges_deg)) {
+    for (const double e : edges_deg_) cosine_.push_back(std::cos(e * degree));
+    for (std::size_t k = 0; k < near_.size(); ++k)
+      near_[k] = search(static_cast<double>(k + 1) / static_cast<double>(near_.size()));
+  }
+  std::size_t size() const { return edges_deg_.size() - 1; }
+  double from_deg(std::size_t band) const { return edges_deg_[band]; }
+  double to_deg(std::size_t band) const { return edges_deg_[band + 1]; }
+  std::size_t operator()(double cosine) const {
+    constexpr double last = 1023;
+    const auto k = static_cast<std::size_t>(std::clamp(cosine, 0.0, 1.0) * last);
+    std::size_t band = near_[k];
+    while (band + 1 < size() && cosine < cosine_[band + 1]) ++band;
+    return band;
+  }
+
+ private:
+  std::size_t search(double cosine) const {
+    std::size_t band = 0;
+    while (band + 1 < size() && cosine < cosine_[band + 1]) ++band;
+    return band;
+  }
+  std::vector<double> edges_deg_, cosine_;
+  std::array<std::size_t, 1024> near_{};  ///< the band of the largest cosine of each 1/1024
+};
+
+/// Small numbers that tell incident angles apart.
+class IncidentKeys {
+ public:
+  explicit IncidentKeys(const Sampling& s)
+      : grid_(s.table().grid()), first_(first_of_copies(s.table())) {
+    if (grid_) {
+      count_ = first_.empty() ? degrees_.size() : first_.size();
+      if (!first_.empty()) samples_per_angle_ = grid_->axes[1].size * grid_->axes[2].size;
+      return;
+    }
+    std::vector<long> angle;
+    for (const double deg : s.table().list()->theta_i_deg) angle.push_back(std::lround(deg * 1000));
+    auto sorted = angle;
+    std::ranges::sort(sorted);
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    for (const long a : angle)
+      rank_.push_back(
+          static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, a) - sorted.begin()));
+    count_ = sorted.size();
+  }
+  std::size_t count() const { return count_; }
+  std::size_t operator()(std::size_t sample, double nol) const {
+    if (!grid_) return rank_[sample];
+    return first_.empty() ? degrees_(nol) : first_[sample / samples_per_angle_];
+  }
+
+ private:
+  static std::vector<double> whole_degrees() {
+    std::vector<double> edges(91);
+    std::iota(edges.begin(), edges.end(), 0.0);
+    return edges;
+  }
+  const Grid* grid_;
+  std::vector<std::size_t> first_;
+  std::size_t samples_per_angle_ = 1, count_ = 0;
+  std::vector<std::uint32_t> rank_;
+  AngleBands degrees_{whole_degrees()};
+};
+
+struct Sums {
+  double values = 0, positive = 0, squares = 0, log_squares = 0;
+
+  void add(const Sums& s) {
+    values += s.values;
+    positive += s.positive;
+    squares += s.squares;
+    log_squares += s.log_squares;
+  }
+  double rms() const { return values > 0 ? std::sqrt(squares / values) : 0; }
+  double log_rms() const { return positive > 0 ? std::sqrt(log_squares / positive) : 0; }
+};
+
+struct Bands {
+  const char* angle;
+  AngleBands by;
+};
+const std::array<Bands, 3>& bands() {
+  static const std::array<Bands, 3> all{Bands{"theta_i", AngleBands({0, 20, 40, 60, 75, 90})},
+                                        Bands{"theta_h", AngleBands({0, 1, 3, 8, 20, 45, 90})},
+                                        Bands{"theta_d", AngleBands({0, 20, 40, 60, 75, 90})}};
+  return all;
+}
+using BandSums = std::array<std::vector<Sums>, 3>;
+BandSums no_sums() {
+  BandSums s;
+  for (std::size_t k = 0; k < s.size(); ++k) s[k].resize(bands()[k].by.size());
+  return s;
+}
+
+/// What one task found out.
+struct Part {
+  Matrix bread, meat;
+  std::vector<std::size_t> keys;  ///< of the incident angles seen
+  std::vector<double> scores;     ///< [of those][free slot]
+  BandSums sums = no_sums();
+  SampleCounts counts;
+};
+
+/// A task's walk over its blocks.
+template <class F>
+class Walk {
+ public:
+  Walk(const Sampling& s,
+       const BoundModel& b,
+       const FreeSlots& free,
+       double huber,
+       bool by_incident_angle,
+       const IncidentKeys& keys)
+      : sampling_(s),
+        free_(free),
+        huber_(static_cast<F>(std::min(huber, double{std::numeric_limits<F>::max()}))),
+        by_angle_(by_incident_angle),
+        keys_(keys),
+        kernels_(kernels<F>()),
+        values_(b.values.begin(), b.values.end()),
+        plan_(b.model, free.mask(), kernels_) {
+    plan_.set(values_);
+    for (auto* x : {&link_, &link_slope_, &log_f_, &log_y_, &unused_, &score_, &slope_})
+      *x = plan_.fresh();
+    for (std::size_t c = 0; c < s.channels(); ++c) {
+      auto& x = channel_.emplace_back();
+      for (const auto& [slot, column] : plan_.channel(c).d) {
+        x.j[x.free.size()] = column;
+        x.free.push_back(free.index(slot));
+      }
+    }
+  }
+
+  Part run(BlockReader<F>& in) {
+    const std::size_t n = free_.size();
+    part_ = {Matrix(n * n), Matrix(n * n), {}, {}, no_sums(), {}};
+    place_.assign(keys_.count(), none);
+    bread_.assign(sampling_.channels(), {});
+    meat_.assign(sampling_.channels(), {});
+    while (in.next()) block(in);
+    for (std::size_t c = 0; c < sampling_.channels(); ++c) {
+      bread_[c].scatter(channel_[c].free, n, part_.bread, nullptr);
+      if (!by_angle_) meat_[c].scatter(channel_[c].free, n, part_.meat, nullptr);
+    }
+    part_.counts = in.counts();
+    return std::move(part_);
+  }
+
+ private:
+  static constexpr std::size_t size = BlockReader<F>::block;
+  struct Channel {
+    std::vector<std::size_t> free;
+    std::array<const F*, max_columns> j{};
+  };
+
+  void block(const BlockReader<F>& in) {
+    const std::size_t members = sampling_.groups().widest();
+    const auto x = in.angles();
+    place_incident_angles(in, members);
+    const std::size_t n = in.size();
+    for (std::size_t m = 0; m < members; ++m)
+      for (auto* sums : {&values_seen_[m], &positive_[m], &squares_[m], &log_squares_[m]})
+        std::fill_n(sums->begin(), n, F(0));
+    // With ln f − ln y for the metric there is no need to compute the logarithms twice.
+    const auto offset = static_cast<F>(sampling_.link_offset());
+    const bool logs = link_of(sampling_.metric()) == Link::log && offset == 0;
+    const auto& log = kernels_.link[static_cast<std::size_t>(Link::log)];
+    plan_.run(x, [&](std::size_t c) {
+      const F* const f = plan_.channel(c).value;
+      kernels_.link[static_cast<std::size_t>(link_of(sampling_.metric()))](x.n, f, offset, link_,
+                                                                           link_slope_);
+      if (!logs) log(x.n, f, F(0), log_f_, unused_);
+      const F* const log_f = logs ? link_ : log_f_;
+      for (std::size_t m = 0; m < members; ++m) {
+        const auto& v = in.values(m, c);
+        kernels_.influence(x.n, {link_, link_slope_, v.target.data(), v.weight.data(), huber_,
+                                 score_, slope_, cost_.data()});
+        sandwich(in, c, m);
+        if (!logs) log(x.n, v.y.data(), F(0), log_y_, unused_);
+        const F *const log_y = logs ? v.target.data() : log_y_, *const y = v.y.data();
+        F *const seen = values_seen_[m].data(), *const positive = positive_[m].data();
+        F *const squares = squares_[m].data(), *const log_squares = log_squares_[m].data();
+        for (std::size_t i = 0; i < n; ++i) {
+          const F difference = f[i] - y[i], ratio = log_f[i] - log_y[i];
+          const bool both = (y[i] > 0) & (f[i] > 0);
+          seen[i] += y[i] >= 0 ? F(1) : F(0);
+          squares[i] += y[i] >= 0 ? difference * difference : F(0);
+          positive[i] += both ? F(1) : F(0);
+          log_squares[i] += both ? ratio * ratio : F(0);
+        }
+      }
+    });
+    bands_of(in, x, members);
+  }
+
+  /// Where the scores of each sample's incident angle stand in the part.
+  void place_incident_angles(const BlockReader<F>& in, std::size_t members) {
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      for (std::size_t m = 0; m < members; ++m) {
+        bool counts = false;
+        for (std::size_t c = 0; c < sampling_.channels(); ++c)
+          counts = counts || in.values(m, c).weight[i] > 0;
+        if (!counts) continue;
+        const std::size_t key = keys_(in.sample(m, i), static_cast<double>(in.nol(m, i)));
+        if (place_[key] == none) {
+          place_[key] = part_.keys.size() * free_.size();
+          part_.keys.push_back(key);
+          part_.scores.resize(part_.keys.size() * free_.size());
+        }
+        at_[m][i] = place_[key];
+      }
+    }
+  }
+
+  void sandwich(const BlockReader<F>& in, std::size_t c, std::size_t m) {
+    const Channel& x = channel_[c];
+    const std::size_t k = x.free.size();
+    if (k == 0) return;
+    kernels_.gram[k + 1](in.padded(), score_, slope_, x.j.data(), bread_[c].lanes());
+    if (!by_angle_) {
+      kernels_.gram[k + 1](in.padded(), score_, score_, x.j.data(), meat_[c].lanes());
+      return;
+    }
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      const auto score = static_cast<double>(score_[i]);
+      if (score == 0) continue;  // masked values, whose derivatives may be NaN
+      double* const to = part_.scores.data() + at_[m][i];
+      for (std::size_t p = 0; p < k; ++p) to[x.free[p]] += score * static_cast<double>(x.j[p][i]);
+    }
+  }
+
+  void bands_of(const BlockReader<F>& in, const Block<F>& x, std::size_t members) {
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      Sums group;
+      for (std::size_t m = 0; m < members; ++m) {
+        if (in.sample(m, i) == BlockReader<F>::absent) continue;
+        const Sums s{static_cast<double>(values_seen_[m][i]), static_cast<double>(positive_[m][i]),
+                     static_cast<double>(squares_[m][i]), static_cast<double>(log_squares_[m][i])};
+        part_.sums[0][bands()[0].by(static_cast<double>(in.nol(m, i)))].add(s);
+        group.add(s);
+      }
+      part_.sums[1][bands()[1].by(static_cast<double>(x.noh[i]))].add(group);
+      part_.sums[2][bands()[2].by(static_cast<double>(x.voh[i]))].add(group);
+    }
+  }
+
+  const Sampling& sampling_;
+  const FreeSlots& free_;
+  F huber_;
+  bool by_angle_;
+  const IncidentKeys& keys_;
+  const Kernels<F>& kernels_;
+  std::vector<F> values_;
+  Plan<F> plan_;
+  F *link_, *link_slope_, *log_f_, *log_y_, *unused_, *score_, *slope_;
+  std::vector<Channel> channel_;
+  std::vector<GramSums<F>> bread_, meat_;
+  alignas(64) std::array<F, padding> cost_{};
+  std::vector<std::size_t> place_;
+  std::array<std::array<std::size_t, size>, Groups::most> at_{};
+  using PerMember = std::array<std::array<F, size>, Groups::most>;
+  PerMember values_seen_{}, positive_{}, squares_{}, log_squares_{};
+  Part part_;
+};
+
+void add(std::vector<double>& to, const std::vector<double>& from) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
+}
+
+FitResiduals statistics(const BandSums& sums) {
+  Sums all;
+  for (const auto& s : sums[0]) all.add(s);
+  FitResiduals r{all.rms(), all.log_rms(), {}};
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    for (std::size_t i = 0; i < sums[k].size(); ++i) {
+      const auto& [angle, by] = bands()[k];
+      const auto& s = sums[k][i];
+      r.bands.push_back({angle, by.from_deg(i), by.to_deg(i), static_cast<std::size_t>(s.values),
+                         s.rms(), s.log_rms()});
+    }
+  return r;
+}
+
+template <class F>
+Assessment assess_in(const Sampling& s,
+                     const BoundModel& b,
+                     const FreeSlots& free,
+                     double huber,
+                     bool by_incident_angle,
+                     std::size_t most) {
+  const std::size_t n = free.size();
+  const IncidentKeys keys(s);
+  const Tasks tasks(s, most, BlockReader<F>::block);
+  std::vector<Part> parts(tasks.count);
+  tbb::enumerable_thread_specific<Walk<F>> walks(
+      [&] { return Walk<F>(s, b, free, huber, by_incident_angle, keys); });
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
+    BlockReader<F> in(s, tasks.first(k), tasks.last(k), tasks.step);
+    parts[k] = walks.local().run(in);
+  });
+  Assessment a;
+  a.sandwich = {Matrix(n * n), Matrix(n * n)};
+  std::vector<double> scores(keys.count() * n);
+  std::vector<bool> seen(keys.count());
+  BandSums sums = no_sums();
+  for (const auto& p : parts) {  // in the order of the samples
+    add(a.sandwich.bread, p.bread);
+    add(a.sandwich.meat, p.meat);
+    for (std::size_t k = 0; k < p.keys.size(); ++k) {
+      seen[p.keys[k]] = true;
+      for (std::size_t i = 0; i < n; ++i) scores[p.keys[k] * n + i] += p.scores[k * n + i];
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      for (std::size_t i = 0; i < sums[k].size(); ++i) sums[k][i].add(p.sums[k][i]);
+    a.counts.add(p.counts);
+  }
+  a.incident_angles = static_cast<std::size_t>(std::ranges::count(seen, true));
+  if (by_incident_angle)
+    for (std::size_t c = 0; c < keys.count(); ++c)
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < n; ++k)
+          a.sandwich.meat[i * n + k] += scores[c * n + i] * scores[c * n + k];
+  a.residuals = statistics(sums);
+  return a;
+}
+
+}  // namespace
+
+Assessment assess(const Sampling& s,
+                  const BoundModel& b,
+                  const FreeSlots& free,
+                  double huber,
+                  bool by_incident_angle,
+                  bool in_float,
+                  std::size_t most) {
+  return in_float ? assess_in<float>(s, b, free, huber, by_incident_angle, most)
+                  : assess_in<double>(s, b, free, huber, by_incident_angle, most);
+}
+
+FitResiduals residual_statistics(const BoundModel& b, const Sampling& s, std::size_t most) {
+  const FreeSlots nothing(std::vector<bool>(b.model.value_count, false));
+  return assess(s, b, nothing, no_huber, false, false, most).residuals;
+}
+
+}  // namespace gonio

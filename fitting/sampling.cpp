@@ -1,0 +1,216 @@
+#include "fitting/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace gonio {
+
+// ---- groups -------------------------------------------------------------------------------------
+
+Groups::Groups(const Table& t, const SampleAngles& at, Bins bins, bool fold)
+    : rows_(t.size() / at.row_size()), columns_(at.row_size()) {
+  const Grid* g = t.grid();
+  if (!fold || !g) return;
+  if (g->kind == Grid::Kind::in_out) {
+    const Axis &in = g->axes[0], &out = g->axes[1];
+    if (in.spacing != out.spacing || in.size != out.size || in.span != out.span) return;
+    for (std::size_t a = 0; a < in.size; ++a)
+      for (std::size_t b = a; b < in.size; ++b) {
+        auto& parts = row_parts_.emplace_back();
+        parts.add({a * in.size + b, false});
+        if (a != b) parts.add({b * in.size + a, true});
+      }
+    rows_ = row_parts_.size();
+    widest_ = 2;
+    return;
+  }
+  // wi and wo change places with the sign of cos φ_d; nothing else depends on φ_d.
+  std::vector<double> cosine;
+  for (std::size_t k = 0; k < columns_; ++k) {
+    cosine.push_back(std::cos(g->axes[2].angle(static_cast<double>(k), bins)));
+    const auto same = [&](const Parts& parts) {
+      return parts.count < most &&
+             std::abs(std::abs(cosine[parts.part[0].at]) - std::abs(cosine[k])) < 1e-12;
+    };
+    auto found = std::ranges::find_if(column_parts_, same);
+    if (found == column_parts_.end()) found = column_parts_.insert(found, Parts());
+    found->add({k, found->count > 0 && cosine[found->part[0].at] * cosine[k] < 0});
+    widest_ = std::max(widest_, found->count);
+  }
+  columns_ = column_parts_.size();
+}
+
+// ---- sampling -----------------------------------------------------------------------------------
+
+Sampling::Sampling(const Table& t, Bins bins, Metric metric, double offset, bool fold)
+    : table_(t),
+      angles_(t, bins),
+      groups_(t, angles_, bins, fold),
+      metric_(metric),
+      offset_(metric == Metric::l2_cosine ? 0 : offset) {
+  if (t.weights.empty()) return;
+  double sum = 0, samples = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (!(t.weights[i] > 0)) continue;
+    const auto a = angles_(i);
+    if (std::ranges::any_of(t.values,
+                            [&](const auto& v) { return mask(a, v[i]) == Mask::valid; })) {
+      sum += t.weights[i];
+      ++samples;
+    }
+  }
+  if (samples > 0) mean_weight_ = sum / samples;
+  if (!std::isfinite(mean_weight_))
+    throw bad_input(t.path, "weights", "a sum that is not finite", "weights of a usual size");
+}
+
+double Sampling::root_weight(std::size_t i) const {
+  return table_.weights.empty() ? 1 : std::sqrt(table_.weights[i] / mean_weight_);
+}
+
+void SampleCounts::add(const SampleCounts& o) {
+  used += o.used;
+  zero += o.zero;
+  zero_weight += o.zero_weight;
+  for (std::size_t m = 0; m < masked.size(); ++m) masked[m] += o.masked[m];
+}
+
+std::map<std::string, std::size_t> SampleCounts::by_reason(const Sampling& s) const {
+  std::map<std::string, std::size_t> reasons;
+  for (std::size_t m = 1; m < mask_names.size(); ++m) reasons[mask_names[m]] = masked[m];
+  if (!usable(s.metric(), 0, s.offset())) reasons["zero"] = zero;
+  if (!s.table().weights.empty()) reasons["zero_weight"] = zero_weight;
+  return reasons;
+}
+
+Tasks::Tasks(const Sampling& s, std::size_t most, std::size_t block)
+    : step(1), all_(s.groups().size()) {
+  // Without a common divisor: else it would visit the same columns of every row of a grid.
+  step = std::max<std::size_t>(all_ / std::max<std::size_t>(most, 1), 1);
+  while (step > 1 && std::gcd(step, all_) > 1) ++step;
+  constexpr std::size_t blocks = 64;
+  size_ = blocks * block * step;
+  count = (all_ + size_ - 1) / size_;
+}
+
+// ---- blocks -------------------------------------------------------------------------------------
+
+template <class F>
+BlockReader<F>::BlockReader(const Sampling& s,
+                            std::size_t first,
+                            std::size_t last,
+                            std::size_t step)
+    : sampling_(s),
+      row_(first / s.groups().columns()),
+      column_(first % s.groups().columns()),
+      left_(first < last ? (last - first + step - 1) / step : 0),
+      step_(step),
+      values_(s.groups().widest() * s.channels()),
+      unused_slope_(Column<F>::for_overwrite(block)) {
+  for (auto& a : angles_) a = Column<F>::for_overwrite(block);
+  for (auto& v : values_)
+    v = {Column<F>::for_overwrite(block), Column<F>::for_overwrite(block),
+         Column<F>::for_overwrite(block)};
+}
+
+template <class F>
+Block<F> BlockReader<F>::angles() const {
+  return {angles_[0].data(), angles_[1].data(), angles_[2].data(),
+          angles_[3].data(), angles_[4].data(), padded()};
+}
+
+template <class F>
+bool BlockReader<F>::next() {
+  place();
+  if (n_ == 0) return false;
+  for (std::size_t i = n_; i < padded(); ++i)
+    for (auto& a : angles_) a[i] = F(0.5);
+  for (std::size_t m = 0; m < sampling_.groups().widest(); ++m)
+    for (std::size_t c = 0; c < sampling_.channels(); ++c) fill(m, c);
+  return true;
+}
+
+/// The angles and samples of the next groups.
+template <class F>
+void BlockReader<F>::place() {
+  const Groups& groups = sampling_.groups();
+  const std::size_t width = sampling_.angles().row_size(), widest = groups.widest();
+  n_ = 0;
+  while (n_ < block && left_ > 0) {
+    const auto rows = groups.row(row_);
+    const auto at = sampling_.angles().row(rows.part[0].at);
+    for (; column_ < groups.columns() && n_ < block && left_ > 0; column_ += step_, --left_) {
+      const auto columns = groups.column(column_);
+      const auto a = at(columns.part[0].at);
+      if (!(a.nol > 0 && a.nov > 0)) {
+        counts_.masked[static_cast<std::size_t>(Mask::below_horizon)] +=
+            rows.count * columns.count * sampling_.channels();
+        continue;
+      }
+      const std::array cosines{a.nol, a.nov, a.noh, a.voh, a.sin2_theta_h};
+      for (std::size_t k = 0; k < cosines.size(); ++k) angles_[k][n_] = static_cast<F>(cosines[k]);
+      std::size_t m = 0;
+      for (const auto& r : rows.all())
+        for (const auto& c : columns.all()) {
+          sample_[m][n_] = r.at * width + c.at;
+          swapped_[m++][n_] = r.swapped != c.swapped;
+        }
+      for (; m < widest; ++m) sample_[m][n_] = absent, swapped_[m][n_] = 0;
+      ++n_;
+    }
+    for (; column_ >= groups.columns(); column_ -= groups.columns()) ++row_;
+  }
+}
+
+/// One member's values in one channel: sorted out without a branch, then targets and weights.
+template <class F>
+void BlockReader<F>::fill(std::size_t member, std::size_t channel) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  const Metric metric = sampling_.metric();
+  const auto& sample = sample_[member];
+  const double* const stored = sampling_.table().values[channel].data();
+  const bool weighted = !sampling_.table().weights.empty(), any = metric == Metric::l2_cosine;
+  const double offset = sampling_.offset();
+  auto& v = values_[member * sampling_.channels() + channel];
+  F *const y = v.y.data(), *const target = v.target.data(), *const weight = v.weight.data();
+  std::size_t not_finite = 0, negative = 0, valid = 0, zero = 0, zero_weight = 0;
+  for (std::size_t i = 0; i < n_; ++i) {
+    const bool here = sample[i] != absent;
+    const double value = here ? stored[sample[i]] : -1;
+    const bool finite = std::abs(value) <= largest, good = finite && value >= 0;
+    const double root = weighted && here ? sampling_.root_weight(sample[i]) : 1;
+    const bool use = good && (any || value + offset > 0), on = root > 0;
+    not_finite += !finite;
+    negative += finite && value < 0 && here;
+    valid += good;
+    zero += good && !use;
+    zero_weight += use && !on;
+    y[i] = good && on ? static_cast<F>(value) : F(-1);
+    weight[i] = use && on ? static_cast<F>(root) : F(0);
+  }
+  counts_.masked[static_cast<std::size_t>(Mask::not_finite)] += not_finite;
+  counts_.masked[static_cast<std::size_t>(Mask::negative)] += negative;
+  counts_.masked[static_cast<std::size_t>(Mask::valid)] += valid;
+  counts_.zero += zero;
+  counts_.zero_weight += zero_weight;
+  counts_.used += valid - zero - zero_weight;
+  for (std::size_t i = n_; i < padded(); ++i) y[i] = F(-1), weight[i] = F(0);
+
+  if (metric == Metric::l2_cosine)
+    for (std::size_t i = 0; i < n_; ++i) weight[i] *= nol(member, i);
+  if (metric == Metric::relative)
+    for (std::size_t i = 0; i < n_; ++i)
+      weight[i] /= weight[i] > 0 ? y[i] + static_cast<F>(offset) : F(1);
+  kernels<F>().link[static_cast<std::size_t>(link_of(metric))](
+      padded(), y, static_cast<F>(sampling_.link_offset()), target, unused_slope_.data());
+  for (std::size_t i = 0; i < padded(); ++i) target[i] = weight[i] > 0 ? target[i] : F(0);
+}
+
+template class BlockReader<float>;
+template class BlockReader<double>;
+
+}  // namespace gonio

@@ -1,0 +1,160 @@
+#pragma once
+/// \file
+/// The samples of a table as a fit looks at them: which belong together, what is left out and why,
+/// and with what weight a model is compared with each.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "brdf/evaluate.h"
+#include "brdf/kernels.h"
+#include "table/table.h"
+
+namespace gonio {
+
+/// How far model f is from datum y:
+///   log        ln(f + offset) − ln(y + offset)
+///   l2_cosine  (f − y) NoL
+///   relative   (f − y)/(y + offset)
+/// each of them w (link(f + offset) − t) with a target t and a weight w that depend on the datum.
+enum class Metric { log, l2_cosine, relative };
+inline constexpr std::array<std::string_view, 3> metric_names{"log", "l2_cosine", "relative"};
+
+constexpr Link link_of(Metric m) {
+  return m == Metric::log ? Link::log : Link::identity;
+}
+/// Whether a datum that is valid (≥ 0) can be used: log and relative need y + offset > 0.
+constexpr bool usable(Metric m, double y, double offset) {
+  return y >= 0 && (m == Metric::l2_cosine || y + offset > 0);
+}
+
+/// Samples at which every isotropic reciprocal model has one value: those that change places with
+/// light and viewer exchanged, or mirrored at the plane of incidence, where the layout has them.
+/// The members of a group are those of its row times those of its column.
+class Groups {
+ public:
+  static constexpr std::size_t most = 4;  ///< members
+  struct Part {
+    std::size_t at;  ///< row or column of the table
+    bool swapped;    ///< NoL and NoV are those of the first member exchanged
+  };
+  struct Parts {
+    std::array<Part, most> part{};
+    std::size_t count = 0;
+    std::span<const Part> all() const { return {part.data(), count}; }
+    void add(Part p) { part[count++] = p; }
+  };
+
+  /// \param fold  false: each sample is alone
+  Groups(const Table&, const SampleAngles&, Bins, bool fold);
+  std::size_t rows() const { return rows_; }
+  std::size_t columns() const { return columns_; }
+  std::size_t size() const { return rows_ * columns_; }
+  /// The most members that a group has here.
+  std::size_t widest() const { return widest_; }
+  Parts row(std::size_t i) const {
+    return row_parts_.empty() ? Parts{{{{i, false}}}, 1} : row_parts_[i];
+  }
+  Parts column(std::size_t i) const {
+    return column_parts_.empty() ? Parts{{{{i, false}}}, 1} : column_parts_[i];
+  }
+
+ private:
+  std::size_t rows_, columns_, widest_ = 1;
+  std::vector<Parts> row_parts_, column_parts_;  ///< empty: each alone
+};
+
+/// A table, and how a model is compared with it.
+class Sampling {
+ public:
+  Sampling(const Table&, Bins, Metric, double offset, bool fold);
+  const Table& table() const { return table_; }
+  const SampleAngles& angles() const { return angles_; }
+  const Groups& groups() const { return groups_; }
+  Metric metric() const { return metric_; }
+  double offset() const { return offset_; }  ///< of the log and relative metrics [1/sr]
+  /// What the link adds to f: a difference needs none.
+  double link_offset() const { return metric_ == Metric::log ? offset_ : 0; }
+  std::size_t channels() const { return table_.values.size(); }
+  /// √(weight over the mean weight)
+  double root_weight(std::size_t sample) const;
+
+ private:
+  const Table& table_;
+  SampleAngles angles_;
+  Groups groups_;
+  Metric metric_;
+  double offset_, mean_weight_ = 1;
+};
+
+struct SampleCounts {
+  std::size_t used = 0, zero = 0, zero_weight = 0;
+  std::array<std::size_t, mask_names.size()> masked{};  ///< by Mask
+
+  void add(const SampleCounts&);
+  /// Values left out, by reason.
+  std::map<std::string, std::size_t> by_reason(const Sampling&) const;
+};
+
+/// All groups or about `most` of them, evenly spread, cut into tasks of a fixed size, so that sums do
+/// not depend on the number of threads.
+struct Tasks {
+  std::size_t count, step;
+  Tasks(const Sampling&, std::size_t most, std::size_t block);
+  std::size_t first(std::size_t task) const { return task * size_; }
+  std::size_t last(std::size_t task) const { return std::min(all_, (task + 1) * size_); }
+
+ private:
+  std::size_t all_, size_;
+};
+
+/// Reads the groups first, first + step … below last, block by block, leaving out those below the
+/// horizon.  One per thread.
+template <class F>
+class BlockReader {
+ public:
+  static constexpr std::size_t block = Scratch<F>::block;
+  static constexpr std::size_t absent = static_cast<std::size_t>(-1);
+  /// One member of each group: its values in one channel.
+  struct Values {
+    Column<F> y;               ///< [1/sr]; −1 where masked
+    Column<F> target, weight;  ///< 0 where there is nothing to compare
+  };
+
+  BlockReader(const Sampling&, std::size_t first, std::size_t last, std::size_t step = 1);
+
+  /// The next block; false after the last.
+  bool next();
+  std::size_t size() const { return n_; }  ///< groups; what follows up to padded() is masked
+  std::size_t padded() const { return (n_ + padding - 1) / padding * padding; }
+  Block<F> angles() const;
+  const Values& values(std::size_t member, std::size_t channel) const {
+    return values_[member * sampling_.channels() + channel];
+  }
+  /// Index in the table, or `absent` where the group has no such member.
+  std::size_t sample(std::size_t member, std::size_t i) const { return sample_[member][i]; }
+  /// NoL of that sample.
+  F nol(std::size_t member, std::size_t i) const { return angles_[swapped_[member][i]][i]; }
+  const SampleCounts& counts() const { return counts_; }
+
+ private:
+  void place();
+  void fill(std::size_t member, std::size_t channel);
+
+  const Sampling& sampling_;
+  std::size_t row_, column_, left_, step_, n_ = 0;
+  std::array<Column<F>, 5> angles_;
+  std::array<std::array<std::size_t, block>, Groups::most> sample_;
+  std::array<std::array<std::uint8_t, block>, Groups::most> swapped_;
+  std::vector<Values> values_;
+  Column<F> unused_slope_;
+  SampleCounts counts_;
+};
+
+}  // namespace gonio
