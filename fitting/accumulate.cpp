@@ -62,6 +62,76 @@ class Pass {
   std::vector<std::array<const F*, max_columns>> j_;  ///< ∂f/∂slot
 };
 
+/// The fused pass of a model, where there is one.
+template <class F>
+class FusedPass {
+ public:
+  FusedPass(const Model& m, const FreeSlots& free) : model_(m) {
+    if (m.lobes.size() != 1 || m.diffuse.size() > 1 || m.channels > max_channels) return;
+    const auto& k = kernels<F>();
+    const auto id = [&](const TermUse& t) { return k.terms[t.term].about->id; };
+    const Lobe& l = m.lobes[0];
+    const std::array lobe{id(l.ndf), id(l.masking), id(l.fresnel)};
+    for (const auto& normal : k.normal)
+      if (normal.ids == lobe && normal.diffuse == (m.diffuse.empty() ? "" : id(m.diffuse[0])))
+        kernel_ = &normal;
+    for (std::size_t c = 0; c < m.channels; ++c) {
+      auto parameters = l.ndf.parameters;
+      for (const std::size_t p : l.masking.parameters)
+        if (std::ranges::find(parameters, p) == parameters.end()) parameters.push_back(p);
+      parameters.insert(parameters.end(), l.fresnel.parameters.begin(), l.fresnel.parameters.end());
+      for (const auto& t : m.diffuse)
+        parameters.insert(parameters.end(), t.parameters.begin(), t.parameters.end());
+      auto& at = at_.emplace_back();
+      for (const std::size_t p : parameters) {
+        const std::size_t slot = m.parameters[p].slot(c);
+        at.push_back(free.mask()[slot] ? free.index(slot) : free.size());
+      }
+    }
+  }
+  explicit operator bool() const { return kernel_ != nullptr; }
+  /// Which unknown each column is.
+  const std::vector<std::size_t>& at(std::size_t c) const { return at_[c]; }
+
+  void run(std::span<const double> values,
+           const FitData<F>& d,
+           const std::vector<FitBlock<F>>& blocks,
+           std::vector<GramSums<F>>& sums,
+           F* cost) const {
+    const auto gather = [&](const TermUse& t, std::size_t c) {
+      std::array<F, 4> p{};
+      for (std::size_t k = 0; k < t.parameters.size(); ++k)
+        p[k] = static_cast<F>(values[model_.parameters[t.parameters[k]].slot(c)]);
+      return p;
+    };
+    const Lobe& l = model_.lobes[0];
+    const auto ndf = gather(l.ndf, 0), masking = gather(l.masking, 0);
+    std::array<std::array<F, 4>, max_channels> fresnel, diffuse;
+    NormalArguments<F> a{
+        {}, model_.channels, ndf.data(), masking.data(), {}, {}, {}, {}, d.offset, {}, cost};
+    for (std::size_t c = 0; c < model_.channels; ++c) {
+      fresnel[c] = gather(l.fresnel, c);
+      if (!model_.diffuse.empty()) diffuse[c] = gather(model_.diffuse[0], c);
+      a.f[c] = fresnel[c].data();
+      a.diffuse[c] = diffuse[c].data();
+      a.sums[c] = sums[c].lanes();
+    }
+    for (const auto& b : blocks) {
+      a.x = b.angles();
+      for (std::size_t c = 0; c < model_.channels; ++c) {
+        a.target[c] = b.target(c);
+        a.weight[c] = b.weight(c);
+      }
+      kernel_->pass[static_cast<std::size_t>(d.link)](a);
+    }
+  }
+
+ private:
+  const Model& model_;
+  const NormalKernel<F>* kernel_ = nullptr;
+  std::vector<std::vector<std::size_t>> at_;
+};
+
 void add(std::vector<double>& to, const std::vector<double>& from) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
 }
@@ -83,10 +153,12 @@ void GramSums<F>::scatter(const std::vector<std::size_t>& free,
                           std::vector<double>* g) const {
   const std::size_t k = free.size();
   if (g)
-    for (std::size_t a = 0; a < k; ++a) (*g)[free[a]] += entry(1 + a);
+    for (std::size_t a = 0; a < k; ++a)
+      if (free[a] < n) (*g)[free[a]] += entry(1 + a);
   std::size_t e = k + 1;
   for (std::size_t a = 0; a < k; ++a)
     for (std::size_t b = a; b < k; ++b, ++e) {
+      if (free[a] == n || free[b] == n) continue;
       const double v = entry(e);
       h[free[a] * n + free[b]] += v;
       if (free[a] != free[b]) h[free[b] * n + free[a]] += v;
@@ -96,6 +168,7 @@ void GramSums<F>::scatter(const std::vector<std::size_t>& free,
 template <class F>
 struct Accumulator<F>::Plans {
   tbb::enumerable_thread_specific<Pass<F>> pass;
+  FusedPass<F> fused;
 };
 
 template <class F>
@@ -108,7 +181,8 @@ Accumulator<F>::Accumulator(const Model& m,
       free_(free),
       huber_(static_cast<F>(std::min(huber, double{std::numeric_limits<F>::max()}))),
       plans_(new Plans{
-          tbb::enumerable_thread_specific<Pass<F>>([&m, &free] { return Pass<F>(m, free); })}) {}
+          tbb::enumerable_thread_specific<Pass<F>>([&m, &free] { return Pass<F>(m, free); }),
+          FusedPass<F>(m, free)}) {}
 template <class F>
 Accumulator<F>::~Accumulator() = default;
 
@@ -117,16 +191,23 @@ NormalEquations Accumulator<F>::normal_equations(std::span<const double> values)
   const std::size_t n = free_.size();
   std::vector<NormalEquations> parts(data_.tasks.size());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t task) {
-    Pass<F>& pass = plans_->pass.local();
-    pass.set(values);
     std::vector<GramSums<F>> sums(model_.channels);
     alignas(64) std::array<F, padding> cost{};
-    for (const auto& b : data_.tasks[task])
-      pass.run(b, data_, huber_, cost.data(), [&](std::size_t c) { pass.add(b.n, c, sums[c]); });
     auto& e = parts[task];
     e = {Matrix(n * n), std::vector<double>(n), 0};
-    for (const F lane : cost) e.cost += static_cast<double>(lane) / 2;
-    for (std::size_t c = 0; c < model_.channels; ++c) sums[c].scatter(pass.free(c), n, e.h, &e.g);
+    const auto collect = [&](const auto& columns) {
+      for (const F lane : cost) e.cost += static_cast<double>(lane) / 2;
+      for (std::size_t c = 0; c < model_.channels; ++c) sums[c].scatter(columns(c), n, e.h, &e.g);
+    };
+    if (const auto& fused = plans_->fused; fused && huber_ == std::numeric_limits<F>::max()) {
+      fused.run(values, data_, data_.tasks[task], sums, cost.data());
+      return collect([&](std::size_t c) { return fused.at(c); });
+    }
+    Pass<F>& pass = plans_->pass.local();
+    pass.set(values);
+    for (const auto& b : data_.tasks[task])
+      pass.run(b, data_, huber_, cost.data(), [&](std::size_t c) { pass.add(b.n, c, sums[c]); });
+    collect([&](std::size_t c) { return pass.free(c); });
   });
   NormalEquations total{Matrix(n * n), std::vector<double>(n), data_.rest / 2};
   for (const auto& e : parts) {  // in the order of the samples

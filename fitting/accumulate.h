@@ -52,7 +52,7 @@ class GramSums {
     return sum;
   }
   /// Adds the part of J (and of r to g, unless that is null) where it belongs.
-  /// \param free  the position among n unknowns of each column of J
+  /// \param free  the position among n unknowns of each column of J; n where it is not free
   void scatter(const std::vector<std::size_t>& free,
                std::size_t n,
                Matrix& h,

@@ -47,21 +47,15 @@ class Stopwatch {
  public:
   explicit Stopwatch(std::vector<std::pair<std::string, double>>& into) : into_(into) {}
   void lap(std::string name) {
-    timespec ts;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &ts);
-    double now = ts.tv_sec * 1e3 + ts.tv_nsec / 1e6;
-    into_.emplace_back(std::move(name), now - last2_);
-    last2_ = now;
+    const auto now = std::chrono::steady_clock::now();
+    into_.emplace_back(std::move(name),
+                       std::chrono::duration<double, std::milli>(now - last_).count());
+    last_ = now;
   }
 
  private:
   std::vector<std::pair<std::string, double>>& into_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-  double last2_ = [] {
-    timespec ts;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &ts);
-    return ts.tv_sec * 1e3 + ts.tv_nsec / 1e6;
-  }();
 };
 
 /// The user's bounds by the names of the model's parameters.

@@ -30,4 +30,10 @@ struct FusedList {};
 using Hot = FusedList<TermList<Ggx, SmithGgxCorrelated, Schlick>,
                       TermList<Ggx, SmithGgxCorrelated, Conductor>>;
 
+/// [Diffuse,] D, V, F whose normal equations are fused: what most fits are of.
+using HotFits = FusedList<TermList<Ggx, SmithGgxCorrelated, Schlick>,
+                          TermList<Lambert, Ggx, SmithGgxCorrelated, Schlick>,
+                          TermList<LambertCoupled, Ggx, SmithGgxCorrelated, Schlick>,
+                          TermList<Lambert, Gtr, SmithGgxCorrelated, Schlick>>;
+
 }  // namespace gonio::inline GONIO_ARCH

@@ -21,6 +21,8 @@ namespace gonio {
 inline constexpr std::size_t padding = 16;
 /// The most columns of one channel's normal equations: the residual and its derivatives.
 inline constexpr std::size_t max_columns = 10;
+/// The most channels that fused kernels take.
+inline constexpr std::size_t max_channels = 3;
 
 /// The angles of n samples, as columns.
 template <class F>
@@ -81,12 +83,36 @@ struct ResidualArguments {
   F* cost;  ///< lane sums of ρ(r²), `padding` of them
 };
 
+/// What the fused normal equations read and add to.
+template <class F>
+struct NormalArguments {
+  Block<F> x;
+  std::size_t channels;
+  const F *d, *v;                                 ///< parameters of D and of V
+  std::array<const F*, max_channels> f, diffuse;  ///< parameters of each channel
+  std::array<const F*, max_channels> target, weight;
+  F offset;                           ///< the link's
+  std::array<F*, max_channels> sums;  ///< of each channel, as `gram` adds them
+  F* cost;                            ///< lane sums of r², `padding` of them
+};
+
+/// The normal equations of a whole model in one loop, for plain least squares: the same formulas and
+/// sums as by column kernels.  Columns: r; the parameters of D and those of V that D has not; those of
+/// F; those of the diffuse term.
+template <class F>
+struct NormalKernel {
+  std::string_view diffuse;  ///< empty: none
+  std::array<std::string_view, 3> ids;
+  std::array<void (*)(const NormalArguments<F>&), 2> pass;  ///< by Link
+};
+
 /// Column kernels in F, for one instruction set.
 template <class F>
 struct Kernels {
   std::string_view instruction_set;
   std::span<const TermKernels<F>> terms;
   std::span<const FusedKernel<F>> fused;
+  std::span<const NormalKernel<F>> normal;
 
   /// The product rule, column by column: out = a·b, a·b + c·d, a + b·c.
   void (*product)(std::size_t n, const F* a, const F* b, F* out);
