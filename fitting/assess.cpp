@@ -144,6 +144,9 @@ class Walk {
     plan_.set(values_);
     for (auto* x : {&link_, &link_slope_, &log_f_, &log_y_, &unused_, &score_, &slope_})
       *x = plan_.fresh();
+    for (std::size_t m = 0; m < s.groups().widest(); ++m)
+      for (auto* sums : {&values_seen_[m], &positive_[m], &squares_[m], &log_squares_[m]})
+        *sums = Column<F>::for_overwrite(size);
     for (std::size_t c = 0; c < s.channels(); ++c) {
       auto& x = channel_.emplace_back();
       for (const auto& [slot, column] : plan_.channel(c).d) {
@@ -178,11 +181,10 @@ class Walk {
   void block(const BlockReader<F>& in) {
     const std::size_t members = sampling_.groups().widest();
     const auto x = in.angles();
-    place_incident_angles(in, members);
-    const std::size_t n = in.size();
+    if (by_angle_) place_incident_angles(in, members);
     for (std::size_t m = 0; m < members; ++m)
       for (auto* sums : {&values_seen_[m], &positive_[m], &squares_[m], &log_squares_[m]})
-        std::fill_n(sums->begin(), n, F(0));
+        std::fill_n(sums->data(), x.n, F(0));
     // With ln f − ln y for the metric there is no need to compute the logarithms twice.
     const auto offset = static_cast<F>(sampling_.link_offset());
     const bool logs = link_of(sampling_.metric()) == Link::log && offset == 0;
@@ -199,17 +201,9 @@ class Walk {
                                  score_, slope_, cost_.data()});
         sandwich(in, c, m);
         if (!logs) log(x.n, v.y.data(), F(0), log_y_, unused_);
-        const F *const log_y = logs ? v.target.data() : log_y_, *const y = v.y.data();
-        F *const seen = values_seen_[m].data(), *const positive = positive_[m].data();
-        F *const squares = squares_[m].data(), *const log_squares = log_squares_[m].data();
-        for (std::size_t i = 0; i < n; ++i) {
-          const F difference = f[i] - y[i], ratio = log_f[i] - log_y[i];
-          const bool both = (y[i] > 0) & (f[i] > 0);
-          seen[i] += y[i] >= 0 ? F(1) : F(0);
-          squares[i] += y[i] >= 0 ? difference * difference : F(0);
-          positive[i] += both ? F(1) : F(0);
-          log_squares[i] += both ? ratio * ratio : F(0);
-        }
+        kernels_.left(
+            x.n, {f, v.y.data(), log_f, logs ? v.target.data() : log_y_, values_seen_[m].data(),
+                  squares_[m].data(), positive_[m].data(), log_squares_[m].data()});
       }
     });
     bands_of(in, x, members);
@@ -252,17 +246,18 @@ class Walk {
   }
 
   void bands_of(const BlockReader<F>& in, const Block<F>& x, std::size_t members) {
+    const auto& [theta_i, theta_h, theta_d] = bands();
     for (std::size_t i = 0; i < in.size(); ++i) {
       Sums group;
       for (std::size_t m = 0; m < members; ++m) {
         if (in.sample(m, i) == BlockReader<F>::absent) continue;
         const Sums s{static_cast<double>(values_seen_[m][i]), static_cast<double>(positive_[m][i]),
                      static_cast<double>(squares_[m][i]), static_cast<double>(log_squares_[m][i])};
-        part_.sums[0][bands()[0].by(static_cast<double>(in.nol(m, i)))].add(s);
+        part_.sums[0][theta_i.by(static_cast<double>(in.nol(m, i)))].add(s);
         group.add(s);
       }
-      part_.sums[1][bands()[1].by(static_cast<double>(x.noh[i]))].add(group);
-      part_.sums[2][bands()[2].by(static_cast<double>(x.voh[i]))].add(group);
+      part_.sums[1][theta_h.by(static_cast<double>(x.noh[i]))].add(group);
+      part_.sums[2][theta_d.by(static_cast<double>(x.voh[i]))].add(group);
     }
   }
 
@@ -280,8 +275,8 @@ class Walk {
   alignas(64) std::array<F, padding> cost_{};
   std::vector<std::size_t> place_;
   std::array<std::array<std::size_t, size>, Groups::most> at_{};
-  using PerMember = std::array<std::array<F, size>, Groups::most>;
-  PerMember values_seen_{}, positive_{}, squares_{}, log_squares_{};
+  using PerMember = std::array<Column<F>, Groups::most>;
+  PerMember values_seen_, positive_, squares_, log_squares_;
   Part part_;
 };
 

@@ -19,7 +19,7 @@ struct Sandwich {
 struct Assessment {
   Sandwich sandwich;
   FitResiduals residuals;  ///< over all values, and per band of theta_i, theta_h and theta_d
-  std::size_t incident_angles = 0;
+  std::size_t incident_angles = 0;  ///< counted where scores are summed over them
   SampleCounts counts;
 };
 

@@ -406,6 +406,7 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
   bool by_angle =
       o.intervals == Intervals::by_angle || (o.intervals == Intervals::automatic && !t.truth);
   auto a = assess(sampling, result.model, p.free, f.huber, by_angle, f.in_float);
+  const std::size_t angles = a.incident_angles;
   if (o.intervals == Intervals::by_angle && a.incident_angles < 2)
     throw wrong_usage("intervals by_angle: the table has one incident angle");
   if (by_angle && o.intervals == Intervals::automatic &&
@@ -466,7 +467,7 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
     }
     watch.lap("bin_sensitivity_ms");
   }
-  d.warnings = warnings(o, t, d, a.incident_angles, p.free.size());
+  d.warnings = warnings(o, t, d, angles, p.free.size());
   d.warnings.insert(d.warnings.begin(), t.warnings.begin(), t.warnings.end());
   return result;
 }

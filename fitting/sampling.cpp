@@ -110,7 +110,11 @@ BlockReader<F>::BlockReader(const Sampling& s,
       left_(first < last ? (last - first + step - 1) / step : 0),
       step_(step),
       values_(s.groups().widest() * s.channels()),
-      unused_slope_(Column<F>::for_overwrite(block)) {
+      stored_(Column<F>::for_overwrite(block)),
+      weight_(block, F(1)),
+      ones_(block, F(1)) {
+  for (std::size_t m = 0; m < s.groups().widest(); ++m)
+    nol_.push_back(Column<F>::for_overwrite(block));
   for (auto& a : angles_) a = Column<F>::for_overwrite(block);
   for (auto& v : values_)
     v = {Column<F>::for_overwrite(block), Column<F>::for_overwrite(block),
@@ -127,8 +131,10 @@ template <class F>
 bool BlockReader<F>::next() {
   place();
   if (n_ == 0) return false;
-  for (std::size_t i = n_; i < padded(); ++i)
+  for (std::size_t i = n_; i < padded(); ++i) {
     for (auto& a : angles_) a[i] = F(0.5);
+    for (auto& x : nol_) x[i] = F(0.5);
+  }
   for (std::size_t m = 0; m < sampling_.groups().widest(); ++m)
     for (std::size_t c = 0; c < sampling_.channels(); ++c) fill(m, c);
   return true;
@@ -139,12 +145,14 @@ template <class F>
 void BlockReader<F>::place() {
   const Groups& groups = sampling_.groups();
   const std::size_t width = sampling_.angles().row_size(), widest = groups.widest();
+  Groups::Parts row_alone, column_alone;
+  absent_.fill(0);
   n_ = 0;
   while (n_ < block && left_ > 0) {
-    const auto rows = groups.row(row_);
+    const auto& rows = groups.row(row_, row_alone);
     const auto at = sampling_.angles().row(rows.part[0].at);
     for (; column_ < groups.columns() && n_ < block && left_ > 0; column_ += step_, --left_) {
-      const auto columns = groups.column(column_);
+      const auto& columns = groups.column(column_, column_alone);
       const auto a = at(columns.part[0].at);
       if (!(a.nol > 0 && a.nov > 0)) {
         counts_.masked[static_cast<std::size_t>(Mask::below_horizon)] +=
@@ -156,58 +164,49 @@ void BlockReader<F>::place() {
       std::size_t m = 0;
       for (const auto& r : rows.all())
         for (const auto& c : columns.all()) {
-          sample_[m][n_] = r.at * width + c.at;
-          swapped_[m++][n_] = r.swapped != c.swapped;
+          nol_[m][n_] = angles_[r.swapped != c.swapped][n_];
+          sample_[m++][n_] = r.at * width + c.at;
         }
-      for (; m < widest; ++m) sample_[m][n_] = absent, swapped_[m][n_] = 0;
+      for (; m < widest; ++m) {
+        nol_[m][n_] = F(0.5);
+        sample_[m][n_] = absent;
+        ++absent_[m];
+      }
       ++n_;
     }
     for (; column_ >= groups.columns(); column_ -= groups.columns()) ++row_;
   }
 }
 
-/// One member's values in one channel: sorted out without a branch, then targets and weights.
+/// One member's values in one channel.
 template <class F>
 void BlockReader<F>::fill(std::size_t member, std::size_t channel) {
-  constexpr double largest = std::numeric_limits<double>::max();
   const Metric metric = sampling_.metric();
   const auto& sample = sample_[member];
   const double* const stored = sampling_.table().values[channel].data();
-  const bool weighted = !sampling_.table().weights.empty(), any = metric == Metric::l2_cosine;
-  const double offset = sampling_.offset();
   auto& v = values_[member * sampling_.channels() + channel];
-  F *const y = v.y.data(), *const target = v.target.data(), *const weight = v.weight.data();
-  std::size_t not_finite = 0, negative = 0, valid = 0, zero = 0, zero_weight = 0;
-  for (std::size_t i = 0; i < n_; ++i) {
-    const bool here = sample[i] != absent;
-    const double value = here ? stored[sample[i]] : -1;
-    const bool finite = std::abs(value) <= largest, good = finite && value >= 0;
-    const double root = weighted && here ? sampling_.root_weight(sample[i]) : 1;
-    const bool use = good && (any || value + offset > 0), on = root > 0;
-    not_finite += !finite;
-    negative += finite && value < 0 && here;
-    valid += good;
-    zero += good && !use;
-    zero_weight += use && !on;
-    y[i] = good && on ? static_cast<F>(value) : F(-1);
-    weight[i] = use && on ? static_cast<F>(root) : F(0);
-  }
-  counts_.masked[static_cast<std::size_t>(Mask::not_finite)] += not_finite;
-  counts_.masked[static_cast<std::size_t>(Mask::negative)] += negative;
-  counts_.masked[static_cast<std::size_t>(Mask::valid)] += valid;
-  counts_.zero += zero;
-  counts_.zero_weight += zero_weight;
-  counts_.used += valid - zero - zero_weight;
-  for (std::size_t i = n_; i < padded(); ++i) y[i] = F(-1), weight[i] = F(0);
-
-  if (metric == Metric::l2_cosine)
-    for (std::size_t i = 0; i < n_; ++i) weight[i] *= nol(member, i);
-  if (metric == Metric::relative)
+  for (std::size_t i = 0; i < n_; ++i)
+    stored_[i] = sample[i] == absent ? F(-1) : static_cast<F>(stored[sample[i]]);
+  if (!sampling_.table().weights.empty() && channel == 0)
     for (std::size_t i = 0; i < n_; ++i)
-      weight[i] /= weight[i] > 0 ? y[i] + static_cast<F>(offset) : F(1);
-  kernels<F>().link[static_cast<std::size_t>(link_of(metric))](
-      padded(), y, static_cast<F>(sampling_.link_offset()), target, unused_slope_.data());
-  for (std::size_t i = 0; i < padded(); ++i) target[i] = weight[i] > 0 ? target[i] : F(0);
+      weight_[i] = sample[i] == absent ? F(1) : static_cast<F>(sampling_.root_weight(sample[i]));
+  for (std::size_t i = n_; i < padded(); ++i) stored_[i] = F(-1);
+
+  TargetCounts c;
+  const bool cosine = metric == Metric::l2_cosine;
+  kernels<F>().target[static_cast<std::size_t>(link_of(metric))](
+      padded(),
+      {stored_.data(), weight_.data(), cosine ? nol_[member].data() : ones_.data(),
+       static_cast<F>(sampling_.offset()), metric == Metric::relative, !cosine, v.y.data(),
+       v.target.data(), v.weight.data()},
+      c);
+  counts_.masked[static_cast<std::size_t>(Mask::not_finite)] += c.not_finite;
+  counts_.masked[static_cast<std::size_t>(Mask::negative)] +=
+      c.negative - absent_[member] - (padded() - n_);
+  counts_.masked[static_cast<std::size_t>(Mask::valid)] += c.valid;
+  counts_.zero += c.zero;
+  counts_.zero_weight += c.zero_weight;
+  counts_.used += c.valid - c.zero - c.zero_weight;
 }
 
 template class BlockReader<float>;

@@ -58,14 +58,17 @@ class Groups {
   std::size_t size() const { return rows_ * columns_; }
   /// The most members that a group has here.
   std::size_t widest() const { return widest_; }
-  Parts row(std::size_t i) const {
-    return row_parts_.empty() ? Parts{{{{i, false}}}, 1} : row_parts_[i];
-  }
-  Parts column(std::size_t i) const {
-    return column_parts_.empty() ? Parts{{{{i, false}}}, 1} : column_parts_[i];
-  }
+  /// \param alone  written to and returned where there is nothing to fold
+  const Parts& row(std::size_t i, Parts& alone) const { return parts(row_parts_, i, alone); }
+  const Parts& column(std::size_t i, Parts& alone) const { return parts(column_parts_, i, alone); }
 
  private:
+  static const Parts& parts(const std::vector<Parts>& folded, std::size_t i, Parts& alone) {
+    if (!folded.empty()) return folded[i];
+    alone.part[0] = {i, false};
+    alone.count = 1;
+    return alone;
+  }
   std::size_t rows_, columns_, widest_ = 1;
   std::vector<Parts> row_parts_, column_parts_;  ///< empty: each alone
 };
@@ -140,7 +143,7 @@ class BlockReader {
   /// Index in the table, or `absent` where the group has no such member.
   std::size_t sample(std::size_t member, std::size_t i) const { return sample_[member][i]; }
   /// NoL of that sample.
-  F nol(std::size_t member, std::size_t i) const { return angles_[swapped_[member][i]][i]; }
+  F nol(std::size_t member, std::size_t i) const { return nol_[member][i]; }
   const SampleCounts& counts() const { return counts_; }
 
  private:
@@ -151,9 +154,10 @@ class BlockReader {
   std::size_t row_, column_, left_, step_, n_ = 0;
   std::array<Column<F>, 5> angles_;
   std::array<std::array<std::size_t, block>, Groups::most> sample_;
-  std::array<std::array<std::uint8_t, block>, Groups::most> swapped_;
+  std::array<std::size_t, Groups::most> absent_{};  ///< how many are, of each member
+  std::vector<Column<F>> nol_;
   std::vector<Values> values_;
-  Column<F> unused_slope_;
+  Column<F> stored_, weight_, ones_;
   SampleCounts counts_;
 };
 

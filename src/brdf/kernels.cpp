@@ -2,6 +2,7 @@
 #include "brdf/kernels.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "brdf/catalogue.h"
@@ -155,6 +156,62 @@ void link(std::size_t n, const F* f, F offset, F* value, F* slope) {
     const auto [v, s] = linked<kind, B>(load<B>(f + i), o);
     store<B>(value + i, v);
     store<B>(slope + i, s);
+  }
+}
+
+template <Link kind, class F>
+void targets(std::size_t n, const TargetArguments<F>& a, TargetCounts& counts) {
+  using B = Lane<F>;
+  constexpr F most = std::numeric_limits<F>::max();
+  const B zero(0), one(1), offset(a.offset), link_offset(a.relative ? F(0) : a.offset);
+  B not_finite(0), negative(0), valid(0), unused(0), weightless(0);
+  for (std::size_t i = 0; i < n; i += lanes<B>) {
+    const B value = load<B>(a.value + i), w = load<B>(a.weight + i);
+    const auto finite = B(-most) <= value && value <= B(most), good = finite && zero <= value;
+    const B sum = select<B>(good, value, zero) + offset;
+    const auto use = a.positive ? good && zero < sum : good, on = zero < w;
+    not_finite = not_finite + select<B>(finite, zero, one);
+    negative = negative + select<B>(finite && value < zero, one, zero);
+    valid = valid + select<B>(good, one, zero);
+    unused = unused + select<B>(good, one, zero) - select<B>(use, one, zero);
+    weightless = weightless + select<B>(use, one, zero) - select<B>(use && on, one, zero);
+    const auto compared = use && on;
+    const B y = select<B>(good && on, value, B(-1));
+    const B weight = w * load<B>(a.cosine + i);
+    store<B>(a.y + i, y);
+    store<B>(a.out_weight + i,
+             select<B>(compared, a.relative ? weight / select<B>(use, sum, one) : weight, zero));
+    store<B>(a.target + i, select<B>(compared, linked<kind, B>(y, link_offset)[0], zero));
+  }
+  const auto count = [](const B& lanes_of) {
+    alignas(64) std::array<F, lanes<B>> x;
+    store<B>(x.data(), lanes_of);
+    std::size_t sum = 0;
+    for (const F v : x) sum += static_cast<std::size_t>(v);
+    return sum;
+  };
+  counts.not_finite += count(not_finite);
+  counts.negative += count(negative);
+  counts.valid += count(valid);
+  counts.zero += count(unused);
+  counts.zero_weight += count(weightless);
+}
+
+template <class F>
+void left(std::size_t n, const LeftArguments<F>& a) {
+  using B = Lane<F>;
+  const B zero(0), one(1);
+  const auto add = [&](F* to, const auto& where, const B& x) {
+    store<B>(to, load<B>(to) + select<B>(where, x, zero));
+  };
+  for (std::size_t i = 0; i < n; i += lanes<B>) {
+    const B f = load<B>(a.f + i), y = load<B>(a.y + i), difference = f - y;
+    const B ratio = load<B>(a.log_f + i) - load<B>(a.log_y + i);
+    const auto valid = zero <= y, both = zero < y && zero < f;
+    add(a.values + i, valid, one);
+    add(a.squares + i, valid, difference * difference);
+    add(a.positive + i, both, one);
+    add(a.log_squares + i, both, ratio * ratio);
   }
 }
 
@@ -423,6 +480,8 @@ constexpr Kernels<F> table(std::index_sequence<K...>) {
           product_sum<F>,
           add_product<F>,
           {link<Link::identity, F>, link<Link::log, F>},
+          {targets<Link::identity, F>, targets<Link::log, F>},
+          left<F>,
           residual<false, F>,
           residual<true, F>,
           {nullptr, gram<F, K + 1>...}};

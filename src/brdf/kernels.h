@@ -72,6 +72,31 @@ struct FusedKernel {
 /// How a model's value f is compared with a target t: r = w (link(f + offset) − t).
 enum class Link { identity, log };
 
+/// Stored values as a fit compares with them: r = w (link(f + offset) − target).
+template <class F>
+struct TargetArguments {
+  const F* value;            ///< as stored [1/sr]; valid where finite and not negative
+  const F *weight, *cosine;  ///< factors of w
+  F offset;
+  bool relative;               ///< w is divided by value + offset too, and the link's offset is 0
+  bool positive;               ///< value + offset must be above 0 to be compared with
+  F *y, *target, *out_weight;  ///< −1, 0, 0 where masked
+};
+/// How many values are what.
+struct TargetCounts {
+  std::size_t not_finite = 0, negative = 0, valid = 0;
+  std::size_t zero = 0;         ///< valid, but not above 0 where they must be
+  std::size_t zero_weight = 0;  ///< could be compared with, were it not for their weight
+};
+
+/// What is left of each sample over channels: columns that are added to.
+template <class F>
+struct LeftArguments {
+  const F *f, *y, *log_f, *log_y;
+  F *values, *squares;        ///< where y ≥ 0: how many, Σ (f − y)²
+  F *positive, *log_squares;  ///< where both are above 0: how many, Σ (ln f − ln y)²
+};
+
 /// One channel of one block.  Where the weight is not above 0 the sample is masked, whatever else
 /// stands there.
 template <class F>
@@ -123,6 +148,10 @@ struct Kernels {
   /// and no slope.
   using LinkKernel = void (*)(std::size_t n, const F* f, F offset, F* value, F* slope);
   std::array<LinkKernel, 2> link;
+
+  std::array<void (*)(std::size_t n, const TargetArguments<F>&, TargetCounts&), 2>
+      target;  ///< by Link
+  void (*left)(std::size_t n, const LeftArguments<F>&);
 
   using Residual = void (*)(std::size_t n, const ResidualArguments<F>&);
   /// For the normal equations: r ← √ρ' r, weighted_slope ← √ρ' ∂r/∂f.
