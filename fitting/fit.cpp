@@ -238,12 +238,39 @@ bool is_reciprocal(const BoundModel& b) {
                   "at least one");
 }
 
+/// The model without its lobes.
+Problem diffuse_alone(const Problem& p) {
+  Problem q = p;
+  q.start.model.lobes.clear();
+  std::vector<bool> mask(p.free.mask().size(), false);
+  q.bounds = {};
+  q.narrowed.clear();
+  for (const auto& t : p.start.model.diffuse)
+    for (const std::size_t k : t.parameters) {
+      const auto& parameter = p.start.model.parameters[k];
+      for (std::size_t s = parameter.first; s < parameter.first + parameter.count; ++s)
+        mask[s] = p.free.mask()[s];
+    }
+  for (const std::size_t s : p.free.slots())
+    if (mask[s]) {
+      q.bounds.low.push_back(p.bounds.low[p.free.index(s)]);
+      q.bounds.high.push_back(p.bounds.high[p.free.index(s)]);
+      q.narrowed.push_back(p.narrowed[p.free.index(s)]);
+    }
+  q.free = FreeSlots(std::move(mask));
+  return q;
+}
+
 /// Takes the value from parameters that can be anything: moved over its whole range, the others as
 /// they are, such a one lowers or raises the cost by no more than luck does.  A lobe that may be put
 /// anywhere can always please one of N noisy values, which is worth 2 ln N [the largest of N squared
 /// normal deviates].  Asked of the widths and exponents, which a vanished lobe leaves free, and of
 /// what stands at a bound.
-void find_undetermined(const Problem& p,
+///
+/// The lobe as a whole is asked too: where the diffuse terms alone, fitted anew, do as well or better,
+/// nothing is known of it.  It may be unable to vanish: Schlick's F is 1 at 90° whatever f0 is.
+/// Returns whether that is so.
+bool find_undetermined(const Problem& p,
                        const FitData<double>& thin,
                        const Fitted& f,
                        std::size_t values_used,
@@ -277,6 +304,22 @@ void find_undetermined(const Problem& p,
         u.std_error[i] = nan;
       }
     }
+
+  if (p.start.model.diffuse.empty() || p.start.model.lobes.empty()) return false;
+  const Problem rest = diffuse_alone(p);
+  const double without = minimise(rest, thin, f.values, f.huber).solution.at.cost;
+  if (2 * (without - here.cost) >= luck * variance) return false;
+  for (const auto& l : p.start.model.lobes)
+    for (const auto* t : {&l.ndf, &l.masking, &l.fresnel})
+      for (const std::size_t k : t->parameters) {
+        const auto& q = p.start.model.parameters[k];
+        for (std::size_t s = q.first; s < q.first + q.count; ++s)
+          if (p.free.mask()[s]) {
+            u.status[p.free.index(s)] = ParameterStatus::not_identifiable;
+            u.std_error[p.free.index(s)] = nan;
+          }
+      }
+  return true;
 }
 
 /// One document entry per parameter, alpha followed by roughness.
@@ -416,7 +459,7 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
   }
   const std::size_t clusters = by_angle ? a.incident_angles : 0;
   auto u = uncertainty(a.sandwich, f.solution.x, p.bounds, a.counts.used, clusters);
-  find_undetermined(p, scanned, f, a.counts.used, u);
+  const bool needless = find_undetermined(p, scanned, f, a.counts.used, u);
   watch.lap("errors_ms");
 
   d.model = p.start.model.spec;
@@ -468,6 +511,10 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
     watch.lap("bin_sensitivity_ms");
   }
   d.warnings = warnings(o, t, d, angles, p.free.size());
+  if (needless)
+    d.warnings.push_back(
+        "without its lobe the model meets the table as well or better: nothing is known of the "
+        "lobe");
   d.warnings.insert(d.warnings.begin(), t.warnings.begin(), t.warnings.end());
   return result;
 }

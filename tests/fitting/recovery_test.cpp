@@ -166,6 +166,38 @@ TEST(Fit, SaysThatAWidthWithoutALobeIsNotIdentifiable) {
   }
 }
 
+TEST(Fit, SaysThatALobeIsNotIdentifiableWhereDiffuseAloneDoesAsWell) {
+  // Schlick's F is 1 at 90° whatever f0 is: this lobe cannot vanish from a Lambertian table.
+  for (const Layout layout : {Layout::mbsdf, Layout::in_plane})
+    for (const char* diffuse : {"lambert", "lambert.coupled"})
+      for (const double noise : {0.0, 0.02}) {
+        const auto table = synthesize(
+            bind_model("lambert", parse_settings(std::vector<std::string>{"kd=0.6,0.5,0.4"}), 3),
+            {.layout = layout, .noise = noise});
+        FitOptions o;
+        o.model = std::string(diffuse) + "+ggx/smith_ggx.correlated/schlick";
+        const auto d = fit(table, o).document;
+        for (const char* name : {"alpha", "roughness", "f0"}) {
+          EXPECT_EQ(parameter(d, name).status[0], ParameterStatus::not_identifiable)
+              << diffuse << " " << noise << " " << name;
+          EXPECT_TRUE(std::isnan(parameter(d, name).value[0]));
+        }
+        EXPECT_NEAR(parameter(d, "kd").value[0], 0.6, 0.01) << diffuse << " " << noise;
+        ASSERT_FALSE(d.warnings.empty());
+        EXPECT_TRUE(d.warnings.back().starts_with("without its lobe")) << d.warnings.back();
+      }
+}
+
+TEST(Fit, KeepsALobeThatTheTableNeeds) {
+  for (const double f0 : {0.02, 0.04}) {
+    const Material faint{"faint",
+                         "lambert+ggx/smith_ggx.correlated/schlick",
+                         {"alpha=0.5", "kd=0.8", "f0=" + std::to_string(f0)}};
+    const auto d = fit_synthetic(faint, {.layout = Layout::mbsdf, .noise = 0.02}).document;
+    EXPECT_EQ(parameter(d, "alpha").status[0], ParameterStatus::free) << f0;
+  }
+}
+
 TEST(Fit, FindsAPeakMuchNarrowerThanTheFirstGuess) {
   const Material needle{"needle", metal, {"alpha=0.0005", "f0=0.5"}};
   FitOptions o;
