@@ -24,6 +24,7 @@ void add_term(CLI::App&, Action&);
 void add_eval(CLI::App&, Action&);
 void add_synth(CLI::App&, Action&);
 void add_columns(CLI::App&, Action&);
+void add_convert(CLI::App&, Action&);
 void add_inspect(CLI::App&, Action&);
 void add_compare(CLI::App&, Action&);
 void add_fit(CLI::App&, Action&);

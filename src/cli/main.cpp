@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   gonio::cli::add_columns(app, action);
   gonio::cli::add_inspect(app, action);
   gonio::cli::add_fit(app, action);
+  gonio::cli::add_convert(app, action);
   gonio::cli::add_compare(app, action);
   gonio::cli::add_bench(app, action);
   try {

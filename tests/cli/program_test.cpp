@@ -264,7 +264,7 @@ TEST(Program, SaysWhenStandardOutputCannotBeWritten) {
 TEST(Program, ShowsAnExampleWithEveryHelp) {
   const Folder f;
   for (const char* command :
-       {"models", "term", "eval", "synth", "columns", "inspect", "fit", "compare", "bench"}) {
+       {"models", "term", "eval", "synth", "columns", "convert", "inspect", "fit", "compare", "bench"}) {
     const auto o = gonio(f, std::string(command) + " --help");
     EXPECT_EQ(o.code, 0);
     EXPECT_NE(o.out.find("Example:\n  gonio " + std::string(command)), std::string::npos)

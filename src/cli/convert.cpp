@@ -1,0 +1,202 @@
+// gonio convert: a table in another format, and what that lost.
+#include "table/convert.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "base/text.h"
+#include "cli/command.h"
+#include "cli/terminal.h"
+#include "table/formats.h"
+#include "table/metadata.h"
+
+#include <nlohmann/json.hpp>
+
+namespace gonio::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options : Common {
+  std::string input, output, channels;
+  std::optional<std::string> bins, to_bins;
+  ConvertOptions convert;
+};
+
+std::string format_of(const Options& o) {
+  if (!o.convert.format.empty()) return o.convert.format;
+  const auto extension = std::filesystem::path(o.output).extension().string();
+  if (extension == ".binary") return "merl";
+  if (extension == ".mbsdf" || extension == ".csv" || extension == ".exr")
+    return extension.substr(1);
+  throw wrong_usage(
+      fmt::format("what {} is to be is not clear: --to merl, mbsdf, csv or exr", o.output));
+}
+
+std::string layout(const Table& t) {
+  const Grid* g = t.grid();
+  if (!g) return fmt::format("{}, {} samples", t.format, t.size());
+  std::string s = t.format + ",";
+  for (const auto& a : g->axes)
+    if (a.spacing == Axis::Spacing::constant)
+      s += fmt::format(" at {} {:g}°", a.name, a.span / degree);
+    else
+      s += fmt::format("{}{} {}", s.back() == ',' ? " " : " × ", a.size, a.name);
+  return s + (t.has_bins() ? fmt::format(", bins {}", bins_names[static_cast<std::size_t>(g->bins)])
+                           : "");
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.3g} %", 100 * share);
+}
+std::string percent(std::size_t part, std::size_t whole) {
+  return percent(whole ? static_cast<double>(part) / static_cast<double>(whole) : 0);
+}
+
+/// What was done to the values, in words.
+std::string method(const Loss& l, double reach_deg) {
+  switch (l.method) {
+    case Loss::Method::copied:
+      return "value for value";
+    case Loss::Method::listed:
+      return fmt::format("each bin as its direction, {} below the horizon left out", l.left_out);
+    case Loss::Method::trilinear:
+      return "interpolated (trilinear)";
+    case Loss::Method::gathered:
+      break;
+  }
+  return fmt::format("mean of the samples in a bin; {} of the bins took the nearest within {:g}°",
+                     percent(l.nearest, l.bins), reach_deg);
+}
+
+std::array<double, 3> angles_deg(const Table& t, std::size_t sample) {
+  const auto p = SampleAngles(t).directions(sample);
+  return {theta_of(p.wi) / degree, theta_of(p.wo) / degree,
+          std::abs(std::remainder(phi_of(p.wo) - phi_of(p.wi), 2 * std::numbers::pi)) / degree};
+}
+
+void print(const Table& from, const Conversion& c, const Options& o) {
+  const auto line = [](const char* what, const std::string& text) {
+    fmt::print("{:<14}{}\n", what, text);
+  };
+  const Loss& l = c.loss;
+  line("from", layout(from));
+  line("to", layout(c.table));
+  line("values", method(l, o.convert.reach_deg) + (l.rounded ? ", rounded to float" : ""));
+  line("no data", fmt::format("{} of {} {} above the horizon", percent(l.without_data, l.bins),
+                              l.bins, c.table.grid() ? "bins" : "samples"));
+  if (l.mirror)
+    line("azimuth",
+         fmt::format("φ and −φ averaged: their median difference is {}", percent(*l.mirror)));
+  if (l.reciprocity)
+    line("reciprocity", fmt::format("(wi, wo) and (wo, wi) averaged: their median difference is {}",
+                                    percent(*l.reciprocity)));
+  if (l.one_phi_d) line("phi_d", "the slice was taken to hold for every phi_d");
+  if (l.replicated) line("channels", "one written as three");
+  if (!l.dropped.empty()) line("channels", fmt::format("dropped {}", fmt::join(l.dropped, " ")));
+  if (!l.renamed.empty())
+    line("channels", fmt::format("{} have become r g b", fmt::join(l.renamed, " ")));
+  if (l.weights_dropped) line("weights", "dropped");
+  if (l.compared == 0) {
+    line("and back", "nothing");
+  } else if (l.largest == 0 && l.lost == 0) {
+    line("and back", "the same values");
+  } else {
+    const auto [in, out, phi] = angles_deg(from, l.largest_at);
+    line(
+        "and back",
+        fmt::format("RMS difference {}, largest {} (theta_i {:.1f}°, theta_o {:.1f}°, phi {:.1f}°)",
+                    percent(l.rms), percent(l.largest), in, out, phi));
+    if (l.lost)
+      line("and back",
+           fmt::format("nothing for {} of the values", percent(l.lost, l.compared + l.lost)));
+  }
+}
+
+Json to_json(const Table& from, const Conversion& c, const Options& o) {
+  const auto side = [](const Table& t, const std::string& path) {
+    return Json{{"path", path},
+                {"format", t.format},
+                {"channels", t.channels},
+                {"samples", t.size()},
+                {"bins", t.has_bins() ? bins_names[static_cast<std::size_t>(t.bins())] : "none"}};
+  };
+  const auto maybe = [](const std::optional<double>& v) { return v ? Json(*v) : Json(); };
+  const Loss& l = c.loss;
+  const auto [in, out, phi] = angles_deg(from, l.largest_at);
+  return {{"input", side(from, o.input)},
+          {"output", side(c.table, o.output)},
+          {"method", method_names[static_cast<std::size_t>(l.method)]},
+          {"bins_above_horizon", l.bins},
+          {"bins_without_data", l.without_data},
+          {"bins_from_nearest", l.nearest},
+          {"bins_left_out", l.left_out},
+          {"mirror_difference", maybe(l.mirror)},
+          {"reciprocity_difference", maybe(l.reciprocity)},
+          {"one_phi_d", l.one_phi_d},
+          {"rounded_to_float", l.rounded},
+          {"channels_replicated", l.replicated},
+          {"channels_dropped", l.dropped},
+          {"channels_renamed", l.renamed},
+          {"weights_dropped", l.weights_dropped},
+          {"there_and_back",
+           {{"compared", l.compared},
+            {"lost", l.lost},
+            {"rms", l.rms},
+            {"largest", l.largest},
+            {"largest_at", {{"theta_i_deg", in}, {"theta_o_deg", out}, {"phi_deg", phi}}}}}};
+}
+
+Exit run(const Options& o) {
+  use_jobs(o.jobs);
+  ConvertOptions options = o.convert;
+  options.format = format_of(o);
+  options.bins = bins_from(o.to_bins);
+  if (!o.channels.empty()) options.channels = split(o.channels, ',');
+  check_outputs({o.input}, {o.output, side_path(o.output)});
+  Progress progress(o.quiet);
+  progress("reading " + o.input);
+  const Table from = read_table(o.input, bins_from(o.bins));
+  progress("converting");
+  const Conversion c = convert(from, options);
+  progress("writing " + o.output);
+  write_table(c.table, o.output);
+  progress.clear();
+  if (o.json)
+    fmt::print("{}\n", to_json(from, c, o).dump(2, ' ', false, Json::error_handler_t::replace));
+  else
+    print(from, c, o);
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, Action& action) {
+  auto o = std::make_shared<Options>();
+  auto* c = add_command(app, action, "convert",
+                        "Writes a table in another format and says what that loses",
+                        "gonio convert paint.binary paint.mbsdf", o, run);
+  c->add_option("IN", o->input, "Table")->required();
+  c->add_option("OUT", o->output, "File to write")->required();
+  c->add_option("--to", o->convert.format,
+                "merl, mbsdf, csv or exr (a slice); default: by OUT's ending, .binary being merl")
+      ->check(CLI::IsMember({"merl", "mbsdf", "csv", "exr"}));
+  c->add_option("--channels", o->channels, "Which, in this order: NAME,NAME,…");
+  add_bins(c, o->bins);
+  c->add_option("--to-bins", o->to_bins, "Where a sample sits in OUT's bins (default: as in IN)")
+      ->check(CLI::IsMember({"centre", "edge"}));
+  c->add_option("--theta", o->convert.n_theta, "Bins of theta_i and theta_o (mbsdf; default 45)")
+      ->check(CLI::Range(1, 180));
+  c->add_option("--phi", o->convert.n_phi, "Samples of phi over 0 to 180° (mbsdf; default 90)")
+      ->check(CLI::Range(2, 721));
+  c->add_option("--phi-d", o->convert.phi_d_deg, "phi_d of the slice in degrees (exr; default 90)")
+      ->check(CLI::Range(0.0, 180.0));
+  c->add_option("--reach", o->convert.reach_deg,
+                "How far an empty bin looks for a sample of a list, in degrees")
+      ->check(CLI::Range(0.0, 30.0))
+      ->capture_default_str();
+  add_jobs(c, *o);
+  add_output(c, *o);
+}
+
+}  // namespace gonio::cli

@@ -1,0 +1,65 @@
+#pragma once
+/// \file
+/// A table in another layout, and what that loses.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "table/table.h"
+
+namespace gonio {
+
+struct ConvertOptions {
+  std::string format;                 ///< merl, mbsdf, csv or exr
+  std::vector<std::string> channels;  ///< which, in this order; empty: all
+  /// Of the result; else as the source.  Its sizes too where the layout leaves them open: as the
+  /// source if that is of the format, else 45 × 45 × 90 (MBSDF) or 90 × 90 (slice).
+  std::optional<Bins> bins;
+  std::optional<std::size_t> n_theta, n_phi;  ///< of MBSDF
+  std::optional<double> phi_d_deg;            ///< of a slice; else as the source's, or 90
+  double reach_deg = 2;  ///< from a list: how far an empty bin looks for a sample, in wi and in wo
+};
+
+/// Differences are relative to the mean of the two values: 2 |a − b|/(a + b), at most 2.
+struct Loss {
+  enum class Method {
+    copied,     ///< the same bins, or the same list
+    listed,     ///< each bin as its direction; those below the horizon are left out
+    trilinear,  ///< between the source's samples (Interpolator)
+    gathered    ///< the mean of the samples in a bin; in an empty bin the nearest within reach, to
+                ///< a quarter of that
+  };
+  Method method = Method::copied;
+  std::size_t bins = 0;          ///< above the horizon
+  std::size_t without_data = 0;  ///< of these, in the channel where that is most
+  std::size_t nearest = 0;       ///< of these, those that took a sample from outside
+  std::size_t left_out = 0;      ///< bins below the horizon that a list does not name
+  /// Medians over the pairs of values that the result has one for: φ and −φ (in MBSDF), (wi, wo) and
+  /// (wo, wi) (in MERL's 180 bins).  Absent where the source has one for both already.
+  std::optional<double> mirror, reciprocity;
+  bool one_phi_d = false;   ///< the source is a slice, taken to hold for every phi_d
+  bool rounded = false;     ///< to float, 6e-8
+  bool replicated = false;  ///< one channel as three
+  bool weights_dropped = false;
+  std::vector<std::string> dropped;  ///< channels
+  std::vector<std::string> renamed;  ///< channels that have become r, g, b
+  /// There and back: the result, interpolated at the source's valid samples, against their values.
+  std::size_t compared = 0, lost = 0;  ///< values; those that nothing comes back for
+  double rms = 0, largest = 0;         ///< differences
+  std::size_t largest_at = 0;          ///< the source's sample
+};
+inline constexpr std::array<const char*, 4> method_names{"copied", "listed", "trilinear",
+                                                         "gathered"};
+
+struct Conversion {
+  Table table;
+  Loss loss;
+};
+
+/// What is masked stays without data: −1 in MERL, else NaN.  The truth stays where values do.  Wrong
+/// usage where the format cannot hold the channels; bad_input where a list's samples reach less than
+/// half of the bins.
+Conversion convert(const Table&, const ConvertOptions&);
+
+}  // namespace gonio

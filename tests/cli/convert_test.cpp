@@ -1,0 +1,74 @@
+// gonio convert: another format, and what that lost, on the terminal and as a document.
+#include "program.h"
+
+namespace gonio::test {
+namespace {
+
+TEST(ConvertCommand, GoesByTheEndingOrByTheWord) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf -o p.mbsdf").code, 0);
+  const auto list = gonio(f, "convert p.mbsdf p.csv --json");
+  ASSERT_EQ(list.code, 0) << list.err;
+  EXPECT_EQ(list.json()["method"], "listed");
+  EXPECT_EQ(list.json()["there_and_back"]["rms"], 0);
+  const auto back = gonio(f, "convert p.csv again --to mbsdf --json").json();
+  EXPECT_EQ(back["method"], "gathered");
+  EXPECT_EQ(back["bins_from_nearest"], 0);
+  EXPECT_EQ(read_bytes(f / "again"), read_bytes(f / "p.mbsdf"));
+  EXPECT_EQ(gonio(f, "convert p.mbsdf p.exr --phi-d 60 --json").json()["output"]["format"], "exr");
+  EXPECT_EQ(gonio(f, "inspect p.exr --json").json()["format"], "exr");
+  const auto coarse = gonio(f, "convert p.mbsdf c.mbsdf --theta 20 --phi 30 --to-bins edge");
+  EXPECT_NE(coarse.out.find("20 theta_i × 20 theta_o × 30 phi, bins edge"), std::string::npos)
+      << coarse.out;
+  EXPECT_NE(coarse.out.find("and back      RMS difference"), std::string::npos);
+  EXPECT_EQ(gonio(f, "inspect c.mbsdf --json").json()["bins"], "edge");
+}
+
+TEST(ConvertCommand, KeepsAFitWhereTheLayoutCanHoldIt) {
+  const Folder f;
+  ASSERT_EQ(gonio(f,
+                  "synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.4 f0=0.05 kd=0.2 "
+                  "--layout mbsdf -o p.mbsdf")
+                .code,
+            0);
+  ASSERT_EQ(gonio(f, "convert p.mbsdf p2.mbsdf --theta 60 --phi 91").code, 0);
+  const auto fit = gonio(f, "fit p2.mbsdf --json").json();
+  EXPECT_NEAR(fit["parameters"]["alpha"]["value"], 0.4, 0.01);
+}
+
+TEST(ConvertCommand, NeverTouchesItsInputAndLeavesNothingWhereItFails) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout in_plane -o p.csv").code, 0);
+  const auto before = read_bytes(f / "p.csv");
+  const auto entries = f.entries();
+  for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"convert p.csv p.csv", "is an input"},
+           {"convert p.csv ./p.csv", "is an input"},
+           {"convert p.csv p.csv.gonio.json --to csv", "is an input"},
+           {"convert p.csv other", "--to merl"},
+           {"convert p.csv other.txt", "--to merl"},
+           {"convert p.csv o.csv --channels r,x", "no channel 'x'"},
+           {"convert p.csv o.mbsdf --channels r,g", "one channel or three"},
+           {"convert p.csv o.csv --to png", "png"}})
+    expect_one_line(gonio(f, words), 2, holding);
+  for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"convert p.csv o.mbsdf", "--reach"},
+           {"convert missing o.csv", "missing"},
+           {"convert p.csv no/such/o.csv", "writing"}})
+    expect_one_line(gonio(f, words), 3, holding);
+  EXPECT_EQ(read_bytes(f / "p.csv"), before);
+  EXPECT_EQ(f.entries(), entries);
+}
+
+TEST(ConvertCommand, GivesTheSameFileAndFiguresWhateverTheThreads) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf --noise 0.1 -o p.mbsdf").code,
+            0);
+  const auto one = gonio(f, "convert p.mbsdf o.mbsdf --theta 50 --jobs 1 --json");
+  const auto bytes = read_bytes(f / "o.mbsdf");
+  EXPECT_EQ(gonio(f, "convert p.mbsdf o.mbsdf --theta 50 --jobs 2 --json").out, one.out);
+  EXPECT_TRUE(read_bytes(f / "o.mbsdf") == bytes);
+}
+
+}  // namespace
+}  // namespace gonio::test
