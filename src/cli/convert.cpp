@@ -54,14 +54,14 @@ std::string percent(std::size_t part, std::size_t whole) {
 }
 
 /// What was done to the values, in words.
-std::string method(const Loss& l, double reach_deg) {
+std::string method(const Table& from, const Loss& l, double reach_deg) {
   switch (l.method) {
     case Loss::Method::copied:
       return "value for value";
     case Loss::Method::listed:
       return fmt::format("each bin as its direction, {} below the horizon left out", l.left_out);
-    case Loss::Method::trilinear:
-      return "interpolated (trilinear)";
+    case Loss::Method::interpolated:
+      return from.grid() ? "interpolated (trilinear)" : "interpolated as the format says";
     case Loss::Method::gathered:
       break;
   }
@@ -82,7 +82,7 @@ void print(const Table& from, const Conversion& c, const Options& o) {
   const Loss& l = c.loss;
   line("from", layout(from));
   line("to", layout(c.table));
-  line("values", method(l, o.convert.reach_deg) + (l.rounded ? ", rounded to float" : ""));
+  line("values", method(from, l, o.convert.reach_deg) + (l.rounded ? ", rounded to float" : ""));
   line("no data", fmt::format("{} of {} {} above the horizon", percent(l.without_data, l.bins),
                               l.bins, c.table.grid() ? "bins" : "samples"));
   if (l.mirror)

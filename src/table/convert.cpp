@@ -32,7 +32,7 @@ DirectionPair mirrored(DirectionPair p) {
   return p;
 }
 bool above_horizon(const DirectionPair& p) {
-  return p.wi.z > kHorizon && p.wo.z > kHorizon;
+  return p.wi.z > horizon_cosine && p.wo.z > horizon_cosine;
 }
 double difference(double a, double b) {
   return a == b ? 0 : 2 * std::abs(a - b) / (std::abs(a) + std::abs(b));
@@ -61,6 +61,7 @@ Table with_channels(const Table& t, const ConvertOptions& o, Loss& loss) {
   out.format = o.format;
   out.where = t.where;
   out.negative_is_noise = t.negative_is_noise;
+  std::vector<std::size_t> picked;
   const auto& wanted = o.channels.empty() ? t.channels : o.channels;
   for (const auto& name : wanted) {
     const auto at = std::ranges::find(t.channels, name);
@@ -69,8 +70,13 @@ Table with_channels(const Table& t, const ConvertOptions& o, Loss& loss) {
     if (std::ranges::find(out.channels, name) != out.channels.end())
       throw wrong_usage(fmt::format("channel '{}' twice", name));
     out.channels.push_back(name);
-    out.values.push_back(t.values[static_cast<std::size_t>(at - t.channels.begin())]);
+    picked.push_back(static_cast<std::size_t>(at - t.channels.begin()));
+    out.values.push_back(t.values[picked.back()]);
   }
+  if (t.between)
+    out.between = [between = t.between, picked](const DirectionPair& p, std::size_t c) {
+      return between(p, picked[c]);
+    };
   for (const auto& name : t.channels)
     if (std::ranges::find(out.channels, name) == out.channels.end()) loss.dropped.push_back(name);
   if (o.format == "csv" || o.format == "exr") return out;
@@ -168,7 +174,7 @@ class Resampling {
 };
 
 void resample(const Table& from, Table& to, Loss& loss) {
-  loss.method = Loss::Method::trilinear;
+  loss.method = Loss::Method::interpolated;
   loss.one_phi_d = from.grid() && is_slice(*from.grid());
   Resampling f(from, *to.grid());
   const SampleAngles at(to);
@@ -371,7 +377,7 @@ void there_and_back(const Table& from, const Table& to, Loss& loss) {
 
 /// As the format will hold them: in float, and with its mark for "no data".
 void settle_values(Table& t, const Loss& loss) {
-  const bool resampled = loss.method >= Loss::Method::trilinear;
+  const bool resampled = loss.method >= Loss::Method::interpolated;
   if (resampled) t.negative_is_noise = t.format != "merl";
   for (auto& plane : t.values)
     for (double& v : plane) {
@@ -393,13 +399,14 @@ Conversion convert(const Table& source, const ConvertOptions& o) {
   Table& to = result.table;
   if (grid ? source.grid() && *source.grid() == *grid : !source.grid()) {
     to = from;
+    to.between = {};
   } else if (to_list) {
     to = listed(from, loss);
   } else {
     to.where = *grid;
     to.channels = from.channels;
     to.values.assign(from.values.size(), Values(grid->size(), kNone));
-    if (source.grid())
+    if (from.grid() || from.between)
       resample(from, to, loss);
     else
       gather(from, to, o.reach_deg, loss);

@@ -24,11 +24,11 @@ struct ConvertOptions {
 /// Differences are relative to the mean of the two values: 2 |a − b|/(a + b), at most 2.
 struct Loss {
   enum class Method {
-    copied,     ///< the same bins, or the same list
-    listed,     ///< each bin as its direction; those below the horizon are left out
-    trilinear,  ///< between the source's samples (Interpolator)
-    gathered    ///< the mean of the samples in a bin; in an empty bin the nearest within reach, to
-                ///< a quarter of that
+    copied,        ///< the same bins, or the same list
+    listed,        ///< each bin as its direction; those below the horizon are left out
+    interpolated,  ///< between the source's samples (Interpolator)
+    gathered  ///< the mean of the samples in a bin; in an empty bin the nearest within reach, to
+              ///< a quarter of that
   };
   Method method = Method::copied;
   std::size_t bins = 0;          ///< above the horizon

@@ -259,12 +259,15 @@ class Reader {
     to_zenith(l.theta_o_deg, l.phi_o_deg);
   }
 
-  /// 1/sr without the cosine; at the horizon, where there is nothing to divide by, as they are.
+  /// 1/sr without the cosine.
   void to_f(Table& t) const {
     for (auto& plane : t.values)
       for (std::size_t i = 0; i < plane.size(); ++i) {
+        plane[i] *= map_->scale;
+        if (!map_->cosine) continue;
         const double cosine = std::cos(t.list()->theta_o_deg[i] * degree);
-        plane[i] *= map_->cosine && cosine > kHorizon ? map_->scale / cosine : map_->scale;
+        plane[i] =
+            cosine < least_cosine ? std::numeric_limits<double>::quiet_NaN() : plane[i] / cosine;
       }
   }
 

@@ -162,10 +162,10 @@ enum class Mask { valid, below_horizon, negative, not_finite };
 inline constexpr std::array<const char*, 4> mask_names{"valid", "below_horizon", "negative",
                                                        "not_finite"};
 /// The cosine up to which a direction is below the horizon: that of 90° in radians is not quite 0.
-inline constexpr double kHorizon = 1e-9;
+inline constexpr double horizon_cosine = 1e-9;
 /// Geometry first: a value below the horizon is that, whatever is stored there.
 inline Mask mask(const Angles<double>& a, double value) {
-  if (!(a.nol > kHorizon && a.nov > kHorizon)) return Mask::below_horizon;
+  if (!(a.nol > horizon_cosine && a.nov > horizon_cosine)) return Mask::below_horizon;
   if (!std::isfinite(value)) return Mask::not_finite;
   return value < 0 ? Mask::negative : Mask::valid;
 }

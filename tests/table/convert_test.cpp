@@ -58,7 +58,7 @@ TEST(Convert, CopiesTheSameLayoutValueForValue) {
 TEST(Convert, SaysTrulyWhatGoingThereAndBackCosts) {
   const Table t = wide_merl();
   const auto there = convert(t, to("mbsdf"));
-  EXPECT_EQ(there.loss.method, Loss::Method::trilinear);
+  EXPECT_EQ(there.loss.method, Loss::Method::interpolated);
   EXPECT_LT(there.loss.rms, 0.04);
   EXPECT_FALSE(there.table.truth);
   const Table back = convert(there.table, to("merl")).table;
@@ -95,7 +95,7 @@ TEST(Convert, TurnsOneBinConventionIntoTheOther) {
   auto o = to("merl");
   o.bins = Bins::centre;
   const auto [centre, loss] = convert(edge, o);
-  EXPECT_EQ(loss.method, Loss::Method::trilinear);
+  EXPECT_EQ(loss.method, Loss::Method::interpolated);
   const SampleAngles at(centre);
   std::vector<double> off;
   for (std::size_t i = 0; i < centre.size(); i += 7)
@@ -248,6 +248,23 @@ TEST(Convert, SaysHowFarTheTwoSidesAndTheTwoWaysDiffer) {
   ASSERT_TRUE(b.loss.reciprocity);
   EXPECT_NEAR(*b.loss.reciprocity, 1, 1e-6);
   EXPECT_FALSE(b.loss.mirror);
+}
+
+TEST(Convert, AsksAListThatKnowsItsValuesEverywhere) {
+  Table t = csv_example();  // 50 samples
+  t.between = [](const DirectionPair& p, std::size_t c) {
+    return lobe(angles(p), 0.5, 0.1 * static_cast<double>(c + 1));
+  };
+  auto o = to("mbsdf");
+  o.channels = {"532nm"};
+  const auto [grid, loss] = convert(t, o);
+  EXPECT_EQ(loss.method, Loss::Method::interpolated);
+  EXPECT_EQ(loss.without_data, 0U);
+  EXPECT_NEAR(loss.mirror.value(), 0, 1e-12);
+  const SampleAngles at(grid);
+  for (std::size_t i = 0; i < grid.size(); i += 101)
+    EXPECT_NEAR(grid.values[0][i] / lobe(at(i), 0.5, 0.2), 1, 1e-6) << "the second channel";
+  EXPECT_FALSE(convert(t, to("csv")).table.between) << "CSV holds samples alone";
 }
 
 TEST(Convert, TellsWhatBecomesOfChannelsAndWeights) {
