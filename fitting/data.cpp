@@ -9,6 +9,12 @@
 namespace gonio {
 namespace {
 
+template <class F>
+FitBlock<F> empty_block(std::size_t groups, std::size_t channels) {
+  const std::size_t n = (groups + padding - 1) / padding * padding, columns = 5 + 2 * channels;
+  return {n, Column<F>::for_overwrite(columns * n), columns};
+}
+
 /// The group's target and weight in one channel; returns its rest.
 template <class F>
 double fold(const BlockReader<F>& in, std::size_t channel, std::size_t members, FitBlock<F>& out) {
@@ -42,6 +48,96 @@ double fold(const BlockReader<F>& in, std::size_t channel, std::size_t members, 
   return rest;
 }
 
+/// Columns of groups picked out of blocks.
+template <class F>
+class Picked {
+ public:
+  explicit Picked(std::size_t columns) : columns_(columns) {}
+  std::size_t size() const { return columns_[0].size(); }
+  void pick(const FitBlock<F>& b, std::size_t i) {
+    for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k].push_back(b.columns[k * b.n + i]);
+  }
+  void append(const Picked& p) {
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      columns_[k].insert(columns_[k].end(), p.columns_[k].begin(), p.columns_[k].end());
+  }
+  /// Cut into blocks and tasks; what is used is counted.
+  void cut_into(FitData<F>& d) const {
+    constexpr std::size_t block = BlockReader<F>::block;
+    d.groups = size();
+    for (std::size_t at = 0; at < size(); at += block) {
+      if (at % (Tasks::blocks * block) == 0) d.tasks.emplace_back();
+      const std::size_t n = std::min(block, size() - at);
+      auto& b = d.tasks.back().emplace_back(empty_block<F>(n, (columns_.size() - 5) / 2));
+      for (std::size_t k = 0; k < columns_.size(); ++k) {
+        F* const to = b.columns.data() + k * b.n;
+        std::copy_n(columns_[k].data() + at, n, to);
+        std::fill(to + n, to + b.n, k < 5 ? F(0.5) : F(0));
+      }
+      for (std::size_t c = 0; 5 + 2 * c < columns_.size(); ++c)
+        d.counts.used += static_cast<std::size_t>(
+            std::count_if(b.weight(c), b.weight(c) + b.n, [](F w) { return w > 0; }));
+    }
+  }
+
+ private:
+  std::vector<std::vector<F>> columns_;
+};
+
+/// One pass over the table's groups; every `steps[l]`-th of them goes into level l too.
+template <class F>
+FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::size_t>& steps) {
+  struct Part {
+    double rest = 0;
+    std::size_t groups = 0;
+    SampleCounts counts;
+    std::vector<Picked<F>> picked;
+  };
+  const auto like = [&](FitData<F>& d) {
+    d.link = link_of(s.metric());
+    d.offset = static_cast<F>(s.link_offset());
+  };
+  FitLevels<F> levels;
+  FitData<F>& all = levels.all;
+  like(all);
+  all.tasks.resize(tasks.count);
+  std::vector<Part> parts(tasks.count);
+  const Picked<F> none(5 + 2 * s.channels());
+  tbb::parallel_for(std::size_t{0}, tasks.count, [&](std::size_t k) {
+    BlockReader<F> in(s, tasks.first(k), tasks.last(k), tasks.step);
+    Part& part = parts[k];
+    part.picked.assign(steps.size(), none);
+    while (in.next()) {
+      FitBlock<F> b = empty_block<F>(in.padded(), s.channels());
+      const auto x = in.angles();
+      std::size_t at = 0;
+      for (const F* angle : {x.nol, x.nov, x.noh, x.voh, x.sin2_theta_h})
+        std::copy_n(angle, b.n, b.columns.data() + b.n * at++);
+      for (std::size_t c = 0; c < s.channels(); ++c)
+        part.rest += fold(in, c, s.groups().widest(), b);
+      for (std::size_t l = 0; l < steps.size(); ++l)  // tasks begin at different places of the step
+        for (std::size_t i = (steps[l] - (part.groups + 7 * k) % steps[l]) % steps[l];
+             i < in.size(); i += steps[l])
+          part.picked[l].pick(b, i);
+      part.groups += in.size();
+      all.tasks[k].push_back(std::move(b));
+    }
+    part.counts = in.counts();
+  });
+  std::vector<Picked<F>> picked(steps.size(), none);
+  for (const auto& p : parts) {
+    all.rest += p.rest;
+    all.groups += p.groups;
+    all.counts.add(p.counts);
+    for (std::size_t l = 0; l < steps.size(); ++l) picked[l].append(p.picked[l]);
+  }
+  for (const auto& p : picked) {
+    like(levels.thinned.emplace_back());
+    p.cut_into(levels.thinned.back());
+  }
+  return levels;
+}
+
 }  // namespace
 
 template <class F>
@@ -52,43 +148,45 @@ Block<F> FitBlock<F>::angles() const {
 
 template <class F>
 FitData<F> fit_data(const Sampling& s, std::size_t most) {
-  const Tasks tasks(s, most, BlockReader<F>::block);
-  FitData<F> d;
-  d.link = link_of(s.metric());
-  d.offset = static_cast<F>(s.link_offset());
-  d.tasks.resize(tasks.count);
-  struct Sums {
-    double rest = 0;
-    std::size_t groups = 0;
-    SampleCounts counts;
-  };
-  std::vector<Sums> sums(d.tasks.size());
-  tbb::parallel_for(std::size_t{0}, d.tasks.size(), [&](std::size_t k) {
-    BlockReader<F> in(s, tasks.first(k), tasks.last(k), tasks.step);
-    while (in.next()) {
-      FitBlock<F> b{in.padded(), Column<F>::for_overwrite((5 + 2 * s.channels()) * in.padded())};
-      const auto x = in.angles();
-      std::size_t at = 0;
-      for (const F* angle : {x.nol, x.nov, x.noh, x.voh, x.sin2_theta_h})
-        std::copy_n(angle, b.n, b.columns.data() + b.n * at++);
-      for (std::size_t c = 0; c < s.channels(); ++c)
-        sums[k].rest += fold(in, c, s.groups().widest(), b);
-      sums[k].groups += in.size();
-      d.tasks[k].push_back(std::move(b));
+  return read<F>(s, Tasks(s, most, BlockReader<F>::block), {}).all;
+}
+
+template <class F>
+FitLevels<F> fit_levels(const Sampling& s, std::span<const std::size_t> levels) {
+  constexpr auto all = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> steps;
+  for (const std::size_t most : levels)
+    steps.push_back(std::max<std::size_t>(s.groups().size() / std::max<std::size_t>(most, 1), 1));
+  return read<F>(s, Tasks(s, all, BlockReader<F>::block), steps);
+}
+
+template <class F>
+FitData<double> in_double(const FitData<F>& from) {
+  FitData<double> to;
+  to.link = from.link;
+  to.offset = static_cast<double>(from.offset);
+  to.rest = from.rest;
+  to.groups = from.groups;
+  to.counts = from.counts;
+  for (const auto& task : from.tasks) {
+    auto& blocks = to.tasks.emplace_back();
+    for (const auto& b : task) {
+      blocks.push_back(
+          {b.n, Column<double>::for_overwrite(b.columns_count * b.n), b.columns_count});
+      for (std::size_t i = 0; i < b.columns_count * b.n; ++i)
+        blocks.back().columns[i] = static_cast<double>(b.columns[i]);
     }
-    sums[k].counts = in.counts();
-  });
-  for (const auto& x : sums) {
-    d.rest += x.rest;
-    d.groups += x.groups;
-    d.counts.add(x.counts);
   }
-  return d;
+  return to;
 }
 
 template struct FitBlock<float>;
 template struct FitBlock<double>;
 template FitData<float> fit_data(const Sampling&, std::size_t);
 template FitData<double> fit_data(const Sampling&, std::size_t);
+template FitLevels<float> fit_levels(const Sampling&, std::span<const std::size_t>);
+template FitLevels<double> fit_levels(const Sampling&, std::span<const std::size_t>);
+template FitData<double> in_double(const FitData<float>&);
+template FitData<double> in_double(const FitData<double>&);
 
 }  // namespace gonio

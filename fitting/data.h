@@ -3,6 +3,7 @@
 /// A table as the solver reads it: one column entry for each group of samples that a model cannot tell
 /// apart, cosines ready.
 
+#include <span>
 #include <vector>
 
 #include "fitting/sampling.h"
@@ -15,6 +16,7 @@ template <class F>
 struct FitBlock {
   std::size_t n = 0;  ///< groups; a multiple of `padding` with masked ones at the end
   Column<F> columns;  ///< five of angles, then target and weight of each channel
+  std::size_t columns_count = 0;
 
   Block<F> angles() const;
   const F* target(std::size_t channel) const { return columns.data() + (5 + 2 * channel) * n; }
@@ -35,5 +37,20 @@ struct FitData {
 /// All groups, or about `most` of them, evenly spread.
 template <class F>
 FitData<F> fit_data(const Sampling&, std::size_t most = static_cast<std::size_t>(-1));
+
+/// All groups and, read in the same pass, about as many of them as each of `levels` says, evenly
+/// spread.  In those a group counts as one value (counts.used) and nothing is known of what it has
+/// folded away (rest).
+template <class F>
+struct FitLevels {
+  FitData<F> all;
+  std::vector<FitData<F>> thinned;
+};
+template <class F>
+FitLevels<F> fit_levels(const Sampling&, std::span<const std::size_t> levels);
+
+/// The same in double.
+template <class F>
+FitData<double> in_double(const FitData<F>&);
 
 }  // namespace gonio

@@ -1,9 +1,11 @@
 #include "fitting/fit.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "base/error.h"
 #include "brdf/registry.h"
@@ -39,7 +41,8 @@ struct Fitted {
   std::vector<double> values;
   double huber = no_huber;
   Solution solution;
-  bool in_float = false;  ///< whether that was enough
+  bool in_float = false;   ///< whether that was enough
+  std::size_t groups = 0;  ///< looked at
 };
 
 /// Milliseconds since the last call, under a name.
@@ -146,21 +149,6 @@ double huber_threshold(const Problem& p, const FitData<F>& data, const Fitted& f
   return std::max(1.345 * 1.4826 * median(r), 1e-12);
 }
 
-/// From nothing to a start on thinned tables, the robust threshold included.  A model that does not
-/// fit converges slowly: most of its steps are made where they are cheap.
-template <class F>
-Fitted coarse(const Problem& p, const Sampling& sampling) {
-  const auto thin = fit_data<F>(sampling, coarse_samples);
-  auto values = find_start(p.start.model, thin, p.free, p.bounds, p.start.values);
-  Fitted f = minimise(p, thin, std::move(values), no_huber);
-  if (p.options.robust)
-    for (int round = 0; round < 2; ++round)
-      f = minimise(p, thin, f.values, huber_threshold(p, thin, f));
-  if (sampling.groups().size() > 4 * middle_samples)
-    f = minimise(p, fit_data<F>(sampling, middle_samples), f.values, f.huber);
-  return f;
-}
-
 /// The cost of one value's rounding in float; 0 where sums of squares leave what a float holds.
 double rounding_in_float(const FitData<double>& thin, std::size_t channels) {
   constexpr double most = 1e10, relative = 5e-7;
@@ -194,21 +182,48 @@ bool float_suffices(const Problem& p, const Fitted& f, std::size_t values_used) 
   return true;
 }
 
-/// All samples: in float as far as that goes, in double to the end where the data know more.
-Fitted fine(const Problem& p, const Sampling& sampling, Fitted f, Stopwatch& watch) {
-  const bool with_float = p.rounding > 0 && sampling.groups().size() > 4 * middle_samples;
-  if (with_float) {
-    const auto data = fit_data<float>(sampling);
-    watch.lap("columns_ms");
-    f = minimise(p, data, f.values, f.huber);
-    watch.lap("solve_ms");
-    f.in_float = float_suffices(p, f, data.counts.used);
-    if (f.in_float) return f;
-  }
-  const auto data = fit_data<double>(sampling);
-  watch.lap(with_float ? "columns_double_ms" : "columns_ms");
-  f = minimise(p, data, f.values, f.huber);
-  watch.lap(with_float ? "solve_double_ms" : "solve_ms");
+[[noreturn]] void no_values(const Sampling& sampling, const SampleCounts& counts) {
+  std::string reasons;
+  for (const auto& [reason, count] : counts.by_reason(sampling))
+    if (count) reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
+  throw bad_input(sampling.table().path, "values",
+                  fmt::format("none that can be used ({})", reasons), "at least one");
+}
+
+/// From nothing to the best fit of all samples.  A model that does not fit converges slowly: most of
+/// the steps are made on thinned tables, where they are cheap.
+/// \param scanned  is made: a thinned table
+template <class F>
+Fitted search(const Problem& p,
+              const Sampling& sampling,
+              FitData<double>& scanned,
+              Stopwatch& watch,
+              const std::function<void(const char*)>& announce) {
+  announce("reading columns");
+  constexpr std::array levels{coarse_samples, scan_samples, middle_samples};
+  const auto data = fit_levels<F>(sampling, levels);
+  if (data.all.counts.used == 0) no_values(sampling, data.all.counts);
+  const auto& [thin, scan, middle] = std::tie(data.thinned[0], data.thinned[1], data.thinned[2]);
+  scanned = in_double(scan);
+  watch.lap("columns_ms");
+
+  announce("finding a start");
+  auto values = find_start(p.start.model, thin, p.free, p.bounds, p.start.values);
+  Fitted f = minimise(p, thin, std::move(values), no_huber);
+  if (p.options.robust)
+    for (int round = 0; round < 2; ++round)
+      f = minimise(p, thin, f.values, huber_threshold(p, thin, f));
+  if (data.all.groups > 4 * middle_samples) f = minimise(p, middle, f.values, f.huber);
+  if (!std::isfinite(f.solution.at.cost))
+    throw bad_input(sampling.table().path, "values", "numbers whose squares have no finite sum",
+                    "reflectances [1/sr]");
+  watch.lap("start_ms");
+
+  announce("fitting all samples");
+  f = minimise(p, data.all, f.values, f.huber);
+  f.groups = data.all.groups;
+  f.in_float = std::is_same_v<F, float> && float_suffices(p, f, data.all.counts.used);
+  watch.lap("solve_ms");
   return f;
 }
 
@@ -228,14 +243,6 @@ bool is_reciprocal(const BoundModel& b) {
     for (std::size_t i = 0; i < f[c].size(); ++i)
       if (std::abs(f[c][i] - g[c][i]) > 1e-12 * f[c][i]) return false;
   return true;
-}
-
-[[noreturn]] void no_values(const Table& t, const SampleCounts& counts, const Sampling& sampling) {
-  std::string reasons;
-  for (const auto& [reason, count] : counts.by_reason(sampling))
-    if (count) reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
-  throw bad_input(t.path, "values", fmt::format("none that can be used ({})", reasons),
-                  "at least one");
 }
 
 /// The model without its lobes.
@@ -285,8 +292,8 @@ bool find_undetermined(const Problem& p,
     effect = std::max(effect, here.h[i * n + i] * range * range);
   }
   const double variance = std::max(2 * here.cost, 1e-14 * effect) / count;
-  const double all = static_cast<double>(values_used);
-  const double luck = (3.84 + 2 * std::log(all)) * count / all;
+  const double share = static_cast<double>(thin.groups) / static_cast<double>(f.groups);
+  const double luck = (3.84 + 2 * std::log(static_cast<double>(values_used))) * share;
   for (const auto& q : p.start.model.parameters)
     for (std::size_t s = q.first; s < q.first + q.count; ++s) {
       if (!p.free.mask()[s]) continue;
@@ -430,19 +437,19 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
   };
   const Sampling sampling = sampling_of(bins);
 
-  announce("finding a start");
-  const auto scanned = fit_data<double>(sampling, scan_samples);
-  if (scanned.counts.used == 0)
-    if (const auto counts = fit_data<double>(sampling).counts; counts.used == 0)
-      no_values(t, counts, sampling);
-  p.rounding = rounding_in_float(scanned, t.channels.size());
-  const Fitted start = p.rounding > 0 ? coarse<float>(p, sampling) : coarse<double>(p, sampling);
-  if (!std::isfinite(start.solution.at.cost))
-    throw bad_input(t.path, "values", "numbers whose squares have no finite sum",
-                    "reflectances [1/sr]");
-  watch.lap("start_ms");
-  announce("fitting all samples");
-  const Fitted f = fine(p, sampling, start, watch);
+  // What has room in the caches is fitted in double at once.
+  if (sampling.groups().size() > 4 * middle_samples)
+    p.rounding = rounding_in_float(fit_data<double>(sampling, coarse_samples), t.channels.size());
+  FitData<double> scanned;
+  Fitted f = p.rounding > 0 ? search<float>(p, sampling, scanned, watch, announce)
+                            : search<double>(p, sampling, scanned, watch, announce);
+  if (p.rounding > 0 && !f.in_float) {
+    announce("fitting all samples in double");
+    const std::size_t groups = f.groups;
+    f = minimise(p, fit_data<double>(sampling), f.values, f.huber);
+    f.groups = groups;
+    watch.lap("solve_double_ms");
+  }
 
   announce("standard errors");
   result.model.values = f.values;
@@ -487,15 +494,12 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
     announce("fitting under the other bin convention");
     const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
     // Both conventions on equally thinned tables: a ratio needs no million bins.
-    const auto refit = [&](const Sampling& s) {
-      return p.rounding > 0 ? minimise(p, fit_data<float>(s, middle_samples), f.values, f.huber)
-                            : minimise(p, fit_data<double>(s, middle_samples), f.values, f.huber);
-    };
     const Sampling elsewhere = sampling_of(other);
-    const Fitted here = refit(sampling), there = refit(elsewhere);
+    const Fitted here = minimise(p, scanned, f.values, f.huber);
+    const Fitted there = minimise(p, fit_data<double>(elsewhere, scan_samples), f.values, f.huber);
     if (here.solution.converged && there.solution.converged) {
       const double log_rms =
-          residual_statistics({p.start.model, there.values, {}}, elsewhere, middle_samples).log_rms;
+          residual_statistics({p.start.model, there.values, {}}, elsewhere, scan_samples).log_rms;
       BinSensitivity s{bins_names[static_cast<std::size_t>(other)], {}, log_rms};
       for (const auto& q : p.start.model.parameters) {
         const auto& known = std::ranges::find(d.parameters, q.name, &FittedParameter::name)->value;

@@ -92,7 +92,6 @@ Tasks::Tasks(const Sampling& s, std::size_t most, std::size_t block)
   // Without a common divisor: else it would visit the same columns of every row of a grid.
   step = std::max<std::size_t>(all_ / std::max<std::size_t>(most, 1), 1);
   while (step > 1 && std::gcd(step, all_) > 1) ++step;
-  constexpr std::size_t blocks = 64;
   size_ = blocks * block * step;
   count = (all_ + size_ - 1) / size_;
 }

@@ -108,6 +108,7 @@ struct SampleCounts {
 /// All groups or about `most` of them, evenly spread, cut into tasks of a fixed size, so that sums do
 /// not depend on the number of threads.
 struct Tasks {
+  static constexpr std::size_t blocks = 64;  ///< of one
   std::size_t count, step;
   Tasks(const Sampling&, std::size_t most, std::size_t block);
   std::size_t first(std::size_t task) const { return task * size_; }
