@@ -153,7 +153,7 @@ void BlockReader<F>::place() {
     for (; column_ < groups.columns() && n_ < block && left_ > 0; column_ += step_, --left_) {
       const auto& columns = groups.column(column_, column_alone);
       const auto a = at(columns.part[0].at);
-      if (!(a.nol > 0 && a.nov > 0)) {
+      if (!(a.nol > horizon_cosine && a.nov > horizon_cosine)) {
         counts_.masked[static_cast<std::size_t>(Mask::below_horizon)] +=
             rows.count * columns.count * sampling_.channels();
         continue;

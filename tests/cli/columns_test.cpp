@@ -52,6 +52,15 @@ TEST(Columns, WarnHereAndInEveryResult) {
   EXPECT_TRUE(gonio(f, "inspect t.csv --json").json()["warnings"].empty());
 }
 
+TEST(Columns, OfInspectAndFitAgreeOnWhatIsBelowTheHorizon) {
+  const Folder f;
+  f.write("t.csv",
+          "theta_i,phi_i,theta_o,phi_o,f\n30,0,30,180,0.3\n30,0,90,180,7\n90,0,30,180,7\n");
+  EXPECT_EQ(gonio(f, "inspect t.csv --json").json()["masked"]["below_horizon"], 2);
+  EXPECT_EQ(gonio(f, "fit t.csv --model lambert --json").json()["input"]["masked"]["below_horizon"],
+            2);
+}
+
 TEST(Columns, KeepWhatElseTheSideFileSaysOfThisTable) {
   const Folder f;
   ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout in_plane -o t.csv").code, 0);
