@@ -9,17 +9,13 @@
 namespace gonio {
 namespace {
 
-template <class F>
-FitBlock<F> empty_block(std::size_t groups, std::size_t channels) {
-  const std::size_t n = (groups + padding - 1) / padding * padding, columns = 5 + 2 * channels;
-  return {n, Column<F>::for_overwrite(columns * n), columns};
-}
-
 /// The group's target and weight in one channel; returns its rest.
 template <class F>
-double fold(const BlockReader<F>& in, std::size_t channel, std::size_t members, FitBlock<F>& out) {
-  F* const target = out.columns.data() + (5 + 2 * channel) * out.n;
-  F* const weight = target + out.n;
+double fold(const BlockReader<F>& in,
+            std::size_t channel,
+            std::size_t members,
+            const FitBlock<F>& out) {
+  F *const target = out.target(channel), *const weight = out.weight(channel);
   const auto& first = in.values(0, channel);
   if (members == 1) {
     std::copy_n(first.target.data(), out.n, target);
@@ -65,12 +61,13 @@ class Picked {
   void cut_into(FitData<F>& d) const {
     constexpr std::size_t block = BlockReader<F>::block;
     d.groups = size();
+    d.reserve((size() + Tasks::blocks * block - 1) / (Tasks::blocks * block),
+              (columns_.size() - 5) / 2);
     for (std::size_t at = 0; at < size(); at += block) {
-      if (at % (Tasks::blocks * block) == 0) d.tasks.emplace_back();
       const std::size_t n = std::min(block, size() - at);
-      auto& b = d.tasks.back().emplace_back(empty_block<F>(n, (columns_.size() - 5) / 2));
+      const auto& b = d.add_block(at / (Tasks::blocks * block), n);
       for (std::size_t k = 0; k < columns_.size(); ++k) {
-        F* const to = b.columns.data() + k * b.n;
+        F* const to = b.columns + k * b.n;
         std::copy_n(columns_[k].data() + at, n, to);
         std::fill(to + n, to + b.n, k < 5 ? F(0.5) : F(0));
       }
@@ -100,7 +97,7 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
   FitLevels<F> levels;
   FitData<F>& all = levels.all;
   like(all);
-  all.tasks.resize(tasks.count);
+  all.reserve(tasks.count, s.channels());
   std::vector<Part> parts(tasks.count);
   const Picked<F> none(5 + 2 * s.channels());
   tbb::parallel_for(std::size_t{0}, tasks.count, [&](std::size_t k) {
@@ -108,11 +105,11 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
     Part& part = parts[k];
     part.picked.assign(steps.size(), none);
     while (in.next()) {
-      FitBlock<F> b = empty_block<F>(in.padded(), s.channels());
+      const FitBlock<F>& b = all.add_block(k, in.size());
       const auto x = in.angles();
       std::size_t at = 0;
       for (const F* angle : {x.nol, x.nov, x.noh, x.voh, x.sin2_theta_h})
-        std::copy_n(angle, b.n, b.columns.data() + b.n * at++);
+        std::copy_n(angle, b.n, b.columns + b.n * at++);
       for (std::size_t c = 0; c < s.channels(); ++c)
         part.rest += fold(in, c, s.groups().widest(), b);
       for (std::size_t l = 0; l < steps.size(); ++l)  // tasks begin at different places of the step
@@ -120,7 +117,6 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
              i < in.size(); i += steps[l])
           part.picked[l].pick(b, i);
       part.groups += in.size();
-      all.tasks[k].push_back(std::move(b));
     }
     part.counts = in.counts();
   });
@@ -142,8 +138,24 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
 
 template <class F>
 Block<F> FitBlock<F>::angles() const {
-  const F* const x = columns.data();
+  const F* const x = columns;
   return {x, x + n, x + 2 * n, x + 3 * n, x + 4 * n, n};
+}
+
+template <class F>
+void FitData<F>::reserve(std::size_t count, std::size_t channels) {
+  columns_count_ = 5 + 2 * channels;
+  tasks.resize(count);
+  for (auto& t : tasks) t.reserve(Tasks::blocks);
+  memory = Column<F>::for_overwrite(count * Tasks::blocks * BlockReader<F>::block * columns_count_);
+}
+
+template <class F>
+FitBlock<F>& FitData<F>::add_block(std::size_t task, std::size_t n) {
+  const std::size_t full = BlockReader<F>::block * columns_count_;
+  const std::size_t at = task * Tasks::blocks + tasks[task].size();
+  return tasks[task].emplace_back(FitBlock<F>{(n + padding - 1) / padding * padding, columns_count_,
+                                              memory.data() + at * full});
 }
 
 template <class F>
@@ -168,20 +180,19 @@ FitData<double> in_double(const FitData<F>& from) {
   to.rest = from.rest;
   to.groups = from.groups;
   to.counts = from.counts;
-  for (const auto& task : from.tasks) {
-    auto& blocks = to.tasks.emplace_back();
-    for (const auto& b : task) {
-      blocks.push_back(
-          {b.n, Column<double>::for_overwrite(b.columns_count * b.n), b.columns_count});
-      for (std::size_t i = 0; i < b.columns_count * b.n; ++i)
-        blocks.back().columns[i] = static_cast<double>(b.columns[i]);
-    }
-  }
+  to.reserve(from.tasks.size(), from.tasks.empty() || from.tasks[0].empty()
+                                    ? 0
+                                    : (from.tasks[0][0].columns_count - 5) / 2);
+  for (std::size_t k = 0; k < from.tasks.size(); ++k)
+    for (const auto& b : from.tasks[k])
+      std::copy_n(b.columns, b.columns_count * b.n, to.add_block(k, b.n).columns);
   return to;
 }
 
 template struct FitBlock<float>;
 template struct FitBlock<double>;
+template struct FitData<float>;
+template struct FitData<double>;
 template FitData<float> fit_data(const Sampling&, std::size_t);
 template FitData<double> fit_data(const Sampling&, std::size_t);
 template FitLevels<float> fit_levels(const Sampling&, std::span<const std::size_t>);

@@ -14,24 +14,33 @@ namespace gonio {
 /// T = Σ w_k² t_k / W²: what is minimised stays the same to the last bit but rounding.
 template <class F>
 struct FitBlock {
-  std::size_t n = 0;  ///< groups; a multiple of `padding` with masked ones at the end
-  Column<F> columns;  ///< five of angles, then target and weight of each channel
-  std::size_t columns_count = 0;
+  std::size_t n = 0;              ///< groups; a multiple of `padding` with masked ones at the end
+  std::size_t columns_count = 0;  ///< five of angles, then target and weight of each channel
+  F* columns = nullptr;           ///< n of each; the FitData's
 
   Block<F> angles() const;
-  const F* target(std::size_t channel) const { return columns.data() + (5 + 2 * channel) * n; }
-  const F* weight(std::size_t channel) const { return target(channel) + n; }
+  F* target(std::size_t channel) const { return columns + (5 + 2 * channel) * n; }
+  F* weight(std::size_t channel) const { return target(channel) + n; }
 };
 
 template <class F>
 struct FitData {
   /// Blocks of a task: a fixed number, so that sums do not depend on threads.
   std::vector<std::vector<FitBlock<F>>> tasks;
+  Column<F> memory;  ///< of all blocks
   Link link = Link::log;
   F offset = 0;     ///< the link's
   double rest = 0;  ///< Σ rest: what no model can explain
   std::size_t groups = 0;
   SampleCounts counts;
+
+  /// Makes room for that many full tasks.
+  void reserve(std::size_t tasks, std::size_t channels);
+  /// The next block of a task; different tasks may add at the same time.
+  FitBlock<F>& add_block(std::size_t task, std::size_t groups);
+
+ private:
+  std::size_t columns_count_ = 0;
 };
 
 /// All groups, or about `most` of them, evenly spread.

@@ -24,7 +24,7 @@ namespace gonio {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t coarse_samples = 2048, scan_samples = 16384, middle_samples = 65536;
+constexpr std::size_t coarse_samples = 2048, scan_samples = 16384, middle_samples = 32768;
 
 /// What stays the same for both bin conventions.
 struct Problem {
@@ -132,7 +132,7 @@ Fitted minimise(const Problem& p,
   };
   SolveOptions options;
   if (std::is_same_v<F, float>)
-    options = {.function_tolerance = 1e-8,
+    options = {.function_tolerance = 1e-7,
                .rounding = p.rounding * static_cast<double>(data.counts.used)};
   Fitted f{{}, huber, solve(evaluate, std::move(x), p.bounds, options)};
   for (std::size_t i = 0; i < slots.size(); ++i) values[slots[i]] = f.solution.x[i];
@@ -209,11 +209,12 @@ Fitted search(const Problem& p,
 
   announce("finding a start");
   auto values = find_start(p.start.model, thin, p.free, p.bounds, p.start.values);
-  Fitted f = minimise(p, thin, std::move(values), no_huber);
-  if (p.options.robust)
+  Fitted f = minimise(p, p.options.robust ? thin : middle, std::move(values), no_huber);
+  if (p.options.robust) {
     for (int round = 0; round < 2; ++round)
       f = minimise(p, thin, f.values, huber_threshold(p, thin, f));
-  if (data.all.groups > 4 * middle_samples) f = minimise(p, middle, f.values, f.huber);
+    f = minimise(p, middle, f.values, f.huber);
+  }
   if (!std::isfinite(f.solution.at.cost))
     throw bad_input(sampling.table().path, "values", "numbers whose squares have no finite sum",
                     "reflectances [1/sr]");
@@ -438,7 +439,7 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
   const Sampling sampling = sampling_of(bins);
 
   // What has room in the caches is fitted in double at once.
-  if (sampling.groups().size() > 4 * middle_samples)
+  if (sampling.groups().size() > 8 * middle_samples)
     p.rounding = rounding_in_float(fit_data<double>(sampling, coarse_samples), t.channels.size());
   FitData<double> scanned;
   Fitted f = p.rounding > 0 ? search<float>(p, sampling, scanned, watch, announce)

@@ -2,6 +2,7 @@
 // files or none.
 #include "program.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -263,13 +264,28 @@ TEST(Program, SaysWhenStandardOutputCannotBeWritten) {
 
 TEST(Program, ShowsAnExampleWithEveryHelp) {
   const Folder f;
-  for (const char* command :
-       {"models", "term", "eval", "synth", "columns", "convert", "inspect", "fit", "compare", "bench"}) {
+  for (const char* command : {"models", "term", "eval", "synth", "columns", "convert", "inspect",
+                              "fit", "compare", "bench"}) {
     const auto o = gonio(f, std::string(command) + " --help");
     EXPECT_EQ(o.code, 0);
     EXPECT_NE(o.out.find("Example:\n  gonio " + std::string(command)), std::string::npos)
         << command;
   }
+}
+
+TEST(Program, BenchesAFitWithItsSpreads) {
+  const Folder f;
+  const auto o = gonio(f, "bench fit --repeats 1 --no-plain --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto document = o.json();
+  EXPECT_GT(document["values"], 1'000'000);
+  for (const char* name : {"start and solve", "one pass", "its columns read", "whole program"}) {
+    const auto& rows = document["rows"];
+    const auto row = std::ranges::find_if(rows, [&](const auto& x) { return x["name"] == name; });
+    ASSERT_NE(row, rows.end()) << name;
+    EXPECT_LE((*row)["least_ms"], (*row)["median_ms"]);
+  }
+  EXPECT_EQ(gonio(f, "bench render").code, 2);
 }
 
 TEST(Program, FitsTheMeasuredCarPaintAndSaysWhatItMasked) {
