@@ -97,6 +97,27 @@ struct Sums {
   double log_rms() const { return positive > 0 ? std::sqrt(log_squares / positive) : 0; }
 };
 
+/// Neighbours mostly belong to one band: summed here first.
+class RunOfSums {
+ public:
+  ~RunOfSums() { flush(); }
+  void add(Sums& to, const Sums& s) {
+    if (&to != to_) {
+      flush();
+      to_ = &to;
+    }
+    sum_.add(s);
+  }
+
+ private:
+  void flush() {
+    if (to_) to_->add(sum_);
+    sum_ = {};
+  }
+  Sums* to_ = nullptr;
+  Sums sum_;
+};
+
 struct Bands {
   const char* angle;
   AngleBands by;
@@ -237,27 +258,41 @@ class Walk {
       kernels_.gram[k + 1](in.padded(), score_, score_, x.j.data(), meat_[c].lanes());
       return;
     }
+    // Neighbours mostly share their incident angle: summed here first.
+    std::array<double, max_columns> sum{};
+    std::size_t to = 0;
+    const auto flush = [&] {
+      for (std::size_t p = 0; p < k; ++p) {
+        part_.scores[to + x.free[p]] += sum[p];
+        sum[p] = 0;
+      }
+    };
     for (std::size_t i = 0; i < in.size(); ++i) {
       const auto score = static_cast<double>(score_[i]);
       if (score == 0) continue;  // masked values, whose derivatives may be NaN
-      double* const to = part_.scores.data() + at_[m][i];
-      for (std::size_t p = 0; p < k; ++p) to[x.free[p]] += score * static_cast<double>(x.j[p][i]);
+      if (at_[m][i] != to) {
+        flush();
+        to = at_[m][i];
+      }
+      for (std::size_t p = 0; p < k; ++p) sum[p] += score * static_cast<double>(x.j[p][i]);
     }
+    if (!part_.scores.empty()) flush();
   }
 
   void bands_of(const BlockReader<F>& in, const Block<F>& x, std::size_t members) {
     const auto& [theta_i, theta_h, theta_d] = bands();
+    RunOfSums by_theta_i, by_theta_h, by_theta_d;
     for (std::size_t i = 0; i < in.size(); ++i) {
       Sums group;
       for (std::size_t m = 0; m < members; ++m) {
         if (in.sample(m, i) == BlockReader<F>::absent) continue;
         const Sums s{static_cast<double>(values_seen_[m][i]), static_cast<double>(positive_[m][i]),
                      static_cast<double>(squares_[m][i]), static_cast<double>(log_squares_[m][i])};
-        part_.sums[0][theta_i.by(static_cast<double>(in.nol(m, i)))].add(s);
+        by_theta_i.add(part_.sums[0][theta_i.by(static_cast<double>(in.nol(m, i)))], s);
         group.add(s);
       }
-      part_.sums[1][theta_h.by(static_cast<double>(x.noh[i]))].add(group);
-      part_.sums[2][theta_d.by(static_cast<double>(x.voh[i]))].add(group);
+      by_theta_h.add(part_.sums[1][theta_h.by(static_cast<double>(x.noh[i]))], group);
+      by_theta_d.add(part_.sums[2][theta_d.by(static_cast<double>(x.voh[i]))], group);
     }
   }
 
