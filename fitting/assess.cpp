@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "brdf/plan.h"
 #include "table/health.h"
@@ -22,27 +21,24 @@ class AngleBands {
   explicit AngleBands(std::vector<double> edges_deg) : edges_deg_(std::move(edges_deg)) {
     for (const double e : edges_deg_) cosine_.push_back(std::cos(e * degree));
     for (std::size_t k = 0; k < near_.size(); ++k)
-      near_[k] = search(static_cast<double>(k + 1) / static_cast<double>(near_.size()));
+      near_[k] = onwards(0, std::min(static_cast<double>(k + 1) / cells, 1.0));
   }
   std::size_t size() const { return edges_deg_.size() - 1; }
   double from_deg(std::size_t band) const { return edges_deg_[band]; }
   double to_deg(std::size_t band) const { return edges_deg_[band + 1]; }
   std::size_t operator()(double cosine) const {
-    constexpr double last = 1023;
-    const auto k = static_cast<std::size_t>(std::clamp(cosine, 0.0, 1.0) * last);
-    std::size_t band = near_[k];
-    while (band + 1 < size() && cosine < cosine_[band + 1]) ++band;
-    return band;
+    return onwards(near_[static_cast<std::size_t>(std::clamp(cosine, 0.0, 1.0) * cells)], cosine);
   }
 
  private:
-  std::size_t search(double cosine) const {
-    std::size_t band = 0;
+  static constexpr double cells = 1024;
+  std::size_t onwards(std::size_t band, double cosine) const {
     while (band + 1 < size() && cosine < cosine_[band + 1]) ++band;
     return band;
   }
   std::vector<double> edges_deg_, cosine_;
-  std::array<std::size_t, 1024> near_{};  ///< the band of the largest cosine of each 1/1024
+  /// The band of the largest cosine of each cell: none of the cell lies in a band before it.
+  std::array<std::size_t, static_cast<std::size_t>(cells) + 1> near_{};
 };
 
 /// Small numbers that tell incident angles apart.
@@ -72,9 +68,11 @@ class IncidentKeys {
   }
 
  private:
+  /// Cut at three quarters: grids tend to have their angles at whole and half degrees.
   static std::vector<double> whole_degrees() {
-    std::vector<double> edges(91);
-    std::iota(edges.begin(), edges.end(), 0.0);
+    std::vector<double> edges{0};
+    for (double e = 0.75; e < 90; ++e) edges.push_back(e);
+    edges.push_back(90);
     return edges;
   }
   const Grid* grid_;

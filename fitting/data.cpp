@@ -1,7 +1,6 @@
 #include "fitting/data.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
@@ -81,7 +80,7 @@ class Picked {
   std::vector<std::vector<F>> columns_;
 };
 
-/// One pass over the table's groups; every `steps[l]`-th of them goes into level l too.
+/// One pass over the table's groups; every `steps[l]`-th with a value goes into level l too.
 template <class F>
 FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::size_t>& steps) {
   struct Part {
@@ -89,6 +88,7 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
     std::size_t groups = 0;
     SampleCounts counts;
     std::vector<Picked<F>> picked;
+    std::vector<std::size_t> since;  ///< groups passed since the last one picked
   };
   const auto like = [&](FitData<F>& d) {
     d.link = link_of(s.metric());
@@ -104,6 +104,7 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
     BlockReader<F> in(s, tasks.first(k), tasks.last(k), tasks.step);
     Part& part = parts[k];
     part.picked.assign(steps.size(), none);
+    for (const std::size_t step : steps) part.since.push_back((7 * k + step - 1) % step);
     while (in.next()) {
       const FitBlock<F>& b = all.add_block(k, in.size());
       const auto x = in.angles();
@@ -112,10 +113,16 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
         std::copy_n(angle, b.n, b.columns + b.n * at++);
       for (std::size_t c = 0; c < s.channels(); ++c)
         part.rest += fold(in, c, s.groups().widest(), b);
-      for (std::size_t l = 0; l < steps.size(); ++l)  // tasks begin at different places of the step
-        for (std::size_t i = (steps[l] - (part.groups + 7 * k) % steps[l]) % steps[l];
-             i < in.size(); i += steps[l])
-          part.picked[l].pick(b, i);
+      for (std::size_t i = 0; i < in.size(); ++i) {
+        bool compared = false;
+        for (std::size_t c = 0; c < s.channels(); ++c) compared = compared || b.weight(c)[i] > 0;
+        if (!compared) continue;
+        for (std::size_t l = 0; l < steps.size(); ++l)  // tasks begin at different places
+          if (++part.since[l] >= steps[l]) {
+            part.since[l] = 0;
+            part.picked[l].pick(b, i);
+          }
+      }
       part.groups += in.size();
     }
     part.counts = in.counts();
@@ -167,8 +174,7 @@ template <class F>
 FitLevels<F> fit_levels(const Sampling& s, std::span<const std::size_t> levels) {
   constexpr auto all = static_cast<std::size_t>(-1);
   std::vector<std::size_t> steps;
-  for (const std::size_t most : levels)
-    steps.push_back(std::max<std::size_t>(s.groups().size() / std::max<std::size_t>(most, 1), 1));
+  for (const std::size_t most : levels) steps.push_back(Tasks::step_to(s.groups().size(), most));
   return read<F>(s, Tasks(s, all, BlockReader<F>::block), steps);
 }
 

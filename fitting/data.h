@@ -47,14 +47,14 @@ struct FitData {
 template <class F>
 FitData<F> fit_data(const Sampling&, std::size_t most = static_cast<std::size_t>(-1));
 
-/// All groups and, read in the same pass, about as many of them as each of `levels` says, evenly
-/// spread.  In those a group counts as one value (counts.used) and nothing is known of what it has
-/// folded away (rest).
 template <class F>
 struct FitLevels {
   FitData<F> all;
   std::vector<FitData<F>> thinned;
 };
+/// All groups and, read in the same pass, about as many of those with a value as each of `levels`
+/// says, evenly spread.  In those a group counts as one value (counts.used) and nothing is known of
+/// what it has folded away (rest).
 template <class F>
 FitLevels<F> fit_levels(const Sampling&, std::span<const std::size_t> levels);
 

@@ -160,7 +160,9 @@ double rounding_in_float(const FitData<double>& thin, std::size_t channels) {
           const double w = b.weight(c)[i];
           if (w == 0) continue;
           const double x = w * (thin.link == Link::log ? 1 : b.target(c)[i]);
+          constexpr double far = 40;  // e⁴⁰ squared is still a float
           if (w < 1 / most || w > most || std::abs(x) > most) return 0;
+          if (thin.link == Link::log && std::abs(b.target(c)[i]) > far) return 0;
           largest = std::max(largest, std::abs(x));
           squares += x * x;
           ++count;
@@ -286,6 +288,7 @@ bool find_undetermined(const Problem& p,
   const Accumulator<double> accumulate(p.start.model, thin, p.free, f.huber);
   const NormalEquations here = accumulate.normal_equations(f.values);
   const std::size_t n = p.free.size();
+  if (thin.counts.used == 0) return false;
   const double count = static_cast<double>(thin.counts.used);
   double effect = 0;  // rounding is not evidence: residuals below 1e-7 of what a parameter can do
   for (std::size_t i = 0; i < n; ++i) {
@@ -494,7 +497,7 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
   if (t.has_bins() && o.bin_sensitivity) {
     announce("fitting under the other bin convention");
     const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
-    // Both conventions on equally thinned tables: a ratio needs no million bins.
+    // Both conventions on thinned tables: a ratio needs no million bins.
     const Sampling elsewhere = sampling_of(other);
     const Fitted here = minimise(p, scanned, f.values, f.huber);
     const Fitted there = minimise(p, fit_data<double>(elsewhere, scan_samples), f.values, f.huber);

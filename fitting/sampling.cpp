@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "base/error.h"
@@ -87,11 +86,15 @@ std::map<std::string, std::size_t> SampleCounts::by_reason(const Sampling& s) co
   return reasons;
 }
 
-Tasks::Tasks(const Sampling& s, std::size_t most, std::size_t block)
-    : step(1), all_(s.groups().size()) {
+std::size_t Tasks::step_to(std::size_t all, std::size_t most) {
+  std::size_t step = std::max<std::size_t>(all / std::max<std::size_t>(most, 1), 1);
   // Without a common divisor: else it would visit the same columns of every row of a grid.
-  step = std::max<std::size_t>(all_ / std::max<std::size_t>(most, 1), 1);
-  while (step > 1 && std::gcd(step, all_) > 1) ++step;
+  while (step > 1 && std::gcd(step, all) > 1) ++step;
+  return step;
+}
+
+Tasks::Tasks(const Sampling& s, std::size_t most, std::size_t block)
+    : step(step_to(s.groups().size(), most)), all_(s.groups().size()) {
   size_ = blocks * block * step;
   count = (all_ + size_ - 1) / size_;
 }

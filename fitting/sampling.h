@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -110,6 +109,8 @@ struct SampleCounts {
 struct Tasks {
   static constexpr std::size_t blocks = 64;  ///< of one
   std::size_t count, step;
+  /// A step that leaves about `most` of `all`.
+  static std::size_t step_to(std::size_t all, std::size_t most);
   Tasks(const Sampling&, std::size_t most, std::size_t block);
   std::size_t first(std::size_t task) const { return task * size_; }
   std::size_t last(std::size_t task) const { return std::min(all_, (task + 1) * size_); }

@@ -27,6 +27,11 @@ double dim(const FitData<F>& d, std::size_t channel) {
   return d.link == Link::log ? std::exp(t) - static_cast<double>(d.offset) : t;
 }
 
+/// A cost that can be compared: infinite where it is none.
+double finite(double cost) {
+  return std::isfinite(cost) ? cost : std::numeric_limits<double>::infinity();
+}
+
 bool is_named(std::string_view name, std::string_view base) {
   return name == base || name.starts_with(std::string(base) + "_");
 }
@@ -73,7 +78,7 @@ std::vector<double> find_start(const Model& m,
     rungs[w].first = std::numeric_limits<double>::infinity();
     for (const double f0 : reflectances) {
       set(m, free, "f0", v, f0);
-      const double cost = accumulate.normal_equations(v).cost;
+      const double cost = finite(accumulate.normal_equations(v).cost);
       if (rungs[w].second.empty() || cost < rungs[w].first) rungs[w] = {cost, v};
     }
   });
@@ -95,7 +100,7 @@ std::vector<double> find_start(const Model& m,
     o.function_tolerance = 1e-4;
     const auto s = solve(evaluate, std::move(x), bounds, o);
     for (std::size_t i = 0; i < slots.size(); ++i) v[slots[i]] = s.x[i];
-    rungs[k].first = s.at.cost;
+    rungs[k].first = finite(s.at.cost);
   });
   return std::ranges::min_element(rungs, {}, &Tried::first)->second;
 }

@@ -2,7 +2,9 @@
 // problem.
 #include "fitting/accumulate.h"
 
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "data_synth/synth.h"
 #include "fitting/assess.h"
@@ -160,6 +162,66 @@ TEST(Folding, ChangesNothingThatAnAssessmentSays) {
     }
 }
 
+TEST(Assessment, PutsEverySampleIntoItsBands) {
+  // Beside each edge, where a look-up may slip: θ_h of samples in the plane of incidence.
+  const std::vector<double> edges{0, 1, 3, 8, 20, 45, 90};
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  DirectionList l;
+  std::vector<std::size_t> expected(edges.size() - 1);
+  for (std::size_t band = 0; band + 1 < edges.size(); ++band)
+    for (const double part : {0.002, 0.02, 0.3, 0.5, 0.97, 0.998}) {
+      const double theta_h = edges[band] + part * (edges[band + 1] - edges[band]);
+      l.theta_i_deg.push_back(theta_h);  // wi = wo = h
+      l.theta_o_deg.push_back(theta_h);
+      l.phi_i_deg.push_back(0);
+      l.phi_o_deg.push_back(0);
+      ++expected[band];
+    }
+  t.where = l;
+  t.values.emplace_back(l.theta_i_deg.size()).assign(l.theta_i_deg.size(), 0.1);
+  const auto m = bind_model("lambert", parse_settings(std::vector<std::string>{"kd=0.3"}), 1);
+  const Sampling s(t, Bins::centre, Metric::log, 0, false);
+  const FreeSlots none(std::vector<bool>(m.model.value_count, false));
+  for (const bool in_float : {false, true}) {
+    const auto a = assess(s, m, none, no_huber, true, in_float);
+    EXPECT_EQ(a.incident_angles, l.theta_i_deg.size());
+    std::size_t band = 0;
+    for (const auto& b : a.residuals.bands)
+      if (std::string(b.angle) == "theta_h") {
+        EXPECT_EQ(b.values, expected[band]) << b.from_deg << " in float: " << in_float;
+        ++band;
+      }
+    EXPECT_EQ(band, expected.size());
+  }
+}
+
+TEST(Assessment, CountsTheWholeDegreesOfAGridsIncidentAngles) {
+  const Table t = synthesize(paint(), {.layout = Layout::image_slice});
+  const SampleAngles at(t);
+  std::set<long> degrees;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (const auto a = at(i); a.nol > horizon_cosine && a.nov > horizon_cosine)
+      degrees.insert(static_cast<long>(std::acos(std::min(a.nol, 1.0)) / degree + 0.25));
+  const FreeSlots none(std::vector<bool>(8, false));
+  const Sampling s(t, t.bins(), Metric::log, 0, false);
+  EXPECT_EQ(assess(s, paint(), none, no_huber, true).incident_angles, degrees.size());
+}
+
+TEST(Levels, HoldValuesAloneWhateverTheTableLacks) {
+  Case c({.layout = Layout::random, .samples = 40000, .noise = 0.1});
+  for (auto& v : c.table.values)
+    for (std::size_t i = 0; i < v.size(); ++i)
+      if (i % 100) v[i] = -1;  // 1 % is left
+  constexpr std::array<std::size_t, 2> most{50, 200};
+  const auto levels = fit_levels<double>(c.sampling(Metric::log), most);
+  for (std::size_t l = 0; l < most.size(); ++l) {
+    EXPECT_GT(levels.thinned[l].groups, 0U);
+    EXPECT_GE(levels.thinned[l].counts.used, levels.thinned[l].groups);
+  }
+}
+
 TEST(Folding, InFloatLosesSixDigitsAtMost) {
   for (const Case& c : layouts_that_fold()) {
     const auto s = c.sampling(Metric::log, true);
@@ -176,7 +238,7 @@ TEST(Folding, InFloatLosesSixDigitsAtMost) {
     const auto b = assess(s, c.at_off(), c.free, no_huber, true, true);
     EXPECT_NEAR(a.residuals.log_rms, b.residuals.log_rms, 1e-5 * a.residuals.log_rms);
     for (std::size_t i = 0; i < 8; ++i)
-      EXPECT_NEAR(a.sandwich.meat[i * 9], b.sandwich.meat[i * 9], 1e-4 * a.sandwich.meat[i * 9]);
+      EXPECT_NEAR(a.sandwich.meat[i * 9], b.sandwich.meat[i * 9], 1e-3 * a.sandwich.meat[i * 9]);
   }
 }
 
