@@ -405,6 +405,16 @@ std::vector<std::string> warnings(const FitOptions& o,
         fmt::format("the highlight ({:.3g} 1/sr) sits at wo = wi and not at the half vector: a "
                     "microfacet lobe cannot describe it",
                     retro->height));
+  // Asked of narrow lobes alone: looking for the peak takes as long as a fit.
+  const auto narrow = [](const FittedParameter& p) {
+    return is_alpha(p.name) && p.value[0] < 0.1 && p.status[0] != ParameterStatus::fixed;
+  };
+  if (std::ranges::any_of(d.parameters, narrow))
+    if (const auto peak = find_peak(t, t.bins()).peak; peak && !peak->resolved)
+      all.push_back(fmt::format(
+          "the table does not resolve its highlight ({:.0f} samples within the half width of "
+          "{:.2g}°): the width found is that of the samples or the instrument",
+          peak->samples_within, peak->half_width_deg));
   if (const std::size_t copies = copied_rows(t))
     all.push_back(
         fmt::format("{} of the table's incident angles repeat another value for value: no "

@@ -188,6 +188,18 @@ TEST(Fit, SaysThatALobeIsNotIdentifiableWhereDiffuseAloneDoesAsWell) {
       }
 }
 
+TEST(Fit, SaysThatThePeakIsNotResolved) {
+  const auto warned = [](const char* alpha) {
+    const Material m{"mirror", "lambert+ggx/smith_ggx.correlated/schlick", {alpha, "kd=0.1"}};
+    const auto d = fit_synthetic(m, {.layout = Layout::mbsdf, .noise = 0.02}).document;
+    return std::ranges::any_of(d.warnings, [](const std::string& w) {
+      return w.starts_with("the table does not resolve its highlight");
+    });
+  };
+  EXPECT_TRUE(warned("alpha=0.01"));
+  EXPECT_FALSE(warned("alpha=0.3"));
+}
+
 TEST(Fit, KeepsALobeThatTheTableNeeds) {
   for (const double f0 : {0.02, 0.04}) {
     const Material faint{"faint",
