@@ -3,7 +3,6 @@
 /// Memory for large arrays.
 
 #include <cstddef>
-#include <memory>
 #include <new>
 #include <utility>
 

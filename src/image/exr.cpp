@@ -66,8 +66,11 @@ Image reading(const std::string& path, Read read) {
   InputFile in(path);  // says plainly what is no file at all
   check_attributes(in);
   // For rows and columns, too, it allocates on opening.
-  Imf::Header::setMaxImageSize(kLargest, kLargest);
-  Imf::Header::setMaxTileSize(kLargest, kLargest);
+  [[maybe_unused]] static const bool limited = [] {  // once: every thread that reads shares them
+    Imf::Header::setMaxImageSize(kLargest, kLargest);
+    Imf::Header::setMaxTileSize(kLargest, kLargest);
+    return true;
+  }();
   try {
     Imf::InputFile file(path.c_str(), 1);
     return read(file);

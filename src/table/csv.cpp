@@ -91,6 +91,8 @@ class Reader {
       choose_by_name();
     while (lines_.next()) row();
     if (rows_ == 0) lines_.fail("", "no samples", "at least one line of numbers");
+    for (auto& c : columns_)
+      if (!c.index) c.data.assign(rows_, c.constant);
     Table t;
     t.format = "csv";
     t.where = DirectionList{take("theta_i"), take("phi_i"), take("theta_o"), take("phi_o")};
@@ -177,6 +179,10 @@ class Reader {
     for (const auto name : {"phi_i", "phi_o"})
       if (!has(name)) add(name, {}, 0);
     if (!has_values()) throw_no_column("f", "f");
+    std::set<std::string> channels;
+    for (const auto& c : columns_)
+      if (c.is_value() && !channels.insert(channel_of(c.role)).second)
+        throw bad_input(path_, "columns", "two channels named " + channel_of(c.role), "one");
     if (channel_ && std::ranges::count_if(columns_, &Column::is_value) > 1)
       throw bad_input(path_, "columns", "channel beside several f_NAME", "channel beside one f");
   }
@@ -216,10 +222,13 @@ class Reader {
   bool has_values() const { return std::ranges::any_of(columns_, &Column::is_value); }
 
   void row() {
-    ++rows_;
+    if (++rows_ * columns_.size() > most_values)
+      lines_.fail("", fmt::format("more rows of {} columns", columns_.size()),
+                  fmt::format("at most {} numbers", most_values));
     for (auto& c : columns_) {
-      const double v = c.index ? lines_.number(*c.index) : c.constant;
-      if (c.index) check_range(c, v, lines_.fields()[*c.index], lines_.label(*c.index));
+      if (!c.index) continue;
+      const double v = lines_.number(*c.index);
+      check_range(c, v, lines_.fields()[*c.index], lines_.label(*c.index));
       c.data.push_back(v);
     }
     if (channel_) channel_names_.push_back(lines_.fields()[*channel_]);
@@ -279,7 +288,8 @@ class Reader {
       places.push_back(samples.place(channel_names_[i], {rows.theta_i_deg[i], rows.phi_i_deg[i],
                                                          rows.theta_o_deg[i], rows.phi_o_deg[i]}));
     // Else a small file could ask for any amount of memory.
-    if (samples.size() * samples.channels() > 8 * rows_ + 64)
+    if (samples.size() * samples.channels() > 8 * rows_ + 64 ||
+        samples.size() * (samples.channels() + 4) > most_values)
       throw bad_input(path_, "column " + lines_.label(*channel_),
                       fmt::format("{} channels at {} directions in {} rows", samples.channels(),
                                   samples.size(), rows_),

@@ -8,7 +8,6 @@
 /// passed over; where the first of the others holds numbers alone, the names are those of the last
 /// comment above it, if they are as many.
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -57,6 +57,9 @@ Table read_mbsdf(InputFile& in) {
                     fmt::format("{} × {} × {} × {} values in {} bytes", n_theta, n_theta, n_phi,
                                 channels, in.size() - in.position()),
                     "4 bytes for each value, at least 1 × 1 × 2");
+  if (floats > most_values)
+    throw bad_input(in.path(), place, fmt::format("{} values", floats),
+                    fmt::format("at most {}", most_values));
   Table t;
   t.format = "mbsdf";
   t.channels = type == 0 ? std::vector<std::string>{"f"} : std::vector<std::string>{"r", "g", "b"};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -13,7 +12,7 @@ namespace gonio {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t most_values = 200'000;  ///< per family of lines: σ to half a percent
+constexpr std::size_t enough_values = 200'000;  ///< per family of lines: σ to half a percent
 constexpr std::size_t few = 50;
 constexpr std::size_t reach = 4;  ///< neighbours on either side
 
@@ -65,9 +64,9 @@ double difference(const double* x, const double* y, std::size_t k) {
   return (y[k] - value) / std::sqrt(squares);
 }
 
-/// How many of the lines, taken evenly among all, hold most_values.
+/// How many of the lines, taken evenly among all, hold enough_values.
 std::size_t enough_lines(const Table& t, std::size_t lines, std::size_t samples) {
-  return std::clamp<std::size_t>(most_values * lines / (samples * t.values.size()), 1, lines);
+  return std::clamp<std::size_t>(enough_values * lines / (samples * t.values.size()), 1, lines);
 }
 
 std::vector<Family> of_grid(const Table& t) {

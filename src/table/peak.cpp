@@ -21,14 +21,15 @@ using Profile = std::vector<Point>;
 
 /// Mean over the channels; NaN where one of them says nothing.
 double mean_value(const Table& t, const Angles<double>& a, std::size_t i) {
-  double sum = 0;
+  const auto n = static_cast<double>(t.values.size());
+  double mean = 0;
   for (const auto& plane : t.values) {
     const Mask m = mask(a, plane[i]);
     // Noise goes both ways: leaving out its negative half would lift the base.
     if (m != Mask::valid && !(m == Mask::negative && t.negative_is_noise)) return std::nan("");
-    sum += plane[i];
+    mean += plane[i] / n;  // not their sum, which may be infinite
   }
-  return sum / static_cast<double>(t.values.size());
+  return mean;
 }
 
 double theta_h_of(const Angles<double>& a) {
@@ -84,7 +85,7 @@ void merge(Profile& p) {
       count = 1;
     } else {
       ++count;
-      merged.back().value += (s.value - merged.back().value) / count;
+      merged.back().value += s.value / count - merged.back().value / count;
     }
   }
   p = std::move(merged);
@@ -104,9 +105,9 @@ Ends ends_of(const Profile& p) {
 std::optional<Peak> peak_of(const Profile& p, const Ends& ends) {
   const auto [height, base] = ends;
   if (!(height > 1.5 * std::max(base, 0.0))) return {};
-  const double half = (height + base) / 2;
+  const double half = height / 2 + base / 2;
   std::size_t k = 0;
-  while (p[k].value < half) ++k;  // up to the height, among the first three
+  while (k < 2 && p[k].value < half) ++k;  // up to the height, among the first three
   while (k + 2 < p.size() && !(p[k + 1].value < half && p[k + 2].value < half)) ++k;
   if (k + 2 >= p.size()) return {};
   const double part = std::clamp((p[k].value - half) / (p[k].value - p[k + 1].value), 0.0, 1.0);

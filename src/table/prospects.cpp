@@ -85,6 +85,9 @@ Prospect alpha(const Health& h, const Survey& s) {
                            h.retro->height));
   if (h.peak_profiles == 0)
     return say(no, "no sample lies within 3° of the half vector at theta_d from 5 to 45°");
+  if (!h.peak && s.brightest == 0)
+    return say(no,
+               fmt::format("no highlight: {} the values are 0", h.largest > 0 ? "98 % of" : "all"));
   if (!h.peak && flat(h, s))
     return say(no, fmt::format("no highlight: 98 % of the values lie within a factor of {:.3g}",
                                s.brightest / s.darkest));

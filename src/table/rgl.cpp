@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <span>
 
 #include "base/error.h"
 
@@ -272,9 +270,12 @@ class Material {
     isotropic = phi_i.size() <= 2;
     const std::uint64_t n_phi = phi_i.size(), n_theta = theta_i.size();
     if (!isotropic) {
-      symmetry = static_cast<int>(std::lround(2 * pi / (phi_i.back() - phi_i.front())));
-      if (symmetry != 1 && symmetry != 2 && symmetry != 4)
-        file.fail("phi_i", fmt::format("1/{} of a turn", symmetry), "a whole, a half or a quarter");
+      const double span = phi_i.back() - phi_i.front();
+      symmetry = static_cast<int>(std::lround(2 * pi / span));
+      if ((symmetry != 1 && symmetry != 2 && symmetry != 4) ||
+          !(std::abs(span * symmetry - 2 * pi) < 1e-3))
+        file.fail("phi_i", fmt::format("{:.4g} of a turn", span / (2 * pi)),
+                  "a whole, a half or a quarter");
     }
     jacobian_ = file.flag("jacobian");
     ndf_ = image(file, "ndf", file.tensor("ndf", kFloat, 2), 0);

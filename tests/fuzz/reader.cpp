@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "table/formats.h"
+#include "table/health.h"
 #include "table/metadata.h"
 
 #include <sys/mman.h>
@@ -55,6 +56,7 @@ void use(const Table& t) {
     for (const double phi : {-3.1, 0.0, 2.0})
       for (std::size_t c = 0; c < t.values.size(); ++c)
         f({direction(theta, phi), direction(theta + 0.05, -phi)}, c);
+  if (t.size() <= 2000) inspect(t);
 }
 
 }  // namespace

@@ -170,6 +170,20 @@ TEST(ColumnMap, MustFitTheFile) {
       << "a retro-reflectometer has one angle";
 }
 
+TEST(ColumnMap, MayNotMakeTwoChannelsOfOneName) {
+  const std::string text = "theta_i,theta_o,a,b\n0,10,1,2\n";
+  expect_complaint(text, R"("f":"a","f_f":"b")", "columns: found two channels named f");
+  EXPECT_EQ(read(text, R"("f":"a","f_g":"b")").channels, (Lines{"f", "g"}));
+}
+
+TEST(ColumnMap, OfManyConstantsMayNotMakeATableOfAnySize) {
+  constexpr std::size_t constants = 8000, rows = most_values / constants + 1;
+  std::string text = "theta_i,phi_i,theta_o,phi_o,f\n", columns = R"("weight":"1")";
+  for (std::size_t i = 0; i < rows; ++i) text += "0,0,10,0,1\n";
+  for (std::size_t i = 0; i < constants; ++i) columns += ",\"f_" + std::to_string(i) + "\":\"1\"";
+  expect_complaint(text, columns, "expected at most 67108864 numbers");
+}
+
 TEST(ColumnMap, IsNamedWhereItIsBroken) {
   for (const auto& [columns, holding] : std::initializer_list<std::pair<const char*, const char*>>{
            {R"("thetai":"a")", "columns.thetai: found \"a\", expected no such key"},
@@ -251,6 +265,21 @@ std::string warnings_of(const Table& t) {
   std::string all;
   for (const auto& w : t.warnings) all += w + "\n";
   return all;
+}
+
+TEST(CsvFile, OfTheLargestNumbersIsInspected) {
+  // The sum of any two of these values is infinite.
+  std::string text = "theta_i,phi_i,theta_o,phi_o,f_r,f_g\n";
+  for (int in = 5; in <= 45; in += 5)
+    for (int out = 0; out <= 80; ++out)
+      text += std::to_string(in) + ",0," + std::to_string(out) + ",180," +
+              (out == in ? "1.75e308,1.75e308\n" : "1.1e308,1.1e308\n");
+  const Table t = read(text);
+  const Health h = inspect(t);
+  EXPECT_EQ(h.largest, 1.75e308);
+  ASSERT_GT(h.peak_profiles, 0U);
+  EXPECT_LT(h.peak_contrast, 2);
+  EXPECT_FALSE(to_json(t, h).empty());
 }
 
 TEST(CsvFile, WarnsOfDegreesThatLookLikeRadians) {

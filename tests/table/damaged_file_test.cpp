@@ -176,7 +176,9 @@ TEST(RglFile, NamesTheFieldThatIsWrong) {
   EXPECT_COMPLAINT(with("ndf", [](auto& f) { f.shape = {4, 1}; }), "found 4 × 1 nodes");
   RglFile third = file;
   third.phi_i = {0, 1, 2};
-  EXPECT_COMPLAINT(folder.write("t", third.bytes()), "field phi_i: found 1/3 of a turn");
+  EXPECT_COMPLAINT(folder.write("t", third.bytes()), "field phi_i: found 0.3183 of a turn");
+  third.phi_i.back() += 0.9F;  // nearer to a half than to a third
+  EXPECT_COMPLAINT(folder.write("t", third.bytes()), "field phi_i: found 0.4615 of a turn");
   RglFile twice = file;
   twice.wavelengths = {500, 500};
   EXPECT_COMPLAINT(folder.write("t", twice.bytes()), "field wavelengths: found 500 twice");
@@ -186,6 +188,16 @@ TEST(RglFile, NamesTheFieldThatIsWrong) {
       "byte 12: found version 2.0");
   EXPECT_COMPLAINT(folder.write("t", bytes.substr(0, 14) + "\xff\xff\xff\xff" + bytes.substr(18)),
                    "4294967295 fields");
+}
+
+TEST(MbsdfFile, OfMoreValuesThanATableHoldsIsRefused) {
+  const Folder folder;
+  const std::array<std::uint32_t, 3> header{0, 1, most_values + 1};
+  std::string bytes = "NVIDIA ARC MBSDF V1\nMBSDF_DATA_REFLECTION=\n";
+  bytes.append(reinterpret_cast<const char*>(header.data()), sizeof header);
+  folder.write("t", bytes);
+  std::filesystem::resize_file(folder / "t", bytes.size() + 4 * (most_values + 1));  // a hole
+  EXPECT_COMPLAINT(folder / "t", "found 67108865 values, expected at most 67108864");
 }
 
 TEST(KlemsFile, NamesTheNodeThatIsMissingOrWrong) {

@@ -67,6 +67,17 @@ TEST(Prospects, OfALambertianTableAreItsAlbedoAlone) {
   EXPECT_EQ(verdict(lambertian(), "precision"), Verdict::yes);
 }
 
+TEST(Prospects, OfATableOfZerosSayThatItIs) {
+  Table t = lambertian();
+  std::ranges::fill(t.values[0], 0);
+  for (const auto& p : inspect(t).prospects) {
+    EXPECT_EQ(p.because.find("nan"), std::string::npos) << p.of << ": " << p.because;
+    if (p.of == "alpha") {
+      EXPECT_EQ(p.because, "no highlight: all the values are 0");
+    }
+  }
+}
+
 TEST(Prospects, OfAGlossyTableAreAllOfThem) {
   for (const char* of : {"alpha", "f0", "fresnel", "kd", "precision", "intervals"})
     EXPECT_EQ(verdict(in_out(0.1, 0.2), of), Verdict::yes) << of;
