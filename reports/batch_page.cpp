@@ -1,7 +1,6 @@
 #include "reports/batch_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -100,6 +99,9 @@ FitDocument read_fit(const JsonReader& j) {
       if (known == status_names.end()) s.fail("a status");
       p.status.push_back(static_cast<ParameterStatus>(known - status_names.begin()));
     }
+    const std::size_t n = p.value.size();
+    if ((n != 1 && n != d.channels.size()) || p.std_error.size() != n || p.status.size() != n)
+      q.fail("a value, an error and a status for all channels or for each");
     d.parameters.push_back(std::move(p));
   }
   d.cost = j.at("cost").number();

@@ -109,6 +109,23 @@ TEST(BatchPage, ADocumentOfOtherBytesOptionsOrHandsIsNotTaken) {
   }
 }
 
+TEST(BatchPage, ADocumentWhoseListsDifferInLengthIsNotTaken) {
+  const test::Folder f;
+  const BatchRow row = a_row();
+  for (const auto& [at, list] : {std::pair("/parameters/kd/value", "[0.3, 0.2]"),
+                                 {"/parameters/kd/value", "[1, 2, 3, 4]"},
+                                 {"/parameters/kd/value", "[]"},
+                                 {"/parameters/kd/std_error", "[0.1]"},
+                                 {"/parameters/kd/status", R"(["free", "free"])"},
+                                 {"/parameters/alpha/std_error", "[]"},
+                                 {"/channels", R"(["r"])"}}) {
+    json changed = json::parse(batch_document(row.fit, row.preview, "so"));
+    changed[json::json_pointer(at)] = json::parse(list);
+    write_file(f / "a.json", changed.dump());
+    EXPECT_FALSE(read_batch_document(f / "a.json", "abc", "so")) << at << " " << list;
+  }
+}
+
 TEST(BatchPage, DataHoldEveryTableAndTheCounts) {
   const json all = json::parse(batch_json({a_failure(), a_row()}, "so", true));
   EXPECT_EQ(all["schema"], "gonio.batch/1");
