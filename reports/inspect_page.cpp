@@ -1,7 +1,6 @@
 #include "reports/inspect_page.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 

@@ -47,6 +47,10 @@ function range_of(values) {
   const [low, high] = [at(0.005), at(0.995)];
   return high > 1.05 * low ? [low, high] : [low / 1.05, high * 1.05];
 }
+/// Not Math.min(...values): a call takes some ten thousand arguments, and a table has more.
+function ends_of(values) {
+  return values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
+}
 function picture_layers() {
   const [low, high] = range_of(picture.value), span = Math.log(high / low);
   const places = { logarithmic: (v) => Math.log(Math.max(v, 1e-300) / low) / span, linear: (v) => v / high };
@@ -83,7 +87,8 @@ function picture_section() {
   const empty = picture.value.every((plane) => !plane.some(known));
   if (empty) return null;
   const where = known(picture.phi_d_deg) ? `at φ_d = ${degrees(picture.phi_d_deg)}` : "as the mean of a cell's samples";
-  const text = `f_r over half-vector angle and difference angle ${where}, from ${significant(Math.min(...picture.value.flat().filter(known)))} to ${significant(Math.max(...picture.value.flat().filter(known)))} per steradian.`;
+  const [lowest, highest] = ends_of(picture.value.flat().filter(known));
+  const text = `f_r over half-vector angle and difference angle ${where}, from ${significant(lowest)} to ${significant(highest)} per steradian.`;
   const map = heat_map(map_axis("theta_h", picture.theta_h_deg), map_axis("theta_d", picture.theta_d_deg), picture_layers(),
     (k) => (picture.value.some((plane) => known(plane[k]))
       ? channels.map((name, c) => [several ? [chip(channel_color(name, c)), `${name} `] : null, el("b", {}, significant(picture.value[c][k])), " "]).flat(2).filter(Boolean).concat("1/sr")
@@ -109,11 +114,11 @@ function albedo_section() {
   const hover = (at) => readout.replaceChildren(...(at ? [angle_name("theta_i"), ` ${degrees(x[at[0]])}: `,
     ...channels.flatMap((name, c) => [several ? chip(channel_color(name, c)) : "", el("b", {}, significant(y[c][at[0]])), " "]),
     `, samples cover ${percent(albedo[at[0]].coverage)} of the hemisphere`] : []));
-  const known_albedo = y.flat().filter(known);
+  const [lowest, highest] = ends_of(y.flat().filter(known));
   const plot = curve_plot([x, ...y, ...y],
     [...channels.map((name, c) => ({ color: channel_color(name, c), kind: "points" })), ...channels.map((name, c) => ({ color: channel_color(name, c), kind: "line" }))],
     { x_label: "θ_i [°]", x_ends: [0, 90], x_steps: [5, 10, 15, 30], y_label: "albedo", log: false, y_of: () => true, hover,
-      text: `Directional albedo from ${significant(Math.min(...known_albedo))} to ${significant(Math.max(...known_albedo))} over incident angles from ${degrees(x[0])} to ${degrees(x.at(-1))}.` });
+      text: `Directional albedo from ${significant(lowest)} to ${significant(highest)} over incident angles from ${degrees(x[0])} to ${degrees(x.at(-1))}.` });
   return section("Directional albedo", "∫ f cos θ_o dω_o: how much of the light from θ_i leaves again. Where samples lack, their mean stands in; above 1 more light leaves than arrives.",
     el("figure", { class: "half" }, plot.node, readout));
 }

@@ -120,10 +120,11 @@ Json show(const Options& o, const std::string& file) {
     const std::string name = printable(c.name, 40);
     const auto entries = fmt::format("{}{}", c.distinct, c.distinct == 1000 ? "+" : "");
     all.push_back({{"number", k + 1},
-                   {"name", name},
+                   {"name", c.name},
                    {"distinct", c.distinct},
-                   {"lowest", c.lowest},
-                   {"highest", c.highest}});
+                   {"numbers", c.numbers},
+                   {"lowest", c.numbers ? Json(c.lowest) : Json()},
+                   {"highest", c.numbers ? Json(c.highest) : Json()}});
     if (o.json) continue;
     fmt::print("{:<8}{:<24}{:>10}", fmt::format("#{}", k + 1), name, entries);
     if (c.numbers)

@@ -123,7 +123,11 @@ Json to_json(const Table& from, const Conversion& c, const Options& o) {
   };
   const auto maybe = [](const std::optional<double>& v) { return v ? Json(*v) : Json(); };
   const Loss& l = c.loss;
-  const auto [in, out, phi] = angles_deg(from, l.largest_at);
+  Json largest_at;
+  if (l.largest > 0) {
+    const auto [in, out, phi] = angles_deg(from, l.largest_at);
+    largest_at = {{"theta_i_deg", in}, {"theta_o_deg", out}, {"phi_deg", phi}};
+  }
   return {{"input", side(from, o.input)},
           {"output", side(c.table, o.output)},
           {"method", method_names[static_cast<std::size_t>(l.method)]},
@@ -144,7 +148,7 @@ Json to_json(const Table& from, const Conversion& c, const Options& o) {
             {"lost", l.lost},
             {"rms", l.rms},
             {"largest", l.largest},
-            {"largest_at", {{"theta_i_deg", in}, {"theta_o_deg", out}, {"phi_deg", phi}}}}}};
+            {"largest_at", largest_at}}}};
 }
 
 Exit run(const Options& o) {

@@ -74,10 +74,11 @@ std::vector<std::string> in_list(const std::string& list) {
 
 std::vector<std::string> tables_of(const std::vector<std::string>& inputs) {
   std::vector<std::string> all;
+  std::error_code none;  // what cannot be looked up is a table that cannot be read
   for (const auto& in : inputs) {
     if (in.starts_with('@'))
       std::ranges::move(in_list(in.substr(1)), std::back_inserter(all));
-    else if (fs::is_directory(in))
+    else if (fs::is_directory(in, none))
       std::ranges::move(in_folder(in), std::back_inserter(all));
     else
       all.push_back(in);

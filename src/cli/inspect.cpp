@@ -129,8 +129,7 @@ void add_inspect(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
   auto* c = add_command(app, action, "inspect", "What a table holds and what it can be trusted for",
                         "gonio inspect paint.binary --html paint.html", o, run);
-  c->add_option("FILE", o->file, "MERL, MBSDF, CSV or OpenEXR slice; found from the bytes")
-      ->required();
+  c->add_option("FILE", o->file, "A table, its format found from the bytes")->required();
   c->add_option("--html", o->html,
                 "A page of the table, NAME.html, and its data beside it, NAME.page.json");
   add_bins(c, o->bins);

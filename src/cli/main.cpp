@@ -1,6 +1,7 @@
 // gonio: reads the words, runs one subcommand, turns its outcome into an exit code.
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <system_error>
 
@@ -72,6 +73,10 @@ int main(int argc, char** argv) {
     return finish(code);
   } catch (const gonio::Error& e) {
     return fail(e.code(), e.what());
+  } catch (const std::filesystem::filesystem_error& e) {
+    return fail(Exit::bad_input, gonio::bad_input(e.path1().string(), "looking it up",
+                                                  e.code().message(), "a path within reach")
+                                     .what());
   } catch (const std::system_error& e) {  // fmt::print and the like
     return fail(Exit::bad_input,
                 fmt::format("standard output: writing: found {}, expected room", e.what()).c_str());

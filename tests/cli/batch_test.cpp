@@ -256,6 +256,17 @@ TEST(Batch, RefusesACallThatCannotBeMeant) {
   EXPECT_EQ(f.entries(), before);
 }
 
+TEST(Batch, AnInputThatCannotBeLookedUpIsOneThatCannotBeRead) {
+  const Folder f;
+  f.write("a.csv", diffuse(0.1, 0.2));
+  const std::string longest(300, 'x');
+  const auto o = gonio(f, "fit a.csv " + longest + ".csv --model lambert -o out --json");
+  EXPECT_EQ(o.code, 3) << o.err;
+  auto rows = by_path(o.json());
+  EXPECT_EQ(rows["a.csv"]["status"], "ok");
+  EXPECT_EQ(rows[longest + ".csv"]["status"], "bad_input");
+}
+
 TEST(Batch, TellsOptionsThatDoNotSuitATableFromABadTable) {
   const Folder f;
   f.write("one.csv", diffuse(0.1, 0.2));

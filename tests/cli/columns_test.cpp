@@ -27,6 +27,19 @@ TEST(Columns, AreShownUntilAMapIsGivenAndReadByItAfterwards) {
   EXPECT_EQ(gonio(f, "fit t.csv --model lambert").code, 0);
 }
 
+TEST(Columns, InJsonKeepTheirNamesAndHaveNoRangeWhereThereIsNoNumber) {
+  const Folder f;
+  const std::string name = "a name of more than forty characters, \xc2\xb5 and all";
+  f.write("t.csv", "x;y;z;" + name + "\n1;2;3;red\n4;5;nan;blue\n");
+  const auto columns = gonio(f, "columns t.csv --json").json()["file_columns"];
+  EXPECT_EQ(columns[3]["name"], name);
+  EXPECT_TRUE(columns[3]["lowest"].is_null());
+  EXPECT_TRUE(columns[3]["highest"].is_null());
+  EXPECT_EQ(columns[3]["numbers"], 0);
+  EXPECT_EQ(columns[2]["numbers"], 1);
+  EXPECT_EQ(columns[2]["highest"], 3);
+}
+
 TEST(Columns, AreSaidForManyFilesAtOnceOrForNone) {
   const Folder f;
   for (const char* name : {"a.csv", "b.csv"}) f.write(name, kText);

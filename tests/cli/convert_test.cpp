@@ -11,6 +11,7 @@ TEST(ConvertCommand, GoesByTheEndingOrByTheWord) {
   ASSERT_EQ(list.code, 0) << list.err;
   EXPECT_EQ(list.json()["method"], "listed");
   EXPECT_EQ(list.json()["there_and_back"]["rms"], 0);
+  EXPECT_TRUE(list.json()["there_and_back"]["largest_at"].is_null());
   const auto back = gonio(f, "convert p.csv again --to mbsdf --json").json();
   EXPECT_EQ(back["method"], "gathered");
   EXPECT_EQ(back["bins_from_nearest"], 0);

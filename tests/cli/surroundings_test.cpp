@@ -1,5 +1,4 @@
 // The program where things go wrong around it: full disks, kills, limits, closed streams.
-#include <algorithm>
 #include <csignal>
 #include <map>
 
