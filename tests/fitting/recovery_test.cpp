@@ -168,7 +168,7 @@ TEST(Fit, SaysThatAWidthWithoutALobeIsNotIdentifiable) {
 
 TEST(Fit, SaysThatALobeIsNotIdentifiableWhereDiffuseAloneDoesAsWell) {
   // Schlick's F is 1 at 90° whatever f0 is: this lobe cannot vanish from a Lambertian table.
-  for (const Layout layout : {Layout::mbsdf, Layout::in_plane})
+  for (const Layout layout : {Layout::hemisphere, Layout::in_plane})
     for (const char* diffuse : {"lambert", "lambert.coupled"})
       for (const double noise : {0.0, 0.02}) {
         const auto table = synthesize(
