@@ -16,6 +16,7 @@
 #include "fitting/start.h"
 #include "fitting/uncertainty.h"
 #include "table/health.h"
+#include "table/noise.h"
 #include "table/quantile.h"
 
 #include <fmt/format.h>
@@ -392,6 +393,13 @@ std::vector<std::string> warnings(const FitOptions& o,
                     "the model does "
                     "not describe the table, and the intervals say nothing of it",
                     std::exp(d.residuals.log_rms)));
+  else if (t.list())  // of a large grid the estimate takes longer than its fit
+    if (const Noise noise = estimate_noise(t);
+        noise.sigma && !noise.bound && d.residuals.log_rms > 3 * *noise.sigma)
+      all.push_back(fmt::format(
+          "model and table differ by {:.2g} %, values and their neighbours by {:.2g} %: "
+          "most of it is the model's error, of which the intervals know nothing",
+          100 * d.residuals.log_rms, 100 * *noise.sigma));
   if (d.values_used <= free)
     all.push_back(
         fmt::format("{} values cannot tell the errors of {} unknowns", d.values_used, free));

@@ -200,6 +200,24 @@ TEST(Fit, SaysThatThePeakIsNotResolved) {
   EXPECT_FALSE(warned("alpha=0.3"));
 }
 
+TEST(Fit, SaysThatWhatIsLeftIsMoreThanNoise) {
+  const auto warned = [](const char* model) {
+    const auto table = synthesize(
+        bind_model("lambert+gtr/smith_ggx.correlated/schlick",
+                   parse_settings(std::vector<std::string>{"alpha=0.3,gamma=1.3,f0=0.05,kd=0.2"}),
+                   1),
+        {.layout = Layout::in_plane, .noise = 0.005});
+    FitOptions o;
+    o.model = model;
+    const auto d = fit(table, o).document;
+    return std::ranges::any_of(d.warnings, [](const std::string& w) {
+      return w.find("most of it is the model's error") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(warned("lambert+ggx/smith_ggx.correlated/schlick"));
+  EXPECT_FALSE(warned("lambert+gtr/smith_ggx.correlated/schlick"));
+}
+
 TEST(Fit, KeepsALobeThatTheTableNeeds) {
   for (const double f0 : {0.02, 0.04}) {
     const Material faint{"faint",
