@@ -136,21 +136,33 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
   const std::size_t n = t.grid() ? t.grid()->size() : t.list()->theta_i_deg.size();
   for (std::size_t c = 0; c < channels; ++c) t.values.emplace_back(n);
 
+  if (b.model.anisotropic && t.grid())
+    throw wrong_usage(
+        fmt::format("model '{}' is anisotropic: layout {} does not say how the surface was turned; "
+                    "those of direction lists do: in_plane, hemisphere, random",
+                    b.model.spec, layout_names[static_cast<std::size_t>(o.layout)]));
   const SampleAngles at(t);
   constexpr std::size_t chunk = 16384;
   tbb::parallel_for(std::size_t{0}, (n + chunk - 1) / chunk, [&](std::size_t k) {
     const std::size_t first = k * chunk, count = std::min(chunk, n - first);
-    std::vector<Angles<double>> angles(count);
-    for (std::size_t i = 0; i < count; ++i) angles[i] = at(first + i);
-    const auto f = evaluate(b, angles);
+    std::vector<bool> above(count);
+    const auto values = [&](auto&& angles_of) {
+      std::vector<decltype(angles_of(first))> angles(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        angles[i] = angles_of(first + i);
+        above[i] = angles[i].nol > 0 && angles[i].nov > 0;
+      }
+      return evaluate(b, angles);
+    };
+    const auto f = b.model.anisotropic ? values([&](std::size_t i) { return at.frame(i); })
+                                       : values([&](std::size_t i) { return at(i); });
     for (std::size_t i = 0; i < count; ++i) {
-      const bool above = angles[i].nol > 0 && angles[i].nov > 0;
       Draws draw(o.seed, first + i);
       double outlier = 1;
       if (o.outliers > 0 && draw.uniform() < o.outliers)
         outlier = std::pow(10, 4 * draw.uniform() - 2);
       for (std::size_t c = 0; c < channels; ++c) {
-        double v = above ? f[c][i] + o.floor : 0;
+        double v = above[i] ? f[c][i] + o.floor : 0;
         if (o.noise > 0) v *= std::exp(o.noise * draw.normal());
         t.values[c][first + i] = v * outlier;
       }

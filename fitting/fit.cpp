@@ -64,6 +64,9 @@ class Stopwatch {
 
 /// The user's bounds by the names of the model's parameters.
 std::vector<Setting> resolved_bounds(const FitOptions& o, const BoundModel& b) {
+  if (b.model.anisotropic)
+    throw wrong_usage(fmt::format(
+        "model '{}' is anisotropic: fit compares isotropic models with tables", b.model.spec));
   std::vector<Setting> all = o.bounds;
   for (auto& s : all) {
     if (!b.model.find(s.name))

@@ -1,27 +1,16 @@
 #pragma once
 /// \file
-/// Every term, once.  A new term is its struct and its name in this list; a hot combination is one
-/// line in the second.
+/// Every term, role by role, and the combinations that are fused; a hot combination is one line.
 
-#include "brdf/diffuse.h"
-#include "brdf/masking.h"
-#include "brdf/ndf.h"
-#include "optics/fresnel.h"
+#include "brdf/diffuse_terms.h"
+#include "brdf/distributions.h"
+#include "brdf/fresnel_terms.h"
+#include "brdf/masking_terms.h"
 
 namespace gonio::inline GONIO_ARCH {
 
-template <template <class> class... Terms>
-struct TermList {};
-
-using Catalogue = TermList<Ggx,
-                           Gtr,  // D
-                           SmithGgxSeparable,
-                           SmithGgxCorrelated,  // V
-                           Schlick,
-                           Dielectric,
-                           Conductor,  // F
-                           Lambert,
-                           LambertCoupled>;  // diffuse
+/// In the order of Role.
+using Catalogue = Joined<Distributions, MaskingTerms, FresnelTerms, DiffuseTerms>;
 
 template <class... Lists>
 struct FusedList {};

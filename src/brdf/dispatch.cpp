@@ -1,29 +1,60 @@
 // Picks the instruction set at run time.
+#include <initializer_list>
+
 #include "base/error.h"
 #include "brdf/kernels.h"
 
 namespace gonio {
 
-#define GONIO_SET(set)                       \
-  namespace set {                            \
-  extern const Kernels<float> table_float;   \
-  extern const Kernels<double> table_double; \
+#define GONIO_SET(set)                        \
+  namespace set {                             \
+  extern const Kernels<float> table_float;    \
+  extern const Kernels<double> table_double;  \
+  template <Role role, class F>               \
+  std::span<const TermKernels<F>> terms_of(); \
   }
 #include "instruction_sets.inc"
 #undef GONIO_SET
 
 namespace {
 
-struct Set {
-  const Kernels<float>* f;
-  const Kernels<double>* d;
+/// A set's kernels with the terms of all roles in one array.
+template <class F>
+struct Assembled {
+  std::vector<TermKernels<F>> terms;
+  Kernels<F> kernels;
+
+  Assembled(const Kernels<F>& columns, std::initializer_list<std::span<const TermKernels<F>>> roles)
+      : kernels(columns) {
+    for (const auto& role : roles) terms.insert(terms.end(), role.begin(), role.end());
+    kernels.terms = terms;
+  }
 };
-// In the order of the build's list: the best last.
-constexpr Set sets[] = {
-#define GONIO_SET(set) {&set::table_float, &set::table_double},
+
+struct Set {
+  Assembled<float> f;
+  Assembled<double> d;
+};
+
+/// In the order of the build's list: the best last.
+const std::vector<Set>& sets() {
+  static const std::vector<Set> all = [] {
+    std::vector<Set> v;
+#define GONIO_ROLES(set, F)                                                  \
+  {                                                                          \
+    set::terms_of<Role::ndf, F>(), set::terms_of<Role::masking, F>(),        \
+        set::terms_of<Role::fresnel, F>(), set::terms_of<Role::diffuse, F>() \
+  }
+#define GONIO_SET(set)                                      \
+  v.push_back({{set::table_float, GONIO_ROLES(set, float)}, \
+               {set::table_double, GONIO_ROLES(set, double)}});
 #include "instruction_sets.inc"
 #undef GONIO_SET
-};
+#undef GONIO_ROLES
+    return v;
+  }();
+  return all;
+}
 
 bool runs_here(std::string_view set) {
 #if defined(__x86_64__)
@@ -39,8 +70,8 @@ bool runs_here(std::string_view set) {
 
 const Set& find(std::string_view name) {
   const Set* best = nullptr;
-  for (const auto& s : sets) {
-    const auto set = s.f->instruction_set;
+  for (const auto& s : sets()) {
+    const auto set = s.f.kernels.instruction_set;
     if (runs_here(set) && (name.empty() || name == set)) best = &s;
   }
   if (!best) throw wrong_usage("no instruction set '" + std::string(name) + "' here");
@@ -51,17 +82,17 @@ const Set& find(std::string_view name) {
 
 template <>
 const Kernels<float>& kernels(std::string_view name) {
-  return *find(name).f;
+  return find(name).f.kernels;
 }
 template <>
 const Kernels<double>& kernels(std::string_view name) {
-  return *find(name).d;
+  return find(name).d.kernels;
 }
 
 std::vector<std::string> instruction_sets() {
   std::vector<std::string> names;
-  for (const auto& s : sets)
-    if (runs_here(s.f->instruction_set)) names.emplace_back(s.f->instruction_set);
+  for (const auto& s : sets())
+    if (const auto name = s.f.kernels.instruction_set; runs_here(name)) names.emplace_back(name);
   return names;
 }
 

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "base/error.h"
+
+#include <fmt/format.h>
+
 namespace gonio {
 
 template <class F>
@@ -17,8 +21,8 @@ Column<F>::Column(std::size_t n, F fill) : Column(for_overwrite(n)) {
 }
 
 template <class F>
-AngleColumns<F>::AngleColumns(std::size_t n)
-    : size_(n), padded_((n + padding - 1) / padding * padding) {
+AngleColumns<F>::AngleColumns(std::size_t n, bool frame)
+    : size_(n), padded_((n + padding - 1) / padding * padding), column_(frame ? 11 : 5) {
   for (auto& c : column_) {
     c = Column<F>::for_overwrite(padded_);
     std::fill(c.data() + n, c.data() + padded_, F(0.5));
@@ -126,12 +130,19 @@ void evaluate(const Model& m,
   }
 }
 
-std::vector<std::vector<double>> evaluate(const BoundModel& b,
-                                          std::span<const Angles<double>> angles) {
-  AngleColumns<double> x(angles.size());
-  for (std::size_t i = 0; i < angles.size(); ++i)
-    x.set(i, angles[i].nol > 0 && angles[i].nov > 0 ? angles[i]
-                                                    : Angles<double>{0.5, 0.5, 0.5, 0.5, 0.75});
+namespace {
+
+template <class Row>
+std::vector<std::vector<double>> evaluate_rows(const BoundModel& b, std::span<const Row> angles) {
+  AngleColumns<double> x(angles.size(), b.model.anisotropic);
+  const auto above = [&](std::size_t i) { return angles[i].nol > 0 && angles[i].nov > 0; };
+  constexpr FrameAngles<double> harmless{{0.5, 0.5, 0.5, 0.5, 0.75}, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    if (above(i))
+      x.set(i, angles[i]);
+    else
+      x.set(i, harmless);
+  }
   std::vector<Column<double>> columns;
   std::vector<double*> out;
   for (std::size_t c = 0; c < b.model.channels; ++c) {
@@ -143,9 +154,24 @@ std::vector<std::vector<double>> evaluate(const BoundModel& b,
   for (const auto* column : out) {
     f.emplace_back(column, column + angles.size());
     for (std::size_t i = 0; i < angles.size(); ++i)
-      if (!(angles[i].nol > 0 && angles[i].nov > 0)) f.back()[i] = 0;
+      if (!above(i)) f.back()[i] = 0;
   }
   return f;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> evaluate(const BoundModel& b,
+                                          std::span<const Angles<double>> angles) {
+  if (b.model.anisotropic)
+    throw wrong_usage(
+        fmt::format("model '{}' is anisotropic, and nothing here says how the surface was turned",
+                    b.model.spec));
+  return evaluate_rows(b, angles);
+}
+std::vector<std::vector<double>> evaluate(const BoundModel& b,
+                                          std::span<const FrameAngles<double>> angles) {
+  return evaluate_rows(b, angles);
 }
 
 #define GONIO_INSTANTIATE(F)                                                                     \

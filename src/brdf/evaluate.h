@@ -3,6 +3,7 @@
 /// f_r of a model over columns of angles.
 
 #include <array>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <vector>
@@ -38,21 +39,32 @@ class Column {
 template <class F>
 class AngleColumns {
  public:
-  explicit AngleColumns(std::size_t n);
+  /// \param frame  with the tangent frame, which anisotropic terms read
+  explicit AngleColumns(std::size_t n, bool frame = false);
   std::size_t size() const { return size_; }
   std::size_t padded() const { return padded_; }
   void set(std::size_t i, const Angles<double>& a) {
-    const double v[] = {a.nol, a.nov, a.noh, a.voh, a.sin2_theta_h};
-    for (std::size_t k = 0; k < column_.size(); ++k) column_[k][i] = static_cast<F>(v[k]);
+    put(i, 0, {a.nol, a.nov, a.noh, a.voh, a.sin2_theta_h});
+  }
+  /// The frame is left out where there are no columns for it.
+  void set(std::size_t i, const FrameAngles<double>& a) {
+    set(i, static_cast<const Angles<double>&>(a));
+    if (column_.size() > 5) put(i, 5, {a.xoh, a.yoh, a.xol, a.yol, a.xov, a.yov});
   }
   Block<F> block() const {
-    return {column_[0].data(), column_[1].data(), column_[2].data(),
-            column_[3].data(), column_[4].data(), padded_};
+    Block<F> b{column_[0].data(), column_[1].data(), column_[2].data(),
+               column_[3].data(), column_[4].data(), padded_};
+    for (std::size_t k = 5; k < column_.size(); ++k) b.frame[k - 5] = column_[k].data();
+    return b;
   }
 
  private:
+  void put(std::size_t i, std::size_t first, std::initializer_list<double> values) {
+    for (const double v : values) column_[first++][i] = static_cast<F>(v);
+  }
+
   std::size_t size_, padded_;
-  std::array<Column<F>, 5> column_;
+  std::vector<Column<F>> column_;
 };
 
 /// Scratch columns of one block, made on demand; one per thread.
@@ -81,8 +93,11 @@ void evaluate(const Model& model,
               std::span<F* const> out,
               const Kernels<F>& k = kernels<F>());
 
-/// The same for a list of angles, in double: [channel][sample].  0 below the horizon.
+/// The same for a list of angles, in double: [channel][sample].  0 below the horizon.  An anisotropic
+/// model needs the frame: without it that is wrong usage.
 std::vector<std::vector<double>> evaluate(const BoundModel& model,
                                           std::span<const Angles<double>> angles);
+std::vector<std::vector<double>> evaluate(const BoundModel& model,
+                                          std::span<const FrameAngles<double>> angles);
 
 }  // namespace gonio

@@ -1,4 +1,4 @@
-// Compiled once per instruction set (GONIO_ARCH): every loop of the program over samples.
+// Compiled once per instruction set (GONIO_ARCH): the loops over samples that are no single term's.
 #include "brdf/kernels.h"
 
 #include <algorithm>
@@ -6,83 +6,11 @@
 #include <utility>
 
 #include "brdf/catalogue.h"
-#include "number/batch.h"
+#include "brdf/lane.h"
 #include "number/dual.h"
 
 namespace gonio::inline GONIO_ARCH {
 namespace {
-
-#ifdef GONIO_SCALAR
-template <class F>
-using Lane = F;
-#else
-template <class F>
-using Lane = Batch<F>;
-#endif
-
-template <class F>
-Angles<Lane<F>> angles(const Block<F>& x, std::size_t i) {
-  using B = Lane<F>;
-  return {load<B>(x.nol + i), load<B>(x.nov + i), load<B>(x.noh + i), load<B>(x.voh + i),
-          load<B>(x.sin2_theta_h + i)};
-}
-
-// ---- a term over a column -----------------------------------------------------------------------
-
-template <class Term, class T, class F>
-Term bind(const F* p, auto lift) {
-  std::array<T, Term::parameters.size()> a;
-  for (std::size_t k = 0; k < a.size(); ++k) a[k] = lift(p[k], k);
-  return Term(std::span<const T, Term::parameters.size()>(a));
-}
-template <template <class> class Term, class F>
-auto bind_value(const F* p) {
-  using B = Lane<F>;
-  static_assert(TermOver<Term<B>, B>);
-  return bind<Term<B>, B>(p, [](F x, std::size_t) { return B(x); });
-}
-
-template <template <class> class Term, class F>
-void extend(const Block<F>& x, const F* p, const Join<F>& j) {
-  using B = Lane<F>;
-  const auto term = bind_value<Term, F>(p);
-  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-    const auto q = as_quotient<B>(term(angles(x, i)));
-    store<B>(j.out + i, load<B>(j.num + i) * q.num);
-    store<B>(j.out_den + i, load<B>(j.den + i) * q.den);
-  }
-}
-
-template <template <class> class Term, class F>
-void close(const Block<F>& x, const F* p, const Join<F>& j) {
-  using B = Lane<F>;
-  const auto term = bind_value<Term, F>(p);
-  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-    const auto q = as_quotient<B>(term(angles(x, i)));
-    store<B>(j.out + i, load<B>(j.num + i) * q.num / (load<B>(j.den + i) * q.den));
-  }
-}
-
-template <template <class> class Term, class F>
-void add(const Block<F>& x, const F* p, const Join<F>& j) {
-  using B = Lane<F>;
-  const auto term = bind_value<Term, F>(p);
-  for (std::size_t i = 0; i < x.n; i += lanes<B>)
-    store<B>(j.out + i, load<B>(j.base + i) + load<B>(j.num + i) * as_value<B>(term(angles(x, i))));
-}
-
-template <template <class> class Term, class F>
-void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
-  using B = Lane<F>;
-  constexpr std::size_t N = Term<B>::parameters.size();
-  using T = Dual<B, N>;
-  const auto term = bind<Term<T>, T>(p, [](F v, std::size_t k) { return T::variable(B(v), k); });
-  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-    const T t = as_value<T>(term(angles(x, i)));
-    store<B>(value + i, t.v);
-    for (std::size_t k = 0; k < N; ++k) store<B>(d[k] + i, t.d[k]);
-  }
-}
 
 template <template <class> class D,
           template <class>
@@ -403,17 +331,6 @@ void fused_normal(const NormalArguments<F>& a) {
 
 // ---- tables -------------------------------------------------------------------------------------
 
-template <template <class> class Term, class F>
-constexpr TermKernels<F> term_entry() {
-  bool coupled = false;
-  if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
-  return {&Term<F>::about, Term<F>::parameters, coupled, extend<Term, F>, close<Term, F>,
-          add<Term, F>,    derivatives<Term, F>};
-}
-template <class F, template <class> class... Terms>
-constexpr auto term_table(TermList<Terms...>) {
-  return std::array{term_entry<Terms, F>()...};
-}
 template <class F, template <class> class D, template <class> class V, template <class> class Fr>
 constexpr FusedKernel<F> fused_entry(TermList<D, V, Fr>) {
   return {{D<F>::about.id, V<F>::about.id, Fr<F>::about.id},
@@ -461,8 +378,6 @@ constexpr auto normal_table(FusedList<Lists...>) {
 }
 
 template <class F>
-constexpr auto terms = term_table<F>(Catalogue{});
-template <class F>
 constexpr auto hot = fused_table<F>(Hot{});
 template <class F>
 constexpr auto hot_fits = normal_table<F>(HotFits{});
@@ -473,7 +388,7 @@ constexpr auto hot_fits = normal_table<F>(HotFits{});
 template <class F, std::size_t... K>
 constexpr Kernels<F> table(std::index_sequence<K...>) {
   return {GONIO_TEXT(GONIO_ARCH),
-          terms<F>,
+          {},  // the terms are added by dispatch.cpp
           hot<F>,
           hot_fits<F>,
           product<F>,

@@ -29,8 +29,14 @@ template <class F>
 struct Block {
   const F *nol, *nov, *noh, *voh, *sin2_theta_h;
   std::size_t n;  ///< a multiple of `padding`
+  /// XoH, YoH, XoL, YoL, XoV, YoV; null where no term is anisotropic
+  std::array<const F*, 6> frame{};
+
   Block part(std::size_t first, std::size_t count) const {
-    return {nol + first, nov + first, noh + first, voh + first, sin2_theta_h + first, count};
+    Block b{nol + first, nov + first, noh + first, voh + first, sin2_theta_h + first, count, frame};
+    for (auto& column : b.frame)
+      if (column) column += first;
+    return b;
   }
 };
 
@@ -45,7 +51,8 @@ template <class F>
 struct TermKernels {
   const About* about;
   std::span<const Parameter> parameters;
-  bool coupled;  ///< a diffuse term below the first lobe's interface
+  bool coupled;      ///< a diffuse term below the first lobe's interface
+  bool anisotropic;  ///< reads the frame
   using Value = void (*)(const Block<F>&, const F* parameters, const Join<F>&);
   Value extend;  ///< out/out_den = num/den · term, still a fraction
   Value close;   ///< out = num/den · term, divided

@@ -17,6 +17,7 @@ TermUse use(Model& m,
             const std::string& ending,
             std::span<const std::string> grey) {
   TermUse t{term, {}};
+  m.anisotropic |= catalogue()[term].anisotropic;
   for (const auto& p : catalogue()[term].parameters) {
     const std::string name = std::string(p.name) + ending;
     const auto known = std::ranges::find(m.parameters, name, &ModelParameter::name);

@@ -44,6 +44,7 @@ struct Model {
   std::vector<Lobe> lobes;
   std::vector<ModelParameter> parameters;
   std::size_t value_count = 0;
+  bool anisotropic = false;  ///< a term of it reads the tangent frame
 
   /// nullptr if it has none of that name
   const ModelParameter* find(std::string_view name) const;

@@ -1,6 +1,7 @@
 #include "brdf/registry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -46,10 +47,10 @@ std::size_t find(std::string_view id, auto&& name, auto&& eligible, std::string_
 template <class F>
 std::vector<double> values(std::size_t term,
                            std::span<const double> parameters,
-                           std::span<const Angles<double>> rows) {
+                           std::span<const FrameAngles<double>> rows) {
   const auto& k = kernels<F>("scalar");
   std::vector<F> p(parameters.begin(), parameters.end());
-  AngleColumns<F> x(rows.size());
+  AngleColumns<F> x(rows.size(), true);
   for (std::size_t i = 0; i < rows.size(); ++i) x.set(i, rows[i]);
   const std::size_t n = x.padded();
   const Column<F> ones(n, F(1)), zeros(n, F(0));
@@ -106,13 +107,24 @@ TermValues evaluate_term(std::size_t term,
     if (std::ranges::none_of(t.parameters, [&, n = name](const auto& q) { return q.name == n; }))
       throw wrong_usage(fmt::format("{} has no parameter '{}'", t.about->id, name));
 
-  static constexpr std::string_view known[] = {"nol", "nov", "noh", "voh", "cos", "sin2_theta_h"};
+  using Row = FrameAngles<double>;
+  static constexpr std::pair<std::string_view, double Row::*> known[] = {
+      {"nol", &Row::nol}, {"nov", &Row::nov}, {"noh", &Row::noh},
+      {"voh", &Row::voh}, {"cos", &Row::voh}, {"sin2_theta_h", &Row::sin2_theta_h},
+      {"xoh", &Row::xoh}, {"yoh", &Row::yoh}, {"xol", &Row::xol},
+      {"yol", &Row::yol}, {"xov", &Row::xov}, {"yov", &Row::yov}};
   std::size_t rows = 1;
   for (const auto& [name, column] : at) {
-    if (std::ranges::find(known, name) == std::end(known))
-      throw wrong_usage(fmt::format("unknown angle '{}'; known: {}", name, fmt::join(known, ", ")));
+    const auto it = std::ranges::find(known, name, [](const auto& k) { return k.first; });
+    if (it == std::end(known)) {
+      std::vector<std::string_view> names;
+      for (const auto& k : known) names.push_back(k.first);
+      throw wrong_usage(fmt::format("unknown angle '{}'; known: {}", name, fmt::join(names, ", ")));
+    }
+    const double lowest = name.starts_with('x') || name.starts_with('y') ? -1 : 0;
     for (const double v : column)
-      if (!(0 <= v && v <= 1)) throw wrong_usage(fmt::format("{} = {} is outside [0, 1]", name, v));
+      if (!(lowest <= v && v <= 1))
+        throw wrong_usage(fmt::format("{} = {} is outside [{}, 1]", name, v, lowest));
     if (column.size() == 1) continue;
     if (rows != 1 && rows != column.size())
       throw wrong_usage(
@@ -121,21 +133,25 @@ TermValues evaluate_term(std::size_t term,
   }
   if (at.contains("cos") && at.contains("voh")) throw wrong_usage("cos and voh are the same angle");
 
-  std::vector<Angles<double>> angles(rows, Angles<double>{1, 1, 1, 1, 0});
-  const auto fill = [&](const char* name, double Angles<double>::*member) {
-    const auto it = at.find(name);
-    if (it == at.end()) return false;
-    for (std::size_t i = 0; i < rows; ++i)
-      angles[i].*member = it->second[it->second.size() == 1 ? 0 : i];
-    return true;
-  };
-  fill("nol", &Angles<double>::nol);
-  fill("nov", &Angles<double>::nov);
-  fill("noh", &Angles<double>::noh);
-  fill("voh", &Angles<double>::voh);
-  fill("cos", &Angles<double>::voh);
-  if (!fill("sin2_theta_h", &Angles<double>::sin2_theta_h))
-    for (auto& a : angles) a.sin2_theta_h = (1 - a.noh) * (1 + a.noh);
+  std::vector<Row> angles(rows, Row{{1, 1, 1, 1, 0}, 0, 0, 0, 0, 0, 0});
+  for (const auto& [name, column] : at) {
+    const auto member =
+        std::ranges::find(known, name, [](const auto& k) { return k.first; })->second;
+    for (std::size_t i = 0; i < rows; ++i) angles[i].*member = column[column.size() == 1 ? 0 : i];
+  }
+  const auto given = [&](const char* x, const char* y) { return at.contains(x) || at.contains(y); };
+  const auto sine = [](double c) { return std::sqrt((1 - c) * (1 + c)); };
+  for (auto& a : angles) {
+    if (!at.contains("sin2_theta_h"))
+      a.sin2_theta_h =
+          given("xoh", "yoh") ? a.xoh * a.xoh + a.yoh * a.yoh : (1 - a.noh) * (1 + a.noh);
+    if (!(a.sin2_theta_h <= 1))
+      throw wrong_usage(fmt::format("xoh = {} and yoh = {}: no unit vector", a.xoh, a.yoh));
+    if (!at.contains("noh")) a.noh = std::sqrt(1 - a.sin2_theta_h);
+    if (!given("xoh", "yoh")) a.xoh = std::sqrt(a.sin2_theta_h);
+    if (!given("xol", "yol")) a.xol = sine(a.nol);
+    if (!given("xov", "yov")) a.xov = sine(a.nov);
+  }
   result.values =
       number == Number::double_ ? values<double>(term, p, angles) : values<float>(term, p, angles);
   return result;

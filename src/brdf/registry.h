@@ -28,8 +28,10 @@ void check_range(const Parameter& p, std::string_view name, double value);
 /// One term at the given angles.  D and F: their value.  A masking term gives G2 = 4 NoL NoV V; with
 /// NoL left at 1, where Λ is 0, that is G1(NoV).  A diffuse term: its value in 1/sr, uncoupled.
 ///
-/// Each name of `at` (noh, nol, nov, voh or cos, sin2_theta_h) is a column; columns of one value
-/// serve all rows.  sin2_theta_h is (1 − noh)(1 + noh) unless given.
+/// Each name of `at` (noh, nol, nov, voh or cos, sin2_theta_h; of the frame xoh, yoh, xol, yol, xov,
+/// yov) is a column; columns of one value serve all rows.  Of h, what is given decides: sin2_theta_h
+/// is xoh² + yoh² or else (1 − noh)(1 + noh), noh is √(1 − sin²θ_h).  A direction of whose frame
+/// nothing is given lies above the tangent.
 struct TermValues {
   std::vector<std::pair<std::string, double>> parameters;  ///< all of them, defaults included
   std::vector<double> values;

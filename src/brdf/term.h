@@ -5,6 +5,7 @@
 ///   about, parameters    what it is called, what it may be given
 ///   Term(span of T)      what depends on the parameters alone: computed once per block
 ///   operator()(angles)   the formula: computed once per sample; answers T or Quotient<T>
+///   anisotropic          optional, true where it reads the tangent frame (FrameAngles)
 ///
 /// The parameters are T (they may carry derivatives), the angles are plain_t<T> (they never do).
 /// A term is added by writing its struct and naming it in catalogue.h; the registry, the command
@@ -13,6 +14,7 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "geometry/angles.h"
 #include "number/parameter.h"
@@ -40,9 +42,22 @@ constexpr std::string_view short_id(std::string_view id) {
 
 namespace gonio::inline GONIO_ARCH {
 
+/// Whether a term reads the tangent frame, which an isotropic surface has not.
+template <class Term>
+inline constexpr bool is_anisotropic = false;
+template <class Term>
+requires requires {
+  Term::anisotropic;
+}
+inline constexpr bool is_anisotropic<Term> = Term::anisotropic;
+
+/// What a term is given: the angles of one sample.
+template <class Term, class B>
+using angles_of = std::conditional_t<is_anisotropic<Term>, FrameAngles<B>, Angles<B>>;
+
 template <class Term, class T>
 concept TermOver = Real<T> && requires(const Term t,
-                                       const Angles<plain_t<T>> a,
+                                       const angles_of<Term, plain_t<T>> a,
                                        std::span<const T, Term::parameters.size()> p) {
   { Term::about } -> std::same_as<const About&>;
   Term(p);

@@ -21,8 +21,8 @@ Exit run(const Options& o) {
   InputFile in(o.directions);
   Table t = read_directions_csv(in);
   const SampleAngles at(t);
-  std::vector<Angles<double>> angles;
-  for (std::size_t i = 0; i < t.list()->theta_i_deg.size(); ++i) angles.push_back(at(i));
+  std::vector<FrameAngles<double>> angles;
+  for (std::size_t i = 0; i < t.list()->theta_i_deg.size(); ++i) angles.push_back(at.frame(i));
   t.channels = {"r", "g", "b"};
   for (const auto& f : evaluate(model, angles)) t.values.emplace_back(f.begin(), f.end());
   t.weights.clear();

@@ -19,8 +19,8 @@ struct Options : Common {
 /// An angle that no formula of the term's role reads would be ignored without a word.
 void expect_read(std::string_view id, const std::map<std::string, std::vector<double>>& at) {
   static const std::map<Role, std::vector<std::string>> read{
-      {Role::ndf, {"noh", "sin2_theta_h"}},
-      {Role::masking, {"nol", "nov"}},
+      {Role::ndf, {"noh", "sin2_theta_h", "xoh", "yoh"}},
+      {Role::masking, {"nol", "nov", "noh", "voh", "xol", "yol", "xov", "yov"}},
       {Role::fresnel, {"cos", "voh"}},
       {Role::diffuse, {"nol", "nov", "cos", "voh"}}};
   const auto& names = read.at(role_of(id));
@@ -72,7 +72,10 @@ void add_term(CLI::App& app, Action& action) {
                         "gonio term ndf.ggx --set alpha=0.25 --at noh=1,0.9 --json", o, run);
   c->add_option("ID", o->id, "Term, as `gonio models` lists it")->required();
   add_set(c, o->set);
-  c->add_option("--at", o->at, "Angles: cos (Fresnel), noh, nol, nov, voh, sin2_theta_h = values")
+  c->add_option(
+       "--at", o->at,
+       "Cosines: noh, nol, nov, voh or cos; of the tangent frame xoh, yoh, xol, yol, xov, yov; "
+       "and sin2_theta_h = values")
       ->expected(1, 64)
       ->required();
   c->add_option("--number", o->number, "Number type: double or float")->check(one_of(number_names));

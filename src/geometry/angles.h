@@ -14,4 +14,10 @@ struct Angles {
   B nol, nov, noh, voh, sin2_theta_h;
 };
 
+/// The same of a surface with a tangent x and a bitangent y: what anisotropic terms read too.
+template <class B>
+struct FrameAngles : Angles<B> {
+  B xoh, yoh, xol, yol, xov, yov;
+};
+
 }  // namespace gonio::inline GONIO_ARCH

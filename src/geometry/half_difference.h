@@ -28,6 +28,13 @@ inline Angles<double> angles(const DirectionPair& p) {
   return {p.wi.z, p.wo.z, z / length, length / 2, xy2 / length2};
 }
 
+/// With the tangent +x and the bitangent +y.
+inline FrameAngles<double> frame_angles(const DirectionPair& p) {
+  const double x = p.wi.x + p.wo.x, y = p.wi.y + p.wo.y, z = p.wi.z + p.wo.z;
+  const double length = std::hypot(x, y, z), scale = length > 0 ? 1 / length : 0;
+  return {angles(p), x * scale, y * scale, p.wi.x, p.wi.y, p.wo.x, p.wo.y};
+}
+
 DirectionPair directions(const HalfDifference&);
 /// phi_d is 0 where theta_d is 0, phi_h is 0 where theta_h is 0: they are undefined there.
 HalfDifference half_difference(const DirectionPair&);

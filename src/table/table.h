@@ -129,6 +129,8 @@ class SampleAngles {
   class Row;
   Row row(std::size_t number) const;
   DirectionPair directions(std::size_t i) const;
+  /// With the surface's tangent at azimuth 0; a grid does not say how the surface was turned.
+  FrameAngles<double> frame(std::size_t i) const { return frame_angles(directions(i)); }
   HalfDifference half_difference(std::size_t i) const;
   /// Incident zenith angle [rad].
   double theta_i(std::size_t i) const;

@@ -42,18 +42,23 @@ constexpr bool takes_every_number() {
 
 /// The term in the least of numbers, which is a double that hides it.
 template <template <class> class Term>
-double least(const Parameters& p, const Angles<double>& x) {
+double least(const Parameters& p, const test::Row& x) {
   std::vector<Archetype> a;
   for (const double v : p) a.emplace_back(v);
   constexpr std::size_t n = Term<Archetype>::parameters.size();
   const Term<Archetype> term{std::span<const Archetype, n>(a)};
-  return as_value<Archetype>(
-             term(Angles<Archetype>{Archetype(x.nol), Archetype(x.nov), Archetype(x.noh),
-                                    Archetype(x.voh), Archetype(x.sin2_theta_h)}))
-      .value();
+  const auto a_ = [](double v) { return Archetype(v); };
+  const FrameAngles<Archetype> at{{a_(x.nol), a_(x.nov), a_(x.noh), a_(x.voh), a_(x.sin2_theta_h)},
+                                  a_(x.xoh),
+                                  a_(x.yoh),
+                                  a_(x.xol),
+                                  a_(x.yol),
+                                  a_(x.xov),
+                                  a_(x.yov)};
+  return as_value<Archetype>(term(at)).value();
 }
 
-using Least = double (*)(const Parameters&, const Angles<double>&);
+using Least = double (*)(const Parameters&, const test::Row&);
 template <template <class> class... Terms>
 std::vector<Least> instantiate(TermList<Terms...>) {
   static_assert((takes_every_number<Terms>() && ...));
@@ -66,7 +71,7 @@ TEST(Catalogue, EveryTermAsksNoMoreThanTheLeastOfNumbersOffers) {
   for (std::size_t t = 0; t < terms.size(); ++t)
     for (const auto& p : test::legal_grid(catalogue()[t].parameters, 3))
       for (const auto& x : test::random_angles(16, 5))
-        EXPECT_EQ(terms[t](p, x), test::value_of(t, p, x)) << catalogue()[t].about->id;
+        EXPECT_EQ(terms[t](p, x), test::value_at(t, p, x)) << catalogue()[t].about->id;
 }
 
 // ---- What a term says of itself -----------------------------------------------------------------
@@ -121,15 +126,15 @@ TEST(Catalogue, IsTheSameInEveryInstructionSet) {
 
 /// All combinations of normal, middle and grazing, near and at; but for both directions at the
 /// horizon, which is outside the domain.
-std::vector<Angles<double>> corners() {
+std::vector<test::Row> corners() {
   constexpr double cosines[] = {0, 1e-8, 0.5, 1};
-  std::vector<Angles<double>> rows;
+  std::vector<test::Row> rows;
   for (const double nol : cosines)
     for (const double nov : cosines)
       for (const double voh : cosines)
         for (const auto& [noh, sin2] :
              {std::pair{1.0, 0.0}, {1.0, 1e-16}, {0.6, 0.64}, {1e-8, 1.0}, {0.0, 1.0}})
-          if (nol + nov > 0) rows.push_back({nol, nov, noh, voh, sin2});
+          if (nol + nov > 0) rows.push_back(test::framed({nol, nov, noh, voh, sin2}));
   return rows;
 }
 
@@ -171,7 +176,8 @@ TYPED_TEST(Everywhere, TermsRaiseNoFloatingPointException) {
   const auto rows = corners();
   const auto clean = [] { return std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0; };
   std::feclearexcept(FE_ALL_EXCEPT);
-  const std::vector<Angles<double>> outside{{0, 0, 0.5, 0.5, 0.75}};  // where this V has no bound
+  const std::vector<test::Row> outside{
+      test::framed({0, 0, 0.5, 0.5, 0.75})};  // where this V has no bound
   test::values_of<F>(find_term("masking.smith_ggx.correlated"), {0.5}, outside);
   EXPECT_FALSE(clean()) << "the ruler: a division by zero must be seen";
   for (std::size_t t = 0; t < catalogue().size(); ++t)
@@ -203,7 +209,7 @@ TEST(Catalogue, DerivativesAreThoseOfDifferences) {
           const auto f = [&](double v) {
             Parameters q = p;
             q[k] = v;
-            return test::value_of(t, q, rows[i]);
+            return test::value_at(t, q, rows[i]);
           };
           const double expected = test::slope(f, p[k], 1e-3 * p[k]);
           EXPECT_NEAR(d[1 + k][i], expected, 1e-6 * std::abs(expected) + 1e-7 * d[0][i] / p[k])

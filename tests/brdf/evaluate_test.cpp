@@ -12,14 +12,14 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double pi = std::numbers::pi;
 
 /// One term of a bound model for one channel, by the scalar kernel on its own.
-double term(const BoundModel& b, const TermUse& t, std::size_t channel, const Angles<double>& x) {
+double term(const BoundModel& b, const TermUse& t, std::size_t channel, const test::Row& x) {
   test::Parameters p;
   for (const auto i : t.parameters) p.push_back(b.values[b.model.parameters[i].slot(channel)]);
-  return test::value_of(t.term, p, x);
+  return test::value_at(t.term, p, x);
 }
 
 /// f_c as model.h writes it.
-double by_hand(const BoundModel& b, std::size_t channel, const Angles<double>& x) {
+double by_hand(const BoundModel& b, std::size_t channel, const test::Row& x) {
   double f = 0;
   for (const auto& l : b.model.lobes)
     f += term(b, l.ndf, 0, x) * term(b, l.masking, 0, x) * term(b, l.fresnel, channel, x);
@@ -31,18 +31,23 @@ double by_hand(const BoundModel& b, std::size_t channel, const Angles<double>& x
   return f;
 }
 
-/// Every combination of the catalogue as one lobe, with each diffuse term and without.
+/// Lobes in which every term of the catalogue stands beside several others, with a diffuse term and
+/// without.
 std::vector<std::string> one_lobe_specs() {
+  std::array<std::vector<std::string>, 4> names;
+  for (const auto& t : catalogue())
+    names[static_cast<std::size_t>(role_of(t.about->id))].emplace_back(short_id(t.about->id));
+  std::size_t most = 0;
+  for (const auto& n : names) most = std::max(most, n.size());
   std::vector<std::string> specs;
-  const auto name = [](std::size_t t) { return std::string(short_id(catalogue()[t].about->id)); };
-  for (const auto d : test::terms_of(Role::ndf))
-    for (const auto v : test::terms_of(Role::masking))
-      for (const auto f : test::terms_of(Role::fresnel)) {
-        specs.push_back(name(d) + "/" + name(v) + "/" + name(f));
-        const std::string lobe = specs.back();
-        for (const auto diffuse : test::terms_of(Role::diffuse))
-          specs.push_back(name(diffuse) + "+" + lobe);
-      }
+  for (std::size_t round = 0; round < 3; ++round)
+    for (std::size_t i = 0; i < most; ++i) {
+      const auto pick = [&](std::size_t role) {
+        return names[role][(i + round * (role + 1)) % names[role].size()];
+      };
+      specs.push_back(pick(0) + "/" + pick(1) + "/" + pick(2));
+      specs.push_back(pick(3) + "+" + specs.back());
+    }
   return specs;
 }
 
@@ -208,7 +213,7 @@ TEST(AngleColumns, ArePaddedWithHarmlessAngles) {
   AngleColumns<double> x(17);
   EXPECT_EQ(x.size(), 17U);
   EXPECT_EQ(x.padded() % padding, 0U);
-  x.set(3, {0.1, 0.2, 0.3, 0.4, 0.91});
+  x.set(3, Angles<double>{0.1, 0.2, 0.3, 0.4, 0.91});
   const auto b = x.block();
   EXPECT_EQ(b.nol[3], 0.1);
   EXPECT_EQ(b.nov[3], 0.2);

@@ -131,7 +131,7 @@ double visible_area(std::size_t ndf, const test::Parameters& p, double nov) {
       weight.push_back(2 * (a * phi + b * std::sin(phi)) * sin_h * sin_h * cos_h * 2 * s * range *
                        node.weight);
     }
-    const auto d = test::values_of(ndf, p, at);
+    const auto d = test::values_of(ndf, p, test::framed(at));
     for (std::size_t i = 0; i < d.size(); ++i) area += d[i] * weight[i];
   }
   return area;

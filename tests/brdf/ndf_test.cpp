@@ -49,7 +49,7 @@ TEST(Ndf, ProjectedAreaIsOne) {
   const auto at = trapezoid();
   for (const auto ndf : test::terms_of(Role::ndf))
     for (const auto& p : grid(ndf)) {
-      const double one = projected_integral(test::values_of(ndf, p, at), at, step);
+      const double one = projected_integral(test::values_of(ndf, p, test::framed(at)), at, step);
       EXPECT_NEAR(one, 1, 1e-13) << catalogue()[ndf].about->id << text(p);
     }
 }
@@ -58,7 +58,7 @@ TEST(Ndf, FallsFromThePeakToTheHorizon) {
   const auto at = trapezoid();
   for (const auto ndf : test::terms_of(Role::ndf))
     for (const auto& p : grid(ndf)) {
-      const auto d = test::values_of(ndf, p, at);
+      const auto d = test::values_of(ndf, p, test::framed(at));
       for (std::size_t i = 1; i < d.size(); ++i) {
         EXPECT_GT(d[i], 0) << catalogue()[ndf].about->id << text(p);
         EXPECT_LE(d[i], d[i - 1] * (1 + 64 * eps)) << catalogue()[ndf].about->id << text(p);
@@ -70,7 +70,7 @@ TEST(Ndf, HasItsFirstDerivativesIntegralZero) {  // ∂/∂p ∫ D cos θ dω = 
   const auto at = trapezoid();
   for (const auto ndf : test::terms_of(Role::ndf))
     for (const auto& p : grid(ndf)) {
-      const auto d = test::derivatives_of(ndf, p, at);
+      const auto d = test::derivatives_of(ndf, p, test::framed(at));
       for (std::size_t k = 0; k < p.size(); ++k)
         EXPECT_NEAR(p[k] * projected_integral(d[1 + k], at, step), 0, 1e-12)
             << catalogue()[ndf].about->id << text(p) << " by its parameter " << k;
@@ -91,7 +91,8 @@ TEST(GtrNdf, WithGammaTwoIsGgx) {
   const auto at = trapezoid();
   const auto gtr = find_term("ndf.gtr"), ggx = find_term("ndf.ggx");
   for (const double alpha : test::spread({1e-4, 1}, 16)) {
-    const auto a = test::values_of(gtr, {alpha, 2}, at), b = test::values_of(ggx, {alpha}, at);
+    const auto a = test::values_of(gtr, {alpha, 2}, test::framed(at)),
+               b = test::values_of(ggx, {alpha}, test::framed(at));
     for (std::size_t i = 0; i < at.size(); ++i)
       EXPECT_NEAR(a[i], b[i], 2e-14 * b[i]) << alpha << " " << text(at[i]);
   }
@@ -100,7 +101,7 @@ TEST(GtrNdf, WithGammaTwoIsGgx) {
 TEST(GtrNdf, WithAlphaOneIsUniform) {
   const auto at = trapezoid();
   for (const double gamma : {0.5, 1.0, 2.0, 10.0})
-    for (const double d : test::values_of(find_term("ndf.gtr"), {1, gamma}, at))
+    for (const double d : test::values_of(find_term("ndf.gtr"), {1, gamma}, test::framed(at)))
       EXPECT_NEAR(d, 1 / pi, 16 * eps);
 }
 
@@ -119,8 +120,8 @@ TEST(GtrNdf, KeepsItsPeakInFloat) {
   const auto gtr = find_term("ndf.gtr");
   for (const double alpha : {1e-4, 1e-3, 1e-2, 0.5})
     for (const double gamma : {0.5, 1.0, 3.0, 10.0}) {
-      const auto f = test::values_of<float>(gtr, {alpha, gamma}, peak);
-      const auto d = test::values_of<double>(gtr, {alpha, gamma}, peak);
+      const auto f = test::values_of<float>(gtr, {alpha, gamma}, test::framed(peak));
+      const auto d = test::values_of<double>(gtr, {alpha, gamma}, test::framed(peak));
       for (std::size_t i = 0; i < peak.size(); ++i)
         EXPECT_NEAR(static_cast<double>(f[i]), d[i], 1e-4 * d[i] + 1e-28) << alpha << " " << gamma;
     }

@@ -43,7 +43,7 @@ struct Result {
 std::vector<Result> run(const Model& m,
                         std::span<const double> values,
                         const std::vector<bool>& free,
-                        std::span<const Angles<double>> rows,
+                        std::span<const test::Row> rows,
                         const Kernels<double>& k = kernels<double>()) {
   const auto x = test::columns<double>(rows);
   Plan<double> plan(m, free, k);

@@ -25,9 +25,24 @@ inline std::vector<std::size_t> terms_of(Role role) {
   return terms;
 }
 
+using Row = FrameAngles<double>;
+
+/// A frame for angles that have none: h in the plane of the tangent, and l and v about where they
+/// must be.
+inline Row framed(const Angles<double>& a) {
+  const double h = std::sqrt(a.sin2_theta_h);
+  return {
+      a, h, 0, std::sqrt((1 - a.nol) * (1 + a.nol)), 0, 0, std::sqrt((1 - a.nov) * (1 + a.nov))};
+}
+inline std::vector<Row> framed(std::span<const Angles<double>> rows) {
+  std::vector<Row> r;
+  for (const auto& a : rows) r.push_back(framed(a));
+  return r;
+}
+
 template <class F>
-AngleColumns<F> columns(std::span<const Angles<double>> rows) {
-  AngleColumns<F> x(rows.size());
+AngleColumns<F> columns(std::span<const Row> rows) {
+  AngleColumns<F> x(rows.size(), true);
   for (std::size_t i = 0; i < rows.size(); ++i) x.set(i, rows[i]);
   return x;
 }
@@ -35,7 +50,7 @@ AngleColumns<F> columns(std::span<const Angles<double>> rows) {
 template <class F = double>
 std::vector<F> values_of(std::size_t term,
                          const Parameters& parameters,
-                         std::span<const Angles<double>> rows,
+                         std::span<const Row> rows,
                          const Kernels<F>& k = kernels<F>("scalar")) {
   const auto x = columns<F>(rows);
   const std::vector<F> p(parameters.begin(), parameters.end());
@@ -44,15 +59,18 @@ std::vector<F> values_of(std::size_t term,
   k.terms[term].add(x.block(), p.data(), {ones.data(), nullptr, zeros.data(), out.data(), nullptr});
   return {out.data(), out.data() + rows.size()};
 }
+inline double value_at(std::size_t term, const Parameters& parameters, const Row& row) {
+  return values_of(term, parameters, {&row, 1})[0];
+}
 inline double value_of(std::size_t term, const Parameters& parameters, const Angles<double>& at) {
-  return values_of(term, parameters, {&at, 1})[0];
+  return value_at(term, parameters, framed(at));
 }
 
 /// [0]: the value; [1 + k]: its derivative by the k-th parameter.
 template <class F = double>
 std::vector<std::vector<F>> derivatives_of(std::size_t term,
                                            const Parameters& parameters,
-                                           std::span<const Angles<double>> rows,
+                                           std::span<const Row> rows,
                                            const Kernels<F>& k = kernels<F>("scalar")) {
   const auto x = columns<F>(rows);
   const std::vector<F> p(parameters.begin(), parameters.end());
@@ -105,18 +123,21 @@ inline std::string text(const Angles<double>& a) {
 }
 
 /// Directions above the surface: their half vectors from the peak outwards, some of them grazing.
-inline std::vector<Angles<double>> random_angles(std::size_t n, std::uint64_t seed) {
+inline std::vector<Row> random_angles(std::size_t n, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&](double a, double b) {
     return std::uniform_real_distribution(a, b)(random);
   };
-  std::vector<Angles<double>> rows;
+  std::vector<Row> rows;
   while (rows.size() < n) {
     const double h = rows.size() % 2 ? uniform(0, 1.5) : std::exp(uniform(std::log(1e-5), 0));
     const double d =
         rows.size() % 3 ? uniform(0, 1.5) : 1.5707 - std::exp(uniform(std::log(1e-3), 0));
-    const auto a = angles(SinCos(h), SinCos(d), std::cos(uniform(0, 3.1416)));
-    if (a.nol > 1e-4 && a.nov > 1e-4) rows.push_back(a);
+    const double phi_d = uniform(0, 3.1416);
+    const auto a = angles(SinCos(h), SinCos(d), std::cos(phi_d));
+    Row row = frame_angles(directions(HalfDifference{h, uniform(-3.1416, 3.1416), d, phi_d}));
+    static_cast<Angles<double>&>(row) = a;  // near the peak the directions have lost sin² θ_h
+    if (a.nol > 1e-4 && a.nov > 1e-4) rows.push_back(row);
   }
   return rows;
 }

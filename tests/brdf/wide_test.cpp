@@ -34,14 +34,16 @@ double relative_error(double x, const Wide& truth) {
 
 // ---- Every term against itself in fifty digits --------------------------------------------------
 
-/// What a term reads: its parameters, then the five angles.
+/// What a term reads: its parameters, then the angles.
 using Inputs = std::vector<Wide>;
 
 template <template <class> class Term>
 Wide wide(const Inputs& x) {
   constexpr std::size_t n = Term<Wide>::parameters.size();
   const Term<Wide> term{std::span<const Wide, n>(x.data(), n)};
-  return as_value<Wide>(term(Angles<Wide>{x[n], x[n + 1], x[n + 2], x[n + 3], x[n + 4]}));
+  const auto a = [&](std::size_t k) { return x[n + k]; };
+  return as_value<Wide>(
+      term(FrameAngles<Wide>{{a(0), a(1), a(2), a(3), a(4)}, a(5), a(6), a(7), a(8), a(9), a(10)}));
 }
 using WideTerm = Wide (*)(const Inputs&);
 template <template <class> class... Terms>
@@ -78,8 +80,9 @@ void check_digits(double bound) {
       }
       const double value = static_cast<double>(test::values_of<F>(t, p, {&rows[i], 1})[0]);
       Inputs x(p.begin(), p.end());
+      const auto& r = rows[i];
       for (const double a :
-           {rows[i].nol, rows[i].nov, rows[i].noh, rows[i].voh, rows[i].sin2_theta_h})
+           {r.nol, r.nov, r.noh, r.voh, r.sin2_theta_h, r.xoh, r.yoh, r.xol, r.yol, r.xov, r.yov})
         x.emplace_back(static_cast<F>(a));
       for (std::size_t k = 0; k < p.size(); ++k) x[k] = static_cast<F>(p[k]);
       const Wide truth = f[t](x);

@@ -1,0 +1,12 @@
+#pragma once
+/// \file
+/// Every term of the role 'ndf', once: a new one is its struct and its name here.
+
+#include "brdf/ndf.h"
+#include "brdf/term_list.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+using Distributions = TermList<Ggx, Gtr>;
+
+}  // namespace gonio::inline GONIO_ARCH

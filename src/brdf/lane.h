@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// How a term meets a column: what the kernels of every role share.  Included by files compiled per
+/// instruction set alone.
+
+#include "brdf/kernels.h"
+#include "brdf/term.h"
+#include "number/batch.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+#ifdef GONIO_SCALAR
+template <class F>
+using Lane = F;
+#else
+template <class F>
+using Lane = Batch<F>;
+#endif
+
+/// Of the samples from i on; the frame is read only for who asks.
+template <class Term = void, class F>
+angles_of<Term, Lane<F>> angles(const Block<F>& x, std::size_t i) {
+  using B = Lane<F>;
+  const Angles<B> a{load<B>(x.nol + i), load<B>(x.nov + i), load<B>(x.noh + i), load<B>(x.voh + i),
+                    load<B>(x.sin2_theta_h + i)};
+  if constexpr (is_anisotropic<Term>) {
+    const auto frame = [&](std::size_t k) { return load<B>(x.frame[k] + i); };
+    return {a, frame(0), frame(1), frame(2), frame(3), frame(4), frame(5)};
+  } else {
+    return a;
+  }
+}
+
+template <class Term, class T, class F>
+Term bind(const F* p, auto lift) {
+  std::array<T, Term::parameters.size()> a;
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] = lift(p[k], k);
+  return Term(std::span<const T, Term::parameters.size()>(a));
+}
+template <template <class> class Term, class F>
+auto bind_value(const F* p) {
+  using B = Lane<F>;
+  static_assert(TermOver<Term<B>, B>);
+  return bind<Term<B>, B>(p, [](F x, std::size_t) { return B(x); });
+}
+
+}  // namespace gonio::inline GONIO_ARCH

@@ -1,0 +1,85 @@
+#pragma once
+/// \file
+/// The loops of a term over columns, and the table of a role's terms.  Included by the one file of
+/// each role, compiled per instruction set.
+
+#include <array>
+
+#include "brdf/lane.h"
+#include "brdf/term_list.h"
+#include "number/dual.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+template <template <class> class Term, class F>
+void extend(const Block<F>& x, const F* p, const Join<F>& j) {
+  using B = Lane<F>;
+  const auto term = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto q = as_quotient<B>(term(angles<Term<B>>(x, i)));
+    store<B>(j.out + i, load<B>(j.num + i) * q.num);
+    store<B>(j.out_den + i, load<B>(j.den + i) * q.den);
+  }
+}
+
+template <template <class> class Term, class F>
+void close(const Block<F>& x, const F* p, const Join<F>& j) {
+  using B = Lane<F>;
+  const auto term = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto q = as_quotient<B>(term(angles<Term<B>>(x, i)));
+    store<B>(j.out + i, load<B>(j.num + i) * q.num / (load<B>(j.den + i) * q.den));
+  }
+}
+
+template <template <class> class Term, class F>
+void add(const Block<F>& x, const F* p, const Join<F>& j) {
+  using B = Lane<F>;
+  const auto term = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>)
+    store<B>(j.out + i,
+             load<B>(j.base + i) + load<B>(j.num + i) * as_value<B>(term(angles<Term<B>>(x, i))));
+}
+
+template <template <class> class Term, class F>
+void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
+  using B = Lane<F>;
+  constexpr std::size_t N = Term<B>::parameters.size();
+  using T = Dual<B, N>;
+  const auto term = bind<Term<T>, T>(p, [](F v, std::size_t k) { return T::variable(B(v), k); });
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const T t = as_value<T>(term(angles<Term<B>>(x, i)));
+    store<B>(value + i, t.v);
+    for (std::size_t k = 0; k < N; ++k) store<B>(d[k] + i, t.d[k]);
+  }
+}
+
+template <template <class> class Term, class F>
+constexpr TermKernels<F> term_entry() {
+  bool coupled = false;
+  if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
+  return {&Term<F>::about, Term<F>::parameters, coupled,      is_anisotropic<Term<F>>,
+          extend<Term, F>, close<Term, F>,      add<Term, F>, derivatives<Term, F>};
+}
+template <class F, template <class> class... Terms>
+constexpr auto term_table(TermList<Terms...>) {
+  return std::array{term_entry<Terms, F>()...};
+}
+
+/// Defined in the file of each role.
+template <Role role, class F>
+std::span<const TermKernels<F>> terms_of();
+
+#define GONIO_TERMS_OF(role, list)                                \
+  template <class F>                                              \
+  constexpr auto table = term_table<F>(list{});                   \
+  template <>                                                     \
+  std::span<const TermKernels<float>> terms_of<role, float>() {   \
+    return table<float>;                                          \
+  }                                                               \
+  template <>                                                     \
+  std::span<const TermKernels<double>> terms_of<role, double>() { \
+    return table<double>;                                         \
+  }
+
+}  // namespace gonio::inline GONIO_ARCH
