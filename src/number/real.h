@@ -99,4 +99,14 @@ constexpr T pi() {
   return constant<T>(3.14159265358979323846264338327950288L);
 }
 
+/// x as a shader's variable declared `half` or `float` holds it: Mixed (mixed.h) alone has both.
+template <Real T>
+constexpr T in_half(const T& x) {
+  return x;
+}
+template <Real T>
+constexpr T in_float(const T& x) {
+  return x;
+}
+
 }  // namespace gonio::inline GONIO_ARCH

@@ -1,26 +1,11 @@
 // Fifty digits: how many of sixteen the terms keep.  The only file that pays for
 // Boost.Multiprecision.
+#include "number/wide.h"
+
 #include "brdf/catalogue.h"
 #include "brdf/terms.h"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-
 namespace gonio {
-
-/// Expression templates off: `auto x = a * b` must be a number.
-using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
-                                           boost::multiprecision::et_off>;
-
-inline namespace GONIO_ARCH {
-template <>
-struct RealTraits<Wide> {
-  using Base = Wide;
-  using Plain = Wide;
-  using Mask = bool;
-  static Wide select(bool m, const Wide& a, const Wide& b) { return m ? a : b; }
-};
-}  // namespace GONIO_ARCH
-
 namespace {
 
 using test::Parameters;
