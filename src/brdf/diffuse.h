@@ -3,6 +3,7 @@
 /// Diffuse terms [1/sr].  A coupled one reflects only what the first lobe's interface lets through:
 /// the model multiplies it by 1 − F(VoH).
 
+#include "brdf/ndf.h"
 #include "brdf/term.h"
 
 namespace gonio::inline GONIO_ARCH {
@@ -30,6 +31,41 @@ struct LambertCoupled : Lambert<T> {
                                "Burley 2012; glTF 2.0, Appendix B"};
   static constexpr bool coupled = true;
   using Lambert<T>::Lambert;
+};
+
+/// Disney's diffuse: darker at grazing angles where smooth, brighter where rough.
+///
+///   f = kd/π (1 + (F_D90 − 1)(1 − NoL)⁵)(1 + (F_D90 − 1)(1 − NoV)⁵),   F_D90 = 0.5 + 2 r VoH²
+///                                                                         [Burley 2012, section 5.3]
+///
+/// with r = √alpha.  It reflects more than it receives: its albedo reaches 1.52 kd at r = 1 and
+/// grazing angles.
+template <Real T>
+struct DisneyDiffuse {
+  static constexpr About about{
+      "diffuse.disney",
+      "Disney's diffuse",
+      "f = kd/π (1 + (F_D90−1)(1−NoL)⁵)(1 + (F_D90−1)(1−NoV)⁵), F_D90 = 0.5 + 2 r VoH², r = √alpha",
+      "Burley 2012, section 5.3",
+      "001",
+      "Disney's principled BRDF; Unreal Engine and Frostbite offer it, Frostbite renormalised",
+      "diffuse.lambert"};
+  static constexpr std::array parameters{Lambert<T>::parameters[0], alpha_parameter};
+  static constexpr bool coupled = false;
+
+  T value, two_r;
+
+  explicit DisneyDiffuse(std::span<const T, 2> p)
+      : value(p[0] / pi<plain_t<T>>()), two_r(2 * sqrt(p[1])) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const T f_less_1 = two_r * square(a.voh) - constant<plain_t<T>>(0.5L);
+    const auto grazing = [](const plain_t<T>& c) {
+      const plain_t<T> m = 1 - c;
+      return square(square(m)) * m;
+    };
+    return value * ((f_less_1 * grazing(a.nol) + 1) * (f_less_1 * grazing(a.nov) + 1));
+  }
 };
 
 }  // namespace gonio::inline GONIO_ARCH

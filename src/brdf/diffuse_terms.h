@@ -7,6 +7,6 @@
 
 namespace gonio::inline GONIO_ARCH {
 
-using DiffuseTerms = TermList<Lambert, LambertCoupled>;
+using DiffuseTerms = TermList<Lambert, LambertCoupled, DisneyDiffuse>;
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "brdf/evaluate.h"
+#include "brdf/maps.h"
 
 #include <fmt/format.h>
 
@@ -28,20 +29,57 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::size_t find(std::string_view id, auto&& name, auto&& eligible, std::string_view what) {
-  const auto terms = catalogue();
+/// Throws wrong usage naming those of `ids` that are nearest.
+[[noreturn]] void refuse(std::string_view id,
+                         std::span<const std::string_view> ids,
+                         std::string_view what) {
   std::vector<std::pair<std::size_t, std::string_view>> near;
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    if (!eligible(terms[i].about->id)) continue;
-    const std::string_view n = name(terms[i].about->id);
-    if (n == id) return i;
-    near.emplace_back(distance(id, n), n);
-  }
+  for (const auto known : ids) near.emplace_back(distance(id, known), known);
   std::ranges::stable_sort(near, {}, [](const auto& p) { return p.first; });
   if (near.size() > 3) near.resize(3);
   std::vector<std::string_view> names;
   for (const auto& n : near) names.push_back(n.second);
   throw wrong_usage(fmt::format("no {} '{}'; nearest: {}", what, id, fmt::join(names, ", ")));
+}
+
+/// The values of an entry's parameters: those given, else the defaults; refuses what it does not have.
+std::vector<double> resolve(const About& about,
+                            std::span<const Parameter> parameters,
+                            const std::map<std::string, double>& given,
+                            std::vector<std::pair<std::string, double>>& used) {
+  std::vector<double> p;
+  for (const auto& q : parameters) {
+    const auto it = given.find(std::string(q.name));
+    const double v = it == given.end() ? q.start : it->second;
+    check_range(q, q.name, v);
+    p.push_back(v);
+    used.emplace_back(q.name, v);
+  }
+  for (const auto& [name, value] : given)
+    if (std::ranges::none_of(parameters, [&, n = name](const auto& q) { return q.name == n; })) {
+      std::vector<std::string_view> names;
+      for (const auto& q : parameters) names.push_back(q.name);
+      throw wrong_usage(
+          fmt::format("{} has no parameter '{}'; it has: {}", about.id, name,
+                      names.empty() ? "none" : fmt::to_string(fmt::join(names, ", "))));
+    }
+  return p;
+}
+
+/// How many rows columns make, those of one value serving all.
+std::size_t count_rows(const std::map<std::string, std::vector<double>>& at) {
+  std::size_t rows = 1;
+  for (const auto& [name, column] : at) {
+    if (column.size() == 1) continue;
+    if (rows != 1 && rows != column.size())
+      throw wrong_usage(
+          fmt::format("'{}' has {} values where another has {}", name, column.size(), rows));
+    rows = column.size();
+  }
+  return rows;
+}
+double in_row(const std::vector<double>& column, std::size_t row) {
+  return column[column.size() == 1 ? 0 : row];
 }
 
 template <class F>
@@ -64,23 +102,74 @@ std::vector<double> values(std::size_t term,
   return {out.data(), out.data() + rows.size()};
 }
 
+template <template <class> class Map>
+constexpr MapEntry map_entry() {
+  static_assert(MapOver<Map<double>, double>);
+  return {&Map<double>::about, Map<double>::parameters, Map<double>::outputs};
+}
+template <template <class> class... M>
+constexpr auto map_table(MapList<M...>) {
+  return std::array{map_entry<M>()...};
+}
+constexpr auto map_entries = map_table(Maps{});
+
+template <template <class> class Map, class T>
+std::vector<double> apply(std::span<const double> parameters) {
+  constexpr std::size_t n = Map<T>::parameters.size();
+  std::vector<T> p;
+  for (const double v : parameters) p.push_back(static_cast<T>(v));
+  std::vector<double> out;
+  for (const T& x : Map<T>::apply(std::span<const T, n>(p))) out.push_back(static_cast<double>(x));
+  return out;
+}
+template <class T, template <class> class... M>
+std::vector<double> apply_map(std::size_t map, std::span<const double> parameters, MapList<M...>) {
+  using Apply = std::vector<double> (*)(std::span<const double>);
+  static constexpr Apply table[] = {apply<M, T>...};
+  return table[map](parameters);
+}
+template <class T>
+std::vector<double> apply_map(std::size_t map, std::span<const double> parameters) {
+  return apply_map<T>(map, parameters, Maps{});
+}
+
 }  // namespace
 
 std::span<const TermKernels<double>> catalogue() {
   return kernels<double>("scalar").terms;
 }
 
+std::span<const MapEntry> maps() {
+  return map_entries;
+}
+
 std::size_t find_term(std::string_view id) {
-  return find(
-      id, [](std::string_view s) { return s; }, [](std::string_view) { return true; }, "term");
+  std::vector<std::string_view> ids;
+  for (const auto& t : catalogue()) ids.push_back(t.about->id);
+  if (const auto it = std::ranges::find(ids, id); it != ids.end())
+    return static_cast<std::size_t>(it - ids.begin());
+  for (const auto& m : maps()) ids.push_back(m.about->id);
+  refuse(id, ids, "term");
 }
 
 std::size_t find_term(std::string_view id, Role role) {
   static constexpr std::string_view names[] = {"normal distribution", "masking", "Fresnel term",
                                                "diffuse term"};
-  return find(
-      id, short_id, [=](std::string_view s) { return role_of(s) == role; },
-      names[static_cast<int>(role)]);
+  std::vector<std::string_view> ids;
+  const auto terms = catalogue();
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    if (role_of(terms[t].about->id) != role) continue;
+    ids.push_back(short_id(terms[t].about->id));
+    if (ids.back() == id) return t;
+  }
+  refuse(id, ids, names[static_cast<int>(role)]);
+}
+
+std::optional<std::size_t> find_map(std::string_view id) {
+  const auto all = maps();
+  for (std::size_t m = 0; m < all.size(); ++m)
+    if (all[m].about->id == id) return m;
+  return {};
 }
 
 void check_range(const Parameter& p, std::string_view name, double value) {
@@ -95,17 +184,7 @@ TermValues evaluate_term(std::size_t term,
                          const std::map<std::string, std::vector<double>>& at) {
   const auto& t = catalogue()[term];
   TermValues result;
-  std::vector<double> p;
-  for (const auto& q : t.parameters) {
-    const auto given = parameters.find(std::string(q.name));
-    const double v = given == parameters.end() ? q.start : given->second;
-    check_range(q, q.name, v);
-    p.push_back(v);
-    result.parameters.emplace_back(q.name, v);
-  }
-  for (const auto& [name, value] : parameters)
-    if (std::ranges::none_of(t.parameters, [&, n = name](const auto& q) { return q.name == n; }))
-      throw wrong_usage(fmt::format("{} has no parameter '{}'", t.about->id, name));
+  const auto p = resolve(*t.about, t.parameters, parameters, result.parameters);
 
   using Row = FrameAngles<double>;
   static constexpr std::pair<std::string_view, double Row::*> known[] = {
@@ -113,7 +192,6 @@ TermValues evaluate_term(std::size_t term,
       {"voh", &Row::voh}, {"cos", &Row::voh}, {"sin2_theta_h", &Row::sin2_theta_h},
       {"xoh", &Row::xoh}, {"yoh", &Row::yoh}, {"xol", &Row::xol},
       {"yol", &Row::yol}, {"xov", &Row::xov}, {"yov", &Row::yov}};
-  std::size_t rows = 1;
   for (const auto& [name, column] : at) {
     const auto it = std::ranges::find(known, name, [](const auto& k) { return k.first; });
     if (it == std::end(known)) {
@@ -125,19 +203,15 @@ TermValues evaluate_term(std::size_t term,
     for (const double v : column)
       if (!(lowest <= v && v <= 1))
         throw wrong_usage(fmt::format("{} = {} is outside [{}, 1]", name, v, lowest));
-    if (column.size() == 1) continue;
-    if (rows != 1 && rows != column.size())
-      throw wrong_usage(
-          fmt::format("'{}' has {} values where another has {}", name, column.size(), rows));
-    rows = column.size();
   }
+  const std::size_t rows = count_rows(at);
   if (at.contains("cos") && at.contains("voh")) throw wrong_usage("cos and voh are the same angle");
 
   std::vector<Row> angles(rows, Row{{1, 1, 1, 1, 0}, 0, 0, 0, 0, 0, 0});
   for (const auto& [name, column] : at) {
     const auto member =
         std::ranges::find(known, name, [](const auto& k) { return k.first; })->second;
-    for (std::size_t i = 0; i < rows; ++i) angles[i].*member = column[column.size() == 1 ? 0 : i];
+    for (std::size_t i = 0; i < rows; ++i) angles[i].*member = in_row(column, i);
   }
   const auto given = [&](const char* x, const char* y) { return at.contains(x) || at.contains(y); };
   const auto sine = [](double c) { return std::sqrt((1 - c) * (1 + c)); };
@@ -154,6 +228,32 @@ TermValues evaluate_term(std::size_t term,
   }
   result.values =
       number == Number::double_ ? values<double>(term, p, angles) : values<float>(term, p, angles);
+  return result;
+}
+
+MapValues evaluate_map(std::size_t map,
+                       Number number,
+                       const std::map<std::string, double>& parameters,
+                       const std::map<std::string, std::vector<double>>& at) {
+  const auto& m = maps()[map];
+  MapValues result;
+  const auto p = resolve(*m.about, m.parameters, parameters, result.parameters);
+  for (const auto& [name, column] : at) {
+    const auto it = std::ranges::find(m.parameters, name, &Parameter::name);
+    if (it == m.parameters.end())
+      throw wrong_usage(fmt::format("{} does not read '{}'", m.about->id, name));
+    if (parameters.contains(name)) throw wrong_usage(fmt::format("'{}' is set and listed", name));
+    for (const double v : column) check_range(*it, name, v);
+    std::erase_if(result.parameters, [&, n = name](const auto& used) { return used.first == n; });
+  }
+  for (std::size_t row = 0; row < count_rows(at); ++row) {
+    auto q = p;
+    for (std::size_t k = 0; k < q.size(); ++k)
+      if (const auto it = at.find(std::string(m.parameters[k].name)); it != at.end())
+        q[k] = in_row(it->second, row);
+    result.values.push_back(number == Number::double_ ? apply_map<double>(map, q)
+                                                      : apply_map<float>(map, q));
+  }
   return result;
 }
 

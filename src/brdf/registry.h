@@ -3,6 +3,7 @@
 /// The catalogue at run time: what terms there are, and one term evaluated on its own.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +19,20 @@ inline constexpr std::array<std::string_view, 2> number_names{"double", "float"}
 std::span<const TermKernels<double>> catalogue();
 
 /// \param id  with its prefix ("ndf.ggx") or, within a role, without ("ggx")
-/// Throws wrong usage naming the nearest ids.
+/// Throws wrong usage naming the nearest ids, those of maps among them.
 std::size_t find_term(std::string_view id);
 std::size_t find_term(std::string_view short_id, Role role);
+
+/// What a map says of itself.
+struct MapEntry {
+  const About* about;
+  std::span<const Parameter> parameters;
+  std::span<const std::string_view> outputs;
+};
+/// Every map, in the order of maps.h.
+std::span<const MapEntry> maps();
+/// By id with its prefix ("clamp.alpha"); no value if there is none.
+std::optional<std::size_t> find_map(std::string_view id);
 
 /// Refuses a value outside the parameter's legal range, naming the range.
 void check_range(const Parameter& p, std::string_view name, double value);
@@ -40,5 +52,16 @@ TermValues evaluate_term(std::size_t term,
                          Number number,
                          const std::map<std::string, double>& parameters,
                          const std::map<std::string, std::vector<double>>& at);
+
+/// A map row by row: each name of `at` is a parameter with a value per row, columns of one value serve
+/// all rows; the others are as `parameters` or their defaults say.  values: [row][output]
+struct MapValues {
+  std::vector<std::pair<std::string, double>> parameters;
+  std::vector<std::vector<double>> values;
+};
+MapValues evaluate_map(std::size_t map,
+                       Number number,
+                       const std::map<std::string, double>& parameters,
+                       const std::map<std::string, std::vector<double>>& at);
 
 }  // namespace gonio

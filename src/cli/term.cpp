@@ -30,36 +30,68 @@ void expect_read(std::string_view id, const std::map<std::string, std::vector<do
                                     fmt::join(names, ", ")));
 }
 
+using Named = std::vector<std::pair<std::string, double>>;
+using Columns = std::map<std::string, std::vector<double>>;
+
+void print(const Options& o,
+           const About& about,
+           const Named& parameters,
+           const Columns& at,
+           const std::vector<std::string>& lines,
+           const Json& values,
+           std::span<const std::string_view> outputs = {}) {
+  if (!o.json) {
+    for (const auto& line : lines) fmt::print("{}\n", line);
+    return;
+  }
+  Json used = Json::object(), where = Json::object();
+  for (const auto& [name, value] : parameters) used[name] = value;
+  for (const auto& [name, column] : at) where[name] = column;
+  Json document{{"id", about.id}, {"number", o.number}, {"parameters", used}, {"at", where}};
+  if (!outputs.empty()) document["outputs"] = outputs;
+  document["values"] = values;
+  fmt::print("{}\n", document.dump(2));
+}
+
 Exit run(const Options& o) {
-  const std::size_t term = find_term(o.id);
   std::map<std::string, double> parameters;
   for (auto& s : parse_settings(o.set)) {
     if (s.values.size() != 1)
       throw wrong_usage(fmt::format("{}: one number, a term has no channels", s.name));
-    if (s.name == "roughness")
-      parameters["alpha"] = s.values[0] * s.values[0];
-    else
-      parameters[s.name] = s.values[0];
+    parameters[s.name] = s.values[0];
   }
-  std::map<std::string, std::vector<double>> at;
+  Columns at;
   for (auto& s : parse_settings(o.at)) at[s.name] = s.values;
-  expect_read(catalogue()[term].about->id, at);
   const auto number = static_cast<Number>(index_of(number_names, o.number));
-  const auto result = evaluate_term(term, number, parameters, at);
 
-  if (!o.json) {
-    for (const double v : result.values) fmt::print("{}\n", v);
+  std::vector<std::string> lines;
+  if (const auto map = find_map(o.id)) {
+    const auto& entry = maps()[*map];
+    const auto result = evaluate_map(*map, number, parameters, at);
+    Json values = Json::array();  // of a map with one output: numbers
+    for (const auto& row : result.values) {
+      lines.push_back(fmt::format("{}", fmt::join(row, " ")));
+      values.push_back(row.size() == 1 ? Json(row[0]) : Json(row));
+    }
+    print(o, *entry.about, result.parameters, at, lines, values, entry.outputs);
     return Exit::done;
   }
-  Json used = Json::object(), where = Json::object();
-  for (const auto& [name, value] : result.parameters) used[name] = value;
-  for (const auto& [name, values] : at) where[name] = values;
-  fmt::print("{}\n", Json{{"id", catalogue()[term].about->id},
-                          {"number", o.number},
-                          {"parameters", used},
-                          {"at", where},
-                          {"values", result.values}}
-                         .dump(2));
+
+  const std::size_t term = find_term(o.id);
+  const auto& entry = catalogue()[term];
+  const auto has = [&](std::string_view name) {
+    return std::ranges::find(entry.parameters, name, &Parameter::name) != entry.parameters.end();
+  };
+  if (const auto r = parameters.find("roughness"); r != parameters.end() && !has("roughness")) {
+    if (!parameters.emplace("alpha", r->second * r->second).second)
+      throw wrong_usage("alpha and roughness are the same parameter");
+    parameters.erase(r);
+  }
+  if (at.empty()) throw wrong_usage(fmt::format("{} needs --at with angles", entry.about->id));
+  expect_read(entry.about->id, at);
+  const auto result = evaluate_term(term, number, parameters, at);
+  for (const double v : result.values) lines.push_back(fmt::format("{}", v));
+  print(o, *entry.about, result.parameters, at, lines, result.values);
   return Exit::done;
 }
 
@@ -67,17 +99,17 @@ Exit run(const Options& o) {
 
 void add_term(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(app, action, "term",
-                        "Evaluates one term; a masking term gives G2, or G1 when only nov is given",
-                        "gonio term ndf.ggx --set alpha=0.25 --at noh=1,0.9 --json", o, run);
-  c->add_option("ID", o->id, "Term, as `gonio models` lists it")->required();
+  auto* c = add_command(
+      app, action, "term",
+      "Evaluates one term or map; a masking term gives G2, or G1 when only nov is given",
+      "gonio term ndf.ggx --set alpha=0.25 --at noh=1,0.9 --json", o, run);
+  c->add_option("ID", o->id, "Term or map, as `gonio models` lists it")->required();
   add_set(c, o->set);
   c->add_option(
        "--at", o->at,
        "Cosines: noh, nol, nov, voh or cos; of the tangent frame xoh, yoh, xol, yol, xov, yov; "
        "and sin2_theta_h = values")
-      ->expected(1, 64)
-      ->required();
+      ->expected(1, 64);
   c->add_option("--number", o->number, "Number type: double or float")->check(one_of(number_names));
   add_output(c, *o);
 }
