@@ -7,6 +7,6 @@
 
 namespace gonio::inline GONIO_ARCH {
 
-using FresnelTerms = TermList<Schlick, Dielectric, Conductor>;
+using FresnelTerms = TermList<Schlick, SchlickWeighted, Dielectric, Conductor>;
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "brdf/presets.h"
 #include "brdf/registry.h"
 #include "optics/refractive_index.h"
 
@@ -153,7 +154,7 @@ BoundModel bind_model(std::string_view spec,
                       std::vector<Setting> settings,
                       std::optional<std::size_t> channels,
                       std::span<const std::string> grey) {
-  const std::string resolved = resolve_base_color(std::string(spec), settings);
+  const std::string resolved = resolve_base_color(resolve_preset(spec, settings), settings);
   if (find(settings, "f0") && find(settings, "eta"))
     throw wrong_usage("f0 and eta say the same: give one of them");
   resolve_aliases(compose(resolved, 1), settings);
@@ -177,7 +178,7 @@ BoundModel bind_model(std::string_view spec,
       throw wrong_usage(
           fmt::format("{}: {} values where {} fit", s.name, s.values.size(),
                       p->count == 1 ? std::string("one") : fmt::format("one or {}", p->count)));
-    b.given.push_back(p->name);
+    if (!s.implied) b.given.push_back(p->name);
     for (std::size_t c = 0; c < p->count; ++c) {
       const double v = s.values[s.values.size() == 1 ? 0 : c];
       check_range(*p->about, s.name, v);

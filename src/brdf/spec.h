@@ -19,6 +19,7 @@ struct Setting {
   std::string name;
   std::vector<double> values;  ///< one, or one per channel
   std::string text = {};       ///< what was written, where it is no number (metal=Au)
+  bool implied = false;        ///< nobody set it: it follows from a preset's defaults
 };
 
 /// "alpha=0.25,f0=0.9,0.6,0.5" or those words apart.  A name given twice is wrong usage.

@@ -1,4 +1,5 @@
 // gonio models: what there is.
+#include "brdf/presets.h"
 #include "brdf/registry.h"
 #include "cli/command.h"
 #include "optics/refractive_index.h"
@@ -12,42 +13,67 @@ using Json = nlohmann::ordered_json;
 
 struct Options : Common {};
 
-Json describe(const TermKernels<double>& t) {
-  Json parameters = Json::array();
-  for (const auto& p : t.parameters)
-    parameters.push_back({{"name", p.name},
-                          {"low", p.legal.low},
-                          {"high", p.legal.high},
-                          {"fit_low", p.fit.low},
-                          {"fit_high", p.fit.high},
-                          {"default", p.start},
-                          {"per_channel", p.per_channel},
-                          {"meaning", p.meaning}});
-  return {{"id", t.about->id},
-          {"title", t.about->title},
-          {"formula", t.about->formula},
-          {"source", t.about->source},
-          {"parameters", parameters}};
+Json describe(const About& about, std::span<const Parameter> parameters) {
+  Json list = Json::array();
+  for (const auto& p : parameters)
+    list.push_back({{"name", p.name},
+                    {"low", p.legal.low},
+                    {"high", p.legal.high},
+                    {"fit_low", p.fit.low},
+                    {"fit_high", p.fit.high},
+                    {"default", p.start},
+                    {"per_channel", p.per_channel},
+                    {"meaning", p.meaning}});
+  return {{"id", about.id},
+          {"title", about.title},
+          {"formula", about.formula},
+          {"source", about.source},
+          {"seed", about.seed},
+          {"ships", about.ships},
+          {"approximates", about.approximates},
+          {"parameters", list}};
+}
+
+void print(const About& about, std::span<const Parameter> parameters) {
+  constexpr int indent = 36;
+  fmt::print("{:<{}}{}\n{:{}}{}\n", about.id, indent, about.title, "", indent, about.formula);
+  if (!about.approximates.empty())
+    fmt::print("{:{}}stands for {}\n", "", indent, about.approximates);
+  for (const auto& p : parameters)
+    fmt::print("{:{}}{} in [{}, {}]{}, default {}: {}\n", "", indent, p.name, p.legal.low,
+               p.legal.high, p.per_channel ? ", per channel" : "", p.start, p.meaning);
 }
 
 Exit run(const Options& o) {
   if (o.json) {
-    Json terms = Json::array(), metal = Json::array();
-    for (const auto& t : catalogue()) terms.push_back(describe(t));
+    Json terms = Json::array(), map = Json::array(), model = Json::array(), metal = Json::array();
+    for (const auto& t : catalogue()) terms.push_back(describe(*t.about, t.parameters));
+    for (const auto& m : maps()) {
+      map.push_back(describe(*m.about, m.parameters));
+      map.back()["outputs"] = m.outputs;
+    }
+    for (const auto& p : presets()) {
+      model.push_back(describe(p.about, p.parameters));
+      model.back()["spec"] = p.spec;
+    }
     for (const auto& m : metals())
       metal.push_back(
           {{"symbol", m.symbol}, {"name", m.name}, {"n", m.n}, {"k", m.k}, {"source", m.source}});
-    fmt::print("{}\n", Json{{"terms", terms}, {"metals", metal}}.dump(2));
+    fmt::print("{}\n",
+               Json{{"terms", terms}, {"maps", map}, {"models", model}, {"metals", metal}}.dump(2));
     return Exit::done;
   }
-  for (const auto& t : catalogue()) {
-    fmt::print("{:<30}{}\n{:30}{}\n", t.about->id, t.about->title, "", t.about->formula);
-    for (const auto& p : t.parameters)
-      fmt::print("{:30}{} in [{}, {}]{}, default {}: {}\n", "", p.name, p.legal.low, p.legal.high,
-                 p.per_channel ? ", per channel" : "", p.start, p.meaning);
+  for (const auto& t : catalogue()) print(*t.about, t.parameters);
+  fmt::print("\nMaps from parameters to parameters (`gonio term` evaluates them too):\n");
+  for (const auto& m : maps()) print(*m.about, m.parameters);
+  fmt::print("\nWhole models, by their id less the prefix (--model gltf):\n");
+  for (const auto& p : presets()) {
+    print(p.about, p.parameters);
+    fmt::print("{:36}= {}\n", "", p.spec);
   }
   fmt::print(
-      "\nA model is [DIFFUSE+]NDF/MASKING/FRESNEL[+LOBE…], by these names less their prefix:\n"
+      "\nOther models are [DIFFUSE+]NDF/MASKING/FRESNEL[+LOBE…], by these names less their "
+      "prefix:\n"
       "  lambert+ggx/smith_ggx.correlated/schlick\n"
       "Metals (metal=Au sets eta and k at 650, 550 and 450 nm):");
   for (const auto& m : metals()) fmt::print(" {}", m.symbol);
@@ -59,7 +85,8 @@ Exit run(const Options& o) {
 
 void add_models(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(app, action, "models", "The terms that models are composed of",
+  auto* c = add_command(app, action, "models",
+                        "The terms that models are composed of, maps and whole models",
                         "gonio models --json", o, run);
   add_output(c, *o);
 }

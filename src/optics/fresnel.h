@@ -39,6 +39,32 @@ struct Schlick {
   }
 };
 
+/// Schlick's approximation of a layer that covers part of the surface.
+///
+///   F = w (f0 + (1 − f0)(1 − c)⁵)
+///
+/// \param weight  w, in [0, 1]; Disney's coat has 0.25 clearcoat [Burley 2012, Appendix B]
+template <Real T>
+struct SchlickWeighted {
+  static constexpr About about{"fresnel.schlick.weighted",
+                               "Schlick's approximation, of a partial layer",
+                               "F = weight (f0 + (1 − f0)(1 − VoH)⁵)",
+                               "Burley 2012, Appendix B",
+                               "001",
+                               "Disney's principled BRDF, its coat",
+                               "fresnel.schlick"};
+  static constexpr std::array parameters{
+      Schlick<T>::parameters[0],
+      Parameter{"weight", {0, 1}, {0, 1}, 0.25, false, "how much of the layer there is"}};
+
+  Schlick<T> layer;
+  T weight;
+
+  explicit SchlickWeighted(std::span<const T, 2> p) : layer(p.template first<1>()), weight(p[1]) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const { return weight * layer(a); }
+};
+
 /// Exact Fresnel reflectance of a dielectric, from either side, with total internal reflection.
 ///
 ///   g² = η² − 1 + c²,   r_s = (g − c)/(g + c),   r_p = r_s (c (g + c) − 1)/(c (g − c) + 1)
