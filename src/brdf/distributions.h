@@ -3,10 +3,12 @@
 /// Every term of the role 'ndf', once: a new one is its struct and its name here.
 
 #include "brdf/ndf.h"
+#include "brdf/ndf_shipped.h"
 #include "brdf/term_list.h"
 
 namespace gonio::inline GONIO_ARCH {
 
-using Distributions = TermList<Ggx, Gtr>;
+using Distributions =
+    TermList<BlinnPhong, Beckmann, Ggx, GgxUeMobile, GgxMobile, GgxMobileCross, Gtr, GtrAsWritten>;
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -53,6 +53,8 @@ struct TermKernels {
   std::span<const Parameter> parameters;
   bool coupled;      ///< a diffuse term below the first lobe's interface
   bool anisotropic;  ///< reads the frame
+  bool as_shipped;   ///< a shader's arithmetic: finite in double, where NoH > 0, but not in fewer
+                     ///< bits
   using Value = void (*)(const Block<F>&, const F* parameters, const Join<F>&);
   Value extend;  ///< out/out_den = num/den · term, still a fraction
   Value close;   ///< out = num/den · term, divided

@@ -1,23 +1,86 @@
 #pragma once
 /// \file
-/// Normal distributions D(h) [1/sr], normalised as ∫ D(m) (n·m) dω = 1.
+/// Isotropic normal distributions D(h) [1/sr], normalised as ∫ D(m) (n·m) dω = 1.
 ///
-/// t = α² cos²θ_h + sin²θ_h is (NoH² (α² − 1) + 1) without its cancellation.
+/// t = α² cos²θ_h + sin²θ_h is (NoH² (α² − 1) + 1) without its cancellation.  Where a formula has
+/// tan θ_h, NoH² is kept off 0: h is at the horizon only for directions outside the domain.
 
 #include "brdf/term.h"
+#include "number/special.h"
 
 namespace gonio::inline GONIO_ARCH {
 
 inline constexpr Parameter alpha_parameter{"alpha", {1e-4, 1}, {1e-4, 1},
                                            0.3,     false,     "width, roughness²"};
 
-/// GGX (Trowbridge–Reitz).
+/// ln NoH², also near the peak, where NoH has lost its digits.
+template <Real B>
+B log_cos2_theta_h(const Angles<B>& a) {
+  return log_near_one<B>(max<B>(square(a.noh), square(small<B>())), -a.sin2_theta_h);
+}
+
+/// Blinn–Phong with the exponent p that gives it the peak, and for smooth surfaces the shape, of
+/// Beckmann's.
+///
+///   D = (p + 2)/(2π) NoH^p = NoH^p / (π α²),   p = 2/α² − 2                [Walter 2007, Eq. 30]
+template <Real T>
+struct BlinnPhong {
+  static constexpr About about{"ndf.blinn_phong",
+                               "Blinn–Phong",
+                               "D = (p + 2)/(2π) NoH^p, p = 2/α² − 2",
+                               "Blinn 1977; Walter et al. 2007, Eq. 30 and after",
+                               "002",
+                               "Unreal Engine 4 (D_Blinn)"};
+  static constexpr std::array parameters{alpha_parameter};
+
+  T half_p, peak;
+
+  explicit BlinnPhong(std::span<const T, 1> p)
+      : half_p((1 - p[0]) * (1 + p[0]) / square(p[0])),
+        peak(1 / (pi<plain_t<T>>() * square(p[0]))) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    return peak * exp(half_p * log_cos2_theta_h(a));
+  }
+};
+
+/// Beckmann: slopes are normally distributed, α √2 times their standard deviation along an axis.
+///
+///   D = e^(−tan²θ_h/α²) / (π α² NoH⁴)                                  [Walter 2007, Eq. 25]
+template <Real T>
+struct Beckmann {
+  static constexpr About about{"ndf.beckmann",
+                               "Beckmann",
+                               "D = exp((NoH² − 1) / (α² NoH²)) / (π α² NoH⁴)",
+                               "Beckmann & Spizzichino 1963; Walter et al. 2007, Eq. 25",
+                               "002",
+                               "Unreal Engine 4 (D_Beckmann), Mitsuba, pbrt-v3"};
+  static constexpr std::array parameters{alpha_parameter};
+
+  T per_alpha2, norm;
+
+  explicit Beckmann(std::span<const T, 1> p)
+      : per_alpha2(1 / square(p[0])), norm(per_alpha2 / pi<plain_t<T>>()) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const auto per_cos2 = 1 / max<plain_t<T>>(square(a.noh), small<plain_t<T>>());
+    return exp(-(a.sin2_theta_h * per_cos2) * per_alpha2) * norm * square(per_cos2);
+  }
+};
+
+/// GGX (Trowbridge–Reitz).  Its slopes have the density α²/(π (α² + p² + q²)²), Student's t of two
+/// degrees of freedom and not, as is often said, a Cauchy density; they have no standard deviation.
 ///
 ///   D = α² / (π t²)                                                    [Walter 2007, Eq. 33]
 template <Real T>
 struct Ggx {
-  static constexpr About about{"ndf.ggx", "GGX (Trowbridge–Reitz)",
-                               "D = α² / (π (NoH² (α² − 1) + 1)²)", "Walter et al. 2007, Eq. 33"};
+  static constexpr About about{
+      "ndf.ggx",
+      "GGX (Trowbridge–Reitz)",
+      "D = α² / (π (NoH² (α² − 1) + 1)²)",
+      "Trowbridge & Reitz 1975; Walter et al. 2007, Eq. 33",
+      "000 001 002",
+      "Disney, Unreal Engine 4 (D_GGX), Unity, Filament, glTF 2.0, Mitsuba, pbrt"};
   static constexpr std::array parameters{alpha_parameter};
 
   T alpha2, num;
@@ -28,16 +91,6 @@ struct Ggx {
     return {num, square(alpha2 * square(a.noh) + a.sin2_theta_h)};
   }
 };
-
-/// E(z) = (eᶻ − 1)/z, continued through z = 0 by its series, where the difference would cancel.
-template <Real T>
-T expm1_over(const T& z) {
-  T series(1);
-  for (int k = 15; k >= 2; --k) series = 1 + series * z / constant<T>(k);
-  const auto far = constant<T>(0.5L) < max<T>(z, -z);
-  const T safe = select<T>(far, z, T(1));
-  return select<T>(far, (exp(safe) - 1) / safe, series);
-}
 
 /// Generalised Trowbridge–Reitz with its exact normalisation.
 ///
@@ -52,9 +105,12 @@ T expm1_over(const T& z) {
 template <Real T>
 struct Gtr {
   static constexpr About about{
-      "ndf.gtr", "Generalised Trowbridge–Reitz, exact normalisation",
+      "ndf.gtr",
+      "Generalised Trowbridge–Reitz, exact normalisation",
       "D = N / (NoH² (α² − 1) + 1)^γ, N = (γ−1)(α²−1) / (π (1 − α^(2(1−γ)))), limits continued",
-      "Burley 2012, Appendix B"};
+      "Burley 2012, Appendix B",
+      "001 002",
+      "Disney (γ = 2 base, γ = 1 clear coat)"};
   static constexpr std::array parameters{
       alpha_parameter,
       Parameter{"gamma", {0.5, 10}, {0.5, 10}, 2, false, "tail exponent; 1 Berry, 2 GGX"}};

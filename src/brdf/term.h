@@ -6,6 +6,8 @@
 ///   Term(span of T)      what depends on the parameters alone: computed once per block
 ///   operator()(angles)   the formula: computed once per sample; answers T or Quotient<T>
 ///   anisotropic          optional, true where it reads the tangent frame (FrameAngles)
+///   as_shipped           optional, true where it is a shader's arithmetic operation by operation: in
+///                        few bits it may divide by zero or overflow, and that is to be seen
 ///
 /// The parameters are T (they may carry derivatives), the angles are plain_t<T> (they never do).
 /// A term is added by writing its struct and naming it in catalogue.h; the registry, the command
@@ -50,6 +52,15 @@ requires requires {
   Term::anisotropic;
 }
 inline constexpr bool is_anisotropic<Term> = Term::anisotropic;
+
+/// Whether a term is held to be finite in double only.
+template <class Term>
+inline constexpr bool is_as_shipped = false;
+template <class Term>
+requires requires {
+  Term::as_shipped;
+}
+inline constexpr bool is_as_shipped<Term> = Term::as_shipped;
 
 /// What a term is given: the angles of one sample.
 template <class Term, class B>

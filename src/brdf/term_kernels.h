@@ -58,8 +58,9 @@ template <template <class> class Term, class F>
 constexpr TermKernels<F> term_entry() {
   bool coupled = false;
   if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
-  return {&Term<F>::about, Term<F>::parameters, coupled,      is_anisotropic<Term<F>>,
-          extend<Term, F>, close<Term, F>,      add<Term, F>, derivatives<Term, F>};
+  return {&Term<F>::about,         Term<F>::parameters,    coupled,
+          is_anisotropic<Term<F>>, is_as_shipped<Term<F>>, extend<Term, F>,
+          close<Term, F>,          add<Term, F>,           derivatives<Term, F>};
 }
 template <class F, template <class> class... Terms>
 constexpr auto term_table(TermList<Terms...>) {

@@ -21,7 +21,8 @@ constexpr F eps = std::numeric_limits<F>::epsilon();
 
 /// exp and log of a batch differ from the scalar's by a few eps, and exp is 0 where the scalar's is
 /// subnormal; all other terms must not differ.
-constexpr std::string_view transcendental[] = {"ndf.gtr"};
+constexpr std::string_view transcendental[] = {"ndf.blinn_phong", "ndf.beckmann", "ndf.gtr",
+                                               "ndf.gtr.as_written"};
 
 bool is_transcendental(std::string_view id) {
   return std::ranges::find(transcendental, id) != std::end(transcendental);
@@ -72,6 +73,16 @@ TEST(Catalogue, EveryTermAsksNoMoreThanTheLeastOfNumbersOffers) {
     for (const auto& p : test::legal_grid(catalogue()[t].parameters, 3))
       for (const auto& x : test::random_angles(16, 5))
         EXPECT_EQ(terms[t](p, x), test::value_at(t, p, x)) << catalogue()[t].about->id;
+}
+
+/// Terms that are held to be finite in F: those that are a shader's arithmetic are in double only, and
+/// where NoH is above 0, as it is wherever NoL + NoV is.
+template <class F>
+std::vector<std::size_t> finite_terms() {
+  std::vector<std::size_t> terms;
+  for (std::size_t t = 0; t < catalogue().size(); ++t)
+    if (!catalogue()[t].as_shipped || std::same_as<F, double>) terms.push_back(t);
+  return terms;
 }
 
 // ---- What a term says of itself -----------------------------------------------------------------
@@ -126,7 +137,7 @@ TEST(Catalogue, IsTheSameInEveryInstructionSet) {
 
 /// All combinations of normal, middle and grazing, near and at; but for both directions at the
 /// horizon, which is outside the domain.
-std::vector<test::Row> corners() {
+std::vector<test::Row> corners(std::size_t term) {
   constexpr double cosines[] = {0, 1e-8, 0.5, 1};
   std::vector<test::Row> rows;
   for (const double nol : cosines)
@@ -134,7 +145,8 @@ std::vector<test::Row> corners() {
       for (const double voh : cosines)
         for (const auto& [noh, sin2] :
              {std::pair{1.0, 0.0}, {1.0, 1e-16}, {0.6, 0.64}, {1e-8, 1.0}, {0.0, 1.0}})
-          if (nol + nov > 0) rows.push_back(test::framed({nol, nov, noh, voh, sin2}));
+          if (nol + nov > 0 && !(catalogue()[term].as_shipped && noh == 0))
+            rows.push_back(test::framed({nol, nov, noh, voh, sin2}));
   return rows;
 }
 
@@ -145,9 +157,9 @@ TYPED_TEST_SUITE(Everywhere, Floats);
 
 TYPED_TEST(Everywhere, TermsAreFiniteAndNotNegative) {
   using F = TypeParam;
-  for (std::size_t t = 0; t < catalogue().size(); ++t)
+  for (const auto t : finite_terms<F>())
     for (const auto& p : test::legal_grid(catalogue()[t].parameters, 4)) {
-      const auto rows = corners();
+      const auto rows = corners(t);
       const auto v = test::values_of<F>(t, p, rows);
       for (std::size_t i = 0; i < rows.size(); ++i)
         EXPECT_TRUE(std::isfinite(v[i]) && v[i] >= 0)
@@ -157,9 +169,9 @@ TYPED_TEST(Everywhere, TermsAreFiniteAndNotNegative) {
 
 TYPED_TEST(Everywhere, DerivativesAreFinite) {
   using F = TypeParam;
-  for (std::size_t t = 0; t < catalogue().size(); ++t)
+  for (const auto t : finite_terms<F>())
     for (const auto& p : test::legal_grid(catalogue()[t].parameters, 4)) {
-      const auto rows = corners();
+      const auto rows = corners(t);
       const auto d = test::derivatives_of<F>(t, p, rows);
       const auto v = test::values_of<F>(t, p, rows);
       for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -173,15 +185,15 @@ TYPED_TEST(Everywhere, DerivativesAreFinite) {
 
 TYPED_TEST(Everywhere, TermsRaiseNoFloatingPointException) {
   using F = TypeParam;
-  const auto rows = corners();
   const auto clean = [] { return std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0; };
   std::feclearexcept(FE_ALL_EXCEPT);
   const std::vector<test::Row> outside{
       test::framed({0, 0, 0.5, 0.5, 0.75})};  // where this V has no bound
   test::values_of<F>(find_term("masking.smith_ggx.correlated"), {0.5}, outside);
   EXPECT_FALSE(clean()) << "the ruler: a division by zero must be seen";
-  for (std::size_t t = 0; t < catalogue().size(); ++t)
+  for (const auto t : finite_terms<F>())
     for (const auto& p : test::legal_grid(catalogue()[t].parameters, 4)) {
+      const auto rows = corners(t);
       std::feclearexcept(FE_ALL_EXCEPT);
       test::values_of<F>(t, p, rows);
       EXPECT_TRUE(clean()) << catalogue()[t].about->id << text(p);
@@ -211,8 +223,12 @@ TEST(Catalogue, DerivativesAreThoseOfDifferences) {
             q[k] = v;
             return test::value_at(t, q, rows[i]);
           };
-          const double expected = test::slope(f, p[k], 1e-3 * p[k]);
-          EXPECT_NEAR(d[1 + k][i], expected, 1e-6 * std::abs(expected) + 1e-7 * d[0][i] / p[k])
+          // Where a small step of the parameter is a large one of ln f, a smaller one.
+          const double steep = d[0][i] > 0 ? std::abs(p[k] * d[1 + k][i] / d[0][i]) : 0;
+          const double tolerance =
+              catalogue()[t].as_shipped ? 1e-5 : 1e-6;  // what cancels is noisy
+          const double expected = test::slope(f, p[k], 1e-3 * p[k] * 20 / std::max(20., steep));
+          EXPECT_NEAR(d[1 + k][i], expected, tolerance * std::abs(expected) + 1e-7 * d[0][i] / p[k])
               << catalogue()[t].about->id << text(p) << " by " << about[k].name << " at "
               << text(rows[i]);
         }
@@ -222,17 +238,20 @@ TEST(Catalogue, DerivativesAreThoseOfDifferences) {
 
 // ---- Lanes --------------------------------------------------------------------------------------
 
-/// scale: what an error is measured by, beside the value itself
+/// scale: what an error is measured by, beside the value itself.  An error of eps in y is one of
+/// eps |y| in eʸ.
 template <class F>
 void expect_same(
     const F* a, const F* b, std::size_t n, F tolerance, auto&& scale, const std::string& where) {
   F largest = 0;
   for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(b[i]) + scale(i));
   for (std::size_t i = 0; i < n; ++i) {
-    if (a[i] == b[i]) continue;
+    if (a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]))) continue;
     const F subnormal = 64 * largest * std::numeric_limits<F>::min();
     ASSERT_GT(tolerance, 0) << where << " in lane " << i << ": " << a[i] << " and " << b[i];
-    ASSERT_LE(std::abs(a[i] - b[i]), tolerance * (std::abs(b[i]) + scale(i)) + subnormal)
+    const F size = std::abs(b[i]) + scale(i), y = std::abs(std::log(size) - std::log(largest));
+    ASSERT_LE(std::abs(a[i] - b[i]),
+              (size > 0 ? tolerance * size * std::max(F(1), y) : 0) + subnormal)
         << where << " in lane " << i;
   }
 }
@@ -255,6 +274,8 @@ TYPED_TEST(Everywhere, EveryInstructionSetGivesTheBitsOfTheScalar) {
       for (const auto& parameters : test::legal_grid(catalogue()[t].parameters, 4)) {
         const auto& lane = kernels<F>(name).terms[t];
         const auto& one = scalar.terms[t];
+        // ∞ in one and almost ∞ in the other
+        if (is_transcendental(one.about->id) && one.as_shipped && std::same_as<F, float>) continue;
         const std::vector<F> p(parameters.begin(), parameters.end());
         const std::string where = name + " " + std::string(one.about->id) + text(parameters);
         // An error of eps in log t is one of eps |γ log t| in t^−γ.

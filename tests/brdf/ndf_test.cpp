@@ -12,6 +12,15 @@ using test::text;
 constexpr double pi = std::numbers::pi;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
+/// Distributions that stand for no other: normalised ones.  Isotropic, unless told otherwise.
+std::vector<std::size_t> exact(bool anisotropic = false) {
+  std::vector<std::size_t> terms;
+  for (const auto t : test::terms_of(Role::ndf))
+    if (catalogue()[t].about->approximates.empty() && catalogue()[t].anisotropic == anisotropic)
+      terms.push_back(t);
+  return terms;
+}
+
 std::vector<Parameters> grid(std::size_t ndf) {
   return test::legal_grid(catalogue()[ndf].parameters, 8);
 }
@@ -47,28 +56,42 @@ TEST(NdfRuler, MeasuresTheProjectedHemisphere) {
 
 TEST(Ndf, ProjectedAreaIsOne) {
   const auto at = trapezoid();
-  for (const auto ndf : test::terms_of(Role::ndf))
+  for (const auto ndf : exact())
     for (const auto& p : grid(ndf)) {
       const double one = projected_integral(test::values_of(ndf, p, test::framed(at)), at, step);
       EXPECT_NEAR(one, 1, 1e-13) << catalogue()[ndf].about->id << text(p);
     }
 }
 
-TEST(Ndf, FallsFromThePeakToTheHorizon) {
+TEST(Ndf, HasTheSteeperSlopesTheMoreRarely) {  // D cos⁴θ_h is the density of slopes
   const auto at = trapezoid();
-  for (const auto ndf : test::terms_of(Role::ndf))
+  for (const auto ndf : exact())
     for (const auto& p : grid(ndf)) {
       const auto d = test::values_of(ndf, p, test::framed(at));
-      for (std::size_t i = 1; i < d.size(); ++i) {
-        EXPECT_GT(d[i], 0) << catalogue()[ndf].about->id << text(p);
-        EXPECT_LE(d[i], d[i - 1] * (1 + 64 * eps)) << catalogue()[ndf].about->id << text(p);
+      double before = d[0];
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        const double slopes = d[i] * square(square(at[i].noh));
+        EXPECT_GE(slopes, 0) << catalogue()[ndf].about->id << text(p);
+        EXPECT_LE(slopes, before * (1 + 64 * eps)) << catalogue()[ndf].about->id << text(p);
+        before = slopes;
       }
     }
 }
 
+TEST(BeckmannNdf,
+     PeaksOffTheNormalOnceAlphaExceedsRootHalf) {  // there e^(−x/α²) (1 + x)² has a maximum
+  const auto d = [](double alpha, double tangent) {
+    return test::value_of(find_term("ndf.beckmann"), {alpha}, half_vector(tangent));
+  };
+  EXPECT_LT(d(0.7, 0.1), d(0.7, 0));
+  EXPECT_GT(d(0.72, 0.1), d(0.72, 0));
+  EXPECT_GT(d(1, 1), d(1, 0.99));
+  EXPECT_GT(d(1, 1), d(1, 1.01));  // x = 2 α² − 1
+}
+
 TEST(Ndf, HasItsFirstDerivativesIntegralZero) {  // ∂/∂p ∫ D cos θ dω = ∂1/∂p
   const auto at = trapezoid();
-  for (const auto ndf : test::terms_of(Role::ndf))
+  for (const auto ndf : exact())
     for (const auto& p : grid(ndf)) {
       const auto d = test::derivatives_of(ndf, p, test::framed(at));
       for (std::size_t k = 0; k < p.size(); ++k)
@@ -125,6 +148,135 @@ TEST(GtrNdf, KeepsItsPeakInFloat) {
       for (std::size_t i = 0; i < peak.size(); ++i)
         EXPECT_NEAR(static_cast<double>(f[i]), d[i], 1e-4 * d[i] + 1e-28) << alpha << " " << gamma;
     }
+}
+
+// ---- Blinn–Phong and Beckmann -------------------------------------------------------------------
+
+TEST(BlinnPhongNdf, IsItsFormula) {
+  const auto ndf = find_term("ndf.blinn_phong");
+  for (const double alpha : {0.05, 0.3, 1.0})
+    for (const double noh : {0.1, 0.5, 0.9, 1.0}) {
+      const double p = 2 / (alpha * alpha) - 2, d = (p + 2) / (2 * pi) * std::pow(noh, p);
+      EXPECT_NEAR(test::value_of(ndf, {alpha}, {1, 1, noh, 1, 1 - noh * noh}), d, 1e-12 * d);
+    }
+}
+
+TEST(BeckmannNdf, IsItsFormula) {
+  const auto ndf = find_term("ndf.beckmann");
+  for (const double alpha : {0.1, 0.3, 1.0})
+    for (const double noh : {0.2, 0.5, 0.9, 1.0}) {
+      const double n2 = noh * noh, a2 = alpha * alpha;
+      const double d = std::exp((n2 - 1) / (a2 * n2)) / (pi * a2 * n2 * n2);
+      EXPECT_NEAR(test::value_of(ndf, {alpha}, {1, 1, noh, 1, 1 - noh * noh}), d, 1e-12 * d);
+    }
+}
+
+TEST(BeckmannNdf, IsBlinnPhongsShapeWhereTheSurfaceIsSmooth) {  // cosᵖ θ → e^(−p tan²θ/2)
+  const auto a = find_term("ndf.beckmann"), b = find_term("ndf.blinn_phong");
+  for (const double alpha : {1e-4, 1e-3})
+    for (const double x : {0.0, 0.5, 1.0, 2.0}) {
+      const auto at = half_vector(x * alpha);
+      const double d = test::value_of(a, {alpha}, at);
+      EXPECT_NEAR(test::value_of(b, {alpha}, at), d, 10 * alpha * alpha * d);
+    }
+}
+
+/// Σ over slopes along x: ∫ p² D(h) cos⁴θ_h dp dq, the variance of a slope, up to |tan θ_h| = most.
+double slope_variance(std::size_t ndf, double alpha, double most) {
+  double sum = 0;
+  for (double x = -30; x <= std::log(most); x += step) {
+    const double t = std::exp(x);
+    const auto at = half_vector(t);
+    sum += test::value_of(ndf, {alpha}, at) * std::pow(at.noh, 4) * t * t * t * t;
+  }
+  return pi * step * sum;
+}
+
+TEST(Ndf, AlphaIsRootTwoStandardDeviationsOfBeckmannsSlopesAndNoneOfGgxs) {
+  for (const double alpha : {0.1, 0.5}) {
+    EXPECT_NEAR(slope_variance(find_term("ndf.beckmann"), alpha, 1e3), alpha * alpha / 2, 1e-12);
+    const auto ggx = find_term("ndf.ggx");  // grows by α² ln 10 a decade for ever
+    EXPECT_NEAR(slope_variance(ggx, alpha, 1e6) - slope_variance(ggx, alpha, 1e4),
+                alpha * alpha * std::log(100), 0.02 * alpha * alpha);
+  }
+}
+
+// ---- GGX by way of its slopes -------------------------------------------------------------------
+
+TEST(GgxNdf, IsTheDensityOfItsSlopesOverTheFourthPowerOfTheCosine) {
+  for (const double alpha : {1e-3, 0.1, 0.5, 1.0})
+    for (const double p : {0.0, 0.03, 0.4, 2.0})
+      for (const double q : {0.0, 0.1, 1.0, 50.0}) {
+        const double n = 1 / std::sqrt(p * p + q * q + 1), a2 = alpha * alpha;
+        const double density = a2 / (pi * std::pow(p * p + q * q + a2, 2)),
+                     d = density / (n * n * n * n);
+        const Angles<double> at{1, 1, n, 1, (p * p + q * q) * n * n};
+        EXPECT_NEAR(test::value_of(find_term("ndf.ggx"), {alpha}, at), d, 32 * eps * d);
+      }
+}
+
+TEST(GgxNdf, HasNoCauchyDensityAlongAnAxisAndSeed000PrintsNone) {
+  const auto nodes = gauss_legendre(64);
+  for (const double scale : {0.1, 0.5, 2.0}) {
+    const double s2 = scale * scale, x = 0.7 * scale, w = std::sqrt(s2 + x * x);
+    double cauchy = 0, printed = 0, marginal = 0;
+    for (const auto& node : nodes) {  // over all x = γ tan u, and over all q = w tan u
+      const double u = pi * (node.x - 0.5), t = std::tan(u), dt = pi * node.weight * (1 + t * t);
+      cauchy += scale / (pi * (s2 + s2 * t * t)) * scale * dt;
+      printed += s2 / (pi * (s2 + s2 * t * t)) * scale * dt;
+      marginal += s2 / (pi * square(w * w * (1 + t * t))) * w * dt;
+    }
+    EXPECT_NEAR(cauchy, 1, 1e-12);
+    EXPECT_NEAR(printed, scale, 1e-12);                             // γ² stands where γ belongs
+    EXPECT_NEAR(marginal, s2 / (2 * w * w * w), 1e-12 * marginal);  // γ/(π w²) if it were Cauchy's
+  }
+}
+
+// ---- As shipped ---------------------------------------------------------------------------------
+
+double projected_area(std::string_view id, const Parameters& p) {
+  const auto at = trapezoid();
+  return projected_integral(test::values_of(find_term(id), p, test::framed(at)), at, step);
+}
+
+TEST(GtrAsWritten, IsNormalisedAtGammaTwoAlone) {
+  for (const double alpha : {0.05, 0.25, 0.7}) {
+    const double a2 = alpha * alpha;
+    EXPECT_NEAR(projected_area("ndf.gtr.as_written", {alpha, 2}), 1, 1e-9);
+    EXPECT_NEAR(projected_area("ndf.gtr.as_written", {alpha, 1}), a2 * std::log(1 / a2) / (1 - a2),
+                1e-9);
+    // ∫ c dc/(1 + (α² − 1) c²)³ = (α⁻⁴ − 1)/(4 (1 − α²))
+    EXPECT_NEAR(projected_area("ndf.gtr.as_written", {alpha, 3}) /
+                    (a2 * (1 / (a2 * a2) - 1) / (2 * (1 - a2))),
+                1, 1e-9);
+  }
+}
+
+TEST(GgxMobile, IsPiTimesGgxUpToItsClamp) {
+  const auto ggx = find_term("ndf.ggx");
+  for (const auto* id : {"ndf.ggx.ue_mobile", "ndf.ggx.mobile", "ndf.ggx.mobile.cross"}) {
+    const auto shipped = find_term(id);
+    EXPECT_EQ(catalogue()[shipped].about->approximates, "ndf.ggx");
+    for (const double alpha : {1e-3, 0.022, 0.023, 0.1, 0.5, 1.0})
+      for (const double tangent : {0.0, 1e-3, 0.01, 0.1, 1.0, 10.0}) {
+        const auto at = half_vector(tangent);
+        const double d = std::min(pi * test::value_of(ggx, {alpha}, at), 2048.0);
+        EXPECT_NEAR(test::value_of(shipped, {alpha}, at), d, 1e-8 * d) << id << alpha << text(at);
+      }
+  }
+  // The peak 1/α² exceeds the clamp below α = 1/√2048, a roughness of 0.149.
+  EXPECT_EQ(test::value_of(find_term("ndf.ggx.mobile"), {0.022}, half_vector(0)), 2048);
+  EXPECT_LT(test::value_of(find_term("ndf.ggx.mobile"), {0.0221}, half_vector(0)), 2048);
+}
+
+TEST(GgxMobile, KeepsItsTailInFloatByTheCrossProductAlone) {
+  const std::vector<Angles<double>> at{half_vector(1e-4)};
+  const auto error = [&](const char* id) {
+    const double f = test::values_of<float>(find_term(id), {0.03}, test::framed(at))[0];
+    return std::abs(f / test::value_of(find_term(id), {0.03}, at[0]) - 1);
+  };
+  EXPECT_LT(error("ndf.ggx.mobile.cross"), 1e-6);
+  EXPECT_GT(error("ndf.ggx.mobile"), 1e-5);
 }
 
 }  // namespace

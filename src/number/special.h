@@ -1,0 +1,98 @@
+#pragma once
+/// \file
+/// Functions beyond those that every Real has, made of them, and right to the last digits of whatever
+/// number they are evaluated with: lengths of sums come from the number of its digits.
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numbers>
+
+#include "number/real.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+/// Significant bits of a number; Half, which has fewer than float, is served as float is.
+template <Real T>
+inline constexpr int digits = std::max(24, std::numeric_limits<base_t<T>>::digits);
+
+/// So small that it never matters, and its square and the square of its reciprocal are still normal
+/// numbers: what keeps the input of a division or a logarithm off 0.
+template <Real T>
+T small() {
+  using Limits = std::numeric_limits<base_t<T>>;
+  constexpr int exponent = Limits::is_specialized ? std::max(Limits::min_exponent / 2, -511) : -6;
+  return constant<T>(std::ldexp(1.0L, exponent));
+}
+
+/// E(z) = (eᶻ − 1)/z, continued through z = 0 by its series, where the difference would cancel.
+template <Real T>
+T expm1_over(const T& z) {
+  constexpr int terms = digits<T> <= 53 ? 15 : digits<T> / 4;  // |z| ≤ 1/2:  2^−terms / terms!
+  T series(1);
+  for (int k = terms; k >= 2; --k) series = 1 + series * z / constant<T>(k);
+  const auto far = constant<T>(0.5L) < max<T>(z, -z);
+  const T safe = select<T>(far, z, T(1));
+  return select<T>(far, (exp(safe) - 1) / safe, series);
+}
+
+/// ln u of u > 0 given with u − 1, which of u alone would have lost its digits near 1:
+/// ln u / (u − 1) is smooth there, whatever u lost.                      [after Kahan's log1p]
+template <Real T>
+T log_near_one(const T& u, const T& u_minus_1) {
+  const T d = u - 1;
+  const auto apart = d < T(0) || T(0) < d;
+  const T l = log(u);
+  const T ratio = select<T>(apart, l / select<T>(apart, d, T(1)), T(1));
+  return select<T>(constant<T>(0.5L) < max<T>(u_minus_1, -u_minus_1), l, u_minus_1 * ratio);
+}
+
+/// ierfc(a) = ∫ₐ^∞ erfc(t) dt = e^(−a²)/√π − a erfc(a) for a ≥ 0, a few eps from it however small.
+///
+/// The difference cancels for large a; of the integral
+///
+///   ierfc(a) = e^(−a²)/π ∫ t² e^(−t²)/(t² + a²) dt  over all t
+///
+/// nothing does.  The trapezoidal rule with step h errs by e^(−π²/h²) once the pole at t = ia, where
+/// it lies below π/h, is accounted for                           [Matta & Reichel 1971, for erfc]:
+///
+///   ierfc(a) = e^(−a²) (2h/π) Σₙ tₙ² e^(−tₙ²)/(tₙ² + a²) + 2a/(e^(2πa/h) − 1),   tₙ = n h, n ≥ 1
+///
+/// Every part is positive.  15 terms for double, 9 for float.
+template <Real T>
+T ierfc(const T& a) {
+  using P = plain_t<T>;
+  constexpr double bits = digits<T>, nats = bits * std::numbers::ln2 + 10;
+  constexpr int n = static_cast<int>(nats / std::numbers::pi) + 1;
+  struct Nodes {
+    std::array<P, n> t2, weight;
+    P h, end;  // step; π/h, where the pole is passed
+  };
+  static const Nodes nodes = [] {
+    // Narrow numbers get long double's constants, wide ones their own; h need not be exact.
+    const auto fill = [](const auto& h, auto&& number) {
+      const auto per_pi = h / pi<std::remove_cvref_t<decltype(h)>>();
+      Nodes x{{}, {}, number(h), number(1 / per_pi)};
+      for (int k = 0; k < n; ++k) {
+        const auto t = h * (k + 1), t2 = t * t;
+        x.t2[static_cast<std::size_t>(k)] = number(t2);
+        x.weight[static_cast<std::size_t>(k)] = number(2 * per_pi * t2 * exp(-t2));
+      }
+      return x;
+    };
+    const double h = std::numbers::pi / std::sqrt(nats);
+    if constexpr (digits < T >> std::numeric_limits<long double>::digits)
+      return fill(P(h), [](const P& x) { return x; });
+    else
+      return fill(static_cast<long double>(h), [](long double x) { return constant<P>(x); });
+  }();
+
+  const T a2 = square(a);
+  T sum(0);
+  for (std::size_t k = n; k-- > 0;) sum = sum + nodes.weight[k] / (a2 + nodes.t2[k]);
+  const T z = 2 * nodes.end * min<T>(a, T(nodes.end));
+  const T pole = nodes.h / (pi<P>() * expm1_over<T>(z));
+  return exp(-a2) * sum + select<T>(a < T(nodes.end), pole, T(0));
+}
+
+}  // namespace gonio::inline GONIO_ARCH
