@@ -3,10 +3,35 @@
 /// Every term of the role 'masking', once: a new one is its struct and its name here.
 
 #include "brdf/masking.h"
+#include "brdf/masking_classic.h"
+#include "brdf/masking_shipped.h"
 #include "brdf/term_list.h"
 
 namespace gonio::inline GONIO_ARCH {
 
-using MaskingTerms = TermList<SmithGgxSeparable, SmithGgxCorrelated>;
+using MaskingTerms = TermList<SmithGgxSeparable,
+                              SmithGgxCorrelated,
+                              SmithGgxAnisoCorrelated,
+                              SmithBeckmannSeparable,
+                              SmithBeckmannCorrelated,
+                              SmithBeckmannAnisoCorrelated,
+                              SmithBeckmannRational,
+                              SchlickGgxHalfAlpha,
+                              SchlickGgxDirect,
+                              SchlickGgxHalfRoughness,
+                              SchlickBeckmann,
+                              UeJoint,
+                              UeJointClamped,
+                              Hammon,
+                              DisneyRemap,
+                              DisneyCoat,
+                              UnityMobile,
+                              UnityMobileUrp,
+                              UeMobileSimple,
+                              CookTorrance,
+                              Neumann,
+                              Kelemen,
+                              Implicit,
+                              Unmasked>;
 
 }  // namespace gonio::inline GONIO_ARCH

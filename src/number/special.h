@@ -7,6 +7,8 @@
 #include <array>
 #include <limits>
 #include <numbers>
+#include <type_traits>
+#include <utility>
 
 #include "number/real.h"
 
@@ -63,7 +65,7 @@ template <Real T>
 T ierfc(const T& a) {
   using P = plain_t<T>;
   constexpr double bits = digits<T>, nats = bits * std::numbers::ln2 + 10;
-  constexpr int n = static_cast<int>(nats / std::numbers::pi) + 1;
+  constexpr std::size_t n = static_cast<std::size_t>(nats / std::numbers::pi) + 1;
   struct Nodes {
     std::array<P, n> t2, weight;
     P h, end;  // step; π/h, where the pole is passed
@@ -72,16 +74,17 @@ T ierfc(const T& a) {
     // Narrow numbers get long double's constants, wide ones their own; h need not be exact.
     const auto fill = [](const auto& h, auto&& number) {
       const auto per_pi = h / pi<std::remove_cvref_t<decltype(h)>>();
-      Nodes x{{}, {}, number(h), number(1 / per_pi)};
-      for (int k = 0; k < n; ++k) {
-        const auto t = h * (k + 1), t2 = t * t;
-        x.t2[static_cast<std::size_t>(k)] = number(t2);
-        x.weight[static_cast<std::size_t>(k)] = number(2 * per_pi * t2 * exp(-t2));
+      const auto t2 = [&](std::size_t k) { return square(h * static_cast<int>(k + 1)); };
+      return [&]<std::size_t... k>(std::index_sequence<k...>) {
+        return Nodes{{number(t2(k))...},
+                     {number(2 * per_pi * t2(k) * exp(-t2(k)))...},
+                     number(h),
+                     number(1 / per_pi)};
       }
-      return x;
+      (std::make_index_sequence<n>());
     };
     const double h = std::numbers::pi / std::sqrt(nats);
-    if constexpr (digits < T >> std::numeric_limits<long double>::digits)
+    if constexpr (std::numeric_limits<long double>::digits < digits<T>)
       return fill(P(h), [](const P& x) { return x; });
     else
       return fill(static_cast<long double>(h), [](long double x) { return constant<P>(x); });

@@ -4,6 +4,8 @@
 
 #include "brdf/catalogue.h"
 #include "brdf/terms.h"
+#include "number/dual.h"
+#include "number/special.h"
 
 namespace gonio {
 namespace {
@@ -85,6 +87,59 @@ void check_digits(double bound) {
 TEST(Catalogue, NoTermLosesMoreThanItsInputsLastDigitsAreWorth) {
   check_digits<double>(8);
   check_digits<float>(8);
+}
+
+// ---- The functions that terms are made of -------------------------------------------------------
+
+TEST(Ierfc, IsRightToTheLastDigitsOfEveryNumberAndSoIsItsDerivative) {
+  using boost::math::erfc;
+  const Wide root_pi = sqrt(pi<Wide>());
+  for (const double a :
+       {0.0, 1e-300, 1e-9, 1e-3, 0.1, 0.4, 1.0, 1.9, 3.0, 6.0, 6.6, 7.5, 20.0, 26.0}) {
+    const Wide x = a, truth = ierfc<Wide>(x);
+    // exp(−a²)/√π − a erfc(a) loses as many digits as it cancels; beyond a = 20 too many
+    const Wide first = exp(-x * x) / root_pi, difference = first - x * erfc(x);
+    EXPECT_LT(abs(truth - difference), Wide(1e-47) * first) << a;
+
+    const double eps = std::numeric_limits<double>::epsilon();
+    const double value = ierfc<double>(a);
+    EXPECT_LT(relative_error(value, truth), 4 * eps * (1 + a * a)) << a;
+    const auto dual = ierfc<Dual<double, 1>>(Dual<double, 1>::variable(a, 0));
+    EXPECT_EQ(dual.v, value);
+    EXPECT_LT(relative_error(dual.d[0], -erfc(x)), 64 * eps * (1 + a * a)) << a;
+    if (a > 0 && a < 9) {
+      const float f = static_cast<float>(a);
+      EXPECT_LT(relative_error(static_cast<double>(ierfc<float>(f)), ierfc<Wide>(Wide(f))),
+                4e-7 * (1 + a * a))
+          << a;
+    }
+  }
+}
+
+TEST(Ierfc, KeepsTwentyDigitsOfAWideNumberWhereTheDifferenceHasNone) {
+  // ierfc(a) → e^(−a²)/(2 √π a²) (1 − 3/(2 a²)·… ): the asymptotic series Σ (−1)ᵏ (2k+1)!!/(2a²)ᵏ
+  for (const double a : {12.0, 20.0, 40.0}) {
+    const Wide x = a, two_a2 = 2 * x * x;
+    Wide sum = 0, term = 1;
+    for (int k = 1; abs(term) > 1e-52 && k < 140; ++k)
+      sum += term, term *= -Wide(2 * k + 1) / two_a2;
+    const Wide truth = exp(-x * x) / (sqrt(pi<Wide>()) * two_a2) * sum;
+    EXPECT_LT(abs(ierfc<Wide>(x) / truth - 1), 1e-46) << a;
+  }
+}
+
+TEST(LogNearOne, KeepsItsDigitsAndItsDerivativeBesideOne) {
+  const double eps = std::numeric_limits<double>::epsilon();
+  for (const double y :
+       {-0.9, -0.49, -1e-3, -1e-9, -1e-17, 0.0, 1e-300, 1e-16, 1e-8, 0.3, 0.7, 50.0}) {
+    const Wide truth = log(Wide(1) + Wide(y));
+    const Wide exact = abs(y) < 1e-30 ? Wide(y) : truth;
+    EXPECT_LE(relative_error(log_near_one<double>(1 + y, y), exact), 4 * eps) << y;
+    const auto x = Dual<double, 1>::variable(y, 0);
+    EXPECT_LE(relative_error(log_near_one<Dual<double, 1>>(1 + x, x).d[0], 1 / (1 + Wide(y))),
+              8 * eps)
+        << y;
+  }
 }
 
 // ---- Fresnel against the textbook ---------------------------------------------------------------
