@@ -3,12 +3,23 @@
 /// Every term of the role 'ndf', once: a new one is its struct and its name here.
 
 #include "brdf/ndf.h"
+#include "brdf/ndf_anisotropic.h"
 #include "brdf/ndf_shipped.h"
 #include "brdf/term_list.h"
 
 namespace gonio::inline GONIO_ARCH {
 
-using Distributions =
-    TermList<BlinnPhong, Beckmann, Ggx, GgxUeMobile, GgxMobile, GgxMobileCross, Gtr, GtrAsWritten>;
+using Distributions = TermList<BlinnPhong,
+                               Beckmann,
+                               Ggx,
+                               GgxUeMobile,
+                               GgxMobile,
+                               GgxMobileCross,
+                               Gtr,
+                               GtrAsWritten,
+                               BeckmannAniso,
+                               BeckmannAnisoAsWritten,
+                               GgxAniso,
+                               StudentT>;
 
 }  // namespace gonio::inline GONIO_ARCH

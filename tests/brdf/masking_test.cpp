@@ -340,6 +340,53 @@ TEST(SmithGgx, LeavesAsMuchFacetAreaAsTheSurfaceShows) {  // [Heitz 2014, Eq. 23
             << alpha << " " << nov;
 }
 
+/// The same of an anisotropic distribution: the azimuth by Gauss over the arc that v sees.
+double visible_area(std::size_t ndf,
+                    const test::Parameters& p,
+                    const Direction& v,
+                    std::span<const Node> outer,
+                    std::span<const Node> inner) {
+  const double sin_v = std::hypot(v.x, v.y), phi_v = std::atan2(v.y, v.x);
+  const double kink = std::log(v.z / std::max(sin_v, 0.01));
+  double area = 0;
+  for (const double end : {-20.0, 20.0}) {
+    const double range = std::sqrt(std::abs(end - kink));
+    for (const auto& node : outer) {
+      const double s = range * node.x, t = std::exp(kink + (end < kink ? -s * s : s * s));
+      const double cos_h = 1 / std::sqrt(1 + t * t), sin_h = t * cos_h;
+      const double a = v.z * cos_h, b = sin_v * sin_h, arc = a >= b ? pi : std::acos(-a / b);
+      std::vector<test::Row> at;
+      std::vector<double> weight;
+      for (const auto& n : inner) {
+        const double phi = arc * (2 * n.x - 1);
+        at.push_back(test::framed({0.5, 0.5, cos_h, 0.5, sin_h * sin_h}));
+        at.back().xoh = sin_h * std::cos(phi + phi_v);
+        at.back().yoh = sin_h * std::sin(phi + phi_v);
+        weight.push_back(2 * arc * n.weight * (a + b * std::cos(phi)));
+      }
+      const auto d = test::values_of(ndf, p, at);
+      for (std::size_t i = 0; i < d.size(); ++i)
+        area += d[i] * weight[i] * sin_h * sin_h * cos_h * 2 * s * range * node.weight;
+    }
+  }
+  return area;
+}
+
+TEST(AnisotropicSmith, LeavesAsMuchFacetAreaAsTheSurfaceShows) {
+  const auto outer = gauss_legendre(160), inner = gauss_legendre(96);
+  for (const auto& [masking, ndf] :
+       {std::pair{"masking.smith_ggx_aniso.correlated", "ndf.ggx_aniso"},
+        {"masking.smith_beckmann_aniso.correlated", "ndf.beckmann_aniso"}})
+    for (const auto& p : {test::Parameters{0.2, 0.5}, {0.6, 0.3}, {0.4, 0.4}})
+      for (const double nov : {0.1, 0.4, 0.8, 1.0})
+        for (const double azimuth : {0.3, 1.2, 2.6}) {
+          const auto [n, v] = directions(1, nov, azimuth);
+          const double g = 4 * nov * test::value_at(find_term(masking), p, frame_angles({n, v}));
+          EXPECT_NEAR(g * visible_area(find_term(ndf), p, v, outer, inner) / nov, 1, 1e-8)
+              << masking << test::text(p) << nov << " " << azimuth;
+        }
+}
+
 TEST(SmithGgx, BelongsToGtrOfGammaTwoAndToNoOther) {
   const auto shown = [](double gamma) {
     return g1(separable(), 0.5, 0.3) * visible_area(find_term("ndf.gtr"), {0.5, gamma}, 0.3) / 0.3;

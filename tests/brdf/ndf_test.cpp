@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "brdf/ndf_anisotropic.h"
 #include "brdf/terms.h"
 #include "integrate/quadrature.h"
 
@@ -277,6 +278,157 @@ TEST(GgxMobile, KeepsItsTailInFloatByTheCrossProductAlone) {
   };
   EXPECT_LT(error("ndf.ggx.mobile.cross"), 1e-6);
   EXPECT_GT(error("ndf.ggx.mobile"), 1e-5);
+}
+
+// ---- Anisotropy ---------------------------------------------------------------------------------
+
+test::Row half_vector(double tangent, double azimuth) {
+  test::Row row = test::framed(half_vector(tangent));
+  const double sine = std::sqrt(row.sin2_theta_h);
+  row.xoh = sine * std::cos(azimuth);
+  row.yoh = sine * std::sin(azimuth);
+  return row;
+}
+
+/// ∫ D cos θ_h dω over slopes up to e^most, by the trapezoidal rule in azimuth and in ln tan θ_h.
+double projected_area(std::size_t ndf, const Parameters& p, int azimuths, double most) {
+  std::vector<double> sum;
+  for (int k = 0; k < azimuths; ++k) {
+    std::vector<test::Row> rows;
+    std::vector<Angles<double>> at;
+    for (double x = -30; x <= most; x += step) {
+      rows.push_back(half_vector(std::exp(x), 2 * pi * (k + 0.5) / azimuths));
+      at.push_back(rows.back());
+    }
+    sum.push_back(projected_integral(test::values_of(ndf, p, rows), at, step));
+  }
+  double mean = 0;
+  for (const double s : sum) mean += s / azimuths;
+  return mean;
+}
+
+TEST(AnisotropicNdf, ProjectedAreaIsOne) {
+  for (const auto ndf : exact(true))
+    for (const double ax : {1e-4, 0.02, 0.3, 1.0})
+      for (const double ratio : {1.0, 0.5, 0.05}) {
+        const int azimuths = ratio < 0.1 ? 1024 : 64;
+        for (const double gamma : {2.0, 2.5, 10.0, 100.0}) {
+          Parameters p{ax, std::max(ax * ratio, 1e-4)};
+          if (catalogue()[ndf].parameters.size() == 3) p.push_back(gamma);
+          EXPECT_NEAR(projected_area(ndf, p, azimuths, 20), 1, 1e-12)
+              << catalogue()[ndf].about->id << text(p);
+        }
+      }
+}
+
+TEST(AnisotropicNdf, IsTheIsotropicOneWhereItsWidthsAreEqual) {
+  for (const auto& [id, isotropic] :
+       {std::pair{"ndf.ggx_aniso", "ndf.ggx"}, {"ndf.beckmann_aniso", "ndf.beckmann"}})
+    for (const double alpha : {1e-4, 0.1, 0.7})
+      for (const double x : {0.0, 0.5, 3.0})
+        for (const double azimuth : {0.0, 1.0, 4.0}) {
+          const auto at = half_vector(x * alpha, azimuth);
+          const double d = test::value_at(find_term(isotropic), {alpha}, at);
+          EXPECT_NEAR(test::value_at(find_term(id), {alpha, alpha}, at), d, 64 * eps * d) << id;
+        }
+}
+
+TEST(AnisotropicNdf, HasItsWidthsAlongItsAxes) {
+  for (const auto& [id, isotropic] :
+       {std::pair{"ndf.ggx_aniso", "ndf.ggx"}, {"ndf.beckmann_aniso", "ndf.beckmann"}})
+    for (const double x : {0.0, 0.5, 3.0}) {
+      const double ax = 0.4, ay = 0.1;
+      const auto along = [&](double azimuth, double width) {
+        const auto at = half_vector(x * width, azimuth);
+        const double slopes = test::value_at(find_term(isotropic), {width}, at) * width * width;
+        EXPECT_NEAR(test::value_at(find_term(id), {ax, ay}, at) * ax * ay, slopes, 1e-13 * slopes);
+      };
+      along(0, ax);
+      along(pi / 2, ay);
+    }
+}
+
+TEST(BeckmannAnisoAsWritten, DivergesAtTheHorizonTheMoreTheRougherItIs) {
+  const auto ndf = find_term("ndf.beckmann_aniso.as_written");
+  const auto area = [&](double alpha, double most) {
+    return projected_area(ndf, {alpha, alpha}, 4, most);
+  };
+  for (const double alpha : {0.3, 0.5, 1.0})  // as NoH⁻², a hundredfold for every decade of slopes
+    EXPECT_GT(area(alpha, std::log(1e4)) / area(alpha, std::log(1e3)), 50) << alpha;
+  EXPECT_GT(area(0.3, std::log(1e3)), 100);
+  EXPECT_NEAR(area(0.1, std::log(1e3)), 1.0206, 1e-4);  // smooth surfaces hide it
+  // and near the peak it is Beckmann
+  const auto at = half_vector(1e-3, 0.4);
+  const double d = test::value_at(find_term("ndf.beckmann_aniso"), {0.2, 0.5}, at);
+  EXPECT_NEAR(test::value_at(ndf, {0.2, 0.5}, at), d, 1e-9 * d);
+}
+
+// ---- Any shape ----------------------------------------------------------------------------------
+
+template <Real T>
+struct GgxShape {
+  T log_g(const T& x2) const { return -2 * log(1 + x2) - log(pi_); }
+  T pi_ = gonio::pi<T>();
+};
+template <Real T>
+struct BeckmannShape {
+  T log_g(const T& x2) const { return -x2 - log(pi_); }
+  T pi_ = gonio::pi<T>();
+};
+
+template <template <class> class Shape>
+void expect_makes(const char* isotropic, const char* anisotropic) {
+  for (const double alpha : {1e-3, 0.2, 1.0})
+    for (const double tangent : {0.0, 1e-4, 0.1, 1.0, 30.0})
+      for (const double azimuth : {0.0, 0.8, 2.0}) {
+        const auto at = half_vector(tangent, azimuth);
+        const double a = test::value_at(find_term(isotropic), {alpha}, at);
+        const ShapeInvariant<Shape, double> iso({}, alpha), aniso({}, alpha, alpha / 5);
+        EXPECT_NEAR(iso(static_cast<const Angles<double>&>(at)), a, 1e-13 * a) << isotropic;
+        EXPECT_NEAR(iso(at), a, 1e-12 * a) << isotropic;
+        const double b = test::value_at(find_term(anisotropic), {alpha, alpha / 5}, at);
+        EXPECT_NEAR(aniso(at), b, 1e-12 * b) << anisotropic;
+      }
+}
+
+TEST(ShapeInvariant, MakesGgxAndBeckmannOfTheirShapes) {
+  expect_makes<GgxShape>("ndf.ggx", "ndf.ggx_aniso");
+  expect_makes<BeckmannShape>("ndf.beckmann", "ndf.beckmann_aniso");
+}
+
+TEST(ShapeInvariant, WithStudentsTIsGgxAtTwoAndBeckmannInTheLimit) {
+  const auto student = find_term("ndf.shape_invariant");
+  for (const double tangent : {0.0, 0.05, 0.3, 2.0})
+    for (const double azimuth : {0.0, 0.8}) {
+      const auto at = half_vector(tangent, azimuth);
+      const double ggx = test::value_at(find_term("ndf.ggx_aniso"), {0.3, 0.5}, at);
+      EXPECT_NEAR(test::value_at(student, {0.3, 0.5, 2}, at), ggx, 1e-13 * ggx);
+      if (tangent > 1) continue;
+      const double beckmann = test::value_at(find_term("ndf.beckmann_aniso"), {0.3, 0.5}, at);
+      EXPECT_NEAR(test::value_at(student, {0.3, 0.5, 100}, at), beckmann, 0.02 * beckmann);
+    }
+}
+
+/// How far D cos⁴θ_h α² is from a function of tan θ_h/α alone, at 1 over the widths 0.1 and 0.8.
+double shape_changes(std::string_view id, Parameters p) {
+  const auto g = [&](double alpha, double x) {
+    p[0] = alpha;
+    const auto at = half_vector(x * alpha);
+    return test::value_of(find_term(id), p, at) * std::pow(at.noh, 4) * alpha * alpha;
+  };
+  double worst = 0;
+  for (const double x : {0.0, 0.3, 1.0, 3.0})
+    worst = std::max(worst, std::abs(g(0.8, x) / g(0.1, x) - 1));
+  return worst;
+}
+
+TEST(ShapeInvariant, AreGgxAndBeckmannButNeitherGtrNorBlinnPhong) {
+  EXPECT_LT(shape_changes("ndf.ggx", {0}), 1e-13);
+  EXPECT_LT(shape_changes("ndf.beckmann", {0}), 1e-13);
+  EXPECT_LT(shape_changes("ndf.gtr", {0, 2}), 1e-13);
+  EXPECT_GT(shape_changes("ndf.gtr", {0, 1}), 0.5);
+  EXPECT_GT(shape_changes("ndf.gtr", {0, 3}), 0.5);
+  EXPECT_GT(shape_changes("ndf.blinn_phong", {0}), 0.5);
 }
 
 }  // namespace

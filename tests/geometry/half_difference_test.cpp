@@ -13,7 +13,9 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 double distance(const Direction& a, const Direction& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
-double length(const Direction& a) { return std::sqrt(dot(a, a)); }
+double length(const Direction& a) {
+  return std::sqrt(dot(a, a));
+}
 
 class HalfDifferenceAngles : public testing::Test {
  protected:
@@ -206,6 +208,31 @@ TEST_F(HalfDifferenceAngles, StretchSolidAngleByOneOverFourVoH) {
     const double voh = angles({l, v}).voh;
     EXPECT_NEAR(half_vector_stretch(l, v) * 4 * voh, 1, 1e-7);
   }
+}
+
+TEST(HalfVector, TurnsByOneFourthOfTheSolidAngleOverVoh) {  // dω_h = dω_l/(4 VoH)
+  const auto h = [](const Direction& l, const Direction& v) {
+    const double x = l.x + v.x, y = l.y + v.y, z = l.z + v.z, length = std::hypot(x, y, z);
+    return Direction{x / length, y / length, z / length};
+  };
+  const double step = 1e-5;
+  for (const double theta_l : {0.2, 0.8, 1.4})
+    for (const double phi_l : {0.0, 1.0, 3.0})
+      for (const double theta_v : {0.0, 0.5, 1.3}) {
+        const auto l = direction(theta_l, phi_l), v = direction(theta_v, 0.3);
+        const auto change = [&](double theta, double phi) {  // of h, by steps along l's θ and φ
+          const auto a = h(direction(theta_l + theta, phi_l + phi), v);
+          const auto b = h(direction(theta_l - theta, phi_l - phi), v);
+          return Direction{(a.x - b.x) / (2 * step), (a.y - b.y) / (2 * step),
+                           (a.z - b.z) / (2 * step)};
+        };
+        const auto a = change(step, 0), b = change(0, step);
+        const double area = std::hypot(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
+                                       a.x * b.y - a.y * b.x);  // dω_h/(dθ_l dφ_l)
+        const double voh = dot(v, h(l, v));
+        EXPECT_NEAR(area / std::sin(theta_l) * 4 * voh, 1, 1e-8)
+            << theta_l << " " << phi_l << " " << theta_v;
+      }
 }
 
 }  // namespace
