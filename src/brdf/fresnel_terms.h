@@ -4,9 +4,22 @@
 
 #include "brdf/term_list.h"
 #include "optics/fresnel.h"
+#include "optics/fresnel_approximate.h"
 
 namespace gonio::inline GONIO_ARCH {
 
-using FresnelTerms = TermList<Schlick, SchlickWeighted, Dielectric, Conductor>;
+using FresnelTerms = TermList<Schlick,
+                              SchlickF90,
+                              SchlickWeighted,
+                              SchlickUe,
+                              SchlickSphericalGaussian,
+                              LinearAsWritten,
+                              ConstantReflectance,
+                              Disney2015,
+                              F82Tint,
+                              Lazanyi,
+                              Dielectric,
+                              Conductor,
+                              Gulbrandsen>;
 
 }  // namespace gonio::inline GONIO_ARCH

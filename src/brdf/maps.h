@@ -4,6 +4,7 @@
 
 #include "brdf/map.h"
 #include "brdf/parameter_maps.h"
+#include "optics/f0.h"
 
 namespace gonio::inline GONIO_ARCH {
 
@@ -13,6 +14,12 @@ using Maps = MapList<ClampAlpha,
                      AnisoDisney,
                      AnisoImageworks,
                      BlinnPhongExponent,
-                     FilterNormalVariance>;
+                     FilterNormalVariance,
+                     F0FromIor,
+                     F0FromIorAsWritten,
+                     IorFromF0,
+                     F0Metallic,
+                     IndexFromEdgeTint,
+                     EdgeTintFromIndex>;
 
 }  // namespace gonio::inline GONIO_ARCH

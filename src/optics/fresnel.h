@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Fresnel reflectance of a smooth interface, exact and approximate, as a function of
-/// c = VoH = cos θ_d, the cosine between the direction and the facet's normal.
+/// Fresnel reflectance of a smooth interface, exact, as a function of c = VoH = cos θ_d, the cosine
+/// between the direction and the facet's normal.  The approximations are in fresnel_approximate.h.
 ///
 /// Each is a term (brdf/term.h): the constructor takes the parameters, which may carry derivatives;
 /// operator() takes the cosines of one sample, which never do.  Unpolarised light, from vacuum.
@@ -13,57 +13,9 @@
 #include "number/parameter.h"
 #include "number/quotient.h"
 #include "number/real.h"
+#include "optics/f0.h"
 
 namespace gonio::inline GONIO_ARCH {
-
-/// Schlick's approximation.
-///
-///   F = f0 + (1 − f0)(1 − c)⁵                                          [Schlick 1994, Eq. 15]
-///
-/// \param f0  reflectance at normal incidence, in [0, 1]
-template <Real T>
-struct Schlick {
-  static constexpr About about{"fresnel.schlick", "Schlick's approximation",
-                               "F = f0 + (1 − f0)(1 − VoH)⁵", "Schlick 1994, Eq. 15"};
-  static constexpr std::array parameters{
-      Parameter{"f0", {0, 1}, {0, 1}, 0.04, true, "reflectance at normal incidence"}};
-
-  T f0;
-
-  explicit Schlick(std::span<const T, 1> p) : f0(p[0]) {}
-
-  T operator()(const Angles<plain_t<T>>& a) const {
-    const auto m = 1 - a.voh;
-    const auto m5 = square(square(m)) * m;
-    return f0 * (1 - m5) + m5;
-  }
-};
-
-/// Schlick's approximation of a layer that covers part of the surface.
-///
-///   F = w (f0 + (1 − f0)(1 − c)⁵)
-///
-/// \param weight  w, in [0, 1]; Disney's coat has 0.25 clearcoat [Burley 2012, Appendix B]
-template <Real T>
-struct SchlickWeighted {
-  static constexpr About about{"fresnel.schlick.weighted",
-                               "Schlick's approximation, of a partial layer",
-                               "F = weight (f0 + (1 − f0)(1 − VoH)⁵)",
-                               "Burley 2012, Appendix B",
-                               "001",
-                               "Disney's principled BRDF, its coat",
-                               "fresnel.schlick"};
-  static constexpr std::array parameters{
-      Schlick<T>::parameters[0],
-      Parameter{"weight", {0, 1}, {0, 1}, 0.25, false, "how much of the layer there is"}};
-
-  Schlick<T> layer;
-  T weight;
-
-  explicit SchlickWeighted(std::span<const T, 2> p) : layer(p.template first<1>()), weight(p[1]) {}
-
-  T operator()(const Angles<plain_t<T>>& a) const { return weight * layer(a); }
-};
 
 /// Exact Fresnel reflectance of a dielectric, from either side, with total internal reflection.
 ///
@@ -77,9 +29,12 @@ struct SchlickWeighted {
 template <Real T>
 struct Dielectric {
   static constexpr About about{
-      "fresnel.dielectric", "Dielectric, exact",
+      "fresnel.dielectric",
+      "Dielectric, exact",
       "F = ½ ((g−c)/(g+c))² (1 + ((c(g+c)−1)/(c(g−c)+1))²), g² = η²−1+c², c = VoH",
-      "Walter et al. 2007, Eq. 22"};
+      "Walter et al. 2007, Eq. 22",
+      "000, 001",
+      "pbrt, Mitsuba"};
   static constexpr std::array parameters{
       Parameter{"eta", {0.2, 10}, {1, 4}, 1.5, true, "refractive index, transmitted / incident"}};
 
@@ -101,6 +56,20 @@ struct Dielectric {
   }
 };
 
+/// What an interface reflects whose root a + i b = √(N² − s²) is known: (R_s + R_p)/2, with the R_s and
+/// R_p of Conductor.
+///
+/// \param less_one  Re N² − 1   \param a_larger  a > b
+template <Real T>
+Quotient<T> reflectance_of_root(
+    const plain_t<T>& c, const T& less_one, const T& a, const T& b2, const mask_t<T>& a_larger) {
+  const auto s2 = (1 - c) * (1 + c), c2 = square(c);
+  const T a_less_c = select<T>(a_larger, less_one + b2, a - c) / select<T>(a_larger, a + c, T(1));
+  const T s_num = square(a_less_c) + b2, s_den = square(a + c) + b2;
+  const T p_num = square(a * c - s2) + b2 * c2, p_den = square(a * c + s2) + b2 * c2;
+  return {s_num * (p_den + p_num), 2 * s_den * p_den};
+}
+
 /// Exact Fresnel reflectance of a conductor with refractive index N = η + i k.
 ///
 ///   (a + i b)² = N² − s²,   s² = 1 − c²
@@ -116,10 +85,13 @@ struct Dielectric {
 template <Real T>
 struct Conductor {
   static constexpr About about{
-      "fresnel.conductor", "Conductor, exact",
+      "fresnel.conductor",
+      "Conductor, exact",
       "F = (R_s + R_p)/2 for N = η + i k: (a+ib)² = N² − sin²θ, R_s = |(a+ib−c)/(a+ib+c)|², "
       "R_p = R_s |(c(a+ib)−s²)/(c(a+ib)+s²)|², c = VoH",
-      "Born & Wolf, Principles of Optics, 14.2"};
+      "Born & Wolf, Principles of Optics, 14.2",
+      "000",
+      "pbrt, Mitsuba"};
   static constexpr std::array parameters{
       Parameter{"eta", {0.001, 20}, {0.01, 10}, 1.5, true, "refractive index, real part"},
       Parameter{"k", {0, 1000}, {0, 20}, 3, true, "extinction coefficient"}};
@@ -144,11 +116,61 @@ struct Conductor {
     const T smaller = im / larger;
     const T a = select<T>(a_larger, larger, smaller);
     const T b2 = square(select<T>(a_larger, smaller, larger));
-    const T a_less_c = select<T>(a_larger, less_one + b2, a - c) / select<T>(a_larger, a + c, T(1));
-    const T s_num = square(a_less_c) + b2, s_den = square(a + c) + b2;
-    const T p_num = square(a * c - s2) + b2 * c2, p_den = square(a * c + s2) + b2 * c2;
-    return {select<T>(there, s_num * (p_den + p_num), T(0)), 2 * s_den * p_den};
+    const auto f = reflectance_of_root<T>(c, less_one, a, b2, a_larger);
+    return {select<T>(there, f.num, T(0)), f.den};
   }
+};
+
+/// Exact Fresnel reflectance of a conductor in an artist's terms: its reflectance at normal incidence
+/// and its tint at the edge, from which f0.h has N = n + i k.              [Gulbrandsen 2014]
+///
+/// Of k it needs the square alone: at g = 0, where k is 0, the root would have no slope.  f0 = 1 has
+/// no finite index and √f0 no slope at 0, so below 2⁻²⁰ and above 1 − 2⁻¹⁶ F runs straight to 0 and
+/// to 1; at normal incidence that is still exact.
+///
+/// \param f0  reflectance at normal incidence, r in the paper
+/// \param g   edge tint: 0 the index that is real, 1 the lowest real part that the paper allows
+template <Real T>
+struct Gulbrandsen {
+  static constexpr About about{"fresnel.gulbrandsen",
+                               "Conductor, exact, by reflectance and edge tint",
+                               "F of a conductor with n = g (1−f0)/(1+f0) + (1−g) (1+√f0)/(1−√f0), "
+                               "k² = (f0 (n+1)² − (n−1)²)/(1−f0)",
+                               "Gulbrandsen 2014, Artist Friendly Metallic Fresnel",
+                               "",
+                               "MaterialX (artistic_ior)"};
+  static constexpr std::array parameters{
+      Parameter{"f0", {0, 1}, {0.01, 0.99}, 0.8, true, "reflectance at normal incidence"},
+      Parameter{"g", {0, 1}, {0, 1}, 0.5, true, "edge tint"}};
+
+  T re, less_one, im2;  // Re N², Re N² − 1, (n k)²
+  T low, high;          // how far f0 is on the straight runs
+
+  explicit Gulbrandsen(std::span<const T, 2> p)
+      : Gulbrandsen(p[0], tinted_index<T>(min<T>(max<T>(p[0], least()), most()), p[1])) {}
+
+  T operator()(const Angles<plain_t<T>>& x) const {
+    const auto c = x.voh, c2 = square(c), s2 = (1 - c) * (1 + c);
+    const T t = select<T>(s2 < c2, re - s2, less_one + c2);  // Re (N² − s²), as for Conductor
+    const auto a_larger = T(0) < t;
+    const T larger2 = (sqrt(square(t) + 4 * im2) + select<T>(a_larger, t, -t)) / 2;
+    const T smaller2 = im2 / larger2;
+    const T a = sqrt(select<T>(a_larger, larger2, smaller2));
+    const T b2 = select<T>(a_larger, smaller2, larger2);
+    const T f = reflectance_of_root<T>(c, less_one, a, b2, a_larger).value();
+    return f * low + (1 - f) * high;
+  }
+
+ private:
+  static T least() { return constant<T>(0x1p-20L); }
+  static T most() { return constant<T>(1 - 0x1p-16L); }
+
+  Gulbrandsen(const T& f0, const TintedIndex<T>& i)
+      : re(square(i.n) - i.k2),
+        less_one(i.n_less_one * (i.n + 1) - i.k2),
+        im2(square(i.n) * i.k2),
+        low(min<T>(f0 / least(), T(1))),
+        high(max<T>((f0 - most()) / (1 - most()), T(0))) {}
 };
 
 }  // namespace gonio::inline GONIO_ARCH

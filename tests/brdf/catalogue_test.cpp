@@ -294,8 +294,13 @@ TYPED_TEST(Everywhere, EveryInstructionSetGivesTheBitsOfTheScalar) {
         const std::string where = name + " " + std::string(one.about->id) + text(parameters);
         // An error of eps in log t is one of eps |γ log t| in t^−γ.
         F size = 1;
-        for (const double v : parameters) size *= std::max<F>(1, F(v > 1 ? v : -2 * std::log(v)));
+        for (const double v : parameters)
+          if (v > 0) size *= std::max<F>(1, F(v > 1 ? v : -2 * std::log(v)));
         const F few = transcendental[t] ? 8 * eps<F> * size : F(0);
+        // Lazányi's correction, of up to 10/4, may leave nothing: it is measured by itself too.
+        const auto part = [=](std::size_t) {
+          return one.about->id == "fresnel.lazanyi" ? F(5) : F(0);
+        };
 
         std::array<Column<F>, 2> out, out_den;
         for (auto* c : {&out[0], &out[1], &out_den[0], &out_den[1]}) *c = Column<F>(b.n);
@@ -304,7 +309,7 @@ TYPED_TEST(Everywhere, EveryInstructionSetGivesTheBitsOfTheScalar) {
                          {num.data(), den.data(), base.data(), out[0].data(), out_den[0].data()});
           (one.*kernel)(b, p.data(),
                         {num.data(), den.data(), base.data(), out[1].data(), out_den[1].data()});
-          expect_same(out[0].data(), out[1].data(), b.n, few, none, where);
+          expect_same(out[0].data(), out[1].data(), b.n, few, part, where);
           expect_same(out_den[0].data(), out_den[1].data(), b.n, few, none, where);
         };
         run(&TermKernels<F>::extend);
@@ -313,10 +318,12 @@ TYPED_TEST(Everywhere, EveryInstructionSetGivesTheBitsOfTheScalar) {
 
         const auto d = test::derivatives_of<F>(t, parameters, rows, kernels<F>(name));
         const auto e = test::derivatives_of<F>(t, parameters, rows);
-        expect_same(d[0].data(), e[0].data(), rows.size(), few, none, where);
+        expect_same(d[0].data(), e[0].data(), rows.size(), few, part, where);
         for (std::size_t k = 1; k < d.size(); ++k) {
           // A derivative may vanish between larger parts: it is measured by f/parameter too.
-          const auto scale = [&](std::size_t i) { return std::abs(e[0][i] / p[k - 1]); };
+          const auto scale = [&](std::size_t i) {
+            return part(i) + std::abs(e[0][i] / (p[k - 1] > 0 ? p[k - 1] : 1));
+          };
           expect_same(d[k].data(), e[k].data(), rows.size(), 4 * few, scale, where + " derivative");
         }
       }

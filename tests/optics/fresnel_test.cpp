@@ -1,7 +1,5 @@
 // The laws of Fresnel reflectance.  How many digits the terms keep is judged by fifty-digit numbers
 // in brdf/wide_test.cpp.
-#include "optics/fresnel.h"
-
 #include <array>
 #include <cmath>
 #include <complex>
@@ -9,7 +7,7 @@
 #include <string>
 
 #include "number/dual.h"
-#include "optics/refractive_index.h"
+#include "optics/fresnel_approximate.h"
 
 namespace gonio {
 namespace {
@@ -212,67 +210,6 @@ TEST(Conductor, DoesNotFeelTheSignOfAbsorptionAtItsZero) {
       EXPECT_NEAR(f.d[0], reflectance<Dielectric>(c, Dual<double, 1>::variable(eta, 0)).d[0],
                   1e-13);
     }
-}
-
-// ---- Published indices --------------------------------------------------------------------------
-
-struct PublishedIndex {
-  std::string symbol;
-  double n, k;  // at 550 nm
-};
-class MetalTest : public testing::TestWithParam<PublishedIndex> {};
-INSTANTIATE_TEST_SUITE_P(Green,
-                         MetalTest,
-                         testing::Values(PublishedIndex{"Au", 0.424, 2.472},
-                                         PublishedIndex{"Ag", 0.060, 3.597},
-                                         PublishedIndex{"Cu", 1.007, 2.582},
-                                         PublishedIndex{"Al", 1.015, 6.627},
-                                         PublishedIndex{"Cr", 3.181, 3.329},
-                                         PublishedIndex{"Fe", 2.950, 2.932},
-                                         PublishedIndex{"Ni", 1.921, 3.616},
-                                         PublishedIndex{"W", 3.522, 2.741}),
-                         [](const auto& test) { return test.param.symbol; });
-
-TEST_P(MetalTest, HasItsPublishedIndexAt550Nanometres) {
-  const Metal* m = find_metal(GetParam().symbol);
-  ASSERT_TRUE(m);
-  EXPECT_NEAR(m->n[1], GetParam().n, 6e-4);
-  EXPECT_NEAR(m->k[1], GetParam().k, 6e-4);
-}
-
-TEST(Metals, AreFoundBySymbolOrNameInAnyCase) {
-  EXPECT_EQ(find_metal("au"), find_metal("Gold"));
-  EXPECT_EQ(find_metal("AL"), find_metal("aluminium"));
-  EXPECT_NE(find_metal("Al"), find_metal("Ag"));
-  EXPECT_EQ(find_metal("unobtainium"), nullptr);
-  EXPECT_EQ(find_metal(""), nullptr);
-  EXPECT_EQ(find_metal("A"), nullptr);
-}
-
-TEST(Metals, LieWithinTheLegalRangesAndNameTheirSource) {
-  for (const auto& m : metals()) {
-    EXPECT_FALSE(m.source.empty());
-    EXPECT_EQ(find_metal(m.symbol), &m);
-    EXPECT_EQ(find_metal(m.name), &m);
-    for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_TRUE(Conductor<double>::parameters[0].legal.holds(m.n[i])) << m.name;
-      EXPECT_TRUE(Conductor<double>::parameters[1].legal.holds(m.k[i])) << m.name;
-    }
-  }
-}
-
-TEST(Metals, HaveTheColourThatOneSees) {
-  const auto f = [](const char* name, std::size_t i) {
-    const Metal& m = *find_metal(name);
-    return conductor(m.n[i], m.k[i], 1);
-  };
-  EXPECT_GT(f("Au", 0), 0.9);  // gold and copper are red-yellow, silver and aluminium nearly white
-  EXPECT_LT(f("Au", 2), 0.5);
-  EXPECT_GT(f("Cu", 0), f("Cu", 2) + 0.3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_GT(f("Ag", i), 0.9);
-    EXPECT_NEAR(f("Al", i), 0.91, 0.02);
-  }
 }
 
 }  // namespace

@@ -1,0 +1,335 @@
+#pragma once
+/// \file
+/// What is shipped in place of exact Fresnel reflectance (fresnel.h), mistakes included.
+///
+/// c = VoH; f0 is the reflectance at normal incidence, one per channel.
+
+#include <array>
+#include <span>
+
+#include "geometry/angles.h"
+#include "number/parameter.h"
+#include "number/real.h"
+#include "optics/f0.h"
+#include "optics/fresnel.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+inline constexpr Parameter f0_parameter{"f0", {0, 1}, {0, 1},
+                                        0.04, true,   "reflectance at normal incidence"};
+
+/// (1 − c)⁵
+template <Real B>
+B schlick_weight(const B& c) {
+  const B m = 1 - c;
+  return square(square(m)) * m;
+}
+
+/// The same reflectance at every angle.
+///
+///   F = f0
+template <Real T>
+struct ConstantReflectance {
+  static constexpr About about{"fresnel.constant",
+                               "The same at every angle",
+                               "F = f0",
+                               "as shipped, seeds 000 and 004",
+                               "000, 004",
+                               "Unreal Engine 4's and Unity's mobile renderers, with the rest of F "
+                               "in their visibility",
+                               "fresnel.schlick"};
+  static constexpr std::array parameters{f0_parameter};
+
+  T f0;
+
+  explicit ConstantReflectance(std::span<const T, 1> p) : f0(p[0]) {}
+
+  T operator()(const Angles<plain_t<T>>&) const { return f0; }
+};
+
+/// Schlick's approximation.
+///
+///   F = f0 + (1 − f0)(1 − c)⁵                                          [Schlick 1994, Eq. 15]
+///
+/// \param f0  reflectance at normal incidence, in [0, 1]
+template <Real T>
+struct Schlick {
+  static constexpr About about{"fresnel.schlick",
+                               "Schlick's approximation",
+                               "F = f0 + (1 − f0)(1 − VoH)⁵",
+                               "Schlick 1994, Eq. 15",
+                               "000, 001, 004",
+                               "glTF 2.0, Disney's principled BRDF, LearnOpenGL",
+                               "fresnel.dielectric"};
+  static constexpr std::array parameters{f0_parameter};
+
+  T f0;
+
+  explicit Schlick(std::span<const T, 1> p) : f0(p[0]) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const auto m5 = schlick_weight(a.voh);
+    return f0 * (1 - m5) + m5;
+  }
+};
+
+/// Schlick's approximation with the reflectance at grazing incidence set too.
+///
+///   F = f0 + (f90 − f0)(1 − c)⁵
+///
+/// \param f90  one for all channels, as all who ship it have it: what occludes is grey
+template <Real T>
+struct SchlickF90 {
+  static constexpr About about{"fresnel.schlick.f90",
+                               "Schlick's approximation with F90",
+                               "F = f0 + (f90 − f0)(1 − VoH)⁵",
+                               "Lagarde, de Rousiers 2014, course notes on Frostbite, section 3.1",
+                               "000, 001",
+                               "Frostbite, Filament, glTF 2.0 (KHR_materials_specular)",
+                               "fresnel.dielectric"};
+  static constexpr std::array parameters{
+      f0_parameter, Parameter{"f90", {0, 1}, {0, 1}, 1, false, "reflectance at grazing incidence"}};
+
+  T f0, f90;
+
+  explicit SchlickF90(std::span<const T, 2> p) : f0(p[0]), f90(p[1]) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const auto m5 = schlick_weight(a.voh);
+    return f0 * (1 - m5) + f90 * m5;
+  }
+};
+
+/// Schlick's approximation of a layer that covers part of the surface.
+///
+///   F = w (f0 + (1 − f0)(1 − c)⁵)
+///
+/// \param weight  w, in [0, 1]; Disney's coat has 0.25 clearcoat [Burley 2012, Appendix B]
+template <Real T>
+struct SchlickWeighted {
+  static constexpr About about{"fresnel.schlick.weighted",
+                               "Schlick's approximation, of a partial layer",
+                               "F = weight (f0 + (1 − f0)(1 − VoH)⁵)",
+                               "Burley 2012, Appendix B",
+                               "001",
+                               "Disney's principled BRDF, its coat",
+                               "fresnel.schlick"};
+  static constexpr std::array parameters{
+      f0_parameter,
+      Parameter{"weight", {0, 1}, {0, 1}, 0.25, false, "how much of the layer there is"}};
+
+  Schlick<T> layer;
+  T weight;
+
+  explicit SchlickWeighted(std::span<const T, 2> p) : layer(p.template first<1>()), weight(p[1]) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const { return weight * layer(a); }
+};
+
+/// Unreal Engine's: what is darker than 2 % at normal incidence is taken for shadowed, and loses its
+/// grazing reflection too.
+///
+///   F = min(50 f0_green, 1) (1 − c)⁵ + (1 − (1 − c)⁵) f0
+///
+/// The colour is `half`, VoH and what becomes of it `float` (number/mixed.h).
+///
+/// \param f0_green  f0 of the green channel, which decides for all channels
+template <Real T>
+struct SchlickUe {
+  static constexpr About about{"fresnel.schlick.ue",
+                               "Schlick's approximation, Unreal Engine's",
+                               "F = saturate(50 f0_green)(1 − VoH)⁵ + (1 − (1 − VoH)⁵) f0",
+                               "as shipped, seed 004",
+                               "004",
+                               "Unreal Engine 4",
+                               "fresnel.schlick"};
+  static constexpr std::array parameters{
+      f0_parameter, Parameter{"f0_green", {0, 1}, {0, 1}, 0.04, false, "f0 of the green channel"}};
+
+  T f0, edge;
+
+  explicit SchlickUe(std::span<const T, 2> p)
+      : f0(in_half(p[0])), edge(min<T>(in_float(T(50)) * in_half(p[1]), T(1))) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const auto m5 = schlick_weight(in_float(a.voh));
+    return edge * m5 + (1 - m5) * f0;
+  }
+};
+
+/// Schlick's approximation by one exponential, which on the GPUs of its time cost less than four
+/// products.
+///
+///   F = f0 + (1 − f0) 2^((−5.55473 c − 6.98316) c)                       [Karis 2013, section on F]
+///
+/// It misses f0 at normal incidence by (1 − f0) 2^−12.53789 = 1.68e-4 (1 − f0).
+template <Real T>
+struct SchlickSphericalGaussian {
+  static constexpr About about{"fresnel.schlick.spherical_gaussian",
+                               "Schlick's approximation, its power a spherical Gaussian",
+                               "F = f0 + (1 − f0) 2^((−5.55473 VoH − 6.98316) VoH)",
+                               "Lagarde 2012; Karis 2013, Real Shading in Unreal Engine 4",
+                               "",
+                               "Unreal Engine 4 (2013), three.js",
+                               "fresnel.schlick"};
+  static constexpr std::array parameters{f0_parameter};
+
+  T f0;
+
+  explicit SchlickSphericalGaussian(std::span<const T, 1> p) : f0(p[0]) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    using B = plain_t<T>;
+    const B& c = a.voh;
+    const B power = (constant<B>(-5.55473L) * c - constant<B>(6.98316L)) * c;
+    const B w = exp(power * constant<B>(0.693147180559945309417L));
+    return f0 * (1 - w) + w;
+  }
+};
+
+/// Schlick's approximation as seed 003 prints it, its power lost.
+///
+///   F = f0 + (1 − f0)(1 − c)
+template <Real T>
+struct LinearAsWritten {
+  static constexpr About about{"fresnel.linear.as_written",
+                               "Schlick's approximation, its power missing",
+                               "F = f0 + (1 − f0)(1 − VoH)",
+                               "as printed, seed 003",
+                               "003",
+                               "",
+                               "fresnel.schlick"};
+  static constexpr std::array parameters{f0_parameter};
+
+  T f0;
+
+  explicit LinearAsWritten(std::span<const T, 1> p) : f0(p[0]) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const { return f0 * a.voh + (1 - a.voh); }
+};
+
+/// Schlick's approximation with F0 from the index, but exact where that is near 1, or below it: there
+/// F0 is about 0 and Schlick still reflects all at grazing.
+///
+///   F = Dielectric(η) for η < 1.3,   else Schlick(((η − 1)/(η + 1))²)
+///
+/// The notes say that Schlick is poor near 1 but name no bound; they switch, they do not blend.  1.3
+/// lies below every common solid or liquid in air (ice 1.31): interfaces with air are Schlick's, those
+/// within water or glass exact.  There Schlick is off by up to 0.068, so F jumps by that.
+template <Real T>
+struct Disney2015 {
+  static constexpr About about{
+      "fresnel.disney2015",
+      "Exact for an index near 1, Schlick's elsewhere",
+      "F = dielectric(eta) for eta < 1.3, else Schlick with "
+      "f0 = ((eta−1)/(eta+1))²",
+      "Burley 2015, Extending the Disney BRDF to a BSDF, course notes; the "
+      "bound 1.3 is ours",
+      "001",
+      "",
+      "fresnel.dielectric"};
+  static constexpr std::array parameters = Dielectric<T>::parameters;
+
+  Dielectric<T> exact;
+  T f0;
+  mask_t<T> near_1;
+
+  explicit Disney2015(std::span<const T, 1> p)
+      : exact(p), f0(square((p[0] - 1) / (p[0] + 1))), near_1(p[0] < constant<T>(1.3L)) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const auto m5 = schlick_weight(a.voh);
+    return select<T>(near_1, exact(a), f0 * (1 - m5) + m5);
+  }
+};
+
+/// Metals: Schlick's approximation less a hump at 82° that is as high as the tint asks.
+///
+///   F = max(F_s(c) − b c (1 − c)⁶, 0),   b = (1 − tint) F_s(1/7) / (1/7 (6/7)⁶),   F_s: Schlick
+///                                                      [Hoffman 2019; Kutz et al. 2021, section 3]
+///
+/// so that F(1/7) = tint · F_s(1/7); cos 82° = 1/7 is where c (1 − c)⁶ is largest.  It is kept above 0
+/// as Blender does: for dark tints the formula would go below, at angles of less than 82°.
+///
+/// \param f82_tint  what the edge reflects, as a part of what Schlick would; 1: Schlick
+template <Real T>
+struct F82Tint {
+  static constexpr About about{
+      "fresnel.f82",
+      "F82-tint: Schlick's with an edge tint for metals",
+      "F = max(F_s(VoH) − (1 − f82_tint) F_s(1/7) "
+      "VoH (1−VoH)⁶/(1/7 (6/7)⁶), 0), F_s Schlick's",
+      "Hoffman 2019, Fresnel Equations Considered Harmful; Kutz et al. 2021, "
+      "Novel Aspects of the Adobe Standard Material",
+      "",
+      "OpenPBR, Blender",
+      "fresnel.conductor"};
+  static constexpr std::array parameters{
+      Parameter{"f0", {0, 1}, {0, 1}, 0.8, true, "reflectance at normal incidence"},
+      Parameter{"f82_tint", {0, 1}, {0, 1}, 1, true, "reflectance at 82°, relative to Schlick's"}};
+
+  T f0, b;
+
+  explicit F82Tint(std::span<const T, 2> p)
+      : f0(p[0]),
+        b((1 - p[1]) * (p[0] + (1 - p[0]) * constant<plain_t<T>>(7776.0L / 16807)) *
+          constant<plain_t<T>>(823543.0L / 46656)) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const auto m = 1 - a.voh, m5 = schlick_weight(a.voh);
+    return max<T>(f0 * (1 - m5) + m5 - b * (a.voh * m5 * m), T(0));
+  }
+};
+
+/// Metals: Schlick's approximation rescaled to the F0 of n + i k, less a hump fitted to each metal.
+///
+///   F = max(((n − 1)² + 4 n (1 − c)⁵ + k²)/((n + 1)² + k²) − a c (1 − c)^α, 0)
+///                                                                [Lazányi & Szirmay-Kalos 2005]
+///
+/// Its first part is exact at normal incidence and at grazing; with a = 0 it is all there is.  The
+/// paper has a and α in a table, metal by metal; here they are parameters.  Kept above 0, which of
+/// metals it never reaches.
+template <Real T>
+struct Lazanyi {
+  static constexpr About about{
+      "fresnel.lazanyi",
+      "Schlick's rescaled to n + i k, with Lazányi's correction",
+      "F = max(((n−1)² + 4n(1−VoH)⁵ + k²)/((n+1)² + k²) − a VoH (1−VoH)^alpha, 0), n = eta, "
+      "a = correction, alpha = correction_exponent",
+      "Lazányi, Szirmay-Kalos 2005, Fresnel Term Approximations for Metals",
+      "",
+      "",
+      "fresnel.conductor"};
+  static constexpr std::array parameters{
+      Parameter{"eta", {0.001, 20}, {0.01, 10}, 1.5, true, "refractive index, real part"},
+      Parameter{"k", {0, 1000}, {0, 20}, 3, true, "extinction coefficient"},
+      Parameter{"correction", {0, 10}, {0, 5}, 0, true, "height of the correction"},
+      Parameter{"correction_exponent",
+                {1, 20},
+                {2, 12},
+                6,
+                true,
+                "how near grazing the correction lies"}};
+
+  T f0, slope, height, exponent;
+
+  explicit Lazanyi(std::span<const T, 4> p)
+      : Lazanyi(p, square(p[1]), 1 / (square(p[0] + 1) + square(p[1]))) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const auto m = 1 - a.voh;
+    const auto open = plain_t<T>(0) < m;  // at normal incidence the correction is 0
+    const auto log_m = log(select<plain_t<T>>(open, m, plain_t<T>(1)));
+    const T hump = height * (a.voh * exp(exponent * log_m));
+    return max<T>(f0 + slope * schlick_weight(a.voh) - select<T>(open, hump, T(0)), T(0));
+  }
+
+ private:
+  Lazanyi(std::span<const T, 4> p, const T& k2, const T& per_den)
+      : f0((square(p[0] - 1) + k2) * per_den),
+        slope(4 * p[0] * per_den),
+        height(p[2]),
+        exponent(p[3]) {}
+};
+
+}  // namespace gonio::inline GONIO_ARCH
