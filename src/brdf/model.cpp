@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "brdf/presets.h"
 #include "brdf/registry.h"
+#include "optics/f0.h"
 #include "optics/refractive_index.h"
 
 #include <fmt/format.h>
@@ -68,8 +69,9 @@ std::string resolve_base_color(std::string spec, std::vector<Setting>& settings)
   for (const double b : base->values) {
     if (!(0 <= b && b <= 1 && 0 <= m && m <= 1))
       throw wrong_usage("base_color and metallic lie in [0, 1]");
-    f0.values.push_back(0.04 + (b - 0.04) * m);
-    kd.values.push_back(b * (1 - m));
+    const auto mapped = F0Metallic<double>::apply(std::array{b, m});
+    f0.values.push_back(mapped[0]);
+    kd.values.push_back(mapped[1]);
   }
   forget(settings, "base_color");
   forget(settings, "metallic");
@@ -94,11 +96,11 @@ void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
     else if (name == "f0" && !m.find(s.name) && m.find("eta" + ending) && !m.find("k" + ending))
       replace("eta", [](double f0) {
         if (!(0 <= f0 && f0 < 1)) throw wrong_usage(fmt::format("f0 = {} is outside [0, 1)", f0));
-        return (1 + std::sqrt(f0)) / (1 - std::sqrt(f0));
+        return IorFromF0<double>::apply(std::array{f0})[0];
       });
   }
   if (const Setting* s = find(settings, "metal")) {
-    const Metal* metal = find_metal(s->text);
+    const Material* metal = find_metal(s->text);
     if (!metal) {
       std::vector<std::string_view> names;
       for (const auto& x : metals()) names.push_back(x.symbol);
@@ -109,8 +111,10 @@ void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
       throw wrong_usage(
           fmt::format("metal sets eta and k, but model '{}' has no conductor", m.spec));
     forget(settings, "metal");
-    settings.push_back({"eta", {metal->n.begin(), metal->n.end()}});
-    settings.push_back({"k", {metal->k.begin(), metal->k.end()}});
+    Setting eta{"eta", {}}, k{"k", {}};
+    for (const auto& index : metal->rgb())
+      eta.values.push_back(index.n), k.values.push_back(index.k);
+    settings.insert(settings.end(), {eta, k});
   }
 }
 

@@ -56,9 +56,12 @@ Exit run(const Options& o) {
       model.push_back(describe(p.about, p.parameters));
       model.back()["spec"] = p.spec;
     }
-    for (const auto& m : metals())
+    for (const auto& m : metals()) {
+      Json n = Json::array(), k = Json::array();
+      for (const auto& index : m.rgb()) n.push_back(index.n), k.push_back(index.k);
       metal.push_back(
-          {{"symbol", m.symbol}, {"name", m.name}, {"n", m.n}, {"k", m.k}, {"source", m.source}});
+          {{"symbol", m.symbol}, {"name", m.name}, {"n", n}, {"k", k}, {"source", m.source}});
+    }
     fmt::print("{}\n",
                Json{{"terms", terms}, {"maps", map}, {"models", model}, {"metals", metal}}.dump(2));
     return Exit::done;

@@ -213,8 +213,11 @@ TEST(Binding, TurnsTheF0OfADielectricIntoItsIndex) {
 TEST(Binding, KnowsMetals) {
   const auto b = bound(metal, "metal=Au");
   EXPECT_EQ(b.model.channels, 3U);
-  EXPECT_EQ(values(b, "eta"), (Values{0.1556, 0.4241, 1.3831}));
-  EXPECT_EQ(values(b, "k"), (Values{3.6024, 2.4721, 1.9155}));
+  const Values eta{0.1556, 0.4241, 1.3831}, k{3.6024, 2.4721, 1.9155};
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(values(b, "eta").at(c), eta[c], 5e-5);
+    EXPECT_NEAR(values(b, "k").at(c), k[c], 5e-5);
+  }
   EXPECT_EQ(values(bound(metal, "metal=gold"), "k"), values(b, "k"));
   expect_refused([&] { bound(metal, "metal=Unobtainium"); },
                  {"no metal 'Unobtainium'", "Au", "Ag", "W"});

@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// From spectra of reflectance to linear RGB, and the colour of measured materials: integrated over the
+/// spectrum, and by the shortcut of one wavelength per channel that renderers take.
+
+#include <array>
+#include <cstddef>
+
+#include "optics/refractive_index.h"
+
+namespace gonio {
+
+inline constexpr double first_nm = 360, step_nm = 5;
+inline constexpr std::size_t wavelengths = 95;  ///< up to 830 nm
+/// One value per wavelength.
+using Spectrum = std::array<double, wavelengths>;
+
+/// f(nm) at every wavelength
+Spectrum spectrum(auto&& f) {
+  Spectrum s;
+  for (std::size_t i = 0; i < s.size(); ++i) s[i] = f(first_nm + step_nm * static_cast<double>(i));
+  return s;
+}
+
+/// ∫ R(λ) D65(λ) {x̄, ȳ, z̄}(λ) dλ / ∫ D65 ȳ dλ, of the CIE's 2° observer of 1931: Y is 1 for a
+/// perfect reflector.  Within 2e-4 of the sum by 1 nm for spectra as smooth as reflectance is.
+std::array<double, 3> xyz(const Spectrum& reflectance);
+
+/// Linear sRGB under D65: a perfect reflector is 1, 1, 1.  Not clipped, so colours outside the gamut
+/// have channels below 0 or above 1.
+///
+/// The matrix has the primaries of IEC 61966-2-1 and for white what xyz() gives for 1, which differs
+/// from that standard's rounded x = 0.3127, y = 0.3290 by 2e-5.
+std::array<double, 3> linear_srgb(const Spectrum& reflectance);
+
+/// What a smooth surface reflects at angles of cosine c, exactly: Fresnel reflectance of every
+/// wavelength, then linear_srgb().
+std::array<double, 3> reflectance_rgb(const Material&, double c);
+/// The shortcut: Fresnel reflectance of the index at 650, 550 and 450 nm.
+std::array<double, 3> reflectance_per_channel(const Material&, double c);
+
+}  // namespace gonio
