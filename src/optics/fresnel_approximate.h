@@ -251,6 +251,11 @@ struct Disney2015 {
 /// so that F(1/7) = tint · F_s(1/7); cos 82° = 1/7 is where c (1 − c)⁶ is largest.  It is kept above 0
 /// as Blender does: for dark tints the formula would go below, at angles of less than 82°.
 ///
+/// Computed as tint F_s + (1 − tint)(F_s − F_s(1/7) w), w = c (1 − c)⁶/(1/7 (6/7)⁶), where dark tints
+/// leave little of large parts; with u = (7 c − 1)/6 and v = 1 − u nothing cancels in either:
+///   1 − w = u² (1 + 2 v + 3 v² + 4 v³ + 5 v⁴ + 6 v⁵)
+///   F_s − F_s(1/7) w = f0 (1 − w) − (1 − f0)(1 − c)⁵ u (6 v − 1)
+///
 /// \param f82_tint  what the edge reflects, as a part of what Schlick would; 1: Schlick
 template <Real T>
 struct F82Tint {
@@ -268,16 +273,17 @@ struct F82Tint {
       Parameter{"f0", {0, 1}, {0, 1}, 0.8, true, "reflectance at normal incidence"},
       Parameter{"f82_tint", {0, 1}, {0, 1}, 1, true, "reflectance at 82°, relative to Schlick's"}};
 
-  T f0, b;
+  T f0, tint;
 
-  explicit F82Tint(std::span<const T, 2> p)
-      : f0(p[0]),
-        b((1 - p[1]) * (p[0] + (1 - p[0]) * constant<plain_t<T>>(7776.0L / 16807)) *
-          constant<plain_t<T>>(823543.0L / 46656)) {}
+  explicit F82Tint(std::span<const T, 2> p) : f0(p[0]), tint(p[1]) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
-    const auto m = 1 - a.voh, m5 = schlick_weight(a.voh);
-    return max<T>(f0 * (1 - m5) + m5 - b * (a.voh * m5 * m), T(0));
+    using B = plain_t<T>;
+    const B m5 = schlick_weight(a.voh);
+    const B u = (7 * a.voh - 1) * constant<B>(1.0L / 6), v = 1 - u;
+    const B sum = 1 + v * (2 + v * (3 + v * (4 + v * (5 + v * 6))));
+    const T darkest = f0 * (square(u) * sum) - (1 - f0) * (m5 * u * (6 * v - 1));
+    return max<T>(tint * (f0 * (1 - m5) + m5) + (1 - tint) * darkest, T(0));
   }
 };
 

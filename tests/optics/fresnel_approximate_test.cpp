@@ -123,11 +123,21 @@ TEST(Disney2015, JumpsByTheErrorOfSchlickAtItsBound) {
 TEST(F82Tint, HitsItsTintAt82DegreesAndF0AtNormalIncidence) {
   for (const double f0 : parts)
     for (const double tint : parts) {
-      EXPECT_EQ(f<F82Tint>(1, f0, tint), f0);
-      EXPECT_EQ(f<F82Tint>(0, f0, tint), 1);
+      EXPECT_NEAR(f<F82Tint>(1, f0, tint), f0, 2 * eps);
+      EXPECT_NEAR(f<F82Tint>(0, f0, tint), 1, 4 * eps);
       EXPECT_NEAR(f<F82Tint>(1.0 / 7, f0, tint), tint * f<Schlick>(1.0 / 7, f0), 4 * eps)
           << f0 << " " << tint;
     }
+}
+
+TEST(F82Tint, IsItsFormula) {
+  for (const double f0 : parts)
+    for (const double tint : parts)
+      for (const double c : cosines) {
+        const double hump = c * std::pow(1 - c, 6) / (1.0 / 7 * std::pow(6.0 / 7, 6));
+        const double whole = f<Schlick>(c, f0) - (1 - tint) * f<Schlick>(1.0 / 7, f0) * hump;
+        EXPECT_NEAR(f<F82Tint>(c, f0, tint), std::max(whole, 0.0), 8 * eps) << f0 << tint << c;
+      }
 }
 
 TEST(F82Tint, OfAWhiteTintIsSchlick) {
