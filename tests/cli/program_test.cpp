@@ -112,7 +112,7 @@ TEST(Program, ListsEveryTermWithItsFormulaAndSource) {
                          "masking.smith_ggx.separable", "fresnel.schlick", "fresnel.dielectric",
                          "fresnel.conductor", "diffuse.lambert", "diffuse.lambert.coupled"})
     EXPECT_NE(std::find(ids.begin(), ids.end(), id), ids.end()) << id;
-  EXPECT_EQ(m["metals"].size(), 9U);
+  EXPECT_EQ(m["metals"].size(), 13U);
 }
 
 TEST(Program, EvaluatesAModelAtTheDirectionsOfAFile) {
