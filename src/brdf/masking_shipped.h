@@ -322,7 +322,7 @@ struct UeMobileSimple {
   T value;
 
   explicit UeMobileSimple(std::span<const T, 1> p)
-      : value(sqrt(p[0]) * constant<T>(0.25L) + constant<T>(0.25L)) {}
+      : value(in_half<T>(sqrt(p[0])) * constant<T>(0.25L) + constant<T>(0.25L)) {}
 
   T operator()(const Angles<plain_t<T>>&) const { return value; }
 };

@@ -67,7 +67,8 @@ struct GgxUeMobile {
 };
 
 /// The rest of GGX_Mobile once 1 − NoH² is there: n = NoH α, p = α / (1 − NoH² + n²), min(p², 2048).
-/// Without 1/π: the engine divides the light's colour by π beforehand.
+/// Without 1/π: the engine divides the light's colour by π beforehand.  Roughness, NoH and the result
+/// are halves there, all between them floats.
 template <Real T>
 struct GgxMobileBase {
   static constexpr std::array parameters{alpha_parameter};
@@ -75,13 +76,13 @@ struct GgxMobileBase {
 
   T alpha;
 
-  explicit GgxMobileBase(std::span<const T, 1> p) : alpha(p[0]) {}
+  explicit GgxMobileBase(std::span<const T, 1> p) : alpha(in_float<T>(p[0])) {}
 
   T from(const plain_t<T>& noh, const plain_t<T>& one_minus_noh2) const {
     const T n = in_float<T>(noh * alpha);
     const T p = in_float<T>(alpha / (one_minus_noh2 + n * n));
     const T d = in_float<T>(p * p);
-    return min<T>(d, T(2048));
+    return in_half<T>(min<T>(d, T(2048)));
   }
 };
 

@@ -152,7 +152,7 @@ constexpr std::array all{
         specular_alone},
     Preset{{"model.unity_mobile", "Unity's mobile specular",
             "f = D / (LoH² (r + 0.5)) / 4 · specular_color",
-            "Karis 2015, Optimizing PBR for Mobile, SIGGRAPH course", "000",
+            "Zioma 2015, Optimizing PBR for Mobile, SIGGRAPH course", "000",
             "Unity's Universal Render Pipeline", "model.cook_torrance"},
            "ggx/unity_mobile/constant",
            specular_roughness,

@@ -35,7 +35,7 @@ Json describe(const About& about, std::span<const Parameter> parameters) {
 }
 
 void print(const About& about, std::span<const Parameter> parameters) {
-  constexpr int indent = 36;
+  constexpr int indent = 40;
   fmt::print("{:<{}}{}\n{:{}}{}\n", about.id, indent, about.title, "", indent, about.formula);
   if (!about.approximates.empty())
     fmt::print("{:{}}stands for {}\n", "", indent, about.approximates);
@@ -72,7 +72,7 @@ Exit run(const Options& o) {
   fmt::print("\nWhole models, by their id less the prefix (--model gltf):\n");
   for (const auto& p : presets()) {
     print(p.about, p.parameters);
-    fmt::print("{:36}= {}\n", "", p.spec);
+    fmt::print("{:40}= {}\n", "", p.spec);
   }
   fmt::print(
       "\nOther models are [DIFFUSE+]NDF/MASKING/FRESNEL[+LOBE…], by these names less their "

@@ -144,7 +144,7 @@ TEST(Program, TellsWrongUsageByExitCodeTwo) {
            {"term ndf.gx --at noh=1", "ndf.ggx"},
            {"term ndf.ggx --at noh=2", "[0, 1]"},
            {"term ndf.ggx --at noh=1 nol=0.5", "does not read 'nol'"},
-           {"term masking.smith_ggx.correlated --at noh=1", "nol, nov"},
+           {"term masking.smith_ggx.correlated --at sin2_theta_h=1", "nol, nov"},
            {"term fresnel.schlick --at theta=1", "cos, voh"},
            {"term ndf.ggx --set alpha=nan --at noh=1", "nan"},
            {"synth lambert --set kd=0.2 kd=0.3 --layout random -o x", "twice"},
