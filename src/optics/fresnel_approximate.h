@@ -95,8 +95,9 @@ struct SchlickF90 {
   explicit SchlickF90(std::span<const T, 2> p) : f0(p[0]), f90(p[1]) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
-    const auto m5 = schlick_weight(a.voh);
-    return f0 * (1 - m5) + f90 * m5;
+    // 1 − m⁵ = (1 − m)(1 + m + m² + m³ + m⁴): where f90 is small the rest decides at grazing too.
+    const auto m = 1 - a.voh, rest = a.voh * (1 + m * (1 + m * (1 + m * (1 + m))));
+    return f0 * rest + f90 * schlick_weight(a.voh);
   }
 };
 

@@ -42,7 +42,7 @@ TEST(SchlickF90, RunsFromF0ToF90) {
 TEST(SchlickF90, IsSchlickWhereAllIsReflectedAtGrazing) {
   for (const double f0 : parts)
     for (const double c : cosines)
-      EXPECT_EQ(f<SchlickF90>(c, f0, 1.0), f<Schlick>(c, f0)) << f0 << " " << c;
+      EXPECT_NEAR(f<SchlickF90>(c, f0, 1.0), f<Schlick>(c, f0), 4 * eps) << f0 << " " << c;
 }
 
 TEST(SchlickWeighted, IsItsPartOfSchlick) {
