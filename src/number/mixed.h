@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "number/exact.h"
 #include "number/half.h"
 
 namespace gonio::inline GONIO_ARCH {
@@ -90,5 +91,8 @@ struct RealTraits<Mixed> {
     return Mixed::apply([m](auto x, auto y) { return m ? x : y; }, a, b);
   }
 };
+
+template <>
+inline constexpr bool computes_as_base<Mixed> = false;
 
 }  // namespace gonio::inline GONIO_ARCH

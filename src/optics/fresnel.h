@@ -10,12 +10,50 @@
 #include <span>
 
 #include "geometry/angles.h"
+#include "number/exact.h"
 #include "number/parameter.h"
 #include "number/quotient.h"
 #include "number/real.h"
 #include "optics/f0.h"
 
 namespace gonio::inline GONIO_ARCH {
+
+/// Re (N² − s²) = c² − q, q = 1 − η² + k², near c = √q, where for k = 0 total reflection begins.
+///
+/// F leaves 1 there as the root of this difference, so that its last digits are F's eighth ones.  √q
+/// is therefore held in two parts, h and l, and the difference taken as ((c − h) − l)(c + h).
+template <Real T>
+struct NearCritical {
+  T high, low;
+
+  NearCritical(const T& eta, const T& k) : NearCritical(two_part_q(eta, k)) {}
+
+  /// c² − q where that is less than a quarter of c², else `otherwise`, which is c² − q too
+  T difference(const plain_t<T>& c, const T& otherwise) const {
+    const auto quarter = T(square(c) * constant<plain_t<T>>(0.25L));
+    const auto near = otherwise < quarter && -otherwise < quarter;
+    return select<T>(near, ((c - high) - low) * (c + high), otherwise);
+  }
+
+ private:
+  struct TwoPart {
+    T high, low;
+  };
+  static TwoPart two_part_q(const T& eta, const T& k) {
+    const T eta2 = square(eta), k2 = square(k);
+    const T d = k2 - eta2, q = 1 + d;
+    const T lost = sum_error<T>(T(1), d, q) + sum_error<T>(k2, -eta2, d) +
+                   (product_error<T>(k, k, k2) - product_error<T>(eta, eta, eta2));
+    const T high = q + lost;  // near η = 1 most of q is in what was lost
+    return {high, sum_error<T>(q, lost, high)};
+  }
+  explicit NearCritical(const TwoPart& q)
+      : NearCritical(q, sqrt(select<T>(T(0) < q.high, q.high, T(1)))) {}
+  NearCritical(const TwoPart& q, const T& root) : NearCritical(q, root, square(root)) {}
+  NearCritical(const TwoPart& q, const T& root, const T& root2)
+      : high(root),
+        low(((q.high - root2) - product_error<T>(root, root, root2) + q.low) / (2 * root)) {}
+};
 
 /// Exact Fresnel reflectance of a dielectric, from either side, with total internal reflection.
 ///
@@ -39,12 +77,13 @@ struct Dielectric {
       Parameter{"eta", {0.2, 10}, {1, 4}, 1.5, true, "refractive index, transmitted / incident"}};
 
   T e;
+  NearCritical<T> critical;
 
-  explicit Dielectric(std::span<const T, 1> p) : e((p[0] - 1) * (p[0] + 1)) {}
+  explicit Dielectric(std::span<const T, 1> p) : e((p[0] - 1) * (p[0] + 1)), critical(p[0], T(0)) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
     const auto c = a.voh, s2 = (1 - c) * (1 + c);
-    const T g2 = e + square(c);
+    const T g2 = critical.difference(c, e + square(c));
     const auto refracts = T(0) < g2;  // else: total internal reflection, or η = 1 at c = 0
     const T g = sqrt(select<T>(refracts, g2, T(1)));
     const T u = g + c;
@@ -97,16 +136,18 @@ struct Conductor {
       Parameter{"k", {0, 1000}, {0, 20}, 3, true, "extinction coefficient"}};
 
   T re, less_one, im;  // Re N², Re N² − 1, η k = Im N² / 2
+  NearCritical<T> critical;
 
   explicit Conductor(std::span<const T, 2> p)
       : re((p[0] - p[1]) * (p[0] + p[1])),
         less_one((p[0] - 1) * (p[0] + 1) - square(p[1])),
-        im(p[0] * p[1]) {}
+        im(p[0] * p[1]),
+        critical(p[0], p[1]) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& x) const {
     const auto c = x.voh, c2 = square(c), s2 = (1 - c) * (1 + c);
-    const T t = select<T>(s2 < c2, re - s2, less_one + c2);  // Re (N² − s²)
-    const T t2 = square(t) + 4 * square(im);                 // |N² − s²|²
+    const T t = critical.difference(c, select<T>(s2 < c2, re - s2, less_one + c2));  // Re (N² − s²)
+    const T t2 = square(t) + 4 * square(im);  // |N² − s²|²
     // N = s has the root 0, which has no slope.  At the critical angle any b in its place gives 1;
     // with η = 1 and no k at c = 0 there is nothing to reflect.
     const auto off = T(0) < t2, there = off || less_one < T(0);

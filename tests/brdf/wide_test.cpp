@@ -195,6 +195,40 @@ TEST(Conductor, KeepsFourteenDigitsOverTheHardGrid) {
   RecordProperty("worst", std::to_string(worst / 2.2e-16) + " eps");
 }
 
+/// Cosines about √(1 − η² + k²), where total reflection begins: it and those beside it, to the last
+/// digit.
+std::vector<double> critical_cosines(double eta, double k) {
+  const double c = std::sqrt((1 - eta) * (1 + eta) + k * k);
+  std::vector<double> all{c, std::nextafter(c, 0), std::nextafter(c, 1)};
+  for (double part = 1e-15; part < 0.3; part *= 10) {
+    all.push_back(c * (1 - part));
+    all.push_back(c * (1 + part));
+  }
+  std::erase_if(all, [](double x) { return x > 1; });
+  return all;
+}
+
+TEST(Dielectric, KeepsThirteenDigitsAtTheCriticalAngleItself) {
+  const auto term = find_term("fresnel.dielectric");
+  for (const double eta : {0.21, 0.3, 0.6, 1 / 1.5, 1 / 1.33, 0.99, 1 - 1e-6, 1 - 1e-10})
+    for (const double c : critical_cosines(eta, 0)) {
+      const double f = test::value_of(term, {eta}, {c, c, 1, c, 0});
+      EXPECT_LT(relative_error(f, fresnel(eta, 0, c)), 1e-13) << eta << " " << c << ": " << f;
+    }
+}
+
+TEST(Conductor, KeepsThirteenDigitsAtTheCriticalAngleItself) {
+  const auto term = find_term("fresnel.conductor");
+  for (const double eta : {0.01, 0.21, 0.6, 1 / 1.5, 1 / 1.33, 0.99, 1 - 1e-6, 1 - 1e-10, 1.2})
+    for (const double k : {0.0, 1e-20, 1e-14, 1e-10, 1e-8, 1e-6, 1e-4, 0.01, 0.5, 0.7})
+      for (const double c : critical_cosines(eta, k)) {
+        if (!(c > 0)) continue;
+        const double f = test::value_of(term, {eta, k}, {c, c, 1, c, 0});
+        EXPECT_LT(relative_error(f, fresnel(eta, k, c)), 1e-13)
+            << eta << " " << k << " " << c << ": " << f;
+      }
+}
+
 // ---- GTR against Burley -------------------------------------------------------------------------
 
 /// N / t^γ with Burley's normalisation as printed, and its limits.

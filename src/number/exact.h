@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// What sums and products lose to rounding, exactly: for the few differences on which everything
+/// hangs.
+
+#include <concepts>
+#include <limits>
+
+#include "number/real.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+/// Whether T computes as its base does, bit by bit, in float or double.  Others lose nothing here
+/// (Wide), or are there to show what they lose (Half, Mixed).
+template <class T>
+inline constexpr bool computes_as_base = std::floating_point<base_t<T>>;
+
+/// a + b = sum + sum_error                                                            [Knuth 1969]
+template <Real T>
+T sum_error(const T& a, const T& b, const T& sum) {
+  const T of_b = sum - a;
+  return (a - (sum - of_b)) + (b - of_b);
+}
+
+/// a b = product + product_error, where nothing overflows                           [Dekker 1971]
+template <Real T>
+T product_error(const T& a, const T& b, const T& product) {
+  if constexpr (computes_as_base<T>) {
+    constexpr int half = (std::numeric_limits<base_t<T>>::digits + 1) / 2;
+    const auto upper = [](const T& x) {
+      const T s = x * constant<T>(static_cast<long double>((1LL << half) + 1));
+      return s - (s - x);
+    };
+    const T a1 = upper(a), a2 = a - a1, b1 = upper(b), b2 = b - b1;
+    return ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
+  } else {
+    return T(0);
+  }
+}
+
+}  // namespace gonio::inline GONIO_ARCH
