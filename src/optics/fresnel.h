@@ -117,7 +117,7 @@ Quotient<T> reflectance_of_root(
 ///                                              [Born & Wolf, Principles of Optics, §14.2]
 ///
 /// Computed so that nothing cancels: the larger of a and b from the root, the smaller as η k over it;
-/// Re (N² − s²) from the two of η² − k², 1 and c² that lie closest; and where a > b
+/// Re (N² − s²) by NearCritical where it is small beside c²; and where a > b
 ///   a − c = ((η − 1)(η + 1) + b² − k²)/(a + c)
 ///
 /// \param eta  real part, > 0   \param k  extinction coefficient, ≥ 0
@@ -135,19 +135,16 @@ struct Conductor {
       Parameter{"eta", {0.001, 20}, {0.01, 10}, 1.5, true, "refractive index, real part"},
       Parameter{"k", {0, 1000}, {0, 20}, 3, true, "extinction coefficient"}};
 
-  T re, less_one, im;  // Re N², Re N² − 1, η k = Im N² / 2
+  T less_one, im;  // Re N² − 1, η k = Im N² / 2
   NearCritical<T> critical;
 
   explicit Conductor(std::span<const T, 2> p)
-      : re((p[0] - p[1]) * (p[0] + p[1])),
-        less_one((p[0] - 1) * (p[0] + 1) - square(p[1])),
-        im(p[0] * p[1]),
-        critical(p[0], p[1]) {}
+      : less_one((p[0] - 1) * (p[0] + 1) - square(p[1])), im(p[0] * p[1]), critical(p[0], p[1]) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& x) const {
-    const auto c = x.voh, c2 = square(c), s2 = (1 - c) * (1 + c);
-    const T t = critical.difference(c, select<T>(s2 < c2, re - s2, less_one + c2));  // Re (N² − s²)
-    const T t2 = square(t) + 4 * square(im);  // |N² − s²|²
+    const auto c = x.voh, c2 = square(c);
+    const T t = critical.difference(c, less_one + c2);  // Re (N² − s²)
+    const T t2 = square(t) + 4 * square(im);            // |N² − s²|²
     // N = s has the root 0, which has no slope.  At the critical angle any b in its place gives 1;
     // with η = 1 and no k at c = 0 there is nothing to reflect.
     const auto off = T(0) < t2, there = off || less_one < T(0);
@@ -192,7 +189,7 @@ struct Gulbrandsen {
 
   T operator()(const Angles<plain_t<T>>& x) const {
     const auto c = x.voh, c2 = square(c), s2 = (1 - c) * (1 + c);
-    const T t = select<T>(s2 < c2, re - s2, less_one + c2);  // Re (N² − s²), as for Conductor
+    const T t = select<T>(s2 < c2, re - s2, less_one + c2);  // Re (N² − s²) by what lies closest
     const auto a_larger = T(0) < t;
     const T larger2 = (sqrt(square(t) + 4 * im2) + select<T>(a_larger, t, -t)) / 2;
     const T smaller2 = im2 / larger2;
