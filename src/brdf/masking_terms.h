@@ -5,6 +5,7 @@
 #include "brdf/masking.h"
 #include "brdf/masking_classic.h"
 #include "brdf/masking_shipped.h"
+#include "brdf/smith_gtr.h"
 #include "brdf/term_list.h"
 
 namespace gonio::inline GONIO_ARCH {
@@ -16,6 +17,8 @@ using MaskingTerms = TermList<SmithGgxSeparable,
                               SmithBeckmannCorrelated,
                               SmithBeckmannAnisoCorrelated,
                               SmithBeckmannRational,
+                              SmithGtrSeparable,
+                              SmithGtrCorrelated,
                               SchlickGgxHalfAlpha,
                               SchlickGgxDirect,
                               SchlickGgxHalfRoughness,
