@@ -16,7 +16,7 @@
 ///   C = E(L) / E((γ − 1) L),   s = sin π(γ−1) / π(γ−1)
 ///
 /// which is good for 0 < γ < 3 and continued beyond by a loop about the origin instead of the ray.
-/// s = 0 makes γ = 2 GGX to the last digit.  P is a polynomial of degree 22 per sample, whose
+/// s = 0 makes γ = 2 GGX to the last digit.  P is a polynomial of degree 23 per sample, whose
 /// coefficients are found once from α and γ: its variable w and what they are of is at the two
 /// structs below.  Where samples share α and γ, as in a block, one of the two is computed.
 ///
@@ -33,17 +33,22 @@ namespace gonio::inline GONIO_ARCH {
 
 namespace smith_gtr {
 
-/// Σ cₙ Tₙ(w)                                                          [Clenshaw 1955]
+/// Σ cₙ Tₙ(w) by Clenshaw's recurrence, even and odd n apart: two short chains of operations do not
+/// wait for each other.  With x = T₂(w):  T₂ₙ(w) = Tₙ(x),  T₂ₙ₊₁(w) = w Wₙ(x), where W is T's
+/// recurrence from 1 and 2x − 1.
 template <class T, std::size_t N>
 T chebyshev_sum(const std::array<T, N>& c, const T& w) {
-  const T w2 = w + w;
-  T b1 = c[N - 1], b2(0);
-  for (std::size_t n = N - 2; n > 0; --n) {
-    const T b = c[n] + (w2 * b1 - b2);
-    b2 = b1;
-    b1 = b;
+  static_assert(N % 2 == 0);
+  const T x = 2 * (w * w) - 1, x2 = x + x;
+  T even = c[N - 2], odd = c[N - 1], even_before(0), odd_before(0);
+  for (std::size_t n = N - 4; n > 0; n -= 2) {
+    const T e = x2 * even + (c[n] - even_before), o = x2 * odd + (c[n + 1] - odd_before);
+    even_before = even;
+    odd_before = odd;
+    even = e;
+    odd = o;
   }
-  return c[0] + (w * b1 - b2);
+  return (x * even + (c[0] - even_before)) + w * (x2 * odd + (c[1] - odd_before) - odd);
 }
 
 /// N zeros; a Real need not have a default constructor.
@@ -66,7 +71,7 @@ std::array<T, N> chebyshev(const T& x) {
 }
 
 /// Coefficients of P.
-inline constexpr std::size_t terms = 23;
+inline constexpr std::size_t terms = 24;
 
 /// Numbers known when compiled.
 namespace fixed {
@@ -130,7 +135,7 @@ inline constexpr int first = -7, last = 30;
 struct Mixture {
   static constexpr std::size_t count = last - first + 1;
   std::array<double, count> z{};
-  std::array<std::array<double, count>, terms> of_node{};
+  std::array<std::array<double, terms>, count> of_node{};
   std::array<double, terms> of_first{}, of_second{};  // powers of the sum below the first node
 
   constexpr Mixture() {
@@ -141,7 +146,7 @@ struct Mixture {
       z[k] = static_cast<double>(x);
       for (std::size_t i = 0; i < terms; ++i)
         f[i] = x / (1 + x) * root / (sqrt(x + nodes.q[i]) + nodes.root[i]);
-      for (std::size_t n = 0; n < terms; ++n) of_node[n][k] = nodes.coefficient(n, f);
+      for (std::size_t n = 0; n < terms; ++n) of_node[k][n] = nodes.coefficient(n, f);
     }
     for (std::size_t i = 0; i < terms; ++i) f[i] = 1 / (2 * nodes.root[i]);
     for (std::size_t n = 0; n < terms; ++n) of_first[n] = nodes.coefficient(n, f);
@@ -197,11 +202,16 @@ Coefficients<T> of_mixture(const T& alpha, const T& gamma) {
   const T below =
       without * exp(to3 * c(fixed::first)) / expm1_over<T>(to3) - (1 + alpha2 * c(1.5L)) * second;
   auto r = zeros<T, terms>();
-  for (std::size_t n = 0; n < terms; ++n) {
-    T sum = below * c(fixed::mixture.of_first[n]) - second * c(fixed::mixture.of_second[n]);
+  constexpr std::size_t tile = 4;  // sums that do not wait for each other
+  for (std::size_t at = 0; at < terms; at += tile) {
+    auto sum = zeros<T, tile>();
+    for (std::size_t n = 0; n < tile; ++n)
+      sum[n] =
+          below * c(fixed::mixture.of_first[at + n]) - second * c(fixed::mixture.of_second[at + n]);
     for (std::size_t k = 0; k < fixed::Mixture::count; ++k)
-      sum = sum + weight[k] * c(fixed::mixture.of_node[n][k]);
-    r[n] = sum;
+      for (std::size_t n = 0; n < tile; ++n)
+        sum[n] = sum[n] + weight[k] * c(fixed::mixture.of_node[k][at + n]);
+    for (std::size_t n = 0; n < tile; ++n) r[at + n] = sum[n];
   }
   r[0] = r[0] + step * exp(-(gamma * c(fixed::last) + l * c(1.5L))) / (exp(gamma) - 1);
   return r;
