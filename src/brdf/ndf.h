@@ -96,6 +96,9 @@ struct Ggx {
   }
 };
 
+inline constexpr Parameter gamma_parameter{"gamma", {0.5, 10}, {0.5, 10},
+                                           2,       false,     "tail exponent; 1 Berry, 2 GGX"};
+
 /// Generalised Trowbridge–Reitz with its exact normalisation.
 ///
 ///   D = N / t^γ,   N = (γ − 1)(α² − 1) / (π (1 − α^(2(1−γ))))          [Burley 2012, App. B]
@@ -115,9 +118,7 @@ struct Gtr {
       "Burley 2012, Appendix B",
       "001 002",
       "Disney (γ = 2 base, γ = 1 clear coat)"};
-  static constexpr std::array parameters{
-      alpha_parameter,
-      Parameter{"gamma", {0.5, 10}, {0.5, 10}, 2, false, "tail exponent; 1 Berry, 2 GGX"}};
+  static constexpr std::array parameters{alpha_parameter, gamma_parameter};
 
   T per_alpha2, gamma, peak;
 

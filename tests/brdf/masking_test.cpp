@@ -46,6 +46,8 @@ constexpr std::string_view smithlike[] = {"masking.smith_ggx.separable",
                                           "masking.smith_beckmann.separable",
                                           "masking.smith_beckmann.correlated",
                                           "masking.smith_beckmann_aniso.correlated",
+                                          "masking.smith_gtr.separable",
+                                          "masking.smith_gtr.correlated",
                                           "masking.schlick_ggx.half_alpha",
                                           "masking.schlick_ggx.direct",
                                           "masking.schlick_ggx.half_roughness",
@@ -338,6 +340,18 @@ TEST(SmithGgx, LeavesAsMuchFacetAreaAsTheSurfaceShows) {  // [Heitz 2014, Eq. 23
         EXPECT_NEAR(g1(m, alpha, nov) * visible_area(find_term("ndf.ggx"), {alpha}, nov) / nov, 1,
                     1e-9)
             << alpha << " " << nov;
+}
+
+TEST(SmithGtr, LeavesAsMuchFacetAreaAsTheSurfaceShows) {
+  for (const auto* m : {"masking.smith_gtr.separable", "masking.smith_gtr.correlated"})
+    for (const double gamma : {0.5, 0.8, 1.0, 1.4, 2.0, 2.9, 3.0, 4.5, 7.0, 10.0})
+      for (const double alpha : {1e-4, 0.01, 0.25, 0.9})
+        for (const double nov : {0.05, 0.3, 0.7, 0.99, 1.0}) {
+          const test::Parameters p{alpha, gamma};
+          const double g = 4 * nov * test::value_of(find_term(m), p, {1, nov, 0.5, 0.5, 0.75});
+          EXPECT_NEAR(g * visible_area(find_term("ndf.gtr"), p, nov) / nov, 1, 5e-7)
+              << test::text(p) << nov;
+        }
 }
 
 /// The same of an anisotropic distribution: the azimuth by Gauss over the arc that v sees.
