@@ -38,11 +38,12 @@ std::vector<WideTerm> wide_terms(TermList<Terms...>) {
   return {wide<Terms>...};
 }
 
-/// Σ |∂ ln f / ∂ ln xᵢ|: by how much the last digit of an input moves the value.
-double condition(WideTerm f, const Inputs& x) {
+/// Σ |∂ ln f / ∂ ln xᵢ|: by how much the last digit of an input moves the value.  The first
+/// `read` inputs can.
+double condition(WideTerm f, const Inputs& x, std::size_t read) {
   const Wide value = f(x), h = 1e-20;
   Wide sum = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
+  for (std::size_t i = 0; i < read; ++i) {
     Inputs y = x;
     y[i] *= 1 + h;
     sum += abs(f(y) - value);
@@ -52,11 +53,11 @@ double condition(WideTerm f, const Inputs& x) {
 
 template <class F>
 void check_digits(double bound) {
-  std::mt19937_64 random(9);
   const auto f = wide_terms(Catalogue{});
   const auto rows = test::random_angles(300, 10);
   for (std::size_t t = 0; t < f.size(); ++t) {
     if (catalogue()[t].as_shipped && std::same_as<F, float>) continue;
+    std::mt19937_64 random(9);  // a new term is not to change what the others are given
     double worst = 0;
     std::string where;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -73,10 +74,11 @@ void check_digits(double bound) {
            {r.nol, r.nov, r.noh, r.voh, r.sin2_theta_h, r.xoh, r.yoh, r.xol, r.yol, r.xov, r.yov})
         x.emplace_back(static_cast<F>(a));
       for (std::size_t k = 0; k < p.size(); ++k) x[k] = static_cast<F>(p[k]);
+      const std::size_t read = x.size() - (catalogue()[t].anisotropic ? 0 : 6);
       const Wide truth = f[t](x);
       if (abs(truth) < std::numeric_limits<F>::min() / std::numeric_limits<F>::epsilon()) continue;
       const double eps = static_cast<double>(std::numeric_limits<F>::epsilon());
-      const double error = relative_error(value, truth) / eps / (1 + condition(f[t], x));
+      const double error = relative_error(value, truth) / eps / (1 + condition(f[t], x, read));
       if (error > worst) worst = error, where = text(p) + text(rows[i]);
     }
     // A shader's arithmetic may cancel; it is held to be the formula nevertheless.
