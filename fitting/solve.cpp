@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Eigenvalues>
 #include <ceres/ceres.h>
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -18,20 +20,47 @@ bool is_finite(const NormalEquations& e) {
          std::ranges::all_of(e.g, [](double x) { return std::isfinite(x); });
 }
 
+/// The next Gauss–Newton step and what it promises.
+struct Step {
+  Eigen::VectorXd by;
+  double decrease = 0;  ///< of the cost: ½ gᵀ H⁻¹ g
+};
+/// None where some direction is so badly determined that rounding would decide where it leads.
+std::optional<Step> next_step(const NormalEquations& e) {
+  constexpr double least = 1e-6;
+  const auto n = static_cast<Eigen::Index>(e.g.size());
+  const auto h = Eigen::Map<const RowMajor>(e.h.data(), n, n);
+  if (!is_finite(e) || !(h.diagonal().minCoeff() > 0)) return {};
+  const Eigen::VectorXd s = h.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      Eigen::MatrixXd(s.asDiagonal() * h * s.asDiagonal()));
+  if (!(eigen.eigenvalues()[0] > least)) return {};
+  const Eigen::VectorXd g = s.asDiagonal() * Eigen::Map<const Eigen::VectorXd>(e.g.data(), n);
+  const Eigen::VectorXd rotated = eigen.eigenvectors().transpose() * g;
+  const Eigen::VectorXd y = rotated.cwiseQuotient(eigen.eigenvalues());
+  return Step{-(s.asDiagonal() * (eigen.eigenvectors() * y)), y.dot(rotated) / 2};
+}
+/// So small a part of the cost that rounding may hide it.
+constexpr double hidden = 1e-6;
+
 /// Stops where only rounding is left to work on.
 class Enough : public ceres::IterationCallback {
  public:
-  Enough(double rounding, double scale) : rounding_(rounding), scale_(scale) {}
+  Enough(double rounding, double scale, std::function<const NormalEquations&()> best)
+      : rounding_(rounding), scale_(scale), best_(std::move(best)) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& i) override {
     const double cost = i.cost / scale_, change = std::abs(i.cost_change) / scale_;
     const bool in_vain =
         i.iteration > 0 && !i.step_is_successful && change < std::max(rounding_, 1e-7 * cost);
-    return in_vain || cost < rounding_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                       : ceres::SOLVER_CONTINUE;
+    const auto step = next_step(best_());
+    const bool hides = step && step->decrease < hidden * best_().cost;
+    return in_vain || hides || cost < rounding_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                : ceres::SOLVER_CONTINUE;
   }
 
  private:
   double rounding_, scale_;
+  std::function<const NormalEquations&()> best_;
 };
 
 /// The cost function described in the header.  Ceres asks for the cost at a trial point first and
@@ -55,10 +84,7 @@ class Reduced : public ceres::CostFunction {
   const Evaluation& best() const { return best_; }
   int passes() const { return passes_; }
   /// What is known already.
-  void known(const std::vector<double>& x, const NormalEquations& e) {
-    best_ = last_ = {x, e};
-    passes_ = 1;
-  }
+  void known(const std::vector<double>& x, const NormalEquations& e) { best_ = last_ = {x, e}; }
 
   bool Evaluate(double const* const* parameters,
                 double* residuals,
@@ -108,7 +134,38 @@ class Reduced : public ceres::CostFunction {
   mutable int passes_ = 0;
 };
 
-/// One run of Ceres, all unknowns free inside their bounds.
+/// Gauss–Newton steps from a place so close to the optimum that each is shorter than the last.
+/// Whether it got there; where not, s is where the last step that kept to that led.
+bool take_last_steps(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
+                     const Bounds& bounds,
+                     Solution& s) {
+  constexpr double enough = 1e-8, shorter = 0.5;
+  auto step = next_step(s.at);
+  while (step && step->decrease < hidden * s.at.cost) {
+    if (step->decrease <= enough * s.at.cost) {
+      s.message = fmt::format("The next step would lower the cost by {:.1g} of it",
+                              s.at.cost > 0 ? step->decrease / s.at.cost : 0);
+      return true;
+    }
+    auto x = s.x;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x[i] += step->by[static_cast<Eigen::Index>(i)];
+      if (!(x[i] > bounds.low[i] && x[i] < bounds.high[i])) return false;
+    }
+    auto at = evaluate(x);
+    ++s.passes;
+    const auto next = next_step(at);
+    if (!next || next->decrease > shorter * step->decrease) return false;
+    ++s.iterations;
+    s.cost_per_iteration.push_back(at.cost);
+    s.x = std::move(x);
+    s.at = std::move(at);
+    step = next;
+  }
+  return false;
+}
+
+/// One run of Ceres, all unknowns free inside their bounds, and the last steps after it.
 Solution solve_once(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
                     std::vector<double> start,
                     const Bounds& bounds,
@@ -131,6 +188,12 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
     s.message = "the sum of squares is not finite at the start";
     return s;
   }
+  s.passes = 1;
+  s.cost_per_iteration.push_back(s.at.cost);
+  if (options.rounding > 0 && take_last_steps(evaluate, bounds, s)) {
+    s.converged = true;
+    return s;
+  }
   const double scale = effect > 0 ? 1 / effect : 1;
   Reduced cost(evaluate, n, scale);
   cost.known(s.x, s.at);
@@ -147,19 +210,23 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
   o.gradient_tolerance = 0;             // absolute: it would depend on the data's unit
   o.initial_trust_region_radius = 1e6;  // the start is close: nearly a Gauss–Newton step
   o.logging_type = ceres::SILENT;
-  Enough enough(options.rounding, scale);
+  Enough enough(options.rounding, scale,
+                [&]() -> const NormalEquations& { return cost.best().at; });
   if (options.rounding > 0) o.callbacks.push_back(&enough);
   ceres::Solver::Summary summary;
   ceres::Solve(o, &problem, &summary);
 
   s.x = cost.best().x;
   s.at = cost.best().at;
-  s.passes = cost.passes();
+  s.passes += cost.passes();
   s.converged = summary.termination_type == ceres::CONVERGENCE ||
                 summary.termination_type == ceres::USER_SUCCESS;
-  s.iterations = static_cast<int>(summary.iterations.size()) - 1;  // the first is the start
-  for (const auto& i : summary.iterations) s.cost_per_iteration.push_back(i.cost / scale);
+  for (std::size_t i = 1; i < summary.iterations.size(); ++i) {  // the first is the start
+    ++s.iterations;
+    s.cost_per_iteration.push_back(summary.iterations[i].cost / scale);
+  }
   s.message = summary.message;
+  if (options.rounding > 0 && s.converged) take_last_steps(evaluate, bounds, s);
   return s;
 }
 

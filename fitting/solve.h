@@ -42,6 +42,10 @@ struct SolveOptions {
 ///
 /// Ceres projects its steps onto the bounds and so creeps along them: what it leaves at a bound is held
 /// there and the rest solved again, until no held unknown is pulled back inside.
+///
+/// The gradient of rounded numbers is worth more than their cost, whose rounding hides the last steps.
+/// With `rounding` these are plain Gauss–Newton steps, until one promises less than 1e-8 of the cost:
+/// a fifth of a standard error where there are millions of independent values.
 Solution solve(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
                std::vector<double> start,
                const Bounds&,
