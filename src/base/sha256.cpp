@@ -44,14 +44,17 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::string& path) {
-  InputFile in(path);
+  return sha256_of_file(InputFile(path));
+}
+
+std::string sha256_of_file(const InputFile& in) {
   Sum sum;
-  std::vector<char> buffer(1 << 18);
-  while (in.position() < in.size()) {
-    const auto n =
-        static_cast<std::size_t>(std::min<std::uint64_t>(buffer.size(), in.size() - in.position()));
-    in.read(buffer.data(), n);
+  std::vector<char> buffer(1 << 16);  // stays in the cache between reading and summing
+  for (std::uint64_t at = 0; at < in.size();) {
+    const auto n = static_cast<std::size_t>(std::min<std::uint64_t>(buffer.size(), in.size() - at));
+    in.read_at(at, buffer.data(), n);
     sum.add({buffer.data(), n});
+    at += n;
   }
   in.expect_unchanged();
   return sum.hex();

@@ -279,14 +279,17 @@ FittedFile fit_file(const std::string& path,
   };
   say("reading " + path);
   const auto begin = Clock::now();
-  FittedFile f{read_table(path, bins, true), {}};
+  TableAndDigest in(path, bins);
   const double load_ms = 1000 * seconds_since(begin);
-  f.result = fit(f.table, options, say);
-  FitDocument& d = f.result.document;
+  FitResult result = fit(in.table, options, say);
+  const auto fitted = Clock::now();
+  in.finish();
+  FitDocument& d = result.document;
   d.input_path = path;
-  d.input_sha256 = f.table.sha256;
+  d.input_sha256 = in.table.sha256;
   d.solver.phase_ms.insert(d.solver.phase_ms.begin(), {"load_ms", load_ms});
-  return f;
+  d.solver.phase_ms.emplace_back("digest_ms", 1000 * seconds_since(fitted));
+  return {std::move(in.table), std::move(result)};
 }
 
 bool is_batch(const std::vector<std::string>& inputs) {

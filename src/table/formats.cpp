@@ -1,6 +1,7 @@
 #include "table/formats.h"
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 
 #include "base/error.h"
@@ -8,7 +9,7 @@
 #include "base/sha256.h"
 #include "table/metadata.h"
 
-#include <tbb/parallel_invoke.h>
+#include <tbb/task_group.h>
 
 namespace gonio {
 namespace {
@@ -45,23 +46,85 @@ std::string side_text(const std::string& path) {
   return InputFile(side_path(path)).read_rest(std::uint64_t{1} << 24);
 }
 
-Table read_table(const std::string& path, std::optional<Bins> bins, bool digest) {
-  InputFile in(path);
-  Table t;
-  std::string sha256;
-  // An image has its metadata in itself.
-  const std::string side = is_exr(in.peek(4)) ? "" : side_text(path);
+/// SHA-256 of an open file, made by whichever thread has nothing else to do.
+class TableAndDigest::Digest {
+ public:
+  explicit Digest(const std::string& path) : file_(path) {}
+  ~Digest() {
+    if (begun_) work_.wait();
+  }
+  InputFile& file() { return file_; }
+  void begin() {
+    begun_ = true;
+    work_.run([this] {
+      try {
+        digits_ = sha256_of_file(file_);
+      } catch (...) {
+        failure_ = std::current_exception();
+      }
+    });
+  }
+  const std::string& wait() {
+    if (!begun_) begin();
+    work_.wait();
+    if (failure_) std::rethrow_exception(failure_);
+    return digits_;
+  }
+
+ private:
+  InputFile file_;
+  tbb::task_group work_;
+  bool begun_ = false;
+  std::string digits_;
+  std::exception_ptr failure_;
+};
+
+namespace {
+
+/// \param digest  asked where the side file names the table by it
+template <class Digest>
+Table read_open(InputFile& in,
+                std::optional<Bins> bins,
+                const std::string& side,
+                const Digest& digest) {
+  const std::string& path = in.path();
   const auto map = side.empty() ? std::nullopt : column_map(side_path(path), side);
-  tbb::parallel_invoke([&] { t = read_by_format(in, map ? &*map : nullptr); },
-                       [&] {
-                         if (!side.empty() || digest) sha256 = sha256_of_file(path);
-                       });
+  Table t = read_by_format(in, map ? &*map : nullptr);
   in.expect_unchanged();
   t.path = path;
-  t.sha256 = std::move(sha256);
-  if (!side.empty()) apply_metadata(t, side_path(path), side);
+  if (!side.empty()) {
+    t.sha256 = digest();
+    apply_metadata(t, side_path(path), side);
+  }
   if (auto* g = std::get_if<Grid>(&t.where); g && bins) g->bins = *bins;
   return t;
+}
+
+/// An image has its metadata in itself.
+std::string side_text_of(InputFile& in) {
+  return is_exr(in.peek(4)) ? "" : side_text(in.path());
+}
+
+}  // namespace
+
+Table read_table(const std::string& path, std::optional<Bins> bins) {
+  TableAndDigest::Digest file(path);
+  const std::string side = side_text_of(file.file());
+  if (!side.empty()) file.begin();
+  return read_open(file.file(), bins, side, [&] { return file.wait(); });
+}
+
+TableAndDigest::TableAndDigest(const std::string& path, std::optional<Bins> bins)
+    : digest_(new Digest(path)) {
+  const std::string side = side_text_of(digest_->file());
+  digest_->begin();
+  table = read_open(digest_->file(), bins, side, [&] { return digest_->wait(); });
+}
+TableAndDigest::~TableAndDigest() = default;
+TableAndDigest::TableAndDigest(TableAndDigest&&) noexcept = default;
+
+void TableAndDigest::finish() {
+  table.sha256 = digest_->wait();
 }
 
 void write_table(const Table& t, const std::string& path) {

@@ -2,6 +2,7 @@
 /// \file
 /// Tables from files and into files, whatever the format.
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,8 +19,25 @@ namespace gonio {
 
 /// The format is found from the bytes, not from the name.
 /// \param bins  beats what the file or its side file (table/metadata.h) says, which beats `centre`
-/// \param digest  whether Table::sha256 is wanted even where reading has no need of it
-Table read_table(const std::string& path, std::optional<Bins> bins = {}, bool digest = false);
+Table read_table(const std::string& path, std::optional<Bins> bins = {});
+
+/// A table that is used while its file's SHA-256 is still being made.
+class TableAndDigest {
+ public:
+  explicit TableAndDigest(const std::string& path, std::optional<Bins> bins = {});
+  ~TableAndDigest();
+  TableAndDigest(TableAndDigest&&) noexcept;
+
+  Table table;  ///< with the SHA-256 of its file after finish()
+  /// Before anything made from the table is shown: waits, and fails where the file has changed since
+  /// it was opened.
+  void finish();
+
+ private:
+  friend Table read_table(const std::string&, std::optional<Bins>);
+  class Digest;
+  std::unique_ptr<Digest> digest_;
+};
 
 /// What stands in the side file of a table; "" if there is none.
 std::string side_text(const std::string& path);
