@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "brdf/plan.h"
 #include "table/health.h"
@@ -28,6 +30,15 @@ class AngleBands {
   double to_deg(std::size_t band) const { return edges_deg_[band + 1]; }
   std::size_t operator()(double cosine) const {
     return onwards(near_[static_cast<std::size_t>(std::clamp(cosine, 0.0, 1.0) * cells)], cosine);
+  }
+  /// Adds `step` times the band of each cosine.
+  template <class F>
+  void add_to(std::size_t n, const F* cosine, std::int32_t step, std::int32_t* sum) const {
+    for (std::size_t band = 1; band < size(); ++band) {
+      auto edge = static_cast<F>(cosine_[band]);  // of all F below it, and of no other
+      if (static_cast<double>(edge) < cosine_[band]) edge = std::nextafter(edge, F(2));
+      for (std::size_t i = 0; i < n; ++i) sum[i] += cosine[i] < edge ? step : 0;
+    }
   }
 
  private:
@@ -93,27 +104,6 @@ struct Sums {
   }
   double rms() const { return values > 0 ? std::sqrt(squares / values) : 0; }
   double log_rms() const { return positive > 0 ? std::sqrt(log_squares / positive) : 0; }
-};
-
-/// Neighbours mostly belong to one band: summed here first.
-class RunOfSums {
- public:
-  ~RunOfSums() { flush(); }
-  void add(Sums& to, const Sums& s) {
-    if (&to != to_) {
-      flush();
-      to_ = &to;
-    }
-    sum_.add(s);
-  }
-
- private:
-  void flush() {
-    if (to_) to_->add(sum_);
-    sum_ = {};
-  }
-  Sums* to_ = nullptr;
-  Sums sum_;
 };
 
 struct Bands {
@@ -200,7 +190,7 @@ class Walk {
   void block(const BlockReader<F>& in) {
     const std::size_t members = sampling_.groups().widest();
     const auto x = in.angles();
-    if (by_angle_) place_incident_angles(in, members);
+    if (by_angle_) find_incident_angles(in, members);
     for (std::size_t m = 0; m < members; ++m)
       for (auto* sums : {&values_seen_[m], &positive_[m], &squares_[m], &log_squares_[m]})
         std::fill_n(sums->data(), x.n, F(0));
@@ -228,23 +218,55 @@ class Walk {
     bands_of(in, x, members);
   }
 
-  /// Where the scores of each sample's incident angle stand in the part.
-  void place_incident_angles(const BlockReader<F>& in, std::size_t members) {
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      for (std::size_t m = 0; m < members; ++m) {
-        bool counts = false;
-        for (std::size_t c = 0; c < sampling_.channels(); ++c)
-          counts = counts || in.values(m, c).weight[i] > 0;
-        if (!counts) continue;
-        const std::size_t key = keys_(in.sample(m, i), static_cast<double>(in.nol(m, i)));
+  /// Neighbours of one incident angle, and where its scores stand in the part.
+  struct Run {
+    std::size_t begin, end, to;
+  };
+
+  void find_incident_angles(const BlockReader<F>& in, std::size_t members) {
+    for (std::size_t m = 0; m < members; ++m) {
+      std::array<F, size> weight{};
+      for (std::size_t c = 0; c < sampling_.channels(); ++c) {
+        const F* const w = in.values(m, c).weight.data();
+        for (std::size_t i = 0; i < in.size(); ++i) weight[i] = w[i] > weight[i] ? w[i] : weight[i];
+      }
+      auto& runs = runs_[m];
+      runs.clear();
+      std::size_t last = none;
+      for (std::size_t i = 0; i < in.size(); ++i) {
+        if (!(weight[i] > 0)) continue;  // adds nothing to any
+        const std::size_t key = keys_(in.sample(m)[i], static_cast<double>(in.nol(m)[i]));
+        if (key == last) continue;
+        last = key;
         if (place_[key] == none) {
           place_[key] = part_.keys.size() * free_.size();
           part_.keys.push_back(key);
           part_.scores.resize(part_.keys.size() * free_.size());
         }
-        at_[m][i] = place_[key];
+        if (!runs.empty()) runs.back().end = i;
+        runs.push_back({i, in.size(), place_[key]});
       }
     }
+  }
+
+  /// Σ score j over each run.
+  /// \tparam K  how many columns j has
+  template <std::size_t K>
+  void add_scores(const std::vector<Run>& runs, const Channel& x) {
+    for (const auto& run : runs) {
+      std::array<double, K> sum{};
+      for (std::size_t i = run.begin; i < run.end; ++i) {
+        if (score_[i] == 0) continue;  // masked values, whose derivatives may be NaN
+        for (std::size_t p = 0; p < K; ++p)
+          sum[p] += static_cast<double>(score_[i]) * static_cast<double>(x.j[p][i]);
+      }
+      for (std::size_t p = 0; p < K; ++p) part_.scores[run.to + x.free[p]] += sum[p];
+    }
+  }
+  using AddScores = void (Walk::*)(const std::vector<Run>&, const Channel&);
+  template <std::size_t... K>
+  static constexpr std::array<AddScores, sizeof...(K)> add_scores_of(std::index_sequence<K...>) {
+    return {&Walk::add_scores<K>...};
   }
 
   void sandwich(const BlockReader<F>& in, std::size_t c, std::size_t m) {
@@ -256,41 +278,30 @@ class Walk {
       kernels_.gram[k + 1](in.padded(), score_, score_, x.j.data(), meat_[c].lanes());
       return;
     }
-    // Neighbours mostly share their incident angle: summed here first.
-    std::array<double, max_columns> sum{};
-    std::size_t to = 0;
-    const auto flush = [&] {
-      for (std::size_t p = 0; p < k; ++p) {
-        part_.scores[to + x.free[p]] += sum[p];
-        sum[p] = 0;
-      }
-    };
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      const auto score = static_cast<double>(score_[i]);
-      if (score == 0) continue;  // masked values, whose derivatives may be NaN
-      if (at_[m][i] != to) {
-        flush();
-        to = at_[m][i];
-      }
-      for (std::size_t p = 0; p < k; ++p) sum[p] += score * static_cast<double>(x.j[p][i]);
-    }
-    if (!part_.scores.empty()) flush();
+    static constexpr auto add = add_scores_of(std::make_index_sequence<max_columns + 1>());
+    (this->*add[k])(runs_[m], x);
   }
 
   void bands_of(const BlockReader<F>& in, const Block<F>& x, std::size_t members) {
     const auto& [theta_i, theta_h, theta_d] = bands();
-    RunOfSums by_theta_i, by_theta_h, by_theta_d;
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      Sums group;
-      for (std::size_t m = 0; m < members; ++m) {
-        if (in.sample(m, i) == BlockReader<F>::absent) continue;
-        const Sums s{static_cast<double>(values_seen_[m][i]), static_cast<double>(positive_[m][i]),
-                     static_cast<double>(squares_[m][i]), static_cast<double>(log_squares_[m][i])};
-        by_theta_i.add(part_.sums[0][theta_i.by(static_cast<double>(in.nol(m, i)))], s);
-        group.add(s);
+    constexpr std::int32_t most = 8;  // bands of one angle
+    std::array<std::int32_t, size> of_group{}, band;
+    theta_h.by.add_to(in.size(), x.noh, most, of_group.data());
+    theta_d.by.add_to(in.size(), x.voh, most * most, of_group.data());
+    for (std::size_t m = 0; m < members; ++m) {
+      band = of_group;
+      theta_i.by.add_to(in.size(), in.nol(m), 1, band.data());
+      // Neighbours mostly lie in the same three bands.
+      for (std::size_t i = 0; i < in.size();) {
+        const auto here = static_cast<std::size_t>(band[i]);
+        Sums s;
+        for (; i < in.size() && static_cast<std::size_t>(band[i]) == here; ++i)
+          s.add({static_cast<double>(values_seen_[m][i]), static_cast<double>(positive_[m][i]),
+                 static_cast<double>(squares_[m][i]), static_cast<double>(log_squares_[m][i])});
+        part_.sums[0][here % most].add(s);
+        part_.sums[1][here / most % most].add(s);
+        part_.sums[2][here / (most * most)].add(s);
       }
-      by_theta_h.add(part_.sums[1][theta_h.by(static_cast<double>(x.noh[i]))], group);
-      by_theta_d.add(part_.sums[2][theta_d.by(static_cast<double>(x.voh[i]))], group);
     }
   }
 
@@ -307,7 +318,7 @@ class Walk {
   std::vector<GramSums<F>> bread_, meat_;
   alignas(64) std::array<F, padding> cost_{};
   std::vector<std::size_t> place_;
-  std::array<std::array<std::size_t, size>, Groups::most> at_{};
+  std::array<std::vector<Run>, Groups::most> runs_;
   using PerMember = std::array<Column<F>, Groups::most>;
   PerMember values_seen_, positive_, squares_, log_squares_;
   Part part_;

@@ -1,7 +1,11 @@
 #include "fitting/data.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -22,62 +26,83 @@ double fold(const BlockReader<F>& in,
     return 0;
   }
   // One member after the other: running sums of weights, means and squares about the mean.
-  double rest = 0;
+  std::array<F, padding> rest{};  // lane by lane
   for (std::size_t i = 0; i < out.n; ++i) {
     target[i] = first.target[i];
     weight[i] = first.weight[i] * first.weight[i];
   }
   for (std::size_t m = 1; m < members; ++m) {
     const auto& v = in.values(m, channel);
-    F squares = 0;
-    for (std::size_t i = 0; i < out.n; ++i) {
-      const F w2 = v.weight[i] * v.weight[i], sum = weight[i] + w2, off = v.target[i] - target[i];
-      const F part = w2 / (sum > 0 ? sum : F(1));
-      squares += weight[i] * part * off * off;
-      target[i] += part * off;
-      weight[i] = sum;
-    }
-    rest += static_cast<double>(squares);
+    for (std::size_t i = 0; i < out.n; i += padding)
+      for (std::size_t l = 0; l < padding; ++l) {
+        const std::size_t k = i + l;
+        const F w2 = v.weight[k] * v.weight[k], sum = weight[k] + w2;
+        const F off = v.target[k] - target[k], part = w2 / (sum > 0 ? sum : F(1));
+        rest[l] += weight[k] * part * off * off;
+        target[k] += part * off;
+        weight[k] = sum;
+      }
   }
   for (std::size_t i = 0; i < out.n; ++i) weight[i] = std::sqrt(weight[i]);
-  return rest;
+  return std::accumulate(rest.begin(), rest.end(), 0.0);
 }
 
-/// Columns of groups picked out of blocks.
+/// Groups picked out of blocks.
+struct Pick {
+  std::uint32_t task, block, group;
+};
+
+/// Those groups alone, cut into blocks and tasks; what is used is counted.
 template <class F>
-class Picked {
- public:
-  explicit Picked(std::size_t columns) : columns_(columns) {}
-  std::size_t size() const { return columns_[0].size(); }
-  void pick(const FitBlock<F>& b, std::size_t i) {
-    for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k].push_back(b.columns[k * b.n + i]);
-  }
-  void append(const Picked& p) {
-    for (std::size_t k = 0; k < columns_.size(); ++k)
-      columns_[k].insert(columns_[k].end(), p.columns_[k].begin(), p.columns_[k].end());
-  }
-  /// Cut into blocks and tasks; what is used is counted.
-  void cut_into(FitData<F>& d) const {
-    constexpr std::size_t block = BlockReader<F>::block;
-    d.groups = size();
-    d.reserve((size() + Tasks::blocks * block - 1) / (Tasks::blocks * block),
-              (columns_.size() - 5) / 2);
-    for (std::size_t at = 0; at < size(); at += block) {
-      const std::size_t n = std::min(block, size() - at);
-      const auto& b = d.add_block(at / (Tasks::blocks * block), n);
-      for (std::size_t k = 0; k < columns_.size(); ++k) {
-        F* const to = b.columns + k * b.n;
-        std::copy_n(columns_[k].data() + at, n, to);
-        std::fill(to + n, to + b.n, k < 5 ? F(0.5) : F(0));
+FitData<F> picked_from(const FitData<F>& all,
+                       std::size_t channels,
+                       const std::vector<Pick>& picks) {
+  constexpr std::size_t block = BlockReader<F>::block, task = Tasks::blocks * block;
+  FitData<F> d;
+  d.link = all.link;
+  d.offset = all.offset;
+  d.groups = picks.size();
+  d.reserve((picks.size() + task - 1) / task, channels);
+  for (std::size_t at = 0; at < picks.size(); at += block) {
+    const std::size_t n = std::min(block, picks.size() - at);
+    const auto& b = d.add_block(at / task, n);
+    for (std::size_t k = 0; k < b.columns_count; ++k) {
+      F* const to = b.columns + k * b.n;
+      for (std::size_t i = 0; i < n; ++i) {
+        const Pick& p = picks[at + i];
+        const auto& from = all.tasks[p.task][p.block];
+        to[i] = from.columns[k * from.n + p.group];
       }
-      for (std::size_t c = 0; 5 + 2 * c < columns_.size(); ++c)
-        d.counts.used += static_cast<std::size_t>(
-            std::count_if(b.weight(c), b.weight(c) + b.n, [](F w) { return w > 0; }));
+      std::fill(to + n, to + b.n, k < 5 ? F(0.5) : F(0));
     }
+    for (std::size_t c = 0; c < channels; ++c)
+      d.counts.used += static_cast<std::size_t>(
+          std::count_if(b.weight(c), b.weight(c) + b.n, [](F w) { return w > 0; }));
   }
+  return d;
+}
+
+/// Picks every `step`-th group that has a value.
+class Picker {
+ public:
+  /// \param since  how many have passed since the last one picked
+  Picker(std::size_t step, std::size_t since) : step_(step), since_(since) {}
+  /// \param with_value  those groups of the block, in order
+  void look_at(std::span<const std::uint32_t> with_value, std::uint32_t task, std::uint32_t block) {
+    std::size_t i = step_ > since_ ? step_ - since_ - 1 : 0;
+    for (; i < with_value.size(); i += step_) {
+      picks_.push_back({task, block, with_value[i]});
+      since_ = with_value.size() - i - 1;
+      picked_ = true;
+    }
+    if (!std::exchange(picked_, false)) since_ += with_value.size();
+  }
+  const std::vector<Pick>& picks() const { return picks_; }
 
  private:
-  std::vector<std::vector<F>> columns_;
+  std::size_t step_, since_;
+  bool picked_ = false;
+  std::vector<Pick> picks_;
 };
 
 /// One pass over the table's groups; every `steps[l]`-th with a value goes into level l too.
@@ -87,24 +112,20 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
     double rest = 0;
     std::size_t groups = 0;
     SampleCounts counts;
-    std::vector<Picked<F>> picked;
-    std::vector<std::size_t> since;  ///< groups passed since the last one picked
-  };
-  const auto like = [&](FitData<F>& d) {
-    d.link = link_of(s.metric());
-    d.offset = static_cast<F>(s.link_offset());
+    std::vector<Picker> levels;
   };
   FitLevels<F> levels;
   FitData<F>& all = levels.all;
-  like(all);
+  all.link = link_of(s.metric());
+  all.offset = static_cast<F>(s.link_offset());
   all.reserve(tasks.count, s.channels());
   std::vector<Part> parts(tasks.count);
-  const Picked<F> none(5 + 2 * s.channels());
   tbb::parallel_for(std::size_t{0}, tasks.count, [&](std::size_t k) {
     BlockReader<F> in(s, tasks.first(k), tasks.last(k), tasks.step);
     Part& part = parts[k];
-    part.picked.assign(steps.size(), none);
-    for (const std::size_t step : steps) part.since.push_back((7 * k + step - 1) % step);
+    // tasks begin at different places
+    for (const std::size_t step : steps) part.levels.emplace_back(step, (7 * k + step - 1) % step);
+    std::array<std::uint32_t, BlockReader<F>::block> with_value;
     while (in.next()) {
       const FitBlock<F>& b = all.add_block(k, in.size());
       const auto x = in.angles();
@@ -113,30 +134,30 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
         std::copy_n(angle, b.n, b.columns + b.n * at++);
       for (std::size_t c = 0; c < s.channels(); ++c)
         part.rest += fold(in, c, s.groups().widest(), b);
+      std::size_t count = 0;
       for (std::size_t i = 0; i < in.size(); ++i) {
+        with_value[count] = static_cast<std::uint32_t>(i);
         bool compared = false;
         for (std::size_t c = 0; c < s.channels(); ++c) compared = compared || b.weight(c)[i] > 0;
-        if (!compared) continue;
-        for (std::size_t l = 0; l < steps.size(); ++l)  // tasks begin at different places
-          if (++part.since[l] >= steps[l]) {
-            part.since[l] = 0;
-            part.picked[l].pick(b, i);
-          }
+        count += compared;
       }
+      for (auto& level : part.levels)
+        level.look_at({with_value.data(), count}, static_cast<std::uint32_t>(k),
+                      static_cast<std::uint32_t>(all.tasks[k].size() - 1));
       part.groups += in.size();
     }
     part.counts = in.counts();
   });
-  std::vector<Picked<F>> picked(steps.size(), none);
   for (const auto& p : parts) {
     all.rest += p.rest;
     all.groups += p.groups;
     all.counts.add(p.counts);
-    for (std::size_t l = 0; l < steps.size(); ++l) picked[l].append(p.picked[l]);
   }
-  for (const auto& p : picked) {
-    like(levels.thinned.emplace_back());
-    p.cut_into(levels.thinned.back());
+  for (std::size_t l = 0; l < steps.size(); ++l) {
+    std::vector<Pick> picks;
+    for (const auto& p : parts)
+      picks.insert(picks.end(), p.levels[l].picks().begin(), p.levels[l].picks().end());
+    levels.thinned.push_back(picked_from(all, s.channels(), picks));
   }
   return levels;
 }

@@ -10,37 +10,44 @@ namespace gonio {
 
 // ---- groups -------------------------------------------------------------------------------------
 
+Groups::Folding::Folding(const std::vector<std::vector<Part>>& parts) : size_(parts.size()) {
+  for (const auto& p : parts) widest_ = std::max(widest_, p.size());
+  for (const auto& p : parts) {
+    parts_.insert(parts_.end(), p.begin(), p.end());
+    parts_.resize(parts_.size() + widest_ - p.size());
+  }
+}
+
 Groups::Groups(const Table& t, const SampleAngles& at, Bins bins, bool fold)
     : rows_(t.size() / at.row_size()), columns_(at.row_size()) {
   const Grid* g = t.grid();
   if (!fold || !g) return;
+  std::vector<std::vector<Part>> groups;
   if (g->kind == Grid::Kind::in_out) {
     const Axis &in = g->axes[0], &out = g->axes[1];
     if (in.spacing != out.spacing || in.size != out.size || in.span != out.span) return;
     for (std::size_t a = 0; a < in.size; ++a)
       for (std::size_t b = a; b < in.size; ++b) {
-        auto& parts = row_parts_.emplace_back();
-        parts.add({a * in.size + b, false});
-        if (a != b) parts.add({b * in.size + a, true});
+        auto& parts = groups.emplace_back();
+        parts.push_back({a * in.size + b, false});
+        if (a != b) parts.push_back({b * in.size + a, true});
       }
-    rows_ = row_parts_.size();
-    widest_ = 2;
+    rows_ = Folding(groups);
     return;
   }
   // wi and wo change places with the sign of cos φ_d; nothing else depends on φ_d.
   std::vector<double> cosine;
-  for (std::size_t k = 0; k < columns_; ++k) {
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
     cosine.push_back(std::cos(g->axes[2].angle(static_cast<double>(k), bins)));
-    const auto same = [&](const Parts& parts) {
-      return parts.count < most &&
-             std::abs(std::abs(cosine[parts.part[0].at]) - std::abs(cosine[k])) < 1e-12;
+    const auto same = [&](const std::vector<Part>& parts) {
+      return parts.size() < most &&
+             std::abs(std::abs(cosine[parts[0].at]) - std::abs(cosine[k])) < 1e-12;
     };
-    auto found = std::ranges::find_if(column_parts_, same);
-    if (found == column_parts_.end()) found = column_parts_.insert(found, Parts());
-    found->add({k, found->count > 0 && cosine[found->part[0].at] * cosine[k] < 0});
-    widest_ = std::max(widest_, found->count);
+    auto found = std::ranges::find_if(groups, same);
+    if (found == groups.end()) found = groups.emplace(found);
+    found->push_back({k, !found->empty() && cosine[(*found)[0].at] * cosine[k] < 0});
   }
-  columns_ = column_parts_.size();
+  columns_ = Folding(groups);
 }
 
 // ---- sampling -----------------------------------------------------------------------------------
@@ -107,8 +114,8 @@ BlockReader<F>::BlockReader(const Sampling& s,
                             std::size_t last,
                             std::size_t step)
     : sampling_(s),
-      row_(first / s.groups().columns()),
-      column_(first % s.groups().columns()),
+      row_(first / s.groups().columns().size()),
+      column_(first % s.groups().columns().size()),
       left_(first < last ? (last - first + step - 1) / step : 0),
       step_(step),
       values_(s.groups().widest() * s.channels()),
@@ -145,38 +152,56 @@ bool BlockReader<F>::next() {
 /// The angles and samples of the next groups.
 template <class F>
 void BlockReader<F>::place() {
-  const Groups& groups = sampling_.groups();
-  const std::size_t width = sampling_.angles().row_size(), widest = groups.widest();
-  Groups::Parts row_alone, column_alone;
+  const auto &rows = sampling_.groups().rows(), &columns = sampling_.groups().columns();
   absent_.fill(0);
   n_ = 0;
   while (n_ < block && left_ > 0) {
-    const auto& rows = groups.row(row_, row_alone);
-    const auto at = sampling_.angles().row(rows.part[0].at);
-    for (; column_ < groups.columns() && n_ < block && left_ > 0; column_ += step_, --left_) {
-      const auto& columns = groups.column(column_, column_alone);
-      const auto a = at(columns.part[0].at);
+    const auto at = sampling_.angles().row(rows.part(row_, 0).at);
+    const bool level = at.is_level();
+    const std::size_t row = row_, from = n_;
+    for (; column_ < columns.size() && n_ < block && left_ > 0; column_ += step_, --left_) {
+      const auto a = at(columns.part(column_, 0).at);
       if (!(a.nol > horizon_cosine && a.nov > horizon_cosine)) {
         counts_.masked[static_cast<std::size_t>(Mask::below_horizon)] +=
-            rows.count * columns.count * sampling_.channels();
+            rows.parts(row) * columns.parts(column_) * sampling_.channels();
         continue;
       }
-      const std::array cosines{a.nol, a.nov, a.noh, a.voh, a.sin2_theta_h};
-      for (std::size_t k = 0; k < cosines.size(); ++k) angles_[k][n_] = static_cast<F>(cosines[k]);
-      std::size_t m = 0;
-      for (const auto& r : rows.all())
-        for (const auto& c : columns.all()) {
-          nol_[m][n_] = angles_[r.swapped != c.swapped][n_];
-          sample_[m++][n_] = r.at * width + c.at;
-        }
-      for (; m < widest; ++m) {
-        nol_[m][n_] = F(0.5);
-        sample_[m][n_] = absent;
-        ++absent_[m];
+      angles_[0][n_] = static_cast<F>(a.nol);
+      angles_[1][n_] = static_cast<F>(a.nov);
+      if (!level || n_ == from) {
+        angles_[2][n_] = static_cast<F>(a.noh);
+        angles_[3][n_] = static_cast<F>(a.voh);
+        angles_[4][n_] = static_cast<F>(a.sin2_theta_h);
       }
-      ++n_;
+      group_column_[n_++] = column_;
     }
-    for (; column_ >= groups.columns(); column_ -= groups.columns()) ++row_;
+    if (level && n_ > from)
+      for (std::size_t k = 2; k < 5; ++k)
+        std::fill(angles_[k].data() + from, angles_[k].data() + n_, angles_[k][from]);
+    place_members(row, from);
+    for (; column_ >= columns.size(); column_ -= columns.size()) ++row_;
+  }
+}
+
+/// The samples of the groups of one row, from number `from` on.
+template <class F>
+void BlockReader<F>::place_members(std::size_t row, std::size_t from) {
+  const auto &rows = sampling_.groups().rows(), &columns = sampling_.groups().columns();
+  const std::size_t width = sampling_.angles().row_size();
+  for (std::size_t m = 0; m < sampling_.groups().widest(); ++m) {
+    const auto r = rows.part(row, m / columns.widest());
+    const std::size_t of_column = m % columns.widest();
+    for (std::size_t i = from; i < n_; ++i) {
+      const auto c = columns.part(group_column_[i], of_column);
+      if (r.at == absent || c.at == absent) {
+        nol_[m][i] = F(0.5);
+        sample_[m][i] = absent;
+        ++absent_[m];
+        continue;
+      }
+      nol_[m][i] = angles_[r.swapped != c.swapped][i];
+      sample_[m][i] = r.at * width + c.at;
+    }
   }
 }
 
@@ -187,8 +212,11 @@ void BlockReader<F>::fill(std::size_t member, std::size_t channel) {
   const auto& sample = sample_[member];
   const double* const stored = sampling_.table().values[channel].data();
   auto& v = values_[member * sampling_.channels() + channel];
-  for (std::size_t i = 0; i < n_; ++i)
-    stored_[i] = sample[i] == absent ? F(-1) : static_cast<F>(stored[sample[i]]);
+  if (absent_[member] == 0)
+    for (std::size_t i = 0; i < n_; ++i) stored_[i] = static_cast<F>(stored[sample[i]]);
+  else
+    for (std::size_t i = 0; i < n_; ++i)
+      stored_[i] = sample[i] == absent ? F(-1) : static_cast<F>(stored[sample[i]]);
   if (!sampling_.table().weights.empty() && channel == 0)
     for (std::size_t i = 0; i < n_; ++i)
       weight_[i] = sample[i] == absent ? F(1) : static_cast<F>(sampling_.root_weight(sample[i]));

@@ -39,37 +39,45 @@ constexpr bool usable(Metric m, double y, double offset) {
 class Groups {
  public:
   static constexpr std::size_t most = 4;  ///< members
+  static constexpr std::size_t absent = static_cast<std::size_t>(-1);
   struct Part {
-    std::size_t at;  ///< row or column of the table
-    bool swapped;    ///< NoL and NoV are those of the first member exchanged
+    std::size_t at = absent;  ///< row or column of the table; absent: there is no such member
+    bool swapped = false;     ///< NoL and NoV are those of the first member exchanged
   };
-  struct Parts {
-    std::array<Part, most> part{};
-    std::size_t count = 0;
-    std::span<const Part> all() const { return {part.data(), count}; }
-    void add(Part p) { part[count++] = p; }
+  /// Of rows, or of columns: each alone, or several in one.
+  class Folding {
+   public:
+    explicit Folding(std::size_t size) : size_(size) {}
+    /// \param parts  of each group, the first one not swapped
+    explicit Folding(const std::vector<std::vector<Part>>& parts);
+    std::size_t size() const { return size_; }
+    /// The most parts that a group has here.
+    std::size_t widest() const { return widest_; }
+    Part part(std::size_t group, std::size_t k) const {
+      return parts_.empty() ? Part{group, false} : parts_[group * widest_ + k];
+    }
+    std::size_t parts(std::size_t group) const {
+      std::size_t k = 1;
+      while (k < widest_ && part(group, k).at != absent) ++k;
+      return k;
+    }
+
+   private:
+    std::size_t size_, widest_ = 1;
+    std::vector<Part> parts_;  ///< [group][widest]; empty: each alone
   };
 
   /// \param fold  false: each sample is alone
   Groups(const Table&, const SampleAngles&, Bins, bool fold);
-  std::size_t rows() const { return rows_; }
-  std::size_t columns() const { return columns_; }
-  std::size_t size() const { return rows_ * columns_; }
-  /// The most members that a group has here.
-  std::size_t widest() const { return widest_; }
-  /// \param alone  written to and returned where there is nothing to fold
-  const Parts& row(std::size_t i, Parts& alone) const { return parts(row_parts_, i, alone); }
-  const Parts& column(std::size_t i, Parts& alone) const { return parts(column_parts_, i, alone); }
+  const Folding& rows() const { return rows_; }
+  const Folding& columns() const { return columns_; }
+  std::size_t size() const { return rows_.size() * columns_.size(); }
+  /// The most members that a group has here: part r of its row with part c of its column is number
+  /// r · columns().widest() + c.
+  std::size_t widest() const { return rows_.widest() * columns_.widest(); }
 
  private:
-  static const Parts& parts(const std::vector<Parts>& folded, std::size_t i, Parts& alone) {
-    if (!folded.empty()) return folded[i];
-    alone.part[0] = {i, false};
-    alone.count = 1;
-    return alone;
-  }
-  std::size_t rows_, columns_, widest_ = 1;
-  std::vector<Parts> row_parts_, column_parts_;  ///< empty: each alone
+  Folding rows_, columns_;
 };
 
 /// A table, and how a model is compared with it.
@@ -125,7 +133,7 @@ template <class F>
 class BlockReader {
  public:
   static constexpr std::size_t block = Scratch<F>::block;
-  static constexpr std::size_t absent = static_cast<std::size_t>(-1);
+  static constexpr std::size_t absent = Groups::absent;
   /// One member of each group: its values in one channel.
   struct Values {
     Column<F> y;               ///< [1/sr]; −1 where masked
@@ -142,14 +150,15 @@ class BlockReader {
   const Values& values(std::size_t member, std::size_t channel) const {
     return values_[member * sampling_.channels() + channel];
   }
-  /// Index in the table, or `absent` where the group has no such member.
-  std::size_t sample(std::size_t member, std::size_t i) const { return sample_[member][i]; }
-  /// NoL of that sample.
-  F nol(std::size_t member, std::size_t i) const { return nol_[member][i]; }
+  /// Indices in the table, `absent` where a group has no such member.
+  const std::size_t* sample(std::size_t member) const { return sample_[member].data(); }
+  /// NoL of those samples.
+  const F* nol(std::size_t member) const { return nol_[member].data(); }
   const SampleCounts& counts() const { return counts_; }
 
  private:
   void place();
+  void place_members(std::size_t row, std::size_t from);
   void fill(std::size_t member, std::size_t channel);
 
   const Sampling& sampling_;
@@ -157,6 +166,7 @@ class BlockReader {
   std::array<Column<F>, 5> angles_;
   std::array<std::array<std::size_t, block>, Groups::most> sample_;
   std::array<std::size_t, Groups::most> absent_{};  ///< how many are, of each member
+  std::array<std::size_t, block> group_column_;
   std::vector<Column<F>> nol_;
   std::vector<Values> values_;
   Column<F> stored_, weight_, ones_;

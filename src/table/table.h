@@ -144,6 +144,8 @@ class SampleAngles {
 class SampleAngles::Row {
  public:
   Row(const SampleAngles& at, std::size_t number);
+  /// Whether noh, voh and sin2_theta_h are the same in the whole row.
+  bool is_level() const { return theta_h_ != nullptr; }
   Angles<double> operator()(std::size_t column) const {
     if (!theta_h_) return (*at_)(first_ + column);
     return angles(*theta_h_, *theta_d_, at_->axes_[2][column].cos);
