@@ -13,6 +13,7 @@ namespace gonio {
 Groups::Folding::Folding(const std::vector<std::vector<Part>>& parts) : size_(parts.size()) {
   for (const auto& p : parts) widest_ = std::max(widest_, p.size());
   for (const auto& p : parts) {
+    count_.push_back(p.size());
     parts_.insert(parts_.end(), p.begin(), p.end());
     parts_.resize(parts_.size() + widest_ - p.size());
   }
@@ -156,31 +157,78 @@ void BlockReader<F>::place() {
   absent_.fill(0);
   n_ = 0;
   while (n_ < block && left_ > 0) {
-    const auto at = sampling_.angles().row(rows.part(row_, 0).at);
-    const bool level = at.is_level();
     const std::size_t row = row_, from = n_;
-    for (; column_ < columns.size() && n_ < block && left_ > 0; column_ += step_, --left_) {
-      const auto a = at(columns.part(column_, 0).at);
-      if (!(a.nol > horizon_cosine && a.nov > horizon_cosine)) {
-        counts_.masked[static_cast<std::size_t>(Mask::below_horizon)] +=
-            rows.parts(row) * columns.parts(column_) * sampling_.channels();
-        continue;
-      }
-      angles_[0][n_] = static_cast<F>(a.nol);
-      angles_[1][n_] = static_cast<F>(a.nov);
-      if (!level || n_ == from) {
-        angles_[2][n_] = static_cast<F>(a.noh);
-        angles_[3][n_] = static_cast<F>(a.voh);
-        angles_[4][n_] = static_cast<F>(a.sin2_theta_h);
-      }
-      group_column_[n_++] = column_;
-    }
-    if (level && n_ > from)
-      for (std::size_t k = 2; k < 5; ++k)
-        std::fill(angles_[k].data() + from, angles_[k].data() + n_, angles_[k][from]);
+    const auto at = sampling_.angles().row(rows.part(row, 0).at);
+    if (at.is_level())
+      place_level(at);
+    else
+      place_any(at);
     place_members(row, from);
     for (; column_ >= columns.size(); column_ -= columns.size()) ++row_;
   }
+}
+
+/// What is left of a row, as far as it goes into the block.
+template <class F>
+void BlockReader<F>::place_any(const SampleAngles::Row& at) {
+  const auto& columns = sampling_.groups().columns();
+  for (; column_ < columns.size() && n_ < block && left_ > 0; column_ += step_, --left_) {
+    const auto a = at(columns.part(column_, 0).at);
+    if (!(a.nol > horizon_cosine && a.nov > horizon_cosine)) {
+      mask_below_horizon(column_);
+      continue;
+    }
+    const std::array cosines{a.nol, a.nov, a.noh, a.voh, a.sin2_theta_h};
+    for (std::size_t k = 0; k < cosines.size(); ++k) angles_[k][n_] = static_cast<F>(cosines[k]);
+    group_column_[n_++] = column_;
+  }
+}
+
+/// The same where only nol and nov differ: several at once.
+template <class F>
+void BlockReader<F>::place_level(const SampleAngles::Row& at) {
+  const auto& columns = sampling_.groups().columns();
+  const double middle = at.middle(), swing = at.swing();
+  const std::size_t from = n_, first = column_;
+  const std::size_t count =
+      std::min({block - n_, left_, (columns.size() - column_ + step_ - 1) / step_});
+  std::array<double, block> cosine;
+  for (std::size_t k = 0; k < count; ++k)
+    cosine[k] = at.cos_phi_d(columns.part(first + k * step_, 0).at);
+  double lowest = 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double a = middle - swing * cosine[k], b = middle + swing * cosine[k];
+    angles_[0][from + k] = static_cast<F>(a);
+    angles_[1][from + k] = static_cast<F>(b);
+    const double lower = a < b ? a : b;
+    lowest = lower < lowest ? lower : lowest;
+  }
+  const bool all = lowest > horizon_cosine;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double b = swing * cosine[k];
+    if (!all && !(middle - b > horizon_cosine && middle + b > horizon_cosine)) {
+      mask_below_horizon(first + k * step_);
+      continue;
+    }
+    angles_[0][n_] = angles_[0][from + k];
+    angles_[1][n_] = angles_[1][from + k];
+    group_column_[n_++] = first + k * step_;
+  }
+  column_ += count * step_;
+  left_ -= count;
+  const auto a = at(0);
+  const std::array constant{a.noh, a.voh, a.sin2_theta_h};
+  for (std::size_t k = 0; k < constant.size(); ++k)
+    std::fill(angles_[2 + k].data() + from, angles_[2 + k].data() + n_,
+              static_cast<F>(constant[k]));
+}
+
+/// Counts the members of the row's group in that column.
+template <class F>
+void BlockReader<F>::mask_below_horizon(std::size_t column) {
+  const auto& g = sampling_.groups();
+  counts_.masked[static_cast<std::size_t>(Mask::below_horizon)] +=
+      g.rows().parts(row_) * g.columns().parts(column) * sampling_.channels();
 }
 
 /// The samples of the groups of one row, from number `from` on.
@@ -191,16 +239,15 @@ void BlockReader<F>::place_members(std::size_t row, std::size_t from) {
   for (std::size_t m = 0; m < sampling_.groups().widest(); ++m) {
     const auto r = rows.part(row, m / columns.widest());
     const std::size_t of_column = m % columns.widest();
+    const F *const as_is = angles_[r.swapped].data(), *const exchanged = angles_[!r.swapped].data();
+    F* const nol = nol_[m].data();
+    auto& sample = sample_[m];
     for (std::size_t i = from; i < n_; ++i) {
       const auto c = columns.part(group_column_[i], of_column);
-      if (r.at == absent || c.at == absent) {
-        nol_[m][i] = F(0.5);
-        sample_[m][i] = absent;
-        ++absent_[m];
-        continue;
-      }
-      nol_[m][i] = angles_[r.swapped != c.swapped][i];
-      sample_[m][i] = r.at * width + c.at;
+      const bool there = r.at != absent && c.at != absent;
+      nol[i] = there ? (c.swapped ? exchanged : as_is)[i] : F(0.5);
+      sample[i] = there ? r.at * width + c.at : absent;
+      absent_[m] += !there;
     }
   }
 }

@@ -56,15 +56,12 @@ class Groups {
     Part part(std::size_t group, std::size_t k) const {
       return parts_.empty() ? Part{group, false} : parts_[group * widest_ + k];
     }
-    std::size_t parts(std::size_t group) const {
-      std::size_t k = 1;
-      while (k < widest_ && part(group, k).at != absent) ++k;
-      return k;
-    }
+    std::size_t parts(std::size_t group) const { return count_.empty() ? 1 : count_[group]; }
 
    private:
     std::size_t size_, widest_ = 1;
     std::vector<Part> parts_;  ///< [group][widest]; empty: each alone
+    std::vector<std::size_t> count_;
   };
 
   /// \param fold  false: each sample is alone
@@ -158,6 +155,9 @@ class BlockReader {
 
  private:
   void place();
+  void place_any(const SampleAngles::Row&);
+  void place_level(const SampleAngles::Row&);
+  void mask_below_horizon(std::size_t column);
   void place_members(std::size_t row, std::size_t from);
   void fill(std::size_t member, std::size_t channel);
 

@@ -144,8 +144,12 @@ class SampleAngles {
 class SampleAngles::Row {
  public:
   Row(const SampleAngles& at, std::size_t number);
-  /// Whether noh, voh and sin2_theta_h are the same in the whole row.
+  /// Whether noh, voh and sin2_theta_h are the same in the whole row; then nol and nov are
+  /// middle() ∓ swing() cos_phi_d().
   bool is_level() const { return theta_h_ != nullptr; }
+  double middle() const { return theta_h_->cos * theta_d_->cos; }
+  double swing() const { return theta_h_->sin * theta_d_->sin; }
+  double cos_phi_d(std::size_t column) const { return at_->axes_[2][column].cos; }
   Angles<double> operator()(std::size_t column) const {
     if (!theta_h_) return (*at_)(first_ + column);
     return angles(*theta_h_, *theta_d_, at_->axes_[2][column].cos);
