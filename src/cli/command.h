@@ -29,6 +29,8 @@ void add_inspect(CLI::App&, Action&);
 void add_compare(CLI::App&, Action&);
 void add_fit(CLI::App&, Action&);
 void add_bench(CLI::App&, Action&);
+void add_albedo(CLI::App&, Action&);
+void add_split_sum(CLI::App&, Action&);
 
 /// A subcommand with its example under the help, running `run` on options that it keeps alive.
 template <class Options>

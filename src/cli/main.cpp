@@ -56,6 +56,8 @@ int main(int argc, char** argv) {
   gonio::cli::add_convert(app, action);
   gonio::cli::add_compare(app, action);
   gonio::cli::add_bench(app, action);
+  gonio::cli::add_albedo(app, action);
+  gonio::cli::add_split_sum(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version

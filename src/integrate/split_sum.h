@@ -1,0 +1,44 @@
+#pragma once
+/// \file
+/// The split sum of image-based light [Karis 2013]: the prefiltered environment times F0 A + B.
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "integrate/cubature.h"
+
+namespace gonio {
+
+/// Of GGX under Schlick's Fresnel, with (1 − VoH)⁵ as c:
+///
+///   A = ∫ D V (1 − c) NoL dω_l,   B = ∫ D V c NoL dω_l:   E = F0 A + B
+///
+/// `diffuse` is the same of a white Lambertian under that interface, by which the environment's
+/// irradiance is weighted: coupled Lambert reflects kd (1 − F0) · diffuse of an even environment.
+///
+///   diffuse = ∫ (1 − c) NoL dω_l / π
+struct SplitSum {
+  double a, b, diffuse;
+  double error;  ///< of each, at most; not a number where it is not known
+};
+
+/// By quadrature, at each NoV in (0, 1].
+/// \param masking  "smith_ggx.correlated", with or without its prefix
+std::vector<SplitSum> split_sum(std::string_view masking,
+                                double roughness,
+                                std::span<const double> nov,
+                                const Goal& = {});
+
+/// As renderers make their table: n half vectors from the points (i/n, radical inverse of i) of
+/// Hammersley, drawn from D NoH, of which those with l below the horizon count for nothing; l for
+/// `diffuse` from the cosine.
+///
+///   A = 1/n Σ (1 − c) G₂ VoH / (NoH NoV)                                  [Karis 2013, p. 7]
+std::vector<SplitSum> sampled_split_sum(std::string_view masking,
+                                        double roughness,
+                                        std::span<const double> nov,
+                                        std::size_t samples);
+
+}  // namespace gonio
