@@ -17,13 +17,20 @@ struct Goal {
   std::size_t evaluations = 4'000'000;
 };
 
-/// Integrals with one bound for the error of each: Σ |Kronrod − Gauss| over the rectangles (along both
-/// axes) and what summing rounds off.  The Kronrod rule is far more exact than the Gauss rule that it is
-/// compared with, and where these two agree by chance the 8 nodes that are not Gauss's do not: the bound
-/// is true wherever the nodes see the function at all.  Not reached within the evaluations allowed: the
-/// bound says what was.  Infinite, with the integral's sign, where halving a rectangle time and again
-/// leaves as much in one half: a singularity belongs at 0, where numbers are densest.  Not a number
-/// where a value was none.
+/// Integrals with one bound for the error of each: over the rectangles, along both axes, the sum of
+///
+///   |Kronrod − Gauss|, of which the first is by far the more exact; but at least what the 8 nodes that
+///   are not Gauss's are off by, squared, for the two may agree by chance;
+///   4 times the most that any rule is off by where there is a kink: where these 8 are not far worse than
+///   Gauss's; and 1/1024 of that in the halves
+///
+/// and what summing rounds off.  It is true where the nodes see the function: a kink between the last
+/// node and the end of the first rectangles is not seen (of max(x − a, 0) on a line, a drawn at random,
+/// 4 to 9 % of the bounds were too small; of kinks across a plane none of 200 to 1e-8).  Not reached
+/// within the evaluations allowed: the bound says what was.
+///
+/// Infinite, with the integral's sign, where halving a rectangle time and again leaves as much in one
+/// half: a singularity belongs at 0, where numbers are densest.  Not a number where a value was none.
 struct Integral {
   std::vector<double> value;
   double error = 0;

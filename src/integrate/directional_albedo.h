@@ -33,9 +33,9 @@ struct Albedo {
 /// are those at which the distribution itself begins to fall.  Diffuse terms are integrated over θ_l
 /// and φ_l.
 ///
-/// GGX with Smith masking to 1e-8, α from 1e-4 and μ from 0.001 (1000 drawn at random): 6200 evaluations on
-/// average, 36,000 a millisecond in one thread with AVX-512; errors of at most 0.46 of the bound at goals
-/// from 1e-2 to 1e-8, 0.15 for Beckmann, 0.45 for anisotropic GGX.
+/// GGX with Smith masking to 1e-8, α from 1e-4 and μ from 0.001 drawn at random: 8300 evaluations on
+/// average, some 36 a microsecond in one thread with AVX-512; at goals from 1e-2 to 1e-8 no error above 0.02
+/// of its bound, of Beckmann and anisotropic GGX none above 0.14, of GTR none above 0.19.
 ///
 /// \param phi  azimuth of v from the tangent, for anisotropic models [rad]
 std::vector<Albedo> directional_albedo(const BoundModel&,
