@@ -31,6 +31,11 @@ class AngleBands {
   std::size_t operator()(double cosine) const {
     return onwards(near_[static_cast<std::size_t>(std::clamp(cosine, 0.0, 1.0) * cells)], cosine);
   }
+  /// Whether operator() would give that band.
+  bool holds(std::size_t band, double cosine) const {
+    return (band == 0 || cosine < cosine_[band]) &&
+           (band + 1 == size() || cosine >= cosine_[band + 1]);
+  }
   /// Adds `step` times the band of each cosine.
   template <class F>
   void add_to(std::size_t n, const F* cosine, std::int32_t step, std::int32_t* sum) const {
@@ -73,7 +78,9 @@ class IncidentKeys {
     count_ = sorted.size();
   }
   std::size_t count() const { return count_; }
-  std::size_t operator()(std::size_t sample, double nol) const {
+  /// \param last  that of a neighbour, where the answer is looked for first; or `none`
+  std::size_t operator()(std::size_t sample, double nol, std::size_t last) const {
+    if (grid_ && first_.empty() && last != none && degrees_.holds(last, nol)) return last;
     if (!grid_) return rank_[sample];
     return first_.empty() ? degrees_(nol) : first_[sample / samples_per_angle_];
   }
@@ -235,7 +242,7 @@ class Walk {
       std::size_t last = none;
       for (std::size_t i = 0; i < in.size(); ++i) {
         if (!(weight[i] > 0)) continue;  // adds nothing to any
-        const std::size_t key = keys_(in.sample(m)[i], static_cast<double>(in.nol(m)[i]));
+        const std::size_t key = keys_(in.sample(m)[i], static_cast<double>(in.nol(m)[i]), last);
         if (key == last) continue;
         last = key;
         if (place_[key] == none) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -47,32 +46,48 @@ double fold(const BlockReader<F>& in,
   return std::accumulate(rest.begin(), rest.end(), 0.0);
 }
 
-/// Groups picked out of blocks.
-struct Pick {
-  std::uint32_t task, block, group;
+/// Picks every `step`-th group that has a value.
+template <class F>
+class Picker {
+ public:
+  /// \param since  how many have passed since the last one picked
+  /// \param groups  that will be looked at, at most
+  Picker(std::size_t step, std::size_t since, std::size_t groups, std::size_t columns)
+      : step_(step), left_(step - since - 1) {
+    rows_.reserve((groups / step + 1) * columns);
+  }
+  /// \param with_value  those groups of the block, in order
+  void look_at(const FitBlock<F>& b, std::span<const std::uint32_t> with_value) {
+    for (; left_ < with_value.size(); left_ += step_)
+      for (std::size_t k = 0; k < b.columns_count; ++k)
+        rows_.push_back(b.columns[k * b.n + with_value[left_]]);
+    left_ -= with_value.size();
+  }
+  /// [group picked][column]
+  const std::vector<F>& rows() const { return rows_; }
+
+ private:
+  std::size_t step_;
+  std::size_t left_;  ///< groups before the next one picked
+  std::vector<F> rows_;
 };
 
-/// Those groups alone, cut into blocks and tasks; what is used is counted.
+/// Groups picked, cut into blocks and tasks; what is used is counted.
 template <class F>
-FitData<F> picked_from(const FitData<F>& all,
-                       std::size_t channels,
-                       const std::vector<Pick>& picks) {
+FitData<F> picked_from(const FitData<F>& all, std::size_t channels, const std::vector<F>& rows) {
   constexpr std::size_t block = BlockReader<F>::block, task = Tasks::blocks * block;
+  const std::size_t columns = 5 + 2 * channels;
   FitData<F> d;
   d.link = all.link;
   d.offset = all.offset;
-  d.groups = picks.size();
-  d.reserve((picks.size() + task - 1) / task, channels);
-  for (std::size_t at = 0; at < picks.size(); at += block) {
-    const std::size_t n = std::min(block, picks.size() - at);
+  d.groups = rows.size() / columns;
+  d.reserve((d.groups + task - 1) / task, channels);
+  for (std::size_t at = 0; at < d.groups; at += block) {
+    const std::size_t n = std::min(block, d.groups - at);
     const auto& b = d.add_block(at / task, n);
-    for (std::size_t k = 0; k < b.columns_count; ++k) {
+    for (std::size_t k = 0; k < columns; ++k) {
       F* const to = b.columns + k * b.n;
-      for (std::size_t i = 0; i < n; ++i) {
-        const Pick& p = picks[at + i];
-        const auto& from = all.tasks[p.task][p.block];
-        to[i] = from.columns[k * from.n + p.group];
-      }
+      for (std::size_t i = 0; i < n; ++i) to[i] = rows[(at + i) * columns + k];
       std::fill(to + n, to + b.n, k < 5 ? F(0.5) : F(0));
     }
     for (std::size_t c = 0; c < channels; ++c)
@@ -82,29 +97,6 @@ FitData<F> picked_from(const FitData<F>& all,
   return d;
 }
 
-/// Picks every `step`-th group that has a value.
-class Picker {
- public:
-  /// \param since  how many have passed since the last one picked
-  Picker(std::size_t step, std::size_t since) : step_(step), since_(since) {}
-  /// \param with_value  those groups of the block, in order
-  void look_at(std::span<const std::uint32_t> with_value, std::uint32_t task, std::uint32_t block) {
-    std::size_t i = step_ > since_ ? step_ - since_ - 1 : 0;
-    for (; i < with_value.size(); i += step_) {
-      picks_.push_back({task, block, with_value[i]});
-      since_ = with_value.size() - i - 1;
-      picked_ = true;
-    }
-    if (!std::exchange(picked_, false)) since_ += with_value.size();
-  }
-  const std::vector<Pick>& picks() const { return picks_; }
-
- private:
-  std::size_t step_, since_;
-  bool picked_ = false;
-  std::vector<Pick> picks_;
-};
-
 /// One pass over the table's groups; every `steps[l]`-th with a value goes into level l too.
 template <class F>
 FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::size_t>& steps) {
@@ -112,7 +104,7 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
     double rest = 0;
     std::size_t groups = 0;
     SampleCounts counts;
-    std::vector<Picker> levels;
+    std::vector<Picker<F>> levels;
   };
   FitLevels<F> levels;
   FitData<F>& all = levels.all;
@@ -124,7 +116,9 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
     BlockReader<F> in(s, tasks.first(k), tasks.last(k), tasks.step);
     Part& part = parts[k];
     // tasks begin at different places
-    for (const std::size_t step : steps) part.levels.emplace_back(step, (7 * k + step - 1) % step);
+    for (const std::size_t step : steps)
+      part.levels.emplace_back(step, (7 * k + step - 1) % step, Tasks::blocks * in.block,
+                               5 + 2 * s.channels());
     std::array<std::uint32_t, BlockReader<F>::block> with_value;
     while (in.next()) {
       const FitBlock<F>& b = all.add_block(k, in.size());
@@ -141,9 +135,7 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
         for (std::size_t c = 0; c < s.channels(); ++c) compared = compared || b.weight(c)[i] > 0;
         count += compared;
       }
-      for (auto& level : part.levels)
-        level.look_at({with_value.data(), count}, static_cast<std::uint32_t>(k),
-                      static_cast<std::uint32_t>(all.tasks[k].size() - 1));
+      for (auto& level : part.levels) level.look_at(b, {with_value.data(), count});
       part.groups += in.size();
     }
     part.counts = in.counts();
@@ -154,10 +146,10 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
     all.counts.add(p.counts);
   }
   for (std::size_t l = 0; l < steps.size(); ++l) {
-    std::vector<Pick> picks;
+    std::vector<F> rows;
     for (const auto& p : parts)
-      picks.insert(picks.end(), p.levels[l].picks().begin(), p.levels[l].picks().end());
-    levels.thinned.push_back(picked_from(all, s.channels(), picks));
+      rows.insert(rows.end(), p.levels[l].rows().begin(), p.levels[l].rows().end());
+    levels.thinned.push_back(picked_from(all, s.channels(), rows));
   }
   return levels;
 }

@@ -20,6 +20,7 @@
 #include "table/quantile.h"
 
 #include <fmt/format.h>
+#include <tbb/task_group.h>
 
 namespace gonio {
 namespace {
@@ -252,6 +253,24 @@ bool is_reciprocal(const BoundModel& b) {
   return true;
 }
 
+/// Two fits that differ in the bin convention alone, on thinned tables: a ratio needs no million bins.
+struct BothConventions {
+  Fitted here, there;
+  double log_rms_there = nan;
+};
+BothConventions fit_both(const Problem& p,
+                         const FitData<double>& scanned,
+                         const Sampling& elsewhere,
+                         const Fitted& f) {
+  BothConventions b;
+  b.here = minimise(p, scanned, f.values, f.huber);
+  b.there = minimise(p, fit_data<double>(elsewhere, scan_samples), f.values, f.huber);
+  if (b.there.solution.converged)
+    b.log_rms_there =
+        residual_statistics({p.start.model, b.there.values, {}}, elsewhere, scan_samples).log_rms;
+  return b;
+}
+
 /// The model without its lobes.
 Problem diffuse_alone(const Problem& p) {
   Problem q = p;
@@ -478,6 +497,12 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
 
   announce("standard errors");
   result.model.values = f.values;
+  // Of few samples and so for one thread, beside what comes next.
+  const bool has_other = t.has_bins() && o.bin_sensitivity;
+  const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
+  BothConventions both;
+  tbb::task_group meanwhile;
+  if (has_other) meanwhile.run([&] { both = fit_both(p, scanned, sampling_of(other), f); });
   bool by_angle =
       o.intervals == Intervals::by_angle || (o.intervals == Intervals::automatic && !t.truth);
   auto a = assess(sampling, result.model, p.free, f.huber, by_angle, f.in_float);
@@ -515,16 +540,10 @@ FitResult fit(const Table& t, const FitOptions& o, const std::function<void(cons
   d.input_format = t.format;
   d.bins = t.has_bins() ? bins_names[static_cast<std::size_t>(bins)] : "none";
 
-  if (t.has_bins() && o.bin_sensitivity) {
-    announce("fitting under the other bin convention");
-    const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
-    // Both conventions on thinned tables: a ratio needs no million bins.
-    const Sampling elsewhere = sampling_of(other);
-    const Fitted here = minimise(p, scanned, f.values, f.huber);
-    const Fitted there = minimise(p, fit_data<double>(elsewhere, scan_samples), f.values, f.huber);
+  meanwhile.wait();
+  if (has_other) {
+    const auto& [here, there, log_rms] = both;
     if (here.solution.converged && there.solution.converged) {
-      const double log_rms =
-          residual_statistics({p.start.model, there.values, {}}, elsewhere, scan_samples).log_rms;
       BinSensitivity s{bins_names[static_cast<std::size_t>(other)], {}, log_rms};
       for (const auto& q : p.start.model.parameters) {
         const auto& known = std::ranges::find(d.parameters, q.name, &FittedParameter::name)->value;

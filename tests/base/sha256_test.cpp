@@ -1,5 +1,8 @@
 #include "base/sha256.h"
 
+#include <chrono>
+#include <filesystem>
+
 #include "base/error.h"
 #include "support.h"
 
@@ -21,6 +24,19 @@ TEST(Sha256, OfAFileIsThatOfItsBytes) {
   const std::string bytes(600'003, 'b');  // in several pieces
   EXPECT_EQ(sha256_of_file(folder.write("b", bytes)), sha256(bytes));
   EXPECT_THROW(sha256_of_file(folder / "missing"), Error);
+}
+
+TEST(Sha256, OfAnOpenFileIsTheSameWhateverWasReadAndRefusedOnceTheFileHasChanged) {
+  const test::Folder folder;
+  const std::string path = folder.write("b", "0123456789");
+  InputFile in(path);
+  char some[4];
+  in.read(some, sizeof some);
+  EXPECT_EQ(sha256_of_file(in), sha256("0123456789"));
+  EXPECT_EQ(in.position(), 4U);
+  std::filesystem::last_write_time(
+      path, std::filesystem::last_write_time(path) + std::chrono::seconds(1));
+  EXPECT_THROW(sha256_of_file(in), Error);
 }
 
 }  // namespace

@@ -311,6 +311,29 @@ TEST(Solve, FindsTheMinimumOfAQuadraticAndKeepsInsideItsBounds) {
   EXPECT_NEAR(inside.x[0], 1.5, 1e-4);  // 2 (x − 1) + (1 − 2) = 0
 }
 
+// The cost is rounded to more than the last steps lower it by; only the gradient can lead on.
+TEST(Solve, IsNotHeldUpByTheRoundingOfTheCost) {
+  const std::vector<double> optimum{0.3, 0.7};
+  int passes = 0;
+  const auto evaluate = [&](const std::vector<double>& x) {
+    ++passes;
+    const double a = x[0] - optimum[0], b = x[1] - optimum[1];
+    NormalEquations e;  // JᵀJ is a little less than the curvature: the steps are a little too long
+    e.h = {1.8, 0.9, 0.9, 2.7};
+    e.g = {2 * a + b, a + 3 * b};
+    const double exact = 1e4 + (a * e.g[0] + b * e.g[1]) / 2;
+    e.cost = 0.01 * std::round(exact / 0.01);
+    return e;
+  };
+  const auto s = solve(evaluate, {0.35, 0.68}, {{0, 0}, {1, 1}}, {.rounding = 1e-9});
+  EXPECT_TRUE(s.converged);
+  EXPECT_LT(passes, 6);
+  // 1e-8 of the cost: half a step of 0.01 along the flattest direction
+  EXPECT_NEAR(s.x[0], optimum[0], 0.012);
+  EXPECT_NEAR(s.x[1], optimum[1], 0.012);
+  EXPECT_EQ(s.cost_per_iteration.size(), static_cast<std::size_t>(s.iterations) + 1);
+}
+
 TEST(Solve, SurvivesADirectionInWhichNothingChanges) {
   const auto evaluate = [](const std::vector<double>& x) {
     const double a = x[0] + x[1] - 1;
