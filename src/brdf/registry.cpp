@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "brdf/evaluate.h"
 #include "brdf/maps.h"
 
 #include <fmt/format.h>
@@ -82,26 +81,6 @@ double in_row(const std::vector<double>& column, std::size_t row) {
   return column[column.size() == 1 ? 0 : row];
 }
 
-template <class F>
-std::vector<double> values(std::size_t term,
-                           std::span<const double> parameters,
-                           std::span<const FrameAngles<double>> rows) {
-  const auto& k = kernels<F>("scalar");
-  std::vector<F> p(parameters.begin(), parameters.end());
-  AngleColumns<F> x(rows.size(), true);
-  for (std::size_t i = 0; i < rows.size(); ++i) x.set(i, rows[i]);
-  const std::size_t n = x.padded();
-  const Column<F> ones(n, F(1)), zeros(n, F(0));
-  Column<F> out(n);
-  k.terms[term].add(x.block(), p.data(), {ones.data(), nullptr, zeros.data(), out.data(), nullptr});
-  if (role_of(k.terms[term].about->id) == Role::masking)
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const F cosines = 4 * F(rows[i].nol) * F(rows[i].nov);
-      out[i] = cosines > 0 ? cosines * out[i] : 0;  // at grazing G2 is 0, even where V has no bound
-    }
-  return {out.data(), out.data() + rows.size()};
-}
-
 template <template <class> class Map>
 constexpr MapEntry map_entry() {
   static_assert(MapOver<Map<double>, double>);
@@ -113,26 +92,6 @@ constexpr auto map_table(MapList<M...>) {
 }
 constexpr auto map_entries = map_table(Maps{});
 
-template <template <class> class Map, class T>
-std::vector<double> apply(std::span<const double> parameters) {
-  constexpr std::size_t n = Map<T>::parameters.size();
-  std::vector<T> p;
-  for (const double v : parameters) p.push_back(static_cast<T>(v));
-  std::vector<double> out;
-  for (const T& x : Map<T>::apply(std::span<const T, n>(p))) out.push_back(static_cast<double>(x));
-  return out;
-}
-template <class T, template <class> class... M>
-std::vector<double> apply_map(std::size_t map, std::span<const double> parameters, MapList<M...>) {
-  using Apply = std::vector<double> (*)(std::span<const double>);
-  static constexpr Apply table[] = {apply<M, T>...};
-  return table[map](parameters);
-}
-template <class T>
-std::vector<double> apply_map(std::size_t map, std::span<const double> parameters) {
-  return apply_map<T>(map, parameters, Maps{});
-}
-
 }  // namespace
 
 std::span<const TermKernels<double>> catalogue() {
@@ -141,6 +100,22 @@ std::span<const TermKernels<double>> catalogue() {
 
 std::span<const MapEntry> maps() {
   return map_entries;
+}
+
+CatalogueIn catalogue_in(Number number) {
+  switch (number) {
+    case Number::double_:
+      return catalogue_in<Number::double_>();
+    case Number::float_:
+      return catalogue_in<Number::float_>();
+    case Number::half:
+      return catalogue_in<Number::half>();
+    case Number::wide:
+      return catalogue_in<Number::wide>();
+    case Number::mixed:
+      return catalogue_in<Number::mixed>();
+  }
+  return {};
 }
 
 std::size_t find_term(std::string_view id) {
@@ -226,8 +201,9 @@ TermValues evaluate_term(std::size_t term,
     if (!given("xol", "yol")) a.xol = sine(a.nol);
     if (!given("xov", "yov")) a.xov = sine(a.nov);
   }
-  result.values =
-      number == Number::double_ ? values<double>(term, p, angles) : values<float>(term, p, angles);
+  result.values.resize(rows);
+  const auto in = catalogue_in(number).terms[term];
+  (in.g2 ? in.g2 : in.values)(p, angles, result.values.data());
   return result;
 }
 
@@ -251,8 +227,7 @@ MapValues evaluate_map(std::size_t map,
     for (std::size_t k = 0; k < q.size(); ++k)
       if (const auto it = at.find(std::string(m.parameters[k].name)); it != at.end())
         q[k] = in_row(it->second, row);
-    result.values.push_back(number == Number::double_ ? apply_map<double>(map, q)
-                                                      : apply_map<float>(map, q));
+    result.values.push_back(catalogue_in(number).maps[map](q));
   }
   return result;
 }

@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "brdf/kernels.h"
+#include "brdf/term_in.h"
 
 namespace gonio {
-
-enum class Number { double_, float_ };
-inline constexpr std::array<std::string_view, 2> number_names{"double", "float"};
 
 /// Every term, in the order of the catalogue; an index here is an index into Kernels::terms.
 std::span<const TermKernels<double>> catalogue();

@@ -110,7 +110,10 @@ void add_term(CLI::App& app, Action& action) {
        "Cosines: noh, nol, nov, voh or cos; of the tangent frame xoh, yoh, xol, yol, xov, yov; "
        "and sin2_theta_h = values")
       ->expected(1, 64);
-  c->add_option("--number", o->number, "Number type: double or float")->check(one_of(number_names));
+  c->add_option("--number", o->number,
+                "Number type: double; float; half, rounded after every operation; wide, fifty "
+                "digits; mixed, half parameters and float angles")
+      ->check(one_of(number_names));
   add_output(c, *o);
 }
 

@@ -11,12 +11,20 @@
 /// An emulation, and not _Float16: clang before 15 has none on x86, later ones keep float between
 /// operations unless told otherwise.
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
 #include "number/real.h"
 
 namespace gonio::inline GONIO_ARCH {
+
+/// Raised by operations, lowered by whoever asks, as IEEE 754 has them: a finite value became infinite;
+/// a value below 2⁻¹⁴ was not exact.
+struct HalfFlags {
+  bool overflow = false, underflow = false;
+};
+inline thread_local HalfFlags half_flags;
 
 class Half {
  public:
@@ -44,7 +52,9 @@ class Half {
   friend constexpr bool operator<(Half a, Half b) { return a.v_ < b.v_; }
 
   friend Half sqrt(Half a) { return Half(std::sqrt(a.v_)); }
-  friend Half exp(Half a) { return Half(std::exp(static_cast<double>(a.v_))); }
+  friend Half exp(Half a) {  // a double holds e^±100, so that the flags are raised
+    return Half(std::exp(std::clamp(static_cast<double>(a.v_), -100.0, 100.0)));
+  }
   friend Half log(Half a) { return Half(std::log(static_cast<double>(a.v_))); }
 
  private:
@@ -68,9 +78,13 @@ class Half {
     std::uint32_t to = 0;
     if (size < 0x3880'0000) {  // below 2⁻¹⁴: the last digit is 2⁻²⁴, which is that of a float at ½
       to = std::bit_cast<std::uint32_t>(std::bit_cast<float>(size) + 0.5F - 0.5F);
+      if (to != size) half_flags.underflow = true;
     } else {
       to = (size + 0xfff + (size >> 13 & 1)) & ~0x1fffU;
-      if (to > std::bit_cast<std::uint32_t>(largest)) to = 0x7f80'0000;
+      if (to > std::bit_cast<std::uint32_t>(largest)) {
+        if (size < 0x7f80'0000) half_flags.overflow = true;
+        to = 0x7f80'0000;
+      }
     }
     return std::bit_cast<float>(to | sign);
   }

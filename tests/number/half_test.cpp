@@ -208,6 +208,31 @@ TEST(Half, RoundsAfterEveryOperationAndNotOnceAtTheEnd) {
   EXPECT_EQ(value(Half(300) * Half(300) / Half(300)), inf);
 }
 
+TEST(Half, RaisesAFlagWhereItsRangeEndsAndNowhereElse) {
+  const auto flags = [](auto&& work) {
+    half_flags = {};
+    work();
+    return std::pair(half_flags.overflow, half_flags.underflow);
+  };
+  constexpr std::pair none(false, false), overflow(true, false), underflow(false, true);
+  const Half large(65504), small(0x1p-14), least(0x1p-24), infinite(inf);
+  EXPECT_EQ(flags([&] { return large + Half(15); }), none);
+  EXPECT_EQ(flags([&] { return large + Half(16); }), overflow);
+  EXPECT_EQ(flags([&] { return large * large; }), overflow);
+  EXPECT_EQ(flags([&] { return Half(1e300); }), overflow);
+  EXPECT_EQ(flags([&] { return infinite * 2; }), none);
+  EXPECT_EQ(flags([&] { return 1 / Half(0); }), none);
+  EXPECT_EQ(flags([&] { return small / 2; }), none);  // still exact
+  EXPECT_EQ(flags([&] { return small * Half(0.9); }), underflow);
+  EXPECT_EQ(flags([&] { return least / 2; }), underflow);
+  EXPECT_EQ(flags([&] { return small - least; }), none);
+  EXPECT_EQ(flags([&] { return Half(1e-300); }), underflow);
+  EXPECT_EQ(flags([&] { return exp(Half(-65504)); }), underflow);
+  EXPECT_EQ(flags([&] { return exp(Half(65504)); }), overflow);
+  EXPECT_EQ(flags([&] { return exp(Half(-5)) + log(least) + sqrt(least); }), none);
+  EXPECT_EQ(flags([&] { return large * 0; }), none);
+}
+
 TEST(Half, RoundsAnIntegerBeforeItIsUsed) {
   EXPECT_EQ(value(2049 - Half(2048)), 0);
   EXPECT_EQ(value(Half(1) * 2051), 2052);

@@ -1,0 +1,65 @@
+#pragma once
+/// \file
+/// Every term in every number, one sample at a time: what `gonio term` prints, and what says how much
+/// a number type loses and what a term costs.  For millions of samples see kernels.h.
+///
+/// Indices are those of the catalogue.  One file per number compiles all terms (term_in_*.cpp).
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "geometry/angles.h"
+#include "number/counted.h"
+
+namespace gonio {
+
+/// mixed: as a mobile shader declares them, parameters are half and angles float.
+enum class Number { double_, float_, half, wide, mixed };
+inline constexpr std::array<std::string_view, 5> number_names{"double", "float", "half", "wide",
+                                                              "mixed"};
+
+struct TermIn {
+  /// out[i] = the term at rows[i].  Parameters and angles are rounded to the number on their way in,
+  /// results to double on their way out; all between is computed in the number.
+  using Values = void (*)(std::span<const double> parameters,
+                          std::span<const FrameAngles<double>> rows,
+                          double* out);
+  Values values;
+  Values g2;  ///< of a masking term: 4 NoL NoV V, 0 where a cosine is; else null
+};
+/// A map's outputs, rounded in and out as a term's.
+using MapIn = std::vector<double> (*)(std::span<const double> parameters);
+
+struct CatalogueIn {
+  std::span<const TermIn> terms;
+  std::span<const MapIn> maps;
+};
+template <Number number>
+CatalogueIn catalogue_in();
+CatalogueIn catalogue_in(Number number);
+
+/// A term in fifty digits.
+struct WideValue {
+  double value, rest;  ///< the value is their sum
+  /// Σ |∂ ln f / ∂ ln xᵢ| over parameters and angles: how many units of the value's last digit a unit
+  /// of the inputs' last digits is worth.  NaN where the value is 0.
+  double condition;
+
+  /// |x / f − 1|; 0 where both are 0
+  double relative_error(double x) const;
+};
+WideValue wide_value(std::size_t term,
+                     std::span<const double> parameters,
+                     const FrameAngles<double>& angles);
+
+/// What a term costs on its own, its division included.
+struct TermOperations {
+  Operations parameters;  ///< once for given parameters
+  Operations sample;      ///< for each sample
+};
+TermOperations operations_of(std::size_t term);
+
+}  // namespace gonio

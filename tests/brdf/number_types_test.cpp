@@ -1,0 +1,204 @@
+// Every term in every number type, at arguments that rapidcheck thinks up and, where one fails,
+// makes simpler.  A term named in the catalogue is tested here at once.
+#include <bit>
+#include <limits>
+
+#include "brdf/term_in.h"
+#include "brdf/terms.h"
+#include "number/half.h"
+
+#include <fmt/format.h>
+#include <rapidcheck.h>
+
+namespace gonio {
+namespace {
+
+using test::Parameters;
+using test::Row;
+using test::text;
+
+/// A number type as these tests see it.
+struct Type {
+  Number number;
+  double epsilon;               ///< the distance from 1 to the number above
+  double least;                 ///< values below it may have lost digits
+  double (*parameter)(double);  ///< rounds as evaluation in the number does
+  double (*angle)(double);
+};
+
+double as_double(double x) {
+  return x;
+}
+double as_float(double x) {
+  return static_cast<double>(static_cast<float>(x));
+}
+double as_half(double x) {
+  return static_cast<double>(Half(x));
+}
+template <class F>
+constexpr double least = static_cast<double>(std::numeric_limits<F>::min() /
+                                             std::numeric_limits<F>::epsilon());
+constexpr double half_epsilon = static_cast<double>(Half::epsilon),
+                 half_least = static_cast<double>(Half::smallest_normal);
+
+constexpr Type types[] = {
+    {Number::double_, 0x1p-52, least<double>, as_double, as_double},
+    {Number::float_, 0x1p-23, least<float>, as_float, as_float},
+    {Number::half, half_epsilon, half_least, as_half, as_half},
+    {Number::mixed, half_epsilon, half_least, as_half, as_float},
+    {Number::wide, 0x1p-52, least<double>, as_double, as_double},
+};
+
+struct Sample {
+  Parameters p;
+  Row x;
+};
+std::ostream& operator<<(std::ostream& out, const Sample& s) {
+  const auto& x = s.x;
+  return out << "parameters " << text(s.p) << " at " << text(x) << " in the frame "
+             << text(Parameters{x.xoh, x.yoh, x.xol, x.yol, x.xov, x.yov});
+}
+
+/// In [low, high]; becomes simpler towards low.
+double uniform(double low, double high) {
+  constexpr int steps = 1 << 30;
+  const int k = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, steps + 1));
+  return low + (high - low) * (static_cast<double>(k) / steps);
+}
+double by_factors(double low, double high) {
+  return std::exp(uniform(std::log(low), std::log(high)));
+}
+bool one_in(int n) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, n)) == n - 1;
+}
+
+/// A legal value: an end, 1 (where formulas have holes) or anything between.
+double legal(const Range& r) {
+  if (one_in(8)) return r.low;
+  if (one_in(8)) return r.high;
+  if (r.holds(1) && one_in(8)) return 1;
+  const bool decades = r.low > 0 && r.high / r.low > 100;
+  return std::clamp(decades ? by_factors(r.low, r.high) : uniform(r.low, r.high), r.low, r.high);
+}
+
+/// A pair of directions above the surface, half vectors from the peak outwards, some grazing.
+Row row() {
+  const double h = one_in(2) ? by_factors(1e-5, 1) : uniform(0, 1.5);
+  const double d = one_in(3) ? 1.5707 - by_factors(1e-3, 1) : uniform(0, 1.5);
+  const double phi_h = uniform(-3.1416, 3.1416), phi_d = uniform(0, 3.1416);
+  Row row = frame_angles(directions(HalfDifference{h, phi_h, d, phi_d}));
+  static_cast<Angles<double>&>(row) = angles(SinCos(h), SinCos(d), std::cos(phi_d));
+  RC_PRE(row.nol > 1e-3 && row.nov > 1e-3);
+  return row;
+}
+
+/// Rounded to the type, so that its value and the truth are of the same arguments.
+Sample sample(std::span<const Parameter> parameters, const Type& type) {
+  Sample s;
+  for (const auto& q : parameters) s.p.push_back(type.parameter(legal(q.legal)));
+  s.x = row();
+  constexpr double Row::*all[] = {&Row::nol,          &Row::nov, &Row::noh, &Row::voh,
+                                  &Row::sin2_theta_h, &Row::xoh, &Row::yoh, &Row::xol,
+                                  &Row::yol,          &Row::xov, &Row::yov};
+  for (const auto a : all) s.x.*a = type.angle(s.x.*a);
+  return s;
+}
+
+double value_in(Number number, std::size_t term, const Sample& s) {
+  double value = 0;
+  catalogue_in(number).terms[term].values(s.p, {&s.x, 1}, &value);
+  return value;
+}
+
+/// Always the same thousand thoughts.
+void check(std::string_view what, auto&& property) {
+  rc::detail::TestMetadata about;
+  about.id = about.description = what;
+  rc::detail::TestParams fixed;
+  fixed.seed = 1;
+  fixed.maxSuccess = 200;
+  const auto result = rc::detail::checkTestable(property, about, fixed);
+  if (result.template is<rc::detail::SuccessResult>()) return;
+  std::ostringstream text;
+  rc::detail::printResultMessage(result, text);
+  ADD_FAILURE() << what << ": " << text.str();
+}
+
+void for_every_term_and_type(auto&& property) {
+  for (std::size_t t = 0; t < catalogue().size(); ++t)
+    for (const auto& type : types)
+      property(t, type,
+               fmt::format("{} in {}", catalogue()[t].about->id,
+                           number_names[static_cast<std::size_t>(type.number)]));
+}
+
+TEST(NumberTypes, EveryTermIsAsExactAsItsInputsLastDigitsAllow) {
+  for_every_term_and_type([](std::size_t t, const Type& type, const std::string& what) {
+    double worst = 0;
+    int compared = 0;
+    check(what, [&] {
+      const Sample s = sample(catalogue()[t].parameters, type);
+      RC_LOG() << s;
+      half_flags = {};
+      const double value = value_in(type.number, t, s);
+      if (half_flags.overflow || half_flags.underflow) return;
+      RC_ASSERT(std::isfinite(value));
+      const auto truth = wide_value(t, s.p, s.x);
+      RC_ASSERT((value < 0) == (truth.value < 0));
+      if (std::abs(truth.value) < type.least) return;
+      const double digits = type.epsilon * (1 + truth.condition);
+      if (digits > 0.05) return;
+      ++compared;
+      const double error = truth.relative_error(value) / digits;
+      worst = std::max(worst, error);
+      RC_ASSERT(error < 8);
+    });
+    fmt::print("{:50} {:4} {:.2f}\n", what, compared, worst);
+  });
+}
+
+TEST(NumberTypes, WhatIsReciprocalIsSoToTheLastBit) {
+  for_every_term_and_type([](std::size_t t, const Type& type, const std::string& what) {
+    check(what, [&] {
+      const Sample s = sample(catalogue()[t].parameters, type);
+      RC_LOG() << s;
+      Sample swapped = s;
+      std::swap(swapped.x.nol, swapped.x.nov);
+      std::swap(swapped.x.xol, swapped.x.xov);
+      std::swap(swapped.x.yol, swapped.x.yov);
+      const double a = value_in(type.number, t, s), b = value_in(type.number, t, swapped);
+      RC_ASSERT(std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b));
+    });
+  });
+}
+
+TEST(NumberTypes, DoubleAndFloatAreWhatTheKernelsCompute) {
+  const auto rows = test::random_angles(50, 3);
+  for (std::size_t t = 0; t < catalogue().size(); ++t)
+    for (const auto& p : test::legal_grid(catalogue()[t].parameters, 3)) {
+      const auto d = test::values_of<double>(t, p, rows);
+      const auto f = test::values_of<float>(t, p, rows);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Sample s{p, rows[i]};
+        ASSERT_EQ(value_in(Number::double_, t, s), d[i]) << catalogue()[t].about->id << s;
+        ASSERT_EQ(value_in(Number::float_, t, s), static_cast<double>(f[i]))
+            << catalogue()[t].about->id << s;
+      }
+    }
+}
+
+TEST(NumberTypes, OperationsAreCountedOncePerParametersAndOncePerSample) {
+  using O = Operation;
+  const auto ggx = operations_of(find_term("ndf.ggx"));
+  Operations once, each;
+  once[O::mul] = 1;  // α²
+  once[O::div] = 1;  // α² / π
+  each[O::mul] = 3;  // (α² · c² + s²)²
+  each[O::add] = 1;
+  each[O::div] = 1;
+  EXPECT_EQ(ggx.parameters, once);
+  EXPECT_EQ(ggx.sample, each);
+}
+
+}  // namespace
+}  // namespace gonio
