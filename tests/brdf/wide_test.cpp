@@ -19,78 +19,23 @@ double relative_error(double x, const Wide& truth) {
   return static_cast<double>(abs((Wide(x) - truth) / truth));
 }
 
-// ---- Every term against itself in fifty digits --------------------------------------------------
-
-/// What a term reads: its parameters, then the angles.
-using Inputs = std::vector<Wide>;
-
-template <template <class> class Term>
-Wide wide(const Inputs& x) {
-  constexpr std::size_t n = Term<Wide>::parameters.size();
-  const Term<Wide> term{std::span<const Wide, n>(x.data(), n)};
-  const auto a = [&](std::size_t k) { return x[n + k]; };
-  return as_value<Wide>(
-      term(FrameAngles<Wide>{{a(0), a(1), a(2), a(3), a(4)}, a(5), a(6), a(7), a(8), a(9), a(10)}));
-}
-using WideTerm = Wide (*)(const Inputs&);
-template <template <class> class... Terms>
-std::vector<WideTerm> wide_terms(TermList<Terms...>) {
-  return {wide<Terms>...};
-}
-
-/// Σ |∂ ln f / ∂ ln xᵢ|: by how much the last digit of an input moves the value.  The first
-/// `read` inputs can.
-double condition(WideTerm f, const Inputs& x, std::size_t read) {
-  const Wide value = f(x), h = 1e-20;
-  Wide sum = 0;
-  for (std::size_t i = 0; i < read; ++i) {
-    Inputs y = x;
-    y[i] *= 1 + h;
-    sum += abs(f(y) - value);
+TEST(Wide, HasPiToItsLastDigit) {
+  // sin π = 0: what is left of the sine's series is the error of π
+  const Wide x = pi<Wide>();
+  Wide term = x, sine = x;
+  for (int k = 1; k < 60; ++k) {
+    term *= -x * x / ((2 * k) * (2 * k + 1));
+    sine += term;
   }
-  return static_cast<double>(sum / (h * abs(value)));
+  EXPECT_LT(static_cast<double>(abs(sine)), 1e-48);
 }
 
-template <class F>
-void check_digits(double bound) {
-  const auto f = wide_terms(Catalogue{});
-  const auto rows = test::random_angles(300, 10);
-  for (std::size_t t = 0; t < f.size(); ++t) {
-    if (catalogue()[t].as_shipped && std::same_as<F, float>) continue;
-    std::mt19937_64 random(9);  // a new term is not to change what the others are given
-    double worst = 0;
-    std::string where;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      Parameters p;
-      for (const auto& q : catalogue()[t].parameters) {
-        const auto s = test::spread(q.legal, 1000);
-        p.push_back(static_cast<double>(static_cast<F>(s[random() % s.size()])));
-        p.back() = std::clamp(p.back(), q.legal.low, q.legal.high);
-      }
-      const double value = static_cast<double>(test::values_of<F>(t, p, {&rows[i], 1})[0]);
-      Inputs x(p.begin(), p.end());
-      const auto& r = rows[i];
-      for (const double a :
-           {r.nol, r.nov, r.noh, r.voh, r.sin2_theta_h, r.xoh, r.yoh, r.xol, r.yol, r.xov, r.yov})
-        x.emplace_back(static_cast<F>(a));
-      for (std::size_t k = 0; k < p.size(); ++k) x[k] = static_cast<F>(p[k]);
-      const std::size_t read = x.size() - (catalogue()[t].anisotropic ? 0 : 6);
-      const Wide truth = f[t](x);
-      if (abs(truth) < std::numeric_limits<F>::min() / std::numeric_limits<F>::epsilon()) continue;
-      const double eps = static_cast<double>(std::numeric_limits<F>::epsilon());
-      const double error = relative_error(value, truth) / eps / (1 + condition(f[t], x, read));
-      if (error > worst) worst = error, where = text(p) + text(rows[i]);
-    }
-    // A shader's arithmetic may cancel; it is held to be the formula nevertheless.
-    EXPECT_LT(worst, catalogue()[t].as_shipped ? 1000 : bound)
-        << catalogue()[t].about->id << " in " << where;
-    testing::Test::RecordProperty(std::string(catalogue()[t].about->id), std::to_string(worst));
-  }
-}
-
-TEST(Catalogue, NoTermLosesMoreThanItsInputsLastDigitsAreWorth) {
-  check_digits<double>(8);
-  check_digits<float>(8);
+TEST(Wide, ValuesOfTermsCarryThirtyDigits) {
+  // D = 1/π at alpha = 1
+  const Parameters alpha{1};
+  const auto d = wide_value(find_term("ndf.ggx"), alpha, test::framed({0.5, 0.5, 1, 0.8, 0}));
+  const Wide error = Wide(d.value) + d.rest - 1 / pi<Wide>();
+  EXPECT_LT(static_cast<double>(abs(error)), 1e-32);
 }
 
 // ---- The functions that terms are made of -------------------------------------------------------

@@ -92,11 +92,29 @@ TEST(Program, EvaluatesTermsAsItsContractSays) {
       gonio(f, "term masking.smith_ggx.separable --set alpha=0.25 --at nov=0.1 nol=0.1 --json")
           .json();
   EXPECT_NEAR(g2["values"][0], std::pow(g1["values"][0].get<double>(), 2), 1e-14);
-  const auto single =
-      gonio(f, "term fresnel.schlick --set f0=0.04 --at cos=0.5 --number float --json").json();
-  const auto full = gonio(f, "term fresnel.schlick --set f0=0.04 --at cos=0.5 --json").json();
-  EXPECT_NE(single["values"][0], full["values"][0]);
-  EXPECT_NEAR(single["values"][0], full["values"][0], 1e-7);
+}
+
+TEST(Program, EvaluatesTermsAndMapsInEveryNumber) {
+  const Folder f;
+  const auto schlick = [&](const std::string& number) {
+    const auto d =
+        gonio(f, "term fresnel.schlick --set f0=0.04 --at cos=0.5 --json --number " + number)
+            .json();
+    EXPECT_EQ(d["number"], number);
+    return d["values"][0].get<double>();
+  };
+  const double exact = 0.04 + 0.96 / 32;  // 0.07
+  EXPECT_NEAR(schlick("double"), exact, 1e-16);
+  EXPECT_EQ(schlick("wide"), exact);
+  EXPECT_EQ(schlick("float"), static_cast<double>(0.07F));
+  // f0 = 1311/32768 in half; f0 · 31/32 rounds to 1270/32768, + 1/32 to 1147/16384
+  EXPECT_EQ(schlick("half"), 1147.0 / 16384);
+  const double mixed = 1311.0 / 32768;  // in float: f0 · 31/32 + 1/32, exact
+  EXPECT_EQ(schlick("mixed"), mixed * 31 / 32 + 1.0 / 32);
+  const auto d = gonio(f, "term clamp.nov --set nov=0 --number half --json").json();
+  EXPECT_EQ(d["values"][0], 168 * std::pow(2, -24));  // 1e-5
+  const auto refused = gonio(f, "term ndf.ggx --at noh=1 --number quad");
+  EXPECT_EQ(refused.code, 2);
 }
 
 TEST(Program, ListsEveryTermWithItsFormulaAndSource) {
