@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 #include "number/real.h"
 
@@ -28,8 +29,6 @@ inline thread_local HalfFlags half_flags;
 
 class Half {
  public:
-  static constexpr float largest = 65504, smallest_normal = 0x1p-14F, epsilon = 0x1p-10F;
-
   constexpr Half() = default;
   explicit constexpr Half(std::same_as<int> auto x) : v_(rounded(static_cast<float>(x))) {}
   explicit constexpr Half(std::floating_point auto x) : v_(rounded(to_odd(x))) {}
@@ -72,6 +71,7 @@ class Half {
   static constexpr float to_odd(float x) { return x; }
 
   static constexpr float rounded(float x) {
+    constexpr std::uint32_t largest = std::bit_cast<std::uint32_t>(65504.0F);
     const auto bits = std::bit_cast<std::uint32_t>(x), sign = bits & 0x8000'0000,
                size = bits ^ sign;
     if (size > 0x7f80'0000) return x;  // NaN
@@ -81,7 +81,7 @@ class Half {
       if (to != size) half_flags.underflow = true;
     } else {
       to = (size + 0xfff + (size >> 13 & 1)) & ~0x1fffU;
-      if (to > std::bit_cast<std::uint32_t>(largest)) {
+      if (to > largest) {
         if (size < 0x7f80'0000) half_flags.overflow = true;
         to = 0x7f80'0000;
       }
@@ -101,3 +101,13 @@ struct RealTraits<Half> {
 };
 
 }  // namespace gonio::inline GONIO_ARCH
+
+template <>
+class std::numeric_limits<gonio::Half> {
+ public:
+  static constexpr bool is_specialized = true;
+  static constexpr int digits = 11, min_exponent = -13, max_exponent = 16;
+  static constexpr gonio::Half min() { return gonio::Half(0x1p-14F); }
+  static constexpr gonio::Half max() { return gonio::Half(65504.0F); }
+  static constexpr gonio::Half epsilon() { return gonio::Half(0x1p-10F); }
+};

@@ -27,6 +27,7 @@ class Mixed {
   Mixed() = default;
   explicit Mixed(std::same_as<int> auto literal) : v_(static_cast<double>(literal)) {}
   explicit Mixed(double literal) : v_(literal) {}
+  explicit Mixed(long double literal) : v_(static_cast<double>(literal)) {}
   explicit Mixed(float x) : v_(static_cast<double>(x)), precision_(Precision::single) {}
   explicit Mixed(Half x) : v_(static_cast<double>(x)), precision_(Precision::half) {}
   double value() const { return v_; }
@@ -84,7 +85,7 @@ class Mixed {
 
 template <>
 struct RealTraits<Mixed> {
-  using Base = double;
+  using Base = Mixed;
   using Plain = Mixed;
   using Mask = bool;
   static Mixed select(bool m, Mixed a, Mixed b) {
@@ -96,3 +97,7 @@ template <>
 inline constexpr bool computes_as_base<Mixed> = false;
 
 }  // namespace gonio::inline GONIO_ARCH
+
+/// A literal must serve as a float too.
+template <>
+class std::numeric_limits<gonio::Mixed> : public std::numeric_limits<float> {};

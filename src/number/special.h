@@ -22,8 +22,14 @@ inline constexpr int digits = std::max(24, std::numeric_limits<base_t<T>>::digit
 /// numbers: what keeps the input of a division or a logarithm off 0.
 template <Real T>
 T small() {
-  using Limits = std::numeric_limits<base_t<T>>;
-  constexpr int exponent = Limits::is_specialized ? std::max(Limits::min_exponent / 2, -511) : -6;
+  constexpr int exponent = std::max(std::numeric_limits<base_t<T>>::min_exponent / 2, -511);
+  return constant<T>(std::ldexp(1.0L, exponent));
+}
+/// The least normal number, whose reciprocal is finite too: what keeps a divisor off 0 that nothing
+/// else is made of.
+template <Real T>
+T least() {
+  constexpr int exponent = std::max(std::numeric_limits<base_t<T>>::min_exponent - 1, -1022);
   return constant<T>(std::ldexp(1.0L, exponent));
 }
 

@@ -112,10 +112,13 @@ TEST(Half, TakesConstantsFromLongDoubleInOneRounding) {
   EXPECT_EQ(value(pi<Half>()), 3.140625);
 }
 
-TEST(Half, LargestSmallestNormalAndEpsilonAreThoseOfBinary16) {
-  EXPECT_EQ(static_cast<double>(Half::largest), decoded(0x7bff));
-  EXPECT_EQ(static_cast<double>(Half::smallest_normal), decoded(0x0400));
-  EXPECT_EQ(static_cast<double>(Half::epsilon), decoded(0x3c01) - 1);
+TEST(Half, HasTheLimitsOfBinary16) {
+  using Limits = std::numeric_limits<Half>;
+  EXPECT_EQ(value(Limits::max()), decoded(0x7bff));
+  EXPECT_EQ(value(Limits::min()), decoded(0x0400));
+  EXPECT_EQ(value(Limits::min()), std::ldexp(1, Limits::min_exponent - 1));
+  EXPECT_EQ(value(Limits::epsilon()), decoded(0x3c01) - 1);
+  EXPECT_EQ(value(Limits::epsilon()), std::ldexp(1, 1 - Limits::digits));
 }
 
 /// The sign of the exact a ÷ b − c and of √a − c, from products that a double holds exactly.
