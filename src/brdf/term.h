@@ -7,7 +7,7 @@
 ///   operator()(angles)   the formula: computed once per sample; answers T or Quotient<T>
 ///   anisotropic          optional, true where it reads the tangent frame (FrameAngles)
 ///   as_shipped           optional, true where it is a shader's arithmetic operation by operation: in
-///                        few bits it may divide by zero or overflow, and that is to be seen
+///                        few bits it may divide by zero, cancel or overflow, and that is to be seen
 ///
 /// The parameters are T (they may carry derivatives), the angles are plain_t<T> (they never do).
 /// A term is added by writing its struct and naming it in catalogue.h; the registry, the command

@@ -146,6 +146,7 @@ struct SchlickUe {
                                "fresnel.schlick"};
   static constexpr std::array parameters{
       f0_parameter, Parameter{"f0_green", {0, 1}, {0, 1}, 0.04, false, "f0 of the green channel"}};
+  static constexpr bool as_shipped = true;  // 1 − (1 − c)⁵ cancels at grazing
 
   T f0, edge;
 

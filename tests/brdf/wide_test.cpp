@@ -1,8 +1,6 @@
-// Fifty digits: how many of sixteen the terms keep.  The only file that pays for
-// Boost.Multiprecision.
+// Terms and what they are made of against textbooks in fifty digits.
 #include "number/wide.h"
 
-#include "brdf/catalogue.h"
 #include "brdf/terms.h"
 #include "number/dual.h"
 #include "number/special.h"
