@@ -21,6 +21,7 @@ using Action = std::function<Exit()>;
 
 void add_models(CLI::App&, Action&);
 void add_term(CLI::App&, Action&);
+void add_audit(CLI::App&, Action&);
 void add_eval(CLI::App&, Action&);
 void add_synth(CLI::App&, Action&);
 void add_columns(CLI::App&, Action&);

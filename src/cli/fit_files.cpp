@@ -236,12 +236,7 @@ class Count {
   void say() {
     std::string line = fmt::format("{} of {} tables", done_, all_);
     if (failed_) line += fmt::format(", {} failed", failed_);
-    if (done_ > kept_) {
-      const auto left =
-          static_cast<long>(std::ceil(seconds_since(begin_) / static_cast<double>(done_ - kept_) *
-                                      static_cast<double>(all_ - done_)));
-      line += fmt::format(", {}:{:02} left", left / 60, left % 60);
-    }
+    line += time_left(begin_, done_ - kept_, all_ - kept_);
     progress_(line);
   }
   std::mutex mutex_;

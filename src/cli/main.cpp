@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   gonio::cli::Action action;
   gonio::cli::add_models(app, action);
   gonio::cli::add_term(app, action);
+  gonio::cli::add_audit(app, action);
   gonio::cli::add_eval(app, action);
   gonio::cli::add_synth(app, action);
   gonio::cli::add_columns(app, action);

@@ -26,6 +26,20 @@ void Progress::operator()(const std::string& what) {
   if (on_) fmt::print(stderr, "\r\033[K{} …", what);
 }
 
+std::string time_left(std::chrono::steady_clock::time_point begin,
+                      std::size_t done,
+                      std::size_t all) {
+  if (done == 0) return "";
+  const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin;
+  const auto left = static_cast<long>(
+      std::ceil(so_far.count() / static_cast<double>(done) * static_cast<double>(all - done)));
+  return fmt::format(", {}:{:02} left", left / 60, left % 60);
+}
+
+void TimedProgress::operator()(std::size_t done) {
+  progress_(fmt::format("{} {} of {}{}", what_, done, all_, time_left(begin_, done, all_)));
+}
+
 std::string with_error(double value, double error) {
   if (std::isnan(value)) return "–";
   if (std::isnan(error)) return fmt::format("{:.6g}", value);

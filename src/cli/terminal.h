@@ -2,6 +2,8 @@
 /// \file
 /// What a person at a terminal sees.
 
+#include <chrono>
+#include <cstddef>
 #include <string>
 
 namespace gonio::cli {
@@ -17,6 +19,27 @@ class Progress {
 
  private:
   bool on_;
+};
+
+/// How much longer it takes if what is left goes as what was done: ", 1:05 left"; empty before the
+/// first is done.
+std::string time_left(std::chrono::steady_clock::time_point begin,
+                      std::size_t done,
+                      std::size_t all);
+
+/// "auditing 12 of 70, 0:08 left"
+class TimedProgress {
+ public:
+  TimedProgress(bool quiet, std::string what, std::size_t all)
+      : progress_(quiet), what_(std::move(what)), all_(all) {}
+  void operator()(std::size_t done);
+  void clear() { progress_.clear(); }
+
+ private:
+  Progress progress_;
+  std::string what_;
+  std::size_t all_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 /// "0.15003 ± 0.00012": as many digits as the error leaves; "0.15" if the error is unknown.

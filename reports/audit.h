@@ -1,0 +1,71 @@
+#pragma once
+/// \file
+/// The audit of the catalogue: what every entry keeps and breaks of what a BRDF must keep, measured.
+///
+///   mistake    it differs from the form that it is named for
+///   violates   which of the laws it breaks: normalisation, reciprocity, energy, range (a masking or a
+///              Fresnel factor outside [0, 1], a negative value), finite (a legal input without a value)
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "number/counted.h"
+#include "number/parameter.h"
+
+namespace gonio {
+
+/// The furthest that was found, and where.
+struct Worst {
+  double value = 0;
+  double error = 0;  ///< bound of the value's own error; 0: of rounding
+  std::string where;
+};
+
+/// How far an entry is from the form it is named for or stands for.
+struct Distance {
+  std::string_view reference;
+  std::string_view measure;  ///< what is compared: "G2", "F", "D / D at its peak" …
+  Worst most;
+  double rms = 0;
+};
+
+/// A curve that shows what the entry looks like, its reference beside it.
+struct EntryPicture {
+  std::string x, y;
+  std::vector<double> at, value, reference;  ///< reference: empty where there is none
+};
+
+struct EntryAudit {
+  const About* about;
+  std::string_view kind;                 ///< "ndf", "masking", "fresnel", "diffuse", "map", "model"
+  std::optional<Worst> normalisation;    ///< ∫ D cos θ dω, the one furthest from 1
+  std::optional<Worst> reciprocity;      ///< largest |f(l,v) − f(v,l)| over the larger of them
+  std::optional<Worst> energy;           ///< largest directional albedo at F = 1 (or white)
+  std::string energy_of;                 ///< the model that it was measured in
+  std::optional<Worst> lowest, highest;  ///< of the factor itself
+  std::optional<Worst> grazing;          ///< the value at 90°, at default parameters
+  std::optional<Distance> distance;
+  std::size_t not_finite = 0;  ///< legal inputs, the ends of all ranges among them, without a value
+  std::optional<Operations> operations;  ///< of one evaluation, parameters' part left out
+  EntryPicture picture;
+  bool mistake = false;
+  std::vector<std::string_view> violates;
+};
+
+/// Every id that can be audited, in the order of the catalogue: terms, maps, models.
+std::vector<std::string_view> auditable_ids();
+
+/// \param ids   in any order; an unknown one is wrong usage naming the nearest
+/// \param done  called after each entry with how many are done
+std::vector<EntryAudit> audit(const std::vector<std::string>& ids,
+                              const std::function<void(std::size_t)>& done = {});
+
+/// {"entries": […]}: every figure; what does not apply is null.
+std::string to_json(const std::vector<EntryAudit>&);
+/// \param data  of to_json() above
+std::string audit_page_html(std::string_view data);
+
+}  // namespace gonio
