@@ -177,6 +177,21 @@ class Differences {
   std::size_t n_ = 0;
 };
 
+/// Raises the entry's energy to the largest albedo of this model.
+void largest_albedo(EntryAudit& e,
+                    const BoundModel& b,
+                    const std::string& where,
+                    std::string_view spec) {
+  static constexpr std::array mu{0.02, 0.1, 0.3, 0.6, 1.0};
+  const auto albedo = directional_albedo(b, mu, 0, {.error = 1e-6});
+  for (std::size_t i = 0; i < mu.size(); ++i) {
+    if (e.energy && !(albedo[i].value[0] > e.energy->value)) continue;
+    e.energy =
+        Worst{albedo[i].value[0], albedo[i].error, joined(where, fmt::format("NoV {}", mu[i]))};
+    e.energy_of = spec;
+  }
+}
+
 std::string_view reference_of(const About& a) {
   return a.named_for.empty() ? a.approximates : a.named_for;
 }
@@ -319,13 +334,7 @@ class TermAudit {
       for (const auto& p : combinations(parameters_)) {
         for (std::size_t k = 0; k < p.size(); ++k)
           if (parameters_[k].name != "kd") set(parameters_[k].name, p[k]);
-        for (const double mu : {0.02, 0.1, 0.3, 0.6, 1.0}) {
-          const auto a = directional_albedo(b, mu);
-          if (e.energy && !(a.value[0] > e.energy->value)) continue;
-          e.energy =
-              Worst{a.value[0], a.error, joined(text(parameters_, p), fmt::format("NoV {}", mu))};
-          e.energy_of = spec;
-        }
+        largest_albedo(e, b, text(parameters_, p), spec);
         if (diffuse &&
             std::ranges::all_of(parameters_, [](const auto& q) { return q.name == "kd"; }))
           break;  // white is what it was set to
@@ -519,11 +528,7 @@ EntryAudit audit_model(const Preset& preset) {
       if (const double larger = std::max(std::abs(v[i]), std::abs(w[i])); larger > 0)
         raise(e.reciprocity, std::abs(v[i] - w[i]) / larger, where(i));
     }
-    for (const double mu : {0.02, 0.1, 0.3, 0.6, 1.0}) {
-      const auto a = directional_albedo(b, mu);
-      if (!e.energy || a.value[0] > e.energy->value)
-        e.energy = Worst{a.value[0], a.error, joined(text(own, s), fmt::format("NoV {}", mu))};
-    }
+    largest_albedo(e, b, text(own, s), preset.spec);
   }
 
   // The same colours and roughness in the reference: a specular colour is that of a metal.
