@@ -12,6 +12,7 @@
 #include "brdf/model.h"
 #include "brdf/presets.h"
 #include "brdf/registry.h"
+#include "brdf/term_in.h"
 #include "geometry/half_difference.h"
 #include "integrate/directional_albedo.h"
 #include "integrate/normalisation.h"
@@ -245,7 +246,7 @@ class TermAudit {
   /// Of a masking term G2, of others the value.
   static Values values(std::size_t term, const Values& p, std::span<const Row> rows) {
     Values v(rows.size());
-    const auto& in = terms_in(Number::double_)[term];
+    const auto& in = catalogue_in(Number::double_).terms[term];
     (in.g2 ? in.g2 : in.values)(p, rows, v.data());
     return v;
   }
@@ -371,7 +372,7 @@ class TermAudit {
     if (about.about->id != "fresnel.conductor") return combinations(about.parameters);
     std::vector<Values> all;
     for (const auto& metal : metals())
-      for (std::size_t c = 0; c < 3; ++c) all.push_back({metal.n[c], metal.k[c]});
+      for (const auto& index : metal.rgb()) all.push_back({index.n, index.k});
     return all;
   }
 
