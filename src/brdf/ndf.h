@@ -12,9 +12,9 @@ namespace gonio::inline GONIO_ARCH {
 
 inline constexpr Parameter alpha_parameter{"alpha", {1e-4, 1}, {1e-4, 1},
                                            0.3,     false,     "width, roughness²"};
-inline constexpr Parameter alpha_x_parameter{"alpha_x", {1e-4, 1}, {1e-4, 1},
+inline constexpr Parameter alpha_x_parameter{"alpha_x", {1e-4, 4}, {1e-4, 1},
                                              0.3,       false,     "width along the tangent"};
-inline constexpr Parameter alpha_y_parameter{"alpha_y", {1e-4, 1}, {1e-4, 1},
+inline constexpr Parameter alpha_y_parameter{"alpha_y", {1e-4, 4}, {1e-4, 1},
                                              0.3,       false,     "width along the bitangent"};
 
 /// ln NoH², also near the peak, where NoH has lost its digits.
