@@ -32,14 +32,23 @@ using Values = std::vector<double>;
 
 /// Values of a parameter, both ends of its range among them.
 Values looked_at(const Parameter& p) {
-  if (p.name.starts_with("alpha")) return {p.legal.low, 0.01, 0.1, 0.25, 0.5, 0.75, p.legal.high};
-  if (p.name == "gamma") return {p.legal.low, 1, 1.5, 2, 4, p.legal.high};
-  if (p.name == "eta" && p.legal.high <= 10) return {1.05, 1.33, 1.5, 2, 3};
-  if (p.legal.high > 100) return {p.legal.low, p.start, 10};
-  return {p.legal.low, p.start, 0.5 * (p.legal.low + p.legal.high), p.legal.high};
+  Values v{p.legal.low, p.legal.high};
+  if (p.name.starts_with("alpha"))
+    v.insert(v.end(), {0.01, 0.1, 0.25, 0.5, 0.75, 1});
+  else if (p.name == "gamma")
+    v.insert(v.end(), {1, 1.5, 2, 4});
+  else if (p.name == "eta")
+    v.insert(v.end(), {1.05, 1.33, 1.5, 2, 3});
+  else
+    v.insert(v.end(), {p.start, 0.5 * (p.legal.low + p.legal.high)});
+  std::ranges::sort(v);
+  const auto twice = std::ranges::unique(v);
+  v.erase(twice.begin(), twice.end());
+  std::erase_if(v, [&](double x) { return !p.legal.holds(x); });
+  return v;
 }
 
-/// All combinations; widths along tangent and bitangent differ by a factor where both are asked for.
+/// All combinations.
 std::vector<Values> combinations(std::span<const Parameter> parameters) {
   std::vector<Values> all{{}};
   for (const auto& p : parameters) {
@@ -178,18 +187,13 @@ class Differences {
   std::size_t n_ = 0;
 };
 
-/// Raises the entry's energy to the largest albedo of this model.
-void largest_albedo(EntryAudit& e,
-                    const BoundModel& b,
-                    const std::string& where,
-                    std::string_view spec) {
+/// Raises `most` to the largest albedo of this model.
+void largest_albedo(std::optional<Worst>& most, const BoundModel& b, const std::string& where) {
   static constexpr std::array mu{0.02, 0.1, 0.3, 0.6, 1.0};
   const auto albedo = directional_albedo(b, mu, 0, {.error = 1e-6});
   for (std::size_t i = 0; i < mu.size(); ++i) {
-    if (e.energy && !(albedo[i].value[0] > e.energy->value)) continue;
-    e.energy =
-        Worst{albedo[i].value[0], albedo[i].error, joined(where, fmt::format("NoV {}", mu[i]))};
-    e.energy_of = spec;
+    if (most && !(albedo[i].value[0] > most->value)) continue;
+    most = Worst{albedo[i].value[0], albedo[i].error, joined(where, fmt::format("NoV {}", mu[i]))};
   }
 }
 
@@ -208,7 +212,10 @@ void judge(EntryAudit& e) {
   violates("normalisation", e.normalisation && !(std::abs(e.normalisation->value - 1) <=
                                                  noticeable + e.normalisation->error));
   violates("reciprocity", e.reciprocity && e.reciprocity->value > 1e-9);
-  violates("energy", e.energy && e.energy->value - e.energy->error > 1 + noticeable);
+  const auto makes_light = [](const std::optional<Worst>& w) {
+    return w && w->value - w->error > 1 + noticeable;
+  };
+  violates("energy", makes_light(e.energy) || makes_light(e.energy_under_lobe));
   violates("range", (e.lowest && e.lowest->value < 0) ||
                         (e.highest && e.kind != "ndf" && e.kind != "diffuse" && e.kind != "map" &&
                          e.kind != "model" && e.highest->value > 1 + 1e-12));
@@ -299,47 +306,43 @@ class TermAudit {
   /// distribution of its own masking.
   std::string lobe() const {
     const std::string own(short_id(about_.id));
-    const bool aniso = catalogue()[term_].anisotropic;
     const bool beckmann = own.find("beckmann") != own.npos || own.find("blinn") != own.npos;
-    if (role_ == Role::ndf) {
-      if (aniso)
-        return own + (beckmann ? "/smith_ggx_aniso.correlated" : "/smith_ggx_aniso.correlated");
-      if (own.starts_with("gtr")) return own + "/smith_gtr.correlated";
-      return own + (beckmann ? "/smith_beckmann.correlated" : "/smith_ggx.correlated");
-    }
-    if (aniso) return "ggx_aniso/" + own;
-    if (own.starts_with("smith_gtr")) return "gtr/" + own;
-    return (beckmann ? "beckmann/" : "ggx/") + own;
+    const std::string kind = catalogue()[term_].anisotropic ? "_aniso" : "",
+                      shape = own.starts_with("gtr") || own.starts_with("smith_gtr") ? "gtr"
+                              : beckmann                                             ? "beckmann"
+                                                                                     : "ggx";
+    return role_ == Role::ndf ? own + "/smith_" + shape + kind + ".correlated"
+                              : shape + kind + "/" + own;
   }
 
   void energy(EntryAudit& e) const {
-    const bool diffuse = role_ == Role::diffuse;
-    const bool coupled = catalogue()[term_].coupled;
-    std::vector<std::string> specs;
-    if (!diffuse) {
-      specs = {lobe() + "/constant"};
-    } else {
-      const std::string own(short_id(about_.id));
-      if (!coupled) specs.push_back(own);
-      specs.push_back(own + "+ggx/smith_ggx.correlated/schlick");
+    if (role_ != Role::diffuse) {
+      e.energy_of = lobe() + "/constant";
+      albedo_in(e.energy_of, 1, e.energy);
+      return;
     }
-    for (const auto& spec : specs) {
-      const Model m = compose(spec, 1);
-      BoundModel b{m, Values(m.value_count), {}};
-      for (const auto& p : m.parameters) b.values[p.first] = p.about->start;
-      const auto set = [&](std::string_view name, double v) {
-        if (const auto* p = m.find(name)) b.values[p->first] = v;
-      };
-      set("kd", 1);
-      set("f0", diffuse ? 0.04 : 1);
-      for (const auto& p : combinations(parameters_)) {
-        for (std::size_t k = 0; k < p.size(); ++k)
-          if (parameters_[k].name != "kd") set(parameters_[k].name, p[k]);
-        largest_albedo(e, b, text(parameters_, p), spec);
-        if (diffuse &&
-            std::ranges::all_of(parameters_, [](const auto& q) { return q.name == "kd"; }))
-          break;  // white is what it was set to
-      }
+    const std::string own(short_id(about_.id)), under = own + "+ggx/smith_ggx.correlated/schlick";
+    if (!catalogue()[term_].coupled) {
+      e.energy_of = own;
+      albedo_in(own, 1, e.energy);
+    }
+    albedo_in(under, 0.04, e.energy_under_lobe);
+  }
+  /// White, at all values of the parameters of this term and of the width of the lobe.
+  void albedo_in(const std::string& spec, double f0, std::optional<Worst>& most) const {
+    const Model m = compose(spec, 1);
+    BoundModel b{m, Values(m.value_count), {}};
+    std::vector<Parameter> varied;
+    for (const auto& p : m.parameters) {
+      b.values[p.first] = p.name == "kd" ? 1 : p.name == "f0" ? f0 : p.about->start;
+      const bool own =
+          std::ranges::find(parameters_, p.name, &Parameter::name) != parameters_.end();
+      if ((own && p.name != "kd") || p.name == "alpha") varied.push_back(*p.about);
+    }
+    for (const auto& values : combinations(varied)) {
+      for (std::size_t k = 0; k < varied.size(); ++k)
+        b.values[m.find(varied[k].name)->first] = values[k];
+      largest_albedo(most, b, text(varied, values));
     }
   }
 
@@ -529,7 +532,7 @@ EntryAudit audit_model(const Preset& preset) {
       if (const double larger = std::max(std::abs(v[i]), std::abs(w[i])); larger > 0)
         raise(e.reciprocity, std::abs(v[i] - w[i]) / larger, where(i));
     }
-    largest_albedo(e, b, text(own, s), preset.spec);
+    largest_albedo(e.energy, b, text(own, s));
   }
 
   // The same colours and roughness in the reference: a specular colour is that of a metal.

@@ -38,6 +38,7 @@ PageJson json(const EntryAudit& e) {
           {"reciprocity", json(e.reciprocity)},
           {"energy", json(e.energy)},
           {"energy_of", e.energy_of},
+          {"energy_under_lobe", json(e.energy_under_lobe)},
           {"lowest", json(e.lowest)},
           {"highest", json(e.highest)},
           {"grazing", json(e.grazing)},

@@ -19,10 +19,11 @@ function near(x, to) {
   if (off > 0 && off < 5e-7) return `${to}`;
   return off < 0.01 ? minus(x.toFixed(off < 1e-4 ? 6 : 4)) : significant(x);
 }
+const most_energy = (e) => [e.energy, e.energy_under_lobe].filter(Boolean).sort((a, b) => b.value - a.value)[0] ?? null;
 const laws = {
   normalisation: (e) => (e.normalisation ? near(e.normalisation.value, 1) : null),
   reciprocity: (e) => (e.reciprocity ? (e.reciprocity.value < 1e-9 ? "yes" : percent(e.reciprocity.value)) : null),
-  energy: (e) => (e.energy ? near(e.energy.value, 1) : null),
+  energy: (e) => { const most = most_energy(e); return most ? near(most.value, 1) : null; },
   range: (e) => (e.lowest && e.highest && e.kind !== "map" ? `${significant(e.lowest.value, 2)} … ${significant(e.highest.value, 2)}` : null),
 };
 const titles = { normalisation: "∫ D cos θ", reciprocity: "reciprocal", energy: "most albedo", range: "range" };
@@ -85,6 +86,7 @@ function details(e) {
       worst("∫ D cos θ dω", e.normalisation, e.normalisation && (known(e.normalisation.value) ? plain(e.normalisation.value, 9) : "diverges")),
       worst("reciprocity error", e.reciprocity),
       worst("largest albedo", e.energy), e.energy ? ["in the model", el("code", {}, e.energy_of)] : ["", null],
+      worst("under a lobe of f0 0.04", e.energy_under_lobe),
       worst("lowest value", e.lowest), worst("highest value", e.highest), worst("at 90°", e.grazing),
       ["without a value", e.not_finite ? many(e.not_finite, "legal input") : "none of the inputs tried, ends of all ranges included"],
       ["distance", d ? [el("b", {}, significant(d.max)), el("span", { class: "muted" }, ` at most, RMS ${significant(d.rms)}, in ${d.measure} to `), el("code", {}, d.reference),

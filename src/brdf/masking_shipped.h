@@ -119,7 +119,8 @@ struct UeJointClamped {
       "seed 004, Vis_SmithJointApprox",
       "004",
       "a mobile game on Unreal Engine 4.27",
-      "masking.smith_ggx.correlated"};
+      "",
+      "masking.ue_joint"};
   static constexpr std::array parameters{alpha_parameter};
   static constexpr bool as_shipped = true;
 

@@ -75,6 +75,7 @@ struct BeckmannAnisoAsWritten {
                                "seed 002, D_Beckmann_aniso",
                                "002",
                                "",
+                               "",
                                "ndf.beckmann_aniso"};
   static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
   static constexpr bool anisotropic = true;

@@ -22,6 +22,7 @@ struct GtrAsWritten {
                                "seed 002, D_GTR2",
                                "002",
                                "",
+                               "",
                                "ndf.gtr"};
   static constexpr std::array parameters = Gtr<T>::parameters;
   static constexpr bool as_shipped = true;
@@ -52,6 +53,7 @@ struct GgxUeMobile {
                                "seed 004, D_GGX_R2",
                                "004",
                                "a mobile game on Unreal Engine 4.27",
+                               "",
                                "ndf.ggx"};
   static constexpr std::array parameters{alpha_parameter};
   static constexpr bool as_shipped = true;
@@ -97,6 +99,7 @@ struct GgxMobile : GgxMobileBase<T> {
                                "seed 004, GGX_Mobile, after Romain Guy",
                                "004",
                                "Unreal Engine 4 (mobile renderer)",
+                               "",
                                "ndf.ggx"};
   using GgxMobileBase<T>::GgxMobileBase;
 
@@ -114,6 +117,7 @@ struct GgxMobileCross : GgxMobileBase<T> {
                                "Guy & Agopian 2018 (Filament), specular D; seed 004",
                                "004",
                                "Unreal Engine 4 (mobile renderer, MOBILE_GGX_USE_FP16)",
+                               "",
                                "ndf.ggx"};
   using GgxMobileBase<T>::GgxMobileBase;
 

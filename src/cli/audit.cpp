@@ -31,23 +31,26 @@ std::string verdict(const EntryAudit& e) {
 }
 
 void print_table(const std::vector<EntryAudit>& entries) {
-  fmt::print("{:<37}{:>9} {:>11} {:>10} {:>20} {:>9} {:>4}  {}\n", "", "∫D cosθ", "reciprocity",
+  fmt::print("{:<40}{:>9} {:>11} {:>10} {:>20} {:>9} {:>4}  {}\n", "", "∫D cosθ", "reciprocity",
              "albedo ≤", "range", "off ≤", "ops", "verdict");
   for (const auto& e : entries) {
     std::size_t operations = 0;
     if (e.operations)
       for (const auto n : e.operations->by_kind) operations += n;
-    fmt::print("{:<37}{:>9} {:>11} {:>10} {:>20} {:>9} {:>4}  {}\n", e.about->id,
-               near_one(e.normalisation),
-               !e.reciprocity                ? ""
-               : e.reciprocity->value > 1e-9 ? fmt::format("{:.2g}", e.reciprocity->value)
-                                             : "yes",
-               near_one(e.energy),
-               e.lowest && e.highest && e.kind != "map"
-                   ? fmt::format("{:.3g} … {:.3g}", e.lowest->value, e.highest->value)
-                   : "",
-               e.distance ? fmt::format("{:.2g}", e.distance->most.value) : "",
-               e.operations ? fmt::format("{}", operations) : "", verdict(e));
+    fmt::print(
+        "{:<40}{:>9} {:>11} {:>10} {:>20} {:>9} {:>4}  {}\n", e.about->id,
+        near_one(e.normalisation),
+        !e.reciprocity                ? ""
+        : e.reciprocity->value > 1e-9 ? fmt::format("{:.2g}", e.reciprocity->value)
+                                      : "yes",
+        near_one(e.energy_under_lobe && (!e.energy || e.energy_under_lobe->value > e.energy->value)
+                     ? e.energy_under_lobe
+                     : e.energy),
+        e.lowest && e.highest && e.kind != "map"
+            ? fmt::format("{:.3g} … {:.3g}", e.lowest->value, e.highest->value)
+            : "",
+        e.distance ? fmt::format("{:.2g}", e.distance->most.value) : "",
+        e.operations ? fmt::format("{}", operations) : "", verdict(e));
   }
 }
 
@@ -68,6 +71,7 @@ void print_one(const EntryAudit& e) {
   worst("reciprocity", e.reciprocity);
   worst("albedo at most", e.energy);
   if (e.energy) line("", "in the model " + e.energy_of);
+  worst("under a lobe", e.energy_under_lobe);
   worst("lowest", e.lowest);
   worst("highest", e.highest);
   worst("at 90°", e.grazing);

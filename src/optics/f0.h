@@ -48,6 +48,7 @@ struct F0FromIorAsWritten {
                                "as printed, seed 001",
                                "001",
                                "",
+                               "",
                                "f0.from_ior"};
   static constexpr std::array parameters = F0FromIor<T>::parameters;
   static constexpr std::array<std::string_view, 1> outputs{"f0"};

@@ -200,6 +200,7 @@ struct LinearAsWritten {
                                "as printed, seed 003",
                                "003",
                                "",
+                               "",
                                "fresnel.schlick"};
   static constexpr std::array parameters{f0_parameter};
 
