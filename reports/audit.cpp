@@ -209,8 +209,10 @@ void judge(EntryAudit& e) {
   const auto violates = [&](std::string_view law, bool does) {
     if (does) e.violates.push_back(law);
   };
-  violates("normalisation", e.normalisation && !(std::abs(e.normalisation->value - 1) <=
-                                                 noticeable + e.normalisation->error));
+  violates("normalisation",
+           e.normalisation && !(std::isfinite(e.normalisation->value) &&
+                                std::abs(e.normalisation->value - 1) <=
+                                    noticeable + e.normalisation->error));
   violates("reciprocity", e.reciprocity && e.reciprocity->value > 1e-9);
   const auto makes_light = [](const std::optional<Worst>& w) {
     return w && w->value - w->error > 1 + noticeable;

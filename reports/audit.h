@@ -40,11 +40,13 @@ struct EntryPicture {
 
 struct EntryAudit {
   const About* about;
-  std::string_view kind;                 ///< "ndf", "masking", "fresnel", "diffuse", "map", "model"
-  std::optional<Worst> normalisation;    ///< ∫ D cos θ dω, the one furthest from 1
-  std::optional<Worst> reciprocity;      ///< largest |f(l,v) − f(v,l)| over the larger of them
-  std::optional<Worst> energy;           ///< largest directional albedo at F = 1 (or white)
-  std::string energy_of;                 ///< the model that it was measured in
+  std::string_view kind;               ///< "ndf", "masking", "fresnel", "diffuse", "map", "model"
+  std::optional<Worst> normalisation;  ///< ∫ D cos θ dω, the one furthest from 1
+  std::optional<Worst> reciprocity;    ///< largest |f(l,v) − f(v,l)| over the larger of them
+  std::optional<Worst> energy;         ///< largest directional albedo at F = 1 (or white)
+  std::string energy_of;               ///< the model that it was measured in
+  /// The same of a diffuse term under a GGX lobe with Schlick's F and f0 = 0.04.
+  std::optional<Worst> energy_under_lobe;
   std::optional<Worst> lowest, highest;  ///< of the factor itself
   std::optional<Worst> grazing;          ///< the value at 90°, at default parameters
   std::optional<Distance> distance;
