@@ -197,10 +197,6 @@ void largest_albedo(std::optional<Worst>& most, const BoundModel& b, const std::
   }
 }
 
-std::string_view reference_of(const About& a) {
-  return a.named_for.empty() ? a.approximates : a.named_for;
-}
-
 /// Rounding and clamps that change nothing stay below it.
 constexpr double noticeable = 1e-6;
 
@@ -209,10 +205,9 @@ void judge(EntryAudit& e) {
   const auto violates = [&](std::string_view law, bool does) {
     if (does) e.violates.push_back(law);
   };
-  violates("normalisation",
-           e.normalisation && !(std::isfinite(e.normalisation->value) &&
-                                std::abs(e.normalisation->value - 1) <=
-                                    noticeable + e.normalisation->error));
+  violates("normalisation", e.normalisation && !(std::isfinite(e.normalisation->value) &&
+                                                 std::abs(e.normalisation->value - 1) <=
+                                                     noticeable + e.normalisation->error));
   violates("reciprocity", e.reciprocity && e.reciprocity->value > 1e-9);
   const auto makes_light = [](const std::optional<Worst>& w) {
     return w && w->value - w->error > 1 + noticeable;
@@ -245,7 +240,7 @@ class TermAudit {
     grazing(e);
     if (role_ == Role::ndf) normalisation_of(e);
     if (role_ != Role::fresnel) energy(e);
-    if (!reference_of(about_).empty()) distance(e);
+    if (!about_.reference().empty()) distance(e);
     picture(e);
     judge(e);
     return e;
@@ -382,7 +377,7 @@ class TermAudit {
   }
 
   void distance(EntryAudit& e) const {
-    const std::size_t reference = find_term(reference_of(about_));
+    const std::size_t reference = find_term(about_.reference());
     Differences all;
     for (const auto& q : reference_parameters(reference)) {
       const auto p = standing_for(reference, q);
@@ -416,7 +411,7 @@ class TermAudit {
                                              "f at theta_o = 30 deg [1/sr]"};
     pic.x = x[static_cast<std::size_t>(role_)];
     pic.y = y[static_cast<std::size_t>(role_)];
-    const std::string_view id = reference_of(about_);
+    const std::string_view id = about_.reference();
     if (id.empty()) {
       pic.value = values(term_, defaults(parameters_), line);
       return;
@@ -454,7 +449,7 @@ EntryAudit audit_map(std::size_t map) {
     return evaluate_map(which, Number::double_, named(entry.parameters, p), {}).values[0];
   };
   Differences all;
-  const auto reference = find_map(reference_of(*m.about));
+  const auto reference = find_map(m.about->reference());
   for (const auto& p : combinations(m.parameters)) {
     const auto out = value(map, m, p);
     for (std::size_t k = 0; k < out.size(); ++k) {
@@ -502,7 +497,7 @@ EntryAudit audit_model(const Preset& preset) {
   std::vector<Row> rows, other;
   for (const auto& r : pairs())
     if (above(r)) rows.push_back(r), other.push_back(exchanged(r));
-  const Preset* reference = find_preset(reference_of(preset.about));
+  const Preset* reference = find_preset(preset.about.reference());
   Differences all;
 
   // White, at every corner of the other parameters, and at several roughnesses.

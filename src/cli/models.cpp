@@ -31,14 +31,16 @@ Json describe(const About& about, std::span<const Parameter> parameters) {
           {"seed", about.seed},
           {"ships", about.ships},
           {"approximates", about.approximates},
+          {"named_for", about.named_for},
           {"parameters", list}};
 }
 
 void print(const About& about, std::span<const Parameter> parameters) {
   constexpr int indent = 40;
   fmt::print("{:<{}}{}\n{:{}}{}\n", about.id, indent, about.title, "", indent, about.formula);
-  if (!about.approximates.empty())
-    fmt::print("{:{}}stands for {}\n", "", indent, about.approximates);
+  if (!about.reference().empty())
+    fmt::print("{:{}}{} {}\n", "", indent, about.named_for.empty() ? "stands for" : "differs from",
+               about.reference());
   for (const auto& p : parameters)
     fmt::print("{:{}}{} in [{}, {}]{}, default {}: {}\n", "", indent, p.name, p.legal.low,
                p.legal.high, p.per_channel ? ", per channel" : "", p.start, p.meaning);

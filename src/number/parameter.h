@@ -29,8 +29,14 @@ struct About {
   std::string_view source;      ///< paper and equation
   std::string_view seed = {};   ///< numbers of the seed documents that show it
   std::string_view ships = {};  ///< who ships it
-  std::string_view approximates = {};  ///< id of the form that it stands for; empty: it is that form
-  std::string_view named_for = {};     ///< id of the form that it is called by and should equal
+  std::string_view approximates =
+      {};                           ///< id of the form that it stands for; empty: it is that form
+  std::string_view named_for = {};  ///< id of the form that it is called by and should equal
+
+  /// The form that it is held against; empty where it is that form itself.
+  constexpr std::string_view reference() const {
+    return named_for.empty() ? approximates : named_for;
+  }
 };
 
 }  // namespace gonio

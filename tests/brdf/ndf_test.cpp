@@ -17,7 +17,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 std::vector<std::size_t> exact(bool anisotropic = false) {
   std::vector<std::size_t> terms;
   for (const auto t : test::terms_of(Role::ndf))
-    if (catalogue()[t].about->approximates.empty() && catalogue()[t].anisotropic == anisotropic)
+    if (catalogue()[t].about->reference().empty() && catalogue()[t].anisotropic == anisotropic)
       terms.push_back(t);
   return terms;
 }
@@ -257,7 +257,7 @@ TEST(GgxMobile, IsPiTimesGgxUpToItsClamp) {
   const auto ggx = find_term("ndf.ggx");
   for (const auto* id : {"ndf.ggx.ue_mobile", "ndf.ggx.mobile", "ndf.ggx.mobile.cross"}) {
     const auto shipped = find_term(id);
-    EXPECT_EQ(catalogue()[shipped].about->approximates, "ndf.ggx");
+    EXPECT_EQ(catalogue()[shipped].about->named_for, "ndf.ggx");
     for (const double alpha : {1e-3, 0.022, 0.023, 0.1, 0.5, 1.0})
       for (const double tangent : {0.0, 1e-3, 0.01, 0.1, 1.0, 10.0}) {
         const auto at = half_vector(tangent);
