@@ -137,6 +137,12 @@ std::size_t find_term(std::string_view id, Role role) {
     ids.push_back(short_id(terms[t].about->id));
     if (ids.back() == id) return t;
   }
+  if (role == Role::diffuse &&
+      std::ranges::any_of(terms, [&](const auto& t) { return short_id(t.about->id) == id; }))
+    throw wrong_usage(
+        fmt::format("'{}' alone is no diffuse term, and a lobe is NDF/MASKING/FRESNEL, as in "
+                    "ggx/smith_ggx.correlated/schlick",
+                    id));
   refuse(id, ids, names[static_cast<int>(role)]);
 }
 

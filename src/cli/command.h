@@ -75,9 +75,11 @@ void add_output(CLI::App* c, Common&);
 void add_jobs(CLI::App* c, Common&);
 /// Threads from now on: at most `jobs`, 0 for all.
 void use_jobs(int jobs);
-/// Refuses outputs that are an input, or its side file, or each other.
+/// Refuses outputs that are an input, or its side file, or each other, or "-".
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
+/// Refuses a page's name other than NAME.html: two pages would share one NAME.page.json.
+void check_page_name(const std::string& html);
 /// NAME.page.json for NAME.html: where a page's data go; "" for "".
 std::string page_data_path(const std::string& html);
 

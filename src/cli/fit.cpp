@@ -65,6 +65,7 @@ Exit run(const Options& o) {
   if (is_batch(o.files)) {
     if (!o.html.empty())
       throw wrong_usage("--html is of one table; the page of many is summary.html in their folder");
+    check_outputs({}, {o.output});
     return fit_batch({o.files, o.output, bins_from(o.bins), options, o.json, o.quiet});
   }
   const std::string& file = o.files[0];
@@ -72,6 +73,7 @@ Exit run(const Options& o) {
   // Opened first: nobody waits for a fit to learn that its result has no place.
   const std::string data_path = page_data_path(o.html);
   check_outputs({file}, {o.output, o.html, data_path});
+  check_page_name(o.html);
   std::optional<OutputFile> document, page, page_data;
   if (!o.output.empty()) document.emplace(o.output);
   if (!o.html.empty()) {

@@ -47,7 +47,8 @@ void print(const Table& t, const Health& h) {
   for (const auto& [copies, which] :
        {std::pair(h.copied_rows, "incident"), std::pair(h.copied_columns, "outgoing")})
     if (copies > 0)
-      line("copies", fmt::format("{} {} angles repeat another value for value", copies, which));
+      line("copies", fmt::format("{} {} {} another value for value", copies, which,
+                                 copies == 1 ? "angle repeats" : "angles repeat"));
   for (const auto& a : h.albedo) {
     std::string channels;
     for (const double v : a.albedo)
@@ -84,7 +85,8 @@ void print(const Table& t, const Health& h) {
       truth += fmt::format(" {}={}", name, fmt::join(values, ","));
     line("truth", truth);
   }
-  for (const auto& w : t.warnings) line("beware", w);
+  for (const auto* warnings : {&t.warnings, &h.warnings})
+    for (const auto& w : *warnings) line("beware", w);
   fmt::print("what a fit can hope to determine\n");
   for (const auto& p : h.prospects)
     fmt::print("  {:<10}{:<8}{}\n", p.of, verdict_names[static_cast<std::size_t>(p.verdict)],
@@ -95,6 +97,7 @@ Exit run(const Options& o) {
   use_jobs(o.jobs);
   const std::string data_path = page_data_path(o.html);
   check_outputs({o.file}, {o.html, data_path});
+  check_page_name(o.html);
   std::optional<OutputFile> page, page_data;
   if (!o.html.empty()) {
     page.emplace(o.html);

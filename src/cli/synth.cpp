@@ -21,6 +21,7 @@ struct Options : Common {
 
 Exit run(const Options& o) {
   use_jobs(o.jobs);
+  check_outputs({}, {o.output});
   SynthOptions s = o.synth;
   s.layout = static_cast<Layout>(index_of(layout_names, o.layout));
   s.bins = bins_from(o.bins).value_or(Bins::centre);

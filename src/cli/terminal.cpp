@@ -62,6 +62,11 @@ std::string page_data_path(const std::string& html) {
   return html.empty() ? "" : std::filesystem::path(html).replace_extension(".page.json").string();
 }
 
+void check_page_name(const std::string& html) {
+  if (!html.empty() && std::filesystem::path(html).extension() != ".html")
+    throw wrong_usage(fmt::format("--html {}: a page's name ends in .html", html));
+}
+
 void check_outputs(const std::vector<std::string>& inputs,
                    const std::vector<std::string>& outputs) {
   namespace fs = std::filesystem;
@@ -71,6 +76,8 @@ void check_outputs(const std::vector<std::string>& inputs,
   };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].empty()) continue;
+    if (outputs[i] == "-")
+      throw wrong_usage("'-' is no file to write; on standard output is what --json prints");
     for (const auto& in : inputs)
       if (same(outputs[i], in) || same(outputs[i], side_path(in)))
         throw wrong_usage(fmt::format("{} is an input; it would be overwritten", outputs[i]));

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kAngles{"theta_i", "phi_i", "theta_o", "phi_o"};
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
-constexpr const char* kHint = "where names or angles differ: gonio columns FILE --map …";
+constexpr const char* kHint =
+    "where names or angles differ: gonio columns FILE --map … (--skip N: lines above the names)";
 
 /// "" if the name is not that of a column with values.
 std::string channel_of(std::string_view name) {
@@ -95,6 +96,7 @@ class Reader {
       if (!c.index) c.data.assign(rows_, c.constant);
     Table t;
     t.format = "csv";
+    const bool small = angles_are_small();
     t.where = DirectionList{take("theta_i"), take("phi_i"), take("theta_o"), take("phi_o")};
     t.weights = take("weight");
     if (map_) to_conventions(std::get<DirectionList>(t.where));
@@ -105,6 +107,10 @@ class Reader {
       }
     if (map_) to_f(t);
     if (channel_) gather_channels(t);
+    if (small)
+      t.warnings.emplace_back(
+          "no zenith angle is above 1.6°: if they are radians, gonio columns FILE --radians says "
+          "so");
     check(t);
     return t;
   }
@@ -125,6 +131,13 @@ class Reader {
     if (std::ranges::none_of(names, is_angle))
       lines_.fail("", fmt::format("columns {}", listed()),
                   fmt::format("theta_i, phi_i, theta_o, phi_o and f or f_NAME; {}", kHint));
+    const auto named = [&](const char* name) {
+      return std::ranges::find(names, name) != names.end();
+    };
+    // In plane: azimuths 0, and a sign may say the side.
+    const bool in_plane =
+        named("theta_i") && named("theta_o") && !named("phi_i") && !named("phi_o");
+    if (in_plane) map_ = &in_plane_;
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto& name = names[k];
       const bool value = !channel_of(name).empty();
@@ -138,6 +151,8 @@ class Reader {
         lines_.fail(name, "a second column of that name", "one");
       add(name, k);
     }
+    if (in_plane)
+      for (const auto* name : {"phi_i", "phi_o"}) add(name, {}, 0);
     for (const auto name : kAngles)
       if (!has(name))
         lines_.fail(name, "no such column",
@@ -147,20 +162,11 @@ class Reader {
   }
 
   void choose_by_map() {
-    // A column is one thing, except that i and o may share theirs: a retro-reflectometer has one
-    // angle.
-    std::multimap<std::size_t, std::string> used;
-    const auto take = [&](std::size_t index, const std::string& role) {
-      const auto [from, to] = used.equal_range(index);
-      const bool free = std::all_of(from, to, [&](const auto& u) {
-        return is_angle(role) && is_angle(u.second) && role.back() != u.second.back();
-      });
-      if (free) used.emplace(index, role);
-      return free;
-    };
+    std::set<std::size_t> used;
+    const auto take = [&](std::size_t index) { return used.insert(index).second; };
     for (const auto& [role, column] : map_->columns) {
       const auto index = find(role, column);
-      if (index && !take(*index, role))
+      if (index && !take(*index))
         lines_.fail(column, "a column that is two things", "one of them for " + role);
       if (role == "channel")
         channel_ = index ? index : throw_no_column(role, column);
@@ -172,7 +178,7 @@ class Reader {
       const auto& name = lines_.names()[k];
       const bool wanted =
           is_angle(name) || name == "weight" || (!values_named && !channel_of(name).empty());
-      if (wanted && !has(name) && take(k, name)) add(name, find(name, name));
+      if (wanted && !has(name) && take(k)) add(name, find(name, name));
     }
     for (const auto name : {"theta_i", "theta_o"})
       if (!has(name)) throw_no_column(name, name);
@@ -207,7 +213,7 @@ class Reader {
   [[noreturn]] std::optional<std::size_t> throw_no_column(const std::string& role,
                                                           const std::string& word) const {
     lines_.fail("", fmt::format("no column '{}' for {}", word, role),
-                fmt::format("one of {}", listed()));
+                fmt::format("one of {} (--skip N passes over lines above the names)", listed()));
   }
 
   std::string listed() const {
@@ -227,7 +233,9 @@ class Reader {
                   fmt::format("at most {} numbers", most_values));
     for (auto& c : columns_) {
       if (!c.index) continue;
-      const double v = lines_.number(*c.index);
+      const double v = c.is_value() && is_gap(lines_.fields()[*c.index])
+                           ? std::numeric_limits<double>::quiet_NaN()
+                           : lines_.number(*c.index);
       check_range(c, v, lines_.fields()[*c.index], lines_.label(*c.index));
       c.data.push_back(v);
     }
@@ -325,6 +333,22 @@ class Reader {
     }
   }
 
+  /// As the file has them, where they are said to be degrees: what a sign or --forward adds to an
+  /// azimuth would hide that they are radians.
+  bool angles_are_small() const {
+    if (map_ && map_->radians) return false;
+    constexpr double quarter = 1.6, whole = 6.3;  // [rad], a little more than π/2 and 2π
+    double largest_out = 0;
+    for (const auto& c : columns_) {
+      if (!c.index || !is_angle(c.role)) continue;
+      double largest = 0;
+      for (const double a : c.data) largest = std::max(largest, std::abs(a));
+      if (largest > (c.role.starts_with("theta_") ? quarter : whole)) return false;
+      if (c.role == "theta_o") largest_out = largest;
+    }
+    return largest_out > 0.5;
+  }
+
   void check(Table& t) const {
     const DirectionList& l = *t.list();
     const auto beyond = [](const std::vector<double>& angles, double limit) {
@@ -334,14 +358,6 @@ class Reader {
     if (const auto below = beyond(l.theta_i_deg, 90); needs_values_ && 2 * below > n)
       throw bad_input(path_, "column theta_i", fmt::format("{} of {} above 90°", below, n),
                       "zenith angles of the light (perhaps columns are swapped)");
-    constexpr double quarter = 1.6, whole = 6.3;  // [rad], a little more than π/2 and 2π
-    if (!(map_ && map_->radians) &&
-        beyond(l.theta_i_deg, quarter) + beyond(l.theta_o_deg, quarter) == 0 &&
-        beyond(l.phi_i_deg, whole) + beyond(l.phi_o_deg, whole) == 0 &&
-        beyond(l.theta_o_deg, 0.5) > 0)
-      t.warnings.emplace_back(
-          "no zenith angle is above 1.6°: if they are radians, gonio columns FILE --radians says "
-          "so");
     if (beyond(l.theta_o_deg, 90) * 5 > 2 * n && beyond(l.phi_o_deg, 90) == 0 &&
         std::ranges::any_of(l.phi_o_deg, [&](double p) { return p != l.phi_o_deg[0]; }))
       t.warnings.emplace_back(
@@ -350,7 +366,7 @@ class Reader {
   }
 
   /// The mirror direction taken for the light's is the commonest slip, and fits nothing.
-  static void warn_of_backward_peak(Table& t) {
+  void warn_of_backward_peak(Table& t) const {
     const DirectionList& l = *t.list();
     double forward = 0, backward = 0;
     for (std::size_t i = 0; i < t.size(); ++i) {
@@ -365,11 +381,14 @@ class Reader {
       t.warnings.push_back(
           fmt::format("values on the light's side reach {:.3g}, on the mirror's side {:.3g}: a "
                       "retro-reflector, "
-                      "or azimuths are counted otherwise (gonio columns FILE --forward 0)",
-                      backward, forward));
+                      "or azimuths are counted otherwise (gonio columns FILE --forward {:g})",
+                      backward, forward, std::remainder(forward_deg() + 180, 360)));
   }
 
+  double forward_deg() const { return map_ ? map_->forward_deg : ColumnMap().forward_deg; }
+
   const ColumnMap* map_;
+  const ColumnMap in_plane_{};
   bool needs_values_;
   std::string path_, text_;
   Delimited lines_;

@@ -92,6 +92,11 @@ std::optional<double> number_in(std::string_view field) {
   return error == std::errc() && end == last ? std::optional(v) : std::nullopt;
 }
 
+bool is_gap(std::string_view field) {
+  constexpr std::array<std::string_view, 7> gaps{"", "-", "--", "NA", "na", "n/a", "N/A"};
+  return std::ranges::find(gaps, field) != gaps.end();
+}
+
 bool looks_delimited(std::string_view head) {
   std::vector<std::string_view> fields;
   head = without_mark(head);
@@ -149,7 +154,8 @@ void Delimited::header() {
     if (std::ranges::all_of(by_blanks, is_number)) separator_ = kAnyBlank, fields_ = by_blanks;
   }
   const std::size_t columns = fields_.size();
-  pending_ = std::ranges::all_of(fields_, is_number);
+  pending_ = std::ranges::any_of(fields_, is_number) &&
+             std::ranges::all_of(fields_, [](auto f) { return is_number(f) || is_gap(f); });
   if (pending_) split_into(fields_, comment_, separator_);
   if (fields_.size() == columns)
     names_.assign(fields_.begin(), fields_.end());
@@ -166,8 +172,11 @@ bool Delimited::next() {
         separator_ == ',' && fields_.size() > names_.size() && line_.find('.') == line_.npos;
     fail("", fmt::format("{} fields", fields_.size()),
          fmt::format("{}{}", names_.size(),
-                     commas ? " (a decimal comma needs ; or a tab between the fields)" : ""));
+                     commas      ? " (a decimal comma needs ; or a tab between the fields)"
+                     : !any_row_ ? " (--skip N passes over lines above the names)"
+                                 : ""));
   }
+  any_row_ = true;
   return true;
 }
 

@@ -18,6 +18,9 @@ namespace gonio {
 /// A number that takes the whole field, with a point or one decimal comma; also nan and inf.
 std::optional<double> number_in(std::string_view field);
 
+/// Where a spreadsheet or an instrument has no value: an empty field, n/a, NA or -.
+bool is_gap(std::string_view field);
+
 /// Whether the beginning of a file looks like such text: a line with three numbers or more soon.
 bool looks_delimited(std::string_view head);
 /// The fields of the first line that says something: its names, if it has any.
@@ -50,7 +53,7 @@ class Delimited {
   std::string_view rest_, line_, comment_;
   std::size_t line_number_ = 0;
   char separator_ = ',';
-  bool pending_ = false, points_ = false, commas_ = false;
+  bool pending_ = false, any_row_ = false, points_ = false, commas_ = false;
   std::vector<std::string> names_;
   std::vector<std::string_view> fields_;
 };

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "integrate/quadrature.h"
+#include "table/rgl_function.h"
 
 #include <tbb/parallel_for.h>
 
@@ -108,7 +109,12 @@ std::vector<AlbedoSample> of_list(const Table& t) {
 }  // namespace
 
 AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
-  const Interpolator f(t);
+  const Interpolator between(t);
+  // The cosine of the integral takes back what RGL divides by.
+  const RglFunction rgl = rgl_function(t);
+  const auto f = [&](const DirectionPair& p, std::size_t c) {
+    return rgl ? rgl(p, c) : between(p, c);
+  };
   const auto nodes = cosine_hemisphere(48, 96);
   const Direction wi = direction(theta_i_deg * degree, 0);
   return integrate(theta_i_deg, nodes, t.channels.size(), [&](std::size_t node, std::size_t c) {

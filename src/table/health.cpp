@@ -48,6 +48,44 @@ Tally tally(const Table& t) {
       });
 }
 
+/// More light than arrives, even if none went where samples lack.
+void warn_of_light(const Table& t, Health& h) {
+  const AlbedoSample* at = nullptr;
+  double most = 1.05;
+  for (const auto& a : h.albedo)
+    for (const double v : a.albedo)
+      if (v * a.coverage > most) {
+        most = v * a.coverage;
+        at = &a;
+      }
+  if (!at) return;
+  h.warnings.push_back(fmt::format(
+      "the table returns {:.3g} times the light that arrives at theta_i {:.3g}°{}", most,
+      at->theta_i_deg,
+      t.format == "csv" ? ": a radiance factor? (gonio columns FILE --scale 0.3183099)" : ""));
+}
+
+/// Values that are f cos θ_o break reciprocity by cos θ_o/cos θ_i, and keep it without the cosine.
+void warn_of_cosine(const Table& t, Health& h) {
+  if (!h.reciprocity_error) return;
+  const SampleAngles at(t);
+  std::vector<double> with, without;
+  for_each_reciprocal(t, [&](std::size_t i, std::size_t, double a, double b) {
+    const auto [low, high] = std::minmax(at(i).nol, at(i).nov);
+    // Elsewhere the two cannot be told apart.
+    if (!(low >= least_cosine && high > 1.2 * low && a + b > 0)) return;
+    with.push_back(reciprocity_error(a, b));
+    without.push_back(reciprocity_error(a / at(i).nov, b / at(i).nol));
+  });
+  if (with.size() < 8) return;
+  const double raw = median(with), rest = median(without);
+  if (raw > 0.1 && 3 * rest < raw && rest < 0.05 + 2 * h.noise.sigma.value_or(0))
+    h.warnings.push_back(fmt::format(
+        "exchanging the directions changes values by {:.2g} %, after division by cos(theta_o) by "
+        "{:.2g} %: values look like f cos(theta_o){}",
+        100 * raw, 100 * rest, t.format == "csv" ? " (gonio columns FILE --cosine)" : ""));
+}
+
 }  // namespace
 
 double noise_floor(const Table& t) {
@@ -160,6 +198,8 @@ Health inspect(const Table& t) {
   }
   h.retro = retro_peak(t);
   h.prospects = prospects(t, h);
+  warn_of_light(t, h);
+  warn_of_cosine(t, h);
   return h;
 }
 

@@ -66,6 +66,8 @@ struct Health {
   double peak_contrast = 0;       ///< PeakSearch::contrast
   std::optional<Peak> retro;      ///< see retro_peak()
   std::vector<Prospect> prospects;
+  /// What the values themselves make odd: more light than arrives, or a cosine left in them.
+  std::vector<std::string> warnings;
 };
 
 Health inspect(const Table&);

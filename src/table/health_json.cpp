@@ -38,6 +38,8 @@ std::string to_json(const Table& t, const Health& h) {
     prospects.push_back({{"of", p.of},
                          {"verdict", verdict_names[static_cast<std::size_t>(p.verdict)]},
                          {"because", p.because}});
+  auto warnings = t.warnings;
+  warnings.insert(warnings.end(), h.warnings.begin(), h.warnings.end());
   const auto number_or_null = [](const std::optional<double>& v) { return v ? Json(*v) : Json(); };
   return text_of(
       {{"path", t.path},
@@ -66,7 +68,7 @@ std::string to_json(const Table& t, const Health& h) {
          {"over_zenith", bands(h.noise.over_angle, "_deg")},
          {"over_value", bands(h.noise.over_value, "")}}},
        {"peak", peak},
-       {"warnings", t.warnings},
+       {"warnings", warnings},
        {"peak_profiles", h.peak_profiles},
        {"peak_contrast", h.peak_contrast},
        {"retro", retro},

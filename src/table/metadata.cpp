@@ -86,8 +86,16 @@ Json column_map_json(const ColumnMap& map) {
 
 Json parse_side(const std::string& file, const std::string& text) {
   Json document = parse_json(file, text);
-  const JsonReader schema = JsonReader(file, document).at("schema");
-  if (schema.string() != kSchema) schema.fail(kSchema);
+  const JsonReader root(file, document);
+  const auto members = root.members();
+  const std::string expected = std::string("\"schema\": \"") + kSchema + "\"";
+  if (!root.has("schema")) throw bad_input(file, "schema", "no such key", expected);
+  if (root.at("schema").string() != kSchema) root.at("schema").fail(expected);
+  constexpr std::array<std::string_view, 6> keys{"schema",  "sha256", "bins",
+                                                 "columns", "truth",  "notes"};
+  for (const auto& [key, value] : members)
+    if (std::ranges::find(keys, key) == keys.end())
+      value.fail("no such key; schema, sha256, bins, columns, truth or notes");
   return document;
 }
 

@@ -107,8 +107,9 @@ Reciprocity reciprocity(const Table& t) {
         half ? "the layout holds each reciprocal pair once" : "no sample has a reciprocal partner"};
   }
   if (errors.empty()) return {{}, "no valid value has a valid partner"};
-  const auto note = fmt::format("median over {} values{}", errors.size(),
-                                partners == Partners::between ? " against f between samples" : "");
+  const auto note =
+      fmt::format("median over {} value{}{}", errors.size(), errors.size() == 1 ? "" : "s",
+                  partners == Partners::between ? " against f between samples" : "");
   return {median(errors), note};
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "table/rgl_function.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -131,6 +132,17 @@ struct Cell {
     };
     place(p.x, width, x, part_x);
     place(p.y, height, y, part_y);
+  }
+
+  struct Corner {
+    std::size_t x, y;
+    double weight;
+  };
+  std::array<Corner, 4> corners() const {
+    return {{{x, y, (1 - part_x) * (1 - part_y)},
+             {x + 1, y, part_x * (1 - part_y)},
+             {x, y + 1, (1 - part_x) * part_y},
+             {x + 1, y + 1, part_x * part_y}}};
   }
 };
 
@@ -304,6 +316,7 @@ class Material {
     if (samples * (channels.size() + 4) > most_values)
       file.fail(name, fmt::format("{} samples × {} channels", samples, channels.size()),
                 fmt::format("at most {} numbers", most_values));
+    set_scale();
   }
 
   std::size_t width() const { return data_.width; }
@@ -330,9 +343,7 @@ class Material {
               std::size_t y,
               const Sample& s,
               std::vector<Values>& to) const {
-    const double scale = s.pair.wo.z < least_cosine
-                             ? std::nan("")
-                             : jacobian(s.u, theta_i[t], phi_of(s.pair.wi)) / s.pair.wo.z;
+    const double scale = scale_at(s, theta_i[t]);
     // The pole of the facets is a grid point in every row: the sample is their mean.
     const std::size_t rows = x == 0 ? height() - 1 : 1;
     for (std::size_t c = 0; c < to.size(); ++c) {
@@ -343,9 +354,11 @@ class Material {
     }
   }
 
-  /// f_r; \param p  above the horizon
-  double operator()(DirectionPair p, std::size_t channel) const {
+  /// f_r; \param guarded  see rgl_function(); else as the format interpolates it, above the horizon
+  double at(DirectionPair p, std::size_t channel, bool guarded) const {
     if (!(p.wi.z > 0 && p.wo.z > 0)) return std::nan("");
+    if (guarded && (p.wo.z < least_cosine || theta_of(p.wi) > theta_i.back() + 1e-6))
+      return std::nan("");
     fold(p);
     const double azimuth = isotropic ? phi_i[0] : phi_of(p.wi);
     const Direction h{p.wi.x + p.wo.x, p.wi.y + p.wo.y, p.wi.z + p.wo.z};
@@ -357,7 +370,8 @@ class Material {
     for (std::size_t k = 0; k < mix.slice.size(); ++k)
       if (mix.weight[k] != 0)
         value += mix.weight[k] * data_(s, mix.slice[k] * channels.size() + channel);
-    return value * jacobian(u, theta_of(p.wi), phi_of(p.wi)) / p.wo.z;
+    const double f = value * jacobian(u, theta_of(p.wi), phi_of(p.wi)) / p.wo.z;
+    return guarded ? within_span(f, mix, s, channel) : f;
   }
 
   std::vector<double> theta_i, phi_i;  ///< [rad]
@@ -395,6 +409,38 @@ class Material {
   double jacobian(const Point& u, double theta, double phi) const {
     if (!jacobian_) return 1;
     return ndf_(u) / (4 * sigma_({std::sqrt(2 / pi * theta), phi / (2 * pi) + 0.5}));
+  }
+
+  /// f_r over the value stored, at a grid point; NaN where that says nothing.
+  double scale_at(const Sample& s, double theta) const {
+    return s.pair.wi.z > horizon_cosine && s.pair.wo.z >= least_cosine
+               ? jacobian(s.u, theta, phi_of(s.pair.wi)) / s.pair.wo.z
+               : std::nan("");
+  }
+  double within_span(double f, const Mix& mix, const Point& s, std::size_t channel) const {
+    const Cell cell(s, width(), height());
+    double valid = 0, low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t k = 0; k < mix.slice.size(); ++k)
+      for (const auto& [x, y, part] : cell.corners()) {
+        const std::size_t node = y * width() + x;
+        const double scale = static_cast<double>(scale_.slice(mix.slice[k])[node]);
+        const double weight = mix.weight[k] * part;
+        if (weight == 0 || std::isnan(scale)) continue;
+        const float* const nodes = data_.slice(mix.slice[k] * channels.size() + channel);
+        low = std::min(low, static_cast<double>(nodes[node]) * scale);
+        high = std::max(high, static_cast<double>(nodes[node]) * scale);
+        valid += weight;
+      }
+    return valid > 0.5 ? std::clamp(f, low, high) : std::nan("");
+  }
+  void set_scale() {
+    scale_ = {width(), height(), {}};
+    scale_.nodes.reserve(phi_i.size() * theta_i.size() * width() * height());
+    for (std::size_t p = 0; p < phi_i.size(); ++p)
+      for (std::size_t t = 0; t < theta_i.size(); ++t)
+        for (std::size_t y = 0; y < height(); ++y)
+          for (std::size_t x = 0; x < width(); ++x)
+            scale_.nodes.push_back(static_cast<float>(scale_at(sample(p, t, x, y), theta_i[t])));
   }
 
   /// Into the part of the turn that the file holds.
@@ -440,7 +486,15 @@ class Material {
 
   bool jacobian_ = true;
   Image ndf_, sigma_, data_;
+  Image scale_;  ///< [φ_i, θ_i][y][x]: see scale_at()
   std::unique_ptr<Warp> warp_;
+};
+
+struct Between {
+  std::shared_ptr<const Material> material;
+  double operator()(const DirectionPair& p, std::size_t channel) const {
+    return material->at(p, channel, true);
+  }
 };
 
 }  // namespace
@@ -476,8 +530,16 @@ Table read_rgl(InputFile& in) {
         }
     }
   t.where = std::move(l);
-  t.between = [material](const DirectionPair& pair, std::size_t c) { return (*material)(pair, c); };
+  t.between = Between{material};
   return t;
+}
+
+RglFunction rgl_function(const Table& t) {
+  const auto* const between = t.between.target<Between>();
+  if (!between) return {};
+  return [material = between->material](const DirectionPair& p, std::size_t channel) {
+    return material->at(p, channel, false);
+  };
 }
 
 }  // namespace gonio

@@ -83,6 +83,15 @@ TEST(Columns, KeepWhatElseTheSideFileSaysOfThisTable) {
   expect_one_line(gonio(f, std::string("columns t.csv ") + kMap), 3, "t.csv.gonio.json: sha256");
 }
 
+TEST(Columns, ThatAreTwoAnglesAreRefusedAndTheEarlierSideFileStays) {
+  const Folder f;
+  f.write("t.csv", kText);
+  ASSERT_EQ(gonio(f, std::string("columns t.csv ") + kMap).code, 0);
+  const auto before = read_bytes(f / "t.csv.gonio.json");
+  expect_one_line(gonio(f, "columns t.csv --map theta_i=in theta_o=in f=brdf"), 3, "two things");
+  EXPECT_EQ(read_bytes(f / "t.csv.gonio.json"), before);
+}
+
 TEST(Columns, TellWrongWordsFromWrongFiles) {
   const Folder f;
   f.write("t.csv", kText);

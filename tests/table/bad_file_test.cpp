@@ -74,7 +74,7 @@ TEST(CsvFile, NamesLineAndColumn) {
   EXPECT_COMPLAINT(csv(head), "found no samples");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,1\n\n1,2,3,4,5\n"), "line 4: found 5 fields, expected 6");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,1,1\n"), "line 2: found 7 fields, expected 6");
-  EXPECT_COMPLAINT(csv(head + "1,2,3,4,,1\n"), "line 2, column f: found ''");
+  EXPECT_COMPLAINT(csv(head + "1,2,3,4,5,\n"), "line 2, column weight: found ''");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,1.5x,1\n"), "line 2, column f: found '1.5x'");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,1e999,1\n"), "column f");
   EXPECT_COMPLAINT(csv(head + "1,2,nan,4,5,1\n"),
@@ -122,11 +122,16 @@ TEST(SideFile, IsNamedWhereItIsBroken) {
   for (const char* text :
        {"", "{", "[]", "{}", R"({"schema":"gonio.table/2"})",
         R"({"schema":"gonio.table/1","bins":"middle"})", R"({"schema":"gonio.table/1","bins":1})",
-        R"({"schema":"gonio.table/1","truth":1})",
+        R"({"schema":"gonio.table/1","truth":1})", R"({"schema":"gonio.table/1","bin":"edge"})",
         R"({"schema":"gonio.table/1","notes":{"a":1}})"}) {
     folder.write("m.gonio.json", text);
     EXPECT_COMPLAINT(folder / "m", "m.gonio.json") << text;
   }
+  folder.write("m.gonio.json", R"({"bins":"edge"})");
+  EXPECT_COMPLAINT(folder / "m",
+                   R"(schema: found no such key, expected "schema": "gonio.table/1")");
+  folder.write("m.gonio.json", R"({"schema":"gonio.table/1","bin":"edge"})");
+  EXPECT_COMPLAINT(folder / "m", "bin: found \"edge\", expected no such key; schema, sha256, bins");
   write_table(csv_example(), folder / "c");
   folder.write("c.gonio.json", R"({"schema":"gonio.table/1","bins":"edge"})");
   EXPECT_COMPLAINT(folder / "c", "this table has no bins");

@@ -166,8 +166,7 @@ TEST(ColumnMap, MustFitTheFile) {
   expect_complaint("a,b,c,d,e\n10,20,1,2,3\n", angles + R"("f_a":"c","f_b":"d","channel":"e")",
                    "channel beside several f_NAME");
   expect_complaint(file, angles + R"("f":"#3","phi_o":"1000")", "found 1000");
-  EXPECT_EQ(complaint(file, R"("theta_i":"a","theta_o":"a","f":"#3")"), "")
-      << "a retro-reflectometer has one angle";
+  expect_complaint(file, R"("theta_i":"a","theta_o":"a","f":"#3")", "a column that is two things");
 }
 
 TEST(ColumnMap, MayNotMakeTwoChannelsOfOneName) {
@@ -289,6 +288,48 @@ TEST(CsvFile, WarnsOfDegreesThatLookLikeRadians) {
   EXPECT_EQ(warnings_of(read(text + "2,0,2,0,1\n")), "");
 }
 
+TEST(CsvFile, WarnsOfRadiansWhateverASignOrAConventionMakesOfAzimuths) {
+  const std::string text = "theta_i,theta_o,f\n0.5,-0.5,5\n0.5,0.6,2\n";
+  for (const char* map : {R"("f":"f")", R"("forward":0)", R"("phi_o":"180")"})
+    EXPECT_NE(warnings_of(read(text, map)).find("--radians"), std::string::npos) << map;
+  EXPECT_EQ(warnings_of(read(text, R"("unit":"radians")")), "");
+}
+
+TEST(CsvFile, WithoutAzimuthsIsReadInPlane) {
+  const std::string text = "theta_i,theta_o,f\n30,-20,1\n30,20,0.5\n";
+  EXPECT_EQ(samples(read(text)), (Lines{"30 0 20 180: 1", "30 0 20 0: 0.5"}));
+  expect_complaint("theta_i,theta_o,phi_o,f\n30,20,0,1\n", "", "phi_i: found no such column");
+  expect_complaint("theta_i,theta_o,f,x\n30,20,0,1\n", "", "an unknown column");
+}
+
+TEST(CsvFile, MasksValuesThatAreNotThere) {
+  for (const char* gap : {"", "-", "NA", "n/a", "nan"}) {
+    const Table t = read(std::string("theta_i,phi_i,theta_o,phi_o,f_a,f_b\n30,0,20,0,") + gap +
+                         ",1\n30,0,40,0,2,3\n");
+    EXPECT_EQ(inspect(t).masked[static_cast<std::size_t>(Mask::not_finite)], 1U) << gap;
+    EXPECT_EQ(inspect(t).valid, 3U) << gap;
+    expect_complaint(std::string(kPlain) + "30,0," + gap + ",0,1\n", "", "column theta_o");
+  }
+  EXPECT_EQ(read("10,20,NA\n10,30,1\n", R"("theta_i":"#1","theta_o":"#2","f":"#3")").size(), 2U)
+      << "no line of names";
+  expect_complaint(std::string(kPlain) + "30,0,20,0,none\n", "", "'none'");
+}
+
+TEST(CsvFile, UnderLinesOfWordsNamesTheWayOut) {
+  const std::string text = "Instrument 7\nin,out,f\n30,20,1\n30,40,1\n30,50,1\n";
+  expect_complaint(text, "", "--skip N");
+  expect_complaint(text, R"("theta_i":"in")", "--skip N");
+  const Folder folder;
+  folder.write("t.csv", text);
+  InputFile in(folder / "t.csv");
+  try {
+    csv_columns(in);
+    ADD_FAILURE();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("--skip N"), std::string::npos) << e.what();
+  }
+}
+
 TEST(CsvFile, WarnsOfSwappedColumns) {
   std::string text = kPlain;
   for (int phi = 0; phi < 180; phi += 10)
@@ -301,6 +342,49 @@ TEST(CsvFile, WarnsWhereTheMirrorSeemsToBeOnTheLightsSide) {
   const std::string text = "theta_i,theta_o,f\n45,-45,0.1\n45,0,0.2\n45,45,5\n";
   EXPECT_NE(warnings_of(read(text, R"("f":"f")")).find("--forward 0"), std::string::npos);
   EXPECT_EQ(warnings_of(read(text, R"("forward":0)")), "");
+  const std::string other = "theta_i,theta_o,f\n45,-45,5\n45,0,0.2\n45,45,0.1\n";
+  EXPECT_NE(warnings_of(read(other, R"("forward":0)")).find("--forward 180)"), std::string::npos)
+      << "the other one, not the one given";
+}
+
+/// Samples over the hemisphere, every 10°, as a CSV of value(theta_i, theta_o).
+template <class F>
+std::string hemispheres(F value) {
+  std::string text = kPlain;
+  for (int in = 10; in < 90; in += 10)
+    for (int out = 0; out < 90; out += 10)
+      for (int phi = 0; phi < (out == 0 ? 1 : 360); phi += 10)
+        text += std::to_string(in) + ",0," + std::to_string(out) + "," + std::to_string(phi) + "," +
+                std::to_string(value(in * degree, out * degree)) + "\n";
+  return text;
+}
+
+std::string health_warnings(const Table& t) {
+  std::string all;
+  for (const auto& w : inspect(t).warnings) all += w + "\n";
+  return all;
+}
+
+TEST(CsvFile, WarnsOfMoreLightThanArrives) {
+  const auto even = [](double f) { return hemispheres([f](double, double) { return f; }); };
+  const Table t = read(even(0.9));
+  EXPECT_NE(health_warnings(t).find("returns 2.83 times"), std::string::npos) << health_warnings(t);
+  EXPECT_NE(health_warnings(t).find("--scale 0.3183099"), std::string::npos);
+  EXPECT_NE(to_json(t, inspect(t)).find("--scale 0.3183099"), std::string::npos);
+  EXPECT_EQ(health_warnings(read(even(0.31))), "");
+  Table other = t;
+  other.format = "alta";
+  EXPECT_EQ(health_warnings(other).find("--scale"), std::string::npos);
+}
+
+TEST(CsvFile, WarnsOfACosineLeftInTheValues) {
+  const Table t = read(hemispheres([](double, double out) { return 0.2 * std::cos(out); }));
+  EXPECT_NE(health_warnings(t).find("--cosine"), std::string::npos);
+  EXPECT_EQ(health_warnings(read(hemispheres([](double, double) { return 0.2; }))), "");
+  EXPECT_EQ(health_warnings(read(
+                hemispheres([](double in, double out) { return 0.1 * (in + 0.2) / (out + 1); }))),
+            "")
+      << "reciprocity is broken otherwise";
 }
 
 TEST(NumberIn, TakesTheWholeFieldOrNothing) {

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "foreign.h"
 #include "support.h"
+#include "table/convert.h"
 #include "table/directional_albedo.h"
 #include "table/formats.h"
 #include "table/health.h"
@@ -74,6 +75,36 @@ TEST(RglFile, DefinesTheFunctionBetweenItsSamples) {
       }
   EXPECT_LT(worst, 0.02);
   EXPECT_TRUE(std::isnan(t.between({direction(0.3, 0), direction(1.6, 0)}, 0)));
+}
+
+TEST(RglFile, IsNowhereMoreThanItsSamplesAround) {
+  // Values that do not vanish with the cosine, as what an instrument leaves near the horizon.
+  RglFile file{.size = 16, .f = [](const DirectionPair& p, std::size_t) {
+                 return 0.01 / std::max(p.wo.z, 1e-3);
+               }};
+  file.theta_i = {0, 0.4F, 0.8F, 1.2F, static_cast<float>(pi / 2)};
+  const Table t = read(file);
+  const double largest = inspect(t).largest;
+  std::size_t values = 0;
+  for (double in = 0.5; in < 90; ++in)
+    for (double out = 0.5; out < 90; out += in < 60 ? 0.25 : 1)
+      for (double phi = 0; phi <= 180; phi += 30) {
+        const double f =
+            t.between({direction(in * degree, 0), direction(out * degree, phi * degree)}, 0);
+        if (out > 89.5) {
+          EXPECT_TRUE(std::isnan(f)) << in << " " << out;
+        }
+        if (std::isnan(f)) continue;
+        ++values;
+        EXPECT_LE(f, largest * (1 + 1e-6)) << in << " " << out << " " << phi;
+      }
+  EXPECT_GT(values, 100'000U);
+  EXPECT_TRUE(std::isnan(t.between({direction(1.5, 0), direction(0.3, 2)}, 0)))
+      << "nearer to 90°, where no sample is valid, than to the last that is";
+  file.theta_i.pop_back();
+  const Table shorter = read(file);
+  EXPECT_TRUE(std::isnan(shorter.between({direction(1.21, 0), direction(0.3, 2)}, 0)));
+  EXPECT_FALSE(std::isnan(shorter.between({direction(1.19, 0), direction(0.3, 2)}, 0)));
 }
 
 TEST(RglFile, OfAWhiteDiffuserReflectsAll) {
@@ -157,6 +188,13 @@ TEST(RglFile, OfFeltHasTheAlbedoOfItsDatabase) {
       {{0, 0.218}, {20, 0.227}, {40, 0.252}, {60, 0.306}, {75, 0.366}}};
   for (const auto& [theta_deg, green] : known)
     EXPECT_NEAR(directional_albedo(t, theta_deg).albedo[1], green, 0.001) << theta_deg;
+  ConvertOptions options;
+  options.format = "mbsdf";
+  const auto made = convert(t, options);
+  const Health from = inspect(t), to = inspect(made.table);
+  EXPECT_LE(to.largest, from.largest * (1 + 1e-6));
+  EXPECT_GT(made.loss.without_data, 0U);
+  EXPECT_LT(made.loss.without_data * 5, made.loss.bins);
   const SampleAngles at(t);
   for (std::size_t i = 0; i < t.size(); ++i)
     if (mask(at(i), t.values[1][i]) == Mask::valid && at(i).nol > 1e-3 &&
