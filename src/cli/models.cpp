@@ -2,6 +2,7 @@
 #include "brdf/presets.h"
 #include "brdf/registry.h"
 #include "cli/command.h"
+#include "integrate/split_sum.h"
 #include "optics/refractive_index.h"
 
 #include <nlohmann/json.hpp>
@@ -58,6 +59,7 @@ Exit run(const Options& o) {
       model.push_back(describe(p.about, p.parameters));
       model.back()["spec"] = p.spec;
     }
+    model.push_back(describe(split_sum_about, {}));
     for (const auto& m : metals()) {
       Json n = Json::array(), k = Json::array();
       for (const auto& index : m.rgb()) n.push_back(index.n), k.push_back(index.k);
@@ -76,6 +78,8 @@ Exit run(const Options& o) {
     print(p.about, p.parameters);
     fmt::print("{:40}= {}\n", "", p.spec);
   }
+  print(split_sum_about, {});
+  fmt::print("{:{}}= gonio split_sum\n", "", indent);
   fmt::print(
       "\nOther models are [DIFFUSE+]NDF/MASKING/FRESNEL[+LOBE…], by these names less their "
       "prefix:\n"
