@@ -213,7 +213,8 @@ void judge(EntryAudit& e) {
   const auto makes_light = [](const std::optional<Worst>& w) {
     return w && w->value - w->error > 1 + noticeable;
   };
-  violates("energy", makes_light(e.energy) || makes_light(e.energy_under_lobe));
+  violates("energy",
+           (!e.energy_is_shared && makes_light(e.energy)) || makes_light(e.energy_under_lobe));
   violates("range", (e.lowest && e.lowest->value < 0) ||
                         (e.highest && e.kind != "ndf" && e.kind != "diffuse" && e.kind != "map" &&
                          e.kind != "model" && e.highest->value > 1 + 1e-12));
@@ -316,6 +317,7 @@ class TermAudit {
   void energy(EntryAudit& e) const {
     if (role_ != Role::diffuse) {
       e.energy_of = lobe() + "/constant";
+      e.energy_is_shared = about_.id == "ndf.blinn_phong" || about_.id == "ndf.shape_invariant";
       albedo_in(e.energy_of, 1, e.energy);
       return;
     }
@@ -397,6 +399,14 @@ class TermAudit {
         all.distance(catalogue()[reference].about->id, measures[static_cast<std::size_t>(role_)]);
   }
 
+  /// Defaults, but a surface rough enough for masking to be seen.
+  Values shown(std::span<const Parameter> parameters) const {
+    Values v = defaults(parameters);
+    for (std::size_t k = 0; k < v.size(); ++k)
+      if (role_ == Role::masking && parameters[k].name.starts_with("alpha")) v[k] = 0.75;
+    return v;
+  }
+
   void picture(EntryAudit& e) const {
     std::vector<Row> line;
     auto& pic = e.picture;
@@ -405,22 +415,22 @@ class TermAudit {
       pic.at.push_back(i);
       line.push_back(role_ == Role::ndf       ? row(theta, 0, theta, 0)
                      : role_ == Role::fresnel ? cosines()[static_cast<std::size_t>(i * 200 / 90)]
-                                              : row(theta, 0, 30 * degree, 180 * degree));
+                                              : row(theta, 0, 60 * degree, 180 * degree));
     }
     static constexpr std::string_view x[] = {"theta_h", "theta_i", "theta_d", "theta_i"};
-    static constexpr std::string_view y[] = {"D [1/sr]", "G2 at theta_o = 30 deg", "F",
-                                             "f at theta_o = 30 deg [1/sr]"};
+    static constexpr std::string_view y[] = {"D [1/sr]", "G2 at theta_o = 60 deg", "F",
+                                             "f at theta_o = 60 deg [1/sr]"};
     pic.x = x[static_cast<std::size_t>(role_)];
     pic.y = y[static_cast<std::size_t>(role_)];
     const std::string_view id = about_.reference();
     if (id.empty()) {
-      pic.value = values(term_, defaults(parameters_), line);
+      pic.value = values(term_, shown(parameters_), line);
       return;
     }
     const std::size_t reference = find_term(id);
     const auto q = reference_parameters(reference).size() && id == "fresnel.conductor"
                        ? reference_parameters(reference)[0]
-                       : defaults(catalogue()[reference].parameters);
+                       : shown(catalogue()[reference].parameters);
     pic.value = values(term_, standing_for(reference, q), line);
     pic.reference = values(reference, q, line);
   }

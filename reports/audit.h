@@ -45,6 +45,9 @@ struct EntryAudit {
   std::optional<Worst> reciprocity;    ///< largest |f(l,v) − f(v,l)| over the larger of them
   std::optional<Worst> energy;         ///< largest directional albedo at F = 1 (or white)
   std::string energy_of;               ///< the model that it was measured in
+  /// A distribution looked at with a masking that is not its own: what light the two make together
+  /// is no law of it.
+  bool energy_is_shared = false;
   /// The same of a diffuse term under a GGX lobe with Schlick's F and f0 = 0.04.
   std::optional<Worst> energy_under_lobe;
   std::optional<Worst> lowest, highest;  ///< of the factor itself

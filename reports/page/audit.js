@@ -16,7 +16,7 @@ function operations_text(e) {
 function near(x, to) {
   if (!known(x)) return "∞";
   const off = Math.abs(x - to);
-  if (off > 0 && off < 5e-7) return `${to}`;
+  if (off < 5e-7) return `${to}`;
   return off < 0.01 ? minus(x.toFixed(off < 1e-4 ? 6 : 4)) : significant(x);
 }
 const most_energy = (e) => [e.energy, e.energy_under_lobe].filter(Boolean).sort((a, b) => b.value - a.value)[0] ?? null;
@@ -106,12 +106,12 @@ function kind_section([kind, title]) {
   for (const e of of_kind) {
     const open = el("button", { type: "button", class: "plain", "aria-expanded": "false" }, el("code", {}, e.id.slice(e.id.indexOf(".") + 1)));
     const row = el("tr", { class: "entry", id: e.id },
-      el("th", { scope: "row" }, open, el("div", { class: "entry-title" }, e.title)),
+      el("th", { scope: "row" }, open, el("div", { class: "entry-title" }, e.title), el("div", { class: "narrow" }, verdict_of(e))),
       el("td", { class: "thumbs" }, picture(e, 84, 34)),
       columns.map((law) => el("td", { class: "n" }, cell(e, law).n)),
       distance ? el("td", { class: "n" }, e.distance ? [significant(e.distance.max, 2), el("div", { class: "entry-title" }, e.distance.reference.slice(e.distance.reference.indexOf(".") + 1))] : el("span", { class: "muted" }, "·")) : null,
       operations ? el("td", { class: "n", title: e.operations ? operations_text(e) : null }, String(total(e) ?? "·")) : null,
-      el("td", {}, verdict_of(e)));
+      el("td", { class: "wide" }, verdict_of(e)));
     let more = null;
     open.addEventListener("click", () => {
       if (more) { more.remove(); more = null; } else { more = el("tr", { class: "more" }, el("td", { colspan: width }, details(e))); row.after(more); }
@@ -121,8 +121,8 @@ function kind_section([kind, title]) {
     bodies.push([e, row, () => more]);
   }
   return section(title, null, scroll(el("table", { class: "audit" },
-    el("thead", {}, el("tr", {}, el("th", {}, ""), el("th", {}, ""), columns.map((law) => el("th", { class: "n" }, titles[law])),
-      distance ? el("th", { class: "n" }, "off by at most") : null, operations ? el("th", { class: "n" }, "operations") : null, el("th", {}, "verdict"))),
+    el("thead", {}, el("tr", {}, el("th", {}, ""), el("th", { class: "thumbs" }, ""), columns.map((law) => el("th", { class: "n" }, titles[law])),
+      distance ? el("th", { class: "n" }, "off by at most") : null, operations ? el("th", { class: "n" }, "operations") : null, el("th", { class: "wide" }, "verdict"))),
     body)));
 }
 

@@ -36,8 +36,10 @@ Json describe(const About& about, std::span<const Parameter> parameters) {
           {"parameters", list}};
 }
 
+/// Where the texts begin, right of the ids.
+constexpr int indent = 40;
+
 void print(const About& about, std::span<const Parameter> parameters) {
-  constexpr int indent = 40;
   fmt::print("{:<{}}{}\n{:{}}{}\n", about.id, indent, about.title, "", indent, about.formula);
   if (!about.reference().empty())
     fmt::print("{:{}}{} {}\n", "", indent, about.named_for.empty() ? "stands for" : "differs from",
@@ -76,7 +78,7 @@ Exit run(const Options& o) {
   fmt::print("\nWhole models, by their id less the prefix (--model gltf):\n");
   for (const auto& p : presets()) {
     print(p.about, p.parameters);
-    fmt::print("{:40}= {}\n", "", p.spec);
+    fmt::print("{:{}}= {}\n", "", indent, p.spec);
   }
   print(split_sum_about, {});
   fmt::print("{:{}}= gonio split_sum\n", "", indent);
