@@ -117,6 +117,8 @@ const std::vector<Row>& half_vectors() {
       for (const double phi : {0.0, 45.0, 90.0}) {
         const double t = i / 200.0, theta = 90 * degree * t * t * t;
         r.push_back(row(theta, phi * degree, theta, phi * degree));
+        if (i == 200)
+          r.back().nol = r.back().nov = r.back().noh = 0;  // not what cos(π/2) rounds to
       }
     return r;
   }();

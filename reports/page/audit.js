@@ -146,7 +146,7 @@ document.getElementById("page").replaceChildren(
   el("section", {}, el("div", { class: "controls" }, choice("Shown", [["all", "all"], ["mistakes", "mistakes"], ["violations", "break a law"], ["clean", "keep all"]], "all", show),
       el("span", { class: "hint" }, "An entry's name opens all that is known of it.")),
     el("p", {}, "Every figure is the worst over the entry's parameters, the ends of their ranges included, and over directions. ∫ D cos θ should be 1. "
-      + "‘Most albedo’ is the largest share of light from one direction that leaves again, at F = 1 and white: above 1 light is made. "
+      + "‘Most albedo’ is the largest share of light from one direction that leaves again, at F = 1 and white: above 1 light is made (a distribution without a masking of its own is not judged by it). "
       + "‘Off by at most’ is the distance to the form named below it. Curves: blue the entry, dashed that form.")),
   ...kinds.map(kind_section).filter(Boolean),
   el("footer", {}, "Every figure of this page is in its data block and in the .page.json beside it."));
