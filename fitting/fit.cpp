@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "brdf/presets.h"
 #include "brdf/registry.h"
 #include "fitting/accumulate.h"
 #include "fitting/assess.h"
@@ -460,11 +461,28 @@ std::vector<std::string> warnings(const FitOptions& o,
 
 }  // namespace
 
-void check(const FitOptions& o) {
+/// A preset's name becomes its spec, with what the preset holds held: its own parameters tie those of
+/// the spec together, and a fit leaves them free.
+FitOptions expanded(FitOptions o) {
+  const Preset* preset = find_preset(o.model);
+  if (!preset) return o;
+  o.model = preset->spec;
+  const auto defaults = preset->resolve(PresetValues(preset->parameters, {}));
+  for (const auto name : preset->held)
+    if (std::ranges::find(o.fixed, name, &Setting::name) == o.fixed.end())
+      o.fixed.push_back(*std::ranges::find(defaults, name, &Setting::name));
+  return o;
+}
+
+void check(const FitOptions& given) {
+  const FitOptions o = expanded(given);
   resolved_bounds(o, bind_model(o.model, o.fixed, {}, o.grey));
 }
 
-FitResult fit(const Table& t, const FitOptions& o, const std::function<void(const char*)>& phase) {
+FitResult fit(const Table& t,
+              const FitOptions& given,
+              const std::function<void(const char*)>& phase) {
+  const FitOptions o = expanded(given);
   const auto announce = [&](const char* what) {
     if (phase) phase(what);
   };

@@ -361,8 +361,9 @@ class TermAudit {
         p.push_back(q[static_cast<std::size_t>(same - of.begin())]);
       else if (own.name.starts_with("f0"))
         p.push_back(at(1));
-      else if (own.name == "f82")
-        p.push_back(at(1.0 / 7));
+      else if (own.name == "f82_tint")  // relative to Schlick's value there
+        p.push_back(std::clamp(at(1.0 / 7) / (at(1) + (1 - at(1)) * std::pow(6.0 / 7, 5)),
+                               own.legal.low, 1.0));
       else if ((own.name == "alpha_x" || own.name == "alpha_y") && !of.empty() &&
                of[0].name == "alpha")
         p.push_back(q[0]);
@@ -374,6 +375,8 @@ class TermAudit {
 
   std::vector<Values> reference_parameters(std::size_t reference) const {
     const auto& about = catalogue()[reference];
+    if (about.about->id == "fresnel.dielectric")  // from outside: what shipped forms are made for
+      return {{1.05}, {1.2}, {1.33}, {1.5}, {1.8}, {2}, {2.5}, {3}};
     if (about.about->id != "fresnel.conductor") return combinations(about.parameters);
     std::vector<Values> all;
     for (const auto& metal : metals())

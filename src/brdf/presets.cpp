@@ -152,8 +152,8 @@ constexpr std::array all{
            specular_alone},
     Preset{{"model.unity_mobile", "Unity's mobile specular",
             "f = D / (LoH² (r + 0.5)) / 4 · specular_color",
-            "Zioma 2015, Optimizing PBR for Mobile, SIGGRAPH course", "000",
-            "Unity's Universal Render Pipeline", "model.cook_torrance"},
+            "Zioma 2015, Optimizing PBR for Mobile, SIGGRAPH course", "000", "",
+            "model.cook_torrance"},
            "ggx/unity_mobile/constant",
            specular_roughness,
            specular_alone},
@@ -180,9 +180,9 @@ PresetValues::PresetValues(std::span<const Parameter> parameters, std::span<cons
     const auto values = it == given.end() ? std::vector<double>{p.start} : it->values;
     if (values.size() != 1) {
       if (!p.per_channel) throw wrong_usage(fmt::format("{} is one number", p.name));
-      if (channels_ != 1 && channels_ != values.size())
-        throw wrong_usage(fmt::format("{}: {} values where another colour has {}", p.name,
-                                      values.size(), channels_));
+      if (values.size() != 3)
+        throw wrong_usage(
+            fmt::format("{}: {} values where one or r,g,b fit", p.name, values.size()));
       channels_ = values.size();
     }
     for (const double v : values)

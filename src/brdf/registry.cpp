@@ -135,7 +135,7 @@ std::size_t find_term(std::string_view id, Role role) {
   for (std::size_t t = 0; t < terms.size(); ++t) {
     if (role_of(terms[t].about->id) != role) continue;
     ids.push_back(short_id(terms[t].about->id));
-    if (ids.back() == id) return t;
+    if (ids.back() == id || terms[t].about->id == id) return t;
   }
   if (role == Role::diffuse &&
       std::ranges::any_of(terms, [&](const auto& t) { return short_id(t.about->id) == id; }))

@@ -21,6 +21,9 @@ namespace {
 BoundModel two_interfaces(std::string_view masking, double roughness) {
   const auto term =
       masking.starts_with("masking.") ? find_term(masking) : find_term(masking, Role::masking);
+  if (catalogue()[term].anisotropic)
+    throw wrong_usage(fmt::format("{} is anisotropic: the split sum's table has one roughness",
+                                  catalogue()[term].about->id));
   return bind_model(fmt::format("ggx/{}/schlick", short_id(catalogue()[term].about->id)),
                     {{"roughness", {roughness}}, {"f0", {0, 1}}});
 }

@@ -110,6 +110,11 @@ TEST(Preset, TakesItsOwnParametersOrThoseOfItsSpec) {
   EXPECT_EQ(std::ranges::find(held, "alpha"), held.end());
 }
 
+TEST(Preset, LeavesTheTermOfItsNameToTheWholeId) {
+  EXPECT_EQ(bind_model("disney", {}, 1).model.lobes.size(), 2U);
+  EXPECT_TRUE(bind_model("diffuse.disney", {}, 1).model.lobes.empty());
+}
+
 TEST(Preset, EachComposesAndNamesItsSource) {
   for (const auto& p : presets()) {
     EXPECT_TRUE(find_preset(p.about.id) == &p && !p.about.source.empty()) << p.about.id;
