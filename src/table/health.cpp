@@ -71,11 +71,12 @@ void warn_of_cosine(const Table& t, Health& h) {
   const SampleAngles at(t);
   std::vector<double> with, without;
   for_each_reciprocal(t, [&](std::size_t i, std::size_t, double a, double b) {
-    const auto [low, high] = std::minmax(at(i).nol, at(i).nov);
+    const auto x = at(i);
+    const double low = std::min(x.nol, x.nov), high = std::max(x.nol, x.nov);
     // Elsewhere the two cannot be told apart.
     if (!(low >= least_cosine && high > 1.2 * low && a + b > 0)) return;
     with.push_back(reciprocity_error(a, b));
-    without.push_back(reciprocity_error(a / at(i).nov, b / at(i).nol));
+    without.push_back(reciprocity_error(a / x.nov, b / x.nol));
   });
   if (with.size() < 8) return;
   const double raw = median(with), rest = median(without);
