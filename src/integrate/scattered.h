@@ -1,0 +1,17 @@
+#pragma once
+/// \file
+/// What a rough surface gives back of the light that comes in, by the number of facets that it met.
+
+#include <vector>
+
+namespace gonio {
+
+/// At one direction; each element over channels is one of the model's.
+struct Scattered {
+  std::vector<double> albedo;              ///< [channel]: what leaves, all orders
+  std::vector<double> error;               ///< [channel], of albedo: what each solution says of it
+  std::vector<std::vector<double>> order;  ///< [channel][n − 1]: what leaves after n bounces
+  std::vector<double> rest;                ///< [channel]: still inside where it was cut off
+};
+
+}  // namespace gonio
