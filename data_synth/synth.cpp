@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "brdf/evaluate.h"
 #include "table/formats.h"
 
@@ -12,30 +13,6 @@
 
 namespace gonio {
 namespace {
-
-/// Random numbers without a state: the k-th draw of a sample is a hash (SplitMix64's finaliser).
-class Draws {
- public:
-  Draws(std::uint64_t seed, std::uint64_t sample) : state_(mix(mix(seed) ^ sample)) {}
-  /// uniform in (0, 1)
-  double uniform() {
-    state_ += 0x9e3779b97f4a7c15U;
-    return (static_cast<double>(mix(state_) >> 11U) + 0.5) * 0x1p-53;
-  }
-  /// standard normal (Box–Muller)
-  double normal() {
-    const double radius = std::sqrt(-2 * std::log(uniform()));
-    return radius * std::cos(2 * std::numbers::pi * uniform());
-  }
-
- private:
-  static std::uint64_t mix(std::uint64_t x) {
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31U);
-  }
-  std::uint64_t state_;
-};
 
 void push(DirectionList& l, double theta_i, double phi_i, double theta_o, double phi_o) {
   l.theta_i_deg.push_back(theta_i);

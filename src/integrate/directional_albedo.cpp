@@ -285,9 +285,7 @@ std::vector<Albedo> albedos_of(const std::vector<Part>& parts,
                                std::span<const double> mu,
                                double phi,
                                const Goal& goal) {
-  for (const double m : mu)
-    if (!(0 < m && m <= 1))
-      throw wrong_usage(fmt::format("mu = {} is outside (0, 1]: the cosine of a zenith angle", m));
+  check_cosines(mu);
   std::vector<Albedo> all(mu.size());
   tbb::parallel_for(std::size_t{0}, mu.size(),
                     [&](std::size_t i) { all[i] = albedo_of(parts, channels, mu[i], phi, goal); });
@@ -295,6 +293,12 @@ std::vector<Albedo> albedos_of(const std::vector<Part>& parts,
 }
 
 }  // namespace
+
+void check_cosines(std::span<const double> mu) {
+  for (const double m : mu)
+    if (!(0 < m && m <= 1))
+      throw wrong_usage(fmt::format("mu = {} is outside (0, 1]: the cosine of a zenith angle", m));
+}
 
 std::vector<Albedo> directional_albedo(const BoundModel& model,
                                        std::span<const double> mu,

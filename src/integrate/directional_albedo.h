@@ -18,6 +18,9 @@ struct Albedo {
   std::size_t evaluations = 0;
 };
 
+/// Refuses, as wrong usage, what is no cosine of a direction above the surface: outside (0, 1].
+void check_cosines(std::span<const double> mu);
+
 /// E(μ) = ∫ f(l, v) NoL dω_l at each μ = NoV in (0, 1], in parallel; anything else is wrong usage.
 ///
 /// Each lobe is integrated over the slopes p = (α_x ρ cos ψ, α_y ρ sin ψ) of the half vector, with ρ =

@@ -2,6 +2,7 @@
 /// \file
 /// What a rough surface gives back of the light that comes in, by the number of facets that it met.
 
+#include <cstddef>
 #include <vector>
 
 namespace gonio {
@@ -12,6 +13,8 @@ struct Scattered {
   std::vector<double> error;               ///< [channel], of albedo: what each solution says of it
   std::vector<std::vector<double>> order;  ///< [channel][n − 1]: what leaves after n bounces
   std::vector<double> rest;                ///< [channel]: still inside where it was cut off
+  std::vector<std::vector<double>> order_error;  ///< [channel][n − 1]; of the walk only
+  std::size_t bounces = 0;                       ///< that all walks took
 };
 
 }  // namespace gonio
