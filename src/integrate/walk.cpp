@@ -20,11 +20,11 @@ namespace {
 
 constexpr std::size_t chunk_walks = 1 << 14;
 
-/// A term over a block, with columns of its own.
+/// A term over a block, in the best instruction set.
 class Term {
  public:
   Term(const BoundModel& m, const TermUse& t, std::size_t channel = 0)
-      : add_(catalogue()[t.term].add) {
+      : add_(kernels<double>().terms[t.term].add) {
     std::ranges::copy(term_parameters(m, t, channel), parameters_.begin());
   }
   void operator()(const Block<double>& x, Scratch<double>& s, double* out) const {
@@ -58,12 +58,16 @@ std::vector<Surface> surfaces_of(const BoundModel& m) {
   return all;
 }
 
+std::size_t padded(std::size_t n) {
+  return (n + padding - 1) / padding * padding;
+}
+
 /// Walkers side by side, as columns.
 class Walkers {
  public:
   static constexpr std::size_t most = Scratch<double>::block;
 
-  /// They enter against v.
+  /// They enter against v, a unit vector above the surface.
   Walkers(const Surface& s, const Direction& v, Draws draws)
       : surface_(s),
         draw_(draws),
@@ -76,7 +80,7 @@ class Walkers {
     std::fill_n(columns_[1], most, 1.0);  // v of the masking is the normal
     std::fill_n(columns_[2], most, 1.0);
     fly_[0] = in_;
-    see(1);
+    measure_areas(1);
     area_in_ = area_[0];
   }
 
@@ -86,7 +90,8 @@ class Walkers {
   std::size_t bounces(std::size_t i) const { return bounces_[i]; }
   const Direction& flight(std::size_t i) const { return fly_[i]; }
   double depth(std::size_t i) const { return depth_[i]; }
-  double area(std::size_t i) const { return area_[i]; }
+  double area(std::size_t i) const { return area_[i]; }  ///< σ(−w)
+  double area_in() const { return area_in_; }            ///< σ(v)
   /// What a walk has gathered, for whom it concerns.
   double gathered(std::size_t channel, std::size_t i) const { return gathered_[channel][i]; }
   void gather(std::size_t channel, std::size_t i, double x) { gathered_[channel][i] += x; }
@@ -107,7 +112,7 @@ class Walkers {
       surface_.fresnel[c](x, scratch_, f);
       for (std::size_t i = 0; i < n_; ++i) weight_[c][i] *= f[i];
     }
-    see(n_);
+    measure_areas(n_);
     for (std::size_t i = 0; i < n_; ++i) {
       depth_[i] -= path(i);
       ++bounces_[i];
@@ -134,7 +139,6 @@ class Walkers {
   }
 
  private:
-  static std::size_t padded(std::size_t n) { return (n + padding - 1) / padding * padding; }
   Block<double> block(std::size_t n) { return angles_.block().part(0, padded(n)); }
 
   void enter(std::size_t i) {
@@ -165,7 +169,7 @@ class Walkers {
   }
 
   /// σ(−w) of the first n.
-  void see(std::size_t n) {
+  void measure_areas(std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) {
       columns_[0][i] = std::min(std::abs(fly_[i].z), 1.0);
       columns_[7][i] = fly_[i].x;
@@ -253,19 +257,10 @@ struct Leaving {
 /// Gathers what goes along one direction, over its cosine.
 class Towards {
  public:
-  Towards(const Surface& s, const Direction& l) : surface_(s), l_(l), angles_(true) {
+  Towards(const Surface& s, const Direction& l)
+      : surface_(s), l_(l), lambda_(Walkers(s, l, Draws(0)).area_in() / l.z - 1), angles_(true) {
     columns_ = angles_.resize(Walkers::most);
     for (auto* const c : columns_) std::fill_n(c, Walkers::most, 0.5);
-    // Λ(l)
-    Scratch<double> scratch;
-    columns_[0][0] = l.z;
-    columns_[1][0] = 1;
-    columns_[7][0] = l.x;
-    columns_[8][0] = l.y;
-    columns_[9][0] = columns_[10][0] = 0;
-    double* const v = scratch[Scratch<double>::first_free];
-    s.masking(angles_.block().part(0, padding), scratch, v);
-    lambda_ = 0.25 / v[0] / l.z - 1;
   }
 
   void at_facets(Walkers& w, Tally& t) {
@@ -281,7 +276,7 @@ class Towards {
       columns_[6][i] = y / length;
       share_[i] = faces_up ? std::exp(-w.depth(i) * lambda_) / (4 * w.area(i) * l_.z) : 0;
     }
-    const auto block = angles_.block().part(0, (w.size() + padding - 1) / padding * padding);
+    const auto block = angles_.block().part(0, padded(w.size()));
     double* const value = w.scratch()[Scratch<double>::first_free];
     surface_.ndf(block, w.scratch(), value);
     for (std::size_t i = 0; i < w.size(); ++i) share_[i] *= value[i];
@@ -301,7 +296,7 @@ class Towards {
  private:
   const Surface& surface_;
   Direction l_;
-  double lambda_ = 0;
+  double lambda_;
   AngleBlock angles_;
   std::span<double* const> columns_;
   std::array<double, Walkers::most> share_;
@@ -350,8 +345,8 @@ void walk_chunks(const Surface& s,
   for (const auto& c : chunks) t.add(c);
 }
 
-std::size_t chunks_of(double walks) {
-  return static_cast<std::size_t>(std::ceil(walks / static_cast<double>(chunk_walks)));
+std::size_t chunks_of(std::size_t walks) {
+  return (walks + chunk_walks - 1) / chunk_walks;
 }
 
 /// Until all walks are done or the error is.
@@ -360,10 +355,11 @@ Tally walk_until(const Surface& s,
                  const WalkGoal& goal,
                  const std::array<std::size_t, 2>& key) {
   Tally t(s.fresnel.size());
-  const std::size_t all = chunks_of(static_cast<double>(goal.walks));
   // A first guess of the variance, and then as many as it says, a tenth more.
-  std::size_t done = 0, next = goal.error > 0 ? std::min<std::size_t>(all, 4) : all;
-  while (next > done) {
+  const auto all = static_cast<double>(goal.walks);
+  double wanted = goal.error > 0 ? std::min(all, 4.0 * chunk_walks) : all;
+  for (std::size_t done = 0;;) {
+    const std::size_t next = chunks_of(static_cast<std::size_t>(wanted));
     walk_chunks(
         s, v, [] { return Leaving{}; }, done, next, goal, key, t);
     done = next;
@@ -371,8 +367,8 @@ Tally walk_until(const Surface& s,
     for (std::size_t c = 0; c < t.sum.size(); ++c)
       worst = std::max(worst, t.variance(t.sum[c], t.square[c]));
     const double target = goal.error * goal.error;
-    if (worst > target)
-      next = std::min(all, chunks_of(1.1 * static_cast<double>(t.walks) * worst / target));
+    if (worst <= target || t.walks == goal.walks) break;
+    wanted = std::min(all, 1.1 * static_cast<double>(t.walks) * worst / target);
   }
   return t;
 }
@@ -463,8 +459,8 @@ WalkValue walk_value(const BoundModel& m,
   for (std::size_t lobe = 0; lobe < surfaces.size(); ++lobe) {
     Tally t(surfaces[lobe].fresnel.size());
     walk_chunks(
-        surfaces[lobe], v, [&] { return Towards(surfaces[lobe], l); }, 0,
-        chunks_of(static_cast<double>(goal.walks)), goal, {lobe, 0}, t);
+        surfaces[lobe], v, [&] { return Towards(surfaces[lobe], l); }, 0, chunks_of(goal.walks),
+        goal, {lobe, 0}, t);
     means.add(t);
   }
   return {means.value, roots(means.variance), means.order, roots(means.order_variance), means.rest};

@@ -16,7 +16,7 @@ namespace gonio {
 struct WalkGoal {
   std::uint64_t seed = 1;
   std::size_t walks = 1'000'000;  ///< at most, by mu and lobe
-  double error = 0;               ///< where standard errors are no larger, there are fewer walks
+  double error = 0;               ///< enough where every standard error is no larger
   std::size_t bounces = 1000;     ///< after which a walk is cut off
 };
 
@@ -33,8 +33,11 @@ struct WalkGoal {
 /// and upwards from τ it gets out with the probability e^(−τ Λ(w)).  Λ is what the catalogue's masking
 /// has for l under a v along the normal: NoL (1 + Λ(l)) = 1/(4 V(l, n)).
 ///
-/// `error` is the standard error of `albedo`.  Walks draw from streams of their own, by the seed, the place
-/// in mu and in some 10⁴ walks, and are summed in that order: threads change nothing.
+/// `error` is the standard error of `albedo`.  Walks draw their numbers 2¹⁴ from a stream, by the seed, the
+/// place in mu and of those 2¹⁴, and are summed in that order: threads change nothing.
+///
+/// In one thread with AVX-512 a bounce takes 60 ns on GGX and 130 on Beckmann, alpha = 0.8, one channel of
+/// Schlick; three of the conductor add 12.
 ///
 /// \param phi  azimuth of v from the tangent, for anisotropic models [rad]
 std::vector<Scattered> walk(const BoundModel&,

@@ -96,7 +96,7 @@ TEST(BeckmannFacets, HaveSlopesOfTheirDensityAtEveryCotangent) {
     Draws draw(7);
     double sum = 0;
     for (int i = 0; i < n; ++i) {
-      const double t = a + beckmann_visible_slope(a, draw);
+      const double t = a + beckmann_visible_slopes(a, draw)[0];
       ASSERT_GE(t, 0);
       sum += t / n;
     }

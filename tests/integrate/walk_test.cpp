@@ -40,7 +40,7 @@ double sum(const std::vector<double>& x) {
 
 /// Of n walks none does what one in n/9 does, with a chance of e^-9.
 void expect_order_one(const BoundModel& m, double phi = 0) {
-  const WalkGoal goal{3, 1 << 15};
+  const WalkGoal goal{3, 1 << 14};
   const auto walked = walk(m, cosines, phi, goal);
   const auto exact = directional_albedo(m, cosines, phi);
   for (std::size_t i = 0; i < walked.size(); ++i)
