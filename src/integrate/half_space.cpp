@@ -1,0 +1,426 @@
+#include "integrate/half_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "brdf/registry.h"
+#include "integrate/directional_albedo.h"
+#include "integrate/microsurface.h"
+#include "integrate/quadrature.h"
+#include "integrate/slopes.h"
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio {
+namespace {
+
+using Eigen::Index;
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+/// A direction: its zenith cosine, negative below the horizon.
+struct Ray {
+  double cosine, sine;
+};
+
+/// One lobe, by itself, and those of its channels that differ.
+struct Surface {
+  BoundModel model;
+  Microsurface::Slopes slopes;
+  double alpha;
+  std::size_t ndf, masking;
+  std::vector<std::vector<double>> fresnel;  ///< parameters, by distinct channel
+  std::vector<std::size_t> channel;          ///< of the model's the first, by distinct channel
+  std::vector<std::size_t> distinct;         ///< by channel of the model
+};
+
+std::vector<Surface> surfaces_of(const BoundModel& whole) {
+  std::vector<Surface> surfaces;
+  const auto micro = microsurfaces(whole);
+  for (std::size_t l = 0; l < micro.size(); ++l) {
+    const auto& m = micro[l];
+    if (m.alpha_x != m.alpha_y)
+      throw wrong_usage(fmt::format(
+          "'{}' has the widths {} and {}: the deterministic solution is for isotropic surfaces, a "
+          "walk takes both",
+          whole.model.spec, m.alpha_x, m.alpha_y));
+    const bool ggx = m.slopes == Microsurface::Slopes::ggx;
+    Surface s{whole,
+              m.slopes,
+              m.alpha_x,
+              find_term(ggx ? "ndf.ggx" : "ndf.beckmann"),
+              find_term(ggx ? "masking.smith_ggx.correlated" : "masking.smith_beckmann.correlated"),
+              {},
+              {},
+              {}};
+    s.model.model.diffuse.clear();
+    s.model.model.lobes = {whole.model.lobes[l]};
+    for (std::size_t c = 0; c < whole.model.channels; ++c) {
+      const auto p = term_parameters(whole, m.fresnel, c);
+      const auto known = std::ranges::find(s.fresnel, p);
+      s.distinct.push_back(static_cast<std::size_t>(known - s.fresnel.begin()));
+      if (known != s.fresnel.end()) continue;
+      s.fresnel.push_back(p);
+      s.channel.push_back(c);
+    }
+    if (s.fresnel.size() == 1) s.model.model.channels = 1;
+    surfaces.push_back(std::move(s));
+  }
+  return surfaces;
+}
+
+/// K(c₁, c₂) = ∫ F D(h)/4 dφ over all azimuths, for many c₁ and one c₂ > −c₁.
+///
+/// With c = c₁ + c₂, b = s₁ s₂ of the sines, and φ from where the two are mirror images
+///
+///   tan²θ_h = t/c²,   t = (s₁ − s₂)² + 4 b sin²(φ/2),   ω·h = √(t + c²)/2
+///
+/// GGX has its poles where t = −α² c², about √(((s₁ − s₂)² + α² c²)/b) from the real axis, Beckmann the width
+/// α c/√b, beyond 8 of which it is below e^−25.  Gauss nodes in ln φ, as it were: φ ∝ sinh.
+class AzimuthMean {
+ public:
+  AzimuthMean(const Surface& s, int nodes) : s_(s), nodes_(gauss_legendre(nodes)) {}
+
+  /// \param out  [distinct channel][i]
+  void operator()(std::span<const Ray> in,
+                  const Ray& to,
+                  AngleBlock& block,
+                  std::vector<std::vector<double>>& out) {
+    const std::size_t n = in.size() * nodes_.size();
+    const auto x = block.resize(n);
+    weight_.resize(n);
+    std::size_t at = 0;
+    for (const auto& from : in) {
+      // where an integral ends at its beginning, rounding leaves 0
+      const double c = std::max(from.cosine + to.cosine, 1e-15), b = from.sine * to.sine;
+      // s₁² − s₂² = (c₂ − c₁)(c₂ + c₁)
+      const double apart = (to.cosine - from.cosine) * c / std::max(from.sine + to.sine, tiny);
+      const auto [width, reach] = peak(c, b, apart);
+      const double grading = std::max(std::asinh(reach / width), 0.01);
+      const double scale = reach / std::sinh(grading);
+      for (const auto& node : nodes_) {
+        const double e = std::exp(grading * node.x);
+        const double half = std::sin(scale * (e - 1 / e) / 4);
+        const double t = apart * apart + 4 * b * half * half, y = t + c * c, length = std::sqrt(y);
+        x[0][at] = x[1][at] = 0.5;  // not read
+        x[2][at] = c / length;
+        x[3][at] = std::min(length / 2, 1.0);
+        x[4][at] = t / y;
+        weight_[at++] = node.weight * scale * grading * (e + 1 / e) / 4;
+      }
+    }
+    const auto columns = block.block();
+    double *const d = block.extra(0), *const f = block.extra(1);
+    term_values(s_.ndf, {&s_.alpha, 1}, columns, d);
+    for (std::size_t i = 0; i < n; ++i) weight_[i] *= d[i];
+    out.resize(s_.fresnel.size());
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      term_values(s_.model.model.lobes.front().fresnel.term, s_.fresnel[k], columns, f);
+      out[k].assign(in.size(), 0);
+      for (std::size_t i = 0; i < n; ++i) out[k][i / nodes_.size()] += weight_[i] * f[i];
+    }
+  }
+
+ private:
+  static constexpr double tiny = 1e-300;
+  struct Peak {
+    double width, reach;
+  };
+  Peak peak(double c, double b, double apart) const {
+    const double root = std::max(std::sqrt(b), tiny);
+    if (s_.slopes == Microsurface::Slopes::ggx)
+      return {std::hypot(apart, s_.alpha * c) / root, std::numbers::pi};
+    const double width = s_.alpha * c / root;
+    return {width, std::min(8 * width, std::numbers::pi)};
+  }
+
+  const Surface& s_;
+  std::vector<Node> nodes_;
+  std::vector<double> weight_;
+};
+
+/// Ends of the panels, elevations from 0 to π/2.  Steps are as long as the way from the horizon until they
+/// see the peak, 4 α, and far above it half as long: there is then little left to scatter twice.
+std::vector<double> panels(double alpha, std::span<const double> mu) {
+  double first = std::min(alpha, 0.001);
+  for (const double m : mu) first = std::min(first, std::max(m, 1e-6));
+  constexpr double end = std::numbers::pi / 2, longest = 0.4;
+  std::vector<double> ends{0};
+  for (double s = first; s < end; s += std::min({s, std::max(4 * alpha, s / 2), longest}))
+    ends.push_back(s);
+  if (end - ends.back() < 0.1) ends.pop_back();
+  ends.push_back(end);
+  return ends;
+}
+
+/// Rows of the equation: first the nodes, panel by panel, then further cosines.
+struct Grid {
+  std::vector<double> ends;
+  std::vector<Node> gauss;
+  struct Row {
+    Ray ray;
+    std::size_t panel;
+    double x;  ///< within the panel, 0 to 1
+  };
+  std::vector<Row> rows;
+  std::vector<double> length;  ///< ∫ dμ, by node
+
+  Grid(const std::vector<double>& panel_ends, int per_panel, std::span<const double> further)
+      : ends(panel_ends), gauss(gauss_legendre(per_panel)) {
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+      for (const auto& g : gauss) {
+        rows.push_back({ray(k, g.x), k, g.x});
+        length.push_back(g.weight * width(k) * rows.back().ray.sine);
+      }
+    for (const double mu : further) {
+      const double s = std::asin(mu);
+      const auto above = std::upper_bound(ends.begin() + 1, ends.end() - 1, s);
+      const auto k = static_cast<std::size_t>(above - ends.begin()) - 1;
+      rows.push_back({{mu, std::sqrt((1 - mu) * (1 + mu))}, k, (s - ends[k]) / width(k)});
+    }
+  }
+  std::size_t nodes() const { return length.size(); }
+  double width(std::size_t panel) const { return ends[panel + 1] - ends[panel]; }
+  Ray ray(std::size_t panel, double x) const {
+    const double s = ends[panel] + width(panel) * x;
+    return {std::sin(s), std::cos(s)};
+  }
+  /// The node's polynomial: 1 there, 0 at the others of its panel.
+  double lagrange(std::size_t node, double x) const {
+    double product = 1;
+    for (std::size_t k = 0; k < gauss.size(); ++k)
+      if (k != node) product *= (x - gauss[k].x) / (gauss[node].x - gauss[k].x);
+    return product;
+  }
+};
+
+/// The equation over a grid: a row of each matrix for a row of the grid, a column for a node.
+struct Discrete {
+  struct Channel {
+    Matrix first;  ///< f of the first order
+    Matrix turn;   ///< ∫ K(−u, o)/o f(u) du = Σ turn f; u of the same panel and those below
+  };
+  Matrix g2;
+  std::vector<Channel> channels;
+  Vector cosine;  ///< ∫ f μ dμ = Σ cosine f
+};
+
+/// Writes the rows, one after the other.
+class RowWriter {
+ public:
+  RowWriter(const Surface& s, const Grid& grid, int azimuths, Discrete& d)
+      : s_(s), grid_(grid), mean_(s, azimuths), d_(d) {}
+
+  void operator()(std::size_t row) {
+    write_first(row);
+    write_turn(row);
+  }
+
+ private:
+  static Index index(std::size_t i) { return static_cast<Index>(i); }
+
+  /// Also G₂.  Both are symmetric: of the nodes, half.
+  void write_first(std::size_t row) {
+    const Ray& o = grid_.rows[row].ray;
+    const std::size_t n = std::min(row + 1, grid_.nodes());
+    const auto x = block_.resize(n);
+    for (std::size_t j = 0; j < n; ++j) {
+      x[0][j] = grid_.rows[j].ray.cosine;
+      x[1][j] = o.cosine;
+    }
+    v_.resize(block_.block().n);
+    term_values(s_.masking, {&s_.alpha, 1}, block_.block(), v_.data());
+    in_.clear();
+    for (std::size_t j = 0; j < n; ++j) in_.push_back(grid_.rows[j].ray);
+    mean_(in_, o, block_, k_);
+    for (std::size_t j = 0; j < n; ++j) {
+      d_.g2(index(row), index(j)) = 4 * v_[j] * in_[j].cosine * o.cosine;
+      for (std::size_t c = 0; c < k_.size(); ++c)
+        d_.channels[c].first(index(row), index(j)) = 4 * v_[j] * k_[c][j];
+    }
+  }
+
+  void write_turn(std::size_t row) {
+    const auto& [o, panel, end] = grid_.rows[row];
+    const std::size_t p = grid_.gauss.size(), below = panel * p;
+    in_.clear();
+    const auto down = [&](const Ray& u) { in_.push_back({-u.cosine, u.sine}); };
+    for (std::size_t j = 0; j < below; ++j) down(grid_.rows[j].ray);
+    for (const auto& g : grid_.gauss) down(grid_.ray(panel, end * g.x));
+    mean_(in_, o, block_, k_);
+    for (std::size_t c = 0; c < k_.size(); ++c) {
+      auto turn = d_.channels[c].turn.row(index(row));
+      for (std::size_t j = 0; j < below; ++j)
+        turn[index(j)] = k_[c][j] * grid_.length[j] / o.cosine;
+      for (std::size_t q = 0; q < p; ++q) {
+        const auto& g = grid_.gauss[q];
+        const double length = g.weight * end * grid_.width(panel) * in_[below + q].sine;
+        for (std::size_t j = 0; j < p; ++j)
+          turn[index(below + j)] +=
+              k_[c][below + q] * length / o.cosine * grid_.lagrange(j, end * g.x);
+      }
+    }
+  }
+
+  const Surface& s_;
+  const Grid& grid_;
+  AzimuthMean mean_;
+  Discrete& d_;
+  AngleBlock block_{false};
+  std::vector<double> v_;
+  std::vector<Ray> in_;
+  std::vector<std::vector<double>> k_;
+};
+
+/// What the nodes miss of the first order's E, or see twice, is the peak's: it is taken to lie at o = i.
+void put_peak(const Grid& grid, const Vector& single, const Vector& cosine, Matrix& first) {
+  const std::size_t p = grid.gauss.size();
+  const Vector missed = single - first * cosine;
+  for (std::size_t i = 0; i < grid.rows.size(); ++i)
+    for (std::size_t j = 0; j < p; ++j) {
+      const auto column = static_cast<Index>(grid.rows[i].panel * p + j),
+                 row = static_cast<Index>(i);
+      first(row, column) += missed[row] / cosine[column] * grid.lagrange(j, grid.rows[i].x);
+    }
+}
+
+/// E of each order at the further rows of the grid, and its average below them.
+std::vector<Vector> orders(const Grid& grid, const Discrete& d, std::size_t c, double least) {
+  const auto p = static_cast<Index>(grid.gauss.size());
+  const auto nodes = static_cast<Index>(grid.nodes()), further = d.g2.rows() - nodes;
+  const Matrix& turn = d.channels[c].turn;
+  Matrix f = d.channels[c].first, next(f.rows(), f.cols());
+  std::vector<Vector> all;
+  while (true) {
+    const Vector e =
+        (f * d.cosine).cwiseMax(0);  // where there is nothing, polynomials leave −1e-25
+    all.emplace_back(further + 1);
+    all.back() << e.tail(further), 2 * d.cosine.dot(e.head(nodes));
+    if (!(all.back().maxCoeff() > least)) return all;
+    next.bottomRows(further).noalias() = turn.bottomRows(further) * f.topRows(nodes);
+    for (Index k = 0; k < nodes; k += p)
+      next.middleRows(k, p).noalias() = turn.block(k, 0, p, k + p) * f.topRows(k + p);
+    for (Index k = 0; k < nodes; k += p)
+      next.middleCols(k, p).noalias() += f.leftCols(k + p) * turn.block(k, 0, p, k + p).transpose();
+    f = next.cwiseProduct(d.g2);
+  }
+}
+
+/// By order, E at the cosines asked for, at the ends of panels, and last the average.
+struct Solution {
+  std::vector<std::vector<Vector>> orders;  ///< by distinct channel
+  double error = 0;                         ///< of the first order
+
+  Vector total(std::size_t channel) const {
+    const auto& all = orders[channel];
+    Vector sum = Vector::Zero(all.front().size());
+    for (const auto& e : all) sum += e;
+    return sum;
+  }
+};
+
+struct Fineness {
+  int per_panel, azimuths;
+};
+constexpr Fineness finenesses[] = {{6, 16}, {8, 24}, {12, 32}, {16, 48}};
+
+Solution solve(const Surface& s,
+               std::span<const double> mu,
+               const std::vector<double>& ends,
+               const Fineness& fineness,
+               double error) {
+  std::vector<double> further(mu.begin(), mu.end());
+  for (const double end : std::span(ends).subspan(1)) further.push_back(std::sin(end));
+  const Grid grid(ends, fineness.per_panel, further);
+
+  std::vector<double> cosines;
+  for (const auto& r : grid.rows) cosines.push_back(r.ray.cosine);
+  const auto single = directional_albedo(s.model, cosines, 0, {error / 10, Goal{}.evaluations});
+
+  const auto rows = static_cast<Index>(grid.rows.size());
+  const auto columns = static_cast<Index>(grid.nodes());
+  Discrete d{Matrix(rows, columns), {}, Vector(columns)};
+  d.channels.assign(s.fresnel.size(), {Matrix(rows, columns), Matrix::Zero(rows, columns)});
+  for (std::size_t j = 0; j < grid.nodes(); ++j)
+    d.cosine[static_cast<Index>(j)] = grid.length[j] * cosines[j];
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.rows.size()), [&](const auto& range) {
+    RowWriter write(s, grid, fineness.azimuths, d);
+    for (auto r = range.begin(); r < range.end(); ++r) write(r);
+  });
+  const auto mirror = [&](Matrix& m) {
+    for (Index j = 0; j < columns; ++j)
+      for (Index i = 0; i < j; ++i) m(i, j) = m(j, i);
+  };
+  mirror(d.g2);
+
+  Solution solution;
+  for (const auto& a : single) solution.error = std::max(solution.error, a.error);
+  for (std::size_t c = 0; c < s.fresnel.size(); ++c) {
+    Matrix& first = d.channels[c].first;
+    mirror(first);
+    const auto known = [&](Index i) {
+      return single[static_cast<std::size_t>(i)].value[s.channel[c]];
+    };
+    put_peak(grid, Vector::NullaryExpr(rows, known), d.cosine, first);
+    solution.orders.push_back(orders(grid, d, c, error / 100));
+  }
+  return solution;
+}
+
+/// What a geometric series adds after its last two; the orders fall faster.
+double after(const std::vector<Vector>& orders, Index i) {
+  if (orders.size() < 2) return 0;
+  const double last = orders.back()[i], before = orders[orders.size() - 2][i];
+  const double ratio = last < before ? last / before : 1;
+  return last * ratio / std::max(1 - ratio, 0.01);
+}
+
+void add(const std::vector<Vector>& orders, Index i, double error, std::size_t c, Scattered& to) {
+  const double rest = after(orders, i);
+  auto& by_order = to.order[c];
+  by_order.resize(std::max(by_order.size(), orders.size()), 0);
+  for (std::size_t n = 0; n < orders.size(); ++n) {
+    by_order[n] += orders[n][i];
+    to.albedo[c] += orders[n][i];
+  }
+  to.rest[c] += rest;
+  to.error[c] += error + rest;
+}
+
+void add(const Surface& s, std::span<const double> mu, double error, HalfSpace& to) {
+  const auto ends = panels(s.alpha, mu);
+  Solution finer = solve(s, mu, ends, finenesses[0], error);
+  std::vector<double> change(s.fresnel.size());
+  for (const auto& fineness : std::span(finenesses).subspan(1)) {
+    const Solution coarser = std::move(finer);
+    finer = solve(s, mu, ends, fineness, error);
+    for (std::size_t c = 0; c < change.size(); ++c)
+      change[c] = 2 * (finer.total(c) - coarser.total(c)).cwiseAbs().maxCoeff();
+    if (std::ranges::max(change) < 0.8 * error) break;
+  }
+  for (std::size_t c = 0; c < s.distinct.size(); ++c) {
+    const auto& orders = finer.orders[s.distinct[c]];
+    const double e = change[s.distinct[c]] + finer.error;
+    for (std::size_t i = 0; i < mu.size(); ++i) add(orders, static_cast<Index>(i), e, c, to.at[i]);
+    add(orders, orders.front().size() - 1, e, c, to.average);
+  }
+}
+
+}  // namespace
+
+HalfSpace half_space(const BoundModel& model, std::span<const double> mu, double error) {
+  const auto surfaces = surfaces_of(model);
+  const std::size_t n = model.model.channels;
+  const std::vector<double> zero(n);
+  const Scattered none{zero, zero, std::vector<std::vector<double>>(n), zero, {}, 0};
+  HalfSpace result{std::vector<Scattered>(mu.size(), none), none};
+  for (const auto& s : surfaces) add(s, mu, error / static_cast<double>(surfaces.size()), result);
+  return result;
+}
+
+}  // namespace gonio
