@@ -99,14 +99,14 @@ class FusedPass {
            std::vector<GramSums<F>>& sums,
            F* cost) const {
     const auto gather = [&](const TermUse& t, std::size_t c) {
-      std::array<F, 4> p{};
+      std::array<F, max_parameters> p{};
       for (std::size_t k = 0; k < t.parameters.size(); ++k)
         p[k] = static_cast<F>(values[model_.parameters[t.parameters[k]].slot(c)]);
       return p;
     };
     const Lobe& l = model_.lobes[0];
     const auto ndf = gather(l.ndf, 0), masking = gather(l.masking, 0);
-    std::array<std::array<F, 4>, max_channels> fresnel, diffuse;
+    std::array<std::array<F, max_parameters>, max_channels> fresnel, diffuse;
     NormalArguments<F> a{
         {}, model_.channels, ndf.data(), masking.data(), {}, {}, {}, {}, d.offset, {}, cost};
     for (std::size_t c = 0; c < model_.channels; ++c) {

@@ -5,6 +5,7 @@
 
 #include "brdf/ndf.h"
 #include "brdf/term.h"
+#include "optics/fresnel_approximate.h"
 
 namespace gonio::inline GONIO_ARCH {
 
@@ -60,11 +61,8 @@ struct DisneyDiffuse {
 
   T operator()(const Angles<plain_t<T>>& a) const {
     const T f_less_1 = two_r * square(a.voh) - constant<plain_t<T>>(0.5L);
-    const auto grazing = [](const plain_t<T>& c) {
-      const plain_t<T> m = 1 - c;
-      return square(square(m)) * m;
-    };
-    return value * ((f_less_1 * grazing(a.nol) + 1) * (f_less_1 * grazing(a.nov) + 1));
+    return value *
+           ((f_less_1 * schlick_weight(a.nol) + 1) * (f_less_1 * schlick_weight(a.nov) + 1));
   }
 };
 

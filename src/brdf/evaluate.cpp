@@ -46,17 +46,15 @@ namespace {
 
 /// A term's parameters for one channel, gathered.
 template <class F>
-std::array<F, 4> gather(const Model& m,
-                        const TermUse& t,
-                        std::span<const F> values,
-                        std::size_t channel) {
-  std::array<F, 4> p{};
+std::array<F, max_parameters> gather(const Model& m,
+                                     const TermUse& t,
+                                     std::span<const F> values,
+                                     std::size_t channel) {
+  std::array<F, max_parameters> p{};
   for (std::size_t k = 0; k < t.parameters.size(); ++k)
     p[k] = values[m.parameters[t.parameters[k]].slot(channel)];
   return p;
 }
-
-constexpr std::size_t max_fused = std::tuple_size_v<decltype(FusedKernel<float>::value)>;
 
 /// nullptr if this combination is not a hot one
 template <class F>
@@ -66,7 +64,7 @@ typename FusedKernel<F>::Value find_fused(const Kernels<F>& k,
   const std::array ids{k.terms[l.ndf.term].about->id, k.terms[l.masking.term].about->id,
                        k.terms[l.fresnel.term].about->id};
   const auto it = std::ranges::find(k.fused, ids, &FusedKernel<F>::ids);
-  return it == k.fused.end() || channels >= max_fused ? nullptr : it->value[channels];
+  return it == k.fused.end() || channels > max_channels ? nullptr : it->value[channels];
 }
 
 }  // namespace
@@ -99,9 +97,9 @@ void evaluate(const Model& m,
       const auto pd = gather(m, lobe.ndf, values, 0), pv = gather(m, lobe.masking, values, 0);
       const bool under = coupled && l == 0;
       if (const auto fused = find_fused(k, lobe, m.channels); fused && !under) {
-        std::array<std::array<F, 4>, max_fused> pf;
-        std::array<const F*, max_fused> p;
-        std::array<F*, max_fused> to;
+        std::array<std::array<F, max_parameters>, max_channels> pf;
+        std::array<const F*, max_channels> p;
+        std::array<F*, max_channels> to;
         for (std::size_t c = 0; c < m.channels; ++c) {
           pf[c] = gather(m, lobe.fresnel, values, c);
           p[c] = pf[c].data();

@@ -21,6 +21,8 @@ namespace gonio {
 inline constexpr std::size_t padding = 16;
 /// The most columns of one channel's normal equations: the residual and its derivatives.
 inline constexpr std::size_t max_columns = 10;
+/// The most parameters of a term.
+inline constexpr std::size_t max_parameters = 4;
 /// The most channels that fused kernels take.
 inline constexpr std::size_t max_channels = 3;
 
@@ -75,7 +77,7 @@ struct FusedKernel {
                          const F* const* base,
                          F* const* out);
   /// by the number of channels; nullptr where there is none
-  std::array<Value, 4> value;
+  std::array<Value, max_channels + 1> value;
 };
 
 /// How a model's value f is compared with a target t: r = w (link(f + offset) − t).

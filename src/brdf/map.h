@@ -25,4 +25,10 @@ concept MapOver = Real<T> && requires(std::span<const T, Map::parameters.size()>
   { Map::apply(p) } -> std::same_as<std::array<T, Map::outputs.size()>>;
 };
 
+/// A map of numbers:  mapped<ClampNov, T>(nov)
+template <template <class> class Map, Real T>
+auto mapped(const std::same_as<T> auto&... p) {
+  return Map<T>::apply(std::array<T, sizeof...(p)>{p...});
+}
+
 }  // namespace gonio::inline GONIO_ARCH

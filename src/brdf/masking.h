@@ -15,6 +15,18 @@
 
 namespace gonio::inline GONIO_ARCH {
 
+/// V of r(c) = c (1 + 2 Λ(c)) at l and v, light and view independent:  1/((NoL + r(l)) (NoV + r(v)))
+template <Real T>
+Quotient<T> smith_separable(const Angles<plain_t<T>>& a, const T& r_l, const T& r_v) {
+  return {T(1), (r_l + a.nol) * (r_v + a.nov)};
+}
+/// The same correlated through the height of the facet:  1/(2 (NoL r(v) + NoV r(l)))
+template <Real T>
+Quotient<T> smith_correlated(const Angles<plain_t<T>>& a, const T& r_l, const T& r_v) {
+  const T sum = a.nol * r_v + a.nov * r_l;
+  return {T(1), sum + sum};
+}
+
 /// √(α² + (1 − α²) c²) = c √(1 + α² tan²θ), with (1 − α) (1 + α) for 1 − α²
 template <Real T>
 struct SmithRoot {
@@ -41,7 +53,7 @@ struct SmithGgxSeparable {
   explicit SmithGgxSeparable(std::span<const T, 1> p) : root(p[0]) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    return {T(1), (root(a.nol) + a.nol) * (root(a.nov) + a.nov)};
+    return smith_separable<T>(a, root(a.nol), root(a.nov));
   }
 };
 
@@ -64,8 +76,7 @@ struct SmithGgxCorrelated {
   explicit SmithGgxCorrelated(std::span<const T, 1> p) : root(p[0]) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    const T sum = a.nol * root(a.nov) + a.nov * root(a.nol);
-    return {T(1), sum + sum};
+    return smith_correlated<T>(a, root(a.nol), root(a.nov));
   }
 };
 
@@ -91,8 +102,7 @@ struct SmithGgxAnisoCorrelated {
   explicit SmithGgxAnisoCorrelated(std::span<const T, 2> p) : x2(square(p[0])), y2(square(p[1])) {}
 
   Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
-    const T sum = a.nol * length(a.xov, a.yov, a.nov) + a.nov * length(a.xol, a.yol, a.nol);
-    return {T(1), sum + sum};
+    return smith_correlated<T>(a, length(a.xol, a.yol, a.nol), length(a.xov, a.yov, a.nov));
   }
 
  private:
@@ -110,6 +120,12 @@ struct SmithGgxAnisoCorrelated {
 template <Real T>
 T beckmann_c_lambda(const plain_t<T>& c, const T& w) {
   return w * ierfc<T>(c / max<T>(w, small<T>())) / 2;
+}
+
+/// V correlated through the height of the facet, of c Λ at l and v.
+template <Real T>
+Quotient<T> beckmann_correlated(const Angles<plain_t<T>>& a, const T& l, const T& v) {
+  return {T(1), 4 * (a.nov * l + a.nol * v + a.nol * a.nov)};
 }
 
 /// sin θ of a direction by its cosine.
@@ -153,9 +169,8 @@ struct SmithBeckmannCorrelated {
   explicit SmithBeckmannCorrelated(std::span<const T, 1> p) : alpha(p[0]) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    const T l = beckmann_c_lambda<T>(a.nol, alpha * sine_of(a.nol));
-    const T v = beckmann_c_lambda<T>(a.nov, alpha * sine_of(a.nov));
-    return {T(1), 4 * (a.nov * l + a.nol * v + a.nol * a.nov)};
+    return beckmann_correlated<T>(a, beckmann_c_lambda<T>(a.nol, alpha * sine_of(a.nol)),
+                                  beckmann_c_lambda<T>(a.nov, alpha * sine_of(a.nov)));
   }
 };
 
@@ -176,9 +191,8 @@ struct SmithBeckmannAnisoCorrelated {
       : x2(square(p[0])), y2(square(p[1])) {}
 
   Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
-    const T l = beckmann_c_lambda<T>(a.nol, width(a.xol, a.yol));
-    const T v = beckmann_c_lambda<T>(a.nov, width(a.xov, a.yov));
-    return {T(1), 4 * (a.nov * l + a.nol * v + a.nol * a.nov)};
+    return beckmann_correlated<T>(a, beckmann_c_lambda<T>(a.nol, width(a.xol, a.yol)),
+                                  beckmann_c_lambda<T>(a.nov, width(a.xov, a.yov)));
   }
 
  private:

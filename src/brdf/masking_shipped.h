@@ -6,6 +6,7 @@
 
 #include "brdf/masking.h"
 #include "brdf/masking_classic.h"
+#include "brdf/parameter_maps.h"
 
 namespace gonio::inline GONIO_ARCH {
 
@@ -130,11 +131,11 @@ struct UeJointClamped {
 
   T operator()(const Angles<plain_t<T>>& a) const {
     using P = plain_t<T>;
-    const P nov = min<P>(max<P>(a.nov, -a.nov) + constant<P>(1e-5L), P(1));
+    const auto [nov] = mapped<ClampNov, P>(a.nov);
     const T vis_v = a.nol * (nov * (1 - alpha) + alpha);
     const T vis_l = nov * (a.nol * (1 - alpha) + alpha);
-    const T t = 1 / max<T>(vis_v + vis_l, constant<T>(0.001L));
-    return constant<T>(0.5L) * t;
+    const auto [d] = mapped<ClampVis, T>(vis_v + vis_l);
+    return constant<T>(0.5L) * (1 / d);
   }
 };
 
@@ -184,7 +185,7 @@ struct DisneyRemap {
   explicit DisneyRemap(std::span<const T, 1> p) : root(square((sqrt(p[0]) + 1) / 2)) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    return {T(1), (root(a.nol) + a.nol) * (root(a.nov) + a.nov)};
+    return smith_separable<T>(a, root(a.nol), root(a.nov));
   }
 };
 
@@ -205,7 +206,7 @@ struct DisneyCoat {
   explicit DisneyCoat(std::span<const T, 0>) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    return {T(1), (root(a.nol) + a.nol) * (root(a.nov) + a.nov)};
+    return smith_separable<T>(a, root(a.nol), root(a.nov));
   }
 };
 

@@ -56,7 +56,7 @@ void Plan<F>::set(std::span<const F> values) {
 template <class F>
 DualColumn<F> Plan<F>::term(const TermUse& t, std::size_t c) {
   Gathered& gathered = parameters_.emplace_back();
-  std::array<F*, 4> d{};
+  std::array<F*, max_parameters> d{};
   F* const value = fresh();
   DualColumn<F> r{value, {}};
   for (std::size_t i = 0; i < t.parameters.size(); ++i) {

@@ -62,7 +62,7 @@ class Plan {
 
   /// A term's parameters and the slots that they are values of.
   struct Gathered {
-    std::array<F, 4> p{};
+    std::array<F, max_parameters> p{};
     std::vector<std::size_t> slots;
   };
 

@@ -15,36 +15,25 @@ namespace {
 
 // ---- What several of them take ------------------------------------------------------------------
 
-constexpr Parameter base_color{"base_color", {0, 1}, {0, 1},
-                               0.5,          true,   "colour of diffuse or metal"};
-constexpr Parameter metallic{"metallic", {0, 1}, {0, 1}, 0, false, "0 dielectric, 1 metal"};
+constexpr Parameter base_color = F0Metallic<double>::parameters[0];
+constexpr Parameter metallic = F0Metallic<double>::parameters[1];
 constexpr Parameter roughness = roughness_parameter;
 constexpr Parameter specular_color{
     "specular_color", {0, 1}, {0, 1}, 0.04, true, "reflectance at normal incidence"};
 
-template <template <class> class Map, class... P>
-auto mapped(P... p) {
-  const std::array<double, sizeof...(P)> in{p...};
-  return Map<double>::apply(in);
-}
-
 /// r²; no width is 0 (every distribution divides by it).
-double alpha_of(double r, double least = 1e-4) {
-  return std::max(r * r, least);
+double alpha_of(double r) {
+  return std::max(r * r, 1e-4);
 }
 
-std::vector<double> each(const std::vector<double>& colour, auto&& f) {
-  std::vector<double> out;
-  for (const double x : colour) out.push_back(f(x));
-  return out;
-}
-
-/// kd = base_color (1 − metallic), f0 = lerp(dielectric, base_color, metallic)
 std::vector<Setting> metallic_workflow(const PresetValues& v, double dielectric) {
-  const double m = v.number("metallic");
-  const auto color = v.colour("base_color");
-  return {{"kd", each(color, [=](double b) { return b * (1 - m); })},
-          {"f0", each(color, [=](double b) { return dielectric + (b - dielectric) * m; })}};
+  std::vector<Setting> s{{"kd", {}}, {"f0", {}}};
+  for (const double color : v.colour("base_color")) {
+    const auto [f0, kd] = F0Metallic<double>::of(dielectric, color, v.number("metallic"));
+    s[0].values.push_back(kd);
+    s[1].values.push_back(f0);
+  }
+  return s;
 }
 
 void add(std::vector<Setting>& settings, const char* name, double value) {
@@ -92,7 +81,7 @@ constexpr std::array disney_parameters{
 std::vector<Setting> disney(const PresetValues& v) {
   const double r = v.number("roughness"), gloss = v.number("clearcoat_gloss");
   auto s = metallic_workflow(v, 0.08 * v.number("specular"));
-  const auto [x, y] = mapped<AnisoDisney>(r, v.number("anisotropy"));
+  const auto [x, y] = mapped<AnisoDisney, double>(r, v.number("anisotropy"));
   add(s, "alpha_x", std::max(x, 0.001));
   add(s, "alpha_y", std::max(y, 0.001));
   add(s, "alpha", alpha_of(r));

@@ -326,7 +326,7 @@ struct SmithGtrSeparable {
   explicit SmithGtrSeparable(std::span<const T, 2> p) : root(p) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    return {T(1), (root(a.nol) + a.nol) * (root(a.nov) + a.nov)};
+    return smith_separable<T>(a, root(a.nol), root(a.nov));
   }
 };
 
@@ -346,8 +346,7 @@ struct SmithGtrCorrelated {
   explicit SmithGtrCorrelated(std::span<const T, 2> p) : root(p) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    const T sum = a.nol * root(a.nov) + a.nov * root(a.nol);
-    return {T(1), sum + sum};
+    return smith_correlated<T>(a, root(a.nol), root(a.nov));
   }
 };
 

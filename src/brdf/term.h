@@ -46,21 +46,15 @@ namespace gonio::inline GONIO_ARCH {
 
 /// Whether a term reads the tangent frame, which an isotropic surface has not.
 template <class Term>
-inline constexpr bool is_anisotropic = false;
-template <class Term>
-requires requires {
-  Term::anisotropic;
-}
-inline constexpr bool is_anisotropic<Term> = Term::anisotropic;
+inline constexpr bool is_anisotropic = requires {
+  requires Term::anisotropic;
+};
 
 /// Whether a term is held to be finite in double only.
 template <class Term>
-inline constexpr bool is_as_shipped = false;
-template <class Term>
-requires requires {
-  Term::as_shipped;
-}
-inline constexpr bool is_as_shipped<Term> = Term::as_shipped;
+inline constexpr bool is_as_shipped = requires {
+  requires Term::as_shipped;
+};
 
 /// What a term is given: the angles of one sample.
 template <class Term, class B>

@@ -56,6 +56,7 @@ void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
 
 template <template <class> class Term, class F>
 constexpr TermKernels<F> term_entry() {
+  static_assert(Term<F>::parameters.size() <= max_parameters);
   bool coupled = false;
   if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
   return {&Term<F>::about,         Term<F>::parameters,    coupled,

@@ -47,7 +47,7 @@ void term_values(std::size_t term,
                  const Block<double>& x,
                  double* out) {
   Scratch<double> scratch;
-  std::array<double, 4> p{};
+  std::array<double, max_parameters> p{};
   std::ranges::copy(parameters, p.begin());
   for (std::size_t at = 0; at < x.n; at += scratch.block)
     catalogue()[term].add(x.part(at, std::min(scratch.block, x.n - at)), p.data(),

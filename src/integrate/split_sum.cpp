@@ -11,6 +11,7 @@
 #include "brdf/registry.h"
 #include "integrate/directional_albedo.h"
 #include "integrate/slopes.h"
+#include "optics/fresnel_approximate.h"
 
 #include <fmt/format.h>
 
@@ -87,11 +88,10 @@ std::vector<SplitSum> sampled_split_sum(std::string_view masking,
         const double u = static_cast<double>(first + k) / n;
         const double w = radical_inverse(static_cast<std::uint32_t>(first + k));
         const double along = std::cos(2 * std::numbers::pi * u);
-        const auto fifth = [](double one_less) { return square(square(one_less)) * one_less; };
 
         const double nol_d = std::sqrt(1 - w);
         const double lov = nol_d * mu + std::sqrt(w) * along * sine;
-        sum.diffuse += 1 - fifth(1 - std::sqrt((1 + lov) / 2));
+        sum.diffuse += 1 - schlick_weight(std::sqrt((1 + lov) / 2));
 
         const double t2 = alpha2 * w / (1 - w), noh = 1 / std::sqrt(1 + t2);
         const double voh = noh * (mu + sine * std::sqrt(t2) * along), nol = 2 * voh * noh - mu;
@@ -102,7 +102,7 @@ std::vector<SplitSum> sampled_split_sum(std::string_view masking,
         x[3][k] = above ? std::min(voh, 1.0) : 0.5;
         x[4][k] = t2 * noh * noh;
         if (above) weight[k] = 4 * nol * voh / noh;
-        c[k] = fifth(1 - x[3][k]);
+        c[k] = schlick_weight(x[3][k]);
       }
       double* const v = block.extra(0);
       term_values(lobe.masking.term, parameters, block.block(), v);

@@ -72,8 +72,8 @@ struct IorFromF0 {
   }
 };
 
-/// f0 = lerp(0.04, base_color, metallic), and what is left for the diffuse: kd = base_color (1 −
-/// metallic), of which a coupled diffuse takes 1 − F.
+/// f0 = lerp(dielectric, base_color, metallic), and what is left for the diffuse: kd = base_color (1 −
+/// metallic), of which a coupled diffuse takes 1 − F.  The map's dielectric is 0.04.
 template <Real T>
 struct F0Metallic {
   static constexpr About about{"f0.metallic",
@@ -89,7 +89,10 @@ struct F0Metallic {
   static constexpr std::array<std::string_view, 2> outputs{"f0", "kd"};
 
   static std::array<T, 2> apply(std::span<const T, 2> p) {
-    return {constant<T>(0.04L) * (1 - p[1]) + p[0] * p[1], p[0] * (1 - p[1])};
+    return of(constant<T>(0.04L), p[0], p[1]);
+  }
+  static std::array<T, 2> of(const T& dielectric, const T& base_color, const T& metallic) {
+    return {dielectric * (1 - metallic) + base_color * metallic, base_color * (1 - metallic)};
   }
 };
 

@@ -25,6 +25,12 @@ B schlick_weight(const B& c) {
   return square(square(m)) * m;
 }
 
+/// f0 + (1 − f0) w, Schlick's approximation of the weight w
+template <Real T>
+T schlick(const T& f0, const plain_t<T>& w) {
+  return f0 * (1 - w) + w;
+}
+
 /// The same reflectance at every angle.
 ///
 ///   F = f0
@@ -67,10 +73,7 @@ struct Schlick {
 
   explicit Schlick(std::span<const T, 1> p) : f0(p[0]) {}
 
-  T operator()(const Angles<plain_t<T>>& a) const {
-    const auto m5 = schlick_weight(a.voh);
-    return f0 * (1 - m5) + m5;
-  }
+  T operator()(const Angles<plain_t<T>>& a) const { return schlick<T>(f0, schlick_weight(a.voh)); }
 };
 
 /// Schlick's approximation with the reflectance at grazing incidence set too.
@@ -185,7 +188,7 @@ struct SchlickSphericalGaussian {
     const B& c = a.voh;
     const B power = (constant<B>(-5.55473L) * c - constant<B>(6.98316L)) * c;
     const B w = exp(power * constant<B>(0.693147180559945309417L));
-    return f0 * (1 - w) + w;
+    return schlick<T>(f0, w);
   }
 };
 
@@ -241,8 +244,7 @@ struct Disney2015 {
       : exact(p), f0(square((p[0] - 1) / (p[0] + 1))), near_1(p[0] < constant<T>(1.3L)) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
-    const auto m5 = schlick_weight(a.voh);
-    return select<T>(near_1, exact(a), f0 * (1 - m5) + m5);
+    return select<T>(near_1, exact(a), schlick<T>(f0, schlick_weight(a.voh)));
   }
 };
 
@@ -286,7 +288,7 @@ struct F82Tint {
     const B u = (7 * a.voh - 1) * constant<B>(1.0L / 6), v = 1 - u;
     const B sum = 1 + v * (2 + v * (3 + v * (4 + v * (5 + v * 6))));
     const T darkest = f0 * (square(u) * sum) - (1 - f0) * (m5 * u * (6 * v - 1));
-    return max<T>(tint * (f0 * (1 - m5) + m5) + (1 - tint) * darkest, T(0));
+    return max<T>(tint * schlick<T>(f0, m5) + (1 - tint) * darkest, T(0));
   }
 };
 
