@@ -18,8 +18,8 @@ namespace gonio::inline GONIO_ARCH {
 template <Real T>
 inline constexpr int digits = std::max(24, std::numeric_limits<base_t<T>>::digits);
 
-/// So small that it never matters, and its square and the square of its reciprocal are still normal
-/// numbers: what keeps the input of a division or a logarithm off 0.
+/// As small as its square and the square of its reciprocal are normal numbers: what keeps the input of
+/// a division or a logarithm off 0.  Too small to matter, but for Half, of which it is 2⁻⁶.
 template <Real T>
 T small() {
   constexpr int exponent = std::max(std::numeric_limits<base_t<T>>::min_exponent / 2, -511);
