@@ -161,9 +161,9 @@ class Walkers {
       auto& w = fly_[i];
       const auto m = facets(w, area_[i], draw_);
       const double along = -(w.x * m.x + w.y * m.y + w.z * m.z);
-      const double length2 = m.x * m.x + m.y * m.y + m.z * m.z;
-      voh[i] = std::clamp(along / std::sqrt(length2), 0.0, 1.0);
-      const double twice = 2 * along / length2;
+      const double per_length = 1 / std::sqrt(m.x * m.x + m.y * m.y + m.z * m.z);
+      voh[i] = std::clamp(along * per_length, 0.0, 1.0);
+      const double twice = 2 * along * per_length * per_length;
       w = {w.x + twice * m.x, w.y + twice * m.y, w.z + twice * m.z};
     }
   }
