@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "base/file.h"
 #include "cli/command.h"
+#include "cli/output_files.h"
 #include "cli/terminal.h"
 
 namespace gonio::cli {
@@ -96,24 +96,13 @@ Exit run(const Options& o) {
   std::vector<std::string> ids = o.ids;
   if (o.all)
     for (const auto id : auditable_ids()) ids.emplace_back(id);
-  const std::string data_path = page_data_path(o.html);
-  check_outputs({}, {o.html, data_path});
-  std::optional<OutputFile> page, page_data;
-  if (!o.html.empty()) {
-    page.emplace(o.html);
-    page_data.emplace(data_path);
-  }
+  OutputFiles out({}, "", o.html);
   TimedProgress progress(o.quiet, "auditing", ids.size());
   const auto entries = audit(ids, [&](std::size_t done) { progress(done); });
   progress.clear();
   const std::string json = to_json(entries);
-  if (page) {
-    page->write(audit_page_html(json));
-    page_data->write(json + "\n");
-    for (auto* f : {&page_data, &page})
-      (*f)->close();  // both whole before the first takes its name
-    for (auto* f : {&page_data, &page}) (*f)->commit();
-  }
+  if (out.has_page()) out.write_page(audit_page_html(json), json);
+  out.commit();
   if (o.json)
     fmt::print("{}\n", json);
   else if (o.all)

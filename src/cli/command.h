@@ -78,11 +78,6 @@ void use_jobs(int jobs);
 /// Refuses outputs that are an input, or its side file, or each other, or "-".
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
-/// Refuses a page's name other than NAME.html: two pages would share one NAME.page.json.
-void check_page_name(const std::string& html);
-/// NAME.page.json for NAME.html: where a page's data go; "" for "".
-std::string page_data_path(const std::string& html);
-
 /// The position of a name among the fixed names of a contract.
 template <std::size_t N, class Name>
 std::size_t index_of(const std::array<Name, N>& names, std::string_view name) {

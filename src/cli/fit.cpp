@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "base/file.h"
 #include "cli/command.h"
 #include "cli/fit_files.h"
+#include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "reports/fit_page.h"
 #include "table/health.h"
@@ -69,35 +69,20 @@ Exit run(const Options& o) {
     return fit_batch({o.files, o.output, bins_from(o.bins), options, o.json, o.quiet});
   }
   const std::string& file = o.files[0];
-
-  // Opened first: nobody waits for a fit to learn that its result has no place.
-  const std::string data_path = page_data_path(o.html);
-  check_outputs({file}, {o.output, o.html, data_path});
-  check_page_name(o.html);
-  std::optional<OutputFile> document, page, page_data;
-  if (!o.output.empty()) document.emplace(o.output);
-  if (!o.html.empty()) {
-    page.emplace(o.html);
-    page_data.emplace(data_path);
-  }
-
+  OutputFiles out({file}, o.output, o.html);
   Progress progress(o.quiet);
   const auto [t, result] = fit_file(file, bins_from(o.bins), options, std::ref(progress));
   const FitDocument& d = result.document;
 
   const std::string json = to_json(d);
-  if (document) document->write(json);
-  if (page) {
+  out.write_document(json);
+  if (out.has_page()) {
     progress("making the page");
     const Health health = inspect(t);
     const std::string data = to_json(make_fit_page(t, result.model), json, to_json(t, health));
-    page->write(fit_page_html(file, data));
-    page_data->write(data + "\n");
+    out.write_page(fit_page_html(file, data), data);
   }
-  for (auto* f : {&document, &page_data, &page})
-    if (*f) (*f)->close();  // all whole before the first takes its name
-  for (auto* f : {&document, &page_data, &page})
-    if (*f) (*f)->commit();
+  out.commit();
   progress.clear();
   if (o.json)
     fmt::print("{}", json);

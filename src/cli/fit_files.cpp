@@ -14,6 +14,7 @@
 #include "base/sha256.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "reports/batch_page.h"
 #include "table/formats.h"
@@ -355,14 +356,10 @@ Exit fit_batch(const Batch& b) {
   if (fatal) std::rethrow_exception(fatal);
 
   const std::string data = batch_json(rows, made, true);
-  OutputFile csv(place("summary.csv")), page_data(place("summary.page.json")),
-      page(place("summary.html"));
-  csv.write(batch_csv(rows));
-  page_data.write(data + "\n");
-  page.write(batch_page_html(fs::path(b.output).filename().string(), data));
-  for (auto* f : {&csv, &page_data, &page})
-    f->close();  // all whole before the first takes its name
-  for (auto* f : {&csv, &page_data, &page}) f->commit();
+  OutputFiles out({}, place("summary.csv"), place("summary.html"));
+  out.write_document(batch_csv(rows));
+  out.write_page(batch_page_html(fs::path(b.output).filename().string(), data), data);
+  out.commit();
   count.clear();
   if (b.json)
     fmt::print("{}", batch_json(rows, made, false));

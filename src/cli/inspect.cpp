@@ -1,8 +1,8 @@
 // gonio inspect: what a table is and what it can be trusted for.
 #include <cmath>
 
-#include "base/file.h"
 #include "cli/command.h"
+#include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "reports/inspect_page.h"
 #include "table/formats.h"
@@ -95,29 +95,19 @@ void print(const Table& t, const Health& h) {
 
 Exit run(const Options& o) {
   use_jobs(o.jobs);
-  const std::string data_path = page_data_path(o.html);
-  check_outputs({o.file}, {o.html, data_path});
-  check_page_name(o.html);
-  std::optional<OutputFile> page, page_data;
-  if (!o.html.empty()) {
-    page.emplace(o.html);
-    page_data.emplace(data_path);
-  }
+  OutputFiles out({o.file}, "", o.html);
   Progress progress(o.quiet);
   progress("reading " + o.file);
   const Table t = read_table(o.file, bins_from(o.bins));
   progress("inspecting");
   const Health h = inspect(t);
   const std::string json = to_json(t, h);
-  if (page) {
+  if (out.has_page()) {
     progress("making the page");
     const std::string data = to_json(make_inspect_page(t), json);
-    page->write(inspect_page_html(o.file, data));
-    page_data->write(data + "\n");
-    for (auto* f : {&page_data, &page})
-      (*f)->close();  // both whole before the first takes its name
-    for (auto* f : {&page_data, &page}) (*f)->commit();
+    out.write_page(inspect_page_html(o.file, data), data);
   }
+  out.commit();
   progress.clear();
   if (o.json)
     fmt::print("{}\n", json);

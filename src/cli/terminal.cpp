@@ -58,15 +58,6 @@ void add_jobs(CLI::App* c, Common& o) {
   c->add_option("--jobs,-j", o.jobs, "Threads (default: all)")->check(CLI::Range(1, 4096));
 }
 
-std::string page_data_path(const std::string& html) {
-  return html.empty() ? "" : std::filesystem::path(html).replace_extension(".page.json").string();
-}
-
-void check_page_name(const std::string& html) {
-  if (!html.empty() && std::filesystem::path(html).extension() != ".html")
-    throw wrong_usage(fmt::format("--html {}: a page's name ends in .html", html));
-}
-
 void check_outputs(const std::vector<std::string>& inputs,
                    const std::vector<std::string>& outputs) {
   namespace fs = std::filesystem;
