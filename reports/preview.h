@@ -36,10 +36,4 @@ struct Preview {
 
 Preview make_preview(const Table&, const BoundModel& fitted);
 
-/// ∫ f cos θ_i dω_i at each cosine of θ_o [channel][cosine], over half vectors whose tan θ_h is
-/// spaced evenly in its logarithm: every width from 1e-4 to 1 is resolved alike.  Within 1 % up to
-/// θ_o = 80°.
-std::vector<std::vector<double>> directional_albedo(const BoundModel&,
-                                                    const std::vector<double>& cosines);
-
 }  // namespace gonio
