@@ -8,16 +8,15 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "brdf/presets.h"
 #include "brdf/registry.h"
 #include "fitting/accumulate.h"
 #include "fitting/assess.h"
 #include "fitting/data.h"
+#include "fitting/problem.h"
 #include "fitting/solve.h"
 #include "fitting/start.h"
 #include "fitting/uncertainty.h"
-#include "table/health.h"
-#include "table/noise.h"
+#include "fitting/warnings.h"
 #include "table/quantile.h"
 
 #include <fmt/format.h>
@@ -28,17 +27,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t coarse_samples = 2048, scan_samples = 16384, middle_samples = 32768;
-
-/// What stays the same for both bin conventions.
-struct Problem {
-  const FitOptions& options;
-  BoundModel start;  ///< fixed values in place
-  FreeSlots free;
-  Bounds bounds;               ///< of the free slots
-  std::vector<bool> narrowed;  ///< of the free slots: whether the user gave the bounds
-  double offset;
-  double rounding = 0;  ///< of the cost of one value in float, see SolveOptions; 0: in double alone
-};
 
 struct Fitted {
   std::vector<double> values;
@@ -63,65 +51,6 @@ class Stopwatch {
   std::vector<std::pair<std::string, double>>& into_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// The user's bounds by the names of the model's parameters.
-std::vector<Setting> resolved_bounds(const FitOptions& o, const BoundModel& b) {
-  if (b.model.anisotropic)
-    throw wrong_usage(fmt::format(
-        "model '{}' is anisotropic: fit compares isotropic models with tables", b.model.spec));
-  std::vector<Setting> all = o.bounds;
-  for (auto& s : all) {
-    if (!b.model.find(s.name))
-      for (const auto& p : b.model.parameters)
-        if (is_alpha(p.name) && roughness_name(p.name) == s.name) {
-          s.name = p.name;
-          for (auto& v : s.values) v *= v;
-        }
-    const auto* p = b.model.find(s.name);
-    if (!p) throw wrong_usage(fmt::format("bounds: the model has no parameter '{}'", s.name));
-    if (std::ranges::find(b.given, s.name) != b.given.end())
-      throw wrong_usage(fmt::format("{} is held at a value and has bounds", s.name));
-    if (s.values.size() != 2 || !(s.values[0] < s.values[1]))
-      throw wrong_usage(fmt::format("bounds of {}: two numbers, the lower first", s.name));
-    for (const double v : s.values) check_range(*p->about, s.name, v);
-  }
-  return all;
-}
-
-Problem pose(const Table& t, const FitOptions& o) {
-  BoundModel b = bind_model(o.model, o.fixed, t.channels.size(), o.grey);
-  const auto own = resolved_bounds(o, b);
-  std::vector<bool> free(b.model.value_count, true);
-  Bounds bounds;
-  std::vector<bool> narrowed;
-  for (const auto& p : b.model.parameters) {
-    const bool fixed = std::ranges::find(b.given, p.name) != b.given.end();
-    const auto mine = std::ranges::find(own, p.name, &Setting::name);
-    const bool user = mine != own.end();
-    const Range range = user ? Range{mine->values[0], mine->values[1]} : p.about->fit;
-    for (std::size_t c = 0; c < p.count; ++c) {
-      free[p.first + c] = !fixed;
-      if (fixed) continue;
-      bounds.low.push_back(range.low);
-      bounds.high.push_back(range.high);
-      narrowed.push_back(user);
-    }
-  }
-  for (std::size_t c = 0; c < b.model.channels; ++c) {
-    std::size_t count = 0;
-    for (const auto& p : b.model.parameters) count += free[p.slot(c)];
-    if (count >= max_columns)
-      throw wrong_usage(
-          fmt::format("{} free parameters per channel; at most {} can be fitted at once", count,
-                      max_columns - 1));
-  }
-  return {o,
-          std::move(b),
-          FreeSlots(std::move(free)),
-          std::move(bounds),
-          std::move(narrowed),
-          noise_floor(t)};
-}
 
 template <class F>
 Fitted minimise(const Problem& p,
@@ -397,87 +326,7 @@ void describe(FitDocument& d, const Problem& p, const Fitted& f, const Uncertain
   d.condition = u.condition;
 }
 
-/// With few clusters the sums of their scores say too little: at the optimum they add up to zero.
-bool enough_angles(std::size_t clusters, std::size_t free) {
-  return clusters >= std::max<std::size_t>(8, 2 * free);
-}
-
-/// What a reader must know before believing the numbers.
-std::vector<std::string> warnings(const FitOptions& o,
-                                  const Table& t,
-                                  const FitDocument& d,
-                                  std::size_t angles,
-                                  std::size_t free) {
-  std::vector<std::string> all;
-  constexpr double far_off = 0.25;
-  if (d.residuals.log_rms > far_off)
-    all.push_back(
-        fmt::format("model and table differ by a typical factor of {:.3g}: unless that is noise, "
-                    "the model does "
-                    "not describe the table, and the intervals say nothing of it",
-                    std::exp(d.residuals.log_rms)));
-  else if (t.list())  // of a large grid the estimate takes longer than its fit
-    if (const Noise noise = estimate_noise(t);
-        noise.sigma && !noise.bound && d.residuals.log_rms > 3 * *noise.sigma)
-      all.push_back(fmt::format(
-          "model and table differ by {:.2g} %, values and their neighbours by {:.2g} %: "
-          "most of it is the model's error, of which the intervals know nothing",
-          100 * d.residuals.log_rms, 100 * *noise.sigma));
-  if (d.values_used <= free)
-    all.push_back(
-        fmt::format("{} values cannot tell the errors of {} unknowns", d.values_used, free));
-  if (!t.truth && o.intervals != Intervals::independent && !enough_angles(angles, free))
-    all.push_back(fmt::format(
-        "{} incident angles are few for {} unknowns: errors that the values of one angle share "
-        "make the intervals too narrow",
-        angles, free));
-  if (const auto retro = retro_peak(t))
-    all.push_back(
-        fmt::format("the highlight ({:.3g} 1/sr) sits at wo = wi and not at the half vector: a "
-                    "microfacet lobe cannot describe it",
-                    retro->height));
-  // Asked of narrow lobes alone: looking for the peak takes as long as a fit.
-  const auto narrow = [](const FittedParameter& p) {
-    return is_alpha(p.name) && p.value[0] < 0.1 && p.status[0] != ParameterStatus::fixed;
-  };
-  if (std::ranges::any_of(d.parameters, narrow))
-    if (const auto peak = find_peak(t, t.bins()).peak; peak && !peak->resolved)
-      all.push_back(fmt::format(
-          "the table does not resolve its highlight ({:.0f} samples within the half width of "
-          "{:.2g}°): the width found is that of the samples or the instrument",
-          peak->samples_within, peak->half_width_deg));
-  if (const std::size_t copies = copied_rows(t))
-    all.push_back(
-        fmt::format("{} of the table's incident angles repeat another value for value: no "
-                    "measurements of their own",
-                    copies));
-  if (d.log_offset > 0)
-    all.push_back(fmt::format(
-        "negative values betray a noise floor of {:.2g} 1/sr; they are masked, which lifts what "
-        "is fitted where the signal is not well above it",
-        d.log_offset));
-  return all;
-}
-
 }  // namespace
-
-/// A preset's name becomes its spec, with what the preset holds held: its own parameters tie those of
-/// the spec together, and a fit leaves them free.
-FitOptions expanded(FitOptions o) {
-  const Preset* preset = find_preset(o.model);
-  if (!preset) return o;
-  o.model = preset->spec;
-  const auto defaults = preset->resolve(PresetValues(preset->parameters, {}));
-  for (const auto name : preset->held)
-    if (std::ranges::find(o.fixed, name, &Setting::name) == o.fixed.end())
-      o.fixed.push_back(*std::ranges::find(defaults, name, &Setting::name));
-  return o;
-}
-
-void check(const FitOptions& given) {
-  const FitOptions o = expanded(given);
-  resolved_bounds(o, bind_model(o.model, o.fixed, {}, o.grey));
-}
 
 FitResult fit(const Table& t,
               const FitOptions& given,

@@ -1,0 +1,92 @@
+#include "fitting/problem.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "brdf/presets.h"
+#include "brdf/registry.h"
+#include "table/health.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+/// The user's bounds by the names of the model's parameters.
+std::vector<Setting> resolved_bounds(const FitOptions& o, const BoundModel& b) {
+  if (b.model.anisotropic)
+    throw wrong_usage(fmt::format(
+        "model '{}' is anisotropic: fit compares isotropic models with tables", b.model.spec));
+  std::vector<Setting> all = o.bounds;
+  for (auto& s : all) {
+    if (!b.model.find(s.name))
+      for (const auto& p : b.model.parameters)
+        if (is_alpha(p.name) && roughness_name(p.name) == s.name) {
+          s.name = p.name;
+          for (auto& v : s.values) v *= v;
+        }
+    const auto* p = b.model.find(s.name);
+    if (!p) throw wrong_usage(fmt::format("bounds: the model has no parameter '{}'", s.name));
+    if (std::ranges::find(b.given, s.name) != b.given.end())
+      throw wrong_usage(fmt::format("{} is held at a value and has bounds", s.name));
+    if (s.values.size() != 2 || !(s.values[0] < s.values[1]))
+      throw wrong_usage(fmt::format("bounds of {}: two numbers, the lower first", s.name));
+    for (const double v : s.values) check_range(*p->about, s.name, v);
+  }
+  return all;
+}
+
+}  // namespace
+
+FitOptions expanded(FitOptions o) {
+  const Preset* preset = find_preset(o.model);
+  if (!preset) return o;
+  o.model = preset->spec;
+  const auto defaults = preset->resolve(PresetValues(preset->parameters, {}));
+  for (const auto name : preset->held)
+    if (std::ranges::find(o.fixed, name, &Setting::name) == o.fixed.end())
+      o.fixed.push_back(*std::ranges::find(defaults, name, &Setting::name));
+  return o;
+}
+
+void check(const FitOptions& given) {
+  const FitOptions o = expanded(given);
+  resolved_bounds(o, bind_model(o.model, o.fixed, {}, o.grey));
+}
+
+Problem pose(const Table& t, const FitOptions& o) {
+  BoundModel b = bind_model(o.model, o.fixed, t.channels.size(), o.grey);
+  const auto own = resolved_bounds(o, b);
+  std::vector<bool> free(b.model.value_count, true);
+  Bounds bounds;
+  std::vector<bool> narrowed;
+  for (const auto& p : b.model.parameters) {
+    const bool fixed = std::ranges::find(b.given, p.name) != b.given.end();
+    const auto mine = std::ranges::find(own, p.name, &Setting::name);
+    const bool user = mine != own.end();
+    const Range range = user ? Range{mine->values[0], mine->values[1]} : p.about->fit;
+    for (std::size_t c = 0; c < p.count; ++c) {
+      free[p.first + c] = !fixed;
+      if (fixed) continue;
+      bounds.low.push_back(range.low);
+      bounds.high.push_back(range.high);
+      narrowed.push_back(user);
+    }
+  }
+  for (std::size_t c = 0; c < b.model.channels; ++c) {
+    std::size_t count = 0;
+    for (const auto& p : b.model.parameters) count += free[p.slot(c)];
+    if (count >= max_columns)
+      throw wrong_usage(
+          fmt::format("{} free parameters per channel; at most {} can be fitted at once", count,
+                      max_columns - 1));
+  }
+  return {o,
+          std::move(b),
+          FreeSlots(std::move(free)),
+          std::move(bounds),
+          std::move(narrowed),
+          noise_floor(t)};
+}
+
+}  // namespace gonio
