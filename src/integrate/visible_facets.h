@@ -5,7 +5,7 @@
 /// Of light that flies along w, above the surface or within it, upwards or downwards, that facet's normal m
 /// has the density
 ///
-///   D_w(m) = max(0, −w·m) D(m) / σ(−w),   σ(u) = ∫ max(0, u·m) D(m) dω_m        [Heitz 2016, Eq. 2]
+///   D_w(m) = max(0, −w·m) D(m) / σ(−w),   σ(u) = ∫ max(0, u·m) D(m) dω_m      [Heitz et al. 2016]
 ///
 /// Both distributions are stretched unit ones: with A = diag(α_x, α_y, 1), m is along A h, where h is drawn
 /// for widths 1 and the direction A w.                                      [Heitz 2014, section 5.4]

@@ -28,7 +28,7 @@ struct WalkGoal {
 /// −ln C₁(h), C₁ being the part of the surface that is lower than h: whatever the heights' distribution,
 /// light that flies along w meets a facet every |w_z|/σ(−w) of τ on average,
 ///
-///   σ(−w) = |w_z| Λ(w) upwards, |w_z| (1 + Λ(−w)) downwards          [from Heitz 2016, section 4]
+///   σ(−w) = |w_z| Λ(w) upwards, |w_z| (1 + Λ(−w)) downwards      [after Heitz et al. 2016]
 ///
 /// and upwards from τ it gets out with the probability e^(−τ Λ(w)).  Λ is what the catalogue's masking
 /// has for l under a v along the normal: NoL (1 + Λ(l)) = 1/(4 V(l, n)).
