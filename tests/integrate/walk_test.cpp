@@ -229,6 +229,11 @@ TEST(WalkValue, OfOneBounceIsTheModel) {
     }
 }
 
+/// Of orders that no walk came to there is nothing.
+double at_order(const std::vector<double>& orders, std::size_t n) {
+  return n < orders.size() ? orders[n] : 0;
+}
+
 TEST(WalkValue, IsReciprocalOrderByOrder) {
   for (const auto& m : {grey("ggx", 0.9, 0.8), grey("beckmann", 1, 1),
                         stretched("ggx", 1.2, 0.4, 0.7), stretched("beckmann", 0.5, 1.5, 1)})
@@ -236,10 +241,12 @@ TEST(WalkValue, IsReciprocalOrderByOrder) {
       const auto there = walk_value(m, p.wi, p.wo, {1, 1 << 14});
       const auto back = walk_value(m, p.wo, p.wi, {2, 1 << 14});
       for (std::size_t n = 1; n < 4; ++n) {
-        const double error = std::hypot(there.order_error[0][n], back.order_error[0][n]);
-        EXPECT_NEAR(there.order[0][n], back.order[0][n], 4.5 * error) << m.model.spec << " " << n;
+        const double value = at_order(there.order[0], n), other = at_order(back.order[0], n);
+        const double error =
+            std::hypot(at_order(there.order_error[0], n), at_order(back.order_error[0], n));
+        EXPECT_NEAR(value, other, 4.5 * error) << m.model.spec << " " << n;
         if (n == 1) {
-          EXPECT_LT(error, 0.15 * there.order[0][n] + 5e-4) << m.model.spec;
+          EXPECT_LT(error, 0.15 * value + 5e-4) << m.model.spec;
         }
       }
     }
@@ -259,8 +266,8 @@ TEST(WalkValue, IntegratesToWhatLeaves) {
         const double weight = node.weight * pi / 2 * 2 * pi / 8 * l.z * std::sin(theta);
         const auto value = walk_value(m, l, direction(std::acos(0.6), 0), {++seed, 1 << 11});
         for (std::size_t n = 0; n < sums.size(); ++n) {
-          sums[n] += weight * value.order[0][n];
-          variances[n] += std::pow(weight * value.order_error[0][n], 2);
+          sums[n] += weight * at_order(value.order[0], n);
+          variances[n] += std::pow(weight * at_order(value.order_error[0], n), 2);
         }
       }
     for (std::size_t n = 0; n < sums.size(); ++n) {
