@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "brdf/registry.h"
+#include "integrate/azimuth_integral.h"
 #include "integrate/directional_albedo.h"
 #include "integrate/microsurface.h"
 #include "integrate/quadrature.h"
@@ -23,20 +24,13 @@ using Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// A direction: its zenith cosine, negative below the horizon.
-struct Ray {
-  double cosine, sine;
-};
-
 /// One lobe, by itself, and those of its channels that differ.
 struct Surface {
   BoundModel model;
-  Microsurface::Slopes slopes;
-  double alpha;
-  std::size_t ndf, masking;
-  std::vector<std::vector<double>> fresnel;  ///< parameters, by distinct channel
-  std::vector<std::size_t> channel;          ///< of the model's the first, by distinct channel
-  std::vector<std::size_t> distinct;         ///< by channel of the model
+  Facets facets;                      ///< by distinct channel
+  std::size_t masking;                ///< a term of catalogue()
+  std::vector<std::size_t> channel;   ///< of the model's the first, by distinct channel
+  std::vector<std::size_t> distinct;  ///< by channel of the model
 };
 
 std::vector<Surface> surfaces_of(const BoundModel& whole) {
@@ -49,100 +43,26 @@ std::vector<Surface> surfaces_of(const BoundModel& whole) {
           "'{}' has the widths {} and {}: the deterministic solution is for isotropic surfaces, a "
           "walk takes both",
           whole.model.spec, m.alpha_x, m.alpha_y));
-    const bool ggx = m.slopes == Microsurface::Slopes::ggx;
-    Surface s{whole,
-              m.slopes,
-              m.alpha_x,
-              find_term(ggx ? "ndf.ggx" : "ndf.beckmann"),
-              find_term(ggx ? "masking.smith_ggx.correlated" : "masking.smith_beckmann.correlated"),
-              {},
-              {},
-              {}};
+    const std::size_t masking =
+        find_term(m.slopes == Microsurface::Slopes::ggx ? "masking.smith_ggx.correlated"
+                                                        : "masking.smith_beckmann.correlated");
+    Surface s{whole, {m.slopes, m.alpha_x, m.fresnel.term, {}}, masking, {}, {}};
     s.model.model.diffuse.clear();
     s.model.model.lobes = {whole.model.lobes[l]};
+    auto& parameters = s.facets.parameters;
     for (std::size_t c = 0; c < whole.model.channels; ++c) {
       const auto p = term_parameters(whole, m.fresnel, c);
-      const auto known = std::ranges::find(s.fresnel, p);
-      s.distinct.push_back(static_cast<std::size_t>(known - s.fresnel.begin()));
-      if (known != s.fresnel.end()) continue;
-      s.fresnel.push_back(p);
+      const auto known = std::ranges::find(parameters, p);
+      s.distinct.push_back(static_cast<std::size_t>(known - parameters.begin()));
+      if (known != parameters.end()) continue;
+      parameters.push_back(p);
       s.channel.push_back(c);
     }
-    if (s.fresnel.size() == 1) s.model.model.channels = 1;
+    if (parameters.size() == 1) s.model.model.channels = 1;
     surfaces.push_back(std::move(s));
   }
   return surfaces;
 }
-
-/// K(c₁, c₂) = ∫ F D(h)/4 dφ over all azimuths, for many c₁ and one c₂ > −c₁.
-///
-/// With c = c₁ + c₂, b = s₁ s₂ of the sines, and φ from where the two are mirror images
-///
-///   tan²θ_h = t/c²,   t = (s₁ − s₂)² + 4 b sin²(φ/2),   ω·h = √(t + c²)/2
-///
-/// GGX has its poles where t = −α² c², about √(((s₁ − s₂)² + α² c²)/b) from the real axis, Beckmann the width
-/// α c/√b, beyond 8 of which it is below e^−25.  Gauss nodes in ln φ, as it were: φ ∝ sinh.
-class AzimuthMean {
- public:
-  AzimuthMean(const Surface& s, int nodes) : s_(s), nodes_(gauss_legendre(nodes)) {}
-
-  /// \param out  [distinct channel][i]
-  void operator()(std::span<const Ray> in,
-                  const Ray& to,
-                  AngleBlock& block,
-                  std::vector<std::vector<double>>& out) {
-    const std::size_t n = in.size() * nodes_.size();
-    const auto x = block.resize(n);
-    weight_.resize(n);
-    std::size_t at = 0;
-    for (const auto& from : in) {
-      // where an integral ends at its beginning, rounding leaves 0
-      const double c = std::max(from.cosine + to.cosine, 1e-15), b = from.sine * to.sine;
-      // s₁² − s₂² = (c₂ − c₁)(c₂ + c₁)
-      const double apart = (to.cosine - from.cosine) * c / std::max(from.sine + to.sine, tiny);
-      const auto [width, reach] = peak(c, b, apart);
-      const double grading = std::max(std::asinh(reach / width), 0.01);
-      const double scale = reach / std::sinh(grading);
-      for (const auto& node : nodes_) {
-        const double e = std::exp(grading * node.x);
-        const double half = std::sin(scale * (e - 1 / e) / 4);
-        const double t = apart * apart + 4 * b * half * half, y = t + c * c, length = std::sqrt(y);
-        x[0][at] = x[1][at] = 0.5;  // not read
-        x[2][at] = c / length;
-        x[3][at] = std::min(length / 2, 1.0);
-        x[4][at] = t / y;
-        weight_[at++] = node.weight * scale * grading * (e + 1 / e) / 4;
-      }
-    }
-    const auto columns = block.block();
-    double *const d = block.extra(0), *const f = block.extra(1);
-    term_values(s_.ndf, {&s_.alpha, 1}, columns, d);
-    for (std::size_t i = 0; i < n; ++i) weight_[i] *= d[i];
-    out.resize(s_.fresnel.size());
-    for (std::size_t k = 0; k < out.size(); ++k) {
-      term_values(s_.model.model.lobes.front().fresnel.term, s_.fresnel[k], columns, f);
-      out[k].assign(in.size(), 0);
-      for (std::size_t i = 0; i < n; ++i) out[k][i / nodes_.size()] += weight_[i] * f[i];
-    }
-  }
-
- private:
-  static constexpr double tiny = 1e-300;
-  struct Peak {
-    double width, reach;
-  };
-  Peak peak(double c, double b, double apart) const {
-    const double root = std::max(std::sqrt(b), tiny);
-    if (s_.slopes == Microsurface::Slopes::ggx)
-      return {std::hypot(apart, s_.alpha * c) / root, std::numbers::pi};
-    const double width = s_.alpha * c / root;
-    return {width, std::min(8 * width, std::numbers::pi)};
-  }
-
-  const Surface& s_;
-  std::vector<Node> nodes_;
-  std::vector<double> weight_;
-};
 
 /// Ends of the panels, elevations from 0 to π/2.  Steps are as long as the way from the horizon until they
 /// see the peak, 4 α, and far above it half as long: there is then little left to scatter twice.
@@ -163,7 +83,7 @@ struct Grid {
   std::vector<double> ends;
   std::vector<Node> gauss;
   struct Row {
-    Ray ray;
+    Zenith zenith;
     std::size_t panel;
     double x;  ///< within the panel, 0 to 1
   };
@@ -174,8 +94,8 @@ struct Grid {
       : ends(panel_ends), gauss(gauss_legendre(per_panel)) {
     for (std::size_t k = 0; k + 1 < ends.size(); ++k)
       for (const auto& g : gauss) {
-        rows.push_back({ray(k, g.x), k, g.x});
-        length.push_back(g.weight * width(k) * rows.back().ray.sine);
+        rows.push_back({zenith(k, g.x), k, g.x});
+        length.push_back(g.weight * width(k) * rows.back().zenith.sine);
       }
     for (const double mu : further) {
       const double s = std::asin(mu);
@@ -186,7 +106,7 @@ struct Grid {
   }
   std::size_t nodes() const { return length.size(); }
   double width(std::size_t panel) const { return ends[panel + 1] - ends[panel]; }
-  Ray ray(std::size_t panel, double x) const {
+  Zenith zenith(std::size_t panel, double x) const {
     const double s = ends[panel] + width(panel) * x;
     return {std::sin(s), std::cos(s)};
   }
@@ -214,7 +134,7 @@ struct Discrete {
 class RowWriter {
  public:
   RowWriter(const Surface& s, const Grid& grid, int azimuths, Discrete& d)
-      : s_(s), grid_(grid), mean_(s, azimuths), d_(d) {}
+      : s_(s), grid_(grid), integral_(s.facets, azimuths), d_(d) {}
 
   void operator()(std::size_t row) {
     write_first(row);
@@ -226,22 +146,22 @@ class RowWriter {
 
   /// Also G₂.  Both are symmetric: of the nodes, half.
   void write_first(std::size_t row) {
-    const Ray& o = grid_.rows[row].ray;
+    const Zenith& o = grid_.rows[row].zenith;
     const std::size_t n = std::min(row + 1, grid_.nodes());
     const auto x = block_.resize(n);
     for (std::size_t j = 0; j < n; ++j) {
-      x[0][j] = grid_.rows[j].ray.cosine;
+      x[0][j] = grid_.rows[j].zenith.cosine;
       x[1][j] = o.cosine;
     }
-    v_.resize(block_.block().n);
-    term_values(s_.masking, {&s_.alpha, 1}, block_.block(), v_.data());
+    const double* const v = block_.extra(0);
+    term_values(s_.masking, {&s_.facets.alpha, 1}, block_.block(), block_.extra(0));
     in_.clear();
-    for (std::size_t j = 0; j < n; ++j) in_.push_back(grid_.rows[j].ray);
-    mean_(in_, o, block_, k_);
+    for (std::size_t j = 0; j < n; ++j) in_.push_back(grid_.rows[j].zenith);
+    integral_(in_, o, k_);
     for (std::size_t j = 0; j < n; ++j) {
-      d_.g2(index(row), index(j)) = 4 * v_[j] * in_[j].cosine * o.cosine;
+      d_.g2(index(row), index(j)) = 4 * v[j] * in_[j].cosine * o.cosine;
       for (std::size_t c = 0; c < k_.size(); ++c)
-        d_.channels[c].first(index(row), index(j)) = 4 * v_[j] * k_[c][j];
+        d_.channels[c].first(index(row), index(j)) = 4 * v[j] * k_[c][j];
     }
   }
 
@@ -249,10 +169,10 @@ class RowWriter {
     const auto& [o, panel, end] = grid_.rows[row];
     const std::size_t p = grid_.gauss.size(), below = panel * p;
     in_.clear();
-    const auto down = [&](const Ray& u) { in_.push_back({-u.cosine, u.sine}); };
-    for (std::size_t j = 0; j < below; ++j) down(grid_.rows[j].ray);
-    for (const auto& g : grid_.gauss) down(grid_.ray(panel, end * g.x));
-    mean_(in_, o, block_, k_);
+    const auto down = [&](const Zenith& u) { in_.push_back({-u.cosine, u.sine}); };
+    for (std::size_t j = 0; j < below; ++j) down(grid_.rows[j].zenith);
+    for (const auto& g : grid_.gauss) down(grid_.zenith(panel, end * g.x));
+    integral_(in_, o, k_);
     for (std::size_t c = 0; c < k_.size(); ++c) {
       auto turn = d_.channels[c].turn.row(index(row));
       for (std::size_t j = 0; j < below; ++j)
@@ -269,11 +189,10 @@ class RowWriter {
 
   const Surface& s_;
   const Grid& grid_;
-  AzimuthMean mean_;
+  AzimuthIntegral integral_;
   Discrete& d_;
   AngleBlock block_{false};
-  std::vector<double> v_;
-  std::vector<Ray> in_;
+  std::vector<Zenith> in_;
   std::vector<std::vector<double>> k_;
 };
 
@@ -339,13 +258,14 @@ Solution solve(const Surface& s,
   const Grid grid(ends, fineness.per_panel, further);
 
   std::vector<double> cosines;
-  for (const auto& r : grid.rows) cosines.push_back(r.ray.cosine);
+  for (const auto& r : grid.rows) cosines.push_back(r.zenith.cosine);
   const auto single = directional_albedo(s.model, cosines, 0, {error / 10, Goal{}.evaluations});
 
   const auto rows = static_cast<Index>(grid.rows.size());
   const auto columns = static_cast<Index>(grid.nodes());
   Discrete d{Matrix(rows, columns), {}, Vector(columns)};
-  d.channels.assign(s.fresnel.size(), {Matrix(rows, columns), Matrix::Zero(rows, columns)});
+  d.channels.assign(s.facets.parameters.size(),
+                    {Matrix(rows, columns), Matrix::Zero(rows, columns)});
   for (std::size_t j = 0; j < grid.nodes(); ++j)
     d.cosine[static_cast<Index>(j)] = grid.length[j] * cosines[j];
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.rows.size()), [&](const auto& range) {
@@ -360,7 +280,7 @@ Solution solve(const Surface& s,
 
   Solution solution;
   for (const auto& a : single) solution.error = std::max(solution.error, a.error);
-  for (std::size_t c = 0; c < s.fresnel.size(); ++c) {
+  for (std::size_t c = 0; c < s.facets.parameters.size(); ++c) {
     Matrix& first = d.channels[c].first;
     mirror(first);
     const auto known = [&](Index i) {
@@ -393,9 +313,9 @@ void add(const std::vector<Vector>& orders, Index i, double error, std::size_t c
 }
 
 void add(const Surface& s, std::span<const double> mu, double error, HalfSpace& to) {
-  const auto ends = panels(s.alpha, mu);
+  const auto ends = panels(s.facets.alpha, mu);
   Solution finer = solve(s, mu, ends, finenesses[0], error);
-  std::vector<double> change(s.fresnel.size());
+  std::vector<double> change(s.facets.parameters.size());
   for (const auto& fineness : std::span(finenesses).subspan(1)) {
     const Solution coarser = std::move(finer);
     finer = solve(s, mu, ends, fineness, error);
