@@ -319,8 +319,10 @@ void add(const Surface& s, std::span<const double> mu, double error, HalfSpace& 
   const auto ends = panels(s.facets.alpha, mu);
   Solution finer = solve(s, mu, ends, finenesses[0], error);
   std::vector<double> change(s.facets.parameters.size());
-  // A narrow peak lies near a node of one grid and between those of the other by chance.
-  const double least = s.facets.alpha < narrow ? 5e-7 : 0;
+  // A narrow peak lies near a node or between two by chance; of Beckmann, where nothing is
+  // scattered twice.
+  const bool seen = s.facets.alpha >= narrow || s.facets.slopes == Microsurface::Slopes::beckmann;
+  const double least = seen ? 0 : 5e-7;
   for (const auto& fineness : std::span(finenesses).subspan(1)) {
     const Solution coarser = std::move(finer);
     finer = solve(s, mu, ends, fineness, error);
