@@ -44,8 +44,8 @@ struct HalfSpace {
 /// 0.02, whose peaks fall between nodes.  It may be more than was asked for.
 ///
 /// α from 1e-4 to 1 and μ from 5e-4 drawn at random, F = 1: at goals from 1e-3 to 1e-7 no error was above
-/// 0.8 of its bound, and none above 1.2e-6 at 1e-5.  To that, 9 cosines take 0.1 s at α = 0.1 and 0.3 s at 1e-4
-/// on two threads.
+/// 0.6 of its bound, and none above 1.2e-6 at 1e-5.  To that, 9 cosines of GGX take 0.1 s at α = 0.1 and 0.6 s at
+/// 1e-4 on two threads, of Beckmann half as much again.
 ///
 /// Lobes only: of a model with several the sum.  Anisotropic surfaces and what is not among microsurfaces()
 /// are wrong usage, as is μ outside (0, 1].  rest: what later orders would add if they fell as the last two
