@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 
@@ -17,6 +18,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <half.h>
 
 namespace gonio {
 namespace {
@@ -102,9 +104,17 @@ class Memory : public Imf::OStream {
   std::size_t at_ = 0;
 };
 
+std::vector<half> in_half(const std::string& path, const std::vector<float>& plane) {
+  std::vector<half> halves(plane.begin(), plane.end());
+  for (std::size_t i = 0; i < plane.size(); ++i)
+    if (std::isfinite(plane[i]) && !halves[i].isFinite())
+      throw bad_input(path, "writing", fmt::format("{}", plane[i]), "at most 65504 in half");
+  return halves;
+}
+
 }  // namespace
 
-void write_exr(const std::string& path, const Image& image) {
+void write_exr(const std::string& path, const Image& image, Storage storage) {
   OutputFile out(path);
   Memory memory;
   try {
@@ -113,16 +123,27 @@ void write_exr(const std::string& path, const Image& image) {
     for (const auto& [name, text] : image.attributes)
       header.insert(name, Imf::StringAttribute(text));
     Imf::FrameBuffer buffer;
-    for (std::size_t c = 0; c < image.channels.size(); ++c) {
-      header.channels().insert(image.channels[c], Imf::Channel(Imf::FLOAT));
+    const auto insert = [&](std::size_t c, Imf::PixelType type, const auto& plane) {
+      header.channels().insert(image.channels[c], Imf::Channel(type));
       // Imf::Slice takes a pointer to mutable bytes also for writing.
-      char* base = reinterpret_cast<char*>(const_cast<float*>(image.planes[c].data()));
+      char* base = static_cast<char*>(const_cast<void*>(static_cast<const void*>(plane.data())));
       buffer.insert(image.channels[c],
-                    Imf::Slice(Imf::FLOAT, base, sizeof(float), sizeof(float) * image.width));
+                    Imf::Slice(type, base, sizeof(plane[0]), sizeof(plane[0]) * image.width));
+    };
+    std::vector<std::vector<half>> halves(image.channels.size());
+    for (std::size_t c = 0; c < image.channels.size(); ++c) {
+      if (storage == Storage::single) {
+        insert(c, Imf::FLOAT, image.planes[c]);
+      } else {
+        halves[c] = in_half(path, image.planes[c]);
+        insert(c, Imf::HALF, halves[c]);
+      }
     }
     Imf::OutputFile file(memory, header);
     file.setFrameBuffer(buffer);
     file.writePixels(static_cast<int>(image.height));
+  } catch (const Error&) {
+    throw;
   } catch (const std::exception& e) {
     throw bad_input(path, "writing", e.what(), "an image that OpenEXR can hold");
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// OpenEXR in and out: named float channels and string attributes, nothing lost in between.
+/// OpenEXR in and out: named float channels and string attributes.
 
 #include <map>
 #include <string>
@@ -16,8 +16,11 @@ struct Image {
   std::map<std::string, std::string> attributes;
 };
 
-/// Channels are stored as 32-bit float, lossless compression.
-void write_exr(const std::string& path, const Image&);
+/// What a channel's numbers are stored as: 24 bits, or 11 as a GPU's half, to the nearest.
+enum class Storage { single, half };
+
+/// Lossless compression.  A value that half cannot hold, beyond 65504, is refused.
+void write_exr(const std::string& path, const Image&, Storage = Storage::single);
 /// Any single-part scan line or tiled file; half and integer channels are widened.
 /// At most 16384 pixels wide or high.
 /// \param most  pixels × channels; an image with more is refused before anything is allocated

@@ -39,6 +39,34 @@ TEST(Exr, ReadsBackWhatItWrote) {
   for (const auto& [name, text] : example().attributes) EXPECT_EQ(back.attributes.at(name), text);
 }
 
+TEST(Exr, HalvesAreTheNearestAndReadBackWidened) {
+  const Folder folder;
+  Image i = example();
+  i.planes[0][0] = 1 + 0x1p-11F;      // a tie: to even
+  i.planes[0][1] = 1 + 3 * 0x1p-11F;  // a tie: to even, upwards
+  i.planes[0][2] = 0x1.8p-24F;        // below the smallest, 2^-24
+  i.planes[0][3] = 65504;             // the largest
+  write_exr(folder / "i.exr", i, Storage::half);
+  const Image back = read_exr(folder / "i.exr");
+  EXPECT_EQ(back.planes[0][0], 1);
+  EXPECT_EQ(back.planes[0][1], 1 + 0x1p-9F);
+  EXPECT_EQ(back.planes[0][2], 0x1p-23F);
+  EXPECT_EQ(back.planes[0][3], 65504);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t k = 0; k < 21; ++k)
+      EXPECT_NEAR(back.planes[c][k], i.planes[c][k], 0x1p-11F * i.planes[c][k] + 0x1p-25F);
+}
+
+TEST(Exr, RefusesWhatHalfCannotHold) {
+  const Folder folder;
+  Image i = example();
+  i.planes[1][4] = 65520;
+  EXPECT_THROW(write_exr(folder / "i.exr", i, Storage::half), Error);
+  EXPECT_EQ(folder.entries(), 0U);
+  write_exr(folder / "i.exr", i);
+  EXPECT_EQ(read_exr(folder / "i.exr").planes[1][4], 65520);
+}
+
 TEST(Exr, ReadsTheChannelsAskedForInTheirOrder) {
   const Folder folder;
   write_exr(folder / "i.exr", example());
