@@ -2,12 +2,13 @@
 /// \file
 /// The split sum of image-based light [Karis 2013]: the prefiltered environment times F0 A + B.
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "integrate/cubature.h"
+#include "integrate/directional_albedo.h"
 #include "number/parameter.h"
 
 namespace gonio {
@@ -24,14 +25,9 @@ inline constexpr About split_sum_about{
 /// Of GGX under Schlick's Fresnel, with (1 − VoH)⁵ as c:
 ///
 ///   A = ∫ D V (1 − c) NoL dω_l,   B = ∫ D V c NoL dω_l:   E = F0 A + B
-///
-/// `diffuse` is the same of a white Lambertian under that interface, by which the environment's
-/// irradiance is weighted: coupled Lambert reflects kd (1 − F0) · diffuse of an even environment.
-///
-///   diffuse = ∫ (1 − c) NoL dω_l / π
 struct SplitSum {
-  double a, b, diffuse;
-  double error;  ///< of each, at most; not a number where it is not known
+  double a, b;
+  double error;  ///< of A, of B and of A + B, at most; not a number where it is not known
 };
 
 /// By quadrature, at each NoV in (0, 1].
@@ -41,14 +37,30 @@ std::vector<SplitSum> split_sum(std::string_view masking,
                                 std::span<const double> nov,
                                 const Goal& = {});
 
-/// As renderers make their table: n half vectors from the points (i/n, radical inverse of i) of
-/// Hammersley, drawn from D NoH, of which those with l below the horizon count for nothing; l for
-/// `diffuse` from the cosine.
+/// As renderers make their table: n half vectors from the points of Hammersley, drawn from D NoH, of
+/// which those with l below the horizon count for nothing.
 ///
 ///   A = 1/n Σ (1 − c) G₂ VoH / (NoH NoV)                                  [Karis 2013, p. 7]
+///
+/// Of the table of 64 × 64, n = 1024: A is off by at most …
 std::vector<SplitSum> sampled_split_sum(std::string_view masking,
                                         double roughness,
                                         std::span<const double> nov,
                                         std::size_t samples);
+
+/// What a white Lambertian reflects under that interface, by which the environment's irradiance is
+/// weighted: coupled Lambert reflects kd (1 − F0) · diffuse of an even environment.  It does not depend
+/// on roughness.
+///
+///   diffuse = ∫ (1 − c) NoL dω_l / π
+std::vector<Albedo> split_sum_diffuse(std::span<const double> nov, const Goal& = {});
+/// The same from n directions drawn from the cosine.
+std::vector<double> sampled_split_sum_diffuse(std::span<const double> nov, std::size_t samples);
+
+/// GGX with that masking under Schlick's Fresnel; two channels, of F0 as given, by default 0 and 1, so that
+/// one integral gives B and A + B.
+BoundModel two_interfaces(std::string_view masking,
+                          double roughness,
+                          const std::array<double, 2>& f0 = {0, 1});
 
 }  // namespace gonio

@@ -1,4 +1,4 @@
-// gonio albedo and gonio split_sum: what they print, and what they refuse.
+// gonio albedo: what it prints, and what it refuses.
 #include <cmath>
 
 #include "program.h"
@@ -81,41 +81,6 @@ TEST(AlbedoCommand, SaysThatAModelHasNoAverage) {
                         "albedo beckmann_aniso.as_written/none/schlick --set alpha_x=1 "
                         "alpha_y=0.5 --average --error 1e-3"),
                   3, "diverges");
-}
-
-TEST(SplitSumCommand, AddsUpToTheAlbedo) {
-  const Folder f;
-  const auto j = gonio(f, "split_sum --roughness 0.5,1 --nov 0.05,1 --json").json();
-  ASSERT_EQ(j["rows"].size(), 4U);
-  const auto& row = j["rows"][3];
-  EXPECT_EQ(row["roughness"], 1);
-  EXPECT_EQ(row["nov"], 1);
-  EXPECT_NEAR(row["a"].get<double>() + row["b"].get<double>(), 1 - std::log(2.0), 1e-7);
-  EXPECT_LE(row["error_bound"], 1e-7);
-  const auto separable =
-      gonio(f, "split_sum --roughness 1 --nov 0.05 --masking smith_ggx.separable --json").json();
-  EXPECT_NEAR(separable["rows"][0]["a"].get<double>() + separable["rows"][0]["b"].get<double>(),
-              2 * (1 - std::log(2.0)) / 1.05, 1e-7);
-}
-
-TEST(SplitSumCommand, BySamplesIsNearTheQuadrature) {
-  const Folder f;
-  const std::string words = "split_sum --roughness 0.5 --nov 0.4 --json";
-  const auto truth = gonio(f, words).json()["rows"][0];
-  const auto sampled = gonio(f, words + " --samples 1024").json()["rows"][0];
-  for (const char* name : {"a", "b", "diffuse"}) {
-    EXPECT_NEAR(sampled[name], truth[name], 0.005) << name;
-    EXPECT_NE(sampled[name], truth[name]) << name;
-  }
-  EXPECT_FALSE(sampled.contains("error_bound"));
-}
-
-TEST(SplitSumCommand, RefusesWhatItCannotDo) {
-  const Folder f;
-  expect_one_line(gonio(f, "split_sum --roughness 0.5 --nov 0"), 2, "outside (0, 1]");
-  expect_one_line(gonio(f, "split_sum --roughness 0.5,1.5 --nov 1"), 2, "outside");
-  expect_one_line(gonio(f, "split_sum --roughness 0.5 --nov 1 --masking smith"), 2, "smith");
-  expect_one_line(gonio(f, "split_sum --roughness 0.5 --nov 1 --samples 0"), 2, "samples");
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+// gonio split_sum: what it prints and writes, and what it refuses.
+#include <cmath>
+
+#include "program.h"
+
+namespace gonio::test {
+namespace {
+
+TEST(SplitSumCommand, AddsUpToTheAlbedo) {
+  const Folder f;
+  const auto j = gonio(f, "split_sum --roughness 0.5,1 --nov 0.05,1 --json").json();
+  ASSERT_EQ(j["rows"].size(), 4U);
+  const auto& row = j["rows"][3];
+  EXPECT_EQ(row["roughness"], 1);
+  EXPECT_EQ(row["nov"], 1);
+  EXPECT_NEAR(row["a"].get<double>() + row["b"].get<double>(), 1 - std::log(2.0), 1e-7);
+  EXPECT_LE(row["error_bound"], 1e-7);
+  const auto separable =
+      gonio(f, "split_sum --roughness 1 --nov 0.05 --masking smith_ggx.separable --json").json();
+  EXPECT_NEAR(separable["rows"][0]["a"].get<double>() + separable["rows"][0]["b"].get<double>(),
+              2 * (1 - std::log(2.0)) / 1.05, 1e-7);
+}
+
+TEST(SplitSumCommand, BySamplesIsNearTheQuadrature) {
+  const Folder f;
+  const std::string words = "split_sum --roughness 0.5 --nov 0.4 --json";
+  const auto truth = gonio(f, words).json()["rows"][0];
+  const auto sampled = gonio(f, words + " --samples 1024").json()["rows"][0];
+  for (const char* name : {"a", "b", "diffuse"}) {
+    EXPECT_NEAR(sampled[name], truth[name], 0.005) << name;
+    EXPECT_NE(sampled[name], truth[name]) << name;
+  }
+  EXPECT_FALSE(sampled.contains("error_bound"));
+}
+
+TEST(SplitSumCommand, WritesTheTableAndSaysHowFarOffItIs) {
+  const Folder f;
+  const std::string words = "split_sum --size 16x16 --json -o t.exr --precision ";
+  const auto half = gonio(f, words + "half");
+  ASSERT_EQ(half.code, 0) << half.err;
+  const auto bytes = read_bytes(f / "t.exr");
+  EXPECT_NE(bytes.find("gonio:split_sum"), bytes.npos);
+  const auto j = half.json();
+  EXPECT_EQ(j["width"], 16);
+  EXPECT_EQ(j["precision"], "half");
+  EXPECT_EQ(j["masking"], "masking.smith_ggx.correlated");
+  EXPECT_LE(j["error_bound"], 1e-7);
+  EXPECT_LE(j["storage_error"]["a"]["max"], 0x1p-12);
+  EXPECT_GT(j["storage_error"]["a"]["max"], 1e-5);
+  EXPECT_GT(j["lookup_error"]["e"]["max"], j["lookup_error_between_centres"]["e"]["max"]);
+  const auto single = gonio(f, words + "float").json();
+  EXPECT_LE(single["storage_error"]["a"]["max"], 0x1p-25);
+  EXPECT_EQ(gonio(f, words + "float --jobs 1").json(), single);
+}
+
+TEST(SplitSumCommand, RefusesWhatItCannotDo) {
+  const Folder f;
+  expect_one_line(gonio(f, "split_sum --roughness 0.5 --nov 0"), 2, "outside (0, 1]");
+  expect_one_line(gonio(f, "split_sum --roughness 0.5,1.5 --nov 1"), 2, "outside");
+  expect_one_line(gonio(f, "split_sum --roughness 0.5 --nov 1 --masking smith"), 2, "smith");
+  expect_one_line(gonio(f, "split_sum --roughness 0.5 --nov 1 --samples 0"), 2, "samples");
+  expect_one_line(gonio(f, "split_sum --roughness 0.5"), 2, "--nov");
+  expect_one_line(gonio(f, "split_sum"), 2, "--size");
+  expect_one_line(gonio(f, "split_sum --size 8x8"), 2, "-o");
+  expect_one_line(gonio(f, "split_sum --size 8x8 -o t.exr --nov 1"), 2, "or --size");
+  for (const char* size : {"8", "8x", "x8", "8x8x8", "-8x8", "0x8", "8x5000", "8×8"})
+    expect_one_line(gonio(f, std::string("split_sum -o t.exr --size ") + size), 2, "8");
+  expect_one_line(gonio(f, "split_sum --size 8x8 --precision double -o t.exr"), 2, "precision");
+  expect_one_line(gonio(f, "split_sum --size 8x8 --error 0 -o t.exr"), 2, "--error");
+  expect_one_line(gonio(f, "split_sum --size 8x8 -o none/t.exr"), 3, "none/t.exr");
+  EXPECT_EQ(f.entries(), 0U);
+}
+
+}  // namespace
+}  // namespace gonio::test
