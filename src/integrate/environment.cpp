@@ -1,0 +1,254 @@
+#include "integrate/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace gonio {
+namespace {
+
+using Rectangle = SummedEnvironment::Rectangle;
+
+/// No part of a texel is smaller.
+constexpr double kSmallest = 0x1p-20;
+
+/// Its middle and sides [rad].
+struct Shape {
+  double theta, phi, sin_theta, cos_theta;
+  double x, y;  ///< along the parallel through the middle, along the meridian
+
+  Shape(const Environment& map, const Rectangle& r)
+      : theta(map.theta((r.y0 + r.y1) / 2)),
+        phi(map.phi((r.x0 + r.x1) / 2)),
+        sin_theta(std::sin(theta)),
+        cos_theta(std::cos(theta)),
+        x((map.phi(r.x0) - map.phi(r.x1)) * sin_theta),
+        y(map.theta(r.y1) - map.theta(r.y0)) {}
+  double radius() const { return std::hypot(x, y) / 2; }
+  /// (cos θ₀ − cos θ₁) Δφ, in which near the pole the cosines would cancel
+  double solid_angle() const { return 2 * x * std::sin(y / 2); }
+  Direction middle() const {
+    return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
+  }
+};
+
+/// What of it comes from above the horizon of n, as if the rectangle were flat.
+SummedEnvironment::Light above(const Environment& map,
+                               const Rectangle& r,
+                               SummedEnvironment::Light light,
+                               const Direction& n) {
+  const Shape s(map, r);
+  const double height = dot(n, light.centre);
+  if (height >= (s.x + s.y) / 2) return light;
+  const double c = std::cos(s.phi), sine = std::sin(s.phi);
+  const Direction east{-sine, c, 0}, south{s.cos_theta * c, s.cos_theta * sine, -s.sin_theta};
+  const double reach = (s.x * std::abs(dot(n, east)) + s.y * std::abs(dot(n, south))) / 2;
+  if (height >= reach) return light;
+  if (height <= -reach) return {};
+  for (double& f : light.flux) f *= (height + reach) / (2 * reach);
+  const double up = (reach - height) / 2;
+  Direction& d = light.centre;
+  d = {d.x + up * n.x, d.y + up * n.y, d.z + up * n.z};
+  const double length = std::sqrt(dot(d, d));
+  d = {d.x / length, d.y / length, d.z / length};
+  return light;
+}
+
+/// Two or four.
+struct Parts {
+  std::array<Rectangle, 4> of;
+  std::size_t n = 0;
+  const Rectangle* begin() const { return of.data(); }
+  const Rectangle* end() const { return of.data() + n; }
+};
+
+/// Cut along the longer side, or both; of whole texels while there are several.
+Parts parts(const Environment& map, const Rectangle& r) {
+  const Shape s(map, r);
+  const bool several_x = r.x1 - r.x0 > 1, several_y = r.y1 - r.y0 > 1;
+  // a part is whole texels, or lies within one
+  const bool cut_x = several_x == several_y ? 2 * s.x > s.y : several_x;
+  const bool cut_y = several_x == several_y ? 2 * s.y > s.x : several_y;
+  const auto middle_of = [](double low, double high, bool cut) {
+    if (!cut) return high;
+    const double half = (low + high) / 2;
+    return high - low > 1 ? std::floor(half) : half;
+  };
+  const double x = middle_of(r.x0, r.x1, cut_x), y = middle_of(r.y0, r.y1, cut_y);
+  Parts p;
+  p.of[p.n++] = {r.x0, x, r.y0, y};
+  if (cut_x) p.of[p.n++] = {x, r.x1, r.y0, y};
+  if (cut_y) p.of[p.n++] = {r.x0, x, y, r.y1};
+  if (cut_x && cut_y) p.of[p.n++] = {x, r.x1, y, r.y1};
+  return p;
+}
+
+/// A rectangle, as what its parts give.
+struct Leaf {
+  Rectangle r;
+  bool blind;  ///< it is too large to see the functions
+};
+
+}  // namespace
+
+SummedEnvironment::SummedEnvironment(Environment map)
+    : map_(std::move(map)), sums_((map_.width + 1) * (map_.height + 1)) {
+  for (std::size_t j = 0; j < map_.height; ++j) {
+    std::array<double, 6> row{};
+    for (std::size_t i = 0; i < map_.width; ++i) {
+      const double x = static_cast<double>(i), y = static_cast<double>(j);
+      const Rectangle texel{x, x + 1, y, y + 1};
+      const Shape s(map_, texel);
+      const double omega = s.solid_angle();
+      const Rgb l = map_.texel(i, j);
+      const Direction d = s.middle();
+      const double all = omega * (l[0] + l[1] + l[2]);
+      const double adds[] = {omega * l[0], omega * l[1], omega * l[2],
+                             all * d.x,    all * d.y,    all * d.z};
+      for (std::size_t k = 0; k < 6; ++k) {
+        row[k] += adds[k];
+        sums_[(j + 1) * (map_.width + 1) + i + 1][k] =
+            sums_[j * (map_.width + 1) + i + 1][k] + row[k];
+      }
+    }
+  }
+}
+
+SummedEnvironment::Light SummedEnvironment::light(const Rectangle& r) const {
+  const auto index = [](double v) { return static_cast<std::size_t>(v); };
+  if (r.x1 - r.x0 <= 1 && r.y1 - r.y0 <= 1) {
+    const Rgb l = map_.texel(index(r.x0), index(r.y0));
+    const Shape s(map_, r);
+    const double omega = s.solid_angle();
+    return {{omega * l[0], omega * l[1], omega * l[2]}, s.middle()};
+  }
+  const auto at = [&](double x, double y) -> const std::array<double, 6>& {
+    return sums_[index(y) * (map_.width + 1) + index(x)];
+  };
+  std::array<double, 6> s{};
+  for (std::size_t k = 0; k < 6; ++k)
+    s[k] = at(r.x1, r.y1)[k] - at(r.x0, r.y1)[k] - at(r.x1, r.y0)[k] + at(r.x0, r.y0)[k];
+  const double length = std::hypot(s[3], s[4], s[5]);
+  // Where there is next to no light, differences of large sums say nothing of where it comes from.
+  const auto& whole = sums_.back();
+  if (!(length > 1e-9 * (whole[0] + whole[1] + whole[2])))
+    return {{s[0], s[1], s[2]}, Shape(map_, r).middle()};
+  return {{s[0], s[1], s[2]}, {s[3] / length, s[4] / length, s[5] / length}};
+}
+
+Gathered gather(const SummedEnvironment& light,
+                const Gather& g,
+                std::size_t functions,
+                const Focus& focus,
+                const RelativeGoal& goal) {
+  const Environment& map = light.map();
+  const std::size_t numbers = 3 * functions;
+  std::vector<Leaf> leaves;
+  std::vector<double> value, error;  // [leaf][function][channel]
+  Gathered total;
+
+  const auto is_blind = [&](const Rectangle& r) {
+    const Shape shape(map, r);
+    const double fine = 4 * shape.radius();
+    if (fine <= std::min(focus.width, 0.4)) return false;
+    const double far = std::acos(std::clamp(dot(shape.middle(), focus.at), -1.0, 1.0));
+    return fine > std::min(far + focus.width, 0.4);
+  };
+  std::vector<Direction> at;
+  std::vector<double> columns;
+  std::vector<double*> out;
+  const auto add = [&](const std::vector<Rectangle>& rectangles) {
+    std::vector<SummedEnvironment::Light> lights;
+    std::vector<std::size_t> first{0};
+    at.clear();
+    for (const auto& r : rectangles) {
+      const auto push = [&](const Rectangle& part) {
+        lights.push_back(above(map, part, light.light(part), focus.normal));
+      };
+      push(r);
+      for (const auto& part : parts(map, r)) push(part);
+      first.push_back(lights.size());
+    }
+    for (const auto& l : lights) at.push_back(l.centre);
+    columns.resize(functions * at.size());
+    out.clear();
+    for (std::size_t f = 0; f < functions; ++f) out.push_back(columns.data() + f * at.size());
+    g(at, out);
+    total.evaluations += at.size();
+    for (std::size_t k = 0; k < rectangles.size(); ++k) {
+      leaves.push_back({rectangles[k], is_blind(rectangles[k])});
+      for (std::size_t f = 0; f < functions; ++f)
+        for (std::size_t c = 0; c < 3; ++c) {
+          double sum = 0;
+          for (std::size_t p = first[k] + 1; p < first[k + 1]; ++p)
+            sum += lights[p].flux[c] * out[f][p];
+          value.push_back(sum);
+          error.push_back(2 * std::abs(sum - lights[first[k]].flux[c] * out[f][first[k]]));
+        }
+    }
+  };
+
+  add({{0, static_cast<double>(map.width), 0, static_cast<double>(map.height)}});
+  std::vector<std::size_t> order;
+  std::vector<double> share;
+  for (;;) {
+    std::vector<double> sum(numbers), off(numbers);
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      sum[k % numbers] += value[k];
+      off[k % numbers] += error[k];
+    }
+    total.error = 0;
+    std::vector<double> scale(numbers);
+    for (std::size_t k = 0; k < numbers; ++k) {
+      scale[k] = sum[k] > 0 ? sum[k] : off[k];
+      if (off[k] > 0) total.error = std::max(total.error, off[k] / scale[k]);
+    }
+    share.assign(leaves.size(), 0);
+    order.clear();
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      for (std::size_t k = 0; k < numbers; ++k)
+        if (scale[k] > 0) share[i] = std::max(share[i], error[i * numbers + k] / scale[k]);
+      const Rectangle& r = leaves[i].r;
+      if (r.x1 - r.x0 < kSmallest && r.y1 - r.y0 < kSmallest) continue;
+      if (leaves[i].blind) share[i] = std::numeric_limits<double>::infinity();
+      if (share[i] > 0) order.push_back(i);
+    }
+    const bool blind = std::ranges::any_of(order, [&](std::size_t i) { return leaves[i].blind; });
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return share[i]; });
+    // The fewest whose parts, were they exact, would leave half of the error asked for.
+    double left = 0;
+    std::size_t chosen = order.size();
+    while (chosen > 0 && left + share[order[chosen - 1]] <= goal.error / 2)
+      left += share[order[--chosen]];
+    if ((!blind && total.error <= goal.error) || chosen == 0 ||
+        total.evaluations >= goal.evaluations) {
+      for (std::size_t f = 0; f < functions; ++f)
+        total.value.push_back({sum[3 * f], sum[3 * f + 1], sum[3 * f + 2]});
+      return total;
+    }
+    order.resize(chosen);
+    std::ranges::sort(order);
+    std::vector<Rectangle> halves;
+    std::size_t next = 0, to = 0;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      if (next < order.size() && order[next] == i) {
+        ++next;
+        for (const auto& part : parts(map, leaves[i].r)) halves.push_back(part);
+        continue;
+      }
+      std::copy_n(value.begin() + static_cast<std::ptrdiff_t>(i * numbers), numbers,
+                  value.begin() + static_cast<std::ptrdiff_t>(to * numbers));
+      std::copy_n(error.begin() + static_cast<std::ptrdiff_t>(i * numbers), numbers,
+                  error.begin() + static_cast<std::ptrdiff_t>(to * numbers));
+      leaves[to++] = leaves[i];
+    }
+    leaves.resize(to);
+    value.resize(to * numbers);
+    error.resize(to * numbers);
+    add(halves);
+  }
+}
+
+}  // namespace gonio

@@ -1,0 +1,137 @@
+#include "integrate/irradiance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/sampling.h"
+#include "integrate/quadrature.h"
+
+#include <tbb/parallel_for.h>
+
+namespace gonio {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+void add(Rgb& to, double weight, const Rgb& c) {
+  for (std::size_t k = 0; k < 3; ++k) to[k] += weight * c[k];
+}
+
+/// π²/N Σ L cos θ sin θ at θ = (i + offset) step_theta, φ = (k + offset) step_phi.
+SampledIrradiance riemann(const Radiance& radiance,
+                          const Direction& n,
+                          std::size_t n_theta,
+                          std::size_t n_phi,
+                          double step_theta,
+                          double step_phi,
+                          double offset) {
+  const Frame surface(n);
+  SampledIrradiance sum{{}, n_theta * n_phi};
+  for (std::size_t k = 0; k < n_phi; ++k)
+    for (std::size_t i = 0; i < n_theta; ++i) {
+      const double theta = (static_cast<double>(i) + offset) * step_theta;
+      const Direction l = direction(theta, (static_cast<double>(k) + offset) * step_phi);
+      add(sum.value, l.z * std::sin(theta), radiance(surface.outside(l)));
+    }
+  for (double& v : sum.value) v *= pi * pi / static_cast<double>(sum.samples);
+  return sum;
+}
+
+}  // namespace
+
+Rgb irradiance(const Environment& map, const Direction& n) {
+  struct Edge {  // between rows
+    double theta, flat, steep;
+    explicit Edge(double t)
+        : theta(t),
+          flat((t - std::sin(t) * std::cos(t)) / 2),
+          steep(std::sin(t) * std::sin(t) / 2) {}
+  };
+  std::vector<Edge> edges;
+  for (std::size_t j = 0; j <= map.height; ++j)
+    edges.emplace_back(map.theta(static_cast<double>(j)));
+  // where a column crosses the horizon, there is a kink: 4096 nodes around
+  const auto nodes = gauss_legendre(static_cast<int>(std::max(4096 / map.width, std::size_t{4})));
+  const double across = std::hypot(n.x, n.y), phi_n = phi_of(n),
+               width = 2 * pi / static_cast<double>(map.width);
+  Rgb sum{};
+  for (std::size_t i = 0; i < map.width; ++i)
+    for (const auto& node : nodes) {
+      const double a = across * std::cos(map.phi(static_cast<double>(i) + node.x) - phi_n), b = n.z;
+      const double horizon = std::atan2(std::abs(b), b < 0 ? a : -a);
+      const Edge at(horizon);
+      const auto until = [&](const Edge& e) {  // from the pole that n sees
+        const bool beyond = b < 0 ? e.theta < horizon : e.theta > horizon;
+        const Edge& f = beyond ? at : e;
+        return a * f.flat + b * f.steep;
+      };
+      double before = until(edges[0]);
+      for (std::size_t j = 0; j < map.height; ++j) {
+        const double here = until(edges[j + 1]);
+        add(sum, (here - before) * node.weight * width, map.texel(i, j));
+        before = here;
+      }
+    }
+  return sum;
+}
+
+SampledIrradiance sampled_irradiance(const Radiance& radiance,
+                                     const Direction& n,
+                                     IrradianceRule rule,
+                                     std::size_t samples) {
+  if (rule == IrradianceRule::cosine) {
+    const Frame surface(n);
+    SampledIrradiance sum{{}, samples};
+    for (std::size_t i = 0; i < samples; ++i)
+      add(sum.value, pi / static_cast<double>(samples),
+          radiance(surface.outside(cosine_direction(
+              hammersley(static_cast<std::uint32_t>(i), static_cast<double>(samples))))));
+    return sum;
+  }
+  const auto rows = static_cast<std::size_t>(
+      std::max(1.0, std::round(std::sqrt(static_cast<double>(samples) / 4))));
+  const double step = pi / 2 / static_cast<double>(rows);
+  return riemann(radiance, n, rows, 4 * rows, step, step,
+                 rule == IrradianceRule::riemann ? 0 : 0.5);
+}
+
+SampledIrradiance stepped_irradiance(const Radiance& radiance, const Direction& n, double step) {
+  const auto steps = [&](double range) {
+    return static_cast<std::size_t>(std::ceil(range / step));
+  };
+  return riemann(radiance, n, steps(pi / 2), steps(2 * pi), step, step, 0);
+}
+
+std::vector<IrradianceError> irradiance_errors(const Radiance& radiance,
+                                               const std::function<Rgb(const Direction&)>& exact,
+                                               std::span<const std::size_t> counts,
+                                               std::size_t normals) {
+  std::vector<double> truth(normals);
+  tbb::parallel_for(std::size_t{0}, normals, [&](std::size_t i) {
+    truth[i] = luminance(exact(spiral_direction(i, normals)));
+  });
+  std::vector<IrradianceError> rows;
+  using enum IrradianceRule;
+  for (const auto rule : {riemann, riemann_midpoint, cosine})
+    for (const std::size_t count : counts) {
+      std::vector<double> off(normals);
+      std::size_t taken = 0;
+      tbb::parallel_for(std::size_t{0}, normals, [&](std::size_t i) {
+        const auto s = sampled_irradiance(radiance, spiral_direction(i, normals), rule, count);
+        off[i] = luminance(s.value) / truth[i] - 1;
+        if (i == 0) taken = s.samples;
+      });
+      IrradianceError e{std::string(name_of(rule)), taken};
+      for (const double o : off) {
+        e.rms += o * o / static_cast<double>(normals);
+        e.bias += o / static_cast<double>(normals);
+        e.max = std::max(e.max, std::abs(o));
+      }
+      e.rms = std::sqrt(e.rms);
+      rows.push_back(e);
+    }
+  return rows;
+}
+
+}  // namespace gonio

@@ -1,0 +1,67 @@
+#pragma once
+/// \file
+/// Diffuse irradiance E(n) = ∫ L(ω) (n·ω) dω over the hemisphere of n: exactly, and by the sums that
+/// renderers take.
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "image/environment.h"
+
+namespace gonio {
+
+/// Of a map: each column's part above the horizon in closed form over θ, by Gauss over φ.
+///
+///   ∫ (a sin θ + b cos θ) sin θ dθ = a (θ − sin θ cos θ)/2 + b sin² θ/2,   a = n_xy cos(φ − φ_n), b = n_z
+Rgb irradiance(const Environment&, const Direction& n);
+
+/// Radiance from a direction.
+using Radiance = std::function<Rgb(const Direction&)>;
+
+/// How directions around n are chosen, and weighted.
+enum class IrradianceRule {
+  /// Equal steps in θ and φ from their low ends, as the usual shader has it (seed 003: "the sum over the
+  /// hemisphere, divided by the number of samples"); step_θ = step_φ:
+  ///
+  ///   E = π²/N Σ L cos θ sin θ
+  riemann,
+  riemann_midpoint,  ///< the same from the middle of each step
+  cosine,            ///< points of Hammersley, drawn from cos θ/π:  E = π/N Σ L
+};
+constexpr std::string_view name_of(IrradianceRule r) {
+  constexpr std::string_view names[] = {"riemann", "riemann_midpoint", "cosine"};
+  return names[static_cast<std::size_t>(r)];
+}
+
+struct SampledIrradiance {
+  Rgb value{};
+  std::size_t samples = 0;  ///< those taken
+};
+
+/// By about so many samples: Riemann sums take n × 4n.
+SampledIrradiance sampled_irradiance(const Radiance&,
+                                     const Direction& n,
+                                     IrradianceRule,
+                                     std::size_t samples);
+
+/// As shaders are found: θ from 0 while θ < π/2 and φ from 0 while φ < 2π by a step that divides neither, and
+/// N as counted.  A step of 0.025 makes 63 × 252 samples, whose last ones lie beyond or over the first.
+SampledIrradiance stepped_irradiance(const Radiance&, const Direction& n, double step);
+
+/// sampled/exact − 1, of luminance, over normals.
+struct IrradianceError {
+  std::string rule;
+  std::size_t samples = 0;
+  double rms = 0, max = 0, bias = 0;  ///< max: of |…|; bias: the mean
+};
+
+/// Every rule with each count, over `normals` even over the sphere.
+std::vector<IrradianceError> irradiance_errors(const Radiance&,
+                                               const std::function<Rgb(const Direction&)>& exact,
+                                               std::span<const std::size_t> counts,
+                                               std::size_t normals = 32);
+
+}  // namespace gonio
