@@ -1,4 +1,5 @@
-// gonio split_sum: the two numbers that image-based light looks up, one by one or as a table.
+// gonio split_sum: the two numbers that image-based light looks up, one by one or as a table, and
+// what is lost by them under an environment.
 #include "integrate/split_sum.h"
 
 #include <array>
@@ -6,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "integrate/split_sum_light.h"
 #include "integrate/split_sum_table.h"
 
 #include <nlohmann/json.hpp>
@@ -16,9 +18,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options : Common {
-  std::vector<double> roughness, nov;
-  std::string masking = "smith_ggx.correlated", size, precision = "float", out;
-  std::size_t samples = 0;
+  std::vector<double> roughness, nov, f0{0.04};
+  std::string masking = "smith_ggx.correlated", size, precision = "float", out, environment;
+  std::size_t samples = 0, views = 16;
   std::optional<double> error;
 };
 constexpr std::array precision_names{"float", "half"};
@@ -130,18 +132,71 @@ Exit table(const Options& o) {
   return Exit::done;
 }
 
+Exit under_light(const Options& o) {
+  for (const double f0 : o.f0)
+    if (!(LitView::f0[0] <= f0 && f0 <= LitView::f0[1]))
+      throw wrong_usage(
+          fmt::format("f0 = {} is outside [{}, {}]", f0, LitView::f0[0], LitView::f0[1]));
+  TimedProgress progress(o.quiet || o.json, "gathering", o.roughness.size() * o.nov.size());
+  const SummedEnvironment light(read_environment(o.environment));
+  const RelativeGoal goal{o.error.value_or(RelativeGoal{}.error)};
+  std::string table =
+      fmt::format("{:>9} {:>6} {:>6} {:>11} {:>11} {:>9} {:>9} {:>9} {:>9}\n", "roughness", "nov",
+                  "f0", "truth", "split sum", "rms", "max", "bias", "± truth");
+  Json rows = Json::array();
+  std::size_t done = 0;
+  for (const double r : o.roughness)
+    for (const double nov : o.nov) {
+      const auto views = lit_views(light, o.masking, r, nov, o.views, goal);
+      progress(++done);
+      for (const double f0 : o.f0) {
+        const auto e = split_sum_light_error(views, f0);
+        table += fmt::format(
+            "{:>9} {:>6} {:>6} {:>11.5g} {:>11.5g} {:>9.4f} {:>9.4f} {:>+9.4f} {:>9.1e}\n", r, nov,
+            f0, luminance(e.exact), luminance(e.split), e.rms, e.max, e.bias, e.truth);
+        rows.push_back({{"roughness", r},
+                        {"nov", nov},
+                        {"f0", f0},
+                        {"truth", e.exact},
+                        {"split_sum", e.split},
+                        {"relative_error", e.rms},
+                        {"max_relative_error", e.max},
+                        {"bias", e.bias},
+                        {"truth_error", e.truth}});
+      }
+    }
+  progress.clear();
+  if (!o.json) {
+    fmt::print("{}", table);
+    return Exit::done;
+  }
+  const Json document{{"environment", o.environment},
+                      {"width", light.map().width},
+                      {"height", light.map().height},
+                      {"negative_values", light.map().negative},
+                      {"masking", o.masking},
+                      {"views", o.views},
+                      {"rows", rows}};
+  fmt::print("{}\n", document.dump(2));
+  return Exit::done;
+}
+
 Exit run(const Options& o) {
   if (o.error && !(*o.error > 0))
     throw wrong_usage(fmt::format("--error {} is not above 0", *o.error));
   if (o.error && o.samples > 0) throw wrong_usage("--error is of quadrature, not of --samples");
   use_jobs(o.jobs);
-  const bool is_table = !o.size.empty();
-  if (is_table == (!o.roughness.empty() || !o.nov.empty()) || is_table == o.out.empty())
+  const bool some_points = !o.roughness.empty() || !o.nov.empty();
+  if (o.size.empty() != o.out.empty() || o.size.empty() != some_points)
     throw wrong_usage("split_sum needs --roughness and --nov, or --size and -o");
-  if (is_table) return table(o);
+  if (!o.size.empty() && !o.environment.empty())
+    throw wrong_usage("--environment needs --roughness and --nov, not --size");
+  if (!o.size.empty()) return table(o);
   if (o.roughness.empty() || o.nov.empty())
     throw wrong_usage("split_sum needs both --roughness and --nov");
-  return rows(o);
+  if (o.environment.empty()) return rows(o);
+  if (o.samples > 0) throw wrong_usage("--environment is by quadrature, not by --samples");
+  return under_light(o);
 }
 
 }  // namespace
@@ -153,7 +208,8 @@ void add_split_sum(CLI::App& app, Action& action) {
       "A and B of the split sum: GGX under Schlick's Fresnel reflects F0 A + B of an even "
       "environment",
       "gonio split_sum --roughness 0.1,0.5 --nov 0.05,1 --json\n"
-      "  gonio split_sum --size 64x64 --precision half -o table.exr",
+      "  gonio split_sum --size 64x64 --precision half -o table.exr\n"
+      "  gonio split_sum --environment sky.exr --roughness 0.1,0.5 --nov 0.05,1 --f0 0.04,0.9",
       o, run);
   c->add_option("--roughness", o->roughness, "Roughness, alpha = roughness²")->delimiter(',');
   c->add_option("--nov", o->nov, "Cosines of the view's zenith angle, in (0, 1]")->delimiter(',');
@@ -162,12 +218,24 @@ void add_split_sum(CLI::App& app, Action& action) {
                 "By so many half vectors drawn from D, as renderers make their table (default: by "
                 "quadrature)")
       ->check(CLI::Range(std::size_t{1}, std::size_t{4294967295}));
-  c->add_option("--error", o->error, "Absolute error asked for (1e-8, of a table 1e-7)");
+  c->add_option(
+      "--error", o->error,
+      "Error asked for: absolute (1e-8, of a table 1e-7), under an environment relative (1e-3)");
   c->add_option("--size", o->size, "A table of WIDTHxHEIGHT texels: NoV along, roughness down");
   c->add_option("--precision", o->precision, "What the table's numbers are stored as")
       ->check(one_of(precision_names))
       ->capture_default_str();
   c->add_option("-o,--output", o->out, "OpenEXR file that the table is written to");
+  c->add_option(
+      "--environment", o->environment,
+      "OpenEXR map over longitude and latitude: what the split sum is off by under its light");
+  c->add_option("--f0", o->f0,
+                "Reflectance at normal incidence, under an environment, in [0.02, 1]")
+      ->delimiter(',')
+      ->capture_default_str();
+  c->add_option("--views", o->views, "Views, even over the environment")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
+      ->capture_default_str();
   add_jobs(c, *o);
   add_output(c, *o);
 }

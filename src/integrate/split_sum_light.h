@@ -20,13 +20,14 @@ namespace gonio {
 ///
 /// r being the mirror direction of v: lobes of one shape are all that a prefiltered environment can hold.
 struct LitView {
-  static constexpr std::array<double, 2> f0{0.04, 1};
+  static constexpr std::array<double, 2> f0{0.02, 1};
   std::array<Rgb, 2> exact_at;  ///< at these F0
   Rgb prefiltered;              ///< P
   double a, b;
   double
       error;  ///< of exact and P, relative, summed: what a relative difference of the two is off by
 
+  /// \param at_f0  0.02 to 1
   Rgb exact(double at_f0) const;
   Rgb split(double at_f0) const;
 };

@@ -48,9 +48,29 @@ TEST(SplitSumCommand, WritesTheTableAndSaysHowFarOffItIs) {
   EXPECT_LE(j["storage_error"]["a"]["max"], 0x1p-12);
   EXPECT_GT(j["storage_error"]["a"]["max"], 1e-5);
   EXPECT_GT(j["lookup_error"]["e"]["max"], j["lookup_error_between_centres"]["e"]["max"]);
-  const auto single = gonio(f, words + "float").json();
-  EXPECT_LE(single["storage_error"]["a"]["max"], 0x1p-25);
-  EXPECT_EQ(gonio(f, words + "float --jobs 1").json(), single);
+  EXPECT_EQ(gonio(f, words + "half --jobs 1").json(), j);
+  EXPECT_EQ(read_bytes(f / "t.exr"), bytes);
+}
+
+TEST(SplitSumCommand, SaysWhatItIsOffByUnderAnEnvironment) {
+  GONIO_NEEDS_SHARED(map, "data/env/studio.exr");
+  const Folder f;
+  const std::string words = "split_sum --environment '" + map +
+                            "' --roughness 0.5 --nov 0.3,1 --f0 0.04,1 --views 4 --json";
+  const auto o = gonio(f, words);
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto j = o.json();
+  EXPECT_EQ(j["width"], 1024);
+  EXPECT_EQ(j["negative_values"], 3);
+  ASSERT_EQ(j["rows"].size(), 4U);
+  for (const auto& row : j["rows"]) {
+    EXPECT_LE(row["truth_error"], 2e-3);
+    EXPECT_GT(row["relative_error"], row["truth_error"]);
+    EXPECT_GE(row["max_relative_error"], row["relative_error"]);
+    EXPECT_EQ(row["truth"].size(), 3U);
+  }
+  EXPECT_GT(j["rows"][1]["truth"][0], j["rows"][0]["truth"][0]);  // F0 = 1 and 0.04
+  EXPECT_EQ(gonio(f, words + " --jobs 1").json(), j);
 }
 
 TEST(SplitSumCommand, RefusesWhatItCannotDo) {
@@ -69,6 +89,13 @@ TEST(SplitSumCommand, RefusesWhatItCannotDo) {
   expect_one_line(gonio(f, "split_sum --size 8x8 --error 0 -o t.exr"), 2, "--error");
   expect_one_line(gonio(f, "split_sum --size 8x8 -o none/t.exr"), 3, "none/t.exr");
   EXPECT_EQ(f.entries(), 0U);
+  const std::string light = "split_sum --roughness 0.5 --nov 1 --environment ";
+  expect_one_line(gonio(f, light + "none.exr"), 3, "none.exr");
+  ASSERT_EQ(gonio(f, "split_sum --size 8x4 --samples 1 -o two.exr").code, 0);
+  expect_one_line(gonio(f, light + "two.exr"), 3, "B among them");
+  expect_one_line(gonio(f, light + "none.exr --f0 0"), 2, "f0 = 0 is outside [0.02, 1]");
+  expect_one_line(gonio(f, light + "none.exr --samples 8"), 2, "--samples");
+  expect_one_line(gonio(f, "split_sum --size 8x8 -o t.exr --environment none.exr"), 2, "--size");
 }
 
 }  // namespace
