@@ -162,6 +162,7 @@ Exit under_light(const Options& o) {
                         {"relative_error", e.rms},
                         {"max_relative_error", e.max},
                         {"bias", e.bias},
+                        {"error_over_mean", e.of_mean},
                         {"truth_error", e.truth}});
       }
     }

@@ -51,8 +51,8 @@ Rgb irradiance(const Environment& map, const Direction& n) {
   std::vector<Edge> edges;
   for (std::size_t j = 0; j <= map.height; ++j)
     edges.emplace_back(map.theta(static_cast<double>(j)));
-  // where a column crosses the horizon, there is a kink: 4096 nodes around
-  const auto nodes = gauss_legendre(static_cast<int>(std::max(4096 / map.width, std::size_t{4})));
+  // where a column crosses the horizon, there is a kink: 1024 nodes around
+  const auto nodes = gauss_legendre(static_cast<int>(std::max(1024 / map.width, std::size_t{4})));
   const double across = std::hypot(n.x, n.y), phi_n = phi_of(n),
                width = 2 * pi / static_cast<double>(map.width);
   Rgb sum{};

@@ -42,7 +42,8 @@ std::vector<SplitSum> split_sum(std::string_view masking,
 ///
 ///   A = 1/n Σ (1 − c) G₂ VoH / (NoH NoV)                                  [Karis 2013, p. 7]
 ///
-/// Of the table of 64 × 64, n = 1024: A is off by at most …
+/// Over a table of 64 × 64, correlated, 1024 are off by up to 0.011 in A and 0.0042 in B (RMS 2.5e-3 and
+/// 2.8e-4), 65536 by 1.1e-3 and 1.7e-4.
 std::vector<SplitSum> sampled_split_sum(std::string_view masking,
                                         double roughness,
                                         std::span<const double> nov,

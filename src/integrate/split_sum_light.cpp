@@ -105,26 +105,27 @@ std::vector<LitView> lit_views(const SummedEnvironment& light,
 
 SplitSumLightError split_sum_light_error(std::span<const LitView> views, double f0) {
   SplitSumLightError e;
-  std::size_t n = 0;
+  double n = 0, absolute2 = 0;
   for (const auto& v : views) {
     const Rgb exact = v.exact(f0), split = v.split(f0);
-    if (!(luminance(exact) > 0)) continue;
-    const double off = luminance(split) / luminance(exact) - 1;
-    e.rms += off * off;
-    e.bias += off;
-    e.max = std::max(e.max, std::abs(off));
+    const double of = luminance(exact), off = luminance(split) - of;
+    if (!(of > 0)) continue;
+    e.rms += square(off / of);
+    e.bias += off / of;
+    e.max = std::max(e.max, std::abs(off / of));
+    absolute2 += square(off);
     e.truth = std::max(e.truth, v.error);
     e.exact = mixed(1, e.exact, 1, exact);
     e.split = mixed(1, e.split, 1, split);
     ++n;
   }
-  const double part = 1 / static_cast<double>(std::max(n, std::size_t{1}));
-  return {std::sqrt(e.rms * part),
-          e.max,
-          e.bias * part,
-          e.truth,
-          mixed(part, e.exact, 0, e.exact),
-          mixed(part, e.split, 0, e.split)};
+  if (n == 0) return e;
+  e.rms = std::sqrt(e.rms / n);
+  e.bias /= n;
+  e.exact = mixed(1 / n, e.exact, 0, e.exact);
+  e.split = mixed(1 / n, e.split, 0, e.split);
+  e.of_mean = std::sqrt(absolute2 / n) / luminance(e.exact);
+  return e;
 }
 
 }  // namespace gonio

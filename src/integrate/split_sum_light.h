@@ -43,6 +43,7 @@ std::vector<LitView> lit_views(const SummedEnvironment&,
 /// split/exact − 1, of luminance, over views.
 struct SplitSumLightError {
   double rms = 0, max = 0, bias = 0;  ///< max: of |…|; bias: the mean
+  double of_mean = 0;                 ///< RMS of split − exact, over the mean of exact
   double truth = 0;                   ///< what each is off by itself, at most
   Rgb exact{}, split{};               ///< means
 };

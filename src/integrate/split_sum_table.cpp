@@ -177,18 +177,23 @@ SplitSumDeviation difference(const SplitSumTable& found, const SplitSumTable& tr
 }
 
 LookupError lookup_error(const SplitSumTable& t, std::size_t probes, const Goal& goal) {
-  const auto at = centres(probes);
+  const auto grid = [&](double low) {
+    std::vector<double> at;
+    for (std::size_t k = 0; k < probes; ++k)
+      at.push_back(std::lerp(low, 1.0, static_cast<double>(k) / static_cast<double>(probes - 1)));
+    return at;
+  };
   const auto between = [](double x, std::size_t n) {
     return centre(0, n) <= x && x <= centre(n - 1, n);
   };
+  const auto nov = grid(0.001);
   Deviations all, inner;
-  for (const double r : at) {
-    if (r < kSmoothest) continue;
-    const auto truth = split_sum(t.masking, r, at, goal);
-    for (std::size_t i = 0; i < at.size(); ++i) {
-      const auto [a, b] = t(at[i], r);
+  for (const double r : grid(kSmoothest)) {
+    const auto truth = split_sum(t.masking, r, nov, goal);
+    for (std::size_t i = 0; i < nov.size(); ++i) {
+      const auto [a, b] = t(nov[i], r);
       all.add(a - truth[i].a, b - truth[i].b);
-      if (between(at[i], t.width) && between(r, t.height))
+      if (between(nov[i], t.width) && between(r, t.height))
         inner.add(a - truth[i].a, b - truth[i].b);
     }
   }
