@@ -4,6 +4,7 @@
 
 #include "brdf/map.h"
 #include "brdf/parameter_maps.h"
+#include "brdf/scattering.h"
 #include "optics/f0.h"
 
 namespace gonio::inline GONIO_ARCH {
@@ -20,6 +21,13 @@ using Maps = MapList<ClampAlpha,
                      IorFromF0,
                      F0Metallic,
                      IndexFromEdgeTint,
-                     EdgeTintFromIndex>;
+                     EdgeTintFromIndex,
+                     KullaConty,
+                     KullaContyLinear,
+                     KullaContyLobe,
+                     Turquin,
+                     FdezAguera,
+                     AlbedoFit,
+                     AlbedoFitMaterialx>;
 
 }  // namespace gonio::inline GONIO_ARCH
