@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,13 @@ void add_fit(CLI::App&, Action&);
 void add_bench(CLI::App&, Action&);
 void add_albedo(CLI::App&, Action&);
 void add_split_sum(CLI::App&, Action&);
+
+/// Entries of the catalogue that are neither term nor map nor composed of terms, and what evaluates them.
+struct Evaluated {
+  const About* about;
+  std::string_view by;
+};
+std::span<const Evaluated> evaluated_by_commands();
 
 /// A subcommand with its example under the help, running `run` on options that it keeps alive.
 template <class Options>

@@ -2,6 +2,7 @@
 #include "brdf/presets.h"
 #include "brdf/registry.h"
 #include "cli/command.h"
+#include "integrate/compensation.h"
 #include "integrate/split_sum.h"
 #include "optics/refractive_index.h"
 
@@ -61,7 +62,7 @@ Exit run(const Options& o) {
       model.push_back(describe(p.about, p.parameters));
       model.back()["spec"] = p.spec;
     }
-    model.push_back(describe(split_sum_about, {}));
+    for (const auto& e : evaluated_by_commands()) model.push_back(describe(*e.about, {}));
     for (const auto& m : metals()) {
       Json n = Json::array(), k = Json::array();
       for (const auto& index : m.rgb()) n.push_back(index.n), k.push_back(index.k);
@@ -80,8 +81,10 @@ Exit run(const Options& o) {
     print(p.about, p.parameters);
     fmt::print("{:{}}= {}\n", "", indent, p.spec);
   }
-  print(split_sum_about, {});
-  fmt::print("{:{}}= gonio split_sum\n", "", indent);
+  for (const auto& e : evaluated_by_commands()) {
+    print(*e.about, {});
+    fmt::print("{:{}}= {}\n", "", indent, e.by);
+  }
   fmt::print(
       "\nOther models are [DIFFUSE+]NDF/MASKING/FRESNEL[+LOBE…], by these names less their "
       "prefix:\n"
@@ -93,6 +96,14 @@ Exit run(const Options& o) {
 }
 
 }  // namespace
+
+std::span<const Evaluated> evaluated_by_commands() {
+  static constexpr Evaluated all[] = {
+      {&split_sum_about, "gonio split_sum"},
+      {&walk_about, "gonio albedo --scattering walk"},
+      {&deterministic_about, "gonio albedo --scattering deterministic"}};
+  return all;
+}
 
 void add_models(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();

@@ -77,6 +77,10 @@ Exit run(const Options& o) {
     return Exit::done;
   }
 
+  for (const auto& e : evaluated_by_commands())
+    if (o.id == e.about->id)
+      throw wrong_usage(
+          fmt::format("{} is no formula of a few numbers: {} evaluates it", o.id, e.by));
   const std::size_t term = find_term(o.id);
   const auto& entry = catalogue()[term];
   const auto has = [&](std::string_view name) {

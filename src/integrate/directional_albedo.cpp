@@ -319,8 +319,18 @@ std::vector<Albedo> diffuse_albedo(const BoundModel& model,
 Albedo hemispherical_albedo(const BoundModel& model, const Goal& goal) {
   const auto parts = parts_of(without_equal_channels(model));
   const std::size_t channels = model.model.channels;
+  return hemispherical_average(
+      [&](double mu, double phi, const Goal& each) {
+        return albedo_of(parts, channels, mu, phi, each);
+      },
+      channels, model.model.anisotropic, goal);
+}
+
+Albedo hemispherical_average(const AlbedoAt& albedo,
+                             std::size_t channels,
+                             bool anisotropic,
+                             const Goal& goal) {
   // μ = q²: E may rise from the horizon as μ ln μ.
-  const bool turned = model.model.anisotropic;
   const std::size_t most = 20 * goal.evaluations;
   double inner = 0;
   std::size_t evaluations = 0;
@@ -330,17 +340,16 @@ Albedo hemispherical_albedo(const BoundModel& model, const Goal& goal) {
     // Where albedos cannot be had to that error, as of models that diverge, there is an end to it.
     const std::size_t left = most > evaluations ? most - evaluations : 0;
     const Goal each{goal.error / 4, std::min(goal.evaluations, left / x.size())};
-    tbb::parallel_for(std::size_t{0}, x.size(), [&](std::size_t i) {
-      at[i] = albedo_of(parts, channels, x[i] * x[i], y[i / line_nodes], each);
-    });
+    tbb::parallel_for(std::size_t{0}, x.size(),
+                      [&](std::size_t i) { at[i] = albedo(x[i] * x[i], y[i / line_nodes], each); });
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const double weight = 4 * x[i] * x[i] * x[i] / (turned ? std::numbers::pi / 2 : 1);
+      const double weight = 4 * x[i] * x[i] * x[i] / (anisotropic ? std::numbers::pi / 2 : 1);
       for (std::size_t c = 0; c < channels; ++c) out[c][i] = at[i].value[c] * weight;
       inner = std::max(inner, at[i].error);
       evaluations += at[i].evaluations;
     }
   };
-  const Rectangle all{{0, 0}, {1, turned ? std::numbers::pi / 2 : 0}};
+  const Rectangle all{{0, 0}, {1, anisotropic ? std::numbers::pi / 2 : 0}};
   const auto i = integrate(f, channels, {all}, {goal.error / 2, 4000});
   Albedo average{i.value, i.error + inner, evaluations};
   const double infinity = std::numeric_limits<double>::infinity();

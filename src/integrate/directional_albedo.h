@@ -4,6 +4,7 @@
 /// integrals, each with a bound of its error.
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,13 @@ std::vector<Albedo> diffuse_albedo(const BoundModel&,
 /// model is taken to be its own mirror image by tangent and bitangent.  Of evaluations, 20 times the
 /// goal's; infinite where the bound is then above 1 and above the value.
 Albedo hemispherical_albedo(const BoundModel&, const Goal& = {});
+
+/// The same of any albedo, that of a direction to a goal; it is asked in parallel.
+using AlbedoAt = std::function<Albedo(double mu, double phi, const Goal&)>;
+Albedo hemispherical_average(const AlbedoAt&,
+                             std::size_t channels,
+                             bool anisotropic,
+                             const Goal& = {});
 
 /// The same model with F = 1 in every lobe: what it then does not reflect, masking has taken away.
 BoundModel furnace(const BoundModel&);

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "brdf/masking.h"
 #include "brdf/registry.h"
 #include "integrate/cubature.h"
+#include "integrate/directional_albedo.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace gonio {
@@ -101,16 +100,11 @@ Bounded albedo_of(SmithGgx masking, double alpha, double mu, double error) {
              : albedo_of(SmithGgxSeparable<double>(p), alpha, mu, error);
 }
 
-void check_mu(double mu) {
-  if (!(0 < mu && mu <= 1))
-    throw wrong_usage(fmt::format("mu = {} is outside (0, 1]: the cosine of a zenith angle", mu));
-}
-
 }  // namespace
 
 Bounded ggx_albedo(double alpha, double mu, SmithGgx masking, double error) {
   check_range(alpha_parameter, "alpha", alpha);
-  check_mu(mu);
+  check_cosines({&mu, 1});
   return albedo_of(masking, alpha, mu, error);
 }
 
@@ -135,7 +129,7 @@ std::vector<Bounded> ggx_albedo_table(std::span<const double> alpha,
                                       SmithGgx masking,
                                       double error) {
   for (const double a : alpha) check_range(alpha_parameter, "alpha", a);
-  for (const double m : mu) check_mu(m);
+  check_cosines(mu);
   std::vector<Bounded> table(alpha.size() * mu.size());
   tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t i) {
     table[i] = albedo_of(masking, alpha[i / mu.size()], mu[i % mu.size()], error);
