@@ -30,8 +30,8 @@ function tick_text(x) {
 }
 
 /// \param data    [x, y…] for uPlot; null where there is no value
-/// \param series  [{color, kind: "points" | "line"}] of the y
-/// \param o       {x_label, x_ends, x_steps, y_label, height, log, mark: x of a dashed line, text: the plot
+/// \param series  [{color, kind: "points" | "line" | "both", width, dash: [on, off]}] of the y
+/// \param o       {x_label, x_ends, x_steps, x_log, y_label, height, log, mark: x of a dashed line, text: the plot
 ///                in words, y_of(i): whether point i sets the range of y, hover(indices or null)}
 /// Returns {node, set({log, shown})}.
 function curve_plot(data, series, o) {
@@ -66,6 +66,7 @@ function curve_plot(data, series, o) {
     return null;
   };
   const filled = (s) => data[s + 1].filter((v) => v !== null).length;
+  const log_axis = { splits: (u, a, low, high) => log_ticks(low, high), filter: (u, ticks) => ticks };
   const axis = (label, extra) => ({
     stroke: () => color("muted"), font: plot_font, label, labelFont: plot_font, labelSize: 20, labelGap: 0,
     grid: { stroke: () => color("faint"), width: 1 }, ticks: { stroke: () => color("rule"), width: 1, size: 4 },
@@ -78,19 +79,20 @@ function curve_plot(data, series, o) {
     plot = new uPlot({
       width, height: o.height ?? 250, legend: { show: false }, padding: [8, 8, 0, 0],
       cursor: { y: false, drag: { x: true, y: false }, dataIdx: nearest, points: { size: 7 } },
-      scales: { x: { time: false, range: x_range },
+      scales: { x: { time: false, range: x_range, distr: o.x_log ? 3 : 1 },
                 y: { distr: state.log ? 3 : 1, range: y_range } },
       axes: [
-        axis(o.x_label, { size: 30, space: 40, incrs: o.x_steps, values: (u, ticks) => ticks.map(tick_text) }),
+        axis(o.x_label, { size: 30, space: 40, incrs: o.x_steps, values: (u, ticks) => ticks.map(tick_text),
+                          ...(o.x_log ? log_axis : {}) }),
         axis(o.y_label, { size: 52, values: (u, ticks) => ticks.map(tick_text),
-                          ...(state.log ? { splits: (u, a, low, high) => log_ticks(low, high), filter: (u, ticks) => ticks } : {}) }),
+                          ...(state.log ? log_axis : {}) }),
       ],
       // pxAlign 0: rounded to whole pixels, points would stand beside their line
       series: [{}, ...series.map((s, i) => (s.kind === "points"
         ? { pxAlign: 0, show: state.shown[i], stroke: () => color(s.color), paths: () => null,
             points: { show: true, size: filled(i) > 60 ? 4.5 : 7, width: 0, fill: () => color(s.color) + "8c" } }
-        : { pxAlign: 0, show: state.shown[i], stroke: () => color(s.color), width: 1.6, spanGaps: false,
-            points: { show: false } }))],
+        : { pxAlign: 0, show: state.shown[i], stroke: () => color(s.color), width: s.width ?? 1.6, dash: s.dash,
+            spanGaps: s.kind === "both", points: { show: s.kind === "both", size: 5, width: 0, fill: () => color(s.color) } }))],
       hooks: {
         drawClear: [(u) => {
           if (!known(o.mark)) return;
@@ -134,17 +136,24 @@ function between_colors(list, t) {
 const diverging = () => ["low-2", "low-1", "zero", "high-1", "high-2"].map(color);
 const sequential = () => ["zero", "rms-1", "rms-2"].map(color);
 
-/// An axis of a map: {edges [°], …how it is drawn}.  theta_h grows as its square root: the peak is seen.
+/// An axis of a map over angles: {edges [°], …how it is drawn}.  theta_h grows as its square root: the peak is seen.
 function map_axis(name, edges) {
   const root = name === "theta_h";
   const label = { theta_h: "θ_h [°], half-vector angle (axis grows as √θ_h)", theta_d: "θ_d [°], difference angle",
                   theta_i: "θ_i [°], incident angle", theta_o: "θ_o [°], outgoing angle" }[name];
   const even = [0, 15, 30, 45, 60, 75, 90];
-  return { name, edges, label, part: (deg) => (root ? Math.sqrt(deg / 90) : deg / 90), deg: (part) => 90 * (root ? part * part : part),
+  return { name, edges, label, unit: "°", ends: [0, 90], part: (deg) => (root ? Math.sqrt(deg / 90) : deg / 90), value: (part) => 90 * (root ? part * part : part),
            ticks: root ? [0, 0.5, 2, 5, 10, 20, 30, 45, 60, 90] : even, few: root ? [0, 2, 10, 30, 60, 90] : even };
 }
 
-/// Cells over two angles, one of several layers at a time.
+/// An axis of a map over anything from 0 to 1, of cells around `at`.
+function unit_axis(name, label, at) {
+  const between = at.slice(1).map((x, i) => (x + at[i]) / 2);
+  return { name, at, label, unit: "", ends: [0, 1], edges: [0, ...between, 1], part: (x) => x, value: (part) => part,
+           ticks: [0, 0.2, 0.4, 0.6, 0.8, 1], few: [0, 0.5, 1] };
+}
+
+/// Cells over two axes, one of several layers at a time.
 /// \param layers  {name: {at(k): place on the scale in [0, 1], or null; colors: function to a list, or
 ///                 color(k); ticks: [[place, text]…]; label; ground: colour where nothing is}}, of cell
 ///                 k = x · cells of y + y
@@ -158,8 +167,8 @@ function heat_map(x, y, layers, say, text) {
 
   const box = { left: 46, top: 8, right: 10, bottom: 84 };
   let width = 0, height = 0;
-  const x_of = (deg) => box.left + (width - box.left - box.right) * x.part(deg);
-  const y_of = (deg) => height - box.bottom - (height - box.bottom - box.top) * y.part(deg);
+  const x_of = (value) => box.left + (width - box.left - box.right) * x.part(value);
+  const y_of = (value) => height - box.bottom - (height - box.bottom - box.top) * y.part(value);
 
   function draw() {
     const scale = devicePixelRatio || 1;
@@ -171,7 +180,7 @@ function heat_map(x, y, layers, say, text) {
     g.scale(scale, scale);
     g.font = plot_font;
     const layer = state.layer, colors = layer.colors?.();
-    const [x0, x1, y0, y1] = [x_of(0), x_of(90), y_of(0), y_of(90)];
+    const [x0, x1, y0, y1] = [...x.ends.map(x_of), ...y.ends.map(y_of)];
 
     if (layer.ground) {
       g.fillStyle = color(layer.ground);
@@ -242,16 +251,17 @@ function heat_map(x, y, layers, say, text) {
       return;
     }
     const [i, j] = state.cell;
-    const from_to = (edges, n) => `${plain(edges[n], 3)}–${plain(edges[n + 1], 3)}°`;
-    readout.replaceChildren(angle_name(x.name), ` ${from_to(x.edges, i)}, `, angle_name(y.name), ` ${from_to(y.edges, j)}: `, ...say(i * ny + j));
+    const place = (axis, n) => (axis.at ? plain(axis.at[n], 3) : `${plain(axis.edges[n], 3)}–${plain(axis.edges[n + 1], 3)}${axis.unit}`);
+    readout.replaceChildren(angle_name(x.name), ` ${place(x, i)}, `, angle_name(y.name), ` ${place(y, j)}: `, ...say(i * ny + j));
   }
   const point_at = (cell) => { state.cell = cell; draw(); tell(); };
   canvas.addEventListener("pointermove", (e) => {
     const r = canvas.getBoundingClientRect();
-    const u = (e.clientX - r.left - x_of(0)) / (x_of(90) - x_of(0)), v = (y_of(0) - e.clientY + r.top) / (y_of(0) - y_of(90));
+    const [x0, x1, y0, y1] = [...x.ends.map(x_of), ...y.ends.map(y_of)];
+    const u = (e.clientX - r.left - x0) / (x1 - x0), v = (y0 - e.clientY + r.top) / (y0 - y1);
     if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return point_at(null);
-    const find = (edges, a) => edges.findLastIndex((e) => e <= a);
-    point_at([Math.min(nx - 1, find(x.edges, x.deg(u))), Math.min(ny - 1, find(y.edges, y.deg(v)))]);
+    const find = (edges, a) => edges.findLastIndex((edge) => edge <= a);
+    point_at([Math.min(nx - 1, find(x.edges, x.value(u))), Math.min(ny - 1, find(y.edges, y.value(v)))]);
   });
   canvas.addEventListener("pointerleave", () => point_at(null));
   canvas.addEventListener("keydown", (e) => {

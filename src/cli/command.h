@@ -33,6 +33,7 @@ void add_fit(CLI::App&, Action&);
 void add_bench(CLI::App&, Action&);
 void add_albedo(CLI::App&, Action&);
 void add_split_sum(CLI::App&, Action&);
+void add_report(CLI::App&, Action&);
 
 /// Entries of the catalogue that are neither term nor map nor composed of terms, and what evaluates them.
 struct Evaluated {

@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   gonio::cli::add_bench(app, action);
   gonio::cli::add_albedo(app, action);
   gonio::cli::add_split_sum(app, action);
+  gonio::cli::add_report(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version

@@ -1,0 +1,116 @@
+// What leaves after all bounces, material by material, and how far from it each compensation ends.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "brdf/registry.h"
+#include "integrate/compensation.h"
+#include "integrate/half_space.h"
+#include "reports/energy_parts.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+/// Materials that share a model: one for each channel.
+struct Family {
+  std::string_view fresnel;
+  std::vector<Setting> settings;
+  std::vector<std::string> names;
+};
+
+constexpr std::string_view schlick = "schlick";
+
+std::vector<Family> families() {
+  const std::vector<std::string> gold{"metal=Au"};
+  return {{schlick, {{"f0", {1, 0.9, 0.5, 0.04}}}, {"F = 1", "F0 = 0.9", "F0 = 0.5", "F0 = 0.04"}},
+          {"conductor", parse_settings(gold), {"gold, red", "gold, green", "gold, blue"}}};
+}
+
+/// Where the loss first exceeds each share, linearly between roughnesses.
+std::vector<Crossing> crossings(const EnergyMaterial& m) {
+  std::vector<Crossing> out;
+  for (const double mu : crossing_mu)
+    for (const double share : crossing_shares) {
+      double r = std::numeric_limits<double>::quiet_NaN(), last_r = 0, last = 0;
+      for (const auto& at : m.rows) {
+        if (at.mu != mu) continue;
+        const double loss = 1 - at.orders[0] / at.truth;
+        if (loss > share) {
+          r = last_r > 0 ? last_r + (at.roughness - last_r) * (share - last) / (loss - last) : 0;
+          break;
+        }
+        last_r = at.roughness;
+        last = loss;
+      }
+      out.push_back({share, mu, r});
+    }
+  return out;
+}
+
+constexpr struct {
+  std::string_view name;
+  Compensation compensation;
+} methods[] = {{"kulla_conty", Compensation::kulla_conty},
+               {"kulla_conty.linear", Compensation::kulla_conty_linear},
+               {"turquin", Compensation::turquin},
+               {"fdez_aguera", Compensation::fdez_aguera}};
+
+/// One roughness: a row for each channel's material at each mu and on average (mu 0).
+std::vector<std::vector<EnergyMaterial::At>> solve(const Family& family,
+                                                   double roughness,
+                                                   const std::vector<double>& mu) {
+  constexpr Goal goal{1e-6, 400'000};
+  auto settings = family.settings;
+  settings.push_back({"alpha", {roughness * roughness}});
+  const auto model = bind_model(fmt::format("ggx/smith_ggx.correlated/{}", family.fresnel),
+                                settings, family.names.size());
+  const auto all = half_space(model, mu, 1e-5);
+  std::vector<std::vector<EnergyMaterial::At>> rows(family.names.size());
+  for (std::size_t c = 0; c < rows.size(); ++c) {
+    const auto put = [&](double at, const Scattered& s) {
+      rows[c].push_back(
+          {roughness, at, s.albedo[c], s.error[c], s.order[c], {{"single", s.order[c][0]}}});
+    };
+    for (std::size_t i = 0; i < mu.size(); ++i) put(mu[i], all.at[i]);
+    put(0, all.average);
+  }
+  for (const auto& m : methods) {
+    // A and B, by which it works, are of Schlick's Fresnel.
+    if (m.compensation == Compensation::fdez_aguera && family.fresnel != schlick) continue;
+    const auto at = compensated_albedo(model, m.compensation, mu, 0, goal);
+    const auto average = compensated_average(model, m.compensation, goal);
+    for (std::size_t c = 0; c < rows.size(); ++c) {
+      for (std::size_t i = 0; i < mu.size(); ++i)
+        rows[c][i].scattering.push_back({m.name, at[i].value[c]});
+      rows[c].back().scattering.push_back({m.name, average.value[c]});
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+void add_materials(EnergyReport& report,
+                   const EnergyOptions& o,
+                   const std::function<void(double)>& done) {
+  const auto all = families();
+  const double steps = static_cast<double>(all.size() * o.roughness.size());
+  std::size_t finished = 0;
+  for (const auto& family : all) {
+    const std::size_t first = report.materials.size();
+    for (const auto& name : family.names)
+      report.materials.push_back({name, fmt::format("fresnel.{}", family.fresnel), {}, {}});
+    for (const double r : o.roughness) {
+      const auto rows = solve(family, r, o.mu);
+      for (std::size_t c = 0; c < rows.size(); ++c)
+        std::ranges::copy(rows[c], std::back_inserter(report.materials[first + c].rows));
+      done(static_cast<double>(++finished) / steps);
+    }
+  }
+  for (auto& m : report.materials) m.crossings = crossings(m);
+  add_costs(report);
+}
+
+}  // namespace gonio
