@@ -29,10 +29,17 @@ struct Shape {
   double radius() const { return std::hypot(x, y) / 2; }
   /// (cos θ₀ − cos θ₁) Δφ, in which near the pole the cosines would cancel
   double solid_angle() const { return 2 * x * std::sin(y / 2); }
-  Direction middle() const {
-    return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
-  }
+  /// Of its area: that lies further from the pole than half way.
+  double centre_theta() const { return theta + y * y / 12 * cos_theta / sin_theta; }
+  Direction middle() const { return direction(centre_theta(), phi); }
 };
+
+/// Flux by channel, then (R + G + B) ω Δω.
+std::array<double, 6> even_light(const Shape& s, const Rgb& l) {
+  const double omega = s.solid_angle(), all = omega * (l[0] + l[1] + l[2]);
+  const Direction d = s.middle();
+  return {omega * l[0], omega * l[1], omega * l[2], all * d.x, all * d.y, all * d.z};
+}
 
 /// What of it comes from above the horizon of n, as if the rectangle were flat.
 SummedEnvironment::Light above(const Environment& map,
@@ -64,13 +71,10 @@ struct Parts {
   const Rectangle* end() const { return of.data() + n; }
 };
 
-/// Cut along the longer side, or both; of whole texels while there are several.
+/// Cut along the longer side, or both; between texels while there are several.
 Parts parts(const Environment& map, const Rectangle& r) {
   const Shape s(map, r);
-  const bool several_x = r.x1 - r.x0 > 1, several_y = r.y1 - r.y0 > 1;
-  // a part is whole texels, or lies within one
-  const bool cut_x = several_x == several_y ? 2 * s.x > s.y : several_x;
-  const bool cut_y = several_x == several_y ? 2 * s.y > s.x : several_y;
+  const bool cut_x = 2 * s.x > s.y, cut_y = 2 * s.y > s.x;
   const auto middle_of = [](double low, double high, bool cut) {
     if (!cut) return high;
     const double half = (low + high) / 2;
@@ -94,23 +98,15 @@ struct Leaf {
 }  // namespace
 
 SummedEnvironment::SummedEnvironment(Environment map)
-    : map_(std::move(map)), sums_((map_.width + 1) * (map_.height + 1)) {
+    : map_(std::move(map)), sums_((map_.width + 1) * map_.height) {
   for (std::size_t j = 0; j < map_.height; ++j) {
     std::array<double, 6> row{};
     for (std::size_t i = 0; i < map_.width; ++i) {
       const double x = static_cast<double>(i), y = static_cast<double>(j);
-      const Rectangle texel{x, x + 1, y, y + 1};
-      const Shape s(map_, texel);
-      const double omega = s.solid_angle();
-      const Rgb l = map_.texel(i, j);
-      const Direction d = s.middle();
-      const double all = omega * (l[0] + l[1] + l[2]);
-      const double adds[] = {omega * l[0], omega * l[1], omega * l[2],
-                             all * d.x,    all * d.y,    all * d.z};
+      const auto adds = even_light(Shape(map_, {x, x + 1, y, y + 1}), map_.texel(i, j));
       for (std::size_t k = 0; k < 6; ++k) {
         row[k] += adds[k];
-        sums_[(j + 1) * (map_.width + 1) + i + 1][k] =
-            sums_[j * (map_.width + 1) + i + 1][k] + row[k];
+        sums_[j * (map_.width + 1) + i + 1][k] = row[k];
       }
     }
   }
@@ -118,24 +114,37 @@ SummedEnvironment::SummedEnvironment(Environment map)
 
 SummedEnvironment::Light SummedEnvironment::light(const Rectangle& r) const {
   const auto index = [](double v) { return static_cast<std::size_t>(v); };
-  if (r.x1 - r.x0 <= 1 && r.y1 - r.y0 <= 1) {
-    const Rgb l = map_.texel(index(r.x0), index(r.y0));
-    const Shape s(map_, r);
-    const double omega = s.solid_angle();
-    return {{omega * l[0], omega * l[1], omega * l[2]}, s.middle()};
+  std::array<double, 6> sum{};
+  double rows = 0;
+  const auto last = index(std::ceil(r.y1));
+  for (std::size_t j = index(r.y0); j < last; ++j) {
+    const double y = static_cast<double>(j);
+    const Rectangle part{r.x0, r.x1, std::max(r.y0, y), std::min(r.y1, y + 1)};
+    const bool whole = part.y1 - part.y0 == 1;
+    if (r.x1 - r.x0 <= 1) {  // within one texel
+      const auto adds = even_light(Shape(map_, part), map_.texel(index(r.x0), j));
+      for (std::size_t k = 0; k < 6; ++k) sum[k] += adds[k];
+      rows += adds[0] + adds[1] + adds[2];
+      continue;
+    }
+    const auto* row = sums_.data() + j * (map_.width + 1);
+    const auto &low = row[index(r.x0)], &high = row[index(r.x1)], &all = row[map_.width];
+    // a part of the row has a part of its light, nearer to a pole or further
+    double part_of = 1, across = 1, up = 1;
+    if (!whole) {
+      const Shape s(map_, part), of(map_, {r.x0, r.x1, y, y + 1});
+      part_of = s.solid_angle() / of.solid_angle();
+      across = part_of * std::sin(s.centre_theta()) / std::sin(of.centre_theta());
+      up = part_of * std::cos(s.centre_theta()) / std::cos(of.centre_theta());
+    }
+    const double scales[] = {part_of, part_of, part_of, across, across, up};
+    for (std::size_t k = 0; k < 6; ++k) sum[k] += (high[k] - low[k]) * scales[k];
+    rows += all[0] + all[1] + all[2];
   }
-  const auto at = [&](double x, double y) -> const std::array<double, 6>& {
-    return sums_[index(y) * (map_.width + 1) + index(x)];
-  };
-  std::array<double, 6> s{};
-  for (std::size_t k = 0; k < 6; ++k)
-    s[k] = at(r.x1, r.y1)[k] - at(r.x0, r.y1)[k] - at(r.x1, r.y0)[k] + at(r.x0, r.y0)[k];
-  const double length = std::hypot(s[3], s[4], s[5]);
+  const double length = std::hypot(sum[3], sum[4], sum[5]);
   // Where there is next to no light, differences of large sums say nothing of where it comes from.
-  const auto& whole = sums_.back();
-  if (!(length > 1e-9 * (whole[0] + whole[1] + whole[2])))
-    return {{s[0], s[1], s[2]}, Shape(map_, r).middle()};
-  return {{s[0], s[1], s[2]}, {s[3] / length, s[4] / length, s[5] / length}};
+  if (!(length > 1e-9 * rows)) return {{sum[0], sum[1], sum[2]}, Shape(map_, r).middle()};
+  return {{sum[0], sum[1], sum[2]}, {sum[3] / length, sum[4] / length, sum[5] / length}};
 }
 
 Gathered gather(const SummedEnvironment& light,

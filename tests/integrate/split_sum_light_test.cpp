@@ -42,6 +42,17 @@ TEST(SplitSumLight, UnderEvenLightIsExact) {
     }
 }
 
+/// The fifth of six views is mirrored to −z, where all texels of a row meet.
+TEST(SplitSumLight, SeesThePolesOfAFineMap) {
+  const SummedEnvironment even(test::gradient(256, {0, 0, 0}));
+  EXPECT_NEAR(surface_of(4, 6).outside({-std::sqrt(0.75), 0, 0.5}).z, -1, 1e-12);
+  for (const double roughness : {0.1, 0.3}) {
+    const auto v = lit_views(even, correlated, roughness, 0.5, 6)[4];
+    EXPECT_NEAR(v.exact(1)[0] / (v.a + v.b), 1, v.error / 2);
+    EXPECT_NEAR(v.prefiltered[0], 1, v.error / 2);
+  }
+}
+
 /// At α = 1, D = 1/π and V = 1/(2 (NoL + NoV)): from n, with L = 1 + d·ω and F = 1,
 ///
 ///   exact = 1 − ln 2 + (ln 2 − ½) d·n,   P = 1 + ⅔ d·n
