@@ -25,8 +25,7 @@ EnergyOptions energy_options(bool full) {
   return o;
 }
 
-EnergyReport energy_report(const EnergyOptions& o,
-                           const std::function<void(std::string_view, double)>& done) {
+EnergyReport energy_report(const EnergyOptions& o, const ReportProgress& done) {
   EnergyReport r;
   r.full = o.full;
   // What each part takes of the whole, about.

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "image/environment.h"
+#include "reports/report.h"
 
 namespace gonio {
 
@@ -132,18 +132,12 @@ struct EnergyOptions {
   std::vector<double> roughness, mu;  ///< ascending, up to 1
   std::size_t samples;                ///< of estimators by chance, at most
   std::vector<std::string> forms{};   ///< names; empty: all
-  struct Light {
-    std::string name;
-    Environment map;
-  };
-  std::vector<Light> environments{};
+  std::vector<ReportOptions::Light> environments{};
 };
 /// Quick: by 0.05 in roughness and mu; full: by 0.025.
 EnergyOptions energy_options(bool full);
 
-/// \param done  called with what is being done and the part that is done, in [0, 1]
-EnergyReport energy_report(const EnergyOptions&,
-                           const std::function<void(std::string_view, double)>& done = {});
+EnergyReport energy_report(const EnergyOptions&, const ReportProgress& done = {});
 
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const EnergyReport&);

@@ -1,12 +1,12 @@
 // gonio report: studies of the shipped approximations, each as data and as a page.
-#include <array>
+#include "reports/report.h"
+
 #include <filesystem>
 #include <system_error>
 
 #include "base/file.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "reports/energy.h"
 
 namespace gonio::cli {
 namespace {
@@ -16,40 +16,62 @@ struct Options : Common {
   std::vector<std::string> environments;
   bool full = false;
 };
-constexpr std::array report_names{"energy"};
+constexpr std::string_view all_reports = "all";
+
+/// A page and its data under the names of the contract, whole or not at all.
+class Files {
+ public:
+  Files(const std::string& folder, std::string_view name)
+      : page_path_((std::filesystem::path(folder) / name).string() + ".html"),
+        page_(page_path_),
+        data_((std::filesystem::path(folder) / name).string() + ".json") {}
+  void write(const ReportFiles& r) {
+    page_.write(r.html);
+    data_.write(r.json + "\n");
+    for (auto* f : {&data_, &page_}) f->close();  // both whole before the first takes its name
+    for (auto* f : {&data_, &page_}) f->commit();
+  }
+  const std::string& page_path() const { return page_path_; }
+
+ private:
+  std::string page_path_;
+  OutputFile page_, data_;
+};
+
+ReportFiles make(const ReportKind& kind, const ReportOptions& options, const Options& o) {
+  Progress progress(o.quiet);
+  const auto begin = std::chrono::steady_clock::now();
+  constexpr std::size_t all = 1000;
+  auto report = kind.make(options, [&](std::string_view what, double part) {
+    const auto done = static_cast<std::size_t>(part * all);
+    progress(
+        fmt::format("{}: {}, {} %{}", kind.name, what, done / 10, time_left(begin, done, all)));
+  });
+  progress.clear();
+  return report;
+}
 
 Exit run(const Options& o) {
   namespace fs = std::filesystem;
   use_jobs(o.jobs);
-  auto options = energy_options(o.full);
+  if (o.json && o.name == all_reports) throw wrong_usage("--json is for one report");
+  ReportOptions options{o.full, {}};
   for (const auto& path : o.environments)
     options.environments.push_back({fs::path(path).stem().string(), read_environment(path)});
   std::error_code error;
   fs::create_directories(o.output, error);
   if (error) throw bad_input(o.output, "making the folder", error.message(), "a place to write");
-  const auto place = [&](const std::string& ending) {
-    return (fs::path(o.output) / (o.name + ending)).string();
-  };
-  OutputFile page(place(".html")), data(place(".json"));
-
-  Progress progress(o.quiet);
-  const auto begin = std::chrono::steady_clock::now();
-  constexpr std::size_t all = 1000;
-  const auto report = energy_report(options, [&](std::string_view what, double part) {
-    const auto done = static_cast<std::size_t>(part * all);
-    progress(fmt::format("{}, {} %{}", what, done / 10, time_left(begin, done, all)));
-  });
-  progress.clear();
-  const std::string json = to_json(report);
-  page.write(energy_page_html(json));
-  data.write(json + "\n");
-  for (auto* f : {&data, &page}) f->close();  // both whole before the first takes its name
-  for (auto* f : {&data, &page}) f->commit();
-  if (o.json) {
-    fmt::print("{}\n", json);
-  } else {
+  for (const auto& kind : report_kinds()) {
+    if (o.name != all_reports && o.name != kind.name) continue;
+    Files files(o.output, kind.name);  // nobody waits for a report to learn that it has no place
+    const auto report = make(kind, options, o);
+    files.write(report);
+    if (o.json) {
+      fmt::print("{}\n", report.json);
+      continue;
+    }
     for (const auto& sentence : report.findings) fmt::print("{}\n", sentence);
-    fmt::print("{}\n", place(".html"));
+    fmt::print("{}\n", files.page_path());
   }
   return Exit::done;
 }
@@ -63,8 +85,15 @@ void add_report(CLI::App& app, Action& action) {
       "Studies what shipped approximations cost and lose: a page DIR/NAME.html and its data, "
       "DIR/NAME.json",
       "gonio report energy -o reports", o, run);
-  c->add_option("NAME", o->name, "energy: what single scattering loses, what gives it back")
-      ->check(one_of(report_names))
+  std::vector<std::string> names;
+  std::string what;
+  for (const auto& kind : report_kinds()) {
+    names.emplace_back(kind.name);
+    what += fmt::format("{}: {}; ", kind.name, kind.what);
+  }
+  names.emplace_back(all_reports);
+  c->add_option("NAME", o->name, what + "all: each of them")
+      ->check(CLI::IsMember(names))
       ->required();
   c->add_option("-o,--output", o->output, "Folder, made where it is not there")->required();
   c->add_option("--environment", o->environments,

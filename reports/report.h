@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// The reports by name: each a page DIR/NAME.html and its data DIR/NAME.json, made from the same struct.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "image/environment.h"
+
+namespace gonio {
+
+struct ReportOptions {
+  bool full = false;  ///< finer, some minutes
+  struct Light {
+    std::string name;
+    Environment map;
+  };
+  std::vector<Light> environments{};  ///< of the reports that light something
+};
+
+/// What is being done, and the part that is done, in [0, 1].
+using ReportProgress = std::function<void(std::string_view, double)>;
+
+struct ReportFiles {
+  std::string json, html;
+  std::vector<std::string> findings;  ///< sentences
+};
+
+struct ReportKind {
+  std::string_view name, what;
+  ReportFiles (*make)(const ReportOptions&, const ReportProgress&);
+};
+
+/// In the order of the index page.
+std::span<const ReportKind> report_kinds();
+
+}  // namespace gonio
