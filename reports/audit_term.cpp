@@ -8,6 +8,7 @@
 #include "optics/refractive_index.h"
 #include "reports/audit_entry.h"
 #include "reports/audit_samples.h"
+#include "reports/masking_shape.h"
 
 namespace gonio::auditing {
 namespace {
@@ -86,12 +87,8 @@ class TermAudit {
   /// The lobe that this term is looked at in: with the masking of its own distribution, or the
   /// distribution of its own masking.
   std::string lobe() const {
-    const std::string own(short_id(about_.id));
-    const bool beckmann = own.find("beckmann") != own.npos || own.find("blinn") != own.npos;
-    const std::string kind = catalogue()[term_].anisotropic ? "_aniso" : "",
-                      shape = own.starts_with("gtr") || own.starts_with("smith_gtr") ? "gtr"
-                              : beckmann                                             ? "beckmann"
-                                                                                     : "ggx";
+    const std::string own(short_id(about_.id)), shape(shape_of_term(own)),
+        kind = catalogue()[term_].anisotropic ? "_aniso" : "";
     return role_ == Role::ndf ? own + "/smith_" + shape + kind + ".correlated"
                               : shape + kind + "/" + own;
   }

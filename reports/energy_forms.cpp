@@ -7,6 +7,7 @@
 #include "brdf/registry.h"
 #include "integrate/directional_albedo.h"
 #include "reports/energy_parts.h"
+#include "reports/masking_shape.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -30,7 +31,7 @@ std::vector<EnergyForm> all_forms() {
   for (const auto& t : catalogue()) {
     const std::string masking(t.about->id);
     if (role_of(masking) != Role::masking || t.anisotropic) continue;
-    const std::string ndf = "ndf." + std::string(shape_of_masking(masking));
+    const std::string ndf = "ndf." + std::string(shape_of_term(masking));
     if (ndf != "ndf.gtr") {
       out.push_back({masking, ndf, masking, "", 0, 1, {}, {}, {}});
       continue;
@@ -117,11 +118,6 @@ std::vector<Crossing> crossings(const EnergyForm& f) {
 }
 
 }  // namespace
-
-std::string_view shape_of_masking(std::string_view id) {
-  const auto has = [&](std::string_view word) { return id.find(word) != id.npos; };
-  return has("smith_gtr") ? "gtr" : has("beckmann") ? "beckmann" : "ggx";
-}
 
 void add_forms(EnergyReport& report,
                const EnergyOptions& o,

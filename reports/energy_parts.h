@@ -15,9 +15,6 @@ namespace gonio {
 inline constexpr std::array crossing_mu{1.0, 0.5, 0.1, 0.0};
 inline constexpr std::array crossing_shares{0.01, 0.05, 0.1};
 
-/// "ggx", "beckmann" or "gtr": the distribution that a masking term is for.
-std::string_view shape_of_masking(std::string_view id);
-
 void add_forms(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);
 void add_materials(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);
 void add_estimators(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "reports/energy.h"
+#include "reports/remap.h"
 
 namespace gonio {
 namespace {
@@ -16,8 +17,17 @@ ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {
   return {std::move(json), std::move(html), report.findings};
 }
 
+ReportFiles remap(const ReportOptions& o, const ReportProgress& done) {
+  const auto report = remap_report(remap_options(o.full), done);
+  std::string json = to_json(report);
+  std::string html = remap_page_html(json);
+  return {std::move(json), std::move(html), report.findings};
+}
+
 constexpr std::array kinds{
-    ReportKind{"energy", "what single scattering loses, and what gives it back", energy}};
+    ReportKind{"energy", "what single scattering loses, and what gives it back", energy},
+    ReportKind{"remap", "masking forms against exact Smith, and which roughness each behaves like",
+               remap}};
 
 }  // namespace
 

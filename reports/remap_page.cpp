@@ -1,0 +1,98 @@
+// The remap report as JSON and as a page.
+#include "reports/assets.h"
+#include "reports/page.h"
+#include "reports/page_json.h"
+#include "reports/remap.h"
+
+namespace gonio {
+namespace {
+
+PageJson row(const RemapRow& r) {
+  return {{"form", r.form},
+          {"reference", r.reference},
+          {"roughness", page_json(r.roughness)},
+          {"rms", page_json(r.rms)},
+          {"max_rel", page_json(r.max_rel)},
+          {"albedo_mu_0_5", page_json(r.albedo)},
+          {"rms_error", page_json(r.rms_error)},
+          {"bias", page_json(r.bias)},
+          {"max_rel_nol", page_json(r.max_rel_nol)},
+          {"max_rel_nov", page_json(r.max_rel_nov)},
+          {"albedo_reference", page_json(r.albedo_reference)},
+          {"albedo_error", page_json(r.albedo_error)},
+          {"like_by_g2", page_json(r.by_g2.roughness)},
+          {"like_by_g2_left", page_json(r.by_g2.left)},
+          {"like_by_g2_at_end", r.by_g2.at_end},
+          {"like_by_albedo", page_json(r.by_albedo.roughness)},
+          {"like_by_albedo_left", page_json(r.by_albedo.left)},
+          {"like_by_albedo_at_end", r.by_albedo.at_end}};
+}
+
+}  // namespace
+
+std::string to_json(const RemapReport& r) {
+  PageJson out{{"schema", "gonio.report.remap/1"}, {"full", r.full}, {"findings", r.findings}};
+  PageJson rows = PageJson::array(), forms = PageJson::array(), albedo = PageJson::array(),
+           maps = PageJson::array(), uses = PageJson::array(), g1 = PageJson::array(),
+           vf = PageJson::array();
+  for (const auto& one : r.rows) rows.push_back(row(one));
+  for (const auto& f : r.forms) {
+    forms.push_back({{"form", f.form},
+                     {"ndf", f.ndf},
+                     {"formula", f.formula},
+                     {"ships", f.ships},
+                     {"operations", f.operations},
+                     {"roots", f.roots},
+                     {"reads_half", f.reads_half}});
+    for (const auto& at : f.at) {
+      albedo.push_back({{"form", f.form},
+                        {"roughness", page_json(at.roughness)},
+                        {"albedo", page_json(at.albedo)},
+                        {"error", page_json(at.error)}});
+      if (!at.g2.empty())
+        maps.push_back(
+            {{"form", f.form}, {"roughness", page_json(at.roughness)}, {"g2", page_json(at.g2)}});
+    }
+  }
+  for (const auto& u : r.uses)
+    uses.push_back({{"form", u.form},
+                    {"light", u.light},
+                    {"mu", page_json(u.mu)},
+                    {"roughness", page_json(u.roughness)},
+                    {"value", page_json(u.value)},
+                    {"separable", page_json(u.separable)},
+                    {"correlated", page_json(u.correlated)}});
+  for (const auto& g : r.g1)
+    g1.push_back({{"k", page_json(g.k)},
+                  {"nov", page_json(g.nov)},
+                  {"claimed", page_json(g.claimed)},
+                  {"value", page_json(g.value)},
+                  {"roughness", page_json(g.roughness)},
+                  {"smith", page_json(g.smith)}});
+  for (const auto& v : r.vf)
+    vf.push_back({{"form", v.form},
+                  {"fresnel", v.fresnel},
+                  {"over", v.over},
+                  {"roughness", page_json(v.roughness)},
+                  {"bias", page_json(v.bias)},
+                  {"factor", page_json(v.factor)},
+                  {"least", page_json(v.least)},
+                  {"most", page_json(v.most)}});
+  out["rows"] = rows;
+  out["mu"] = page_json(r.mu);
+  out["cosines"] = page_json(r.cosines);
+  out["forms"] = forms;
+  out["albedo"] = albedo;
+  out["maps"] = maps;
+  out["uses"] = uses;
+  out["g1"] = g1;
+  out["vf"] = vf;
+  return page_text(out);
+}
+
+std::string remap_page_html(std::string_view data) {
+  return make_page("Masking: what the remaps do", data,
+                   std::string(assets::report_js).append(assets::remap_js));
+}
+
+}  // namespace gonio
