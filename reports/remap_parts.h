@@ -42,7 +42,7 @@ std::vector<double> g2_at(std::size_t term, double roughness, std::span<const Ro
 std::vector<double> mean_g2(std::size_t term, double roughness, const Pairs&);
 bool reads_half(std::size_t term);
 
-/// The place in [0, 1] where f is least, for one with a single valley at about a step of `grid`.
+/// Where f is least between the ends of `grid`: near the least of its values there, to 1e-5.
 NearestRoughness nearest(const std::function<double(double)>& f, std::span<const double> grid);
 
 /// "smith_ggx.separable" or "correlated", or Beckmann's, as ids.

@@ -57,7 +57,7 @@ const shift_curves = () => all_curves((r) => r[`like_by_${chosen.by}`], { title:
 const said_of = (f) => el("p", { class: "small" }, el("code", {}, f.formula), f.ships ? el("span", { class: "muted" }, ` · ${f.ships}`) : null);
 const panels = changing(() => el("div", {}, said_of(by_name.get(chosen.form)),
   el("div", { class: "columns map" }, el("figure", {}, el("figcaption", {}, "Relative error of G2 ", el("small", {}, `${short(chosen.form)}, roughness ${plain(chosen.roughness)}`)), error_map()),
-    albedo_curves()), el("div", { class: "columns" }, shift_curves(), rms_curves())));
+    albedo_curves()), el("div", { class: "columns", style: { "margin-top": "22px" } }, shift_curves(), rms_curves())));
 const change = (key, convert = (v) => v) => (v) => { chosen[key] = convert(v); panels.again(); };
 function each_form() {
   return section("How far off, and which roughness it behaves like", "G2 of each form against exact Smith: GGX's forms against Smith for GGX, Beckmann's against Smith for Beckmann. Forms that read the half vector (VoH, NoH) are "
@@ -100,7 +100,7 @@ function in_place_of_vf() {
       { name: "most", x, y: list.map((v) => v.most), color: "muted" }],
       { title, note, x_label: "roughness", y_label: "ratio", x_ends: [0, 1], log: true, scale: true, height: 300, text: `${form} over V F, ${title}.`, y_text: (y) => "×" + significant(y, 3) });
   })));
-  return section("In place of V F", "F0 V of the mobile forms over V F of Smith (correlated) and an exact Fresnel term; 1 is right. Cosines from 0.05 to 1.",
+  return section("In place of V F", "F0 V of the mobile forms over V F of Smith (correlated) and an exact Fresnel term; 1 is right. V = 1/(4 LoH² (r + 0.5)): the 4 of D F G/(4 NoL NoV), which the publication leaves out, is given back. Cosines from 0.05 to 1 in steps of 0.05.",
     el("div", { class: "controls" }, chooser("Form", of_forms.map((f) => [f, short(f)]), form, (f) => { form = f; both.again(); }),
       chooser("Fresnel", fresnels.map((f) => [f, f]), fresnel, (f) => { fresnel = f; both.again(); })), both.node);
 }
