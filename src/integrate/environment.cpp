@@ -27,6 +27,8 @@ struct Shape {
         x((map.phi(r.x0) - map.phi(r.x1)) * sin_theta),
         y(map.theta(r.y1) - map.theta(r.y0)) {}
   double radius() const { return std::hypot(x, y) / 2; }
+  /// Mean square of the distance from the middle.
+  double spread() const { return (x * x + y * y) / 12; }
   /// (cos θ₀ − cos θ₁) Δφ, in which near the pole the cosines would cancel
   double solid_angle() const { return 2 * x * std::sin(y / 2); }
   /// Of its area: that lies further from the pole than half way.
@@ -89,6 +91,17 @@ Parts parts(const Environment& map, const Rectangle& r) {
   return p;
 }
 
+/// How much further light is spread within parts than they are from each other; 0 where they vouch for it.
+double hidden_spread(std::span<const SummedEnvironment::Light> parts, double whole_spread) {
+  double within = 0, all = 0;
+  for (const auto& l : parts) {
+    const double weight = l.flux[0] + l.flux[1] + l.flux[2];
+    within += weight * l.spread;
+    all += weight;
+  }
+  return all > 0 ? std::max(2 * within / all - whole_spread, 0.0) : 0;
+}
+
 /// A rectangle, as what its parts give.
 struct Leaf {
   Rectangle r;
@@ -142,9 +155,17 @@ SummedEnvironment::Light SummedEnvironment::light(const Rectangle& r) const {
     rows += all[0] + all[1] + all[2];
   }
   const double length = std::hypot(sum[3], sum[4], sum[5]);
+  const Shape whole(map_, r);
   // Where there is next to no light, differences of large sums say nothing of where it comes from.
-  if (!(length > 1e-9 * rows)) return {{sum[0], sum[1], sum[2]}, Shape(map_, r).middle()};
-  return {{sum[0], sum[1], sum[2]}, {sum[3] / length, sum[4] / length, sum[5] / length}};
+  if (!(length > 1e-9 * rows)) return {{sum[0], sum[1], sum[2]}, whole.middle(), whole.spread()};
+  // |ω − c|² is 1 − |c|² on average of points, which texels are not.
+  const double x = (r.x0 + r.x1) / 2, half_x = std::min(r.x1 - r.x0, 1.0) / 2;
+  const double y = (r.y0 + r.y1) / 2, half_y = std::min(r.y1 - r.y0, 1.0) / 2;
+  const double of_texel = Shape(map_, {x - half_x, x + half_x, y - half_y, y + half_y}).spread();
+  const double mean = length / (sum[0] + sum[1] + sum[2]);
+  return {{sum[0], sum[1], sum[2]},
+          {sum[3] / length, sum[4] / length, sum[5] / length},
+          std::max((1 - mean) * (1 + mean), 0.0) + of_texel};
 }
 
 Gathered gather(const SummedEnvironment& light,
@@ -158,12 +179,10 @@ Gathered gather(const SummedEnvironment& light,
   std::vector<double> value, error;  // [leaf][function][channel]
   Gathered total;
 
-  const auto is_blind = [&](const Rectangle& r) {
-    const Shape shape(map, r);
-    const double fine = 4 * shape.radius();
-    if (fine <= std::min(focus.width, 0.4)) return false;
+  /// Within how much the functions change, about a rectangle.
+  const auto scale_at = [&](const Shape& shape) {
     const double far = std::acos(std::clamp(dot(shape.middle(), focus.at), -1.0, 1.0));
-    return fine > std::min(far + focus.width, 0.4);
+    return std::min(far + focus.width, 0.4);
   };
   std::vector<Direction> at;
   std::vector<double> columns;
@@ -171,6 +190,7 @@ Gathered gather(const SummedEnvironment& light,
   const auto add = [&](const std::vector<Rectangle>& rectangles) {
     std::vector<SummedEnvironment::Light> lights;
     std::vector<std::size_t> first{0};
+    std::vector<double> unseen;  // relative error by what parts hide
     at.clear();
     for (const auto& r : rectangles) {
       const auto push = [&](const Rectangle& part) {
@@ -178,6 +198,12 @@ Gathered gather(const SummedEnvironment& light,
       };
       push(r);
       for (const auto& part : parts(map, r)) push(part);
+      const Shape shape(map, r);
+      const double scale = scale_at(shape);
+      leaves.push_back({r, 4 * shape.radius() > scale});
+      unseen.push_back(
+          8 / (scale * scale) *
+          hidden_spread(std::span(lights).subspan(first.back() + 1), lights[first.back()].spread));
       first.push_back(lights.size());
     }
     for (const auto& l : lights) at.push_back(l.centre);
@@ -186,17 +212,16 @@ Gathered gather(const SummedEnvironment& light,
     for (std::size_t f = 0; f < functions; ++f) out.push_back(columns.data() + f * at.size());
     g(at, out);
     total.evaluations += at.size();
-    for (std::size_t k = 0; k < rectangles.size(); ++k) {
-      leaves.push_back({rectangles[k], is_blind(rectangles[k])});
+    for (std::size_t k = 0; k < rectangles.size(); ++k)
       for (std::size_t f = 0; f < functions; ++f)
         for (std::size_t c = 0; c < 3; ++c) {
           double sum = 0;
           for (std::size_t p = first[k] + 1; p < first[k + 1]; ++p)
             sum += lights[p].flux[c] * out[f][p];
           value.push_back(sum);
-          error.push_back(2 * std::abs(sum - lights[first[k]].flux[c] * out[f][first[k]]));
+          error.push_back(2 * std::abs(sum - lights[first[k]].flux[c] * out[f][first[k]]) +
+                          unseen[k] * sum);
         }
-    }
   };
 
   add({{0, static_cast<double>(map.width), 0, static_cast<double>(map.height)}});

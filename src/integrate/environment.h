@@ -26,6 +26,7 @@ class SummedEnvironment {
   struct Light {
     Rgb flux;          ///< ∫ L dω
     Direction centre;  ///< where it comes from: the mean of ω, weighted by R + G + B
+    double spread;     ///< and the mean of |ω − centre|², weighted alike [rad²]
   };
   Light light(const Rectangle&) const;
 
@@ -61,7 +62,13 @@ struct Gathered {
 /// Exact in L: rectangles of texels, and of parts of a texel, are halved where the functions change most for
 /// the light that comes from there.  A rectangle gives ∫L dω times the function where its light comes from;
 /// across the horizon the part of it that lies above, in the middle of that.  It is judged by what its parts
-/// give, and twice the sum of these differences is the error.
+/// give, and twice the sum of these differences is the error.  That speaks for light within the parts as far
+/// as it is spread no more than their centres are.  Of what is spread more, as of a sun in one texel of many,
+/// whose centre its parts share, the error is
+///
+///   8 ∫L g dω (spread − centres' spread)/s²,   s the way to where the functions change most, and its width
+///
+/// twice what it is in the tail of a lobe of GGX, which falls as s⁻⁴: ∇²g/4 = 4 g/s².
 ///
 /// Of lobes of GGX in three real maps at 1e-3, against 1e-4: none of 1944 values off by more than 2.2e-4.
 Gathered gather(const SummedEnvironment&,

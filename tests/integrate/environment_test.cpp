@@ -51,6 +51,36 @@ TEST(GatheredEnvironment, OfTexelsIsExactToItsError) {
   }
 }
 
+/// A sun that fills one texel, among others that are black or dim, and the same light in texels a fourth as wide.
+TEST(GatheredEnvironment, SeesThatALoneTexelIsNoPoint) {
+  constexpr std::size_t height = 64, x = 37, y = 22;
+  for (const float dim : {0.0F, 1e-3F}) {
+    const auto sun = [&](std::size_t parts) {
+      const std::size_t h = height * parts, w = 2 * h;
+      Environment map{w, h, std::vector<std::array<float, 3>>(w * h, {dim, dim, dim})};
+      for (std::size_t j = y * parts; j < (y + 1) * parts; ++j)
+        for (std::size_t i = x * parts; i < (x + 1) * parts; ++i)
+          map.radiance[j * w + i] = {1e4, 2e4, 3e4};
+      return map;
+    };
+    const Environment coarse = sun(1);
+    const SummedEnvironment light(coarse), finer(sun(4));
+    for (const double p : {10.0, 40.0, 1000.0})
+      for (const double off : {0.5, 1.0, 3.2}) {
+        const Direction n = direction(coarse.theta(y + 0.5), coarse.phi(x + off));
+        const Focus focus{n, n, 1 / std::sqrt(p)};
+        const auto truth = gather(finer, cone(n, p), 2, focus, {5e-5, 4'000'000});
+        for (const double goal : {1e-2, 1e-3}) {
+          const auto g = gather(light, cone(n, p), 2, focus, {goal, 1'000'000});
+          EXPECT_LE(g.error, goal);
+          for (const std::size_t f : {0, 1})
+            EXPECT_NEAR(g.value[f][0] / truth.value[f][0], 1, g.error + truth.error)
+                << p << " " << off << " " << goal << " " << dim;
+        }
+      }
+  }
+}
+
 TEST(GatheredEnvironment, OfNothingIsNothing) {
   Environment black{8, 4, std::vector<std::array<float, 3>>(32)};
   const auto dark = gather(SummedEnvironment(black), cone({}, 1), 2, {{}, {}, 1});
