@@ -211,7 +211,8 @@ void put_peak(const Grid& grid, const Vector& single, const Vector& cosine, Matr
     }
 }
 
-/// E of each order at the further rows of the grid, and its average below them.
+/// E of each order at the further rows of the grid, and its average below them: two at least, which is
+/// what those after them are judged by.
 std::vector<Vector> orders(const Grid& grid, const Discrete& d, std::size_t c, double least) {
   const auto p = static_cast<Index>(grid.gauss.size());
   const auto nodes = static_cast<Index>(grid.nodes()), further = d.g2.rows() - nodes;
@@ -223,7 +224,7 @@ std::vector<Vector> orders(const Grid& grid, const Discrete& d, std::size_t c, d
         (f * d.cosine).cwiseMax(0);  // where there is nothing, polynomials leave −1e-25
     all.emplace_back(further + 1);
     all.back() << e.tail(further), 2 * d.cosine.dot(e.head(nodes));
-    if (!(all.back().maxCoeff() > least)) return all;
+    if (all.size() > 1 && !(all.back().maxCoeff() > least)) return all;
     next.bottomRows(further).noalias() = turn.bottomRows(further) * f.topRows(nodes);
     for (Index k = 0; k < nodes; k += p)
       next.middleRows(k, p).noalias() = turn.block(k, 0, p, k + p) * f.topRows(k + p);
@@ -290,7 +291,7 @@ Solution solve(const Surface& s,
       return single[static_cast<std::size_t>(i)].value[s.channel[c]];
     };
     put_peak(grid, Vector::NullaryExpr(rows, known), d.cosine, first);
-    solution.orders.push_back(orders(grid, d, c, error / 100));
+    solution.orders.push_back(orders(grid, d, c, std::min(error / 100, 1e-3)));
   }
   return solution;
 }

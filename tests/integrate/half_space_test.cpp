@@ -67,6 +67,25 @@ TEST(HalfSpace, ItsFirstOrderIsDirectionalAlbedo) {
   }
 }
 
+TEST(HalfSpace, ItsBoundIsTrueHoweverLittleIsAskedFor) {
+  for (const double goal : {0.03, 1.0, 200.0}) {
+    const auto h = half_space(lobe("ggx", 1, 1), cosines, goal);
+    for (const auto& s : h.at) EXPECT_NEAR(s.albedo[0], 1, s.error[0]) << goal;
+    EXPECT_NEAR(h.average.albedo[0], 1, h.average.error[0]) << goal;
+  }
+}
+
+/// All of whose first order is less than what is asked for.
+TEST(HalfSpace, KnowsASecondOrderOfWhatIsNearlyBlack) {
+  const auto m =
+      bind_model("ggx/smith_ggx.correlated/constant", {{"alpha", {1}}, {"f0", {1e-4}}}, 1);
+  const auto h = half_space(m, cosines, 0.1);
+  for (const auto& s : h.at) {
+    ASSERT_GE(s.order[0].size(), 2U);
+    EXPECT_GT(s.order[0][1], 0);
+  }
+}
+
 TEST(HalfSpace, ItsBoundIsTrueAndWhatWasAskedFor) {
   for (const auto& m : {lobe("ggx", 0.05, 0.5), conductor(0.5)}) {
     const auto truth = half_space(m, cosines, 3e-7);
