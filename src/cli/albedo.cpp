@@ -143,6 +143,7 @@ Exit run(const Options& o) {
   auto model = bind_model(o.spec, parse_settings(o.set));
   if (o.furnace) model = furnace(model);
   check_cosines(o.mu);
+  check_azimuth(o.phi_deg * degree);
   const Result r = solved ? by_solution(model, o) : by_formula(model, o);
   for (std::size_t i = 0; i < r.at.size(); ++i)
     expect_finite(o, r.at[i], fmt::format("mu = {}", o.mu[i]));

@@ -188,6 +188,7 @@ std::vector<Albedo> compensated_albedo(const BoundModel& model,
                                        double phi,
                                        const Goal& goal) {
   check_cosines(mu);
+  check_azimuth(phi);
   const Compensated albedo(model, how, goal);
   std::vector<Albedo> all(mu.size());
   tbb::parallel_for(std::size_t{0}, mu.size(),

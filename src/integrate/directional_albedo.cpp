@@ -286,6 +286,7 @@ std::vector<Albedo> albedos_of(const std::vector<Part>& parts,
                                double phi,
                                const Goal& goal) {
   check_cosines(mu);
+  check_azimuth(phi);
   std::vector<Albedo> all(mu.size());
   tbb::parallel_for(std::size_t{0}, mu.size(),
                     [&](std::size_t i) { all[i] = albedo_of(parts, channels, mu[i], phi, goal); });
@@ -298,6 +299,10 @@ void check_cosines(std::span<const double> mu) {
   for (const double m : mu)
     if (!(0 < m && m <= 1))
       throw wrong_usage(fmt::format("mu = {} is outside (0, 1]: the cosine of a zenith angle", m));
+}
+
+void check_azimuth(double phi) {
+  if (!std::isfinite(phi)) throw wrong_usage(fmt::format("phi = {} is no azimuth", phi));
 }
 
 std::vector<Albedo> directional_albedo(const BoundModel& model,

@@ -21,6 +21,8 @@ struct Albedo {
 
 /// Refuses, as wrong usage, what is no cosine of a direction above the surface: outside (0, 1].
 void check_cosines(std::span<const double> mu);
+/// And what is no azimuth: infinite, or not a number.
+void check_azimuth(double phi);
 
 /// E(μ) = ∫ f(l, v) NoL dω_l at each μ = NoV in (0, 1], in parallel; anything else is wrong usage.
 ///

@@ -434,6 +434,7 @@ std::vector<Scattered> walk(const BoundModel& m,
                             const WalkGoal& goal) {
   check(goal);
   check_cosines(mu);
+  check_azimuth(phi);
   const auto surfaces = surfaces_of(m);
   std::vector<Scattered> all(mu.size());
   tbb::parallel_for(std::size_t{0}, mu.size(), [&](std::size_t i) {

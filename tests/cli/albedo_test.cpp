@@ -68,6 +68,11 @@ TEST(AlbedoCommand, RefusesWhatItCannotDo) {
   const Folder f;
   for (const char* mu : {"0", "-0.5", "1.5", "nan"})
     expect_one_line(gonio(f, std::string("albedo ") + white + " --mu " + mu), 2, "outside (0, 1]");
+  for (const char* how : {"single", "turquin", "walk", "deterministic"})
+    for (const char* phi : {"nan", "inf"})
+      expect_one_line(gonio(f, std::string("albedo ") + white + " --mu 0.5 --phi " + phi +
+                                   " --scattering " + how),
+                      2, "azimuth");
   expect_one_line(gonio(f, std::string("albedo ") + white), 2, "--mu");
   expect_one_line(gonio(f, std::string("albedo ") + white + " --mu 1 --scattering hike"), 2,
                   "scattering");

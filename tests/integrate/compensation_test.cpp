@@ -102,6 +102,7 @@ TEST(Compensation, RefusesWhatItCannotDo) {
   const auto gold = bind_model("ggx/smith_ggx.correlated/conductor", {{"metal", {}, "Au"}});
   EXPECT_THROW(compensated_albedo(gold, Compensation::fdez_aguera, {{0.5}}), Error);
   EXPECT_THROW(compensated_albedo(schlick(0.5, {0.5}), Compensation::turquin, {{1.5}}), Error);
+  EXPECT_THROW(compensated_albedo(gold, Compensation::turquin, {{0.5}}, HUGE_VAL), Error);
 }
 
 TEST(Compensation, ColourIsNearerTheTruthWithTheSquareOfFAverage) {

@@ -204,6 +204,7 @@ TEST(Walk, AddsLobesAndNothingBelow) {
 TEST(Walk, RefusesWhatItCannotWalk) {
   const auto m = grey("ggx", 0.5, 1);
   for (const double mu : {0.0, -0.5, 1.5, std::nan("")}) EXPECT_THROW(at(m, mu, {}), Error) << mu;
+  for (const double phi : {std::nan(""), HUGE_VAL}) EXPECT_THROW(at(m, 0.5, {}, phi), Error) << phi;
   EXPECT_THROW(at(m, 0.5, {1, 1}), Error);
   EXPECT_THROW(at(m, 0.5, {1, 100, 0, 0}), Error);
   EXPECT_THROW(at(bind_model("ggx/smith_ggx.separable/schlick", {}), 0.5, {}), Error);
