@@ -4,13 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/error.h"
 #include "brdf/registry.h"
 #include "brdf/scattering.h"
 #include "integrate/ggx_albedo.h"
-#include "integrate/quadrature.h"
 #include "integrate/slopes.h"
 
 #include <fmt/format.h>
@@ -201,45 +199,6 @@ Albedo compensated_average(const BoundModel& model, Compensation how, const Goal
   return hemispherical_average(
       [&](double mu, double phi, const Goal& each) { return albedo(mu, phi, each); },
       model.model.channels, model.model.anisotropic, goal);
-}
-
-Scattered walk_average(const BoundModel& model, const WalkGoal& goal) {
-  const int azimuths = model.model.anisotropic ? 4 : 1;  // of a quarter
-  std::vector<double> mu, weight;
-  double squares = 0;
-  for (const auto& node : gauss_legendre(24)) {
-    mu.push_back(square(node.x));
-    weight.push_back(4 * node.weight * square(node.x) * node.x / azimuths);
-    squares += square(weight.back()) * azimuths;
-  }
-  WalkGoal each = goal;
-  each.walks =
-      std::max<std::size_t>(1, goal.walks / (mu.size() * static_cast<std::size_t>(azimuths)));
-  each.error = goal.error / std::sqrt(squares);
-  const std::size_t channels = model.model.channels;
-  const std::vector<double> none(channels);
-  const std::vector<std::vector<double>> no_orders(channels);
-  Scattered sum{none, none, no_orders, none, no_orders, 0};
-  for (int k = 0; k < azimuths; ++k) {
-    each.seed = goal.seed + static_cast<std::uint64_t>(k) * 0x9e3779b97f4a7c15;
-    const auto at = walk(model, mu, (k + 0.5) * std::numbers::pi / 2 / azimuths, each);
-    for (std::size_t i = 0; i < mu.size(); ++i)
-      for (std::size_t c = 0; c < channels; ++c) {
-        sum.albedo[c] += weight[i] * at[i].albedo[c];
-        sum.error[c] = std::hypot(sum.error[c], weight[i] * at[i].error[c]);
-        sum.rest[c] += weight[i] * at[i].rest[c];
-        const std::size_t orders = at[i].order[c].size();
-        sum.order[c].resize(std::max(sum.order[c].size(), orders));
-        sum.order_error[c].resize(sum.order[c].size());
-        for (std::size_t n = 0; n < orders; ++n) {
-          sum.order[c][n] += weight[i] * at[i].order[c][n];
-          double& error = sum.order_error[c][n];
-          error = std::hypot(error, weight[i] * at[i].order_error[c][n]);
-        }
-      }
-    for (const auto& s : at) sum.bounces += s.bounces;
-  }
-  return sum;
 }
 
 Albedo with_diffuse(const Scattered& lobes, const Albedo& diffuse) {

@@ -44,10 +44,6 @@ std::vector<Albedo> compensated_albedo(
 /// Its average over the hemisphere, as hemispherical_albedo().
 Albedo compensated_average(const BoundModel&, Compensation, const Goal& = {});
 
-/// 2 ∫ E(μ) μ dμ of walk(), by Gauss's 24 nodes in √μ, the walks shared out among them; of anisotropic
-/// models at 4 azimuths of a quarter.  `error` is the walks' standard error, in which the nodes' own is lost.
-Scattered walk_average(const BoundModel&, const WalkGoal& = {});
-
 /// Lobes' multiple scattering with the diffuse terms added: the error is the largest of all channels.
 Albedo with_diffuse(const Scattered& lobes, const Albedo& diffuse);
 /// The diffuse terms' own average over the hemisphere.

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "brdf/registry.h"
+#include "geometry/sampling.h"
 #include "integrate/directional_albedo.h"
 #include "integrate/microsurface.h"
 #include "integrate/slopes.h"
@@ -67,11 +69,12 @@ class Walkers {
  public:
   static constexpr std::size_t most = Scratch<double>::block;
 
-  /// They enter against v, a unit vector above the surface.
-  Walkers(const Surface& s, const Direction& v, Draws draws)
+  /// They enter against v, a unit vector above the surface, or, without it, from all over the hemisphere
+  /// as even light does.
+  Walkers(const Surface& s, const std::optional<Direction>& v, Draws draws)
       : surface_(s),
         draw_(draws),
-        in_{-v.x, -v.y, -v.z},
+        from_everywhere_(!v),
         angles_(true),
         weight_(s.fresnel.size()),
         gathered_(s.fresnel.size()) {
@@ -79,9 +82,9 @@ class Walkers {
     for (auto* const c : columns_) std::fill_n(c, most, 0.0);
     std::fill_n(columns_[1], most, 1.0);  // v of the masking is the normal
     std::fill_n(columns_[2], most, 1.0);
-    fly_[0] = in_;
-    measure_areas(1);
-    area_in_ = area_[0];
+    if (!v) return;
+    in_[0] = {-v->x, -v->y, -v->z};
+    measure_areas(in_, 1, area_in_);
   }
 
   std::size_t size() const { return n_; }
@@ -91,7 +94,7 @@ class Walkers {
   const Direction& flight(std::size_t i) const { return fly_[i]; }
   double depth(std::size_t i) const { return depth_[i]; }
   double area(std::size_t i) const { return area_[i]; }  ///< σ(−w)
-  double area_in() const { return area_in_; }            ///< σ(v)
+  double area_in() const { return area_in_[0]; }         ///< σ(v)
   /// What a walk has gathered, for whom it concerns.
   double gathered(std::size_t channel, std::size_t i) const { return gathered_[channel][i]; }
   void gather(std::size_t channel, std::size_t i, double x) { gathered_[channel][i] += x; }
@@ -112,7 +115,7 @@ class Walkers {
       surface_.fresnel[c](x, scratch_, f);
       for (std::size_t i = 0; i < n_; ++i) weight_[c][i] *= f[i];
     }
-    measure_areas(n_);
+    measure_areas(fly_, n_, area_);
     for (std::size_t i = 0; i < n_; ++i) {
       depth_[i] -= path(i);
       ++bounces_[i];
@@ -142,13 +145,28 @@ class Walkers {
   Block<double> block(std::size_t n) { return angles_.block().part(0, padded(n)); }
 
   void enter(std::size_t i) {
-    fly_[i] = in_;
-    area_[i] = area_in_;
+    const std::size_t k = next_in();
+    fly_[i] = in_[k];
+    area_[i] = area_in_[k];
     depth_[i] = 0;
     depth_[i] = -path(i);
     bounces_[i] = 0;
     for (auto& w : weight_) w[i] = 1;
     for (auto& g : gathered_) g[i] = 0;
+  }
+
+  /// Its place among those that wait to enter, which are drawn as many as fit at once.
+  std::size_t next_in() {
+    if (!from_everywhere_) return 0;
+    if (waiting_ == 0) {
+      for (auto& d : in_) {
+        const auto v = cosine_direction({draw_.uniform(), 1 - draw_.uniform()});
+        d = {-v.x, -v.y, -v.z};
+      }
+      measure_areas(in_, most, area_in_);
+      waiting_ = most;
+    }
+    return --waiting_;
   }
 
   /// What is flown to the next facet, as a change of τ towards the top.
@@ -169,29 +187,28 @@ class Walkers {
   }
 
   /// σ(−w) of the first n.
-  void measure_areas(std::size_t n) {
+  void measure_areas(std::span<const Direction> w, std::size_t n, std::span<double> area) {
     for (std::size_t i = 0; i < n; ++i) {
-      columns_[0][i] = std::min(std::abs(fly_[i].z), 1.0);
-      columns_[7][i] = fly_[i].x;
-      columns_[8][i] = fly_[i].y;
+      columns_[0][i] = std::min(std::abs(w[i].z), 1.0);
+      columns_[7][i] = w[i].x;
+      columns_[8][i] = w[i].y;
     }
     double* const v = scratch_[Scratch<double>::first_free];
     surface_.masking(block(n), scratch_, v);
     for (std::size_t i = 0; i < n; ++i)
       // upwards less what cancels where next to nothing is met
-      area_[i] = std::max(0.25 / v[i] - std::max(fly_[i].z, 0.0), 1e-30);
+      area[i] = std::max(0.25 / v[i] - std::max(w[i].z, 0.0), 1e-30);
   }
 
   const Surface& surface_;
   Draws draw_;
-  Direction in_;
-  double area_in_ = 0;
-  std::size_t n_ = 0;
+  bool from_everywhere_;
+  std::size_t n_ = 0, waiting_ = 0;
   Scratch<double> scratch_;
   AngleBlock angles_;
   std::span<double* const> columns_;
-  std::array<Direction, most> fly_;
-  std::array<double, most> depth_, area_;
+  std::array<Direction, most> fly_, in_;
+  std::array<double, most> depth_, area_, area_in_;
   std::array<std::size_t, most> bounces_;
   std::vector<std::array<double, most>> weight_, gathered_;
 };
@@ -325,24 +342,30 @@ Tally walk_chunk(Walkers& w, Count& count, std::size_t walks, std::size_t most_b
   return t;
 }
 
-/// Chunks [first, last) of at most `walks` walks, in parallel, added to `t` in their order.
+/// Chunks [first, last) of all walks, in parallel, added to `t` in their order; few at a time, for walks may
+/// be so many that the chunks' sums would fill the memory.
 template <class MakeCount>
 void walk_chunks(const Surface& s,
-                 const Direction& v,
+                 const std::optional<Direction>& v,
                  const MakeCount& make_count,
                  std::size_t first,
                  std::size_t last,
                  const WalkGoal& goal,
                  const std::array<std::size_t, 2>& key,
                  Tally& t) {
-  std::vector<Tally> chunks(last - first, Tally(s.fresnel.size()));
-  tbb::parallel_for(first, last, [&](std::size_t k) {
-    Walkers w(s, v, Draws(goal.seed, key[0], key[1], k));
-    auto count = make_count();
-    const std::size_t walks = std::min(chunk_walks, goal.walks - k * chunk_walks);
-    chunks[k - first] = walk_chunk(w, count, walks, goal.bounces);
-  });
-  for (const auto& c : chunks) t.add(c);
+  constexpr std::size_t at_once = 1024;
+  for (; first < last; first += at_once) {
+    const std::size_t n = std::min(at_once, last - first);
+    std::vector<Tally> chunks(n, Tally(s.fresnel.size()));
+    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+      const std::size_t k = first + i;
+      Walkers w(s, v, Draws(goal.seed, key[0], key[1], k));
+      auto count = make_count();
+      const std::size_t walks = std::min(chunk_walks, goal.walks - k * chunk_walks);
+      chunks[i] = walk_chunk(w, count, walks, goal.bounces);
+    });
+    for (const auto& c : chunks) t.add(c);
+  }
 }
 
 std::size_t chunks_of(std::size_t walks) {
@@ -351,7 +374,7 @@ std::size_t chunks_of(std::size_t walks) {
 
 /// Until all walks are done or the error is.
 Tally walk_until(const Surface& s,
-                 const Direction& v,
+                 const std::optional<Direction>& v,
                  const WalkGoal& goal,
                  const std::array<std::size_t, 2>& key) {
   Tally t(s.fresnel.size());
@@ -426,6 +449,10 @@ std::vector<std::vector<double>> roots(std::vector<std::vector<double>> x) {
   return x;
 }
 
+Scattered scattered(const Means& m) {
+  return {m.value, roots(m.variance), m.order, m.rest, roots(m.order_variance), m.bounces};
+}
+
 }  // namespace
 
 std::vector<Scattered> walk(const BoundModel& m,
@@ -443,10 +470,18 @@ std::vector<Scattered> walk(const BoundModel& m,
     Means means(m.model.channels);
     for (std::size_t lobe = 0; lobe < surfaces.size(); ++lobe)
       means.add(walk_until(surfaces[lobe], v, goal, {lobe, i}));
-    all[i] = {means.value, roots(means.variance),       means.order,
-              means.rest,  roots(means.order_variance), means.bounces};
+    all[i] = scattered(means);
   });
   return all;
+}
+
+Scattered walk_average(const BoundModel& m, const WalkGoal& goal) {
+  check(goal);
+  const auto surfaces = surfaces_of(m);
+  Means means(m.model.channels);
+  for (std::size_t lobe = 0; lobe < surfaces.size(); ++lobe)
+    means.add(walk_until(surfaces[lobe], std::nullopt, goal, {lobe, 0}));
+  return scattered(means);
 }
 
 WalkValue walk_value(const BoundModel& m,

@@ -20,8 +20,8 @@ struct WalkGoal {
   std::size_t bounces = 1000;     ///< after which a walk is cut off
 };
 
-/// What light that arrives from each μ = NoV in (0, 1] leaves by, of all lobes that are microsurfaces()
-/// (else wrong usage), in parallel; diffuse terms are no part of it.
+/// The light that leaves, by the number of bounces, of light that arrives from each μ = NoV in (0, 1]; in
+/// parallel.  Every lobe has to be one of microsurfaces(), else wrong usage; diffuse terms are no part of it.
 ///
 /// Light dives into the surface from its top until it meets a facet, is weighted with the facet's
 /// Fresnel term, in all channels together, reflected, and so on until it gets out.  Depth is counted as τ =
@@ -44,6 +44,10 @@ std::vector<Scattered> walk(const BoundModel&,
                             std::span<const double> mu,
                             double phi = 0,
                             const WalkGoal& = {});
+
+/// Its average over the hemisphere, 2 ∫ E(μ) μ dμ and over azimuths: each walk enters from a direction of
+/// its own, drawn from the cosine, so that `error` is all that there is.
+Scattered walk_average(const BoundModel&, const WalkGoal& = {});
 
 /// f(l, v) [1/sr] by number of bounces, and the standard errors.
 struct WalkValue {

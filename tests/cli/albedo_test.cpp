@@ -116,6 +116,14 @@ TEST(AlbedoCommand, AWalkIsTheSameForASeedWhateverElseIsAsked) {
   EXPECT_EQ(one.contains("average"), false);
 }
 
+TEST(AlbedoCommand, AveragesFewWalks) {
+  const Folder f;
+  const auto o =
+      gonio(f, std::string("albedo ") + grey + " --average --scattering walk --walks 30 --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NEAR(o.json()["average"][0], 0.6, o.json()["error_bound"]);
+}
+
 TEST(AlbedoCommand, CompensationsGiveBackAllAtFOne) {
   const Folder f;
   for (const char* how :
@@ -154,7 +162,8 @@ TEST(AlbedoCommand, RefusesScatteringOfWhatItIsNotOf) {
   expect_one_line(gonio(f, separable + "deterministic"), 2, "smith_ggx.separable");
   expect_one_line(gonio(f, separable + "fdez_aguera"), 2, "fresnel.schlick");
   expect_one_line(gonio(f, separable + "turquin --walks 10"), 2, "--walks");
-  expect_one_line(gonio(f, separable + "walk --walks 0"), 2, "walks");
+  for (const char* walks : {"0", "1"})
+    expect_one_line(gonio(f, separable + "walk --walks " + walks), 2, "walks");
   for (const char* how : {"walk", "deterministic", "kulla_conty"})
     expect_one_line(gonio(f, std::string("albedo ") + white + " --mu 0 --scattering " + how), 2,
                     "outside (0, 1]");

@@ -128,22 +128,6 @@ TEST(FresnelAverage, IsSchlicksClosedFormAndWhatIsKnownOfGlass) {
   EXPECT_NEAR(fresnel_average(glass, glass.model.lobes[0].fresnel).value[0], 0.0918, 5e-5);
 }
 
-TEST(WalkAverage, IsTheHalfSpacesWithinItsErrorAndTheSameForASeed) {
-  const auto model = schlick(0.7, {0.6});
-  const auto solved = half_space(model, {}).average;
-  WalkGoal goal;
-  goal.walks = 100'000;
-  const auto walked = walk_average(model, goal);
-  EXPECT_NEAR(walked.albedo[0], solved.albedo[0], 4 * walked.error[0]);
-  EXPECT_LT(walked.error[0], 2e-3);
-  double sum = 0;
-  for (const double order : walked.order[0]) sum += order;
-  EXPECT_NEAR(sum, walked.albedo[0], 1e-12);
-  EXPECT_NEAR(walked.order[0][0], hemispherical_albedo(model).value[0],
-              4 * walked.order_error[0][0]);
-  EXPECT_EQ(walk_average(model, goal).albedo[0], walked.albedo[0]);
-}
-
 TEST(WithDiffuse, AddsTheTermsThatTheWalkLeavesOut) {
   const auto model = bind_model("lambert+ggx/smith_ggx.correlated/schlick", {{"kd", {0.3}}}, 1);
   const auto d = diffuse_average(model, {1e-6, 1'000'000});

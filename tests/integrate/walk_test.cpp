@@ -8,6 +8,7 @@
 #include "brdf/registry.h"
 #include "geometry/half_difference.h"
 #include "integrate/directional_albedo.h"
+#include "integrate/half_space.h"
 #include "integrate/quadrature.h"
 
 #include <tbb/global_control.h>
@@ -210,6 +211,29 @@ TEST(Walk, RefusesWhatItCannotWalk) {
   EXPECT_THROW(at(bind_model("ggx/smith_ggx.separable/schlick", {}), 0.5, {}), Error);
   EXPECT_THROW(walk_value(m, {0, 0, -1}, {0, 0, 1}), Error);
   EXPECT_THROW(walk_value(m, {0, 0, 1}, {0, 0, 0.5}), Error);
+}
+
+TEST(WalkAverage, IsTheHalfSpacesWithinItsErrorAndTheSameForASeed) {
+  const auto model = grey("ggx", 0.7, 0.6);
+  const auto solved = half_space(model, {}).average;
+  const WalkGoal goal{1, 100'000};
+  const auto walked = walk_average(model, goal);
+  EXPECT_NEAR(walked.albedo[0], solved.albedo[0], 4 * walked.error[0]);
+  EXPECT_LT(walked.error[0], 2e-3);
+  EXPECT_NEAR(sum(walked.order[0]), walked.albedo[0], 1e-12);
+  for (std::size_t n = 0; n < 4; ++n)
+    EXPECT_NEAR(walked.order[0][n], solved.order[0][n], 4 * walked.order_error[0][n]) << n;
+  EXPECT_EQ(walk_average(model, goal).albedo[0], walked.albedo[0]);
+  EXPECT_GT(walk_average(model, {1, 2}).albedo[0], 0);  // the fewest walks
+}
+
+/// A furrow as narrow as a mirror along, and as rough as can be across: what azimuths differ most in.
+TEST(WalkAverage, OfAStretchedSurfaceIsOverAllAzimuths) {
+  const auto model = stretched("ggx", 3e-4, 1, 0.04);
+  const auto walked = walk_average(model, {1, 2'000'000});
+  const auto exact = hemispherical_albedo(model, {2e-6, 1'000'000});
+  EXPECT_LT(walked.order_error[0][0], 1e-4);
+  EXPECT_NEAR(walked.order[0][0], exact.value[0], 4 * walked.order_error[0][0] + exact.error);
 }
 
 /// Pairs of directions: mirror-like, backwards, grazing, across.
