@@ -91,7 +91,8 @@ Parts parts(const Environment& map, const Rectangle& r) {
   return p;
 }
 
-/// How much further light is spread within parts than they are from each other; 0 where they vouch for it.
+/// How much further light is spread within parts than half of what they are from each other; 0 where they
+/// vouch for it, as of even light, of which it is a third.
 double hidden_spread(std::span<const SummedEnvironment::Light> parts, double whole_spread) {
   double within = 0, all = 0;
   for (const auto& l : parts) {
@@ -99,7 +100,7 @@ double hidden_spread(std::span<const SummedEnvironment::Light> parts, double who
     within += weight * l.spread;
     all += weight;
   }
-  return all > 0 ? std::max(2 * within / all - whole_spread, 0.0) : 0;
+  return all > 0 ? std::max(1.5 * within / all - whole_spread / 2, 0.0) : 0;
 }
 
 /// A rectangle, as what its parts give.
@@ -182,7 +183,7 @@ Gathered gather(const SummedEnvironment& light,
   /// Within how much the functions change, about a rectangle.
   const auto scale_at = [&](const Shape& shape) {
     const double far = std::acos(std::clamp(dot(shape.middle(), focus.at), -1.0, 1.0));
-    return std::min(far + focus.width, 0.4);
+    return std::clamp(far + focus.width, 1e-12, 0.4);
   };
   std::vector<Direction> at;
   std::vector<double> columns;

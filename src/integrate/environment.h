@@ -63,14 +63,15 @@ struct Gathered {
 /// the light that comes from there.  A rectangle gives ∫L dω times the function where its light comes from;
 /// across the horizon the part of it that lies above, in the middle of that.  It is judged by what its parts
 /// give, and twice the sum of these differences is the error.  That speaks for light within the parts as far
-/// as it is spread no more than their centres are.  Of what is spread more, as of a sun in one texel of many,
-/// whose centre its parts share, the error is
+/// as it is spread no more than half of what their centres are.  Of what is spread more, as of a sun in one
+/// texel of many, whose centre its parts share, the error is
 ///
-///   8 ∫L g dω (spread − centres' spread)/s²,   s the way to where the functions change most, and its width
+///   8 ∫L g dω (spread − ½ centres' spread)/s²,   s the way to where the functions change most, and its width
 ///
 /// twice what it is in the tail of a lobe of GGX, which falls as s⁻⁴: ∇²g/4 = 4 g/s².
 ///
 /// Of lobes of GGX in three real maps at 1e-3, against 1e-4: none of 1944 values off by more than 2.2e-4.
+/// Of suns of one texel, alone or in dim light, none of 2700 off by more than its error.
 Gathered gather(const SummedEnvironment&,
                 const Gather&,
                 std::size_t functions,
