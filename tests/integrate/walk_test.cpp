@@ -230,9 +230,9 @@ TEST(WalkAverage, IsTheHalfSpacesWithinItsErrorAndTheSameForASeed) {
 /// A furrow as narrow as a mirror along, and as rough as can be across: what azimuths differ most in.
 TEST(WalkAverage, OfAStretchedSurfaceIsOverAllAzimuths) {
   const auto model = stretched("ggx", 3e-4, 1, 0.04);
-  const auto walked = walk_average(model, {1, 2'000'000});
+  const auto walked = walk_average(model, {1, 500'000});
   const auto exact = hemispherical_albedo(model, {2e-6, 1'000'000});
-  EXPECT_LT(walked.order_error[0][0], 1e-4);
+  EXPECT_LT(walked.order_error[0][0], 2e-4);
   EXPECT_NEAR(walked.order[0][0], exact.value[0], 4 * walked.order_error[0][0] + exact.error);
 }
 
