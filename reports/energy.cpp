@@ -36,6 +36,8 @@ EnergyReport energy_report(const EnergyOptions& o, const ReportProgress& done) {
   };
   add_forms(r, o, part("every masking form", 0, 0.4));
   add_materials(r, o, part("all bounces", 0.4, 0.7));
+  add_costs(r);
+  add_albedo_forms(r);
   add_estimators(r, o, part("error against time", 0.7, 0.8));
   add_light(r, o, part("image-based light", 0.8, 1));
   add_findings(r);

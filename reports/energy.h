@@ -13,19 +13,25 @@
 
 namespace gonio {
 
-/// The least roughness at which the loss exceeds a share.
+/// Where, by roughness, the loss exceeds a share.
 struct Crossing {
-  double share;      ///< 0.01, 0.05, 0.1
-  double mu;         ///< 0: on average over the hemisphere
-  double roughness;  ///< 0: at the least that was looked at; not a number: nowhere
+  double share;  ///< 0.01, 0.05, 0.1
+  double mu;     ///< 0: on average over the hemisphere
+  struct Range {
+    double from, to;  ///< the least or the largest roughness looked at: from or up to there and
+                      ///< perhaps beyond
+  };
+  std::vector<Range> ranges;  ///< none: nowhere
+  double error;               ///< of each end
 };
 
 /// A distribution under a masking at F = 1, or a whole model in white.
 struct EnergyForm {
-  std::string name;          ///< what tells it from the others
-  std::string ndf, masking;  ///< ids
-  std::string model;         ///< id of a whole model, else empty
-  double gamma = 0;          ///< of GTR, else 0
+  std::string name;           ///< what tells it from the others
+  std::string ndf, masking;   ///< ids
+  std::string model{};        ///< id of a whole model, else empty
+  double gamma = 0;           ///< of GTR, else 0
+  double most_roughness = 1;  ///< that it is meant for
   /// What an engine divides by: π where a shipped formula leaves out 1/π.
   double divisor = 1;
 
@@ -35,9 +41,9 @@ struct EnergyForm {
   struct At {
     double roughness, mu, albedo, error;
   };
-  std::vector<At> rows;             ///< roughness by roughness
-  std::vector<Average> averages;    ///< 2 ∫ E μ dμ
-  std::vector<Crossing> crossings;  ///< of the loss 1 − E
+  std::vector<At> rows{};             ///< roughness by roughness
+  std::vector<Average> averages{};    ///< 2 ∫ E μ dμ
+  std::vector<Crossing> crossings{};  ///< of the loss 1 − E
 };
 
 /// Colours of one microsurface (GGX, Smith correlated), each with its truth.
@@ -67,7 +73,7 @@ struct EstimatorPoint {
   double goal;  ///< error asked for, or samples
   double error,
       bound;  ///< of the value, RMS over repeats; bound: what it says itself, 0 if it says none
-  double evaluations;
+  double evaluations;    ///< of the model; not a number where it is not the model that is evaluated
   double ns, ns_spread;  ///< median, and half the distance of the quartiles
 };
 
@@ -79,8 +85,17 @@ struct CompensationCost {
   std::size_t bytes;       ///< of its tables, 32 × 32 in half
   double without_ns;       ///< D V F of one light and view, or the split sum's F0 A + B
   double ns, spread_ns;    ///< the same compensated, one at a time in float
-  double worst, rms;       ///< error against the truth over all materials, roughnesses and angles
+  double worst, rms;       ///< error against the truth over the materials of Schlick's Fresnel
   std::string worst_at;
+  double gold_rms;  ///< not a number: not for it
+};
+
+/// E(α, NoV) at F = 1 as a shader has it, against quadrature, from roughness 0.05 on.
+struct AlbedoForm {
+  std::string_view id;
+  double worst, rms;
+  std::string worst_at;
+  std::size_t operations, bytes;
 };
 
 /// The split sum's table against quadrature, of A + B.
@@ -103,7 +118,9 @@ struct LitError {
   double roughness, nov, f0;
   double rms, max, bias;
   double of_mean;  ///< RMS of split − exact, over the mean of exact
-  double truth;    ///< what each is off by itself, at most
+  double
+      of_mean_spread;  ///< half of what it differs by between one half of the views and the other
+  double truth;        ///< what each is off by itself, at most
 };
 /// Irradiance by a sum over its exact value − 1, over normals.
 struct IrradianceRow {
@@ -117,10 +134,12 @@ struct EnergyReport {
   std::vector<EnergyForm> forms;
   std::vector<EnergyMaterial> materials;
   std::vector<CompensationCost> compensations;
+  std::vector<AlbedoForm> albedo_forms;
   std::vector<EstimatorPoint> estimators;
   std::vector<TableError> tables;
   std::vector<TableSamples> table_samples;
   std::vector<LitError> lit;  ///< of the environments given
+  std::size_t views = 0;      ///< of each
   std::vector<IrradianceRow> irradiance;
   std::vector<std::string> findings;  ///< sentences
   bool full = false;

@@ -5,6 +5,8 @@
 #include "brdf/distributions.h"
 #include "brdf/masking_terms.h"
 #include "brdf/scattering.h"
+#include "integrate/ggx_albedo.h"
+#include "integrate/split_sum_table.h"
 #include "number/counted.h"
 #include "optics/fresnel_approximate.h"
 #include "reports/energy_parts.h"
@@ -22,6 +24,11 @@ class Texture {
   explicit Texture(float first) {
     for (std::size_t i = 0; i < size * size; ++i)
       texels_.push_back(first + 0.5F * static_cast<float>(i) / (size * size));
+  }
+  /// Of the first row alone.
+  float along(float x) const {
+    const auto [i, u] = place(x);
+    return texels_[i] + u * (texels_[i + 1] - texels_[i]);
   }
   float operator()(float x, float y) const {
     const auto [i, u] = place(x);
@@ -81,15 +88,20 @@ Timing per_point(const F& f) {
   return {t.ns / n, t.spread_ns / n};
 }
 
+template <class Work>
+std::size_t operations(const Work& work) {
+  std::size_t sum = 0;
+  for (const auto count : count_operations(work).by_kind) sum += count;
+  return sum;
+}
+/// Of a map, at any values: formulas have no branches.
 template <template <class> class Map>
 std::size_t operations() {
   using C = Counted<double>;
   constexpr std::size_t n = Map<C>::parameters.size();
   std::array<C, n> p;
   for (std::size_t k = 0; k < n; ++k) p[k] = C(Map<C>::parameters[k].start);
-  std::size_t sum = 0;
-  for (const auto count : count_operations([&] { Map<C>::apply(p); }).by_kind) sum += count;
-  return sum;
+  return operations([&] { Map<C>::apply(p); });
 }
 
 float single(const Point& p) {
@@ -101,17 +113,22 @@ float single(const Point& p) {
 }  // namespace
 
 void add_costs(EnergyReport& report) {
-  const Texture e(0.3F), average(0.3F), b(0.01F);
+  const Texture e(0.3F), b(0.01F), average(0.3F);
   const auto add = [&](std::string_view id, std::size_t count, std::size_t lookups,
                        std::size_t bytes, const Timing& without, const Timing& with) {
-    CompensationCost c{id, count, lookups, bytes, without.ns, with.ns, with.spread_ns, 0, 0, ""};
-    double squares = 0;
-    std::size_t n = 0;
+    CompensationCost c{id, count, lookups, bytes, without.ns, with.ns, with.spread_ns, 0, 0, "", 0};
+    double squares = 0, gold_squares = 0;
+    std::size_t n = 0, gold = 0;
     for (const auto& m : report.materials)
       for (const auto& at : m.rows)
         for (const auto& s : at.scattering) {
           if (s.id != id) continue;
           const double off = s.albedo - at.truth;
+          if (m.fresnel != "fresnel.schlick") {
+            gold_squares += off * off;
+            ++gold;
+            continue;
+          }
           squares += off * off;
           ++n;
           if (std::abs(off) <= std::abs(c.worst)) continue;
@@ -119,21 +136,22 @@ void add_costs(EnergyReport& report) {
           c.worst_at = fmt::format("{}, roughness {:g}, {}", m.name, at.roughness,
                                    at.mu == 0 ? "on average" : fmt::format("mu {:g}", at.mu));
         }
-    c.rms = n > 0 ? std::sqrt(squares / static_cast<double>(n)) : 0;
+    c.rms = std::sqrt(squares / static_cast<double>(n));
+    c.gold_rms = std::sqrt(gold_squares / static_cast<double>(gold));
     report.compensations.push_back(c);
   };
   const auto kulla_conty = [&](const Point& p) {
-    return KullaContyLobe<float>::apply(
-        std::array{e(p.alpha, p.nol), e(p.alpha, p.nov), average(p.alpha, 0.5F), p.f0})[0];
+    return KullaContyLobe<float>::apply(std::array{
+        e(p.alpha, p.nol), e(p.alpha, p.nov), average.along(p.alpha), schlick_average(p.f0)})[0];
   };
   const auto split_sum = [&](const Point& p) {
     return p.f0 * e(p.alpha, p.nov) + b(p.alpha, p.nov);
   };
   const Timing direct = per_point(single), image = per_point(split_sum);
   add("single", 0, 0, 0, direct, direct);
-  for (const auto id : {"kulla_conty", "kulla_conty.linear"})
-    add(id, operations<KullaContyLobe>(), 3, texture_bytes + line_bytes, direct,
-        per_point([&](const Point& p) { return single(p) + kulla_conty(p); }));
+  const auto colour = operations([] { schlick_average(Counted<double>(0.5)); });
+  add("kulla_conty", operations<KullaContyLobe>() + colour, 3, texture_bytes + line_bytes, direct,
+      per_point([&](const Point& p) { return single(p) + kulla_conty(p); }));
   add("turquin", operations<Turquin>(), 1, texture_bytes, direct, per_point([&](const Point& p) {
         return Turquin<float>::apply(std::array{single(p), e(p.alpha, p.nov), p.f0})[0];
       }));
@@ -141,6 +159,37 @@ void add_costs(EnergyReport& report) {
   add("fdez_aguera", operations<FdezAguera>(), 0, 0, image, per_point([&](const Point& p) {
         return FdezAguera<float>::apply(std::array{e(p.alpha, p.nov), b(p.alpha, p.nov), p.f0})[0];
       }));
+}
+
+void add_albedo_forms(EnergyReport& report) {
+  std::vector<double> alpha, mu;
+  for (int i = 0; i <= 95; ++i) alpha.push_back(std::pow(0.05 + 0.01 * i, 2));
+  for (int i = 1; i <= 200; ++i) mu.push_back(0.005 * i);
+  const auto truth = ggx_albedo_table(alpha, mu);
+  const auto add = [&](std::string_view id, std::size_t count, const auto& form) {
+    AlbedoForm f{id, 0, 0, "", count, 0};
+    for (std::size_t a = 0; a < alpha.size(); ++a)
+      for (std::size_t m = 0; m < mu.size(); ++m) {
+        const double off = form(alpha[a], mu[m]) - truth[a * mu.size() + m].value;
+        f.rms += off * off / static_cast<double>(truth.size());
+        if (std::abs(off) <= std::abs(f.worst)) continue;
+        f.worst = off;
+        f.worst_at = fmt::format("roughness {:.2f}, mu {:g}", std::sqrt(alpha[a]), mu[m]);
+      }
+    f.rms = std::sqrt(f.rms);
+    report.albedo_forms.push_back(f);
+  };
+  add("scattering.albedo_fit", operations<AlbedoFit>(),
+      [](double a, double m) { return mapped<AlbedoFit, double>(a, m)[0]; });
+  add("scattering.albedo_fit.materialx", operations<AlbedoFitMaterialx>(),
+      [](double a, double m) { return mapped<AlbedoFitMaterialx, double>(a, m)[0]; });
+  const auto table = stored(
+      split_sum_table("masking.smith_ggx.correlated", Texture::size, Texture::size), Storage::half);
+  add("32 × 32 texels in half, bilinear", 0, [&](double a, double m) {
+    const auto [first, second] = table(m, std::sqrt(a));
+    return first + second;
+  });
+  report.albedo_forms.back().bytes = texture_bytes;
 }
 
 }  // namespace gonio

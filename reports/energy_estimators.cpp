@@ -1,6 +1,7 @@
 // One E(mu, alpha) by several ways: how exact each is, and how long that takes.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/random.h"
@@ -126,20 +127,21 @@ void add_estimators(EnergyReport& report,
     const double alpha = c.roughness * c.roughness;
     const double truth = ggx_albedo(alpha, c.mu, SmithGgx::correlated, 1e-13).value;
     const auto add = [&](std::string_view name, double goal, double error, double bound,
-                         std::size_t evaluations, const Timing& t) {
-      report.estimators.push_back({name, c.roughness, c.mu, goal, error, bound,
-                                   static_cast<double>(evaluations), t.ns, t.spread_ns});
+                         double evaluations, const Timing& t) {
+      report.estimators.push_back(
+          {name, c.roughness, c.mu, goal, error, bound, evaluations, t.ns, t.spread_ns});
     };
     const auto model = ggx(c.roughness);
     for (int digits = 1; digits <= 11; ++digits) {
       const double goal = std::pow(10.0, -digits);
       const auto one = ggx_albedo(alpha, c.mu, SmithGgx::correlated, goal);
-      add("one integral", goal, std::abs(one.value - truth), one.error, 0,
+      add("one integral", goal, std::abs(one.value - truth), one.error,
+          std::numeric_limits<double>::quiet_NaN(),
           time_of([&] { ggx_albedo(alpha, c.mu, SmithGgx::correlated, goal); }));
       if (digits == 11) break;
       const auto two = directional_albedo(model, {&c.mu, 1}, 0, {goal, Goal{}.evaluations})[0];
-      add("two integrals", goal, std::abs(two.value[0] - truth), two.error, two.evaluations,
-          time_of([&] {
+      add("two integrals", goal, std::abs(two.value[0] - truth), two.error,
+          static_cast<double>(two.evaluations), time_of([&] {
             directional_albedo(model, {&c.mu, 1}, 0, {goal, Goal{}.evaluations});
           }));
     }
@@ -151,7 +153,7 @@ void add_estimators(EnergyReport& report,
           const double off = sample(n, seed) - truth;
           squares += off * off / static_cast<double>(repeats);
         }
-        add(way.name, static_cast<double>(n), std::sqrt(squares), 0, n,
+        add(way.name, static_cast<double>(n), std::sqrt(squares), 0, static_cast<double>(n),
             time_of([&] { sample(n, 1); }));
       }
       done(static_cast<double>(++finished) /

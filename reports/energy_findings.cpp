@@ -19,17 +19,22 @@ std::string angle(double mu) {
   return mu == 0 ? "on average" : mu == 1 ? "at normal incidence" : fmt::format("at mu = {:g}", mu);
 }
 
-/// "1 % from roughness 0.42 on, 5 % from 0.57 on, 10 % nowhere"
+std::string range(const Crossing::Range& r, const std::string& word) {
+  if (r.to >= 1) return fmt::format("from {}{:.2f} on", word, r.from);
+  return fmt::format("from {}{:.2f} to {:.2f}", word, r.from, r.to);
+}
+
+/// "1 % from roughness 0.42 on, 5 % from 0.57 to 0.8, 10 % nowhere"
 std::string thresholds(const std::vector<Crossing>& all, double mu) {
   std::vector<std::string> parts;
   for (const auto& c : all) {
     if (c.mu != mu) continue;
-    const std::string word = parts.empty() ? "roughness " : "";
-    parts.push_back(fmt::format("{:g}\u00a0% {}", 100 * c.share,
-                                std::isnan(c.roughness) ? "nowhere"
-                                : c.roughness == 0
-                                    ? "everywhere"
-                                    : fmt::format("from {}{:.2f} on", word, c.roughness)));
+    std::vector<std::string> ranges;
+    for (const auto& r : c.ranges)
+      ranges.push_back(range(r, parts.empty() && ranges.empty() ? "roughness " : ""));
+    parts.push_back(
+        fmt::format("{:g}\u00a0% {}", 100 * c.share,
+                    ranges.empty() ? "nowhere" : fmt::format("{}", fmt::join(ranges, " and "))));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -80,7 +85,8 @@ void add_findings(EnergyReport& r) {
       parts.push_back(
           fmt::format("{} {:.2g} (at worst {:+.2g}: {})", c.id, c.rms, c.worst, c.worst_at));
     say.push_back(
-        fmt::format("RMS distance of the albedo from the truth, all materials together: {}.",
+        fmt::format("RMS distance of the albedo from the truth, F0 from 0.04 to 1 under Schlick's "
+                    "Fresnel together: {}.",
                     fmt::join(parts, "; ")));
   }
   std::vector<std::string> gains;
@@ -88,24 +94,28 @@ void add_findings(EnergyReport& r) {
     if (const auto& at = most(f); at.albedo - at.error > 1 + 1e-6)
       gains.push_back(fmt::format("{} (E = {:.3g} at {})", f.name, at.albedo, place(at)));
   if (!gains.empty()) say.push_back(fmt::format("Light is made by {}.", fmt::join(gains, ", ")));
-  if (const auto* coat = form(r, "masking.disney_coat"),
-      *smith = form(r, "masking.smith_ggx.separable");
+  if (const auto* coat = form(r, "masking.disney_coat, gamma 1"),
+      *smith = form(r, "masking.smith_gtr.separable, gamma 1");
       coat && smith) {
-    // where coats are: alpha up to 0.1
     double most = 0;
     std::size_t at = 0;
-    for (std::size_t i = 0; i < coat->rows.size(); ++i) {
+    for (std::size_t i = 0; i < coat->rows.size(); ++i) {  // the same rows, as far as the coat's go
       const double off = std::abs(coat->rows[i].albedo - smith->rows[i].albedo);
-      if (coat->rows[i].roughness * coat->rows[i].roughness <= 0.1 && coat->rows[i].mu >= 0.1 &&
-          off > most)
-        most = off, at = i;
+      if (coat->rows[i].mu >= 0.1 && off > most) most = off, at = i;
     }
     say.push_back(fmt::format(
-        "The coat's masking of a fixed width 0.25: as wide as coats are (alpha to 0.1) and up to "
-        "mu = 0.1 it "
-        "is furthest from its own at {}, where it keeps {} instead of {}.",
+        "The coat (GTR of gamma 1, alpha up to 0.1) with its masking of a fixed width 0.25 is, "
+        "from mu = 0.1 on, "
+        "furthest from its own Smith masking at {}: it reflects {} instead of {}.",
         place(coat->rows[at]), percent(coat->rows[at].albedo), percent(smith->rows[at].albedo)));
   }
+  if (r.albedo_forms.size() == 3)
+    say.push_back(fmt::format(
+        "E as a formula: {} operations are off by {:.2g} at most (RMS {:.2g}), where MaterialX's "
+        "fit takes {} and is off "
+        "by {:.2g} ({:.2g}).",
+        r.albedo_forms[0].operations, std::abs(r.albedo_forms[0].worst), r.albedo_forms[0].rms,
+        r.albedo_forms[1].operations, std::abs(r.albedo_forms[1].worst), r.albedo_forms[1].rms));
   for (const auto& t : r.tables)
     if (t.size == 32 && t.stored == "half")
       say.push_back(
@@ -116,15 +126,17 @@ void add_findings(EnergyReport& r) {
                       t.lookup_rms, t.lookup, t.between, t.storage));
   if (!r.lit.empty()) {
     const auto range = [&](double nov) {
-      double low = std::numeric_limits<double>::infinity(), high = 0;
+      double high = 0, spread = 0;
       for (const auto& l : r.lit)
-        if (l.nov == nov) low = std::min(low, l.of_mean), high = std::max(high, l.of_mean);
-      return fmt::format("{} to {}", percent(low), percent(high));
+        if (l.nov == nov && l.of_mean > high) high = l.of_mean, spread = l.of_mean_spread;
+      return high < 0.1 ? fmt::format("{:.2g} ± {:.1g}\u00a0%", 100 * high, 100 * spread)
+                        : fmt::format("{:.0f} ± {:.0f}\u00a0%", 100 * high, 100 * spread);
     };
     say.push_back(
-        fmt::format("Under the environments given the split sum is off by {} of the mean at NoV = "
-                    "1 and by {} at NoV = 0.1.",
-                    range(1), range(0.1)));
+        fmt::format("Under the environments given the split sum is off by up to {} of the mean at "
+                    "NoV = 1 and up to {} at NoV = "
+                    "0.1 (RMS over {} views; ±: what half of them say).",
+                    range(1), range(0.1), r.views));
   }
 }
 

@@ -23,35 +23,35 @@ struct WhiteModel {
   std::string_view id;
   double divisor;
 };
+/// Disney's coat is GTR of gamma 1 with alpha up to 0.1.
+const double most_coat_roughness = std::sqrt(0.1);
 constexpr WhiteModel white_models[] = {
     {"model.ue_mobile", pi}, {"model.ue_mobile_simple", pi}, {"model.unity_mobile", 1}};
 
 std::vector<EnergyForm> all_forms() {
   std::vector<EnergyForm> out;
+  const auto gtr = [&](const std::string& masking, double gamma, double most) {
+    out.push_back(
+        {fmt::format("{}, gamma {}", masking, gamma), "ndf.gtr", masking, "", gamma, most});
+  };
   for (const auto& t : catalogue()) {
     const std::string masking(t.about->id);
     if (role_of(masking) != Role::masking || t.anisotropic) continue;
+    const bool coat = masking == "masking.disney_coat";
     const std::string ndf = "ndf." + std::string(shape_of_term(masking));
-    if (ndf != "ndf.gtr") {
-      out.push_back({masking, ndf, masking, "", 0, 1, {}, {}, {}});
-      continue;
-    }
-    for (const double gamma : {1.5, 3.0})
-      out.push_back(
-          {fmt::format("{}, gamma {}", masking, gamma), ndf, masking, "", gamma, 1, {}, {}, {}});
+    if (coat)
+      gtr(masking, 1, most_coat_roughness);
+    else if (ndf == "ndf.gtr")
+      for (const double gamma : {1.0, 1.5, 3.0}) gtr(masking, gamma, 1);
+    else
+      out.push_back({masking, ndf, masking});
   }
   for (const auto& m : white_models) {
     const std::string spec(find_preset(m.id)->spec);
     const auto first = spec.find('/');
-    out.push_back({std::string(m.id),
-                   "ndf." + spec.substr(0, first),
+    out.push_back({std::string(m.id), "ndf." + spec.substr(0, first),
                    "masking." + spec.substr(first + 1, spec.rfind('/') - first - 1),
-                   std::string(m.id),
-                   0,
-                   m.divisor,
-                   {},
-                   {},
-                   {}});
+                   std::string(m.id), 0, 1, m.divisor});
   }
   return out;
 }
@@ -72,28 +72,9 @@ std::pair<double, double> albedo(const EnergyForm& f, double roughness, double m
   return {a.value[0] / f.divisor, a.error / f.divisor};
 }
 
-struct Side {
-  double at, value;
-};
-/// Where f passes 0 between two places on either side of it, to 5e-4: the chord's zero time and again, the
-/// side that stays halved (the Illinois method).
-double between(const std::function<double(double)>& f, Side a, Side b) {
-  while (std::abs(b.at - a.at) > 5e-4) {
-    const double x = b.at - b.value * (b.at - a.at) / (b.value - a.value), y = f(x);
-    if (std::abs(x - b.at) < 2.5e-4) return x;
-    if ((y > 0) == (b.value > 0))
-      a.value /= 2;
-    else
-      a = b;
-    b = {x, y};
-  }
-  return b.at;
-}
-
 std::vector<Crossing> crossings(const EnergyForm& f) {
   std::vector<Crossing> out;
   for (const double mu : crossing_mu) {
-    const auto loss = [&](double r) { return 1 - albedo(f, r, mu).first; };
     std::vector<double> at, losses;
     if (mu > 0) {
       for (const auto& row : f.rows)
@@ -101,18 +82,7 @@ std::vector<Crossing> crossings(const EnergyForm& f) {
     } else {
       for (const auto& a : f.averages) at.push_back(a.roughness), losses.push_back(1 - a.albedo);
     }
-    for (const double share : crossing_shares) {
-      double r = std::numeric_limits<double>::quiet_NaN();
-      const auto first = std::ranges::find_if(losses, [&](double l) { return l > share; });
-      if (first == losses.begin()) {
-        r = 0;
-      } else if (first != losses.end()) {
-        const auto i = static_cast<std::size_t>(first - losses.begin());
-        const auto beyond = [&](double x) { return loss(x) - share; };
-        r = between(beyond, {at[i - 1], losses[i - 1] - share}, {at[i], losses[i] - share});
-      }
-      out.push_back({share, mu, r});
-    }
+    if (!at.empty()) std::ranges::move(crossings_at(mu, at, losses), std::back_inserter(out));
   }
   return out;
 }
@@ -122,7 +92,7 @@ std::vector<Crossing> crossings(const EnergyForm& f) {
 void add_forms(EnergyReport& report,
                const EnergyOptions& o,
                const std::function<void(double)>& done) {
-  const auto &roughness = o.roughness, &mu = o.mu;
+  const auto& mu = o.mu;
   report.forms = all_forms();
   if (!o.forms.empty())
     std::erase_if(report.forms, [&](const EnergyForm& f) {
@@ -131,6 +101,8 @@ void add_forms(EnergyReport& report,
   std::size_t finished = 0;
   for (std::size_t i = 0; i < report.forms.size(); ++i) {
     auto& f = report.forms[i];
+    auto roughness = o.roughness;
+    std::erase_if(roughness, [&](double r) { return r > f.most_roughness; });
     f.rows.resize(roughness.size() * mu.size());
     f.averages.resize(roughness.size());
     tbb::parallel_for(std::size_t{0}, roughness.size(), [&](std::size_t r) {

@@ -75,15 +75,19 @@ void add_light(EnergyReport& report,
         return Rgb{e, e, e};
       });
   next();
+  report.views = o.full ? 128 : 32;
   for (const auto& [name, map] : o.environments) {
     const SummedEnvironment light(map);
     for (const double roughness : {0.1, 0.25, 0.5, 0.75, 1.0})
       for (const double nov : {1.0, 0.5, 0.1}) {
-        const auto views = lit_views(light, masking, roughness, nov, o.full ? 64 : 16);
+        const auto views = lit_views(light, masking, roughness, nov, report.views);
         for (const double f0 : {0.04, 1.0}) {
           const auto e = split_sum_light_error(views, f0);
-          report.lit.push_back(
-              {name, roughness, nov, f0, e.rms, e.max, e.bias, e.of_mean, e.truth});
+          const std::span all(views);
+          const double half = split_sum_light_error(all.first(views.size() / 2), f0).of_mean;
+          const double other = split_sum_light_error(all.subspan(views.size() / 2), f0).of_mean;
+          report.lit.push_back({name, roughness, nov, f0, e.rms, e.max, e.bias, e.of_mean,
+                                std::abs(half - other) / 2, e.truth});
         }
       }
     next();

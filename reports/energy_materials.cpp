@@ -1,7 +1,6 @@
 // What leaves after all bounces, material by material, and how far from it each compensation ends.
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <iterator>
 
 #include "brdf/registry.h"
 #include "integrate/compensation.h"
@@ -28,24 +27,19 @@ std::vector<Family> families() {
           {"conductor", parse_settings(gold), {"gold, red", "gold, green", "gold, blue"}}};
 }
 
-/// Where the loss first exceeds each share, linearly between roughnesses.
+/// Of the loss as a share of what should leave.
 std::vector<Crossing> crossings(const EnergyMaterial& m) {
   std::vector<Crossing> out;
-  for (const double mu : crossing_mu)
-    for (const double share : crossing_shares) {
-      double r = std::numeric_limits<double>::quiet_NaN(), last_r = 0, last = 0;
-      for (const auto& at : m.rows) {
-        if (at.mu != mu) continue;
-        const double loss = 1 - at.orders[0] / at.truth;
-        if (loss > share) {
-          r = last_r > 0 ? last_r + (at.roughness - last_r) * (share - last) / (loss - last) : 0;
-          break;
-        }
-        last_r = at.roughness;
-        last = loss;
+  for (const double mu : crossing_mu) {
+    std::vector<double> roughness, loss;
+    for (const auto& at : m.rows)
+      if (at.mu == mu) {
+        roughness.push_back(at.roughness);
+        loss.push_back(1 - at.orders[0] / at.truth);
       }
-      out.push_back({share, mu, r});
-    }
+    if (!roughness.empty())
+      std::ranges::move(crossings_at(mu, roughness, loss), std::back_inserter(out));
+  }
   return out;
 }
 
@@ -110,7 +104,6 @@ void add_materials(EnergyReport& report,
     }
   }
   for (auto& m : report.materials) m.crossings = crossings(m);
-  add_costs(report);
 }
 
 }  // namespace gonio

@@ -13,8 +13,12 @@ PageJson mu_json(double mu) {
 }
 
 PageJson json(const Crossing& c) {
-  return {
-      {"share", page_json(c.share)}, {"mu", mu_json(c.mu)}, {"roughness", page_json(c.roughness)}};
+  PageJson ranges = PageJson::array();
+  for (const auto& r : c.ranges) ranges.push_back({page_json(r.from), page_json(r.to)});
+  return {{"share", page_json(c.share)},
+          {"mu", mu_json(c.mu)},
+          {"ranges", ranges},
+          {"error", c.ranges.empty() ? PageJson(nullptr) : page_json(c.error)}};
 }
 
 /// One object a roughness and angle; `average` is that of its roughness.
@@ -60,7 +64,8 @@ std::string to_json(const EnergyReport& r) {
   PageJson out{{"schema", "gonio.report.energy/1"}, {"full", r.full}, {"findings", r.findings}};
   PageJson rows = PageJson::array(), forms = PageJson::array(), materials = PageJson::array(),
            truth = PageJson::array(), scattering = PageJson::array(), costs = PageJson::array(),
-           estimators = PageJson::array(), crossings = PageJson::array();
+           estimators = PageJson::array(), crossings = PageJson::array(),
+           albedo_forms = PageJson::array();
   const auto put_crossings = [&](const char* kind, const std::string& name,
                                  const std::vector<Crossing>& list) {
     for (const auto& c : list) {
@@ -94,7 +99,15 @@ std::string to_json(const EnergyReport& r) {
                      {"spread_ns", page_json(c.spread_ns)},
                      {"worst", page_json(c.worst)},
                      {"rms", page_json(c.rms)},
-                     {"worst_at", c.worst_at}});
+                     {"worst_at", c.worst_at},
+                     {"gold_rms", page_json(c.gold_rms)}});
+  for (const auto& a : r.albedo_forms)
+    albedo_forms.push_back({{"form", a.id},
+                            {"worst", page_json(a.worst)},
+                            {"rms", page_json(a.rms)},
+                            {"worst_at", a.worst_at},
+                            {"operations", a.operations},
+                            {"bytes", a.bytes}});
   for (const auto& e : r.estimators)
     estimators.push_back({{"estimator", e.estimator},
                           {"roughness", page_json(e.roughness)},
@@ -130,6 +143,7 @@ std::string to_json(const EnergyReport& r) {
                    {"max", page_json(l.max)},
                    {"bias", page_json(l.bias)},
                    {"of_mean", page_json(l.of_mean)},
+                   {"of_mean_spread", page_json(l.of_mean_spread)},
                    {"truth_error", page_json(l.truth)}});
   for (const auto& i : r.irradiance)
     irradiance.push_back({{"light", i.light},
@@ -147,9 +161,11 @@ std::string to_json(const EnergyReport& r) {
   out["truth"] = truth;
   out["compensation"] = scattering;
   out["costs"] = costs;
+  out["albedo_forms"] = albedo_forms;
   out["estimators"] = estimators;
   out["split_sum_tables"] = tables;
   out["split_sum_samples"] = samples;
+  out["views"] = r.views;
   out["split_sum_light"] = lit;
   out["irradiance"] = irradiance;
   return page_text(out);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -15,12 +16,19 @@ namespace gonio {
 inline constexpr std::array crossing_mu{1.0, 0.5, 0.1, 0.0};
 inline constexpr std::array crossing_shares{0.01, 0.05, 0.1};
 
+/// Where `loss`, at ascending roughnesses, exceeds each share.  Between two of them it is taken to follow a power
+/// of the roughness; the error is what twice the step would change.
+std::vector<Crossing> crossings_at(double mu,
+                                   std::span<const double> roughness,
+                                   std::span<const double> loss);
+
 void add_forms(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);
 void add_materials(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);
 void add_estimators(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);
 void add_light(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);
 /// Costs of the compensations beside their errors; after the materials.
 void add_costs(EnergyReport&);
+void add_albedo_forms(EnergyReport&);
 /// From what the others have filled in.
 void add_findings(EnergyReport&);
 

@@ -1,36 +1,41 @@
 "use strict";
 // The energy report: what single scattering loses and what gives it back.
 
-const { rows, forms, crossings, truth, compensation, costs, estimators, findings, full, split_sum_tables, split_sum_samples, split_sum_light, irradiance } = page_data();
-const short = (name) => name.replace(/^(masking|model|scattering)\./, "");
+const { rows, forms, crossings, truth, compensation, costs, estimators, findings, full, split_sum_tables, split_sum_samples, split_sum_light, irradiance, albedo_forms, views } = page_data();
+const short = (name) => name.replace(/^(masking|scattering)\./, "");
 const mu_text = (mu) => (mu === "average" ? "on average" : mu === 1 ? "at normal incidence" : `at μ = ${plain(mu)}`);
 const degrees_of = (mu) => degrees(Math.acos(mu) * 180 / Math.PI, 0);
 const ratio_of = (share) => `${plain(100 * share)}\u202f%`;
 const reference = "masking.smith_ggx.correlated";
+const roughnesses = unique(rows.map((r) => r.roughness)), mus = unique(rows.map((r) => r.mu));
 
 // --- The answer ------------------------------------------------------------------------------------------
-/// Roughness from which on the loss exceeds each share, by what and at which angle.
+/// Roughnesses at which the loss exceeds each share, by what and at which angle.
 function crossing_table(kind, names, text) {
   const shares = unique(crossings.map((c) => c.share)), angles = unique(crossings.map((c) => c.mu));
   const find = (name, mu, share) => crossings.find((c) => c[kind] === name && c.mu === mu && c.share === share);
+  const least = roughnesses[0], most = roughnesses.at(-1);
+  const range = ([from, to]) => {
+    if (to < most) return (from > least ? from.toFixed(2) : "") + "–" + to.toFixed(2);
+    return from > least ? from.toFixed(2) : `≤\u202f${plain(least)}`;
+  };
+  const said = (c) => (!c || c.ranges.length === 0 ? el("span", { class: "muted" }, "never")
+    : el("span", { title: `± ${significant(c.error, 1)}` }, c.ranges.map(range).join(", ")));
   const head = ["", ...angles.flatMap((mu) => shares.map((share) => ({ n: ratio_of(share) })))];
   const top = el("tr", {}, el("th", {}), angles.map((mu) => el("th", { colspan: shares.length, class: "n" }, mu_text(mu))));
   const t = table(head, names.map((name) => [el("code", {}, text(name)),
-    ...angles.flatMap((mu) => shares.map((share) => {
-      const r = find(name, mu, share)?.roughness;
-      return { n: known(r) && r > 0 ? r.toFixed(2) : el("span", { class: "muted" }, r === 0 ? "always" : "never") };
-    }))]));
+    ...angles.flatMap((mu) => shares.map((share) => ({ n: said(find(name, mu, share)) })))]));
   t.classList.add("crossings");
   t.tHead.prepend(top);
   return scroll(t);
 }
+const crossing_note = "A single number: from there on, up to roughness 1. Two: from one to the other. ≤ 0.05: at the least roughness looked at already. What each is uncertain by is under the pointer.";
 
 // --- Every masking ---------------------------------------------------------------------------------------
 const of_form = group_by(rows, (r) => r.form);
-const roughnesses = unique(rows.map((r) => r.roughness)), mus = unique(rows.map((r) => r.mu));
 /// Loss by roughness and angle; where more leaves than came, in the other colour.
 function loss_map(name) {
-  const list = of_form.get(name);
+  const list = of_form.get(name), roughnesses = unique(list.map((c) => c.roughness));
   const x = unit_axis("roughness", "roughness", roughnesses), y = unit_axis("mu", "μ = cos θ", mus);
   const cells = roughnesses.flatMap((r) => mus.map((mu) => list.find((c) => c.roughness === r && c.mu === mu)));
   const limit = [0.1, 0.25, 0.5, 1, 2, 5, 10, 100].find((l) => l >= Math.max(...cells.map((c) => Math.abs(c.loss)))) ?? 100;
@@ -42,7 +47,7 @@ function loss_map(name) {
     `Loss 1 − E of ${name} by roughness and cosine; most ${percent(Math.max(...cells.map((c) => c.loss)), 3)}, least ${percent(Math.min(...cells.map((c) => c.loss)), 3)}.`).node;
 }
 function albedo_curves(name) {
-  const list = of_form.get(name);
+  const list = of_form.get(name), roughnesses = unique(list.map((c) => c.roughness));
   const shown = [0.1, 0.3, 0.5, 0.7, 0.85, 1].map((r) => roughnesses.reduce((a, b) => (Math.abs(b - r) < Math.abs(a - r) ? b : a)));
   return lines_figure(unique(shown).map((r) => {
     const at = list.filter((c) => c.roughness === r);
@@ -65,10 +70,10 @@ function maskings() {
     el("div", { class: "columns map" }, el("figure", {}, el("figcaption", {}, "Loss 1 − E ", el("small", {}, "by roughness and angle")), loss_map(name)),
       el("div", {}, albedo_curves(name))), averages(name)));
   const groups = forms.map((f) => [f.form, short(f.form) + (f.model ? " (whole model)" : "")]);
-  return section("Every masking form", "At F = 1, nothing but masking takes light away: E should be 1. A form of the GGX family stands under GGX, Beckmann's under Beckmann, Smith for GTR under "
-    + "GTR of that gamma. Whole mobile models in white; those that are π times a BRDF, divided by π.",
+  return section("Every masking form", "At F = 1 a form should give all back: E = 1. Beckmann's forms stand under Beckmann, Smith for GTR under GTR of that gamma, the coat's under GTR of gamma 1 "
+    + "with alpha up to 0.1, as it ships, all others under GGX. Whole mobile models in white, their clamps included; those that are π times a BRDF, divided by π.",
     el("div", { class: "controls" }, chooser("Form", groups, name, (n) => { name = n; panels.again(); })), panels.node,
-    el("h3", {}, "From which roughness on each loses more than 1, 5, 10 %"),
+    el("h3", {}, "Where each loses more than 1, 5, 10 %, by roughness"), el("p", { class: "small muted" }, crossing_note),
     crossing_table("form", forms.map((f) => f.form), short));
 }
 
@@ -91,7 +96,7 @@ function bounces() {
         { title: "Share that a simulation cut off there misses", x_label: "roughness", y_label: "share", x_ends: [0, 1], scale: true, height: 280,
           text: `Share of the energy of ${material} beyond a number of bounces.`, y_text: (y) => percent(y, 3) }));
   });
-  return section("Bounce by bounce", "GGX's microsurface with heights and slopes as Smith's masking assumes them, light followed to the end: the deterministic solution, exact for each number of bounces.",
+  return section("Bounce by bounce", "GGX's microsurface with heights and slopes as Smith's masking assumes them, light followed to the end: the deterministic solution, to " + significant(Math.max(...truth.map((t) => t.error)), 1) + ".",
     el("div", { class: "controls" }, chooser("Material", materials.map((m) => [m, m]), material, (m) => { material = m; panels.again(); }),
       chooser("Angle", angles.map((a) => [String(a), mu_text(a)]), "average", (a) => { mu = a === "average" ? a : Number(a); panels.again(); })), panels.node);
 }
@@ -113,28 +118,36 @@ function compensations() {
       lines_figure(over_roughness, { ...o, title: "Error over roughness", note: mu_text(mu), x_label: "roughness", text: `Error of each compensation for ${material} over roughness.` }),
       lines_figure(over_mu, { ...o, title: "Error over the angle", note: `at roughness ${plain(rough)}`, x_label: "μ", text: `Error of each compensation for ${material} over the cosine.` }));
   });
-  const cost_rows = costs.map((c) => [el("code", {}, short(c.scattering)), { n: significant(c.rms, 2) }, { n: significant(c.worst, 2) }, c.worst_at,
+  const cost_rows = costs.map((c) => [el("code", {}, short(c.scattering)), { n: significant(c.rms, 2) }, { n: significant(c.worst, 2) }, c.worst_at, { n: significant(c.gold_rms, 2) },
     { n: String(c.operations) }, { n: String(c.lookups) }, { n: c.bytes ? count(c.bytes) : "0" }, { n: `${significant(c.cost_ns, 2)} ± ${significant(c.spread_ns, 1)}` }, { n: significant(c.without_ns, 2) }]);
   return section("What gives it back", "Albedo of each compensation less the truth: the deterministic solution of all bounces, exact to " + significant(Math.max(...truth.map((t) => t.error)), 1) + ". Below 0 light is still missing, above it there is too much.",
     el("div", { class: "controls" }, chooser("Material", materials.map((m) => [m, m]), material, (m) => { material = m; panels.again(); }),
       chooser("Angle", angles.map((a) => [String(a), mu_text(a)]), "0.5", (a) => { mu = a === "average" ? a : Number(a); panels.again(); }),
       choice("Curves", [[false, "compensations"], [true, "and single scattering"]], without, (v) => { without = v; panels.again(); })), panels.node,
     el("h3", {}, "Error and cost"),
-    scroll(table(["", { n: "RMS error" }, { n: "worst" }, "worst at", { n: "operations" }, { n: "lookups" }, { n: "table bytes" }, { n: "ns" }, { n: "ns without" }], cost_rows)),
-    el("p", { class: "small muted" }, "Errors over all materials, roughnesses and angles above. Operations: of the formula for one channel, counted. Table bytes: 32 × 32 in half. ns: D V F of GGX for one light and view with the compensation (of fdez_aguera, which stands on the split sum: F0 A + B), "
+    scroll(table(["", { n: "RMS error" }, { n: "worst" }, "worst at", { n: "RMS, gold" }, { n: "operations" }, { n: "lookups" }, { n: "table bytes" }, { n: "ns" }, { n: "ns without" }], cost_rows)),
+    el("p", { class: "small muted" }, "Errors over the materials of Schlick's Fresnel, F0 from 0.04 to 1, all roughnesses and angles; of gold beside them. Operations: of the formula for one channel, counted. Table bytes: 32 × 32 in half. ns: D V F of GGX for one light and view with the compensation (of fdez_aguera, which stands on the split sum: F0 A + B), "
       + "beside the same without; one at a time, in float, on one thread, median ± half the distance of the quartiles. fdez_aguera is for Schlick's Fresnel alone."));
+}
+
+/// E(α, NoV) at F = 1 as a shader may have it.
+function albedo_formulas() {
+  if (!albedo_forms.length) return null;
+  return section("E as a formula", "What compensations look up, E of GGX under Smith, correlated, F = 1: without a table by a fit. Errors against quadrature over roughness 0.05 to 1 and NoV 0.005 to 1.",
+    scroll(table(["", { n: "RMS error" }, { n: "worst" }, "worst at", { n: "operations" }, { n: "table bytes" }],
+      albedo_forms.map((f) => [el("code", {}, short(f.form)), { n: significant(f.rms, 2) }, { n: significant(f.worst, 2) }, f.worst_at, { n: f.operations ? String(f.operations) : "–" }, { n: f.bytes ? count(f.bytes) : "0" }]))));
 }
 
 // --- Error against time --------------------------------------------------------------------------------------
 function against_time() {
   const cases = [...group_by(estimators, (e) => `roughness ${plain(e.roughness)}, μ = ${plain(e.mu)}`)];
   if (!cases.length) return null;
-  return section("What a digit of E costs", "One E(μ, α) of GGX under Smith masking, correlated, F = 1, on one thread. Deterministic ones: the error that was made, asked for one digit after the other; the truth to 1e-13. "
+  return section("What a digit of E costs", "One E(μ, α) of GGX under Smith masking, correlated, F = 1, on one thread. Deterministic ones: the error that was made, asked for one digit after the other; the truth is known to 1e-13: what is nearer is drawn there. "
     + "Estimators by chance: the RMS error of independent repeats.",
     el("div", { class: "panels" }, cases.map(([name, list]) => lines_figure(
       [...group_by(list, (e) => e.estimator)].map(([estimator, points]) => {
         const sorted = [...points].sort((a, b) => a.cost_ns - b.cost_ns);
-        return { name: estimator, x: sorted.map((p) => p.cost_ns), y: sorted.map((p) => Math.max(p.error, 1e-16)), kind: "both" };
+        return { name: estimator, x: sorted.map((p) => p.cost_ns), y: sorted.map((p) => Math.max(p.error, 1e-13)), kind: "both" };
       }), { title: name, x_label: "ns", y_label: "error of E", x_log: true, log: true, height: 320, text: `Error of E against time: ${name}.`, x_text: (x) => significant(x, 2), y_text: (y) => significant(y, 2) }))));
 }
 
@@ -151,11 +164,11 @@ function split_sum() {
       text: "Error of the split sum's A and B against the number of samples.", y_text: (y) => significant(y, 2) });
   const light = [...group_by(split_sum_light, (l) => l.environment)].map(([name, list]) => scroll(table(
     [name, ...unique(list.map((l) => l.nov)).flatMap((nov) => unique(list.map((l) => l.f0)).map((f0) => ({ n: `NoV ${plain(nov)}, F0 ${plain(f0)}` })))],
-    unique(list.map((l) => l.roughness)).map((r) => [`roughness ${plain(r)}`, ...list.filter((l) => l.roughness === r).map((l) => ({ n: el("span", { title: `relative to each view: RMS ${percent(l.rms)}, most ${percent(l.max)}, bias ${signed_percent(l.bias)}; truth to ${percent(l.truth_error)}` }, percent(l.of_mean)) }))]))));
+    unique(list.map((l) => l.roughness)).map((r) => [`roughness ${plain(r)}`, ...list.filter((l) => l.roughness === r).map((l) => ({ n: el("span", { title: `relative to each view: RMS ${percent(l.rms)}, most ${percent(l.max)}, bias ${signed_percent(l.bias)}; truth to ${percent(l.truth_error)}` }, `${percent(l.of_mean)} ± ${percent(l.of_mean_spread, 1)}`) }))]))));
   return section("The split sum", "GGX under Smith, correlated, and Schlick: E = F0 A + B of an even environment. Errors of A + B after bilinear lookup over all NoV and roughness.",
     tables, el("div", { class: "panels" }, samples),
     el("h3", {}, "Under an environment"),
-    light.length ? [el("p", { class: "small muted" }, "RMS over views of split sum − integral, over the integral's mean, in luminance; the split takes n = v = r, so at grazing angles the lobe has the wrong shape. Relative to each view, and the truth's own error, under the pointer."), ...light]
+    light.length ? [el("p", { class: "small muted" }, "RMS over views of split sum − integral, over the integral's mean, in luminance; the split takes n = v = r, so at grazing angles the lobe has the wrong shape. " + `${views} views; ±: half of what one half of them says and the other. Relative to each view, and the truth's own error, under the pointer.`), ...light]
       : el("p", { class: "small muted" }, "Not measured: no map was given (--environment FILE …)."));
 }
 function irradiances() {
@@ -173,7 +186,7 @@ function irradiances() {
 document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio report energy"), el("h1", {}, "What single scattering loses, and what gives it back"),
   el("div", { class: "verdict" }, findings.map((f) => el("p", {}, f))),
-  materials.length ? section("From which roughness on does it matter?", "GGX under Smith masking, correlated: the roughness from which on more than 1, 5, 10 % of what should leave is missing, by material and angle.",
+  materials.length ? section("From which roughness on does it matter?", "GGX under Smith masking, correlated: the roughness from which on more than 1, 5, 10 % of what should leave is missing, by material and angle. " + crossing_note,
     crossing_table("material", materials, (m) => m)) : null,
-  maskings(), bounces(), compensations(), against_time(), split_sum(), irradiances(),
+  maskings(), bounces(), compensations(), albedo_formulas(), against_time(), split_sum(), irradiances(),
   el("footer", {}, `${full ? "Full" : "Quick"} setting. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));

@@ -117,7 +117,7 @@ struct Turquin {
       "albedo = e_single (1 + f0 (1/e − 1))",
       "Turquin 2019, Practical Multiple Scattering Compensation for Microfacet Models",
       "",
-      "Filament, MaterialX"};
+      "Filament"};
   static constexpr std::array parameters{e_single_parameter, e_parameter, f0_parameter};
   static constexpr std::array<std::string_view, 1> outputs{"albedo"};
 
@@ -140,7 +140,7 @@ struct FdezAguera {
       "Fdez-Agüera 2019, A Multiple-Scattering Microfacet Model for Real-Time Image-based "
       "Lighting, JCGT 8(1)",
       "",
-      "three.js, glTF Sample Viewer"};
+      "three.js"};
   static constexpr std::array parameters{
       albedo_parameter("a", 1e-6, 0.6, false, "split sum's factor of F0"),
       albedo_parameter("b", 0, 0.05, false, "split sum's rest"), f0_parameter};

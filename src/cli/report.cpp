@@ -1,6 +1,7 @@
 // gonio report: studies of the shipped approximations, each as data and as a page.
 #include "reports/report.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -56,8 +57,13 @@ Exit run(const Options& o) {
   use_jobs(o.jobs);
   if (o.json && o.name == all_reports) throw wrong_usage("--json is for one report");
   ReportOptions options{o.full, {}};
-  for (const auto& path : o.environments)
-    options.environments.push_back({fs::path(path).stem().string(), read_environment(path)});
+  for (const auto& path : o.environments) {
+    const std::string name = fs::path(path).stem().string();
+    if (std::ranges::find(options.environments, name, &ReportOptions::Light::name) !=
+        options.environments.end())
+      throw wrong_usage(fmt::format("two environments have the name '{}'", name));
+    options.environments.push_back({name, read_environment(path)});
+  }
   std::error_code error;
   fs::create_directories(o.output, error);
   if (error) throw bad_input(o.output, "making the folder", error.message(), "a place to write");
@@ -96,10 +102,11 @@ void add_report(CLI::App& app, Action& action) {
       ->check(CLI::IsMember(names))
       ->required();
   c->add_option("-o,--output", o->output, "Folder, made where it is not there")->required();
-  c->add_option("--environment", o->environments,
-                "Environment maps, latitude by longitude in OpenEXR: what the split sum is off by "
-                "under each")
-      ->expected(1, 64);
+  c->add_option(
+       "--environment", o->environments,
+       "An environment map, latitude by longitude in OpenEXR: what the split sum is off by "
+       "under it; may be given several times")
+      ->allow_extra_args(false);
   c->add_flag("--full", o->full, "Finer in roughness and angle, some minutes");
   add_jobs(c, *o);
   add_output(c, *o);

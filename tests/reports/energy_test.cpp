@@ -14,7 +14,7 @@
 namespace gonio {
 namespace {
 
-const EnergyOptions few{false, {0.25, 0.5, 1}, {0.1, 0.5, 1}, 1024};
+const EnergyOptions few{false, {0.3, 0.5, 1}, {0.1, 0.5, 1}, 1024};
 const auto unwatched = [](double) {};
 
 EnergyReport of_forms(const std::vector<std::string>& names) {
@@ -56,36 +56,97 @@ TEST(EnergyReport, LightIsMadeByNoMaskingAndByTheMobileFormsAlone) {
   for (const auto& f : r.forms)
     for (const auto& at : f.rows)
       if (at.albedo > 1 + 1e-4) makers.insert(f.name);
-  EXPECT_EQ(makers,
-            (std::set<std::string>{"masking.none", "masking.disney_coat", "masking.unity_mobile",
-                                   "masking.unity_mobile.urp", "masking.ue_mobile_simple",
-                                   "model.unity_mobile", "model.ue_mobile_simple"}));
+  EXPECT_EQ(makers, (std::set<std::string>{"masking.none", "masking.disney_coat, gamma 1",
+                                           "masking.unity_mobile", "masking.unity_mobile.urp",
+                                           "masking.ue_mobile_simple", "model.unity_mobile",
+                                           "model.ue_mobile_simple"}));
 }
 
-TEST(EnergyReport, ALossPassesItsShareWhereItSays) {
-  const auto r = of_forms({correlated});
-  const auto& f = r.forms.at(0);
-  std::size_t found = 0;
-  for (const auto& c : f.crossings) {
-    if (c.mu == 0 || !(c.roughness > 0)) continue;
-    ++found;
-    const auto loss = [&](double roughness) {
-      const auto b = bind_model("ggx/smith_ggx.correlated/constant",
-                                {{"roughness", {roughness}}, {"f0", {1}}}, 1);
-      return 1 - directional_albedo(b, {&c.mu, 1})[0].value[0];
-    };
-    EXPECT_LT(loss(c.roughness - 0.002), c.share) << c.mu;
-    EXPECT_GT(loss(c.roughness + 0.002), c.share) << c.mu;
+std::vector<double> twenty() {
+  std::vector<double> r;
+  for (int i = 1; i <= 20; ++i) r.push_back(0.05 * i);
+  return r;
+}
+std::vector<Crossing> crossings_of(double (*loss)(double)) {
+  const auto r = twenty();
+  std::vector<double> losses;
+  for (const double x : r) losses.push_back(loss(x));
+  return crossings_at(1, r, losses);
+}
+
+TEST(Crossings, OfAPowerAreExact) {
+  const auto found = crossings_of([](double r) { return r * r * r; });
+  ASSERT_EQ(found.size(), 3U);
+  for (const auto& c : found) {
+    ASSERT_EQ(c.ranges.size(), 1U);
+    EXPECT_NEAR(c.ranges[0].from, std::cbrt(c.share), 1e-12);
+    EXPECT_EQ(c.ranges[0].to, 1);
+    EXPECT_LT(c.error, 1e-12);
   }
-  EXPECT_GE(found, 5U);
 }
 
-TEST(EnergyReport, ALossThatIsThereFromTheStartPassesAtZeroAndOneThatNeverComesNowhere) {
-  // at mu = 0.1: Schlick with k for direct light loses at once, no masking never
+TEST(Crossings, OfAnyLossAreWithinTheErrorThatTheySay) {
+  const auto loss = [](double r) { return r * r * r / (0.3 + r) + 0.002 * std::sin(9 * r); };
+  for (const auto& c : crossings_of(loss)) {
+    ASSERT_EQ(c.ranges.size(), 1U);
+    double low = 0, high = 1;
+    while (high - low > 1e-9) (loss((low + high) / 2) > c.share ? high : low) = (low + high) / 2;
+    EXPECT_NEAR(c.ranges[0].from, high, c.error) << c.share;
+    EXPECT_LT(c.error, 0.02);
+  }
+}
+
+TEST(Crossings, EndWhereTheLossIsSmallAgain) {
+  const auto found = crossings_of([](double r) { return 0.2 * (0.25 - (r - 0.5) * (r - 0.5)); });
+  // at most 5 %: above 1 % between 0.5 ± √0.2, and no further
+  ASSERT_EQ(found[0].ranges.size(), 1U);
+  EXPECT_NEAR(found[0].ranges[0].from, 0.5 - std::sqrt(0.2), 2e-3);
+  EXPECT_NEAR(found[0].ranges[0].to, 0.5 + std::sqrt(0.2), 2e-3);
+  EXPECT_TRUE(found[2].ranges.empty());
+}
+
+TEST(Crossings, OfALossThatIsThereFromTheStartBeginAtTheLeastRoughness) {
+  for (const auto& c : crossings_of([](double) { return 0.5; })) {
+    ASSERT_EQ(c.ranges.size(), 1U);
+    EXPECT_EQ(c.ranges[0].from, 0.05);
+    EXPECT_EQ(c.ranges[0].to, 1);
+  }
+}
+
+TEST(EnergyReport, ItsCrossingsAreThoseOfItsRows) {
   const auto r = of_forms({"masking.schlick_ggx.direct", none});
+  // at mu = 0.1: Schlick with k for direct light loses at once, no masking never
   for (const auto& c : form(r, "masking.schlick_ggx.direct").crossings)
-    EXPECT_TRUE(c.mu != 0.1 || c.roughness == 0);
-  for (const auto& c : form(r, none).crossings) EXPECT_TRUE(c.mu != 0.1 || std::isnan(c.roughness));
+    EXPECT_TRUE(c.mu != 0.1 || c.ranges.at(0).from == 0.3);
+  for (const auto& c : form(r, none).crossings) EXPECT_TRUE(c.mu != 0.1 || c.ranges.empty());
+}
+
+TEST(EnergyReport, TheCoatIsMeasuredAsItShips) {
+  const std::string coat = "masking.disney_coat, gamma 1";
+  const auto r = of_forms({coat});
+  const auto& f = form(r, coat);
+  EXPECT_EQ(f.ndf, "ndf.gtr");
+  for (const auto& at : f.rows) EXPECT_LE(at.roughness, std::sqrt(0.1));
+  EXPECT_EQ(f.rows.size(), 3U);  // of the three roughnesses 0.3 alone
+}
+
+TEST(EnergyReport, ErrorsOfCompensationsAreComparedOnTheSameMaterials) {
+  auto r = materials();
+  add_costs(r);
+  for (const auto& c : r.compensations) {
+    EXPECT_EQ(std::isnan(c.gold_rms), c.id == "fdez_aguera") << c.id;
+    EXPECT_EQ(c.worst_at.find("gold"), c.worst_at.npos) << c.id;
+    EXPECT_GE(std::abs(c.worst), c.rms);
+  }
+}
+
+TEST(EnergyReport, TheFitOfEIsNearerThanMaterialX) {
+  EnergyReport r;
+  add_albedo_forms(r);
+  ASSERT_EQ(r.albedo_forms.size(), 3U);
+  EXPECT_LT(std::abs(r.albedo_forms[0].worst), 0.005);
+  EXPECT_GT(std::abs(r.albedo_forms[1].worst), 0.05);
+  EXPECT_LT(r.albedo_forms[0].rms, r.albedo_forms[1].rms / 4);
 }
 
 TEST(EnergyReport, WhiteGivesAllBackAndTheOrdersSumToTheTruth) {
