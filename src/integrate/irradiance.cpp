@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "geometry/sampling.h"
@@ -18,20 +19,18 @@ void add(Rgb& to, double weight, const Rgb& c) {
   for (std::size_t k = 0; k < 3; ++k) to[k] += weight * c[k];
 }
 
-/// π²/N Σ L cos θ sin θ at θ = (i + offset) step_theta, φ = (k + offset) step_phi.
+/// π²/N Σ L cos θ sin θ at θ = (i + offset) step, φ = (k + offset) step, of so many rows.
 SampledIrradiance riemann(const Radiance& radiance,
                           const Direction& n,
-                          std::size_t n_theta,
-                          std::size_t n_phi,
-                          double step_theta,
-                          double step_phi,
+                          std::size_t rows,
                           double offset) {
+  const double step = pi / 2 / static_cast<double>(rows);
   const Frame surface(n);
-  SampledIrradiance sum{{}, n_theta * n_phi};
-  for (std::size_t k = 0; k < n_phi; ++k)
-    for (std::size_t i = 0; i < n_theta; ++i) {
-      const double theta = (static_cast<double>(i) + offset) * step_theta;
-      const Direction l = direction(theta, (static_cast<double>(k) + offset) * step_phi);
+  SampledIrradiance sum{{}, 4 * rows * rows};
+  for (std::size_t k = 0; k < 4 * rows; ++k)
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double theta = (static_cast<double>(i) + offset) * step;
+      const Direction l = direction(theta, (static_cast<double>(k) + offset) * step);
       add(sum.value, l.z * std::sin(theta), radiance(surface.outside(l)));
     }
   for (double& v : sum.value) v *= pi * pi / static_cast<double>(sum.samples);
@@ -91,16 +90,7 @@ SampledIrradiance sampled_irradiance(const Radiance& radiance,
   }
   const auto rows = static_cast<std::size_t>(
       std::max(1.0, std::round(std::sqrt(static_cast<double>(samples) / 4))));
-  const double step = pi / 2 / static_cast<double>(rows);
-  return riemann(radiance, n, rows, 4 * rows, step, step,
-                 rule == IrradianceRule::riemann ? 0 : 0.5);
-}
-
-SampledIrradiance stepped_irradiance(const Radiance& radiance, const Direction& n, double step) {
-  const auto steps = [&](double range) {
-    return static_cast<std::size_t>(std::ceil(range / step));
-  };
-  return riemann(radiance, n, steps(pi / 2), steps(2 * pi), step, step, 0);
+  return riemann(radiance, n, rows, rule == IrradianceRule::riemann ? 0 : 0.5);
 }
 
 std::vector<IrradianceError> irradiance_errors(const Radiance& radiance,
@@ -123,12 +113,17 @@ std::vector<IrradianceError> irradiance_errors(const Radiance& radiance,
         if (i == 0) taken = s.samples;
       });
       IrradianceError e{std::string(name_of(rule)), taken};
-      for (const double o : off) {
-        e.rms += o * o / static_cast<double>(normals);
-        e.bias += o / static_cast<double>(normals);
-        e.max = std::max(e.max, std::abs(o));
+      for (std::size_t i = 0; i < normals; ++i) {
+        if (!(truth[i] > 0)) continue;
+        e.rms += off[i] * off[i];
+        e.bias += off[i];
+        e.max = std::max(e.max, std::abs(off[i]));
+        ++e.normals;
       }
-      e.rms = std::sqrt(e.rms);
+      const auto n = static_cast<double>(e.normals);
+      e.rms = std::sqrt(e.rms / n);
+      e.bias /= n;
+      if (e.normals == 0) e.max = std::numeric_limits<double>::quiet_NaN();
       rows.push_back(e);
     }
   return rows;

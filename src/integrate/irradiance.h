@@ -49,18 +49,16 @@ SampledIrradiance sampled_irradiance(const Radiance&,
                                      IrradianceRule,
                                      std::size_t samples);
 
-/// As shaders are found: θ from 0 while θ < π/2 and φ from 0 while φ < 2π by a step that divides neither, and
-/// N as counted.  A step of 0.025 makes 63 × 252 samples, which span 1.575 × 6.3: 0.28 % of even light is lost.
-SampledIrradiance stepped_irradiance(const Radiance&, const Direction& n, double step);
-
 /// sampled/exact − 1, of luminance, over normals.
 struct IrradianceError {
   std::string rule;
   std::size_t samples = 0;
-  double rms = 0, max = 0, bias = 0;  ///< max: of |…|; bias: the mean
+  double rms = 0, max = 0, bias = 0;  ///< max: of |…|; bias: the mean; of no normal not a number
+  std::size_t normals = 0;            ///< those to which light comes
 };
 
-/// Every rule with each count, over `normals` even over the sphere.
+/// Every rule with each count, over `normals` even over the sphere; those that light does not come to are left
+/// out.
 std::vector<IrradianceError> irradiance_errors(const Radiance&,
                                                const std::function<Rgb(const Direction&)>& exact,
                                                std::span<const std::size_t> counts,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/error.h"
@@ -39,6 +40,9 @@ Gather above_horizon(const Frame& surface, const Direction& v, Values values) {
   };
 }
 
+Rgb scaled(double x, const Rgb& a) {
+  return {x * a[0], x * a[1], x * a[2]};
+}
 Rgb mixed(double x, const Rgb& a, double y, const Rgb& b) {
   return {x * a[0] + y * b[0], x * a[1] + y * b[1], x * a[2] + y * b[2]};
 }
@@ -50,7 +54,7 @@ Rgb LitView::exact(double at_f0) const {
   return mixed(1 - part, exact_at[0], part, exact_at[1]);
 }
 Rgb LitView::split(double at_f0) const {
-  return mixed(at_f0 * a + b, prefiltered, 0, prefiltered);
+  return scaled(at_f0 * a + b, prefiltered);
 }
 
 double prefilter_weight(double alpha) {
@@ -105,7 +109,7 @@ std::vector<LitView> lit_views(const SummedEnvironment& light,
 
 SplitSumLightError split_sum_light_error(std::span<const LitView> views, double f0) {
   SplitSumLightError e;
-  double n = 0, absolute2 = 0;
+  double absolute2 = 0;
   for (const auto& v : views) {
     const Rgb exact = v.exact(f0), split = v.split(f0);
     const double of = luminance(exact), off = luminance(split) - of;
@@ -117,13 +121,18 @@ SplitSumLightError split_sum_light_error(std::span<const LitView> views, double 
     e.truth = std::max(e.truth, v.error);
     e.exact = mixed(1, e.exact, 1, exact);
     e.split = mixed(1, e.split, 1, split);
-    ++n;
+    ++e.views;
   }
-  if (n == 0) return e;
+  if (e.views == 0) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    e.rms = e.max = e.bias = e.of_mean = e.truth = unknown;
+    return e;
+  }
+  const auto n = static_cast<double>(e.views);
   e.rms = std::sqrt(e.rms / n);
   e.bias /= n;
-  e.exact = mixed(1 / n, e.exact, 0, e.exact);
-  e.split = mixed(1 / n, e.split, 0, e.split);
+  e.exact = scaled(1 / n, e.exact);
+  e.split = scaled(1 / n, e.split);
   e.of_mean = std::sqrt(absolute2 / n) / luminance(e.exact);
   return e;
 }

@@ -46,8 +46,9 @@ struct SplitSumLightError {
   double of_mean = 0;                 ///< RMS of split − exact, over the mean of exact
   double truth = 0;                   ///< what each is off by itself, at most
   Rgb exact{}, split{};               ///< means
+  std::size_t views = 0;              ///< those to which light comes
 };
-/// Views to which nothing comes are left out.
+/// Views to which nothing comes are left out; of none, errors are not numbers.
 SplitSumLightError split_sum_light_error(std::span<const LitView>, double f0);
 
 /// ∫ D NoL dω/4 with n = v, by which P is divided: what GGX, drawn from D NoH, keeps above the horizon, each

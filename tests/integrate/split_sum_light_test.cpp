@@ -145,6 +145,23 @@ TEST(SplitSumLight, ItsErrorIsTrue) {
     }
 }
 
+TEST(SplitSumLight, InTheDarkHasNoErrorThatIsKnown) {
+  const auto lit = [](const Environment& map) {
+    const SummedEnvironment light(map);
+    return split_sum_light_error(lit_views(light, correlated, 0.1, 0.9, 8, {0.1, 20'000}), 0.04);
+  };
+  Environment map{8, 4, std::vector<std::array<float, 3>>(32)};
+  const auto dark = lit(map);
+  EXPECT_EQ(dark.views, 0U);
+  for (const double v : {dark.rms, dark.max, dark.bias, dark.of_mean, dark.truth})
+    EXPECT_TRUE(std::isnan(v));
+  for (std::size_t i = 0; i < 8; ++i) map.radiance[i] = {1, 1, 1};  // round the zenith
+  const auto half = lit(map);
+  EXPECT_GT(half.views, 0U);
+  EXPECT_LT(half.views, 8U);
+  EXPECT_TRUE(std::isfinite(half.rms));
+}
+
 TEST(SplitSumLight, PrefilterWeightIsItsIntegral) {
   EXPECT_NEAR(prefilter_weight(1), 0.25, 1e-12);
   EXPECT_NEAR(prefilter_weight(1 - 1e-4), prefilter_weight(1 - 1e-4 + 1e-9), 1e-9);
