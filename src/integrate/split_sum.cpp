@@ -16,10 +16,6 @@
 namespace gonio {
 namespace {
 
-void check(std::span<const double> nov) {
-  for (const double c : nov)
-    if (!(0 < c && c <= 1)) throw wrong_usage(fmt::format("nov = {} is outside (0, 1]", c));
-}
 void check(std::size_t samples) {
   if (samples == 0 || samples > std::numeric_limits<std::uint32_t>::max())
     throw wrong_usage(fmt::format("samples = {} is outside [1, 4294967295]", samples));
@@ -85,7 +81,6 @@ std::vector<SplitSum> split_sum(std::string_view masking,
                                 double roughness,
                                 std::span<const double> nov,
                                 const Goal& goal) {
-  check(nov);
   const Goal half{goal.error / 2, goal.evaluations};
   std::vector<SplitSum> rows;
   for (const auto& e : directional_albedo(two_interfaces(masking, roughness), nov, 0, half))
@@ -97,7 +92,7 @@ std::vector<SplitSum> sampled_split_sum(std::string_view masking,
                                         double roughness,
                                         std::span<const double> nov,
                                         std::size_t samples) {
-  check(nov);
+  check_cosines(nov);
   check(samples);
   const auto model = two_interfaces(masking, roughness);
   std::vector<SplitSum> rows(nov.size());
@@ -108,14 +103,13 @@ std::vector<SplitSum> sampled_split_sum(std::string_view masking,
 }
 
 std::vector<Albedo> split_sum_diffuse(std::span<const double> nov, const Goal& goal) {
-  check(nov);
   return diffuse_albedo(
       bind_model("lambert.coupled+ggx/smith_ggx.correlated/schlick", {{"kd", {1}}, {"f0", {0}}}, 1),
       nov, 0, goal);
 }
 
 std::vector<double> sampled_split_sum_diffuse(std::span<const double> nov, std::size_t samples) {
-  check(nov);
+  check_cosines(nov);
   check(samples);
   std::vector<double> diffuse;
   for (const double mu : nov) {

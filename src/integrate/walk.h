@@ -20,8 +20,8 @@ struct WalkGoal {
   std::size_t bounces = 1000;     ///< after which a walk is cut off
 };
 
-/// The light that leaves, by the number of bounces, of light that arrives from each μ = NoV in (0, 1]; in
-/// parallel.  Every lobe has to be one of microsurfaces(), else wrong usage; diffuse terms are no part of it.
+/// How much of the light that arrives from each μ = NoV in (0, 1] leaves again, by the number of bounces; in
+/// parallel.  Every lobe has to be one of microsurfaces(), else it is wrong usage; diffuse terms are left out.
 ///
 /// Light dives into the surface from its top until it meets a facet, is weighted with the facet's
 /// Fresnel term, in all channels together, reflected, and so on until it gets out.  Depth is counted as τ =
