@@ -123,6 +123,11 @@ Vector linear_srgb(const Spectrum& reflectance) {
   return to_rgb * xyz(reflectance);
 }
 
+Vector xyz_of_srgb(const Vector& rgb) {
+  constexpr Matrix to_xyz = inverse(to_rgb);
+  return to_xyz * rgb;
+}
+
 Vector reflectance_rgb(const Material& m, double c) {
   return linear_srgb(spectrum([&](double nm) { return conductor(m.at(nm), c); }));
 }

@@ -33,6 +33,9 @@ std::array<double, 3> xyz(const Spectrum& reflectance);
 /// from that standard's rounded x = 0.3127, y = 0.3290 by 2e-5.
 std::array<double, 3> linear_srgb(const Spectrum& reflectance);
 
+/// XYZ of linear sRGB, by the inverse of that matrix: {1, 1, 1} is the white of xyz().
+std::array<double, 3> xyz_of_srgb(const std::array<double, 3>& rgb);
+
 /// What a smooth surface reflects at angles of cosine c, exactly: Fresnel reflectance of every
 /// wavelength, then linear_srgb().
 std::array<double, 3> reflectance_rgb(const Material&, double c);

@@ -119,6 +119,12 @@ std::vector<std::vector<double>> table(const std::string& path) {
   return rows;
 }
 
+TEST(Spectrum, ColoursGoToXyzAndBack) {
+  const auto red = spectrum([](double nm) { return nm > 600 ? 0.8 : 0.1; });
+  const auto there = xyz(red), back = xyz_of_srgb(linear_srgb(red));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(back[i], there[i], 1e-12) << i;
+}
+
 TEST(Spectrum, IsThatOfThePublishedTablesAtOneNanometre) {
   GONIO_NEEDS_SHARED(observer, "data/cie/cie1931_2deg_1nm.csv");
   GONIO_NEEDS_SHARED(light, "data/cie/d65.csv");

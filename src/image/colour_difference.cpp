@@ -1,0 +1,66 @@
+#include "image/colour_difference.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace gonio {
+namespace {
+
+constexpr double pi = std::numbers::pi, turn = 2 * pi;
+constexpr double radians = pi / 180;
+
+double power_7(double x) {
+  const double x2 = x * x, x3 = x2 * x;
+  return x3 * x3 * x;
+}
+/// √(c⁷/(c⁷ + 25⁷))
+double of_25(double c) {
+  return std::sqrt(power_7(c) / (power_7(c) + power_7(25)));
+}
+/// In [0, 2π); of grey 0.
+double hue(double b, double a) {
+  const double h = std::atan2(b, a);
+  return h < 0 ? h + turn : h;
+}
+
+}  // namespace
+
+Lab lab(const std::array<double, 3>& xyz, const std::array<double, 3>& white) {
+  std::array<double, 3> f{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double t = xyz[i] / white[i];
+    constexpr double part = 6.0 / 29;
+    f[i] = t > part * part * part ? std::cbrt(t) : t / (3 * part * part) + 4.0 / 29;
+  }
+  return {116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])};
+}
+
+double delta_e_2000(const Lab& x, const Lab& y) {
+  const double g = (1 - of_25((std::hypot(x.a, x.b) + std::hypot(y.a, y.b)) / 2)) / 2;
+  const double ax = (1 + g) * x.a, ay = (1 + g) * y.a;
+  const double cx = std::hypot(ax, x.b), cy = std::hypot(ay, y.b);
+  const double hx = hue(x.b, ax), hy = hue(y.b, ay);
+
+  const bool grey = cx * cy == 0;
+  double dh = grey ? 0 : hy - hx;
+  if (dh > pi) dh -= turn;
+  if (dh < -pi) dh += turn;
+  double h = hx + hy;  // the mean, across red where that is nearer; of grey the other's
+  if (!grey) {
+    if (std::abs(hx - hy) > pi) h += h < turn ? turn : -turn;
+    h /= 2;
+  }
+  const double l = (x.l + y.l) / 2, c = (cx + cy) / 2;
+
+  const double t = 1 - 0.17 * std::cos(h - 30 * radians) + 0.24 * std::cos(2 * h) +
+                   0.32 * std::cos(3 * h + 6 * radians) - 0.20 * std::cos(4 * h - 63 * radians);
+  const double from_50 = (l - 50) * (l - 50);
+  const double blue = (h / radians - 275) / 25;
+  const double turned = -std::sin(60 * radians * std::exp(-blue * blue)) * 2 * of_25(c);
+  const double dl = (y.l - x.l) / (1 + 0.015 * from_50 / std::sqrt(20 + from_50));
+  const double dc = (cy - cx) / (1 + 0.045 * c);
+  const double dhue = 2 * std::sqrt(cx * cy) * std::sin(dh / 2) / (1 + 0.015 * c * t);
+  return std::sqrt(dl * dl + dc * dc + dhue * dhue + turned * dc * dhue);
+}
+
+}  // namespace gonio
