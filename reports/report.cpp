@@ -4,6 +4,7 @@
 
 #include "reports/energy.h"
 #include "reports/remap.h"
+#include "reports/schlick.h"
 
 namespace gonio {
 namespace {
@@ -24,10 +25,18 @@ ReportFiles remap(const ReportOptions& o, const ReportProgress& done) {
   return {std::move(json), std::move(html), report.findings};
 }
 
+ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
+  const auto report = schlick_report(schlick_options(o.full), done);
+  std::string json = to_json(report);
+  std::string html = schlick_page_html(json);
+  return {std::move(json), std::move(html), report.findings};
+}
+
 constexpr std::array kinds{
     ReportKind{"energy", "what single scattering loses, and what gives it back", energy},
     ReportKind{"remap", "masking forms against exact Smith, and which roughness each behaves like",
-               remap}};
+               remap},
+    ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick}};
 
 }  // namespace
 
