@@ -104,7 +104,7 @@ bool is_grey(const std::vector<double>& by_channel) {
 
 using Json = nlohmann::ordered_json;
 
-/// What is said of a walk or a half space beside the albedo: by channel, or one where all are equal.
+/// What is said of a walk or a half space beside the albedo: by channel, or of one where all are equal.
 void add_scattered(Json& document, const Result& r, bool grey, const Options& o) {
   const auto by_channel = [&](const auto& all) { return grey ? Json(all[0]) : Json(all); };
   const bool walked = o.scattering == "walk";
@@ -121,9 +121,12 @@ void add_scattered(Json& document, const Result& r, bool grey, const Options& o)
   if (walked) document["standard_error"] = error;
   if (r.scattered_average) {
     const auto& s = *r.scattered_average;
-    document["average_orders"] = s.order;
-    document["average_rest"] = s.rest;
-    if (walked) document["average_standard_error"] = s.error;
+    const auto of_average = [&](const auto& all) {
+      return grey ? Json::array({all[0]}) : Json(all);
+    };
+    document["average_orders"] = of_average(s.order);
+    document["average_rest"] = of_average(s.rest);
+    if (walked) document["average_standard_error"] = of_average(s.error);
     bounces += s.bounces;
   }
   if (!walked) return;

@@ -100,6 +100,9 @@ TEST(AlbedoCommand, AWalkAgreesWithTheHalfSpaceByOrders) {
       EXPECT_NEAR(walked["orders"][i][n], solved["orders"][i][n], 5 * error);
     EXPECT_GE(walked["rest"][i], 0);
   }
+  for (const char* name : {"average", "average_orders", "average_rest"})
+    for (const auto& j : {solved, walked}) EXPECT_EQ(j[name].size(), 1U) << name;
+  EXPECT_EQ(walked["average_standard_error"].size(), 1U);
   EXPECT_NEAR(walked["average"][0], solved["average"][0], walked["error_bound"]);
   EXPECT_NEAR(walked["average_orders"][0][0], solved["average_orders"][0][0],
               walked["error_bound"]);
