@@ -2,8 +2,10 @@
 // what is lost by them under an environment.
 #include "integrate/split_sum.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -18,9 +20,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options : Common {
-  std::vector<double> roughness, nov, f0{0.04};
-  std::string masking = "smith_ggx.correlated", size, precision = "float", out, environment;
-  std::size_t samples = 0, views = 16;
+  std::vector<double> roughness, nov, f0;
+  std::string masking = "smith_ggx.correlated", size, precision, out, environment;
+  std::size_t samples = 0, views = 0;
   std::optional<double> error;
 };
 constexpr std::array precision_names{"float", "half"};
@@ -28,6 +30,16 @@ constexpr std::array storages{Storage::single, Storage::half};
 
 Goal goal_or(const Options& o, double error) {
   return {o.error.value_or(error)};
+}
+
+/// Of values that are no numbers, as where NoV is so small that its square is 0.
+void expect_finite(const Options& o,
+                   double roughness,
+                   double nov,
+                   std::initializer_list<double> values) {
+  if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
+    throw bad_input(o.masking, fmt::format("roughness = {}, nov = {}", roughness, nov),
+                    "values that are no numbers", "finite ones");
 }
 
 Exit rows(const Options& o) {
@@ -50,6 +62,7 @@ Exit rows(const Options& o) {
                                     : split_sum(o.masking, r, o.nov, goal);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const auto& s = sums[i];
+      expect_finite(o, r, o.nov[i], {s.a, s.b, diffuse[i]});
       table += fmt::format("{:>10} {:>10} {:>12.9f} {:>12.9f} {:>12.9f}\n", r, o.nov[i], s.a, s.b,
                            diffuse[i]);
       rows.push_back(
@@ -81,6 +94,7 @@ std::array<std::size_t, 2> size_from(const std::string& text) {
 }
 
 Json json_of(const SplitSumDeviation& d) {
+  if (d.values == 0) return nullptr;
   const auto one = [](const Deviation& v) { return Json{{"max", v.max}, {"rms", v.rms}}; };
   return {{"a", one(d.a)}, {"b", one(d.b)}, {"e", one(d.e)}};
 }
@@ -91,7 +105,8 @@ Exit table(const Options& o) {
   Progress progress(o.quiet || o.json);
   progress("integrating");
   const auto exact = split_sum_table(o.masking, width, height, o.samples, goal_or(o, 1e-7));
-  const Storage storage = storages[index_of(precision_names, o.precision)];
+  const std::string precision = o.precision.empty() ? precision_names[0] : o.precision;
+  const Storage storage = storages[index_of(precision_names, precision)];
   const auto written = stored(exact, storage);
   write_split_sum_table(o.out, exact, storage);
   progress("looking up");
@@ -103,7 +118,7 @@ Exit table(const Options& o) {
                   {"masking", exact.masking},
                   {"width", width},
                   {"height", height},
-                  {"precision", o.precision}};
+                  {"precision", precision}};
     if (o.samples > 0)
       document["samples"] = o.samples;
     else
@@ -114,7 +129,7 @@ Exit table(const Options& o) {
     fmt::print("{}\n", document.dump(2));
     return Exit::done;
   }
-  fmt::print("{}: {} × {}, {}, {}\n", o.out, width, height, o.precision, exact.masking);
+  fmt::print("{}: {} × {}, {}, {}\n", o.out, width, height, precision, exact.masking);
   if (o.samples > 0)
     fmt::print("{} samples a texel\n", o.samples);
   else
@@ -123,7 +138,10 @@ Exit table(const Options& o) {
              "rms", "A+B max", "rms");
   const auto line = [](const char* name, const SplitSumDeviation& d) {
     fmt::print("{:<32}", name);
-    for (const auto& v : {d.a, d.b, d.e}) fmt::print(" {:9.1e} {:9.1e}", v.max, v.rms);
+    if (d.values == 0)
+      fmt::print(" {:>9}", "nowhere");
+    else
+      for (const auto& v : {d.a, d.b, d.e}) fmt::print(" {:9.1e} {:9.1e}", v.max, v.rms);
     fmt::print("\n");
   };
   line("storage", storing);
@@ -133,7 +151,9 @@ Exit table(const Options& o) {
 }
 
 Exit under_light(const Options& o) {
-  for (const double f0 : o.f0)
+  const auto f0s = o.f0.empty() ? std::vector{0.04} : o.f0;
+  const std::size_t view_count = o.views > 0 ? o.views : 16;
+  for (const double f0 : f0s)
     if (!(LitView::f0[0] <= f0 && f0 <= LitView::f0[1]))
       throw wrong_usage(
           fmt::format("f0 = {} is outside [{}, {}]", f0, LitView::f0[0], LitView::f0[1]));
@@ -147,9 +167,13 @@ Exit under_light(const Options& o) {
   std::size_t done = 0;
   for (const double r : o.roughness)
     for (const double nov : o.nov) {
-      const auto views = lit_views(light, o.masking, r, nov, o.views, goal);
+      const auto even = split_sum(o.masking, r, {{nov}})[0];  // where it fails, so do views, slowly
+      expect_finite(o, r, nov, {even.a, even.b});
+      const auto views = lit_views(light, o.masking, r, nov, view_count, goal);
       progress(++done);
-      for (const double f0 : o.f0) {
+      for (const auto& v : views)
+        expect_finite(o, r, nov, {luminance(v.exact_at[1]), luminance(v.prefiltered)});
+      for (const double f0 : f0s) {
         const auto e = split_sum_light_error(views, f0);
         table += fmt::format(
             "{:>9} {:>6} {:>6} {:>11.5g} {:>11.5g} {:>9.4f} {:>9.4f} {:>+9.4f} {:>9.1e}\n", r, nov,
@@ -163,7 +187,8 @@ Exit under_light(const Options& o) {
                         {"max_relative_error", e.max},
                         {"bias", e.bias},
                         {"error_over_mean", e.of_mean},
-                        {"truth_error", e.truth}});
+                        {"truth_error", e.truth},
+                        {"lit_views", e.views}});
       }
     }
   progress.clear();
@@ -176,7 +201,7 @@ Exit under_light(const Options& o) {
                       {"height", light.map().height},
                       {"negative_values", light.map().negative},
                       {"masking", o.masking},
-                      {"views", o.views},
+                      {"views", view_count},
                       {"rows", rows}};
   fmt::print("{}\n", document.dump(2));
   return Exit::done;
@@ -192,6 +217,10 @@ Exit run(const Options& o) {
     throw wrong_usage("split_sum needs --roughness and --nov, or --size and -o");
   if (!o.size.empty() && !o.environment.empty())
     throw wrong_usage("--environment needs --roughness and --nov, not --size");
+  if (o.size.empty() && !o.precision.empty())
+    throw wrong_usage("--precision is of a table, --size");
+  if (o.environment.empty() && !o.f0.empty()) throw wrong_usage("--f0 is for --environment");
+  if (o.environment.empty() && o.views > 0) throw wrong_usage("--views is for --environment");
   if (!o.size.empty()) return table(o);
   if (o.roughness.empty() || o.nov.empty())
     throw wrong_usage("split_sum needs both --roughness and --nov");
@@ -223,20 +252,17 @@ void add_split_sum(CLI::App& app, Action& action) {
       "--error", o->error,
       "Error asked for: absolute (1e-8, of a table 1e-7), under an environment relative (1e-3)");
   c->add_option("--size", o->size, "A table of WIDTHxHEIGHT texels: NoV along, roughness down");
-  c->add_option("--precision", o->precision, "What the table's numbers are stored as")
-      ->check(one_of(precision_names))
-      ->capture_default_str();
+  c->add_option("--precision", o->precision, "What the table's numbers are stored as (float)")
+      ->check(one_of(precision_names));
   c->add_option("-o,--output", o->out, "OpenEXR file that the table is written to");
   c->add_option(
       "--environment", o->environment,
       "OpenEXR map over longitude and latitude: what the split sum is off by under its light");
   c->add_option("--f0", o->f0,
-                "Reflectance at normal incidence, under an environment, in [0.02, 1]")
-      ->delimiter(',')
-      ->capture_default_str();
-  c->add_option("--views", o->views, "Views, even over the environment")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}))
-      ->capture_default_str();
+                "Reflectance at normal incidence, under an environment, in [0.02, 1] (0.04)")
+      ->delimiter(',');
+  c->add_option("--views", o->views, "Views, even over the environment (16)")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}));
   add_jobs(c, *o);
   add_output(c, *o);
 }

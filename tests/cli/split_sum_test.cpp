@@ -52,6 +52,13 @@ TEST(SplitSumCommand, WritesTheTableAndSaysHowFarOffItIs) {
   EXPECT_EQ(read_bytes(f / "t.exr"), bytes);
 }
 
+TEST(SplitSumCommand, KnowsNoErrorBetweenTheCentresOfOneTexel) {
+  const Folder f;
+  const auto j = gonio(f, "split_sum --size 1x1 --json -o t.exr").json();
+  EXPECT_TRUE(j["lookup_error_between_centres"].is_null());
+  EXPECT_GT(j["lookup_error"]["e"]["max"], 0.1);
+}
+
 TEST(SplitSumCommand, SaysWhatItIsOffByUnderAnEnvironment) {
   GONIO_NEEDS_SHARED(map, "data/env/studio.exr");
   const Folder f;
@@ -71,6 +78,8 @@ TEST(SplitSumCommand, SaysWhatItIsOffByUnderAnEnvironment) {
   }
   EXPECT_GT(j["rows"][1]["truth"][0], j["rows"][0]["truth"][0]);  // F0 = 1 and 0.04
   EXPECT_EQ(gonio(f, words + " --jobs 1").json(), j);
+  expect_one_line(gonio(f, "split_sum --environment '" + map + "' --roughness 0.5 --nov 1e-300"), 3,
+                  "nov = 1e-300");
 }
 
 TEST(SplitSumCommand, RefusesWhatItCannotDo) {
@@ -88,6 +97,13 @@ TEST(SplitSumCommand, RefusesWhatItCannotDo) {
   expect_one_line(gonio(f, "split_sum --size 8x8 --precision double -o t.exr"), 2, "precision");
   expect_one_line(gonio(f, "split_sum --size 8x8 --error 0 -o t.exr"), 2, "--error");
   expect_one_line(gonio(f, "split_sum --size 8x8 -o none/t.exr"), 3, "none/t.exr");
+  expect_one_line(gonio(f, "split_sum --roughness 0.1 --nov 1e-300"), 3, "nov = 1e-300");
+  for (const char* word : {"--precision half", "--f0 0.5", "--views 3"})
+    expect_one_line(gonio(f, std::string("split_sum --roughness 0.5 --nov 1 ") + word), 2,
+                    std::string(word).substr(0, 4));
+  for (const char* word : {"--f0 0.5", "--views 3"})
+    expect_one_line(gonio(f, std::string("split_sum --size 8x8 -o t.exr ") + word), 2,
+                    "--environment");
   EXPECT_EQ(f.entries(), 0U);
   const std::string light = "split_sum --roughness 0.5 --nov 1 --environment ";
   expect_one_line(gonio(f, light + "none.exr"), 3, "none.exr");
@@ -95,6 +111,7 @@ TEST(SplitSumCommand, RefusesWhatItCannotDo) {
   expect_one_line(gonio(f, light + "two.exr"), 3, "B among them");
   expect_one_line(gonio(f, light + "none.exr --f0 0"), 2, "f0 = 0 is outside [0.02, 1]");
   expect_one_line(gonio(f, light + "none.exr --samples 8"), 2, "--samples");
+  expect_one_line(gonio(f, light + "none.exr --precision half"), 2, "--precision");
   expect_one_line(gonio(f, "split_sum --size 8x8 -o t.exr --environment none.exr"), 2, "--size");
 }
 
