@@ -15,10 +15,10 @@ namespace {
 const SchlickOptions few{false, {1.1, 1.5, 2, 3}, 180, {0.5}};
 const auto unwatched = [](double) {};
 
-const FresnelRow& row(const std::vector<FresnelRow>& rows, std::string_view form) {
+FresnelRow row(const std::vector<FresnelRow>& rows, std::string_view form) {
   return *std::ranges::find(rows, form, &FresnelRow::form);
 }
-const FresnelForm& form(const std::vector<FresnelForm>& forms, std::string_view name) {
+FresnelForm form(const std::vector<FresnelForm>& forms, std::string_view name) {
   return *std::ranges::find(forms, name, &FresnelForm::name);
 }
 const SchlickReport& smooth() {
@@ -41,7 +41,7 @@ TEST(SchlickReport, AtBrewstersAngleSchlickIsOffByWhatTheClosedFormSays) {
     EXPECT_NEAR(exact_values(s, {&c, 1})[0][0], exact, 1e-14);
     EXPECT_NEAR(form_values(form(forms_for(s), "fresnel.schlick"), s, 0, {&c, 1})[0], approximate,
                 1e-14);
-    const auto& r = row(rows_of(s, 900), "fresnel.schlick");
+    const auto r = row(rows_of(s, 900), "fresnel.schlick");
     EXPECT_GE(r.max_abs, std::abs(approximate - exact));
     EXPECT_GE(r.max_rel, 0.999 * std::abs(approximate / exact - 1));
   }
@@ -57,7 +57,7 @@ TEST(SchlickReport, FindsTheGreatestErrorOfGlass) {
         std::abs(0.04 + 0.96 * std::pow(1 - std::cos(i), 5) - (rs * rs + rp * rp) / 2);
     if (off > most) most = off, where = deg;
   }
-  const auto& r = row(rows_of(dielectric(1.5, "glass"), 900), "fresnel.schlick");
+  const auto r = row(rows_of(dielectric(1.5, "glass"), 900), "fresnel.schlick");
   EXPECT_NEAR(r.max_abs, most, 1e-5);
   EXPECT_NEAR(r.max_abs_theta_deg, where, 0.1);
 }
@@ -74,7 +74,7 @@ TEST(SchlickReport, TheLinearFormsMeansAreThoseOfItsIntegrals) {
 TEST(SchlickReport, FromInsideTheGreatestErrorIsWhereTotalReflectionBegins) {
   const auto s = dielectric_inside(1.5, "glass");
   const auto rows = rows_of(s, 900);
-  const auto& r = row(rows, "fresnel.schlick");
+  const auto r = row(rows, "fresnel.schlick");
   const double c = std::sqrt(5.0) / 3;  // sin θ = 2/3
   EXPECT_NEAR(r.max_abs_theta_deg, std::asin(2.0 / 3) * 180 / std::acos(-1), 1e-9);
   EXPECT_NEAR(r.max_abs, 0.96 * (1 - std::pow(1 - c, 5)), 1e-6);
@@ -156,8 +156,8 @@ TEST(SchlickReport, ASpectrumWithoutColourHasTheErrorsOfItsIndex) {
   const Material::Measured flat[] = {{300, 2, 0.5}, {900, 2, 0.5}};
   const Material grey{"G", "grey", "", flat};
   const auto one = rows_of(metal(grey), 90), spectrum = rows_of(spectral(grey), 90);
-  const auto& a = row(one, "fresnel.schlick");
-  const auto& b = row(spectrum, "fresnel.schlick");
+  const auto a = row(one, "fresnel.schlick");
+  const auto b = row(spectrum, "fresnel.schlick");
   EXPECT_NEAR(a.max_abs, b.max_abs, 1e-12);
   EXPECT_NEAR(a.rms, b.rms, 1e-12);
   EXPECT_TRUE(std::isnan(b.eta));
