@@ -212,7 +212,7 @@ void add_albedo(CLI::App& app, Action& action) {
       "which it may stop)");
   c->add_option("--walks", o->walks, "Random walks at most, at each mu and lobe (1000000)")
       ->check(CLI::Range(std::size_t{2}, std::size_t{1} << 40));
-  c->add_option("--seed", o->seed, "Of the random walks (1)");
+  add_seed(c, o->seed, "Of the random walks (1)");
   add_jobs(c, *o);
   add_output(c, *o);
 }

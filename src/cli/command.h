@@ -62,6 +62,13 @@ inline void add_set(CLI::App* c, std::vector<std::string>& words) {
   c->add_option("--set", words, "Parameters: NAME=VALUE …; a colour is one number or r,g,b")
       ->expected(1, 64);
 }
+/// --seed N; a negative number would wrap around
+template <class Seed>
+void add_seed(CLI::App* c, Seed& seed, const std::string& what) {
+  c->add_option("--seed", seed, what)->check([](const std::string& word) -> std::string {
+    return word.starts_with('-') ? "'" + word + "' is below 0" : "";
+  });
+}
 /// --bins centre|edge
 inline void add_bins(CLI::App* c, std::optional<std::string>& name) {
   c->add_option(

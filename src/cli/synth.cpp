@@ -65,7 +65,7 @@ void add_synth(CLI::App& app, Action& action) {
       ->check(CLI::Range(0.0, 1e6));
   c->add_option("--outliers", o->synth.outliers, "Share of samples thrown off by up to 100 times")
       ->check(CLI::Range(0.0, 1.0));
-  c->add_option("--seed", o->synth.seed, "Seed of all that is random")->capture_default_str();
+  add_seed(c, o->synth.seed, "Seed of all that is random (1)");
   c->add_option("-o,--output", o->output, "File to write")->required();
   add_jobs(c, *o);
   add_output(c, *o);

@@ -189,5 +189,12 @@ TEST(AlbedoCommand, SaysThatAModelHasNoAverage) {
                   3, "diverges");
 }
 
+TEST(AlbedoCommand, RefusesANegativeSeed) {
+  const Folder f;
+  expect_one_line(
+      gonio(f, std::string("albedo ") + white + " --mu 0.5 --scattering walk --seed -1"), 2,
+      "'-1' is below 0");
+}
+
 }  // namespace
 }  // namespace gonio::test
