@@ -30,9 +30,7 @@ EnergyReport energy_report(const EnergyOptions& o, const ReportProgress& done) {
   r.full = o.full;
   // What each part takes of the whole, about.
   const auto part = [&](std::string_view what, double from, double to) {
-    return [&done, what, from, to](double x) {
-      if (done) done(what, from + x * (to - from));
-    };
+    return part_of(done, what, from, to);
   };
   add_forms(r, o, part("every masking form", 0, 0.4));
   add_materials(r, o, part("all bounces", 0.4, 0.7));

@@ -124,7 +124,8 @@ struct LitError {
 };
 /// Irradiance by a sum over its exact value − 1, over normals.
 struct IrradianceRow {
-  std::string light, rule;
+  std::string light;
+  std::string_view rule;
   std::size_t samples;
   double rms, max, bias;
   double ns, spread_ns;  ///< of one normal

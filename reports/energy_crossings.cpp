@@ -1,6 +1,7 @@
 // Where a loss exceeds a share.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "reports/energy_parts.h"
 
@@ -47,6 +48,21 @@ std::vector<Crossing> crossings_at(double mu,
       c.ranges.push_back({from, i + 1 == n ? roughness[n - 1] : end(i)});
     }
     out.push_back(std::move(c));
+  }
+  return out;
+}
+
+std::vector<Crossing> gather_crossings(
+    const std::function<void(double, const std::function<void(double, double)>&)>& gather) {
+  std::vector<Crossing> out;
+  for (const double mu : {1.0, 0.5, 0.1, 0.0}) {
+    std::vector<double> roughness, loss;
+    gather(mu, [&](double r, double l) {
+      roughness.push_back(r);
+      loss.push_back(l);
+    });
+    if (!roughness.empty())
+      std::ranges::move(crossings_at(mu, roughness, loss), std::back_inserter(out));
   }
   return out;
 }

@@ -51,7 +51,7 @@ class Sampler {
     for (std::size_t first = 0; first < n; first += at_once) {
       const std::size_t count = std::min(at_once, n - first);
       const auto x = block_.resize(count);
-      weight_.assign(count, 0);
+      weight_.resize(count);
       for (std::size_t k = 0; k < count; ++k) put(x, k, draw);
       double* const v = block_.extra(0);
       term_values(lobe.masking.term, parameters, block_.block(), v);
@@ -73,16 +73,10 @@ class Sampler {
     const Facet m = facet(draw);
     const double length2 = m.x * m.x + m.y * m.y + m.z * m.z, scale = 1 / std::sqrt(length2);
     const double noh = m.z * scale, voh = (sine_ * m.x + mu_ * m.z) * scale;
-    const double nol = 2 * voh * noh - mu_;
-    const bool above = nol > 0 && voh > 0;
-    x[0][k] = above ? std::min(nol, 1.0) : 0.5;
-    x[1][k] = mu_;
-    x[2][k] = noh;
-    x[3][k] = above ? std::min(voh, 1.0) : 0.5;
-    x[4][k] = (m.x * m.x + m.y * m.y) / length2;
-    if (!above) return;
+    const double nol = put_half_vector(x, k, mu_, noh, voh, (m.x * m.x + m.y * m.y) / length2);
     // f NoL / density: of l 1/2π; of h, D NoH or D VoH/σ(v), times 1/(4 VoH)
-    weight_[k] = drawn_ == Drawn::light     ? 2 * pi * nol
+    weight_[k] = nol == 0                   ? 0
+                 : drawn_ == Drawn::light   ? 2 * pi * nol
                  : drawn_ == Drawn::normals ? 4 * nol * voh / noh
                                             : 4 * nol * area();
   }

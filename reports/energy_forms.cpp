@@ -64,27 +64,13 @@ BoundModel bound(const EnergyForm& f, double roughness) {
   return bind_model(fmt::format("{}/{}/constant", short_id(f.ndf), short_id(f.masking)), s, 1);
 }
 
-/// E and its bound, as an engine has it; mu 0 is the average.
-std::pair<double, double> albedo(const EnergyForm& f, double roughness, double mu) {
-  const auto b = bound(f, roughness);
-  const auto a =
-      mu > 0 ? directional_albedo(b, {&mu, 1}, 0, goal)[0] : hemispherical_albedo(b, goal);
-  return {a.value[0] / f.divisor, a.error / f.divisor};
-}
-
 std::vector<Crossing> crossings(const EnergyForm& f) {
-  std::vector<Crossing> out;
-  for (const double mu : crossing_mu) {
-    std::vector<double> at, losses;
-    if (mu > 0) {
-      for (const auto& row : f.rows)
-        if (row.mu == mu) at.push_back(row.roughness), losses.push_back(1 - row.albedo);
-    } else {
-      for (const auto& a : f.averages) at.push_back(a.roughness), losses.push_back(1 - a.albedo);
-    }
-    if (!at.empty()) std::ranges::move(crossings_at(mu, at, losses), std::back_inserter(out));
-  }
-  return out;
+  return gather_crossings([&](double mu, const auto& add) {
+    if (mu == 0)
+      for (const auto& a : f.averages) add(a.roughness, 1 - a.albedo);
+    for (const auto& row : f.rows)
+      if (row.mu == mu) add(row.roughness, 1 - row.albedo);
+  });
 }
 
 }  // namespace
@@ -111,8 +97,8 @@ void add_forms(EnergyReport& report,
       for (std::size_t m = 0; m < mu.size(); ++m)
         f.rows[r * mu.size() + m] = {roughness[r], mu[m], at[m].value[0] / f.divisor,
                                      at[m].error / f.divisor};
-      const auto [average, error] = albedo(f, roughness[r], 0);
-      f.averages[r] = {roughness[r], average, error};
+      const auto average = hemispherical_albedo(b, goal);
+      f.averages[r] = {roughness[r], average.value[0] / f.divisor, average.error / f.divisor};
     });
     f.crossings = crossings(f);
     done(static_cast<double>(++finished) / static_cast<double>(report.forms.size()));

@@ -29,27 +29,11 @@ std::vector<Family> families() {
 
 /// Of the loss as a share of what should leave.
 std::vector<Crossing> crossings(const EnergyMaterial& m) {
-  std::vector<Crossing> out;
-  for (const double mu : crossing_mu) {
-    std::vector<double> roughness, loss;
+  return gather_crossings([&](double mu, const auto& add) {
     for (const auto& at : m.rows)
-      if (at.mu == mu) {
-        roughness.push_back(at.roughness);
-        loss.push_back(1 - at.orders[0] / at.truth);
-      }
-    if (!roughness.empty())
-      std::ranges::move(crossings_at(mu, roughness, loss), std::back_inserter(out));
-  }
-  return out;
+      if (at.mu == mu) add(at.roughness, 1 - at.orders[0] / at.truth);
+  });
 }
-
-constexpr struct {
-  std::string_view name;
-  Compensation compensation;
-} methods[] = {{"kulla_conty", Compensation::kulla_conty},
-               {"kulla_conty.linear", Compensation::kulla_conty_linear},
-               {"turquin", Compensation::turquin},
-               {"fdez_aguera", Compensation::fdez_aguera}};
 
 /// One roughness: a row for each channel's material at each mu and on average (mu 0).
 std::vector<std::vector<EnergyMaterial::At>> solve(const Family& family,
@@ -70,15 +54,16 @@ std::vector<std::vector<EnergyMaterial::At>> solve(const Family& family,
     for (std::size_t i = 0; i < mu.size(); ++i) put(mu[i], all.at[i]);
     put(0, all.average);
   }
-  for (const auto& m : methods) {
+  for (std::size_t m = 0; m < compensation_names.size(); ++m) {
+    const auto how = static_cast<Compensation>(m);
     // A and B, by which it works, are of Schlick's Fresnel.
-    if (m.compensation == Compensation::fdez_aguera && family.fresnel != schlick) continue;
-    const auto at = compensated_albedo(model, m.compensation, mu, 0, goal);
-    const auto average = compensated_average(model, m.compensation, goal);
+    if (how == Compensation::fdez_aguera && family.fresnel != schlick) continue;
+    const auto at = compensated_albedo(model, how, mu, 0, goal);
+    const auto average = compensated_average(model, how, goal);
     for (std::size_t c = 0; c < rows.size(); ++c) {
       for (std::size_t i = 0; i < mu.size(); ++i)
-        rows[c][i].scattering.push_back({m.name, at[i].value[c]});
-      rows[c].back().scattering.push_back({m.name, average.value[c]});
+        rows[c][i].scattering.push_back({compensation_names[m], at[i].value[c]});
+      rows[c].back().scattering.push_back({compensation_names[m], average.value[c]});
     }
   }
   return rows;

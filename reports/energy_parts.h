@@ -12,8 +12,6 @@
 
 namespace gonio {
 
-/// Where crossings are looked for; 0 is the average.
-inline constexpr std::array crossing_mu{1.0, 0.5, 0.1, 0.0};
 inline constexpr std::array crossing_shares{0.01, 0.05, 0.1};
 
 /// Where `loss`, at ascending roughnesses, exceeds each share.  Between two of them it is taken to follow a power
@@ -21,6 +19,10 @@ inline constexpr std::array crossing_shares{0.01, 0.05, 0.1};
 std::vector<Crossing> crossings_at(double mu,
                                    std::span<const double> roughness,
                                    std::span<const double> loss);
+/// The same at mu 1, 0.5, 0.1 and on average (mu 0), where there are losses.
+/// \param gather  (mu, add): calls add(roughness, loss) by ascending roughness
+std::vector<Crossing> gather_crossings(
+    const std::function<void(double mu, const std::function<void(double, double)>& add)>& gather);
 
 void add_forms(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);
 void add_materials(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);

@@ -24,9 +24,7 @@ RemapReport remap_report(const RemapOptions& o, const ReportProgress& done) {
   r.full = o.full;
   r.mu = parts(10);
   r.cosines = parts(20);
-  add_forms(r, o, [&](double x) {
-    if (done) done("every masking form", 0.95 * x);
-  });
+  add_forms(r, o, part_of(done, "every masking form", 0, 0.95));
   add_claims(r, o);
   add_findings(r);
   return r;

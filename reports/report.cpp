@@ -9,27 +9,23 @@
 namespace gonio {
 namespace {
 
+template <class Report>
+ReportFiles files(const Report& report, std::string (*page)(std::string_view)) {
+  std::string json = to_json(report);
+  std::string html = page(json);
+  return {std::move(json), std::move(html), report.findings};
+}
+
 ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {
   auto options = energy_options(o.full);
   options.environments = o.environments;
-  const auto report = energy_report(options, done);
-  std::string json = to_json(report);
-  std::string html = energy_page_html(json);
-  return {std::move(json), std::move(html), report.findings};
+  return files(energy_report(options, done), energy_page_html);
 }
-
 ReportFiles remap(const ReportOptions& o, const ReportProgress& done) {
-  const auto report = remap_report(remap_options(o.full), done);
-  std::string json = to_json(report);
-  std::string html = remap_page_html(json);
-  return {std::move(json), std::move(html), report.findings};
+  return files(remap_report(remap_options(o.full), done), remap_page_html);
 }
-
 ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
-  const auto report = schlick_report(schlick_options(o.full), done);
-  std::string json = to_json(report);
-  std::string html = schlick_page_html(json);
-  return {std::move(json), std::move(html), report.findings};
+  return files(schlick_report(schlick_options(o.full), done), schlick_page_html);
 }
 
 constexpr std::array kinds{

@@ -23,6 +23,16 @@ struct ReportOptions {
 
 /// What is being done, and the part that is done, in [0, 1].
 using ReportProgress = std::function<void(std::string_view, double)>;
+/// Of a part that runs from one share of the whole to another, by what is done of it, in [0, 1].
+/// \param done  must outlive it; may be empty   \param what  plain text that outlives it
+inline std::function<void(double)> part_of(const ReportProgress& done,
+                                           std::string_view what,
+                                           double from,
+                                           double to) {
+  return [&done, what, from, to](double x) {
+    if (done) done(what, from + x * (to - from));
+  };
+}
 
 struct ReportFiles {
   std::string json, html;

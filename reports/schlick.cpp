@@ -22,9 +22,7 @@ SchlickReport schlick_report(const SchlickOptions& o, const ReportProgress& done
   r.full = o.full;
   // What each part takes of the whole, about.
   const auto part = [&](std::string_view what, double from, double to) {
-    return [&done, what, from, to](double x) {
-      if (done) done(what, from + x * (to - from));
-    };
+    return part_of(done, what, from, to);
   };
   add_rows(r, o, part("every form by angle", 0, 0.3));
   add_maps(r);

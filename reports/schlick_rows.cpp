@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/direction.h"
 #include "reports/schlick_parts.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,6 @@ namespace {
 /// Where a dielectric has one index [nm].
 constexpr double middle_nm = 550;
 constexpr double one_percent = 0.01;
-constexpr double radians = std::numbers::pi / 180;
 
 /// Steps of θ, and where total reflection begins: there F has a corner, between any steps.
 struct Angles {
@@ -25,7 +25,7 @@ struct Angles {
   Angles(const FresnelSurface& s, std::size_t steps) : at(angle_steps(steps)), even(steps + 1) {
     const double eta = s.index[0].n;
     if (s.kind != "dielectric_inside") return;
-    at.theta_deg.push_back(std::asin(eta) / radians);
+    at.theta_deg.push_back(std::asin(eta) / degree);
     at.cosine.push_back(std::sqrt((1 - eta) * (1 + eta)) * (1 - 1e-14));
   }
 };
@@ -53,7 +53,7 @@ FresnelRow row_of(const std::string& form,
                0,
                0,
                90};
-  const double step = 90.0 / static_cast<double>(angles.even - 1) * radians;
+  const double step = 90.0 / static_cast<double>(angles.even - 1) * degree;
   for (std::size_t k = 0; k < exact.size(); ++k) {
     const double off = value[k] - exact[k], theta = angles.at.theta_deg[k];
     if (std::abs(off) > r.max_abs) r.max_abs = std::abs(off), r.max_abs_theta_deg = theta;
@@ -114,7 +114,7 @@ void add_maps(SchlickReport& report) {
   std::vector<double> cosine;
   for (double theta = theta_step / 2; theta < 90; theta += theta_step) {
     report.map_theta_deg.push_back(theta);
-    cosine.push_back(std::cos(theta * radians));
+    cosine.push_back(std::cos(theta * degree));
   }
   for (const auto side : sides) {
     std::vector<FresnelMap> maps;

@@ -195,6 +195,13 @@ void OutputFile::commit() {
   committed_ = true;
 }
 
+void commit_all(std::span<OutputFile* const> files) {
+  for (auto* f : files)
+    if (f) f->close();
+  for (auto* f : files)
+    if (f) f->commit();
+}
+
 void write_file(const std::string& path, std::string_view bytes) {
   OutputFile out(path);
   out.write(bytes);

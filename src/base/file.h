@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -76,6 +77,10 @@ class OutputFile {
 
 /// From now on an interrupt, hang-up or termination takes the files being made with it.
 void remove_unfinished_files_on_signals();
+
+/// All are whole before the first takes its name.
+/// \param files  nullptr: none
+void commit_all(std::span<OutputFile* const> files);
 
 /// The whole of a small file at once.
 void write_file(const std::string& path, std::string_view bytes);

@@ -25,10 +25,6 @@ struct Options : Common {
   std::optional<std::size_t> walks;
   bool average = false, furnace = false;
 };
-/// Those that are maps in the order of Compensation.
-constexpr std::array scattering_names{
-    "kulla_conty", "kulla_conty.linear", "turquin", "fdez_aguera", "single",
-    "walk",        "deterministic"};
 
 /// At each mu, and on average; of a walk or a half space also by number of bounces.
 struct Result {
@@ -46,7 +42,7 @@ Result by_formula(const BoundModel& model, const Options& o) {
     r.at = directional_albedo(model, o.mu, phi, goal);
     if (o.average) r.average = hemispherical_albedo(model, goal);
   } else {
-    const auto how = static_cast<Compensation>(index_of(scattering_names, o.scattering));
+    const auto how = static_cast<Compensation>(index_of(compensation_names, o.scattering));
     r.at = compensated_albedo(model, how, o.mu, phi, goal);
     if (o.average) r.average = compensated_average(model, how, goal);
   }
@@ -188,6 +184,8 @@ Exit run(const Options& o) {
 
 void add_albedo(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
+  std::vector<std::string> scattering{"single", "walk", "deterministic"};
+  scattering.insert(scattering.end(), compensation_names.begin(), compensation_names.end());
   auto* c = add_command(
       app, action, "albedo",
       "Integrates how much of the light that comes in a model gives back, with a bound of the "
@@ -205,7 +203,7 @@ void add_albedo(CLI::App& app, Action& action) {
        "--scattering", o->scattering,
        "single: light that meets one facet; all of it by random walks (walk) or by quadrature "
        "(deterministic); or as shaders compensate: kulla_conty, turquin, fdez_aguera")
-      ->check(one_of(scattering_names));
+      ->check(CLI::IsMember(scattering));
   c->add_option(
       "--error", o->error,
       "Absolute error asked for (1e-8; deterministic 1e-5; of a walk the standard error at "

@@ -1,5 +1,6 @@
 #include "cli/output_files.h"
 
+#include <array>
 #include <filesystem>
 
 #include "cli/command.h"
@@ -34,10 +35,8 @@ void OutputFiles::write_page(std::string_view html, std::string_view data) {
 }
 
 void OutputFiles::commit() {
-  for (auto* f : {&document_, &page_data_, &page_})
-    if (*f) (*f)->close();
-  for (auto* f : {&document_, &page_data_, &page_})
-    if (*f) (*f)->commit();
+  const auto made = [](std::optional<OutputFile>& f) { return f ? &*f : nullptr; };
+  commit_all(std::array{made(document_), made(page_data_), made(page_)});
 }
 
 }  // namespace gonio::cli

@@ -2,6 +2,7 @@
 #include "reports/report.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <system_error>
 
@@ -29,8 +30,7 @@ class Files {
   void write(const ReportFiles& r) {
     page_.write(r.html);
     data_.write(r.json + "\n");
-    for (auto* f : {&data_, &page_}) f->close();  // both whole before the first takes its name
-    for (auto* f : {&data_, &page_}) f->commit();
+    commit_all(std::array{&data_, &page_});
   }
   const std::string& page_path() const { return page_path_; }
 

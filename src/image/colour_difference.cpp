@@ -3,11 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/direction.h"
+
 namespace gonio {
 namespace {
 
 constexpr double pi = std::numbers::pi, turn = 2 * pi;
-constexpr double radians = pi / 180;
 
 double power_7(double x) {
   const double x2 = x * x, x3 = x2 * x;
@@ -52,11 +53,11 @@ double delta_e_2000(const Lab& x, const Lab& y) {
   }
   const double l = (x.l + y.l) / 2, c = (cx + cy) / 2;
 
-  const double t = 1 - 0.17 * std::cos(h - 30 * radians) + 0.24 * std::cos(2 * h) +
-                   0.32 * std::cos(3 * h + 6 * radians) - 0.20 * std::cos(4 * h - 63 * radians);
+  const double t = 1 - 0.17 * std::cos(h - 30 * degree) + 0.24 * std::cos(2 * h) +
+                   0.32 * std::cos(3 * h + 6 * degree) - 0.20 * std::cos(4 * h - 63 * degree);
   const double from_50 = (l - 50) * (l - 50);
-  const double blue = (h / radians - 275) / 25;
-  const double turned = -std::sin(60 * radians * std::exp(-blue * blue)) * 2 * of_25(c);
+  const double blue = (h / degree - 275) / 25;
+  const double turned = -std::sin(60 * degree * std::exp(-blue * blue)) * 2 * of_25(c);
   const double dl = (y.l - x.l) / (1 + 0.015 * from_50 / std::sqrt(20 + from_50));
   const double dc = (cy - cx) / (1 + 0.045 * c);
   const double dhue = 2 * std::sqrt(cx * cy) * std::sin(dh / 2) / (1 + 0.015 * c * t);

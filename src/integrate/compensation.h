@@ -3,8 +3,10 @@
 /// Albedos with multiple scattering: of composed models under the compensations of brdf/scattering.h, and
 /// what walk.h and half_space.h solve, with diffuse terms and as averages.
 
+#include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "brdf/model.h"
@@ -32,6 +34,8 @@ Albedo fresnel_average(const BoundModel&, const TermUse& fresnel, const Goal& = 
 
 /// Maps of the catalogue, "scattering." before each name.
 enum class Compensation { kulla_conty, kulla_conty_linear, turquin, fdez_aguera };
+inline constexpr std::array<std::string_view, 4> compensation_names{
+    "kulla_conty", "kulla_conty.linear", "turquin", "fdez_aguera"};
 
 /// Albedo of the model, each of its lobes compensated by itself, at each μ = NoV in (0, 1], in parallel.
 /// E and E_avg of a lobe are its own at F = 1; F0 is its Fresnel term at normal incidence; F_avg the

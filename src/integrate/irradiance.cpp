@@ -112,7 +112,7 @@ std::vector<IrradianceError> irradiance_errors(const Radiance& radiance,
         off[i] = luminance(s.value) / truth[i] - 1;
         if (i == 0) taken = s.samples;
       });
-      IrradianceError e{std::string(name_of(rule)), taken};
+      IrradianceError e{rule, taken};
       for (std::size_t i = 0; i < normals; ++i) {
         if (!(truth[i] > 0)) continue;
         e.rms += off[i] * off[i];

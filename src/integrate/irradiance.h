@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "image/environment.h"
@@ -51,7 +51,7 @@ SampledIrradiance sampled_irradiance(const Radiance&,
 
 /// sampled/exact − 1, of luminance, over normals.
 struct IrradianceError {
-  std::string rule;
+  IrradianceRule rule;
   std::size_t samples = 0;
   double rms = 0, max = 0, bias = 0;  ///< max: of |…|; bias: the mean; of no normal not a number
   std::size_t normals = 0;            ///< those to which light comes

@@ -36,6 +36,18 @@ double* AngleBlock::extra(std::size_t i) {
   return extra_[i].data();
 }
 
+double put_half_vector(
+    std::span<double* const> x, std::size_t k, double nov, double noh, double voh, double sin2) {
+  const double nol = 2 * voh * noh - nov;
+  const bool above = nol > 0 && voh > 0;
+  x[0][k] = above ? std::min(nol, 1.0) : 0.5;
+  x[1][k] = nov;
+  x[2][k] = noh;
+  x[3][k] = above ? std::min(voh, 1.0) : 0.5;
+  x[4][k] = sin2;
+  return above ? nol : 0;
+}
+
 std::vector<double> term_parameters(const BoundModel& b, const TermUse& t, std::size_t channel) {
   std::vector<double> p;
   for (const auto i : t.parameters) p.push_back(b.values[b.model.parameters[i].slot(channel)]);

@@ -29,6 +29,16 @@ class AngleBlock {
   std::vector<double*> pointers_;
 };
 
+/// Sets the k-th of such columns to a half vector and the light that v mirrors in it,
+/// NoL = 2 VoH NoH − NoV.
+/// \return NoL; 0 where the light or v is behind: the columns then hold what no term minds
+double put_half_vector(std::span<double* const> columns,
+                       std::size_t k,
+                       double nov,
+                       double noh,
+                       double voh,
+                       double sin2_theta_h);
+
 /// A term's values for one channel, in its own order.
 std::vector<double> term_parameters(const BoundModel&, const TermUse&, std::size_t channel);
 

@@ -36,19 +36,13 @@ SplitSum sampled(const BoundModel& model, double alpha, double mu, std::size_t s
   for (std::size_t first = 0; first < samples; first += at_once) {
     const std::size_t count = std::min(at_once, samples - first);
     const auto x = block.resize(count);
-    weight.assign(count, 0);
+    weight.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
       const auto [u, w] = hammersley(static_cast<std::uint32_t>(first + k), n);
       const double t2 = square(alpha) * w / (1 - w), noh = 1 / std::sqrt(1 + t2);
       const double along = std::cos(2 * std::numbers::pi * u);
-      const double voh = noh * (mu + sine * std::sqrt(t2) * along), nol = 2 * voh * noh - mu;
-      const bool above = nol > 0 && voh > 0;
-      x[0][k] = above ? std::min(nol, 1.0) : 0.5;
-      x[1][k] = mu;
-      x[2][k] = noh;
-      x[3][k] = above ? std::min(voh, 1.0) : 0.5;
-      x[4][k] = t2 * noh * noh;
-      if (above) weight[k] = 4 * nol * voh / noh;
+      const double voh = noh * (mu + sine * std::sqrt(t2) * along);
+      weight[k] = 4 * put_half_vector(x, k, mu, noh, voh, t2 * noh * noh) * voh / noh;
     }
     double* const v = block.extra(0);
     term_values(masking.term, parameters, block.block(), v);

@@ -36,7 +36,7 @@ class Term {
 
  private:
   TermKernels<double>::Value add_;
-  std::array<double, 4> parameters_{};
+  std::array<double, max_parameters> parameters_{};
 };
 
 /// A lobe as a surface with its terms.

@@ -70,12 +70,12 @@ TEST(SampledIrradiance, EachRuleComesToTheClosedFormOfASky) {
     EXPECT_LE(std::abs(e.bias), e.rms + 1e-15);
     EXPECT_LE(e.rms, e.max);
     if (k % 3 > 0) {
-      EXPECT_LT(e.rms, rows[k - 1].rms / 6) << e.rule;
+      EXPECT_LT(e.rms, rows[k - 1].rms / 6) << name_of(e.rule);
     }
   }
-  EXPECT_EQ(rows[0].rule, "riemann");
-  EXPECT_EQ(rows[3].rule, "riemann_midpoint");
-  EXPECT_EQ(rows[6].rule, "cosine");
+  EXPECT_EQ(rows[0].rule, IrradianceRule::riemann);
+  EXPECT_EQ(rows[3].rule, IrradianceRule::riemann_midpoint);
+  EXPECT_EQ(rows[6].rule, IrradianceRule::cosine);
 }
 
 /// As if only normals from 0.2 below the horizon upwards had any light: six of ten.
@@ -86,13 +86,13 @@ TEST(SampledIrradiance, IsNotJudgedWhereNoLightComes) {
     return Rgb{e, e, e};
   };
   for (const auto& e : irradiance_errors(even, of_upper, counts, 10)) {
-    EXPECT_EQ(e.normals, 6U) << e.rule;
+    EXPECT_EQ(e.normals, 6U) << name_of(e.rule);
     EXPECT_LT(e.max, 0.01);
   }
   const auto black = [](const Direction&) { return Rgb{}; };
   for (const auto& e : irradiance_errors(black, black, counts, 4)) {
     EXPECT_EQ(e.normals, 0U);
-    for (const double v : {e.rms, e.max, e.bias}) EXPECT_TRUE(std::isnan(v)) << e.rule;
+    for (const double v : {e.rms, e.max, e.bias}) EXPECT_TRUE(std::isnan(v)) << name_of(e.rule);
   }
 }
 
