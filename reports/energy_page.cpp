@@ -172,8 +172,7 @@ std::string to_json(const EnergyReport& r) {
 }
 
 std::string energy_page_html(std::string_view data) {
-  return make_page("Energy: what single scattering loses", data,
-                   std::string(assets::report_js).append(assets::energy_js));
+  return make_report_page("Energy: what single scattering loses", data, assets::energy_js);
 }
 
 }  // namespace gonio

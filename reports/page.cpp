@@ -80,4 +80,11 @@ std::string make_page(std::string_view title, std::string_view json_data, std::s
                      fmt::arg("plots_js", assets::plots_js), fmt::arg("script", script));
 }
 
+std::string make_report_page(std::string_view title,
+                             std::string_view json_data,
+                             std::string_view script) {
+  return make_page(title, json_data,
+                   std::string(assets::report_js).append(assets::figures_js).append(script));
+}
+
 }  // namespace gonio

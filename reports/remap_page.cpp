@@ -91,8 +91,7 @@ std::string to_json(const RemapReport& r) {
 }
 
 std::string remap_page_html(std::string_view data) {
-  return make_page("Masking: what the remaps do", data,
-                   std::string(assets::report_js).append(assets::remap_js));
+  return make_report_page("Masking: what the remaps do", data, assets::remap_js);
 }
 
 }  // namespace gonio

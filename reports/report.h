@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The reports by name: each a page DIR/NAME.html and its data DIR/NAME.json, made from the same struct.
+/// The reports by name: each a page DIR/NAME.html and its data DIR/NAME.json, made from the same struct;
+/// its rows DIR/NAME.csv, and its pictures in DIR/NAME/.
 
 #include <functional>
 #include <span>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "image/environment.h"
+#include "reports/figure.h"
 
 namespace gonio {
 
@@ -34,9 +36,19 @@ inline std::function<void(double)> part_of(const ReportProgress& done,
   };
 }
 
+/// A statement in circulation, judged.
+struct Claim {
+  std::string claim;  ///< the sentence
+  enum class Judged { holds, partly, fails } judged;
+  std::string verdict;   ///< a sentence with figures
+  std::string anchor{};  ///< of the report's page, where it is shown; empty: its top
+};
+
 struct ReportFiles {
   std::string json, html;
   std::vector<std::string> findings;  ///< sentences
+  Pictures pictures{};
+  std::vector<Claim> claims{};
 };
 
 struct ReportKind {

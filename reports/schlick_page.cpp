@@ -58,8 +58,7 @@ std::string to_json(const SchlickReport& r) {
 }
 
 std::string schlick_page_html(std::string_view data) {
-  return make_page("Schlick's approximation and its kin", data,
-                   std::string(assets::report_js).append(assets::schlick_js));
+  return make_report_page("Schlick's approximation and its kin", data, assets::schlick_js);
 }
 
 }  // namespace gonio

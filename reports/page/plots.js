@@ -29,15 +29,35 @@ function tick_text(x) {
   return (lead === 1 ? "" : minus(String(lead)) + "·") + "10" + superscript(power);
 }
 
-/// \param data    [x, y…] for uPlot; null where there is no value
-/// \param series  [{color, kind: "points" | "line" | "both", width, dash: [on, off]}] of the y
-/// \param o       {x_label, x_ends, x_steps, x_log, y_label, height, log, mark: x of a dashed line, text: the plot
-///                in words, y_of(i): whether point i sets the range of y, hover(indices or null)}
-/// Returns {node, set({log, shown})}.
+/// Where labels of points go, so that none hides another: [[text, x, y]…], as many as find a place.
+/// \param points  [{x, y, label, width}] in pixels   \param box  {left, top, right, bottom} to stay in
+function label_places(points, box) {
+  const taken = points.map(({ x, y }) => [x - 3, y - 3, x + 3, y + 3]), out = [];
+  const free = ([l, t, r, b]) => l > box.left && r < box.right && t > box.top && b < box.bottom
+    && !taken.some((o) => l < o[2] && o[0] < r && t < o[3] && o[1] < b);
+  for (const { x, y, label, width: w } of points) {
+    const place = [[x + 5, y - 16, x + 5 + w, y - 3], [x - 5 - w, y - 16, x - 5, y - 3], [x + 5, y + 3, x + 5 + w, y + 16], [x - 5 - w, y + 3, x - 5, y + 16]].find(free);
+    if (!place) continue;
+    taken.push(place);
+    out.push([label, place[0], (place[1] + place[3]) / 2]);
+  }
+  return out;
+}
+
+/// \param data    [x, y…] for uPlot; null where there is no value, undefined where a line
+///                goes on without one
+/// \param series  [{color, kind: "points" | "line" | "both", width, dash: [on, off], labels, x_error, y_error}] of the y;
+///                the last three as long as y, of each point, or nothing
+/// \param o       {x_label, x_ends: [from, to] or a function of whether x is logarithmic, x_steps, x_log, y_label, y_ends: of
+///                a linear y, height, log, mark: x of a dashed line, text: the plot in words, y_of(i): whether point i sets
+///                the range of y, single: the point next to the pointer speaks alone, of a series that
+///                is not mute, hover(indices or null)}
+/// Returns {node, set({log, x_log, shown})}.
 function curve_plot(data, series, o) {
   const node = el("div", { class: "curve", role: "img", tabindex: 0, "aria-label": o.text });
-  const state = { log: o.log, shown: series.map(() => true) };
+  const state = { log: o.log, x_log: o.x_log, shown: series.map(() => true) };
   let plot = null;
+  const bar = (errors, i) => (errors && known(errors[i]) ? errors[i] : 0);
 
   const y_range = (u, low, high) => {
     let least = Infinity, most = -Infinity;
@@ -45,45 +65,106 @@ function curve_plot(data, series, o) {
     series.forEach((_, s) => {
       if (!state.shown[s]) return;
       data[s + 1].forEach((v, i) => {
-        if (v === null || i < from || i > to || !o.y_of(i) || (state.log && v <= 0)) return;
-        least = Math.min(least, v);
-        most = Math.max(most, v);
+        if (!known(v) || i < from || i > to || !o.y_of(i) || (state.log && v <= 0)) return;
+        const e = bar(series[s].y_error, i);
+        least = Math.min(least, state.log && v <= e ? v : v - e);
+        most = Math.max(most, v + e);
       });
     });
     if (least > most) return state.log ? [0.1, 1] : [0, 1];
     if (state.log) return [least / (most / least) ** 0.06 / 1.02, most * (most / least) ** 0.06 * 1.02];
+    if (o.y_ends) return o.y_ends;
     return [Math.min(0, least), most + 0.06 * (most - Math.min(0, least)) || 1];
   };
   const [first, last] = [data[0][0], data[0].at(-1)];
-  const x_range = (u, low, high) => (low <= first && high >= last ? o.x_ends ?? [first, last] : [low, high]);
+  const x_ends = () => (typeof o.x_ends === "function" ? o.x_ends(state.x_log) : o.x_ends) ?? [first, last];
+  const x_range = (u, low, high) => (low <= first && high >= last ? x_ends() : [low, high]);
+  const next_point = (u) => {  // [series, index] of the point next to the pointer, within 40 pixels
+    let best = [null, null], least = 1600;
+    u.data.slice(1).forEach((y, s) => state.shown[s] && !series[s].mute && y.forEach((v, i) => {
+      if (!known(v)) return;
+      const far = (u.valToPos(u.data[0][i], "x") - u.cursor.left) ** 2 + (u.valToPos(v, "y") - u.cursor.top) ** 2;
+      if (far < least) [best, least] = [[s + 1, i], far];
+    }));
+    return best;
+  };
   const nearest = (u, s, i) => {  // points lie apart: the one next to the cursor speaks
+    if (o.single) {
+      const [of, at] = next_point(u);
+      return s === 0 ? at ?? i : of === s ? at : null;
+    }
     const y = u.data[s];
-    if (s === 0 || y[i] !== null) return i;
+    if (s === 0 || known(y[i])) return i;
     for (let k = 1; k < y.length; ++k)
       for (const j of [i - k, i + k])
-        if (j >= 0 && j < y.length && y[j] !== null)
+        if (j >= 0 && j < y.length && known(y[j]))
           return Math.abs(u.valToPos(u.data[0][j], "x") - u.valToPos(u.data[0][i], "x")) < 12 ? j : null;
     return null;
   };
-  const filled = (s) => data[s + 1].filter((v) => v !== null).length;
+  const filled = (s) => data[s + 1].filter(known).length;
   const log_axis = { splits: (u, a, low, high) => log_ticks(low, high), filter: (u, ticks) => ticks };
   const axis = (label, extra) => ({
     stroke: () => color("muted"), font: plot_font, label, labelFont: plot_font, labelSize: 20, labelGap: 0,
     grid: { stroke: () => color("faint"), width: 1 }, ticks: { stroke: () => color("rule"), width: 1, size: 4 },
     gap: 4, ...extra,
   });
+  const drawn = (u, use) => series.forEach((s, k) => state.shown[k] && u.data[k + 1].forEach((v, i) => {
+    if (known(v) && u.data[0][i] >= u.scales.x.min && u.data[0][i] <= u.scales.x.max) use(s, i, u.data[0][i], v);
+  }));
+  function draw_bars(u) {
+    const g = u.ctx, { left, top, width, height } = u.bbox;
+    g.save();
+    g.beginPath();
+    g.rect(left, top, width, height);
+    g.clip();
+    g.lineWidth = devicePixelRatio;
+    drawn(u, (s, i, x, y) => {
+      const [ex, ey] = [bar(s.x_error, i), bar(s.y_error, i)];
+      if (!(ex > 0) && !(ey > 0)) return;
+      const place = (v, scale, log, beyond) => (log && v <= 0 ? beyond : u.valToPos(v, scale, true));
+      const [px, py] = [u.valToPos(x, "x", true), u.valToPos(y, "y", true)];
+      g.strokeStyle = color(s.color);
+      g.beginPath();
+      if (ey > 0) {
+        g.moveTo(px, place(y - ey, "y", state.log, top + height));
+        g.lineTo(px, place(y + ey, "y", state.log));
+      }
+      if (ex > 0) {
+        g.moveTo(place(x - ex, "x", state.x_log, left), py);
+        g.lineTo(place(x + ex, "x", state.x_log), py);
+      }
+      g.stroke();
+    });
+    g.restore();
+  }
+  const most_labels = 24;  // more of them would hide the points
+  function draw_labels(u) {
+    const points = [], g = u.ctx, ratio = devicePixelRatio, { left, top, width, height } = u.bbox;
+    g.save();
+    g.font = plot_font.replace("12px", "11px");
+    drawn(u, (s, i, x, y) => s.labels?.[i] && points.push({ x: u.valToPos(x, "x"), y: u.valToPos(y, "y"), label: s.labels[i], width: g.measureText(s.labels[i]).width }));
+    if (points.length && points.length <= most_labels) {
+      g.translate(left, top);
+      g.scale(ratio, ratio);
+      g.fillStyle = color("ink");
+      g.textBaseline = "middle";
+      g.textAlign = "left";
+      for (const [label, x, y] of label_places(points, { left: 0, top: 0, right: width / ratio, bottom: height / ratio })) g.fillText(label, x, y);
+    }
+    g.restore();
+  }
   function build(width) {
     plot?.destroy();
     const shown_data = state.log
-      ? [data[0], ...data.slice(1).map((y) => y.map((v) => (v !== null && v > 0 ? v : null)))] : data;
+      ? [data[0], ...data.slice(1).map((y) => y.map((v) => (known(v) && v <= 0 ? null : v)))] : data;
     plot = new uPlot({
       width, height: o.height ?? 250, legend: { show: false }, padding: [8, 8, 0, 0],
       cursor: { y: false, drag: { x: true, y: false }, dataIdx: nearest, points: { size: 7 } },
-      scales: { x: { time: false, range: x_range, distr: o.x_log ? 3 : 1 },
+      scales: { x: { time: false, range: x_range, distr: state.x_log ? 3 : 1 },
                 y: { distr: state.log ? 3 : 1, range: y_range } },
       axes: [
         axis(o.x_label, { size: 30, space: 40, incrs: o.x_steps, values: (u, ticks) => ticks.map(tick_text),
-                          ...(o.x_log ? log_axis : {}) }),
+                          ...(state.x_log ? log_axis : {}) }),
         axis(o.y_label, { size: 52, values: (u, ticks) => ticks.map(tick_text),
                           ...(state.log ? log_axis : {}) }),
       ],
@@ -107,6 +188,7 @@ function curve_plot(data, series, o) {
           u.ctx.stroke();
           u.ctx.restore();
         }],
+        draw: [draw_bars, draw_labels],
         setCursor: [(u) => o.hover?.(u.cursor.idxs[0] === null || u.cursor.left < 0 ? null : u.cursor.idxs)],
       },
     }, shown_data, node);
@@ -116,7 +198,7 @@ function curve_plot(data, series, o) {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
     if (!step || !plot) return;
     e.preventDefault();
-    const points = plot.data[0].map((_, i) => i).filter((i) => plot.data.slice(1).some((y, s) => state.shown[s] && series[s].kind === "points" && y[i] !== null));
+    const points = plot.data[0].map((_, i) => i).filter((i) => plot.data.slice(1).some((y, s) => state.shown[s] && series[s].kind === "points" && known(y[i])));
     const to = points.length ? points : plot.data[0].map((_, i) => i), now = plot.cursor.idx ?? -1;
     const next = step > 0 ? to.find((i) => i > now) ?? to.at(-1) : to.findLast((i) => i < now) ?? to[0];
     plot.setCursor({ left: plot.valToPos(plot.data[0][next], "x"), top: 0 });
@@ -154,9 +236,11 @@ function unit_axis(name, label, at) {
 }
 
 /// Cells over two axes, one of several layers at a time.
+/// \param x, y    {name, label, unit, edges, at: what is told of a cell, ends, part(value): place in [0, 1], value(part), ticks, few: fewer
+///                ticks, names: of the cells, instead of ticks; edges then count them}
 /// \param layers  {name: {at(k): place on the scale in [0, 1], or null; colors: function to a list, or
-///                 color(k); ticks: [[place, text]…]; label; ground: colour where nothing is}}, of cell
-///                 k = x · cells of y + y
+///                 color(k); ticks: [[place, text]…]; label; ground: colour where nothing is;
+///                 text(k): what stands in the cell, where there is room}}, of cell k = x · cells of y + y
 /// \param say(k)  what is at a cell   \param text  the picture in words
 /// Returns {node, set(name)}.
 function heat_map(x, y, layers, say, text) {
@@ -166,13 +250,34 @@ function heat_map(x, y, layers, say, text) {
   const state = { layer: Object.values(layers)[0], cell: null };
 
   const box = { left: 46, top: 8, right: 10, bottom: 84 };
-  let width = 0, height = 0;
+  let width = 0, height = 0, legend_width = 0, legend_height = 0;
+  let turned = false, label_beside = true;  // names of x, which are longer than their cells are wide; what colours mean
   const x_of = (value) => box.left + (width - box.left - box.right) * x.part(value);
   const y_of = (value) => height - box.bottom - (height - box.bottom - box.top) * y.part(value);
 
+  /// Text that is at most so wide.
+  function fitting(g, text, most) {
+    if (g.measureText(text).width <= most) return text;
+    let n = text.length;
+    while (n > 1 && g.measureText(text.slice(0, n) + "…").width > most) --n;
+    return text.slice(0, n) + "…";
+  }
+  /// The room that the axes' texts need.
+  function make_room(g) {
+    const widest = (texts) => Math.max(0, ...texts.map((t) => g.measureText(t).width));
+    const of_y = widest(y.names ?? y.ticks.map(tick_text)), of_x = x.names ? widest(x.names) : 0;
+    box.left = Math.min(Math.max(46, of_y + 32), 0.42 * width);
+    turned = of_x > (width - box.left - box.right) / nx - 6;
+    legend_width = Math.min(360, width - box.left - box.right);
+    label_beside = width - box.left - box.right > legend_width + 16 + g.measureText(state.layer.label).width;
+    legend_height = label_beside ? 33 : 50;
+    box.bottom = 51 + legend_height + (turned ? Math.min(130, 0.7 * of_x) - 6 : 0);
+    height = y.names ? box.top + box.bottom + Math.min(1200, Math.max(120, 26 * ny)) : Math.round(Math.min(470, Math.max(330, width * 0.52)));
+  }
   function draw() {
-    const scale = devicePixelRatio || 1;
-    height = Math.round(Math.min(470, Math.max(330, width * 0.52)));
+    const scale = devicePixelRatio || 1, measure = canvas.getContext("2d");
+    measure.font = plot_font;
+    make_room(measure);
     canvas.width = width * scale;
     canvas.height = height * scale;
     canvas.style.height = height + "px";
@@ -194,6 +299,13 @@ function heat_map(x, y, layers, say, text) {
         const [t, b] = [Math.round(y_of(y.edges[j + 1])), Math.round(y_of(y.edges[j]))];
         g.fillStyle = layer.color ? layer.color(k) : between_colors(colors, at);
         g.fillRect(l, t, r - l, b - t);
+        const said = layer.text?.(k);
+        if (!said || g.measureText(said).width > r - l - 4 || b - t < 16) continue;
+        const [red, green, blue] = [1, 3, 5].map((at) => parseInt(g.fillStyle.slice(at, at + 2), 16));  // as canvas tells it: #rrggbb
+        g.fillStyle = 0.299 * red + 0.587 * green + 0.114 * blue < 130 ? "#fcfcfa" : "#1c1f23";
+        g.textAlign = "center";
+        g.textBaseline = "middle";
+        g.fillText(said, (l + r) / 2, (t + b) / 2);
       }
     g.strokeStyle = color("rule");
     g.strokeRect(x0 + 0.5, y1 + 0.5, x1 - x0 - 1, y0 - y1 - 1);
@@ -201,26 +313,34 @@ function heat_map(x, y, layers, say, text) {
     g.fillStyle = color("muted");
     g.textAlign = "center";
     g.textBaseline = "top";
-    for (const t of width > 520 ? x.ticks : x.few) {
+    const middles = (axis) => axis.names.map((name, i) => [i + 0.5, name]);
+    for (const [t, name] of x.names ? middles(x) : (width > 520 ? x.ticks : x.few).map((t) => [t, tick_text(t)])) {
       g.fillRect(Math.round(x_of(t)), y0, 1, 4);
-      g.fillText(String(t), x_of(t), y0 + 7);
+      if (!turned) { g.fillText(name, x_of(t), y0 + 7); continue; }
+      g.save();
+      g.translate(x_of(t) + 5, y0 + 7);
+      g.rotate(-0.7);
+      g.textAlign = "right";
+      g.fillText(fitting(g, name, 180), 0, 0);
+      g.restore();
     }
-    g.fillText(x.label.slice(0, width > 420 ? 99 : 7), (x0 + x1) / 2, y0 + 22);
+    g.textAlign = "center";
+    g.fillText(fitting(g, x.label, x1 - x0), (x0 + x1) / 2, height - legend_height - 29);
     g.textAlign = "right";
     g.textBaseline = "middle";
-    for (const t of y.ticks) {
+    for (const [t, name] of y.names ? middles(y) : y.ticks.map((t) => [t, tick_text(t)])) {
       g.fillRect(x0 - 4, Math.round(y_of(t)), 4, 1);
-      g.fillText(String(t), x0 - 7, y_of(t));
+      g.fillText(fitting(g, name, box.left - 28), x0 - 7, y_of(t));
     }
     g.save();
     g.translate(9, (y0 + y1) / 2);
     g.rotate(-Math.PI / 2);
     g.textAlign = "center";
-    g.fillText(y.label, 0, 0);
+    g.fillText(fitting(g, y.label, y0 - y1), 0, 0);
     g.restore();
 
     // Legend
-    const [lx, lw, ly] = [x0, Math.min(360, x1 - x0), height - 33];
+    const [lx, lw, ly] = [x0, legend_width, height - legend_height];
     const scale_colors = colors ?? ["#000000", "#ffffff"];
     for (let i = 0; i < lw; ++i) {
       g.fillStyle = between_colors(scale_colors, (i + 0.5) / lw);
@@ -233,11 +353,10 @@ function heat_map(x, y, layers, say, text) {
       g.textAlign = at < 0.05 ? "left" : at > 0.95 ? "right" : "center";
       g.fillText(name, lx + lw * at, ly + 14);
     });
-    if (x1 - x0 > 620) {
-      g.textAlign = "left";
-      g.textBaseline = "middle";
-      g.fillText(layer.label, lx + lw + 16, ly + 5);
-    }
+    g.textAlign = "left";
+    g.textBaseline = "middle";
+    if (label_beside) g.fillText(layer.label, lx + lw + 16, ly + 5);
+    else g.fillText(fitting(g, layer.label, width - lx - 4), lx, ly + 38);
     if (state.cell) {
       const [i, j] = state.cell;
       g.strokeStyle = color("ink");
@@ -251,7 +370,7 @@ function heat_map(x, y, layers, say, text) {
       return;
     }
     const [i, j] = state.cell;
-    const place = (axis, n) => (axis.at ? plain(axis.at[n], 3) : `${plain(axis.edges[n], 3)}–${plain(axis.edges[n + 1], 3)}${axis.unit}`);
+    const place = (axis, n) => (axis.names ? axis.names[n] : axis.at ? plain(axis.at[n], 3) : `${plain(axis.edges[n], 3)}–${plain(axis.edges[n + 1], 3)}${axis.unit}`);
     readout.replaceChildren(angle_name(x.name), ` ${place(x, i)}, `, angle_name(y.name), ` ${place(y, j)}: `, ...say(i * ny + j));
   }
   const point_at = (cell) => { state.cell = cell; draw(); tell(); };

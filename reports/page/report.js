@@ -1,7 +1,5 @@
 "use strict";
-// What the pages of the reports share: curves by name with their legend and what is under the pointer.
-
-const line_colors = ["accent", "red", "green", "extra", "grey", "warn"];
+// What the pages of the reports share, beside their pictures.
 
 /// Curves over one x, each with its own points; where a curve has none, the line goes on (spanGaps) or stops.
 /// \param curves  [{name, x: […], y: […], color, width, dash, kind, quiet: no place in the legend}]

@@ -100,7 +100,7 @@ std::string InputFile::read_rest(std::uint64_t most) {
 namespace {
 
 /// The names of the files being made, for the signal handler, which may only read and unlink.
-std::array<std::atomic<const char*>, 128> unfinished;
+std::array<std::atomic<const char*>, 4096> unfinished;
 std::atomic<bool> ending = false;  ///< a signal came: no file is begun any more
 
 void enter(const char* name) {

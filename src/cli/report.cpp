@@ -2,7 +2,6 @@
 #include "reports/report.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <system_error>
 
@@ -20,23 +19,69 @@ struct Options : Common {
 };
 constexpr std::string_view all_reports = "all";
 
-/// A page and its data under the names of the contract, whole or not at all.
+/// A folder that is gone again if nothing came into it.
+class MadeFolder {
+ public:
+  explicit MadeFolder(std::filesystem::path path) : path_(std::move(path)) {
+    std::error_code error;
+    made_ = std::filesystem::create_directories(path_, error);
+    if (error)
+      throw bad_input(path_.string(), "making the folder", error.message(), "a place to write");
+  }
+  ~MadeFolder() {
+    std::error_code not_empty;
+    if (made_) std::filesystem::remove(path_, not_empty);
+  }
+  MadeFolder(const MadeFolder&) = delete;
+  MadeFolder& operator=(const MadeFolder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+  bool made_ = false;
+};
+
+/// A report under the names of the contract, whole or not at all: page, data, rows, and its pictures in a folder of its
+/// name.
 class Files {
  public:
   Files(const std::string& folder, std::string_view name)
-      : page_path_((std::filesystem::path(folder) / name).string() + ".html"),
-        page_(page_path_),
-        data_((std::filesystem::path(folder) / name).string() + ".json") {}
+      : path_((std::filesystem::path(folder) / name).string()),
+        pictures_(path_),
+        page_(path_ + ".html"),
+        data_(path_ + ".json"),
+        rows_(path_ + ".csv") {}
   void write(const ReportFiles& r) {
     page_.write(r.html);
     data_.write(r.json + "\n");
-    commit_all(std::array{&data_, &page_});
+    rows_.write(rows_csv(r.json));
+    for (const auto& f : r.pictures.figures) {
+      picture(f.id + ".svg", to_svg(f));
+      picture(f.id + ".csv", to_csv(f));
+    }
+    for (const auto& m : r.pictures.maps) {
+      picture(m.id + ".svg", to_svg(m));
+      picture(m.id + ".csv", to_csv(m));
+      picture(m.id + ".exr", to_exr(m));
+    }
+    std::vector<OutputFile*> all;
+    for (auto& f : files_) all.push_back(f.get());
+    for (auto* f : {&rows_, &data_, &page_}) all.push_back(f);
+    commit_all(all);
   }
-  const std::string& page_path() const { return page_path_; }
+  std::string page_path() const { return path_ + ".html"; }
 
  private:
-  std::string page_path_;
-  OutputFile page_, data_;
+  void picture(const std::string& name, std::string_view bytes) {
+    files_.push_back(std::make_unique<OutputFile>(pictures_ / name));
+    files_.back()->write(bytes);
+    files_.back()->close();  // of a report's hundreds, none stays open
+  }
+
+  std::string path_;
+  MadeFolder pictures_;
+  OutputFile page_, data_, rows_;
+  std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
 ReportFiles make(const ReportKind& kind, const ReportOptions& options, const Options& o) {

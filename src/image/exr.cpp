@@ -114,14 +114,12 @@ std::vector<half> in_half(const std::string& path, const std::vector<float>& pla
 
 }  // namespace
 
-void write_exr(const std::string& path, const Image& image, Storage storage) {
-  OutputFile out(path);
+std::string exr_bytes(const std::string& name, const Image& image, Storage storage) {
   Memory memory;
   try {
     Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
     header.compression() = Imf::ZIP_COMPRESSION;
-    for (const auto& [name, text] : image.attributes)
-      header.insert(name, Imf::StringAttribute(text));
+    for (const auto& [key, text] : image.attributes) header.insert(key, Imf::StringAttribute(text));
     Imf::FrameBuffer buffer;
     const auto insert = [&](std::size_t c, Imf::PixelType type, const auto& plane) {
       header.channels().insert(image.channels[c], Imf::Channel(type));
@@ -135,7 +133,7 @@ void write_exr(const std::string& path, const Image& image, Storage storage) {
       if (storage == Storage::single) {
         insert(c, Imf::FLOAT, image.planes[c]);
       } else {
-        halves[c] = in_half(path, image.planes[c]);
+        halves[c] = in_half(name, image.planes[c]);
         insert(c, Imf::HALF, halves[c]);
       }
     }
@@ -145,9 +143,14 @@ void write_exr(const std::string& path, const Image& image, Storage storage) {
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {
-    throw bad_input(path, "writing", e.what(), "an image that OpenEXR can hold");
+    throw bad_input(name, "writing", e.what(), "an image that OpenEXR can hold");
   }
-  out.write(memory.bytes());
+  return memory.bytes();
+}
+
+void write_exr(const std::string& path, const Image& image, Storage storage) {
+  OutputFile out(path);
+  out.write(exr_bytes(path, image, storage));
   out.commit();
 }
 

@@ -21,6 +21,8 @@ enum class Storage { single, half };
 
 /// Lossless compression.  A value that half cannot hold, beyond 65504, is refused.
 void write_exr(const std::string& path, const Image&, Storage = Storage::single);
+/// The bytes of that file.  \param name  told in errors
+std::string exr_bytes(const std::string& name, const Image&, Storage = Storage::single);
 /// Any single-part scan line or tiled file; half and integer channels are widened.
 /// At most 16384 pixels wide or high.
 /// \param most  pixels × channels; an image with more is refused before anything is allocated

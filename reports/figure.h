@@ -1,0 +1,100 @@
+#pragma once
+/// \file
+/// Pictures as data: made once, by a report, then drawn on its page (page/figures.js) and written beside it
+/// as SVG, CSV and OpenEXR.
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+struct FigureAxis {
+  std::string label;  ///< with its unit: "time of one evaluation [ns]"
+  bool log = false;   ///< at first; a page lets the reader choose
+  /// Ends, where they are not the data's.
+  double from = std::numeric_limits<double>::quiet_NaN(),
+         to = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct FigureCurve {
+  enum class Kind { line, points, both };
+  std::string name;
+  std::vector<double> x,
+      y;  ///< as many; lines go by ascending x; a y that is not finite: no point there
+  Kind kind = Kind::line;
+  bool dashed = false;                       ///< a reference or a bound
+  std::vector<std::string> labels{};         ///< of each point, or none
+  std::vector<double> x_error{}, y_error{};  ///< half widths of each point, or none
+};
+
+/// Of pictures among which the reader chooses: {{"material", "gold"}, {"angle", "0.5"}}.
+using FigureChoices = std::vector<std::pair<std::string, std::string>>;
+
+struct Figure {
+  std::string id;  ///< the name of its files: [a-z0-9_]
+  std::string title, note;
+  FigureAxis x, y;
+  std::vector<FigureCurve> curves;
+  std::string family{};  ///< of pictures that differ by their choices; empty: one alone
+  FigureChoices choices{};
+};
+
+/// Cells over two axes.
+struct FigureMap {
+  struct Axis {
+    std::string label;
+    std::vector<double> at;  ///< ascending; cells reach half way to the next
+    bool log = false;
+    /// Where places have names and no numbers; `at` is then not looked at.
+    std::vector<std::string> names{};
+    double from = std::numeric_limits<double>::quiet_NaN(),
+           to = std::numeric_limits<double>::quiet_NaN();  ///< ends, where they are not the cells'
+    std::size_t size() const { return names.empty() ? at.size() : names.size(); }
+  };
+  /// How colours follow values: of a root, small errors are seen beside great ones; log: decades, of values above 0.
+  enum class Scale { linear, root, log };
+
+  std::string id;  ///< as a figure's
+  std::string title, note;
+  Axis x, y;
+  std::string value;           ///< what a cell is, with its unit
+  std::vector<double> values;  ///< x by x: values[i * y.size() + j]; not finite: no cell
+  bool diverging = false;      ///< about 0; else from 0
+  Scale scale = Scale::linear;
+  /// The value at the end of the colours, so that maps can be compared; else as the values ask for.
+  double limit = std::numeric_limits<double>::quiet_NaN();
+  std::string family{};  ///< as a figure's
+  FigureChoices choices{};
+};
+
+/// Of a family and what is chosen: in small letters and digits, all else a single '_'.
+std::string picture_id(std::string_view family, const FigureChoices&);
+
+/// What a report shows.
+struct Pictures {
+  std::vector<Figure> figures;
+  std::vector<FigureMap> maps;
+};
+
+/// A line for each point, after one of names: curve, the axes' labels; labels and errors where a curve has some.
+/// RFC 4180, six digits, lines end as on Unix.
+std::string to_csv(const Figure&);
+/// A line for each cell that has a value.
+std::string to_csv(const FigureMap&);
+
+/// A picture on its own: no script, no font, nothing fetched.
+std::string to_svg(const Figure&);
+std::string to_svg(const FigureMap&);
+
+/// The file of an image with one channel of floats, named after the value: x to the right, y upwards; where there is no
+/// cell, NaN.  String attributes say what the axes and the value are.
+std::string to_exr(const FigureMap&);
+
+/// \param json  a report's document
+/// \return its flat objects "rows" as CSV: a column for each key, in the order in which they appear
+std::string rows_csv(const std::string& json);
+
+}  // namespace gonio

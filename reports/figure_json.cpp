@@ -1,0 +1,81 @@
+// Pictures in the document of a page.
+#include <cmath>
+#include <string_view>
+
+#include "reports/figure_scale.h"
+#include "reports/page_json.h"
+
+namespace gonio {
+namespace {
+
+PageJson json(const FigureAxis& a) {
+  PageJson out{{"label", a.label}, {"log", a.log}};
+  if (std::isfinite(a.from)) out["from"] = a.from;
+  if (std::isfinite(a.to)) out["to"] = a.to;
+  return out;
+}
+
+PageJson json(const FigureMap::Axis& a) {
+  const auto edges = cell_edges(a);
+  PageJson out{{"label", a.label}, {"log", a.log}, {"edges", page_json(edges)}};
+  if (a.names.empty()) {
+    const FigureScale scale{edges.front(), edges.back(), a.log};
+    out["at"] = page_json(a.at);
+    out["ticks"] = page_json(scale_ticks(scale, 7));
+    out["few"] = page_json(scale_ticks(scale, 3));
+  } else {
+    out["names"] = a.names;
+  }
+  return out;
+}
+
+/// A curve; x only where it is not the same as of the curve before.
+PageJson json(const FigureCurve& c, const FigureCurve* before) {
+  static constexpr std::string_view kinds[]{"line", "points", "both"};
+  PageJson out{{"name", c.name}, {"kind", kinds[static_cast<std::size_t>(c.kind)]}};
+  if (c.dashed) out["dashed"] = true;
+  if (!before || before->x != c.x) out["x"] = page_json(c.x);
+  out["y"] = page_json(c.y);
+  if (!c.labels.empty()) out["labels"] = c.labels;
+  if (!c.x_error.empty()) out["x_error"] = page_json(c.x_error);
+  if (!c.y_error.empty()) out["y_error"] = page_json(c.y_error);
+  return out;
+}
+
+PageJson json(const std::vector<std::pair<std::string, std::string>>& choices) {
+  PageJson out = PageJson::object();
+  for (const auto& [of, chosen] : choices) out[of] = chosen;
+  return out;
+}
+
+}  // namespace
+
+PageJson page_json(const Figure& f) {
+  PageJson curves = PageJson::array();
+  for (std::size_t i = 0; i < f.curves.size(); ++i)
+    curves.push_back(json(f.curves[i], i > 0 ? &f.curves[i - 1] : nullptr));
+  return {{"id", f.id},       {"family", f.family}, {"choices", json(f.choices)},
+          {"title", f.title}, {"note", f.note},     {"x", json(f.x)},
+          {"y", json(f.y)},   {"curves", curves}};
+}
+
+PageJson page_json(const FigureMap& m) {
+  static constexpr std::string_view scales[]{"linear", "root", "log"};
+  const auto colours = colour_scale(m);
+  return {{"id", m.id},
+          {"family", m.family},
+          {"choices", json(m.choices)},
+          {"title", m.title},
+          {"note", m.note},
+          {"x", json(m.x)},
+          {"y", json(m.y)},
+          {"value", m.value},
+          {"diverging", m.diverging},
+          {"scale", scales[static_cast<std::size_t>(m.scale)]},
+          {"low", page_json(colours.low)},
+          {"high", page_json(colours.high)},
+          {"ticks", page_json(colours.ticks)},
+          {"values", page_json(m.values)}};
+}
+
+}  // namespace gonio

@@ -1,0 +1,129 @@
+"use strict";
+// Pictures that are data (reports/figure.h), drawn, with what is under the pointer; their files lie beside the page.
+
+const line_colors = ["accent", "red", "green", "extra", "grey", "warn"];
+const line_rounds = [null, [2, 3], [9, 3, 2, 3], [12, 4]];  // of curves that share a colour: the first six, the next …
+const reference_dashes = [[6, 4], [2, 4], [10, 3, 2, 3]];
+
+/// {color, dash, width} of each curve, as in figure_svg.cpp: references in ink and dashed, the others each in a colour.
+function line_styles(curves) {
+  let references = 0, others = 0;
+  return curves.map((c) => {
+    if (c.dashed) return { color: "ink", dash: reference_dashes[references++ % reference_dashes.length], width: 1.4 };
+    const i = others++;
+    return { color: line_colors[i % line_colors.length], dash: line_rounds[Math.floor(i / line_colors.length) % line_rounds.length], width: 1.8 };
+  });
+}
+/// How a curve looks, beside its name.
+const line_key = (style, kind) => el("svg", { width: 24, height: 10, viewBox: "0 0 24 10", "aria-hidden": "true" },
+  kind === "points" ? null : el("line", { x1: 1, x2: 23, y1: 5, y2: 5, stroke: `var(--${style.color})`, "stroke-width": style.width, "stroke-dasharray": style.dash?.join(" ") }),
+  kind === "line" ? null : el("circle", { cx: 12, cy: 5, r: 3.2, fill: `var(--${style.color})` }));
+
+/// Links to the files of a picture: gonio report writes them into a folder of the report's name.
+function picture_files(picture, endings) {
+  const folder = /^gonio\.report\.(\w+)\//.exec(page_data().schema ?? "")?.[1];
+  return folder ? el("span", { class: "files" }, endings.map((e) => el("a", { href: `${folder}/${picture.id}.${e}` }, e.toUpperCase()))) : null;
+}
+const picture_caption = (picture, endings) => el("figcaption", {}, picture.title, picture.note ? el("small", {}, " " + picture.note) : null, " ", picture_files(picture, endings));
+
+/// The picture of a family with these choices; numbers and words are alike.
+const picture_of = (pictures, family, choices = {}) => pictures.find((p) => p.family === family
+  && Object.entries(choices).every(([of, chosen]) => p.choices[of] === String(chosen)));
+/// What can be chosen, in order: [value…] of a family, where the other choices are these.
+const choices_of = (pictures, family, of, others = {}) => unique(pictures.filter((p) => p.family === family
+  && Object.entries(others).every(([o, chosen]) => p.choices[o] === String(chosen))).map((p) => p.choices[of]));
+
+/// Curves over one x, each with its own points; several may share an x.
+/// Returns [xs, columns, index]: index[curve][i] is the point of the curve at xs[i], or undefined, and so is then its value; null is
+/// a point without a value.
+function merged_points(curves) {
+  const times = new Map();  // how often each x is needed
+  const at = curves.map((c) => {
+    const own = new Map();
+    c.x.forEach((x, i) => known(x) && (own.get(x)?.push(i) ?? own.set(x, [i])));
+    own.forEach((list, x) => times.set(x, Math.max(times.get(x) ?? 0, list.length)));
+    return own;
+  });
+  const xs = [...times].sort(([a], [b]) => a - b).flatMap(([x, n]) => Array(n).fill(x));
+  const index = at.map((own) => { let k = 0; return xs.map((x, i) => { k = xs[i - 1] === x ? k + 1 : 0; return own.get(x)?.[k]; }); });
+  return [xs, index.map((list, c) => list.map((i) => (i === undefined ? undefined : known(curves[c].y[i]) ? curves[c].y[i] : null))), index];
+}
+
+/// \param figure  of the page's data
+/// \param o       {height, emphasis: the curve that others stand back behind, only(curve): whether it is shown, x_text(x), y_text(y)}
+/// Returns its element.
+function figure_view(figure, o = {}) {
+  let x = [];
+  const curves = figure.curves.map((c) => ({ ...c, x: x = c.x ?? x })).filter((c) => o.only?.(c) ?? true);
+  if (o.emphasis) curves.sort((a, b) => (a.name === o.emphasis) - (b.name === o.emphasis));  // drawn last
+  const styles = line_styles(curves).map((s, i) => (!o.emphasis || curves[i].dashed ? s
+    : curves[i].name === o.emphasis ? { color: "accent", width: 2.4 } : { color: "rule", width: 1, quiet: true }));
+  const [xs, columns, index] = merged_points(curves);
+  const along = (values, c) => values && index[c].map((i) => (i === undefined ? null : values[i]));
+  const single = curves.some((c) => c.kind === "points") && curves.every((c) => c.dashed || c.kind === "points");
+  const all_positive = (list) => list.every((v) => !known(v) || v > 0);
+  const x_text = o.x_text ?? ((v) => plain(v, 4)), y_text = o.y_text ?? ((v) => significant(v, 3));
+  const with_bar = (text, e) => (known(e) && e > 0 ? `${text} ± ${significant(e, 1)}` : text);
+
+  const readout = el("div", { class: "readout", "aria-live": "polite" });
+  const hint = () => readout.replaceChildren(el("span", { class: "hint" }, single ? "Point at a point to read it." : "Point at a curve to read it."));
+  const hover = (at) => {
+    const told = at && curves.map((c, k) => [c, styles[k], at[k + 1] ?? null]).filter(([, s, i]) => i !== null && !s.quiet)
+      .map(([c, s, i]) => [c, s, i, curves.indexOf(c)]).filter(([, , i, k]) => known(columns[k][i]));
+    if (!told?.length) return hint();
+    const y_of = (c, k, i) => el("b", {}, with_bar(y_text(columns[k][i]), c.y_error?.[index[k][i]]));
+    const x_of = (c, k, i) => with_bar(x_text(xs[i]), c.x_error?.[index[k][i]]);
+    if (single) {
+      const [[c, s, i, k]] = told, label = c.labels?.[index[k][i]];
+      return readout.replaceChildren(line_key(s, c.kind), ` ${[c.name, label].filter(Boolean).join(", ")}: ${figure.x.label} `, el("b", {}, x_of(c, k, i)), `, ${figure.y.label} `, y_of(c, k, i));
+    }
+    readout.replaceChildren(`${figure.x.label} ${x_text(xs[told[0][2]])}: `, ...told.flatMap(([c, s, i, k], n) =>
+      [n ? ", " : "", line_key(s, c.kind), ` ${c.name} `, c.labels?.[index[k][i]] ? `${c.labels[index[k][i]]} ` : "", y_of(c, k, i)]));
+  };
+
+  const points = curves.some((c) => c.kind !== "line");
+  const bars = curves.flatMap((c) => c.x.flatMap((v, i) => (known(v) && known(c.x_error?.[i]) ? [v - c.x_error[i], v + c.x_error[i]] : [])));
+  const ends = (log) => {  // points do not lie on the frame; lines may begin there
+    const seen = [...xs, ...bars].filter((v) => !log || v > 0);
+    let [low, high] = [seen.reduce((a, b) => Math.min(a, b), Infinity), seen.reduce((a, b) => Math.max(a, b), -Infinity)];
+    if (low > high) [low, high] = [1, 2];
+    if (low === high) [low, high] = low === 0 ? [-1, 1] : [low - Math.abs(low) / 2, high + Math.abs(high) / 2];
+    if (points) [low, high] = log ? [low / (high / low) ** 0.04, high * (high / low) ** 0.04] : [low - 0.04 * (high - low), high + 0.04 * (high - low)];
+    return [known(figure.x.from) && !(log && figure.x.from <= 0) ? figure.x.from : low, figure.x.to ?? high];
+  };
+  const plot = curve_plot([xs, ...columns], curves.map((c, k) => ({ ...styles[k], kind: c.kind, mute: single && c.dashed, labels: along(c.labels, k), x_error: along(c.x_error, k), y_error: along(c.y_error, k) })),
+    { x_label: figure.x.label, y_label: figure.y.label, x_log: figure.x.log, log: figure.y.log, x_ends: ends, y_ends: known(figure.y.from) && known(figure.y.to) ? [figure.y.from, figure.y.to] : null,
+      height: o.height ?? 300, text: `${figure.title}: ${figure.y.label} by ${figure.x.label}.`, y_of: () => true, single, hover });
+  hint();
+  const scales = [[false, "linear"], [true, "logarithmic"]];
+  const y_choice = columns.flat().some(known) && all_positive(columns.flat()), x_choice = figure.x.log && all_positive(xs);
+  const controls = el("div", { class: "controls" },
+    y_choice ? choice(`Scale of ${figure.y.label}`, scales.map(([v, t]) => [v, x_choice ? `y ${t}` : t]), figure.y.log, (log) => plot.set({ log })) : null,
+    x_choice ? choice(`Scale of ${figure.x.label}`, scales.map(([v, t]) => [v, `x ${t}`]), figure.x.log, (x_log) => plot.set({ x_log })) : null,
+    el("span", { class: "keys" }, curves.map((c, k) => (styles[k].quiet ? null : el("span", {}, line_key(styles[k], c.kind), " ", c.name)))));
+  return el("figure", { id: figure.id }, picture_caption(figure, ["svg", "csv"]), controls, plot.node, readout);
+}
+
+/// \param map  of the page's data
+/// \param o    {say(i, j, value): what else is told of a cell, value_text(value)}
+/// Returns its element.
+function map_view(map, o = {}) {
+  const nx = map.x.edges.length - 1, ny = map.y.edges.length - 1;
+  const axis = (a) => {
+    const ends = [a.edges[0], a.edges.at(-1)], to = a.log ? Math.log : (v) => v, from = a.log ? Math.exp : (v) => v;
+    const [low, high] = ends.map(to);
+    return { ...a, name: a.label, unit: "", ends, part: (v) => (to(v) - low) / (high - low), value: (part) => from(low + part * (high - low)) };
+  };
+  const at = (v) => {  // as colour_part() in figure_scale.cpp
+    if (map.scale === "log") return v > 0 ? Math.min(1, Math.max(0, Math.log(v / map.low) / Math.log(map.high / map.low))) : 0;
+    const part = Math.min(1, Math.max(map.diverging ? -1 : 0, v / map.high)), grown = map.scale === "root" ? Math.sign(part) * Math.sqrt(Math.abs(part)) : part;
+    return map.diverging ? (grown + 1) / 2 : grown;
+  };
+  const value_text = o.value_text ?? ((v) => significant(v, 3));
+  const in_cell = map.x.names && map.y.names ? (k) => (known(map.values[k]) ? significant(map.values[k], 2) : null) : undefined;
+  const view = heat_map(axis(map.x), axis(map.y), { value: { at: (k) => (known(map.values[k]) ? at(map.values[k]) : null), colors: () => (map.diverging ? diverging() : sequential()),
+    label: map.value, ticks: map.ticks.map((v) => [at(v), tick_text(v)]), text: in_cell } },
+    (k) => (known(map.values[k]) ? [`${map.value} `, el("b", {}, value_text(map.values[k])), ...[o.say?.(Math.floor(k / ny), k % ny, map.values[k]) ?? []].flat()] : ["no value"]),
+    `${map.title}: ${map.value} by ${map.x.label} and ${map.y.label}, ${nx} × ${ny} cells.`);
+  return el("figure", { id: map.id }, picture_caption(map, ["svg", "csv", "exr"]), view.node);
+}

@@ -1,0 +1,168 @@
+#include "reports/figure.h"
+
+#include <cmath>
+#include <limits>
+
+#include "image/exr.h"
+#include "reports/page_json.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+Figure times() {
+  return {"times",
+          "Time & error",
+          "a <note>",
+          {"time [ns]", true},
+          {"error, most", true},
+          {{"exact", {1, 10, 100}, {1e-3, none, 1e-5}, FigureCurve::Kind::both},
+           {.name = "fit \"a\"",
+            .x = {2, 20},
+            .y = {0.01, 0.02},
+            .kind = FigureCurve::Kind::points,
+            .labels = {"a, b", "c"},
+            .y_error = {0.001, 0.05}}}};
+}
+
+FigureMap cells() {
+  return {"cells",
+          "Cells",
+          "",
+          {"x", {1, 2, 3}},
+          {"y [°]", {10, 20}},
+          "F − exact [1]",
+          {0, 1, 2, 3, none, -5},
+          true};
+}
+
+std::size_t occurrences(const std::string& in, const std::string& what) {
+  std::size_t n = 0;
+  for (auto at = in.find(what); at != std::string::npos; at = in.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(FigureCsv, HasALineForEachPointThatThereIs) {
+  EXPECT_EQ(to_csv(times()),
+            "curve,time [ns],\"error, most\",label,\"± error, most\"\n"
+            "exact,1,0.001,,\n"
+            "exact,100,1e-05,,\n"
+            "\"fit \"\"a\"\"\",2,0.01,\"a, b\",0.001\n"
+            "\"fit \"\"a\"\"\",20,0.02,c,0.05\n");
+}
+
+TEST(FigureCsv, HasALineForEachCellThatThereIs) {
+  EXPECT_EQ(to_csv(cells()), "x,y [°],F − exact [1]\n1,10,0\n1,20,1\n2,10,2\n2,20,3\n3,20,-5\n");
+  auto named = cells();
+  named.x.names = {"a,b", "c", "d"};
+  EXPECT_NE(to_csv(named).find("\n\"a,b\",10,0\n\"a,b\",20,1\nc,10,2\n"), std::string::npos);
+}
+
+TEST(FigureCsv, RowsHaveAColumnForEveryKeyThatAnyHas) {
+  EXPECT_EQ(rows_csv(R"({"other":1,"rows":[{"b":1.0,"a":"x,y"},{"b":null,"c":true}]})"),
+            "b,a,c\n1,\"x,y\",\n,,true\n");
+}
+
+TEST(FigureId, IsAFileName) {
+  EXPECT_EQ(picture_id("loss", {{"form", "masking.smith_ggx"}, {"angle", "μ = 0.5"}}),
+            "loss_masking_smith_ggx_0_5");
+}
+
+TEST(FigureSvg, EscapesItsTexts) {
+  auto f = times();
+  f.curves[0].name = "</svg><script>\x01";
+  const std::string svg = to_svg(f);
+  EXPECT_EQ(occurrences(svg, "<script"), 0U);
+  EXPECT_EQ(occurrences(svg, "</svg>"), 1U);
+  EXPECT_EQ(svg.find('\x01'), svg.npos);
+  EXPECT_NE(svg.find("Time &amp; error"), svg.npos);
+  EXPECT_NE(svg.find("a &lt;note&gt;"), svg.npos);
+}
+
+TEST(FigureSvg, DrawsEveryPointItsBarAndItsLabel) {
+  const std::string svg = to_svg(times());
+  EXPECT_EQ(occurrences(svg, "<circle"), 4U + 2U) << "points, and those of the legend";
+  EXPECT_NE(svg.find(">a, b</text>"), svg.npos);
+  EXPECT_EQ(occurrences(svg, "stroke=\"#c4500a\""), 2U) << "the bars of the second curve";
+  EXPECT_NE(svg.find(">10⁻⁵</text>"), svg.npos);
+  EXPECT_EQ(svg.find("nan"), svg.npos);
+  EXPECT_EQ(svg.find("inf"), svg.npos);
+}
+
+TEST(FigureSvg, IsWholeWithoutAnyPoint) {
+  Figure f{"none", "Nothing", "", {"x"}, {"y", true}, {{"empty", {}, {}}, {"nan", {1}, {none}}}};
+  for (const bool log : {false, true}) {
+    f.x.log = log;
+    const std::string svg = to_svg(f);
+    EXPECT_NE(svg.find("</svg>"), svg.npos);
+    EXPECT_EQ(svg.find("nan\""), svg.npos);
+  }
+}
+
+TEST(FigureSvg, ANumberOnALogarithmicAxisIsAboveZero) {
+  Figure f{"log", "Log", "", {"x", true}, {"y", true}, {{"c", {0, 1, 10}, {1, -1, 100}}}};
+  const std::string svg = to_svg(f);
+  EXPECT_EQ(svg.find("nan"), svg.npos);
+  EXPECT_EQ(svg.find("inf"), svg.npos);
+}
+
+TEST(FigureMapSvg, LeavesOutACellWithoutValue) {
+  const std::string svg = to_svg(cells());
+  const auto begin = svg.find("<g shape-rendering");
+  const std::string drawn = svg.substr(begin, svg.find("</g>") - begin);
+  EXPECT_EQ(occurrences(drawn, "z\"") + occurrences(drawn, "zM"), 5U) << "a rectangle for each value";
+  EXPECT_NE(svg.find(">−5</text>"), svg.npos) << "the scale of colours";
+}
+
+TEST(FigureMapSvg, WritesNumbersIntoASmallMatrix) {
+  auto m = cells();
+  m.x.names = {"one", "two", "three"};
+  m.y.names = {"first", "second"};
+  const std::string svg = to_svg(m);
+  for (const char* text : {">three</text>", ">second</text>", ">−5</text>", ">3</text>"})
+    EXPECT_NE(svg.find(text), svg.npos) << text;
+}
+
+TEST(FigureMapExr, ReadsBackRightWayUp) {
+  const test::Folder folder;
+  const auto image = read_exr(folder.write("cells.exr", to_exr(cells())));
+  ASSERT_EQ(image.width, 3U);
+  ASSERT_EQ(image.height, 2U);
+  EXPECT_EQ(image.channels, std::vector<std::string>{"F_exact_1"});
+  EXPECT_EQ(image.planes[0][3], 0) << "the lowest row is the last";
+  EXPECT_EQ(image.planes[0][0], 1);
+  EXPECT_EQ(image.planes[0][2], -5);
+  EXPECT_TRUE(std::isnan(image.planes[0][5]));
+  EXPECT_EQ(image.attributes.at("x.at"), "1; 2; 3");
+  EXPECT_EQ(image.attributes.at("y"), "y [°]");
+  EXPECT_EQ(image.attributes.at("value"), "F − exact [1]");
+}
+
+TEST(FigureJson, GivesAnXOnceForTheCurvesThatShareIt) {
+  auto f = times();
+  f.curves.push_back(f.curves[1]);
+  const auto j = page_json(f);
+  EXPECT_TRUE(j["curves"][1].contains("x"));
+  EXPECT_FALSE(j["curves"][2].contains("x"));
+  EXPECT_TRUE(j["curves"][0]["y"][1].is_null());
+}
+
+TEST(FigureJson, ScalesOfColoursHoldTheValues) {
+  auto m = cells();
+  EXPECT_EQ(page_json(m)["low"], -5);
+  EXPECT_EQ(page_json(m)["high"], 5);
+  m.diverging = false;
+  m.values = {1e-4, 0.2, 0.03, 0, none, 0.001};
+  m.scale = FigureMap::Scale::log;
+  EXPECT_EQ(page_json(m)["low"], 1e-4);
+  EXPECT_EQ(page_json(m)["high"], 0.2);
+  m.limit = 1;
+  EXPECT_EQ(page_json(m)["high"], 1);
+}
+
+}  // namespace
+}  // namespace gonio
