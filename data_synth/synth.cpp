@@ -76,7 +76,7 @@ void lay_out(Table& t, const SynthOptions& o) {
       break;
     case Layout::image_slice:
       t.format = "exr";
-      t.where = image_slice_grid(90, 90, 90 * degree, o.bins);
+      t.where = image_slice_grid(o.slice, o.slice, 90 * degree, o.bins);
       break;
     case Layout::in_plane:
       t.format = "csv";

@@ -16,7 +16,7 @@ enum class Layout {
   merl,      ///< 90 × 90 × 180 over theta_h, theta_d, phi_d; MERL binary, three channels
   mbsdf,     ///< 45 × 45 × 90 over theta_i, theta_o, phi; NVIDIA MBSDF
   in_plane,  ///< 5 incident angles × theta_o −85° to 85° by 1° in the plane of incidence; CSV
-  image_slice,  ///< 90 × 90 over theta_h, theta_d at phi_d = 90°; OpenEXR
+  image_slice,  ///< 90 × 90 (or `slice`) over theta_h, theta_d at phi_d = 90°; OpenEXR
   hemisphere,   ///< 6 incident angles × theta_o by 5° × phi_o by 10°; CSV
   random        ///< half uniform over both hemispheres, half with theta_h log-uniform; CSV
 };
@@ -27,6 +27,7 @@ struct SynthOptions {
   Layout layout = Layout::merl;
   Bins bins = Bins::centre;    ///< of grids with bins
   std::size_t samples = 2000;  ///< of the random layout
+  std::size_t slice = 90;      ///< bins of an image slice along each axis
   double noise = 0;            ///< values are multiplied by exp(noise · z), z standard normal
   double floor = 0;            ///< added to every value before the noise [1/sr]
   double outliers = 0;         ///< share of samples multiplied by 10^u, u uniform in [−2, 2]

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "reports/cross_fit.h"
 #include "reports/energy.h"
 #include "reports/remap.h"
 #include "reports/schlick.h"
@@ -27,12 +28,17 @@ ReportFiles remap(const ReportOptions& o, const ReportProgress& done) {
 ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
   return files(schlick_report(schlick_options(o.full), done), schlick_page_html);
 }
+ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
+  return files(cross_fit_report(cross_fit_options(o.full), done), cross_fit_page_html);
+}
 
 constexpr std::array kinds{
     ReportKind{"energy", "what single scattering loses, and what gives it back", energy},
     ReportKind{"remap", "masking forms against exact Smith, and which roughness each behaves like",
                remap},
-    ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick}};
+    ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick},
+    ReportKind{"cross_fit", "what fits with shipped approximations make of roughness, F0 and gamma",
+               cross_fit}};
 
 }  // namespace
 

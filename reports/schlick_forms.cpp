@@ -6,6 +6,7 @@
 
 #include "brdf/registry.h"
 #include "integrate/slopes.h"
+#include "optics/f0.h"
 #include "optics/spectrum.h"
 #include "reports/schlick_parts.h"
 
@@ -147,6 +148,13 @@ FresnelForm ue_form(const Fitting& s) {
 std::string FresnelSurface::channel(std::size_t c) const {
   static constexpr std::array names{"red", "green", "blue"};
   return channels() > 1 ? names[c] : "";
+}
+
+double f0_of_index(const Index& i) {
+  return EdgeTintFromIndex<double>::apply(std::array{i.n, i.k})[0];
+}
+double FresnelSurface::f0(std::size_t c) const {
+  return f0_of_index(index[c]);
 }
 
 FresnelSurface dielectric(double ior, std::string name) {

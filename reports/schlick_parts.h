@@ -21,7 +21,10 @@ struct FresnelSurface {
 
   std::size_t channels() const { return index.size(); }
   std::string channel(std::size_t c) const;
+  double f0(std::size_t c) const;
 };
+/// ((n − 1)² + k²)/((n + 1)² + k²)
+double f0_of_index(const Index&);
 FresnelSurface dielectric(double ior, std::string name);
 /// The same with the light in the denser medium.
 FresnelSurface dielectric_inside(double ior, std::string name);
