@@ -114,7 +114,9 @@ CrossFitReport cross_fit_report(const CrossFitOptions& o, const ReportProgress& 
   });
   for (auto& of_one : cases) std::ranges::move(of_one, std::back_inserter(r.cases));
   r.walk_error = std::ranges::max(walk_errors);
+  add_sentences(r);
   add_findings(r);
+  r.pictures = cross_fit_pictures(r);
   return r;
 }
 

@@ -11,6 +11,7 @@
 
 #include "data_synth/synth.h"
 #include "fitting/fit.h"
+#include "reports/figure.h"
 #include "reports/report.h"
 
 namespace gonio {
@@ -43,6 +44,11 @@ struct CrossValue {
   double truth, fitted;
   double error;  ///< standard error of `fitted` by that of the truth; 0: the truth is exact
   ParameterStatus status;
+
+  /// fitted − truth, of F0 as a part of the truth.
+  double shift() const;
+  /// Whether it is where the data put it, and not a bound: or right there.
+  bool is_free() const;
 };
 
 /// A form fitted to a truth.
@@ -57,8 +63,14 @@ struct CrossCase {
   double log_rms_truth;  ///< of it what is noise of the truth
   std::vector<CrossValue> values;
 
-  /// nullptr if the model has none, or the data do not determine it.
+  bool is_dielectric() const;  ///< else a metal
+  /// nullptr if the model has none.
   const CrossValue* find(std::string_view parameter, std::string_view channel = {}) const;
+};
+
+/// What a form does to a truth, over materials and roughnesses.
+struct CrossSentence {
+  std::string truth, fitted, kind, sentence;
 };
 
 struct CrossFitReport {
@@ -66,7 +78,9 @@ struct CrossFitReport {
   std::vector<double> roughness;
   std::vector<std::string> materials;
   double walk_error = 0;  ///< RMS over values of the standard error of ln f that the walks leave
+  std::vector<CrossSentence> sentences;
   std::vector<std::string> findings;  ///< sentences
+  Pictures pictures;
   bool full = false;
 };
 
@@ -102,7 +116,7 @@ CrossFitReport cross_fit_report(const CrossFitOptions&, const ReportProgress& do
 
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const CrossFitReport&);
-/// \param data  of to_json() above
-std::string cross_fit_page_html(std::string_view data);
+/// Its data are those of the document but for the rows, which are many: pictures and sentences show them.
+std::string cross_fit_page_html(const CrossFitReport&);
 
 }  // namespace gonio

@@ -29,18 +29,15 @@ Cases cases_of(const CrossFitReport& r, const Where& w) {
       out.push_back(&c);
   return out;
 }
-bool is_dielectric(const CrossCase& c) {
-  return c.material.starts_with("IOR ");
-}
 Cases dielectrics(Cases all) {
-  std::erase_if(all, [](const CrossCase* c) { return !is_dielectric(*c); });
+  std::erase_if(all, [](const CrossCase* c) { return !c->is_dielectric(); });
   return all;
 }
 Cases any(Cases all) {
   return all;
 }
 Cases metals(Cases all) {
-  std::erase_if(all, [](const CrossCase* c) { return is_dielectric(*c); });
+  std::erase_if(all, [](const CrossCase* c) { return c->is_dielectric(); });
   return all;
 }
 
@@ -50,8 +47,8 @@ struct Shift {
   const CrossCase* in;
 };
 struct Shifts {
-  std::vector<Shift> found{};  ///< of what was determined, and free to move
-  std::size_t at_bound = 0, all = 0;
+  std::vector<Shift> found{};         ///< of what was determined, and free to move
+  std::size_t at_bound = 0, all = 0;  ///< at_bound: or not determined
 
   explicit operator bool() const { return !found.empty(); }
   const Shift& least() const { return *std::ranges::min_element(found, {}, &Shift::by); }
@@ -69,11 +66,10 @@ Shifts shifts(const Cases& cases, std::string_view parameter) {
     for (const auto& v : c->values) {
       if (v.parameter != parameter) continue;
       ++out.all;
-      // a fit that ends where it should is no less right for its bound
-      const double by = parameter == "f0" ? v.fitted / v.truth - 1 : v.fitted - v.truth;
-      const bool right = std::abs(by) < 1e-6;
-      out.at_bound += v.status == ParameterStatus::at_bound && !right;
-      if (v.status == ParameterStatus::free || right) out.found.push_back({by, c});
+      if (v.is_free())
+        out.found.push_back({v.shift(), c});
+      else
+        ++out.at_bound;
     }
   return out;
 }
@@ -88,12 +84,6 @@ std::string signed_percent(double x) {
 std::string place(const CrossCase& c) {
   return fmt::format("{}, roughness {:g}", c.material, c.roughness);
 }
-std::string_view brief(std::string_view id) {
-  for (const std::string_view prefix : {"masking.", "fresnel.", "ndf.", "model."})
-    if (id.starts_with(prefix)) return id.substr(prefix.size());
-  return id;
-}
-
 /// "by −0.013 (IOR 2, roughness 1) to +0.0012 (gold, roughness 0.3)", with what bounds cut off
 std::string span(const Shifts& s, std::string (*said)(double)) {
   if (!s) return "not at all within its bounds";
@@ -198,7 +188,7 @@ void ranking(CrossFitReport& r,
   std::ranges::stable_sort(places, {}, &Place::residual);
   std::vector<std::string> words;
   for (const auto& p : places)
-    words.push_back(fmt::format("{} {:.2g} ({:.2g}{})", brief(p.form), p.residual, p.rms,
+    words.push_back(fmt::format("{} {:.2g} ({:.2g}{})", short_form(p.form), p.residual, p.rms,
                                 p.at_bound > 0 ? fmt::format(", {} at a bound", p.at_bound) : ""));
   r.findings.push_back(
       fmt::format("{} by their log-RMS residual over all {} and roughnesses, in brackets the RMS "
@@ -294,7 +284,7 @@ void whole_models(CrossFitReport& r) {
     const auto all = cases_of(r, {all_orders, name});
     if (const auto s = shifts(all, "roughness"))
       words.push_back(fmt::format(
-          "{} {:.2g}{}", brief(name), s.rms(),
+          "{} {:.2g}{}", short_form(name), s.rms(),
           s.at_bound > 0 ? fmt::format(" ({} of {} at a bound)", s.at_bound, s.all) : ""));
   }
   if (!words.empty())
@@ -317,7 +307,7 @@ void what_else_decides(CrossFitReport& r) {
     if (cases_of(r, {once, form, Metric::l2_cosine, cross_layouts[0].name, "IOR 1.5"}).empty())
       continue;
     words.push_back(fmt::format(
-        "{} {} (by l2_cosine {}; slice to the horizon {}; hemisphere {})", brief(form),
+        "{} {} (by l2_cosine {}; slice to the horizon {}; hemisphere {})", short_form(form),
         said(Metric::log, cross_layouts[0].name), said(Metric::l2_cosine, cross_layouts[0].name),
         said(Metric::log, cross_layouts[1].name), said(Metric::log, cross_layouts[2].name)));
   }
@@ -343,6 +333,27 @@ void trust(CrossFitReport& r) {
 }
 
 }  // namespace
+
+void add_sentences(CrossFitReport& r) {
+  for (const auto& c : r.cases) {
+    const auto same = [&](const CrossSentence& s) {
+      return s.truth == c.truth && s.fitted == c.fitted;
+    };
+    if (std::ranges::any_of(r.sentences, same)) continue;
+    const auto all = cases_of(r, {c.truth, c.fitted});
+    std::vector<std::string> parts;
+    const auto add = [&](const Cases& cases, std::string_view of) {
+      if (cases.empty()) return;
+      parts.push_back(
+          fmt::format("{}: shifts {}; residual {}", of, roughness_and_f0(cases), residuals(cases)));
+      if (const auto gamma = shifts(cases, "gamma"); gamma.all > 0)
+        parts.back() += fmt::format("; gamma {}", span(gamma, signed_number));
+    };
+    add(dielectrics(all), "Dielectrics");
+    add(metals(all), "Metals");
+    r.sentences.push_back({c.truth, c.fitted, c.kind, fmt::format("{}.", fmt::join(parts, ". "))});
+  }
+}
 
 void add_findings(CrossFitReport& r) {
   schlick(r);

@@ -165,6 +165,12 @@ Table scaled(Table t, double by) {
 
 }  // namespace
 
+std::string_view short_form(std::string_view name) {
+  for (const std::string_view prefix : {"masking.", "fresnel.", "ndf.", "model."})
+    if (name.starts_with(prefix)) return name.substr(prefix.size());
+  return name;
+}
+
 std::vector<CrossForm> cross_forms(const CrossTruth& t) {
   Forms f(t);
   if (t.ndf == "gtr") {
@@ -231,6 +237,16 @@ CrossCase fit_case(const CrossTruth& t,
   return out;
 }
 
+double CrossValue::shift() const {
+  return parameter == "f0" ? fitted / truth - 1 : fitted - truth;
+}
+bool CrossValue::is_free() const {
+  return status == ParameterStatus::free || std::abs(shift()) < 1e-6;
+}
+
+bool CrossCase::is_dielectric() const {
+  return material.starts_with("IOR ");
+}
 const CrossValue* CrossCase::find(std::string_view parameter, std::string_view channel) const {
   const auto it = std::ranges::find_if(values, [&](const CrossValue& v) {
     return v.parameter == parameter && (channel.empty() || v.channel == channel);

@@ -26,22 +26,36 @@ PageJson row(const CrossCase& c, const CrossValue& v) {
           {"layout", c.layout}};
 }
 
+PageJson document(const CrossFitReport& r) {
+  PageJson out{{"schema", "gonio.report.cross_fit/1"}, {"full", r.full}, {"findings", r.findings}};
+  PageJson sentences = PageJson::array(), figures = PageJson::array(), maps = PageJson::array();
+  for (const auto& s : r.sentences)
+    sentences.push_back(
+        {{"truth", s.truth}, {"fitted", s.fitted}, {"kind", s.kind}, {"sentence", s.sentence}});
+  for (const auto& f : r.pictures.figures) figures.push_back(page_json(f));
+  for (const auto& m : r.pictures.maps) maps.push_back(page_json(m));
+  out["roughness"] = page_json(r.roughness);
+  out["materials"] = r.materials;
+  out["walk_error"] = page_json(r.walk_error);
+  out["sentences"] = sentences;
+  out["figures"] = figures;
+  out["maps"] = maps;
+  return out;
+}
+
 }  // namespace
 
 std::string to_json(const CrossFitReport& r) {
-  PageJson out{{"schema", "gonio.report.cross_fit/1"}, {"full", r.full}, {"findings", r.findings}};
+  auto out = document(r);
   PageJson rows = PageJson::array();
   for (const auto& c : r.cases)
     for (const auto& v : c.values) rows.push_back(row(c, v));
   out["rows"] = rows;
-  out["roughness"] = page_json(r.roughness);
-  out["materials"] = r.materials;
-  out["walk_error"] = page_json(r.walk_error);
   return page_text(out);
 }
 
-std::string cross_fit_page_html(std::string_view data) {
-  return make_report_page("Cross fits: what the other parameters absorb", data,
+std::string cross_fit_page_html(const CrossFitReport& r) {
+  return make_report_page("Cross fits: what the other parameters absorb", page_text(document(r)),
                           assets::cross_fit_js);
 }
 

@@ -51,7 +51,12 @@ CrossCase fit_case(const CrossTruth&,
                    const CrossSlice&,
                    Metric);
 
+/// An id without its prefix; what else a form is called by as it is.
+std::string_view short_form(std::string_view name);
+
 /// From what the others have filled in.
+void add_sentences(CrossFitReport&);
 void add_findings(CrossFitReport&);
+Pictures cross_fit_pictures(const CrossFitReport&);
 
 }  // namespace gonio

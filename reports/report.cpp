@@ -29,7 +29,8 @@ ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
   return files(schlick_report(schlick_options(o.full), done), schlick_page_html);
 }
 ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
-  return files(cross_fit_report(cross_fit_options(o.full), done), cross_fit_page_html);
+  const auto report = cross_fit_report(cross_fit_options(o.full), done);
+  return {to_json(report), cross_fit_page_html(report), report.findings, report.pictures};
 }
 
 constexpr std::array kinds{
