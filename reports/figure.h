@@ -62,12 +62,14 @@ struct FigureMap {
   Axis x, y;
   std::string value;           ///< what a cell is, with its unit
   std::vector<double> values;  ///< x by x: values[i * y.size() + j]; not finite: no cell
-  bool diverging = false;      ///< about 0; else from 0
+  bool diverging = false;  ///< about 0; else from 0
   Scale scale = Scale::linear;
   /// The value at the end of the colours, so that maps can be compared; else as the values ask for.
   double limit = std::numeric_limits<double>::quiet_NaN();
   std::string family{};  ///< as a figure's
   FigureChoices choices{};
+  /// Names of several maps over the same axes, "roughness 0.3"; their values one map after the other.
+  std::vector<std::string> slices{};
 };
 
 /// Of a family and what is chosen: in small letters and digits, all else a single '_'.
@@ -82,15 +84,15 @@ struct Pictures {
 /// A line for each point, after one of names: curve, the axes' labels; labels and errors where a curve has some.
 /// RFC 4180, six digits, lines end as on Unix.
 std::string to_csv(const Figure&);
-/// A line for each cell that has a value.
+/// A line for each cell that has a value, of slices the slice first.
 std::string to_csv(const FigureMap&);
 
 /// A picture on its own: no script, no font, nothing fetched.
 std::string to_svg(const Figure&);
 std::string to_svg(const FigureMap&);
 
-/// The file of an image with one channel of floats, named after the value: x to the right, y upwards; where there is no
-/// cell, NaN.  String attributes say what the axes and the value are.
+/// The file of an image with one channel of floats, named after the value, or one a slice, named after it: x to the
+/// right, y upwards; where there is no cell, NaN.  String attributes say what the axes and the value are.
 std::string to_exr(const FigureMap&);
 
 /// \param json  a report's document

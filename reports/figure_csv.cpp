@@ -105,23 +105,26 @@ std::string to_csv(const Figure& f) {
 
 std::string to_csv(const FigureMap& m) {
   std::string out;
-  Line(out) << std::string_view(m.x.label) << std::string_view(m.y.label)
-            << std::string_view(m.value);
+  {
+    Line head(out);
+    if (!m.slices.empty()) head << std::string_view("slice");
+    head << std::string_view(m.x.label) << std::string_view(m.y.label) << std::string_view(m.value);
+  }
   const auto place = [](Line& line, const FigureMap::Axis& axis, std::size_t i) {
     if (axis.names.empty())
       line << axis.at[i];
     else
       line << std::string_view(axis.names[i]);
   };
-  for (std::size_t i = 0; i < m.x.size(); ++i)
-    for (std::size_t j = 0; j < m.y.size(); ++j) {
-      const double v = m.values[i * m.y.size() + j];
-      if (!std::isfinite(v)) continue;
-      Line line(out);
-      place(line, m.x, i);
-      place(line, m.y, j);
-      line << v;
-    }
+  const std::size_t cells = m.x.size() * m.y.size();
+  for (std::size_t k = 0; k < m.values.size(); ++k) {
+    if (!std::isfinite(m.values[k])) continue;
+    Line line(out);
+    if (!m.slices.empty()) line << std::string_view(m.slices[k / cells]);
+    place(line, m.x, k % cells / m.y.size());
+    place(line, m.y, k % m.y.size());
+    line << m.values[k];
+  }
   return out;
 }
 

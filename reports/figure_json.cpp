@@ -62,20 +62,22 @@ PageJson page_json(const Figure& f) {
 PageJson page_json(const FigureMap& m) {
   static constexpr std::string_view scales[]{"linear", "root", "log"};
   const auto colours = colour_scale(m);
-  return {{"id", m.id},
-          {"family", m.family},
-          {"choices", json(m.choices)},
-          {"title", m.title},
-          {"note", m.note},
-          {"x", json(m.x)},
-          {"y", json(m.y)},
-          {"value", m.value},
-          {"diverging", m.diverging},
-          {"scale", scales[static_cast<std::size_t>(m.scale)]},
-          {"low", page_json(colours.low)},
-          {"high", page_json(colours.high)},
-          {"ticks", page_json(colours.ticks)},
-          {"values", page_json(m.values)}};
+  PageJson out{{"id", m.id},
+               {"family", m.family},
+               {"choices", json(m.choices)},
+               {"title", m.title},
+               {"note", m.note},
+               {"x", json(m.x)},
+               {"y", json(m.y)},
+               {"value", m.value},
+               {"diverging", m.diverging},
+               {"scale", scales[static_cast<std::size_t>(m.scale)]},
+               {"low", page_json(colours.low)},
+               {"high", page_json(colours.high)},
+               {"ticks", page_json(colours.ticks)},
+               {"values", page_json(m.values)}};
+  if (!m.slices.empty()) out["slices"] = m.slices;
+  return out;
 }
 
 }  // namespace gonio

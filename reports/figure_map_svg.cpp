@@ -54,30 +54,66 @@ class Drawing {
 
   std::string document() {
     const auto head = svg::heading(m_.title, m_.note, width_);
+    const double edge = 16 + 18 + widest(m_.y, y_) + 8;
     top_ = head.height + 4;
-    left_ = 16 + 18 + widest(m_.y, y_) + 8;
-    const double x_names = widest(m_.x, x_);
-    const double column = (right_ - left_) / static_cast<double>(m_.x.size());
-    turned_ = !m_.x.names.empty() && x_names > column - 6;
-    const double rows = static_cast<double>(m_.y.size());
-    bottom_ = top_ + (m_.y.names.empty() ? 360 : std::clamp(26 * rows, 120.0, 1200.0));
-    const double below = turned_ ? 0.75 * x_names + 14 : 22;
-    std::string marks = head.marks + cells() + cell_texts();
-    marks += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" stroke=\"{}\"/>\n",
-                         number(left_), number(top_), number(right_ - left_),
-                         number(bottom_ - top_), svg::rule);
-    marks += axes(bottom_ + below + 16);
-    const double legend_top = bottom_ + below + 34;
-    marks += legend(legend_top);
-    return svg::document(width_, legend_top + 56, m_.title, marks);
+    std::string marks = head.marks;
+    const double middle = (edge + width_ - 22) / 2, begin = top_;
+    if (m_.slices.empty()) {
+      left_ = edge;
+      right_ = width_ - 22;
+      bottom_ = top_ + (m_.y.names.empty()
+                            ? 360
+                            : std::clamp(26 * static_cast<double>(m_.y.size()), 120.0, 1200.0));
+      turned_ = !m_.x.names.empty() &&
+                widest(m_.x, x_) > (right_ - left_) / static_cast<double>(m_.x.size()) - 6;
+      marks += panel(0, 7, true, true);
+    } else {
+      marks += panels(edge);
+    }
+    const double below = bottom_ + (turned_ ? 0.75 * widest(m_.x, x_) + 14 : 22);
+    marks += svg::text(middle, below + 16, m_.x.label, {.anchor = svg::Anchor::middle});
+    marks += svg::text(22, (begin + bottom_) / 2, m_.y.label,
+                       {.anchor = svg::Anchor::middle, .turned = -90});
+    left_ = edge;
+    marks += legend(below + 34);
+    return svg::document(width_, below + 34 + 56, m_.title, marks);
   }
 
  private:
   double x_at(double v) const { return left_ + (right_ - left_) * x_.part(v); }
   double y_at(double v) const { return bottom_ - (bottom_ - top_) * y_.part(v); }
-  double value(std::size_t i, std::size_t j) const { return m_.values[i * m_.y.size() + j]; }
+  double value(std::size_t slice, std::size_t i, std::size_t j) const {
+    return m_.values[(slice * m_.x.size() + i) * m_.y.size() + j];
+  }
   int shade_of(double v) const {
     return static_cast<int>(std::lround(shades * colour_part(m_, colours_, v)));
+  }
+
+  /// Slices beside each other, in rows; the axes stand at the outer ones.
+  std::string panels(double edge) {
+    const std::size_t n = m_.slices.size(), columns = std::min<std::size_t>(n, 4);
+    constexpr double gap = 14, title = 18;
+    const double w = (width_ - 22 - edge + gap) / static_cast<double>(columns) - gap, h = 0.85 * w;
+    const double begin = top_;
+    std::string out;
+    for (std::size_t k = 0; k < n; ++k) {
+      left_ = edge + static_cast<double>(k % columns) * (w + gap);
+      right_ = left_ + w;
+      top_ = begin + title + static_cast<double>(k / columns) * (h + title + gap);
+      bottom_ = top_ + h;
+      out += svg::text(left_, top_ - 5, m_.slices[k], {.fill = svg::ink});
+      out += panel(k, 3, k + columns >= n, k % columns == 0);
+    }
+    return out;
+  }
+
+  /// A map in its frame.  \param ticks  at most about
+  std::string panel(std::size_t slice, std::size_t ticks, bool x_ticks, bool y_ticks) const {
+    std::string out = cells(slice) + cell_texts(slice);
+    out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" stroke=\"{}\"/>\n",
+                       number(left_), number(top_), number(right_ - left_), number(bottom_ - top_),
+                       svg::rule);
+    return out + axes(ticks, x_ticks, y_ticks);
   }
 
   static double widest(const FigureMap::Axis& axis, const FigureScale& scale) {
@@ -89,14 +125,15 @@ class Drawing {
   }
 
   /// Cells of a shade are one path; those above each other one rectangle of it.
-  std::string cells() const {
+  std::string cells(std::size_t slice) const {
     std::map<int, std::string> paths;
     for (std::size_t i = 0; i < m_.x.size(); ++i)
       for (std::size_t j = 0, end = 0; j < m_.y.size(); j = end) {
         end = j + 1;
-        if (!std::isfinite(value(i, j))) continue;
-        const int s = shade_of(value(i, j));
-        while (end < m_.y.size() && std::isfinite(value(i, end)) && shade_of(value(i, end)) == s)
+        if (!std::isfinite(value(slice, i, j))) continue;
+        const int s = shade_of(value(slice, i, j));
+        while (end < m_.y.size() && std::isfinite(value(slice, i, end)) &&
+               shade_of(value(slice, i, end)) == s)
           ++end;
         const double l = x_at(x_edges_[i]), r = x_at(x_edges_[i + 1]), b = y_at(y_edges_[j]),
                      t = y_at(y_edges_[end]);
@@ -110,12 +147,12 @@ class Drawing {
   }
 
   /// The numbers in the cells of a small matrix.
-  std::string cell_texts() const {
+  std::string cell_texts(std::size_t slice) const {
     if (m_.x.names.empty() || m_.y.names.empty()) return "";
     std::string out;
     for (std::size_t i = 0; i < m_.x.size(); ++i)
       for (std::size_t j = 0; j < m_.y.size(); ++j) {
-        const double v = value(i, j);
+        const double v = value(slice, i, j);
         if (!std::isfinite(v)) continue;
         const std::string what = tick_text(std::strtod(fmt::format("{:.2g}", v).c_str(), nullptr));
         const double l = x_at(x_edges_[i]), r = x_at(x_edges_[i + 1]);
@@ -129,7 +166,7 @@ class Drawing {
     return out;
   }
 
-  std::string axes(double label_at) const {
+  std::string axes(std::size_t most, bool x_ticks, bool y_ticks) const {
     std::string out;
     const auto x_mark = [&](double at, const std::string& name) {
       const double x = x_at(at);
@@ -144,17 +181,14 @@ class Drawing {
       out += svg::line(left_ - 4, y_at(at), left_, y_at(at), svg::muted);
       out += svg::text(left_ - 8, y_at(at) + 4, name, {.anchor = svg::Anchor::end});
     };
-    const auto each = [](const FigureMap::Axis& axis, const FigureScale& scale, const auto& mark) {
+    const auto each = [&](const FigureMap::Axis& axis, const FigureScale& scale, const auto& mark) {
       for (std::size_t i = 0; i < axis.names.size(); ++i)
         mark(static_cast<double>(i) + 0.5, axis.names[i]);
       if (axis.names.empty())
-        for (const double t : scale_ticks(scale, 7)) mark(t, tick_text(t));
+        for (const double t : scale_ticks(scale, most)) mark(t, tick_text(t));
     };
-    each(m_.x, x_, x_mark);
-    each(m_.y, y_, y_mark);
-    out += svg::text((left_ + right_) / 2, label_at, m_.x.label, {.anchor = svg::Anchor::middle});
-    out += svg::text(22, (top_ + bottom_) / 2, m_.y.label,
-                     {.anchor = svg::Anchor::middle, .turned = -90});
+    if (x_ticks) each(m_.x, x_, x_mark);
+    if (y_ticks) each(m_.y, y_, y_mark);
     return out;
   }
 
@@ -210,21 +244,25 @@ std::string to_svg(const FigureMap& m) {
 
 std::string to_exr(const FigureMap& m) {
   const std::size_t width = m.x.size(), height = m.y.size();
-  Image image{width,
-              height,
-              {channel_name(m.value)},
-              {std::vector<float>(width * height)},
-              {{"title", m.title},
-               {"note", m.note},
-               {"value", m.value},
-               {"x", m.x.label},
-               {"x.at", places(m.x)},
-               {"y", m.y.label},
-               {"y.at", places(m.y)},
-               {"layout", "columns as x.at, rows as y.at from the lowest row upwards"}}};
-  for (std::size_t i = 0; i < width; ++i)
-    for (std::size_t j = 0; j < height; ++j)
-      image.planes[0][(height - 1 - j) * width + i] = static_cast<float>(m.values[i * height + j]);
+  Image image;
+  image.width = width;
+  image.height = height;
+  image.attributes = {{"title", m.title},
+                      {"note", m.note},
+                      {"value", m.value},
+                      {"x", m.x.label},
+                      {"x.at", places(m.x)},
+                      {"y", m.y.label},
+                      {"y.at", places(m.y)},
+                      {"layout", "columns as x.at, rows as y.at from the lowest row upwards"}};
+  for (std::size_t slice = 0; slice < std::max<std::size_t>(1, m.slices.size()); ++slice) {
+    image.channels.push_back(channel_name(m.slices.empty() ? m.value : m.slices[slice]));
+    auto& plane = image.planes.emplace_back(width * height);
+    for (std::size_t i = 0; i < width; ++i)
+      for (std::size_t j = 0; j < height; ++j)
+        plane[(height - 1 - j) * width + i] =
+            static_cast<float>(m.values[(slice * width + i) * height + j]);
+  }
   return exr_bytes(m.id + ".exr", image);
 }
 

@@ -105,10 +105,11 @@ function figure_view(figure, o = {}) {
 }
 
 /// \param map  of the page's data
-/// \param o    {say(i, j, value): what else is told of a cell, value_text(value)}
+/// \param o    {slice: the name of the one shown at first, chosen(slice): is told of another, say(k, value): what else is told of the cell at values[k],
+///             value_text(value)}
 /// Returns its element.
 function map_view(map, o = {}) {
-  const nx = map.x.edges.length - 1, ny = map.y.edges.length - 1;
+  const cells = (map.x.edges.length - 1) * (map.y.edges.length - 1);
   const axis = (a) => {
     const ends = [a.edges[0], a.edges.at(-1)], to = a.log ? Math.log : (v) => v, from = a.log ? Math.exp : (v) => v;
     const [low, high] = ends.map(to);
@@ -120,10 +121,22 @@ function map_view(map, o = {}) {
     return map.diverging ? (grown + 1) / 2 : grown;
   };
   const value_text = o.value_text ?? ((v) => significant(v, 3));
-  const in_cell = map.x.names && map.y.names ? (k) => (known(map.values[k]) ? significant(map.values[k], 2) : null) : undefined;
-  const view = heat_map(axis(map.x), axis(map.y), { value: { at: (k) => (known(map.values[k]) ? at(map.values[k]) : null), colors: () => (map.diverging ? diverging() : sequential()),
-    label: map.value, ticks: map.ticks.map((v) => [at(v), tick_text(v)]), text: in_cell } },
-    (k) => (known(map.values[k]) ? [`${map.value} `, el("b", {}, value_text(map.values[k])), ...[o.say?.(Math.floor(k / ny), k % ny, map.values[k]) ?? []].flat()] : ["no value"]),
-    `${map.title}: ${map.value} by ${map.x.label} and ${map.y.label}, ${nx} × ${ny} cells.`);
-  return el("figure", { id: map.id }, picture_caption(map, ["svg", "csv", "exr"]), view.node);
+  const slices = map.slices ?? [map.value];
+  let shown = Math.max(0, slices.indexOf(o.slice));
+  const layer = (first) => ({ at: (k) => (known(map.values[first + k]) ? at(map.values[first + k]) : null), colors: () => (map.diverging ? diverging() : sequential()),
+    label: map.value, ticks: map.ticks.map((v) => [at(v), tick_text(v)]),
+    text: map.x.names && map.y.names ? (k) => (known(map.values[first + k]) ? significant(map.values[first + k], 2) : null) : undefined });
+  const say = (cell) => {
+    const k = shown * cells + cell, v = map.values[k];
+    return known(v) ? [`${map.value} `, el("b", {}, value_text(v)), ...[o.say?.(k, v) ?? []].flat()] : ["no value"];
+  };
+  const layers = Object.fromEntries(slices.map((name, i) => [name, layer(i * cells)]));
+  const view = heat_map(axis(map.x), axis(map.y), layers, say, `${map.title}: ${map.value} by ${map.x.label} and ${map.y.label}.`);
+  view.set(slices[shown]);
+  return el("figure", { id: map.id }, picture_caption(map, ["svg", "csv", "exr"]),
+    map.slices ? el("div", { class: "controls" }, chooser("At", slices.map((name) => [name, name]), slices[shown], (name) => {
+      shown = slices.indexOf(name);
+      view.set(name);
+      o.chosen?.(name);
+    })) : null, view.node);
 }

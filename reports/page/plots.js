@@ -394,7 +394,7 @@ function heat_map(x, y, layers, say, text) {
   when_resized(node, (w) => { width = w; draw(); });
   when_colors_change(() => width && draw());
   tell();
-  return { node, set(name) { state.layer = layers[name]; draw(); } };
+  return { node, set(name) { state.layer = layers[name]; if (width) draw(); tell(); } };
 }
 
 /// An interval around a value on a common scale of relative distance; truth as a tick.

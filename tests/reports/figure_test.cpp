@@ -114,7 +114,8 @@ TEST(FigureMapSvg, LeavesOutACellWithoutValue) {
   const std::string svg = to_svg(cells());
   const auto begin = svg.find("<g shape-rendering");
   const std::string drawn = svg.substr(begin, svg.find("</g>") - begin);
-  EXPECT_EQ(occurrences(drawn, "z\"") + occurrences(drawn, "zM"), 5U) << "a rectangle for each value";
+  EXPECT_EQ(occurrences(drawn, "z\"") + occurrences(drawn, "zM"), 5U)
+      << "a rectangle for each value";
   EXPECT_NE(svg.find(">−5</text>"), svg.npos) << "the scale of colours";
 }
 
@@ -140,6 +141,20 @@ TEST(FigureMapExr, ReadsBackRightWayUp) {
   EXPECT_EQ(image.attributes.at("x.at"), "1; 2; 3");
   EXPECT_EQ(image.attributes.at("y"), "y [°]");
   EXPECT_EQ(image.attributes.at("value"), "F − exact [1]");
+}
+
+TEST(FigureMap, HasASliceAfterTheOther) {
+  auto m = cells();
+  m.slices = {"r = 0.1", "r = 1"};
+  for (int k = 0; k < 6; ++k) m.values.push_back(10 + k);
+  EXPECT_NE(to_csv(m).find("r = 0.1,3,20,-5\nr = 1,1,10,10\n"), std::string::npos);
+  const std::string svg = to_svg(m);
+  EXPECT_NE(svg.find(">r = 0.1</text>"), svg.npos);
+  EXPECT_EQ(occurrences(svg, "<rect"), 1U + 2U) << "the ground, and a frame for each";
+  const test::Folder folder;
+  const auto image = read_exr(folder.write("cells.exr", to_exr(m)), 1 << 20, {"r_1", "r_0_1"});
+  EXPECT_EQ(image.planes[0], (std::vector<float>{11, 13, 15, 10, 12, 14}));
+  EXPECT_EQ(image.planes[1][2], -5);
 }
 
 TEST(FigureJson, GivesAnXOnceForTheCurvesThatShareIt) {
