@@ -159,6 +159,11 @@ EnergyOptions energy_options(bool full);
 
 EnergyReport energy_report(const EnergyOptions&, const ReportProgress& done = {});
 
+/// What its page shows, by family: maps loss of form; figures albedo of form, average_loss, bounces, beyond and compensation of material
+/// and angle, compensation_by_angle of material, estimators of roughness and mu, split_sum_samples, irradiance_by_samples and
+/// irradiance_by_time of light.
+Pictures pictures(const EnergyReport&);
+
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const EnergyReport&);
 /// \param data  of to_json() above

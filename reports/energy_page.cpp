@@ -39,7 +39,7 @@ void put_rows(PageJson& rows, const EnergyForm& f) {
   }
 }
 
-void put_material(PageJson& truth, PageJson& scattering, const EnergyMaterial& m) {
+void put_material(PageJson& truth, const EnergyMaterial& m) {
   for (const auto& at : m.rows) {
     truth.push_back({{"material", m.name},
                      {"roughness", page_json(at.roughness)},
@@ -47,14 +47,6 @@ void put_material(PageJson& truth, PageJson& scattering, const EnergyMaterial& m
                      {"albedo", page_json(at.truth)},
                      {"error", page_json(at.error)},
                      {"orders", page_json(at.orders)}});
-    for (const auto& s : at.scattering)
-      scattering.push_back({{"material", m.name},
-                            {"scattering", s.id},
-                            {"roughness", page_json(at.roughness)},
-                            {"mu", mu_json(at.mu)},
-                            {"albedo", page_json(s.albedo)},
-                            {"truth", page_json(at.truth)},
-                            {"error", page_json(s.albedo - at.truth)}});
   }
 }
 
@@ -63,9 +55,8 @@ void put_material(PageJson& truth, PageJson& scattering, const EnergyMaterial& m
 std::string to_json(const EnergyReport& r) {
   PageJson out{{"schema", "gonio.report.energy/1"}, {"full", r.full}, {"findings", r.findings}};
   PageJson rows = PageJson::array(), forms = PageJson::array(), materials = PageJson::array(),
-           truth = PageJson::array(), scattering = PageJson::array(), costs = PageJson::array(),
-           estimators = PageJson::array(), crossings = PageJson::array(),
-           albedo_forms = PageJson::array();
+           truth = PageJson::array(), costs = PageJson::array(), estimators = PageJson::array(),
+           crossings = PageJson::array(), albedo_forms = PageJson::array();
   const auto put_crossings = [&](const char* kind, const std::string& name,
                                  const std::vector<Crossing>& list) {
     for (const auto& c : list) {
@@ -85,7 +76,7 @@ std::string to_json(const EnergyReport& r) {
                      {"divisor", page_json(f.divisor)}});
   }
   for (const auto& m : r.materials) {
-    put_material(truth, scattering, m);
+    put_material(truth, m);
     put_crossings("material", m.name, m.crossings);
     materials.push_back({{"material", m.name}, {"fresnel", m.fresnel}});
   }
@@ -159,7 +150,6 @@ std::string to_json(const EnergyReport& r) {
   out["crossings"] = crossings;
   out["materials"] = materials;
   out["truth"] = truth;
-  out["compensation"] = scattering;
   out["costs"] = costs;
   out["albedo_forms"] = albedo_forms;
   out["estimators"] = estimators;
@@ -168,6 +158,7 @@ std::string to_json(const EnergyReport& r) {
   out["views"] = r.views;
   out["split_sum_light"] = lit;
   out["irradiance"] = irradiance;
+  put_pictures(out, pictures(r));
   return page_text(out);
 }
 

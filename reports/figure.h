@@ -12,7 +12,7 @@
 namespace gonio {
 
 struct FigureAxis {
-  std::string label;  ///< with its unit: "time of one evaluation [ns]"
+  std::string label;  ///< with its unit at the end: "time of one evaluation [ns]"
   bool log = false;   ///< at first; a page lets the reader choose
   /// Ends, where they are not the data's.
   double from = std::numeric_limits<double>::quiet_NaN(),
@@ -62,7 +62,7 @@ struct FigureMap {
   Axis x, y;
   std::string value;           ///< what a cell is, with its unit
   std::vector<double> values;  ///< x by x: values[i * y.size() + j]; not finite: no cell
-  bool diverging = false;  ///< about 0; else from 0
+  bool diverging = false;      ///< about 0; else from 0
   Scale scale = Scale::linear;
   /// The value at the end of the colours, so that maps can be compared; else as the values ask for.
   double limit = std::numeric_limits<double>::quiet_NaN();
@@ -74,6 +74,9 @@ struct FigureMap {
 
 /// Of a family and what is chosen: in small letters and digits, all else a single '_'.
 std::string picture_id(std::string_view family, const FigureChoices&);
+/// An empty one with its id.
+Figure make_figure(std::string family, FigureChoices choices = {});
+FigureMap make_map(std::string family, FigureChoices choices = {});
 
 /// What a report shows.
 struct Pictures {

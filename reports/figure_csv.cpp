@@ -57,24 +57,6 @@ T at_or(const std::vector<T>& v, std::size_t i, T otherwise) {
 
 }  // namespace
 
-std::string picture_id(std::string_view family, const FigureChoices& choices) {
-  std::string out;
-  const auto add = [&](std::string_view part) {
-    if (!out.empty() && out.back() != '_') out += '_';
-    for (const char c : part)
-      if ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z'))
-        out += c;
-      else if (c >= 'A' && c <= 'Z')
-        out += static_cast<char>(c - 'A' + 'a');
-      else if (!out.empty() && out.back() != '_')
-        out += '_';
-  };
-  add(family);
-  for (const auto& [of, chosen] : choices) add(chosen);
-  while (!out.empty() && out.back() == '_') out.pop_back();
-  return out;
-}
-
 std::string to_csv(const Figure& f) {
   bool labels = false, x_errors = false, y_errors = false;
   for (const auto& c : f.curves) {

@@ -5,6 +5,8 @@
 #include "reports/figure_scale.h"
 #include "reports/page_json.h"
 
+#include <fmt/format.h>
+
 namespace gonio {
 namespace {
 
@@ -29,16 +31,24 @@ PageJson json(const FigureMap::Axis& a) {
   return out;
 }
 
+/// Keys of what is measured in time end in its unit: no run repeats them, unlike everything else.
+std::string key(const char* name, const FigureAxis& axis) {
+  for (const char* unit : {"_ns", "_ms"})
+    if (axis.label.ends_with(fmt::format("[{}]", unit + 1))) return std::string(name) + unit;
+  return name;
+}
+
 /// A curve; x only where it is not the same as of the curve before.
-PageJson json(const FigureCurve& c, const FigureCurve* before) {
+PageJson json(const Figure& f, std::size_t i) {
   static constexpr std::string_view kinds[]{"line", "points", "both"};
+  const auto& c = f.curves[i];
   PageJson out{{"name", c.name}, {"kind", kinds[static_cast<std::size_t>(c.kind)]}};
   if (c.dashed) out["dashed"] = true;
-  if (!before || before->x != c.x) out["x"] = page_json(c.x);
-  out["y"] = page_json(c.y);
+  if (i == 0 || f.curves[i - 1].x != c.x) out[key("x", f.x)] = page_json(c.x);
+  out[key("y", f.y)] = page_json(c.y);
   if (!c.labels.empty()) out["labels"] = c.labels;
-  if (!c.x_error.empty()) out["x_error"] = page_json(c.x_error);
-  if (!c.y_error.empty()) out["y_error"] = page_json(c.y_error);
+  if (!c.x_error.empty()) out[key("x_error", f.x)] = page_json(c.x_error);
+  if (!c.y_error.empty()) out[key("y_error", f.y)] = page_json(c.y_error);
   return out;
 }
 
@@ -52,8 +62,7 @@ PageJson json(const std::vector<std::pair<std::string, std::string>>& choices) {
 
 PageJson page_json(const Figure& f) {
   PageJson curves = PageJson::array();
-  for (std::size_t i = 0; i < f.curves.size(); ++i)
-    curves.push_back(json(f.curves[i], i > 0 ? &f.curves[i - 1] : nullptr));
+  for (std::size_t i = 0; i < f.curves.size(); ++i) curves.push_back(json(f, i));
   return {{"id", f.id},       {"family", f.family}, {"choices", json(f.choices)},
           {"title", f.title}, {"note", f.note},     {"x", json(f.x)},
           {"y", json(f.y)},   {"curves", curves}};
@@ -78,6 +87,11 @@ PageJson page_json(const FigureMap& m) {
                {"values", page_json(m.values)}};
   if (!m.slices.empty()) out["slices"] = m.slices;
   return out;
+}
+
+void put_pictures(PageJson& document, const Pictures& p) {
+  document["figures"] = page_json(p.figures);
+  document["maps"] = page_json(p.maps);
 }
 
 }  // namespace gonio

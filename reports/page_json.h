@@ -25,6 +25,8 @@ PageJson page_json(const std::vector<T>& v) {
   return out;
 }
 PageJson page_json(const Cut&);
+/// "figures" and "maps".
+void put_pictures(PageJson& document, const Pictures&);
 /// One line; bytes that are no UTF-8 are replaced.
 std::string page_text(const PageJson&);
 

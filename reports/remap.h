@@ -101,6 +101,11 @@ RemapOptions remap_options(bool full);
 
 RemapReport remap_report(const RemapOptions&, const ReportProgress& done = {});
 
+/// What its page shows, by family: maps g2 of form, masking_error of form and reference, both in slices of roughness; figures rms
+/// of distribution and reference, behaves_like of these and by what, furnace of distribution and roughness, each_k of light and
+/// mu, in_place_of_vf of form, fresnel and over.
+Pictures pictures(const RemapReport&);
+
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const RemapReport&);
 /// \param data  of to_json() above

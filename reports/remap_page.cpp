@@ -1,4 +1,6 @@
 // The remap report as JSON and as a page.
+#include <algorithm>
+
 #include "reports/assets.h"
 #include "reports/page.h"
 #include "reports/page_json.h"
@@ -32,9 +34,9 @@ PageJson row(const RemapRow& r) {
 
 std::string to_json(const RemapReport& r) {
   PageJson out{{"schema", "gonio.report.remap/1"}, {"full", r.full}, {"findings", r.findings}};
-  PageJson rows = PageJson::array(), forms = PageJson::array(), albedo = PageJson::array(),
-           maps = PageJson::array(), uses = PageJson::array(), g1 = PageJson::array(),
+  PageJson rows = PageJson::array(), forms = PageJson::array(), g1 = PageJson::array(),
            vf = PageJson::array();
+  double albedo_error = 0;
   for (const auto& one : r.rows) rows.push_back(row(one));
   for (const auto& f : r.forms) {
     forms.push_back({{"form", f.form},
@@ -44,24 +46,8 @@ std::string to_json(const RemapReport& r) {
                      {"operations", f.operations},
                      {"roots", f.roots},
                      {"reads_half", f.reads_half}});
-    for (const auto& at : f.at) {
-      albedo.push_back({{"form", f.form},
-                        {"roughness", page_json(at.roughness)},
-                        {"albedo", page_json(at.albedo)},
-                        {"error", page_json(at.error)}});
-      if (!at.g2.empty())
-        maps.push_back(
-            {{"form", f.form}, {"roughness", page_json(at.roughness)}, {"g2", page_json(at.g2)}});
-    }
+    for (const auto& at : f.at) albedo_error = std::max(albedo_error, at.error);
   }
-  for (const auto& u : r.uses)
-    uses.push_back({{"form", u.form},
-                    {"light", u.light},
-                    {"mu", page_json(u.mu)},
-                    {"roughness", page_json(u.roughness)},
-                    {"value", page_json(u.value)},
-                    {"separable", page_json(u.separable)},
-                    {"correlated", page_json(u.correlated)}});
   for (const auto& g : r.g1)
     g1.push_back({{"k", page_json(g.k)},
                   {"nov", page_json(g.nov)},
@@ -79,14 +65,11 @@ std::string to_json(const RemapReport& r) {
                   {"least", page_json(v.least)},
                   {"most", page_json(v.most)}});
   out["rows"] = rows;
-  out["mu"] = page_json(r.mu);
-  out["cosines"] = page_json(r.cosines);
   out["forms"] = forms;
-  out["albedo"] = albedo;
-  out["maps"] = maps;
-  out["uses"] = uses;
+  out["albedo_error"] = page_json(albedo_error);
   out["g1"] = g1;
   out["vf"] = vf;
+  put_pictures(out, pictures(r));
   return page_text(out);
 }
 

@@ -14,7 +14,7 @@ template <class Report>
 ReportFiles files(const Report& report, std::string (*page)(std::string_view)) {
   std::string json = to_json(report);
   std::string html = page(json);
-  return {std::move(json), std::move(html), report.findings};
+  return {std::move(json), std::move(html), report.findings, pictures(report)};
 }
 
 ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {

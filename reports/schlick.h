@@ -77,6 +77,11 @@ SchlickOptions schlick_options(bool full);
 
 SchlickReport schlick_report(const SchlickOptions&, const ReportProgress& done = {});
 
+/// What its page shows, by family: maps exact_reflectance, error_by_angle, relative_error_by_angle of form and side; figures
+/// error_by_index of the same, reflectance and reflectance_error of material, kind and channel, albedo_error,
+/// albedo_relative_error and colour_difference of material, channel and mu.
+Pictures pictures(const SchlickReport&);
+
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const SchlickReport&);
 /// \param data  of to_json() above

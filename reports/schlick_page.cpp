@@ -1,4 +1,6 @@
 // The report on Schlick's approximation as JSON and as a page.
+#include <algorithm>
+
 #include "reports/assets.h"
 #include "reports/page.h"
 #include "reports/page_json.h"
@@ -8,8 +10,7 @@ namespace gonio {
 
 std::string to_json(const SchlickReport& r) {
   PageJson out{{"schema", "gonio.report.schlick/1"}, {"full", r.full}, {"findings", r.findings}};
-  PageJson rows = PageJson::array(), maps = PageJson::array(), curves = PageJson::array(),
-           albedos = PageJson::array(), colours = PageJson::array();
+  PageJson rows = PageJson::array();
   for (const auto& x : r.rows)
     rows.push_back({{"form", x.form},
                     {"kind", x.kind},
@@ -25,35 +26,11 @@ std::string to_json(const SchlickReport& r) {
                     {"rms", page_json(x.rms)},
                     {"bias", page_json(x.bias)},
                     {"within_1_percent_to_deg", page_json(x.within_deg)}});
-  for (const auto& m : r.maps)
-    maps.push_back({{"form", m.form}, {"kind", m.kind}, {"error", page_json(m.error)}});
-  for (const auto& c : r.curves)
-    curves.push_back({{"form", c.form},
-                      {"kind", c.kind},
-                      {"material", c.material},
-                      {"channel", c.channel},
-                      {"value", page_json(c.value)}});
-  for (const auto& a : r.albedos)
-    albedos.push_back({{"form", a.form},
-                       {"material", a.material},
-                       {"channel", a.channel},
-                       {"mu", page_json(a.mu)},
-                       {"albedo", page_json(a.albedo)},
-                       {"exact", page_json(a.exact)},
-                       {"error_bound", page_json(a.bound)}});
-  for (const auto& c : r.colours)
-    colours.push_back({{"form", c.form},
-                       {"material", c.material},
-                       {"mu", page_json(c.mu)},
-                       {"delta_e", page_json(c.delta_e)}});
+  double bound = 0;
+  for (const auto& a : r.albedos) bound = std::max(bound, a.bound);
+  out["albedo_error_bound"] = page_json(bound);
   out["rows"] = rows;
-  out["map"] = {{"ior", page_json(r.map_ior)}, {"theta_deg", page_json(r.map_theta_deg)}};
-  out["maps"] = maps;
-  out["curve_theta_deg"] = page_json(r.curve_theta_deg);
-  out["curves"] = curves;
-  out["roughness"] = page_json(r.roughness);
-  out["albedos"] = albedos;
-  out["colours"] = colours;
+  put_pictures(out, pictures(r));
   return page_text(out);
 }
 

@@ -54,10 +54,11 @@ function merged_points(curves) {
 /// Returns its element.
 function figure_view(figure, o = {}) {
   let x = [];
-  const curves = figure.curves.map((c) => ({ ...c, x: x = c.x ?? x })).filter((c) => o.only?.(c) ?? true);
+  const timed = (c, key) => c[key] ?? c[key + "_ns"] ?? c[key + "_ms"];  // keys of what is measured in time end in its unit
+  const curves = figure.curves.map((c) => ({ ...c, x: x = timed(c, "x") ?? x, y: timed(c, "y"), x_error: timed(c, "x_error"), y_error: timed(c, "y_error") })).filter((c) => o.only?.(c) ?? true);
   if (o.emphasis) curves.sort((a, b) => (a.name === o.emphasis) - (b.name === o.emphasis));  // drawn last
-  const styles = line_styles(curves).map((s, i) => (!o.emphasis || curves[i].dashed ? s
-    : curves[i].name === o.emphasis ? { color: "accent", width: 2.4 } : { color: "rule", width: 1, quiet: true }));
+  const styles = line_styles(curves).map((s, i) => (o.emphasis && curves[i].name === o.emphasis ? { color: "accent", width: 2.4 }
+    : !o.emphasis || curves[i].dashed ? s : { color: "rule", width: 1, quiet: true }));
   const [xs, columns, index] = merged_points(curves);
   const along = (values, c) => values && index[c].map((i) => (i === undefined ? null : values[i]));
   const single = curves.some((c) => c.kind === "points") && curves.every((c) => c.dashed || c.kind === "points");
@@ -96,16 +97,17 @@ function figure_view(figure, o = {}) {
       height: o.height ?? 300, text: `${figure.title}: ${figure.y.label} by ${figure.x.label}.`, y_of: () => true, single, hover });
   hint();
   const scales = [[false, "linear"], [true, "logarithmic"]];
-  const y_choice = columns.flat().some(known) && all_positive(columns.flat()), x_choice = figure.x.log && all_positive(xs);
+  const values = columns.flat().filter(known), y_choice = values.some((v) => v > 0) && values.every((v) => v >= 0), x_choice = figure.x.log && all_positive(xs);
   const controls = el("div", { class: "controls" },
     y_choice ? choice(`Scale of ${figure.y.label}`, scales.map(([v, t]) => [v, x_choice ? `y ${t}` : t]), figure.y.log, (log) => plot.set({ log })) : null,
     x_choice ? choice(`Scale of ${figure.x.label}`, scales.map(([v, t]) => [v, `x ${t}`]), figure.x.log, (x_log) => plot.set({ x_log })) : null,
-    el("span", { class: "keys" }, curves.map((c, k) => (styles[k].quiet ? null : el("span", {}, line_key(styles[k], c.kind), " ", c.name)))));
+    el("span", { class: "keys" }, curves.map((c, k) => (styles[k].quiet ? null : el("span", {}, line_key(styles[k], c.kind), " ", c.name))),
+      o.emphasis && styles.some((s) => s.quiet) ? el("span", { class: "muted" }, "grey: the others") : null));
   return el("figure", { id: figure.id }, picture_caption(figure, ["svg", "csv"]), controls, plot.node, readout);
 }
 
 /// \param map  of the page's data
-/// \param o    {slice: the name of the one shown at first, chosen(slice): is told of another, say(k, value): what else is told of the cell at values[k],
+/// \param o    {slice: the name of the only one shown; else the reader chooses, say(k, value): what else is told of the cell at values[k],
 ///             value_text(value)}
 /// Returns its element.
 function map_view(map, o = {}) {
@@ -134,9 +136,8 @@ function map_view(map, o = {}) {
   const view = heat_map(axis(map.x), axis(map.y), layers, say, `${map.title}: ${map.value} by ${map.x.label} and ${map.y.label}.`);
   view.set(slices[shown]);
   return el("figure", { id: map.id }, picture_caption(map, ["svg", "csv", "exr"]),
-    map.slices ? el("div", { class: "controls" }, chooser("At", slices.map((name) => [name, name]), slices[shown], (name) => {
+    map.slices && !o.slice ? el("div", { class: "controls" }, chooser("At", slices.map((name) => [name, name]), slices[shown], (name) => {
       shown = slices.indexOf(name);
       view.set(name);
-      o.chosen?.(name);
     })) : null, view.node);
 }

@@ -1,14 +1,13 @@
 "use strict";
 // The report on Schlick's approximation: how far each form is from exact Fresnel reflectance.
 
-const { rows, map, maps, curve_theta_deg, curves, roughness, albedos, colours, findings, full } = page_data();
+const { rows, figures, maps, albedo_error_bound, findings, full } = page_data();
 const short = (form) => form.replace(/^fresnel\./, "");
 const greatest = (list, key) => list.reduce((a, b) => (key(b) > key(a) ? b : a));
 const median = (list) => { const s = [...list].sort((a, b) => a - b); return s.length ? s[Math.floor(s.length / 2)] : null; };
 const of_kind = group_by(rows, (r) => r.kind);
 const forms = unique(rows.map((r) => r.form));
 const is_grid = (r) => r.name.startsWith("IOR ");
-const grid = (kind, form) => of_kind.get(kind).filter((r) => r.form === form && is_grid(r)).map((r) => ({ ...r, ior: kind === "dielectric" ? r.eta : 1 / r.eta }));
 const points = (x) => significant(x, 2);
 const place = (r) => `${r.name}, ${degrees(r.max_abs_theta_deg)}`;
 const nothing = (x) => known(x) && Math.abs(x) < 1e-9;
@@ -38,84 +37,42 @@ function summary() {
 }
 
 // --- Angle and index --------------------------------------------------------------------------------------------
-const sides = [["dielectric", "from outside"], ["dielectric_inside", "from inside"]];
-function edges_of(at) {
-  const step = at[1] - at[0];
-  return [...at.map((x) => x - step / 2), at.at(-1) + step / 2];
-}
-function error_map(form, kind, relative) {
-  const find = (name) => maps.find((m) => m.kind === kind && m.form === name);
-  const exact = find("exact").error, error = find(form).error, ny = map.ior.length, nx = map.theta_deg.length;
-  const ior = edges_of(map.ior), theta = edges_of(map.theta_deg);
-  const x = { ...map_axis("theta_d", theta), label: "θ [°], angle from the facet's normal" };
-  const y = { name: "IOR", at: map.ior, edges: ior, label: "index of refraction", unit: "", ends: [ior[0], ior.at(-1)], part: (v) => (v - ior[0]) / (ior.at(-1) - ior[0]),
-              value: (p) => ior[0] + p * (ior.at(-1) - ior[0]), ticks: [1, 1.5, 2, 2.5, 3], few: [1, 2, 3] };
-  // cells by angle, the data by index; small errors are seen beside great ones: the scale grows as the square
-  const of = (k) => Math.floor(k % ny) * nx + Math.floor(k / ny);
-  const value = (k) => error[of(k)] / (relative ? exact[of(k)] : 1);
-  const at = (v) => (Math.sign(v) * Math.sqrt(Math.min(1, Math.abs(v))) + 1) / 2;
-  const worst = Math.max(...error.map(Math.abs));
-  return heat_map(x, y, { error: { at: (k) => at(value(k)), colors: () => diverging(), label: relative ? "(F − exact)/exact" : "F − exact",
-    ticks: [-1, -0.3, -0.05, 0, 0.05, 0.3, 1].map((v) => [at(v), relative ? `${minus(String(100 * v))}\u202f%` : minus(String(v))]) } },
-    (k) => ["F ", el("b", {}, significant(exact[of(k)] + error[of(k)], 4)), ", exact ", el("b", {}, significant(exact[of(k)], 4)), ", error ", el("b", {}, significant(error[of(k)], 3)),
-      ` (${signed_percent(error[of(k)] / exact[of(k)])})`],
-    `Error of ${short(form)} by angle and index of refraction, at most ${significant(worst, 3)}.`).node;
-}
-function over_index(form, kind) {
-  const curve = (key, name, color, dash) => { const list = grid(kind, form); return { name, x: list.map((r) => r.ior), y: list.map((r) => r[key]), color, dash }; };
-  const reference = grid(kind, "fresnel.schlick");
-  return lines_figure([...(form === "fresnel.schlick" ? [] : [{ name: "schlick, most", x: reference.map((r) => r.ior), y: reference.map((r) => r.max_abs), color: "grey", dash: [5, 3] }]),
-    curve("max_abs", "most |error|", "accent"), curve("rms", "RMS", "green")],
-    { title: "Error by index", x_label: "index of refraction", y_label: "error of F", x_ends: [1, 3], height: 290, scale: true, log: true, text: `Error of ${short(form)} over the index of refraction.`, y_text: points });
+function error_map(form, side, relative) {
+  const [absolute, share, exact] = ["error_by_angle", "relative_error_by_angle", "exact_reflectance"]
+    .map((family) => picture_of(maps, family, family === "exact_reflectance" ? { side } : { form, side }));
+  return map_view(relative ? share : absolute, { value_text: relative ? signed_percent : (v) => significant(v, 3), say: (k) => [": F ", el("b", {}, significant(exact.values[k] + absolute.values[k], 4)), ", exact ",
+    el("b", {}, significant(exact.values[k], 4)), relative ? `, error ${significant(absolute.values[k], 3)}` : ` (${signed_percent(share.values[k])})`] });
 }
 function by_index() {
-  let kind = "dielectric", form = "fresnel.schlick", relative = false;
+  let side = "from outside", form = "schlick", relative = false;
   const panels = changing(() => {
-    const names = unique(of_kind.get(kind).map((r) => r.form));
-    if (!names.includes(form)) form = "fresnel.schlick";
+    const names = choices_of(maps, "error_by_angle", "form", { side });
+    if (!names.includes(form)) form = "schlick";
     return el("div", {}, el("div", { class: "controls" },
-      chooser("Form", names.map((f) => [f, short(f)]), form, (f) => { form = f; panels.again(); }),
-      choice("Side", sides, kind, (k) => { kind = k; panels.again(); }),
+      chooser("Form", names.map((f) => [f, f]), form, (f) => { form = f; panels.again(); }),
+      choice("Side", choices_of(maps, "error_by_angle", "side").map((s) => [s, s]), side, (s) => { side = s; panels.again(); }),
       choice("Error", [[false, "absolute"], [true, "relative"]], relative, (r) => { relative = r; panels.again(); })),
-      el("div", { class: "columns map" }, el("figure", {}, el("figcaption", {}, "F − exact ", el("small", {}, "by angle and index; the scale of colours grows as the square")), error_map(form, kind, relative)),
-        over_index(form, kind)));
+      el("div", { class: "columns map" }, error_map(form, side, relative),
+        figure_view(picture_of(figures, "error_by_index", { form, side }), { height: 290, y_text: points })));
   });
   return section("By angle and index", "Dielectrics, the light in air or in the denser medium. From inside all is reflected beyond the critical angle; forms that are asked at the angle within the medium know nothing of it.", panels.node);
 }
 
-/// Forms that come to the same on a surface are one curve.  \param list  [{form, y}]
-function distinct(list) {
-  const out = [];
-  for (const c of list) {
-    const same = out.find((o) => o.y.every((v, i) => Math.abs(v - c.y[i]) < 1e-9));
-    if (same) same.name += " = " + short(c.form);
-    else out.push({ ...c, name: short(c.form) });
-  }
-  return out.map((c, i) => ({ ...c, color: c.form === "exact" ? "ink" : line_colors[i % line_colors.length], width: c.form === "exact" ? 2.4 : undefined, dash: i < 6 ? null : [5, 3] }));
-}
-
 // --- Materials ----------------------------------------------------------------------------------------------------
-const kind_names = { dielectric: "at 550 nm", dielectric_inside: "from inside", metal: "three wavelengths", spectral: "spectrum in linear RGB" };
 function materials() {
-  let material = "aluminium", kind = "metal", channel = "red";
+  let material = "aluminium", kind = "three wavelengths", channel = "red";
   const panels = changing(() => {
-    const own = curves.filter((c) => c.material === material), kinds = unique(own.map((c) => c.kind));
+    const kinds = choices_of(figures, "reflectance", "kind", { material });
     if (!kinds.includes(kind)) kind = kinds[0];
-    const channels = unique(own.filter((c) => c.kind === kind).map((c) => c.channel));
+    const channels = choices_of(figures, "reflectance", "channel", { material, kind });
     if (!channels.includes(channel)) channel = channels[0];
-    const list = own.filter((c) => c.kind === kind && c.channel === channel), exact = list.find((c) => c.form === "exact");
-    const drawn = distinct([...list.filter((c) => c !== exact), exact].map((c) => ({ form: c.form, x: curve_theta_deg, y: c.value })));
-    const own_name = drawn.find((c) => c.y.every((v, i) => Math.abs(v - exact.value[i]) < 1e-9));
-    Object.assign(own_name, { name: own_name.form === "exact" ? "exact" : `exact = ${own_name.name.replace(" = exact", "")}`, color: "ink", width: 2.4, dash: null });
+    const chosen = { material, kind, channel };
     return el("div", {}, el("div", { class: "controls" },
-      chooser("Material", unique(curves.map((c) => c.material)).map((m) => [m, m]), material, (m) => { material = m; panels.again(); }),
-      choice("What of it", kinds.map((k) => [k, kind_names[k]]), kind, (k) => { kind = k; panels.again(); }),
+      chooser("Material", choices_of(figures, "reflectance", "material").map((m) => [m, m]), material, (m) => { material = m; panels.again(); }),
+      choice("What of it", kinds.map((k) => [k, k]), kind, (k) => { kind = k; panels.again(); }),
       channels.length > 1 ? choice("Channel", channels.map((c) => [c, c]), channel, (c) => { channel = c; panels.again(); }) : null),
-      el("div", { class: "columns" },
-        lines_figure(drawn,
-          { title: "F(θ)", x_label: "θ [°]", y_label: "F", x_ends: [0, 90], height: 330, text: `Reflectance of ${material} by angle.`, y_text: (y) => significant(y, 4), hint: "Point at a curve to read all of them." }),
-        lines_figure(drawn.filter((c) => c !== own_name && !c.form.includes("linear")).map((c) => ({ ...c, y: c.y.map((v, i) => v - exact.value[i]) })),
-          { title: "F − exact", note: "without the linear form", x_label: "θ [°]", y_label: "error", x_ends: [0, 90], height: 330, text: `Errors of the forms for ${material} by angle.`, y_text: (y) => significant(y, 3) })));
+      el("div", { class: "columns" }, figure_view(picture_of(figures, "reflectance", chosen), { height: 330, y_text: (y) => significant(y, 4) }),
+        figure_view(picture_of(figures, "reflectance_error", chosen), { height: 330 })));
   });
   return section("One material", "Exact against every form.", panels.node);
 }
@@ -139,26 +96,21 @@ function material_table() {
 
 // --- Rough surfaces ---------------------------------------------------------------------------------------------------
 function rough() {
-  if (!albedos.length) return null;
-  let material = "aluminium", mu = 0.5, channel = "red";
+  const materials = choices_of(figures, "albedo_error", "material");
+  if (!materials.length) return null;
+  let material = "aluminium", mu = "0.5", channel = "red";
   const panels = changing(() => {
-    const own = albedos.filter((a) => a.material === material), channels = unique(own.map((a) => a.channel));
+    const channels = choices_of(figures, "albedo_error", "channel", { material });
     if (!channels.includes(channel)) channel = channels[0];
-    const list = own.filter((a) => a.channel === channel && a.mu === mu);
-    const shown = (l) => l.filter((a) => !/linear|gulbrandsen/.test(a.form));
-    const curve = (off) => distinct(shown(list).map((a) => ({ form: a.form, x: roughness, y: a.albedo.map((v, k) => off(v, a.exact[k])) })));
-    const figure = (title, y_label, off, y_text) => lines_figure(curve(off), { title, x_label: "roughness", y_label, x_ends: [0, 1], height: 300, text: `${title} of ${material} over roughness.`, y_text });
+    const view = (family, choices) => figure_view(picture_of(figures, family, choices), { height: 300 });
     return el("div", {}, el("div", { class: "controls" },
-      chooser("Material", unique(albedos.map((a) => a.material)).map((m) => [m, m]), material, (m) => { material = m; panels.again(); }),
+      chooser("Material", materials.map((m) => [m, m]), material, (m) => { material = m; panels.again(); }),
       channels.length > 1 ? choice("Channel", channels.map((c) => [c, c]), channel, (c) => { channel = c; panels.again(); }) : null,
-      choice("Angle", unique(albedos.map((a) => a.mu)).map((m) => [m, m === 1 ? "μ = 1" : `μ = ${plain(m)}`]), mu, (m) => { mu = m; panels.again(); })),
-      el("div", { class: "panels" }, figure("E − exact", "error of E", (v, e) => v - e, (y) => significant(y, 3)),
-        figure("E/exact − 1", "relative error", (v, e) => v / e - 1, (y) => signed_percent(y)),
-        lines_figure(distinct(shown(colours.filter((c) => c.material === material && c.mu === mu)).map((c) => ({ form: c.form, x: roughness, y: c.delta_e }))),
-          { title: "ΔE2000", note: "of the colours under D65, all channels", x_label: "roughness", y_label: "ΔE2000", x_ends: [0, 1], height: 300, text: `Colour difference of ${material} over roughness.`, y_text: (y) => significant(y, 3) })));
+      choice("Angle", choices_of(figures, "albedo_error", "mu").map((m) => [m, `μ = ${m}`]), mu, (m) => { mu = m; panels.again(); })),
+      el("div", { class: "panels" }, view("albedo_error", { material, channel, mu }), view("albedo_relative_error", { material, channel, mu }), view("colour_difference", { material, mu })));
   });
   return section("What it does to a rough surface", "Directional albedo E(μ) of GGX under Smith masking, correlated, single scattering, with the form in place of the exact F; the linear form, and Gulbrandsen's, which is exact, are left out. "
-    + `Every E is known to ${significant(Math.max(...albedos.map((a) => a.error_bound)), 1)} or better.`, panels.node);
+    + `Every E is known to ${significant(albedo_error_bound, 1)} or better.`, panels.node);
 }
 
 document.getElementById("page").replaceChildren(...[

@@ -161,8 +161,8 @@ TEST(FigureJson, GivesAnXOnceForTheCurvesThatShareIt) {
   auto f = times();
   f.curves.push_back(f.curves[1]);
   const auto j = page_json(f);
-  EXPECT_TRUE(j["curves"][1].contains("x"));
-  EXPECT_FALSE(j["curves"][2].contains("x"));
+  EXPECT_TRUE(j["curves"][1].contains("x_ns")) << "of a time, which no run repeats";
+  EXPECT_FALSE(j["curves"][2].contains("x_ns"));
   EXPECT_TRUE(j["curves"][0]["y"][1].is_null());
 }
 
