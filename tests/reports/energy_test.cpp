@@ -7,6 +7,7 @@
 
 #include "integrate/directional_albedo.h"
 #include "reports/energy_parts.h"
+#include "reports/pictures.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -209,6 +210,19 @@ TEST(EnergyReport, FindingsAreMadeFromTheFigures) {
   };
   EXPECT_TRUE(said("69.3\u00a0% at normal incidence and 59.1\u00a0% on average"));
   EXPECT_TRUE(said("masking.none (E = 5 at roughness 1, mu 0.1)"));
+}
+
+TEST(EnergyReport, PicturesShowWhatWasMeasured) {
+  auto r = of_forms({correlated, separable, none});
+  r.materials = materials().materials;
+  const auto p = pictures(r);
+  test::expect_whole(p);
+  const auto map = std::ranges::find(p.maps, "loss_masking_none", &FigureMap::id);
+  ASSERT_NE(map, p.maps.end());
+  const auto& at = form(r, none).rows[1 * 3 + 2];  // the second roughness, the third mu
+  EXPECT_EQ(map->values[1 * 3 + 2], 100 * (1 - at.albedo));
+  EXPECT_EQ(map->x.at[1], at.roughness);
+  EXPECT_EQ(map->y.at[2], at.mu);
 }
 
 }  // namespace

@@ -38,11 +38,9 @@ inline void expect_whole(const Pictures& pictures) {
   for (const auto& m : pictures.maps) {
     look_at(m);
     EXPECT_NE(m.value, "") << m.id;
-    EXPECT_EQ(m.values.size(),
-              m.x.size() * m.y.size() * std::max<std::size_t>(1, m.slices.size()))
+    EXPECT_EQ(m.values.size(), m.x.size() * m.y.size() * std::max<std::size_t>(1, m.slices.size()))
         << m.id;
-    for (const auto* axis : {&m.x, &m.y})
-      EXPECT_TRUE(std::ranges::is_sorted(axis->at)) << m.id;
+    for (const auto* axis : {&m.x, &m.y}) EXPECT_TRUE(std::ranges::is_sorted(axis->at)) << m.id;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "brdf/registry.h"
 #include "reports/masking_shape.h"
+#include "reports/pictures.h"
 #include "reports/remap_parts.h"
 
 #include <gtest/gtest.h>
@@ -196,6 +197,20 @@ TEST(RemapReport, FindingsJudgeTheClaimsFromTheFigures) {
   r.findings.clear();
   add_findings(r);
   EXPECT_TRUE(said("r²/2 for image-based' holds in part"));
+}
+
+TEST(RemapReport, PicturesShowWhatWasMeasured) {
+  const auto r = of({separable, correlated, direct, image, unity});
+  const auto p = pictures(r);
+  test::expect_whole(p);
+  const auto map =
+      std::ranges::find(p.maps, "masking_error_schlick_ggx_direct_separable", &FigureMap::id);
+  ASSERT_NE(map, p.maps.end());
+  EXPECT_EQ(map->slices, std::vector<std::string>{"roughness 0.5"});
+  const auto& worst = row(r, direct, separable, 0.5);
+  const auto most = std::ranges::max_element(map->values, {}, [](double v) { return std::abs(v); });
+  EXPECT_LE(std::abs(*most), 100 * worst.max_rel * (1 + 1e-9)) << "looked at more finely there";
+  EXPECT_GE(std::abs(*most), 99 * worst.max_rel);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
+#include "reports/pictures.h"
 #include "reports/schlick_parts.h"
 
 #include <gtest/gtest.h>
@@ -228,6 +230,28 @@ TEST(SchlickReport, TheVerdictsAreMadeFromTheFigures) {
   good.findings.clear();
   add_findings(good);
   EXPECT_TRUE(said(good, "below 1 %” is right"));
+}
+
+TEST(SchlickReport, PicturesShowWhatWasMeasured) {
+  auto r = smooth();
+  add_maps(r);
+  add_curves(r);
+  const auto p = pictures(r);
+  test::expect_whole(p);
+  const auto map = std::ranges::find(p.maps, "error_by_angle_schlick_from_outside", &FigureMap::id);
+  ASSERT_NE(map, p.maps.end());
+  const std::size_t angle = 40, index = 9;
+  const auto s = dielectric(map->y.at[index], "");
+  const double c = std::cos(map->x.at[angle] * std::numbers::pi / 180);
+  EXPECT_NEAR(map->values[angle * map->y.size() + index],
+              form_values(form(forms_for(s), "fresnel.schlick"), s, 0, {&c, 1})[0] -
+                  exact_values(s, {&c, 1})[0][0],
+              1e-12);
+  const auto gold =
+      std::ranges::find(p.figures, "reflectance_gold_three_wavelengths_red", &Figure::id);
+  ASSERT_NE(gold, p.figures.end());
+  EXPECT_TRUE(gold->curves.front().dashed) << "the exact one";
+  EXPECT_EQ(gold->curves[1].name, "schlick = lazanyi = schlick.ue") << "the same on gold";
 }
 
 }  // namespace
