@@ -70,13 +70,13 @@ CrossFitOptions cross_fit_options(bool full) {
                     {"Au", "Al", "Cu"},
                     {1.5, 3},
                     full ? 45U : 30U,
-                    full ? 16384U : 4096U};
+                    full ? 2048U : 1024U};
   const int n = full ? 20 : 10;
   for (int i = full ? 2 : 1; i <= n; ++i) o.roughness.push_back(static_cast<double>(i) / n);
   if (full) {
     o.ior.push_back(2.42);
-    o.metals.insert(o.metals.end(), {"Ag", "Fe", "Cr", "Ti"});
-    o.gamma = {1, 1.5, 2.5, 3, 5};
+    o.metals.insert(o.metals.end(), {"Ag", "Cr"});
+    o.gamma = {1, 1.5, 3, 5};
   }
   return o;
 }

@@ -47,8 +47,6 @@ struct CrossValue {
 
   /// fitted − truth, of F0 as a part of the truth.
   double shift() const;
-  /// Whether it is where the data put it, and not a bound: or right there.
-  bool is_free() const;
 };
 
 /// A form fitted to a truth.
@@ -64,6 +62,9 @@ struct CrossCase {
   std::vector<CrossValue> values;
 
   bool is_dielectric() const;  ///< else a metal
+  /// Whether a value is where the data put it: it was not stopped by a bound, or lies at one where the form is
+  /// the truth to the last digits.
+  bool is_determined(const CrossValue&) const;
   /// nullptr if the model has none.
   const CrossValue* find(std::string_view parameter, std::string_view channel = {}) const;
 };
@@ -101,12 +102,14 @@ inline constexpr std::array cross_layouts{
 /// What is fitted to what.
 struct CrossFitOptions {
   bool full = false;
-  std::vector<double> roughness;     ///< ascending, in (0, 1]
-  std::vector<double> ior;           ///< of dielectrics
-  std::vector<std::string> metals;   ///< symbols
-  std::vector<double> gamma;         ///< of GTR truths
-  std::size_t bins;                  ///< of a slice, along each axis
-  std::size_t walks;                 ///< for each value
+  std::vector<double> roughness;    ///< ascending, in (0, 1]
+  std::vector<double> ior;          ///< of dielectrics
+  std::vector<std::string> metals;  ///< symbols
+  std::vector<double> gamma;        ///< of GTR truths
+  std::size_t bins;                 ///< of a slice, along each axis
+  /// For each value at roughness 1; on smoother surfaces, where few of them meet a second facet, by 1/alpha
+  /// more, up to 16 times.
+  std::size_t walks;
   std::vector<std::string> forms{};  ///< names of forms, beside "exact"; empty: all
 };
 /// Quick: by 0.1 in roughness; full: by 0.05, and more materials.

@@ -34,7 +34,7 @@ Seen seen(const CrossCase& c, const Quantity& q) {
   double sum = 0, error = 0;
   int n = 0;
   for (const auto& v : c.values)
-    if (v.parameter == q.parameter && v.is_free()) {
+    if (v.parameter == q.parameter && c.is_determined(v)) {
       sum += v.shift();
       error += v.error / (q.parameter == "f0" ? v.truth : 1);
       ++n;
@@ -75,6 +75,9 @@ std::vector<std::string> forms_of(const CrossFitReport& r, const Quantity& q) {
   return out;
 }
 
+/// Below it there is nothing but rounding.
+constexpr double nothing = 1e-7;
+
 /// \param roughness  0: RMS over all of them
 FigureMap matrix(const CrossFitReport& r, const Quantity& q, double roughness) {
   FigureMap m;
@@ -112,9 +115,8 @@ FigureMap matrix(const CrossFitReport& r, const Quantity& q, double roughness) {
         }
         // of what ends at its bound for the most part a mean of the rest says nothing
         const double count = static_cast<double>(n);
-        m.values.push_back(n == 0 || missing > n ? nan
-                           : all                 ? std::sqrt(squares / count)
-                                                 : sum / count);
+        const double value = all ? std::sqrt(squares / count) : sum / count;
+        m.values.push_back(n == 0 || missing > n ? nan : std::abs(value) < nothing ? 0 : value);
       }
     }
   return m;
@@ -161,6 +163,41 @@ Figure shifts_figure(const CrossFitReport& r,
   return f;
 }
 
+// ---- Metric and directions ----------------------------------------------------------------------
+
+/// A form by each metric and over each layout.
+Figure compared_figure(const CrossFitReport& r,
+                       std::string_view form,
+                       std::string_view material,
+                       const Quantity& q) {
+  Figure f;
+  f.family = "compared";
+  f.choices = {{"form", std::string(short_form(form))},
+               {"material", std::string(material)},
+               {"quantity", std::string(q.name)}};
+  f.id = picture_id(f.family, f.choices);
+  f.title = fmt::format("Shift of {}", q.name);
+  f.note = fmt::format("{}, {}", short_form(form), material);
+  f.x = {"roughness", false, 0, 1};
+  f.y = {fmt::format("{}{}", q.label, q.unit)};
+  const auto add = [&](std::string name, Metric metric, std::string_view layout) {
+    FigureCurve curve{std::move(name), {}, {}, FigureCurve::Kind::both};
+    for (const auto& c : r.cases) {
+      if (c.truth != "GGX" || c.fitted != form || c.material != material || c.metric != metric ||
+          c.layout != layout)
+        continue;
+      curve.x.push_back(c.roughness);
+      curve.y.push_back(seen(c, q).value);
+    }
+    if (!curve.x.empty()) f.curves.push_back(std::move(curve));
+  };
+  add("log, slice to 80°", Metric::log, cross_layouts[0].name);
+  add("l2_cosine, slice to 80°", Metric::l2_cosine, cross_layouts[0].name);
+  add("log, slice to the horizon", Metric::log, cross_layouts[1].name);
+  add("log, hemisphere", Metric::log, cross_layouts[2].name);
+  return f;
+}
+
 }  // namespace
 
 Pictures cross_fit_pictures(const CrossFitReport& r) {
@@ -180,6 +217,13 @@ Pictures cross_fit_pictures(const CrossFitReport& r) {
           const auto is_form = [](const FigureCurve& c) { return !c.dashed; };
           if (std::ranges::any_of(f.curves, is_form)) out.figures.push_back(std::move(f));
         }
+      }
+  for (const auto& form : forms_of(r, quantities[0]))
+    for (const std::string_view material : shown)
+      for (const auto& q : quantities) {
+        if (form == "exact" || q.parameter.empty() || q.parameter == "gamma") continue;
+        auto f = compared_figure(r, form, material, q);
+        if (f.curves.size() > 1) out.figures.push_back(std::move(f));
       }
   return out;
 }

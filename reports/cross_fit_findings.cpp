@@ -66,7 +66,7 @@ Shifts shifts(const Cases& cases, std::string_view parameter) {
     for (const auto& v : c->values) {
       if (v.parameter != parameter) continue;
       ++out.all;
-      if (v.is_free())
+      if (c->is_determined(v))
         out.found.push_back({v.shift(), c});
       else
         ++out.at_bound;
@@ -74,6 +74,9 @@ Shifts shifts(const Cases& cases, std::string_view parameter) {
   return out;
 }
 
+std::string number(double x) {
+  return x < 1e-7 ? "0" : fmt::format("{:.2g}", x);
+}
 std::string signed_number(double x) {
   return std::abs(x) < 5e-5 ? "0" : fmt::format("{}{:.2g}", x < 0 ? "−" : "+", std::abs(x));
 }
@@ -91,14 +94,19 @@ std::string span(const Shifts& s, std::string (*said)(double)) {
   std::string text = said(a.by) == said(b.by) ? fmt::format("by {}", said(a.by))
                                               : fmt::format("by {} ({}) to {} ({})", said(a.by),
                                                             place(*a.in), said(b.by), place(*b.in));
-  if (s.at_bound > 0)
-    text += fmt::format("; in {} of {} fits it ends at a bound", s.at_bound, s.all);
+  if (s.at_bound > 0) text += fmt::format(" [{} of {} at a bound]", s.at_bound, s.all);
   return text;
 }
 std::string residuals(const Cases& cases) {
   const auto [a, b] = std::ranges::minmax_element(cases, {}, &CrossCase::log_rms);
-  return fmt::format("{:.2g} to {:.2g}", (*a)->log_rms, (*b)->log_rms);
+  return fmt::format("{} to {}", number((*a)->log_rms), number((*b)->log_rms));
 }
+double rms_residual(const Cases& cases) {
+  double squares = 0;
+  for (const auto* c : cases) squares += c->log_rms * c->log_rms;
+  return std::sqrt(squares / static_cast<double>(cases.size()));
+}
+
 double most_residual(const Cases& cases) {
   return (*std::ranges::max_element(cases, {}, &CrossCase::log_rms))->log_rms;
 }
@@ -108,26 +116,37 @@ std::string roughness_and_f0(const Cases& cases) {
                      span(shifts(cases, "f0"), signed_percent));
 }
 
-void own_truth(CrossFitReport& r) {
-  double roughness = 0, f0 = 0, residual = 0;
-  std::size_t n = 0;
-  for (const auto& c : r.cases) {
-    if (c.kind != "exact" || c.truth == all_orders) continue;
-    ++n;
-    residual = std::max(residual, c.log_rms);
-    for (const auto& v : c.values) {
-      if (v.parameter == "roughness")
-        roughness = std::max(roughness, std::abs(v.fitted / v.truth - 1));
-      if (v.parameter == "f0") f0 = std::max(f0, std::abs(v.fitted / v.truth - 1));
+/// What hurts, side by side.
+void summary(CrossFitReport& r) {
+  struct Cause {
+    std::string_view truth, fitted, what;
+  };
+  const auto said = [&](Cases (*of)(Cases)) {
+    std::vector<std::string> words;
+    for (const auto& [truth, fitted, what] :
+         {Cause{once, "fresnel.schlick", "Schlick"},
+          Cause{once, "masking.ue_joint", "Unreal's joint masking"},
+          Cause{once, "masking.schlick_ggx.half_alpha", "k = r²/2"},
+          Cause{once, "masking.schlick_ggx.direct", "k = (r+1)²/8"},
+          Cause{all_orders, "exact", "the energy lost between facets"}}) {
+      const auto all = of(cases_of(r, {truth, fitted}));
+      const auto roughness = shifts(all, "roughness"), f0 = shifts(all, "f0");
+      if (!roughness) continue;
+      words.push_back(fmt::format("{} {:.2g} ({}; {:.2g})", what, roughness.rms(),
+                                  f0 && 2 * f0.at_bound < f0.all
+                                      ? fmt::format("{:.2g} %", 100 * f0.rms())
+                                      : "mostly at a bound",
+                                  rms_residual(all)));
     }
-  }
-  if (n == 0) return;
-  const bool right = roughness < 1e-6 && f0 < 1e-5;
-  r.findings.push_back(
-      fmt::format("The ruler: fitted with the forms it was made from, a slice gives its parameters "
-                  "{}: over {} fits roughness is "
-                  "off by {:.1g} of itself at most, F0 by {:.1g}, residual {:.1g}.",
-                  right ? "back" : "back only roughly", n, roughness, f0, residual));
+    return fmt::format("{}", fmt::join(words, ", "));
+  };
+  const auto glass = said(dielectrics), metal = said(metals);
+  if (!glass.empty() && !metal.empty())
+    r.findings.push_back(
+        fmt::format("What fits absorb, as RMS shift of roughness (of F0; log-RMS residual) over "
+                    "roughnesses: on dielectrics {}; on "
+                    "metals {}.",
+                    glass, metal));
 }
 
 void schlick(CrossFitReport& r) {
@@ -135,129 +154,89 @@ void schlick(CrossFitReport& r) {
   const auto glass = dielectrics(all), metal = metals(all);
   if (glass.empty() || metal.empty()) return;
   r.findings.push_back(fmt::format(
-      "Schlick instead of exact Fresnel shifts {} for dielectrics (log-RMS residual {}); for "
-      "metals {} (residual {}).",
+      "Schlick instead of exact Fresnel shifts {} for dielectrics (log-RMS residual {}); "
+      "for metals {} (residual {}).",
       roughness_and_f0(glass), residuals(glass), roughness_and_f0(metal), residuals(metal)));
+}
+
+/// The fit by l2_cosine follows the bright peak, that by log all directions alike.
+std::string by_the_other_metric(const CrossFitReport& r, std::string_view form) {
+  const auto all = cases_of(r, {once, form, Metric::l2_cosine});
+  const auto s = shifts(all, "roughness");
+  return s ? fmt::format(
+                 ". By the metric l2_cosine, which follows the bright peak, roughness goes {}",
+                 span(s, signed_number))
+           : "";
 }
 
 void maskings(CrossFitReport& r) {
   struct Form {
     std::string_view id, what;
   };
-  std::vector<std::string> words;
   for (const auto& [id, what] : {Form{"masking.schlick_ggx.direct", "k = (r+1)²/8"},
                                  Form{"masking.schlick_ggx.half_alpha", "k = r²/2"},
                                  Form{"masking.ue_joint", "Unreal's joint form"},
-                                 Form{"masking.smith_ggx.separable", "separable Smith"}}) {
+                                 Form{"masking.smith_ggx.separable", "Separable Smith"}}) {
     const auto all = dielectrics(cases_of(r, {once, id}));
     if (all.empty()) continue;
-    words.push_back(fmt::format("{} shifts {}; residual up to {:.2g}, a factor of {:.2g}", what,
-                                roughness_and_f0(all), most_residual(all),
-                                std::exp(most_residual(all))));
+    const double residual = most_residual(all);
+    r.findings.push_back(fmt::format(
+        "{} in place of Smith's correlated masking shifts {} for dielectrics; residual up to "
+        "{:.2g}, a "
+        "factor of {:.2g}{}.",
+        what, roughness_and_f0(all), residual, std::exp(residual), by_the_other_metric(r, id)));
   }
-  if (!words.empty())
-    r.findings.push_back(fmt::format("In place of Smith's correlated masking, on dielectrics: {}.",
-                                     fmt::join(words, ". ")));
-}
-
-/// Forms of a kind by what they do to roughness, from the least.
-void ranking(CrossFitReport& r,
-             std::string_view kind,
-             std::string_view what,
-             Cases (*of)(Cases),
-             std::string_view of_what) {
-  struct Place {
-    std::string_view form;
-    double rms, residual;
-    std::size_t at_bound;
-  };
-  std::vector<Place> places;
-  for (const auto& c : r.cases) {
-    if (c.kind != kind || c.truth != once ||
-        std::ranges::find(places, c.fitted, &Place::form) != places.end())
-      continue;
-    const auto all = of(cases_of(r, {once, c.fitted}));
-    const auto s = shifts(all, "roughness");
-    if (!s) continue;
-    double squares = 0;
-    for (const auto* x : all) squares += x->log_rms * x->log_rms;
-    places.push_back(
-        {c.fitted, s.rms(), std::sqrt(squares / static_cast<double>(all.size())), s.at_bound});
-  }
-  if (places.size() < 2) return;
-  std::ranges::stable_sort(places, {}, &Place::residual);
-  std::vector<std::string> words;
-  for (const auto& p : places)
-    words.push_back(fmt::format("{} {:.2g} ({:.2g}{})", short_form(p.form), p.residual, p.rms,
-                                p.at_bound > 0 ? fmt::format(", {} at a bound", p.at_bound) : ""));
-  r.findings.push_back(
-      fmt::format("{} by their log-RMS residual over all {} and roughnesses, in brackets the RMS "
-                  "shift of roughness: {}.",
-                  what, of_what, fmt::join(words, ", ")));
 }
 
 /// Over roughness: where a material looks rougher than it is, and where smoother.
-std::string looks(const Cases& cases) {
-  const auto s = shifts(cases, "roughness");
-  if (!s) return "";
+std::string looks(const Shifts& s) {
+  if (!s) return "end at bounds";
   const auto &up = s.most(), &down = s.least();
   std::vector<std::string> words;
-  if (up.by > 0)
-    words.push_back(fmt::format("rougher by up to {:.2g} (at {:g})", up.by, up.in->roughness));
+  if (up.by > 0) words.push_back(fmt::format("rougher by up to {:.2g} ({})", up.by, place(*up.in)));
   if (down.by < 0)
-    words.push_back(
-        fmt::format("smoother by up to {:.2g} (at {:g})", -down.by, down.in->roughness));
-  return fmt::format("{}", fmt::join(words, ", "));
+    words.push_back(fmt::format("smoother by up to {:.2g} ({})", -down.by, place(*down.in)));
+  return fmt::format("look {}", fmt::join(words, " and "));
 }
 
 void lost_energy(CrossFitReport& r) {
-  std::vector<std::string> words;
-  for (const auto& material : r.materials) {
-    const auto all =
-        cases_of(r, {all_orders, "exact", Metric::log, cross_layouts[0].name, material});
-    if (all.empty()) continue;
-    const auto f0 = shifts(all, "f0");
-    const std::string of_f0 = f0 ? fmt::format("F0 by {} to {}", signed_percent(f0.least().by),
-                                               signed_percent(f0.most().by))
-                                 : "F0";
-    words.push_back(fmt::format(
-        "{} {}, {}{}", material, looks(all), of_f0,
-        f0.at_bound > 0 ? fmt::format(" or to its bound ({} of {})", f0.at_bound, f0.all) : ""));
-  }
-  if (!words.empty())
-    r.findings.push_back(
-        fmt::format("The energy that single scattering loses: where light meets the facets as "
-                    "often as it will, the exact forms of "
-                    "single scattering make a surface look so: {}.",
-                    fmt::join(words, "; ")));
+  const auto all = cases_of(r, {all_orders, "exact"});
+  const auto said = [](const Cases& cases) {
+    return fmt::format("{}, their F0 shifts {}", looks(shifts(cases, "roughness")),
+                       span(shifts(cases, "f0"), signed_percent));
+  };
+  const auto glass = dielectrics(all), metal = metals(all);
+  if (glass.empty() || metal.empty()) return;
+  r.findings.push_back(fmt::format(
+      "The energy that single scattering loses: fitted with the exact forms of single scattering, "
+      "surfaces whose light meets several facets do not look as they are. Dielectrics {}; metals "
+      "{}.",
+      said(glass), said(metal)));
 }
 
-void what_takes_it_up(CrossFitReport& r) {
-  const auto alone = cases_of(r, {all_orders, "exact"}),
-             gamma = cases_of(r, {all_orders, "ndf.gtr"}),
-             diffuse = cases_of(r, {all_orders, "lambert+ggx/smith_ggx.correlated/exact"});
-  const auto rms = [](const Cases& cases) {
-    double sum = 0;
-    for (const auto* c : cases) sum += c->log_rms * c->log_rms;
-    return std::sqrt(sum / static_cast<double>(cases.size()));
+/// What a further free parameter makes of the lost energy.
+void takes_it_up(CrossFitReport& r,
+                 std::string_view form,
+                 std::string_view parameter,
+                 std::string_view what) {
+  std::vector<std::string> words;
+  const auto look_at = [&](Cases (*of)(Cases), std::string_view name) {
+    const auto alone = of(cases_of(r, {all_orders, "exact"})),
+               with = of(cases_of(r, {all_orders, form}));
+    const auto s = shifts(with, parameter), before = shifts(alone, "roughness"),
+               after = shifts(with, "roughness");
+    if (!s || !before || !after) return;
+    words.push_back(
+        fmt::format("of {} it goes {}, the RMS residual from {:.2g} to {:.2g} and the RMS shift of "
+                    "roughness from "
+                    "{:.2g} to {:.2g}",
+                    name, span(s, signed_number), rms_residual(alone), rms_residual(with),
+                    before.rms(), after.rms()));
   };
-  const auto g = shifts(gamma, "gamma");
-  if (!alone.empty() && g)
-    r.findings.push_back(
-        fmt::format("A free gamma {} of it: from 2 it goes {}, and the log-RMS residual over all "
-                    "slices from {:.2g} to {:.2g}; the "
-                    "RMS shift of roughness from {:.2g} to {:.2g}.",
-                    rms(gamma) < 0.5 * rms(alone) ? "takes up most" : "takes up a part",
-                    span(g, signed_number), rms(alone), rms(gamma),
-                    shifts(alone, "roughness").rms(), shifts(gamma, "roughness").rms()));
-  const auto kd = shifts(diffuse, "kd");
-  if (!alone.empty() && kd)
-    r.findings.push_back(fmt::format(
-        "A free Lambertian beside the lobe {} of it: it is fitted with a kd of up to {:.2g} ({}) "
-        "where there is none, the residual goes to "
-        "{:.2g} and the RMS shift of roughness to {:.2g}.",
-        rms(diffuse) < 0.5 * rms(alone) ? "takes up most" : "takes up a part", kd.most().by,
-        place(*kd.most().in), rms(diffuse), shifts(diffuse, "roughness").rms()));
+  look_at(dielectrics, "dielectrics");
+  look_at(metals, "metals");
+  if (!words.empty())
+    r.findings.push_back(fmt::format("{} takes up some of it: {}.", what, fmt::join(words, "; ")));
 }
 
 void other_gammas(CrossFitReport& r) {
@@ -269,67 +248,100 @@ void other_gammas(CrossFitReport& r) {
   for (const auto truth : truths) {
     const auto all = cases_of(r, {truth, "ggx/smith_ggx.correlated/exact"});
     if (const auto s = shifts(all, "roughness"))
-      words.push_back(
-          fmt::format("{}: {}, residual {}", truth, span(s, signed_number), residuals(all)));
+      words.push_back(fmt::format("of {} {}, residual up to {:.2g}", truth, span(s, signed_number),
+                                  most_residual(all)));
   }
   if (!words.empty())
     r.findings.push_back(fmt::format(
-        "GGX fitted to surfaces of another gamma shifts roughness: {}.", fmt::join(words, "; ")));
-}
-
-void whole_models(CrossFitReport& r) {
-  std::vector<std::string> words;
-  for (const auto* name : {"model.gltf", "model.filament", "model.ue_mobile",
-                           "model.ue_mobile_simple", "model.unity_mobile"}) {
-    const auto all = cases_of(r, {all_orders, name});
-    if (const auto s = shifts(all, "roughness"))
-      words.push_back(fmt::format(
-          "{} {:.2g}{}", short_form(name), s.rms(),
-          s.at_bound > 0 ? fmt::format(" ({} of {} at a bound)", s.at_bound, s.all) : ""));
-  }
-  if (!words.empty())
-    r.findings.push_back(
-        fmt::format("Whole models fitted to all orders of scattering, RMS shift of roughness: {}.",
-                    fmt::join(words, ", ")));
-}
-
-/// The same forms by the other metric, and over the other layouts.
-void what_else_decides(CrossFitReport& r) {
-  std::vector<std::string> words;
-  for (const auto* form :
-       {"fresnel.schlick", "masking.smith_ggx.separable", "masking.schlick_ggx.half_alpha",
-        "masking.schlick_ggx.direct", "ndf.beckmann"}) {
-    const auto said = [&](Metric metric, std::string_view layout) -> std::string {
-      const auto s = shifts(cases_of(r, {once, form, metric, layout, "IOR 1.5"}), "roughness");
-      if (2 * s.at_bound > s.all) return "mostly at a bound";
-      return fmt::format("{} to {}", signed_number(s.least().by), signed_number(s.most().by));
-    };
-    if (cases_of(r, {once, form, Metric::l2_cosine, cross_layouts[0].name, "IOR 1.5"}).empty())
-      continue;
-    words.push_back(fmt::format(
-        "{} {} (by l2_cosine {}; slice to the horizon {}; hemisphere {})", short_form(form),
-        said(Metric::log, cross_layouts[0].name), said(Metric::l2_cosine, cross_layouts[0].name),
-        said(Metric::log, cross_layouts[1].name), said(Metric::log, cross_layouts[2].name)));
-  }
-  if (!words.empty())
-    r.findings.push_back(fmt::format(
-        "A shift belongs to a metric and to the directions measured. Of roughness at IOR 1.5: {}.",
+        "GGX with its masking, fitted to surfaces of another gamma, shifts roughness {}.",
         fmt::join(words, "; ")));
 }
 
+/// Forms of a kind by what they leave, from the least.
+void ranking(CrossFitReport& r,
+             std::string_view truth,
+             std::string_view kind,
+             std::string_view what,
+             Cases (*of)(Cases)) {
+  struct Place {
+    std::string_view form;
+    double residual, roughness;
+    std::size_t at_bound;
+  };
+  std::vector<Place> places;
+  for (const auto& c : r.cases) {
+    if (c.kind != kind || c.truth != truth ||
+        std::ranges::find(places, c.fitted, &Place::form) != places.end())
+      continue;
+    const auto all = of(cases_of(r, {truth, c.fitted}));
+    const auto s = shifts(all, "roughness");
+    if (s) places.push_back({c.fitted, rms_residual(all), s.rms(), s.at_bound});
+  }
+  constexpr std::size_t told = 4;
+  if (places.size() < 2) return;
+  std::ranges::stable_sort(places, {}, &Place::residual);
+  const auto said = [](const Place& p) {
+    return fmt::format("{} {} ({}{})", short_form(p.form), number(p.residual), number(p.roughness),
+                       p.at_bound > 0 ? fmt::format(", {} at a bound", p.at_bound) : "");
+  };
+  std::vector<std::string> words;
+  for (const auto& p : places)
+    if (words.size() < told) words.push_back(said(p));
+  r.findings.push_back(fmt::format(
+      "{}, by RMS residual over materials and roughnesses (RMS shift of roughness): {}{}.", what,
+      fmt::join(words, ", "), places.size() > told ? "; furthest " + said(places.back()) : ""));
+}
+
+/// The same forms over the other layouts.
+void directions(CrossFitReport& r) {
+  std::vector<std::string> words;
+  for (const std::string_view form :
+       {"fresnel.schlick", "masking.smith_ggx.separable", "masking.schlick_ggx.half_alpha",
+        "masking.schlick_ggx.direct"}) {
+    std::vector<std::string> parts;
+    for (const auto& layout : cross_layouts)
+      if (const auto s =
+              shifts(cases_of(r, {once, form, Metric::log, layout.name, "IOR 1.5"}), "roughness"))
+        parts.push_back(
+            fmt::format("{} to {}", signed_number(s.least().by), signed_number(s.most().by)));
+    if (parts.size() == cross_layouts.size())
+      words.push_back(fmt::format("{} {}", short_form(form), fmt::join(parts, ", ")));
+  }
+  if (!words.empty())
+    r.findings.push_back(
+        fmt::format("A shift belongs to the directions too. Of roughness at IOR 1.5, over the "
+                    "slice to 80°, the slice to the horizon, and a "
+                    "hemisphere of six incident angles: {}.",
+                    fmt::join(words, "; ")));
+}
+
 void trust(CrossFitReport& r) {
-  std::size_t lost = 0;
-  double error = 0;
+  double roughness = 0, f0 = 0, residual = 0, error = 0;
+  std::size_t own = 0, lost = 0;
   for (const auto& c : r.cases) {
     lost += !c.converged;
-    if (const auto* v = c.find("roughness");
-        v && c.kind == "exact" && v->status == ParameterStatus::free)
-      error = std::max(error, v->error);
+    if (c.kind != "exact") continue;
+    if (c.truth == all_orders) {
+      for (const auto& v : c.values)
+        if (v.parameter == "roughness" && c.is_determined(v)) error = std::max(error, v.error);
+      continue;
+    }
+    ++own;
+    residual = std::max(residual, c.log_rms);
+    for (const auto& v : c.values) {
+      if (v.parameter == "roughness") roughness = std::max(roughness, std::abs(v.shift()));
+      if (v.parameter == "f0") f0 = std::max(f0, std::abs(v.shift()));
+    }
   }
-  r.findings.push_back(
-      fmt::format("Of {} fits {} did not converge. What the random walks of multiple scattering "
-                  "leave uncertain shifts the roughness of the exact form by {:.1g} at most.",
-                  r.cases.size(), lost == 0 ? "none" : fmt::format("{}", lost), error));
+  if (own == 0) return;
+  r.findings.push_back(fmt::format(
+      "The ruler: fitted with the forms that it was made from a slice gives its parameters {}: "
+      "over {} fits roughness is off by {:.1g} "
+      "at most, F0 by {:.1g} of itself, residual {:.1g}. Of {} fits {} did not converge. What the "
+      "random walks of "
+      "several facets leave uncertain shifts the roughness of the exact form by {:.1g} at most.",
+      roughness < 1e-6 && f0 < 1e-5 ? "back" : "back only roughly", own, roughness, f0, residual,
+      r.cases.size(), lost == 0 ? "none" : fmt::format("{}", lost), error));
 }
 
 }  // namespace
@@ -356,18 +368,20 @@ void add_sentences(CrossFitReport& r) {
 }
 
 void add_findings(CrossFitReport& r) {
+  summary(r);
   schlick(r);
   maskings(r);
   lost_energy(r);
-  what_takes_it_up(r);
+  takes_it_up(r, "ndf.gtr", "gamma", "A free gamma");
+  takes_it_up(r, "lambert+ggx/smith_ggx.correlated/exact", "kd",
+              "A free Lambertian (kd is 0 in truth)");
   other_gammas(r);
-  ranking(r, "fresnel", "Fresnel terms", dielectrics, "dielectrics");
-  ranking(r, "fresnel", "Fresnel terms", metals, "metals");
-  ranking(r, "masking", "Masking terms", any, "materials");
-  ranking(r, "distribution", "Distributions", any, "materials");
-  whole_models(r);
-  what_else_decides(r);
-  own_truth(r);
+  ranking(r, once, "fresnel", "Fresnel terms on dielectrics", dielectrics);
+  ranking(r, once, "fresnel", "Fresnel terms on metals", metals);
+  ranking(r, once, "masking", "Masking terms", any);
+  ranking(r, once, "distribution", "Distributions, gamma free where there is one", any);
+  ranking(r, all_orders, "model", "Whole models, fitted to all orders", any);
+  directions(r);
   trust(r);
 }
 

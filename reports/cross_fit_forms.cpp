@@ -240,12 +240,12 @@ CrossCase fit_case(const CrossTruth& t,
 double CrossValue::shift() const {
   return parameter == "f0" ? fitted / truth - 1 : fitted - truth;
 }
-bool CrossValue::is_free() const {
-  return status == ParameterStatus::free || std::abs(shift()) < 1e-6;
-}
 
 bool CrossCase::is_dielectric() const {
   return material.starts_with("IOR ");
+}
+bool CrossCase::is_determined(const CrossValue& v) const {
+  return std::isfinite(v.fitted) && (v.status == ParameterStatus::free || log_rms < 1e-6);
 }
 const CrossValue* CrossCase::find(std::string_view parameter, std::string_view channel) const {
   const auto it = std::ranges::find_if(values, [&](const CrossValue& v) {

@@ -22,6 +22,7 @@ PageJson row(const CrossCase& c, const CrossValue& v) {
           {"status", status_names[static_cast<std::size_t>(v.status)]},
           {"converged", c.converged},
           {"residual_log_rms", page_json(c.log_rms)},
+          {"truth_log_rms", page_json(c.log_rms_truth)},
           {"metric", metric_names[static_cast<std::size_t>(c.metric)]},
           {"layout", c.layout}};
 }

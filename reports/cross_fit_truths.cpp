@@ -90,8 +90,10 @@ CrossSlice slice_of(const CrossTruth& t,
   const SampleAngles at(once);
   std::vector<DirectionPair> pairs;
   for (const std::size_t i : kept) pairs.push_back(at.directions(i));
-  const auto first = beyond_one_facet(model, pairs, o.walks / 2, 1),
-             second = beyond_one_facet(model, pairs, o.walks / 2, 2);
+  const double more_walks = 1 / std::max(square(roughness), 1.0 / 16);
+  const auto half = static_cast<std::size_t>(static_cast<double>(o.walks) * more_walks / 2);
+  const auto first = beyond_one_facet(model, pairs, half, 1),
+             second = beyond_one_facet(model, pairs, half, 2);
   double sum = 0;
   for (std::size_t c = 0; c < channels; ++c)
     for (std::size_t i = 0; i < kept.size(); ++i) {

@@ -10,7 +10,7 @@ function matrices() {
   const chosen = { quantity: "roughness", roughness: "all" };
   const view = changing(() => map_view(picture_of(maps, "matrix", chosen)));
   const change = (key) => (v) => { chosen[key] = v; view.again(); };
-  return section("Truth × form", "What each truth, at the top, does to the parameters when it is fitted with each form. Left empty: what was not fitted, and where most fits end at a bound of the parameter, so that it could not say where it wants to be.",
+  return section("Truth × form", "What becomes of the parameters of each truth, below, when it is fitted with each form. Left empty: what was not fitted, and where most fits end at a bound of the parameter, so that it could not say where it wants to be.",
     el("div", { class: "controls" },
       choice("Quantity", choices_of(maps, "matrix", "quantity").map((q) => [q, q]), chosen.quantity, change("quantity")),
       choice("Roughness", choices_of(maps, "matrix", "roughness").map((r) => [r, r === "all" ? "RMS over all" : `at ${r}`]), chosen.roughness, change("roughness"))), view.node);
@@ -19,28 +19,44 @@ function matrices() {
 // --- Over roughness --------------------------------------------------------------------------------------
 function over_roughness() {
   const first = figures[0].choices, chosen = { truth: first.truth, kind: "masking", material: first.material };
+  let emphasis = "";
   const panels = changing(() => {
     const kinds = choices_of(figures, "shifts", "kind", { truth: chosen.truth });
     if (!kinds.includes(chosen.kind)) chosen.kind = kinds[0];
-    const seen = figures.filter((f) => Object.entries(chosen).every(([of, value]) => f.choices[of] === value));
+    const seen = figures.filter((f) => f.family === "shifts" && Object.entries(chosen).every(([of, value]) => f.choices[of] === value));
     const said = sentences.filter((s) => s.truth === chosen.truth && s.kind === chosen.kind);
+    const names = said.map((s) => short(s.fitted));
+    if (!names.includes(emphasis)) emphasis = "";
     const change = (key) => (v) => { chosen[key] = v; panels.again(); };
     return [el("div", { class: "controls" },
       choice("Truth", choices_of(figures, "shifts", "truth").map((t) => [t, t]), chosen.truth, change("truth")),
       choice("What differs from the truth", kinds.map((k) => [k, kind_names[k]]), chosen.kind, change("kind")),
-      choice("Material", choices_of(figures, "shifts", "material", { truth: chosen.truth }).map((m) => [m, m]), chosen.material, change("material"))),
-      el("div", { class: "columns" }, seen.map((f) => figure_view(f))),
+      choice("Material", choices_of(figures, "shifts", "material", { truth: chosen.truth }).map((m) => [m, m]), chosen.material, change("material")),
+      chooser("Form", [["", "all alike"], ...names.map((n) => [n, n])], emphasis, (v) => { emphasis = v; panels.again(); })),
+      el("div", { class: "columns" }, seen.map((f) => figure_view(f, { emphasis }))),
       el("h3", { style: { "margin-top": "22px" } }, "Each in a sentence"),
-      ...said.map((s) => el("p", { class: "small" }, el("code", {}, short(s.fitted)), " ", s.sentence))];
+      el("div", { class: "columns" }, said.map((s) => el("p", { class: "small" }, el("code", {}, short(s.fitted)), el("br"), s.sentence)))];
   });
   return section("Over roughness", "The shift of each parameter that the form brings about. F0 of metals is the mean of the channels. Points at a bound are left out. Where light meets several facets bars are what the random walks leave uncertain; "
     + "dashed: the exact form of single scattering.", panels.node);
 }
 
-document.getElementById("page").replaceChildren(
+// --- Metric and directions -----------------------------------------------------------------------------
+function compared() {
+  const forms = choices_of(figures, "compared", "form");
+  if (!forms.length) return null;
+  const chosen = { form: forms.includes("schlick_ggx.direct") ? "schlick_ggx.direct" : forms[0], material: choices_of(figures, "compared", "material")[0] };
+  const panels = changing(() => el("div", { class: "columns" }, choices_of(figures, "compared", "quantity").map((quantity) => picture_of(figures, "compared", { ...chosen, quantity })).filter(Boolean).map((f) => figure_view(f))));
+  const change = (key) => (v) => { chosen[key] = v; panels.again(); };
+  return section("Metric and directions", "The same truth, GGX met once, and the same form, fitted by another metric or over other directions. The log metric looks at all directions alike, l2_cosine at the bright peak.",
+    el("div", { class: "controls" }, chooser("Form", forms.map((f) => [f, f]), chosen.form, change("form")),
+      choice("Material", choices_of(figures, "compared", "material").map((m) => [m, m]), chosen.material, change("material"))), panels.node);
+}
+
+document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio report cross_fit"), el("h1", {}, "What fits with shipped approximations make of roughness, F0 and gamma"),
   el("div", { class: "verdict" }, findings.map((f) => el("p", {}, f))),
-  matrices(), over_roughness(),
+  matrices(), over_roughness(), compared(),
   section("How it is made", null,
     el("p", {}, "A slice of directions is synthesized without noise from exact Fresnel facets (dielectric; conductor of measured n and k at three wavelengths) under GGX or GTR with its own Smith masking, height-correlated; of “all orders” light "
       + "that meets several facets is added by random walks. It is fitted as gonio fit does, by the log metric, all parameters free; the form differs from the truth in one term, or in several, or it is a whole model with its diffuse term. "
@@ -48,4 +64,4 @@ document.getElementById("page").replaceChildren(
     el("p", {}, "The slice has theta_h by theta_d at phi_d = 90°, as gonio synth's image_slice has, with theta_h denser towards the highlight, so that each roughness is resolved and all angles of the Fresnel term are there; every bin up to 80° from the normal, to light and viewer, counts the same. "
       + "There NoL = NoV. Other directions weigh other errors: the last findings compare the whole slice, a hemisphere of six incident angles, and the metric l2_cosine. Materials: " + materials.join(", ") + "."),
     el("p", {}, "What is shipped without the 1/π of a BRDF (ue_mobile, ue_mobile_simple) is fitted to π times the truth. At roughness 1 the width stands at its bound, where its truth is; forms that would be rougher end there, and are told as such.")),
-  el("footer", {}, `${full ? "Full" : "Quick"} setting. Every fit, with its status, is in the rows of the .json and .csv beside this page.`));
+  el("footer", {}, `${full ? "Full" : "Quick"} setting. Every fit, with its status, is in the rows of the .json and .csv beside this page.`)].filter(Boolean));
