@@ -116,7 +116,6 @@ CrossFitReport cross_fit_report(const CrossFitOptions& o, const ReportProgress& 
   r.walk_error = std::ranges::max(walk_errors);
   add_sentences(r);
   add_findings(r);
-  r.pictures = cross_fit_pictures(r);
   return r;
 }
 

@@ -81,7 +81,6 @@ struct CrossFitReport {
   double walk_error = 0;  ///< RMS over values of the standard error of ln f that the walks leave
   std::vector<CrossSentence> sentences;
   std::vector<std::string> findings;  ///< sentences
-  Pictures pictures;
   bool full = false;
 };
 
@@ -116,6 +115,10 @@ struct CrossFitOptions {
 CrossFitOptions cross_fit_options(bool full);
 
 CrossFitReport cross_fit_report(const CrossFitOptions&, const ReportProgress& done = {});
+
+/// What its page shows, by family: maps matrix of quantity and roughness ("all": RMS), truth × form; figures shifts of truth, kind,
+/// material and quantity, compared of form, material and quantity.
+Pictures pictures(const CrossFitReport&);
 
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const CrossFitReport&);

@@ -80,12 +80,9 @@ constexpr double nothing = 1e-7;
 
 /// \param roughness  0: RMS over all of them
 FigureMap matrix(const CrossFitReport& r, const Quantity& q, double roughness) {
-  FigureMap m;
   const bool all = roughness == 0;
-  m.choices = {{"quantity", std::string(q.name)},
-               {"roughness", all ? "all" : fmt::format("{:g}", roughness)}};
-  m.family = "matrix";
-  m.id = picture_id(m.family, m.choices);
+  auto m = make_map("matrix", {{"quantity", std::string(q.name)},
+                               {"roughness", all ? "all" : fmt::format("{:g}", roughness)}});
   m.title = fmt::format("Truth × form: {}", q.name);
   m.note = all ? "RMS over materials and roughnesses"
                : fmt::format("mean over materials at roughness {:g}", roughness);
@@ -129,13 +126,10 @@ Figure shifts_figure(const CrossFitReport& r,
                      std::string_view kind,
                      std::string_view material,
                      const Quantity& q) {
-  Figure f;
-  f.family = "shifts";
-  f.choices = {{"truth", std::string(truth)},
-               {"kind", std::string(kind)},
-               {"material", std::string(material)},
-               {"quantity", std::string(q.name)}};
-  f.id = picture_id(f.family, f.choices);
+  auto f = make_figure("shifts", {{"truth", std::string(truth)},
+                                  {"kind", std::string(kind)},
+                                  {"material", std::string(material)},
+                                  {"quantity", std::string(q.name)}});
   f.title = q.parameter.empty() ? "Residual" : fmt::format("Shift of {}", q.name);
   f.note = fmt::format("{}, {}", truth, material);
   f.x = {"roughness", false, 0, 1};
@@ -170,12 +164,9 @@ Figure compared_figure(const CrossFitReport& r,
                        std::string_view form,
                        std::string_view material,
                        const Quantity& q) {
-  Figure f;
-  f.family = "compared";
-  f.choices = {{"form", std::string(short_form(form))},
-               {"material", std::string(material)},
-               {"quantity", std::string(q.name)}};
-  f.id = picture_id(f.family, f.choices);
+  auto f = make_figure("compared", {{"form", std::string(short_form(form))},
+                                    {"material", std::string(material)},
+                                    {"quantity", std::string(q.name)}});
   f.title = fmt::format("Shift of {}", q.name);
   f.note = fmt::format("{}, {}", short_form(form), material);
   f.x = {"roughness", false, 0, 1};
@@ -200,7 +191,7 @@ Figure compared_figure(const CrossFitReport& r,
 
 }  // namespace
 
-Pictures cross_fit_pictures(const CrossFitReport& r) {
+Pictures pictures(const CrossFitReport& r) {
   Pictures out;
   std::vector<double> chosen{0};
   for (const double want : {0.2, 0.5, 0.8})

@@ -87,6 +87,11 @@ std::string signed_percent(double x) {
 std::string place(const CrossCase& c) {
   return fmt::format("{}, roughness {:g}", c.material, c.roughness);
 }
+/// What bounds have cut off.
+std::string at_bounds(const Shifts& s) {
+  return s.at_bound == 0 ? "" : fmt::format(" [{} of {} at a bound]", s.at_bound, s.all);
+}
+
 /// "by −0.013 (IOR 2, roughness 1) to +0.0012 (gold, roughness 0.3)", with what bounds cut off
 std::string span(const Shifts& s, std::string (*said)(double)) {
   if (!s) return "not at all within its bounds";
@@ -94,8 +99,7 @@ std::string span(const Shifts& s, std::string (*said)(double)) {
   std::string text = said(a.by) == said(b.by) ? fmt::format("by {}", said(a.by))
                                               : fmt::format("by {} ({}) to {} ({})", said(a.by),
                                                             place(*a.in), said(b.by), place(*b.in));
-  if (s.at_bound > 0) text += fmt::format(" [{} of {} at a bound]", s.at_bound, s.all);
-  return text;
+  return text + at_bounds(s);
 }
 std::string residuals(const Cases& cases) {
   const auto [a, b] = std::ranges::minmax_element(cases, {}, &CrossCase::log_rms);
@@ -132,11 +136,11 @@ void summary(CrossFitReport& r) {
       const auto all = of(cases_of(r, {truth, fitted}));
       const auto roughness = shifts(all, "roughness"), f0 = shifts(all, "f0");
       if (!roughness) continue;
-      words.push_back(fmt::format("{} {:.2g} ({}; {:.2g})", what, roughness.rms(),
-                                  f0 && 2 * f0.at_bound < f0.all
-                                      ? fmt::format("{:.2g} %", 100 * f0.rms())
-                                      : "mostly at a bound",
-                                  rms_residual(all)));
+      const std::string of_f0 = 2 * f0.at_bound > f0.all
+                                    ? "mostly at a bound"
+                                    : fmt::format("{:.2g} %{}", 100 * f0.rms(), at_bounds(f0));
+      words.push_back(fmt::format("{} {:.2g}{} ({}; {:.2g})", what, roughness.rms(),
+                                  at_bounds(roughness), of_f0, rms_residual(all)));
     }
     return fmt::format("{}", fmt::join(words, ", "));
   };

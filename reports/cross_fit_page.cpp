@@ -29,18 +29,15 @@ PageJson row(const CrossCase& c, const CrossValue& v) {
 
 PageJson document(const CrossFitReport& r) {
   PageJson out{{"schema", "gonio.report.cross_fit/1"}, {"full", r.full}, {"findings", r.findings}};
-  PageJson sentences = PageJson::array(), figures = PageJson::array(), maps = PageJson::array();
+  PageJson sentences = PageJson::array();
   for (const auto& s : r.sentences)
     sentences.push_back(
         {{"truth", s.truth}, {"fitted", s.fitted}, {"kind", s.kind}, {"sentence", s.sentence}});
-  for (const auto& f : r.pictures.figures) figures.push_back(page_json(f));
-  for (const auto& m : r.pictures.maps) maps.push_back(page_json(m));
   out["roughness"] = page_json(r.roughness);
   out["materials"] = r.materials;
   out["walk_error"] = page_json(r.walk_error);
   out["sentences"] = sentences;
-  out["figures"] = figures;
-  out["maps"] = maps;
+  put_pictures(out, pictures(r));
   return out;
 }
 

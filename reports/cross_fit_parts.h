@@ -57,6 +57,5 @@ std::string_view short_form(std::string_view name);
 /// From what the others have filled in.
 void add_sentences(CrossFitReport&);
 void add_findings(CrossFitReport&);
-Pictures cross_fit_pictures(const CrossFitReport&);
 
 }  // namespace gonio

@@ -30,7 +30,7 @@ ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
 }
 ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
   const auto report = cross_fit_report(cross_fit_options(o.full), done);
-  return {to_json(report), cross_fit_page_html(report), report.findings, report.pictures};
+  return {to_json(report), cross_fit_page_html(report), report.findings, pictures(report)};
 }
 
 constexpr std::array kinds{

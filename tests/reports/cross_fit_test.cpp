@@ -9,6 +9,7 @@
 #include "integrate/half_space.h"
 #include "integrate/quadrature.h"
 #include "reports/cross_fit_parts.h"
+#include "reports/pictures.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -175,6 +176,30 @@ TEST(CrossFit, RowsAreFlatAndHaveTheKeysOfTheContract) {
       ASSERT_TRUE(x.contains(key)) << key;
     for (const auto& [key, value] : x.items()) EXPECT_TRUE(value.is_primitive()) << key;
   }
+}
+
+TEST(CrossFit, PicturesShowWhatWasFittedAndLeaveOutWhatEndsAtABound) {
+  const auto r = cross_fit_report(few({"masking.implicit", "fresnel.schlick"}, {"Au"}));
+  const auto p = pictures(r);
+  test::expect_whole(p);
+  const FigureChoices masking{
+      {"truth", "GGX"}, {"kind", "masking"}, {"material", "IOR 1.5"}, {"quantity", "roughness"}};
+  const auto f = std::ranges::find(p.figures, masking, &Figure::choices);
+  ASSERT_NE(f, p.figures.end());
+  ASSERT_EQ(f->curves.size(), 2U);  // the exact form beside it
+  const auto* v = find(r, "GGX", "masking.implicit").find("roughness");
+  EXPECT_EQ(f->curves[1].y[0], v->fitted - v->truth);
+
+  const FigureChoices all{{"quantity", "F0"}, {"roughness", "all"}};
+  const auto& m = *std::ranges::find(p.maps, all, &FigureMap::choices);
+  const auto cell = [&](std::string_view truth, std::string_view form) {
+    const auto x = std::ranges::find(m.x.names, truth) - m.x.names.begin(),
+               y = std::ranges::find(m.y.names, form) - m.y.names.begin();
+    return m.values[static_cast<std::size_t>(x) * m.y.size() + static_cast<std::size_t>(y)];
+  };
+  EXPECT_GT(cell("GGX: dielectrics", "implicit"), 1);
+  EXPECT_TRUE(std::isnan(cell("GGX: metals", "implicit")));
+  EXPECT_EQ(cell("GGX: metals", "exact"), 0);
 }
 
 TEST(CrossFit, IsTheSameWhateverTheThreads) {
