@@ -2,16 +2,21 @@
 #include <initializer_list>
 
 #include "base/error.h"
+#include "brdf/by_hand.h"
 #include "brdf/kernels.h"
 
 namespace gonio {
 
-#define GONIO_SET(set)                        \
-  namespace set {                             \
-  extern const Kernels<float> table_float;    \
-  extern const Kernels<double> table_double;  \
-  template <Role role, class F>               \
-  std::span<const TermKernels<F>> terms_of(); \
+#define GONIO_SET(set)                              \
+  namespace set {                                   \
+  extern const Kernels<float> table_float;          \
+  extern const Kernels<double> table_double;        \
+  template <Role role, class F>                     \
+  std::span<const TermKernels<F>> terms_of();       \
+  template <class F>                                \
+  std::span<const FusedKernel<F>> fused_models();   \
+  template <class F>                                \
+  std::span<const HandWritten<F>> models_by_hand(); \
   }
 #include "instruction_sets.inc"
 #undef GONIO_SET
@@ -24,8 +29,11 @@ struct Assembled {
   std::vector<TermKernels<F>> terms;
   Kernels<F> kernels;
 
-  Assembled(const Kernels<F>& columns, std::initializer_list<std::span<const TermKernels<F>>> roles)
+  Assembled(const Kernels<F>& columns,
+            std::span<const FusedKernel<F>> fused,
+            std::initializer_list<std::span<const TermKernels<F>>> roles)
       : kernels(columns) {
+    kernels.fused = fused;
     for (const auto& role : roles) terms.insert(terms.end(), role.begin(), role.end());
     kernels.terms = terms;
   }
@@ -34,6 +42,8 @@ struct Assembled {
 struct Set {
   Assembled<float> f;
   Assembled<double> d;
+  std::span<const HandWritten<float>> f_by_hand;
+  std::span<const HandWritten<double>> d_by_hand;
 };
 
 /// In the order of the build's list: the best last.
@@ -45,9 +55,11 @@ const std::vector<Set>& sets() {
     set::terms_of<Role::ndf, F>(), set::terms_of<Role::masking, F>(),        \
         set::terms_of<Role::fresnel, F>(), set::terms_of<Role::diffuse, F>() \
   }
-#define GONIO_SET(set)                                      \
-  v.push_back({{set::table_float, GONIO_ROLES(set, float)}, \
-               {set::table_double, GONIO_ROLES(set, double)}});
+#define GONIO_SET(set)                                                                     \
+  v.push_back({{set::table_float, set::fused_models<float>(), GONIO_ROLES(set, float)},    \
+               {set::table_double, set::fused_models<double>(), GONIO_ROLES(set, double)}, \
+               set::models_by_hand<float>(),                                               \
+               set::models_by_hand<double>()});
 #include "instruction_sets.inc"
 #undef GONIO_SET
 #undef GONIO_ROLES
@@ -94,6 +106,15 @@ std::vector<std::string> instruction_sets() {
   for (const auto& s : sets())
     if (const auto name = s.f.kernels.instruction_set; runs_here(name)) names.emplace_back(name);
   return names;
+}
+
+template <>
+std::span<const HandWritten<float>> hand_written(std::string_view name) {
+  return find(name).f_by_hand;
+}
+template <>
+std::span<const HandWritten<double>> hand_written(std::string_view name) {
+  return find(name).d_by_hand;
 }
 
 }  // namespace gonio

@@ -42,32 +42,89 @@ F* Scratch<F>::operator[](std::size_t i) {
   return columns_[i].data();
 }
 
-namespace {
-
-/// A term's parameters for one channel, gathered.
 template <class F>
-std::array<F, max_parameters> gather(const Model& m,
-                                     const TermUse& t,
-                                     std::span<const F> values,
-                                     std::size_t channel) {
-  std::array<F, max_parameters> p{};
-  for (std::size_t k = 0; k < t.parameters.size(); ++k)
-    p[k] = values[m.parameters[t.parameters[k]].slot(channel)];
-  return p;
+Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k) : channels_(m.channels) {
+  const auto use = [&](const TermUse& t) {
+    Term term{&k.terms[t.term], {}, {}};
+    for (std::size_t c = 0; c < m.channels; ++c) {
+      auto& slots = term.slots.emplace_back();
+      for (std::size_t i = 0; i < t.parameters.size(); ++i)
+        slots[i] = m.parameters[t.parameters[i]].slot(c);
+    }
+    term.parameters.resize(m.channels);
+    term.count = t.parameters.size();
+    terms_.push_back(std::move(term));
+  };
+  for (const auto& t : m.diffuse) use(t);
+  diffuse_ = terms_.size();
+  for (std::size_t t = 0; t < diffuse_; ++t) coupled_ |= terms_[t].kernels->coupled;
+  for (const auto& l : m.lobes)
+    for (const auto* t : {&l.ndf, &l.masking, &l.fresnel}) use(*t);
+  if (terms_.size() > max_fused_terms || channels_ > max_channels) return;
+  std::array<std::string_view, max_fused_terms> ids;
+  for (std::size_t t = 0; t < terms_.size(); ++t) ids[t] = terms_[t].kernels->about->id;
+  for (const auto& f : k.fused)
+    if (f.diffuse == diffuse_ && f.ids == ids) fused_ = f.value[channels_];
 }
 
-/// nullptr if this combination is not a hot one
 template <class F>
-typename FusedKernel<F>::Value find_fused(const Kernels<F>& k,
-                                          const Lobe& l,
-                                          std::size_t channels) {
-  const std::array ids{k.terms[l.ndf.term].about->id, k.terms[l.masking.term].about->id,
-                       k.terms[l.fresnel.term].about->id};
-  const auto it = std::ranges::find(k.fused, ids, &FusedKernel<F>::ids);
-  return it == k.fused.end() || channels > max_channels ? nullptr : it->value[channels];
+void Evaluator<F>::set(std::span<const F> values) {
+  for (auto& t : terms_)
+    for (std::size_t c = 0; c < channels_; ++c)
+      for (std::size_t i = 0; i < t.count; ++i) t.parameters[c][i] = values[t.slots[c][i]];
 }
 
-}  // namespace
+template <class F>
+void Evaluator<F>::operator()(const Block<F>& x, std::span<F* const> out) {
+  if (!fused_) {
+    for (std::size_t at = 0; at < x.n; at += Scratch<F>::block)
+      compose(x.part(at, std::min(Scratch<F>::block, x.n - at)), at, out);
+    return;
+  }
+  FusedArguments<F> a{x, {}, {}};
+  for (std::size_t c = 0; c < channels_; ++c) {
+    a.out[c] = out[c];
+    for (std::size_t t = 0; t < terms_.size(); ++t)
+      a.parameters[t][c] = terms_[t].parameters[c].data();
+  }
+  fused_(a);
+}
+
+template <class F>
+void Evaluator<F>::compose(const Block<F>& x, std::size_t at, std::span<F* const> out) {
+  constexpr std::size_t first = Scratch<F>::first_free;
+  F *const num = scratch_[first], *const den = scratch_[first + 1],
+           *const less = scratch_[first + 2];
+  // What there is of a channel so far: nothing before the first term.
+  bool begun = false;
+  const auto add = [&](const Term& t, const F* factor, std::size_t c) {
+    F* const to = out[c] + at;
+    t.kernels->add(x, t.parameters[c].data(),
+                   {factor, nullptr, begun ? to : scratch_.zeros(), to, nullptr});
+  };
+  for (std::size_t t = 0; t < diffuse_; ++t) {
+    for (std::size_t c = 0; c < channels_; ++c) add(terms_[t], scratch_.ones(), c);
+    begun = true;
+  }
+  for (std::size_t t = diffuse_; t < terms_.size(); t += 3) {
+    const Term &d = terms_[t], &v = terms_[t + 1], &f = terms_[t + 2];
+    d.kernels->begin(x, d.parameters[0].data(), {nullptr, nullptr, nullptr, num, den});
+    v.kernels->close(x, v.parameters[0].data(), {num, den, nullptr, num, nullptr});
+    for (std::size_t c = 0; c < channels_; ++c) {  // the channels share D·V
+      const F* factor = num;
+      if (coupled_ &&
+          t == diffuse_)  // F (D V − coupled) + coupled, the last of which is there already
+        for (std::size_t u = 0; u < diffuse_; ++u)
+          if (terms_[u].kernels->coupled) {
+            terms_[u].kernels->add(x, terms_[u].parameters[c].data(),
+                                   {scratch_.minus_ones(), nullptr, factor, less, nullptr});
+            factor = less;
+          }
+      add(f, factor, c);
+    }
+    begun = true;
+  }
+}
 
 template <class F>
 void evaluate(const Model& m,
@@ -75,57 +132,9 @@ void evaluate(const Model& m,
               const Block<F>& x,
               std::span<F* const> out,
               const Kernels<F>& k) {
-  Scratch<F> scratch;
-  constexpr std::size_t first = Scratch<F>::first_free;
-  F *const num = scratch[first], *const den = scratch[first + 1], *const less = scratch[first + 2];
-  for (std::size_t at = 0; at < x.n; at += scratch.block) {
-    const auto b = x.part(at, std::min(scratch.block, x.n - at));
-    std::vector<const F*> base(m.channels, scratch.zeros());
-    const auto add = [&](const TermUse& t, const F* factor, std::size_t c) {
-      F* const to = out[c] + at;
-      k.terms[t.term].add(b, gather(m, t, values, c).data(),
-                          {factor, nullptr, base[c], to, nullptr});
-      base[c] = to;
-    };
-    bool coupled = false;
-    for (const auto& t : m.diffuse) {
-      coupled |= k.terms[t.term].coupled;
-      for (std::size_t c = 0; c < m.channels; ++c) add(t, scratch.ones(), c);
-    }
-    for (std::size_t l = 0; l < m.lobes.size(); ++l) {
-      const auto& lobe = m.lobes[l];
-      const auto pd = gather(m, lobe.ndf, values, 0), pv = gather(m, lobe.masking, values, 0);
-      const bool under = coupled && l == 0;
-      if (const auto fused = find_fused(k, lobe, m.channels); fused && !under) {
-        std::array<std::array<F, max_parameters>, max_channels> pf;
-        std::array<const F*, max_channels> p;
-        std::array<F*, max_channels> to;
-        for (std::size_t c = 0; c < m.channels; ++c) {
-          pf[c] = gather(m, lobe.fresnel, values, c);
-          p[c] = pf[c].data();
-          to[c] = out[c] + at;
-        }
-        fused(b, pd.data(), pv.data(), p.data(), base.data(), to.data());
-        std::copy_n(to.begin(), m.channels, base.begin());
-        continue;
-      }
-      k.terms[lobe.ndf.term].extend(b, pd.data(),
-                                    {scratch.ones(), scratch.ones(), nullptr, num, den});
-      k.terms[lobe.masking.term].close(b, pv.data(), {num, den, nullptr, num, nullptr});
-      for (std::size_t c = 0; c < m.channels; ++c) {  // the channels share D·V
-        const F* factor = num;
-        if (under) {  // F (D V − coupled) + coupled, the last of which is in base already
-          for (const auto& t : m.diffuse)
-            if (k.terms[t.term].coupled) {
-              k.terms[t.term].add(b, gather(m, t, values, c).data(),
-                                  {scratch.minus_ones(), nullptr, factor, less, nullptr});
-              factor = less;
-            }
-        }
-        add(lobe.fresnel, factor, c);
-      }
-    }
-  }
+  Evaluator<F> evaluator(m, k);
+  evaluator.set(values);
+  evaluator(x, out);
 }
 
 namespace {
@@ -176,6 +185,7 @@ std::vector<std::vector<double>> evaluate(const BoundModel& b,
   template class Column<F>;                                                                      \
   template class AngleColumns<F>;                                                                \
   template class Scratch<F>;                                                                     \
+  template class Evaluator<F>;                                                                   \
   template void evaluate(const Model&, std::span<const F>, const Block<F>&, std::span<F* const>, \
                          const Kernels<F>&);
 GONIO_INSTANTIATE(float)

@@ -84,8 +84,38 @@ class Scratch {
   std::vector<Column<F>> columns_;
 };
 
+/// f_r of one model over columns, prepared once: a fused loop where there is one, else the kernels of its
+/// terms block by block.  Not shared by threads.
+template <class F>
+class Evaluator {
+ public:
+  explicit Evaluator(const Model&, const Kernels<F>& = kernels<F>());
+  /// For the runs that follow, model.value_count of them.
+  void set(std::span<const F> values);
+  /// f_c of every sample.  out: one column per channel, as long as x.  Below the horizon the terms are not
+  /// defined: the caller leaves such samples out.
+  void operator()(const Block<F>& x, std::span<F* const> out);
+  bool is_fused() const { return fused_ != nullptr; }
+
+ private:
+  /// A term, and per channel its parameters and which values they are.
+  struct Term {
+    const TermKernels<F>* kernels;
+    std::vector<std::array<std::size_t, max_parameters>> slots;
+    std::vector<std::array<F, max_parameters>> parameters;
+    std::size_t count = 0;
+  };
+  void compose(const Block<F>& x, std::size_t at, std::span<F* const> out);
+
+  std::size_t channels_, diffuse_ = 0;
+  bool coupled_ = false;     ///< a diffuse term lies under the first lobe
+  std::vector<Term> terms_;  ///< diffuse terms, then D, V, F of each lobe
+  typename FusedKernel<F>::Value fused_ = nullptr;
+  Scratch<F> scratch_;
+};
+
 /// f_c for every sample of x.  values: model.value_count of them; out: one column per channel, as
-/// long as x.  Below the horizon the terms are not defined: the caller leaves such samples out.
+/// long as x.  Evaluator's one run.
 template <class F>
 void evaluate(const Model& model,
               std::span<const F> values,

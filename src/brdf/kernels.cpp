@@ -12,37 +12,6 @@
 namespace gonio::inline GONIO_ARCH {
 namespace {
 
-template <template <class> class D,
-          template <class>
-          class V,
-          template <class>
-          class Fr,
-          class F,
-          std::size_t channels>
-void fused(const Block<F>& x,
-           const F* pd,
-           const F* pv,
-           const F* const* pf,
-           const F* const* base,
-           F* const* out) {
-  using B = Lane<F>;
-  const auto d = bind_value<D, F>(pd);
-  const auto v = bind_value<V, F>(pv);
-  const auto f = [&]<std::size_t... C>(std::index_sequence<C...>) {
-    return std::array{bind_value<Fr, F>(pf[C])...};
-  }
-  (std::make_index_sequence<channels>{});
-  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-    const auto a = angles(x, i);
-    const auto qd = as_quotient<B>(d(a)), qv = as_quotient<B>(v(a));
-    const B num = qd.num * qv.num, den = qd.den * qv.den;
-    for (std::size_t c = 0; c < channels; ++c) {
-      const auto q = as_quotient<B>(f[c](a));
-      store<B>(out[c] + i, load<B>(base[c] + i) + num * q.num / (den * q.den));
-    }
-  }
-}
-
 // ---- columns with columns -----------------------------------------------------------------------
 
 template <class F>
@@ -331,16 +300,6 @@ void fused_normal(const NormalArguments<F>& a) {
 
 // ---- tables -------------------------------------------------------------------------------------
 
-template <class F, template <class> class D, template <class> class V, template <class> class Fr>
-constexpr FusedKernel<F> fused_entry(TermList<D, V, Fr>) {
-  return {{D<F>::about.id, V<F>::about.id, Fr<F>::about.id},
-          {nullptr, fused<D, V, Fr, F, 1>, nullptr, fused<D, V, Fr, F, 3>}};
-}
-template <class F, class... Lists>
-constexpr auto fused_table(FusedList<Lists...>) {
-  return std::array{fused_entry<F>(Lists{})...};
-}
-
 template <class F,
           template <class>
           class Diffuse,
@@ -378,8 +337,6 @@ constexpr auto normal_table(FusedList<Lists...>) {
 }
 
 template <class F>
-constexpr auto hot = fused_table<F>(Hot{});
-template <class F>
 constexpr auto hot_fits = normal_table<F>(HotFits{});
 
 #define GONIO_TEXT_(x) #x
@@ -388,8 +345,8 @@ constexpr auto hot_fits = normal_table<F>(HotFits{});
 template <class F, std::size_t... K>
 constexpr Kernels<F> table(std::index_sequence<K...>) {
   return {GONIO_TEXT(GONIO_ARCH),
-          {},  // the terms are added by dispatch.cpp
-          hot<F>,
+          {},  // the terms and what is fused of them are added by dispatch.cpp
+          {},
           hot_fits<F>,
           product<F>,
           product_sum<F>,

@@ -23,8 +23,9 @@ inline constexpr std::size_t padding = 16;
 inline constexpr std::size_t max_columns = 10;
 /// The most parameters of a term.
 inline constexpr std::size_t max_parameters = 4;
-/// The most channels that fused kernels take.
+/// The most channels and terms that fused kernels take.
 inline constexpr std::size_t max_channels = 3;
+inline constexpr std::size_t max_fused_terms = 7;
 
 /// The angles of n samples, as columns.
 template <class F>
@@ -46,7 +47,7 @@ struct Block {
 template <class F>
 struct Join {
   const F *num, *den, *base;  ///< in
-  F *out, *out_den;           ///< out (out_den for `extend` only)
+  F *out, *out_den;           ///< out (out_den for `begin` only)
 };
 
 template <class F>
@@ -58,24 +59,29 @@ struct TermKernels {
   bool as_shipped;   ///< a shader's arithmetic: finite in double, where NoH > 0, but not in fewer
                      ///< bits
   using Value = void (*)(const Block<F>&, const F* parameters, const Join<F>&);
-  Value extend;  ///< out/out_den = num/den · term, still a fraction
-  Value close;   ///< out = num/den · term, divided
-  Value add;     ///< out = base + num · term
+  Value begin;  ///< out/out_den = term, still a fraction
+  Value close;  ///< out = num/den · term, divided
+  Value add;    ///< out = base + num · term
   /// value and ∂value/∂parameter, one column each
   void (*derivatives)(const Block<F>&, const F* parameters, F* value, F* const* d);
 };
 
-/// D·V·F as one loop over all channels, which share D·V.
+/// What a fused model reads and writes.
+template <class F>
+struct FusedArguments {
+  Block<F> x;
+  /// [term][channel], in the order of FusedKernel::ids; D and V are the first channel's
+  std::array<std::array<const F*, max_channels>, max_fused_terms> parameters;
+  std::array<F*, max_channels> out;
+};
+
+/// f of a whole model as one loop over all channels, which share D·V.
 template <class F>
 struct FusedKernel {
-  std::array<std::string_view, 3> ids;
-  /// out_c = base_c + D·V·F_c; parameters: those of D, of V, of F per channel
-  using Value = void (*)(const Block<F>&,
-                         const F* d,
-                         const F* v,
-                         const F* const* f,
-                         const F* const* base,
-                         F* const* out);
+  std::size_t diffuse;  ///< how many terms come before the lobes
+  std::array<std::string_view, max_fused_terms>
+      ids;  ///< diffuse terms, then D, V, F of each lobe; ""
+  using Value = void (*)(const FusedArguments<F>&);
   /// by the number of channels; nullptr where there is none
   std::array<Value, max_channels + 1> value;
 };

@@ -18,17 +18,21 @@ using Lane = Batch<F>;
 #endif
 
 /// Of the samples from i on; the frame is read only for who asks.
-template <class Term = void, class F>
-angles_of<Term, Lane<F>> angles(const Block<F>& x, std::size_t i) {
+template <bool frame, class F>
+auto angles_with(const Block<F>& x, std::size_t i) {
   using B = Lane<F>;
   const Angles<B> a{load<B>(x.nol + i), load<B>(x.nov + i), load<B>(x.noh + i), load<B>(x.voh + i),
                     load<B>(x.sin2_theta_h + i)};
-  if constexpr (is_anisotropic<Term>) {
-    const auto frame = [&](std::size_t k) { return load<B>(x.frame[k] + i); };
-    return {a, frame(0), frame(1), frame(2), frame(3), frame(4), frame(5)};
+  if constexpr (frame) {
+    const auto of = [&](std::size_t k) { return load<B>(x.frame[k] + i); };
+    return FrameAngles<B>{a, of(0), of(1), of(2), of(3), of(4), of(5)};
   } else {
     return a;
   }
+}
+template <class Term = void, class F>
+auto angles(const Block<F>& x, std::size_t i) {
+  return angles_with<is_anisotropic<Term>>(x, i);
 }
 
 template <class Term, class T, class F>

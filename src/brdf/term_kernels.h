@@ -12,13 +12,13 @@
 namespace gonio::inline GONIO_ARCH {
 
 template <template <class> class Term, class F>
-void extend(const Block<F>& x, const F* p, const Join<F>& j) {
+void begin(const Block<F>& x, const F* p, const Join<F>& j) {
   using B = Lane<F>;
   const auto term = bind_value<Term, F>(p);
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
     const auto q = as_quotient<B>(term(angles<Term<B>>(x, i)));
-    store<B>(j.out + i, load<B>(j.num + i) * q.num);
-    store<B>(j.out_den + i, load<B>(j.den + i) * q.den);
+    store<B>(j.out + i, q.num);
+    store<B>(j.out_den + i, q.den);
   }
 }
 
@@ -60,7 +60,7 @@ constexpr TermKernels<F> term_entry() {
   bool coupled = false;
   if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
   return {&Term<F>::about,         Term<F>::parameters,    coupled,
-          is_anisotropic<Term<F>>, is_as_shipped<Term<F>>, extend<Term, F>,
+          is_anisotropic<Term<F>>, is_as_shipped<Term<F>>, begin<Term, F>,
           close<Term, F>,          add<Term, F>,           derivatives<Term, F>};
 }
 template <class F, template <class> class... Terms>

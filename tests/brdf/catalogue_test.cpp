@@ -312,7 +312,7 @@ TYPED_TEST(Everywhere, EveryInstructionSetGivesTheBitsOfTheScalar) {
           expect_same(out[0].data(), out[1].data(), b.n, few, part, where);
           expect_same(out_den[0].data(), out_den[1].data(), b.n, few, none, where);
         };
-        run(&TermKernels<F>::extend);
+        run(&TermKernels<F>::begin);
         run(&TermKernels<F>::close);
         run(&TermKernels<F>::add);
 

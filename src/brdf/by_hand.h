@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// Models written out by hand, each for its own combination and nothing else, as an engineer would for a
+/// renderer: what composed and fused models are measured against.  Never used to compute a result.
+
+#include <span>
+#include <string_view>
+
+#include "brdf/kernels.h"
+
+namespace gonio {
+
+template <class F>
+struct HandWritten {
+  std::string_view spec;
+  std::size_t channels;
+  /// \param values  of compose(spec, channels), in its order   \param out  a column for each channel
+  void (*value)(const Block<F>&, const F* values, F* const* out);
+};
+
+/// For the best set that this machine and build have, or the named one.
+template <class F>
+std::span<const HandWritten<F>> hand_written(std::string_view instruction_set = {});
+
+}  // namespace gonio

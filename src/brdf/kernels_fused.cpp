@@ -1,0 +1,161 @@
+// Compiled once per instruction set (GONIO_ARCH): whole models, each as one loop.
+#include <tuple>
+#include <utility>
+
+#include "brdf/catalogue.h"
+#include "brdf/lane.h"
+
+namespace gonio::inline GONIO_ARCH {
+namespace {
+
+/// A term of each channel.
+template <template <class> class Term, std::size_t channels, class F>
+auto bind_channels(const std::array<const F*, max_channels>& p) {
+  return [&]<std::size_t... C>(std::index_sequence<C...>) {
+    return std::array{bind_value<Term, F>(p[C])...};
+  }
+  (std::make_index_sequence<channels>{});
+}
+
+template <class F, std::size_t channels>
+using Channels = std::array<Lane<F>, channels>;
+
+template <template <class> class Term, class F, std::size_t channels>
+class FusedDiffuse {
+  using B = Lane<F>;
+
+ public:
+  static constexpr bool coupled = Term<F>::coupled, anisotropic = is_anisotropic<Term<F>>;
+  explicit FusedDiffuse(const std::array<const F*, max_channels>* p)
+      : term_(bind_channels<Term, channels>(p[0])) {}
+
+  void add(const auto& x, Channels<F, channels>& sum, Channels<F, channels>& under) const {
+    for (std::size_t c = 0; c < channels; ++c) {
+      const B value = as_value<B>(term_[c](x));
+      sum[c] = sum[c] + value;
+      if constexpr (coupled) under[c] = under[c] + value;
+    }
+  }
+
+ private:
+  std::array<Term<B>, channels> term_;
+};
+
+template <class List, class F, std::size_t channels>
+class FusedLobe;
+template <template <class> class D,
+          template <class>
+          class V,
+          template <class>
+          class Fr,
+          class F,
+          std::size_t channels>
+class FusedLobe<TermList<D, V, Fr>, F, channels> {
+  using B = Lane<F>;
+
+ public:
+  static constexpr bool anisotropic = is_anisotropic<D<F>> || is_anisotropic<V<F>>;
+  explicit FusedLobe(const std::array<const F*, max_channels>* p)
+      : d_(bind_value<D, F>(p[0][0])),
+        v_(bind_value<V, F>(p[1][0])),
+        f_(bind_channels<Fr, channels>(p[2])) {}
+
+  /// \param less  what of the diffuse terms lies under the interface; where `coupled`
+  template <bool coupled>
+  void add(const auto& x, Channels<F, channels>& sum, const Channels<F, channels>& less) const {
+    const auto d = as_quotient<B>(d_(x)), v = as_quotient<B>(v_(x));
+    const B num = d.num * v.num, den = d.den * v.den;
+    constexpr bool fraction = !std::same_as<decltype(f_[0](x)), B>;
+    if constexpr (fraction && !coupled) {
+      for (std::size_t c = 0; c < channels; ++c) {
+        const auto f = as_quotient<B>(f_[c](x));
+        sum[c] = sum[c] + num * f.num / (den * f.den);
+      }
+    } else {
+      const B dv = num / den;
+      for (std::size_t c = 0; c < channels; ++c) {
+        const B f = as_value<B>(f_[c](x));
+        if constexpr (coupled)
+          sum[c] = sum[c] + (dv - less[c]) * f;
+        else
+          sum[c] = sum[c] + dv * f;
+      }
+    }
+  }
+
+ private:
+  D<B> d_;
+  V<B> v_;
+  std::array<Fr<B>, channels> f_;
+};
+
+/// f_c = Σ diffuse_c + Σ D V F_c, the first lobe's F_c (D V − coupled_c)
+template <class F, std::size_t channels, class... Diffuse, class First, class... Rest>
+void run(const FusedArguments<F>& a,
+         const std::tuple<Diffuse...>& diffuse,
+         const First& first,
+         const Rest&... rest) {
+  using B = Lane<F>;
+  constexpr bool coupled = (false || ... || Diffuse::coupled);
+  constexpr bool anisotropic =
+      (First::anisotropic || ... || Rest::anisotropic) || (false || ... || Diffuse::anisotropic);
+  for (std::size_t i = 0; i < a.x.n; i += lanes<B>) {
+    const auto x = angles_with<anisotropic>(a.x, i);
+    Channels<F, channels> sum, under;
+    sum.fill(B(0)), under.fill(B(0));
+    std::apply([&](const auto&... term) { (term.add(x, sum, under), ...); }, diffuse);
+    first.template add<coupled>(x, sum, under);
+    (rest.template add<false>(x, sum, under), ...);
+    for (std::size_t c = 0; c < channels; ++c) store<B>(a.out[c] + i, sum[c]);
+  }
+}
+
+template <class F, std::size_t channels, class Model>
+struct Fused;
+template <class F, std::size_t channels, template <class> class... Diffuse, class... Lobes>
+struct Fused<F, channels, ModelTerms<TermList<Diffuse...>, Lobes...>> {
+  static void value(const FusedArguments<F>& a) {
+    const auto* const p = a.parameters.data();
+    [&]<std::size_t... K, std::size_t... L>(std::index_sequence<K...>, std::index_sequence<L...>) {
+      run<F, channels>(a, std::tuple{FusedDiffuse<Diffuse, F, channels>(p + K)...},
+                       FusedLobe<Lobes, F, channels>(p + sizeof...(Diffuse) + 3 * L)...);
+    }
+    (std::index_sequence_for<TermList<Diffuse>...>{}, std::index_sequence_for<Lobes...>{});
+  }
+};
+
+template <class F, template <class> class... Terms>
+constexpr void put_ids(FusedKernel<F>& kernel, std::size_t& at, TermList<Terms...>) {
+  ((kernel.ids[at++] = Terms<F>::about.id), ...);
+}
+template <class F, class Diffuse, class... Lobes>
+constexpr FusedKernel<F> entry(ModelTerms<Diffuse, Lobes...>) {
+  using M = ModelTerms<Diffuse, Lobes...>;
+  FusedKernel<F> kernel{0, {}, {nullptr, Fused<F, 1, M>::value, nullptr, Fused<F, 3, M>::value}};
+  std::size_t at = 0;
+  put_ids(kernel, at, Diffuse{});
+  kernel.diffuse = at;
+  (put_ids(kernel, at, Lobes{}), ...);
+  return kernel;
+}
+template <class F, class... Models>
+constexpr auto table_of(FusedList<Models...>) {
+  return std::array{entry<F>(Models{})...};
+}
+template <class F>
+constexpr auto table = table_of<F>(Hot{});
+
+}  // namespace
+
+template <class F>
+std::span<const FusedKernel<F>> fused_models();
+template <>
+std::span<const FusedKernel<float>> fused_models() {
+  return table<float>;
+}
+template <>
+std::span<const FusedKernel<double>> fused_models() {
+  return table<double>;
+}
+
+}  // namespace gonio::inline GONIO_ARCH
