@@ -92,37 +92,32 @@ void Evaluator<F>::operator()(const Block<F>& x, std::span<F* const> out) {
 
 template <class F>
 void Evaluator<F>::compose(const Block<F>& x, std::size_t at, std::span<F* const> out) {
-  constexpr std::size_t first = Scratch<F>::first_free;
-  F *const num = scratch_[first], *const den = scratch_[first + 1],
-           *const less = scratch_[first + 2];
-  // What there is of a channel so far: nothing before the first term.
-  bool begun = false;
-  const auto add = [&](const Term& t, const F* factor, std::size_t c) {
-    F* const to = out[c] + at;
-    t.kernels->add(x, t.parameters[c].data(),
-                   {factor, nullptr, begun ? to : scratch_.zeros(), to, nullptr});
-  };
-  for (std::size_t t = 0; t < diffuse_; ++t) {
-    for (std::size_t c = 0; c < channels_; ++c) add(terms_[t], scratch_.ones(), c);
-    begun = true;
-  }
+  std::size_t next = Scratch<F>::first_free;
+  F* const den = scratch_[next++];
+  auto& dv = dv_;  // shared by the channels
+  dv.clear();
   for (std::size_t t = diffuse_; t < terms_.size(); t += 3) {
-    const Term &d = terms_[t], &v = terms_[t + 1], &f = terms_[t + 2];
+    const Term &d = terms_[t], &v = terms_[t + 1];
+    F* const num = dv.emplace_back(scratch_[next++]);
     d.kernels->begin(x, d.parameters[0].data(), {nullptr, nullptr, nullptr, num, den});
     v.kernels->close(x, v.parameters[0].data(), {num, den, nullptr, num, nullptr});
-    for (std::size_t c = 0; c < channels_; ++c) {  // the channels share D·V
-      const F* factor = num;
-      if (coupled_ &&
-          t == diffuse_)  // F (D V − coupled) + coupled, the last of which is there already
-        for (std::size_t u = 0; u < diffuse_; ++u)
-          if (terms_[u].kernels->coupled) {
-            terms_[u].kernels->add(x, terms_[u].parameters[c].data(),
-                                   {scratch_.minus_ones(), nullptr, factor, less, nullptr});
-            factor = less;
-          }
-      add(f, factor, c);
+  }
+  const std::size_t together = channels_ % 3 == 0 ? 3 : 1;  // as the kernels take them
+  for (std::size_t c = 0; c < channels_; c += together) {
+    ChannelJoin<F> join;
+    const auto shade = [&](const Term& t) {
+      for (std::size_t k = 0; k < together; ++k) join.parameters[k] = t.parameters[c + k].data();
+      t.kernels->shade[together](x, join);
+      std::ranges::copy(join.out, join.base.begin());
+    };
+    for (std::size_t k = 0; k < together; ++k) join.out[k] = out[c + k] + at;
+    for (std::size_t t = 0; t < diffuse_; ++t) shade(terms_[t]);
+    if (coupled_) join.less = join.base;  // F (D V − coupled) + coupled; there is one diffuse term
+    for (std::size_t l = 0; l < dv.size(); ++l) {
+      join.factor = dv[l];
+      shade(terms_[diffuse_ + 3 * l + 2]);
+      join.less = {};
     }
-    begun = true;
   }
 }
 

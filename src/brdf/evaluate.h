@@ -111,6 +111,7 @@ class Evaluator {
   bool coupled_ = false;     ///< a diffuse term lies under the first lobe
   std::vector<Term> terms_;  ///< diffuse terms, then D, V, F of each lobe
   typename FusedKernel<F>::Value fused_ = nullptr;
+  std::vector<F*> dv_;
   Scratch<F> scratch_;
 };
 

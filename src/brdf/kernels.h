@@ -50,6 +50,18 @@ struct Join {
   F *out, *out_den;           ///< out (out_den for `begin` only)
 };
 
+/// The same of a term that channels have each their own of, F or diffuse, for all of them at once:
+///
+///   out_c = base_c + (factor − less_c) F_c   or   base_c + diffuse_c
+template <class F>
+struct ChannelJoin {
+  const F* factor = nullptr;                  ///< of F
+  std::array<const F*, max_channels> less{};  ///< of F, with a base; nullptr: nothing
+  std::array<const F*, max_channels> base{};  ///< nullptr: nothing
+  std::array<F*, max_channels> out{};
+  std::array<const F*, max_channels> parameters{};
+};
+
 template <class F>
 struct TermKernels {
   const About* about;
@@ -62,6 +74,9 @@ struct TermKernels {
   Value begin;  ///< out/out_den = term, still a fraction
   Value close;  ///< out = num/den · term, divided
   Value add;    ///< out = base + num · term
+  /// by the number of channels, 1 and 3; nullptr for D and V
+  using Shade = void (*)(const Block<F>&, const ChannelJoin<F>&);
+  std::array<Shade, max_channels + 1> shade;
   /// value and ∂value/∂parameter, one column each
   void (*derivatives)(const Block<F>&, const F* parameters, F* value, F* const* d);
 };

@@ -8,17 +8,17 @@
 namespace gonio::inline GONIO_ARCH {
 namespace {
 
-/// A term of each channel.
-template <template <class> class Term, std::size_t channels, class F>
-auto bind_channels(const std::array<const F*, max_channels>& p) {
-  return [&]<std::size_t... C>(std::index_sequence<C...>) {
-    return std::array{bind_value<Term, F>(p[C])...};
-  }
-  (std::make_index_sequence<channels>{});
-}
-
+/// A sum for each channel; 0 is not added to the first value (nor may a compiler leave that out: −0 + 0 is 0).
 template <class F, std::size_t channels>
-using Channels = std::array<Lane<F>, channels>;
+struct Sums {
+  std::array<Lane<F>, channels> value;
+  bool begun = false;  ///< known when compiled
+
+  void add(const std::array<Lane<F>, channels>& x) {
+    for (std::size_t c = 0; c < channels; ++c) value[c] = begun ? Lane<F>(value[c] + x[c]) : x[c];
+    begun = true;
+  }
+};
 
 template <template <class> class Term, class F, std::size_t channels>
 class FusedDiffuse {
@@ -29,12 +29,11 @@ class FusedDiffuse {
   explicit FusedDiffuse(const std::array<const F*, max_channels>* p)
       : term_(bind_channels<Term, channels>(p[0])) {}
 
-  void add(const auto& x, Channels<F, channels>& sum, Channels<F, channels>& under) const {
-    for (std::size_t c = 0; c < channels; ++c) {
-      const B value = as_value<B>(term_[c](x));
-      sum[c] = sum[c] + value;
-      if constexpr (coupled) under[c] = under[c] + value;
-    }
+  void add(const auto& x, Sums<F, channels>& sum, Sums<F, channels>& under) const {
+    std::array<B, channels> value;
+    for (std::size_t c = 0; c < channels; ++c) value[c] = as_value<B>(term_[c](x));
+    sum.add(value);
+    if constexpr (coupled) under.add(value);
   }
 
  private:
@@ -62,25 +61,27 @@ class FusedLobe<TermList<D, V, Fr>, F, channels> {
 
   /// \param less  what of the diffuse terms lies under the interface; where `coupled`
   template <bool coupled>
-  void add(const auto& x, Channels<F, channels>& sum, const Channels<F, channels>& less) const {
+  void add(const auto& x, Sums<F, channels>& sum, const Sums<F, channels>& less) const {
     const auto d = as_quotient<B>(d_(x)), v = as_quotient<B>(v_(x));
     const B num = d.num * v.num, den = d.den * v.den;
     constexpr bool fraction = !std::same_as<decltype(f_[0](x)), B>;
+    std::array<B, channels> value;
     if constexpr (fraction && !coupled) {
       for (std::size_t c = 0; c < channels; ++c) {
         const auto f = as_quotient<B>(f_[c](x));
-        sum[c] = sum[c] + num * f.num / (den * f.den);
+        value[c] = num * f.num / (den * f.den);
       }
     } else {
       const B dv = num / den;
       for (std::size_t c = 0; c < channels; ++c) {
         const B f = as_value<B>(f_[c](x));
         if constexpr (coupled)
-          sum[c] = sum[c] + (dv - less[c]) * f;
+          value[c] = (dv - less.value[c]) * f;
         else
-          sum[c] = sum[c] + dv * f;
+          value[c] = dv * f;
       }
     }
+    sum.add(value);
   }
 
  private:
@@ -91,7 +92,7 @@ class FusedLobe<TermList<D, V, Fr>, F, channels> {
 
 /// f_c = Σ diffuse_c + Σ D V F_c, the first lobe's F_c (D V − coupled_c)
 template <class F, std::size_t channels, class... Diffuse, class First, class... Rest>
-void run(const FusedArguments<F>& a,
+void run(const FusedArguments<F> a,  // copied: stores cannot change it
          const std::tuple<Diffuse...>& diffuse,
          const First& first,
          const Rest&... rest) {
@@ -101,12 +102,11 @@ void run(const FusedArguments<F>& a,
       (First::anisotropic || ... || Rest::anisotropic) || (false || ... || Diffuse::anisotropic);
   for (std::size_t i = 0; i < a.x.n; i += lanes<B>) {
     const auto x = angles_with<anisotropic>(a.x, i);
-    Channels<F, channels> sum, under;
-    sum.fill(B(0)), under.fill(B(0));
+    Sums<F, channels> sum, under;
     std::apply([&](const auto&... term) { (term.add(x, sum, under), ...); }, diffuse);
     first.template add<coupled>(x, sum, under);
     (rest.template add<false>(x, sum, under), ...);
-    for (std::size_t c = 0; c < channels; ++c) store<B>(a.out[c] + i, sum[c]);
+    for (std::size_t c = 0; c < channels; ++c) store<B>(a.out[c] + i, sum.value[c]);
   }
 }
 

@@ -3,6 +3,8 @@
 /// How a term meets a column: what the kernels of every role share.  Included by files compiled per
 /// instruction set alone.
 
+#include <utility>
+
 #include "brdf/kernels.h"
 #include "brdf/term.h"
 #include "number/batch.h"
@@ -46,6 +48,15 @@ auto bind_value(const F* p) {
   using B = Lane<F>;
   static_assert(TermOver<Term<B>, B>);
   return bind<Term<B>, B>(p, [](F x, std::size_t) { return B(x); });
+}
+
+/// A term of each channel.
+template <template <class> class Term, std::size_t channels, class F>
+auto bind_channels(const std::array<const F*, max_channels>& p) {
+  return [&]<std::size_t... C>(std::index_sequence<C...>) {
+    return std::array{bind_value<Term, F>(p[C])...};
+  }
+  (std::make_index_sequence<channels>{});
 }
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -54,14 +54,53 @@ void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
   }
 }
 
+template <template <class> class Term, std::size_t channels, class F, bool base, bool less>
+void shade_with(const Block<F> x, const ChannelJoin<F> j) {  // copied: stores cannot change them
+  using B = Lane<F>;
+  constexpr bool is_fresnel = role_of(Term<F>::about.id) == Role::fresnel;
+  const auto terms = bind_channels<Term, channels>(j.parameters);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto a = angles<Term<B>>(x, i);
+    std::array<B, channels> value;
+    B factor;
+    if constexpr (is_fresnel) factor = load<B>(j.factor + i);
+    for (std::size_t c = 0; c < channels; ++c) {
+      value[c] = as_value<B>(terms[c](a));
+      if constexpr (less)
+        value[c] = (factor - load<B>(j.less[c] + i)) * value[c];
+      else if constexpr (is_fresnel)
+        value[c] = factor * value[c];
+      if constexpr (base) value[c] = load<B>(j.base[c] + i) + value[c];
+    }
+    for (std::size_t c = 0; c < channels; ++c) store<B>(j.out[c] + i, value[c]);
+  }
+}
+template <template <class> class Term, std::size_t channels, class F>
+void shade(const Block<F>& x, const ChannelJoin<F>& j) {
+  if (!j.base[0]) return shade_with<Term, channels, F, false, false>(x, j);
+  if constexpr (role_of(Term<F>::about.id) == Role::fresnel)
+    if (j.less[0]) return shade_with<Term, channels, F, true, true>(x, j);
+  shade_with<Term, channels, F, true, false>(x, j);
+}
+template <template <class> class Term, class F>
+constexpr auto shades() {
+  std::array<typename TermKernels<F>::Shade, max_channels + 1> by_channels{};
+  constexpr Role role = role_of(Term<F>::about.id);
+  if constexpr (role == Role::fresnel || role == Role::diffuse) {
+    by_channels[1] = shade<Term, 1, F>;
+    by_channels[3] = shade<Term, 3, F>;
+  }
+  return by_channels;
+}
+
 template <template <class> class Term, class F>
 constexpr TermKernels<F> term_entry() {
   static_assert(Term<F>::parameters.size() <= max_parameters);
   bool coupled = false;
   if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
-  return {&Term<F>::about,         Term<F>::parameters,    coupled,
-          is_anisotropic<Term<F>>, is_as_shipped<Term<F>>, begin<Term, F>,
-          close<Term, F>,          add<Term, F>,           derivatives<Term, F>};
+  return {&Term<F>::about,        Term<F>::parameters, coupled,        is_anisotropic<Term<F>>,
+          is_as_shipped<Term<F>>, begin<Term, F>,      close<Term, F>, add<Term, F>,
+          shades<Term, F>(),      derivatives<Term, F>};
 }
 template <class F, template <class> class... Terms>
 constexpr auto term_table(TermList<Terms...>) {

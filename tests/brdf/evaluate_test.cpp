@@ -189,6 +189,23 @@ TEST(Evaluate, FusedEqualsComposed) {
   check(1.0F);
 }
 
+TEST(Evaluate, OfManyChannelsIsThatOfEachByItself) {
+  std::mt19937_64 random(19);
+  const auto rows = test::random_angles(300, 20);
+  for (const std::string spec : {"lambert", "lambert.coupled", "disney"})
+    for (const std::size_t channels : {2UL, 3UL, 6UL, 7UL}) {
+      const auto all = draw(
+          "diffuse." + spec + "+ggx/smith_ggx.correlated/conductor" + "+beckmann/hammon/schlick",
+          channels, random);
+      const auto together = evaluate(all, rows);
+      for (std::size_t c = 0; c < channels; ++c) {
+        BoundModel one{compose(all.model.spec, 1), {}, {}};
+        for (const auto& p : all.model.parameters) one.values.push_back(all.values[p.slot(c)]);
+        EXPECT_EQ(evaluate(one, rows)[0], together[c]) << spec << " " << channels;
+      }
+    }
+}
+
 TEST(Evaluate, IsTheSameForAColumnOfAnyLength) {
   std::mt19937_64 random(17);
   const auto rows = test::random_angles(1000, 18);
