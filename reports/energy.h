@@ -143,6 +143,7 @@ struct EnergyReport {
   std::size_t views = 0;      ///< of each
   std::vector<IrradianceRow> irradiance;
   std::vector<std::string> findings;  ///< sentences
+  std::vector<Claim> claims;
   bool full = false;
 };
 

@@ -94,21 +94,6 @@ void add_findings(EnergyReport& r) {
     if (const auto& at = most(f); at.albedo - at.error > 1 + 1e-6)
       gains.push_back(fmt::format("{} (E = {:.3g} at {})", f.name, at.albedo, place(at)));
   if (!gains.empty()) say.push_back(fmt::format("Light is made by {}.", fmt::join(gains, ", ")));
-  if (const auto* coat = form(r, "masking.disney_coat, gamma 1"),
-      *smith = form(r, "masking.smith_gtr.separable, gamma 1");
-      coat && smith) {
-    double most = 0;
-    std::size_t at = 0;
-    for (std::size_t i = 0; i < coat->rows.size(); ++i) {  // the same rows, as far as the coat's go
-      const double off = std::abs(coat->rows[i].albedo - smith->rows[i].albedo);
-      if (coat->rows[i].mu >= 0.1 && off > most) most = off, at = i;
-    }
-    say.push_back(fmt::format(
-        "The coat (GTR of gamma 1, alpha up to 0.1) with its masking of a fixed width 0.25 is, "
-        "from mu = 0.1 on, "
-        "furthest from its own Smith masking at {}: it reflects {} instead of {}.",
-        place(coat->rows[at]), percent(coat->rows[at].albedo), percent(smith->rows[at].albedo)));
-  }
   if (r.albedo_forms.size() == 3)
     say.push_back(fmt::format(
         "E as a formula: {} operations are off by {:.2g} at most (RMS {:.2g}), where MaterialX's "

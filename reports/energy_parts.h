@@ -31,6 +31,8 @@ void add_light(EnergyReport&, const EnergyOptions&, const std::function<void(dou
 /// Costs of the compensations beside their errors; after the materials.
 void add_costs(EnergyReport&);
 void add_albedo_forms(EnergyReport&);
+/// What is in circulation on highlights and energy; after the forms.
+void judge_claims(EnergyReport&);
 /// From what the others have filled in.
 void add_findings(EnergyReport&);
 

@@ -84,6 +84,7 @@ struct RemapReport {
   std::vector<RemapG1> g1;
   std::vector<RemapVf> vf;
   std::vector<std::string> findings;  ///< sentences
+  std::vector<Claim> claims;
   bool full = false;
 };
 

@@ -45,6 +45,11 @@ double overall(const std::vector<const RemapRow*>& rows) {
   return std::sqrt(sum / static_cast<double>(rows.size()));
 }
 
+using Judged = Claim::Judged;
+void claim(RemapReport& r, std::string_view said, Judged judged, std::string verdict) {
+  judge(r.claims, r.findings, {std::string(said), judged, std::move(verdict)});
+}
+
 /// From the nearest to the furthest.
 void ranking(RemapReport& r, std::string_view reference, std::string_view what) {
   struct Place {
@@ -102,16 +107,18 @@ void verdict_on_k(RemapReport& r) {
   for (const double at : {0.1, 0.3, 0.5, 0.8})
     if (const auto* a = row_at(ours, at), *b = row_at(others, at); a && b)
       behaves.push_back(fmt::format("{:g} as {} (r²/2: {})", at, rough(a->by_g2), rough(b->by_g2)));
-  r.findings.push_back(fmt::format(
-      "'k = (r+1)²/8 is right for direct light, r²/2 for image-based' {}: Smith's masking knows no "
-      "kind of light, and (r+1)²/8 is nearer than r²/2 to separable Smith at {} of {} roughnesses "
-      "({} tied), to correlated Smith at {} ({} tied); RMS of G2 from separable Smith {:.2g} "
-      "against {:.2g}. Roughness masks with (r+1)²/8 like another of exact Smith: {}.",
-      nearer == 0                        ? "is refuted"
-      : nearer < (one.all + two.all) / 2 ? "is mostly refuted"
-                                         : "holds in part",
-      one.nearer, one.all, one.tied, two.nearer, two.tied, overall(ours), overall(others),
-      fmt::join(behaves, ", ")));
+  claim(r, "k = (r+1)²/8 is right for direct light, r²/2 for image-based",
+        nearer == 0                  ? Judged::fails
+        : nearer < one.all + two.all ? Judged::partly
+                                     : Judged::holds,
+        fmt::format(
+            "Smith's masking knows no "
+            "kind of light, and (r+1)²/8 is nearer than r²/2 to separable Smith at {} of {} "
+            "roughnesses "
+            "({} tied), to correlated Smith at {} ({} tied); RMS of G2 from separable Smith {:.2g} "
+            "against {:.2g}. Roughness masks with (r+1)²/8 like another of exact Smith: {}.",
+            one.nearer, one.all, one.tied, two.nearer, two.tied, overall(ours), overall(others),
+            fmt::join(behaves, ", ")));
 }
 
 void wrong_place(RemapReport& r) {
@@ -151,10 +158,11 @@ void verdict_on_g1(RemapReport& r) {
     values.push_back(fmt::format("{:.4f} (k {:.3f})", g.value, g.k));
     exact.push_back(fmt::format("{:.3f} at roughness {:g}", g.smith, g.roughness));
   }
-  r.findings.push_back(fmt::format(
-      "'G1 at NoV 0.1: 0.47 (k 0.125) and 0.28 (k 0.281)' {} of Schlick's form: {}. Exact Smith "
-      "for GGX, which these k = (r+1)²/8 stand for, is {}.",
-      holds ? "holds" : "does not hold", fmt::join(values, " and "), fmt::join(exact, " and ")));
+  claim(r, "G1 at NoV 0.1: 0.47 (k 0.125) and 0.28 (k 0.281)",
+        holds ? Judged::holds : Judged::fails,
+        fmt::format("of Schlick's form it is {}. Exact Smith "
+                    "for GGX, which these k = (r+1)²/8 stand for, is {}.",
+                    fmt::join(values, " and "), fmt::join(exact, " and ")));
 }
 
 /// 'F V ≈ 1/(LoH²(r+0.5))'
@@ -179,14 +187,16 @@ void verdict_on_vf(RemapReport& r) {
     return fmt::format("{:.2g} to {:.2g}", (*least)->factor, (*most)->factor);
   };
   const bool holds = (*std::ranges::max_element(mirror, {}, &RemapVf::factor))->factor < 1.1;
-  r.findings.push_back(fmt::format(
-      "'F V ≈ 1/(LoH²(r+0.5))' {}: against Smith (correlated) times the exact Fresnel term of "
-      "glass it is off by a factor of {} (RMS, by roughness) in the mirror direction and of {} "
-      "over "
-      "all directions, where it is {} times as much; at F = 1 by {} in the mirror direction, {} "
-      "times as much.",
-      holds ? "holds within 10\u00a0%" : "does not hold", factors(mirror), factors(all), range(all),
-      factors(white), range(white)));
+  claim(
+      r, "F V ≈ 1/(LoH²(r+0.5))", holds ? Judged::holds : Judged::fails,
+      fmt::format(
+          "against Smith (correlated) times the exact Fresnel term of "
+          "glass it is off by a factor of {} (RMS, by roughness) in the mirror direction and of {} "
+          "over "
+          "all directions, where it is {} times as much; at F = 1 by {} in the mirror direction, "
+          "{} "
+          "times as much.",
+          factors(mirror), factors(all), range(all), factors(white), range(white)));
 }
 
 }  // namespace

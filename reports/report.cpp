@@ -7,6 +7,8 @@
 #include "reports/remap.h"
 #include "reports/schlick.h"
 
+#include <fmt/format.h>
+
 namespace gonio {
 namespace {
 
@@ -14,7 +16,7 @@ template <class Report>
 ReportFiles files(const Report& report, std::string (*page)(std::string_view)) {
   std::string json = to_json(report);
   std::string html = page(json);
-  return {std::move(json), std::move(html), report.findings, pictures(report)};
+  return {std::move(json), std::move(html), report.findings, pictures(report), report.claims};
 }
 
 ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {
@@ -32,6 +34,20 @@ ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
   const auto report = cross_fit_report(cross_fit_options(o.full), done);
   return {to_json(report), cross_fit_page_html(report), report.findings, pictures(report)};
 }
+
+}  // namespace
+
+std::string sentence(const Claim& c) {
+  static constexpr std::array<std::string_view, 3> words{"holds", "holds in part", "does not hold"};
+  return fmt::format("“{}” {}: {}", c.claim, words[static_cast<std::size_t>(c.judged)], c.verdict);
+}
+
+void judge(std::vector<Claim>& claims, std::vector<std::string>& findings, Claim c) {
+  findings.push_back(sentence(c));
+  claims.push_back(std::move(c));
+}
+
+namespace {
 
 constexpr std::array kinds{
     ReportKind{"energy", "what single scattering loses, and what gives it back", energy},

@@ -44,6 +44,11 @@ struct Claim {
   std::string anchor{};  ///< of the report's page, where it is shown; empty: its top
 };
 
+/// "“claim” holds: verdict"
+std::string sentence(const Claim&);
+/// Keeps a claim, and its sentence among the findings.
+void judge(std::vector<Claim>&, std::vector<std::string>& findings, Claim);
+
 struct ReportFiles {
   std::string json, html;
   std::vector<std::string> findings;  ///< sentences

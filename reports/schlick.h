@@ -62,6 +62,7 @@ struct SchlickReport {
   std::vector<FresnelAlbedo> albedos;
   std::vector<FresnelColour> colours;
   std::vector<std::string> findings;  ///< sentences
+  std::vector<Claim> claims;
   bool full = false;
 };
 

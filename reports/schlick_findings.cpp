@@ -1,10 +1,12 @@
 // The report on Schlick's approximation in sentences: made from its figures alone.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <set>
 
+#include "optics/refractive_index.h"
 #include "reports/schlick_parts.h"
 
 #include <fmt/format.h>
@@ -57,13 +59,14 @@ std::string at(const FresnelRow& r) {
   return fmt::format("{:.3g} ({} at {:.3g}°)", r.max_abs, r.name, r.max_abs_theta_deg);
 }
 
-/// "all", "most", "some", "none"
-std::string_view quantity(std::size_t n, std::size_t all) {
-  return n == all ? "all" : 2 * n > all ? "most" : n > 0 ? "some" : "none";
-}
 /// "2 of 39", "none of 100"
 std::string of_all(std::size_t n, std::size_t all) {
   return fmt::format("{} of {}", n == 0 ? "none" : fmt::format("{}", n), all);
+}
+
+using Judged = Claim::Judged;
+void claim(SchlickReport& r, std::string_view said, Judged judged, std::string verdict) {
+  judge(r.claims, r.findings, {std::string(said), judged, std::move(verdict)});
 }
 
 void below_one_percent(SchlickReport& r) {
@@ -74,19 +77,20 @@ void below_one_percent(SchlickReport& r) {
   const auto relative = [](const FresnelRow& x) { return x.max_rel < 0.01; };
   const std::size_t some = how_many(outside, within), channels = how_many(metals, within),
                     all = outside.size() + metals.size();
-  r.findings.push_back(fmt::format(
-      "“Schlick's error is below 1 %” is {}. For glass (IOR 1.5) F is off by up to {:.3g} at "
-      "{:.3g}°, and by {} of itself at {:.3g}°; within 0.01 it stays up to {:.3g}°; RMS over the "
-      "angle {:.3g}. At all angles it stays below 0.01 for {} indices from {:g} to {:g} and for {} "
-      "channels of metals; within 1 % of the exact F it stays for {} of them all.",
-      some + channels == all ? "right"
-                             : fmt::format("wrong for {} of the dielectrics and {} of the metals",
-                                           quantity(outside.size() - some, outside.size()),
-                                           quantity(metals.size() - channels, metals.size())),
-      g->max_abs, g->max_abs_theta_deg, percent(g->max_rel), g->max_rel_theta_deg, g->within_deg,
-      g->rms, of_all(some, outside.size()), index(*outside.front()), index(*outside.back()),
-      of_all(channels, metals.size()),
-      of_all(how_many(outside, relative) + how_many(metals, relative), all)));
+  claim(r, "Schlick's error is below 1 %",
+        some + channels == all        ? Judged::holds
+        : 2 * (some + channels) > all ? Judged::partly
+                                      : Judged::fails,
+        fmt::format("for glass (IOR 1.5) F is off by up to {:.3g} at "
+                    "{:.3g}°, and by {} of itself at {:.3g}°; within 0.01 it stays up to {:.3g}°; "
+                    "RMS over the "
+                    "angle {:.3g}. At all angles it stays below 0.01 for {} indices from {:g} to "
+                    "{:g} and for {} "
+                    "channels of metals; within 1 % of the exact F it stays for {} of them all.",
+                    g->max_abs, g->max_abs_theta_deg, percent(g->max_rel), g->max_rel_theta_deg,
+                    g->within_deg, g->rms, of_all(some, outside.size()), index(*outside.front()),
+                    index(*outside.back()), of_all(channels, metals.size()),
+                    of_all(how_many(outside, relative) + how_many(metals, relative), all)));
 }
 
 void only_near_one(SchlickReport& r) {
@@ -99,20 +103,22 @@ void only_near_one(SchlickReport& r) {
                        [](const FresnelRow* x) { return x->max_abs < poor; });
   const auto &low = *outside.front(), &high = *outside.back();
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
-  r.findings.push_back(fmt::format(
-      "“Schlick is accurate enough; only near IOR 1 is it poor” is {}. Its greatest error "
-      "is {:.3g} at IOR {:g}, {:.3g} at IOR {:g}, where it is least, and {:.3g} at IOR {:g}; {}. "
-      "For {} channels of metals it is greater than for glass, at worst {}.",
-      only   ? "right"
-      : near ? "half right"
-             : "wrong",
-      low.max_abs, index(low), best->max_abs, index(*best), high.max_abs, index(high),
-      good.empty() ? fmt::format("nowhere is it below {:g}", poor)
-                   : fmt::format("it is below {:g} from IOR {:g} to {:g}", poor,
-                                 index(*good.front()), index(*good.back())),
-      of_all(how_many(metals, [&](const FresnelRow& x) { return x.max_abs > g->max_abs; }),
-             metals.size()),
-      at(*metal)));
+  claim(r, "Schlick is accurate enough; only near IOR 1 is it poor",
+        only   ? Judged::holds
+        : near ? Judged::partly
+               : Judged::fails,
+        fmt::format(
+            "its greatest error "
+            "is {:.3g} at IOR {:g}, {:.3g} at IOR {:g}, where it is least, and {:.3g} at IOR {:g}; "
+            "{}. "
+            "For {} channels of metals it is greater than for glass, at worst {}.",
+            low.max_abs, index(low), best->max_abs, index(*best), high.max_abs, index(high),
+            good.empty() ? fmt::format("nowhere is it below {:g}", poor)
+                         : fmt::format("it is below {:g} from IOR {:g} to {:g}", poor,
+                                       index(*good.front()), index(*good.back())),
+            of_all(how_many(metals, [&](const FresnelRow& x) { return x.max_abs > g->max_abs; }),
+                   metals.size()),
+            at(*metal)));
 }
 
 void from_inside(SchlickReport& r) {
@@ -259,11 +265,44 @@ void three_wavelengths(SchlickReport& r) {
       at(*worst(short_cuts)), of_all(dearer, metals.size())));
 }
 
+/// F0 of what lies in the tables of refractive indices, at 550 nm or by channel.
+void ranges_of_f0(SchlickReport& r) {
+  struct Value {
+    std::string name;
+    double f0;
+  };
+  std::vector<Value> dielectric, metal;
+  for (const auto& m : dielectrics())
+    dielectric.push_back({std::string(m.name), f0_of_index(m.at(550))});
+  static constexpr std::array channels{"red", "green", "blue"};
+  for (const auto& m : metals())
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      metal.push_back({fmt::format("{}, {}", m.name, channels[c]), f0_of_index(m.rgb()[c])});
+  const auto within = [](const std::vector<Value>& all, double low, double high) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(all, [&](const Value& v) { return low <= v.f0 && v.f0 <= high; }));
+  };
+  const auto span = [](const std::vector<Value>& all) {
+    const auto [low, high] = std::ranges::minmax_element(all, {}, &Value::f0);
+    return fmt::format("from {:.3f} ({}) to {:.3f} ({})", low->f0, low->name, high->f0, high->name);
+  };
+  const std::size_t d = within(dielectric, 0.02, 0.04), m = within(metal, 0.7, 1);
+  claim(r, "dielectrics have F0 0.02 to 0.04, metals 0.7 to 1.0",
+        d == dielectric.size() && m == metal.size()      ? Judged::holds
+        : 2 * (d + m) > dielectric.size() + metal.size() ? Judged::partly
+                                                         : Judged::fails,
+        fmt::format("of the measured materials here {} dielectrics and {} channels of metals lie "
+                    "there; F0 goes {} and {}.",
+                    of_all(d, dielectric.size()), of_all(m, metal.size()), span(dielectric),
+                    span(metal)));
+}
+
 }  // namespace
 
 void add_findings(SchlickReport& r) {
   below_one_percent(r);
   only_near_one(r);
+  ranges_of_f0(r);
   from_inside(r);
   metal_forms(r);
   variants(r);

@@ -9,6 +9,7 @@
 #include "reports/energy_parts.h"
 #include "reports/pictures.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -223,6 +224,47 @@ TEST(EnergyReport, PicturesShowWhatWasMeasured) {
   EXPECT_EQ(map->values[1 * 3 + 2], 100 * (1 - at.albedo));
   EXPECT_EQ(map->x.at[1], at.roughness);
   EXPECT_EQ(map->y.at[2], at.mu);
+}
+
+TEST(EnergyReport, JudgesWhatIsSaidOfHighlightsByClosedForms) {
+  EnergyReport r;
+  judge_claims(r);
+  const auto verdict = [&](std::string_view claim) {
+    const auto it = std::ranges::find(r.claims, claim, &Claim::claim);
+    return it == r.claims.end() ? std::string() : sentence(*it);
+  };
+  // σ² = ½ (ln(1 + T²) − T²/(1 + T²)) α² of GGX's slopes up to T α
+  const auto deviation = [](double t) {
+    return fmt::format("{:.3g} α", std::sqrt((std::log1p(t * t) - t * t / (1 + t * t)) / 2));
+  };
+  const auto slopes = verdict("alpha is the standard deviation of the slopes");
+  for (const auto& words :
+       {std::string("does not hold"), std::string("0.7071 α"), deviation(10), deviation(1000)})
+    EXPECT_NE(slopes.find(words), slopes.npos) << words << ": " << slopes;
+  const auto clamp = verdict("the clamp at 2048 hardly shows");
+  EXPECT_NE(clamp.find("below roughness 0.149 alone"), clamp.npos) << clamp;
+  EXPECT_NE(verdict("dω_h = dω_l/(4 VoH)").find("” holds:"), std::string::npos);
+}
+
+TEST(EnergyReport, JudgesWhatIsSaidOfEnergyByItsForms) {
+  auto r = of_forms({correlated, none, "masking.disney_coat, gamma 1",
+                     "masking.smith_gtr.separable, gamma 1", "model.ue_mobile_simple"});
+  judge_claims(r);
+  const auto judged = [&](std::string_view claim) {
+    const auto it = std::ranges::find(r.claims, claim, &Claim::claim);
+    EXPECT_NE(it, r.claims.end()) << claim;
+    return it == r.claims.end() ? Claim::Judged::holds : it->judged;
+  };
+  EXPECT_EQ(judged("reflected energy never exceeds incoming"), Claim::Judged::partly);
+  EXPECT_EQ(judged("as roughness grows the highlight widens and dims so that energy stays"),
+            Claim::Judged::fails);
+  EXPECT_EQ(judged("the simple mobile form keeps the look"), Claim::Judged::fails);
+  judged("the coat needs only a fixed 0.25 G");
+  for (auto& f : r.forms)
+    for (auto& at : f.rows) at.albedo = std::min(at.albedo, 1.0);
+  r.claims.clear();
+  judge_claims(r);
+  EXPECT_EQ(judged("reflected energy never exceeds incoming"), Claim::Judged::holds);
 }
 
 }  // namespace
