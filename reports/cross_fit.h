@@ -87,16 +87,18 @@ struct CrossFitReport {
 /// Where a truth is sampled: a layout of gonio synth, and up to which angle from the normal its values are
 /// given, to light and viewer alike.
 struct CrossLayout {
-  std::string_view name;
+  std::string_view name, what;  ///< in the rows; in words
   Layout layout;
   double reach_deg;
+  std::size_t finer = 1;  ///< times the bins of an image slice, along each axis
 };
 /// The first is that of all cases: it resolves every highlight, and holds all angles of the Fresnel term.
 /// Instruments trust nothing nearer to the horizon than some 80°, where forms differ most.
 inline constexpr std::array cross_layouts{
-    CrossLayout{"image_slice", Layout::image_slice, 80},
-    CrossLayout{"image_slice to the horizon", Layout::image_slice, 90},
-    CrossLayout{"hemisphere", Layout::hemisphere, 90}};
+    CrossLayout{"image_slice", "slice to 80°", Layout::image_slice, 80},
+    CrossLayout{"image_slice_finer", "slice of three times the bins", Layout::image_slice, 80, 3},
+    CrossLayout{"image_slice_whole", "slice to the horizon", Layout::image_slice, 90},
+    CrossLayout{"hemisphere", "hemisphere of six incident angles", Layout::hemisphere, 90}};
 
 /// What is fitted to what.
 struct CrossFitOptions {

@@ -182,10 +182,10 @@ Figure compared_figure(const CrossFitReport& r,
     }
     if (!curve.x.empty()) f.curves.push_back(std::move(curve));
   };
-  add("log, slice to 80°", Metric::log, cross_layouts[0].name);
-  add("l2_cosine, slice to 80°", Metric::l2_cosine, cross_layouts[0].name);
-  add("log, slice to the horizon", Metric::log, cross_layouts[1].name);
-  add("log, hemisphere", Metric::log, cross_layouts[2].name);
+  for (const auto& layout : cross_layouts)
+    for (const Metric metric : {Metric::log, Metric::l2_cosine})
+      add(fmt::format("{}, {}", metric_names[static_cast<std::size_t>(metric)], layout.what),
+          metric, layout.name);
   return f;
 }
 

@@ -80,9 +80,12 @@ std::string number(double x) {
 std::string signed_number(double x) {
   return std::abs(x) < 5e-5 ? "0" : fmt::format("{}{:.2g}", x < 0 ? "−" : "+", std::abs(x));
 }
+std::string percent(double x) {
+  const double y = 100 * std::abs(x);
+  return y < 100 ? fmt::format("{:.2g}\u00a0%", y) : fmt::format("{:.0f}\u00a0%", y);
+}
 std::string signed_percent(double x) {
-  return std::abs(x) < 5e-5 ? "0 %"
-                            : fmt::format("{}{:.2g} %", x < 0 ? "−" : "+", 100 * std::abs(x));
+  return std::abs(x) < 5e-5 ? "0\u00a0%" : fmt::format("{}{}", x < 0 ? "−" : "+", percent(x));
 }
 std::string place(const CrossCase& c) {
   return fmt::format("{}, roughness {:g}", c.material, c.roughness);
@@ -125,7 +128,7 @@ void summary(CrossFitReport& r) {
   struct Cause {
     std::string_view truth, fitted, what;
   };
-  const auto said = [&](Cases (*of)(Cases)) {
+  const auto say = [&](Cases (*of)(Cases), std::string_view on) {
     std::vector<std::string> words;
     for (const auto& [truth, fitted, what] :
          {Cause{once, "fresnel.schlick", "Schlick"},
@@ -136,21 +139,17 @@ void summary(CrossFitReport& r) {
       const auto all = of(cases_of(r, {truth, fitted}));
       const auto roughness = shifts(all, "roughness"), f0 = shifts(all, "f0");
       if (!roughness) continue;
-      const std::string of_f0 = 2 * f0.at_bound > f0.all
-                                    ? "mostly at a bound"
-                                    : fmt::format("{:.2g} %{}", 100 * f0.rms(), at_bounds(f0));
-      words.push_back(fmt::format("{} {:.2g}{} ({}; {:.2g})", what, roughness.rms(),
-                                  at_bounds(roughness), of_f0, rms_residual(all)));
+      words.push_back(fmt::format(
+          "{} {:.2g}{} and {}", what, roughness.rms(), at_bounds(roughness),
+          2 * f0.at_bound > f0.all ? "mostly a bound" : percent(f0.rms()) + at_bounds(f0)));
     }
-    return fmt::format("{}", fmt::join(words, ", "));
+    if (!words.empty())
+      r.findings.push_back(
+          fmt::format("RMS shifts of roughness and of F0 that fits bring about on {}: {}.", on,
+                      fmt::join(words, ", ")));
   };
-  const auto glass = said(dielectrics), metal = said(metals);
-  if (!glass.empty() && !metal.empty())
-    r.findings.push_back(
-        fmt::format("What fits absorb, as RMS shift of roughness (of F0; log-RMS residual) over "
-                    "roughnesses: on dielectrics {}; on "
-                    "metals {}.",
-                    glass, metal));
+  say(dielectrics, "dielectrics");
+  say(metals, "metals");
 }
 
 void schlick(CrossFitReport& r) {
@@ -223,6 +222,7 @@ void takes_it_up(CrossFitReport& r,
                  std::string_view form,
                  std::string_view parameter,
                  std::string_view what) {
+  bool falls = true;
   std::vector<std::string> words;
   const auto look_at = [&](Cases (*of)(Cases), std::string_view name) {
     const auto alone = of(cases_of(r, {all_orders, "exact"})),
@@ -230,6 +230,7 @@ void takes_it_up(CrossFitReport& r,
     const auto s = shifts(with, parameter), before = shifts(alone, "roughness"),
                after = shifts(with, "roughness");
     if (!s || !before || !after) return;
+    falls = falls && rms_residual(with) < rms_residual(alone);
     words.push_back(
         fmt::format("of {} it goes {}, the RMS residual from {:.2g} to {:.2g} and the RMS shift of "
                     "roughness from "
@@ -240,7 +241,8 @@ void takes_it_up(CrossFitReport& r,
   look_at(dielectrics, "dielectrics");
   look_at(metals, "metals");
   if (!words.empty())
-    r.findings.push_back(fmt::format("{} takes up some of it: {}.", what, fmt::join(words, "; ")));
+    r.findings.push_back(fmt::format("{} takes up {} of it: {}.", what,
+                                     falls ? "some" : "little or nothing", fmt::join(words, "; ")));
 }
 
 void other_gammas(CrossFitReport& r) {
@@ -311,12 +313,12 @@ void directions(CrossFitReport& r) {
     if (parts.size() == cross_layouts.size())
       words.push_back(fmt::format("{} {}", short_form(form), fmt::join(parts, ", ")));
   }
+  std::vector<std::string_view> where;
+  for (const auto& layout : cross_layouts) where.push_back(layout.what);
   if (!words.empty())
     r.findings.push_back(
-        fmt::format("A shift belongs to the directions too. Of roughness at IOR 1.5, over the "
-                    "slice to 80°, the slice to the horizon, and a "
-                    "hemisphere of six incident angles: {}.",
-                    fmt::join(words, "; ")));
+        fmt::format("A shift belongs to the directions too. Of roughness at IOR 1.5, over {}: {}.",
+                    fmt::join(where, ", "), fmt::join(words, "; ")));
 }
 
 void trust(CrossFitReport& r) {

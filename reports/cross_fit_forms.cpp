@@ -228,8 +228,7 @@ CrossCase fit_case(const CrossTruth& t,
                 slice.log_error,
                 values_of(d, t, s, roughness)};
   if (slice.half) {
-    // half of the walks are off by √2 as much as all of them, and are half of them: the difference
-    // is as large as what all of them are off by
+    // With A and B of the halves and M = (A + B)/2, A − M = (A − B)/2 has the deviation that M has.
     const auto other = values_of(fitted(*slice.half), t, s, roughness);
     for (std::size_t i = 0; i < other.size(); ++i)
       out.values[i].error = std::abs(other[i].fitted - out.values[i].fitted);

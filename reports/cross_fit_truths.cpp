@@ -80,7 +80,7 @@ CrossSlice slice_of(const CrossTruth& t,
   const auto model = bound_truth(t, s, roughness);
   SynthOptions synth;
   synth.layout = layout.layout;
-  synth.slice = o.bins;
+  synth.slice = layout.finer * o.bins;
   const Table once = synthesize(model, synth);
   const auto kept = within_reach(once, layout.reach_deg);
   const std::size_t channels = s.channels();

@@ -149,6 +149,25 @@ TEST(CrossFit, ASliceOfAllOrdersIsBrighterAndSaysWhatItsWalksLeaveOpen) {
   }
 }
 
+TEST(CrossFit, ThreeTimesTheBinsGiveMuchTheSame) {
+  auto o = few({});
+  o.bins = cross_fit_options(false).bins;
+  const auto forms = cross_forms(ggx);
+  for (const auto* name : {"fresnel.schlick", "masking.schlick_ggx.direct"}) {
+    const auto& form = *std::ranges::find(forms, name, &CrossForm::name);
+    for (const double roughness : {0.1, 0.6}) {
+      const auto over = [&](const CrossLayout& layout) {
+        const auto slice = slice_of(ggx, glass, roughness, layout, o);
+        return fit_case(ggx, form, glass, roughness, slice, Metric::log);
+      };
+      const auto quick = over(cross_layouts[0]), fine = over(cross_layouts[1]);
+      EXPECT_NEAR(quick.find("roughness")->shift(), fine.find("roughness")->shift(), 0.003) << name;
+      EXPECT_NEAR(quick.find("f0")->shift(), fine.find("f0")->shift(), 0.03) << name;
+      EXPECT_NEAR(quick.log_rms, fine.log_rms, 0.1 * fine.log_rms) << name;
+    }
+  }
+}
+
 TEST(CrossFit, UnrealsSchlickIsSchlickFromAnF0Of2PercentOn) {
   const auto r = cross_fit_report(few({"fresnel.schlick", "fresnel.schlick.ue"}));
   for (const auto* p : {"roughness", "f0"})
