@@ -50,12 +50,12 @@ void judge(std::vector<Claim>& claims, std::vector<std::string>& findings, Claim
 namespace {
 
 constexpr std::array kinds{
-    ReportKind{"energy", "what single scattering loses, and what gives it back", energy},
+    ReportKind{"energy", "what single scattering loses, and what gives it back", energy, 25},
     ReportKind{"remap", "masking forms against exact Smith, and which roughness each behaves like",
-               remap},
+               remap, 3},
     ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick},
     ReportKind{"cross_fit", "what fits with shipped approximations make of roughness, F0 and gamma",
-               cross_fit}};
+               cross_fit, 60}};
 
 }  // namespace
 

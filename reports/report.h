@@ -49,16 +49,24 @@ std::string sentence(const Claim&);
 /// Keeps a claim, and its sentence among the findings.
 void judge(std::vector<Claim>&, std::vector<std::string>& findings, Claim);
 
+/// What readers come with, and where it is answered.
+struct Question {
+  std::string question, answer;  ///< a sentence each
+  std::string anchor{};          ///< as a claim's
+};
+
 struct ReportFiles {
   std::string json, html;
   std::vector<std::string> findings;  ///< sentences
   Pictures pictures{};
   std::vector<Claim> claims{};
+  std::vector<Question> questions{};
 };
 
 struct ReportKind {
   std::string_view name, what;
   ReportFiles (*make)(const ReportOptions&, const ReportProgress&);
+  double weight = 1;  ///< the time it takes at the quick setting, about [s]
 };
 
 /// In the order of the index page.

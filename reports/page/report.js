@@ -19,3 +19,5 @@ const group_by = (list, key) => list.reduce((groups, x) => {
   return groups;
 }, new Map());
 const unique = (list) => [...new Set(list)];
+// What a link leads to is made by this script, after the browser has looked for it.
+addEventListener("load", () => location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView());

@@ -2,12 +2,15 @@
 #include "reports/report.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "base/file.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "reports/index_page.h"
 
 namespace gonio::cli {
 namespace {
@@ -84,18 +87,52 @@ class Files {
   std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
-ReportFiles make(const ReportKind& kind, const ReportOptions& options, const Options& o) {
-  Progress progress(o.quiet);
-  const auto begin = std::chrono::steady_clock::now();
-  constexpr std::size_t all = 1000;
-  auto report = kind.make(options, [&](std::string_view what, double part) {
-    const auto done = static_cast<std::size_t>(part * all);
-    progress(
-        fmt::format("{}: {}, {} %{}", kind.name, what, done / 10, time_left(begin, done, all)));
-  });
-  progress.clear();
-  return report;
+/// Shows what is done of all reports asked for, and how much time is left.
+class ReportsProgress {
+ public:
+  ReportsProgress(bool quiet, double all) : progress_(quiet), all_(all) {}
+  /// \param part  of the report that is being made
+  void operator()(const ReportKind& kind, std::string_view what, double part) {
+    constexpr std::size_t steps = 1000;
+    const auto done = static_cast<std::size_t>((before_ + part * kind.weight) / all_ * steps);
+    progress_(
+        fmt::format("{}: {}, {} %{}", kind.name, what, done / 10, time_left(begin_, done, steps)));
+  }
+  void finish(const ReportKind& kind) {
+    before_ += kind.weight;
+    progress_.clear();
+  }
+
+ private:
+  Progress progress_;
+  double all_, before_ = 0;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+std::int64_t milliseconds_since_1970() {
+  using namespace std::chrono;
+  return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
 }
+
+/// index.html and its data, of all reports together.
+class IndexFiles {
+ public:
+  explicit IndexFiles(const std::filesystem::path& folder)
+      : page_path_((folder / "index.html").string()),
+        page_(page_path_),
+        data_((folder / "index.json").string()) {}
+  void write(const ReportIndex& index) {
+    const std::string json = to_json(index);
+    data_.write(json + "\n");
+    page_.write(index_page_html(json));
+    commit_all(std::array{&data_, &page_});
+  }
+  const std::string& page_path() const { return page_path_; }
+
+ private:
+  std::string page_path_;
+  OutputFile page_, data_;
+};
 
 Exit run(const Options& o) {
   namespace fs = std::filesystem;
@@ -112,17 +149,41 @@ Exit run(const Options& o) {
   std::error_code error;
   fs::create_directories(o.output, error);
   if (error) throw bad_input(o.output, "making the folder", error.message(), "a place to write");
-  for (const auto& kind : report_kinds()) {
-    if (o.name != all_reports && o.name != kind.name) continue;
-    Files files(o.output, kind.name);  // nobody waits for a report to learn that it has no place
-    const auto report = make(kind, options, o);
-    files.write(report);
+  std::vector<ReportKind> kinds;
+  double all = 0;
+  for (const auto& kind : report_kinds())
+    if (o.name == all_reports || o.name == kind.name) {
+      kinds.push_back(kind);
+      all += kind.weight;
+    }
+  std::optional<IndexFiles> index_files;
+  if (o.name == all_reports) index_files.emplace(o.output);
+  ReportIndex index{{}, GONIO_VERSION, o.full, milliseconds_since_1970()};
+  std::vector<std::unique_ptr<Files>>
+      files;  // nobody waits for a report to learn that it has no place
+  for (const auto& kind : kinds) files.push_back(std::make_unique<Files>(o.output, kind.name));
+  ReportsProgress progress(o.quiet, all);
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const auto& kind = kinds[k];
+    const auto begin = std::chrono::steady_clock::now();
+    auto report =
+        kind.make(options, [&](std::string_view what, double part) { progress(kind, what, part); });
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    files[k]->write(report);
+    progress.finish(kind);
     if (o.json) {
       fmt::print("{}\n", report.json);
       continue;
     }
     for (const auto& sentence : report.findings) fmt::print("{}\n", sentence);
-    fmt::print("{}\n", files.page_path());
+    fmt::print("{}\n", files[k]->page_path());
+    const auto pictures = report.pictures.figures.size() + report.pictures.maps.size();
+    index.reports.push_back({kind.name, kind.what, took.count(), std::move(report.findings),
+                             pictures, std::move(report.claims), std::move(report.questions)});
+  }
+  if (index_files) {
+    index_files->write(index);
+    fmt::print("{}\n", index_files->page_path());
   }
   return Exit::done;
 }
@@ -131,11 +192,11 @@ Exit run(const Options& o) {
 
 void add_report(CLI::App& app, Action& action) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(
-      app, action, "report",
-      "Studies what shipped approximations cost and lose: a page DIR/NAME.html and its data, "
-      "DIR/NAME.json",
-      "gonio report energy -o reports", o, run);
+  auto* c = add_command(app, action, "report",
+                        "Studies what shipped approximations cost and lose: a page DIR/NAME.html, "
+                        "its data DIR/NAME.json "
+                        "and .csv, its pictures in DIR/NAME/; of all, DIR/index.html leads to them",
+                        "gonio report energy -o reports", o, run);
   std::vector<std::string> names;
   std::string what;
   for (const auto& kind : report_kinds()) {

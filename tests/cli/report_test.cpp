@@ -1,7 +1,11 @@
 // gonio report: what it refuses, before any work is done.
+#include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "program.h"
+
+#include <unistd.h>
 
 namespace gonio::test {
 namespace {
@@ -26,6 +30,69 @@ TEST(ReportCommand, RefusesAnEnvironmentThatIsNoneBeforeItBegins) {
   expect_one_line(gonio(f, "report energy -o out --environment nothing.exr"), 3, "nothing.exr");
   EXPECT_FALSE(std::filesystem::exists(f / "out/energy.json"));
   EXPECT_FALSE(std::filesystem::exists(f / "out/energy.html"));
+}
+
+namespace fs = std::filesystem;
+
+/// Everything below a folder, hidden files too.
+std::set<std::string> files_below(const std::string& folder) {
+  std::set<std::string> all;
+  for (const auto& e : fs::recursive_directory_iterator(folder))
+    if (!e.is_directory()) all.insert(fs::relative(e.path(), folder).string());
+  return all;
+}
+
+TEST(ReportCommand, WritesEveryPictureBesideThePage) {
+  const Folder f;
+  const auto o = gonio(f, "report schlick -o out");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  const auto data = nlohmann::json::parse(read_bytes(f / "out/schlick.json"));
+  std::set<std::string> expected{"schlick.html", "schlick.json", "schlick.csv"};
+  for (const auto& p : data["figures"])
+    for (const char* ending : {".svg", ".csv"})
+      expected.insert("schlick/" + p["id"].get<std::string>() + ending);
+  for (const auto& p : data["maps"])
+    for (const char* ending : {".svg", ".csv", ".exr"})
+      expected.insert("schlick/" + p["id"].get<std::string>() + ending);
+  EXPECT_EQ(files_below(f / "out"), expected);
+  for (const auto& name : expected) EXPECT_GT(fs::file_size(f / ("out/" + name)), 60U) << name;
+  const std::string rows = read_bytes(f / "out/schlick.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(rows, '\n')), 1 + data["rows"].size());
+  EXPECT_TRUE(rows.starts_with("form,kind,name,")) << rows.substr(0, 80);
+}
+
+TEST(ReportCommand, LeavesNothingWhereOnePictureHasNoPlace) {
+  const Folder f;
+  fs::create_directories(f / "out/schlick/colour_difference_gold_1.svg");
+  expect_one_line(gonio(f, "report schlick -o out"), 3, "colour_difference_gold_1.svg: ");
+  EXPECT_TRUE(files_below(f / "out").empty()) << "those before it are gone again";
+}
+
+TEST(ReportCommand, LeavesNothingOnAFullDisk) {
+  const Folder f;
+  // A limit of the size of files fails the write as a full disk does, in the middle of a file.
+  expect_one_line(gonio(f, "report schlick -o out", "ulimit -f 20; "), 3, "schlick.html: ");
+  EXPECT_TRUE(fs::is_empty(f / "out"));
+}
+
+TEST(ReportCommand, RefusesAPlaceForPicturesThatIsNoneBeforeItBegins) {
+  const Folder f;
+  fs::create_directories(f / "out");
+  f.write("out/schlick", "mine");  // where a folder of pictures would be
+  expect_one_line(gonio(f, "report schlick -o out"), 3, "out/schlick");
+  expect_one_line(gonio(f, "report all -o out"), 3, "out/schlick");
+  EXPECT_EQ(files_below(f / "out"), std::set<std::string>{"schlick"});
+  EXPECT_EQ(read_bytes(f / "out/schlick"), "mine");
+}
+
+TEST(ReportCommand, RefusesAFolderThatCannotBeWrittenBeforeItBegins) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const Folder f;
+  fs::create_directories(f / "out");
+  fs::permissions(f / "out", fs::perms::owner_read | fs::perms::owner_exec);
+  expect_one_line(gonio(f, "report energy -o out"), 3, "out/energy");
+  fs::permissions(f / "out", fs::perms::owner_all);
 }
 
 }  // namespace
