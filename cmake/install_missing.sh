@@ -33,6 +33,16 @@ install_missing() {
     "${missing[@]}" >/dev/null
 }
 
+# A browser, which the test of the pages looks at them with; without one it is skipped.
+install_browser() {
+  local name
+  for name in chromium chromium-browser google-chrome; do
+    command -v "$name" >/dev/null && return 0
+  done
+  if command -v apt-get >/dev/null; then (gonio_tools=(chromium:chromium) gonio_libraries=(); install_missing) && return 0; fi
+  echo "Without Chromium: the pages are not looked at in a browser."
+}
+
 # build PRESET [OPTIONS of cmake --build]
 build() {
   cmake --preset "$1" --log-level=WARNING

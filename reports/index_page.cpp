@@ -20,7 +20,6 @@ std::string first_sentence(std::string_view text) {
 }
 
 std::string to_json(const ReportIndex& index) {
-  static constexpr std::string_view words[]{"holds", "holds in part", "fails"};
   PageJson reports = PageJson::array(), claims = PageJson::array(), questions = PageJson::array();
   for (const auto& r : index.reports) {
     PageJson findings = PageJson::array();
@@ -35,7 +34,7 @@ std::string to_json(const ReportIndex& index) {
     for (const auto& c : r.claims)
       claims.push_back({{"report", r.name},
                         {"claim", c.claim},
-                        {"judged", words[static_cast<std::size_t>(c.judged)]},
+                        {"judged", word(c.judged)},
                         {"verdict", c.verdict},
                         {"anchor", c.anchor}});
     for (const auto& q : r.questions)

@@ -37,9 +37,13 @@ ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
 
 }  // namespace
 
-std::string sentence(const Claim& c) {
+std::string_view word(Claim::Judged judged) {
   static constexpr std::array<std::string_view, 3> words{"holds", "holds in part", "does not hold"};
-  return fmt::format("“{}” {}: {}", c.claim, words[static_cast<std::size_t>(c.judged)], c.verdict);
+  return words[static_cast<std::size_t>(judged)];
+}
+
+std::string sentence(const Claim& c) {
+  return fmt::format("“{}” {}: {}", c.claim, word(c.judged), c.verdict);
 }
 
 void judge(std::vector<Claim>& claims, std::vector<std::string>& findings, Claim c) {

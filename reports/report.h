@@ -44,6 +44,8 @@ struct Claim {
   std::string anchor{};  ///< of the report's page, where it is shown; empty: its top
 };
 
+/// "holds", "holds in part", "does not hold"
+std::string_view word(Claim::Judged);
 /// "“claim” holds: verdict"
 std::string sentence(const Claim&);
 /// Keeps a claim, and its sentence among the findings.

@@ -19,7 +19,7 @@ const findings = () => reports.map((r) => section(sentence(r.what), null,
 
 function verdicts() {
   if (!claims.length) return null;
-  const classes = { "holds": "yes", "holds in part": "weakly", "fails": "no" };
+  const classes = { "holds": "yes", "holds in part": "weakly", "does not hold": "no" };
   return section("Claims and verdicts", "Statements in circulation, as they stand in papers, talks and shaders, and what the figures say of them.",
     scroll(table(["", "claim", "verdict"], [...group_by(claims, (c) => c.report)].flatMap(([, list]) => list).map((c) =>
       [el("span", { class: `verdict-${classes[c.judged]}` }, c.judged), el("span", { class: "because" }, el("a", { href: page_of(c.report, c.anchor) }, c.claim)), el("span", { class: "because" }, c.verdict)]))));

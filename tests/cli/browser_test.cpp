@@ -1,0 +1,226 @@
+// Every kind of page in a browser: nothing fails, everything is drawn, plots tell what is under the
+// pointer, and nothing is wider than a narrow window.
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "program.h"
+#include "reports/cross_fit.h"
+#include "reports/energy_parts.h"
+#include "reports/index_page.h"
+#include "reports/remap.h"
+#include "reports/schlick.h"
+
+namespace gonio::test {
+namespace {
+
+/// The browser's command, or "" where none is found.
+std::string browser() {
+  for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
+    if (std::system(("command -v " + std::string(name) + " >/dev/null 2>&1").c_str()) == 0)
+      return name;
+  return "";
+}
+
+/// Collects what goes wrong from the page's first script on.
+constexpr const char* watch = R"(<script>
+const problems = [];
+addEventListener("error", (e) => problems.push(`error: ${e.message}`));
+addEventListener("unhandledrejection", (e) => problems.push(`rejected: ${e.reason}`));
+addEventListener("securitypolicyviolation", (e) => problems.push(`policy: ${e.violatedDirective} ${e.blockedURI}`));
+for (const how of ["error", "warn"]) console[how] = (...what) => problems.push(`console.${how}: ${what.join(" ")}`);
+</script>)";
+
+/// Looks at the page, moves a pointer over each plot, and tells the page around it.
+constexpr const char* ask = R"(<script>
+addEventListener("load", () => setTimeout(() => {
+  const seen = { problems, canvases: 0, blank: [], plots: 0, mute: [], wider: document.documentElement.scrollWidth - innerWidth };
+  const name = (node) => node.closest("[aria-label]")?.getAttribute("aria-label") ?? node.className;
+  for (const canvas of document.querySelectorAll("canvas")) {
+    if (!canvas.clientWidth || !canvas.width) continue;
+    ++seen.canvases;
+    const pixels = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+    if (pixels.every((p) => p === pixels[0])) seen.blank.push(name(canvas));
+  }
+  const readout_of = (node) => {
+    for (; node && node.tagName !== "SECTION"; node = node.parentElement) {
+      const found = node.querySelector(":scope > .readout");
+      if (found) return found;
+    }
+    return null;
+  };
+  const told = (readout) => !readout.querySelector(".hint") && /\d/.test(readout.textContent);
+  const speaks = (node, move) => {
+    const readout = readout_of(node), box = node.getBoundingClientRect();
+    if (!readout || !box.width) return;
+    ++seen.plots;
+    for (let x = 0.04; x < 1; x += 0.04)
+      for (let y = 0.05; y < 1; y += 0.1) {
+        move({ clientX: box.left + x * box.width, clientY: box.top + y * box.height, bubbles: true });
+        if (told(readout)) return;
+      }
+    seen.mute.push(name(node));
+  };
+  for (const over of document.querySelectorAll(".u-over")) {
+    over.dispatchEvent(new MouseEvent("mouseenter"));
+    speaks(over, (at) => over.dispatchEvent(new MouseEvent("mousemove", at)));
+  }
+  for (const map of document.querySelectorAll("canvas.map")) speaks(map, (at) => map.dispatchEvent(new PointerEvent("pointermove", at)));
+  parent.postMessage([location.pathname.split("/").at(-1), encodeURIComponent(JSON.stringify(seen))], "*");
+}, 400));
+</script>)";
+
+/// All pages in frames of their own at once: a browser takes a second to start.
+class Pages {
+ public:
+  /// With the two scripts in it.
+  void add(const std::string& name, std::string html) {
+    html.insert(html.find("<body>") + 6, watch);
+    html.insert(html.rfind("</body>"), ask);
+    folder_.write(name + ".html", html);
+    names_.push_back(name);
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// What each page told, by its name.
+  std::map<std::string, nlohmann::json> look(const std::string& browser) const {
+    // Frames lie on each other: what is out of sight is not drawn.
+    std::string page =
+        "<!doctype html><title>pages</title><style>iframe { position: absolute; left: 0; top: 0; "
+        "width: 500px; height: 2000px; border: 0; }</style><body><script>addEventListener("
+        "\"message\", ({ data: [name, text] }) => { const told = document.createElement(\"pre\"); "
+        "told.id = name; told.textContent = text; document.body.append(told); });</script>";
+    for (const auto& name : names_) page += "<iframe src=\"" + name + ".html\"></iframe>";
+    folder_.write("pages.html", page);
+    const std::string command =
+        "timeout 200 " + browser +
+        " --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking"
+        " --disable-component-update --disable-sync --hide-scrollbars --user-data-dir='" +
+        folder_ / "profile" +
+        "' --virtual-time-budget=6000 --window-size=600,2100 --dump-dom 'file://" +
+        folder_ / "pages.html" + "' >'" + folder_ / "dom" + "' 2>'" + folder_ / "log" + "'";
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(status, 0) << read_bytes(folder_ / "log");
+    return told(read_bytes(folder_ / "dom"));
+  }
+
+ private:
+  static std::string decoded(const std::string& text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i)
+      if (text[i] == '%') {
+        out += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+        i += 2;
+      } else {
+        out += text[i];
+      }
+    return out;
+  }
+  std::map<std::string, nlohmann::json> told(const std::string& dom) const {
+    std::map<std::string, nlohmann::json> all;
+    for (const auto& name : names_) {
+      const std::string open = "<pre id=\"" + name + ".html\">";
+      const auto from = dom.find(open);
+      if (from == dom.npos) continue;
+      const auto begin = from + open.size();
+      all[name] =
+          nlohmann::json::parse(decoded(dom.substr(begin, dom.find("</pre>", begin) - begin)));
+    }
+    return all;
+  }
+
+  Folder folder_;
+  std::vector<std::string> names_;
+};
+
+/// Few of everything that its page shows.
+EnergyReport small_energy_report() {
+  const EnergyOptions few{
+      false, {0.3, 0.5, 1}, {0.1, 0.5, 1}, 1024, {"masking.smith_ggx.correlated", "masking.none"}};
+  EnergyReport r;
+  add_forms(r, few, [](double) {});
+  add_materials(r, few, [](double) {});
+  for (const double ns : {10.0, 100.0})
+    r.estimators.push_back({"one integral", 0.5, 0.5, 1e-3, 1 / ns, 0.1, 10, ns, 0.1 * ns});
+  for (const std::size_t n : {16U, 64U}) r.table_samples.push_back({n, 0.1, 0.05, 0.02, 0.01});
+  for (const std::size_t n : {16U, 64U})
+    r.irradiance.push_back({"sky", "cosine", n, 0.1, 0.3, 0.01, 50, 1});
+  r.compensations.push_back(
+      {"kulla_conty", 10, 2, 2048, 4, 9, 0.5, 0.02, 0.01, "roughness 1", 0.01});
+  r.tables.push_back({32, "half", 1e-6, 1e-4, 0.01, 0.002, 0.005});
+  add_findings(r);
+  return r;
+}
+
+void add_reports(Pages& pages) {
+  const auto add = [&](const char* name, const std::string& html) { pages.add(name, html); };
+  add("energy", energy_page_html(to_json(small_energy_report())));
+  add("schlick", schlick_page_html(to_json(schlick_report({false, {1.3, 1.5, 2}, 90, {0.5, 1}}))));
+  add("remap", remap_page_html(to_json(remap_report(
+                   {false,
+                    {0.5, 1},
+                    {0.5},
+                    4,
+                    0.1,
+                    {"masking.smith_ggx.separable", "masking.smith_ggx.correlated",
+                     "masking.schlick_ggx.direct", "masking.schlick_ggx.half_alpha"}}))));
+  add("cross_fit", cross_fit_page_html(cross_fit_report(
+                       {false, {0.5}, {1.5}, {"Au"}, {3}, 12, 64, {"fresnel.schlick"}})));
+  ReportIndex index{{}, "0.1.0", false, 0};
+  index.reports.push_back({"schlick",
+                           "Schlick against exact Fresnel",
+                           1500,
+                           {"One."},
+                           7,
+                           {{"below 1 %", Claim::Judged::fails, "0.036 for glass.", "rms"}},
+                           {{"How wrong is it?", "By up to 0.22.", ""}}});
+  add("index", index_page_html(to_json(index)));
+}
+
+/// The pages of the other commands, as they make them.
+void add_commands(Pages& pages) {
+  const Folder f;
+  const auto run = [&](const std::string& words, const std::string& page) {
+    const auto o = gonio(f, words);
+    ASSERT_EQ(o.code, 0) << o.err;
+    std::string name = page.substr(page.rfind('/') + 1);
+    pages.add(name.substr(0, name.find('.')), read_bytes(f / page));
+  };
+  ASSERT_EQ(
+      gonio(f, "synth " + std::string(paint) + " --layout image_slice --noise 0.02 -o t/a.exr",
+            "mkdir t; ")
+          .code,
+      0);
+  run("fit t/a.exr --model lambert+ggx/smith_ggx.correlated/schlick -o fit.json --html fit.html",
+      "fit.html");
+  run("inspect t/a.exr --html inspect.html", "inspect.html");
+  run("fit t --model lambert+ggx/smith_ggx.correlated/schlick -o batch", "batch/summary.html");
+  run("audit ndf.ggx masking.schlick_ggx.direct model.ue_mobile --html audit.html", "audit.html");
+}
+
+TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
+  const std::string command = browser();
+  if (command.empty()) GTEST_SKIP() << "needs chromium or Chrome, which is not here";
+  Pages pages;
+  add_reports(pages);
+  add_commands(pages);
+  const auto told = pages.look(command);
+  for (const auto& name : pages.names()) {
+    if (!told.contains(name)) {
+      ADD_FAILURE() << name << ": the page's scripts did not come to their end";
+      continue;
+    }
+    const auto& page = told.at(name);
+    EXPECT_TRUE(page["problems"].empty()) << name << ": " << page["problems"].dump();
+    EXPECT_TRUE(page["blank"].empty()) << name << ": nothing drawn: " << page["blank"].dump();
+    EXPECT_TRUE(page["mute"].empty()) << name << ": tells nothing: " << page["mute"].dump();
+    EXPECT_LE(page["wider"], 0) << name << " is wider than 500 px, by so many";
+    if (name == "index" || name == "audit") continue;  // no canvas there
+    EXPECT_GT(page["canvases"], 0) << name;
+    if (name == "summary") continue;  // thumbnails, which tell nothing
+    EXPECT_GT(page["plots"], 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gonio::test
