@@ -26,12 +26,12 @@ struct CrossTruth {
 
 /// What is fitted to it.
 struct CrossForm {
-  std::string
-      name;  ///< id of what is exchanged ("masking.ue_joint"), of a preset, or a spec; "exact"
+  /// "exact", the id of what is exchanged ("masking.ue_joint") or of a preset, or a spec.
+  std::string name;
   /// What differs from the truth: "exact": nothing; "fresnel", "masking", "distribution": that term
   /// alone; "combination": several; "model": a whole model, its diffuse included
   std::string kind;
-  std::string model;  ///< spec or preset; EXACT stands for the exact Fresnel term
+  std::string model;  ///< spec or preset; its word "exact" stands for the exact Fresnel term
   std::vector<Setting> fixed{};
   double scale = 1;  ///< of the truth: π for what is shipped without the 1/π of a BRDF
   bool metals_only = false;

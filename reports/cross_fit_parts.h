@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "data_synth/synth.h"
 #include "geometry/direction.h"
 #include "reports/cross_fit.h"
 #include "reports/schlick_parts.h"

@@ -37,6 +37,11 @@ TEST(Synth, WithoutNoiseHoldsTheModelAtEverySampleOfEveryLayout) {
   }
 }
 
+TEST(Synth, ASliceHasAsManyBinsAsAsked) {
+  const Table t = synthesize(paint(), {.layout = Layout::image_slice, .slice = 7});
+  EXPECT_EQ(t.size(), 49U);
+}
+
 TEST(Synth, NoiseHasTheSpreadAskedForAndItsMedianIsTheModel) {
   const Table clean = synthesize(paint(), {.layout = Layout::random, .samples = 20000});
   const Table noisy =
