@@ -156,7 +156,7 @@ class Drawing {
         if (!std::isfinite(v)) continue;
         const std::string what = tick_text(std::strtod(fmt::format("{:.2g}", v).c_str(), nullptr));
         const double l = x_at(x_edges_[i]), r = x_at(x_edges_[i + 1]);
-        if (svg::text_width(what, 11) > r - l - 2) return "";
+        if (svg::text_width(what, 11) > r - l - 2) continue;
         const Colour c = shade(m_, shade_of(v));
         const bool dark = 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2] < 130;
         out += svg::text(

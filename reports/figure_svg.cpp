@@ -19,7 +19,8 @@ using svg::number;
 constexpr std::array<std::string_view, 6> line_colours{"#0b5fa5", "#c4500a", "#00795a",
                                                        "#8b3f86", "#4a4f55", "#8a4b00"};
 /// Of curves that share a colour: the first six, the next …
-constexpr std::array<std::string_view, 4> rounds{"", "2 3", "9 3 2 3", "12 4"};
+constexpr std::array<std::string_view, 6> rounds{"",     "2 3", "9 3 2 3",
+                                                 "12 4", "1 4", "6 2 1 2 1 2"};
 constexpr std::array<std::string_view, 3> reference_dashes{"6 4", "2 4", "10 3 2 3"};
 constexpr std::size_t most_labels = 24;  ///< more of them would hide the points
 

@@ -2,7 +2,7 @@
 // Pictures that are data (reports/figure.h), drawn, with what is under the pointer; their files lie beside the page.
 
 const line_colors = ["accent", "red", "green", "extra", "grey", "warn"];
-const line_rounds = [null, [2, 3], [9, 3, 2, 3], [12, 4]];  // of curves that share a colour: the first six, the next …
+const line_rounds = [null, [2, 3], [9, 3, 2, 3], [12, 4], [1, 4], [6, 2, 1, 2, 1, 2]];  // of curves that share a colour: the first six, the next …
 const reference_dashes = [[6, 4], [2, 4], [10, 3, 2, 3]];
 
 /// {color, dash, width} of each curve, as in figure_svg.cpp: references in ink and dashed, the others each in a colour.
