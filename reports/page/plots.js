@@ -267,7 +267,7 @@ function heat_map(x, y, layers, say, text) {
     const widest = (texts) => Math.max(0, ...texts.map((t) => g.measureText(t).width));
     const of_y = widest(y.names ?? y.ticks.map(tick_text)), of_x = x.names ? widest(x.names) : 0;
     box.left = Math.min(Math.max(46, of_y + 32), 0.42 * width);
-    turned = of_x > (width - box.left - box.right) / nx - 6;
+    turned = Boolean(x.names) && of_x > (width - box.left - box.right) / nx - 6;
     legend_width = Math.min(360, width - box.left - box.right);
     label_beside = width - box.left - box.right > legend_width + 16 + g.measureText(state.layer.label).width;
     legend_height = label_beside ? 33 : 50;
