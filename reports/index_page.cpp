@@ -1,6 +1,7 @@
 #include "reports/index_page.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "reports/assets.h"
 #include "reports/page.h"
@@ -22,13 +23,17 @@ std::string first_sentence(std::string_view text) {
 std::string to_json(const ReportIndex& index) {
   PageJson reports = PageJson::array(), claims = PageJson::array(), questions = PageJson::array();
   for (const auto& r : index.reports) {
+    std::vector<std::string> others;  // what is judged stands below, with the claims
+    std::ranges::copy_if(r.findings, std::back_inserter(others), [&](const std::string& f) {
+      return std::ranges::none_of(r.claims, [&](const Claim& c) { return sentence(c) == f; });
+    });
     PageJson findings = PageJson::array();
-    for (std::size_t i = 0; i < std::min(most_findings, r.findings.size()); ++i)
-      findings.push_back(first_sentence(r.findings[i]));
+    for (std::size_t i = 0; i < std::min(most_findings, others.size()); ++i)
+      findings.push_back(first_sentence(others[i]));
     reports.push_back({{"name", r.name},
                        {"what", r.what},
                        {"findings", findings},
-                       {"more", r.findings.size() > most_findings},
+                       {"more", others.size() > most_findings},
                        {"pictures", r.pictures},
                        {"time_ms", page_json(r.ms)}});
     for (const auto& c : r.claims)

@@ -17,12 +17,19 @@ const findings = () => reports.map((r) => section(sentence(r.what), null,
   el("ul", { class: "findings" }, r.findings.map((f) => el("li", {}, f))),
   r.more ? el("p", { class: "small" }, el("a", { href: page_of(r.name) }, "More findings")) : null));
 
+/// Grouped by report, a line above each.
+function claim_table(list, classes) {
+  const t = table(["", "claim", "verdict"], list.map((c) => [el("span", { class: `verdict-${classes[c.judged]}` }, c.judged),
+    el("span", { class: "because" }, el("a", { href: page_of(c.report, c.anchor) }, c.claim)), el("span", { class: "because" }, c.verdict)]),
+  { row_class: (i) => (list[i].report !== list[i - 1]?.report ? "first" : null) });
+  t.classList.add("claims");
+  return t;
+}
 function verdicts() {
   if (!claims.length) return null;
   const classes = { "holds": "yes", "holds in part": "weakly", "does not hold": "no" };
   return section("Claims and verdicts", "Statements in circulation, as they stand in papers, talks and shaders, and what the figures say of them.",
-    scroll(table(["", "claim", "verdict"], [...group_by(claims, (c) => c.report)].flatMap(([, list]) => list).map((c) =>
-      [el("span", { class: `verdict-${classes[c.judged]}` }, c.judged), el("span", { class: "because" }, el("a", { href: page_of(c.report, c.anchor) }, c.claim)), el("span", { class: "because" }, c.verdict)]))));
+    scroll(claim_table([...group_by(claims, (c) => c.report)].flatMap(([, list]) => list), classes)));
 }
 
 document.getElementById("page").replaceChildren(...[

@@ -23,6 +23,8 @@ TEST(ReportIndex, TellsFindingsClaimsAndQuestionsWithTheirPlace) {
                            7,
                            {{"error below 1 %", Claim::Judged::partly, "0.036 for glass.", "rms"}},
                            {{"How wrong?", "Up to 0.22.", ""}}});
+  auto& one = index.reports[0];
+  one.findings.insert(one.findings.begin(), sentence(one.claims[0]));  // told once, as a claim
   const auto j = nlohmann::json::parse(to_json(index));
   const auto& r = j["reports"][0];
   EXPECT_EQ(r["findings"], nlohmann::json({"One.", "Two.", "3", "4", "5"}));
