@@ -10,6 +10,7 @@
 
 #include "brdf/model.h"
 #include "brdf/presets.h"
+#include "brdf/term_in.h"
 #include "reports/audit.h"
 
 namespace gonio::auditing {
@@ -19,6 +20,14 @@ EntryAudit audit_map(std::size_t map);
 EntryAudit audit_model(const Preset&);
 /// The table as renderers make it, of 1024 samples, against the integrals; and their sum at F0 = 1.
 EntryAudit audit_split_sum();
+
+/// How far a term is from one that it stands for, over that one's parameters and the directions that
+/// terms of this role are looked at in; no value where nothing can be compared.
+/// \param number  that the term is computed in; the reference is in double, or in fifty digits where it
+///                is the term itself, at every 16th direction then
+std::optional<Distance> distance_between(std::size_t term,
+                                         std::size_t reference,
+                                         Number number = Number::double_);
 
 void raise(std::optional<Worst>& w, double value, auto&& where) {
   if (!w || value > w->value) w = Worst{value, 0, where()};

@@ -31,17 +31,43 @@ class TermAudit {
     grazing(e);
     if (role_ == Role::ndf) normalisation_of(e);
     if (role_ != Role::fresnel) energy(e);
-    if (!about_.reference().empty()) distance(e);
+    if (!about_.reference().empty())
+      e.distance = distance(find_term(about_.reference()), Number::double_);
     picture(e);
     judge(e);
     return e;
   }
 
+  std::optional<Distance> distance(std::size_t reference, Number number) const {
+    const bool same = reference == term_ && number == Number::double_;
+    std::vector<Row> at;
+    for (std::size_t i = 0; i < rows().size(); i += same ? 16 : 1) at.push_back(rows()[i]);
+    Differences all;
+    for (const auto& q : reference_parameters(reference)) {
+      const auto p = standing_for(reference, q);
+      bool legal = true;
+      for (std::size_t k = 0; k < p.size(); ++k) legal = legal && parameters_[k].legal.holds(p[k]);
+      if (!legal) continue;
+      const auto v = values(term_, p, at, number),
+                 w = values(reference, q, at, same ? Number::wide : Number::double_);
+      const double peak = role_ == Role::ndf ? *std::ranges::max_element(w) : 1;
+      for (std::size_t i = 0; i < v.size(); ++i)
+        all.add((v[i] - w[i]) / peak,
+                [&] { return joined(text(catalogue()[reference].parameters, q), text(at[i])); });
+    }
+    static constexpr std::string_view measures[] = {"D over the reference's peak", "G2", "F", "f"};
+    return all.distance(catalogue()[reference].about->id,
+                        measures[static_cast<std::size_t>(role_)]);
+  }
+
  private:
   /// Of a masking term G2, of others the value.
-  static Values values(std::size_t term, const Values& p, std::span<const Row> rows) {
+  static Values values(std::size_t term,
+                       const Values& p,
+                       std::span<const Row> rows,
+                       Number number = Number::double_) {
     Values v(rows.size());
-    const auto& in = catalogue_in(Number::double_).terms[term];
+    const auto& in = catalogue_in(number).terms[term];
     (in.g2 ? in.g2 : in.values)(p, rows, v.data());
     return v;
   }
@@ -161,26 +187,6 @@ class TermAudit {
     return all;
   }
 
-  void distance(EntryAudit& e) const {
-    const std::size_t reference = find_term(about_.reference());
-    Differences all;
-    for (const auto& q : reference_parameters(reference)) {
-      const auto p = standing_for(reference, q);
-      bool legal = true;
-      for (std::size_t k = 0; k < p.size(); ++k) legal = legal && parameters_[k].legal.holds(p[k]);
-      if (!legal) continue;
-      const auto v = values(term_, p, rows()), w = values(reference, q, rows());
-      const double peak = role_ == Role::ndf ? *std::ranges::max_element(w) : 1;
-      for (std::size_t i = 0; i < v.size(); ++i)
-        all.add((v[i] - w[i]) / peak, [&] {
-          return joined(text(catalogue()[reference].parameters, q), text(rows()[i]));
-        });
-    }
-    static constexpr std::string_view measures[] = {"D over the reference's peak", "G2", "F", "f"};
-    e.distance =
-        all.distance(catalogue()[reference].about->id, measures[static_cast<std::size_t>(role_)]);
-  }
-
   /// Defaults, but a surface rough enough for masking to be seen.
   Values shown(std::span<const Parameter> parameters) const {
     Values v = defaults(parameters);
@@ -227,6 +233,10 @@ class TermAudit {
 
 EntryAudit audit_term(std::size_t term) {
   return TermAudit(term)();
+}
+
+std::optional<Distance> distance_between(std::size_t term, std::size_t reference, Number number) {
+  return TermAudit(term).distance(reference, number);
 }
 
 }  // namespace gonio::auditing

@@ -1,5 +1,6 @@
 // Image-based light: what the split sum's table, its samples and the split itself are off by, and
 // the irradiance by the sums that renderers take.
+#include <algorithm>
 #include <array>
 #include <numbers>
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "reports/cost.h"
 #include "reports/cross_fit.h"
 #include "reports/energy.h"
 #include "reports/remap.h"
@@ -34,6 +35,9 @@ ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
   const auto report = cross_fit_report(cross_fit_options(o.full), done);
   return {to_json(report), cross_fit_page_html(report), report.findings, pictures(report)};
 }
+ReportFiles cost(const ReportOptions& o, const ReportProgress& done) {
+  return files(cost_report(cost_options(o.full), done), cost_page_html);
+}
 
 }  // namespace
 
@@ -59,7 +63,8 @@ constexpr std::array kinds{
                remap, 3},
     ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick},
     ReportKind{"cross_fit", "what fits with shipped approximations make of roughness, F0 and gamma",
-               cross_fit, 60}};
+               cross_fit, 60},
+    ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost, 40}};
 
 }  // namespace
 

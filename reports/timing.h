@@ -1,36 +1,44 @@
 #pragma once
 /// \file
-/// How long something takes, told with its spread.
+/// How long something takes, told with its spread: the one way in which this program measures it.
+/// google-benchmark repeats and interleaves; nothing of it is seen outside timing.cpp.
 
-#include <algorithm>
-#include <chrono>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace gonio {
 
+/// Of one sample [ns].
 struct Timing {
-  double ns, spread_ns;  ///< median, and half the distance of the quartiles
+  double ns, spread_ns;  ///< median, and half the distance of the quartiles, over repetitions
 };
 
-/// Of at least 7 runs and 2 ms.
-template <class F>
-Timing time_of(const F& f) {
-  using Clock = std::chrono::steady_clock;
-  const auto once = [&](int repeats) {
-    const auto from = Clock::now();
-    for (int i = 0; i < repeats; ++i) f();
-    return std::chrono::duration<double, std::nano>(Clock::now() - from).count() / repeats;
-  };
-  // A look at the clock takes some 20 ns: what is short is done several times between two.
-  const int repeats = static_cast<int>(std::clamp(20'000 / std::max(once(1), 1.0), 1.0, 1000.0));
-  std::vector<double> ns;
-  for (const auto begin = Clock::now();
-       ns.size() < 7 || Clock::now() - begin < std::chrono::milliseconds(2);)
-    ns.push_back(once(repeats));
-  std::ranges::sort(ns);
-  const auto at = [&](std::size_t quarters) { return ns[quarters * (ns.size() - 1) / 4]; };
-  return {at(2), (at(3) - at(1)) / 2};
-}
+/// Something that works through `samples` samples each time it is run.
+struct Timed {
+  std::size_t samples;
+  std::function<void()> run;
+};
+
+struct TimingOptions {
+  int repetitions = 7;
+  double seconds = 3e-4;  ///< above 0: that each repetition takes at least
+  /// The time of the calling thread, so that what other programs take does not count; else that of
+  /// the clock on the wall, for what runs on several threads.
+  bool of_thread = false;
+};
+
+/// The repetitions of all of them are done in random order, so that what slows the machine for a while
+/// slows a little of each.  One call at a time: others wait.
+/// \param done  the part that is done, in [0, 1]
+std::vector<Timing> time_all(const std::vector<Timed>&,
+                             const TimingOptions& = {},
+                             const std::function<void(double)>& done = {});
+
+/// One alone, on the wall.
+Timing time_of(const std::function<void()>& run);
+
+/// Median, and half the distance of the quartiles, of at least one value.
+Timing spread_of(std::vector<double> ns);
 
 }  // namespace gonio

@@ -287,4 +287,22 @@ std::span<const HandWritten<double>> models_by_hand() {
   return table<double>;
 }
 
+template <class F>
+void bound(const Block<F>& x, F* out) {
+  using B = Lane<F>;
+  each(x, [&](std::size_t i) {
+    store<B>(out + i, load<B>(x.noh + i) / (sqrt(load<B>(x.nol + i)) + sqrt(load<B>(x.nov + i))));
+  });
+}
+template <class F>
+RootsAndDivision<F> bound_of();
+template <>
+RootsAndDivision<float> bound_of() {
+  return {bound<float>};
+}
+template <>
+RootsAndDivision<double> bound_of() {
+  return {bound<double>};
+}
+
 }  // namespace gonio::inline GONIO_ARCH

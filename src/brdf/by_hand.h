@@ -22,4 +22,13 @@ struct HandWritten {
 template <class F>
 std::span<const HandWritten<F>> hand_written(std::string_view instruction_set = {});
 
+/// What bounds GGX under Smith where it is in cache: a division and two roots for each sample, out =
+/// NoH/(√NoL + √NoV), and as good as nothing else.
+template <class F>
+struct RootsAndDivision {
+  void (*value)(const Block<F>&, F* out);
+};
+template <class F>
+RootsAndDivision<F> roots_and_division(std::string_view instruction_set = {});
+
 }  // namespace gonio

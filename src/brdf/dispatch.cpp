@@ -17,6 +17,8 @@ namespace gonio {
   std::span<const FusedKernel<F>> fused_models();   \
   template <class F>                                \
   std::span<const HandWritten<F>> models_by_hand(); \
+  template <class F>                                \
+  RootsAndDivision<F> bound_of();                   \
   }
 #include "instruction_sets.inc"
 #undef GONIO_SET
@@ -44,6 +46,8 @@ struct Set {
   Assembled<double> d;
   std::span<const HandWritten<float>> f_by_hand;
   std::span<const HandWritten<double>> d_by_hand;
+  RootsAndDivision<float> f_bound;
+  RootsAndDivision<double> d_bound;
 };
 
 /// In the order of the build's list: the best last.
@@ -59,7 +63,9 @@ const std::vector<Set>& sets() {
   v.push_back({{set::table_float, set::fused_models<float>(), GONIO_ROLES(set, float)},    \
                {set::table_double, set::fused_models<double>(), GONIO_ROLES(set, double)}, \
                set::models_by_hand<float>(),                                               \
-               set::models_by_hand<double>()});
+               set::models_by_hand<double>(),                                              \
+               set::bound_of<float>(),                                                     \
+               set::bound_of<double>()});
 #include "instruction_sets.inc"
 #undef GONIO_SET
 #undef GONIO_ROLES
@@ -115,6 +121,15 @@ std::span<const HandWritten<float>> hand_written(std::string_view name) {
 template <>
 std::span<const HandWritten<double>> hand_written(std::string_view name) {
   return find(name).d_by_hand;
+}
+
+template <>
+RootsAndDivision<float> roots_and_division(std::string_view name) {
+  return find(name).f_bound;
+}
+template <>
+RootsAndDivision<double> roots_and_division(std::string_view name) {
+  return find(name).d_bound;
 }
 
 }  // namespace gonio

@@ -55,10 +55,14 @@ WideValue wide_value(std::size_t term,
                      std::span<const double> parameters,
                      const FrameAngles<double>& angles);
 
-/// What a term costs on its own, its division included.
+/// What a term costs.
 struct TermOperations {
   Operations parameters;  ///< once for given parameters
-  Operations sample;      ///< for each sample
+  Operations sample;      ///< for each sample, on its own, its division included
+  Operations fraction;    ///< the same, left a fraction: a product divides once for all its factors
+
+  /// Whether it is a fraction.
+  bool divides() const { return sample[Operation::div] > fraction[Operation::div]; }
 };
 TermOperations operations_of(std::size_t term);
 

@@ -20,6 +20,7 @@ TermOperations cost() {
   TermOperations cost;
   cost.parameters = count_operations([&] { term.emplace(std::span<const C, n>(p)); });
   cost.sample = count_operations([&] { as_value<C>((*term)(angles)); });
+  cost.fraction = count_operations([&] { as_quotient<C>((*term)(angles)); });
   return cost;
 }
 template <template <class> class... Terms>

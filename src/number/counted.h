@@ -23,6 +23,16 @@ struct Operations {
 
   std::size_t& operator[](Operation kind) { return by_kind[static_cast<std::size_t>(kind)]; }
   std::size_t operator[](Operation kind) const { return by_kind[static_cast<std::size_t>(kind)]; }
+  /// All kinds alike.
+  std::size_t total() const {
+    std::size_t sum = 0;
+    for (const auto count : by_kind) sum += count;
+    return sum;
+  }
+  Operations& operator+=(const Operations& other) {
+    for (std::size_t k = 0; k < by_kind.size(); ++k) by_kind[k] += other.by_kind[k];
+    return *this;
+  }
   friend bool operator==(const Operations&, const Operations&) = default;
 };
 

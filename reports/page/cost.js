@@ -1,0 +1,109 @@
+"use strict";
+// The cost report: what accuracy costs in time.
+
+const { rows, switches, points, figures, machine, findings, full, repetitions, cache_samples, stream_samples } = page_data();
+const best = machine.instruction_sets.at(-1);
+const short = (id) => id.replace(/^(ndf|masking|fresnel|diffuse|model|bound)\./, "");
+const memory_text = { cache: "in cache", streaming: "streaming" };
+/// To the first digit of the spread, or to picoseconds.
+function ns_text(ns, spread) {
+  const decimals = Math.min(3, Math.max(0, -Math.floor(Math.log10(Math.max(spread, 1e-3)))));
+  return minus(`${ns.toFixed(decimals)} ± ${spread.toFixed(decimals)}`);
+}
+const error_text = (e) => (known(e) ? significant(e, 2) : "–");
+const places = unique(rows.map((r) => [r.isa, r.memory].join(" "))).map((p) => p.split(" "));
+const chosen = { number: "float", place: [best, "cache"].join(" ") };
+const in_place = (list) => list.filter((r) => r.number === chosen.number && [r.isa, r.memory].join(" ") === chosen.place);
+const place_options = places.map(([isa, memory]) => [[isa, memory].join(" "), `${isa}, ${memory_text[memory]}`]);
+
+// --- What it costs to switch ---------------------------------------------------------------------------
+const signed = (x, text) => (x > 0 ? "+" : x < 0 ? "−" : "±") + text(Math.abs(x));
+function switch_cells(s) {
+  if (!s) return [{ n: "–" }, { n: "–" }];
+  const told = Math.abs(s.more_ns) > s.more_spread_ns;
+  return [{ n: (s.more_ns > 0 ? "+" : "") + ns_text(s.more_ns, s.more_spread_ns) }, { n: told ? `×${significant(s.ratio_ns, 2)}` : "a tie" }];
+}
+function what_it_costs() {
+  const of = (question, isa, memory) => switches.find((s) => s.question === question && s.isa === isa && s.memory === memory && s.number === chosen.number);
+  const questions = unique(switches.map((s) => s.question));
+  const list = changing(() => scroll(table(["from, to", { n: `${best}, in cache [ns]` }, { n: "" }, { n: `${best}, streaming [ns]` }, { n: "" }, { n: "scalar, in cache [ns]" }, { n: "" }, { n: "operations" }, { n: "RMS error from" }, { n: "to" }],
+    questions.map((q) => {
+      const s = of(q, best, "cache") ?? switches.find((x) => x.question === q);
+      return [q + (s.way ? `, ${s.way}` : ""), ...switch_cells(of(q, best, "cache")), ...switch_cells(of(q, best, "streaming")), ...switch_cells(of(q, "scalar", "cache")), { n: signed(s.more_ops, plain) }, { n: error_text(s.error_from) }, { n: error_text(s.error_to) }];
+    }))));
+  return section("What does it cost to switch?", "What one sample takes more, with the spread of both, and how many times as long it takes; less than the spread is a tie. Streaming, memory hides what is computed while it waits. "
+    + "Terms are timed as a model uses them: D leaves a fraction, masking divides it, Fresnel and diffuse terms are added up; operations are those of the term alone, its division included.",
+    el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); })), list.node);
+}
+
+const by_twos = (list) => el("div", {}, list.map((f, i) => (i % 2 ? null : el("div", { class: "columns" }, list.slice(i, i + 2).map((one) => figure_view(one, { height: 400 }))))));
+
+// --- Time against error --------------------------------------------------------------------------------
+function pictures() {
+  const families = unique(figures.filter((f) => f.choices?.set).map((f) => f.family));
+  if (!families.length) return null;
+  const state = { number: "float", place: `${best} cache` };
+  const offered = unique(figures.filter((f) => f.choices?.set).map((f) => `${f.choices.set} ${f.choices.memory}`));
+  const all = changing(() => {
+    const [set, memory] = state.place.split(" ");
+    return by_twos(families.map((family) => picture_of(figures, family, { number: state.number, set, memory })).filter(Boolean));
+  });
+  return section("Time against error", "Each point is a form; further left is faster, further down is more exact. The line joins those that nothing dominates: nothing is faster by more than both spreads and not less exact. "
+    + "What has no error in double is drawn at 10⁻¹⁷. Masking is held against Smith of its distribution, height-correlated; Fresnel terms against the exact form that they stand for; whole models against correlated Smith "
+    + "and exact Fresnel of glass and gold under their own distribution, roughness 0.1 to 1.",
+    el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], state.number, (n) => { state.number = n; all.again(); }),
+      choice("Place", offered.map((p) => [p, p.replace(" cache", ", in cache").replace(" streaming", ", streaming")]), state.place, (p) => { state.place = p; all.again(); })), all.node,
+    by_twos(figures.filter((f) => !f.choices?.set && f.family !== "quadrature")), quadrature());
+}
+function quadrature() {
+  const cases = choices_of(figures, "quadrature", "case");
+  if (!cases.length) return null;
+  let now = cases.find((c) => c.includes("0.5")) ?? cases[0];
+  const one = changing(() => figure_view(picture_of(figures, "quadrature", { case: now }), { height: 400 }));
+  return el("div", {}, el("div", { class: "controls" }, chooser("Albedo of", cases.map((c) => [c, c]), now, (c) => { now = c; one.again(); })), one.node);
+}
+
+// --- Whole models --------------------------------------------------------------------------------------
+function whole_models() {
+  const ids = unique(rows.filter((r) => r.kind === "model").map((r) => r.id));
+  const of = (id, way, isa, memory) => rows.find((r) => r.id === id && r.way === way && r.isa === isa && r.memory === memory && r.number === chosen.number);
+  const text = (r) => ({ n: r ? ns_text(r.ns, r.ns_spread) : "–" });
+  const bounds = (memory) => rows.filter((r) => r.kind === "bound" && r.isa === best && r.memory === memory && r.number === chosen.number);
+  const names = { "bound.columns": "four columns read and one written", "bound.roots_and_division": "a division and two roots" };
+  const times = (a, b) => ({ n: a && b ? `×${significant(a.ns / b.ns, 3)}` : "" });
+  const list = changing(() => scroll(table(["model", { n: "channels" }, { n: "by hand [ns]" }, { n: "fused [ns]" }, { n: "over by hand" }, { n: "composed [ns]" }, { n: "over by hand" }, { n: "streaming: by hand [ns]" }, { n: "fused [ns]" }, { n: "composed [ns]" }],
+    ids.map((id) => {
+      const [hand, fused, composed] = ["by_hand", "fused", "composed"].map((way) => of(id, way, best, "cache"));
+      return [el("code", {}, short(id)), { n: String(composed.channels) }, text(hand), text(fused), times(fused, hand), text(composed), times(composed, hand), ...["by_hand", "fused", "composed"].map((way) => text(of(id, way, best, "streaming")))];
+    }).concat(bounds("cache").map((r) => [names[r.id], { n: "" }, text(r), { n: "" }, { n: "" }, { n: "" }, { n: "" }, text(bounds("streaming").find((b) => b.id === r.id)), { n: "" }, { n: "" }])))));
+  return section("Whole models, and what bounds them", `In columns of ${best}: written out by hand for that model alone, as the terms of the catalogue fused into one loop, and composed of the columns of its terms at run time; `
+    + "beside them what the arithmetic and the memory allow, measured in the same run. Models that ship are evaluated in three channels.",
+    el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); })), list.node);
+}
+
+// --- Every entry ---------------------------------------------------------------------------------------
+function every_entry() {
+  const list = changing(() => scroll(table(["", "kind", { n: "time [ns]" }, { n: "operations" }, { n: "divisions" }, { n: "roots" }, { n: "exp, log" }, { n: "table [bytes]" }, { n: "largest error" }, { n: "RMS" }, { n: "ΔE2000 of gold" }, "of", "against", "front"],
+    in_place(rows).filter((r) => !["bound", "by_hand"].includes(r.kind)).map((r) => [el("code", {}, short(r.id) + (r.way ? `, ${r.way}` : "")), r.kind, { n: ns_text(r.ns, r.ns_spread) }, { n: String(r.ops) }, { n: String(r.ops_div) }, { n: String(r.ops_sqrt) },
+      { n: String(r.ops_exp + r.ops_log) }, { n: r.bytes ? count(r.bytes) : "" }, { n: error_text(r.error_max) }, { n: error_text(r.error_rms) }, { n: known(r.delta_e) ? significant(r.delta_e, 2) : "" },
+      el("span", { class: "because small" }, r.measure), el("span", { class: "because small" }, short(r.truth)), r.pareto ? (r.tie ? "a tie" : "yes") : ""]))));
+  return section("Every entry", "Of one sample, and one channel. Errors are absolute, over the directions and parameters that the audit looks at; on the front is what nothing of its kind and truth dominates.",
+    el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); }),
+      chooser("Place", place_options, chosen.place, (p) => { chosen.place = p; list.again(); })), list.node);
+}
+
+// --- The machine ---------------------------------------------------------------------------------------
+function the_machine() {
+  const size = (bytes) => (bytes >= 1 << 20 ? `${plain(bytes / (1 << 20))} MiB` : `${plain(bytes / 1024)} KiB`);
+  return section("How it was measured", `Median of ${repetitions} repetitions, and as spread half the distance of the quartiles; repetitions of everything are done in random order. Kernels: the time of the thread. `
+    + `In cache: ${count(cache_samples)} samples again and again; streaming: ${count(stream_samples)}.`,
+    pairs([["processor", machine.cpu], ["threads", String(machine.threads)], ["caches", machine.caches.map((c) => `L${c.level} ${size(c.bytes)}`).join(", ")],
+      ["instruction sets", machine.instruction_sets.join(", ")], ["compiler", machine.compiler], ["flags", machine.flags]]));
+}
+
+document.getElementById("page").replaceChildren(...[
+  el("p", { class: "over" }, "gonio report cost"), el("h1", {}, "What accuracy costs in time"),
+  el("div", { class: "verdict" }, findings.map((f) => el("p", {}, f))),
+  what_it_costs(), pictures(), whole_models(), every_entry(), the_machine(),
+  el("footer", {}, full ? "Full setting." : "Quick setting; --full streams in every instruction set and repeats more often."),
+].filter(Boolean));
