@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// What `gonio bench` can time.
+
+#include "cli/command.h"
+
+namespace gonio::cli {
+
+/// The fit of a MERL table beside the plain way of doing it.
+struct FitBench {
+  bool plain = true;  ///< with the plain way
+  int repeats = 11;
+};
+Exit bench_fit(const FitBench&, const Common&);
+
+}  // namespace gonio::cli

@@ -1,0 +1,43 @@
+// gonio bench: what it prints, and what it refuses before it measures.
+#include "program.h"
+
+namespace gonio::test {
+namespace {
+
+TEST(BenchCommand, PrintsADocumentThatItCompares) {
+  const Folder f;
+  const std::string words = "bench --filter fresnel.linear --repeats 1";
+  const auto first = gonio(f, words + " --json");
+  ASSERT_EQ(first.code, 0) << first.err;
+  const auto j = first.json();
+  EXPECT_EQ(j["schema"], "gonio.bench/1");
+  for (const auto& row : j["rows"]) EXPECT_EQ(row["id"], "fresnel.linear.as_written");
+  EXPECT_FALSE(j.contains("changes"));
+  f.write("old.json", first.out);
+  const auto again = gonio(f, words + " --baseline old.json --json");
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(again.json()["changes"].size(), j["rows"].size());
+  const auto told = gonio(f, words + " --baseline old.json");
+  EXPECT_EQ(told.code, 0);
+  EXPECT_NE(told.out.find("fresnel, float"), std::string::npos) << told.out;
+  EXPECT_NE(told.out.find(" ± "), std::string::npos) << told.out;
+}
+
+TEST(BenchCommand, RefusesABaselineThatIsNoneBeforeItMeasures) {
+  const Folder f;
+  expect_one_line(gonio(f, "bench --baseline nothing.json"), 3, "nothing.json");
+  f.write("old.json", R"({"schema": "gonio.fit/1"})");
+  expect_one_line(gonio(f, "bench --baseline old.json"), 3, "gonio.bench/1");
+}
+
+TEST(BenchCommand, RefusesOptionsWithoutEffect) {
+  const Folder f;
+  expect_one_line(gonio(f, "bench fit --full"), 2, "bench kernels");
+  expect_one_line(gonio(f, "bench fit --baseline old.json"), 2, "bench kernels");
+  expect_one_line(gonio(f, "bench --no-plain"), 2, "bench fit");
+  expect_one_line(gonio(f, "bench --filter nothing.such"), 2, "nothing.such");
+  expect_one_line(gonio(f, "bench everything"), 2, "everything");
+}
+
+}  // namespace
+}  // namespace gonio::test
