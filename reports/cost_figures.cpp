@@ -168,7 +168,8 @@ void add_points_picture(
     if (at == f.curves.end()) {
       FigureCurve c;
       c.name = series;
-      c.kind = picture == "compensation" ? FigureCurve::Kind::points : FigureCurve::Kind::both;
+      c.kind = picture == "compensation" || series == "formula" ? FigureCurve::Kind::points
+                                                                : FigureCurve::Kind::both;
       at = f.curves.insert(at, std::move(c));
     }
     // lines go from the fast to the slow

@@ -138,22 +138,32 @@ class Findings {
         best_, ns_text(fused->time), ns_text(by_hand->time), fused->time.ns / by_hand->time.ns,
         ns_text(composed->time), composed->time.ns / by_hand->time.ns, ns_text(roots->time),
         ns_text(far->time), ns_text(columns->time)));
-    double most_fused = 0, most_composed = 0;
-    std::size_t n = 0;
+    over_by_hand();
+  }
+  void over_by_hand() {
+    struct Ratio {
+      double of;
+      std::string_view id;
+    };
+    std::vector<Ratio> fused, composed;
     for (const auto& hand : r_.rows) {
       if (hand.kind != "by_hand" || hand.number != "float" || hand.isa != best_ ||
           hand.memory != "cache")
         continue;
       const auto *f = row(hand.id, "cache", "fused"), *c = row(hand.id, "cache", "composed");
       if (!f || !c) continue;
-      most_fused = std::max(most_fused, f->time.ns / hand.time.ns);
-      most_composed = std::max(most_composed, c->time.ns / hand.time.ns);
-      ++n;
+      fused.push_back({f->time.ns / hand.time.ns, f->id});
+      composed.push_back({c->time.ns / hand.time.ns, c->id});
     }
-    say(fmt::format(
-        "Over the {} models that were written by hand, fused loops take at most {:.2f} times as "
-        "long as those, composed ones {:.2f}.",
-        n, most_fused, most_composed));
+    const auto text = [](std::vector<Ratio> all) {
+      std::ranges::sort(all, {}, &Ratio::of);
+      return fmt::format("{:.2f} to {:.2f} times as long ({:.2f} in the middle, the most {})",
+                         all.front().of, all.back().of, all[all.size() / 2].of, all.back().id);
+    };
+    if (!fused.empty())
+      say(fmt::format(
+          "Beside {} models that were written by hand, fused loops take {}, composed ones {}.",
+          fused.size(), text(fused), text(composed)));
   }
   std::vector<const CostPoint*> of(std::string_view picture) const {
     std::vector<const CostPoint*> out;

@@ -104,7 +104,7 @@ void add_split_sum(CostReport& report) {
   SplitSumWays ways;
   for (const std::size_t size : {8, 16, 32, 64}) {
     const auto table = stored(split_sum_table(masking, size, size, 0, {1e-5}), Storage::half);
-    ways.add(report, "table in half, bilinear", fmt::format("{0} × {0}", size),
+    ways.add(report, "bilinear table in half", fmt::format("{0} × {0}", size),
              ways.each([&](double r, double nov) {
                const auto [a, b] = table(nov, r);
                return a + b;

@@ -29,14 +29,14 @@ function what_it_costs() {
   const list = changing(() => scroll(table(["from, to", { n: `${best}, in cache [ns]` }, { n: "" }, { n: `${best}, streaming [ns]` }, { n: "" }, { n: "scalar, in cache [ns]" }, { n: "" }, { n: "operations" }, { n: "RMS error from" }, { n: "to" }],
     questions.map((q) => {
       const s = of(q, best, "cache") ?? switches.find((x) => x.question === q);
-      return [q + (s.way ? `, ${s.way}` : ""), ...switch_cells(of(q, best, "cache")), ...switch_cells(of(q, best, "streaming")), ...switch_cells(of(q, "scalar", "cache")), { n: signed(s.more_ops, plain) }, { n: error_text(s.error_from) }, { n: error_text(s.error_to) }];
+      return [el("span", { style: { display: "inline-block", "min-width": "9em", "white-space": "normal" } }, q + (s.way ? `, ${s.way}` : "")), ...switch_cells(of(q, best, "cache")), ...switch_cells(of(q, best, "streaming")), ...switch_cells(of(q, "scalar", "cache")), { n: signed(s.more_ops, plain) }, { n: error_text(s.error_from) }, { n: error_text(s.error_to) }];
     }))));
   return section("What does it cost to switch?", "What one sample takes more, with the spread of both, and how many times as long it takes; less than the spread is a tie. Streaming, memory hides what is computed while it waits. "
     + "Terms are timed as a model uses them: D leaves a fraction, masking divides it, Fresnel and diffuse terms are added up; operations are those of the term alone, its division included.",
     el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); })), list.node);
 }
 
-const by_twos = (list) => el("div", {}, list.map((f, i) => (i % 2 ? null : el("div", { class: "columns" }, list.slice(i, i + 2).map((one) => figure_view(one, { height: 400 }))))));
+const by_twos = (list) => el("div", {}, list.map((f, i) => (i % 2 ? null : el("div", { class: "columns", style: { "margin-top": "22px" } }, list.slice(i, i + 2).map((one) => figure_view(one, { height: 400 }))))));
 
 // --- Time against error --------------------------------------------------------------------------------
 function pictures() {
