@@ -7,7 +7,7 @@ namespace gonio {
 CostOptions cost_options(bool full) {
   CostOptions o;
   o.full = full;
-  if (full) o.timing.repetitions = 15;
+  o.timing.repetitions = full ? 15 : 9;
   return o;
 }
 

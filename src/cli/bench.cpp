@@ -120,6 +120,7 @@ Exit bench_kernels(const Options& o) {
   std::optional<EarlierCosts> earlier;  // nobody waits to learn that it cannot be read
   if (o.baseline) earlier = read_costs(*o.baseline);
   auto options = cost_options(o.full);
+  if (!o.full) options.timing = {5, 6e-4, true};  // within 20 seconds
   if (o.repeats) options.timing.repetitions = *o.repeats;
   if (o.filter) options.filter = *o.filter;
   Progress progress(o.quiet);
@@ -172,7 +173,7 @@ void add_bench(CLI::App& app, Action& action) {
                 "Only forms whose id holds this: smith, fresnel., model.gltf");
   c->add_option("--baseline", o->baseline,
                 "An earlier document of bench --json or report cost, to print ratios to");
-  c->add_option("--repeats", o->repeats, "Repetitions (default: 7, 15 with --full, 11 of fit)")
+  c->add_option("--repeats", o->repeats, "Repetitions (default: 5, 15 with --full, 11 of fit)")
       ->check(CLI::Range(1, 1000));
   c->add_flag("!--no-plain", o->plain, "fit: without the plain way, which takes seconds and 1 GB");
   add_jobs(c, *o);
