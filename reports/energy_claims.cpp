@@ -60,7 +60,7 @@ void no_light_is_made(EnergyReport& r) {
     if (words.size() < 3) words.push_back(text);
   claim(r, "reflected energy never exceeds incoming",
         makers.empty() ? Judged::holds : Judged::partly,
-        fmt::format("at F = 1 {} of {} shipped forms reflect more than comes in somewhere{}{}; the "
+        fmt::format("at F = 1, {} of {} forms reflect more than comes in somewhere{}{}; the "
                     "others reflect {:.4f} of it at most.",
                     makers.empty() ? "none" : fmt::format("{}", makers.size()), r.forms.size(),
                     words.empty() ? "" : ", most ", fmt::join(words, ", "), largest));
