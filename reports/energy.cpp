@@ -38,8 +38,8 @@ EnergyReport energy_report(const EnergyOptions& o, const ReportProgress& done) {
   add_albedo_forms(r);
   add_estimators(r, o, part("error against time", 0.7, 0.8));
   add_light(r, o, part("image-based light", 0.8, 1));
-  judge_claims(r);
   add_findings(r);
+  judge_claims(r);
   return r;
 }
 

@@ -55,7 +55,7 @@ function compared() {
 
 document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio report cross_fit"), el("h1", {}, "What fits with shipped approximations make of roughness, F0 and gamma"),
-  el("div", { class: "verdict" }, findings.map((f) => el("p", {}, f))),
+  findings_view(findings),
   matrices(), over_roughness(), compared(),
   section("How it is made", null,
     el("p", {}, "A slice of directions is synthesized without noise from exact Fresnel facets (dielectric; conductor of measured n and k at three wavelengths) under GGX or GTR with its own Smith masking, height-correlated; of “all orders” light "

@@ -130,7 +130,7 @@ function irradiances() {
 
 document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio report energy"), el("h1", {}, "What single scattering loses, and what gives it back"),
-  el("div", { class: "verdict" }, findings.map((f) => el("p", {}, f))),
+  findings_view(findings),
   materials.length ? section("From which roughness on does it matter?", "GGX under Smith masking, correlated: the roughness from which on more than 1, 5, 10 % of what should leave is missing, by material and angle. " + crossing_note,
     crossing_table("material", materials, (m) => m)) : null,
   maskings(), bounces(), compensations(), albedo_formulas(), against_time(), split_sum(), irradiances(),

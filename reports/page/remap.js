@@ -93,6 +93,6 @@ function all_forms() {
 
 document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio report remap"), el("h1", {}, "Masking forms against exact Smith, and which roughness each behaves like"),
-  el("div", { class: "verdict" }, findings.map((f) => el("p", {}, f))),
+  findings_view(findings),
   each_form(), wrong_place(), in_place_of_vf(), all_forms(),
   el("footer", {}, `${full ? "Full" : "Quick"} setting. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));

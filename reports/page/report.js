@@ -6,6 +6,14 @@ function chooser(label, options, chosen, change) {
   return el("label", {}, label + " ", el("select", { onchange: (e) => change(e.target.value) },
     options.map(([value, text]) => el("option", { value, selected: value === chosen ? "" : null }, text))));
 }
+/// Sentences: the first at once, the others behind a click, and on paper.
+function findings_view(findings, at_once = 5) {
+  const told = (list) => list.map((f) => el("p", {}, f)), rest = findings.slice(at_once);
+  if (!rest.length) return el("div", { class: "verdict" }, told(findings));
+  const more = el("details", {}, el("summary", {}, many(rest.length, "more finding")), told(rest));
+  addEventListener("beforeprint", () => { more.open = true; });
+  return el("div", { class: "verdict" }, told(findings.slice(0, at_once)), more);
+}
 /// A place whose content is made again whenever a choice changes.
 function changing(make) {
   const node = el("div", {});

@@ -115,6 +115,6 @@ function rough() {
 
 document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio report schlick"), el("h1", {}, "Schlick’s approximation and its kin against exact Fresnel"),
-  el("div", { class: "verdict" }, findings.map((f) => el("p", {}, f))),
+  findings_view(findings),
   summary(), by_index(), materials(), material_table(), rough(),
   el("footer", {}, `${full ? "Full" : "Quick"} setting. RMS over equal steps of θ from 0 to 90°. The exact F is computed in double, so that it is off by less than what is printed. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));
