@@ -91,6 +91,7 @@ struct CostReport {
   std::vector<CostSwitch> switches;
   std::vector<std::string> findings;  ///< sentences
   std::vector<Claim> claims{};
+  std::vector<Question> questions{};
 };
 
 /// The terms, whole models and bounds.

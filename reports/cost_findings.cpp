@@ -31,6 +31,7 @@ class Findings {
   explicit Findings(CostReport& r) : r_(r), best_(r.machine.instruction_sets.back()) {}
   void operator()() {
     schlick_to_smith();
+    ask("What does it cost me to go from Schlick's k to exact Smith?");
     fresnel();
     gtr();
     front("masking", "masking.smith_ggx.correlated", "masking forms of GGX");
@@ -42,6 +43,12 @@ class Findings {
 
  private:
   void say(std::string sentence) { r_.findings.push_back(std::move(sentence)); }
+  /// What the findings so far answer.
+  void ask(std::string question) {
+    std::string answer;
+    for (const auto& f : r_.findings) answer += (answer.empty() ? "" : " ") + f;
+    if (!answer.empty()) r_.questions.push_back({std::move(question), answer, "switches"});
+  }
   const CostSwitch* between(std::string_view from,
                             std::string_view to,
                             std::string_view isa,

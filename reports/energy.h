@@ -144,6 +144,7 @@ struct EnergyReport {
   std::vector<IrradianceRow> irradiance;
   std::vector<std::string> findings;  ///< sentences
   std::vector<Claim> claims;
+  std::vector<Question> questions;
   bool full = false;
 };
 

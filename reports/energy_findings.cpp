@@ -62,6 +62,8 @@ void add_findings(EnergyReport& r) {
                     "{}; {}: {}; {}: {}.",
                     angle(1), thresholds(f->crossings, 1), angle(0), thresholds(f->crossings, 0),
                     angle(0.1), thresholds(f->crossings, 0.1)));
+    r.questions.push_back(
+        {"From which roughness on does single scattering lose too much?", say.back(), ""});
     const auto& rough = f->averages.back();
     const auto normal = std::ranges::find_if(
         f->rows, [](const auto& at) { return at.roughness == 1 && at.mu == 1; });

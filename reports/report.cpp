@@ -17,7 +17,9 @@ template <class Report>
 ReportFiles files(const Report& report, std::string (*page)(std::string_view)) {
   std::string json = to_json(report);
   std::string html = page(json);
-  return {std::move(json), std::move(html), report.findings, pictures(report), report.claims};
+  ReportFiles f{std::move(json), std::move(html), report.findings, pictures(report), report.claims};
+  if constexpr (requires { report.questions; }) f.questions = report.questions;
+  return f;
 }
 
 ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {

@@ -31,9 +31,11 @@ function what_it_costs() {
       const s = of(q, best, "cache") ?? switches.find((x) => x.question === q);
       return [el("span", { style: { display: "inline-block", "min-width": "9em", "white-space": "normal" } }, q + (s.way ? `, ${s.way}` : "")), ...switch_cells(of(q, best, "cache")), ...switch_cells(of(q, best, "streaming")), ...switch_cells(of(q, "scalar", "cache")), { n: signed(s.more_ops, plain) }, { n: error_text(s.error_from) }, { n: error_text(s.error_to) }];
     }))));
-  return section("What does it cost to switch?", "What one sample takes more, with the spread of both, and how many times as long it takes; less than the spread is a tie. Streaming, memory hides what is computed while it waits. "
+  const node = section("What does it cost to switch?", "What one sample takes more, with the spread of both, and how many times as long it takes; less than the spread is a tie. Streaming, memory hides what is computed while it waits. "
     + "Terms are timed as a model uses them: D leaves a fraction, masking divides it, Fresnel and diffuse terms are added up; operations are those of the term alone, its division included.",
     el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); })), list.node);
+  node.id = "switches";  // a question of the index leads here
+  return node;
 }
 
 const by_twos = (list) => el("div", {}, list.map((f, i) => (i % 2 ? null : el("div", { class: "columns", style: { "margin-top": "22px" } }, list.slice(i, i + 2).map((one) => figure_view(one, { height: 400 }))))));
@@ -103,7 +105,7 @@ function the_machine() {
 
 document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio report cost"), el("h1", {}, "What accuracy costs in time"),
-  el("div", { class: "verdict" }, findings.map((f) => el("p", {}, f))),
+  findings_view(findings),
   what_it_costs(), pictures(), whole_models(), every_entry(), the_machine(),
   el("footer", {}, full ? "Full setting." : "Quick setting; --full streams in every instruction set and repeats more often."),
 ].filter(Boolean));

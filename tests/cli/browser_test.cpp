@@ -5,6 +5,7 @@
 #include <map>
 
 #include "program.h"
+#include "reports/cost_parts.h"
 #include "reports/cross_fit.h"
 #include "reports/energy_parts.h"
 #include "reports/index_page.h"
@@ -152,6 +153,26 @@ EnergyReport small_energy_report() {
   return r;
 }
 
+CostReport small_cost_report() {
+  CostOptions o;
+  o.timing = {1, 1e-9, true};
+  o.cache_samples = 16, o.stream_samples = 64;
+  o.filter = "fresnel.schlick";
+  CostReport r;
+  r.machine = this_machine();
+  r.rows = measure_costs(o);
+  for (const std::string_view picture : {"compensation", "split_sum", "fit"})
+    r.points.push_back({picture, "series", "label", {2, 0.1}, 0.1, 0});
+  for (const double ns : {3.0, 1.0, 2.0})
+    r.points.push_back(
+        {"quadrature", "one integral, roughness 0.5, mu 0.5", "1e-3", {ns, 0.1}, 1 / ns, 0});
+  r.switches.push_back({"Schlick to exact", "fresnel.schlick", "fresnel.dielectric",
+                        r.machine.instruction_sets.back(), "float", "cache", "", 1, 0.1, 2, 9, 0.02,
+                        0});
+  add_findings(r);
+  return r;
+}
+
 void add_reports(Pages& pages) {
   const auto add = [&](const char* name, const std::string& html) { pages.add(name, html); };
   add("energy", energy_page_html(to_json(small_energy_report())));
@@ -166,6 +187,7 @@ void add_reports(Pages& pages) {
                      "masking.schlick_ggx.direct", "masking.schlick_ggx.half_alpha"}}))));
   add("cross_fit", cross_fit_page_html(cross_fit_report(
                        {false, {0.5}, {1.5}, {"Au"}, {3}, 12, 64, {"fresnel.schlick"}})));
+  add("cost", cost_page_html(to_json(small_cost_report())));
   ReportIndex index{{}, "0.1.0", false, 0};
   index.reports.push_back({"schlick",
                            "Schlick against exact Fresnel",

@@ -298,6 +298,8 @@ TEST(CostPictures, AreWhole) {
       }
   EXPECT_FALSE(r.findings.empty());
   EXPECT_NE(r.findings[0].find("Schlick's k"), std::string::npos) << r.findings[0];
+  ASSERT_EQ(r.questions.size(), 1U);
+  EXPECT_EQ(r.questions[0].answer.find(r.findings[0]), 0U);
 }
 
 TEST(CostDocument, HasTheKeysOfTheContract) {
