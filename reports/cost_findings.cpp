@@ -14,7 +14,9 @@ namespace {
 std::string ns_text(double ns, double spread) {
   const double digit = -std::floor(std::log10(std::max(spread, 1e-3)));
   const int decimals = std::clamp(static_cast<int>(digit), 0, 3);
-  return fmt::format("{:.{}f} ± {:.{}f} ns", ns, decimals, spread, decimals);
+  auto text = fmt::format("{:.{}f}", ns, decimals);
+  if (text.find_first_of("123456789") == text.npos) std::erase(text, '-');  // no -0.0
+  return fmt::format("{} ± {:.{}f} ns", text, spread, decimals);
 }
 std::string ns_text(const Timing& t) {
   return ns_text(t.ns, t.spread_ns);

@@ -90,9 +90,7 @@ Timing per_point(const F& f) {
 
 template <class Work>
 std::size_t operations(const Work& work) {
-  std::size_t sum = 0;
-  for (const auto count : count_operations(work).by_kind) sum += count;
-  return sum;
+  return count_operations(work).total();
 }
 /// Of a map, at any values: formulas have no branches.
 template <template <class> class Map>

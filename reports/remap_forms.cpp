@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "brdf/registry.h"
 #include "integrate/directional_albedo.h"
@@ -27,15 +26,14 @@ std::vector<RemapForm> all_forms() {
     const std::string shape(shape_of_term(t.about->id));
     if (role_of(t.about->id) != Role::masking || t.anisotropic || shape == "gtr") continue;
     const auto operations = operations_of(i).sample;
-    out.push_back(
-        {std::string(t.about->id),
-         "ndf." + shape,
-         std::string(t.about->formula),
-         std::string(t.about->ships),
-         std::accumulate(operations.by_kind.begin(), operations.by_kind.end(), std::size_t{0}),
-         operations[Operation::sqrt],
-         reads_half(i),
-         {}});
+    out.push_back({std::string(t.about->id),
+                   "ndf." + shape,
+                   std::string(t.about->formula),
+                   std::string(t.about->ships),
+                   operations.total(),
+                   operations[Operation::sqrt],
+                   reads_half(i),
+                   {}});
   }
   return out;
 }

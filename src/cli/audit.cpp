@@ -34,9 +34,7 @@ void print_table(const std::vector<EntryAudit>& entries) {
   fmt::print("{:<40}{:>9} {:>11} {:>10} {:>20} {:>9} {:>4}  {}\n", "", "∫D cosθ", "reciprocity",
              "albedo ≤", "range", "off ≤", "ops", "verdict");
   for (const auto& e : entries) {
-    std::size_t operations = 0;
-    if (e.operations)
-      for (const auto n : e.operations->by_kind) operations += n;
+    const std::size_t operations = e.operations ? e.operations->total() : 0;
     fmt::print(
         "{:<40}{:>9} {:>11} {:>10} {:>20} {:>9} {:>4}  {}\n", e.about->id,
         near_one(e.normalisation),
