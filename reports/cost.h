@@ -33,7 +33,8 @@ struct CostRow {
   std::string_view kind;
   std::string_view number;  ///< "float", "double"
   std::string isa;          ///< "scalar", "sse2", …
-  /// "cache": columns of few samples; "streaming": columns far longer than the last-level cache
+  /// "cache": columns of few samples; "streaming": columns that no cache of a core holds; those of a
+  /// term may stay in one that all cores share
   std::string_view memory;
   /// Of a model: "fused" into one loop, "composed" of columns, "by_hand"; else ""
   std::string_view way;
@@ -69,7 +70,7 @@ struct CostSwitch {
   double ns, ns_spread;         ///< that it takes more
   double ratio;                 ///< of the times
   double operations;            ///< that it takes more
-  double error_from, error_to;  ///< RMS
+  double error_from, error_to;  ///< RMS; not numbers where they are of different truths
 };
 
 struct CostOptions {

@@ -37,7 +37,10 @@ EarlierCosts read_costs(const std::string& path) {
   if (const auto s = schema.string(); s != "gonio.bench/1" && s != "gonio.report.cost/1")
     schema.fail("gonio.bench/1 or gonio.report.cost/1");
   const auto machine = document.at("machine");
-  EarlierCosts out{machine.at("cpu").string(), machine.at("flags").string(), {}};
+  EarlierCosts out{machine.at("cpu").string(),
+                   machine.at("compiler").string(),
+                   machine.at("flags").string(),
+                   {}};
   for (const auto& row : document.at("rows").elements()) out.entries.push_back(entry(row));
   return out;
 }
@@ -57,7 +60,7 @@ std::vector<CostChange> changes(const EarlierCosts& earlier,
     c.before = old;
     c.ratio = r.time.ns / old.ns;
     c.spread = c.ratio * std::hypot(r.time.spread_ns / r.time.ns, old.spread_ns / old.ns);
-    c.differs = std::abs(r.time.ns - old.ns) > r.time.spread_ns + old.spread_ns;
+    c.differs = std::abs(r.time.ns - old.ns) > 3 * (r.time.spread_ns + old.spread_ns);
     before.erase(at);
   }
   for (const auto& [name, time] : before) out.push_back({name, time, {}});

@@ -19,7 +19,7 @@ struct CostName {
 CostName name_of(const CostRow&);
 
 struct EarlierCosts {
-  std::string cpu, flags;  ///< of the machine
+  std::string cpu, compiler, flags;  ///< of the machine
   struct Entry {
     CostName name;
     Timing time;
@@ -34,7 +34,7 @@ struct CostChange {
   CostName name;
   std::optional<Timing> before, now;  ///< where it is missing: not measured
   double ratio = 0, spread = 0;       ///< of now over before, where both are there
-  bool differs = false;               ///< by more than both spreads
+  bool differs = false;  ///< by more than three times both spreads, which chance alone seldom does
 };
 /// In the order of the rows; what is not among them comes last.
 /// \param filter  entries whose ids do not hold it are left out

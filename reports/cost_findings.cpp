@@ -36,7 +36,7 @@ class Findings {
     ask("What does it cost me to go from Schlick's k to exact Smith?");
     fresnel();
     gtr();
-    front("masking", "masking.smith_ggx.correlated", "masking forms of GGX");
+    front("masking", "masking.smith_ggx.correlated", "masking forms held against Smith's for GGX");
     whole();
     compensation();
     quadrature();
@@ -80,9 +80,12 @@ class Findings {
     if (!s || !streaming || !scalar) return;
     say(fmt::format(
         "{}: a sample takes, in float columns of {}, {} in cache and {} streaming; one at a "
-        "time, {}. {:.0f} operations more take the RMS error of {} from {} to {}.",
-        what, best_, more(*s), more(*streaming), more(*scalar), s->operations, factor,
-        error_text(s->error_from), error_text(s->error_to)));
+        "time, {}. It has {:.0f} operations more{}.",
+        what, best_, more(*s), more(*streaming), more(*scalar), s->operations,
+        std::isnan(s->error_to)
+            ? ""
+            : fmt::format(", and the RMS error of {} goes from {} to {}", factor,
+                          error_text(s->error_from), error_text(s->error_to))));
   }
   void schlick_to_smith() {
     switch_sentence("From Schlick's k = (r+1)²/8 to exact Smith, correlated",
@@ -106,17 +109,19 @@ class Findings {
                       more(*s), more(*m)));
   }
   void front(std::string_view kind, std::string_view truth, std::string_view what) {
-    std::vector<const CostRow*> on;
-    std::size_t all = 0, ties = 0;
+    std::vector<const CostRow*> on, beside;
     for (const auto& r : r_.rows) {
       if (r.kind != kind || r.error.truth != truth || r.number != "float" || r.isa != best_ ||
           r.memory != "cache")
         continue;
-      ++all;
-      ties += r.pareto && r.tie;
-      if (r.pareto && !r.tie) on.push_back(&r);
+      (r.pareto && !r.tie ? on : beside).push_back(&r);
     }
     if (on.empty()) return;
+    const auto ties = std::ranges::count_if(beside, [&](const CostRow* r) {
+      return std::ranges::any_of(on, [&](const CostRow* o) {
+        return std::abs(r->time.ns - o->time.ns) <= r->time.spread_ns + o->time.spread_ns;
+      });
+    });
     std::ranges::sort(on, {}, [](const CostRow* r) { return -r->error.rms; });
     std::string names;
     for (const auto* r : on)
@@ -125,7 +130,7 @@ class Findings {
     say(fmt::format(
         "Of {} {}, these are worth their time (in float columns of {} in cache, with the RMS "
         "error of G2): {}. {} more take as long as one of them, and are off by more.",
-        all, what, best_, names, ties));
+        on.size() + beside.size(), what, best_, names, ties));
   }
   const CostRow* row(std::string_view id, std::string_view memory, std::string_view way) const {
     return find_row(r_.rows, id, "float", best_, memory, way);
@@ -188,8 +193,10 @@ class Findings {
         single = p->error;
         continue;
       }
-      text += fmt::format("{}{} for {}, leaving {:.2g}", text.empty() ? "" : "; ", p->label,
-                          ns_text(p->time.ns - p->without_ns, p->time.spread_ns), p->error);
+      text +=
+          fmt::format("{}{} for {}{}, leaving {:.2g}", text.empty() ? "" : "; ", p->label,
+                      ns_text(p->time.ns - p->without_ns, p->time.spread_ns),
+                      p->series == "a light" ? "" : " beyond the split sum's lookups", p->error);
     }
     if (!text.empty())
       say(fmt::format("Single scattering is off by {:.2g} (RMS of the albedo); compensated by {}.",
@@ -213,9 +220,10 @@ class Findings {
     if (all.size() < 2) return;
     std::string text;
     for (const auto* p : all)
-      text += fmt::format("{}{} in {:.1f} ms to {:.2g} %", text.empty() ? "" : ", ", p->label,
-                          p->time.ns / 1e6, 100 * p->error);
-    say(fmt::format("A fit finds alpha of a MERL table with 2 % noise from {}.", text));
+      text += fmt::format("{}{} in {:.1f} ± {:.1f} ms to {:.2g} %", text.empty() ? "" : ", ",
+                          p->label, p->time.ns / 1e6, p->time.spread_ns / 1e6, 100 * p->error);
+    say(fmt::format("A fit on all threads finds alpha of a MERL table with 2 % noise from {}.",
+                    text));
   }
 
   CostReport& r_;

@@ -14,7 +14,7 @@ PageJson row(const CostRow& r) {
              {"isa", r.isa},
              {"ns", page_json(r.time.ns)},
              {"ns_spread", page_json(r.time.spread_ns)},
-             {"ops", r.operations.total()},
+             {"ops", r.kind == "by_hand" ? PageJson(nullptr) : PageJson(r.operations.total())},
              {"error_max", known ? page_json(r.error.max) : PageJson(nullptr)},
              {"error_rms", known ? page_json(r.error.rms) : PageJson(nullptr)},
              {"pareto", known ? PageJson(r.pareto) : PageJson(nullptr)},

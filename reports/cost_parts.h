@@ -42,6 +42,9 @@ void add_points(CostReport&, const CostOptions&, const std::function<void(double
 /// From what the others have filled in.
 void add_findings(CostReport&);
 
+/// A form that is kept as a mistake in circulation: none chooses it.
+bool is_mistake(const CostRow&);
+
 /// The row of a form in a place, of a model in one way; nullptr if it was not measured.
 const CostRow* find_row(const std::vector<CostRow>&,
                         std::string_view id,

@@ -1,6 +1,7 @@
 // What it costs to go from one form to another: pairs that engineers consider.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reports/cost_parts.h"
 
@@ -49,6 +50,10 @@ constexpr Pair pairs[] = {
 
 }  // namespace
 
+bool is_mistake(const CostRow& r) {
+  return r.id.ends_with(".as_written");
+}
+
 const CostRow* find_row(const std::vector<CostRow>& rows,
                         std::string_view id,
                         std::string_view number,
@@ -62,6 +67,7 @@ const CostRow* find_row(const std::vector<CostRow>& rows,
 }
 
 void add_switches(CostReport& report) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const auto& rows = report.rows;
   for (const auto& p : pairs)
     for (const auto& from : rows) {
@@ -75,13 +81,15 @@ void add_switches(CostReport& report) {
         continue;
       const auto* to = there(p.to, from.way);
       if (!to) continue;
+      // errors from different truths say nothing about each other
+      const bool same = from.error.truth == to->error.truth;
       report.switches.push_back({std::string(p.question), from.id, to->id, from.isa, from.number,
                                  from.memory, from.way, to->time.ns - from.time.ns,
                                  std::hypot(to->time.spread_ns, from.time.spread_ns),
                                  to->time.ns / from.time.ns,
                                  static_cast<double>(to->operations.total()) -
                                      static_cast<double>(from.operations.total()),
-                                 from.error.rms, to->error.rms});
+                                 same ? from.error.rms : unknown, same ? to->error.rms : unknown});
     }
 }
 

@@ -164,7 +164,7 @@ void schlick(CrossFitReport& r) {
 
 /// The fit by l2_cosine follows the bright peak, that by log all directions alike.
 std::string by_the_other_metric(const CrossFitReport& r, std::string_view form) {
-  const auto all = cases_of(r, {once, form, Metric::l2_cosine});
+  const auto all = dielectrics(cases_of(r, {once, form, Metric::l2_cosine}));
   const auto s = shifts(all, "roughness");
   return s ? fmt::format(
                  ". By the metric l2_cosine, which follows the bright peak, roughness goes {}",
@@ -184,9 +184,8 @@ void maskings(CrossFitReport& r) {
     if (all.empty()) continue;
     const double residual = most_residual(all);
     r.findings.push_back(fmt::format(
-        "{} in place of Smith's correlated masking shifts {} for dielectrics; residual up to "
-        "{:.2g}, a "
-        "factor of {:.2g}{}.",
+        "{} in place of Smith's correlated masking shifts {} for dielectrics by the log metric; "
+        "residual up to {:.2g}, a factor of {:.2g}{}.",
         what, roughness_and_f0(all), residual, std::exp(residual), by_the_other_metric(r, id)));
   }
 }

@@ -114,7 +114,10 @@ void clamped_at_2048(EnergyReport& r) {
     words.push_back(fmt::format("{} at {:g} (the peak to {})", percent(lost), roughness,
                                 percent(2048 * std::pow(roughness, 4))));
   }
-  claim(r, "the clamp at 2048 hardly shows", most < 0.01 ? Judged::holds : Judged::partly,
+  claim(r, "the clamp at 2048 hardly shows",
+        most < 0.01  ? Judged::holds
+        : most < 0.1 ? Judged::partly
+                     : Judged::fails,
         fmt::format("it is reached below roughness {:.3f} alone. There it takes light from the "
                     "highlight, at normal incidence {}.",
                     reached, fmt::join(words, ", ")));

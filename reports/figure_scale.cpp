@@ -19,15 +19,19 @@ std::vector<double> linear_ticks(double low, double high, std::size_t most) {
       break;
     }
   std::vector<double> out;
-  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
-    out.push_back(i * step);
+  const double first = std::ceil(low / step - 1e-9);
+  for (std::size_t i = 0; i <= 2 * most; ++i) {
+    const double tick = (first + static_cast<double>(i)) * step;
+    if (tick > high + 1e-9 * step) break;
+    out.push_back(tick);
+  }
   return out;
 }
 
 /// The ends of a scale that values lie on; of none, and of one alone, something about them.
 FigureScale around(double low, double high, bool log) {
   if (low > high) return {log ? 0.1 : 0, 1, log};
-  if (low == high)
+  if (high - low <= 1e-12 * std::max(std::abs(low), std::abs(high)))
     return log ? FigureScale{low / 2, 2 * high, log}
                : FigureScale{low - (low == 0 ? 0 : std::abs(low) / 2),
                              high + (high == 0 ? 1 : std::abs(high) / 2), log};

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 6> line_colours{"#0b5fa5", "#c4500a", "#0
 constexpr std::array<std::string_view, 6> rounds{"",     "2 3", "9 3 2 3",
                                                  "12 4", "1 4", "6 2 1 2 1 2"};
 constexpr std::array<std::string_view, 3> reference_dashes{"6 4", "2 4", "10 3 2 3"};
-constexpr std::size_t most_labels = 24;  ///< more of them would hide the points
+constexpr std::size_t most_labels = 60;  ///< more of them would hide the points
 
 struct Style {
   std::string_view colour, dash;

@@ -108,9 +108,9 @@ void verdict_on_k(RemapReport& r) {
     if (const auto* a = row_at(ours, at), *b = row_at(others, at); a && b)
       behaves.push_back(fmt::format("{:g} as {} (r²/2: {})", at, rough(a->by_g2), rough(b->by_g2)));
   claim(r, "k = (r+1)²/8 is right for direct light, r²/2 for image-based",
-        nearer == 0                  ? Judged::fails
-        : nearer < one.all + two.all ? Judged::partly
-                                     : Judged::holds,
+        2 * nearer < one.all + two.all ? Judged::fails
+        : nearer < one.all + two.all   ? Judged::partly
+                                       : Judged::holds,
         fmt::format(
             "Smith's masking knows no "
             "kind of light, and (r+1)²/8 is nearer than r²/2 to separable Smith at {} of {} "

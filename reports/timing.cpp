@@ -1,6 +1,9 @@
 #include "reports/timing.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
 #include <mutex>
 #include <ostream>
 #include <string>
@@ -53,22 +56,24 @@ struct Registered {
   ~Registered() { benchmark::ClearRegisteredBenchmarks(); }
 };
 
-/// How far it is: a repetition is done when a thing is run as often as the time before.
-class Steps {
- public:
-  Steps(std::size_t things, int repetitions, const std::function<void(double)>& done)
-      : last_(things, 0), all_(things * static_cast<std::size_t>(repetitions)), done_(done) {}
-  void operator()(std::size_t thing, benchmark::IterationCount times) {
-    if (times == last_[thing]) finished_ = std::min(finished_ + 1, all_);
-    last_[thing] = times;
-    if (done_) done_(static_cast<double>(finished_) / static_cast<double>(all_));
-  }
-
- private:
-  std::vector<benchmark::IterationCount> last_;
-  std::size_t all_, finished_ = 0;
-  const std::function<void(double)>& done_;
-};
+/// How often it is to be run so that it takes `seconds`.  Of a few tries the shortest decides: where
+/// another program took the processor, one alone would say that a single run is enough.
+benchmark::IterationCount runs_in(double seconds, const std::function<void()>& run) {
+  using Clock = std::chrono::steady_clock;
+  const auto shortest = [&](int runs) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int tried = 0; tried < 3; ++tried) {
+      const auto from = Clock::now();
+      for (int i = 0; i < runs; ++i) run();
+      least = std::min(least, std::chrono::duration<double>(Clock::now() - from).count() / runs);
+    }
+    return least;
+  };
+  double one = shortest(1);
+  if (one < 1e-5) one = std::max(shortest(16), 1e-10);  // a look at the clock takes part of that
+  return std::max<benchmark::IterationCount>(
+      1, static_cast<benchmark::IterationCount>(std::ceil(seconds / one)));
+}
 
 }  // namespace
 
@@ -78,32 +83,45 @@ Timing spread_of(std::vector<double> ns) {
   return {at(2), (at(3) - at(1)) / 2};
 }
 
-std::vector<Timing> time_all(const std::vector<Timed>& things,
-                             const TimingOptions& o,
-                             const std::function<void(double)>& done) {
+std::vector<std::vector<double>> repetitions_of(const std::vector<Timed>& things,
+                                                const TimingOptions& o,
+                                                const std::function<void(double)>& done) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   if (things.empty()) return {};
   set_up();
   const Registered registered;
-  Steps steps(things.size(), o.repetitions, done);
+  const auto repetitions = [&](const Timed& t) {
+    return t.repetitions > 0 ? t.repetitions : o.repetitions;
+  };
+  double finished = 0, all = 0;
+  for (const auto& t : things) all += repetitions(t);
   for (std::size_t i = 0; i < things.size(); ++i) {
     auto* b =
         benchmark::RegisterBenchmark(std::to_string(i).c_str(), [&, i](benchmark::State& state) {
           for (auto _ : state) things[i].run();
-          steps(i, state.max_iterations);
+          if (done) done(++finished / all);
         });
-    b->Repetitions(o.repetitions)->ReportAggregatesOnly(false)->MinTime(o.seconds);
+    b->Repetitions(repetitions(things[i]))
+        ->ReportAggregatesOnly(false)
+        ->Iterations(runs_in(o.seconds, things[i].run));
     if (!o.of_thread) b->UseRealTime();
   }
   Keep keep(things.size(), o.of_thread);
   benchmark::RunSpecifiedBenchmarks(&keep, ".");
-  std::vector<Timing> out;
+  std::vector<std::vector<double>> out;
   for (std::size_t i = 0; i < things.size(); ++i) {
-    const auto t = spread_of(keep.ns(i));
-    const auto n = static_cast<double>(things[i].samples);
-    out.push_back({t.ns / n, t.spread_ns / n});
+    out.push_back(keep.ns(i));
+    for (double& ns : out.back()) ns /= static_cast<double>(things[i].samples);
   }
+  return out;
+}
+
+std::vector<Timing> time_all(const std::vector<Timed>& things,
+                             const TimingOptions& o,
+                             const std::function<void(double)>& done) {
+  std::vector<Timing> out;
+  for (auto& ns : repetitions_of(things, o, done)) out.push_back(spread_of(std::move(ns)));
   return out;
 }
 

@@ -18,6 +18,7 @@ struct Timing {
 struct Timed {
   std::size_t samples;
   std::function<void()> run;
+  int repetitions = 0;  ///< 0: as the options say
 };
 
 struct TimingOptions {
@@ -34,6 +35,11 @@ struct TimingOptions {
 std::vector<Timing> time_all(const std::vector<Timed>&,
                              const TimingOptions& = {},
                              const std::function<void(double)>& done = {});
+
+/// What each repetition of each takes, of one sample [ns].
+std::vector<std::vector<double>> repetitions_of(const std::vector<Timed>&,
+                                                const TimingOptions& = {},
+                                                const std::function<void(double)>& done = {});
 
 /// One alone, on the wall.
 Timing time_of(const std::function<void()>& run);

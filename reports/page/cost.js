@@ -12,8 +12,7 @@ function ns_text(ns, spread) {
 }
 const error_text = (e) => (known(e) ? significant(e, 2) : "–");
 const places = unique(rows.map((r) => [r.isa, r.memory].join(" "))).map((p) => p.split(" "));
-const chosen = { number: "float", place: [best, "cache"].join(" ") };
-const in_place = (list) => list.filter((r) => r.number === chosen.number && [r.isa, r.memory].join(" ") === chosen.place);
+const at_first = () => ({ number: "float", place: [best, "cache"].join(" ") });  // of each section its own
 const place_options = places.map(([isa, memory]) => [[isa, memory].join(" "), `${isa}, ${memory_text[memory]}`]);
 
 // --- What it costs to switch ---------------------------------------------------------------------------
@@ -24,6 +23,7 @@ function switch_cells(s) {
   return [{ n: (s.more_ns > 0 ? "+" : "") + ns_text(s.more_ns, s.more_spread_ns) }, { n: told ? `×${significant(s.ratio_ns, 2)}` : "a tie" }];
 }
 function what_it_costs() {
+  const chosen = at_first();
   const of = (question, isa, memory) => switches.find((s) => s.question === question && s.isa === isa && s.memory === memory && s.number === chosen.number);
   const questions = unique(switches.map((s) => s.question));
   const list = changing(() => scroll(table(["from, to", { n: `${best}, in cache [ns]` }, { n: "" }, { n: `${best}, streaming [ns]` }, { n: "" }, { n: "scalar, in cache [ns]" }, { n: "" }, { n: "operations" }, { n: "RMS error from" }, { n: "to" }],
@@ -52,7 +52,7 @@ function pictures() {
   });
   return section("Time against error", "Each point is a form; further left is faster, further down is more exact. The line joins those that nothing dominates: nothing is faster by more than both spreads and not less exact. "
     + "What has no error in double is drawn at 10⁻¹⁷. Masking is held against Smith of its distribution, height-correlated; Fresnel terms against the exact form that they stand for; whole models against correlated Smith "
-    + "and exact Fresnel of glass and gold under their own distribution, roughness 0.1 to 1.",
+    + "and exact Fresnel of glass and gold, of what stands for one alone of that one, under their own distribution, roughness 0.1 to 1.",
     el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], state.number, (n) => { state.number = n; all.again(); }),
       choice("Place", offered.map((p) => [p, p.replace(" cache", ", in cache").replace(" streaming", ", streaming")]), state.place, (p) => { state.place = p; all.again(); })), all.node,
     by_twos(figures.filter((f) => !f.choices?.set && f.family !== "quadrature")), quadrature());
@@ -67,6 +67,7 @@ function quadrature() {
 
 // --- Whole models --------------------------------------------------------------------------------------
 function whole_models() {
+  const chosen = at_first();
   const ids = unique(rows.filter((r) => r.kind === "model").map((r) => r.id));
   const of = (id, way, isa, memory) => rows.find((r) => r.id === id && r.way === way && r.isa === isa && r.memory === memory && r.number === chosen.number);
   const text = (r) => ({ n: r ? ns_text(r.ns, r.ns_spread) : "–" });
@@ -85,11 +86,13 @@ function whole_models() {
 
 // --- Every entry ---------------------------------------------------------------------------------------
 function every_entry() {
-  const list = changing(() => scroll(table(["", "kind", { n: "time [ns]" }, { n: "operations" }, { n: "divisions" }, { n: "roots" }, { n: "exp, log" }, { n: "table [bytes]" }, { n: "largest error" }, { n: "RMS" }, { n: "ΔE2000 of gold" }, "of", "against", "front"],
-    in_place(rows).filter((r) => !["bound", "by_hand"].includes(r.kind)).map((r) => [el("code", {}, short(r.id) + (r.way ? `, ${r.way}` : "")), r.kind, { n: ns_text(r.ns, r.ns_spread) }, { n: String(r.ops) }, { n: String(r.ops_div) }, { n: String(r.ops_sqrt) },
+  const chosen = at_first();
+  const in_place = (list) => list.filter((r) => r.number === chosen.number && [r.isa, r.memory].join(" ") === chosen.place);
+  const list = changing(() => scroll(table(["", "kind", { n: "channels" }, { n: "time [ns]" }, { n: "operations" }, { n: "divisions" }, { n: "roots" }, { n: "exp, log" }, { n: "table [bytes]" }, { n: "largest error" }, { n: "RMS" }, { n: "ΔE2000 of gold" }, "of", "against", "front"],
+    in_place(rows).filter((r) => !["bound", "by_hand"].includes(r.kind)).map((r) => [el("code", {}, short(r.id) + (r.way ? `, ${r.way}` : "")), r.kind, { n: String(r.channels) }, { n: ns_text(r.ns, r.ns_spread) }, { n: String(r.ops) }, { n: String(r.ops_div) }, { n: String(r.ops_sqrt) },
       { n: String(r.ops_exp + r.ops_log) }, { n: r.bytes ? count(r.bytes) : "" }, { n: error_text(r.error_max) }, { n: error_text(r.error_rms) }, { n: known(r.delta_e) ? significant(r.delta_e, 2) : "" },
       el("span", { class: "because small" }, r.measure), el("span", { class: "because small" }, short(r.truth)), r.pareto ? (r.tie ? "a tie" : "yes") : ""]))));
-  return section("Every entry", "Of one sample, and one channel. Errors are absolute, over the directions and parameters that the audit looks at; on the front is what nothing of its kind and truth dominates.",
+  return section("Every entry", "Of one sample in all its channels. Errors are absolute: of terms over the directions and parameters that the audit looks at, D over its peak; of whole models as said above. On the front is what nothing of its kind, channels and truth dominates.",
     el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); }),
       chooser("Place", place_options, chosen.place, (p) => { chosen.place = p; list.again(); })), list.node);
 }
@@ -98,7 +101,8 @@ function every_entry() {
 function the_machine() {
   const size = (bytes) => (bytes >= 1 << 20 ? `${plain(bytes / (1 << 20))} MiB` : `${plain(bytes / 1024)} KiB`);
   return section("How it was measured", `Median of ${repetitions} repetitions, and as spread half the distance of the quartiles; repetitions of everything are done in random order. Kernels: the time of the thread. `
-    + `In cache: ${count(cache_samples)} samples again and again; streaming: ${count(stream_samples)}.`,
+    + `In cache: ${count(cache_samples)} samples again and again; streaming: ${count(stream_samples)}, ${plain(stream_samples * 4 / (1 << 20))} MiB a column of floats, of which a term reads and writes one to four and a model more. `
+    + "How columns lie to each other in memory matters in cache: repetitions are shared by three ways, and the spread holds what they differ by.",
     pairs([["processor", machine.cpu], ["threads", String(machine.threads)], ["caches", machine.caches.map((c) => `L${c.level} ${size(c.bytes)}`).join(", ")],
       ["instruction sets", machine.instruction_sets.join(", ")], ["compiler", machine.compiler], ["flags", machine.flags]]));
 }

@@ -3,7 +3,7 @@
 
 const { rows, forms, crossings, truth, costs, findings, full, split_sum_tables, split_sum_light, irradiance, albedo_forms, views, figures, maps } = page_data();
 const short = (name) => name.replace(/^(masking|scattering)\./, "");
-const mu_text = (mu) => (mu === "average" ? "on average" : mu === 1 ? "at normal incidence" : `at μ = ${plain(mu)}`);
+const mu_text = (mu) => (mu === "average" ? "on average" : Number(mu) === 1 ? "at normal incidence" : `at μ = ${plain(Number(mu))}`);
 const degrees_of = (mu) => degrees(Math.acos(mu) * 180 / Math.PI, 0);
 const ratio_of = (share) => `${plain(100 * share)}\u202f%`;
 const reference = "masking.smith_ggx.correlated";
@@ -16,7 +16,7 @@ function crossing_table(kind, names, text) {
   const find = (name, mu, share) => crossings.find((c) => c[kind] === name && c.mu === mu && c.share === share);
   const least = roughnesses[0], most = roughnesses.at(-1);
   const range = ([from, to]) => {
-    if (to < most) return (from > least ? from.toFixed(2) : "") + "–" + to.toFixed(2);
+    if (to < most) return (from > least ? from.toFixed(2) + "–" : "up to ") + to.toFixed(2);
     return from > least ? from.toFixed(2) : `≤\u202f${plain(least)}`;
   };
   const said = (c) => (!c || c.ranges.length === 0 ? el("span", { class: "muted" }, "never")

@@ -137,7 +137,7 @@ function curve_plot(data, series, o) {
     });
     g.restore();
   }
-  const most_labels = 24;  // more of them would hide the points
+  const most_labels = 60;  // more of them would hide the points
   function draw_labels(u) {
     const points = [], g = u.ctx, ratio = devicePixelRatio, { left, top, width, height } = u.bbox;
     g.save();
@@ -226,13 +226,6 @@ function map_axis(name, edges) {
   const even = [0, 15, 30, 45, 60, 75, 90];
   return { name, edges, label, unit: "°", ends: [0, 90], part: (deg) => (root ? Math.sqrt(deg / 90) : deg / 90), value: (part) => 90 * (root ? part * part : part),
            ticks: root ? [0, 0.5, 2, 5, 10, 20, 30, 45, 60, 90] : even, few: root ? [0, 2, 10, 30, 60, 90] : even };
-}
-
-/// An axis of a map over anything from 0 to 1, of cells around `at`.
-function unit_axis(name, label, at) {
-  const between = at.slice(1).map((x, i) => (x + at[i]) / 2);
-  return { name, at, label, unit: "", ends: [0, 1], edges: [0, ...between, 1], part: (x) => x, value: (part) => part,
-           ticks: [0, 0.2, 0.4, 0.6, 0.8, 1], few: [0, 0.5, 1] };
 }
 
 /// Cells over two axes, one of several layers at a time.

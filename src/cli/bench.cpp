@@ -59,7 +59,8 @@ void print_group(const std::vector<const CostRow*>& rows) {
   for (const auto& name : names) {
     const auto is_here = [&](const CostRow* r) { return shown(*r) == name; };
     const auto& first = **std::ranges::find_if(rows, is_here);
-    fmt::print("{:<{}} {:>4} {:>8}", name, width, first.operations.total(),
+    fmt::print("{:<{}} {:>4} {:>8}", name, width,
+               first.kind == "by_hand" ? "" : fmt::format("{}", first.operations.total()),
                first.error.truth.empty() ? "" : fmt::format("{:.1e}", first.error.rms));
     for (const auto& p : places) {
       const auto at = std::ranges::find_if(rows, [&](const CostRow* r) {
@@ -96,11 +97,12 @@ std::string words(const CostName& n) {
 void print_changes(const std::vector<CostChange>& all,
                    const EarlierCosts& earlier,
                    const Machine& m) {
-  if (earlier.cpu != m.cpu || earlier.flags != m.flags)
-    fmt::print("\nbeware: the earlier times are of {}, {}\n", earlier.cpu, earlier.flags);
+  if (earlier.cpu != m.cpu || earlier.compiler != m.compiler || earlier.flags != m.flags)
+    fmt::print("\nbeware: the earlier times are of {}, {}, {}\n", earlier.cpu, earlier.compiler,
+               earlier.flags);
   std::size_t width = 0, differing = 0, compared = 0;
   for (const auto& c : all) width = std::max(width, words(c.name).size());
-  fmt::print("\nnow over earlier; * differs by more than both spreads\n");
+  fmt::print("\nnow over earlier; * differs by more than three times both spreads\n");
   for (const auto& c : all) {
     if (!c.before || !c.now) continue;
     ++compared;

@@ -1,5 +1,7 @@
 #include "brdf/by_hand.h"
 
+#include <random>
+
 #include "brdf/evaluate.h"
 #include "brdf/model.h"
 #include "brdf/terms.h"
@@ -14,8 +16,18 @@ void expect_agreement(double relative) {
   for (const auto& set : instruction_sets()) {
     ASSERT_FALSE(hand_written<F>(set).empty()) << set;
     for (const auto& hand : hand_written<F>(set)) {
-      auto b = bind_model(hand.spec, {{"roughness", {0.6}}}, hand.channels);
-      if (const auto* gamma = b.model.find("gamma_2")) b.values[gamma->first] = 1;
+      // Each value another, so that none can stand in another's place.
+      std::mt19937_64 random(22);
+      BoundModel b{compose(hand.spec, hand.channels), {}, {}};
+      for (std::size_t i = 0; i < b.model.value_count; ++i)
+        b.values.push_back(std::uniform_real_distribution(0.2, 0.6)(random));
+      for (const auto& p : b.model.parameters)
+        for (std::size_t c = 0; c < p.count; ++c) {
+          double& v = b.values[p.first + c];
+          if (p.name == "gamma") v = 1.7;
+          if (p.name == "gamma_2") v = 1;
+          if (p.name == "f0_2") v = 0.04;  // of a coat, one for all channels
+        }
       const std::vector<F> values(b.values.begin(), b.values.end());
       std::vector<Column<F>> columns;
       std::vector<F*> one, other;

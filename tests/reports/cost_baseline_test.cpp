@@ -29,6 +29,7 @@ EarlierCosts earlier(const std::vector<CostRow>& rows) {
 TEST(CostBaseline, ReadsWhatBenchWrites) {
   const auto e = earlier({made("fresnel.a", 1.5, 0.25), made("fresnel.b", 2, 0)});
   EXPECT_EQ(e.cpu, "cpu");
+  EXPECT_EQ(e.compiler, "compiler");
   EXPECT_EQ(e.flags, "flags");
   ASSERT_EQ(e.entries.size(), 2U);
   EXPECT_EQ(e.entries[0].name, name_of(made("fresnel.a", 0, 0)));
@@ -38,12 +39,12 @@ TEST(CostBaseline, ReadsWhatBenchWrites) {
 
 TEST(CostBaseline, RatiosAreOfNowOverBefore) {
   const auto all = changes(earlier({made("a", 2, 0.2), made("b", 2, 0.2), made("c", 2, 0.2)}),
-                           {made("a", 3, 0.3), made("b", 2.3, 0.2), made("c", 1, 0.1)});
+                           {made("a", 4, 0.4), made("b", 3.1, 0.2), made("c", 1, 0.1)});
   ASSERT_EQ(all.size(), 3U);
-  EXPECT_DOUBLE_EQ(all[0].ratio, 1.5);
-  EXPECT_DOUBLE_EQ(all[0].spread, 1.5 * std::hypot(0.1, 0.1));
-  EXPECT_TRUE(all[0].differs);   // by 1 > 0.5
-  EXPECT_FALSE(all[1].differs);  // by 0.3 < 0.4
+  EXPECT_DOUBLE_EQ(all[0].ratio, 2);
+  EXPECT_DOUBLE_EQ(all[0].spread, 2 * std::hypot(0.1, 0.1));
+  EXPECT_TRUE(all[0].differs);   // by 2 > 3 · 0.6
+  EXPECT_FALSE(all[1].differs);  // by 1.1 < 3 · 0.4
   EXPECT_TRUE(all[2].differs);
 }
 
@@ -110,8 +111,8 @@ TEST(CostBaseline, RefusesWhatItIsNotSayingWhere) {
     EXPECT_EQ(line.find('\n'), line.npos) << line;
   };
   const auto with_row = [](const std::string& row) {
-    return R"({"schema": "gonio.bench/1", "machine": {"cpu": "", "flags": ""}, "rows": [)" + row +
-           "]}";
+    return R"({"schema": "gonio.bench/1", "machine": {"cpu": "", "compiler": "", "flags": ""}, "rows": [)" +
+           row + "]}";
   };
   const std::string names =
       R"("id": "a", "number": "float", "isa": "x", "memory": "cache", "way": "")";

@@ -76,15 +76,24 @@ TEST(CostFront, KeepsOneOfThoseThatAreAlike) {
 }
 
 TEST(CostFront, ComparesOnlyWhatStandsForTheSameInTheSamePlace) {
-  std::vector<CostRow> rows{made("a", 1, 0, 0.1), made("b", 2, 0, 0.2), made("c", 2, 0, 0.2),
-                            made("d", 2, 0, 0.2), made("unknown", 9, 0, 0)};
+  std::vector<CostRow> rows{made("a", 1, 0, 0.1), made("b", 2, 0, 0.2),     made("c", 2, 0, 0.2),
+                            made("d", 2, 0, 0.2), made("unknown", 9, 0, 0), made("e", 2, 0, 0.2)};
   rows[1].error.truth = "another";
   rows[2].isa = "avx2";
   rows[3].memory = "streaming";
   rows[4].error.truth = "";
+  rows[5].channels = 3;
   mark_front(rows);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(rows[i].pareto) << rows[i].id;
   EXPECT_FALSE(rows[4].pareto);
+  EXPECT_TRUE(rows[5].pareto);
+}
+
+TEST(CostFront, LeavesOutMistakes) {
+  std::vector<CostRow> rows{made("fresnel.a.as_written", 1, 0, 0), made("fresnel.b", 2, 0, 0.1)};
+  mark_front(rows);
+  EXPECT_FALSE(rows[0].pareto);
+  EXPECT_TRUE(rows[1].pareto);
 }
 
 TEST(Cost, HasEveryTermAndModelInEveryNumberSetAndPlace) {
@@ -231,6 +240,17 @@ TEST(CostSwitches, AreTheDifferencesOfTheirRows) {
   EXPECT_EQ(s.operations, 6);
   EXPECT_EQ(s.error_from, 0.2);
   EXPECT_EQ(s.error_to, 0);
+}
+
+TEST(CostSwitches, TellNoErrorsFromDifferentTruths) {
+  CostReport report;
+  report.rows = {made("masking.schlick_ggx.direct", 1, 0.3, 0.2),
+                 made("masking.smith_ggx.correlated", 2, 0.4, 0)};
+  report.rows[1].error.truth = "another";
+  add_switches(report);
+  ASSERT_EQ(report.switches.size(), 1U);
+  EXPECT_TRUE(std::isnan(report.switches[0].error_from));
+  EXPECT_TRUE(std::isnan(report.switches[0].error_to));
 }
 
 TEST(CostSwitches, ComparesModelsInTheSameWay) {
