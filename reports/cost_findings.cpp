@@ -49,6 +49,8 @@ class Findings {
   void ask(std::string question) {
     std::string answer;
     for (const auto& f : r_.findings) answer += (answer.empty() ? "" : " ") + f;
+    if (!answer.empty() && !r_.machine.cpu.empty())
+      answer += fmt::format(" Measured on {}.", r_.machine.cpu);
     if (!answer.empty()) r_.questions.push_back({std::move(question), answer, "switches"});
   }
   const CostSwitch* between(std::string_view from,
