@@ -22,17 +22,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 using Judged = Claim::Judged;
 
-void claim(EnergyReport& r, std::string_view said, Judged judged, std::string verdict) {
-  judge(r.claims, r.findings, {std::string(said), judged, std::move(verdict)});
-}
-std::string percent(double share) {
-  return fmt::format("{:.3g}\u00a0%", 100 * share);
-}
-const EnergyForm* form(const EnergyReport& r, std::string_view name) {
-  const auto it = std::ranges::find(r.forms, name, &EnergyForm::name);
-  return it == r.forms.end() ? nullptr : &*it;
-}
-
 /// E of a model at a cosine, to 1e-6.
 double reflected(std::string_view spec, double roughness, double f0, double mu) {
   const auto b = bind_model(spec, {{"alpha", {roughness * roughness}}, {"f0", {f0}}}, 1);
@@ -41,14 +30,11 @@ double reflected(std::string_view spec, double roughness, double f0, double mu) 
 
 void no_light_is_made(EnergyReport& r) {
   if (r.forms.empty()) return;
-  const auto most = [](const EnergyForm& f) {
-    return *std::ranges::max_element(f.rows, {}, &EnergyForm::At::albedo);
-  };
   std::vector<std::pair<double, std::string>> makers;
   double largest = 0;  // of those that do not
   for (const auto& f : r.forms) {
-    const auto at = most(f);
-    if (at.albedo - at.error > 1 + 1e-6)
+    const auto& at = brightest(f);
+    if (makes_light(f))
       makers.emplace_back(at.albedo, fmt::format("{} {:.3g} times at roughness {:g}, mu {:g}",
                                                  f.name, at.albedo, at.roughness, at.mu));
     else
@@ -58,7 +44,7 @@ void no_light_is_made(EnergyReport& r) {
   std::vector<std::string> words;
   for (const auto& [value, text] : makers)
     if (words.size() < 3) words.push_back(text);
-  claim(r, "reflected energy never exceeds incoming",
+  judge(r, "reflected energy never exceeds incoming",
         makers.empty() ? Judged::holds : Judged::partly,
         fmt::format("at F = 1, {} of {} forms reflect more than comes in somewhere{}{}; the "
                     "others reflect {:.4f} of it at most.",
@@ -67,10 +53,10 @@ void no_light_is_made(EnergyReport& r) {
 }
 
 void energy_does_not_stay(EnergyReport& r) {
-  const auto* f = form(r, "masking.smith_ggx.correlated");
+  const auto* f = find_form(r, "masking.smith_ggx.correlated");
   if (!f || f->averages.empty()) return;
   const auto &smooth = f->averages.front(), &rough = f->averages.back();
-  claim(r, "as roughness grows the highlight widens and dims so that energy stays",
+  judge(r, "as roughness grows the highlight widens and dims so that energy stays",
         rough.albedo > 0.99 ? Judged::holds : Judged::fails,
         fmt::format("it widens and dims more than that. With nothing absorbed (GGX, Smith "
                     "correlated, F = 1, one bounce, average over the hemisphere) {} of the light "
@@ -81,8 +67,8 @@ void energy_does_not_stay(EnergyReport& r) {
 }
 
 void fixed_coat(EnergyReport& r) {
-  const auto *coat = form(r, "masking.disney_coat, gamma 1"),
-             *smith = form(r, "masking.smith_gtr.separable, gamma 1");
+  const auto *coat = find_form(r, "masking.disney_coat, gamma 1"),
+             *smith = find_form(r, "masking.smith_gtr.separable, gamma 1");
   if (!coat || !smith) return;
   double most = 0;
   std::size_t at = 0;
@@ -91,7 +77,7 @@ void fixed_coat(EnergyReport& r) {
     if (coat->rows[i].mu >= 0.1 && off > most) most = off, at = i;
   }
   const auto& row = coat->rows[at];
-  claim(r, "the coat needs only a fixed 0.25 G",
+  judge(r, "the coat needs only a fixed 0.25 G",
         most < 0.01  ? Judged::holds
         : most < 0.1 ? Judged::partly
                      : Judged::fails,
@@ -114,7 +100,7 @@ void clamped_at_2048(EnergyReport& r) {
     words.push_back(fmt::format("{} at {:g} (the peak to {})", percent(lost), roughness,
                                 percent(2048 * std::pow(roughness, 4))));
   }
-  claim(r, "the clamp at 2048 hardly shows",
+  judge(r, "the clamp at 2048 hardly shows",
         most < 0.01  ? Judged::holds
         : most < 0.1 ? Judged::partly
                      : Judged::fails,
@@ -131,7 +117,7 @@ Lab grey(double y) {
 
 /// Where its clamp at 2048 is not reached.
 void look_of_the_simple_form(EnergyReport& r) {
-  const auto* simple = form(r, "model.ue_mobile_simple");
+  const auto* simple = find_form(r, "model.ue_mobile_simple");
   if (!simple) return;
   constexpr double least_roughness = 0.15;
   std::vector<std::string> words;
@@ -153,7 +139,7 @@ void look_of_the_simple_form(EnergyReport& r) {
       seen |= most > 1;
       if (most >= 0) words.push_back(text);
     }
-  claim(r, "the simple mobile form keeps the look", seen ? Judged::fails : Judged::holds,
+  judge(r, "the simple mobile form keeps the look", seen ? Judged::fails : Judged::holds,
         fmt::format("from roughness {:g} on (below, its clamp takes over) its ΔE2000 under even "
                     "light from GGX with Smith, correlated, and Schlick is at most, for {}. It has "
                     "no Fresnel, and no angles in its visibility.",
@@ -192,7 +178,7 @@ void deviation_of_slopes(EnergyReport& r) {
     words.push_back(fmt::format("{:.3g} α", d));
   }
   const double beckmann = deviation("ndf.beckmann", 0.3, 100);
-  claim(r, "alpha is the standard deviation of the slopes",
+  judge(r, "alpha is the standard deviation of the slopes",
         growth < 1e-3 && std::abs(last - 1) < 1e-3 ? Judged::holds : Judged::fails,
         fmt::format("along an axis it is {:.4f} α for Beckmann, α/√2. GGX has none: of its slopes "
                     "up to 10, 100 and 1000 α it is {}, and it goes on growing.",
@@ -233,7 +219,7 @@ void solid_angle_of_half(EnergyReport& r) {
     const double ratio = std::sqrt(dot(area, area)) / (4 * step * step);
     most = std::max(most, std::abs(ratio * 4 * voh - 1));
   }
-  claim(r, "dω_h = dω_l/(4 VoH)", most < 1e-5 ? Judged::holds : Judged::fails,
+  judge(r, "dω_h = dω_l/(4 VoH)", most < 1e-5 ? Judged::holds : Judged::fails,
         fmt::format("for {} pairs of directions the solid angle of the half vector, by differences "
                     "of {:g} rad in l, is that to {:.1g} of itself.",
                     pairs, step, most));

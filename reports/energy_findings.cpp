@@ -11,10 +11,6 @@
 namespace gonio {
 namespace {
 
-std::string percent(double share) {
-  return fmt::format("{:.3g}\u00a0%", 100 * share);
-}
-
 std::string angle(double mu) {
   return mu == 0 ? "on average" : mu == 1 ? "at normal incidence" : fmt::format("at mu = {:g}", mu);
 }
@@ -39,24 +35,33 @@ std::string thresholds(const std::vector<Crossing>& all, double mu) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-const EnergyForm* form(const EnergyReport& r, std::string_view name) {
-  const auto it = std::ranges::find(r.forms, name, &EnergyForm::name);
-  return it == r.forms.end() ? nullptr : &*it;
-}
-
-const EnergyForm::At& most(const EnergyForm& f) {
-  return *std::ranges::max_element(f.rows, {}, &EnergyForm::At::albedo);
-}
-
 std::string place(const EnergyForm::At& at) {
   return fmt::format("roughness {:g}, mu {:g}", at.roughness, at.mu);
 }
 
 }  // namespace
 
+const EnergyForm* find_form(const EnergyReport& r, std::string_view name) {
+  const auto it = std::ranges::find(r.forms, name, &EnergyForm::name);
+  return it == r.forms.end() ? nullptr : &*it;
+}
+
+const EnergyForm::At& brightest(const EnergyForm& f) {
+  return *std::ranges::max_element(f.rows, {}, &EnergyForm::At::albedo);
+}
+
+bool makes_light(const EnergyForm& f) {
+  const auto& at = brightest(f);
+  return at.albedo - at.error > 1 + 1e-6;
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.3g}\u00a0%", 100 * share);
+}
+
 void add_findings(EnergyReport& r) {
   auto& say = r.findings;
-  if (const auto* f = form(r, "masking.smith_ggx.correlated")) {
+  if (const auto* f = find_form(r, "masking.smith_ggx.correlated")) {
     say.push_back(
         fmt::format("With nothing but its masking (F = 1), GGX under Smith, correlated, loses {}: "
                     "{}; {}: {}; {}: {}.",
@@ -67,7 +72,7 @@ void add_findings(EnergyReport& r) {
     const auto& rough = f->averages.back();
     const auto normal = std::ranges::find_if(
         f->rows, [](const auto& at) { return at.roughness == 1 && at.mu == 1; });
-    const auto* other = form(r, "masking.smith_ggx.separable");
+    const auto* other = find_form(r, "masking.smith_ggx.separable");
     if (other && normal != f->rows.end())
       say.push_back(
           fmt::format("At roughness 1 that is {} at normal incidence and {} on average; the "
@@ -93,7 +98,7 @@ void add_findings(EnergyReport& r) {
   }
   std::vector<std::string> gains;
   for (const auto& f : r.forms)
-    if (const auto& at = most(f); at.albedo - at.error > 1 + 1e-6)
+    if (const auto& at = brightest(f); makes_light(f))
       gains.push_back(fmt::format("{} (E = {:.3g} at {})", f.name, at.albedo, place(at)));
   if (!gains.empty()) say.push_back(fmt::format("Light is made by {}.", fmt::join(gains, ", ")));
   if (r.albedo_forms.size() == 3)

@@ -24,6 +24,15 @@ std::vector<Crossing> crossings_at(double mu,
 std::vector<Crossing> gather_crossings(
     const std::function<void(double mu, const std::function<void(double, double)>& add)>& gather);
 
+/// The form of that name; nullptr if it was not looked at.
+const EnergyForm* find_form(const EnergyReport&, std::string_view name);
+/// Where it reflects most.
+const EnergyForm::At& brightest(const EnergyForm&);
+/// Whether it reflects more than comes in there, beyond its error.
+bool makes_light(const EnergyForm&);
+/// "59.1 %"
+std::string percent(double share);
+
 void add_forms(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);
 void add_materials(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);
 void add_estimators(EnergyReport&, const EnergyOptions&, const std::function<void(double)>& done);

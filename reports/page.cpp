@@ -1,32 +1,12 @@
 #include "reports/page.h"
 
 #include "reports/assets.h"
+#include "reports/markup.h"
 
 #include <fmt/format.h>
 
 namespace gonio {
 namespace {
-
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
 
 /// In JSON a '<' stands in strings only; escaped there, no "</script" or "<!--" is left for the
 /// HTML parser to see.
@@ -45,7 +25,8 @@ std::string script_json(std::string_view json) {
 }  // namespace
 
 std::string make_page(std::string_view title, std::string_view json_data, std::string_view script) {
-  return fmt::format(R"(<!doctype html>
+  return fmt::format(
+      R"(<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
@@ -72,12 +53,11 @@ std::string make_page(std::string_view title, std::string_view json_data, std::s
 </body>
 </html>
 )",
-                     fmt::arg("title", html_text(title)), fmt::arg("uplot_css", assets::uplot_css),
-                     fmt::arg("page_css", assets::page_css),
-                     fmt::arg("json", script_json(json_data)),
-                     fmt::arg("license", assets::uplot_license),
-                     fmt::arg("uplot_js", assets::uplot_js), fmt::arg("page_js", assets::page_js),
-                     fmt::arg("plots_js", assets::plots_js), fmt::arg("script", script));
+      fmt::arg("title", escaped_markup(title)), fmt::arg("uplot_css", assets::uplot_css),
+      fmt::arg("page_css", assets::page_css), fmt::arg("json", script_json(json_data)),
+      fmt::arg("license", assets::uplot_license), fmt::arg("uplot_js", assets::uplot_js),
+      fmt::arg("page_js", assets::page_js), fmt::arg("plots_js", assets::plots_js),
+      fmt::arg("script", script));
 }
 
 std::string make_report_page(std::string_view title,

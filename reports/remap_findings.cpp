@@ -46,10 +46,6 @@ double overall(const std::vector<const RemapRow*>& rows) {
 }
 
 using Judged = Claim::Judged;
-void claim(RemapReport& r, std::string_view said, Judged judged, std::string verdict) {
-  judge(r.claims, r.findings, {std::string(said), judged, std::move(verdict)});
-}
-
 /// From the nearest to the furthest.
 void ranking(RemapReport& r, std::string_view reference, std::string_view what) {
   struct Place {
@@ -107,7 +103,7 @@ void verdict_on_k(RemapReport& r) {
   for (const double at : {0.1, 0.3, 0.5, 0.8})
     if (const auto* a = row_at(ours, at), *b = row_at(others, at); a && b)
       behaves.push_back(fmt::format("{:g} as {} (r²/2: {})", at, rough(a->by_g2), rough(b->by_g2)));
-  claim(r, "k = (r+1)²/8 is right for direct light, r²/2 for image-based",
+  judge(r, "k = (r+1)²/8 is right for direct light, r²/2 for image-based",
         2 * nearer < one.all + two.all ? Judged::fails
         : nearer < one.all + two.all   ? Judged::partly
                                        : Judged::holds,
@@ -158,7 +154,7 @@ void verdict_on_g1(RemapReport& r) {
     values.push_back(fmt::format("{:.4f} (k {:.3f})", g.value, g.k));
     exact.push_back(fmt::format("{:.3f} at roughness {:g}", g.smith, g.roughness));
   }
-  claim(r, "G1 at NoV 0.1: 0.47 (k 0.125) and 0.28 (k 0.281)",
+  judge(r, "G1 at NoV 0.1: 0.47 (k 0.125) and 0.28 (k 0.281)",
         holds ? Judged::holds : Judged::fails,
         fmt::format("of Schlick's form it is {}. Exact Smith "
                     "for GGX, which these k = (r+1)²/8 stand for, is {}.",
@@ -187,7 +183,7 @@ void verdict_on_vf(RemapReport& r) {
     return fmt::format("{:.2g} to {:.2g}", (*least)->factor, (*most)->factor);
   };
   const bool holds = (*std::ranges::max_element(mirror, {}, &RemapVf::factor))->factor < 1.1;
-  claim(
+  judge(
       r, "F V ≈ 1/(LoH²(r+0.5))", holds ? Judged::holds : Judged::fails,
       fmt::format(
           "against Smith (correlated) times the exact Fresnel term of "

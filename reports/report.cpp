@@ -52,11 +52,6 @@ std::string sentence(const Claim& c) {
   return fmt::format("“{}” {}: {}", c.claim, word(c.judged), c.verdict);
 }
 
-void judge(std::vector<Claim>& claims, std::vector<std::string>& findings, Claim c) {
-  findings.push_back(sentence(c));
-  claims.push_back(std::move(c));
-}
-
 namespace {
 
 constexpr std::array kinds{

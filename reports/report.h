@@ -48,8 +48,12 @@ struct Claim {
 std::string_view word(Claim::Judged);
 /// "“claim” holds: verdict"
 std::string sentence(const Claim&);
-/// Keeps a claim, and its sentence among the findings.
-void judge(std::vector<Claim>&, std::vector<std::string>& findings, Claim);
+/// Keeps a claim of a report, and its sentence among the report's findings.
+template <class Report>
+void judge(Report& r, std::string_view claim, Claim::Judged judged, std::string verdict) {
+  r.claims.push_back({std::string(claim), judged, std::move(verdict)});
+  r.findings.push_back(sentence(r.claims.back()));
+}
 
 /// What readers come with, and where it is answered.
 struct Question {

@@ -65,10 +65,6 @@ std::string of_all(std::size_t n, std::size_t all) {
 }
 
 using Judged = Claim::Judged;
-void claim(SchlickReport& r, std::string_view said, Judged judged, std::string verdict) {
-  judge(r.claims, r.findings, {std::string(said), judged, std::move(verdict)});
-}
-
 void below_one_percent(SchlickReport& r) {
   const auto outside = by_index(r, "dielectric", schlick), metals = rows_with(r, "metal", schlick);
   const auto* g = glass(outside);
@@ -77,7 +73,7 @@ void below_one_percent(SchlickReport& r) {
   const auto relative = [](const FresnelRow& x) { return x.max_rel < 0.01; };
   const std::size_t some = how_many(outside, within), channels = how_many(metals, within),
                     all = outside.size() + metals.size();
-  claim(r, "Schlick's error is below 1 %",
+  judge(r, "Schlick's error is below 1 %",
         some + channels == all        ? Judged::holds
         : 2 * (some + channels) > all ? Judged::partly
                                       : Judged::fails,
@@ -103,7 +99,7 @@ void only_near_one(SchlickReport& r) {
                        [](const FresnelRow* x) { return x->max_abs < poor; });
   const auto &low = *outside.front(), &high = *outside.back();
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
-  claim(r, "Schlick is accurate enough; only near IOR 1 is it poor",
+  judge(r, "Schlick is accurate enough; only near IOR 1 is it poor",
         only   ? Judged::holds
         : near ? Judged::partly
                : Judged::fails,
@@ -287,7 +283,7 @@ void ranges_of_f0(SchlickReport& r) {
     return fmt::format("from {:.3f} ({}) to {:.3f} ({})", low->f0, low->name, high->f0, high->name);
   };
   const std::size_t d = within(dielectric, 0.02, 0.04), m = within(metal, 0.7, 1);
-  claim(r, "dielectrics have F0 0.02 to 0.04, metals 0.7 to 1.0",
+  judge(r, "dielectrics have F0 0.02 to 0.04, metals 0.7 to 1.0",
         d == dielectric.size() && m == metal.size()      ? Judged::holds
         : 2 * (d + m) > dielectric.size() + metal.size() ? Judged::partly
                                                          : Judged::fails,

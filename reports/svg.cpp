@@ -3,29 +3,15 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "reports/markup.h"
 
 #include <fmt/format.h>
 
 namespace gonio::svg {
 
 std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20) out += c;
-    }
+  std::string out = escaped_markup(text);
+  std::erase_if(out, [](char c) { return static_cast<unsigned char>(c) < 0x20; });  // XML has none
   return out;
 }
 
@@ -63,8 +49,7 @@ std::string text(double x, double y, std::string_view what, const TextStyle& o) 
   if (o.bold) out += R"( font-weight="600")";
   if (o.turned != 0)
     out += fmt::format(" transform=\"rotate({} {} {})\"", number(o.turned), number(x), number(y));
-           return out +
-           ">" + escaped(what) + "</text>\n";
+  return out + ">" + escaped(what) + "</text>\n";
 }
 
 std::string line(double x1,
