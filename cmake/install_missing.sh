@@ -1,10 +1,11 @@
 # Sourced by ./quickstart and ./check: installs what the build needs and this machine lacks.
 # On Debian and its relatives by apt, with sudo when not root, asking nothing; elsewhere it names it.
 
-gonio_tools=(g++:g++ cmake:cmake ninja:ninja-build ccache:ccache npm:npm)  # command:package
+gonio_tools=(g++:g++ cmake:cmake ninja:ninja-build ccache:ccache npm:npm
+  pkg-config:pkg-config)  # command:package
 gonio_libraries=(libceres-dev libeigen3-dev libopenexr-dev libtbb-dev libfmt-dev
   nlohmann-json3-dev libcli11-dev libxsimd-dev libgtest-dev
-  librapidcheck-dev libboost-dev libssl-dev libpugixml-dev libbenchmark-dev)
+  librapidcheck-dev libboost-dev nettle-dev libpugixml-dev libbenchmark-dev)
 
 install_missing() {
   local missing=() entry
@@ -12,7 +13,7 @@ install_missing() {
     command -v "${entry%%:*}" >/dev/null || missing+=("${entry##*:}")
   done
   if ! command -v apt-get >/dev/null; then
-    echo "Needed: ${gonio_tools[*]%%:*}, and the libraries Ceres, Eigen 3, OpenEXR 3, oneTBB, OpenSSL, pugixml, fmt," \
+    echo "Needed: ${gonio_tools[*]%%:*}, and the libraries Ceres, Eigen 3, OpenEXR 3, oneTBB, Nettle, pugixml, fmt," \
       "nlohmann-json, CLI11, xsimd 8, GoogleTest, google-benchmark, rapidcheck and Boost.Multiprecision where CMake finds them" \
       "(Debian's names: ${gonio_libraries[*]})."
     [ ${#missing[@]} -eq 0 ] || { echo "Not found here: ${missing[*]}" >&2; return 1; }

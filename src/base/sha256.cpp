@@ -2,37 +2,33 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
-#include <new>
+#include <cstdint>
 #include <vector>
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
+#include <nettle/sha2.h>
 
 namespace gonio {
 namespace {
 
+/// By Nettle, which neither allocates nor initialises anything at run time: libraries that do may
+/// crash where memory is short, however carefully they are called.
 class Sum {
  public:
-  Sum() : context_(EVP_MD_CTX_new()) {
-    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
-      throw std::bad_alloc();
+  Sum() { sha256_init(&context_); }
+  void add(std::string_view bytes) {
+    sha256_update(&context_, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
   }
-  void add(std::string_view bytes) { EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()); }
   std::string hex() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
-    unsigned size = 0;
-    EVP_DigestFinal_ex(context_.get(), digest.data(), &size);
+    std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest;
+    sha256_digest(&context_, digest.size(), digest.data());
     std::string digits;
-    for (unsigned i = 0; i < size; ++i) digits += fmt::format("{:02x}", digest[i]);
+    for (const std::uint8_t byte : digest) digits += fmt::format("{:02x}", byte);
     return digits;
   }
 
  private:
-  struct Free {
-    void operator()(EVP_MD_CTX* c) const { EVP_MD_CTX_free(c); }
-  };
-  std::unique_ptr<EVP_MD_CTX, Free> context_;
+  sha256_ctx context_;
 };
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(Surroundings, ALimitOfMemoryIsOneLine) {
   ASSERT_EQ(gonio(f, "synth lambert --layout merl -o t.binary").code, 0);
   const std::size_t before = f.entries();
   std::size_t refused = 0;
-  for (int mebibytes = 60; mebibytes <= 160; mebibytes += 10) {
+  for (int mebibytes = 60; mebibytes <= 160; mebibytes += 4) {
     const auto o =
         gonio(f, "fit t.binary -o r.json", "ulimit -v " + std::to_string(1024 * mebibytes) + "; ");
     if (o.code == 0 || o.code == 127) {  // enough, or not even for the program's libraries
