@@ -15,7 +15,7 @@ struct Lambert {
   static constexpr About about{"diffuse.lambert", "Lambert, uncoupled", "f = kd/π", "Lambert 1760"};
   static constexpr std::array parameters{
       Parameter{"kd", {0, 1}, {0, 1}, 0.2, true, "diffuse albedo"}};
-  static constexpr bool coupled = false;
+  static constexpr bool coupled = false, uniform = true;
 
   T value;
 

@@ -72,6 +72,10 @@ void Evaluator<F>::set(std::span<const F> values) {
   for (auto& t : terms_)
     for (std::size_t c = 0; c < channels_; ++c)
       for (std::size_t i = 0; i < t.count; ++i) t.parameters[c][i] = values[t.slots[c][i]];
+  uniform_.clear();
+  if (has_uniform_diffuse())
+    for (const auto& p : terms_[0].parameters)
+      uniform_.push_back(terms_[0].kernels->uniform(p.data()));
 }
 
 template <class F>
@@ -111,12 +115,15 @@ void Evaluator<F>::compose(const Block<F>& x, std::size_t at, std::span<F* const
       std::ranges::copy(join.out, join.base.begin());
     };
     for (std::size_t k = 0; k < together; ++k) join.out[k] = out[c + k] + at;
-    for (std::size_t t = 0; t < diffuse_; ++t) shade(terms_[t]);
-    if (coupled_) join.less = join.base;  // F (D V − coupled) + coupled; there is one diffuse term
+    if (has_uniform_diffuse())
+      join.uniform = uniform_.data() + c;
+    else if (diffuse_ > 0)
+      shade(terms_[0]);
+    join.coupled = coupled_;
     for (std::size_t l = 0; l < dv.size(); ++l) {
       join.factor = dv[l];
       shade(terms_[diffuse_ + 3 * l + 2]);
-      join.less = {};
+      join.coupled = false;
     }
   }
 }

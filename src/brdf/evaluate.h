@@ -106,10 +106,16 @@ class Evaluator {
     std::size_t count = 0;
   };
   void compose(const Block<F>& x, std::size_t at, std::span<F* const> out);
+  /// A model has one diffuse term at most.
+  bool has_uniform_diffuse() const {
+    return diffuse_ == 1 && terms_[0].kernels->uniform && terms_.size() > 1;
+  }
 
   std::size_t channels_, diffuse_ = 0;
   bool coupled_ = false;     ///< a diffuse term lies under the first lobe
   std::vector<Term> terms_;  ///< diffuse terms, then D, V, F of each lobe
+  std::vector<F>
+      uniform_;  ///< of each channel: the diffuse term where it is the same at all angles
   typename FusedKernel<F>::Value fused_ = nullptr;
   std::vector<F*> dv_;
   Scratch<F> scratch_;

@@ -52,12 +52,14 @@ struct Join {
 
 /// The same of a term that channels have each their own of, F or diffuse, for all of them at once:
 ///
-///   out_c = base_c + (factor − less_c) F_c   or   base_c + diffuse_c
+///   out_c = base_c + factor F_c   or   base_c + (factor − base_c) F_c   or   base_c + diffuse_c
 template <class F>
 struct ChannelJoin {
   const F* factor = nullptr;                  ///< of F
-  std::array<const F*, max_channels> less{};  ///< of F, with a base; nullptr: nothing
   std::array<const F*, max_channels> base{};  ///< nullptr: nothing
+  const F* uniform =
+      nullptr;           ///< of F, in place of a column: the base of each channel at all samples
+  bool coupled = false;  ///< the base lies under this lobe
   std::array<F*, max_channels> out{};
   std::array<const F*, max_channels> parameters{};
 };
@@ -74,6 +76,8 @@ struct TermKernels {
   Value begin;  ///< out/out_den = term, still a fraction
   Value close;  ///< out = num/den · term, divided
   Value add;    ///< out = base + num · term
+  /// f of a diffuse term that is the same at all angles, else nullptr
+  F (*uniform)(const F* parameters);
   /// by the number of channels, 1 and 3; nullptr for D and V
   using Shade = void (*)(const Block<F>&, const ChannelJoin<F>&);
   std::array<Shade, max_channels + 1> shade;

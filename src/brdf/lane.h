@@ -50,11 +50,18 @@ auto bind_value(const F* p) {
   return bind<Term<B>, B>(p, [](F x, std::size_t) { return B(x); });
 }
 
-/// A term of each channel.
+/// A term of each channel.  What all channels share is read of the first: where it alone decides, one
+/// loop computes it once.
 template <template <class> class Term, std::size_t channels, class F>
 auto bind_channels(const std::array<const F*, max_channels>& p) {
+  using B = Lane<F>;
+  const auto of = [&](std::size_t c) {
+    return bind<Term<B>, B>(p[c], [&](F x, std::size_t k) {
+      return B(Term<B>::parameters[k].per_channel ? x : p[0][k]);
+    });
+  };
   return [&]<std::size_t... C>(std::index_sequence<C...>) {
-    return std::array{bind_value<Term, F>(p[C])...};
+    return std::array{of(C)...};
   }
   (std::make_index_sequence<channels>{});
 }

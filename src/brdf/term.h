@@ -56,6 +56,12 @@ inline constexpr bool is_as_shipped = requires {
   requires Term::as_shipped;
 };
 
+/// Whether a term is the same at all angles.
+template <class Term>
+inline constexpr bool is_uniform = requires {
+  requires Term::uniform;
+};
+
 /// What a term is given: the angles of one sample.
 template <class Term, class B>
 using angles_of = std::conditional_t<is_anisotropic<Term>, FrameAngles<B>, Angles<B>>;

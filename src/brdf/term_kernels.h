@@ -54,33 +54,48 @@ void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
   }
 }
 
-template <template <class> class Term, std::size_t channels, class F, bool base, bool less>
+/// What a term of the channels is added to.
+enum class Base { nothing, column, uniform };
+
+template <template <class> class Term, std::size_t channels, class F, Base base, bool coupled>
 void shade_with(const Block<F> x, const ChannelJoin<F> j) {  // copied: stores cannot change them
   using B = Lane<F>;
   constexpr bool is_fresnel = role_of(Term<F>::about.id) == Role::fresnel;
   const auto terms = bind_channels<Term, channels>(j.parameters);
+  std::array<B, channels> under, value;
+  if constexpr (base == Base::uniform)
+    for (std::size_t c = 0; c < channels; ++c) under[c] = B(j.uniform[c]);
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
     const auto a = angles<Term<B>>(x, i);
-    std::array<B, channels> value;
     B factor;
     if constexpr (is_fresnel) factor = load<B>(j.factor + i);
     for (std::size_t c = 0; c < channels; ++c) {
+      if constexpr (base == Base::column) under[c] = load<B>(j.base[c] + i);
       value[c] = as_value<B>(terms[c](a));
-      if constexpr (less)
-        value[c] = (factor - load<B>(j.less[c] + i)) * value[c];
+      if constexpr (coupled)
+        value[c] = (factor - under[c]) * value[c];
       else if constexpr (is_fresnel)
         value[c] = factor * value[c];
-      if constexpr (base) value[c] = load<B>(j.base[c] + i) + value[c];
+      if constexpr (base != Base::nothing) value[c] = under[c] + value[c];
     }
     for (std::size_t c = 0; c < channels; ++c) store<B>(j.out[c] + i, value[c]);
   }
 }
 template <template <class> class Term, std::size_t channels, class F>
 void shade(const Block<F>& x, const ChannelJoin<F>& j) {
-  if (!j.base[0]) return shade_with<Term, channels, F, false, false>(x, j);
+  const auto on = [&]<Base base>() {
+    if constexpr (base != Base::nothing && role_of(Term<F>::about.id) == Role::fresnel)
+      if (j.coupled) return shade_with<Term, channels, F, base, true>(x, j);
+    shade_with<Term, channels, F, base, false>(x, j);
+  };
+  if (j.base[0]) return on.template operator()<Base::column>();
   if constexpr (role_of(Term<F>::about.id) == Role::fresnel)
-    if (j.less[0]) return shade_with<Term, channels, F, true, true>(x, j);
-  shade_with<Term, channels, F, true, false>(x, j);
+    if (j.uniform) return on.template operator()<Base::uniform>();
+  on.template operator()<Base::nothing>();
+}
+template <template <class> class Term, class F>
+F uniform(const F* p) {
+  return bind<Term<F>, F>(p, [](F x, std::size_t) { return x; })(Angles<F>{});
 }
 template <template <class> class Term, class F>
 constexpr auto shades() {
@@ -98,9 +113,12 @@ constexpr TermKernels<F> term_entry() {
   static_assert(Term<F>::parameters.size() <= max_parameters);
   bool coupled = false;
   if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
-  return {&Term<F>::about,        Term<F>::parameters, coupled,        is_anisotropic<Term<F>>,
-          is_as_shipped<Term<F>>, begin<Term, F>,      close<Term, F>, add<Term, F>,
-          shades<Term, F>(),      derivatives<Term, F>};
+  F (*same_at_all_angles)(const F*) = nullptr;
+  if constexpr (is_uniform<Term<F>>) same_at_all_angles = uniform<Term, F>;
+  return {&Term<F>::about,         Term<F>::parameters,    coupled,
+          is_anisotropic<Term<F>>, is_as_shipped<Term<F>>, begin<Term, F>,
+          close<Term, F>,          add<Term, F>,           same_at_all_angles,
+          shades<Term, F>(),       derivatives<Term, F>};
 }
 template <class F, template <class> class... Terms>
 constexpr auto term_table(TermList<Terms...>) {

@@ -35,6 +35,7 @@ using std::sqrt;
 ///   Plain   the number without derivatives (Batch<float> for Dual<Batch<float>, 2>)
 ///   Mask    what `a < b` returns
 ///   select  lane-wise choice
+///   max, min  where one instruction does what `max` and `min` below say
 template <class T>
 struct RealTraits;
 
@@ -80,13 +81,20 @@ template <Real T>
 constexpr T square(const T& x) {
   return x * x;
 }
+/// a where neither is less: of equal ones, of −0 and 0, and where one is NaN.
 template <Real T>
 constexpr T max(const T& a, const T& b) {
-  return select<T>(a < b, b, a);
+  if constexpr (requires { RealTraits<T>::max(a, b); })
+    return RealTraits<T>::max(a, b);
+  else
+    return select<T>(a < b, b, a);
 }
 template <Real T>
 constexpr T min(const T& a, const T& b) {
-  return select<T>(b < a, b, a);
+  if constexpr (requires { RealTraits<T>::min(a, b); })
+    return RealTraits<T>::min(a, b);
+  else
+    return select<T>(b < a, b, a);
 }
 
 /// The one door for constants that are not integers; rounded to the base type first.

@@ -98,8 +98,8 @@ struct SchlickF90 {
   explicit SchlickF90(std::span<const T, 2> p) : f0(p[0]), f90(p[1]) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
-    // 1 − m⁵ = (1 − m)(1 + m + m² + m³ + m⁴): where f90 is small the rest decides at grazing too.
-    const auto m = 1 - a.voh, rest = a.voh * (1 + m * (1 + m * (1 + m * (1 + m))));
+    // 1 − m⁵ = (1 − m)((1 + m)(1 + m²) + m⁴): where f90 is small the rest decides at grazing too.
+    const auto m = 1 - a.voh, m2 = square(m), rest = a.voh * ((1 + m) * (1 + m2) + square(m2));
     return f0 * rest + f90 * schlick_weight(a.voh);
   }
 };

@@ -63,6 +63,21 @@ TYPED_TEST(BatchOf, ArithmeticEqualsTheScalarBitForBit) {
                   "select");
 }
 
+TYPED_TEST(BatchOf, MaxAndMinTakeTheirFirstWhereNeitherIsLessAsTheScalarDoes) {
+  using F = TypeParam;
+  using B = typename TestFixture::B;
+  using Bits = typename TestFixture::Bits;
+  const F nan = std::numeric_limits<F>::quiet_NaN(), inf = std::numeric_limits<F>::infinity();
+  for (const F a : {F(0), F(-0.0), F(1), -inf, inf, nan, -nan})
+    for (const F b : {F(0), F(-0.0), F(1), -inf, inf, nan, -nan}) {
+      const auto high = this->out(max<B>(B(a), B(b))), low = this->out(min<B>(B(a), B(b)));
+      EXPECT_EQ(std::bit_cast<Bits>(high[0]), std::bit_cast<Bits>(max<F>(a, b))) << a << ", " << b;
+      EXPECT_EQ(std::bit_cast<Bits>(low[0]), std::bit_cast<Bits>(min<F>(a, b))) << a << ", " << b;
+      if (!(a < b)) EXPECT_EQ(std::bit_cast<Bits>(high[0]), std::bit_cast<Bits>(a));
+      if (!(b < a)) EXPECT_EQ(std::bit_cast<Bits>(low[0]), std::bit_cast<Bits>(a));
+    }
+}
+
 TYPED_TEST(BatchOf, ExpAndLogAreWithinThreeEpsOfTheScalar) {
   using F = TypeParam;
   for (int trial = 0; trial < 500; ++trial) {
