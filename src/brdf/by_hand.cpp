@@ -185,8 +185,7 @@ void filament(const Block<F>& x, const F* p, F* const* out) {
   });
 }
 
-/// Values: kd, alpha, alpha_x, alpha_y, f0, alpha_2, gamma_2 (1, which is what is written out), f0_2,
-/// weight_2.
+/// Values: kd, alpha, alpha_x, alpha_y, f0, alpha_2, f0_2, weight_2.
 template <class F>
 void disney(const Block<F>& x, const F* p, F* const* out) {
   using B = Lane<F>;
@@ -195,7 +194,7 @@ void disney(const Block<F>& x, const F* p, F* const* out) {
   const Root<F> root(g), coat_root(F(0.25));
   const B two_r(2 * r), x2(1 / (p[4] * p[4])), y2(1 / (p[5] * p[5]));
   const B pi_xy(pi_of<F> * p[4] * p[5]), coat_less(coat2 - 1);
-  const B coat_num(p[14] * (coat2 - 1) / (pi_of<F> * std::log(coat2))), coat_f0(p[11]);
+  const B coat_num(p[13] * (coat2 - 1) / (pi_of<F> * std::log(coat2))), coat_f0(p[10]);
   each(x, [&](std::size_t i) {
     const B nol = load<B>(x.nol + i), nov = load<B>(x.nov + i), noh = load<B>(x.noh + i);
     const B voh = load<B>(x.voh + i), m5 = power_5<B>(B(1) - voh);
@@ -268,8 +267,9 @@ constexpr std::array table{
     HandWritten<F>{"lambert.coupled+ggx/smith_ggx.correlated/schlick", 3, cook_torrance<F>},
     HandWritten<F>{"lambert.coupled+ggx/smith_ggx.separable/schlick", 3, gltf<F>},
     HandWritten<F>{"lambert+ggx/smith_ggx.correlated/schlick.f90", 3, filament<F>},
-    HandWritten<F>{"diffuse.disney+ggx_aniso/disney_remap/schlick+gtr/disney_coat/schlick.weighted",
-                   3, disney<F>},
+    HandWritten<F>{
+        "diffuse.disney+ggx_aniso/disney_remap/schlick+gtr1/disney_coat/schlick.weighted", 3,
+        disney<F>},
     HandWritten<F>{"ggx.ue_mobile/ue_joint.clamped/schlick.ue", 3, ue_mobile<F>},
     HandWritten<F>{"ggx.mobile/ue_mobile_simple/constant", 3, ue_mobile_simple<F>},
     HandWritten<F>{"ggx/unity_mobile/constant", 3, unity_mobile<F>}};

@@ -33,7 +33,7 @@ using Hot =
               ModelTerms<TermList<Lambert>, TermList<Ggx, SmithGgxCorrelated, SchlickF90>>,
               ModelTerms<TermList<DisneyDiffuse>,
                          TermList<GgxAniso, DisneyRemap, Schlick>,
-                         TermList<Gtr, DisneyCoat, SchlickWeighted>>,
+                         TermList<Gtr1, DisneyCoat, SchlickWeighted>>,
               ModelTerms<TermList<>, TermList<GgxUeMobile, UeJointClamped, SchlickUe>>,
               ModelTerms<TermList<>, TermList<GgxMobile, UeMobileSimple, ConstantReflectance>>,
               ModelTerms<TermList<>, TermList<Ggx, UnityMobile, ConstantReflectance>>>;

@@ -65,6 +65,9 @@ Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k) : channels_(m.chann
   for (std::size_t t = 0; t < terms_.size(); ++t) ids[t] = terms_[t].kernels->about->id;
   for (const auto& f : k.fused)
     if (f.diffuse == diffuse_ && f.ids == ids) fused_ = f.value[channels_];
+  for (std::size_t t = 0; t < terms_.size(); ++t)
+    for (std::size_t c = 0; c < channels_; ++c)
+      arguments_.parameters[t][c] = terms_[t].parameters[c].data();
 }
 
 template <class F>
@@ -85,13 +88,9 @@ void Evaluator<F>::operator()(const Block<F>& x, std::span<F* const> out) {
       compose(x.part(at, std::min(Scratch<F>::block, x.n - at)), at, out);
     return;
   }
-  FusedArguments<F> a{x, {}, {}};
-  for (std::size_t c = 0; c < channels_; ++c) {
-    a.out[c] = out[c];
-    for (std::size_t t = 0; t < terms_.size(); ++t)
-      a.parameters[t][c] = terms_[t].parameters[c].data();
-  }
-  fused_(a);
+  arguments_.x = x;
+  std::ranges::copy(out, arguments_.out.begin());
+  fused_(arguments_);
 }
 
 template <class F>

@@ -72,7 +72,7 @@ template <class F>
 class Scratch {
  public:
   /// Samples per block: the columns of a pass then stay in the L2 cache.
-  static constexpr std::size_t block = 256;
+  static constexpr std::size_t block = 2048 / sizeof(F);
   Scratch();
   F* operator[](std::size_t i);
   const F* ones() { return (*this)[0]; }
@@ -117,6 +117,7 @@ class Evaluator {
   std::vector<F>
       uniform_;  ///< of each channel: the diffuse term where it is the same at all angles
   typename FusedKernel<F>::Value fused_ = nullptr;
+  FusedArguments<F> arguments_{};  ///< its parameters are those of terms_
   std::vector<F*> dv_;
   Scratch<F> scratch_;
 };

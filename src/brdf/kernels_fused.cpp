@@ -92,7 +92,8 @@ class FusedLobe<TermList<D, V, Fr>, F, channels> {
 
 /// f_c = Σ diffuse_c + Σ D V F_c, the first lobe's F_c (D V − coupled_c)
 template <class F, std::size_t channels, class... Diffuse, class First, class... Rest>
-void run(const FusedArguments<F> a,  // copied: stores cannot change it
+void run(const Block<F> columns,  // copied: stores cannot change them
+         const std::array<F*, max_channels> out,
          const std::tuple<Diffuse...>& diffuse,
          const First& first,
          const Rest&... rest) {
@@ -100,13 +101,13 @@ void run(const FusedArguments<F> a,  // copied: stores cannot change it
   constexpr bool coupled = (false || ... || Diffuse::coupled);
   constexpr bool anisotropic =
       (First::anisotropic || ... || Rest::anisotropic) || (false || ... || Diffuse::anisotropic);
-  for (std::size_t i = 0; i < a.x.n; i += lanes<B>) {
-    const auto x = angles_with<anisotropic>(a.x, i);
+  for (std::size_t i = 0; i < columns.n; i += lanes<B>) {
+    const auto x = angles_with<anisotropic>(columns, i);
     Sums<F, channels> sum, under;
     std::apply([&](const auto&... term) { (term.add(x, sum, under), ...); }, diffuse);
     first.template add<coupled>(x, sum, under);
     (rest.template add<false>(x, sum, under), ...);
-    for (std::size_t c = 0; c < channels; ++c) store<B>(a.out[c] + i, sum.value[c]);
+    for (std::size_t c = 0; c < channels; ++c) store<B>(out[c] + i, sum.value[c]);
   }
 }
 
@@ -117,7 +118,7 @@ struct Fused<F, channels, ModelTerms<TermList<Diffuse...>, Lobes...>> {
   static void value(const FusedArguments<F>& a) {
     const auto* const p = a.parameters.data();
     [&]<std::size_t... K, std::size_t... L>(std::index_sequence<K...>, std::index_sequence<L...>) {
-      run<F, channels>(a, std::tuple{FusedDiffuse<Diffuse, F, channels>(p + K)...},
+      run<F, channels>(a.x, a.out, std::tuple{FusedDiffuse<Diffuse, F, channels>(p + K)...},
                        FusedLobe<Lobes, F, channels>(p + sizeof...(Diffuse) + 3 * L)...);
     }
     (std::index_sequence_for<TermList<Diffuse>...>{}, std::index_sequence_for<Lobes...>{});

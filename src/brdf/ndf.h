@@ -117,7 +117,7 @@ struct Gtr {
       "D = N / (NoH² (α² − 1) + 1)^γ, N = (γ−1)(α²−1) / (π (1 − α^(2(1−γ)))), limits continued",
       "Burley 2012, Appendix B",
       "001 002",
-      "Disney (γ = 2 base, γ = 1 clear coat)"};
+      ""};
   static constexpr std::array parameters{alpha_parameter, gamma_parameter};
 
   T per_alpha2, gamma, peak;
@@ -132,6 +132,29 @@ struct Gtr {
  private:
   T d_at_peak(const T& l) const {
     return expm1_over<T>(l) * per_alpha2 / (pi<plain_t<T>>() * expm1_over<T>((gamma - 1) * l));
+  }
+};
+
+/// Berry's distribution, GTR of γ = 1: neither its power nor its normalisation needs a function there.
+///
+///   D = (α² − 1)/(π ln α² t)                                           [Burley 2012, App. B]
+template <Real T>
+struct Gtr1 {
+  static constexpr About about{"ndf.gtr1",
+                               "Berry (generalised Trowbridge–Reitz, γ = 1)",
+                               "D = (α² − 1) / (π ln α² (NoH² (α² − 1) + 1))",
+                               "Berry 1923; Burley 2012, Appendix B",
+                               "001",
+                               "Disney (clear coat)"};
+  static constexpr std::array parameters{alpha_parameter};
+
+  T alpha2, num;
+
+  explicit Gtr1(std::span<const T, 1> p)
+      : alpha2(square(p[0])), num(expm1_over<T>(log(alpha2)) / pi<plain_t<T>>()) {}
+
+  Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
+    return {num, alpha2 * square(a.noh) + a.sin2_theta_h};
   }
 };
 

@@ -67,7 +67,7 @@ std::vector<Setting> filament(const PresetValues& v) {
   return s;
 }
 
-constexpr std::array<std::string_view, 3> disney_held{"gamma_2", "f0_2", "alpha_2"};
+constexpr std::array<std::string_view, 2> disney_held{"f0_2", "alpha_2"};
 constexpr std::array<std::string_view, 1> ue_mobile_held{"f0_green"};
 constexpr std::array disney_parameters{
     base_color,
@@ -86,7 +86,6 @@ std::vector<Setting> disney(const PresetValues& v) {
   add(s, "alpha_y", std::max(y, 0.001));
   add(s, "alpha", alpha_of(r));
   add(s, "alpha_2", 0.1 + (0.001 - 0.1) * gloss);
-  add(s, "gamma_2", 1);
   add(s, "f0_2", 0.04);
   add(s, "weight_2", 0.25 * v.number("clearcoat"));
   return s;
@@ -120,7 +119,7 @@ constexpr std::array all{
         {"model.disney", "Disney's principled BRDF: base, coat and diffuse",
          "f = f_disney + GTR2aniso F G + 0.25 clearcoat GTR1 F G(0.25)", "Burley 2012, Appendix B",
          "001", "Disney's Hyperion, as published in 2012 without sheen, tint and subsurface"},
-        "disney+ggx_aniso/disney_remap/schlick+gtr/disney_coat/schlick.weighted",
+        "disney+ggx_aniso/disney_remap/schlick+gtr1/disney_coat/schlick.weighted",
         disney_parameters,
         disney,
         disney_held},

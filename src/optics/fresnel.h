@@ -95,18 +95,28 @@ struct Dielectric {
   }
 };
 
-/// What an interface reflects whose root a + i b = √(N² − s²) is known: (R_s + R_p)/2, with the R_s and
-/// R_p of Conductor.
+/// What an interface reflects whose root a + i b = √(N² − s²) is known, of modulus m = a² + b².  With the
+/// R_s and R_p of Conductor multiplied out
+///
+///   R_s = (m + c² − 2 a c)/(m + c² + 2 a c),   F = R_s (m c² + s⁴)/(m c² + s⁴ + 2 a c s²)
+///
+/// Only the numerator of R_s cancels, and where b ≥ a no more than two bits of it.  Where a > b it is
+///   (a − c)² + b² = ((Re N² − 1 + b²)² + b² (a + c)²)/(a + c)²
 ///
 /// \param less_one  Re N² − 1   \param a_larger  a > b
 template <Real T>
-Quotient<T> reflectance_of_root(
-    const plain_t<T>& c, const T& less_one, const T& a, const T& b2, const mask_t<T>& a_larger) {
+Quotient<T> reflectance_of_root(const plain_t<T>& c,
+                                const T& less_one,
+                                const T& m,
+                                const T& a,
+                                const T& b2,
+                                const mask_t<T>& a_larger) {
   const auto s2 = (1 - c) * (1 + c), c2 = square(c);
-  const T a_less_c = select<T>(a_larger, less_one + b2, a - c) / select<T>(a_larger, a + c, T(1));
-  const T s_num = square(a_less_c) + b2, s_den = square(a + c) + b2;
-  const T p_num = square(a * c - s2) + b2 * c2, p_den = square(a * c + s2) + b2 * c2;
-  return {s_num * (p_den + p_num), 2 * s_den * p_den};
+  const T odd = 2 * a * c, s_even = m + c2, p_even = m * c2 + square(s2);
+  const T sum2 = square(a + c);
+  const T s_num = select<T>(a_larger, square(less_one + b2) + b2 * sum2, s_even - odd);
+  const T s_den = (s_even + odd) * select<T>(a_larger, sum2, T(1));
+  return {s_num * p_even, s_den * (p_even + odd * s2)};
 }
 
 /// Exact Fresnel reflectance of a conductor with refractive index N = η + i k.
@@ -116,9 +126,8 @@ Quotient<T> reflectance_of_root(
 ///   R_p = R_s ((a c − s²)² + b² c²)/((a c + s²)² + b² c²),   F = (R_s + R_p)/2
 ///                                              [Born & Wolf, Principles of Optics, §14.2]
 ///
-/// Computed so that nothing cancels: the larger of a and b from the root, the smaller as η k over it;
-/// Re (N² − s²) by NearCritical where it is small beside c²; and where a > b
-///   a − c = ((η − 1)(η + 1) + b² − k²)/(a + c)
+/// Computed so that nothing cancels: the larger of a and b from the root, the smaller as η k over it,
+/// and Re (N² − s²) by NearCritical where it is small beside c².
 ///
 /// \param eta  real part, > 0   \param k  extinction coefficient, ≥ 0
 template <Real T>
@@ -150,11 +159,12 @@ struct Conductor {
     const auto off = T(0) < t2, there = off || less_one < T(0);
     const auto a_larger = T(0) < t;
     const T abs_t = select<T>(a_larger, t, -t);
-    const T larger = sqrt((sqrt(select<T>(off, t2, T(1))) + abs_t) / 2);
+    const T m = sqrt(select<T>(off, t2, T(1)));
+    const T larger = sqrt((m + abs_t) / 2);
     const T smaller = im / larger;
     const T a = select<T>(a_larger, larger, smaller);
     const T b2 = square(select<T>(a_larger, smaller, larger));
-    const auto f = reflectance_of_root<T>(c, less_one, a, b2, a_larger);
+    const auto f = reflectance_of_root<T>(c, less_one, m, a, b2, a_larger);
     return {select<T>(there, f.num, T(0)), f.den};
   }
 };
@@ -191,11 +201,12 @@ struct Gulbrandsen {
     const auto c = x.voh, c2 = square(c), s2 = (1 - c) * (1 + c);
     const T t = select<T>(s2 < c2, re - s2, less_one + c2);  // Re (N² − s²) by what lies closest
     const auto a_larger = T(0) < t;
-    const T larger2 = (sqrt(square(t) + 4 * im2) + select<T>(a_larger, t, -t)) / 2;
+    const T m = sqrt(square(t) + 4 * im2);
+    const T larger2 = (m + select<T>(a_larger, t, -t)) / 2;
     const T smaller2 = im2 / larger2;
     const T a = sqrt(select<T>(a_larger, larger2, smaller2));
     const T b2 = select<T>(a_larger, smaller2, larger2);
-    const T f = reflectance_of_root<T>(c, less_one, a, b2, a_larger).value();
+    const T f = reflectance_of_root<T>(c, less_one, m, a, b2, a_larger).value();
     return f * low + (1 - f) * high;
   }
 

@@ -130,13 +130,16 @@ TEST(GtrNdf, WithAlphaOneIsUniform) {
 }
 
 TEST(GtrNdf, WithGammaOneIsBerry) {
-  const auto gtr = find_term("ndf.gtr");
+  const auto gtr = find_term("ndf.gtr"), gtr1 = find_term("ndf.gtr1");
   for (const double alpha : {1e-3, 0.1, 0.7})
     for (const auto& at : trapezoid()) {
       const double a2 = alpha * alpha, t = a2 * at.noh * at.noh + at.sin2_theta_h;
       const double berry = (a2 - 1) / (pi * std::log(a2) * t);
       EXPECT_NEAR(test::value_of(gtr, {alpha, 1}, at), berry, 64 * eps * berry);
+      EXPECT_NEAR(test::value_of(gtr1, {alpha}, at), berry, 64 * eps * berry);
     }
+  for (const auto& at : trapezoid())
+    EXPECT_NEAR(test::value_of(gtr1, {1}, at), 1 / pi, 4 * eps);
 }
 
 TEST(GtrNdf, KeepsItsPeakInFloat) {
