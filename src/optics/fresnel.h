@@ -95,28 +95,25 @@ struct Dielectric {
   }
 };
 
-/// What an interface reflects whose root a + i b = √(N² − s²) is known, of modulus m = a² + b².  With the
-/// R_s and R_p of Conductor multiplied out
+/// What an interface reflects whose root a + i b = √(N² − s²) is known, of modulus m = a² + b².
 ///
-///   R_s = (m + c² − 2 a c)/(m + c² + 2 a c),   F = R_s (m c² + s⁴)/(m c² + s⁴ + 2 a c s²)
+/// As (root − c)(root + c) is N² − 1, the R_s and R_p of Conductor are also
 ///
-/// Only the numerator of R_s cancels, and where b ≥ a no more than two bits of it.  Where a > b it is
-///   (a − c)² + b² = ((Re N² − 1 + b²)² + b² (a + c)²)/(a + c)²
+///   R_s = |N² − 1|²/(m + c² + 2 a c)²,   R_p = R_s (m c² + s⁴ − 2 a c s²)/(m c² + s⁴ + 2 a c s²)
+///   F = R_s (m c² + s⁴)/(m c² + s⁴ + 2 a c s²)
 ///
-/// \param less_one  Re N² − 1   \param a_larger  a > b
+/// in which nothing cancels.
+///
+/// \param n4  |N² − 1|²
 template <Real T>
 Quotient<T> reflectance_of_root(const plain_t<T>& c,
-                                const T& less_one,
+                                const T& n4,
                                 const T& m,
-                                const T& a,
-                                const T& b2,
-                                const mask_t<T>& a_larger) {
+                                const Quotient<T>& a) {
   const auto s2 = (1 - c) * (1 + c), c2 = square(c);
-  const T odd = 2 * a * c, s_even = m + c2, p_even = m * c2 + square(s2);
-  const T sum2 = square(a + c);
-  const T s_num = select<T>(a_larger, square(less_one + b2) + b2 * sum2, s_even - odd);
-  const T s_den = (s_even + odd) * select<T>(a_larger, sum2, T(1));
-  return {s_num * p_even, s_den * (p_even + odd * s2)};
+  const T odd = 2 * a.num * c, s_den = a.den * (m + c2) + odd;
+  const T p_even = a.den * (m * c2 + square(s2));
+  return {n4 * square(a.den) * p_even, square(s_den) * (p_even + odd * s2)};
 }
 
 /// Exact Fresnel reflectance of a conductor with refractive index N = η + i k.
@@ -127,7 +124,8 @@ Quotient<T> reflectance_of_root(const plain_t<T>& c,
 ///                                              [Born & Wolf, Principles of Optics, §14.2]
 ///
 /// Computed so that nothing cancels: the larger of a and b from the root, the smaller as η k over it,
-/// and Re (N² − s²) by NearCritical where it is small beside c².
+/// and Re (N² − s²) by NearCritical where it is small beside c².  The one division is the last; with
+/// κ = 1/(1 + |N|²) multiplied in, what is divided stays near 1 for any N.
 ///
 /// \param eta  real part, > 0   \param k  extinction coefficient, ≥ 0
 template <Real T>
@@ -144,28 +142,30 @@ struct Conductor {
       Parameter{"eta", {0.001, 20}, {0.01, 10}, 1.5, true, "refractive index, real part"},
       Parameter{"k", {0, 1000}, {0, 20}, 3, true, "extinction coefficient"}};
 
-  T less_one, im;  // Re N² − 1, η k = Im N² / 2
+  T less_one, im, n4;   // Re N² − 1, η k = Im N²/2, |N² − 1|²
+  T scale, root_scale;  // κ, √κ
   NearCritical<T> critical;
 
   explicit Conductor(std::span<const T, 2> p)
-      : less_one((p[0] - 1) * (p[0] + 1) - square(p[1])), im(p[0] * p[1]), critical(p[0], p[1]) {}
+      : less_one((p[0] - 1) * (p[0] + 1) - square(p[1])),
+        im(p[0] * p[1]),
+        n4(square(less_one) + 4 * square(im)),
+        scale(1 / (1 + square(p[0]) + square(p[1]))),
+        root_scale(sqrt(scale)),
+        critical(p[0], p[1]) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& x) const {
-    const auto c = x.voh, c2 = square(c);
-    const T t = critical.difference(c, less_one + c2);  // Re (N² − s²)
-    const T t2 = square(t) + 4 * square(im);            // |N² − s²|²
-    // N = s has the root 0, which has no slope.  At the critical angle any b in its place gives 1;
-    // with η = 1 and no k at c = 0 there is nothing to reflect.
-    const auto off = T(0) < t2, there = off || less_one < T(0);
-    const auto a_larger = T(0) < t;
-    const T abs_t = select<T>(a_larger, t, -t);
-    const T m = sqrt(select<T>(off, t2, T(1)));
-    const T larger = sqrt((m + abs_t) / 2);
-    const T smaller = im / larger;
-    const T a = select<T>(a_larger, larger, smaller);
-    const T b2 = square(select<T>(a_larger, smaller, larger));
-    const auto f = reflectance_of_root<T>(c, less_one, m, a, b2, a_larger);
-    return {select<T>(there, f.num, T(0)), f.den};
+    const auto c = x.voh;
+    const T t = critical.difference(c, less_one + square(c));  // Re (N² − s²)
+    const T t2 = square(t) + 4 * square(im);                   // |N² − s²|²
+    const auto off = T(0) < t2;  // N = s, where total reflection begins: the root 0 has no slope
+    const T m = select<T>(off, sqrt(select<T>(off, t2, T(1))), T(0));
+    const auto a_larger = off && T(0) < t;
+    const T larger = sqrt(select<T>(off, (m + select<T>(a_larger, t, -t)) / 2, T(1)));
+    const auto f = reflectance_of_root<T>(c, n4, m,
+                                          {scale * select<T>(a_larger, larger, im * root_scale),
+                                           scale * select<T>(a_larger, T(1), larger * root_scale)});
+    return {f.num, select<T>(T(0) < n4, f.den, T(1))};  // N = 1: there is nothing
   }
 };
 
@@ -192,6 +192,7 @@ struct Gulbrandsen {
       Parameter{"g", {0, 1}, {0, 1}, 0.5, true, "edge tint"}};
 
   T re, less_one, im2;  // Re N², Re N² − 1, (n k)²
+  T n4;                 // |N² − 1|²
   T low, high;          // how far f0 is on the straight runs
 
   explicit Gulbrandsen(std::span<const T, 2> p)
@@ -203,10 +204,8 @@ struct Gulbrandsen {
     const auto a_larger = T(0) < t;
     const T m = sqrt(square(t) + 4 * im2);
     const T larger2 = (m + select<T>(a_larger, t, -t)) / 2;
-    const T smaller2 = im2 / larger2;
-    const T a = sqrt(select<T>(a_larger, larger2, smaller2));
-    const T b2 = select<T>(a_larger, smaller2, larger2);
-    const T f = reflectance_of_root<T>(c, less_one, m, a, b2, a_larger).value();
+    const T a = sqrt(select<T>(a_larger, larger2, im2 / larger2));
+    const T f = reflectance_of_root<T>(c, n4, m, {a, T(1)}).value();
     return f * low + (1 - f) * high;
   }
 
@@ -218,6 +217,7 @@ struct Gulbrandsen {
       : re(square(i.n) - i.k2),
         less_one(i.n_less_one * (i.n + 1) - i.k2),
         im2(square(i.n) * i.k2),
+        n4(square(less_one) + 4 * im2),
         low(min<T>(f0 / least(), T(1))),
         high(max<T>((f0 - most()) / (1 - most()), T(0))) {}
 };
