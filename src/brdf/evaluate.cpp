@@ -102,6 +102,10 @@ void Evaluator<F>::compose(const Block<F>& x, std::size_t at, std::span<F* const
   for (std::size_t t = diffuse_; t < terms_.size(); t += 3) {
     const Term &d = terms_[t], &v = terms_[t + 1];
     F* const num = dv.emplace_back(scratch_[next++]);
+    if (d.kernels->about->id == "ndf.ggx") {
+      v.kernels->with_ggx(x, d.parameters[0].data(), v.parameters[0].data(), num);
+      continue;
+    }
     d.kernels->begin(x, d.parameters[0].data(), {nullptr, nullptr, nullptr, num, den});
     v.kernels->close(x, v.parameters[0].data(), {num, den, nullptr, num, nullptr});
   }

@@ -76,6 +76,8 @@ struct TermKernels {
   Value begin;  ///< out/out_den = term, still a fraction
   Value close;  ///< out = num/den · term, divided
   Value add;    ///< out = base + num · term
+  /// Of V: out = D V with GGX's D, which most models have, in one loop; else nullptr
+  void (*with_ggx)(const Block<F>&, const F* ggx, const F* parameters, F* out);
   /// f of a diffuse term that is the same at all angles, else nullptr
   F (*uniform)(const F* parameters);
   /// by the number of channels, 1 and 3; nullptr for D and V

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "brdf/lane.h"
+#include "brdf/ndf.h"
 #include "brdf/term_list.h"
 #include "number/dual.h"
 
@@ -29,6 +30,18 @@ void close(const Block<F>& x, const F* p, const Join<F>& j) {
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
     const auto q = as_quotient<B>(term(angles<Term<B>>(x, i)));
     store<B>(j.out + i, load<B>(j.num + i) * q.num / (load<B>(j.den + i) * q.den));
+  }
+}
+
+template <template <class> class Term, class F>
+void with_ggx(const Block<F>& x, const F* ggx, const F* p, F* out) {
+  using B = Lane<F>;
+  const auto d = bind_value<Ggx, F>(ggx);
+  const auto v = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto a = angles<Term<B>>(x, i);
+    const auto e = d(a), q = as_quotient<B>(v(a));
+    store<B>(out + i, e.num * q.num / (e.den * q.den));
   }
 }
 
@@ -113,12 +126,14 @@ constexpr TermKernels<F> term_entry() {
   static_assert(Term<F>::parameters.size() <= max_parameters);
   bool coupled = false;
   if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
+  void (*ggx_too)(const Block<F>&, const F*, const F*, F*) = nullptr;
+  if constexpr (role_of(Term<F>::about.id) == Role::masking) ggx_too = with_ggx<Term, F>;
   F (*same_at_all_angles)(const F*) = nullptr;
   if constexpr (is_uniform<Term<F>>) same_at_all_angles = uniform<Term, F>;
   return {&Term<F>::about,         Term<F>::parameters,    coupled,
           is_anisotropic<Term<F>>, is_as_shipped<Term<F>>, begin<Term, F>,
-          close<Term, F>,          add<Term, F>,           same_at_all_angles,
-          shades<Term, F>(),       derivatives<Term, F>};
+          close<Term, F>,          add<Term, F>,           ggx_too,
+          same_at_all_angles,      shades<Term, F>(),      derivatives<Term, F>};
 }
 template <class F, template <class> class... Terms>
 constexpr auto term_table(TermList<Terms...>) {
