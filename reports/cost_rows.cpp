@@ -28,7 +28,7 @@ template <class F>
 struct Field {
   AngleColumns<F> x;
   std::array<Column<F>, max_channels> out;
-  Scratch<F> scratch;
+  typename Evaluator<F>::Between scratch;
 
   explicit Field(std::size_t n) : x(n, true) {
     for (auto& o : out) o = Column<F>(x.padded());
@@ -60,9 +60,10 @@ Timed timed_term(std::size_t term, const Kernels<F>& kernels, const SharedField<
   for (std::size_t k = 0; k < t.parameters.size(); ++k)
     p[k] = static_cast<F>(t.parameters[k].start);
   auto& s = field->scratch;
-  F *const num = s[Scratch<F>::first_free], *const den = s[Scratch<F>::first_free + 1];
+  using Between = typename Evaluator<F>::Between;
+  F *const num = s[Between::first_free], *const den = s[Between::first_free + 1];
   const auto by_blocks = [field](const auto& work) {
-    constexpr std::size_t block = Scratch<F>::block;
+    constexpr std::size_t block = Between::block;
     const auto x = field->x.block();
     for (std::size_t at = 0; at < x.n; at += block) work(x.part(at, std::min(block, x.n - at)), at);
   };

@@ -29,15 +29,15 @@ AngleColumns<F>::AngleColumns(std::size_t n, bool frame)
   }
 }
 
-template <class F>
-Scratch<F>::Scratch() {
+template <class F, std::size_t samples>
+Scratch<F, samples>::Scratch() {
   std::fill_n((*this)[0], block, F(1));
   std::fill_n((*this)[1], block, F(0));
   std::fill_n((*this)[2], block, F(-1));
 }
 
-template <class F>
-F* Scratch<F>::operator[](std::size_t i) {
+template <class F, std::size_t samples>
+F* Scratch<F, samples>::operator[](std::size_t i) {
   while (columns_.size() <= i) columns_.emplace_back(block);
   return columns_[i].data();
 }
@@ -84,8 +84,8 @@ void Evaluator<F>::set(std::span<const F> values) {
 template <class F>
 void Evaluator<F>::operator()(const Block<F>& x, std::span<F* const> out) {
   if (!fused_) {
-    for (std::size_t at = 0; at < x.n; at += Scratch<F>::block)
-      compose(x.part(at, std::min(Scratch<F>::block, x.n - at)), at, out);
+    for (std::size_t at = 0; at < x.n; at += Between::block)
+      compose(x.part(at, std::min(Between::block, x.n - at)), at, out);
     return;
   }
   arguments_.x = x;
@@ -95,7 +95,7 @@ void Evaluator<F>::operator()(const Block<F>& x, std::span<F* const> out) {
 
 template <class F>
 void Evaluator<F>::compose(const Block<F>& x, std::size_t at, std::span<F* const> out) {
-  std::size_t next = Scratch<F>::first_free;
+  std::size_t next = Between::first_free;
   F* const den = scratch_[next++];
   auto& dv = dv_;  // shared by the channels
   dv.clear();
@@ -193,6 +193,7 @@ std::vector<std::vector<double>> evaluate(const BoundModel& b,
   template class Evaluator<F>;                                                                   \
   template void evaluate(const Model&, std::span<const F>, const Block<F>&, std::span<F* const>, \
                          const Kernels<F>&);
+template class Scratch<float, Evaluator<float>::Between::block>;
 GONIO_INSTANTIATE(float)
 GONIO_INSTANTIATE(double)
 

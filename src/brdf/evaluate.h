@@ -68,11 +68,12 @@ class AngleColumns {
 };
 
 /// Scratch columns of one block, made on demand; one per thread.
-template <class F>
+/// \tparam samples  of a block: with those of a fit, which are the same in float and double, the
+///                  columns of a pass stay in the L2 cache
+template <class F, std::size_t samples = 256>
 class Scratch {
  public:
-  /// Samples per block: the columns of a pass then stay in the L2 cache.
-  static constexpr std::size_t block = 2048 / sizeof(F);
+  static constexpr std::size_t block = samples;
   Scratch();
   F* operator[](std::size_t i);
   const F* ones() { return (*this)[0]; }
@@ -96,6 +97,9 @@ class Evaluator {
   /// defined: the caller leaves such samples out.
   void operator()(const Block<F>& x, std::span<F* const> out);
   bool is_fused() const { return fused_ != nullptr; }
+  /// Between the terms of a model that is not fused: with the angles and what is written, 2 KB each,
+  /// they stay in the L1 cache.
+  using Between = Scratch<F, 2048 / sizeof(F)>;
 
  private:
   /// A term, and per channel its parameters and which values they are.
@@ -119,7 +123,7 @@ class Evaluator {
   typename FusedKernel<F>::Value fused_ = nullptr;
   FusedArguments<F> arguments_{};  ///< its parameters are those of terms_
   std::vector<F*> dv_;
-  Scratch<F> scratch_;
+  Between scratch_;
 };
 
 /// f_c for every sample of x.  values: model.value_count of them; out: one column per channel, as

@@ -65,16 +65,17 @@ TYPED_TEST(BatchOf, ArithmeticEqualsTheScalarBitForBit) {
 
 TYPED_TEST(BatchOf, MaxAndMinTakeTheirFirstWhereNeitherIsLessAsTheScalarDoes) {
   using F = TypeParam;
-  using B = typename TestFixture::B;
-  using Bits = typename TestFixture::Bits;
+  const auto bits = [](F x) { return std::bit_cast<typename TestFixture::Bits>(x); };
+  const auto lanes_of = [](F x) { return typename TestFixture::B(x); };
   const F nan = std::numeric_limits<F>::quiet_NaN(), inf = std::numeric_limits<F>::infinity();
   for (const F a : {F(0), F(-0.0), F(1), -inf, inf, nan, -nan})
     for (const F b : {F(0), F(-0.0), F(1), -inf, inf, nan, -nan}) {
-      const auto high = this->out(max<B>(B(a), B(b))), low = this->out(min<B>(B(a), B(b)));
-      EXPECT_EQ(std::bit_cast<Bits>(high[0]), std::bit_cast<Bits>(max<F>(a, b))) << a << ", " << b;
-      EXPECT_EQ(std::bit_cast<Bits>(low[0]), std::bit_cast<Bits>(min<F>(a, b))) << a << ", " << b;
-      if (!(a < b)) EXPECT_EQ(std::bit_cast<Bits>(high[0]), std::bit_cast<Bits>(a));
-      if (!(b < a)) EXPECT_EQ(std::bit_cast<Bits>(low[0]), std::bit_cast<Bits>(a));
+      const F high = this->out(max<typename TestFixture::B>(lanes_of(a), lanes_of(b)))[0];
+      const F low = this->out(min<typename TestFixture::B>(lanes_of(a), lanes_of(b)))[0];
+      EXPECT_EQ(bits(high), bits(max<F>(a, b))) << a << ", " << b;
+      EXPECT_EQ(bits(low), bits(min<F>(a, b))) << a << ", " << b;
+      EXPECT_EQ(bits(high), bits(a < b ? b : a));
+      EXPECT_EQ(bits(low), bits(b < a ? b : a));
     }
 }
 

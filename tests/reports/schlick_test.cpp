@@ -99,7 +99,8 @@ TEST(SchlickReport, WhatIsExactInOtherWordsHasNoError) {
     }
 }
 
-TEST(SchlickReport, LazanyiWithoutCorrectionIsSchlickAndWithItNearer) {
+TEST(SchlickReport, LazanyiWithoutCorrectionIsSchlickAndWithItNearerWhereAnyHelps) {
+  int channels = 0, nearer = 0;
   for (const auto& m : metals()) {
     const auto rows = rows_of(metal(m), 180);
     for (const auto* channel : {"red", "green", "blue"}) {
@@ -110,9 +111,13 @@ TEST(SchlickReport, LazanyiWithoutCorrectionIsSchlickAndWithItNearer) {
             ->rms;
       };
       EXPECT_NEAR(of("fresnel.lazanyi"), of("fresnel.schlick"), 1e-12) << m.name;
-      EXPECT_LT(of("fresnel.lazanyi, corrected"), of("fresnel.schlick")) << m.name;
+      const double corrected = of("fresnel.lazanyi, corrected"), schlick = of("fresnel.schlick");
+      EXPECT_LE(corrected, schlick * (1 + 1e-12)) << m.name;  // the correction may be none
+      ++channels;
+      nearer += corrected < 0.9 * schlick;
     }
   }
+  EXPECT_GT(nearer, channels / 2);
 }
 
 TEST(SchlickReport, NoOtherF90ServesAllChannelsOfAMetalBetter) {
