@@ -104,15 +104,13 @@ struct Dielectric {
 ///
 /// in which nothing cancels.
 ///
-/// \param n4  |N² − 1|²
+/// \param scale  κ, any that keeps the rest from being large: n4 is κ² |N² − 1|², m is κ m and a is κ a
 template <Real T>
-Quotient<T> reflectance_of_root(const plain_t<T>& c,
-                                const T& n4,
-                                const T& m,
-                                const Quotient<T>& a) {
+Quotient<T> reflectance_of_root(
+    const plain_t<T>& c, const T& scale, const T& n4, const T& m, const Quotient<T>& a) {
   const auto s2 = (1 - c) * (1 + c), c2 = square(c);
-  const T odd = 2 * a.num * c, s_den = a.den * (m + c2) + odd;
-  const T p_even = a.den * (m * c2 + square(s2));
+  const T odd = 2 * a.num * c, s_den = a.den * (m + scale * c2) + odd;
+  const T p_even = a.den * (m * c2 + scale * square(s2));
   return {n4 * square(a.den) * p_even, square(s_den) * (p_even + odd * s2)};
 }
 
@@ -124,8 +122,8 @@ Quotient<T> reflectance_of_root(const plain_t<T>& c,
 ///                                              [Born & Wolf, Principles of Optics, §14.2]
 ///
 /// Computed so that nothing cancels: the larger of a and b from the root, the smaller as η k over it,
-/// and Re (N² − s²) by NearCritical where it is small beside c².  The one division is the last; with
-/// κ = 1/(1 + |N|²) multiplied in, what is divided stays near 1 for any N.
+/// and Re (N² − s²) by NearCritical where it is small beside c².  The one division is the last.  All is
+/// scaled by κ = 1/max(|N|², 1): in half |N² − s²|² would be too large beyond |N| = 16.
 ///
 /// \param eta  real part, > 0   \param k  extinction coefficient, ≥ 0
 template <Real T>
@@ -142,29 +140,30 @@ struct Conductor {
       Parameter{"eta", {0.001, 20}, {0.01, 10}, 1.5, true, "refractive index, real part"},
       Parameter{"k", {0, 1000}, {0, 20}, 3, true, "extinction coefficient"}};
 
-  T less_one, im, n4;   // Re N² − 1, η k = Im N²/2, |N² − 1|²
+  T less_one;           // Re N² − 1
   T scale, root_scale;  // κ, √κ
+  T im, n4;             // κ η k = κ Im N²/2, κ² |N² − 1|²
   NearCritical<T> critical;
 
   explicit Conductor(std::span<const T, 2> p)
       : less_one((p[0] - 1) * (p[0] + 1) - square(p[1])),
-        im(p[0] * p[1]),
-        n4(square(less_one) + 4 * square(im)),
-        scale(1 / (1 + square(p[0]) + square(p[1]))),
+        scale(1 / max<T>(square(p[0]) + square(p[1]), T(1))),
         root_scale(sqrt(scale)),
+        im(scale * p[0] * p[1]),
+        n4(square(scale * less_one) + 4 * square(im)),
         critical(p[0], p[1]) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& x) const {
     const auto c = x.voh;
-    const T t = critical.difference(c, less_one + square(c));  // Re (N² − s²)
-    const T t2 = square(t) + 4 * square(im);                   // |N² − s²|²
+    const T t = scale * critical.difference(c, less_one + square(c));  // κ Re (N² − s²)
+    const T t2 = square(t) + 4 * square(im);                           // κ² |N² − s²|²
     const auto off = T(0) < t2;  // N = s, where total reflection begins: the root 0 has no slope
     const T m = select<T>(off, sqrt(select<T>(off, t2, T(1))), T(0));
     const auto a_larger = off && T(0) < t;
     const T larger = sqrt(select<T>(off, (m + select<T>(a_larger, t, -t)) / 2, T(1)));
-    const auto f = reflectance_of_root<T>(c, n4, m,
-                                          {scale * select<T>(a_larger, larger, im * root_scale),
-                                           scale * select<T>(a_larger, T(1), larger * root_scale)});
+    const auto f = reflectance_of_root<T>(
+        c, scale, n4, m,
+        {root_scale * select<T>(a_larger, larger, im), select<T>(a_larger, T(1), larger)});
     return {f.num, select<T>(T(0) < n4, f.den, T(1))};  // N = 1: there is nothing
   }
 };
@@ -205,7 +204,7 @@ struct Gulbrandsen {
     const T m = sqrt(square(t) + 4 * im2);
     const T larger2 = (m + select<T>(a_larger, t, -t)) / 2;
     const T a = sqrt(select<T>(a_larger, larger2, im2 / larger2));
-    const T f = reflectance_of_root<T>(c, n4, m, {a, T(1)}).value();
+    const T f = reflectance_of_root<T>(c, T(1), n4, m, {a, T(1)}).value();
     return f * low + (1 - f) * high;
   }
 

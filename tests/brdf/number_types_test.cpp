@@ -282,6 +282,19 @@ TEST(NumberTypes, HalfIsTheFormulaRoundedAfterEveryOperation) {
             static_cast<double>(a2 / pi_ / (t * t)));
 }
 
+TEST(NumberTypes, AConductorHasRoomInHalfWhileTheSquareOfItsIndexHas) {
+  const auto term = find_term("fresnel.conductor");
+  for (const double eta : {0.05, 1.5, 6.0})
+    for (const double k : {0.0, 2.5, 7.0, 15.0, 17.0, 40.0, 250.0})
+      for (const double voh : {0.0, 0.1, 0.5, 1.0}) {
+        const Parameters p{as_half(eta), k};
+        const Row x = test::framed({0.5, 0.5, 0.5, as_half(voh), 0.75});
+        EXPECT_NEAR(value_in(Number::half, term, {p, x}), wide_value(term, p, x).value,
+                    16 * epsilon<Half>)
+            << text(p) << " at " << voh;
+      }
+}
+
 TEST(NumberTypes, MaskingInANumberGivesG2InThatNumber) {
   const auto term = find_term("masking.smith_ggx.correlated");
   const auto in_half = catalogue_in(Number::half).terms[term];
