@@ -182,34 +182,32 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_albedo(CLI::App& app, Action& action) {
+void add_albedo(CommandLine& line) {
   auto o = std::make_shared<Options>();
   std::vector<std::string> scattering{"single", "walk", "deterministic"};
   scattering.insert(scattering.end(), compensation_names.begin(), compensation_names.end());
-  auto* c = add_command(
-      app, action, "albedo",
+  auto c = line.command(
+      "albedo",
       "Integrates how much of the light that comes in a model gives back, with a bound of the "
       "error",
       "gonio albedo ggx/smith_ggx.correlated/schlick --set alpha=1 f0=1 --mu 0.01,0.5,1 --average "
       "--scattering deterministic --json",
       o, run);
-  c->add_option("SPEC", o->spec, "Model")->required();
+  c.option("SPEC", o->spec, "Model").required();
   add_set(c, o->set);
-  c->add_option("--mu", o->mu, "Cosines of the zenith angle, in (0, 1]")->delimiter(',');
-  c->add_option("--phi", o->phi_deg, "Azimuth from the tangent, in degrees (anisotropic models)");
-  c->add_flag("--average", o->average, "Also the average over the hemisphere, 2 ∫ E mu dmu");
-  c->add_flag("--furnace", o->furnace, "With F = 1: what is then lost, masking has taken away");
-  c->add_option(
-       "--scattering", o->scattering,
-       "single: light that meets one facet; all of it by random walks (walk) or by quadrature "
-       "(deterministic); or as shaders compensate: kulla_conty, turquin, fdez_aguera")
-      ->check(CLI::IsMember(scattering));
-  c->add_option(
-      "--error", o->error,
-      "Absolute error asked for (1e-8; deterministic 1e-5; of a walk the standard error at "
-      "which it may stop)");
-  c->add_option("--walks", o->walks, "Random walks at most, at each mu and lobe (1000000)")
-      ->check(CLI::Range(std::size_t{2}, std::size_t{1} << 40));
+  c.option("--mu", o->mu, "Cosines of the zenith angle, in (0, 1]").delimiter(',');
+  c.option("--phi", o->phi_deg, "Azimuth from the tangent, in degrees (anisotropic models)");
+  c.flag("--average", o->average, "Also the average over the hemisphere, 2 ∫ E mu dmu");
+  c.flag("--furnace", o->furnace, "With F = 1: what is then lost, masking has taken away");
+  c.option("--scattering", o->scattering,
+           "single: light that meets one facet; all of it by random walks (walk) or by quadrature "
+           "(deterministic); or as shaders compensate: kulla_conty, turquin, fdez_aguera")
+      .one_of(scattering);
+  c.option("--error", o->error,
+           "Absolute error asked for (1e-8; deterministic 1e-5; of a walk the standard error at "
+           "which it may stop)");
+  c.option("--walks", o->walks, "Random walks at most, at each mu and lobe (1000000)")
+      .in(std::size_t{2}, std::size_t{1} << 40);
   add_seed(c, o->seed, "Of the random walks (1)");
   add_jobs(c, *o);
   add_output(c, *o);

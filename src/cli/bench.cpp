@@ -156,28 +156,25 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, Action& action) {
+void add_bench(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(
-      app, action, "bench",
+  auto c = line.command(
+      "bench",
       "Times every form of the catalogue and whole models on this machine, or the fit of "
       "a MERL table",
       "gonio bench --json > before.json; gonio bench --baseline before.json", o, run);
-  c->add_option(
-       "WHAT", o->what,
-       "kernels: every form, in each number and instruction set; fit: the fit of a MERL table "
-       "beside the plain way of doing it")
-      ->check(CLI::IsMember({"kernels", "fit"}))
-      ->capture_default_str();
-  c->add_flag("--full", o->full,
-              "Streaming in every instruction set, and more repetitions: minutes");
-  c->add_option("--filter", o->filter,
-                "Only forms whose id holds this: smith, fresnel., model.gltf");
-  c->add_option("--baseline", o->baseline,
-                "An earlier document of bench --json or report cost, to print ratios to");
-  c->add_option("--repeats", o->repeats, "Repetitions (default: 5, 15 with --full, 11 of fit)")
-      ->check(CLI::Range(1, 1000));
-  c->add_flag("!--no-plain", o->plain, "fit: without the plain way, which takes seconds and 1 GB");
+  c.option("WHAT", o->what,
+           "kernels: every form, in each number and instruction set; fit: the fit of a MERL table "
+           "beside the plain way of doing it")
+      .one_of({"kernels", "fit"})
+      .show_default();
+  c.flag("--full", o->full, "Streaming in every instruction set, and more repetitions: minutes");
+  c.option("--filter", o->filter, "Only forms whose id holds this: smith, fresnel., model.gltf");
+  c.option("--baseline", o->baseline,
+           "An earlier document of bench --json or report cost, to print ratios to");
+  c.option("--repeats", o->repeats, "Repetitions (default: 5, 15 with --full, 11 of fit)")
+      .in(1, 1000);
+  c.flag("!--no-plain", o->plain, "fit: without the plain way, which takes seconds and 1 GB");
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -164,34 +164,33 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_columns(CLI::App& app, Action& action) {
+void add_columns(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(
-      app, action, "columns",
+  auto c = line.command(
+      "columns",
       "Says what the columns of CSV files are, once: written beside each as FILE.gonio.json. "
       "Without options it shows them.",
       "gonio columns PTFE.data.csv --map theta_i=thetai phi_i=phi theta_o=thetar phi_o=phir "
       "f=f_r11 channel=lambda",
       o, run);
-  c->add_option("FILE", o->files, "CSV: fields between ; tabs, commas or blanks")->required();
-  c->add_option("--map", o->words,
-                "NAME=COLUMN …: NAME is theta_i, phi_i, theta_o, phi_o, f, f_CHANNEL, weight, or "
-                "channel (each of its entries is one: a wavelength a row); COLUMN a name, #k, or a "
-                "constant such as 0. Unnamed: the column of that very name; azimuths: 0")
-      ->expected(1, 4096);
-  c->add_flag("--radians", o->map.radians, "Angles are in radians");
-  c->add_flag("--cosine", o->map.cosine, "Values are f cos(theta_o)");
-  c->add_option(
-       "--forward", o->map.forward_deg,
-       "phi_o − phi_i of the mirror direction in degrees: 0 where phi is counted from where "
-       "the light goes to")
-      ->check(CLI::Range(-360.0, 360.0))
-      ->capture_default_str();
-  c->add_option("--scale", o->map.scale,
-                "Values times this are f in 1/sr: 0.3183099 for a radiance factor")
-      ->check(CLI::Range(1e-12, 1e12));
-  c->add_option("--skip", o->map.skip, "Lines at the top that are passed over")
-      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}));
+  c.option("FILE", o->files, "CSV: fields between ; tabs, commas or blanks").required();
+  c.option("--map", o->words,
+           "NAME=COLUMN …: NAME is theta_i, phi_i, theta_o, phi_o, f, f_CHANNEL, weight, or "
+           "channel (each of its entries is one: a wavelength a row); COLUMN a name, #k, or a "
+           "constant such as 0. Unnamed: the column of that very name; azimuths: 0")
+      .at_most(4096);
+  c.flag("--radians", o->map.radians, "Angles are in radians");
+  c.flag("--cosine", o->map.cosine, "Values are f cos(theta_o)");
+  c.option("--forward", o->map.forward_deg,
+           "phi_o − phi_i of the mirror direction in degrees: 0 where phi is counted from where "
+           "the light goes to")
+      .in(-360.0, 360.0)
+      .show_default();
+  c.option("--scale", o->map.scale,
+           "Values times this are f in 1/sr: 0.3183099 for a radiance factor")
+      .in(1e-12, 1e12);
+  c.option("--skip", o->map.skip, "Lines at the top that are passed over")
+      .in(std::size_t{0}, std::size_t{1'000'000});
   add_output(c, *o);
 }
 

@@ -78,12 +78,12 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Action& action) {
+void add_compare(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(app, action, "compare", "How far a fitted or given model is from a table",
+  auto c = line.command("compare", "How far a fitted or given model is from a table",
                         "gonio compare paint.binary paint.json", o, run);
-  c->add_option("FILE", o->file, "Table")->required();
-  c->add_option("MODEL", o->model, "The fit.json of a fit, or a model")->required();
+  c.option("FILE", o->file, "Table").required();
+  c.option("MODEL", o->model, "The fit.json of a fit, or a model").required();
   add_set(c, o->set);
   add_bins(c, o->bins);
   add_jobs(c, *o);

@@ -175,30 +175,29 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_convert(CLI::App& app, Action& action) {
+void add_convert(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(app, action, "convert",
-                        "Writes a table in another format and says what that loses",
+  auto c = line.command("convert", "Writes a table in another format and says what that loses",
                         "gonio convert paint.binary paint.mbsdf", o, run);
-  c->add_option("IN", o->input, "Table")->required();
-  c->add_option("OUT", o->output, "File to write")->required();
-  c->add_option("--to", o->convert.format,
-                "merl, mbsdf, csv or exr (a slice); default: by OUT's ending, .binary being merl")
-      ->check(CLI::IsMember({"merl", "mbsdf", "csv", "exr"}));
-  c->add_option("--channels", o->channels, "Which, in this order: NAME,NAME,…");
+  c.option("IN", o->input, "Table").required();
+  c.option("OUT", o->output, "File to write").required();
+  c.option("--to", o->convert.format,
+           "merl, mbsdf, csv or exr (a slice); default: by OUT's ending, .binary being merl")
+      .one_of({"merl", "mbsdf", "csv", "exr"});
+  c.option("--channels", o->channels, "Which, in this order: NAME,NAME,…");
   add_bins(c, o->bins);
-  c->add_option("--to-bins", o->to_bins, "Where a sample sits in OUT's bins (default: as in IN)")
-      ->check(CLI::IsMember({"centre", "edge"}));
-  c->add_option("--theta", o->convert.n_theta, "Bins of theta_i and theta_o (mbsdf; default 45)")
-      ->check(CLI::Range(1, 180));
-  c->add_option("--phi", o->convert.n_phi, "Samples of phi over 0 to 180° (mbsdf; default 90)")
-      ->check(CLI::Range(2, 721));
-  c->add_option("--phi-d", o->convert.phi_d_deg, "phi_d of the slice in degrees (exr; default 90)")
-      ->check(CLI::Range(0.0, 180.0));
-  c->add_option("--reach", o->convert.reach_deg,
-                "How far an empty bin looks for a sample of a list, in degrees")
-      ->check(CLI::Range(0.0, 30.0))
-      ->capture_default_str();
+  c.option("--to-bins", o->to_bins, "Where a sample sits in OUT's bins (default: as in IN)")
+      .one_of({"centre", "edge"});
+  c.option("--theta", o->convert.n_theta, "Bins of theta_i and theta_o (mbsdf; default 45)")
+      .in(1, 180);
+  c.option("--phi", o->convert.n_phi, "Samples of phi over 0 to 180° (mbsdf; default 90)")
+      .in(2, 721);
+  c.option("--phi-d", o->convert.phi_d_deg, "phi_d of the slice in degrees (exr; default 90)")
+      .in(0.0, 180.0);
+  c.option("--reach", o->convert.reach_deg,
+           "How far an empty bin looks for a sample of a list, in degrees")
+      .in(0.0, 30.0)
+      .show_default();
   add_jobs(c, *o);
   add_output(c, *o);
 }

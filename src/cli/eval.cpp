@@ -47,19 +47,18 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_eval(CLI::App& app, Action& action) {
+void add_eval(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(
-      app, action, "eval",
-      "Evaluates a model at the directions of a CSV file: f_r, f_g, f_b in 1/sr, no cosine",
+  auto c = line.command(
+      "eval", "Evaluates a model at the directions of a CSV file: f_r, f_g, f_b in 1/sr, no cosine",
       "gonio eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
       "--directions in.csv -o out.csv",
       o, run);
-  c->add_option("SPEC", o->spec, "Model")->required();
+  c.option("SPEC", o->spec, "Model").required();
   add_set(c, o->set);
-  c->add_option("--directions", o->directions, "CSV with theta_i,phi_i,theta_o,phi_o in degrees")
-      ->required();
-  c->add_option("-o,--output", o->output, "CSV to write");
+  c.option("--directions", o->directions, "CSV with theta_i,phi_i,theta_o,phi_o in degrees")
+      .required();
+  c.option("-o,--output", o->output, "CSV to write");
   add_output(c, *o);
 }
 

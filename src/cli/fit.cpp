@@ -93,41 +93,36 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_fit(CLI::App& app, Action& action) {
+void add_fit(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(app, action, "fit", "Fits a model to a table, or to each of many",
+  auto c = line.command("fit", "Fits a model to a table, or to each of many",
                         "gonio fit paint.binary --model lambert+ggx/smith_ggx.correlated/schlick "
                         "-o paint.json --html paint.html\n  gonio fit tables/ --jobs 2 -o results/",
                         o, run);
-  c->add_option("FILE", o->files,
-                "A table, its format found from the bytes; or many: several files, a "
-                "folder, or @LIST with a path on each line")
-      ->required();
-  c->add_option("--model", o->fit.model, "Model; all its parameters are fitted")
-      ->capture_default_str();
-  c->add_option("--fix", o->fix, "Parameters held at a value: NAME=VALUE …")->expected(1, 64);
-  c->add_option("--bounds", o->bounds, "Where a parameter is looked for: NAME=LOW,HIGH …")
-      ->expected(1, 64);
-  c->add_option("--grey", o->fit.grey, "Colour parameters with one value for all channels: NAME …")
-      ->expected(1, 64);
-  c->add_option("--metric", o->metric, "log, l2_cosine or relative")
-      ->check(one_of(metric_names))
-      ->capture_default_str();
-  c->add_option("--robust", o->robust, "none, or huber against outliers")
-      ->check(CLI::IsMember({"none", "huber"}))
-      ->capture_default_str();
-  c->add_option(
-       "--intervals", o->intervals,
-       "Whether the values of one incident angle share their errors: independent, by_angle, or "
-       "automatic (by_angle for measured tables)")
-      ->check(one_of(intervals_names))
-      ->capture_default_str();
+  c.option("FILE", o->files,
+           "A table, its format found from the bytes; or many: several files, a "
+           "folder, or @LIST with a path on each line")
+      .required();
+  c.option("--model", o->fit.model, "Model; all its parameters are fitted").show_default();
+  c.option("--fix", o->fix, "Parameters held at a value: NAME=VALUE …").at_most(64);
+  c.option("--bounds", o->bounds, "Where a parameter is looked for: NAME=LOW,HIGH …").at_most(64);
+  c.option("--grey", o->fit.grey, "Colour parameters with one value for all channels: NAME …")
+      .at_most(64);
+  c.option("--metric", o->metric, "log, l2_cosine or relative").one_of(metric_names).show_default();
+  c.option("--robust", o->robust, "none, or huber against outliers")
+      .one_of({"none", "huber"})
+      .show_default();
+  c.option("--intervals", o->intervals,
+           "Whether the values of one incident angle share their errors: independent, by_angle, or "
+           "automatic (by_angle for measured tables)")
+      .one_of(intervals_names)
+      .show_default();
   add_bins(c, o->bins);
-  c->add_option("-o,--output", o->output,
-                "The result as JSON; of many, the folder for theirs and for summary.csv and .html. "
-                "What is there already, of the same bytes and options, is kept");
-  c->add_option("--html", o->html,
-                "A page of the result, NAME.html, and its data beside it, NAME.page.json");
+  c.option("-o,--output", o->output,
+           "The result as JSON; of many, the folder for theirs and for summary.csv and .html. "
+           "What is there already, of the same bytes and options, is kept");
+  c.option("--html", o->html,
+           "A page of the result, NAME.html, and its data beside it, NAME.page.json");
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -118,13 +118,13 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_inspect(CLI::App& app, Action& action) {
+void add_inspect(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(app, action, "inspect", "What a table holds and what it can be trusted for",
+  auto c = line.command("inspect", "What a table holds and what it can be trusted for",
                         "gonio inspect paint.binary --html paint.html", o, run);
-  c->add_option("FILE", o->file, "A table, its format found from the bytes")->required();
-  c->add_option("--html", o->html,
-                "A page of the table, NAME.html, and its data beside it, NAME.page.json");
+  c.option("FILE", o->file, "A table, its format found from the bytes").required();
+  c.option("--html", o->html,
+           "A page of the table, NAME.html, and its data beside it, NAME.page.json");
   add_bins(c, o->bins);
   add_jobs(c, *o);
   add_output(c, *o);

@@ -37,40 +37,29 @@ int main(int argc, char** argv) {
   using gonio::Exit;
   make_writes_fail_in_the_open();
   gonio::remove_unfinished_files_on_signals();
-  CLI::App app{
+  gonio::cli::CommandLine line(
       "gonio fits analytic BRDF models to tabulated reflectance and says how far to trust the "
-      "result."};
-  app.require_subcommand(1);
-  app.set_version_flag("--version", GONIO_VERSION);
-  app.footer(
+      "result.",
+      GONIO_VERSION,
       "Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input or output, 4 the fit did "
       "not converge.");
-  gonio::cli::Action action;
-  gonio::cli::add_models(app, action);
-  gonio::cli::add_term(app, action);
-  gonio::cli::add_audit(app, action);
-  gonio::cli::add_eval(app, action);
-  gonio::cli::add_synth(app, action);
-  gonio::cli::add_columns(app, action);
-  gonio::cli::add_inspect(app, action);
-  gonio::cli::add_fit(app, action);
-  gonio::cli::add_convert(app, action);
-  gonio::cli::add_compare(app, action);
-  gonio::cli::add_bench(app, action);
-  gonio::cli::add_albedo(app, action);
-  gonio::cli::add_split_sum(app, action);
-  gonio::cli::add_report(app, action);
+  gonio::cli::add_models(line);
+  gonio::cli::add_term(line);
+  gonio::cli::add_audit(line);
+  gonio::cli::add_eval(line);
+  gonio::cli::add_synth(line);
+  gonio::cli::add_columns(line);
+  gonio::cli::add_inspect(line);
+  gonio::cli::add_fit(line);
+  gonio::cli::add_convert(line);
+  gonio::cli::add_compare(line);
+  gonio::cli::add_bench(line);
+  gonio::cli::add_albedo(line);
+  gonio::cli::add_split_sum(line);
+  gonio::cli::add_report(line);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& e) {  // --help, --version
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    if (app.get_subcommands().empty() && argc > 1)
-      return fail(Exit::usage,
-                  fmt::format("no subcommand '{}'; see gonio --help", argv[1]).c_str());
-    return fail(Exit::usage, e.what());
-  }
-  try {
+    const auto action = line.parse(argc, argv);
+    if (!action) return finish(Exit::done);  // help, printed
     const Exit code = action();
     if (std::fflush(stdout) != 0)
       return fail(Exit::bad_input, "standard output: cannot be written");

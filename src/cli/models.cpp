@@ -105,10 +105,9 @@ std::span<const Evaluated> evaluated_by_commands() {
   return all;
 }
 
-void add_models(CLI::App& app, Action& action) {
+void add_models(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(app, action, "models",
-                        "The terms that models are composed of, maps and whole models",
+  auto c = line.command("models", "The terms that models are composed of, maps and whole models",
                         "gonio models --json", o, run);
   add_output(c, *o);
 }

@@ -190,9 +190,9 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_report(CLI::App& app, Action& action) {
+void add_report(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(app, action, "report",
+  auto c = line.command("report",
                         "Studies what shipped approximations cost and lose: a page DIR/NAME.html, "
                         "its data DIR/NAME.json "
                         "and .csv, its pictures in DIR/NAME/; of all, DIR/index.html leads to them",
@@ -204,16 +204,13 @@ void add_report(CLI::App& app, Action& action) {
     what += fmt::format("{}: {}; ", kind.name, kind.what);
   }
   names.emplace_back(all_reports);
-  c->add_option("NAME", o->name, what + "all: each of them")
-      ->check(CLI::IsMember(names))
-      ->required();
-  c->add_option("-o,--output", o->output, "Folder, made where it is not there")->required();
-  c->add_option(
-       "--environment", o->environments,
-       "An environment map, latitude by longitude in OpenEXR: what the split sum is off by "
-       "under it; may be given several times")
-      ->allow_extra_args(false);
-  c->add_flag("--full", o->full, "Finer in roughness and angle, some minutes");
+  c.option("NAME", o->name, what + "all: each of them").one_of(names).required();
+  c.option("-o,--output", o->output, "Folder, made where it is not there").required();
+  c.option("--environment", o->environments,
+           "An environment map, latitude by longitude in OpenEXR: what the split sum is off by "
+           "under it; may be given several times")
+      .one_each();
+  c.flag("--full", o->full, "Finer in roughness and angle, some minutes");
   add_jobs(c, *o);
   add_output(c, *o);
 }

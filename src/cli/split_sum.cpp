@@ -231,38 +231,37 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_split_sum(CLI::App& app, Action& action) {
+void add_split_sum(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(
-      app, action, "split_sum",
+  auto c = line.command(
+      "split_sum",
       "A and B of the split sum: GGX under Schlick's Fresnel reflects F0 A + B of an even "
       "environment",
       "gonio split_sum --roughness 0.1,0.5 --nov 0.05,1 --json\n"
       "  gonio split_sum --size 64x64 --precision half -o table.exr\n"
       "  gonio split_sum --environment sky.exr --roughness 0.1,0.5 --nov 0.05,1 --f0 0.04,0.9",
       o, run);
-  c->add_option("--roughness", o->roughness, "Roughness, alpha = roughness²")->delimiter(',');
-  c->add_option("--nov", o->nov, "Cosines of the view's zenith angle, in (0, 1]")->delimiter(',');
-  c->add_option("--masking", o->masking, "Masking term");
-  c->add_option("--samples", o->samples,
-                "By so many half vectors drawn from D, as renderers make their table (default: by "
-                "quadrature)")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{4294967295}));
-  c->add_option(
+  c.option("--roughness", o->roughness, "Roughness, alpha = roughness²").delimiter(',');
+  c.option("--nov", o->nov, "Cosines of the view's zenith angle, in (0, 1]").delimiter(',');
+  c.option("--masking", o->masking, "Masking term");
+  c.option("--samples", o->samples,
+           "By so many half vectors drawn from D, as renderers make their table (default: by "
+           "quadrature)")
+      .in(std::size_t{1}, std::size_t{4294967295});
+  c.option(
       "--error", o->error,
       "Error asked for: absolute (1e-8, of a table 1e-7), under an environment relative (1e-3)");
-  c->add_option("--size", o->size, "A table of WIDTHxHEIGHT texels: NoV along, roughness down");
-  c->add_option("--precision", o->precision, "What the table's numbers are stored as (float)")
-      ->check(one_of(precision_names));
-  c->add_option("-o,--output", o->out, "OpenEXR file that the table is written to");
-  c->add_option(
-      "--environment", o->environment,
-      "OpenEXR map over longitude and latitude: what the split sum is off by under its light");
-  c->add_option("--f0", o->f0,
-                "Reflectance at normal incidence, under an environment, in [0.02, 1] (0.04)")
-      ->delimiter(',');
-  c->add_option("--views", o->views, "Views, even over the environment (16)")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000}));
+  c.option("--size", o->size, "A table of WIDTHxHEIGHT texels: NoV along, roughness down");
+  c.option("--precision", o->precision, "What the table's numbers are stored as (float)")
+      .one_of(precision_names);
+  c.option("-o,--output", o->out, "OpenEXR file that the table is written to");
+  c.option("--environment", o->environment,
+           "OpenEXR map over longitude and latitude: what the split sum is off by under its light");
+  c.option("--f0", o->f0,
+           "Reflectance at normal incidence, under an environment, in [0.02, 1] (0.04)")
+      .delimiter(',');
+  c.option("--views", o->views, "Views, even over the environment (16)")
+      .in(std::size_t{1}, std::size_t{100'000});
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -42,31 +42,29 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_synth(CLI::App& app, Action& action) {
+void add_synth(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(
-      app, action, "synth", "Samples a table from a model, with noise if asked",
+  auto c = line.command(
+      "synth", "Samples a table from a model, with noise if asked",
       "gonio synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.15 kd=0.2,0.1,0.05 "
       "--layout merl --noise 0.02 -o paint.binary",
       o, run);
-  c->add_option("SPEC", o->spec, "Model")->required();
+  c.option("SPEC", o->spec, "Model").required();
   add_set(c, o->set);
-  c->add_option("--layout", o->layout, "merl, mbsdf, in_plane, image_slice, hemisphere or random")
-      ->check(one_of(layout_names))
-      ->required();
+  c.option("--layout", o->layout, "merl, mbsdf, in_plane, image_slice, hemisphere or random")
+      .one_of(layout_names)
+      .required();
   add_bins(c, o->bins);
-  c->add_option("--samples", o->synth.samples, "Number of samples of the random layout")
-      ->check(CLI::Range(1, 10'000'000))
-      ->capture_default_str();
-  c->add_option("--noise", o->synth.noise,
-                "Multiplies each value by exp(NOISE · z), z standard normal")
-      ->check(CLI::Range(0.0, 5.0));
-  c->add_option("--floor", o->synth.floor, "Added to every value before the noise [1/sr]")
-      ->check(CLI::Range(0.0, 1e6));
-  c->add_option("--outliers", o->synth.outliers, "Share of samples thrown off by up to 100 times")
-      ->check(CLI::Range(0.0, 1.0));
+  c.option("--samples", o->synth.samples, "Number of samples of the random layout")
+      .in(1, 10'000'000)
+      .show_default();
+  c.option("--noise", o->synth.noise, "Multiplies each value by exp(NOISE · z), z standard normal")
+      .in(0.0, 5.0);
+  c.option("--floor", o->synth.floor, "Added to every value before the noise [1/sr]").in(0.0, 1e6);
+  c.option("--outliers", o->synth.outliers, "Share of samples thrown off by up to 100 times")
+      .in(0.0, 1.0);
   add_seed(c, o->synth.seed, "Seed of all that is random (1)");
-  c->add_option("-o,--output", o->output, "File to write")->required();
+  c.option("-o,--output", o->output, "File to write").required();
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -101,23 +101,21 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-void add_term(CLI::App& app, Action& action) {
+void add_term(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto* c = add_command(
-      app, action, "term",
-      "Evaluates one term or map; a masking term gives G2, or G1 when only nov is given",
+  auto c = line.command(
+      "term", "Evaluates one term or map; a masking term gives G2, or G1 when only nov is given",
       "gonio term ndf.ggx --set alpha=0.25 --at noh=1,0.9 --json", o, run);
-  c->add_option("ID", o->id, "Term or map, as `gonio models` lists it")->required();
+  c.option("ID", o->id, "Term or map, as `gonio models` lists it").required();
   add_set(c, o->set);
-  c->add_option(
-       "--at", o->at,
-       "Cosines: noh, nol, nov, voh or cos; of the tangent frame xoh, yoh, xol, yol, xov, yov; "
-       "and sin2_theta_h = values")
-      ->expected(1, 64);
-  c->add_option("--number", o->number,
-                "Number type: double; float; half, rounded after every operation; wide, fifty "
-                "digits; mixed, half parameters and float angles")
-      ->check(one_of(number_names));
+  c.option("--at", o->at,
+           "Cosines: noh, nol, nov, voh or cos; of the tangent frame xoh, yoh, xol, yol, xov, yov; "
+           "and sin2_theta_h = values")
+      .at_most(64);
+  c.option("--number", o->number,
+           "Number type: double; float; half, rounded after every operation; wide, fifty "
+           "digits; mixed, half parameters and float angles")
+      .one_of(number_names);
   add_output(c, *o);
 }
 

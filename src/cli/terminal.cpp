@@ -49,13 +49,23 @@ std::string with_error(double value, double error) {
   return fmt::format("{:.{}f} ± {:.{}f}", value, digits, error, digits);
 }
 
-void add_output(CLI::App* c, Common& o) {
-  c->add_flag("--json", o.json, "One JSON document on standard output");
-  c->add_flag("--quiet", o.quiet, "No progress");
+void add_set(Command& c, std::vector<std::string>& words) {
+  c.option("--set", words, "Parameters: NAME=VALUE …; a colour is one number or r,g,b").at_most(64);
 }
 
-void add_jobs(CLI::App* c, Common& o) {
-  c->add_option("--jobs,-j", o.jobs, "Threads (default: all)")->check(CLI::Range(1, 4096));
+void add_bins(Command& c, std::optional<std::string>& name) {
+  c.option("--bins", name,
+           "Where a sample sits in its bin: centre or edge (default: as the file says, or centre)")
+      .one_of(bins_names);
+}
+
+void add_output(Command& c, Common& o) {
+  c.flag("--json", o.json, "One JSON document on standard output");
+  c.flag("--quiet", o.quiet, "No progress");
+}
+
+void add_jobs(Command& c, Common& o) {
+  c.option("--jobs,-j", o.jobs, "Threads (default: all)").in(1, 4096);
 }
 
 void check_outputs(const std::vector<std::string>& inputs,

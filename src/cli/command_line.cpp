@@ -1,0 +1,114 @@
+#include "cli/command_line.h"
+
+#include <optional>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace gonio::cli {
+
+Option& Option::required() {
+  option_->required();
+  return *this;
+}
+
+template <class T>
+Option& Option::in(T low, T high) {
+  option_->check(CLI::Range(low, high));
+  return *this;
+}
+template Option& Option::in(int, int);
+template Option& Option::in(std::size_t, std::size_t);
+template Option& Option::in(double, double);
+
+Option& Option::one_of(const std::vector<std::string>& names) {
+  option_->check(CLI::IsMember(names));
+  return *this;
+}
+
+Option& Option::not_negative() {
+  option_->check([](const std::string& word) -> std::string {
+    return word.starts_with('-') ? "'" + word + "' is below 0" : "";
+  });
+  return *this;
+}
+
+Option& Option::at_most(int words) {
+  option_->expected(1, words);
+  return *this;
+}
+
+Option& Option::one_each() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+Option& Option::delimiter(char c) {
+  option_->delimiter(c);
+  return *this;
+}
+
+Option& Option::show_default() {
+  option_->capture_default_str();
+  return *this;
+}
+
+template <class T>
+Option Command::option(const std::string& names, T& value, const std::string& help) {
+  return Option(app_->add_option(names, value, help));
+}
+template Option Command::option(const std::string&, std::string&, const std::string&);
+template Option Command::option(const std::string&, int&, const std::string&);
+template Option Command::option(const std::string&, std::size_t&, const std::string&);
+template Option Command::option(const std::string&, double&, const std::string&);
+template Option Command::option(const std::string&,
+                                std::optional<std::string>&,
+                                const std::string&);
+template Option Command::option(const std::string&, std::optional<int>&, const std::string&);
+template Option Command::option(const std::string&,
+                                std::optional<std::size_t>&,
+                                const std::string&);
+template Option Command::option(const std::string&, std::optional<double>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<double>&, const std::string&);
+
+void Command::flag(const std::string& names, bool& value, const std::string& help) {
+  app_->add_flag(names, value, help);
+}
+
+CommandLine::CommandLine(const std::string& description,
+                         const std::string& version,
+                         const std::string& footer)
+    : app_(std::make_unique<CLI::App>(description)) {
+  app_->require_subcommand(1);
+  app_->set_version_flag("--version", version);
+  app_->footer(footer);
+}
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::command(const std::string& name,
+                             const std::string& description,
+                             const std::string& example,
+                             Action action) {
+  auto* c = app_->add_subcommand(name, description);
+  c->footer("Example:\n  " + example);
+  c->callback([this, action = std::move(action)] { action_ = action; });
+  return Command(c);
+}
+
+Action CommandLine::parse(int argc, const char* const* argv) {
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::Success& e) {  // --help, --version
+    app_->exit(e);
+    return {};
+  } catch (const CLI::ParseError& e) {
+    if (app_->get_subcommands().empty() && argc > 1)
+      throw wrong_usage(fmt::format("no subcommand '{}'; see gonio --help", argv[1]));
+    throw wrong_usage(e.what());
+  }
+  return action_;
+}
+
+}  // namespace gonio::cli

@@ -1,0 +1,99 @@
+#pragma once
+/// \file
+/// The words of a call: subcommands and their options.  CLI11 reads them; only command_line.cpp
+/// includes it, for each file that does compiles its inline functions again.
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace gonio::cli {
+
+/// What the program does after parsing.
+using Action = std::function<Exit()>;
+
+/// What its words have to be.  A call that breaks that is refused before anything runs; the help
+/// shows it.
+class Option {
+ public:
+  explicit Option(CLI::Option* option) : option_(option) {}
+  Option& required();
+  /// Numbers of both ends and between, of the ends' type.  \tparam T  int, std::size_t, double
+  template <class T>
+  Option& in(T low, T high);
+  Option& one_of(const std::vector<std::string>& names);
+  template <class Name, std::size_t N>
+  Option& one_of(const std::array<Name, N>& names) {
+    return one_of(std::vector<std::string>(names.begin(), names.end()));
+  }
+  /// Of an unsigned value: below 0 it would wrap around.
+  Option& not_negative();
+  /// From one to so many words each time that it is given.
+  Option& at_most(int words);
+  /// One word each time that it is given.
+  Option& one_each();
+  /// Several values in a word.
+  Option& delimiter(char);
+  /// The help shows the value as it is now.
+  Option& show_default();
+
+ private:
+  CLI::Option* option_;
+};
+
+/// A subcommand.  It writes into what it was given by reference, which has to live until the parse.
+class Command {
+ public:
+  explicit Command(CLI::App* app) : app_(app) {}
+  /// \param names  "-o,--output", or without dashes a word by its position
+  /// \tparam T     std::string, double, or std::vector of these; int or std::size_t; std::optional
+  ///               of all but the vectors
+  template <class T>
+  Option option(const std::string& names, T& value, const std::string& help);
+  /// \param names  "--full", or "!--no-plain" that makes it false
+  void flag(const std::string& names, bool& value, const std::string& help);
+
+ private:
+  CLI::App* app_;
+};
+
+class CommandLine {
+ public:
+  CommandLine(const std::string& description,
+              const std::string& version,
+              const std::string& footer);
+  ~CommandLine();
+  /// A subcommand with its example under the help, running `run` on options that it keeps alive.
+  template <class Options>
+  Command command(const std::string& name,
+                  const std::string& description,
+                  const std::string& example,
+                  std::shared_ptr<Options> options,
+                  Exit (*run)(const Options&)) {
+    return command(name, description, example, [options, run] { return run(*options); });
+  }
+  /// \return  what the subcommand does; empty if help or the version was asked for and is printed
+  /// \throws  wrong_usage
+  Action parse(int argc, const char* const* argv);
+
+ private:
+  Command command(const std::string& name,
+                  const std::string& description,
+                  const std::string& example,
+                  Action);
+
+  std::unique_ptr<CLI::App> app_;
+  Action action_;  ///< of the subcommand that was called
+};
+
+}  // namespace gonio::cli
