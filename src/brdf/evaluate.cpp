@@ -107,7 +107,8 @@ void Evaluator<F>::compose(const Block<F>& x, std::size_t at, std::span<F* const
       continue;
     }
     d.kernels->begin(x, d.parameters[0].data(), {nullptr, nullptr, nullptr, num, den});
-    v.kernels->close(x, v.parameters[0].data(), {num, den, nullptr, num, nullptr});
+    v.kernels->close(x, v.parameters[0].data(),
+                     {num, d.kernels->fraction ? den : nullptr, nullptr, num, nullptr});
   }
   const std::size_t together = channels_ % 3 == 0 ? 3 : 1;  // as the kernels take them
   for (std::size_t c = 0; c < channels_; c += together) {

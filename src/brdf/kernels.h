@@ -46,8 +46,8 @@ struct Block {
 /// What a term does to the columns that the terms before it left.
 template <class F>
 struct Join {
-  const F *num, *den, *base;  ///< in
-  F *out, *out_den;           ///< out (out_den for `begin` only)
+  const F *num, *den, *base;  ///< in; den may be nullptr: 1
+  F *out, *out_den;           ///< out (out_den for `begin` of a fraction only)
 };
 
 /// The same of a term that channels have each their own of, F or diffuse, for all of them at once:
@@ -73,9 +73,10 @@ struct TermKernels {
   bool as_shipped;   ///< a shader's arithmetic: finite in double, where NoH > 0, but not in fewer
                      ///< bits
   using Value = void (*)(const Block<F>&, const F* parameters, const Join<F>&);
-  Value begin;  ///< out/out_den = term, still a fraction
-  Value close;  ///< out = num/den · term, divided
-  Value add;    ///< out = base + num · term
+  bool fraction;  ///< is not divided by itself
+  Value begin;    ///< out/out_den = term, still a fraction if it is one
+  Value close;    ///< out = num/den · term, divided
+  Value add;      ///< out = base + num · term
   /// Of V: out = D V with GGX's D, which most models have, in one loop; else nullptr
   void (*with_ggx)(const Block<F>&, const F* ggx, const F* parameters, F* out);
   /// f of a diffuse term that is the same at all angles, else nullptr

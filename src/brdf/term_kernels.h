@@ -13,24 +13,38 @@
 namespace gonio::inline GONIO_ARCH {
 
 template <template <class> class Term, class F>
+inline constexpr bool is_fraction =
+    !std::same_as<decltype(std::declval<Term<F>>()(std::declval<angles_of<Term<F>, F>>())), F>;
+
+template <template <class> class Term, class F>
 void begin(const Block<F>& x, const F* p, const Join<F>& j) {
   using B = Lane<F>;
   const auto term = bind_value<Term, F>(p);
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
     const auto q = as_quotient<B>(term(angles<Term<B>>(x, i)));
     store<B>(j.out + i, q.num);
-    store<B>(j.out_den + i, q.den);
+    if constexpr (is_fraction<Term, F>) store<B>(j.out_den + i, q.den);
   }
 }
 
-template <template <class> class Term, class F>
-void close(const Block<F>& x, const F* p, const Join<F>& j) {
+template <template <class> class Term, class F, bool over_den>
+void close_over(const Block<F>& x, const F* p, const Join<F>& j) {
   using B = Lane<F>;
   const auto term = bind_value<Term, F>(p);
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
     const auto q = as_quotient<B>(term(angles<Term<B>>(x, i)));
-    store<B>(j.out + i, load<B>(j.num + i) * q.num / (load<B>(j.den + i) * q.den));
+    const B num = load<B>(j.num + i) * q.num;
+    if constexpr (over_den)
+      store<B>(j.out + i, num / (load<B>(j.den + i) * q.den));
+    else if constexpr (is_fraction<Term, F>)
+      store<B>(j.out + i, num / q.den);
+    else
+      store<B>(j.out + i, num);
   }
+}
+template <template <class> class Term, class F>
+void close(const Block<F>& x, const F* p, const Join<F>& j) {
+  j.den ? close_over<Term, F, true>(x, p, j) : close_over<Term, F, false>(x, p, j);
 }
 
 template <template <class> class Term, class F>
@@ -130,10 +144,19 @@ constexpr TermKernels<F> term_entry() {
   if constexpr (role_of(Term<F>::about.id) == Role::masking) ggx_too = with_ggx<Term, F>;
   F (*same_at_all_angles)(const F*) = nullptr;
   if constexpr (is_uniform<Term<F>>) same_at_all_angles = uniform<Term, F>;
-  return {&Term<F>::about,         Term<F>::parameters,    coupled,
-          is_anisotropic<Term<F>>, is_as_shipped<Term<F>>, begin<Term, F>,
-          close<Term, F>,          add<Term, F>,           ggx_too,
-          same_at_all_angles,      shades<Term, F>(),      derivatives<Term, F>};
+  return {&Term<F>::about,
+          Term<F>::parameters,
+          coupled,
+          is_anisotropic<Term<F>>,
+          is_as_shipped<Term<F>>,
+          is_fraction<Term, F>,
+          begin<Term, F>,
+          close<Term, F>,
+          add<Term, F>,
+          ggx_too,
+          same_at_all_angles,
+          shades<Term, F>(),
+          derivatives<Term, F>};
 }
 template <class F, template <class> class... Terms>
 constexpr auto term_table(TermList<Terms...>) {
