@@ -23,7 +23,7 @@ struct FigureCurve {
   enum class Kind { line, points, both };
   std::string name;
   std::vector<double> x,
-      y;  ///< as many; lines go by ascending x; a y that is not finite: no point there
+      y;  ///< as many; lines go by ascending x; a y that is not finite: no point, and lines break
   Kind kind = Kind::line;
   bool dashed = false;                       ///< a reference or a bound
   std::vector<std::string> labels{};         ///< of each point, or none

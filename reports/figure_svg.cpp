@@ -141,7 +141,7 @@ class Drawing {
     bool pen_down = false;
     for (const std::size_t i : order) {
       if (!drawable(c, i)) {
-        pen_down = pen_down && c.kind == FigureCurve::Kind::both;
+        pen_down = false;  // a gap, as on the page: what is not known is not drawn
         continue;
       }
       const double x = x_at(c.x[i]), y = y_at(c.y[i]);

@@ -44,8 +44,8 @@ function label_places(points, box) {
   return out;
 }
 
-/// \param data    [x, y…] for uPlot; null where there is no value, undefined where a line
-///                goes on without one
+/// \param data    [x, y…] for uPlot; null where there is no value and a line breaks, undefined where
+///                it goes on without one
 /// \param series  [{color, kind: "points" | "line" | "both", width, dash: [on, off], labels, x_error, y_error}] of the y;
 ///                the last three as long as y, of each point, or nothing
 /// \param o       {x_label, x_ends: [from, to] or a function of whether x is logarithmic, x_steps, x_log, y_label, y_ends: of
@@ -173,7 +173,7 @@ function curve_plot(data, series, o) {
         ? { pxAlign: 0, show: state.shown[i], stroke: () => color(s.color), paths: () => null,
             points: { show: true, size: filled(i) > 60 ? 4.5 : 7, width: 0, fill: () => color(s.color) + "8c" } }
         : { pxAlign: 0, show: state.shown[i], stroke: () => color(s.color), width: s.width ?? 1.6, dash: s.dash,
-            spanGaps: s.kind === "both", points: { show: s.kind === "both", size: 5, width: 0, fill: () => color(s.color) } }))],
+            points: { show: s.kind === "both", size: 5, width: 0, fill: () => color(s.color) } }))],
       hooks: {
         drawClear: [(u) => {
           if (!known(o.mark)) return;

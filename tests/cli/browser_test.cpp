@@ -2,6 +2,7 @@
 // pointer, and nothing is wider than a narrow window.
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <map>
 
 #include "program.h"
@@ -9,6 +10,8 @@
 #include "reports/cross_fit.h"
 #include "reports/energy_parts.h"
 #include "reports/index_page.h"
+#include "reports/page.h"
+#include "reports/page_json.h"
 #include "reports/remap.h"
 #include "reports/schlick.h"
 
@@ -199,6 +202,29 @@ void add_reports(Pages& pages) {
   add("index", index_page_html(to_json(index)));
 }
 
+/// A curve of five points without the middle one; complains where its line is not what it should be.
+void add_gap(Pages& pages) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const FigureCurve curve{"c", {0, 1, 2, 3, 4}, {1, 1, none, 1, 1}, FigureCurve::Kind::both};
+  PageJson data{{"schema", "gonio.report.gap/1"}};
+  put_pictures(data, {{{"gap", "Gap", "", {"x", false, 0, 4}, {"y"}, {curve}}}, {}});
+  pages.add("gap", make_report_page("Gap", page_text(data), R"(
+document.getElementById("page").replaceChildren(figure_view(page_data().figures[0]));
+addEventListener("load", () => setTimeout(() => {
+  const canvas = document.querySelector("canvas"), frame = canvas.getBoundingClientRect();
+  const plot = document.querySelector(".u-over").getBoundingClientRect();
+  const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+  const line = channels(color("accent")), scale = canvas.width / frame.width;
+  const is_drawn_at = (x) => {
+    const column = canvas.getContext("2d").getImageData(Math.round(scale * (plot.left - frame.left + plot.width * x / 4)), 0, 1, canvas.height).data;
+    return Array.from({ length: canvas.height }, (_, i) => 4 * i).some((at) => line.every((c, k) => Math.abs(c - column[at + k]) < 50));
+  };
+  for (const x of [0.5, 3.5]) if (!is_drawn_at(x)) console.warn(`no line at ${x}`);
+  for (const x of [1.5, 2, 2.5]) if (is_drawn_at(x)) console.warn(`a line at ${x}, where a point is missing`);
+}, 200));
+)"));
+}
+
 /// The pages of the other commands, as they make them.
 void add_commands(Pages& pages) {
   const Folder f;
@@ -225,6 +251,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
   if (command.empty()) GTEST_SKIP() << "needs chromium or Chrome, which is not here";
   Pages pages;
   add_reports(pages);
+  add_gap(pages);
   add_commands(pages);
   const auto told = pages.look(command);
   for (const auto& name : pages.names()) {

@@ -93,6 +93,18 @@ TEST(FigureSvg, DrawsEveryPointItsBarAndItsLabel) {
   EXPECT_EQ(svg.find("inf"), svg.npos);
 }
 
+TEST(FigureSvg, ALineBreaksWhereAPointIsMissing) {
+  for (const auto kind : {FigureCurve::Kind::line, FigureCurve::Kind::both}) {
+    const Figure f{"gap", "Gap", "",
+                   {"x"}, {"y"}, {{"c", {0, 1, 2, 3, 4}, {1, 2, none, 2, 1}, kind}}};
+    const std::string svg = to_svg(f);
+    const auto begin = svg.find("<path d=\"", svg.find("clip-path=")) + 9;
+    const std::string path = svg.substr(begin, svg.find('"', begin) - begin);
+    EXPECT_EQ(occurrences(path, "M"), 2U) << path;
+    EXPECT_EQ(occurrences(path, "L"), 2U) << path;
+  }
+}
+
 TEST(FigureSvg, IsWholeWithoutAnyPoint) {
   Figure f{"none", "Nothing", "", {"x"}, {"y", true}, {{"empty", {}, {}}, {"nan", {1}, {none}}}};
   for (const bool log : {false, true}) {
