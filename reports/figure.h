@@ -4,6 +4,8 @@
 /// as SVG, CSV and OpenEXR.
 
 #include <limits>
+#include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -84,6 +86,19 @@ struct Pictures {
   std::vector<FigureMap> maps;
 };
 
+/// How the curves of a report look: a name alike in all of its pictures, names that share a picture each differently,
+/// and those of a family of pictures too where they are not too many.  The same for the same pictures.
+class CurveStyles {
+ public:
+  using Numbers = std::map<std::string, std::size_t>;
+  explicit CurveStyles(std::span<const Figure>);
+  /// Of a curve of these: its place among the looks of lines, or of references if it is dashed.
+  std::size_t of(const FigureCurve&) const;
+
+ private:
+  Numbers lines_, references_;
+};
+
 /// A line for each point, after one of names: curve, the axes' labels; labels and errors where a curve has some.
 /// RFC 4180, six digits, lines end as on Unix.
 std::string to_csv(const Figure&);
@@ -91,7 +106,8 @@ std::string to_csv(const Figure&);
 std::string to_csv(const FigureMap&);
 
 /// A picture on its own: no script, no font, nothing fetched.
-std::string to_svg(const Figure&);
+/// \param styles  of the report's figures
+std::string to_svg(const Figure&, const CurveStyles& styles);
 std::string to_svg(const FigureMap&);
 
 /// The file of an image with one channel of floats, named after the value, or one a slice, named after it: x to the

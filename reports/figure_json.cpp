@@ -39,10 +39,11 @@ std::string key(const char* name, const FigureAxis& axis) {
 }
 
 /// A curve; x only where it is not the same as of the curve before.
-PageJson json(const Figure& f, std::size_t i) {
+PageJson json(const Figure& f, std::size_t i, const CurveStyles& styles) {
   static constexpr std::string_view kinds[]{"line", "points", "both"};
   const auto& c = f.curves[i];
-  PageJson out{{"name", c.name}, {"kind", kinds[static_cast<std::size_t>(c.kind)]}};
+  PageJson out{
+      {"name", c.name}, {"kind", kinds[static_cast<std::size_t>(c.kind)]}, {"style", styles.of(c)}};
   if (c.dashed) out["dashed"] = true;
   if (i == 0 || f.curves[i - 1].x != c.x) out[key("x", f.x)] = page_json(c.x);
   out[key("y", f.y)] = page_json(c.y);
@@ -60,9 +61,9 @@ PageJson json(const std::vector<std::pair<std::string, std::string>>& choices) {
 
 }  // namespace
 
-PageJson page_json(const Figure& f) {
+PageJson page_json(const Figure& f, const CurveStyles& styles) {
   PageJson curves = PageJson::array();
-  for (std::size_t i = 0; i < f.curves.size(); ++i) curves.push_back(json(f, i));
+  for (std::size_t i = 0; i < f.curves.size(); ++i) curves.push_back(json(f, i, styles));
   return {{"id", f.id},       {"family", f.family}, {"choices", json(f.choices)},
           {"title", f.title}, {"note", f.note},     {"x", json(f.x)},
           {"y", json(f.y)},   {"curves", curves}};
@@ -90,7 +91,10 @@ PageJson page_json(const FigureMap& m) {
 }
 
 void put_pictures(PageJson& document, const Pictures& p) {
-  document["figures"] = page_json(p.figures);
+  const CurveStyles styles(p.figures);
+  PageJson figures = PageJson::array();
+  for (const auto& f : p.figures) figures.push_back(page_json(f, styles));
+  document["figures"] = std::move(figures);
   document["maps"] = page_json(p.maps);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using svg::number;
 
-/// As --accent, --red … of page.css on paper, in the order of line_colors in page/report.js.
+/// As --accent, --red … of page.css on paper, in the order of line_colors in page/figures.js.
 constexpr std::array<std::string_view, 6> line_colours{"#0b5fa5", "#c4500a", "#00795a",
                                                        "#8b3f86", "#4a4f55", "#8a4b00"};
 /// Of curves that share a colour: the first six, the next …
@@ -29,24 +29,23 @@ struct Style {
   double width;
 };
 /// References in ink and dashed, the others each in a colour, then each in a colour and a dash.
-std::vector<Style> styles(const Figure& f) {
+std::vector<Style> looks(const Figure& f, const CurveStyles& styles) {
   std::vector<Style> out;
-  std::size_t references = 0, others = 0;
   for (const auto& c : f.curves) {
-    if (c.dashed) {
-      out.push_back({svg::ink, reference_dashes[references++ % reference_dashes.size()], 1.4});
-    } else {
-      out.push_back({line_colours[others % line_colours.size()],
-                     rounds[others / line_colours.size() % rounds.size()], 1.8});
-      ++others;
-    }
+    const std::size_t i = styles.of(c);
+    if (c.dashed)
+      out.push_back({svg::ink, reference_dashes[i % reference_dashes.size()], 1.4});
+    else
+      out.push_back({line_colours[i % line_colours.size()],
+                     rounds[i / line_colours.size() % rounds.size()], 1.8});
   }
   return out;
 }
 
 class Drawing {
  public:
-  explicit Drawing(const Figure& f) : f_(f), styles_(styles(f)), x_(x_scale(f)), y_(y_scale(f)) {}
+  Drawing(const Figure& f, const CurveStyles& styles)
+      : f_(f), styles_(looks(f, styles)), x_(x_scale(f)), y_(y_scale(f)) {}
 
   std::string document() {
     const auto head = svg::heading(f_.title, f_.note, width_);
@@ -212,8 +211,8 @@ class Drawing {
 
 }  // namespace
 
-std::string to_svg(const Figure& f) {
-  return Drawing(f).document();
+std::string to_svg(const Figure& f, const CurveStyles& styles) {
+  return Drawing(f, styles).document();
 }
 
 }  // namespace gonio

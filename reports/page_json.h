@@ -16,7 +16,7 @@ using PageJson = nlohmann::ordered_json;
 
 /// Six digits: more than a page shows, a third of the bytes.  What is not known is null.
 PageJson page_json(double);
-PageJson page_json(const Figure&);
+PageJson page_json(const Figure&, const CurveStyles&);
 PageJson page_json(const FigureMap&);
 template <class T>
 PageJson page_json(const std::vector<T>& v) {

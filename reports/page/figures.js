@@ -5,15 +5,10 @@ const line_colors = ["accent", "red", "green", "extra", "grey", "warn"];
 const line_rounds = [null, [2, 3], [9, 3, 2, 3], [12, 4], [1, 4], [6, 2, 1, 2, 1, 2]];  // of curves that share a colour: the first six, the next …
 const reference_dashes = [[6, 4], [2, 4], [10, 3, 2, 3]];
 
-/// {color, dash, width} of each curve, as in figure_svg.cpp: references in ink and dashed, the others each in a colour.
-function line_styles(curves) {
-  let references = 0, others = 0;
-  return curves.map((c) => {
-    if (c.dashed) return { color: "ink", dash: reference_dashes[references++ % reference_dashes.length], width: 1.4 };
-    const i = others++;
-    return { color: line_colors[i % line_colors.length], dash: line_rounds[Math.floor(i / line_colors.length) % line_rounds.length], width: 1.8 };
-  });
-}
+/// {color, dash, width} of a curve, as in figure_svg.cpp: references in ink and dashed, the others each in a colour; the same of a
+/// name in all pictures of the report.
+const line_style = ({ dashed, style: i }) => (dashed ? { color: "ink", dash: reference_dashes[i % reference_dashes.length], width: 1.4 }
+  : { color: line_colors[i % line_colors.length], dash: line_rounds[Math.floor(i / line_colors.length) % line_rounds.length], width: 1.8 });
 /// How a curve looks, beside its name.
 const line_key = (style, kind) => el("svg", { width: 24, height: 10, viewBox: "0 0 24 10", "aria-hidden": "true" },
   kind === "points" ? null : el("line", { x1: 1, x2: 23, y1: 5, y2: 5, stroke: `var(--${style.color})`, "stroke-width": style.width, "stroke-dasharray": style.dash?.join(" ") }),
@@ -57,7 +52,7 @@ function figure_view(figure, o = {}) {
   const timed = (c, key) => c[key] ?? c[key + "_ns"] ?? c[key + "_ms"];  // keys of what is measured in time end in its unit
   const curves = figure.curves.map((c) => ({ ...c, x: x = timed(c, "x") ?? x, y: timed(c, "y"), x_error: timed(c, "x_error"), y_error: timed(c, "y_error") })).filter((c) => o.only?.(c) ?? true);
   if (o.emphasis) curves.sort((a, b) => (a.name === o.emphasis) - (b.name === o.emphasis));  // drawn last
-  const styles = line_styles(curves).map((s, i) => (o.emphasis && curves[i].name === o.emphasis ? { color: "accent", width: 2.4 }
+  const styles = curves.map(line_style).map((s, i) => (o.emphasis && curves[i].name === o.emphasis ? { color: "accent", width: 2.4 }
     : !o.emphasis || curves[i].dashed ? s : { color: "rule", width: 1, quiet: true }));
   const [xs, columns, index] = merged_points(curves);
   const along = (values, c) => values && index[c].map((i) => (i === undefined ? null : values[i]));

@@ -58,8 +58,9 @@ class Files {
     page_.write(r.html);
     data_.write(r.json + "\n");
     rows_.write(rows_csv(r.json));
+    const CurveStyles styles(r.pictures.figures);
     for (const auto& f : r.pictures.figures) {
-      picture(f.id + ".svg", to_svg(f));
+      picture(f.id + ".svg", to_svg(f, styles));
       picture(f.id + ".csv", to_csv(f));
     }
     for (const auto& m : r.pictures.maps) {

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "image/exr.h"
 #include "reports/page_json.h"
@@ -40,6 +43,11 @@ FigureMap cells() {
           true};
 }
 
+/// As the only picture of its report.
+std::string drawn(const Figure& f) {
+  return to_svg(f, CurveStyles({&f, 1}));
+}
+
 std::size_t occurrences(const std::string& in, const std::string& what) {
   std::size_t n = 0;
   for (auto at = in.find(what); at != std::string::npos; at = in.find(what, at + 1)) ++n;
@@ -75,7 +83,7 @@ TEST(FigureId, IsAFileName) {
 TEST(FigureSvg, EscapesItsTexts) {
   auto f = times();
   f.curves[0].name = "</svg><script>\x01";
-  const std::string svg = to_svg(f);
+  const std::string svg = drawn(f);
   EXPECT_EQ(occurrences(svg, "<script"), 0U);
   EXPECT_EQ(occurrences(svg, "</svg>"), 1U);
   EXPECT_EQ(svg.find('\x01'), svg.npos);
@@ -84,7 +92,7 @@ TEST(FigureSvg, EscapesItsTexts) {
 }
 
 TEST(FigureSvg, DrawsEveryPointItsBarAndItsLabel) {
-  const std::string svg = to_svg(times());
+  const std::string svg = drawn(times());
   EXPECT_EQ(occurrences(svg, "<circle"), 4U + 2U) << "points, and those of the legend";
   EXPECT_NE(svg.find(">a, b</text>"), svg.npos);
   EXPECT_EQ(occurrences(svg, "stroke=\"#c4500a\""), 2U) << "the bars of the second curve";
@@ -93,11 +101,46 @@ TEST(FigureSvg, DrawsEveryPointItsBarAndItsLabel) {
   EXPECT_EQ(svg.find("inf"), svg.npos);
 }
 
+TEST(CurveStyles, ANameLooksTheSameInAllPictures) {
+  std::vector<Figure> all(3);
+  all[0].family = all[1].family = "by_angle";
+  all[0].curves = {{"a", {}, {}}, {"b = c", {}, {}}};
+  all[1].curves = {{"d", {}, {}}, {"b", {}, {}}, {"a", {}, {}}};
+  all[1].curves[2].dashed = true;
+  all[2].curves = {{"e", {}, {}}, {"d", {}, {}}};
+  const CurveStyles styles(all);
+  const auto of = [&](std::size_t picture, std::size_t i) {
+    return styles.of(all[picture].curves[i]);
+  };
+  EXPECT_EQ(of(0, 0), 0U);
+  EXPECT_EQ(of(0, 1), 1U);
+  EXPECT_EQ(of(1, 1), 1U) << "b";
+  EXPECT_EQ(of(1, 0), 2U) << "not as a, which is in a neighbouring picture";
+  EXPECT_EQ(of(1, 2), 0U) << "the first reference";
+  EXPECT_EQ(of(2, 1), 2U) << "d";
+  EXPECT_EQ(of(2, 0), 0U) << "alike only names that are nowhere beside each other";
+  EXPECT_EQ(page_json(all[2], styles)["curves"][1]["style"], 2);
+  const auto colour = [&](const Figure& f) { return occurrences(to_svg(f, styles), "#00795a"); };
+  EXPECT_EQ(colour(all[0]), 0U);
+  EXPECT_EQ(colour(all[1]), 1U) << "in the legend";
+  EXPECT_EQ(colour(all[2]), 1U);
+}
+
+TEST(CurveStyles, NamesOfAPictureDiffer) {
+  Figure f;
+  for (int i = 0; i < 36; ++i) f.curves.push_back({std::to_string(i), {}, {}});
+  const CurveStyles styles({&f, 1});
+  std::set<std::size_t> seen;
+  for (const auto& c : f.curves) seen.insert(styles.of(c));
+  EXPECT_EQ(seen.size(), 36U);
+  EXPECT_EQ(*seen.rbegin(), 35U);
+}
+
 TEST(FigureSvg, ALineBreaksWhereAPointIsMissing) {
   for (const auto kind : {FigureCurve::Kind::line, FigureCurve::Kind::both}) {
     const Figure f{"gap", "Gap", "",
                    {"x"}, {"y"}, {{"c", {0, 1, 2, 3, 4}, {1, 2, none, 2, 1}, kind}}};
-    const std::string svg = to_svg(f);
+    const std::string svg = drawn(f);
     const auto begin = svg.find("<path d=\"", svg.find("clip-path=")) + 9;
     const std::string path = svg.substr(begin, svg.find('"', begin) - begin);
     EXPECT_EQ(occurrences(path, "M"), 2U) << path;
@@ -109,7 +152,7 @@ TEST(FigureSvg, IsWholeWithoutAnyPoint) {
   Figure f{"none", "Nothing", "", {"x"}, {"y", true}, {{"empty", {}, {}}, {"nan", {1}, {none}}}};
   for (const bool log : {false, true}) {
     f.x.log = log;
-    const std::string svg = to_svg(f);
+    const std::string svg = drawn(f);
     EXPECT_NE(svg.find("</svg>"), svg.npos);
     EXPECT_EQ(svg.find("nan\""), svg.npos);
   }
@@ -117,7 +160,7 @@ TEST(FigureSvg, IsWholeWithoutAnyPoint) {
 
 TEST(FigureSvg, ANumberOnALogarithmicAxisIsAboveZero) {
   Figure f{"log", "Log", "", {"x", true}, {"y", true}, {{"c", {0, 1, 10}, {1, -1, 100}}}};
-  const std::string svg = to_svg(f);
+  const std::string svg = drawn(f);
   EXPECT_EQ(svg.find("nan"), svg.npos);
   EXPECT_EQ(svg.find("inf"), svg.npos);
 }
@@ -172,7 +215,7 @@ TEST(FigureMap, HasASliceAfterTheOther) {
 TEST(FigureJson, GivesAnXOnceForTheCurvesThatShareIt) {
   auto f = times();
   f.curves.push_back(f.curves[1]);
-  const auto j = page_json(f);
+  const auto j = page_json(f, CurveStyles({&f, 1}));
   EXPECT_TRUE(j["curves"][1].contains("x_ns")) << "of a time, which no run repeats";
   EXPECT_FALSE(j["curves"][2].contains("x_ns"));
   EXPECT_TRUE(j["curves"][0]["y"][1].is_null());
