@@ -245,6 +245,8 @@ function heat_map(x, y, layers, say, text) {
   const box = { left: 46, top: 8, right: 10, bottom: 84 };
   let width = 0, height = 0, legend_width = 0, legend_height = 0;
   let turned = false, label_beside = true;  // names of x, which are longer than their cells are wide; what colours mean
+  let y_lines = [];  // of each name of y
+  const small = 11 / 12;  // letters of a name in two lines
   const x_of = (value) => box.left + (width - box.left - box.right) * x.part(value);
   const y_of = (value) => height - box.bottom - (height - box.bottom - box.top) * y.part(value);
 
@@ -255,17 +257,28 @@ function heat_map(x, y, layers, say, text) {
     while (n > 1 && g.measureText(text.slice(0, n) + "…").width > most) --n;
     return text.slice(0, n) + "…";
   }
+  /// In one line, or in two of smaller letters, broken where a part of the name ends.
+  function name_lines(g, text, most) {
+    const fits = (part) => g.measureText(part).width * small <= most;
+    if (g.measureText(text).width <= most) return [text];
+    const breaks = [...text.matchAll(/[/+.,: ]/g)].map((m) => m.index + 1).filter((at) => fits(text.slice(0, at)));
+    const whole = breaks.filter((at) => fits(text.slice(at)));
+    const at = whole.findLast((i) => text[i - 1] === "/") ?? whole.at(-1) ?? breaks.at(-1) ?? 0;
+    return [text.slice(0, at), fitting(g, text.slice(at), most / small)].filter(Boolean);
+  }
   /// The room that the axes' texts need.
   function make_room(g) {
     const widest = (texts) => Math.max(0, ...texts.map((t) => g.measureText(t).width));
     const of_y = widest(y.names ?? y.ticks.map(tick_text)), of_x = x.names ? widest(x.names) : 0;
-    box.left = Math.min(Math.max(46, of_y + 32), 0.42 * width);
+    box.left = Math.min(Math.max(46, of_y + 32), 0.44 * width);
+    y_lines = (y.names ?? []).map((name) => name_lines(g, name, box.left - 24));
     turned = Boolean(x.names) && of_x > (width - box.left - box.right) / nx - 6;
     legend_width = Math.min(360, width - box.left - box.right);
     label_beside = width - box.left - box.right > legend_width + 16 + g.measureText(state.layer.label).width;
     legend_height = label_beside ? 33 : 50;
     box.bottom = 51 + legend_height + (turned ? Math.min(130, 0.7 * of_x) - 6 : 0);
-    height = y.names ? box.top + box.bottom + Math.min(1200, Math.max(120, 26 * ny)) : Math.round(Math.min(470, Math.max(330, width * 0.52)));
+    const [row, most] = y_lines.some((lines) => lines.length > 1) ? [30, 1500] : [26, 1200];
+    height = y.names ? box.top + box.bottom + Math.min(most, Math.max(120, row * ny)) : Math.round(Math.min(470, Math.max(330, width * 0.52)));
   }
   function draw() {
     const scale = devicePixelRatio || 1, measure = canvas.getContext("2d");
@@ -321,10 +334,12 @@ function heat_map(x, y, layers, say, text) {
     g.fillText(fitting(g, x.label, x1 - x0), (x0 + x1) / 2, height - legend_height - 29);
     g.textAlign = "right";
     g.textBaseline = "middle";
-    for (const [t, name] of y.names ? middles(y) : y.ticks.map((t) => [t, tick_text(t)])) {
+    for (const [t, lines] of y.names ? y_lines.map((lines, i) => [i + 0.5, lines]) : y.ticks.map((t) => [t, [tick_text(t)]])) {
       g.fillRect(x0 - 4, Math.round(y_of(t)), 4, 1);
-      g.fillText(fitting(g, name, box.left - 28), x0 - 7, y_of(t));
+      g.font = lines.length > 1 ? plot_font.replace("12px", "11px") : plot_font;
+      lines.forEach((line, i) => g.fillText(line, x0 - 7, y_of(t) + 12 * (i - (lines.length - 1) / 2)));
     }
+    g.font = plot_font;
     g.save();
     g.translate(9, (y0 + y1) / 2);
     g.rotate(-Math.PI / 2);
