@@ -44,7 +44,7 @@ void no_light_is_made(EnergyReport& r) {
   std::vector<std::string> words;
   for (const auto& [value, text] : makers)
     if (words.size() < 3) words.push_back(text);
-  judge(r, "reflected energy never exceeds incoming",
+  judge(r, "reflected energy never exceeds incoming", "seeds 000 and 001, conservation of energy",
         makers.empty() ? Judged::holds : Judged::partly,
         fmt::format("at F = 1, {} of {} forms reflect more than comes in somewhere{}{}; the "
                     "others reflect {:.4f} of it at most.",
@@ -57,7 +57,7 @@ void energy_does_not_stay(EnergyReport& r) {
   if (!f || f->averages.empty()) return;
   const auto &smooth = f->averages.front(), &rough = f->averages.back();
   judge(r, "as roughness grows the highlight widens and dims so that energy stays",
-        rough.albedo > 0.99 ? Judged::holds : Judged::fails,
+        "seed 001, conservation of energy", rough.albedo > 0.99 ? Judged::holds : Judged::fails,
         fmt::format("it widens and dims more than that. With nothing absorbed (GGX, Smith "
                     "correlated, F = 1, one bounce, average over the hemisphere) {} of the light "
                     "leaves at roughness {:g} and {} at roughness {:g}; what is missing met a "
@@ -77,7 +77,7 @@ void fixed_coat(EnergyReport& r) {
     if (coat->rows[i].mu >= 0.1 && off > most) most = off, at = i;
   }
   const auto& row = coat->rows[at];
-  judge(r, "the coat needs only a fixed 0.25 G",
+  judge(r, "the coat needs only a fixed 0.25 G", "seed 001, Disney's secondary lobe",
         most < 0.01  ? Judged::holds
         : most < 0.1 ? Judged::partly
                      : Judged::fails,
@@ -100,7 +100,7 @@ void clamped_at_2048(EnergyReport& r) {
     words.push_back(fmt::format("{} at {:g} (the peak to {})", percent(lost), roughness,
                                 percent(2048 * std::pow(roughness, 4))));
   }
-  judge(r, "the clamp at 2048 hardly shows",
+  judge(r, "the clamp at 2048 hardly shows", "seed 004, D_GGX_R2",
         most < 0.01  ? Judged::holds
         : most < 0.1 ? Judged::partly
                      : Judged::fails,
@@ -139,7 +139,8 @@ void look_of_the_simple_form(EnergyReport& r) {
       seen |= most > 1;
       if (most >= 0) words.push_back(text);
     }
-  judge(r, "the simple mobile form keeps the look", seen ? Judged::fails : Judged::holds,
+  judge(r, "the simple mobile form keeps the look", "seed 004, SpecularGGXSimple",
+        seen ? Judged::fails : Judged::holds,
         fmt::format("from roughness {:g} on (below, its clamp takes over) its ΔE2000 under even "
                     "light from GGX with Smith, correlated, and Schlick is at most, for {}. It has "
                     "no Fresnel, and no angles in its visibility.",
@@ -178,7 +179,7 @@ void deviation_of_slopes(EnergyReport& r) {
     words.push_back(fmt::format("{:.3g} α", d));
   }
   const double beckmann = deviation("ndf.beckmann", 0.3, 100);
-  judge(r, "alpha is the standard deviation of the slopes",
+  judge(r, "alpha is the standard deviation of the slopes", "seed 000, definition of alpha",
         growth < 1e-3 && std::abs(last - 1) < 1e-3 ? Judged::holds : Judged::fails,
         fmt::format("along an axis it is {:.4f} α for Beckmann, α/√2. GGX has none: of its slopes "
                     "up to 10, 100 and 1000 α it is {}, and it goes on growing.",
@@ -219,7 +220,8 @@ void solid_angle_of_half(EnergyReport& r) {
     const double ratio = std::sqrt(dot(area, area)) / (4 * step * step);
     most = std::max(most, std::abs(ratio * 4 * voh - 1));
   }
-  judge(r, "dω_h = dω_l/(4 VoH)", most < 1e-5 ? Judged::holds : Judged::fails,
+  judge(r, "dω_h = dω_l/(4 VoH)", "seed 000, the factor 4 of the BRDF",
+        most < 1e-5 ? Judged::holds : Judged::fails,
         fmt::format("for {} pairs of directions the solid angle of the half vector, by differences "
                     "of {:g} rad in l, is that to {:.1g} of itself.",
                     pairs, step, most));

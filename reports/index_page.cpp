@@ -39,6 +39,7 @@ std::string to_json(const ReportIndex& index) {
     for (const auto& c : r.claims)
       claims.push_back({{"report", r.name},
                         {"claim", c.claim},
+                        {"source", c.source},
                         {"judged", word(c.judged)},
                         {"verdict", c.verdict},
                         {"anchor", c.anchor}});

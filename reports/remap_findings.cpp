@@ -104,6 +104,7 @@ void verdict_on_k(RemapReport& r) {
     if (const auto* a = row_at(ours, at), *b = row_at(others, at); a && b)
       behaves.push_back(fmt::format("{:g} as {} (r²/2: {})", at, rough(a->by_g2), rough(b->by_g2)));
   judge(r, "k = (r+1)²/8 is right for direct light, r²/2 for image-based",
+        "seed 000, k of Schlick's G1",
         2 * nearer < one.all + two.all ? Judged::fails
         : nearer < one.all + two.all   ? Judged::partly
                                        : Judged::holds,
@@ -154,7 +155,7 @@ void verdict_on_g1(RemapReport& r) {
     values.push_back(fmt::format("{:.4f} (k {:.3f})", g.value, g.k));
     exact.push_back(fmt::format("{:.3f} at roughness {:g}", g.smith, g.roughness));
   }
-  judge(r, "G1 at NoV 0.1: 0.47 (k 0.125) and 0.28 (k 0.281)",
+  judge(r, "G1 at NoV 0.1: 0.47 (k 0.125) and 0.28 (k 0.281)", "seed 000, Disney's remapping of k",
         holds ? Judged::holds : Judged::fails,
         fmt::format("of Schlick's form it is {}. Exact Smith "
                     "for GGX, which these k = (r+1)²/8 stand for, is {}.",
@@ -184,7 +185,8 @@ void verdict_on_vf(RemapReport& r) {
   };
   const bool holds = (*std::ranges::max_element(mirror, {}, &RemapVf::factor))->factor < 1.1;
   judge(
-      r, "F V ≈ 1/(LoH²(r+0.5))", holds ? Judged::holds : Judged::fails,
+      r, "F V ≈ 1/(LoH²(r+0.5))", "seed 000, mobile specular BRDF",
+      holds ? Judged::holds : Judged::fails,
       fmt::format(
           "against Smith (correlated) times the exact Fresnel term of "
           "glass it is off by a factor of {} (RMS, by roughness) in the mirror direction and of {} "

@@ -38,7 +38,8 @@ inline std::function<void(double)> part_of(const ReportProgress& done,
 
 /// A statement in circulation, judged.
 struct Claim {
-  std::string claim;  ///< the sentence
+  std::string claim;   ///< the sentence
+  std::string source;  ///< where it stands, "seed 004, D_GGX_R2"; seeds as in the catalogue
   enum class Judged { holds, partly, fails } judged;
   std::string verdict;   ///< a sentence with figures
   std::string anchor{};  ///< of the report's page, where it is shown; empty: its top
@@ -50,8 +51,12 @@ std::string_view word(Claim::Judged);
 std::string sentence(const Claim&);
 /// Keeps a claim of a report, and its sentence among the report's findings.
 template <class Report>
-void judge(Report& r, std::string_view claim, Claim::Judged judged, std::string verdict) {
-  r.claims.push_back({std::string(claim), judged, std::move(verdict)});
+void judge(Report& r,
+           std::string_view claim,
+           std::string_view source,
+           Claim::Judged judged,
+           std::string verdict) {
+  r.claims.push_back({std::string(claim), std::string(source), judged, std::move(verdict)});
   r.findings.push_back(sentence(r.claims.back()));
 }
 

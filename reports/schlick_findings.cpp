@@ -73,7 +73,7 @@ void below_one_percent(SchlickReport& r) {
   const auto relative = [](const FresnelRow& x) { return x.max_rel < 0.01; };
   const std::size_t some = how_many(outside, within), channels = how_many(metals, within),
                     all = outside.size() + metals.size();
-  judge(r, "Schlick's error is below 1 %",
+  judge(r, "Schlick's error is below 1 %", "seed 000, Schlick's approximation",
         some + channels == all        ? Judged::holds
         : 2 * (some + channels) > all ? Judged::partly
                                       : Judged::fails,
@@ -100,6 +100,7 @@ void only_near_one(SchlickReport& r) {
   const auto &low = *outside.front(), &high = *outside.back();
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
   judge(r, "Schlick is accurate enough; only near IOR 1 is it poor",
+        "seed 001, Disney's Fresnel term of 2015",
         only   ? Judged::holds
         : near ? Judged::partly
                : Judged::fails,
@@ -283,7 +284,7 @@ void ranges_of_f0(SchlickReport& r) {
     return fmt::format("from {:.3f} ({}) to {:.3f} ({})", low->f0, low->name, high->f0, high->name);
   };
   const std::size_t d = within(dielectric, 0.02, 0.04), m = within(metal, 0.7, 1);
-  judge(r, "dielectrics have F0 0.02 to 0.04, metals 0.7 to 1.0",
+  judge(r, "dielectrics have F0 0.02 to 0.04, metals 0.7 to 1.0", "seed 001, Fresnel reflectance",
         d == dielectric.size() && m == metal.size()      ? Judged::holds
         : 2 * (d + m) > dielectric.size() + metal.size() ? Judged::partly
                                                          : Judged::fails,

@@ -20,7 +20,7 @@ const findings = () => reports.map((r) => section(sentence(r.what), null,
 /// Grouped by report, a line above each.
 function claim_table(list, classes) {
   const t = table(["", "claim", "verdict"], list.map((c) => [el("span", { class: `verdict-${classes[c.judged]}` }, c.judged),
-    el("span", { class: "because" }, el("a", { href: page_of(c.report, c.anchor) }, c.claim)), el("span", { class: "because" }, c.verdict)]),
+    el("span", { class: "because" }, el("a", { href: page_of(c.report, c.anchor) }, c.claim), el("small", {}, c.source)), el("span", { class: "because" }, c.verdict)]),
   { row_class: (i) => (list[i].report !== list[i - 1]?.report ? "first" : null) });
   t.classList.add("claims");
   return t;
@@ -28,7 +28,7 @@ function claim_table(list, classes) {
 function verdicts() {
   if (!claims.length) return null;
   const classes = { "holds": "yes", "holds in part": "weakly", "does not hold": "no" };
-  return section("Claims and verdicts", "Statements in circulation, as they stand in papers, talks and shaders, and what the figures say of them.",
+  return section("Claims and verdicts", "Statements in circulation, as they stand in papers, talks and shaders, and what the figures say of them. Seeds are the documents that describe the shipped forms, by their numbers in gonio audit.",
     scroll(claim_table([...group_by(claims, (c) => c.report)].flatMap(([, list]) => list), classes)));
 }
 

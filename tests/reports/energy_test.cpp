@@ -229,6 +229,7 @@ TEST(EnergyReport, PicturesShowWhatWasMeasured) {
 TEST(EnergyReport, JudgesWhatIsSaidOfHighlightsByClosedForms) {
   EnergyReport r;
   judge_claims(r);
+  for (const auto& c : r.claims) EXPECT_TRUE(c.source.starts_with("seed")) << c.claim;
   const auto verdict = [&](std::string_view claim) {
     const auto it = std::ranges::find(r.claims, claim, &Claim::claim);
     return it == r.claims.end() ? std::string() : sentence(*it);

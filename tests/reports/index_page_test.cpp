@@ -16,13 +16,14 @@ TEST(FirstSentence, EndsBeforeAnother) {
 
 TEST(ReportIndex, TellsFindingsClaimsAndQuestionsWithTheirPlace) {
   ReportIndex index{{}, "0.1.0", true, 1234};
-  index.reports.push_back({"schlick",
-                           "Schlick against exact Fresnel",
-                           1500,
-                           {"One. And more.", "Two.", "3", "4", "5", "6"},
-                           7,
-                           {{"error below 1 %", Claim::Judged::partly, "0.036 for glass.", "rms"}},
-                           {{"How wrong?", "Up to 0.22.", ""}}});
+  index.reports.push_back(
+      {"schlick",
+       "Schlick against exact Fresnel",
+       1500,
+       {"One. And more.", "Two.", "3", "4", "5", "6"},
+       7,
+       {{"error below 1 %", "seed 000, Schlick", Claim::Judged::partly, "0.036 for glass.", "rms"}},
+       {{"How wrong?", "Up to 0.22.", ""}}});
   auto& one = index.reports[0];
   one.findings.insert(one.findings.begin(), sentence(one.claims[0]));  // told once, as a claim
   const auto j = nlohmann::json::parse(to_json(index));
@@ -32,6 +33,7 @@ TEST(ReportIndex, TellsFindingsClaimsAndQuestionsWithTheirPlace) {
   EXPECT_EQ(r["time_ms"], 1500);
   EXPECT_EQ(j["claims"][0]["judged"], "holds in part");
   EXPECT_EQ(j["claims"][0]["report"], "schlick");
+  EXPECT_EQ(j["claims"][0]["source"], "seed 000, Schlick");
   EXPECT_EQ(j["questions"][0]["answer"], "Up to 0.22.");
   EXPECT_TRUE(j["full"]);
 }
