@@ -114,6 +114,11 @@ std::string to_svg(const FigureMap&);
 /// right, y upwards; where there is no cell, NaN.  String attributes say what the axes and the value are.
 std::string to_exr(const FigureMap&);
 
+/// Names of the files of a report's pictures in its folder, as its document names the pictures.
+/// \param json  untrusted; of what is not whole, or no document of this report, there are none
+/// \return plain names: [a-z0-9_] and one of the endings .svg, .csv, .exr
+std::vector<std::string> picture_files(std::string_view json, std::string_view report);
+
 /// \param json  a report's document
 /// \return its flat objects "rows" as CSV: a column for each key, in the order in which they appear
 std::string rows_csv(const std::string& json);

@@ -1,5 +1,6 @@
 // Pictures in the document of a page.
 #include <cmath>
+#include <initializer_list>
 #include <string_view>
 
 #include "reports/figure_scale.h"
@@ -59,7 +60,33 @@ PageJson json(const std::vector<std::pair<std::string, std::string>>& choices) {
   return out;
 }
 
+bool is_picture_id(std::string_view id) {
+  return !id.empty() && id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == id.npos;
+}
+
 }  // namespace
+
+std::vector<std::string> picture_files(std::string_view json, std::string_view report) {
+  using Json = nlohmann::json;  // of keys in their order each would be looked for among all
+  const auto document = Json::parse(json, nullptr, false);
+  const auto text = [](const Json& object, const char* key) -> std::string {
+    if (!object.is_object()) return "";
+    const auto it = object.find(key);
+    return it != object.end() && it->is_string() ? it->get<std::string>() : "";
+  };
+  std::vector<std::string> names;
+  if (!text(document, "schema").starts_with(fmt::format("gonio.report.{}/", report))) return names;
+  const auto add = [&](const char* pictures, std::initializer_list<std::string_view> endings) {
+    const auto list = document.find(pictures);
+    if (list == document.end() || !list->is_array()) return;
+    for (const auto& picture : *list)
+      if (const std::string id = text(picture, "id"); is_picture_id(id))
+        for (const auto ending : endings) names.push_back(id + std::string(ending));
+  };
+  add("figures", {".svg", ".csv"});
+  add("maps", {".svg", ".csv", ".exr"});
+  return names;
+}
 
 PageJson page_json(const Figure& f, const CurveStyles& styles) {
   PageJson curves = PageJson::array();

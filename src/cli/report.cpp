@@ -5,8 +5,10 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <system_error>
 
+#include "base/error.h"
 #include "base/file.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -45,11 +47,12 @@ class MadeFolder {
 };
 
 /// A report under the names of the contract, whole or not at all: page, data, rows, and its pictures in a folder of its
-/// name.
+/// name.  What an earlier run's document there names and this one has no more goes when all is written.
 class Files {
  public:
   Files(const std::string& folder, std::string_view name)
-      : path_((std::filesystem::path(folder) / name).string()),
+      : name_(name),
+        path_((std::filesystem::path(folder) / name).string()),
         pictures_(path_),
         page_(path_ + ".html"),
         data_(path_ + ".json"),
@@ -71,7 +74,9 @@ class Files {
     std::vector<OutputFile*> all;
     for (auto& f : files_) all.push_back(f.get());
     for (auto* f : {&rows_, &data_, &page_}) all.push_back(f);
+    const auto earlier = earlier_pictures();
     commit_all(all);
+    remove_stale(earlier);
   }
   std::string page_path() const { return path_ + ".html"; }
 
@@ -80,12 +85,31 @@ class Files {
     files_.push_back(std::make_unique<OutputFile>(pictures_ / name));
     files_.back()->write(bytes);
     files_.back()->close();  // of a report's hundreds, none stays open
+    written_.insert(name);
+  }
+  std::vector<std::string> earlier_pictures() const {
+    constexpr std::uint64_t most = std::uint64_t{1} << 28;
+    try {
+      return picture_files(InputFile(path_ + ".json").read_rest(most), name_);
+    } catch (const Error&) {
+      return {};  // there is none, or none of ours
+    }
+  }
+  void remove_stale(const std::vector<std::string>& earlier) const {
+    namespace fs = std::filesystem;
+    for (const auto& name : earlier) {
+      std::error_code error;  // what stays does no harm
+      const fs::path path = pictures_ / name;
+      if (!written_.contains(name) && fs::is_regular_file(fs::symlink_status(path, error)))
+        fs::remove(path, error);
+    }
   }
 
-  std::string path_;
+  std::string name_, path_;
   MadeFolder pictures_;
   OutputFile page_, data_, rows_;
   std::vector<std::unique_ptr<OutputFile>> files_;
+  std::set<std::string> written_;
 };
 
 /// Shows what is done of all reports asked for, and how much time is left.
@@ -185,6 +209,9 @@ Exit run(const Options& o) {
   if (index_files) {
     index_files->write(index);
     fmt::print("{}\n", index_files->page_path());
+  } else if (const auto page = fs::path(o.output) / "index.html";
+             fs::exists(page, error) && !o.quiet) {
+    fmt::print(stderr, "{}: of an earlier run; gonio report all makes it anew\n", page.string());
   }
   return Exit::done;
 }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "program.h"
+#include "reports/figure.h"
 
 #include <unistd.h>
 
@@ -60,6 +61,51 @@ TEST(ReportCommand, WritesEveryPictureBesideThePage) {
   const std::string rows = read_bytes(f / "out/schlick.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(rows, '\n')), 1 + data["rows"].size());
   EXPECT_TRUE(rows.starts_with("form,kind,name,")) << rows.substr(0, 80);
+}
+
+TEST(ReportCommand, TakesAwayThePicturesThatOnlyAnEarlierRunHas) {
+  const Folder f;
+  fs::create_directories(f / "out/schlick/old_folder.svg");
+  fs::create_directories(f / "out/schlick/sub");
+  for (const char* name : {"x.svg", "schlick/old.svg", "schlick/old.csv", "schlick/old_map.exr",
+                           "schlick/old.exr", "schlick/old.txt", "schlick/mine.svg",
+                           "schlick/sub/x.svg", "schlick/colour_difference_gold_1.svg"})
+    f.write(std::string("out/") + name, "earlier");
+  fs::create_symlink("mine.svg", f / "out/schlick/old_link.svg");
+  f.write(
+      "out/schlick.json",
+      R"({"schema":"gonio.report.schlick/1","figures":[{"id":"old"},{"id":"../x"},{"id":"sub/x"},
+              {"id":"old_folder"},{"id":"old_link"},{"id":"colour_difference_gold_1"},{"id":".."},
+              {"id":""},{"id":7},{},null],"maps":[{"id":"old_map"}]})");
+  f.write("out/index.html", "of all");
+  const auto o = gonio(f, "report schlick -o out");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.err, "out/index.html: of an earlier run; gonio report all makes it anew\n");
+  const auto left = files_below(f / "out");
+  for (const char* gone : {"schlick/old.svg", "schlick/old.csv", "schlick/old_map.exr"})
+    EXPECT_FALSE(left.contains(gone)) << gone;
+  for (const char* kept :
+       {"x.svg", "schlick/old.exr", "schlick/old.txt", "schlick/mine.svg", "schlick/sub/x.svg"})
+    EXPECT_TRUE(left.contains(kept)) << kept;
+  EXPECT_TRUE(fs::is_symlink(f / "out/schlick/old_link.svg"));
+  EXPECT_TRUE(fs::is_directory(f / "out/schlick/old_folder.svg"));
+  EXPECT_NE(read_bytes(f / "out/schlick/colour_difference_gold_1.svg"), "earlier");
+}
+
+TEST(ReportCommand, TakesNothingAwayForADocumentThatIsNotItsOwn) {
+  const Folder f;
+  for (const char* json :
+       {R"({"schema":"gonio.report.schlick/1","figures":[{"id":"old"}])", "[[[", "",
+        R"({"schema":"gonio.report.energy/1","figures":[{"id":"old"}]})",
+        R"({"schema":"gonio.report.schlick/1","figures":{"id":"old"},"maps":"old"})"})
+    EXPECT_TRUE(picture_files(json, "schlick").empty()) << json;
+  fs::create_directories(f / "out/schlick");
+  f.write("out/schlick/old.svg", "mine");
+  f.write("out/schlick.json", R"({"figures":[{"id":"old"}]})");
+  const auto o = gonio(f, "report schlick -o out");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  EXPECT_EQ(read_bytes(f / "out/schlick/old.svg"), "mine");
 }
 
 TEST(ReportCommand, LeavesNothingWhereOnePictureHasNoPlace) {
