@@ -1,4 +1,5 @@
-# From Debian (see ./quickstart for the package names); elsewhere by the usual CMake packages.
+# From Debian (cmake/install_missing.sh has the package names); elsewhere by the usual CMake packages, Nettle by
+# pkg-config.
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)

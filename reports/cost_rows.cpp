@@ -51,8 +51,8 @@ struct Field {
 template <class F>
 using SharedField = std::shared_ptr<Field<F>>;
 
-/// In the way a composed model uses it: D begins a fraction, V divides it, F and a diffuse term join what is
-/// there.
+/// In the way a composed model uses it: D begins, a fraction or not, V divides a fraction, F and a diffuse
+/// term join what is there.  (V's loop takes GGX's D in, which is not timed here.)
 template <class F>
 Timed timed_term(std::size_t term, const Kernels<F>& kernels, const SharedField<F>& field) {
   const auto& t = kernels.terms[term];

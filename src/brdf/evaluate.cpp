@@ -1,8 +1,10 @@
 #include "brdf/evaluate.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "base/error.h"
+#include "brdf/ndf.h"
 
 #include <fmt/format.h>
 
@@ -53,13 +55,16 @@ Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k) : channels_(m.chann
     }
     term.parameters.resize(m.channels);
     term.count = t.parameters.size();
+    term.is_ggx = term.kernels->about->id == Ggx<F>::about.id;
     terms_.push_back(std::move(term));
   };
   for (const auto& t : m.diffuse) use(t);
   diffuse_ = terms_.size();
+  assert(diffuse_ <= 1);
   for (std::size_t t = 0; t < diffuse_; ++t) coupled_ |= terms_[t].kernels->coupled;
   for (const auto& l : m.lobes)
     for (const auto* t : {&l.ndf, &l.masking, &l.fresnel}) use(*t);
+  if (has_uniform_diffuse()) uniform_.resize(channels_);
   if (terms_.size() > max_fused_terms || channels_ > max_channels) return;
   std::array<std::string_view, max_fused_terms> ids;
   for (std::size_t t = 0; t < terms_.size(); ++t) ids[t] = terms_[t].kernels->about->id;
@@ -75,10 +80,8 @@ void Evaluator<F>::set(std::span<const F> values) {
   for (auto& t : terms_)
     for (std::size_t c = 0; c < channels_; ++c)
       for (std::size_t i = 0; i < t.count; ++i) t.parameters[c][i] = values[t.slots[c][i]];
-  uniform_.clear();
-  if (has_uniform_diffuse())
-    for (const auto& p : terms_[0].parameters)
-      uniform_.push_back(terms_[0].kernels->uniform(p.data()));
+  for (std::size_t c = 0; c < uniform_.size(); ++c)
+    uniform_[c] = terms_[0].kernels->uniform(terms_[0].parameters[c].data());
 }
 
 template <class F>
@@ -102,7 +105,7 @@ void Evaluator<F>::compose(const Block<F>& x, std::size_t at, std::span<F* const
   for (std::size_t t = diffuse_; t < terms_.size(); t += 3) {
     const Term &d = terms_[t], &v = terms_[t + 1];
     F* const num = dv.emplace_back(scratch_[next++]);
-    if (d.kernels->about->id == "ndf.ggx") {
+    if (d.is_ggx) {
       v.kernels->with_ggx(x, d.parameters[0].data(), v.parameters[0].data(), num);
       continue;
     }

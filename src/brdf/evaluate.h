@@ -108,6 +108,7 @@ class Evaluator {
     std::vector<std::array<std::size_t, max_parameters>> slots;
     std::vector<std::array<F, max_parameters>> parameters;
     std::size_t count = 0;
+    bool is_ggx = false;
   };
   void compose(const Block<F>& x, std::size_t at, std::span<F* const> out);
   /// A model has one diffuse term at most.

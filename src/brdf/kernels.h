@@ -52,11 +52,11 @@ struct Join {
 
 /// The same of a term that channels have each their own of, F or diffuse, for all of them at once:
 ///
-///   out_c = base_c + factor F_c   or   base_c + (factor − base_c) F_c   or   base_c + diffuse_c
+///   out_c = base_c + factor F_c   or   base_c + (factor − base_c) F_c   or   diffuse_c
 template <class F>
 struct ChannelJoin {
   const F* factor = nullptr;                  ///< of F
-  std::array<const F*, max_channels> base{};  ///< nullptr: nothing
+  std::array<const F*, max_channels> base{};  ///< of F; nullptr: nothing
   const F* uniform =
       nullptr;           ///< of F, in place of a column: the base of each channel at all samples
   bool coupled = false;  ///< the base lies under this lobe

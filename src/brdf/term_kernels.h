@@ -82,43 +82,43 @@ void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
 }
 
 /// What a term of the channels is added to.
-enum class Base { nothing, column, uniform };
+enum class Under { nothing, column, uniform };
 
-template <template <class> class Term, std::size_t channels, class F, Base base, bool coupled>
+template <template <class> class Term, std::size_t channels, class F, Under base, bool coupled>
 void shade_with(const Block<F> x, const ChannelJoin<F> j) {  // copied: stores cannot change them
   using B = Lane<F>;
   constexpr bool is_fresnel = role_of(Term<F>::about.id) == Role::fresnel;
   const auto terms = bind_channels<Term, channels>(j.parameters);
   std::array<B, channels> under, value;
-  if constexpr (base == Base::uniform)
+  if constexpr (base == Under::uniform)
     for (std::size_t c = 0; c < channels; ++c) under[c] = B(j.uniform[c]);
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
     const auto a = angles<Term<B>>(x, i);
     B factor;
     if constexpr (is_fresnel) factor = load<B>(j.factor + i);
     for (std::size_t c = 0; c < channels; ++c) {
-      if constexpr (base == Base::column) under[c] = load<B>(j.base[c] + i);
+      if constexpr (base == Under::column) under[c] = load<B>(j.base[c] + i);
       value[c] = as_value<B>(terms[c](a));
       if constexpr (coupled)
         value[c] = (factor - under[c]) * value[c];
       else if constexpr (is_fresnel)
         value[c] = factor * value[c];
-      if constexpr (base != Base::nothing) value[c] = under[c] + value[c];
+      if constexpr (base != Under::nothing) value[c] = under[c] + value[c];
     }
     for (std::size_t c = 0; c < channels; ++c) store<B>(j.out[c] + i, value[c]);
   }
 }
 template <template <class> class Term, std::size_t channels, class F>
 void shade(const Block<F>& x, const ChannelJoin<F>& j) {
-  const auto on = [&]<Base base>() {
-    if constexpr (base != Base::nothing && role_of(Term<F>::about.id) == Role::fresnel)
-      if (j.coupled) return shade_with<Term, channels, F, base, true>(x, j);
-    shade_with<Term, channels, F, base, false>(x, j);
-  };
-  if (j.base[0]) return on.template operator()<Base::column>();
-  if constexpr (role_of(Term<F>::about.id) == Role::fresnel)
-    if (j.uniform) return on.template operator()<Base::uniform>();
-  on.template operator()<Base::nothing>();
+  if constexpr (role_of(Term<F>::about.id) == Role::fresnel) {
+    const auto on = [&]<Under base>() {
+      j.coupled ? shade_with<Term, channels, F, base, true>(x, j)
+                : shade_with<Term, channels, F, base, false>(x, j);
+    };
+    if (j.base[0]) return on.template operator()<Under::column>();
+    if (j.uniform) return on.template operator()<Under::uniform>();
+  }
+  shade_with<Term, channels, F, Under::nothing, false>(x, j);
 }
 template <template <class> class Term, class F>
 F uniform(const F* p) {

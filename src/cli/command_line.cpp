@@ -60,14 +60,18 @@ Option Command::option(const std::string& names, T& value, const std::string& he
 }
 template Option Command::option(const std::string&, std::string&, const std::string&);
 template Option Command::option(const std::string&, int&, const std::string&);
-template Option Command::option(const std::string&, std::size_t&, const std::string&);
+template Option Command::option(const std::string&, unsigned long&, const std::string&);
+template Option Command::option(const std::string&, unsigned long long&, const std::string&);
 template Option Command::option(const std::string&, double&, const std::string&);
 template Option Command::option(const std::string&,
                                 std::optional<std::string>&,
                                 const std::string&);
 template Option Command::option(const std::string&, std::optional<int>&, const std::string&);
 template Option Command::option(const std::string&,
-                                std::optional<std::size_t>&,
+                                std::optional<unsigned long>&,
+                                const std::string&);
+template Option Command::option(const std::string&,
+                                std::optional<unsigned long long>&,
                                 const std::string&);
 template Option Command::option(const std::string&, std::optional<double>&, const std::string&);
 template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);

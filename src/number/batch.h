@@ -21,9 +21,14 @@ struct RealTraits<xsimd::batch<F, Arch>> {
   static Plain select(const Mask& m, const Plain& a, const Plain& b) {
     return xsimd::select(m, a, b);
   }
-  // x86 returns its second operand where neither is less.
-  static Plain max(const Plain& a, const Plain& b) { return xsimd::max(b, a); }
-  static Plain min(const Plain& a, const Plain& b) { return xsimd::min(b, a); }
+#if defined(__x86_64__) || defined(_M_X64)  // returns its second operand where neither is less
+  static Plain max(const Plain& a, const Plain& b) {
+    return xsimd::max(b, a);
+  }
+  static Plain min(const Plain& a, const Plain& b) {
+    return xsimd::min(b, a);
+  }
+#endif
 };
 
 template <class T>

@@ -104,14 +104,15 @@ struct Dielectric {
 ///
 /// in which nothing cancels.
 ///
-/// \param scale  κ, any that keeps the rest from being large: n4 is κ² |N² − 1|², m is κ m and a is κ a
+/// All of it comes scaled by κ = 1/max(|N|², 1): in half |N² − s²|² would be too large beyond |N| = 16.
+///
+/// \param scale  κ   \param n4  κ² |N² − 1|²   \param m  κ m   \param a  κ a
 template <Real T>
 Quotient<T> reflectance_of_root(
-    const plain_t<T>& c, const T& scale, const T& n4, const T& m, const Quotient<T>& a) {
+    const plain_t<T>& c, const T& scale, const T& n4, const T& m, const T& a) {
   const auto s2 = (1 - c) * (1 + c), c2 = square(c);
-  const T odd = 2 * a.num * c, s_den = a.den * (m + scale * c2) + odd;
-  const T p_even = a.den * (m * c2 + scale * square(s2));
-  return {n4 * square(a.den) * p_even, square(s_den) * (p_even + odd * s2)};
+  const T odd = 2 * a * c, s_den = m + scale * c2 + odd, p_even = m * c2 + scale * square(s2);
+  return {n4 * p_even, square(s_den) * (p_even + odd * s2)};
 }
 
 /// Exact Fresnel reflectance of a conductor with refractive index N = η + i k.
@@ -122,8 +123,7 @@ Quotient<T> reflectance_of_root(
 ///                                              [Born & Wolf, Principles of Optics, §14.2]
 ///
 /// Computed so that nothing cancels: the larger of a and b from the root, the smaller as η k over it,
-/// and Re (N² − s²) by NearCritical where it is small beside c².  The one division is the last.  All is
-/// scaled by κ = 1/max(|N|², 1): in half |N² − s²|² would be too large beyond |N| = 16.
+/// and Re (N² − s²) by NearCritical where it is small beside c².
 ///
 /// \param eta  real part, > 0   \param k  extinction coefficient, ≥ 0
 template <Real T>
@@ -156,14 +156,15 @@ struct Conductor {
   Quotient<T> operator()(const Angles<plain_t<T>>& x) const {
     const auto c = x.voh;
     const T t = scale * critical.difference(c, less_one + square(c));  // κ Re (N² − s²)
-    const T t2 = square(t) + 4 * square(im);                           // κ² |N² − s²|²
-    const auto off = T(0) < t2;  // N = s, where total reflection begins: the root 0 has no slope
-    const T m = select<T>(off, sqrt(select<T>(off, t2, T(1))), T(0));
-    const auto a_larger = off && T(0) < t;
-    const T larger = sqrt(select<T>(off, (m + select<T>(a_larger, t, -t)) / 2, T(1)));
-    const auto f = reflectance_of_root<T>(
-        c, scale, n4, m,
-        {root_scale * select<T>(a_larger, larger, im), select<T>(a_larger, T(1), larger)});
+    const auto a_larger = T(0) < t;
+    const T abs_t = select<T>(a_larger, t, -t);
+    const T t2 = square(t) + 4 * square(im);  // (κ m)²; where it is too small to hold, m is about
+    const auto held = T(0) < t2;
+    const T m = select<T>(held, sqrt(select<T>(held, t2, T(1))), max<T>(abs_t, 2 * im));
+    const auto off = T(0) < m;  // N = s, where total reflection begins: the root 0 has no slope
+    const T larger = sqrt(select<T>(off, (m + abs_t) / 2, T(1)));
+    const T a = root_scale * select<T>(a_larger, larger, im / larger);
+    const auto f = reflectance_of_root<T>(c, scale, n4, m, a);
     return {f.num, select<T>(T(0) < n4, f.den, T(1))};  // N = 1: there is nothing
   }
 };
@@ -190,8 +191,10 @@ struct Gulbrandsen {
       Parameter{"f0", {0, 1}, {0.01, 0.99}, 0.8, true, "reflectance at normal incidence"},
       Parameter{"g", {0, 1}, {0, 1}, 0.5, true, "edge tint"}};
 
-  T re, less_one, im2;  // Re N², Re N² − 1, (n k)²
-  T n4;                 // |N² − 1|²
+  T re, less_one;       // Re N², Re N² − 1
+  T scale, root_scale;  // κ, √κ
+  T im2;                // κ² (n k)²
+  T n4;                 // κ² |N² − 1|²
   T low, high;          // how far f0 is on the straight runs
 
   explicit Gulbrandsen(std::span<const T, 2> p)
@@ -199,12 +202,12 @@ struct Gulbrandsen {
 
   T operator()(const Angles<plain_t<T>>& x) const {
     const auto c = x.voh, c2 = square(c), s2 = (1 - c) * (1 + c);
-    const T t = select<T>(s2 < c2, re - s2, less_one + c2);  // Re (N² − s²) by what lies closest
+    const T t = scale * select<T>(s2 < c2, re - s2, less_one + c2);  // by what lies closest
     const auto a_larger = T(0) < t;
     const T m = sqrt(square(t) + 4 * im2);
     const T larger2 = (m + select<T>(a_larger, t, -t)) / 2;
-    const T a = sqrt(select<T>(a_larger, larger2, im2 / larger2));
-    const T f = reflectance_of_root<T>(c, T(1), n4, m, {a, T(1)}).value();
+    const T a = root_scale * sqrt(select<T>(a_larger, larger2, im2 / larger2));
+    const T f = reflectance_of_root<T>(c, scale, n4, m, a).value();
     return f * low + (1 - f) * high;
   }
 
@@ -215,8 +218,10 @@ struct Gulbrandsen {
   Gulbrandsen(const T& f0, const TintedIndex<T>& i)
       : re(square(i.n) - i.k2),
         less_one(i.n_less_one * (i.n + 1) - i.k2),
-        im2(square(i.n) * i.k2),
-        n4(square(less_one) + 4 * im2),
+        scale(1 / max<T>(square(i.n) + i.k2, T(1))),
+        root_scale(sqrt(scale)),
+        im2((scale * square(i.n)) * (scale * i.k2)),
+        n4(square(scale * less_one) + 4 * im2),
         low(min<T>(f0 / least(), T(1))),
         high(max<T>((f0 - most()) / (1 - most()), T(0))) {}
 };

@@ -282,17 +282,38 @@ TEST(NumberTypes, HalfIsTheFormulaRoundedAfterEveryOperation) {
             static_cast<double>(a2 / pi_ / (t * t)));
 }
 
+/// Of a term in half at these parameters, as exact as sixteen units of its last digit.
+void expect_right_in_half(const char* id, double first, double second, double voh) {
+  const auto term = find_term(id);
+  const Parameters p{as_half(first), as_half(second)};
+  const Row x = test::framed({0.5, 0.5, 0.5, as_half(voh), 0.75});
+  EXPECT_NEAR(value_in(Number::half, term, {p, x}), wide_value(term, p, x).value,
+              16 * epsilon<Half>)
+      << id << text(p) << " at " << voh;
+}
+
 TEST(NumberTypes, AConductorHasRoomInHalfWhileTheSquareOfItsIndexHas) {
-  const auto term = find_term("fresnel.conductor");
-  for (const double eta : {0.05, 1.5, 6.0})
-    for (const double k : {0.0, 2.5, 7.0, 15.0, 17.0, 40.0, 250.0})
-      for (const double voh : {0.0, 0.1, 0.5, 1.0}) {
-        const Parameters p{as_half(eta), k};
-        const Row x = test::framed({0.5, 0.5, 0.5, as_half(voh), 0.75});
-        EXPECT_NEAR(value_in(Number::half, term, {p, x}), wide_value(term, p, x).value,
-                    16 * epsilon<Half>)
-            << text(p) << " at " << voh;
-      }
+  for (const double voh : {0.0, 0.1, 0.3, 0.5, 0.7, 1.0}) {
+    for (const double eta : {0.0115, 0.05, 1.5, 6.0})
+      for (const double k : {0.0, 2.5, 7.0, 15.0, 17.0, 40.0, 250.0})
+        expect_right_in_half("fresnel.conductor", eta, k, voh);
+    for (const double f0 : {0.05, 0.3, 0.56, 0.6, 0.65, 0.7, 0.9})
+      for (const double g : {0.0, 0.5, 1.0})
+        expect_right_in_half("fresnel.gulbrandsen", f0, g, voh);
+  }
+}
+
+TEST(NumberTypes, AConductorOfAnIndexNearOneIsRightInHalf) {
+  for (const double eta : {0.95, 0.984, 0.998, 1.0, 1.02})
+    for (const double k : {0.0, 0.0028, 0.05})
+      for (const double voh : {0.0, 0.1, 0.5, 1.0})
+        expect_right_in_half("fresnel.conductor", eta, k, voh);
+  for (const double voh : {0.17, 0.175, 0.177, 0.178, 0.179, 0.18, 0.185}) {  // about the critical
+    const double f =
+        value_in(Number::half, find_term("fresnel.conductor"),
+                 {{as_half(0.984), 0}, test::framed({0.5, 0.5, 0.5, as_half(voh), 0.75})});
+    EXPECT_TRUE(f > 0.1 && f <= 1 + 24 * epsilon<Half>) << voh << ": " << f;
+  }
 }
 
 TEST(NumberTypes, MaskingInANumberGivesG2InThatNumber) {
