@@ -30,6 +30,8 @@ struct FigureCurve {
   bool dashed = false;                       ///< a reference or a bound
   std::vector<std::string> labels{};         ///< of each point, or none
   std::vector<double> x_error{}, y_error{};  ///< half widths of each point, or none
+  std::string
+      look{};  ///< the name that it looks like, of several that came to the same; empty: its own
 };
 
 /// Of pictures among which the reader chooses: {{"material", "gold"}, {"angle", "0.5"}}.

@@ -9,9 +9,8 @@ namespace {
 
 using Names = std::set<std::string, std::less<>>;
 
-/// Of curves that came to the same, "schlick = f90", the first.
-std::string first_name(const FigureCurve& c) {
-  return c.name.substr(0, c.name.find(" = "));
+const std::string& look_of(const FigureCurve& c) {
+  return c.look.empty() ? c.name : c.look;
 }
 
 /// Each takes the least number that none of its neighbours has taken before it.
@@ -23,7 +22,7 @@ CurveStyles::Numbers numbered(std::span<const Figure> figures, bool dashed, std:
     Names own;
     for (const auto& c : f.curves) {
       if (c.dashed != dashed) continue;
-      const auto& name = *own.insert(first_name(c)).first;
+      const auto& name = *own.insert(look_of(c)).first;
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
     for (const auto& name : own) of_picture[name].insert(own.begin(), own.end());
@@ -54,7 +53,7 @@ CurveStyles::CurveStyles(std::span<const Figure> figures)
     : lines_(numbered(figures, false, 12)), references_(numbered(figures, true, 3)) {}
 
 std::size_t CurveStyles::of(const FigureCurve& c) const {
-  return (c.dashed ? references_ : lines_).at(first_name(c));
+  return (c.dashed ? references_ : lines_).at(look_of(c));
 }
 
 }  // namespace gonio

@@ -122,6 +122,7 @@ std::vector<FigureCurve> distinct(const std::vector<double>& x, const std::vecto
     });
     const std::string name(short_id(f.form));
     if (same != out.end()) {
+      if (same->look.empty()) same->look = same->name;
       same->name += " = " + name;
       same->dashed = same->dashed || f.form == exact;
     } else {

@@ -105,6 +105,7 @@ TEST(CurveStyles, ANameLooksTheSameInAllPictures) {
   std::vector<Figure> all(3);
   all[0].family = all[1].family = "by_angle";
   all[0].curves = {{"a", {}, {}}, {"b = c", {}, {}}};
+  all[0].curves[1].look = "b";
   all[1].curves = {{"d", {}, {}}, {"b", {}, {}}, {"a", {}, {}}};
   all[1].curves[2].dashed = true;
   all[2].curves = {{"e", {}, {}}, {"d", {}, {}}};
@@ -128,7 +129,7 @@ TEST(CurveStyles, ANameLooksTheSameInAllPictures) {
 
 TEST(CurveStyles, NamesOfAPictureDiffer) {
   Figure f;
-  for (int i = 0; i < 36; ++i) f.curves.push_back({std::to_string(i), {}, {}});
+  for (int i = 0; i < 36; ++i) f.curves.push_back({"r = " + std::to_string(i), {}, {}});
   const CurveStyles styles({&f, 1});
   std::set<std::size_t> seen;
   for (const auto& c : f.curves) seen.insert(styles.of(c));
