@@ -64,9 +64,8 @@ class FusedLobe<TermList<D, V, Fr>, F, channels> {
   void add(const auto& x, Sums<F, channels>& sum, const Sums<F, channels>& less) const {
     const auto d = as_quotient<B>(d_(x)), v = as_quotient<B>(v_(x));
     const B num = d.num * v.num, den = d.den * v.den;
-    constexpr bool fraction = !std::same_as<decltype(f_[0](x)), B>;
     std::array<B, channels> value;
-    if constexpr (fraction && !coupled) {
+    if constexpr (is_fraction<Fr, F> && !coupled) {
       for (std::size_t c = 0; c < channels; ++c) {
         const auto f = as_quotient<B>(f_[c](x));
         value[c] = num * f.num / (den * f.den);

@@ -13,10 +13,6 @@
 namespace gonio::inline GONIO_ARCH {
 
 template <template <class> class Term, class F>
-inline constexpr bool is_fraction =
-    !std::same_as<decltype(std::declval<Term<F>>()(std::declval<angles_of<Term<F>, F>>())), F>;
-
-template <template <class> class Term, class F>
 void begin(const Block<F>& x, const F* p, const Join<F>& j) {
   using B = Lane<F>;
   const auto term = bind_value<Term, F>(p);
