@@ -4,7 +4,7 @@
 
 #include "brdf/presets.h"
 #include "brdf/registry.h"
-#include "integrate/split_sum.h"
+#include "integrate/light/split_sum.h"
 #include "reports/audit_entry.h"
 
 #include <tbb/parallel_for.h>

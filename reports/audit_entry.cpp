@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "integrate/directional_albedo.h"
+#include "integrate/albedo/directional_albedo.h"
 #include "reports/audit_samples.h"
 
 #include <fmt/format.h>

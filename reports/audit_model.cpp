@@ -2,7 +2,7 @@
 #include "brdf/model.h"
 #include "brdf/presets.h"
 #include "geometry/half_difference.h"
-#include "integrate/split_sum.h"
+#include "integrate/light/split_sum.h"
 #include "reports/audit_entry.h"
 #include "reports/audit_samples.h"
 

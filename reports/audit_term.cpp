@@ -4,7 +4,7 @@
 #include "brdf/registry.h"
 #include "brdf/term_in.h"
 #include "geometry/half_difference.h"
-#include "integrate/normalisation.h"
+#include "integrate/albedo/normalisation.h"
 #include "optics/refractive_index.h"
 #include "reports/audit_entry.h"
 #include "reports/audit_samples.h"

@@ -11,7 +11,7 @@
 #include "brdf/registry.h"
 #include "brdf/smith_gtr.h"
 #include "image/colour_difference.h"
-#include "integrate/directional_albedo.h"
+#include "integrate/albedo/directional_albedo.h"
 #include "optics/spectrum.h"
 #include "reports/audit_entry.h"
 #include "reports/audit_samples.h"

@@ -7,7 +7,7 @@
 #include "brdf/maps.h"
 #include "data_synth/synth.h"
 #include "fitting/fit.h"
-#include "integrate/split_sum_table.h"
+#include "integrate/light/split_sum_table.h"
 #include "reports/cost_parts.h"
 #include "reports/energy_parts.h"
 

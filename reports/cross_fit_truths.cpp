@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "integrate/walk.h"
+#include "integrate/scattering/walk.h"
 #include "number/real.h"
 #include "reports/cross_fit_parts.h"
 

@@ -8,9 +8,9 @@
 #include "brdf/registry.h"
 #include "geometry/direction.h"
 #include "image/colour_difference.h"
-#include "integrate/directional_albedo.h"
-#include "integrate/quadrature.h"
-#include "integrate/slopes.h"
+#include "integrate/albedo/directional_albedo.h"
+#include "integrate/rule/quadrature.h"
+#include "integrate/rule/slopes.h"
 #include "reports/energy_parts.h"
 
 #include <fmt/format.h>

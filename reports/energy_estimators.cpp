@@ -6,10 +6,10 @@
 
 #include "base/random.h"
 #include "brdf/masking.h"
-#include "integrate/directional_albedo.h"
-#include "integrate/ggx_albedo.h"
-#include "integrate/slopes.h"
-#include "integrate/visible_facets.h"
+#include "integrate/albedo/directional_albedo.h"
+#include "integrate/albedo/ggx_albedo.h"
+#include "integrate/rule/slopes.h"
+#include "integrate/scattering/visible_facets.h"
 #include "reports/energy_parts.h"
 #include "reports/timing.h"
 

@@ -5,7 +5,7 @@
 
 #include "brdf/presets.h"
 #include "brdf/registry.h"
-#include "integrate/directional_albedo.h"
+#include "integrate/albedo/directional_albedo.h"
 #include "reports/energy_parts.h"
 #include "reports/masking_shape.h"
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <numbers>
 
-#include "integrate/irradiance.h"
-#include "integrate/split_sum_light.h"
-#include "integrate/split_sum_table.h"
+#include "integrate/light/irradiance.h"
+#include "integrate/light/split_sum_light.h"
+#include "integrate/light/split_sum_table.h"
 #include "reports/energy_parts.h"
 #include "reports/timing.h"
 

@@ -3,8 +3,8 @@
 #include <iterator>
 
 #include "brdf/registry.h"
-#include "integrate/compensation.h"
-#include "integrate/half_space.h"
+#include "integrate/scattering/compensation.h"
+#include "integrate/scattering/half_space.h"
 #include "reports/energy_parts.h"
 
 #include <fmt/format.h>

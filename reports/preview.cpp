@@ -8,7 +8,7 @@
 #include <span>
 
 #include "brdf/evaluate.h"
-#include "integrate/directional_albedo.h"
+#include "integrate/albedo/directional_albedo.h"
 
 #include <fmt/format.h>
 

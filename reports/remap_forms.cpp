@@ -4,8 +4,8 @@
 #include <map>
 
 #include "brdf/registry.h"
-#include "integrate/directional_albedo.h"
-#include "integrate/quadrature.h"
+#include "integrate/albedo/directional_albedo.h"
+#include "integrate/rule/quadrature.h"
 #include "reports/masking_shape.h"
 #include "reports/remap_parts.h"
 

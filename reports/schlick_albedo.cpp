@@ -5,7 +5,7 @@
 
 #include "brdf/registry.h"
 #include "image/colour_difference.h"
-#include "integrate/directional_albedo.h"
+#include "integrate/albedo/directional_albedo.h"
 #include "optics/spectrum.h"
 #include "reports/schlick_parts.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "brdf/registry.h"
-#include "integrate/slopes.h"
+#include "integrate/rule/slopes.h"
 #include "optics/f0.h"
 #include "optics/spectrum.h"
 #include "reports/schlick_parts.h"

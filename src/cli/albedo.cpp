@@ -8,7 +8,7 @@
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "geometry/direction.h"
-#include "integrate/compensation.h"
+#include "integrate/scattering/compensation.h"
 
 #include <nlohmann/json.hpp>
 

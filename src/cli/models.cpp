@@ -2,8 +2,8 @@
 #include "brdf/presets.h"
 #include "brdf/registry.h"
 #include "cli/command.h"
-#include "integrate/compensation.h"
-#include "integrate/split_sum.h"
+#include "integrate/scattering/compensation.h"
+#include "integrate/light/split_sum.h"
 #include "optics/refractive_index.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // gonio split_sum: the two numbers that image-based light looks up, one by one or as a table, and
 // what is lost by them under an environment.
-#include "integrate/split_sum.h"
+#include "integrate/light/split_sum.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "integrate/split_sum_light.h"
-#include "integrate/split_sum_table.h"
+#include "integrate/light/split_sum_light.h"
+#include "integrate/light/split_sum_table.h"
 
 #include <nlohmann/json.hpp>
 

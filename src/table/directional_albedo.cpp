@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "integrate/quadrature.h"
+#include "integrate/rule/quadrature.h"
 #include "table/rgl_function.h"
 
 #include <tbb/parallel_for.h>

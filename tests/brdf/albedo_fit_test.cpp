@@ -5,8 +5,8 @@
 
 #include "brdf/registry.h"
 #include "brdf/scattering.h"
-#include "integrate/ggx_albedo.h"
-#include "integrate/split_sum.h"
+#include "integrate/albedo/ggx_albedo.h"
+#include "integrate/light/split_sum.h"
 
 namespace gonio {
 namespace {

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "brdf/terms.h"
-#include "integrate/quadrature.h"
+#include "integrate/rule/quadrature.h"
 
 namespace gonio {
 namespace {

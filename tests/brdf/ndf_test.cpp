@@ -2,7 +2,7 @@
 
 #include "brdf/ndf_anisotropic.h"
 #include "brdf/terms.h"
-#include "integrate/quadrature.h"
+#include "integrate/rule/quadrature.h"
 
 namespace gonio {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <numbers>
 
-#include "integrate/quadrature.h"
+#include "integrate/rule/quadrature.h"
 
 namespace gonio {
 namespace {

@@ -1,7 +1,7 @@
 // gonio albedo: what it prints, and what it refuses.
 #include <cmath>
 
-#include "program.h"
+#include "cli/program.h"
 
 namespace gonio::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <set>
 
-#include "program.h"
+#include "cli/program.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

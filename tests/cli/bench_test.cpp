@@ -1,5 +1,5 @@
 // gonio bench: what it prints, and what it refuses before it measures.
-#include "program.h"
+#include "cli/program.h"
 
 namespace gonio::test {
 namespace {

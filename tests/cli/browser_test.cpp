@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "program.h"
+#include "cli/program.h"
 #include "reports/cost_parts.h"
 #include "reports/cross_fit.h"
 #include "reports/energy_parts.h"

@@ -1,5 +1,5 @@
 // gonio columns: what a file's columns are is said once, and every command knows it from then on.
-#include "program.h"
+#include "cli/program.h"
 
 namespace gonio::test {
 namespace {

@@ -1,5 +1,5 @@
 // gonio convert: another format, and what that lost, on the terminal and as a document.
-#include "program.h"
+#include "cli/program.h"
 
 namespace gonio::test {
 namespace {

@@ -1,6 +1,6 @@
 // The program as others call it: exit codes, one document on stdout, one line on stderr, whole
 // files or none.
-#include "program.h"
+#include "cli/program.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <set>
 
-#include "program.h"
+#include "cli/program.h"
 #include "reports/figure.h"
 
 #include <unistd.h>

@@ -1,7 +1,7 @@
 // gonio split_sum: what it prints and writes, and what it refuses.
 #include <cmath>
 
-#include "program.h"
+#include "cli/program.h"
 
 namespace gonio::test {
 namespace {

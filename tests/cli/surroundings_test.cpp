@@ -2,7 +2,7 @@
 #include <csignal>
 #include <map>
 
-#include "program.h"
+#include "cli/program.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "support.h"
-#include "tables.h"
+#include "reports/tables.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

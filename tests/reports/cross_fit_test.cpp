@@ -6,8 +6,8 @@
 #include <numbers>
 #include <set>
 
-#include "integrate/half_space.h"
-#include "integrate/quadrature.h"
+#include "integrate/scattering/half_space.h"
+#include "integrate/rule/quadrature.h"
 #include "reports/cross_fit_parts.h"
 #include "reports/pictures.h"
 

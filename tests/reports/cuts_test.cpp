@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tables.h"
+#include "reports/tables.h"
 
 #include <gtest/gtest.h>
 

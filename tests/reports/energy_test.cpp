@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "integrate/directional_albedo.h"
+#include "integrate/albedo/directional_albedo.h"
 #include "reports/energy_parts.h"
 #include "reports/pictures.h"
 

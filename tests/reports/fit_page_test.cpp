@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "tables.h"
+#include "reports/tables.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

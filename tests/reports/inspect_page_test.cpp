@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "tables.h"
+#include "reports/tables.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "tables.h"
+#include "reports/tables.h"
 
 #include <gtest/gtest.h>
 

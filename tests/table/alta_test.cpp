@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "base/error.h"
-#include "foreign.h"
+#include "table/foreign.h"
 #include "support.h"
 #include "table/formats.h"
 #include "table/health.h"

@@ -1,6 +1,6 @@
 // Files that are not what they claim: one error that says so, and never anything else.
-#include "complaint.h"
-#include "example.h"
+#include "table/complaint.h"
+#include "table/example.h"
 #include "image/exr.h"
 
 namespace gonio {

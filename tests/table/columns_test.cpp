@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "example.h"
+#include "table/example.h"
 #include "support.h"
 #include "table/delimited.h"
 #include "table/health.h"

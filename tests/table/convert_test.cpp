@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "example.h"
+#include "table/example.h"
 #include "support.h"
 #include "table/quantile.h"
 

@@ -3,9 +3,9 @@
 #include <cstring>
 #include <random>
 
-#include "complaint.h"
-#include "example.h"
-#include "foreign.h"
+#include "table/complaint.h"
+#include "table/example.h"
+#include "table/foreign.h"
 #include "table/metadata.h"
 
 namespace gonio {

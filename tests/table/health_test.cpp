@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "example.h"
+#include "table/example.h"
 #include "support.h"
 
 namespace gonio {

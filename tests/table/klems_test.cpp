@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "foreign.h"
-#include "integrate/quadrature.h"
+#include "table/foreign.h"
+#include "integrate/rule/quadrature.h"
 #include "support.h"
 #include "table/directional_albedo.h"
 #include "table/formats.h"

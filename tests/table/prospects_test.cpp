@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "brdf/evaluate.h"
-#include "example.h"
+#include "table/example.h"
 #include "support.h"
 
 namespace gonio {

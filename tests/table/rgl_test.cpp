@@ -1,6 +1,6 @@
 // RGL's tensor files: what they were made from comes back, at the samples and between them.
 #include "base/error.h"
-#include "foreign.h"
+#include "table/foreign.h"
 #include "support.h"
 #include "table/convert.h"
 #include "table/directional_albedo.h"

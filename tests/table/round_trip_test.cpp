@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
-#include "example.h"
+#include "table/example.h"
 #include "support.h"
 
 namespace gonio {

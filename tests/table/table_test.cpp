@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "example.h"
+#include "table/example.h"
 #include "support.h"
 
 namespace gonio {

@@ -1,0 +1,56 @@
+#pragma once
+/// \file
+/// Albedos with multiple scattering: of composed models under the compensations of brdf/scattering.h, and
+/// what walk.h and half_space.h solve, with diffuse terms and as averages.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "brdf/model.h"
+#include "integrate/albedo/directional_albedo.h"
+#include "integrate/scattering/half_space.h"
+#include "integrate/scattering/scattered.h"
+#include "integrate/scattering/walk.h"
+#include "number/parameter.h"
+
+namespace gonio {
+
+/// Of the catalogue, but no composition of terms: `gonio albedo --scattering` evaluates them.
+inline constexpr About walk_about{
+    "scattering.walk", "Multiple scattering by random walks on the microsurface",
+    "order 1 is D V F; each further bounce meets a facet below, at the depth that the masking says",
+    "Heitz, Hanika, d'Eon, Dachsbacher 2016, Multiple-Scattering Microfacet BSDFs with the Smith "
+    "Model"};
+inline constexpr About deterministic_about{
+    "scattering.deterministic", "Multiple scattering as transport in a half space",
+    "the same in τ = −ln C₁(h), integrated over azimuths; isotropic GGX and Beckmann",
+    "the surface of Heitz et al. 2016, solved by quadrature"};
+
+/// F_avg = 2 ∫ F(μ) μ dμ of one of the model's Fresnel terms.
+Albedo fresnel_average(const BoundModel&, const TermUse& fresnel, const Goal& = {1e-12, 1'000'000});
+
+/// Maps of the catalogue, "scattering." before each name.
+enum class Compensation { kulla_conty, kulla_conty_linear, turquin, fdez_aguera };
+inline constexpr std::array<std::string_view, 4> compensation_names{
+    "kulla_conty", "kulla_conty.linear", "turquin", "fdez_aguera"};
+
+/// Albedo of the model, each of its lobes compensated by itself, at each μ = NoV in (0, 1], in parallel.
+/// E and E_avg of a lobe are its own at F = 1; F0 is its Fresnel term at normal incidence; F_avg the
+/// integral above, but Fdez-Agüera's own, and A and B are only of fresnel.schlick: any other is wrong
+/// usage there.  The bound is what the albedos' own bounds come to; goals are shared out so that it is
+/// about what was asked for.
+std::vector<Albedo> compensated_albedo(
+    const BoundModel&, Compensation, std::span<const double> mu, double phi = 0, const Goal& = {});
+
+/// Its average over the hemisphere, as hemispherical_albedo().
+Albedo compensated_average(const BoundModel&, Compensation, const Goal& = {});
+
+/// Lobes' multiple scattering with the diffuse terms added: the error is the largest of all channels.
+Albedo with_diffuse(const Scattered& lobes, const Albedo& diffuse);
+/// The diffuse terms' own average over the hemisphere.
+Albedo diffuse_average(const BoundModel&, const Goal& = {});
+
+}  // namespace gonio
