@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "brdf/evaluate.h"
-#include "table/formats.h"
+#include "table/format/formats.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

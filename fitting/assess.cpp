@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "brdf/plan.h"
-#include "table/health.h"
+#include "table/health/health.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

@@ -6,7 +6,7 @@
 #include "brdf/model.h"
 #include "fitting/accumulate.h"
 #include "fitting/sampling.h"
-#include "table/fit_document.h"
+#include "fitting/result/document.h"
 
 namespace gonio {
 

@@ -17,7 +17,7 @@
 #include "fitting/start.h"
 #include "fitting/uncertainty.h"
 #include "fitting/warnings.h"
-#include "table/quantile.h"
+#include "base/quantile.h"
 
 #include <fmt/format.h>
 #include <tbb/task_group.h>

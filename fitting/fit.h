@@ -8,7 +8,7 @@
 
 #include "brdf/model.h"
 #include "fitting/sampling.h"
-#include "table/fit_document.h"
+#include "fitting/result/document.h"
 #include "table/table.h"
 
 namespace gonio {

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "brdf/presets.h"
 #include "brdf/registry.h"
-#include "table/health.h"
+#include "table/health/health.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "table/quantile.h"
+#include "base/quantile.h"
 
 #include <tbb/parallel_for.h>
 

@@ -6,7 +6,7 @@
 
 #include "fitting/assess.h"
 #include "fitting/solve.h"
-#include "table/fit_document.h"
+#include "fitting/result/document.h"
 
 namespace gonio {
 

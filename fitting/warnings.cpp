@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "table/health.h"
-#include "table/noise.h"
-#include "table/peak.h"
+#include "table/health/health.h"
+#include "table/health/noise.h"
+#include "table/health/peak.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "reports/assets.h"
 #include "reports/page.h"
-#include "table/json_reader.h"
+#include "base/json_reader.h"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "reports/preview.h"
-#include "table/fit_document.h"
+#include "fitting/result/document.h"
 
 namespace gonio {
 

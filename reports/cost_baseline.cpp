@@ -5,7 +5,7 @@
 #include <map>
 
 #include "base/file.h"
-#include "table/json_reader.h"
+#include "base/json_reader.h"
 
 namespace gonio {
 namespace {

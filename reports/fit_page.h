@@ -9,7 +9,7 @@
 
 #include "reports/cuts.h"
 #include "reports/residual_map.h"
-#include "table/fit_document.h"
+#include "fitting/result/document.h"
 
 namespace gonio {
 

@@ -8,8 +8,8 @@
 #include "reports/assets.h"
 #include "reports/page.h"
 #include "reports/page_json.h"
-#include "table/directional_albedo.h"
-#include "table/reciprocity.h"
+#include "table/health/directional_albedo.h"
+#include "table/health/reciprocity.h"
 
 namespace gonio {
 namespace {

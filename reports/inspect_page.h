@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reports/cuts.h"
-#include "table/health.h"
+#include "table/health/health.h"
 
 namespace gonio {
 

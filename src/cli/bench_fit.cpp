@@ -11,7 +11,7 @@
 #include "fitting/accumulate.h"
 #include "fitting/fit.h"
 #include "fitting/plain.h"
-#include "table/formats.h"
+#include "table/format/formats.h"
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>

@@ -7,8 +7,8 @@
 #include "base/sha256.h"
 #include "base/text.h"
 #include "cli/command.h"
-#include "table/formats.h"
-#include "table/metadata.h"
+#include "table/format/formats.h"
+#include "table/format/metadata.h"
 
 #include <nlohmann/json.hpp>
 

@@ -6,8 +6,8 @@
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "fitting/assess.h"
-#include "table/fit_document.h"
-#include "table/formats.h"
+#include "fitting/result/document.h"
+#include "table/format/formats.h"
 
 namespace gonio::cli {
 namespace {

@@ -1,5 +1,5 @@
 // gonio convert: a table in another format, and what that lost.
-#include "table/convert.h"
+#include "table/convert/convert.h"
 
 #include <cmath>
 #include <filesystem>
@@ -7,8 +7,8 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "table/formats.h"
-#include "table/metadata.h"
+#include "table/format/formats.h"
+#include "table/format/metadata.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 #include "base/file.h"
 #include "brdf/evaluate.h"
 #include "cli/command.h"
-#include "table/csv.h"
+#include "table/format/csv.h"
 
 #include <nlohmann/json.hpp>
 

@@ -8,7 +8,7 @@
 #include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "reports/fit_page.h"
-#include "table/health.h"
+#include "table/health/health.h"
 
 namespace gonio::cli {
 namespace {

@@ -17,8 +17,8 @@
 #include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "reports/batch_page.h"
-#include "table/formats.h"
-#include "table/metadata.h"
+#include "table/format/formats.h"
+#include "table/format/metadata.h"
 
 #include <fmt/ranges.h>
 #include <sys/resource.h>

@@ -5,8 +5,8 @@
 #include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "reports/inspect_page.h"
-#include "table/formats.h"
-#include "table/health.h"
+#include "table/format/formats.h"
+#include "table/health/health.h"
 
 namespace gonio::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "table/formats.h"
+#include "table/format/formats.h"
 
 #include <nlohmann/json.hpp>
 

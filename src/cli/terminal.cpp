@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "cli/command.h"
-#include "table/metadata.h"
+#include "table/format/metadata.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

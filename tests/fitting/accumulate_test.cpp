@@ -11,7 +11,7 @@
 #include "fitting/fit.h"
 #include "fitting/solve.h"
 #include "fitting/uncertainty.h"
-#include "table/formats.h"
+#include "table/format/formats.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

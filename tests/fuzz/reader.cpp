@@ -4,9 +4,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "table/formats.h"
-#include "table/health.h"
-#include "table/metadata.h"
+#include "table/format/formats.h"
+#include "table/health/health.h"
+#include "table/format/metadata.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

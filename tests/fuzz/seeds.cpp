@@ -6,8 +6,8 @@
 
 #include "table/example.h"
 #include "table/foreign.h"
-#include "table/formats.h"
-#include "table/metadata.h"
+#include "table/format/formats.h"
+#include "table/format/metadata.h"
 
 namespace {
 

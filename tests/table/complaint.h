@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "support.h"
-#include "table/formats.h"
+#include "table/format/formats.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

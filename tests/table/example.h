@@ -6,7 +6,7 @@
 #include <random>
 
 #include "geometry/half_difference.h"
-#include "table/formats.h"
+#include "table/format/formats.h"
 
 namespace gonio::test {
 

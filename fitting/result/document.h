@@ -1,0 +1,102 @@
+#pragma once
+/// \file
+/// The result of a fit as plain data: what fitting/ fills in, fit.json holds and pages show.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "table/health/health.h"
+
+namespace gonio {
+
+enum class ParameterStatus { free, fixed, at_bound, not_identifiable };
+inline constexpr std::array<const char*, 4> status_names{"free", "fixed", "at_bound",
+                                                         "not_identifiable"};
+
+/// One parameter, one entry per channel where it has channels.  NaN stands for "not known": the
+/// value and error of a parameter that is not identifiable, the error of a fixed one.
+struct FittedParameter {
+  std::string name;
+  std::vector<double> value, std_error, ci95_low, ci95_high;
+  std::vector<ParameterStatus> status;
+};
+
+struct FitSolver {
+  std::string termination;         ///< "converged" or "not_converged"
+  std::string message;             ///< in the solver's words
+  int iterations = 0, passes = 0;  ///< over the full data, the passes of trial steps included
+  std::vector<double> cost_per_iteration;  ///< of the full data, ½ Σ ρ
+  std::string instruction_set;
+  std::vector<std::pair<std::string, double>> phase_ms;  ///< load, columns, start, solve, …
+};
+
+/// RMS of a band of angles, over all channels.
+struct ResidualBand {
+  std::string angle;  ///< "theta_i", "theta_h" or "theta_d"
+  double from_deg, to_deg;
+  std::size_t values;
+  double rms;      ///< of f − y [1/sr]
+  double log_rms;  ///< of ln f − ln y, where both are positive
+};
+
+struct FitResiduals {
+  double rms = 0, log_rms = 0;
+  std::vector<ResidualBand> bands;
+};
+
+/// How the parameters would change if the samples sat at the other place in their bins.
+struct BinSensitivity {
+  std::string other;  ///< the convention not used
+  std::vector<std::pair<std::string, std::vector<double>>> relative_change;
+  double log_rms = 0;  ///< under the other convention
+};
+
+struct FitDocument {
+  std::string model;
+  std::vector<std::string> channels;  ///< of the table, as parameters with channels are indexed
+  std::vector<std::string> warnings;  ///< what a reader must know before believing the numbers
+  std::vector<FittedParameter> parameters;  ///< alpha and roughness both
+  std::string metric;
+  double log_offset = 0;  ///< [1/sr] of the log metric
+  std::string robust = "none";
+  double cost = 0;
+  std::string intervals;  ///< how the standard errors were made: "independent" or "clustered by …"
+  std::size_t clusters = 0;
+
+  FitResiduals residuals;
+  std::vector<std::string> free_names;            ///< "alpha", "f0.r" …, rows of the matrix below
+  std::vector<std::vector<double>> correlations;  ///< of the free parameters' estimates
+  double condition = 0;                           ///< of the scaled normal matrix
+  FitSolver solver;
+
+  std::string input_path, input_sha256, input_format;
+  std::string bins;  ///< "centre", "edge" or "none"
+  std::size_t values_used = 0;
+  std::map<std::string, std::size_t> masked;  ///< values left out, by reason
+  std::vector<BinSensitivity> sensitivity;    ///< empty where there are no bins
+};
+
+/// The document as JSON text, schema "gonio.fit/1"; what is not a finite number is null.
+std::string to_json(const FitDocument&);
+
+/// What compare needs of a fit.json: the model and its parameters' values; NaN where null.
+struct FittedModel {
+  std::string model;
+  std::vector<std::pair<std::string, std::vector<double>>> parameters;
+};
+FittedModel read_fitted_model(const std::string& path);
+
+/// How far a model is from a table.
+struct Comparison {
+  std::string path;  ///< of the table
+  FittedModel model;
+  FitResiduals residuals;
+};
+/// {"path", "model", "parameters": {NAME: number or array}, "residuals" as in a fit document}
+std::string to_json(const Comparison&);
+
+}  // namespace gonio

@@ -1,0 +1,425 @@
+#include "table/convert/convert.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "base/error.h"
+#include "table/format/formats.h"
+#include "base/quantile.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kChunk = 4096;
+
+DirectionPair swapped(const DirectionPair& p) {
+  return {p.wo, p.wi};
+}
+DirectionPair mirrored(DirectionPair p) {
+  p.wi.y = -p.wi.y;
+  p.wo.y = -p.wo.y;
+  return p;
+}
+bool above_horizon(const DirectionPair& p) {
+  return p.wi.z > horizon_cosine && p.wo.z > horizon_cosine;
+}
+double difference(double a, double b) {
+  return a == b ? 0 : 2 * std::abs(a - b) / (std::abs(a) + std::abs(b));
+}
+
+bool is_slice(const Grid& g) {
+  return g.axes[2].spacing == Axis::Spacing::constant;
+}
+/// One value for (wi, wo) and (wo, wi).
+bool joins_ways(const Grid& g) {
+  return g.kind == Grid::Kind::half_difference && (is_slice(g) || g.axes[2].span < 4);
+}
+/// One value for φ and −φ.
+bool joins_sides(const Grid& g) {
+  return g.kind == Grid::Kind::in_out || is_slice(g);
+}
+
+template <class F>
+void for_each_chunk(std::size_t n, F f) {
+  tbb::parallel_for(std::size_t{0}, (n + kChunk - 1) / kChunk,
+                    [&](std::size_t k) { f(k * kChunk, std::min(n, (k + 1) * kChunk)); });
+}
+
+Table with_channels(const Table& t, const ConvertOptions& o, Loss& loss) {
+  Table out;
+  out.format = o.format;
+  out.where = t.where;
+  out.negative_is_noise = t.negative_is_noise;
+  std::vector<std::size_t> picked;
+  const auto& wanted = o.channels.empty() ? t.channels : o.channels;
+  for (const auto& name : wanted) {
+    const auto at = std::ranges::find(t.channels, name);
+    if (at == t.channels.end())
+      throw wrong_usage(fmt::format("no channel '{}' among {}", name, fmt::join(t.channels, ", ")));
+    if (std::ranges::find(out.channels, name) != out.channels.end())
+      throw wrong_usage(fmt::format("channel '{}' twice", name));
+    out.channels.push_back(name);
+    picked.push_back(static_cast<std::size_t>(at - t.channels.begin()));
+    out.values.push_back(t.values[picked.back()]);
+  }
+  if (t.between)
+    out.between = [between = t.between, picked](const DirectionPair& p, std::size_t c) {
+      return between(p, picked[c]);
+    };
+  for (const auto& name : t.channels)
+    if (std::ranges::find(out.channels, name) == out.channels.end()) loss.dropped.push_back(name);
+  if (o.format == "csv" || o.format == "exr") return out;
+  const std::size_t n = out.channels.size();
+  if (n != 1 && n != 3)
+    throw wrong_usage(fmt::format("{} holds one channel or three: --channels takes them of {}",
+                                  o.format, fmt::join(t.channels, ", ")));
+  loss.replicated = n == 1 && o.format == "merl";
+  const std::vector<std::string> rgb{"r", "g", "b"};
+  if (n == 3 && out.channels != rgb) loss.renamed = std::exchange(out.channels, rgb);
+  if (n == 1) out.channels = {"f"};
+  return out;
+}
+
+Grid target_grid(const Table& t, const ConvertOptions& o) {
+  const Grid* g = t.grid();
+  const Bins bins = o.bins.value_or(t.bins());
+  const bool same = g && t.format == o.format;
+  if (o.format == "merl") return merl_grid(bins, !(same && g->axes[2].size == 360));
+  if (o.format == "mbsdf")
+    return mbsdf_grid(o.n_theta.value_or(same ? g->axes[0].size : 45),
+                      o.n_phi.value_or(same ? g->axes[2].size : 90), bins);
+  return image_slice_grid(same ? g->axes[0].size : 90, same ? g->axes[1].size : 90,
+                          o.phi_d_deg ? *o.phi_d_deg * degree
+                          : same      ? g->axes[2].span
+                                      : std::numbers::pi / 2,
+                          bins);
+}
+
+/// Each bin as its direction.
+Table listed(Table t, Loss& loss) {
+  const Grid grid = *t.grid();
+  const SampleAngles at(t);
+  DirectionList l;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto p = at.directions(i);
+    if (!above_horizon(p)) continue;
+    kept.push_back(i);
+    l.theta_i_deg.push_back(theta_of(p.wi) / degree);
+    l.phi_i_deg.push_back(phi_of(p.wi) / degree);
+    l.theta_o_deg.push_back(theta_of(p.wo) / degree);
+    l.phi_o_deg.push_back(phi_of(p.wo) / degree);
+  }
+  loss.method = Loss::Method::listed;
+  loss.left_out = t.size() - kept.size();
+  for (auto& plane : t.values) {
+    for (std::size_t k = 0; k < kept.size(); ++k) plane[k] = plane[kept[k]];
+    plane.resize(kept.size());
+  }
+  t.where = std::move(l);
+  return t;
+}
+
+/// Of the pairs that the target has one value for, each channel's mean; the pairs' differences are
+/// kept of some thousand bins.
+class Resampling {
+ public:
+  Resampling(const Table& from, const Grid& to)
+      : from_(from),
+        f_(from),
+        ways_(joins_ways(to) && !is_slice(to) && !(from.grid() && joins_ways(*from.grid()))),
+        sides_(joins_sides(to) && !is_slice(to) && !(from.grid() && joins_sides(*from.grid()))) {}
+
+  double operator()(const DirectionPair& p, std::size_t channel, bool keep) {
+    double sum = 0;
+    std::size_t count = 0;
+    const auto add = [&](const DirectionPair& q) {
+      const double v = f_(q, channel);
+      if (std::isfinite(v)) sum += v, ++count;
+      return v;
+    };
+    const double here = add(p);
+    if (ways_) note(reciprocity_, here, add(swapped(p)), keep);
+    if (sides_) note(mirror_, here, add(mirrored(p)), keep);
+    if (ways_ && sides_) add(mirrored(swapped(p)));
+    return count ? sum / static_cast<double>(count) : kNone;
+  }
+  void tell(Loss& loss) {
+    if (ways_ && !reciprocity_.empty()) loss.reciprocity = median(reciprocity_);
+    if (sides_ && !mirror_.empty()) loss.mirror = median(mirror_);
+  }
+
+ private:
+  void note(std::vector<double>& differences, double a, double b, bool keep) {
+    if (!keep || !std::isfinite(a) || !std::isfinite(b)) return;
+    const std::lock_guard lock(mutex_);
+    differences.push_back(difference(a, b));
+  }
+  const Table& from_;
+  Interpolator f_;
+  bool ways_, sides_;
+  std::mutex mutex_;
+  std::vector<double> reciprocity_, mirror_;
+};
+
+void resample(const Table& from, Table& to, Loss& loss) {
+  loss.method = Loss::Method::interpolated;
+  loss.one_phi_d = from.grid() && is_slice(*from.grid());
+  Resampling f(from, *to.grid());
+  const SampleAngles at(to);
+  const std::size_t every = 1 + to.size() / 20'000;
+  for_each_chunk(to.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto p = at.directions(i);
+      if (!above_horizon(p)) continue;
+      for (std::size_t c = 0; c < to.values.size(); ++c) to.values[c][i] = f(p, c, i % every == 0);
+    }
+  });
+  f.tell(loss);
+}
+
+/// Turned so that the light is at azimuth 0: all layouts are of isotropic surfaces.
+DirectionPair turned(const DirectionPair& p) {
+  const double r = std::hypot(p.wi.x, p.wi.y);
+  if (r == 0) return p;
+  const double c = p.wi.x / r, s = p.wi.y / r;
+  return {{r, 0, p.wi.z}, {p.wo.x * c + p.wo.y * s, p.wo.y * c - p.wo.x * s, p.wo.z}};
+}
+
+/// The bin that a direction pair falls in.
+std::optional<std::size_t> bin_of(const Grid& g, const DirectionPair& p, double reach) {
+  std::array<double, 3> angle;
+  if (g.kind == Grid::Kind::half_difference) {
+    const auto a = half_difference(p);
+    angle = {a.theta_h, a.theta_d, a.phi_d < 0 ? a.phi_d + g.axes[2].span : a.phi_d};
+    if (is_slice(g) &&
+        std::abs(std::remainder(a.phi_d - g.axes[2].span, std::numbers::pi)) * std::sin(a.theta_d) >
+            reach)
+      return {};
+  } else {
+    const double phi = std::remainder(phi_of(p.wo) - phi_of(p.wi), 2 * std::numbers::pi);
+    angle = {theta_of(p.wi), theta_of(p.wo), std::abs(phi)};
+  }
+  std::size_t bin = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto size = static_cast<double>(g.axes[a].size);
+    double i = std::round(g.axes[a].index(angle[a], g.bins));
+    if (g.axes[a].name == "phi_d" && i >= size) i -= size;  // a period, not an end
+    if (i < -1 || i > size) return {};
+    bin = bin * g.axes[a].size + static_cast<std::size_t>(std::clamp(i, 0.0, size - 1));
+  }
+  return bin;
+}
+
+/// Finds the sample nearest to a direction pair, within reach in wi and in wo.
+class Nearest {
+ public:
+  explicit Nearest(double reach) : reach_(2 * std::sin(reach / 2)), size_(std::max(reach_, 1e-3)) {}
+
+  void add(const DirectionPair& p, std::size_t sample) {
+    const auto q = turned(p);
+    // One in a quarter of a cell: dense samples have bins of their own, the rest need not see all.
+    if (taken_.insert(key(cell_of(q, size_ / 4))).second)
+      cells_[key(cell_of(q, size_))].push_back({q, sample});
+  }
+  std::optional<std::size_t> operator()(const DirectionPair& p) const {
+    const auto q = turned(p);
+    const auto home = cell_of(q, size_);
+    double best = std::numeric_limits<double>::max();
+    std::optional<std::size_t> found;
+    for (int k = 0; k < 81; ++k) {
+      const auto cell = cells_.find(key({home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1,
+                                         home[2] + k / 9 % 3 - 1, home[3] + k / 27 - 1}));
+      if (cell == cells_.end()) continue;
+      for (const auto& [at, sample] : cell->second) {
+        const double in = squared(at.wi, q.wi), out = squared(at.wo, q.wo);
+        if (std::max(in, out) > reach_ * reach_ || in + out >= best) continue;
+        best = in + out;
+        found = sample;
+      }
+    }
+    return found;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 4>;
+  static double squared(const Direction& a, const Direction& b) {
+    return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z);
+  }
+  static Cell cell_of(const DirectionPair& q, double size) {
+    const auto index = [&](double x) { return static_cast<std::int64_t>(std::floor(x / size)); };
+    return {index(q.wi.x), index(q.wo.x), index(q.wo.y), index(q.wo.z)};
+  }
+  static std::uint64_t key(const Cell& c) {
+    std::uint64_t all = 0;
+    for (const auto i : c) all = (all << 16U) | (static_cast<std::uint64_t>(i) & 0xffffU);
+    return all;
+  }
+  double reach_, size_;  ///< as chords; of a cell
+  std::unordered_set<std::uint64_t> taken_;
+  std::unordered_map<std::uint64_t, std::vector<std::pair<DirectionPair, std::size_t>>> cells_;
+};
+
+void gather(const Table& from, Table& to, double reach_deg, Loss& loss) {
+  loss.method = Loss::Method::gathered;
+  const Grid& grid = *to.grid();
+  const SampleAngles source(from), at(to);
+  const double reach = reach_deg * degree;
+  const std::size_t channels = to.values.size();
+  std::vector<char> seen(to.size(), 0);
+  std::vector<std::vector<std::uint32_t>> counts(channels, std::vector<std::uint32_t>(to.size()));
+  Nearest nearest(reach);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const auto p = source.directions(i);
+    if (!above_horizon(p)) continue;
+    std::vector<DirectionPair> equal{p};
+    if (joins_ways(grid)) equal.push_back(swapped(p));
+    for (const auto& q : equal) {
+      nearest.add(q, i);
+      nearest.add(mirrored(q), i);
+      const auto bin = bin_of(grid, q, reach);
+      if (!bin) continue;
+      seen[*bin] = 1;
+      for (std::size_t c = 0; c < channels; ++c) {
+        const double v = from.values[c][i];
+        if (mask(source(i), v) != Mask::valid) continue;
+        double& sum = to.values[c][*bin];
+        sum = counts[c][*bin]++ ? sum + v : v;
+      }
+    }
+  }
+  std::atomic<std::size_t> taken = 0, reached = 0, bins = 0;
+  for_each_chunk(to.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto p = at.directions(i);
+      if (!above_horizon(p)) continue;
+      ++bins;
+      if (seen[i]) {
+        ++reached;
+        for (std::size_t c = 0; c < channels; ++c)
+          if (counts[c][i] > 1) to.values[c][i] /= counts[c][i];
+      } else if (const auto sample = reach > 0 ? nearest(p) : std::nullopt) {
+        ++reached;
+        ++taken;
+        for (std::size_t c = 0; c < channels; ++c) {
+          const double v = from.values[c][*sample];
+          if (mask(source(*sample), v) == Mask::valid) to.values[c][i] = v;
+        }
+      }
+    }
+  });
+  loss.nearest = taken;
+  if (2 * reached < bins)
+    throw bad_input(from.path, "converting",
+                    fmt::format("samples within {:g}° of {:.1f} % of the bins", reach_deg,
+                                100 * static_cast<double>(reached) / static_cast<double>(bins)),
+                    "half of them at least (--reach takes samples from further away)");
+}
+
+void count_bins(const Table& t, Loss& loss) {
+  const SampleAngles at(t);
+  std::vector<std::size_t> without(t.values.size());
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto a = at(i);
+    if (mask(a, 1) == Mask::below_horizon) continue;
+    ++loss.bins;
+    for (std::size_t c = 0; c < without.size(); ++c)
+      without[c] += mask(a, t.values[c][i]) != Mask::valid;
+  }
+  loss.without_data = *std::ranges::max_element(without);
+}
+
+void there_and_back(const Table& from, const Table& to, Loss& loss) {
+  const Interpolator back(to);
+  const SampleAngles at(from);
+  const auto returned = [&](std::size_t i, std::size_t c) {
+    if (loss.method == Loss::Method::listed) return from.values[c][i];
+    if (loss.method == Loss::Method::copied) return to.values[c][i];
+    return back(at.directions(i), c);
+  };
+  std::vector<Loss> parts((from.size() + kChunk - 1) / kChunk);  // summed in order: the same bits
+  for_each_chunk(from.size(), [&](std::size_t first, std::size_t last) {
+    Loss& here = parts[first / kChunk];
+    for (std::size_t i = first; i < last; ++i)
+      for (std::size_t c = 0; c < from.values.size(); ++c) {
+        const double v = from.values[c][i];
+        if (mask(at(i), v) != Mask::valid) continue;
+        const double w = returned(i, c);
+        if (!std::isfinite(w)) {
+          ++here.lost;
+          continue;
+        }
+        const double d = difference(v, w);
+        ++here.compared;
+        here.rms += d * d;
+        if (d > here.largest) here.largest = d, here.largest_at = i;
+      }
+  });
+  for (const Loss& part : parts) {
+    loss.lost += part.lost;
+    loss.compared += part.compared;
+    loss.rms += part.rms;
+    if (part.largest > loss.largest) loss.largest = part.largest, loss.largest_at = part.largest_at;
+  }
+  if (loss.compared) loss.rms = std::sqrt(loss.rms / static_cast<double>(loss.compared));
+}
+
+/// As the format will hold them: in float, and with its mark for "no data".
+void settle_values(Table& t, const Loss& loss) {
+  const bool resampled = loss.method >= Loss::Method::interpolated;
+  if (resampled) t.negative_is_noise = t.format != "merl";
+  for (auto& plane : t.values)
+    for (double& v : plane) {
+      if (loss.rounded) v = static_cast<double>(static_cast<float>(v));
+      if (resampled && !t.negative_is_noise && std::isnan(v)) v = -1;
+    }
+}
+
+}  // namespace
+
+Conversion convert(const Table& source, const ConvertOptions& o) {
+  Conversion result;
+  Loss& loss = result.loss;
+  Table from = with_channels(source, o, loss);
+  from.path = source.path;
+  loss.rounded = o.format == "mbsdf" || o.format == "exr";
+  const bool to_list = o.format == "csv";
+  const std::optional<Grid> grid = to_list ? std::nullopt : std::optional(target_grid(source, o));
+  Table& to = result.table;
+  if (grid ? source.grid() && *source.grid() == *grid : !source.grid()) {
+    to = from;
+    to.between = {};
+  } else if (to_list) {
+    to = listed(from, loss);
+  } else {
+    to.where = *grid;
+    to.channels = from.channels;
+    to.values.assign(from.values.size(), Values(grid->size(), kNone));
+    if (from.grid() || from.between)
+      resample(from, to, loss);
+    else
+      gather(from, to, o.reach_deg, loss);
+  }
+  to.format = o.format;
+  if (loss.method == Loss::Method::copied || loss.method == Loss::Method::listed)
+    to.truth = source.truth;
+  settle_values(to, loss);
+  if (to_list && loss.method == Loss::Method::copied) to.weights = source.weights;
+  loss.weights_dropped = !source.weights.empty() && to.weights.empty();
+  count_bins(to, loss);
+  there_and_back(from, to, loss);
+  return result;
+}
+
+}  // namespace gonio

@@ -1,0 +1,476 @@
+#include "table/format/csv.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "table/format/delimited.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+namespace {
+
+constexpr std::array<std::string_view, 4> kAngles{"theta_i", "phi_i", "theta_o", "phi_o"};
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+constexpr const char* kHint =
+    "where names or angles differ: gonio columns FILE --map … (--skip N: lines above the names)";
+
+/// "" if the name is not that of a column with values.
+std::string channel_of(std::string_view name) {
+  if (name == "f") return "f";
+  return std::string(name.starts_with("f_") ? name.substr(2) : "");
+}
+
+bool is_angle(std::string_view name) {
+  return std::ranges::find(kAngles, name) != kAngles.end();
+}
+
+std::string bracketed(double low, double high) {
+  return fmt::format("a number in [{:.4g}, {:.4g}]", low, high);
+}
+
+/// One thing that is read of each row.
+struct Column {
+  std::string role;
+  std::optional<std::size_t> index;  ///< else the constant
+  double constant = 0;
+  double low = 0, high = std::numeric_limits<double>::max();  ///< of what is not a value
+  std::vector<double> data = {};
+
+  bool is_value() const { return !channel_of(role).empty(); }
+};
+
+/// Rows that differ in a channel's name alone become one sample; what repeats is another sample.
+class Samples {
+ public:
+  /// Where the row's value belongs: its channel and sample.
+  std::pair<std::size_t, std::size_t> place(std::string_view channel,
+                                            const std::array<double, 4>& angles) {
+    auto at = channels_.find(channel);
+    if (at == channels_.end()) at = channels_.emplace(std::string(channel), channels_.size()).first;
+    const auto times = seen_[{at->second, angles}]++;
+    const auto sample = samples_.try_emplace({times, angles}, samples_.size()).first->second;
+    return {at->second, sample};
+  }
+  std::size_t channels() const { return channels_.size(); }
+  std::size_t size() const { return samples_.size(); }
+  /// Ascending where all are numbers, else as they come first.
+  std::vector<std::pair<std::string, std::size_t>> in_order() const {
+    std::vector<std::pair<std::string, std::size_t>> all(channels_.begin(), channels_.end());
+    const bool numbers =
+        std::ranges::all_of(all, [](const auto& c) { return number_in(c.first).has_value(); });
+    std::ranges::sort(all, {}, [&](const auto& c) {
+      return numbers ? *number_in(c.first) : static_cast<double>(c.second);
+    });
+    return all;
+  }
+
+ private:
+  using Key = std::pair<std::size_t, std::array<double, 4>>;
+  std::map<std::string, std::size_t, std::less<>> channels_;
+  std::map<Key, std::size_t> seen_, samples_;
+};
+
+class Reader {
+ public:
+  Reader(InputFile& in, const ColumnMap* map, bool needs_values)
+      : map_(map),
+        needs_values_(needs_values),
+        path_(in.path()),
+        text_(in.read_rest(kMostBytes)),
+        lines_(path_, text_, map ? map->skip : 0) {}
+
+  Table table() {
+    if (map_)
+      choose_by_map();
+    else
+      choose_by_name();
+    while (lines_.next()) row();
+    if (rows_ == 0) lines_.fail("", "no samples", "at least one line of numbers");
+    for (auto& c : columns_)
+      if (!c.index) c.data.assign(rows_, c.constant);
+    Table t;
+    t.format = "csv";
+    const bool small = angles_are_small();
+    t.where = DirectionList{take("theta_i"), take("phi_i"), take("theta_o"), take("phi_o")};
+    t.weights = take("weight");
+    if (map_) to_conventions(std::get<DirectionList>(t.where));
+    for (auto& column : columns_)
+      if (column.is_value()) {
+        t.channels.push_back(channel_of(column.role));
+        t.values.emplace_back(column.data.begin(), column.data.end());
+      }
+    if (map_) to_f(t);
+    if (channel_) gather_channels(t);
+    if (small)
+      t.warnings.emplace_back(
+          "no zenith angle is above 1.6°: if they are radians, gonio columns FILE --radians says "
+          "so");
+    check(t);
+    return t;
+  }
+
+ private:
+  void add(const std::string& role, std::optional<std::size_t> index, double constant = 0) {
+    Column c{role, index, constant};
+    const double turn = map_ && map_->radians ? degree * 180 : 180;
+    if (role.starts_with("theta_")) c.low = map_ ? -turn : 0, c.high = turn;
+    if (role.starts_with("phi_")) c.low = -2 * turn, c.high = 2 * turn;
+    if (map_ && map_->radians && is_angle(role)) c.low *= 1 + 1e-6, c.high *= 1 + 1e-6;
+    if (!index) check_range(c, constant, fmt::format("{:.6g}", constant), role);
+    columns_.push_back(std::move(c));
+  }
+
+  void choose_by_name() {
+    const auto& names = lines_.names();
+    if (std::ranges::none_of(names, is_angle))
+      lines_.fail("", fmt::format("columns {}", listed()),
+                  fmt::format("theta_i, phi_i, theta_o, phi_o and f or f_NAME; {}", kHint));
+    const auto named = [&](const char* name) {
+      return std::ranges::find(names, name) != names.end();
+    };
+    // In plane: azimuths 0, and a sign may say the side.
+    const bool in_plane =
+        named("theta_i") && named("theta_o") && !named("phi_i") && !named("phi_o");
+    if (in_plane) map_ = &in_plane_;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const auto& name = names[k];
+      const bool value = !channel_of(name).empty();
+      if (!value && name != "weight" && !is_angle(name))
+        lines_.fail(lines_.label(k), "an unknown column",
+                    fmt::format("theta_i, phi_i, theta_o, phi_o, f, f_NAME or weight; {}", kHint));
+      const auto same = [&](const Column& o) {
+        return o.role == name || (value && channel_of(o.role) == channel_of(name));
+      };
+      if (std::ranges::any_of(columns_, same))
+        lines_.fail(name, "a second column of that name", "one");
+      add(name, k);
+    }
+    if (in_plane)
+      for (const auto* name : {"phi_i", "phi_o"}) add(name, {}, 0);
+    for (const auto name : kAngles)
+      if (!has(name))
+        lines_.fail(name, "no such column",
+                    fmt::format("theta_i, phi_i, theta_o, phi_o; {}", kHint));
+    if (needs_values_ && !has_values())
+      lines_.fail("f", "no such column", fmt::format("f or f_NAME; {}", kHint));
+  }
+
+  void choose_by_map() {
+    std::set<std::size_t> used;
+    const auto take = [&](std::size_t index) { return used.insert(index).second; };
+    for (const auto& [role, column] : map_->columns) {
+      const auto index = find(role, column);
+      if (index && !take(*index))
+        lines_.fail(column, "a column that is two things", "one of them for " + role);
+      if (role == "channel")
+        channel_ = index ? index : throw_no_column(role, column);
+      else
+        add(role, index, index ? 0 : *number_in(column));
+    }
+    const bool values_named = has_values();
+    for (std::size_t k = 0; k < lines_.names().size(); ++k) {
+      const auto& name = lines_.names()[k];
+      const bool wanted =
+          is_angle(name) || name == "weight" || (!values_named && !channel_of(name).empty());
+      if (wanted && !has(name) && take(k)) add(name, find(name, name));
+    }
+    for (const auto name : {"theta_i", "theta_o"})
+      if (!has(name)) throw_no_column(name, name);
+    for (const auto name : {"phi_i", "phi_o"})
+      if (!has(name)) add(name, {}, 0);
+    if (!has_values()) throw_no_column("f", "f");
+    std::set<std::string> channels;
+    for (const auto& c : columns_)
+      if (c.is_value() && !channels.insert(channel_of(c.role)).second)
+        throw bad_input(path_, "columns", "two channels named " + channel_of(c.role), "one");
+    if (channel_ && std::ranges::count_if(columns_, &Column::is_value) > 1)
+      throw bad_input(path_, "columns", "channel beside several f_NAME", "channel beside one f");
+  }
+
+  /// The column that a map's word means; none if it is a constant.
+  std::optional<std::size_t> find(const std::string& role, const std::string& word) const {
+    const auto& names = lines_.names();
+    if (const auto at = std::ranges::find(names, word); !word.empty() && at != names.end()) {
+      if (std::ranges::count(names, word) > 1)
+        lines_.fail(word, "a second column of that name", "one, or its number as #1");
+      return at - names.begin();
+    }
+    std::size_t number = 0;
+    const char* const last = word.data() + word.size();
+    if (word.starts_with('#') && std::from_chars(word.data() + 1, last, number).ptr == last &&
+        number > 0 && number <= names.size())
+      return number - 1;
+    if (!number_in(word)) throw_no_column(role, word);
+    return {};
+  }
+
+  [[noreturn]] std::optional<std::size_t> throw_no_column(const std::string& role,
+                                                          const std::string& word) const {
+    lines_.fail("", fmt::format("no column '{}' for {}", word, role),
+                fmt::format("one of {} (--skip N passes over lines above the names)", listed()));
+  }
+
+  std::string listed() const {
+    std::vector<std::string> labels;
+    for (std::size_t k = 0; k < lines_.names().size(); ++k) labels.push_back(lines_.label(k));
+    return fmt::format("{}", fmt::join(labels, ", "));
+  }
+
+  bool has(std::string_view role) const {
+    return std::ranges::find(columns_, role, &Column::role) != columns_.end();
+  }
+  bool has_values() const { return std::ranges::any_of(columns_, &Column::is_value); }
+
+  void row() {
+    if (++rows_ * columns_.size() > most_values)
+      lines_.fail("", fmt::format("more rows of {} columns", columns_.size()),
+                  fmt::format("at most {} numbers", most_values));
+    for (auto& c : columns_) {
+      if (!c.index) continue;
+      const double v = c.is_value() && is_gap(lines_.fields()[*c.index])
+                           ? std::numeric_limits<double>::quiet_NaN()
+                           : lines_.number(*c.index);
+      check_range(c, v, lines_.fields()[*c.index], lines_.label(*c.index));
+      c.data.push_back(v);
+    }
+    if (channel_) channel_names_.push_back(lines_.fields()[*channel_]);
+  }
+
+  void check_range(const Column& c,
+                   double v,
+                   std::string_view field,
+                   const std::string& label) const {
+    if (c.is_value() || (v >= c.low && v <= c.high)) return;
+    std::string expected = bracketed(c.low, c.high);
+    if (is_angle(c.role)) expected += map_ && map_->radians ? " radians" : " degrees";
+    if (c.role.starts_with("theta_"))
+      expected += !map_ && v < 0 ? fmt::format(" ({})", kHint)
+                                 : " (a zenith angle; perhaps columns are swapped)";
+    lines_.fail(label, field, expected);
+  }
+
+  std::vector<double> take(std::string_view role) {
+    const auto found = std::ranges::find(columns_, role, &Column::role);
+    return found == columns_.end() ? std::vector<double>{} : std::move(found->data);
+  }
+
+  void to_conventions(DirectionList& l) const {
+    if (map_->radians)
+      for (auto* angles : {&l.theta_i_deg, &l.phi_i_deg, &l.theta_o_deg, &l.phi_o_deg})
+        for (double& a : *angles) a /= degree;
+    for (double& phi : l.phi_o_deg) phi += 180 - map_->forward_deg;
+    const auto to_zenith = [](std::vector<double>& theta, std::vector<double>& phi) {
+      for (std::size_t i = 0; i < theta.size(); ++i) {
+        if (theta[i] < 0) phi[i] += 180;
+        theta[i] = std::abs(theta[i]);
+        if (std::abs(phi[i]) >= 360) phi[i] = std::remainder(phi[i], 360);
+      }
+    };
+    to_zenith(l.theta_i_deg, l.phi_i_deg);
+    to_zenith(l.theta_o_deg, l.phi_o_deg);
+  }
+
+  /// 1/sr without the cosine.
+  void to_f(Table& t) const {
+    for (auto& plane : t.values)
+      for (std::size_t i = 0; i < plane.size(); ++i) {
+        plane[i] *= map_->scale;
+        if (!map_->cosine) continue;
+        const double cosine = std::cos(t.list()->theta_o_deg[i] * degree);
+        plane[i] =
+            cosine < least_cosine ? std::numeric_limits<double>::quiet_NaN() : plane[i] / cosine;
+      }
+  }
+
+  void gather_channels(Table& t) const {
+    const DirectionList rows = *t.list();
+    Samples samples;
+    std::vector<std::pair<std::size_t, std::size_t>> places;
+    for (std::size_t i = 0; i < rows_; ++i)
+      places.push_back(samples.place(channel_names_[i], {rows.theta_i_deg[i], rows.phi_i_deg[i],
+                                                         rows.theta_o_deg[i], rows.phi_o_deg[i]}));
+    // Else a small file could ask for any amount of memory.
+    if (samples.size() * samples.channels() > 8 * rows_ + 64 ||
+        samples.size() * (samples.channels() + 4) > most_values)
+      throw bad_input(path_, "column " + lines_.label(*channel_),
+                      fmt::format("{} channels at {} directions in {} rows", samples.channels(),
+                                  samples.size(), rows_),
+                      "all channels at most of the directions");
+    DirectionList l;
+    for (auto* angles : {&l.theta_i_deg, &l.phi_i_deg, &l.theta_o_deg, &l.phi_o_deg})
+      angles->resize(samples.size());
+    const Values column = std::move(t.values[0]);
+    const auto weights = std::move(t.weights);
+    t.values.assign(samples.channels(),
+                    Values(samples.size(), std::numeric_limits<double>::quiet_NaN()));
+    t.weights.assign(weights.empty() ? 0 : samples.size(), -1);
+    for (std::size_t i = 0; i < rows_; ++i) {
+      const auto [channel, sample] = places[i];
+      t.values[channel][sample] = column[i];
+      l.theta_i_deg[sample] = rows.theta_i_deg[i];
+      l.phi_i_deg[sample] = rows.phi_i_deg[i];
+      l.theta_o_deg[sample] = rows.theta_o_deg[i];
+      l.phi_o_deg[sample] = rows.phi_o_deg[i];
+      if (weights.empty()) continue;
+      if (t.weights[sample] >= 0 && t.weights[sample] != weights[i])
+        throw bad_input(path_, "column weight", "a weight for each channel",
+                        "one for all channels of a direction");
+      t.weights[sample] = weights[i];
+    }
+    t.where = std::move(l);
+    t.channels.clear();
+    auto planes = std::move(t.values);
+    t.values.clear();
+    for (const auto& [name, channel] : samples.in_order()) {
+      t.channels.push_back(name);
+      t.values.push_back(std::move(planes[channel]));
+    }
+  }
+
+  /// As the file has them, where they are said to be degrees: what a sign or --forward adds to an
+  /// azimuth would hide that they are radians.
+  bool angles_are_small() const {
+    if (map_ && map_->radians) return false;
+    constexpr double quarter = 1.6, whole = 6.3;  // [rad], a little more than π/2 and 2π
+    double largest_out = 0;
+    for (const auto& c : columns_) {
+      if (!c.index || !is_angle(c.role)) continue;
+      double largest = 0;
+      for (const double a : c.data) largest = std::max(largest, std::abs(a));
+      if (largest > (c.role.starts_with("theta_") ? quarter : whole)) return false;
+      if (c.role == "theta_o") largest_out = largest;
+    }
+    return largest_out > 0.5;
+  }
+
+  void check(Table& t) const {
+    const DirectionList& l = *t.list();
+    const auto beyond = [](const std::vector<double>& angles, double limit) {
+      return std::ranges::count_if(angles, [&](double a) { return std::abs(a) > limit; });
+    };
+    const auto n = static_cast<std::ptrdiff_t>(l.theta_i_deg.size());
+    if (const auto below = beyond(l.theta_i_deg, 90); needs_values_ && 2 * below > n)
+      throw bad_input(path_, "column theta_i", fmt::format("{} of {} above 90°", below, n),
+                      "zenith angles of the light (perhaps columns are swapped)");
+    if (beyond(l.theta_o_deg, 90) * 5 > 2 * n && beyond(l.phi_o_deg, 90) == 0 &&
+        std::ranges::any_of(l.phi_o_deg, [&](double p) { return p != l.phi_o_deg[0]; }))
+      t.warnings.emplace_back(
+          "theta_o goes far beyond 90° while phi_o never does: perhaps the two are swapped");
+    warn_of_backward_peak(t);
+  }
+
+  /// The mirror direction taken for the light's is the commonest slip, and fits nothing.
+  void warn_of_backward_peak(Table& t) const {
+    const DirectionList& l = *t.list();
+    double forward = 0, backward = 0;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      if (std::min(l.theta_i_deg[i], l.theta_o_deg[i]) < 20 ||
+          std::max(l.theta_i_deg[i], l.theta_o_deg[i]) > 85)
+        continue;
+      const double towards = std::cos((l.phi_o_deg[i] - l.phi_i_deg[i]) * degree);
+      double& largest = towards > 0 ? backward : forward;
+      for (const auto& plane : t.values) largest = std::max(largest, plane[i]);
+    }
+    if (backward > 3 * forward && backward > 0)
+      t.warnings.push_back(
+          fmt::format("values on the light's side reach {:.3g}, on the mirror's side {:.3g}: a "
+                      "retro-reflector, "
+                      "or azimuths are counted otherwise (gonio columns FILE --forward {:g})",
+                      backward, forward, std::remainder(forward_deg() + 180, 360)));
+  }
+
+  double forward_deg() const { return map_ ? map_->forward_deg : ColumnMap().forward_deg; }
+
+  const ColumnMap* map_;
+  const ColumnMap in_plane_{};
+  bool needs_values_;
+  std::string path_, text_;
+  Delimited lines_;
+  std::vector<Column> columns_;
+  std::optional<std::size_t> channel_;
+  std::vector<std::string_view> channel_names_;  ///< of each row
+  std::size_t rows_ = 0;
+};
+void append(std::string& text, double v) {
+  std::array<char, 32> digits;
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), v).ptr);
+}
+
+/// [degrees], in the order of kAngles
+std::array<double, 4> angles_of(const Table& t, const SampleAngles& at, std::size_t i) {
+  if (const auto* l = t.list())
+    return {l->theta_i_deg[i], l->phi_i_deg[i], l->theta_o_deg[i], l->phi_o_deg[i]};
+  const auto [wi, wo] = at.directions(i);
+  return {theta_of(wi) / degree, phi_of(wi) / degree, theta_of(wo) / degree, phi_of(wo) / degree};
+}
+
+}  // namespace
+
+bool is_csv(std::string_view head) {
+  return looks_delimited(head) || std::ranges::any_of(first_fields(head), is_angle);
+}
+
+Table read_csv(InputFile& in, const ColumnMap* map) {
+  return Reader(in, map, true).table();
+}
+
+Table read_directions_csv(InputFile& in) {
+  return Reader(in, nullptr, false).table();
+}
+
+std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {
+  const std::string text = in.read_rest(kMostBytes);
+  Delimited lines(in.path(), text, skip);
+  std::vector<ColumnSummary> all;
+  for (const auto& name : lines.names()) all.push_back({name});
+  std::vector<std::set<std::string_view>> entries(all.size());
+  while (lines.next())
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      auto& c = all[k];
+      const auto field = lines.fields()[k];
+      if (entries[k].size() < 1000) entries[k].insert(field);
+      const auto v = number_in(field);
+      if (!v || std::isnan(*v)) continue;
+      c.lowest = c.numbers ? std::min(c.lowest, *v) : *v;
+      c.highest = c.numbers ? std::max(c.highest, *v) : *v;
+      ++c.numbers;
+    }
+  for (std::size_t k = 0; k < all.size(); ++k) all[k].distinct = entries[k].size();
+  return all;
+}
+
+void write_csv(const Table& t, OutputFile& out) {
+  std::string text = "theta_i,phi_i,theta_o,phi_o";
+  for (const auto& channel : t.channels) text += channel == "f" ? ",f" : ",f_" + channel;
+  text += t.weights.empty() ? "\n" : ",weight\n";
+  const SampleAngles at(t);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    for (const double angle : angles_of(t, at, i)) {
+      append(text, angle);
+      text += ',';
+    }
+    for (std::size_t c = 0; c < t.values.size(); ++c) {
+      if (c > 0) text += ',';
+      const double v = t.values[c][i];
+      append(text, v < 0 && !t.negative_is_noise ? std::numeric_limits<double>::quiet_NaN() : v);
+    }
+    if (!t.weights.empty()) {
+      text += ',';
+      append(text, t.weights[i]);
+    }
+    text += '\n';
+    if (text.size() > 1 << 16) {
+      out.write(text);
+      text.clear();
+    }
+  }
+  out.write(text);
+}
+
+}  // namespace gonio

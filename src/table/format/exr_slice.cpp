@@ -1,0 +1,108 @@
+#include "table/format/exr_slice.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "image/exr.h"
+#include "table/format/metadata.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+namespace {
+
+constexpr const char *kLayout = "gonio:layout", *kPhi = "gonio:phi_d_rad",
+                     *kChannels = "gonio:channels", *kTable = "gonio:table",
+                     *kSlice = "image_slice";
+constexpr std::size_t kMost = std::size_t{1} << 24;  ///< values of a slice that is read
+
+std::string exr_name(const std::string& channel) {
+  if (channel == "f") return "Y";
+  if (channel == "r" || channel == "g" || channel == "b")
+    return {static_cast<char>(channel[0] - 'a' + 'A')};
+  return channel;
+}
+
+double angle(const std::string& path, const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() ||
+      !(std::abs(value) <= 2 * std::numbers::pi))
+    throw bad_input(path, kPhi, text, "an angle in radians");
+  return value;
+}
+
+/// Turns [x][y] into [y][x] or back; `width` is that of the result.
+template <class To, class From>
+To turned(const From& from, std::size_t width) {
+  To to(from.size());
+  const std::size_t height = from.size() / width;
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x)
+      to[y * width + x] = static_cast<typename To::value_type>(from[x * height + y]);
+  return to;
+}
+
+}  // namespace
+
+Grid image_slice_grid(std::size_t n_theta_h, std::size_t n_theta_d, double phi_d, Bins bins) {
+  using enum Axis::Spacing;
+  using std::numbers::pi;
+  return {Grid::Kind::half_difference,
+          {{{"theta_h", quadratic, n_theta_h, pi / 2},
+            {"theta_d", uniform, n_theta_d, pi / 2},
+            {"phi_d", constant, 1, phi_d}}},
+          bins};
+}
+
+Table read_exr_slice(const std::string& path) {
+  const Image header = read_exr_header(path);
+  const auto attribute = [&](const char* name) {
+    const auto found = header.attributes.find(name);
+    if (found == header.attributes.end())
+      throw bad_input(path, "header", fmt::format("no attribute {}", name),
+                      "an image slice made by gonio");
+    return found->second;
+  };
+  if (attribute(kLayout) != kSlice) throw bad_input(path, kLayout, attribute(kLayout), kSlice);
+  Table t;
+  t.path = path;
+  t.format = "exr";
+  t.where =
+      image_slice_grid(header.width, header.height, angle(path, attribute(kPhi)), Bins::centre);
+  t.channels = split(attribute(kChannels), ',');
+  std::vector<std::string> names;
+  for (const auto& channel : t.channels) {
+    if (std::ranges::find(names, exr_name(channel)) != names.end())
+      throw bad_input(path, kChannels, exr_name(channel) + " twice", "each channel once");
+    names.push_back(exr_name(channel));
+  }
+  for (const auto& plane : read_exr(path, kMost, names).planes)
+    t.values.push_back(turned<Values>(plane, header.height));
+  apply_metadata(t, path, attribute(kTable));
+  return t;
+}
+
+void write_exr_slice(const Table& t, const std::string& path) {
+  const Grid* g = t.grid();
+  if (!g || *g != image_slice_grid(g->axes[0].size, g->axes[1].size, g->axes[2].span, g->bins))
+    throw bad_input(path, "writing", "a table of another shape",
+                    "an image slice over theta_h, theta_d");
+  Image image;
+  image.width = g->axes[0].size;
+  image.height = g->axes[1].size;
+  for (const auto& channel : t.channels) image.channels.push_back(exr_name(channel));
+  for (const auto& plane : t.values)
+    image.planes.push_back(turned<std::vector<float>>(plane, image.width));
+  image.attributes = {{kLayout, kSlice},
+                      {kPhi, fmt::format("{}", g->axes[2].span)},
+                      {kChannels, fmt::format("{}", fmt::join(t.channels, ","))},
+                      {kTable, metadata_text(t)}};
+  write_exr(path, image);
+}
+
+}  // namespace gonio

@@ -1,0 +1,150 @@
+#include "table/format/formats.h"
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/sha256.h"
+#include "table/format/metadata.h"
+
+#include <tbb/task_group.h>
+
+namespace gonio {
+namespace {
+
+bool is_exr(std::string_view head) {
+  return head.starts_with(std::string_view("\x76\x2f\x31\x01", 4));
+}
+
+Table read_by_format(InputFile& in, const ColumnMap* map) {
+  const std::string head = in.peek(1 << 16);
+  if (is_exr(head)) return read_exr_slice(in.path());
+  if (is_mbsdf(head)) return read_mbsdf(in);
+  if (is_rgl(head)) return read_rgl(in);
+  if (is_klems(head)) return read_klems(in);
+  if (!map && is_alta(head)) return read_alta(in);
+  if (is_merl(head, in.size())) return read_merl(in);
+  if (map || is_csv(head)) return read_csv(in, map);
+  throw bad_input(in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
+                  "a MERL, MBSDF, RGL, Klems XML or ALTA file, an image slice in OpenEXR, or CSV");
+}
+
+void write_by_format(const Table& t, OutputFile& out, const std::string& path) {
+  if (t.format == "merl") return write_merl(t, out, path);
+  if (t.format == "mbsdf") return write_mbsdf(t, out, path);
+  if (t.format == "csv") return write_csv(t, out);
+  throw wrong_usage("unknown table format '" + t.format + "': use csv, merl, mbsdf or exr");
+}
+
+}  // namespace
+
+std::string side_text(const std::string& path) {
+  std::error_code no_such_name;
+  if (!std::filesystem::exists(side_path(path), no_such_name)) return "";
+  return InputFile(side_path(path)).read_rest(std::uint64_t{1} << 24);
+}
+
+/// SHA-256 of an open file, made by whichever thread has nothing else to do.
+class TableAndDigest::Digest {
+ public:
+  explicit Digest(const std::string& path) : file_(path) {}
+  ~Digest() {
+    if (begun_) work_.wait();
+  }
+  InputFile& file() { return file_; }
+  void begin() {
+    begun_ = true;
+    work_.run([this] {
+      try {
+        digits_ = sha256_of_file(file_);
+      } catch (...) {
+        failure_ = std::current_exception();
+      }
+    });
+  }
+  const std::string& wait() {
+    if (!begun_) begin();
+    work_.wait();
+    if (failure_) std::rethrow_exception(failure_);
+    return digits_;
+  }
+
+ private:
+  InputFile file_;
+  tbb::task_group work_;
+  bool begun_ = false;
+  std::string digits_;
+  std::exception_ptr failure_;
+};
+
+namespace {
+
+/// \param digest  asked where the side file names the table by it
+template <class Digest>
+Table read_open(InputFile& in,
+                std::optional<Bins> bins,
+                const std::string& side,
+                const Digest& digest) {
+  const std::string& path = in.path();
+  const auto map = side.empty() ? std::nullopt : column_map(side_path(path), side);
+  Table t = read_by_format(in, map ? &*map : nullptr);
+  in.expect_unchanged();
+  t.path = path;
+  if (!side.empty()) {
+    t.sha256 = digest();
+    apply_metadata(t, side_path(path), side);
+  }
+  if (auto* g = std::get_if<Grid>(&t.where); g && bins) g->bins = *bins;
+  return t;
+}
+
+/// An image has its metadata in itself.
+std::string side_text_of(InputFile& in) {
+  return is_exr(in.peek(4)) ? "" : side_text(in.path());
+}
+
+}  // namespace
+
+Table read_table(const std::string& path, std::optional<Bins> bins) {
+  TableAndDigest::Digest file(path);
+  const std::string side = side_text_of(file.file());
+  if (!side.empty()) file.begin();
+  return read_open(file.file(), bins, side, [&] { return file.wait(); });
+}
+
+TableAndDigest::TableAndDigest(const std::string& path, std::optional<Bins> bins)
+    : digest_(new Digest(path)) {
+  const std::string side = side_text_of(digest_->file());
+  digest_->begin();
+  table = read_open(digest_->file(), bins, side, [&] { return digest_->wait(); });
+}
+TableAndDigest::~TableAndDigest() = default;
+TableAndDigest::TableAndDigest(TableAndDigest&&) noexcept = default;
+
+void TableAndDigest::finish() {
+  table.sha256 = digest_->wait();
+}
+
+void write_table(const Table& t, const std::string& path) {
+  if (t.format == "exr") return write_exr_slice(t, path);
+  OutputFile out(path);
+  write_by_format(t, out, path);
+  out.close();
+  // The side file goes first and an old one never stays: between the two steps, or after a failure,
+  // a table may lack what was said about it, but has nothing false beside it for long.
+  const std::string side = side_path(path);
+  if (needs_metadata(t))
+    write_file(side, metadata_text(t, sha256_of_file(out.temporary_path())));
+  else
+    std::remove(side.c_str());
+  try {
+    out.commit();
+  } catch (...) {
+    std::remove(side.c_str());
+    throw;
+  }
+}
+
+}  // namespace gonio

@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// Tables from files and into files, whatever the format.
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "table/format/alta.h"
+#include "table/format/csv.h"
+#include "table/format/exr_slice.h"
+#include "table/format/klems.h"
+#include "table/format/mbsdf.h"
+#include "table/format/merl.h"
+#include "table/format/rgl.h"
+#include "table/table.h"
+
+namespace gonio {
+
+/// The format is found from the bytes, not from the name.
+/// \param bins  beats what the file or its side file (table/metadata.h) says, which beats `centre`
+Table read_table(const std::string& path, std::optional<Bins> bins = {});
+
+/// A table that is used while its file's SHA-256 is still being made.
+class TableAndDigest {
+ public:
+  explicit TableAndDigest(const std::string& path, std::optional<Bins> bins = {});
+  ~TableAndDigest();
+  TableAndDigest(TableAndDigest&&) noexcept;
+
+  Table table;  ///< with the SHA-256 of its file after finish()
+  /// Before anything made from the table is shown: waits, and fails where the file has changed since
+  /// it was opened.
+  void finish();
+
+ private:
+  friend Table read_table(const std::string&, std::optional<Bins>);
+  class Digest;
+  std::unique_ptr<Digest> digest_;
+};
+
+/// What stands in the side file of a table; "" if there is none.
+std::string side_text(const std::string& path);
+
+/// In the format of Table::format: the table and, where there is more to say than the format holds,
+/// its side file; both or neither.
+void write_table(const Table&, const std::string& path);
+
+}  // namespace gonio

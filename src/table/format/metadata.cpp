@@ -1,0 +1,162 @@
+#include "table/format/metadata.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/json_reader.h"
+
+namespace gonio {
+namespace {
+
+constexpr const char* kSchema = "gonio.table/1";
+
+Truth read_truth(const JsonReader& j) {
+  Truth t;
+  t.model = j.at("model").string();
+  for (const auto& [name, value] : j.at("parameters").members())
+    t.parameters.emplace_back(name, value.numbers());
+  t.noise = j.at("noise").number();
+  t.floor = j.at("floor").number();
+  t.outliers = j.at("outliers").number();
+  t.seed = j.at("seed").whole_number();
+  return t;
+}
+
+Bins read_bins(const JsonReader& j) {
+  const auto name = j.string();
+  const auto found = std::ranges::find(bins_names, name);
+  if (found == bins_names.end()) j.fail("\"centre\" or \"edge\"");
+  return static_cast<Bins>(found - bins_names.begin());
+}
+
+/// A table that other means wrote over an old one must not inherit the old one's truth.
+void expect_same_table(const std::string& side, const std::string& said, const std::string& is) {
+  const auto shortened = [](const std::string& digits) { return digits.substr(0, 12) + "…"; };
+  if (said != is)
+    throw bad_input(side, "sha256", shortened(said),
+                    shortened(is) + " (it describes another table and may be removed)");
+}
+
+/// CSV writes a grid's angles out: nothing is left to agree on.
+bool keeps_bins(const Table& t) {
+  return t.has_bins() && t.format != "csv";
+}
+
+double finite_number(const JsonReader& j) {
+  const double v = j.number();
+  if (!std::isfinite(v)) j.fail("a number");
+  return v;
+}
+
+ColumnMap read_column_map(const JsonReader& j) {
+  ColumnMap map;
+  for (const auto& [key, value] : j.members()) {
+    if (is_role(key))
+      map.columns.emplace_back(key, value.string());
+    else if (key == "unit" && (value.string() == "radians" || value.string() == "degrees"))
+      map.radians = value.string() == "radians";
+    else if (key == "forward")
+      map.forward_deg = finite_number(value);
+    else if (key == "cosine")
+      map.cosine = value.boolean();
+    else if (key == "scale")
+      map.scale = finite_number(value);
+    else if (key == "skip")
+      map.skip = value.whole_number();
+    else
+      value.fail(key == "unit" ? "\"degrees\" or \"radians\""
+                               : "no such key; theta_i, phi_i, theta_o, phi_o, f, f_NAME, weight, "
+                                 "channel, unit, forward, cosine, scale or skip");
+  }
+  return map;
+}
+
+Json column_map_json(const ColumnMap& map) {
+  const ColumnMap usual;
+  Json j = Json::object();
+  for (const auto& [role, column] : map.columns) j[role] = column;
+  if (map.radians != usual.radians) j["unit"] = "radians";
+  if (map.forward_deg != usual.forward_deg) j["forward"] = map.forward_deg;
+  if (map.cosine != usual.cosine) j["cosine"] = map.cosine;
+  if (map.scale != usual.scale) j["scale"] = map.scale;
+  if (map.skip != usual.skip) j["skip"] = map.skip;
+  return j;
+}
+
+Json parse_side(const std::string& file, const std::string& text) {
+  Json document = parse_json(file, text);
+  const JsonReader root(file, document);
+  const auto members = root.members();
+  const std::string expected = std::string("\"schema\": \"") + kSchema + "\"";
+  if (!root.has("schema")) throw bad_input(file, "schema", "no such key", expected);
+  if (root.at("schema").string() != kSchema) root.at("schema").fail(expected);
+  constexpr std::array<std::string_view, 6> keys{"schema",  "sha256", "bins",
+                                                 "columns", "truth",  "notes"};
+  for (const auto& [key, value] : members)
+    if (std::ranges::find(keys, key) == keys.end())
+      value.fail("no such key; schema, sha256, bins, columns, truth or notes");
+  return document;
+}
+
+}  // namespace
+
+bool is_role(const std::string& name) {
+  constexpr std::array<std::string_view, 7> roles{"theta_i", "phi_i",  "theta_o", "phi_o",
+                                                  "f",       "weight", "channel"};
+  return std::ranges::find(roles, name) != roles.end() ||
+         (name.starts_with("f_") && name.size() > 2);
+}
+
+Json truth_json(const Truth& t) {
+  return {{"model", t.model},       {"parameters", per_name(t.parameters)},
+          {"noise", t.noise},       {"floor", t.floor},
+          {"outliers", t.outliers}, {"seed", t.seed}};
+}
+
+std::string side_path(const std::string& path) {
+  return path + ".gonio.json";
+}
+
+bool needs_metadata(const Table& t) {
+  return t.truth || !t.notes.empty() || (keeps_bins(t) && t.grid()->bins != Bins::centre);
+}
+
+std::string metadata_text(const Table& t, const std::string& sha256) {
+  Json j = {{"schema", kSchema}};
+  if (!sha256.empty()) j["sha256"] = sha256;
+  if (keeps_bins(t)) j["bins"] = bins_names[static_cast<std::size_t>(t.grid()->bins)];
+  if (t.truth) j["truth"] = truth_json(*t.truth);
+  for (const auto& [name, text] : t.notes) j["notes"][name] = text;
+  return text_of(j);
+}
+
+void apply_metadata(Table& t, const std::string& file, const std::string& text) {
+  const Json document = parse_side(file, text);
+  const JsonReader root(file, document);
+  if (root.has("sha256")) expect_same_table(file, root.at("sha256").string(), t.sha256);
+  if (root.has("bins")) {
+    if (!t.has_bins()) root.at("bins").fail("none: this table has no bins");
+    std::get<Grid>(t.where).bins = read_bins(root.at("bins"));
+  }
+  if (root.has("columns") && t.format != "csv")
+    root.at("columns").fail("none: this table is not CSV");
+  if (root.has("truth")) t.truth = read_truth(root.at("truth"));
+  if (root.has("notes"))
+    for (const auto& [name, note] : root.at("notes").members())
+      t.notes.emplace_back(name, note.string());
+}
+
+std::optional<ColumnMap> column_map(const std::string& file, const std::string& text) {
+  const Json document = parse_side(file, text);
+  const JsonReader root(file, document);
+  return root.has("columns") ? std::optional(read_column_map(root.at("columns"))) : std::nullopt;
+}
+
+std::string with_columns(const std::string& file, const std::string& text, const ColumnMap& map) {
+  Json document = text.empty() ? Json{{"schema", kSchema}} : parse_side(file, text);
+  document["columns"] = column_map_json(map);
+  return text_of(document);
+}
+
+}  // namespace gonio

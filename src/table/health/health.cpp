@@ -1,0 +1,207 @@
+#include "table/health/health.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "table/health/directional_albedo.h"
+#include "table/health/prospects.h"
+#include "base/quantile.h"
+#include "table/health/reciprocity.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+namespace gonio {
+namespace {
+
+struct Tally {
+  std::array<std::size_t, mask_names.size()> masked{};
+  double largest = 0, smallest = std::numeric_limits<double>::infinity();
+};
+
+Tally tally(const Table& t) {
+  const SampleAngles at(t);
+  using Range = tbb::blocked_range<std::size_t>;
+  return tbb::parallel_reduce(
+      Range(0, t.size(), 1 << 14), Tally{},
+      [&](const Range& r, Tally sum) {
+        for (std::size_t i = r.begin(); i < r.end(); ++i) {
+          const auto a = at(i);
+          for (const auto& plane : t.values) {
+            const double v = plane[i];
+            const Mask m = mask(a, v);
+            ++sum.masked[static_cast<std::size_t>(m)];
+            if (m != Mask::valid) continue;
+            sum.largest = std::max(sum.largest, v);
+            if (v > 0) sum.smallest = std::min(sum.smallest, v);
+          }
+        }
+        return sum;
+      },
+      [](Tally a, const Tally& b) {
+        for (std::size_t m = 0; m < a.masked.size(); ++m) a.masked[m] += b.masked[m];
+        a.largest = std::max(a.largest, b.largest);
+        a.smallest = std::min(a.smallest, b.smallest);
+        return a;
+      });
+}
+
+/// More light than arrives, even if none went where samples lack.
+void warn_of_light(const Table& t, Health& h) {
+  const AlbedoSample* at = nullptr;
+  double most = 1.05;
+  for (const auto& a : h.albedo)
+    for (const double v : a.albedo)
+      if (v * a.coverage > most) {
+        most = v * a.coverage;
+        at = &a;
+      }
+  if (!at) return;
+  h.warnings.push_back(fmt::format(
+      "the table returns {:.3g} times the light that arrives at theta_i {:.3g}°{}", most,
+      at->theta_i_deg,
+      t.format == "csv" ? ": a radiance factor? (gonio columns FILE --scale 0.3183099)" : ""));
+}
+
+/// Values that are f cos θ_o break reciprocity by cos θ_o/cos θ_i, and keep it without the cosine.
+void warn_of_cosine(const Table& t, Health& h) {
+  if (!h.reciprocity_error) return;
+  const SampleAngles at(t);
+  std::vector<double> with, without;
+  for_each_reciprocal(t, [&](std::size_t i, std::size_t, double a, double b) {
+    const auto x = at(i);
+    const double low = std::min(x.nol, x.nov), high = std::max(x.nol, x.nov);
+    // Elsewhere the two cannot be told apart.
+    if (!(low >= least_cosine && high > 1.2 * low && a + b > 0)) return;
+    with.push_back(reciprocity_error(a, b));
+    without.push_back(reciprocity_error(a / x.nov, b / x.nol));
+  });
+  if (with.size() < 8) return;
+  const double raw = median(with), rest = median(without);
+  if (raw > 0.1 && 3 * rest < raw && rest < 0.05 + 2 * h.noise.sigma.value_or(0))
+    h.warnings.push_back(fmt::format(
+        "exchanging the directions changes values by {:.2g} %, after division by cos(theta_o) by "
+        "{:.2g} %: values look like f cos(theta_o){}",
+        100 * raw, 100 * rest, t.format == "csv" ? " (gonio columns FILE --cosine)" : ""));
+}
+
+}  // namespace
+
+double noise_floor(const Table& t) {
+  if (!t.negative_is_noise) return 0;
+  const SampleAngles at(t);
+  std::vector<double> sizes;
+  std::size_t above_horizon = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto a = at(i);
+    for (const auto& plane : t.values) {
+      const Mask m = mask(a, plane[i]);
+      above_horizon += m != Mask::below_horizon;
+      if (m == Mask::negative) sizes.push_back(-plane[i]);
+    }
+  }
+  if (sizes.empty() || sizes.size() * 1000 < above_horizon) return 0;
+  const double middle = median(sizes);
+  // More than half of them one number: a mark for missing data, as a format would have one.
+  const auto same = static_cast<std::size_t>(std::ranges::count(sizes, middle));
+  return 2 * same > sizes.size() ? 0 : 1.4826 * middle;
+}
+
+std::vector<std::size_t> first_of_copies(const Table& t, std::size_t axis) {
+  const Grid* g = t.grid();
+  if (!g || g->kind != Grid::Kind::in_out) return {};
+  // A slice of axis 0 is one run of values, one of axis 1 a run for each incident angle.
+  const std::size_t n = g->axes[axis].size, width = axis == 0 ? g->size() / n : g->axes[2].size;
+  const std::size_t runs = g->size() / n / width;
+  const auto copies = [&](std::size_t slice) {
+    bool varies = false;
+    for (const auto& plane : t.values) {
+      const double first = plane[slice * width];
+      for (std::size_t r = 0; r < runs; ++r) {
+        const double* const here = plane.data() + (r * n + slice) * width;
+        if (std::memcmp(here, here - width, width * sizeof(double)) != 0) return false;
+        varies = varies || std::any_of(here, here + width, [&](double v) { return v != first; });
+      }
+    }
+    return varies;
+  };
+  std::vector<std::size_t> first(n);
+  for (std::size_t i = 1; i < n; ++i) first[i] = copies(i) ? first[i - 1] : i;
+  return first;
+}
+
+std::size_t copied_rows(const Table& t, std::size_t axis) {
+  const auto first = first_of_copies(t, axis);
+  std::size_t copies = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) copies += first[i] != i;
+  return copies;
+}
+
+std::string layout_text(const Table& t) {
+  const Grid* g = t.grid();
+  if (!g) return fmt::format("{} samples", t.size());
+  std::string s;
+  for (const auto& a : g->axes) s += fmt::format("{}{} {}", s.empty() ? "" : " × ", a.size, a.name);
+  return s;
+}
+
+std::string peak_in_words(const Highlight& p) {
+  std::string s = fmt::format(
+      "half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} sample{} within: ", p.half_width_deg,
+      p.alpha, p.samples_within, p.samples_within == 1 ? "" : "s");
+  switch (p.limit) {
+    case PeakLimit::none:
+      return s + "resolved";
+    case PeakLimit::samples:
+      return s + (p.samples_within <= 1
+                      ? "one sample wide, so limited by the instrument: alpha is at most that"
+                      : "not resolved: alpha is at most about that");
+    case PeakLimit::bins:
+      break;
+  }
+  return s +
+         fmt::format("limited by the bins: where samples sit in them changes alpha by {:+.0f} %",
+                     100 * p.bin_sensitivity.value_or(0));
+}
+
+Health inspect(const Table& t) {
+  Health h;
+  const Tally counts = tally(t);
+  h.samples = t.size();
+  h.values = t.size() * t.values.size();
+  h.masked = counts.masked;
+  h.valid = h.masked[static_cast<std::size_t>(Mask::valid)];
+  h.largest = counts.largest;
+  if (std::isfinite(counts.smallest)) h.smallest_positive = counts.smallest;
+  h.noise_floor = noise_floor(t);
+  h.copied_rows = copied_rows(t, 0);
+  h.copied_columns = copied_rows(t, 1);
+  h.albedo = directional_albedo(t);
+  auto [error, note] = reciprocity(t);
+  h.reciprocity_error = error;
+  h.reciprocity_note = note;
+  h.noise = estimate_noise(t);
+  const Bins bins = t.bins();
+  const PeakSearch search = find_peak(t, bins);
+  h.peak_profiles = search.profiles;
+  h.peak_contrast = search.contrast;
+  if (search.peak) {
+    Highlight& p = h.peak.emplace(Highlight{*search.peak, PeakLimit::none, {}});
+    if (t.has_bins())
+      if (const auto other = find_peak(t, bins == Bins::centre ? Bins::edge : Bins::centre).peak)
+        p.bin_sensitivity = other->alpha / p.alpha - 1;
+    if (!p.resolved)
+      p.limit = PeakLimit::samples;
+    else if (std::abs(p.bin_sensitivity.value_or(0)) > 0.1)
+      p.limit = PeakLimit::bins;
+  }
+  h.retro = retro_peak(t);
+  h.prospects = prospects(t, h);
+  warn_of_light(t, h);
+  warn_of_cosine(t, h);
+  return h;
+}
+
+}  // namespace gonio

@@ -1,0 +1,93 @@
+#pragma once
+/// \file
+/// What a table can be trusted for, before anything is fitted to it.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "table/health/noise.h"
+#include "table/health/peak.h"
+#include "table/table.h"
+
+namespace gonio {
+
+/// ∫ f cos θ_o dω_o at one incident angle, per channel; `coverage` is the share of the
+/// cosine-weighted hemisphere that valid samples speak for in the channel that has the fewest; what
+/// lacks counts as their mean.  NaN for a channel where more than half lacks.
+struct AlbedoSample {
+  double theta_i_deg;
+  std::vector<double> albedo;
+  double coverage;
+};
+
+/// Why a highlight's width is not the surface's alone.
+enum class PeakLimit {
+  none,
+  samples,  ///< fewer than three within the half width, or each an average over more than that
+  bins      ///< the other bin convention changes alpha by more than a tenth
+};
+inline constexpr std::array<const char*, 3> peak_limit_names{"none", "samples", "bins"};
+
+/// The specular peak, and what limits it.
+struct Highlight : Peak {
+  PeakLimit limit = PeakLimit::none;
+  /// relative change of Peak::alpha, with its sign, under the other bin convention; absent without bins
+  std::optional<double> bin_sensitivity;
+};
+/// "half width 5.6° (like GGX alpha 0.15), 23 samples within: resolved"
+std::string peak_in_words(const Highlight&);
+
+enum class Verdict { no, weakly, yes };
+inline constexpr std::array<const char*, 3> verdict_names{"no", "weakly", "yes"};
+
+/// Whether the table can determine something, and the figure that says so.
+struct Prospect {
+  std::string of;
+  Verdict verdict;
+  std::string because;
+};
+
+struct Health {
+  std::size_t samples = 0, values = 0, valid = 0;
+  std::array<std::size_t, 4> masked{};  ///< values by Mask; [valid] is `valid`
+  double largest = 0, smallest_positive = 0;
+  double noise_floor = 0;          ///< see noise_floor()
+  std::size_t copied_rows = 0;     ///< incident angles that only repeat another, see copied_rows()
+  std::size_t copied_columns = 0;  ///< outgoing angles likewise
+  std::vector<AlbedoSample> albedo;
+  /// median |f(wi,wo) − f(wo,wi)| / mean (table/reciprocity.h); absent where the layout cannot tell
+  std::optional<double> reciprocity_error;
+  std::string reciprocity_note;
+  Noise noise;
+  std::optional<Highlight> peak;
+  std::size_t peak_profiles = 0;  ///< PeakSearch::profiles
+  double peak_contrast = 0;       ///< PeakSearch::contrast
+  std::optional<Peak> retro;      ///< see retro_peak()
+  std::vector<Prospect> prospects;
+  /// What the values themselves make odd: more light than arrives, or a cosine left in them.
+  std::vector<std::string> warnings;
+};
+
+Health inspect(const Table&);
+
+/// The noise floor that negative values betray [1/sr]: 1.4826 · median |negative| above the horizon,
+/// where negatives are noise, make up at least 0.1 % of the values there, and are not one number that
+/// marks missing data; else 0.
+double noise_floor(const Table&);
+
+/// For each angle of an in/out grid's axis 0 (incident) or 1 (outgoing) the first of the run of angles
+/// that hold the very same values, bit for bit: itself, unless it was filled in from its neighbour.  A
+/// slice of one value is no copy.  Empty for other tables.
+std::vector<std::size_t> first_of_copies(const Table&, std::size_t axis = 0);
+/// How many angles are not the first of their run.
+std::size_t copied_rows(const Table&, std::size_t axis = 0);
+
+/// "45 theta_i × 45 theta_o × 90 phi", "855 samples"
+std::string layout_text(const Table&);
+
+/// What `gonio inspect --json` prints.
+std::string to_json(const Table&, const Health&);
+
+}  // namespace gonio

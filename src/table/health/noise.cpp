@@ -1,0 +1,270 @@
+#include "table/health/noise.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "table/health/health.h"
+#include "base/quantile.h"
+
+namespace gonio {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t enough_values = 200'000;  ///< per family of lines: σ to half a percent
+constexpr std::size_t few = 50;
+constexpr std::size_t reach = 4;  ///< neighbours on either side
+
+struct Place {
+  double x;
+  std::size_t sample;
+};
+using Line = std::vector<Place>;
+/// Lines along one angle.
+struct Family {
+  std::string along;
+  std::vector<Line> lines;
+};
+
+/// What one value differs from its neighbours by, scaled to the spread of one value.
+struct Difference {
+  std::size_t sample, channel;
+  double fewer, more;  ///< by 3 and by 4 neighbours on either side
+};
+
+/// Weights of the neighbours x[0 … 2k] (the middle one excepted) in the polynomial's value at x[k].
+std::vector<double> lagrange(const double* x, std::size_t k) {
+  std::vector<double> w(2 * k + 1, 1);
+  w[k] = 0;
+  for (std::size_t i = 0; i <= 2 * k; ++i)
+    for (std::size_t j = 0; j <= 2 * k; ++j)
+      if (i != k && j != k && j != i) w[i] *= (x[k] - x[j]) / (x[i] - x[j]);
+  return w;
+}
+
+double difference(const double* x, const double* y, std::size_t k) {
+  static const auto even = [] {
+    std::array<std::vector<double>, reach + 1> all;
+    std::array<double, 2 * reach + 1> steps{};
+    std::iota(steps.begin(), steps.end(), 0.0);
+    for (std::size_t n = 1; n <= reach; ++n) all[n] = lagrange(steps.data(), n);
+    return all;
+  }();
+  const double step = x[1] - x[0];
+  bool is_even = true;
+  for (std::size_t i = 2; i <= 2 * k; ++i)
+    is_even = is_even && std::abs(x[i] - x[i - 1] - step) <= 1e-6 * step;
+  const auto& w = is_even ? even[k] : lagrange(x, k);
+  double value = 0, squares = 1;
+  for (std::size_t i = 0; i <= 2 * k; ++i) {
+    value += w[i] * y[i];
+    squares += w[i] * w[i];
+  }
+  return (y[k] - value) / std::sqrt(squares);
+}
+
+/// How many of the lines, taken evenly among all, hold enough_values.
+std::size_t enough_lines(const Table& t, std::size_t lines, std::size_t samples) {
+  return std::clamp<std::size_t>(enough_values * lines / (samples * t.values.size()), 1, lines);
+}
+
+std::vector<Family> of_grid(const Table& t) {
+  const Grid& g = *t.grid();
+  std::vector<Family> all;
+  const std::array copies{copied_rows(t, 0), copied_rows(t, 1), std::size_t{0}};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t n = g.axes[a].size;
+    if (n < 2 * reach + 1 || copies[a] > 0) continue;  // copies are no measurements
+    std::size_t step = 1;
+    for (std::size_t b = a + 1; b < 3; ++b) step *= g.axes[b].size;
+    const std::size_t lines = g.size() / n, wanted = enough_lines(t, lines, g.size());
+    Family f{g.axes[a].name, {}};
+    for (std::size_t k = 0; k < wanted; ++k) {
+      const std::size_t l = k * lines / wanted, start = l / step * step * n + l % step;
+      Line& line = f.lines.emplace_back();
+      for (std::size_t i = 0; i < n; ++i)
+        line.push_back({static_cast<double>(i), start + i * step});
+    }
+    all.push_back(std::move(f));
+  }
+  return all;
+}
+
+/// Angles closer than 1e-6° are one.
+long rounded(double deg) {
+  return std::lround(deg * 1e6);
+}
+
+/// Samples that share all but one angle; a plane of incidence holds both of its sides.
+std::vector<Family> of_list(const Table& t) {
+  const DirectionList& l = *t.list();
+  constexpr long half_turn = 180'000'000;
+  using Key = std::array<long, 3>;
+  struct Member {
+    Key key;
+    Place place;
+  };
+  std::vector<Family> all;
+  const auto add = [&](const char* along, auto member_of) {
+    std::vector<Member> members;
+    for (std::size_t i = 0; i < t.size(); ++i) members.push_back(member_of(i));
+    std::ranges::stable_sort(members, [](const Member& a, const Member& b) {
+      return std::pair(a.key, a.place.x) < std::pair(b.key, b.place.x);
+    });
+    Family f{along, {}};
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const bool same_line = i > 0 && members[i].key == members[i - 1].key;
+      if (!same_line) f.lines.emplace_back();
+      if (same_line && members[i].place.x - members[i - 1].place.x < 1e-6) continue;
+      f.lines.back().push_back(members[i].place);
+    }
+    std::erase_if(f.lines, [](const Line& line) { return line.size() < 2 * reach + 1; });
+    if (f.lines.empty()) return;
+    const std::size_t lines = f.lines.size(), wanted = enough_lines(t, lines, t.size());
+    for (std::size_t k = 0; k < wanted; ++k) std::swap(f.lines[k], f.lines[k * lines / wanted]);
+    f.lines.resize(wanted);
+    all.push_back(std::move(f));
+  };
+  add("theta_o", [&](std::size_t i) -> Member {
+    const long turn = (rounded(l.phi_o_deg[i]) % (2 * half_turn) + 2 * half_turn) % (2 * half_turn);
+    const bool back = turn >= half_turn;
+    return {{rounded(l.theta_i_deg[i]), rounded(l.phi_i_deg[i]), turn % half_turn},
+            {back ? -l.theta_o_deg[i] : l.theta_o_deg[i], i}};
+  });
+  add("phi_o", [&](std::size_t i) -> Member {
+    return {{rounded(l.theta_i_deg[i]), rounded(l.phi_i_deg[i]), rounded(l.theta_o_deg[i])},
+            {l.phi_o_deg[i], i}};
+  });
+  add("theta_i", [&](std::size_t i) -> Member {
+    return {{rounded(l.phi_i_deg[i]), rounded(l.theta_o_deg[i]), rounded(l.phi_o_deg[i])},
+            {l.theta_i_deg[i], i}};
+  });
+  return all;
+}
+
+bool usable(const Table& t, const SampleAngles& at, std::size_t i, std::size_t channel) {
+  const double v = t.values[channel][i];
+  return v > 0 && mask(at(i), v) == Mask::valid;
+}
+
+std::vector<Difference> differences(const Table& t, const SampleAngles& at, const Family& f) {
+  std::vector<Difference> all;
+  std::vector<double> x, y;
+  std::vector<std::size_t> sample;
+  for (const Line& line : f.lines)
+    for (std::size_t c = 0; c < t.values.size(); ++c) {
+      x.clear();
+      y.clear();
+      sample.clear();
+      for (const Place& p : line)
+        if (usable(t, at, p.sample, c)) {
+          x.push_back(p.x);
+          y.push_back(std::log(t.values[c][p.sample]));
+          sample.push_back(p.sample);
+        }
+      for (std::size_t i = reach; i + reach < x.size(); ++i)
+        all.push_back({sample[i], c, difference(&x[i - reach + 1], &y[i - reach + 1], reach - 1),
+                       difference(&x[i - reach], &y[i - reach], reach)});
+    }
+  return all;
+}
+
+/// Pairs of values at the same four angles.
+std::vector<Difference> repeats(const Table& t, const SampleAngles& at) {
+  std::vector<Difference> all;
+  const auto* l = t.list();
+  if (!l) return all;
+  using Key = std::array<long, 4>;
+  std::vector<std::pair<Key, std::size_t>> keys;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    keys.push_back({{rounded(l->theta_i_deg[i]), rounded(l->phi_i_deg[i]),
+                     rounded(l->theta_o_deg[i]), rounded(l->phi_o_deg[i])},
+                    i});
+  std::ranges::sort(keys);
+  for (std::size_t k = 1; k < keys.size(); ++k) {
+    if (keys[k].first != keys[k - 1].first) continue;
+    const std::size_t a = keys[k - 1].second, b = keys[k].second;
+    for (std::size_t c = 0; c < t.values.size(); ++c)
+      if (usable(t, at, a, c) && usable(t, at, b, c)) {
+        const double d = std::log(t.values[c][a] / t.values[c][b]) / std::numbers::sqrt2;
+        all.push_back({a, c, d, d});
+      }
+  }
+  return all;
+}
+
+double spread(std::vector<double> differences) {
+  if (differences.empty()) return nan;
+  for (double& d : differences) d = std::abs(d);
+  return 1.4826 * median(differences);
+}
+template <class Which>
+double spread(const std::vector<Difference>& all, Which which) {
+  std::vector<double> chosen;
+  for (const Difference& d : all)
+    if (const auto v = which(d); !std::isnan(v)) chosen.push_back(v);
+  return spread(std::move(chosen));
+}
+
+/// The spread of the differences in each of the bands between edges.
+template <class Coordinate>
+std::vector<NoiseBand> bands(const std::vector<Difference>& all,
+                             const std::vector<double>& edges,
+                             Coordinate coordinate) {
+  std::vector<std::vector<double>> in(edges.size() - 1);
+  for (const Difference& d : all) {
+    const auto above = std::ranges::upper_bound(edges, coordinate(d));
+    if (above != edges.begin() && above != edges.end())
+      in[static_cast<std::size_t>(above - edges.begin() - 1)].push_back(d.more);
+  }
+  std::vector<NoiseBand> out;
+  for (std::size_t b = 0; b < in.size(); ++b)
+    if (const std::size_t n = in[b].size(); n >= few)
+      out.push_back({edges[b], edges[b + 1], n, spread(std::move(in[b]))});
+  return out;
+}
+
+}  // namespace
+
+Noise estimate_noise(const Table& t) {
+  const SampleAngles at(t);
+  Noise noise;
+  std::vector<Difference> best = repeats(t, at);
+  if (best.size() >= few) {
+    noise.along = "repeats";
+  } else {
+    best.clear();
+    double least = std::numeric_limits<double>::infinity();
+    for (const Family& f : t.grid() ? of_grid(t) : of_list(t)) {
+      auto here = differences(t, at, f);
+      if (here.empty()) continue;
+      // What does not change along an angle at all was filled in, unless nothing changes anywhere.
+      double sigma = spread(here, [](const auto& d) { return d.more; });
+      if (sigma == 0) sigma = std::numeric_limits<double>::max();
+      if (sigma >= least) continue;
+      least = sigma;
+      noise.along = f.along;
+      best = std::move(here);
+    }
+  }
+  if (best.empty()) return noise;
+  noise.sigma = spread(best, [](const auto& d) { return d.more; });
+  const double fewer = spread(best, [](const auto& d) { return d.fewer; });
+  noise.bound = *noise.sigma < 0.8 * fewer || *noise.sigma < 1e-4;
+  for (std::size_t c = 0; c < t.values.size(); ++c)
+    noise.channels.push_back(
+        spread(best, [&](const auto& d) { return d.channel == c ? d.more : nan; }));
+  if (noise.bound) return noise;
+  noise.over_angle = bands(best, {0, 15, 30, 45, 60, 75, 90}, [&](const Difference& d) {
+    const auto a = at(d.sample);
+    return std::acos(std::clamp(std::min(a.nol, a.nov), 0.0, 1.0)) / degree;
+  });
+  std::vector<double> decades;
+  for (int power = -12; power <= 12; ++power) decades.push_back(std::pow(10.0, power));
+  noise.over_value =
+      bands(best, decades, [&](const Difference& d) { return t.values[d.channel][d.sample]; });
+  return noise;
+}
+
+}  // namespace gonio
