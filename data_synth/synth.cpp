@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "brdf/evaluate.h"
+#include "brdf/model/evaluate.h"
 #include "table/format/formats.h"
 
 #include <fmt/format.h>

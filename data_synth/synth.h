@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "table/table.h"
 
 namespace gonio {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "brdf/plan.h"
+#include "brdf/model/derivatives.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "brdf/kernels.h"
-#include "brdf/model.h"
+#include "brdf/kernel/kernels.h"
+#include "brdf/model/model.h"
 #include "fitting/data.h"
 
 namespace gonio {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "brdf/plan.h"
+#include "brdf/model/derivatives.h"
 #include "table/health/health.h"
 
 #include <tbb/enumerable_thread_specific.h>

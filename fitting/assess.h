@@ -3,7 +3,7 @@
 /// What a fit is worth: how well the data determine each parameter, and what the model leaves over.
 /// One pass over all samples, each on its own.
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "fitting/accumulate.h"
 #include "fitting/sampling.h"
 #include "fitting/result/document.h"

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "fitting/accumulate.h"
 #include "fitting/assess.h"
 #include "fitting/data.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "fitting/sampling.h"
 #include "fitting/result/document.h"
 #include "table/table.h"

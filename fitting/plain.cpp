@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "brdf/catalogue.h"
+#include "brdf/catalogue/catalogue.h"
 #include "number/dual.h"
 
 #include <ceres/ceres.h>

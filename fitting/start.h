@@ -2,7 +2,7 @@
 /// \file
 /// Where a fit begins.
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "fitting/accumulate.h"
 #include "fitting/solve.h"
 

@@ -2,8 +2,8 @@
 
 #include <mutex>
 
-#include "brdf/presets.h"
-#include "brdf/registry.h"
+#include "brdf/model/presets.h"
+#include "brdf/catalogue/registry.h"
 #include "integrate/light/split_sum.h"
 #include "reports/audit_entry.h"
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "brdf/model.h"
-#include "brdf/presets.h"
-#include "brdf/term_in.h"
+#include "brdf/model/model.h"
+#include "brdf/model/presets.h"
+#include "brdf/in_number/number.h"
 #include "reports/audit.h"
 
 namespace gonio::auditing {

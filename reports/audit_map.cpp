@@ -1,6 +1,6 @@
 #include <map>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "reports/audit_entry.h"
 #include "reports/audit_samples.h"
 

@@ -1,14 +1,14 @@
 #include <array>
 
-#include "brdf/evaluate.h"
-#include "brdf/registry.h"
-#include "brdf/term_in.h"
+#include "brdf/model/evaluate.h"
+#include "brdf/catalogue/registry.h"
+#include "brdf/in_number/number.h"
 #include "geometry/half_difference.h"
 #include "integrate/albedo/normalisation.h"
 #include "optics/refractive_index.h"
 #include "reports/audit_entry.h"
 #include "reports/audit_samples.h"
-#include "reports/masking_shape.h"
+#include "brdf/catalogue/masking_shape.h"
 
 namespace gonio::auditing {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "brdf/term.h"
+#include "brdf/term/term.h"
 #include "reports/cost_parts.h"
 #include "reports/schlick_parts.h"
 

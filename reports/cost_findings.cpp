@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "brdf/term.h"
+#include "brdf/term/term.h"
 #include "reports/cost_parts.h"
 
 #include <fmt/format.h>

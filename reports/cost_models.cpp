@@ -6,17 +6,17 @@
 #include <numbers>
 #include <optional>
 
-#include "brdf/evaluate.h"
-#include "brdf/presets.h"
-#include "brdf/registry.h"
-#include "brdf/smith_gtr.h"
+#include "brdf/model/evaluate.h"
+#include "brdf/model/presets.h"
+#include "brdf/catalogue/registry.h"
+#include "brdf/formula/smith_gtr.h"
 #include "image/colour_difference.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "optics/spectrum.h"
 #include "reports/audit_entry.h"
 #include "reports/audit_samples.h"
 #include "reports/cost_parts.h"
-#include "reports/masking_shape.h"
+#include "brdf/catalogue/masking_shape.h"
 #include "reports/schlick_parts.h"
 
 #include <fmt/format.h>

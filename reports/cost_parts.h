@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "brdf/model.h"
-#include "brdf/term_in.h"
+#include "brdf/model/model.h"
+#include "brdf/in_number/number.h"
 #include "reports/cost.h"
 
 namespace gonio {

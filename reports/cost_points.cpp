@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "brdf/maps.h"
+#include "brdf/catalogue/maps.h"
 #include "data_synth/synth.h"
 #include "fitting/fit.h"
 #include "integrate/light/split_sum_table.h"

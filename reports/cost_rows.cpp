@@ -9,8 +9,8 @@
 
 #include "base/random.h"
 #include "brdf/by_hand.h"
-#include "brdf/evaluate.h"
-#include "brdf/registry.h"
+#include "brdf/model/evaluate.h"
+#include "brdf/catalogue/registry.h"
 #include "geometry/half_difference.h"
 #include "reports/audit_entry.h"
 #include "reports/cost_parts.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "brdf/evaluate.h"
+#include "brdf/model/evaluate.h"
 
 namespace gonio {
 namespace {

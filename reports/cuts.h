@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "table/table.h"
 
 namespace gonio {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/random.h"
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "geometry/direction.h"
 #include "image/colour_difference.h"
 #include "integrate/albedo/directional_albedo.h"

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "brdf/distributions.h"
-#include "brdf/masking_terms.h"
-#include "brdf/scattering.h"
+#include "brdf/catalogue/distributions.h"
+#include "brdf/catalogue/masking_terms.h"
+#include "brdf/formula/scattering.h"
 #include "integrate/albedo/ggx_albedo.h"
 #include "integrate/light/split_sum_table.h"
 #include "number/counted.h"

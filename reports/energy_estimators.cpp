@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/random.h"
-#include "brdf/masking.h"
+#include "brdf/formula/masking.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/albedo/ggx_albedo.h"
 #include "integrate/rule/slopes.h"

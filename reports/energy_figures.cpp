@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "reports/energy.h"
 
 #include <fmt/format.h>

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "brdf/presets.h"
-#include "brdf/registry.h"
+#include "brdf/model/presets.h"
+#include "brdf/catalogue/registry.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "reports/energy_parts.h"
-#include "reports/masking_shape.h"
+#include "brdf/catalogue/masking_shape.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

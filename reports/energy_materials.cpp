@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "integrate/scattering/compensation.h"
 #include "integrate/scattering/half_space.h"
 #include "reports/energy_parts.h"

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "brdf/kernels.h"
+#include "brdf/kernel/kernels.h"
 
 #include <benchmark/benchmark.h>
 

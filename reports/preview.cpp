@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include "brdf/evaluate.h"
+#include "brdf/model/evaluate.h"
 #include "integrate/albedo/directional_albedo.h"
 
 #include <fmt/format.h>

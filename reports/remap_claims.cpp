@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "geometry/half_difference.h"
 #include "reports/remap_parts.h"
 

@@ -1,7 +1,7 @@
 // The pictures of the remap report.
 #include <algorithm>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "reports/remap.h"
 #include "reports/remap_parts.h"
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <map>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/rule/quadrature.h"
-#include "reports/masking_shape.h"
+#include "brdf/catalogue/masking_shape.h"
 #include "reports/remap_parts.h"
 
 #include <fmt/format.h>

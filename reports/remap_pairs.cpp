@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "geometry/half_difference.h"
 #include "reports/remap_parts.h"
 

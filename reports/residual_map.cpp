@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "brdf/evaluate.h"
+#include "brdf/model/evaluate.h"
 #include "reports/angle_bins.h"
 
 namespace gonio {

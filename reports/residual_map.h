@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "table/table.h"
 
 namespace gonio {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "image/colour_difference.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "optics/spectrum.h"

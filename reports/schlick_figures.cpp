@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "reports/schlick.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "integrate/rule/slopes.h"
 #include "optics/f0.h"
 #include "optics/spectrum.h"

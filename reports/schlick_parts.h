@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "brdf/spec.h"
+#include "brdf/model/spec.h"
 #include "optics/refractive_index.h"
 #include "reports/schlick.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "brdf/lane.h"
+#include "brdf/kernel/lane.h"
 
 namespace gonio::inline GONIO_ARCH {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "brdf/kernels.h"
+#include "brdf/kernel/kernels.h"
 
 namespace gonio {
 

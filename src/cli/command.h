@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "cli/command_line.h"
 #include "table/table.h"
 

@@ -1,6 +1,6 @@
 // gonio eval: a model at given directions.
 #include "base/file.h"
-#include "brdf/evaluate.h"
+#include "brdf/model/evaluate.h"
 #include "cli/command.h"
 #include "table/format/csv.h"
 

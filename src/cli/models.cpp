@@ -1,6 +1,6 @@
 // gonio models: what there is.
-#include "brdf/presets.h"
-#include "brdf/registry.h"
+#include "brdf/model/presets.h"
+#include "brdf/catalogue/registry.h"
 #include "cli/command.h"
 #include "integrate/scattering/compensation.h"
 #include "integrate/light/split_sum.h"

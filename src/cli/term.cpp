@@ -1,7 +1,7 @@
 // gonio term: one factor of a model, evaluated on its own.
 #include <algorithm>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "cli/command.h"
 
 #include <nlohmann/json.hpp>

@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "brdf/evaluate.h"
-#include "brdf/model.h"
+#include "brdf/model/evaluate.h"
+#include "brdf/model/model.h"
 #include "brdf/terms.h"
 
 namespace gonio {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "brdf/evaluate.h"
+#include "brdf/model/evaluate.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

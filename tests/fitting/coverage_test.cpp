@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "brdf/evaluate.h"
+#include "brdf/model/evaluate.h"
 #include "data_synth/synth.h"
 #include "fitting/fit.h"
 

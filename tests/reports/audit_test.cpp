@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "brdf/presets.h"
-#include "brdf/registry.h"
+#include "brdf/model/presets.h"
+#include "brdf/catalogue/registry.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <tuple>
 
-#include "brdf/presets.h"
-#include "brdf/registry.h"
+#include "brdf/model/presets.h"
+#include "brdf/catalogue/registry.h"
 #include "reports/audit.h"
 #include "reports/cost_parts.h"
 #include "reports/pictures.h"

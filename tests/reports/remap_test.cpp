@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "brdf/registry.h"
-#include "reports/masking_shape.h"
+#include "brdf/catalogue/registry.h"
+#include "brdf/catalogue/masking_shape.h"
 #include "reports/pictures.h"
 #include "reports/remap_parts.h"
 

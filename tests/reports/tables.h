@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
-#include "brdf/evaluate.h"
-#include "brdf/model.h"
+#include "brdf/model/evaluate.h"
+#include "brdf/model/model.h"
 #include "table/table.h"
 
 namespace gonio::test {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "integrate/rule/slopes.h"
 
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "integrate/rule/cubature.h"
 
 namespace gonio {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "brdf/masking.h"
-#include "brdf/registry.h"
+#include "brdf/formula/masking.h"
+#include "brdf/catalogue/registry.h"
 #include "integrate/rule/cubature.h"
 #include "integrate/albedo/directional_albedo.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "integrate/rule/slopes.h"
 
 namespace gonio {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "geometry/sampling.h"
 #include "integrate/rule/slopes.h"
 #include "optics/fresnel_approximate.h"

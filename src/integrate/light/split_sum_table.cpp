@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "number/half.h"
 
 #include <fmt/format.h>

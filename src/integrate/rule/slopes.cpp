@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 
 namespace gonio {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "brdf/evaluate.h"
+#include "brdf/model/evaluate.h"
 
 namespace gonio {
 

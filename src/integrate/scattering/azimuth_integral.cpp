@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 
 namespace gonio {
 

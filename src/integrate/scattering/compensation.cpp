@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "base/error.h"
-#include "brdf/registry.h"
-#include "brdf/scattering.h"
+#include "brdf/catalogue/registry.h"
+#include "brdf/formula/scattering.h"
 #include "integrate/albedo/ggx_albedo.h"
 #include "integrate/rule/slopes.h"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/scattering/half_space.h"
 #include "integrate/scattering/scattered.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "integrate/scattering/azimuth_integral.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/scattering/microsurface.h"

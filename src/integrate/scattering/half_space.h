@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "integrate/scattering/scattered.h"
 
 namespace gonio {

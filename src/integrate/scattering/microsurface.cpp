@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "integrate/rule/slopes.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 
 namespace gonio {
 

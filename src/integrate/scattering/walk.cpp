@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 #include "geometry/sampling.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/scattering/microsurface.h"

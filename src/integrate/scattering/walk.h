@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "geometry/direction.h"
 #include "integrate/scattering/scattered.h"
 

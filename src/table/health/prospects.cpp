@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "brdf/evaluate.h"
+#include "brdf/model/evaluate.h"
 #include "base/quantile.h"
 
 #include <fmt/format.h>

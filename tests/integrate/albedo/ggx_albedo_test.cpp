@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "brdf/model.h"
+#include "brdf/model/model.h"
 #include "integrate/albedo/directional_albedo.h"
 
 namespace gonio {

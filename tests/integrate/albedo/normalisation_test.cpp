@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 
 namespace gonio {
 namespace {

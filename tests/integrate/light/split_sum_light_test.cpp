@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "brdf/evaluate.h"
-#include "brdf/registry.h"
+#include "brdf/model/evaluate.h"
+#include "brdf/catalogue/registry.h"
 #include "geometry/half_difference.h"
 #include "geometry/sampling.h"
 #include "integrate/rule/quadrature.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "brdf/scattering.h"
+#include "brdf/formula/scattering.h"
 #include "integrate/rule/quadrature.h"
 
 namespace gonio {

@@ -1,7 +1,7 @@
 #include "integrate/scattering/microsurface.h"
 
 #include "base/error.h"
-#include "brdf/registry.h"
+#include "brdf/catalogue/registry.h"
 
 namespace gonio {
 namespace {

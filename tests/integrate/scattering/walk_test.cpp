@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "brdf/evaluate.h"
-#include "brdf/registry.h"
+#include "brdf/model/evaluate.h"
+#include "brdf/catalogue/registry.h"
 #include "geometry/half_difference.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/scattering/half_space.h"

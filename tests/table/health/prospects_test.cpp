@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "brdf/evaluate.h"
+#include "brdf/model/evaluate.h"
 #include "table/example.h"
 #include "support.h"
 

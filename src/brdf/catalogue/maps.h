@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// Every map, once: a new one is its struct and its name here.
+
+#include "brdf/term/map.h"
+#include "brdf/formula/parameter_maps.h"
+#include "brdf/formula/scattering.h"
+#include "optics/f0.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+using Maps = MapList<ClampAlpha,
+                     ClampNov,
+                     ClampVis,
+                     AnisoDisney,
+                     AnisoImageworks,
+                     BlinnPhongExponent,
+                     FilterNormalVariance,
+                     F0FromIor,
+                     F0FromIorAsWritten,
+                     IorFromF0,
+                     F0Metallic,
+                     IndexFromEdgeTint,
+                     EdgeTintFromIndex,
+                     KullaConty,
+                     KullaContyLinear,
+                     KullaContyLobe,
+                     Turquin,
+                     FdezAguera,
+                     AlbedoFit,
+                     AlbedoFitMaterialx>;
+
+}  // namespace gonio::inline GONIO_ARCH

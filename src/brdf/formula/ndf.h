@@ -1,0 +1,161 @@
+#pragma once
+/// \file
+/// Isotropic normal distributions D(h) [1/sr], normalised as ∫ D(m) (n·m) dω = 1.
+///
+/// t = α² cos²θ_h + sin²θ_h is (NoH² (α² − 1) + 1) without its cancellation.  Where a formula has
+/// tan θ_h, NoH² is kept off 0: h is at the horizon only for directions outside the domain.
+
+#include "brdf/term/term.h"
+#include "number/special.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+inline constexpr Parameter alpha_parameter{"alpha", {1e-4, 1}, {1e-4, 1},
+                                           0.3,     false,     "width, roughness²"};
+inline constexpr Parameter alpha_x_parameter{"alpha_x", {1e-4, 4}, {1e-4, 1},
+                                             0.3,       false,     "width along the tangent"};
+inline constexpr Parameter alpha_y_parameter{"alpha_y", {1e-4, 4}, {1e-4, 1},
+                                             0.3,       false,     "width along the bitangent"};
+
+/// ln NoH², also near the peak, where NoH has lost its digits.
+template <Real B>
+B log_cos2_theta_h(const Angles<B>& a) {
+  return log_near_one<B>(max<B>(square(a.noh), square(small<B>())), -a.sin2_theta_h);
+}
+
+/// Blinn–Phong with the exponent p that gives it the peak, and for smooth surfaces the shape, of
+/// Beckmann's.
+///
+///   D = (p + 2)/(2π) NoH^p = NoH^p / (π α²),   p = 2/α² − 2                [Walter 2007, Eq. 30]
+template <Real T>
+struct BlinnPhong {
+  static constexpr About about{"ndf.blinn_phong",
+                               "Blinn–Phong",
+                               "D = (p + 2)/(2π) NoH^p, p = 2/α² − 2",
+                               "Blinn 1977; Walter et al. 2007, Eq. 30 and after",
+                               "002",
+                               "Unreal Engine 4 (D_Blinn)"};
+  static constexpr std::array parameters{alpha_parameter};
+
+  T half_p, peak;
+
+  explicit BlinnPhong(std::span<const T, 1> p)
+      : half_p((1 - p[0]) * (1 + p[0]) / square(p[0])),
+        peak(1 / (pi<plain_t<T>>() * square(p[0]))) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    return peak * exp(half_p * log_cos2_theta_h(a));
+  }
+};
+
+/// Beckmann: slopes are normally distributed, α √2 times their standard deviation along an axis.
+///
+///   D = e^(−tan²θ_h/α²) / (π α² NoH⁴)                                  [Walter 2007, Eq. 25]
+template <Real T>
+struct Beckmann {
+  static constexpr About about{"ndf.beckmann",
+                               "Beckmann",
+                               "D = exp((NoH² − 1) / (α² NoH²)) / (π α² NoH⁴)",
+                               "Beckmann & Spizzichino 1963; Walter et al. 2007, Eq. 25",
+                               "002",
+                               "Unreal Engine 4 (D_Beckmann), Mitsuba, pbrt-v3"};
+  static constexpr std::array parameters{alpha_parameter};
+
+  T per_alpha2, norm;
+
+  explicit Beckmann(std::span<const T, 1> p)
+      : per_alpha2(1 / square(p[0])), norm(per_alpha2 / pi<plain_t<T>>()) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    const auto per_cos2 = 1 / max<plain_t<T>>(square(a.noh), small<plain_t<T>>());
+    return exp(-(a.sin2_theta_h * per_cos2) * per_alpha2) * norm * square(per_cos2);
+  }
+};
+
+/// GGX (Trowbridge–Reitz).  Its slopes have the density α²/(π (α² + p² + q²)²), Student's t of two
+/// degrees of freedom and not, as is often said, a Cauchy density; they have no standard deviation.
+///
+///   D = α² / (π t²)                                                    [Walter 2007, Eq. 33]
+template <Real T>
+struct Ggx {
+  static constexpr About about{
+      "ndf.ggx",
+      "GGX (Trowbridge–Reitz)",
+      "D = α² / (π (NoH² (α² − 1) + 1)²)",
+      "Trowbridge & Reitz 1975; Walter et al. 2007, Eq. 33",
+      "000 001 002",
+      "Disney, Unreal Engine 4 (D_GGX), Unity, Filament, glTF 2.0, Mitsuba, pbrt"};
+  static constexpr std::array parameters{alpha_parameter};
+
+  T alpha2, num;
+
+  explicit Ggx(std::span<const T, 1> p) : alpha2(square(p[0])), num(alpha2 / pi<plain_t<T>>()) {}
+
+  Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
+    return {num, square(alpha2 * square(a.noh) + a.sin2_theta_h)};
+  }
+};
+
+inline constexpr Parameter gamma_parameter{"gamma", {0.5, 10}, {0.5, 10},
+                                           2,       false,     "tail exponent; 1 Berry, 2 GGX"};
+
+/// Generalised Trowbridge–Reitz with its exact normalisation.
+///
+///   D = N / t^γ,   N = (γ − 1)(α² − 1) / (π (1 − α^(2(1−γ))))          [Burley 2012, App. B]
+///
+/// With L = ln α², E(z) = (eᶻ − 1)/z = eᶻ E(−z) and u = t/α² = cos²θ_h + sin²θ_h/α² the same is
+///
+///   D = E(L) / (π α² E((γ − 1) L)) · u^−γ
+///
+/// E has no hole: neither γ = 1 (Berry, GTR1) nor α = 1 (D = 1/π) is a special case, no digit is
+/// lost near them; and nothing overflows on the way, as α^−2γ does in float.  γ = 2 is GGX.
+template <Real T>
+struct Gtr {
+  static constexpr About about{
+      "ndf.gtr",
+      "Generalised Trowbridge–Reitz, exact normalisation",
+      "D = N / (NoH² (α² − 1) + 1)^γ, N = (γ−1)(α²−1) / (π (1 − α^(2(1−γ)))), limits continued",
+      "Burley 2012, Appendix B",
+      "001 002",
+      ""};
+  static constexpr std::array parameters{alpha_parameter, gamma_parameter};
+
+  T per_alpha2, gamma, peak;
+
+  explicit Gtr(std::span<const T, 2> p)
+      : per_alpha2(1 / square(p[0])), gamma(p[1]), peak(d_at_peak(-log(per_alpha2))) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    return peak * exp(-gamma * log(square(a.noh) + a.sin2_theta_h * per_alpha2));
+  }
+
+ private:
+  T d_at_peak(const T& l) const {
+    return expm1_over<T>(l) * per_alpha2 / (pi<plain_t<T>>() * expm1_over<T>((gamma - 1) * l));
+  }
+};
+
+/// Berry's distribution, GTR of γ = 1: neither its power nor its normalisation needs a function there.
+///
+///   D = (α² − 1)/(π ln α² t)                                           [Burley 2012, App. B]
+template <Real T>
+struct Gtr1 {
+  static constexpr About about{"ndf.gtr1",
+                               "Berry (generalised Trowbridge–Reitz, γ = 1)",
+                               "D = (α² − 1) / (π ln α² (NoH² (α² − 1) + 1))",
+                               "Berry 1923; Burley 2012, Appendix B",
+                               "001",
+                               "Disney (clear coat)"};
+  static constexpr std::array parameters{alpha_parameter};
+
+  T alpha2, num;
+
+  explicit Gtr1(std::span<const T, 1> p)
+      : alpha2(square(p[0])), num(expm1_over<T>(log(alpha2)) / pi<plain_t<T>>()) {}
+
+  Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
+    return {num, alpha2 * square(a.noh) + a.sin2_theta_h};
+  }
+};
+
+}  // namespace gonio::inline GONIO_ARCH

@@ -1,0 +1,173 @@
+#pragma once
+/// \file
+/// Anisotropic normal distributions D(h) [1/sr] with widths α_x along the tangent and α_y along the
+/// bitangent, normalised as those of ndf.h; and what makes one of any shape.
+
+#include "brdf/formula/ndf.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+/// Anisotropic GGX:  D = 1 / (π α_x α_y (XoH²/α_x² + YoH²/α_y² + NoH²)²)   [Burley 2012, Eq. 13]
+template <Real T>
+struct GgxAniso {
+  static constexpr About about{"ndf.ggx_aniso",
+                               "Anisotropic GGX",
+                               "D = 1 / (π αx αy (XoH²/αx² + YoH²/αy² + NoH²)²)",
+                               "Burley 2012, Appendix B; Heitz 2014, section 5.4",
+                               "001 002",
+                               "Disney (GTR2 aniso), Unreal Engine 4, Unity HDRP, Filament, "
+                               "Mitsuba, pbrt"};
+  static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
+  static constexpr bool anisotropic = true;
+
+  T per_x2, per_y2, pi_xy;
+
+  explicit GgxAniso(std::span<const T, 2> p)
+      : per_x2(1 / square(p[0])), per_y2(1 / square(p[1])), pi_xy(pi<plain_t<T>>() * p[0] * p[1]) {}
+
+  Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
+    const T s = square(a.xoh) * per_x2 + square(a.yoh) * per_y2 + square(a.noh);
+    return {T(1), pi_xy * square(s)};
+  }
+};
+
+/// Anisotropic Beckmann:
+///
+///   D = e^(−(XoH²/α_x² + YoH²/α_y²)/NoH²) / (π α_x α_y NoH⁴)
+template <Real T>
+struct BeckmannAniso {
+  static constexpr About about{"ndf.beckmann_aniso",
+                               "Anisotropic Beckmann",
+                               "D = exp(−(XoH²/αx² + YoH²/αy²)/NoH²) / (π αx αy NoH⁴)",
+                               "Ward 1992; Heitz 2014, section 5.4",
+                               "002",
+                               "Mitsuba, pbrt-v3"};
+  static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
+  static constexpr bool anisotropic = true;
+
+  T per_x2, per_y2, norm;
+
+  explicit BeckmannAniso(std::span<const T, 2> p)
+      : per_x2(1 / square(p[0])),
+        per_y2(1 / square(p[1])),
+        norm(1 / (pi<plain_t<T>>() * p[0] * p[1])) {}
+
+  T operator()(const FrameAngles<plain_t<T>>& a) const {
+    const auto per_cos2 = 1 / max<plain_t<T>>(square(a.noh), small<plain_t<T>>());
+    const T x2 = square(a.xoh) * per_cos2 * per_x2 + square(a.yoh) * per_cos2 * per_y2;
+    return exp(-x2) * norm * square(per_cos2);
+  }
+};
+
+/// Anisotropic Beckmann as a shader has it:
+///
+///   d = −(XoH²/α_x² + YoH²/α_y²) / NoH*NoH,   D = e^d / (π α_x α_y NoH⁴)
+///
+/// `/ NoH*NoH` divides by NoH and multiplies by it again, so that the exponent ends at −1/α² where it
+/// should go to −∞: at the horizon D grows as NoH⁻⁴ and ∫ D cos θ dω diverges as NoH⁻² e^(−1/α²).
+/// Smooth surfaces hide it (e^(−1/α²) is 4e-44 at α = 0.1); the seed's author saw 'a strange effect
+/// when roughness grows'.  No bound: the domain is NoH > 0.
+template <Real T>
+struct BeckmannAnisoAsWritten {
+  static constexpr About about{"ndf.beckmann_aniso.as_written",
+                               "Anisotropic Beckmann without its division by NoH²",
+                               "D = exp(−(XoH²/αx² + YoH²/αy²)/NoH*NoH) / (π αx αy NoH⁴)",
+                               "seed 002, D_Beckmann_aniso",
+                               "002",
+                               "",
+                               "",
+                               "ndf.beckmann_aniso"};
+  static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
+  static constexpr bool anisotropic = true;
+  static constexpr bool as_shipped = true;
+
+  T ax, ay;
+
+  explicit BeckmannAnisoAsWritten(std::span<const T, 2> p) : ax(p[0]), ay(p[1]) {}
+
+  T operator()(const FrameAngles<plain_t<T>>& a) const {
+    const auto xoh2 = a.xoh * a.xoh, yoh2 = a.yoh * a.yoh;
+    const T d = -(xoh2 / (ax * ax) + yoh2 / (ay * ay)) / a.noh * a.noh;
+    return exp(d) / (pi<plain_t<T>>() * ax * ay * a.noh * a.noh * a.noh * a.noh);
+  }
+};
+
+// ---- Any shape ----------------------------------------------------------------------------------
+
+/// The distribution that a one-dimensional shape g makes, if widths are only to stretch it:
+///
+///   D = g(x) / (α_x α_y NoH⁴),   x² = tan²θ_h (cos²φ_h/α_x² + sin²φ_h/α_y²)     [Heitz 2014, 5.4]
+///
+/// g is a density of slopes, so 2π ∫ g(x) x dx = 1 makes D normalised at all widths; and Smith's G₁ of
+/// D is that of width 1 with the slope of the direction scaled.  (Seed 001 prints the anisotropic form
+/// with one α too many, in the argument of g.)
+///
+/// Shape: `T log_g(const T& x2) const`, ln g by x².  In logarithms nothing overflows at the horizon.
+template <template <class> class Shape, Real T>
+struct ShapeInvariant {
+  using P = plain_t<T>;
+  Shape<T> shape;
+  T per_x2, per_y2, norm;
+
+  ShapeInvariant(const Shape<T>& s, const T& alpha_x, const T& alpha_y)
+      : shape(s),
+        per_x2(1 / square(alpha_x)),
+        per_y2(1 / square(alpha_y)),
+        norm(1 / (alpha_x * alpha_y)) {}
+  ShapeInvariant(const Shape<T>& s, const T& alpha) : ShapeInvariant(s, alpha, alpha) {}
+
+  /// Isotropic: reads α_x alone.
+  T operator()(const Angles<P>& a) const {
+    const P per_cos2 = 1 / cos2(a);
+    return density(a.sin2_theta_h * per_cos2 * per_x2, a);
+  }
+  T operator()(const FrameAngles<P>& a) const {
+    const P per_cos2 = 1 / cos2(a);
+    return density(square(a.xoh) * per_cos2 * per_x2 + square(a.yoh) * per_cos2 * per_y2, a);
+  }
+
+ private:
+  static P cos2(const Angles<P>& a) { return max<P>(square(a.noh), small<P>()); }
+  T density(const T& x2, const Angles<P>& a) const {
+    return exp(shape.log_g(x2) - 2 * log_near_one<P>(cos2(a), -a.sin2_theta_h)) * norm;
+  }
+};
+
+/// g(x) = (1 + x²/(γ − 1))^−γ / π:  Student's t as a shape of slopes.  γ = 2 is GGX, γ → ∞ Beckmann.
+///                                                                             [Ribardière 2017]
+template <Real T>
+struct StudentShape {
+  T gamma, per_gamma_1, log_pi;
+
+  explicit StudentShape(const T& g)
+      : gamma(g), per_gamma_1(1 / (g - 1)), log_pi(log(pi<plain_t<T>>())) {}
+
+  T log_g(const T& x2) const {
+    const T q = x2 * per_gamma_1;
+    return -gamma * log_near_one<T>(1 + q, q) - log_pi;
+  }
+};
+
+/// The shape-invariant distribution with Student's t for its shape: a tail between those of GGX and
+/// Beckmann for γ > 2, a longer one below.  Normalised as it stands.
+///
+///   D = (1 + x²/(γ − 1))^−γ / (π α_x α_y NoH⁴)
+template <Real T>
+struct StudentT {
+  static constexpr About about{
+      "ndf.shape_invariant", "Shape-invariant with Student's t for its shape",
+      "D = g(x)/(αx αy NoH⁴), x² = (XoH²/αx² + YoH²/αy²)/NoH², g = (1 + x²/(γ−1))^−γ / π",
+      "Heitz 2014, section 5.4; Ribardière et al. 2017 (STD)", "001"};
+  static constexpr std::array parameters{
+      alpha_x_parameter, alpha_y_parameter,
+      Parameter{"gamma", {1.5, 100}, {1.5, 40}, 2, false, "tail exponent; 2 GGX, ∞ Beckmann"}};
+  static constexpr bool anisotropic = true;
+
+  ShapeInvariant<StudentShape, T> d;
+
+  explicit StudentT(std::span<const T, 3> p) : d(StudentShape<T>(p[2]), p[0], p[1]) {}
+
+  T operator()(const FrameAngles<plain_t<T>>& a) const { return d(a); }
+};
+
+}  // namespace gonio::inline GONIO_ARCH

@@ -1,0 +1,135 @@
+// Picks the instruction set at run time.
+#include <initializer_list>
+
+#include "base/error.h"
+#include "brdf/by_hand.h"
+#include "brdf/kernel/kernels.h"
+
+namespace gonio {
+
+#define GONIO_SET(set)                              \
+  namespace set {                                   \
+  extern const Kernels<float> table_float;          \
+  extern const Kernels<double> table_double;        \
+  template <Role role, class F>                     \
+  std::span<const TermKernels<F>> terms_of();       \
+  template <class F>                                \
+  std::span<const FusedKernel<F>> fused_models();   \
+  template <class F>                                \
+  std::span<const HandWritten<F>> models_by_hand(); \
+  template <class F>                                \
+  RootsAndDivision<F> bound_of();                   \
+  }
+#include "instruction_sets.inc"
+#undef GONIO_SET
+
+namespace {
+
+/// A set's kernels with the terms of all roles in one array.
+template <class F>
+struct Assembled {
+  std::vector<TermKernels<F>> terms;
+  Kernels<F> kernels;
+
+  Assembled(const Kernels<F>& columns,
+            std::span<const FusedKernel<F>> fused,
+            std::initializer_list<std::span<const TermKernels<F>>> roles)
+      : kernels(columns) {
+    kernels.fused = fused;
+    for (const auto& role : roles) terms.insert(terms.end(), role.begin(), role.end());
+    kernels.terms = terms;
+  }
+};
+
+struct Set {
+  Assembled<float> f;
+  Assembled<double> d;
+  std::span<const HandWritten<float>> f_by_hand;
+  std::span<const HandWritten<double>> d_by_hand;
+  RootsAndDivision<float> f_bound;
+  RootsAndDivision<double> d_bound;
+};
+
+/// In the order of the build's list: the best last.
+const std::vector<Set>& sets() {
+  static const std::vector<Set> all = [] {
+    std::vector<Set> v;
+#define GONIO_ROLES(set, F)                                                  \
+  {                                                                          \
+    set::terms_of<Role::ndf, F>(), set::terms_of<Role::masking, F>(),        \
+        set::terms_of<Role::fresnel, F>(), set::terms_of<Role::diffuse, F>() \
+  }
+#define GONIO_SET(set)                                                                     \
+  v.push_back({{set::table_float, set::fused_models<float>(), GONIO_ROLES(set, float)},    \
+               {set::table_double, set::fused_models<double>(), GONIO_ROLES(set, double)}, \
+               set::models_by_hand<float>(),                                               \
+               set::models_by_hand<double>(),                                              \
+               set::bound_of<float>(),                                                     \
+               set::bound_of<double>()});
+#include "instruction_sets.inc"
+#undef GONIO_SET
+#undef GONIO_ROLES
+    return v;
+  }();
+  return all;
+}
+
+bool runs_here(std::string_view set) {
+#if defined(__x86_64__)
+  if (set == "avx2") return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (set == "avx512")
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
+           __builtin_cpu_supports("avx512vl");
+#endif
+  static_cast<void>(set);
+  return true;
+}
+
+const Set& find(std::string_view name) {
+  const Set* best = nullptr;
+  for (const auto& s : sets()) {
+    const auto set = s.f.kernels.instruction_set;
+    if (runs_here(set) && (name.empty() || name == set)) best = &s;
+  }
+  if (!best) throw wrong_usage("no instruction set '" + std::string(name) + "' here");
+  return *best;
+}
+
+}  // namespace
+
+template <>
+const Kernels<float>& kernels(std::string_view name) {
+  return find(name).f.kernels;
+}
+template <>
+const Kernels<double>& kernels(std::string_view name) {
+  return find(name).d.kernels;
+}
+
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> names;
+  for (const auto& s : sets())
+    if (const auto name = s.f.kernels.instruction_set; runs_here(name)) names.emplace_back(name);
+  return names;
+}
+
+template <>
+std::span<const HandWritten<float>> hand_written(std::string_view name) {
+  return find(name).f_by_hand;
+}
+template <>
+std::span<const HandWritten<double>> hand_written(std::string_view name) {
+  return find(name).d_by_hand;
+}
+
+template <>
+RootsAndDivision<float> roots_and_division(std::string_view name) {
+  return find(name).f_bound;
+}
+template <>
+RootsAndDivision<double> roots_and_division(std::string_view name) {
+  return find(name).d_bound;
+}
+
+}  // namespace gonio

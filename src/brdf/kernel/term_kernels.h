@@ -1,0 +1,178 @@
+#pragma once
+/// \file
+/// The loops of a term over columns, and the table of a role's terms.  Included by the one file of
+/// each role, compiled per instruction set.
+
+#include <array>
+
+#include "brdf/kernel/lane.h"
+#include "brdf/formula/ndf.h"
+#include "brdf/term/term_list.h"
+#include "number/dual.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+template <template <class> class Term, class F>
+void begin(const Block<F>& x, const F* p, const Join<F>& j) {
+  using B = Lane<F>;
+  const auto term = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto q = as_quotient<B>(term(angles<Term<B>>(x, i)));
+    store<B>(j.out + i, q.num);
+    if constexpr (is_fraction<Term, F>) store<B>(j.out_den + i, q.den);
+  }
+}
+
+template <template <class> class Term, class F, bool over_den>
+void close_over(const Block<F>& x, const F* p, const Join<F>& j) {
+  using B = Lane<F>;
+  const auto term = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto q = as_quotient<B>(term(angles<Term<B>>(x, i)));
+    const B num = load<B>(j.num + i) * q.num;
+    if constexpr (over_den)
+      store<B>(j.out + i, num / (load<B>(j.den + i) * q.den));
+    else if constexpr (is_fraction<Term, F>)
+      store<B>(j.out + i, num / q.den);
+    else
+      store<B>(j.out + i, num);
+  }
+}
+template <template <class> class Term, class F>
+void close(const Block<F>& x, const F* p, const Join<F>& j) {
+  j.den ? close_over<Term, F, true>(x, p, j) : close_over<Term, F, false>(x, p, j);
+}
+
+template <template <class> class Term, class F>
+void with_ggx(const Block<F>& x, const F* ggx, const F* p, F* out) {
+  using B = Lane<F>;
+  const auto d = bind_value<Ggx, F>(ggx);
+  const auto v = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto a = angles<Term<B>>(x, i);
+    const auto e = d(a), q = as_quotient<B>(v(a));
+    store<B>(out + i, e.num * q.num / (e.den * q.den));
+  }
+}
+
+template <template <class> class Term, class F>
+void add(const Block<F>& x, const F* p, const Join<F>& j) {
+  using B = Lane<F>;
+  const auto term = bind_value<Term, F>(p);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>)
+    store<B>(j.out + i,
+             load<B>(j.base + i) + load<B>(j.num + i) * as_value<B>(term(angles<Term<B>>(x, i))));
+}
+
+template <template <class> class Term, class F>
+void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
+  using B = Lane<F>;
+  constexpr std::size_t N = Term<B>::parameters.size();
+  using T = Dual<B, N>;
+  const auto term = bind<Term<T>, T>(p, [](F v, std::size_t k) { return T::variable(B(v), k); });
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const T t = as_value<T>(term(angles<Term<B>>(x, i)));
+    store<B>(value + i, t.v);
+    for (std::size_t k = 0; k < N; ++k) store<B>(d[k] + i, t.d[k]);
+  }
+}
+
+/// What a term of the channels is added to.
+enum class Under { nothing, column, uniform };
+
+template <template <class> class Term, std::size_t channels, class F, Under base, bool coupled>
+void shade_with(const Block<F> x, const ChannelJoin<F> j) {  // copied: stores cannot change them
+  using B = Lane<F>;
+  constexpr bool is_fresnel = role_of(Term<F>::about.id) == Role::fresnel;
+  const auto terms = bind_channels<Term, channels>(j.parameters);
+  std::array<B, channels> under, value;
+  if constexpr (base == Under::uniform)
+    for (std::size_t c = 0; c < channels; ++c) under[c] = B(j.uniform[c]);
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto a = angles<Term<B>>(x, i);
+    B factor;
+    if constexpr (is_fresnel) factor = load<B>(j.factor + i);
+    for (std::size_t c = 0; c < channels; ++c) {
+      if constexpr (base == Under::column) under[c] = load<B>(j.base[c] + i);
+      value[c] = as_value<B>(terms[c](a));
+      if constexpr (coupled)
+        value[c] = (factor - under[c]) * value[c];
+      else if constexpr (is_fresnel)
+        value[c] = factor * value[c];
+      if constexpr (base != Under::nothing) value[c] = under[c] + value[c];
+    }
+    for (std::size_t c = 0; c < channels; ++c) store<B>(j.out[c] + i, value[c]);
+  }
+}
+template <template <class> class Term, std::size_t channels, class F>
+void shade(const Block<F>& x, const ChannelJoin<F>& j) {
+  if constexpr (role_of(Term<F>::about.id) == Role::fresnel) {
+    const auto on = [&]<Under base>() {
+      j.coupled ? shade_with<Term, channels, F, base, true>(x, j)
+                : shade_with<Term, channels, F, base, false>(x, j);
+    };
+    if (j.base[0]) return on.template operator()<Under::column>();
+    if (j.uniform) return on.template operator()<Under::uniform>();
+  }
+  shade_with<Term, channels, F, Under::nothing, false>(x, j);
+}
+template <template <class> class Term, class F>
+F uniform(const F* p) {
+  return bind<Term<F>, F>(p, [](F x, std::size_t) { return x; })(Angles<F>{});
+}
+template <template <class> class Term, class F>
+constexpr auto shades() {
+  std::array<typename TermKernels<F>::Shade, max_channels + 1> by_channels{};
+  constexpr Role role = role_of(Term<F>::about.id);
+  if constexpr (role == Role::fresnel || role == Role::diffuse) {
+    by_channels[1] = shade<Term, 1, F>;
+    by_channels[3] = shade<Term, 3, F>;
+  }
+  return by_channels;
+}
+
+template <template <class> class Term, class F>
+constexpr TermKernels<F> term_entry() {
+  static_assert(Term<F>::parameters.size() <= max_parameters);
+  bool coupled = false;
+  if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
+  void (*ggx_too)(const Block<F>&, const F*, const F*, F*) = nullptr;
+  if constexpr (role_of(Term<F>::about.id) == Role::masking) ggx_too = with_ggx<Term, F>;
+  F (*same_at_all_angles)(const F*) = nullptr;
+  if constexpr (is_uniform<Term<F>>) same_at_all_angles = uniform<Term, F>;
+  return {&Term<F>::about,
+          Term<F>::parameters,
+          coupled,
+          is_anisotropic<Term<F>>,
+          is_as_shipped<Term<F>>,
+          is_fraction<Term, F>,
+          begin<Term, F>,
+          close<Term, F>,
+          add<Term, F>,
+          ggx_too,
+          same_at_all_angles,
+          shades<Term, F>(),
+          derivatives<Term, F>};
+}
+template <class F, template <class> class... Terms>
+constexpr auto term_table(TermList<Terms...>) {
+  return std::array{term_entry<Terms, F>()...};
+}
+
+/// Defined in the file of each role.
+template <Role role, class F>
+std::span<const TermKernels<F>> terms_of();
+
+#define GONIO_TERMS_OF(role, list)                                \
+  template <class F>                                              \
+  constexpr auto table = term_table<F>(list{});                   \
+  template <>                                                     \
+  std::span<const TermKernels<float>> terms_of<role, float>() {   \
+    return table<float>;                                          \
+  }                                                               \
+  template <>                                                     \
+  std::span<const TermKernels<double>> terms_of<role, double>() { \
+    return table<double>;                                         \
+  }
+
+}  // namespace gonio::inline GONIO_ARCH

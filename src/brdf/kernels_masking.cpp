@@ -1,9 +1,0 @@
-// Compiled once per instruction set (GONIO_ARCH): the loops of the masking and shadowing.
-#include "brdf/masking_terms.h"
-#include "brdf/term_kernels.h"
-
-namespace gonio::inline GONIO_ARCH {
-
-GONIO_TERMS_OF(Role::masking, MaskingTerms)
-
-}  // namespace gonio::inline GONIO_ARCH

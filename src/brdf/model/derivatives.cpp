@@ -1,0 +1,123 @@
+#include "brdf/model/derivatives.h"
+
+#include <algorithm>
+
+namespace gonio {
+namespace {
+
+template <class F>
+const F* derivative(const DualColumn<F>& a, std::size_t slot) {
+  const auto it = std::ranges::find(a.d, slot, &std::pair<std::size_t, const F*>::first);
+  return it == a.d.end() ? nullptr : it->second;
+}
+
+}  // namespace
+
+template <class F>
+Plan<F>::Plan(const Model& m, const std::vector<bool>& free, const Kernels<F>& k)
+    : model_(m), free_(free), k_(k), channel_steps_(m.channels) {
+  std::vector<DualColumn<F>> dv;  // D·V, shared by the channels
+  for (const auto& l : m.lobes) {
+    const auto d = term(l.ndf, 0);
+    dv.push_back(product(d, term(l.masking, 0)));
+  }
+
+  const std::size_t shared = next_;
+  std::size_t used = next_;
+  for (std::size_t c = 0; c < m.channels; ++c) {
+    next_ = shared;  // the next channel takes the same columns
+    into_ = &channel_steps_[c];
+    DualColumn<F> f, coupled;
+    const auto add = [&](DualColumn<F>& to, const DualColumn<F>& x) {
+      to = to.value ? sum(to, x, scratch_.ones()) : x;
+    };
+    for (const auto& t : m.diffuse) {
+      const auto x = term(t, c);
+      add(f, x);
+      if (k_.terms[t.term].coupled) add(coupled, x);
+    }
+    for (std::size_t l = 0; l < m.lobes.size(); ++l) {
+      const bool under = l == 0 && coupled.value;
+      const auto factor = under ? sum(dv[l], coupled, scratch_.minus_ones()) : dv[l];
+      add(f, product(factor, term(m.lobes[l].fresnel, c)));
+    }
+    channels_.push_back(std::move(f));
+    used = std::max(used, next_);
+  }
+  next_ = used;
+}
+
+template <class F>
+void Plan<F>::set(std::span<const F> values) {
+  for (auto& g : parameters_)
+    for (std::size_t i = 0; i < g.slots.size(); ++i) g.p[i] = values[g.slots[i]];
+}
+
+template <class F>
+DualColumn<F> Plan<F>::term(const TermUse& t, std::size_t c) {
+  Gathered& gathered = parameters_.emplace_back();
+  std::array<F*, max_parameters> d{};
+  F* const value = fresh();
+  DualColumn<F> r{value, {}};
+  for (std::size_t i = 0; i < t.parameters.size(); ++i) {
+    const std::size_t slot = model_.parameters[t.parameters[i]].slot(c);
+    gathered.slots.push_back(slot);
+    d[i] = fresh();
+    if (free_[slot]) r.d.emplace_back(slot, d[i]);
+  }
+  into_->push_back([=, p = gathered.p.data(), f = k_.terms[t.term].derivatives](const Block<F>& b) {
+    f(b, p, value, d.data());
+  });
+  return r;
+}
+
+/// (a·b)' = a'·b + a·b'
+template <class F>
+DualColumn<F> Plan<F>::product(const DualColumn<F>& a, const DualColumn<F>& b) {
+  DualColumn<F> r{times(a.value, b.value), {}};
+  for (const auto& [slot, da] : a.d) {
+    const F* const db = derivative(b, slot);
+    r.d.emplace_back(slot, db ? times_sum(da, b.value, a.value, db) : times(da, b.value));
+  }
+  for (const auto& [slot, db] : b.d)
+    if (!derivative(a, slot)) r.d.emplace_back(slot, times(a.value, db));
+  return r;
+}
+
+template <class F>
+DualColumn<F> Plan<F>::sum(const DualColumn<F>& a, const DualColumn<F>& b, const F* sign) {
+  DualColumn<F> r = a;
+  r.value = plus(a.value, b.value, sign);
+  for (const auto& [slot, db] : b.d) {
+    const auto it = std::ranges::find(r.d, slot, &std::pair<std::size_t, const F*>::first);
+    if (it == r.d.end())
+      r.d.emplace_back(slot, sign == scratch_.ones() ? db : times(db, sign));
+    else
+      it->second = plus(it->second, db, sign);
+  }
+  return r;
+}
+
+template <class F>
+const F* Plan<F>::times(const F* a, const F* b) {
+  F* const r = fresh();
+  into_->push_back([=, f = k_.product](const Block<F>& x) { f(x.n, a, b, r); });
+  return r;
+}
+template <class F>
+const F* Plan<F>::times_sum(const F* a, const F* b, const F* c, const F* d) {
+  F* const r = fresh();
+  into_->push_back([=, f = k_.product_sum](const Block<F>& x) { f(x.n, a, b, c, d, r); });
+  return r;
+}
+template <class F>
+const F* Plan<F>::plus(const F* a, const F* b, const F* sign) {
+  F* const r = fresh();
+  into_->push_back([=, f = k_.add_product](const Block<F>& x) { f(x.n, a, b, sign, r); });
+  return r;
+}
+
+template class Plan<float>;
+template class Plan<double>;
+
+}  // namespace gonio

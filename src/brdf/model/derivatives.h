@@ -1,0 +1,81 @@
+#pragma once
+/// \file
+/// A composed model with its derivatives, block by block: the product rule over columns.
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "brdf/model/evaluate.h"
+#include "brdf/kernel/kernels.h"
+#include "brdf/model/model.h"
+
+namespace gonio {
+
+/// A value column and its derivative columns, each with the value slot it belongs to.
+template <class F>
+struct DualColumn {
+  const F* value = nullptr;
+  std::vector<std::pair<std::size_t, const F*>> d;
+};
+
+/// Writes down once what is to be done to every block (the scratch columns are the same each time,
+/// so a step is a kernel with the columns it reads and writes), then does it.  Not shared by threads.
+///
+///   f_c = Σ D V F_c + Σ diffuse_c,   with coupled diffuse:  F_c (D V − coupled_c) + coupled_c
+template <class F>
+class Plan {
+ public:
+  /// \param free  per value slot: whether its derivative is wanted; others are left out
+  Plan(const Model&, const std::vector<bool>& free, const Kernels<F>&);
+  Plan(const Plan&) = delete;
+
+  /// The values, model.value_count of them, of the runs that follow.
+  void set(std::span<const F> values);
+
+  /// The columns of channel c during visit(c) in run().
+  const DualColumn<F>& channel(std::size_t c) const { return channels_[c]; }
+  /// A further scratch column for the visitor, distinct from all that the plan uses.
+  F* fresh() { return scratch_[next_++]; }
+
+  /// The channels share scratch columns, so each is visited before the next is made.
+  template <class Visit>
+  void run(const Block<F>& b, Visit&& visit) const {
+    for (const auto& s : shared_steps_) s(b);
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+      for (const auto& s : channel_steps_[c]) s(b);
+      visit(c);
+    }
+  }
+
+ private:
+  using Step = std::function<void(const Block<F>&)>;
+  DualColumn<F> term(const TermUse&, std::size_t channel);
+  DualColumn<F> product(const DualColumn<F>& a, const DualColumn<F>& b);
+  /// a + sign·b; sign is a column of ones or of minus ones
+  DualColumn<F> sum(const DualColumn<F>& a, const DualColumn<F>& b, const F* sign);
+  const F* times(const F* a, const F* b);
+  const F* times_sum(const F* a, const F* b, const F* c, const F* d);
+  const F* plus(const F* a, const F* b, const F* sign);
+
+  /// A term's parameters and the slots that they are values of.
+  struct Gathered {
+    std::array<F, max_parameters> p{};
+    std::vector<std::size_t> slots;
+  };
+
+  const Model& model_;
+  const std::vector<bool>& free_;
+  const Kernels<F>& k_;
+  Scratch<F> scratch_;
+  std::size_t next_ = Scratch<F>::first_free;
+  std::deque<Gathered> parameters_;  ///< the steps point into it
+  std::vector<Step> shared_steps_;
+  std::vector<std::vector<Step>> channel_steps_;
+  std::vector<Step>* into_ = &shared_steps_;
+  std::vector<DualColumn<F>> channels_;
+};
+
+}  // namespace gonio

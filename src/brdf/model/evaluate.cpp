@@ -1,0 +1,204 @@
+#include "brdf/model/evaluate.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "base/error.h"
+#include "brdf/formula/ndf.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+
+template <class F>
+Column<F> Column<F>::for_overwrite(std::size_t n) {
+  Column c;
+  c.data_.reset(static_cast<F*>(allocate_array(n * sizeof(F))));
+  return c;
+}
+
+template <class F>
+Column<F>::Column(std::size_t n, F fill) : Column(for_overwrite(n)) {
+  std::fill_n(data_.get(), n, fill);
+}
+
+template <class F>
+AngleColumns<F>::AngleColumns(std::size_t n, bool frame)
+    : size_(n), padded_((n + padding - 1) / padding * padding), column_(frame ? 11 : 5) {
+  for (auto& c : column_) {
+    c = Column<F>::for_overwrite(padded_);
+    std::fill(c.data() + n, c.data() + padded_, F(0.5));
+  }
+}
+
+template <class F, std::size_t samples>
+Scratch<F, samples>::Scratch() {
+  std::fill_n((*this)[0], block, F(1));
+  std::fill_n((*this)[1], block, F(0));
+  std::fill_n((*this)[2], block, F(-1));
+}
+
+template <class F, std::size_t samples>
+F* Scratch<F, samples>::operator[](std::size_t i) {
+  while (columns_.size() <= i) columns_.emplace_back(block);
+  return columns_[i].data();
+}
+
+template <class F>
+Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k) : channels_(m.channels) {
+  const auto use = [&](const TermUse& t) {
+    Term term{&k.terms[t.term], {}, {}};
+    for (std::size_t c = 0; c < m.channels; ++c) {
+      auto& slots = term.slots.emplace_back();
+      for (std::size_t i = 0; i < t.parameters.size(); ++i)
+        slots[i] = m.parameters[t.parameters[i]].slot(c);
+    }
+    term.parameters.resize(m.channels);
+    term.count = t.parameters.size();
+    term.is_ggx = term.kernels->about->id == Ggx<F>::about.id;
+    terms_.push_back(std::move(term));
+  };
+  for (const auto& t : m.diffuse) use(t);
+  diffuse_ = terms_.size();
+  assert(diffuse_ <= 1);
+  for (std::size_t t = 0; t < diffuse_; ++t) coupled_ |= terms_[t].kernels->coupled;
+  for (const auto& l : m.lobes)
+    for (const auto* t : {&l.ndf, &l.masking, &l.fresnel}) use(*t);
+  if (has_uniform_diffuse()) uniform_.resize(channels_);
+  if (terms_.size() > max_fused_terms || channels_ > max_channels) return;
+  std::array<std::string_view, max_fused_terms> ids;
+  for (std::size_t t = 0; t < terms_.size(); ++t) ids[t] = terms_[t].kernels->about->id;
+  for (const auto& f : k.fused)
+    if (f.diffuse == diffuse_ && f.ids == ids) fused_ = f.value[channels_];
+  for (std::size_t t = 0; t < terms_.size(); ++t)
+    for (std::size_t c = 0; c < channels_; ++c)
+      arguments_.parameters[t][c] = terms_[t].parameters[c].data();
+}
+
+template <class F>
+void Evaluator<F>::set(std::span<const F> values) {
+  for (auto& t : terms_)
+    for (std::size_t c = 0; c < channels_; ++c)
+      for (std::size_t i = 0; i < t.count; ++i) t.parameters[c][i] = values[t.slots[c][i]];
+  for (std::size_t c = 0; c < uniform_.size(); ++c)
+    uniform_[c] = terms_[0].kernels->uniform(terms_[0].parameters[c].data());
+}
+
+template <class F>
+void Evaluator<F>::operator()(const Block<F>& x, std::span<F* const> out) {
+  if (!fused_) {
+    for (std::size_t at = 0; at < x.n; at += Between::block)
+      compose(x.part(at, std::min(Between::block, x.n - at)), at, out);
+    return;
+  }
+  arguments_.x = x;
+  std::ranges::copy(out, arguments_.out.begin());
+  fused_(arguments_);
+}
+
+template <class F>
+void Evaluator<F>::compose(const Block<F>& x, std::size_t at, std::span<F* const> out) {
+  std::size_t next = Between::first_free;
+  F* const den = scratch_[next++];
+  auto& dv = dv_;  // shared by the channels
+  dv.clear();
+  for (std::size_t t = diffuse_; t < terms_.size(); t += 3) {
+    const Term &d = terms_[t], &v = terms_[t + 1];
+    F* const num = dv.emplace_back(scratch_[next++]);
+    if (d.is_ggx) {
+      v.kernels->with_ggx(x, d.parameters[0].data(), v.parameters[0].data(), num);
+      continue;
+    }
+    d.kernels->begin(x, d.parameters[0].data(), {nullptr, nullptr, nullptr, num, den});
+    v.kernels->close(x, v.parameters[0].data(),
+                     {num, d.kernels->fraction ? den : nullptr, nullptr, num, nullptr});
+  }
+  const std::size_t together = channels_ % 3 == 0 ? 3 : 1;  // as the kernels take them
+  for (std::size_t c = 0; c < channels_; c += together) {
+    ChannelJoin<F> join;
+    const auto shade = [&](const Term& t) {
+      for (std::size_t k = 0; k < together; ++k) join.parameters[k] = t.parameters[c + k].data();
+      t.kernels->shade[together](x, join);
+      std::ranges::copy(join.out, join.base.begin());
+    };
+    for (std::size_t k = 0; k < together; ++k) join.out[k] = out[c + k] + at;
+    if (has_uniform_diffuse())
+      join.uniform = uniform_.data() + c;
+    else if (diffuse_ > 0)
+      shade(terms_[0]);
+    join.coupled = coupled_;
+    for (std::size_t l = 0; l < dv.size(); ++l) {
+      join.factor = dv[l];
+      shade(terms_[diffuse_ + 3 * l + 2]);
+      join.coupled = false;
+    }
+  }
+}
+
+template <class F>
+void evaluate(const Model& m,
+              std::span<const F> values,
+              const Block<F>& x,
+              std::span<F* const> out,
+              const Kernels<F>& k) {
+  Evaluator<F> evaluator(m, k);
+  evaluator.set(values);
+  evaluator(x, out);
+}
+
+namespace {
+
+template <class Row>
+std::vector<std::vector<double>> evaluate_rows(const BoundModel& b, std::span<const Row> angles) {
+  AngleColumns<double> x(angles.size(), b.model.anisotropic);
+  const auto above = [&](std::size_t i) { return angles[i].nol > 0 && angles[i].nov > 0; };
+  constexpr FrameAngles<double> harmless{{0.5, 0.5, 0.5, 0.5, 0.75}, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    if (above(i))
+      x.set(i, angles[i]);
+    else
+      x.set(i, harmless);
+  }
+  std::vector<Column<double>> columns;
+  std::vector<double*> out;
+  for (std::size_t c = 0; c < b.model.channels; ++c) {
+    columns.emplace_back(x.padded());
+    out.push_back(columns.back().data());
+  }
+  evaluate<double>(b.model, b.values, x.block(), out);
+  std::vector<std::vector<double>> f;
+  for (const auto* column : out) {
+    f.emplace_back(column, column + angles.size());
+    for (std::size_t i = 0; i < angles.size(); ++i)
+      if (!above(i)) f.back()[i] = 0;
+  }
+  return f;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> evaluate(const BoundModel& b,
+                                          std::span<const Angles<double>> angles) {
+  if (b.model.anisotropic)
+    throw wrong_usage(
+        fmt::format("model '{}' is anisotropic, and nothing here says how the surface was turned",
+                    b.model.spec));
+  return evaluate_rows(b, angles);
+}
+std::vector<std::vector<double>> evaluate(const BoundModel& b,
+                                          std::span<const FrameAngles<double>> angles) {
+  return evaluate_rows(b, angles);
+}
+
+#define GONIO_INSTANTIATE(F)                                                                     \
+  template class Column<F>;                                                                      \
+  template class AngleColumns<F>;                                                                \
+  template class Scratch<F>;                                                                     \
+  template class Evaluator<F>;                                                                   \
+  template void evaluate(const Model&, std::span<const F>, const Block<F>&, std::span<F* const>, \
+                         const Kernels<F>&);
+template class Scratch<float, Evaluator<float>::Between::block>;
+GONIO_INSTANTIATE(float)
+GONIO_INSTANTIATE(double)
+
+}  // namespace gonio

@@ -1,0 +1,213 @@
+#include "brdf/model/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "brdf/model/presets.h"
+#include "brdf/catalogue/registry.h"
+#include "optics/f0.h"
+#include "optics/refractive_index.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+TermUse use(Model& m,
+            std::size_t term,
+            const std::string& ending,
+            std::span<const std::string> grey) {
+  TermUse t{term, {}};
+  m.anisotropic |= catalogue()[term].anisotropic;
+  for (const auto& p : catalogue()[term].parameters) {
+    const std::string name = std::string(p.name) + ending;
+    const auto known = std::ranges::find(m.parameters, name, &ModelParameter::name);
+    if (known == m.parameters.end()) {
+      const bool coloured = p.per_channel && std::ranges::find(grey, name) == grey.end();
+      const std::size_t count = coloured ? m.channels : 1;
+      t.parameters.push_back(m.parameters.size());
+      m.parameters.push_back({name, &p, m.value_count, count});
+      m.value_count += count;
+    } else {
+      t.parameters.push_back(static_cast<std::size_t>(known - m.parameters.begin()));
+    }
+  }
+  return t;
+}
+
+/// "f0_2" → {"f0", "_2"}
+std::pair<std::string, std::string> split_ending(const std::string& name) {
+  const auto i = name.rfind('_');
+  if (i == std::string::npos || i + 1 == name.size() ||
+      !std::all_of(name.begin() + static_cast<std::ptrdiff_t>(i) + 1, name.end(),
+                   [](char c) { return '0' <= c && c <= '9'; }))
+    return {name, ""};
+  return {name.substr(0, i), name.substr(i)};
+}
+
+const Setting* find(const std::vector<Setting>& s, std::string_view name) {
+  const auto it = std::ranges::find(s, name, &Setting::name);
+  return it == s.end() ? nullptr : &*it;
+}
+void forget(std::vector<Setting>& s, std::string_view name) {
+  std::erase_if(s, [&](const Setting& x) { return x.name == name; });
+}
+
+/// base_color and metallic become f0 and kd under a coupled diffuse; returns the spec to use.
+std::string resolve_base_color(std::string spec, std::vector<Setting>& settings) {
+  const Setting* base = find(settings, "base_color");
+  const Setting* metallic = find(settings, "metallic");
+  if (!base && !metallic) return spec;
+  for (const char* other : {"f0", "kd", "eta", "k", "metal"})
+    if (find(settings, other))
+      throw wrong_usage(fmt::format("base_color and metallic set {} themselves", other));
+  if (!base) throw wrong_usage("metallic needs base_color");
+  if (metallic && metallic->values.size() != 1) throw wrong_usage("metallic is one number");
+  const double m = metallic ? metallic->values[0] : 0;
+  Setting f0{"f0", {}}, kd{"kd", {}};
+  for (const double b : base->values) {
+    if (!(0 <= b && b <= 1 && 0 <= m && m <= 1))
+      throw wrong_usage("base_color and metallic lie in [0, 1]");
+    const auto mapped = F0Metallic<double>::apply(std::array{b, m});
+    f0.values.push_back(mapped[0]);
+    kd.values.push_back(mapped[1]);
+  }
+  forget(settings, "base_color");
+  forget(settings, "metallic");
+  settings.insert(settings.end(), {f0, kd});
+  if (spec.starts_with("lambert+")) spec.replace(0, 7, "lambert.coupled");
+  return spec;
+}
+
+/// Names that stand for others: roughness, f0 of a dielectric, metal.
+void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
+  for (auto& s : settings) {
+    const auto parts = split_ending(s.name);
+    const auto &name = parts.first, &ending = parts.second;
+    const auto replace = [&](const std::string& by, auto&& map) {
+      if (find(settings, by + ending))
+        throw wrong_usage(fmt::format("{} and {} are the same parameter", s.name, by + ending));
+      s.name = by + ending;
+      for (auto& v : s.values) v = map(v);
+    };
+    if (name == "roughness" && m.find("alpha" + ending))
+      replace("alpha", [](double r) { return r < 0 ? r : r * r; });
+    else if (name == "f0" && !m.find(s.name) && m.find("eta" + ending) && !m.find("k" + ending))
+      replace("eta", [](double f0) {
+        if (!(0 <= f0 && f0 < 1)) throw wrong_usage(fmt::format("f0 = {} is outside [0, 1)", f0));
+        return IorFromF0<double>::apply(std::array{f0})[0];
+      });
+  }
+  if (const Setting* s = find(settings, "metal")) {
+    const Material* metal = find_metal(s->text);
+    if (!metal) {
+      std::vector<std::string_view> names;
+      for (const auto& x : metals()) names.push_back(x.symbol);
+      throw wrong_usage(fmt::format("no metal '{}'; known: {}", s->text, fmt::join(names, ", ")));
+    }
+    if (find(settings, "eta") || find(settings, "k")) throw wrong_usage("metal sets eta and k");
+    if (!m.find("eta") || !m.find("k"))
+      throw wrong_usage(
+          fmt::format("metal sets eta and k, but model '{}' has no conductor", m.spec));
+    forget(settings, "metal");
+    Setting eta{"eta", {}}, k{"k", {}};
+    for (const auto& index : metal->rgb())
+      eta.values.push_back(index.n), k.values.push_back(index.k);
+    settings.insert(settings.end(), {eta, k});
+  }
+}
+
+}  // namespace
+
+const ModelParameter* Model::find(std::string_view name) const {
+  const auto it = std::ranges::find(parameters, name, &ModelParameter::name);
+  return it == parameters.end() ? nullptr : &*it;
+}
+
+Model compose(std::string_view spec, std::size_t channels, std::span<const std::string> grey) {
+  Model m;
+  m.spec = spec;
+  m.channels = channels;
+  for (const auto& part : parse_spec(spec)) {
+    if (part.size() == 1) {
+      m.diffuse.push_back(use(m, find_term(part[0], Role::diffuse), "", grey));
+      continue;
+    }
+    const std::string ending = m.lobes.empty() ? "" : fmt::format("_{}", m.lobes.size() + 1);
+    const auto term = [&](std::size_t i, Role role) {
+      return use(m, find_term(part[i], role), ending, grey);
+    };
+    TermUse d = term(0, Role::ndf), v = term(1, Role::masking), f = term(2, Role::fresnel);
+    m.lobes.push_back({std::move(d), std::move(v), std::move(f)});
+  }
+  for (const auto& d : m.diffuse)
+    if (catalogue()[d.term].coupled && m.lobes.empty())
+      throw wrong_usage(fmt::format("model '{}': {} needs a lobe to be coupled to", spec,
+                                    catalogue()[d.term].about->id));
+  for (const auto& name : grey)
+    if (const auto* p = m.find(name); p && !p->about->per_channel)
+      throw wrong_usage(fmt::format("'{}' is no colour: it has one value anyway", name));
+  for (const auto& name : grey)
+    if (!m.find(name))
+      throw wrong_usage(fmt::format("model '{}' has no parameter '{}'", spec, name));
+  return m;
+}
+
+BoundModel bind_model(std::string_view spec,
+                      std::vector<Setting> settings,
+                      std::optional<std::size_t> channels,
+                      std::span<const std::string> grey) {
+  const std::string resolved = resolve_base_color(resolve_preset(spec, settings), settings);
+  if (find(settings, "f0") && find(settings, "eta"))
+    throw wrong_usage("f0 and eta say the same: give one of them");
+  resolve_aliases(compose(resolved, 1), settings);
+  std::size_t longest = 1;
+  for (const auto& s : settings) longest = std::max(longest, s.values.size());
+  const std::size_t n = channels.value_or(longest > 1 ? longest : 3);
+
+  BoundModel b{compose(resolved, n, grey), {}, {}};
+  b.values.resize(b.model.value_count);
+  for (const auto& p : b.model.parameters)
+    std::fill_n(b.values.begin() + static_cast<std::ptrdiff_t>(p.first), p.count, p.about->start);
+  for (const auto& s : settings) {
+    const ModelParameter* p = b.model.find(s.name);
+    if (!p) {
+      std::vector<std::string_view> names;
+      for (const auto& q : b.model.parameters) names.push_back(q.name);
+      throw wrong_usage(fmt::format("model '{}' has no parameter '{}'; it has: {}", resolved,
+                                    s.name, fmt::join(names, ", ")));
+    }
+    if (s.values.size() != 1 && s.values.size() != p->count)
+      throw wrong_usage(
+          fmt::format("{}: {} values where {} fit", s.name, s.values.size(),
+                      p->count == 1 ? std::string("one") : fmt::format("one or {}", p->count)));
+    if (!s.implied) b.given.push_back(p->name);
+    for (std::size_t c = 0; c < p->count; ++c) {
+      const double v = s.values[s.values.size() == 1 ? 0 : c];
+      check_range(*p->about, s.name, v);
+      b.values[p->first + c] = v;
+    }
+  }
+  return b;
+}
+
+std::vector<std::pair<std::string, std::vector<double>>> named_values(const BoundModel& b) {
+  std::vector<std::pair<std::string, std::vector<double>>> all;
+  for (const auto& p : b.model.parameters) {
+    const auto first = b.values.begin() + static_cast<std::ptrdiff_t>(p.first);
+    all.emplace_back(p.name,
+                     std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count)));
+  }
+  return all;
+}
+
+bool is_alpha(std::string_view name) {
+  return name == "alpha" || name.starts_with("alpha_");
+}
+
+std::string roughness_name(std::string_view alpha_name) {
+  return "roughness" + std::string(alpha_name.substr(std::string_view("alpha").size()));
+}
+
+}  // namespace gonio

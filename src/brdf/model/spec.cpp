@@ -1,0 +1,63 @@
+#include "brdf/model/spec.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+
+std::vector<std::vector<std::string>> parse_spec(std::string_view spec) {
+  std::vector<std::vector<std::string>> parts;
+  bool lobe_seen = false;
+  for (const auto& part : split(spec, '+')) {
+    auto names = split(part, '/');
+    if (names.size() != 1 && names.size() != 3)
+      throw wrong_usage(fmt::format(
+          "model '{}': '{}' is neither a diffuse term nor NDF/MASKING/FRESNEL", spec, part));
+    for (const auto& n : names)
+      if (n.empty()) throw wrong_usage(fmt::format("model '{}': a name is missing", spec));
+    if (names.size() == 1 && (lobe_seen || !parts.empty()))
+      throw wrong_usage(fmt::format("model '{}': one diffuse term at most, and first", spec));
+    lobe_seen = lobe_seen || names.size() == 3;
+    parts.push_back(std::move(names));
+  }
+  return parts;
+}
+
+double parse_number(std::string_view text, const std::string& what) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    throw wrong_usage(fmt::format("{}: '{}' is not a number", what, text));
+  return value;
+}
+
+std::vector<Setting> parse_settings(std::span<const std::string> words) {
+  std::vector<Setting> settings;
+  for (const auto& word : words)
+    for (const auto& item : split(word, ',')) {
+      const auto equals = item.find('=');
+      std::string_view value = item;
+      if (equals != std::string::npos) {
+        Setting s{item.substr(0, equals), {}};
+        for (const auto& other : settings)
+          if (other.name == s.name) throw wrong_usage(fmt::format("'{}' is set twice", s.name));
+        settings.push_back(std::move(s));
+        value.remove_prefix(equals + 1);
+      }
+      if (settings.empty())
+        throw wrong_usage(fmt::format("'{}' is not of the form NAME=VALUE", item));
+      auto& s = settings.back();
+      if (s.name == "metal")
+        s.text = value;
+      else
+        s.values.push_back(parse_number(value, s.name));
+    }
+  return settings;
+}
+
+}  // namespace gonio
