@@ -9,14 +9,14 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
-#include "fitting/accumulate.h"
-#include "fitting/assess.h"
-#include "fitting/data.h"
-#include "fitting/problem.h"
-#include "fitting/solve.h"
-#include "fitting/start.h"
-#include "fitting/uncertainty.h"
-#include "fitting/warnings.h"
+#include "fitting/solve/accumulate.h"
+#include "fitting/judge/assess.h"
+#include "fitting/sample/data.h"
+#include "fitting/solve/problem.h"
+#include "fitting/solve/solve.h"
+#include "fitting/solve/start.h"
+#include "fitting/judge/uncertainty.h"
+#include "fitting/judge/warnings.h"
 #include "base/quantile.h"
 
 #include <fmt/format.h>

@@ -8,9 +8,9 @@
 #include "cli/bench.h"
 #include "cli/terminal.h"
 #include "data_synth/synth.h"
-#include "fitting/accumulate.h"
+#include "fitting/solve/accumulate.h"
 #include "fitting/fit.h"
-#include "fitting/plain.h"
+#include "reports/yardstick/plain_fit.h"
 #include "table/format/formats.h"
 
 #include <fcntl.h>

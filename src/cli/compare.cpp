@@ -5,7 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "fitting/assess.h"
+#include "fitting/judge/assess.h"
 #include "fitting/result/document.h"
 #include "table/format/formats.h"
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "fitting/accumulate.h"
-#include "fitting/fit.h"
-#include "fitting/solve.h"
+#include "fitting/solve/accumulate.h"
+#include "fitting/solve/options.h"
+#include "fitting/solve/solve.h"
 
 namespace gonio {
 

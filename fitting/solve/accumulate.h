@@ -10,7 +10,7 @@
 
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/model.h"
-#include "fitting/data.h"
+#include "fitting/sample/data.h"
 
 namespace gonio {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "fitting/assess.h"
-#include "fitting/solve.h"
+#include "fitting/judge/assess.h"
+#include "fitting/solve/solve.h"
 #include "fitting/result/document.h"
 
 namespace gonio {

@@ -1,16 +1,16 @@
 // The sums over columns are the sums over samples, whatever the threads; Ceres sees the same
 // problem.
-#include "fitting/accumulate.h"
+#include "fitting/solve/accumulate.h"
 
 #include <array>
 #include <cmath>
 #include <set>
 
 #include "data_synth/synth.h"
-#include "fitting/assess.h"
+#include "fitting/judge/assess.h"
 #include "fitting/fit.h"
-#include "fitting/solve.h"
-#include "fitting/uncertainty.h"
+#include "fitting/solve/solve.h"
+#include "fitting/judge/uncertainty.h"
 #include "table/format/formats.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Ceres stays in this file (and in plain.cpp, which is measured against it).
-#include "fitting/solve.h"
+#include "fitting/solve/solve.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fitting/uncertainty.h"
+#include "fitting/judge/uncertainty.h"
 
 #include <cmath>
 #include <limits>

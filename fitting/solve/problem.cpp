@@ -1,4 +1,4 @@
-#include "fitting/problem.h"
+#include "fitting/solve/problem.h"
 
 #include <algorithm>
 

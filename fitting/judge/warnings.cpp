@@ -1,4 +1,4 @@
-#include "fitting/warnings.h"
+#include "fitting/judge/warnings.h"
 
 #include <algorithm>
 #include <cmath>

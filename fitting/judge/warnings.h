@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fitting/fit.h"
+#include "fitting/solve/options.h"
 
 namespace gonio {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fitting/accumulate.h"
+#include "fitting/solve/accumulate.h"
 
 namespace gonio {
 

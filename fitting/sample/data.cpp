@@ -1,4 +1,4 @@
-#include "fitting/data.h"
+#include "fitting/sample/data.h"
 
 #include <algorithm>
 #include <array>

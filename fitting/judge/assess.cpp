@@ -1,4 +1,4 @@
-#include "fitting/assess.h"
+#include "fitting/judge/assess.h"
 
 #include <algorithm>
 #include <array>

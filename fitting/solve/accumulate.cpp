@@ -1,4 +1,4 @@
-#include "fitting/accumulate.h"
+#include "fitting/solve/accumulate.h"
 
 #include <algorithm>
 #include <array>

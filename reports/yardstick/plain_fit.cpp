@@ -1,4 +1,4 @@
-#include "fitting/plain.h"
+#include "reports/yardstick/plain_fit.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "fitting/start.h"
+#include "fitting/solve/start.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fitting/sampling.h"
+#include "fitting/sample/sampling.h"
 
 namespace gonio {
 

@@ -3,8 +3,8 @@
 /// Where a fit begins.
 
 #include "brdf/model/model.h"
-#include "fitting/accumulate.h"
-#include "fitting/solve.h"
+#include "fitting/solve/accumulate.h"
+#include "fitting/solve/solve.h"
 
 namespace gonio {
 

@@ -4,8 +4,8 @@
 /// One pass over all samples, each on its own.
 
 #include "brdf/model/model.h"
-#include "fitting/accumulate.h"
-#include "fitting/sampling.h"
+#include "fitting/solve/accumulate.h"
+#include "fitting/sample/sampling.h"
 #include "fitting/result/document.h"
 
 namespace gonio {

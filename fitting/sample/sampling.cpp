@@ -1,4 +1,4 @@
-#include "fitting/sampling.h"
+#include "fitting/sample/sampling.h"
 
 #include <algorithm>
 #include <cmath>
