@@ -29,22 +29,62 @@ target_compile_options(gonio_flags INTERFACE
   $<$<CONFIG:Release>:-O3>
   $<$<BOOL:${GONIO_WERROR}>:-Werror>)
 
-# gonio_room(NAME SOURCES … USES rooms… LIBRARIES others…): a folder as a target with its own
-# include root.  Files are included as "room/file.h"; a room that is not in USES is not found.
-function(gonio_room name)
-  cmake_parse_arguments(room "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
-  set(include_root ${CMAKE_CURRENT_BINARY_DIR}/include)
-  file(MAKE_DIRECTORY ${include_root})
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_root}/${name} SYMBOLIC)
-  list(TRANSFORM room_USES PREPEND gonio::)
+# gonio_room(ROOM USES rooms… LIBRARIES what its headers show… PRIVATE what they do not…): the folder ROOM, as
+# "brdf/formula", as a target with its own include root.  Its sources are all .cpp files in it; its headers are
+# included as "brdf/formula/ndf.h"; those of a room that is not in USES, nor used by one that is, are not found.
+function(gonio_room room)
+  cmake_parse_arguments(room "" "" "SOURCES;USES;LIBRARIES;PRIVATE" ${ARGN})
+  string(REPLACE / _ name gonio_${room})
+  list(TRANSFORM room_USES REPLACE / _)
+  list(TRANSFORM room_USES PREPEND gonio_)
+  get_filename_component(folder ${room} NAME)
+  set(here ${CMAKE_CURRENT_SOURCE_DIR})
+  if(NOT here MATCHES "/${room}$")
+    string(APPEND here /${folder})
+  endif()
+
+  # A link for each header, not one for the folder: through that, the rooms within would be found, too.
+  set(include_root ${PROJECT_BINARY_DIR}/include/${name})
+  file(REMOVE_RECURSE ${include_root})
+  file(MAKE_DIRECTORY ${include_root}/${room})
+  file(GLOB headers CONFIGURE_DEPENDS ${here}/*.h ${here}/*.inc)
+  foreach(header ${headers})
+    get_filename_component(file ${header} NAME)
+    file(CREATE_LINK ${header} ${include_root}/${room}/${file} SYMBOLIC)
+  endforeach()
+
+  file(GLOB sources CONFIGURE_DEPENDS ${here}/*.cpp)
   if(room_SOURCES)
-    add_library(gonio_${name} STATIC ${room_SOURCES})
+    set(sources ${room_SOURCES})
+  endif()
+  if(sources)
+    add_library(${name} STATIC ${sources})
     set(scope PUBLIC)
+    target_link_libraries(${name} PRIVATE ${room_PRIVATE})
   else()
-    add_library(gonio_${name} INTERFACE)
+    add_library(${name} INTERFACE)
     set(scope INTERFACE)
   endif()
-  target_include_directories(gonio_${name} ${scope} ${include_root})
-  target_link_libraries(gonio_${name} ${scope} gonio_flags ${room_USES} ${room_LIBRARIES})
-  add_library(gonio::${name} ALIAS gonio_${name})
+  target_include_directories(${name} ${scope} ${include_root})
+  target_link_libraries(${name} ${scope} gonio_flags ${room_USES} ${room_LIBRARIES})
+endfunction()
+
+# gonio_per_instruction_set(ROOM SOURCES…): the same sources, one set of objects per instruction set, which a source of the
+# room finds by instruction_sets.inc.  "scalar" is the plain reference that the lanes of every other set must equal bit
+# for bit, and what runs where no other set does.
+function(gonio_per_instruction_set room)
+  string(REPLACE / _ name gonio_${room})
+  foreach(set scalar ${GONIO_INSTRUCTION_SETS})
+    add_library(${name}_${set} OBJECT ${ARGN})
+    target_include_directories(${name}_${set} PRIVATE $<TARGET_PROPERTY:${name},INCLUDE_DIRECTORIES>)
+    target_link_libraries(${name}_${set} PRIVATE gonio_flags)
+    target_compile_definitions(${name}_${set} PRIVATE GONIO_ARCH=${set})
+    target_compile_options(${name}_${set} PRIVATE ${gonio_flags_${set}})
+    target_sources(${name} PRIVATE $<TARGET_OBJECTS:${name}_${set}>)
+    string(APPEND sets "GONIO_SET(${set})\n")
+  endforeach()
+  target_compile_definitions(${name}_scalar PRIVATE GONIO_SCALAR)
+  target_compile_options(${name}_scalar PRIVATE -fno-tree-vectorize)
+  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}/instruction_sets.inc CONTENT "${sets}")
+  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${name})
 endfunction()

@@ -8,16 +8,16 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/quantile.h"
 #include "brdf/catalogue/registry.h"
-#include "fitting/solve/accumulate.h"
 #include "fitting/judge/assess.h"
+#include "fitting/judge/uncertainty.h"
+#include "fitting/judge/warnings.h"
 #include "fitting/sample/data.h"
+#include "fitting/solve/accumulate.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/solve.h"
 #include "fitting/solve/start.h"
-#include "fitting/judge/uncertainty.h"
-#include "fitting/judge/warnings.h"
-#include "base/quantile.h"
 
 #include <fmt/format.h>
 #include <tbb/task_group.h>

@@ -4,9 +4,9 @@
 /// One pass over all samples, each on its own.
 
 #include "brdf/model/model.h"
-#include "fitting/solve/accumulate.h"
-#include "fitting/sample/sampling.h"
 #include "fitting/result/document.h"
+#include "fitting/sample/sampling.h"
+#include "fitting/solve/accumulate.h"
 
 namespace gonio {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fitting/judge/assess.h"
-#include "fitting/solve/solve.h"
 #include "fitting/result/document.h"
+#include "fitting/solve/solve.h"
 
 namespace gonio {
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fitting/result/document.h"
 #include "fitting/solve/options.h"
 
 namespace gonio {

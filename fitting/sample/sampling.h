@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "brdf/model/evaluate.h"
 #include "brdf/kernel/kernels.h"
+#include "brdf/model/evaluate.h"
 #include "table/table.h"
 
 namespace gonio {

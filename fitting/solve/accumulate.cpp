@@ -69,7 +69,7 @@ class FusedPass {
   FusedPass(const Model& m, const FreeSlots& free) : model_(m) {
     if (m.lobes.size() != 1 || m.diffuse.size() > 1 || m.channels > max_channels) return;
     const auto& k = kernels<F>();
-    const auto id = [&](const TermUse& t) { return k.terms[t.term].about->id; };
+    const auto id = [&](const TermUse& t) { return catalogue()[t.term].id(); };
     const Lobe& l = m.lobes[0];
     const std::array lobe{id(l.ndf), id(l.masking), id(l.fresnel)};
     for (const auto& normal : k.normal)

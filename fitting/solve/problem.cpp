@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "brdf/model/presets.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/presets.h"
 #include "table/health/health.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 "use strict";
-// Pictures that are data (reports/figure.h), drawn, with what is under the pointer; their files lie beside the page.
+// Pictures that are data (reports/picture/figure.h), drawn, with what is under the pointer; their files lie beside the page.
 
 const line_colors = ["accent", "red", "green", "extra", "grey", "warn"];
 const line_rounds = [null, [2, 3], [9, 3, 2, 3], [12, 4], [1, 4], [6, 2, 1, 2, 1, 2]];  // of curves that share a colour: the first six, the next …

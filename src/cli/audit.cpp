@@ -1,5 +1,5 @@
 // gonio audit: what every entry of the catalogue keeps and breaks.
-#include "reports/audit.h"
+#include "reports/audit/audit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "cli/terminal.h"
-#include "reports/cost_baseline.h"
+#include "reports/cost/baseline.h"
 
 namespace gonio::cli {
 namespace {

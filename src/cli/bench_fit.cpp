@@ -8,8 +8,8 @@
 #include "cli/bench.h"
 #include "cli/terminal.h"
 #include "data_synth/synth.h"
-#include "fitting/solve/accumulate.h"
 #include "fitting/fit.h"
+#include "fitting/solve/accumulate.h"
 #include "reports/yardstick/plain_fit.h"
 #include "table/format/formats.h"
 

@@ -7,7 +7,7 @@
 #include "cli/fit_files.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
-#include "reports/fit_page.h"
+#include "reports/tables/fit_page.h"
 #include "table/health/health.h"
 
 namespace gonio::cli {

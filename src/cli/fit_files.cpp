@@ -16,7 +16,7 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
-#include "reports/batch_page.h"
+#include "reports/tables/batch_page.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
 

@@ -4,7 +4,7 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
-#include "reports/inspect_page.h"
+#include "reports/tables/inspect_page.h"
 #include "table/format/formats.h"
 #include "table/health/health.h"
 

@@ -1,9 +1,9 @@
 // gonio models: what there is.
-#include "brdf/model/presets.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/presets.h"
 #include "cli/command.h"
-#include "integrate/scattering/compensation.h"
 #include "integrate/light/split_sum.h"
+#include "integrate/scattering/compensation.h"
 #include "optics/refractive_index.h"
 
 #include <nlohmann/json.hpp>

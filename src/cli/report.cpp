@@ -1,6 +1,4 @@
 // gonio report: studies of the shipped approximations, each as data and as a page.
-#include "reports/report.h"
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -12,7 +10,8 @@
 #include "base/file.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "reports/index_page.h"
+#include "reports/index/index_page.h"
+#include "reports/index/kinds.h"
 
 namespace gonio::cli {
 namespace {

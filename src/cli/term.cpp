@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "brdf/catalogue/registry.h"
+#include "brdf/in_number/one_term.h"
 #include "cli/command.h"
 
 #include <nlohmann/json.hpp>

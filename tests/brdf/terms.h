@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "brdf/model/evaluate.h"
-#include "brdf/kernel/kernels.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/kernel/kernels.h"
+#include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
 
 namespace gonio::test {

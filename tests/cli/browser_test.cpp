@@ -6,14 +6,14 @@
 #include <map>
 
 #include "cli/program.h"
-#include "reports/cost_parts.h"
-#include "reports/cross_fit.h"
-#include "reports/energy_parts.h"
-#include "reports/index_page.h"
-#include "reports/page.h"
-#include "reports/page_json.h"
-#include "reports/remap.h"
-#include "reports/schlick.h"
+#include "reports/cost/parts.h"
+#include "reports/cross_fit/cross_fit.h"
+#include "reports/energy/parts.h"
+#include "reports/index/index_page.h"
+#include "reports/page/page.h"
+#include "reports/picture/json_numbers.h"
+#include "reports/remap/remap.h"
+#include "reports/schlick/schlick.h"
 
 namespace gonio::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "cli/program.h"
-#include "reports/figure.h"
+#include "reports/picture/figure.h"
 
 #include <unistd.h>
 

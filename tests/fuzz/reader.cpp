@@ -5,8 +5,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "table/format/formats.h"
-#include "table/health/health.h"
 #include "table/format/metadata.h"
+#include "table/health/health.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "reports/figure.h"
+#include "reports/picture/figure.h"
 
 #include <gtest/gtest.h>
 

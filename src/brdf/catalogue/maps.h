@@ -2,9 +2,9 @@
 /// \file
 /// Every map, once: a new one is its struct and its name here.
 
-#include "brdf/term/map.h"
 #include "brdf/formula/parameter_maps.h"
 #include "brdf/formula/scattering.h"
+#include "brdf/term/map.h"
 #include "optics/f0.h"
 
 namespace gonio::inline GONIO_ARCH {

@@ -1,11 +1,12 @@
 #include "brdf/catalogue/registry.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "brdf/catalogue/catalogue.h"
 #include "brdf/catalogue/maps.h"
 
 #include <fmt/format.h>
@@ -41,46 +42,6 @@ std::size_t distance(std::string_view a, std::string_view b) {
   throw wrong_usage(fmt::format("no {} '{}'; nearest: {}", what, id, fmt::join(names, ", ")));
 }
 
-/// The values of an entry's parameters: those given, else the defaults; refuses what it does not have.
-std::vector<double> resolve(const About& about,
-                            std::span<const Parameter> parameters,
-                            const std::map<std::string, double>& given,
-                            std::vector<std::pair<std::string, double>>& used) {
-  std::vector<double> p;
-  for (const auto& q : parameters) {
-    const auto it = given.find(std::string(q.name));
-    const double v = it == given.end() ? q.start : it->second;
-    check_range(q, q.name, v);
-    p.push_back(v);
-    used.emplace_back(q.name, v);
-  }
-  for (const auto& [name, value] : given)
-    if (std::ranges::none_of(parameters, [&, n = name](const auto& q) { return q.name == n; })) {
-      std::vector<std::string_view> names;
-      for (const auto& q : parameters) names.push_back(q.name);
-      throw wrong_usage(
-          fmt::format("{} has no parameter '{}'; it has: {}", about.id, name,
-                      names.empty() ? "none" : fmt::to_string(fmt::join(names, ", "))));
-    }
-  return p;
-}
-
-/// How many rows columns make, those of one value serving all.
-std::size_t count_rows(const std::map<std::string, std::vector<double>>& at) {
-  std::size_t rows = 1;
-  for (const auto& [name, column] : at) {
-    if (column.size() == 1) continue;
-    if (rows != 1 && rows != column.size())
-      throw wrong_usage(
-          fmt::format("'{}' has {} values where another has {}", name, column.size(), rows));
-    rows = column.size();
-  }
-  return rows;
-}
-double in_row(const std::vector<double>& column, std::size_t row) {
-  return column[column.size() == 1 ? 0 : row];
-}
-
 template <template <class> class Map>
 constexpr MapEntry map_entry() {
   static_assert(MapOver<Map<double>, double>);
@@ -92,30 +53,28 @@ constexpr auto map_table(MapList<M...>) {
 }
 constexpr auto map_entries = map_table(Maps{});
 
+template <template <class> class Term>
+constexpr TermEntry term_entry() {
+  static_assert(TermOver<Term<double>, double>);
+  bool coupled = false;
+  if constexpr (role_of(Term<double>::about.id) == Role::diffuse) coupled = Term<double>::coupled;
+  return {&Term<double>::about,         Term<double>::parameters,    coupled,
+          is_anisotropic<Term<double>>, is_as_shipped<Term<double>>, is_fraction<Term, double>};
+}
+template <template <class> class... Terms>
+constexpr auto term_table(TermList<Terms...>) {
+  return std::array{term_entry<Terms>()...};
+}
+constexpr auto term_entries = term_table(Catalogue{});
+
 }  // namespace
 
-std::span<const TermKernels<double>> catalogue() {
-  return kernels<double>("scalar").terms;
+std::span<const TermEntry> catalogue() {
+  return term_entries;
 }
 
 std::span<const MapEntry> maps() {
   return map_entries;
-}
-
-CatalogueIn catalogue_in(Number number) {
-  switch (number) {
-    case Number::double_:
-      return catalogue_in<Number::double_>();
-    case Number::float_:
-      return catalogue_in<Number::float_>();
-    case Number::half:
-      return catalogue_in<Number::half>();
-    case Number::wide:
-      return catalogue_in<Number::wide>();
-    case Number::mixed:
-      return catalogue_in<Number::mixed>();
-  }
-  return {};
 }
 
 std::size_t find_term(std::string_view id) {
@@ -157,85 +116,6 @@ void check_range(const Parameter& p, std::string_view name, double value) {
   if (!p.legal.holds(value))
     throw wrong_usage(
         fmt::format("{} = {} is outside [{}, {}]", name, value, p.legal.low, p.legal.high));
-}
-
-TermValues evaluate_term(std::size_t term,
-                         Number number,
-                         const std::map<std::string, double>& parameters,
-                         const std::map<std::string, std::vector<double>>& at) {
-  const auto& t = catalogue()[term];
-  TermValues result;
-  const auto p = resolve(*t.about, t.parameters, parameters, result.parameters);
-
-  using Row = FrameAngles<double>;
-  static constexpr std::pair<std::string_view, double Row::*> known[] = {
-      {"nol", &Row::nol}, {"nov", &Row::nov}, {"noh", &Row::noh},
-      {"voh", &Row::voh}, {"cos", &Row::voh}, {"sin2_theta_h", &Row::sin2_theta_h},
-      {"xoh", &Row::xoh}, {"yoh", &Row::yoh}, {"xol", &Row::xol},
-      {"yol", &Row::yol}, {"xov", &Row::xov}, {"yov", &Row::yov}};
-  for (const auto& [name, column] : at) {
-    const auto it = std::ranges::find(known, name, [](const auto& k) { return k.first; });
-    if (it == std::end(known)) {
-      std::vector<std::string_view> names;
-      for (const auto& k : known) names.push_back(k.first);
-      throw wrong_usage(fmt::format("unknown angle '{}'; known: {}", name, fmt::join(names, ", ")));
-    }
-    const double lowest = name.starts_with('x') || name.starts_with('y') ? -1 : 0;
-    for (const double v : column)
-      if (!(lowest <= v && v <= 1))
-        throw wrong_usage(fmt::format("{} = {} is outside [{}, 1]", name, v, lowest));
-  }
-  const std::size_t rows = count_rows(at);
-  if (at.contains("cos") && at.contains("voh")) throw wrong_usage("cos and voh are the same angle");
-
-  std::vector<Row> angles(rows, Row{{1, 1, 1, 1, 0}, 0, 0, 0, 0, 0, 0});
-  for (const auto& [name, column] : at) {
-    const auto member =
-        std::ranges::find(known, name, [](const auto& k) { return k.first; })->second;
-    for (std::size_t i = 0; i < rows; ++i) angles[i].*member = in_row(column, i);
-  }
-  const auto given = [&](const char* x, const char* y) { return at.contains(x) || at.contains(y); };
-  const auto sine = [](double c) { return std::sqrt((1 - c) * (1 + c)); };
-  for (auto& a : angles) {
-    if (!at.contains("sin2_theta_h"))
-      a.sin2_theta_h =
-          given("xoh", "yoh") ? a.xoh * a.xoh + a.yoh * a.yoh : (1 - a.noh) * (1 + a.noh);
-    if (!(a.sin2_theta_h <= 1))
-      throw wrong_usage(fmt::format("xoh = {} and yoh = {}: no unit vector", a.xoh, a.yoh));
-    if (!at.contains("noh")) a.noh = std::sqrt(1 - a.sin2_theta_h);
-    if (!given("xoh", "yoh")) a.xoh = std::sqrt(a.sin2_theta_h);
-    if (!given("xol", "yol")) a.xol = sine(a.nol);
-    if (!given("xov", "yov")) a.xov = sine(a.nov);
-  }
-  result.values.resize(rows);
-  const auto in = catalogue_in(number).terms[term];
-  (in.g2 ? in.g2 : in.values)(p, angles, result.values.data());
-  return result;
-}
-
-MapValues evaluate_map(std::size_t map,
-                       Number number,
-                       const std::map<std::string, double>& parameters,
-                       const std::map<std::string, std::vector<double>>& at) {
-  const auto& m = maps()[map];
-  MapValues result;
-  const auto p = resolve(*m.about, m.parameters, parameters, result.parameters);
-  for (const auto& [name, column] : at) {
-    const auto it = std::ranges::find(m.parameters, name, &Parameter::name);
-    if (it == m.parameters.end())
-      throw wrong_usage(fmt::format("{} does not read '{}'", m.about->id, name));
-    if (parameters.contains(name)) throw wrong_usage(fmt::format("'{}' is set and listed", name));
-    for (const double v : column) check_range(*it, name, v);
-    std::erase_if(result.parameters, [&, n = name](const auto& used) { return used.first == n; });
-  }
-  for (std::size_t row = 0; row < count_rows(at); ++row) {
-    auto q = p;
-    for (std::size_t k = 0; k < q.size(); ++k)
-      if (const auto it = at.find(std::string(m.parameters[k].name)); it != at.end())
-        q[k] = in_row(it->second, row);
-    result.values.push_back(catalogue_in(number).maps[map](q));
-  }
-  return result;
 }
 
 }  // namespace gonio

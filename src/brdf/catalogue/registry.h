@@ -1,20 +1,30 @@
 #pragma once
 /// \file
-/// The catalogue at run time: what terms there are, and one term evaluated on its own.
+/// The catalogue at run time: what terms and maps there are, found by id.
 
-#include <map>
 #include <optional>
-#include <string>
+#include <span>
 #include <string_view>
-#include <vector>
 
-#include "brdf/kernel/kernels.h"
-#include "brdf/in_number/number.h"
+#include "brdf/term/term.h"
 
 namespace gonio {
 
+/// A term of the catalogue: what it says of itself.
+struct TermEntry {
+  const About* about;
+  std::span<const Parameter> parameters;
+  bool coupled;      ///< a diffuse term below the first lobe's interface
+  bool anisotropic;  ///< reads the frame
+  bool as_shipped;   ///< a shader's arithmetic: finite in double, where NoH > 0, but not in fewer
+                     ///< bits
+  bool fraction;     ///< is not divided by itself
+
+  std::string_view id() const { return about->id; }
+  Role role() const { return role_of(about->id); }
+};
 /// Every term, in the order of the catalogue; an index here is an index into Kernels::terms.
-std::span<const TermKernels<double>> catalogue();
+std::span<const TermEntry> catalogue();
 
 /// \param id  with its prefix ("ndf.ggx") or, within a role, without ("ggx")
 /// Throws wrong usage naming the nearest ids, those of maps among them.
@@ -34,32 +44,5 @@ std::optional<std::size_t> find_map(std::string_view id);
 
 /// Refuses a value outside the parameter's legal range, naming the range.
 void check_range(const Parameter& p, std::string_view name, double value);
-
-/// One term at the given angles.  D and F: their value.  A masking term gives G2 = 4 NoL NoV V; with
-/// NoL left at 1, where Λ is 0, that is G1(NoV).  A diffuse term: its value in 1/sr, uncoupled.
-///
-/// Each name of `at` (noh, nol, nov, voh or cos, sin2_theta_h; of the frame xoh, yoh, xol, yol, xov,
-/// yov) is a column; columns of one value serve all rows.  Of h, what is given decides: sin2_theta_h
-/// is xoh² + yoh² or else (1 − noh)(1 + noh), noh is √(1 − sin²θ_h).  A direction of whose frame
-/// nothing is given lies above the tangent.
-struct TermValues {
-  std::vector<std::pair<std::string, double>> parameters;  ///< all of them, defaults included
-  std::vector<double> values;
-};
-TermValues evaluate_term(std::size_t term,
-                         Number number,
-                         const std::map<std::string, double>& parameters,
-                         const std::map<std::string, std::vector<double>>& at);
-
-/// A map row by row: each name of `at` is a parameter with a value per row, columns of one value serve
-/// all rows; the others are as `parameters` or their defaults say.  values: [row][output]
-struct MapValues {
-  std::vector<std::pair<std::string, double>> parameters;
-  std::vector<std::vector<double>> values;
-};
-MapValues evaluate_map(std::size_t map,
-                       Number number,
-                       const std::map<std::string, double>& parameters,
-                       const std::map<std::string, std::vector<double>>& at);
 
 }  // namespace gonio

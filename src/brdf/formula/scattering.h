@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "brdf/term/map.h"
 #include "brdf/formula/ndf.h"
+#include "brdf/term/map.h"
 #include "optics/fresnel_approximate.h"
 
 namespace gonio::inline GONIO_ARCH {

@@ -1,6 +1,7 @@
 // Every term in binary16, rounded after every operation.
-#include "brdf/in_number/terms_in.h"
 #include "number/half.h"
+
+#include "brdf/in_number/terms_in.h"
 
 namespace gonio {
 

@@ -1,6 +1,7 @@
 // Every term in half and float, as a mobile shader declares them.
-#include "brdf/in_number/terms_in.h"
 #include "number/mixed.h"
+
+#include "brdf/in_number/terms_in.h"
 
 namespace gonio {
 inline namespace GONIO_ARCH {

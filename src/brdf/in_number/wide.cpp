@@ -1,10 +1,11 @@
 // Every term in fifty digits.  The only source that pays for Boost.Multiprecision, and compiles
 // each term once.
+#include "number/wide.h"
+
 #include <cmath>
 #include <vector>
 
 #include "brdf/in_number/terms_in.h"
-#include "number/wide.h"
 
 namespace gonio {
 namespace {

@@ -2,23 +2,18 @@
 #include <initializer_list>
 
 #include "base/error.h"
-#include "brdf/by_hand.h"
 #include "brdf/kernel/kernels.h"
 
 namespace gonio {
 
-#define GONIO_SET(set)                              \
-  namespace set {                                   \
-  extern const Kernels<float> table_float;          \
-  extern const Kernels<double> table_double;        \
-  template <Role role, class F>                     \
-  std::span<const TermKernels<F>> terms_of();       \
-  template <class F>                                \
-  std::span<const FusedKernel<F>> fused_models();   \
-  template <class F>                                \
-  std::span<const HandWritten<F>> models_by_hand(); \
-  template <class F>                                \
-  RootsAndDivision<F> bound_of();                   \
+#define GONIO_SET(set)                            \
+  namespace set {                                 \
+  extern const Kernels<float> table_float;        \
+  extern const Kernels<double> table_double;      \
+  template <Role role, class F>                   \
+  std::span<const TermKernels<F>> terms_of();     \
+  template <class F>                              \
+  std::span<const FusedKernel<F>> fused_models(); \
   }
 #include "instruction_sets.inc"
 #undef GONIO_SET
@@ -44,10 +39,6 @@ struct Assembled {
 struct Set {
   Assembled<float> f;
   Assembled<double> d;
-  std::span<const HandWritten<float>> f_by_hand;
-  std::span<const HandWritten<double>> d_by_hand;
-  RootsAndDivision<float> f_bound;
-  RootsAndDivision<double> d_bound;
 };
 
 /// In the order of the build's list: the best last.
@@ -59,13 +50,9 @@ const std::vector<Set>& sets() {
     set::terms_of<Role::ndf, F>(), set::terms_of<Role::masking, F>(),        \
         set::terms_of<Role::fresnel, F>(), set::terms_of<Role::diffuse, F>() \
   }
-#define GONIO_SET(set)                                                                     \
-  v.push_back({{set::table_float, set::fused_models<float>(), GONIO_ROLES(set, float)},    \
-               {set::table_double, set::fused_models<double>(), GONIO_ROLES(set, double)}, \
-               set::models_by_hand<float>(),                                               \
-               set::models_by_hand<double>(),                                              \
-               set::bound_of<float>(),                                                     \
-               set::bound_of<double>()});
+#define GONIO_SET(set)                                                                  \
+  v.push_back({{set::table_float, set::fused_models<float>(), GONIO_ROLES(set, float)}, \
+               {set::table_double, set::fused_models<double>(), GONIO_ROLES(set, double)}});
 #include "instruction_sets.inc"
 #undef GONIO_SET
 #undef GONIO_ROLES
@@ -112,24 +99,6 @@ std::vector<std::string> instruction_sets() {
   for (const auto& s : sets())
     if (const auto name = s.f.kernels.instruction_set; runs_here(name)) names.emplace_back(name);
   return names;
-}
-
-template <>
-std::span<const HandWritten<float>> hand_written(std::string_view name) {
-  return find(name).f_by_hand;
-}
-template <>
-std::span<const HandWritten<double>> hand_written(std::string_view name) {
-  return find(name).d_by_hand;
-}
-
-template <>
-RootsAndDivision<float> roots_and_division(std::string_view name) {
-  return find(name).f_bound;
-}
-template <>
-RootsAndDivision<double> roots_and_division(std::string_view name) {
-  return find(name).d_bound;
 }
 
 }  // namespace gonio

@@ -66,17 +66,10 @@ struct ChannelJoin {
 
 template <class F>
 struct TermKernels {
-  const About* about;
-  std::span<const Parameter> parameters;
-  bool coupled;      ///< a diffuse term below the first lobe's interface
-  bool anisotropic;  ///< reads the frame
-  bool as_shipped;   ///< a shader's arithmetic: finite in double, where NoH > 0, but not in fewer
-                     ///< bits
   using Value = void (*)(const Block<F>&, const F* parameters, const Join<F>&);
-  bool fraction;  ///< is not divided by itself
-  Value begin;    ///< out/out_den = term, still a fraction if it is one
-  Value close;    ///< out = num/den · term, divided
-  Value add;      ///< out = base + num · term
+  Value begin;  ///< out/out_den = term, still a fraction if it is one
+  Value close;  ///< out = num/den · term, divided
+  Value add;    ///< out = base + num · term
   /// Of V: out = D V with GGX's D, which most models have, in one loop; else nullptr
   void (*with_ggx)(const Block<F>&, const F* ggx, const F* parameters, F* out);
   /// f of a diffuse term that is the same at all angles, else nullptr

@@ -37,11 +37,6 @@ auto angles(const Block<F>& x, std::size_t i) {
   return angles_with<is_anisotropic<Term>>(x, i);
 }
 
-/// Whether a term leaves its division to whoever multiplies it.
-template <template <class> class Term, class F>
-inline constexpr bool is_fraction =
-    !std::same_as<decltype(std::declval<Term<F>>()(std::declval<angles_of<Term<F>, F>>())), F>;
-
 template <class Term, class T, class F>
 Term bind(const F* p, auto lift) {
   std::array<T, Term::parameters.size()> a;

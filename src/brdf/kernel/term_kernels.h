@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "brdf/kernel/lane.h"
 #include "brdf/formula/ndf.h"
+#include "brdf/kernel/lane.h"
 #include "brdf/term/term_list.h"
 #include "number/dual.h"
 
@@ -134,25 +134,12 @@ constexpr auto shades() {
 template <template <class> class Term, class F>
 constexpr TermKernels<F> term_entry() {
   static_assert(Term<F>::parameters.size() <= max_parameters);
-  bool coupled = false;
-  if constexpr (role_of(Term<F>::about.id) == Role::diffuse) coupled = Term<F>::coupled;
   void (*ggx_too)(const Block<F>&, const F*, const F*, F*) = nullptr;
   if constexpr (role_of(Term<F>::about.id) == Role::masking) ggx_too = with_ggx<Term, F>;
   F (*same_at_all_angles)(const F*) = nullptr;
   if constexpr (is_uniform<Term<F>>) same_at_all_angles = uniform<Term, F>;
-  return {&Term<F>::about,
-          Term<F>::parameters,
-          coupled,
-          is_anisotropic<Term<F>>,
-          is_as_shipped<Term<F>>,
-          is_fraction<Term, F>,
-          begin<Term, F>,
-          close<Term, F>,
-          add<Term, F>,
-          ggx_too,
-          same_at_all_angles,
-          shades<Term, F>(),
-          derivatives<Term, F>};
+  return {begin<Term, F>,     close<Term, F>,    add<Term, F>,        ggx_too,
+          same_at_all_angles, shades<Term, F>(), derivatives<Term, F>};
 }
 template <class F, template <class> class... Terms>
 constexpr auto term_table(TermList<Terms...>) {

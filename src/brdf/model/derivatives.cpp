@@ -34,7 +34,7 @@ Plan<F>::Plan(const Model& m, const std::vector<bool>& free, const Kernels<F>& k
     for (const auto& t : m.diffuse) {
       const auto x = term(t, c);
       add(f, x);
-      if (k_.terms[t.term].coupled) add(coupled, x);
+      if (catalogue()[t.term].coupled) add(coupled, x);
     }
     for (std::size_t l = 0; l < m.lobes.size(); ++l) {
       const bool under = l == 0 && coupled.value;

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "brdf/model/evaluate.h"
 #include "brdf/kernel/kernels.h"
+#include "brdf/model/evaluate.h"
 #include "brdf/model/model.h"
 
 namespace gonio {

@@ -47,7 +47,7 @@ F* Scratch<F, samples>::operator[](std::size_t i) {
 template <class F>
 Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k) : channels_(m.channels) {
   const auto use = [&](const TermUse& t) {
-    Term term{&k.terms[t.term], {}, {}};
+    Term term{&catalogue()[t.term], &k.terms[t.term], {}, {}};
     for (std::size_t c = 0; c < m.channels; ++c) {
       auto& slots = term.slots.emplace_back();
       for (std::size_t i = 0; i < t.parameters.size(); ++i)
@@ -55,19 +55,19 @@ Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k) : channels_(m.chann
     }
     term.parameters.resize(m.channels);
     term.count = t.parameters.size();
-    term.is_ggx = term.kernels->about->id == Ggx<F>::about.id;
+    term.is_ggx = term.entry->id() == Ggx<F>::about.id;
     terms_.push_back(std::move(term));
   };
   for (const auto& t : m.diffuse) use(t);
   diffuse_ = terms_.size();
   assert(diffuse_ <= 1);
-  for (std::size_t t = 0; t < diffuse_; ++t) coupled_ |= terms_[t].kernels->coupled;
+  for (std::size_t t = 0; t < diffuse_; ++t) coupled_ |= terms_[t].entry->coupled;
   for (const auto& l : m.lobes)
     for (const auto* t : {&l.ndf, &l.masking, &l.fresnel}) use(*t);
   if (has_uniform_diffuse()) uniform_.resize(channels_);
   if (terms_.size() > max_fused_terms || channels_ > max_channels) return;
   std::array<std::string_view, max_fused_terms> ids;
-  for (std::size_t t = 0; t < terms_.size(); ++t) ids[t] = terms_[t].kernels->about->id;
+  for (std::size_t t = 0; t < terms_.size(); ++t) ids[t] = terms_[t].entry->id();
   for (const auto& f : k.fused)
     if (f.diffuse == diffuse_ && f.ids == ids) fused_ = f.value[channels_];
   for (std::size_t t = 0; t < terms_.size(); ++t)
@@ -111,7 +111,7 @@ void Evaluator<F>::compose(const Block<F>& x, std::size_t at, std::span<F* const
     }
     d.kernels->begin(x, d.parameters[0].data(), {nullptr, nullptr, nullptr, num, den});
     v.kernels->close(x, v.parameters[0].data(),
-                     {num, d.kernels->fraction ? den : nullptr, nullptr, num, nullptr});
+                     {num, d.entry->fraction ? den : nullptr, nullptr, num, nullptr});
   }
   const std::size_t together = channels_ % 3 == 0 ? 3 : 1;  // as the kernels take them
   for (std::size_t c = 0; c < channels_; c += together) {

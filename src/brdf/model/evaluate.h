@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/memory.h"
+#include "brdf/catalogue/registry.h"
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/model.h"
 #include "geometry/angles.h"
@@ -104,6 +105,7 @@ class Evaluator {
  private:
   /// A term, and per channel its parameters and which values they are.
   struct Term {
+    const TermEntry* entry;
     const TermKernels<F>* kernels;
     std::vector<std::array<std::size_t, max_parameters>> slots;
     std::vector<std::array<F, max_parameters>> parameters;

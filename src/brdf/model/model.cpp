@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "brdf/model/presets.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/presets.h"
 #include "optics/f0.h"
 #include "optics/refractive_index.h"
 

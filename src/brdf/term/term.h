@@ -17,6 +17,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "geometry/angles.h"
 #include "number/parameter.h"
@@ -65,6 +66,11 @@ inline constexpr bool is_uniform = requires {
 /// What a term is given: the angles of one sample.
 template <class Term, class B>
 using angles_of = std::conditional_t<is_anisotropic<Term>, FrameAngles<B>, Angles<B>>;
+
+/// Whether a term leaves its division to whoever multiplies it.
+template <template <class> class Term, class F>
+inline constexpr bool is_fraction =
+    !std::same_as<decltype(std::declval<Term<F>>()(std::declval<angles_of<Term<F>, F>>())), F>;
 
 template <class Term, class T>
 concept TermOver = Real<T> && requires(const Term t,

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "brdf/formula/masking.h"
 #include "brdf/catalogue/registry.h"
-#include "integrate/rule/cubature.h"
+#include "brdf/formula/masking.h"
 #include "integrate/albedo/directional_albedo.h"
+#include "integrate/rule/cubature.h"
 
 #include <tbb/parallel_for.h>
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "integrate/scattering/microsurface.h"
 #include "integrate/rule/quadrature.h"
 #include "integrate/rule/slopes.h"
+#include "integrate/scattering/microsurface.h"
 
 namespace gonio {
 

@@ -6,11 +6,11 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
-#include "integrate/scattering/azimuth_integral.h"
 #include "integrate/albedo/directional_albedo.h"
-#include "integrate/scattering/microsurface.h"
 #include "integrate/rule/quadrature.h"
 #include "integrate/rule/slopes.h"
+#include "integrate/scattering/azimuth_integral.h"
+#include "integrate/scattering/microsurface.h"
 
 #include <Eigen/Core>
 #include <fmt/format.h>

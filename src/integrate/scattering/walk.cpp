@@ -10,8 +10,8 @@
 #include "brdf/catalogue/registry.h"
 #include "geometry/sampling.h"
 #include "integrate/albedo/directional_albedo.h"
-#include "integrate/scattering/microsurface.h"
 #include "integrate/rule/slopes.h"
+#include "integrate/scattering/microsurface.h"
 #include "integrate/scattering/visible_facets.h"
 
 #include <fmt/format.h>

@@ -10,8 +10,8 @@
 #include <unordered_set>
 
 #include "base/error.h"
-#include "table/format/formats.h"
 #include "base/quantile.h"
+#include "table/format/formats.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -4,9 +4,9 @@
 #include <cstring>
 #include <limits>
 
+#include "base/quantile.h"
 #include "table/health/directional_albedo.h"
 #include "table/health/prospects.h"
-#include "base/quantile.h"
 #include "table/health/reciprocity.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-#include "table/health/health.h"
 #include "base/json_reader.h"
 #include "table/format/metadata.h"
+#include "table/health/health.h"
 
 namespace gonio {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "table/health/health.h"
 #include "base/quantile.h"
+#include "table/health/health.h"
 
 namespace gonio {
 namespace {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <set>
 
-#include "brdf/model/evaluate.h"
 #include "base/quantile.h"
+#include "brdf/model/evaluate.h"
 
 #include <fmt/format.h>
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "brdf/catalogue/registry.h"
+#include "brdf/in_number/one_term.h"
 #include "number/archetype.h"
 #include "number/batch.h"
 #include "number/dual.h"

@@ -138,8 +138,7 @@ TEST(GtrNdf, WithGammaOneIsBerry) {
       EXPECT_NEAR(test::value_of(gtr, {alpha, 1}, at), berry, 64 * eps * berry);
       EXPECT_NEAR(test::value_of(gtr1, {alpha}, at), berry, 64 * eps * berry);
     }
-  for (const auto& at : trapezoid())
-    EXPECT_NEAR(test::value_of(gtr1, {1}, at), 1 / pi, 4 * eps);
+  for (const auto& at : trapezoid()) EXPECT_NEAR(test::value_of(gtr1, {1}, at), 1 / pi, 4 * eps);
 }
 
 TEST(GtrNdf, KeepsItsPeakInFloat) {

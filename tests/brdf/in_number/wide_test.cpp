@@ -1,6 +1,7 @@
 // Terms and what they are made of against textbooks in fifty digits.
 #include "number/wide.h"
 
+#include "brdf/in_number/number.h"
 #include "brdf/terms.h"
 #include "number/dual.h"
 #include "number/special.h"

@@ -4,6 +4,7 @@
 #include <source_location>
 
 #include "base/error.h"
+#include "brdf/in_number/one_term.h"
 #include "brdf/terms.h"
 
 namespace gonio {

@@ -7,10 +7,10 @@
 #include <set>
 
 #include "data_synth/synth.h"
-#include "fitting/judge/assess.h"
 #include "fitting/fit.h"
-#include "fitting/solve/solve.h"
+#include "fitting/judge/assess.h"
 #include "fitting/judge/uncertainty.h"
+#include "fitting/solve/solve.h"
 #include "table/format/formats.h"
 
 #include <gtest/gtest.h>

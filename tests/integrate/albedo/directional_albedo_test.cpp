@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "brdf/model/evaluate.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
 #include "integrate/rule/quadrature.h"
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "brdf/model/evaluate.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
 #include "geometry/sampling.h"
+#include "integrate/lights.h"
 #include "integrate/rule/quadrature.h"
 #include "integrate/rule/slopes.h"
-#include "integrate/lights.h"
 #include "support.h"
 
 namespace gonio {

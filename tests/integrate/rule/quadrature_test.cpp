@@ -10,7 +10,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 class GaussLegendre : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Orders, GaussLegendre,
+INSTANTIATE_TEST_SUITE_P(Orders,
+                         GaussLegendre,
                          testing::Values(1, 2, 3, 4, 7, 8, 16, 33, 64, 128, 255, 256),
                          testing::PrintToStringParamName());
 

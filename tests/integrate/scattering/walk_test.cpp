@@ -4,12 +4,12 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "brdf/model/evaluate.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
 #include "integrate/albedo/directional_albedo.h"
-#include "integrate/scattering/half_space.h"
 #include "integrate/rule/quadrature.h"
+#include "integrate/scattering/half_space.h"
 
 #include <tbb/global_control.h>
 

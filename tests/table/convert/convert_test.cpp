@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "table/example.h"
-#include "support.h"
 #include "base/quantile.h"
+#include "support.h"
+#include "table/example.h"
 
 namespace gonio {
 namespace {

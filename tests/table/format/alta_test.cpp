@@ -3,8 +3,8 @@
 #include <bit>
 
 #include "base/error.h"
-#include "table/foreign.h"
 #include "support.h"
+#include "table/foreign.h"
 #include "table/format/formats.h"
 #include "table/health/health.h"
 

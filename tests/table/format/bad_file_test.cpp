@@ -1,7 +1,7 @@
 // Files that are not what they claim: one error that says so, and never anything else.
+#include "image/exr.h"
 #include "table/complaint.h"
 #include "table/example.h"
-#include "image/exr.h"
 
 namespace gonio {
 namespace {

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "table/example.h"
 #include "support.h"
+#include "table/example.h"
 #include "table/format/delimited.h"
-#include "table/health/health.h"
 #include "table/format/metadata.h"
+#include "table/health/health.h"
 
 namespace gonio {
 namespace {

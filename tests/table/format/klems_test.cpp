@@ -2,11 +2,11 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "table/foreign.h"
 #include "integrate/rule/quadrature.h"
 #include "support.h"
-#include "table/health/directional_albedo.h"
+#include "table/foreign.h"
 #include "table/format/formats.h"
+#include "table/health/directional_albedo.h"
 #include "table/health/health.h"
 
 namespace gonio {

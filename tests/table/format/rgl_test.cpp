@@ -1,10 +1,10 @@
 // RGL's tensor files: what they were made from comes back, at the samples and between them.
 #include "base/error.h"
-#include "table/foreign.h"
 #include "support.h"
 #include "table/convert/convert.h"
-#include "table/health/directional_albedo.h"
+#include "table/foreign.h"
 #include "table/format/formats.h"
+#include "table/health/directional_albedo.h"
 #include "table/health/health.h"
 
 namespace gonio {

@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
-#include "table/example.h"
 #include "support.h"
+#include "table/example.h"
 
 namespace gonio {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "table/example.h"
 #include "support.h"
+#include "table/example.h"
 
 namespace gonio {
 namespace {

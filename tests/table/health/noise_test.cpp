@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "table/example.h"
 #include "support.h"
+#include "table/example.h"
 
 namespace gonio {
 namespace {

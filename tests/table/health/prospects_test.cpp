@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "brdf/model/evaluate.h"
-#include "table/example.h"
 #include "support.h"
+#include "table/example.h"
 
 namespace gonio {
 namespace {

@@ -1,0 +1,112 @@
+#pragma once
+/// \file
+/// What accuracy costs: the time of every term and of whole models, in every number and instruction
+/// set, beside the operations of their formulas and their distance to the truth.
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "number/counted.h"
+#include "reports/finding/report.h"
+#include "reports/measure/machine.h"
+#include "reports/measure/timing.h"
+#include "reports/picture/figure.h"
+
+namespace gonio {
+
+/// How far a form is from the truth that it stands for.
+struct CostError {
+  std::string truth;        ///< what it is held against; empty: nothing
+  std::string measure;      ///< what is compared: "G2", "F" …
+  double max = 0, rms = 0;  ///< of the absolute difference
+  /// Of whole models: what gold seen in even light is off by, at most; not a number: not known
+  double delta_e = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// One entry of the catalogue, or a whole model, in one number, instruction set and place.
+struct CostRow {
+  std::string id;  ///< of a term or a whole model, else the model's spec
+  /// "ndf", "masking", "fresnel", "diffuse", "model"; "by_hand": a model written out by hand; "bound"
+  std::string_view kind;
+  std::string_view number;  ///< "float", "double"
+  std::string isa;          ///< "scalar", "sse2", …
+  /// "cache": columns of few samples; "streaming": columns that no cache of a core holds; those of a
+  /// term may stay in one that all cores share
+  std::string_view memory;
+  /// Of a model: "fused" into one loop, "composed" of columns, "by_hand"; else ""
+  std::string_view way;
+  std::size_t channels;
+  Timing time;            ///< of one sample
+  Operations operations;  ///< of one sample; a term's with its division, which a model makes once
+  std::size_t bytes = 0;  ///< of tables
+  CostError error;
+  /// Not dominated: nothing of its kind, number, set and place is faster by more than both spreads and
+  /// not less accurate.
+  bool pareto = false;
+  /// Something of them is as fast within both spreads, and more accurate; or as accurate, and nearer to
+  /// being faster.
+  bool tie = false;
+};
+
+/// An estimate or a fit by how long it takes.
+struct CostPoint {
+  std::string_view picture;  ///< "compensation", "split_sum", "quadrature", "fit"
+  std::string series, label;
+  Timing time;
+  double error, error_spread;
+  std::size_t operations = 0, bytes = 0;
+  double without_ns = 0;  ///< of a compensation: what the same takes uncompensated
+};
+
+/// What it costs to go from one form to another.
+struct CostSwitch {
+  std::string question;  ///< "Schlick's k to exact Smith, separable"
+  std::string from, to;  ///< ids
+  std::string isa;
+  std::string_view number, memory, way;
+  double ns, ns_spread;         ///< that it takes more
+  double ratio;                 ///< of the times
+  double operations;            ///< that it takes more
+  double error_from, error_to;  ///< RMS; not numbers where they are of different truths
+};
+
+struct CostOptions {
+  bool full = false;
+  TimingOptions timing{7, 1e-3, true};
+  /// Samples of a column: in cache, and streaming.
+  std::size_t cache_samples = 512, stream_samples = std::size_t{1} << 21U;
+  std::string filter{};  ///< ids that hold it; empty: all
+  bool errors = true;    ///< else none is known, which takes seconds less
+};
+/// Quick: streaming in the best instruction set alone; full: in all of them.
+CostOptions cost_options(bool full);
+
+struct CostReport {
+  Machine machine;
+  CostOptions options;
+  std::vector<CostRow> rows;
+  std::vector<CostPoint> points;
+  std::vector<CostSwitch> switches;
+  std::vector<std::string> findings;  ///< sentences
+  std::vector<Claim> claims{};
+  std::vector<Question> questions{};
+};
+
+/// The terms, whole models and bounds.
+std::vector<CostRow> measure_costs(const CostOptions&, const ReportProgress& done = {});
+/// Sets `pareto` and `tie` of rows whose error is known.
+void mark_front(std::vector<CostRow>&);
+
+CostReport cost_report(const CostOptions&, const ReportProgress& done = {});
+
+/// Time against error, and what else is drawn.
+Pictures pictures(const CostReport&);
+/// {"rows": […], …}: flat objects; what is not known is null.
+std::string to_json(const CostReport&);
+/// \param data  of to_json() above
+std::string cost_page_html(std::string_view data);
+
+}  // namespace gonio

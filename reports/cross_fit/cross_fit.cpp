@@ -1,0 +1,122 @@
+#include "reports/cross_fit/cross_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+
+#include "optics/refractive_index.h"
+#include "reports/cross_fit/parts.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio {
+namespace {
+
+/// What is fitted by the other metric and over the other layouts too, on these materials.
+constexpr std::array compared{"exact",
+                              "fresnel.schlick",
+                              "masking.smith_ggx.separable",
+                              "masking.schlick_ggx.half_alpha",
+                              "masking.schlick_ggx.direct",
+                              "masking.ue_joint",
+                              "ndf.gtr",
+                              "ndf.beckmann",
+                              "ndf.blinn_phong",
+                              "model.gltf"};
+constexpr std::array compared_materials{"IOR 1.5", "gold"};
+
+/// A slice and all that is fitted to it.
+struct Scene {
+  const CrossTruth& truth;
+  const FresnelSurface& surface;
+  double roughness;
+  const CrossLayout& layout;
+  bool compared;  ///< of a material where more is looked at
+};
+
+bool holds(auto&& list, std::string_view name) {
+  return std::ranges::find(list, name) != std::end(list);
+}
+
+/// A slice and its fits.
+std::vector<CrossCase> fitted(const Scene& at, const CrossFitOptions& o, double& walk_error) {
+  const auto slice = slice_of(at.truth, at.surface, at.roughness, at.layout, o);
+  walk_error = slice.log_error;
+  const bool other_layout = &at.layout != &cross_layouts[0];
+  std::vector<CrossCase> out;
+  for (const auto& form : cross_forms(at.truth)) {
+    if (form.metals_only && at.surface.kind != "metal") continue;
+    if (form.name != "exact" && !o.forms.empty() && !holds(o.forms, form.name)) continue;
+    const bool more = at.compared && holds(compared, form.name);
+    if (other_layout && !more) continue;
+    for (const Metric metric : {Metric::log, Metric::l2_cosine}) {
+      if (metric != Metric::log && (!more || other_layout)) continue;
+      auto c = fit_case(at.truth, form, at.surface, at.roughness, slice, metric);
+      c.layout = at.layout.name;
+      out.push_back(std::move(c));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+CrossFitOptions cross_fit_options(bool full) {
+  CrossFitOptions o{full,
+                    {},
+                    {1.33, 1.5, 2},
+                    {"Au", "Al", "Cu"},
+                    {1.5, 3},
+                    full ? 45U : 30U,
+                    full ? 2048U : 1024U};
+  const int n = full ? 20 : 10;
+  for (int i = full ? 2 : 1; i <= n; ++i) o.roughness.push_back(static_cast<double>(i) / n);
+  if (full) {
+    o.ior.push_back(2.42);
+    o.metals.insert(o.metals.end(), {"Ag", "Cr"});
+    o.gamma = {1, 1.5, 3, 5};
+  }
+  return o;
+}
+
+CrossFitReport cross_fit_report(const CrossFitOptions& o, const ReportProgress& done) {
+  CrossFitReport r;
+  r.full = o.full;
+  r.roughness = o.roughness;
+  const auto truths = cross_truths(o);
+  std::vector<FresnelSurface> surfaces;
+  for (const double ior : o.ior) surfaces.push_back(dielectric(ior, fmt::format("IOR {:g}", ior)));
+  for (const auto& m : o.metals) surfaces.push_back(metal(*find_metal(m)));
+  for (const auto& s : surfaces) r.materials.push_back(s.material);
+
+  std::vector<Scene> scenes;
+  for (const auto& t : truths)
+    for (const auto& s : surfaces)
+      for (const double roughness : o.roughness)
+        for (const auto& layout : cross_layouts) {
+          const bool more = t.ndf == "ggx" && holds(compared_materials, s.material);
+          if (&layout == &cross_layouts[0] || (more && !t.multiple))
+            scenes.push_back({t, s, roughness, layout, more});
+        }
+
+  std::vector<std::vector<CrossCase>> cases(scenes.size());
+  std::vector<double> walk_errors(scenes.size());
+  std::mutex telling;
+  std::size_t ready = 0;
+  tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
+    cases[i] = fitted(scenes[i], o, walk_errors[i]);
+    const std::lock_guard lock(telling);
+    ++ready;
+    if (done)
+      done("slices fitted", static_cast<double>(ready) / static_cast<double>(scenes.size()));
+  });
+  for (auto& of_one : cases) std::ranges::move(of_one, std::back_inserter(r.cases));
+  r.walk_error = std::ranges::max(walk_errors);
+  add_sentences(r);
+  add_findings(r);
+  return r;
+}
+
+}  // namespace gonio

@@ -1,0 +1,130 @@
+#pragma once
+/// \file
+/// What a fit makes of an approximation: slices synthesized from exact Fresnel facets are fitted with the
+/// shipped forms, and the other parameters absorb what a form gets wrong.
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data_synth/synth.h"
+#include "fitting/fit.h"
+#include "reports/finding/report.h"
+#include "reports/picture/figure.h"
+
+namespace gonio {
+
+/// A surface that is synthesized.
+struct CrossTruth {
+  std::string name;              ///< "GGX", "GGX, all orders", "GTR 1.5"
+  std::string ndf, masking;      ///< without prefix
+  std::vector<Setting> shape{};  ///< gamma
+  bool multiple = false;         ///< light that meets several facets too, see beyond_one_facet()
+};
+
+/// What is fitted to it.
+struct CrossForm {
+  /// "exact", the id of what is exchanged ("masking.ue_joint") or of a preset, or a spec.
+  std::string name;
+  /// What differs from the truth: "exact": nothing; "fresnel", "masking", "distribution": that term
+  /// alone; "combination": several; "model": a whole model, its diffuse included
+  std::string kind;
+  std::string model;  ///< spec or preset; its word "exact" stands for the exact Fresnel term
+  std::vector<Setting> fixed{};
+  double scale = 1;  ///< of the truth: π for what is shipped without the 1/π of a BRDF
+  bool metals_only = false;
+};
+
+/// A parameter of a fit beside its true value.
+struct CrossValue {
+  std::string parameter;  ///< "roughness", "f0", "gamma", "kd"
+  std::string channel;    ///< "red" …; empty: the one there is
+  double truth, fitted;
+  double error;  ///< standard error of `fitted` by that of the truth; 0: the truth is exact
+  ParameterStatus status;
+
+  /// fitted − truth, of F0 as a part of the truth.
+  double shift() const;
+};
+
+/// A form fitted to a truth.
+struct CrossCase {
+  std::string truth, fitted, kind, model;
+  std::string material;
+  double roughness;
+  Metric metric;
+  std::string layout;
+  bool converged;
+  double log_rms;        ///< of ln f − ln truth over all values
+  double log_rms_truth;  ///< of it what is noise of the truth
+  std::vector<CrossValue> values;
+
+  bool is_dielectric() const;  ///< else a metal
+  /// Whether a value is where the data put it: it was not stopped by a bound, or lies at one where the form is
+  /// the truth to the last digits.
+  bool is_determined(const CrossValue&) const;
+  /// nullptr if the model has none.
+  const CrossValue* find(std::string_view parameter, std::string_view channel = {}) const;
+};
+
+/// What a form does to a truth, over materials and roughnesses.
+struct CrossSentence {
+  std::string truth, fitted, kind, sentence;
+};
+
+struct CrossFitReport {
+  std::vector<CrossCase> cases;
+  std::vector<double> roughness;
+  std::vector<std::string> materials;
+  double walk_error = 0;  ///< RMS over values of the standard error of ln f that the walks leave
+  std::vector<CrossSentence> sentences;
+  std::vector<std::string> findings;  ///< sentences
+  bool full = false;
+};
+
+/// Where a truth is sampled: a layout of gonio synth, and up to which angle from the normal its values are
+/// given, to light and viewer alike.
+struct CrossLayout {
+  std::string_view name, what;  ///< in the rows; in words
+  Layout layout;
+  double reach_deg;
+  std::size_t finer = 1;  ///< times the bins of an image slice, along each axis
+};
+/// The first is that of all cases: it resolves every highlight, and holds all angles of the Fresnel term.
+/// Instruments trust nothing nearer to the horizon than some 80°, where forms differ most.
+inline constexpr std::array cross_layouts{
+    CrossLayout{"image_slice", "slice to 80°", Layout::image_slice, 80},
+    CrossLayout{"image_slice_finer", "slice of three times the bins", Layout::image_slice, 80, 3},
+    CrossLayout{"image_slice_whole", "slice to the horizon", Layout::image_slice, 90},
+    CrossLayout{"hemisphere", "hemisphere of six incident angles", Layout::hemisphere, 90}};
+
+/// What is fitted to what.
+struct CrossFitOptions {
+  bool full = false;
+  std::vector<double> roughness;    ///< ascending, in (0, 1]
+  std::vector<double> ior;          ///< of dielectrics
+  std::vector<std::string> metals;  ///< symbols
+  std::vector<double> gamma;        ///< of GTR truths
+  std::size_t bins;                 ///< of a slice, along each axis
+  /// For each value at roughness 1; on smoother surfaces, where few of them meet a second facet, by 1/alpha
+  /// more, up to 16 times.
+  std::size_t walks;
+  std::vector<std::string> forms{};  ///< names of forms, beside "exact"; empty: all
+};
+/// Quick: by 0.1 in roughness; full: by 0.05, and more materials.
+CrossFitOptions cross_fit_options(bool full);
+
+CrossFitReport cross_fit_report(const CrossFitOptions&, const ReportProgress& done = {});
+
+/// What its page shows, by family: maps matrix of quantity and roughness ("all": RMS), truth × form; figures shifts of truth, kind,
+/// material and quantity, compared of form, material and quantity.
+Pictures pictures(const CrossFitReport&);
+
+/// {"rows": […], …}: flat objects; what is not known is null.
+std::string to_json(const CrossFitReport&);
+/// Its data are those of the document but for the rows, which are many: pictures and sentences show them.
+std::string cross_fit_page_html(const CrossFitReport&);
+
+}  // namespace gonio

@@ -1,0 +1,60 @@
+#pragma once
+/// \file
+/// The parts of cross_fit_report().
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/direction.h"
+#include "reports/cross_fit/cross_fit.h"
+#include "reports/measure/surfaces.h"
+#include "table/table.h"
+
+namespace gonio {
+
+/// The truths, and what is fitted to each.
+std::vector<CrossTruth> cross_truths(const CrossFitOptions&);
+std::vector<CrossForm> cross_forms(const CrossTruth&);
+
+/// The model of a truth: its exact Fresnel term is the dielectric's or the conductor's.
+BoundModel bound_truth(const CrossTruth&, const FresnelSurface&, double roughness);
+
+/// Light that has met two facets or more, f − D V F [1/sr], by random walks at each of the pairs, light and
+/// viewer above the horizon: [channel][pair].
+std::vector<std::vector<double>> beyond_one_facet(const BoundModel&,
+                                                  std::span<const DirectionPair>,
+                                                  std::size_t walks,
+                                                  std::uint64_t seed);
+
+/// A truth as a table, and what the walks leave uncertain in it.
+struct CrossSlice {
+  Table table;
+  /// The same with half of the walks; no value: the truth is exact.
+  std::optional<Table> half{};
+  double log_error = 0;  ///< RMS over values of the standard error of ln f
+};
+CrossSlice slice_of(const CrossTruth&,
+                    const FresnelSurface&,
+                    double roughness,
+                    const CrossLayout&,
+                    const CrossFitOptions&);
+
+/// One form fitted to one truth.
+CrossCase fit_case(const CrossTruth&,
+                   const CrossForm&,
+                   const FresnelSurface&,
+                   double roughness,
+                   const CrossSlice&,
+                   Metric);
+
+/// An id without its prefix; what else a form is called by as it is.
+std::string_view short_form(std::string_view name);
+
+/// From what the others have filled in.
+void add_sentences(CrossFitReport&);
+void add_findings(CrossFitReport&);
+
+}  // namespace gonio

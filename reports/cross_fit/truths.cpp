@@ -1,0 +1,108 @@
+// What is synthesized: exact Fresnel facets, once met or as often as light meets them.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrate/scattering/walk.h"
+#include "number/real.h"
+#include "reports/cross_fit/parts.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio {
+namespace {
+
+/// Samples whose light and viewer lie within `reach_deg` of the normal, and above the horizon.
+std::vector<std::size_t> within_reach(const Table& t, double reach_deg) {
+  const SampleAngles at(t);
+  const double least = std::max(std::cos(reach_deg * degree), horizon_cosine);
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (const auto a = at(i); a.nol > least && a.nov > least) out.push_back(i);
+  return out;
+}
+
+/// The table with values at `kept` alone, where `more` [channel][kept] is added.
+Table with(const Table& from,
+           std::span<const std::size_t> kept,
+           const std::vector<std::vector<double>>& more) {
+  Table t = from;
+  for (std::size_t c = 0; c < t.values.size(); ++c) {
+    std::ranges::fill(t.values[c], std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      t.values[c][kept[i]] = from.values[c][kept[i]] + more[c][i];
+  }
+  return t;
+}
+
+}  // namespace
+
+std::vector<CrossTruth> cross_truths(const CrossFitOptions& o) {
+  std::vector<CrossTruth> out{{"GGX", "ggx", "smith_ggx.correlated"},
+                              {"GGX, all orders", "ggx", "smith_ggx.correlated", {}, true}};
+  for (const double gamma : o.gamma)
+    out.push_back(
+        {fmt::format("GTR {:g}", gamma), "gtr", "smith_gtr.correlated", {{"gamma", {gamma}}}});
+  return out;
+}
+
+BoundModel bound_truth(const CrossTruth& t, const FresnelSurface& s, double roughness) {
+  auto settings = t.shape;
+  settings.push_back({"roughness", {roughness}});
+  Setting eta{"eta", {}}, k{"k", {}};
+  for (const auto& i : s.index) eta.values.push_back(i.n), k.values.push_back(i.k);
+  settings.push_back(eta);
+  if (s.kind == "metal") settings.push_back(k);
+  return bind_model(
+      fmt::format("{}/{}/{}", t.ndf, t.masking, s.kind == "metal" ? "conductor" : "dielectric"),
+      settings, s.channels());
+}
+
+std::vector<std::vector<double>> beyond_one_facet(const BoundModel& m,
+                                                  std::span<const DirectionPair> pairs,
+                                                  std::size_t walks,
+                                                  std::uint64_t seed) {
+  std::vector<std::vector<double>> out(m.model.channels, std::vector<double>(pairs.size()));
+  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+    const auto w = walk_value(m, pairs[i].wi, pairs[i].wo, {(seed << 32U) + i, walks});
+    for (std::size_t c = 0; c < out.size(); ++c)
+      for (std::size_t n = 1; n < w.order[c].size(); ++n) out[c][i] += w.order[c][n];
+  });
+  return out;
+}
+
+CrossSlice slice_of(const CrossTruth& t,
+                    const FresnelSurface& s,
+                    double roughness,
+                    const CrossLayout& layout,
+                    const CrossFitOptions& o) {
+  const auto model = bound_truth(t, s, roughness);
+  SynthOptions synth;
+  synth.layout = layout.layout;
+  synth.slice = layout.finer * o.bins;
+  const Table once = synthesize(model, synth);
+  const auto kept = within_reach(once, layout.reach_deg);
+  const std::size_t channels = s.channels();
+  std::vector<std::vector<double>> more(channels, std::vector<double>(kept.size()));
+  if (!t.multiple) return {with(once, kept, more)};
+
+  const SampleAngles at(once);
+  std::vector<DirectionPair> pairs;
+  for (const std::size_t i : kept) pairs.push_back(at.directions(i));
+  const double more_walks = 1 / std::max(square(roughness), 1.0 / 16);
+  const auto half = static_cast<std::size_t>(static_cast<double>(o.walks) * more_walks / 2);
+  const auto first = beyond_one_facet(model, pairs, half, 1),
+             second = beyond_one_facet(model, pairs, half, 2);
+  double sum = 0;
+  for (std::size_t c = 0; c < channels; ++c)
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      more[c][i] = (first[c][i] + second[c][i]) / 2;
+      const double error = (first[c][i] - second[c][i]) / 2;
+      sum += square(error / (once.values[c][kept[i]] + more[c][i]));
+    }
+  return {with(once, kept, more), with(once, kept, first),
+          std::sqrt(sum / static_cast<double>(channels * kept.size()))};
+}
+
+}  // namespace gonio

@@ -1,0 +1,174 @@
+#pragma once
+/// \file
+/// What single scattering loses, per masking, roughness, angle and material, and what gives it back:
+/// every figure a distance to a truth, with the error of both and the cost.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/finding/report.h"
+
+namespace gonio {
+
+/// Where, by roughness, the loss exceeds a share.
+struct Crossing {
+  double share;  ///< 0.01, 0.05, 0.1
+  double mu;     ///< 0: on average over the hemisphere
+  struct Range {
+    double from, to;  ///< the least or the largest roughness looked at: from or up to there and
+                      ///< perhaps beyond
+  };
+  std::vector<Range> ranges;  ///< none: nowhere
+  double error;               ///< of each end
+};
+
+/// A distribution under a masking at F = 1, or a whole model in white.
+struct EnergyForm {
+  std::string name;           ///< what tells it from the others
+  std::string ndf, masking;   ///< ids
+  std::string model{};        ///< id of a whole model, else empty
+  double gamma = 0;           ///< of GTR, else 0
+  double most_roughness = 1;  ///< that it is meant for
+  /// What an engine divides by: π where a shipped formula leaves out 1/π.
+  double divisor = 1;
+
+  struct Average {
+    double roughness, albedo, error;
+  };
+  struct At {
+    double roughness, mu, albedo, error;
+  };
+  std::vector<At> rows{};             ///< roughness by roughness
+  std::vector<Average> averages{};    ///< 2 ∫ E μ dμ
+  std::vector<Crossing> crossings{};  ///< of the loss 1 − E
+};
+
+/// Colours of one microsurface (GGX, Smith correlated), each with its truth.
+struct EnergyMaterial {
+  std::string name;     ///< "F0 = 0.04", "gold, red"
+  std::string fresnel;  ///< id
+
+  struct At {
+    double roughness, mu;  ///< mu 0: the average
+    double truth, error;   ///< all bounces, deterministic, and its bound
+    std::vector<double> orders;
+    struct Scattering {
+      std::string_view id;  ///< "single", "kulla_conty", …
+      double albedo;
+    };
+    std::vector<Scattering> scattering;
+  };
+  std::vector<At> rows;
+  /// Of the loss as a share of what should leave: 1 − E_single / E.
+  std::vector<Crossing> crossings;
+};
+
+/// An estimator of E by how long it takes.
+struct EstimatorPoint {
+  std::string_view estimator;
+  double roughness, mu;
+  double goal;  ///< error asked for, or samples
+  double error,
+      bound;  ///< of the value, RMS over repeats; bound: what it says itself, 0 if it says none
+  double evaluations;    ///< of the model; not a number where it is not the model that is evaluated
+  double ns, ns_spread;  ///< median, and half the distance of the quartiles
+};
+
+/// What a compensation costs where a shader evaluates it.
+struct CompensationCost {
+  std::string_view id;
+  std::size_t operations;  ///< of its formula, tables aside
+  std::size_t lookups;     ///< bilinear, beside those that single scattering needs
+  std::size_t bytes;       ///< of its tables, 32 × 32 in half
+  double without_ns;       ///< D V F of one light and view, or the split sum's F0 A + B
+  double ns, spread_ns;    ///< the same compensated, one at a time in float
+  double worst, rms;       ///< error against the truth over the materials of Schlick's Fresnel
+  std::string worst_at;
+  double gold_rms;  ///< not a number: not for it
+};
+
+/// E(α, NoV) at F = 1 as a shader has it, against quadrature, from roughness 0.05 on.
+struct AlbedoForm {
+  std::string_view id;
+  double worst, rms;
+  std::string worst_at;
+  std::size_t operations, bytes;
+};
+
+/// The split sum's table against quadrature, of A + B.
+struct TableError {
+  std::size_t size;           ///< by size texels
+  std::string_view stored;    ///< "float", "half"
+  double bound;               ///< of the quadrature in any texel
+  double storage;             ///< most that a texel loses when it is stored
+  double lookup, lookup_rms;  ///< bilinear, most and RMS over all NoV and roughness
+  double between;             ///< most between the outermost texels' centres
+};
+/// A and B by importance sampling against quadrature.
+struct TableSamples {
+  std::size_t samples;
+  double a, a_rms, b, b_rms;
+};
+/// Split sum over the integral it stands for − 1, of luminance, over views in an environment.
+struct LitError {
+  std::string environment;
+  double roughness, nov, f0;
+  double rms, max, bias;
+  double of_mean;  ///< RMS of split − exact, over the mean of exact
+  double
+      of_mean_spread;  ///< half of what it differs by between one half of the views and the other
+  double truth;        ///< what each is off by itself, at most
+};
+/// Irradiance by a sum over its exact value − 1, over normals.
+struct IrradianceRow {
+  std::string light;
+  std::string_view rule;
+  std::size_t samples;
+  double rms, max, bias;
+  double ns, spread_ns;  ///< of one normal
+};
+
+struct EnergyReport {
+  std::vector<EnergyForm> forms;
+  std::vector<EnergyMaterial> materials;
+  std::vector<CompensationCost> compensations;
+  std::vector<AlbedoForm> albedo_forms;
+  std::vector<EstimatorPoint> estimators;
+  std::vector<TableError> tables;
+  std::vector<TableSamples> table_samples;
+  std::vector<LitError> lit;  ///< of the environments given
+  std::size_t views = 0;      ///< of each
+  std::vector<IrradianceRow> irradiance;
+  std::vector<std::string> findings;  ///< sentences
+  std::vector<Claim> claims;
+  std::vector<Question> questions;
+  bool full = false;
+};
+
+/// Where everything is measured.
+struct EnergyOptions {
+  bool full = false;
+  std::vector<double> roughness, mu;  ///< ascending, up to 1
+  std::size_t samples;                ///< of estimators by chance, at most
+  std::vector<std::string> forms{};   ///< names; empty: all
+  std::vector<ReportOptions::Light> environments{};
+};
+/// Quick: by 0.05 in roughness and mu; full: by 0.025.
+EnergyOptions energy_options(bool full);
+
+EnergyReport energy_report(const EnergyOptions&, const ReportProgress& done = {});
+
+/// What its page shows, by family: maps loss of form; figures albedo of form, average_loss, bounces, beyond and compensation of material
+/// and angle, compensation_by_angle of material, estimators of roughness and mu, split_sum_samples, irradiance_by_samples and
+/// irradiance_by_time of light.
+Pictures pictures(const EnergyReport&);
+
+/// {"rows": […], …}: flat objects; what is not known is null.
+std::string to_json(const EnergyReport&);
+/// \param data  of to_json() above
+std::string energy_page_html(std::string_view data);
+
+}  // namespace gonio

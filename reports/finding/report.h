@@ -1,0 +1,75 @@
+#pragma once
+/// \file
+/// A report as anyone sees it: its files, its findings, the claims that it judges, the questions it answers.
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "image/environment.h"
+#include "reports/picture/figure.h"
+
+namespace gonio {
+
+struct ReportOptions {
+  bool full = false;  ///< finer, some minutes
+  struct Light {
+    std::string name;
+    Environment map;
+  };
+  std::vector<Light> environments{};  ///< of the reports that light something
+};
+
+/// What is being done, and the part that is done, in [0, 1].
+using ReportProgress = std::function<void(std::string_view, double)>;
+/// Of a part that runs from one share of the whole to another, by what is done of it, in [0, 1].
+/// \param done  must outlive it; may be empty   \param what  plain text that outlives it
+inline std::function<void(double)> part_of(const ReportProgress& done,
+                                           std::string_view what,
+                                           double from,
+                                           double to) {
+  return [&done, what, from, to](double x) {
+    if (done) done(what, from + x * (to - from));
+  };
+}
+
+/// A statement in circulation, judged.
+struct Claim {
+  std::string claim;   ///< the sentence
+  std::string source;  ///< where it stands, "seed 004, D_GGX_R2"; seeds as in the catalogue
+  enum class Judged { holds, partly, fails } judged;
+  std::string verdict;   ///< a sentence with figures
+  std::string anchor{};  ///< of the report's page, where it is shown; empty: its top
+};
+
+/// "holds", "holds in part", "does not hold"
+std::string_view word(Claim::Judged);
+/// "“claim” holds: verdict"
+std::string sentence(const Claim&);
+/// Keeps a claim of a report, and its sentence among the report's findings.
+template <class Report>
+void judge(Report& r,
+           std::string_view claim,
+           std::string_view source,
+           Claim::Judged judged,
+           std::string verdict) {
+  r.claims.push_back({std::string(claim), std::string(source), judged, std::move(verdict)});
+  r.findings.push_back(sentence(r.claims.back()));
+}
+
+/// What readers come with, and where it is answered.
+struct Question {
+  std::string question, answer;  ///< a sentence each
+  std::string anchor{};          ///< as a claim's
+};
+
+struct ReportFiles {
+  std::string json, html;
+  std::vector<std::string> findings;  ///< sentences
+  Pictures pictures{};
+  std::vector<Claim> claims{};
+  std::vector<Question> questions{};
+};
+
+}  // namespace gonio

@@ -1,0 +1,57 @@
+#include "reports/index/kinds.h"
+
+#include <array>
+
+#include "reports/cost/cost.h"
+#include "reports/cross_fit/cross_fit.h"
+#include "reports/energy/energy.h"
+#include "reports/remap/remap.h"
+#include "reports/schlick/schlick.h"
+
+namespace gonio {
+namespace {
+
+template <class Report>
+ReportFiles files(const Report& report, std::string (*page)(std::string_view)) {
+  std::string json = to_json(report);
+  std::string html = page(json);
+  ReportFiles f{std::move(json), std::move(html), report.findings, pictures(report), report.claims};
+  if constexpr (requires { report.questions; }) f.questions = report.questions;
+  return f;
+}
+
+ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {
+  auto options = energy_options(o.full);
+  options.environments = o.environments;
+  return files(energy_report(options, done), energy_page_html);
+}
+ReportFiles remap(const ReportOptions& o, const ReportProgress& done) {
+  return files(remap_report(remap_options(o.full), done), remap_page_html);
+}
+ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
+  return files(schlick_report(schlick_options(o.full), done), schlick_page_html);
+}
+ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
+  const auto report = cross_fit_report(cross_fit_options(o.full), done);
+  return {to_json(report), cross_fit_page_html(report), report.findings, pictures(report)};
+}
+ReportFiles cost(const ReportOptions& o, const ReportProgress& done) {
+  return files(cost_report(cost_options(o.full), done), cost_page_html);
+}
+
+constexpr std::array kinds{
+    ReportKind{"energy", "what single scattering loses, and what gives it back", energy, 25},
+    ReportKind{"remap", "masking forms against exact Smith, and which roughness each behaves like",
+               remap, 3},
+    ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick},
+    ReportKind{"cross_fit", "what fits with shipped approximations make of roughness, F0 and gamma",
+               cross_fit, 60},
+    ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost, 40}};
+
+}  // namespace
+
+std::span<const ReportKind> report_kinds() {
+  return kinds;
+}
+
+}  // namespace gonio

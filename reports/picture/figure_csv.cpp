@@ -1,0 +1,133 @@
+// Pictures, and the rows of a report, as CSV.
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include "reports/picture/figure.h"
+#include "reports/picture/json_numbers.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+/// A field as RFC 4180 has it: in quotes where it must be.
+std::string field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+std::string field(double v) {
+  return std::isfinite(v) ? fmt::format("{:.6g}", v) : "";
+}
+std::string field(const PageJson& v) {
+  if (v.is_null()) return "";
+  if (v.is_string()) return field(std::string_view(v.get_ref<const std::string&>()));
+  if (v.is_number_float()) return field(v.get<double>());
+  return field(std::string_view(v.dump()));
+}
+
+class Line {
+ public:
+  explicit Line(std::string& out) : out_(out) {}
+  template <class T>
+  Line& operator<<(const T& value) {
+    if (!first_) out_ += ',';
+    first_ = false;
+    out_ += field(value);
+    return *this;
+  }
+  ~Line() { out_ += '\n'; }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+ private:
+  std::string& out_;
+  bool first_ = true;
+};
+
+template <class T>
+T at_or(const std::vector<T>& v, std::size_t i, T otherwise) {
+  return i < v.size() ? v[i] : otherwise;
+}
+
+}  // namespace
+
+std::string to_csv(const Figure& f) {
+  bool labels = false, x_errors = false, y_errors = false;
+  for (const auto& c : f.curves) {
+    labels = labels || !c.labels.empty();
+    x_errors = x_errors || !c.x_error.empty();
+    y_errors = y_errors || !c.y_error.empty();
+  }
+  std::string out;
+  {
+    Line head(out);
+    head << std::string_view("curve") << std::string_view(f.x.label) << std::string_view(f.y.label);
+    if (labels) head << std::string_view("label");
+    if (x_errors) head << std::string_view("± " + f.x.label);
+    if (y_errors) head << std::string_view("± " + f.y.label);
+  }
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& c : f.curves)
+    for (std::size_t i = 0; i < c.x.size(); ++i) {
+      if (!std::isfinite(c.x[i]) || !std::isfinite(c.y[i])) continue;
+      Line line(out);
+      line << std::string_view(c.name) << c.x[i] << c.y[i];
+      if (labels) line << std::string_view(at_or(c.labels, i, std::string()));
+      if (x_errors) line << at_or(c.x_error, i, unknown);
+      if (y_errors) line << at_or(c.y_error, i, unknown);
+    }
+  return out;
+}
+
+std::string to_csv(const FigureMap& m) {
+  std::string out;
+  {
+    Line head(out);
+    if (!m.slices.empty()) head << std::string_view("slice");
+    head << std::string_view(m.x.label) << std::string_view(m.y.label) << std::string_view(m.value);
+  }
+  const auto place = [](Line& line, const FigureMap::Axis& axis, std::size_t i) {
+    if (axis.names.empty())
+      line << axis.at[i];
+    else
+      line << std::string_view(axis.names[i]);
+  };
+  const std::size_t cells = m.x.size() * m.y.size();
+  for (std::size_t k = 0; k < m.values.size(); ++k) {
+    if (!std::isfinite(m.values[k])) continue;
+    Line line(out);
+    if (!m.slices.empty()) line << std::string_view(m.slices[k / cells]);
+    place(line, m.x, k % cells / m.y.size());
+    place(line, m.y, k % m.y.size());
+    line << m.values[k];
+  }
+  return out;
+}
+
+std::string rows_csv(const std::string& json) {
+  const auto document = PageJson::parse(json);
+  const auto& rows = document.at("rows");
+  std::vector<std::string> keys;
+  std::map<std::string, std::size_t> known;
+  for (const auto& row : rows)
+    for (const auto& [key, value] : row.items())
+      if (known.emplace(key, keys.size()).second) keys.push_back(key);
+  std::string out;
+  {
+    Line head(out);
+    for (const auto& key : keys) head << std::string_view(key);
+  }
+  for (const auto& row : rows) {
+    Line line(out);
+    for (const auto& key : keys) line << (row.contains(key) ? row[key] : PageJson(nullptr));
+  }
+  return out;
+}
+
+}  // namespace gonio

@@ -1,0 +1,136 @@
+// What is said of the remaps: each k in either use, Schlick's G1, what stands in place of V F.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "brdf/catalogue/registry.h"
+#include "brdf/in_number/one_term.h"
+#include "geometry/half_difference.h"
+#include "reports/remap/parts.h"
+
+namespace gonio {
+namespace {
+
+using namespace remapping;
+
+const std::string separable = "masking.smith_ggx.separable",
+                  correlated = "masking.smith_ggx.correlated",
+                  direct = "masking.schlick_ggx.direct", image = "masking.schlick_ggx.half_alpha";
+
+const RemapForm* form(const RemapReport& r, std::string_view id) {
+  const auto it = std::ranges::find(r.forms, id, &RemapForm::form);
+  return it == r.forms.end() ? nullptr : &*it;
+}
+
+/// h = n.
+Row mirror(double mu) {
+  const double theta = std::acos(mu);
+  return frame_angles({direction(theta, 0), direction(theta, std::numbers::pi)});
+}
+double mirrored(const std::string& id, double roughness, double mu) {
+  const Row row = mirror(mu);
+  return g2_at(find_term(id), roughness, {&row, 1})[0];
+}
+
+void add_uses(RemapReport& report) {
+  const auto *of_separable = form(report, separable), *of_correlated = form(report, correlated);
+  if (!of_separable || !of_correlated) return;
+  for (const auto& id : {direct, image}) {
+    const auto* f = form(report, id);
+    if (!f) continue;
+    for (std::size_t i = 0; i < f->at.size(); ++i) {
+      const double r = f->at[i].roughness;
+      for (std::size_t m = 0; m < report.mu.size(); ++m) {
+        const double mu = report.mu[m];
+        report.uses.push_back({id, "even", mu, r, f->at[i].albedo[m], of_separable->at[i].albedo[m],
+                               of_correlated->at[i].albedo[m]});
+        report.uses.push_back({id, "single", mu, r, mirrored(id, r, mu), mirrored(separable, r, mu),
+                               mirrored(correlated, r, mu)});
+      }
+    }
+  }
+}
+
+/// With NoL = 1, where G1(l) = 1.
+double g1(const std::string& id, double alpha, double nov) {
+  return evaluate_term(find_term(id), Number::double_, {{"alpha", alpha}},
+                       {{"nol", {1}}, {"nov", {nov}}})
+      .values[0];
+}
+
+void add_g1(RemapReport& report) {
+  constexpr double nov = 0.1;
+  for (const auto& [k, claimed] : {std::pair(0.125, 0.47), {0.28125, 0.28}}) {
+    const double r = std::sqrt(8 * k) - 1;
+    // G1 depends on k alone, and alpha = 2k says it; smooth surfaces mask nothing
+    const double least = catalogue()[find_term(separable)].parameters[0].legal.low;
+    report.g1.push_back(
+        {k, nov, claimed, g1(image, 2 * k, nov), r, g1(separable, std::max(r * r, least), nov)});
+  }
+}
+
+struct Fresnel {
+  std::string_view name, id;
+  std::vector<double> parameters;
+  double f0;
+};
+
+/// F0 V' over V F at each row.
+RemapVf ratios(const RemapForm& f,
+               const Fresnel& fresnel,
+               std::string_view over,
+               double roughness,
+               std::span<const Row> rows) {
+  const auto shipped = g2_at(find_term(f.form), roughness, rows),
+             smith = g2_at(find_term(correlated), roughness, rows);
+  std::vector<double> reflected(rows.size());
+  catalogue_in(Number::double_)
+      .terms[find_term(fresnel.id)]
+      .values(fresnel.parameters, rows, reflected.data());
+  RemapVf out{f.form,
+              std::string(fresnel.name),
+              over,
+              roughness,
+              0,
+              0,
+              std::numeric_limits<double>::infinity(),
+              0};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double ratio = fresnel.f0 * shipped[i] / (smith[i] * reflected[i]), ln = std::log(ratio);
+    out.bias += ln;
+    out.factor += ln * ln;
+    out.least = std::min(out.least, ratio);
+    out.most = std::max(out.most, ratio);
+  }
+  const auto n = static_cast<double>(rows.size());
+  out.bias = std::exp(out.bias / n);
+  out.factor = std::exp(std::sqrt(out.factor / n));
+  return out;
+}
+
+void add_vf(RemapReport& report, const RemapOptions& o) {
+  const Fresnel interfaces[] = {{"glass, n = 1.5", "fresnel.dielectric", {1.5}, 0.04},
+                                {"F = 1", "fresnel.constant", {1}, 1}};
+  const Pairs all(all_pairs(report.cosines), o.azimuths);
+  std::vector<Row> mirrors;
+  for (const double c : report.cosines) mirrors.push_back(mirror(c));
+  for (const auto* id :
+       {"masking.unity_mobile", "masking.unity_mobile.urp", "masking.ue_mobile_simple"})
+    if (const auto* f = form(report, id))
+      for (const auto& fresnel : interfaces)
+        for (const double r : o.roughness) {
+          report.vf.push_back(ratios(*f, fresnel, "all", r, all.rows()));
+          report.vf.push_back(ratios(*f, fresnel, "mirror", r, mirrors));
+        }
+}
+
+}  // namespace
+
+void add_claims(RemapReport& report, const RemapOptions& o) {
+  add_uses(report);
+  add_g1(report);
+  add_vf(report, o);
+}
+
+}  // namespace gonio

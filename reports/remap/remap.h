@@ -1,0 +1,115 @@
+#pragma once
+/// \file
+/// What the masking forms of shaders do beside exact Smith: how far G₂ and E are off, and which roughness
+/// of exact Smith each of them behaves like.
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/finding/report.h"
+
+namespace gonio {
+
+/// Cosines at which E is computed, and where directions are compared, are at least this.
+inline constexpr double remap_least_cosine = 0.05;
+
+/// A masking form at one roughness, under the distribution it is for.
+struct RemapForm {
+  std::string form, ndf;       ///< ids
+  std::string formula, ships;  ///< of the catalogue
+  std::size_t operations = 0;  ///< of one sample, all kinds alike
+  std::size_t roots = 0;       ///< square roots among them
+  bool reads_half = false;     ///< VoH or NoH; its G2 is averaged over azimuths
+
+  struct At {
+    double roughness;
+    std::vector<double> albedo;  ///< at RemapOptions::mu, F = 1
+    double error;                ///< of each of them, at most
+    std::vector<double> g2;  ///< over RemapOptions::cosines × same, NoL by NoL; empty: not kept
+  };
+  std::vector<At> at;  ///< roughness by roughness
+};
+
+/// Least squares over a roughness.
+struct NearestRoughness {
+  double roughness;
+  double left;  ///< RMS of what differs there
+  bool at_end;  ///< the best lies at the end of what was looked at: it may be beyond
+};
+
+/// A form against a reference at one roughness.
+struct RemapRow {
+  std::string form, reference;
+  double roughness;
+  /// Of G2 − reference over NoL, NoV in [0.05, 1]², uniform in cosine.
+  double rms, rms_error, bias;
+  double max_rel, max_rel_nol, max_rel_nov;       ///< of |G2 / reference − 1|
+  double albedo, albedo_reference, albedo_error;  ///< at mu = 0.5, F = 1; error: of both together
+  NearestRoughness by_g2;                         ///< of the reference's masking alone
+  NearestRoughness by_albedo;                     ///< of its distribution and masking, over all mu
+};
+
+/// A k of Schlick's form in either use, beside exact Smith.
+struct RemapUse {
+  std::string form;
+  std::string_view light;  ///< "even": E of an even environment, F = 1; "single": G2, l mirroring v
+  double mu, roughness;
+  double value, separable, correlated;
+};
+
+/// Schlick's G1 where the seeds say what it is.
+struct RemapG1 {
+  double k, nov, claimed, value;
+  double roughness;  ///< at which k = (r + 1)²/8
+  double smith;      ///< exact G1 of that roughness
+};
+
+/// What stands in place of V F, over V F of Smith (correlated) and an exact Fresnel term.
+struct RemapVf {
+  std::string form, fresnel;
+  std::string_view over;  ///< "all": NoL, NoV in [0.05, 1]², azimuths even; "mirror": h = n
+  double roughness;
+  double bias, factor;  ///< exp of the mean, of the RMS of ln(ratio)
+  double least, most;   ///< of the ratio
+};
+
+struct RemapReport {
+  std::vector<double> mu, cosines;
+  std::vector<RemapForm> forms;
+  std::vector<RemapRow> rows;
+  std::vector<RemapUse> uses;
+  std::vector<RemapG1> g1;
+  std::vector<RemapVf> vf;
+  std::vector<std::string> findings;  ///< sentences
+  std::vector<Claim> claims;
+  bool full = false;
+};
+
+/// Where everything is measured.
+struct RemapOptions {
+  bool full = false;
+  std::vector<double> roughness;     ///< ascending, up to 1
+  std::vector<double> shown;         ///< of them, those whose G2 is kept for pictures
+  std::size_t azimuths = 32;         ///< over which forms of the half vector are averaged
+  double step = 0.0125;              ///< in roughness, of the references' E; between, E is a line
+  std::vector<std::string> forms{};  ///< ids; empty: all
+};
+/// Quick: by 0.05 in roughness; full: by 0.025, and more azimuths.
+RemapOptions remap_options(bool full);
+
+RemapReport remap_report(const RemapOptions&, const ReportProgress& done = {});
+
+/// What its page shows, by family: maps g2 of form, masking_error of form and reference, both in slices of roughness; figures rms
+/// of distribution and reference, behaves_like of these and by what, furnace of distribution and roughness, each_k of light and
+/// mu, in_place_of_vf of form, fresnel and over.
+Pictures pictures(const RemapReport&);
+
+/// {"rows": […], …}: flat objects; what is not known is null.
+std::string to_json(const RemapReport&);
+/// \param data  of to_json() above
+std::string remap_page_html(std::string_view data);
+
+}  // namespace gonio

@@ -1,0 +1,89 @@
+// What the forms do to a rough surface: its directional albedo with each in place of the exact
+// term.
+#include <algorithm>
+#include <array>
+
+#include "brdf/catalogue/registry.h"
+#include "image/colour_difference.h"
+#include "integrate/albedo/directional_albedo.h"
+#include "optics/spectrum.h"
+#include "reports/schlick/parts.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+constexpr std::array mus{0.1, 0.5, 1.0};
+constexpr Goal goal{1e-6, 400'000};
+constexpr double rough_iors[] = {1.1, 1.33, 1.5, 2, 3};
+
+/// [mu] of GGX under Smith masking, correlated.
+std::vector<Albedo> albedo(std::string_view term,
+                           std::vector<Setting> settings,
+                           double roughness,
+                           std::size_t channels) {
+  settings.push_back({"alpha", {roughness * roughness}});
+  return directional_albedo(bind_model(fmt::format("ggx/smith_ggx.correlated/{}", short_id(term)),
+                                       std::move(settings), channels),
+                            mus, 0, goal);
+}
+
+std::vector<Setting> exact_settings(const FresnelSurface& s) {
+  Setting eta{"eta", {}}, k{"k", {}};
+  for (const auto& i : s.index) eta.values.push_back(i.n), k.values.push_back(i.k);
+  return s.kind == "metal" ? std::vector{eta, k} : std::vector{eta};
+}
+
+/// In the light in which a perfect diffuser is white; of one channel grey.
+Lab seen(const std::vector<double>& albedo) {
+  const std::array rgb{albedo.front(), albedo[albedo.size() / 2], albedo.back()};
+  return lab(xyz_of_srgb(rgb), xyz_of_srgb({1, 1, 1}));
+}
+
+void add_surface(SchlickReport& report, const FresnelSurface& s) {
+  const std::size_t channels = s.channels();
+  std::vector<std::vector<Albedo>> exact;  // [roughness][mu]
+  for (const double r : report.roughness)
+    exact.push_back(albedo(s.kind == "metal" ? "fresnel.conductor" : "fresnel.dielectric",
+                           exact_settings(s), r, channels));
+  for (const auto& f : forms_for(s)) {
+    std::vector<std::vector<Albedo>> with;
+    for (const double r : report.roughness)
+      with.push_back(albedo(catalogue()[f.term].about->id, f.settings, r, channels));
+    for (std::size_t c = 0; c < channels; ++c)
+      for (std::size_t m = 0; m < mus.size(); ++m) {
+        FresnelAlbedo a{f.name, s.material, s.channel(c), mus[m], {}, {}, 0};
+        for (std::size_t r = 0; r < with.size(); ++r) {
+          a.albedo.push_back(with[r][m].value[c]);
+          a.exact.push_back(exact[r][m].value[c]);
+          a.bound = std::max({a.bound, with[r][m].error, exact[r][m].error});
+        }
+        report.albedos.push_back(std::move(a));
+      }
+    for (std::size_t m = 0; m < mus.size(); ++m) {
+      FresnelColour colour{f.name, s.material, mus[m], {}};
+      for (std::size_t r = 0; r < with.size(); ++r)
+        colour.delta_e.push_back(delta_e_2000(seen(with[r][m].value), seen(exact[r][m].value)));
+      report.colours.push_back(std::move(colour));
+    }
+  }
+}
+
+}  // namespace
+
+void add_albedos(SchlickReport& report,
+                 const SchlickOptions& o,
+                 const std::function<void(double)>& done) {
+  report.roughness = o.roughness;
+  std::vector<FresnelSurface> surfaces;
+  for (const double ior : rough_iors)
+    surfaces.push_back(dielectric(ior, fmt::format("IOR {:g}", ior)));
+  for (const auto& m : metals()) surfaces.push_back(metal(m));
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    add_surface(report, surfaces[i]);
+    done(static_cast<double>(i + 1) / static_cast<double>(surfaces.size()));
+  }
+}
+
+}  // namespace gonio

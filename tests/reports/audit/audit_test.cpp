@@ -1,0 +1,137 @@
+#include "reports/audit/audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "brdf/catalogue/registry.h"
+#include "brdf/model/presets.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+const EntryAudit& entry(const std::string& id) {
+  static std::map<std::string, EntryAudit> known;
+  auto it = known.find(id);
+  if (it == known.end()) it = known.emplace(id, audit({id})[0]).first;
+  return it->second;
+}
+bool violates(const std::string& id, std::string_view law) {
+  return std::ranges::find(entry(id).violates, law) != entry(id).violates.end();
+}
+
+TEST(Audit, CallsAMistakeWhatDiffersFromTheFormItIsNamedForAndNothingElse) {
+  const std::set<std::string> expected{"ndf.gtr.as_written",        "ndf.beckmann_aniso.as_written",
+                                       "ndf.ggx.ue_mobile",         "ndf.ggx.mobile",
+                                       "ndf.ggx.mobile.cross",      "masking.ue_joint.clamped",
+                                       "fresnel.linear.as_written", "f0.from_ior.as_written",
+                                       "model.ue_mobile",           "model.ue_mobile_simple"};
+  std::set<std::string> claims;
+  for (const auto& t : catalogue())
+    if (!t.about->named_for.empty()) claims.insert(std::string(t.about->id));
+  for (const auto& m : maps())
+    if (!m.about->named_for.empty()) claims.insert(std::string(m.about->id));
+  for (const auto& p : presets())
+    if (!p.about.named_for.empty()) claims.insert(std::string(p.about.id));
+  EXPECT_EQ(claims, expected);  // nothing else claims to be another form
+  for (const auto& id : expected) EXPECT_TRUE(entry(id).mistake) << id;
+}
+
+TEST(Audit, FindsEveryReferenceThatAnEntryNames) {
+  const auto ids = auditable_ids();
+  const auto check = [&](const About& a) {
+    for (const auto reference : {a.approximates, a.named_for})
+      EXPECT_TRUE(reference.empty() || std::ranges::find(ids, reference) != ids.end())
+          << a.id << ": " << reference;
+  };
+  for (const auto& t : catalogue()) check(*t.about);
+  for (const auto& m : maps()) check(*m.about);
+  for (const auto& p : presets()) check(p.about);
+}
+
+TEST(Audit, ExactDistributionsAreNormalisedAndKeepEnergy) {
+  for (const std::string id : {"ndf.ggx", "ndf.beckmann", "ndf.ggx_aniso"}) {
+    const auto& e = entry(id);
+    EXPECT_NEAR(e.normalisation->value, 1, 1e-9) << id;
+    EXPECT_LE(e.energy->value, 1 + e.energy->error) << id;
+    EXPECT_TRUE(e.violates.empty()) << id;
+  }
+}
+
+TEST(Audit, TheMobileDistributionsLackTheirPi) {
+  for (const std::string id : {"ndf.ggx.ue_mobile", "ndf.ggx.mobile", "ndf.ggx.mobile.cross"}) {
+    EXPECT_TRUE(violates(id, "normalisation")) << id;
+    EXPECT_TRUE(violates(id, "energy")) << id;
+  }
+}
+
+TEST(Audit, TheIntegralOfBeckmannWithItsDivisionCancelledDiverges) {
+  EXPECT_FALSE(std::isfinite(entry("ndf.beckmann_aniso.as_written").normalisation->value));
+  EXPECT_TRUE(violates("ndf.beckmann_aniso.as_written", "normalisation"));
+}
+
+TEST(Audit, DisneyDiffuseReflectsOneAndAHalfOfWhatItReceives) {
+  const auto& e = entry("diffuse.disney");
+  EXPECT_NEAR(e.energy->value, 1.52, 0.005);
+  EXPECT_NE(e.energy->where.find("alpha 1"), std::string::npos) << e.energy->where;
+  EXPECT_NE(e.energy->where.find("NoV 0.02"), std::string::npos) << e.energy->where;
+  EXPECT_TRUE(violates("diffuse.disney", "energy"));
+}
+
+TEST(Audit, UncoupledLambertExceedsOneUnderALobeAndNotAlone) {
+  const auto& e = entry("diffuse.lambert");
+  EXPECT_NEAR(e.energy->value, 1, 1e-6);
+  EXPECT_GT(e.energy_under_lobe->value, 1.1);
+  EXPECT_TRUE(violates("diffuse.lambert", "energy"));
+}
+
+TEST(Audit, SmithMaskingOfItsOwnDistributionKeepsEveryLaw) {
+  for (const std::string id :
+       {"masking.smith_ggx.separable", "masking.smith_ggx.correlated",
+        "masking.smith_beckmann.correlated", "masking.smith_ggx_aniso.correlated",
+        "masking.smith_beckmann_aniso.correlated"})
+    EXPECT_TRUE(entry(id).violates.empty()) << id << ": " << entry(id).violates[0];
+}
+
+TEST(Audit, NoMaskingMakesLight) {
+  EXPECT_TRUE(violates("masking.none", "energy"));
+  EXPECT_TRUE(violates("masking.disney_coat", "energy"));  // its width is not the distribution's
+}
+
+TEST(Audit, AClampOfOneCosineIsNotReciprocal) {
+  EXPECT_TRUE(violates("masking.ue_joint.clamped", "reciprocity"));
+  EXPECT_GT(entry("masking.ue_joint.clamped").reciprocity->value, 1e-5);
+  EXPECT_FALSE(violates("masking.ue_joint", "reciprocity"));
+}
+
+TEST(Audit, F0WithoutItsSquareIsNegativeFromTheDenserSide) {
+  EXPECT_TRUE(violates("f0.from_ior.as_written", "range"));
+  EXPECT_FALSE(violates("f0.from_ior", "range"));
+}
+
+TEST(Audit, MeasuresHowFarAnApproximationIsFromItsForm) {
+  // F0 + (1 − F0) m against F0 + (1 − F0) m⁵ at F0 = 0: the most of m − m⁵ is 4/5 · 5^(−1/4)
+  const auto& linear = *entry("fresnel.linear.as_written").distance;
+  EXPECT_EQ(linear.reference, "fresnel.schlick");
+  EXPECT_NEAR(linear.most.value, 0.8 * std::pow(5, -0.25), 1e-3);
+  EXPECT_GT(linear.most.value, linear.rms);
+  // k = alpha/2 stands for Smith's G1, which has its greatest distance at alpha = 1
+  EXPECT_NEAR(entry("masking.smith_beckmann.rational").distance->most.value, 0.006, 0.001);
+}
+
+TEST(Audit, CountsTheOperationsOfOneSample) {
+  const auto& ops = *entry("ndf.ggx").operations;
+  EXPECT_EQ(ops[Operation::div], 1U);
+  EXPECT_EQ(ops[Operation::exp], 0U);
+  EXPECT_EQ(entry("ndf.beckmann").operations.value()[Operation::exp], 1U);
+}
+
+TEST(Audit, RefusesAnUnknownIdBeforeAnyWork) {
+  EXPECT_ANY_THROW(audit({"ndf.ggx", "ndf.gxg"}));
+}
+
+}  // namespace
+}  // namespace gonio

@@ -1,0 +1,355 @@
+#include "reports/cost/cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "brdf/catalogue/registry.h"
+#include "brdf/in_number/number.h"
+#include "brdf/kernel/kernels.h"
+#include "brdf/model/presets.h"
+#include "reports/audit/audit.h"
+#include "reports/cost/parts.h"
+#include "reports/pictures.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace gonio {
+namespace {
+
+/// As short as it gets: no test looks at a time itself.
+CostOptions short_options() {
+  CostOptions o;
+  o.full = true;
+  o.timing = {1, 1e-9, true};
+  o.cache_samples = 16;
+  o.stream_samples = 256;
+  o.errors = false;
+  return o;
+}
+CostOptions short_options(std::string filter) {
+  auto o = short_options();
+  o.filter = std::move(filter);
+  o.errors = true;
+  return o;
+}
+
+/// A form that takes so long and is off by so much.
+CostRow made(std::string id, double ns, double spread, double rms) {
+  CostRow r{};
+  r.id = std::move(id);
+  r.kind = "masking", r.number = "float", r.isa = "scalar", r.memory = "cache";
+  r.time = {ns, spread};
+  r.error.truth = "truth";
+  r.error.rms = rms;
+  return r;
+}
+
+TEST(CostFront, LeavesOutWhatAnotherBeatsInTimeAndIsNoWorseThan) {
+  std::vector<CostRow> rows{made("fast", 1, 0.1, 0.5), made("slow", 3, 0.1, 0.5),
+                            made("exact", 4, 0.1, 0.01), made("worse", 4.5, 0.1, 0.02)};
+  mark_front(rows);
+  const std::vector<bool> expected{true, false, true, false};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].pareto, expected[i]) << rows[i].id;
+    EXPECT_FALSE(rows[i].tie) << rows[i].id;
+  }
+}
+
+TEST(CostFront, CallsATieWhatIsNotSlowerBeyondBothSpreads) {
+  std::vector<CostRow> rows{made("rough", 1, 0.2, 0.5), made("better", 1.3, 0.2, 0.1),
+                            made("far", 1.5, 0.2, 0.6)};
+  mark_front(rows);
+  EXPECT_TRUE(rows[0].pareto);  // better is slower, though not by more than the spreads
+  EXPECT_TRUE(rows[0].tie);
+  EXPECT_TRUE(rows[1].pareto);
+  EXPECT_FALSE(rows[1].tie);
+  EXPECT_FALSE(rows[2].pareto);  // slower than rough by 0.5 > 0.4, and worse
+}
+
+TEST(CostFront, KeepsOneOfThoseThatAreAlike) {
+  std::vector<CostRow> rows{made("a", 1, 0.2, 0.5), made("b", 1.1, 0.2, 0.5)};
+  mark_front(rows);
+  EXPECT_TRUE(rows[0].pareto && rows[1].pareto);
+  EXPECT_FALSE(rows[0].tie);
+  EXPECT_TRUE(rows[1].tie);
+}
+
+TEST(CostFront, ComparesOnlyWhatStandsForTheSameInTheSamePlace) {
+  std::vector<CostRow> rows{made("a", 1, 0, 0.1), made("b", 2, 0, 0.2),     made("c", 2, 0, 0.2),
+                            made("d", 2, 0, 0.2), made("unknown", 9, 0, 0), made("e", 2, 0, 0.2)};
+  rows[1].error.truth = "another";
+  rows[2].isa = "avx2";
+  rows[3].memory = "streaming";
+  rows[4].error.truth = "";
+  rows[5].channels = 3;
+  mark_front(rows);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(rows[i].pareto) << rows[i].id;
+  EXPECT_FALSE(rows[4].pareto);
+  EXPECT_TRUE(rows[5].pareto);
+}
+
+TEST(CostFront, LeavesOutMistakes) {
+  std::vector<CostRow> rows{made("fresnel.a.as_written", 1, 0, 0), made("fresnel.b", 2, 0, 0.1)};
+  mark_front(rows);
+  EXPECT_FALSE(rows[0].pareto);
+  EXPECT_TRUE(rows[1].pareto);
+}
+
+TEST(Cost, HasEveryTermAndModelInEveryNumberSetAndPlace) {
+  const auto rows = measure_costs(short_options());
+  std::set<std::tuple<std::string, std::string_view, std::string, std::string_view>> found;
+  for (const auto& r : rows) {
+    found.emplace(r.id, r.number, r.isa, r.memory);
+    EXPECT_TRUE(std::isfinite(r.time.ns) && r.time.ns > 0) << r.id;
+    EXPECT_TRUE(std::isfinite(r.time.spread_ns) && r.time.spread_ns >= 0) << r.id;
+  }
+  std::vector<std::string> ids;
+  for (const auto& t : catalogue()) ids.emplace_back(t.about->id);
+  for (const auto& p : presets()) ids.emplace_back(p.about.id);
+  for (const auto& id : ids)
+    for (const std::string_view number : {"float", "double"})
+      for (const auto& set : instruction_sets())
+        for (const std::string_view memory : {"cache", "streaming"})
+          EXPECT_TRUE(found.contains({id, number, set, memory}))
+              << id << " " << number << " " << set;
+}
+
+TEST(Cost, StreamsInTheBestSetAloneWhereItIsQuick) {
+  auto o = short_options("fresnel.schlick.ue");
+  o.full = false, o.errors = false;
+  const auto best = instruction_sets().back();
+  std::size_t streaming = 0;
+  for (const auto& r : measure_costs(o)) {
+    EXPECT_EQ(r.id, "fresnel.schlick.ue");
+    if (r.memory != "streaming") continue;
+    EXPECT_EQ(r.isa, best);
+    ++streaming;
+  }
+  EXPECT_EQ(streaming, 2U);
+}
+
+TEST(Cost, CountsTheOperationsOfATermAsCountedDoes) {
+  auto o = short_options("masking.s");
+  o.errors = false;
+  for (const auto& r : measure_costs(o))
+    EXPECT_EQ(r.operations, operations_of(find_term(r.id)).sample) << r.id;
+}
+
+TEST(Cost, AModelDividesOnceALobe) {
+  const auto of = [](std::string_view spec) {
+    return costing::operations_of_model(bind_model(spec, {}, 1).model);
+  };
+  const auto ggx = of("ggx/smith_ggx.correlated/schlick");
+  EXPECT_EQ(ggx[Operation::div], 1U);
+  EXPECT_EQ(ggx[Operation::sqrt], 2U);
+  // two numerators, two denominators: three products beside those of the terms
+  const auto part = [](std::string_view id) { return operations_of(find_term(id)).fraction; };
+  auto terms = part("ndf.ggx");
+  terms += part("masking.smith_ggx.correlated");
+  terms += part("fresnel.schlick");
+  EXPECT_EQ(ggx.total(), terms.total() + 3 + 1);
+  const auto diffuse = of("lambert+ggx/smith_ggx.correlated/schlick");
+  EXPECT_EQ(diffuse[Operation::add], ggx[Operation::add] + 1);
+  // three channels share D and V, and their division
+  auto three =
+      costing::operations_of_model(bind_model("ggx/smith_ggx.correlated/schlick", {}, 3).model);
+  EXPECT_EQ(three[Operation::div], 1U);
+  EXPECT_EQ(three[Operation::sqrt], 2U);
+  EXPECT_EQ(three.total(), ggx.total() + 2 * (part("fresnel.schlick").total() + 1));
+  EXPECT_EQ(of("lambert").total(), operations_of(find_term("diffuse.lambert")).sample.total());
+}
+
+TEST(Cost, ErrorsInDoubleAreTheAudits) {
+  for (const std::string id : {"fresnel.schlick", "fresnel.f82", "masking.ue_joint",
+                               "masking.hammon", "ndf.ggx.mobile", "diffuse.disney"}) {
+    const auto audited = audit({id})[0].distance;
+    const auto e = costing::error_of_term(find_term(id), Number::double_);
+    EXPECT_EQ(e.truth, audited->reference) << id;
+    EXPECT_EQ(e.measure, audited->measure) << id;
+    EXPECT_EQ(e.max, audited->most.value) << id;
+    EXPECT_EQ(e.rms, audited->rms) << id;
+  }
+}
+
+TEST(Cost, ExactFormsAreOffByRoundingAlone) {
+  const auto error = [](std::string_view id, Number number) {
+    return costing::error_of_term(find_term(id), number);
+  };
+  for (const std::string_view id : {"fresnel.dielectric", "masking.smith_ggx.correlated"}) {
+    const auto f = error(id, Number::float_), d = error(id, Number::double_);
+    EXPECT_EQ(f.truth, id);
+    EXPECT_GT(f.max, 1e-9);
+    EXPECT_LT(f.max, 1e-5);
+    EXPECT_GT(d.max, 0);
+    EXPECT_LT(d.max, 1e-13);
+  }
+}
+
+TEST(Cost, MaskingIsHeldAgainstTheCorrelatedSmithOfItsDistribution) {
+  const auto truth = [](std::string_view id) {
+    return costing::error_of_term(find_term(id), Number::double_).truth;
+  };
+  EXPECT_EQ(truth("masking.schlick_ggx.direct"), "masking.smith_ggx.correlated");
+  EXPECT_EQ(truth("masking.smith_ggx.separable"), "masking.smith_ggx.correlated");
+  EXPECT_EQ(truth("masking.schlick_beckmann"), "masking.smith_beckmann.correlated");
+}
+
+const costing::Whole& whole(std::string_view id) {
+  static const auto all = costing::wholes();
+  return *std::ranges::find(all, id, &costing::Whole::id);
+}
+
+TEST(Cost, AnExactModelIsItsOwnTruth) {
+  const auto e = costing::error_of_whole<double>(whole("ggx/smith_ggx.correlated/conductor"));
+  EXPECT_EQ(e.truth, "ggx/smith_ggx.correlated/conductor");
+  EXPECT_EQ(e.max, 0);
+  EXPECT_EQ(e.delta_e, 0);
+  const auto f = costing::error_of_whole<float>(whole("ggx/smith_ggx.correlated/conductor"));
+  EXPECT_GT(f.max, 0);
+  EXPECT_LT(f.max, 1e-4);
+}
+
+TEST(Cost, AModelIsOffByWhatItsTermsAreOff) {
+  const auto schlick = costing::error_of_whole<double>(whole("ggx/smith_ggx.correlated/schlick"));
+  const auto k = costing::error_of_whole<double>(whole("ggx/schlick_ggx.direct/schlick"));
+  EXPECT_LT(schlick.max, 0.1);
+  EXPECT_GT(schlick.max, 0.01);
+  EXPECT_GT(k.rms, 10 * schlick.rms);
+  EXPECT_GT(k.delta_e, schlick.delta_e);
+}
+
+TEST(Cost, TablesHaveBytes) {
+  EXPECT_EQ(costing::table_bytes("masking.smith_ggx.correlated"), 0U);
+  EXPECT_GT(costing::table_bytes("masking.smith_gtr.correlated"), 1000U);
+}
+
+TEST(CostSwitches, AreTheDifferencesOfTheirRows) {
+  CostReport report;
+  auto from = made("masking.schlick_ggx.direct", 1, 0.3, 0.2),
+       to = made("masking.smith_ggx.correlated", 2, 0.4, 0);
+  from.operations[Operation::mul] = 7;
+  to.operations[Operation::mul] = 13;
+  report.rows = {from, to};
+  add_switches(report);
+  ASSERT_EQ(report.switches.size(), 1U);
+  const auto& s = report.switches[0];
+  EXPECT_EQ(s.ns, 1);
+  EXPECT_DOUBLE_EQ(s.ns_spread, 0.5);
+  EXPECT_EQ(s.ratio, 2);
+  EXPECT_EQ(s.operations, 6);
+  EXPECT_EQ(s.error_from, 0.2);
+  EXPECT_EQ(s.error_to, 0);
+}
+
+TEST(CostSwitches, TellNoErrorsFromDifferentTruths) {
+  CostReport report;
+  report.rows = {made("masking.schlick_ggx.direct", 1, 0.3, 0.2),
+                 made("masking.smith_ggx.correlated", 2, 0.4, 0)};
+  report.rows[1].error.truth = "another";
+  add_switches(report);
+  ASSERT_EQ(report.switches.size(), 1U);
+  EXPECT_TRUE(std::isnan(report.switches[0].error_from));
+  EXPECT_TRUE(std::isnan(report.switches[0].error_to));
+}
+
+TEST(CostSwitches, ComparesModelsInTheSameWay) {
+  const auto model = [](std::string id, std::string_view way, double ns) {
+    auto r = made(std::move(id), ns, 0, 0);
+    r.kind = "model", r.way = way;
+    return r;
+  };
+  const std::string k = "ggx/schlick_ggx.direct/schlick",
+                    smith = "ggx/smith_ggx.correlated/schlick";
+  CostReport report;
+  report.rows = {model(k, "composed", 2), model(smith, "composed", 3), model(smith, "fused", 1)};
+  add_switches(report);
+  ASSERT_EQ(report.switches.size(), 1U);
+  EXPECT_EQ(report.switches[0].way, "composed");
+  EXPECT_EQ(report.switches[0].ratio, 1.5);
+  report.rows.push_back(model(k, "fused", 0.5));
+  report.switches.clear();
+  add_switches(report);
+  ASSERT_EQ(report.switches.size(), 1U);
+  EXPECT_EQ(report.switches[0].way, "fused");
+  EXPECT_EQ(report.switches[0].ratio, 2);
+}
+
+TEST(Cost, HoldsModelsBesideThoseWrittenByHand) {
+  auto o = short_options("model.");
+  o.errors = false;
+  std::set<std::pair<std::string, std::string_view>> found;
+  for (const auto& r : measure_costs(o)) found.emplace(r.id, r.way);
+  for (const auto& p : presets())
+    for (const std::string_view way : {"by_hand", "fused", "composed"})
+      EXPECT_TRUE(found.contains({std::string(p.about.id), way})) << p.about.id << " " << way;
+}
+
+/// A report of few forms, every kind of picture in it.
+CostReport small_report() {
+  CostReport r;
+  r.machine = this_machine();
+  auto o = short_options("ggx");
+  o.full = false;
+  r.rows = measure_costs(o);
+  for (const std::string_view picture : {"compensation", "split_sum", "fit"})
+    r.points.push_back({picture, "series", "label", {2, 0.1}, 0.1, 0});
+  for (const double ns : {3.0, 1.0, 2.0})
+    r.points.push_back(
+        {"quadrature", "one integral, roughness 0.5, mu 0.5", "1e-3", {ns, 0.1}, 1 / ns, 0});
+  add_switches(r);
+  add_findings(r);
+  return r;
+}
+
+TEST(CostPictures, AreWhole) {
+  const auto r = small_report();
+  const auto p = pictures(r);
+  test::expect_whole(p);
+  std::set<std::string> ids;
+  for (const auto& f : p.figures) ids.insert(f.family.empty() ? f.id : f.family);
+  for (const std::string id :
+       {"masking", "distribution", "model", "compensation", "split_sum", "fit", "quadrature"})
+    EXPECT_TRUE(ids.contains(id)) << id;
+  for (const auto& f : p.figures)
+    for (const auto& c : f.curves)
+      if (c.kind == FigureCurve::Kind::both) {
+        EXPECT_TRUE(std::ranges::is_sorted(c.x)) << f.id;
+      }
+  EXPECT_FALSE(r.findings.empty());
+  EXPECT_NE(r.findings[0].find("Schlick's k"), std::string::npos) << r.findings[0];
+  ASSERT_EQ(r.questions.size(), 1U);
+  EXPECT_EQ(r.questions[0].answer.find(r.findings[0]), 0U);
+}
+
+TEST(CostDocument, HasTheKeysOfTheContract) {
+  CostReport report;
+  report.machine = this_machine();
+  report.rows = measure_costs(short_options("fresnel.schlick.ue"));
+  const auto j = nlohmann::json::parse(to_json(report));
+  EXPECT_EQ(j["schema"], "gonio.report.cost/1");
+  ASSERT_FALSE(j["rows"].empty());
+  for (const auto& row : j["rows"]) {
+    for (const char* key : {"id", "number", "isa", "ns", "ns_spread", "ops", "error_max",
+                            "error_rms", "pareto", "memory", "kind"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    std::size_t ops = 0;
+    for (const auto name : operation_names)
+      ops += row["ops_" + std::string(name)].get<std::size_t>();
+    EXPECT_EQ(row["ops"], ops);
+    EXPECT_GT(row["error_max"], 0);
+  }
+}
+
+TEST(Machine, SaysWhatItIs) {
+  const auto m = this_machine();
+  EXPECT_GT(m.threads, 0U);
+  EXPECT_EQ(m.instruction_sets, instruction_sets());
+  EXPECT_NE(m.compiler, "");
+  EXPECT_NE(m.flags.find("-ffp-contract=off"), std::string::npos) << m.flags;
+}
+
+}  // namespace
+}  // namespace gonio

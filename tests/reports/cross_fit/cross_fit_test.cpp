@@ -1,0 +1,257 @@
+// What is said of a fit with a shipped form is what that form does.
+#include "reports/cross_fit/cross_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "integrate/rule/quadrature.h"
+#include "integrate/scattering/half_space.h"
+#include "reports/cross_fit/parts.h"
+#include "reports/pictures.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
+namespace gonio {
+namespace {
+
+using std::numbers::pi;
+
+const FresnelSurface glass = dielectric(1.5, "IOR 1.5");
+const FresnelSurface gold = metal(*find_metal("Au"));
+const CrossTruth ggx{"GGX", "ggx", "smith_ggx.correlated"};
+
+/// One roughness, few bins and walks, and the forms named.
+CrossFitOptions few(std::vector<std::string> forms, std::vector<std::string> metals = {}) {
+  return {false, {0.5}, {1.5}, std::move(metals), {3}, 12, 64, std::move(forms)};
+}
+const CrossCase& find(const CrossFitReport& r,
+                      std::string_view truth,
+                      std::string_view fitted,
+                      std::string_view material = "IOR 1.5") {
+  return *std::ranges::find_if(r.cases, [&](const CrossCase& c) {
+    return c.truth == truth && c.fitted == fitted && c.material == material &&
+           c.metric == Metric::log && c.layout == cross_layouts[0].name;
+  });
+}
+/// A slice of any model, and a form fitted to it.
+CrossCase fitted(const std::string& truth, std::vector<Setting> values, const CrossForm& form) {
+  SynthOptions o;
+  o.layout = Layout::image_slice;
+  o.slice = 12;
+  const CrossSlice slice{synthesize(bind_model(truth, std::move(values), 1), o)};
+  return fit_case(ggx, form, glass, 0.5, slice, Metric::log);
+}
+
+TEST(CrossFit, EveryMaskingTermComesBackFromASliceOfItsOwn) {
+  for (const auto& f : cross_forms(ggx)) {
+    if (f.kind != "masking") continue;
+    const auto spec = fmt::format("ggx/{}/dielectric", f.name.substr(f.name.find('.') + 1));
+    const auto c = fitted(spec, {{"roughness", {0.5}}, {"eta", {1.5}}}, f);
+    EXPECT_TRUE(c.converged) << f.name;
+    EXPECT_NEAR(c.find("roughness")->fitted, 0.5, 5e-7) << f.name;
+    EXPECT_NEAR(c.find("f0")->fitted, 0.04, 1e-6) << f.name;
+    EXPECT_LT(c.log_rms, 1e-6) << f.name;
+  }
+}
+
+TEST(CrossFit, EveryFresnelTermOfF0ComesBackFromASliceOfItsOwn) {
+  for (const auto* name :
+       {"schlick", "schlick.ue", "schlick.spherical_gaussian", "constant", "linear.as_written"}) {
+    const auto spec = fmt::format("ggx/smith_ggx.correlated/{}", name);
+    const auto c = fitted(spec, {{"roughness", {0.5}}, {"f0", {0.04}}}, {name, "fresnel", spec});
+    EXPECT_NEAR(c.find("roughness")->fitted, 0.5, 5e-7) << name;
+    EXPECT_NEAR(c.find("f0")->fitted, 0.04, 1e-6) << name;
+    EXPECT_LT(c.log_rms, 1e-6) << name;
+  }
+}
+
+TEST(CrossFit, ASphericalGaussianStandsForSchlickWithALittleLessF0) {
+  const auto c = fitted("ggx/smith_ggx.correlated/schlick", {{"roughness", {0.5}}, {"f0", {0.04}}},
+                        {"", "fresnel", "ggx/smith_ggx.correlated/schlick.spherical_gaussian"});
+  EXPECT_NEAR(c.find("roughness")->fitted, 0.5, 5e-4);
+  EXPECT_LT(c.find("f0")->fitted, 0.04);
+  EXPECT_GT(c.find("f0")->fitted, 0.036);
+}
+
+TEST(CrossFit, WhatIsPiTimesABrdfIsFittedToPiTimesTheTruth) {
+  const std::string spec = "ggx/smith_ggx.correlated/constant";
+  const auto c = fitted(spec, {{"roughness", {0.5}}, {"f0", {0.1}}}, {"", "fresnel", spec, {}, pi});
+  EXPECT_NEAR(c.find("f0")->fitted, 0.1 * pi, 1e-6);
+  EXPECT_NEAR(c.find("roughness")->fitted, 0.5, 5e-7);
+}
+
+TEST(CrossFit, ExactFormsOfAReportComeBack) {
+  auto o = cross_fit_options(true);
+  o.roughness = {0.1, 0.6};
+  o.bins = 10;
+  o.walks = 16;
+  o.forms = {"none of them"};
+  const auto r = cross_fit_report(o);
+  std::set<std::string> truths;
+  for (const auto& c : r.cases) {
+    truths.insert(c.truth);
+    ASSERT_EQ(c.fitted, "exact");
+    if (c.truth == "GGX, all orders") continue;
+    EXPECT_LT(c.log_rms, 1e-6) << c.truth << " " << c.material;
+    for (const auto& v : c.values)
+      EXPECT_NEAR(v.fitted, v.truth, 1e-6 * std::max(1.0, v.truth))
+          << c.truth << " " << c.material << " " << c.roughness << " " << v.parameter;
+  }
+  EXPECT_EQ(truths.size(), 2 + o.gamma.size());
+}
+
+TEST(CrossFit, AFreeGammaIsTwoOfGgxAndLessOfItWithAllOrders) {
+  const auto r = cross_fit_report(few({"ndf.gtr"}));
+  EXPECT_NEAR(find(r, "GGX", "ndf.gtr").find("gamma")->fitted, 2, 1e-5);
+  const auto* all = find(r, "GGX, all orders", "ndf.gtr").find("gamma");
+  EXPECT_LT(all->fitted, 2 - 3 * all->error);
+  EXPECT_GT(all->error, 0);
+}
+
+TEST(CrossFit, TheTruthOfAllOrdersReflectsWhatTheHalfSpaceDoes) {
+  const auto m = bound_truth({"", "ggx", "smith_ggx.correlated", {}, true}, gold, 0.9);
+  const Direction v = direction(std::acos(0.6), 0);
+  const auto nodes = cosine_hemisphere(8, 8);
+  std::vector<DirectionPair> pairs;
+  for (const auto& n : nodes) pairs.push_back({n.direction, v});
+  const auto first = beyond_one_facet(m, pairs, 2048, 1),
+             second = beyond_one_facet(m, pairs, 2048, 2);
+  const double mu[] = {0.6};
+  const auto exact = half_space(m, mu);
+  for (std::size_t c = 0; c < 3; ++c) {
+    double sum = 0, variance = 0, later = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      sum += nodes[i].weight * (first[c][i] + second[c][i]) / 2;
+      variance += std::pow(nodes[i].weight * (first[c][i] - second[c][i]) / 2, 2);
+    }
+    for (std::size_t n = 1; n < exact.at[0].order[c].size(); ++n) later += exact.at[0].order[c][n];
+    EXPECT_NEAR(sum, later, 4 * std::sqrt(variance) + 1e-3);
+    EXPECT_LT(std::sqrt(variance), 0.01 * later);
+  }
+}
+
+TEST(CrossFit, ASliceOfAllOrdersIsBrighterAndSaysWhatItsWalksLeaveOpen) {
+  const auto o = few({});
+  const CrossTruth all{"", "ggx", "smith_ggx.correlated", {}, true};
+  const auto once = slice_of(ggx, glass, 0.8, cross_layouts[0], o),
+             more = slice_of(all, glass, 0.8, cross_layouts[0], o);
+  EXPECT_FALSE(once.half);
+  ASSERT_TRUE(more.half);
+  EXPECT_EQ(once.log_error, 0);
+  EXPECT_GT(more.log_error, 0);
+  const SampleAngles at(once.table);
+  for (std::size_t i = 0; i < once.table.size(); ++i) {
+    const bool seen = std::min(at(i).nol, at(i).nov) > std::cos(80 * degree);
+    ASSERT_EQ(std::isfinite(once.table.values[0][i]), seen);
+    if (seen) {
+      EXPECT_GE(more.table.values[0][i], once.table.values[0][i]);
+    }
+  }
+}
+
+TEST(CrossFit, ThreeTimesTheBinsGiveMuchTheSame) {
+  auto o = few({});
+  o.bins = cross_fit_options(false).bins;
+  const auto forms = cross_forms(ggx);
+  for (const auto* name : {"fresnel.schlick", "masking.schlick_ggx.direct"}) {
+    const auto& form = *std::ranges::find(forms, name, &CrossForm::name);
+    for (const double roughness : {0.1, 0.6}) {
+      const auto over = [&](const CrossLayout& layout) {
+        const auto slice = slice_of(ggx, glass, roughness, layout, o);
+        return fit_case(ggx, form, glass, roughness, slice, Metric::log);
+      };
+      const auto quick = over(cross_layouts[0]), fine = over(cross_layouts[1]);
+      EXPECT_NEAR(quick.find("roughness")->shift(), fine.find("roughness")->shift(), 0.003) << name;
+      EXPECT_NEAR(quick.find("f0")->shift(), fine.find("f0")->shift(), 0.03) << name;
+      EXPECT_NEAR(quick.log_rms, fine.log_rms, 0.1 * fine.log_rms) << name;
+    }
+  }
+}
+
+TEST(CrossFit, UnrealsSchlickIsSchlickFromAnF0Of2PercentOn) {
+  const auto r = cross_fit_report(few({"fresnel.schlick", "fresnel.schlick.ue"}));
+  for (const auto* p : {"roughness", "f0"})
+    EXPECT_NEAR(find(r, "GGX", "fresnel.schlick").find(p)->fitted,
+                find(r, "GGX", "fresnel.schlick.ue").find(p)->fitted, 1e-7);
+}
+
+TEST(CrossFit, WhatEndsAtABoundIsToldAsSuch) {
+  // masking that takes more than Smith's: gold would have to reflect more than all
+  const auto r = cross_fit_report(few({"masking.implicit"}, {"Au"}));
+  const auto* red = find(r, "GGX", "masking.implicit", "gold").find("f0", "red");
+  EXPECT_EQ(red->status, ParameterStatus::at_bound);
+  const auto j = nlohmann::json::parse(to_json(r));
+  EXPECT_TRUE(
+      std::ranges::any_of(j["rows"], [](const auto& x) { return x["status"] == "at_bound"; }));
+}
+
+TEST(CrossFit, RowsAreFlatAndHaveTheKeysOfTheContract) {
+  const auto r = cross_fit_report(few({"fresnel.schlick"}, {"Au"}));
+  const auto j = nlohmann::json::parse(to_json(r));
+  ASSERT_FALSE(j["rows"].empty());
+  for (const auto& x : j["rows"]) {
+    for (const auto* key :
+         {"truth", "fitted", "parameter", "true_value", "fitted_value", "residual_log_rms"})
+      ASSERT_TRUE(x.contains(key)) << key;
+    for (const auto& [key, value] : x.items()) EXPECT_TRUE(value.is_primitive()) << key;
+  }
+}
+
+TEST(CrossFit, PicturesShowWhatWasFittedAndLeaveOutWhatEndsAtABound) {
+  const auto r = cross_fit_report(few({"masking.implicit", "fresnel.schlick"}, {"Au"}));
+  const auto p = pictures(r);
+  test::expect_whole(p);
+  const FigureChoices masking{
+      {"truth", "GGX"}, {"kind", "masking"}, {"material", "IOR 1.5"}, {"quantity", "roughness"}};
+  const auto f = std::ranges::find(p.figures, masking, &Figure::choices);
+  ASSERT_NE(f, p.figures.end());
+  ASSERT_EQ(f->curves.size(), 2U);  // the exact form beside it
+  const auto* v = find(r, "GGX", "masking.implicit").find("roughness");
+  EXPECT_EQ(f->curves[1].y[0], v->fitted - v->truth);
+
+  const FigureChoices all{{"quantity", "F0"}, {"roughness", "all"}};
+  const auto& m = *std::ranges::find(p.maps, all, &FigureMap::choices);
+  const auto cell = [&](std::string_view truth, std::string_view form) {
+    const auto x = std::ranges::find(m.x.names, truth) - m.x.names.begin(),
+               y = std::ranges::find(m.y.names, form) - m.y.names.begin();
+    return m.values[static_cast<std::size_t>(x) * m.y.size() + static_cast<std::size_t>(y)];
+  };
+  EXPECT_GT(cell("GGX: dielectrics", "implicit"), 1);
+  EXPECT_TRUE(std::isnan(cell("GGX: metals", "implicit")));
+  EXPECT_EQ(cell("GGX: metals", "exact"), 0);
+}
+
+TEST(CrossFit, IsTheSameWhateverTheThreads) {
+  const auto o = few({"fresnel.schlick", "ndf.gtr"});
+  std::string one;
+  {
+    const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+    one = to_json(cross_fit_report(o));
+  }
+  EXPECT_EQ(one, to_json(cross_fit_report(o)));
+}
+
+TEST(CrossFit, FindingsFollowTheFigures) {
+  auto r = cross_fit_report(few({"fresnel.schlick"}, {"Au"}));
+  const auto said = [&](std::string_view words) {
+    return std::ranges::any_of(r.findings,
+                               [&](const std::string& f) { return f.find(words) != f.npos; });
+  };
+  EXPECT_TRUE(said("Schlick instead of exact Fresnel"));
+  EXPECT_TRUE(said("gives its parameters back:"));
+  EXPECT_TRUE(said("none did not converge"));
+  for (auto& c : r.cases)
+    if (c.fitted == "exact") c.values[0].fitted += 0.1, c.converged = false;
+  r.findings.clear();
+  add_findings(r);
+  EXPECT_TRUE(said("back only roughly"));
+  EXPECT_FALSE(said("none did not converge"));
+}
+
+}  // namespace
+}  // namespace gonio

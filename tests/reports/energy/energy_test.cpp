@@ -1,0 +1,272 @@
+#include "reports/energy/energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "integrate/albedo/directional_albedo.h"
+#include "reports/energy/parts.h"
+#include "reports/pictures.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace gonio {
+namespace {
+
+const EnergyOptions few{false, {0.3, 0.5, 1}, {0.1, 0.5, 1}, 1024};
+const auto unwatched = [](double) {};
+
+EnergyReport of_forms(const std::vector<std::string>& names) {
+  auto o = few;
+  o.forms = names;
+  EnergyReport r;
+  add_forms(r, o, unwatched);
+  return r;
+}
+const EnergyForm& form(const EnergyReport& r, std::string_view name) {
+  return *std::ranges::find(r.forms, name, &EnergyForm::name);
+}
+const std::string correlated = "masking.smith_ggx.correlated",
+                  separable = "masking.smith_ggx.separable", none = "masking.none";
+
+const EnergyReport& materials() {
+  static const EnergyReport report = [] {
+    EnergyReport r;
+    add_materials(r, few, unwatched);
+    return r;
+  }();
+  return report;
+}
+const EnergyMaterial& material(std::string_view name) {
+  return *std::ranges::find(materials().materials, name, &EnergyMaterial::name);
+}
+
+TEST(EnergyReport, KnowsWhatWhiteGgxLosesAtRoughnessOne) {
+  const auto r = of_forms({correlated, separable});
+  const auto& f = form(r, correlated);
+  EXPECT_NEAR(f.rows.back().albedo, 1 - std::log(2.0), 1e-5);
+  EXPECT_NEAR(1 - f.averages.back().albedo, 0.591, 5e-4);
+  EXPECT_NEAR(1 - form(r, separable).averages.back().albedo, 0.623, 5e-4);
+}
+
+TEST(EnergyReport, LightIsMadeByNoMaskingAndByTheMobileFormsAlone) {
+  std::set<std::string> makers;
+  const auto r = of_forms({});
+  for (const auto& f : r.forms)
+    for (const auto& at : f.rows)
+      if (at.albedo > 1 + 1e-4) makers.insert(f.name);
+  EXPECT_EQ(makers, (std::set<std::string>{"masking.none", "masking.disney_coat, gamma 1",
+                                           "masking.unity_mobile", "masking.unity_mobile.urp",
+                                           "masking.ue_mobile_simple", "model.unity_mobile",
+                                           "model.ue_mobile_simple"}));
+}
+
+std::vector<double> twenty() {
+  std::vector<double> r;
+  for (int i = 1; i <= 20; ++i) r.push_back(0.05 * i);
+  return r;
+}
+std::vector<Crossing> crossings_of(double (*loss)(double)) {
+  const auto r = twenty();
+  std::vector<double> losses;
+  for (const double x : r) losses.push_back(loss(x));
+  return crossings_at(1, r, losses);
+}
+
+TEST(Crossings, OfAPowerAreExact) {
+  const auto found = crossings_of([](double r) { return r * r * r; });
+  ASSERT_EQ(found.size(), 3U);
+  for (const auto& c : found) {
+    ASSERT_EQ(c.ranges.size(), 1U);
+    EXPECT_NEAR(c.ranges[0].from, std::cbrt(c.share), 1e-12);
+    EXPECT_EQ(c.ranges[0].to, 1);
+    EXPECT_LT(c.error, 1e-12);
+  }
+}
+
+TEST(Crossings, OfAnyLossAreWithinTheErrorThatTheySay) {
+  const auto loss = [](double r) { return r * r * r / (0.3 + r) + 0.002 * std::sin(9 * r); };
+  for (const auto& c : crossings_of(loss)) {
+    ASSERT_EQ(c.ranges.size(), 1U);
+    double low = 0, high = 1;
+    while (high - low > 1e-9) (loss((low + high) / 2) > c.share ? high : low) = (low + high) / 2;
+    EXPECT_NEAR(c.ranges[0].from, high, c.error) << c.share;
+    EXPECT_LT(c.error, 0.02);
+  }
+}
+
+TEST(Crossings, EndWhereTheLossIsSmallAgain) {
+  const auto found = crossings_of([](double r) { return 0.2 * (0.25 - (r - 0.5) * (r - 0.5)); });
+  // at most 5 %: above 1 % between 0.5 ± √0.2, and no further
+  ASSERT_EQ(found[0].ranges.size(), 1U);
+  EXPECT_NEAR(found[0].ranges[0].from, 0.5 - std::sqrt(0.2), 2e-3);
+  EXPECT_NEAR(found[0].ranges[0].to, 0.5 + std::sqrt(0.2), 2e-3);
+  EXPECT_TRUE(found[2].ranges.empty());
+}
+
+TEST(Crossings, OfALossThatIsThereFromTheStartBeginAtTheLeastRoughness) {
+  for (const auto& c : crossings_of([](double) { return 0.5; })) {
+    ASSERT_EQ(c.ranges.size(), 1U);
+    EXPECT_EQ(c.ranges[0].from, 0.05);
+    EXPECT_EQ(c.ranges[0].to, 1);
+  }
+}
+
+TEST(EnergyReport, ItsCrossingsAreThoseOfItsRows) {
+  const auto r = of_forms({"masking.schlick_ggx.direct", none});
+  // at mu = 0.1: Schlick with k for direct light loses at once, no masking never
+  for (const auto& c : form(r, "masking.schlick_ggx.direct").crossings)
+    EXPECT_TRUE(c.mu != 0.1 || c.ranges.at(0).from == 0.3);
+  for (const auto& c : form(r, none).crossings) EXPECT_TRUE(c.mu != 0.1 || c.ranges.empty());
+}
+
+TEST(EnergyReport, TheCoatIsMeasuredAsItShips) {
+  const std::string coat = "masking.disney_coat, gamma 1";
+  const auto r = of_forms({coat});
+  const auto& f = form(r, coat);
+  EXPECT_EQ(f.ndf, "ndf.gtr");
+  for (const auto& at : f.rows) EXPECT_LE(at.roughness, std::sqrt(0.1));
+  EXPECT_EQ(f.rows.size(), 3U);  // of the three roughnesses 0.3 alone
+}
+
+TEST(EnergyReport, ErrorsOfCompensationsAreComparedOnTheSameMaterials) {
+  auto r = materials();
+  add_costs(r);
+  for (const auto& c : r.compensations) {
+    EXPECT_EQ(std::isnan(c.gold_rms), c.id == "fdez_aguera") << c.id;
+    EXPECT_EQ(c.worst_at.find("gold"), c.worst_at.npos) << c.id;
+    EXPECT_GE(std::abs(c.worst), c.rms);
+  }
+}
+
+TEST(EnergyReport, TheFitOfEIsNearerThanMaterialX) {
+  EnergyReport r;
+  add_albedo_forms(r);
+  ASSERT_EQ(r.albedo_forms.size(), 3U);
+  EXPECT_LT(std::abs(r.albedo_forms[0].worst), 0.005);
+  EXPECT_GT(std::abs(r.albedo_forms[1].worst), 0.05);
+  EXPECT_LT(r.albedo_forms[0].rms, r.albedo_forms[1].rms / 4);
+}
+
+TEST(EnergyReport, WhiteGivesAllBackAndTheOrdersSumToTheTruth) {
+  for (const auto& at : material("F = 1").rows) EXPECT_NEAR(at.truth, 1, at.error + 1e-12);
+  for (const auto& m : materials().materials)
+    for (const auto& at : m.rows) {
+      double sum = 0;
+      for (const double e : at.orders) sum += e;
+      EXPECT_NEAR(sum, at.truth, 1e-12) << m.name;
+      EXPECT_LE(at.error, 1e-5);
+    }
+}
+
+TEST(EnergyReport, CompensationsOfRoughMetalsAreNearerToTheTruthThanNone) {
+  for (const auto* name : {"F = 1", "F0 = 0.9", "gold, red"})
+    for (const auto& at : material(name).rows) {
+      if (at.roughness < 0.5) continue;
+      const double off = std::abs(at.scattering[0].albedo - at.truth);
+      ASSERT_EQ(at.scattering[0].id, "single");
+      for (std::size_t k = 1; k < at.scattering.size(); ++k)
+        EXPECT_LT(std::abs(at.scattering[k].albedo - at.truth), off / 3)
+            << name << " " << at.scattering[k].id << " " << at.roughness << " " << at.mu;
+    }
+}
+
+TEST(EnergyReport, EveryEstimatorComesNearer) {
+  EnergyReport r;
+  add_estimators(r, few, unwatched);
+  std::map<std::string, std::vector<EstimatorPoint>> by_name;
+  for (const auto& e : r.estimators)
+    by_name[std::string(e.estimator) + std::to_string(e.roughness)].push_back(e);
+  EXPECT_EQ(by_name.size(), 15U);
+  for (const auto& [name, points] : by_name) {
+    EXPECT_LT(points.back().error, points.front().error / 2 + 1e-13) << name;
+    for (const auto& p : points) {
+      EXPECT_TRUE(p.bound == 0 || p.error <= p.bound + 1e-13) << name;
+      EXPECT_GT(p.ns, 0) << name;
+    }
+  }
+}
+
+TEST(EnergyReport, RowsAreFlatAndHaveTheKeysOfTheContract) {
+  const auto r = of_forms({correlated, separable});
+  const auto j = nlohmann::json::parse(to_json(r));
+  ASSERT_EQ(j["rows"].size(), 2U * 9U);
+  for (const auto& row : j["rows"])
+    for (const auto* key :
+         {"ndf", "masking", "roughness", "mu", "albedo", "loss", "average", "error"})
+      EXPECT_TRUE(row.contains(key)) << key;
+  const auto& row = j["rows"][0];
+  EXPECT_NEAR(row["albedo"].get<double>() + row["loss"].get<double>(), 1, 1e-5);
+}
+
+TEST(EnergyReport, FindingsAreMadeFromTheFigures) {
+  auto r = of_forms({correlated, separable, none});
+  add_findings(r);
+  const auto said = [&](std::string_view words) {
+    return std::ranges::any_of(r.findings,
+                               [&](const std::string& f) { return f.find(words) != f.npos; });
+  };
+  EXPECT_TRUE(said("69.3\u00a0% at normal incidence and 59.1\u00a0% on average"));
+  EXPECT_TRUE(said("masking.none (E = 5 at roughness 1, mu 0.1)"));
+}
+
+TEST(EnergyReport, PicturesShowWhatWasMeasured) {
+  auto r = of_forms({correlated, separable, none});
+  r.materials = materials().materials;
+  const auto p = pictures(r);
+  test::expect_whole(p);
+  const auto map = std::ranges::find(p.maps, "loss_masking_none", &FigureMap::id);
+  ASSERT_NE(map, p.maps.end());
+  const auto& at = form(r, none).rows[1 * 3 + 2];  // the second roughness, the third mu
+  EXPECT_EQ(map->values[1 * 3 + 2], 100 * (1 - at.albedo));
+  EXPECT_EQ(map->x.at[1], at.roughness);
+  EXPECT_EQ(map->y.at[2], at.mu);
+}
+
+TEST(EnergyReport, JudgesWhatIsSaidOfHighlightsByClosedForms) {
+  EnergyReport r;
+  judge_claims(r);
+  for (const auto& c : r.claims) EXPECT_TRUE(c.source.starts_with("seed")) << c.claim;
+  const auto verdict = [&](std::string_view claim) {
+    const auto it = std::ranges::find(r.claims, claim, &Claim::claim);
+    return it == r.claims.end() ? std::string() : sentence(*it);
+  };
+  // σ² = ½ (ln(1 + T²) − T²/(1 + T²)) α² of GGX's slopes up to T α
+  const auto deviation = [](double t) {
+    return fmt::format("{:.3g} α", std::sqrt((std::log1p(t * t) - t * t / (1 + t * t)) / 2));
+  };
+  const auto slopes = verdict("alpha is the standard deviation of the slopes");
+  for (const auto& words :
+       {std::string("does not hold"), std::string("0.7071 α"), deviation(10), deviation(1000)})
+    EXPECT_NE(slopes.find(words), slopes.npos) << words << ": " << slopes;
+  const auto clamp = verdict("the clamp at 2048 hardly shows");
+  EXPECT_NE(clamp.find("below roughness 0.149 alone"), clamp.npos) << clamp;
+  EXPECT_NE(verdict("dω_h = dω_l/(4 VoH)").find("” holds:"), std::string::npos);
+}
+
+TEST(EnergyReport, JudgesWhatIsSaidOfEnergyByItsForms) {
+  auto r = of_forms({correlated, none, "masking.disney_coat, gamma 1",
+                     "masking.smith_gtr.separable, gamma 1", "model.ue_mobile_simple"});
+  judge_claims(r);
+  const auto judged = [&](std::string_view claim) {
+    const auto it = std::ranges::find(r.claims, claim, &Claim::claim);
+    EXPECT_NE(it, r.claims.end()) << claim;
+    return it == r.claims.end() ? Claim::Judged::holds : it->judged;
+  };
+  EXPECT_EQ(judged("reflected energy never exceeds incoming"), Claim::Judged::partly);
+  EXPECT_EQ(judged("as roughness grows the highlight widens and dims so that energy stays"),
+            Claim::Judged::fails);
+  EXPECT_EQ(judged("the simple mobile form keeps the look"), Claim::Judged::fails);
+  judged("the coat needs only a fixed 0.25 G");
+  for (auto& f : r.forms)
+    for (auto& at : f.rows) at.albedo = std::min(at.albedo, 1.0);
+  r.claims.clear();
+  judge_claims(r);
+  EXPECT_EQ(judged("reflected energy never exceeds incoming"), Claim::Judged::holds);
+}
+
+}  // namespace
+}  // namespace gonio

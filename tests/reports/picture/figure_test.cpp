@@ -1,0 +1,239 @@
+#include "reports/picture/figure.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "image/exr.h"
+#include "reports/picture/json_numbers.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+Figure times() {
+  return {"times",
+          "Time & error",
+          "a <note>",
+          {"time [ns]", true},
+          {"error, most", true},
+          {{"exact", {1, 10, 100}, {1e-3, none, 1e-5}, FigureCurve::Kind::both},
+           {.name = "fit \"a\"",
+            .x = {2, 20},
+            .y = {0.01, 0.02},
+            .kind = FigureCurve::Kind::points,
+            .labels = {"a, b", "c"},
+            .y_error = {0.001, 0.05}}}};
+}
+
+FigureMap cells() {
+  return {"cells",
+          "Cells",
+          "",
+          {"x", {1, 2, 3}},
+          {"y [°]", {10, 20}},
+          "F − exact [1]",
+          {0, 1, 2, 3, none, -5},
+          true};
+}
+
+/// As the only picture of its report.
+std::string drawn(const Figure& f) {
+  return to_svg(f, CurveStyles({&f, 1}));
+}
+
+std::size_t occurrences(const std::string& in, const std::string& what) {
+  std::size_t n = 0;
+  for (auto at = in.find(what); at != std::string::npos; at = in.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(FigureCsv, HasALineForEachPointThatThereIs) {
+  EXPECT_EQ(to_csv(times()),
+            "curve,time [ns],\"error, most\",label,\"± error, most\"\n"
+            "exact,1,0.001,,\n"
+            "exact,100,1e-05,,\n"
+            "\"fit \"\"a\"\"\",2,0.01,\"a, b\",0.001\n"
+            "\"fit \"\"a\"\"\",20,0.02,c,0.05\n");
+}
+
+TEST(FigureCsv, HasALineForEachCellThatThereIs) {
+  EXPECT_EQ(to_csv(cells()), "x,y [°],F − exact [1]\n1,10,0\n1,20,1\n2,10,2\n2,20,3\n3,20,-5\n");
+  auto named = cells();
+  named.x.names = {"a,b", "c", "d"};
+  EXPECT_NE(to_csv(named).find("\n\"a,b\",10,0\n\"a,b\",20,1\nc,10,2\n"), std::string::npos);
+}
+
+TEST(FigureCsv, RowsHaveAColumnForEveryKeyThatAnyHas) {
+  EXPECT_EQ(rows_csv(R"({"other":1,"rows":[{"b":1.0,"a":"x,y"},{"b":null,"c":true}]})"),
+            "b,a,c\n1,\"x,y\",\n,,true\n");
+}
+
+TEST(FigureId, IsAFileName) {
+  EXPECT_EQ(picture_id("loss", {{"form", "masking.smith_ggx"}, {"angle", "μ = 0.5"}}),
+            "loss_masking_smith_ggx_0_5");
+}
+
+TEST(FigureSvg, EscapesItsTexts) {
+  auto f = times();
+  f.curves[0].name = "</svg><script>\x01";
+  const std::string svg = drawn(f);
+  EXPECT_EQ(occurrences(svg, "<script"), 0U);
+  EXPECT_EQ(occurrences(svg, "</svg>"), 1U);
+  EXPECT_EQ(svg.find('\x01'), svg.npos);
+  EXPECT_NE(svg.find("Time &amp; error"), svg.npos);
+  EXPECT_NE(svg.find("a &lt;note&gt;"), svg.npos);
+}
+
+TEST(FigureSvg, DrawsEveryPointItsBarAndItsLabel) {
+  const std::string svg = drawn(times());
+  EXPECT_EQ(occurrences(svg, "<circle"), 4U + 2U) << "points, and those of the legend";
+  EXPECT_NE(svg.find(">a, b</text>"), svg.npos);
+  EXPECT_EQ(occurrences(svg, "stroke=\"#c4500a\""), 2U) << "the bars of the second curve";
+  EXPECT_NE(svg.find(">10⁻⁵</text>"), svg.npos);
+  EXPECT_EQ(svg.find("nan"), svg.npos);
+  EXPECT_EQ(svg.find("inf"), svg.npos);
+}
+
+TEST(CurveStyles, ANameLooksTheSameInAllPictures) {
+  std::vector<Figure> all(3);
+  all[0].family = all[1].family = "by_angle";
+  all[0].curves = {{"a", {}, {}}, {"b = c", {}, {}}};
+  all[0].curves[1].look = "b";
+  all[1].curves = {{"d", {}, {}}, {"b", {}, {}}, {"a", {}, {}}};
+  all[1].curves[2].dashed = true;
+  all[2].curves = {{"e", {}, {}}, {"d", {}, {}}};
+  const CurveStyles styles(all);
+  const auto of = [&](std::size_t picture, std::size_t i) {
+    return styles.of(all[picture].curves[i]);
+  };
+  EXPECT_EQ(of(0, 0), 0U);
+  EXPECT_EQ(of(0, 1), 1U);
+  EXPECT_EQ(of(1, 1), 1U) << "b";
+  EXPECT_EQ(of(1, 0), 2U) << "not as a, which is in a neighbouring picture";
+  EXPECT_EQ(of(1, 2), 0U) << "the first reference";
+  EXPECT_EQ(of(2, 1), 2U) << "d";
+  EXPECT_EQ(of(2, 0), 0U) << "alike only names that are nowhere beside each other";
+  EXPECT_EQ(page_json(all[2], styles)["curves"][1]["style"], 2);
+  const auto colour = [&](const Figure& f) { return occurrences(to_svg(f, styles), "#00795a"); };
+  EXPECT_EQ(colour(all[0]), 0U);
+  EXPECT_EQ(colour(all[1]), 1U) << "in the legend";
+  EXPECT_EQ(colour(all[2]), 1U);
+}
+
+TEST(CurveStyles, NamesOfAPictureDiffer) {
+  Figure f;
+  for (int i = 0; i < 36; ++i) f.curves.push_back({"r = " + std::to_string(i), {}, {}});
+  const CurveStyles styles({&f, 1});
+  std::set<std::size_t> seen;
+  for (const auto& c : f.curves) seen.insert(styles.of(c));
+  EXPECT_EQ(seen.size(), 36U);
+  EXPECT_EQ(*seen.rbegin(), 35U);
+}
+
+TEST(FigureSvg, ALineBreaksWhereAPointIsMissing) {
+  for (const auto kind : {FigureCurve::Kind::line, FigureCurve::Kind::both}) {
+    const Figure f{"gap", "Gap", "",
+                   {"x"}, {"y"}, {{"c", {0, 1, 2, 3, 4}, {1, 2, none, 2, 1}, kind}}};
+    const std::string svg = drawn(f);
+    const auto begin = svg.find("<path d=\"", svg.find("clip-path=")) + 9;
+    const std::string path = svg.substr(begin, svg.find('"', begin) - begin);
+    EXPECT_EQ(occurrences(path, "M"), 2U) << path;
+    EXPECT_EQ(occurrences(path, "L"), 2U) << path;
+  }
+}
+
+TEST(FigureSvg, IsWholeWithoutAnyPoint) {
+  Figure f{"none", "Nothing", "", {"x"}, {"y", true}, {{"empty", {}, {}}, {"nan", {1}, {none}}}};
+  for (const bool log : {false, true}) {
+    f.x.log = log;
+    const std::string svg = drawn(f);
+    EXPECT_NE(svg.find("</svg>"), svg.npos);
+    EXPECT_EQ(svg.find("nan\""), svg.npos);
+  }
+}
+
+TEST(FigureSvg, ANumberOnALogarithmicAxisIsAboveZero) {
+  Figure f{"log", "Log", "", {"x", true}, {"y", true}, {{"c", {0, 1, 10}, {1, -1, 100}}}};
+  const std::string svg = drawn(f);
+  EXPECT_EQ(svg.find("nan"), svg.npos);
+  EXPECT_EQ(svg.find("inf"), svg.npos);
+}
+
+TEST(FigureMapSvg, LeavesOutACellWithoutValue) {
+  const std::string svg = to_svg(cells());
+  const auto begin = svg.find("<g shape-rendering");
+  const std::string drawn = svg.substr(begin, svg.find("</g>") - begin);
+  EXPECT_EQ(occurrences(drawn, "z\"") + occurrences(drawn, "zM"), 5U)
+      << "a rectangle for each value";
+  EXPECT_NE(svg.find(">−5</text>"), svg.npos) << "the scale of colours";
+}
+
+TEST(FigureMapSvg, WritesNumbersIntoASmallMatrix) {
+  auto m = cells();
+  m.x.names = {"one", "two", "three"};
+  m.y.names = {"first", "second"};
+  const std::string svg = to_svg(m);
+  for (const char* text : {">three</text>", ">second</text>", ">−5</text>", ">3</text>"})
+    EXPECT_NE(svg.find(text), svg.npos) << text;
+}
+
+TEST(FigureMapExr, ReadsBackRightWayUp) {
+  const test::Folder folder;
+  const auto image = read_exr(folder.write("cells.exr", to_exr(cells())));
+  ASSERT_EQ(image.width, 3U);
+  ASSERT_EQ(image.height, 2U);
+  EXPECT_EQ(image.channels, std::vector<std::string>{"F_exact_1"});
+  EXPECT_EQ(image.planes[0][3], 0) << "the lowest row is the last";
+  EXPECT_EQ(image.planes[0][0], 1);
+  EXPECT_EQ(image.planes[0][2], -5);
+  EXPECT_TRUE(std::isnan(image.planes[0][5]));
+  EXPECT_EQ(image.attributes.at("x.at"), "1; 2; 3");
+  EXPECT_EQ(image.attributes.at("y"), "y [°]");
+  EXPECT_EQ(image.attributes.at("value"), "F − exact [1]");
+}
+
+TEST(FigureMap, HasASliceAfterTheOther) {
+  auto m = cells();
+  m.slices = {"r = 0.1", "r = 1"};
+  for (int k = 0; k < 6; ++k) m.values.push_back(10 + k);
+  EXPECT_NE(to_csv(m).find("r = 0.1,3,20,-5\nr = 1,1,10,10\n"), std::string::npos);
+  const std::string svg = to_svg(m);
+  EXPECT_NE(svg.find(">r = 0.1</text>"), svg.npos);
+  EXPECT_EQ(occurrences(svg, "<rect"), 1U + 2U) << "the ground, and a frame for each";
+  const test::Folder folder;
+  const auto image = read_exr(folder.write("cells.exr", to_exr(m)), 1 << 20, {"r_1", "r_0_1"});
+  EXPECT_EQ(image.planes[0], (std::vector<float>{11, 13, 15, 10, 12, 14}));
+  EXPECT_EQ(image.planes[1][2], -5);
+}
+
+TEST(FigureJson, GivesAnXOnceForTheCurvesThatShareIt) {
+  auto f = times();
+  f.curves.push_back(f.curves[1]);
+  const auto j = page_json(f, CurveStyles({&f, 1}));
+  EXPECT_TRUE(j["curves"][1].contains("x_ns")) << "of a time, which no run repeats";
+  EXPECT_FALSE(j["curves"][2].contains("x_ns"));
+  EXPECT_TRUE(j["curves"][0]["y"][1].is_null());
+}
+
+TEST(FigureJson, ScalesOfColoursHoldTheValues) {
+  auto m = cells();
+  EXPECT_EQ(page_json(m)["low"], -5);
+  EXPECT_EQ(page_json(m)["high"], 5);
+  m.diverging = false;
+  m.values = {1e-4, 0.2, 0.03, 0, none, 0.001};
+  m.scale = FigureMap::Scale::log;
+  EXPECT_EQ(page_json(m)["low"], 1e-4);
+  EXPECT_EQ(page_json(m)["high"], 0.2);
+  m.limit = 1;
+  EXPECT_EQ(page_json(m)["high"], 1);
+}
+
+}  // namespace
+}  // namespace gonio

@@ -1,0 +1,264 @@
+#include "reports/schlick/schlick.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "reports/pictures.h"
+#include "reports/schlick/parts.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace gonio {
+namespace {
+
+const SchlickOptions few{false, {1.1, 1.5, 2, 3}, 180, {0.5}};
+const auto unwatched = [](double) {};
+
+FresnelRow row(const std::vector<FresnelRow>& rows, std::string_view form) {
+  return *std::ranges::find(rows, form, &FresnelRow::form);
+}
+FresnelForm form(const std::vector<FresnelForm>& forms, std::string_view name) {
+  return *std::ranges::find(forms, name, &FresnelForm::name);
+}
+const SchlickReport& smooth() {
+  static const SchlickReport report = [] {
+    SchlickReport r;
+    add_rows(r, few, unwatched);
+    add_findings(r);
+    return r;
+  }();
+  return report;
+}
+
+TEST(SchlickReport, AtBrewstersAngleSchlickIsOffByWhatTheClosedFormSays) {
+  // tan θ = n: nothing is reflected in p, ((n² − 1)/(n² + 1))² in s
+  for (const double n : {1.33, 1.5, 2.4}) {
+    const auto s = dielectric(n, "");
+    const double c = 1 / std::hypot(1, n), f0 = std::pow((n - 1) / (n + 1), 2);
+    const double exact = std::pow((n * n - 1) / (n * n + 1), 2) / 2;
+    const double approximate = f0 + (1 - f0) * std::pow(1 - c, 5);
+    EXPECT_NEAR(exact_values(s, {&c, 1})[0][0], exact, 1e-14);
+    EXPECT_NEAR(form_values(form(forms_for(s), "fresnel.schlick"), s, 0, {&c, 1})[0], approximate,
+                1e-14);
+    const auto r = row(rows_of(s, 900), "fresnel.schlick");
+    EXPECT_GE(r.max_abs, std::abs(approximate - exact));
+    EXPECT_GE(r.max_rel, 0.999 * std::abs(approximate / exact - 1));
+  }
+}
+
+TEST(SchlickReport, FindsTheGreatestErrorOfGlass) {
+  // By an own search, Rs and Rp as Fresnel wrote them: tan and sin of sums of the two angles.
+  double most = 0, where = 0;
+  for (double deg = 0.01; deg < 90; deg += 0.01) {
+    const double i = deg * std::acos(-1) / 180, t = std::asin(std::sin(i) / 1.5);
+    const double rs = std::sin(i - t) / std::sin(i + t), rp = std::tan(i - t) / std::tan(i + t);
+    const double off =
+        std::abs(0.04 + 0.96 * std::pow(1 - std::cos(i), 5) - (rs * rs + rp * rp) / 2);
+    if (off > most) most = off, where = deg;
+  }
+  const auto r = row(rows_of(dielectric(1.5, "glass"), 900), "fresnel.schlick");
+  EXPECT_NEAR(r.max_abs, most, 1e-5);
+  EXPECT_NEAR(r.max_abs_theta_deg, where, 0.1);
+}
+
+TEST(SchlickReport, TheLinearFormsMeansAreThoseOfItsIntegrals) {
+  // n = 1 reflects nothing, the linear form 1 − c: RMS² = (2/π) ∫ (1 − cos θ)² dθ, bias = 1/3
+  const auto r = row(rows_of(dielectric(1, ""), 900), "fresnel.linear.as_written");
+  const double pi = std::acos(-1);
+  EXPECT_NEAR(r.rms, std::sqrt(2 / pi * (3 * pi / 4 - 2)), 1e-6);
+  EXPECT_NEAR(r.bias, 1.0 / 3, 1e-6);
+  EXPECT_NEAR(r.within_deg, std::acos(0.99) * 180 / pi, 0.1);
+}
+
+TEST(SchlickReport, FromInsideTheGreatestErrorIsWhereTotalReflectionBegins) {
+  const auto s = dielectric_inside(1.5, "glass");
+  const auto rows = rows_of(s, 900);
+  const auto r = row(rows, "fresnel.schlick");
+  const double c = std::sqrt(5.0) / 3;  // sin θ = 2/3
+  EXPECT_NEAR(r.max_abs_theta_deg, std::asin(2.0 / 3) * 180 / std::acos(-1), 1e-9);
+  EXPECT_NEAR(r.max_abs, 0.96 * (1 - std::pow(1 - c, 5)), 1e-6);
+}
+
+TEST(SchlickReport, AtTheOuterAngleSchlickIsAsGoodFromInside) {
+  for (const double n : {1.2, 1.5, 2.4}) {
+    const auto inside = rows_of(dielectric_inside(n, ""), 9000),
+               outside = rows_of(dielectric(n, ""), 9000);
+    EXPECT_NEAR(row(inside, "fresnel.schlick, outer angle").max_abs,
+                row(outside, "fresnel.schlick").max_abs, 2e-4)
+        << n;
+  }
+}
+
+TEST(SchlickReport, WhatIsExactInOtherWordsHasNoError) {
+  for (const auto& r : smooth().rows)
+    if (r.form == "fresnel.gulbrandsen" || (r.form == "fresnel.disney2015" && r.eta < 1.3)) {
+      EXPECT_LT(r.max_abs, 1e-12) << r.form << r.name;
+    }
+}
+
+TEST(SchlickReport, LazanyiWithoutCorrectionIsSchlickAndWithItNearerWhereAnyHelps) {
+  int channels = 0, nearer = 0;
+  for (const auto& m : metals()) {
+    const auto rows = rows_of(metal(m), 180);
+    for (const auto* channel : {"red", "green", "blue"}) {
+      const auto of = [&](std::string_view form) {
+        return std::ranges::find_if(
+                   rows,
+                   [&](const FresnelRow& r) { return r.form == form && r.channel == channel; })
+            ->rms;
+      };
+      EXPECT_NEAR(of("fresnel.lazanyi"), of("fresnel.schlick"), 1e-12) << m.name;
+      const double corrected = of("fresnel.lazanyi, corrected"), schlick = of("fresnel.schlick");
+      EXPECT_LE(corrected, schlick * (1 + 1e-12)) << m.name;  // the correction may be none
+      ++channels;
+      nearer += corrected < 0.9 * schlick;
+    }
+  }
+  EXPECT_GT(nearer, channels / 2);
+}
+
+TEST(SchlickReport, NoOtherF90ServesAllChannelsOfAMetalBetter) {
+  const auto at = angle_steps(90);
+  for (const auto& m : metals()) {
+    const auto s = metal(m);
+    const auto exact = exact_values(s, at.cosine);
+    auto f90 = form(forms_for(s), "fresnel.schlick.f90");
+    const auto squares = [&](double change) {
+      auto f = f90;
+      f.settings[1].values[0] += change;
+      double sum = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto v = form_values(f, s, c, at.cosine);
+        for (std::size_t i = 0; i < v.size(); ++i) sum += std::pow(v[i] - exact[c][i], 2);
+      }
+      return sum;
+    };
+    EXPECT_LT(squares(0), squares(-0.01)) << m.name;
+    if (f90.settings[1].values[0] < 1) {
+      EXPECT_LT(squares(0), squares(0.01)) << m.name;
+    }
+  }
+}
+
+TEST(SchlickReport, F82MeetsTheExactValueAt82DegreesWhereTheEdgeIsDarker) {
+  const double edge = 1 / 7.0, normal = 1;
+  for (const auto& m : metals()) {
+    const auto s = metal(m);
+    const auto f82 = form(forms_for(s), "fresnel.f82");
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(form_values(f82, s, c, {&normal, 1})[0], exact_values(s, {&normal, 1})[c][0],
+                  1e-12);
+      if (f82.settings[1].values[c] < 1) {
+        EXPECT_NEAR(form_values(f82, s, c, {&edge, 1})[0], exact_values(s, {&edge, 1})[c][0], 1e-12)
+            << m.name;
+      }
+    }
+  }
+}
+
+TEST(SchlickReport, ASpectrumWithoutColourHasTheErrorsOfItsIndex) {
+  const Material::Measured flat[] = {{300, 2, 0.5}, {900, 2, 0.5}};
+  const Material grey{"G", "grey", "", flat};
+  const auto one = rows_of(metal(grey), 90), spectrum = rows_of(spectral(grey), 90);
+  const auto a = row(one, "fresnel.schlick");
+  const auto b = row(spectrum, "fresnel.schlick");
+  EXPECT_NEAR(a.max_abs, b.max_abs, 1e-12);
+  EXPECT_NEAR(a.rms, b.rms, 1e-12);
+  EXPECT_TRUE(std::isnan(b.eta));
+  EXPECT_NEAR(row(spectrum, "fresnel.conductor, three wavelengths").max_abs, 0, 1e-12);
+}
+
+TEST(SchlickReport, AlbedosAreThoseOfTheModelsAndColoursDifferWhereTheyDo) {
+  SchlickReport r;
+  add_albedos(r, few, unwatched);
+  const auto find = [&](auto& list, std::string_view f, std::string_view material, double mu) {
+    return *std::ranges::find_if(
+        list, [&](const auto& a) { return a.form == f && a.material == material && a.mu == mu; });
+  };
+  for (const auto& a : r.albedos) {
+    EXPECT_LE(a.bound, 1e-5);
+    if (a.form == "fresnel.gulbrandsen") {
+      EXPECT_NEAR(a.albedo[0], a.exact[0], 2 * a.bound) << a.material;
+    }
+  }
+  const auto tungsten = find(r.albedos, "fresnel.schlick", "tungsten", 0.1);
+  EXPECT_GT(tungsten.albedo[0], tungsten.exact[0] + 1e-2);
+  EXPECT_NEAR(find(r.colours, "fresnel.gulbrandsen", "gold", 0.5).delta_e[0], 0, 1e-3);
+  EXPECT_GT(find(r.colours, "fresnel.schlick", "tungsten", 0.1).delta_e[0], 1);
+}
+
+TEST(SchlickReport, RowsAreFlatAndHaveTheKeysOfTheContract) {
+  const auto j = nlohmann::json::parse(to_json(smooth()));
+  ASSERT_EQ(j["rows"].size(), smooth().rows.size());
+  std::set<std::string> forms;
+  for (const auto& r : j["rows"]) {
+    forms.insert(r["form"]);
+    for (const auto& [key, value] : r.items()) EXPECT_TRUE(value.is_primitive()) << key;
+    for (const auto* key :
+         {"form", "kind", "name", "eta", "k", "max_abs", "max_abs_theta_deg", "max_rel", "rms"})
+      EXPECT_TRUE(r.contains(key)) << key;
+    EXPECT_EQ(r["eta"].is_null(), r["kind"] == "spectral");
+  }
+  for (const auto* id :
+       {"schlick", "schlick.f90", "f82", "lazanyi", "schlick.ue", "schlick.spherical_gaussian",
+        "linear.as_written", "disney2015", "gulbrandsen"})
+    EXPECT_TRUE(forms.contains("fresnel." + std::string(id))) << id;
+}
+
+TEST(SchlickReport, MapsHaveAnErrorForEveryCell) {
+  SchlickReport r;
+  add_maps(r);
+  for (const auto& m : r.maps)
+    EXPECT_EQ(m.error.size(), r.map_ior.size() * r.map_theta_deg.size()) << m.form;
+  const auto& exact = r.maps.front();
+  ASSERT_EQ(exact.form, "exact");
+  EXPECT_LT(exact.error.front(), 1e-3);  // near IOR 1, near the normal
+}
+
+TEST(SchlickReport, TheVerdictsAreMadeFromTheFigures) {
+  const auto said = [](const SchlickReport& r, std::string_view words) {
+    return std::ranges::any_of(r.findings,
+                               [&](const std::string& f) { return f.find(words) != f.npos; });
+  };
+  EXPECT_TRUE(said(smooth(), "below 1 %” does not hold"));
+  EXPECT_TRUE(said(smooth(), "up to 0.0357 at 85°"));
+  EXPECT_TRUE(said(smooth(), "metals 0.7 to 1.0” does not hold"));
+  EXPECT_TRUE(said(smooth(), "only near IOR 1 is it poor” holds in part"));
+  auto good = smooth();
+  good.findings.clear();
+  for (auto& r : good.rows) r.max_abs = r.max_rel = r.eta < 1.2 && r.k == 0 ? 0.2 : 1e-3;
+  add_findings(good);
+  EXPECT_TRUE(said(good, "only near IOR 1 is it poor” holds:"));
+  for (auto& r : good.rows) r.max_abs = 1e-3;
+  good.findings.clear();
+  add_findings(good);
+  EXPECT_TRUE(said(good, "below 1 %” holds:"));
+}
+
+TEST(SchlickReport, PicturesShowWhatWasMeasured) {
+  auto r = smooth();
+  add_maps(r);
+  add_curves(r);
+  const auto p = pictures(r);
+  test::expect_whole(p);
+  const auto map = std::ranges::find(p.maps, "error_by_angle_schlick_from_outside", &FigureMap::id);
+  ASSERT_NE(map, p.maps.end());
+  const std::size_t angle = 40, index = 9;
+  const auto s = dielectric(map->y.at[index], "");
+  const double c = std::cos(map->x.at[angle] * std::numbers::pi / 180);
+  EXPECT_NEAR(map->values[angle * map->y.size() + index],
+              form_values(form(forms_for(s), "fresnel.schlick"), s, 0, {&c, 1})[0] -
+                  exact_values(s, {&c, 1})[0][0],
+              1e-12);
+  const auto gold =
+      std::ranges::find(p.figures, "reflectance_gold_three_wavelengths_red", &Figure::id);
+  ASSERT_NE(gold, p.figures.end());
+  EXPECT_TRUE(gold->curves.front().dashed) << "the exact one";
+  EXPECT_EQ(gold->curves[1].name, "schlick = lazanyi = schlick.ue") << "the same on gold";
+}
+
+}  // namespace
+}  // namespace gonio

@@ -1,0 +1,164 @@
+#include "reports/tables/cuts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reports/tables.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+using test::glossy;
+
+std::size_t points(const std::vector<double>& data) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(data, [](double v) { return std::isfinite(v); }));
+}
+
+/// Largest |data/model − 1| where both are there.
+double farthest(const Cut& cut) {
+  double most = 0;
+  for (std::size_t c = 0; c < cut.data.size(); ++c)
+    for (std::size_t i = 0; i < cut.deg.size(); ++i)
+      if (std::isfinite(cut.data[c][i]) && std::isfinite(cut.model[c][i]))
+        most = std::max(most, std::abs(cut.data[c][i] / cut.model[c][i] - 1));
+  return most;
+}
+
+TEST(Cuts, AreAscendingAndAsLongAsTheyAre) {
+  const auto cuts = make_cuts(test::filled(test::half_difference_grid(), glossy()), glossy());
+  ASSERT_EQ(cuts.size(), 5U);
+  for (const Cut& cut : cuts) {
+    EXPECT_TRUE(std::ranges::is_sorted(cut.deg));
+    EXPECT_EQ(cut.data.size(), 3U);
+    EXPECT_EQ(cut.model.size(), 3U);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(cut.data[c].size(), cut.deg.size());
+      EXPECT_EQ(points(cut.model[c]), cut.deg.size());
+    }
+  }
+}
+
+TEST(Cuts, OfIncidentAndOutgoingAnglesHitTheModelAtTheNodes) {
+  const auto cuts = make_cuts(test::filled(test::in_out_grid(), glossy()), glossy());
+  ASSERT_EQ(cuts.size(), 5U);
+  EXPECT_NEAR(cuts[1].at_deg, 30, 1e-12);
+  for (const Cut& cut : cuts) {
+    EXPECT_EQ(points(cut.data[0]), 2U * 17 - 1);
+    EXPECT_LT(farthest(cut), 1e-12);
+  }
+}
+
+TEST(Cuts, OfHalfAnglesFollowTheModelToTheirInterpolation) {
+  const auto cuts = make_cuts(test::filled(test::half_difference_grid(90), glossy()), glossy());
+  ASSERT_EQ(cuts.size(), 5U);
+  for (const Cut& cut : cuts) {
+    EXPECT_GT(points(cut.data[0]), 60U);
+    if (cut.at_deg < 70) {
+      EXPECT_LT(farthest(cut), 0.06) << cut.at_deg;
+    }
+  }
+}
+
+TEST(Cuts, WithoutAModelAreTheDataAlone) {
+  const Table t = test::filled(test::in_out_grid(), glossy());
+  const auto with = make_cuts(t, glossy()), without = make_cuts(t);
+  ASSERT_EQ(without.size(), with.size());
+  EXPECT_TRUE(without[1].model.empty());
+  EXPECT_EQ(without[1].deg.size(), 2U * 17 - 1);
+  EXPECT_EQ(points(without[1].data[2]), points(with[1].data[2]));
+}
+
+TEST(Cuts, MirrorSideIsPositive) {
+  const auto cuts = make_cuts(test::filled(test::in_out_grid(), glossy(0)), glossy(0));
+  const Cut& at_60 = cuts[3];
+  const auto peak = std::ranges::max_element(at_60.model[0], {}, [&](const double& v) {
+    const double deg = at_60.deg[static_cast<std::size_t>(&v - at_60.model[0].data())];
+    return std::abs(deg) < 75 ? v : 0;
+  });
+  EXPECT_GT(at_60.deg[static_cast<std::size_t>(peak - at_60.model[0].begin())], 55);
+}
+
+TEST(Cuts, OfASliceOutOfThePlaneRunAlongTheHalfAngle) {
+  Grid g = test::half_difference_grid();
+  g.axes[2] = {"phi_d", Axis::Spacing::constant, 1, test::right_angle};
+  const auto cuts = make_cuts(test::filled(g, glossy()), glossy());
+  ASSERT_EQ(cuts.size(), 5U);
+  for (const Cut& cut : cuts) {
+    EXPECT_EQ(cut.at, "theta_d");
+    EXPECT_EQ(cut.along, "theta_h");
+    EXPECT_EQ(points(cut.data[2]), 45U);
+    EXPECT_LT(farthest(cut), 1e-9);
+  }
+}
+
+TEST(Cuts, AGridOfOneAzimuthSaysNothingAboutTheOtherSide) {
+  Grid g = test::in_out_grid();
+  g.axes[2] = {"phi", Axis::Spacing::constant, 1, 2 * test::right_angle};
+  const auto cuts = make_cuts(test::filled(g, glossy()), glossy());
+  ASSERT_EQ(cuts.size(), 5U);
+  for (const Cut& cut : cuts)
+    for (std::size_t i = 0; i < cut.deg.size(); ++i)
+      if (cut.deg[i] < 0) {
+        EXPECT_TRUE(std::isnan(cut.data[0][i])) << cut.deg[i];
+      }
+}
+
+TEST(Cuts, OfAListAreItsSamplesInThePlane) {
+  DirectionList l;
+  const auto add = [&](double ti, double pi, double to, double po) {
+    l.theta_i_deg.push_back(ti);
+    l.phi_i_deg.push_back(pi);
+    l.theta_o_deg.push_back(to);
+    l.phi_o_deg.push_back(po);
+  };
+  for (double deg = 5; deg < 90; deg += 5) {
+    add(20, 90, deg, 270);  // mirror side
+    add(20, 90, deg, 90);
+    add(50, 0, deg, 180);
+    add(50, 0, deg, 60);  // out of the plane, but for none
+  }
+  Table t = test::filled(l, glossy());
+  t.values[0][0] = -1;
+  t.values[1][1] = std::numeric_limits<double>::quiet_NaN();
+  const auto cuts = make_cuts(t, glossy());
+  ASSERT_EQ(cuts.size(), 2U);
+  EXPECT_EQ(cuts[0].at_deg, 20);
+  EXPECT_EQ(cuts[0].within_deg, 0);
+  EXPECT_EQ(points(cuts[0].data[0]), 33U);
+  EXPECT_EQ(points(cuts[0].data[1]), 33U);
+  EXPECT_EQ(points(cuts[0].data[2]), 34U);
+  EXPECT_EQ(points(cuts[1].data[0]), 17U);
+  for (const Cut& cut : cuts) EXPECT_LT(farthest(cut), 1e-12);
+  for (std::size_t i = 0; i < cuts[1].deg.size(); ++i)
+    if (cuts[1].deg[i] < 0) {
+      EXPECT_TRUE(std::isnan(cuts[1].data[0][i]));
+    }
+}
+
+TEST(Cuts, OfScatteredDirectionsSayHowFarTheirDataAreOff) {
+  DirectionList l;
+  for (int i = 0; i < 4000; ++i) {
+    l.theta_i_deg.push_back(std::fmod(i * 0.618034 * 80, 80));
+    l.phi_i_deg.push_back(0);
+    l.theta_o_deg.push_back(std::fmod(i * 0.754878 * 80, 80));
+    l.phi_o_deg.push_back(std::fmod(i * 0.569840 * 360, 360));
+  }
+  const auto cuts = make_cuts(test::filled(l, glossy()), glossy());
+  ASSERT_FALSE(cuts.empty());
+  for (const Cut& cut : cuts) EXPECT_EQ(cut.within_deg, 1.5);
+}
+
+TEST(Cuts, ThereAreNoneWithoutDataInThem) {
+  DirectionList l;
+  l.theta_i_deg = l.theta_o_deg = {40, 40};
+  l.phi_i_deg = {0, 0};
+  l.phi_o_deg = {90, 100};
+  EXPECT_TRUE(make_cuts(test::filled(l, glossy()), glossy()).empty());
+}
+
+}  // namespace
+}  // namespace gonio
