@@ -1,4 +1,4 @@
-// Ceres stays in this file (and in plain.cpp, which is measured against it).
+// Ceres stays in this file (and in plain_fit.cpp, which is measured against it).
 #include "fitting/solve/solve.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// What a surface reflects at normal incidence, F0, and what that says of its refractive index
-/// N = n + i k: maps (brdf/map.h) between F0, n, Gulbrandsen's (r, g) and (n, k).
+/// N = n + i k: maps (brdf/term/map.h) between F0, n, Gulbrandsen's (r, g) and (n, k).
 
 #include <array>
 #include <span>

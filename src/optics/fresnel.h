@@ -3,7 +3,7 @@
 /// Fresnel reflectance of a smooth interface, exact, as a function of c = VoH = cos θ_d, the cosine
 /// between the direction and the facet's normal.  The approximations are in fresnel_approximate.h.
 ///
-/// Each is a term (brdf/term.h): the constructor takes the parameters, which may carry derivatives;
+/// Each is a term (brdf/term/term.h): the constructor takes the parameters, which may carry derivatives;
 /// operator() takes the cosines of one sample, which never do.  Unpolarised light, from vacuum.
 
 #include <array>

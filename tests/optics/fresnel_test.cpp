@@ -1,5 +1,5 @@
 // The laws of Fresnel reflectance.  How many digits the terms keep is judged by fifty-digit numbers
-// in brdf/wide_test.cpp.
+// in brdf/in_number/wide_test.cpp.
 #include <array>
 #include <cmath>
 #include <complex>

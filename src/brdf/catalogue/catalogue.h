@@ -27,7 +27,7 @@ using Hot =
               ModelTerms<TermList<>, TermList<Beckmann, SmithBeckmannRational, Schlick>>,
               ModelTerms<TermList<>, TermList<Gtr, SmithGgxCorrelated, Schlick>>,
               ModelTerms<TermList<Lambert>, TermList<Ggx, SmithGgxCorrelated, Schlick>>,
-              // as they ship (presets.h)
+              // as they ship (model/presets.h)
               ModelTerms<TermList<LambertCoupled>, TermList<Ggx, SmithGgxCorrelated, Schlick>>,
               ModelTerms<TermList<LambertCoupled>, TermList<Ggx, SmithGgxSeparable, Schlick>>,
               ModelTerms<TermList<Lambert>, TermList<Ggx, SmithGgxCorrelated, SchlickF90>>,

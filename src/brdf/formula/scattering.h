@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// What gives back the light that single scattering loses between facets: compensations as shaders run
-/// them, maps (brdf/map.h) from albedos to albedos.  E is the albedo of a lobe at F = 1, E_avg its
+/// them, maps (brdf/term/map.h) from albedos to albedos.  E is the albedo of a lobe at F = 1, E_avg its
 /// average over the hemisphere, F_avg = 2 ∫ F(μ) μ dμ that of a Fresnel term.
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Every term in every number, one sample at a time: what `gonio term` prints, and what says how much
-/// a number type loses and what a term costs.  For millions of samples see kernels.h.
+/// a number type loses and what a term costs.  For millions of samples see kernel/kernels.h.
 ///
 /// Indices are those of the catalogue.  One file per number compiles all terms (term_in_*.cpp).
 

@@ -10,7 +10,7 @@
 ///                        few bits it may divide by zero, cancel or overflow, and that is to be seen
 ///
 /// The parameters are T (they may carry derivatives), the angles are plain_t<T> (they never do).
-/// A term is added by writing its struct and naming it in catalogue.h; the registry, the command
+/// A term is added by writing its struct and naming it in catalogue/catalogue.h; the registry, the command
 /// line, composition, the fit and the tests find it from there.
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Albedos with multiple scattering: of composed models under the compensations of brdf/scattering.h, and
+/// Albedos with multiple scattering: of composed models under the compensations of brdf/formula/scattering.h, and
 /// what walk.h and half_space.h solve, with diffuse terms and as averages.
 
 #include <array>

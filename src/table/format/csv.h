@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// CSV: samples anywhere.  Text with columns (table/delimited.h) named theta_i, phi_i, theta_o, phi_o
+/// CSV: samples anywhere.  Text with columns (table/format/delimited.h) named theta_i, phi_i, theta_o, phi_o
 /// [degrees], one or more of `f` or `f_NAME` [1/sr, no cosine] and perhaps `weight`, in any order; or
-/// of other names and conventions, with a map that says which (table/column_map.h).
+/// of other names and conventions, with a map that says which (table/format/column_map.h).
 ///
 /// Numbers are written so that they read back as the same doubles.
 

@@ -18,7 +18,7 @@
 namespace gonio {
 
 /// The format is found from the bytes, not from the name.
-/// \param bins  beats what the file or its side file (table/metadata.h) says, which beats `centre`
+/// \param bins  beats what the file or its side file (table/format/metadata.h) says, which beats `centre`
 Table read_table(const std::string& path, std::optional<Bins> bins = {});
 
 /// A table that is used while its file's SHA-256 is still being made.

@@ -23,7 +23,7 @@ bool is_rgl(std::string_view head);
 /// column, of which the sample is the mean, θ_i = 0 all φ_i.  Those below the horizon stay and are masked, so are negative values (outside
 /// the RGB gamut, or noise) and those too near the horizon to divide (least_cosine).  Isotropic files
 /// are read at φ_i = 0.  Channels: r, g, b, or the wavelengths [nm] as numbers.
-/// Table::between is the format's own evaluation among valid samples (table/rgl_function.h); a file
+/// Table::between is the format's own evaluation among valid samples (table/format/rgl_function.h); a file
 /// over half or a quarter of φ_i is symmetric under a half turn, or mirrored.
 /// [Dupuy and Jakob 2018, doi:10.1145/3272127.3275059]
 Table read_rgl(InputFile&);

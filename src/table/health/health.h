@@ -57,7 +57,7 @@ struct Health {
   std::size_t copied_rows = 0;     ///< incident angles that only repeat another, see copied_rows()
   std::size_t copied_columns = 0;  ///< outgoing angles likewise
   std::vector<AlbedoSample> albedo;
-  /// median |f(wi,wo) − f(wo,wi)| / mean (table/reciprocity.h); absent where the layout cannot tell
+  /// median |f(wi,wo) − f(wo,wi)| / mean (table/health/reciprocity.h); absent where the layout cannot tell
   std::optional<double> reciprocity_error;
   std::string reciprocity_note;
   Noise noise;
