@@ -146,6 +146,16 @@ FreeSlots::FreeSlots(std::vector<bool> free) : mask_(std::move(free)), index_(ma
     }
 }
 
+std::vector<double> FreeSlots::of(std::span<const double> values) const {
+  std::vector<double> free;
+  for (const std::size_t s : slots_) free.push_back(values[s]);
+  return free;
+}
+
+void FreeSlots::put(std::span<const double> free, std::span<double> values) const {
+  for (std::size_t i = 0; i < slots_.size(); ++i) values[slots_[i]] = free[i];
+}
+
 template <class F>
 void GramSums<F>::scatter(const std::vector<std::size_t>& free,
                           std::size_t n,

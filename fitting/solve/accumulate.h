@@ -14,7 +14,7 @@
 
 namespace gonio {
 
-/// Which value slots of a model a fit may move; the others keep their values.
+/// Value slots of a model that a fit may move; the others keep their values.
 class FreeSlots {
  public:
   explicit FreeSlots(std::vector<bool> free);
@@ -23,6 +23,10 @@ class FreeSlots {
   std::span<const std::size_t> slots() const { return slots_; }
   /// Position among the free ones, of a slot that is free.
   std::size_t index(std::size_t slot) const { return index_[slot]; }
+  /// Free ones of all values, in order.
+  std::vector<double> of(std::span<const double> values) const;
+  /// Puts them back where they belong.
+  void put(std::span<const double> free, std::span<double> values) const;
 
  private:
   std::vector<bool> mask_;

@@ -1,9 +1,11 @@
 #include "fitting/solve/problem.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/evaluate.h"
 #include "brdf/model/presets.h"
 #include "table/health/health.h"
 
@@ -87,6 +89,23 @@ Problem pose(const Table& t, const FitOptions& o) {
           std::move(bounds),
           std::move(narrowed),
           noise_floor(t)};
+}
+
+bool is_reciprocal(const BoundModel& b) {
+  std::vector<Angles<double>> there, back;
+  for (const double theta_h : {2.0, 15.0, 40.0})
+    for (const double theta_d : {5.0, 30.0, 45.0})
+      for (const double phi_d : {10.0, 70.0}) {
+        const auto a =
+            angles(SinCos(theta_h * degree), SinCos(theta_d * degree), std::cos(phi_d * degree));
+        there.push_back(a);
+        back.push_back({a.nov, a.nol, a.noh, a.voh, a.sin2_theta_h});
+      }
+  const auto f = evaluate(b, there), g = evaluate(b, back);
+  for (std::size_t c = 0; c < f.size(); ++c)
+    for (std::size_t i = 0; i < f[c].size(); ++i)
+      if (std::abs(f[c][i] - g[c][i]) > 1e-12 * f[c][i]) return false;
+  return true;
 }
 
 }  // namespace gonio

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a fit looks for: which parameters are free, and within which bounds.
+/// Problem that a fit solves: which parameters are free, and within which bounds.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace gonio {
 
-/// What stays the same for both bin conventions.
+/// Model, unknowns and bounds: all that a fit is asked, the samples apart.
 struct Problem {
   const FitOptions& options;
   BoundModel start;  ///< fixed values in place
@@ -28,5 +28,8 @@ FitOptions expanded(FitOptions);
 /// Throws wrong usage for options that do not fit the model or the table's channels.
 /// \param expanded  outlives the problem
 Problem pose(const Table&, const FitOptions& expanded);
+
+/// Whether f stays the same with light and viewer exchanged: then such samples are one to the fit.
+bool is_reciprocal(const BoundModel&);
 
 }  // namespace gonio

@@ -68,9 +68,7 @@ class Enough : public ceres::IterationCallback {
 class Reduced : public ceres::CostFunction {
  public:
   /// \param scale  of the cost, so that none of Ceres' absolute limits depends on the data's unit
-  Reduced(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
-          std::size_t n,
-          double scale)
+  Reduced(const NormalEquationsAt& evaluate, std::size_t n, double scale)
       : evaluate_(evaluate), scale_(scale) {
     set_num_residuals(static_cast<int>(n) + 1);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(n));
@@ -128,7 +126,7 @@ class Reduced : public ceres::CostFunction {
     return best_.at;
   }
 
-  const std::function<NormalEquations(const std::vector<double>&)>& evaluate_;
+  const NormalEquationsAt& evaluate_;
   double scale_;
   mutable Evaluation best_, last_;
   mutable int passes_ = 0;
@@ -136,8 +134,9 @@ class Reduced : public ceres::CostFunction {
 
 /// Gauss–Newton steps from a place so close to the optimum that each is shorter than the last.
 /// Whether it got there; where not, s is where the last step that kept to that led.
-bool take_last_steps(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
+bool take_last_steps(const NormalEquationsAt& evaluate,
                      const Bounds& bounds,
+                     std::vector<double>& x,
                      Solution& s) {
   constexpr double enough = 1e-8, shorter = 0.5;
   auto step = next_step(s.at);
@@ -147,18 +146,18 @@ bool take_last_steps(const std::function<NormalEquations(const std::vector<doubl
                               s.at.cost > 0 ? step->decrease / s.at.cost : 0);
       return true;
     }
-    auto x = s.x;
+    auto tried = x;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      x[i] += step->by[static_cast<Eigen::Index>(i)];
-      if (!(x[i] > bounds.low[i] && x[i] < bounds.high[i])) return false;
+      tried[i] += step->by[static_cast<Eigen::Index>(i)];
+      if (!(tried[i] > bounds.low[i] && tried[i] < bounds.high[i])) return false;
     }
-    auto at = evaluate(x);
+    auto at = evaluate(tried);
     ++s.passes;
     const auto next = next_step(at);
     if (!next || next->decrease > shorter * step->decrease) return false;
     ++s.iterations;
     s.cost_per_iteration.push_back(at.cost);
-    s.x = std::move(x);
+    x = std::move(tried);
     s.at = std::move(at);
     step = next;
   }
@@ -166,20 +165,19 @@ bool take_last_steps(const std::function<NormalEquations(const std::vector<doubl
 }
 
 /// One run of Ceres, all unknowns free inside their bounds, and the last steps after it.
-Solution solve_once(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
-                    std::vector<double> start,
+Solution solve_once(const NormalEquationsAt& evaluate,
+                    std::vector<double>& x,
                     const Bounds& bounds,
                     const SolveOptions& options) {
   Solution s;
-  s.x = std::move(start);
-  const std::size_t n = s.x.size();
+  const std::size_t n = x.size();
 
   ceres::Problem::Options ours;
   ours.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(ours);
   // One for the sum of what each unknown changes over its range.
   double effect = 0;
-  s.at = evaluate(s.x);
+  s.at = evaluate(x);
   for (std::size_t i = 0; i < n; ++i) {
     const double range = bounds.high[i] - bounds.low[i];
     effect += s.at.h[i * n + i] * range * range;
@@ -190,17 +188,17 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
   }
   s.passes = 1;
   s.cost_per_iteration.push_back(s.at.cost);
-  if (options.rounding > 0 && take_last_steps(evaluate, bounds, s)) {
+  if (options.rounding > 0 && take_last_steps(evaluate, bounds, x, s)) {
     s.converged = true;
     return s;
   }
   const double scale = effect > 0 ? 1 / effect : 1;
   Reduced cost(evaluate, n, scale);
-  cost.known(s.x, s.at);
-  problem.AddResidualBlock(&cost, nullptr, s.x.data());
+  cost.known(x, s.at);
+  problem.AddResidualBlock(&cost, nullptr, x.data());
   for (std::size_t i = 0; i < n; ++i) {
-    problem.SetParameterLowerBound(s.x.data(), static_cast<int>(i), bounds.low[i]);
-    problem.SetParameterUpperBound(s.x.data(), static_cast<int>(i), bounds.high[i]);
+    problem.SetParameterLowerBound(x.data(), static_cast<int>(i), bounds.low[i]);
+    problem.SetParameterUpperBound(x.data(), static_cast<int>(i), bounds.high[i]);
   }
   ceres::Solver::Options o;
   o.linear_solver_type = ceres::DENSE_QR;
@@ -216,7 +214,7 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
   ceres::Solver::Summary summary;
   ceres::Solve(o, &problem, &summary);
 
-  s.x = cost.best().x;
+  x = cost.best().x;
   s.at = cost.best().at;
   s.passes += cost.passes();
   s.converged = summary.termination_type == ceres::CONVERGENCE ||
@@ -226,7 +224,7 @@ Solution solve_once(const std::function<NormalEquations(const std::vector<double
     s.cost_per_iteration.push_back(summary.iterations[i].cost / scale);
   }
   s.message = summary.message;
-  if (options.rounding > 0 && s.converged) take_last_steps(evaluate, bounds, s);
+  if (options.rounding > 0 && s.converged) take_last_steps(evaluate, bounds, x, s);
   return s;
 }
 
@@ -244,22 +242,21 @@ NormalEquations restricted(const NormalEquations& e,
 
 }  // namespace
 
-Solution solve(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
-               std::vector<double> start,
+Solution solve(const NormalEquationsAt& evaluate,
+               std::vector<double>& x,
                const Bounds& bounds,
                const SolveOptions& options) {
-  const std::size_t n = start.size();
+  const std::size_t n = x.size();
   Solution s;
-  s.x = std::move(start);
   s.message = "nothing to fit";
   s.converged = true;
-  for (std::size_t i = 0; i < n; ++i) s.x[i] = std::clamp(s.x[i], bounds.low[i], bounds.high[i]);
+  for (std::size_t i = 0; i < n; ++i) x[i] = std::clamp(x[i], bounds.low[i], bounds.high[i]);
   if (n == 0) {
-    s.at = evaluate(s.x);
+    s.at = evaluate(x);
     return s;
   }
-  const auto at_low = [&](std::size_t i) { return s.x[i] <= bounds.low[i]; };
-  const auto at_high = [&](std::size_t i) { return s.x[i] >= bounds.high[i]; };
+  const auto at_low = [&](std::size_t i) { return x[i] <= bounds.low[i]; };
+  const auto at_high = [&](std::size_t i) { return x[i] >= bounds.high[i]; };
   // What stands at a bound and is pushed outwards is held; what is pulled inside is let go.
   const auto pushed_outwards = [&] {
     std::vector<bool> pushed(n);
@@ -270,7 +267,7 @@ Solution solve(const std::function<NormalEquations(const std::vector<double>&)>&
   std::vector<bool> held(n, false);
   for (std::size_t i = 0; i < n; ++i)
     if (at_low(i) || at_high(i)) {
-      s.at = evaluate(s.x);
+      s.at = evaluate(x);
       ++s.passes;
       held = pushed_outwards();
       break;
@@ -278,39 +275,37 @@ Solution solve(const std::function<NormalEquations(const std::vector<double>&)>&
   for (std::size_t round = 0; round < n + 2; ++round) {
     std::vector<std::size_t> moving;
     Bounds inside;
-    std::vector<double> x;
+    std::vector<double> some;
     for (std::size_t i = 0; i < n; ++i) {
       if (held[i]) continue;
       moving.push_back(i);
       inside.low.push_back(bounds.low[i]);
       inside.high.push_back(bounds.high[i]);
-      x.push_back(s.x[i]);
+      some.push_back(x[i]);
     }
     const auto whole = [&](const std::vector<double>& part) {
-      auto all = s.x;
+      auto all = x;
       for (std::size_t k = 0; k < moving.size(); ++k) all[moving[k]] = part[k];
       return all;
     };
     NormalEquations best;  // of the whole problem where the part was lowest
     std::vector<double> best_x;
-    const std::function<NormalEquations(const std::vector<double>&)> part =
-        [&](const std::vector<double>& p) {
-          auto all = whole(p);
-          const NormalEquations e = evaluate(all);
-          if (best_x.empty() || e.cost < best.cost) {
-            best = e;
-            best_x = std::move(all);
-          }
-          return restricted(e, n, moving);
-        };
+    const NormalEquationsAt part = [&](const std::vector<double>& p) {
+      auto all = whole(p);
+      const NormalEquations e = evaluate(all);
+      if (best_x.empty() || e.cost < best.cost) {
+        best = e;
+        best_x = std::move(all);
+      }
+      return restricted(e, n, moving);
+    };
     if (moving.empty()) {
       s.converged = true;
       s.message = "every unknown is at a bound";
     } else {
-      const Solution once = solve_once(part, std::move(x), inside, options);
-      const auto at = whole(once.x);
-      s.x = at;
-      s.at = at == best_x ? std::move(best) : evaluate(at);
+      const Solution once = solve_once(part, some, inside, options);
+      x = whole(some);
+      s.at = x == best_x ? std::move(best) : evaluate(x);
       s.converged = once.converged;
       s.message = once.message;
       s.iterations += once.iterations;

@@ -10,13 +10,15 @@
 
 namespace gonio {
 
+using NormalEquationsAt = std::function<NormalEquations(const std::vector<double>&)>;
+
 struct Bounds {
   std::vector<double> low, high;
 };
 
+/// Way to a minimum; where it lies is in the unknowns themselves.
 struct Solution {
-  std::vector<double> x;
-  NormalEquations at;  ///< the normal equations at x
+  NormalEquations at;  ///< the normal equations there
   bool converged = false;
   int iterations = 0, passes = 0;  ///< trial steps; evaluations
   std::vector<double> cost_per_iteration;
@@ -46,8 +48,9 @@ struct SolveOptions {
 /// The gradient of rounded numbers is worth more than their cost, whose rounding hides the last steps.
 /// With `rounding` these are plain Gauss–Newton steps, until one promises less than 1e-8 of the cost:
 /// a fifth of a standard error where there are millions of independent values.
-Solution solve(const std::function<NormalEquations(const std::vector<double>&)>& evaluate,
-               std::vector<double> start,
+/// \param x  where to begin; the minimum, after it
+Solution solve(const NormalEquationsAt&,
+               std::vector<double>& x,
                const Bounds&,
                const SolveOptions& = {});
 

@@ -86,21 +86,19 @@ std::vector<double> find_start(const Model& m,
   constexpr std::size_t kept = 4;
   rungs.resize(kept);
 
-  const auto slots = free.slots();
   tbb::parallel_for(std::size_t{0}, rungs.size(), [&](std::size_t k) {
     auto& v = rungs[k].second;
     const auto evaluate = [&](const std::vector<double>& x) {
-      for (std::size_t i = 0; i < x.size(); ++i) v[slots[i]] = x[i];
+      free.put(x, v);
       return accumulate.normal_equations(v);
     };
-    std::vector<double> x;
-    for (const std::size_t s : slots) x.push_back(v[s]);
+    auto x = free.of(v);
     SolveOptions o;
     o.max_iterations = 25;
     o.function_tolerance = 1e-4;
-    const auto s = solve(evaluate, std::move(x), bounds, o);
-    for (std::size_t i = 0; i < slots.size(); ++i) v[slots[i]] = s.x[i];
-    rungs[k].first = finite(s.at.cost);
+    const double cost = solve(evaluate, x, bounds, o).at.cost;
+    free.put(x, v);
+    rungs[k].first = finite(cost);
   });
   return std::ranges::min_element(rungs, {}, &Tried::first)->second;
 }

@@ -301,14 +301,16 @@ TEST(Solve, FindsTheMinimumOfAQuadraticAndKeepsInsideItsBounds) {
     e.cost = (a * e.g[0] + b * e.g[1]) / 2 + 3;
     return e;
   };
-  const auto s = solve(evaluate, {10, -10}, {{-100, -100}, {100, 100}});
+  std::vector<double> x{10, -10};
+  const auto s = solve(evaluate, x, {{-100, -100}, {100, 100}});
   EXPECT_TRUE(s.converged);
-  EXPECT_NEAR(s.x[0], 1, 1e-6);
-  EXPECT_NEAR(s.x[1], 2, 1e-6);
+  EXPECT_NEAR(x[0], 1, 1e-6);
+  EXPECT_NEAR(x[1], 2, 1e-6);
   EXPECT_NEAR(s.at.cost, 3, 1e-12);
-  const auto inside = solve(evaluate, {10, -10}, {{-100, -100}, {100, 1}});
-  EXPECT_EQ(inside.x[1], 1);
-  EXPECT_NEAR(inside.x[0], 1.5, 1e-4);  // 2 (x − 1) + (1 − 2) = 0
+  x = {10, -10};
+  solve(evaluate, x, {{-100, -100}, {100, 1}});
+  EXPECT_EQ(x[1], 1);
+  EXPECT_NEAR(x[0], 1.5, 1e-4);  // 2 (x − 1) + (1 − 2) = 0
 }
 
 // The cost is rounded to more than the last steps lower it by; only the gradient can lead on.
@@ -325,12 +327,13 @@ TEST(Solve, IsNotHeldUpByTheRoundingOfTheCost) {
     e.cost = 0.01 * std::round(exact / 0.01);
     return e;
   };
-  const auto s = solve(evaluate, {0.35, 0.68}, {{0, 0}, {1, 1}}, {.rounding = 1e-9});
+  std::vector<double> x{0.35, 0.68};
+  const auto s = solve(evaluate, x, {{0, 0}, {1, 1}}, {.rounding = 1e-9});
   EXPECT_TRUE(s.converged);
   EXPECT_LT(passes, 6);
   // 1e-8 of the cost: half a step of 0.01 along the flattest direction
-  EXPECT_NEAR(s.x[0], optimum[0], 0.012);
-  EXPECT_NEAR(s.x[1], optimum[1], 0.012);
+  EXPECT_NEAR(x[0], optimum[0], 0.012);
+  EXPECT_NEAR(x[1], optimum[1], 0.012);
   EXPECT_EQ(s.cost_per_iteration.size(), static_cast<std::size_t>(s.iterations) + 1);
 }
 
@@ -339,10 +342,11 @@ TEST(Solve, SurvivesADirectionInWhichNothingChanges) {
     const double a = x[0] + x[1] - 1;
     return NormalEquations{{1, 1, 0, 1, 1, 0, 0, 0, 0}, {a, a, 0}, a * a / 2 + 1};
   };
-  const auto s = solve(evaluate, {0, 0, 5}, {{-9, -9, -9}, {9, 9, 9}});
+  std::vector<double> x{0, 0, 5};
+  const auto s = solve(evaluate, x, {{-9, -9, -9}, {9, 9, 9}});
   EXPECT_TRUE(s.converged);
-  EXPECT_NEAR(s.x[0] + s.x[1], 1, 1e-6);
-  EXPECT_EQ(s.x[2], 5);
+  EXPECT_NEAR(x[0] + x[1], 1, 1e-6);
+  EXPECT_EQ(x[2], 5);
 }
 
 TEST(Uncertainty, TellsSingularDirectionsFromKnownParameters) {

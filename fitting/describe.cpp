@@ -1,0 +1,58 @@
+#include "fitting/describe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+void describe(FitDocument& d,
+              const Problem& p,
+              std::span<const double> values,
+              const Uncertainty& u) {
+  for (const auto& q : p.start.model.parameters) {
+    FittedParameter e{q.name, {}, {}, {}, {}, {}};
+    for (std::size_t s = q.first; s < q.first + q.count; ++s) {
+      double value = values[s], error = nan;
+      auto status = ParameterStatus::fixed;
+      if (p.free.mask()[s]) {
+        const std::size_t i = p.free.index(s);
+        status = u.status[i];
+        error = u.std_error[i];
+        // A width at the low end of all there are: narrower ones, or no lobe, would do as well.
+        if (status == ParameterStatus::at_bound && is_alpha(q.name) && !p.narrowed[i] &&
+            value <= p.bounds.low[i] * (1 + 1e-3))
+          status = ParameterStatus::not_identifiable;
+        if (status == ParameterStatus::not_identifiable) value = error = nan;
+      }
+      e.value.push_back(value);
+      e.std_error.push_back(error);
+      e.ci95_low.push_back(std::max(value - u.t * error, q.about->legal.low));
+      e.ci95_high.push_back(std::min(value + u.t * error, q.about->legal.high));
+      if (std::isnan(error)) e.ci95_low.back() = e.ci95_high.back() = nan;
+      e.status.push_back(status);
+    }
+    d.parameters.push_back(e);
+    if (!is_alpha(q.name)) continue;
+    FittedParameter r = e;  // roughness = √alpha, its error to first order
+    r.name = roughness_name(q.name);
+    for (auto* v : {&r.value, &r.ci95_low, &r.ci95_high}) (*v)[0] = std::sqrt((*v)[0]);
+    r.std_error[0] = e.std_error[0] / (2 * r.value[0]);
+    d.parameters.push_back(r);
+  }
+  for (const auto& q : p.start.model.parameters)
+    for (std::size_t c = 0; c < q.count; ++c)
+      if (p.free.mask()[q.first + c])
+        d.free_names.push_back(q.count == 1 ? q.name : fmt::format("{}.{}", q.name, d.channels[c]));
+  d.correlations = u.correlations;
+  d.condition = u.condition;
+}
+
+}  // namespace gonio

@@ -1,0 +1,155 @@
+#include "fitting/solve/search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <type_traits>
+
+#include "base/error.h"
+#include "base/quantile.h"
+#include "fitting/sample/data.h"
+#include "fitting/solve/accumulate.h"
+#include "fitting/solve/start.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+constexpr std::size_t coarse_samples = 2048, middle_samples = 32768;
+
+/// Huber's threshold: 1.345 times the spread that the residuals' median size tells, 1.4826 times that
+/// size if they are normal.
+template <class F>
+double huber_threshold(const Problem& p, const FitData<F>& data, const Fitted& f) {
+  auto r = Accumulator<F>(p.start.model, data, p.free).residuals(f.model.values);
+  if (r.empty()) return no_huber;
+  for (auto& x : r) x = std::abs(x);
+  return std::max(1.345 * 1.4826 * median(r), 1e-12);
+}
+
+/// Cost of one value's rounding in float, ½ (5e-7 x)² on average, where x is a value's residual if the
+/// model were 0 there (or wrong by a factor e under logs).  0, which means double alone, where floats
+/// do not hold the squares: of weights or residuals outside [1e-10, 1e10], of values beyond e^±40.
+double rounding_in_float(const FitData<double>& thin, std::size_t channels) {
+  constexpr double most = 1e10, relative = 5e-7;
+  double squares = 0, count = 0, largest = 0;
+  for (const auto& task : thin.tasks)
+    for (const auto& b : task)
+      for (std::size_t c = 0; c < channels; ++c)
+        for (std::size_t i = 0; i < b.n; ++i) {
+          const double w = b.weight(c)[i];
+          if (w == 0) continue;
+          const double x = w * (thin.link == Link::log ? 1 : b.target(c)[i]);
+          constexpr double far = 40;  // e⁴⁰ squared is still a float
+          if (w < 1 / most || w > most || std::abs(x) > most) return 0;
+          if (thin.link == Link::log && std::abs(b.target(c)[i]) > far) return 0;
+          largest = std::max(largest, std::abs(x));
+          squares += x * x;
+          ++count;
+        }
+  return largest < 1 / most ? 0 : relative * relative * squares / count / 2;
+}
+
+/// Whether what float rounds off is less than a twentieth of each standard error, as a first look at
+/// JᵀJ gives it.
+bool float_suffices(const Problem& p, const Fitted& f, std::size_t values_used) {
+  constexpr double rounding = 1e-7;
+  const auto x = p.free.of(f.model.values);
+  const std::size_t n = x.size();
+  const double variance = 2 * f.solution.at.cost / static_cast<double>(values_used);
+  for (std::size_t i = 0; i < n; ++i) {
+    // 1/H_ii is the variance with all others known: not more than that of the parameter
+    const double h = f.solution.at.h[i * n + i];
+    if (h > 0 && std::sqrt(variance / h) < 20 * rounding * std::abs(x[i])) return false;
+  }
+  return true;
+}
+
+[[noreturn]] void no_values(const Sampling& sampling, const SampleCounts& counts) {
+  std::string reasons;
+  for (const auto& [reason, count] : counts.by_reason(sampling))
+    if (count) reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
+  throw bad_input(sampling.table().path, "values",
+                  fmt::format("none that can be used ({})", reasons), "at least one");
+}
+
+/// From nothing to the best fit of all samples.  A model that does not fit converges slowly: most of
+/// the steps are made on thinned tables, where they are cheap.
+template <class F>
+Searched search_in(const Problem& p,
+                   const Sampling& sampling,
+                   Stopwatch& watch,
+                   const std::function<void(const char*)>& announce) {
+  announce("reading columns");
+  constexpr std::array levels{coarse_samples, scan_samples, middle_samples};
+  const auto data = fit_levels<F>(sampling, levels);
+  if (data.all.counts.used == 0) no_values(sampling, data.all.counts);
+  const auto& [thin, scan, middle] = std::tie(data.thinned[0], data.thinned[1], data.thinned[2]);
+  FitData<double> scanned = in_double(scan);
+  watch.lap("columns_ms");
+
+  announce("finding a start");
+  BoundModel start = p.start;
+  start.values = find_start(p.start.model, thin, p.free, p.bounds, std::move(start.values));
+  Fitted f = minimise(p, p.options.robust ? thin : middle, std::move(start), no_huber);
+  if (p.options.robust) {
+    for (int round = 0; round < 2; ++round)
+      f = minimise(p, thin, f.model, huber_threshold(p, thin, f));
+    f = minimise(p, middle, f.model, f.huber);
+  }
+  if (!std::isfinite(f.solution.at.cost))
+    throw bad_input(sampling.table().path, "values", "numbers whose squares have no finite sum",
+                    "reflectances [1/sr]");
+  watch.lap("start_ms");
+
+  announce("fitting all samples");
+  f = minimise(p, data.all, f.model, f.huber);
+  f.groups = data.all.groups;
+  f.in_float = std::is_same_v<F, float> && float_suffices(p, f, data.all.counts.used);
+  watch.lap("solve_ms");
+  return {std::move(f), std::move(scanned)};
+}
+
+}  // namespace
+
+template <class F>
+Fitted minimise(const Problem& p, const FitData<F>& data, BoundModel from, double huber) {
+  const Accumulator<F> accumulate(from.model, data, p.free, huber);
+  const auto evaluate = [&](const std::vector<double>& x) {
+    p.free.put(x, from.values);
+    return accumulate.normal_equations(from.values);
+  };
+  SolveOptions options;
+  if (std::is_same_v<F, float>)
+    options = {.function_tolerance = 1e-7,
+               .rounding = p.rounding * static_cast<double>(data.counts.used)};
+  auto x = p.free.of(from.values);
+  Solution solution = solve(evaluate, x, p.bounds, options);
+  p.free.put(x, from.values);
+  return {std::move(from), huber, std::move(solution)};
+}
+
+template Fitted minimise(const Problem&, const FitData<float>&, BoundModel, double);
+template Fitted minimise(const Problem&, const FitData<double>&, BoundModel, double);
+
+Searched search(Problem p,
+                const Sampling& sampling,
+                Stopwatch& watch,
+                const std::function<void(const char*)>& announce) {
+  // What has room in the caches is fitted in double at once.
+  if (sampling.groups().size() > 8 * middle_samples)
+    p.rounding = rounding_in_float(fit_data<double>(sampling, coarse_samples), sampling.channels());
+  if (p.rounding == 0) return search_in<double>(p, sampling, watch, announce);
+  Searched s = search_in<float>(p, sampling, watch, announce);
+  if (s.best.in_float) return s;
+  announce("fitting all samples in double");
+  const std::size_t groups = s.best.groups;
+  s.best = minimise(p, fit_data<double>(sampling), std::move(s.best.model), s.best.huber);
+  s.best.groups = groups;
+  watch.lap("solve_double_ms");
+  return s;
+}
+
+}  // namespace gonio

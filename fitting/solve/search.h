@@ -1,0 +1,60 @@
+#pragma once
+/// \file
+/// Search for the best fit of all samples, from nothing: coarse levels first, float where it is enough.
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "brdf/model/model.h"
+#include "fitting/solve/problem.h"
+#include "fitting/solve/solve.h"
+
+namespace gonio {
+
+/// Optimum of a problem on some data.
+struct Fitted {
+  BoundModel model;  ///< with the values found
+  double huber = no_huber;
+  Solution solution;
+  bool in_float = false;   ///< whether that was enough
+  std::size_t groups = 0;  ///< looked at
+};
+
+/// Best fit of `data`, all of the problem's free values moved from where `from` has them.
+/// \param from  the problem's model, or one with fewer terms over the same values
+template <class F>
+Fitted minimise(const Problem&, const FitData<F>& data, BoundModel from, double huber);
+
+/// Milliseconds since the last call, under a name.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::vector<std::pair<std::string, double>>& into) : into_(into) {}
+  void lap(std::string name) {
+    const auto now = std::chrono::steady_clock::now();
+    into_.emplace_back(std::move(name),
+                       std::chrono::duration<double, std::milli>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  std::vector<std::pair<std::string, double>>& into_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Values of the thinned table that the judges look at, of a table's million.
+inline constexpr std::size_t scan_samples = 16384;
+
+struct Searched {
+  Fitted best;
+  FitData<double> scanned;  ///< about scan_samples of the table, evenly spread
+};
+/// From nothing to the best fit of all samples.  Throws bad_input for a table without a usable value.
+Searched search(Problem,
+                const Sampling&,
+                Stopwatch&,
+                const std::function<void(const char*)>& announce);
+
+}  // namespace gonio
