@@ -1,0 +1,25 @@
+#include "base/csv.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace gonio {
+
+std::string csv_text(std::string_view text) {
+  constexpr std::string_view quoted = ",\"\r\n", formula = "=+-@\t\r\n";
+  const bool guarded = !text.empty() && formula.find(text.front()) != formula.npos;
+  if (!guarded && text.find_first_of(quoted) == text.npos) return std::string(text);
+  std::string cell = guarded ? "\"'" : "\"";
+  for (const char c : text) {
+    if (c == '"') cell += c;
+    cell += c;
+  }
+  return cell + '"';
+}
+
+std::string csv_number(double v) {
+  return std::isfinite(v) ? fmt::format("{}", v) : "";
+}
+
+}  // namespace gonio
