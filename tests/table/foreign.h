@@ -64,11 +64,16 @@ struct RglFile {
   std::size_t size = 8;              ///< of the grid of values
   std::vector<float> wavelengths{};  ///< empty: r, g, b
   bool jacobian = true, even = false;
+  bool grooved = false;  ///< the facets' projected area depends on the azimuth
   Brdf f{};
 
   std::size_t channels() const { return wavelengths.empty() ? 3 : wavelengths.size(); }
   static double ndf(double u) { return 1 - 0.5 * u; }
-  static double sigma(double u) { return 1 - 0.25 * u; }
+  double sigma(double theta, double phi) const {
+    using std::numbers::pi;
+    const double along = grooved ? std::abs(phi) / pi : 0;
+    return 1 - (0.25 + 0.5 * along) * std::sqrt(2 / pi * theta);
+  }
 
   Square facet(std::size_t x, std::size_t y) const {
     const auto n = static_cast<double>(size - 1);
@@ -84,7 +89,6 @@ struct RglFile {
     return {wi, {twice * m.x - wi.x, twice * m.y - wi.y, twice * m.z - wi.z}};
   }
   std::vector<TensorField> fields() const {
-    using std::numbers::pi;
     std::vector<float> density, values;
     for (const float phi : phi_i)
       for (const float theta : theta_i) {
@@ -95,18 +99,20 @@ struct RglFile {
               const Square u = facet(x, y);
               const auto p = pair(static_cast<double>(theta), static_cast<double>(phi), u);
               const double factor =
-                  jacobian ? ndf(u.x) / (4 * sigma(std::sqrt(2 / pi * static_cast<double>(theta))))
-                           : 1;
+                  jacobian
+                      ? ndf(u.x) / (4 * sigma(static_cast<double>(theta), static_cast<double>(phi)))
+                      : 1;
               values.push_back(static_cast<float>(f(p, c) * p.wo.z / factor));
             }
       }
+    const float side = grooved ? 0.25F : 0.75F;
     if (even) density.assign(density.size(), 5);
     const auto n_phi = phi_i.size(), n_theta = theta_i.size();
     std::vector<TensorField> all{{"description", 1, {4}, "test"},
                                  floats_field("phi_i", {n_phi}, phi_i),
                                  floats_field("theta_i", {n_theta}, theta_i),
                                  floats_field("ndf", {2, 2}, {1, 0.5F, 1, 0.5F}),
-                                 floats_field("sigma", {2, 2}, {1, 0.75F, 1, 0.75F}),
+                                 floats_field("sigma", {3, 2}, {1, side, 1, 0.75F, 1, side}),
                                  floats_field("vndf", {n_phi, n_theta, 2, 2}, density),
                                  floats_field(wavelengths.empty() ? "rgb" : "spectra",
                                               {n_phi, n_theta, channels(), size, size}, values),

@@ -17,6 +17,9 @@ namespace {
 using std::numbers::pi;
 using namespace rgl;
 
+/// Cosine of θ_o = 70°, under which values between samples are held within the samples' span.
+constexpr double guarded_cosine = 0.3420201433256687;
+
 /// The contents of a file, and f_r by them.
 class Material {
  public:
@@ -100,10 +103,10 @@ class Material {
     }
   }
 
-  /// f_r; \param guarded  see rgl_function(); else as the format interpolates it, above the horizon
-  double at(DirectionPair p, std::size_t channel, bool guarded) const {
+  /// f_r above the horizon as the format interpolates it; \param guard  see rgl_function()
+  double at(DirectionPair p, std::size_t channel, bool guard) const {
     if (!(p.wi.z > 0 && p.wo.z > 0)) return std::nan("");
-    if (guarded && (p.wo.z < least_cosine || theta_of(p.wi) > theta_i.back() + 1e-6))
+    if (guard && (p.wo.z < least_cosine || theta_of(p.wi) > theta_i.back() + 1e-6))
       return std::nan("");
     fold(p);
     const double azimuth = isotropic ? phi_i[0] : phi_of(p.wi);
@@ -117,7 +120,7 @@ class Material {
       if (mix.weight[k] != 0)
         value += mix.weight[k] * data_(s, mix.slice[k] * channels.size() + channel);
     const double f = value * jacobian(u, theta_of(p.wi), phi_of(p.wi)) / p.wo.z;
-    return guarded ? within_span(f, mix, s, channel) : f;
+    return guard ? guarded(f, mix, s, p.wo.z, channel) : f;
   }
 
   std::vector<double> theta_i, phi_i;  ///< [rad]
@@ -167,20 +170,30 @@ class Material {
                ? jacobian(s.u, theta, phi_of(s.pair.wi)) / s.pair.wo.z
                : std::nan("");
   }
-  double within_span(double f, const Mix& mix, const Point& s, std::size_t channel) const {
+  /// The value f at s, held within the span of the valid grid points around: near the horizon the
+  /// cosine divided out is not that of what is interpolated.  Away from it f stays as it is, unless a
+  /// grid point has none.
+  double guarded(
+      double f, const Mix& mix, const Point& s, double cos_o, std::size_t channel) const {
     const Cell cell(s, width(), height());
     double valid = 0, low = std::numeric_limits<double>::infinity(), high = -low;
+    bool near_horizon = cos_o < guarded_cosine;
     for (std::size_t k = 0; k < mix.slice.size(); ++k)
       for (const auto& [x, y, part] : cell.corners()) {
         const std::size_t node = y * width() + x;
         const double scale = static_cast<double>(scale_.slice(mix.slice[k])[node]);
         const double weight = mix.weight[k] * part;
-        if (weight == 0 || std::isnan(scale)) continue;
+        if (weight == 0) continue;
+        if (std::isnan(scale)) {
+          near_horizon = true;
+          continue;
+        }
         const float* const nodes = data_.slice(mix.slice[k] * channels.size() + channel);
         low = std::min(low, static_cast<double>(nodes[node]) * scale);
         high = std::max(high, static_cast<double>(nodes[node]) * scale);
         valid += weight;
       }
+    if (!near_horizon) return f;
     return valid > 0.5 ? std::clamp(f, low, high) : std::nan("");
   }
   void set_scale() {

@@ -70,7 +70,7 @@ class Warp {
  public:
   Warp(Image density, std::size_t slices);
   Point sample(std::size_t slice, const Point&) const;
-  /// Of densities mixed.
+  /// Inverse of sample() for densities mixed.
   Point invert(const Mix&, const Point&) const;
 
  private:

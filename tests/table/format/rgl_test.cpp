@@ -1,5 +1,10 @@
 // RGL's tensor files: what they were made from comes back, at the samples and between them.
+#include <algorithm>
+#include <cstring>
+#include <map>
+
 #include "base/error.h"
+#include "base/random.h"
 #include "support.h"
 #include "table/convert/convert.h"
 #include "table/foreign.h"
@@ -22,6 +27,136 @@ double lobe(const DirectionPair& p, std::size_t channel) {
   const auto a = angles(p);
   const double q = a.noh * a.noh * 0.25 + a.sin2_theta_h;
   return 0.05 * static_cast<double>(channel + 1) + 0.25 / (pi * q * q) / 4;
+}
+
+/// f_r by the format's definition, spelled out: the normalised densities of the incident directions
+/// around are mixed into one, by whose areas (below y; in the row at y, left of x) the facet normal is
+/// found on the grid of values.  For one phi_i, or phi_i ascending over the whole turn.
+class ByDefinition {
+ public:
+  explicit ByDefinition(const std::string& bytes) {
+    std::size_t at = 14;
+    const auto next = [&]<class T>(T value) {
+      std::memcpy(&value, bytes.data() + at, sizeof value);
+      at += sizeof value;
+      return value;
+    };
+    for (auto left = next(std::uint32_t{}); left > 0; --left) {
+      const auto length = next(std::uint16_t{});
+      Field f;
+      const std::string name = bytes.substr(at, length);
+      at += length;
+      f.shape.resize(next(std::uint16_t{}));
+      const auto type = next(std::uint8_t{});
+      const auto from = next(std::uint64_t{});
+      std::size_t size = 1;
+      for (auto& n : f.shape) size *= n = next(std::uint64_t{});
+      for (std::size_t i = 0; i < size && (type == 10 || type == 1); ++i) {
+        float value = static_cast<float>(bytes[from + i]);
+        if (type == 10) std::memcpy(&value, bytes.data() + from + 4 * i, 4);
+        f.values.push_back(static_cast<double>(value));
+      }
+      fields_[name] = f;
+    }
+  }
+
+  double operator()(const DirectionPair& p, std::size_t channel) const {
+    const auto& phis = fields_.at("phi_i").values;
+    const double phi = phi_of(p.wi), theta = theta_of(p.wi);
+    const Direction m{p.wi.x + p.wo.x, p.wi.y + p.wo.y, p.wi.z + p.wo.z};
+    const double turns = (phi_of(m) - (phis.size() > 2 ? 0 : phi)) / (2 * pi) + 0.5;
+    const double u = std::sqrt(2 / pi * theta_of(m)), v = turns - std::floor(turns);
+    const auto ends_p = phis.size() > 2 ? around(phis, phi) : std::vector{std::pair{0UL, 1.0}};
+    const auto ends_t = around(fields_.at("theta_i").values, theta);
+    const Field &vndf = fields_.at("vndf"), &data = fields_.at("rgb");
+    const std::size_t thetas = vndf.shape[1], h = vndf.shape[2], w = vndf.shape[3];
+    std::vector<double> density(h * w);
+    for (const auto& [i, part_p] : ends_p)
+      for (const auto& [j, part_t] : ends_t) {
+        const double* const d = vndf.values.data() + (i * thetas + j) * h * w;
+        double all = 0;
+        for (std::size_t y = 0; y + 1 < h; ++y)
+          for (std::size_t x = 0; x + 1 < w; ++x)
+            all += (d[y * w + x] + d[y * w + x + 1] + d[y * w + w + x] + d[y * w + w + x + 1]) / 4;
+        for (std::size_t k = 0; k < h * w; ++k) density[k] += part_p * part_t * d[k] / all;
+      }
+    std::vector<double> row(w), rows(h);
+    const double y = v * static_cast<double>(h - 1);
+    const auto y0 = std::min(static_cast<std::size_t>(y), h - 2);
+    for (std::size_t x = 0; x < w; ++x)
+      row[x] = std::lerp(density[y0 * w + x], density[y0 * w + w + x], y - static_cast<double>(y0));
+    for (std::size_t k = 0; k < h; ++k)
+      rows[k] = area({density.begin() + static_cast<std::ptrdiff_t>(k * w),
+                      density.begin() + static_cast<std::ptrdiff_t>(k * w + w)},
+                     1);
+    const double s = area(row, u) / area(row, 1), t = area(rows, v) / area(rows, 1);
+    double value = 0;
+    for (const auto& [i, part_p] : ends_p)
+      for (const auto& [j, part_t] : ends_t)
+        value += part_p * part_t * bilinear(data, (i * thetas + j) * data.shape[2] + channel, s, t);
+    if (fields_.at("jacobian").values[0] != 0)
+      value *=
+          bilinear(fields_.at("ndf"), 0, u, v) /
+          (4 * bilinear(fields_.at("sigma"), 0, std::sqrt(2 / pi * theta), phi / (2 * pi) + 0.5));
+    return value / p.wo.z;
+  }
+
+ private:
+  struct Field {
+    std::vector<std::uint64_t> shape;
+    std::vector<double> values;
+  };
+  /// The nodes on both sides with their parts.
+  static std::vector<std::pair<std::size_t, double>> around(const std::vector<double>& axis,
+                                                            double at) {
+    std::size_t i = 0;
+    while (i + 2 < axis.size() && axis[i + 1] <= at) ++i;
+    const double part = (at - axis[i]) / (axis[i + 1] - axis[i]);
+    return {{i, 1 - part}, {i + 1, part}};
+  }
+  /// Integral up to `to` of what is linear between nodes spread evenly over the unit interval.
+  static double area(const std::vector<double>& nodes, double to) {
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      const double x =
+          std::clamp(to * static_cast<double>(nodes.size() - 1) - static_cast<double>(i), 0.0, 1.0);
+      sum += x * (nodes[i] + std::lerp(nodes[i], nodes[i + 1], x)) / 2;
+    }
+    return sum;
+  }
+  static double bilinear(const Field& f, std::size_t slice, double x, double y) {
+    const std::size_t w = f.shape.back(), h = f.shape[f.shape.size() - 2];
+    double sum = 0;
+    for (std::size_t j = 0; j < h; ++j)
+      for (std::size_t i = 0; i < w; ++i) {
+        const auto hat = [](double at, std::size_t n, std::size_t k) {
+          return std::max(0.0,
+                          1 - std::abs(at * static_cast<double>(n - 1) - static_cast<double>(k)));
+        };
+        if (const double part = hat(x, w, i) * hat(y, h, j); part > 0)
+          sum += part * f.values[(slice * h + j) * w + i];
+      }
+    return sum;
+  }
+
+  std::map<std::string, Field> fields_;
+};
+
+/// Errors of Table::between relative to the definition at directions everywhere up to `reach`, ascending.
+std::vector<double> errors_between(const Table& t, const std::string& bytes, double reach) {
+  const ByDefinition by_definition(bytes);
+  Draws draws(1);
+  std::vector<double> errors;
+  while (errors.size() < 1000) {
+    const auto any = [&] {
+      return direction(reach * std::sqrt(draws.uniform()), (2 * draws.uniform() - 1) * pi);
+    };
+    const DirectionPair p{any(), any()};
+    const double f = by_definition(p, errors.size() % 3);
+    errors.push_back(std::abs(t.between(p, errors.size() % 3) / f - 1));
+  }
+  std::ranges::sort(errors);
+  return errors;
 }
 
 void expect_values(const Table& t, const Brdf& f) {
@@ -77,7 +212,22 @@ TEST(RglFile, DefinesTheFunctionBetweenItsSamples) {
   EXPECT_TRUE(std::isnan(t.between({direction(0.3, 0), direction(1.6, 0)}, 0)));
 }
 
-TEST(RglFile, IsNowhereMoreThanItsSamplesAround) {
+TEST(RglFile, IsBetweenItsSamplesWhatTheFormatDefines) {
+  RglFile file{.size = 12, .f = lobe};
+  file.theta_i = {0, 0.3F, 0.7F, 1.1F, 1.5F};
+  for (const bool anisotropic : {false, true}) {
+    if (anisotropic) {
+      file.grooved = true;
+      file.phi_i.clear();
+      for (int k = 0; k <= 8; ++k) file.phi_i.push_back(static_cast<float>(-pi + k * pi / 4));
+    }
+    const auto errors = errors_between(read(file), file.bytes(), 45 * degree);
+    EXPECT_LT(errors[errors.size() / 2], 1e-6) << anisotropic;
+    EXPECT_LT(errors[errors.size() * 99 / 100], 1e-5) << anisotropic;
+  }
+}
+
+TEST(RglFile, IsNearTheHorizonNowhereMoreThanItsSamplesAround) {
   // Values that do not vanish with the cosine, as what an instrument leaves near the horizon.
   RglFile file{.size = 16, .f = [](const DirectionPair& p, std::size_t) {
                  return 0.01 / std::max(p.wo.z, 1e-3);
@@ -133,7 +283,7 @@ double grooved(const DirectionPair& p, std::size_t) {
 }
 
 TEST(RglFile, MayDependOnTheAzimuth) {
-  RglFile file{.size = 12, .f = grooved};
+  RglFile file{.size = 12, .grooved = true, .f = grooved};
   for (int k = 0; k <= 8; ++k) file.phi_i.push_back(static_cast<float>(-pi + k * pi / 4));
   file.phi_i.erase(file.phi_i.begin());
   const Table t = read(file);
@@ -178,6 +328,17 @@ TEST(RglFile, NegativeValuesAreMaskedAsNoise) {
   const Health h = inspect(t);
   EXPECT_GT(h.masked[static_cast<std::size_t>(Mask::negative)], 0U);
   EXPECT_TRUE(t.negative_is_noise);
+}
+
+TEST(RglFile, OfFeltIsBetweenItsSamplesWhatTheFormatDefines) {
+  GONIO_NEEDS_SHARED(path, "data/rgl/acrylic_felt_green_rgb.bsdf");
+  const Table t = read_table(path);
+  std::ifstream in(path, std::ios::binary);
+  const auto errors = errors_between(t, {std::istreambuf_iterator<char>(in), {}}, 70 * degree);
+  EXPECT_LT(errors[errors.size() / 2], 1e-6);
+  EXPECT_LT(errors[errors.size() * 99 / 100], 1e-5);
+  EXPECT_NEAR(t.between({direction(13 * degree, 0), direction(19 * degree, 22.25 * degree)}, 1),
+              0.063786, 2e-6);
 }
 
 TEST(RglFile, OfFeltHasTheAlbedoOfItsDatabase) {
