@@ -1,14 +1,20 @@
 // What was put in comes out: parameters recovered from synthesized tables.
-#include <cmath>
-
-#include "base/error.h"
-#include "data_synth/synth.h"
 #include "fitting/fit.h"
 
+#include <cmath>
+#include <random>
+
+#include "base/error.h"
+#include "brdf/model/evaluate.h"
+#include "fitting/support.h"
+
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 namespace gonio {
 namespace {
+
+using test::parameter;
 
 constexpr const char* paint = "lambert+ggx/smith_ggx.correlated/schlick";
 constexpr const char* metal = "ggx/smith_ggx.correlated/schlick";
@@ -25,12 +31,6 @@ const Material materials[] = {
     {"gtr_1_5", gtr, {"alpha=0.15", "gamma=1.5", "f0=0.05", "kd=0.2,0.1,0.05"}},
     {"gtr_3", gtr, {"alpha=0.15", "gamma=3", "f0=0.05", "kd=0.2,0.1,0.05"}},
 };
-
-const FittedParameter& parameter(const FitDocument& d, const std::string& name) {
-  for (const auto& p : d.parameters)
-    if (p.name == name) return p;
-  throw std::out_of_range(name);
-}
 
 /// Each true value with its fitted one and its error.
 template <class Check>
@@ -150,84 +150,6 @@ TEST(Fit, WithHuberSurvivesOutliersThatBendThePlainFit) {
   EXPECT_LT(std::abs(p.value[0] - truth), std::abs(bent - truth));
 }
 
-TEST(Fit, SaysThatAWidthWithoutALobeIsNotIdentifiable) {
-  // η = 1 reflects nothing: the table is Lambertian and says nothing of alpha.
-  const Material m{"lambert",
-                   "lambert+ggx/smith_ggx.correlated/dielectric",
-                   {"alpha=0.2", "eta=1", "kd=0.5,0.3,0.1"}};
-  SynthOptions s;
-  s.layout = Layout::random;
-  for (const double noise : {0.0, 0.02}) {
-    s.noise = noise;
-    const auto d = fit_synthetic(m, s).document;
-    EXPECT_EQ(parameter(d, "alpha").status[0], ParameterStatus::not_identifiable) << noise;
-    EXPECT_TRUE(std::isnan(parameter(d, "alpha").value[0]));
-    EXPECT_NEAR(parameter(d, "kd").value[0], 0.5, noise > 0 ? 0.01 : 1e-6);
-  }
-}
-
-TEST(Fit, SaysThatALobeIsNotIdentifiableWhereDiffuseAloneDoesAsWell) {
-  // Schlick's F is 1 at 90° whatever f0 is: this lobe cannot vanish from a Lambertian table.
-  for (const Layout layout : {Layout::hemisphere, Layout::in_plane})
-    for (const char* diffuse : {"lambert", "lambert.coupled"})
-      for (const double noise : {0.0, 0.02}) {
-        const auto table = synthesize(
-            bind_model("lambert", parse_settings(std::vector<std::string>{"kd=0.6,0.5,0.4"}), 3),
-            {.layout = layout, .noise = noise});
-        FitOptions o;
-        o.model = std::string(diffuse) + "+ggx/smith_ggx.correlated/schlick";
-        const auto d = fit(table, o).document;
-        for (const char* name : {"alpha", "roughness", "f0"}) {
-          EXPECT_EQ(parameter(d, name).status[0], ParameterStatus::not_identifiable)
-              << diffuse << " " << noise << " " << name;
-          EXPECT_TRUE(std::isnan(parameter(d, name).value[0]));
-        }
-        EXPECT_NEAR(parameter(d, "kd").value[0], 0.6, 0.01) << diffuse << " " << noise;
-        ASSERT_FALSE(d.warnings.empty());
-        EXPECT_TRUE(d.warnings.back().starts_with("without its lobe")) << d.warnings.back();
-      }
-}
-
-TEST(Fit, SaysThatThePeakIsNotResolved) {
-  const auto warned = [](const char* alpha) {
-    const Material m{"mirror", "lambert+ggx/smith_ggx.correlated/schlick", {alpha, "kd=0.1"}};
-    const auto d = fit_synthetic(m, {.layout = Layout::mbsdf, .noise = 0.02}).document;
-    return std::ranges::any_of(d.warnings, [](const std::string& w) {
-      return w.starts_with("the table does not resolve its highlight");
-    });
-  };
-  EXPECT_TRUE(warned("alpha=0.01"));
-  EXPECT_FALSE(warned("alpha=0.3"));
-}
-
-TEST(Fit, SaysThatWhatIsLeftIsMoreThanNoise) {
-  const auto warned = [](const char* model) {
-    const auto table = synthesize(
-        bind_model("lambert+gtr/smith_ggx.correlated/schlick",
-                   parse_settings(std::vector<std::string>{"alpha=0.3,gamma=1.3,f0=0.05,kd=0.2"}),
-                   1),
-        {.layout = Layout::in_plane, .noise = 0.005});
-    FitOptions o;
-    o.model = model;
-    const auto d = fit(table, o).document;
-    return std::ranges::any_of(d.warnings, [](const std::string& w) {
-      return w.find("most of it is the model's error") != std::string::npos;
-    });
-  };
-  EXPECT_TRUE(warned("lambert+ggx/smith_ggx.correlated/schlick"));
-  EXPECT_FALSE(warned("lambert+gtr/smith_ggx.correlated/schlick"));
-}
-
-TEST(Fit, KeepsALobeThatTheTableNeeds) {
-  for (const double f0 : {0.02, 0.04}) {
-    const Material faint{"faint",
-                         "lambert+ggx/smith_ggx.correlated/schlick",
-                         {"alpha=0.5", "kd=0.8", "f0=" + std::to_string(f0)}};
-    const auto d = fit_synthetic(faint, {.layout = Layout::mbsdf, .noise = 0.02}).document;
-    EXPECT_EQ(parameter(d, "alpha").status[0], ParameterStatus::free) << f0;
-  }
-}
-
 TEST(Fit, FindsAPeakMuchNarrowerThanTheFirstGuess) {
   const Material needle{"needle", metal, {"alpha=0.0005", "f0=0.5"}};
   FitOptions o;
@@ -300,17 +222,6 @@ TEST(Fit, RefusesSquaresThatHaveNoFiniteSum) {
   EXPECT_THROW(fit(t, o), Error);
 }
 
-TEST(Fit, SaysWhenTheModelDoesNotDescribeTheTable) {
-  const Table t = synthesize(bind_model(metal, parse_settings(materials[1].settings), 3),
-                             {.layout = Layout::random});
-  FitOptions o;
-  o.model = "lambert";
-  const auto d = fit(t, o).document;
-  ASSERT_FALSE(d.warnings.empty());
-  EXPECT_NE(d.warnings[0].find("does not describe"), std::string::npos);
-  EXPECT_TRUE(fit_synthetic(materials[1], {.layout = Layout::random}).document.warnings.empty());
-}
-
 TEST(Fit, HalfABinChangesAlphaByFourToTwelvePercentAndMoreWhereThePeakIsSharp) {
   const Material sharp{"sharp", paint, {"alpha=0.01", "f0=0.05", "kd=0.2"}};
   const auto change = [](const Material& m, Metric metric) {
@@ -353,6 +264,195 @@ TEST(Fit, IgnoresMaskedValuesWhateverTheyAre) {
   const auto a = fit(clean, o), c = fit(dirty, o);
   EXPECT_EQ(a.model.values, c.model.values);
   EXPECT_EQ(c.document.masked.at("not_finite"), clean.size() / 10);
+}
+
+TEST(Fit, IsTheSameDocumentForAnyNumberOfThreads) {
+  const Table t = synthesize(test::paint(), {.layout = Layout::mbsdf, .noise = 0.05});
+  FitOptions o;
+  o.model = test::paint().model.spec;
+  o.robust = true;
+  const auto strip = [](FitDocument d) {
+    d.solver.phase_ms.clear();
+    return to_json(d);
+  };
+  const auto many = strip(fit(t, o).document);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(strip(fit(t, o).document), many);
+}
+
+Table gltf_table() {
+  SynthOptions o;
+  o.layout = Layout::random;
+  o.samples = 3000;
+  o.noise = 0.01;
+  return synthesize(
+      bind_model(
+          "gltf",
+          parse_settings(std::vector<std::string>{"base_color=0.5,0.3,0.1", "roughness=0.5"}), 3),
+      o);
+}
+
+TEST(FitOfAPreset, FindsTheParametersOfItsSpec) {
+  FitOptions o;
+  o.model = "gltf";
+  const auto d = fit(gltf_table(), o).document;
+  EXPECT_EQ(d.model, "lambert.coupled+ggx/smith_ggx.separable/schlick");
+  EXPECT_NEAR(parameter(d, "alpha").value.at(0), 0.25, 0.002);
+  EXPECT_NEAR(parameter(d, "kd").value.at(2), 0.1, 0.002);
+}
+
+TEST(FitOfAPreset, HoldsOnlyWhatItIsAskedTo) {
+  FitOptions o;
+  o.model = "gltf";
+  o.fixed = parse_settings(std::vector<std::string>{"roughness=0.5"});
+  const auto d = fit(gltf_table(), o).document;
+  EXPECT_EQ(parameter(d, "alpha").status.at(0), ParameterStatus::fixed);
+  EXPECT_EQ(parameter(d, "f0").status.at(0), ParameterStatus::free);
+  EXPECT_NEAR(parameter(d, "f0").value.at(0), 0.04, 0.001);
+  o.fixed = parse_settings(std::vector<std::string>{"metallic=0"});
+  EXPECT_ANY_THROW(check(o));  // alone it says nothing of the spec's parameters
+}
+
+class MetricCoverage : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(MetricCoverage, Of95PercentIntervalsLiesBetween90And99Percent) {
+  const BoundModel truth =
+      bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                 parse_settings(std::vector<std::string>{"alpha=0.15,f0=0.05,kd=0.2,0.1,0.05"}), 3);
+  FitOptions o;
+  o.metric = static_cast<Metric>(GetParam());
+  std::size_t inside = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const auto t =
+        synthesize(truth, {.layout = Layout::random, .samples = 300, .noise = 0.02, .seed = seed});
+    const auto d = fit(t, o).document;
+    for (const auto& p : truth.model.parameters)
+      for (const auto& q : d.parameters)
+        if (q.name == p.name)
+          for (std::size_t c = 0; c < p.count; ++c, ++all)
+            inside += q.ci95_low[c] <= truth.values[p.first + c] &&
+                      truth.values[p.first + c] <= q.ci95_high[c];
+  }
+  ASSERT_EQ(all, 700U);
+  const double coverage = static_cast<double>(inside) / static_cast<double>(all);
+  RecordProperty("coverage_percent", static_cast<int>(100 * coverage));
+  EXPECT_GE(coverage, 0.90);
+  EXPECT_LE(coverage, 0.99);
+}
+
+INSTANTIATE_TEST_SUITE_P(Metrics, MetricCoverage, testing::Values(0U, 1U, 2U), [](const auto& i) {
+  return std::string(metric_names[i.param]);
+});
+
+/// A goniometer whose gain drifts by 2 % from one incident angle to the next: 24 angles, the values
+/// of each share its error.
+Table drifting(const BoundModel& truth, unsigned seed) {
+  Table t;
+  t.format = "csv";
+  t.channels = {"r", "g", "b"};
+  DirectionList l;
+  std::vector<double> gain;
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  for (int in = 3; in < 75; in += 3) {
+    const double drift = std::exp(0.02 * normal(engine));
+    for (int out = 2; out < 80; out += 12)
+      for (int phi = 0; phi <= 180; phi += 45) {
+        l.theta_i_deg.push_back(in);
+        l.phi_i_deg.push_back(0);
+        l.theta_o_deg.push_back(out);
+        l.phi_o_deg.push_back(phi);
+        gain.push_back(drift);
+      }
+  }
+  t.where = std::move(l);
+  t.values.assign(3, Values(gain.size()));
+  const SampleAngles at(t);
+  std::vector<Angles<double>> angles;
+  for (std::size_t i = 0; i < gain.size(); ++i) angles.push_back(at(i));
+  const auto f = evaluate(truth, angles);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < gain.size(); ++i)
+      t.values[c][i] = f[c][i] * gain[i] * std::exp(0.005 * normal(engine));
+  return t;
+}
+
+TEST(Coverage, HoldsForAHandfulOfValues) {
+  const BoundModel truth =
+      bind_model("lambert", parse_settings(std::vector<std::string>{"kd=0.3"}), 1);
+  FitOptions o;
+  o.model = "lambert";
+  std::size_t inside = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const auto t =
+        synthesize(truth, {.layout = Layout::random, .samples = 6, .noise = 0.02, .seed = seed});
+    const auto kd = fit(t, o).document.parameters[0];
+    inside += kd.ci95_low[0] <= 0.3 && 0.3 <= kd.ci95_high[0];
+  }
+  // A binomial of 400 at 95 % lies in [366, 394] with 99.9 % probability; 1.96 would give about
+  // 352.
+  EXPECT_GE(inside, 366U);
+  EXPECT_LE(inside, 394U);
+}
+
+TEST(Coverage, CountsOnlyIncidentAnglesThatHaveAValue) {
+  const BoundModel truth =
+      bind_model("lambert", parse_settings(std::vector<std::string>{"kd=0.2"}), 1);
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  DirectionList l;
+  t.values.resize(1);
+  for (int in = 0; in < 41; ++in)
+    for (int out = 0; out < 60; out += 2) {
+      l.theta_i_deg.push_back(in);
+      l.phi_i_deg.push_back(0);
+      l.theta_o_deg.push_back(out);
+      l.phi_o_deg.push_back(180);
+      const double ripple = 1 + 0.02 * (out % 4 == 0 ? 1 : -1);
+      t.values[0].push_back(in == 20 ? 0.2 / M_PI * ripple : std::nan(""));
+    }
+  t.where = std::move(l);
+  FitOptions o;
+  o.model = "lambert";
+  const auto d = fit(t, o).document;
+  EXPECT_EQ(d.clusters, 0U);
+  EXPECT_NEAR(d.parameters[0].std_error[0], 0.2 * 0.02 / std::sqrt(30), 2e-4);
+  ASSERT_EQ(d.warnings.size(), 1U);
+  EXPECT_NE(d.warnings[0].find("1 incident angles are few"), std::string::npos) << d.warnings[0];
+}
+
+TEST(Coverage, ClustersByAFewAnglesWhenAskedToAndWarnsWhenNot) {
+  const BoundModel truth = bind_model("lambert", {}, 1);
+  Table t = synthesize(truth, {.layout = Layout::hemisphere, .noise = 0.02});
+  t.truth.reset();  // as if measured
+  FitOptions o;
+  o.model = "lambert";
+  EXPECT_EQ(fit(t, o).document.clusters, 0U);
+  EXPECT_EQ(fit(t, o).document.warnings.size(), 1U);
+  o.intervals = Intervals::by_angle;
+  EXPECT_EQ(fit(t, o).document.clusters, 6U);
+}
+
+TEST(Coverage, HoldsForErrorsSharedByAnIncidentAngleOnlyWhenTheyAreClustered) {
+  const BoundModel truth =
+      bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                 parse_settings(std::vector<std::string>{"alpha=0.3,f0=0.05,kd=0.2,0.1,0.05"}), 3);
+  const auto coverage_of_kd = [&](Intervals intervals, unsigned seeds) {
+    FitOptions o;
+    o.intervals = intervals;
+    std::size_t inside = 0;
+    for (unsigned seed = 1; seed <= seeds; ++seed) {
+      const auto d = fit(drifting(truth, seed), o).document;
+      EXPECT_EQ(d.clusters, intervals == Intervals::independent ? 0U : 24U);
+      const auto& kd = d.parameters[0];
+      inside += kd.ci95_low[0] <= 0.2 && 0.2 <= kd.ci95_high[0];
+    }
+    return inside;
+  };
+  // A binomial of 100 at 95 % lies in [88, 100] with 99.8 % probability.
+  EXPECT_GE(coverage_of_kd(Intervals::automatic, 100), 88U);  // the table is taken as measured
+  EXPECT_LE(coverage_of_kd(Intervals::independent, 40), 24U);
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+// Samples as a fit looks at them: what is left out and why, and how much each counts.
+#include "fitting/sample/sampling.h"
+
+#include <cmath>
+
+#include "fitting/sample/data.h"
+#include "fitting/support.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+TEST(Sampling, CountsEveryValueOnceByWhatItIs) {
+  const double nan = std::nan("");
+  Table t = test::list_of({0.1, 0.2, 0, -1, nan, 0.3, HUGE_VAL, 0.4, 0, 0.5});
+  t.weights = {1, 1, 1, 1, 1, 0, 1, 1, 1, 1};
+  const Sampling s(t, Bins::centre, Metric::log, 0, false);
+  const auto counts = fit_data<double>(s).counts;
+  EXPECT_EQ(counts.used, 4U);
+  const auto reasons = counts.by_reason(s);
+  EXPECT_EQ(reasons.at("not_finite"), 2U);
+  EXPECT_EQ(reasons.at("negative"), 1U);
+  EXPECT_EQ(reasons.at("zero"), 2U);
+  EXPECT_EQ(reasons.at("zero_weight"), 1U);
+  EXPECT_EQ(reasons.at("below_horizon"), 0U);
+  // A metric that needs no logarithm takes the zeros too.
+  const Sampling plain(t, Bins::centre, Metric::l2_cosine, 0, false);
+  EXPECT_EQ(fit_data<double>(plain).counts.used, 6U);
+  EXPECT_EQ(fit_data<double>(plain).counts.by_reason(plain).count("zero"), 0U);
+}
+
+TEST(Sampling, WeighsByTheRootOfTheWeightOverItsMean) {
+  Table t = test::list_of({0.1, 0.2});
+  t.weights = {1, 3};
+  const Sampling s(t, Bins::centre, Metric::log, 0, false);
+  EXPECT_NEAR(s.root_weight(0), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(s.root_weight(1), std::sqrt(1.5), 1e-15);
+}
+
+TEST(Metrics, CompareAsTheyAreDefined) {
+  const Table t = test::list_of({0.2, 0.4});
+  const auto m = test::bind("lambert", "kd=0.9", 1);
+  const FreeSlots none({false});
+  const auto residuals = [&](Metric metric, double offset) {
+    const Sampling s(t, Bins::centre, metric, offset, false);
+    const auto data = fit_data<double>(s);
+    return Accumulator<double>(m.model, data, none).residuals(m.values);
+  };
+  const double f = 0.9 / M_PI;
+  const SampleAngles at(t);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double y = t.values[0][i];
+    EXPECT_NEAR(residuals(Metric::log, 0.1)[i], std::log((f + 0.1) / (y + 0.1)), 1e-14);
+    EXPECT_NEAR(residuals(Metric::l2_cosine, 0)[i], (f - y) * at(i).nol, 1e-15);
+    EXPECT_NEAR(residuals(Metric::relative, 0.1)[i], (f - y) / (y + 0.1), 1e-14);
+  }
+}
+
+TEST(Groups, OfAMirroredAndExchangedGridHoldFourMembersAtMost) {
+  for (const auto& c : test::layouts_that_fold()) {
+    const auto s = c.sampling(Metric::log, true);
+    EXPECT_GE(s.groups().widest(), 2U);
+    EXPECT_LE(s.groups().widest(), Groups::most);
+    std::size_t members = 0;  // every sample has its place
+    for (std::size_t r = 0; r < s.groups().rows().size(); ++r)
+      for (std::size_t k = 0; k < s.groups().columns().size(); ++k)
+        members += s.groups().rows().parts(r) * s.groups().columns().parts(k);
+    EXPECT_EQ(members, c.table.size());
+  }
+}
+
+}  // namespace
+}  // namespace gonio

@@ -1,0 +1,82 @@
+// The problem that options and a table pose, or why they pose none.
+#include "fitting/solve/problem.h"
+
+#include "base/error.h"
+#include "fitting/fit.h"
+#include "fitting/support.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+constexpr const char* paint = "lambert+ggx/smith_ggx.correlated/schlick";
+
+std::vector<Setting> settings(const std::string& text) {
+  return parse_settings(std::vector<std::string>{text});
+}
+
+TEST(Problem, HoldsWhatIsFixedAndFreesTheRestInOrder) {
+  const Table t = synthesize(test::bind(paint, "kd=0.2", 3), {.layout = Layout::random});
+  FitOptions o;
+  o.fixed = settings("roughness=0.5");
+  const Problem p = pose(t, o);
+  const auto* alpha = p.start.model.find("alpha");
+  EXPECT_EQ(p.start.values[alpha->first], 0.25);
+  EXPECT_FALSE(p.free.mask()[alpha->first]);
+  EXPECT_EQ(p.free.size(), 6U);  // f0 and kd of three channels
+  auto values = p.start.values;
+  p.free.put(std::vector<double>{1, 2, 3, 4, 5, 6}, values);
+  EXPECT_EQ(p.free.of(values), (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(values[alpha->first], 0.25);
+}
+
+TEST(Problem, TakesBoundsOfRoughnessAsThoseOfAlpha) {
+  const Table t = synthesize(test::bind(paint, "kd=0.2", 3), {.layout = Layout::random});
+  FitOptions o;
+  o.bounds = {{"roughness", {0.3, 0.5}}};
+  const Problem p = pose(t, o);
+  const std::size_t i = p.free.index(p.start.model.find("alpha")->first);
+  EXPECT_NEAR(p.bounds.low[i], 0.09, 1e-15);
+  EXPECT_NEAR(p.bounds.high[i], 0.25, 1e-15);
+  EXPECT_TRUE(p.narrowed[i]);
+  EXPECT_FALSE(p.narrowed[p.free.index(p.start.model.find("kd")->first)]);
+}
+
+TEST(Problem, RefusesBoundsThatSayNothingOrTooMuch) {
+  const auto refused = [](std::vector<Setting> bounds, std::vector<Setting> fixed = {}) {
+    FitOptions o;
+    o.bounds = std::move(bounds);
+    o.fixed = std::move(fixed);
+    try {
+      check(o);
+    } catch (const Error&) {
+      return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(refused({{"alpha", {0.1, 0.5}}}));
+  EXPECT_TRUE(refused({{"alpha", {0.5, 0.1}}}));
+  EXPECT_TRUE(refused({{"alpha", {0.1}}}));
+  EXPECT_TRUE(refused({{"gamma", {1, 2}}}));
+  EXPECT_TRUE(refused({{"kd", {-1, 2}}}));
+  EXPECT_TRUE(refused({{"alpha", {0.1, 0.5}}}, settings("alpha=0.2")));
+}
+
+TEST(Problem, OfAPresetIsThatOfItsSpecWithItsTiesLeftFree) {
+  FitOptions o;
+  o.model = "gltf";
+  EXPECT_EQ(expanded(o).model, "lambert.coupled+ggx/smith_ggx.separable/schlick");
+  EXPECT_TRUE(expanded(o).fixed.empty());
+  o.model = paint;
+  EXPECT_EQ(expanded(o).model, paint);
+}
+
+TEST(Problem, KnowsModelsThatStayTheSameWithLightAndViewerExchanged) {
+  EXPECT_TRUE(is_reciprocal(test::bind(paint, "alpha=0.2", 3)));
+  EXPECT_TRUE(is_reciprocal(
+      test::bind("lambert.coupled+gtr/smith_ggx.separable/dielectric", "alpha=0.5", 1)));
+}
+
+}  // namespace
+}  // namespace gonio

@@ -1,0 +1,98 @@
+// Minima of costs of which only the normal equations are known.
+#include "fitting/solve/solve.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+TEST(Solve, FindsTheMinimumOfAQuadraticAndKeepsInsideItsBounds) {
+  // ½ (x − (1, 2))ᵀ H (x − (1, 2)) + 3
+  const auto evaluate = [](const std::vector<double>& x) {
+    const double a = x[0] - 1, b = x[1] - 2;
+    NormalEquations e;
+    e.h = {2, 1, 1, 3};
+    e.g = {2 * a + b, a + 3 * b};
+    e.cost = (a * e.g[0] + b * e.g[1]) / 2 + 3;
+    return e;
+  };
+  std::vector<double> x{10, -10};
+  const auto s = solve(evaluate, x, {{-100, -100}, {100, 100}});
+  EXPECT_TRUE(s.converged);
+  EXPECT_NEAR(x[0], 1, 1e-6);
+  EXPECT_NEAR(x[1], 2, 1e-6);
+  EXPECT_NEAR(s.at.cost, 3, 1e-12);
+  x = {10, -10};
+  solve(evaluate, x, {{-100, -100}, {100, 1}});
+  EXPECT_EQ(x[1], 1);
+  EXPECT_NEAR(x[0], 1.5, 1e-4);  // 2 (x − 1) + (1 − 2) = 0
+}
+
+// The cost is rounded to more than the last steps lower it by; only the gradient can lead on.
+TEST(Solve, IsNotHeldUpByTheRoundingOfTheCost) {
+  const std::vector<double> optimum{0.3, 0.7};
+  int passes = 0;
+  const auto evaluate = [&](const std::vector<double>& x) {
+    ++passes;
+    const double a = x[0] - optimum[0], b = x[1] - optimum[1];
+    NormalEquations e;  // JᵀJ is a little less than the curvature: the steps are a little too long
+    e.h = {1.8, 0.9, 0.9, 2.7};
+    e.g = {2 * a + b, a + 3 * b};
+    const double exact = 1e4 + (a * e.g[0] + b * e.g[1]) / 2;
+    e.cost = 0.01 * std::round(exact / 0.01);
+    return e;
+  };
+  std::vector<double> x{0.35, 0.68};
+  const auto s = solve(evaluate, x, {{0, 0}, {1, 1}}, {.rounding = 1e-9});
+  EXPECT_TRUE(s.converged);
+  EXPECT_LT(passes, 6);
+  // 1e-8 of the cost: half a step of 0.01 along the flattest direction
+  EXPECT_NEAR(x[0], optimum[0], 0.012);
+  EXPECT_NEAR(x[1], optimum[1], 0.012);
+  EXPECT_EQ(s.cost_per_iteration.size(), static_cast<std::size_t>(s.iterations) + 1);
+}
+
+TEST(Solve, SurvivesADirectionInWhichNothingChanges) {
+  const auto evaluate = [](const std::vector<double>& x) {
+    const double a = x[0] + x[1] - 1;
+    return NormalEquations{{1, 1, 0, 1, 1, 0, 0, 0, 0}, {a, a, 0}, a * a / 2 + 1};
+  };
+  std::vector<double> x{0, 0, 5};
+  const auto s = solve(evaluate, x, {{-9, -9, -9}, {9, 9, 9}});
+  EXPECT_TRUE(s.converged);
+  EXPECT_NEAR(x[0] + x[1], 1, 1e-6);
+  EXPECT_EQ(x[2], 5);
+}
+
+TEST(Solve, OfALinearProblemTakesOneGaussNewtonStepAndOneToSeeIt) {
+  const auto evaluate = [](const std::vector<double>& x) {
+    const double a = x[0] - 0.2, b = x[1] - 0.9;  // residuals a + b, 2 b
+    NormalEquations e;
+    e.h = {1, 1, 1, 5};
+    e.g = {a + b, a + 5 * b};
+    e.cost = ((a + b) * (a + b) + 4 * b * b) / 2;
+    return e;
+  };
+  std::vector<double> x{0.5, 0.5};
+  const auto s = solve(evaluate, x, {{-10, -10}, {10, 10}});
+  EXPECT_TRUE(s.converged);
+  EXPECT_LE(s.iterations, 2);
+  EXPECT_NEAR(x[0], 0.2, 1e-6);
+  EXPECT_NEAR(x[1], 0.9, 1e-6);
+}
+
+TEST(Solve, HoldsAllWhereAllAreAtTheirBounds) {
+  const auto evaluate = [](const std::vector<double>& x) {
+    return NormalEquations{{1}, {x[0] - 5}, (x[0] - 5) * (x[0] - 5) / 2};
+  };
+  std::vector<double> x{1};
+  const auto s = solve(evaluate, x, {{0}, {1}});
+  EXPECT_TRUE(s.converged);
+  EXPECT_EQ(x[0], 1);
+  EXPECT_EQ(s.at.cost, 8);
+}
+
+}  // namespace
+}  // namespace gonio
