@@ -81,23 +81,18 @@ class TableAndDigest::Digest {
 
 namespace {
 
-/// \param digest  asked where the side file names the table by it
-template <class Digest>
-Table read_open(InputFile& in,
-                std::optional<Bins> bins,
-                const std::string& side,
-                const Digest& digest) {
-  const std::string& path = in.path();
-  const auto map = side.empty() ? std::nullopt : column_map(side_path(path), side);
+/// Table as its file alone has it.  \param side  says how to read the columns
+Table read_open(InputFile& in, const std::string& side) {
+  const auto map = side.empty() ? std::nullopt : column_map(side_path(in.path()), side);
   Table t = read_by_format(in, map ? &*map : nullptr);
   in.expect_unchanged();
-  t.path = path;
-  if (!side.empty()) {
-    t.sha256 = digest();
-    apply_metadata(t, side_path(path), side);
-  }
-  if (auto* g = std::get_if<Grid>(&t.where); g && bins) g->bins = *bins;
+  t.path = in.path();
   return t;
+}
+
+void describe(Table& t, const std::string& side, std::optional<Bins> bins) {
+  if (!side.empty()) apply_metadata(t, side_path(t.path), side);
+  if (auto* g = std::get_if<Grid>(&t.where); g && bins) g->bins = *bins;
 }
 
 /// An image has its metadata in itself.
@@ -111,20 +106,29 @@ Table read_table(const std::string& path, std::optional<Bins> bins) {
   TableAndDigest::Digest file(path);
   const std::string side = side_text_of(file.file());
   if (!side.empty()) file.begin();
-  return read_open(file.file(), bins, side, [&] { return file.wait(); });
+  Table t = read_open(file.file(), side);
+  if (!side.empty()) t.sha256 = file.wait();
+  describe(t, side, bins);
+  return t;
 }
 
 TableAndDigest::TableAndDigest(const std::string& path, std::optional<Bins> bins)
-    : digest_(new Digest(path)) {
-  const std::string side = side_text_of(digest_->file());
+    : digest_(new Digest(path)), side_(side_text_of(digest_->file())) {
   digest_->begin();
-  table = read_open(digest_->file(), bins, side, [&] { return digest_->wait(); });
+  table = read_open(digest_->file(), side_);
+  try {
+    describe(table, side_, bins);
+  } catch (const Error&) {
+    finish();  // what another table's side file says is beside the point
+    throw;
+  }
 }
 TableAndDigest::~TableAndDigest() = default;
 TableAndDigest::TableAndDigest(TableAndDigest&&) noexcept = default;
 
 void TableAndDigest::finish() {
   table.sha256 = digest_->wait();
+  if (!side_.empty()) expect_same_table(table, side_path(table.path), side_);
 }
 
 void write_table(const Table& t, const std::string& path) {

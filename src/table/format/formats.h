@@ -17,7 +17,7 @@
 
 namespace gonio {
 
-/// The format is found from the bytes, not from the name.
+/// Table of a file whose format is found from the bytes, not from the name.
 /// \param bins  beats what the file or its side file (table/format/metadata.h) says, which beats `centre`
 Table read_table(const std::string& path, std::optional<Bins> bins = {});
 
@@ -30,19 +30,20 @@ class TableAndDigest {
 
   Table table;  ///< with the SHA-256 of its file after finish()
   /// Before anything made from the table is shown: waits, and fails where the file has changed since
-  /// it was opened.
+  /// it was opened, or where its side file speaks of another.
   void finish();
 
  private:
   friend Table read_table(const std::string&, std::optional<Bins>);
   class Digest;
   std::unique_ptr<Digest> digest_;
+  std::string side_;  ///< text of the side file
 };
 
-/// What stands in the side file of a table; "" if there is none.
+/// Text of the side file of a table; "" if there is none.
 std::string side_text(const std::string& path);
 
-/// In the format of Table::format: the table and, where there is more to say than the format holds,
+/// Writes the table in the format of Table::format and, where there is more to say than that holds,
 /// its side file; both or neither.
 void write_table(const Table&, const std::string& path);
 

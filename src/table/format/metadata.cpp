@@ -31,9 +31,10 @@ Bins read_bins(const JsonReader& j) {
 }
 
 /// A table that other means wrote over an old one must not inherit the old one's truth.
-void expect_same_table(const std::string& side, const std::string& said, const std::string& is) {
+void expect_sha256(const JsonReader& root, const std::string& side, const std::string& is) {
   const auto shortened = [](const std::string& digits) { return digits.substr(0, 12) + "…"; };
-  if (said != is)
+  const std::string said = root.has("sha256") ? root.at("sha256").string() : is;
+  if (!is.empty() && said != is)
     throw bad_input(side, "sha256", shortened(said),
                     shortened(is) + " (it describes another table and may be removed)");
 }
@@ -134,7 +135,7 @@ std::string metadata_text(const Table& t, const std::string& sha256) {
 void apply_metadata(Table& t, const std::string& file, const std::string& text) {
   const Json document = parse_side(file, text);
   const JsonReader root(file, document);
-  if (root.has("sha256")) expect_same_table(file, root.at("sha256").string(), t.sha256);
+  expect_sha256(root, file, t.sha256);
   if (root.has("bins")) {
     if (!t.has_bins()) root.at("bins").fail("none: this table has no bins");
     std::get<Grid>(t.where).bins = read_bins(root.at("bins"));
@@ -145,6 +146,11 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
   if (root.has("notes"))
     for (const auto& [name, note] : root.at("notes").members())
       t.notes.emplace_back(name, note.string());
+}
+
+void expect_same_table(const Table& t, const std::string& file, const std::string& text) {
+  const Json document = parse_side(file, text);
+  expect_sha256(JsonReader(file, document), file, t.sha256);
 }
 
 std::optional<ColumnMap> column_map(const std::string& file, const std::string& text) {

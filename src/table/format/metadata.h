@@ -19,19 +19,21 @@
 
 namespace gonio {
 
-/// What a synthesized table was made from.
+/// Model, parameters and noise that a table was made from.
 nlohmann::ordered_json truth_json(const Truth&);
 
 std::string side_path(const std::string& path);
-/// Whether there is anything that a reader would not assume anyway.
+/// True where there is anything that a reader would not assume anyway.
 bool needs_metadata(const Table&);
 /// \param sha256  of the file that this goes beside; empty: said nothing of
 std::string metadata_text(const Table&, const std::string& sha256 = "");
-/// A sha256 that is not the table's is an error: the text speaks of another.
+/// A sha256 that is not the table's is an error: the text speaks of another.  While the table's is
+/// still being made, that is left to expect_same_table().
 /// \param file  named in errors
 void apply_metadata(Table&, const std::string& file, const std::string& text);
+void expect_same_table(const Table&, const std::string& file, const std::string& text);
 
-/// What a side file says of columns, if it does.  An unknown key is an error.
+/// Columns as a side file names them, if it does.  An unknown key is an error.
 std::optional<ColumnMap> column_map(const std::string& file, const std::string& text);
 /// The text with its columns replaced, all else kept.  \param text  of a side file, or ""
 std::string with_columns(const std::string& file, const std::string& text, const ColumnMap&);

@@ -169,6 +169,8 @@ TEST(SideFile, SpeaksForTheTableItWasWrittenWithAlone) {
     EXPECT_TRUE(line.starts_with((folder / "t.csv.gonio.json") + ": sha256: found ")) << line;
     EXPECT_TRUE(line.ends_with("… (it describes another table and may be removed)")) << line;
   }
+  TableAndDigest early(folder / "t.csv");
+  EXPECT_THROW(early.finish(), Error) << "used before the sum was made, but not shown";
   std::filesystem::remove(folder / "t.csv.gonio.json");
   EXPECT_TRUE(read_table(folder / "t.csv").sha256.empty()) << "nobody asked";
 }
