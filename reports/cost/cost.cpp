@@ -1,7 +1,5 @@
 #include "reports/cost/cost.h"
 
-#include "reports/cost/parts.h"
-
 namespace gonio {
 
 CostOptions cost_options(bool full) {
@@ -11,17 +9,18 @@ CostOptions cost_options(bool full) {
   return o;
 }
 
-CostReport cost_report(const CostOptions& o, const ReportProgress& done) {
-  CostReport r;
-  r.machine = this_machine();
-  r.options = o;
+CostRows cost_rows(const CostOptions& o, const ReportProgress& done) {
+  CostRows r{this_machine(), o, {}, {}, {}, {}};
   r.rows = measure_costs(o, [&](std::string_view what, double x) {
     if (done) done(what, 0.5 * x);
   });
-  add_switches(r);
-  add_points(r, o, part_of(done, "compensation, split sum, quadrature, fits", 0.5, 1));
-  add_findings(r);
+  r.switches = cost_switches(r.rows);
+  r.points = cost_points(o, part_of(done, "compensation, split sum, quadrature, fits", 0.5, 1));
+  r.metals = errors_on_metals();
   return r;
+}
+CostReport cost_report(const CostOptions& o, const ReportProgress& done) {
+  return report_of(o.full, cost_rows(o, done));
 }
 
 }  // namespace gonio

@@ -4,6 +4,7 @@
 /// set, beside the operations of their formulas and their distance to the truth.
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -17,12 +18,12 @@
 
 namespace gonio {
 
-/// How far a form is from the truth that it stands for.
+/// Distance of a form from the truth that it stands for.
 struct CostError {
   std::string truth;        ///< what it is held against; empty: nothing
   std::string measure;      ///< what is compared: "G2", "F" …
   double max = 0, rms = 0;  ///< of the absolute difference
-  /// Of whole models: what gold seen in even light is off by, at most; not a number: not known
+  /// Colour error of whole models, of gold seen in even light, at most; not a number: not known
   double delta_e = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -36,18 +37,18 @@ struct CostRow {
   /// "cache": columns of few samples; "streaming": columns that no cache of a core holds; those of a
   /// term may stay in one that all cores share
   std::string_view memory;
-  /// Of a model: "fused" into one loop, "composed" of columns, "by_hand"; else ""
+  /// Way of a model: "fused" into one loop, "composed" of columns, "by_hand"; else ""
   std::string_view way;
   std::size_t channels;
   Timing time;            ///< of one sample
   Operations operations;  ///< of one sample; a term's with its division, which a model makes once
   std::size_t bytes = 0;  ///< of tables
   CostError error;
-  /// Not dominated: nothing of its kind, number, set and place is faster by more than both spreads and
-  /// not less accurate.
+  /// A place on the front of time and error: no rival (of the same kind, number, set, place and truth) that is at least
+  /// as accurate is faster by more than both spreads together.
   bool pareto = false;
-  /// Something of them is as fast within both spreads, and more accurate; or as accurate, and nearer to
-  /// being faster.
+  /// A tie with a better rival: their times differ by no more than both spreads together, and the other is more
+  /// accurate, or as accurate and faster.
   bool tie = false;
 };
 
@@ -61,7 +62,7 @@ struct CostPoint {
   double without_ns = 0;  ///< of a compensation: what the same takes uncompensated
 };
 
-/// What it costs to go from one form to another.
+/// Cost of going from one form to another.
 struct CostSwitch {
   std::string question;  ///< "Schlick's k to exact Smith, separable"
   std::string from, to;  ///< ids
@@ -84,26 +85,50 @@ struct CostOptions {
 /// Quick: streaming in the best instruction set alone; full: in all of them.
 CostOptions cost_options(bool full);
 
-struct CostReport {
+/// Error of a Fresnel form against the exact conductor, RMS over the angle and all metals known.
+struct MetalError {
+  std::string form;
+  double rms;
+};
+
+/// Everything that the report measures.
+struct CostRows {
   Machine machine;
   CostOptions options;
   std::vector<CostRow> rows;
   std::vector<CostPoint> points;
   std::vector<CostSwitch> switches;
-  std::vector<std::string> findings;  ///< sentences
-  std::vector<Claim> claims{};
-  std::vector<Question> questions{};
+  std::vector<MetalError> metals;
 };
 
 /// The terms, whole models and bounds.
 std::vector<CostRow> measure_costs(const CostOptions&, const ReportProgress& done = {});
 /// Sets `pareto` and `tie` of rows whose error is known.
 void mark_front(std::vector<CostRow>&);
+/// The pairs of forms that engineers consider, of these rows.
+std::vector<CostSwitch> cost_switches(const std::vector<CostRow>&);
+std::vector<CostPoint> cost_points(const CostOptions&, const std::function<void(double)>& done);
+std::vector<MetalError> errors_on_metals();
+/// All of these.
+CostRows cost_rows(const CostOptions&, const ReportProgress& done = {});
 
+/// A form that is kept as a mistake in circulation: none chooses it.
+bool is_mistake(const CostRow&);
+/// The row of a form in a place, of a model in one way; nullptr if it was not measured.
+const CostRow* find_row(const std::vector<CostRow>&,
+                        std::string_view id,
+                        std::string_view number,
+                        std::string_view isa,
+                        std::string_view memory,
+                        std::string_view way = {});
+
+Findings findings(const CostRows&);
+/// Time against error, and what else is drawn.
+Pictures pictures(const CostRows&);
+
+using CostReport = Report<CostRows>;
 CostReport cost_report(const CostOptions&, const ReportProgress& done = {});
 
-/// Time against error, and what else is drawn.
-Pictures pictures(const CostReport&);
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const CostReport&);
 /// \param data  of to_json() above

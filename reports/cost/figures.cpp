@@ -1,22 +1,19 @@
 // Time against error, as pictures.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "brdf/term/term.h"
-#include "reports/cost/parts.h"
-#include "reports/measure/surfaces.h"
-#include "reports/schlick/parts.h"
+#include "reports/cost/cost.h"
 
 #include <fmt/format.h>
 
 namespace gonio {
 namespace {
 
-/// Where a log axis shows what has no error.
+/// Place of what has no error on a log axis.
 constexpr double least_error = 1e-17;
 
 struct Dot {
@@ -74,7 +71,7 @@ constexpr Kind kinds[] = {
      "by what each stands for; the mobile ones are π times a D, as shipped"},
     {"model", "model", "Whole models", "RMS error of G2 F", "by their distribution"}};
 
-/// What it is against, which is what it can be compared with.
+/// The truth that it is against, which is what it can be compared with.
 std::string against(const CostRow& r) {
   const std::string& truth = r.error.truth;
   if (r.kind != "model") return std::string(short_id(truth));
@@ -85,7 +82,7 @@ std::string against(const CostRow& r) {
                      r.channels == 1 ? "" : fmt::format(", {} channels", r.channels));
 }
 
-void add_rows_pictures(Pictures& to, const CostReport& report) {
+void add_rows_pictures(Pictures& to, const CostRows& report) {
   const auto best = report.machine.instruction_sets.back();
   for (const auto& k : kinds)
     for (const std::string_view number : {"float", "double"})
@@ -119,26 +116,13 @@ void add_rows_pictures(Pictures& to, const CostReport& report) {
       }
 }
 
-/// The forms for metals have two truths: this is against the exact conductor, over all metals known.
-void add_metals(Pictures& to, const CostReport& report) {
-  struct Sum {
-    double squares = 0;
-    std::size_t n = 0;
-  };
-  std::map<std::string, Sum> forms;
-  for (const auto& m : metals())
-    for (const auto& r : rows_of(metal(m), 90)) {
-      auto& s = forms[r.form];
-      s.squares += r.rms * r.rms;
-      ++s.n;
-    }
-  forms["fresnel.conductor"];
+/// Forms for metals, which have two truths, against the exact conductor.
+void add_metals(Pictures& to, const CostRows& report) {
   std::vector<Dot> dots;
-  for (const auto& [form, sum] : forms) {
+  for (const auto& [form, rms] : report.metals) {
     const auto* r =
         find_row(report.rows, form, "float", report.machine.instruction_sets.back(), "cache");
     if (!r || is_mistake(*r)) continue;
-    const double rms = sum.n ? std::sqrt(sum.squares / static_cast<double>(sum.n)) : 0;
     const bool exact = r->error.truth == r->id;  // but for what float rounds
     dots.push_back(
         {std::string(short_id(form)), r->time, exact ? std::max(rms, r->error.rms) : rms, false});
@@ -159,10 +143,10 @@ void add_metals(Pictures& to, const CostReport& report) {
        "fresnel_metals"});
 }
 
-/// Those of one picture, or of one case of it, a curve for each series.
+/// Points of one picture, or of one case of it, a curve for each series.
 /// \param known_to  what the truth is known to, and errors are told down to
 void add_points_picture(Pictures& to,
-                        const CostReport& report,
+                        const CostRows& report,
                         std::string_view picture,
                         Figure f,
                         double unit_ns,
@@ -172,14 +156,10 @@ void add_points_picture(Pictures& to,
     const auto comma = p.series.find(", ");
     const auto series = p.series.substr(0, comma);
     if (!f.choices.empty() && f.choices[0].second != p.series.substr(comma + 2)) continue;
-    auto at = std::ranges::find(f.curves, series, &FigureCurve::name);
-    if (at == f.curves.end()) {
-      FigureCurve c;
-      c.name = series;
-      c.kind = picture == "compensation" || series == "formula" ? FigureCurve::Kind::points
-                                                                : FigureCurve::Kind::both;
-      at = f.curves.insert(at, std::move(c));
-    }
+    auto* at = &curve_named(f, series,
+                            picture == "compensation" || series == "formula"
+                                ? FigureCurve::Kind::points
+                                : FigureCurve::Kind::both);
     // lines go from the fast to the slow
     const auto k = std::ranges::upper_bound(at->x, p.time.ns / unit_ns) - at->x.begin();
     at->x.insert(at->x.begin() + k, p.time.ns / unit_ns);
@@ -192,7 +172,7 @@ void add_points_picture(Pictures& to,
   if (!f.curves.empty()) to.figures.push_back(std::move(f));
 }
 
-void add_quadrature(Pictures& to, const CostReport& report) {
+void add_quadrature(Pictures& to, const CostRows& report) {
   std::vector<std::string> cases;
   for (const auto& p : report.points)
     if (p.picture == "quadrature") {
@@ -219,7 +199,7 @@ void add_quadrature(Pictures& to, const CostReport& report) {
 
 }  // namespace
 
-Pictures pictures(const CostReport& report) {
+Pictures pictures(const CostRows& report) {
   Pictures to;
   add_rows_pictures(to, report);
   add_metals(to, report);

@@ -1,9 +1,9 @@
-// What the measurements say, in sentences.
+// The findings of the cost report, in sentences.
 #include <algorithm>
 #include <cmath>
 
 #include "brdf/term/term.h"
-#include "reports/cost/parts.h"
+#include "reports/cost/cost.h"
 
 #include <fmt/format.h>
 
@@ -28,10 +28,10 @@ std::string error_text(double e) {
   return text;
 }
 
-class Findings {
+class Sayings {
  public:
-  explicit Findings(CostReport& r) : r_(r), best_(r.machine.instruction_sets.back()) {}
-  void operator()() {
+  explicit Sayings(const CostRows& r) : r_(r), best_(r.machine.instruction_sets.back()) {}
+  Findings all() && {
     schlick_to_smith();
     ask("What does it cost me to go from Schlick's k to exact Smith?");
     fresnel();
@@ -41,17 +41,18 @@ class Findings {
     compensation();
     quadrature();
     fits();
+    return std::move(said_);
   }
 
  private:
-  void say(std::string sentence) { r_.findings.push_back(std::move(sentence)); }
-  /// What the findings so far answer.
+  void say(std::string sentence) { said_.say(std::move(sentence)); }
+  /// A question that the findings so far answer.
   void ask(std::string question) {
     std::string answer;
-    for (const auto& f : r_.findings) answer += (answer.empty() ? "" : " ") + f;
+    for (const auto& f : said_.sentences) answer += (answer.empty() ? "" : " ") + f;
     if (!answer.empty() && !r_.machine.cpu.empty())
       answer += fmt::format(" Measured on {}.", r_.machine.cpu);
-    if (!answer.empty()) r_.questions.push_back({std::move(question), answer, "switches"});
+    if (!answer.empty()) said_.questions.push_back({std::move(question), answer, "switches"});
   }
   const CostSwitch* between(std::string_view from,
                             std::string_view to,
@@ -228,14 +229,15 @@ class Findings {
                     text));
   }
 
-  CostReport& r_;
+  const CostRows& r_;
+  Findings said_;
   std::string best_;
 };
 
 }  // namespace
 
-void add_findings(CostReport& report) {
-  Findings{report}();
+Findings findings(const CostRows& rows) {
+  return Sayings(rows).all();
 }
 
 }  // namespace gonio

@@ -16,7 +16,7 @@
 #include "integrate/albedo/directional_albedo.h"
 #include "optics/spectrum.h"
 #include "reports/audit/entry.h"
-#include "reports/cost/parts.h"
+#include "reports/cost/models.h"
 #include "reports/measure/samples.h"
 #include "reports/measure/surfaces.h"
 

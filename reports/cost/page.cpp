@@ -90,7 +90,7 @@ std::string costs_json(const Machine& m,
 
 std::string to_json(const CostReport& r) {
   PageJson points = PageJson::array(), switches = PageJson::array();
-  for (const auto& p : r.points)
+  for (const auto& p : r.rows.points)
     points.push_back({{"picture", p.picture},
                       {"series", p.series},
                       {"label", p.label},
@@ -101,7 +101,7 @@ std::string to_json(const CostReport& r) {
                       {"ops", p.operations},
                       {"bytes", p.bytes},
                       {"without_ns", page_json(p.without_ns)}});
-  for (const auto& s : r.switches)
+  for (const auto& s : r.rows.switches)
     switches.push_back({{"question", s.question},
                         {"from", s.from},
                         {"to", s.to},
@@ -115,12 +115,12 @@ std::string to_json(const CostReport& r) {
                         {"more_ops", s.operations},
                         {"error_from", page_json(s.error_from)},
                         {"error_to", page_json(s.error_to)}});
-  auto out = settings(r.machine, r.options, "gonio.report.cost/1");
-  out["findings"] = r.findings;
-  out["rows"] = rows_json(r.rows);
+  auto out = settings(r.rows.machine, r.rows.options, "gonio.report.cost/1");
+  out["findings"] = r.findings.sentences;
+  out["rows"] = rows_json(r.rows.rows);
   out["switches"] = switches;
   out["points"] = points;
-  put_pictures(out, pictures(r));
+  put_pictures(out, r.pictures);
   return page_text(out);
 }
 

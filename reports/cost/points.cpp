@@ -1,4 +1,4 @@
-// What is not a term: compensation, the split sum, quadrature and the share of a table that a fit
+// Points that are no term: compensation, the split sum, quadrature and the share of a table that a fit
 // uses, each by its time and its error.
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,9 @@
 #include "data_synth/synth.h"
 #include "fitting/fit.h"
 #include "integrate/light/split_sum_table.h"
-#include "reports/cost/parts.h"
-#include "reports/energy/parts.h"
+#include "reports/cost/cost.h"
+#include "reports/energy/energy.h"
+#include "reports/finding/words.h"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -19,14 +20,12 @@ namespace {
 
 constexpr std::string_view masking = "masking.smith_ggx.correlated";
 
-/// As the energy report measures them, on fewer materials.
-void add_compensations(CostReport& report, EnergyReport& energy, EnergyOptions o) {
+/// Compensations as the energy report measures them, on fewer materials.
+void add_compensations(std::vector<CostPoint>& to, EnergyOptions o) {
   o.roughness = {0.25, 0.5, 0.75, 1};
   o.mu = {0.1, 0.5, 1};
-  add_materials(energy, o, [](double) {});
-  add_costs(energy);
-  for (const auto& c : energy.compensations)
-    report.points.push_back({"compensation",
+  for (const auto& c : compensation_costs(energy_materials(o, [](double) {})))
+    to.push_back({"compensation",
                              c.id == "fdez_aguera" ? "image-based light" : "a light",
                              std::string(c.id),
                              {c.ns, c.spread_ns},
@@ -37,12 +36,11 @@ void add_compensations(CostReport& report, EnergyReport& energy, EnergyOptions o
                              c.without_ns});
 }
 
-void add_quadrature(CostReport& report, EnergyReport& energy, const EnergyOptions& o) {
-  add_estimators(energy, o, [](double) {});
-  for (const auto& e : energy.estimators)
-    report.points.push_back(
+void add_quadrature(std::vector<CostPoint>& to, const EnergyOptions& o) {
+  for (const auto& e : estimator_points(o, [](double) {}))
+    to.push_back(
         {"quadrature",
-         fmt::format("{}, roughness {:g}, mu {:g}", e.estimator, e.roughness, e.mu),
+         fmt::format("{}, {}", e.estimator, place(e.roughness, e.mu)),
          fmt::format("{:g}", e.goal),
          {e.ns, e.ns_spread},
          e.error,
@@ -60,7 +58,7 @@ class SplitSumWays {
   }
   /// \param values  of a roughness, at every NoV
   template <class Values>
-  void add(CostReport& report,
+  void add(std::vector<CostPoint>& to,
            std::string series,
            std::string label,
            Values values,
@@ -79,7 +77,7 @@ class SplitSumWays {
         for (const double r : at_) kept = values(r).back();
       });
     });
-    report.points.push_back({"split_sum",
+    to.push_back({"split_sum",
                              std::move(series),
                              std::move(label),
                              {t.ns / n, t.spread_ns / n},
@@ -104,21 +102,21 @@ class SplitSumWays {
   std::vector<double> at_, truth_;  ///< [roughness][NoV]
 };
 
-void add_split_sum(CostReport& report) {
+void add_split_sum(std::vector<CostPoint>& to) {
   SplitSumWays ways;
   for (const std::size_t size : {8, 16, 32, 64}) {
     const auto table = stored(split_sum_table(masking, size, size, 0, {1e-5}), Storage::half);
-    ways.add(report, "bilinear table in half", fmt::format("{0} × {0}", size),
+    ways.add(to, "bilinear table in half", fmt::format("{0} × {0}", size),
              ways.each([&](double r, double nov) {
                const auto [a, b] = table(nov, r);
                return a + b;
              }),
              size * size * 4);
   }
-  ways.add(report, "formula", "albedo_fit", ways.each([](double r, double nov) {
+  ways.add(to, "formula", "albedo_fit", ways.each([](double r, double nov) {
     return mapped<AlbedoFit, double>(r * r, nov)[0];
   }));
-  ways.add(report, "formula", "albedo_fit.materialx", ways.each([](double r, double nov) {
+  ways.add(to, "formula", "albedo_fit.materialx", ways.each([](double r, double nov) {
     return mapped<AlbedoFitMaterialx, double>(r * r, nov)[0];
   }));
   const auto sums = [](const std::vector<SplitSum>& all) {
@@ -127,10 +125,10 @@ void add_split_sum(CostReport& report) {
     return out;
   };
   for (std::size_t n = 16; n <= 4096; n *= 4)
-    ways.add(report, "importance sampling", fmt::format("{} samples", n),
+    ways.add(to, "importance sampling", fmt::format("{} samples", n),
              [&](double r) { return sums(sampled_split_sum(masking, r, ways.nov(), n)); });
   for (int digits = 2; digits <= 7; ++digits)
-    ways.add(report, "quadrature", fmt::format("goal 1e-{}", digits), [&](double r) {
+    ways.add(to, "quadrature", fmt::format("goal 1e-{}", digits), [&](double r) {
       return sums(split_sum(masking, r, ways.nov(), {std::pow(10, -digits), Goal{}.evaluations}));
     });
 }
@@ -162,7 +160,7 @@ Table share_of(const Table& whole,
 }
 
 /// A MERL table with 2 % noise, of which a fit sees a share: the error of alpha over seeds.
-void add_fits(CostReport& report, const CostOptions& o, const std::function<void(double)>& done) {
+void add_fits(std::vector<CostPoint>& to, const CostOptions& o, const std::function<void(double)>& done) {
   FitOptions options;
   options.bin_sensitivity = false;
   const auto truth =
@@ -194,7 +192,7 @@ void add_fits(CostReport& report, const CostOptions& o, const std::function<void
     double squares = 0;
     for (const double off : s.off) squares += off * off;
     const double rms = std::sqrt(squares / static_cast<double>(seeds));
-    report.points.push_back({"fit", s.bins ? "bins chosen by chance" : "the whole table",
+    to.push_back({"fit", s.bins ? "bins chosen by chance" : "the whole table",
                              s.bins ? fmt::format("{} bins", s.bins) : "all 1458000 bins",
                              spread_of(s.ns), rms,
                              // of an RMS of so many normal deviates
@@ -204,17 +202,18 @@ void add_fits(CostReport& report, const CostOptions& o, const std::function<void
 
 }  // namespace
 
-void add_points(CostReport& report, const CostOptions& o, const std::function<void(double)>& done) {
-  EnergyReport energy;
+std::vector<CostPoint> cost_points(const CostOptions& o, const std::function<void(double)>& done) {
+  std::vector<CostPoint> out;
   auto of_energy = energy_options(false);
   of_energy.samples = o.full ? of_energy.samples : 4096;
-  add_compensations(report, energy, of_energy);
+  add_compensations(out, of_energy);
   done(0.3);
-  add_quadrature(report, energy, of_energy);
+  add_quadrature(out, of_energy);
   done(0.4);
-  add_split_sum(report);
+  add_split_sum(out);
   done(0.6);
-  add_fits(report, o, [&](double x) { done(0.6 + 0.4 * x); });
+  add_fits(out, o, [&](double x) { done(0.6 + 0.4 * x); });
+  return out;
 }
 
 }  // namespace gonio

@@ -13,7 +13,7 @@
 #include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
 #include "reports/audit/entry.h"
-#include "reports/cost/parts.h"
+#include "reports/cost/models.h"
 #include "reports/yardstick/by_hand.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
-// What it costs to go from one form to another: pairs that engineers consider.
+// Cost of going from one form to another: pairs that engineers consider.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "reports/cost/parts.h"
+#include "reports/cost/cost.h"
 
 namespace gonio {
 namespace {
@@ -66,9 +66,9 @@ const CostRow* find_row(const std::vector<CostRow>& rows,
   return at == rows.end() ? nullptr : &*at;
 }
 
-void add_switches(CostReport& report) {
+std::vector<CostSwitch> cost_switches(const std::vector<CostRow>& rows) {
+  std::vector<CostSwitch> out;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const auto& rows = report.rows;
   for (const auto& p : pairs)
     for (const auto& from : rows) {
       if (from.id != p.from) continue;
@@ -83,7 +83,7 @@ void add_switches(CostReport& report) {
       if (!to) continue;
       // errors from different truths say nothing about each other
       const bool same = from.error.truth == to->error.truth;
-      report.switches.push_back({std::string(p.question), from.id, to->id, from.isa, from.number,
+      out.push_back({std::string(p.question), from.id, to->id, from.isa, from.number,
                                  from.memory, from.way, to->time.ns - from.time.ns,
                                  std::hypot(to->time.spread_ns, from.time.spread_ns),
                                  to->time.ns / from.time.ns,
@@ -91,6 +91,7 @@ void add_switches(CostReport& report) {
                                      static_cast<double>(from.operations.total()),
                                  same ? from.error.rms : unknown, same ? to->error.rms : unknown});
     }
+  return out;
 }
 
 }  // namespace gonio

@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "optics/refractive_index.h"
-#include "reports/cross_fit/parts.h"
+#include "reports/cross_fit/cases.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -14,7 +14,7 @@
 namespace gonio {
 namespace {
 
-/// What is fitted by the other metric and over the other layouts too, on these materials.
+/// Forms that are fitted by the other metric and over the other layouts too, on these materials.
 constexpr std::array compared{"exact",
                               "fresnel.schlick",
                               "masking.smith_ggx.separable",
@@ -81,9 +81,8 @@ CrossFitOptions cross_fit_options(bool full) {
   return o;
 }
 
-CrossFitReport cross_fit_report(const CrossFitOptions& o, const ReportProgress& done) {
-  CrossFitReport r;
-  r.full = o.full;
+CrossFitRows cross_fit_rows(const CrossFitOptions& o, const ReportProgress& done) {
+  CrossFitRows r;
   r.roughness = o.roughness;
   const auto truths = cross_truths(o);
   std::vector<FresnelSurface> surfaces;
@@ -114,9 +113,10 @@ CrossFitReport cross_fit_report(const CrossFitOptions& o, const ReportProgress& 
   });
   for (auto& of_one : cases) std::ranges::move(of_one, std::back_inserter(r.cases));
   r.walk_error = std::ranges::max(walk_errors);
-  add_sentences(r);
-  add_findings(r);
   return r;
+}
+CrossFitReport cross_fit_report(const CrossFitOptions& o, const ReportProgress& done) {
+  return report_of(o.full, cross_fit_rows(o, done));
 }
 
 }  // namespace gonio

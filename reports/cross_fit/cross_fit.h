@@ -24,11 +24,11 @@ struct CrossTruth {
   bool multiple = false;         ///< light that meets several facets too, see beyond_one_facet()
 };
 
-/// What is fitted to it.
+/// A form that is fitted to a truth.
 struct CrossForm {
   /// "exact", the id of what is exchanged ("masking.ue_joint") or of a preset, or a spec.
   std::string name;
-  /// What differs from the truth: "exact": nothing; "fresnel", "masking", "distribution": that term
+  /// Difference from the truth: "exact": nothing; "fresnel", "masking", "distribution": that term
   /// alone; "combination": several; "model": a whole model, its diffuse included
   std::string kind;
   std::string model;  ///< spec or preset; its word "exact" stands for the exact Fresnel term
@@ -62,29 +62,27 @@ struct CrossCase {
   std::vector<CrossValue> values;
 
   bool is_dielectric() const;  ///< else a metal
-  /// Whether a value is where the data put it: it was not stopped by a bound, or lies at one where the form is
+  /// True of a value that is where the data put it: it was not stopped by a bound, or lies at one where the form is
   /// the truth to the last digits.
   bool is_determined(const CrossValue&) const;
   /// nullptr if the model has none.
   const CrossValue* find(std::string_view parameter, std::string_view channel = {}) const;
 };
 
-/// What a form does to a truth, over materials and roughnesses.
+/// Sentence on what a form does to a truth, over materials and roughnesses.
 struct CrossSentence {
   std::string truth, fitted, kind, sentence;
 };
 
-struct CrossFitReport {
+/// Everything that the report measures.
+struct CrossFitRows {
   std::vector<CrossCase> cases;
   std::vector<double> roughness;
   std::vector<std::string> materials;
   double walk_error = 0;  ///< RMS over values of the standard error of ln f that the walks leave
-  std::vector<CrossSentence> sentences;
-  std::vector<std::string> findings;  ///< sentences
-  bool full = false;
 };
 
-/// Where a truth is sampled: a layout of gonio synth, and up to which angle from the normal its values are
+/// Sampling of a truth: a layout of gonio synth, and up to which angle from the normal its values are
 /// given, to light and viewer alike.
 struct CrossLayout {
   std::string_view name, what;  ///< in the rows; in words
@@ -100,7 +98,7 @@ inline constexpr std::array cross_layouts{
     CrossLayout{"image_slice_whole", "slice to the horizon", Layout::image_slice, 90},
     CrossLayout{"hemisphere", "hemisphere of six incident angles", Layout::hemisphere, 90}};
 
-/// What is fitted to what.
+/// Choice of what is fitted to what.
 struct CrossFitOptions {
   bool full = false;
   std::vector<double> roughness;    ///< ascending, in (0, 1]
@@ -108,23 +106,28 @@ struct CrossFitOptions {
   std::vector<std::string> metals;  ///< symbols
   std::vector<double> gamma;        ///< of GTR truths
   std::size_t bins;                 ///< of a slice, along each axis
-  /// For each value at roughness 1; on smoother surfaces, where few of them meet a second facet, by 1/alpha
-  /// more, up to 16 times.
+  /// Walks for each value of a surface of roughness 1.  On smoother ones few walks meet a second facet: there they are
+  /// 1/alpha times as many, up to 16 times.
   std::size_t walks;
   std::vector<std::string> forms{};  ///< names of forms, beside "exact"; empty: all
 };
 /// Quick: by 0.1 in roughness; full: by 0.05, and more materials.
 CrossFitOptions cross_fit_options(bool full);
 
-CrossFitReport cross_fit_report(const CrossFitOptions&, const ReportProgress& done = {});
-
-/// What its page shows, by family: maps matrix of quantity and roughness ("all": RMS), truth × form; figures shifts of truth, kind,
+CrossFitRows cross_fit_rows(const CrossFitOptions&, const ReportProgress& done = {});
+/// A sentence for each form and truth.
+std::vector<CrossSentence> sentences_of_forms(const CrossFitRows&);
+Findings findings(const CrossFitRows&);
+/// Pictures of the page, by family: maps matrix of quantity and roughness ("all": RMS), truth × form; figures shifts of truth, kind,
 /// material and quantity, compared of form, material and quantity.
-Pictures pictures(const CrossFitReport&);
+Pictures pictures(const CrossFitRows&);
+
+using CrossFitReport = Report<CrossFitRows>;
+CrossFitReport cross_fit_report(const CrossFitOptions&, const ReportProgress& done = {});
 
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const CrossFitReport&);
-/// Its data are those of the document but for the rows, which are many: pictures and sentences show them.
+/// Page whose data are those of the document but for the rows, which are many: pictures and sentences show them.
 std::string cross_fit_page_html(const CrossFitReport&);
 
 }  // namespace gonio

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reports/cross_fit/parts.h"
+#include "reports/cross_fit/cases.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// What is shown of a case.
+/// A number that is shown of a case.
 struct Quantity {
   std::string_view name, label, unit;
   std::string_view parameter;  ///< empty: the residual
@@ -48,7 +48,7 @@ bool is_main(const CrossCase& c) {
 /// Materials whose shifts are drawn over roughness; the rows have all.
 constexpr std::array shown{"IOR 1.5", "gold", "aluminium"};
 
-std::vector<std::string_view> truths_of(const CrossFitReport& r) {
+std::vector<std::string_view> truths_of(const CrossFitRows& r) {
   std::vector<std::string_view> out;
   for (const auto& c : r.cases)
     if (std::ranges::find(out, c.truth) == out.end()) out.push_back(c.truth);
@@ -65,7 +65,7 @@ struct Group {
 constexpr std::array groups{Group{"dielectrics", true}, Group{"metals", false}};
 
 /// Forms by kind, in the order in which they were fitted.
-std::vector<std::string> forms_of(const CrossFitReport& r, const Quantity& q) {
+std::vector<std::string> forms_of(const CrossFitRows& r, const Quantity& q) {
   std::vector<std::string> out;
   for (const std::string_view kind : kinds)
     for (const auto& c : r.cases)
@@ -79,7 +79,7 @@ std::vector<std::string> forms_of(const CrossFitReport& r, const Quantity& q) {
 constexpr double nothing = 1e-7;
 
 /// \param roughness  0: RMS over all of them
-FigureMap matrix(const CrossFitReport& r, const Quantity& q, double roughness) {
+FigureMap matrix(const CrossFitRows& r, const Quantity& q, double roughness) {
   const bool all = roughness == 0;
   auto m = make_map("matrix", {{"quantity", std::string(q.name)},
                                {"roughness", all ? "all" : fmt::format("{:g}", roughness)}});
@@ -121,7 +121,7 @@ FigureMap matrix(const CrossFitReport& r, const Quantity& q, double roughness) {
 
 // ---- Over roughness -----------------------------------------------------------------------------
 
-Figure shifts_figure(const CrossFitReport& r,
+Figure shifts_figure(const CrossFitRows& r,
                      std::string_view truth,
                      std::string_view kind,
                      std::string_view material,
@@ -132,24 +132,19 @@ Figure shifts_figure(const CrossFitReport& r,
                                   {"quantity", std::string(q.name)}});
   f.title = q.parameter.empty() ? "Residual" : fmt::format("Shift of {}", q.name);
   f.note = fmt::format("{}, {}", truth, material);
-  f.x = {"roughness", false, 0, 1};
+  f.x = over_roughness();
   f.y = {fmt::format("{}{}", q.label, q.unit)};
   std::size_t left_out = 0;
   for (const auto& c : r.cases) {
     if (c.truth != truth || (c.kind != kind && c.kind != "exact") || c.material != material ||
         !is_main(c) || (q.parameter == "gamma" && !c.find("gamma")))
       continue;
-    const std::string name(short_form(c.fitted));
-    auto it = std::ranges::find(f.curves, name, &FigureCurve::name);
-    if (it == f.curves.end()) {
-      f.curves.push_back({name, {}, {}, FigureCurve::Kind::both});
-      it = f.curves.end() - 1;
-      it->dashed = c.kind == "exact";
-    }
+    auto& curve = curve_named(f, short_form(c.fitted), FigureCurve::Kind::both);
+    curve.dashed = c.kind == "exact";
     const auto [value, error] = seen(c, q);
-    it->x.push_back(c.roughness);
-    it->y.push_back(value);
-    it->y_error.push_back(error);
+    curve.x.push_back(c.roughness);
+    curve.y.push_back(value);
+    curve.y_error.push_back(error);
     left_out += !std::isfinite(value);
   }
   if (left_out > 0)
@@ -160,7 +155,7 @@ Figure shifts_figure(const CrossFitReport& r,
 // ---- Metric and directions ----------------------------------------------------------------------
 
 /// A form by each metric and over each layout.
-Figure compared_figure(const CrossFitReport& r,
+Figure compared_figure(const CrossFitRows& r,
                        std::string_view form,
                        std::string_view material,
                        const Quantity& q) {
@@ -169,7 +164,7 @@ Figure compared_figure(const CrossFitReport& r,
                                     {"quantity", std::string(q.name)}});
   f.title = fmt::format("Shift of {}", q.name);
   f.note = fmt::format("{}, {}", short_form(form), material);
-  f.x = {"roughness", false, 0, 1};
+  f.x = over_roughness();
   f.y = {fmt::format("{}{}", q.label, q.unit)};
   const auto add = [&](std::string name, Metric metric, std::string_view layout) {
     FigureCurve curve{std::move(name), {}, {}, FigureCurve::Kind::both};
@@ -191,7 +186,7 @@ Figure compared_figure(const CrossFitReport& r,
 
 }  // namespace
 
-Pictures pictures(const CrossFitReport& r) {
+Pictures pictures(const CrossFitRows& r) {
   Pictures out;
   std::vector<double> chosen{0};
   for (const double want : {0.2, 0.5, 0.8})

@@ -3,7 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "reports/cross_fit/parts.h"
+#include "reports/cross_fit/cases.h"
+#include "reports/finding/words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,7 +22,7 @@ struct Where {
   std::string_view layout = cross_layouts[0].name;
   std::string_view material = {};  ///< empty: all
 };
-Cases cases_of(const CrossFitReport& r, const Where& w) {
+Cases cases_of(const CrossFitRows& r, const Where& w) {
   Cases out;
   for (const auto& c : r.cases)
     if (c.truth == w.truth && c.fitted == w.fitted && c.metric == w.metric &&
@@ -80,17 +81,13 @@ std::string number(double x) {
 std::string signed_number(double x) {
   return std::abs(x) < 5e-5 ? "0" : fmt::format("{}{:.2g}", x < 0 ? "−" : "+", std::abs(x));
 }
-std::string percent(double x) {
-  const double y = 100 * std::abs(x);
-  return y < 100 ? fmt::format("{:.2g}\u00a0%", y) : fmt::format("{:.0f}\u00a0%", y);
-}
 std::string signed_percent(double x) {
-  return std::abs(x) < 5e-5 ? "0\u00a0%" : fmt::format("{}{}", x < 0 ? "−" : "+", percent(x));
+  return std::abs(x) < 5e-5 ? "0\u00a0%" : fmt::format("{}{}", x > 0 ? "+" : "", percent(x, 2));
 }
 std::string place(const CrossCase& c) {
   return fmt::format("{}, roughness {:g}", c.material, c.roughness);
 }
-/// What bounds have cut off.
+/// Number that bounds have cut off.
 std::string at_bounds(const Shifts& s) {
   return s.at_bound == 0 ? "" : fmt::format(" [{} of {} at a bound]", s.at_bound, s.all);
 }
@@ -123,8 +120,8 @@ std::string roughness_and_f0(const Cases& cases) {
                      span(shifts(cases, "f0"), signed_percent));
 }
 
-/// What hurts, side by side.
-void summary(CrossFitReport& r) {
+/// The causes that hurt, side by side.
+void summary(Findings& to, const CrossFitRows& r) {
   struct Cause {
     std::string_view truth, fitted, what;
   };
@@ -141,10 +138,10 @@ void summary(CrossFitReport& r) {
       if (!roughness) continue;
       words.push_back(fmt::format(
           "{} {:.2g}{} and {}", what, roughness.rms(), at_bounds(roughness),
-          2 * f0.at_bound > f0.all ? "mostly a bound" : percent(f0.rms()) + at_bounds(f0)));
+          2 * f0.at_bound > f0.all ? "mostly a bound" : percent(f0.rms(), 2) + at_bounds(f0)));
     }
     if (!words.empty())
-      r.findings.push_back(
+      to.say(
           fmt::format("RMS shifts of roughness and of F0 that fits bring about on {}: {}.", on,
                       fmt::join(words, ", ")));
   };
@@ -152,18 +149,18 @@ void summary(CrossFitReport& r) {
   say(metals, "metals");
 }
 
-void schlick(CrossFitReport& r) {
+void schlick(Findings& to, const CrossFitRows& r) {
   const auto all = cases_of(r, {once, "fresnel.schlick"});
   const auto glass = dielectrics(all), metal = metals(all);
   if (glass.empty() || metal.empty()) return;
-  r.findings.push_back(fmt::format(
+  to.say(fmt::format(
       "Schlick instead of exact Fresnel shifts {} for dielectrics (log-RMS residual {}); "
       "for metals {} (residual {}).",
       roughness_and_f0(glass), residuals(glass), roughness_and_f0(metal), residuals(metal)));
 }
 
 /// The fit by l2_cosine follows the bright peak, that by log all directions alike.
-std::string by_the_other_metric(const CrossFitReport& r, std::string_view form) {
+std::string by_the_other_metric(const CrossFitRows& r, std::string_view form) {
   const auto all = dielectrics(cases_of(r, {once, form, Metric::l2_cosine}));
   const auto s = shifts(all, "roughness");
   return s ? fmt::format(
@@ -172,7 +169,7 @@ std::string by_the_other_metric(const CrossFitReport& r, std::string_view form) 
            : "";
 }
 
-void maskings(CrossFitReport& r) {
+void maskings(Findings& to, const CrossFitRows& r) {
   struct Form {
     std::string_view id, what;
   };
@@ -183,14 +180,14 @@ void maskings(CrossFitReport& r) {
     const auto all = dielectrics(cases_of(r, {once, id}));
     if (all.empty()) continue;
     const double residual = most_residual(all);
-    r.findings.push_back(fmt::format(
+    to.say(fmt::format(
         "{} in place of Smith's correlated masking shifts {} for dielectrics by the log metric; "
         "residual up to {:.2g}, a factor of {:.2g}{}.",
         what, roughness_and_f0(all), residual, std::exp(residual), by_the_other_metric(r, id)));
   }
 }
 
-/// Over roughness: where a material looks rougher than it is, and where smoother.
+/// Words over roughness: where a material looks rougher than it is, and where smoother.
 std::string looks(const Shifts& s) {
   if (!s) return "end at bounds";
   const auto &up = s.most(), &down = s.least();
@@ -201,7 +198,7 @@ std::string looks(const Shifts& s) {
   return fmt::format("look {}", fmt::join(words, " and "));
 }
 
-void lost_energy(CrossFitReport& r) {
+void lost_energy(Findings& to, const CrossFitRows& r) {
   const auto all = cases_of(r, {all_orders, "exact"});
   const auto said = [](const Cases& cases) {
     return fmt::format("{}, their F0 shifts {}", looks(shifts(cases, "roughness")),
@@ -209,15 +206,16 @@ void lost_energy(CrossFitReport& r) {
   };
   const auto glass = dielectrics(all), metal = metals(all);
   if (glass.empty() || metal.empty()) return;
-  r.findings.push_back(fmt::format(
+  to.say(fmt::format(
       "The energy that single scattering loses: fitted with the exact forms of single scattering, "
       "surfaces whose light meets several facets do not look as they are. Dielectrics {}; metals "
       "{}.",
       said(glass), said(metal)));
 }
 
-/// What a further free parameter makes of the lost energy.
-void takes_it_up(CrossFitReport& r,
+/// Effect of a further free parameter on the lost energy.
+void takes_it_up(Findings& to,
+                 const CrossFitRows& r,
                  std::string_view form,
                  std::string_view parameter,
                  std::string_view what) {
@@ -240,11 +238,11 @@ void takes_it_up(CrossFitReport& r,
   look_at(dielectrics, "dielectrics");
   look_at(metals, "metals");
   if (!words.empty())
-    r.findings.push_back(fmt::format("{} takes up {} of it: {}.", what,
+    to.say(fmt::format("{} takes up {} of it: {}.", what,
                                      falls ? "some" : "little or nothing", fmt::join(words, "; ")));
 }
 
-void other_gammas(CrossFitReport& r) {
+void other_gammas(Findings& to, const CrossFitRows& r) {
   std::vector<std::string> words;
   std::vector<std::string_view> truths;
   for (const auto& c : r.cases)
@@ -257,13 +255,14 @@ void other_gammas(CrossFitReport& r) {
                                   most_residual(all)));
   }
   if (!words.empty())
-    r.findings.push_back(fmt::format(
+    to.say(fmt::format(
         "GGX with its masking, fitted to surfaces of another gamma, shifts roughness {}.",
         fmt::join(words, "; ")));
 }
 
 /// Forms of a kind by what they leave, from the least.
-void ranking(CrossFitReport& r,
+void ranking(Findings& to,
+             const CrossFitRows& r,
              std::string_view truth,
              std::string_view kind,
              std::string_view what,
@@ -282,7 +281,6 @@ void ranking(CrossFitReport& r,
     const auto s = shifts(all, "roughness");
     if (s) places.push_back({c.fitted, rms_residual(all), s.rms(), s.at_bound});
   }
-  constexpr std::size_t told = 4;
   if (places.size() < 2) return;
   std::ranges::stable_sort(places, {}, &Place::residual);
   const auto said = [](const Place& p) {
@@ -290,15 +288,14 @@ void ranking(CrossFitReport& r,
                        p.at_bound > 0 ? fmt::format(", {} at a bound", p.at_bound) : "");
   };
   std::vector<std::string> words;
-  for (const auto& p : places)
-    if (words.size() < told) words.push_back(said(p));
-  r.findings.push_back(fmt::format(
-      "{}, by RMS residual over materials and roughnesses (RMS shift of roughness): {}{}.", what,
-      fmt::join(words, ", "), places.size() > told ? "; furthest " + said(places.back()) : ""));
+  for (const auto& p : places) words.push_back(said(p));
+  to.say(fmt::format(
+      "{}, by RMS residual over materials and roughnesses (RMS shift of roughness): {}.", what,
+      ranking_text(words, "; furthest ")));
 }
 
-/// The same forms over the other layouts.
-void directions(CrossFitReport& r) {
+/// Shifts of some forms over the other layouts.
+void directions(Findings& to, const CrossFitRows& r) {
   std::vector<std::string> words;
   for (const std::string_view form :
        {"fresnel.schlick", "masking.smith_ggx.separable", "masking.schlick_ggx.half_alpha",
@@ -315,12 +312,12 @@ void directions(CrossFitReport& r) {
   std::vector<std::string_view> where;
   for (const auto& layout : cross_layouts) where.push_back(layout.what);
   if (!words.empty())
-    r.findings.push_back(
+    to.say(
         fmt::format("A shift belongs to the directions too. Of roughness at IOR 1.5, over {}: {}.",
                     fmt::join(where, ", "), fmt::join(words, "; ")));
 }
 
-void trust(CrossFitReport& r) {
+void trust(Findings& to, const CrossFitRows& r) {
   double roughness = 0, f0 = 0, residual = 0, error = 0;
   std::size_t own = 0, lost = 0;
   for (const auto& c : r.cases) {
@@ -339,24 +336,25 @@ void trust(CrossFitReport& r) {
     }
   }
   if (own == 0) return;
-  r.findings.push_back(fmt::format(
+  to.say(fmt::format(
       "The ruler: fitted with the forms that it was made from a slice gives its parameters {}: "
       "over {} fits roughness is off by {:.1g} "
       "at most, F0 by {:.1g} of itself, residual {:.1g}. Of {} fits {} did not converge. What the "
       "random walks of "
       "several facets leave uncertain shifts the roughness of the exact form by {:.1g} at most.",
       roughness < 1e-6 && f0 < 1e-5 ? "back" : "back only roughly", own, roughness, f0, residual,
-      r.cases.size(), lost == 0 ? "none" : fmt::format("{}", lost), error));
+      r.cases.size(), number_or_none(lost), error));
 }
 
 }  // namespace
 
-void add_sentences(CrossFitReport& r) {
+std::vector<CrossSentence> sentences_of_forms(const CrossFitRows& r) {
+  std::vector<CrossSentence> out;
   for (const auto& c : r.cases) {
     const auto same = [&](const CrossSentence& s) {
       return s.truth == c.truth && s.fitted == c.fitted;
     };
-    if (std::ranges::any_of(r.sentences, same)) continue;
+    if (std::ranges::any_of(out, same)) continue;
     const auto all = cases_of(r, {c.truth, c.fitted});
     std::vector<std::string> parts;
     const auto add = [&](const Cases& cases, std::string_view of) {
@@ -368,26 +366,29 @@ void add_sentences(CrossFitReport& r) {
     };
     add(dielectrics(all), "Dielectrics");
     add(metals(all), "Metals");
-    r.sentences.push_back({c.truth, c.fitted, c.kind, fmt::format("{}.", fmt::join(parts, ". "))});
+    out.push_back({c.truth, c.fitted, c.kind, fmt::format("{}.", fmt::join(parts, ". "))});
   }
+  return out;
 }
 
-void add_findings(CrossFitReport& r) {
-  summary(r);
-  schlick(r);
-  maskings(r);
-  lost_energy(r);
-  takes_it_up(r, "ndf.gtr", "gamma", "A free gamma");
-  takes_it_up(r, "lambert+ggx/smith_ggx.correlated/exact", "kd",
+Findings findings(const CrossFitRows& r) {
+  Findings all;
+  summary(all, r);
+  schlick(all, r);
+  maskings(all, r);
+  lost_energy(all, r);
+  takes_it_up(all, r, "ndf.gtr", "gamma", "A free gamma");
+  takes_it_up(all, r, "lambert+ggx/smith_ggx.correlated/exact", "kd",
               "A free Lambertian (kd is 0 in truth)");
-  other_gammas(r);
-  ranking(r, once, "fresnel", "Fresnel terms on dielectrics", dielectrics);
-  ranking(r, once, "fresnel", "Fresnel terms on metals", metals);
-  ranking(r, once, "masking", "Masking terms", any);
-  ranking(r, once, "distribution", "Distributions, gamma free where there is one", any);
-  ranking(r, all_orders, "model", "Whole models, fitted to all orders", any);
-  directions(r);
-  trust(r);
+  other_gammas(all, r);
+  ranking(all, r, once, "fresnel", "Fresnel terms on dielectrics", dielectrics);
+  ranking(all, r, once, "fresnel", "Fresnel terms on metals", metals);
+  ranking(all, r, once, "masking", "Masking terms", any);
+  ranking(all, r, once, "distribution", "Distributions, gamma free where there is one", any);
+  ranking(all, r, all_orders, "model", "Whole models, fitted to all orders", any);
+  directions(all, r);
+  trust(all, r);
+  return all;
 }
 
 }  // namespace gonio

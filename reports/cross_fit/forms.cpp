@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "reports/cross_fit/parts.h"
+#include "reports/cross_fit/cases.h"
 
 #include <fmt/format.h>
 

@@ -29,16 +29,16 @@ PageJson row(const CrossCase& c, const CrossValue& v) {
 }
 
 PageJson document(const CrossFitReport& r) {
-  PageJson out{{"schema", "gonio.report.cross_fit/1"}, {"full", r.full}, {"findings", r.findings}};
+  PageJson out{{"schema", "gonio.report.cross_fit/1"}, {"full", r.full}, {"findings", r.findings.sentences}};
   PageJson sentences = PageJson::array();
-  for (const auto& s : r.sentences)
+  for (const auto& s : sentences_of_forms(r.rows))
     sentences.push_back(
         {{"truth", s.truth}, {"fitted", s.fitted}, {"kind", s.kind}, {"sentence", s.sentence}});
-  out["roughness"] = page_json(r.roughness);
-  out["materials"] = r.materials;
-  out["walk_error"] = page_json(r.walk_error);
+  out["roughness"] = page_json(r.rows.roughness);
+  out["materials"] = r.rows.materials;
+  out["walk_error"] = page_json(r.rows.walk_error);
   out["sentences"] = sentences;
-  put_pictures(out, pictures(r));
+  put_pictures(out, r.pictures);
   return out;
 }
 
@@ -47,7 +47,7 @@ PageJson document(const CrossFitReport& r) {
 std::string to_json(const CrossFitReport& r) {
   auto out = document(r);
   PageJson rows = PageJson::array();
-  for (const auto& c : r.cases)
+  for (const auto& c : r.rows.cases)
     for (const auto& v : c.values) rows.push_back(row(c, v));
   out["rows"] = rows;
   return page_text(out);

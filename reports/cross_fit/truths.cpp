@@ -5,7 +5,7 @@
 
 #include "integrate/scattering/walk.h"
 #include "number/real.h"
-#include "reports/cross_fit/parts.h"
+#include "reports/cross_fit/cases.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

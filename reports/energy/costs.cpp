@@ -9,7 +9,7 @@
 #include "integrate/light/split_sum_table.h"
 #include "number/counted.h"
 #include "optics/fresnel_approximate.h"
-#include "reports/energy/parts.h"
+#include "reports/energy/energy.h"
 #include "reports/measure/timing.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 namespace gonio {
 namespace {
 
-/// As a texture unit reads it: bilinear between texels' centres, the edges repeated, in float.
+/// Texture as a texture unit reads it: bilinear between texels' centres, the edges repeated, in float.
 class Texture {
  public:
   static constexpr std::size_t size = 32;
@@ -25,7 +25,7 @@ class Texture {
     for (std::size_t i = 0; i < size * size; ++i)
       texels_.push_back(first + 0.5F * static_cast<float>(i) / (size * size));
   }
-  /// Of the first row alone.
+  /// Value of the first row alone.
   float along(float x) const {
     const auto [i, u] = place(x);
     return texels_[i] + u * (texels_[i + 1] - texels_[i]);
@@ -92,7 +92,7 @@ template <class Work>
 std::size_t operations(const Work& work) {
   return count_operations(work).total();
 }
-/// Of a map, at any values: formulas have no branches.
+/// Operations of a map, at any values: formulas have no branches.
 template <template <class> class Map>
 std::size_t operations() {
   using C = Counted<double>;
@@ -110,14 +110,15 @@ float single(const Point& p) {
 
 }  // namespace
 
-void add_costs(EnergyReport& report) {
+std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMaterial>& materials) {
+  std::vector<CompensationCost> out;
   const Texture e(0.3F), b(0.01F), average(0.3F);
   const auto add = [&](std::string_view id, std::size_t count, std::size_t lookups,
                        std::size_t bytes, const Timing& without, const Timing& with) {
     CompensationCost c{id, count, lookups, bytes, without.ns, with.ns, with.spread_ns, 0, 0, "", 0};
     double squares = 0, gold_squares = 0;
     std::size_t n = 0, gold = 0;
-    for (const auto& m : report.materials)
+    for (const auto& m : materials)
       for (const auto& at : m.rows)
         for (const auto& s : at.scattering) {
           if (s.id != id) continue;
@@ -136,7 +137,7 @@ void add_costs(EnergyReport& report) {
         }
     c.rms = std::sqrt(squares / static_cast<double>(n));
     c.gold_rms = std::sqrt(gold_squares / static_cast<double>(gold));
-    report.compensations.push_back(c);
+    out.push_back(c);
   };
   const auto kulla_conty = [&](const Point& p) {
     return KullaContyLobe<float>::apply(std::array{
@@ -157,9 +158,11 @@ void add_costs(EnergyReport& report) {
   add("fdez_aguera", operations<FdezAguera>(), 0, 0, image, per_point([&](const Point& p) {
         return FdezAguera<float>::apply(std::array{e(p.alpha, p.nov), b(p.alpha, p.nov), p.f0})[0];
       }));
+  return out;
 }
 
-void add_albedo_forms(EnergyReport& report) {
+std::vector<AlbedoForm> albedo_form_errors() {
+  std::vector<AlbedoForm> out;
   std::vector<double> alpha, mu;
   for (int i = 0; i <= 95; ++i) alpha.push_back(std::pow(0.05 + 0.01 * i, 2));
   for (int i = 1; i <= 200; ++i) mu.push_back(0.005 * i);
@@ -175,7 +178,7 @@ void add_albedo_forms(EnergyReport& report) {
         f.worst_at = fmt::format("roughness {:.2f}, mu {:g}", std::sqrt(alpha[a]), mu[m]);
       }
     f.rms = std::sqrt(f.rms);
-    report.albedo_forms.push_back(f);
+    out.push_back(f);
   };
   add("scattering.albedo_fit", operations<AlbedoFit>(),
       [](double a, double m) { return mapped<AlbedoFit, double>(a, m)[0]; });
@@ -187,7 +190,8 @@ void add_albedo_forms(EnergyReport& report) {
     const auto [first, second] = table(m, std::sqrt(a));
     return first + second;
   });
-  report.albedo_forms.back().bytes = texture_bytes;
+  out.back().bytes = texture_bytes;
+  return out;
 }
 
 }  // namespace gonio

@@ -1,14 +1,13 @@
-// Where a loss exceeds a share.
+#include "reports/energy/crossings.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "reports/energy/parts.h"
-
 namespace gonio {
 namespace {
 
-/// Between i and k, where the loss is on either side of the share.
+/// Roughness between those of i and k, where the loss is on either side of the share.
 double between(std::span<const double> x,
                std::span<const double> y,
                std::size_t i,

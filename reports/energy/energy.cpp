@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/energy/parts.h"
-
-#include <fmt/format.h>
-
 namespace gonio {
 namespace {
 
@@ -25,22 +21,25 @@ EnergyOptions energy_options(bool full) {
   return o;
 }
 
-EnergyReport energy_report(const EnergyOptions& o, const ReportProgress& done) {
-  EnergyReport r;
-  r.full = o.full;
-  // What each part takes of the whole, about.
-  const auto part = [&](std::string_view what, double from, double to) {
-    return part_of(done, what, from, to);
-  };
-  add_forms(r, o, part("every masking form", 0, 0.4));
-  add_materials(r, o, part("all bounces", 0.4, 0.7));
-  add_costs(r);
-  add_albedo_forms(r);
-  add_estimators(r, o, part("error against time", 0.7, 0.8));
-  add_light(r, o, part("image-based light", 0.8, 1));
-  add_findings(r);
-  judge_claims(r);
+EnergyRows energy_rows(const EnergyOptions& o, const ReportProgress& done) {
+  // The parts of the whole that each takes, about.
+  EnergyRows r;
+  r.forms = energy_forms(o, part_of(done, "every masking form", 0, 0.4));
+  r.materials = energy_materials(o, part_of(done, "all bounces", 0.4, 0.7));
+  r.compensations = compensation_costs(r.materials);
+  r.albedo_forms = albedo_form_errors();
+  r.estimators = estimator_points(o, part_of(done, "error against time", 0.7, 0.8));
+  r.light = image_light(o, part_of(done, "image-based light", 0.8, 1));
+  r.claims = claim_rows(r.forms);
   return r;
+}
+EnergyReport energy_report(const EnergyOptions& o, const ReportProgress& done) {
+  return report_of(o.full, energy_rows(o, done));
+}
+
+const EnergyForm* find_form(const std::vector<EnergyForm>& forms, std::string_view name) {
+  const auto it = std::ranges::find(forms, name, &EnergyForm::name);
+  return it == forms.end() ? nullptr : &*it;
 }
 
 }  // namespace gonio

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,7 @@
 
 namespace gonio {
 
-/// Where, by roughness, the loss exceeds a share.
+/// Roughnesses at which the loss exceeds a share.
 struct Crossing {
   double share;  ///< 0.01, 0.05, 0.1
   double mu;     ///< 0: on average over the hemisphere
@@ -32,7 +33,7 @@ struct EnergyForm {
   std::string model{};        ///< id of a whole model, else empty
   double gamma = 0;           ///< of GTR, else 0
   double most_roughness = 1;  ///< that it is meant for
-  /// What an engine divides by: π where a shipped formula leaves out 1/π.
+  /// Divisor of an engine: π where a shipped formula leaves out 1/π.
   double divisor = 1;
 
   struct Average {
@@ -62,7 +63,7 @@ struct EnergyMaterial {
     std::vector<Scattering> scattering;
   };
   std::vector<At> rows;
-  /// Of the loss as a share of what should leave: 1 − E_single / E.
+  /// Crossings of the loss as a share of what should leave: 1 − E_single / E.
   std::vector<Crossing> crossings;
 };
 
@@ -77,7 +78,7 @@ struct EstimatorPoint {
   double ns, ns_spread;  ///< median, and half the distance of the quartiles
 };
 
-/// What a compensation costs where a shader evaluates it.
+/// Cost of a compensation where a shader evaluates it.
 struct CompensationCost {
   std::string_view id;
   std::size_t operations;  ///< of its formula, tables aside
@@ -131,24 +132,56 @@ struct IrradianceRow {
   double ns, spread_ns;  ///< of one normal
 };
 
-struct EnergyReport {
-  std::vector<EnergyForm> forms;
-  std::vector<EnergyMaterial> materials;
-  std::vector<CompensationCost> compensations;
-  std::vector<AlbedoForm> albedo_forms;
-  std::vector<EstimatorPoint> estimators;
+/// Image-based light: the split sum's table, its samples, the split itself, and irradiance by sums.
+struct ImageLight {
   std::vector<TableError> tables;
   std::vector<TableSamples> table_samples;
   std::vector<LitError> lit;  ///< of the environments given
   std::size_t views = 0;      ///< of each
   std::vector<IrradianceRow> irradiance;
-  std::vector<std::string> findings;  ///< sentences
-  std::vector<Claim> claims;
-  std::vector<Question> questions;
-  bool full = false;
 };
 
-/// Where everything is measured.
+/// Roughness from which on the mobile D's clamp at 2048 is not reached, about.
+inline constexpr double unclamped_roughness = 0.15;
+/// Integrals by which claims in circulation are judged, beside the other rows.
+struct ClaimRows {
+  /// Share that the mobile D's clamp at 2048 takes from the light reflected at normal incidence.
+  struct Clamped {
+    double roughness, lost;
+  };
+  std::vector<Clamped> clamped;
+  /// Reflectance of the simple mobile form where its colour is furthest from GGX's.
+  struct Look {
+    double f0, mu, roughness, shipped, exact, delta_e;
+  };
+  std::vector<Look> simple_form;
+  /// Standard deviation along an axis of slopes up to `most` α, over α.
+  struct Slopes {
+    double most, deviation;
+  };
+  std::vector<Slopes> ggx_slopes;
+  double beckmann_deviation = 0;
+  /// Solid angle of the half vector times 4 VoH over that of the light, less 1: the most.
+  struct HalfAngle {
+    std::size_t pairs;  ///< of directions
+    double step;        ///< of the light, by which it is told [rad]
+    double off;
+  };
+  std::optional<HalfAngle> half_angle;
+};
+
+/// Everything that the report measures.
+struct EnergyRows {
+  std::vector<EnergyForm> forms;
+  std::vector<EnergyMaterial> materials;
+  std::vector<CompensationCost> compensations;
+  std::vector<AlbedoForm> albedo_forms;
+  std::vector<EstimatorPoint> estimators;
+  ImageLight light;
+  ClaimRows claims;
+};
+
+/// Places where everything is measured.
 struct EnergyOptions {
   bool full = false;
   std::vector<double> roughness, mu;  ///< ascending, up to 1
@@ -159,12 +192,30 @@ struct EnergyOptions {
 /// Quick: by 0.05 in roughness and mu; full: by 0.025.
 EnergyOptions energy_options(bool full);
 
-EnergyReport energy_report(const EnergyOptions&, const ReportProgress& done = {});
+std::vector<EnergyForm> energy_forms(const EnergyOptions&, const std::function<void(double)>& done);
+std::vector<EnergyMaterial> energy_materials(const EnergyOptions&,
+                                             const std::function<void(double)>& done);
+/// Costs of the compensations beside their errors for these materials.
+std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMaterial>&);
+std::vector<AlbedoForm> albedo_form_errors();
+std::vector<EstimatorPoint> estimator_points(const EnergyOptions&,
+                                             const std::function<void(double)>& done);
+ImageLight image_light(const EnergyOptions&, const std::function<void(double)>& done);
+ClaimRows claim_rows(const std::vector<EnergyForm>&);
+/// All of these.
+EnergyRows energy_rows(const EnergyOptions&, const ReportProgress& done = {});
 
-/// What its page shows, by family: maps loss of form; figures albedo of form, average_loss, bounces, beyond and compensation of material
+Findings findings(const EnergyRows&);
+/// Pictures of the page, by family: maps loss of form; figures albedo of form, average_loss, bounces, beyond and compensation of material
 /// and angle, compensation_by_angle of material, estimators of roughness and mu, split_sum_samples, irradiance_by_samples and
 /// irradiance_by_time of light.
-Pictures pictures(const EnergyReport&);
+Pictures pictures(const EnergyRows&);
+
+using EnergyReport = Report<EnergyRows>;
+EnergyReport energy_report(const EnergyOptions&, const ReportProgress& done = {});
+
+/// The form of that name; nullptr if it was not looked at.
+const EnergyForm* find_form(const std::vector<EnergyForm>&, std::string_view name);
 
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const EnergyReport&);

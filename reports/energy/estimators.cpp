@@ -10,7 +10,7 @@
 #include "integrate/albedo/ggx_albedo.h"
 #include "integrate/rule/slopes.h"
 #include "integrate/scattering/visible_facets.h"
-#include "reports/energy/parts.h"
+#include "reports/energy/energy.h"
 #include "reports/measure/timing.h"
 
 namespace gonio {
@@ -28,7 +28,7 @@ BoundModel ggx(double roughness) {
                     {{"alpha", {roughness * roughness}}, {"f0", {1}}}, 1);
 }
 
-/// What an estimator draws: the light's direction, or the half vector between it and v.
+/// Drawing of an estimator: the light's direction, or the half vector between it and v.
 enum class Drawn { light, normals, visible_normals };
 
 /// E from n samples: the mean of f NoL over the density of what is drawn.
@@ -68,7 +68,7 @@ class Sampler {
  private:
   static constexpr std::size_t at_once = 4096;
 
-  /// What multiplies V, or D V, is 0 below the horizon.
+  /// Weight that multiplies V, or D V: 0 below the horizon.
   void put(std::span<double* const> x, std::size_t k, Draws& draw) {
     const Facet m = facet(draw);
     const double length2 = m.x * m.x + m.y * m.y + m.z * m.z, scale = 1 / std::sqrt(length2);
@@ -105,9 +105,9 @@ class Sampler {
 
 }  // namespace
 
-void add_estimators(EnergyReport& report,
-                    const EnergyOptions& o,
-                    const std::function<void(double)>& done) {
+std::vector<EstimatorPoint> estimator_points(const EnergyOptions& o,
+                                             const std::function<void(double)>& done) {
+  std::vector<EstimatorPoint> out;
   struct Chance {
     std::string_view name;
     Drawn drawn;
@@ -122,7 +122,7 @@ void add_estimators(EnergyReport& report,
     const double truth = ggx_albedo(alpha, c.mu, SmithGgx::correlated, 1e-13).value;
     const auto add = [&](std::string_view name, double goal, double error, double bound,
                          double evaluations, const Timing& t) {
-      report.estimators.push_back(
+      out.push_back(
           {name, c.roughness, c.mu, goal, error, bound, evaluations, t.ns, t.spread_ns});
     };
     const auto model = ggx(c.roughness);
@@ -154,6 +154,7 @@ void add_estimators(EnergyReport& report,
            static_cast<double>(std::size(cases) * std::size(by_chance)));
     }
   }
+  return out;
 }
 
 }  // namespace gonio

@@ -13,16 +13,13 @@ namespace {
 
 constexpr std::string_view reference = "masking.smith_ggx.correlated";
 
-FigureAxis over_roughness() {
-  return {"roughness", false, 0, 1};
-}
 FigureAxis over_mu() {
   return {"μ = cos θ", false, 0, 1};
 }
 std::string name_of(const EnergyForm& f) {
   return std::string(f.name.starts_with("masking.") ? short_id(f.name) : f.name);
 }
-/// 0 stands for the average.
+/// Name of an angle, of 0, which stands for the average, too.
 std::string mu_name(double mu) {
   return mu > 0 ? fmt::format("{:g}", mu) : "average";
 }
@@ -30,7 +27,7 @@ std::string mu_text(double mu) {
   if (mu == 0) return "on average over the hemisphere";
   return mu == 1 ? "at normal incidence" : fmt::format("at μ = {:g}", mu);
 }
-/// Of a member over all, each once, in their order.
+/// Values of a member over all, each once, in their order.
 template <class List, class Get>
 auto each_once(const List& list, Get get) {
   std::vector<std::decay_t<std::invoke_result_t<Get, decltype(list[0])>>> out;
@@ -83,7 +80,7 @@ void add_form(Pictures& p, const EnergyForm& f) {
   p.figures.push_back(std::move(e));
 }
 
-void add_forms(Pictures& p, const EnergyReport& r) {
+void add_forms(Pictures& p, const EnergyRows& r) {
   auto average = make_figure("average_loss");
   average.title = "Loss on average";
   average.note = "1 − 2 ∫ E μ dμ at F = 1, of every form";
@@ -152,24 +149,20 @@ void add_bounces(Pictures& p, const EnergyMaterial& m, double mu) {
   p.figures.push_back(std::move(g));
 }
 
-/// Errors of the compensations where `shown` says so, over what `x` gives.
+/// Adds errors of the compensations where `shown` says so, over what `x` gives.
 template <class Shown, class X>
-std::vector<FigureCurve> errors_of(const EnergyMaterial& m, Shown shown, X x) {
-  std::vector<FigureCurve> out;
+void add_errors(Figure& f, const EnergyMaterial& m, Shown shown, X x) {
   for (const auto& at : m.rows) {
     if (!shown(at)) continue;
     for (const auto& s : at.scattering) {
-      const std::string name(s.id.starts_with("scattering.") ? short_id(s.id) : s.id);
-      auto c = std::ranges::find(out, name, &FigureCurve::name);
-      if (c == out.end()) c = out.insert(out.end(), {name, {}, {}});
-      c->x.push_back(x(at));
-      c->y.push_back(s.albedo - at.truth);
+      auto& c = curve_named(f, s.id.starts_with("scattering.") ? short_id(s.id) : s.id);
+      c.x.push_back(x(at));
+      c.y.push_back(s.albedo - at.truth);
     }
   }
-  return out;
 }
 
-void add_materials(Pictures& p, const EnergyReport& r) {
+void add_materials(Pictures& p, const EnergyRows& r) {
   for (const auto& m : r.materials) {
     const FigureAxis error{"E − truth"};
     for (const double mu : each_once(m.rows, &At::mu)) {
@@ -179,8 +172,8 @@ void add_materials(Pictures& p, const EnergyReport& r) {
       f.note = fmt::format("{}, {}", m.name, mu_text(mu));
       f.x = over_roughness();
       f.y = error;
-      f.curves = errors_of(
-          m, [&](const At& a) { return a.mu == mu; }, [](const At& a) { return a.roughness; });
+      add_errors(
+          f, m, [&](const At& a) { return a.mu == mu; }, [](const At& a) { return a.roughness; });
       p.figures.push_back(std::move(f));
     }
     const double rough = std::ranges::max(m.rows, {}, &At::roughness).roughness;
@@ -189,8 +182,8 @@ void add_materials(Pictures& p, const EnergyReport& r) {
     f.note = fmt::format("{}, roughness {:g}", m.name, rough);
     f.x = over_mu();
     f.y = error;
-    f.curves = errors_of(
-        m, [&](const At& a) { return a.mu > 0 && a.roughness == rough; },
+    add_errors(
+        f, m, [&](const At& a) { return a.mu > 0 && a.roughness == rough; },
         [](const At& a) { return a.mu; });
     p.figures.push_back(std::move(f));
   }
@@ -199,7 +192,7 @@ void add_materials(Pictures& p, const EnergyReport& r) {
 // --- Error against time
 // ---------------------------------------------------------------------------
 
-void add_estimators(Pictures& p, const EnergyReport& r) {
+void add_estimators(Pictures& p, const EnergyRows& r) {
   const auto place = [](const EstimatorPoint& e) { return std::pair{e.roughness, e.mu}; };
   for (const auto& at : each_once(r.estimators, place)) {
     auto f = make_figure("estimators", {{"roughness", fmt::format("{:g}", at.first)},
@@ -210,13 +203,10 @@ void add_estimators(Pictures& p, const EnergyReport& r) {
     f.y = {"error of E", true};
     for (const auto& e : r.estimators) {
       if (place(e) != at) continue;
-      auto c = std::ranges::find(f.curves, e.estimator, &FigureCurve::name);
-      if (c == f.curves.end())
-        c = f.curves.insert(f.curves.end(),
-                            {std::string(e.estimator), {}, {}, FigureCurve::Kind::both});
-      c->x.push_back(e.ns);
-      c->y.push_back(std::max(e.error, 1e-13));  // the truth is known to that
-      c->x_error.push_back(e.ns_spread);
+      auto& c = curve_named(f, e.estimator, FigureCurve::Kind::both);
+      c.x.push_back(e.ns);
+      c.y.push_back(std::max(e.error, 1e-13));  // the truth is known to that
+      c.x_error.push_back(e.ns_spread);
     }
     p.figures.push_back(std::move(f));
   }
@@ -225,8 +215,8 @@ void add_estimators(Pictures& p, const EnergyReport& r) {
 // --- Image-based light
 // ------------------------------------------------------------------------------
 
-void add_split_sum(Pictures& p, const EnergyReport& r) {
-  if (r.table_samples.empty()) return;
+void add_split_sum(Pictures& p, const EnergyRows& r) {
+  if (r.light.table_samples.empty()) return;
   auto f = make_figure("split_sum_samples");
   f.title = "A and B by importance sampling";
   f.note = "Hammersley points from D, against quadrature, 16 × 16 texels";
@@ -236,7 +226,7 @@ void add_split_sum(Pictures& p, const EnergyReport& r) {
        {std::pair{"A, most", &TableSamples::a}, std::pair{"A, RMS", &TableSamples::a_rms},
         std::pair{"B, most", &TableSamples::b}, std::pair{"B, RMS", &TableSamples::b_rms}}) {
     FigureCurve c{name, {}, {}, FigureCurve::Kind::both};
-    for (const auto& t : r.table_samples) {
+    for (const auto& t : r.light.table_samples) {
       c.x.push_back(static_cast<double>(t.samples));
       c.y.push_back(t.*value);
     }
@@ -254,24 +244,21 @@ std::string rule_name(std::string_view rule) {
   return name;
 }
 
-void add_irradiance(Pictures& p, const EnergyReport& r) {
+void add_irradiance(Pictures& p, const EnergyRows& r) {
   for (const bool time : {false, true})
-    for (const auto& light : each_once(r.irradiance, &IrradianceRow::light)) {
+    for (const auto& light : each_once(r.light.irradiance, &IrradianceRow::light)) {
       auto f =
           make_figure(time ? "irradiance_by_time" : "irradiance_by_samples", {{"light", light}});
       f.title = light;
       f.note = "RMS over normals, relative to the exact value";
       f.x = {time ? "time of one normal [ns]" : "samples", true};
       f.y = {"RMS error [%]", true};
-      for (const auto& i : r.irradiance) {
+      for (const auto& i : r.light.irradiance) {
         if (i.light != light) continue;
-        const std::string name = rule_name(i.rule);
-        auto c = std::ranges::find(f.curves, name, &FigureCurve::name);
-        if (c == f.curves.end())
-          c = f.curves.insert(f.curves.end(), {name, {}, {}, FigureCurve::Kind::both});
-        c->x.push_back(time ? i.ns : static_cast<double>(i.samples));
-        c->y.push_back(100 * i.rms);
-        if (time) c->x_error.push_back(i.spread_ns);
+        auto& c = curve_named(f, rule_name(i.rule), FigureCurve::Kind::both);
+        c.x.push_back(time ? i.ns : static_cast<double>(i.samples));
+        c.y.push_back(100 * i.rms);
+        if (time) c.x_error.push_back(i.spread_ns);
       }
       p.figures.push_back(std::move(f));
     }
@@ -279,7 +266,7 @@ void add_irradiance(Pictures& p, const EnergyReport& r) {
 
 }  // namespace
 
-Pictures pictures(const EnergyReport& r) {
+Pictures pictures(const EnergyRows& r) {
   Pictures p;
   add_forms(p, r);
   add_materials(p, r);

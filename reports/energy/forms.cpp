@@ -1,4 +1,4 @@
-// What every masking form loses at F = 1, by roughness and angle.
+// Loss of every masking form at F = 1, by roughness and angle.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
 #include "integrate/albedo/directional_albedo.h"
-#include "reports/energy/parts.h"
+#include "reports/energy/crossings.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -75,18 +75,16 @@ std::vector<Crossing> crossings(const EnergyForm& f) {
 
 }  // namespace
 
-void add_forms(EnergyReport& report,
-               const EnergyOptions& o,
-               const std::function<void(double)>& done) {
+std::vector<EnergyForm> energy_forms(const EnergyOptions& o,
+                                     const std::function<void(double)>& done) {
   const auto& mu = o.mu;
-  report.forms = all_forms();
+  auto forms = all_forms();
   if (!o.forms.empty())
-    std::erase_if(report.forms, [&](const EnergyForm& f) {
+    std::erase_if(forms, [&](const EnergyForm& f) {
       return std::ranges::find(o.forms, f.name) == o.forms.end();
     });
   std::size_t finished = 0;
-  for (std::size_t i = 0; i < report.forms.size(); ++i) {
-    auto& f = report.forms[i];
+  for (auto& f : forms) {
     auto roughness = o.roughness;
     std::erase_if(roughness, [&](double r) { return r > f.most_roughness; });
     f.rows.resize(roughness.size() * mu.size());
@@ -101,8 +99,9 @@ void add_forms(EnergyReport& report,
       f.averages[r] = {roughness[r], average.value[0] / f.divisor, average.error / f.divisor};
     });
     f.crossings = crossings(f);
-    done(static_cast<double>(++finished) / static_cast<double>(report.forms.size()));
+    done(static_cast<double>(++finished) / static_cast<double>(forms.size()));
   }
+  return forms;
 }
 
 }  // namespace gonio

@@ -5,7 +5,7 @@
 #include "brdf/catalogue/registry.h"
 #include "integrate/scattering/compensation.h"
 #include "integrate/scattering/half_space.h"
-#include "reports/energy/parts.h"
+#include "reports/energy/crossings.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ std::vector<Family> families() {
           {"conductor", parse_settings(gold), {"gold, red", "gold, green", "gold, blue"}}};
 }
 
-/// Of the loss as a share of what should leave.
+/// Crossings of the loss as a share of what should leave.
 std::vector<Crossing> crossings(const EnergyMaterial& m) {
   return gather_crossings([&](double mu, const auto& add) {
     for (const auto& at : m.rows)
@@ -71,24 +71,25 @@ std::vector<std::vector<EnergyMaterial::At>> solve(const Family& family,
 
 }  // namespace
 
-void add_materials(EnergyReport& report,
-                   const EnergyOptions& o,
-                   const std::function<void(double)>& done) {
+std::vector<EnergyMaterial> energy_materials(const EnergyOptions& o,
+                                             const std::function<void(double)>& done) {
+  std::vector<EnergyMaterial> out;
   const auto all = families();
   const double steps = static_cast<double>(all.size() * o.roughness.size());
   std::size_t finished = 0;
   for (const auto& family : all) {
-    const std::size_t first = report.materials.size();
+    const std::size_t first = out.size();
     for (const auto& name : family.names)
-      report.materials.push_back({name, fmt::format("fresnel.{}", family.fresnel), {}, {}});
+      out.push_back({name, fmt::format("fresnel.{}", family.fresnel), {}, {}});
     for (const double r : o.roughness) {
       const auto rows = solve(family, r, o.mu);
       for (std::size_t c = 0; c < rows.size(); ++c)
-        std::ranges::copy(rows[c], std::back_inserter(report.materials[first + c].rows));
+        std::ranges::copy(rows[c], std::back_inserter(out[first + c].rows));
       done(static_cast<double>(++finished) / steps);
     }
   }
-  for (auto& m : report.materials) m.crossings = crossings(m);
+  for (auto& m : out) m.crossings = crossings(m);
+  return out;
 }
 
 }  // namespace gonio

@@ -54,7 +54,7 @@ void put_material(PageJson& truth, const EnergyMaterial& m) {
 }  // namespace
 
 std::string to_json(const EnergyReport& r) {
-  PageJson out{{"schema", "gonio.report.energy/1"}, {"full", r.full}, {"findings", r.findings}};
+  PageJson out{{"schema", "gonio.report.energy/1"}, {"full", r.full}, {"findings", r.findings.sentences}};
   PageJson rows = PageJson::array(), forms = PageJson::array(), materials = PageJson::array(),
            truth = PageJson::array(), costs = PageJson::array(), estimators = PageJson::array(),
            crossings = PageJson::array(), albedo_forms = PageJson::array();
@@ -66,7 +66,7 @@ std::string to_json(const EnergyReport& r) {
       crossings.push_back(one);
     }
   };
-  for (const auto& f : r.forms) {
+  for (const auto& f : r.rows.forms) {
     put_rows(rows, f);
     put_crossings("form", f.name, f.crossings);
     forms.push_back({{"form", f.name},
@@ -76,12 +76,12 @@ std::string to_json(const EnergyReport& r) {
                      {"gamma", f.gamma > 0 ? page_json(f.gamma) : PageJson(nullptr)},
                      {"divisor", page_json(f.divisor)}});
   }
-  for (const auto& m : r.materials) {
+  for (const auto& m : r.rows.materials) {
     put_material(truth, m);
     put_crossings("material", m.name, m.crossings);
     materials.push_back({{"material", m.name}, {"fresnel", m.fresnel}});
   }
-  for (const auto& c : r.compensations)
+  for (const auto& c : r.rows.compensations)
     costs.push_back({{"scattering", c.id},
                      {"operations", c.operations},
                      {"lookups", c.lookups},
@@ -93,14 +93,14 @@ std::string to_json(const EnergyReport& r) {
                      {"rms", page_json(c.rms)},
                      {"worst_at", c.worst_at},
                      {"gold_rms", page_json(c.gold_rms)}});
-  for (const auto& a : r.albedo_forms)
+  for (const auto& a : r.rows.albedo_forms)
     albedo_forms.push_back({{"form", a.id},
                             {"worst", page_json(a.worst)},
                             {"rms", page_json(a.rms)},
                             {"worst_at", a.worst_at},
                             {"operations", a.operations},
                             {"bytes", a.bytes}});
-  for (const auto& e : r.estimators)
+  for (const auto& e : r.rows.estimators)
     estimators.push_back({{"estimator", e.estimator},
                           {"roughness", page_json(e.roughness)},
                           {"mu", page_json(e.mu)},
@@ -112,7 +112,7 @@ std::string to_json(const EnergyReport& r) {
                           {"spread_ns", page_json(e.ns_spread)}});
   PageJson tables = PageJson::array(), samples = PageJson::array(), lit = PageJson::array(),
            irradiance = PageJson::array();
-  for (const auto& t : r.tables)
+  for (const auto& t : r.rows.light.tables)
     tables.push_back({{"size", t.size},
                       {"stored", t.stored},
                       {"bound", page_json(t.bound)},
@@ -120,13 +120,13 @@ std::string to_json(const EnergyReport& r) {
                       {"lookup_max", page_json(t.lookup)},
                       {"lookup_rms", page_json(t.lookup_rms)},
                       {"between_centres_max", page_json(t.between)}});
-  for (const auto& t : r.table_samples)
+  for (const auto& t : r.rows.light.table_samples)
     samples.push_back({{"samples", t.samples},
                        {"a_max", page_json(t.a)},
                        {"a_rms", page_json(t.a_rms)},
                        {"b_max", page_json(t.b)},
                        {"b_rms", page_json(t.b_rms)}});
-  for (const auto& l : r.lit)
+  for (const auto& l : r.rows.light.lit)
     lit.push_back({{"environment", l.environment},
                    {"roughness", page_json(l.roughness)},
                    {"nov", page_json(l.nov)},
@@ -137,7 +137,7 @@ std::string to_json(const EnergyReport& r) {
                    {"of_mean", page_json(l.of_mean)},
                    {"of_mean_spread", page_json(l.of_mean_spread)},
                    {"truth_error", page_json(l.truth)}});
-  for (const auto& i : r.irradiance)
+  for (const auto& i : r.rows.light.irradiance)
     irradiance.push_back({{"light", i.light},
                           {"rule", i.rule},
                           {"samples", i.samples},
@@ -156,10 +156,10 @@ std::string to_json(const EnergyReport& r) {
   out["estimators"] = estimators;
   out["split_sum_tables"] = tables;
   out["split_sum_samples"] = samples;
-  out["views"] = r.views;
+  out["views"] = r.rows.light.views;
   out["split_sum_light"] = lit;
   out["irradiance"] = irradiance;
-  put_pictures(out, pictures(r));
+  put_pictures(out, r.pictures);
   return page_text(out);
 }
 

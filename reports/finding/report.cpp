@@ -15,4 +15,12 @@ std::string sentence(const Claim& c) {
   return fmt::format("“{}” {}: {}", c.claim, word(c.judged), c.verdict);
 }
 
+void Findings::judge(std::string_view claim,
+                     std::string_view source,
+                     Claim::Judged judged,
+                     std::string verdict) {
+  claims.push_back({std::string(claim), std::string(source), judged, std::move(verdict)});
+  say(sentence(claims.back()));
+}
+
 }  // namespace gonio

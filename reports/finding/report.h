@@ -21,9 +21,9 @@ struct ReportOptions {
   std::vector<Light> environments{};  ///< of the reports that light something
 };
 
-/// What is being done, and the part that is done, in [0, 1].
+/// Callback that is told what is being done, and the part of the whole that is done, in [0, 1].
 using ReportProgress = std::function<void(std::string_view, double)>;
-/// Of a part that runs from one share of the whole to another, by what is done of it, in [0, 1].
+/// Progress of a part that runs from one share of the whole to another, by what is done of it, in [0, 1].
 /// \param done  must outlive it; may be empty   \param what  plain text that outlives it
 inline std::function<void(double)> part_of(const ReportProgress& done,
                                            std::string_view what,
@@ -47,29 +47,47 @@ struct Claim {
 std::string_view word(Claim::Judged);
 /// "“claim” holds: verdict"
 std::string sentence(const Claim&);
-/// Keeps a claim of a report, and its sentence among the report's findings.
-template <class Report>
-void judge(Report& r,
-           std::string_view claim,
-           std::string_view source,
-           Claim::Judged judged,
-           std::string verdict) {
-  r.claims.push_back({std::string(claim), std::string(source), judged, std::move(verdict)});
-  r.findings.push_back(sentence(r.claims.back()));
-}
 
-/// What readers come with, and where it is answered.
+/// A question that readers come with, and where it is answered.
 struct Question {
   std::string question, answer;  ///< a sentence each
   std::string anchor{};          ///< as a claim's
 };
 
-struct ReportFiles {
-  std::string json, html;
-  std::vector<std::string> findings;  ///< sentences
-  Pictures pictures{};
+/// Everything that a report says of its rows.
+struct Findings {
+  std::vector<std::string> sentences{};  ///< those of the claims among them
   std::vector<Claim> claims{};
   std::vector<Question> questions{};
+
+  void say(std::string sentence) { sentences.push_back(std::move(sentence)); }
+  /// Keeps a claim, and its sentence among the others.
+  void judge(std::string_view claim,
+             std::string_view source,
+             Claim::Judged,
+             std::string verdict);
+};
+
+/// The plain sum of a report's parts: what was measured, what is said of it, and what is shown of it.
+template <class Rows>
+struct Report {
+  bool full;
+  Rows rows;
+  Findings findings;
+  Pictures pictures;
+};
+/// The report on these rows, from which alone the rest is made: by findings(rows) and pictures(rows).
+template <class Rows>
+Report<Rows> report_of(bool full, Rows rows) {
+  auto said = findings(rows);
+  auto shown = pictures(rows);
+  return {full, std::move(rows), std::move(said), std::move(shown)};
+}
+
+struct ReportFiles {
+  std::string json, html;
+  Findings findings;
+  Pictures pictures;
 };
 
 }  // namespace gonio

@@ -24,8 +24,8 @@ std::string to_json(const ReportIndex& index) {
   PageJson reports = PageJson::array(), claims = PageJson::array(), questions = PageJson::array();
   for (const auto& r : index.reports) {
     std::vector<std::string> others;  // what is judged stands below, with the claims
-    std::ranges::copy_if(r.findings, std::back_inserter(others), [&](const std::string& f) {
-      return std::ranges::none_of(r.claims, [&](const Claim& c) { return sentence(c) == f; });
+    std::ranges::copy_if(r.findings.sentences, std::back_inserter(others), [&](const std::string& f) {
+      return std::ranges::none_of(r.findings.claims, [&](const Claim& c) { return sentence(c) == f; });
     });
     PageJson findings = PageJson::array();
     for (std::size_t i = 0; i < std::min(most_findings, others.size()); ++i)
@@ -36,14 +36,14 @@ std::string to_json(const ReportIndex& index) {
                        {"more", others.size() > most_findings},
                        {"pictures", r.pictures},
                        {"time_ms", page_json(r.ms)}});
-    for (const auto& c : r.claims)
+    for (const auto& c : r.findings.claims)
       claims.push_back({{"report", r.name},
                         {"claim", c.claim},
                         {"source", c.source},
                         {"judged", word(c.judged)},
                         {"verdict", c.verdict},
                         {"anchor", c.anchor}});
-    for (const auto& q : r.questions)
+    for (const auto& q : r.findings.questions)
       questions.push_back({{"report", r.name},
                            {"question", q.question},
                            {"answer", q.answer},

@@ -15,10 +15,8 @@ struct ReportIndex {
   struct Entry {
     std::string_view name, what;
     double ms;  ///< that it took
-    std::vector<std::string> findings;
+    Findings findings;
     std::size_t pictures;
-    std::vector<Claim> claims;
-    std::vector<Question> questions;
   };
   std::vector<Entry> reports;
   std::string version;  ///< of gonio

@@ -11,13 +11,11 @@
 namespace gonio {
 namespace {
 
-template <class Report>
-ReportFiles files(const Report& report, std::string (*page)(std::string_view)) {
+template <class Rows>
+ReportFiles files(Report<Rows> report, std::string (*page)(std::string_view)) {
   std::string json = to_json(report);
   std::string html = page(json);
-  ReportFiles f{std::move(json), std::move(html), report.findings, pictures(report), report.claims};
-  if constexpr (requires { report.questions; }) f.questions = report.questions;
-  return f;
+  return {std::move(json), std::move(html), std::move(report.findings), std::move(report.pictures)};
 }
 
 ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {
@@ -32,8 +30,9 @@ ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
   return files(schlick_report(schlick_options(o.full), done), schlick_page_html);
 }
 ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
-  const auto report = cross_fit_report(cross_fit_options(o.full), done);
-  return {to_json(report), cross_fit_page_html(report), report.findings, pictures(report)};
+  auto report = cross_fit_report(cross_fit_options(o.full), done);
+  return {to_json(report), cross_fit_page_html(report), std::move(report.findings),
+          std::move(report.pictures)};
 }
 ReportFiles cost(const ReportOptions& o, const ReportProgress& done) {
   return files(cost_report(cost_options(o.full), done), cost_page_html);

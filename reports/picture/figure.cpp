@@ -1,5 +1,7 @@
 #include "reports/picture/figure.h"
 
+#include <algorithm>
+
 namespace gonio {
 namespace {
 
@@ -37,6 +39,12 @@ Figure make_figure(std::string family, FigureChoices choices) {
 }
 FigureMap make_map(std::string family, FigureChoices choices) {
   return made<FigureMap>(std::move(family), std::move(choices));
+}
+
+FigureCurve& curve_named(Figure& f, std::string_view name, FigureCurve::Kind kind) {
+  const auto at = std::ranges::find(f.curves, name, &FigureCurve::name);
+  if (at != f.curves.end()) return *at;
+  return f.curves.emplace_back(FigureCurve{std::string(name), {}, {}, kind});
 }
 
 }  // namespace gonio

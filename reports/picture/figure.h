@@ -21,6 +21,11 @@ struct FigureAxis {
          to = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// Axis from 0 to 1.
+inline FigureAxis over_roughness() {
+  return {"roughness", false, 0, 1};
+}
+
 struct FigureCurve {
   enum class Kind { line, points, both };
   std::string name;
@@ -82,7 +87,10 @@ std::string picture_id(std::string_view family, const FigureChoices&);
 Figure make_figure(std::string family, FigureChoices choices = {});
 FigureMap make_map(std::string family, FigureChoices choices = {});
 
-/// What a report shows.
+/// Curve of that name in a figure, added where there is none yet.
+FigureCurve& curve_named(Figure&, std::string_view name, FigureCurve::Kind = FigureCurve::Kind::line);
+
+/// Everything that a report shows.
 struct Pictures {
   std::vector<Figure> figures;
   std::vector<FigureMap> maps;

@@ -7,23 +7,17 @@
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/one_term.h"
 #include "geometry/half_difference.h"
-#include "reports/remap/parts.h"
+#include "reports/remap/pairs.h"
 
-namespace gonio {
+namespace gonio::remapping {
 namespace {
-
-using namespace remapping;
 
 const std::string separable = "masking.smith_ggx.separable",
                   correlated = "masking.smith_ggx.correlated",
                   direct = "masking.schlick_ggx.direct", image = "masking.schlick_ggx.half_alpha";
 
-const RemapForm* form(const RemapReport& r, std::string_view id) {
-  const auto it = std::ranges::find(r.forms, id, &RemapForm::form);
-  return it == r.forms.end() ? nullptr : &*it;
-}
 
-/// h = n.
+/// The mirror direction, h = n.
 Row mirror(double mu) {
   const double theta = std::acos(mu);
   return frame_angles({direction(theta, 0), direction(theta, std::numbers::pi)});
@@ -33,41 +27,11 @@ double mirrored(const std::string& id, double roughness, double mu) {
   return g2_at(find_term(id), roughness, {&row, 1})[0];
 }
 
-void add_uses(RemapReport& report) {
-  const auto *of_separable = form(report, separable), *of_correlated = form(report, correlated);
-  if (!of_separable || !of_correlated) return;
-  for (const auto& id : {direct, image}) {
-    const auto* f = form(report, id);
-    if (!f) continue;
-    for (std::size_t i = 0; i < f->at.size(); ++i) {
-      const double r = f->at[i].roughness;
-      for (std::size_t m = 0; m < report.mu.size(); ++m) {
-        const double mu = report.mu[m];
-        report.uses.push_back({id, "even", mu, r, f->at[i].albedo[m], of_separable->at[i].albedo[m],
-                               of_correlated->at[i].albedo[m]});
-        report.uses.push_back({id, "single", mu, r, mirrored(id, r, mu), mirrored(separable, r, mu),
-                               mirrored(correlated, r, mu)});
-      }
-    }
-  }
-}
-
-/// With NoL = 1, where G1(l) = 1.
+/// G1 of the viewer: NoL = 1, where G1(l) = 1.
 double g1(const std::string& id, double alpha, double nov) {
   return evaluate_term(find_term(id), Number::double_, {{"alpha", alpha}},
                        {{"nol", {1}}, {"nov", {nov}}})
       .values[0];
-}
-
-void add_g1(RemapReport& report) {
-  constexpr double nov = 0.1;
-  for (const auto& [k, claimed] : {std::pair(0.125, 0.47), {0.28125, 0.28}}) {
-    const double r = std::sqrt(8 * k) - 1;
-    // G1 depends on k alone, and alpha = 2k says it; smooth surfaces mask nothing
-    const double least = catalogue()[find_term(separable)].parameters[0].legal.low;
-    report.g1.push_back(
-        {k, nov, claimed, g1(image, 2 * k, nov), r, g1(separable, std::max(r * r, least), nov)});
-  }
 }
 
 struct Fresnel {
@@ -109,28 +73,61 @@ RemapVf ratios(const RemapForm& f,
   return out;
 }
 
-void add_vf(RemapReport& report, const RemapOptions& o) {
-  const Fresnel interfaces[] = {{"glass, n = 1.5", "fresnel.dielectric", {1.5}, 0.04},
-                                {"F = 1", "fresnel.constant", {1}, 1}};
-  const Pairs all(all_pairs(report.cosines), o.azimuths);
-  std::vector<Row> mirrors;
-  for (const double c : report.cosines) mirrors.push_back(mirror(c));
-  for (const auto* id :
-       {"masking.unity_mobile", "masking.unity_mobile.urp", "masking.ue_mobile_simple"})
-    if (const auto* f = form(report, id))
-      for (const auto& fresnel : interfaces)
-        for (const double r : o.roughness) {
-          report.vf.push_back(ratios(*f, fresnel, "all", r, all.rows()));
-          report.vf.push_back(ratios(*f, fresnel, "mirror", r, mirrors));
-        }
-}
-
 }  // namespace
 
-void add_claims(RemapReport& report, const RemapOptions& o) {
-  add_uses(report);
-  add_g1(report);
-  add_vf(report, o);
+std::vector<RemapUse> uses_of_k(const std::vector<RemapForm>& forms,
+                                std::span<const double> mus) {
+  std::vector<RemapUse> out;
+  const auto *of_separable = find_form(forms, separable), *of_correlated = find_form(forms, correlated);
+  if (!of_separable || !of_correlated) return out;
+  for (const auto& id : {direct, image}) {
+    const auto* f = find_form(forms, id);
+    if (!f) continue;
+    for (std::size_t i = 0; i < f->at.size(); ++i) {
+      const double r = f->at[i].roughness;
+      for (std::size_t m = 0; m < mus.size(); ++m) {
+        const double mu = mus[m];
+        out.push_back({id, "even", mu, r, f->at[i].albedo[m], of_separable->at[i].albedo[m],
+                               of_correlated->at[i].albedo[m]});
+        out.push_back({id, "single", mu, r, mirrored(id, r, mu), mirrored(separable, r, mu),
+                               mirrored(correlated, r, mu)});
+      }
+    }
+  }
+  return out;
 }
 
-}  // namespace gonio
+std::vector<RemapG1> claimed_g1() {
+  std::vector<RemapG1> out;
+  constexpr double nov = 0.1;
+  for (const auto& [k, claimed] : {std::pair(0.125, 0.47), {0.28125, 0.28}}) {
+    const double r = std::sqrt(8 * k) - 1;
+    // G1 depends on k alone, and alpha = 2k says it; smooth surfaces mask nothing
+    const double least = catalogue()[find_term(separable)].parameters[0].legal.low;
+    out.push_back(
+        {k, nov, claimed, g1(image, 2 * k, nov), r, g1(separable, std::max(r * r, least), nov)});
+  }
+  return out;
+}
+
+std::vector<RemapVf> in_place_of_vf(const std::vector<RemapForm>& forms,
+                                    const RemapOptions& o,
+                                    std::span<const double> cosines) {
+  std::vector<RemapVf> out;
+  const Fresnel interfaces[] = {{"glass, n = 1.5", "fresnel.dielectric", {1.5}, 0.04},
+                                {"F = 1", "fresnel.constant", {1}, 1}};
+  const Pairs all(all_pairs(cosines), o.azimuths);
+  std::vector<Row> mirrors;
+  for (const double c : cosines) mirrors.push_back(mirror(c));
+  for (const auto* id :
+       {"masking.unity_mobile", "masking.unity_mobile.urp", "masking.ue_mobile_simple"})
+    if (const auto* f = find_form(forms, id))
+      for (const auto& fresnel : interfaces)
+        for (const double r : o.roughness) {
+          out.push_back(ratios(*f, fresnel, "all", r, all.rows()));
+          out.push_back(ratios(*f, fresnel, "mirror", r, mirrors));
+        }
+  return out;
+}
+
+}  // namespace gonio::remapping

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "brdf/catalogue/registry.h"
-#include "reports/remap/parts.h"
 #include "reports/remap/remap.h"
 
 #include <fmt/format.h>
@@ -19,17 +18,10 @@ std::string last_word(std::string_view id) {
 std::string name_of(std::string_view form) {
   return std::string(short_id(form));
 }
-FigureAxis over_roughness() {
-  return {"roughness", false, 0, 1};
-}
-const RemapForm* find(const RemapReport& r, std::string_view form) {
-  const auto at = std::ranges::find(r.forms, form, &RemapForm::form);
-  return at == r.forms.end() ? nullptr : &*at;
-}
 
 // --- Maps ----------------------------------------------------------------------------------------
 
-FigureMap map_over_cosines(const RemapReport& r, std::string family, FigureChoices choices) {
+FigureMap map_over_cosines(const RemapRows& r, std::string family, FigureChoices choices) {
   auto m = make_map(std::move(family), std::move(choices));
   m.x.label = "NoL";
   m.y.label = "NoV";
@@ -41,7 +33,7 @@ FigureMap map_over_cosines(const RemapReport& r, std::string family, FigureChoic
   return m;
 }
 
-void add_maps(Pictures& p, const RemapReport& r) {
+void add_maps(Pictures& p, const RemapRows& r) {
   for (const auto& f : r.forms) {
     auto own = map_over_cosines(r, "g2", {{"form", name_of(f.form)}});
     own.title = fmt::format("G2 of {}", name_of(f.form));
@@ -54,8 +46,8 @@ void add_maps(Pictures& p, const RemapReport& r) {
       std::ranges::copy(at.g2, std::back_inserter(own.values));
     }
     if (own.slices.empty()) continue;
-    for (const auto& reference : remapping::references_of(f.ndf)) {
-      const auto* smith = find(r, reference);
+    for (const auto& reference : references_of(f.ndf)) {
+      const auto* smith = find_form(r.forms, reference);
       if (!smith || reference == f.form) continue;
       auto off = map_over_cosines(r, "masking_error",
                                   {{"form", name_of(f.form)}, {"reference", last_word(reference)}});
@@ -77,9 +69,9 @@ void add_maps(Pictures& p, const RemapReport& r) {
 // --- Forms beside each other
 // ----------------------------------------------------------------------
 
-/// Of a value of the rows, a curve for each form of a distribution.
+/// Curves of a value of the rows, one for each form of a distribution.
 template <class Value>
-std::vector<FigureCurve> curves_of(const RemapReport& r,
+std::vector<FigureCurve> curves_of(const RemapRows& r,
                                    std::string_view ndf,
                                    std::string_view reference,
                                    Value value) {
@@ -97,12 +89,12 @@ std::vector<FigureCurve> curves_of(const RemapReport& r,
   return out;
 }
 
-void add_comparisons(Pictures& p, const RemapReport& r, std::string_view ndf) {
+void add_comparisons(Pictures& p, const RemapRows& r, std::string_view ndf) {
   std::vector<double> roughness;
   for (const auto& row : r.rows) roughness.push_back(row.roughness);
   std::ranges::sort(roughness);
   roughness.erase(std::unique(roughness.begin(), roughness.end()), roughness.end());
-  for (const auto& reference : remapping::references_of(ndf)) {
+  for (const auto& reference : references_of(ndf)) {
     const FigureChoices choices{{"distribution", distribution(ndf)},
                                 {"reference", last_word(reference)}};
     const auto put = [&](Figure f) {
@@ -134,8 +126,8 @@ void add_comparisons(Pictures& p, const RemapReport& r, std::string_view ndf) {
 }
 
 /// E(μ) of every form of a distribution, at each roughness whose G2 is kept.
-void add_furnaces(Pictures& p, const RemapReport& r, std::string_view ndf) {
-  const auto references = remapping::references_of(ndf);
+void add_furnaces(Pictures& p, const RemapRows& r, std::string_view ndf) {
+  const auto references = references_of(ndf);
   for (std::size_t k = 0; !r.forms.empty() && k < r.forms[0].at.size(); ++k) {
     const double roughness = r.forms[0].at[k].roughness;
     auto f = make_figure("furnace", {{"distribution", distribution(ndf)},
@@ -156,7 +148,7 @@ void add_furnaces(Pictures& p, const RemapReport& r, std::string_view ndf) {
 // --- In the wrong place, and in place of V F
 // ------------------------------------------------------
 
-void add_uses(Pictures& p, const RemapReport& r) {
+void add_uses(Pictures& p, const RemapRows& r) {
   for (const std::string_view light : {"even", "single"})
     for (const double mu : r.mu) {
       auto f =
@@ -190,7 +182,7 @@ void add_uses(Pictures& p, const RemapReport& r) {
     }
 }
 
-void add_vf(Pictures& p, const RemapReport& r) {
+void add_vf(Pictures& p, const RemapRows& r) {
   const auto same = [](const RemapVf& a) {
     return [&a](const RemapVf& b) {
       return a.form == b.form && a.fresnel == b.fresnel && a.over == b.over;
@@ -222,7 +214,7 @@ void add_vf(Pictures& p, const RemapReport& r) {
 
 }  // namespace
 
-Pictures pictures(const RemapReport& r) {
+Pictures pictures(const RemapRows& r) {
   Pictures p;
   add_maps(p, r);
   for (const std::string_view ndf : {"ndf.ggx", "ndf.beckmann"}) {

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "reports/remap/parts.h"
+#include "brdf/catalogue/registry.h"
+#include "reports/finding/words.h"
+#include "reports/remap/remap.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,16 +18,13 @@ constexpr std::string_view separable = "masking.smith_ggx.separable",
                            direct = "masking.schlick_ggx.direct",
                            image = "masking.schlick_ggx.half_alpha";
 
-std::string_view brief(std::string_view id) {
-  return id.substr(id.find('.') + 1);
-}
 std::string rough(const NearestRoughness& n) {
   return !n.at_end           ? fmt::format("{:.2f}", n.roughness)
          : n.roughness < 0.5 ? "the smoothest"
                              : "the roughest";
 }
 
-std::vector<const RemapRow*> rows_of(const RemapReport& r,
+std::vector<const RemapRow*> rows_of(const RemapRows& r,
                                      std::string_view form,
                                      std::string_view reference) {
   std::vector<const RemapRow*> out;
@@ -45,9 +44,11 @@ double overall(const std::vector<const RemapRow*>& rows) {
   return std::sqrt(sum / static_cast<double>(rows.size()));
 }
 
-using Judged = Claim::Judged;
-/// From the nearest to the furthest.
-void ranking(RemapReport& r, std::string_view reference, std::string_view what) {
+/// Forms from the nearest to the furthest.
+void ranking(Findings& to,
+             const RemapRows& r,
+             std::string_view reference,
+             std::string_view what) {
   struct Place {
     std::string_view form;
     double rms;
@@ -58,27 +59,24 @@ void ranking(RemapReport& r, std::string_view reference, std::string_view what) 
       places.push_back({f.form, overall(rows)});
   if (places.empty()) return;
   std::ranges::sort(places, {}, &Place::rms);
-  const auto said = [&](const Place& p) { return fmt::format("{} {:.2g}", brief(p.form), p.rms); };
   std::vector<std::string> words;
-  for (const auto& p : places)
-    if (words.size() < 4) words.push_back(said(p));
-  r.findings.push_back(fmt::format(
-      "Nearest to {}, by RMS of G2 over directions and roughness: {}{}.", what,
-      fmt::join(words, ", "), places.size() > 4 ? "; furthest: " + said(places.back()) : ""));
+  for (const auto& p : places) words.push_back(fmt::format("{} {:.2g}", short_id(p.form), p.rms));
+  to.say(fmt::format("Nearest to {}, by RMS of G2 over directions and roughness: {}.", what,
+                     ranking_text(words, "; furthest: ")));
 }
 
-/// What a sample takes, of exact Smith and of what stands for it.
-void costs(RemapReport& r) {
+/// Operations of a sample, of exact Smith and of what stands for it.
+void costs(Findings& to, const RemapRows& r) {
   std::vector<std::string> words;
   for (const auto id : {correlated, separable, image, direct, std::string_view("masking.ue_joint")})
     for (const auto& f : r.forms)
       if (f.form == id)
-        words.push_back(fmt::format("{} {} ({} roots)", brief(id), f.operations, f.roots));
+        words.push_back(fmt::format("{} {} ({} roots)", short_id(id), f.operations, f.roots));
   if (words.size() > 1)
-    r.findings.push_back(fmt::format("Operations of one sample: {}.", fmt::join(words, ", ")));
+    to.say(fmt::format("Operations of one sample: {}.", fmt::join(words, ", ")));
 }
 
-/// At how many roughnesses the one is nearer than the other, where the figures can tell.
+/// Number of roughnesses at which the one is nearer than the other, where the figures can tell.
 struct Duel {
   std::size_t nearer = 0, tied = 0, all = 0;
 };
@@ -93,7 +91,7 @@ Duel duel(const std::vector<const RemapRow*>& ours, const std::vector<const Rema
 }
 
 /// 'k = (r+1)²/8 is right for direct light, r²/2 for image-based'
-void verdict_on_k(RemapReport& r) {
+void verdict_on_k(Findings& to, const RemapRows& r) {
   const auto ours = rows_of(r, direct, separable), others = rows_of(r, image, separable);
   if (ours.empty() || others.empty()) return;
   const auto one = duel(ours, others),
@@ -103,11 +101,9 @@ void verdict_on_k(RemapReport& r) {
   for (const double at : {0.1, 0.3, 0.5, 0.8})
     if (const auto* a = row_at(ours, at), *b = row_at(others, at); a && b)
       behaves.push_back(fmt::format("{:g} as {} (r²/2: {})", at, rough(a->by_g2), rough(b->by_g2)));
-  judge(r, "k = (r+1)²/8 is right for direct light, r²/2 for image-based",
+  to.judge("k = (r+1)²/8 is right for direct light, r²/2 for image-based",
         "seed 000, k of Schlick's G1",
-        2 * nearer < one.all + two.all ? Judged::fails
-        : nearer < one.all + two.all   ? Judged::partly
-                                       : Judged::holds,
+        verdict(nearer >= one.all + two.all, 2 * nearer >= one.all + two.all),
         fmt::format(
             "Smith's masking knows no "
             "kind of light, and (r+1)²/8 is nearer than r²/2 to separable Smith at {} of {} "
@@ -118,7 +114,7 @@ void verdict_on_k(RemapReport& r) {
             fmt::join(behaves, ", ")));
 }
 
-void wrong_place(RemapReport& r) {
+void wrong_place(Findings& to, const RemapRows& r) {
   const auto find = [&](std::string_view form, std::string_view light, double mu, double rough) {
     const auto it = std::ranges::find_if(r.uses, [&](const RemapUse& u) {
       return u.form == form && u.light == light && std::abs(u.mu - mu) < 1e-9 &&
@@ -129,7 +125,7 @@ void wrong_place(RemapReport& r) {
   const auto *low = find(direct, "even", 0.1, 0.3), *up = find(direct, "even", 1, 0.3),
              *image_low = find(image, "even", 0.1, 0.3), *image_up = find(image, "even", 1, 0.3);
   if (low && up && image_low && image_up)
-    r.findings.push_back(fmt::format(
+    to.say(fmt::format(
         "Direct light's k under an even environment (F = 1, roughness 0.3): E = {:.3f} at normal "
         "incidence and {:.3f} at mu = 0.1, where r²/2 gives {:.3f} and {:.3f}, Smith (separable) "
         "{:.3f} and {:.3f}.",
@@ -137,7 +133,7 @@ void wrong_place(RemapReport& r) {
   const auto *light = find(image, "single", 0.1, 0.3), *own = find(direct, "single", 0.1, 0.3),
              *normal = find(image, "single", 1, 0.3), *own_normal = find(direct, "single", 1, 0.3);
   if (light && own && normal && own_normal)
-    r.findings.push_back(fmt::format(
+    to.say(fmt::format(
         "A single light seen in its mirror direction at roughness 0.3: at normal incidence "
         "image-based light's k gives {:.3g} of exact Smith's (separable) and direct light's "
         "{:.3g}; "
@@ -146,7 +142,7 @@ void wrong_place(RemapReport& r) {
         light->value / light->separable, own->value / own->separable));
 }
 
-void verdict_on_g1(RemapReport& r) {
+void verdict_on_g1(Findings& to, const RemapRows& r) {
   if (r.g1.empty()) return;
   std::vector<std::string> values, exact;
   bool holds = true;
@@ -155,15 +151,15 @@ void verdict_on_g1(RemapReport& r) {
     values.push_back(fmt::format("{:.4f} (k {:.3f})", g.value, g.k));
     exact.push_back(fmt::format("{:.3f} at roughness {:g}", g.smith, g.roughness));
   }
-  judge(r, "G1 at NoV 0.1: 0.47 (k 0.125) and 0.28 (k 0.281)", "seed 000, Disney's remapping of k",
-        holds ? Judged::holds : Judged::fails,
+  to.judge("G1 at NoV 0.1: 0.47 (k 0.125) and 0.28 (k 0.281)", "seed 000, Disney's remapping of k",
+        verdict(holds),
         fmt::format("of Schlick's form it is {}. Exact Smith "
                     "for GGX, which these k = (r+1)²/8 stand for, is {}.",
                     fmt::join(values, " and "), fmt::join(exact, " and ")));
 }
 
 /// 'F V ≈ 1/(LoH²(r+0.5))'
-void verdict_on_vf(RemapReport& r) {
+void verdict_on_vf(Findings& to, const RemapRows& r) {
   constexpr std::string_view glass = "glass, n = 1.5";
   const auto of = [&](std::string_view over, std::string_view fresnel) {
     std::vector<const RemapVf*> out;
@@ -184,9 +180,9 @@ void verdict_on_vf(RemapReport& r) {
     return fmt::format("{:.2g} to {:.2g}", (*least)->factor, (*most)->factor);
   };
   const bool holds = (*std::ranges::max_element(mirror, {}, &RemapVf::factor))->factor < 1.1;
-  judge(
-      r, "F V ≈ 1/(LoH²(r+0.5))", "seed 000, mobile specular BRDF",
-      holds ? Judged::holds : Judged::fails,
+  to.judge(
+      "F V ≈ 1/(LoH²(r+0.5))", "seed 000, mobile specular BRDF",
+      verdict(holds),
       fmt::format(
           "against Smith (correlated) times the exact Fresnel term of "
           "glass it is off by a factor of {} (RMS, by roughness) in the mirror direction and of {} "
@@ -199,14 +195,16 @@ void verdict_on_vf(RemapReport& r) {
 
 }  // namespace
 
-void add_findings(RemapReport& r) {
-  verdict_on_k(r);
-  ranking(r, correlated, "exact Smith for GGX, correlated");
-  costs(r);
-  wrong_place(r);
-  verdict_on_g1(r);
-  verdict_on_vf(r);
-  ranking(r, "masking.smith_beckmann.correlated", "exact Smith for Beckmann, correlated");
+Findings findings(const RemapRows& r) {
+  Findings all;
+  verdict_on_k(all, r);
+  ranking(all, r, correlated, "exact Smith for GGX, correlated");
+  costs(all, r);
+  wrong_place(all, r);
+  verdict_on_g1(all, r);
+  verdict_on_vf(all, r);
+  ranking(all, r, "masking.smith_beckmann.correlated", "exact Smith for Beckmann, correlated");
+  return all;
 }
 
 }  // namespace gonio

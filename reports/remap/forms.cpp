@@ -8,15 +8,13 @@
 #include "brdf/in_number/number.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/rule/quadrature.h"
-#include "reports/remap/parts.h"
+#include "reports/remap/pairs.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-namespace gonio {
+namespace gonio::remapping {
 namespace {
-
-using namespace remapping;
 
 constexpr Goal goal{1e-6, 400'000};
 
@@ -186,27 +184,27 @@ RemapRow compare(const RemapForm& f,
 
 }  // namespace
 
-void add_forms(RemapReport& report,
-               const RemapOptions& o,
-               const std::function<void(double)>& done) {
-  const auto& mu = report.mu;
-  report.forms = all_forms();
+MeasuredForms measured_forms(const RemapOptions& o,
+                             std::span<const double> mu,
+                             std::span<const double> cosines,
+                             const std::function<void(double)>& done) {
+  MeasuredForms out{all_forms(), {}};
   if (!o.forms.empty())
-    std::erase_if(report.forms, [&](const RemapForm& f) {
+    std::erase_if(out.forms, [&](const RemapForm& f) {
       return std::ranges::find(o.forms, f.form) == o.forms.end();
     });
   const Places places(o.azimuths);
-  const Pairs map(all_pairs(report.cosines), o.azimuths);
+  const Pairs map(all_pairs(cosines), o.azimuths);
   std::map<std::string, Reference> references;
-  for (const auto& f : report.forms)
+  for (const auto& f : out.forms)
     for (const auto& id : references_of(f.ndf))
       if (!references.contains(id)) references.emplace(id, Reference(f.ndf, id, o.step, mu));
 
   std::size_t finished = 0;
-  for (auto& f : report.forms) {
-    const std::size_t n = o.roughness.size(), before = report.rows.size();
+  for (auto& f : out.forms) {
+    const std::size_t n = o.roughness.size(), before = out.rows.size();
     f.at.resize(n);
-    report.rows.resize(before + 2 * n);
+    out.rows.resize(before + 2 * n);
     tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
       const double r = o.roughness[i];
       auto [e, error] = albedo(f.ndf, f.form, r, mu);
@@ -215,10 +213,11 @@ void add_forms(RemapReport& report,
         f.at[i].g2 = mean_g2(find_term(f.form), r, map);
       const auto ids = references_of(f.ndf);
       for (std::size_t k = 0; k < 2; ++k)
-        report.rows[before + k * n + i] = compare(f, f.at[i], references.at(ids[k]), places, mu);
+        out.rows[before + k * n + i] = compare(f, f.at[i], references.at(ids[k]), places, mu);
     });
-    done(static_cast<double>(++finished) / static_cast<double>(report.forms.size()));
+    done(static_cast<double>(++finished) / static_cast<double>(out.forms.size()));
   }
+  return out;
 }
 
-}  // namespace gonio
+}  // namespace gonio::remapping

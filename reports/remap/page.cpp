@@ -34,12 +34,12 @@ PageJson row(const RemapRow& r) {
 }  // namespace
 
 std::string to_json(const RemapReport& r) {
-  PageJson out{{"schema", "gonio.report.remap/1"}, {"full", r.full}, {"findings", r.findings}};
+  PageJson out{{"schema", "gonio.report.remap/1"}, {"full", r.full}, {"findings", r.findings.sentences}};
   PageJson rows = PageJson::array(), forms = PageJson::array(), g1 = PageJson::array(),
            vf = PageJson::array();
   double albedo_error = 0;
-  for (const auto& one : r.rows) rows.push_back(row(one));
-  for (const auto& f : r.forms) {
+  for (const auto& one : r.rows.rows) rows.push_back(row(one));
+  for (const auto& f : r.rows.forms) {
     forms.push_back({{"form", f.form},
                      {"ndf", f.ndf},
                      {"formula", f.formula},
@@ -49,14 +49,14 @@ std::string to_json(const RemapReport& r) {
                      {"reads_half", f.reads_half}});
     for (const auto& at : f.at) albedo_error = std::max(albedo_error, at.error);
   }
-  for (const auto& g : r.g1)
+  for (const auto& g : r.rows.g1)
     g1.push_back({{"k", page_json(g.k)},
                   {"nov", page_json(g.nov)},
                   {"claimed", page_json(g.claimed)},
                   {"value", page_json(g.value)},
                   {"roughness", page_json(g.roughness)},
                   {"smith", page_json(g.smith)}});
-  for (const auto& v : r.vf)
+  for (const auto& v : r.rows.vf)
     vf.push_back({{"form", v.form},
                   {"fresnel", v.fresnel},
                   {"over", v.over},
@@ -70,7 +70,7 @@ std::string to_json(const RemapReport& r) {
   out["albedo_error"] = page_json(albedo_error);
   out["g1"] = g1;
   out["vf"] = vf;
-  put_pictures(out, pictures(r));
+  put_pictures(out, r.pictures);
   return page_text(out);
 }
 

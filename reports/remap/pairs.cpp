@@ -6,7 +6,7 @@
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/number.h"
 #include "geometry/half_difference.h"
-#include "reports/remap/parts.h"
+#include "reports/remap/pairs.h"
 
 namespace gonio::remapping {
 
@@ -77,11 +77,6 @@ NearestRoughness nearest(const std::function<double(double)>& f, std::span<const
   if (at[least] <= fx) best = {grid[least], at[least], false};
   best.at_end = best.roughness < grid.front() + 1e-4 || best.roughness > grid.back() - 1e-4;
   return best;
-}
-
-std::array<std::string, 2> references_of(std::string_view ndf) {
-  const std::string smith = "masking.smith_" + std::string(short_id(ndf));
-  return {smith + ".separable", smith + ".correlated"};
 }
 
 }  // namespace gonio::remapping

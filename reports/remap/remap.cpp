@@ -1,6 +1,9 @@
 #include "reports/remap/remap.h"
 
-#include "reports/remap/parts.h"
+#include <algorithm>
+
+#include "brdf/catalogue/registry.h"
+#include "reports/remap/pairs.h"
 
 namespace gonio {
 namespace {
@@ -19,15 +22,29 @@ RemapOptions remap_options(bool full) {
   return {full, parts(n), parts(n, n / 10, n / 10), full ? 128U : 32U};
 }
 
-RemapReport remap_report(const RemapOptions& o, const ReportProgress& done) {
-  RemapReport r;
-  r.full = o.full;
-  r.mu = parts(10);
-  r.cosines = parts(20);
-  add_forms(r, o, part_of(done, "every masking form", 0, 0.95));
-  add_claims(r, o);
-  add_findings(r);
+std::array<std::string, 2> references_of(std::string_view ndf) {
+  const std::string smith = "masking.smith_" + std::string(short_id(ndf));
+  return {smith + ".separable", smith + ".correlated"};
+}
+
+const RemapForm* find_form(const std::vector<RemapForm>& forms, std::string_view id) {
+  const auto it = std::ranges::find(forms, id, &RemapForm::form);
+  return it == forms.end() ? nullptr : &*it;
+}
+
+RemapRows remap_rows(const RemapOptions& o, const ReportProgress& done) {
+  using namespace remapping;
+  RemapRows r{parts(10), parts(20), {}, {}, {}, {}, {}};
+  auto measured = measured_forms(o, r.mu, r.cosines, part_of(done, "every masking form", 0, 0.95));
+  r.forms = std::move(measured.forms);
+  r.rows = std::move(measured.rows);
+  r.uses = uses_of_k(r.forms, r.mu);
+  r.g1 = claimed_g1();
+  r.vf = in_place_of_vf(r.forms, o, r.cosines);
   return r;
+}
+RemapReport remap_report(const RemapOptions& o, const ReportProgress& done) {
+  return report_of(o.full, remap_rows(o, done));
 }
 
 }  // namespace gonio

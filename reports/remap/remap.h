@@ -76,19 +76,17 @@ struct RemapVf {
   double least, most;   ///< of the ratio
 };
 
-struct RemapReport {
+/// Everything that the report measures.
+struct RemapRows {
   std::vector<double> mu, cosines;
   std::vector<RemapForm> forms;
   std::vector<RemapRow> rows;
   std::vector<RemapUse> uses;
   std::vector<RemapG1> g1;
   std::vector<RemapVf> vf;
-  std::vector<std::string> findings;  ///< sentences
-  std::vector<Claim> claims;
-  bool full = false;
 };
 
-/// Where everything is measured.
+/// Places where everything is measured.
 struct RemapOptions {
   bool full = false;
   std::vector<double> roughness;     ///< ascending, up to 1
@@ -100,12 +98,20 @@ struct RemapOptions {
 /// Quick: by 0.05 in roughness; full: by 0.025, and more azimuths.
 RemapOptions remap_options(bool full);
 
-RemapReport remap_report(const RemapOptions&, const ReportProgress& done = {});
-
-/// What its page shows, by family: maps g2 of form, masking_error of form and reference, both in slices of roughness; figures rms
+RemapRows remap_rows(const RemapOptions&, const ReportProgress& done = {});
+Findings findings(const RemapRows&);
+/// Pictures of the page, by family: maps g2 of form, masking_error of form and reference, both in slices of roughness; figures rms
 /// of distribution and reference, behaves_like of these and by what, furnace of distribution and roughness, each_k of light and
 /// mu, in_place_of_vf of form, fresnel and over.
-Pictures pictures(const RemapReport&);
+Pictures pictures(const RemapRows&);
+
+using RemapReport = Report<RemapRows>;
+RemapReport remap_report(const RemapOptions&, const ReportProgress& done = {});
+
+/// "smith_ggx.separable" or "correlated", or Beckmann's, as ids.
+std::array<std::string, 2> references_of(std::string_view ndf);
+/// The form of that id; nullptr if it was not looked at.
+const RemapForm* find_form(const std::vector<RemapForm>&, std::string_view id);
 
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const RemapReport&);

@@ -7,7 +7,7 @@
 #include "image/colour_difference.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "optics/spectrum.h"
-#include "reports/schlick/parts.h"
+#include "reports/schlick/schlick.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ constexpr std::array mus{0.1, 0.5, 1.0};
 constexpr Goal goal{1e-6, 400'000};
 constexpr double rough_iors[] = {1.1, 1.33, 1.5, 2, 3};
 
-/// [mu] of GGX under Smith masking, correlated.
+/// Albedo at each mu of GGX under Smith masking, correlated.
 std::vector<Albedo> albedo(std::string_view term,
                            std::vector<Setting> settings,
                            double roughness,
@@ -35,21 +35,21 @@ std::vector<Setting> exact_settings(const FresnelSurface& s) {
   return s.kind == "metal" ? std::vector{eta, k} : std::vector{eta};
 }
 
-/// In the light in which a perfect diffuser is white; of one channel grey.
+/// Colour in the light in which a perfect diffuser is white; of one channel grey.
 Lab seen(const std::vector<double>& albedo) {
   const std::array rgb{albedo.front(), albedo[albedo.size() / 2], albedo.back()};
   return lab(xyz_of_srgb(rgb), xyz_of_srgb({1, 1, 1}));
 }
 
-void add_surface(SchlickReport& report, const FresnelSurface& s) {
+void add_surface(RoughFresnel& to, const FresnelSurface& s) {
   const std::size_t channels = s.channels();
   std::vector<std::vector<Albedo>> exact;  // [roughness][mu]
-  for (const double r : report.roughness)
+  for (const double r : to.roughness)
     exact.push_back(albedo(s.kind == "metal" ? "fresnel.conductor" : "fresnel.dielectric",
                            exact_settings(s), r, channels));
   for (const auto& f : forms_for(s)) {
     std::vector<std::vector<Albedo>> with;
-    for (const double r : report.roughness)
+    for (const double r : to.roughness)
       with.push_back(albedo(catalogue()[f.term].about->id, f.settings, r, channels));
     for (std::size_t c = 0; c < channels; ++c)
       for (std::size_t m = 0; m < mus.size(); ++m) {
@@ -59,31 +59,30 @@ void add_surface(SchlickReport& report, const FresnelSurface& s) {
           a.exact.push_back(exact[r][m].value[c]);
           a.bound = std::max({a.bound, with[r][m].error, exact[r][m].error});
         }
-        report.albedos.push_back(std::move(a));
+        to.albedos.push_back(std::move(a));
       }
     for (std::size_t m = 0; m < mus.size(); ++m) {
       FresnelColour colour{f.name, s.material, mus[m], {}};
       for (std::size_t r = 0; r < with.size(); ++r)
         colour.delta_e.push_back(delta_e_2000(seen(with[r][m].value), seen(exact[r][m].value)));
-      report.colours.push_back(std::move(colour));
+      to.colours.push_back(std::move(colour));
     }
   }
 }
 
 }  // namespace
 
-void add_albedos(SchlickReport& report,
-                 const SchlickOptions& o,
-                 const std::function<void(double)>& done) {
-  report.roughness = o.roughness;
+RoughFresnel rough_rows(const SchlickOptions& o, const std::function<void(double)>& done) {
+  RoughFresnel out{o.roughness, {}, {}};
   std::vector<FresnelSurface> surfaces;
   for (const double ior : rough_iors)
     surfaces.push_back(dielectric(ior, fmt::format("IOR {:g}", ior)));
   for (const auto& m : metals()) surfaces.push_back(metal(m));
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    add_surface(report, surfaces[i]);
+    add_surface(out, surfaces[i]);
     done(static_cast<double>(i + 1) / static_cast<double>(surfaces.size()));
   }
+  return out;
 }
 
 }  // namespace gonio

@@ -30,21 +30,21 @@ std::string of_channel(const std::string& material, const std::string& channel) 
 
 // --- By angle and index --------------------------------------------------------------------------
 
-FigureMap map_of(const SchlickReport& r, const FresnelMap& m, std::string family) {
+FigureMap map_of(const SchlickRows& r, const FresnelMap& m, std::string family) {
   auto out = make_map(std::move(family),
                       {{"form", std::string(short_id(m.form))}, {"side", side_of(m.kind)}});
-  out.x = {"θ [°], angle from the facet's normal", r.map_theta_deg};
-  out.y = {"index of refraction", r.map_ior};
+  out.x = {"θ [°], angle from the facet's normal", r.maps.theta_deg};
+  out.y = {"index of refraction", r.maps.ior};
   // [index][angle] there, by angle and then by index here
-  for (std::size_t t = 0; t < r.map_theta_deg.size(); ++t)
-    for (std::size_t n = 0; n < r.map_ior.size(); ++n)
-      out.values.push_back(m.error[n * r.map_theta_deg.size() + t]);
+  for (std::size_t t = 0; t < r.maps.theta_deg.size(); ++t)
+    for (std::size_t n = 0; n < r.maps.ior.size(); ++n)
+      out.values.push_back(m.error[n * r.maps.theta_deg.size() + t]);
   return out;
 }
 
-void add_maps(Pictures& p, const SchlickReport& r) {
+void add_maps(Pictures& p, const SchlickRows& r) {
   const FresnelMap* truth = nullptr;  // of the same side: comes before its forms
-  for (const auto& m : r.maps) {
+  for (const auto& m : r.maps.maps) {
     if (m.form == exact) {
       truth = &m;
       auto& map = p.maps.emplace_back(map_of(r, m, "exact_reflectance"));
@@ -72,13 +72,13 @@ void add_maps(Pictures& p, const SchlickReport& r) {
   }
 }
 
-void add_errors_by_index(Pictures& p, const SchlickReport& r) {
+void add_errors_by_index(Pictures& p, const SchlickRows& r) {
   struct Curves {
     std::string form, kind;
     std::vector<double> ior, most, rms;
   };
   std::vector<Curves> all;
-  for (const auto& row : r.rows) {
+  for (const auto& row : r.smooth) {
     if (!is_side(row.kind) || !row.name.starts_with("IOR ")) continue;
     auto at = std::ranges::find_if(
         all, [&](const Curves& c) { return c.form == row.form && c.kind == row.kind; });
@@ -142,11 +142,11 @@ void each_run(const std::vector<T>& list, Same same, Use use) {
   }
 }
 
-void add_materials(Pictures& p, const SchlickReport& r) {
+void add_materials(Pictures& p, const SchlickRows& r) {
   const auto same = [](const FresnelCurve& a, const FresnelCurve& b) {
     return a.material == b.material && a.kind == b.kind && a.channel == b.channel;
   };
-  each_run(r.curves, same, [&](const std::vector<FresnelCurve>& list) {
+  each_run(r.curves.curves, same, [&](const std::vector<FresnelCurve>& list) {
     const auto& of = list.front();  // "exact" stands first
     std::vector<Named> values, errors;
     for (const auto& c : list) {
@@ -164,14 +164,14 @@ void add_materials(Pictures& p, const SchlickReport& r) {
     f.note = fmt::format("{}, {}", of_channel(of.material, of.channel), kind_name(of.kind));
     f.x = {"θ [°]", false, 0, 90};
     f.y = {"F"};
-    f.curves = distinct(r.curve_theta_deg, values);
+    f.curves = distinct(r.curves.theta_deg, values);
     p.figures.push_back(f);
     auto e = make_figure("reflectance_error", choices);
     e.title = "F − exact";
     e.note = f.note + "; without the linear form, and those that are exact";
     e.x = f.x;
     e.y = {"F − exact"};
-    e.curves = distinct(r.curve_theta_deg, errors);
+    e.curves = distinct(r.curves.theta_deg, errors);
     p.figures.push_back(std::move(e));
   });
 }
@@ -183,8 +183,8 @@ std::string mu_text(double mu) {
   return fmt::format("{:g}", mu);
 }
 
-void add_rough(Pictures& p, const SchlickReport& r) {
-  std::vector<FresnelAlbedo> albedos = r.albedos;
+void add_rough(Pictures& p, const SchlickRows& r) {
+  std::vector<FresnelAlbedo> albedos = r.rough.albedos;
   const auto key = [](const auto& a) { return std::tie(a.material, a.channel, a.mu); };
   std::ranges::stable_sort(albedos, {}, key);
   each_run(
@@ -205,9 +205,9 @@ void add_rough(Pictures& p, const SchlickReport& r) {
           auto f = make_figure(family, choices);
           f.title = title;
           f.note = fmt::format("{}, μ = {}", of_channel(of.material, of.channel), mu_text(of.mu));
-          f.x = {"roughness", false, 0, 1};
+          f.x = over_roughness();
           f.y = {y};
-          f.curves = distinct(r.roughness, forms);
+          f.curves = distinct(r.rough.roughness, forms);
           p.figures.push_back(std::move(f));
         };
         put("albedo_error", "E − exact", "error of E", [](double a, double e) { return a - e; });
@@ -216,8 +216,8 @@ void add_rough(Pictures& p, const SchlickReport& r) {
       });
 }
 
-void add_colours(Pictures& p, const SchlickReport& r) {
-  std::vector<FresnelColour> colours = r.colours;
+void add_colours(Pictures& p, const SchlickRows& r) {
+  std::vector<FresnelColour> colours = r.rough.colours;
   const auto key = [](const auto& c) { return std::tie(c.material, c.mu); };
   std::ranges::stable_sort(colours, {}, key);
   each_run(
@@ -232,16 +232,16 @@ void add_colours(Pictures& p, const SchlickReport& r) {
         f.title = "ΔE2000";
         f.note = fmt::format("{}, μ = {}; of the colours under D65, all channels", of.material,
                              mu_text(of.mu));
-        f.x = {"roughness", false, 0, 1};
+        f.x = over_roughness();
         f.y = {"ΔE2000"};
-        f.curves = distinct(r.roughness, forms);
+        f.curves = distinct(r.rough.roughness, forms);
         p.figures.push_back(std::move(f));
       });
 }
 
 }  // namespace
 
-Pictures pictures(const SchlickReport& r) {
+Pictures pictures(const SchlickRows& r) {
   Pictures p;
   add_maps(p, r);
   add_errors_by_index(p, r);

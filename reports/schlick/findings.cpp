@@ -7,7 +7,8 @@
 #include <set>
 
 #include "optics/refractive_index.h"
-#include "reports/schlick/parts.h"
+#include "reports/finding/words.h"
+#include "reports/schlick/schlick.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,18 +23,14 @@ constexpr std::string_view schlick = "fresnel.schlick", ue = "fresnel.schlick.ue
 
 using Rows = std::vector<const FresnelRow*>;
 
-std::string percent(double share) {
-  return fmt::format("{}{:.3g}\u00a0%", share < 0 ? "−" : "", 100 * std::abs(share));
-}
-
-Rows rows_with(const SchlickReport& r, std::string_view kind, std::string_view form) {
+Rows rows_with(const SchlickRows& r, std::string_view kind, std::string_view form) {
   Rows out;
-  for (const auto& row : r.rows)
+  for (const auto& row : r.smooth)
     if (row.kind == kind && row.form == form) out.push_back(&row);
   return out;
 }
-/// Of the indices that are gone through, ascending.
-Rows by_index(const SchlickReport& r, std::string_view kind, std::string_view form) {
+/// Rows of the indices that are gone through, ascending.
+Rows by_index(const SchlickRows& r, std::string_view kind, std::string_view form) {
   auto out = rows_with(r, kind, form);
   std::erase_if(out, [](const FresnelRow* row) { return !row->name.starts_with("IOR "); });
   return out;
@@ -59,13 +56,7 @@ std::string at(const FresnelRow& r) {
   return fmt::format("{:.3g} ({} at {:.3g}°)", r.max_abs, r.name, r.max_abs_theta_deg);
 }
 
-/// "2 of 39", "none of 100"
-std::string of_all(std::size_t n, std::size_t all) {
-  return fmt::format("{} of {}", n == 0 ? "none" : fmt::format("{}", n), all);
-}
-
-using Judged = Claim::Judged;
-void below_one_percent(SchlickReport& r) {
+void below_one_percent(Findings& to, const SchlickRows& r) {
   const auto outside = by_index(r, "dielectric", schlick), metals = rows_with(r, "metal", schlick);
   const auto* g = glass(outside);
   if (!g || metals.empty()) return;
@@ -73,10 +64,8 @@ void below_one_percent(SchlickReport& r) {
   const auto relative = [](const FresnelRow& x) { return x.max_rel < 0.01; };
   const std::size_t some = how_many(outside, within), channels = how_many(metals, within),
                     all = outside.size() + metals.size();
-  judge(r, "Schlick's error is below 1 %", "seed 000, Schlick's approximation",
-        some + channels == all        ? Judged::holds
-        : 2 * (some + channels) > all ? Judged::partly
-                                      : Judged::fails,
+  to.judge("Schlick's error is below 1 %", "seed 000, Schlick's approximation",
+        verdict(some + channels == all, 2 * (some + channels) > all),
         fmt::format("for glass (IOR 1.5) F is off by up to {:.3g} at "
                     "{:.3g}°, and by {} of itself at {:.3g}°; within 0.01 it stays up to {:.3g}°; "
                     "RMS over the "
@@ -89,7 +78,7 @@ void below_one_percent(SchlickReport& r) {
                     of_all(how_many(outside, relative) + how_many(metals, relative), all)));
 }
 
-void only_near_one(SchlickReport& r) {
+void only_near_one(Findings& to, const SchlickRows& r) {
   const auto outside = by_index(r, "dielectric", schlick), metals = rows_with(r, "metal", schlick);
   const auto *g = glass(outside), *best = least(outside), *metal = worst(metals);
   if (!g || !metal) return;
@@ -99,11 +88,9 @@ void only_near_one(SchlickReport& r) {
                        [](const FresnelRow* x) { return x->max_abs < poor; });
   const auto &low = *outside.front(), &high = *outside.back();
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
-  judge(r, "Schlick is accurate enough; only near IOR 1 is it poor",
+  to.judge("Schlick is accurate enough; only near IOR 1 is it poor",
         "seed 001, Disney's Fresnel term of 2015",
-        only   ? Judged::holds
-        : near ? Judged::partly
-               : Judged::fails,
+        verdict(only, near),
         fmt::format(
             "its greatest error "
             "is {:.3g} at IOR {:g}, {:.3g} at IOR {:g}, where it is least, and {:.3g} at IOR {:g}; "
@@ -118,12 +105,12 @@ void only_near_one(SchlickReport& r) {
             at(*metal)));
 }
 
-void from_inside(SchlickReport& r) {
+void from_inside(Findings& to, const SchlickRows& r) {
   const auto inside = by_index(r, "dielectric_inside", schlick),
              there = by_index(r, "dielectric_inside", outer);
   const auto *g = glass(inside), *o = glass(there);
   if (!g || !o) return;
-  r.findings.push_back(
+  to.say(
       fmt::format("From inside, asked at the angle within the medium, Schlick knows no total "
                   "reflection: glass is "
                   "off by {:.3g} at {:.3g}°, the worst by {}. Asked at the angle outside, and 1 "
@@ -132,14 +119,14 @@ void from_inside(SchlickReport& r) {
                   g->max_abs, g->max_abs_theta_deg, at(*worst(inside)), o->max_abs));
 }
 
-void metal_forms(SchlickReport& r) {
+void metal_forms(Findings& to, const SchlickRows& r) {
   struct Form {
     std::string name;
     double median;
     const FresnelRow* worst;
   };
   std::map<std::string, Rows> by_form;
-  for (const auto& row : r.rows)
+  for (const auto& row : r.smooth)
     if (row.kind == "metal") by_form[row.form].push_back(&row);
   std::vector<Form> forms;
   std::vector<std::string> exact;
@@ -166,7 +153,7 @@ void metal_forms(SchlickReport& r) {
       parts.push_back(
           fmt::format("{} {:.2g} (at most {:.2g})", f.name, f.median, f.worst->max_abs));
   }
-  r.findings.push_back(fmt::format(
+  to.say(fmt::format(
       "Metals, RMS of the median channel: {}{}. F82 has its tint from the exact value at 82°, F90 "
       "and Lazányi's correction are fitted.",
       fmt::join(parts, ", "),
@@ -174,7 +161,7 @@ void metal_forms(SchlickReport& r) {
                     : fmt::format("; the exact one in other words: {}", fmt::join(exact, ", "))));
 }
 
-void variants(SchlickReport& r) {
+void variants(Findings& to, const SchlickRows& r) {
   const auto a = by_index(r, "dielectric", schlick), b = by_index(r, "dielectric", ue),
              c = by_index(r, "dielectric", gaussian), d = by_index(r, "dielectric", linear);
   if (a.empty() || a.size() != b.size() || a.size() != c.size() || !glass(d)) return;
@@ -192,45 +179,44 @@ void variants(SchlickReport& r) {
                 "reflection is lost, and it is off by {} in place of {:.3g}",
                 index(*a[differs]), at(*worst(b)),
                 a[static_cast<std::size_t>(std::ranges::find(b, worst(b)) - b.begin())]->max_abs);
-  r.findings.push_back(
+  to.say(
       fmt::format("Unreal Engine's 50 F0_g {}. The spherical Gaussian adds {:.1g} to Schlick's "
                   "greatest error at "
                   "most. The linear form is off by {:.2g} for glass.",
                   of_ue, apart, glass(d)->max_abs));
 }
 
-void rough_surfaces(SchlickReport& r) {
+void rough_surfaces(Findings& to, const SchlickRows& r) {
   struct Worst {
     double off = 0;
     std::string where;
   };
   Worst of_glass, of_metal;
-  for (const auto& a : r.albedos) {
+  for (const auto& a : r.rough.albedos) {
     if (a.form != schlick) continue;
     auto& w = a.material == "IOR 1.5" ? of_glass : of_metal;
     if (a.channel.empty() && a.material != "IOR 1.5") continue;
     for (std::size_t i = 0; i < a.albedo.size(); ++i)
       if (const double off = a.albedo[i] / a.exact[i] - 1; std::abs(off) > std::abs(w.off))
         w = {off,
-             fmt::format("{}roughness {:g}, mu {:g}",
-                         a.channel.empty() ? "" : fmt::format("{}, {}, ", a.material, a.channel),
-                         r.roughness[i], a.mu)};
+             (a.channel.empty() ? "" : fmt::format("{}, {}, ", a.material, a.channel)) +
+                 place(r.rough.roughness[i], a.mu)};
   }
   if (of_glass.off == 0 || of_metal.off == 0) return;
   // over metals, as what is seen
   std::map<std::string, Worst> differences;
-  for (const auto& c : r.colours)
+  for (const auto& c : r.rough.colours)
     for (std::size_t i = 0; i < c.delta_e.size(); ++i)
       if (auto& w = differences[c.form]; !c.material.starts_with("IOR ") && c.delta_e[i] > w.off)
         w = {c.delta_e[i],
-             fmt::format("{}, roughness {:g}, mu {:g}", c.material, r.roughness[i], c.mu)};
+             fmt::format("{}, {}", c.material, place(r.rough.roughness[i], c.mu))};
   std::vector<std::string> seen;
   for (const auto form :
        {schlick, std::string_view("fresnel.f82"), std::string_view("fresnel.lazanyi, corrected")})
     if (const auto it = differences.find(std::string(form)); it != differences.end())
       seen.push_back(fmt::format("{} {:.2g} ({})", form.substr(form.find('.') + 1), it->second.off,
                                  it->second.where));
-  r.findings.push_back(
+  to.say(
       fmt::format("With Schlick in place of the exact F the albedo of rough GGX is off most by {} "
                   "for glass ({}) "
                   "and by {} for metals ({}). As a colour, ΔE2000 of metals is at most: {}.",
@@ -238,9 +224,9 @@ void rough_surfaces(SchlickReport& r) {
                   fmt::join(seen, "; ")));
 }
 
-void three_wavelengths(SchlickReport& r) {
+void three_wavelengths(Findings& to, const SchlickRows& r) {
   std::set<std::string> metals;
-  for (const auto& row : r.rows)
+  for (const auto& row : r.smooth)
     if (row.kind == "metal") metals.insert(row.material);
   std::size_t dearer = 0;
   Rows short_cuts;
@@ -256,14 +242,14 @@ void three_wavelengths(SchlickReport& r) {
     dearer += short_cut->max_abs > approximate->max_abs;
   }
   if (short_cuts.empty()) return;
-  r.findings.push_back(fmt::format(
+  to.say(fmt::format(
       "Against the spectrum's colour in linear RGB, the exact equation at three wavelengths is off "
       "by up to {}; for {} metals that is more than Schlick with the spectrum's colour as F0.",
       at(*worst(short_cuts)), of_all(dearer, metals.size())));
 }
 
 /// F0 of what lies in the tables of refractive indices, at 550 nm or by channel.
-void ranges_of_f0(SchlickReport& r) {
+void ranges_of_f0(Findings& to) {
   struct Value {
     std::string name;
     double f0;
@@ -284,10 +270,9 @@ void ranges_of_f0(SchlickReport& r) {
     return fmt::format("from {:.3f} ({}) to {:.3f} ({})", low->f0, low->name, high->f0, high->name);
   };
   const std::size_t d = within(dielectric, 0.02, 0.04), m = within(metal, 0.7, 1);
-  judge(r, "dielectrics have F0 0.02 to 0.04, metals 0.7 to 1.0", "seed 001, Fresnel reflectance",
-        d == dielectric.size() && m == metal.size()      ? Judged::holds
-        : 2 * (d + m) > dielectric.size() + metal.size() ? Judged::partly
-                                                         : Judged::fails,
+  to.judge("dielectrics have F0 0.02 to 0.04, metals 0.7 to 1.0", "seed 001, Fresnel reflectance",
+        verdict(d == dielectric.size() && m == metal.size(),
+                2 * (d + m) > dielectric.size() + metal.size()),
         fmt::format("of the measured materials here {} dielectrics and {} channels of metals lie "
                     "there; F0 goes {} and {}.",
                     of_all(d, dielectric.size()), of_all(m, metal.size()), span(dielectric),
@@ -296,15 +281,17 @@ void ranges_of_f0(SchlickReport& r) {
 
 }  // namespace
 
-void add_findings(SchlickReport& r) {
-  below_one_percent(r);
-  only_near_one(r);
-  ranges_of_f0(r);
-  from_inside(r);
-  metal_forms(r);
-  variants(r);
-  rough_surfaces(r);
-  three_wavelengths(r);
+Findings findings(const SchlickRows& r) {
+  Findings all;
+  below_one_percent(all, r);
+  only_near_one(all, r);
+  ranges_of_f0(all);
+  from_inside(all, r);
+  metal_forms(all, r);
+  variants(all, r);
+  rough_surfaces(all, r);
+  three_wavelengths(all, r);
+  return all;
 }
 
 }  // namespace gonio

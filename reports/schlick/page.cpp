@@ -10,9 +10,9 @@
 namespace gonio {
 
 std::string to_json(const SchlickReport& r) {
-  PageJson out{{"schema", "gonio.report.schlick/1"}, {"full", r.full}, {"findings", r.findings}};
+  PageJson out{{"schema", "gonio.report.schlick/1"}, {"full", r.full}, {"findings", r.findings.sentences}};
   PageJson rows = PageJson::array();
-  for (const auto& x : r.rows)
+  for (const auto& x : r.rows.smooth)
     rows.push_back({{"form", x.form},
                     {"kind", x.kind},
                     {"name", x.name},
@@ -28,10 +28,10 @@ std::string to_json(const SchlickReport& r) {
                     {"bias", page_json(x.bias)},
                     {"within_1_percent_to_deg", page_json(x.within_deg)}});
   double bound = 0;
-  for (const auto& a : r.albedos) bound = std::max(bound, a.bound);
+  for (const auto& a : r.rows.rough.albedos) bound = std::max(bound, a.bound);
   out["albedo_error_bound"] = page_json(bound);
   out["rows"] = rows;
-  put_pictures(out, pictures(r));
+  put_pictures(out, r.pictures);
   return page_text(out);
 }
 

@@ -1,7 +1,5 @@
 #include "reports/schlick/schlick.h"
 
-#include "reports/schlick/parts.h"
-
 namespace gonio {
 
 SchlickOptions schlick_options(bool full) {
@@ -17,19 +15,17 @@ SchlickOptions schlick_options(bool full) {
   return o;
 }
 
-SchlickReport schlick_report(const SchlickOptions& o, const ReportProgress& done) {
-  SchlickReport r;
-  r.full = o.full;
-  // What each part takes of the whole, about.
-  const auto part = [&](std::string_view what, double from, double to) {
-    return part_of(done, what, from, to);
-  };
-  add_rows(r, o, part("every form by angle", 0, 0.3));
-  add_maps(r);
-  add_curves(r);
-  add_albedos(r, o, part("rough surfaces", 0.3, 1));
-  add_findings(r);
+SchlickRows schlick_rows(const SchlickOptions& o, const ReportProgress& done) {
+  // The parts of the whole that each takes, about.
+  SchlickRows r;
+  r.smooth = smooth_rows(o, part_of(done, "every form by angle", 0, 0.3));
+  r.maps = fresnel_maps();
+  r.curves = fresnel_curves();
+  r.rough = rough_rows(o, part_of(done, "rough surfaces", 0.3, 1));
   return r;
+}
+SchlickReport schlick_report(const SchlickOptions& o, const ReportProgress& done) {
+  return report_of(o.full, schlick_rows(o, done));
 }
 
 }  // namespace gonio

@@ -3,70 +3,65 @@
 /// How far every approximate Fresnel term of the catalogue is from the exact one: dielectrics from both
 /// sides, measured metals, spectra; and what that does to the albedo of a rough surface.
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "reports/finding/report.h"
+#include "reports/measure/fresnel_error.h"
 
 namespace gonio {
 
-/// A form on a surface, over θ from 0 to 90°, against the exact F.
-struct FresnelRow {
-  std::string form;  ///< id, with what tells a variant from it
-  /// "dielectric", "dielectric_inside": light in the denser medium; "metal"; "spectral": linear RGB
-  std::string kind;
-  std::string name;               ///< "IOR 1.5", "gold, red"
-  std::string material, channel;  ///< of the name; the channel of a grey surface is empty
-  double eta, k;  ///< transmitted over incident; not a number where it is a spectrum
-  double max_abs, max_abs_theta_deg;
-  double max_rel, max_rel_theta_deg;
-  double rms;         ///< of the error, mean over θ
-  double bias;        ///< 2 ∫ (F − exact) c dc: of light from everywhere
-  double within_deg;  ///< up to which angle the error is at most 0.01
-};
-
-/// F − exact by index and angle: [index][angle].
+/// F − exact of a form by index and angle: [index][angle].
 struct FresnelMap {
   std::string form, kind;
   std::vector<double> error;
 };
+struct FresnelMaps {
+  std::vector<double> ior, theta_deg;
+  std::vector<FresnelMap> maps;  ///< the exact values among them, as the form "exact"
+};
+
 /// F of a named material by angle.
 struct FresnelCurve {
   std::string form;  ///< "exact" too
   std::string kind, material, channel;
   std::vector<double> value;
 };
-/// The albedo of GGX under Smith masking, correlated, with a form as F, by roughness.
+struct FresnelCurves {
+  std::vector<double> theta_deg;
+  std::vector<FresnelCurve> curves;
+};
+
+/// Albedo of GGX under Smith masking, correlated, with a form as F, by roughness.
 struct FresnelAlbedo {
   std::string form, material, channel;
   double mu;
   std::vector<double> albedo, exact;
   double bound;  ///< of all of them
 };
-
-/// The colours of those albedos under D65 against the exact ones', by roughness.
+/// Colours of those albedos under D65 against the exact ones', by roughness.
 struct FresnelColour {
   std::string form, material;
   double mu;
   std::vector<double> delta_e;  ///< CIEDE2000
 };
-
-struct SchlickReport {
-  std::vector<FresnelRow> rows;
-  std::vector<double> map_ior, map_theta_deg;
-  std::vector<FresnelMap> maps;  ///< the exact values among them, as the form "exact"
-  std::vector<double> curve_theta_deg;
-  std::vector<FresnelCurve> curves;
+struct RoughFresnel {
   std::vector<double> roughness;
   std::vector<FresnelAlbedo> albedos;
   std::vector<FresnelColour> colours;
-  std::vector<std::string> findings;  ///< sentences
-  std::vector<Claim> claims;
-  bool full = false;
 };
 
-/// Where everything is measured.
+/// Everything that the report measures.
+struct SchlickRows {
+  std::vector<FresnelRow> smooth;
+  FresnelMaps maps;
+  FresnelCurves curves;
+  RoughFresnel rough;
+};
+
+/// Places where everything is measured.
 struct SchlickOptions {
   bool full = false;
   std::vector<double> ior;        ///< ascending
@@ -76,12 +71,21 @@ struct SchlickOptions {
 /// Quick: IOR by 0.02, θ by 0.1°; full: by 0.01 and 0.01°.
 SchlickOptions schlick_options(bool full);
 
-SchlickReport schlick_report(const SchlickOptions&, const ReportProgress& done = {});
+std::vector<FresnelRow> smooth_rows(const SchlickOptions&, const std::function<void(double)>& done);
+FresnelMaps fresnel_maps();
+FresnelCurves fresnel_curves();
+RoughFresnel rough_rows(const SchlickOptions&, const std::function<void(double)>& done);
+/// All of these.
+SchlickRows schlick_rows(const SchlickOptions&, const ReportProgress& done = {});
 
-/// What its page shows, by family: maps exact_reflectance, error_by_angle, relative_error_by_angle of form and side; figures
+Findings findings(const SchlickRows&);
+/// Pictures of the page, by family: maps exact_reflectance, error_by_angle, relative_error_by_angle of form and side; figures
 /// error_by_index of the same, reflectance and reflectance_error of material, kind and channel, albedo_error,
 /// albedo_relative_error and colour_difference of material, channel and mu.
-Pictures pictures(const SchlickReport&);
+Pictures pictures(const SchlickRows&);
+
+using SchlickReport = Report<SchlickRows>;
+SchlickReport schlick_report(const SchlickOptions&, const ReportProgress& done = {});
 
 /// {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const SchlickReport&);

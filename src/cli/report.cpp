@@ -199,11 +199,11 @@ Exit run(const Options& o) {
       fmt::print("{}\n", report.json);
       continue;
     }
-    for (const auto& sentence : report.findings) fmt::print("{}\n", sentence);
+    for (const auto& sentence : report.findings.sentences) fmt::print("{}\n", sentence);
     fmt::print("{}\n", files[k]->page_path());
     const auto pictures = report.pictures.figures.size() + report.pictures.maps.size();
-    index.reports.push_back({kind.name, kind.what, took.count(), std::move(report.findings),
-                             pictures, std::move(report.claims), std::move(report.questions)});
+    index.reports.push_back(
+        {kind.name, kind.what, took.count(), std::move(report.findings), pictures});
   }
   if (index_files) {
     index_files->write(index);

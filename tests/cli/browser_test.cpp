@@ -6,9 +6,9 @@
 #include <map>
 
 #include "cli/program.h"
-#include "reports/cost/parts.h"
+#include "reports/cost/cost.h"
 #include "reports/cross_fit/cross_fit.h"
-#include "reports/energy/parts.h"
+#include "reports/energy/energy.h"
 #include "reports/index/index_page.h"
 #include "reports/page/page.h"
 #include "reports/picture/json_numbers.h"
@@ -141,19 +141,19 @@ class Pages {
 EnergyReport small_energy_report() {
   const EnergyOptions few{
       false, {0.3, 0.5, 1}, {0.1, 0.5, 1}, 1024, {"masking.smith_ggx.correlated", "masking.none"}};
-  EnergyReport r;
-  add_forms(r, few, [](double) {});
-  add_materials(r, few, [](double) {});
+  EnergyRows r;
+  r.forms = energy_forms(few, [](double) {});
+  r.materials = energy_materials(few, [](double) {});
   for (const double ns : {10.0, 100.0})
     r.estimators.push_back({"one integral", 0.5, 0.5, 1e-3, 1 / ns, 0.1, 10, ns, 0.1 * ns});
-  for (const std::size_t n : {16U, 64U}) r.table_samples.push_back({n, 0.1, 0.05, 0.02, 0.01});
   for (const std::size_t n : {16U, 64U})
-    r.irradiance.push_back({"sky", "cosine", n, 0.1, 0.3, 0.01, 50, 1});
+    r.light.table_samples.push_back({n, 0.1, 0.05, 0.02, 0.01});
+  for (const std::size_t n : {16U, 64U})
+    r.light.irradiance.push_back({"sky", "cosine", n, 0.1, 0.3, 0.01, 50, 1});
   r.compensations.push_back(
       {"kulla_conty", 10, 2, 2048, 4, 9, 0.5, 0.02, 0.01, "roughness 1", 0.01});
-  r.tables.push_back({32, "half", 1e-6, 1e-4, 0.01, 0.002, 0.005});
-  add_findings(r);
-  return r;
+  r.light.tables.push_back({32, "half", 1e-6, 1e-4, 0.01, 0.002, 0.005});
+  return report_of(false, std::move(r));
 }
 
 CostReport small_cost_report() {
@@ -161,7 +161,7 @@ CostReport small_cost_report() {
   o.timing = {1, 1e-9, true};
   o.cache_samples = 16, o.stream_samples = 64;
   o.filter = "fresnel.schlick";
-  CostReport r;
+  CostRows r;
   r.machine = this_machine();
   r.rows = measure_costs(o);
   for (const std::string_view picture : {"compensation", "split_sum", "fit"})
@@ -172,8 +172,7 @@ CostReport small_cost_report() {
   r.switches.push_back({"Schlick to exact", "fresnel.schlick", "fresnel.dielectric",
                         r.machine.instruction_sets.back(), "float", "cache", "", 1, 0.1, 2, 9, 0.02,
                         0});
-  add_findings(r);
-  return r;
+  return report_of(false, std::move(r));
 }
 
 void add_reports(Pages& pages) {
@@ -196,10 +195,10 @@ void add_reports(Pages& pages) {
       {"schlick",
        "Schlick against exact Fresnel",
        1500,
-       {"One."},
-       7,
-       {{"below 1 %", "seed 000, Schlick", Claim::Judged::fails, "0.036 for glass.", "rms"}},
-       {{"How wrong is it?", "By up to 0.22.", ""}}});
+       {{"One."},
+        {{"below 1 %", "seed 000, Schlick", Claim::Judged::fails, "0.036 for glass.", "rms"}},
+        {{"How wrong is it?", "By up to 0.22.", ""}}},
+       7});
   add("index", index_page_html(to_json(index)));
 }
 

@@ -10,7 +10,7 @@
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/presets.h"
 #include "reports/audit/audit.h"
-#include "reports/cost/parts.h"
+#include "reports/cost/models.h"
 #include "reports/pictures.h"
 
 #include <gtest/gtest.h>
@@ -227,15 +227,13 @@ TEST(Cost, TablesHaveBytes) {
 }
 
 TEST(CostSwitches, AreTheDifferencesOfTheirRows) {
-  CostReport report;
   auto from = made("masking.schlick_ggx.direct", 1, 0.3, 0.2),
        to = made("masking.smith_ggx.correlated", 2, 0.4, 0);
   from.operations[Operation::mul] = 7;
   to.operations[Operation::mul] = 13;
-  report.rows = {from, to};
-  add_switches(report);
-  ASSERT_EQ(report.switches.size(), 1U);
-  const auto& s = report.switches[0];
+  const auto switches = cost_switches({from, to});
+  ASSERT_EQ(switches.size(), 1U);
+  const auto& s = switches[0];
   EXPECT_EQ(s.ns, 1);
   EXPECT_DOUBLE_EQ(s.ns_spread, 0.5);
   EXPECT_EQ(s.ratio, 2);
@@ -245,14 +243,13 @@ TEST(CostSwitches, AreTheDifferencesOfTheirRows) {
 }
 
 TEST(CostSwitches, TellNoErrorsFromDifferentTruths) {
-  CostReport report;
-  report.rows = {made("masking.schlick_ggx.direct", 1, 0.3, 0.2),
-                 made("masking.smith_ggx.correlated", 2, 0.4, 0)};
-  report.rows[1].error.truth = "another";
-  add_switches(report);
-  ASSERT_EQ(report.switches.size(), 1U);
-  EXPECT_TRUE(std::isnan(report.switches[0].error_from));
-  EXPECT_TRUE(std::isnan(report.switches[0].error_to));
+  std::vector<CostRow> rows{made("masking.schlick_ggx.direct", 1, 0.3, 0.2),
+                            made("masking.smith_ggx.correlated", 2, 0.4, 0)};
+  rows[1].error.truth = "another";
+  const auto switches = cost_switches(rows);
+  ASSERT_EQ(switches.size(), 1U);
+  EXPECT_TRUE(std::isnan(switches[0].error_from));
+  EXPECT_TRUE(std::isnan(switches[0].error_to));
 }
 
 TEST(CostSwitches, ComparesModelsInTheSameWay) {
@@ -263,18 +260,17 @@ TEST(CostSwitches, ComparesModelsInTheSameWay) {
   };
   const std::string k = "ggx/schlick_ggx.direct/schlick",
                     smith = "ggx/smith_ggx.correlated/schlick";
-  CostReport report;
-  report.rows = {model(k, "composed", 2), model(smith, "composed", 3), model(smith, "fused", 1)};
-  add_switches(report);
-  ASSERT_EQ(report.switches.size(), 1U);
-  EXPECT_EQ(report.switches[0].way, "composed");
-  EXPECT_EQ(report.switches[0].ratio, 1.5);
-  report.rows.push_back(model(k, "fused", 0.5));
-  report.switches.clear();
-  add_switches(report);
-  ASSERT_EQ(report.switches.size(), 1U);
-  EXPECT_EQ(report.switches[0].way, "fused");
-  EXPECT_EQ(report.switches[0].ratio, 2);
+  std::vector<CostRow> rows{model(k, "composed", 2), model(smith, "composed", 3),
+                            model(smith, "fused", 1)};
+  const auto composed = cost_switches(rows);
+  ASSERT_EQ(composed.size(), 1U);
+  EXPECT_EQ(composed[0].way, "composed");
+  EXPECT_EQ(composed[0].ratio, 1.5);
+  rows.push_back(model(k, "fused", 0.5));
+  const auto fused = cost_switches(rows);
+  ASSERT_EQ(fused.size(), 1U);
+  EXPECT_EQ(fused[0].way, "fused");
+  EXPECT_EQ(fused[0].ratio, 2);
 }
 
 TEST(Cost, HoldsModelsBesideThoseWrittenByHand) {
@@ -287,9 +283,9 @@ TEST(Cost, HoldsModelsBesideThoseWrittenByHand) {
       EXPECT_TRUE(found.contains({std::string(p.about.id), way})) << p.about.id << " " << way;
 }
 
-/// A report of few forms, every kind of picture in it.
-CostReport small_report() {
-  CostReport r;
+/// Rows of few forms, every kind of picture in them.
+CostRows small_rows() {
+  CostRows r;
   r.machine = this_machine();
   auto o = short_options("ggx");
   o.full = false;
@@ -299,14 +295,13 @@ CostReport small_report() {
   for (const double ns : {3.0, 1.0, 2.0})
     r.points.push_back(
         {"quadrature", "one integral, roughness 0.5, mu 0.5", "1e-3", {ns, 0.1}, 1 / ns, 0});
-  add_switches(r);
-  add_findings(r);
+  r.switches = cost_switches(r.rows);
   return r;
 }
 
 TEST(CostPictures, AreWhole) {
-  const auto r = small_report();
-  const auto p = pictures(r);
+  const auto rows = small_rows();
+  const auto p = pictures(rows);
   test::expect_whole(p);
   std::set<std::string> ids;
   for (const auto& f : p.figures) ids.insert(f.family.empty() ? f.id : f.family);
@@ -318,17 +313,18 @@ TEST(CostPictures, AreWhole) {
       if (c.kind == FigureCurve::Kind::both) {
         EXPECT_TRUE(std::ranges::is_sorted(c.x)) << f.id;
       }
-  EXPECT_FALSE(r.findings.empty());
-  EXPECT_NE(r.findings[0].find("Schlick's k"), std::string::npos) << r.findings[0];
-  ASSERT_EQ(r.questions.size(), 1U);
-  EXPECT_EQ(r.questions[0].answer.find(r.findings[0]), 0U);
+  const auto said = findings(rows);
+  ASSERT_FALSE(said.sentences.empty());
+  EXPECT_NE(said.sentences[0].find("Schlick's k"), std::string::npos) << said.sentences[0];
+  ASSERT_EQ(said.questions.size(), 1U);
+  EXPECT_EQ(said.questions[0].answer.find(said.sentences[0]), 0U);
 }
 
 TEST(CostDocument, HasTheKeysOfTheContract) {
-  CostReport report;
-  report.machine = this_machine();
-  report.rows = measure_costs(short_options("fresnel.schlick.ue"));
-  const auto j = nlohmann::json::parse(to_json(report));
+  CostRows rows;
+  rows.machine = this_machine();
+  rows.rows = measure_costs(short_options("fresnel.schlick.ue"));
+  const auto j = nlohmann::json::parse(to_json(report_of(false, rows)));
   EXPECT_EQ(j["schema"], "gonio.report.cost/1");
   ASSERT_FALSE(j["rows"].empty());
   for (const auto& row : j["rows"]) {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "integrate/albedo/directional_albedo.h"
-#include "reports/energy/parts.h"
+#include "reports/energy/crossings.h"
 #include "reports/pictures.h"
 
 #include <fmt/format.h>
@@ -19,29 +19,25 @@ namespace {
 const EnergyOptions few{false, {0.3, 0.5, 1}, {0.1, 0.5, 1}, 1024};
 const auto unwatched = [](double) {};
 
-EnergyReport of_forms(const std::vector<std::string>& names) {
+EnergyRows of_forms(const std::vector<std::string>& names) {
   auto o = few;
   o.forms = names;
-  EnergyReport r;
-  add_forms(r, o, unwatched);
+  EnergyRows r;
+  r.forms = energy_forms(o, unwatched);
   return r;
 }
-const EnergyForm& form(const EnergyReport& r, std::string_view name) {
+const EnergyForm& form(const EnergyRows& r, std::string_view name) {
   return *std::ranges::find(r.forms, name, &EnergyForm::name);
 }
 const std::string correlated = "masking.smith_ggx.correlated",
                   separable = "masking.smith_ggx.separable", none = "masking.none";
 
-const EnergyReport& materials() {
-  static const EnergyReport report = [] {
-    EnergyReport r;
-    add_materials(r, few, unwatched);
-    return r;
-  }();
-  return report;
+const std::vector<EnergyMaterial>& materials() {
+  static const auto all = energy_materials(few, unwatched);
+  return all;
 }
 const EnergyMaterial& material(std::string_view name) {
-  return *std::ranges::find(materials().materials, name, &EnergyMaterial::name);
+  return *std::ranges::find(materials(), name, &EnergyMaterial::name);
 }
 
 TEST(EnergyReport, KnowsWhatWhiteGgxLosesAtRoughnessOne) {
@@ -133,9 +129,7 @@ TEST(EnergyReport, TheCoatIsMeasuredAsItShips) {
 }
 
 TEST(EnergyReport, ErrorsOfCompensationsAreComparedOnTheSameMaterials) {
-  auto r = materials();
-  add_costs(r);
-  for (const auto& c : r.compensations) {
+  for (const auto& c : compensation_costs(materials())) {
     EXPECT_EQ(std::isnan(c.gold_rms), c.id == "fdez_aguera") << c.id;
     EXPECT_EQ(c.worst_at.find("gold"), c.worst_at.npos) << c.id;
     EXPECT_GE(std::abs(c.worst), c.rms);
@@ -143,17 +137,16 @@ TEST(EnergyReport, ErrorsOfCompensationsAreComparedOnTheSameMaterials) {
 }
 
 TEST(EnergyReport, TheFitOfEIsNearerThanMaterialX) {
-  EnergyReport r;
-  add_albedo_forms(r);
-  ASSERT_EQ(r.albedo_forms.size(), 3U);
-  EXPECT_LT(std::abs(r.albedo_forms[0].worst), 0.005);
-  EXPECT_GT(std::abs(r.albedo_forms[1].worst), 0.05);
-  EXPECT_LT(r.albedo_forms[0].rms, r.albedo_forms[1].rms / 4);
+  const auto forms = albedo_form_errors();
+  ASSERT_EQ(forms.size(), 3U);
+  EXPECT_LT(std::abs(forms[0].worst), 0.005);
+  EXPECT_GT(std::abs(forms[1].worst), 0.05);
+  EXPECT_LT(forms[0].rms, forms[1].rms / 4);
 }
 
 TEST(EnergyReport, WhiteGivesAllBackAndTheOrdersSumToTheTruth) {
   for (const auto& at : material("F = 1").rows) EXPECT_NEAR(at.truth, 1, at.error + 1e-12);
-  for (const auto& m : materials().materials)
+  for (const auto& m : materials())
     for (const auto& at : m.rows) {
       double sum = 0;
       for (const double e : at.orders) sum += e;
@@ -175,10 +168,8 @@ TEST(EnergyReport, CompensationsOfRoughMetalsAreNearerToTheTruthThanNone) {
 }
 
 TEST(EnergyReport, EveryEstimatorComesNearer) {
-  EnergyReport r;
-  add_estimators(r, few, unwatched);
   std::map<std::string, std::vector<EstimatorPoint>> by_name;
-  for (const auto& e : r.estimators)
+  for (const auto& e : estimator_points(few, unwatched))
     by_name[std::string(e.estimator) + std::to_string(e.roughness)].push_back(e);
   EXPECT_EQ(by_name.size(), 15U);
   for (const auto& [name, points] : by_name) {
@@ -192,7 +183,7 @@ TEST(EnergyReport, EveryEstimatorComesNearer) {
 
 TEST(EnergyReport, RowsAreFlatAndHaveTheKeysOfTheContract) {
   const auto r = of_forms({correlated, separable});
-  const auto j = nlohmann::json::parse(to_json(r));
+  const auto j = nlohmann::json::parse(to_json(report_of(false, r)));
   ASSERT_EQ(j["rows"].size(), 2U * 9U);
   for (const auto& row : j["rows"])
     for (const auto* key :
@@ -203,10 +194,9 @@ TEST(EnergyReport, RowsAreFlatAndHaveTheKeysOfTheContract) {
 }
 
 TEST(EnergyReport, FindingsAreMadeFromTheFigures) {
-  auto r = of_forms({correlated, separable, none});
-  add_findings(r);
+  const auto all = findings(of_forms({correlated, separable, none})).sentences;
   const auto said = [&](std::string_view words) {
-    return std::ranges::any_of(r.findings,
+    return std::ranges::any_of(all,
                                [&](const std::string& f) { return f.find(words) != f.npos; });
   };
   EXPECT_TRUE(said("69.3\u00a0% at normal incidence and 59.1\u00a0% on average"));
@@ -215,7 +205,7 @@ TEST(EnergyReport, FindingsAreMadeFromTheFigures) {
 
 TEST(EnergyReport, PicturesShowWhatWasMeasured) {
   auto r = of_forms({correlated, separable, none});
-  r.materials = materials().materials;
+  r.materials = materials();
   const auto p = pictures(r);
   test::expect_whole(p);
   const auto map = std::ranges::find(p.maps, "loss_masking_none", &FigureMap::id);
@@ -227,12 +217,13 @@ TEST(EnergyReport, PicturesShowWhatWasMeasured) {
 }
 
 TEST(EnergyReport, JudgesWhatIsSaidOfHighlightsByClosedForms) {
-  EnergyReport r;
-  judge_claims(r);
-  for (const auto& c : r.claims) EXPECT_TRUE(c.source.starts_with("seed")) << c.claim;
+  EnergyRows r;
+  r.claims = claim_rows({});
+  const auto claims = findings(r).claims;
+  for (const auto& c : claims) EXPECT_TRUE(c.source.starts_with("seed")) << c.claim;
   const auto verdict = [&](std::string_view claim) {
-    const auto it = std::ranges::find(r.claims, claim, &Claim::claim);
-    return it == r.claims.end() ? std::string() : sentence(*it);
+    const auto it = std::ranges::find(claims, claim, &Claim::claim);
+    return it == claims.end() ? std::string() : sentence(*it);
   };
   // σ² = ½ (ln(1 + T²) − T²/(1 + T²)) α² of GGX's slopes up to T α
   const auto deviation = [](double t) {
@@ -250,11 +241,12 @@ TEST(EnergyReport, JudgesWhatIsSaidOfHighlightsByClosedForms) {
 TEST(EnergyReport, JudgesWhatIsSaidOfEnergyByItsForms) {
   auto r = of_forms({correlated, none, "masking.disney_coat, gamma 1",
                      "masking.smith_gtr.separable, gamma 1", "model.ue_mobile_simple"});
-  judge_claims(r);
+  r.claims = claim_rows(r.forms);
   const auto judged = [&](std::string_view claim) {
-    const auto it = std::ranges::find(r.claims, claim, &Claim::claim);
-    EXPECT_NE(it, r.claims.end()) << claim;
-    return it == r.claims.end() ? Claim::Judged::holds : it->judged;
+    const auto claims = findings(r).claims;
+    const auto it = std::ranges::find(claims, claim, &Claim::claim);
+    EXPECT_NE(it, claims.end()) << claim;
+    return it == claims.end() ? Claim::Judged::holds : it->judged;
   };
   EXPECT_EQ(judged("reflected energy never exceeds incoming"), Claim::Judged::partly);
   EXPECT_EQ(judged("as roughness grows the highlight widens and dims so that energy stays"),
@@ -263,8 +255,6 @@ TEST(EnergyReport, JudgesWhatIsSaidOfEnergyByItsForms) {
   judged("the coat needs only a fixed 0.25 G");
   for (auto& f : r.forms)
     for (auto& at : f.rows) at.albedo = std::min(at.albedo, 1.0);
-  r.claims.clear();
-  judge_claims(r);
   EXPECT_EQ(judged("reflected energy never exceeds incoming"), Claim::Judged::holds);
 }
 

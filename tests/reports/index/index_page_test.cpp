@@ -20,12 +20,10 @@ TEST(ReportIndex, TellsFindingsClaimsAndQuestionsWithTheirPlace) {
       {"schlick",
        "Schlick against exact Fresnel",
        1500,
-       {"One. And more.", "Two.", "3", "4", "5", "6"},
-       7,
-       {{"error below 1 %", "seed 000, Schlick", Claim::Judged::partly, "0.036 for glass.", "rms"}},
-       {{"How wrong?", "Up to 0.22.", ""}}});
-  auto& one = index.reports[0];
-  one.findings.insert(one.findings.begin(), sentence(one.claims[0]));  // told once, as a claim
+       {{"One. And more.", "Two.", "3", "4", "5", "6"}, {}, {{"How wrong?", "Up to 0.22.", ""}}},
+       7});
+  index.reports[0].findings.judge("error below 1 %", "seed 000, Schlick", Claim::Judged::partly,
+                                  "0.036 for glass.");  // told once, as a claim
   const auto j = nlohmann::json::parse(to_json(index));
   const auto& r = j["reports"][0];
   EXPECT_EQ(r["findings"], nlohmann::json({"One.", "Two.", "3", "4", "5"}));

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The parts of cross_fit_report().
+/// The cases of the report: truths, what is fitted to each, and one fit.
 
 #include <cstdint>
 #include <optional>
@@ -32,7 +32,7 @@ std::vector<std::vector<double>> beyond_one_facet(const BoundModel&,
 /// A truth as a table, and what the walks leave uncertain in it.
 struct CrossSlice {
   Table table;
-  /// The same with half of the walks; no value: the truth is exact.
+  /// Table from half of the walks; no value: the truth is exact.
   std::optional<Table> half{};
   double log_error = 0;  ///< RMS over values of the standard error of ln f
 };
@@ -50,11 +50,7 @@ CrossCase fit_case(const CrossTruth&,
                    const CrossSlice&,
                    Metric);
 
-/// An id without its prefix; what else a form is called by as it is.
+/// Id without its prefix; what else a form is called by as it is.
 std::string_view short_form(std::string_view name);
-
-/// From what the others have filled in.
-void add_sentences(CrossFitReport&);
-void add_findings(CrossFitReport&);
 
 }  // namespace gonio

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The parts of remap_report(), each filling its own.
+/// Pairs of directions at which masking forms are compared, and the roughness by which they are told; and what is
+/// measured there.
 
 #include <functional>
 #include <span>
@@ -38,23 +39,31 @@ std::vector<Pairs::Cosines> all_pairs(std::span<const double> cosines);
 
 /// G2 of a masking term, a value for each row; a term without a width has none to be given.
 std::vector<double> g2_at(std::size_t term, double roughness, std::span<const Row>);
-/// The same, averaged over azimuths: a value for each pair.  What reads no half vector is looked at once.
+/// G2 averaged over azimuths: a value for each pair.  What reads no half vector is looked at once.
 std::vector<double> mean_g2(std::size_t term, double roughness, const Pairs&);
 bool reads_half(std::size_t term);
 
-/// Where f is least between the ends of `grid`: near the least of its values there, to 1e-5.
+/// Place where f is least between the ends of `grid`: near the least of its values there, to 1e-5.
 NearestRoughness nearest(const std::function<double(double)>& f, std::span<const double> grid);
 
-/// "smith_ggx.separable" or "correlated", or Beckmann's, as ids.
-std::array<std::string, 2> references_of(std::string_view ndf);
+/// Every form against its references: `forms` and `rows` of what is returned.
+struct MeasuredForms {
+  std::vector<RemapForm> forms;
+  std::vector<RemapRow> rows;
+};
+MeasuredForms measured_forms(const RemapOptions&,
+                             std::span<const double> mu,
+                             std::span<const double> cosines,
+                             const std::function<void(double)>& done);
+/// Both k in both uses.
+std::vector<RemapUse> uses_of_k(const std::vector<RemapForm>&, std::span<const double> mu);
+/// G1 of both k where the seeds say what it is.
+std::vector<RemapG1> claimed_g1();
+/// What stands for V F, of those among the forms.
+std::vector<RemapVf> in_place_of_vf(const std::vector<RemapForm>&,
+                                    const RemapOptions&,
+                                    std::span<const double> cosines);
 
 }  // namespace remapping
-
-/// The forms, and each against its references.
-void add_forms(RemapReport&, const RemapOptions&, const std::function<void(double)>& done);
-/// After the forms: both k in both uses, G1, what stands for V F.
-void add_claims(RemapReport&, const RemapOptions&);
-/// From what the others have filled in.
-void add_findings(RemapReport&);
 
 }  // namespace gonio

@@ -1,0 +1,44 @@
+#include "reports/finding/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+
+std::string percent(double share, int digits) {
+  const double y = 100 * std::abs(share);
+  const bool large = y >= std::pow(10, digits);
+  return fmt::format("{}{}\u00a0%", share < 0 ? "−" : "",
+                     large ? fmt::format("{:.0f}", y) : fmt::format("{:.{}g}", y, digits));
+}
+
+std::string number_or_none(std::size_t n) {
+  return n == 0 ? "none" : fmt::format("{}", n);
+}
+std::string of_all(std::size_t n, std::size_t all) {
+  return fmt::format("{} of {}", number_or_none(n), all);
+}
+
+std::string place(double roughness, double mu) {
+  return fmt::format("roughness {:g}, mu {:g}", roughness, mu);
+}
+std::string at_angle(double mu) {
+  return mu == 0 ? "on average" : mu == 1 ? "at normal incidence" : fmt::format("at mu = {:g}", mu);
+}
+std::string range_text(double from, double to, const std::string& word) {
+  if (to >= 1) return fmt::format("from {}{:.2f} on", word, from);
+  return fmt::format("from {}{:.2f} to {:.2f}", word, from, to);
+}
+
+std::string ranking_text(const std::vector<std::string>& places, std::string_view furthest) {
+  constexpr std::size_t told = 4;
+  const std::span all(places);
+  return fmt::format("{}{}{}", fmt::join(all.first(std::min(told, all.size())), ", "),
+                     all.size() > told ? furthest : "", all.size() > told ? places.back() : "");
+}
+
+}  // namespace gonio

@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// Words that the findings of reports share: shares, counts, places, verdicts.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/finding/report.h"
+
+namespace gonio {
+
+/// "−59.1 %": to so many digits, of large ones to the last before the point.
+std::string percent(double share, int digits = 3);
+/// "2", "none"
+std::string number_or_none(std::size_t);
+/// "2 of 39", "none of 100"
+std::string of_all(std::size_t n, std::size_t all);
+/// "roughness 0.3, mu 0.5"
+std::string place(double roughness, double mu);
+/// "at normal incidence", "at mu = 0.5", of mu 0 "on average"
+std::string at_angle(double mu);
+/// "from 0.42 on", "from 0.57 to 0.80": a range within [0, 1].  \param word  before the first number
+std::string range_text(double from, double to, const std::string& word = {});
+/// The first four of a ranking, and the last: "a 1, b 2, c 3, d 4; furthest: z 9".
+/// \param furthest  what stands before the last
+std::string ranking_text(const std::vector<std::string>& places, std::string_view furthest);
+
+/// The verdict on a claim that holds, or else partly does, or fails.
+constexpr Claim::Judged verdict(bool holds, bool partly = false) {
+  return holds ? Claim::Judged::holds : partly ? Claim::Judged::partly : Claim::Judged::fails;
+}
+/// The verdict on a claim that something is small: below 0.01 it is, below 0.1 in part.
+constexpr Claim::Judged verdict_on_small(double share) {
+  return verdict(share < 0.01, share < 0.1);
+}
+
+}  // namespace gonio
