@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "base/error.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr int kDeepest = 64;  ///< nested brackets; the contract's documents need 5
 
-/// The byte where brackets nest deeper than that, or npos.
+/// Byte where brackets nest deeper than that, or npos.
 std::size_t too_deep(std::string_view bytes) {
   int depth = 0;
   bool in_string = false;
@@ -46,6 +47,97 @@ std::string name_of(const Json& j) {
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+using Members = std::vector<Json::object_t::value_type>;
+
+/// The members of an object, to add to without a search for the name.
+Members& members_of(Json& object) {
+  return object.get_ref<Json::object_t&>();
+}
+
+/// Builds a document as it is read.  The library's own way looks every key up among those before it,
+/// one by one: that is quadratic in the keys of an object.
+class Builder final : public nlohmann::json_sax<Json> {
+ public:
+  Builder(const std::string& file, const std::string& bytes) : file_(file), bytes_(bytes) {}
+  Json take() { return std::move(root_); }
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool v) override { return add(v); }
+  bool number_integer(std::int64_t v) override { return add(v); }
+  bool number_unsigned(std::uint64_t v) override { return add(v); }
+  bool number_float(double v, const std::string&) override { return add(v); }
+  bool string(std::string& v) override { return add(std::move(v)); }
+  bool binary(Json::binary_t& v) override { return add(std::move(v)); }
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool key(std::string& name) override {
+    members_of(*open_.back()).emplace_back(std::move(name), nullptr);
+    return true;
+  }
+  bool end_array() override {
+    open_.pop_back();
+    return true;
+  }
+  bool end_object() override {
+    keep_last(members_of(*open_.back()));
+    return end_array();
+  }
+  bool parse_error(std::size_t byte,
+                   const std::string&,
+                   const nlohmann::detail::exception& e) override {
+    if (dynamic_cast<const Json::parse_error*>(&e) == nullptr)
+      throw bad_input(file_, "JSON", e.what(), "values that can be held");
+    const auto end = std::min(bytes_.size(), byte > 0 ? byte - 1 : 0);
+    throw bad_input(file_, place_of(bytes_, end),
+                    end < bytes_.size() ? bytes_.substr(end, 12) : "the end of the file", "JSON");
+  }
+
+ private:
+  Json& put(Json&& value) {
+    if (open_.empty()) return root_ = std::move(value);
+    Json& in = *open_.back();
+    if (in.is_array()) return in.emplace_back(std::move(value));
+    return members_of(in).back().second = std::move(value);
+  }
+  bool add(Json&& value) {
+    put(std::move(value));
+    return true;
+  }
+  /// It stays where it is while it is open: nothing is added beside it.
+  bool open(Json&& value) {
+    open_.push_back(&put(std::move(value)));
+    return true;
+  }
+  /// Of members with one name the value of the last, where the first stands.
+  void keep_last(Members& all) {
+    order_.resize(all.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    const auto name = [&](std::size_t k) -> const std::string& { return all[k].first; };
+    std::ranges::sort(order_, [&](std::size_t a, std::size_t b) {
+      const int c = name(a).compare(name(b));
+      return c != 0 ? c < 0 : a < b;
+    });
+    std::vector<bool> repeats(all.size());
+    bool any = false;
+    for (std::size_t k = 0, first = 0; k < order_.size(); ++k) {
+      if (name(order_[k]) != name(order_[first])) first = k;
+      if (k == first) continue;
+      all[order_[first]].second = std::move(all[order_[k]].second);
+      repeats[order_[k]] = any = true;
+    }
+    if (!any) return;
+    Members kept;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (!repeats[k]) kept.push_back(std::move(all[k]));
+    all = std::move(kept);
+  }
+
+  const std::string &file_, &bytes_;
+  Json root_;
+  std::vector<Json*> open_;  ///< the innermost last
+  std::vector<std::size_t> order_;
+};
+
 }  // namespace
 
 std::string text_of(const Json& j) {
@@ -58,7 +150,7 @@ Json per_channel(const std::vector<double>& v) {
 
 Json per_name(const std::vector<std::pair<std::string, std::vector<double>>>& all) {
   Json out = Json::object();
-  for (const auto& [name, values] : all) out[name] = per_channel(values);
+  for (const auto& [name, values] : all) members_of(out).emplace_back(name, per_channel(values));
   return out;
 }
 
@@ -66,15 +158,9 @@ Json parse_json(const std::string& file, const std::string& bytes) {
   if (const auto at = too_deep(bytes); at != bytes.npos)
     throw bad_input(file, place_of(bytes, at), fmt::format("{} levels of brackets", kDeepest + 1),
                     fmt::format("at most {}", kDeepest));
-  try {
-    return Json::parse(bytes);
-  } catch (const Json::parse_error& e) {
-    const auto end = std::min(bytes.size(), e.byte > 0 ? e.byte - 1 : 0);
-    throw bad_input(file, place_of(bytes, end),
-                    end < bytes.size() ? bytes.substr(end, 12) : "the end of the file", "JSON");
-  } catch (const Json::exception& e) {
-    throw bad_input(file, "JSON", e.what(), "values that can be held");
-  }
+  Builder document(file, bytes);
+  Json::sax_parse(bytes, &document);
+  return document.take();
 }
 
 void JsonReader::fail(const std::string& expected) const {
@@ -89,18 +175,22 @@ bool JsonReader::has(const std::string& key) const {
   return value_.is_object() && value_.contains(key);
 }
 
+std::string JsonReader::place_of(const std::string& key) const {
+  return place_.empty() ? key : place_ + "." + key;
+}
+
 JsonReader JsonReader::at(const std::string& key) const {
   expect_object();
-  const auto place = place_.empty() ? key : place_ + "." + key;
   const auto found = value_.find(key);
-  if (found == value_.end()) throw bad_input(file_, place, "nothing", "a value");
-  return {file_, *found, place};
+  if (found == value_.end()) throw bad_input(file_, place_of(key), "nothing", "a value");
+  return {file_, *found, place_of(key)};
 }
 
 std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
   expect_object();
   std::vector<std::pair<std::string, JsonReader>> out;
-  for (const auto& [key, value] : value_.items()) out.emplace_back(key, at(key));
+  for (const auto& [key, value] : value_.get_ref<const Json::object_t&>())
+    out.emplace_back(key, JsonReader(file_, value, place_of(key)));
   return out;
 }
 

@@ -55,6 +55,7 @@ class JsonReader {
 
  private:
   void expect_object() const;
+  std::string place_of(const std::string& key) const;
   const std::string& file_;
   const Json& value_;
   std::string place_;

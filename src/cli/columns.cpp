@@ -4,18 +4,15 @@
 #include <set>
 
 #include "base/file.h"
+#include "base/json_reader.h"
 #include "base/sha256.h"
 #include "base/text.h"
 #include "cli/command.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
 
-#include <nlohmann/json.hpp>
-
 namespace gonio::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options : Common {
   std::vector<std::string> files, words;
@@ -100,9 +97,14 @@ void print(const Table& t) {
   line("written", side_path(t.path));
 }
 
+/// What a side file says of columns, as it stands there.
+Json columns_of(const std::string& file, const std::string& side) {
+  return parse_json(side_path(file), side)["columns"];
+}
+
 Json to_json(const Table& t, const std::string& side) {
   return {{"path", t.path},         {"samples", t.size()},
-          {"channels", t.channels}, {"columns", Json::parse(side)["columns"]},
+          {"channels", t.channels}, {"columns", columns_of(t.path, side)},
           {"warnings", t.warnings}, {"written", side_path(t.path)}};
 }
 
@@ -132,7 +134,7 @@ Json show(const Options& o, const std::string& file) {
     else
       fmt::print("{:>14}\n", "no numbers");
   }
-  Json said = map ? Json::parse(side)["columns"] : Json();
+  Json said = map ? columns_of(file, side) : Json();
   if (!o.json)
     fmt::print("{}\n", map ? fmt::format("{} says {}", side_path(file), said.dump())
                            : "no map; gonio columns FILE --map theta_i=… phi_i=… theta_o=… "

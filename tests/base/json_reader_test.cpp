@@ -1,0 +1,75 @@
+#include "base/json_reader.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "support.h"
+
+namespace gonio {
+namespace {
+
+std::string complaint(const std::string& text) {
+  try {
+    parse_json("file", text);
+    return "";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), Exit::bad_input);
+    return e.what();
+  }
+}
+
+TEST(ParseJson, GivesEveryKindOfValueInTheOrderOfTheText) {
+  const std::string text =
+      R"({"z":[1,-2,2.5,18446744073709551615],"a":{"b":null,"c":[true,false,{}]},"m":"\u00b5","e":[]})";
+  EXPECT_EQ(
+      parse_json("file", text).dump(),
+      R"({"z":[1,-2,2.5,18446744073709551615],"a":{"b":null,"c":[true,false,{}]},"m":"µ","e":[]})");
+  for (const char* lone : {"7", "-7", "2.5", "null", "true", "\"x\"", "[]", "{}"})
+    EXPECT_EQ(parse_json("file", lone).dump(), lone);
+}
+
+TEST(ParseJson, KeepsTheLastValueOfANameWhereItsFirstStands) {
+  EXPECT_EQ(parse_json("file", R"({"a":1,"b":2,"a":{"c":3,"c":4},"d":5,"b":6})").dump(),
+            R"({"a":{"c":4},"b":6,"d":5})");
+}
+
+TEST(ParseJson, NamesLineAndColumnOfWhatIsNoJson) {
+  EXPECT_EQ(complaint("{\n  \"a\": ?"), "file: line 2, column 8: found ?, expected JSON");
+  EXPECT_EQ(complaint("[1,"), "file: line 1, column 4: found the end of the file, expected JSON");
+  EXPECT_EQ(complaint("{} x"), "file: line 1, column 4: found x, expected JSON");
+  EXPECT_NE(complaint("[1e999]").find("expected values that can be held"), std::string::npos);
+}
+
+/// In time quadratic in the keys this takes half an hour, in linear time a second.
+TEST(ParseJson, OfAMillionKeysTakesLinearTime) {
+  constexpr std::size_t n = 1'000'000;
+  std::string text = "{\"0\":0";
+  for (std::size_t i = 1; i < n; ++i) text += ",\"" + std::to_string(i) + "\":" + std::to_string(i);
+  const Json document = parse_json("file", text + "}");
+  const auto members = JsonReader("file", document, "top").members();
+  ASSERT_EQ(members.size(), n);
+  EXPECT_EQ(members.back().first, "999999");
+  EXPECT_EQ(members.back().second.number(), 999'999);
+}
+
+/// Quadratic in the names this takes half an hour too.
+TEST(PerName, OfAMillionNamesTakesLinearTime) {
+  std::vector<std::pair<std::string, std::vector<double>>> all;
+  for (std::size_t i = 0; i < 1'000'000; ++i) all.push_back({std::to_string(i), {1.0, 2.0}});
+  EXPECT_EQ(per_name(all).size(), all.size());
+}
+
+TEST(JsonReader, NamesThePlaceOfAMember) {
+  const Json document = parse_json("file", R"({"a":{"b":"x"}})");
+  const auto members = JsonReader("file", document).at("a").members();
+  ASSERT_EQ(members.size(), 1U);
+  try {
+    members[0].second.number();
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_STREQ(e.what(), "file: a.b: found \"x\", expected a number or null");
+  }
+}
+
+}  // namespace
+}  // namespace gonio
