@@ -83,6 +83,9 @@ using Values = std::vector<double, ArrayAllocator<double>>;
 /// A reader refuses a table of more values, directions included, than this: 0.5 GB.
 inline constexpr std::size_t most_values = std::size_t{1} << 26;
 
+/// A reader refuses a table of more channels than this.
+inline constexpr std::size_t most_channels = 4096;
+
 /// Where a format stores f cos θ_o, the cosine is divided out, but not below this: within 0.6° of the
 /// horizon the quotient is noise over the angle's own error.  There the value becomes NaN.
 inline constexpr double least_cosine = 0.01;

@@ -9,6 +9,7 @@
 #include "base/error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -67,9 +68,22 @@ constexpr std::array kParametrizations{
 
 constexpr std::array<std::string_view, 3> kEnds{"ALTA END HEADER", "ALTA HEADER END",
                                                 "ALTA_END_HEADER"};
-constexpr std::string_view kBlank = " \t\r";
+constexpr std::string_view kBlank = " \t\r", kCosine = "INV_STERADIAN_COSINE_FACTOR";
 
-/// The next word of a line, which is taken from it; "" at its end.
+constexpr std::array<std::string_view, 3> kOutputs{"INV_STERADIAN", kCosine, "RGB_COLOR"};
+
+/// "A, B or C"
+template <class Names>
+std::string one_of(const Names& names) {
+  return fmt::format("{} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+std::string known_inputs() {
+  std::array<std::string_view, kParametrizations.size()> names;
+  std::ranges::transform(kParametrizations, names.begin(), &Parametrization::name);
+  return one_of(names);
+}
+
+/// Next word of a line, which is taken from it; "" at its end.
 std::string_view word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
   const auto found = line.substr(0, line.find_first_of(kBlank));
@@ -153,8 +167,8 @@ class Reader {
       if (key == "BEGIN_STREAM") break;
       read_key(key, line);
     }
-    if (!in_) fail("no #PARAM_IN", "one before the samples");
-    if (!out_) fail("no #PARAM_OUT", "one before the samples");
+    if (!in_) fail("no #PARAM_IN", "one before the samples: " + known_inputs());
+    if (!out_) fail("no #PARAM_OUT", "one before the samples: " + one_of(kOutputs));
     if (n_in_ != in_->size)
       fail(fmt::format("#DIM {} …", n_in_), fmt::format("{} for {}", in_->size, in_->name));
     if (binary_ && count_ == 0) fail("no #SAMPLE_COUNT", "one before #BEGIN_STREAM");
@@ -163,20 +177,18 @@ class Reader {
   void read_key(std::string_view key, std::string_view value) {
     if (key == "DIM") {
       n_in_ = number_in(word(value), 1, 6);
-      n_out_ = number_in(word(value), 1, 1024);
+      n_out_ = number_in(word(value), 1, most_channels);
     } else if (key == "PARAM_IN") {
       const auto name = word(value);
       in_ = std::ranges::find(kParametrizations, name, &Parametrization::name);
       if (in_ == kParametrizations.end())
-        fail(fmt::format("#PARAM_IN {}", name), "a parametrization of two directions");
+        fail(fmt::format("#PARAM_IN {}", name),
+             "a parametrization of two directions: " + known_inputs());
     } else if (key == "PARAM_OUT") {
       const auto name = word(value);
-      out_ =
-          name == "INV_STERADIAN" || name == "RGB_COLOR" || name == "INV_STERADIAN_COSINE_FACTOR";
-      cosine_ = name == "INV_STERADIAN_COSINE_FACTOR";
-      if (!out_)
-        fail(fmt::format("#PARAM_OUT {}", name),
-             "INV_STERADIAN, INV_STERADIAN_COSINE_FACTOR or RGB_COLOR");
+      out_ = std::ranges::find(kOutputs, name) != kOutputs.end();
+      cosine_ = name == kCosine;
+      if (!out_) fail(fmt::format("#PARAM_OUT {}", name), one_of(kOutputs));
     } else if (key == "VS") {
       intervals_ = number_in(word(value), 0, 2);
     } else if (key == "FORMAT") {

@@ -2,23 +2,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include "base/error.h"
 #include "base/json_reader.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
 
 constexpr const char* kSchema = "gonio.table/1";
+constexpr double kAny = std::numeric_limits<double>::max();
+
+double number_within(const JsonReader& j, double low, double high) {
+  const double v = j.number();
+  if (!(v >= low && v <= high))
+    j.fail(high < kAny ? fmt::format("a number in [{:g}, {:g}]", low, high)
+                       : fmt::format("a number from {:g} on", low));
+  return v;
+}
 
 Truth read_truth(const JsonReader& j) {
   Truth t;
   t.model = j.at("model").string();
-  for (const auto& [name, value] : j.at("parameters").members())
+  for (const auto& [name, value] : j.at("parameters").members()) {
     t.parameters.emplace_back(name, value.numbers());
-  t.noise = j.at("noise").number();
-  t.floor = j.at("floor").number();
-  t.outliers = j.at("outliers").number();
+    if (!std::ranges::all_of(t.parameters.back().second, [](double v) { return std::isfinite(v); }))
+      value.fail("finite numbers");
+  }
+  t.noise = number_within(j.at("noise"), 0, kAny);
+  t.floor = number_within(j.at("floor"), 0, kAny);
+  t.outliers = number_within(j.at("outliers"), 0, 1);
   t.seed = j.at("seed").whole_number();
   return t;
 }
@@ -44,25 +60,31 @@ bool keeps_bins(const Table& t) {
   return t.has_bins() && t.format != "csv";
 }
 
-double finite_number(const JsonReader& j) {
+double scale(const JsonReader& j) {
   const double v = j.number();
-  if (!std::isfinite(v)) j.fail("a number");
+  if (!(v > 0 && std::isfinite(v))) j.fail("a finite number above 0");
   return v;
 }
 
-ColumnMap read_column_map(const JsonReader& j) {
+ColumnMap read_column_map(const std::string& file, const JsonReader& j) {
   ColumnMap map;
-  for (const auto& [key, value] : j.members()) {
+  const auto members = j.members();
+  const auto channels = std::ranges::count_if(
+      members, [](const auto& m) { return m.first == "f" || m.first.starts_with("f_"); });
+  if (channels > static_cast<std::ptrdiff_t>(most_channels))
+    throw bad_input(file, "columns", fmt::format("{} channels", channels),
+                    fmt::format("at most {}", most_channels));
+  for (const auto& [key, value] : members) {
     if (is_role(key))
       map.columns.emplace_back(key, value.string());
     else if (key == "unit" && (value.string() == "radians" || value.string() == "degrees"))
       map.radians = value.string() == "radians";
     else if (key == "forward")
-      map.forward_deg = finite_number(value);
+      map.forward_deg = number_within(value, -360, 360);
     else if (key == "cosine")
       map.cosine = value.boolean();
     else if (key == "scale")
-      map.scale = finite_number(value);
+      map.scale = scale(value);
     else if (key == "skip")
       map.skip = value.whole_number();
     else
@@ -83,6 +105,18 @@ Json column_map_json(const ColumnMap& map) {
   if (map.scale != usual.scale) j["scale"] = map.scale;
   if (map.skip != usual.skip) j["skip"] = map.skip;
   return j;
+}
+
+/// Of notes with one name the last, where the first stands.
+Json notes_json(const Table& t) {
+  std::vector<std::pair<std::string, Json>> all;
+  std::map<std::string_view, std::size_t> known;
+  for (const auto& [name, text] : t.notes)
+    if (const auto [at, is_new] = known.try_emplace(name, all.size()); is_new)
+      all.emplace_back(name, text);
+    else
+      all[at->second].second = text;
+  return Json::object_t(all.begin(), all.end());  // which looks no name up
 }
 
 Json parse_side(const std::string& file, const std::string& text) {
@@ -128,7 +162,7 @@ std::string metadata_text(const Table& t, const std::string& sha256) {
   if (!sha256.empty()) j["sha256"] = sha256;
   if (keeps_bins(t)) j["bins"] = bins_names[static_cast<std::size_t>(t.grid()->bins)];
   if (t.truth) j["truth"] = truth_json(*t.truth);
-  for (const auto& [name, text] : t.notes) j["notes"][name] = text;
+  if (!t.notes.empty()) j["notes"] = notes_json(t);
   return text_of(j);
 }
 
@@ -156,7 +190,8 @@ void expect_same_table(const Table& t, const std::string& file, const std::strin
 std::optional<ColumnMap> column_map(const std::string& file, const std::string& text) {
   const Json document = parse_side(file, text);
   const JsonReader root(file, document);
-  return root.has("columns") ? std::optional(read_column_map(root.at("columns"))) : std::nullopt;
+  return root.has("columns") ? std::optional(read_column_map(file, root.at("columns")))
+                             : std::nullopt;
 }
 
 std::string with_columns(const std::string& file, const std::string& text, const ColumnMap& map) {

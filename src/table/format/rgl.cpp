@@ -47,8 +47,11 @@ class Material {
 
     const bool spectral = file.has("wavelengths");
     if (spectral) {
-      for (const float nm : file.floats(file.tensor("wavelengths", Tensor::floats, 1)))
-        channels.push_back(fmt::format("{:.6g}", nm));
+      const auto& wavelengths = file.tensor("wavelengths", Tensor::floats, 1);
+      if (wavelengths.shape[0] > most_channels)
+        file.fail("wavelengths", fmt::format("{} channels", wavelengths.shape[0]),
+                  fmt::format("at most {}", most_channels));
+      for (const float nm : file.floats(wavelengths)) channels.push_back(fmt::format("{:.6g}", nm));
       auto sorted = channels;
       std::ranges::sort(sorted);
       if (std::ranges::adjacent_find(sorted) != sorted.end())

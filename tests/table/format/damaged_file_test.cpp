@@ -179,6 +179,11 @@ TEST(RglFile, NamesTheFieldThatIsWrong) {
   EXPECT_COMPLAINT(folder.write("t", third.bytes()), "field phi_i: found 0.3183 of a turn");
   third.phi_i.back() += 0.9F;  // nearer to a half than to a third
   EXPECT_COMPLAINT(folder.write("t", third.bytes()), "field phi_i: found 0.4615 of a turn");
+  RglFile many = file;
+  for (std::size_t i = 0; i <= most_channels; ++i)
+    many.wavelengths.push_back(static_cast<float>(i));
+  EXPECT_COMPLAINT(folder.write("t", many.bytes()),
+                   "field wavelengths: found 4097 channels, expected at most 4096");
   RglFile twice = file;
   twice.wavelengths = {500, 500};
   EXPECT_COMPLAINT(folder.write("t", twice.bytes()), "field wavelengths: found 500 twice");
@@ -266,10 +271,17 @@ TEST(AltaFile, NamesTheLineThatIsWrong) {
   };
   EXPECT_COMPLAINT(
       with("SPHERICAL_TL_PL_TV_PV", "STARK_3D"),
-      "line 4: found #PARAM_IN STARK_3D, expected a parametrization of two directions");
+      "line 4: found #PARAM_IN STARK_3D, expected a parametrization of two directions: "
+      "SPHERICAL_TL_PL_TV_PV, CARTESIAN, ");
   EXPECT_COMPLAINT(with("INV_STERADIAN", "XYZ_COLOR"), "line 5: found #PARAM_OUT XYZ_COLOR");
-  EXPECT_COMPLAINT(with("#PARAM_IN", "#PARAM_INN"), "no #PARAM_IN");
-  EXPECT_COMPLAINT(with("#PARAM_OUT", "#OUT"), "no #PARAM_OUT");
+  EXPECT_COMPLAINT(with("#PARAM_IN", "#PARAM_INN"),
+                   "found no #PARAM_IN, expected one before the samples: SPHERICAL_TL_PL_TV_PV, ");
+  EXPECT_COMPLAINT(with("#PARAM_IN", "#PARAM_INN"), "RUSIN_TH_TD or COS_TH_TD");
+  EXPECT_COMPLAINT(with("#PARAM_OUT", "#OUT"),
+                   "found no #PARAM_OUT, expected one before the samples: INV_STERADIAN, "
+                   "INV_STERADIAN_COSINE_FACTOR or RGB_COLOR");
+  EXPECT_COMPLAINT(with("#DIM 4 1", "#DIM 4 4097"),
+                   "found '4097', expected a whole number from 1 to 4096");
   EXPECT_COMPLAINT(with("#DIM 4 1", "#DIM 3 1"), "found #DIM 3 …, expected 4 for SPHERICAL");
   EXPECT_COMPLAINT(with("#DIM 4 1", "#DIM 4 -1"), "line 2: found '-1'");
   EXPECT_COMPLAINT(with("#DIM 4 1", "#DIM 4 2147483648"), "line 2: found '2147483648'");
