@@ -6,16 +6,20 @@
 
 namespace gonio {
 
-std::string csv_text(std::string_view text) {
-  constexpr std::string_view quoted = ",\"\r\n", formula = "=+-@\t\r\n";
-  const bool guarded = !text.empty() && formula.find(text.front()) != formula.npos;
-  if (!guarded && text.find_first_of(quoted) == text.npos) return std::string(text);
-  std::string cell = guarded ? "\"'" : "\"";
+std::string csv_quoted(std::string_view text) {
+  std::string cell = "\"";
   for (const char c : text) {
     if (c == '"') cell += c;
     cell += c;
   }
   return cell + '"';
+}
+
+std::string csv_text(std::string_view text) {
+  constexpr std::string_view quoted = ",\"\r\n", formula = "=+-@\t\r\n";
+  const bool guarded = !text.empty() && formula.find(text.front()) != formula.npos;
+  if (!guarded && text.find_first_of(quoted) == text.npos) return std::string(text);
+  return csv_quoted(guarded ? "'" + std::string(text) : text);
 }
 
 std::string csv_number(double v) {

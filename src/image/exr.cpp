@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <set>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -158,8 +159,9 @@ Image read_exr(const std::string& path, std::size_t most, const std::vector<std:
   return reading(path, [&](Imf::InputFile& file) {
     Image image = without_planes(file.header());
     if (!only.empty()) {
+      const std::set<std::string> there(image.channels.begin(), image.channels.end());
       for (const auto& name : only)
-        if (std::ranges::find(image.channels, name) == image.channels.end())
+        if (!there.contains(name))
           throw bad_input(path, "channels", fmt::format("{}", fmt::join(image.channels, ", ")),
                           name + " among them");
       image.channels = only;

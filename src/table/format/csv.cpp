@@ -4,6 +4,7 @@
 #include <charconv>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "base/error.h"
@@ -20,10 +21,23 @@ constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 constexpr const char* kHint =
     "where names or angles differ: gonio columns FILE --map … (--skip N: lines above the names)";
 
-/// "" if the name is not that of a column with values.
-std::string channel_of(std::string_view name) {
+/// Channel of a column with values; of other names none.
+std::optional<std::string> channel_of(std::string_view name) {
   if (name == "f") return "f";
-  return std::string(name.starts_with("f_") ? name.substr(2) : "");
+  if (name.starts_with("f_")) return std::string(name.substr(2));
+  return {};
+}
+
+std::string_view without_blanks(std::string_view name) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const auto from = name.find_first_not_of(blanks);
+  return from == name.npos ? "" : name.substr(from, name.find_last_not_of(blanks) - from + 1);
+}
+
+/// The role that a column's name is: the blanks that a channel ends with are its own.
+std::string role_of(std::string_view name) {
+  const auto bare = without_blanks(name);
+  return std::string(bare.starts_with("f_") ? name.substr(name.find("f_")) : bare);
 }
 
 bool is_angle(std::string_view name) {
@@ -42,37 +56,41 @@ struct Column {
   double low = 0, high = std::numeric_limits<double>::max();  ///< of what is not a value
   std::vector<double> data = {};
 
-  bool is_value() const { return !channel_of(role).empty(); }
+  bool is_value() const { return channel_of(role).has_value(); }
+};
+
+/// Columns by their names, blanks around them apart.
+class Names {
+ public:
+  explicit Names(const std::vector<std::string>& names) {
+    for (const auto& name : names) names_.push_back(without_blanks(name));
+    order_.resize(names_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::ranges::stable_sort(order_, {}, [&](std::size_t k) { return names_[k]; });
+  }
+  /// Ascending.
+  auto columns(std::string_view name) const {
+    return std::ranges::equal_range(order_, without_blanks(name), {},
+                                    [&](std::size_t k) { return names_[k]; });
+  }
+
+ private:
+  std::vector<std::string_view> names_;
+  std::vector<std::size_t> order_;
 };
 
 /// Rows that differ in a channel's name alone become one sample; what repeats is another sample.
 class Samples {
  public:
-  /// Where the row's value belongs: its channel and sample.
-  std::pair<std::size_t, std::size_t> place(std::string_view channel,
-                                            const std::array<double, 4>& angles) {
-    auto at = channels_.find(channel);
-    if (at == channels_.end()) at = channels_.emplace(std::string(channel), channels_.size()).first;
-    const auto times = seen_[{at->second, angles}]++;
-    const auto sample = samples_.try_emplace({times, angles}, samples_.size()).first->second;
-    return {at->second, sample};
+  /// The sample that the row's value belongs to.
+  std::size_t place(std::size_t channel, const std::array<double, 4>& angles) {
+    const auto times = seen_[{channel, angles}]++;
+    return samples_.try_emplace({times, angles}, samples_.size()).first->second;
   }
-  std::size_t channels() const { return channels_.size(); }
   std::size_t size() const { return samples_.size(); }
-  /// Ascending where all are numbers, else as they come first.
-  std::vector<std::pair<std::string, std::size_t>> in_order() const {
-    std::vector<std::pair<std::string, std::size_t>> all(channels_.begin(), channels_.end());
-    const bool numbers =
-        std::ranges::all_of(all, [](const auto& c) { return number_in(c.first).has_value(); });
-    std::ranges::sort(all, {}, [&](const auto& c) {
-      return numbers ? *number_in(c.first) : static_cast<double>(c.second);
-    });
-    return all;
-  }
 
  private:
   using Key = std::pair<std::size_t, std::array<double, 4>>;
-  std::map<std::string, std::size_t, std::less<>> channels_;
   std::map<Key, std::size_t> seen_, samples_;
 };
 
@@ -102,7 +120,7 @@ class Reader {
     if (map_) to_conventions(std::get<DirectionList>(t.where));
     for (auto& column : columns_)
       if (column.is_value()) {
-        t.channels.push_back(channel_of(column.role));
+        t.channels.push_back(*channel_of(column.role));
         t.values.emplace_back(column.data.begin(), column.data.end());
       }
     if (map_) to_f(t);
@@ -117,6 +135,7 @@ class Reader {
 
  private:
   void add(const std::string& role, std::optional<std::size_t> index, double constant = 0) {
+    roles_.insert(role);
     Column c{role, index, constant};
     const double turn = map_ && map_->radians ? degree * 180 : 180;
     if (role.starts_with("theta_")) c.low = map_ ? -turn : 0, c.high = turn;
@@ -127,27 +146,27 @@ class Reader {
   }
 
   void choose_by_name() {
-    const auto& names = lines_.names();
-    if (std::ranges::none_of(names, is_angle))
+    std::vector<std::string> roles;
+    for (const auto& name : lines_.names()) roles.push_back(role_of(name));
+    if (std::ranges::none_of(roles, is_angle))
       lines_.fail("", fmt::format("columns {}", listed()),
                   fmt::format("theta_i, phi_i, theta_o, phi_o and f or f_NAME; {}", kHint));
     const auto named = [&](const char* name) {
-      return std::ranges::find(names, name) != names.end();
+      return std::ranges::find(roles, name) != roles.end();
     };
     // In plane: azimuths 0, and a sign may say the side.
     const bool in_plane =
         named("theta_i") && named("theta_o") && !named("phi_i") && !named("phi_o");
     if (in_plane) map_ = &in_plane_;
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      const auto& name = names[k];
-      const bool value = !channel_of(name).empty();
-      if (!value && name != "weight" && !is_angle(name))
+    expect_few_channels(roles);
+    std::set<std::string> channels;
+    for (std::size_t k = 0; k < roles.size(); ++k) {
+      const auto& name = roles[k];
+      const auto channel = channel_of(name);
+      if (!channel && name != "weight" && !is_angle(name))
         lines_.fail(lines_.label(k), "an unknown column",
                     fmt::format("theta_i, phi_i, theta_o, phi_o, f, f_NAME or weight; {}", kHint));
-      const auto same = [&](const Column& o) {
-        return o.role == name || (value && channel_of(o.role) == channel_of(name));
-      };
-      if (std::ranges::any_of(columns_, same))
+      if (has(name) || (channel && !channels.insert(*channel).second))
         lines_.fail(name, "a second column of that name", "one");
       add(name, k);
     }
@@ -161,11 +180,20 @@ class Reader {
       lines_.fail("f", "no such column", fmt::format("f or f_NAME; {}", kHint));
   }
 
+  void expect_few_channels(const std::vector<std::string>& roles) const {
+    const auto channels =
+        std::ranges::count_if(roles, [](const auto& role) { return channel_of(role).has_value(); });
+    if (channels > static_cast<std::ptrdiff_t>(most_channels))
+      lines_.fail("", fmt::format("{} channels", channels),
+                  fmt::format("at most {}", most_channels));
+  }
+
   void choose_by_map() {
+    const Names names(lines_.names());
     std::set<std::size_t> used;
     const auto take = [&](std::size_t index) { return used.insert(index).second; };
     for (const auto& [role, column] : map_->columns) {
-      const auto index = find(role, column);
+      const auto index = find(names, role, column);
       if (index && !take(*index))
         lines_.fail(column, "a column that is two things", "one of them for " + role);
       if (role == "channel")
@@ -173,13 +201,17 @@ class Reader {
       else
         add(role, index, index ? 0 : *number_in(column));
     }
+    std::vector<std::string> wanted;
     const bool values_named = has_values();
-    for (std::size_t k = 0; k < lines_.names().size(); ++k) {
-      const auto& name = lines_.names()[k];
-      const bool wanted =
-          is_angle(name) || name == "weight" || (!values_named && !channel_of(name).empty());
-      if (wanted && !has(name) && take(k)) add(name, find(name, name));
-    }
+    for (const auto& name : lines_.names())
+      if (auto role = role_of(name);
+          is_angle(role) || role == "weight" || (!values_named && channel_of(role)))
+        wanted.push_back(std::move(role));
+    expect_few_channels(wanted);
+    for (const auto& role : wanted)
+      if (const auto index = has(role) ? std::nullopt : find(names, role, role);
+          index && take(*index))
+        add(role, index);
     for (const auto name : {"theta_i", "theta_o"})
       if (!has(name)) throw_no_column(name, name);
     for (const auto name : {"phi_i", "phi_o"})
@@ -187,19 +219,21 @@ class Reader {
     if (!has_values()) throw_no_column("f", "f");
     std::set<std::string> channels;
     for (const auto& c : columns_)
-      if (c.is_value() && !channels.insert(channel_of(c.role)).second)
-        throw bad_input(path_, "columns", "two channels named " + channel_of(c.role), "one");
+      if (c.is_value() && !channels.insert(*channel_of(c.role)).second)
+        throw bad_input(path_, "columns", "two channels named " + *channel_of(c.role), "one");
     if (channel_ && std::ranges::count_if(columns_, &Column::is_value) > 1)
       throw bad_input(path_, "columns", "channel beside several f_NAME", "channel beside one f");
   }
 
   /// The column that a map's word means; none if it is a constant.
-  std::optional<std::size_t> find(const std::string& role, const std::string& word) const {
+  std::optional<std::size_t> find(const Names& by_name,
+                                  const std::string& role,
+                                  const std::string& word) const {
     const auto& names = lines_.names();
-    if (const auto at = std::ranges::find(names, word); !word.empty() && at != names.end()) {
-      if (std::ranges::count(names, word) > 1)
+    if (const auto found = by_name.columns(word); !word.empty() && !found.empty()) {
+      if (found.size() > 1)
         lines_.fail(word, "a second column of that name", "one, or its number as #1");
-      return at - names.begin();
+      return found.front();
     }
     std::size_t number = 0;
     const char* const last = word.data() + word.size();
@@ -222,9 +256,7 @@ class Reader {
     return fmt::format("{}", fmt::join(labels, ", "));
   }
 
-  bool has(std::string_view role) const {
-    return std::ranges::find(columns_, role, &Column::role) != columns_.end();
-  }
+  bool has(std::string_view role) const { return roles_.contains(role); }
   bool has_values() const { return std::ranges::any_of(columns_, &Column::is_value); }
 
   void row() {
@@ -239,7 +271,29 @@ class Reader {
       check_range(c, v, lines_.fields()[*c.index], lines_.label(*c.index));
       c.data.push_back(v);
     }
-    if (channel_) channel_names_.push_back(lines_.fields()[*channel_]);
+    if (channel_) channel_of_row_.push_back(channel_number(lines_.fields()[*channel_]));
+  }
+
+  std::size_t channel_number(std::string_view name) {
+    auto at = channels_.find(name);
+    if (at == channels_.end()) {
+      if (channels_.size() == most_channels)
+        lines_.fail(lines_.label(*channel_), "one more channel",
+                    fmt::format("at most {}", most_channels));
+      at = channels_.emplace(std::string(name), channels_.size()).first;
+    }
+    return at->second;
+  }
+
+  /// Channels of rows: ascending where all are numbers, else as they come first.
+  std::vector<std::pair<std::string, std::size_t>> channels_in_order() const {
+    std::vector<std::pair<std::string, std::size_t>> all(channels_.begin(), channels_.end());
+    const bool numbers =
+        std::ranges::all_of(all, [](const auto& c) { return number_in(c.first).has_value(); });
+    std::ranges::sort(all, {}, [&](const auto& c) {
+      return numbers ? *number_in(c.first) : static_cast<double>(c.second);
+    });
+    return all;
   }
 
   void check_range(const Column& c,
@@ -291,15 +345,15 @@ class Reader {
   void gather_channels(Table& t) const {
     const DirectionList rows = *t.list();
     Samples samples;
-    std::vector<std::pair<std::size_t, std::size_t>> places;
+    std::vector<std::size_t> places;
     for (std::size_t i = 0; i < rows_; ++i)
-      places.push_back(samples.place(channel_names_[i], {rows.theta_i_deg[i], rows.phi_i_deg[i],
-                                                         rows.theta_o_deg[i], rows.phi_o_deg[i]}));
+      places.push_back(samples.place(channel_of_row_[i], {rows.theta_i_deg[i], rows.phi_i_deg[i],
+                                                          rows.theta_o_deg[i], rows.phi_o_deg[i]}));
     // Else a small file could ask for any amount of memory.
-    if (samples.size() * samples.channels() > 8 * rows_ + 64 ||
-        samples.size() * (samples.channels() + 4) > most_values)
+    if (samples.size() * channels_.size() > 8 * rows_ + 64 ||
+        samples.size() * (channels_.size() + 4) > most_values)
       throw bad_input(path_, "column " + lines_.label(*channel_),
-                      fmt::format("{} channels at {} directions in {} rows", samples.channels(),
+                      fmt::format("{} channels at {} directions in {} rows", channels_.size(),
                                   samples.size(), rows_),
                       "all channels at most of the directions");
     DirectionList l;
@@ -307,12 +361,12 @@ class Reader {
       angles->resize(samples.size());
     const Values column = std::move(t.values[0]);
     const auto weights = std::move(t.weights);
-    t.values.assign(samples.channels(),
+    t.values.assign(channels_.size(),
                     Values(samples.size(), std::numeric_limits<double>::quiet_NaN()));
     t.weights.assign(weights.empty() ? 0 : samples.size(), -1);
     for (std::size_t i = 0; i < rows_; ++i) {
-      const auto [channel, sample] = places[i];
-      t.values[channel][sample] = column[i];
+      const std::size_t sample = places[i];
+      t.values[channel_of_row_[i]][sample] = column[i];
       l.theta_i_deg[sample] = rows.theta_i_deg[i];
       l.phi_i_deg[sample] = rows.phi_i_deg[i];
       l.theta_o_deg[sample] = rows.theta_o_deg[i];
@@ -327,7 +381,7 @@ class Reader {
     t.channels.clear();
     auto planes = std::move(t.values);
     t.values.clear();
-    for (const auto& [name, channel] : samples.in_order()) {
+    for (const auto& [name, channel] : channels_in_order()) {
       t.channels.push_back(name);
       t.values.push_back(std::move(planes[channel]));
     }
@@ -394,7 +448,9 @@ class Reader {
   Delimited lines_;
   std::vector<Column> columns_;
   std::optional<std::size_t> channel_;
-  std::vector<std::string_view> channel_names_;  ///< of each row
+  std::set<std::string, std::less<>> roles_;                  ///< of columns_
+  std::map<std::string, std::size_t, std::less<>> channels_;  ///< of rows; their numbers
+  std::vector<std::size_t> channel_of_row_;
   std::size_t rows_ = 0;
 };
 void append(std::string& text, double v) {
@@ -429,12 +485,12 @@ std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {
   Delimited lines(in.path(), text, skip);
   std::vector<ColumnSummary> all;
   for (const auto& name : lines.names()) all.push_back({name});
-  std::vector<std::set<std::string_view>> entries(all.size());
+  std::vector<std::set<std::string, std::less<>>> entries(all.size());
   while (lines.next())
     for (std::size_t k = 0; k < all.size(); ++k) {
       auto& c = all[k];
       const auto field = lines.fields()[k];
-      if (entries[k].size() < 1000) entries[k].insert(field);
+      if (entries[k].size() < 1000 && !entries[k].contains(field)) entries[k].emplace(field);
       const auto v = number_in(field);
       if (!v || std::isnan(*v)) continue;
       c.lowest = c.numbers ? std::min(c.lowest, *v) : *v;
@@ -447,7 +503,8 @@ std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {
 
 void write_csv(const Table& t, OutputFile& out) {
   std::string text = "theta_i,phi_i,theta_o,phi_o";
-  for (const auto& channel : t.channels) text += channel == "f" ? ",f" : ",f_" + channel;
+  for (const auto& channel : t.channels)
+    text += "," + (channel == "f" ? channel : comma_field("f_" + channel));
   text += t.weights.empty() ? "\n" : ",weight\n";
   const SampleAngles at(t);
   for (std::size_t i = 0; i < t.size(); ++i) {

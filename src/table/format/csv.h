@@ -4,7 +4,7 @@
 /// [degrees], one or more of `f` or `f_NAME` [1/sr, no cosine] and perhaps `weight`, in any order; or
 /// of other names and conventions, with a map that says which (table/format/column_map.h).
 ///
-/// Numbers are written so that they read back as the same doubles.
+/// Numbers are written so that they read back as the same doubles, channels with the same names.
 
 #include <string_view>
 

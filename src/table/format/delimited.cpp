@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <utility>
 
+#include "base/csv.h"
 #include "base/error.h"
 
 #include <fmt/format.h>
@@ -11,7 +13,7 @@
 namespace gonio {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r";
+constexpr std::string_view kBlank = " \t\r", kSeparators = ";,\t", kBetween = ";, \t\r";
 constexpr char kAnyBlank = ' ';  ///< as a separator: any number of blanks
 
 std::string_view trimmed(std::string_view s) {
@@ -19,38 +21,74 @@ std::string_view trimmed(std::string_view s) {
   return from == s.npos ? "" : s.substr(from, s.find_last_not_of(kBlank) - from + 1);
 }
 
-std::string_view unquoted(std::string_view s) {
-  return s.size() >= 2 && s.front() == '"' && s.back() == '"' ? trimmed(s.substr(1, s.size() - 2))
-                                                              : s;
+/// One past the quote that closes the field which s begins with; npos where none does.
+std::size_t after_quotes(std::string_view s) {
+  for (std::size_t i = s.find('"', 1); i != s.npos; i = s.find('"', i + 2))
+    if (!s.substr(i + 1).starts_with('"')) return i + 1;
+  return s.npos;
 }
 
-/// Where the field that the line begins with ends: at the separator, unless that is quoted.
+/// Whether a field may begin behind that character.
+bool separates(char c, char separator) {
+  return c == separator || (separator == kAnyBlank && kBlank.find(c) != kBlank.npos);
+}
+
+/// End of the field that the line begins with: at a separator that is not in quotes.
 std::size_t end_of_field(std::string_view line, char separator) {
-  const auto end = separator == kAnyBlank ? line.find_first_of(kBlank) : line.find(separator);
-  if (line.substr(0, end).find('"') == line.npos) return end;
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') quoted = !quoted;
-    const bool separates =
-        line[i] == separator || (separator == kAnyBlank && kBlank.find(line[i]) != kBlank.npos);
-    if (separates && !quoted) return i;
-  }
-  return line.npos;
+  std::size_t from = 0;
+  while (from < line.size() && kBlank.find(line[from]) != kBlank.npos && line[from] != separator)
+    ++from;
+  if (line.substr(from).starts_with('"'))
+    if (const auto quoted = after_quotes(line.substr(from)); quoted != line.npos)
+      return separator == kAnyBlank ? line.find_first_of(kBlank, from + quoted)
+                                    : line.find(separator, from + quoted);
+  return separator == kAnyBlank ? line.find_first_of(kBlank) : line.find(separator);
 }
 
-void split_into(std::vector<std::string_view>& fields, std::string_view line, char separator) {
+/// What a field says.  \param unescaped  keeps what does not stand in the line as it is
+std::string_view unquoted(std::string_view s, std::deque<std::string>& unescaped) {
+  if (!s.starts_with('"') || after_quotes(s) != s.size()) return s;
+  s = s.substr(1, s.size() - 2);
+  if (s.find('"') == s.npos) return s;
+  std::string& text = unescaped.emplace_back();
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    text += s[i];
+    if (s[i] == '"') ++i;
+  }
+  return text;
+}
+
+/// \param unescaped  see unquoted(); what it held is no longer needed
+void split_into(std::vector<std::string_view>& fields,
+                std::deque<std::string>& unescaped,
+                std::string_view line,
+                char separator) {
   fields.clear();
+  unescaped.clear();
   for (;;) {
     const auto end = end_of_field(line, separator);
-    fields.push_back(unquoted(trimmed(line.substr(0, end))));
+    fields.push_back(unquoted(trimmed(line.substr(0, end)), unescaped));
     if (end == line.npos) return;
     line.remove_prefix(end + 1);
     if (separator == kAnyBlank) line = trimmed(line);
   }
 }
 
+/// The line without what it has in quotes.
+std::string without_quoted(std::string_view line) {
+  std::string out;
+  while (!line.empty()) {
+    const bool may_begin = out.empty() || kBetween.find(out.back()) != kBetween.npos;
+    const auto end = may_begin && line[0] == '"' ? after_quotes(line) : 1;
+    if (end == 1) out += line[0];
+    line.remove_prefix(std::min(end, line.size()));
+  }
+  return out;
+}
+
 /// A comma may be a decimal sign, so it separates last; blanks may surround any.
-char separator_of(std::string_view line) {
+char separator_of(std::string_view all) {
+  const std::string line = without_quoted(all);
   if (line.find(';') != line.npos) return ';';
   const bool comma = line.find(',') != line.npos;
   const bool around_tabs = line.find(",\t") != line.npos || line.find("\t,") != line.npos;
@@ -59,12 +97,17 @@ char separator_of(std::string_view line) {
 }
 
 bool is_number(std::string_view field) {
-  return number_in(field).has_value();
+  return number_in(trimmed(field)).has_value();
 }
 
-/// The next line, trimmed, taken off the text.
-std::string_view next_of(std::string_view& text) {
-  const auto end = std::min(text.find('\n'), text.size());
+/// Line end of the text: old Macs' where there is no other.
+char line_end_of(std::string_view text) {
+  return text.find('\n') == text.npos ? '\r' : '\n';
+}
+
+/// Next line, trimmed, taken off the text.
+std::string_view next_of(std::string_view& text, char line_end) {
+  const auto end = std::min(text.find(line_end), text.size());
   const auto line = trimmed(text.substr(0, end));
   text.remove_prefix(std::min(end + 1, text.size()));
   return line;
@@ -99,47 +142,109 @@ bool is_gap(std::string_view field) {
 
 bool looks_delimited(std::string_view head) {
   std::vector<std::string_view> fields;
+  std::deque<std::string> unescaped;
   head = without_mark(head);
+  const char line_end = line_end_of(head);
   for (int lines = 0; lines < 200 && !head.empty(); ++lines) {
-    const auto line = next_of(head);
+    const auto line = next_of(head, line_end);
     if (line.empty() || line[0] == '#') continue;
     for (const char separator : {';', '\t', ',', kAnyBlank}) {
-      split_into(fields, line, separator);
+      split_into(fields, unescaped, line, separator);
       if (std::ranges::count_if(fields, is_number) >= 3) return true;
     }
   }
   return false;
 }
 
-std::vector<std::string_view> first_fields(std::string_view head) {
+std::vector<std::string> first_fields(std::string_view head) {
   std::vector<std::string_view> fields;
+  std::deque<std::string> unescaped;
   head = without_mark(head);
-  while (!head.empty()) {
-    const auto line = next_of(head);
-    if (line.empty() || line[0] == '#') continue;
-    split_into(fields, line, separator_of(line));
-    break;
+  const char line_end = line_end_of(head);
+  while (!head.empty() && fields.empty()) {
+    const auto line = next_of(head, line_end);
+    if (!line.empty() && line[0] != '#') split_into(fields, unescaped, line, separator_of(line));
   }
-  return fields;
+  return {fields.begin(), fields.end()};
+}
+
+std::string comma_field(std::string_view name) {
+  if (trimmed(name) == name && name.find_first_of(",;\"\t\r\n") == name.npos)
+    return std::string(name);
+  return csv_quoted(name);
+}
+
+std::vector<std::string> comma_fields(std::string_view line) {
+  std::vector<std::string_view> fields;
+  std::deque<std::string> unescaped;
+  split_into(fields, unescaped, line, ',');
+  return {fields.begin(), fields.end()};
+}
+
+void expect_no_utf16(const std::string& file, std::string_view head) {
+  const auto refuse = [&] { throw bad_input(file, "byte 0", "text in UTF-16", "UTF-8"); };
+  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) refuse();
+  // Without a mark: what stands in such a file is ASCII for the most, every other byte 0.
+  const std::size_t pairs = std::min<std::size_t>(head.size() / 2, 64);
+  for (const std::size_t low : {0, 1}) {
+    std::size_t ascii = 0;
+    for (std::size_t i = 0; i < pairs; ++i) {
+      const char c = head[2 * i + low];
+      ascii += head[2 * i + 1 - low] == 0 &&
+               ((c >= ' ' && c <= '~') || c == '\n' || kBlank.find(c) != kBlank.npos);
+    }
+    if (pairs >= 4 && ascii > pairs / 2) refuse();
+  }
 }
 
 Delimited::Delimited(std::string path, std::string_view text, std::size_t skip)
-    : path_(std::move(path)), rest_(without_mark(text)) {
+    : path_(std::move(path)), rest_(without_mark(text)), line_end_(line_end_of(text)) {
+  expect_no_utf16(path_, text);
   for (; skip > 0 && !rest_.empty(); --skip) {
     ++line_number_;
-    next_of(rest_);
+    next_of(rest_, line_end_);
   }
   header();
 }
 
+/// End of the text's first line, at a line end that is not in quotes.
+std::size_t Delimited::end_of_record() const {
+  const auto end = rest_.find(line_end_);
+  if (rest_.substr(0, end).find('"') == rest_.npos) return end;
+  bool may_begin = true;
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    const char c = rest_[i];
+    if (c == '"' && may_begin) {
+      const auto quoted = after_quotes(rest_.substr(i));
+      if (quoted == rest_.npos)
+        fail("", "a quote that does not end", "one at the end of its field too, doubled within");
+      i += quoted - 1;
+      may_begin = false;
+    } else if (c == line_end_) {
+      return i;
+    } else if (separator_ ? separates(c, separator_) : kSeparators.find(c) != kSeparators.npos) {
+      may_begin = true;
+    } else if (kBlank.find(c) == kBlank.npos) {
+      may_begin = false;
+    }
+  }
+  return rest_.npos;
+}
+
 bool Delimited::next_line() {
   while (!rest_.empty()) {
-    ++line_number_;
-    line_ = next_of(rest_);
-    if (line_.starts_with('#'))
-      comment_ = trimmed(line_.substr(1));
-    else if (!line_.empty())
-      return true;
+    line_number_ += std::exchange(lines_, 1);
+    const auto first = rest_.find_first_not_of(kBlank);
+    if (first != rest_.npos && rest_[first] == '#') {
+      comment_ = trimmed(next_of(rest_, line_end_).substr(1));
+      continue;
+    }
+    const auto end = std::min(end_of_record(), rest_.size());
+    line_ = rest_.substr(0, end);
+    lines_ += static_cast<std::size_t>(std::ranges::count(line_, line_end_));
+    line_ = trimmed(line_);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    if (!line_.empty()) return true;
   }
   return false;
 }
@@ -147,16 +252,24 @@ bool Delimited::next_line() {
 void Delimited::header() {
   if (!next_line()) fail("", "no line with names or numbers", "a table");
   separator_ = separator_of(line_);
-  split_into(fields_, line_, separator_);
-  if (separator_ == '\t' && !std::ranges::all_of(fields_, is_number)) {
+  split_into(fields_, unescaped_, line_, separator_);
+  const auto are_numbers = [](const auto& fields) {
+    return std::ranges::all_of(fields, is_number);
+  };
+  if (separator_ == '\t' && !are_numbers(fields_)) {
     std::vector<std::string_view> by_blanks;
-    split_into(by_blanks, line_, kAnyBlank);
-    if (std::ranges::all_of(by_blanks, is_number)) separator_ = kAnyBlank, fields_ = by_blanks;
+    std::deque<std::string> unescaped;
+    split_into(by_blanks, unescaped, line_, kAnyBlank);
+    if (are_numbers(by_blanks)) {
+      separator_ = kAnyBlank;
+      split_into(fields_, unescaped_, line_, separator_);
+    }
   }
   const std::size_t columns = fields_.size();
-  pending_ = std::ranges::any_of(fields_, is_number) &&
-             std::ranges::all_of(fields_, [](auto f) { return is_number(f) || is_gap(f); });
-  if (pending_) split_into(fields_, comment_, separator_);
+  pending_ = std::ranges::any_of(fields_, is_number) && std::ranges::all_of(fields_, [](auto f) {
+               return is_number(f) || is_gap(trimmed(f));
+             });
+  if (pending_) split_into(fields_, unescaped_, comment_, separator_);
   if (fields_.size() == columns)
     names_.assign(fields_.begin(), fields_.end());
   else
@@ -166,7 +279,8 @@ void Delimited::header() {
 bool Delimited::next() {
   if (!pending_ && !next_line()) return false;
   pending_ = false;
-  split_into(fields_, line_, separator_);
+  split_into(fields_, unescaped_, line_, separator_);
+  for (auto& field : fields_) field = trimmed(field);
   if (fields_.size() != names_.size()) {
     const bool commas =
         separator_ == ',' && fields_.size() > names_.size() && line_.find('.') == line_.npos;

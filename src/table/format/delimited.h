@@ -1,13 +1,15 @@
 #pragma once
 /// \file
 /// Text with columns, as instruments and spreadsheets write it: fields between `;`, tabs, commas or
-/// blanks, perhaps quoted, a line of names above them.
+/// blanks, a line of names above them.  A field that begins with a quote ends with one; a quote within
+/// is doubled, separators and line ends are as good as any other character there [RFC 4180].
 ///
-/// What can be told for sure is read: a UTF-8 byte-order mark, Windows line ends, numbers with a
-/// decimal comma where the comma separates nothing.  Lines that are blank or begin with '#' are
-/// passed over; where the first of the others holds numbers alone, the names are those of the last
-/// comment above it, if they are as many.
+/// What can be told for sure is read: a UTF-8 byte-order mark, Windows line ends, the line ends of old
+/// Macs where there are no others, numbers with a decimal comma where the comma separates nothing.
+/// Lines that are blank or begin with '#' are passed over; where the first of the others holds numbers
+/// alone, the names are those of the last comment above it, if they are as many.
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,27 +17,37 @@
 
 namespace gonio {
 
-/// A number that takes the whole field, with a point or one decimal comma; also nan and inf.
+/// Number that takes the whole field, with a point or one decimal comma; also nan and inf.
 std::optional<double> number_in(std::string_view field);
 
-/// Where a spreadsheet or an instrument has no value: an empty field, n/a, NA or -.
+/// Mark of a spreadsheet or an instrument that there is no value: an empty field, n/a, NA or -.
 bool is_gap(std::string_view field);
 
 /// Whether the beginning of a file looks like such text: a line with three numbers or more soon.
 bool looks_delimited(std::string_view head);
 /// The fields of the first line that says something: its names, if it has any.
-std::vector<std::string_view> first_fields(std::string_view head);
+std::vector<std::string> first_fields(std::string_view head);
+
+/// A name as one field between commas, in quotes where it needs them.
+std::string comma_field(std::string_view name);
+/// The names of such fields.
+std::vector<std::string> comma_fields(std::string_view);
+
+/// Refuses text in UTF-16, with or without a byte-order mark, by name.  \param file  named in errors
+void expect_no_utf16(const std::string& file, std::string_view head);
 
 /// Line by line.  The text must outlive it.
 class Delimited {
  public:
-  /// Passes over `skip` lines, then reads the names.  \param path  named in errors
+  /// Passes over `skip` lines, then reads the names.  \param path  named in errors.  UTF-16 and a quote
+  /// that does not end are errors.
   Delimited(std::string path, std::string_view text, std::size_t skip = 0);
 
-  /// One a column; all "" where there is no line of names.
+  /// One a column, with the blanks that it has in quotes; all "" where there is no line of names.
   const std::vector<std::string>& names() const { return names_; }
-  /// The fields of the next line; a line that has more or fewer than there are columns is an error.
+  /// Goes to the next line; one that has more or fewer fields than there are columns is an error.
   bool next();
+  /// Of this line, without blanks around them; there until the next one.
   const std::vector<std::string_view>& fields() const { return fields_; }
   /// What is no number, or mixes decimal points and commas, is an error.
   double number(std::size_t column);
@@ -48,14 +60,17 @@ class Delimited {
 
  private:
   bool next_line();
+  std::size_t end_of_record() const;
   void header();
   std::string path_;
   std::string_view rest_, line_, comment_;
   std::size_t line_number_ = 0;
-  char separator_ = ',';
+  std::size_t lines_ = 1;  ///< that the record takes
+  char line_end_, separator_ = 0;
   bool pending_ = false, any_row_ = false, points_ = false, commas_ = false;
   std::vector<std::string> names_;
   std::vector<std::string_view> fields_;
+  std::deque<std::string> unescaped_;  ///< those of fields_ that had quotes within
 };
 
 }  // namespace gonio

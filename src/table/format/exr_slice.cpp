@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <numbers>
+#include <set>
 
 #include "base/error.h"
-#include "base/text.h"
 #include "image/exr.h"
+#include "table/format/delimited.h"
 #include "table/format/metadata.h"
 
 #include <fmt/format.h>
@@ -74,12 +76,16 @@ Table read_exr_slice(const std::string& path) {
   t.format = "exr";
   t.where =
       image_slice_grid(header.width, header.height, angle(path, attribute(kPhi)), Bins::centre);
-  t.channels = split(attribute(kChannels), ',');
+  t.channels = comma_fields(attribute(kChannels));
+  if (t.channels.size() > most_channels)
+    throw bad_input(path, kChannels, fmt::format("{} channels", t.channels.size()),
+                    fmt::format("at most {}", most_channels));
   std::vector<std::string> names;
+  std::set<std::string> known;
   for (const auto& channel : t.channels) {
-    if (std::ranges::find(names, exr_name(channel)) != names.end())
-      throw bad_input(path, kChannels, exr_name(channel) + " twice", "each channel once");
     names.push_back(exr_name(channel));
+    if (!known.insert(names.back()).second)
+      throw bad_input(path, kChannels, names.back() + " twice", "each channel once");
   }
   for (const auto& plane : read_exr(path, kMost, names).planes)
     t.values.push_back(turned<Values>(plane, header.height));
@@ -96,11 +102,13 @@ void write_exr_slice(const Table& t, const std::string& path) {
   image.width = g->axes[0].size;
   image.height = g->axes[1].size;
   for (const auto& channel : t.channels) image.channels.push_back(exr_name(channel));
+  std::vector<std::string> fields;
+  std::ranges::transform(t.channels, std::back_inserter(fields), comma_field);
   for (const auto& plane : t.values)
     image.planes.push_back(turned<std::vector<float>>(plane, image.width));
   image.attributes = {{kLayout, kSlice},
                       {kPhi, fmt::format("{}", g->axes[2].span)},
-                      {kChannels, fmt::format("{}", fmt::join(t.channels, ","))},
+                      {kChannels, fmt::format("{}", fmt::join(fields, ","))},
                       {kTable, metadata_text(t)}};
   write_exr(path, image);
 }

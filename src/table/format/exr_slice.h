@@ -4,8 +4,9 @@
 /// [1/sr].
 ///
 /// Channels r, g, b are named R, G, B, the channel f is Y; others keep their names.  String
-/// attributes, all needed: gonio:layout "image_slice", gonio:phi_d_rad, gonio:channels (names with
-/// commas between) and gonio:table (see table/format/metadata.h).  Other channels are left unread.
+/// attributes, all needed: gonio:layout "image_slice", gonio:phi_d_rad, gonio:channels (names
+/// between commas, quoted as in CSV) and gonio:table (see table/format/metadata.h).  Other channels
+/// are left unread.
 
 #include <string>
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/sha256.h"
+#include "table/format/delimited.h"
 #include "table/format/metadata.h"
 
 #include <tbb/task_group.h>
@@ -27,6 +28,7 @@ Table read_by_format(InputFile& in, const ColumnMap* map) {
   if (!map && is_alta(head)) return read_alta(in);
   if (is_merl(head, in.size())) return read_merl(in);
   if (map || is_csv(head)) return read_csv(in, map);
+  expect_no_utf16(in.path(), head);
   throw bad_input(in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
                   "a MERL, MBSDF, RGL, Klems XML or ALTA file, an image slice in OpenEXR, or CSV");
 }
@@ -41,9 +43,16 @@ void write_by_format(const Table& t, OutputFile& out, const std::string& path) {
 }  // namespace
 
 std::string side_text(const std::string& path) {
-  std::error_code no_such_name;
-  if (!std::filesystem::exists(side_path(path), no_such_name)) return "";
-  return InputFile(side_path(path)).read_rest(std::uint64_t{1} << 24);
+  namespace fs = std::filesystem;
+  const std::string side = side_path(path);
+  std::error_code why;
+  const auto there = fs::symlink_status(side, why);
+  // A name that is too long is nobody's.
+  if (there.type() == fs::file_type::not_found || why == std::errc::filename_too_long) return "";
+  if (fs::is_symlink(there) && !fs::exists(side, why))
+    throw bad_input(side, "opening", "a link to " + fs::read_symlink(side).string(),
+                    "a link to a file that is there, or none");
+  return InputFile(side).read_rest(std::uint64_t{1} << 24);
 }
 
 /// SHA-256 of an open file, made by whichever thread has nothing else to do.

@@ -2,6 +2,7 @@
 #include "image/exr.h"
 #include "table/complaint.h"
 #include "table/example.h"
+#include "table/format/metadata.h"
 
 namespace gonio {
 namespace {
@@ -106,6 +107,17 @@ TEST(ImageSlice, ReadsItsChannelsOnceAndNoOthers) {
   EXPECT_EQ(read_table(with_channels("r")).channels, std::vector<std::string>{"r"});
 }
 
+TEST(ImageSlice, OfMoreChannelsThanATableHoldsIsRefused) {
+  const Folder folder;
+  write_table(slice_example(), folder / "s.exr");
+  Image image = read_exr(folder / "s.exr");
+  std::string names = "0";
+  for (std::size_t i = 1; i <= most_channels; ++i) names += "," + std::to_string(i);
+  image.attributes["gonio:channels"] = names;
+  write_exr(folder / "t.exr", image);
+  EXPECT_COMPLAINT(folder / "t.exr", "gonio:channels: found 4097 channels, expected at most 4096");
+}
+
 TEST(ImageSlice, OfMoreValuesThanATableHoldsIsRefused) {
   const Folder folder;
   write_table(slice_example(), folder / "s.exr");
@@ -135,6 +147,65 @@ TEST(SideFile, IsNamedWhereItIsBroken) {
   write_table(csv_example(), folder / "c");
   folder.write("c.gonio.json", R"({"schema":"gonio.table/1","bins":"edge"})");
   EXPECT_COMPLAINT(folder / "c", "this table has no bins");
+}
+
+TEST(SideFile, TellsOfATruthThatCannotBe) {
+  const Folder folder;
+  write_table(mbsdf_example(2, 3), folder / "m");
+  const auto with = [&](const std::string& name, const std::string& value) {
+    std::string side =
+        R"({"schema":"gonio.table/1","truth":{"model":"lambert","parameters":{"kd":1},)"
+        R"("noise":0.1,"floor":0.2,"outliers":0.3,"seed":4}})";
+    const auto at = side.find("\"" + name + "\":") + name.size() + 3;
+    folder.write("m.gonio.json", side.replace(at, side.find_first_of(",}", at) - at, value));
+    return folder / "m";
+  };
+  EXPECT_EQ(complaint(with("noise", "0")), "");
+  EXPECT_COMPLAINT(with("noise", "-1"), "truth.noise: found -1, expected a number from 0 on");
+  EXPECT_COMPLAINT(with("noise", "null"), "truth.noise: found null");
+  EXPECT_COMPLAINT(with("floor", "-1"), "truth.floor: found -1, expected a number from 0 on");
+  EXPECT_COMPLAINT(with("outliers", "2"), "truth.outliers: found 2, expected a number in [0, 1]");
+  EXPECT_COMPLAINT(with("kd", "null"), "truth.parameters.kd: found null, expected finite numbers");
+}
+
+TEST(SideFile, MayBeALinkButNotToNothing) {
+  const Folder folder;
+  folder.write("t.csv", "theta_i,theta_o,x\n10,20,1\n");
+  std::filesystem::create_symlink("elsewhere", folder / "t.csv.gonio.json");
+  EXPECT_COMPLAINT(folder / "t.csv",
+                   "t.csv.gonio.json: opening: found a link to elsewhere, expected a link to a "
+                   "file that is there");
+  folder.write("elsewhere", R"({"schema":"gonio.table/1","columns":{"f":"x"}})");
+  EXPECT_EQ(complaint(folder / "t.csv"), "");
+  std::filesystem::remove(folder / "elsewhere");
+  std::filesystem::create_symlink("t.csv.gonio.json", folder / "elsewhere");
+  EXPECT_COMPLAINT(folder / "t.csv", "t.csv.gonio.json: opening: found") << "a circle";
+}
+
+/// Were each key looked for among all others, one by one, it would take minutes.
+TEST(SideFile, OfManyKeysTakesLinearTime) {
+  const Folder folder;
+  write_table(mbsdf_example(2, 3), folder / "m");
+  const auto keys = [&](const std::string& value) {
+    std::string text;
+    for (int i = 0; i < 500'000; ++i)
+      text += (i ? ",\"" : "\"") + std::to_string(i) + "\":" + value;
+    return text;
+  };
+  const std::string head = R"({"schema":"gonio.table/1",)";
+  folder.write("m.gonio.json", head + "\"notes\":{" + keys("\"x\"") + "}}");
+  const Table t = read_table(folder / "m");
+  EXPECT_EQ(t.notes.size(), 500'000U);
+  EXPECT_GT(metadata_text(t).size(), 5'000'000U);
+  folder.write("m.gonio.json", head + keys("1") + "}");
+  EXPECT_COMPLAINT(folder / "m", "0: found 1, expected no such key");
+}
+
+TEST(SideFile, KeepsTheLastOfTwoNotesOfOneName) {
+  Table t;
+  t.notes = {{"a", "1"}, {"b", "2"}, {"a", "3"}};
+  EXPECT_NE(metadata_text(t).find("\"notes\": {\n    \"a\": \"3\",\n    \"b\": \"2\"\n  }"),
+            std::string::npos);
 }
 
 TEST(SideFile, MayNotNestWithoutEnd) {

@@ -176,7 +176,7 @@ TEST(ColumnMap, MayNotMakeTwoChannelsOfOneName) {
 }
 
 TEST(ColumnMap, OfManyConstantsMayNotMakeATableOfAnySize) {
-  constexpr std::size_t constants = 8000, rows = most_values / constants + 1;
+  constexpr std::size_t constants = 4000, rows = most_values / constants + 1;
   std::string text = "theta_i,phi_i,theta_o,phi_o,f\n", columns = R"("weight":"1")";
   for (std::size_t i = 0; i < rows; ++i) text += "0,0,10,0,1\n";
   for (std::size_t i = 0; i < constants; ++i) columns += ",\"f_" + std::to_string(i) + "\":\"1\"";
@@ -190,7 +190,15 @@ TEST(ColumnMap, IsNamedWhereItIsBroken) {
            {R"("theta_i":5)", "columns.theta_i: found 5, expected a string"},
            {R"("unit":"grad")", "columns.unit: found \"grad\", expected \"degrees\" or"},
            {R"("forward":"no")", "columns.forward"},
-           {R"("forward":null)", "columns.forward: found null, expected a number"},
+           {R"("forward":null)", "columns.forward: found null, expected a number in [-360, 360]"},
+           {R"("forward":1e300)",
+            "columns.forward: found 1e+300, expected a number in [-360, 360]"},
+           {R"("scale":0)", "columns.scale: found 0, expected a finite number above 0"},
+           {R"("scale":-1)", "columns.scale: found -1, expected a finite number above 0"},
+           {R"("scale":null)", "columns.scale: found null, expected a finite number above 0"},
+           {R"("weight":"-1")", "column weight: found -1"},
+           {R"("weight":"inf")", "column weight: found inf"},
+           {R"("skip":1.5)", "columns.skip: found 1.5, expected a whole number"},
            {R"("cosine":1)", "columns.cosine: found 1, expected true or false"},
            {R"("skip":-1)", "columns.skip"}})
     expect_complaint(std::string(kPlain) + "1,2,3,4,5\n", columns, holding);
@@ -232,6 +240,46 @@ TEST(CsvFile, ReadsEverySeparatorQuotesAndDecimalCommas) {
     EXPECT_EQ(samples(read(text)), expected) << text;
 }
 
+TEST(CsvFile, ReadsTheLineEndsOfOldMacs) {
+  EXPECT_EQ(samples(read("# old\rtheta_i,phi_i,theta_o,phi_o,f\r30,0,20.5,180,0.25\r")),
+            Lines{"30 0 20.5 180: 0.25"});
+}
+
+/// Columns of values f_0, f_1 …, and a row.
+std::string wide(std::size_t channels) {
+  std::string text = "theta_i,theta_o", row = "\n10,20";
+  for (std::size_t i = 0; i < channels; ++i) {
+    text += ",f_" + std::to_string(i);
+    row += ",1";
+  }
+  return text + row + "\n";
+}
+
+TEST(CsvFile, OfMoreChannelsThanATableHoldsIsRefused) {
+  EXPECT_EQ(read(wide(most_channels)).channels.size(), most_channels);
+  expect_complaint(wide(most_channels + 1), "",
+                   "t.csv: line 1: found 4097 channels, expected at most 4096");
+  expect_complaint(wide(most_channels + 1), R"("unit":"degrees")",
+                   "t.csv: line 1: found 4097 channels, expected at most 4096");
+  std::string rows = "nm,theta_i,theta_o,f\n";
+  for (std::size_t i = 0; i <= most_channels; ++i) rows += std::to_string(i) + ",10,20,1\n";
+  expect_complaint(rows, R"("channel":"nm")",
+                   "line 4098, column nm: found one more channel, expected at most 4096");
+  std::string columns = R"("unit":"degrees")";
+  for (std::size_t i = 0; i < 200'000; ++i) columns += ",\"f_" + std::to_string(i) + "\":\"1\"";
+  expect_complaint(kPlain, columns, "columns: found 200000 channels, expected at most 4096");
+}
+
+/// Were each name looked for among all others, one by one, these would take some ten minutes.
+TEST(CsvFile, OfManyColumnsTakesLinearTime) {
+  constexpr std::size_t most = 1'000'000;
+  expect_complaint(wide(most), "", "found 1000000 channels");
+  std::string map = R"("f":"f_7")";
+  for (std::size_t i = 0; i < most_channels - 1; ++i)
+    map += ",\"f_" + std::to_string(i) + "\":\"f_" + std::to_string(most - i - 1) + "\"";
+  EXPECT_EQ(read(wide(most), map).channels.size(), most_channels);
+}
+
 TEST(CsvFile, NamesDecimalCommasThatCannotBeTold) {
   expect_complaint(std::string(kPlain) + "30,0,20,5,180,0,25\n", "",
                    "line 2: found 7 fields, expected 5 (a decimal comma needs ; or a tab");
@@ -246,7 +294,10 @@ TEST(CsvFile, OfUnknownColumnsNamesThemAndTheCommand) {
       << said;
   EXPECT_NE(said.find("gonio columns FILE --map"), said.npos) << said;
   expect_complaint("1,2,3\n4,5,6\n", "", "found columns #1, #2, #3");
-  expect_complaint("\xff\xfet\0h\0e\0", "", "unknown format");
+  expect_complaint("\xff\xfet", "", "byte 0: found text in UTF-16, expected UTF-8");
+  const std::string utf16("t\0h\0e\0t\0a\0_\0i\0,\0", 16);
+  expect_complaint(utf16, "", "byte 0: found text in UTF-16, expected UTF-8");
+  expect_complaint(utf16, R"("f":"f")", "byte 0: found text in UTF-16, expected UTF-8");
 }
 
 TEST(CsvFile, RefusesAnglesThatCannotBe) {

@@ -92,6 +92,34 @@ TEST(CsvFile, ReadsBackBitForBit) {
   EXPECT_EQ(t.list()->phi_o_deg, back.list()->phi_o_deg);
 }
 
+/// Names that a separator, a quote, a line end or a blank stands in.
+const std::vector<std::string> hostile_names{
+    "a,b", "say \"x\"", "\"", "\"q\"", "\",\"", " lead",  "trail ",  "two\nlines", "\n#x", "a\rb",
+    "a;b", "tab\tbed",  "#1", "f",     "f_f",   "weight", "theta_i", "0",          "\r\n", "µ"};
+
+TEST(CsvFile, ReadsBackAnyNameOfAChannel) {
+  const Folder folder;
+  Table t = csv_example();
+  t.channels = hostile_names;
+  t.values.resize(t.channels.size(), t.values[0]);
+  expect_same(t, through_file(t, folder));
+  for (const auto& name : hostile_names) {
+    t.channels = {name};
+    t.values.resize(1);
+    expect_same(t, through_file(t, folder));
+  }
+  t.channels = {""};
+  expect_same(t, through_file(t, folder));
+}
+
+TEST(ImageSlice, ReadsBackAnyNameOfAChannel) {
+  const Folder folder;
+  Table t = slice_example();
+  t.channels = hostile_names;
+  t.values.resize(t.channels.size(), t.values[0]);
+  expect_same(t, through_file(t, folder));
+}
+
 TEST(CsvFile, TakesAGridAsItsDirections) {
   const Folder folder;
   Table t = mbsdf_example(4, 5);

@@ -1,0 +1,104 @@
+// Text with columns: records, fields, quotes, line ends, encodings.
+#include "table/format/delimited.h"
+
+#include "base/error.h"
+#include "support.h"
+
+namespace gonio {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+struct Parsed {
+  Lines names;
+  std::vector<Lines> rows;
+};
+Parsed parsed(const std::string& text) {
+  Delimited d("file", text);
+  Parsed p{d.names(), {}};
+  while (d.next()) p.rows.emplace_back(d.fields().begin(), d.fields().end());
+  return p;
+}
+std::string complaint(const std::string& text) {
+  try {
+    parsed(text);
+    return "";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), Exit::bad_input);
+    return e.what();
+  }
+}
+
+TEST(Delimited, TakesAnyCharacterWithinQuotes) {
+  const auto p = parsed(
+      "a,\"b,c\",\"d \"\"e\"\"\",\" f;\t \",\"\",\"g\n#h\r\n\"\n"
+      "1,\"2\",\" 3 \",\"\"\"x\"\"\",\"\",\"6\n7\"\r\n"
+      "1,2,3,4,5,6\n");
+  EXPECT_EQ(p.names, (Lines{"a", "b,c", "d \"e\"", " f;\t ", "", "g\n#h\r\n"}));
+  ASSERT_EQ(p.rows.size(), 2U);
+  EXPECT_EQ(p.rows[0], (Lines{"1", "2", "3", "\"x\"", "", "6\n7"}));
+}
+
+TEST(Delimited, TakesAQuoteForItselfWhereNoFieldBegins) {
+  const auto p = parsed("a;5\";b \"c;d\ne;\"f\" g;h;\"i\"\n");
+  EXPECT_EQ(p.names, (Lines{"a", "5\"", "b \"c", "d"}));
+  EXPECT_EQ(p.rows[0], (Lines{"e", "\"f\" g", "h", "i"}));
+}
+
+TEST(Delimited, CountsTheLinesWithinQuotes) {
+  EXPECT_EQ(complaint("a,\"b\n\n\"\n\n1,2\n1.0,2,3\n"), "file: line 6: found 3 fields, expected 2");
+}
+
+TEST(Delimited, NamesTheLineOfAQuoteThatDoesNotEnd) {
+  const std::string found = "found a quote that does not end";
+  EXPECT_NE(complaint("a,b\n1,\"2\n3,4\n").find("file: line 2: " + found), std::string::npos);
+  EXPECT_NE(complaint("\n\"a,b\n1,2\n").find("file: line 2: " + found), std::string::npos);
+}
+
+/// Were every quote looked for again from each field on, it would take minutes.
+TEST(Delimited, OfManyQuotesTakesLinearTime) {
+  std::string text = "a";
+  for (int i = 0; i < 500'000; ++i) text += ",\"b\"";
+  EXPECT_EQ(parsed(text).names.size(), 500'001U);
+  EXPECT_NE(complaint(text + "\n\"" + std::string(2'000'000, ',')), "");
+  EXPECT_NE(complaint(text + "\n" + text.substr(0, text.size() - 1)), "");
+}
+
+TEST(Delimited, TakesTheLineEndsOfOldMacs) {
+  const auto p = parsed("# x\ra,b\r\r1,2\r3,4");
+  EXPECT_EQ(p.names, (Lines{"a", "b"}));
+  EXPECT_EQ(p.rows, (std::vector<Lines>{{"1", "2"}, {"3", "4"}}));
+  EXPECT_EQ(complaint("a,b\r1,2\r3\r"), "file: line 3: found 1 fields, expected 2");
+  EXPECT_TRUE(looks_delimited("a,b,c\r1,2,3\r"));
+  EXPECT_EQ(first_fields("# x\ra,b\r1,2"), (Lines{"a", "b"}));
+}
+
+std::string utf16(const std::string& text, bool big) {
+  std::string out;
+  for (const char c : text) out += big ? std::string{'\0', c} : std::string{c, '\0'};
+  return out;
+}
+
+TEST(Delimited, RefusesUtf16ByName) {
+  const std::string text = "theta_i,theta_o,f\n10,20,0.5\n",
+                    said = "file: byte 0: found text in UTF-16, expected UTF-8";
+  EXPECT_EQ(complaint("\xff\xfe" + utf16(text, false)), said);
+  EXPECT_EQ(complaint("\xfe\xff" + utf16(text, true)), said);
+  EXPECT_EQ(complaint(utf16(text, false)), said);
+  EXPECT_EQ(complaint(utf16(text, true)), said);
+  EXPECT_EQ(complaint(text), "");
+}
+
+TEST(CommaField, IsQuotedWhereItMustBeAndReadsBack) {
+  for (const char* plain : {"r", "532nm", "a b", "#1", "f_ä", "5'"})
+    EXPECT_EQ(comma_field(plain), plain);
+  EXPECT_EQ(comma_field("a\"b"), "\"a\"\"b\"");
+  const Lines names{"a,b", "\"", "\"\"", "\",\"", " a", "a ", "a\nb",    "a\r\nb",
+                    "\t",  ";,", "",     "r",     "\r", "=1", "\"a\"b\""};
+  std::string line;
+  for (const auto& name : names) line += (line.empty() ? "" : ",") + comma_field(name);
+  EXPECT_EQ(comma_fields(line), names);
+}
+
+}  // namespace
+}  // namespace gonio
