@@ -2,14 +2,23 @@
 
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
 
 #include "base/error.h"
+#include "base/numbers.h"
+#include "base/text.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -18,7 +27,7 @@
 namespace gonio {
 namespace {
 
-/// What a path leads to; that need not be there yet.  \param path  not a circle of links
+/// Path behind the links that a path leads through; nothing need be there yet.  \param path  not a circle of links
 std::filesystem::path behind_links(std::filesystem::path path) {
   std::error_code none_there;
   while (std::filesystem::is_symlink(path, none_there))
@@ -99,7 +108,7 @@ std::string InputFile::read_rest(std::uint64_t most) {
 
 namespace {
 
-/// The names of the files being made, for the signal handler, which may only read and unlink.
+/// Names of the files being made, for the signal handler, which may only read and unlink.
 std::array<std::atomic<const char*>, 4096> unfinished;
 std::atomic<bool> ending = false;  ///< a signal came: no file is begun any more
 
@@ -133,32 +142,174 @@ void remove_unfinished_files_on_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, remove_unfinished);
 }
 
+namespace {
+
+/// Process that a temporary file belongs to, told apart from any other that ever had its number.
+struct Maker {
+  std::string
+      home;  ///< boot and namespace of process numbers; "" where the system does not tell them
+  std::string start;  ///< of the process, in the system's ticks
+};
+
+/// Text of one of the system's small files; "" if it cannot be read.
+std::string system_text(const std::string& path) {
+  std::string text(4096, '\0');
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const auto n = descriptor < 0 ? -1 : ::read(descriptor, text.data(), text.size());
+  if (descriptor >= 0) ::close(descriptor);
+  text.resize(n < 0 ? 0 : static_cast<std::size_t>(n));
+  return text;
+}
+
+/// Time at which a process was started; "" if it cannot be told.
+std::string start_of(const std::string& process) {
+  const std::string stat = system_text("/proc/" + process + "/stat");
+  const auto name_ends = stat.rfind(')');  // a name may hold blanks and ')'
+  if (name_ends == stat.npos) return "";
+  const auto fields = split(std::string_view(stat).substr(name_ends + 1), ' ');
+  constexpr std::size_t start = 20;  // the 22nd of all
+  return fields.size() > start ? fields[start] : "";
+}
+
+Maker this_process() {
+  std::string boot = system_text("/proc/sys/kernel/random/boot_id");
+  std::erase_if(boot, [](char c) { return !std::isxdigit(static_cast<unsigned char>(c)); });
+  struct stat numbers {};
+  const auto start = start_of("self");
+  if (boot.empty() || start.empty() || ::stat("/proc/self/ns/pid", &numbers) != 0) return {};
+  return {fmt::format("{}-{}", boot, numbers.st_ino), start};
+}
+
+const Maker& maker() {
+  static const Maker me = this_process();
+  return me;
+}
+
+constexpr std::string_view kPrefix = ".gonio.", kSuffix = ".tmp";
+
+/// Name of a temporary file: of its maker, not of what it is to become, whose own may be as long as names can be.
+std::string temporary_name(unsigned counter) {
+  const Maker& me = maker();
+  return fmt::format("{}{}.{}.{}.{}{}", kPrefix, me.home.empty() ? "-" : me.home, ::getpid(),
+                     me.start.empty() ? "-" : me.start, counter, kSuffix);
+}
+
+/// Whether a file is a temporary one of a process of this boot that has ended.  Those of other machines that share
+/// the folder, and of other namespaces, whose processes cannot be seen from here, are left alone.
+bool is_left_over(std::string_view name) {
+  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return false;
+  const auto parts =
+      split(name.substr(kPrefix.size(), name.size() - kPrefix.size() - kSuffix.size()), '.');
+  if (parts.size() != 4 || maker().home.empty() || parts[0] != maker().home) return false;
+  const auto process = number_from<pid_t>(parts[1]);
+  if (!process || *process <= 0) return false;
+  if (::kill(*process, 0) != 0 && errno == ESRCH) return true;
+  const auto start = start_of(parts[1]);
+  return !start.empty() && start != parts[2];
+}
+
+/// Removes what killed runs left in a folder; looks into each folder once.
+void remove_left_over(const std::filesystem::path& folder) {
+  static std::mutex one_at_a_time;
+  static std::set<std::filesystem::path> seen;
+  {
+    const std::lock_guard lock(one_at_a_time);
+    if (!seen.insert(folder).second) return;
+  }
+  DIR* const open = ::opendir(folder.c_str());
+  if (!open) return;
+  while (const auto* entry = ::readdir(open))
+    if (is_left_over(entry->d_name)) ::unlinkat(::dirfd(open), entry->d_name, 0);
+  ::closedir(open);
+}
+
+std::filesystem::path folder_of(const std::string& file) {
+  const auto folder = std::filesystem::path(file).parent_path();
+  return folder.empty() ? "." : folder;
+}
+
+/// Gives a file the owner and the rights of the one that it is to replace.  Where the group cannot be kept, the
+/// new one may do what all others may.
+void make_like(const struct stat& old, int file) {
+  mode_t mode = old.st_mode & 0777;
+  if (::fchown(file, old.st_uid, old.st_gid) != 0 &&
+      ::fchown(file, static_cast<uid_t>(-1), old.st_gid) != 0)
+    mode = (mode & 0707) | (mode & 0007) << 3;
+  static_cast<void>(::fchmod(file, mode));  // not every file system has rights
+}
+
+/// Folders in which files took their names: each is on the disk at once, but once a second where they are many, and
+/// the rest at the end of the program.
+class RenamedIn {
+ public:
+  ~RenamedIn() {
+    for (const auto& [folder, state] : folders_)
+      if (state.waits) sync(folder);
+  }
+  void operator()(const std::filesystem::path& folder) {
+    const auto now = std::chrono::steady_clock::now();
+    {
+      const std::lock_guard lock(one_at_a_time_);
+      State& state = folders_[folder];
+      state.waits = state.synced && now < *state.synced + std::chrono::seconds(1);
+      if (state.waits) return;
+      state.synced = now;
+    }
+    sync(folder);
+  }
+
+ private:
+  struct State {
+    std::optional<std::chrono::steady_clock::time_point> synced;
+    bool waits = false;
+  };
+  /// Not every file system can say so: no failure of the file.
+  static void sync(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    static_cast<void>(::fsync(descriptor));
+    ::close(descriptor);
+  }
+  std::mutex one_at_a_time_;
+  std::map<std::filesystem::path, State> folders_;
+};
+
+void sync_folder(const std::filesystem::path& folder) {
+  static RenamedIn renamed_in;
+  renamed_in(folder);
+}
+
+}  // namespace
+
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
-  struct stat s {};
-  if (::stat(path_.c_str(), &s) == 0) {
-    if (S_ISDIR(s.st_mode)) throw bad_input(path_, "writing", "a directory", "the name of a file");
-    if (!S_ISREG(s.st_mode))
+  struct stat old {};
+  const bool replaces = ::stat(path_.c_str(), &old) == 0;
+  if (replaces) {
+    if (S_ISDIR(old.st_mode))
+      throw bad_input(path_, "writing", "a directory", "the name of a file");
+    if (!S_ISREG(old.st_mode))
       throw bad_input(path_, "writing", "a device or pipe", "the name of a file");
   } else if (errno != ENOENT) {
     fail("writing");
   }
-  const auto target = behind_links(path_);
-  target_ = target.string();
+  target_ = behind_links(path_).string();
+  const auto folder = folder_of(target_);
+  remove_left_over(folder);
   static std::atomic<unsigned> counter = 0;
   int descriptor = -1;
   do {
     leave(temporary_.c_str());
-    temporary_ = (target.parent_path() /
-                  fmt::format(".{}.{}.{}.tmp", target.filename().string(), ::getpid(), counter++))
-                     .string();
+    temporary_ = (folder / temporary_name(counter++)).string();
     enter(temporary_.c_str());  // before it is there: a signal may come in between
     while (ending) ::pause();
-    descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    descriptor =
+        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, replaces ? 0600 : 0666);
   } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0) {
     leave(temporary_.c_str());
     fail("writing");
   }
+  if (replaces) make_like(old, descriptor);
   file_ = ::fdopen(descriptor, "wb");
   if (!file_) {
     ::close(descriptor);
@@ -184,15 +335,22 @@ void OutputFile::write(std::string_view bytes) {
 
 void OutputFile::close() {
   if (!file_) return;
+  // On the disk before it takes its name: after a loss of power there is the old file or the new
+  // one.
+  const bool synced =
+      std::fflush(file_) == 0 && (::fdatasync(::fileno(file_)) == 0 || errno == EINVAL);
+  const int why = errno;
   const bool closed = std::fclose(file_) == 0;
   file_ = nullptr;
-  if (!closed) fail("writing");
+  if (!synced) errno = why;
+  if (!synced || !closed) fail("writing");
 }
 
 void OutputFile::commit() {
   close();
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail("renaming");
   committed_ = true;
+  sync_folder(folder_of(target_));
 }
 
 void commit_all(std::span<OutputFile* const> files) {

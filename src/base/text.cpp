@@ -7,7 +7,14 @@
 namespace gonio {
 namespace {
 
-/// Bytes of the character that s begins with; 0 for a control character or what is not UTF-8.
+/// Whether a character turns the direction of the text after it, or ends its line: what follows would be read as
+/// what it is not.
+constexpr bool misleads(char32_t c) {
+  return c == 0x61c || c == 0x200e || c == 0x200f || (c >= 0x2028 && c <= 0x202e) ||
+         (c >= 0x2066 && c <= 0x2069) || c == 0xfeff;
+}
+
+/// Bytes of the character that s begins with; 0 for a control character, one that misleads or what is not UTF-8.
 std::size_t length_if_printable(std::string_view s) {
   const auto byte = [&](std::size_t i) -> unsigned {
     return i < s.size() ? static_cast<unsigned char>(s[i]) : 0;
@@ -20,9 +27,12 @@ std::size_t length_if_printable(std::string_view s) {
   const unsigned high = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
   if (byte(1) < low || byte(1) > high) return 0;
   const std::size_t length = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-  for (std::size_t i = 2; i < length; ++i)
+  char32_t c = lead & (0x7f >> length);
+  for (std::size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xc0) != 0x80) return 0;
-  return length;
+    c = c << 6 | (byte(i) & 0x3f);
+  }
+  return misleads(c) ? 0 : length;
 }
 
 }  // namespace

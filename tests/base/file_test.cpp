@@ -1,13 +1,41 @@
 #include "base/file.h"
 
+#include <algorithm>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "support.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace {
+std::string order;  ///< of what was synced and renamed: (d)ata, (r)enamed, (f)older
+}
+
+// In place of the library's, as the room calls them: to see their order.
+extern "C" int fdatasync(int file) {
+  order += 'd';
+  return static_cast<int>(::syscall(SYS_fdatasync, file));
+}
+extern "C" int fsync(int file) {
+  struct stat s {};
+  order += ::fstat(file, &s) == 0 && S_ISDIR(s.st_mode) ? 'f' : 'd';
+  return static_cast<int>(::syscall(SYS_fsync, file));
+}
+extern "C" int rename(const char* from, const char* to) noexcept {
+  order += 'r';
+  return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
+}
 
 namespace gonio {
 namespace {
@@ -159,6 +187,109 @@ TEST(OutputFile, IsReadableByWhomTheUserLets) {
   EXPECT_EQ(std::filesystem::status(folder / "f").permissions(), std::filesystem::perms{0644});
 }
 
+TEST(OutputFile, KeepsTheRightsOfTheFileThatItReplaces) {
+  const Folder folder;
+  const auto rights = [&](const char* name) {
+    return std::filesystem::status(folder / name).permissions();
+  };
+  for (const int mode : {0600, 0640, 0444, 0666}) {
+    folder.write("f", "old");
+    ASSERT_EQ(::chmod((folder / "f").c_str(), static_cast<mode_t>(mode)), 0);
+    write_file(folder / "f", "new");
+    EXPECT_EQ(rights("f"), std::filesystem::perms(mode));
+    EXPECT_EQ(test::read_bytes(folder / "f"), "new");
+    std::filesystem::remove(folder / "f");
+  }
+}
+
+TEST(OutputFile, KeepsTheOwnerOfTheFileThatItReplacesWhereItMay) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root may give files away";
+  const Folder folder;
+  folder.write("f", "old");
+  ASSERT_EQ(::chown((folder / "f").c_str(), 12, 34), 0);
+  write_file(folder / "f", "new");
+  struct stat s {};
+  ASSERT_EQ(::stat((folder / "f").c_str(), &s), 0);
+  EXPECT_EQ(s.st_uid, 12U);
+  EXPECT_EQ(s.st_gid, 34U);
+}
+
+TEST(OutputFile, IsOnTheDiskBeforeItTakesItsNameAndItsFolderAfter) {
+  const Folder folder;
+  order.clear();
+  write_file(folder / "f", "x");
+  EXPECT_EQ(order, "drf");
+  for (int k = 0; k < 20; ++k) write_file(folder / "f", "x");
+  EXPECT_LT(std::ranges::count(order, 'f'), 10) << "not once for each of many";
+  EXPECT_EQ(std::ranges::count(order, 'd'), 21);
+}
+
+TEST(OutputFile, MayHaveTheLongestNameThereIs) {
+  const Folder folder;
+  const std::string name(255, 'n');
+  write_file(folder / name, "x");
+  EXPECT_EQ(test::read_bytes(folder / name), "x");
+  EXPECT_NE(complaint([&] { OutputFile(folder / (name + "n")); }).find("too long"),
+            std::string::npos);
+}
+
+/// A file begun by a process that was then killed.
+std::string left_by_a_kill(const Folder& folder) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    // What the process is called and when it began is asked once: by a new program, not by a copy
+    // of this one.
+    ::execl("/proc/self/exe", "file_test", "--gtest_also_run_disabled_tests",
+            "--gtest_filter=OutputFile.DISABLED_IsBegunAndKilled", nullptr);
+    ::_exit(1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  for (const auto& e : std::filesystem::directory_iterator(folder / ""))
+    if (e.path().filename().string().starts_with(".gonio.")) return e.path().filename().string();
+  ADD_FAILURE() << "nothing left";
+  return "";
+}
+
+/// What left_by_a_kill runs.
+TEST(OutputFile, DISABLED_IsBegunAndKilled) {
+  const char* const folder = std::getenv("GONIO_TEST_FOLDER");
+  if (!folder) GTEST_SKIP() << "run by another test";
+  OutputFile out(std::string(folder) + "/f");
+  out.write("half");
+  ::raise(SIGKILL);
+}
+
+TEST(OutputFile, TakesAwayWhatKilledProcessesLeftAndNothingElse) {
+  const Folder folder, other;
+  ASSERT_EQ(::setenv("GONIO_TEST_FOLDER", (folder / "").c_str(), 1), 0);
+  const std::string left = left_by_a_kill(folder);
+  const auto with = [&](std::size_t part, const std::string& text) {
+    std::vector<std::string> parts = split(left, '.');
+    parts[part] = text;
+    std::string name;
+    for (const auto& p : parts) name += (name.empty() ? "" : ".") + p;
+    return name.starts_with('.') ? name : "." + name;
+  };
+  // "", gonio, home, process, start, counter, tmp
+  const std::vector<std::string> kept{
+      with(2, "0123-4"), with(5, "1.0"), with(6, "json"), with(3, "0"),
+      with(3, "x"),      ".gonio.tmp",   "f.tmp"};
+  const std::string reused = with(3, std::to_string(::getpid()));
+  for (const auto& name : kept) folder.write(name, "x");
+  folder.write(reused, "of an earlier process of this number");
+  OutputFile living(folder / "g");
+  EXPECT_FALSE(std::filesystem::exists(folder / left));
+  EXPECT_FALSE(std::filesystem::exists(folder / reused));
+  for (const auto& name : kept) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  EXPECT_TRUE(std::filesystem::exists(living.temporary_path()));
+  // Each folder is looked through once in a run.
+  folder.write(reused, "x");
+  write_file(folder / "f", "x");
+  EXPECT_TRUE(std::filesystem::exists(folder / reused));
+}
+
 TEST(BadInput, MakesControlCharactersVisibleAndCutsLongOnes) {
   const std::string found = "a\n\x01" + std::string(200, 'x');
   const Error error = bad_input("f", "byte 1", found, "y");
@@ -174,6 +305,22 @@ TEST(BadInput, IsOneHarmlessLineWhateverStandsInItsParts) {
   EXPECT_TRUE(line.starts_with("a\\x0a\\x1b[31m\\xff" + std::string(1000, 'x') + ": a\\x0a"))
       << "the file's name is whole";
   EXPECT_LT(line.size(), 1600U);
+}
+
+TEST(BadInput, IsNoLongerForANameThatNobodyCanRead) {
+  EXPECT_LT(std::string(bad_input(std::string(100'000, 'f'), "a", "b", "c").what()).size(), 1100U);
+}
+
+TEST(WrongUsage, IsOneHarmlessLineThatIsShort) {
+  const std::string long_word(24'000, 'x'), evil = "a\n\x1b[31m\xe2\x80\xae";
+  const std::string line = wrong_usage("no '" + long_word + "' of " + evil).what();
+  EXPECT_LT(line.size(), 300U);
+  EXPECT_TRUE(line.starts_with("no 'xxx")) << line;
+  EXPECT_TRUE(line.ends_with("… of a\\x0a\\x1b[31m\\xe2\\x80\\xae")) << line;
+  std::string words;
+  for (int k = 0; k < 10'000; ++k) words += "word ";
+  EXPECT_LT(std::string(wrong_usage(words).what()).size(), 1010U);
+  EXPECT_STREQ(wrong_usage("two  blanks, ω").what(), "two  blanks, ω");
 }
 
 }  // namespace

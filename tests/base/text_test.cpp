@@ -23,6 +23,16 @@ TEST(Printable, KeepsUtf8AndShowsAnyOtherByte) {
   EXPECT_EQ(printable(std::string_view("\0", 1)), "\\x00");
 }
 
+TEST(Printable, ShowsWhatTurnsTextAroundOrEndsItsLine) {
+  EXPECT_EQ(printable("\u202egpj.exe"), "\\xe2\\x80\\xaegpj.exe");
+  for (const char* c : {"\u061c", "\u200e", "\u200f", "\u2028", "\u2029", "\u202a", "\u202d",
+                        "\u2066", "\u2069", "\ufeff"})
+    EXPECT_TRUE(printable(c).starts_with('\\')) << printable(c);
+  for (const char* c :
+       {"\u061b", "\u200d", "\u2010", "\u2027", "\u202f", "\u2065", "\u206a", "\ufefe"})
+    EXPECT_EQ(printable(c), c);
+}
+
 TEST(Printable, CutsBetweenCharacters) {
   EXPECT_EQ(printable("abcd", 4), "abcd");
   EXPECT_EQ(printable("abcde", 4), "abcd…");
