@@ -24,7 +24,7 @@ struct Worst {
   std::string where;
 };
 
-/// How far an entry is from the form it is named for or stands for.
+/// Distance of an entry to the form it is named for or stands for.
 struct Distance {
   std::string_view reference;
   std::string_view measure;  ///< what is compared: "G2", "F", "D / D at its peak" …
@@ -48,7 +48,7 @@ struct EntryAudit {
   /// A distribution looked at with a masking that is not its own: what light the two make together
   /// is no law of it.
   bool energy_is_shared = false;
-  /// The same of a diffuse term under a GGX lobe with Schlick's F and f0 = 0.04.
+  /// Largest directional albedo of a diffuse term under a GGX lobe with Schlick's F and f0 = 0.04.
   std::optional<Worst> energy_under_lobe;
   std::optional<Worst> lowest, highest;  ///< of the factor itself
   std::optional<Worst> grazing;          ///< the value at 90°, at default parameters
@@ -70,6 +70,8 @@ std::vector<EntryAudit> audit(const std::vector<std::string>& ids,
 
 /// {"entries": […]}: every figure; what does not apply is null.
 std::string to_json(const std::vector<EntryAudit>&);
+/// JSON Schema of that document.
+std::string audit_schema();
 /// \param data  of to_json() above
 std::string audit_page_html(std::string_view data);
 

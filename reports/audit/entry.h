@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How one entry is audited, by its kind, and what the kinds share.
+/// Audits of one entry, by its kind, and what the kinds share.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ EntryAudit audit_model(const Preset&);
 /// The table as renderers make it, of 1024 samples, against the integrals; and their sum at F0 = 1.
 EntryAudit audit_split_sum();
 
-/// How far a term is from one that it stands for, over that one's parameters and the directions that
+/// Distance of a term to one that it stands for, over that one's parameters and the directions that
 /// terms of this role are looked at in; no value where nothing can be compared.
 /// \param number  that the term is computed in; the reference is in double, or in fifty digits where it
 ///                is the term itself, at every 16th direction then

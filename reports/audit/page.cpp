@@ -1,67 +1,110 @@
 // The audit as JSON and as a page.
 #include "reports/page/page.h"
 
+#include <utility>
+
 #include "reports/audit/audit.h"
 #include "reports/page/assets.h"
-#include "reports/picture/json_numbers.h"
+#include "reports/picture/document.h"
 
 namespace gonio {
 namespace {
 
-PageJson json(const std::optional<Worst>& w) {
-  if (!w) return nullptr;
-  return {{"value", page_json(w->value)}, {"error", page_json(w->error)}, {"where", w->where}};
-}
+struct AuditDocument {
+  const std::vector<EntryAudit>* entries;
+};
 
-PageJson json(const EntryAudit& e) {
-  PageJson distance = nullptr, operations = nullptr;
-  if (e.distance)
-    distance = {{"reference", e.distance->reference},
-                {"measure", e.distance->measure},
-                {"max", page_json(e.distance->most.value)},
-                {"where", e.distance->most.where},
-                {"rms", page_json(e.distance->rms)}};
-  if (e.operations) {
-    operations = PageJson::object();
-    for (std::size_t k = 0; k < operation_names.size(); ++k)
-      operations[operation_names[k]] = e.operations->by_kind[k];
-  }
-  return {{"id", e.about->id},
-          {"kind", e.kind},
-          {"title", e.about->title},
-          {"formula", e.about->formula},
-          {"source", e.about->source},
-          {"seed", e.about->seed},
-          {"ships", e.about->ships},
-          {"mistake", e.mistake},
-          {"violates", e.violates},
-          {"normalisation", json(e.normalisation)},
-          {"reciprocity", json(e.reciprocity)},
-          {"energy", json(e.energy)},
-          {"energy_of", e.energy_of},
-          {"energy_under_lobe", json(e.energy_under_lobe)},
-          {"lowest", json(e.lowest)},
-          {"highest", json(e.highest)},
-          {"grazing", json(e.grazing)},
-          {"not_finite", e.not_finite},
-          {"distance", distance},
-          {"operations", operations},
-          {"picture",
-           {{"x", e.picture.x},
-            {"y", e.picture.y},
-            {"at", page_json(e.picture.at)},
-            {"value", page_json(e.picture.value)},
-            {"reference", page_json(e.picture.reference)}}}};
+/// Operations by the names of their kinds.
+using NamedOperations = std::vector<std::pair<std::string_view, std::size_t>>;
+std::optional<NamedOperations> operations_of_entry(const EntryAudit& e) {
+  if (!e.operations) return {};
+  NamedOperations out;
+  for (std::size_t k = 0; k < operation_names.size(); ++k)
+    out.emplace_back(operation_names[k], e.operations->by_kind[k]);
+  return out;
 }
 
 }  // namespace
 
-std::string to_json(const std::vector<EntryAudit>& entries) {
-  PageJson list = PageJson::array();
-  for (const auto& e : entries) list.push_back(json(e));
-  return page_text({{"entries", list}});
-}
+template <>
+struct Description<Worst> {
+  static constexpr auto fields() {
+    return std::tuple{field("value", "", &Worst::value, ""),
+                      field("error", "", &Worst::error, "bound of the value's own; 0: of rounding"),
+                      field("where", "", &Worst::where, "")};
+  }
+};
+static_assert(describes_every_member<Worst>());
 
+template <>
+struct Description<Distance> {
+  static constexpr auto fields() {
+    using D = Distance;
+    return std::tuple{field("reference", "", &D::reference, "id"),
+                      field("measure", "", &D::measure, "what is compared"),
+                      field("max", "", at(&D::most, &Worst::value), ""),
+                      field("where", "", at(&D::most, &Worst::where), ""),
+                      field("rms", "", &D::rms, "")};
+  }
+};
+
+template <>
+struct Description<EntryPicture> {
+  static constexpr auto fields() {
+    using P = EntryPicture;
+    return std::tuple{field("x", "", &P::x, "label"), field("y", "", &P::y, "label"),
+                      field("at", "", &P::at, ""), field("value", "", &P::value, ""),
+                      field("reference", "", &P::reference, "empty: there is none")};
+  }
+};
+static_assert(describes_every_member<EntryPicture>());
+
+template <>
+struct Description<EntryAudit> {
+  static constexpr auto fields() {
+    using E = EntryAudit;
+    constexpr auto about = [](auto member) {
+      return [member](const E& e) { return std::string_view(e.about->*member); };
+    };
+    return std::tuple{
+        field("id", "", about(&About::id), ""),
+        field("kind", "", &E::kind, "ndf, masking, fresnel, diffuse, map, model"),
+        field("title", "", about(&About::title), ""),
+        field("formula", "", about(&About::formula), ""),
+        field("source", "", about(&About::source), ""),
+        field("seed", "", about(&About::seed), ""),
+        field("ships", "", about(&About::ships), "where"),
+        field("mistake", "", &E::mistake, "it differs from the form that it is named for"),
+        field("violates", "", &E::violates, "normalisation, reciprocity, energy, range, finite"),
+        field("normalisation", "", &E::normalisation, "∫ D cos θ dω, the one furthest from 1"),
+        field("reciprocity", "", &E::reciprocity, "most |f(l,v) − f(v,l)| over the larger of them"),
+        field("energy", "", &E::energy, "largest directional albedo at F = 1, or white"),
+        field("energy_of", "", &E::energy_of, "model that it was measured in"),
+        field("energy_under_lobe", "", &E::energy_under_lobe, "of a diffuse term under a GGX lobe"),
+        field("lowest", "", &E::lowest, "value of the factor"),
+        field("highest", "", &E::highest, "value of the factor"),
+        field("grazing", "", &E::grazing, "value at 90°, at default parameters"),
+        field("not_finite", "", &E::not_finite, "legal inputs without a value"),
+        field("distance", "", &E::distance, "to the form it is named for or stands for"),
+        field("operations", "", operations_of_entry, "of one evaluation"),
+        field("picture", "", &E::picture, "curve that shows what it looks like")};
+  }
+};
+
+template <>
+struct Description<AuditDocument> {
+  static constexpr auto fields() {
+    return std::tuple{field(
+        "entries", "", [](const AuditDocument& d) -> const auto& { return *d.entries; }, "")};
+  }
+};
+
+std::string to_json(const std::vector<EntryAudit>& entries) {
+  return page_document(AuditDocument{&entries});
+}
+std::string audit_schema() {
+  return schema_text<AuditDocument>("gonio audit --json");
+}
 std::string audit_page_html(std::string_view data) {
   return make_page("The catalogue, audited", data, assets::audit_js);
 }

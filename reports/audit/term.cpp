@@ -61,7 +61,7 @@ class TermAudit {
   }
 
  private:
-  /// Of a masking term G2, of others the value.
+  /// Values; of a masking term G2.
   static Values values(std::size_t term,
                        const Values& p,
                        std::span<const Row> rows,
@@ -151,7 +151,8 @@ class TermAudit {
     }
   }
 
-  /// The parameters with which this term stands for the reference with those.
+  /// Parameters with which this term stands for the reference at parameters q: those that both have are the same; an f0 is what the
+  /// reference reflects at normal incidence.
   Values standing_for(std::size_t reference, const Values& q) const {
     const auto& of = catalogue()[reference].parameters;
     const auto at = [&](double c) {

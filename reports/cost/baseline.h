@@ -11,7 +11,7 @@
 
 namespace gonio {
 
-/// What a time is of: the same on every machine.
+/// Name of what is timed: the same on every machine.
 struct CostName {
   std::string id, number, isa, memory, way;
   auto operator<=>(const CostName&) const = default;
@@ -36,7 +36,7 @@ struct CostChange {
   double ratio = 0, spread = 0;       ///< of now over before, where both are there
   bool differs = false;  ///< by more than three times both spreads, which chance alone seldom does
 };
-/// In the order of the rows; what is not among them comes last.
+/// Changes in the order of the rows; what is not among them comes last.
 /// \param filter  entries whose ids do not hold it are left out
 std::vector<CostChange> changes(const EarlierCosts&,
                                 const std::vector<CostRow>&,
@@ -47,5 +47,7 @@ std::string costs_json(const Machine&,
                        const CostOptions&,
                        const std::vector<CostRow>&,
                        const std::vector<CostChange>& = {});
+/// JSON Schema of that document.
+std::string bench_schema();
 
 }  // namespace gonio

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What accuracy costs: the time of every term and of whole models, in every number and instruction
+/// Cost of accuracy: the time of every term and of whole models, in every number and instruction
 /// set, beside the operations of their formulas and their distance to the truth.
 
 #include <cstddef>
@@ -129,8 +129,12 @@ Pictures pictures(const CostRows&);
 using CostReport = Report<CostRows>;
 CostReport cost_report(const CostOptions&, const ReportProgress& done = {});
 
-/// {"rows": […], …}: flat objects; what is not known is null.
+/// Document {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const CostReport&);
+/// Its rows as CSV.
+std::string rows_csv(const CostReport&);
+/// JSON Schema of the document.
+std::string cost_schema();
 /// \param data  of to_json() above
 std::string cost_page_html(std::string_view data);
 

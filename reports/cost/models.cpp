@@ -1,4 +1,6 @@
 // The whole models that are measured: what they compute, and how far from the truth that is.
+#include "reports/cost/models.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +18,6 @@
 #include "integrate/albedo/directional_albedo.h"
 #include "optics/spectrum.h"
 #include "reports/audit/entry.h"
-#include "reports/cost/models.h"
 #include "reports/measure/samples.h"
 #include "reports/measure/surfaces.h"
 
@@ -43,7 +44,7 @@ constexpr std::string_view specs[] = {"ggx/smith_ggx.correlated/dielectric",
                                       "lambert+ggx/smith_ggx.correlated/schlick",
                                       "lambert.coupled+ggx/smith_ggx.correlated/schlick"};
 
-/// By what an engine divides that keeps its lights without 1/π.
+/// Divisor of an engine that keeps its lights without 1/π.
 double divisor_of(std::string_view id) {
   return id == "model.ue_mobile" || id == "model.ue_mobile_simple" ? std::numbers::pi : 1;
 }
@@ -144,7 +145,7 @@ std::array<FresnelSurface, 2> surfaces() {
   return {dielectric(1.5, "glass"), metal(*find_metal("Au"))};
 }
 
-/// In the light in which a perfect diffuser is white.
+/// Colour in the light in which a perfect diffuser is white.
 Lab seen(const Albedo& a) {
   return lab(xyz_of_srgb({a.value[0], a.value[1], a.value[2]}), xyz_of_srgb({1, 1, 1}));
 }

@@ -1,129 +1,248 @@
 // The cost report as JSON and as a page.
 #include "reports/page/page.h"
 
+#include <optional>
+#include <utility>
+
 #include "reports/cost/baseline.h"
 #include "reports/page/assets.h"
-#include "reports/picture/json_numbers.h"
+#include "reports/picture/document.h"
 
 namespace gonio {
 namespace {
 
-PageJson row(const CostRow& r) {
-  const bool known = !r.error.truth.empty();
-  PageJson j{{"id", r.id},
-             {"number", r.number},
-             {"isa", r.isa},
-             {"ns", page_json(r.time.ns)},
-             {"ns_spread", page_json(r.time.spread_ns)},
-             {"ops", r.kind == "by_hand" ? PageJson(nullptr) : PageJson(r.operations.total())},
-             {"error_max", known ? page_json(r.error.max) : PageJson(nullptr)},
-             {"error_rms", known ? page_json(r.error.rms) : PageJson(nullptr)},
-             {"pareto", known ? PageJson(r.pareto) : PageJson(nullptr)},
-             {"tie", r.tie},
-             {"memory", r.memory},
-             {"kind", r.kind},
-             {"way", r.way},
-             {"channels", r.channels},
-             {"truth", r.error.truth},
-             {"measure", r.error.measure},
-             {"delta_e", page_json(r.error.delta_e)},
-             {"bytes", r.bytes}};
-  for (std::size_t k = 0; k < operation_names.size(); ++k)
-    j["ops_" + std::string(operation_names[k])] = r.operations.by_kind[k];
-  return j;
+/// Value of what is held against a truth; else none.
+template <class T>
+std::optional<T> if_known(const CostRow& r, T value) {
+  return r.error.truth.empty() ? std::nullopt : std::optional<T>(value);
 }
+std::optional<std::size_t> total_operations(const CostRow& r) {
+  return r.kind == "by_hand" ? std::nullopt : std::optional(r.operations.total());
+}
+constexpr std::array<std::string_view, operation_names.size()> operation_keys{
+    "ops_add", "ops_mul", "ops_div", "ops_sqrt", "ops_exp", "ops_log", "ops_compare", "ops_select"};
 
-PageJson machine(const Machine& m) {
-  PageJson caches = PageJson::array();
-  for (const auto& c : m.caches)
-    caches.push_back({{"level", c.level}, {"bytes", c.bytes}, {"type", c.type}});
-  return {{"cpu", m.cpu},           {"threads", m.threads},
-          {"caches", caches},       {"instruction_sets", m.instruction_sets},
-          {"compiler", m.compiler}, {"flags", m.flags}};
-}
+/// Setting in which a document of costs was measured.
+struct CostSetting {
+  const CostOptions* options;
+  const Machine* machine;
+};
+/// Document of `gonio bench`.
+struct BenchDocument {
+  CostSetting setting;
+  const std::vector<CostRow>* rows;
+  std::optional<std::vector<CostChange>> changes;
+};
 
-PageJson settings(const Machine& m, const CostOptions& o, std::string_view schema) {
-  return {{"schema", schema},
-          {"full", o.full},
-          {"machine", machine(m)},
-          {"repetitions", o.timing.repetitions},
-          {"cache_samples", o.cache_samples},
-          {"stream_samples", o.stream_samples}};
-}
-PageJson rows_json(const std::vector<CostRow>& rows) {
-  PageJson out = PageJson::array();
-  for (const auto& r : rows) out.push_back(row(r));
-  return out;
-}
-
-PageJson timing(const std::optional<Timing>& t) {
-  if (!t) return nullptr;
-  return {{"ns", page_json(t->ns)}, {"ns_spread", page_json(t->spread_ns)}};
-}
-PageJson change(const CostChange& c) {
-  const bool both = c.before && c.now;
-  return {{"id", c.name.id},
-          {"number", c.name.number},
-          {"isa", c.name.isa},
-          {"memory", c.name.memory},
-          {"way", c.name.way},
-          {"before", timing(c.before)},
-          {"now", timing(c.now)},
-          {"ratio", both ? page_json(c.ratio) : PageJson(nullptr)},
-          {"ratio_spread", both ? page_json(c.spread) : PageJson(nullptr)},
-          {"differs", both ? PageJson(c.differs) : PageJson(nullptr)}};
-}
+constexpr std::string_view spread_meaning = "half the distance of the quartiles";
 
 }  // namespace
+
+template <>
+struct Description<CostRow> {
+  static constexpr auto measured() {
+    using R = CostRow;
+    return std::tuple{
+        field("id", "", &R::id, "of a term or a whole model, else the model's spec"),
+        field("number", "", &R::number, "float, double"),
+        field("isa", "", &R::isa, "instruction set"),
+        field("ns", "ns", at(&R::time, &Timing::ns), "time of one sample, median"),
+        field("ns_spread", "ns", at(&R::time, &Timing::spread_ns), spread_meaning),
+        field("ops", "", total_operations, "operations of one sample, all kinds alike"),
+        field(
+            "error_max", "", [](const R& r) { return if_known(r, r.error.max); }, "most, absolute"),
+        field(
+            "error_rms", "", [](const R& r) { return if_known(r, r.error.rms); }, ""),
+        field(
+            "pareto", "", [](const R& r) { return if_known(r, r.pareto); },
+            "on the front of time and error"),
+        field("tie", "", &R::tie, "with a better one, within both spreads"),
+        field("memory", "", &R::memory, "cache, streaming"),
+        field("kind", "", &R::kind, "ndf, masking, fresnel, diffuse, model, by_hand, bound"),
+        field("way", "", &R::way, "of a model: fused, composed, by_hand"),
+        field("channels", "", &R::channels, ""),
+        field("truth", "", at(&R::error, &CostError::truth), "what it is held against"),
+        field("measure", "", at(&R::error, &CostError::measure), "what is compared"),
+        field("delta_e", "", at(&R::error, &CostError::delta_e),
+              "CIEDE2000 of gold in even light, at most"),
+        field("bytes", "", &R::bytes, "of tables")};
+  }
+  template <std::size_t... K>
+  static constexpr auto operations(std::index_sequence<K...>) {
+    return std::tuple{field(
+        operation_keys[K], "", [](const CostRow& r) { return r.operations.by_kind[K]; },
+        "operations of one sample")...};
+  }
+  static constexpr auto fields() {
+    return std::tuple_cat(measured(),
+                          operations(std::make_index_sequence<operation_names.size()>()));
+  }
+};
+
+template <>
+struct Description<Machine::Cache> {
+  static constexpr auto fields() {
+    using C = Machine::Cache;
+    return std::tuple{field("level", "", &C::level, ""), field("bytes", "", &C::bytes, ""),
+                      field("type", "", &C::type, "Data, Unified")};
+  }
+};
+template <>
+struct Description<Machine> {
+  static constexpr auto fields() {
+    using M = Machine;
+    return std::tuple{field("cpu", "", &M::cpu, "as it calls itself"),
+                      field("threads", "", &M::threads, "that run at once"),
+                      field("caches", "", &M::caches, "without those of instructions"),
+                      field("instruction_sets", "", &M::instruction_sets, "that run here"),
+                      field("compiler", "", &M::compiler, ""),
+                      field("flags", "", &M::flags, "")};
+  }
+};
+static_assert(describes_every_member<Machine>());
+
+template <>
+struct Description<CostSetting> {
+  static constexpr auto fields() {
+    using S = CostSetting;
+    return std::tuple{
+        field(
+            "full", "", [](const S& s) { return s.options->full; }, setting_meaning),
+        field(
+            "machine", "", [](const S& s) -> const Machine& { return *s.machine; }, ""),
+        field(
+            "repetitions", "", [](const S& s) { return s.options->timing.repetitions; },
+            "of each time"),
+        field(
+            "cache_samples", "", [](const S& s) { return s.options->cache_samples; },
+            "of a column"),
+        field(
+            "stream_samples", "", [](const S& s) { return s.options->stream_samples; },
+            "of a column")};
+  }
+};
+
+template <>
+struct Description<CostPoint> {
+  static constexpr auto fields() {
+    using P = CostPoint;
+    return std::tuple{field("picture", "", &P::picture, "compensation, split_sum, quadrature, fit"),
+                      field("series", "", &P::series, ""),
+                      field("label", "", &P::label, ""),
+                      field("ns", "ns", at(&P::time, &Timing::ns), "time, median"),
+                      field("ns_spread", "ns", at(&P::time, &Timing::spread_ns), spread_meaning),
+                      field("error_rms", "", &P::error, ""),
+                      field("error_spread", "", &P::error_spread, "of error_rms"),
+                      field("ops", "", &P::operations, ""),
+                      field("bytes", "", &P::bytes, "of tables"),
+                      field("without_ns", "ns", &P::without_ns,
+                            "of a compensation: time of the same uncompensated")};
+  }
+};
+
+template <>
+struct Description<CostSwitch> {
+  static constexpr auto fields() {
+    using S = CostSwitch;
+    return std::tuple{field("question", "", &S::question, ""),
+                      field("from", "", &S::from, "id"),
+                      field("to", "", &S::to, "id"),
+                      field("number", "", &S::number, "float, double"),
+                      field("isa", "", &S::isa, "instruction set"),
+                      field("memory", "", &S::memory, "cache, streaming"),
+                      field("way", "", &S::way, "of a model: fused, composed"),
+                      field("more_ns", "ns", &S::ns, "that it takes more"),
+                      field("more_spread_ns", "ns", &S::ns_spread, ""),
+                      field("ratio_ns", "", &S::ratio, "of the times"),
+                      field("more_ops", "", &S::operations, "that it takes more"),
+                      field("error_from", "", &S::error_from, "RMS; null: of another truth"),
+                      field("error_to", "", &S::error_to, "RMS; null: of another truth")};
+  }
+};
+static_assert(describes_every_member<CostSwitch>());
+
+template <>
+struct Description<Timing> {
+  static constexpr auto fields() {
+    return std::tuple{field("ns", "ns", &Timing::ns, "median"),
+                      field("ns_spread", "ns", &Timing::spread_ns, spread_meaning)};
+  }
+};
+
+template <>
+struct Description<CostChange> {
+  static constexpr auto fields() {
+    using C = CostChange;
+    constexpr auto of_both = [](const C& c, auto value) {
+      return c.before && c.now ? std::optional(value) : std::nullopt;
+    };
+    return std::tuple{
+        field("id", "", at(&C::name, &CostName::id), ""),
+        field("number", "", at(&C::name, &CostName::number), ""),
+        field("isa", "", at(&C::name, &CostName::isa), ""),
+        field("memory", "", at(&C::name, &CostName::memory), ""),
+        field("way", "", at(&C::name, &CostName::way), ""),
+        field("before", "", &C::before, "null: not measured"),
+        field("now", "", &C::now, "null: not measured"),
+        field(
+            "ratio", "", [=](const C& c) { return of_both(c, c.ratio); }, "of now over before"),
+        field(
+            "ratio_spread", "", [=](const C& c) { return of_both(c, c.spread); }, ""),
+        field(
+            "differs", "", [=](const C& c) { return of_both(c, c.differs); },
+            "by more than three times both spreads")};
+  }
+};
+
+template <>
+struct Description<BenchDocument> {
+  static constexpr auto fields() {
+    using B = BenchDocument;
+    return std::tuple{constant_text("schema", "gonio.bench/1"), inlined(&B::setting),
+                      field(
+                          "rows", "", [](const B& b) -> const auto& { return *b.rows; },
+                          "a form in a place, each"),
+                      field("changes", "", if_there(&B::changes), "since an earlier document")};
+  }
+};
+
+template <>
+struct Description<CostReport> {
+  static constexpr auto fields() {
+    using R = CostReport;
+    return std::tuple{
+        constant_text("schema", "gonio.report.cost/1"),
+        inlined([](const R& r) {
+          return CostSetting{&r.rows.options, &r.rows.machine};
+        }),
+        field("findings", "", at(&R::findings, &Findings::sentences), findings_meaning),
+        field("rows", "", at(&R::rows, &CostRows::rows), "a form in a place, each"),
+        field("switches", "", at(&R::rows, &CostRows::switches), ""),
+        field("points", "", at(&R::rows, &CostRows::points), "estimates and fits by their time"),
+        inlined(&R::pictures)};
+  }
+};
 
 std::string costs_json(const Machine& m,
                        const CostOptions& o,
                        const std::vector<CostRow>& rows,
                        const std::vector<CostChange>& changes) {
-  auto out = settings(m, o, "gonio.bench/1");
-  out["rows"] = rows_json(rows);
-  if (changes.empty()) return page_text(out);
-  out["changes"] = PageJson::array();
-  for (const auto& c : changes) out["changes"].push_back(change(c));
-  return page_text(out);
+  return page_document(
+      BenchDocument{{&o, &m}, &rows, changes.empty() ? std::nullopt : std::optional(changes)});
+}
+std::string bench_schema() {
+  return schema_text<BenchDocument>("gonio bench --json");
 }
 
 std::string to_json(const CostReport& r) {
-  PageJson points = PageJson::array(), switches = PageJson::array();
-  for (const auto& p : r.rows.points)
-    points.push_back({{"picture", p.picture},
-                      {"series", p.series},
-                      {"label", p.label},
-                      {"ns", page_json(p.time.ns)},
-                      {"ns_spread", page_json(p.time.spread_ns)},
-                      {"error_rms", page_json(p.error)},
-                      {"error_spread", page_json(p.error_spread)},
-                      {"ops", p.operations},
-                      {"bytes", p.bytes},
-                      {"without_ns", page_json(p.without_ns)}});
-  for (const auto& s : r.rows.switches)
-    switches.push_back({{"question", s.question},
-                        {"from", s.from},
-                        {"to", s.to},
-                        {"number", s.number},
-                        {"isa", s.isa},
-                        {"memory", s.memory},
-                        {"way", s.way},
-                        {"more_ns", page_json(s.ns)},
-                        {"more_spread_ns", page_json(s.ns_spread)},
-                        {"ratio_ns", page_json(s.ratio)},
-                        {"more_ops", s.operations},
-                        {"error_from", page_json(s.error_from)},
-                        {"error_to", page_json(s.error_to)}});
-  auto out = settings(r.rows.machine, r.rows.options, "gonio.report.cost/1");
-  out["findings"] = r.findings.sentences;
-  out["rows"] = rows_json(r.rows.rows);
-  out["switches"] = switches;
-  out["points"] = points;
-  put_pictures(out, r.pictures);
-  return page_text(out);
+  return page_document(r);
 }
-
+std::string rows_csv(const CostReport& r) {
+  return csv_of(r.rows.rows, Digits::six);
+}
+std::string cost_schema() {
+  return schema_text<CostReport>("gonio report cost");
+}
 std::string cost_page_html(std::string_view data) {
   return make_report_page("What accuracy costs in time", data, assets::cost_js);
 }

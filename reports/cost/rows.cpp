@@ -52,7 +52,7 @@ struct Field {
 template <class F>
 using SharedField = std::shared_ptr<Field<F>>;
 
-/// In the way a composed model uses it: D begins, a fraction or not, V divides a fraction, F and a diffuse
+/// A term as a composed model uses it: D begins, a fraction or not, V divides a fraction, F and a diffuse
 /// term join what is there.  (V's loop takes GGX's D in, which is not timed here.)
 template <class F>
 Timed timed_term(std::size_t term, const Kernels<F>& kernels, const SharedField<F>& field) {
@@ -115,7 +115,7 @@ Timed timed_by_hand(const HandWritten<F>& hand, const BoundModel& b, const Share
           }};
 }
 
-/// Whether they are the same terms in as many channels.
+/// True of the same terms in as many channels.
 bool is_same(const Model& a, const Model& b) {
   const auto same = [](const TermUse& s, const TermUse& t) { return s.term == t.term; };
   return a.channels == b.channels && std::ranges::equal(a.diffuse, b.diffuse, same) &&
@@ -138,13 +138,13 @@ Timed timed_roots(const RootsAndDivision<F>& bound, const SharedField<F>& field)
   return {field->x.size(), [=] { bound.value(field->x.block(), field->out[0].data()); }};
 }
 
-/// What is measured, before it is.
+/// A row before it is measured.
 struct Subject {
   CostRow row;
   Timed timed;
 };
 
-/// Those of one number in one place.
+/// Subjects of one number in one place.
 template <class F>
 void add_subjects(std::vector<Subject>& to, const CostOptions& o, std::string_view memory) {
   const bool streaming = memory == "streaming";
@@ -184,7 +184,7 @@ void add_subjects(std::vector<Subject>& to, const CostOptions& o, std::string_vi
   }
 }
 
-/// What does not depend on where it runs: by id and number.
+/// Facts that do not depend on where it runs: by id and number.
 struct Facts {
   Operations operations;
   std::size_t bytes;
@@ -224,7 +224,7 @@ FactsByName facts_of(const std::vector<Subject>& subjects,
   return facts;
 }
 
-/// What is compared with each other.
+/// Name of the rows that are compared with each other.
 std::string rivals(const CostRow& r) {
   return fmt::format("{} {} {} {} {} {}", r.kind, r.number, r.isa, r.memory, r.channels,
                      r.error.truth);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a fit makes of an approximation: slices synthesized from exact Fresnel facets are fitted with the
+/// Fits of approximations: slices synthesized from exact Fresnel facets are fitted with the
 /// shipped forms, and the other parameters absorb what a form gets wrong.
 
 #include <array>
@@ -125,8 +125,12 @@ Pictures pictures(const CrossFitRows&);
 using CrossFitReport = Report<CrossFitRows>;
 CrossFitReport cross_fit_report(const CrossFitOptions&, const ReportProgress& done = {});
 
-/// {"rows": […], …}: flat objects; what is not known is null.
+/// Document {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const CrossFitReport&);
+/// Its rows as CSV.
+std::string rows_csv(const CrossFitReport&);
+/// JSON Schema of the document.
+std::string cross_fit_schema();
 /// Page whose data are those of the document but for the rows, which are many: pictures and sentences show them.
 std::string cross_fit_page_html(const CrossFitReport&);
 

@@ -75,7 +75,7 @@ std::vector<std::string> forms_of(const CrossFitRows& r, const Quantity& q) {
   return out;
 }
 
-/// Below it there is nothing but rounding.
+/// Size below which there is nothing but rounding.
 constexpr double nothing = 1e-7;
 
 /// \param roughness  0: RMS over all of them

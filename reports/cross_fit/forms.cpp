@@ -108,7 +108,7 @@ std::string with_exact(std::string model, const FresnelSurface& s) {
   return model;
 }
 
-/// What is no free parameter of a form, but follows from the surface.
+/// Parameters of a form that are not free, but follow from the surface.
 std::vector<Setting> held_by(const std::string& model, const FresnelSurface& s) {
   if (model.ends_with("/schlick.ue"))  // F0 of green decides for all channels
     return {{"f0_green", {s.f0(s.channels() / 2)}}};
@@ -125,7 +125,7 @@ const FittedParameter* find(const FitDocument& d, std::string_view name) {
   return it == d.parameters.end() ? nullptr : &*it;
 }
 
-/// What a fit says of F0 in a channel, whatever its Fresnel term calls it.
+/// F0 of a fit in a channel, whatever its Fresnel term calls it.
 CrossValue f0_value(const FitDocument& d, const FresnelSurface& s, std::size_t channel) {
   CrossValue v{"f0", s.channel(channel), s.f0(channel), nan, 0, ParameterStatus::fixed};
   if (const auto* f0 = find(d, "f0")) {

@@ -3,59 +3,133 @@
 
 #include "reports/cross_fit/cross_fit.h"
 #include "reports/page/assets.h"
-#include "reports/picture/json_numbers.h"
+#include "reports/picture/document.h"
 
 namespace gonio {
 namespace {
 
-PageJson row(const CrossCase& c, const CrossValue& v) {
-  return {{"truth", c.truth},
-          {"fitted", c.fitted},
-          {"kind", c.kind},
-          {"material", c.material},
-          {"channel", v.channel},
-          {"roughness", page_json(c.roughness)},
-          {"parameter", v.parameter},
-          {"true_value", page_json(v.truth)},
-          {"fitted_value", page_json(v.fitted)},
-          {"bias", page_json(v.fitted - v.truth)},
-          {"std_error", page_json(v.error)},
-          {"status", status_names[static_cast<std::size_t>(v.status)]},
-          {"converged", c.converged},
-          {"residual_log_rms", page_json(c.log_rms)},
-          {"truth_log_rms", page_json(c.log_rms_truth)},
-          {"metric", metric_names[static_cast<std::size_t>(c.metric)]},
-          {"layout", c.layout}};
-}
-
-PageJson document(const CrossFitReport& r) {
-  PageJson out{{"schema", "gonio.report.cross_fit/1"}, {"full", r.full}, {"findings", r.findings.sentences}};
-  PageJson sentences = PageJson::array();
-  for (const auto& s : sentences_of_forms(r.rows))
-    sentences.push_back(
-        {{"truth", s.truth}, {"fitted", s.fitted}, {"kind", s.kind}, {"sentence", s.sentence}});
-  out["roughness"] = page_json(r.rows.roughness);
-  out["materials"] = r.rows.materials;
-  out["walk_error"] = page_json(r.rows.walk_error);
-  out["sentences"] = sentences;
-  put_pictures(out, r.pictures);
+/// Row of the document: a value of a case.
+struct CrossRow {
+  const CrossCase* c;
+  const CrossValue* v;
+};
+std::vector<CrossRow> rows_of(const CrossFitReport& r) {
+  std::vector<CrossRow> out;
+  for (const auto& c : r.rows.cases)
+    for (const auto& v : c.values) out.push_back({&c, &v});
   return out;
 }
 
+/// Document of the page: the rows are many, and pictures and sentences show them.
+struct WithoutRows {
+  const CrossFitReport* report;
+};
+
 }  // namespace
 
-std::string to_json(const CrossFitReport& r) {
-  auto out = document(r);
-  PageJson rows = PageJson::array();
-  for (const auto& c : r.rows.cases)
-    for (const auto& v : c.values) rows.push_back(row(c, v));
-  out["rows"] = rows;
-  return page_text(out);
-}
+template <>
+struct Description<CrossRow> {
+  static constexpr auto fields() {
+    using R = CrossRow;
+    return std::tuple{
+        field(
+            "truth", "", [](const R& r) { return r.c->truth; }, "surface that is synthesized"),
+        field(
+            "fitted", "", [](const R& r) { return r.c->fitted; }, "form"),
+        field(
+            "kind", "", [](const R& r) { return r.c->kind; }, "what differs from the truth"),
+        field(
+            "material", "", [](const R& r) { return r.c->material; }, ""),
+        field(
+            "channel", "", [](const R& r) { return r.v->channel; }, "empty: the one there is"),
+        field(
+            "roughness", "", [](const R& r) { return r.c->roughness; }, "of the truth"),
+        field(
+            "parameter", "", [](const R& r) { return r.v->parameter; }, ""),
+        field(
+            "true_value", "", [](const R& r) { return r.v->truth; }, ""),
+        field(
+            "fitted_value", "", [](const R& r) { return r.v->fitted; }, ""),
+        field(
+            "bias", "", [](const R& r) { return r.v->fitted - r.v->truth; }, "fitted − true"),
+        field(
+            "std_error", "", [](const R& r) { return r.v->error; },
+            "of the fitted value by that of the truth; 0: the truth is exact"),
+        field(
+            "status", "",
+            [](const R& r) { return status_names[static_cast<std::size_t>(r.v->status)]; },
+            "free, fixed, at_bound, not_identifiable"),
+        field(
+            "converged", "", [](const R& r) { return r.c->converged; }, ""),
+        field(
+            "residual_log_rms", "", [](const R& r) { return r.c->log_rms; }, "of ln f − ln truth"),
+        field(
+            "truth_log_rms", "", [](const R& r) { return r.c->log_rms_truth; },
+            "of it what is noise of the truth"),
+        field(
+            "metric", "",
+            [](const R& r) { return metric_names[static_cast<std::size_t>(r.c->metric)]; },
+            "of the fit"),
+        field(
+            "layout", "", [](const R& r) { return r.c->layout; }, "directions")};
+  }
+};
 
+template <>
+struct Description<CrossSentence> {
+  static constexpr auto fields() {
+    using S = CrossSentence;
+    return std::tuple{field("truth", "", &S::truth, ""), field("fitted", "", &S::fitted, ""),
+                      field("kind", "", &S::kind, ""), field("sentence", "", &S::sentence, "")};
+  }
+};
+static_assert(describes_every_member<CrossSentence>());
+
+template <>
+struct Description<WithoutRows> {
+  static constexpr auto fields() {
+    using R = WithoutRows;
+    return std::tuple{
+        constant_text("schema", "gonio.report.cross_fit/1"),
+        field(
+            "full", "", [](const R& r) { return r.report->full; }, setting_meaning),
+        field(
+            "findings", "", [](const R& r) { return r.report->findings.sentences; },
+            findings_meaning),
+        field(
+            "roughness", "", [](const R& r) { return r.report->rows.roughness; }, "of the truths"),
+        field(
+            "materials", "", [](const R& r) { return r.report->rows.materials; }, ""),
+        field(
+            "walk_error", "", [](const R& r) { return r.report->rows.walk_error; },
+            "RMS over values of the standard error of ln f that the walks leave"),
+        field(
+            "sentences", "", [](const R& r) { return sentences_of_forms(r.report->rows); },
+            "of each form and truth"),
+        inlined([](const R& r) -> const Pictures& { return r.report->pictures; })};
+  }
+};
+
+template <>
+struct Description<CrossFitReport> {
+  static constexpr auto fields() {
+    return std::tuple{inlined([](const CrossFitReport& r) { return WithoutRows{&r}; }),
+                      field("rows", "", rows_of, "a parameter of a fit, each")};
+  }
+};
+
+std::string to_json(const CrossFitReport& r) {
+  return page_document(r);
+}
+std::string rows_csv(const CrossFitReport& r) {
+  return csv_of(rows_of(r), Digits::six);
+}
+std::string cross_fit_schema() {
+  return schema_text<CrossFitReport>("gonio report cross_fit");
+}
 std::string cross_fit_page_html(const CrossFitReport& r) {
-  return make_report_page("Cross fits: what the other parameters absorb", page_text(document(r)),
-                          assets::cross_fit_js);
+  return make_report_page("Cross fits: what the other parameters absorb",
+                          page_document(WithoutRows{&r}), assets::cross_fit_js);
 }
 
 }  // namespace gonio

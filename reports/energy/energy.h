@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What single scattering loses, per masking, roughness, angle and material, and what gives it back:
+/// Energy that single scattering loses, per masking, roughness, angle and material, and what gives it back:
 /// every figure a distance to a truth, with the error of both and the cost.
 
 #include <cstdint>
@@ -217,8 +217,12 @@ EnergyReport energy_report(const EnergyOptions&, const ReportProgress& done = {}
 /// The form of that name; nullptr if it was not looked at.
 const EnergyForm* find_form(const std::vector<EnergyForm>&, std::string_view name);
 
-/// {"rows": […], …}: flat objects; what is not known is null.
+/// Document {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const EnergyReport&);
+/// Its rows as CSV.
+std::string rows_csv(const EnergyReport&);
+/// JSON Schema of the document.
+std::string energy_schema();
 /// \param data  of to_json() above
 std::string energy_page_html(std::string_view data);
 

@@ -62,10 +62,7 @@ struct Findings {
 
   void say(std::string sentence) { sentences.push_back(std::move(sentence)); }
   /// Keeps a claim, and its sentence among the others.
-  void judge(std::string_view claim,
-             std::string_view source,
-             Claim::Judged,
-             std::string verdict);
+  void judge(std::string_view claim, std::string_view source, Claim::Judged, std::string verdict);
 };
 
 /// The plain sum of a report's parts: what was measured, what is said of it, and what is shown of it.
@@ -85,7 +82,7 @@ Report<Rows> report_of(bool full, Rows rows) {
 }
 
 struct ReportFiles {
-  std::string json, html;
+  std::string json, html, csv;  ///< csv: the rows
   Findings findings;
   Pictures pictures;
 };

@@ -5,7 +5,7 @@
 
 #include "reports/page/assets.h"
 #include "reports/page/page.h"
-#include "reports/picture/json_numbers.h"
+#include "reports/picture/document.h"
 
 namespace gonio {
 
@@ -20,42 +20,113 @@ std::string first_sentence(std::string_view text) {
   return std::string(text);
 }
 
-std::string to_json(const ReportIndex& index) {
-  PageJson reports = PageJson::array(), claims = PageJson::array(), questions = PageJson::array();
-  for (const auto& r : index.reports) {
-    std::vector<std::string> others;  // what is judged stands below, with the claims
-    std::ranges::copy_if(r.findings.sentences, std::back_inserter(others), [&](const std::string& f) {
-      return std::ranges::none_of(r.findings.claims, [&](const Claim& c) { return sentence(c) == f; });
-    });
-    PageJson findings = PageJson::array();
-    for (std::size_t i = 0; i < std::min(most_findings, others.size()); ++i)
-      findings.push_back(first_sentence(others[i]));
-    reports.push_back({{"name", r.name},
-                       {"what", r.what},
-                       {"findings", findings},
-                       {"more", others.size() > most_findings},
-                       {"pictures", r.pictures},
-                       {"time_ms", page_json(r.ms)}});
-    for (const auto& c : r.findings.claims)
-      claims.push_back({{"report", r.name},
-                        {"claim", c.claim},
-                        {"source", c.source},
-                        {"judged", word(c.judged)},
-                        {"verdict", c.verdict},
-                        {"anchor", c.anchor}});
-    for (const auto& q : r.findings.questions)
-      questions.push_back({{"report", r.name},
-                           {"question", q.question},
-                           {"answer", q.answer},
-                           {"anchor", q.anchor}});
+namespace {
+
+struct ClaimOf {
+  std::string_view report;
+  const Claim* claim;
+};
+struct QuestionOf {
+  std::string_view report;
+  const Question* question;
+};
+std::vector<ClaimOf> claims_of(const ReportIndex& index) {
+  std::vector<ClaimOf> out;
+  for (const auto& r : index.reports)
+    for (const auto& c : r.findings.claims) out.push_back({r.name, &c});
+  return out;
+}
+std::vector<QuestionOf> questions_of(const ReportIndex& index) {
+  std::vector<QuestionOf> out;
+  for (const auto& r : index.reports)
+    for (const auto& q : r.findings.questions) out.push_back({r.name, &q});
+  return out;
+}
+
+/// Findings that are no claims: those stand apart.
+std::vector<std::string> others(const ReportIndex::Entry& r) {
+  std::vector<std::string> out;
+  std::ranges::copy_if(r.findings.sentences, std::back_inserter(out), [&](const std::string& f) {
+    return std::ranges::none_of(r.findings.claims,
+                                [&](const Claim& c) { return sentence(c) == f; });
+  });
+  return out;
+}
+std::vector<std::string> first_findings(const ReportIndex::Entry& r) {
+  auto all = others(r);
+  all.resize(std::min(most_findings, all.size()));
+  for (auto& f : all) f = first_sentence(f);
+  return all;
+}
+
+}  // namespace
+
+template <>
+struct Description<ReportIndex::Entry> {
+  static constexpr auto fields() {
+    using E = ReportIndex::Entry;
+    return std::tuple{
+        field("name", "", &E::name, ""),
+        field("what", "", &E::what, ""),
+        field("findings", "", first_findings, "first sentences of some"),
+        field(
+            "more", "", [](const E& e) { return others(e).size() > most_findings; }, "there are"),
+        field("pictures", "", &E::pictures, "how many"),
+        field("time_ms", "ms", &E::ms, "that it took")};
   }
-  return page_text({{"schema", "gonio.report.index/1"},
-                    {"version", index.version},
-                    {"full", index.full},
-                    {"at_ms", index.at_ms},
-                    {"questions", questions},
-                    {"reports", reports},
-                    {"claims", claims}});
+};
+template <>
+struct Description<ClaimOf> {
+  static constexpr auto fields() {
+    using C = ClaimOf;
+    return std::tuple{
+        field("report", "", &C::report, ""),
+        field(
+            "claim", "", [](const C& c) { return c.claim->claim; }, "sentence in circulation"),
+        field(
+            "source", "", [](const C& c) { return c.claim->source; }, "where it stands"),
+        field(
+            "judged", "", [](const C& c) { return word(c.claim->judged); },
+            "holds, holds in part, does not hold"),
+        field(
+            "verdict", "", [](const C& c) { return c.claim->verdict; }, "sentence with figures"),
+        field(
+            "anchor", "", [](const C& c) { return c.claim->anchor; }, "of the report's page")};
+  }
+};
+template <>
+struct Description<QuestionOf> {
+  static constexpr auto fields() {
+    using Q = QuestionOf;
+    return std::tuple{
+        field("report", "", &Q::report, ""),
+        field(
+            "question", "", [](const Q& q) { return q.question->question; }, ""),
+        field(
+            "answer", "", [](const Q& q) { return q.question->answer; }, ""),
+        field(
+            "anchor", "", [](const Q& q) { return q.question->anchor; }, "of the report's page")};
+  }
+};
+template <>
+struct Description<ReportIndex> {
+  static constexpr auto fields() {
+    using I = ReportIndex;
+    return std::tuple{constant_text("schema", "gonio.report.index/1"),
+                      field("version", "", &I::version, "of gonio"),
+                      field("full", "", &I::full, setting_meaning),
+                      field("at_ms", "ms", &I::at_ms, "since 1970"),
+                      field("questions", "", questions_of, ""),
+                      field("reports", "", &I::reports, ""),
+                      field("claims", "", claims_of, "")};
+  }
+};
+
+std::string to_json(const ReportIndex& index) {
+  return page_document(index);
+}
+std::string index_schema() {
+  return schema_text<ReportIndex>("gonio report all: index.json");
 }
 
 std::string index_page_html(std::string_view data) {

@@ -15,7 +15,8 @@ template <class Rows>
 ReportFiles files(Report<Rows> report, std::string (*page)(std::string_view)) {
   std::string json = to_json(report);
   std::string html = page(json);
-  return {std::move(json), std::move(html), std::move(report.findings), std::move(report.pictures)};
+  return {std::move(json), std::move(html), rows_csv(report), std::move(report.findings),
+          std::move(report.pictures)};
 }
 
 ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {
@@ -31,21 +32,24 @@ ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
 }
 ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
   auto report = cross_fit_report(cross_fit_options(o.full), done);
-  return {to_json(report), cross_fit_page_html(report), std::move(report.findings),
-          std::move(report.pictures)};
+  return {to_json(report), cross_fit_page_html(report), rows_csv(report),
+          std::move(report.findings), std::move(report.pictures)};
 }
 ReportFiles cost(const ReportOptions& o, const ReportProgress& done) {
   return files(cost_report(cost_options(o.full), done), cost_page_html);
 }
 
 constexpr std::array kinds{
-    ReportKind{"energy", "what single scattering loses, and what gives it back", energy, 25},
+    ReportKind{"energy", "what single scattering loses, and what gives it back", energy,
+               energy_schema, 25},
     ReportKind{"remap", "masking forms against exact Smith, and which roughness each behaves like",
-               remap, 3},
-    ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick},
+               remap, remap_schema, 3},
+    ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick,
+               schlick_schema},
     ReportKind{"cross_fit", "what fits with shipped approximations make of roughness, F0 and gamma",
-               cross_fit, 60},
-    ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost, 40}};
+               cross_fit, cross_fit_schema, 60},
+    ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost,
+               cost_schema, 40}};
 
 }  // namespace
 

@@ -13,10 +13,11 @@ namespace gonio {
 struct ReportKind {
   std::string_view name, what;
   ReportFiles (*make)(const ReportOptions&, const ReportProgress&);
-  double weight = 1;  ///< the time it takes at the quick setting, about [s]
+  std::string (*schema)();  ///< JSON Schema of its document
+  double weight = 1;        ///< the time it takes at the quick setting, about [s]
 };
 
-/// In the order of the index page.
+/// All reports, in the order of the index page.
 std::span<const ReportKind> report_kinds();
 
 }  // namespace gonio

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How far the approximate Fresnel terms are from the exact one on a smooth surface, over the angle.
+/// Errors of the approximate Fresnel terms on a smooth surface, over the angle.
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the audit looks at the catalogue: values of parameters, and pairs of directions.
+/// Places where the audit looks at the catalogue: values of parameters, and pairs of directions.
 
 #include <functional>
 #include <span>

@@ -11,7 +11,7 @@
 
 namespace gonio {
 
-/// What is smooth, and reflects exactly so much: one index a channel, or a spectrum in linear RGB.
+/// A smooth surface that reflects exactly so much: one index a channel, or a spectrum in linear RGB.
 struct FresnelSurface {
   std::string kind, material;
   std::vector<Index> index;  ///< transmitted over incident
@@ -24,7 +24,7 @@ struct FresnelSurface {
 /// ((n − 1)² + k²)/((n + 1)² + k²)
 double f0_of_index(const Index&);
 FresnelSurface dielectric(double ior, std::string name);
-/// The same with the light in the denser medium.
+/// A dielectric with the light in the denser medium.
 FresnelSurface dielectric_inside(double ior, std::string name);
 FresnelSurface metal(const Material&);
 FresnelSurface spectral(const Material&);

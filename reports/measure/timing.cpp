@@ -50,13 +50,13 @@ void set_up() {
   static_cast<void>(once);
 }
 
-/// What is registered is the whole program's.
+/// Registration, which is the whole program's.
 struct Registered {
   Registered() { benchmark::ClearRegisteredBenchmarks(); }
   ~Registered() { benchmark::ClearRegisteredBenchmarks(); }
 };
 
-/// How often it is to be run so that it takes `seconds`.  Of a few tries the shortest decides: where
+/// Number of runs so that it takes `seconds`.  Of a few tries the shortest decides: where
 /// another program took the processor, one alone would say that a single run is enough.
 benchmark::IterationCount runs_in(double seconds, const std::function<void()>& run) {
   using Clock = std::chrono::steady_clock;

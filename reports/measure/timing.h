@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How long something takes, told with its spread: the one way in which this program measures it.
+/// Times of things, told with their spread: the one way in which this program measures it.
 /// google-benchmark repeats and interleaves; nothing of it is seen outside timing.cpp.
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace gonio {
 
-/// Of one sample [ns].
+/// Time of one sample [ns].
 struct Timing {
   double ns, spread_ns;  ///< median, and half the distance of the quartiles, over repetitions
 };
@@ -36,7 +36,7 @@ std::vector<Timing> time_all(const std::vector<Timed>&,
                              const TimingOptions& = {},
                              const std::function<void(double)>& done = {});
 
-/// What each repetition of each takes, of one sample [ns].
+/// Times of each repetition of each, of one sample [ns].
 std::vector<std::vector<double>> repetitions_of(const std::vector<Timed>&,
                                                 const TimingOptions& = {},
                                                 const std::function<void(double)>& done = {});

@@ -1,15 +1,9 @@
 "use strict";
 // Pictures that are data (reports/picture/figure.h), drawn, with what is under the pointer; their files lie beside the page.
 
-const line_colors = ["accent", "red", "green", "extra", "grey", "warn"];
-const line_rounds = [null, [2, 3], [9, 3, 2, 3], [12, 4], [1, 4], [6, 2, 1, 2, 1, 2]];  // of curves that share a colour: the first six, the next …
-const reference_dashes = [[6, 4], [2, 4], [10, 3, 2, 3]];
-
-/// {color, dash, width} of a curve, as in figure_svg.cpp: references in ink and dashed, the others each in a colour; the same of a
-/// name in all pictures of the report.
-const line_style = ({ dashed, style: i }) => (dashed ? { color: "ink", dash: reference_dashes[i % reference_dashes.length], width: 1.4 }
-  : { color: line_colors[i % line_colors.length], dash: line_rounds[Math.floor(i / line_colors.length) % line_rounds.length], width: 1.8 });
-/// How a curve looks, beside its name.
+/// {color, dash, width} of a curve, as its data tell: the same of a name in all pictures of the report.
+const line_style = ({ colour, dash, width }) => ({ color: colour, dash: dash ? dash.split(" ").map(Number) : null, width });
+/// Look of a curve, beside its name.
 const line_key = (style, kind) => el("svg", { width: 24, height: 10, viewBox: "0 0 24 10", "aria-hidden": "true" },
   kind === "points" ? null : el("line", { x1: 1, x2: 23, y1: 5, y2: 5, stroke: `var(--${style.color})`, "stroke-width": style.width, "stroke-dasharray": style.dash?.join(" ") }),
   kind === "line" ? null : el("circle", { cx: 12, cy: 5, r: 3.2, fill: `var(--${style.color})` }));
@@ -57,7 +51,6 @@ function figure_view(figure, o = {}) {
   const [xs, columns, index] = merged_points(curves);
   const along = (values, c) => values && index[c].map((i) => (i === undefined ? null : values[i]));
   const single = curves.some((c) => c.kind === "points") && curves.every((c) => c.dashed || c.kind === "points");
-  const all_positive = (list) => list.every((v) => !known(v) || v > 0);
   const x_text = o.x_text ?? ((v) => plain(v, 4)), y_text = o.y_text ?? ((v) => significant(v, 3));
   const with_bar = (text, e) => (known(e) && e > 0 ? `${text} ± ${significant(e, 1)}` : text);
 
@@ -77,22 +70,12 @@ function figure_view(figure, o = {}) {
       [n ? ", " : "", line_key(s, c.kind), ` ${c.name} `, c.labels?.[index[k][i]] ? `${c.labels[index[k][i]]} ` : "", y_of(c, k, i)]));
   };
 
-  const points = curves.some((c) => c.kind !== "line");
-  const bars = curves.flatMap((c) => c.x.flatMap((v, i) => (known(v) && known(c.x_error?.[i]) ? [v - c.x_error[i], v + c.x_error[i]] : [])));
-  const ends = (log) => {  // points do not lie on the frame; lines may begin there
-    const seen = [...xs, ...bars].filter((v) => !log || v > 0);
-    let [low, high] = [seen.reduce((a, b) => Math.min(a, b), Infinity), seen.reduce((a, b) => Math.max(a, b), -Infinity)];
-    if (low > high) [low, high] = [1, 2];
-    if (low === high) [low, high] = low === 0 ? [-1, 1] : [low - Math.abs(low) / 2, high + Math.abs(high) / 2];
-    if (points) [low, high] = log ? [low / (high / low) ** 0.04, high * (high / low) ** 0.04] : [low - 0.04 * (high - low), high + 0.04 * (high - low)];
-    return [known(figure.x.from) && !(log && figure.x.from <= 0) ? figure.x.from : low, figure.x.to ?? high];
-  };
   const plot = curve_plot([xs, ...columns], curves.map((c, k) => ({ ...styles[k], kind: c.kind, mute: single && c.dashed, labels: along(c.labels, k), x_error: along(c.x_error, k), y_error: along(c.y_error, k) })),
-    { x_label: figure.x.label, y_label: figure.y.label, x_log: figure.x.log, log: figure.y.log, x_ends: ends, y_ends: known(figure.y.from) && known(figure.y.to) ? [figure.y.from, figure.y.to] : null,
+    { x_label: figure.x.label, y_label: figure.y.label, x_log: figure.x.log, log: figure.y.log, x_scales: figure.x.scales, y_scales: curves.length === figure.curves.length ? figure.y.scales : null,
       height: o.height ?? 300, text: `${figure.title}: ${figure.y.label} by ${figure.x.label}.`, y_of: () => true, single, hover });
   hint();
   const scales = [[false, "linear"], [true, "logarithmic"]];
-  const values = columns.flat().filter(known), y_choice = values.some((v) => v > 0) && values.every((v) => v >= 0), x_choice = figure.x.log && all_positive(xs);
+  const y_choice = figure.y.scales.log && figure.y.scales.linear.low >= 0, x_choice = figure.x.scales.log;
   const controls = el("div", { class: "controls" },
     y_choice ? choice(`Scale of ${figure.y.label}`, scales.map(([v, t]) => [v, x_choice ? `y ${t}` : t]), figure.y.log, (log) => plot.set({ log })) : null,
     x_choice ? choice(`Scale of ${figure.x.label}`, scales.map(([v, t]) => [v, `x ${t}`]), figure.x.log, (x_log) => plot.set({ x_log })) : null,
@@ -120,7 +103,7 @@ function map_view(map, o = {}) {
   const value_text = o.value_text ?? ((v) => significant(v, 3));
   const slices = map.slices ?? [map.value];
   let shown = Math.max(0, slices.indexOf(o.slice));
-  const layer = (first) => ({ at: (k) => (known(map.values[first + k]) ? at(map.values[first + k]) : null), colors: () => (map.diverging ? diverging() : sequential()),
+  const layer = (first) => ({ at: (k) => (known(map.values[first + k]) ? at(map.values[first + k]) : null), colors: () => map.colours.map(color),
     label: map.value, ticks: map.ticks.map((v) => [at(v), tick_text(v)]),
     text: map.x.names && map.y.names ? (k) => (known(map.values[first + k]) ? significant(map.values[first + k], 2) : null) : undefined });
   const say = (cell) => {

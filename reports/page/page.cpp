@@ -8,7 +8,7 @@
 namespace gonio {
 namespace {
 
-/// In JSON a '<' stands in strings only; escaped there, no "</script" or "<!--" is left for the
+/// JSON for a script: a '<' stands in strings only; escaped there, no "</script" or "<!--" is left for the
 /// HTML parser to see.
 std::string script_json(std::string_view json) {
   std::string out;

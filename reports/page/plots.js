@@ -20,6 +20,12 @@ function log_ticks(low, high) {
   return Array.from({ length: 21 }, (_, i) => (Math.ceil(low / step_now) + i) * step_now)
     .filter((x) => x <= high).filter((_, i, all) => i % Math.ceil(all.length / 5) === 0);
 }
+/// Some five ticks at round numbers.
+function even_splits(low, high) {
+  const rough = (high - low) / 6, decade = 10 ** Math.floor(Math.log10(rough));
+  const step = decade * [1, 2, 5, 10].find((digit) => digit * decade >= rough * (1 - 1e-9));
+  return Array.from({ length: 8 }, (_, i) => (Math.ceil(low / step - 1e-9) + i) * step).filter((x) => x <= high + 1e-9 * step);
+}
 function tick_text(x) {
   if (x === null) return "";
   if (x === 0) return "0";
@@ -48,8 +54,8 @@ function label_places(points, box) {
 ///                it goes on without one
 /// \param series  [{color, kind: "points" | "line" | "both", width, dash: [on, off], labels, x_error, y_error}] of the y;
 ///                the last three as long as y, of each point, or nothing
-/// \param o       {x_label, x_ends: [from, to] or a function of whether x is logarithmic, x_steps, x_log, y_label, y_ends: of
-///                a linear y, height, log, mark: x of a dashed line, text: the plot in words, y_of(i): whether point i sets
+/// \param o       {x_label, x_ends: [from, to], x_steps, x_log, y_label, x_scales and y_scales: {linear, log: {low, high, ticks,
+///                few}} of the whole, height, log, mark: x of a dashed line, text: the plot in words, y_of(i): whether point i sets
 ///                the range of y, single: the point next to the pointer speaks alone, of a series that
 ///                is not mute, hover(indices or null)}
 /// Returns {node, set({log, x_log, shown})}.
@@ -59,9 +65,13 @@ function curve_plot(data, series, o) {
   let plot = null;
   const bar = (errors, i) => (errors && known(errors[i]) ? errors[i] : 0);
 
+  // The whole is drawn as it is told; what a reader cuts out of it has its own range.
+  const told = (scales, log) => scales?.[log ? "log" : "linear"];
   const y_range = (u, low, high) => {
     let least = Infinity, most = -Infinity;
     const [from, to] = u.series[0].idxs ?? [0, data[0].length - 1];  // what of x is seen
+    const scale = told(o.y_scales, state.log);
+    if (scale && from === 0 && to === data[0].length - 1) return [scale.low, scale.high];
     series.forEach((_, s) => {
       if (!state.shown[s]) return;
       data[s + 1].forEach((v, i) => {
@@ -73,12 +83,20 @@ function curve_plot(data, series, o) {
     });
     if (least > most) return state.log ? [0.1, 1] : [0, 1];
     if (state.log) return [least / (most / least) ** 0.06 / 1.02, most * (most / least) ** 0.06 * 1.02];
-    if (o.y_ends) return o.y_ends;
     return [Math.min(0, least), most + 0.06 * (most - Math.min(0, least)) || 1];
   };
   const [first, last] = [data[0][0], data[0].at(-1)];
-  const x_ends = () => (typeof o.x_ends === "function" ? o.x_ends(state.x_log) : o.x_ends) ?? [first, last];
-  const x_range = (u, low, high) => (low <= first && high >= last ? x_ends() : [low, high]);
+  const x_range = (u, low, high) => {
+    if (low > first || high < last) return [low, high];
+    const scale = told(o.x_scales, state.x_log);
+    return scale ? [scale.low, scale.high] : o.x_ends ?? [first, last];
+  };
+  /// Ticks that are told, where the whole scale is seen: few where there is little room for them.
+  const told_ticks = (scales, log) => {
+    const scale = told(scales, log), free = log ? log_ticks : even_splits;
+    return !scale && !log ? {} : { filter: (u, ticks) => ticks,
+      splits: (u, a, low, high) => (low !== scale?.low || high !== scale.high ? free(low, high) : a > 0 || u.width > 520 ? scale.ticks : scale.few) };
+  };
   const next_point = (u) => {  // [series, index] of the point next to the pointer, within 40 pixels
     let best = [null, null], least = 1600;
     u.data.slice(1).forEach((y, s) => state.shown[s] && !series[s].mute && y.forEach((v, i) => {
@@ -102,7 +120,6 @@ function curve_plot(data, series, o) {
     return null;
   };
   const filled = (s) => data[s + 1].filter(known).length;
-  const log_axis = { splits: (u, a, low, high) => log_ticks(low, high), filter: (u, ticks) => ticks };
   const axis = (label, extra) => ({
     stroke: () => color("muted"), font: plot_font, label, labelFont: plot_font, labelSize: 20, labelGap: 0,
     grid: { stroke: () => color("faint"), width: 1 }, ticks: { stroke: () => color("rule"), width: 1, size: 4 },
@@ -164,9 +181,9 @@ function curve_plot(data, series, o) {
                 y: { distr: state.log ? 3 : 1, range: y_range } },
       axes: [
         axis(o.x_label, { size: 30, space: 40, incrs: o.x_steps, values: (u, ticks) => ticks.map(tick_text),
-                          ...(state.x_log ? log_axis : {}) }),
+                          ...told_ticks(o.x_scales, state.x_log) }),
         axis(o.y_label, { size: 52, values: (u, ticks) => ticks.map(tick_text),
-                          ...(state.log ? log_axis : {}) }),
+                          ...told_ticks(o.y_scales, state.log) }),
       ],
       // pxAlign 0: rounded to whole pixels, points would stand beside their line
       series: [{}, ...series.map((s, i) => (s.kind === "points"

@@ -39,7 +39,7 @@ struct FigureCurve {
       look{};  ///< the name that it looks like, of several that came to the same; empty: its own
 };
 
-/// Of pictures among which the reader chooses: {{"material", "gold"}, {"angle", "0.5"}}.
+/// Choices that tell pictures of a family apart: {{"material", "gold"}, {"angle", "0.5"}}.
 using FigureChoices = std::vector<std::pair<std::string, std::string>>;
 
 struct Figure {
@@ -57,13 +57,13 @@ struct FigureMap {
     std::string label;
     std::vector<double> at;  ///< ascending; cells reach half way to the next
     bool log = false;
-    /// Where places have names and no numbers; `at` is then not looked at.
+    /// Names of places that have no numbers; `at` is then not looked at.
     std::vector<std::string> names{};
     double from = std::numeric_limits<double>::quiet_NaN(),
            to = std::numeric_limits<double>::quiet_NaN();  ///< ends, where they are not the cells'
     std::size_t size() const { return names.empty() ? at.size() : names.size(); }
   };
-  /// How colours follow values: of a root, small errors are seen beside great ones; log: decades, of values above 0.
+  /// Course of colours over values: of a root, small errors are seen beside great ones; log: decades, of values above 0.
   enum class Scale { linear, root, log };
 
   std::string id;  ///< as a figure's
@@ -81,14 +81,16 @@ struct FigureMap {
   std::vector<std::string> slices{};
 };
 
-/// Of a family and what is chosen: in small letters and digits, all else a single '_'.
+/// Id of a family and what is chosen: in small letters and digits, all else a single '_'.
 std::string picture_id(std::string_view family, const FigureChoices&);
 /// An empty one with its id.
 Figure make_figure(std::string family, FigureChoices choices = {});
 FigureMap make_map(std::string family, FigureChoices choices = {});
 
 /// Curve of that name in a figure, added where there is none yet.
-FigureCurve& curve_named(Figure&, std::string_view name, FigureCurve::Kind = FigureCurve::Kind::line);
+FigureCurve& curve_named(Figure&,
+                         std::string_view name,
+                         FigureCurve::Kind = FigureCurve::Kind::line);
 
 /// Everything that a report shows.
 struct Pictures {
@@ -96,13 +98,13 @@ struct Pictures {
   std::vector<FigureMap> maps;
 };
 
-/// How the curves of a report look: a name alike in all of its pictures, names that share a picture each differently,
+/// Looks of the curves of a report: a name alike in all of its pictures, names that share a picture each differently,
 /// and those of a family of pictures too where they are not too many.  The same for the same pictures.
 class CurveStyles {
  public:
   using Numbers = std::map<std::string, std::size_t>;
   explicit CurveStyles(std::span<const Figure>);
-  /// Of a curve of these: its place among the looks of lines, or of references if it is dashed.
+  /// Number of a curve of these: its place among the looks of lines, or of references if it is dashed.
   std::size_t of(const FigureCurve&) const;
 
  private:
@@ -128,9 +130,5 @@ std::string to_exr(const FigureMap&);
 /// \param json  untrusted; of what is not whole, or no document of this report, there are none
 /// \return plain names: [a-z0-9_] and one of the endings .svg, .csv, .exr
 std::vector<std::string> picture_files(std::string_view json, std::string_view report);
-
-/// \param json  a report's document
-/// \return its flat objects "rows" as CSV: a column for each key, in the order in which they appear
-std::string rows_csv(const std::string& json);
 
 }  // namespace gonio

@@ -1,35 +1,12 @@
-// Pictures, and the rows of a report, as CSV.
+// Pictures as CSV.
 #include <cmath>
-#include <map>
 #include <string_view>
 
+#include "base/csv_describe.h"
 #include "reports/picture/figure.h"
-#include "reports/picture/json_numbers.h"
-
-#include <fmt/format.h>
 
 namespace gonio {
 namespace {
-
-/// A field as RFC 4180 has it: in quotes where it must be.
-std::string field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
-std::string field(double v) {
-  return std::isfinite(v) ? fmt::format("{:.6g}", v) : "";
-}
-std::string field(const PageJson& v) {
-  if (v.is_null()) return "";
-  if (v.is_string()) return field(std::string_view(v.get_ref<const std::string&>()));
-  if (v.is_number_float()) return field(v.get<double>());
-  return field(std::string_view(v.dump()));
-}
 
 class Line {
  public:
@@ -38,7 +15,7 @@ class Line {
   Line& operator<<(const T& value) {
     if (!first_) out_ += ',';
     first_ = false;
-    out_ += field(value);
+    out_ += csv_cell(value, Digits::six);
     return *this;
   }
   ~Line() { out_ += '\n'; }
@@ -106,26 +83,6 @@ std::string to_csv(const FigureMap& m) {
     place(line, m.x, k % cells / m.y.size());
     place(line, m.y, k % m.y.size());
     line << m.values[k];
-  }
-  return out;
-}
-
-std::string rows_csv(const std::string& json) {
-  const auto document = PageJson::parse(json);
-  const auto& rows = document.at("rows");
-  std::vector<std::string> keys;
-  std::map<std::string, std::size_t> known;
-  for (const auto& row : rows)
-    for (const auto& [key, value] : row.items())
-      if (known.emplace(key, keys.size()).second) keys.push_back(key);
-  std::string out;
-  {
-    Line head(out);
-    for (const auto& key : keys) head << std::string_view(key);
-  }
-  for (const auto& row : rows) {
-    Line line(out);
-    for (const auto& key : keys) line << (row.contains(key) ? row[key] : PageJson(nullptr));
   }
   return out;
 }

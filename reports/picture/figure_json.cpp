@@ -1,31 +1,69 @@
 // Pictures in the document of a page.
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <string_view>
 
+#include "reports/picture/document.h"
 #include "reports/picture/figure_scale.h"
-#include "reports/picture/json_numbers.h"
+#include "reports/picture/figure_style.h"
 
 #include <fmt/format.h>
 
 namespace gonio {
 namespace {
 
-PageJson json(const FigureAxis& a) {
-  PageJson out{{"label", a.label}, {"log", a.log}};
-  if (std::isfinite(a.from)) out["from"] = a.from;
-  if (std::isfinite(a.to)) out["to"] = a.to;
-  return out;
+Json json(const FigureScale& s, std::size_t most) {
+  return {{"low", page_json(s.low)},
+          {"high", page_json(s.high)},
+          {"ticks", page_json(scale_ticks(s, most))},
+          {"few", page_json(scale_ticks(s, ticks_few))}};
 }
 
-PageJson json(const FigureMap::Axis& a) {
+/// An axis with the scales that it may be drawn on.
+Json json(const FigureAxis& a, const Json& scales) {
+  Json out{{"label", a.label}, {"log", a.log}};
+  if (std::isfinite(a.from)) out["from"] = a.from;
+  if (std::isfinite(a.to)) out["to"] = a.to;
+  out["scales"] = scales;
+  return out;
+}
+/// Scales of x and y of a figure; logarithmic ones where a reader may choose them, too: of x where it is one at first and all
+/// lie above 0, of y where nothing lies below.
+std::pair<Json, Json> scales(Figure f) {
+  bool x_positive = true, y_positive = false, y_negative = false;
+  for (const auto& c : f.curves)
+    for (std::size_t i = 0; i < c.x.size(); ++i) {
+      x_positive = x_positive && !(c.x[i] <= 0);
+      y_positive = y_positive || c.y[i] > 0;
+      y_negative = y_negative || c.y[i] < 0;
+    }
+  const bool x_log = f.x.log, y_log = f.y.log;
+  Json x = Json::object(), y = Json::object();
+  const auto put = [&](Json& scales, const char* name, FigureAxis& axis, bool log, bool at_first,
+                       FigureScale (*scale)(const Figure&), std::size_t most) {
+    axis.log = log;
+    scales[name] = json(scale(f), most);
+    axis.log = at_first;
+  };
+  put(x, "linear", f.x, false, x_log, x_scale, x_ticks_most);
+  if (x_log && x_positive) put(x, "log", f.x, true, x_log, x_scale, x_ticks_most);
+  put(y, "linear", f.y, false, y_log, y_scale, y_ticks_most);
+  if (y_log || (y_positive && !y_negative)) {
+    if (f.y.from <= 0) f.y.from = std::numeric_limits<double>::quiet_NaN();
+    put(y, "log", f.y, true, y_log, y_scale, y_ticks_most);
+  }
+  return {std::move(x), std::move(y)};
+}
+
+Json json(const FigureMap::Axis& a) {
   const auto edges = cell_edges(a);
-  PageJson out{{"label", a.label}, {"log", a.log}, {"edges", page_json(edges)}};
+  Json out{{"label", a.label}, {"log", a.log}, {"edges", page_json(edges)}};
   if (a.names.empty()) {
     const FigureScale scale{edges.front(), edges.back(), a.log};
     out["at"] = page_json(a.at);
-    out["ticks"] = page_json(scale_ticks(scale, 7));
-    out["few"] = page_json(scale_ticks(scale, 3));
+    out["ticks"] = page_json(scale_ticks(scale, map_ticks_most));
+    out["few"] = page_json(scale_ticks(scale, map_ticks_few));
   } else {
     out["names"] = a.names;
   }
@@ -40,11 +78,15 @@ std::string key(const char* name, const FigureAxis& axis) {
 }
 
 /// A curve; x only where it is not the same as of the curve before.
-PageJson json(const Figure& f, std::size_t i, const CurveStyles& styles) {
+Json json(const Figure& f, std::size_t i, const CurveStyles& styles) {
   static constexpr std::string_view kinds[]{"line", "points", "both"};
   const auto& c = f.curves[i];
-  PageJson out{
-      {"name", c.name}, {"kind", kinds[static_cast<std::size_t>(c.kind)]}, {"style", styles.of(c)}};
+  const auto look = look_of(c, styles);
+  Json out{{"name", c.name},
+           {"kind", kinds[static_cast<std::size_t>(c.kind)]},
+           {"colour", look.colour},
+           {"dash", look.dash},
+           {"width", look.width}};
   if (c.dashed) out["dashed"] = true;
   if (i == 0 || f.curves[i - 1].x != c.x) out[key("x", f.x)] = page_json(c.x);
   out[key("y", f.y)] = page_json(c.y);
@@ -54,9 +96,39 @@ PageJson json(const Figure& f, std::size_t i, const CurveStyles& styles) {
   return out;
 }
 
-PageJson json(const std::vector<std::pair<std::string, std::string>>& choices) {
-  PageJson out = PageJson::object();
+Json json(const std::vector<std::pair<std::string, std::string>>& choices) {
+  Json out = Json::object();
   for (const auto& [of, chosen] : choices) out[of] = chosen;
+  return out;
+}
+
+Json json(const Figure& f, const CurveStyles& styles) {
+  Json curves = Json::array();
+  for (std::size_t i = 0; i < f.curves.size(); ++i) curves.push_back(json(f, i, styles));
+  const auto [x, y] = scales(f);
+  return {{"id", f.id},     {"family", f.family}, {"choices", json(f.choices)}, {"title", f.title},
+          {"note", f.note}, {"x", json(f.x, x)},  {"y", json(f.y, y)},          {"curves", curves}};
+}
+
+Json json(const FigureMap& m) {
+  static constexpr std::string_view scales[]{"linear", "root", "log"};
+  const auto colours = colour_scale(m);
+  Json out{{"id", m.id},
+           {"family", m.family},
+           {"choices", json(m.choices)},
+           {"title", m.title},
+           {"note", m.note},
+           {"x", json(m.x)},
+           {"y", json(m.y)},
+           {"value", m.value},
+           {"diverging", m.diverging},
+           {"scale", scales[static_cast<std::size_t>(m.scale)]},
+           {"low", page_json(colours.low)},
+           {"high", page_json(colours.high)},
+           {"ticks", page_json(colours.ticks)},
+           {"colours", json_of(colours_of(m))},
+           {"values", page_json(m.values)}};
+  if (!m.slices.empty()) out["slices"] = m.slices;
   return out;
 }
 
@@ -67,9 +139,9 @@ bool is_picture_id(std::string_view id) {
 }  // namespace
 
 std::vector<std::string> picture_files(std::string_view json, std::string_view report) {
-  using Json = nlohmann::json;  // of keys in their order each would be looked for among all
-  const auto document = Json::parse(json, nullptr, false);
-  const auto text = [](const Json& object, const char* key) -> std::string {
+  using Sorted = nlohmann::json;  // of keys in their order each would be looked for among all
+  const auto document = Sorted::parse(json, nullptr, false);
+  const auto text = [](const Sorted& object, const char* key) -> std::string {
     if (!object.is_object()) return "";
     const auto it = object.find(key);
     return it != object.end() && it->is_string() ? it->get<std::string>() : "";
@@ -88,41 +160,16 @@ std::vector<std::string> picture_files(std::string_view json, std::string_view r
   return names;
 }
 
-PageJson page_json(const Figure& f, const CurveStyles& styles) {
-  PageJson curves = PageJson::array();
-  for (std::size_t i = 0; i < f.curves.size(); ++i) curves.push_back(json(f, i, styles));
-  return {{"id", f.id},       {"family", f.family}, {"choices", json(f.choices)},
-          {"title", f.title}, {"note", f.note},     {"x", json(f.x)},
-          {"y", json(f.y)},   {"curves", curves}};
-}
-
-PageJson page_json(const FigureMap& m) {
-  static constexpr std::string_view scales[]{"linear", "root", "log"};
-  const auto colours = colour_scale(m);
-  PageJson out{{"id", m.id},
-               {"family", m.family},
-               {"choices", json(m.choices)},
-               {"title", m.title},
-               {"note", m.note},
-               {"x", json(m.x)},
-               {"y", json(m.y)},
-               {"value", m.value},
-               {"diverging", m.diverging},
-               {"scale", scales[static_cast<std::size_t>(m.scale)]},
-               {"low", page_json(colours.low)},
-               {"high", page_json(colours.high)},
-               {"ticks", page_json(colours.ticks)},
-               {"values", page_json(m.values)}};
-  if (!m.slices.empty()) out["slices"] = m.slices;
+Json figures_json(const Pictures& p) {
+  const CurveStyles styles(p.figures);
+  Json out = Json::array();
+  for (const auto& f : p.figures) out.push_back(json(f, styles));
   return out;
 }
-
-void put_pictures(PageJson& document, const Pictures& p) {
-  const CurveStyles styles(p.figures);
-  PageJson figures = PageJson::array();
-  for (const auto& f : p.figures) figures.push_back(page_json(f, styles));
-  document["figures"] = std::move(figures);
-  document["maps"] = page_json(p.maps);
+Json maps_json(const Pictures& p) {
+  Json out = Json::array();
+  for (const auto& m : p.maps) out.push_back(json(m));
+  return out;
 }
 
 }  // namespace gonio

@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "image/exr.h"
 #include "reports/picture/figure.h"
 #include "reports/picture/figure_scale.h"
+#include "reports/picture/figure_style.h"
 #include "reports/picture/svg.h"
 
 #include <fmt/format.h>
@@ -18,26 +20,22 @@ namespace {
 using svg::number;
 
 using Colour = std::array<double, 3>;
-/// As --low-2 … --high-2, and --zero, --rms-1, --rms-2, of page.css on paper.
-constexpr std::array<Colour, 5> diverging{Colour{0x1b, 0x5f, 0xa8}, Colour{0x8f, 0xbf, 0xe0},
-                                          Colour{0xe9, 0xe7, 0xe0}, Colour{0xf0, 0xa8, 0x68},
-                                          Colour{0xb3, 0x47, 0x0b}};
-constexpr std::array<Colour, 3> sequential{Colour{0xe9, 0xe7, 0xe0}, Colour{0xa9, 0x8f, 0xc4},
-                                           Colour{0x4c, 0x1f, 0x78}};
 constexpr int shades = 128;  ///< more of them nobody sees, and files grow
 
-template <std::size_t N>
-Colour between(const std::array<Colour, N>& list, double t) {
-  const double x = std::clamp(t, 0.0, 1.0) * (N - 1);
-  const auto i = std::min<std::size_t>(N - 2, static_cast<std::size_t>(x));
+Colour channels(std::string_view hex) {
+  Colour c{};
+  for (std::size_t k = 0; k < 3; ++k)
+    c[k] = std::stoi(std::string(hex.substr(1 + 2 * k, 2)), nullptr, 16);
+  return c;
+}
+/// Colour between those of a list, at t in [0, 1].
+Colour between(std::span<const Colour> list, double t) {
+  const double x = std::clamp(t, 0.0, 1.0) * static_cast<double>(list.size() - 1);
+  const auto i = std::min(list.size() - 2, static_cast<std::size_t>(x));
   Colour c{};
   for (std::size_t k = 0; k < 3; ++k)
     c[k] = list[i][k] + (x - static_cast<double>(i)) * (list[i + 1][k] - list[i][k]);
   return c;
-}
-Colour shade(const FigureMap& m, int of) {
-  const double t = static_cast<double>(of) / shades;
-  return m.diverging ? between(diverging, t) : between(sequential, t);
 }
 std::string hex(const Colour& c) {
   return fmt::format("#{:02x}{:02x}{:02x}", std::lround(c[0]), std::lround(c[1]),
@@ -48,6 +46,7 @@ class Drawing {
  public:
   explicit Drawing(const FigureMap& m)
       : m_(m), colours_(colour_scale(m)), x_edges_(cell_edges(m.x)), y_edges_(cell_edges(m.y)) {
+    for (const auto name : colours_of(m)) list_.push_back(channels(paper_colour(name)));
     x_ = {x_edges_.front(), x_edges_.back(), m.x.log && m.x.names.empty()};
     y_ = {y_edges_.front(), y_edges_.back(), m.y.log && m.y.names.empty()};
   }
@@ -66,7 +65,7 @@ class Drawing {
                             : std::clamp(26 * static_cast<double>(m_.y.size()), 120.0, 1200.0));
       turned_ = !m_.x.names.empty() &&
                 widest(m_.x, x_) > (right_ - left_) / static_cast<double>(m_.x.size()) - 6;
-      marks += panel(0, 7, true, true);
+      marks += panel(0, map_ticks_most, true, true);
     } else {
       marks += panels(edge);
     }
@@ -85,6 +84,7 @@ class Drawing {
   double value(std::size_t slice, std::size_t i, std::size_t j) const {
     return m_.values[(slice * m_.x.size() + i) * m_.y.size() + j];
   }
+  Colour shade(int of) const { return between(list_, static_cast<double>(of) / shades); }
   int shade_of(double v) const {
     return static_cast<int>(std::lround(shades * colour_part(m_, colours_, v)));
   }
@@ -102,7 +102,7 @@ class Drawing {
       top_ = begin + title + static_cast<double>(k / columns) * (h + title + gap);
       bottom_ = top_ + h;
       out += svg::text(left_, top_ - 5, m_.slices[k], {.fill = svg::ink});
-      out += panel(k, 3, k + columns >= n, k % columns == 0);
+      out += panel(k, map_ticks_few, k + columns >= n, k % columns == 0);
     }
     return out;
   }
@@ -120,7 +120,8 @@ class Drawing {
     double w = 0;
     for (const auto& name : axis.names) w = std::max(w, svg::text_width(name));
     if (axis.names.empty())
-      for (const double t : scale_ticks(scale, 7)) w = std::max(w, svg::text_width(tick_text(t)));
+      for (const double t : scale_ticks(scale, map_ticks_most))
+        w = std::max(w, svg::text_width(tick_text(t)));
     return w;
   }
 
@@ -142,7 +143,7 @@ class Drawing {
       }
     std::string out = "<g shape-rendering=\"crispEdges\">\n";
     for (const auto& [s, path] : paths)
-      out += fmt::format("<path d=\"{}\" fill=\"{}\"/>\n", path, hex(shade(m_, s)));
+      out += fmt::format("<path d=\"{}\" fill=\"{}\"/>\n", path, hex(shade(s)));
     return out + "</g>\n";
   }
 
@@ -157,7 +158,7 @@ class Drawing {
         const std::string what = tick_text(std::strtod(fmt::format("{:.2g}", v).c_str(), nullptr));
         const double l = x_at(x_edges_[i]), r = x_at(x_edges_[i + 1]);
         if (svg::text_width(what, 11) > r - l - 2) continue;
-        const Colour c = shade(m_, shade_of(v));
+        const Colour c = shade(shade_of(v));
         const bool dark = 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2] < 130;
         out += svg::text(
             (l + r) / 2, (y_at(y_edges_[j]) + y_at(y_edges_[j + 1])) / 2 + 4, what,
@@ -197,7 +198,7 @@ class Drawing {
     std::string out = "<g shape-rendering=\"crispEdges\">\n";
     for (int s = 0; s < shades; ++s)
       out += fmt::format("<path d=\"M{} {}h{}v10h-{}z\" fill=\"{}\"/>\n", number(left_ + s * step),
-                         number(top), number(step), number(step), hex(shade(m_, s)));
+                         number(top), number(step), number(step), hex(shade(s)));
     out += "</g>\n";
     for (const double t : colours_.ticks) {
       const double part = colour_part(m_, colours_, t);
@@ -212,6 +213,7 @@ class Drawing {
   const FigureMap& m_;
   ColourScale colours_;
   std::vector<double> x_edges_, y_edges_;
+  std::vector<Colour> list_;
   FigureScale x_{}, y_{};
   double width_ = 760, left_ = 0, right_ = width_ - 22, top_ = 0, bottom_ = 0;
   bool turned_ = false;  ///< names of x, which are longer than their cells are wide

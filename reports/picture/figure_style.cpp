@@ -1,15 +1,32 @@
-// Which of the looks of curves a name has.
-#include <algorithm>
-#include <set>
+#include "reports/picture/figure_style.h"
 
-#include "reports/picture/figure.h"
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
 
 namespace gonio {
 namespace {
 
+constexpr std::array<std::string_view, 6> line_colours{"accent", "red",  "green",
+                                                       "extra",  "grey", "warn"};
+/// Dashes of curves that share a colour: the first six, the next …
+constexpr std::array<std::string_view, 6> rounds{"",     "2 3", "9 3 2 3",
+                                                 "12 4", "1 4", "6 2 1 2 1 2"};
+constexpr std::array<std::string_view, 3> reference_dashes{"6 4", "2 4", "10 3 2 3"};
+
+constexpr std::array<std::string_view, 5> diverging{"low-2", "low-1", "zero", "high-1", "high-2"};
+constexpr std::array<std::string_view, 3> sequential{"zero", "rms-1", "rms-2"};
+
+constexpr std::pair<std::string_view, std::string_view> paper[] = {
+    {"ink", "#1c1f23"},   {"accent", "#0b5fa5"}, {"red", "#c4500a"},    {"green", "#00795a"},
+    {"extra", "#8b3f86"}, {"grey", "#4a4f55"},   {"warn", "#8a4b00"},   {"low-2", "#1b5fa8"},
+    {"low-1", "#8fbfe0"}, {"zero", "#e9e7e0"},   {"high-1", "#f0a868"}, {"high-2", "#b3470b"},
+    {"rms-1", "#a98fc4"}, {"rms-2", "#4c1f78"}};
+
 using Names = std::set<std::string, std::less<>>;
 
-const std::string& look_of(const FigureCurve& c) {
+const std::string& look_name(const FigureCurve& c) {
   return c.look.empty() ? c.name : c.look;
 }
 
@@ -22,7 +39,7 @@ CurveStyles::Numbers numbered(std::span<const Figure> figures, bool dashed, std:
     Names own;
     for (const auto& c : f.curves) {
       if (c.dashed != dashed) continue;
-      const auto& name = *own.insert(look_of(c)).first;
+      const auto& name = *own.insert(look_name(c)).first;
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
     for (const auto& name : own) of_picture[name].insert(own.begin(), own.end());
@@ -53,7 +70,23 @@ CurveStyles::CurveStyles(std::span<const Figure> figures)
     : lines_(numbered(figures, false, 12)), references_(numbered(figures, true, 3)) {}
 
 std::size_t CurveStyles::of(const FigureCurve& c) const {
-  return (c.dashed ? references_ : lines_).at(look_of(c));
+  return (c.dashed ? references_ : lines_).at(look_name(c));
+}
+
+CurveLook look_of(const FigureCurve& c, const CurveStyles& styles) {
+  const std::size_t i = styles.of(c);
+  if (c.dashed) return {"ink", reference_dashes[i % reference_dashes.size()], 1.4};
+  return {line_colours[i % line_colours.size()], rounds[i / line_colours.size() % rounds.size()],
+          1.8};
+}
+
+std::span<const std::string_view> colours_of(const FigureMap& m) {
+  if (m.diverging) return diverging;
+  return sequential;
+}
+
+std::string_view paper_colour(std::string_view name) {
+  return std::ranges::find(paper, name, [](const auto& c) { return c.first; })->second;
 }
 
 }  // namespace gonio

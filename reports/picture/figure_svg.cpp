@@ -1,11 +1,11 @@
 // Curves and points as SVG.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "reports/picture/figure.h"
 #include "reports/picture/figure_scale.h"
+#include "reports/picture/figure_style.h"
 #include "reports/picture/svg.h"
 
 #include <fmt/format.h>
@@ -15,29 +15,14 @@ namespace {
 
 using svg::number;
 
-/// As --accent, --red … of page.css on paper, in the order of line_colors in page/figures.js.
-constexpr std::array<std::string_view, 6> line_colours{"#0b5fa5", "#c4500a", "#00795a",
-                                                       "#8b3f86", "#4a4f55", "#8a4b00"};
-/// Of curves that share a colour: the first six, the next …
-constexpr std::array<std::string_view, 6> rounds{"",     "2 3", "9 3 2 3",
-                                                 "12 4", "1 4", "6 2 1 2 1 2"};
-constexpr std::array<std::string_view, 3> reference_dashes{"6 4", "2 4", "10 3 2 3"};
 constexpr std::size_t most_labels = 60;  ///< more of them would hide the points
 
-struct Style {
-  std::string_view colour, dash;
-  double width;
-};
-/// References in ink and dashed, the others each in a colour, then each in a colour and a dash.
-std::vector<Style> looks(const Figure& f, const CurveStyles& styles) {
-  std::vector<Style> out;
+/// Looks of the curves of a figure, in the colours of paper.
+std::vector<CurveLook> looks(const Figure& f, const CurveStyles& styles) {
+  std::vector<CurveLook> out;
   for (const auto& c : f.curves) {
-    const std::size_t i = styles.of(c);
-    if (c.dashed)
-      out.push_back({svg::ink, reference_dashes[i % reference_dashes.size()], 1.4});
-    else
-      out.push_back({line_colours[i % line_colours.size()],
-                     rounds[i / line_colours.size() % rounds.size()], 1.8});
+    out.push_back(look_of(c, styles));
+    out.back().colour = paper_colour(out.back().colour);
   }
   return out;
 }
@@ -52,7 +37,7 @@ class Drawing {
     top_ = head.height;
     const std::string keys = legend();
     bottom_ = top_ + 320;
-    const auto y_ticks = scale_ticks(y_, 7);
+    const auto y_ticks = scale_ticks(y_, y_ticks_most);
     double widest = 0;
     for (const double t : y_ticks) widest = std::max(widest, svg::text_width(tick_text(t)));
     left_ = 16 + 18 + widest + 8;
@@ -105,7 +90,7 @@ class Drawing {
       out += svg::line(left_, y_at(t), right_, y_at(t), svg::faint);
       out += svg::text(left_ - 8, y_at(t) + 4, tick_text(t), {.anchor = svg::Anchor::end});
     }
-    for (const double t : scale_ticks(x_, 8)) {
+    for (const double t : scale_ticks(x_, x_ticks_most)) {
       out += svg::line(x_at(t), top_, x_at(t), bottom_, svg::faint);
       out += svg::text(x_at(t), bottom_ + 18, tick_text(t), {.anchor = svg::Anchor::middle});
     }
@@ -204,7 +189,7 @@ class Drawing {
   }
 
   const Figure& f_;
-  std::vector<Style> styles_;
+  std::vector<CurveLook> styles_;
   FigureScale x_, y_;
   double width_ = 760, left_ = 0, right_ = width_ - 22, top_ = 0, bottom_ = 0;
 };

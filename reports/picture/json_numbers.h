@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "reports/picture/figure.h"
-
 #include <nlohmann/json.hpp>
 
 namespace gonio {
@@ -15,16 +13,12 @@ using PageJson = nlohmann::ordered_json;
 
 /// Six digits: more than a page shows, a third of the bytes.  What is not known is null.
 PageJson page_json(double);
-PageJson page_json(const Figure&, const CurveStyles&);
-PageJson page_json(const FigureMap&);
 template <class T>
 PageJson page_json(const std::vector<T>& v) {
   PageJson out = PageJson::array();
   for (const auto& x : v) out.push_back(page_json(x));
   return out;
 }
-/// "figures" and "maps".
-void put_pictures(PageJson& document, const Pictures&);
 /// One line; bytes that are no UTF-8 are replaced.
 std::string page_text(const PageJson&);
 

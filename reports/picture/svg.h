@@ -39,7 +39,7 @@ std::string line(double x1,
 /// A number of a coordinate: two decimals at most.
 std::string number(double);
 
-/// What stands above a picture: title and note.
+/// Marks above a picture: title and note.
 struct Heading {
   std::string marks;
   double height;

@@ -105,7 +105,7 @@ class Reference {
   NearestRoughness by_albedo(std::span<const double> of) const {
     return nearest([&](double r) { return rms(of, at(r)); }, grid_);
   }
-  /// Of its masking alone.
+  /// Roughness by its masking alone.
   NearestRoughness by_g2(std::span<const double> of, const Square& s) const {
     static const auto coarse = grid(0.05);
     const auto off = [&](double r) { return s.difference(of, mean_g2(term_, r, s.pairs)).rms; };
@@ -138,7 +138,7 @@ Pairs even_pairs(std::size_t azimuths) {
   return {all_pairs(c), azimuths};
 }
 
-/// What all forms are compared over.
+/// Places that all forms are compared over.
 struct Places {
   explicit Places(std::size_t azimuths)
       : fine(Square::of(24, azimuths)),

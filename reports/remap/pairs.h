@@ -59,7 +59,7 @@ MeasuredForms measured_forms(const RemapOptions&,
 std::vector<RemapUse> uses_of_k(const std::vector<RemapForm>&, std::span<const double> mu);
 /// G1 of both k where the seeds say what it is.
 std::vector<RemapG1> claimed_g1();
-/// What stands for V F, of those among the forms.
+/// Forms that stand for V F, of those measured.
 std::vector<RemapVf> in_place_of_vf(const std::vector<RemapForm>&,
                                     const RemapOptions&,
                                     std::span<const double> cosines);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the masking forms of shaders do beside exact Smith: how far G₂ and E are off, and which roughness
+/// Masking forms of shaders beside exact Smith: how far G₂ and E are off, and which roughness
 /// of exact Smith each of them behaves like.
 
 #include <array>
@@ -44,7 +44,7 @@ struct NearestRoughness {
 struct RemapRow {
   std::string form, reference;
   double roughness;
-  /// Of G2 − reference over NoL, NoV in [0.05, 1]², uniform in cosine.
+  /// Errors of G2 − reference over NoL, NoV in [0.05, 1]², uniform in cosine.
   double rms, rms_error, bias;
   double max_rel, max_rel_nol, max_rel_nov;       ///< of |G2 / reference − 1|
   double albedo, albedo_reference, albedo_error;  ///< at mu = 0.5, F = 1; error: of both together
@@ -67,7 +67,7 @@ struct RemapG1 {
   double smith;      ///< exact G1 of that roughness
 };
 
-/// What stands in place of V F, over V F of Smith (correlated) and an exact Fresnel term.
+/// A form that stands in place of V F, over V F of Smith (correlated) and an exact Fresnel term.
 struct RemapVf {
   std::string form, fresnel;
   std::string_view over;  ///< "all": NoL, NoV in [0.05, 1]², azimuths even; "mirror": h = n
@@ -113,8 +113,12 @@ std::array<std::string, 2> references_of(std::string_view ndf);
 /// The form of that id; nullptr if it was not looked at.
 const RemapForm* find_form(const std::vector<RemapForm>&, std::string_view id);
 
-/// {"rows": […], …}: flat objects; what is not known is null.
+/// Document {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const RemapReport&);
+/// Its rows as CSV.
+std::string rows_csv(const RemapReport&);
+/// JSON Schema of the document.
+std::string remap_schema();
 /// \param data  of to_json() above
 std::string remap_page_html(std::string_view data);
 

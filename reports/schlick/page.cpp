@@ -4,37 +4,65 @@
 #include <algorithm>
 
 #include "reports/page/assets.h"
-#include "reports/picture/json_numbers.h"
+#include "reports/picture/document.h"
 #include "reports/schlick/schlick.h"
 
 namespace gonio {
 
-std::string to_json(const SchlickReport& r) {
-  PageJson out{{"schema", "gonio.report.schlick/1"}, {"full", r.full}, {"findings", r.findings.sentences}};
-  PageJson rows = PageJson::array();
-  for (const auto& x : r.rows.smooth)
-    rows.push_back({{"form", x.form},
-                    {"kind", x.kind},
-                    {"name", x.name},
-                    {"material", x.material},
-                    {"channel", x.channel},
-                    {"eta", page_json(x.eta)},
-                    {"k", page_json(x.k)},
-                    {"max_abs", page_json(x.max_abs)},
-                    {"max_abs_theta_deg", page_json(x.max_abs_theta_deg)},
-                    {"max_rel", page_json(x.max_rel)},
-                    {"max_rel_theta_deg", page_json(x.max_rel_theta_deg)},
-                    {"rms", page_json(x.rms)},
-                    {"bias", page_json(x.bias)},
-                    {"within_1_percent_to_deg", page_json(x.within_deg)}});
-  double bound = 0;
-  for (const auto& a : r.rows.rough.albedos) bound = std::max(bound, a.bound);
-  out["albedo_error_bound"] = page_json(bound);
-  out["rows"] = rows;
-  put_pictures(out, r.pictures);
-  return page_text(out);
-}
+template <>
+struct Description<FresnelRow> {
+  static constexpr auto fields() {
+    using R = FresnelRow;
+    return std::tuple{
+        field("form", "", &R::form, "id, with what tells a variant from it"),
+        field("kind", "", &R::kind,
+              "dielectric, dielectric_inside (light in the denser medium), metal, spectral (linear "
+              "RGB)"),
+        field("name", "", &R::name, "material and channel"),
+        field("material", "", &R::material, ""),
+        field("channel", "", &R::channel, "empty of a grey surface"),
+        field("eta", "", &R::eta, "transmitted over incident index; null of a spectrum"),
+        field("k", "", &R::k, "extinction over the incident index; null of a spectrum"),
+        field("max_abs", "", &R::max_abs, "most |F − exact|"),
+        field("max_abs_theta_deg", "°", &R::max_abs_theta_deg, "angle of that"),
+        field("max_rel", "", &R::max_rel, "most |F/exact − 1|"),
+        field("max_rel_theta_deg", "°", &R::max_rel_theta_deg, "angle of that"),
+        field("rms", "", &R::rms, "of F − exact, over the angle"),
+        field("bias", "", &R::bias, "2 ∫ (F − exact) c dc: of light from everywhere"),
+        field("within_1_percent_to_deg", "°", &R::within_deg,
+              "angle up to which the error is at most 0.01")};
+  }
+};
+static_assert(describes_every_member<FresnelRow>());
 
+template <>
+struct Description<SchlickReport> {
+  static constexpr auto fields() {
+    using R = SchlickReport;
+    return std::tuple{
+        constant_text("schema", "gonio.report.schlick/1"),
+        field("full", "", &R::full, setting_meaning),
+        field("findings", "", at(&R::findings, &Findings::sentences), findings_meaning),
+        field("albedo_error_bound", "", albedo_error_bound, "of every albedo in the pictures"),
+        field("rows", "", at(&R::rows, &SchlickRows::smooth), "a form on a surface, each"),
+        inlined(&R::pictures)};
+  }
+  static double albedo_error_bound(const SchlickReport& r) {
+    double bound = 0;
+    for (const auto& a : r.rows.rough.albedos) bound = std::max(bound, a.bound);
+    return bound;
+  }
+};
+
+std::string to_json(const SchlickReport& r) {
+  return page_document(r);
+}
+std::string rows_csv(const SchlickReport& r) {
+  return csv_of(r.rows.smooth, Digits::six);
+}
+std::string schlick_schema() {
+  return schema_text<SchlickReport>("gonio report schlick");
+}
 std::string schlick_page_html(std::string_view data) {
   return make_report_page("Schlick's approximation and its kin", data, assets::schlick_js);
 }

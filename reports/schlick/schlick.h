@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How far every approximate Fresnel term of the catalogue is from the exact one: dielectrics from both
+/// Errors of every approximate Fresnel term of the catalogue: dielectrics from both
 /// sides, measured metals, spectra; and what that does to the albedo of a rough surface.
 
 #include <functional>
@@ -87,8 +87,12 @@ Pictures pictures(const SchlickRows&);
 using SchlickReport = Report<SchlickRows>;
 SchlickReport schlick_report(const SchlickOptions&, const ReportProgress& done = {});
 
-/// {"rows": […], …}: flat objects; what is not known is null.
+/// Document {"rows": […], …}: flat objects; what is not known is null.
 std::string to_json(const SchlickReport&);
+/// Its rows as CSV.
+std::string rows_csv(const SchlickReport&);
+/// JSON Schema of the document.
+std::string schlick_schema();
 /// \param data  of to_json() above
 std::string schlick_page_html(std::string_view data);
 

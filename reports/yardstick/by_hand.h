@@ -18,20 +18,20 @@ struct HandWritten {
   void (*value)(const Block<F>&, const F* values, F* const* out);
 };
 
-/// What bounds GGX under Smith where it is in cache: a division and two roots for each sample, out =
-/// NoH/(√NoL + √NoV), and as good as nothing else.
+/// Lower bound of the time of GGX under Smith in cache: for each sample one division and two roots, out =
+/// NoH/(√NoL + √NoV), the only operations of it that take long.
 template <class F>
 struct RootsAndDivision {
   void (*value)(const Block<F>&, F* out);
 };
 
-/// What an instruction set has of both.
+/// Both in an instruction set.
 template <class F>
 struct ByHand {
   std::span<const HandWritten<F>> models;
   RootsAndDivision<F> bound;
 };
-/// For the best set that this machine and build have, or the named one.
+/// Models and bound for the best set that this machine and build have, or the named one.
 template <class F>
 const ByHand<F>& by_hand(std::string_view instruction_set = {});
 

@@ -73,6 +73,10 @@ constexpr ConstantText constant_text(std::string_view name, std::string_view val
   return {name, value};
 }
 
+/// Digits of the numbers of a document: all that tell a double from its neighbours, or the six that a page shows, a third
+/// of the bytes.
+enum class Digits { all, six };
+
 /// Value of a field's `get` in a struct.
 template <class Get, class T>
 constexpr decltype(auto) value_in(const Get& get, const T& of) {

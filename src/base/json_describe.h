@@ -17,10 +17,6 @@
 
 namespace gonio {
 
-/// Digits of the numbers of a document: all that tell a double from its neighbours, or the six that a page shows, a third
-/// of the bytes.
-enum class Digits { all, six };
-
 /// Number, or null where it is not finite.
 Json number_json(double, Digits);
 

@@ -59,7 +59,7 @@ class Files {
   void write(const ReportFiles& r) {
     page_.write(r.html);
     data_.write(r.json + "\n");
-    rows_.write(rows_csv(r.json));
+    rows_.write(r.csv);
     const CurveStyles styles(r.pictures.figures);
     for (const auto& f : r.pictures.figures) {
       picture(f.id + ".svg", to_svg(f, styles));

@@ -11,7 +11,7 @@
 #include "reports/energy/energy.h"
 #include "reports/index/index_page.h"
 #include "reports/page/page.h"
-#include "reports/picture/json_numbers.h"
+#include "reports/picture/document.h"
 #include "reports/remap/remap.h"
 #include "reports/schlick/schlick.h"
 
@@ -207,7 +207,8 @@ void add_gap(Pages& pages) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const FigureCurve curve{"c", {0, 1, 2, 3, 4}, {1, 1, none, 1, 1}, FigureCurve::Kind::both};
   PageJson data{{"schema", "gonio.report.gap/1"}};
-  put_pictures(data, {{{"gap", "Gap", "", {"x", false, 0, 4}, {"y"}, {curve}}}, {}});
+  data.update(
+      json_of(Pictures{{{"gap", "Gap", "", {"x", false, 0, 4}, {"y"}, {curve}}}, {}}, Digits::six));
   pages.add("gap", make_report_page("Gap", page_text(data), R"(
 document.getElementById("page").replaceChildren(figure_view(page_data().figures[0]));
 addEventListener("load", () => setTimeout(() => {

@@ -4,10 +4,12 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "image/exr.h"
-#include "reports/picture/json_numbers.h"
+#include "reports/picture/document.h"
+#include "reports/picture/figure_scale.h"
 #include "support.h"
 
 #include <gtest/gtest.h>
@@ -70,11 +72,6 @@ TEST(FigureCsv, HasALineForEachCellThatThereIs) {
   EXPECT_NE(to_csv(named).find("\n\"a,b\",10,0\n\"a,b\",20,1\nc,10,2\n"), std::string::npos);
 }
 
-TEST(FigureCsv, RowsHaveAColumnForEveryKeyThatAnyHas) {
-  EXPECT_EQ(rows_csv(R"({"other":1,"rows":[{"b":1.0,"a":"x,y"},{"b":null,"c":true}]})"),
-            "b,a,c\n1,\"x,y\",\n,,true\n");
-}
-
 TEST(FigureId, IsAFileName) {
   EXPECT_EQ(picture_id("loss", {{"form", "masking.smith_ggx"}, {"angle", "μ = 0.5"}}),
             "loss_masking_smith_ggx_0_5");
@@ -120,7 +117,7 @@ TEST(CurveStyles, ANameLooksTheSameInAllPictures) {
   EXPECT_EQ(of(1, 2), 0U) << "the first reference";
   EXPECT_EQ(of(2, 1), 2U) << "d";
   EXPECT_EQ(of(2, 0), 0U) << "alike only names that are nowhere beside each other";
-  EXPECT_EQ(page_json(all[2], styles)["curves"][1]["style"], 2);
+  EXPECT_EQ(figures_json({all, {}})[2]["curves"][1]["colour"], "green") << "as in the SVG";
   const auto colour = [&](const Figure& f) { return occurrences(to_svg(f, styles), "#00795a"); };
   EXPECT_EQ(colour(all[0]), 0U);
   EXPECT_EQ(colour(all[1]), 1U) << "in the legend";
@@ -216,23 +213,45 @@ TEST(FigureMap, HasASliceAfterTheOther) {
 TEST(FigureJson, GivesAnXOnceForTheCurvesThatShareIt) {
   auto f = times();
   f.curves.push_back(f.curves[1]);
-  const auto j = page_json(f, CurveStyles({&f, 1}));
+  const auto j = figures_json({{f}, {}})[0];
   EXPECT_TRUE(j["curves"][1].contains("x_ns")) << "of a time, which no run repeats";
   EXPECT_FALSE(j["curves"][2].contains("x_ns"));
   EXPECT_TRUE(j["curves"][0]["y"][1].is_null());
 }
 
+TEST(FigureJson, TellsThePageTheScalesThatTheSvgIsDrawnOn) {
+  const auto f = times();
+  const auto j = figures_json({{f}, {}})[0];
+  for (const auto& [axis, scale, most] :
+       {std::tuple{"x", x_scale(f), x_ticks_most}, {"y", y_scale(f), y_ticks_most}}) {
+    const auto& told = j[axis]["scales"][scale.log ? "log" : "linear"];
+    EXPECT_NEAR(told["low"].get<double>(), scale.low, 1e-5 * std::abs(scale.low)) << axis;
+    EXPECT_NEAR(told["high"].get<double>(), scale.high, 1e-5 * scale.high) << axis;
+    EXPECT_EQ(told["ticks"].size(), scale_ticks(scale, most).size()) << axis;
+    EXPECT_LE(told["few"].size(), told["ticks"].size()) << axis;
+  }
+  EXPECT_TRUE(j["x"]["scales"].contains("linear")) << "a reader may choose it";
+}
+
+TEST(FigureJson, TellsNoLogarithmsOfWhatHasNone) {
+  Figure f;
+  f.curves = {{"a", {0, 1}, {-1, 1}}};
+  EXPECT_FALSE(figures_json({{f}, {}})[0]["y"]["scales"].contains("log"));
+  f.curves[0].y = {0, 1};
+  EXPECT_TRUE(figures_json({{f}, {}})[0]["y"]["scales"].contains("log"));
+}
+
 TEST(FigureJson, ScalesOfColoursHoldTheValues) {
   auto m = cells();
-  EXPECT_EQ(page_json(m)["low"], -5);
-  EXPECT_EQ(page_json(m)["high"], 5);
+  EXPECT_EQ(maps_json({{}, {m}})[0]["low"], -5);
+  EXPECT_EQ(maps_json({{}, {m}})[0]["high"], 5);
   m.diverging = false;
   m.values = {1e-4, 0.2, 0.03, 0, none, 0.001};
   m.scale = FigureMap::Scale::log;
-  EXPECT_EQ(page_json(m)["low"], 1e-4);
-  EXPECT_EQ(page_json(m)["high"], 0.2);
+  EXPECT_EQ(maps_json({{}, {m}})[0]["low"], 1e-4);
+  EXPECT_EQ(maps_json({{}, {m}})[0]["high"], 0.2);
   m.limit = 1;
-  EXPECT_EQ(page_json(m)["high"], 1);
+  EXPECT_EQ(maps_json({{}, {m}})[0]["high"], 1);
 }
 
 }  // namespace
