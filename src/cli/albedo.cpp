@@ -10,6 +10,7 @@
 #include "geometry/direction.h"
 #include "integrate/scattering/compensation.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace gonio::cli {

@@ -9,6 +9,8 @@
 #include "cli/output_files.h"
 #include "cli/terminal.h"
 
+#include <fmt/format.h>
+
 namespace gonio::cli {
 namespace {
 

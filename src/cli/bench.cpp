@@ -11,6 +11,8 @@
 #include "cli/terminal.h"
 #include "reports/cost/baseline.h"
 
+#include <fmt/format.h>
+
 namespace gonio::cli {
 namespace {
 

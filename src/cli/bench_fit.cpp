@@ -14,6 +14,7 @@
 #include "table/format/formats.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spawn.h>
 #include <sys/resource.h>

@@ -11,6 +11,8 @@
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
 
+#include <fmt/format.h>
+
 namespace gonio::cli {
 namespace {
 

@@ -9,6 +9,8 @@
 #include "fitting/result/document.h"
 #include "table/format/formats.h"
 
+#include <fmt/format.h>
+
 namespace gonio::cli {
 namespace {
 

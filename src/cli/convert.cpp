@@ -10,6 +10,7 @@
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace gonio::cli {

@@ -4,6 +4,7 @@
 #include "cli/command.h"
 #include "table/format/csv.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace gonio::cli {

@@ -10,6 +10,8 @@
 #include "reports/tables/fit_page.h"
 #include "table/health/health.h"
 
+#include <fmt/format.h>
+
 namespace gonio::cli {
 namespace {
 

@@ -8,6 +8,8 @@
 #include "table/format/formats.h"
 #include "table/health/health.h"
 
+#include <fmt/format.h>
+
 namespace gonio::cli {
 namespace {
 

@@ -9,6 +9,7 @@
 #include "cli/command.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 
 namespace {
 

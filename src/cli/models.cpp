@@ -6,6 +6,7 @@
 #include "integrate/scattering/compensation.h"
 #include "optics/refractive_index.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace gonio::cli {

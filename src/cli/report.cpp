@@ -13,6 +13,8 @@
 #include "reports/index/index_page.h"
 #include "reports/index/kinds.h"
 
+#include <fmt/format.h>
+
 namespace gonio::cli {
 namespace {
 

@@ -12,6 +12,7 @@
 #include "integrate/light/split_sum_light.h"
 #include "integrate/light/split_sum_table.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace gonio::cli {

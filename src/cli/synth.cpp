@@ -5,6 +5,7 @@
 #include "cli/terminal.h"
 #include "table/format/formats.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace gonio::cli {

@@ -5,6 +5,7 @@
 #include "brdf/in_number/one_term.h"
 #include "cli/command.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace gonio::cli {
