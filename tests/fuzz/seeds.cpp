@@ -40,6 +40,10 @@ int main(int argc, char** argv) {
   write_table(mbsdf_example(2, 3), place("mbsdf", "rgb"));
   Table csv = csv_example();
   write_table(csv, place("csv", "weights"));
+  csv.channels = {"a,b", "say \"x\"\n"};
+  csv.weights.clear();
+  write_table(csv, place("csv", "quoted"));
+  save("csv", "old_mac", "\"theta_i\";theta_o;\"f_\"\"\"\r\"30\";-28;0,412\r30;10;nan\r");
   save("csv", "plain", "theta_i,phi_i,theta_o,phi_o,f\r\n30,0,28,180,0.412\r\n30,0,10,0,nan\r\n");
   Table slice = slice_example();
   slice.truth = truth_example();
