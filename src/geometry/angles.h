@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a term may ask about one sample: the cosines between n (normal), l (light), v (view) and
+/// Angles that a term may ask of one sample: the cosines between n (normal), l (light), v (view) and
 /// h (half vector).
 
 #include "number/real.h"
@@ -14,7 +14,7 @@ struct Angles {
   B nol, nov, noh, voh, sin2_theta_h;
 };
 
-/// The same of a surface with a tangent x and a bitangent y: what anisotropic terms read too.
+/// Angles of a surface with a tangent x and a bitangent y, which anisotropic terms read, too.
 template <class B>
 struct FrameAngles : Angles<B> {
   B xoh, yoh, xol, yol, xov, yov;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How different two colours look: CIELAB and CIEDE2000.
+/// Difference between two colours as seen: CIELAB and CIEDE2000.
 
 #include <array>
 

@@ -13,7 +13,7 @@ namespace gonio {
 
 /// Linear red, green, blue.
 using Rgb = std::array<double, 3>;
-/// Of ITU-R BT.709's primaries.
+/// Luminance of ITU-R BT.709's primaries.
 inline double luminance(const Rgb& c) {
   return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
 }

@@ -16,7 +16,7 @@ struct Image {
   std::map<std::string, std::string> attributes;
 };
 
-/// What a channel's numbers are stored as: 24 bits, or 11 as a GPU's half, to the nearest.
+/// Width of a channel's stored numbers: 24 bits, or 11 as a GPU's half, to the nearest.
 enum class Storage { single, half };
 
 /// Lossless compression.  A value that half cannot hold, beyond 65504, is refused.
@@ -30,7 +30,7 @@ std::string exr_bytes(const std::string& name, const Image&, Storage = Storage::
 Image read_exr(const std::string& path,
                std::size_t most = std::size_t{1} << 28,
                const std::vector<std::string>& only = {});
-/// The same without its planes.
+/// Image without its planes.
 Image read_exr_header(const std::string& path);
 
 }  // namespace gonio

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a surface reflects at normal incidence, F0, and what that says of its refractive index
+/// Reflectance at normal incidence, F0, and what it says of the refractive index
 /// N = n + i k: maps (brdf/term/map.h) between F0, n, Gulbrandsen's (r, g) and (n, k).
 
 #include <array>
@@ -38,7 +38,7 @@ struct F0FromIor {
   }
 };
 
-/// The same as printed in seed 001: the square is missing, so that glass has F0 = 0.2 for 0.04, and an
+/// F0 as printed in seed 001: the square is missing, so that glass has F0 = 0.2 for 0.04, and an
 /// index below that of the surroundings a negative F0.
 template <Real T>
 struct F0FromIorAsWritten {

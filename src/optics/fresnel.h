@@ -95,9 +95,9 @@ struct Dielectric {
   }
 };
 
-/// What an interface reflects whose root a + i b = √(N² − s²) is known, of modulus m = a² + b².
+/// Reflectance of an interface whose root a + i b = √(N² − s²) is known, of modulus m = a² + b².
 ///
-/// As (root − c)(root + c) is N² − 1, the R_s and R_p of Conductor are also
+/// (root − c)(root + c) being N² − 1, the R_s and R_p of Conductor are also
 ///
 ///   R_s = |N² − 1|²/(m + c² + 2 a c)²,   R_p = R_s (m c² + s⁴ − 2 a c s²)/(m c² + s⁴ + 2 a c s²)
 ///   F = R_s (m c² + s⁴)/(m c² + s⁴ + 2 a c s²)
@@ -172,7 +172,7 @@ struct Conductor {
 /// Exact Fresnel reflectance of a conductor in an artist's terms: its reflectance at normal incidence
 /// and its tint at the edge, from which f0.h has N = n + i k.              [Gulbrandsen 2014]
 ///
-/// Of k it needs the square alone: at g = 0, where k is 0, the root would have no slope.  f0 = 1 has
+/// It needs k's square alone: at g = 0, where k is 0, the root would have no slope.  f0 = 1 has
 /// no finite index and √f0 no slope at 0, so below 2⁻²⁰ and above 1 − 2⁻¹⁶ F runs straight to 0 and
 /// to 1; at normal incidence that is still exact.
 ///

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is shipped in place of exact Fresnel reflectance (fresnel.h), mistakes included.
+/// Forms shipped in place of exact Fresnel reflectance (fresnel.h), mistakes included.
 ///
 /// c = VoH; f0 is the reflectance at normal incidence, one per channel.
 
@@ -31,7 +31,7 @@ T schlick(const T& f0, const plain_t<T>& w) {
   return f0 * (1 - w) + w;
 }
 
-/// The same reflectance at every angle.
+/// Reflectance that is f0 at every angle.
 ///
 ///   F = f0
 template <Real T>

@@ -14,7 +14,7 @@ struct Index {
 
 /// A metal or a dielectric by its measured index.
 struct Material {
-  /// As published; between two wavelengths n and k are linear, beyond the ends constant.
+  /// Sample as published; between two wavelengths n and k are linear, beyond the ends constant.
   struct Measured {
     double nm, n, k;
   };
@@ -41,7 +41,7 @@ std::span<const Material> metals();
 std::span<const Material> dielectrics();
 /// By symbol or name, without regard to case; nullptr if unknown.
 const Material* find_metal(std::string_view symbol_or_name);
-/// The same among metals and dielectrics.
+/// Material found among metals and dielectrics.
 const Material* find_material(std::string_view symbol_or_name);
 
 }  // namespace gonio

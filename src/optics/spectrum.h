@@ -36,7 +36,7 @@ std::array<double, 3> linear_srgb(const Spectrum& reflectance);
 /// XYZ of linear sRGB, by the inverse of that matrix: {1, 1, 1} is the white of xyz().
 std::array<double, 3> xyz_of_srgb(const std::array<double, 3>& rgb);
 
-/// What a smooth surface reflects at angles of cosine c, exactly: Fresnel reflectance of every
+/// Reflectance of a smooth surface at angles of cosine c, exactly: Fresnel reflectance of every
 /// wavelength, then linear_srgb().
 std::array<double, 3> reflectance_rgb(const Material&, double c);
 /// The shortcut: Fresnel reflectance of the index at 650, 550 and 450 nm.

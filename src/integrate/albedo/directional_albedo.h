@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much of the light that comes in goes out again, for any composed model: deterministic
+/// Share of the light that comes in which goes out again, for any composed model: deterministic
 /// integrals, each with a bound of its error.
 
 #include <cstddef>
@@ -49,25 +49,25 @@ std::vector<Albedo> directional_albedo(const BoundModel&,
                                        double phi = 0,
                                        const Goal& = {});
 
-/// The same of the diffuse terms alone, coupled ones as the first lobe's interface leaves them.
+/// Directional albedo of the diffuse terms alone, coupled ones as the first lobe's interface leaves them.
 std::vector<Albedo> diffuse_albedo(const BoundModel&,
                                    std::span<const double> mu,
                                    double phi = 0,
                                    const Goal& = {});
 
 /// E_avg = (1/π) ∫ E(v) NoV dω_v: over all that comes in evenly; isotropic 2 ∫ E(μ) μ dμ.  An anisotropic
-/// model is taken to be its own mirror image by tangent and bitangent.  Of evaluations, 20 times the
-/// goal's; infinite where the bound is then above 1 and above the value.
+/// model is taken to be its own mirror image by tangent and bitangent.  It may take 20 times
+/// the goal's evaluations; infinite where the bound is then above 1 and above the value.
 Albedo hemispherical_albedo(const BoundModel&, const Goal& = {});
 
-/// The same of any albedo, that of a direction to a goal; it is asked in parallel.
+/// Albedo of a direction to a goal, from which any average follows; it is asked in parallel.
 using AlbedoAt = std::function<Albedo(double mu, double phi, const Goal&)>;
 Albedo hemispherical_average(const AlbedoAt&,
                              std::size_t channels,
                              bool anisotropic,
                              const Goal& = {});
 
-/// The same model with F = 1 in every lobe: what it then does not reflect, masking has taken away.
+/// Model with F = 1 in every lobe: what it then does not reflect, masking has taken away.
 BoundModel furnace(const BoundModel&);
 
 }  // namespace gonio

@@ -11,7 +11,7 @@
 namespace gonio {
 namespace {
 
-/// Whether D grows as NoH⁻² or faster towards the horizon: ∫ D NoH dω has no value then, however
+/// True where D grows as NoH⁻² or faster towards the horizon: ∫ D NoH dω has no value then, however
 /// little D is.
 bool diverges_at_the_horizon(std::size_t term, std::span<const double> parameters) {
   constexpr std::array cosines{1e-50, 1e-60};

@@ -15,7 +15,7 @@ struct Normalisation {
   std::size_t evaluations = 0;
 };
 
-/// Of the ndf term `term` (an index into catalogue()).  Over slopes as directional_albedo() has them up
+/// Normalisation of the ndf term `term` (an index into catalogue()).  Over slopes as directional_albedo() has them up
 /// to 45°, over θ_h from there to the horizon, where a distribution that is still 1/NoH² or more
 /// diverges.  An anisotropic one is taken to be its own mirror image by tangent and bitangent.
 Normalisation normalisation(std::size_t term,

@@ -31,7 +31,7 @@ struct Shape {
   double spread() const { return (x * x + y * y) / 12; }
   /// (cos θ₀ − cos θ₁) Δφ, in which near the pole the cosines would cancel
   double solid_angle() const { return 2 * x * std::sin(y / 2); }
-  /// Of its area: that lies further from the pole than half way.
+  /// Centre of its area, which lies further from the pole than half way.
   double centre_theta() const { return theta + y * y / 12 * cos_theta / sin_theta; }
   Direction middle() const { return direction(centre_theta(), phi); }
 };
@@ -43,7 +43,7 @@ std::array<double, 6> even_light(const Shape& s, const Rgb& l) {
   return {omega * l[0], omega * l[1], omega * l[2], all * d.x, all * d.y, all * d.z};
 }
 
-/// What of it comes from above the horizon of n, as if the rectangle were flat.
+/// Light of it that comes from above the horizon of n, as if the rectangle were flat.
 SummedEnvironment::Light above(const Environment& map,
                                const Rectangle& r,
                                SummedEnvironment::Light light,
@@ -91,7 +91,7 @@ Parts parts(const Environment& map, const Rectangle& r) {
   return p;
 }
 
-/// How much further light is spread within parts than half of what they are from each other; 0 where they
+/// Excess of the light's spread within parts over half of that between them; 0 where they
 /// vouch for it, as of even light, of which it is a third.
 double hidden_spread(std::span<const SummedEnvironment::Light> parts, double whole_spread) {
   double within = 0, all = 0;

@@ -13,17 +13,17 @@
 
 namespace gonio {
 
-/// Of a map: each column's part above the horizon in closed form over θ, by Gauss over φ.
+/// Irradiance of a map: each column's part above the horizon in closed form over θ, by Gauss over φ.
 ///
 ///   ∫ (a sin θ + b cos θ) sin θ dθ = a (θ − sin θ cos θ)/2 + b sin² θ/2,   a = n_xy cos(φ − φ_n), b = n_z
 ///
-/// Of even light off by at most 4e-6, in a map of one row.
+/// Even light is off by at most 4e-6, in a map of one row.
 Rgb irradiance(const Environment&, const Direction& n);
 
 /// Radiance from a direction.
 using Radiance = std::function<Rgb(const Direction&)>;
 
-/// How directions around n are chosen, and weighted.
+/// Choice of directions around n, and their weights.
 enum class IrradianceRule {
   /// Equal steps in θ and φ from their low ends, as the usual shader has it; step_θ = step_φ.  Seed 003 says
   /// "the sum over the hemisphere, divided by the number of samples": without its π² that would be E/10.

@@ -13,7 +13,7 @@
 
 namespace gonio {
 
-/// Of the catalogue, but no composition of terms: `gonio split_sum` evaluates it.
+/// Entry of the catalogue, but no composition of terms: `gonio split_sum` evaluates it.
 inline constexpr About split_sum_about{
     "model.split_sum",
     "Image-based light by two sums",
@@ -22,7 +22,7 @@ inline constexpr About split_sum_about{
     "003",
     "Unreal Engine 4, Filament, glTF viewers"};
 
-/// Of GGX under Schlick's Fresnel, with (1 − VoH)⁵ as c:
+/// Sums of GGX under Schlick's Fresnel, with (1 − VoH)⁵ as c:
 ///
 ///   A = ∫ D V (1 − c) NoL dω_l,   B = ∫ D V c NoL dω_l:   E = F0 A + B
 struct SplitSum {
@@ -37,7 +37,7 @@ std::vector<SplitSum> split_sum(std::string_view masking,
                                 std::span<const double> nov,
                                 const Goal& = {});
 
-/// As renderers make their table: n half vectors from the points of Hammersley, drawn from D NoH, of
+/// Sums as renderers tabulate them: n half vectors from the points of Hammersley, drawn from D NoH, of
 /// which those with l below the horizon count for nothing.
 ///
 ///   A = 1/n Σ (1 − c) G₂ VoH / (NoH NoV)                                  [Karis 2013, p. 7]
@@ -49,13 +49,13 @@ std::vector<SplitSum> sampled_split_sum(std::string_view masking,
                                         std::span<const double> nov,
                                         std::size_t samples);
 
-/// What a white Lambertian reflects under that interface, by which the environment's irradiance is
+/// Reflection of a white Lambertian under that interface, by which the environment's irradiance is
 /// weighted: coupled Lambert reflects kd (1 − F0) · diffuse of an even environment.  It does not depend
 /// on roughness.
 ///
 ///   diffuse = ∫ (1 − c) NoL dω_l / π
 std::vector<Albedo> split_sum_diffuse(std::span<const double> nov, const Goal& = {});
-/// The same from n directions drawn from the cosine.
+/// Estimate of it from n directions drawn from the cosine.
 std::vector<double> sampled_split_sum_diffuse(std::span<const double> nov, std::size_t samples);
 
 /// GGX with that masking under Schlick's Fresnel; two channels, of F0 as given, by default 0 and 1, so that

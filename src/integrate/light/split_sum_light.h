@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the split sum makes of an environment, against the integral that it stands for.
+/// Split sum of an environment, against the integral that it stands for.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace gonio {
 
-/// What a GGX surface under Schlick's Fresnel sends to a viewer, exactly and by the split sum:
+/// Light that a GGX surface under Schlick's Fresnel sends to a viewer, exactly and by the split sum:
 ///
 ///   exact = ∫ L f NoL dω, which is linear in F0
 ///   split = P (F0 A + B),   P = ∫ L D NoL dω / ∫ D NoL dω  with n = v = r              [Karis 2013]

@@ -20,7 +20,7 @@ namespace gonio {
 ///
 /// so that it is looked up at texture coordinates (NoV, roughness) without offsets.
 ///
-/// Of 32², 64², 128², correlated: half stores A and B to 2.4e-4, float to 3e-8; bilinear lookups of A + B are
+/// Errors at 32², 64², 128², correlated: half stores A and B to 2.4e-4, float to 3e-8; bilinear lookups of A + B are
 /// off by 4.0e-3, 2.2e-3, 1.3e-3 (RMS) and 0.10, 0.098, 0.084 (most), which is where NoV is clamped; between
 /// the outermost centres by 9e-4, 5e-4, 3e-4 and 0.018, 0.017, 0.014, where the surface is smooth.
 struct SplitSumTable {
@@ -61,7 +61,7 @@ struct SplitSumDeviation {
 /// Texel by texel, of two tables of one size.
 SplitSumDeviation difference(const SplitSumTable& found, const SplitSumTable& truth);
 
-/// Of lookups against quadrature, on a grid of probes × probes from NoV 0.001 and roughness 0.01 to 1.
+/// Error of lookups against quadrature, on a grid of probes × probes from NoV 0.001 and roughness 0.01 to 1.
 struct LookupError {
   SplitSumDeviation all;
   SplitSumDeviation

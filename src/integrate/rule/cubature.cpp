@@ -56,7 +56,7 @@ struct Part {
 /// Rectangles are not split further: they are 2⁻⁵⁰ of those given.
 constexpr int most_splits = 50;
 
-/// What sums and products of so much may have rounded off.
+/// Rounding that sums and products of so much may have suffered.
 double rounding_of(double absolute) {
   return 64 * std::numeric_limits<double>::epsilon() * absolute;
 }

@@ -19,10 +19,10 @@ struct Goal {
 
 /// Integrals with one bound for the error of each: over the rectangles, along both axes, the sum of
 ///
-///   |Kronrod − Gauss|, of which the first is by far the more exact; but at least what the 8 nodes that
-///   are not Gauss's are off by, squared, for the two may agree by chance;
-///   4 times the most that any rule is off by where there is a kink: where these 8 are not far worse than
-///   Gauss's; and 1/1024 of that in the halves
+///   |Kronrod − Gauss|, the error of the lesser rule; but at least the square of the relative error of a third rule,
+///   on the 8 nodes that Gauss lacks, since the first two may agree by chance;
+///   where Gauss's error is a tenth of the third rule's or more, there is a kink: 4 times the larger of these
+///   two errors, and at least 1/1024 of the whole's error in each of its halves
 ///
 /// and what summing rounds off.  It is true where the nodes see the function: a kink between the last
 /// node and the end of the first rectangles is not seen (of max(x − a, 0) on a line, a drawn at random,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much light the facets of an isotropic microsurface turn from one zenith angle into another.
+/// Light that the facets of an isotropic microsurface turn from one zenith angle into another.
 
 #include <cstddef>
 #include <span>

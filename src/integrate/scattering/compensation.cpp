@@ -156,8 +156,8 @@ class Compensated {
   }
 
  private:
-  /// What is left to each of a lobe's three integrals.  Errors: Turquin makes that of E = 0.3 up to ten
-  /// times as large.
+  /// Goal of each of a lobe's three integrals: Turquin makes an error of E = 0.3 up to ten times as
+  /// large.
   Goal shared(const Goal& goal) const {
     const std::size_t parts = model_.model.lobes.size() + 1;
     return {goal.error / (16.0 * static_cast<double>(parts)), goal.evaluations / (3 * parts)};

@@ -18,7 +18,7 @@
 
 namespace gonio {
 
-/// Of the catalogue, but no composition of terms: `gonio albedo --scattering` evaluates them.
+/// Entries of the catalogue, but no composition of terms: `gonio albedo --scattering` evaluates them.
 inline constexpr About walk_about{
     "scattering.walk", "Multiple scattering by random walks on the microsurface",
     "order 1 is D V F; each further bounce meets a facet below, at the depth that the masking says",
@@ -40,8 +40,8 @@ inline constexpr std::array<std::string_view, 4> compensation_names{
 /// Albedo of the model, each of its lobes compensated by itself, at each μ = NoV in (0, 1], in parallel.
 /// E and E_avg of a lobe are its own at F = 1; F0 is its Fresnel term at normal incidence; F_avg the
 /// integral above, but Fdez-Agüera's own, and A and B are only of fresnel.schlick: any other is wrong
-/// usage there.  The bound is what the albedos' own bounds come to; goals are shared out so that it is
-/// about what was asked for.
+/// usage there.  The bound is carried over from those of the integrals; their goals are chosen so
+/// that it is about what was asked for.
 std::vector<Albedo> compensated_albedo(
     const BoundModel&, Compensation, std::span<const double> mu, double phi = 0, const Goal& = {});
 

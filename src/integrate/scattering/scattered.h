@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a rough surface gives back of the light that comes in, by the number of facets that it met.
+/// Share of the light that a rough surface gives back, by the number of facets that it met.
 
 #include <cstddef>
 #include <vector>

@@ -2,7 +2,7 @@
 /// \file
 /// The facet of Smith's microsurface that light meets, drawn at random.
 ///
-/// Of light that flies along w, above the surface or within it, upwards or downwards, that facet's normal m
+/// Light flies along w, above the surface or within it, upwards or downwards; the normal m of the facet it meets
 /// has the density
 ///
 ///   D_w(m) = max(0, −w·m) D(m) / σ(−w),   σ(u) = ∫ max(0, u·m) D(m) dω_m      [Heitz et al. 2016]
@@ -25,7 +25,7 @@ struct Facet {
   double x, y, z;
 };
 
-/// Of GGX, for which a unit h is the half vector of u = −A w/|A w| and a point even over the part of the
+/// Facets of GGX, for which a unit h is the half vector of u = −A w/|A w| and a point even over the part of the
 /// sphere with z > −u_z                                                          [Dupuy & Benyoub 2023]
 ///
 /// \param area  σ(−w); |A w| is 2σ(−w) + w_z
@@ -77,7 +77,7 @@ inline std::array<double, 2> beckmann_visible_slopes(double a, Draws& draw) {
   }
 }
 
-/// Of Beckmann, whose slopes along A w and across it are independent: a is the cotangent of −A w.
+/// Facets of Beckmann, whose slopes along A w and across it are independent: a is the cotangent of −A w.
 class BeckmannFacets {
  public:
   BeckmannFacets(double alpha_x, double alpha_y) : alpha_x_(alpha_x), alpha_y_(alpha_y) {}

@@ -20,7 +20,7 @@ struct WalkGoal {
   std::size_t bounces = 1000;     ///< after which a walk is cut off
 };
 
-/// How much of the light that arrives from each μ = NoV in (0, 1] leaves again, by the number of bounces; in
+/// Share of the light arriving from each μ = NoV in (0, 1] that leaves again, by the number of bounces; in
 /// parallel.  Every lobe has to be one of microsurfaces(), else it is wrong usage; diffuse terms are left out.
 ///
 /// Light dives into the surface from its top until it meets a facet, is weighted with the facet's
