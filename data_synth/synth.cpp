@@ -117,7 +117,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
     throw wrong_usage(
         fmt::format("model '{}' is anisotropic: layout {} does not say how the surface was turned; "
                     "those of direction lists do: in_plane, hemisphere, random",
-                    b.model.spec, layout_names[static_cast<std::size_t>(o.layout)]));
+                    b.model.spec, name_of(o.layout)));
   const SampleAngles at(t);
   constexpr std::size_t chunk = 16384;
   tbb::parallel_for(std::size_t{0}, (n + chunk - 1) / chunk, [&](std::size_t k) {
@@ -147,7 +147,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
   });
 
   t.truth = Truth{b.model.spec, named_values(b), o.noise, o.floor, o.outliers, o.seed};
-  t.notes.emplace_back("layout", layout_names[static_cast<std::size_t>(o.layout)]);
+  t.notes.emplace_back("layout", name_of(o.layout));
   return t;
 }
 

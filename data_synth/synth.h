@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "base/names.h"
 #include "brdf/model/model.h"
 #include "table/table.h"
 
@@ -20,8 +21,9 @@ enum class Layout {
   hemisphere,   ///< 6 incident angles × theta_o by 5° × phi_o by 10°; CSV
   random        ///< half uniform over both hemispheres, half with theta_h log-uniform; CSV
 };
-inline constexpr std::array<const char*, 6> layout_names{"merl",        "mbsdf",      "in_plane",
-                                                         "image_slice", "hemisphere", "random"};
+template <>
+inline constexpr std::array<std::string_view, 6> names_of<Layout>{
+    "merl", "mbsdf", "in_plane", "image_slice", "hemisphere", "random"};
 
 struct SynthOptions {
   Layout layout = Layout::merl;

@@ -102,7 +102,7 @@ FitResult fit(const Table& t,
   d.model = p.start.model.spec;
   d.channels = t.channels;
   describe(d, p, f.model.values, u);
-  d.metric = metric_names[static_cast<std::size_t>(o.metric)];
+  d.metric = name_of(o.metric);
   d.log_offset = sampling.offset();
   d.robust = o.robust ? "huber" : "none";
   d.cost = f.solution.at.cost;
@@ -113,7 +113,7 @@ FitResult fit(const Table& t,
   d.masked = a.counts.by_reason(sampling);
   d.input_path = t.path;
   d.input_format = t.format;
-  d.bins = t.has_bins() ? bins_names[static_cast<std::size_t>(bins)] : "none";
+  d.bins = t.has_bins() ? name_of(bins) : "none";
 
   meanwhile.wait();
   if (has_other) watch.lap("bin_sensitivity_ms");

@@ -14,7 +14,7 @@ std::optional<BinSensitivity> bin_sensitivity(const Problem& p,
   const Fitted here = minimise(p, scanned, f.model, f.huber);
   const Fitted there = minimise(p, fit_data<double>(elsewhere, scan_samples), f.model, f.huber);
   if (!here.solution.converged || !there.solution.converged) return {};
-  BinSensitivity s{bins_names[static_cast<std::size_t>(other)], {}, 0};
+  BinSensitivity s{std::string(name_of(other)), {}, 0};
   s.log_rms = residual_statistics(there.model, elsewhere, scan_samples).log_rms;
   for (const auto& q : p.start.model.parameters) {
     std::vector<double> change;

@@ -17,9 +17,8 @@ Json parameters(const FitDocument& d) {
     j["ci95"] = per_channel(p.ci95_low.size(), [&](std::size_t c) {
       return Json::array({p.ci95_low[c], p.ci95_high[c]});
     });
-    j["status"] = per_channel(p.status.size(), [&](std::size_t c) {
-      return Json(status_names[static_cast<std::size_t>(p.status[c])]);
-    });
+    j["status"] =
+        per_channel(p.status.size(), [&](std::size_t c) { return Json(name_of(p.status[c])); });
   }
   return all;
 }

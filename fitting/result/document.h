@@ -9,13 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "base/names.h"
 #include "table/health/health.h"
 
 namespace gonio {
 
 enum class ParameterStatus { free, fixed, at_bound, not_identifiable };
-inline constexpr std::array<const char*, 4> status_names{"free", "fixed", "at_bound",
-                                                         "not_identifiable"};
+template <>
+inline constexpr std::array<std::string_view, 4> names_of<ParameterStatus>{
+    "free", "fixed", "at_bound", "not_identifiable"};
 
 /// One parameter, one entry per channel where it has channels.  NaN stands for "not known": the
 /// value and error of a parameter that is not identifiable, the error of a fixed one.

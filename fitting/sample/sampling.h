@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/names.h"
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/evaluate.h"
 #include "table/table.h"
@@ -23,7 +24,8 @@ namespace gonio {
 ///   relative   (f − y)/(y + offset)
 /// each of them w (link(f + offset) − t) with a target t and a weight w that depend on the datum.
 enum class Metric { log, l2_cosine, relative };
-inline constexpr std::array<std::string_view, 3> metric_names{"log", "l2_cosine", "relative"};
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<Metric>{"log", "l2_cosine", "relative"};
 
 constexpr Link link_of(Metric m) {
   return m == Metric::log ? Link::log : Link::identity;
@@ -102,7 +104,7 @@ class Sampling {
 
 struct SampleCounts {
   std::size_t used = 0, zero = 0, zero_weight = 0;
-  std::array<std::size_t, mask_names.size()> masked{};  ///< by Mask
+  std::array<std::size_t, names_of<Mask>.size()> masked{};  ///< by Mask
 
   void add(const SampleCounts&);
   /// Values left out, by reason.

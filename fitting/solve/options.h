@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/names.h"
 #include "brdf/model/model.h"
 #include "fitting/sample/sampling.h"
 
@@ -16,7 +17,9 @@ enum class Intervals {
   independent,
   by_angle  ///< values of one incident angle share their errors; needs two angles
 };
-inline constexpr std::array<const char*, 3> intervals_names{"automatic", "independent", "by_angle"};
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<Intervals>{"automatic", "independent",
+                                                                     "by_angle"};
 
 struct FitOptions {
   std::string model = "lambert+ggx/smith_ggx.correlated/schlick";

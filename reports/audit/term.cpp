@@ -22,10 +22,9 @@ class TermAudit {
         role_(role_of(about_.id)) {}
 
   EntryAudit operator()() const {
-    static constexpr std::string_view kinds[] = {"ndf", "masking", "fresnel", "diffuse"};
     EntryAudit e;
     e.about = &about_;
-    e.kind = kinds[static_cast<std::size_t>(role_)];
+    e.kind = name_of(role_);
     e.operations = operations_of(term_).sample;
     ranges(e);
     grazing(e);

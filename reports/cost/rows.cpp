@@ -152,7 +152,6 @@ void add_subjects(std::vector<Subject>& to, const CostOptions& o, std::string_vi
   const std::string_view number = std::is_same_v<F, float> ? "float" : "double";
   const auto field = std::make_shared<Field<F>>(streaming ? o.stream_samples : o.cache_samples);
   const auto wanted = [&](std::string_view id) { return id.find(o.filter) != id.npos; };
-  static constexpr std::string_view kinds[] = {"ndf", "masking", "fresnel", "diffuse"};
   for (const auto& set : sets) {
     if (streaming && !o.full && set != sets.back()) continue;
     const auto& k = kernels<F>(set);
@@ -163,8 +162,7 @@ void add_subjects(std::vector<Subject>& to, const CostOptions& o, std::string_vi
     };
     for (std::size_t t = 0; t < k.terms.size(); ++t) {
       const auto id = catalogue()[t].id();
-      if (wanted(id))
-        add(id, kinds[static_cast<std::size_t>(role_of(id))], "", 1, timed_term<F>(t, k, field));
+      if (wanted(id)) add(id, name_of(role_of(id)), "", 1, timed_term<F>(t, k, field));
     }
     auto terms_alone = k;
     terms_alone.fused = {};

@@ -179,8 +179,7 @@ Figure compared_figure(const CrossFitRows& r,
   };
   for (const auto& layout : cross_layouts)
     for (const Metric metric : {Metric::log, Metric::l2_cosine})
-      add(fmt::format("{}, {}", metric_names[static_cast<std::size_t>(metric)], layout.what),
-          metric, layout.name);
+      add(fmt::format("{}, {}", name_of(metric), layout.what), metric, layout.name);
   return f;
 }
 

@@ -57,7 +57,7 @@ struct Description<CrossRow> {
             "of the fitted value by that of the truth; 0: the truth is exact"),
         field(
             "status", "",
-            [](const R& r) { return status_names[static_cast<std::size_t>(r.v->status)]; },
+            [](const R& r) { return name_of(r.v->status); },
             "free, fixed, at_bound, not_identifiable"),
         field(
             "converged", "", [](const R& r) { return r.c->converged; }, ""),
@@ -68,7 +68,7 @@ struct Description<CrossRow> {
             "of it what is noise of the truth"),
         field(
             "metric", "",
-            [](const R& r) { return metric_names[static_cast<std::size_t>(r.c->metric)]; },
+            [](const R& r) { return name_of(r.c->metric); },
             "of the fit"),
         field(
             "layout", "", [](const R& r) { return r.c->layout; }, "directions")};

@@ -54,7 +54,7 @@ std::vector<std::vector<EnergyMaterial::At>> solve(const Family& family,
     for (std::size_t i = 0; i < mu.size(); ++i) put(mu[i], all.at[i]);
     put(0, all.average);
   }
-  for (std::size_t m = 0; m < compensation_names.size(); ++m) {
+  for (std::size_t m = 0; m < names_of<Compensation>.size(); ++m) {
     const auto how = static_cast<Compensation>(m);
     // A and B, by which it works, are of Schlick's Fresnel.
     if (how == Compensation::fdez_aguera && family.fresnel != schlick) continue;
@@ -62,8 +62,8 @@ std::vector<std::vector<EnergyMaterial::At>> solve(const Family& family,
     const auto average = compensated_average(model, how, goal);
     for (std::size_t c = 0; c < rows.size(); ++c) {
       for (std::size_t i = 0; i < mu.size(); ++i)
-        rows[c][i].scattering.push_back({compensation_names[m], at[i].value[c]});
-      rows[c].back().scattering.push_back({compensation_names[m], average.value[c]});
+        rows[c][i].scattering.push_back({names_of<Compensation>[m], at[i].value[c]});
+      rows[c].back().scattering.push_back({names_of<Compensation>[m], average.value[c]});
     }
   }
   return rows;

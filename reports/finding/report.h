@@ -2,6 +2,7 @@
 /// \file
 /// A report as anyone sees it: its files, its findings, the claims that it judges, the questions it answers.
 
+#include <array>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -43,8 +44,10 @@ struct Claim {
   std::string anchor{};  ///< of the report's page, where it is shown; empty: its top
 };
 
-/// "holds", "holds in part", "does not hold"
-std::string_view word(Claim::Judged);
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<Claim::Judged>{"holds", "holds in part",
+                                                                         "does not hold"};
+
 /// "“claim” holds: verdict"
 std::string sentence(const Claim&);
 

@@ -86,7 +86,7 @@ struct Description<ClaimOf> {
         field(
             "source", "", [](const C& c) { return c.claim->source; }, "where it stands"),
         field(
-            "judged", "", [](const C& c) { return word(c.claim->judged); },
+            "judged", "", [](const C& c) { return name_of(c.claim->judged); },
             "holds, holds in part, does not hold"),
         field(
             "verdict", "", [](const C& c) { return c.claim->verdict; }, "sentence with figures"),

@@ -3,6 +3,7 @@
 /// Pictures as data: made once, by a report, then drawn on its page (page/figures.js) and written beside it
 /// as SVG, CSV and OpenEXR.
 
+#include <array>
 #include <limits>
 #include <map>
 #include <span>
@@ -10,6 +11,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "base/names.h"
 
 namespace gonio {
 
@@ -38,6 +41,10 @@ struct FigureCurve {
   std::string
       look{};  ///< the name that it looks like, of several that came to the same; empty: its own
 };
+
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<FigureCurve::Kind>{"line", "points",
+                                                                             "both"};
 
 /// Choices that tell pictures of a family apart: {{"material", "gold"}, {"angle", "0.5"}}.
 using FigureChoices = std::vector<std::pair<std::string, std::string>>;
@@ -80,6 +87,10 @@ struct FigureMap {
   /// Names of several maps over the same axes, "roughness 0.3"; their values one map after the other.
   std::vector<std::string> slices{};
 };
+
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<FigureMap::Scale>{"linear", "root",
+                                                                            "log"};
 
 /// Id of a family and what is chosen: in small letters and digits, all else a single '_'.
 std::string picture_id(std::string_view family, const FigureChoices&);

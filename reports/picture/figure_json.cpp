@@ -79,11 +79,10 @@ std::string key(const char* name, const FigureAxis& axis) {
 
 /// A curve; x only where it is not the same as of the curve before.
 Json json(const Figure& f, std::size_t i, const CurveStyles& styles) {
-  static constexpr std::string_view kinds[]{"line", "points", "both"};
   const auto& c = f.curves[i];
   const auto look = look_of(c, styles);
   Json out{{"name", c.name},
-           {"kind", kinds[static_cast<std::size_t>(c.kind)]},
+           {"kind", name_of(c.kind)},
            {"colour", look.colour},
            {"dash", look.dash},
            {"width", look.width}};
@@ -111,7 +110,6 @@ Json json(const Figure& f, const CurveStyles& styles) {
 }
 
 Json json(const FigureMap& m) {
-  static constexpr std::string_view scales[]{"linear", "root", "log"};
   const auto colours = colour_scale(m);
   Json out{{"id", m.id},
            {"family", m.family},
@@ -122,7 +120,7 @@ Json json(const FigureMap& m) {
            {"y", json(m.y)},
            {"value", m.value},
            {"diverging", m.diverging},
-           {"scale", scales[static_cast<std::size_t>(m.scale)]},
+           {"scale", name_of(m.scale)},
            {"low", page_json(colours.low)},
            {"high", page_json(colours.high)},
            {"ticks", page_json(colours.ticks)},

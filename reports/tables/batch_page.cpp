@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/base64.h"
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "reports/page/assets.h"
@@ -14,37 +15,6 @@
 
 namespace gonio {
 namespace {
-
-// --- Bytes as text, RFC 4648 ---
-constexpr std::string_view digits =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-std::string base64(std::string_view bytes) {
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= n ? digits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
-
-std::string from_base64(std::string_view text) {
-  std::string out;
-  std::uint32_t held = 0;
-  int bits = 0;
-  for (const char c : text) {
-    const auto digit = digits.find(c);
-    if (digit == digits.npos) break;
-    held = (held << 6 | static_cast<std::uint32_t>(digit)) & 0xffffff;
-    if ((bits += 6) < 8) continue;
-    bits -= 8;
-    out += static_cast<char>(held >> bits & 255);
-  }
-  return out;
-}
 
 // --- A preview in a document ---
 Json rows_json(const std::vector<std::vector<double>>& v) {
@@ -95,9 +65,9 @@ FitDocument read_fit(const JsonReader& j) {
   for (const auto& [name, q] : j.at("parameters").members()) {
     FittedParameter p{name, q.at("value").numbers(), q.at("std_error").numbers(), {}, {}, {}};
     for (const auto& s : q.at("status").elements()) {
-      const auto known = std::ranges::find(status_names, s.string());
-      if (known == status_names.end()) s.fail("a status");
-      p.status.push_back(static_cast<ParameterStatus>(known - status_names.begin()));
+      const auto known = find_value<ParameterStatus>(s.string());
+      if (!known) s.fail("a status");
+      p.status.push_back(*known);
     }
     const std::size_t n = p.value.size();
     if ((n != 1 && n != d.channels.size()) || p.std_error.size() != n || p.status.size() != n)
@@ -150,19 +120,6 @@ std::string column(const FitDocument& d, const FittedParameter& p, std::size_t c
 }
 
 }  // namespace
-
-const char* status_name(Exit outcome) {
-  switch (outcome) {
-    case Exit::done:
-      return "ok";
-    case Exit::not_converged:
-      return "not_converged";
-    case Exit::usage:
-      return "wrong_usage";
-    default:
-      return "bad_input";
-  }
-}
 
 std::string batch_document(const FitDocument& d,
                            const Preview& preview,
@@ -217,14 +174,13 @@ std::string batch_csv(const std::vector<BatchRow>& rows) {
                        field(name + ".status"));
   csv += ",log_rms,rms,cost,values_used,masked,warnings,message\n";
   for (const auto& r : rows) {
-    csv += fmt::format("{},{},{},{},{}", field(r.path), field(r.document), status_name(r.outcome),
+    csv += fmt::format("{},{},{},{},{}", field(r.path), field(r.document), name_of(r.outcome),
                        static_cast<int>(r.outcome), field(r.fit.model));
     std::map<std::string, std::string> cells;
     for (const auto& p : r.fit.parameters)
       for (std::size_t c = 0; c < p.value.size(); ++c)
-        cells[column(r.fit, p, c)] =
-            fmt::format(",{},{},{}", field(p.value[c]), field(p.std_error[c]),
-                        status_names[static_cast<std::size_t>(p.status[c])]);
+        cells[column(r.fit, p, c)] = fmt::format(",{},{},{}", field(p.value[c]),
+                                                 field(p.std_error[c]), name_of(p.status[c]));
     for (const auto& name : columns) csv += cells.contains(name) ? cells.at(name) : ",,,";
     if (has_fit(r))
       csv += fmt::format(",{},{},{},{},{},{}", field(r.fit.residuals.log_rms),
@@ -242,12 +198,12 @@ std::string batch_json(const std::vector<BatchRow>& rows,
                        bool previews) {
   Json counts = Json::object();
   for (const auto outcome : {Exit::done, Exit::not_converged, Exit::bad_input, Exit::usage})
-    counts[status_name(outcome)] = std::ranges::count(rows, outcome, &BatchRow::outcome);
+    counts[name_of(outcome)] = std::ranges::count(rows, outcome, &BatchRow::outcome);
   Json tables = Json::array();
   for (const auto& r : rows) {
     Json t{{"path", r.path},
            {"document", r.document.empty() ? Json(nullptr) : Json(r.document)},
-           {"status", status_name(r.outcome)},
+           {"status", name_of(r.outcome)},
            {"exit_code", static_cast<int>(r.outcome)},
            {"message", r.message}};
     if (has_fit(r)) {
@@ -257,7 +213,7 @@ std::string batch_json(const std::vector<BatchRow>& rows,
         parameters[p.name] = {{"value", per_channel(p.value)},
                               {"std_error", per_channel(p.std_error)},
                               {"status", per_channel(p.status.size(), [&](std::size_t c) {
-                                 return Json(status_names[static_cast<std::size_t>(p.status[c])]);
+                                 return Json(name_of(p.status[c]));
                                })}};
       double time = 0;
       for (const auto& [phase, ms] : d.solver.phase_ms) time += ms;

@@ -24,8 +24,6 @@ struct BatchRow {
   FitDocument fit;                 ///< what the summary shows of it, if there is one
   Preview preview;
 };
-/// "ok", "not_converged", "bad_input" or "wrong_usage"
-const char* status_name(Exit outcome);
 
 /// A fit document as a batch writes it: of schema "gonio.fit/1" like any other, and with
 /// "batch": {"made_with", "preview"}.

@@ -115,7 +115,8 @@ InspectPage make_inspect_page(const Table& t) {
 std::string to_json(const InspectPage& page, std::string_view health_json) {
   PageJson albedo = PageJson::array(), masked = PageJson::object();
   for (const auto& a : page.albedo) albedo.push_back(json(a));
-  for (std::size_t m = 1; m < mask_names.size(); ++m) masked[mask_names[m]] = page.trust.masked[m];
+  for (std::size_t m = 1; m < names_of<Mask>.size(); ++m)
+    masked[names_of<Mask>[m]] = page.trust.masked[m];
   return page_text({{"health", PageJson::parse(health_json)},
                     {"channels", page.channels},
                     {"curves", page_json(page.curves)},

@@ -29,7 +29,7 @@ struct TrustMap {
   std::string x, y;                  ///< names of the angles
   std::vector<double> x_deg, y_deg;  ///< edges
   std::vector<std::size_t> values;   ///< [x · cells of y + y], masked ones included
-  std::array<std::vector<std::size_t>, mask_names.size()> masked;  ///< by Mask
+  std::array<std::vector<std::size_t>, names_of<Mask>.size()> masked;  ///< by Mask
   std::vector<double> reciprocity;  ///< mean of reciprocity_error(); NaN where there is no pair
   std::vector<std::size_t> pairs;   ///< of values
 };

@@ -2,8 +2,12 @@
 /// \file
 /// What went wrong, for whom, and where in *their* file; and the program's exit codes.
 
+#include <array>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+
+#include "base/names.h"
 
 namespace gonio {
 
@@ -15,6 +19,9 @@ enum class Exit {
   bad_input = 3,      ///< a file that cannot be read as what it claims, or an output not written
   not_converged = 4,  ///< the fit
 };
+template <>
+inline constexpr std::array<std::string_view, 5> names_of<Exit>{"ok", "check_failed", "wrong_usage",
+                                                                "bad_input", "not_converged"};
 
 /// One line that a user can act on.  Bugs are asserted, outcomes of a fit are values in its result;
 /// this is for what people bring.

@@ -43,7 +43,7 @@ Result by_formula(const BoundModel& model, const Options& o) {
     r.at = directional_albedo(model, o.mu, phi, goal);
     if (o.average) r.average = hemispherical_albedo(model, goal);
   } else {
-    const auto how = static_cast<Compensation>(index_of(compensation_names, o.scattering));
+    const auto how = value_of<Compensation>(o.scattering, "compensation");
     r.at = compensated_albedo(model, how, o.mu, phi, goal);
     if (o.average) r.average = compensated_average(model, how, goal);
   }
@@ -186,7 +186,7 @@ Exit run(const Options& o) {
 void add_albedo(CommandLine& line) {
   auto o = std::make_shared<Options>();
   std::vector<std::string> scattering{"single", "walk", "deterministic"};
-  scattering.insert(scattering.end(), compensation_names.begin(), compensation_names.end());
+  scattering.insert(scattering.end(), names_of<Compensation>.begin(), names_of<Compensation>.end());
   auto c = line.command(
       "albedo",
       "Integrates how much of the light that comes in a model gives back, with a bound of the "

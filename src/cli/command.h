@@ -49,8 +49,7 @@ void add_seed(Command& c, Seed& seed, const std::string& what) {
 /// --bins centre|edge
 void add_bins(Command&, std::optional<std::string>& name);
 inline std::optional<Bins> bins_from(const std::optional<std::string>& name) {
-  if (!name) return {};
-  return *name == "edge" ? Bins::edge : Bins::centre;
+  return name ? std::optional(value_of<Bins>(*name, "bins")) : std::nullopt;
 }
 /// What most subcommands share.
 struct Common {
@@ -65,13 +64,5 @@ void add_jobs(Command&, Common&);
 void use_jobs(int jobs);
 /// Refuses outputs that are an input, or its side file, or each other, or "-".
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
-
-/// The position of a name among the fixed names of a contract.
-template <std::size_t N, class Name>
-std::size_t index_of(const std::array<Name, N>& names, std::string_view name) {
-  for (std::size_t i = 0; i < N; ++i)
-    if (name == names[i]) return i;
-  return N;
-}
 
 }  // namespace gonio::cli

@@ -43,8 +43,7 @@ std::string layout(const Table& t) {
       s += fmt::format(" at {} {:g}°", a.name, a.span / degree);
     else
       s += fmt::format("{}{} {}", s.back() == ',' ? " " : " × ", a.size, a.name);
-  return s + (t.has_bins() ? fmt::format(", bins {}", bins_names[static_cast<std::size_t>(g->bins)])
-                           : "");
+  return s + (t.has_bins() ? fmt::format(", bins {}", name_of(g->bins)) : "");
 }
 
 std::string percent(double share) {
@@ -120,7 +119,7 @@ Json to_json(const Table& from, const Conversion& c, const Options& o) {
                 {"format", t.format},
                 {"channels", t.channels},
                 {"samples", t.size()},
-                {"bins", t.has_bins() ? bins_names[static_cast<std::size_t>(t.bins())] : "none"}};
+                {"bins", t.has_bins() ? name_of(t.bins()) : "none"}};
   };
   const auto maybe = [](const std::optional<double>& v) { return v ? Json(*v) : Json(); };
   const Loss& l = c.loss;
@@ -131,7 +130,7 @@ Json to_json(const Table& from, const Conversion& c, const Options& o) {
   }
   return {{"input", side(from, o.input)},
           {"output", side(c.table, o.output)},
-          {"method", method_names[static_cast<std::size_t>(l.method)]},
+          {"method", name_of(l.method)},
           {"bins_above_horizon", l.bins},
           {"bins_without_data", l.without_data},
           {"bins_from_nearest", l.nearest},

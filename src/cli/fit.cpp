@@ -34,9 +34,7 @@ void print(const FitDocument& d) {
       const std::string name =
           p.value.size() == 1 ? p.name : fmt::format("{}.{}", p.name, d.channels[c]);
       fmt::print("{:<14}{:<28}{}\n", name, with_error(p.value[c], p.std_error[c]),
-                 p.status[c] == ParameterStatus::free
-                     ? ""
-                     : status_names[static_cast<std::size_t>(p.status[c])]);
+                 p.status[c] == ParameterStatus::free ? "" : name_of(p.status[c]));
     }
   fmt::print("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}\n", d.residuals.log_rms,
              d.residuals.rms, d.intervals);
@@ -58,8 +56,8 @@ void print(const FitDocument& d) {
 Exit run(const Options& o) {
   use_jobs(o.jobs);
   FitOptions options = o.fit;
-  options.metric = static_cast<Metric>(index_of(metric_names, o.metric));
-  options.intervals = static_cast<Intervals>(index_of(intervals_names, o.intervals));
+  options.metric = value_of<Metric>(o.metric, "metric");
+  options.intervals = value_of<Intervals>(o.intervals, "intervals");
   options.robust = o.robust == "huber";
   options.fixed = parse_settings(o.fix);
   options.bounds = parse_settings(o.bounds);
@@ -110,14 +108,16 @@ void add_fit(CommandLine& line) {
   c.option("--bounds", o->bounds, "Where a parameter is looked for: NAME=LOW,HIGH …").at_most(64);
   c.option("--grey", o->fit.grey, "Colour parameters with one value for all channels: NAME …")
       .at_most(64);
-  c.option("--metric", o->metric, "log, l2_cosine or relative").one_of(metric_names).show_default();
+  c.option("--metric", o->metric, "log, l2_cosine or relative")
+      .one_of(names_of<Metric>)
+      .show_default();
   c.option("--robust", o->robust, "none, or huber against outliers")
       .one_of({"none", "huber"})
       .show_default();
   c.option("--intervals", o->intervals,
            "Whether the values of one incident angle share their errors: independent, by_angle, or "
            "automatic (by_angle for measured tables)")
-      .one_of(intervals_names)
+      .one_of(names_of<Intervals>)
       .show_default();
   add_bins(c, o->bins);
   c.option("-o,--output", o->output,

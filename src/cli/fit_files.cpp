@@ -127,11 +127,10 @@ void expect_apart(const Batch& b,
 /// All that the options say of a result, in words.
 std::string made_with(const Batch& b) {
   const FitOptions& o = b.options;
-  std::string text = fmt::format(
-      "gonio {}; {}; metric {}; robust {}; intervals {}; bins {}", GONIO_VERSION, o.model,
-      metric_names[static_cast<std::size_t>(o.metric)], o.robust ? "huber" : "none",
-      intervals_names[static_cast<std::size_t>(o.intervals)],
-      b.bins ? bins_names[static_cast<std::size_t>(*b.bins)] : "as each table says");
+  std::string text =
+      fmt::format("gonio {}; {}; metric {}; robust {}; intervals {}; bins {}", GONIO_VERSION,
+                  o.model, name_of(o.metric), o.robust ? "huber" : "none", name_of(o.intervals),
+                  b.bins ? name_of(*b.bins) : "as each table says");
   for (const auto& s : o.fixed)
     text += fmt::format("; fix {}={}", s.name, fmt::join(s.values, ","));
   for (const auto& s : o.bounds)

@@ -39,9 +39,9 @@ void print(const Table& t, const Health& h) {
        fmt::format("{}, {}, channels {}", t.format, layout_text(t), fmt::join(t.channels, " ")));
   line("values",
        fmt::format("{} of {} valid ({:.1f} %)", h.valid, h.values, percent(h.valid, h.values)));
-  for (std::size_t m = 1; m < mask_names.size(); ++m)
+  for (std::size_t m = 1; m < names_of<Mask>.size(); ++m)
     if (h.masked[m])
-      line("masked", fmt::format("{} {} ({:.1f} %)", h.masked[m], mask_names[m],
+      line("masked", fmt::format("{} {} ({:.1f} %)", h.masked[m], names_of<Mask>[m],
                                  percent(h.masked[m], h.values)));
   line("range", fmt::format("{:.4g} to {:.4g} 1/sr", h.smallest_positive, h.largest));
   if (h.noise_floor > 0)
@@ -76,7 +76,7 @@ void print(const Table& t, const Health& h) {
   if (const Grid* g = t.grid(); g && t.has_bins())
     line("bins",
          fmt::format(
-             "{} assumed{}", bins_names[static_cast<std::size_t>(g->bins)],
+             "{} assumed{}", name_of(g->bins),
              h.peak && h.peak->bin_sensitivity
                  ? fmt::format("; the other convention changes the peak's alpha by {:+.2f} %",
                                100 * *h.peak->bin_sensitivity)
@@ -91,8 +91,7 @@ void print(const Table& t, const Health& h) {
     for (const auto& w : *warnings) line("beware", w);
   fmt::print("what a fit can hope to determine\n");
   for (const auto& p : h.prospects)
-    fmt::print("  {:<10}{:<8}{}\n", p.of, verdict_names[static_cast<std::size_t>(p.verdict)],
-               p.because);
+    fmt::print("  {:<10}{:<8}{}\n", p.of, name_of(p.verdict), p.because);
 }
 
 Exit run(const Options& o) {

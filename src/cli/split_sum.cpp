@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
+#include "base/numbers.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "integrate/light/split_sum_light.h"
@@ -26,8 +27,6 @@ struct Options : Common {
   std::size_t samples = 0, views = 0;
   std::optional<double> error;
 };
-constexpr std::array precision_names{"float", "half"};
-constexpr std::array storages{Storage::single, Storage::half};
 
 Goal goal_or(const Options& o, double error) {
   return {o.error.value_or(error)};
@@ -84,12 +83,10 @@ Exit rows(const Options& o) {
 
 /// "64x32"
 std::array<std::size_t, 2> size_from(const std::string& text) {
-  std::array<std::size_t, 2> size{};
-  const char* const end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size[0]);
-  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, size[1]);
-    if (height.ec == std::errc() && height.ptr == end) return size;
+  if (const auto parts = split(text, 'x'); parts.size() == 2) {
+    const auto width = number_from<std::size_t>(parts[0]),
+               height = number_from<std::size_t>(parts[1]);
+    if (width && height) return {*width, *height};
   }
   throw wrong_usage(fmt::format("--size {} is not WIDTHxHEIGHT, such as 64x64", text));
 }
@@ -106,8 +103,8 @@ Exit table(const Options& o) {
   Progress progress(o.quiet || o.json);
   progress("integrating");
   const auto exact = split_sum_table(o.masking, width, height, o.samples, goal_or(o, 1e-7));
-  const std::string precision = o.precision.empty() ? precision_names[0] : o.precision;
-  const Storage storage = storages[index_of(precision_names, precision)];
+  const std::string precision(o.precision.empty() ? name_of(Storage::single) : o.precision);
+  const auto storage = value_of<Storage>(precision, "precision");
   const auto written = stored(exact, storage);
   write_split_sum_table(o.out, exact, storage);
   progress("looking up");
@@ -254,7 +251,7 @@ void add_split_sum(CommandLine& line) {
       "Error asked for: absolute (1e-8, of a table 1e-7), under an environment relative (1e-3)");
   c.option("--size", o->size, "A table of WIDTHxHEIGHT texels: NoV along, roughness down");
   c.option("--precision", o->precision, "What the table's numbers are stored as (float)")
-      .one_of(precision_names);
+      .one_of(names_of<Storage>);
   c.option("-o,--output", o->out, "OpenEXR file that the table is written to");
   c.option("--environment", o->environment,
            "OpenEXR map over longitude and latitude: what the split sum is off by under its light");

@@ -24,7 +24,7 @@ Exit run(const Options& o) {
   use_jobs(o.jobs);
   check_outputs({}, {o.output});
   SynthOptions s = o.synth;
-  s.layout = static_cast<Layout>(index_of(layout_names, o.layout));
+  s.layout = value_of<Layout>(o.layout, "layout");
   s.bins = bins_from(o.bins).value_or(Bins::centre);
   const auto model = bind_model(o.spec, parse_settings(o.set));
   Progress progress(o.quiet);
@@ -53,7 +53,7 @@ void add_synth(CommandLine& line) {
   c.option("SPEC", o->spec, "Model").required();
   add_set(c, o->set);
   c.option("--layout", o->layout, "merl, mbsdf, in_plane, image_slice, hemisphere or random")
-      .one_of(layout_names)
+      .one_of(names_of<Layout>)
       .required();
   add_bins(c, o->bins);
   c.option("--samples", o->synth.samples, "Number of samples of the random layout")

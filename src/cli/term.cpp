@@ -64,7 +64,7 @@ Exit run(const Options& o) {
   }
   Columns at;
   for (auto& s : parse_settings(o.at)) at[s.name] = s.values;
-  const auto number = static_cast<Number>(index_of(number_names, o.number));
+  const auto number = value_of<Number>(o.number, "number");
 
   std::vector<std::string> lines;
   if (const auto map = find_map(o.id)) {
@@ -117,7 +117,7 @@ void add_term(CommandLine& line) {
   c.option("--number", o->number,
            "Number type: double; float; half, rounded after every operation; wide, fifty "
            "digits; mixed, half parameters and float angles")
-      .one_of(number_names);
+      .one_of(names_of<Number>);
   add_output(c, *o);
 }
 

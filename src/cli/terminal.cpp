@@ -56,7 +56,7 @@ void add_set(Command& c, std::vector<std::string>& words) {
 void add_bins(Command& c, std::optional<std::string>& name) {
   c.option("--bins", name,
            "Where a sample sits in its bin: centre or edge (default: as the file says, or centre)")
-      .one_of(bins_names);
+      .one_of(names_of<Bins>);
 }
 
 void add_output(Command& c, Common& o) {

@@ -2,9 +2,13 @@
 /// \file
 /// OpenEXR in and out: named float channels and string attributes.
 
+#include <array>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "base/names.h"
 
 namespace gonio {
 
@@ -18,6 +22,8 @@ struct Image {
 
 /// Width of a channel's stored numbers: 24 bits, or 11 as a GPU's half, to the nearest.
 enum class Storage { single, half };
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Storage>{"float", "half"};
 
 /// Lossless compression.  A value that half cannot hold, beyond 65504, is refused.
 void write_exr(const std::string& path, const Image&, Storage = Storage::single);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/memory.h"
+#include "base/names.h"
 #include "geometry/half_difference.h"
 
 namespace gonio {
@@ -21,7 +22,8 @@ namespace gonio {
 /// Where a stored sample sits in its bin.  Files do not say, tools disagree, and half a bin shifts
 /// alpha by 4 to 15 %: so it is explicit everywhere.
 enum class Bins { centre, edge };
-inline constexpr std::array<const char*, 2> bins_names{"centre", "edge"};
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Bins>{"centre", "edge"};
 
 /// One axis of a grid: size bins over [0, span].
 struct Axis {
@@ -170,8 +172,9 @@ inline SampleAngles::Row SampleAngles::row(std::size_t number) const {
 
 /// Why a value is not used.
 enum class Mask { valid, below_horizon, negative, not_finite };
-inline constexpr std::array<const char*, 4> mask_names{"valid", "below_horizon", "negative",
-                                                       "not_finite"};
+template <>
+inline constexpr std::array<std::string_view, 4> names_of<Mask>{"valid", "below_horizon",
+                                                                "negative", "not_finite"};
 /// The cosine up to which a direction is below the horizon: that of 90° in radians is not quite 0.
 inline constexpr double horizon_cosine = 1e-9;
 /// Geometry first: a value below the horizon is that, whatever is stored there.

@@ -21,7 +21,7 @@ BoundModel paint() {
 
 TEST(Synth, WithoutNoiseHoldsTheModelAtEverySampleOfEveryLayout) {
   const auto b = paint();
-  for (std::size_t l = 0; l < layout_names.size(); ++l) {
+  for (std::size_t l = 0; l < names_of<Layout>.size(); ++l) {
     const Table t = synthesize(b, {.layout = static_cast<Layout>(l)});
     const SampleAngles at(t);
     std::vector<std::size_t> picked;
@@ -33,7 +33,7 @@ TEST(Synth, WithoutNoiseHoldsTheModelAtEverySampleOfEveryLayout) {
     const auto f = evaluate(b, angles);
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t i = 0; i < picked.size(); ++i)
-        ASSERT_EQ(t.values[c][picked[i]], f[c][i]) << layout_names[l];
+        ASSERT_EQ(t.values[c][picked[i]], f[c][i]) << names_of<Layout>[l];
   }
 }
 

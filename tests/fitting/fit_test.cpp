@@ -75,8 +75,8 @@ TEST_P(Recovery, FromANoisyMerlTableIsWithinFourStandardErrors) {
 }
 
 TEST_P(Recovery, WorksFromEveryLayoutAndMetric) {
-  for (std::size_t l = 0; l < layout_names.size(); ++l)
-    for (std::size_t k = 0; k < metric_names.size(); ++k) {
+  for (std::size_t l = 0; l < names_of<Layout>.size(); ++l)
+    for (std::size_t k = 0; k < names_of<Metric>.size(); ++k) {
       SynthOptions s;
       s.layout = static_cast<Layout>(l);
       if (s.layout == Layout::merl) continue;  // above
@@ -87,7 +87,7 @@ TEST_P(Recovery, WorksFromEveryLayoutAndMetric) {
       each_value(GetParam(), r.document,
                  [&](const auto& name, double truth, double fitted, double) {
                    EXPECT_NEAR(fitted / truth, 1, 1e-5)
-                       << name << " " << layout_names[l] << " " << metric_names[k];
+                       << name << " " << names_of<Layout>[l] << " " << names_of<Metric>[k];
                  });
     }
 }
@@ -341,7 +341,7 @@ TEST_P(MetricCoverage, Of95PercentIntervalsLiesBetween90And99Percent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Metrics, MetricCoverage, testing::Values(0U, 1U, 2U), [](const auto& i) {
-  return std::string(metric_names[i.param]);
+  return std::string(names_of<Metric>[i.param]);
 });
 
 /// A goniometer whose gain drifts by 2 % from one incident angle to the next: 24 angles, the values

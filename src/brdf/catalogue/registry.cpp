@@ -1,11 +1,10 @@
 #include "brdf/catalogue/registry.h"
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "base/nearest_names.h"
 #include "brdf/catalogue/catalogue.h"
 #include "brdf/catalogue/maps.h"
 
@@ -13,34 +12,6 @@
 
 namespace gonio {
 namespace {
-
-/// Levenshtein distance: how many letters a typing error changed.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// Throws wrong usage naming those of `ids` that are nearest.
-[[noreturn]] void refuse(std::string_view id,
-                         std::span<const std::string_view> ids,
-                         std::string_view what) {
-  std::vector<std::pair<std::size_t, std::string_view>> near;
-  for (const auto known : ids) near.emplace_back(distance(id, known), known);
-  std::ranges::stable_sort(near, {}, [](const auto& p) { return p.first; });
-  if (near.size() > 3) near.resize(3);
-  std::vector<std::string_view> names;
-  for (const auto& n : near) names.push_back(n.second);
-  throw wrong_usage(fmt::format("no {} '{}'; nearest: {}", what, id, fmt::join(names, ", ")));
-}
 
 template <template <class> class Map>
 constexpr MapEntry map_entry() {
@@ -83,7 +54,7 @@ std::size_t find_term(std::string_view id) {
   if (const auto it = std::ranges::find(ids, id); it != ids.end())
     return static_cast<std::size_t>(it - ids.begin());
   for (const auto& m : maps()) ids.push_back(m.about->id);
-  refuse(id, ids, "term");
+  refuse_name(id, ids, "term");
 }
 
 std::size_t find_term(std::string_view id, Role role) {
@@ -102,7 +73,7 @@ std::size_t find_term(std::string_view id, Role role) {
         fmt::format("'{}' alone is no diffuse term, and a lobe is NDF/MASKING/FRESNEL, as in "
                     "ggx/smith_ggx.correlated/schlick",
                     id));
-  refuse(id, ids, names[static_cast<int>(role)]);
+  refuse_name(id, ids, names[static_cast<std::size_t>(role)]);
 }
 
 std::optional<std::size_t> find_map(std::string_view id) {

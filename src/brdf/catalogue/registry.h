@@ -2,13 +2,19 @@
 /// \file
 /// The catalogue at run time: what terms and maps there are, found by id.
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
 
+#include "base/names.h"
 #include "brdf/term/term.h"
 
 namespace gonio {
+
+template <>
+inline constexpr std::array<std::string_view, 4> names_of<Role>{"ndf", "masking", "fresnel",
+                                                                "diffuse"};
 
 /// A term of the catalogue: what it says of itself.
 struct TermEntry {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/names.h"
 #include "geometry/angles.h"
 #include "number/counted.h"
 
@@ -18,8 +19,9 @@ namespace gonio {
 
 /// mixed: as a mobile shader declares them, parameters are half and angles float.
 enum class Number { double_, float_, half, wide, mixed };
-inline constexpr std::array<std::string_view, 5> number_names{"double", "float", "half", "wide",
-                                                              "mixed"};
+template <>
+inline constexpr std::array<std::string_view, 5> names_of<Number>{"double", "float", "half", "wide",
+                                                                  "mixed"};
 
 struct TermIn {
   /// out[i] = the term at rows[i].  Parameters and angles are rounded to the number on their way in,

@@ -1,9 +1,9 @@
 #include "brdf/model/spec.h"
 
-#include <charconv>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/numbers.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -29,11 +29,10 @@ std::vector<std::vector<std::string>> parse_spec(std::string_view spec) {
 }
 
 double parse_number(std::string_view text, const std::string& what) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+  const auto value = number_from<double>(text);
+  if (!value || !std::isfinite(*value))
     throw wrong_usage(fmt::format("{}: '{}' is not a number", what, text));
-  return value;
+  return *value;
 }
 
 std::vector<Setting> parse_settings(std::span<const std::string> words) {

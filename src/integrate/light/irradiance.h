@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/names.h"
 #include "image/environment.h"
 
 namespace gonio {
@@ -33,10 +34,9 @@ enum class IrradianceRule {
   riemann_midpoint,  ///< the same from the middle of each step
   cosine,            ///< points of Hammersley, drawn from cos θ/π:  E = π/N Σ L
 };
-constexpr std::string_view name_of(IrradianceRule r) {
-  constexpr std::string_view names[] = {"riemann", "riemann_midpoint", "cosine"};
-  return names[static_cast<std::size_t>(r)];
-}
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<IrradianceRule>{
+    "riemann", "riemann_midpoint", "cosine"};
 
 struct SampledIrradiance {
   Rgb value{};

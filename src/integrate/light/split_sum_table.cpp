@@ -1,11 +1,11 @@
 #include "integrate/light/split_sum_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
+#include "base/numbers.h"
 #include "brdf/catalogue/registry.h"
 #include "number/half.h"
 
@@ -66,11 +66,9 @@ class Deviations {
 };
 
 double number(const std::string& path, const char* name, const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw bad_input(path, name, text, "a number");
-  return value;
+  const auto value = number_from<double>(text);
+  if (!value) throw bad_input(path, name, text, "a number");
+  return *value;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/names.h"
 #include "brdf/model/model.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/scattering/half_space.h"
@@ -34,7 +35,8 @@ Albedo fresnel_average(const BoundModel&, const TermUse& fresnel, const Goal& = 
 
 /// Maps of the catalogue, "scattering." before each name.
 enum class Compensation { kulla_conty, kulla_conty_linear, turquin, fdez_aguera };
-inline constexpr std::array<std::string_view, 4> compensation_names{
+template <>
+inline constexpr std::array<std::string_view, 4> names_of<Compensation>{
     "kulla_conty", "kulla_conty.linear", "turquin", "fdez_aguera"};
 
 /// Albedo of the model, each of its lobes compensated by itself, at each μ = NoV in (0, 1], in parallel.

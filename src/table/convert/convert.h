@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/names.h"
 #include "table/table.h"
 
 namespace gonio {
@@ -49,8 +50,9 @@ struct Loss {
   double rms = 0, largest = 0;         ///< differences
   std::size_t largest_at = 0;          ///< the source's sample
 };
-inline constexpr std::array<const char*, 4> method_names{"copied", "listed", "trilinear",
-                                                         "gathered"};
+template <>
+inline constexpr std::array<std::string_view, 4> names_of<Loss::Method>{"copied", "listed",
+                                                                        "trilinear", "gathered"};
 
 struct Conversion {
   Table table;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <limits>
 #include <numbers>
 
 #include "base/error.h"
+#include "base/numbers.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -91,13 +91,6 @@ std::string_view word(std::string_view& line) {
   return found;
 }
 
-template <class Number>
-bool parse(std::string_view text, Number& to) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), to);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
 double byte_swapped(double x) {
   auto bytes = std::bit_cast<std::array<char, sizeof x>>(x);
   std::ranges::reverse(bytes);
@@ -148,10 +141,10 @@ class Reader {
   }
 
   std::size_t number_in(std::string_view text, std::size_t least, std::size_t most) const {
-    std::size_t n = 0;
-    if (!parse(text, n) || n < least || n > most)
+    const auto n = number_from<std::size_t>(text);
+    if (!n || *n < least || *n > most)
       fail(fmt::format("'{}'", text), fmt::format("a whole number from {} to {}", least, most));
-    return n;
+    return *n;
   }
 
   void header() {
@@ -208,10 +201,10 @@ class Reader {
     while (next_line(line)) {
       row.clear();
       for (auto text = word(line); !text.empty() && text[0] != '#'; text = word(line)) {
-        double v = 0;
-        if (row.size() > 3 * n_out_ + n_in_ || !parse(text, v))
+        const auto v = number_from<double>(text);
+        if (row.size() > 3 * n_out_ + n_in_ || !v)
           fail(fmt::format("'{}'", text), fmt::format("{} numbers", n_in_ + n_out_));
-        row.push_back(v);
+        row.push_back(*v);
       }
       if (row.empty()) continue;
       // Files with intervals hold them for all outputs, for the first one only, or not at all.

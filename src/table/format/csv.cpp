@@ -1,13 +1,13 @@
 #include "table/format/csv.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <set>
 
 #include "base/error.h"
+#include "base/numbers.h"
 #include "table/format/delimited.h"
 
 #include <fmt/format.h>
@@ -235,11 +235,10 @@ class Reader {
         lines_.fail(word, "a second column of that name", "one, or its number as #1");
       return found.front();
     }
-    std::size_t number = 0;
-    const char* const last = word.data() + word.size();
-    if (word.starts_with('#') && std::from_chars(word.data() + 1, last, number).ptr == last &&
-        number > 0 && number <= names.size())
-      return number - 1;
+    if (word.starts_with('#'))
+      if (const auto number = number_from<std::size_t>(std::string_view(word).substr(1));
+          number && *number > 0 && *number <= names.size())
+        return *number - 1;
     if (!number_in(word)) throw_no_column(role, word);
     return {};
   }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "base/csv.h"
 #include "base/error.h"
+#include "base/numbers.h"
 
 #include <fmt/format.h>
 
@@ -128,11 +128,7 @@ std::optional<double> number_in(std::string_view field) {
     with_point[comma] = '.';
     field = {with_point.data(), field.size()};
   }
-  if (field.starts_with('+')) field.remove_prefix(1);
-  double v = 0;
-  const char* const last = field.data() + field.size();
-  const auto [end, error] = std::from_chars(field.data(), last, v);
-  return error == std::errc() && end == last ? std::optional(v) : std::nullopt;
+  return number_from<double>(field);
 }
 
 bool is_gap(std::string_view field) {

@@ -1,12 +1,13 @@
 #include "table/format/exr_slice.h"
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <numbers>
 #include <set>
 
 #include "base/error.h"
+#include "base/numbers.h"
+#include "base/text.h"
 #include "image/exr.h"
 #include "table/format/delimited.h"
 #include "table/format/metadata.h"
@@ -30,12 +31,10 @@ std::string exr_name(const std::string& channel) {
 }
 
 double angle(const std::string& path, const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() ||
-      !(std::abs(value) <= 2 * std::numbers::pi))
+  const auto value = number_from<double>(text);
+  if (!value || !(std::abs(*value) <= 2 * std::numbers::pi))
     throw bad_input(path, kPhi, text, "an angle in radians");
-  return value;
+  return *value;
 }
 
 /// Turns [x][y] into [y][x] or back; `width` is that of the result.

@@ -1,11 +1,11 @@
 #include "table/format/klems.h"
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <numbers>
 
 #include "base/error.h"
+#include "base/numbers.h"
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
@@ -138,11 +138,10 @@ class Reader {
 
   double number(const pugi::xml_node& node, double least, double most) const {
     const std::string s = text(node);
-    double v = 0;
-    const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), v);
-    if (error != std::errc() || end != s.data() + s.size() || !(v >= least && v <= most))
+    const auto v = number_from<double>(s);
+    if (!v || !(*v >= least && *v <= most))
       fail(node.name(), fmt::format("'{}'", s), fmt::format("a number in [{}, {}]", least, most));
-    return v;
+    return *v;
   }
 
   struct Choice {
@@ -196,13 +195,11 @@ class Reader {
       rest.remove_prefix(std::min(rest.find_first_not_of(between), rest.size()));
       if (rest.empty()) break;
       const auto field = rest.substr(0, rest.find_first_of(between));
-      double v = 0;
-      const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), v);
+      const auto v = number_from<double>(field);
       const auto place = fmt::format("{}, number {}", node.name(), all.size() + 1);
-      if (error != std::errc() || end != field.data() + field.size())
-        fail(place, fmt::format("'{}'", field), "a number");
+      if (!v) fail(place, fmt::format("'{}'", field), "a number");
       if (all.size() == count) fail(place, "one more", fmt::format("{} numbers", count));
-      all.push_back(v);
+      all.push_back(*v);
       rest.remove_prefix(field.size());
     }
     if (all.size() != count)

@@ -40,10 +40,9 @@ Truth read_truth(const JsonReader& j) {
 }
 
 Bins read_bins(const JsonReader& j) {
-  const auto name = j.string();
-  const auto found = std::ranges::find(bins_names, name);
-  if (found == bins_names.end()) j.fail("\"centre\" or \"edge\"");
-  return static_cast<Bins>(found - bins_names.begin());
+  const auto bins = find_value<Bins>(j.string());
+  if (!bins) j.fail("\"centre\" or \"edge\"");
+  return *bins;
 }
 
 /// A table that other means wrote over an old one must not inherit the old one's truth.
@@ -160,7 +159,7 @@ bool needs_metadata(const Table& t) {
 std::string metadata_text(const Table& t, const std::string& sha256) {
   Json j = {{"schema", kSchema}};
   if (!sha256.empty()) j["sha256"] = sha256;
-  if (keeps_bins(t)) j["bins"] = bins_names[static_cast<std::size_t>(t.grid()->bins)];
+  if (keeps_bins(t)) j["bins"] = name_of(t.grid()->bins);
   if (t.truth) j["truth"] = truth_json(*t.truth);
   if (!t.notes.empty()) j["notes"] = notes_json(t);
   return text_of(j);

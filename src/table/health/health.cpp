@@ -17,7 +17,7 @@ namespace gonio {
 namespace {
 
 struct Tally {
-  std::array<std::size_t, mask_names.size()> masked{};
+  std::array<std::size_t, names_of<Mask>.size()> masked{};
   double largest = 0, smallest = std::numeric_limits<double>::infinity();
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/names.h"
 #include "table/health/noise.h"
 #include "table/health/peak.h"
 #include "table/table.h"
@@ -28,7 +29,8 @@ enum class PeakLimit {
   samples,  ///< fewer than three within the half width, or each an average over more than that
   bins      ///< the other bin convention changes alpha by more than a tenth
 };
-inline constexpr std::array<const char*, 3> peak_limit_names{"none", "samples", "bins"};
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<PeakLimit>{"none", "samples", "bins"};
 
 /// The specular peak, and what limits it.
 struct Highlight : Peak {
@@ -40,7 +42,8 @@ struct Highlight : Peak {
 std::string peak_in_words(const Highlight&);
 
 enum class Verdict { no, weakly, yes };
-inline constexpr std::array<const char*, 3> verdict_names{"no", "weakly", "yes"};
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<Verdict>{"no", "weakly", "yes"};
 
 /// Whether the table can determine something, and the figure that says so.
 struct Prospect {

@@ -6,7 +6,7 @@ namespace gonio {
 
 std::string to_json(const Table& t, const Health& h) {
   Json masked = Json::object();
-  for (std::size_t m = 1; m < h.masked.size(); ++m) masked[mask_names[m]] = h.masked[m];
+  for (std::size_t m = 1; m < h.masked.size(); ++m) masked[names_of<Mask>[m]] = h.masked[m];
   Json albedo = Json::array();
   for (const auto& a : h.albedo)
     albedo.push_back(Json{{"theta_i_deg", a.theta_i_deg},
@@ -20,7 +20,7 @@ std::string to_json(const Table& t, const Health& h) {
             {"resolved", h.peak->resolved},
             {"height", h.peak->height},
             {"base", h.peak->base},
-            {"limit", peak_limit_names[static_cast<std::size_t>(h.peak->limit)]},
+            {"limit", name_of(h.peak->limit)},
             {"in_words", peak_in_words(*h.peak)}};
   Json retro;
   if (h.retro)
@@ -36,45 +36,42 @@ std::string to_json(const Table& t, const Health& h) {
   };
   Json prospects = Json::array();
   for (const auto& p : h.prospects)
-    prospects.push_back({{"of", p.of},
-                         {"verdict", verdict_names[static_cast<std::size_t>(p.verdict)]},
-                         {"because", p.because}});
+    prospects.push_back({{"of", p.of}, {"verdict", name_of(p.verdict)}, {"because", p.because}});
   auto warnings = t.warnings;
   warnings.insert(warnings.end(), h.warnings.begin(), h.warnings.end());
   const auto number_or_null = [](const std::optional<double>& v) { return v ? Json(*v) : Json(); };
-  return text_of(
-      {{"path", t.path},
-       {"format", t.format},
-       {"layout", layout_text(t)},
-       {"channels", t.channels},
-       {"samples", h.samples},
-       {"values", h.values},
-       {"valid", h.valid},
-       {"masked", masked},
-       {"bins", t.has_bins() ? bins_names[static_cast<std::size_t>(t.grid()->bins)] : "none"},
-       {"bin_sensitivity", h.peak ? number_or_null(h.peak->bin_sensitivity) : Json()},
-       {"noise_floor", h.noise_floor},
-       {"copied_rows", h.copied_rows},
-       {"copied_columns", h.copied_columns},
-       {"largest", h.largest},
-       {"smallest_positive", h.smallest_positive},
-       {"albedo", albedo},
-       {"reciprocity_error", number_or_null(h.reciprocity_error)},
-       {"reciprocity_note", h.reciprocity_note},
-       {"noise",
-        {{"sigma", number_or_null(h.noise.sigma)},
-         {"bound", h.noise.bound},
-         {"along", h.noise.along},
-         {"channels", per_channel(h.noise.channels)},
-         {"over_zenith", bands(h.noise.over_angle, "_deg")},
-         {"over_value", bands(h.noise.over_value, "")}}},
-       {"peak", peak},
-       {"warnings", warnings},
-       {"peak_profiles", h.peak_profiles},
-       {"peak_contrast", h.peak_contrast},
-       {"retro", retro},
-       {"prospects", prospects},
-       {"truth", t.truth ? truth_json(*t.truth) : Json()}});
+  return text_of({{"path", t.path},
+                  {"format", t.format},
+                  {"layout", layout_text(t)},
+                  {"channels", t.channels},
+                  {"samples", h.samples},
+                  {"values", h.values},
+                  {"valid", h.valid},
+                  {"masked", masked},
+                  {"bins", t.has_bins() ? name_of(t.grid()->bins) : "none"},
+                  {"bin_sensitivity", h.peak ? number_or_null(h.peak->bin_sensitivity) : Json()},
+                  {"noise_floor", h.noise_floor},
+                  {"copied_rows", h.copied_rows},
+                  {"copied_columns", h.copied_columns},
+                  {"largest", h.largest},
+                  {"smallest_positive", h.smallest_positive},
+                  {"albedo", albedo},
+                  {"reciprocity_error", number_or_null(h.reciprocity_error)},
+                  {"reciprocity_note", h.reciprocity_note},
+                  {"noise",
+                   {{"sigma", number_or_null(h.noise.sigma)},
+                    {"bound", h.noise.bound},
+                    {"along", h.noise.along},
+                    {"channels", per_channel(h.noise.channels)},
+                    {"over_zenith", bands(h.noise.over_angle, "_deg")},
+                    {"over_value", bands(h.noise.over_value, "")}}},
+                  {"peak", peak},
+                  {"warnings", warnings},
+                  {"peak_profiles", h.peak_profiles},
+                  {"peak_contrast", h.peak_contrast},
+                  {"retro", retro},
+                  {"prospects", prospects},
+                  {"truth", t.truth ? truth_json(*t.truth) : Json()}});
 }
 
 }  // namespace gonio

@@ -151,9 +151,7 @@ void check(std::string_view what, auto&& property) {
 void for_every_term_and_type(auto&& property) {
   for (std::size_t t = 0; t < catalogue().size(); ++t)
     for (const auto& type : types)
-      property(t, type,
-               fmt::format("{} in {}", catalogue()[t].about->id,
-                           number_names[static_cast<std::size_t>(type.number)]));
+      property(t, type, fmt::format("{} in {}", catalogue()[t].about->id, name_of(type.number)));
 }
 
 /// In few bits a shader's arithmetic may divide by zero and cancel all it has.

@@ -17,7 +17,7 @@ using test::layouts_that_fold;
 
 TEST(Folding, ChangesNoSum) {
   for (const Case& c : layouts_that_fold())
-    for (std::size_t m = 0; m < metric_names.size(); ++m) {
+    for (std::size_t m = 0; m < names_of<Metric>.size(); ++m) {
       const auto alone = c.sampling(static_cast<Metric>(m)),
                  folded = c.sampling(static_cast<Metric>(m), true);
       EXPECT_LT(folded.groups().size(), 0.6 * static_cast<double>(alone.groups().size()));
@@ -26,11 +26,11 @@ TEST(Folding, ChangesNoSum) {
       EXPECT_EQ(all.counts.by_reason(alone), less.counts.by_reason(folded));
       const auto e = Accumulator<double>(c.model.model, all, c.free).normal_equations(c.off);
       const auto f = Accumulator<double>(c.model.model, less, c.free).normal_equations(c.off);
-      EXPECT_NEAR(f.cost, e.cost, 1e-11 * e.cost) << metric_names[m];
+      EXPECT_NEAR(f.cost, e.cost, 1e-11 * e.cost) << names_of<Metric>[m];
       for (std::size_t i = 0; i < e.g.size(); ++i)
-        EXPECT_NEAR(f.g[i], e.g[i], 1e-10 * std::sqrt(e.cost * e.h[i * 9])) << metric_names[m];
+        EXPECT_NEAR(f.g[i], e.g[i], 1e-10 * std::sqrt(e.cost * e.h[i * 9])) << names_of<Metric>[m];
       for (std::size_t i = 0; i < e.h.size(); ++i)
-        EXPECT_NEAR(f.h[i], e.h[i], 1e-11 * std::abs(e.h[i]) + 1e-12) << metric_names[m];
+        EXPECT_NEAR(f.h[i], e.h[i], 1e-11 * std::abs(e.h[i]) + 1e-12) << names_of<Metric>[m];
     }
 }
 

@@ -16,7 +16,7 @@ using test::small;
 
 TEST(NormalEquations, GradientIsTheSlopeOfTheCost) {
   const Case c;
-  for (std::size_t m = 0; m < metric_names.size(); ++m)
+  for (std::size_t m = 0; m < names_of<Metric>.size(); ++m)
     for (const double huber : {no_huber, 0.05}) {
       const auto data = fit_data<double>(c.sampling(static_cast<Metric>(m)));
       const Accumulator<double> a(c.model.model, data, c.free, huber);
@@ -28,7 +28,7 @@ TEST(NormalEquations, GradientIsTheSlopeOfTheCost) {
         high[i] += h;
         const double slope =
             (a.normal_equations(high).cost - a.normal_equations(low).cost) / (2 * h);
-        EXPECT_NEAR(e.g[i], slope, 1e-5 * std::abs(slope) + 1e-7 * e.cost) << metric_names[m] << i;
+        EXPECT_NEAR(e.g[i], slope, 1e-5 * std::abs(slope) + 1e-7 * e.cost) << names_of<Metric>[m] << i;
       }
     }
 }
