@@ -100,5 +100,7 @@ struct Comparison {
 };
 /// {"path", "model", "parameters": {NAME: number or array}, "residuals" as in a fit document}
 std::string to_json(const Comparison&);
+/// JSON Schema of that document.  (Of a fit document, see fitting/batch/batch_document.h.)
+std::string comparison_schema();
 
 }  // namespace gonio

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/describe.h"
 #include "base/names.h"
 #include "brdf/model/model.h"
 #include "fitting/sample/sampling.h"
@@ -32,5 +33,34 @@ struct FitOptions {
   Intervals intervals = Intervals::automatic;
   bool bin_sensitivity = true;  ///< fit again under the other bin convention
 };
+
+template <>
+struct Description<Setting> {
+  static constexpr auto fields() {
+    return std::tuple{field("name", "", &Setting::name, ""),
+                      field("values", "", per_channel(&Setting::values), "one, or one per channel"),
+                      field("text", "", &Setting::text, "what was written, where it is no number"),
+                      field("implied", "", &Setting::implied, "whether it follows from a preset")};
+  }
+};
+static_assert(describes_every_member<Setting>());
+
+template <>
+struct Description<FitOptions> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("model", "", &FitOptions::model, ""),
+        field("fix", "", &FitOptions::fixed, "parameters held at a value"),
+        field("bounds", "", &FitOptions::bounds, "where parameters are looked for"),
+        field("grey", "", &FitOptions::grey, "colours with one value for all channels"),
+        field("metric", "", &FitOptions::metric, "how values are compared"),
+        field("robust", "", &FitOptions::robust, "whether outliers count less"),
+        field("intervals", "", &FitOptions::intervals, "which values share their errors"),
+        field("bin_sensitivity", "", &FitOptions::bin_sensitivity,
+              "whether there is a fit under the other bin convention, too")};
+  }
+};
+/// A kept result is found by these: none may be forgotten.
+static_assert(describes_every_member<FitOptions>());
 
 }  // namespace gonio

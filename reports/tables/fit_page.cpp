@@ -1,8 +1,10 @@
 #include "reports/tables/fit_page.h"
 
+#include "base/json_describe.h"
 #include "reports/page/assets.h"
 #include "reports/page/page.h"
-#include "reports/tables/cuts_json.h"
+#include "reports/picture/json_numbers.h"
+#include "reports/tables/fields.h"
 
 namespace gonio {
 
@@ -11,17 +13,11 @@ FitPage make_fit_page(const Table& table, const BoundModel& fitted) {
 }
 
 std::string to_json(const FitPage& page, std::string_view fit_json, std::string_view health_json) {
-  const ResidualMap& map = page.residual_map;
-  return page_text({{"fit", PageJson::parse(fit_json)},
-                    {"health", PageJson::parse(health_json)},
-                    {"channels", page.channels},
-                    {"curves", page_json(page.curves)},
-                    {"residual_map",
-                     {{"theta_h_deg", page_json(map.theta_h_deg)},
-                      {"theta_d_deg", page_json(map.theta_d_deg)},
-                      {"mean", page_json(map.mean)},
-                      {"rms", page_json(map.rms)},
-                      {"count", map.count}}}});
+  return page_text(json_of(FitPageDocument{{fit_json}, {health_json}, page}, Digits::six));
+}
+
+std::string fit_page_schema() {
+  return schema_text<FitPageDocument>("Page of a fit");
 }
 
 std::string fit_page_html(std::string_view title, std::string_view data) {

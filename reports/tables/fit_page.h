@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fitting/result/document.h"
-#include "reports/tables/cuts.h"
+#include "table/cut/cuts.h"
 #include "reports/tables/residual_map.h"
 
 namespace gonio {
@@ -26,6 +26,9 @@ FitPage make_fit_page(const Table&, const BoundModel& fitted);
 /// not known is null.
 /// \param fit_json, health_json  the documents as JSON text
 std::string to_json(const FitPage&, std::string_view fit_json, std::string_view health_json);
+
+/// JSON Schema of that document.
+std::string fit_page_schema();
 
 /// The page itself, HTML.
 /// \param data  of to_json() above

@@ -4,10 +4,12 @@
 #include <limits>
 #include <numbers>
 
+#include "base/json_describe.h"
 #include "reports/page/assets.h"
 #include "reports/page/page.h"
+#include "reports/picture/json_numbers.h"
 #include "reports/tables/angle_bins.h"
-#include "reports/tables/cuts_json.h"
+#include "reports/tables/fields.h"
 #include "table/health/directional_albedo.h"
 #include "table/health/reciprocity.h"
 
@@ -30,12 +32,6 @@ AngleBins trust_bins(const Table& t) {
   if (!g) return {Grid::Kind::in_out, 18, 18};
   const auto few = [&](std::size_t axis) { return std::min<std::size_t>(g->axes[axis].size, 45); };
   return {g->kind, few(0), few(1)};
-}
-
-PageJson json(const AlbedoSample& a) {
-  return {{"theta_i_deg", page_json(a.theta_i_deg)},
-          {"albedo", page_json(a.albedo)},
-          {"coverage", page_json(a.coverage)}};
 }
 
 }  // namespace
@@ -113,28 +109,11 @@ InspectPage make_inspect_page(const Table& t) {
 }
 
 std::string to_json(const InspectPage& page, std::string_view health_json) {
-  PageJson albedo = PageJson::array(), masked = PageJson::object();
-  for (const auto& a : page.albedo) albedo.push_back(json(a));
-  for (std::size_t m = 1; m < names_of<Mask>.size(); ++m)
-    masked[names_of<Mask>[m]] = page.trust.masked[m];
-  return page_text({{"health", PageJson::parse(health_json)},
-                    {"channels", page.channels},
-                    {"curves", page_json(page.curves)},
-                    {"picture",
-                     {{"phi_d_deg", page_json(page.picture.phi_d_deg)},
-                      {"theta_h_deg", page_json(page.picture.theta_h_deg)},
-                      {"theta_d_deg", page_json(page.picture.theta_d_deg)},
-                      {"value", page_json(page.picture.value)}}},
-                    {"trust",
-                     {{"x", page.trust.x},
-                      {"y", page.trust.y},
-                      {"x_deg", page_json(page.trust.x_deg)},
-                      {"y_deg", page_json(page.trust.y_deg)},
-                      {"values", page.trust.values},
-                      {"masked", masked},
-                      {"reciprocity", page_json(page.trust.reciprocity)},
-                      {"pairs", page.trust.pairs}}},
-                    {"albedo", albedo}});
+  return page_text(json_of(InspectPageDocument{{health_json}, page}, Digits::six));
+}
+
+std::string inspect_page_schema() {
+  return schema_text<InspectPageDocument>("Page of a table");
 }
 
 std::string inspect_page_html(std::string_view title, std::string_view data) {

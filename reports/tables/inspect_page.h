@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/tables/cuts.h"
+#include "table/cut/cuts.h"
 #include "table/health/health.h"
 
 namespace gonio {
@@ -51,6 +51,9 @@ InspectPage make_inspect_page(const Table&);
 /// known is null.
 /// \param health_json  the document as JSON text
 std::string to_json(const InspectPage&, std::string_view health_json);
+
+/// JSON Schema of that document.
+std::string inspect_page_schema();
 
 /// The page itself, HTML.
 /// \param data  of to_json() above

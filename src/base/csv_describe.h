@@ -1,15 +1,17 @@
 #pragma once
 /// \file
-/// Lines of CSV from fields (base/describe.h): what is one number or one text has a column.
+/// Lines of CSV from fields (base/describe.h): what is one number, one text or one name of an enum has a column.
 
 #include <cmath>
 #include <concepts>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "base/csv.h"
 #include "base/describe.h"
+#include "base/names.h"
 
 #include <fmt/format.h>
 
@@ -24,6 +26,8 @@ std::string csv_cell(const V& value, Digits digits = Digits::all) {
     return std::isfinite(value) ? fmt::format("{:.6g}", value) : "";
   } else if constexpr (std::integral<V>) {
     return fmt::format("{}", value);
+  } else if constexpr (std::is_enum_v<V>) {
+    return csv_text(name_of(value));
   } else {
     return csv_text(value);
   }

@@ -51,6 +51,11 @@ InputFile::InputFile(std::string path) : path_(std::move(path)) {
   size_ = opened_.size;
 }
 
+void expect_there(const std::string& path) {
+  if (struct stat s {}; ::stat(path.c_str(), &s) != 0)
+    throw bad_input(path, "opening", std::strerror(errno), "a readable file");
+}
+
 InputFile::Stamp InputFile::stamp() const {
   struct stat s {};
   if (::fstat(::fileno(file_.get()), &s) != 0)

@@ -50,6 +50,9 @@ class InputFile {
   Stamp opened_;
 };
 
+/// Fails as reading would where there is no file, nor folder, of that path.
+void expect_there(const std::string& path);
+
 /// A file being made under a temporary name beside its own; it appears under its own name when
 /// commit() has succeeded and leaves nothing behind otherwise.  A link is followed, not replaced;
 /// a directory, device or pipe is refused.

@@ -14,13 +14,14 @@
 
 #include "base/describe.h"
 #include "base/json_reader.h"
+#include "base/names.h"
 
 namespace gonio {
 
 /// Number, or null where it is not finite.
 Json number_json(double, Digits);
 
-/// JSON of any value that has a form: numbers, text, optionals, arrays, maps and lists of pairs (objects),
+/// JSON of any value that has a form: numbers, text, names of enums, optionals, arrays, maps and lists of pairs (objects),
 /// described structs, and the forms of base/describe.h.
 template <class V>
 Json json_of(const V& value, Digits digits = Digits::all);
@@ -115,6 +116,8 @@ Json json_of(const V& value, Digits digits) {
     return number_json(value, digits);
   } else if constexpr (std::same_as<V, bool> || std::integral<V>) {
     return value;
+  } else if constexpr (std::is_enum_v<V>) {
+    return std::string(name_of(value));
   } else if constexpr (form::Text<V>) {
     return std::string(std::string_view(value));
   } else if constexpr (form::is<V, std::optional>) {
@@ -214,6 +217,10 @@ Json schema_of() {
     Json out{{"type", "integer"}};
     if constexpr (std::unsigned_integral<V>) out["minimum"] = 0;
     return out;
+  } else if constexpr (std::is_enum_v<V>) {
+    Json names = Json::array();
+    for (const auto& name : names_of<V>) names.push_back(std::string(name));
+    return {{"enum", names}};
   } else if constexpr (form::Text<V>) {
     return {{"type", "string"}};
   } else if constexpr (form::is<V, std::optional>) {

@@ -62,7 +62,8 @@ void add_output(Command&, Common&);
 void add_jobs(Command&, Common&);
 /// Threads from now on: at most `jobs`, 0 for all.
 void use_jobs(int jobs);
-/// Refuses outputs that are an input, or its side file, or each other, or "-".
+/// Refuses inputs that are not there, before anything is said of the outputs; outputs that are an input, or its side file, or
+/// each other, or "-".
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 }  // namespace gonio::cli

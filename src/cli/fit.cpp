@@ -1,12 +1,16 @@
 // gonio fit: a table in, parameters and a page out.
 #include "fitting/fit.h"
 
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 
 #include "cli/command.h"
-#include "cli/fit_files.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
+#include "fitting/batch/batch.h"
+#include "fitting/batch/fit_file.h"
+#include "reports/tables/batch_page.h"
 #include "reports/tables/fit_page.h"
 #include "table/health/health.h"
 
@@ -53,6 +57,48 @@ void print(const FitDocument& d) {
              d.solver.message);
 }
 
+/// Line of how far a batch is, and how long still.
+std::string line_of(const BatchCount& n, std::chrono::steady_clock::time_point begin) {
+  std::string line = fmt::format("{} of {} tables", n.done, n.all);
+  if (n.failed) line += fmt::format(", {} failed", n.failed);
+  return line + time_left(begin, n.done - n.kept, n.all - n.kept);
+}
+
+void print(const std::string& folder, const BatchResult& r) {
+  const auto of = [&](Exit outcome) {
+    return std::ranges::count(r.rows, outcome, &BatchRow::outcome);
+  };
+  const auto failures = of(Exit::bad_input) + of(Exit::usage);
+  fmt::print("tables   {}: {} fitted", r.rows.size(), of(Exit::done));
+  if (const auto n = of(Exit::not_converged)) fmt::print(", {} not converged", n);
+  if (failures) fmt::print(", {} failed", failures);
+  if (r.count.kept) fmt::print("; {} of them kept from before", r.count.kept);
+  fmt::print("\n");
+  constexpr long shown = 5;
+  long k = 0;
+  for (const auto& row : r.rows)
+    if (row.document.empty() && k++ < shown) fmt::print("failed   {}\n", row.message);
+  if (failures > shown) fmt::print("         and {} more, see the summary\n", failures - shown);
+  fmt::print("results  {}, .csv\n", (std::filesystem::path(folder) / "summary.html").string());
+}
+
+Exit run_batch(const Options& o, const HowFitted& how) {
+  if (!o.html.empty())
+    throw wrong_usage("--html is of one table; the page of many is summary.html in their folder");
+  check_outputs({}, {o.output});
+  Progress progress(o.quiet);
+  const auto begin = std::chrono::steady_clock::now();
+  const BatchResult result =
+      fit_batch({o.files, o.output, how},
+                {[&](const BatchCount& n) { progress(line_of(n, begin)); }, batch_page_html});
+  progress.clear();
+  if (o.json)
+    fmt::print("{}", batch_json(result.rows, result.made_with, false));
+  else
+    print(o.output, result);
+  return result.outcome();
+}
+
 Exit run(const Options& o) {
   use_jobs(o.jobs);
   FitOptions options = o.fit;
@@ -62,16 +108,12 @@ Exit run(const Options& o) {
   options.fixed = parse_settings(o.fix);
   options.bounds = parse_settings(o.bounds);
 
-  if (is_batch(o.files)) {
-    if (!o.html.empty())
-      throw wrong_usage("--html is of one table; the page of many is summary.html in their folder");
-    check_outputs({}, {o.output});
-    return fit_batch({o.files, o.output, bins_from(o.bins), options, o.json, o.quiet});
-  }
+  const auto bins = bins_from(o.bins);
+  if (is_batch(o.files)) return run_batch(o, {options, bins});
   const std::string& file = o.files[0];
   OutputFiles out({file}, o.output, o.html);
   Progress progress(o.quiet);
-  const auto [t, result] = fit_file(file, bins_from(o.bins), options, std::ref(progress));
+  const auto [t, result] = fit_file(file, bins, options, std::ref(progress));
   const FitDocument& d = result.document;
 
   const std::string json = to_json(d);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/file.h"
 #include "cli/command.h"
 #include "table/format/metadata.h"
 
@@ -75,6 +76,7 @@ void check_outputs(const std::vector<std::string>& inputs,
     std::error_code ignored;
     return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
   };
+  std::ranges::for_each(inputs, expect_there);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].empty()) continue;
     if (outputs[i] == "-")

@@ -9,6 +9,10 @@
 
 namespace gonio {
 
+enum class Colour { red, green };
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Colour>{"red", "green"};
+
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -16,7 +20,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 struct Width {
   std::string name;
   std::vector<double> alpha;
-  std::string colour;
+  Colour colour = Colour::red;
 };
 struct More {
   int steps = 0;
@@ -75,7 +79,7 @@ static_assert(!describes_every_member<Width>(), "its name is a key, not a field"
 
 Shown example() {
   Shown s;
-  s.widths = {{"a", {0.5}, "green"}, {"b", {0.25, nan}, "red"}};
+  s.widths = {{"a", {0.5}, Colour::green}, {"b", {0.25, nan}, Colour::red}};
   s.masked = {{"zero", 4}};
   s.parameters = {{"kd", {0.5, nan}}, {"alpha", {0.25}}};
   return s;
@@ -120,6 +124,7 @@ TEST(SchemaOf, SaysWhatEachKeyMayHoldAndWhichMustBeThere) {
   const Json& width = p["widths"]["additionalProperties"]["properties"];
   EXPECT_EQ(width["alpha"]["anyOf"].dump(),
             R"([{"type":["number","null"]},{"type":"array","items":{"type":["number","null"]}}])");
+  EXPECT_EQ(width["colour"].dump(), R"({"enum":["red","green"]})");
   EXPECT_EQ(p["later"]["properties"]["steps"].dump(), R"({"type":"integer"})");
   const Json& errors = p["errors"]["properties"];
   EXPECT_EQ(errors["bound"].dump(), R"({"type":["number","null"]})");
@@ -129,6 +134,7 @@ TEST(SchemaOf, SaysWhatEachKeyMayHoldAndWhichMustBeThere) {
 }
 
 TEST(SchemaOf, AnOptionalMayBeNull) {
+  EXPECT_EQ(schema_of<std::optional<Colour>>().dump(), R"({"enum":["red","green",null]})");
   EXPECT_EQ(schema_of<std::optional<std::string>>().dump(), R"({"type":["string","null"]})");
   EXPECT_EQ(schema_of<std::optional<More>>()["type"].dump(), R"(["object","null"])");
   EXPECT_EQ(schema_of<std::optional<Json>>().dump(), R"({"anyOf":[{},{"type":"null"}]})");

@@ -267,6 +267,26 @@ TEST(Batch, AnInputThatCannotBeLookedUpIsOneThatCannotBeRead) {
   EXPECT_EQ(rows[longest + ".csv"]["status"], "bad_input");
 }
 
+TEST(Batch, AnInputThatIsNotThereIsNamedBeforeTheOutput) {
+  const Folder f;
+  f.write("a.csv", diffuse(0.1, 0.2));
+  for (const char* words :
+       {"fit tables/ -o results/", "fit tables/ a.csv -o a.csv/out", "fit tables -o no/such/place.json",
+        "inspect tables/ --html no/such/page.html", "convert tables/ no/such/b.csv"})
+    expect_one_line(gonio(f, words), 3, "gonio: tables");
+  EXPECT_FALSE(fs::exists(f / "results"));
+}
+
+TEST(Batch, NoCellOfTheSummaryIsAFormula) {
+  const Folder f;
+  f.write("=1+1.csv", diffuse(0.1, 0.2));
+  f.write("b.csv", "theta_i");
+  EXPECT_EQ(gonio(f, "fit ./=1+1.csv =1+1.csv b.csv --model lambert -o out").code, 3);
+  const std::string csv = read_bytes(f / "out/summary.csv");
+  EXPECT_NE(csv.find("\n./=1+1.csv,"), csv.npos) << csv;
+  EXPECT_NE(csv.find("\n\"'=1+1.csv\","), csv.npos) << csv;
+}
+
 TEST(Batch, TellsOptionsThatDoNotSuitATableFromABadTable) {
   const Folder f;
   f.write("one.csv", diffuse(0.1, 0.2));

@@ -90,7 +90,9 @@ std::size_t copied_rows(const Table&, std::size_t axis = 0);
 /// "45 theta_i × 45 theta_o × 90 phi", "855 samples"
 std::string layout_text(const Table&);
 
-/// What `gonio inspect --json` prints.
+/// Document of `gonio inspect --json`.
 std::string to_json(const Table&, const Health&);
+/// JSON Schema of that document.
+std::string health_schema();
 
 }  // namespace gonio

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "reports/tables.h"
+#include "tables.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "reports/tables.h"
+#include "tables.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

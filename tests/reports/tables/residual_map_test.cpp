@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "reports/tables.h"
+#include "tables.h"
 
 #include <gtest/gtest.h>
 

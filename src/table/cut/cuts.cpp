@@ -1,4 +1,4 @@
-#include "reports/tables/cuts.h"
+#include "table/cut/cuts.h"
 
 #include <algorithm>
 #include <array>

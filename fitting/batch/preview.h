@@ -1,20 +1,20 @@
 #pragma once
 /// \file
-/// A table and the model fitted to it, small: what a page of hundreds shows of each.
+/// Small pictures of a table and the model fitted to it, for a page of hundreds.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "brdf/model/model.h"
-#include "reports/tables/cuts.h"
 #include "table/table.h"
 
 namespace gonio {
 
 /// A curve of data and model with few points: those that set its shape.
 struct Thumbnail {
-  std::string at;  ///< as in Cut; empty if the table has no cut that shows data
+  std::string at;  ///< as in Cut
   double at_deg = 0;
   std::string along;
   std::vector<std::size_t> channels;             ///< those shown: all, or four of more
@@ -23,7 +23,7 @@ struct Thumbnail {
 };
 
 struct Preview {
-  Thumbnail curve;  ///< of the cut nearest to 30°
+  std::optional<Thumbnail> curve;  ///< of the cut nearest to 30°; absent if no cut shows data
   /// ∫ f cos θ_i dω_i of the model at θ_o = 30°, per channel: its colour in white light from everywhere.
   std::vector<double> albedo;
   /// A sphere of the model, `size` pixels high: its right half, row by row, three bytes of sRGB per

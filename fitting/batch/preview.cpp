@@ -1,4 +1,4 @@
-#include "reports/tables/preview.h"
+#include "fitting/batch/preview.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,9 @@
 #include <span>
 
 #include "brdf/model/evaluate.h"
+#include "fitting/batch/preview_json.h"
 #include "integrate/albedo/directional_albedo.h"
+#include "table/cut/cuts.h"
 
 #include <fmt/format.h>
 
@@ -66,7 +68,7 @@ void thin(const Cut& cut,
   }
 }
 
-Thumbnail thumbnail(const Table& table, const BoundModel& fitted) {
+std::optional<Thumbnail> thumbnail(const Table& table, const BoundModel& fitted) {
   const auto cuts = make_cuts(table, fitted);
   if (cuts.empty()) return {};
   const Cut& cut =
@@ -146,7 +148,25 @@ std::string sphere(const std::vector<std::string>& channels, const BoundModel& f
   return bytes;
 }
 
+std::vector<std::vector<double>> rows_of(const JsonReader& j) {
+  std::vector<std::vector<double>> out;
+  for (const auto& row : j.elements()) out.push_back(row.numbers());
+  return out;
+}
+
 }  // namespace
+
+Preview read_preview(const JsonReader& j) {
+  Preview p{{}, j.at("albedo").numbers(), from_base64(j.at("sphere").string())};
+  const JsonReader c = j.at("curve");
+  if (c.is_null()) return p;
+  p.curve = Thumbnail{c.at("at").string(),        c.at("at_deg").number(),
+                      c.at("along").string(),     {},
+                      c.at("data_deg").numbers(), c.at("model_deg").numbers(),
+                      rows_of(c.at("data")),      rows_of(c.at("model"))};
+  for (const auto& k : c.at("channels").elements()) p.curve->channels.push_back(k.whole_number());
+  return p;
+}
 
 Preview make_preview(const Table& table, const BoundModel& fitted) {
   Preview p{thumbnail(table, fitted), {}, sphere(table.channels, fitted)};

@@ -1,10 +1,10 @@
-#include "reports/tables/cuts.h"
+#include "table/cut/cuts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "reports/tables.h"
+#include "tables.h"
 
 #include <gtest/gtest.h>
 

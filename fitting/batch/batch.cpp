@@ -1,8 +1,7 @@
-#include "cli/fit_files.h"
+#include "fitting/batch/batch.h"
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -11,35 +10,27 @@
 #include <set>
 
 #include "base/file.h"
+#include "base/json_describe.h"
 #include "base/sha256.h"
 #include "base/text.h"
-#include "cli/command.h"
-#include "cli/output_files.h"
-#include "cli/terminal.h"
-#include "reports/tables/batch_page.h"
-#include "table/format/formats.h"
+#include "fitting/batch/fit_file.h"
 #include "table/format/metadata.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
-namespace gonio::cli {
+namespace gonio {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
+// --- Inputs and outputs ---
 
-// --- What is fitted ---
-
-/// What may be a table: not a folder, nothing hidden, none of gonio's own documents and pages.
+/// True of what may be a table: not a folder, nothing hidden, none of gonio's own documents and pages.
 bool may_be_table(const fs::directory_entry& e) {
   std::error_code unknown;
   const std::string name = e.path().filename().string(), ending = e.path().extension().string();
@@ -73,38 +64,6 @@ std::vector<std::string> in_list(const std::string& list) {
   return all;
 }
 
-std::vector<std::string> tables_of(const std::vector<std::string>& inputs) {
-  std::vector<std::string> all;
-  std::error_code none;  // what cannot be looked up is a table that cannot be read
-  for (const auto& in : inputs) {
-    if (in.starts_with('@'))
-      std::ranges::move(in_list(in.substr(1)), std::back_inserter(all));
-    else if (fs::is_directory(in, none))
-      std::ranges::move(in_folder(in), std::back_inserter(all));
-    else
-      all.push_back(in);
-  }
-  return all;
-}
-
-/// The names of the documents, as fit_batch() says.
-std::vector<std::string> document_names(const std::vector<std::string>& tables) {
-  constexpr std::size_t longest = 200;  // room for what goes around it while it is written
-  std::map<std::string, int> sharing;
-  for (const auto& t : tables) ++sharing[fs::path(t).stem().string()];
-  std::set<std::string> taken{"summary.page"};
-  std::vector<std::string> names;
-  for (const auto& t : tables) {
-    const fs::path p(t);
-    const bool alone = sharing[p.stem().string()] == 1;
-    const std::string wanted = (alone ? p.stem() : p.filename()).string().substr(0, longest);
-    std::string name = wanted;
-    for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}-{}", wanted, k);
-    names.push_back(name + ".json");
-  }
-  return names;
-}
-
 /// Refuses results that would overwrite a table, or be taken for tables the next time.
 void expect_apart(const Batch& b,
                   const std::vector<std::string>& tables,
@@ -122,21 +81,6 @@ void expect_apart(const Batch& b,
   for (const auto& in : b.inputs)
     if (in.starts_with('@') && places.contains(fs::weakly_canonical(in.substr(1), none)))
       throw wrong_usage(fmt::format("{} is an input; it would be overwritten", in.substr(1)));
-}
-
-/// All that the options say of a result, in words.
-std::string made_with(const Batch& b) {
-  const FitOptions& o = b.options;
-  std::string text =
-      fmt::format("gonio {}; {}; metric {}; robust {}; intervals {}; bins {}", GONIO_VERSION,
-                  o.model, name_of(o.metric), o.robust ? "huber" : "none", name_of(o.intervals),
-                  b.bins ? name_of(*b.bins) : "as each table says");
-  for (const auto& s : o.fixed)
-    text += fmt::format("; fix {}={}", s.name, fmt::join(s.values, ","));
-  for (const auto& s : o.bounds)
-    text += fmt::format("; bounds {}={}", s.name, fmt::join(s.values, ","));
-  for (const auto& name : o.grey) text += "; grey " + name;
-  return text;
 }
 
 // --- How many at a time ---
@@ -167,6 +111,30 @@ std::size_t tables_at_a_time(const std::vector<std::string>& tables) {
     ++n;
   }
   return n;
+}
+
+/// Calls one(i) for each table.
+///
+/// A thread that waits for its table's loops takes none of another table meanwhile (isolate): no more
+/// tables are in memory than there are lanes.  Threads without a lane help those that have one.  No
+/// exception leaves a lane: it would cancel the loops of the others halfway, and their results would be
+/// wrong, not missing.
+template <class One>
+void in_lanes(const std::vector<std::string>& tables, const One& one) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> stop = false;
+  std::exception_ptr fatal;
+  tbb::parallel_for(
+      std::size_t{0}, tables_at_a_time(tables),
+      [&](std::size_t) {
+        for (std::size_t i; !stop && (i = next++) < tables.size();) try {
+            tbb::this_task_arena::isolate([&] { one(i); });
+          } catch (...) {
+            if (!stop.exchange(true)) fatal = std::current_exception();
+          }
+      },
+      tbb::simple_partitioner());
+  if (fatal) std::rethrow_exception(fatal);
 }
 
 // --- One table ---
@@ -204,87 +172,82 @@ struct Fitted {
   std::string document;
 };
 Fitted fitted(const Batch& b, const std::string& table, const Place& to, const std::string& made) {
-  FittedFile f = fit_file(table, b.bins, b.options);
-  FitDocument& d = f.result.document;
+  const FittedFile f = fit_file(table, b.how.bins, b.how.options);
+  const FitDocument& d = f.result.document;
   const bool converged = d.solver.termination == "converged";
   BatchRow row{table,
                to.name,
                converged ? Exit::done : Exit::not_converged,
                d.solver.message,
-               {},
+               in_brief(d),
                make_preview(f.table, f.result.model)};
-  std::string document = batch_document(d, row.preview, made);
-  row.fit = std::move(d);
+  std::string document = batch_document(d, *row.preview, made);
   return {std::move(row), std::move(document)};
 }
 
-/// Progress of many: how far, and how long still.
-class Count {
- public:
-  Count(bool quiet, std::size_t all) : progress_(quiet), all_(all) { say(); }
-  void add(const BatchRow& row, bool was_kept) {
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    kept_ += was_kept;
-    failed_ += row.document.empty();
-    say();
-  }
-  void clear() { progress_.clear(); }
-  std::size_t kept() const { return kept_; }
+// --- All of them ---
 
- private:
-  void say() {
-    std::string line = fmt::format("{} of {} tables", done_, all_);
-    if (failed_) line += fmt::format(", {} failed", failed_);
-    line += time_left(begin_, done_ - kept_, all_ - kept_);
-    progress_(line);
-  }
-  std::mutex mutex_;
-  Progress progress_;
-  Clock::time_point begin_ = Clock::now();
-  std::size_t all_, done_ = 0, kept_ = 0, failed_ = 0;
-};
-
-void print(const Batch& b, const std::vector<BatchRow>& rows, std::size_t kept) {
-  const auto of = [&](Exit outcome) {
-    return std::ranges::count(rows, outcome, &BatchRow::outcome);
-  };
-  const auto failures = of(Exit::bad_input) + of(Exit::usage);
-  fmt::print("tables   {}: {} fitted", rows.size(), of(Exit::done));
-  if (const auto n = of(Exit::not_converged)) fmt::print(", {} not converged", n);
-  if (failures) fmt::print(", {} failed", failures);
-  if (kept) fmt::print("; {} of them kept from before", kept);
-  fmt::print("\n");
-  constexpr long shown = 5;
-  long k = 0;
-  for (const auto& r : rows)
-    if (r.document.empty() && k++ < shown) fmt::print("failed   {}\n", r.message);
-  if (failures > shown) fmt::print("         and {} more, see the summary\n", failures - shown);
-  fmt::print("results  {}, .csv\n", (fs::path(b.output) / "summary.html").string());
+void write_summary(const std::string& folder,
+                   const BatchHooks& hooks,
+                   const std::vector<BatchRow>& rows,
+                   const std::string& made) {
+  const auto place = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  const std::string data = batch_json(rows, made, true);
+  OutputFile csv(place("summary.csv")), page_data(place("summary.page.json"));
+  csv.write(batch_csv(rows));
+  page_data.write(data + "\n");
+  std::optional<OutputFile> page;
+  if (hooks.page)
+    page.emplace(place("summary.html"))
+        .write(hooks.page(fs::path(folder).filename().string(), data));
+  commit_all(std::array{&csv, &page_data, page ? &*page : nullptr});
 }
 
 }  // namespace
 
-FittedFile fit_file(const std::string& path,
-                    std::optional<Bins> bins,
-                    const FitOptions& options,
-                    const std::function<void(const std::string&)>& phase) {
-  const auto say = [&](const std::string& what) {
-    if (phase) phase(what);
+std::string made_with(const HowFitted& how) {
+  /// Nothing where it says nothing.
+  const auto nothing = [](const Json& value) {
+    return value.empty() || value == Json(false) || value == Json("");
   };
-  say("reading " + path);
-  const auto begin = Clock::now();
-  TableAndDigest in(path, bins);
-  const double load_ms = 1000 * seconds_since(begin);
-  FitResult result = fit(in.table, options, say);
-  const auto fitted = Clock::now();
-  in.finish();
-  FitDocument& d = result.document;
-  d.input_path = path;
-  d.input_sha256 = in.table.sha256;
-  d.solver.phase_ms.insert(d.solver.phase_ms.begin(), {"load_ms", load_ms});
-  d.solver.phase_ms.emplace_back("digest_ms", 1000 * seconds_since(fitted));
-  return {std::move(in.table), std::move(result)};
+  std::string text = "gonio " GONIO_VERSION;
+  const Json described = json_of(how);
+  for (const auto& [name, value] : described.items())
+    if (!nothing(value))
+      text +=
+          fmt::format("; {} {}", name, value.is_string() ? value.get<std::string>() : value.dump());
+  return text;
+}
+
+std::vector<std::string> tables_of(const std::vector<std::string>& inputs) {
+  std::vector<std::string> all;
+  std::error_code none;  // what cannot be looked up is a table that cannot be read
+  for (const auto& in : inputs) {
+    if (in.starts_with('@'))
+      std::ranges::move(in_list(in.substr(1)), std::back_inserter(all));
+    else if (fs::is_directory(in, none))
+      std::ranges::move(in_folder(in), std::back_inserter(all));
+    else
+      all.push_back(in);
+  }
+  return all;
+}
+
+std::vector<std::string> document_names(const std::vector<std::string>& tables) {
+  constexpr std::size_t longest = 200;  // room for what goes around it while it is written
+  std::map<std::string, int> sharing;
+  for (const auto& t : tables) ++sharing[fs::path(t).stem().string()];
+  std::set<std::string> taken{"summary.page"};
+  std::vector<std::string> names;
+  for (const auto& t : tables) {
+    const fs::path p(t);
+    const bool alone = sharing[p.stem().string()] == 1;
+    const std::string wanted = (alone ? p.stem() : p.filename()).string().substr(0, longest);
+    std::string name = wanted;
+    for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}-{}", wanted, k);
+    names.push_back(name + ".json");
+  }
+  return names;
 }
 
 bool is_batch(const std::vector<std::string>& inputs) {
@@ -292,24 +255,47 @@ bool is_batch(const std::vector<std::string>& inputs) {
   return inputs.size() > 1 || inputs[0].starts_with('@') || fs::is_directory(inputs[0], none);
 }
 
-Exit fit_batch(const Batch& b) {
+Exit BatchResult::outcome() const {
+  for (const Exit worst : {Exit::bad_input, Exit::usage, Exit::not_converged})
+    if (std::ranges::find(rows, worst, &BatchRow::outcome) != rows.end()) return worst;
+  return Exit::done;
+}
+
+BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
   if (b.output.empty()) throw wrong_usage("many tables need a folder for their results: -o DIR");
-  check(b.options);
+  check(b.how.options);
   const auto tables = tables_of(b.inputs);
   const auto names = document_names(tables);
-  const std::string made = made_with(b);
+  const std::string made = made_with(b.how);
 
   std::vector<std::string> results{"summary.csv", "summary.page.json", "summary.html"};
   results.insert(results.end(), names.begin(), names.end());
   expect_apart(b, tables, results);
-  std::error_code error;
-  fs::create_directories(b.output, error);
-  if (error) throw bad_input(b.output, "making the folder", error.message(), "a place to write");
   const auto place = [&](const std::string& name) { return (fs::path(b.output) / name).string(); };
-  OutputFile(place("summary.csv"));  // nobody waits for a batch to learn that it has no place
+  try {
+    std::error_code error;
+    fs::create_directories(b.output, error);
+    if (error) throw bad_input(b.output, "making the folder", error.message(), "a place to write");
+    OutputFile(place("summary.csv"));  // nobody waits for a batch to learn that it has no place
+  } catch (const Error&) {
+    std::ranges::for_each(tables, expect_there);  // that is the nearer mistake
+    throw;
+  }
 
   std::vector<BatchRow> rows(tables.size());
-  Count count(b.quiet, tables.size());
+  BatchCount count{tables.size()};
+  std::mutex counting;
+  const auto say = [&] {
+    if (hooks.progress) hooks.progress(count);
+  };
+  const auto add = [&](const BatchRow& row, bool was_kept) {
+    const std::lock_guard lock(counting);
+    ++count.done;
+    count.kept += was_kept;
+    count.failed += row.document.empty();
+    say();
+  };
+  say();
   const auto one = [&](std::size_t i) {
     const Place to{place(names[i]), names[i]};
     std::optional<Fitted> fresh;
@@ -317,7 +303,7 @@ Exit fit_batch(const Batch& b) {
       const std::string how = with_side_file(made, tables[i]);
       if (auto row = kept(tables[i], to, how)) {
         rows[i] = std::move(*row);
-        return count.add(rows[i], true);
+        return add(rows[i], true);
       }
       fresh = fitted(b, tables[i], to, how);
     } catch (const Error& e) {
@@ -332,41 +318,12 @@ Exit fit_batch(const Batch& b) {
       write_file(to.path, fresh->document);
       rows[i] = std::move(fresh->row);
     }
-    count.add(rows[i], false);
+    add(rows[i], false);
   };
 
-  // A thread that waits for its table's loops takes none of another table meanwhile (isolate): no
-  // more tables are in memory than there are lanes.  Threads without a lane help those that have
-  // one.  No exception leaves a lane: it would cancel the loops of the others halfway, and their
-  // results would be wrong, not missing.
-  std::atomic<std::size_t> next = 0;
-  std::atomic<bool> stop = false;
-  std::exception_ptr fatal;
-  tbb::parallel_for(
-      std::size_t{0}, tables_at_a_time(tables),
-      [&](std::size_t) {
-        for (std::size_t i; !stop && (i = next++) < tables.size();) try {
-            tbb::this_task_arena::isolate([&] { one(i); });
-          } catch (...) {
-            if (!stop.exchange(true)) fatal = std::current_exception();
-          }
-      },
-      tbb::simple_partitioner());
-  if (fatal) std::rethrow_exception(fatal);
-
-  const std::string data = batch_json(rows, made, true);
-  OutputFiles out({}, place("summary.csv"), place("summary.html"));
-  out.write_document(batch_csv(rows));
-  out.write_page(batch_page_html(fs::path(b.output).filename().string(), data), data);
-  out.commit();
-  count.clear();
-  if (b.json)
-    fmt::print("{}", batch_json(rows, made, false));
-  else
-    print(b, rows, count.kept());
-  for (const Exit worst : {Exit::bad_input, Exit::usage, Exit::not_converged})
-    if (std::ranges::find(rows, worst, &BatchRow::outcome) != rows.end()) return worst;
-  return Exit::done;
+  in_lanes(tables, one);
+  write_summary(b.output, hooks, rows, made);
+  return {std::move(rows), count, made};
 }
 
-}  // namespace gonio::cli
+}  // namespace gonio

@@ -1,0 +1,288 @@
+#include "fitting/batch/batch_document.h"
+
+#include <algorithm>
+#include <map>
+#include <unordered_set>
+
+#include "base/csv_describe.h"
+#include "base/file.h"
+#include "base/json_describe.h"
+#include "fitting/batch/preview_json.h"
+#include "fitting/result/document_fields.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+/// Part of a document that a batch adds.
+struct Kept {
+  std::string made_with;
+  Preview preview;
+};
+/// Fit document with that part, or without.
+struct Document {
+  FitDocument fit;
+  std::optional<Kept> batch;
+};
+
+/// Document of a batch.
+struct Summary {
+  std::string made_with;
+  std::vector<std::pair<std::string_view, std::size_t>> counts;
+  const std::vector<BatchRow>& tables;
+};
+
+}  // namespace
+
+template <>
+struct Description<BatchParameter> {
+  static constexpr auto fields() {
+    return std::tuple{field("value", "", per_channel(&BatchParameter::value), "fitted value"),
+                      field("std_error", "", per_channel(&BatchParameter::std_error),
+                            "standard error; null where it is not known"),
+                      field("status", "", per_channel(&BatchParameter::status), "")};
+  }
+};
+
+template <>
+struct Description<BatchFit> {
+  static constexpr auto model = field("model", "", &BatchFit::model, "the model fitted");
+  static constexpr auto log_rms =
+      field("log_rms", "", &BatchFit::log_rms, "RMS of ln f_model − ln f_data");
+  static constexpr auto rms = field("rms", "1/sr", &BatchFit::rms, "RMS of f_model − f_data");
+  static constexpr auto cost = field("cost", "", &BatchFit::cost, "half the sum of the losses");
+  static constexpr auto values_used =
+      field("values_used", "", &BatchFit::values_used, "values of the table that were fitted");
+  static constexpr auto masked = field("masked", "", &BatchFit::masked, "values left out");
+
+  static constexpr auto fields() {
+    return std::tuple{
+        model,
+        field("channels", "", &BatchFit::channels, "names of the table's channels"),
+        field("parameters", "", by_name(&BatchFit::parameters), "parameters by name"),
+        log_rms,
+        rms,
+        cost,
+        values_used,
+        masked,
+        field("warnings", "", &BatchFit::warnings, "sentences to know before believing the values"),
+        field("time_ms", "ms", &BatchFit::time_ms, "time from reading to the result")};
+  }
+};
+
+template <>
+struct Description<BatchRow> {
+  static constexpr auto path = field("path", "", &BatchRow::path, "path of the table");
+  static constexpr auto status = field("status", "", &BatchRow::outcome, "");
+  static constexpr auto exit_code = field(
+      "exit_code",
+      "",
+      [](const BatchRow& r) { return static_cast<int>(r.outcome); },
+      "exit code of a fit of this table alone");
+  static constexpr auto message =
+      field("message", "", &BatchRow::message, "why there is no fit; else the solver's words");
+
+  static constexpr auto fields() {
+    return std::tuple{
+        path,
+        field(
+            "document", "",
+            [](const BatchRow& r) {
+              return r.document.empty() ? std::nullopt : std::optional(r.document);
+            },
+            "name of the fit document, beside the summary; null where there is none"),
+        status,
+        exit_code,
+        message,
+        inlined(&BatchRow::fit),
+        field("preview", "", if_there(&BatchRow::preview), "small pictures, for the page alone")};
+  }
+};
+
+template <>
+struct Description<Kept> {
+  static constexpr auto fields() {
+    return std::tuple{field("made_with", "", &Kept::made_with,
+                            "all that determines the result beside the table's bytes"),
+                      field("preview", "", &Kept::preview, "small pictures, for the summary")};
+  }
+};
+template <>
+struct Description<Document> {
+  static constexpr auto fields() {
+    return std::tuple{inlined(&Document::fit),
+                      field("batch", "", if_there(&Document::batch), "of one table of a batch")};
+  }
+};
+
+template <>
+struct Description<Summary> {
+  static constexpr auto fields() {
+    return std::tuple{
+        constant_text("schema", "gonio.batch/1"),
+        field("made_with", "", &Summary::made_with,
+              "all that determines a result beside the table's bytes"),
+        field("counts", "", &Summary::counts, "number of tables by status"),
+        field(
+            "tables", "", [](const Summary& s) -> const auto& { return s.tables; }, "")};
+  }
+};
+
+namespace {
+
+BatchFit read_fit(const JsonReader& j) {
+  BatchFit d;
+  d.model = j.at("model").string();
+  for (const auto& c : j.at("channels").elements()) d.channels.push_back(c.string());
+  for (const auto& w : j.at("warnings").elements()) d.warnings.push_back(w.string());
+  for (const auto& [name, q] : j.at("parameters").members()) {
+    BatchParameter p{name, q.at("value").numbers(), q.at("std_error").numbers(), {}};
+    for (const auto& s : q.at("status").elements()) {
+      const auto known = find_value<ParameterStatus>(s.string());
+      if (!known) s.fail("a status");
+      p.status.push_back(*known);
+    }
+    const std::size_t n = p.value.size();
+    if ((n != 1 && n != d.channels.size()) || p.std_error.size() != n || p.status.size() != n)
+      q.fail("a value, an error and a status for all channels or for each");
+    d.parameters.push_back(std::move(p));
+  }
+  d.cost = j.at("cost").number();
+  d.rms = j.at("residuals").at("rms").number();
+  d.log_rms = j.at("residuals").at("log_rms").number();
+  for (const auto& [phase, ms] : j.at("solver").at("time_ms").members()) d.time_ms += ms.number();
+  d.values_used = j.at("input").at("values_used").whole_number();
+  for (const auto& [reason, n] : j.at("input").at("masked").members()) d.masked += n.whole_number();
+  return d;
+}
+
+Json read_document(const std::string& path) {
+  InputFile file(path);
+  return parse_json(path, file.read_rest(std::uint64_t{1} << 26));
+}
+
+Exit outcome_of(std::string_view termination) {
+  return termination == "converged" ? Exit::done : Exit::not_converged;
+}
+
+/// Column of a parameter's channel: "alpha", "kd.r".
+std::string column(const BatchFit& d, const BatchParameter& p, std::size_t channel) {
+  return p.value.size() == 1 ? p.name : p.name + "." + d.channels[channel];
+}
+
+}  // namespace
+
+BatchFit in_brief(const FitDocument& d) {
+  BatchFit b{d.model, d.channels,    {}, d.residuals.log_rms, d.residuals.rms,
+             d.cost,  d.values_used, 0,  d.warnings,          0};
+  for (const auto& p : d.parameters)
+    b.parameters.push_back({p.name, p.value, p.std_error, p.status});
+  for (const auto& [reason, n] : d.masked) b.masked += n;
+  for (const auto& [phase, ms] : d.solver.phase_ms) b.time_ms += ms;
+  return b;
+}
+
+std::string batch_document(const FitDocument& d,
+                           const Preview& preview,
+                           const std::string& made_with) {
+  return text_of(json_of(Document{d, Kept{made_with, preview}}));
+}
+
+std::optional<BatchRow> read_batch_document(const std::string& path,
+                                            const std::string& sha256,
+                                            const std::string& made_with) {
+  try {
+    const Json document = read_document(path);
+    const JsonReader root(path, document);
+    if (root.at("schema").string() != "gonio.fit/1" ||
+        root.at("batch").at("made_with").string() != made_with ||
+        root.at("input").at("sha256").string() != sha256)
+      return {};
+    const JsonReader solver = root.at("solver");
+    return BatchRow{"",
+                    "",
+                    outcome_of(solver.at("termination").string()),
+                    solver.at("message").string(),
+                    read_fit(root),
+                    read_preview(root.at("batch").at("preview"))};
+  } catch (const Error&) {
+    return {};  // not there, or not what a batch writes
+  }
+}
+
+bool is_batch_document(const std::string& path) {
+  try {
+    const Json document = read_document(path);
+    return JsonReader(path, document).at("batch").has("made_with");
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::string batch_csv(const std::vector<BatchRow>& rows) {
+  using Row = Description<BatchRow>;
+  using Fit = Description<BatchFit>;
+  constexpr std::tuple first{Row::path, field("document", "", &BatchRow::document, ""), Row::status,
+                             Row::exit_code};
+  constexpr std::tuple last{
+      Fit::log_rms,
+      Fit::rms,
+      Fit::cost,
+      Fit::values_used,
+      Fit::masked,
+      field(
+          "warnings", "", [](const BatchFit& f) { return f.warnings.size(); }, "")};
+  const std::string none(std::tuple_size_v<decltype(last)> - 1, ',');
+
+  std::vector<std::string> columns;  // those of all tables, as they are first seen
+  std::unordered_set<std::string> seen;
+  for (const auto& r : rows)
+    if (r.fit)
+      for (const auto& p : r.fit->parameters)
+        for (std::size_t c = 0; c < p.value.size(); ++c)
+          if (auto name = column(*r.fit, p, c); seen.insert(name).second)
+            columns.push_back(std::move(name));
+
+  std::string csv = csv_columns(first) + ",model";
+  for (const auto& name : columns)
+    csv += fmt::format(",{},{},{}", csv_text(name), csv_text(name + ".std_error"),
+                       csv_text(name + ".status"));
+  csv += "," + csv_columns(last) + ",message\n";
+  for (const auto& r : rows) {
+    csv += csv_cells(first, r) + "," + (r.fit ? csv_text(r.fit->model) : "");
+    std::map<std::string, std::string> cells;
+    if (r.fit)
+      for (const auto& p : r.fit->parameters)
+        for (std::size_t c = 0; c < p.value.size(); ++c)
+          cells[column(*r.fit, p, c)] =
+              fmt::format(",{},{},{}", csv_number(p.value[c]), csv_number(p.std_error[c]),
+                          name_of(p.status[c]));
+    for (const auto& name : columns) csv += cells.contains(name) ? cells.at(name) : ",,,";
+    csv += "," + (r.fit ? csv_cells(last, *r.fit) : none) + "," + csv_text(r.message) + "\n";
+  }
+  return csv;
+}
+
+std::string batch_json(const std::vector<BatchRow>& rows,
+                       const std::string& made_with,
+                       bool previews) {
+  Summary summary{made_with, {}, rows};
+  for (const auto outcome : {Exit::done, Exit::not_converged, Exit::bad_input, Exit::usage})
+    summary.counts.emplace_back(name_of(outcome),
+                                std::ranges::count(rows, outcome, &BatchRow::outcome));
+  Json all = json_of(summary);
+  if (previews) return all.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (Json& table : all["tables"]) table.erase("preview");
+  return text_of(all);
+}
+
+std::string fit_schema() {
+  return schema_text<Document>("Fit of a model to a table");
+}
+
+std::string batch_schema() {
+  return schema_text<Summary>("Fits of many tables");
+}
+
+}  // namespace gonio

@@ -1,0 +1,73 @@
+#pragma once
+/// \file
+/// Fits of many tables as documents: one of each table, and of all of them a table as CSV and one JSON document.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "fitting/batch/preview.h"
+#include "fitting/result/document.h"
+
+namespace gonio {
+
+/// Fitted parameter, as in FittedParameter.
+struct BatchParameter {
+  std::string name;
+  std::vector<double> value, std_error;
+  std::vector<ParameterStatus> status;
+};
+
+/// Part of a fit document that the summary shows.
+struct BatchFit {
+  std::string model;
+  std::vector<std::string> channels;
+  std::vector<BatchParameter> parameters;
+  double log_rms = 0, rms = 0, cost = 0;
+  std::size_t values_used = 0, masked = 0;
+  std::vector<std::string> warnings;
+  double time_ms = 0;  ///< of all phases
+};
+BatchFit in_brief(const FitDocument&);
+
+/// One table of a batch.
+struct BatchRow {
+  std::string path;  ///< of the table
+  std::string
+      document;  ///< the name of its fit document, beside the summary; empty if there is none
+  Exit outcome = Exit::bad_input;  ///< as if it had been fitted alone
+  std::string message;             ///< why there is no fit; else the solver's words
+  std::optional<BatchFit> fit;
+  std::optional<Preview> preview;  ///< where there is a fit
+};
+
+/// Fit document as a batch writes it: of schema "gonio.fit/1" like any other, and with
+/// "batch": {"made_with", "preview"}.
+/// \param made_with  all that determines the result beside the table's bytes, in words
+std::string batch_document(const FitDocument&, const Preview&, const std::string& made_with);
+
+/// Row read back from such a document, if it is there, whole, and the result for these bytes made in
+/// this way.
+std::optional<BatchRow> read_batch_document(const std::string& path,
+                                            const std::string& sha256,
+                                            const std::string& made_with);
+/// True where a batch wrote it, of whatever table.
+bool is_batch_document(const std::string& path);
+
+/// One line per table, RFC 4180: path, document, status, exit_code, model, then for each parameter
+/// and channel (kd.r) its value, std_error and status, then log_rms, rms [1/sr], cost, values_used,
+/// masked, warnings (how many), message.  Unknown cells are empty; text is never a formula, see
+/// base/csv.h.
+std::string batch_csv(const std::vector<BatchRow>&);
+
+/// Document of schema "gonio.batch/1": made_with, counts of the tables by status, and the tables.
+/// \param previews  with them, on one line: for the page
+std::string batch_json(const std::vector<BatchRow>&, const std::string& made_with, bool previews);
+
+/// JSON Schema of fit documents, whether a batch wrote them or not.
+std::string fit_schema();
+/// JSON Schema of batch_json().
+std::string batch_schema();
+
+}  // namespace gonio

@@ -1,0 +1,131 @@
+#pragma once
+/// \file
+/// Description of a fit document.
+
+#include <array>
+
+#include "base/describe.h"
+#include "fitting/result/document.h"
+
+namespace gonio {
+
+template <>
+struct Description<FittedParameter> {
+  static constexpr auto fields() {
+    return std::tuple{field("value", "", per_channel(&FittedParameter::value),
+                            "fitted value; null where the data cannot tell"),
+                      field("std_error", "", per_channel(&FittedParameter::std_error),
+                            "standard error; null where it is not known"),
+                      field("ci95", "", per_channel([](const FittedParameter& p) {
+                              std::vector<std::array<double, 2>> ends;
+                              for (std::size_t c = 0; c < p.ci95_low.size(); ++c)
+                                ends.push_back({p.ci95_low[c], p.ci95_high[c]});
+                              return ends;
+                            }),
+                            "ends of the 95 % confidence interval"),
+                      field("status", "", per_channel(&FittedParameter::status), "")};
+  }
+};
+
+template <>
+struct Description<ResidualBand> {
+  static constexpr auto fields() {
+    return std::tuple{field("angle", "", &ResidualBand::angle, "theta_i, theta_h or theta_d"),
+                      field("from_deg", "°", &ResidualBand::from_deg, ""),
+                      field("to_deg", "°", &ResidualBand::to_deg, ""),
+                      field("values", "", &ResidualBand::values, "number of values"),
+                      field("rms", "1/sr", &ResidualBand::rms, "RMS of f − y"),
+                      field("log_rms", "", &ResidualBand::log_rms,
+                            "RMS of ln f − ln y, where both are positive")};
+  }
+};
+
+template <>
+struct Description<FitResiduals> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("rms", "1/sr", &FitResiduals::rms, "RMS of f − y"),
+        field("log_rms", "", &FitResiduals::log_rms, "RMS of ln f − ln y, where both are positive"),
+        field("bands", "", &FitResiduals::bands, "RMS by bands of angles")};
+  }
+};
+
+template <>
+struct Description<FitSolver> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("termination", "", &FitSolver::termination, "converged or not_converged"),
+        field("message", "", &FitSolver::message, "the solver's words"),
+        field("iterations", "", &FitSolver::iterations, ""),
+        field("passes", "", &FitSolver::passes, "passes over the full data"),
+        field("cost_per_iteration", "", &FitSolver::cost_per_iteration, ""),
+        field("instruction_set", "", &FitSolver::instruction_set, ""),
+        field(
+            "time_ms", "ms",
+            [](const FitSolver& s) {
+              auto times = s.phase_ms;
+              for (auto& [phase, ms] : times)
+                if (!phase.ends_with("_ms")) phase += "_ms";
+              return times;
+            },
+            "time of each phase")};
+  }
+};
+
+template <>
+struct Description<BinSensitivity> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("other", "", &BinSensitivity::other, "bin convention that was not used"),
+        field("relative_change", "", per_name(&BinSensitivity::relative_change),
+              "change of each parameter under it"),
+        field("log_rms", "", &BinSensitivity::log_rms, "RMS of ln f − ln y under it")};
+  }
+};
+
+template <>
+struct Description<FitDocument> {
+  static constexpr auto fields() {
+    return std::tuple{
+        constant_text("schema", "gonio.fit/1"),
+        field("model", "", &FitDocument::model, ""),
+        field("channels", "", &FitDocument::channels,
+              "channels of the table, in the order of arrays"),
+        field("warnings", "", &FitDocument::warnings,
+              "sentences to know before believing the numbers"),
+        field("parameters", "", by_name(&FitDocument::parameters), ""),
+        field("metric", "", &FitDocument::metric, "how values were compared"),
+        field("log_offset", "1/sr", &FitDocument::log_offset, "offset of the log metric"),
+        field("robust", "", &FitDocument::robust, "none or huber"),
+        field("cost", "", &FitDocument::cost, "half the sum of the losses"),
+        field("intervals", "", &FitDocument::intervals, "how the standard errors were made"),
+        field("clusters", "", &FitDocument::clusters, "number of clusters of errors"),
+        field("residuals", "", &FitDocument::residuals, ""),
+        group("identifiability", "how well the free parameters can be told apart",
+              field("names", "", &FitDocument::free_names, "rows of the matrix"),
+              field("correlations", "", &FitDocument::correlations, "of the estimates"),
+              field("condition", "", &FitDocument::condition, "of the scaled normal matrix")),
+        field("solver", "", &FitDocument::solver, ""),
+        group("input", "the table", field("path", "", &FitDocument::input_path, ""),
+              field("sha256", "", &FitDocument::input_sha256, "of the file's bytes"),
+              field("format", "", &FitDocument::input_format, ""),
+              field("bins", "", &FitDocument::bins, "centre, edge or none"),
+              field("values_used", "", &FitDocument::values_used, ""),
+              field("masked", "", &FitDocument::masked, "values left out, by reason")),
+        field("bin_sensitivity", "", &FitDocument::sensitivity, "empty where there are no bins")};
+  }
+};
+static_assert(describes_every_member<FitDocument>());
+
+template <>
+struct Description<Comparison> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("path", "", &Comparison::path, "path of the table"),
+        field("model", "", at(&Comparison::model, &FittedModel::model), ""),
+        field("parameters", "", per_name(at(&Comparison::model, &FittedModel::parameters)), ""),
+        field("residuals", "", &Comparison::residuals, "as in a fit document")};
+  }
+};
+
+}  // namespace gonio

@@ -1,0 +1,164 @@
+#include "fitting/batch/batch_document.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/file.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace gonio {
+namespace {
+
+using nlohmann::json;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+FitDocument a_fit() {
+  using enum ParameterStatus;
+  FitDocument d;
+  d.model = "lambert";
+  d.channels = {"r", "g", "b"};
+  d.parameters = {{"alpha", {0.1}, {nan}, {nan}, {nan}, {fixed}},
+                  {"kd",
+                   {0.3, nan, 0.1},
+                   {0.01, nan, 0.02},
+                   {0, 0, 0},
+                   {1, 1, 1},
+                   {free, not_identifiable, at_bound}}};
+  d.residuals = {0.5, 0.25, {}};
+  d.cost = 1.0 / 3;
+  d.values_used = 12;
+  d.masked = {{"negative", 3}, {"zero", 4}};
+  d.warnings = {"one", "two"};
+  d.solver.termination = "converged";
+  d.solver.message = "fine";
+  d.solver.phase_ms = {{"load_ms", 1}, {"solve_ms", 2.5}};
+  d.input_sha256 = "abc";
+  return d;
+}
+
+BatchRow a_row() {
+  BatchRow r{"in/a, \"b\".csv", "a.json", Exit::done, "fine", in_brief(a_fit()), Preview{}};
+  r.preview->curve = Thumbnail{"theta_i",
+                               30,
+                               "theta_o",
+                               {0, 1, 2},
+                               {-10, 10},
+                               {-20, 20},
+                               {{1, nan}, {1, 2}, {1, 2}},
+                               {{3, 4}, {3, 4}, {3, 4}}};
+  r.preview->albedo = {0.3, 0.2, 0.1};
+  r.preview->sphere = std::string("\0\xff\x10 bytes", 9);
+  return r;
+}
+
+BatchRow a_failure() {
+  return {"broken", "", Exit::bad_input, "broken: byte 0: found an empty file, expected data",
+          {},       {}};
+}
+
+TEST(BatchDocument, CsvHasALinePerTableAndAColumnPerChannel) {
+  EXPECT_EQ(
+      batch_csv({a_failure(), a_row()}),
+      "path,document,status,exit_code,model,alpha,alpha.std_error,alpha.status,kd.r,kd.r.std_error,"
+      "kd.r.status,kd.g,kd.g.std_error,kd.g.status,kd.b,kd.b.std_error,kd.b.status,log_rms,rms,"
+      "cost,"
+      "values_used,masked,warnings,message\n"
+      "broken,,bad_input,3,,,,,,,,,,,,,,,,,,,,\"broken: byte 0: found an empty file, expected "
+      "data\"\n"
+      "\"in/a, \"\"b\"\".csv\",a.json,ok,0,lambert,0.1,,fixed,0.3,0.01,free,,,not_identifiable,0.1,"
+      "0.02,at_bound,0.25,0.5,0.3333333333333333,12,7,2,fine\n");
+}
+
+TEST(BatchDocument, NoCellOfTextIsAFormula) {
+  BatchRow broken = a_failure();
+  broken.path = "=HYPERLINK(A1).csv";
+  broken.message = "@SUM(A1)";
+  BatchRow fine = a_row();
+  fine.path = "-2+3.csv";
+  fine.document = "+a.json";
+  fine.fit->parameters[0].name = "=alpha";
+  fine.fit->parameters[0].value = {-0.5};
+  const std::string csv = batch_csv({broken, fine});
+  EXPECT_NE(csv.find("\n\"'=HYPERLINK(A1).csv\",,bad_input,3,"), csv.npos) << csv;
+  EXPECT_NE(csv.find(",\"'@SUM(A1)\"\n"), csv.npos) << csv;
+  EXPECT_NE(csv.find("\n\"'-2+3.csv\",\"'+a.json\",ok,0,lambert,-0.5,,fixed,"), csv.npos) << csv;
+  EXPECT_NE(csv.find(",\"'=alpha\",\"'=alpha.std_error\","), csv.npos) << csv;
+}
+
+TEST(BatchDocument, ADocumentReadBackGivesTheSameRow) {
+  const test::Folder f;
+  for (std::size_t bytes = 0; bytes < 9; ++bytes) {
+    BatchRow row = a_row();
+    row.preview->sphere.resize(bytes);
+    write_file(f / "a.json", batch_document(a_fit(), *row.preview, "so"));
+    auto back = read_batch_document(f / "a.json", "abc", "so");
+    ASSERT_TRUE(back);
+    back->path = row.path;
+    back->document = row.document;
+    EXPECT_EQ(batch_csv({*back}), batch_csv({row}));
+    EXPECT_EQ(batch_json({*back}, "so", true), batch_json({row}, "so", true));
+    EXPECT_EQ(back->preview->sphere, row.preview->sphere);
+  }
+}
+
+TEST(BatchDocument, ADocumentOfOtherBytesOptionsOrHandsIsNotTaken) {
+  const test::Folder f;
+  const BatchRow row = a_row();
+  const std::string text = batch_document(a_fit(), *row.preview, "so");
+  write_file(f / "a.json", text);
+  EXPECT_TRUE(read_batch_document(f / "a.json", "abc", "so"));
+  EXPECT_TRUE(is_batch_document(f / "a.json"));
+  EXPECT_FALSE(read_batch_document(f / "a.json", "abd", "so"));
+  EXPECT_FALSE(read_batch_document(f / "a.json", "abc", "otherwise"));
+  EXPECT_FALSE(read_batch_document(f / "b.json", "abc", "so"));
+  write_file(f / "alone.json", to_json(a_fit()));
+  EXPECT_FALSE(is_batch_document(f / "alone.json"));
+  for (std::size_t cut = 0; cut < text.size(); cut += 7) {
+    write_file(f / "a.json", text.substr(0, cut));
+    EXPECT_FALSE(read_batch_document(f / "a.json", "abc", "so")) << cut;
+  }
+  for (const char* at : {"/channels", "/parameters/kd/status", "/solver/time_ms", "/input/masked",
+                         "/batch/preview/curve/data", "/batch/preview/sphere", "/cost"}) {
+    json changed = json::parse(text);
+    changed[json::json_pointer(at)] = json{{"not", {1, "this"}}};
+    write_file(f / "a.json", changed.dump());
+    EXPECT_FALSE(read_batch_document(f / "a.json", "abc", "so")) << at;
+  }
+}
+
+TEST(BatchDocument, ADocumentWhoseListsDifferInLengthIsNotTaken) {
+  const test::Folder f;
+  const BatchRow row = a_row();
+  for (const auto& [at, list] : {std::pair("/parameters/kd/value", "[0.3, 0.2]"),
+                                 {"/parameters/kd/value", "[1, 2, 3, 4]"},
+                                 {"/parameters/kd/value", "[]"},
+                                 {"/parameters/kd/std_error", "[0.1]"},
+                                 {"/parameters/kd/status", R"(["free", "free"])"},
+                                 {"/parameters/alpha/std_error", "[]"},
+                                 {"/channels", R"(["r"])"}}) {
+    json changed = json::parse(batch_document(a_fit(), *row.preview, "so"));
+    changed[json::json_pointer(at)] = json::parse(list);
+    write_file(f / "a.json", changed.dump());
+    EXPECT_FALSE(read_batch_document(f / "a.json", "abc", "so")) << at << " " << list;
+  }
+}
+
+TEST(BatchDocument, DataHoldEveryTableAndTheCounts) {
+  const json all = json::parse(batch_json({a_failure(), a_row()}, "so", true));
+  EXPECT_EQ(all["schema"], "gonio.batch/1");
+  EXPECT_EQ(all["counts"],
+            (json{{"ok", 1}, {"not_converged", 0}, {"bad_input", 1}, {"wrong_usage", 0}}));
+  const json &broken = all["tables"][0], &fine = all["tables"][1];
+  EXPECT_FALSE(broken.contains("parameters"));
+  EXPECT_TRUE(broken["document"].is_null());
+  EXPECT_EQ(fine["parameters"]["kd"]["value"], json::parse("[0.3, null, 0.1]"));
+  EXPECT_EQ(fine["time_ms"], 3.5);
+  EXPECT_EQ(fine["preview"]["sphere"], "AP8QIGJ5dGVz");
+  EXPECT_FALSE(json::parse(batch_json({a_row()}, "so", false))["tables"][0].contains("preview"));
+}
+
+}  // namespace
+}  // namespace gonio

@@ -1,0 +1,164 @@
+#include "fitting/batch/batch.h"
+
+#include <filesystem>
+#include <set>
+
+#include "support.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+namespace fs = std::filesystem;
+
+// --- The key of a kept result ---
+
+void change(std::string& text) {
+  text += "x";
+}
+void change(bool& on) {
+  on = !on;
+}
+void change(std::vector<std::string>& all) {
+  all.push_back("f0");
+}
+void change(std::vector<double>& all) {
+  all.push_back(0.5);
+}
+void change(std::vector<Setting>& all) {
+  all.push_back({"f0", {0.5}});
+}
+void change(std::optional<Bins>& bins) {
+  bins = Bins::edge;
+}
+template <Named E>
+void change(E& value) {
+  value = static_cast<E>((static_cast<std::size_t>(value) + 1) % names_of<E>.size());
+}
+
+template <class Get>
+constexpr auto member(Get get) {
+  return get;
+}
+template <template <class> class Form, class Get>
+constexpr auto member(As<Form, Get> shown) {
+  return shown.get;
+}
+/// Calls f with each described member of a struct, those of inlined structs in their place.
+template <class T, class F>
+void for_each_member(T& of, const F& f) {
+  const auto one = [&](const auto& described) {
+    auto& m = of.*member(described.get);
+    if constexpr (Described<std::remove_reference_t<decltype(m)>>)
+      for_each_member(m, f);
+    else
+      f(m);
+  };
+  std::apply([&](const auto&... all) { (one(all), ...); }, Description<T>::fields());
+}
+
+/// Key with the k-th member changed.
+template <class T>
+std::string key_with(T example,
+                     std::size_t changed,
+                     const std::function<std::string(const T&)>& key) {
+  std::size_t k = 0;
+  for_each_member(example, [&](auto& m) {
+    if (k++ == changed) change(m);
+  });
+  return key(example);
+}
+template <class T>
+std::size_t members() {
+  T example;
+  std::size_t n = 0;
+  for_each_member(example, [&](auto&) { ++n; });
+  return n;
+}
+
+TEST(MadeWith, AnyDescribedOptionThatChangesIsAnotherKey) {
+  std::set<std::string> keys{made_with({})};
+  const std::size_t n = members<HowFitted>();
+  EXPECT_EQ(n, member_count<FitOptions>() + member_count<HowFitted>() - 1);
+  for (std::size_t k = 0; k < n; ++k)
+    EXPECT_TRUE(keys.insert(key_with<HowFitted>({}, k, made_with)).second) << "member " << k;
+}
+
+TEST(MadeWith, AnyPartOfASettingThatChangesIsAnotherKey) {
+  const auto key = [](const Setting& s) {
+    HowFitted how;
+    how.options.fixed = {s};
+    return made_with(how);
+  };
+  const Setting gamma{"gamma", {2}};
+  std::set<std::string> keys{key(gamma)};
+  for (std::size_t k = 0; k < members<Setting>(); ++k)
+    EXPECT_TRUE(keys.insert(key_with<Setting>(gamma, k, key)).second) << "member " << k;
+}
+
+TEST(MadeWith, ReadsAsOneLine) {
+  HowFitted how;
+  how.options.fixed = {{"gamma", {2}}};
+  how.bins = Bins::edge;
+  const std::string key = made_with(how);
+  EXPECT_TRUE(key.starts_with("gonio ")) << key;
+  EXPECT_TRUE(
+      key.ends_with("; model lambert+ggx/smith_ggx.correlated/schlick; "
+                    "fix [{\"name\":\"gamma\",\"values\":2.0,\"text\":\"\",\"implied\":false}]; "
+                    "metric log; intervals automatic; bin_sensitivity true; bins edge"))
+      << key;
+}
+
+// --- Inputs and names ---
+
+TEST(Batch, NamesNoTwoDocumentsAlike) {
+  EXPECT_EQ(document_names({"a/x.csv", "b/x.csv", "x.txt", "y.csv", "summary.page.csv"}),
+            (std::vector<std::string>{"x.csv.json", "x.csv-2.json", "x.txt.json", "y.json",
+                                      "summary.page-2.json"}));
+}
+
+TEST(Batch, TakesTheTablesOfFoldersAndListsInTheirPlace) {
+  const test::Folder f;
+  fs::create_directory(f / "in");
+  fs::create_directory(f / "in/within");
+  for (const char* name : {"in/b.csv", "in/a.csv", "in/.hidden", "in/c.json", "in/d.html"})
+    f.write(name, "x");
+  const auto list = f.write("list", "p.csv\r\n\nq.csv\n");
+  EXPECT_EQ(tables_of({"z.csv", f / "in", "@" + list}),
+            (std::vector<std::string>{"z.csv", f / "in/a.csv", f / "in/b.csv", "p.csv", "q.csv"}));
+}
+
+TEST(Batch, TellsItsProgressAndKeepsWhatItHas) {
+  const test::Folder f;
+  std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";
+  for (int i = 0; i < 80; i += 10) csv += std::to_string(i) + ",0,30,180,0.1\n";
+  f.write("a.csv", csv);
+  f.write("broken.csv", "theta_i");
+  Batch b{{f / "a.csv", f / "broken.csv"}, f / "out", {}};
+  b.how.options.model = "lambert";
+  std::vector<std::size_t> done;
+  const BatchHooks hooks{
+      [&](const BatchCount& n) { done.push_back(n.done); },
+      [](std::string_view title, std::string_view) { return std::string(title); }};
+  const auto first = fit_batch(b, hooks);
+  EXPECT_EQ(done, (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(first.count.failed, 1U);
+  EXPECT_EQ(first.count.kept, 0U);
+  EXPECT_EQ(first.outcome(), Exit::bad_input);
+  EXPECT_EQ(test::read_bytes(f / "out/summary.html"), "out");
+  EXPECT_EQ(fit_batch(b, hooks).count.kept, 1U);
+  b.how.options.bin_sensitivity = false;
+  EXPECT_EQ(fit_batch(b, hooks).count.kept, 0U);
+}
+
+TEST(Batch, WithoutAPageItStillHasItsSummary) {
+  const test::Folder f;
+  f.write("broken.csv", "theta_i");
+  fit_batch({{f / "broken.csv"}, f / "out", {}});
+  EXPECT_TRUE(fs::exists(f / "out/summary.csv"));
+  EXPECT_FALSE(fs::exists(f / "out/summary.html"));
+}
+
+}  // namespace
+}  // namespace gonio
