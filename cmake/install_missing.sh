@@ -44,6 +44,14 @@ install_browser() {
   echo "Without Chromium: the pages are not looked at in a browser."
 }
 
+# valijson, which the tests hold documents against the schemas with; without it these are left out.  Debian's package of
+# the headers asks for seven other JSON libraries, Qt among them: whoever only builds is spared these.
+install_validator() {
+  [ ! -e /usr/include/valijson ] || return 0
+  if command -v apt-get >/dev/null; then (gonio_tools=() gonio_libraries=(libvalijson-dev); install_missing) && return 0; fi
+  echo "Without valijson: documents are not held against their schemas."
+}
+
 # build PRESET [OPTIONS of cmake --build]
 build() {
   cmake --preset "$1" --log-level=WARNING

@@ -1,0 +1,136 @@
+// The schemas that are shipped: they are what the descriptions say, and what the program writes
+// keeps them.
+#include <cstdlib>
+#include <fstream>
+
+#include "cli/program.h"
+#include "fitting/batch/batch_document.h"
+#include "reports/tables/fit_page.h"
+#include "reports/tables/inspect_page.h"
+#include "table/health/health.h"
+
+#if __has_include(<valijson/validator.hpp>)
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+#define GONIO_HAS_VALIDATOR
+#endif
+
+namespace gonio::test {
+namespace {
+
+using nlohmann::json;
+
+std::string path_of(const std::string& schema) {
+  return GONIO_SOURCE_DIR "/schemas/" + schema + ".schema.json";
+}
+
+TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
+  const bool write = std::getenv("GONIO_WRITE_SCHEMAS") != nullptr;
+  for (const auto& [name, text] : {std::pair("fit", fit_schema()),
+                                   {"batch", batch_schema()},
+                                   {"compare", comparison_schema()},
+                                   {"inspect", health_schema()},
+                                   {"fit.page", fit_page_schema()},
+                                   {"inspect.page", inspect_page_schema()}}) {
+    if (write) std::ofstream(path_of(name), std::ios::binary) << text;
+    EXPECT_EQ(read_bytes(path_of(name)), text) << name << ": GONIO_WRITE_SCHEMAS=1 writes it anew";
+  }
+}
+
+#ifdef GONIO_HAS_VALIDATOR
+
+/// Mistakes of a document by a schema, one a line; "" of none.
+std::string mistakes(const json& document, const std::string& schema) {
+  const json text = json::parse(read_bytes(path_of(schema)));
+  valijson::Schema rules;
+  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+      .populateSchema(valijson::adapters::NlohmannJsonAdapter(text), rules);
+  valijson::Validator validator;
+  valijson::ValidationResults results;
+  if (validator.validate(rules, valijson::adapters::NlohmannJsonAdapter(document), &results))
+    return "";
+  std::string lines;
+  for (valijson::ValidationResults::Error e; results.popError(e);) {
+    for (const auto& place : e.context) lines += place;
+    lines += ": " + e.description + "\n";
+  }
+  return lines;
+}
+json file(const std::string& path) {
+  return json::parse(read_bytes(path));
+}
+
+/// Tables with and without a highlight, of three channels and of one, of one sample, and a broken one.
+void make_tables(const Folder& f) {
+  EXPECT_EQ(gonio(f, std::string("synth ") + paint + " --layout in_plane --seed 1 -o a.csv").code,
+            0);
+  EXPECT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout mbsdf --noise 0.02 -o b.mbsdf").code, 0);
+  EXPECT_EQ(gonio(f, "synth lambert --set kd=0.2 --layout random -o c.csv").code, 0);
+  f.write("d.csv", "theta_i,phi_i,theta_o,phi_o,f\n0,0,0,0,1\n");
+  f.write("e.csv", "theta_i");
+}
+
+TEST(Schemas, HoldForTheDocumentsOfTables) {
+  const Folder f;
+  make_tables(f);
+  for (const std::string table : {"a.csv", "b.mbsdf", "c.csv", "d.csv"}) {
+    const auto o = gonio(f, "inspect " + table + " --json --html page.html");
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(mistakes(o.json(), "inspect"), "") << table;
+    EXPECT_EQ(mistakes(file(f / "page.page.json"), "inspect.page"), "") << table;
+  }
+}
+
+TEST(Schemas, HoldForTheDocumentsOfFits) {
+  const Folder f;
+  make_tables(f);
+  for (const std::string words :
+       {"a.csv", "b.mbsdf --robust huber", "c.csv --model lambert --fix kd=0.2",
+        "a.csv --model disney", "d.csv --metric relative"}) {
+    const auto o = gonio(f, "fit " + words + " --json -o fit.json --html page.html");
+    ASSERT_TRUE(o.code == 0 || o.code == 4) << words << o.err;
+    EXPECT_EQ(mistakes(o.json(), "fit"), "") << words;
+    EXPECT_EQ(mistakes(file(f / "page.page.json"), "fit.page"), "") << words;
+    EXPECT_EQ(mistakes(gonio(f, "compare a.csv fit.json --json").json(), "compare"), "") << words;
+  }
+}
+
+TEST(Schemas, HoldForTheDocumentsOfABatch) {
+  const Folder f;
+  make_tables(f);
+  const auto o = gonio(f, "fit a.csv b.mbsdf c.csv e.csv nothing.csv -o out --json");
+  EXPECT_EQ(o.code, 3);
+  EXPECT_EQ(mistakes(o.json(), "batch"), "");
+  EXPECT_EQ(mistakes(file(f / "out/summary.page.json"), "batch"), "");
+  EXPECT_EQ(mistakes(file(f / "out/b.json"), "fit"), "");
+}
+
+TEST(Schemas, RefuseADocumentThatHasLessOrMoreOrOtherValues) {
+  const Folder f;
+  make_tables(f);
+  const json fit = gonio(f, "fit a.csv --json").json();
+  const auto changed = [&](const char* at, const json& value) {
+    json d = fit;
+    d[json::json_pointer(at)] = value;
+    return mistakes(d, "fit");
+  };
+  EXPECT_EQ(changed("/cost", nullptr), "") << "not known";
+  EXPECT_NE(changed("/cost", "much"), "");
+  EXPECT_NE(changed("/schema", "gonio.fit/2"), "");
+  EXPECT_NE(changed("/solver/another", 1), "");
+  EXPECT_NE(changed("/parameters/alpha/status", "perhaps"), "");
+  EXPECT_NE(changed("/parameters/alpha/ci95", {0.1}), "");
+  EXPECT_NE(changed("/input/values_used", -1), "");
+  json less = fit;
+  less.erase("warnings");
+  EXPECT_NE(mistakes(less, "fit"), "");
+}
+
+#endif
+
+}  // namespace
+}  // namespace gonio::test
