@@ -132,7 +132,7 @@ BandSums no_sums() {
 
 /// What one task found out.
 struct Part {
-  Matrix bread, meat;
+  ArrowMatrix bread, meat;
   std::vector<std::size_t> keys;  ///< of the incident angles seen
   std::vector<double> scores;     ///< [of those][free slot]
   BandSums sums = no_sums();
@@ -174,7 +174,7 @@ class Walk {
 
   Part run(BlockReader<F>& in) {
     const std::size_t n = free_.size();
-    part_ = {Matrix(n * n), Matrix(n * n), {}, {}, no_sums(), {}};
+    part_ = {ArrowMatrix(free_.layout()), ArrowMatrix(free_.layout()), {}, {}, no_sums(), {}};
     place_.assign(keys_.count(), none);
     bread_.assign(sampling_.channels(), {});
     meat_.assign(sampling_.channels(), {});
@@ -331,10 +331,6 @@ class Walk {
   Part part_;
 };
 
-void add(std::vector<double>& to, const std::vector<double>& from) {
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
-}
-
 FitResiduals statistics(const BandSums& sums) {
   Sums all;
   for (const auto& s : sums[0]) all.add(s);
@@ -367,27 +363,26 @@ Assessment assess_in(const Sampling& s,
     parts[k] = walks.local().run(in);
   });
   Assessment a;
-  a.sandwich = {Matrix(n * n), Matrix(n * n)};
-  std::vector<double> scores(keys.count() * n);
+  a.sandwich = {ArrowMatrix(free.layout()), ArrowMatrix(free.layout()), {}};
+  std::vector<std::vector<double>> scores(keys.count());
   std::vector<bool> seen(keys.count());
   BandSums sums = no_sums();
   for (const auto& p : parts) {  // in the order of the samples
-    add(a.sandwich.bread, p.bread);
-    add(a.sandwich.meat, p.meat);
+    a.sandwich.bread += p.bread;
+    a.sandwich.meat += p.meat;
     for (std::size_t k = 0; k < p.keys.size(); ++k) {
+      auto& sum = scores[p.keys[k]];
+      sum.resize(n);
+      for (std::size_t i = 0; i < n; ++i) sum[i] += p.scores[k * n + i];
       seen[p.keys[k]] = true;
-      for (std::size_t i = 0; i < n; ++i) scores[p.keys[k] * n + i] += p.scores[k * n + i];
     }
     for (std::size_t k = 0; k < sums.size(); ++k)
       for (std::size_t i = 0; i < sums[k].size(); ++i) sums[k][i].add(p.sums[k][i]);
     a.counts.add(p.counts);
   }
   a.incident_angles = static_cast<std::size_t>(std::ranges::count(seen, true));
-  if (by_incident_angle)
-    for (std::size_t c = 0; c < keys.count(); ++c)
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < n; ++k)
-          a.sandwich.meat[i * n + k] += scores[c * n + i] * scores[c * n + k];
+  for (std::size_t k = 0; k < scores.size(); ++k)
+    if (seen[k]) a.sandwich.scores.push_back(std::move(scores[k]));
   a.residuals = statistics(sums);
   return a;
 }

@@ -10,10 +10,12 @@
 
 namespace gonio {
 
-/// The parts of the sandwich (bread)⁻¹ meat (bread)⁻¹.
+/// Parts of the sandwich (bread)⁻¹ meat (bread)⁻¹.
 struct Sandwich {
-  Matrix bread;  ///< Σ j jᵀ over the residuals that the robust loss does not clip
-  Matrix meat;  ///< Σ s sᵀ, s = ρ' r j: of each value, or summed over each incident angle first
+  ArrowMatrix bread;  ///< Σ j jᵀ over the residuals that the robust loss does not clip
+  ArrowMatrix meat;   ///< Σ s sᵀ, s = ρ' r j, over values that are independent; else 0
+  /// Of clusters: Σ s of each incident angle, whose squares are the meat.
+  std::vector<std::vector<double>> scores;
 };
 
 struct Assessment {

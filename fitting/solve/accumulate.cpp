@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "brdf/model/derivatives.h"
 
@@ -144,6 +145,18 @@ FreeSlots::FreeSlots(std::vector<bool> free) : mask_(std::move(free)), index_(ma
       index_[i] = slots_.size();
       slots_.push_back(i);
     }
+  layout_ = std::make_shared<const ArrowLayout>(size());
+}
+
+FreeSlots::FreeSlots(const Model& m, std::vector<bool> free) : FreeSlots(std::move(free)) {
+  constexpr std::size_t few = 32;  // whose dense matrices cost nothing
+  if (size() <= few) return;
+  std::vector<std::size_t> shared;
+  std::vector<std::vector<std::size_t>> own(m.channels);
+  for (const auto& p : m.parameters)
+    for (std::size_t c = 0; c < p.count; ++c)
+      if (mask_[p.first + c]) (p.count > 1 ? own[c] : shared).push_back(index_[p.first + c]);
+  layout_ = std::make_shared<const ArrowLayout>(std::move(shared), std::move(own));
 }
 
 std::vector<double> FreeSlots::of(std::span<const double> values) const {
@@ -159,7 +172,7 @@ void FreeSlots::put(std::span<const double> free, std::span<double> values) cons
 template <class F>
 void GramSums<F>::scatter(const std::vector<std::size_t>& free,
                           std::size_t n,
-                          Matrix& h,
+                          ArrowMatrix& h,
                           std::vector<double>* g) const {
   const std::size_t k = free.size();
   if (g)
@@ -169,9 +182,7 @@ void GramSums<F>::scatter(const std::vector<std::size_t>& free,
   for (std::size_t a = 0; a < k; ++a)
     for (std::size_t b = a; b < k; ++b, ++e) {
       if (free[a] == n || free[b] == n) continue;
-      const double v = entry(e);
-      h[free[a] * n + free[b]] += v;
-      if (free[a] != free[b]) h[free[b] * n + free[a]] += v;
+      h.add(free[a], free[b], entry(e));
     }
 }
 
@@ -204,7 +215,7 @@ NormalEquations Accumulator<F>::normal_equations(std::span<const double> values)
     std::vector<GramSums<F>> sums(model_.channels);
     alignas(64) std::array<F, padding> cost{};
     auto& e = parts[task];
-    e = {Matrix(n * n), std::vector<double>(n), 0};
+    e = {ArrowMatrix(free_.layout()), std::vector<double>(n), 0};
     const auto collect = [&](const auto& columns) {
       for (const F lane : cost) e.cost += static_cast<double>(lane) / 2;
       for (std::size_t c = 0; c < model_.channels; ++c) sums[c].scatter(columns(c), n, e.h, &e.g);
@@ -219,12 +230,31 @@ NormalEquations Accumulator<F>::normal_equations(std::span<const double> values)
       pass.run(b, data_, huber_, cost.data(), [&](std::size_t c) { pass.add(b.n, c, sums[c]); });
     collect([&](std::size_t c) { return pass.free(c); });
   });
-  NormalEquations total{Matrix(n * n), std::vector<double>(n), data_.rest / 2};
+  NormalEquations total{ArrowMatrix(free_.layout()), std::vector<double>(n), data_.rest / 2};
   for (const auto& e : parts) {  // in the order of the samples
-    add(total.h, e.h);
+    total.h += e.h;
     add(total.g, e.g);
     total.cost += e.cost;
   }
+  return total;
+}
+
+template <class F>
+std::vector<double> Accumulator<F>::channel_costs(std::span<const double> values) const {
+  std::vector<std::vector<double>> parts(data_.tasks.size());
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t task) {
+    auto& costs = parts[task];
+    costs.resize(model_.channels);
+    Pass<F>& pass = plans_->pass.local();
+    pass.set(values);
+    alignas(64) std::array<F, padding> cost{};
+    for (const auto& b : data_.tasks[task])
+      pass.run(b, data_, huber_, cost.data(), [&](std::size_t c) {
+        for (F& lane : cost) costs[c] += static_cast<double>(std::exchange(lane, F(0))) / 2;
+      });
+  });
+  std::vector<double> total(model_.channels);
+  for (const auto& costs : parts) add(total, costs);
   return total;
 }
 

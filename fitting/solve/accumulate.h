@@ -11,6 +11,7 @@
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/model.h"
 #include "fitting/sample/data.h"
+#include "fitting/solve/arrow.h"
 
 namespace gonio {
 
@@ -18,6 +19,8 @@ namespace gonio {
 class FreeSlots {
  public:
   explicit FreeSlots(std::vector<bool> free);
+  /// Slots of which one channel alone knows become the arms of its matrices, where there are many.
+  FreeSlots(const Model&, std::vector<bool> free);
   std::size_t size() const { return slots_.size(); }
   const std::vector<bool>& mask() const { return mask_; }
   std::span<const std::size_t> slots() const { return slots_; }
@@ -27,17 +30,17 @@ class FreeSlots {
   std::vector<double> of(std::span<const double> values) const;
   /// Puts them back where they belong.
   void put(std::span<const double> free, std::span<double> values) const;
+  /// Layout of a matrix over the free ones.
+  const std::shared_ptr<const ArrowLayout>& layout() const { return layout_; }
 
  private:
   std::vector<bool> mask_;
   std::vector<std::size_t> slots_, index_;
+  std::shared_ptr<const ArrowLayout> layout_;
 };
 
-/// Symmetric, row-major, of the free slots.
-using Matrix = std::vector<double>;
-
 struct NormalEquations {
-  Matrix h;               ///< JᵀJ with robust weights: Σ ρ' j jᵀ
+  ArrowMatrix h;          ///< JᵀJ with robust weights: Σ ρ' j jᵀ
   std::vector<double> g;  ///< Σ ρ' r j
   double cost = 0;        ///< ½ Σ ρ(r²)
 };
@@ -59,7 +62,7 @@ class GramSums {
   /// \param free  the position among n unknowns of each column of J; n where it is not free
   void scatter(const std::vector<std::size_t>& free,
                std::size_t n,
-               Matrix& h,
+               ArrowMatrix& h,
                std::vector<double>* g) const;
 
  private:
@@ -77,6 +80,8 @@ class Accumulator {
 
   /// \param values  model.value_count of them
   NormalEquations normal_equations(std::span<const double> values) const;
+  /// Costs of the channels, each its own.
+  std::vector<double> channel_costs(std::span<const double> values) const;
   /// Weighted residuals of what is compared, task by task, channel by channel in each block.
   std::vector<double> residuals(std::span<const double> values) const;
 

@@ -83,12 +83,9 @@ Problem pose(const Table& t, const FitOptions& o) {
           fmt::format("{} free parameters per channel; at most {} can be fitted at once", count,
                       max_columns - 1));
   }
-  return {o,
-          std::move(b),
-          FreeSlots(std::move(free)),
-          std::move(bounds),
-          std::move(narrowed),
-          noise_floor(t)};
+  FreeSlots slots(b.model, std::move(free));
+  return {
+      o, std::move(b), std::move(slots), std::move(bounds), std::move(narrowed), noise_floor(t)};
 }
 
 bool is_reciprocal(const BoundModel& b) {

@@ -61,7 +61,7 @@ bool float_suffices(const Problem& p, const Fitted& f, std::size_t values_used) 
   const double variance = 2 * f.solution.at.cost / static_cast<double>(values_used);
   for (std::size_t i = 0; i < n; ++i) {
     // 1/H_ii is the variance with all others known: not more than that of the parameter
-    const double h = f.solution.at.h[i * n + i];
+    const double h = f.solution.at.h(i, i);
     if (h > 0 && std::sqrt(variance / h) < 20 * rounding * std::abs(x[i])) return false;
   }
   return true;

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Eigenvalues>
+#include "fitting/solve/arrow_root.h"
+
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
@@ -14,31 +15,35 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+Eigen::Index index(std::size_t n) {
+  return static_cast<Eigen::Index>(n);
+}
+
 bool is_finite(const NormalEquations& e) {
   return std::isfinite(e.cost) &&
-         std::ranges::all_of(e.h, [](double x) { return std::isfinite(x); }) &&
+         std::ranges::all_of(e.h.entries(), [](double x) { return std::isfinite(x); }) &&
          std::ranges::all_of(e.g, [](double x) { return std::isfinite(x); });
 }
 
-/// The next Gauss–Newton step and what it promises.
+/// Next Gauss–Newton step and what it promises.
 struct Step {
-  Eigen::VectorXd by;
+  std::vector<double> by;
   double decrease = 0;  ///< of the cost: ½ gᵀ H⁻¹ g
 };
 /// None where some direction is so badly determined that rounding would decide where it leads.
 std::optional<Step> next_step(const NormalEquations& e) {
   constexpr double least = 1e-6;
-  const auto n = static_cast<Eigen::Index>(e.g.size());
-  const auto h = Eigen::Map<const RowMajor>(e.h.data(), n, n);
-  if (!is_finite(e) || !(h.diagonal().minCoeff() > 0)) return {};
-  const Eigen::VectorXd s = h.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      Eigen::MatrixXd(s.asDiagonal() * h * s.asDiagonal()));
-  if (!(eigen.eigenvalues()[0] > least)) return {};
-  const Eigen::VectorXd g = s.asDiagonal() * Eigen::Map<const Eigen::VectorXd>(e.g.data(), n);
-  const Eigen::VectorXd rotated = eigen.eigenvectors().transpose() * g;
-  const Eigen::VectorXd y = rotated.cwiseQuotient(eigen.eigenvalues());
-  return Step{-(s.asDiagonal() * (eigen.eigenvectors() * y)), y.dot(rotated) / 2};
+  if (!is_finite(e)) return {};
+  for (std::size_t i = 0; i < e.h.size(); ++i)
+    if (!(e.h(i, i) > 0)) return {};
+  const ArrowRoot root(e.h, 0);
+  if (root.at_most(least) > 0) return {};
+  const auto g = root.rotated(e.g);
+  double decrease = g.head.cwiseQuotient(root.head().eigenvalues()).dot(g.head) / 2;
+  for (const auto& arm : g.arms) decrease += arm.squaredNorm() / 2;
+  auto by = root.solution(g);
+  for (double& x : by) x = -x;
+  return Step{std::move(by), decrease};
 }
 /// So small a part of the cost that rounding may hide it.
 constexpr double hidden = 1e-6;
@@ -63,15 +68,28 @@ class Enough : public ceres::IterationCallback {
   std::function<const NormalEquations&()> best_;
 };
 
-/// The cost function described in the header.  Ceres asks for the cost at a trial point first and
-/// for its Jacobian after accepting it: one pass over the samples serves both.
-class Reduced : public ceres::CostFunction {
+/// Cost functions described in the header, one for the head and one for each arm, over one evaluation.
+/// Ceres asks for the cost at a trial point first and for its Jacobian after accepting it: one pass
+/// over the samples serves both.
+class Reduced : public ceres::EvaluationCallback {
  public:
   /// \param scale  of the cost, so that none of Ceres' absolute limits depends on the data's unit
-  Reduced(const NormalEquationsAt& evaluate, std::size_t n, double scale)
-      : evaluate_(evaluate), scale_(scale) {
-    set_num_residuals(static_cast<int>(n) + 1);
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(n));
+  /// \param known  what is known already
+  Reduced(const NormalEquationsAt& evaluate,
+          double scale,
+          const std::vector<double>& x,
+          const NormalEquations& known)
+      : evaluate_(evaluate),
+        scale_(scale),
+        layout_(known.h.shared_layout()),
+        best_{x, known},
+        last_(best_) {
+    const auto gather = [&](const std::vector<std::size_t>& unknowns) {
+      auto& part = parts_.emplace_back();
+      for (const std::size_t i : unknowns) part.push_back(x[i]);
+    };
+    gather(layout_->head());
+    for (const auto& arm : layout_->arms()) gather(arm);
   }
 
   struct Evaluation {
@@ -81,42 +99,114 @@ class Reduced : public ceres::CostFunction {
   /// The lowest cost seen: Ceres stops without taking the last step that it looked at.
   const Evaluation& best() const { return best_; }
   int passes() const { return passes_; }
-  /// What is known already.
-  void known(const std::vector<double>& x, const NormalEquations& e) { best_ = last_ = {x, e}; }
 
-  bool Evaluate(double const* const* parameters,
-                double* residuals,
-                double** jacobians) const override {
-    const auto n = static_cast<Eigen::Index>(parameter_block_sizes()[0]);
-    const auto& e = at({parameters[0], parameters[0] + n});
-    if (!is_finite(e)) return false;
-    const RowMajor h = scale_ * Eigen::Map<const RowMajor>(e.h.data(), n, n);
-    const Eigen::VectorXd g = scale_ * Eigen::Map<const Eigen::VectorXd>(e.g.data(), n);
-    Eigen::VectorXd s = h.diagonal().cwiseSqrt();
-    for (auto& d : s) d = d > 0 ? 1 / d : 1;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        Eigen::MatrixXd(s.asDiagonal() * h * s.asDiagonal()));
-    const double tiny = 1e-15 * static_cast<double>(n);
+  /// Adds the unknowns, part by part, and the residuals.
+  void add_to(ceres::Problem& problem, const Bounds& bounds) {
+    const auto add = [&](std::size_t k, const std::vector<std::size_t>& unknowns) {
+      double* const part = parts_[k].data();
+      std::vector<double*> blocks{part};
+      if (k > 0) blocks.push_back(parts_[0].data());
+      problem.AddResidualBlock(new Part(*this, k), nullptr, blocks);
+      for (std::size_t i = 0; i < unknowns.size(); ++i) {
+        problem.SetParameterLowerBound(part, static_cast<int>(i), bounds.low[unknowns[i]]);
+        problem.SetParameterUpperBound(part, static_cast<int>(i), bounds.high[unknowns[i]]);
+      }
+    };
+    add(0, layout_->head());
+    for (std::size_t a = 0; a < layout_->arms().size(); ++a) add(a + 1, layout_->arms()[a]);
+  }
+  /// Arms first: each is eliminated by itself.
+  void eliminate_arms(ceres::Solver::Options& o) {
+    if (parts_.size() == 1) return;
+    o.linear_solver_type = ceres::DENSE_SCHUR;
+    o.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      o.linear_solver_ordering->AddElementToGroup(parts_[k].data(), k == 0);
+  }
 
-    Eigen::Map<Eigen::VectorXd> r(residuals, n + 1);
-    r.setZero();
-    const Eigen::VectorXd rotated = eigen.eigenvectors().transpose() * (s.asDiagonal() * g);
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (eigen.eigenvalues()[i] > tiny) r[i] = rotated[i] / std::sqrt(eigen.eigenvalues()[i]);
-    r[n] = std::sqrt(std::max(0.0, 2 * scale_ * e.cost - r.head(n).squaredNorm()));
-    if (jacobians && jacobians[0]) {
-      Eigen::Map<RowMajor> j(jacobians[0], n + 1, n);
-      j.setZero();
-      for (Eigen::Index i = 0; i < n; ++i)
-        if (eigen.eigenvalues()[i] > tiny)
-          j.row(i) = std::sqrt(eigen.eigenvalues()[i]) *
-                     eigen.eigenvectors().col(i).cwiseQuotient(s).transpose();
-    }
-    return true;
+  void PrepareForEvaluation(bool, bool new_point) override {
+    if (!new_point && root_) return;
+    std::vector<double> x(layout_->size());
+    const auto scatter = [&](std::size_t k, const std::vector<std::size_t>& unknowns) {
+      for (std::size_t i = 0; i < unknowns.size(); ++i) x[unknowns[i]] = parts_[k][i];
+    };
+    scatter(0, layout_->head());
+    for (std::size_t a = 0; a < layout_->arms().size(); ++a) scatter(a + 1, layout_->arms()[a]);
+    const auto& e = at(x);
+    root_.reset();
+    if (!is_finite(e)) return;
+    ArrowMatrix h = e.h;
+    h *= scale_;
+    std::vector<double> g = e.g;
+    for (double& component : g) component *= scale_;
+    root_.emplace(h, tiny());
+    gradient_ = root_->rotated(g);
+    double squares = 0;
+    auto& head = gradient_.head;
+    for (Eigen::Index i = 0; i < head.size(); ++i)
+      head[i] = root_->head().eigenvalues()[i] > tiny()
+                    ? head[i] / std::sqrt(root_->head().eigenvalues()[i])
+                    : 0;
+    squares = head.squaredNorm();
+    for (const auto& arm : gradient_.arms) squares += arm.squaredNorm();
+    constant_ = std::sqrt(std::max(0.0, 2 * scale_ * e.cost - squares));
   }
 
  private:
-  const NormalEquations& at(const std::vector<double>& x) const {
+  /// Residuals of the head, with the constant one, or of an arm.
+  class Part : public ceres::CostFunction {
+   public:
+    Part(const Reduced& whole, std::size_t k) : whole_(whole), k_(k) {
+      const auto n = static_cast<int>(whole.parts_[k].size());
+      set_num_residuals(k == 0 ? n + 1 : n);
+      mutable_parameter_block_sizes()->push_back(n);
+      if (k > 0)
+        mutable_parameter_block_sizes()->push_back(static_cast<int>(whole.parts_[0].size()));
+    }
+    bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+      if (!whole_.root_) return false;
+      k_ == 0 ? whole_.head(residuals, jacobians) : whole_.arm(k_ - 1, residuals, jacobians);
+      return true;
+    }
+
+   private:
+    const Reduced& whole_;
+    std::size_t k_;
+  };
+
+  void head(double* residuals, double** jacobians) const {
+    const Eigen::Index n = index(parts_[0].size());
+    const auto& eigen = root_->head();
+    Eigen::Map<Eigen::VectorXd> r(residuals, n + 1);
+    r.head(n) = gradient_.head;
+    r[n] = constant_;
+    if (!jacobians || !jacobians[0]) return;
+    Eigen::Map<RowMajor> j(jacobians[0], n + 1, n);
+    j.setZero();
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (eigen.eigenvalues()[i] > tiny())
+        j.row(i) = std::sqrt(eigen.eigenvalues()[i]) *
+                   eigen.eigenvectors().col(i).cwiseQuotient(root_->scale()).transpose();
+  }
+  void arm(std::size_t a, double* residuals, double** jacobians) const {
+    const auto& arm = root_->arms()[a];
+    const Eigen::Index n = arm.eigenvalues.size(), h = index(parts_[0].size());
+    Eigen::Map<Eigen::VectorXd>(residuals, n) = gradient_.arms[a];
+    if (!jacobians) return;
+    if (jacobians[0]) {
+      Eigen::Map<RowMajor> j(jacobians[0], n, n);
+      j.setZero();
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (arm.root[i] > 0)
+          j.row(i) = std::sqrt(arm.eigenvalues[i]) *
+                     arm.eigenvectors.col(i).cwiseQuotient(arm.scale).transpose();
+    }
+    if (jacobians[1])
+      Eigen::Map<RowMajor>(jacobians[1], n, h) = arm.w * root_->scale().cwiseInverse().asDiagonal();
+  }
+
+  double tiny() const { return 1e-15 * static_cast<double>(layout_->size()); }
+  const NormalEquations& at(const std::vector<double>& x) {
     if (x == best_.x) return best_.at;
     if (x == last_.x) return last_.at;
     last_ = {x, evaluate_(x)};
@@ -128,8 +218,13 @@ class Reduced : public ceres::CostFunction {
 
   const NormalEquationsAt& evaluate_;
   double scale_;
-  mutable Evaluation best_, last_;
-  mutable int passes_ = 0;
+  std::shared_ptr<const ArrowLayout> layout_;
+  std::vector<std::vector<double>> parts_;  ///< unknowns of the head and of each arm: Ceres' blocks
+  std::optional<ArrowRoot> root_;           ///< none where the sums are not finite
+  ArrowRoot::Rotated gradient_;             ///< residuals of the arms and the head
+  double constant_ = 0;                     ///< the residual that makes up the cost
+  Evaluation best_, last_;
+  int passes_ = 0;
 };
 
 /// Gauss–Newton steps from a place so close to the optimum that each is shorter than the last.
@@ -148,7 +243,7 @@ bool take_last_steps(const NormalEquationsAt& evaluate,
     }
     auto tried = x;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      tried[i] += step->by[static_cast<Eigen::Index>(i)];
+      tried[i] += step->by[i];
       if (!(tried[i] > bounds.low[i] && tried[i] < bounds.high[i])) return false;
     }
     auto at = evaluate(tried);
@@ -172,15 +267,12 @@ Solution solve_once(const NormalEquationsAt& evaluate,
   Solution s;
   const std::size_t n = x.size();
 
-  ceres::Problem::Options ours;
-  ours.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ours);
   // One for the sum of what each unknown changes over its range.
   double effect = 0;
   s.at = evaluate(x);
   for (std::size_t i = 0; i < n; ++i) {
     const double range = bounds.high[i] - bounds.low[i];
-    effect += s.at.h[i * n + i] * range * range;
+    effect += s.at.h(i, i) * range * range;
   }
   if (!is_finite(s.at) || !std::isfinite(effect)) {
     s.message = "the sum of squares is not finite at the start";
@@ -193,15 +285,14 @@ Solution solve_once(const NormalEquationsAt& evaluate,
     return s;
   }
   const double scale = effect > 0 ? 1 / effect : 1;
-  Reduced cost(evaluate, n, scale);
-  cost.known(x, s.at);
-  problem.AddResidualBlock(&cost, nullptr, x.data());
-  for (std::size_t i = 0; i < n; ++i) {
-    problem.SetParameterLowerBound(x.data(), static_cast<int>(i), bounds.low[i]);
-    problem.SetParameterUpperBound(x.data(), static_cast<int>(i), bounds.high[i]);
-  }
+  Reduced cost(evaluate, scale, x, s.at);
+  ceres::Problem::Options with;
+  with.evaluation_callback = &cost;
+  ceres::Problem problem(with);
+  cost.add_to(problem, bounds);
   ceres::Solver::Options o;
   o.linear_solver_type = ceres::DENSE_QR;
+  cost.eliminate_arms(o);
   o.max_num_iterations = options.max_iterations;
   o.function_tolerance = options.function_tolerance;
   o.parameter_tolerance = options.parameter_tolerance;
@@ -226,18 +317,6 @@ Solution solve_once(const NormalEquationsAt& evaluate,
   s.message = summary.message;
   if (options.rounding > 0 && s.converged) take_last_steps(evaluate, bounds, x, s);
   return s;
-}
-
-/// The problem in a subset of its unknowns, the others held.
-NormalEquations restricted(const NormalEquations& e,
-                           std::size_t n,
-                           const std::vector<std::size_t>& moving) {
-  NormalEquations r{Matrix(), {}, e.cost};
-  for (const std::size_t a : moving) {
-    r.g.push_back(e.g[a]);
-    for (const std::size_t b : moving) r.h.push_back(e.h[a * n + b]);
-  }
-  return r;
 }
 
 }  // namespace
@@ -288,16 +367,20 @@ Solution solve(const NormalEquationsAt& evaluate,
       for (std::size_t k = 0; k < moving.size(); ++k) all[moving[k]] = part[k];
       return all;
     };
-    NormalEquations best;  // of the whole problem where the part was lowest
+    std::shared_ptr<const ArrowLayout> layout;  // of what moves
+    NormalEquations best;                       // of the whole problem where the part was lowest
     std::vector<double> best_x;
     const NormalEquationsAt part = [&](const std::vector<double>& p) {
       auto all = whole(p);
       const NormalEquations e = evaluate(all);
+      if (!layout) layout = std::make_shared<const ArrowLayout>(e.h.layout().part(moving));
       if (best_x.empty() || e.cost < best.cost) {
         best = e;
         best_x = std::move(all);
       }
-      return restricted(e, n, moving);
+      NormalEquations some_of{e.h.part(layout, moving), {}, e.cost};
+      for (const std::size_t i : moving) some_of.g.push_back(e.g[i]);
+      return some_of;
     };
     if (moving.empty()) {
       s.converged = true;

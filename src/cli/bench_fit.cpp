@@ -1,6 +1,7 @@
 // gonio bench fit: what a fit costs, beside the plain way of doing the same, in one run.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 
@@ -132,6 +133,18 @@ Json spread_of(std::vector<double> x) {
   return {{"median", x[x.size() / 2]}, {"least", x.front()}, {"most", x.back()}};
 }
 
+/// Spectrum of a paint: one value a channel for kd and f0.
+Table spectral_table(const std::string& model, std::size_t channels) {
+  Setting kd{"kd", {}}, f0{"f0", {}};
+  for (std::size_t c = 0; c < channels; ++c) {
+    const double at = static_cast<double>(c) / static_cast<double>(channels);
+    kd.values.push_back(0.25 + 0.2 * std::sin(9 * at));
+    f0.values.push_back(0.06 + 0.02 * std::cos(6 * at));
+  }
+  return synthesize(bind_model(model, {{"alpha", {0.2}}, kd, f0}, channels),
+                    {.layout = Layout::random, .samples = 400, .noise = 0.02});
+}
+
 }  // namespace
 
 Exit bench_fit(const FitBench& o, const Common& common) {
@@ -149,6 +162,12 @@ Exit bench_fit(const FitBench& o, const Common& common) {
   const Place place;
   const std::string file = place / "table.binary", result = place / "fit.json";
   write_table(synthesize(truth, synth), file);
+
+  // As many channels as a spectral goniometer has, and twice that: the time of a fit is linear in
+  // them.
+  constexpr std::size_t channels = 195;
+  const Table spectrum = spectral_table(options.model, channels),
+              twice = spectral_table(options.model, 2 * channels);
 
   Times times;
   FitResult last;
@@ -190,6 +209,11 @@ Exit bench_fit(const FitBench& o, const Common& common) {
       if (read_only(data) == 0) progress("all columns are zero");  // the sum must be made
       times.add("its columns read", since(begin));
     }
+    for (const Table* spectral : {&spectrum, &twice}) {
+      begin = Clock::now();
+      fit(*spectral, options);
+      times.add(fmt::format("fit of {} channels", spectral->channels.size()), since(begin));
+    }
     begin = Clock::now();
     if (!run_program(file, result, common.jobs))
       throw bad_input(file, "fitting in a program of its own", "a failure", "a result");
@@ -207,6 +231,9 @@ Exit bench_fit(const FitBench& o, const Common& common) {
                             {"median_ms", s.median},
                             {"least_ms", s.least},
                             {"most_ms", s.most}});
+  json["spectral_channels_doubled"] =
+      spread_of(divided(times.of(fmt::format("fit of {} channels", 2 * channels)),
+                        times.of(fmt::format("fit of {} channels", channels))));
   json["pass_over_read"] = spread_of(divided(times.of("one pass"), times.of("its columns read")));
   if (o.plain) {
     progress("the plain way: one Ceres block per bin");
@@ -243,6 +270,8 @@ Exit bench_fit(const FitBench& o, const Common& common) {
                        s["least"].get<double>(), digits, s["most"].get<double>(), digits);
   };
   fmt::print("one pass over reading its columns: {}\n", spread(json["pass_over_read"], 1));
+  fmt::print("{} channels over {}: {}\n", 2 * channels, channels,
+             spread(json["spectral_channels_doubled"], 1));
   fmt::print("whole program: {:.0f} MB at most\n", megabytes);
   if (o.plain)
     fmt::print(

@@ -204,6 +204,37 @@ TEST(Fit, DoesNotDependOnTheUnitOfTheWeightsOrTheValues) {
       1e-6, 1e-13);
 }
 
+TEST(Fit, OfASpectrumFindsEveryChannelAndItsErrors) {
+  constexpr std::size_t channels = 40;  // enough for each to have a block of its own
+  Setting kd{"kd", {}}, f0{"f0", {}};
+  for (std::size_t c = 0; c < channels; ++c) {
+    kd.values.push_back(0.3 + 0.2 * std::sin(static_cast<double>(c) / 5));
+    f0.values.push_back(0.06 + 0.03 * std::cos(static_cast<double>(c) / 7));
+  }
+  const auto truth = bind_model(paint, {{"alpha", {0.2}}, kd, f0}, channels);
+  const Table t =
+      synthesize(truth, {.layout = Layout::random, .samples = 400, .noise = 0.02, .seed = 5});
+  const auto d = fit(t, {}).document;
+  EXPECT_EQ(d.solver.termination, "converged");
+  ASSERT_EQ(d.correlations.size(), 1 + 2 * channels);
+  for (const auto& p : truth.model.parameters)
+    for (std::size_t c = 0; c < p.count; ++c) {
+      const auto& q = parameter(d, p.name);
+      EXPECT_LT(std::abs(q.value[c] - truth.values[p.first + c]), 5 * q.std_error[c])
+          << p.name << c;
+      EXPECT_LT(q.std_error[c], 0.05 * q.value[c]) << p.name << c;
+    }
+  // A channel alone, alpha held where all of them put it, has the same values.
+  Table one = t;
+  one.channels = {t.channels[7]};
+  one.values = {t.values[7]};
+  FitOptions o;
+  o.fixed = {{"alpha", parameter(d, "alpha").value}};
+  const auto alone = fit(one, o).document;
+  for (const char* name : {"kd", "f0"})
+    EXPECT_NEAR(parameter(alone, name).value[0] / parameter(d, name).value[7], 1, 1e-6) << name;
+}
+
 TEST(Fit, RefusesMoreFreeParametersThanItCanAccumulate) {
   const std::string lobe = "+gtr/smith_ggx.correlated/conductor";
   const Table t = synthesize(bind_model(paint, {}, 3), {.layout = Layout::random, .samples = 200});

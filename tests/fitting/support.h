@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "data_synth/synth.h"
+#include "fitting/judge/assess.h"
 #include "fitting/result/document.h"
 #include "fitting/sample/sampling.h"
 #include "fitting/solve/accumulate.h"
@@ -23,6 +24,13 @@ inline const FittedParameter& parameter(const FitDocument& d, const std::string&
 
 inline BoundModel bind(const char* model, const std::string& settings, std::size_t channels) {
   return bind_model(model, parse_settings(std::vector<std::string>{settings}), channels);
+}
+
+/// Meat of a sandwich, whether of values or of clusters.
+inline double meat(const Sandwich& s, std::size_t i, std::size_t k) {
+  double sum = s.meat(i, k);
+  for (const auto& score : s.scores) sum += score[i] * score[k];
+  return sum;
 }
 
 /// A list of one channel, seen from one place on.

@@ -13,6 +13,7 @@ namespace {
 
 using test::Case;
 using test::layouts_that_fold;
+using test::meat;
 using test::paint;
 using test::small;
 
@@ -30,10 +31,11 @@ TEST(Folding, ChangesNothingThatAnAssessmentSays) {
       }
       for (std::size_t i = 0; i < 8; ++i)
         for (std::size_t k = 0; k < 8; ++k) {
-          const auto size = [&](const Matrix& m) { return std::sqrt(m[i * 9] * m[k * 9]); };
-          const std::size_t at = i * 8 + k;
-          EXPECT_NEAR(a.sandwich.bread[at], b.sandwich.bread[at], 1e-11 * size(a.sandwich.bread));
-          EXPECT_NEAR(a.sandwich.meat[at], b.sandwich.meat[at], 1e-11 * size(a.sandwich.meat));
+          const auto &x = a.sandwich, &y = b.sandwich;
+          EXPECT_NEAR(x.bread(i, k), y.bread(i, k),
+                      1e-11 * std::sqrt(x.bread(i, i) * x.bread(k, k)));
+          EXPECT_NEAR(meat(x, i, k), meat(y, i, k),
+                      1e-11 * std::sqrt(meat(x, i, i) * meat(x, k, k)));
         }
     }
 }
@@ -92,7 +94,8 @@ TEST(Sandwich, OfIndependentValuesIsTheSumOfSquaredScoresAndOfClustersTheSquareO
   const auto e = Accumulator<double>(c.model.model, data, c.free).normal_equations(c.off);
   const auto independent = assess(s, c.at_off(), c.free, no_huber, false);
   for (std::size_t i = 0; i < 64; ++i)
-    EXPECT_NEAR(independent.sandwich.bread[i], e.h[i], 1e-12 * std::abs(e.h[i]));
+    EXPECT_NEAR(independent.sandwich.bread.entries()[i], e.h.entries()[i],
+                1e-12 * std::abs(e.h.entries()[i]));
   // One incident angle for all: its score is the whole gradient.
   Case one = small();
   auto& where = std::get<DirectionList>(one.table.where);
@@ -105,7 +108,7 @@ TEST(Sandwich, OfIndependentValuesIsTheSumOfSquaredScoresAndOfClustersTheSquareO
   EXPECT_EQ(a.incident_angles, 1U);
   for (std::size_t p = 0; p < 8; ++p)
     for (std::size_t q = 0; q < 8; ++q)
-      EXPECT_NEAR(a.sandwich.meat[p * 8 + q], g[p] * g[q], 1e-9 * std::abs(g[p] * g[q]) + 1e-20);
+      EXPECT_NEAR(meat(a.sandwich, p, q), g[p] * g[q], 1e-9 * std::abs(g[p] * g[q]) + 1e-20);
   // Each value its own: one channel, no angle twice.
   Case each = small();
   auto& apart = std::get<DirectionList>(each.table.where);
@@ -117,9 +120,10 @@ TEST(Sandwich, OfIndependentValuesIsTheSumOfSquaredScoresAndOfClustersTheSquareO
       assess(each.sampling(Metric::l2_cosine), each.at_off(), each.free, no_huber, true);
   const auto every =
       assess(each.sampling(Metric::l2_cosine), each.at_off(), each.free, no_huber, false);
-  for (std::size_t i = 0; i < 64; ++i)
-    EXPECT_NEAR(lone.sandwich.meat[i], every.sandwich.meat[i],
-                1e-10 * std::abs(every.sandwich.meat[i]) + 1e-20);
+  for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t k = 0; k < 8; ++k)
+      EXPECT_NEAR(meat(lone.sandwich, i, k), meat(every.sandwich, i, k),
+                  1e-10 * std::abs(meat(every.sandwich, i, k)) + 1e-20);
 }
 
 TEST(Sandwich, UnderHubersLossTakesTheClippedOutOfTheBreadAndClipsTheirScores) {
@@ -137,8 +141,8 @@ TEST(Sandwich, UnderHubersLossTakesTheClippedOutOfTheBreadAndClipsTheirScores) {
   const auto m = test::bind("lambert", "kd=0.3", 1);
   const Sampling s(t, Bins::centre, Metric::log, 0, false);
   const auto a = assess(s, m, FreeSlots({true}), huber, false).sandwich;
-  EXPECT_NEAR(a.bread[0], 10 / (kd * kd), 1e-9);
-  EXPECT_NEAR(a.meat[0], (small_squares + 2 * huber * huber) / (kd * kd), 1e-12);
+  EXPECT_NEAR(a.bread(0, 0), 10 / (kd * kd), 1e-9);
+  EXPECT_NEAR(a.meat(0, 0), (small_squares + 2 * huber * huber) / (kd * kd), 1e-12);
 }
 
 }  // namespace

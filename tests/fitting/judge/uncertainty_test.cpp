@@ -10,12 +10,9 @@ namespace {
 
 TEST(Uncertainty, TellsSingularDirectionsFromKnownParameters) {
   // x0 + x1 known, x2 known with error 0.1, x3 at its bound, x4 without effect
-  Sandwich s;
-  s.bread.assign(25, 0);
-  s.bread[0] = s.bread[1] = s.bread[5] = s.bread[6] = 100;
-  s.bread[12] = 100;
-  s.bread[18] = 100;
-  s.meat = s.bread;
+  const ArrowMatrix bread{100, 100, 0,   0, 0, 100, 100, 0, 0,   0,  //
+                          0,   0,   100, 0, 0, 0,   0,   0, 100, 0, 0, 0, 0, 0, 0};
+  const Sandwich s{bread, bread, {}};
   const std::vector<double> x{0.3, 0.3, 0.5, 1, 0.5};
   const auto u =
       uncertainty(s, x, {std::vector<double>(5, 0), std::vector<double>(5, 1)}, 1'000'000, 0);
@@ -39,7 +36,7 @@ TEST(Uncertainty, TakesStudentsQuantileFromTheTables) {
 /// Two unknowns of which all can be worked out by hand: B = 100 (4 1; 1 3), M = 100 (2 ½; ½ 1), so that
 /// B⁻¹ M B⁻¹ = (16 −3.5; −3.5 14)/12100.
 struct ByHand {
-  Sandwich s{{400, 100, 100, 300}, {200, 50, 50, 100}};
+  Sandwich s{{400, 100, 100, 300}, {200, 50, 50, 100}, {}};
   std::vector<double> x{0, 0};
   Bounds bounds{{-10, -10}, {10, 10}};
 };
@@ -57,7 +54,9 @@ TEST(Uncertainty, OfIndependentValuesIsTheSandwichOverTheDegreesOfFreedomLeft) {
 }
 
 TEST(Uncertainty, OfClustersCountsTheClustersAndNotTheValues) {
-  const ByHand h;
+  ByHand h;
+  h.s.scores = {{10, 5}, {10, 0}, {0, 5}, {0, std::sqrt(50)}};  // their squares add up to that meat
+  h.s.meat = ArrowMatrix{0, 0, 0, 0};
   const auto u = uncertainty(h.s, h.x, h.bounds, 102, 5);
   const double spent = 5.0 / 4 * (101.0 / 100);  // g/(g − 1) (N − 1)/(N − p)
   EXPECT_NEAR(u.std_error[0], std::sqrt(spent * 16 / 12100), 1e-12);
@@ -68,13 +67,85 @@ TEST(Uncertainty, OfClustersCountsTheClustersAndNotTheValues) {
 TEST(Uncertainty, LosesADirectionWhenItsScaledEigenvalueIsBelowOneInTenToTheEleventh) {
   const auto status = [](double eigenvalue) {  // of (1 ρ; ρ 1): 1 − ρ and 1 + ρ
     const double all = 1e20, rho = 1 - eigenvalue;
-    const Sandwich s{{all, all * rho, all * rho, all}, {all, all * rho, all * rho, all}};
+    const Sandwich s{{all, all * rho, all * rho, all}, {all, all * rho, all * rho, all}, {}};
     return uncertainty(s, std::vector{0.5, 0.5}, {{0, 0}, {1, 1}}, 1000, 0).status;
   };
   for (const auto i : {0U, 1U}) {
     EXPECT_EQ(status(3e-12)[i], ParameterStatus::not_identifiable);
     EXPECT_EQ(status(3e-11)[i], ParameterStatus::free);
   }
+}
+
+/// Matrix of two shared unknowns and channels of two and one, positive definite, with the channels as
+/// arms and without.
+struct BothForms {
+  ArrowMatrix dense, arrow;
+};
+BothForms both_forms(const std::vector<std::vector<double>>& rows) {
+  const auto layout = std::make_shared<const ArrowLayout>(
+      std::vector<std::size_t>{4, 0}, std::vector<std::vector<std::size_t>>{{1, 3}, {2}, {5, 6}});
+  BothForms m{ArrowMatrix(std::make_shared<const ArrowLayout>(7)), ArrowMatrix(layout)};
+  for (const auto& j : rows)
+    for (std::size_t i = 0; i < 7; ++i)
+      for (std::size_t k = i; k < 7; ++k)
+        if (layout->at(i, k) != ArrowLayout::none) {
+          m.dense.add(i, k, j[i] * j[k]);
+          m.arrow.add(i, k, j[i] * j[k]);
+        }
+  return m;
+}
+/// Rows of J: of the head and of one arm each.
+std::vector<std::vector<double>> arrow_rows(double size) {
+  std::vector<std::vector<double>> rows;
+  const std::vector<std::vector<std::size_t>> arms{{1, 3}, {2}, {5, 6}};
+  for (std::size_t r = 0; r < 15; ++r) {
+    std::vector<double> row(7);
+    const auto at = [&](std::size_t i) {
+      row[i] = size * std::sin(0.37 * static_cast<double>((r + 2) * (r + 2 * i + 3) * (i + 1)));
+    };
+    at(0);
+    at(4);
+    for (const std::size_t i : arms[r % 3]) at(i);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+TEST(Uncertainty, IsTheSameWithChannelsAsArms) {
+  auto twin = arrow_rows(30);  // two unknowns of a channel that cannot be told apart
+  for (auto& row : twin) row[6] = row[5];
+  for (const auto& rows : {arrow_rows(30), twin})
+    for (const std::size_t clusters : {0U, 12U}) {
+      const auto bread = both_forms(rows);
+      auto meat = both_forms(arrow_rows(50));
+      std::vector<std::vector<double>> scores;
+      if (clusters) {
+        meat = both_forms({});
+        for (std::size_t g = 0; g < clusters; ++g) {
+          auto& s = scores.emplace_back();
+          for (std::size_t i = 0; i < 7; ++i)
+            s.push_back(30 * std::cos(static_cast<double>(3 * g + i * i)));
+        }
+      }
+      const std::vector<double> x(7, 0.5);
+      const Bounds bounds{std::vector<double>(7, -10), std::vector<double>(7, 10)};
+      const auto a = uncertainty({bread.dense, meat.dense, scores}, x, bounds, 100, clusters);
+      const auto b = uncertainty({bread.arrow, meat.arrow, scores}, x, bounds, 100, clusters);
+      EXPECT_EQ(a.status, b.status);
+      EXPECT_EQ(a.status[5],
+                rows == twin ? ParameterStatus::not_identifiable : ParameterStatus::free);
+      if (rows != twin) {
+        EXPECT_NEAR(b.condition / a.condition, 1, 1e-9);
+      }
+      for (std::size_t i = 0; i < 7; ++i) {
+        if (a.status[i] != ParameterStatus::free) continue;
+        EXPECT_NEAR(b.std_error[i] / a.std_error[i], 1, 1e-10);
+        for (std::size_t k = 0; k < 7; ++k) {
+          if (a.status[k] != ParameterStatus::free) continue;
+          EXPECT_NEAR(b.correlations[i][k], a.correlations[i][k], 1e-10);
+        }
+      }
+    }
 }
 
 TEST(Uncertainty, KnowsNothingWithoutADegreeOfFreedom) {

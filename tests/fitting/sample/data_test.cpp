@@ -28,9 +28,10 @@ TEST(Folding, ChangesNoSum) {
       const auto f = Accumulator<double>(c.model.model, less, c.free).normal_equations(c.off);
       EXPECT_NEAR(f.cost, e.cost, 1e-11 * e.cost) << names_of<Metric>[m];
       for (std::size_t i = 0; i < e.g.size(); ++i)
-        EXPECT_NEAR(f.g[i], e.g[i], 1e-10 * std::sqrt(e.cost * e.h[i * 9])) << names_of<Metric>[m];
-      for (std::size_t i = 0; i < e.h.size(); ++i)
-        EXPECT_NEAR(f.h[i], e.h[i], 1e-11 * std::abs(e.h[i]) + 1e-12) << names_of<Metric>[m];
+        EXPECT_NEAR(f.g[i], e.g[i], 1e-10 * std::sqrt(e.cost * e.h(i, i))) << names_of<Metric>[m];
+      for (std::size_t i = 0; i < e.h.entries().size(); ++i)
+        EXPECT_NEAR(f.h.entries()[i], e.h.entries()[i], 1e-11 * std::abs(e.h.entries()[i]) + 1e-12)
+            << names_of<Metric>[m];
     }
 }
 
@@ -43,14 +44,15 @@ TEST(Folding, InFloatLosesSixDigitsAtMost) {
         Accumulator<float>(c.model.model, fit_data<float>(s), c.free).normal_equations(c.off);
     EXPECT_NEAR(f.cost, e.cost, 1e-5 * e.cost);
     for (std::size_t i = 0; i < 8; ++i) {
-      EXPECT_NEAR(f.g[i], e.g[i], 2e-5 * std::sqrt(e.cost * e.h[i * 9]));
-      EXPECT_NEAR(f.h[i * 9], e.h[i * 9], 2e-5 * e.h[i * 9]);
+      EXPECT_NEAR(f.g[i], e.g[i], 2e-5 * std::sqrt(e.cost * e.h(i, i)));
+      EXPECT_NEAR(f.h(i, i), e.h(i, i), 2e-5 * e.h(i, i));
     }
     const auto a = assess(s, c.at_off(), c.free, no_huber, true, false);
     const auto b = assess(s, c.at_off(), c.free, no_huber, true, true);
     EXPECT_NEAR(a.residuals.log_rms, b.residuals.log_rms, 1e-5 * a.residuals.log_rms);
     for (std::size_t i = 0; i < 8; ++i)
-      EXPECT_NEAR(a.sandwich.meat[i * 9], b.sandwich.meat[i * 9], 1e-3 * a.sandwich.meat[i * 9]);
+      EXPECT_NEAR(test::meat(a.sandwich, i, i), test::meat(b.sandwich, i, i),
+                  1e-3 * test::meat(a.sandwich, i, i));
   }
 }
 

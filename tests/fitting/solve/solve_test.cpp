@@ -94,5 +94,51 @@ TEST(Solve, HoldsAllWhereAllAreAtTheirBounds) {
   EXPECT_EQ(s.at.cost, 8);
 }
 
+/// Rosenbrock's valley for each of 20 channels, which share a third unknown: J has the form of an arrow.
+TEST(Solve, TakesTheSamePathWithChannelsAsArms) {
+  constexpr std::size_t channels = 20, n = 1 + 2 * channels;
+  std::vector<std::vector<std::size_t>> arms;
+  for (std::size_t c = 0; c < channels; ++c) arms.push_back({1 + 2 * c, 2 + 2 * c});
+  const auto arrow = std::make_shared<const ArrowLayout>(std::vector<std::size_t>{0}, arms),
+             dense = std::make_shared<const ArrowLayout>(n);
+  const auto solved = [&](const std::shared_ptr<const ArrowLayout>& layout, double high) {
+    const auto evaluate = [&](const std::vector<double>& x) {
+      NormalEquations e{ArrowMatrix(layout), std::vector<double>(n), 0};
+      for (std::size_t c = 0; c < channels; ++c) {
+        const std::size_t a = 1 + 2 * c, b = 2 + 2 * c;
+        const double target = 0.5 + 0.02 * static_cast<double>(c);
+        const auto add = [&](double r, double by_shared, double by_a, double by_b) {
+          const std::size_t at[]{0, a, b};
+          const double j[]{by_shared, by_a, by_b};
+          for (std::size_t i = 0; i < 3; ++i) {
+            e.g[at[i]] += r * j[i];
+            for (std::size_t k = i; k < 3; ++k) e.h.add(at[i], at[k], j[i] * j[k]);
+          }
+          e.cost += r * r / 2;
+        };
+        add(3 * (x[b] - x[a] * x[a]), 0, -6 * x[a], 3);
+        add(target - x[a], 0, -1, 0);
+        add(x[0] * x[b] - 2 * target * target, x[b], 0, x[0]);
+      }
+      return e;
+    };
+    std::vector<double> x(n, 0.3);
+    const Bounds bounds{std::vector<double>(n, 0), std::vector<double>(n, high)};
+    const auto s = solve(evaluate, x, bounds);
+    EXPECT_TRUE(s.converged) << s.message;
+    return std::pair{x, s};
+  };
+  for (const double high : {9.0, 0.8}) {  // all inside; some at their bounds
+    const auto [x, s] = solved(dense, high);
+    const auto [y, t] = solved(arrow, high);
+    EXPECT_EQ(s.iterations, t.iterations);
+    EXPECT_NEAR(s.at.cost, t.at.cost, 1e-12 + 1e-9 * s.at.cost);
+    for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(x[i], y[i], 1e-7) << i;
+    if (high > 1) {
+      EXPECT_NEAR(x[0], 2, 1e-5);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gonio

@@ -1,0 +1,63 @@
+#pragma once
+/// \file
+/// Decomposition of positive semidefinite arrow matrices.  Includes Eigen: for the sources that solve.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "fitting/solve/arrow.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace gonio {
+
+/// A scaled to a unit diagonal, S A S with S = diag(A)^(−1/2), its arms taken out one by one and the
+/// head's Schur complement decomposed:
+///
+///   D_c = V_c Λ_c V_cᵀ,   W_c = Λ_c^(−1/2) V_cᵀ B_c,   H − Σ W_cᵀ W_c = V Λ Vᵀ
+///
+/// so that S A S = Jᵀ J with the rows  (Λ_c^(1/2) V_cᵀ on the arm, W_c on the head)  of each arm and
+/// Λ^(1/2) Vᵀ on the head.  Directions of an arm with an eigenvalue up to `tiny` are left out.
+class ArrowRoot {
+ public:
+  using Vector = Eigen::VectorXd;
+  using Columns = Eigen::MatrixXd;
+
+  ArrowRoot(const ArrowMatrix&, double tiny);
+
+  struct Arm {
+    Vector scale, eigenvalues, root;  ///< S; Λ_c; Λ_c^(−1/2), 0 where left out
+    Columns eigenvectors, border, w;  ///< V_c, B_c, W_c
+  };
+  const Vector& scale() const { return scale_; }  ///< of the head
+  const Eigen::SelfAdjointEigenSolver<Columns>& head() const { return head_; }
+  const std::vector<Arm>& arms() const { return arms_; }
+
+  /// Gradient g in that form: parts of the arms and of the head with Jᵀ r = S g, where
+  /// r_c = arms[c] and the head's r = Λ^(−1/2) head.
+  struct Rotated {
+    std::vector<Vector> arms;
+    Vector head;
+  };
+  Rotated rotated(std::span<const double> g) const;
+  /// S (S A S)⁻¹ of what was rotated: A⁻¹ g, by unknowns.
+  std::vector<double> solution(const Rotated&) const;
+
+  /// How many eigenvalues of S A S are t or less.
+  std::size_t at_most(double t) const;
+  struct Extremes {
+    double least, largest;
+  };
+  /// Extreme eigenvalues of S A S.
+  Extremes extremes() const;
+
+ private:
+  std::shared_ptr<const ArrowLayout> layout_;
+  Vector scale_;
+  Columns scaled_;  ///< H
+  Eigen::SelfAdjointEigenSolver<Columns> head_;
+  std::vector<Arm> arms_;
+};
+
+}  // namespace gonio
