@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -17,7 +18,7 @@ double fold(const BlockReader<F>& in,
             std::size_t channel,
             std::size_t members,
             const FitBlock<F>& out) {
-  F *const target = out.target(channel), *const weight = out.weight(channel);
+  F* const __restrict target = out.target(channel), * const __restrict weight = out.weight(channel);
   const auto& first = in.values(0, channel);
   if (members == 1) {
     std::copy_n(first.target.data(), out.n, target);
@@ -31,12 +32,13 @@ double fold(const BlockReader<F>& in,
     weight[i] = first.weight[i] * first.weight[i];
   }
   for (std::size_t m = 1; m < members; ++m) {
-    const auto& v = in.values(m, channel);
+    const F *const t = in.values(m, channel).target.data(), *const w =
+                                                                in.values(m, channel).weight.data();
     for (std::size_t i = 0; i < out.n; i += padding)
       for (std::size_t l = 0; l < padding; ++l) {
         const std::size_t k = i + l;
-        const F w2 = v.weight[k] * v.weight[k], sum = weight[k] + w2;
-        const F off = v.target[k] - target[k], part = w2 / (sum > 0 ? sum : F(1));
+        const F w2 = w[k] * w[k], sum = weight[k] + w2;
+        const F off = t[k] - target[k], part = w2 / (sum > 0 ? sum : F(1));
         rest[l] += weight[k] * part * off * off;
         target[k] += part * off;
         weight[k] = sum;
@@ -120,6 +122,7 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
       part.levels.emplace_back(step, (7 * k + step - 1) % step, Tasks::blocks * in.block,
                                5 + 2 * s.channels());
     std::array<std::uint32_t, BlockReader<F>::block> with_value;
+    std::array<F, BlockReader<F>::block> largest;  // weight of each group over the channels
     while (in.next()) {
       const FitBlock<F>& b = all.add_block(k, in.size());
       const auto x = in.angles();
@@ -128,12 +131,16 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
         std::copy_n(angle, b.n, b.columns + b.n * at++);
       for (std::size_t c = 0; c < s.channels(); ++c)
         part.rest += fold(in, c, s.groups().widest(), b);
+      largest.fill(0);
+      for (std::size_t c = 0; c < s.channels(); ++c) {
+        const F* const weight = b.weight(c);
+        for (std::size_t i = 0; i < b.n; ++i)
+          largest[i] = weight[i] > largest[i] ? weight[i] : largest[i];
+      }
       std::size_t count = 0;
       for (std::size_t i = 0; i < in.size(); ++i) {
         with_value[count] = static_cast<std::uint32_t>(i);
-        bool compared = false;
-        for (std::size_t c = 0; c < s.channels(); ++c) compared = compared || b.weight(c)[i] > 0;
-        count += compared;
+        count += largest[i] > 0;
       }
       for (auto& level : part.levels) level.look_at(b, {with_value.data(), count});
       part.groups += in.size();
@@ -165,6 +172,7 @@ Block<F> FitBlock<F>::angles() const {
 template <class F>
 void FitData<F>::reserve(std::size_t count, std::size_t channels) {
   columns_count_ = 5 + 2 * channels;
+  used_ = 0;
   tasks.resize(count);
   for (auto& t : tasks) t.reserve(Tasks::blocks);
   memory = Column<F>::for_overwrite(count * Tasks::blocks * BlockReader<F>::block * columns_count_);
@@ -173,7 +181,8 @@ void FitData<F>::reserve(std::size_t count, std::size_t channels) {
 template <class F>
 FitBlock<F>& FitData<F>::add_block(std::size_t task, std::size_t n) {
   const std::size_t full = BlockReader<F>::block * columns_count_;
-  const std::size_t at = task * Tasks::blocks + tasks[task].size();
+  // Side by side as they come, whatever their task: those below the horizon take no memory.
+  const std::size_t at = std::atomic_ref(used_).fetch_add(1, std::memory_order_relaxed);
   return tasks[task].emplace_back(FitBlock<F>{(n + padding - 1) / padding * padding, columns_count_,
                                               memory.data() + at * full});
 }

@@ -40,7 +40,7 @@ struct FitData {
   FitBlock<F>& add_block(std::size_t task, std::size_t groups);
 
  private:
-  std::size_t columns_count_ = 0;
+  std::size_t columns_count_ = 0, used_ = 0;  ///< used_: blocks
 };
 
 /// All groups, or about `most` of them, evenly spread.

@@ -17,6 +17,20 @@ Groups::Folding::Folding(const std::vector<std::vector<Part>>& parts) : size_(pa
     parts_.insert(parts_.end(), p.begin(), p.end());
     parts_.resize(parts_.size() + widest_ - p.size());
   }
+  lines_.clear();
+  for (std::size_t k = 0; k < widest_; ++k) {
+    const auto place = [&](std::size_t group) {
+      return static_cast<std::ptrdiff_t>(part(group, k).at);
+    };
+    Line line{size_ > 1 ? place(1) - place(0) : 1, part(0, k).swapped};
+    for (std::size_t g = 0; g < size_; ++g) {
+      const Part here = part(g, k);
+      if (here.at == absent || here.swapped != line.swapped ||
+          (g > 0 && place(g) - place(g - 1) != line.step))
+        line.step = 0;
+    }
+    lines_.push_back(line);
+  }
 }
 
 Groups::Groups(const Table& t, const SampleAngles& at, Bins bins, bool fold)
@@ -155,6 +169,7 @@ template <class F>
 void BlockReader<F>::place() {
   const auto &rows = sampling_.groups().rows(), &columns = sampling_.groups().columns();
   absent_.fill(0);
+  for (auto& r : runs_) r.clear();
   n_ = 0;
   while (n_ < block && left_ > 0) {
     const std::size_t row = row_, from = n_;
@@ -184,7 +199,7 @@ void BlockReader<F>::place_any(const SampleAngles::Row& at) {
   }
 }
 
-/// The same where only nol and nov differ: several at once.
+/// Samples of a row in which only nol and nov differ: several at once.
 template <class F>
 void BlockReader<F>::place_level(const SampleAngles::Row& at) {
   const auto& columns = sampling_.groups().columns();
@@ -192,26 +207,32 @@ void BlockReader<F>::place_level(const SampleAngles::Row& at) {
   const std::size_t from = n_, first = column_;
   const std::size_t count =
       std::min({block - n_, left_, (columns.size() - column_ + step_ - 1) / step_});
-  std::array<double, block> cosine;
-  for (std::size_t k = 0; k < count; ++k)
-    cosine[k] = at.cos_phi_d(columns.part(first + k * step_, 0).at);
+  if (cosine_.empty())
+    for (std::size_t g = 0; g < columns.size(); ++g)
+      cosine_.push_back(at.cos_phi_d(columns.part(g, 0).at));
+  std::array<double, block> swings;
+  for (std::size_t k = 0; k < count; ++k) swings[k] = swing * cosine_[first + k * step_];
+  F *const nol = angles_[0].data(), *const nov = angles_[1].data();
   double lowest = 1;
   for (std::size_t k = 0; k < count; ++k) {
-    const double a = middle - swing * cosine[k], b = middle + swing * cosine[k];
-    angles_[0][from + k] = static_cast<F>(a);
-    angles_[1][from + k] = static_cast<F>(b);
+    const double a = middle - swings[k], b = middle + swings[k];
+    nol[from + k] = static_cast<F>(a);
+    nov[from + k] = static_cast<F>(b);
     const double lower = a < b ? a : b;
     lowest = lower < lowest ? lower : lowest;
   }
   const bool all = lowest > horizon_cosine;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double b = swing * cosine[k];
-    if (!all && !(middle - b > horizon_cosine && middle + b > horizon_cosine)) {
+  if (all) {
+    for (std::size_t k = 0; k < count; ++k) group_column_[from + k] = first + k * step_;
+    n_ += count;
+  }
+  for (std::size_t k = 0; !all && k < count; ++k) {
+    if (!(middle - swings[k] > horizon_cosine && middle + swings[k] > horizon_cosine)) {
       mask_below_horizon(first + k * step_);
       continue;
     }
-    angles_[0][n_] = angles_[0][from + k];
-    angles_[1][n_] = angles_[1][from + k];
+    nol[n_] = nol[from + k];
+    nov[n_] = nov[from + k];
     group_column_[n_++] = first + k * step_;
   }
   column_ += count * step_;
@@ -234,20 +255,61 @@ void BlockReader<F>::mask_below_horizon(std::size_t column) {
 /// The samples of the groups of one row, from number `from` on.
 template <class F>
 void BlockReader<F>::place_members(std::size_t row, std::size_t from) {
+  if (n_ == from) return;
   const auto &rows = sampling_.groups().rows(), &columns = sampling_.groups().columns();
-  const std::size_t width = sampling_.angles().row_size();
+  const std::size_t width = sampling_.angles().row_size(), first = group_column_[from];
+  const bool without_gap = group_column_[n_ - 1] - first == n_ - 1 - from;
   for (std::size_t m = 0; m < sampling_.groups().widest(); ++m) {
     const auto r = rows.part(row, m / columns.widest());
     const std::size_t of_column = m % columns.widest();
+    const auto& line = columns.line(of_column);
     const F *const as_is = angles_[r.swapped].data(), *const exchanged = angles_[!r.swapped].data();
     F* const nol = nol_[m].data();
-    auto& sample = sample_[m];
-    for (std::size_t i = from; i < n_; ++i) {
-      const auto c = columns.part(group_column_[i], of_column);
-      const bool there = r.at != absent && c.at != absent;
-      nol[i] = there ? (c.swapped ? exchanged : as_is)[i] : F(0.5);
-      sample[i] = there ? r.at * width + c.at : absent;
-      absent_[m] += !there;
+    std::size_t* const sample = sample_[m].data();
+    const std::ptrdiff_t step = without_gap && r.at != absent ? line.step : 0;
+    if (step != 0) {
+      std::copy_n((line.swapped ? exchanged : as_is) + from, n_ - from, nol + from);
+      const auto begin =
+          static_cast<std::ptrdiff_t>(r.at * width + columns.part(first, of_column).at);
+      for (std::size_t i = from; i < n_; ++i)
+        sample[i] = static_cast<std::size_t>(begin + step * static_cast<std::ptrdiff_t>(i - from));
+    } else {
+      for (std::size_t i = from; i < n_; ++i) {
+        const auto c = columns.part(group_column_[i], of_column);
+        const bool there = r.at != absent && c.at != absent;
+        nol[i] = there ? (c.swapped ? exchanged : as_is)[i] : F(0.5);
+        sample[i] = there ? r.at * width + c.at : absent;
+        absent_[m] += !there;
+      }
+    }
+    auto& runs = runs_[m];
+    const bool goes_on =
+        !runs.empty() && runs.back().step == step &&
+        (step == 0 || sample[from] == sample[from - 1] + static_cast<std::size_t>(step));
+    if (goes_on)
+      runs.back().to = n_;
+    else
+      runs.push_back({from, n_, step});
+  }
+}
+
+/// One member's values in one channel as they are stored; −1 where there is no such member.
+template <class F>
+void BlockReader<F>::gather(std::size_t member, const double* stored) {
+  const std::size_t* const sample = sample_[member].data();
+  F* const out = stored_.data();
+  for (const auto& [from, to, step] : runs_[member]) {
+    // Neighbours that a compiler can see as such: several at once.
+    const std::size_t n = to - from;
+    if (step == 1) {
+      const double* const first = stored + sample[from];
+      for (std::size_t i = 0; i < n; ++i) out[from + i] = static_cast<F>(first[i]);
+    } else if (step == -1) {
+      const double* const last = stored + sample[to - 1];
+      for (std::size_t i = 0; i < n; ++i) out[from + i] = static_cast<F>(last[n - 1 - i]);
+    } else {
+      for (std::size_t i = from; i < to; ++i)
+        out[i] = sample[i] == absent ? F(-1) : static_cast<F>(stored[sample[i]]);
     }
   }
 }
@@ -257,13 +319,8 @@ template <class F>
 void BlockReader<F>::fill(std::size_t member, std::size_t channel) {
   const Metric metric = sampling_.metric();
   const auto& sample = sample_[member];
-  const double* const stored = sampling_.table().values[channel].data();
   auto& v = values_[member * sampling_.channels() + channel];
-  if (absent_[member] == 0)
-    for (std::size_t i = 0; i < n_; ++i) stored_[i] = static_cast<F>(stored[sample[i]]);
-  else
-    for (std::size_t i = 0; i < n_; ++i)
-      stored_[i] = sample[i] == absent ? F(-1) : static_cast<F>(stored[sample[i]]);
+  gather(member, sampling_.table().values[channel].data());
   if (!sampling_.table().weights.empty() && channel == 0)
     for (std::size_t i = 0; i < n_; ++i)
       weight_[i] = sample[i] == absent ? F(1) : static_cast<F>(sampling_.root_weight(sample[i]));

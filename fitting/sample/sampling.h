@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <map>
 #include <span>
 #include <string>
@@ -46,10 +47,16 @@ class Groups {
     std::size_t at = absent;  ///< row or column of the table; absent: there is no such member
     bool swapped = false;     ///< NoL and NoV are those of the first member exchanged
   };
-  /// Of rows, or of columns: each alone, or several in one.
+  /// Groups of rows, or of columns: each alone, or several in one.
   class Folding {
    public:
     explicit Folding(std::size_t size) : size_(size) {}
+    /// Parts under one number, of all groups in order.
+    struct Line {
+      std::ptrdiff_t step = 0;  ///< from each to the next; 0 where that differs or one is absent
+      bool swapped = false;     ///< all of them, where there is a step
+    };
+    const Line& line(std::size_t k) const { return lines_[k]; }
     /// \param parts  of each group, the first one not swapped
     explicit Folding(const std::vector<std::vector<Part>>& parts);
     std::size_t size() const { return size_; }
@@ -64,6 +71,7 @@ class Groups {
     std::size_t size_, widest_ = 1;
     std::vector<Part> parts_;  ///< [group][widest]; empty: each alone
     std::vector<std::size_t> count_;
+    std::vector<Line> lines_{{1, false}};
   };
 
   /// \param fold  false: each sample is alone
@@ -161,14 +169,23 @@ class BlockReader {
   void place_level(const SampleAngles::Row&);
   void mask_below_horizon(std::size_t column);
   void place_members(std::size_t row, std::size_t from);
+  void gather(std::size_t member, const double* stored);
   void fill(std::size_t member, std::size_t channel);
+
+  /// Groups of a block whose samples lie `step` apart; 0: anywhere, or absent.
+  struct Run {
+    std::size_t from, to;
+    std::ptrdiff_t step;
+  };
 
   const Sampling& sampling_;
   std::size_t row_, column_, left_, step_, n_ = 0;
   std::array<Column<F>, 5> angles_;
   std::array<std::array<std::size_t, block>, Groups::most> sample_;
+  std::array<std::vector<Run>, Groups::most> runs_;
   std::array<std::size_t, Groups::most> absent_{};  ///< how many are, of each member
   std::array<std::size_t, block> group_column_;
+  std::vector<double> cosine_;  ///< of φ_d, of the first column of each group
   std::vector<Column<F>> nol_;
   std::vector<Values> values_;
   Column<F> stored_, weight_, ones_;
