@@ -156,16 +156,16 @@ class Walk {
         keys_(keys),
         kernels_(kernels<F>()),
         values_(b.values.begin(), b.values.end()),
-        plan_(b.model, free.mask(), kernels_) {
-    plan_.set(values_);
+        derivatives_(b.model, free.mask(), kernels_) {
+    derivatives_.set(values_);
     for (auto* x : {&link_, &link_slope_, &log_f_, &log_y_, &unused_, &score_, &slope_})
-      *x = plan_.fresh();
+      *x = derivatives_.fresh();
     for (std::size_t m = 0; m < s.groups().widest(); ++m)
       for (auto* sums : {&values_seen_[m], &positive_[m], &squares_[m], &log_squares_[m]})
         *sums = Column<F>::for_overwrite(size);
     for (std::size_t c = 0; c < s.channels(); ++c) {
       auto& x = channel_.emplace_back();
-      for (const auto& [slot, column] : plan_.channel(c).d) {
+      for (const auto& [slot, column] : derivatives_.channel(c).d) {
         x.j[x.free.size()] = column;
         x.free.push_back(free.index(slot));
       }
@@ -205,8 +205,8 @@ class Walk {
     const auto offset = static_cast<F>(sampling_.link_offset());
     const bool logs = link_of(sampling_.metric()) == Link::log && offset == 0;
     const auto& log = kernels_.link[static_cast<std::size_t>(Link::log)];
-    plan_.run(x, [&](std::size_t c) {
-      const F* const f = plan_.channel(c).value;
+    derivatives_.run(x, [&](std::size_t c) {
+      const F* const f = derivatives_.channel(c).value;
       kernels_.link[static_cast<std::size_t>(link_of(sampling_.metric()))](x.n, f, offset, link_,
                                                                            link_slope_);
       if (!logs) log(x.n, f, F(0), log_f_, unused_);
@@ -217,7 +217,7 @@ class Walk {
                                  score_, slope_, cost_.data()});
         sandwich(in, c, m);
         if (!logs) log(x.n, v.y.data(), F(0), log_y_, unused_);
-        kernels_.left(
+        kernels_.residual_sums(
             x.n, {f, v.y.data(), log_f, logs ? v.target.data() : log_y_, values_seen_[m].data(),
                   squares_[m].data(), positive_[m].data(), log_squares_[m].data()});
       }
@@ -319,7 +319,7 @@ class Walk {
   const IncidentKeys& keys_;
   const Kernels<F>& kernels_;
   std::vector<F> values_;
-  Plan<F> plan_;
+  ModelDerivatives<F> derivatives_;
   F *link_, *link_slope_, *log_f_, *log_y_, *unused_, *score_, *slope_;
   std::vector<Channel> channel_;
   std::vector<GramSums<F>> bread_, meat_;

@@ -191,6 +191,20 @@ Uncertainty uncertainty(const Sandwich& s,
   if (determined.empty() || freedom < 1) return u;
   u.t = student_t_975(freedom);
 
+  // The sandwich.
+  //
+  // 1. A cluster's score is s = Σ ρ' r ∂r/∂x over its residuals; the best x makes Σ s = 0.
+  // 2. About the true x*, Σ s(x) = S + H (x − x*) but for squares, with S = Σ s(x*) and H = Σ j jᵀ over what is
+  //    not clipped, the bread: x − x* = −H⁻¹ S.
+  // 3. The mean of S is 0, so the covariance of x is H⁻¹ ⟨S Sᵀ⟩ H⁻¹.
+  // 4. Clusters are independent, within one nothing is assumed: ⟨S Sᵀ⟩ is about M = Σ s sᵀ, the meat.
+  // 5. Scores at the best x are smaller than those at x*: G clusters, n values and p unknowns make it up by
+  //    G/(G − 1) (n − 1)/(n − p).
+  // 6. H = W⁻¹ (V Λ Vᵀ) W⁻¹ with W = diag(H)^−½, so H⁻¹ = W V Λ⁻¹ Vᵀ W, whatever the units of x.
+  //
+  //    ┌─────────────────────────────────────────────────┐
+  //    │  cov x = G/(G − 1) (n − 1)/(n − p) · H⁻¹ M H⁻¹  │
+  //    └─────────────────────────────────────────────────┘
   const double correction =
       (clusters ? g / (g - 1) * (count - 1) : count) / std::max(count - p, 1.0);
   const SandwichProduct covariance(s, determined, correction);

@@ -12,21 +12,21 @@
 namespace gonio {
 namespace {
 
-/// A plan and what comes after it: link, residual, sums.
+/// A model's derivatives and what comes after them: link, residual, sums.
 template <class F>
 class Pass {
  public:
   Pass(const Model& m, const FreeSlots& free)
       : kernels_(kernels<F>()),
-        plan_(m, free.mask(), kernels_),
-        link_(plan_.fresh()),
-        link_slope_(plan_.fresh()),
-        r_(plan_.fresh()),
-        slope_(plan_.fresh()),
+        derivatives_(m, free.mask(), kernels_),
+        link_(derivatives_.fresh()),
+        link_slope_(derivatives_.fresh()),
+        r_(derivatives_.fresh()),
+        slope_(derivatives_.fresh()),
         free_(m.channels),
         j_(m.channels) {
     for (std::size_t c = 0; c < m.channels; ++c)
-      for (const auto& [slot, column] : plan_.channel(c).d) {
+      for (const auto& [slot, column] : derivatives_.channel(c).d) {
         j_[c][free_[c].size()] = column;
         free_[c].push_back(free.index(slot));
       }
@@ -34,15 +34,15 @@ class Pass {
 
   void set(std::span<const double> values) {
     values_.assign(values.begin(), values.end());
-    plan_.set(values_);
+    derivatives_.set(values_);
   }
 
   /// visit(c) with r of that channel made
   template <class Visit>
   void run(const FitBlock<F>& b, const FitData<F>& d, F huber, F* cost, Visit&& visit) {
-    plan_.run(b.angles(), [&](std::size_t c) {
-      kernels_.link[static_cast<std::size_t>(d.link)](b.n, plan_.channel(c).value, d.offset, link_,
-                                                      link_slope_);
+    derivatives_.run(b.angles(), [&](std::size_t c) {
+      kernels_.link[static_cast<std::size_t>(d.link)](b.n, derivatives_.channel(c).value, d.offset,
+                                                      link_, link_slope_);
       kernels_.residual(b.n,
                         {link_, link_slope_, b.target(c), b.weight(c), huber, r_, slope_, cost});
       visit(c);
@@ -56,7 +56,7 @@ class Pass {
 
  private:
   const Kernels<F>& kernels_;
-  Plan<F> plan_;
+  ModelDerivatives<F> derivatives_;
   std::vector<F> values_;
   F *link_, *link_slope_, *r_, *slope_;
   std::vector<std::vector<std::size_t>> free_;        ///< [channel][derivative]
@@ -67,31 +67,22 @@ class Pass {
 template <class F>
 class FusedPass {
  public:
-  FusedPass(const Model& m, const FreeSlots& free) : model_(m) {
-    if (m.lobes.size() != 1 || m.diffuse.size() > 1 || m.channels > max_channels) return;
-    const auto& k = kernels<F>();
-    const auto id = [&](const TermUse& t) { return catalogue()[t.term].id(); };
-    const Lobe& l = m.lobes[0];
-    const std::array lobe{id(l.ndf), id(l.masking), id(l.fresnel)};
-    for (const auto& normal : k.normal)
-      if (normal.ids == lobe && normal.diffuse == (m.diffuse.empty() ? "" : id(m.diffuse[0])))
-        kernel_ = &normal;
-    for (std::size_t c = 0; c < m.channels; ++c) {
-      auto parameters = l.ndf.parameters;
-      for (const std::size_t p : l.masking.parameters)
-        if (std::ranges::find(parameters, p) == parameters.end()) parameters.push_back(p);
-      parameters.insert(parameters.end(), l.fresnel.parameters.begin(), l.fresnel.parameters.end());
-      for (const auto& t : m.diffuse)
-        parameters.insert(parameters.end(), t.parameters.begin(), t.parameters.end());
-      auto& at = at_.emplace_back();
-      for (const std::size_t p : parameters) {
-        const std::size_t slot = m.parameters[p].slot(c);
-        at.push_back(free.mask()[slot] ? free.index(slot) : free.size());
+  FusedPass(const Model& m, const FreeSlots& free)
+      : model_(m), terms_(terms_of(m)), at_(m.channels) {
+    const auto ids = fused_ids(m);
+    if (!ids || m.channels > max_channels) return;
+    for (const auto& normal : kernels<F>().normal)
+      if (normal.ids == *ids) kernel_ = &normal;
+    if (!kernel_) return;
+    for (std::size_t c = 0; c < m.channels; ++c)
+      for (std::size_t k = 0; k < kernel_->count; ++k) {
+        const auto& column = kernel_->columns[k];
+        const std::size_t slot = slot_of(*terms_[column.term], column.parameter, c);
+        at_[c].push_back(free.mask()[slot] ? free.index(slot) : free.size());
       }
-    }
   }
   explicit operator bool() const { return kernel_ != nullptr; }
-  /// Which unknown each column is.
+  /// The unknown that each column belongs to.
   const std::vector<std::size_t>& at(std::size_t c) const { return at_[c]; }
 
   void run(std::span<const double> values,
@@ -99,24 +90,15 @@ class FusedPass {
            const std::vector<FitBlock<F>>& blocks,
            std::vector<GramSums<F>>& sums,
            F* cost) const {
-    const auto gather = [&](const TermUse& t, std::size_t c) {
-      std::array<F, max_parameters> p{};
-      for (std::size_t k = 0; k < t.parameters.size(); ++k)
-        p[k] = static_cast<F>(values[model_.parameters[t.parameters[k]].slot(c)]);
-      return p;
-    };
-    const Lobe& l = model_.lobes[0];
-    const auto ndf = gather(l.ndf, 0), masking = gather(l.masking, 0);
-    std::array<std::array<F, max_parameters>, max_channels> fresnel, diffuse;
-    NormalArguments<F> a{
-        {}, model_.channels, ndf.data(), masking.data(), {}, {}, {}, {}, d.offset, {}, cost};
-    for (std::size_t c = 0; c < model_.channels; ++c) {
-      fresnel[c] = gather(l.fresnel, c);
-      if (!model_.diffuse.empty()) diffuse[c] = gather(model_.diffuse[0], c);
-      a.f[c] = fresnel[c].data();
-      a.diffuse[c] = diffuse[c].data();
-      a.sums[c] = sums[c].lanes();
-    }
+    std::array<std::array<std::array<F, max_parameters>, max_channels>, max_fused_terms> p{};
+    NormalArguments<F> a{{}, model_.channels, {}, {}, {}, d.offset, {}, cost};
+    for (std::size_t t = 0; t < terms_.size(); ++t)
+      for (std::size_t c = 0; c < model_.channels; ++c) {
+        for (std::size_t k = 0; k < terms_[t]->parameters.size(); ++k)
+          p[t][c][k] = static_cast<F>(values[slot_of(*terms_[t], k, c)]);
+        a.parameters[t][c] = p[t][c].data();
+      }
+    for (std::size_t c = 0; c < model_.channels; ++c) a.sums[c] = sums[c].lanes();
     for (const auto& b : blocks) {
       a.x = b.angles();
       for (std::size_t c = 0; c < model_.channels; ++c) {
@@ -128,9 +110,14 @@ class FusedPass {
   }
 
  private:
+  std::size_t slot_of(const TermUse& t, std::size_t parameter, std::size_t channel) const {
+    return model_.parameters[t.parameters[parameter]].slot(channel);
+  }
+
   const Model& model_;
+  std::vector<const TermUse*> terms_;
   const NormalKernel<F>* kernel_ = nullptr;
-  std::vector<std::vector<std::size_t>> at_;
+  std::vector<std::vector<std::size_t>> at_;  ///< [channel][column]
 };
 
 void add(std::vector<double>& to, const std::vector<double>& from) {
@@ -187,7 +174,7 @@ void GramSums<F>::scatter(const std::vector<std::size_t>& free,
 }
 
 template <class F>
-struct Accumulator<F>::Plans {
+struct Accumulator<F>::Passes {
   tbb::enumerable_thread_specific<Pass<F>> pass;
   FusedPass<F> fused;
 };
@@ -201,7 +188,7 @@ Accumulator<F>::Accumulator(const Model& m,
       data_(d),
       free_(free),
       huber_(static_cast<F>(std::min(huber, double{std::numeric_limits<F>::max()}))),
-      plans_(new Plans{
+      passes_(new Passes{
           tbb::enumerable_thread_specific<Pass<F>>([&m, &free] { return Pass<F>(m, free); }),
           FusedPass<F>(m, free)}) {}
 template <class F>
@@ -220,11 +207,11 @@ NormalEquations Accumulator<F>::normal_equations(std::span<const double> values)
       for (const F lane : cost) e.cost += static_cast<double>(lane) / 2;
       for (std::size_t c = 0; c < model_.channels; ++c) sums[c].scatter(columns(c), n, e.h, &e.g);
     };
-    if (const auto& fused = plans_->fused; fused && huber_ == std::numeric_limits<F>::max()) {
+    if (const auto& fused = passes_->fused; fused && huber_ == std::numeric_limits<F>::max()) {
       fused.run(values, data_, data_.tasks[task], sums, cost.data());
       return collect([&](std::size_t c) { return fused.at(c); });
     }
-    Pass<F>& pass = plans_->pass.local();
+    Pass<F>& pass = passes_->pass.local();
     pass.set(values);
     for (const auto& b : data_.tasks[task])
       pass.run(b, data_, huber_, cost.data(), [&](std::size_t c) { pass.add(b.n, c, sums[c]); });
@@ -245,7 +232,7 @@ std::vector<double> Accumulator<F>::channel_costs(std::span<const double> values
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t task) {
     auto& costs = parts[task];
     costs.resize(model_.channels);
-    Pass<F>& pass = plans_->pass.local();
+    Pass<F>& pass = passes_->pass.local();
     pass.set(values);
     alignas(64) std::array<F, padding> cost{};
     for (const auto& b : data_.tasks[task])

@@ -86,12 +86,12 @@ class Accumulator {
   std::vector<double> residuals(std::span<const double> values) const;
 
  private:
-  struct Plans;
+  struct Passes;
   const Model& model_;
   const FitData<F>& data_;
   const FreeSlots& free_;
   F huber_;
-  std::unique_ptr<Plans> plans_;
+  std::unique_ptr<Passes> passes_;
 };
 
 }  // namespace gonio

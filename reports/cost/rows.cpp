@@ -71,12 +71,12 @@ Timed timed_term(std::size_t term, const Kernels<F>& kernels, const SharedField<
   };
   const Role role = entry.role();
   if (role == Role::ndf || role == Role::masking) {
-    const Join<F> join{s.ones(), s.ones(), nullptr, num, den};
-    return {field->x.size(), [=, kernel = role == Role::ndf ? t.begin : t.close] {
+    const ProductColumns<F> join{s.ones(), s.ones(), nullptr, num, den};
+    return {field->x.size(), [=, kernel = role == Role::ndf ? t.start_product : t.finish_product] {
               by_blocks([&](const Block<F>& x, std::size_t) { kernel(x, p.data(), join); });
             }};
   }
-  ChannelJoin<F> join;
+  ChannelColumns<F> join;
   if (role == Role::fresnel) join.factor = s.ones();
   return {field->x.size(), [=, kernel = t.shade[1]] {
             auto j = join;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What sums and products lose to rounding, exactly: for the few differences on which everything
+/// Rounding errors of sums and products, exactly: for the few differences on which everything
 /// hangs.
 
 #include <concepts>
@@ -10,7 +10,7 @@
 
 namespace gonio::inline GONIO_ARCH {
 
-/// Whether T computes as its base does, bit by bit, in float or double.  Others lose nothing here
+/// True of a T that computes as its base does, bit by bit, in float or double.  Others lose nothing here
 /// (Wide), or are there to show what they lose (Half, Mixed).
 template <class T>
 inline constexpr bool computes_as_base = std::floating_point<base_t<T>>;

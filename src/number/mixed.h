@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a shader computes that has `half` and `float` in one expression: a number that knows which of
+/// A shader's arithmetic with `half` and `float` in one expression: a number that knows which of
 /// the two it is, or that it is a literal.
 ///
 ///   half ∘ half        half, rounded (half.h)

@@ -18,15 +18,15 @@ namespace gonio::inline GONIO_ARCH {
 template <Real T>
 inline constexpr int digits = std::max(24, std::numeric_limits<base_t<T>>::digits);
 
-/// As small as its square and the square of its reciprocal are normal numbers: what keeps the input of
-/// a division or a logarithm off 0.  Too small to matter, but for Half, of which it is 2⁻⁶.
+/// Lower bound for the input of a division or a logarithm that would be 0: the smallest number whose square
+/// and whose reciprocal's square are normal numbers.  Too small to matter, but for Half, of which it is 2⁻⁶.
 template <Real T>
 T small() {
   constexpr int exponent = std::max(std::numeric_limits<base_t<T>>::min_exponent / 2, -511);
   return constant<T>(std::ldexp(1.0L, exponent));
 }
-/// The least normal number, whose reciprocal is finite too: what keeps a divisor off 0 that nothing
-/// else is made of.
+/// Lower bound for a divisor that would be 0 and is used for nothing else, squared neither: the least
+/// normal number, whose reciprocal is finite too.
 template <Real T>
 T least() {
   constexpr int exponent = std::max(std::numeric_limits<base_t<T>>::min_exponent - 1, -1022);

@@ -95,14 +95,26 @@ struct Dielectric {
   }
 };
 
-/// Reflectance of an interface whose root a + i b = √(N² − s²) is known, of modulus m = a² + b².
+/// Reflectance of an interface whose root r = a + i b = √(N² − s²) is known, m = |r|² = a² + b².
 ///
-/// (root − c)(root + c) being N² − 1, the R_s and R_p of Conductor are also
+/// 1. Fresnel's amplitudes, s² = 1 − c²:   R_s = |(r − c)/(r + c)|²,   R_p = R_s |(c r − s²)/(c r + s²)|²
 ///
-///   R_s = |N² − 1|²/(m + c² + 2 a c)²,   R_p = R_s (m c² + s⁴ − 2 a c s²)/(m c² + s⁴ + 2 a c s²)
-///   F = R_s (m c² + s⁴)/(m c² + s⁴ + 2 a c s²)
+/// 2. The numerator of R_s cancels where N is near 1 and at grazing angles.  But (r − c)(r + c) = r² − c² =
+///    N² − 1, a number of the material alone, and |r + c|² = (a + c)² + b² = m + c² + 2 a c, so
 ///
-/// in which nothing cancels.
+///       R_s = |r − c|² |r + c|² / |r + c|⁴ = |N² − 1|² / (m + c² + 2 a c)²
+///
+/// 3. |c r ± s²|² = (c a ± s²)² + c² b² = (m c² + s⁴) ± 2 a c s²: an even part and an odd one, and
+///
+///       R_p / R_s = (even − odd)/(even + odd)
+///
+/// 4. In F = (R_s + R_p)/2 = R_s/2 · (1 + R_p/R_s) the odd parts of the numerator cancel on paper:
+///
+///       ┌──────────────────────────────────────────────────────────────────────────┐
+///       │  F = |N² − 1|² (m c² + s⁴) / ((m + c² + 2 a c)² (m c² + s⁴ + 2 a c s²))  │
+///       └──────────────────────────────────────────────────────────────────────────┘
+///
+/// a, c, m ≥ 0: sums of what is not negative, nothing cancels, and one division does.
 ///
 /// All of it comes scaled by κ = 1/max(|N|², 1): in half |N² − s²|² would be too large beyond |N| = 16.
 ///
@@ -122,8 +134,16 @@ Quotient<T> reflectance_of_root(
 ///   R_p = R_s ((a c − s²)² + b² c²)/((a c + s²)² + b² c²),   F = (R_s + R_p)/2
 ///                                              [Born & Wolf, Principles of Optics, §14.2]
 ///
-/// Computed so that nothing cancels: the larger of a and b from the root, the smaller as η k over it,
-/// and Re (N² − s²) by NearCritical where it is small beside c².
+/// Computed so that nothing cancels.  With t = Re (N² − s²) = η² − k² − 1 + c², by NearCritical where it
+/// is small beside c², and Im N² = 2 η k:
+///
+///   a² − b² = t,   a b = η k,   m = a² + b² = √(t² + 4 (η k)²),   so   a² = (m + t)/2,   b² = (m − t)/2
+///
+///   ┌────────────────────────────────────────────────────────────────────┐
+///   │  the larger of a and b is √((m + |t|)/2), the smaller η k over it  │   a is the larger where t > 0
+///   └────────────────────────────────────────────────────────────────────┘
+///
+/// and F from a, m and |N² − 1|² by reflectance_of_root, its four steps.
 ///
 /// \param eta  real part, > 0   \param k  extinction coefficient, ≥ 0
 template <Real T>

@@ -56,7 +56,8 @@ std::vector<F> values_of(std::size_t term,
   const std::vector<F> p(parameters.begin(), parameters.end());
   const Column<F> ones(x.padded(), 1), zeros(x.padded(), 0);
   Column<F> out(x.padded());
-  k.terms[term].add(x.block(), p.data(), {ones.data(), nullptr, zeros.data(), out.data(), nullptr});
+  k.terms[term].add_product(x.block(), p.data(),
+                            {ones.data(), nullptr, zeros.data(), out.data(), nullptr});
   return {out.data(), out.data() + rows.size()};
 }
 inline double value_at(std::size_t term, const Parameters& parameters, const Row& row) {

@@ -4,6 +4,7 @@
 
 #include "brdf/formula/ndf.h"
 #include "brdf/formula/ndf_anisotropic.h"
+#include "brdf/formula/ndf_ggx.h"
 #include "brdf/formula/ndf_shipped.h"
 #include "brdf/term/term_list.h"
 

@@ -49,11 +49,11 @@ std::span<const MapEntry> maps() {
 }
 
 std::size_t find_term(std::string_view id) {
+  if (const auto it = std::ranges::find(term_entries, id, &TermEntry::id); it != term_entries.end())
+    return static_cast<std::size_t>(it - term_entries.begin());
   std::vector<std::string_view> ids;
-  for (const auto& t : catalogue()) ids.push_back(t.about->id);
-  if (const auto it = std::ranges::find(ids, id); it != ids.end())
-    return static_cast<std::size_t>(it - ids.begin());
-  for (const auto& m : maps()) ids.push_back(m.about->id);
+  for (const auto& t : term_entries) ids.push_back(t.id());
+  for (const auto& m : map_entries) ids.push_back(m.about->id);
   refuse_name(id, ids, "term");
 }
 
@@ -61,14 +61,14 @@ std::size_t find_term(std::string_view id, Role role) {
   static constexpr std::string_view names[] = {"normal distribution", "masking", "Fresnel term",
                                                "diffuse term"};
   std::vector<std::string_view> ids;
-  const auto terms = catalogue();
-  for (std::size_t t = 0; t < terms.size(); ++t) {
-    if (role_of(terms[t].about->id) != role) continue;
-    ids.push_back(short_id(terms[t].about->id));
-    if (ids.back() == id || terms[t].about->id == id) return t;
+  for (std::size_t t = 0; t < term_entries.size(); ++t) {
+    const TermEntry& entry = term_entries[t];
+    if (entry.role() != role) continue;
+    ids.push_back(short_id(entry.id()));
+    if (ids.back() == id || entry.id() == id) return t;
   }
   if (role == Role::diffuse &&
-      std::ranges::any_of(terms, [&](const auto& t) { return short_id(t.about->id) == id; }))
+      std::ranges::any_of(term_entries, [&](const auto& t) { return short_id(t.id()) == id; }))
     throw wrong_usage(
         fmt::format("'{}' alone is no diffuse term, and a lobe is NDF/MASKING/FRESNEL, as in "
                     "ggx/smith_ggx.correlated/schlick",
@@ -77,9 +77,8 @@ std::size_t find_term(std::string_view id, Role role) {
 }
 
 std::optional<std::size_t> find_map(std::string_view id) {
-  const auto all = maps();
-  for (std::size_t m = 0; m < all.size(); ++m)
-    if (all[m].about->id == id) return m;
+  for (std::size_t m = 0; m < map_entries.size(); ++m)
+    if (map_entries[m].about->id == id) return m;
   return {};
 }
 

@@ -3,7 +3,7 @@
 /// Diffuse terms [1/sr].  A coupled one reflects only what the first lobe's interface lets through:
 /// the model multiplies it by 1 − F(VoH).
 
-#include "brdf/formula/ndf.h"
+#include "brdf/formula/widths.h"
 #include "brdf/term/term.h"
 #include "optics/fresnel_approximate.h"
 

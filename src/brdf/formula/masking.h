@@ -6,12 +6,13 @@
 ///
 ///   G₁ = 1/(1 + Λ),   G₂ = G₁(l) G₁(v)   or, correlated,   1/(1 + Λ(l) + Λ(v))     [Heitz 2014]
 ///
-/// What is computed is c Λ(c), c = NoL or NoV, which is finite at grazing angles:
+/// The code computes c Λ(c), c = NoL or NoV, which is finite at grazing angles:
 ///
 ///   V = 1/(4 (NoL + cΛ(l)) (NoV + cΛ(v)))   and   1/(4 (NoL NoV + NoV cΛ(l) + NoL cΛ(v)))
 
-#include "brdf/formula/ndf.h"
+#include "brdf/formula/widths.h"
 #include "brdf/term/term.h"
+#include "number/special.h"
 
 namespace gonio::inline GONIO_ARCH {
 
@@ -20,7 +21,7 @@ template <Real T>
 Quotient<T> smith_separable(const Angles<plain_t<T>>& a, const T& r_l, const T& r_v) {
   return {T(1), (r_l + a.nol) * (r_v + a.nov)};
 }
-/// The same correlated through the height of the facet:  1/(2 (NoL r(v) + NoV r(l)))
+/// V correlated through the height of the facet:  1/(2 (NoL r(v) + NoV r(l)))
 template <Real T>
 Quotient<T> smith_correlated(const Angles<plain_t<T>>& a, const T& r_l, const T& r_v) {
   const T sum = a.nol * r_v + a.nov * r_l;

@@ -105,7 +105,7 @@ struct UeJoint {
   }
 };
 
-/// The same with the clamps of a mobile port, operation by operation:
+/// UeJoint with the clamps of a mobile port, operation by operation:
 ///
 ///   NoV ← saturate(|NoV| + 1e-5),   V = 0.5 / max(…, 0.001)
 ///
@@ -283,7 +283,7 @@ struct UnityMobile {
   }
 };
 
-/// The same as Unity ships it: with α where the publication has r, and LoH² no less than 0.1.
+/// UnityMobile as Unity ships it: with α where the publication has r, and LoH² no less than 0.1.
 ///
 ///   V = 1 / (max(LoH², 0.1) (4 α + 2))
 ///

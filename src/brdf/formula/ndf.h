@@ -1,21 +1,15 @@
 #pragma once
 /// \file
-/// Isotropic normal distributions D(h) [1/sr], normalised as ∫ D(m) (n·m) dω = 1.
+/// Isotropic normal distributions D(h) [1/sr] but GGX (ndf_ggx.h), normalised as ∫ D(m) (n·m) dω = 1.
 ///
-/// t = α² cos²θ_h + sin²θ_h is (NoH² (α² − 1) + 1) without its cancellation.  Where a formula has
+/// t = α² cos²θ_h + sin²θ_h is (NoH² (α² − 1) + 1) without its cancellation (ndf_ggx.h).  Where a formula has
 /// tan θ_h, NoH² is kept off 0: h is at the horizon only for directions outside the domain.
 
+#include "brdf/formula/widths.h"
 #include "brdf/term/term.h"
 #include "number/special.h"
 
 namespace gonio::inline GONIO_ARCH {
-
-inline constexpr Parameter alpha_parameter{"alpha", {1e-4, 1}, {1e-4, 1},
-                                           0.3,     false,     "width, roughness²"};
-inline constexpr Parameter alpha_x_parameter{"alpha_x", {1e-4, 4}, {1e-4, 1},
-                                             0.3,       false,     "width along the tangent"};
-inline constexpr Parameter alpha_y_parameter{"alpha_y", {1e-4, 4}, {1e-4, 1},
-                                             0.3,       false,     "width along the bitangent"};
 
 /// ln NoH², also near the peak, where NoH has lost its digits.
 template <Real B>
@@ -71,33 +65,6 @@ struct Beckmann {
     return exp(-(a.sin2_theta_h * per_cos2) * per_alpha2) * norm * square(per_cos2);
   }
 };
-
-/// GGX (Trowbridge–Reitz).  Its slopes have the density α²/(π (α² + p² + q²)²), Student's t of two
-/// degrees of freedom and not, as is often said, a Cauchy density; they have no standard deviation.
-///
-///   D = α² / (π t²)                                                    [Walter 2007, Eq. 33]
-template <Real T>
-struct Ggx {
-  static constexpr About about{
-      "ndf.ggx",
-      "GGX (Trowbridge–Reitz)",
-      "D = α² / (π (NoH² (α² − 1) + 1)²)",
-      "Trowbridge & Reitz 1975; Walter et al. 2007, Eq. 33",
-      "000 001 002",
-      "Disney, Unreal Engine 4 (D_GGX), Unity, Filament, glTF 2.0, Mitsuba, pbrt"};
-  static constexpr std::array parameters{alpha_parameter};
-
-  T alpha2, num;
-
-  explicit Ggx(std::span<const T, 1> p) : alpha2(square(p[0])), num(alpha2 / pi<plain_t<T>>()) {}
-
-  Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    return {num, square(alpha2 * square(a.noh) + a.sin2_theta_h)};
-  }
-};
-
-inline constexpr Parameter gamma_parameter{"gamma", {0.5, 10}, {0.5, 10},
-                                           2,       false,     "tail exponent; 1 Berry, 2 GGX"};
 
 /// Generalised Trowbridge–Reitz with its exact normalisation.
 ///

@@ -3,7 +3,9 @@
 /// Anisotropic normal distributions D(h) [1/sr] with widths α_x along the tangent and α_y along the
 /// bitangent, normalised as those of ndf.h; and what makes one of any shape.
 
-#include "brdf/formula/ndf.h"
+#include "brdf/formula/widths.h"
+#include "brdf/term/term.h"
+#include "number/special.h"
 
 namespace gonio::inline GONIO_ARCH {
 

@@ -1,9 +1,10 @@
 #pragma once
 /// \file
 /// Normal distributions as shaders ship them, operation by operation: what they leave out, clamp and
-/// cancel is what the audit shows.  Each stands for an exact one of ndf.h.
+/// cancel is what the audit shows.  Each stands for an exact one of ndf.h or ndf_ggx.h.
 
-#include "brdf/formula/ndf.h"
+#include "brdf/formula/widths.h"
+#include "brdf/term/term.h"
 
 namespace gonio::inline GONIO_ARCH {
 
@@ -24,7 +25,7 @@ struct GtrAsWritten {
                                "",
                                "",
                                "ndf.gtr"};
-  static constexpr std::array parameters = Gtr<T>::parameters;
+  static constexpr std::array parameters{alpha_parameter, gamma_parameter};
   static constexpr bool as_shipped = true;
 
   T a2, gamma;

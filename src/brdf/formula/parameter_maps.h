@@ -48,7 +48,7 @@ struct ClampNov {
   }
 };
 
-/// What a visibility's denominator is kept above: max(d, 0.001).  With V = 0.5/d it caps V at 500.
+/// A visibility's denominator kept off 0: max(d, 0.001).  With V = 0.5/d it caps V at 500.
 template <Real T>
 struct ClampVis {
   static constexpr About about{"clamp.vis",

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What gives back the light that single scattering loses between facets: compensations as shaders run
+/// Maps that give back the light that single scattering loses between facets: compensations as shaders run
 /// them, maps (brdf/term/map.h) from albedos to albedos.  E is the albedo of a lobe at F = 1, E_avg its
 /// average over the hemisphere, F_avg = 2 ∫ F(μ) μ dμ that of a Fresnel term.
 
@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "brdf/formula/ndf.h"
+#include "brdf/formula/widths.h"
 #include "brdf/term/map.h"
 #include "optics/fresnel_approximate.h"
 
@@ -33,7 +33,7 @@ T schlick_average(const T& f0) {
   return f0 + (1 - f0) / 21;
 }
 
-/// What of the light that a first facet's shadowing took comes out in the end, if each further bounce
+/// Share of the light that a first facet's shadowing took that comes out in the end, if each further bounce
 /// takes F_avg and of what it leaves 1 − E_avg stays inside:
 ///
 ///   Σ_n≥2 F_avg^n E_avg (1 − E_avg)^(n−2) = F_avg² E_avg/(1 − F_avg (1 − E_avg))          [Hill 2018]
@@ -126,7 +126,7 @@ struct Turquin {
   }
 };
 
-/// Of the split sum's A and B, no table beside theirs:
+/// Multiple scattering of the split sum's A and B, no table beside theirs:
 ///
 ///   s = F0 A + B,   m = 1 − (A + B),   F_avg = F0 + (1 − F0)/21
 ///   albedo = s + m s F_avg/(1 − F_avg m) = s/(1 − F_avg m)

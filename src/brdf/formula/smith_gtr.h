@@ -2,21 +2,37 @@
 /// \file
 /// Smith masking for GTR at any γ.
 ///
-/// With r = 2A − c, A(c) = ∫ D(m) max(0, v·m) dω, the facet area that v sees at c = cos θ_v, Smith's
-/// G₁ = c/A is 2c / (c + r), and both forms of masking.h hold for GTR if this r replaces GGX's root.
-/// As max(0, x) = (x + |x|)/2,
+/// 1. Smith: facets that v sees, at c = cos θ_v, have together the area c seen from v, and all that face it
+///    A(c) = ∫ D(m) max(0, v·m) dω, so G₁ = c/A.
 ///
-///   r(c) = ∫ D(m) |v·m| dω        over the hemisphere: even and smooth in c, r(1) = 1, r ≥ c.
+/// 2. max(0, x) = (x + |x|)/2, and ∫ D(m) v·m dω = c, for D is normalised.  So A = (c + r)/2 with
 ///
-/// GTR is a mixture of GGX of all widths (Euler's integral of (1 − z)^−γ), whose r is known.  With
-/// q = α² + (1 − α²) c², E of ndf.h and L = ln α² (z is in units of α², and so is Q = q/α²):
+///       r(c) = ∫ D(m) |v·m| dω        over the hemisphere: even and smooth in c, r(1) = 1, r ≥ c
 ///
-///   r = √q (1 − P(1)) + P(q)
-///   P = α C s ∫₀^∞ z^(2−γ) / ((1 + z) (1 + α² z)^(3/2) (√(z + Q) + √Q)) dz
-///   C = E(L) / E((γ − 1) L),   s = sin π(γ−1) / π(γ−1)
+///    and G₁ = 2c/(c + r): both forms of masking.h hold for GTR if this r replaces GGX's root
+///    √(α² + (1 − α²) c²).
 ///
-/// which is good for 0 < γ < 3 and continued beyond by a loop about the origin instead of the ray.
-/// s = 0 makes γ = 2 GGX to the last digit.  To a sample P is a polynomial of degree 23, whose
+/// 3. GTR is a mixture of GGX of widths β from α to 1, by Euler's integral of (1 − x)^−γ.  With E of ndf.h,
+///    L = ln α² and 0 < γ < 2
+///
+///       D_GTR = ∫₀^∞ w(z) D_GGX(β) dz,   β² = α² (1 + z)/(1 + α² z)
+///       w = C s z^(1−γ) / ((1 + z) (1 + α² z)),   C = E(L)/E((γ − 1) L),   s = sin π(γ−1) / π(γ−1)
+///
+///    and so r = ∫ w r_β dz.  With q = α² + (1 − α²) c² and Q = q/α²
+///
+///       r_β = √(β² + (1 − β²) c²) = α √(z + Q) / √(1 + α² z)
+///
+/// 4. √(z + Q) = √Q + z/(√(z + Q) + √Q) parts r into √q times a number without c, and the rest P.  As
+///    r(1) = 1, where q = 1, that number is 1 − P(1):
+///
+///       P(q) = α C s ∫₀^∞ z^(2−γ) / ((1 + z) (1 + α² z)^(3/2) (√(z + Q) + √Q)) dz
+///
+///       ┌────────────────────────────────────┐
+///       │  r = max(√q (1 − P(1)) + P(q), c)  │    SmithGtrRoot
+///       └────────────────────────────────────┘
+///
+/// The new factor z makes P good for γ < 3; beyond, it is continued by a loop about the origin instead of
+/// the ray.  s = 0 makes γ = 2 GGX to the last digit.  To a sample P is a polynomial of degree 23, whose
 /// coefficients are found once from α and γ, in one of two ways on either side of γ = 3 (of_mixture,
 /// of_table); where samples share α and γ, as in a block, only that one is computed.
 ///
@@ -27,7 +43,8 @@
 #include <utility>
 
 #include "brdf/formula/masking.h"
-#include "brdf/formula/ndf.h"
+#include "brdf/formula/widths.h"
+#include "number/special.h"
 
 namespace gonio::inline GONIO_ARCH {
 
@@ -246,7 +263,7 @@ Coefficients<T> of_table(const T& alpha, const T& gamma) {
   return r;
 }
 
-/// Whether a mask holds in every lane, if that can be told.
+/// True where a mask is known to hold in every lane.
 template <class Mask>
 bool everywhere(const Mask& m) {
   if constexpr (std::same_as<Mask, bool>)

@@ -3,7 +3,7 @@
 /// Every term in every number, one sample at a time: what `gonio term` prints, and what says how much
 /// a number type loses and what a term costs.  For millions of samples see kernel/kernels.h.
 ///
-/// Indices are those of the catalogue.  One file per number compiles all terms (term_in_*.cpp).
+/// Indices are those of the catalogue.
 
 #include <array>
 #include <cstddef>
@@ -35,12 +35,11 @@ struct TermIn {
 /// A map's outputs, rounded in and out as a term's.
 using MapIn = std::vector<double> (*)(std::span<const double> parameters);
 
+/// Every term and every map, computed in one number.
 struct CatalogueIn {
   std::span<const TermIn> terms;
   std::span<const MapIn> maps;
 };
-template <Number number>
-CatalogueIn catalogue_in();
 CatalogueIn catalogue_in(Number number);
 
 /// A term in fifty digits.
@@ -57,13 +56,13 @@ WideValue wide_value(std::size_t term,
                      std::span<const double> parameters,
                      const FrameAngles<double>& angles);
 
-/// What a term costs.
+/// Operations that a term costs.
 struct TermOperations {
   Operations parameters;  ///< once for given parameters
   Operations sample;      ///< for each sample, on its own, its division included
   Operations fraction;    ///< the same, left a fraction: a product divides once for all its factors
 
-  /// Whether it is a fraction.
+  /// True of a fraction.
   bool divides() const { return sample[Operation::div] > fraction[Operation::div]; }
 };
 TermOperations operations_of(std::size_t term);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/in_number/tables.h"
 
 #include <fmt/format.h>
 
@@ -35,7 +36,7 @@ std::vector<double> resolve(const About& about,
   return p;
 }
 
-/// How many rows columns make, those of one value serving all.
+/// Number of rows that columns make, those of one value serving all.
 std::size_t count_rows(const std::map<std::string, std::vector<double>>& at) {
   std::size_t rows = 1;
   for (const auto& [name, column] : at) {
@@ -54,17 +55,24 @@ double in_row(const std::vector<double>& column, std::size_t row) {
 }  // namespace
 
 CatalogueIn catalogue_in(Number number) {
-  switch (number) {
-    case Number::double_:
-      return catalogue_in<Number::double_>();
-    case Number::float_:
-      return catalogue_in<Number::float_>();
-    case Number::half:
-      return catalogue_in<Number::half>();
-    case Number::wide:
-      return catalogue_in<Number::wide>();
-    case Number::mixed:
-      return catalogue_in<Number::mixed>();
+  static const auto all = [] {
+    std::array<std::vector<TermIn>, names_of<Number>.size()> terms;
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      const auto of = static_cast<Number>(k);
+      for (const auto role : {terms_in<Role::ndf>(of), terms_in<Role::masking>(of),
+                              terms_in<Role::fresnel>(of), terms_in<Role::diffuse>(of)})
+        terms[k].insert(terms[k].end(), role.begin(), role.end());
+    }
+    return terms;
+  }();
+  return {all[static_cast<std::size_t>(number)], maps_in(number)};
+}
+
+TermOperations operations_of(std::size_t term) {
+  for (const auto role : {operations_in<Role::ndf>(), operations_in<Role::masking>(),
+                          operations_in<Role::fresnel>(), operations_in<Role::diffuse>()}) {
+    if (term < role.size()) return role[term]();
+    term -= role.size();
   }
   return {};
 }

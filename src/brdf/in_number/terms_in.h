@@ -1,24 +1,41 @@
 #pragma once
 /// \file
-/// Every term and every map over one number T.  Included by the one file of each number (term_in_*.cpp).
+/// A role's terms over a number T.  Included by the one file of each role, which compiles it for all numbers
+/// but fifty digits, and by those of fifty digits (wide*.cpp): a change of a formula compiles its role alone.
 
-#include "brdf/catalogue/catalogue.h"
-#include "brdf/catalogue/maps.h"
-#include "brdf/in_number/number.h"
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "brdf/in_number/tables.h"
+#include "brdf/term/map.h"
+#include "brdf/term/term.h"
+#include "brdf/term/term_list.h"
+#include "number/counted.h"
+#include "number/half.h"
+#include "number/mixed.h"
 
 namespace gonio::inline GONIO_ARCH {
 
-/// How doubles become a T and a T a double.
+/// Conversions of doubles to a T, and back.
 template <class T>
-struct Doors {
+struct Conversion {
   static T parameter(double x) { return static_cast<T>(x); }
   static T angle(double x) { return static_cast<T>(x); }
   static double out(const T& x) { return static_cast<double>(x); }
 };
 
+template <>
+struct Conversion<Mixed> {
+  static Mixed parameter(double x) { return Mixed(Half(x)); }
+  static Mixed angle(double x) { return Mixed(static_cast<float>(x)); }
+  static double out(const Mixed& x) { return x.value(); }
+};
+
 template <class T>
 FrameAngles<T> angles_in(const FrameAngles<double>& a) {
-  const auto in = [](double x) { return Doors<T>::angle(x); };
+  const auto in = [](double x) { return Conversion<T>::angle(x); };
   return {{in(a.nol), in(a.nov), in(a.noh), in(a.voh), in(a.sin2_theta_h)},
           in(a.xoh),
           in(a.yoh),
@@ -31,7 +48,7 @@ FrameAngles<T> angles_in(const FrameAngles<double>& a) {
 template <class T, std::size_t n>
 std::array<T, n> numbers_in(std::span<const double> parameters) {
   std::array<T, n> p;
-  for (std::size_t k = 0; k < n; ++k) p[k] = Doors<T>::parameter(parameters[k]);
+  for (std::size_t k = 0; k < n; ++k) p[k] = Conversion<T>::parameter(parameters[k]);
   return p;
 }
 
@@ -56,7 +73,7 @@ void values_in(std::span<const double> parameters,
   for (const auto& row : rows) {
     const auto a = angles_in<T>(row);
     const T value = as_value<T>(term(a));
-    *out++ = Doors<T>::out(g2 ? g2_of<T>(value, a) : value);
+    *out++ = Conversion<T>::out(g2 ? g2_of<T>(value, a) : value);
   }
 }
 
@@ -77,7 +94,7 @@ std::vector<double> map_in(std::span<const double> parameters) {
   static_assert(MapOver<Map<T>, T>);
   std::vector<double> out;
   for (const T& x : Map<T>::apply(numbers_in<T, Map<T>::parameters.size()>(parameters)))
-    out.push_back(Doors<T>::out(x));
+    out.push_back(Conversion<T>::out(x));
   return out;
 }
 template <class T, template <class> class... M>
@@ -85,9 +102,58 @@ constexpr auto table_in(MapList<M...>) {
   return std::array{&map_in<M, T>...};
 }
 
-template <class T>
-constexpr auto terms_in = table_in<T>(Catalogue{});
-template <class T>
-constexpr auto maps_in = table_in<T>(Maps{});
+// ---- operations ---------------------------------------------------------------------------------
+
+template <template <class> class Term>
+TermOperations operations() {
+  using C = Counted<double>;
+  // Formulas have no branches: any values are as good as these.
+  constexpr std::size_t n = Term<C>::parameters.size();
+  std::array<C, n> p;
+  for (std::size_t k = 0; k < n; ++k) p[k] = C(Term<C>::parameters[k].start);
+  const C c(0.5);
+  const FrameAngles<C> angles{{c, c, c, c, c}, c, c, c, c, c, c};
+  std::optional<Term<C>> term;
+  TermOperations cost;
+  cost.parameters = count_operations([&] { term.emplace(std::span<const C, n>(p)); });
+  cost.sample = count_operations([&] { as_value<C>((*term)(angles)); });
+  cost.fraction = count_operations([&] { as_quotient<C>((*term)(angles)); });
+  return cost;
+}
+template <template <class> class... Terms>
+constexpr auto operations_in(TermList<Terms...>) {
+  return std::array{&operations<Terms>...};
+}
 
 }  // namespace gonio::inline GONIO_ARCH
+
+namespace gonio {
+
+#define GONIO_TERMS_IN(role, list)                              \
+  template <>                                                   \
+  std::span<const TermIn> terms_in<role>(Number number) {       \
+    static constexpr auto in_double = table_in<double>(list{}); \
+    static constexpr auto in_float = table_in<float>(list{});   \
+    static constexpr auto in_half = table_in<Half>(list{});     \
+    static constexpr auto in_mixed = table_in<Mixed>(list{});   \
+    switch (number) {                                           \
+      case Number::double_:                                     \
+        return in_double;                                       \
+      case Number::float_:                                      \
+        return in_float;                                        \
+      case Number::half:                                        \
+        return in_half;                                         \
+      case Number::mixed:                                       \
+        return in_mixed;                                        \
+      case Number::wide:                                        \
+        break;                                                  \
+    }                                                           \
+    return terms_in_wide<role>();                               \
+  }                                                             \
+  template <>                                                   \
+  std::span<TermOperations (*const)()> operations_in<role>() {  \
+    static constexpr auto all = operations_in(list{});          \
+    return all;                                                 \
+  }
+
+}  // namespace gonio

@@ -1,32 +1,45 @@
-// Every term in fifty digits.  The only source that pays for Boost.Multiprecision, and compiles
-// each term once.
-#include "number/wide.h"
+// Every Fresnel, diffuse term and map in fifty digits, and what is asked of terms in that number
+// alone.
+#include "brdf/in_number/wide.h"
 
 #include <cmath>
-#include <vector>
 
-#include "brdf/in_number/terms_in.h"
+#include "brdf/catalogue/diffuse_terms.h"
+#include "brdf/catalogue/fresnel_terms.h"
+#include "brdf/catalogue/maps.h"
 
 namespace gonio {
-namespace {
 
-using Parameters = std::vector<Wide>;
-using Row = FrameAngles<Wide>;
+GONIO_TERMS_IN_WIDE(Role::fresnel, FresnelTerms)
+GONIO_TERMS_IN_WIDE(Role::diffuse, DiffuseTerms)
 
-template <template <class> class Term>
-void wide(const Parameters& p, std::span<const Row> rows, Wide* out) {
-  static_assert(TermOver<Term<Wide>, Wide>);
-  const Term<Wide> term{std::span<const Wide, Term<Wide>::parameters.size()>(p)};
-  for (const auto& row : rows) *out++ = as_value<Wide>(term(row));
+std::span<const MapIn> maps_in_wide() {
+  static constexpr auto all = table_in<Wide>(Maps{});
+  return all;
 }
 
-using WideTerm = decltype(&wide<Lambert>);
+namespace {
 
-void values(WideTerm term,
-            bool g2,
-            std::span<const double> parameters,
-            std::span<const FrameAngles<double>> rows,
-            double* out) {
+using Row = FrameAngles<Wide>;
+
+const WideEntry& wide_term(std::size_t term) {
+  static const auto all = [] {
+    std::vector<WideEntry> terms;
+    for (const auto role : {wide_terms<Role::ndf>(), wide_terms<Role::masking>(),
+                            wide_terms<Role::fresnel>(), wide_terms<Role::diffuse>()})
+      terms.insert(terms.end(), role.begin(), role.end());
+    return terms;
+  }();
+  return all[term];
+}
+
+}  // namespace
+
+void wide_values(WideTerm term,
+                 bool g2,
+                 std::span<const double> parameters,
+                 std::span<const FrameAngles<double>> rows,
+                 double* out) {
   std::vector<Row> wide_rows;
   for (const auto& row : rows) wide_rows.push_back(angles_in<Wide>(row));
   std::vector<Wide> f(rows.size());
@@ -35,41 +48,11 @@ void values(WideTerm term,
     out[i] = static_cast<double>(g2 ? g2_of<Wide>(f[i], wide_rows[i]) : f[i]);
 }
 
-template <template <class> class Term, bool g2>
-void values(std::span<const double> parameters,
-            std::span<const FrameAngles<double>> rows,
-            double* out) {
-  values(wide<Term>, g2, parameters, rows, out);
-}
-template <template <class> class... Terms>
-constexpr auto values_of(TermList<Terms...>) {
-  return std::array{
-      TermIn{values<Terms, false>, is_masking<Terms<Wide>> ? &values<Terms, true> : nullptr}...};
-}
-
-struct Entry {
-  WideTerm f;
-  bool anisotropic;
-};
-template <template <class> class... Terms>
-constexpr auto entries(TermList<Terms...>) {
-  return std::array{Entry{wide<Terms>, is_anisotropic<Terms<Wide>>}...};
-}
-
-}  // namespace
-
-template <>
-CatalogueIn catalogue_in<Number::wide>() {
-  static constexpr auto terms = values_of(Catalogue{});
-  return {terms, maps_in<Wide>};
-}
-
 WideValue wide_value(std::size_t term,
                      std::span<const double> parameters,
                      const FrameAngles<double>& angles) {
-  static constexpr auto all = entries(Catalogue{});
-  const auto& t = all[term];
-  Parameters p(parameters.begin(), parameters.end());
+  const auto& t = wide_term(term);
+  std::vector<Wide> p(parameters.begin(), parameters.end());
   Row row = angles_in<Wide>(angles);
   const auto value = [&] {
     Wide f;

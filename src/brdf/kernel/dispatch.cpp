@@ -6,33 +6,45 @@
 
 namespace gonio {
 
-#define GONIO_SET(set)                            \
-  namespace set {                                 \
-  extern const Kernels<float> table_float;        \
-  extern const Kernels<double> table_double;      \
-  template <Role role, class F>                   \
-  std::span<const TermKernels<F>> terms_of();     \
-  template <class F>                              \
-  std::span<const FusedKernel<F>> fused_models(); \
+#define GONIO_SET(set)                                                   \
+  namespace set {                                                        \
+  extern const Kernels<float> table_float;                               \
+  extern const Kernels<double> table_double;                             \
+  template <Role role, class F>                                          \
+  std::span<const TermKernels<F>> terms_of();                            \
+  template <FusedGroup group, class F>                                   \
+  FusedModels<F> fused_models();                                         \
+  template <class F>                                                     \
+  std::span<const typename TermKernels<F>::WithGgx> maskings_with_ggx(); \
   }
 #include "instruction_sets.inc"
 #undef GONIO_SET
 
 namespace {
 
-/// A set's kernels with the terms of all roles in one array.
+/// A set's kernels with the terms of all roles in one array, and the fused models of all groups.
 template <class F>
 struct Assembled {
   std::vector<TermKernels<F>> terms;
+  std::vector<FusedKernel<F>> fused;
+  std::vector<NormalKernel<F>> normal;
   Kernels<F> kernels;
 
   Assembled(const Kernels<F>& columns,
-            std::span<const FusedKernel<F>> fused,
-            std::initializer_list<std::span<const TermKernels<F>>> roles)
+            std::initializer_list<std::span<const TermKernels<F>>> roles,
+            std::span<const typename TermKernels<F>::WithGgx> maskings_with_ggx,
+            std::initializer_list<FusedModels<F>> groups)
       : kernels(columns) {
-    kernels.fused = fused;
     for (const auto& role : roles) terms.insert(terms.end(), role.begin(), role.end());
+    auto* masking = terms.data() + roles.begin()->size();
+    for (const auto& with_ggx : maskings_with_ggx) (masking++)->with_ggx = with_ggx;
+    for (const auto& g : groups) {
+      fused.insert(fused.end(), g.values.begin(), g.values.end());
+      normal.insert(normal.end(), g.normal.begin(), g.normal.end());
+    }
     kernels.terms = terms;
+    kernels.fused = fused;
+    kernels.normal = normal;
   }
 };
 
@@ -45,17 +57,20 @@ struct Set {
 const std::vector<Set>& sets() {
   static const std::vector<Set> all = [] {
     std::vector<Set> v;
-#define GONIO_ROLES(set, F)                                                  \
-  {                                                                          \
-    set::terms_of<Role::ndf, F>(), set::terms_of<Role::masking, F>(),        \
-        set::terms_of<Role::fresnel, F>(), set::terms_of<Role::diffuse, F>() \
+#define GONIO_ASSEMBLED(set, F)                                                               \
+  {                                                                                           \
+    set::table_##F,                                                                           \
+        {set::terms_of<Role::ndf, F>(), set::terms_of<Role::masking, F>(),                    \
+         set::terms_of<Role::fresnel, F>(), set::terms_of<Role::diffuse, F>()},               \
+        set::maskings_with_ggx<F>(), {                                                        \
+      set::fused_models<FusedGroup::ggx, F>(), set::fused_models<FusedGroup::isotropic, F>(), \
+          set::fused_models<FusedGroup::shipped, F>()                                         \
+    }                                                                                         \
   }
-#define GONIO_SET(set)                                                                  \
-  v.push_back({{set::table_float, set::fused_models<float>(), GONIO_ROLES(set, float)}, \
-               {set::table_double, set::fused_models<double>(), GONIO_ROLES(set, double)}});
+#define GONIO_SET(set) v.push_back({GONIO_ASSEMBLED(set, float), GONIO_ASSEMBLED(set, double)});
 #include "instruction_sets.inc"
 #undef GONIO_SET
-#undef GONIO_ROLES
+#undef GONIO_ASSEMBLED
     return v;
   }();
   return all;

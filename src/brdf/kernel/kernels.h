@@ -43,18 +43,18 @@ struct Block {
   }
 };
 
-/// What a term does to the columns that the terms before it left.
+/// Columns that a term multiplies or adds to, and those that it writes.
 template <class F>
-struct Join {
+struct ProductColumns {
   const F *num, *den, *base;  ///< in; den may be nullptr: 1
-  F *out, *out_den;           ///< out (out_den for `begin` of a fraction only)
+  F *out, *out_den;           ///< out (out_den for `start_product` of a fraction only)
 };
 
-/// The same of a term that channels have each their own of, F or diffuse, for all of them at once:
+/// Columns of all channels, for a term that each of them has its own of, F or diffuse:
 ///
 ///   out_c = base_c + factor F_c   or   base_c + (factor − base_c) F_c   or   diffuse_c
 template <class F>
-struct ChannelJoin {
+struct ChannelColumns {
   const F* factor = nullptr;                  ///< of F
   std::array<const F*, max_channels> base{};  ///< of F; nullptr: nothing
   const F* uniform =
@@ -66,42 +66,52 @@ struct ChannelJoin {
 
 template <class F>
 struct TermKernels {
-  using Value = void (*)(const Block<F>&, const F* parameters, const Join<F>&);
-  Value begin;  ///< out/out_den = term, still a fraction if it is one
-  Value close;  ///< out = num/den · term, divided
-  Value add;    ///< out = base + num · term
-  /// Of V: out = D V with GGX's D, which most models have, in one loop; else nullptr
-  void (*with_ggx)(const Block<F>&, const F* ggx, const F* parameters, F* out);
+  using Value = void (*)(const Block<F>&, const F* parameters, const ProductColumns<F>&);
+  Value start_product;   ///< out/out_den = term, still a fraction if it is one
+  Value finish_product;  ///< out = num/den · term, divided
+  Value add_product;     ///< out = base + num · term
   /// f of a diffuse term that is the same at all angles, else nullptr
   F (*uniform)(const F* parameters);
   /// by the number of channels, 1 and 3; nullptr for D and V
-  using Shade = void (*)(const Block<F>&, const ChannelJoin<F>&);
+  using Shade = void (*)(const Block<F>&, const ChannelColumns<F>&);
   std::array<Shade, max_channels + 1> shade;
   /// value and ∂value/∂parameter, one column each
   void (*derivatives)(const Block<F>&, const F* parameters, F* value, F* const* d);
+  /// D V of GGX's D and this V in one loop, which most models have; nullptr of other terms than V
+  using WithGgx = void (*)(const Block<F>&, const F* ggx, const F* parameters, F* out);
+  WithGgx with_ggx = nullptr;
 };
 
-/// What a fused model reads and writes.
+/// The terms of a fused model by id, and how many of them come before the lobes: diffuse terms, then D, V,
+/// F of each lobe.
+struct FusedIds {
+  std::size_t diffuse = 0;
+  std::array<std::string_view, max_fused_terms> id{};
+  bool operator==(const FusedIds&) const = default;
+};
+/// Parameters of a fused model's terms: [term][channel], in the order of FusedIds; D and V are the first
+/// channel's.
+template <class F>
+using FusedParameters = std::array<std::array<const F*, max_channels>, max_fused_terms>;
+
+/// Columns and parameters that a fused model reads and writes.
 template <class F>
 struct FusedArguments {
   Block<F> x;
-  /// [term][channel], in the order of FusedKernel::ids; D and V are the first channel's
-  std::array<std::array<const F*, max_channels>, max_fused_terms> parameters;
+  FusedParameters<F> parameters;
   std::array<F*, max_channels> out;
 };
 
 /// f of a whole model as one loop over all channels, which share D·V.
 template <class F>
 struct FusedKernel {
-  std::size_t diffuse;  ///< how many terms come before the lobes
-  std::array<std::string_view, max_fused_terms>
-      ids;  ///< diffuse terms, then D, V, F of each lobe; ""
+  FusedIds ids;
   using Value = void (*)(const FusedArguments<F>&);
   /// by the number of channels; nullptr where there is none
   std::array<Value, max_channels + 1> value;
 };
 
-/// How a model's value f is compared with a target t: r = w (link(f + offset) − t).
+/// Link by which a model's value f is compared with a target t: r = w (link(f + offset) − t).
 enum class Link { identity, log };
 
 /// Stored values as a fit compares with them: r = w (link(f + offset) − target).
@@ -114,16 +124,16 @@ struct TargetArguments {
   bool positive;               ///< value + offset must be above 0 to be compared with
   F *y, *target, *out_weight;  ///< −1, 0, 0 where masked
 };
-/// How many values are what.
+/// Counts of values by what they are.
 struct TargetCounts {
   std::size_t not_finite = 0, negative = 0, valid = 0;
   std::size_t zero = 0;         ///< valid, but not above 0 where they must be
   std::size_t zero_weight = 0;  ///< could be compared with, were it not for their weight
 };
 
-/// What is left of each sample over channels: columns that are added to.
+/// Residual sums of each sample over its channels: columns that are added to.
 template <class F>
-struct LeftArguments {
+struct ResidualSums {
   const F *f, *y, *log_f, *log_y;
   F *values, *squares;        ///< where y ≥ 0: how many, Σ (f − y)²
   F *positive, *log_squares;  ///< where both are above 0: how many, Σ (ln f − ln y)²
@@ -140,27 +150,42 @@ struct ResidualArguments {
   F* cost;  ///< lane sums of ρ(r²), `padding` of them
 };
 
-/// What the fused normal equations read and add to.
+/// Columns and parameters that fused normal equations read, and the sums that they add to.
 template <class F>
 struct NormalArguments {
   Block<F> x;
   std::size_t channels;
-  const F *d, *v;                                 ///< parameters of D and of V
-  std::array<const F*, max_channels> f, diffuse;  ///< parameters of each channel
+  FusedParameters<F> parameters;
   std::array<const F*, max_channels> target, weight;
   F offset;                           ///< the link's
   std::array<F*, max_channels> sums;  ///< of each channel, as `gram` adds them
   F* cost;                            ///< lane sums of r², `padding` of them
 };
 
+/// A parameter of a fused model.
+struct FusedColumn {
+  std::size_t term;       ///< in the order of FusedIds
+  std::size_t parameter;  ///< of the term
+};
+
 /// The normal equations of a whole model in one loop, for plain least squares: the same formulas and
-/// sums as by column kernels.  Columns: r; the parameters of D and those of V that D has not; those of
-/// F; those of the diffuse term.
+/// sums as by column kernels.
 template <class F>
 struct NormalKernel {
-  std::string_view diffuse;  ///< empty: none
-  std::array<std::string_view, 3> ids;
+  FusedIds ids;
+  /// Parameters by which the columns after the residual's are derivatives; D and V of a lobe share those
+  /// of one name.
+  std::array<FusedColumn, max_columns - 1> columns;
+  std::size_t count;                                        ///< of these columns
   std::array<void (*)(const NormalArguments<F>&), 2> pass;  ///< by Link
+};
+
+/// Groups of fused models that are compiled together.
+enum class FusedGroup { ggx, isotropic, shipped };
+template <class F>
+struct FusedModels {
+  std::span<const FusedKernel<F>> values;
+  std::span<const NormalKernel<F>> normal;
 };
 
 /// Column kernels in F, for one instruction set.
@@ -183,7 +208,7 @@ struct Kernels {
 
   std::array<void (*)(std::size_t n, const TargetArguments<F>&, TargetCounts&), 2>
       target;  ///< by Link
-  void (*left)(std::size_t n, const LeftArguments<F>&);
+  void (*residual_sums)(std::size_t n, const ResidualSums<F>&);
 
   using Residual = void (*)(std::size_t n, const ResidualArguments<F>&);
   /// For the normal equations: r ← √ρ' r, weighted_slope ← √ρ' ∂r/∂f.

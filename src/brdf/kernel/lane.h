@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How a term meets a column: what the kernels of every role share.  Included by files compiled per
+/// A term over a column: what the kernels of every role share.  Included by files compiled per
 /// instruction set alone.
 
 #include <utility>
@@ -19,7 +19,7 @@ template <class F>
 using Lane = Batch<F>;
 #endif
 
-/// Of the samples from i on; the frame is read only for who asks.
+/// Angles of the samples from i on; the frame is read only for who asks.
 template <bool frame, class F>
 auto angles_with(const Block<F>& x, std::size_t i) {
   using B = Lane<F>;

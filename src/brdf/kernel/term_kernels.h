@@ -1,19 +1,19 @@
 #pragma once
 /// \file
-/// The loops of a term over columns, and the table of a role's terms.  Included by the one file of
-/// each role, compiled per instruction set.
+/// The loops of a term over columns, and the table of a role's terms.  Included by the one file of each
+/// role, compiled per instruction set: it sees the formulas of that role alone.
 
 #include <array>
 
-#include "brdf/formula/ndf.h"
 #include "brdf/kernel/lane.h"
+#include "brdf/term/product.h"
 #include "brdf/term/term_list.h"
 #include "number/dual.h"
 
 namespace gonio::inline GONIO_ARCH {
 
 template <template <class> class Term, class F>
-void begin(const Block<F>& x, const F* p, const Join<F>& j) {
+void start_product(const Block<F>& x, const F* p, const ProductColumns<F>& j) {
   using B = Lane<F>;
   const auto term = bind_value<Term, F>(p);
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
@@ -24,7 +24,7 @@ void begin(const Block<F>& x, const F* p, const Join<F>& j) {
 }
 
 template <template <class> class Term, class F, bool over_den>
-void close_over(const Block<F>& x, const F* p, const Join<F>& j) {
+void finish_product_over(const Block<F>& x, const F* p, const ProductColumns<F>& j) {
   using B = Lane<F>;
   const auto term = bind_value<Term, F>(p);
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
@@ -39,29 +39,18 @@ void close_over(const Block<F>& x, const F* p, const Join<F>& j) {
   }
 }
 template <template <class> class Term, class F>
-void close(const Block<F>& x, const F* p, const Join<F>& j) {
-  j.den ? close_over<Term, F, true>(x, p, j) : close_over<Term, F, false>(x, p, j);
+void finish_product(const Block<F>& x, const F* p, const ProductColumns<F>& j) {
+  j.den ? finish_product_over<Term, F, true>(x, p, j)
+        : finish_product_over<Term, F, false>(x, p, j);
 }
 
 template <template <class> class Term, class F>
-void with_ggx(const Block<F>& x, const F* ggx, const F* p, F* out) {
-  using B = Lane<F>;
-  const auto d = bind_value<Ggx, F>(ggx);
-  const auto v = bind_value<Term, F>(p);
-  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-    const auto a = angles<Term<B>>(x, i);
-    const auto e = d(a), q = as_quotient<B>(v(a));
-    store<B>(out + i, e.num * q.num / (e.den * q.den));
-  }
-}
-
-template <template <class> class Term, class F>
-void add(const Block<F>& x, const F* p, const Join<F>& j) {
+void add_product(const Block<F>& x, const F* p, const ProductColumns<F>& j) {
   using B = Lane<F>;
   const auto term = bind_value<Term, F>(p);
   for (std::size_t i = 0; i < x.n; i += lanes<B>)
-    store<B>(j.out + i,
-             load<B>(j.base + i) + load<B>(j.num + i) * as_value<B>(term(angles<Term<B>>(x, i))));
+    store<B>(j.out + i, lobe_on(load<B>(j.base + i), Zero{}, One{}, load<B>(j.num + i),
+                                as_value<B>(term(angles<Term<B>>(x, i)))));
 }
 
 template <template <class> class Term, class F>
@@ -77,11 +66,11 @@ void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
   }
 }
 
-/// What a term of the channels is added to.
+/// Base that a term of the channels is added to.
 enum class Under { nothing, column, uniform };
 
 template <template <class> class Term, std::size_t channels, class F, Under base, bool coupled>
-void shade_with(const Block<F> x, const ChannelJoin<F> j) {  // copied: stores cannot change them
+void shade_with(const Block<F> x, const ChannelColumns<F> j) {  // copied: stores cannot change them
   using B = Lane<F>;
   constexpr bool is_fresnel = role_of(Term<F>::about.id) == Role::fresnel;
   const auto terms = bind_channels<Term, channels>(j.parameters);
@@ -95,17 +84,16 @@ void shade_with(const Block<F> x, const ChannelJoin<F> j) {  // copied: stores c
     for (std::size_t c = 0; c < channels; ++c) {
       if constexpr (base == Under::column) under[c] = load<B>(j.base[c] + i);
       value[c] = as_value<B>(terms[c](a));
-      if constexpr (coupled)
-        value[c] = (factor - under[c]) * value[c];
+      if constexpr (is_fresnel && base == Under::nothing)
+        value[c] = lobe_on(Zero{}, Zero{}, One{}, factor, value[c]);
       else if constexpr (is_fresnel)
-        value[c] = factor * value[c];
-      if constexpr (base != Under::nothing) value[c] = under[c] + value[c];
+        value[c] = lobe_on(under[c], only_if<coupled>(under[c]), One{}, factor, value[c]);
     }
     for (std::size_t c = 0; c < channels; ++c) store<B>(j.out[c] + i, value[c]);
   }
 }
 template <template <class> class Term, std::size_t channels, class F>
-void shade(const Block<F>& x, const ChannelJoin<F>& j) {
+void shade(const Block<F>& x, const ChannelColumns<F>& j) {
   if constexpr (role_of(Term<F>::about.id) == Role::fresnel) {
     const auto on = [&]<Under base>() {
       j.coupled ? shade_with<Term, channels, F, base, true>(x, j)
@@ -134,12 +122,10 @@ constexpr auto shades() {
 template <template <class> class Term, class F>
 constexpr TermKernels<F> term_entry() {
   static_assert(Term<F>::parameters.size() <= max_parameters);
-  void (*ggx_too)(const Block<F>&, const F*, const F*, F*) = nullptr;
-  if constexpr (role_of(Term<F>::about.id) == Role::masking) ggx_too = with_ggx<Term, F>;
   F (*same_at_all_angles)(const F*) = nullptr;
   if constexpr (is_uniform<Term<F>>) same_at_all_angles = uniform<Term, F>;
-  return {begin<Term, F>,     close<Term, F>,    add<Term, F>,        ggx_too,
-          same_at_all_angles, shades<Term, F>(), derivatives<Term, F>};
+  return {start_product<Term, F>, finish_product<Term, F>, add_product<Term, F>,
+          same_at_all_angles,     shades<Term, F>(),       derivatives<Term, F>};
 }
 template <class F, template <class> class... Terms>
 constexpr auto term_table(TermList<Terms...>) {
@@ -151,15 +137,15 @@ template <Role role, class F>
 std::span<const TermKernels<F>> terms_of();
 
 #define GONIO_TERMS_OF(role, list)                                \
-  template <class F>                                              \
-  constexpr auto table = term_table<F>(list{});                   \
   template <>                                                     \
   std::span<const TermKernels<float>> terms_of<role, float>() {   \
-    return table<float>;                                          \
+    static constexpr auto table = term_table<float>(list{});      \
+    return table;                                                 \
   }                                                               \
   template <>                                                     \
   std::span<const TermKernels<double>> terms_of<role, double>() { \
-    return table<double>;                                         \
+    static constexpr auto table = term_table<double>(list{});     \
+    return table;                                                 \
   }
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "brdf/term/product.h"
+
 namespace gonio {
 namespace {
 
@@ -13,8 +15,25 @@ const F* derivative(const DualColumn<F>& a, std::size_t slot) {
 
 }  // namespace
 
+/// A column as a number: what is computed with it is written down, to be done to every block.
 template <class F>
-Plan<F>::Plan(const Model& m, const std::vector<bool>& free, const Kernels<F>& k)
+struct ModelDerivatives<F>::Written {
+  ModelDerivatives* to;
+  DualColumn<F> column;
+
+  Written operator*(const Written& b) const { return {to, to->product(column, b.column)}; }
+  Written operator+(const Written& b) const {
+    return {to, to->sum(column, b.column, to->scratch_.ones())};
+  }
+  Written operator-(const Written& b) const {
+    return {to, to->sum(column, b.column, to->scratch_.minus_ones())};
+  }
+};
+
+template <class F>
+ModelDerivatives<F>::ModelDerivatives(const Model& m,
+                                      const std::vector<bool>& free,
+                                      const Kernels<F>& k)
     : model_(m), free_(free), k_(k), channel_steps_(m.channels) {
   std::vector<DualColumn<F>> dv;  // D·V, shared by the channels
   for (const auto& l : m.lobes) {
@@ -28,6 +47,7 @@ Plan<F>::Plan(const Model& m, const std::vector<bool>& free, const Kernels<F>& k
     next_ = shared;  // the next channel takes the same columns
     into_ = &channel_steps_[c];
     DualColumn<F> f, coupled;
+    const auto written = [&](const DualColumn<F>& x) { return Written{this, x}; };
     const auto add = [&](DualColumn<F>& to, const DualColumn<F>& x) {
       to = to.value ? sum(to, x, scratch_.ones()) : x;
     };
@@ -37,9 +57,16 @@ Plan<F>::Plan(const Model& m, const std::vector<bool>& free, const Kernels<F>& k
       if (catalogue()[t.term].coupled) add(coupled, x);
     }
     for (std::size_t l = 0; l < m.lobes.size(); ++l) {
-      const bool under = l == 0 && coupled.value;
-      const auto factor = under ? sum(dv[l], coupled, scratch_.minus_ones()) : dv[l];
-      add(f, product(factor, term(m.lobes[l].fresnel, c)));
+      const auto add_lobe = [&](const auto& base, const auto& under) {
+        const auto fresnel = written(term(m.lobes[l].fresnel, c));
+        f = lobe_on(base, under, One{}, written(dv[l]), fresnel).column;
+      };
+      if (!f.value)
+        add_lobe(Zero{}, Zero{});
+      else if (l == 0 && coupled.value)
+        add_lobe(written(f), written(coupled));
+      else
+        add_lobe(written(f), Zero{});
     }
     channels_.push_back(std::move(f));
     used = std::max(used, next_);
@@ -48,13 +75,13 @@ Plan<F>::Plan(const Model& m, const std::vector<bool>& free, const Kernels<F>& k
 }
 
 template <class F>
-void Plan<F>::set(std::span<const F> values) {
+void ModelDerivatives<F>::set(std::span<const F> values) {
   for (auto& g : parameters_)
     for (std::size_t i = 0; i < g.slots.size(); ++i) g.p[i] = values[g.slots[i]];
 }
 
 template <class F>
-DualColumn<F> Plan<F>::term(const TermUse& t, std::size_t c) {
+DualColumn<F> ModelDerivatives<F>::term(const TermUse& t, std::size_t c) {
   Gathered& gathered = parameters_.emplace_back();
   std::array<F*, max_parameters> d{};
   F* const value = fresh();
@@ -73,7 +100,7 @@ DualColumn<F> Plan<F>::term(const TermUse& t, std::size_t c) {
 
 /// (a·b)' = a'·b + a·b'
 template <class F>
-DualColumn<F> Plan<F>::product(const DualColumn<F>& a, const DualColumn<F>& b) {
+DualColumn<F> ModelDerivatives<F>::product(const DualColumn<F>& a, const DualColumn<F>& b) {
   DualColumn<F> r{times(a.value, b.value), {}};
   for (const auto& [slot, da] : a.d) {
     const F* const db = derivative(b, slot);
@@ -85,7 +112,9 @@ DualColumn<F> Plan<F>::product(const DualColumn<F>& a, const DualColumn<F>& b) {
 }
 
 template <class F>
-DualColumn<F> Plan<F>::sum(const DualColumn<F>& a, const DualColumn<F>& b, const F* sign) {
+DualColumn<F> ModelDerivatives<F>::sum(const DualColumn<F>& a,
+                                       const DualColumn<F>& b,
+                                       const F* sign) {
   DualColumn<F> r = a;
   r.value = plus(a.value, b.value, sign);
   for (const auto& [slot, db] : b.d) {
@@ -99,25 +128,25 @@ DualColumn<F> Plan<F>::sum(const DualColumn<F>& a, const DualColumn<F>& b, const
 }
 
 template <class F>
-const F* Plan<F>::times(const F* a, const F* b) {
+const F* ModelDerivatives<F>::times(const F* a, const F* b) {
   F* const r = fresh();
   into_->push_back([=, f = k_.product](const Block<F>& x) { f(x.n, a, b, r); });
   return r;
 }
 template <class F>
-const F* Plan<F>::times_sum(const F* a, const F* b, const F* c, const F* d) {
+const F* ModelDerivatives<F>::times_sum(const F* a, const F* b, const F* c, const F* d) {
   F* const r = fresh();
   into_->push_back([=, f = k_.product_sum](const Block<F>& x) { f(x.n, a, b, c, d, r); });
   return r;
 }
 template <class F>
-const F* Plan<F>::plus(const F* a, const F* b, const F* sign) {
+const F* ModelDerivatives<F>::plus(const F* a, const F* b, const F* sign) {
   F* const r = fresh();
   into_->push_back([=, f = k_.add_product](const Block<F>& x) { f(x.n, a, b, sign, r); });
   return r;
 }
 
-template class Plan<float>;
-template class Plan<double>;
+template class ModelDerivatives<float>;
+template class ModelDerivatives<double>;
 
 }  // namespace gonio

@@ -21,23 +21,22 @@ struct DualColumn {
   std::vector<std::pair<std::size_t, const F*>> d;
 };
 
-/// Writes down once what is to be done to every block (the scratch columns are the same each time,
-/// so a step is a kernel with the columns it reads and writes), then does it.  Not shared by threads.
-///
-///   f_c = Σ D V F_c + Σ diffuse_c,   with coupled diffuse:  F_c (D V − coupled_c) + coupled_c
+/// A model's values and derivatives by the product rule (brdf/term/product.h) over columns.  Writes down
+/// once what is to be done to every block (the scratch columns are the same each time, so a step is a
+/// kernel with the columns it reads and writes), then does it.  Not shared by threads.
 template <class F>
-class Plan {
+class ModelDerivatives {
  public:
   /// \param free  per value slot: whether its derivative is wanted; others are left out
-  Plan(const Model&, const std::vector<bool>& free, const Kernels<F>&);
-  Plan(const Plan&) = delete;
+  ModelDerivatives(const Model&, const std::vector<bool>& free, const Kernels<F>&);
+  ModelDerivatives(const ModelDerivatives&) = delete;
 
   /// The values, model.value_count of them, of the runs that follow.
   void set(std::span<const F> values);
 
   /// The columns of channel c during visit(c) in run().
   const DualColumn<F>& channel(std::size_t c) const { return channels_[c]; }
-  /// A further scratch column for the visitor, distinct from all that the plan uses.
+  /// A further scratch column for the visitor, distinct from all that are used here.
   F* fresh() { return scratch_[next_++]; }
 
   /// The channels share scratch columns, so each is visited before the next is made.
@@ -51,6 +50,7 @@ class Plan {
   }
 
  private:
+  struct Written;
   using Step = std::function<void(const Block<F>&)>;
   DualColumn<F> term(const TermUse&, std::size_t channel);
   DualColumn<F> product(const DualColumn<F>& a, const DualColumn<F>& b);

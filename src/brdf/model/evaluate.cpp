@@ -4,7 +4,6 @@
 #include <cassert>
 
 #include "base/error.h"
-#include "brdf/formula/ndf.h"
 
 #include <fmt/format.h>
 
@@ -44,9 +43,27 @@ F* Scratch<F, samples>::operator[](std::size_t i) {
   return columns_[i].data();
 }
 
+std::vector<const TermUse*> terms_of(const Model& m) {
+  std::vector<const TermUse*> terms;
+  for (const auto& t : m.diffuse) terms.push_back(&t);
+  for (const auto& l : m.lobes) terms.insert(terms.end(), {&l.ndf, &l.masking, &l.fresnel});
+  return terms;
+}
+
+std::optional<FusedIds> fused_ids(const Model& m) {
+  const auto terms = terms_of(m);
+  if (terms.size() > max_fused_terms) return {};
+  FusedIds ids;
+  ids.diffuse = m.diffuse.size();
+  for (std::size_t t = 0; t < terms.size(); ++t) ids.id[t] = catalogue()[terms[t]->term].id();
+  return ids;
+}
+
 template <class F>
-Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k) : channels_(m.channels) {
-  const auto use = [&](const TermUse& t) {
+Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k)
+    : channels_(m.channels), diffuse_(m.diffuse.size()) {
+  for (const auto* use : terms_of(m)) {
+    const TermUse& t = *use;
     Term term{&catalogue()[t.term], &k.terms[t.term], {}, {}};
     for (std::size_t c = 0; c < m.channels; ++c) {
       auto& slots = term.slots.emplace_back();
@@ -55,21 +72,16 @@ Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k) : channels_(m.chann
     }
     term.parameters.resize(m.channels);
     term.count = t.parameters.size();
-    term.is_ggx = term.entry->id() == Ggx<F>::about.id;
+    term.is_ggx = term.entry->id() == "ndf.ggx";
     terms_.push_back(std::move(term));
-  };
-  for (const auto& t : m.diffuse) use(t);
-  diffuse_ = terms_.size();
+  }
   assert(diffuse_ <= 1);
   for (std::size_t t = 0; t < diffuse_; ++t) coupled_ |= terms_[t].entry->coupled;
-  for (const auto& l : m.lobes)
-    for (const auto* t : {&l.ndf, &l.masking, &l.fresnel}) use(*t);
   if (has_uniform_diffuse()) uniform_.resize(channels_);
-  if (terms_.size() > max_fused_terms || channels_ > max_channels) return;
-  std::array<std::string_view, max_fused_terms> ids;
-  for (std::size_t t = 0; t < terms_.size(); ++t) ids[t] = terms_[t].entry->id();
+  const auto ids = fused_ids(m);
+  if (!ids || channels_ > max_channels) return;
   for (const auto& f : k.fused)
-    if (f.diffuse == diffuse_ && f.ids == ids) fused_ = f.value[channels_];
+    if (f.ids == ids) fused_ = f.value[channels_];
   for (std::size_t t = 0; t < terms_.size(); ++t)
     for (std::size_t c = 0; c < channels_; ++c)
       arguments_.parameters[t][c] = terms_[t].parameters[c].data();
@@ -109,28 +121,28 @@ void Evaluator<F>::compose(const Block<F>& x, std::size_t at, std::span<F* const
       v.kernels->with_ggx(x, d.parameters[0].data(), v.parameters[0].data(), num);
       continue;
     }
-    d.kernels->begin(x, d.parameters[0].data(), {nullptr, nullptr, nullptr, num, den});
-    v.kernels->close(x, v.parameters[0].data(),
-                     {num, d.entry->fraction ? den : nullptr, nullptr, num, nullptr});
+    d.kernels->start_product(x, d.parameters[0].data(), {nullptr, nullptr, nullptr, num, den});
+    v.kernels->finish_product(x, v.parameters[0].data(),
+                              {num, d.entry->fraction ? den : nullptr, nullptr, num, nullptr});
   }
   const std::size_t together = channels_ % 3 == 0 ? 3 : 1;  // as the kernels take them
   for (std::size_t c = 0; c < channels_; c += together) {
-    ChannelJoin<F> join;
+    ChannelColumns<F> columns;
     const auto shade = [&](const Term& t) {
-      for (std::size_t k = 0; k < together; ++k) join.parameters[k] = t.parameters[c + k].data();
-      t.kernels->shade[together](x, join);
-      std::ranges::copy(join.out, join.base.begin());
+      for (std::size_t k = 0; k < together; ++k) columns.parameters[k] = t.parameters[c + k].data();
+      t.kernels->shade[together](x, columns);
+      std::ranges::copy(columns.out, columns.base.begin());
     };
-    for (std::size_t k = 0; k < together; ++k) join.out[k] = out[c + k] + at;
+    for (std::size_t k = 0; k < together; ++k) columns.out[k] = out[c + k] + at;
     if (has_uniform_diffuse())
-      join.uniform = uniform_.data() + c;
+      columns.uniform = uniform_.data() + c;
     else if (diffuse_ > 0)
       shade(terms_[0]);
-    join.coupled = coupled_;
+    columns.coupled = coupled_;
     for (std::size_t l = 0; l < dv.size(); ++l) {
-      join.factor = dv[l];
+      columns.factor = dv[l];
       shade(terms_[diffuse_ + 3 * l + 2]);
-      join.coupled = false;
+      columns.coupled = false;
     }
   }
 }

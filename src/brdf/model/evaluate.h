@@ -5,6 +5,7 @@
 #include <array>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -86,6 +87,11 @@ class Scratch {
   std::vector<Column<F>> columns_;
 };
 
+/// Terms of a model in the order of fused kernels: diffuse terms, then D, V, F of each lobe.
+std::vector<const TermUse*> terms_of(const Model&);
+/// The ids by which fused kernels know a model; no value where it has more terms than they take.
+std::optional<FusedIds> fused_ids(const Model&);
+
 /// f_r of one model over columns, prepared once: a fused loop where there is one, else the kernels of its
 /// terms block by block.  Not shared by threads.
 template <class F>
@@ -138,7 +144,7 @@ void evaluate(const Model& model,
               std::span<F* const> out,
               const Kernels<F>& k = kernels<F>());
 
-/// The same for a list of angles, in double: [channel][sample].  0 below the horizon.  An anisotropic
+/// f_c for a list of angles, in double: [channel][sample].  0 below the horizon.  An anisotropic
 /// model needs the frame: without it that is wrong usage.
 std::vector<std::vector<double>> evaluate(const BoundModel& model,
                                           std::span<const Angles<double>> angles);

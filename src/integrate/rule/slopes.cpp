@@ -63,8 +63,8 @@ void term_values(std::size_t term,
   std::ranges::copy(parameters, p.begin());
   const auto& t = kernels<double>("scalar").terms[term];
   for (std::size_t at = 0; at < x.n; at += scratch.block)
-    t.add(x.part(at, std::min(scratch.block, x.n - at)), p.data(),
-          {scratch.ones(), nullptr, scratch.zeros(), out + at, nullptr});
+    t.add_product(x.part(at, std::min(scratch.block, x.n - at)), p.data(),
+                  {scratch.ones(), nullptr, scratch.zeros(), out + at, nullptr});
 }
 
 std::array<double, 2> slope_widths(std::size_t ndf, std::span<const double> parameters) {

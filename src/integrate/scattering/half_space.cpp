@@ -64,7 +64,7 @@ std::vector<Surface> surfaces_of(const BoundModel& whole) {
   return surfaces;
 }
 
-/// Of smaller α the peak is narrower than nodes far above the horizon are apart.
+/// Width α below which the peak is narrower than nodes far above the horizon are apart.
 constexpr double narrow = 0.02;
 
 /// Ends of the panels, elevations from 0 to π/2.  Steps are as long as the way from the horizon until they
@@ -199,7 +199,7 @@ class RowWriter {
   std::vector<std::vector<double>> k_;
 };
 
-/// What the nodes miss of the first order's E, or see twice, is the peak's: it is taken to lie at o = i.
+/// The rest of the first order's E, which the nodes miss or see twice, is the peak's: it is taken to lie at o = i.
 void put_peak(const Grid& grid, const Vector& single, const Vector& cosine, Matrix& first) {
   const std::size_t p = grid.gauss.size();
   const Vector missed = single - first * cosine;
@@ -213,6 +213,23 @@ void put_peak(const Grid& grid, const Vector& single, const Vector& cosine, Matr
 
 /// E of each order at the further rows of the grid, and its average below them: two at least, which is
 /// what those after them are judged by.
+///
+/// 1. f of half_space.h is the sum of orders fₙ, each the one before put under the integrals:
+///
+///       fₙ₊₁(o, i) = G₂(o, i) ( ∫₀ᵒ K(−u, o)/o fₙ(u, i) du + ∫₀ⁱ fₙ(o, d) K(−d, i)/i dd )
+///
+/// 2. Over the nodes, T(o, u) being K(−u, o)/o times the length of node u (Channel::turn), the first integral is
+///    Σᵤ T(o, u) Fₙ(u, i) = (T Fₙ)(o, i), the second Σ_d Fₙ(o, d) T(i, d) = (Fₙ Tᵀ)(o, i):
+///
+///       ┌──────────────────────────────────────────────┐
+///       │  Fₙ₊₁ = G₂ ∘ (T Fₙ + Fₙ Tᵀ)   ∘ by elements  │
+///       └──────────────────────────────────────────────┘
+///
+/// 3. Light only climbs: u ≤ o.  T(o, u) is 0 where u's panel lies above o's, so T is triangular in blocks of p
+///    nodes, a panel each, and rows [k, k + p) of T Fₙ are T's block of k + p columns times the first k + p rows
+///    of Fₙ; columns of Fₙ Tᵀ likewise.  That is half of the multiplications.
+///
+/// 4. Rows of further cosines are evaluated as the nodes' are, but are no columns: their T Fₙ takes all nodes.
 std::vector<Vector> orders(const Grid& grid, const Discrete& d, std::size_t c, double least) {
   const auto p = static_cast<Index>(grid.gauss.size());
   const auto nodes = static_cast<Index>(grid.nodes()), further = d.g2.rows() - nodes;
@@ -296,7 +313,7 @@ Solution solve(const Surface& s,
   return solution;
 }
 
-/// What a geometric series adds after its last two; the orders fall faster.
+/// Sum of a geometric series after its last two; the orders fall faster.
 double after(const std::vector<Vector>& orders, Index i) {
   if (orders.size() < 2) return 0;
   const double last = orders.back()[i], before = orders[orders.size() - 2][i];

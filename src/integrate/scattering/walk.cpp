@@ -22,15 +22,20 @@ namespace {
 
 constexpr std::size_t chunk_walks = 1 << 14;
 
-/// A term over a block, in the best instruction set.
+/// A factor of a walk's weight over a block, in the best instruction set: the product rule of a lobe
+/// (brdf/term/product.h) with nothing below it.
 class Term {
  public:
   Term(const BoundModel& m, const TermUse& t, std::size_t channel = 0)
-      : add_(kernels<double>().terms[t.term].add) {
+      : add_(kernels<double>().terms[t.term].add_product) {
     std::ranges::copy(term_parameters(m, t, channel), parameters_.begin());
   }
-  void operator()(const Block<double>& x, Scratch<double>& s, double* out) const {
-    add_(x, parameters_.data(), {s.ones(), nullptr, s.zeros(), out, nullptr});
+  /// out = factor · term
+  void operator()(const Block<double>& x,
+                  Scratch<double>& s,
+                  const double* factor,
+                  double* out) const {
+    add_(x, parameters_.data(), {factor, nullptr, s.zeros(), out, nullptr});
   }
   bool operator==(const Term&) const = default;
 
@@ -68,6 +73,8 @@ std::size_t padded(std::size_t n) {
 class Walkers {
  public:
   static constexpr std::size_t most = Scratch<double>::block;
+  /// A column of them, as kernels take it.
+  struct alignas(64) Weights : std::array<double, most> {};
 
   /// They enter against v, a unit vector above the surface, or, without it, from all over the hemisphere
   /// as even light does.
@@ -90,12 +97,13 @@ class Walkers {
   std::size_t size() const { return n_; }
   std::size_t channels() const { return weight_.size(); }
   double weight(std::size_t channel, std::size_t i) const { return weight_[channel][i]; }
+  const double* weights(std::size_t channel) const { return weight_[channel].data(); }
   std::size_t bounces(std::size_t i) const { return bounces_[i]; }
   const Direction& flight(std::size_t i) const { return fly_[i]; }
   double depth(std::size_t i) const { return depth_[i]; }
   double area(std::size_t i) const { return area_[i]; }  ///< σ(−w)
   double area_in() const { return area_in_[0]; }         ///< σ(v)
-  /// What a walk has gathered, for whom it concerns.
+  /// A walk's light gathered on its way, for whom it concerns.
   double gathered(std::size_t channel, std::size_t i) const { return gathered_[channel][i]; }
   void gather(std::size_t channel, std::size_t i, double x) { gathered_[channel][i] += x; }
   Scratch<double>& scratch() { return scratch_; }
@@ -110,10 +118,9 @@ class Walkers {
     else
       reflect(BeckmannFacets(surface_.facets.alpha_x, surface_.facets.alpha_y));
     const auto x = block(n_);
-    double* const f = scratch_[Scratch<double>::first_free];
     for (std::size_t c = 0; c < channels(); ++c) {
-      surface_.fresnel[c](x, scratch_, f);
-      for (std::size_t i = 0; i < n_; ++i) weight_[c][i] *= f[i];
+      double* const weight = weight_[c].data();
+      surface_.fresnel[c](x, scratch_, weight, weight);
     }
     measure_areas(fly_, n_, area_);
     for (std::size_t i = 0; i < n_; ++i) {
@@ -169,7 +176,7 @@ class Walkers {
     return --waiting_;
   }
 
-  /// What is flown to the next facet, as a change of τ towards the top.
+  /// The flight to the next facet, as a change of τ towards the top.
   double path(std::size_t i) { return -std::log(draw_.uniform()) * fly_[i].z / area_[i]; }
 
   template <class Facets>
@@ -194,7 +201,7 @@ class Walkers {
       columns_[8][i] = w[i].y;
     }
     double* const v = scratch_[Scratch<double>::first_free];
-    surface_.masking(block(n), scratch_, v);
+    surface_.masking(block(n), scratch_, scratch_.ones(), v);
     for (std::size_t i = 0; i < n; ++i)
       // upwards less what cancels where next to nothing is met
       area[i] = std::max(0.25 / v[i] - std::max(w[i].z, 0.0), 1e-30);
@@ -210,7 +217,8 @@ class Walkers {
   std::array<Direction, most> fly_, in_;
   std::array<double, most> depth_, area_, area_in_;
   std::array<std::size_t, most> bounces_;
-  std::vector<std::array<double, most>> weight_, gathered_;
+  std::vector<Weights> weight_;
+  std::vector<std::array<double, most>> gathered_;
 };
 
 /// Sums over walks, by channel.
@@ -295,12 +303,11 @@ class Towards {
     }
     const auto block = angles_.block().part(0, padded(w.size()));
     double* const value = w.scratch()[Scratch<double>::first_free];
-    surface_.ndf(block, w.scratch(), value);
-    for (std::size_t i = 0; i < w.size(); ++i) share_[i] *= value[i];
+    surface_.ndf(block, w.scratch(), share_.data(), share_.data());
     for (std::size_t c = 0; c < w.channels(); ++c) {
-      surface_.fresnel[c](block, w.scratch(), value);
+      surface_.fresnel[c](block, w.scratch(), w.weights(c), value);
       for (std::size_t i = 0; i < w.size(); ++i) {
-        const double x = w.weight(c, i) * value[i] * share_[i];
+        const double x = value[i] * share_[i];
         w.gather(c, i, x);
         t.add_to_order(c, w.bounces(i) + 1, x);
       }
@@ -316,7 +323,7 @@ class Towards {
   double lambda_;
   AngleBlock angles_;
   std::span<double* const> columns_;
-  std::array<double, Walkers::most> share_;
+  Walkers::Weights share_{};
 };
 
 /// A chunk of walks; `count` sees the walkers at each facet and each walk's end.

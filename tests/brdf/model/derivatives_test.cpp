@@ -9,10 +9,10 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-class PlanOf : public testing::TestWithParam<std::string> {};
+class DerivativesOf : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(
     Models,
-    PlanOf,
+    DerivativesOf,
     testing::Values(
         "lambert",
         "ggx/smith_ggx.correlated/schlick",
@@ -35,7 +35,7 @@ std::vector<double> draw(const Model& m, std::mt19937_64& random) {
   return values;
 }
 
-/// What a plan makes of one block: [channel] its values and, by slot, its derivatives.
+/// Results of one block: [channel] its values and, by slot, its derivatives.
 struct Result {
   std::vector<double> value;
   std::map<std::size_t, std::vector<double>> d;
@@ -46,11 +46,11 @@ std::vector<Result> run(const Model& m,
                         std::span<const test::Row> rows,
                         const Kernels<double>& k = kernels<double>()) {
   const auto x = test::columns<double>(rows);
-  Plan<double> plan(m, free, k);
-  plan.set(values);
+  ModelDerivatives<double> derivatives(m, free, k);
+  derivatives.set(values);
   std::vector<Result> results(m.channels);
-  plan.run(x.block(), [&](std::size_t c) {
-    const auto& column = plan.channel(c);
+  derivatives.run(x.block(), [&](std::size_t c) {
+    const auto& column = derivatives.channel(c);
     results[c].value.assign(column.value, column.value + rows.size());
     for (const auto& [slot, d] : column.d) {
       EXPECT_FALSE(results[c].d.contains(slot)) << "slot " << slot << " twice";
@@ -60,7 +60,7 @@ std::vector<Result> run(const Model& m,
   return results;
 }
 
-TEST_P(PlanOf, GivesTheValuesOfEvaluate) {
+TEST_P(DerivativesOf, GivesTheValuesOfEvaluate) {
   std::mt19937_64 random(21);
   const auto rows = test::random_angles(200, 22);
   for (const std::size_t channels : {1U, 3U}) {
@@ -74,7 +74,7 @@ TEST_P(PlanOf, GivesTheValuesOfEvaluate) {
   }
 }
 
-TEST_P(PlanOf, GivesTheDerivativesOfDifferences) {
+TEST_P(DerivativesOf, GivesTheDerivativesOfDifferences) {
   std::mt19937_64 random(23);
   const auto rows = test::random_angles(64, 24);
   for (int trial = 0; trial < 4; ++trial) {
@@ -103,7 +103,7 @@ TEST_P(PlanOf, GivesTheDerivativesOfDifferences) {
   }
 }
 
-TEST_P(PlanOf, LeavesOutTheDerivativesOfFixedSlotsAndChangesNoOther) {
+TEST_P(DerivativesOf, LeavesOutTheDerivativesOfFixedSlotsAndChangesNoOther) {
   std::mt19937_64 random(25);
   const auto rows = test::random_angles(48, 26);
   const Model m = compose(GetParam(), 3);
@@ -126,7 +126,7 @@ TEST_P(PlanOf, LeavesOutTheDerivativesOfFixedSlotsAndChangesNoOther) {
   }
 }
 
-TEST_P(PlanOf, GivesTheSameInEveryInstructionSet) {
+TEST_P(DerivativesOf, GivesTheSameInEveryInstructionSet) {
   std::mt19937_64 random(27);
   const auto rows = test::random_angles(256, 28);
   const Model m = compose(GetParam(), 2);
@@ -147,7 +147,7 @@ TEST_P(PlanOf, GivesTheSameInEveryInstructionSet) {
   }
 }
 
-TEST(Plan, SharesAGreyParameterBetweenItsChannels) {
+TEST(ModelDerivatives, SharesAGreyParameterBetweenItsChannels) {
   const std::vector<std::string> grey{"kd"};
   const Model m = compose("lambert+ggx/smith_ggx.correlated/schlick", 3, grey);
   ASSERT_EQ(m.find("kd")->count, 1U);
@@ -161,22 +161,22 @@ TEST(Plan, SharesAGreyParameterBetweenItsChannels) {
   }
 }
 
-TEST(Plan, LendsScratchColumnsThatItDoesNotWriteItself) {
+TEST(ModelDerivatives, LendsScratchColumnsThatItDoesNotWriteItself) {
   const Model m = compose("lambert.coupled+ggx/smith_ggx.correlated/schlick", 3);
   std::mt19937_64 random(31);
   const auto values = draw(m, random);
   const auto rows = test::random_angles(32, 32);
   const auto x = test::columns<double>(rows);
   const std::vector<bool> free(m.value_count, true);
-  Plan<double> plan(m, free, kernels<double>());
-  plan.set(values);
-  double* const mine = plan.fresh();
-  double* const also_mine = plan.fresh();
+  ModelDerivatives<double> derivatives(m, free, kernels<double>());
+  derivatives.set(values);
+  double* const mine = derivatives.fresh();
+  double* const also_mine = derivatives.fresh();
   EXPECT_NE(mine, also_mine);
   for (std::size_t i = 0; i < 32; ++i) mine[i] = also_mine[i] = 7;
-  plan.run(x.block(), [&](std::size_t c) {
-    EXPECT_NE(plan.channel(c).value, mine);
-    for (const auto& [slot, d] : plan.channel(c).d) EXPECT_TRUE(d != mine && d != also_mine);
+  derivatives.run(x.block(), [&](std::size_t c) {
+    EXPECT_NE(derivatives.channel(c).value, mine);
+    for (const auto& [slot, d] : derivatives.channel(c).d) EXPECT_TRUE(d != mine && d != also_mine);
   });
   for (std::size_t i = 0; i < 32; ++i) EXPECT_TRUE(mine[i] == 7 && also_mine[i] == 7);
 }

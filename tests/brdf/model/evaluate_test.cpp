@@ -131,9 +131,10 @@ TEST(Evaluate, GivesTheSameInEveryInstructionSetAndInFloat) {
 
 std::string spec_of(const auto& fused) {
   std::string spec;
-  for (std::size_t t = 0; t < fused.ids.size() && !fused.ids[t].empty(); ++t) {
-    const bool in_lobe = t > fused.diffuse && (t - fused.diffuse) % 3 != 0;
-    spec.append(t == 0 ? "" : in_lobe ? "/" : "+").append(fused.ids[t]);
+  const auto& [diffuse, id] = fused.ids;
+  for (std::size_t t = 0; t < id.size() && !id[t].empty(); ++t) {
+    const bool in_lobe = t > diffuse && (t - diffuse) % 3 != 0;
+    spec.append(t == 0 ? "" : in_lobe ? "/" : "+").append(id[t]);
   }
   return spec;
 }

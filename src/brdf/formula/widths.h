@@ -1,0 +1,19 @@
+#pragma once
+/// \file
+/// Parameters of a distribution's shape, which masking and others read too.
+
+#include "number/parameter.h"
+#include "number/real.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+inline constexpr Parameter alpha_parameter{"alpha", {1e-4, 1}, {1e-4, 1},
+                                           0.3,     false,     "width, roughness²"};
+inline constexpr Parameter alpha_x_parameter{"alpha_x", {1e-4, 4}, {1e-4, 1},
+                                             0.3,       false,     "width along the tangent"};
+inline constexpr Parameter alpha_y_parameter{"alpha_y", {1e-4, 4}, {1e-4, 1},
+                                             0.3,       false,     "width along the bitangent"};
+inline constexpr Parameter gamma_parameter{"gamma", {0.5, 10}, {0.5, 10},
+                                           2,       false,     "tail exponent; 1 Berry, 2 GGX"};
+
+}  // namespace gonio::inline GONIO_ARCH

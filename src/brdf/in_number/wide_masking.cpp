@@ -1,0 +1,9 @@
+// Every masking in fifty digits.
+#include "brdf/catalogue/masking_terms.h"
+#include "brdf/in_number/wide.h"
+
+namespace gonio {
+
+GONIO_TERMS_IN_WIDE(Role::masking, MaskingTerms)
+
+}  // namespace gonio

@@ -1,0 +1,9 @@
+// Every normal distribution in fifty digits.
+#include "brdf/catalogue/distributions.h"
+#include "brdf/in_number/wide.h"
+
+namespace gonio {
+
+GONIO_TERMS_IN_WIDE(Role::ndf, Distributions)
+
+}  // namespace gonio

@@ -1,0 +1,380 @@
+#pragma once
+/// \file
+/// Whole models, each as one loop: f of all channels, and the normal equations of a fit.  Included by the
+/// files that name the models, compiled per instruction set.
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+
+#include "brdf/kernel/lane.h"
+#include "brdf/kernel/residual.h"
+#include "brdf/term/product.h"
+#include "brdf/term/term_list.h"
+#include "number/dual.h"
+
+namespace gonio::inline GONIO_ARCH {
+
+/// A whole model: its diffuse terms, and D, V, F of each lobe.
+template <class Diffuse, class... Lobes>
+struct ModelTerms {};
+
+/// A list of models whose terms are inlined into one loop: the same formulas, worth it where a profile
+/// says so.
+template <class... Models>
+struct FusedList {};
+
+/// body<0>(), body<1>() …
+template <std::size_t n>
+void each(auto&& body) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (body.template operator()<I>(), ...);
+  }
+  (std::make_index_sequence<n>{});
+}
+
+// ---- the value ----------------------------------------------------------------------------------
+
+template <class List, class F, std::size_t channels>
+struct BoundLobe;
+template <template <class> class D,
+          template <class>
+          class V,
+          template <class>
+          class Fr,
+          class F,
+          std::size_t channels>
+struct BoundLobe<TermList<D, V, Fr>, F, channels> {
+  using B = Lane<F>;
+  static constexpr bool anisotropic = LobeShape<D, V, B>::anisotropic;
+  LobeShape<D, V, B> shape;
+  std::array<Fr<B>, channels> fresnel;
+
+  explicit BoundLobe(const std::array<const F*, max_channels>* p)
+      : shape{bind_value<D, F>(p[0][0]), bind_value<V, F>(p[1][0])},
+        fresnel(bind_channels<Fr, channels>(p[2])) {}
+
+  /// D V as the rule takes it: divided once for all channels, unless F is a fraction that shares its
+  /// division.
+  template <bool coupled>
+  auto shape_at(const auto& x) const {
+    if constexpr (is_fraction<Fr, F> && !coupled)
+      return shape(x);
+    else
+      return shape(x).value();
+  }
+  template <bool coupled>
+  auto fresnel_at(std::size_t channel, const auto& x) const {
+    if constexpr (is_fraction<Fr, F> && !coupled)
+      return as_quotient<B>(fresnel[channel](x));
+    else
+      return as_value<B>(fresnel[channel](x));
+  }
+};
+
+template <class F, class Model>
+struct Fused;
+template <class F, template <class> class... Diffuse, class... Lobes>
+struct Fused<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
+  using B = Lane<F>;
+  static constexpr bool coupled = (false || ... || Diffuse<F>::coupled);
+  static constexpr bool anisotropic =
+      (BoundLobe<Lobes, F, 1>::anisotropic || ...) || (false || ... || is_anisotropic<Diffuse<F>>);
+
+  template <std::size_t channels>
+  static void value(const FusedArguments<F>& a) {
+    const Block<F> columns = a.x;  // copied: stores cannot change them
+    const auto out = a.out;
+    const auto* const p = a.parameters.data();
+    [&]<std::size_t... K, std::size_t... L>(std::index_sequence<K...>, std::index_sequence<L...>) {
+      const std::tuple diffuse{bind_channels<Diffuse, channels>(p[K])...};
+      const std::tuple lobes{BoundLobe<Lobes, F, channels>(p + sizeof...(Diffuse) + 3 * L)...};
+      for (std::size_t i = 0; i < columns.n; i += lanes<B>) {
+        const auto x = angles_with<anisotropic>(columns, i);
+        const std::tuple shapes{std::get<L>(lobes).template shape_at < L == 0 && coupled > (x)...};
+        std::array<B, channels> f;
+        for (std::size_t c = 0; c < channels; ++c) {
+          const std::tuple terms{as_value<B>(std::get<K>(diffuse)[c](x))...};
+          const auto add = [&]<std::size_t l>(const auto& base, const auto& under) {
+            const auto& lobe = std::get<l>(lobes);
+            return as_value<B>(lobe_on(base, under, One{}, std::get<l>(shapes),
+                                       lobe.template fresnel_at < l == 0 && coupled > (c, x)));
+          };
+          f[c] = add.template operator()<0>(
+              (Zero{} + ... + std::get<K>(terms)),
+              (Zero{} + ... + only_if<Diffuse<F>::coupled>(std::get<K>(terms))));
+          ((f[c] =
+                [&] {
+                  if constexpr (L == 0)
+                    return f[c];
+                  else
+                    return add.template operator()<L>(f[c], Zero{});
+                }()),
+           ...);
+        }
+        for (std::size_t c = 0; c < channels; ++c) store<B>(out[c] + i, f[c]);
+      }
+    }
+    (std::index_sequence_for<TermList<Diffuse>...>{}, std::index_sequence_for<Lobes...>{});
+  }
+};
+
+// ---- the normal equations -----------------------------------------------------------------------
+
+/// Where the parameters of V stand among those of D and the rest of V: they share those of one name.
+template <class D, class V>
+constexpr auto places_of_v() {
+  std::array<std::size_t, V::parameters.size()> at{};
+  std::size_t next = D::parameters.size();
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    at[k] = next;
+    for (std::size_t i = 0; i < D::parameters.size(); ++i)
+      if (D::parameters[i].name == V::parameters[k].name) at[k] = i;
+    if (at[k] == next) ++next;
+  }
+  return at;
+}
+template <std::size_t N>
+constexpr std::array<std::size_t, N> in_order() {
+  std::array<std::size_t, N> at{};
+  for (std::size_t k = 0; k < N; ++k) at[k] = k;
+  return at;
+}
+
+template <class Term, class T, std::size_t N, class F>
+Term variables(const F* p, const std::array<std::size_t, N>& at) {
+  return bind<Term, T>(
+      p, [&](F x, std::size_t k) { return T::variable(typename RealTraits<T>::Plain(x), at[k]); });
+}
+
+/// A term in a number that carries its derivatives by all its parameters.
+template <template <class> class Term, class F>
+struct TermSlopes {
+  static constexpr std::size_t count = Term<Lane<F>>::parameters.size();
+  using T = Dual<Lane<F>, count>;
+  Term<T> term;
+
+  explicit TermSlopes(const F* p) : term(variables<Term<T>, T>(p, in_order<count>())) {}
+  T operator()(const auto& angles) const { return as_value<T>(term(angles)); }
+};
+
+/// A lobe's D V and F with their derivatives.
+template <class List, class F>
+struct LobeSlopes;
+template <template <class> class D, template <class> class V, template <class> class Fr, class F>
+struct LobeSlopes<TermList<D, V, Fr>, F> {
+  using B = Lane<F>;
+  static constexpr auto of_v = places_of_v<D<B>, V<B>>();
+  static constexpr std::size_t of_d = D<B>::parameters.size(),
+                               of_shape = std::max(of_d, std::ranges::max(of_v) + 1);
+  using S = Dual<B, of_shape>;
+  using Fresnel = TermSlopes<Fr, F>;
+
+  static auto shape(const F* d, const F* v) {
+    return LobeShape<D, V, S>{variables<D<S>, S>(d, in_order<of_d>()), variables<V<S>, S>(v, of_v)};
+  }
+  static constexpr void put_columns(auto& columns, std::size_t& at, std::size_t term) {
+    for (std::size_t k = 0; k < of_d; ++k) columns[at++] = {term, k};
+    for (std::size_t k = 0; k < of_v.size(); ++k)
+      if (of_v[k] >= of_d) columns[at++] = {term + 1, k};
+    for (std::size_t k = 0; k < Fresnel::count; ++k) columns[at++] = {term + 2, k};
+  }
+};
+
+template <class F, class Model>
+struct FusedNormal;
+template <class F, template <class> class... Diffuse, class... Lobes>
+struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
+  using B = Lane<F>;
+  using Value = Fused<F, ModelTerms<TermList<Diffuse...>, Lobes...>>;
+  template <std::size_t l>
+  using LobeAt = LobeSlopes<std::tuple_element_t<l, std::tuple<Lobes...>>, F>;
+  static constexpr std::size_t n_diffuse = sizeof...(Diffuse), n_lobes = sizeof...(Lobes);
+  static constexpr std::size_t block = 256;
+
+  /// Rows that the D V and the derivatives of the lobes before l take, and columns from the first lobe to
+  /// it.
+  static constexpr std::size_t rows_before(std::size_t l) {
+    std::size_t n = 0, k = 0;
+    ((n += k++ < l ? 1 + LobeSlopes<Lobes, F>::of_shape : 0), ...);
+    return n;
+  }
+  static constexpr std::size_t columns_before(std::size_t l) {
+    std::size_t n = 0, k = 0;
+    ((n += k++ < l ? LobeSlopes<Lobes, F>::of_shape + LobeSlopes<Lobes, F>::Fresnel::count : 0),
+     ...);
+    return n;
+  }
+  static constexpr std::size_t of_lobes = columns_before(n_lobes),
+                               of_diffuse = (0 + ... + TermSlopes<Diffuse, F>::count),
+                               K = 1 + of_lobes + of_diffuse;
+  static_assert(K <= max_columns);
+
+  /// Parameters by which the columns after the residual's are derivatives: of each lobe those of D, those of
+  /// V that D has not, and of F; then those of the diffuse terms.
+  static constexpr auto columns() {
+    std::array<FusedColumn, max_columns - 1> all{};
+    std::size_t at = 0, term = n_diffuse;
+    ((LobeSlopes<Lobes, F>::put_columns(all, at, term), term += 3), ...);
+    term = 0;
+    [[maybe_unused]] const auto put = [&](std::size_t count) {
+      for (std::size_t k = 0; k < count; ++k) all[at++] = {term, k};
+      ++term;
+    };
+    (put(TermSlopes<Diffuse, F>::count), ...);
+    return all;
+  }
+
+  using Rows = std::array<std::array<F, block>, rows_before(n_lobes)>;
+
+  /// D V of each lobe and its derivatives, which the channels share.
+  static void fill(const Block<F>& x, const NormalArguments<F>& a, Rows& rows) {
+    each<n_lobes>([&]<std::size_t l>() {
+      const auto* const p = a.parameters.data() + n_diffuse + 3 * l;
+      const auto shape = LobeAt<l>::shape(p[0][0], p[1][0]);
+      auto* const row = rows.data() + rows_before(l);
+      for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+        const auto dv = shape(angles_with<Value::anisotropic>(x, i)).value();
+        store<B>(row[0].data() + i, dv.v);
+        for (std::size_t k = 0; k < LobeAt<l>::of_shape; ++k)
+          store<B>(row[1 + k].data() + i, dv.d[k]);
+      }
+    });
+  }
+
+  /// Lobe l joined to base by the rule: Partials by its D V, its F and what is there already.  Derivatives by
+  /// the lobe's parameters go to their columns, unweighted.
+  /// \param shape  of (k): D V, then its derivatives
+  template <std::size_t l>
+  static auto add_lobe(const auto& base,
+                       const auto& under,
+                       const auto& shape,
+                       const auto& fresnel,
+                       std::array<B, K>& column) {
+    const auto f = lobe_on(base, under, One{}, input<0, 3>(shape(0)), input<1, 3>(fresnel.v));
+    const auto& [by_shape, by_fresnel, by_base] = f.d;
+    static_cast<void>(by_base);
+    std::size_t at = 1 + columns_before(l);
+    for (std::size_t k = 0; k < LobeAt<l>::of_shape; ++k) column[at++] = shape(1 + k) * by_shape;
+    for (std::size_t k = 0; k < LobeAt<l>::Fresnel::count; ++k)
+      column[at++] = by_fresnel * fresnel.d[k];
+    return f;
+  }
+
+  /// Diffuse light as an input of the rule, where there is any.
+  static auto beneath(const B& sum) { return input<2, 3>(sum); }
+  static Zero beneath(Zero) { return {}; }
+
+  template <Link kind>
+  static void pass(const NormalArguments<F>& a) {
+    [&]<std::size_t... U, std::size_t... L>(std::index_sequence<U...>, std::index_sequence<L...>) {
+      alignas(64) Rows rows;
+      for (std::size_t at = 0; at < a.x.n; at += block) {
+        const auto x = a.x.part(at, std::min(block, a.x.n - at));
+        fill(x, a, rows);
+        for (std::size_t c = 0; c < a.channels; ++c) {
+          const std::tuple terms{TermSlopes<Diffuse, F>(a.parameters[U][c])...};
+          const std::tuple fresnels{
+              typename LobeAt<L>::Fresnel(a.parameters[n_diffuse + 3 * L + 2][c])...};
+          const F *const target = a.target[c] + at, *const weight = a.weight[c] + at;
+          const B offset(a.offset);
+          Products<F, K> products(a.sums[c]);
+          B cost = load<B>(a.cost);
+          for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+            const auto angles = angles_with<Value::anisotropic>(x, i);
+            std::array<B, K> column;
+            const std::tuple diffuse{std::get<U>(terms)(angles)...};
+            const auto add = [&]<std::size_t l>(const auto& base, const auto& under) {
+              const auto shape = [&](std::size_t k) {
+                return load<B>(rows[rows_before(l) + k].data() + i);
+              };
+              return add_lobe<l>(base, under, shape, std::get<l>(fresnels)(angles), column);
+            };
+            const auto first = add.template operator()<0>(
+                beneath((Zero{} + ... + std::get<U>(diffuse).v)),
+                beneath((Zero{} + ... + only_if<Diffuse<F>::coupled>(std::get<U>(diffuse).v))));
+            B f = first.v;
+            each<n_lobes - 1>([&]<std::size_t before>() {
+              f = add.template operator()<before + 1>(input<2, 3>(f), Zero{}).v;
+            });
+            std::size_t k = 1 + of_lobes;
+            [[maybe_unused]] const auto put = [&](const auto& under, const auto& derivatives) {
+              for (const B& d : derivatives) column[k++] = under * d;
+            };
+            (put(
+                 [&] {
+                   if constexpr (Diffuse<F>::coupled)
+                     return std::get<2>(first.d);
+                   else
+                     return One{};
+                 }(),
+                 std::get<U>(diffuse).d),
+             ...);
+            const auto [value, slope] = linked<kind, B>(f, offset);
+            const auto [r, w] = weighted<B>(value, slope, load<B>(target + i), load<B>(weight + i));
+            column[0] = r;
+            for (std::size_t j = 1; j < K; ++j) column[j] = unmasked<B>(w, column[j]);
+            products.add(column);
+            cost = cost + r * r;
+          }
+          store<B>(a.cost, cost);
+          products.store_to(a.sums[c]);
+        }
+      }
+    }
+    (std::make_index_sequence<n_diffuse>{}, std::make_index_sequence<n_lobes>{});
+  }
+};
+
+// ---- tables -------------------------------------------------------------------------------------
+
+template <class F, template <class> class... Terms>
+constexpr void put_ids(FusedIds& ids, std::size_t& at, TermList<Terms...>) {
+  ((ids.id[at++] = Terms<F>::about.id), ...);
+}
+template <class F, class Diffuse, class... Lobes>
+constexpr FusedIds ids_of(ModelTerms<Diffuse, Lobes...>) {
+  FusedIds ids;
+  put_ids<F>(ids, ids.diffuse, Diffuse{});
+  std::size_t at = ids.diffuse;
+  (put_ids<F>(ids, at, Lobes{}), ...);
+  return ids;
+}
+
+template <class F, class... Models>
+constexpr auto value_table(FusedList<Models...>) {
+  return std::array<FusedKernel<F>, sizeof...(Models)>{
+      FusedKernel<F>{ids_of<F>(Models{}),
+                     {nullptr, Fused<F, Models>::template value<1>, nullptr,
+                      Fused<F, Models>::template value<3>}}...};
+}
+template <class F, class... Models>
+constexpr auto normal_table(FusedList<Models...>) {
+  return std::array<NormalKernel<F>, sizeof...(Models)>{
+      NormalKernel<F>{ids_of<F>(Models{}),
+                      FusedNormal<F, Models>::columns(),
+                      FusedNormal<F, Models>::K - 1,
+                      {FusedNormal<F, Models>::template pass<Link::identity>,
+                       FusedNormal<F, Models>::template pass<Link::log>}}...};
+}
+
+/// Defined in the file of each group of models.
+template <FusedGroup group, class F>
+FusedModels<F> fused_models();
+
+#define GONIO_FUSED(group, Hot, HotFits)                          \
+  template <>                                                     \
+  FusedModels<float> fused_models<group, float>() {               \
+    static constexpr auto values = value_table<float>(Hot{});     \
+    static constexpr auto fits = normal_table<float>(HotFits{});  \
+    return {values, fits};                                        \
+  }                                                               \
+  template <>                                                     \
+  FusedModels<double> fused_models<group, double>() {             \
+    static constexpr auto values = value_table<double>(Hot{});    \
+    static constexpr auto fits = normal_table<double>(HotFits{}); \
+    return {values, fits};                                        \
+  }
+
+}  // namespace gonio::inline GONIO_ARCH
