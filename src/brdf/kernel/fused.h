@@ -193,22 +193,16 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
   static constexpr std::size_t n_diffuse = sizeof...(Diffuse), n_lobes = sizeof...(Lobes);
   static constexpr std::size_t block = 256;
 
-  /// Rows that the D V and the derivatives of the lobes before l take, and columns from the first lobe to
-  /// it.
+  /// Rows that D V and its derivatives take of the lobes before l.
   static constexpr std::size_t rows_before(std::size_t l) {
     std::size_t n = 0, k = 0;
     ((n += k++ < l ? 1 + LobeSlopes<Lobes, F>::of_shape : 0), ...);
     return n;
   }
-  static constexpr std::size_t columns_before(std::size_t l) {
-    std::size_t n = 0, k = 0;
-    ((n += k++ < l ? LobeSlopes<Lobes, F>::of_shape + LobeSlopes<Lobes, F>::Fresnel::count : 0),
-     ...);
-    return n;
-  }
-  static constexpr std::size_t of_lobes = columns_before(n_lobes),
-                               of_diffuse = (0 + ... + TermSlopes<Diffuse, F>::count),
-                               K = 1 + of_lobes + of_diffuse;
+  /// Columns: the residual's and one for each parameter.
+  static constexpr std::size_t K =
+      1 + (0 + ... + (LobeSlopes<Lobes, F>::of_shape + LobeSlopes<Lobes, F>::Fresnel::count)) +
+      (0 + ... + TermSlopes<Diffuse, F>::count);
   static_assert(K <= max_columns);
 
   /// Parameters by which the columns after the residual's are derivatives: of each lobe those of D, those of
@@ -243,28 +237,18 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
     });
   }
 
-  /// Lobe l joined to base by the rule: Partials by its D V, its F and what is there already.  Derivatives by
-  /// the lobe's parameters go to their columns, unweighted.
-  /// \param shape  of (k): D V, then its derivatives
-  template <std::size_t l>
-  static auto add_lobe(const auto& base,
-                       const auto& under,
-                       const auto& shape,
-                       const auto& fresnel,
-                       std::array<B, K>& column) {
-    const auto f = lobe_on(base, under, One{}, input<0, 3>(shape(0)), input<1, 3>(fresnel.v));
-    const auto& [by_shape, by_fresnel, by_base] = f.d;
-    static_cast<void>(by_base);
-    std::size_t at = 1 + columns_before(l);
-    for (std::size_t k = 0; k < LobeAt<l>::of_shape; ++k) column[at++] = shape(1 + k) * by_shape;
-    for (std::size_t k = 0; k < LobeAt<l>::Fresnel::count; ++k)
-      column[at++] = by_fresnel * fresnel.d[k];
-    return f;
-  }
-
   /// Diffuse light as an input of the rule, where there is any.
   static auto beneath(const B& sum) { return input<2, 3>(sum); }
   static Zero beneath(Zero) { return {}; }
+
+  /// Derivative of f by diffuse term u, given what the first lobe made of its sum.
+  template <std::size_t u>
+  static auto by_diffuse(const auto& first) {
+    if constexpr (std::array{Diffuse<F>::coupled...}[u])
+      return std::get<2>(first.d);
+    else
+      return One{};
+  }
 
   template <Link kind>
   static void pass(const NormalArguments<F>& a) {
@@ -283,13 +267,16 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
           B cost = load<B>(a.cost);
           for (std::size_t i = 0; i < x.n; i += lanes<B>) {
             const auto angles = angles_with<Value::anisotropic>(x, i);
-            std::array<B, K> column;
             const std::tuple diffuse{std::get<U>(terms)(angles)...};
+            const std::tuple fresnel{std::get<L>(fresnels)(angles)...};
+            std::array<B, n_lobes> by_shape, by_fresnel;
             const auto add = [&]<std::size_t l>(const auto& base, const auto& under) {
-              const auto shape = [&](std::size_t k) {
-                return load<B>(rows[rows_before(l) + k].data() + i);
-              };
-              return add_lobe<l>(base, under, shape, std::get<l>(fresnels)(angles), column);
+              const B dv = load<B>(rows[rows_before(l)].data() + i);
+              const auto sum =
+                  lobe_on(base, under, One{}, input<0, 3>(dv), input<1, 3>(std::get<l>(fresnel).v));
+              by_shape[l] = std::get<0>(sum.d);
+              by_fresnel[l] = std::get<1>(sum.d);
+              return sum;
             };
             const auto first = add.template operator()<0>(
                 beneath((Zero{} + ... + std::get<U>(diffuse).v)),
@@ -298,23 +285,24 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
             each<n_lobes - 1>([&]<std::size_t before>() {
               f = add.template operator()<before + 1>(input<2, 3>(f), Zero{}).v;
             });
-            std::size_t k = 1 + of_lobes;
-            [[maybe_unused]] const auto put = [&](const auto& under, const auto& derivatives) {
-              for (const B& d : derivatives) column[k++] = under * d;
-            };
-            (put(
-                 [&] {
-                   if constexpr (Diffuse<F>::coupled)
-                     return std::get<2>(first.d);
-                   else
-                     return One{};
-                 }(),
-                 std::get<U>(diffuse).d),
-             ...);
+
             const auto [value, slope] = linked<kind, B>(f, offset);
             const auto [r, w] = weighted<B>(value, slope, load<B>(target + i), load<B>(weight + i));
+            std::array<B, K>
+                column;  // made after the link: what lives across a logarithm is spilled
             column[0] = r;
-            for (std::size_t j = 1; j < K; ++j) column[j] = unmasked<B>(w, column[j]);
+            std::size_t k = 1;
+            each<n_lobes>([&]<std::size_t l>() {
+              for (std::size_t s = 0; s < LobeAt<l>::of_shape; ++s)
+                column[k++] =
+                    unmasked<B>(w, load<B>(rows[rows_before(l) + 1 + s].data() + i) * by_shape[l]);
+              for (const B& slope_of_f : std::get<l>(fresnel).d)
+                column[k++] = unmasked<B>(w, by_fresnel[l] * slope_of_f);
+            });
+            each<n_diffuse>([&]<std::size_t u>() {
+              for (const B& d : std::get<u>(diffuse).d)
+                column[k++] = unmasked<B>(w, B(by_diffuse<u>(first) * d));
+            });
             products.add(column);
             cost = cost + r * r;
           }
