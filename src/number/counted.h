@@ -40,10 +40,10 @@ struct Operations {
 
 namespace gonio::inline GONIO_ARCH {
 
-/// What this thread's Counted numbers have done so far.
+/// Operations that this thread's Counted numbers have done so far.
 inline thread_local Operations operations_so_far;
 
-/// What `work` does with Counted numbers.
+/// Operations that `work` does with Counted numbers.
 Operations count_operations(auto&& work) {
   const Operations before = operations_so_far;
   work();

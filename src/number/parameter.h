@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is said about a parameter of a formula, and about the formula itself: the registry, the
+/// Facts about a parameter of a formula, and about the formula itself: the registry, the
 /// command line, the fit and the tests all read it from here.
 
 #include <string_view>
@@ -21,7 +21,7 @@ struct Parameter {
   std::string_view meaning = {};
 };
 
-/// What a term says of itself.
+/// Facts about a term, as it says them of itself.
 struct About {
   std::string_view id;  ///< the catalogue's name, prefix included
   std::string_view title;

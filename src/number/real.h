@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a formula may ask of its number type.
+/// The number type of a formula: all that it may ask of it.
 ///
 /// Every formula is a template over `Real`; evaluated with double it gives the value, with Dual its
 /// derivatives, with Batch a register full of samples.  The rules that make this work, each enforced

@@ -37,7 +37,7 @@ std::span<const TermEntry> catalogue();
 std::size_t find_term(std::string_view id);
 std::size_t find_term(std::string_view short_id, Role role);
 
-/// What a map says of itself.
+/// A map of the catalogue: what it says of itself.
 struct MapEntry {
   const About* about;
   std::span<const Parameter> parameters;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a user writes about a model: its spec and its parameters' values.
+/// A model as a user writes it: its spec and its parameters' values.
 ///
 ///   SPEC = [DIFFUSE+]LOBE(+LOBE)* or DIFFUSE;   LOBE = NDF/MASKING/FRESNEL
 ///   SETTINGS = NAME=VALUE[,NAME=VALUE…];        VALUE = number or r,g,b

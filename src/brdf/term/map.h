@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a map is: a formula from parameters to parameters, as shaders run before they evaluate a model
+/// A map: a formula from parameters to parameters, as shaders run before they evaluate a model
 /// (roughness to the two widths, metallic to F0, a clamp).
 ///
 ///   about, parameters    what it is called, what it is given

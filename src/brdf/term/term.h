@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a term is: one factor of a model (D, V, F or diffuse), a struct template over its number.
+/// A term: one factor of a model (D, V, F or diffuse), a struct template over its number.
 ///
 ///   about, parameters    what it is called, what it may be given
 ///   Term(span of T)      what depends on the parameters alone: computed once per block
@@ -45,29 +45,29 @@ constexpr std::string_view short_id(std::string_view id) {
 
 namespace gonio::inline GONIO_ARCH {
 
-/// Whether a term reads the tangent frame, which an isotropic surface has not.
+/// True of a term that reads the tangent frame, which an isotropic surface has not.
 template <class Term>
 inline constexpr bool is_anisotropic = requires {
   requires Term::anisotropic;
 };
 
-/// Whether a term is held to be finite in double only.
+/// True of a term that is held to be finite in double only.
 template <class Term>
 inline constexpr bool is_as_shipped = requires {
   requires Term::as_shipped;
 };
 
-/// Whether a term is the same at all angles.
+/// True of a term that is the same at all angles.
 template <class Term>
 inline constexpr bool is_uniform = requires {
   requires Term::uniform;
 };
 
-/// What a term is given: the angles of one sample.
+/// Angles of one sample, as a term is given them.
 template <class Term, class B>
 using angles_of = std::conditional_t<is_anisotropic<Term>, FrameAngles<B>, Angles<B>>;
 
-/// Whether a term leaves its division to whoever multiplies it.
+/// True of a term that leaves its division to whoever multiplies it.
 template <template <class> class Term, class F>
 inline constexpr bool is_fraction =
     !std::same_as<decltype(std::declval<Term<F>>()(std::declval<angles_of<Term<F>, F>>())), F>;
