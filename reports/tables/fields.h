@@ -115,10 +115,10 @@ struct Description<InspectPageDocument> {
         field("channels", "", at(&Page::page, &InspectPage::channels), ""),
         field("curves", "", at(&Page::page, &InspectPage::curves), ""),
         field("picture", "", at(&Page::page, &InspectPage::picture), "f_r as a picture"),
-        field("trust", "", at(&Page::page, &InspectPage::trust), "what is masked or not reciprocal"),
+        field("trust", "", at(&Page::page, &InspectPage::trust),
+              "what is masked or not reciprocal"),
         field(
-            "albedo",
-            "",
+            "albedo", "",
             [](const Page& d) {
               std::vector<AlbedoPoint> points;
               for (const auto& a : d.page.albedo) points.push_back({a});

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fitting/result/document.h"
-#include "table/cut/cuts.h"
 #include "reports/tables/residual_map.h"
+#include "table/cut/cuts.h"
 
 namespace gonio {
 

@@ -271,8 +271,9 @@ TEST(Batch, AnInputThatIsNotThereIsNamedBeforeTheOutput) {
   const Folder f;
   f.write("a.csv", diffuse(0.1, 0.2));
   for (const char* words :
-       {"fit tables/ -o results/", "fit tables/ a.csv -o a.csv/out", "fit tables -o no/such/place.json",
-        "inspect tables/ --html no/such/page.html", "convert tables/ no/such/b.csv"})
+       {"fit tables/ -o results/", "fit tables/ a.csv -o a.csv/out",
+        "fit tables -o no/such/place.json", "inspect tables/ --html no/such/page.html",
+        "convert tables/ no/such/b.csv"})
     expect_one_line(gonio(f, words), 3, "gonio: tables");
   EXPECT_FALSE(fs::exists(f / "results"));
 }
