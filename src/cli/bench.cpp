@@ -54,23 +54,23 @@ void print_group(const std::vector<const CostRow*>& rows) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     width = std::max(width, name.size());
   }
-  fmt::print("\n{:<{}} {:>4} {:>8}", fmt::format("{}, {} [ns]", rows[0]->kind, rows[0]->number),
-             width, "ops", "RMS");
-  for (const auto& p : places) fmt::print(" {:>9}", p.memory == "cache" ? p.isa : "streaming");
-  fmt::print("\n");
+  say("\n{:<{}} {:>4} {:>8}", fmt::format("{}, {} [ns]", rows[0]->kind, rows[0]->number), width,
+      "ops", "RMS");
+  for (const auto& p : places) say(" {:>9}", p.memory == "cache" ? p.isa : "streaming");
+  say("\n");
   for (const auto& name : names) {
     const auto is_here = [&](const CostRow* r) { return shown(*r) == name; };
     const auto& first = **std::ranges::find_if(rows, is_here);
-    fmt::print("{:<{}} {:>4} {:>8}", name, width,
-               first.kind == "by_hand" ? "" : fmt::format("{}", first.operations.total()),
-               first.error.truth.empty() ? "" : fmt::format("{:.1e}", first.error.rms));
+    say("{:<{}} {:>4} {:>8}", name, width,
+        first.kind == "by_hand" ? "" : fmt::format("{}", first.operations.total()),
+        first.error.truth.empty() ? "" : fmt::format("{:.1e}", first.error.rms));
     for (const auto& p : places) {
       const auto at = std::ranges::find_if(rows, [&](const CostRow* r) {
         return is_here(r) && Place{r->isa, r->memory} == p;
       });
-      fmt::print(" {:>9}", at == rows.end() ? "" : fmt::format("{:.3f}", (*at)->time.ns));
+      say(" {:>9}", at == rows.end() ? "" : fmt::format("{:.3f}", (*at)->time.ns));
     }
-    fmt::print("\n");
+    say("\n");
   }
 }
 
@@ -86,8 +86,7 @@ void print_rows(const std::vector<CostRow>& rows) {
   std::vector<double> spreads;
   for (const auto& r : rows) spreads.push_back(r.time.spread_ns / r.time.ns);
   std::ranges::sort(spreads);
-  fmt::print(
-      "\nspread, half the distance of the quartiles: {:.1f} % in the middle, {:.0f} % at most\n",
+  say("\nspread, half the distance of the quartiles: {:.1f} % in the middle, {:.0f} % at most\n",
       100 * spreads[spreads.size() / 2], 100 * spreads.back());
 }
 
@@ -100,24 +99,24 @@ void print_changes(const std::vector<CostChange>& all,
                    const EarlierCosts& earlier,
                    const Machine& m) {
   if (earlier.cpu != m.cpu || earlier.compiler != m.compiler || earlier.flags != m.flags)
-    fmt::print("\nbeware: the earlier times are of {}, {}, {}\n", earlier.cpu, earlier.compiler,
-               earlier.flags);
+    say("\nbeware: the earlier times are of {}, {}, {}\n", earlier.cpu, earlier.compiler,
+        earlier.flags);
   std::size_t width = 0, differing = 0, compared = 0;
   for (const auto& c : all) width = std::max(width, words(c.name).size());
-  fmt::print("\nnow over earlier; * differs by more than three times both spreads\n");
+  say("\nnow over earlier; * differs by more than three times both spreads\n");
   for (const auto& c : all) {
     if (!c.before || !c.now) continue;
     ++compared;
     differing += c.differs;
-    fmt::print("{:<{}} {:>9.3f} -> {:>9.3f} ns  {:.3f} ± {:.3f}{}\n", words(c.name), width,
-               c.before->ns, c.now->ns, c.ratio, c.spread, c.differs ? " *" : "");
+    say("{:<{}} {:>9.3f} -> {:>9.3f} ns  {:.3f} ± {:.3f}{}\n", words(c.name), width, c.before->ns,
+        c.now->ns, c.ratio, c.spread, c.differs ? " *" : "");
   }
-  fmt::print("{} of {} differ\n", differing, compared);
+  say("{} of {} differ\n", differing, compared);
   for (const auto& c : all)
     if (!c.before)
-      fmt::print("not among the earlier times: {}\n", words(c.name));
+      say("not among the earlier times: {}\n", words(c.name));
     else if (!c.now)
-      fmt::print("not measured now: {}\n", words(c.name));
+      say("not measured now: {}\n", words(c.name));
 }
 
 Exit bench_kernels(const Options& o) {
@@ -143,8 +142,8 @@ Exit bench_kernels(const Options& o) {
     fmt::print("{}\n", costs_json(machine, options, rows, found));
     return Exit::done;
   }
-  fmt::print("{}, {} threads; {}; median of {} repetitions [ns a sample]\n", machine.cpu,
-             machine.threads, machine.compiler, options.timing.repetitions);
+  say("{}, {} threads; {}; median of {} repetitions [ns a sample]\n", machine.cpu, machine.threads,
+      machine.compiler, options.timing.repetitions);
   print_rows(rows);
   if (earlier) print_changes(found, *earlier, machine);
   return Exit::done;

@@ -8,6 +8,7 @@
 #include "base/sha256.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/terminal.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
 
@@ -79,7 +80,7 @@ Peak largest(const Table& t) {
 
 void print(const Table& t) {
   const auto line = [](const char* what, const std::string& text) {
-    fmt::print("{:<14}{}\n", what, text);
+    say("{:<14}{}\n", what, text);
   };
   const DirectionList& l = *t.list();
   const std::set<double> in(l.theta_i_deg.begin(), l.theta_i_deg.end());
@@ -118,7 +119,7 @@ Json show(const Options& o, const std::string& file) {
   const auto columns = csv_columns(in, map ? map->skip : 0);
   Json all = Json::array();
   if (!o.json)
-    fmt::print("{}\n{:<8}{:<24}{:>10}{:>14}{:>14}\n", file, "", "name", "entries", "from", "to");
+    say("{}\n{:<8}{:<24}{:>10}{:>14}{:>14}\n", file, "", "name", "entries", "from", "to");
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const auto& c = columns[k];
     const std::string name = printable(c.name, 40);
@@ -130,7 +131,7 @@ Json show(const Options& o, const std::string& file) {
                    {"lowest", c.numbers ? Json(c.lowest) : Json()},
                    {"highest", c.numbers ? Json(c.highest) : Json()}});
     if (o.json) continue;
-    fmt::print("{:<8}{:<24}{:>10}", fmt::format("#{}", k + 1), name, entries);
+    say("{:<8}{:<24}{:>10}", fmt::format("#{}", k + 1), name, entries);
     if (c.numbers)
       fmt::print("{:>14.6g}{:>14.6g}\n", c.lowest, c.highest);
     else
@@ -138,9 +139,9 @@ Json show(const Options& o, const std::string& file) {
   }
   Json said = map ? columns_of(file, side) : Json();
   if (!o.json)
-    fmt::print("{}\n", map ? fmt::format("{} says {}", side_path(file), said.dump())
-                           : "no map; gonio columns FILE --map theta_i=… phi_i=… theta_o=… "
-                             "phi_o=… f=… makes one");
+    say("{}\n", map ? fmt::format("{} says {}", side_path(file), said.dump())
+                    : "no map; gonio columns FILE --map theta_i=… phi_i=… theta_o=… "
+                      "phi_o=… f=… makes one");
   return {{"path", file}, {"file_columns", all}, {"columns", said}};
 }
 

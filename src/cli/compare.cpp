@@ -51,13 +51,12 @@ BoundModel model_of(const Options& o, std::size_t channels) {
 }
 
 void print(std::size_t values, const FitResiduals& r) {
-  fmt::print("{:<22}{:>12}{:>16}{:>16}\n", "", "values", "RMS [1/sr]", "log RMS");
-  fmt::print("{:<22}{:>12}{:>16.6g}{:>16.6g}\n", "all", values, r.rms, r.log_rms);
+  say("{:<22}{:>12}{:>16}{:>16}\n", "", "values", "RMS [1/sr]", "log RMS");
+  say("{:<22}{:>12}{:>16.6g}{:>16.6g}\n", "all", values, r.rms, r.log_rms);
   for (const auto& b : r.bands)
     if (b.values)
-      fmt::print("{:<22}{:>12}{:>16.6g}{:>16.6g}\n",
-                 fmt::format("{} {}° to {}°", b.angle, b.from_deg, b.to_deg), b.values, b.rms,
-                 b.log_rms);
+      say("{:<22}{:>12}{:>16.6g}{:>16.6g}\n",
+          fmt::format("{} {}° to {}°", b.angle, b.from_deg, b.to_deg), b.values, b.rms, b.log_rms);
 }
 
 Exit run(const Options& o) {

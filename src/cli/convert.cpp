@@ -77,7 +77,7 @@ std::array<double, 3> angles_deg(const Table& t, std::size_t sample) {
 
 void print(const Table& from, const Conversion& c, const Options& o) {
   const auto line = [](const char* what, const std::string& text) {
-    fmt::print("{:<14}{}\n", what, text);
+    say("{:<14}{}\n", what, text);
   };
   const Loss& l = c.loss;
   line("from", layout(from));

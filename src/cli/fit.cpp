@@ -28,33 +28,32 @@ struct Options : Common {
 };
 
 void print(const FitDocument& d) {
-  fmt::print("model   {}\n", d.model);
-  fmt::print("values  {} used", d.values_used);
+  say("model   {}\n", d.model);
+  say("values  {} used", d.values_used);
   for (const auto& [reason, count] : d.masked)
-    if (count) fmt::print(", {} {}", count, reason);
-  fmt::print("\n");
+    if (count) say(", {} {}", count, reason);
+  say("\n");
   for (const auto& p : d.parameters)
     for (std::size_t c = 0; c < p.value.size(); ++c) {
       const std::string name =
           p.value.size() == 1 ? p.name : fmt::format("{}.{}", p.name, d.channels[c]);
-      fmt::print("{:<14}{:<28}{}\n", name, with_error(p.value[c], p.std_error[c]),
+      say("{:<14}{:<28}{}\n", name, with_error(p.value[c], p.std_error[c]),
                  p.status[c] == ParameterStatus::free ? "" : name_of(p.status[c]));
     }
-  fmt::print("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}\n", d.residuals.log_rms,
-             d.residuals.rms, d.intervals);
+  say("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}\n", d.residuals.log_rms,
+      d.residuals.rms, d.intervals);
   for (const auto& s : d.sensitivity) {
-    fmt::print("bins    {} assumed; with {}:", d.bins, s.other);
+    say("bins    {} assumed; with {}:", d.bins, s.other);
     for (const auto& [name, change] : s.relative_change) {
       std::vector<std::string> known;
       for (const double x : change)
         if (!std::isnan(x)) known.push_back(fmt::format("{:+.2f}", 100 * x));
-      if (!known.empty()) fmt::print(" {} {} %", name, fmt::join(known, ", "));
+      if (!known.empty()) say(" {} {} %", name, fmt::join(known, ", "));
     }
-    fmt::print("\n");
+    say("\n");
   }
-  for (const auto& w : d.warnings) fmt::print("beware  {}\n", w);
-  fmt::print("{} after {} iterations: {}\n", d.solver.termination, d.solver.iterations,
-             d.solver.message);
+  for (const auto& w : d.warnings) say("beware  {}\n", w);
+  say("{} after {} iterations: {}\n", d.solver.termination, d.solver.iterations, d.solver.message);
 }
 
 /// Line of how far a batch is, and how long still.
@@ -69,17 +68,17 @@ void print(const std::string& folder, const BatchResult& r) {
     return std::ranges::count(r.rows, outcome, &BatchRow::outcome);
   };
   const auto failures = of(Exit::bad_input) + of(Exit::usage);
-  fmt::print("tables   {}: {} fitted", r.rows.size(), of(Exit::done));
-  if (const auto n = of(Exit::not_converged)) fmt::print(", {} not converged", n);
-  if (failures) fmt::print(", {} failed", failures);
-  if (r.count.kept) fmt::print("; {} of them kept from before", r.count.kept);
-  fmt::print("\n");
+  say("tables   {}: {} fitted", r.rows.size(), of(Exit::done));
+  if (const auto n = of(Exit::not_converged)) say(", {} not converged", n);
+  if (failures) say(", {} failed", failures);
+  if (r.count.kept) say("; {} of them kept from before", r.count.kept);
+  say("\n");
   constexpr long shown = 5;
   long k = 0;
   for (const auto& row : r.rows)
-    if (row.document.empty() && k++ < shown) fmt::print("failed   {}\n", row.message);
-  if (failures > shown) fmt::print("         and {} more, see the summary\n", failures - shown);
-  fmt::print("results  {}, .csv\n", (std::filesystem::path(folder) / "summary.html").string());
+    if (row.document.empty() && k++ < shown) say("failed   {}\n", row.message);
+  if (failures > shown) say("         and {} more, see the summary\n", failures - shown);
+  say("results  {}, .csv\n", (std::filesystem::path(folder) / "summary.html").string());
 }
 
 Exit run_batch(const Options& o, const HowFitted& how) {

@@ -32,7 +32,7 @@ std::string noise_text(const Noise& n) {
 
 void print(const Table& t, const Health& h) {
   const auto line = [](const char* what, const std::string& text) {
-    fmt::print("{:<14}{}\n", what, text);
+    say("{:<14}{}\n", what, text);
   };
   line("file", t.path);
   line("layout",
@@ -89,9 +89,9 @@ void print(const Table& t, const Health& h) {
   }
   for (const auto* warnings : {&t.warnings, &h.warnings})
     for (const auto& w : *warnings) line("beware", w);
-  fmt::print("what a fit can hope to determine\n");
+  say("what a fit can hope to determine\n");
   for (const auto& p : h.prospects)
-    fmt::print("  {:<10}{:<8}{}\n", p.of, name_of(p.verdict), p.because);
+    say("  {:<10}{:<8}{}\n", p.of, name_of(p.verdict), p.because);
 }
 
 Exit run(const Options& o) {

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "base/file.h"
+#include "base/text.h"
 #include "cli/command.h"
 
 #include <fcntl.h>
@@ -77,6 +78,6 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail(Exit::bad_input, "out of memory");
   } catch (const std::exception& e) {
-    return fail(Exit::bad_input, e.what());
+    return fail(Exit::bad_input, gonio::printable(e.what(), 1000).c_str());
   }
 }

@@ -201,18 +201,19 @@ Exit run(const Options& o) {
       fmt::print("{}\n", report.json);
       continue;
     }
-    for (const auto& sentence : report.findings.sentences) fmt::print("{}\n", sentence);
-    fmt::print("{}\n", files[k]->page_path());
+    for (const auto& sentence : report.findings.sentences) say("{}\n", sentence);
+    say("{}\n", files[k]->page_path());
     const auto pictures = report.pictures.figures.size() + report.pictures.maps.size();
     index.reports.push_back(
         {kind.name, kind.what, took.count(), std::move(report.findings), pictures});
   }
   if (index_files) {
     index_files->write(index);
-    fmt::print("{}\n", index_files->page_path());
+    say("{}\n", index_files->page_path());
   } else if (const auto page = fs::path(o.output) / "index.html";
              fs::exists(page, error) && !o.quiet) {
-    fmt::print(stderr, "{}: of an earlier run; gonio report all makes it anew\n", page.string());
+    fmt::print(stderr, "{}: of an earlier run; gonio report all makes it anew\n",
+               printable(page.string()));
   }
   return Exit::done;
 }

@@ -127,7 +127,7 @@ Exit table(const Options& o) {
     fmt::print("{}\n", document.dump(2));
     return Exit::done;
   }
-  fmt::print("{}: {} × {}, {}, {}\n", o.out, width, height, precision, exact.masking);
+  say("{}: {} × {}, {}, {}\n", o.out, width, height, precision, exact.masking);
   if (o.samples > 0)
     fmt::print("{} samples a texel\n", o.samples);
   else

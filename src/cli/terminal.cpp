@@ -24,7 +24,7 @@ void Progress::clear() {
   if (on_) std::fputs("\r\033[K", stderr);
 }
 void Progress::operator()(const std::string& what) {
-  if (on_) fmt::print(stderr, "\r\033[K{} …", what);
+  if (on_) fmt::print(stderr, "\r\033[K{} …", printable(what));
 }
 
 std::string time_left(std::chrono::steady_clock::time_point begin,

@@ -5,6 +5,12 @@
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "base/text.h"
+
+#include <fmt/format.h>
 
 namespace gonio::cli {
 
@@ -20,6 +26,23 @@ class Progress {
  private:
   bool on_;
 };
+
+/// Argument of say(): text, whose may be a file's, is made printable; all else stays.
+template <class T>
+using Said =
+    std::conditional_t<std::is_convertible_v<const T&, std::string_view>, std::string, const T&>;
+
+/// Lines for a person on standard output.  Only the format itself can move a terminal's cursor.
+template <class... T>
+void say(fmt::format_string<Said<T>...> format, const T&... arguments) {
+  const auto harmless = []<class A>(const A& a) -> Said<A> {
+    if constexpr (std::is_same_v<Said<A>, std::string>)
+      return printable(a);
+    else
+      return a;
+  };
+  fmt::print(format, harmless(arguments)...);
+}
 
 /// How much longer it takes if what is left goes as what was done: ", 1:05 left"; empty before the
 /// first is done.

@@ -61,6 +61,23 @@ TEST(ConvertCommand, NeverTouchesItsInputAndLeavesNothingWhereItFails) {
   EXPECT_EQ(f.entries(), entries);
 }
 
+TEST(ConvertCommand, KeepsASideFileThatSomeoneWroteByHand) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, "synth lambert --layout mbsdf -o p.mbsdf").code, 0);
+  ASSERT_EQ(gonio(f, "convert p.mbsdf o.csv").code, 0);
+  const auto table = read_bytes(f / "o.csv");
+  const std::string by_hand = R"({"schema": "gonio.table/1", "notes": {"instrument": "mine"}})";
+  for (const std::string& text : {by_hand, std::string("no document")}) {
+    f.write("o.csv.gonio.json", text);
+    expect_one_line(gonio(f, "convert p.mbsdf o.csv"), 3, "o.csv.gonio.json: writing the table");
+    EXPECT_EQ(read_bytes(f / "o.csv.gonio.json"), text);
+    EXPECT_EQ(read_bytes(f / "o.csv"), table);
+  }
+  std::filesystem::remove(f / "o.csv.gonio.json");
+  EXPECT_EQ(gonio(f, "convert p.mbsdf o.csv").code, 0);
+  EXPECT_EQ(gonio(f, "convert p.mbsdf o.csv").code, 0) << "its own side file is replaced";
+}
+
 TEST(ConvertCommand, GivesTheSameFileAndFiguresWhateverTheThreads) {
   const Folder f;
   ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf --noise 0.1 -o p.mbsdf").code,

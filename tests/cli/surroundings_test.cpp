@@ -66,6 +66,70 @@ TEST(Surroundings, AKillLeavesWholeFilesOrNone) {
     }
 }
 
+TEST(Surroundings, WhatAKillLeavesIsTakenAwayByTheNextRun) {
+  const Folder f;
+  const std::string here = "cd '" + f / "" + "' && ";
+  // A limit of the time of computing kills in the middle of the work, while a temporary file is
+  // there.
+  status_of(here + "(ulimit -t 1; exec '" GONIO_PROGRAM "' report cross_fit -o r) >/dev/null 2>&1");
+  const auto hidden = [&] {
+    std::size_t n = 0;
+    for (const auto& e : std::filesystem::recursive_directory_iterator(f / ""))
+      n += e.path().filename().string().starts_with(".gonio.");
+    return n;
+  };
+  if (hidden() == 0) GTEST_SKIP() << "done within a second";
+  f.write("r/x.csv", small_table());
+  EXPECT_EQ(gonio(f, "fit r/x.csv --model lambert -o r/x.json").code, 0);
+  EXPECT_EQ(hidden(), 0U);
+}
+
+TEST(Surroundings, NothingThatAFileSaysMovesTheCursorOfATerminal) {
+  const Folder f;
+  const std::string evil = "\x1b[2J\xe2\x80\xae\xc2\x9b";
+  std::string csv = "theta_i,phi_i,theta_o,phi_o,f_" + evil + ",f_g\n";
+  for (int i = 0; i < 80; ++i) csv += std::to_string(i) + ",0,30,180,0.1,0.2\n";
+  f.write("t.csv", csv);
+  f.write("t.csv.gonio.json",
+          nlohmann::json{{"schema", "gonio.table/1"}, {"notes", {{"n" + evil, evil}}}}.dump());
+  for (const char* words :
+       {"inspect t.csv", "fit t.csv --model lambert", "columns t.csv", "convert t.csv o.csv",
+        "columns t.csv --map theta_i=theta_i phi_i=phi_i theta_o=theta_o phi_o=phi_o f_g=f_g",
+        "columns t.csv --map f=nothing", "convert t.csv o.csv --channels nothing",
+        "fit t.csv --model \"$(printf '\\033[2J')\"", "inspect \"$(printf '\\033[2J')\"",
+        "fit t.csv --\"$(printf '\\033[2J')\"", "term \"$(printf '\\033[2J')\""}) {
+    const auto o = gonio(f, std::string(words));
+    for (const std::string& text : {o.out, o.err}) {
+      EXPECT_EQ(text.find('\x1b'), text.npos) << words << "\n" << text;
+      EXPECT_EQ(text.find("\xe2\x80\xae"), text.npos) << words;
+      EXPECT_EQ(text.find("\xc2\x9b"), text.npos) << words;
+    }
+    EXPECT_FALSE(o.out.empty() && o.err.empty());
+  }
+}
+
+TEST(Surroundings, NoLineOfAnErrorIsLong) {
+  const Folder f;
+  const std::string word(24'000, 'x');
+  for (const std::string& words :
+       {word, "fit " + word, "term " + word, "fit t.csv --metric " + word, "fit t.csv --" + word,
+        "eval lambert --set kd=" + word + " --directions t.csv -o o.csv",
+        "split_sum --size " + word + " --out t.exr", "synth " + word + " --layout merl -o t",
+        "fit " + word + "/" + word}) {
+    const auto o = gonio(f, words);
+    EXPECT_NE(o.code, 0);
+    EXPECT_EQ(std::ranges::count(o.err, '\n'), 1) << words.substr(0, 40);
+    EXPECT_LT(o.err.size(), 1700U) << words.substr(0, 40);
+  }
+}
+
+TEST(Surroundings, TheVersionIsThatOfTheProject) {
+  const Folder f;
+  const std::string project = read_bytes(std::string(GONIO_SOURCE_DIR) + "/CMakeLists.txt");
+  const auto at = project.find("project(gonio VERSION ") + 22;
+  EXPECT_EQ(gonio(f, "--version").out, project.substr(at, project.find(' ', at) - at) + "\n");
+}
+
 TEST(Surroundings, ALimitOfMemoryIsOneLine) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer needs more addresses than any limit leaves";

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_reader.h"
 #include "base/sha256.h"
 #include "table/format/delimited.h"
 #include "table/format/metadata.h"
@@ -104,6 +105,20 @@ void describe(Table& t, const std::string& side, std::optional<Bins> bins) {
   if (auto* g = std::get_if<Grid>(&t.where); g && bins) g->bins = *bins;
 }
 
+/// Refuses to write a table where someone described another by hand: that would be lost, or speak of the wrong one.
+void expect_own_side(const std::string& path) {
+  const std::string side = side_path(path);
+  std::error_code why;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(side, why))) return;
+  try {
+    const Json document = parse_json(side, side_text(path));
+    if (JsonReader(side, document).has("sha256")) return;  // so far only gonio names its table
+  } catch (const Error&) {                                 // nothing that gonio wrote
+  }
+  throw bad_input(side, "writing the table beside it", "a side file that was written by hand",
+                  "none, or one that gonio wrote (move it, or name another output)");
+}
+
 /// An image has its metadata in itself.
 std::string side_text_of(InputFile& in) {
   return is_exr(in.peek(4)) ? "" : side_text(in.path());
@@ -142,11 +157,12 @@ void TableAndDigest::finish() {
 
 void write_table(const Table& t, const std::string& path) {
   if (t.format == "exr") return write_exr_slice(t, path);
+  expect_own_side(path);
   OutputFile out(path);
   write_by_format(t, out, path);
   out.close();
-  // The side file goes first and an old one never stays: between the two steps, or after a failure,
-  // a table may lack what was said about it, but has nothing false beside it for long.
+  // The side file goes first and an old one of ours never stays: between the two steps, or after a
+  // failure, a table may lack what was said about it, but has nothing false beside it for long.
   const std::string side = side_path(path);
   if (needs_metadata(t))
     write_file(side, metadata_text(t, sha256_of_file(out.temporary_path())));
