@@ -194,11 +194,14 @@ Uncertainty uncertainty(const Sandwich& s,
   // The sandwich.
   //
   // 1. A cluster's score is s = Σ ρ' r ∂r/∂x over its residuals; the best x makes Σ s = 0.
-  // 2. About the true x*, Σ s(x) = S + H (x − x*) but for squares, with S = Σ s(x*) and H = Σ j jᵀ over what is
+  // 2. About the true x*, Σ s(x) = S + H (x − x*) but for squares, with S = Σ s(x*) and H = Σ j jᵀ
+  // over what is
   //    not clipped, the bread: x − x* = −H⁻¹ S.
   // 3. The mean of S is 0, so the covariance of x is H⁻¹ ⟨S Sᵀ⟩ H⁻¹.
-  // 4. Clusters are independent, within one nothing is assumed: ⟨S Sᵀ⟩ is about M = Σ s sᵀ, the meat.
-  // 5. Scores at the best x are smaller than those at x*: G clusters, n values and p unknowns make it up by
+  // 4. Clusters are independent, within one nothing is assumed: ⟨S Sᵀ⟩ is about M = Σ s sᵀ, the
+  // meat.
+  // 5. Scores at the best x are smaller than those at x*: G clusters, n values and p unknowns make
+  // it up by
   //    G/(G − 1) (n − 1)/(n − p).
   // 6. H = W⁻¹ (V Λ Vᵀ) W⁻¹ with W = diag(H)^−½, so H⁻¹ = W V Λ⁻¹ Vᵀ W, whatever the units of x.
   //

@@ -102,7 +102,8 @@ void SampleCounts::add(const SampleCounts& o) {
 
 std::map<std::string, std::size_t> SampleCounts::by_reason(const Sampling& s) const {
   std::map<std::string, std::size_t> reasons;
-  for (std::size_t m = 1; m < names_of<Mask>.size(); ++m) reasons[std::string(names_of<Mask>[m])] = masked[m];
+  for (std::size_t m = 1; m < names_of<Mask>.size(); ++m)
+    reasons[std::string(names_of<Mask>[m])] = masked[m];
   if (!usable(s.metric(), 0, s.offset())) reasons["zero"] = zero;
   if (!s.table().weights.empty()) reasons["zero_weight"] = zero_weight;
   return reasons;

@@ -156,10 +156,10 @@ void add_points_picture(Pictures& to,
     const auto comma = p.series.find(", ");
     const auto series = p.series.substr(0, comma);
     if (!f.choices.empty() && f.choices[0].second != p.series.substr(comma + 2)) continue;
-    auto* at = &curve_named(f, series,
-                            picture == "compensation" || series == "formula"
-                                ? FigureCurve::Kind::points
-                                : FigureCurve::Kind::both);
+    auto* at =
+        &curve_named(f, series,
+                     picture == "compensation" || series == "formula" ? FigureCurve::Kind::points
+                                                                      : FigureCurve::Kind::both);
     // lines go from the fast to the slow
     const auto k = std::ranges::upper_bound(at->x, p.time.ns / unit_ns) - at->x.begin();
     at->x.insert(at->x.begin() + k, p.time.ns / unit_ns);

@@ -1,5 +1,5 @@
-// Points that are no term: compensation, the split sum, quadrature and the share of a table that a fit
-// uses, each by its time and its error.
+// Points that are no term: compensation, the split sum, quadrature and the share of a table that a
+// fit uses, each by its time and its error.
 #include <algorithm>
 #include <cmath>
 
@@ -26,25 +26,24 @@ void add_compensations(std::vector<CostPoint>& to, EnergyOptions o) {
   o.mu = {0.1, 0.5, 1};
   for (const auto& c : compensation_costs(energy_materials(o, [](double) {})))
     to.push_back({"compensation",
-                             c.id == "fdez_aguera" ? "image-based light" : "a light",
-                             std::string(c.id),
-                             {c.ns, c.spread_ns},
-                             c.rms,
-                             0,
-                             c.operations,
-                             c.bytes,
-                             c.without_ns});
+                  c.id == "fdez_aguera" ? "image-based light" : "a light",
+                  std::string(c.id),
+                  {c.ns, c.spread_ns},
+                  c.rms,
+                  0,
+                  c.operations,
+                  c.bytes,
+                  c.without_ns});
 }
 
 void add_quadrature(std::vector<CostPoint>& to, const EnergyOptions& o) {
   for (const auto& e : estimator_points(o, [](double) {}))
-    to.push_back(
-        {"quadrature",
-         fmt::format("{}, {}", e.estimator, place(e.roughness, e.mu)),
-         fmt::format("{:g}", e.goal),
-         {e.ns, e.ns_spread},
-         e.error,
-         0});
+    to.push_back({"quadrature",
+                  fmt::format("{}, {}", e.estimator, place(e.roughness, e.mu)),
+                  fmt::format("{:g}", e.goal),
+                  {e.ns, e.ns_spread},
+                  e.error,
+                  0});
 }
 
 /// A + B, which is E at F0 = 1, by every way that renderers take.
@@ -78,13 +77,13 @@ class SplitSumWays {
       });
     });
     to.push_back({"split_sum",
-                             std::move(series),
-                             std::move(label),
-                             {t.ns / n, t.spread_ns / n},
-                             std::sqrt(squares / n),
-                             0,
-                             0,
-                             bytes});
+                  std::move(series),
+                  std::move(label),
+                  {t.ns / n, t.spread_ns / n},
+                  std::sqrt(squares / n),
+                  0,
+                  0,
+                  bytes});
   }
   /// \param value  of a roughness and NoV
   template <class Value>
@@ -160,7 +159,9 @@ Table share_of(const Table& whole,
 }
 
 /// A MERL table with 2 % noise, of which a fit sees a share: the error of alpha over seeds.
-void add_fits(std::vector<CostPoint>& to, const CostOptions& o, const std::function<void(double)>& done) {
+void add_fits(std::vector<CostPoint>& to,
+              const CostOptions& o,
+              const std::function<void(double)>& done) {
   FitOptions options;
   options.bin_sensitivity = false;
   const auto truth =
@@ -193,10 +194,10 @@ void add_fits(std::vector<CostPoint>& to, const CostOptions& o, const std::funct
     for (const double off : s.off) squares += off * off;
     const double rms = std::sqrt(squares / static_cast<double>(seeds));
     to.push_back({"fit", s.bins ? "bins chosen by chance" : "the whole table",
-                             s.bins ? fmt::format("{} bins", s.bins) : "all 1458000 bins",
-                             spread_of(s.ns), rms,
-                             // of an RMS of so many normal deviates
-                             rms / std::sqrt(2 * static_cast<double>(seeds))});
+                  s.bins ? fmt::format("{} bins", s.bins) : "all 1458000 bins", spread_of(s.ns),
+                  rms,
+                  // of an RMS of so many normal deviates
+                  rms / std::sqrt(2 * static_cast<double>(seeds))});
   }
 }
 

@@ -141,9 +141,8 @@ void summary(Findings& to, const CrossFitRows& r) {
           2 * f0.at_bound > f0.all ? "mostly a bound" : percent(f0.rms(), 2) + at_bounds(f0)));
     }
     if (!words.empty())
-      to.say(
-          fmt::format("RMS shifts of roughness and of F0 that fits bring about on {}: {}.", on,
-                      fmt::join(words, ", ")));
+      to.say(fmt::format("RMS shifts of roughness and of F0 that fits bring about on {}: {}.", on,
+                         fmt::join(words, ", ")));
   };
   say(dielectrics, "dielectrics");
   say(metals, "metals");
@@ -238,8 +237,8 @@ void takes_it_up(Findings& to,
   look_at(dielectrics, "dielectrics");
   look_at(metals, "metals");
   if (!words.empty())
-    to.say(fmt::format("{} takes up {} of it: {}.", what,
-                                     falls ? "some" : "little or nothing", fmt::join(words, "; ")));
+    to.say(fmt::format("{} takes up {} of it: {}.", what, falls ? "some" : "little or nothing",
+                       fmt::join(words, "; ")));
 }
 
 void other_gammas(Findings& to, const CrossFitRows& r) {

@@ -56,8 +56,7 @@ struct Description<CrossRow> {
             "std_error", "", [](const R& r) { return r.v->error; },
             "of the fitted value by that of the truth; 0: the truth is exact"),
         field(
-            "status", "",
-            [](const R& r) { return name_of(r.v->status); },
+            "status", "", [](const R& r) { return name_of(r.v->status); },
             "free, fixed, at_bound, not_identifiable"),
         field(
             "converged", "", [](const R& r) { return r.c->converged; }, ""),
@@ -67,9 +66,7 @@ struct Description<CrossRow> {
             "truth_log_rms", "", [](const R& r) { return r.c->log_rms_truth; },
             "of it what is noise of the truth"),
         field(
-            "metric", "",
-            [](const R& r) { return name_of(r.c->metric); },
-            "of the fit"),
+            "metric", "", [](const R& r) { return name_of(r.c->metric); }, "of the fit"),
         field(
             "layout", "", [](const R& r) { return r.c->layout; }, "directions")};
   }

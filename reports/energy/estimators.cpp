@@ -122,8 +122,7 @@ std::vector<EstimatorPoint> estimator_points(const EnergyOptions& o,
     const double truth = ggx_albedo(alpha, c.mu, SmithGgx::correlated, 1e-13).value;
     const auto add = [&](std::string_view name, double goal, double error, double bound,
                          double evaluations, const Timing& t) {
-      out.push_back(
-          {name, c.roughness, c.mu, goal, error, bound, evaluations, t.ns, t.spread_ns});
+      out.push_back({name, c.roughness, c.mu, goal, error, bound, evaluations, t.ns, t.spread_ns});
     };
     const auto model = ggx(c.roughness);
     for (int digits = 1; digits <= 11; ++digits) {

@@ -45,8 +45,8 @@ void measured(Findings& to, const EnergyRows& r) {
     to.say(
         fmt::format("With nothing but its masking (F = 1), GGX under Smith, correlated, loses {}: "
                     "{}; {}: {}; {}: {}.",
-                    at_angle(1), thresholds(f->crossings, 1), at_angle(0), thresholds(f->crossings, 0),
-                    at_angle(0.1), thresholds(f->crossings, 0.1)));
+                    at_angle(1), thresholds(f->crossings, 1), at_angle(0),
+                    thresholds(f->crossings, 0), at_angle(0.1), thresholds(f->crossings, 0.1)));
     to.questions.push_back(
         {"From which roughness on does single scattering lose too much?", to.sentences.back(), ""});
     const auto& rough = f->averages.back();
@@ -63,9 +63,9 @@ void measured(Findings& to, const EnergyRows& r) {
   }
   for (const auto& m : r.materials)
     if (m.name == "F0 = 0.04" || m.name == "gold, red")
-      to.say(fmt::format("Of what {} should reflect there is missing {}: {}; {}: {}.",
-                                m.name, at_angle(1), thresholds(m.crossings, 1), at_angle(0),
-                                thresholds(m.crossings, 0)));
+      to.say(fmt::format("Of what {} should reflect there is missing {}: {}; {}: {}.", m.name,
+                         at_angle(1), thresholds(m.crossings, 1), at_angle(0),
+                         thresholds(m.crossings, 0)));
   if (!r.compensations.empty()) {
     std::vector<std::string> parts;
     for (const auto& c : r.compensations)
@@ -79,7 +79,8 @@ void measured(Findings& to, const EnergyRows& r) {
   std::vector<std::string> gains;
   for (const auto& f : r.forms)
     if (const auto& at = brightest(f); makes_light(f))
-      gains.push_back(fmt::format("{} (E = {:.3g} at {})", f.name, at.albedo, place(at.roughness, at.mu)));
+      gains.push_back(
+          fmt::format("{} (E = {:.3g} at {})", f.name, at.albedo, place(at.roughness, at.mu)));
   if (!gains.empty()) to.say(fmt::format("Light is made by {}.", fmt::join(gains, ", ")));
   if (r.albedo_forms.size() == 3)
     to.say(fmt::format(
@@ -129,11 +130,11 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
   for (const auto& [value, text] : makers)
     if (words.size() < 3) words.push_back(text);
   to.judge("reflected energy never exceeds incoming", "seeds 000 and 001, conservation of energy",
-        verdict(makers.empty(), true),
-        fmt::format("at F = 1, {} forms reflect more than comes in somewhere{}{}; the "
-                    "others reflect {:.4f} of it at most.",
-                    of_all(makers.size(), r.forms.size()),
-                    words.empty() ? "" : ", most ", fmt::join(words, ", "), largest));
+           verdict(makers.empty(), true),
+           fmt::format("at F = 1, {} forms reflect more than comes in somewhere{}{}; the "
+                       "others reflect {:.4f} of it at most.",
+                       of_all(makers.size(), r.forms.size()), words.empty() ? "" : ", most ",
+                       fmt::join(words, ", "), largest));
 }
 
 void energy_does_not_stay(Findings& to, const EnergyRows& r) {
@@ -141,13 +142,13 @@ void energy_does_not_stay(Findings& to, const EnergyRows& r) {
   if (!f || f->averages.empty()) return;
   const auto &smooth = f->averages.front(), &rough = f->averages.back();
   to.judge("as roughness grows the highlight widens and dims so that energy stays",
-        "seed 001, conservation of energy", verdict(rough.albedo > 0.99),
-        fmt::format("it widens and dims more than that. With nothing absorbed (GGX, Smith "
-                    "correlated, F = 1, one bounce, average over the hemisphere) {} of the light "
-                    "leaves at roughness {:g} and {} at roughness {:g}; what is missing met a "
-                    "second facet.",
-                    percent(smooth.albedo), smooth.roughness, percent(rough.albedo),
-                    rough.roughness));
+           "seed 001, conservation of energy", verdict(rough.albedo > 0.99),
+           fmt::format(
+               "it widens and dims more than that. With nothing absorbed (GGX, Smith "
+               "correlated, F = 1, one bounce, average over the hemisphere) {} of the light "
+               "leaves at roughness {:g} and {} at roughness {:g}; what is missing met a "
+               "second facet.",
+               percent(smooth.albedo), smooth.roughness, percent(rough.albedo), rough.roughness));
 }
 
 void fixed_coat(Findings& to, const EnergyRows& r) {
@@ -161,12 +162,13 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
     if (coat->rows[i].mu >= 0.1 && off > most) most = off, at = i;
   }
   const auto& row = coat->rows[at];
-  to.judge("the coat needs only a fixed 0.25 G", "seed 001, Disney's secondary lobe",
-        verdict_on_small(most),
-        fmt::format("as it ships (GTR of gamma 1, alpha up to 0.1) it is, from mu = 0.1 on, "
-                    "furthest from its own Smith masking at roughness {:g}, mu {:g}: before "
-                    "Fresnel it reflects {} instead of {}.",
-                    row.roughness, row.mu, percent(row.albedo), percent(smith->rows[at].albedo)));
+  to.judge(
+      "the coat needs only a fixed 0.25 G", "seed 001, Disney's secondary lobe",
+      verdict_on_small(most),
+      fmt::format("as it ships (GTR of gamma 1, alpha up to 0.1) it is, from mu = 0.1 on, "
+                  "furthest from its own Smith masking at roughness {:g}, mu {:g}: before "
+                  "Fresnel it reflects {} instead of {}.",
+                  row.roughness, row.mu, percent(row.albedo), percent(smith->rows[at].albedo)));
 }
 
 void clamped_at_2048(Findings& to, const EnergyRows& r) {
@@ -196,12 +198,12 @@ void look_of_the_simple_form(Findings& to, const EnergyRows& r) {
         fmt::format("F0 {:g} and mu {:g} by {:.3g} (roughness {:g}: {} reflected for {})", l.f0,
                     l.mu, l.delta_e, l.roughness, percent(l.shipped), percent(l.exact)));
   }
-  to.judge("the simple mobile form keeps the look", "seed 004, SpecularGGXSimple",
-        verdict(!seen),
-        fmt::format("from roughness {:g} on (below, its clamp takes over) its ΔE2000 under even "
-                    "light from GGX with Smith, correlated, and Schlick is at most, for {}. It has "
-                    "no Fresnel, and no angles in its visibility.",
-                    unclamped_roughness, fmt::join(words, ", for ")));
+  to.judge(
+      "the simple mobile form keeps the look", "seed 004, SpecularGGXSimple", verdict(!seen),
+      fmt::format("from roughness {:g} on (below, its clamp takes over) its ΔE2000 under even "
+                  "light from GGX with Smith, correlated, and Schlick is at most, for {}. It has "
+                  "no Fresnel, and no angles in its visibility.",
+                  unclamped_roughness, fmt::join(words, ", for ")));
 }
 
 void deviation_of_slopes(Findings& to, const EnergyRows& r) {

@@ -23,7 +23,7 @@ void add_tables(ImageLight& to) {
       const auto written = stored(exact, storage);
       const auto lookup = lookup_error(written, 101);
       to.tables.push_back({size, name, exact.error, difference(written, exact).e.max,
-                               lookup.all.e.max, lookup.all.e.rms, lookup.between.e.max});
+                           lookup.all.e.max, lookup.all.e.rms, lookup.between.e.max});
     }
   }
 }
@@ -84,7 +84,7 @@ ImageLight image_light(const EnergyOptions& o, const std::function<void(double)>
           const double half = split_sum_light_error(all.first(views.size() / 2), f0).of_mean;
           const double other = split_sum_light_error(all.subspan(views.size() / 2), f0).of_mean;
           to.lit.push_back({name, roughness, nov, f0, e.rms, e.max, e.bias, e.of_mean,
-                                std::abs(half - other) / 2, e.truth});
+                            std::abs(half - other) / 2, e.truth});
         }
       }
     next();

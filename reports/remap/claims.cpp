@@ -16,7 +16,6 @@ const std::string separable = "masking.smith_ggx.separable",
                   correlated = "masking.smith_ggx.correlated",
                   direct = "masking.schlick_ggx.direct", image = "masking.schlick_ggx.half_alpha";
 
-
 /// The mirror direction, h = n.
 Row mirror(double mu) {
   const double theta = std::acos(mu);
@@ -75,10 +74,10 @@ RemapVf ratios(const RemapForm& f,
 
 }  // namespace
 
-std::vector<RemapUse> uses_of_k(const std::vector<RemapForm>& forms,
-                                std::span<const double> mus) {
+std::vector<RemapUse> uses_of_k(const std::vector<RemapForm>& forms, std::span<const double> mus) {
   std::vector<RemapUse> out;
-  const auto *of_separable = find_form(forms, separable), *of_correlated = find_form(forms, correlated);
+  const auto *of_separable = find_form(forms, separable),
+             *of_correlated = find_form(forms, correlated);
   if (!of_separable || !of_correlated) return out;
   for (const auto& id : {direct, image}) {
     const auto* f = find_form(forms, id);
@@ -88,9 +87,9 @@ std::vector<RemapUse> uses_of_k(const std::vector<RemapForm>& forms,
       for (std::size_t m = 0; m < mus.size(); ++m) {
         const double mu = mus[m];
         out.push_back({id, "even", mu, r, f->at[i].albedo[m], of_separable->at[i].albedo[m],
-                               of_correlated->at[i].albedo[m]});
+                       of_correlated->at[i].albedo[m]});
         out.push_back({id, "single", mu, r, mirrored(id, r, mu), mirrored(separable, r, mu),
-                               mirrored(correlated, r, mu)});
+                       mirrored(correlated, r, mu)});
       }
     }
   }

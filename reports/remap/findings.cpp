@@ -45,10 +45,7 @@ double overall(const std::vector<const RemapRow*>& rows) {
 }
 
 /// Forms from the nearest to the furthest.
-void ranking(Findings& to,
-             const RemapRows& r,
-             std::string_view reference,
-             std::string_view what) {
+void ranking(Findings& to, const RemapRows& r, std::string_view reference, std::string_view what) {
   struct Place {
     std::string_view form;
     double rms;
@@ -101,17 +98,17 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
   for (const double at : {0.1, 0.3, 0.5, 0.8})
     if (const auto* a = row_at(ours, at), *b = row_at(others, at); a && b)
       behaves.push_back(fmt::format("{:g} as {} (r²/2: {})", at, rough(a->by_g2), rough(b->by_g2)));
-  to.judge("k = (r+1)²/8 is right for direct light, r²/2 for image-based",
-        "seed 000, k of Schlick's G1",
-        verdict(nearer >= one.all + two.all, 2 * nearer >= one.all + two.all),
-        fmt::format(
-            "Smith's masking knows no "
-            "kind of light, and (r+1)²/8 is nearer than r²/2 to separable Smith at {} of {} "
-            "roughnesses "
-            "({} tied), to correlated Smith at {} ({} tied); RMS of G2 from separable Smith {:.2g} "
-            "against {:.2g}. Roughness masks with (r+1)²/8 like another of exact Smith: {}.",
-            one.nearer, one.all, one.tied, two.nearer, two.tied, overall(ours), overall(others),
-            fmt::join(behaves, ", ")));
+  to.judge(
+      "k = (r+1)²/8 is right for direct light, r²/2 for image-based", "seed 000, k of Schlick's G1",
+      verdict(nearer >= one.all + two.all, 2 * nearer >= one.all + two.all),
+      fmt::format(
+          "Smith's masking knows no "
+          "kind of light, and (r+1)²/8 is nearer than r²/2 to separable Smith at {} of {} "
+          "roughnesses "
+          "({} tied), to correlated Smith at {} ({} tied); RMS of G2 from separable Smith {:.2g} "
+          "against {:.2g}. Roughness masks with (r+1)²/8 like another of exact Smith: {}.",
+          one.nearer, one.all, one.tied, two.nearer, two.tied, overall(ours), overall(others),
+          fmt::join(behaves, ", ")));
 }
 
 void wrong_place(Findings& to, const RemapRows& r) {
@@ -152,10 +149,10 @@ void verdict_on_g1(Findings& to, const RemapRows& r) {
     exact.push_back(fmt::format("{:.3f} at roughness {:g}", g.smith, g.roughness));
   }
   to.judge("G1 at NoV 0.1: 0.47 (k 0.125) and 0.28 (k 0.281)", "seed 000, Disney's remapping of k",
-        verdict(holds),
-        fmt::format("of Schlick's form it is {}. Exact Smith "
-                    "for GGX, which these k = (r+1)²/8 stand for, is {}.",
-                    fmt::join(values, " and "), fmt::join(exact, " and ")));
+           verdict(holds),
+           fmt::format("of Schlick's form it is {}. Exact Smith "
+                       "for GGX, which these k = (r+1)²/8 stand for, is {}.",
+                       fmt::join(values, " and "), fmt::join(exact, " and ")));
 }
 
 /// 'F V ≈ 1/(LoH²(r+0.5))'
@@ -181,8 +178,7 @@ void verdict_on_vf(Findings& to, const RemapRows& r) {
   };
   const bool holds = (*std::ranges::max_element(mirror, {}, &RemapVf::factor))->factor < 1.1;
   to.judge(
-      "F V ≈ 1/(LoH²(r+0.5))", "seed 000, mobile specular BRDF",
-      verdict(holds),
+      "F V ≈ 1/(LoH²(r+0.5))", "seed 000, mobile specular BRDF", verdict(holds),
       fmt::format(
           "against Smith (correlated) times the exact Fresnel term of "
           "glass it is off by a factor of {} (RMS, by roughness) in the mirror direction and of {} "

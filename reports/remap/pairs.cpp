@@ -1,4 +1,6 @@
 // Where masking forms are compared, and by which roughness they are told.
+#include "reports/remap/pairs.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -6,7 +8,6 @@
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/number.h"
 #include "geometry/half_difference.h"
-#include "reports/remap/pairs.h"
 
 namespace gonio::remapping {
 

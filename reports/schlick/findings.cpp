@@ -64,18 +64,19 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
   const auto relative = [](const FresnelRow& x) { return x.max_rel < 0.01; };
   const std::size_t some = how_many(outside, within), channels = how_many(metals, within),
                     all = outside.size() + metals.size();
-  to.judge("Schlick's error is below 1 %", "seed 000, Schlick's approximation",
-        verdict(some + channels == all, 2 * (some + channels) > all),
-        fmt::format("for glass (IOR 1.5) F is off by up to {:.3g} at "
-                    "{:.3g}°, and by {} of itself at {:.3g}°; within 0.01 it stays up to {:.3g}°; "
-                    "RMS over the "
-                    "angle {:.3g}. At all angles it stays below 0.01 for {} indices from {:g} to "
-                    "{:g} and for {} "
-                    "channels of metals; within 1 % of the exact F it stays for {} of them all.",
-                    g->max_abs, g->max_abs_theta_deg, percent(g->max_rel), g->max_rel_theta_deg,
-                    g->within_deg, g->rms, of_all(some, outside.size()), index(*outside.front()),
-                    index(*outside.back()), of_all(channels, metals.size()),
-                    of_all(how_many(outside, relative) + how_many(metals, relative), all)));
+  to.judge(
+      "Schlick's error is below 1 %", "seed 000, Schlick's approximation",
+      verdict(some + channels == all, 2 * (some + channels) > all),
+      fmt::format("for glass (IOR 1.5) F is off by up to {:.3g} at "
+                  "{:.3g}°, and by {} of itself at {:.3g}°; within 0.01 it stays up to {:.3g}°; "
+                  "RMS over the "
+                  "angle {:.3g}. At all angles it stays below 0.01 for {} indices from {:g} to "
+                  "{:g} and for {} "
+                  "channels of metals; within 1 % of the exact F it stays for {} of them all.",
+                  g->max_abs, g->max_abs_theta_deg, percent(g->max_rel), g->max_rel_theta_deg,
+                  g->within_deg, g->rms, of_all(some, outside.size()), index(*outside.front()),
+                  index(*outside.back()), of_all(channels, metals.size()),
+                  of_all(how_many(outside, relative) + how_many(metals, relative), all)));
 }
 
 void only_near_one(Findings& to, const SchlickRows& r) {
@@ -88,21 +89,21 @@ void only_near_one(Findings& to, const SchlickRows& r) {
                        [](const FresnelRow* x) { return x->max_abs < poor; });
   const auto &low = *outside.front(), &high = *outside.back();
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
-  to.judge("Schlick is accurate enough; only near IOR 1 is it poor",
-        "seed 001, Disney's Fresnel term of 2015",
-        verdict(only, near),
-        fmt::format(
-            "its greatest error "
-            "is {:.3g} at IOR {:g}, {:.3g} at IOR {:g}, where it is least, and {:.3g} at IOR {:g}; "
-            "{}. "
-            "For {} channels of metals it is greater than for glass, at worst {}.",
-            low.max_abs, index(low), best->max_abs, index(*best), high.max_abs, index(high),
-            good.empty() ? fmt::format("nowhere is it below {:g}", poor)
-                         : fmt::format("it is below {:g} from IOR {:g} to {:g}", poor,
-                                       index(*good.front()), index(*good.back())),
-            of_all(how_many(metals, [&](const FresnelRow& x) { return x.max_abs > g->max_abs; }),
-                   metals.size()),
-            at(*metal)));
+  to.judge(
+      "Schlick is accurate enough; only near IOR 1 is it poor",
+      "seed 001, Disney's Fresnel term of 2015", verdict(only, near),
+      fmt::format(
+          "its greatest error "
+          "is {:.3g} at IOR {:g}, {:.3g} at IOR {:g}, where it is least, and {:.3g} at IOR {:g}; "
+          "{}. "
+          "For {} channels of metals it is greater than for glass, at worst {}.",
+          low.max_abs, index(low), best->max_abs, index(*best), high.max_abs, index(high),
+          good.empty() ? fmt::format("nowhere is it below {:g}", poor)
+                       : fmt::format("it is below {:g} from IOR {:g} to {:g}", poor,
+                                     index(*good.front()), index(*good.back())),
+          of_all(how_many(metals, [&](const FresnelRow& x) { return x.max_abs > g->max_abs; }),
+                 metals.size()),
+          at(*metal)));
 }
 
 void from_inside(Findings& to, const SchlickRows& r) {
@@ -198,9 +199,8 @@ void rough_surfaces(Findings& to, const SchlickRows& r) {
     if (a.channel.empty() && a.material != "IOR 1.5") continue;
     for (std::size_t i = 0; i < a.albedo.size(); ++i)
       if (const double off = a.albedo[i] / a.exact[i] - 1; std::abs(off) > std::abs(w.off))
-        w = {off,
-             (a.channel.empty() ? "" : fmt::format("{}, {}, ", a.material, a.channel)) +
-                 place(r.rough.roughness[i], a.mu)};
+        w = {off, (a.channel.empty() ? "" : fmt::format("{}, {}, ", a.material, a.channel)) +
+                      place(r.rough.roughness[i], a.mu)};
   }
   if (of_glass.off == 0 || of_metal.off == 0) return;
   // over metals, as what is seen
@@ -208,8 +208,7 @@ void rough_surfaces(Findings& to, const SchlickRows& r) {
   for (const auto& c : r.rough.colours)
     for (std::size_t i = 0; i < c.delta_e.size(); ++i)
       if (auto& w = differences[c.form]; !c.material.starts_with("IOR ") && c.delta_e[i] > w.off)
-        w = {c.delta_e[i],
-             fmt::format("{}, {}", c.material, place(r.rough.roughness[i], c.mu))};
+        w = {c.delta_e[i], fmt::format("{}, {}", c.material, place(r.rough.roughness[i], c.mu))};
   std::vector<std::string> seen;
   for (const auto form :
        {schlick, std::string_view("fresnel.f82"), std::string_view("fresnel.lazanyi, corrected")})
@@ -270,13 +269,14 @@ void ranges_of_f0(Findings& to) {
     return fmt::format("from {:.3f} ({}) to {:.3f} ({})", low->f0, low->name, high->f0, high->name);
   };
   const std::size_t d = within(dielectric, 0.02, 0.04), m = within(metal, 0.7, 1);
-  to.judge("dielectrics have F0 0.02 to 0.04, metals 0.7 to 1.0", "seed 001, Fresnel reflectance",
-        verdict(d == dielectric.size() && m == metal.size(),
-                2 * (d + m) > dielectric.size() + metal.size()),
-        fmt::format("of the measured materials here {} dielectrics and {} channels of metals lie "
-                    "there; F0 goes {} and {}.",
-                    of_all(d, dielectric.size()), of_all(m, metal.size()), span(dielectric),
-                    span(metal)));
+  to.judge(
+      "dielectrics have F0 0.02 to 0.04, metals 0.7 to 1.0", "seed 001, Fresnel reflectance",
+      verdict(d == dielectric.size() && m == metal.size(),
+              2 * (d + m) > dielectric.size() + metal.size()),
+      fmt::format("of the measured materials here {} dielectrics and {} channels of metals lie "
+                  "there; F0 goes {} and {}.",
+                  of_all(d, dielectric.size()), of_all(m, metal.size()), span(dielectric),
+                  span(metal)));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ InputFile::InputFile(std::string path) : path_(std::move(path)) {
 }
 
 void expect_there(const std::string& path) {
-  if (struct stat s {}; ::stat(path.c_str(), &s) != 0)
+  if (struct stat s{}; ::stat(path.c_str(), &s) != 0)
     throw bad_input(path, "opening", std::strerror(errno), "a readable file");
 }
 

@@ -38,7 +38,7 @@ void print(const FitDocument& d) {
       const std::string name =
           p.value.size() == 1 ? p.name : fmt::format("{}.{}", p.name, d.channels[c]);
       say("{:<14}{:<28}{}\n", name, with_error(p.value[c], p.std_error[c]),
-                 p.status[c] == ParameterStatus::free ? "" : name_of(p.status[c]));
+          p.status[c] == ParameterStatus::free ? "" : name_of(p.status[c]));
     }
   say("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}\n", d.residuals.log_rms,
       d.residuals.rms, d.intervals);

@@ -90,8 +90,7 @@ void print(const Table& t, const Health& h) {
   for (const auto* warnings : {&t.warnings, &h.warnings})
     for (const auto& w : *warnings) line("beware", w);
   say("what a fit can hope to determine\n");
-  for (const auto& p : h.prospects)
-    say("  {:<10}{:<8}{}\n", p.of, name_of(p.verdict), p.because);
+  for (const auto& p : h.prospects) say("  {:<10}{:<8}{}\n", p.of, name_of(p.verdict), p.because);
 }
 
 Exit run(const Options& o) {

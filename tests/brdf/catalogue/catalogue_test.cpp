@@ -114,7 +114,8 @@ TEST(Catalogue, EveryTermNamesItselfItsFormulaAndItsSource) {
 
 TEST(Catalogue, EveryParameterStartsWhereAFitMayLookAndAFitLooksWhereItIsLegal) {
   for (const auto& t : catalogue()) {
-    EXPECT_LE(t.parameters.size(), 4U) << t.about->id;  // what evaluate() and ModelDerivatives gather
+    EXPECT_LE(t.parameters.size(), 4U)
+        << t.about->id;  // what evaluate() and ModelDerivatives gather
     for (const auto& p : t.parameters) {
       EXPECT_TRUE(p.fit.holds(p.start)) << t.about->id << " " << p.name;
       EXPECT_TRUE(p.legal.holds(p.fit.low) && p.legal.holds(p.fit.high))

@@ -29,7 +29,8 @@ TEST(NormalEquations, GradientIsTheSlopeOfTheCost) {
         high[i] += h;
         const double slope =
             (a.normal_equations(high).cost - a.normal_equations(low).cost) / (2 * h);
-        EXPECT_NEAR(e.g[i], slope, 1e-5 * std::abs(slope) + 1e-7 * e.cost) << names_of<Metric>[m] << i;
+        EXPECT_NEAR(e.g[i], slope, 1e-5 * std::abs(slope) + 1e-7 * e.cost)
+            << names_of<Metric>[m] << i;
       }
     }
 }

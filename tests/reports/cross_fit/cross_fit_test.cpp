@@ -240,8 +240,7 @@ TEST(CrossFit, FindingsFollowTheFigures) {
   auto r = cross_fit_rows(few({"fresnel.schlick"}, {"Au"}));
   const auto said = [&](std::string_view words) {
     const auto all = findings(r).sentences;
-    return std::ranges::any_of(all,
-                               [&](const std::string& f) { return f.find(words) != f.npos; });
+    return std::ranges::any_of(all, [&](const std::string& f) { return f.find(words) != f.npos; });
   };
   EXPECT_TRUE(said("Schlick instead of exact Fresnel"));
   EXPECT_TRUE(said("gives its parameters back:"));

@@ -196,8 +196,7 @@ TEST(EnergyReport, RowsAreFlatAndHaveTheKeysOfTheContract) {
 TEST(EnergyReport, FindingsAreMadeFromTheFigures) {
   const auto all = findings(of_forms({correlated, separable, none})).sentences;
   const auto said = [&](std::string_view words) {
-    return std::ranges::any_of(all,
-                               [&](const std::string& f) { return f.find(words) != f.npos; });
+    return std::ranges::any_of(all, [&](const std::string& f) { return f.find(words) != f.npos; });
   };
   EXPECT_TRUE(said("69.3\u00a0% at normal incidence and 59.1\u00a0% on average"));
   EXPECT_TRUE(said("masking.none (E = 5 at roughness 1, mu 0.1)"));

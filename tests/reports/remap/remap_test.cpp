@@ -24,8 +24,8 @@ const std::string separable = "masking.smith_ggx.separable",
 
 /// Few roughnesses, and the forms named.
 RemapRows of(std::vector<std::string> forms,
-               std::vector<double> roughness = {0.5, 1},
-               double step = 0.1) {
+             std::vector<double> roughness = {0.5, 1},
+             double step = 0.1) {
   return remap_rows({false, std::move(roughness), {0.5}, 4, step, std::move(forms)});
 }
 const RemapRow& row(const RemapRows& r,

@@ -167,7 +167,8 @@ TEST(SchlickReport, ASpectrumWithoutColourHasTheErrorsOfItsIndex) {
 
 TEST(SchlickReport, AlbedosAreThoseOfTheModelsAndColoursDifferWhereTheyDo) {
   const auto r = rough_rows(few, unwatched);
-  const auto find = [&](const auto& list, std::string_view f, std::string_view material, double mu) {
+  const auto find = [&](const auto& list, std::string_view f, std::string_view material,
+                        double mu) {
     return *std::ranges::find_if(
         list, [&](const auto& a) { return a.form == f && a.material == material && a.mu == mu; });
   };
@@ -213,8 +214,7 @@ TEST(SchlickReport, MapsHaveAnErrorForEveryCell) {
 TEST(SchlickReport, TheVerdictsAreMadeFromTheFigures) {
   const auto said = [](const SchlickRows& r, std::string_view words) {
     const auto all = findings(r).sentences;
-    return std::ranges::any_of(all,
-                               [&](const std::string& f) { return f.find(words) != f.npos; });
+    return std::ranges::any_of(all, [&](const std::string& f) { return f.find(words) != f.npos; });
   };
   EXPECT_TRUE(said(smooth(), "below 1 %” does not hold"));
   EXPECT_TRUE(said(smooth(), "up to 0.0357 at 85°"));
