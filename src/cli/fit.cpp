@@ -48,7 +48,7 @@ void print(const FitDocument& d) {
       std::vector<std::string> known;
       for (const double x : change)
         if (!std::isnan(x)) known.push_back(fmt::format("{:+.2f}", 100 * x));
-      if (!known.empty()) say(" {} {} %", name, fmt::join(known, ", "));
+      if (!known.empty()) say(" {} {} %", name, fmt::to_string(fmt::join(known, ", ")));
     }
     say("\n");
   }

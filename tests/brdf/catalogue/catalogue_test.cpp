@@ -308,9 +308,9 @@ TYPED_TEST(Everywhere, EveryInstructionSetGivesTheBitsOfTheScalar) {
           expect_same(out[0].data(), out[1].data(), b.n, few, part, where);
           expect_same(out_den[0].data(), out_den[1].data(), b.n, few, none, where);
         };
-        run(&TermKernels<F>::begin);
-        run(&TermKernels<F>::close);
-        run(&TermKernels<F>::add);
+        run(&TermKernels<F>::start_product);
+        run(&TermKernels<F>::finish_product);
+        run(&TermKernels<F>::add_product);
 
         const auto d = test::derivatives_of<F>(t, parameters, rows, kernels<F>(name));
         const auto e = test::derivatives_of<F>(t, parameters, rows);
