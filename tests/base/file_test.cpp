@@ -265,9 +265,10 @@ TEST(OutputFile, TakesAwayWhatKilledProcessesLeftAndNothingElse) {
   const Folder folder, other;
   ASSERT_EQ(::setenv("GONIO_TEST_FOLDER", (folder / "").c_str(), 1), 0);
   const std::string left = left_by_a_kill(folder);
-  const auto with = [&](std::size_t part, const std::string& text) {
+  const auto with = [&](std::size_t part, const std::string& text, const char* start = nullptr) {
     std::vector<std::string> parts = split(left, '.');
     parts[part] = text;
+    if (start) parts[4] = start;
     std::string name;
     for (const auto& p : parts) name += (name.empty() ? "" : ".") + p;
     return name.starts_with('.') ? name : "." + name;
@@ -276,7 +277,7 @@ TEST(OutputFile, TakesAwayWhatKilledProcessesLeftAndNothingElse) {
   const std::vector<std::string> kept{
       with(2, "0123-4"), with(5, "1.0"), with(6, "json"), with(3, "0"),
       with(3, "x"),      ".gonio.tmp",   "f.tmp"};
-  const std::string reused = with(3, std::to_string(::getpid()));
+  const std::string reused = with(3, std::to_string(::getpid()), "1");
   for (const auto& name : kept) folder.write(name, "x");
   folder.write(reused, "of an earlier process of this number");
   OutputFile living(folder / "g");
