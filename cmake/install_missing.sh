@@ -14,7 +14,7 @@ install_missing() {
   done
   if ! command -v apt-get >/dev/null; then
     echo "Needed: ${gonio_tools[*]%%:*}, and the libraries Ceres, Eigen 3, OpenEXR 3, oneTBB, Nettle, pugixml, fmt," \
-      "nlohmann-json, CLI11, xsimd 8, GoogleTest, google-benchmark, rapidcheck and Boost.Multiprecision where CMake finds them" \
+      "nlohmann-json, CLI11, xsimd 8, GoogleTest, google-benchmark, rapidcheck, Boost.Math and Boost.Multiprecision where CMake finds them" \
       "(Debian's names: ${gonio_libraries[*]})."
     [ ${#missing[@]} -eq 0 ] || { echo "Not found here: ${missing[*]}" >&2; return 1; }
     return 0

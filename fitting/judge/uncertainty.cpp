@@ -5,6 +5,8 @@
 
 #include "fitting/solve/arrow_root.h"
 
+#include <boost/math/distributions/students_t.hpp>
+
 namespace gonio {
 namespace {
 
@@ -137,14 +139,7 @@ class SandwichProduct {
 }  // namespace
 
 double student_t_975(double nu) {
-  if (nu < 1.5) return 12.7062;
-  if (nu < 2.5) return 4.30265;
-  if (nu < 3.5) return 3.18245;
-  // Cornish–Fisher expansion about the normal quantile [Abramowitz & Stegun 26.7.5].
-  const double z = 1.959963984540054, z2 = z * z;
-  const double g1 = z * (z2 + 1) / 4, g2 = z * ((5 * z2 + 16) * z2 + 3) / 96;
-  const double g3 = z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384;
-  return z + g1 / nu + g2 / (nu * nu) + g3 / (nu * nu * nu);
+  return boost::math::quantile(boost::math::students_t(nu), 0.975);
 }
 
 Uncertainty uncertainty(const Sandwich& s,
@@ -194,15 +189,13 @@ Uncertainty uncertainty(const Sandwich& s,
   // The sandwich.
   //
   // 1. A cluster's score is s = Σ ρ' r ∂r/∂x over its residuals; the best x makes Σ s = 0.
-  // 2. About the true x*, Σ s(x) = S + H (x − x*) but for squares, with S = Σ s(x*) and H = Σ j jᵀ
-  // over what is
-  //    not clipped, the bread: x − x* = −H⁻¹ S.
+  // 2. About the true x*, Σ s(x) = S + H (x − x*) but for squares, with S = Σ s(x*) and the bread
+  //    H = Σ j jᵀ over what is not clipped: x − x* = −H⁻¹ S.
   // 3. The mean of S is 0, so the covariance of x is H⁻¹ ⟨S Sᵀ⟩ H⁻¹.
-  // 4. Clusters are independent, within one nothing is assumed: ⟨S Sᵀ⟩ is about M = Σ s sᵀ, the
-  // meat.
-  // 5. Scores at the best x are smaller than those at x*: G clusters, n values and p unknowns make
-  // it up by
-  //    G/(G − 1) (n − 1)/(n − p).
+  // 4. Clusters are independent and within one nothing is assumed: ⟨S Sᵀ⟩ is about M = Σ s sᵀ,
+  //    the meat.
+  // 5. Scores at the best x are smaller than those at x*: with G clusters, n values and p unknowns
+  //    G/(G − 1) (n − 1)/(n − p) makes up for it.
   // 6. H = W⁻¹ (V Λ Vᵀ) W⁻¹ with W = diag(H)^−½, so H⁻¹ = W V Λ⁻¹ Vᵀ W, whatever the units of x.
   //
   //    ┌─────────────────────────────────────────────────┐

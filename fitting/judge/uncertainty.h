@@ -34,7 +34,7 @@ Uncertainty uncertainty(const Sandwich&,
                         std::size_t values_used,
                         std::size_t clusters);
 
-/// 97.5 % quantile of Student's t for ν ≥ 1 degrees of freedom, to 0.5 %.
+/// 97.5 % quantile of Student's t for ν > 0 degrees of freedom.
 double student_t_975(double degrees_of_freedom);
 
 }  // namespace gonio

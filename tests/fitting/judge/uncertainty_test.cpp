@@ -27,8 +27,9 @@ TEST(Uncertainty, TellsSingularDirectionsFromKnownParameters) {
 
 TEST(Uncertainty, TakesStudentsQuantileFromTheTables) {
   // NIST/SEMATECH e-Handbook, table 1.3.6.7.2
-  EXPECT_NEAR(student_t_975(4), 2.776, 0.014);
-  EXPECT_NEAR(student_t_975(10), 2.228, 0.001);
+  EXPECT_NEAR(student_t_975(1), 12.706, 0.0005);
+  EXPECT_NEAR(student_t_975(4), 2.776, 0.0005);
+  EXPECT_NEAR(student_t_975(10), 2.228, 0.0005);
   EXPECT_NEAR(student_t_975(30), 2.042, 0.0005);
   EXPECT_NEAR(student_t_975(89), 1.987, 0.0005);
 }
