@@ -35,7 +35,7 @@ using Said =
 /// Lines for a person on standard output.  Only the format itself can move a terminal's cursor.
 template <class... T>
 void say(fmt::format_string<Said<T>...> format, const T&... arguments) {
-  const auto harmless = []<class A>(const A& a) -> Said<A> {
+  [[maybe_unused]] const auto harmless = []<class A>(const A& a) -> Said<A> {
     if constexpr (std::is_same_v<Said<A>, std::string>)
       return printable(a);
     else
