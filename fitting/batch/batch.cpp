@@ -85,7 +85,7 @@ void expect_apart(const Batch& b,
 
 // --- How many at a time ---
 
-/// As many tables as there are threads, but no more than half of the memory holds: a table and its
+/// Number of tables at a time: one for each thread, but no more than half of the memory holds, for a table and its
 /// columns take several times the bytes of its file.
 std::size_t tables_at_a_time(const std::vector<std::string>& tables) {
   constexpr double times_the_file = 8, most = 64;

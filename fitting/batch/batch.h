@@ -41,7 +41,7 @@ struct Batch {
   std::string output;               ///< a folder
   HowFitted how;
 };
-/// Whether these are more than one file by their number or kind.
+/// True where these are more than one file by their number or kind.
 bool is_batch(const std::vector<std::string>& inputs);
 
 /// Paths that inputs stand for: those of folders and lists in their place.  A folder or list that

@@ -102,7 +102,7 @@ char srgb_byte(double linear) {
   return static_cast<char>(static_cast<unsigned char>(std::lround(255 * v)));
 }
 
-/// As closely as the picture and its four digits show.
+/// Goal as close as the picture and its four digits show.
 constexpr Goal seen{.error = 1e-4, .evaluations = 100'000};
 
 /// Channel c between albedos at cosines 0, 1/n, …, 1.

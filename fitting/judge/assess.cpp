@@ -31,7 +31,7 @@ class AngleBands {
   std::size_t operator()(double cosine) const {
     return onwards(near_[static_cast<std::size_t>(std::clamp(cosine, 0.0, 1.0) * cells)], cosine);
   }
-  /// Whether operator() would give that band.
+  /// True where operator() would give that band.
   bool holds(std::size_t band, double cosine) const {
     return (band == 0 || cosine < cosine_[band]) &&
            (band + 1 == size() || cosine >= cosine_[band + 1]);
@@ -130,7 +130,7 @@ BandSums no_sums() {
   return s;
 }
 
-/// What one task found out.
+/// Findings of one task.
 struct Part {
   ArrowMatrix bread, meat;
   std::vector<std::size_t> keys;  ///< of the incident angles seen

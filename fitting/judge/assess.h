@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a fit is worth: how well the data determine each parameter, and what the model leaves over.
+/// Worth of a fit: how well the data determine each parameter, and what the model leaves over.
 /// One pass over all samples, each on its own.
 
 #include "brdf/model/model.h"
@@ -14,7 +14,7 @@ namespace gonio {
 struct Sandwich {
   ArrowMatrix bread;  ///< Σ j jᵀ over the residuals that the robust loss does not clip
   ArrowMatrix meat;   ///< Σ s sᵀ, s = ρ' r j, over values that are independent; else 0
-  /// Of clusters: Σ s of each incident angle, whose squares are the meat.
+  /// Scores of clusters: Σ s of each incident angle, whose squares are the meat.
   std::vector<std::vector<double>> scores;
 };
 
@@ -38,7 +38,7 @@ Assessment assess(const Sampling&,
                   bool in_float = false,
                   std::size_t most = static_cast<std::size_t>(-1));
 
-/// How far a model is from a table.
+/// Residuals of a model against a table.
 FitResiduals residual_statistics(const BoundModel&, const Sampling&, std::size_t most);
 
 }  // namespace gonio

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How well the data determine the parameters.
+/// Uncertainty of the parameters: how well the data determine them.
 
 #include <vector>
 

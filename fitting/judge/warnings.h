@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a reader must know before believing a fit's numbers.
+/// Warnings that a reader must know before believing a fit's numbers.
 
 #include <cstddef>
 #include <string>

@@ -50,7 +50,7 @@ struct FitResiduals {
   std::vector<ResidualBand> bands;
 };
 
-/// How the parameters would change if the samples sat at the other place in their bins.
+/// Change of the parameters if the samples sat at the other place in their bins.
 struct BinSensitivity {
   std::string other;  ///< the convention not used
   std::vector<std::pair<std::string, std::vector<double>>> relative_change;
@@ -85,14 +85,14 @@ struct FitDocument {
 /// The document as JSON text, schema "gonio.fit/1"; what is not a finite number is null.
 std::string to_json(const FitDocument&);
 
-/// What compare needs of a fit.json: the model and its parameters' values; NaN where null.
+/// Part of a fit.json that compare needs: the model and its parameters' values; NaN where null.
 struct FittedModel {
   std::string model;
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
 };
 FittedModel read_fitted_model(const std::string& path);
 
-/// How far a model is from a table.
+/// Residuals of a model against a table.
 struct Comparison {
   std::string path;  ///< of the table
   FittedModel model;

@@ -58,7 +58,7 @@ struct FitLevels {
 template <class F>
 FitLevels<F> fit_levels(const Sampling&, std::span<const std::size_t> levels);
 
-/// The same in double.
+/// Fit data in double.
 template <class F>
 FitData<double> in_double(const FitData<F>&);
 

@@ -184,7 +184,7 @@ void BlockReader<F>::place() {
   }
 }
 
-/// What is left of a row, as far as it goes into the block.
+/// Samples left of a row, as many as go into the block.
 template <class F>
 void BlockReader<F>::place_any(const SampleAngles::Row& at) {
   const auto& columns = sampling_.groups().columns();

@@ -19,7 +19,7 @@
 
 namespace gonio {
 
-/// How far model f is from datum y:
+/// Residual of model f against datum y:
 ///   log        ln(f + offset) − ln(y + offset)
 ///   l2_cosine  (f − y) NoL
 ///   relative   (f − y)/(y + offset)
@@ -31,7 +31,7 @@ inline constexpr std::array<std::string_view, 3> names_of<Metric>{"log", "l2_cos
 constexpr Link link_of(Metric m) {
   return m == Metric::log ? Link::log : Link::identity;
 }
-/// Whether a datum that is valid (≥ 0) can be used: log and relative need y + offset > 0.
+/// True where a datum that is valid (≥ 0) can be used: log and relative need y + offset > 0.
 constexpr bool usable(Metric m, double y, double offset) {
   return y >= 0 && (m == Metric::l2_cosine || y + offset > 0);
 }
@@ -96,7 +96,7 @@ class Sampling {
   const Groups& groups() const { return groups_; }
   Metric metric() const { return metric_; }
   double offset() const { return offset_; }  ///< of the log and relative metrics [1/sr]
-  /// What the link adds to f: a difference needs none.
+  /// Offset that the link adds to f: a difference needs none.
   double link_offset() const { return metric_ == Metric::log ? offset_ : 0; }
   std::size_t channels() const { return table_.values.size(); }
   /// √(weight over the mean weight)

@@ -44,7 +44,7 @@ class ArrowRoot {
   /// S (S A S)⁻¹ of what was rotated: A⁻¹ g, by unknowns.
   std::vector<double> solution(const Rotated&) const;
 
-  /// How many eigenvalues of S A S are t or less.
+  /// Number of eigenvalues of S A S that are t or less.
   std::size_t at_most(double t) const;
   struct Extremes {
     double least, largest;

@@ -29,7 +29,7 @@ FitOptions expanded(FitOptions);
 /// \param expanded  outlives the problem
 Problem pose(const Table&, const FitOptions& expanded);
 
-/// Whether f stays the same with light and viewer exchanged: then such samples are one to the fit.
+/// True where f stays the same with light and viewer exchanged: then such samples are one to the fit.
 bool is_reciprocal(const BoundModel&);
 
 }  // namespace gonio

@@ -52,7 +52,7 @@ double rounding_in_float(const FitData<double>& thin, std::size_t channels) {
   return largest < 1 / most ? 0 : relative * relative * squares / count / 2;
 }
 
-/// Whether what float rounds off is less than a twentieth of each standard error, as a first look at
+/// True where what float rounds off is less than a twentieth of each standard error, as a first look at
 /// JᵀJ gives it.
 bool float_suffices(const Problem& p, const Fitted& f, std::size_t values_used) {
   constexpr double rounding = 1e-7;

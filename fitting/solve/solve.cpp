@@ -228,7 +228,7 @@ class Reduced : public ceres::EvaluationCallback {
 };
 
 /// Gauss–Newton steps from a place so close to the optimum that each is shorter than the last.
-/// Whether it got there; where not, s is where the last step that kept to that led.
+/// True where it got there; else s is where the last step that kept to that led.
 bool take_last_steps(const NormalEquationsAt& evaluate,
                      const Bounds& bounds,
                      std::vector<double>& x,

@@ -29,7 +29,7 @@ struct SolveOptions {
   int max_iterations = 100;
   double function_tolerance = 1e-10;
   double parameter_tolerance = 1e-10;
-  /// Of the cost, where the sums are those of rounded numbers: it stops where the cost is below
+  /// Rounding of the cost, where the sums are those of rounded numbers: it stops where the cost is below
   /// `rounding`, or where a step fails by less than that or 1e-7 of the cost.
   double rounding = 0;
 };

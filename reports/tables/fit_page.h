@@ -13,7 +13,7 @@
 
 namespace gonio {
 
-/// What the page shows beyond fit.json and the table's health.
+/// Content of the page beyond fit.json and the table's health.
 struct FitPage {
   std::vector<std::string> channels;
   std::vector<Cut> curves;

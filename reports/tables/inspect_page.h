@@ -23,7 +23,7 @@ struct SlicePicture {
 /// (of an image slice its own, at most 180 × 180); another list is binned, 45 × 30.
 SlicePicture make_slice_picture(const Table&);
 
-/// What is masked, and how far values are from their reciprocal partners', by angle: over theta_h ×
+/// Counts of masked values, and how far values are from their reciprocal partners', by angle: over theta_h ×
 /// theta_d for grids over those, else over theta_i × theta_o.
 struct TrustMap {
   std::string x, y;                  ///< names of the angles
@@ -36,7 +36,7 @@ struct TrustMap {
 
 TrustMap make_trust_map(const Table&);
 
-/// What the page shows beyond the table's health.
+/// Content of the page beyond the table's health.
 struct InspectPage {
   std::vector<std::string> channels;
   std::vector<Cut> curves;

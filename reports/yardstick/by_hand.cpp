@@ -34,7 +34,7 @@ struct Root {
   Lane<F> operator()(const Lane<F>& c) const { return sqrt(a2 + rest * c * c); }
 };
 
-/// What divides α²/π in D V: (NoH² (α² − 1) + 1)² · 2 (NoL r(NoV) + NoV r(NoL))
+/// Divisor of α²/π in D V: (NoH² (α² − 1) + 1)² · 2 (NoL r(NoV) + NoV r(NoL))
 template <class F>
 struct GgxCorrelated {
   using B = Lane<F>;

@@ -196,7 +196,7 @@ template <class... Fields>
 constexpr std::size_t members_shown(const Group<Fields...>& g) {
   return std::apply([](const auto&... f) { return (members_shown(f) + ... + 0); }, g.fields);
 }
-/// Whether each member of an aggregate has its field: for what must not be forgotten, in a static_assert beside the
+/// True where each member of an aggregate has its field: for what must not be forgotten, in a static_assert beside the
 /// description.
 template <Described T>
 consteval bool describes_every_member() {

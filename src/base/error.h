@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What went wrong, for whom, and where in *their* file; and the program's exit codes.
+/// Errors: what went wrong, for whom, and where in *their* file; and the program's exit codes.
 
 #include <array>
 #include <stdexcept>

@@ -199,7 +199,7 @@ std::string temporary_name(unsigned counter) {
                      me.start.empty() ? "-" : me.start, counter, kSuffix);
 }
 
-/// Whether a file is a temporary one of a process of this boot that has ended.  Those of other machines that share
+/// True for a temporary file of a process of this boot that has ended.  Those of other machines that share
 /// the folder, and of other namespaces, whose processes cannot be seen from here, are left alone.
 bool is_left_over(std::string_view name) {
   if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return false;

@@ -36,7 +36,7 @@ class InputFile {
   struct Close {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };
-  /// What changes when a file is written to: its size and its time [ns].
+  /// Size and time [ns] of a file, which change when it is written to.
   struct Stamp {
     std::uint64_t size = 0;
     std::int64_t written = 0;

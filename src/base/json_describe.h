@@ -36,7 +36,7 @@ std::string schema_text(std::string_view title);
 
 // --- How ---
 
-/// What tells the forms of values apart.
+/// Traits that tell the forms of values apart.
 namespace form {
 
 template <class T, template <class> class Form>
@@ -153,7 +153,7 @@ Json json_of(const V& value, Digits digits) {
   }
 }
 
-/// The same schema, for null too.
+/// Schema that allows null too.
 Json or_null(Json schema);
 /// "what it is [unit]"
 void put_meaning(Json& schema, std::string_view meaning, std::string_view unit);

@@ -108,7 +108,7 @@ class Builder final : public nlohmann::json_sax<Json> {
     open_.push_back(&put(std::move(value)));
     return true;
   }
-  /// Of members with one name the value of the last, where the first stands.
+  /// Keeps of members with one name the value of the last, where the first stands.
   void keep_last(Members& all) {
     order_.resize(all.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});

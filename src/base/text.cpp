@@ -7,8 +7,8 @@
 namespace gonio {
 namespace {
 
-/// Whether a character turns the direction of the text after it, or ends its line: what follows would be read as
-/// what it is not.
+/// True for a character that turns the direction of the text after it, or ends its line: what follows would be read
+/// as what it is not.
 constexpr bool misleads(char32_t c) {
   return c == 0x61c || c == 0x200e || c == 0x200f || (c >= 0x2028 && c <= 0x202e) ||
          (c >= 0x2066 && c <= 0x2069) || c == 0xfeff;

@@ -101,7 +101,7 @@ bool is_grey(const std::vector<double>& by_channel) {
 
 using Json = nlohmann::ordered_json;
 
-/// What is said of a walk or a half space beside the albedo: by channel, or of one where all are equal.
+/// Adds the figures of a walk or a half space beside the albedo: by channel, or of one where all are equal.
 void add_scattered(Json& document, const Result& r, bool grey, const Options& o) {
   const auto by_channel = [&](const auto& all) { return grey ? Json(all[0]) : Json(all); };
   const bool walked = o.scattering == "walk";

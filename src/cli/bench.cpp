@@ -42,7 +42,7 @@ struct Place {
   bool operator==(const Place&) const = default;
 };
 
-/// Of one kind in one number: a line for each form, a column for each place.
+/// Prints the rows of one kind in one number: a line for each form, a column for each place.
 void print_group(const std::vector<const CostRow*>& rows) {
   std::vector<Place> places;
   std::vector<std::string> names;

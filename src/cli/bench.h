@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `gonio bench` can time.
+/// Subjects that `gonio bench` can time, beside the kernels.
 
 #include "cli/command.h"
 

@@ -100,7 +100,7 @@ void print(const Table& t) {
   line("written", side_path(t.path));
 }
 
-/// What a side file says of columns, as it stands there.
+/// The "columns" of a side file, as they stand there.
 Json columns_of(const std::string& file, const std::string& side) {
   return parse_json(side_path(file), side)["columns"];
 }

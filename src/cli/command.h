@@ -51,7 +51,7 @@ void add_bins(Command&, std::optional<std::string>& name);
 inline std::optional<Bins> bins_from(const std::optional<std::string>& name) {
   return name ? std::optional(value_of<Bins>(*name, "bins")) : std::nullopt;
 }
-/// What most subcommands share.
+/// Options that most subcommands share.
 struct Common {
   bool json = false, quiet = false;
   int jobs = 0;

@@ -19,11 +19,11 @@ class Option;
 
 namespace gonio::cli {
 
-/// What the program does after parsing.
+/// The program's work after parsing.
 using Action = std::function<Exit()>;
 
-/// What its words have to be.  A call that breaks that is refused before anything runs; the help
-/// shows it.
+/// An option and the rules for its words.  A call that breaks one is refused before anything runs; the help
+/// shows them.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
@@ -36,7 +36,7 @@ class Option {
   Option& one_of(const std::array<Name, N>& names) {
     return one_of(std::vector<std::string>(names.begin(), names.end()));
   }
-  /// Of an unsigned value: below 0 it would wrap around.
+  /// Numbers from 0 on, for an unsigned value: one below 0 would wrap around.
   Option& not_negative();
   /// From one to so many words each time that it is given.
   Option& at_most(int words);

@@ -53,7 +53,7 @@ std::string percent(std::size_t part, std::size_t whole) {
   return percent(whole ? static_cast<double>(part) / static_cast<double>(whole) : 0);
 }
 
-/// What was done to the values, in words.
+/// Way that the values were converted, in words.
 std::string method(const Table& from, const Loss& l, double reach_deg) {
   switch (l.method) {
     case Loss::Method::copied:

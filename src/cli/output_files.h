@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a run leaves behind: a document, a page, or both.
+/// Files that a run leaves behind: a document, a page, or both.
 
 #include <optional>
 #include <string>

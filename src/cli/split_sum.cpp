@@ -32,7 +32,7 @@ Goal goal_or(const Options& o, double error) {
   return {o.error.value_or(error)};
 }
 
-/// Of values that are no numbers, as where NoV is so small that its square is 0.
+/// Refuses values that are no numbers, as where NoV is so small that its square is 0.
 void expect_finite(const Options& o,
                    double roughness,
                    double nov,

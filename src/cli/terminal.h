@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a person at a terminal sees.
+/// Output as a person at a terminal sees it.
 
 #include <chrono>
 #include <cstddef>
@@ -44,7 +44,7 @@ void say(fmt::format_string<Said<T>...> format, const T&... arguments) {
   fmt::print(format, harmless(arguments)...);
 }
 
-/// How much longer it takes if what is left goes as what was done: ", 1:05 left"; empty before the
+/// Time still needed if the rest goes as what was done: ", 1:05 left"; empty before the
 /// first is done.
 std::string time_left(std::chrono::steady_clock::time_point begin,
                       std::size_t done,

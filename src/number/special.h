@@ -25,7 +25,7 @@ T small() {
   constexpr int exponent = std::max(std::numeric_limits<base_t<T>>::min_exponent / 2, -511);
   return constant<T>(std::ldexp(1.0L, exponent));
 }
-/// Lower bound for a divisor that would be 0 and is used for nothing else, squared neither: the least
+/// Lower bound for a divisor that would be 0, where nothing but the quotient is needed, and no square of it: the least
 /// normal number, whose reciprocal is finite too.
 template <Real T>
 T least() {

@@ -69,7 +69,7 @@ struct DirectionList {
   std::vector<double> theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg;
 };
 
-/// What a synthesized table was made from.
+/// Model and disturbances that a synthesized table was made from.
 struct Truth {
   std::string model;
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
@@ -116,7 +116,7 @@ struct Table {
   const DirectionList* list() const { return std::get_if<DirectionList>(&where); }
   /// The convention assumed; of a list, which has no bins, the default.
   Bins bins() const { return grid() ? grid()->bins : Bins::centre; }
-  /// Whether a bin convention matters here.
+  /// True where a bin convention matters.
   bool has_bins() const;
 };
 
@@ -124,13 +124,13 @@ struct Table {
 class SampleAngles {
  public:
   explicit SampleAngles(const Table& t) : SampleAngles(t, t.bins()) {}
-  /// As if the grid followed the other convention.
+  /// Angles as if the grid followed that convention.
   SampleAngles(const Table&, Bins);
 
   Angles<double> operator()(std::size_t i) const;
   /// Samples that differ in the last axis alone: those of a grid's row, or one of a list.
   std::size_t row_size() const;
-  /// Of one row, sample by sample.
+  /// Angles of one row, sample by sample.
   class Row;
   Row row(std::size_t number) const;
   DirectionPair directions(std::size_t i) const;
@@ -149,7 +149,7 @@ class SampleAngles {
 class SampleAngles::Row {
  public:
   Row(const SampleAngles& at, std::size_t number);
-  /// Whether noh, voh and sin2_theta_h are the same in the whole row; then nol and nov are
+  /// True where noh, voh and sin2_theta_h are the same in the whole row; then nol and nov are
   /// middle() ∓ swing() cos_phi_d().
   bool is_level() const { return theta_h_ != nullptr; }
   double middle() const { return theta_h_->cos * theta_d_->cos; }
@@ -188,7 +188,7 @@ inline Mask mask(const Angles<double>& a, double value) {
 class Interpolator {
  public:
   explicit Interpolator(const Table& t) : table_(t), at_(t) {}
-  /// Of a grid: trilinear over the valid corners of the cell; NaN where they carry half of its weight
+  /// Value of a grid: trilinear over the valid corners of the cell; NaN where they carry half of its weight
   /// or less, or outside the grid by more than a bin.  Of a list: Table::between, or NaN.
   double operator()(const DirectionPair&, std::size_t channel) const;
 

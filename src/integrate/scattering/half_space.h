@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a rough surface gives back of the light that comes in, all orders of scattering: the deterministic
+/// Share of the incoming light that a rough surface gives back, all orders of scattering: the deterministic
 /// solution of what walk() draws at random, for isotropic surfaces.
 
 #include <span>

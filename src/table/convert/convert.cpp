@@ -131,7 +131,7 @@ Table listed(Table t, Loss& loss) {
   return t;
 }
 
-/// Of the pairs that the target has one value for, each channel's mean; the pairs' differences are
+/// Mean of each channel over the pairs that the target has one value for; the pairs' differences are
 /// kept of some thousand bins.
 class Resampling {
  public:
@@ -375,7 +375,7 @@ void there_and_back(const Table& from, const Table& to, Loss& loss) {
   if (loss.compared) loss.rms = std::sqrt(loss.rms / static_cast<double>(loss.compared));
 }
 
-/// As the format will hold them: in float, and with its mark for "no data".
+/// Turns values into those that the format will hold: in float, and with its mark for "no data".
 void settle_values(Table& t, const Loss& loss) {
   const bool resampled = loss.method >= Loss::Method::interpolated;
   if (resampled) t.negative_is_noise = t.format != "merl";

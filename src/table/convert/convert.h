@@ -14,8 +14,8 @@ namespace gonio {
 struct ConvertOptions {
   std::string format;                 ///< merl, mbsdf, csv or exr
   std::vector<std::string> channels;  ///< which, in this order; empty: all
-  /// Of the result; else as the source.  Its sizes too where the layout leaves them open: as the
-  /// source if that is of the format, else 45 × 45 × 90 (MBSDF) or 90 × 90 (slice).
+  /// Bin convention of the result; else the source's.  The result's sizes where the layout leaves them open: the
+  /// source's if that is of the format, else 45 × 45 × 90 (MBSDF) or 90 × 90 (slice).
   std::optional<Bins> bins;
   std::optional<std::size_t> n_theta, n_phi;  ///< of MBSDF
   std::optional<double> phi_d_deg;            ///< of a slice; else as the source's, or 90
@@ -59,7 +59,7 @@ struct Conversion {
   Loss loss;
 };
 
-/// What is masked stays without data: −1 in MERL, else NaN.  The truth stays where values do.  Wrong
+/// Masked values stay without data: −1 in MERL, else NaN.  The truth stays where values do.  Wrong
 /// usage where the format cannot hold the channels; bad_input where a list's samples reach less than
 /// half of the bins.
 Conversion convert(const Table&, const ConvertOptions&);

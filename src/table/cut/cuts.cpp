@@ -76,7 +76,7 @@ bool finish(Cut& cut,
   return true;
 }
 
-/// Whether a grid of one phi (or phi_d) says anything about this pair.
+/// True where a grid of one phi (or phi_d) says something about this pair.
 bool at_its_azimuth(const Grid& g, const DirectionPair& p) {
   const Axis& axis = g.axes[2];
   if (axis.size > 1) return true;

@@ -9,7 +9,7 @@
 
 namespace gonio {
 
-/// Whether a header line #DIM, #PARAM_IN or #ALTA… stands at the beginning.
+/// True where a header line #DIM, #PARAM_IN or #ALTA… stands at the beginning.
 bool is_alta(std::string_view head);
 
 /// #DIM nx ny; #PARAM_IN how nx numbers [rad] give two directions: SPHERICAL_TL_PL_TV_PV, CARTESIAN

@@ -36,7 +36,7 @@ struct ColumnMap {
   std::size_t skip = 0;
 };
 
-/// Whether a column can be that: an angle, f, f_NAME, weight or channel.
+/// True for what a column can be: an angle, f, f_NAME, weight or channel.
 bool is_role(const std::string&);
 
 }  // namespace gonio

@@ -386,8 +386,8 @@ class Reader {
     }
   }
 
-  /// As the file has them, where they are said to be degrees: what a sign or --forward adds to an
-  /// azimuth would hide that they are radians.
+  /// True where angles said to be degrees look like radians in the file itself: what a sign or --forward adds to an
+  /// azimuth would hide it.
   bool angles_are_small() const {
     if (map_ && map_->radians) return false;
     constexpr double quarter = 1.6, whole = 6.3;  // [rad], a little more than π/2 and 2π

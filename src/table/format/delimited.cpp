@@ -28,7 +28,7 @@ std::size_t after_quotes(std::string_view s) {
   return s.npos;
 }
 
-/// Whether a field may begin behind that character.
+/// True where a field may begin behind that character.
 bool separates(char c, char separator) {
   return c == separator || (separator == kAnyBlank && kBlank.find(c) != kBlank.npos);
 }
@@ -45,7 +45,7 @@ std::size_t end_of_field(std::string_view line, char separator) {
   return separator == kAnyBlank ? line.find_first_of(kBlank) : line.find(separator);
 }
 
-/// What a field says.  \param unescaped  keeps what does not stand in the line as it is
+/// Text of a field, out of its quotes.  \param unescaped  keeps what does not stand in the line as it is
 std::string_view unquoted(std::string_view s, std::deque<std::string>& unescaped) {
   if (!s.starts_with('"') || after_quotes(s) != s.size()) return s;
   s = s.substr(1, s.size() - 2);

@@ -4,7 +4,7 @@
 /// blanks, a line of names above them.  A field that begins with a quote ends with one; a quote within
 /// is doubled, separators and line ends are as good as any other character there [RFC 4180].
 ///
-/// What can be told for sure is read: a UTF-8 byte-order mark, Windows line ends, the line ends of old
+/// Variants that can be told for sure are read: a UTF-8 byte-order mark, Windows line ends, the line ends of old
 /// Macs where there are no others, numbers with a decimal comma where the comma separates nothing.
 /// Lines that are blank or begin with '#' are passed over; where the first of the others holds numbers
 /// alone, the names are those of the last comment above it, if they are as many.
@@ -23,7 +23,7 @@ std::optional<double> number_in(std::string_view field);
 /// Mark of a spreadsheet or an instrument that there is no value: an empty field, n/a, NA or -.
 bool is_gap(std::string_view field);
 
-/// Whether the beginning of a file looks like such text: a line with three numbers or more soon.
+/// True where the beginning of a file looks like such text: a line with three numbers or more soon.
 bool looks_delimited(std::string_view head);
 /// The fields of the first line that says something: its names, if it has any.
 std::vector<std::string> first_fields(std::string_view head);
@@ -47,9 +47,9 @@ class Delimited {
   const std::vector<std::string>& names() const { return names_; }
   /// Goes to the next line; one that has more or fewer fields than there are columns is an error.
   bool next();
-  /// Of this line, without blanks around them; there until the next one.
+  /// Fields of this line, without blanks around them; there until the next one.
   const std::vector<std::string_view>& fields() const { return fields_; }
-  /// What is no number, or mixes decimal points and commas, is an error.
+  /// Number in a field; one that is none, or mixes decimal points and commas, is an error.
   double number(std::size_t column);
   /// Names the line, and the column unless that is "".
   [[noreturn]] void fail(std::string_view column,

@@ -9,7 +9,7 @@
 
 namespace gonio {
 
-/// Whether XML with a WindowElement begins here.
+/// True where XML with a WindowElement begins.
 bool is_klems(std::string_view head);
 
 /// The file's AngleBasis cuts the hemisphere into rings of θ, each into nPhis patches of equal azimuth,

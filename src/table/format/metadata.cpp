@@ -106,7 +106,7 @@ Json column_map_json(const ColumnMap& map) {
   return j;
 }
 
-/// Of notes with one name the last, where the first stands.
+/// The table's notes: of those with one name the last, where the first stands.
 Json notes_json(const Table& t) {
   std::vector<std::pair<std::string, Json>> all;
   std::map<std::string_view, std::size_t> known;

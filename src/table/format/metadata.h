@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What gonio knows of a table beyond its format: bin convention, truth, notes, the meaning of its
+/// Knowledge of a table beyond its format: bin convention, truth, notes, the meaning of its
 /// columns; as JSON in a side file (FILE.gonio.json) or an attribute.
 ///
 ///   {"schema": "gonio.table/1", "sha256": of the table's file (in a side file that gonio wrote),

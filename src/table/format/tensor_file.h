@@ -32,7 +32,7 @@ class TensorFile {
   bool has(std::string_view name) const;
   /// The shape of a field, which must have so many dimensions, none of them empty, and lie in the file.
   const Tensor& tensor(std::string_view name, Tensor::Type type, std::size_t dimensions) const;
-  /// The same of a field of floats that must have this shape.
+  /// A field of floats, which must have this shape and lie in the file.
   const Tensor& shaped(std::string_view name, const std::vector<std::uint64_t>& shape) const;
   /// \param most  refuses more values than that
   std::vector<float> floats(const Tensor&, std::uint64_t most = most_values) const;

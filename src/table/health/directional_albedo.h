@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much of the light that comes in goes out again, as far as a table's samples say.
+/// Share of the incoming light that goes out again, as far as a table's samples say.
 
 #include <vector>
 

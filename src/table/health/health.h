@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a table can be trusted for, before anything is fitted to it.
+/// Health of a table: what it can be trusted for, before anything is fitted to it.
 
 #include <array>
 #include <optional>
@@ -45,7 +45,7 @@ enum class Verdict { no, weakly, yes };
 template <>
 inline constexpr std::array<std::string_view, 3> names_of<Verdict>{"no", "weakly", "yes"};
 
-/// Whether the table can determine something, and the figure that says so.
+/// Verdict on whether the table can determine something, and the figure that says so.
 struct Prospect {
   std::string of;
   Verdict verdict;
@@ -69,7 +69,7 @@ struct Health {
   double peak_contrast = 0;       ///< PeakSearch::contrast
   std::optional<Peak> retro;      ///< see retro_peak()
   std::vector<Prospect> prospects;
-  /// What the values themselves make odd: more light than arrives, or a cosine left in them.
+  /// Oddities of the values themselves: more light than arrives, or a cosine left in them.
   std::vector<std::string> warnings;
 };
 
@@ -84,7 +84,7 @@ double noise_floor(const Table&);
 /// that hold the very same values, bit for bit: itself, unless it was filled in from its neighbour.  A
 /// slice of one value is no copy.  Empty for other tables.
 std::vector<std::size_t> first_of_copies(const Table&, std::size_t axis = 0);
-/// How many angles are not the first of their run.
+/// Number of angles that are not the first of their run.
 std::size_t copied_rows(const Table&, std::size_t axis = 0);
 
 /// "45 theta_i × 45 theta_o × 90 phi", "855 samples"

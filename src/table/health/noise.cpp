@@ -27,7 +27,7 @@ struct Family {
   std::vector<Line> lines;
 };
 
-/// What one value differs from its neighbours by, scaled to the spread of one value.
+/// Difference of one value from its neighbours, scaled to the spread of one value.
 struct Difference {
   std::size_t sample, channel;
   double fewer, more;  ///< by 3 and by 4 neighbours on either side
@@ -64,7 +64,7 @@ double difference(const double* x, const double* y, std::size_t k) {
   return (y[k] - value) / std::sqrt(squares);
 }
 
-/// How many of the lines, taken evenly among all, hold enough_values.
+/// Number of lines, taken evenly among all, that together hold enough_values.
 std::size_t enough_lines(const Table& t, std::size_t lines, std::size_t samples) {
   return std::clamp<std::size_t>(enough_values * lines / (samples * t.values.size()), 1, lines);
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How noisy a table's values are, told from the values alone.
+/// Noise of a table's values, told from the values alone.
 
 #include <optional>
 #include <string>

@@ -15,7 +15,7 @@ namespace {
 
 using enum Verdict;
 
-/// What the prospects ask of the samples, of 200,000 of them where there are more.
+/// Figures that the prospects ask of the samples, of up to 200,000 of them.
 struct Survey {
   double highlight_from_deg = 180,
          highlight_to_deg = -1;       ///< θ_d of valid samples in the highlight
@@ -24,7 +24,7 @@ struct Survey {
   double tail = 0;  ///< of a GGX lobe as wide as the highlight, where the base is, over its height
 };
 
-/// How high a GGX lobe still is in a profile's base: the mean over these samples.
+/// Height of a GGX lobe in a profile's base, over that of its top: the mean over these samples.
 double tail_of(double alpha, const std::vector<Angles<double>>& base) {
   if (base.empty()) return 0;
   const auto lobe =
@@ -69,7 +69,7 @@ Survey survey(const Table& t, const Health& h) {
   return s;
 }
 
-/// Whether noise alone, and a quarter, spreads the values that far: 98 % of a normal deviate's lie
+/// True where noise alone, and a quarter, could spread the values that far: 98 % of a normal deviate's lie
 /// within 4.65 σ.
 bool flat(const Health& h, const Survey& s) {
   const double sigma = h.noise.sigma && !h.noise.bound ? *h.noise.sigma : 0;
@@ -168,7 +168,7 @@ Prospect precision(const Health& h, const Survey& s) {
   return {"precision", v, why};
 }
 
-/// As the fit tells incident angles apart for its intervals.
+/// Number of incident angles, told apart as the fit does for its intervals.
 std::size_t incident_angles(const Table& t) {
   if (const auto* l = t.list()) {
     std::set<long> distinct;

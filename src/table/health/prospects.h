@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a fit can hope to determine, told before any fit.
+/// Prospects of a fit: what it can hope to determine, told before any is made.
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether light that goes the other way finds the same reflectance.
+/// Reciprocity: whether light that goes the other way finds the same reflectance.
 
 #include <functional>
 #include <optional>
@@ -15,13 +15,13 @@ struct Reciprocity {
   std::string note;             ///< why there is none, or from what it is
 };
 
-/// What a sample is compared with.
+/// Values that a sample is compared with.
 enum class Partners {
   none,
   samples,  ///< the one whose wi and wo are exchanged
   between   ///< Table::between, at some of the samples if there are many
 };
-/// Of a sample and channel: the value a, and b the other way; both valid.
+/// Visitor of each sample and channel: the value a, and b the other way; both valid.
 using ReciprocalVisitor =
     std::function<void(std::size_t sample, std::size_t channel, double a, double b)>;
 /// A grid of half angles shows each pair once, others each sample with its partner.
