@@ -10,8 +10,8 @@
 ///                        few bits it may divide by zero, cancel or overflow, and that is to be seen
 ///
 /// The parameters are T (they may carry derivatives), the angles are plain_t<T> (they never do).
-/// A term is added by writing its struct and naming it in catalogue/catalogue.h; the registry, the command
-/// line, composition, the fit and the tests find it from there.
+/// A term is added by writing its struct and naming it in its list (catalogue/distributions.h and its
+/// neighbours); the registry, the command line, composition, the fit and the tests find it from there.
 
 #include <array>
 #include <span>
