@@ -1,15 +1,11 @@
 #include "reports/picture/json_numbers.h"
 
-#include <cmath>
-#include <cstdlib>
-
-#include <fmt/format.h>
+#include "base/json_describe.h"
 
 namespace gonio {
 
 PageJson page_json(double v) {
-  if (!std::isfinite(v)) return nullptr;
-  return std::strtod(fmt::format("{:.6g}", v).c_str(), nullptr);
+  return number_json(v, Digits::six);
 }
 
 std::string page_text(const PageJson& j) {

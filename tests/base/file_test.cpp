@@ -252,7 +252,7 @@ std::string left_by_a_kill(const Folder& folder) {
   return "";
 }
 
-/// What left_by_a_kill runs.
+/// Program that left_by_a_kill runs.
 TEST(OutputFile, DISABLED_IsBegunAndKilled) {
   const char* const folder = std::getenv("GONIO_TEST_FOLDER");
   if (!folder) GTEST_SKIP() << "run by another test";
