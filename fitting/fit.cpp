@@ -75,7 +75,7 @@ FitResult fit(const Table& t,
   const Bins bins = t.bins();
   const bool reciprocal = is_reciprocal(p.start);
   const auto sampling_of = [&](Bins convention) {
-    return Sampling(t, convention, o.metric, p.offset, reciprocal && !o.robust);
+    return Sampling(t, convention, o.metric, p.offset, reciprocal && !o.robust, o.copies);
   };
   const Sampling sampling = sampling_of(bins);
   Searched found = search(p, sampling, watch, announce);

@@ -58,11 +58,11 @@ std::vector<std::string> warnings(const FitOptions& o,
           "the table does not resolve its highlight ({:.0f} samples within the half width of "
           "{:.2g}°): the width found is that of the samples or the instrument",
           peak->samples_within, peak->half_width_deg));
-  if (const std::size_t copies = copied_rows(t))
+  if (const std::size_t in = copied_rows(t, 0), out = copied_rows(t, 1); in || out)
     all.push_back(
-        fmt::format("{} of the table's incident angles repeat another value for value: no "
-                    "measurements of their own",
-                    copies));
+        fmt::format("{} incident and {} outgoing angles of the table repeat another value for "
+                    "value: no measurements of their own, {}",
+                    in, out, o.copies ? "though fitted like such" : "and left out"));
   if (d.log_offset > 0)
     all.push_back(fmt::format(
         "negative values betray a noise floor of {:.2g} 1/sr; they are masked, which lifts what "

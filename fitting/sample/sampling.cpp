@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "table/health/health.h"
 
 namespace gonio {
 
@@ -67,12 +68,13 @@ Groups::Groups(const Table& t, const SampleAngles& at, Bins bins, bool fold)
 
 // ---- sampling -----------------------------------------------------------------------------------
 
-Sampling::Sampling(const Table& t, Bins bins, Metric metric, double offset, bool fold)
+Sampling::Sampling(const Table& t, Bins bins, Metric metric, double offset, bool fold, bool copies)
     : table_(t),
       angles_(t, bins),
       groups_(t, angles_, bins, fold),
       metric_(metric),
-      offset_(metric == Metric::l2_cosine ? 0 : offset) {
+      offset_(metric == Metric::l2_cosine ? 0 : offset),
+      copied_(copies ? std::vector<bool>{} : copied_pairs(t)) {
   if (t.weights.empty()) return;
   double sum = 0, samples = 0;
   for (std::size_t i = 0; i < t.size(); ++i) {
@@ -97,6 +99,7 @@ void SampleCounts::add(const SampleCounts& o) {
   used += o.used;
   zero += o.zero;
   zero_weight += o.zero_weight;
+  copied += o.copied;
   for (std::size_t m = 0; m < masked.size(); ++m) masked[m] += o.masked[m];
 }
 
@@ -106,6 +109,7 @@ std::map<std::string, std::size_t> SampleCounts::by_reason(const Sampling& s) co
     reasons[std::string(names_of<Mask>[m])] = masked[m];
   if (!usable(s.metric(), 0, s.offset())) reasons["zero"] = zero;
   if (!s.table().weights.empty()) reasons["zero_weight"] = zero_weight;
+  if (s.has_copies()) reasons["copied"] = copied;
   return reasons;
 }
 
@@ -262,12 +266,14 @@ void BlockReader<F>::place_members(std::size_t row, std::size_t from) {
   const bool without_gap = group_column_[n_ - 1] - first == n_ - 1 - from;
   for (std::size_t m = 0; m < sampling_.groups().widest(); ++m) {
     const auto r = rows.part(row, m / columns.widest());
+    const bool copy = r.at != absent && sampling_.is_copy(r.at);
+    const bool row_there = r.at != absent && !copy;
     const std::size_t of_column = m % columns.widest();
     const auto& line = columns.line(of_column);
     const F *const as_is = angles_[r.swapped].data(), *const exchanged = angles_[!r.swapped].data();
     F* const nol = nol_[m].data();
     std::size_t* const sample = sample_[m].data();
-    const std::ptrdiff_t step = without_gap && r.at != absent ? line.step : 0;
+    const std::ptrdiff_t step = without_gap && row_there ? line.step : 0;
     if (step != 0) {
       std::copy_n((line.swapped ? exchanged : as_is) + from, n_ - from, nol + from);
       const auto begin =
@@ -277,7 +283,8 @@ void BlockReader<F>::place_members(std::size_t row, std::size_t from) {
     } else {
       for (std::size_t i = from; i < n_; ++i) {
         const auto c = columns.part(group_column_[i], of_column);
-        const bool there = r.at != absent && c.at != absent;
+        const bool there = row_there && c.at != absent;
+        counts_.copied += copy && c.at != absent ? sampling_.channels() : 0;
         nol[i] = there ? (c.swapped ? exchanged : as_is)[i] : F(0.5);
         sample[i] = there ? r.at * width + c.at : absent;
         absent_[m] += !there;

@@ -90,7 +90,8 @@ class Groups {
 /// A table, and how a model is compared with it.
 class Sampling {
  public:
-  Sampling(const Table&, Bins, Metric, double offset, bool fold);
+  /// \param copies  whether angles that only repeat another are looked at, too
+  Sampling(const Table&, Bins, Metric, double offset, bool fold, bool copies = false);
   const Table& table() const { return table_; }
   const SampleAngles& angles() const { return angles_; }
   const Groups& groups() const { return groups_; }
@@ -101,6 +102,9 @@ class Sampling {
   std::size_t channels() const { return table_.values.size(); }
   /// √(weight over the mean weight)
   double root_weight(std::size_t sample) const;
+  /// True for rows of the table that are left out: their values only repeat those of others.
+  bool is_copy(std::size_t row) const { return !copied_.empty() && copied_[row]; }
+  bool has_copies() const { return !copied_.empty(); }
 
  private:
   const Table& table_;
@@ -108,10 +112,11 @@ class Sampling {
   Groups groups_;
   Metric metric_;
   double offset_, mean_weight_ = 1;
+  std::vector<bool> copied_;  ///< [row]; empty: none is
 };
 
 struct SampleCounts {
-  std::size_t used = 0, zero = 0, zero_weight = 0;
+  std::size_t used = 0, zero = 0, zero_weight = 0, copied = 0;
   std::array<std::size_t, names_of<Mask>.size()> masked{};  ///< by Mask
 
   void add(const SampleCounts&);

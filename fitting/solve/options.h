@@ -31,6 +31,7 @@ struct FitOptions {
   Metric metric = Metric::log;
   bool robust = false;  ///< Huber's loss beyond 1.345 robust standard deviations
   Intervals intervals = Intervals::automatic;
+  bool copies = false;          ///< fit also what only repeats another angle
   bool bin_sensitivity = true;  ///< fit again under the other bin convention
 };
 
@@ -56,6 +57,8 @@ struct Description<FitOptions> {
         field("metric", "", &FitOptions::metric, "how values are compared"),
         field("robust", "", &FitOptions::robust, "whether outliers count less"),
         field("intervals", "", &FitOptions::intervals, "which values share their errors"),
+        field("copies", "", &FitOptions::copies,
+              "whether angles that only repeat another are fitted, too"),
         field("bin_sensitivity", "", &FitOptions::bin_sensitivity,
               "whether there is a fit under the other bin convention, too")};
   }

@@ -7,6 +7,7 @@
 
 #include "brdf/model/evaluate.h"
 #include "reports/tables/angle_bins.h"
+#include "table/health/health.h"
 
 namespace gonio {
 namespace {
@@ -25,6 +26,7 @@ ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
   map.count.assign(bins.x * bins.y, 0);
 
   const SampleAngles at(table);
+  const auto copied = copied_pairs(table);
   constexpr std::size_t chunk = 1 << 15;  // samples whose angles and model values are held at once
   std::vector<Angles<double>> x;
   for (std::size_t first = 0; first < table.size(); first += chunk) {
@@ -34,6 +36,7 @@ ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
     const auto model = evaluate(fitted, x);
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!(x[i].nol > 0 && x[i].nov > 0)) continue;
+      if (!copied.empty() && copied[(first + i) / at.row_size()]) continue;
       const std::size_t k = bins.cell(x[i]);
       for (std::size_t c = 0; c < table.values.size(); ++c) {
         const double y = table.values[c][first + i], f = model[c][i];

@@ -10,7 +10,7 @@
 namespace gonio {
 
 /// ln f_model − ln f_data over theta_h × theta_d, all channels together, of the valid values where
-/// both are positive.  Rows of theta_h grow as its square: fine at the peak.
+/// both are positive and do not only repeat those of another angle.  Rows of theta_h grow as its square: fine at the peak.
 struct ResidualMap {
   std::vector<double> theta_h_deg, theta_d_deg;  ///< edges, one more than there are bins
   std::vector<double> mean, rms;   ///< [h · bins of theta_d + d]; NaN where count is 0

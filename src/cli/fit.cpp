@@ -21,7 +21,8 @@ namespace {
 
 struct Options : Common {
   std::vector<std::string> files;
-  std::string metric = "log", intervals = "automatic", robust = "none", output, html;
+  std::string metric = "log", intervals = "automatic", robust = "none", copies = "leave_out";
+  std::string output, html;
   std::vector<std::string> fix, bounds;
   FitOptions fit;
   std::optional<std::string> bins;
@@ -104,6 +105,7 @@ Exit run(const Options& o) {
   options.metric = value_of<Metric>(o.metric, "metric");
   options.intervals = value_of<Intervals>(o.intervals, "intervals");
   options.robust = o.robust == "huber";
+  options.copies = o.copies == "keep";
   options.fixed = parse_settings(o.fix);
   options.bounds = parse_settings(o.bounds);
 
@@ -159,6 +161,10 @@ void add_fit(CommandLine& line) {
            "Whether the values of one incident angle share their errors: independent, by_angle, or "
            "automatic (by_angle for measured tables)")
       .one_of(names_of<Intervals>)
+      .show_default();
+  c.option("--copies", o->copies,
+           "Angles of the table that only repeat another, value for value: leave_out, or keep")
+      .one_of({"leave_out", "keep"})
       .show_default();
   add_bins(c, o->bins);
   c.option("-o,--output", o->output,

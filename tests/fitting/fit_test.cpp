@@ -4,9 +4,11 @@
 #include <cmath>
 #include <random>
 
+#include "../support.h"
 #include "base/error.h"
 #include "brdf/model/evaluate.h"
 #include "fitting/support.h"
+#include "table/format/formats.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -484,6 +486,44 @@ TEST(Coverage, HoldsForErrorsSharedByAnIncidentAngleOnlyWhenTheyAreClustered) {
   // A binomial of 100 at 95 % lies in [88, 100] with 99.8 % probability.
   EXPECT_GE(coverage_of_kd(Intervals::automatic, 100), 88U);  // the table is taken as measured
   EXPECT_LE(coverage_of_kd(Intervals::independent, 40), 24U);
+}
+
+TEST(Copies, AreNoMeasurements) {
+  const BoundModel truth = bind_model(paint, parse_settings(materials[0].settings), 3);
+  Table t = synthesize(truth, {.layout = Layout::mbsdf});
+  const std::size_t row = t.grid()->axes[1].size * t.grid()->axes[2].size;
+  for (auto& plane : t.values)  // the highlight stays where it was while the light goes on
+    for (std::size_t copy = 20; copy < 30; ++copy)
+      std::copy_n(&plane[19 * row], row, &plane[copy * row]);
+  FitOptions o;
+  o.bin_sensitivity = false;
+  const auto d = fit(t, o).document;
+  EXPECT_NEAR(parameter(d, "alpha").value[0], 0.15, 1e-7);
+  EXPECT_GT(d.masked.at("copied"), 0U);
+  const auto told = [](const FitDocument& f, const char* words) {
+    return std::ranges::count_if(f.warnings, [&](const std::string& w) {
+      return w.starts_with("10 incident and 0 outgoing angles") &&
+             w.find(words) != std::string::npos;
+    });
+  };
+  EXPECT_EQ(told(d, "left out"), 1);
+  o.copies = true;
+  const auto kept = fit(t, o).document;
+  EXPECT_GT(std::abs(parameter(kept, "alpha").value[0] - 0.15), 0.001);
+  EXPECT_EQ(told(kept, "though fitted"), 1);
+}
+
+TEST(Copies, OfAMeasuredPaintMadeItPink) {
+  GONIO_NEEDS_SHARED(path, "data/mbsdf/carpaint_blue.mbsdf");
+  FitOptions o;
+  o.metric = Metric::l2_cosine;
+  o.bin_sensitivity = false;
+  const auto d = fit(read_table(path), o).document;
+  EXPECT_NEAR(parameter(d, "alpha").value[0], 0.064, 0.002);
+  const auto &f0 = parameter(d, "f0").value, &kd = parameter(d, "kd").value;
+  for (const double f : f0) EXPECT_NEAR(f, 0.05, 0.01);  // a clear coat
+  EXPECT_GT(kd[2], 0.05);                                // over blue
+  EXPECT_LT(kd[1], 0.02);
 }
 
 }  // namespace

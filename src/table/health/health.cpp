@@ -139,6 +139,15 @@ std::size_t copied_rows(const Table& t, std::size_t axis) {
   return copies;
 }
 
+std::vector<bool> copied_pairs(const Table& t) {
+  const auto in = first_of_copies(t, 0), out = first_of_copies(t, 1);
+  std::vector<bool> copied;
+  for (std::size_t i = 0; i < in.size(); ++i)
+    for (std::size_t o = 0; o < out.size(); ++o) copied.push_back(in[i] != i || out[o] != o);
+  if (std::ranges::find(copied, true) == copied.end()) copied.clear();
+  return copied;
+}
+
 std::string layout_text(const Table& t) {
   const Grid* g = t.grid();
   if (!g) return fmt::format("{} samples", t.size());

@@ -86,6 +86,9 @@ double noise_floor(const Table&);
 std::vector<std::size_t> first_of_copies(const Table&, std::size_t axis = 0);
 /// Number of angles that are not the first of their run.
 std::size_t copied_rows(const Table&, std::size_t axis = 0);
+/// Pairs of an incident and an outgoing angle, [θ_i · sizes of θ_o + θ_o], one of which only repeats
+/// another.  Empty where none does.
+std::vector<bool> copied_pairs(const Table&);
 
 /// "45 theta_i × 45 theta_o × 90 phi", "855 samples"
 std::string layout_text(const Table&);

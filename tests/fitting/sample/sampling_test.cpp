@@ -5,6 +5,7 @@
 
 #include "fitting/sample/data.h"
 #include "fitting/support.h"
+#include "table/example.h"
 
 #include <gtest/gtest.h>
 
@@ -36,6 +37,32 @@ TEST(Sampling, WeighsByTheRootOfTheWeightOverItsMean) {
   const Sampling s(t, Bins::centre, Metric::log, 0, false);
   EXPECT_NEAR(s.root_weight(0), std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(s.root_weight(1), std::sqrt(1.5), 1e-15);
+}
+
+TEST(Sampling, LeavesOutWhatOnlyRepeatsAnotherAngle) {
+  constexpr std::size_t thetas = 5, phis = 4, copy = 3;
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    Table t = test::mbsdf_example(thetas, phis);
+    const std::size_t step = axis == 0 ? thetas * phis : phis,
+                      other = axis == 0 ? phis : thetas * phis;
+    std::size_t repeated = 0;
+    const SampleAngles at(t);
+    for (std::size_t k = 0; k < thetas; ++k)
+      for (std::size_t i = copy * step + k * other; i < copy * step + k * other + phis; ++i) {
+        for (auto& plane : t.values) plane[i] = plane[i - step];
+        repeated += at(i).nol > horizon_cosine && at(i).nov > horizon_cosine;
+      }
+    for (const bool fold : {false, true}) {
+      const Sampling s(t, Bins::centre, Metric::l2_cosine, 0, fold);
+      const Sampling kept(t, Bins::centre, Metric::l2_cosine, 0, fold, true);
+      const auto counts = fit_data<double>(s).counts, all = fit_data<double>(kept).counts;
+      EXPECT_EQ(counts.by_reason(s).at("copied"), repeated * t.values.size());
+      EXPECT_EQ(counts.used + counts.copied, all.used);
+      constexpr auto negative = static_cast<std::size_t>(Mask::negative);
+      EXPECT_EQ(counts.masked[negative], all.masked[negative]);
+      EXPECT_EQ(all.by_reason(kept).count("copied"), 0U);
+    }
+  }
 }
 
 TEST(Metrics, CompareAsTheyAreDefined) {
