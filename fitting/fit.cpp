@@ -15,6 +15,7 @@
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
 
+#include <fmt/format.h>
 #include <tbb/task_group.h>
 
 namespace gonio {
@@ -125,6 +126,11 @@ FitResult fit(const Table& t,
   d.warnings = t.warnings;
   for (auto& w : warnings(o, t, d, judged.angles, p.free.size()))
     d.warnings.push_back(std::move(w));
+  if (found.cost_of_fewer < d.cost)
+    d.warnings.push_back(fmt::format(
+        "with fewer lobes the model meets the table better (cost {:.6g} for {:.6g}): a lobe "
+        "whose F is 1 at 90° cannot vanish",
+        found.cost_of_fewer, d.cost));
   if (needless)
     d.warnings.push_back(
         "without its lobe the model meets the table as well or better: nothing is known of the "

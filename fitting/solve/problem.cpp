@@ -88,6 +88,36 @@ Problem pose(const Table& t, const FitOptions& o) {
       o, std::move(b), std::move(slots), std::move(bounds), std::move(narrowed), noise_floor(t)};
 }
 
+Problem with_free(const Problem& p, Model model, const std::vector<bool>& mask) {
+  Problem q = p;
+  q.start.model = std::move(model);
+  q.bounds = {};
+  q.narrowed.clear();
+  std::vector<bool> both(mask.size());
+  for (const std::size_t s : p.free.slots()) {
+    if (!(both[s] = mask[s])) continue;
+    const std::size_t i = p.free.index(s);
+    q.bounds.low.push_back(p.bounds.low[i]);
+    q.bounds.high.push_back(p.bounds.high[i]);
+    q.narrowed.push_back(p.narrowed[i]);
+  }
+  q.free = FreeSlots(q.start.model, std::move(both));
+  return q;
+}
+
+std::vector<bool> slots_read(const Model& m) {
+  std::vector<bool> read(m.value_count);
+  const auto mark = [&](const TermUse& t) {
+    for (const std::size_t k : t.parameters)
+      std::fill_n(read.begin() + static_cast<std::ptrdiff_t>(m.parameters[k].first),
+                  m.parameters[k].count, true);
+  };
+  for (const auto& t : m.diffuse) mark(t);
+  for (const auto& l : m.lobes)
+    for (const auto* t : {&l.ndf, &l.masking, &l.fresnel}) mark(*t);
+  return read;
+}
+
 bool is_reciprocal(const BoundModel& b) {
   std::vector<Angles<double>> there, back;
   for (const double theta_h : {2.0, 15.0, 40.0})

@@ -29,6 +29,13 @@ FitOptions expanded(FitOptions);
 /// \param expanded  outlives the problem
 Problem pose(const Table&, const FitOptions& expanded);
 
+/// The problem with fewer unknowns: those not in the mask stay where `start` has them.
+/// \param model  the problem's own, or one with fewer terms over the same values
+Problem with_free(const Problem&, Model model, const std::vector<bool>& mask);
+
+/// Slots of the parameters that a model's terms read: those of fewer terms leave some unread.
+std::vector<bool> slots_read(const Model&);
+
 /// True where f stays the same with light and viewer exchanged: then such samples are one to the fit.
 bool is_reciprocal(const BoundModel&);
 

@@ -18,7 +18,6 @@ namespace gonio {
 namespace {
 
 constexpr std::size_t coarse_samples = 2048, middle_samples = 32768;
-
 /// Huber's threshold: 1.345 times the spread that the residuals' median size tells, 1.4826 times that
 /// size if they are normal.
 template <class F>
@@ -75,6 +74,43 @@ bool float_suffices(const Problem& p, const Fitted& f, std::size_t values_used) 
                   fmt::format("none that can be used ({})", reasons), "at least one");
 }
 
+/// Least cost of all samples that the model less one lobe of several reaches, where it is less than that
+/// of the whole on a thinned table: not every lobe can vanish.
+/// \param middle_cost  of the whole model
+template <class F>
+double cost_of_fewer(const Problem& p,
+                     const FitData<F>& thin,
+                     const FitData<F>& middle,
+                     const FitData<F>& all,
+                     double middle_cost) {
+  double least = std::numeric_limits<double>::infinity();
+  const Model& m = p.start.model;
+  if (m.lobes.size() < 2 || p.options.robust) return least;
+  for (std::size_t l = 0; l < m.lobes.size(); ++l) {
+    Model fewer = m;
+    fewer.lobes.erase(fewer.lobes.begin() + static_cast<std::ptrdiff_t>(l));
+    const Problem q = with_free(p, fewer, slots_read(fewer));
+    Fitted f =
+        minimise(q, middle, {fewer, find_starts(q, thin, no_huber).front().values, {}}, no_huber);
+    if (f.solution.at.cost < middle_cost)
+      least = std::min(least, minimise(q, all, f.model, no_huber).solution.at.cost);
+  }
+  return least;
+}
+
+/// Those starts of a thinned table that may be the best of all, as one with more samples tells.
+template <class F>
+std::vector<Start> best_of(const Problem& p, const FitData<F>& more, std::vector<Start> starts) {
+  constexpr double worth_a_fit = 0.2;
+  if (starts.size() < 2) return starts;
+  const Accumulator<F> accumulate(p.start.model, more, p.free);
+  for (auto& s : starts) s = descended_in_valley(accumulate, p, std::move(s.values), {8, 1e-3});
+  keep_best(starts, starts.size());
+  std::erase_if(starts,
+                [&](const Start& s) { return s.cost > starts.front().cost * (1 + worth_a_fit); });
+  return starts;
+}
+
 /// From nothing to the best fit of all samples.  A model that does not fit converges slowly: most of
 /// the steps are made on thinned tables, where they are cheap.
 template <class F>
@@ -91,9 +127,16 @@ Searched search_in(const Problem& p,
   watch.lap("columns_ms");
 
   announce("finding a start");
-  BoundModel start = p.start;
-  start.values = find_start(p.start.model, thin, p.free, p.bounds, std::move(start.values));
-  Fitted f = minimise(p, p.options.robust ? thin : middle, std::move(start), no_huber);
+  const auto starts = best_of(p, scan, find_starts(p, thin, no_huber));
+  const auto fitted_from = [&](const Start& s) {
+    return minimise(p, p.options.robust ? thin : middle, {p.start.model, s.values, {}}, no_huber);
+  };
+  Fitted f = fitted_from(starts.front());
+  for (std::size_t k = 1; k < starts.size(); ++k) {
+    Fitted other = fitted_from(starts[k]);
+    if (other.solution.at.cost < f.solution.at.cost) f = std::move(other);
+  }
+  f.model.given = p.start.given;
   if (p.options.robust) {
     for (int round = 0; round < 2; ++round)
       f = minimise(p, thin, f.model, huber_threshold(p, thin, f));
@@ -102,6 +145,7 @@ Searched search_in(const Problem& p,
   if (!std::isfinite(f.solution.at.cost))
     throw bad_input(sampling.table().path, "values", "numbers whose squares have no finite sum",
                     "reflectances [1/sr]");
+  const double middle_cost = f.solution.at.cost;
   watch.lap("start_ms");
 
   announce("fitting all samples");
@@ -109,7 +153,9 @@ Searched search_in(const Problem& p,
   f.groups = data.all.groups;
   f.in_float = std::is_same_v<F, float> && float_suffices(p, f, data.all.counts.used);
   watch.lap("solve_ms");
-  return {std::move(f), std::move(scanned)};
+  const double fewer = cost_of_fewer(p, thin, middle, data.all, middle_cost);
+  if (p.start.model.lobes.size() > 1) watch.lap("fewer_lobes_ms");
+  return {std::move(f), fewer, std::move(scanned)};
 }
 
 }  // namespace

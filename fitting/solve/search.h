@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,7 @@ inline constexpr std::size_t scan_samples = 16384;
 
 struct Searched {
   Fitted best;
+  double cost_of_fewer = std::numeric_limits<double>::infinity();  ///< of the model less one lobe
   FitData<double> scanned;  ///< about scan_samples of the table, evenly spread
 };
 /// From nothing to the best fit of all samples.  Throws bad_input for a table without a usable value.

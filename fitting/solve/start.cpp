@@ -1,11 +1,10 @@
 #include "fitting/solve/start.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <utility>
+#include <span>
+#include <string_view>
 
 #include "base/quantile.h"
 
@@ -27,85 +26,209 @@ double dim(const FitData<F>& d, std::size_t channel) {
   return d.link == Link::log ? std::exp(t) - static_cast<double>(d.offset) : t;
 }
 
-/// A cost that can be compared: infinite where it is none.
-double finite(double cost) {
-  return std::isfinite(cost) ? cost : std::numeric_limits<double>::infinity();
+std::string_view base_name(const ModelParameter& p) {
+  return p.about->name;
 }
 
-bool is_named(std::string_view name, std::string_view base) {
-  return name == base || name.starts_with(std::string(base) + "_");
+bool is_free(const Problem& p, const ModelParameter& q) {
+  return p.free.mask()[q.first];
 }
 
-/// Sets every free slot of the parameters called `base` (or base_2 …).
-void set(const Model& m,
-         const FreeSlots& free,
-         std::string_view base,
-         std::vector<double>& values,
-         double value) {
-  for (const auto& p : m.parameters)
-    if (is_named(p.name, base))
-      for (std::size_t c = 0; c < p.count; ++c)
-        if (free.mask()[p.first + c]) values[p.first + c] = value;
+Range bounds_of(const Problem& p, const ModelParameter& q) {
+  const std::size_t i = p.free.index(q.first);
+  return {p.bounds.low[i], p.bounds.high[i]};
+}
+
+/// Rungs of a ladder that lie inside; where these are few, as many more spread evenly by ratio.
+std::vector<double> rungs_inside(std::span<const double> ladder, const Range& range) {
+  constexpr std::size_t few = 4;
+  std::vector<double> inside;
+  for (const double x : ladder)
+    if (x >= range.low && x <= range.high) inside.push_back(x);
+  if (inside.size() >= few) return inside;
+  inside.clear();
+  for (std::size_t k = 0; k < few; ++k)
+    inside.push_back(range.low *
+                     std::pow(range.high / range.low, (0.5 + static_cast<double>(k)) / few));
+  return inside;
+}
+
+/// A shape's parameter and the values to try.
+struct Axis {
+  std::size_t parameter;
+  std::vector<double> at;
+};
+
+/// Those of the free shapes of a lobe that no earlier one shares.
+std::vector<Axis> axes_of(const Problem& p, const Lobe& lobe, const std::vector<bool>& before) {
+  static constexpr std::array widths{0.001, 0.003, 0.01, 0.03, 0.07, 0.15, 0.3, 0.5, 0.8};
+  static constexpr std::array exponents{0.7, 1.3, 2.0, 3.5, 8.0};
+  std::vector<Axis> axes;
+  std::vector<bool> seen(p.start.model.parameters.size());
+  for (const auto* t : {&lobe.ndf, &lobe.masking})
+    for (const std::size_t k : t->parameters) {
+      const auto& q = p.start.model.parameters[k];
+      if (seen[k] || before[q.first] || !is_free(p, q)) continue;
+      seen[k] = true;
+      const std::span<const double> ladder =
+          is_alpha(q.name) ? std::span<const double>(widths) : std::span<const double>(exponents);
+      axes.push_back({k, rungs_inside(ladder, bounds_of(p, q))});
+    }
+  return axes;
+}
+
+std::size_t cells_of(const std::vector<Axis>& axes) {
+  std::size_t cells = 1;
+  for (const auto& a : axes) cells *= a.at.size();
+  return cells;
+}
+
+/// Steps of a cell along each axis.
+std::vector<std::size_t> steps_of(const std::vector<Axis>& axes, std::size_t cell) {
+  std::vector<std::size_t> steps;
+  for (const auto& a : axes) {
+    steps.push_back(cell % a.at.size());
+    cell /= a.at.size();
+  }
+  return steps;
+}
+
+bool are_neighbours(const std::vector<Axis>& axes, std::size_t a, std::size_t b) {
+  const auto x = steps_of(axes, a), y = steps_of(axes, b);
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (x[k] > y[k] + 1 || y[k] > x[k] + 1) return false;
+  return a != b;
+}
+
+/// The cells that no neighbour is below, the best first, then the best of the rest: at most so many.
+std::vector<std::size_t> best_cells(const std::vector<Axis>& axes,
+                                    const std::vector<Start>& cells,
+                                    std::size_t most) {
+  std::vector<std::size_t> order(cells.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return cells[i].cost; });
+  std::vector<bool> is_lowest(cells.size(), true);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (are_neighbours(axes, i, j)) is_lowest[cells[i].cost < cells[j].cost ? j : i] = false;
+  std::ranges::stable_partition(order, [&](std::size_t i) { return is_lowest[i]; });
+  order.resize(std::min(order.size(), most));
+  return order;
+}
+
+/// Starts of a model that a lobe has just joined.
+/// \param lobe  by its number   \param before  slots that the model without it reads   \param from  starts of that model
+template <class F>
+std::vector<Start> join(const Problem& p,
+                        std::size_t lobe,
+                        const FitData<F>& thin,
+                        double huber,
+                        const std::vector<bool>& before,
+                        const std::vector<Start>& from) {
+  constexpr std::size_t most_cells = 4, kept = 4;
+  constexpr DescentOptions closely{40, 1e-5};
+  constexpr double worth_a_descent = 0.2;
+  const Model& m = p.start.model;
+  const auto axes = axes_of(p, m.lobes[lobe], before);
+  const Colours<F> colours(p, thin, huber);
+  const Accumulator<F> whole(m, thin, p.free, huber);
+  std::vector<Start> starts;
+  for (const Start& base : from) {
+    std::vector<Start> cells(cells_of(axes));
+    tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
+      auto values = base.values;
+      const auto steps = steps_of(axes, i);
+      for (std::size_t k = 0; k < axes.size(); ++k)
+        values[m.parameters[axes[k].parameter].first] = axes[k].at[steps[k]];
+      cells[i] = colours.from_best_valley(std::move(values), lobe, {4, 1e-3});
+    });
+    const auto best = best_cells(axes, cells, most_cells);
+    std::vector<Start> ends(best.size());
+    tbb::parallel_for(std::size_t{0}, best.size(), [&](std::size_t k) {
+      ends[k] = descended_in_valley(whole, p, cells[best[k]].values, closely);
+    });
+    for (auto& e : ends) starts.push_back(std::move(e));
+    if (!colours.has_valleys()) continue;
+    tbb::parallel_for(std::size_t{0}, best.size(), [&](std::size_t k) {
+      ends[k] = colours.from_every_valley(cells[best[k]].values, {8, 1e-3});
+      ends[k] = descended_in_valley(whole, p, ends[k].values, closely);
+    });
+    for (auto& e : ends) starts.push_back(std::move(e));
+  }
+  keep_best(starts, kept);
+  if (!colours.has_valleys()) return starts;
+  // With these shapes, which are none of the grid's, another valley may be the better one.
+  std::vector<Start> others;
+  for (const Start& s : starts)
+    for (auto& o : colours.other_valleys(s, {12, 1e-5}, worth_a_descent, most_cells))
+      others.push_back(std::move(o));
+  tbb::parallel_for(std::size_t{0}, others.size(), [&](std::size_t k) {
+    others[k] = descended_in_valley(whole, p, others[k].values, closely);
+  });
+  for (auto& o : others) starts.push_back(std::move(o));
+  keep_best(starts, kept);
+  return starts;
+}
+
+/// The model with some of its lobes, in that order.
+Model with_lobes(const Model& m, std::span<const std::size_t> lobes) {
+  Model some = m;
+  some.lobes.clear();
+  for (const std::size_t l : lobes) some.lobes.push_back(m.lobes[l]);
+  return some;
+}
+
+/// Orders in which the lobes join: each may be the last one, where it is not like the others.
+std::vector<std::vector<std::size_t>> orders_of(const Model& m) {
+  std::vector<std::size_t> in_order(m.lobes.size());
+  for (std::size_t l = 0; l < in_order.size(); ++l) in_order[l] = l;
+  std::vector<std::vector<std::size_t>> orders{in_order};
+  if (m.lobes.size() < 2) return orders;
+  const auto& a = m.lobes.front();
+  const auto& b = m.lobes.back();
+  if (a.ndf.term == b.ndf.term && a.masking.term == b.masking.term &&
+      a.fresnel.term == b.fresnel.term)
+    return orders;
+  std::ranges::reverse(in_order);
+  orders.push_back(in_order);
+  return orders;
 }
 
 }  // namespace
 
 template <class F>
-std::vector<double> find_start(const Model& m,
-                               const FitData<F>& thin,
-                               const FreeSlots& free,
-                               const Bounds& bounds,
-                               std::vector<double> values) {
-  for (const auto& p : m.parameters)
-    if (is_named(p.name, "kd"))
-      for (std::size_t c = 0; c < p.count; ++c)
-        if (free.mask()[p.first + c])
-          values[p.first + c] = std::clamp(std::numbers::pi * dim(thin, c), 1e-3, 0.95);
-
-  // A ladder of widths; later lobes are wider by two rungs each.
-  constexpr std::array widths{0.001, 0.003, 0.01, 0.03, 0.07, 0.15, 0.3, 0.5, 0.8};
-  constexpr std::array reflectances{0.02, 0.06, 0.2, 0.6, 0.95};
-  const Accumulator<F> accumulate(m, thin, free);
-  using Tried = std::pair<double, std::vector<double>>;
-  std::vector<Tried> rungs(widths.size());
-  tbb::parallel_for(std::size_t{0}, widths.size(), [&](std::size_t w) {
-    auto v = values;
-    for (std::size_t l = 0; l < m.lobes.size(); ++l) {
-      const auto* alpha = m.find(l == 0 ? "alpha" : "alpha_" + std::to_string(l + 1));
-      if (alpha && free.mask()[alpha->first])
-        v[alpha->first] = widths[std::min(w + 2 * l, widths.size() - 1)];
-    }
-    rungs[w].first = std::numeric_limits<double>::infinity();
-    for (const double f0 : reflectances) {
-      set(m, free, "f0", v, f0);
-      const double cost = finite(accumulate.normal_equations(v).cost);
-      if (rungs[w].second.empty() || cost < rungs[w].first) rungs[w] = {cost, v};
-    }
-  });
-  std::ranges::stable_sort(rungs, {}, &Tried::first);
+std::vector<Start> find_starts(const Problem& p, const FitData<F>& thin, double huber) {
   constexpr std::size_t kept = 4;
-  rungs.resize(kept);
-
-  tbb::parallel_for(std::size_t{0}, rungs.size(), [&](std::size_t k) {
-    auto& v = rungs[k].second;
-    const auto evaluate = [&](const std::vector<double>& x) {
-      free.put(x, v);
-      return accumulate.normal_equations(v);
-    };
-    auto x = free.of(v);
-    SolveOptions o;
-    o.max_iterations = 25;
-    o.function_tolerance = 1e-4;
-    const double cost = solve(evaluate, x, bounds, o).at.cost;
-    free.put(x, v);
-    rungs[k].first = finite(cost);
-  });
-  return std::ranges::min_element(rungs, {}, &Tried::first)->second;
+  const Model& m = p.start.model;
+  auto first = p.start.values;
+  for (const auto& q : m.parameters)
+    if (base_name(q) == "kd")
+      for (std::size_t c = 0; c < q.count; ++c)
+        if (p.free.mask()[q.first + c])
+          first[q.first + c] = std::clamp(std::numbers::pi * dim(thin, c), 1e-3, 0.95);
+  if (m.lobes.empty()) {
+    const Accumulator<F> accumulate(m, thin, p.free, huber);
+    return {descended(accumulate, p, std::move(first), {40, 1e-5})};
+  }
+  std::vector<Start> starts;
+  for (const auto& order : orders_of(m)) {
+    std::vector<Start> from{{0, first}};
+    std::vector<bool> before(m.value_count);
+    for (std::size_t l = 1; l <= order.size(); ++l) {
+      const bool whole = l == order.size();
+      const Model part = whole ? m : with_lobes(m, std::span(order).first(l));
+      const auto read = slots_read(part);
+      from =
+          join(with_free(p, part, read), whole ? order[l - 1] : l - 1, thin, huber, before, from);
+      before = read;
+    }
+    for (auto& s : from) starts.push_back(std::move(s));
+  }
+  keep_best(starts, kept);
+  return starts;
 }
 
-template std::vector<double> find_start(
-    const Model&, const FitData<float>&, const FreeSlots&, const Bounds&, std::vector<double>);
-template std::vector<double> find_start(
-    const Model&, const FitData<double>&, const FreeSlots&, const Bounds&, std::vector<double>);
+template std::vector<Start> find_starts(const Problem&, const FitData<float>&, double);
+template std::vector<Start> find_starts(const Problem&, const FitData<double>&, double);
 
 }  // namespace gonio

@@ -2,22 +2,18 @@
 /// \file
 /// Where a fit begins.
 
-#include "brdf/model/model.h"
-#include "fitting/solve/accumulate.h"
-#include "fitting/solve/solve.h"
+#include <vector>
+
+#include "fitting/solve/colours.h"
 
 namespace gonio {
 
-/// Computed from the data: kd from the dim samples of each channel; a ladder of widths, each with the
-/// best of a few reflectances; short fits of a thinned table from the best rungs, the best of which is
-/// the start.
-/// \param values  fixed values where they are fixed
-/// \return        values for all slots
+/// A few places in different valleys, each near the bottom, the best first.  Lobe after lobe joins the model: its widths
+/// and exponents step over a grid, the colours are solved for in each cell from every valley of their
+/// own, and the best cells are descended from.  So a model of several lobes begins from the optimum of
+/// those with fewer.
+/// \param huber  threshold of the loss
 template <class F>
-std::vector<double> find_start(const Model&,
-                               const FitData<F>& thin,
-                               const FreeSlots&,
-                               const Bounds&,
-                               std::vector<double> values);
+std::vector<Start> find_starts(const Problem&, const FitData<F>& thin, double huber);
 
 }  // namespace gonio

@@ -16,7 +16,7 @@ std::vector<double> start_of(const BoundModel& truth, FitOptions o, Layout layou
   const Table t = synthesize(truth, {.layout = layout, .noise = 0.02});
   const Problem p = pose(t, o);
   const Sampling s(t, t.bins(), Metric::log, 0, true);
-  return find_start(p.start.model, fit_data<double>(s, 2048), p.free, p.bounds, p.start.values);
+  return find_starts(p, fit_data<double>(s, 2048), no_huber).front().values;
 }
 
 TEST(Start, LiesNearTheTruthForEveryWidth) {

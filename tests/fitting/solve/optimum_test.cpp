@@ -1,0 +1,237 @@
+// No start whatever leads below the optimum that a fit reports.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "fitting/fit.h"
+#include "fitting/solve/descend.h"
+#include "fitting/solve/search.h"
+#include "fitting/support.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio {
+namespace {
+
+constexpr const char* models[] = {
+    "ggx/smith_ggx.correlated/schlick",
+    "lambert+ggx/smith_ggx.correlated/schlick",
+    "lambert.coupled+ggx/smith_ggx.correlated/schlick",
+    "lambert+beckmann/smith_beckmann.correlated/schlick",
+    "lambert+gtr/smith_ggx.correlated/schlick",
+    "gtr/smith_gtr.correlated/schlick",
+    "lambert+ggx/smith_ggx.correlated/dielectric",
+    "lambert.coupled+ggx/smith_ggx.correlated/dielectric",
+    "gtr/smith_ggx.correlated/dielectric",
+    "ggx/smith_ggx.correlated/conductor",
+    "lambert+ggx/smith_ggx.correlated/conductor",
+    "gtr/smith_ggx.correlated/conductor",
+    "lambert+ggx/smith_ggx.correlated/schlick.f90",
+    "disney+ggx/smith_ggx.correlated/schlick",
+    "ggx/smith_ggx.correlated/schlick+beckmann/smith_beckmann.correlated/schlick",
+    "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick"};
+
+/// Values of the free slots, each drawn from where a fit may look: widths and indices evenly by ratio.
+std::vector<double> drawn(const Problem& p, std::mt19937_64& random) {
+  std::vector<double> x;
+  for (const auto& q : p.start.model.parameters)
+    for (std::size_t c = 0; c < q.count; ++c) {
+      if (!p.free.mask()[q.first + c]) continue;
+      const std::size_t i = p.free.index(q.first + c);
+      const double low = p.bounds.low[i], high = p.bounds.high[i];
+      const double u = std::uniform_real_distribution<>()(random);
+      const double from = std::max(low, 1e-3 * high);
+      x.push_back(high <= 1 && !is_alpha(q.name) ? low + u * u * (high - low)
+                                                 : from * std::pow(high / from, u));
+    }
+  return x;
+}
+
+/// Lowest cost that descents from random places end at.
+Fitted lowest_of(const Problem& p,
+                 const FitData<double>& data,
+                 std::size_t starts,
+                 std::uint64_t seed) {
+  const Accumulator<double> accumulate(p.start.model, data, p.free);
+  std::vector<std::vector<double>> x(starts);
+  std::vector<double> cost(starts);
+  tbb::parallel_for(std::size_t{0}, starts, [&](std::size_t k) {
+    std::mt19937_64 random(1000 * seed + k);
+    x[k] = drawn(p, random);
+    cost[k] = descend(
+                  [&](const std::vector<double>& at) {
+                    auto values = p.start.values;
+                    p.free.put(at, values);
+                    return accumulate.normal_equations(values);
+                  },
+                  x[k], p.bounds, {100, 1e-9})
+                  .cost;
+  });
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin());
+  BoundModel from = p.start;
+  p.free.put(x[best], from.values);
+  return minimise(p, data, from, no_huber);
+}
+
+std::string text_of(const BoundModel& b) {
+  std::string text;
+  for (const auto& [name, values] : named_values(b)) {
+    text += " " + name;
+    for (const double v : values) text += (&v == values.data() ? "=" : ",") + std::to_string(v);
+  }
+  return text;
+}
+
+void expect_nothing_lower(const Table& t, FitOptions o, std::uint64_t seed) {
+  o.bin_sensitivity = false;
+  const auto r = fit(t, o);
+  const FitOptions whole = expanded(o);
+  const Problem p = pose(t, whole);
+  const Sampling s(t, t.bins(), o.metric, p.offset, is_reciprocal(p.start));
+  const auto lowest = lowest_of(p, fit_data<double>(s), 64, seed);
+  EXPECT_GE(lowest.solution.at.cost, r.document.cost * (1 - 1e-6))
+      << o.model << " " << name_of(o.metric) << "\n  found" << text_of(r.model) << "\n  lower"
+      << text_of(lowest.model);
+}
+
+/// A table of some model, with some noise, and the options to fit it with.
+void look_at(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto any = [&](std::size_t n) { return random() % n; };
+  const auto model = models[any(std::size(models))];
+  const std::size_t channels = any(3) ? 1 : 3;
+  BoundModel truth = bind_model(model, {}, channels);
+  FitOptions o;
+  o.model = model;
+  o.metric = static_cast<Metric>(any(3));
+  {
+    const Table none = synthesize(truth, {.layout = Layout::random, .samples = 8});
+    const FitOptions whole = expanded(o);
+    const Problem p = pose(none, whole);
+    p.free.put(drawn(p, random), truth.values);
+  }
+  if (any(4) == 0) o.model = models[any(std::size(models))];  // that is not the truth
+  constexpr std::array layouts{Layout::in_plane, Layout::hemisphere, Layout::random,
+                               Layout::random};
+  SynthOptions s{.layout = layouts[any(4)], .samples = 60, .noise = 0.02, .seed = seed};
+  if (any(2)) s.samples = 600;
+  if (any(3) == 0) s.noise = 0.1;
+  SCOPED_TRACE(testing::Message() << "table " << seed << ": " << model << text_of(truth) << " "
+                                  << name_of(s.layout));
+  expect_nothing_lower(synthesize(truth, s), o, seed);
+}
+
+class Optimum : public testing::TestWithParam<int> {};
+
+TEST_P(Optimum, IsAsLowAsAnyOf64RandomStartsFinds) {
+  const bool is_long = std::getenv("GONIO_LONG") != nullptr;
+  const int count = is_long ? 100 : 2;
+  for (int k = 0; k < count; ++k) look_at(static_cast<std::uint64_t>(100 * GetParam() + k));
+}
+INSTANTIATE_TEST_SUITE_P(Tables, Optimum, testing::Range(0, 10));
+
+/// Tables of one model, and what is asked of their fits: none ends above where the truth is.
+struct Family {
+  const char* name;
+  const char* model;
+  std::vector<std::string> settings;
+};
+const Family families[] = {
+    {"wide_dielectric",
+     "lambert.coupled+ggx/smith_ggx.correlated/dielectric",
+     {"kd=0,alpha=0.9,eta=1.2", "kd=0,alpha=0.5,eta=1.1", "kd=0.05,alpha=0.7,eta=1.4",
+      "kd=0.1,alpha=0.3,eta=2.5"}},
+    {"short_tail",
+     "lambert+gtr/smith_ggx.correlated/schlick",
+     {"alpha=0.2,gamma=9.5,f0=0.2,kd=0.05", "alpha=0.4,gamma=7,f0=0.05,kd=0.2",
+      "alpha=0.1,gamma=9,f0=0.6,kd=0.01", "alpha=0.3,gamma=0.8,f0=0.3,kd=0.1"}},
+    {"metal",
+     "ggx/smith_ggx.correlated/conductor",
+     {"alpha=0.2,eta=0.2,k=3", "alpha=0.05,eta=1.5,k=0.4", "alpha=0.4,eta=2.5,k=3"}},
+    {"two_lobes",
+     "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick",
+     {"alpha=0.05,f0=0.04,alpha_2=0.4,f0_2=0.2,kd=0.1", "alpha=0.5,f0=0.3,alpha_2=0.1,f0_2=0.02"}}};
+
+class Truth : public testing::TestWithParam<Family> {};
+
+TEST_P(Truth, LiesBelowNoFit) {
+  for (const auto& settings : GetParam().settings)
+    for (const Metric metric : {Metric::log, Metric::l2_cosine, Metric::relative})
+      for (const Layout layout : {Layout::in_plane, Layout::hemisphere, Layout::random})
+        for (const std::uint64_t seed : {1U, 2U}) {
+          const auto truth =
+              bind_model(GetParam().model, parse_settings(std::vector<std::string>{settings}),
+                         seed == 1 ? 3 : 1);
+          const Table t =
+              synthesize(truth, {.layout = layout, .samples = 300, .noise = 0.02, .seed = seed});
+          FitOptions o;
+          o.model = GetParam().model;
+          o.metric = metric;
+          const Problem p = pose(t, o);
+          const Sampling s(t, t.bins(), metric, p.offset, true);
+          const double there = Accumulator<double>(p.start.model, fit_data<double>(s), p.free)
+                                   .normal_equations(truth.values)
+                                   .cost;
+          EXPECT_LT(fit(t, o).document.cost, there)
+              << settings << " " << name_of(metric) << " " << name_of(layout) << " " << seed;
+        }
+}
+INSTANTIATE_TEST_SUITE_P(Families, Truth, testing::ValuesIn(families), [](const auto& i) {
+  return i.param.name;
+});
+
+TEST(LostOptimum, OfTwoLobesIsToldWhereOneDoesBetter) {
+  GONIO_NEEDS_SHARED(file, "data/mbsdf/carpaint_blue.mbsdf");
+  // F of Schlick is 1 at grazing whatever f0 is: a second lobe cannot vanish.
+  const Table t = read_table(file);
+  FitOptions one, two;
+  one.bin_sensitivity = two.bin_sensitivity = false;
+  two.model = one.model + "+ggx/smith_ggx.correlated/schlick";
+  const auto a = fit(t, one).document, b = fit(t, two).document;
+  const bool told = std::ranges::any_of(b.warnings, [](const std::string& w) {
+    return w.find("lobes the model meets the table better") != std::string::npos;
+  });
+  EXPECT_EQ(told, b.cost > a.cost);
+  EXPECT_LT(b.cost, 1.05 * a.cost);
+}
+
+TEST(LostOptimum, OfARetroreflectorIsNotTheFirstValley) {
+  GONIO_NEEDS_SHARED(file, "data/alta_retro/retro-3M-jaune.dat");
+  const Table t = read_table(file);
+  FitOptions o;
+  o.metric = Metric::relative;
+  FitOptions wide = o;
+  wide.bounds = parse_settings(std::vector<std::string>{"alpha=0.2,1"});
+  EXPECT_LE(fit(t, o).document.cost, fit(t, wide).document.cost * (1 + 1e-6));
+  for (const char* fresnel : {"schlick", "dielectric"})
+    for (const char* ndf : {"ggx", "gtr"}) {
+      o.model = std::string("lambert+") + ndf + "/smith_ggx.correlated/" + fresnel;
+      expect_nothing_lower(t, o, 1);
+    }
+}
+
+/// Chassis of a satellite, whose columns are named the other way round.
+Table chassis(const std::string& file) {
+  const test::Folder folder;
+  folder.write("chassis.csv.gonio.json",
+               R"({"schema":"gonio.table/1","columns":{"theta_i":"phi_i","phi_i":"theta_i",)"
+               R"("theta_o":"phi_o","phi_o":"theta_o","f":"brdf"}})");
+  return read_table(folder.write("chassis.csv", test::read_bytes(file)));
+}
+
+TEST(LostOptimum, OfAConductorIsNotLostAtAnExtinctionOf0) {
+  GONIO_NEEDS_SHARED(file, "data/starlink/chassis_brdf.csv");
+  const Table t = chassis(file);
+  FitOptions o;
+  o.model = "ggx/smith_ggx.correlated/conductor";
+  for (const Metric metric : {Metric::log, Metric::l2_cosine, Metric::relative}) {
+    o.metric = metric;
+    expect_nothing_lower(t, o, 1);
+  }
+}
+
+}  // namespace
+}  // namespace gonio
