@@ -15,7 +15,8 @@ set(gonio_flags_avx512 -mavx2 -mfma -mavx512f -mavx512dq -mavx512bw -mavx512cd -
 
 find_program(GONIO_CCACHE ccache)
 if(GONIO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${GONIO_CCACHE})
+  # Without being told so it does not keep what was compiled from a precompiled header.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${GONIO_CCACHE})
 endif()
 
 add_library(gonio_flags INTERFACE)
@@ -61,6 +62,10 @@ function(gonio_room room)
     add_library(${name} STATIC ${sources})
     set(scope PUBLIC)
     target_link_libraries(${name} PRIVATE ${room_PRIVATE})
+    if(fmt::fmt IN_LIST room_LIBRARIES AND NOT room MATCHES "^reports/")  # these have their own, with JSON
+      target_link_libraries(${name} PRIVATE ${gonio_headers_libraries})
+      target_precompile_headers(${name} REUSE_FROM gonio_headers)
+    endif()
   else()
     add_library(${name} INTERFACE)
     set(scope INTERFACE)

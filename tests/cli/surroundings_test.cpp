@@ -130,6 +130,18 @@ TEST(Surroundings, TheVersionIsThatOfTheProject) {
   EXPECT_EQ(gonio(f, "--version").out, project.substr(at, project.find(' ', at) - at) + "\n");
 }
 
+TEST(Surroundings, AVectorUnitIsTheBestThatMayBeTaken) {
+  const Folder f;
+  f.write("t.csv", small_table());
+  const auto fit = [&](const std::string& set) {
+    return gonio(f, "fit t.csv --model lambert --json", "GONIO_INSTRUCTION_SET=" + set + " ");
+  };
+  const auto scalar = fit("scalar").json();
+  EXPECT_EQ(scalar["solver"]["instruction_set"], "scalar");
+  EXPECT_EQ(scalar["parameters"], fit("").json()["parameters"]);
+  expect_one_line(fit("sse9"), 2, "GONIO_INSTRUCTION_SET: 'sse9', expected one of scalar, ");
+}
+
 TEST(Surroundings, ALimitOfMemoryIsOneLine) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer needs more addresses than any limit leaves";

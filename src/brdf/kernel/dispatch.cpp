@@ -1,4 +1,6 @@
 // Picks the instruction set at run time.
+#include <algorithm>
+#include <cstdlib>
 #include <initializer_list>
 
 #include "base/error.h"
@@ -88,14 +90,33 @@ bool runs_here(std::string_view set) {
   return true;
 }
 
-const Set& find(std::string_view name) {
-  const Set* best = nullptr;
-  for (const auto& s : sets()) {
-    const auto set = s.f.kernels.instruction_set;
-    if (runs_here(set) && (name.empty() || name == set)) best = &s;
+/// Sets that this machine and GONIO_INSTRUCTION_SET leave, the best last.
+std::vector<const Set*> here() {
+  const char* const most = std::getenv("GONIO_INSTRUCTION_SET");
+  const auto name = [](const Set& s) { return s.f.kernels.instruction_set; };
+  auto end = sets().end();
+  if (most && *most) {
+    end = std::ranges::find(sets(), std::string_view(most), name);
+    if (end == sets().end()) {
+      std::string known;
+      for (const auto& s : sets()) known.append(known.empty() ? "" : ", ").append(name(s));
+      throw wrong_usage("GONIO_INSTRUCTION_SET: '" + std::string(most) + "', expected one of " +
+                        known);
+    }
+    ++end;
   }
-  if (!best) throw wrong_usage("no instruction set '" + std::string(name) + "' here");
-  return *best;
+  std::vector<const Set*> left;
+  for (auto s = sets().begin(); s != end; ++s)
+    if (runs_here(name(*s))) left.push_back(&*s);
+  return left;
+}
+
+const Set& find(std::string_view name) {
+  static const auto all = here();
+  if (name.empty()) return *all.back();
+  for (const Set* s : all)
+    if (s->f.kernels.instruction_set == name) return *s;
+  throw wrong_usage("no instruction set '" + std::string(name) + "' here");
 }
 
 }  // namespace
@@ -111,8 +132,7 @@ const Kernels<double>& kernels(std::string_view name) {
 
 std::vector<std::string> instruction_sets() {
   std::vector<std::string> names;
-  for (const auto& s : sets())
-    if (const auto name = s.f.kernels.instruction_set; runs_here(name)) names.emplace_back(name);
+  for (const Set* s : here()) names.emplace_back(s->f.kernels.instruction_set);
   return names;
 }
 

@@ -223,10 +223,12 @@ struct Kernels {
       gram;
 };
 
-/// The best set that this machine and build have, or the named one.
+/// Kernels of the best set that this machine and build have, or of the named one.  The environment
+/// variable GONIO_INSTRUCTION_SET names the best that may be taken.
+/// \throws Error (wrong usage) if either name is none of this build's
 template <class F>
 const Kernels<F>& kernels(std::string_view instruction_set = {});
-/// The sets that this machine can run, "scalar" first, best last.
+/// Sets that may be taken here, "scalar" first, best last.
 std::vector<std::string> instruction_sets();
 
 }  // namespace gonio

@@ -1,0 +1,29 @@
+#include "cli/program.h"
+
+#include <algorithm>
+
+namespace gonio::test {
+
+nlohmann::json Outcome::json() const {
+  return nlohmann::json::parse(out);
+}
+
+Outcome gonio(const Folder& folder, const std::string& words, const std::string& before) {
+  const std::string command = "cd '" + folder / "" + "' && " + before + "'" GONIO_PROGRAM "' " +
+                              words + " >.out 2>.err </dev/null";
+  const int status = std::system(command.c_str());
+  Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(folder / ".out"),
+            read_bytes(folder / ".err")};
+  std::filesystem::remove(folder / ".out");
+  std::filesystem::remove(folder / ".err");
+  return o;
+}
+
+void expect_one_line(const Outcome& o, int code, const std::string& holding) {
+  EXPECT_EQ(o.code, code) << o.err;
+  EXPECT_EQ(o.out, "");
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  EXPECT_NE(o.err.find(holding), std::string::npos) << o.err;
+}
+
+}  // namespace gonio::test
