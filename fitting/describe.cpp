@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "brdf/model/roughness.h"
+
 #include <fmt/format.h>
 
 namespace gonio {
@@ -41,10 +43,10 @@ void describe(FitDocument& d,
     }
     d.parameters.push_back(e);
     if (!is_alpha(q.name)) continue;
-    FittedParameter r = e;  // roughness = √alpha, its error to first order
+    FittedParameter r = e;
     r.name = roughness_name(q.name);
-    for (auto* v : {&r.value, &r.ci95_low, &r.ci95_high}) (*v)[0] = std::sqrt((*v)[0]);
-    r.std_error[0] = e.std_error[0] / (2 * r.value[0]);
+    for (auto* v : {&r.value, &r.ci95_low, &r.ci95_high}) (*v)[0] = roughness_of((*v)[0]);
+    r.std_error[0] = roughness_error(r.value[0], e.std_error[0]);
     d.parameters.push_back(r);
   }
   for (const auto& q : p.start.model.parameters)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brdf/model/roughness.h"
 #include "table/health/health.h"
 #include "table/health/noise.h"
 #include "table/health/peak.h"

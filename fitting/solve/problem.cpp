@@ -7,6 +7,7 @@
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/presets.h"
+#include "brdf/model/roughness.h"
 #include "table/health/health.h"
 
 #include <fmt/format.h>
@@ -21,12 +22,10 @@ std::vector<Setting> resolved_bounds(const FitOptions& o, const BoundModel& b) {
         "model '{}' is anisotropic: fit compares isotropic models with tables", b.model.spec));
   std::vector<Setting> all = o.bounds;
   for (auto& s : all) {
-    if (!b.model.find(s.name))
-      for (const auto& p : b.model.parameters)
-        if (is_alpha(p.name) && roughness_name(p.name) == s.name) {
-          s.name = p.name;
-          for (auto& v : s.values) v *= v;
-        }
+    if (is_roughness(s.name) && b.model.find(alpha_name(s.name))) {
+      s.name = alpha_name(s.name);
+      for (auto& v : s.values) v = alpha_of(v);
+    }
     const auto* p = b.model.find(s.name);
     if (!p) throw wrong_usage(fmt::format("bounds: the model has no parameter '{}'", s.name));
     if (std::ranges::find(b.given, s.name) != b.given.end())

@@ -3,6 +3,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/one_term.h"
+#include "brdf/model/roughness.h"
 #include "cli/command.h"
 
 #include <fmt/format.h>
@@ -89,7 +90,7 @@ Exit run(const Options& o) {
     return std::ranges::find(entry.parameters, name, &Parameter::name) != entry.parameters.end();
   };
   if (const auto r = parameters.find("roughness"); r != parameters.end() && !has("roughness")) {
-    if (!parameters.emplace("alpha", r->second * r->second).second)
+    if (!parameters.emplace(alpha_name(r->first), alpha_of(r->second)).second)
       throw wrong_usage("alpha and roughness are the same parameter");
     parameters.erase(r);
   }

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
+#include "brdf/model/roughness.h"
 #include "optics/f0.h"
 #include "optics/refractive_index.h"
 
@@ -86,15 +87,15 @@ void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
     const auto parts = split_ending(s.name);
     const auto &name = parts.first, &ending = parts.second;
     const auto replace = [&](const std::string& by, auto&& map) {
-      if (find(settings, by + ending))
-        throw wrong_usage(fmt::format("{} and {} are the same parameter", s.name, by + ending));
-      s.name = by + ending;
+      if (find(settings, by))
+        throw wrong_usage(fmt::format("{} and {} are the same parameter", s.name, by));
+      s.name = by;
       for (auto& v : s.values) v = map(v);
     };
-    if (name == "roughness" && m.find("alpha" + ending))
-      replace("alpha", [](double r) { return r < 0 ? r : r * r; });
+    if (is_roughness(s.name) && m.find(alpha_name(s.name)))
+      replace(alpha_name(s.name), alpha_of);
     else if (name == "f0" && !m.find(s.name) && m.find("eta" + ending) && !m.find("k" + ending))
-      replace("eta", [](double f0) {
+      replace("eta" + ending, [](double f0) {
         if (!(0 <= f0 && f0 < 1)) throw wrong_usage(fmt::format("f0 = {} is outside [0, 1)", f0));
         return IorFromF0<double>::apply(std::array{f0})[0];
       });
@@ -200,14 +201,6 @@ std::vector<std::pair<std::string, std::vector<double>>> named_values(const Boun
                      std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count)));
   }
   return all;
-}
-
-bool is_alpha(std::string_view name) {
-  return name == "alpha" || name.starts_with("alpha_");
-}
-
-std::string roughness_name(std::string_view alpha_name) {
-  return "roughness" + std::string(alpha_name.substr(std::string_view("alpha").size()));
 }
 
 }  // namespace gonio

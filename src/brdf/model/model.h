@@ -71,8 +71,4 @@ BoundModel bind_model(std::string_view spec,
                       std::optional<std::size_t> channels = {},
                       std::span<const std::string> grey = {});
 
-/// alpha and roughness, with the lobe's ending kept: "alpha_2" ↔ "roughness_2".
-std::string roughness_name(std::string_view alpha_name);
-bool is_alpha(std::string_view name);
-
 }  // namespace gonio

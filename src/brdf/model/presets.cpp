@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/maps.h"
+#include "brdf/formula/widths.h"
+#include "brdf/model/roughness.h"
 #include "brdf/term/term.h"
 
 #include <fmt/format.h>
@@ -21,9 +23,9 @@ constexpr Parameter roughness = roughness_parameter;
 constexpr Parameter specular_color{
     "specular_color", {0, 1}, {0, 1}, 0.04, true, "reflectance at normal incidence"};
 
-/// r²; no width is 0 (every distribution divides by it).
-double alpha_of(double r) {
-  return std::max(r * r, 1e-4);
+/// Width of a roughness; none is 0 (every distribution divides by it).
+double width_of(double r) {
+  return std::max(alpha_of(r), alpha_parameter.legal.low);
 }
 
 std::vector<Setting> metallic_workflow(const PresetValues& v, double dielectric) {
@@ -46,7 +48,7 @@ constexpr std::array metallic_roughness{base_color, metallic, roughness};
 
 std::vector<Setting> cook_torrance(const PresetValues& v) {
   auto s = metallic_workflow(v, 0.04);
-  add(s, "alpha", alpha_of(v.number("roughness")));
+  add(s, "alpha", width_of(v.number("roughness")));
   return s;
 }
 
@@ -63,7 +65,7 @@ std::vector<Setting> filament(const PresetValues& v) {
   double sum = 0;
   for (std::size_t c = 0; c < 3; ++c) sum += f0[f0.size() == 1 ? 0 : c];
   add(s, "f90", std::clamp(50 * 0.33 * sum, 0.0, 1.0));
-  add(s, "alpha", alpha_of(std::max(v.number("roughness"), 0.045)));
+  add(s, "alpha", width_of(std::max(v.number("roughness"), 0.045)));
   return s;
 }
 
@@ -84,7 +86,7 @@ std::vector<Setting> disney(const PresetValues& v) {
   const auto [x, y] = mapped<AnisoDisney, double>(r, v.number("anisotropy"));
   add(s, "alpha_x", std::max(x, 0.001));
   add(s, "alpha_y", std::max(y, 0.001));
-  add(s, "alpha", alpha_of(r));
+  add(s, "alpha", width_of(r));
   add(s, "alpha_2", 0.1 + (0.001 - 0.1) * gloss);
   add(s, "f0_2", 0.04);
   add(s, "weight_2", 0.25 * v.number("clearcoat"));
@@ -95,7 +97,7 @@ constexpr std::array specular_roughness{specular_color, roughness};
 
 std::vector<Setting> specular_alone(const PresetValues& v) {
   std::vector<Setting> s{{"f0", v.colour("specular_color")}};
-  add(s, "alpha", alpha_of(v.number("roughness")));
+  add(s, "alpha", width_of(v.number("roughness")));
   return s;
 }
 std::vector<Setting> ue_mobile(const PresetValues& v) {

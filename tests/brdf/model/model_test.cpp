@@ -288,15 +288,6 @@ TEST(Binding, RefusesWhatIsOutOfRangeAndSaysTheRange) {
                  {"gamma = 11", "[0.5, 10]"});
 }
 
-TEST(RoughnessName, KeepsTheLobesEnding) {
-  EXPECT_EQ(roughness_name("alpha"), "roughness");
-  EXPECT_EQ(roughness_name("alpha_2"), "roughness_2");
-  EXPECT_TRUE(is_alpha("alpha"));
-  EXPECT_TRUE(is_alpha("alpha_3"));
-  EXPECT_FALSE(is_alpha("alphabet"));
-  EXPECT_FALSE(is_alpha("gamma"));
-}
-
 // ---- One term alone -----------------------------------------------------------------------------
 
 using At = std::map<std::string, std::vector<double>>;

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/roughness.h"
 #include "geometry/half_difference.h"
 #include "integrate/rule/quadrature.h"
 
