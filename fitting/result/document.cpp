@@ -25,6 +25,9 @@ FittedModel read_fitted_model(const std::string& path) {
   constexpr const char* schema = "gonio.fit/1";
   if (root.at("schema").string() != schema) root.at("schema").fail(schema);
   FittedModel fit{root.at("model").string(), {}};
+  if (root.has("channels"))
+    for (const auto& channel : root.at("channels").elements())
+      fit.channels.push_back(channel.string());
   for (const auto& [name, parameter] : root.at("parameters").members())
     fit.parameters.emplace_back(name, parameter.at("value").numbers());
   return fit;

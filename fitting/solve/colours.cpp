@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "brdf/model/roughness.h"
+
 namespace gonio {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/quantile.h"
+#include "brdf/model/roughness.h"
 
 #include <tbb/parallel_for.h>
 

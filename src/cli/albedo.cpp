@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/model_argument.h"
 #include "cli/terminal.h"
 #include "geometry/direction.h"
 #include "integrate/scattering/compensation.h"
@@ -140,7 +141,7 @@ Exit run(const Options& o) {
   if (!walked && (o.seed || o.walks))
     throw wrong_usage("--seed and --walks are for --scattering walk");
   use_jobs(o.jobs);
-  auto model = bind_model(o.spec, parse_settings(o.set));
+  auto model = model_argument(o.spec, o.set).model;
   if (o.furnace) model = furnace(model);
   check_cosines(o.mu);
   check_azimuth(o.phi_deg * degree);
@@ -194,7 +195,7 @@ void add_albedo(CommandLine& line) {
       "gonio albedo ggx/smith_ggx.correlated/schlick --set alpha=1 f0=1 --mu 0.01,0.5,1 --average "
       "--scattering deterministic --json",
       o, run);
-  c.option("SPEC", o->spec, "Model").required();
+  c.option("MODEL", o->spec, spec_or_fit).required();
   add_set(c, o->set);
   c.option("--mu", o->mu, "Cosines of the zenith angle, in (0, 1]").delimiter(',');
   c.option("--phi", o->phi_deg, "Azimuth from the tangent, in degrees (anisotropic models)");

@@ -1,9 +1,6 @@
 // gonio compare: how far a model is from a table.
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-
 #include "cli/command.h"
+#include "cli/model_argument.h"
 #include "cli/terminal.h"
 #include "fitting/judge/assess.h"
 #include "fitting/result/document.h"
@@ -20,36 +17,6 @@ struct Options : Common {
   std::optional<std::string> bins;
 };
 
-/// A spec with its --set, or a fit.json: what the user named is a file if there is one.
-BoundModel model_of(const Options& o, std::size_t channels) {
-  if (!std::filesystem::exists(o.model)) {
-    if (o.model.ends_with(".json"))
-      throw bad_input(o.model, "opening", "no such file", "the fit.json of a fit, or a model");
-    return bind_model(o.model, parse_settings(o.set), channels);
-  }
-  if (!o.set.empty()) throw wrong_usage("--set goes with a model, not with a fit.json");
-  const auto fitted = read_fitted_model(o.model);
-  std::vector<Setting> settings;
-  for (const auto& [name, values] : fitted.parameters) {
-    if (name.starts_with("roughness")) continue;  // alpha says the same
-    for (const double v : values)
-      if (std::isnan(v))
-        throw bad_input(o.model, "parameters." + name, "null (not identifiable)",
-                        "a value; fit again with --fix " + name + "=…");
-    settings.push_back({name, values});
-  }
-  try {
-    BoundModel b = bind_model(fitted.model, settings, channels);
-    for (const auto& p : b.model.parameters)
-      if (std::ranges::find(b.given, p.name) == b.given.end())
-        throw wrong_usage("nothing for '" + p.name + "'");
-    return b;
-  } catch (const Error& e) {  // the words are the file's, not the user's
-    throw bad_input(o.model, "model and parameters", e.what(),
-                    "a model for the " + std::to_string(channels) + " channels of " + o.file);
-  }
-}
-
 void print(std::size_t values, const FitResiduals& r) {
   say("{:<22}{:>12}{:>16}{:>16}\n", "", "values", "RMS [1/sr]", "log RMS");
   say("{:<22}{:>12}{:>16.6g}{:>16.6g}\n", "all", values, r.rms, r.log_rms);
@@ -64,7 +31,7 @@ Exit run(const Options& o) {
   Progress progress(o.quiet);
   progress("reading " + o.file);
   const Table t = read_table(o.file, bins_from(o.bins));
-  const BoundModel m = model_of(o, t.channels.size());
+  const BoundModel m = model_argument(o.model, o.set, t.channels.size()).model;
   progress("comparing");
   const Sampling sampling(t, t.bins(), Metric::l2_cosine, 0, false);
   const FreeSlots nothing(std::vector<bool>(m.model.value_count, false));
@@ -84,7 +51,7 @@ void add_compare(CommandLine& line) {
   auto c = line.command("compare", "How far a fitted or given model is from a table",
                         "gonio compare paint.binary paint.json", o, run);
   c.option("FILE", o->file, "Table").required();
-  c.option("MODEL", o->model, "The fit.json of a fit, or a model").required();
+  c.option("MODEL", o->model, spec_or_fit).required();
   add_set(c, o->set);
   add_bins(c, o->bins);
   add_jobs(c, *o);

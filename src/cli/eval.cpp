@@ -1,8 +1,14 @@
-// gonio eval: a model at given directions.
+// gonio eval: a model or a table at given directions.
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
 #include "base/file.h"
 #include "brdf/model/evaluate.h"
 #include "cli/command.h"
+#include "cli/model_argument.h"
 #include "table/format/csv.h"
+#include "table/format/formats.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,37 +17,83 @@ namespace gonio::cli {
 namespace {
 
 struct Options : Common {
-  std::string spec, directions, output;
+  std::string what, directions, output;
   std::vector<std::string> set;
+  std::optional<std::string> bins;
 };
+
+/// The document of a fit or a batch begins as JSON does; a table does not.
+bool is_table(const std::string& path) {
+  if (path.ends_with(".json") || !std::filesystem::exists(path)) return false;
+  InputFile in(path);
+  return !in.peek(1).starts_with('{');
+}
+
+/// Values of a table between its samples; NaN where it has none.
+void interpolate(const Table& table, Table& at) {
+  if (!table.grid() && !table.between)
+    throw bad_input(table.path, "format " + table.format, "samples at single directions",
+                    "a table that has values between its samples: a grid, or an RGL file; gonio "
+                    "convert makes a grid of it");
+  const Interpolator f(table);
+  const SampleAngles angles(at);
+  const std::size_t n = at.list()->theta_i_deg.size();
+  at.channels = table.channels;
+  for (std::size_t c = 0; c < table.channels.size(); ++c) {
+    auto& values = at.values.emplace_back(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double v = f(angles.directions(i), c);
+      const auto a = angles(i);
+      values[i] = mask(a, v) == Mask::valid ? v : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
+void evaluate_at(const ModelArgument& m, Table& at) {
+  const SampleAngles of(at);
+  std::vector<FrameAngles<double>> angles;
+  for (std::size_t i = 0; i < at.list()->theta_i_deg.size(); ++i) angles.push_back(of.frame(i));
+  at.channels = m.channels;
+  for (const auto& f : evaluate(m.model, angles)) at.values.emplace_back(f.begin(), f.end());
+}
 
 Exit run(const Options& o) {
   if (o.output.empty() && !o.json) throw wrong_usage("eval needs -o FILE or --json");
-  check_outputs({o.directions}, {o.output});
-  const auto model = bind_model(o.spec, parse_settings(o.set), 3);
+  auto inputs = file_in(o.what);
+  inputs.push_back(o.directions);
+  check_outputs(inputs, {o.output});
   InputFile in(o.directions);
   Table t = read_directions_csv(in);
-  const SampleAngles at(t);
-  std::vector<FrameAngles<double>> angles;
-  for (std::size_t i = 0; i < t.list()->theta_i_deg.size(); ++i) angles.push_back(at.frame(i));
-  t.channels = {"r", "g", "b"};
-  for (const auto& f : evaluate(model, angles)) t.values.emplace_back(f.begin(), f.end());
-  t.weights.clear();
+  t.values.clear(), t.weights.clear();
+  nlohmann::ordered_json document;
+  if (is_table(o.what)) {
+    if (!o.set.empty()) throw wrong_usage("--set goes with a model, not with a table");
+    interpolate(read_table(o.what, bins_from(o.bins)), t);
+    document["table"] = o.what;
+  } else {
+    if (o.bins) throw wrong_usage("--bins goes with a table, not with a model");
+    const auto model = model_argument(o.what, o.set);
+    evaluate_at(model, t);
+    document["model"] = model.model.model.spec;
+  }
   if (!o.output.empty()) {
     OutputFile out(o.output);
     write_csv(t, out);
     out.commit();
   }
   if (o.json) {
-    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    auto& rows = document["rows"] = nlohmann::ordered_json::array();
     const auto& l = *t.list();
-    for (std::size_t i = 0; i < t.size(); ++i)
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      std::vector<double> f;
+      for (const auto& channel : t.values) f.push_back(channel[i]);
       rows.push_back({{"theta_i", l.theta_i_deg[i]},
                       {"phi_i", l.phi_i_deg[i]},
                       {"theta_o", l.theta_o_deg[i]},
                       {"phi_o", l.phi_o_deg[i]},
-                      {"f", {t.values[0][i], t.values[1][i], t.values[2][i]}}});
-    fmt::print("{}\n", nlohmann::ordered_json{{"model", model.model.spec}, {"rows", rows}}.dump(2));
+                      {"f", f}});
+    }
+    fmt::print("{}\n", document.dump(2));
   }
   return Exit::done;
 }
@@ -50,13 +102,15 @@ Exit run(const Options& o) {
 
 void add_eval(CommandLine& line) {
   auto o = std::make_shared<Options>();
-  auto c = line.command(
-      "eval", "Evaluates a model at the directions of a CSV file: f_r, f_g, f_b in 1/sr, no cosine",
-      "gonio eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
-      "--directions in.csv -o out.csv",
-      o, run);
-  c.option("SPEC", o->spec, "Model").required();
+  auto c = line.command("eval",
+                        "Evaluates a model, or a table between its samples, at the directions of a "
+                        "CSV file: f_r, f_g, f_b in 1/sr, no cosine",
+                        "gonio eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
+                        "--directions in.csv -o out.csv",
+                        o, run);
+  c.option("MODEL", o->what, "Model, the fit.json of a fit, or a table").required();
   add_set(c, o->set);
+  add_bins(c, o->bins);
   c.option("--directions", o->directions, "CSV with theta_i,phi_i,theta_o,phi_o in degrees")
       .required();
   c.option("-o,--output", o->output, "CSV to write");

@@ -2,6 +2,7 @@
 #include "data_synth/synth.h"
 
 #include "cli/command.h"
+#include "cli/model_argument.h"
 #include "cli/terminal.h"
 #include "table/format/formats.h"
 
@@ -22,11 +23,11 @@ struct Options : Common {
 
 Exit run(const Options& o) {
   use_jobs(o.jobs);
-  check_outputs({}, {o.output});
+  check_outputs(file_in(o.spec), {o.output});
   SynthOptions s = o.synth;
   s.layout = value_of<Layout>(o.layout, "layout");
   s.bins = bins_from(o.bins).value_or(Bins::centre);
-  const auto model = bind_model(o.spec, parse_settings(o.set));
+  const auto model = model_argument(o.spec, o.set).model;
   Progress progress(o.quiet);
   progress("sampling");
   const Table t = synthesize(model, s);
@@ -50,7 +51,7 @@ void add_synth(CommandLine& line) {
       "gonio synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.15 kd=0.2,0.1,0.05 "
       "--layout merl --noise 0.02 -o paint.binary",
       o, run);
-  c.option("SPEC", o->spec, "Model").required();
+  c.option("MODEL", o->spec, spec_or_fit).required();
   add_set(c, o->set);
   c.option("--layout", o->layout, "merl, mbsdf, in_plane, image_slice, hemisphere or random")
       .one_of(names_of<Layout>)

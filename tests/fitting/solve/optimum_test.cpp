@@ -5,6 +5,7 @@
 #include <random>
 
 #include "fitting/fit.h"
+#include "brdf/model/roughness.h"
 #include "fitting/solve/descend.h"
 #include "fitting/solve/search.h"
 #include "fitting/support.h"

@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// A model as a user names it: a spec with its --set, or the fit.json of a fit.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "brdf/model/model.h"
+
+namespace gonio::cli {
+
+/// Help of an argument that takes either.
+inline constexpr const char* spec_or_fit = "Model, or the fit.json of a fit";
+
+/// The file that the user named, for check_outputs: what is there, or what is called like a document;
+/// none where it is a spec.
+std::vector<std::string> file_in(const std::string& model);
+
+struct ModelArgument {
+  BoundModel model;
+  std::vector<std::string> channels;  ///< the fit's names; else "r", "g", "b", or "f" of one
+};
+/// The model named.  \param channels  as many as the model must have; else as many as its colours, or three
+/// \throws Error  bad_input of a fit.json that is none, holds null values, or does not have these
+///                channels; wrong_usage of --set beside one
+ModelArgument model_argument(const std::string& model,
+                             const std::vector<std::string>& set,
+                             std::optional<std::size_t> channels = {});
+
+}  // namespace gonio::cli
