@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <random>
 
-#include "fitting/fit.h"
 #include "brdf/model/roughness.h"
+#include "fitting/fit.h"
 #include "fitting/solve/descend.h"
 #include "fitting/solve/search.h"
 #include "fitting/support.h"
