@@ -1,5 +1,6 @@
 // gonio columns: what the columns of a CSV file are, said once.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "table/format/column_proposal.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
 
@@ -111,6 +113,34 @@ Json to_json(const Table& t, const std::string& side) {
           {"warnings", t.warnings}, {"written", side_path(t.path)}};
 }
 
+/// Word of a command line: in quotes where a shell would take it apart.
+std::string shell_word(const std::string& word) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) ||
+           std::string_view("_-=.,:/+%@").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+void print(const ColumnProposal& p, const std::string& file) {
+  for (const auto& reason : p.said) say("{:<14}{}\n", p.map ? "beware" : "unclear", reason);
+  if (p.map && !p.needed) {
+    say("no map, and none is needed: the columns have the names that gonio reads\n");
+    return;
+  }
+  std::string command = "gonio columns " + shell_word(file) + " --map";
+  if (!p.map) command += " theta_i=… phi_i=… theta_o=… phi_o=… f=…";
+  if (p.map)
+    for (const auto& [role, column] : p.map->columns)
+      command += " " + shell_word(role + "=" + column);
+  if (p.map && p.map->radians) command += " --radians";
+  say("no map; {}\n  {}\n", p.map ? "by their names and ranges it would be" : "one is made by",
+      command);
+}
+
 Json show(const Options& o, const std::string& file) {
   InputFile in(file);
   expect_columns(in);
@@ -138,11 +168,18 @@ Json show(const Options& o, const std::string& file) {
       fmt::print("{:>14}\n", "no numbers");
   }
   Json said = map ? columns_of(file, side) : Json();
-  if (!o.json)
-    say("{}\n", map ? fmt::format("{} says {}", side_path(file), said.dump())
-                    : "no map; gonio columns FILE --map theta_i=… phi_i=… theta_o=… "
-                      "phi_o=… f=… makes one");
-  return {{"path", file}, {"file_columns", all}, {"columns", said}};
+  Json proposed;
+  if (map) {
+    if (!o.json) say("{} says {}\n", side_path(file), said.dump());
+  } else {
+    const auto p = propose_columns(columns);
+    if (!o.json) print(p, file);
+    if (p.map)
+      proposed = {{"columns", columns_of(file, with_columns(side_path(file), "", *p.map))},
+                  {"needed", p.needed},
+                  {"said", p.said}};
+  }
+  return {{"path", file}, {"file_columns", all}, {"columns", said}, {"proposal", proposed}};
 }
 
 Exit run(const Options& o) {

@@ -27,6 +27,26 @@ TEST(Columns, AreShownUntilAMapIsGivenAndReadByItAfterwards) {
   EXPECT_EQ(gonio(f, "fit t.csv --model lambert").code, 0);
 }
 
+TEST(Columns, AreProposedAsACommandThatCanBeRun) {
+  const Folder f;
+  f.write("my table.csv",
+          "wavelength;in;phi;view [deg];brdf\n500;-30;0;30;0,5\n600;-30;0;30;0,25\n");
+  const auto proposal = gonio(f, "columns 'my table.csv' --json").json()["proposal"];
+  EXPECT_EQ(proposal["needed"], true);
+  EXPECT_EQ(proposal["columns"]["theta_o"], "view [deg]");
+  const std::string text = gonio(f, "columns 'my table.csv'").out;
+  const auto at = text.find("\n  gonio columns ");
+  ASSERT_NE(at, text.npos) << text;
+  ASSERT_EQ(gonio(f, text.substr(at + 9, text.find('\n', at + 1) - at - 9)).code, 0) << text;
+  const auto said = gonio(f, "columns 'my table.csv' --json").json();
+  EXPECT_EQ(said["columns"], proposal["columns"]);
+  EXPECT_TRUE(said["proposal"].is_null()) << "it has one";
+  EXPECT_EQ(gonio(f, "inspect 'my table.csv' --json").json()["channels"],
+            (nlohmann::json{"500", "600"}));
+  f.write("own.csv", "theta_i,theta_o,f\n10,20,1\n");
+  EXPECT_NE(gonio(f, "columns own.csv").out.find("none is needed"), std::string::npos);
+}
+
 TEST(Columns, InJsonKeepTheirNamesAndHaveNoRangeWhereThereIsNoNumber) {
   const Folder f;
   const std::string name = "a name of more than forty characters, \xc2\xb5 and all";

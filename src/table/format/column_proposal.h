@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// Guess at what the columns of a CSV file are, from their names and ranges: shown to the user, who
+/// says it or says otherwise; nothing is read by it.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "table/format/column_map.h"
+#include "table/format/csv.h"
+
+namespace gonio {
+
+struct ColumnProposal {
+  /// Map that names every angle and a value; none where a zenith angle or the value cannot be told.
+  std::optional<ColumnMap> map;
+  bool needed = true;  ///< false where the columns have these names already
+  std::vector<std::string>
+      said;  ///< reasons for what a name alone does not say, or what is missing
+};
+
+/// By name a column is a zenith angle ("theta", "zenith", "aoi" …) or an azimuth ("phi", "azimuth" …) of the
+/// light ("i", "in", "source" …) or of the viewer ("o", "r", "out", "detector" …), a value ("f", "brdf" …) or a
+/// wavelength.  Ranges then correct it: where a zenith angle exceeds 90° and no azimuth does, they
+/// have changed names; angles that all stay within 2π, zenith angles within π/2, are
+/// radians.
+ColumnProposal propose_columns(std::span<const ColumnSummary>);
+
+}  // namespace gonio

@@ -1,0 +1,88 @@
+#include "table/format/column_proposal.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+ColumnSummary column(const char* name, double lowest, double highest) {
+  return {name, 100, lowest, highest, 50};
+}
+
+using Map = std::vector<std::pair<std::string, std::string>>;
+
+TEST(ColumnProposal, NamesOfAnInstrumentAreRecognised) {
+  const std::vector<ColumnSummary> columns{
+      column("lambda", 0.351, 1.064), column("thetai", -0.001, 75), column("phi", 0, 90),
+      column("thetar", 0, 85),        column("phir", -180, 180),    column("f_r11", 0.1, 3),
+      column("f_r12/f_r11", -1, 1)};
+  const auto p = propose_columns(columns);
+  ASSERT_TRUE(p.map);
+  EXPECT_TRUE(p.needed);
+  EXPECT_EQ(p.map->columns, (Map{{"theta_i", "thetai"},
+                                 {"phi_i", "phi"},
+                                 {"theta_o", "thetar"},
+                                 {"phi_o", "phir"},
+                                 {"f", "f_r11"},
+                                 {"channel", "lambda"}}));
+  EXPECT_FALSE(p.map->radians);
+  EXPECT_TRUE(p.said.empty());
+}
+
+TEST(ColumnProposal, AZenithAngleThatGoesRoundIsTheAzimuth) {
+  const std::vector<ColumnSummary> columns{column("phi_i", 0, 85), column("theta_i", 0, 180),
+                                           column("phi_o", -85, 85), column("theta_o", 0, 0),
+                                           column("brdf", 0, 9)};
+  const auto p = propose_columns(columns);
+  ASSERT_TRUE(p.map);
+  EXPECT_EQ(p.map->columns, (Map{{"theta_i", "phi_i"},
+                                 {"phi_i", "theta_i"},
+                                 {"theta_o", "phi_o"},
+                                 {"phi_o", "theta_o"},
+                                 {"f", "brdf"}}));
+  EXPECT_EQ(p.said.size(), 2U);
+}
+
+TEST(ColumnProposal, AnglesWithinTwoPiAreRadians) {
+  const std::vector<ColumnSummary> columns{column("theta_in [rad]", 0, 1.5),
+                                           column("Theta out", 0, 1.55), column("azimuth", 0, 3.14),
+                                           column("BRDF", 0, 9)};
+  const auto p = propose_columns(columns);
+  ASSERT_TRUE(p.map);
+  EXPECT_TRUE(p.map->radians);
+  EXPECT_EQ(p.map->columns, (Map{{"theta_i", "theta_in [rad]"},
+                                 {"theta_o", "Theta out"},
+                                 {"phi_o", "azimuth"},
+                                 {"f", "BRDF"}}));
+  auto degrees = columns;
+  degrees[1].highest = 1.65;
+  EXPECT_FALSE(propose_columns(degrees).map->radians) << "above a right angle";
+}
+
+TEST(ColumnProposal, ItsOwnNamesNeedNone) {
+  const std::vector<ColumnSummary> columns{column("theta_i", 0, 75), column("phi_i", 0, 0),
+                                           column("theta_o", 0, 85), column("phi_o", 0, 180),
+                                           column("f_r", 0, 1),      column("f_g", 0, 1)};
+  const auto p = propose_columns(columns);
+  ASSERT_TRUE(p.map);
+  EXPECT_FALSE(p.needed);
+}
+
+TEST(ColumnProposal, OfWhatCannotBeToldNothingIsProposed) {
+  const std::vector<ColumnSummary> no_names{column("", 0, 75), column("", 0, 0), column("", 0, 85)};
+  const auto p = propose_columns(no_names);
+  EXPECT_FALSE(p.map);
+  EXPECT_EQ(p.said.size(), 3U) << "two angles and the value";
+  const std::vector<ColumnSummary> no_value{column("aoi", 0, 75), column("theta_s", 0, 80)};
+  EXPECT_FALSE(propose_columns(no_value).map);
+}
+
+TEST(ColumnProposal, ColumnsOfOneNameGoByTheirNumber) {
+  const std::vector<ColumnSummary> columns{column("aoi", 0, 75), column("theta_s", 0, 80),
+                                           column("brdf", 0, 1), column("brdf", 0, 2)};
+  EXPECT_EQ(propose_columns(columns).map->columns[2],
+            (std::pair<std::string, std::string>("f", "#3")));
+}
+
+}  // namespace
+}  // namespace gonio
