@@ -13,7 +13,6 @@
 #include "base/json_describe.h"
 #include "base/sha256.h"
 #include "base/text.h"
-#include "fitting/batch/fit_file.h"
 #include "table/format/metadata.h"
 
 #include <fmt/format.h>
@@ -147,8 +146,21 @@ std::string with_side_file(const std::string& made_with, const std::string& tabl
 }
 
 struct Place {
-  std::string path, name;  ///< of the document
+  std::string path, name;            ///< of the document
+  std::string page_path, page_name;  ///< empty where no pages are made
 };
+
+/// Name of a table's page, which no document nor the summary has.
+std::string page_name(const std::string& document) {
+  return fs::path(document).replace_extension(".fit.html").string();
+}
+
+/// True where the page is there and was written after the document: what it shows is that.
+bool is_of(const std::string& page, const std::string& document) {
+  std::error_code unknown;
+  return fs::exists(page, unknown) &&
+         fs::last_write_time(page, unknown) >= fs::last_write_time(document, unknown) && !unknown;
+}
 
 /// The row of a table that was fitted before, in the same way, if it was.
 std::optional<BatchRow> kept(const std::string& table, const Place& to, const std::string& made) {
@@ -158,20 +170,31 @@ std::optional<BatchRow> kept(const std::string& table, const Place& to, const st
   if (!row) return {};
   row->path = table;
   row->document = to.name;
+  if (!to.page_path.empty()) {
+    if (!is_of(to.page_path, to.path)) return {};
+    row->page = to.page_name;
+  }
   return row;
 }
 
 /// Why there is no fit.
 BatchRow failed(const std::string& table, const Place& to, Exit outcome, const std::string& line) {
-  if (is_batch_document(to.path)) std::remove(to.path.c_str());  // of what the table was before
+  if (is_batch_document(to.path)) {  // of what the table was before
+    std::remove(to.path.c_str());
+    std::remove(page_name(to.path).c_str());
+  }
   return {table, "", outcome, line, {}, {}};
 }
 
 struct Fitted {
   BatchRow row;
-  std::string document;
+  std::string document, page;
 };
-Fitted fitted(const Batch& b, const std::string& table, const Place& to, const std::string& made) {
+Fitted fitted(const Batch& b,
+              const BatchHooks& hooks,
+              const std::string& table,
+              const Place& to,
+              const std::string& made) {
   const FittedFile f = fit_file(table, b.how.bins, b.how.options);
   const FitDocument& d = f.result.document;
   const bool converged = d.solver.termination == "converged";
@@ -180,9 +203,20 @@ Fitted fitted(const Batch& b, const std::string& table, const Place& to, const s
                converged ? Exit::done : Exit::not_converged,
                d.solver.message,
                in_brief(d),
-               make_preview(f.table, f.result.model)};
+               make_preview(f.table, f.result.model),
+               to.page_name};
   std::string document = batch_document(d, *row.preview, made);
-  return {std::move(row), std::move(document)};
+  std::string page = hooks.table_page ? hooks.table_page(f, document) : "";
+  return {std::move(row), std::move(document), std::move(page)};
+}
+
+/// Both or neither; the page last, so that it is no older than what it shows.
+void write(const Place& to, const Fitted& f) {
+  OutputFile document(to.path);
+  document.write(f.document);
+  std::optional<OutputFile> page;
+  if (!to.page_path.empty()) page.emplace(to.page_path).write(f.page);
+  commit_all(std::array{&document, page ? &*page : nullptr});
 }
 
 // --- All of them ---
@@ -270,6 +304,7 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
 
   std::vector<std::string> results{"summary.csv", "summary.page.json", "summary.html"};
   results.insert(results.end(), names.begin(), names.end());
+  if (hooks.table_page) std::ranges::transform(names, std::back_inserter(results), page_name);
   expect_apart(b, tables, results);
   const auto place = [&](const std::string& name) { return (fs::path(b.output) / name).string(); };
   try {
@@ -297,7 +332,11 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
   };
   say();
   const auto one = [&](std::size_t i) {
-    const Place to{place(names[i]), names[i]};
+    Place to{place(names[i]), names[i], "", ""};
+    if (hooks.table_page) {
+      to.page_name = page_name(names[i]);
+      to.page_path = place(to.page_name);
+    }
     std::optional<Fitted> fresh;
     try {
       const std::string how = with_side_file(made, tables[i]);
@@ -305,7 +344,7 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
         rows[i] = std::move(*row);
         return add(rows[i], true);
       }
-      fresh = fitted(b, tables[i], to, how);
+      fresh = fitted(b, hooks, tables[i], to, how);
     } catch (const Error& e) {
       rows[i] = failed(tables[i], to, e.code(), e.what());
     } catch (const std::bad_alloc&) {
@@ -315,7 +354,7 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
           failed(tables[i], to, Exit::bad_input, printable(tables[i]) + ": " + printable(e.what()));
     }
     if (fresh) {
-      write_file(to.path, fresh->document);
+      write(to, *fresh);
       rows[i] = std::move(fresh->row);
     }
     add(rows[i], false);

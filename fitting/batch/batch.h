@@ -12,6 +12,7 @@
 #include "base/describe.h"
 #include "base/error.h"
 #include "fitting/batch/batch_document.h"
+#include "fitting/batch/fit_file.h"
 #include "fitting/solve/options.h"
 #include "table/table.h"
 
@@ -61,6 +62,8 @@ struct BatchHooks {
   std::function<void(const BatchCount&)> progress;
   /// Page of the summary: HTML of a title and of batch_json() with previews.
   std::function<std::string(std::string_view title, std::string_view data)> page;
+  /// Page of one table, HTML; without it none is made.  \param document  fit.json as text
+  std::function<std::string(const FittedFile&, std::string_view document)> table_page;
 };
 struct BatchResult {
   std::vector<BatchRow> rows;  ///< in the order of the tables
@@ -72,7 +75,8 @@ struct BatchResult {
 };
 
 /// Fits each table on its own, as many at a time as there are threads and memory for, and writes
-/// document_names() for each and summary.csv, .html and .page.json of all.  A table whose document is
+/// document_names() for each, NAME.fit.html where pages of tables are asked for, and summary.csv, .html and
+/// .page.json of all.  A table whose document is
 /// there already, of the same bytes, side file and options, is not fitted again.
 ///
 /// A table that cannot be read or fitted is a row of the summary; a result that cannot be written

@@ -92,6 +92,10 @@ struct Description<BatchRow> {
               return r.document.empty() ? std::nullopt : std::optional(r.document);
             },
             "name of the fit document, beside the summary; null where there is none"),
+        field(
+            "page", "",
+            [](const BatchRow& r) { return r.page.empty() ? std::nullopt : std::optional(r.page); },
+            "name of the table's page, beside the summary; null where none was asked for"),
         status,
         exit_code,
         message,

@@ -40,6 +40,7 @@ struct BatchRow {
   std::string message;             ///< why there is no fit; else the solver's words
   std::optional<BatchFit> fit;
   std::optional<Preview> preview;  ///< where there is a fit
+  std::string page = {};  ///< the name of its page, beside the summary; empty if there is none
 };
 
 /// Fit document as a batch writes it: of schema "gonio.fit/1" like any other, and with

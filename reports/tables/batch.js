@@ -144,7 +144,7 @@ addEventListener("beforeprint", () => { for (const [node, draw] of waiting) { dr
 const sorted_numbers = (list) => list.filter(known).sort((a, b) => a - b);
 const median_of = (list) => { const v = sorted_numbers(list); return v.length ? v[v.length >> 1] : null; };
 const log_rms_text = (x) => significant(x, 3);  // one form for all of them
-const link = (t) => (t.document ? el("a", { href: "./" + encodeURIComponent(t.document) }, t.name) : t.name);
+const link = (t) => (t.page ?? t.document ? el("a", { href: "./" + encodeURIComponent(t.page ?? t.document) }, t.name) : t.name);
 
 function verdict() {
   const typical = median_of(fitted.map((t) => t.log_rms));
@@ -377,7 +377,7 @@ function each() {
   const view = choice("View", [["cards", "cards"], ["rows", "rows"]], state.view, (v) => { state.view = v; update(); });
   const out = section("Each material",
     "The sphere shows the fitted model, lit from the upper left under a uniform sky. Beside it f_r in the plane of incidence, logarithmic with a line per decade, "
-      + "at the angle nearest to 30°: points are the table's samples, lines the model, the dashed line the mirror direction. A name links to its document.",
+      + "at the angle nearest to 30°: points are the table's samples, lines the model, the dashed line the mirror direction. A name links to its " + (tables.some((t) => t.page) ? "page." : "document."),
     el("div", { class: "controls" }, search, kind, el("label", {}, "by ", sort_select), direction, view, shown), body);
   out.classList.add("long");
   update();

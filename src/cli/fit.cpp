@@ -26,6 +26,7 @@ struct Options : Common {
   std::vector<std::string> fix, bounds;
   FitOptions fit;
   std::optional<std::string> bins;
+  bool pages = false;
 };
 
 void print(const FitDocument& d) {
@@ -82,15 +83,26 @@ void print(const std::string& folder, const BatchResult& r) {
   say("results  {}, .csv\n", (std::filesystem::path(folder) / "summary.html").string());
 }
 
+/// Content of a fit's page.
+std::string page_data(const Table& t, const BoundModel& fitted, std::string_view document) {
+  return to_json(make_fit_page(t, fitted), document, to_json(t, inspect(t)));
+}
+
 Exit run_batch(const Options& o, const HowFitted& how) {
   if (!o.html.empty())
-    throw wrong_usage("--html is of one table; the page of many is summary.html in their folder");
+    throw wrong_usage(
+        "--html is of one table; the page of many is summary.html in their folder, and --pages "
+        "makes "
+        "one of each beside it");
   check_outputs({}, {o.output});
   Progress progress(o.quiet);
   const auto begin = std::chrono::steady_clock::now();
-  const BatchResult result =
-      fit_batch({o.files, o.output, how},
-                {[&](const BatchCount& n) { progress(line_of(n, begin)); }, batch_page_html});
+  BatchHooks hooks{[&](const BatchCount& n) { progress(line_of(n, begin)); }, batch_page_html, {}};
+  if (o.pages)
+    hooks.table_page = [](const FittedFile& f, std::string_view document) {
+      return fit_page_html(f.table.path, page_data(f.table, f.result.model, document));
+    };
+  const BatchResult result = fit_batch({o.files, o.output, how}, hooks);
   progress.clear();
   if (o.json)
     fmt::print("{}", batch_json(result.rows, result.made_with, false));
@@ -111,6 +123,7 @@ Exit run(const Options& o) {
 
   const auto bins = bins_from(o.bins);
   if (is_batch(o.files)) return run_batch(o, {options, bins});
+  if (o.pages) throw wrong_usage("--pages is of many tables; the page of one is --html PAGE.html");
   const std::string& file = o.files[0];
   OutputFiles out({file}, o.output, o.html);
   Progress progress(o.quiet);
@@ -121,8 +134,7 @@ Exit run(const Options& o) {
   out.write_document(json);
   if (out.has_page()) {
     progress("making the page");
-    const Health health = inspect(t);
-    const std::string data = to_json(make_fit_page(t, result.model), json, to_json(t, health));
+    const std::string data = page_data(t, result.model, json);
     out.write_page(fit_page_html(file, data), data);
   }
   out.commit();
@@ -172,6 +184,8 @@ void add_fit(CommandLine& line) {
            "What is there already, of the same bytes and options, is kept");
   c.option("--html", o->html,
            "A page of the result, NAME.html, and its data beside it, NAME.page.json");
+  c.flag("--pages", o->pages,
+         "Of many tables a page each, NAME.fit.html, to which summary.html links");
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -1,5 +1,6 @@
 #include "fitting/batch/batch.h"
 
+#include <chrono>
 #include <filesystem>
 #include <set>
 
@@ -140,7 +141,8 @@ TEST(Batch, TellsItsProgressAndKeepsWhatItHas) {
   std::vector<std::size_t> done;
   const BatchHooks hooks{
       [&](const BatchCount& n) { done.push_back(n.done); },
-      [](std::string_view title, std::string_view) { return std::string(title); }};
+      [](std::string_view title, std::string_view) { return std::string(title); },
+      {}};
   const auto first = fit_batch(b, hooks);
   EXPECT_EQ(done, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(first.count.failed, 1U);
@@ -150,6 +152,36 @@ TEST(Batch, TellsItsProgressAndKeepsWhatItHas) {
   EXPECT_EQ(fit_batch(b, hooks).count.kept, 1U);
   b.how.options.bin_sensitivity = false;
   EXPECT_EQ(fit_batch(b, hooks).count.kept, 0U);
+}
+
+TEST(Batch, MakesAPageOfEachTableWhereAskedAndKeepsItWithItsDocument) {
+  const test::Folder f;
+  std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";
+  for (int i = 0; i < 80; i += 10) csv += std::to_string(i) + ",0,30,180,0.1\n";
+  f.write("a.csv", csv), f.write("summary.csv", csv), f.write("broken.csv", "theta_i");
+  Batch b{{f / "a.csv", f / "summary.csv", f / "broken.csv"}, f / "out", {}};
+  b.how.options.model = "lambert";
+  BatchHooks hooks;
+  EXPECT_EQ(fit_batch(b, hooks).rows[0].page, "") << "none was asked for";
+  hooks.page = [](std::string_view, std::string_view data) { return std::string(data); };
+  hooks.table_page = [](const FittedFile& file, std::string_view) { return file.table.path; };
+  const auto first = fit_batch(b, hooks);
+  EXPECT_EQ(first.count.kept, 0U) << "their pages are missing";
+  EXPECT_EQ(first.rows[0].page, "a.fit.html");
+  EXPECT_EQ(first.rows[2].page, "") << "it could not be read";
+  EXPECT_EQ(test::read_bytes(f / "out/a.fit.html"), f / "a.csv");
+  EXPECT_EQ(test::read_bytes(f / "out/summary.fit.html"), f / "summary.csv");
+  EXPECT_NE(test::read_bytes(f / "out/summary.html").find("\"page\":\"a.fit.html\""),
+            std::string::npos);
+  const auto second = fit_batch(b, hooks);
+  EXPECT_EQ(second.count.kept, 2U);
+  EXPECT_EQ(second.rows[0].page, "a.fit.html");
+  fs::last_write_time(f / "out/a.fit.html",
+                      fs::last_write_time(f / "out/a.json") - std::chrono::seconds(1));
+  EXPECT_EQ(fit_batch(b, hooks).count.kept, 1U) << "a page of an earlier fit is made again";
+  f.write("a.csv", "theta_i");
+  fit_batch(b, hooks);
+  EXPECT_FALSE(fs::exists(f / "out/a.fit.html")) << "no page of what is no table any more";
 }
 
 TEST(Batch, WithoutAPageItStillHasItsSummary) {
