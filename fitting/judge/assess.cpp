@@ -67,15 +67,9 @@ class IncidentKeys {
       if (!first_.empty()) samples_per_angle_ = grid_->axes[1].size * grid_->axes[2].size;
       return;
     }
-    std::vector<long> angle;
-    for (const double deg : s.table().list()->theta_i_deg) angle.push_back(std::lround(deg * 1000));
-    auto sorted = angle;
-    std::ranges::sort(sorted);
-    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    for (const long a : angle)
-      rank_.push_back(
-          static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, a) - sorted.begin()));
-    count_ = sorted.size();
+    auto angles = incident_angles(*s.table().list());
+    count_ = angles.count;
+    rank_ = std::move(angles.number);
   }
   std::size_t count() const { return count_; }
   /// \param last  that of a neighbour, where the answer is looked for first; or `none`

@@ -101,12 +101,16 @@ std::string InputFile::peek(std::size_t n) {
   return bytes;
 }
 
-std::string InputFile::read_rest(std::uint64_t most) {
+std::size_t InputFile::left(std::uint64_t most) const {
   const std::uint64_t n = size_ > position_ ? size_ - position_ : 0;
   if (n > most)
     throw bad_input(path_, fmt::format("byte {}", position_), fmt::format("{} bytes", n),
                     fmt::format("at most {}", most));
-  std::string bytes(static_cast<std::size_t>(n), '\0');
+  return static_cast<std::size_t>(n);
+}
+
+std::string InputFile::read_rest(std::uint64_t most) {
+  std::string bytes(left(most), '\0');
   read(bytes.data(), bytes.size());
   return bytes;
 }

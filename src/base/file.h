@@ -29,6 +29,8 @@ class InputFile {
   /// Fails if the file was written to, or became another, since it was opened: what was read of it may
   /// be a mixture.
   void expect_unchanged() const;
+  /// Number of bytes left; refuses more than `most`.
+  std::size_t left(std::uint64_t most) const;
   /// The rest of the file; refuses more than `most` bytes.
   std::string read_rest(std::uint64_t most = std::uint64_t{1} << 31);
 

@@ -1,17 +1,22 @@
 #include "table/format/csv.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <set>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/numbers.h"
 #include "table/format/delimited.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 namespace gonio {
 namespace {
@@ -44,6 +49,24 @@ bool is_angle(std::string_view name) {
   return std::ranges::find(kAngles, name) != kAngles.end();
 }
 
+using Text = std::vector<char, ArrayAllocator<char>>;
+
+/// Text of a file, read by all threads into memory that nobody fills before.  The file is not mapped, though that would
+/// save a hundredth of the time: another program that cuts it short meanwhile would kill this one, where reading says so.
+Text text_of(const InputFile& in) {
+  constexpr std::size_t part = std::size_t{1} << 22;
+  Text text(in.left(kMostBytes));
+  tbb::parallel_for(std::size_t{0}, (text.size() + part - 1) / part, [&](std::size_t k) {
+    const std::size_t from = k * part;
+    in.read_at(in.position() + from, text.data() + from, std::min(part, text.size() - from));
+  });
+  return text;
+}
+
+std::string_view view(const Text& text) {
+  return {text.data(), text.size()};
+}
+
 std::string bracketed(double low, double high) {
   return fmt::format("a number in [{:.4g}, {:.4g}]", low, high);
 }
@@ -53,10 +76,16 @@ struct Column {
   std::string role;
   std::optional<std::size_t> index;  ///< else the constant
   double constant = 0;
+  bool is_value = channel_of(role).has_value();
   double low = 0, high = std::numeric_limits<double>::max();  ///< of what is not a value
-  std::vector<double> data = {};
 
-  bool is_value() const { return channel_of(role).has_value(); }
+  bool allows(double v) const { return is_value || (v >= low && v <= high); }
+};
+
+/// Numbers of some rows, one after the other.
+struct Rows {
+  std::size_t count = 0;
+  std::vector<std::vector<double>> columns;  ///< [column][row]; empty for constants
 };
 
 /// Columns by their names, blanks around them apart.
@@ -100,29 +129,20 @@ class Reader {
       : map_(map),
         needs_values_(needs_values),
         path_(in.path()),
-        text_(in.read_rest(kMostBytes)),
-        lines_(path_, text_, map ? map->skip : 0) {}
+        text_(text_of(in)),
+        lines_(path_, view(text_), map ? map->skip : 0) {}
 
   Table table() {
     if (map_)
       choose_by_map();
     else
       choose_by_name();
-    while (lines_.next()) row();
-    if (rows_ == 0) lines_.fail("", "no samples", "at least one line of numbers");
-    for (auto& c : columns_)
-      if (!c.index) c.data.assign(rows_, c.constant);
+    read_rows();
     Table t;
     t.format = "csv";
     const bool small = angles_are_small();
-    t.where = DirectionList{take("theta_i"), take("phi_i"), take("theta_o"), take("phi_o")};
-    t.weights = take("weight");
+    gather_columns(t);
     if (map_) to_conventions(std::get<DirectionList>(t.where));
-    for (auto& column : columns_)
-      if (column.is_value()) {
-        t.channels.push_back(*channel_of(column.role));
-        t.values.emplace_back(column.data.begin(), column.data.end());
-      }
     if (map_) to_f(t);
     if (channel_) gather_channels(t);
     if (small)
@@ -136,12 +156,13 @@ class Reader {
  private:
   void add(const std::string& role, std::optional<std::size_t> index, double constant = 0) {
     roles_.insert(role);
-    Column c{role, index, constant};
+    Column c{.role = role, .index = index, .constant = constant};
     const double turn = map_ && map_->radians ? degree * 180 : 180;
     if (role.starts_with("theta_")) c.low = map_ ? -turn : 0, c.high = turn;
     if (role.starts_with("phi_")) c.low = -2 * turn, c.high = 2 * turn;
     if (map_ && map_->radians && is_angle(role)) c.low *= 1 + 1e-6, c.high *= 1 + 1e-6;
-    if (!index) check_range(c, constant, fmt::format("{:.6g}", constant), role);
+    if (!c.allows(constant) && !index)
+      out_of_range(lines_, c, constant, fmt::format("{:.6g}", constant), role);
     columns_.push_back(std::move(c));
   }
 
@@ -219,7 +240,7 @@ class Reader {
     if (!has_values()) throw_no_column("f", "f");
     std::set<std::string> channels;
     for (const auto& c : columns_)
-      if (c.is_value() && !channels.insert(*channel_of(c.role)).second)
+      if (c.is_value && !channels.insert(*channel_of(c.role)).second)
         throw bad_input(path_, "columns", "two channels named " + *channel_of(c.role), "one");
     if (channel_ && std::ranges::count_if(columns_, &Column::is_value) > 1)
       throw bad_input(path_, "columns", "channel beside several f_NAME", "channel beside one f");
@@ -258,19 +279,94 @@ class Reader {
   bool has(std::string_view role) const { return roles_.contains(role); }
   bool has_values() const { return std::ranges::any_of(columns_, &Column::is_value); }
 
-  void row() {
-    if (++rows_ * columns_.size() > most_values)
-      lines_.fail("", fmt::format("more rows of {} columns", columns_.size()),
-                  fmt::format("at most {} numbers", most_values));
-    for (auto& c : columns_) {
-      if (!c.index) continue;
-      const double v = c.is_value() && is_gap(lines_.fields()[*c.index])
-                           ? std::numeric_limits<double>::quiet_NaN()
-                           : lines_.number(*c.index);
-      check_range(c, v, lines_.fields()[*c.index], lines_.label(*c.index));
-      c.data.push_back(v);
-    }
-    if (channel_) channel_of_row_.push_back(channel_number(lines_.fields()[*channel_]));
+  void read_rows() {
+    Rows& all = rows_of_parts_.emplace_back();
+    const auto read_next = [&] {
+      if (!lines_.next()) return false;
+      add_row(lines_, all);
+      if (channel_) channel_of_row_.push_back(channel_number(lines_.fields()[*channel_]));
+      return true;
+    };
+    if (!read_next()) lines_.fail("", "no samples", "at least one line of numbers");
+    if (channel_ || !read_parts())
+      while (read_next()) {
+      }
+    for (const auto& part : rows_of_parts_) rows_ += part.count;
+  }
+
+  /// Reads what is left in parts, on all threads.  False, with nothing read, where anything in it is wrong or unusual:
+  /// who then reads line by line meets it at its place, and says the same whatever the threads.
+  bool read_parts() {
+    auto parts = lines_.parts();
+    std::vector<Rows> rows(parts.size());
+    std::atomic<std::size_t> count = rows_of_parts_[0].count;
+    std::atomic<bool> usual = !parts.empty();
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
+      if (!usual) return;
+      try {
+        while (parts[k].next()) add_row(parts[k], rows[k]);
+      } catch (const Error&) {
+        usual = false;
+      }
+      if ((count += rows[k].count) * columns_.size() > most_values) usual = false;
+    });
+    if (!usual || (std::ranges::any_of(parts, &Delimited::saw_points) &&
+                   std::ranges::any_of(parts, &Delimited::saw_commas)))
+      return false;
+    std::ranges::move(rows, std::back_inserter(rows_of_parts_));
+    return true;
+  }
+
+  void add_row(Delimited& lines, Rows& to) const {
+    if (++to.count * columns_.size() > most_values)
+      lines.fail("", fmt::format("more rows of {} columns", columns_.size()),
+                 fmt::format("at most {} numbers", most_values));
+    to.columns.resize(columns_.size());
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      if (columns_[k].index) to.columns[k].push_back(number(lines, columns_[k]));
+  }
+
+  double number(Delimited& lines, const Column& c) const {
+    const auto field = lines.fields()[*c.index];
+    if (c.is_value && is_gap(field)) return std::numeric_limits<double>::quiet_NaN();
+    const double v = lines.number(*c.index);
+    if (!c.allows(v)) out_of_range(lines, c, v, field, lines.label(*c.index));
+    return v;
+  }
+
+  /// All rows of a column.
+  template <class All>
+  All column(std::size_t k) const {
+    if (!columns_[k].index) return All(rows_, columns_[k].constant);
+    All all;
+    all.reserve(rows_);
+    for (const auto& part : rows_of_parts_)
+      if (part.count) all.insert(all.end(), part.columns[k].begin(), part.columns[k].end());
+    return all;
+  }
+
+  void gather_columns(Table& t) {
+    std::array<std::vector<double>, kAngles.size()> angles;
+    std::vector<std::size_t> plane(columns_.size());
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      if (columns_[k].is_value) {
+        plane[k] = t.channels.size();
+        t.channels.push_back(*channel_of(columns_[k].role));
+      }
+    t.values.resize(t.channels.size());
+    tbb::parallel_for(std::size_t{0}, columns_.size(), [&](std::size_t k) {
+      const auto angle = std::ranges::find(kAngles, columns_[k].role);
+      if (columns_[k].is_value)
+        t.values[plane[k]] = column<Values>(k);
+      else
+        (angle == kAngles.end() ? t.weights
+                                : angles[static_cast<std::size_t>(angle - kAngles.begin())]) =
+            column<std::vector<double>>(k);
+    });
+    rows_of_parts_.clear();
+    auto& [theta_i, phi_i, theta_o, phi_o] = angles;
+    t.where =
+        DirectionList{std::move(theta_i), std::move(phi_i), std::move(theta_o), std::move(phi_o)};
   }
 
   std::size_t channel_number(std::string_view name) {
@@ -295,22 +391,17 @@ class Reader {
     return all;
   }
 
-  void check_range(const Column& c,
-                   double v,
-                   std::string_view field,
-                   const std::string& label) const {
-    if (c.is_value() || (v >= c.low && v <= c.high)) return;
+  [[noreturn]] void out_of_range(const Delimited& lines,
+                                 const Column& c,
+                                 double v,
+                                 std::string_view field,
+                                 const std::string& label) const {
     std::string expected = bracketed(c.low, c.high);
     if (is_angle(c.role)) expected += map_ && map_->radians ? " radians" : " degrees";
     if (c.role.starts_with("theta_"))
       expected += !map_ && v < 0 ? fmt::format(" ({})", kHint)
                                  : " (a zenith angle; perhaps columns are swapped)";
-    lines_.fail(label, field, expected);
-  }
-
-  std::vector<double> take(std::string_view role) {
-    const auto found = std::ranges::find(columns_, role, &Column::role);
-    return found == columns_.end() ? std::vector<double>{} : std::move(found->data);
+    lines.fail(label, field, expected);
   }
 
   void to_conventions(DirectionList& l) const {
@@ -392,10 +483,13 @@ class Reader {
     if (map_ && map_->radians) return false;
     constexpr double quarter = 1.6, whole = 6.3;  // [rad], a little more than π/2 and 2π
     double largest_out = 0;
-    for (const auto& c : columns_) {
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      const Column& c = columns_[k];
       if (!c.index || !is_angle(c.role)) continue;
       double largest = 0;
-      for (const double a : c.data) largest = std::max(largest, std::abs(a));
+      for (const auto& part : rows_of_parts_)
+        if (part.count)
+          for (const double a : part.columns[k]) largest = std::max(largest, std::abs(a));
       if (largest > (c.role.starts_with("theta_") ? quarter : whole)) return false;
       if (c.role == "theta_o") largest_out = largest;
     }
@@ -443,15 +537,18 @@ class Reader {
   const ColumnMap* map_;
   const ColumnMap in_plane_{};
   bool needs_values_;
-  std::string path_, text_;
+  std::string path_;
+  Text text_;
   Delimited lines_;
   std::vector<Column> columns_;
   std::optional<std::size_t> channel_;
   std::set<std::string, std::less<>> roles_;                  ///< of columns_
   std::map<std::string, std::size_t, std::less<>> channels_;  ///< of rows; their numbers
   std::vector<std::size_t> channel_of_row_;
+  std::vector<Rows> rows_of_parts_;  ///< in their order
   std::size_t rows_ = 0;
 };
+
 void append(std::string& text, double v) {
   std::array<char, 32> digits;
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), v).ptr);
@@ -480,8 +577,8 @@ Table read_directions_csv(InputFile& in) {
 }
 
 std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {
-  const std::string text = in.read_rest(kMostBytes);
-  Delimited lines(in.path(), text, skip);
+  const Text text = text_of(in);
+  Delimited lines(in.path(), view(text), skip);
   std::vector<ColumnSummary> all;
   for (const auto& name : lines.names()) all.push_back({name});
   std::vector<std::set<std::string, std::less<>>> entries(all.size());

@@ -16,9 +16,14 @@ namespace {
 constexpr std::string_view kBlank = " \t\r", kSeparators = ";,\t", kBetween = ";, \t\r";
 constexpr char kAnyBlank = ' ';  ///< as a separator: any number of blanks
 
+constexpr bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+
 std::string_view trimmed(std::string_view s) {
-  const auto from = s.find_first_not_of(kBlank);
-  return from == s.npos ? "" : s.substr(from, s.find_last_not_of(kBlank) - from + 1);
+  while (!s.empty() && is_blank(s.front())) s.remove_prefix(1);
+  while (!s.empty() && is_blank(s.back())) s.remove_suffix(1);
+  return s;
 }
 
 /// One past the quote that closes the field which s begins with; npos where none does.
@@ -30,14 +35,13 @@ std::size_t after_quotes(std::string_view s) {
 
 /// True where a field may begin behind that character.
 bool separates(char c, char separator) {
-  return c == separator || (separator == kAnyBlank && kBlank.find(c) != kBlank.npos);
+  return c == separator || (separator == kAnyBlank && is_blank(c));
 }
 
 /// End of the field that the line begins with: at a separator that is not in quotes.
 std::size_t end_of_field(std::string_view line, char separator) {
   std::size_t from = 0;
-  while (from < line.size() && kBlank.find(line[from]) != kBlank.npos && line[from] != separator)
-    ++from;
+  while (from < line.size() && is_blank(line[from]) && line[from] != separator) ++from;
   if (line.substr(from).starts_with('"'))
     if (const auto quoted = after_quotes(line.substr(from)); quoted != line.npos)
       return separator == kAnyBlank ? line.find_first_of(kBlank, from + quoted)
@@ -121,14 +125,14 @@ std::string_view without_mark(std::string_view text) {
 }  // namespace
 
 std::optional<double> number_in(std::string_view field) {
+  if (const auto v = number_from<double>(field)) return v;
   std::array<char, 64> with_point;
-  if (const auto comma = field.find(','); comma != field.npos) {
-    if (field.size() > with_point.size() || field.find('.') != field.npos) return {};
-    std::ranges::copy(field, with_point.begin());
-    with_point[comma] = '.';
-    field = {with_point.data(), field.size()};
-  }
-  return number_from<double>(field);
+  const auto comma = field.find(',');
+  if (comma == field.npos || field.size() > with_point.size() || field.find('.') != field.npos)
+    return {};
+  std::ranges::copy(field, with_point.begin());
+  with_point[comma] = '.';
+  return number_from<double>({with_point.data(), field.size()});
 }
 
 bool is_gap(std::string_view field) {
@@ -186,8 +190,7 @@ void expect_no_utf16(const std::string& file, std::string_view head) {
     std::size_t ascii = 0;
     for (std::size_t i = 0; i < pairs; ++i) {
       const char c = head[2 * i + low];
-      ascii += head[2 * i + 1 - low] == 0 &&
-               ((c >= ' ' && c <= '~') || c == '\n' || kBlank.find(c) != kBlank.npos);
+      ascii += head[2 * i + 1 - low] == 0 && ((c >= ' ' && c <= '~') || c == '\n' || is_blank(c));
     }
     if (pairs >= 4 && ascii > pairs / 2) refuse();
   }
@@ -220,7 +223,7 @@ std::size_t Delimited::end_of_record() const {
       return i;
     } else if (separator_ ? separates(c, separator_) : kSeparators.find(c) != kSeparators.npos) {
       may_begin = true;
-    } else if (kBlank.find(c) == kBlank.npos) {
+    } else if (!is_blank(c)) {
       may_begin = false;
     }
   }
@@ -290,13 +293,28 @@ bool Delimited::next() {
   return true;
 }
 
+std::vector<Delimited> Delimited::parts() const {
+  constexpr std::size_t least = std::size_t{1} << 20;
+  std::vector<Delimited> all;
+  if (pending_ || rest_.size() < 2 * least || rest_.find('"') != rest_.npos) return all;
+  const std::size_t size = std::max(least, 1000 * names_.size());  // each has the names, too
+  for (auto rest = rest_; !rest.empty();) {
+    const auto end = rest.find(line_end_, std::min(size, rest.size()));
+    all.push_back(*this);
+    all.back().rest_ = rest.substr(0, end);
+    rest.remove_prefix(std::min(end, rest.size() - 1) + 1);
+  }
+  return all;
+}
+
 double Delimited::number(std::size_t column) {
   const auto field = fields_[column];
   const auto v = number_in(field);
   if (!v) fail(label(column), fmt::format("'{}'", field), "a number");
-  points_ = points_ || field.find('.') != field.npos;
-  commas_ = commas_ || field.find(',') != field.npos;
-  if (points_ && commas_) fail(label(column), field, "decimal points or decimal commas, not both");
+  saw_points_ = saw_points_ || field.find('.') != field.npos;
+  saw_commas_ = saw_commas_ || field.find(',') != field.npos;
+  if (saw_points_ && saw_commas_)
+    fail(label(column), field, "decimal points or decimal commas, not both");
   return *v;
 }
 

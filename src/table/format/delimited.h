@@ -51,6 +51,12 @@ class Delimited {
   const std::vector<std::string_view>& fields() const { return fields_; }
   /// Number in a field; one that is none, or mixes decimal points and commas, is an error.
   double number(std::size_t column);
+  /// True where a number had a decimal point, or comma.
+  bool saw_points() const { return saw_points_; }
+  bool saw_commas() const { return saw_commas_; }
+  /// Lines that are left, in parts of a megabyte that can be read at the same time, each counting its lines anew; none
+  /// of a short text, or where quotes leave open where lines end.
+  std::vector<Delimited> parts() const;
   /// Names the line, and the column unless that is "".
   [[noreturn]] void fail(std::string_view column,
                          std::string_view found,
@@ -67,7 +73,7 @@ class Delimited {
   std::size_t line_number_ = 0;
   std::size_t lines_ = 1;  ///< that the record takes
   char line_end_, separator_ = 0;
-  bool pending_ = false, any_row_ = false, points_ = false, commas_ = false;
+  bool pending_ = false, any_row_ = false, saw_points_ = false, saw_commas_ = false;
   std::vector<std::string> names_;
   std::vector<std::string_view> fields_;
   std::deque<std::string> unescaped_;  ///< those of fields_ that had quotes within

@@ -7,6 +7,7 @@
 
 #include "integrate/rule/quadrature.h"
 #include "table/format/rgl_function.h"
+#include "table/health/key_counts.h"
 
 #include <tbb/parallel_for.h>
 
@@ -70,8 +71,11 @@ std::vector<AlbedoSample> of_list(const Table& t) {
       static_cast<std::size_t>(1 / (1 - reach));  // caps of that size in a hemisphere
   const auto nodes = cosine_hemisphere(24, 48);
   const DirectionList& l = *t.list();
+  const Hashes hashes = hashes_of(t.size(), [&](std::size_t i) -> AngleKey<2> {
+    return {std::lround(l.theta_i_deg[i] * 1e6), std::lround(l.phi_i_deg[i] * 1e6)};
+  });
   std::map<std::pair<double, double>, std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < t.size(); ++i)
+  for (const std::size_t i : KeyCounts(hashes).among(hashes, fewest))
     if (l.theta_i_deg[i] < 90 && l.theta_o_deg[i] < 90)
       groups[{l.theta_i_deg[i], l.phi_i_deg[i]}].push_back(i);
   const SampleAngles at(t);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "base/quantile.h"
 #include "table/health/directional_albedo.h"
@@ -90,7 +91,10 @@ void warn_of_cosine(const Table& t, Health& h) {
 }  // namespace
 
 double noise_floor(const Table& t) {
-  if (!t.negative_is_noise) return 0;
+  const auto has_negative = [](const Values& plane) {
+    return std::ranges::any_of(plane, [](double v) { return v < 0; });
+  };
+  if (!t.negative_is_noise || std::ranges::none_of(t.values, has_negative)) return 0;
   const SampleAngles at(t);
   std::vector<double> sizes;
   std::size_t above_horizon = 0;
@@ -146,6 +150,19 @@ std::vector<bool> copied_pairs(const Table& t) {
     for (std::size_t o = 0; o < out.size(); ++o) copied.push_back(in[i] != i || out[o] != o);
   if (std::ranges::find(copied, true) == copied.end()) copied.clear();
   return copied;
+}
+
+IncidentAngles incident_angles(const DirectionList& l) {
+  constexpr long turn = 360'000;
+  const auto rounded = [&](double deg) {
+    return static_cast<std::size_t>(turn + std::clamp(std::lround(deg * 1000), -turn, turn));
+  };
+  std::vector<std::uint32_t> number(2 * turn + 1);
+  for (const double deg : l.theta_i_deg) number[rounded(deg)] = 1;
+  IncidentAngles all;
+  for (auto& n : number) all.count += std::exchange(n, static_cast<std::uint32_t>(all.count));
+  for (const double deg : l.theta_i_deg) all.number.push_back(number[rounded(deg)]);
+  return all;
 }
 
 std::string layout_text(const Table& t) {

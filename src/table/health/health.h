@@ -90,6 +90,13 @@ std::size_t copied_rows(const Table&, std::size_t axis = 0);
 /// another.  Empty where none does.
 std::vector<bool> copied_pairs(const Table&);
 
+/// Incident angles of a list: those within 0.001° are one.
+struct IncidentAngles {
+  std::size_t count = 0;
+  std::vector<std::uint32_t> number;  ///< of each sample's, in ascending order
+};
+IncidentAngles incident_angles(const DirectionList&);
+
 /// "45 theta_i × 45 theta_o × 90 phi", "855 samples"
 std::string layout_text(const Table&);
 

@@ -4,9 +4,14 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <unordered_map>
 
 #include "base/quantile.h"
 #include "table/health/health.h"
+#include "table/health/key_counts.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 namespace gonio {
 namespace {
@@ -96,50 +101,84 @@ long rounded(double deg) {
   return std::lround(deg * 1e6);
 }
 
+/// Angles that the samples of a line share.
+using LineKey = AngleKey<3>;
+
+/// Samples that share a key, in the order of the keys, over what differs in each; those of nine different places or more.
+/// \param key    of a sample
+/// \param place  of a sample on its line
+template <class KeyOf, class PlaceOf>
+std::vector<Line> lines_of(std::size_t samples, const KeyOf& key, const PlaceOf& place) {
+  constexpr std::size_t least = 2 * reach + 1;
+  const Hashes hashes = hashes_of(samples, key);
+  const auto hash = [](const LineKey& k) { return static_cast<std::size_t>(hash_of(k)); };
+  std::unordered_map<LineKey, Line, decltype(hash)> found(0, hash);
+  auto last = found.end();  // neighbours mostly lie on one line
+  for (const std::size_t i : KeyCounts(hashes).among(hashes, least)) {
+    const LineKey here = key(i);
+    if (last == found.end() || last->first != here) last = found.try_emplace(here).first;
+    last->second.push_back({place(i), i});
+  }
+  std::vector<std::pair<const LineKey, Line>*> in_order;
+  for (auto& line : found)
+    if (line.second.size() >= least) in_order.push_back(&line);
+  std::ranges::sort(in_order, {}, [](const auto* line) { return line->first; });
+  std::vector<Line> lines;
+  for (auto* members : in_order) {
+    Line& line = lines.emplace_back(std::move(members->second));
+    std::ranges::stable_sort(line, {}, &Place::x);
+    double before = -std::numeric_limits<double>::infinity();
+    std::erase_if(line, [&](const Place& p) {
+      const bool repeats = p.x - before < 1e-6;
+      before = p.x;
+      return repeats;
+    });
+    if (line.size() < least) lines.pop_back();
+  }
+  return lines;
+}
+
 /// Samples that share all but one angle; a plane of incidence holds both of its sides.
 std::vector<Family> of_list(const Table& t) {
   const DirectionList& l = *t.list();
   constexpr long half_turn = 180'000'000;
-  using Key = std::array<long, 3>;
-  struct Member {
-    Key key;
-    Place place;
+  const auto turn = [&](std::size_t i) {
+    return (rounded(l.phi_o_deg[i]) % (2 * half_turn) + 2 * half_turn) % (2 * half_turn);
   };
+  std::array<Family, 3> families{Family{"theta_o", {}}, Family{"phi_o", {}}, Family{"theta_i", {}}};
+  tbb::parallel_for(0, 3, [&](int along) {
+    if (along == 0)
+      families[0].lines = lines_of(
+          t.size(),
+          [&](std::size_t i) -> LineKey {
+            return {rounded(l.theta_i_deg[i]), rounded(l.phi_i_deg[i]), turn(i) % half_turn};
+          },
+          [&](std::size_t i) {
+            return turn(i) >= half_turn ? -l.theta_o_deg[i] : l.theta_o_deg[i];
+          });
+    else if (along == 1)
+      families[1].lines = lines_of(
+          t.size(),
+          [&](std::size_t i) -> LineKey {
+            return {rounded(l.theta_i_deg[i]), rounded(l.phi_i_deg[i]), rounded(l.theta_o_deg[i])};
+          },
+          [&](std::size_t i) { return l.phi_o_deg[i]; });
+    else
+      families[2].lines = lines_of(
+          t.size(),
+          [&](std::size_t i) -> LineKey {
+            return {rounded(l.phi_i_deg[i]), rounded(l.theta_o_deg[i]), rounded(l.phi_o_deg[i])};
+          },
+          [&](std::size_t i) { return l.theta_i_deg[i]; });
+  });
   std::vector<Family> all;
-  const auto add = [&](const char* along, auto member_of) {
-    std::vector<Member> members;
-    for (std::size_t i = 0; i < t.size(); ++i) members.push_back(member_of(i));
-    std::ranges::stable_sort(members, [](const Member& a, const Member& b) {
-      return std::pair(a.key, a.place.x) < std::pair(b.key, b.place.x);
-    });
-    Family f{along, {}};
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      const bool same_line = i > 0 && members[i].key == members[i - 1].key;
-      if (!same_line) f.lines.emplace_back();
-      if (same_line && members[i].place.x - members[i - 1].place.x < 1e-6) continue;
-      f.lines.back().push_back(members[i].place);
-    }
-    std::erase_if(f.lines, [](const Line& line) { return line.size() < 2 * reach + 1; });
-    if (f.lines.empty()) return;
+  for (Family& f : families) {
+    if (f.lines.empty()) continue;
     const std::size_t lines = f.lines.size(), wanted = enough_lines(t, lines, t.size());
     for (std::size_t k = 0; k < wanted; ++k) std::swap(f.lines[k], f.lines[k * lines / wanted]);
     f.lines.resize(wanted);
     all.push_back(std::move(f));
-  };
-  add("theta_o", [&](std::size_t i) -> Member {
-    const long turn = (rounded(l.phi_o_deg[i]) % (2 * half_turn) + 2 * half_turn) % (2 * half_turn);
-    const bool back = turn >= half_turn;
-    return {{rounded(l.theta_i_deg[i]), rounded(l.phi_i_deg[i]), turn % half_turn},
-            {back ? -l.theta_o_deg[i] : l.theta_o_deg[i], i}};
-  });
-  add("phi_o", [&](std::size_t i) -> Member {
-    return {{rounded(l.theta_i_deg[i]), rounded(l.phi_i_deg[i]), rounded(l.theta_o_deg[i])},
-            {l.phi_o_deg[i], i}};
-  });
-  add("theta_i", [&](std::size_t i) -> Member {
-    return {{rounded(l.phi_i_deg[i]), rounded(l.theta_o_deg[i]), rounded(l.phi_o_deg[i])},
-            {l.theta_i_deg[i], i}};
-  });
+  }
   return all;
 }
 
@@ -175,13 +214,14 @@ std::vector<Difference> repeats(const Table& t, const SampleAngles& at) {
   std::vector<Difference> all;
   const auto* l = t.list();
   if (!l) return all;
-  using Key = std::array<long, 4>;
-  std::vector<std::pair<Key, std::size_t>> keys;
-  for (std::size_t i = 0; i < t.size(); ++i)
-    keys.push_back({{rounded(l->theta_i_deg[i]), rounded(l->phi_i_deg[i]),
-                     rounded(l->theta_o_deg[i]), rounded(l->phi_o_deg[i])},
-                    i});
-  std::ranges::sort(keys);
+  const auto key = [&](std::size_t i) -> AngleKey<4> {
+    return {rounded(l->theta_i_deg[i]), rounded(l->phi_i_deg[i]), rounded(l->theta_o_deg[i]),
+            rounded(l->phi_o_deg[i])};
+  };
+  const Hashes hashes = hashes_of(t.size(), key);
+  std::vector<std::pair<AngleKey<4>, std::size_t>> keys;
+  for (const std::size_t i : KeyCounts(hashes).among(hashes, 2)) keys.emplace_back(key(i), i);
+  tbb::parallel_sort(keys);
   for (std::size_t k = 1; k < keys.size(); ++k) {
     if (keys[k].first != keys[k - 1].first) continue;
     const std::size_t a = keys[k - 1].second, b = keys[k].second;

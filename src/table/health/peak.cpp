@@ -6,6 +6,8 @@
 
 #include "base/quantile.h"
 
+#include <tbb/parallel_for.h>
+
 namespace gonio {
 namespace {
 
@@ -44,9 +46,9 @@ std::array<Profile, kProfiles> collect(const Table& t, Bins bins, Around around)
   std::array<Profile, kProfiles> profiles;
   const SampleAngles at(t, bins);
   const bool mirror = around == Around::half_vector;
-  const auto add = [&](std::size_t band, const Angles<double>& a, std::size_t i) {
+  const auto add = [&](Profile& profile, const Angles<double>& a, std::size_t i) {
     if (const double v = mean_value(t, a, i); !std::isnan(v))
-      profiles[band].push_back({mirror ? theta_h_of(a) : theta_d_of(a), v});
+      profile.push_back({mirror ? theta_h_of(a) : theta_d_of(a), v});
   };
   const Grid* g = t.grid();
   if (g && g->kind == Grid::Kind::half_difference) {
@@ -61,15 +63,27 @@ std::array<Profile, kProfiles> collect(const Table& t, Bins bins, Around around)
       for (std::size_t j = 0; j < (mirror ? n_h : n_d); ++j)
         for (std::size_t k = 0; k < n_phi; k += step) {
           const std::size_t i = (mirror ? j * n_d + row : row * n_d + j) * n_phi + k;
-          add(band, at(i), i);
+          add(profiles[band], at(i), i);
         }
     }
   } else {
-    for (std::size_t i = 0; i < t.size(); ++i) {
-      const auto a = at(i);
-      const double band = std::floor(((mirror ? theta_d_of(a) : theta_h_of(a)) - kFirst) / kStep);
-      if (band >= 0 && band < kProfiles) add(static_cast<std::size_t>(band), a, i);
-    }
+    // Those in a band, and few others.
+    const double nearest = std::cos(kFirst - degree),
+                 farthest = std::cos(kFirst + kProfiles * kStep + degree);
+    constexpr std::size_t part = 1 << 14;
+    std::vector<std::array<Profile, kProfiles>> parts((t.size() + part - 1) / part);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
+      for (std::size_t i = k * part; i < std::min(t.size(), (k + 1) * part); ++i) {
+        const auto a = at(i);
+        const double cosine = mirror ? a.voh : a.noh;
+        if (cosine > nearest || cosine < farthest) continue;
+        const double band = std::floor(((mirror ? theta_d_of(a) : theta_h_of(a)) - kFirst) / kStep);
+        if (band >= 0 && band < kProfiles) add(parts[k][static_cast<std::size_t>(band)], a, i);
+      }
+    });
+    for (std::size_t band = 0; band < kProfiles; ++band)
+      for (const auto& p : parts)
+        profiles[band].insert(profiles[band].end(), p[band].begin(), p[band].end());
   }
   return profiles;
 }
@@ -132,10 +146,9 @@ PeakSearch find_peak(const Table& t, Bins bins, Around around) {
   std::array<std::vector<double>, 5> found;  // width, samples within, height, base, its angle
   auto profiles = collect(t, bins, around);
   double first = kReach;
-  for (auto& profile : profiles) {
-    merge(profile);
+  tbb::parallel_for(std::size_t{0}, kProfiles, [&](std::size_t k) { merge(profiles[k]); });
+  for (const auto& profile : profiles)
     if (profile.size() >= 8) first = std::min(first, profile[0].angle);
-  }
   for (const auto& profile : profiles) {
     if (profile.size() < 8 || profile[0].angle > std::min(first + kSlack, kReach)) continue;
     ++search.profiles;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include "base/quantile.h"
 #include "brdf/model/evaluate.h"
@@ -168,22 +167,14 @@ Prospect precision(const Health& h, const Survey& s) {
   return {"precision", v, why};
 }
 
-/// Number of incident angles, told apart as the fit does for its intervals.
-std::size_t incident_angles(const Table& t) {
-  if (const auto* l = t.list()) {
-    std::set<long> distinct;
-    for (const double deg : l->theta_i_deg) distinct.insert(std::lround(deg * 1000));
-    return distinct.size();
-  }
-  return t.grid()->axes[0].size - copied_rows(t, 0);
-}
-
 Prospect intervals(const Table& t) {
   if (const Grid* g = t.grid(); g && g->kind == Grid::Kind::half_difference)
     return {"intervals", yes,
             "bins of half and difference angle hold all incident angles; a fit tells them apart by "
             "whole degrees"};
-  const std::size_t n = incident_angles(t);
+  // Told apart as the fit does for its intervals.
+  const std::size_t n =
+      t.list() ? incident_angles(*t.list()).count : t.grid()->axes[0].size - copied_rows(t, 0);
   return {"intervals",
           n >= 8   ? yes
           : n >= 2 ? weakly

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "base/quantile.h"
+#include "table/health/key_counts.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_sort.h>
 
 namespace gonio {
 namespace {
@@ -34,7 +36,7 @@ Pairs of_half_difference(const Grid& g) {
 }
 
 Pairs of_list(const DirectionList& l) {
-  using Key = std::array<long, 4>;  // [1e-6 degrees]
+  using Key = AngleKey<4>;  // [1e-6 degrees]
   const auto part = [](double deg) { return std::lround(deg * 1e6); };
   const auto around = [&](double deg) {
     return (part(deg) % 360'000'000 + 360'000'000) % 360'000'000;
@@ -50,14 +52,19 @@ Pairs of_list(const DirectionList& l) {
     const long pi = around(phi_i[i]), po = around(l.phi_o_deg[i]);
     return swapped ? Key{to, po, ti, pi} : Key{ti, pi, to, po};
   };
+  const auto hashes = [&](bool swapped) {
+    return hashes_of(phi_i.size(), [&](std::size_t i) { return key(i, swapped); });
+  };
+  const Hashes own = hashes(false), partners = hashes(true);
   std::vector<std::pair<Key, std::size_t>> sorted;
-  for (std::size_t i = 0; i < phi_i.size(); ++i) sorted.emplace_back(key(i, false), i);
-  std::ranges::sort(sorted);
+  for (const std::size_t i : KeyCounts(partners).among(own, 1))
+    sorted.emplace_back(key(i, false), i);
+  tbb::parallel_sort(sorted);
   Pairs pairs;
-  for (std::size_t i = 0; i < phi_i.size(); ++i) {
-    const Key wanted = key(i, true);
-    const auto found = std::ranges::lower_bound(sorted, std::pair{wanted, std::size_t{0}});
-    if (found != sorted.end() && found->first == wanted) pairs.emplace_back(i, found->second);
+  for (const std::size_t i : KeyCounts(own).among(partners, 1)) {
+    const Key partner = key(i, true);
+    const auto found = std::ranges::lower_bound(sorted, std::pair{partner, std::size_t{0}});
+    if (found != sorted.end() && found->first == partner) pairs.emplace_back(i, found->second);
   }
   const bool only_own =
       std::ranges::all_of(pairs, [](const auto& p) { return p.first == p.second; });

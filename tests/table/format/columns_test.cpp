@@ -1,6 +1,7 @@
 // CSV as instruments write it: other names, units and conventions, said once in the side file.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/error.h"
 #include "support.h"
@@ -8,6 +9,8 @@
 #include "table/format/delimited.h"
 #include "table/format/metadata.h"
 #include "table/health/health.h"
+
+#include <tbb/global_control.h>
 
 namespace gonio {
 namespace {
@@ -22,7 +25,7 @@ Table read(const std::string& text, const std::string& columns = "") {
     folder.write("t.csv.gonio.json", R"({"schema":"gonio.table/1","columns":{)" + columns + "}}");
   return read_table(folder / "t.csv");
 }
-/// What reading says, after the folder's name.
+/// Complaint of the reader, after the folder's name.
 std::string complaint(const std::string& text, const std::string& columns = "") {
   try {
     read(text, columns);
@@ -278,6 +281,64 @@ TEST(CsvFile, OfManyColumnsTakesLinearTime) {
   for (std::size_t i = 0; i < most_channels - 1; ++i)
     map += ",\"f_" + std::to_string(i) + "\":\"f_" + std::to_string(most - i - 1) + "\"";
   EXPECT_EQ(read(wide(most), map).channels.size(), most_channels);
+}
+
+/// Megabytes, which are read in parts; comments and blank lines between.
+std::string many_lines(std::size_t n) {
+  std::string text = kPlain;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i % 1000 == 7) text += "# half way\n\n";
+    text += std::to_string(i % 90) + ".25,0," + std::to_string(i % 89) + ".5,180," +
+            (i % 501 ? std::to_string(i) + ".125\n" : "-\n");
+  }
+  return text;
+}
+constexpr std::size_t many = 120'000;
+
+TEST(CsvFile, OfManyLinesIsTheSameTableReadInPartsByAnyNumberOfThreadsOrLineByLine) {
+  const std::string text = many_lines(many);
+  const Table at_once = read(text);
+  ASSERT_EQ(at_once.size(), many);
+  EXPECT_EQ(at_once.values[0][many - 1], many - 1 + 0.125);
+  EXPECT_TRUE(std::isnan(at_once.values[0][501]));
+  const auto expect_same = [&](const Table& t) {
+    EXPECT_EQ(t.list()->theta_i_deg, at_once.list()->theta_i_deg);
+    EXPECT_EQ(t.list()->theta_o_deg, at_once.list()->theta_o_deg);
+    ASSERT_EQ(t.size(), many);
+    EXPECT_EQ(std::memcmp(t.values[0].data(), at_once.values[0].data(), many * sizeof(double)), 0);
+  };
+  expect_same(read(text + "# a quote: \"\n"));  // leaves open where lines end
+  for (const std::size_t threads : {1, 3}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    expect_same(read(text));
+  }
+}
+
+TEST(CsvFile, OfManyLinesNamesTheFirstThatIsWrongWhateverTheThreads) {
+  const std::string text = many_lines(many), good = "30,0,20,180,0.25\n";
+  const std::size_t next = many + 2 * many / 1000 + 2;  // line below those of text
+  const std::string place = "t.csv: line " + std::to_string(next);
+  for (const std::size_t threads : {1, 2, 3}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    EXPECT_EQ(complaint(text + "30,0,20,180\n" + text.substr(std::strlen(kPlain)) + "x\n"),
+              place + ": found 4 fields, expected 5");
+    EXPECT_EQ(complaint(text + "270,0,20,180,1\n" + good + "1,2,3,4,y\n"),
+              place +
+                  ", column theta_i: found 270, expected a number in [0, 180] degrees (a "
+                  "zenith angle; perhaps columns are swapped)");
+    EXPECT_EQ(complaint(text + "30,0,20,180,1e\n"),
+              place + ", column f: found '1e', expected a number");
+  }
+}
+
+TEST(CsvFile, MixesNoPointsAndCommasHoweverFarApart) {
+  const std::string neither = "30;0;20;180;1\n";
+  std::string commas = "theta_i;phi_i;theta_o;phi_o;f\n" + neither + "30;0;20;180;0,25\n";
+  for (std::size_t i = 0; i < 2 * many; ++i) commas += neither;
+  EXPECT_EQ(complaint(commas), "");
+  EXPECT_EQ(complaint(commas + "30;0;20;180;0.25\n"),
+            "t.csv: line 240004, column f: found 0.25, expected decimal points or decimal commas, "
+            "not both");
 }
 
 TEST(CsvFile, NamesDecimalCommasThatCannotBeTold) {

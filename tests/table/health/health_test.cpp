@@ -359,5 +359,13 @@ TEST(Retro, IsNotSeenInGlossOrLambertian) {
   EXPECT_FALSE(inspect(lambertian(merl_grid(Bins::centre), "merl")).retro);
 }
 
+TEST(IncidentAngles, AreNumberedInAscendingOrderAndToldApartByAThousandthOfADegree) {
+  DirectionList l;
+  l.theta_i_deg = {60, 0, 45, 45.0001, 45.001, 0, -30};
+  const auto angles = incident_angles(l);
+  EXPECT_EQ(angles.count, 5U);
+  EXPECT_EQ(angles.number, (std::vector<std::uint32_t>{4, 1, 2, 2, 3, 1, 0}));
+}
+
 }  // namespace
 }  // namespace gonio

@@ -1,6 +1,8 @@
 #include "table/health/noise.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "support.h"
 #include "table/example.h"
@@ -94,6 +96,26 @@ TEST(Noise, DoesNotBelieveCopiedAngles) {
     for (std::size_t row = 1; row < 45; row += 2)
       std::copy_n(&plane[(row - 1) * 4050], 4050, &plane[row * 4050]);
   EXPECT_NEAR(*estimate_noise(t).sigma, 0.03, 0.006);
+}
+
+TEST(Noise, OfAListDoesNotDependOnTheOrderOfItsSamples) {
+  const Table t = noisy(in_plane(), 0.02);
+  Table shuffled = t;
+  std::vector<std::size_t> order(t.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::shuffle(order, std::mt19937_64(7));
+  auto& to = std::get<DirectionList>(shuffled.where);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    to.theta_i_deg[i] = t.list()->theta_i_deg[order[i]];
+    to.theta_o_deg[i] = t.list()->theta_o_deg[order[i]];
+    to.phi_o_deg[i] = t.list()->phi_o_deg[order[i]];
+    shuffled.values[0][i] = t.values[0][order[i]];
+  }
+  const Noise a = estimate_noise(t), b = estimate_noise(shuffled);
+  ASSERT_TRUE(a.sigma);
+  EXPECT_EQ(a.along, "theta_o");
+  EXPECT_EQ(b.along, a.along);
+  EXPECT_EQ(b.sigma, a.sigma);
 }
 
 TEST(Noise, IsToldByRepeatsWhereThereAreSome) {
