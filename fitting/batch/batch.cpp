@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <mutex>
 #include <new>
@@ -112,7 +113,24 @@ std::size_t tables_at_a_time(const std::vector<std::string>& tables) {
   return n;
 }
 
-/// Calls one(i) for each table.
+/// Work that goes on behind a lane's next table, one piece at a time, on a thread of its own: it waits for the disk.
+class Behind {
+ public:
+  /// Begins a piece when the one before has ended; throws what that threw.
+  template <class Work>
+  void begin(Work work) {
+    wait();
+    running_ = std::async(std::move(work));
+  }
+  void wait() {
+    if (running_.valid()) running_.get();
+  }
+
+ private:
+  std::future<void> running_;
+};
+
+/// Calls one(i, behind) for each table; what was begun behind has ended at the end.
 ///
 /// A thread that waits for its table's loops takes none of another table meanwhile (isolate): no more
 /// tables are in memory than there are lanes.  Threads without a lane help those that have one.  No
@@ -126,11 +144,14 @@ void in_lanes(const std::vector<std::string>& tables, const One& one) {
   tbb::parallel_for(
       std::size_t{0}, tables_at_a_time(tables),
       [&](std::size_t) {
-        for (std::size_t i; !stop && (i = next++) < tables.size();) try {
-            tbb::this_task_arena::isolate([&] { one(i); });
-          } catch (...) {
-            if (!stop.exchange(true)) fatal = std::current_exception();
-          }
+        Behind behind;
+        try {
+          for (std::size_t i; !stop && (i = next++) < tables.size();)
+            tbb::this_task_arena::isolate([&] { one(i, behind); });
+          behind.wait();
+        } catch (...) {
+          if (!stop.exchange(true)) fatal = std::current_exception();
+        }
       },
       tbb::simple_partitioner());
   if (fatal) std::rethrow_exception(fatal);
@@ -331,7 +352,7 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
     say();
   };
   say();
-  const auto one = [&](std::size_t i) {
+  const auto one = [&](std::size_t i, Behind& behind) {
     Place to{place(names[i]), names[i], "", ""};
     if (hooks.table_page) {
       to.page_name = page_name(names[i]);
@@ -353,11 +374,12 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
       rows[i] =
           failed(tables[i], to, Exit::bad_input, printable(tables[i]) + ": " + printable(e.what()));
     }
-    if (fresh) {
-      write(to, *fresh);
-      rows[i] = std::move(fresh->row);
-    }
-    add(rows[i], false);
+    if (!fresh) return add(rows[i], false);
+    behind.begin([&, i, to = std::move(to), done = std::move(*fresh)]() mutable {
+      write(to, done);
+      rows[i] = std::move(done.row);
+      add(rows[i], false);
+    });
   };
 
   in_lanes(tables, one);

@@ -86,6 +86,7 @@ struct Column {
 struct Rows {
   std::size_t count = 0;
   std::vector<std::vector<double>> columns;  ///< [column][row]; empty for constants
+  std::vector<std::string_view> channels;    ///< [row]; of text that has them in rows
 };
 
 /// Columns by their names, blanks around them apart.
@@ -111,16 +112,29 @@ class Names {
 /// Rows that differ in a channel's name alone become one sample; what repeats is another sample.
 class Samples {
  public:
-  /// The sample that the row's value belongs to.
-  std::size_t place(std::size_t channel, const std::array<double, 4>& angles) {
-    const auto times = seen_[{channel, angles}]++;
-    return samples_.try_emplace({times, angles}, samples_.size()).first->second;
+  using Directions = std::array<double, 4>;
+  /// Sample that the row's value belongs to.
+  std::size_t place(std::size_t channel, const Directions& angles) {
+    if (!last_ || last_->first != angles)  // rows of one direction mostly follow each other
+      last_ = &*directions_.try_emplace(angles, OfDirection{directions_.size(), {}}).first;
+    auto& [direction, samples] = last_->second;
+    const std::size_t key = direction * most_channels + channel;
+    const std::size_t times = seen_.try_emplace(seen_.end(), key, 0)->second++;
+    if (times == samples.size()) samples.push_back(size_++);
+    return samples[times];
   }
-  std::size_t size() const { return samples_.size(); }
+  std::size_t size() const { return size_; }
 
  private:
-  using Key = std::pair<std::size_t, std::array<double, 4>>;
-  std::map<Key, std::size_t> seen_, samples_;
+  struct OfDirection {
+    std::size_t number;
+    std::vector<std::size_t>
+        samples;  ///< the k-th has what each channel has there for the k-th time
+  };
+  std::map<Directions, OfDirection> directions_;
+  std::pair<const Directions, OfDirection>* last_ = nullptr;
+  std::map<std::size_t, std::size_t> seen_;  ///< times, by direction and channel
+  std::size_t size_ = 0;
 };
 
 class Reader {
@@ -284,17 +298,19 @@ class Reader {
     const auto read_next = [&] {
       if (!lines_.next()) return false;
       add_row(lines_, all);
-      if (channel_) channel_of_row_.push_back(channel_number(lines_.fields()[*channel_]));
+      if (channel_ && !add_channel(lines_.fields()[*channel_]))
+        lines_.fail(lines_.label(*channel_), "one more channel",
+                    fmt::format("at most {}", most_channels));
       return true;
     };
     if (!read_next()) lines_.fail("", "no samples", "at least one line of numbers");
-    if (channel_ || !read_parts())
+    if (!read_parts())
       while (read_next()) {
       }
     for (const auto& part : rows_of_parts_) rows_ += part.count;
   }
 
-  /// Reads what is left in parts, on all threads.  False, with nothing read, where anything in it is wrong or unusual:
+  /// Reads what is left in parts, on all threads.  False, with no row read, where anything in it is wrong or unusual:
   /// who then reads line by line meets it at its place, and says the same whatever the threads.
   bool read_parts() {
     auto parts = lines_.parts();
@@ -304,14 +320,19 @@ class Reader {
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
       if (!usual) return;
       try {
-        while (parts[k].next()) add_row(parts[k], rows[k]);
+        while (parts[k].next()) {
+          add_row(parts[k], rows[k]);
+          if (channel_) rows[k].channels.push_back(parts[k].fields()[*channel_]);
+        }
       } catch (const Error&) {
         usual = false;
       }
       if ((count += rows[k].count) * columns_.size() > most_values) usual = false;
     });
-    if (!usual || (std::ranges::any_of(parts, &Delimited::saw_points) &&
-                   std::ranges::any_of(parts, &Delimited::saw_commas)))
+    if (!usual ||
+        (std::ranges::any_of(parts, &Delimited::saw_points) &&
+         std::ranges::any_of(parts, &Delimited::saw_commas)) ||
+        !add_channels(rows))
       return false;
     std::ranges::move(rows, std::back_inserter(rows_of_parts_));
     return true;
@@ -369,15 +390,22 @@ class Reader {
         DirectionList{std::move(theta_i), std::move(phi_i), std::move(theta_o), std::move(phi_o)};
   }
 
-  std::size_t channel_number(std::string_view name) {
+  /// The channel of the next row; false where there are too many.
+  bool add_channel(std::string_view name) {
     auto at = channels_.find(name);
     if (at == channels_.end()) {
-      if (channels_.size() == most_channels)
-        lines_.fail(lines_.label(*channel_), "one more channel",
-                    fmt::format("at most {}", most_channels));
+      if (channels_.size() == most_channels) return false;
       at = channels_.emplace(std::string(name), channels_.size()).first;
     }
-    return at->second;
+    channel_of_row_.push_back(at->second);
+    return true;
+  }
+
+  /// The channels of all these rows; false where there are too many.
+  bool add_channels(const std::vector<Rows>& parts) {
+    const auto add = [&](std::string_view name) { return add_channel(name); };
+    return std::ranges::all_of(
+        parts, [&](const Rows& part) { return std::ranges::all_of(part.channels, add); });
   }
 
   /// Channels of rows: ascending where all are numbers, else as they come first.
@@ -515,15 +543,26 @@ class Reader {
   /// The mirror direction taken for the light's is the commonest slip, and fits nothing.
   void warn_of_backward_peak(Table& t) const {
     const DirectionList& l = *t.list();
-    double forward = 0, backward = 0;
-    for (std::size_t i = 0; i < t.size(); ++i) {
-      if (std::min(l.theta_i_deg[i], l.theta_o_deg[i]) < 20 ||
-          std::max(l.theta_i_deg[i], l.theta_o_deg[i]) > 85)
-        continue;
-      const double towards = std::cos((l.phi_o_deg[i] - l.phi_i_deg[i]) * degree);
-      double& largest = towards > 0 ? backward : forward;
-      for (const auto& plane : t.values) largest = std::max(largest, plane[i]);
-    }
+    struct Largest {
+      double forward = 0, backward = 0;
+    };
+    using Range = tbb::blocked_range<std::size_t>;
+    const auto [forward, backward] = tbb::parallel_reduce(
+        Range(0, t.size(), 1 << 14), Largest{},
+        [&](const Range& r, Largest x) {
+          for (std::size_t i = r.begin(); i < r.end(); ++i) {
+            if (std::min(l.theta_i_deg[i], l.theta_o_deg[i]) < 20 ||
+                std::max(l.theta_i_deg[i], l.theta_o_deg[i]) > 85)
+              continue;
+            const double towards = std::cos((l.phi_o_deg[i] - l.phi_i_deg[i]) * degree);
+            double& largest = towards > 0 ? x.backward : x.forward;
+            for (const auto& plane : t.values) largest = std::max(largest, plane[i]);
+          }
+          return x;
+        },
+        [](const Largest& x, const Largest& y) {
+          return Largest{std::max(x.forward, y.forward), std::max(x.backward, y.backward)};
+        });
     if (backward > 3 * forward && backward > 0)
       t.warnings.push_back(
           fmt::format("values on the light's side reach {:.3g}, on the mirror's side {:.3g}: a "

@@ -66,7 +66,8 @@ std::vector<AlbedoSample> of_function(const Table& t, double step_deg) {
 }
 
 std::vector<AlbedoSample> of_list(const Table& t) {
-  const double reach = std::cos(12 * degree);
+  constexpr double reach_deg = 12;
+  const double reach = std::cos(reach_deg * degree);
   const auto fewest =
       static_cast<std::size_t>(1 / (1 - reach));  // caps of that size in a hemisphere
   const auto nodes = cosine_hemisphere(24, 48);
@@ -83,15 +84,23 @@ std::vector<AlbedoSample> of_list(const Table& t) {
   for (const auto& [incident, group] : groups) {
     const auto& samples = group;  // clang 14 lets no lambda have a structured binding
     if (samples.size() < fewest) continue;
-    std::vector<Direction> wo;
-    for (const auto i : samples) wo.push_back(at.directions(i).wo);
+    // In the order of their cosines: a node looks at those no farther from it in zenith angle than
+    // it may be at all.
+    std::vector<std::pair<Direction, std::size_t>> by_height;
+    for (const auto i : samples) by_height.emplace_back(at.directions(i).wo, i);
+    const auto height = [](const auto& s) { return s.first.z; };
+    std::ranges::stable_sort(by_height, {}, height);
     std::vector<std::size_t> nearest(nodes.size());
     std::vector<double> closeness(nodes.size(), -1);
     tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t k) {
-      for (std::size_t s = 0; s < wo.size(); ++s)
-        if (const double c = dot(wo[s], nodes[k].direction); c > closeness[k]) {
+      const double zenith = theta_of(nodes[k].direction), margin = reach_deg * degree + 1e-6;
+      const double highest = zenith < margin ? 1.0 : std::cos(zenith - margin);
+      auto s = std::ranges::lower_bound(by_height, std::cos(zenith + margin), {}, height);
+      for (; s != by_height.end() && s->first.z <= highest; ++s)
+        if (const double c = dot(s->first, nodes[k].direction);
+            c > closeness[k] || (c == closeness[k] && s->second < nearest[k])) {
           closeness[k] = c;
-          nearest[k] = samples[s];
+          nearest[k] = s->second;
         }
     });
     double within = 0;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
-#include <unordered_map>
 
 #include "base/quantile.h"
 #include "table/health/health.h"
@@ -111,21 +111,28 @@ template <class KeyOf, class PlaceOf>
 std::vector<Line> lines_of(std::size_t samples, const KeyOf& key, const PlaceOf& place) {
   constexpr std::size_t least = 2 * reach + 1;
   const Hashes hashes = hashes_of(samples, key);
-  const auto hash = [](const LineKey& k) { return static_cast<std::size_t>(hash_of(k)); };
-  std::unordered_map<LineKey, Line, decltype(hash)> found(0, hash);
-  auto last = found.end();  // neighbours mostly lie on one line
-  for (const std::size_t i : KeyCounts(hashes).among(hashes, least)) {
-    const LineKey here = key(i);
-    if (last == found.end() || last->first != here) last = found.try_emplace(here).first;
-    last->second.push_back({place(i), i});
+  std::vector<std::pair<std::uint64_t, std::size_t>> found;
+  for (const std::size_t i : KeyCounts(hashes).among(hashes, least))
+    found.emplace_back(hashes[i], i);
+  tbb::parallel_sort(found);
+  std::vector<std::pair<LineKey, Line>> all;
+  for (auto from = found.begin(); from != found.end();) {
+    const auto to = std::find_if(from, found.end(),
+                                 [&](const auto& other) { return other.first != from->first; });
+    // Keys of one hash are one key, or nearly always.
+    std::map<LineKey, Line> of_hash;
+    for (auto last = of_hash.end(); from != to; ++from) {
+      const LineKey here = key(from->second);
+      if (last == of_hash.end() || last->first != here) last = of_hash.try_emplace(here).first;
+      last->second.push_back({place(from->second), from->second});
+    }
+    for (auto& [line_key, line] : of_hash)
+      if (line.size() >= least) all.emplace_back(line_key, std::move(line));
   }
-  std::vector<std::pair<const LineKey, Line>*> in_order;
-  for (auto& line : found)
-    if (line.second.size() >= least) in_order.push_back(&line);
-  std::ranges::sort(in_order, {}, [](const auto* line) { return line->first; });
+  std::ranges::sort(all, {}, [](const auto& line) { return line.first; });
   std::vector<Line> lines;
-  for (auto* members : in_order) {
-    Line& line = lines.emplace_back(std::move(members->second));
+  for (auto& members : all) {
+    Line& line = lines.emplace_back(std::move(members.second));
     std::ranges::stable_sort(line, {}, &Place::x);
     double before = -std::numeric_limits<double>::infinity();
     std::erase_if(line, [&](const Place& p) {

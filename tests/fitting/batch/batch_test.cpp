@@ -154,6 +154,26 @@ TEST(Batch, TellsItsProgressAndKeepsWhatItHas) {
   EXPECT_EQ(fit_batch(b, hooks).count.kept, 0U);
 }
 
+TEST(Batch, EndsWhereADocumentCannotBeWritten) {
+  const test::Folder f;
+  std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";
+  for (int i = 0; i < 80; i += 10) csv += std::to_string(i) + ",0,30,180,0.1\n";
+  std::vector<std::string> tables;
+  for (const char* name : {"a.csv", "b.csv", "c.csv"}) tables.push_back(f.write(name, csv));
+  Batch b{tables, f / "out", {}};
+  b.how.options.model = "lambert";
+  fs::create_directory(f / "out");
+  fs::create_symlink("nowhere/x", f / "out/c.json");
+  try {
+    fit_batch(b, {});
+    ADD_FAILURE() << "no failure told";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), Exit::bad_input);
+    EXPECT_NE(std::string(e.what()).find("c.json: writing"), std::string::npos) << e.what();
+  }
+  EXPECT_FALSE(fs::exists(f / "out/summary.csv"));
+}
+
 TEST(Batch, MakesAPageOfEachTableWhereAskedAndKeepsItWithItsDocument) {
   const test::Folder f;
   std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";

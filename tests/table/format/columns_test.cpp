@@ -331,6 +331,25 @@ TEST(CsvFile, OfManyLinesNamesTheFirstThatIsWrongWhateverTheThreads) {
   }
 }
 
+TEST(CsvFile, OfManyLinesHasTheChannelsThatItsRowsName) {
+  const std::string map = R"("channel":"nm")";
+  std::string text = "nm,theta_i,theta_o,f\n";
+  for (std::size_t i = 0; i < many; ++i)
+    text += std::to_string(700 - 10 * (i % 30)) + ",20.25," + std::to_string(i / 30) + "e-2," +
+            std::to_string(i) + ".125\n";
+  const Table at_once = read(text, map), by_line = read(text + "# a quote: \"\n", map);
+  ASSERT_EQ(at_once.channels.size(), 30U);
+  EXPECT_EQ(at_once.channels[0], "410");
+  EXPECT_EQ(at_once.channels, by_line.channels);
+  EXPECT_EQ(at_once.size(), many / 30);
+  EXPECT_EQ(at_once.values[0][3], 119.125);
+  EXPECT_EQ(at_once.values, by_line.values);
+  EXPECT_EQ(at_once.list()->theta_o_deg, by_line.list()->theta_o_deg);
+  for (std::size_t i = 0; i < most_channels; ++i) text += "_" + std::to_string(i) + ",1,2,3\n";
+  expect_complaint(text, map,
+                   "line 124068, column nm: found one more channel, expected at most 4096");
+}
+
 TEST(CsvFile, MixesNoPointsAndCommasHoweverFarApart) {
   const std::string neither = "30;0;20;180;1\n";
   std::string commas = "theta_i;phi_i;theta_o;phi_o;f\n" + neither + "30;0;20;180;0,25\n";
