@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "fitting/certificate.h"
 #include "fitting/describe.h"
 #include "fitting/judge/assess.h"
 #include "fitting/judge/bin_sensitivity.h"
@@ -122,6 +123,7 @@ FitResult fit(const Table& t,
     forget_unknown(*sensitivity, d);
     d.sensitivity.push_back(std::move(*sensitivity));
   }
+  if (found.profile) d.certificate = certificate_of(p, *found.profile);
   d.solver = solver_of(f.solution, std::move(phase_ms));
   d.warnings = t.warnings;
   for (auto& w : warnings(o, t, d, judged.angles, p.free.size()))

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,23 @@ struct BinSensitivity {
   double log_rms = 0;  ///< under the other convention
 };
 
+/// Cell of a certificate.
+struct CertificateCell {
+  std::vector<double> at;  ///< values of the parameters
+  double cost = 0;         ///< of a thinned table
+  double cost_of_all = 0;  ///< of all values; NaN where that was not asked
+};
+
+/// Search for a lower optimum: the cost over one or two parameters, all others solved for anew.
+struct Certificate {
+  std::string evidence;                 ///< "searched", or "open" where there was nothing to search
+  std::vector<std::string> parameters;  ///< the axes
+  double lowest = 0;        ///< cost of all values in the lowest cell; NaN without cells
+  double thinned_cost = 0;  ///< of the thinned table where it is lowest
+  int moves = 0;            ///< times that the fit went on from a lower cell
+  std::vector<CertificateCell> cells;
+};
+
 struct FitDocument {
   std::string model;
   std::vector<std::string> channels;  ///< of the table, as parameters with channels are indexed
@@ -80,6 +98,7 @@ struct FitDocument {
   std::size_t values_used = 0;
   std::map<std::string, std::size_t> masked;  ///< values left out, by reason
   std::vector<BinSensitivity> sensitivity;    ///< empty where there are no bins
+  std::optional<Certificate> certificate;     ///< none where it was not asked for
 };
 
 /// The document as JSON text, schema "gonio.fit/1"; what is not a finite number is null.

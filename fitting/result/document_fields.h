@@ -84,6 +84,31 @@ struct Description<BinSensitivity> {
 };
 
 template <>
+struct Description<CertificateCell> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("at", "", &CertificateCell::at, "values of the parameters"),
+        field("cost", "", &CertificateCell::cost, "least cost of a thinned table there"),
+        field("cost_all", "", &CertificateCell::cost_of_all,
+              "that of all values, in the lowest cells; null elsewhere")};
+  }
+};
+
+template <>
+struct Description<Certificate> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("evidence", "", &Certificate::evidence,
+              "searched: no proof; open where no width is free"),
+        field("parameters", "", &Certificate::parameters, "axes of the search"),
+        field("lowest", "", &Certificate::lowest, "least cost of all values among the cells"),
+        field("thinned_cost", "", &Certificate::thinned_cost, "least cost of the thinned table"),
+        field("moves", "", &Certificate::moves, "times that the fit went on from a lower place"),
+        field("cells", "", &Certificate::cells, "the last parameter runs fastest")};
+  }
+};
+
+template <>
 struct Description<FitDocument> {
   static constexpr auto fields() {
     return std::tuple{
@@ -112,7 +137,9 @@ struct Description<FitDocument> {
               field("bins", "", &FitDocument::bins, "centre, edge or none"),
               field("values_used", "", &FitDocument::values_used, ""),
               field("masked", "", &FitDocument::masked, "values left out, by reason")),
-        field("bin_sensitivity", "", &FitDocument::sensitivity, "empty where there are no bins")};
+        field("bin_sensitivity", "", &FitDocument::sensitivity, "empty where there are no bins"),
+        field("certificate", "", &FitDocument::certificate,
+              "search for a lower optimum; null where none was asked for")};
   }
 };
 static_assert(describes_every_member<FitDocument>());

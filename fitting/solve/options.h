@@ -22,6 +22,11 @@ template <>
 inline constexpr std::array<std::string_view, 3> names_of<Intervals>{"automatic", "independent",
                                                                      "by_angle"};
 
+/// Certificate of the optimum: a search of the cost over the widths for anything lower.
+enum class Certify { none, automatic };
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Certify>{"none", "auto"};
+
 struct FitOptions {
   std::string model = "lambert+ggx/smith_ggx.correlated/schlick";
   std::vector<Setting> fixed;  ///< parameters held at a value
@@ -33,6 +38,7 @@ struct FitOptions {
   Intervals intervals = Intervals::automatic;
   bool copies = false;          ///< fit also what only repeats another angle
   bool bin_sensitivity = true;  ///< fit again under the other bin convention
+  Certify certificate = Certify::none;
 };
 
 template <>
@@ -60,7 +66,9 @@ struct Description<FitOptions> {
         field("copies", "", &FitOptions::copies,
               "whether angles that only repeat another are fitted, too"),
         field("bin_sensitivity", "", &FitOptions::bin_sensitivity,
-              "whether there is a fit under the other bin convention, too")};
+              "whether there is a fit under the other bin convention, too"),
+        field("certificate", "", &FitOptions::certificate,
+              "whether other valleys of the cost are looked for")};
   }
 };
 /// A kept result is found by these: none may be forgotten.

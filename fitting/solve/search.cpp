@@ -10,6 +10,7 @@
 #include "base/quantile.h"
 #include "fitting/sample/data.h"
 #include "fitting/solve/accumulate.h"
+#include "fitting/solve/profile.h"
 #include "fitting/solve/start.h"
 
 #include <fmt/format.h>
@@ -153,9 +154,13 @@ Searched search_in(const Problem& p,
   f.groups = data.all.groups;
   f.in_float = std::is_same_v<F, float> && float_suffices(p, f, data.all.counts.used);
   watch.lap("solve_ms");
-  const double fewer = cost_of_fewer(p, thin, middle, data.all, middle_cost);
-  if (p.start.model.lobes.size() > 1) watch.lap("fewer_lobes_ms");
-  return {std::move(f), fewer, std::move(scanned)};
+  Searched found{std::move(f), std::numeric_limits<double>::infinity(), std::move(scanned), {}};
+  if (p.options.certificate == Certify::none) return found;
+  announce("looking for other valleys");
+  found.profile = std::make_shared<const Profile>(profile(p, thin, scan, data.all, found.best));
+  found.cost_of_fewer = cost_of_fewer(p, thin, middle, data.all, middle_cost);
+  watch.lap("certificate_ms");
+  return found;
 }
 
 }  // namespace

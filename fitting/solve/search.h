@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,10 +49,13 @@ class Stopwatch {
 /// Values of the thinned table that the judges look at, of a table's million.
 inline constexpr std::size_t scan_samples = 16384;
 
+struct Profile;
+
 struct Searched {
   Fitted best;
   double cost_of_fewer = std::numeric_limits<double>::infinity();  ///< of the model less one lobe
-  FitData<double> scanned;  ///< about scan_samples of the table, evenly spread
+  FitData<double> scanned;                 ///< about scan_samples of the table, evenly spread
+  std::shared_ptr<const Profile> profile;  ///< none where no certificate was asked for
 };
 /// From nothing to the best fit of all samples.  Throws bad_input for a table without a usable value.
 Searched search(Problem,

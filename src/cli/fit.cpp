@@ -22,7 +22,7 @@ namespace {
 struct Options : Common {
   std::vector<std::string> files;
   std::string metric = "log", intervals = "automatic", robust = "none", copies = "leave_out";
-  std::string output, html;
+  std::string certificate = "auto", output, html;
   std::vector<std::string> fix, bounds;
   FitOptions fit;
   std::optional<std::string> bins;
@@ -54,6 +54,9 @@ void print(const FitDocument& d) {
     }
     say("\n");
   }
+  if (const auto& c = d.certificate; c && !c->cells.empty())
+    say("search  none of {} cells over {} lies below (lowest {:.6g}, the fit {:.6g}): no proof\n",
+        c->cells.size(), fmt::to_string(fmt::join(c->parameters, ", ")), c->lowest, d.cost);
   for (const auto& w : d.warnings) say("beware  {}\n", w);
   say("{} after {} iterations: {}\n", d.solver.termination, d.solver.iterations, d.solver.message);
 }
@@ -116,6 +119,7 @@ Exit run(const Options& o) {
   FitOptions options = o.fit;
   options.metric = value_of<Metric>(o.metric, "metric");
   options.intervals = value_of<Intervals>(o.intervals, "intervals");
+  options.certificate = value_of<Certify>(o.certificate, "certificate");
   options.robust = o.robust == "huber";
   options.copies = o.copies == "keep";
   options.fixed = parse_settings(o.fix);
@@ -177,6 +181,11 @@ void add_fit(CommandLine& line) {
   c.option("--copies", o->copies,
            "Angles of the table that only repeat another, value for value: leave_out, or keep")
       .one_of({"leave_out", "keep"})
+      .show_default();
+  c.option("--certificate", o->certificate,
+           "auto: after the fit its cost is looked at over the widths, for anything lower; or none, "
+           "which is faster")
+      .one_of(names_of<Certify>)
       .show_default();
   add_bins(c, o->bins);
   c.option("-o,--output", o->output,

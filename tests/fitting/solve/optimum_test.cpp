@@ -88,6 +88,7 @@ std::string text_of(const BoundModel& b) {
 
 void expect_nothing_lower(const Table& t, FitOptions o, std::uint64_t seed) {
   o.bin_sensitivity = false;
+  o.certificate = Certify::automatic;
   const auto r = fit(t, o);
   const FitOptions whole = expanded(o);
   const Problem p = pose(t, whole);
