@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
@@ -30,11 +32,27 @@ std::vector<Setting> resolved_bounds(const FitOptions& o, const BoundModel& b) {
     if (!p) throw wrong_usage(fmt::format("bounds: the model has no parameter '{}'", s.name));
     if (std::ranges::find(b.given, s.name) != b.given.end())
       throw wrong_usage(fmt::format("{} is held at a value and has bounds", s.name));
+    if (std::ranges::count(all, s.name, &Setting::name) > 1)
+      throw wrong_usage(
+          fmt::format("bounds: {} and {} are the same parameter", s.name, roughness_name(s.name)));
     if (s.values.size() != 2 || !(s.values[0] < s.values[1]))
       throw wrong_usage(fmt::format("bounds of {}: two numbers, the lower first", s.name));
     for (const double v : s.values) check_range(*p->about, s.name, v);
   }
   return all;
+}
+
+/// The model with what is fixed.  A base colour fixes f0 and kd together with a metallic, which is held at
+/// 0 where a value is asked of a model, but in a fit would be taken for free.
+BoundModel bound(const FitOptions& o, std::optional<std::size_t> channels) {
+  const auto is_fixed = [&](std::string_view name) {
+    return std::ranges::find(o.fixed, name, &Setting::name) != o.fixed.end();
+  };
+  if (is_fixed("base_color") && !is_fixed("metallic"))
+    throw wrong_usage(
+        "base_color is held at a value and metallic is not: fix metallic=0 (or 1) too, or kd and "
+        "f0");
+  return bind_model(o.model, o.fixed, channels, o.grey);
 }
 
 }  // namespace
@@ -52,11 +70,11 @@ FitOptions expanded(FitOptions o) {
 
 void check(const FitOptions& given) {
   const FitOptions o = expanded(given);
-  resolved_bounds(o, bind_model(o.model, o.fixed, {}, o.grey));
+  resolved_bounds(o, bound(o, {}));
 }
 
 Problem pose(const Table& t, const FitOptions& o) {
-  BoundModel b = bind_model(o.model, o.fixed, t.channels.size(), o.grey);
+  BoundModel b = bound(o, t.channels.size());
   const auto own = resolved_bounds(o, b);
   std::vector<bool> free(b.model.value_count, true);
   Bounds bounds;

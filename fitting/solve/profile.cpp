@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "brdf/model/roughness.h"
 #include "fitting/solve/colours.h"
 
 #include <tbb/parallel_for.h>
@@ -84,6 +85,10 @@ class Profiler {
     return lowest;
   }
   const Problem& held() const { return held_; }
+  /// Descent of the thinned table with the axes free.
+  Start set_free(const ProfileCell& cell) const {
+    return descended(whole_, p_, cell.values, {30, 1e-6});
+  }
 
  private:
   const ModelParameter& parameter(std::size_t axis) const {
@@ -127,16 +132,15 @@ class Profiler {
     cell.cost = infinite;
     cell.values = moved_to(cell, optimum);
     take(cell, descended(rest_, held_, cell.values, closely));
+    if (!colours_.has_valleys()) return;
     const auto& lobes = p_.start.model.lobes;
     for (std::size_t l = 0; l < lobes.size(); ++l) {
       const Start coloured = colours_.from_best_valley(moved_to(cell, optimum), l, loosely);
       if (coloured.cost < 1.5 * cell.cost)
         take(cell, descended_in_valley(rest_, held_, coloured.values, closely));
     }
-    if (colours_.has_valleys())
-      take(cell,
-           descended_in_valley(rest_, held_,
-                               colours_.from_every_valley(cell.values, loosely).values, closely));
+    take(cell, descended_in_valley(
+                   rest_, held_, colours_.from_every_valley(cell.values, loosely).values, closely));
   }
 
   /// Descents from the values of neighbours, where these do better than a cell's own.
@@ -227,13 +231,20 @@ Profile profile(const Problem& p,
     if (moves == most_moves) return profile;
     bool moved = false;
 
-    // Other valleys, everything free.
-    auto valleys = profiler.valleys(profile.cells);
-    valleys.resize(std::min(valleys.size(), most_valleys));
-    std::vector<Start> bottoms(valleys.size() + 1);
+    // Other valleys, and what else is low, everything free: where a width leaves an exponent
+    // without effect, only one of many equal cells leads down.
+    auto from = profiler.valleys(profile.cells);
+    from.resize(std::min(from.size(), most_valleys));
+    const auto low = low_cells(profile, most_cells);
+    from.insert(from.end(), low.begin(), low.end());
+    std::vector<Start> bottoms(from.size());
+    tbb::parallel_for(std::size_t{0}, from.size(), [&](std::size_t k) {
+      bottoms[k] = profiler.set_free(profile.cells[from[k]]);
+    });
+    keep_best(bottoms, most_valleys);
+    bottoms.insert(bottoms.begin(), Start{0, f.model.values});
     tbb::parallel_for(std::size_t{0}, bottoms.size(), [&](std::size_t k) {
-      const auto& from = k == 0 ? f.model.values : profile.cells[valleys[k - 1]].values;
-      bottoms[k] = descended(scanned, p, from, {30, 1e-6});
+      bottoms[k] = descended(scanned, p, std::move(bottoms[k].values), {30, 1e-6});
     });
     const double here = bottoms[0].cost;
     bottoms.erase(bottoms.begin());
@@ -244,7 +255,6 @@ Profile profile(const Problem& p,
     for (const Start& s : bottoms) moved = moves_to(p, all, s.values, f) || moved;
 
     // The lowest cells, with all samples.
-    const auto low = low_cells(profile, most_cells);
     std::size_t lowest = low[0];
     for (const std::size_t i : low) {
       auto& cell = profile.cells[i];

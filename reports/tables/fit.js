@@ -208,6 +208,60 @@ function confidence() {
       sensitivity.map((t) => scroll(t))));
 }
 
+// --- Whether another optimum lies lower -----------------------------------------------------------------
+/// Axis of the search: its cells reach half way to the next, by ratio where they are spread so.
+function search_axis(name, at) {
+  const by_ratio = at[0] > 0;
+  const [to, back] = by_ratio ? [Math.log, Math.exp] : [Math.sqrt, (x) => x * x];
+  const x = at.map(to), half = (x[1] - x[0]) / 2, first = x[0] - half, last = x.at(-1) + half;
+  const edges = [...x.map((v) => back(Math.max(by_ratio ? -Infinity : 0, v - half))), back(last)];
+  const [low, high] = [edges[0], edges.at(-1)];
+  const steps = by_ratio && high / low > 30 ? [1] : [1, 2, 5];
+  const ticks = Array.from({ length: 9 }, (_, k) => 10 ** (k - 5)).flatMap((p) => steps.map((s) => s * p)).filter((t) => t >= low && t <= high);
+  return { name, edges, at, label: name, unit: "", ends: [low, high], ticks, few: ticks.filter((_, i) => i % 2 === 0),
+    part: (v) => (to(v) - to(low)) / (to(high) - to(low)), value: (part) => back(to(low) + part * (to(high) - to(low))) };
+}
+/// Number of the place next to a value.
+const next_to = (at, value) => at.reduce((best, a, i) => (Math.abs(Math.log(a / value)) < Math.abs(Math.log(at[best] / value)) ? i : best), 0);
+function search_words(c) {
+  const moved = c.moves > 0 ? ` The fit went on ${many(c.moves, "time")} from a place that was lower.` : "";
+  const lies = c.lowest >= fit.cost * (1 - 1e-6);
+  return `${count(c.cells.length)} cells over ${c.parameters.join(" and ")}, all other parameters solved for anew in each on a thinned table; those within 1 % `
+    + `of the lowest again with all values. ${lies ? "None lies below the fit" : "One lies below the fit"}: the lowest costs ${significant(c.lowest, 6)}, the fit ${significant(fit.cost, 6)}.`
+    + `${moved} This is a search and no proof.`;
+}
+function search() {
+  const c = fit.certificate;
+  if (!c) return null;
+  if (!c.cells.length) return section("Whether another optimum lies lower", "No width, exponent or index is free: nothing was searched.");
+  const least = Math.min(c.thinned_cost, ...c.cells.map((cell) => cell.cost).filter(known));
+  const above = c.cells.map((cell) => (known(cell.cost) && least > 0 ? Math.max(1, cell.cost / least) : null));
+  const fitted = c.parameters.map((name) => list_of(fit.parameters[name]?.value ?? null)[0]);
+  const places = c.parameters.map((_, a) => [...new Set(c.cells.map((cell) => cell.at[a]))]);
+  const draw = () => {
+    if (places.length === 1) {
+      const plot = curve_plot([places[0], above], [{ color: "accent", kind: "both" }], {
+        x_label: c.parameters[0], x_log: places[0][0] > 0, y_label: "least cost, relative to the lowest", log: true, height: 300,
+        mark: known(fitted[0]) ? fitted[0] : null, y_of: () => true, text: search_words(c) });
+      return el("figure", {}, el("figcaption", {}, "Least cost at each ", el("code", {}, c.parameters[0]),
+        known(fitted[0]) ? el("small", {}, " dashed: the fitted value") : null), plot.node);
+    }
+    const axes = c.parameters.map((name, a) => search_axis(name, places[a]));
+    const sizes = above.filter(known).map(Math.log10).sort((a, b) => a - b);
+    const limit = Math.max(sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0, 0.01);
+    const here = fitted.every(known) ? fitted.map((v, a) => next_to(places[a], v)) : null;
+    const chosen = here ? here[0] * places[1].length + here[1] : -1;
+    const map = heat_map(axes[0], axes[1], { cost: {
+      at: (k) => (known(above[k]) ? Math.min(1, Math.log10(above[k]) / limit) : null), colors: sequential,
+      label: "least cost of the cell, relative to the lowest", text: (k) => (k === chosen ? "fit" : null),
+      ticks: [0, 0.5, 1].map((t) => [t, (t === 1 ? "≥ " : "") + "×\u202f" + significant(10 ** (t * limit), 3)]) } },
+      (k) => [el("b", {}, known(above[k]) ? `×\u202f${significant(above[k], 4)} the lowest cost` : "no finite cost"),
+        known(c.cells[k].cost_all) ? `, ${significant(c.cells[k].cost_all, 6)} with all values` : ""], search_words(c));
+    return map.node;
+  };
+  return section("Whether another optimum lies lower", search_words(c), draw());
+}
+
 // --- Solver and input ---------------------------------------------------------------------------------
 function solver() {
   const s = fit.solver;
@@ -248,6 +302,6 @@ document.getElementById("page").replaceChildren(
   el("p", { class: "over" }, "gonio fit"),
   el("h1", {}, `${fit.model} fitted to ${file_name}`),
   verdict(), ...[warnings()].filter(Boolean), facts(),
-  ...[parameters(), curve_section(), residuals(), confidence(), health_section(), solver(), input()].filter(Boolean),
+  ...[parameters(), curve_section(), residuals(), search(), confidence(), health_section(), solver(), input()].filter(Boolean),
   el("footer", {}, "f_r is in 1/sr, without the cosine. alpha is the width of the distribution, roughness = √alpha. ",
     "Every figure of this page is in its data block, and the fit's in fit.json. Plots drawn with uPlot, © Leon Sorokin, MIT licence."));

@@ -63,6 +63,39 @@ TEST(Problem, RefusesBoundsThatSayNothingOrTooMuch) {
   EXPECT_TRUE(refused({{"alpha", {0.1, 0.5}}}, settings("alpha=0.2")));
 }
 
+TEST(Problem, RefusesTiesThatContradictOrAreHalfTold) {
+  const auto refusal = [](const char* model, std::vector<std::string> fixed,
+                          std::vector<std::string> bounds) {
+    FitOptions o;
+    o.model = model;
+    o.fixed = parse_settings(fixed);
+    o.bounds = parse_settings(bounds);
+    try {
+      check(o);
+      return std::string();
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), Exit::usage);
+      return std::string(e.what());
+    }
+  };
+  constexpr const char* coupled = "lambert.coupled+ggx/smith_ggx.correlated/schlick";
+  for (const char* model : {coupled, "gltf"}) {
+    EXPECT_EQ(refusal(model, {"base_color=0.5", "metallic=0"}, {}), "");
+    EXPECT_EQ(refusal(model, {"base_color=0.5"}, {}),
+              "base_color is held at a value and metallic is not: fix metallic=0 (or 1) too, or kd "
+              "and f0");
+  }
+  EXPECT_EQ(refusal(coupled, {"metallic=0.5"}, {}), "metallic needs base_color");
+  EXPECT_NE(refusal(coupled, {"base_color=0.5", "metallic=0", "kd=0.2"}, {}), "");
+  EXPECT_NE(refusal(paint, {"alpha=0.2", "roughness=0.9"}, {}), "");
+  EXPECT_EQ(refusal(paint, {}, {"alpha=0.5,0.6", "roughness=0.1,0.2"}),
+            "bounds: alpha and roughness are the same parameter");
+  EXPECT_EQ(refusal(paint, {"alpha=2"}, {}), "alpha = 2 is outside [0.0001, 1]");
+  EXPECT_EQ(refusal(paint, {"roughness=1.5"}, {}), "alpha = 2.25 is outside [0.0001, 1]");
+  EXPECT_NE(refusal("ggx/smith_ggx.correlated/dielectric", {"f0=1"}, {}), "");
+  EXPECT_NE(refusal("ggx/smith_ggx.correlated/conductor", {"metal=Au", "k=3"}, {}), "");
+}
+
 TEST(Problem, OfAPresetIsThatOfItsSpecWithItsTiesLeftFree) {
   FitOptions o;
   o.model = "gltf";
