@@ -24,10 +24,13 @@ struct Posed {
   Table table;
   Problem problem;
   FitData<double> data;
-  Posed(const char* model, const std::string& settings, std::vector<std::string> fixed = {})
+  Posed(const char* model,
+        const std::string& settings,
+        std::vector<std::string> fixed = {},
+        double noise = 0.02)
       : options(options_of(model, std::move(fixed))),
-        truth(test::bind(model, settings, 1)),
-        table(synthesize(truth, {.layout = Layout::in_plane, .noise = 0.02})),
+        truth(settings.empty() ? bind_model(model, {}, 1) : test::bind(model, settings, 1)),
+        table(synthesize(truth, {.layout = Layout::in_plane, .noise = noise})),
         problem(pose(table, options)),
         data(fit_data<double>(Sampling(table, table.bins(), Metric::log, 0, true))) {}
   static FitOptions options_of(const char* model, std::vector<std::string> fixed) {
@@ -79,8 +82,8 @@ TEST(Profile, HasTheLeastCostOfEachCell) {
 }
 
 TEST(Profile, SolvesForTheCellsWithinOnePercentWithAllSamples) {
-  // Half the values say nothing of the exponent: many cells are as good.
-  const Posed p(gtr, "alpha=0.9,gamma=2,f0=0.05,kd=0.3");
+  // Where noise is most of the cost many cells are as good.
+  const Posed p(gtr, "alpha=0.6,gamma=2,f0=0.05,kd=0.3", {}, 0.3);
   Fitted f = p.fitted_from(p.truth.values);
   const Profile profile = gonio::profile(p.problem, p.data, p.data, p.data, f);
   ASSERT_EQ(profile.cells.size(), profile_side * profile_side);
@@ -90,7 +93,7 @@ TEST(Profile, SolvesForTheCellsWithinOnePercentWithAllSamples) {
     const bool near = cell.cost <= 1.01 * std::min(profile.optimum, lowest->cost);
     asked += near;
     if (near)
-      EXPECT_NEAR(cell.cost_of_all / cell.cost, 1, 1e-6) << "the thinned table is the whole";
+      EXPECT_NEAR(cell.cost_of_all / cell.cost, 1, 1e-4) << "the thinned table is the whole";
     if (!near && &cell != &*lowest) EXPECT_TRUE(std::isnan(cell.cost_of_all));
   }
   EXPECT_GT(asked, 2U);
