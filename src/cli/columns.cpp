@@ -152,15 +152,17 @@ Json show(const Options& o, const std::string& file) {
     say("{}\n{:<8}{:<24}{:>10}{:>14}{:>14}\n", file, "", "name", "entries", "from", "to");
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const auto& c = columns[k];
+    if (o.json) {
+      all.push_back({{"number", k + 1},
+                     {"name", c.name},
+                     {"distinct", c.distinct},
+                     {"numbers", c.numbers},
+                     {"lowest", c.numbers ? Json(c.lowest) : Json()},
+                     {"highest", c.numbers ? Json(c.highest) : Json()}});
+      continue;
+    }
     const std::string name = printable(c.name, 40);
     const auto entries = fmt::format("{}{}", c.distinct, c.distinct == 1000 ? "+" : "");
-    all.push_back({{"number", k + 1},
-                   {"name", c.name},
-                   {"distinct", c.distinct},
-                   {"numbers", c.numbers},
-                   {"lowest", c.numbers ? Json(c.lowest) : Json()},
-                   {"highest", c.numbers ? Json(c.highest) : Json()}});
-    if (o.json) continue;
     say("{:<8}{:<24}{:>10}", fmt::format("#{}", k + 1), name, entries);
     if (c.numbers)
       fmt::print("{:>14.6g}{:>14.6g}\n", c.lowest, c.highest);
@@ -179,7 +181,12 @@ Json show(const Options& o, const std::string& file) {
                   {"needed", p.needed},
                   {"said", p.said}};
   }
-  return {{"path", file}, {"file_columns", all}, {"columns", said}, {"proposal", proposed}};
+  Json shown = Json::object();  // piece by piece: braces would copy what may be long
+  shown["path"] = file;
+  shown["file_columns"] = std::move(all);
+  shown["columns"] = std::move(said);
+  shown["proposal"] = std::move(proposed);
+  return shown;
 }
 
 Exit run(const Options& o) {
@@ -198,9 +205,8 @@ Exit run(const Options& o) {
         print(t);
     }
   }
-  if (o.json)
-    fmt::print("{}\n", (documents.size() == 1 ? documents[0] : documents)
-                           .dump(2, ' ', false, Json::error_handler_t::replace));
+  const Json& shown = documents.size() == 1 ? documents[0] : documents;
+  if (o.json) fmt::print("{}\n", shown.dump(2, ' ', false, Json::error_handler_t::replace));
   return Exit::done;
 }
 
