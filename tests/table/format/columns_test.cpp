@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 
 #include "base/error.h"
 #include "support.h"
@@ -328,6 +329,22 @@ TEST(CsvFile, OfManyLinesNamesTheFirstThatIsWrongWhateverTheThreads) {
                   "zenith angle; perhaps columns are swapped)");
     EXPECT_EQ(complaint(text + "30,0,20,180,1e\n"),
               place + ", column f: found '1e', expected a number");
+  }
+}
+
+/// Who mapped the file into memory would be killed here.
+TEST(CsvFile, ThatIsCutShortWhileItIsOpenIsToldWhereItEnds) {
+  const Folder folder;
+  const auto path = folder.write("t.csv", many_lines(many));
+  InputFile in(path);
+  std::filesystem::resize_file(path, 12345);
+  try {
+    read_csv(in);
+    ADD_FAILURE() << "no complaint";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("t.csv: byte 12345: found the end of the file"),
+              std::string::npos)
+        << e.what();
   }
 }
 
