@@ -10,6 +10,8 @@
 #include "fitting/describe.h"
 #include "fitting/judge/assess.h"
 #include "fitting/judge/bin_sensitivity.h"
+#include "fitting/judge/lack_of_fit.h"
+#include "fitting/judge/physics.h"
 #include "fitting/judge/uncertainty.h"
 #include "fitting/judge/undetermined.h"
 #include "fitting/judge/warnings.h"
@@ -97,7 +99,10 @@ FitResult fit(const Table& t,
   const Assessment& a = judged.assessment;
   auto u =
       uncertainty(a.sandwich, p.free.of(f.model.values), p.bounds, a.counts.used, judged.clusters);
+  const LackOfFit lack =
+      lack_of_fit(sampling, p, f, a.counts.used, judged.clusters > 0);
   const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, u);
+  widen(u, lack);
   watch.lap("errors_ms");
 
   FitDocument d;
@@ -111,6 +116,9 @@ FitResult fit(const Table& t,
   d.intervals = judged.clusters ? "clustered by incident angle" : "independent values";
   d.clusters = judged.clusters;
   d.residuals = a.residuals;
+  d.misfit = lack.misfit;
+  d.physics = check_physics(f.model, t, found.scanned);
+  watch.lap("physics_ms");
   d.values_used = a.counts.used;
   d.masked = a.counts.by_reason(sampling);
   d.input_path = t.path;

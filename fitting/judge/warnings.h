@@ -18,4 +18,10 @@ bool enough_angles(std::size_t clusters, std::size_t free);
 std::vector<std::string> warnings(
     const FitOptions&, const Table&, const FitDocument&, std::size_t angles, std::size_t free);
 
+/// Sentences of a model that returns more light than arrives, or rises far above its table.
+std::vector<std::string> physics_in_words(const Physics&);
+
+/// Sentence of a misfit that is told; else "".
+std::string misfit_in_words(const Misfit&);
+
 }  // namespace gonio

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,6 +76,31 @@ struct Certificate {
   std::vector<CertificateCell> cells;
 };
 
+/// Cell of the residual map.
+struct MisfitCell {
+  double theta_h_from_deg, theta_h_to_deg, theta_d_from_deg, theta_d_to_deg;
+  std::size_t values;
+  double difference;  ///< mean of model over data, less 1
+};
+
+/// Residuals that follow the angles, as those of the right model do not.
+struct Misfit {
+  bool tested = false;
+  double p = std::numeric_limits<double>::quiet_NaN();     ///< probability by luck alone
+  double size = std::numeric_limits<double>::quiet_NaN();  ///< RMS beyond noise, of f
+  bool told = false;                 ///< whether it is significant and large enough to matter
+  std::vector<std::string> follows;  ///< "theta_h", "theta_d", "grazing angles": the most of it
+  std::optional<MisfitCell> worst_cell;
+  std::string note;  ///< why it was not tested
+};
+
+/// Model beside the table as physics sees them.
+struct Physics {
+  std::vector<double> theta_i_deg;
+  std::vector<std::vector<double>> model_albedo, data_albedo;  ///< [angle][channel]; NaN: not known
+  std::vector<double> peak_ratio;  ///< by channel: greatest of the model over that of the table
+};
+
 struct FitDocument {
   std::string model;
   std::vector<std::string> channels;  ///< of the table, as parameters with channels are indexed
@@ -88,6 +114,8 @@ struct FitDocument {
   std::size_t clusters = 0;
 
   FitResiduals residuals;
+  Misfit misfit;
+  Physics physics;
   std::vector<std::string> free_names;            ///< "alpha", "f0.r" …, rows of the matrix below
   std::vector<std::vector<double>> correlations;  ///< of the free parameters' estimates
   double condition = 0;                           ///< of the scaled normal matrix

@@ -109,6 +109,48 @@ struct Description<Certificate> {
 };
 
 template <>
+struct Description<MisfitCell> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("theta_h_from_deg", "°", &MisfitCell::theta_h_from_deg, ""),
+        field("theta_h_to_deg", "°", &MisfitCell::theta_h_to_deg, ""),
+        field("theta_d_from_deg", "°", &MisfitCell::theta_d_from_deg, ""),
+        field("theta_d_to_deg", "°", &MisfitCell::theta_d_to_deg, ""),
+        field("values", "", &MisfitCell::values, "number of values looked at"),
+        field("difference", "", &MisfitCell::difference, "mean of model over data, less 1")};
+  }
+};
+
+template <>
+struct Description<Misfit> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("tested", "", &Misfit::tested, "whether the residuals could be tested"),
+        field("p", "", &Misfit::p, "probability that luck alone has them follow the angles so"),
+        field("size", "", &Misfit::size, "RMS of what follows the angles, of f"),
+        field("told", "", &Misfit::told, "whether it is significant and large enough to matter"),
+        field("follows", "", &Misfit::follows, "angles that most of it follows"),
+        field("worst_cell", "", &Misfit::worst_cell,
+              "cell of the residual map that is furthest off"),
+        field("note", "", &Misfit::note, "why it was not tested")};
+  }
+};
+
+template <>
+struct Description<Physics> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("theta_i_deg", "°", &Physics::theta_i_deg, "angles of incidence"),
+        field("model_albedo", "", &Physics::model_albedo,
+              "share of the light that the model returns, by angle and channel"),
+        field("data_albedo", "", &Physics::data_albedo,
+              "that of the table; null where its samples do not say"),
+        field("peak_ratio", "", &Physics::peak_ratio,
+              "greatest value of the model at the samples over the greatest of these, by channel")};
+  }
+};
+
+template <>
 struct Description<FitDocument> {
   static constexpr auto fields() {
     return std::tuple{
@@ -130,6 +172,8 @@ struct Description<FitDocument> {
               field("names", "", &FitDocument::free_names, "rows of the matrix"),
               field("correlations", "", &FitDocument::correlations, "of the estimates"),
               field("condition", "", &FitDocument::condition, "of the scaled normal matrix")),
+        field("misfit", "", &FitDocument::misfit, "residuals that follow the angles"),
+        field("physics", "", &FitDocument::physics, "what the model does to light"),
         field("solver", "", &FitDocument::solver, ""),
         group("input", "the table", field("path", "", &FitDocument::input_path, ""),
               field("sha256", "", &FitDocument::input_sha256, "of the file's bytes"),

@@ -91,6 +91,13 @@ Sampling::Sampling(const Table& t, Bins bins, Metric metric, double offset, bool
     throw bad_input(t.path, "weights", "a sum that is not finite", "weights of a usual size");
 }
 
+Sampling Sampling::by(Metric metric, double offset) const {
+  Sampling s = *this;
+  s.metric_ = metric;
+  s.offset_ = metric == Metric::l2_cosine ? 0 : offset;
+  return s;
+}
+
 double Sampling::root_weight(std::size_t i) const {
   return table_.weights.empty() ? 1 : std::sqrt(table_.weights[i] / mean_weight_);
 }

@@ -96,6 +96,8 @@ class Sampling {
   const SampleAngles& angles() const { return angles_; }
   const Groups& groups() const { return groups_; }
   Metric metric() const { return metric_; }
+  /// Samples of this one, compared in another way.
+  Sampling by(Metric, double offset) const;
   double offset() const { return offset_; }  ///< of the log and relative metrics [1/sr]
   /// Offset that the link adds to f: a difference needs none.
   double link_offset() const { return metric_ == Metric::log ? offset_ : 0; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <type_traits>
 
@@ -99,6 +100,27 @@ double cost_of_fewer(const Problem& p,
   return least;
 }
 
+/// Fit of a thinned table whose outliers count less and less.
+template <class F>
+Fitted robustly(const Problem& p, const FitData<F>& thin, Fitted f) {
+  for (int round = 0; round < 2; ++round)
+    f = minimise(p, thin, std::move(f.model), huber_threshold(p, thin, f));
+  return f;
+}
+
+/// Start of a robust fit, from the data's bulk: an outlier of a factor of a hundred is as far off as
+/// 4.6 among logarithms, but as 10⁴ squares among relative errors, whose minimum is then near f = 0.
+/// None where no value has a logarithm.
+template <class F>
+std::optional<Start> start_in_bulk(const Problem& p, const Sampling& sampling) {
+  const Sampling logs = sampling.by(Metric::log, p.offset);
+  const auto thin = fit_data<F>(logs, coarse_samples);
+  if (thin.counts.used == 0) return {};
+  const auto starts = find_starts(p, thin, no_huber);
+  Fitted f = robustly(p, thin, minimise(p, thin, {p.start.model, starts[0].values, {}}, no_huber));
+  return Start{f.solution.at.cost, std::move(f.model.values)};
+}
+
 /// Those starts of a thinned table that may be the best of all, as one with more samples tells.
 template <class F>
 std::vector<Start> best_of(const Problem& p, const FitData<F>& more, std::vector<Start> starts) {
@@ -128,9 +150,13 @@ Searched search_in(const Problem& p,
   watch.lap("columns_ms");
 
   announce("finding a start");
-  const auto starts = best_of(p, scan, find_starts(p, thin, no_huber));
+  std::optional<Start> bulk;
+  if (p.options.robust && sampling.metric() != Metric::log) bulk = start_in_bulk<F>(p, sampling);
+  const auto starts = bulk ? std::vector{*bulk} : best_of(p, scan, find_starts(p, thin, no_huber));
   const auto fitted_from = [&](const Start& s) {
-    return minimise(p, p.options.robust ? thin : middle, {p.start.model, s.values, {}}, no_huber);
+    BoundModel from{p.start.model, s.values, {}};
+    if (bulk) return Fitted{std::move(from), no_huber, {}};
+    return minimise(p, p.options.robust ? thin : middle, std::move(from), no_huber);
   };
   Fitted f = fitted_from(starts.front());
   for (std::size_t k = 1; k < starts.size(); ++k) {
@@ -139,8 +165,7 @@ Searched search_in(const Problem& p,
   }
   f.model.given = p.start.given;
   if (p.options.robust) {
-    for (int round = 0; round < 2; ++round)
-      f = minimise(p, thin, f.model, huber_threshold(p, thin, f));
+    f = robustly(p, thin, std::move(f));
     f = minimise(p, middle, f.model, f.huber);
   }
   if (!std::isfinite(f.solution.at.cost))

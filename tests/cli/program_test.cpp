@@ -317,7 +317,8 @@ TEST(Program, FitsTheMeasuredCarPaintAndSaysWhatItMasked) {
   const auto r = gonio(f, "fit '" + file + "' --html c.html --json");
   ASSERT_EQ(r.code, 0) << r.err;
   const auto d = r.json();
-  EXPECT_EQ(d["input"]["masked"]["negative"], 75159);
+  EXPECT_EQ(d["input"]["masked"]["negative"], 54310);
+  EXPECT_EQ(d["input"]["masked"]["copied"], 170370);
   EXPECT_EQ(d["intervals"], "clustered by incident angle");
   EXPECT_EQ(d["clusters"], 34);  // 11 of its 45 incident angles only repeat another
   // blue: the last channel's diffuse albedo is several times the others'

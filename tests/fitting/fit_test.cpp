@@ -488,6 +488,23 @@ TEST(Coverage, HoldsForErrorsSharedByAnIncidentAngleOnlyWhenTheyAreClustered) {
   EXPECT_LE(coverage_of_kd(Intervals::independent, 40), 24U);
 }
 
+TEST(Robust, FitsTheBulk) {
+  for (const Layout layout : {Layout::in_plane, Layout::hemisphere, Layout::random})
+    for (const Metric metric : {Metric::log, Metric::l2_cosine})
+      for (const std::uint64_t seed : {1, 2}) {
+        FitOptions o;
+        o.metric = metric;
+        o.robust = true;
+        const auto r = fit_synthetic(
+            materials[0], {.layout = layout, .noise = 0.02, .outliers = 0.2, .seed = seed}, o);
+        each_value(materials[0], r.document,
+                   [&](const auto& name, double truth, double fitted, double) {
+                     EXPECT_NEAR(fitted / truth, 1, metric == Metric::log ? 0.02 : 0.3)
+                         << name << " " << name_of(layout) << " " << name_of(metric);
+                   });
+      }
+}
+
 TEST(Copies, AreNoMeasurements) {
   const BoundModel truth = bind_model(paint, parse_settings(materials[0].settings), 3);
   Table t = synthesize(truth, {.layout = Layout::mbsdf});

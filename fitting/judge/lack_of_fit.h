@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// Lack of fit: whether what a model leaves over follows the angles, which no noise does.
+
+#include <string>
+#include <vector>
+
+#include "fitting/judge/uncertainty.h"
+#include "fitting/result/document.h"
+#include "fitting/solve/problem.h"
+#include "fitting/solve/search.h"
+
+namespace gonio {
+
+/// Misfit of a model, and what it does to the intervals.
+struct LackOfFit {
+  Misfit misfit;
+  double widening = 1;  ///< of the parameters' intervals, so that they include it
+};
+
+/// Residuals of the right model follow no angle, whatever the noise.  So these are regressed on smooth
+/// functions of the angles, from which the Jacobian's columns have been projected out (what a parameter
+/// could still take up is no misfit), and averaged over the cells of a coarse residual map, each against
+/// the scatter within it.  A thinned table is enough: of millions of values everything is significant.
+///
+/// Of many samples only that their errors are independent is assumed [Hotelling's T² of the scores, as
+/// the intervals' sandwich], of few that they are of one size in f or in proportion to it [an F test].
+/// Of a measured table with too few incident angles for clusters the scale of each angle is taken to be
+/// unknown.
+///
+/// It is told where it is significant at 1 % and exceeds 1 % of f, or what noise does to a parameter.
+/// Misfit that follows a parameter cannot be seen in what is left; it is taken to be up to twice as large
+/// as all that can.
+///
+/// \param shared  whether the values of one incident angle share their errors
+LackOfFit lack_of_fit(
+    const Sampling&, const Problem&, const Fitted&, std::size_t values_used, bool shared);
+
+/// Makes the intervals as wide as a misfit asks.
+void widen(Uncertainty&, const LackOfFit&);
+
+}  // namespace gonio

@@ -1,0 +1,301 @@
+// A misfit is told, the right model is not accused, and intervals that are stated hold the truth.
+#include "fitting/judge/lack_of_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include "fitting/fit.h"
+#include "fitting/support.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+constexpr const char* paint = "lambert+ggx/smith_ggx.correlated/schlick";
+
+/// Noise of a table, beside what synthesize() knows.
+enum class Disturbance { none, additive, gains };
+
+struct Row {
+  const char *name, *truth, *settings;
+  const char* fitted;
+  std::vector<std::pair<const char*, std::vector<double>>> known;  ///< true values of the fitted
+  SynthOptions synth;
+  Disturbance disturbance = Disturbance::none;
+  Metric metric = Metric::log;
+  bool robust = false;
+};
+
+Table disturbed(const Row& r, std::uint64_t seed) {
+  SynthOptions s = r.synth;
+  s.seed = seed;
+  Table t = synthesize(test::bind(r.truth, r.settings, 3), s);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  if (r.disturbance == Disturbance::additive)
+    for (auto& plane : t.values)
+      for (double& v : plane) v += 0.002 * normal(random);
+  if (r.disturbance == Disturbance::gains) {
+    t.truth.reset();  // as if measured
+    std::map<double, double> gain;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      double& g = gain[t.list()->theta_i_deg[i]];
+      if (g == 0) g = std::exp(0.02 * normal(random));
+      for (auto& plane : t.values) plane[i] *= g;
+    }
+  }
+  return t;
+}
+
+struct Tally {
+  unsigned fits = 0, told = 0;
+  unsigned stated = 0, silent_and_wrong = 0;  ///< intervals
+};
+
+Tally tally(const Row& r, unsigned seeds) {
+  Tally sum;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    FitOptions o;
+    o.model = r.fitted;
+    o.metric = r.metric;
+    o.robust = r.robust;
+    const auto d = fit(disturbed(r, seed), o).document;
+    ++sum.fits;
+    const bool told = std::ranges::any_of(d.warnings, [](const std::string& w) {
+      return w.starts_with("the model misses the table");
+    });
+    EXPECT_EQ(told, d.misfit.told);
+    sum.told += told;
+    for (const auto& [name, truth] : r.known) {
+      const auto& p = test::parameter(d, name);
+      for (std::size_t c = 0; c < p.value.size(); ++c) {
+        if (std::isnan(p.ci95_low[c])) continue;
+        ++sum.stated;
+        const double value = truth[truth.size() > 1 ? c : 0];
+        sum.silent_and_wrong += !told && !(p.ci95_low[c] <= value && value <= p.ci95_high[c]);
+      }
+    }
+  }
+  return sum;
+}
+
+std::vector<Row> in_layouts(const Row& row, std::initializer_list<double> noises) {
+  std::vector<Row> all;
+  for (const double noise : noises)
+    for (const auto& [layout, samples] : {std::pair{Layout::in_plane, std::size_t{0}},
+                                          {Layout::hemisphere, std::size_t{0}},
+                                          {Layout::random, std::size_t{60}},
+                                          {Layout::random, std::size_t{2000}}}) {
+      Row& r = all.emplace_back(row);
+      r.synth.layout = layout;
+      r.synth.samples = samples;
+      r.synth.noise = noise;
+    }
+  return all;
+}
+
+const std::vector<double> kd{0.2, 0.1, 0.05};
+
+std::vector<Row> wrong_models() {
+  const std::vector<Row> pairs{{"dielectric as schlick",
+                                "lambert+ggx/smith_ggx.correlated/dielectric",
+                                "alpha=0.6,eta=1.5,kd=0.2,0.1,0.05",
+                                paint,
+                                {{"alpha", {0.6}}, {"f0", {0.04}}, {"kd", kd}},
+                                {}},
+                               {"narrow dielectric as schlick",
+                                "lambert+ggx/smith_ggx.correlated/dielectric",
+                                "alpha=0.2,eta=1.5,kd=0.2,0.1,0.05",
+                                paint,
+                                {{"alpha", {0.2}}, {"f0", {0.04}}, {"kd", kd}},
+                                {}},
+                               {"uncoupled as gltf",
+                                paint,
+                                "alpha=0.2,f0=0.04,kd=0.2,0.1,0.05",
+                                "gltf",
+                                {{"alpha", {0.2}}, {"f0", {0.04}}},
+                                {}},
+                               {"gtr as ggx",
+                                "lambert+gtr/smith_ggx.correlated/schlick",
+                                "alpha=0.3,gamma=1.5,f0=0.05,kd=0.2,0.1,0.05",
+                                paint,
+                                {{"alpha", {0.3}}, {"f0", {0.05}}, {"kd", kd}},
+                                {}},
+                               {"beckmann as ggx",
+                                "lambert+beckmann/smith_beckmann.correlated/schlick",
+                                "alpha=0.3,f0=0.05,kd=0.2,0.1,0.05",
+                                paint,
+                                {{"f0", {0.05}}, {"kd", kd}},
+                                {}},
+                               {"separable as correlated",
+                                "lambert+ggx/smith_ggx.separable/schlick",
+                                "alpha=0.5,f0=0.05,kd=0.2,0.1,0.05",
+                                paint,
+                                {{"alpha", {0.5}}, {"f0", {0.05}}, {"kd", kd}},
+                                {}}};
+  std::vector<Row> all;
+  for (const auto& p : pairs)
+    for (auto& r : in_layouts(p, {0.01, 0.05})) all.push_back(std::move(r));
+  return all;
+}
+
+std::vector<Row> right_models() {
+  std::vector<Row> all;
+  const Row row{"paint",
+                paint,
+                "alpha=0.2,f0=0.05,kd=0.2,0.1,0.05",
+                paint,
+                {{"alpha", {0.2}}, {"f0", {0.05}}, {"kd", kd}},
+                {}};
+  const auto add = [&](const Row& r, std::initializer_list<double> noises) {
+    for (auto& x : in_layouts(r, noises)) all.push_back(std::move(x));
+  };
+  add(row, {0.01, 0.05});
+  for (const Metric metric : {Metric::l2_cosine, Metric::relative}) {
+    Row r = row;
+    r.metric = metric;
+    add(r, {0.01, 0.05});
+  }
+  for (const Metric metric : {Metric::log, Metric::l2_cosine}) {
+    Row r = row;
+    r.name = "paint, outliers";
+    r.metric = metric;
+    r.robust = true;
+    r.synth.outliers = 0.1;
+    add(r, {0.02});
+  }
+  Row additive = row;
+  additive.name = "paint, additive noise";
+  additive.metric = Metric::l2_cosine;
+  additive.disturbance = Disturbance::additive;
+  add(additive, {0.0});
+  Row gains = row;
+  gains.name = "paint, gains";
+  gains.disturbance = Disturbance::gains;
+  for (auto& r : in_layouts(gains, {0.01}))
+    if (r.synth.layout != Layout::random) all.push_back(r);
+  for (const auto& [name, model, settings] :
+       {std::tuple{"dielectric", "lambert+ggx/smith_ggx.correlated/dielectric",
+                   "alpha=0.6,eta=1.5,kd=0.2,0.1,0.05"},
+        {"gtr", "lambert+gtr/smith_ggx.correlated/schlick",
+         "alpha=0.3,gamma=1.5,f0=0.05,kd=0.2,0.1,0.05"},
+        {"beckmann", "lambert+beckmann/smith_beckmann.correlated/schlick",
+         "alpha=0.3,f0=0.05,kd=0.2,0.1,0.05"}})
+    add({name, model, settings, model, {}, {}}, {0.02});
+  return all;
+}
+
+unsigned seeds() {
+  return std::getenv("GONIO_LONG") ? 100 : 2;
+}
+
+std::string line(const Row& r, const Tally& t) {
+  return fmt::format(
+      "{:<30} {:<10} {:>5} {:<10} noise {:<5} told {:>3} of {:>3}, intervals silent and wrong "
+      "{:>3} of {:>4}\n",
+      r.name, name_of(r.synth.layout), r.synth.samples, name_of(r.metric), r.synth.noise, t.told,
+      t.fits, t.silent_and_wrong, t.stated);
+}
+
+TEST(LackOfFit, OfAWrongModelIsNotSilentAndWrong) {
+  std::string table;
+  unsigned wrong = 0, stated = 0;
+  for (const auto& r : wrong_models()) {
+    const Tally t = tally(r, seeds());
+    wrong += t.silent_and_wrong;
+    stated += t.stated;
+    table += line(r, t);
+  }
+  RecordProperty("table", table);
+  EXPECT_LE(20 * wrong, stated) << table;
+  if (std::getenv("GONIO_LONG")) fmt::print("{}", table);
+}
+
+TEST(LackOfFit, OfTheRightModelIsNotTold) {
+  std::string table;
+  unsigned told = 0, fits = 0;
+  for (const auto& r : right_models()) {
+    const Tally t = tally(r, seeds());
+    told += t.told;
+    fits += t.fits;
+    table += line(r, t);
+  }
+  EXPECT_LE(20 * told, fits) << table;
+  if (std::getenv("GONIO_LONG")) fmt::print("{}", table);
+}
+
+FitDocument fit_of(const Table& t, const char* model = paint) {
+  FitOptions o;
+  o.model = model;
+  return fit(t, o).document;
+}
+bool warned(const FitDocument& d, const char* words) {
+  return std::ranges::any_of(
+      d.warnings, [&](const std::string& w) { return w.find(words) != std::string::npos; });
+}
+
+TEST(LackOfFit, OfAGridIsToldWhereItIsSmall) {
+  const Table t = synthesize(test::bind(paint, "alpha=0.2,f0=0.04,kd=0.2,0.1,0.05", 3),
+                             {.layout = Layout::mbsdf, .noise = 0.02});
+  const auto d = fit_of(t, "gltf");
+  EXPECT_LT(d.residuals.log_rms, 0.25);
+  EXPECT_TRUE(warned(d, "the model misses the table by"));
+  EXPECT_LT(d.misfit.p, 1e-9);
+  ASSERT_TRUE(d.misfit.worst_cell);
+  EXPECT_GT(std::abs(d.misfit.worst_cell->difference), 0.005);
+  EXPECT_FALSE(d.misfit.follows.empty());
+  const auto right = fit_of(t);
+  EXPECT_TRUE(right.misfit.tested);
+  EXPECT_FALSE(warned(right, "misses"));
+}
+
+TEST(LackOfFit, OfWhatDigitsLeaveOutIsNotJudged) {
+  Table t = synthesize(test::bind(paint, "alpha=0.3,f0=0.04,kd=0.2,0.1,0.05", 3),
+                       {.layout = Layout::in_plane});
+  EXPECT_FALSE(fit_of(t).misfit.tested);  // noise-free: what is left is our own rounding
+  for (auto& plane : t.values)
+    for (double& v : plane) v = std::round(v * 1e3) / 1e3;
+  const auto d = fit_of(t);
+  EXPECT_FALSE(d.misfit.tested);
+  EXPECT_NE(d.misfit.note.find("rounding"), std::string::npos);
+  EXPECT_TRUE(d.warnings.empty());
+  EXPECT_TRUE(fit_of(t, "lambert").misfit.told);
+}
+
+TEST(LackOfFit, OfTooFewValuesIsNotKnownAndThatIsSaid) {
+  const auto d = fit_of(synthesize(test::bind(paint, "alpha=0.3", 1),
+                                   {.layout = Layout::random, .samples = 6, .noise = 0.02}));
+  EXPECT_FALSE(d.misfit.tested);
+  EXPECT_TRUE(warned(d, "the values are too few to tell"));
+}
+
+TEST(LackOfFit, WidensTheIntervals) {
+  Uncertainty u;
+  u.std_error = {0.1, std::nan("")};
+  widen(u, LackOfFit{{}, 3});
+  EXPECT_NEAR(u.std_error[0], 0.3, 1e-15);
+  EXPECT_TRUE(std::isnan(u.std_error[1]));
+}
+
+TEST(LackOfFit, IsIncludedInTheIntervals) {
+  // An exact Fresnel term is told apart from Schlick's by nothing but the residuals.
+  unsigned inside = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto d = fit_of(synthesize(
+        test::bind("lambert+ggx/smith_ggx.correlated/dielectric", "alpha=0.6,eta=1.5,kd=0.1", 1),
+        {.layout = Layout::random, .samples = 60, .noise = 0.01, .seed = seed}));
+    const auto& f0 = test::parameter(d, "f0");
+    inside += f0.ci95_low[0] <= 0.04 && 0.04 <= f0.ci95_high[0];
+    all += d.misfit.told;
+  }
+  EXPECT_EQ(all, 5U);
+  EXPECT_GE(inside, 4U);
+}
+
+}  // namespace
+}  // namespace gonio

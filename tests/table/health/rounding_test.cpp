@@ -1,0 +1,41 @@
+// Digits of a table's values tell what they leave out.
+#include "table/health/rounding.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+Table of(const std::vector<double>& values) {
+  Table t;
+  t.values.emplace_back(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) t.values[0][i] = values[i];
+  return t;
+}
+constexpr double uniform = 0.28867513459481287;  // 1/sqrt(12), of a step of 1
+
+TEST(FileRounding, OfFixedDecimalsIsOneSize) {
+  const auto r = rounding_of(of({0.123, 0.05, 12.345, 3}));
+  EXPECT_NEAR(r.of(0.05), 1e-3 * uniform, 1e-9);
+  EXPECT_NEAR(r.of(3), 1e-3 * uniform, 1e-9);
+}
+
+TEST(FileRounding, OfSignificantDigitsIsInProportion) {
+  const auto r = rounding_of(of({1.23e-11, 4.5e3, 6.78e-2}));
+  EXPECT_NEAR(r.of(2), 2e-2 * uniform, 1e-9);
+  EXPECT_NEAR(r.of(2e-6), 2e-8 * uniform, 1e-15);
+}
+
+TEST(FileRounding, OfBinaryNumbersIsThatOfFloatsOrNone) {
+  const std::vector<double> doubles{M_PI, M_E, std::sqrt(2.0)};
+  EXPECT_EQ(rounding_of(of(doubles)).of(1), 0);
+  std::vector<double> floats;
+  for (const double x : doubles) floats.push_back(static_cast<float>(x));
+  EXPECT_NEAR(rounding_of(of(floats)).of(1), 1.1920929e-7 * uniform, 1e-12);
+  EXPECT_EQ(rounding_of(of({-1, 0, std::nan("")})).of(1), 0);
+}
+
+}  // namespace
+}  // namespace gonio
