@@ -128,7 +128,7 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns) {
   const std::array pairs{std::pair(theta_i, phi_i), std::pair(theta_o, phi_o)};
   if (std::ranges::any_of(pairs, [&](auto pair) { return range(pair.first) > 90; }) &&
       std::ranges::all_of(pairs, [&](auto pair) { return range(pair.second) <= 90; }))
-    for (const auto [zenith, azimuth] : pairs) {
+    for (const auto& [zenith, azimuth] : pairs) {
       if (!found.angle[zenith] || !found.angle[azimuth]) continue;
       p.said.push_back(
           fmt::format("{} is taken for the zenith angle, {} for the azimuth: one that is "
