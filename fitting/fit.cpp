@@ -99,8 +99,7 @@ FitResult fit(const Table& t,
   const Assessment& a = judged.assessment;
   auto u =
       uncertainty(a.sandwich, p.free.of(f.model.values), p.bounds, a.counts.used, judged.clusters);
-  const LackOfFit lack =
-      lack_of_fit(sampling, p, f, a.counts.used, judged.clusters > 0);
+  const LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.used, judged.clusters > 0);
   const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, u);
   widen(u, lack);
   watch.lap("errors_ms");

@@ -4,9 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
