@@ -182,9 +182,10 @@ void add_fit(CommandLine& line) {
            "Angles of the table that only repeat another, value for value: leave_out, or keep")
       .one_of({"leave_out", "keep"})
       .show_default();
-  c.option("--certificate", o->certificate,
-           "auto: after the fit its cost is looked at over the widths, for anything lower; or none, "
-           "which is faster")
+  c.option(
+       "--certificate", o->certificate,
+       "auto: after the fit its cost is looked at over the widths, for anything lower; or none, "
+       "which is faster")
       .one_of(names_of<Certify>)
       .show_default();
   add_bins(c, o->bins);
