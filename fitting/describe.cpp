@@ -22,12 +22,13 @@ void describe(FitDocument& d,
   for (const auto& q : p.start.model.parameters) {
     FittedParameter e{q.name, {}, {}, {}, {}, {}};
     for (std::size_t s = q.first; s < q.first + q.count; ++s) {
-      double value = values[s], error = nan;
+      double value = values[s], error = nan, t = nan;
       auto status = ParameterStatus::fixed;
       if (p.free.mask()[s]) {
         const std::size_t i = p.free.index(s);
         status = u.status[i];
         error = u.std_error[i];
+        t = u.t[i];
         // A width at the low end of all there are: narrower ones, or no lobe, would do as well.
         if (status == ParameterStatus::at_bound && is_alpha(q.name) && !p.narrowed[i] &&
             value <= p.bounds.low[i] * (1 + 1e-3))
@@ -36,8 +37,8 @@ void describe(FitDocument& d,
       }
       e.value.push_back(value);
       e.std_error.push_back(error);
-      e.ci95_low.push_back(std::max(value - u.t * error, q.about->legal.low));
-      e.ci95_high.push_back(std::min(value + u.t * error, q.about->legal.high));
+      e.ci95_low.push_back(std::max(value - t * error, q.about->legal.low));
+      e.ci95_high.push_back(std::min(value + t * error, q.about->legal.high));
       if (std::isnan(error)) e.ci95_low.back() = e.ci95_high.back() = nan;
       e.status.push_back(status);
     }

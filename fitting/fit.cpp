@@ -43,24 +43,46 @@ void forget_unknown(BinSensitivity& s, const FitDocument& d) {
   }
 }
 
-/// Assessment with scores summed over incident angles where that is asked for, or right and possible.
+/// Worth of the parameters, by values or by clusters of an incident angle.
 struct Judged {
   Assessment assessment;
+  Uncertainty uncertainty;
   std::size_t angles;    ///< incident angles of the table
   std::size_t clusters;  ///< those whose values share their errors; 0: all are independent
+  const char* in_words;
 };
 Judged judge(const Sampling& s, const Problem& p, const Fitted& f) {
   const auto asked = p.options.intervals;
-  const bool by_angle =
-      asked == Intervals::by_angle || (asked == Intervals::automatic && !s.table().truth);
-  auto a = assess(s, f.model, p.free, f.huber, by_angle, f.in_float);
+  const auto x = p.free.of(f.model.values);
+  const auto errors = [&](const Assessment& a) {
+    return uncertainty(a.sandwich, x, p.bounds, a.counts.used);
+  };
+  const auto by_value = [&] {
+    const bool clips = p.options.robust;  // then not all that was fitted is in the bread
+    const ArrowMatrix bread =
+        clips ? assess(s, f.model, p.free, f.huber, false, nullptr, f.in_float).sandwich.bread
+              : f.solution.at.h;
+    const Influences influences(bread, find_determined(bread, x, p.bounds).unknowns);
+    return assess(s, f.model, p.free, f.huber, false, &influences, f.in_float);
+  };
+  constexpr const char* independent = "independent values";
+  constexpr const char* clustered = "clustered by incident angle";
+  if (asked == Intervals::independent || (asked == Intervals::automatic && s.table().truth)) {
+    auto a = by_value();
+    auto u = errors(a);
+    return {std::move(a), std::move(u), 0, 0, independent};
+  }
+  auto a = assess(s, f.model, p.free, f.huber, true, nullptr, f.in_float);
   const std::size_t angles = a.incident_angles;
   if (asked == Intervals::by_angle && angles < 2)
     throw wrong_usage("intervals by_angle: the table has one incident angle");
-  if (!by_angle) return {std::move(a), angles, 0};
-  if (asked == Intervals::by_angle || enough_angles(angles, p.free.size()))
-    return {std::move(a), angles, angles};
-  return {assess(s, f.model, p.free, f.huber, false, f.in_float), angles, 0};
+  auto u = errors(a);
+  if (asked == Intervals::by_angle || enough_angles(angles))
+    return {std::move(a), std::move(u), angles, angles, clustered};
+  const auto values = errors(by_value());
+  if (angles < 2) return {std::move(a), values, angles, 0, independent};
+  return {std::move(a), wider(std::move(u), values), angles, angles,
+          "the wider of clustered by incident angle and independent values"};
 }
 
 }  // namespace
@@ -97,9 +119,9 @@ FitResult fit(const Table& t,
     });
   const Judged judged = judge(sampling, p, f);
   const Assessment& a = judged.assessment;
-  auto u =
-      uncertainty(a.sandwich, p.free.of(f.model.values), p.bounds, a.counts.used, judged.clusters);
-  const LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.used, judged.clusters > 0);
+  Uncertainty u = judged.uncertainty;
+  const LackOfFit lack =
+      lack_of_fit(sampling, p, f, a.counts.used, judged.clusters > 0);
   const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, u);
   widen(u, lack);
   watch.lap("errors_ms");
@@ -112,7 +134,7 @@ FitResult fit(const Table& t,
   d.log_offset = sampling.offset();
   d.robust = o.robust ? "huber" : "none";
   d.cost = f.solution.at.cost;
-  d.intervals = judged.clusters ? "clustered by incident angle" : "independent values";
+  d.intervals = judged.in_words;
   d.clusters = judged.clusters;
   d.residuals = a.residuals;
   d.misfit = lack.misfit;

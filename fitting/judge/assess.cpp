@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <utility>
 
 #include "brdf/model/derivatives.h"
+#include "fitting/judge/arrow_inverse.h"
 #include "table/health/health.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -70,6 +72,15 @@ class IncidentKeys {
     auto angles = incident_angles(*s.table().list());
     count_ = angles.count;
     rank_ = std::move(angles.number);
+    constexpr std::size_t many = 360;
+    if (count_ <= many) return;
+    std::map<long, std::uint32_t> degrees;
+    for (std::size_t i = 0; i < rank_.size(); ++i) {
+      const long degree = std::lround(s.table().list()->theta_i_deg[i]);
+      rank_[i] =
+          degrees.try_emplace(degree, static_cast<std::uint32_t>(degrees.size())).first->second;
+    }
+    count_ = degrees.size();
   }
   std::size_t count() const { return count_; }
   /// \param last  that of a neighbour, where the answer is looked for first; or `none`
@@ -127,8 +138,10 @@ BandSums no_sums() {
 /// Findings of one task.
 struct Part {
   ArrowMatrix bread, meat;
-  std::vector<std::size_t> keys;  ///< of the incident angles seen
-  std::vector<double> scores;     ///< [of those][free slot]
+  std::vector<std::size_t> keys;                                 ///< of the incident angles seen
+  std::vector<double> scores, breads;                            ///< [of those][free slot], [entry]
+  std::vector<double> fourth, alone, moves;                      ///< [free slot]
+  std::vector<std::vector<double>> fourth_by_arm, moves_by_arm;  ///< [arm][of the head]
   BandSums sums = no_sums();
   SampleCounts counts;
 };
@@ -142,12 +155,14 @@ class Walk {
        const FreeSlots& free,
        double huber,
        bool by_incident_angle,
-       const IncidentKeys& keys)
+       const IncidentKeys& keys,
+       const Influences* influences)
       : sampling_(s),
         free_(free),
         huber_(static_cast<F>(std::min(huber, double{std::numeric_limits<F>::max()}))),
         by_angle_(by_incident_angle),
         keys_(keys),
+        influences_(by_incident_angle ? nullptr : influences),
         kernels_(kernels<F>()),
         values_(b.values.begin(), b.values.end()),
         derivatives_(b.model, free.mask(), kernels_) {
@@ -163,12 +178,28 @@ class Walk {
         x.j[x.free.size()] = column;
         x.free.push_back(free.index(slot));
       }
+      for (const std::size_t i : x.free)
+        for (const std::size_t j : x.free) x.entry.push_back(free.layout()->at(i, j));
+      if (!influences_) continue;
+      x.influence = influences_->channel(x.free);
+      for (const std::size_t i : x.free)
+        if (free.layout()->arm(i) != ArrowLayout::none) x.arm = free.layout()->arm(i);
+      if (x.influence.unknown.size() > beta_.size()) beta_.resize(x.influence.unknown.size());
     }
   }
 
   Part run(BlockReader<F>& in) {
     const std::size_t n = free_.size();
-    part_ = {ArrowMatrix(free_.layout()), ArrowMatrix(free_.layout()), {}, {}, no_sums(), {}};
+    part_ = {};
+    part_.bread = part_.meat = ArrowMatrix(free_.layout());
+    if (influences_) {
+      part_.fourth.resize(n);
+      part_.alone.resize(n);
+      part_.moves.resize(n);
+      part_.fourth_by_arm.assign(free_.layout()->arms().size(),
+                                 std::vector<double>(free_.layout()->head().size()));
+      part_.moves_by_arm = part_.fourth_by_arm;
+    }
     place_.assign(keys_.count(), none);
     bread_.assign(sampling_.channels(), {});
     meat_.assign(sampling_.channels(), {});
@@ -186,6 +217,9 @@ class Walk {
   struct Channel {
     std::vector<std::size_t> free;
     std::array<const F*, max_columns> j{};
+    std::vector<std::size_t> entry;  ///< [derivative][derivative] of the matrices
+    Influences::Channel influence;
+    std::size_t arm = ArrowLayout::none;
   };
 
   void block(const BlockReader<F>& in) {
@@ -221,7 +255,7 @@ class Walk {
 
   /// Neighbours of one incident angle, and where its scores stand in the part.
   struct Run {
-    std::size_t begin, end, to;
+    std::size_t begin, end, to;  ///< `to`: number among the part's keys
   };
 
   void find_incident_angles(const BlockReader<F>& in, std::size_t members) {
@@ -240,9 +274,10 @@ class Walk {
         if (key == last) continue;
         last = key;
         if (place_[key] == none) {
-          place_[key] = part_.keys.size() * free_.size();
+          place_[key] = part_.keys.size();
           part_.keys.push_back(key);
           part_.scores.resize(part_.keys.size() * free_.size());
+          part_.breads.resize(part_.keys.size() * free_.layout()->entries());
         }
         if (!runs.empty()) runs.back().end = i;
         runs.push_back({i, in.size(), place_[key]});
@@ -250,18 +285,27 @@ class Walk {
     }
   }
 
-  /// Σ score j over each run.
+  /// Σ score j and Σ slope² j jᵀ over each run.
   /// \tparam K  how many columns j has
   template <std::size_t K>
   void add_scores(const std::vector<Run>& runs, const Channel& x) {
     for (const auto& run : runs) {
       std::array<double, K> sum{};
+      std::array<double, K * K> products{};
       for (std::size_t i = run.begin; i < run.end; ++i) {
-        if (score_[i] == 0) continue;  // masked values, whose derivatives may be NaN
-        for (std::size_t p = 0; p < K; ++p)
+        if (score_[i] == 0 && slope_[i] == 0) continue;  // masked, with derivatives that may be NaN
+        std::array<double, K> j;
+        for (std::size_t p = 0; p < K; ++p) {
           sum[p] += static_cast<double>(score_[i]) * static_cast<double>(x.j[p][i]);
+          j[p] = static_cast<double>(slope_[i]) * static_cast<double>(x.j[p][i]);
+        }
+        for (std::size_t p = 0; p < K; ++p)
+          for (std::size_t q = 0; q < K; ++q) products[p * K + q] += j[p] * j[q];
       }
-      for (std::size_t p = 0; p < K; ++p) part_.scores[run.to + x.free[p]] += sum[p];
+      double* const score = part_.scores.data() + run.to * free_.size();
+      double* const bread = part_.breads.data() + run.to * free_.layout()->entries();
+      for (std::size_t p = 0; p < K; ++p) score[x.free[p]] += sum[p];
+      for (std::size_t e = 0; e < K * K; ++e) bread[x.entry[e]] += products[e];
     }
   }
   using AddScores = void (Walk::*)(const std::vector<Run>&, const Channel&);
@@ -275,12 +319,76 @@ class Walk {
     const std::size_t k = x.free.size();
     if (k == 0) return;
     kernels_.gram[k + 1](in.padded(), score_, slope_, x.j.data(), bread_[c].lanes());
+    if (influences_) divide_by_leverage(in.size(), x);
     if (!by_angle_) {
       kernels_.gram[k + 1](in.padded(), score_, score_, x.j.data(), meat_[c].lanes());
       return;
     }
     static constexpr auto add = add_scores_of(std::make_index_sequence<max_columns + 1>());
     (this->*add[k])(runs_[m], x);
+  }
+
+  /// Sums of fourth powers, and each score over 1 − h.  A value that alone determines something has
+  /// residual 0 whatever its error is: its score says nothing.
+  void divide_by_leverage(std::size_t n, const Channel& x) {
+    const auto& at = x.influence;
+    std::array<F, size> leverage{};
+    for (std::size_t r = 0; r < at.unknown.size(); ++r) {
+      auto& beta = beta_[r];  // less the slope
+      beta.fill(F(0));
+      for (std::size_t k = 0; k < x.free.size(); ++k) {
+        const auto factor = static_cast<F>(at.beta[r][k]);
+        if (factor == 0) continue;
+        for (std::size_t i = 0; i < n; ++i)  // derivatives of masked values may be NaN
+          beta[i] += slope_[i] == 0 && score_[i] == 0 ? F(0) : factor * x.j[k][i];
+      }
+    }
+    for (std::size_t k = 0; k < x.free.size(); ++k) {
+      if (at.row[k] == Influences::none) continue;
+      const auto factor = static_cast<F>(at.leverage[k]);
+      const auto& beta = beta_[at.row[k]];
+      for (std::size_t i = 0; i < n; ++i)
+        leverage[i] += slope_[i] == 0 ? F(0) : factor * slope_[i] * slope_[i] * x.j[k][i] * beta[i];
+    }
+    constexpr F all = F(1) - F(1e-6);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (leverage[i] < all) {
+        score_[i] /= F(1) - leverage[i];
+        continue;
+      }
+      score_[i] = 0;
+      for (std::size_t r = 0; r < at.unknown.size(); ++r) {
+        const double beta = static_cast<double>(slope_[i]) * static_cast<double>(beta_[r][i]);
+        part_.alone[at.unknown[r]] += beta * beta;
+      }
+    }
+    for (std::size_t r = 0; r < at.unknown.size(); ++r) {
+      const std::size_t unknown = at.unknown[r], head = free_.layout()->within(unknown);
+      const bool of_head =
+          x.arm != ArrowLayout::none && free_.layout()->arm(unknown) == ArrowLayout::none;
+      const auto add = [&](const F* factor, std::vector<double>& to,
+                           std::vector<std::vector<double>>& by_arm) {
+        const double sum = fourth_powers(n, factor, beta_[r].data());
+        to[unknown] += sum;
+        if (of_head) by_arm[x.arm][head] += sum;
+      };
+      add(slope_, part_.fourth, part_.fourth_by_arm);
+      add(score_, part_.moves, part_.moves_by_arm);
+    }
+  }
+  /// Σ (a b)⁴, a few at a time in F.
+  static double fourth_powers(std::size_t n, const F* a, const F* b) {
+    constexpr std::size_t few = 64;
+    double sum = 0;
+    for (std::size_t from = 0; from < n; from += few) {
+      F part(0);
+      for (std::size_t i = from; i < std::min(n, from + few); ++i) {
+        const F square = a[i] * b[i] * a[i] * b[i];
+        part += square * square;
+      }
+      sum += static_cast<double>(part);
+    }
+    return sum;
   }
 
   void bands_of(const BlockReader<F>& in, const Block<F>& x, std::size_t members) {
@@ -311,6 +419,8 @@ class Walk {
   F huber_;
   bool by_angle_;
   const IncidentKeys& keys_;
+  const Influences* influences_;
+  std::vector<std::array<F, size>> beta_;  ///< [row]
   const Kernels<F>& kernels_;
   std::vector<F> values_;
   ModelDerivatives<F> derivatives_;
@@ -339,36 +449,52 @@ FitResiduals statistics(const BandSums& sums) {
   return r;
 }
 
+void add(std::span<const double> from, std::vector<double>& to) {
+  to.resize(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] += from[i];
+}
+
 template <class F>
 Assessment assess_in(const Sampling& s,
                      const BoundModel& b,
                      const FreeSlots& free,
                      double huber,
                      bool by_incident_angle,
+                     const Influences* influences,
                      std::size_t most) {
   const std::size_t n = free.size();
   const IncidentKeys keys(s);
   const Tasks tasks(s, most, BlockReader<F>::block);
   std::vector<Part> parts(tasks.count);
   tbb::enumerable_thread_specific<Walk<F>> walks(
-      [&] { return Walk<F>(s, b, free, huber, by_incident_angle, keys); });
+      [&] { return Walk<F>(s, b, free, huber, by_incident_angle, keys, influences); });
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
     BlockReader<F> in(s, tasks.first(k), tasks.last(k), tasks.step);
     parts[k] = walks.local().run(in);
   });
   Assessment a;
-  a.sandwich = {ArrowMatrix(free.layout()), ArrowMatrix(free.layout()), {}};
-  std::vector<std::vector<double>> scores(keys.count());
+  const std::size_t entries = free.layout()->entries();
+  a.sandwich.bread = a.sandwich.meat = ArrowMatrix(free.layout());
+  std::vector<std::vector<double>> scores(keys.count()), breads(keys.count());
   std::vector<bool> seen(keys.count());
+  std::vector<std::vector<double>> fourth_by_arm, moves_by_arm;
   BandSums sums = no_sums();
   for (const auto& p : parts) {  // in the order of the samples
     a.sandwich.bread += p.bread;
     a.sandwich.meat += p.meat;
     for (std::size_t k = 0; k < p.keys.size(); ++k) {
-      auto& sum = scores[p.keys[k]];
-      sum.resize(n);
-      for (std::size_t i = 0; i < n; ++i) sum[i] += p.scores[k * n + i];
+      add(std::span(p.scores).subspan(k * n, n), scores[p.keys[k]]);
+      add(std::span(p.breads).subspan(k * entries, entries), breads[p.keys[k]]);
       seen[p.keys[k]] = true;
+    }
+    add(p.fourth, a.sandwich.fourth);
+    add(p.alone, a.sandwich.alone);
+    add(p.moves, a.sandwich.moves);
+    fourth_by_arm.resize(p.fourth_by_arm.size());
+    moves_by_arm.resize(p.moves_by_arm.size());
+    for (std::size_t k = 0; k < fourth_by_arm.size(); ++k) {
+      add(p.fourth_by_arm[k], fourth_by_arm[k]);
+      add(p.moves_by_arm[k], moves_by_arm[k]);
     }
     for (std::size_t k = 0; k < sums.size(); ++k)
       for (std::size_t i = 0; i < sums[k].size(); ++i) sums[k][i].add(p.sums[k][i]);
@@ -376,27 +502,91 @@ Assessment assess_in(const Sampling& s,
   }
   a.incident_angles = static_cast<std::size_t>(std::ranges::count(seen, true));
   for (std::size_t k = 0; k < scores.size(); ++k)
-    if (seen[k]) a.sandwich.scores.push_back(std::move(scores[k]));
+    if (seen[k])
+      a.sandwich.clusters.push_back(
+          {ArrowMatrix(free.layout(), std::move(breads[k])), std::move(scores[k])});
+  if (influences && !by_incident_angle) {
+    influences->add_others(fourth_by_arm, a.sandwich.fourth);
+    influences->add_others(moves_by_arm, a.sandwich.moves);
+  }
   a.residuals = statistics(sums);
   return a;
 }
 
 }  // namespace
 
+// ---- influences ---------------------------------------------------------------------------------
+
+Influences::Influences(const ArrowMatrix& bread, const std::vector<std::size_t>& determined)
+    : layout_(bread.shared_layout()), place_(bread.size(), none) {
+  const auto layout = std::make_shared<const ArrowLayout>(layout_->part(determined));
+  inverse_ = std::make_shared<const ArrowInverse>(bread.part(layout, determined));
+  for (std::size_t k = 0; k < determined.size(); ++k) {
+    place_[determined[k]] = k;
+    error_.push_back(std::sqrt((*inverse_)(k, k)));
+  }
+}
+
+Influences::Channel Influences::channel(const std::vector<std::size_t>& free) const {
+  Channel c;
+  std::vector<std::size_t> moved = layout_->head();
+  for (const std::size_t i : free)
+    if (layout_->arm(i) != ArrowLayout::none) moved.push_back(i);
+  c.row.assign(free.size(), none);
+  c.leverage.assign(free.size(), 0);
+  for (const std::size_t i : moved) {
+    const std::size_t a = place_[i];
+    if (a == none) continue;
+    auto& beta = c.beta.emplace_back();
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const std::size_t b = place_[free[k]];
+      beta.push_back(b == none ? 0 : (*inverse_)(a, b) / error_[a]);
+      if (free[k] != i) continue;
+      c.row[k] = c.unknown.size();
+      c.leverage[k] = error_[a];
+    }
+    c.unknown.push_back(i);
+  }
+  return c;
+}
+
+void Influences::add_others(const std::vector<std::vector<double>>& by_arm,
+                            std::vector<double>& fourth) const {
+  const auto& head = layout_->head();
+  const auto all = fourth;
+  for (std::size_t a = 0; a < by_arm.size(); ++a)
+    for (const std::size_t i : layout_->arms()[a]) {
+      if (place_[i] == none) continue;
+      double root = 0;
+      std::size_t column = 0;  // of the determined ones in the head
+      for (std::size_t h = 0; h < head.size(); ++h) {
+        const std::size_t place = place_[head[h]];
+        if (place == none) continue;
+        const double share =
+            std::abs(inverse_->along(place_[i], column++)) * error_[place] / error_[place_[i]];
+        root += share * std::pow(std::max(all[head[h]] - by_arm[a][h], 0.0), 0.25);
+      }
+      fourth[i] += std::pow(root, 4);
+    }
+}
+
+// ---- assessment ---------------------------------------------------------------------------------
+
 Assessment assess(const Sampling& s,
                   const BoundModel& b,
                   const FreeSlots& free,
                   double huber,
                   bool by_incident_angle,
+                  const Influences* influences,
                   bool in_float,
                   std::size_t most) {
-  return in_float ? assess_in<float>(s, b, free, huber, by_incident_angle, most)
-                  : assess_in<double>(s, b, free, huber, by_incident_angle, most);
+  return in_float ? assess_in<float>(s, b, free, huber, by_incident_angle, influences, most)
+                  : assess_in<double>(s, b, free, huber, by_incident_angle, influences, most);
 }
 
 FitResiduals residual_statistics(const BoundModel& b, const Sampling& s, std::size_t most) {
   const FreeSlots nothing(std::vector<bool>(b.model.value_count, false));
-  return assess(s, b, nothing, no_huber, false, false, most).residuals;
+  return assess(s, b, nothing, no_huber, false, nullptr, false, most).residuals;
 }
 
 }  // namespace gonio

@@ -1,22 +1,20 @@
 #include "fitting/judge/uncertainty.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 
-#include "fitting/solve/arrow_root.h"
+#include "fitting/judge/arrow_inverse.h"
 
 #include <boost/math/distributions/students_t.hpp>
 
 namespace gonio {
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double singular = 1e-11;  ///< eigenvalues of the scaled bread below it are rounding
-
-Eigen::Index index(std::size_t n) {
-  return static_cast<Eigen::Index>(n);
-}
 
 /// Unknowns of a singular direction of the bread: those that have a part of it worth mentioning.
 std::vector<bool> in_singular_directions(const ArrowRoot& root, const ArrowLayout& layout) {
@@ -51,89 +49,153 @@ std::vector<bool> in_singular_directions(const ArrowRoot& root, const ArrowLayou
   return lost;
 }
 
-/// Sandwich B⁻¹ M B⁻¹ entry by entry.  With the arms of B taken out,
-///
-///   B⁻¹ = E + U K Uᵀ,   E = diag(0, D_c⁻¹),   U = (1, −D_c⁻¹ B_c),   K the head's Schur complement⁻¹
-///
-///   B⁻¹ M B⁻¹ = U (K UᵀMU K) Uᵀ + Q (U K)ᵀ + (U K) Qᵀ + E M E,   Q = E M U
-class SandwichProduct {
+/// Covariances of the determined unknowns, and the degrees of freedom of each; NaN where there is none.
+class Covariance {
  public:
-  /// \param unknowns  that are looked at, the others held
-  SandwichProduct(const Sandwich& s, const std::vector<std::size_t>& unknowns, double factor)
-      : layout_(std::make_shared<const ArrowLayout>(s.bread.layout().part(unknowns))),
-        factor_(factor) {
-    const ArrowRoot root(s.bread.part(layout_, unknowns), 0);
-    const ArrowMatrix meat = s.meat.part(layout_, unknowns);
-    const auto& head = layout_->head();
-    const Eigen::Index n = index(layout_->size()), h = index(head.size());
-    const auto& eigen = root.head();
-    const Eigen::MatrixXd inverse =
-        root.scale().asDiagonal() *
-        (eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() *
-         eigen.eigenvectors().transpose()) *
-        root.scale().asDiagonal();
+  double operator()(std::size_t i, std::size_t j) const {
+    if (sandwich_) return (*sandwich_)(i, j);
+    double sum = 0;
+    for (const auto& m : moves_) sum += m[i] * m[j];
+    return sum;
+  }
+  double freedom(std::size_t i) const { return freedom_[i]; }
 
-    u_ = q_ = RowMajor::Zero(n, h);
-    e_ = RowMajor::Zero(n, index(s.scores.size()));
-    RowMajor inner = Eigen::Map<const RowMajor>(meat.head(), h, h);  // UᵀMU
-    for (std::size_t k = 0; k < head.size(); ++k) u_(index(head[k]), index(k)) = 1;
-    std::vector<Eigen::MatrixXd> inverses;
-    for (std::size_t a = 0; a < root.arms().size(); ++a) {
-      const auto& arm = root.arms()[a];
-      const auto& own = layout_->arms()[a];
-      const Eigen::Index k = index(own.size());
-      const Eigen::MatrixXd half =
-          arm.scale.asDiagonal() * arm.eigenvectors * arm.root.asDiagonal();
-      inverses.push_back(half * half.transpose());
-      const Eigen::MatrixXd u = -half * arm.w * root.scale().cwiseInverse().asDiagonal();
-      const Eigen::Map<const RowMajor> d(meat.own(a), k, k), b(meat.border(a), k, h);
-      const Eigen::MatrixXd mu = b + d * u;
-      inner += u.transpose() * mu + b.transpose() * u;
-      put(own, u, u_);
-      put(own, inverses[a] * mu, q_);
-      squares_.push_back(inverses[a] * d * inverses[a]);
+  // Values that are independent, the sandwich.
+  //
+  // 1. A value's score is s = ρ' r ∂r/∂x; the best x makes Σ s = 0.
+  // 2. About the true x*, Σ s(x) = S + B (x − x*) but for squares, with S = Σ s(x*) and the bread
+  //    B = Σ j jᵀ over what is not clipped: x − x* = −B⁻¹ S.
+  // 3. The mean of S is 0, so the covariance of x is B⁻¹ ⟨S Sᵀ⟩ B⁻¹, and ⟨S Sᵀ⟩ is Σ ⟨s sᵀ⟩.
+  // 4. Residuals of the best x are smaller than those of x*, the more so the higher the value's
+  //    leverage h = jᵀ B⁻¹ j is: a fit without the value leaves r/(1 − h) there.  With that the
+  //    covariance is the jackknife's, the sum over x's moves when one value is left out.
+  //
+  //    ┌──────────────────────────────────────────┐
+  //    │  cov x = B⁻¹ (Σ s sᵀ/(1 − h)²) B⁻¹  (HC3) │
+  //    └──────────────────────────────────────────┘
+  //
+  // Its degrees of freedom, one unknown x_k.
+  //
+  // 5. If all errors were alike the variance of x_k would be (B⁻¹)_kk = Σ b², b = (B⁻¹ j)_k over
+  // the
+  //    values: share β² = b²/(B⁻¹)_kk is from one value, and the shares add up to 1.
+  // 6. The estimate is V = Σ β² e² of normal errors e, whose mean is 1 and whose variance is 2 Σ
+  // β⁴.
+  //    χ²_ν/ν has the mean 1 and the variance 2/ν [Satterthwaite 1946].
+  //
+  // 7. Errors are not alike, and few values may make most of V whatever their shares: v = β² e²
+  // itself
+  //    tells.  Of normal errors Σ v² is about 3 Σ β⁴ ⟨e²⟩², so 3 (Σ v)²/Σ v² is an estimate of ν
+  //    too, and knows of errors that the shares do not.
+  //
+  //    ┌──────────────────────────────────────────────────┐
+  //    │  ν_k = min(1/Σ β⁴, 3 (Σ v)²/Σ v²), at most N − p │
+  //    └──────────────────────────────────────────────────┘
+  //
+  //    It is N where all values have the same share, and 1 where one has all of it.
+  Covariance(const Sandwich& s,
+             const std::vector<std::size_t>& unknowns,
+             std::shared_ptr<const ArrowLayout> layout,
+             const ArrowInverse& bread,
+             double values) {
+    const double left = values - static_cast<double>(unknowns.size());
+    for (const std::size_t i : unknowns) {
+      constexpr double some = 0.01;  // of the variance
+      const bool alone = !s.alone.empty() && s.alone[i] > some;
+      freedom_.push_back(alone || left < 1 ? nan : left);
     }
-    for (std::size_t g = 0; g < s.scores.size(); ++g) {
-      Eigen::VectorXd score(n);
-      for (Eigen::Index i = 0; i < n; ++i)
-        score[i] = s.scores[g][unknowns[static_cast<std::size_t>(i)]];
-      Eigen::VectorXd t(h);
-      for (std::size_t k = 0; k < head.size(); ++k) t[index(k)] = score[index(head[k])];
-      for (std::size_t a = 0; a < inverses.size(); ++a) {
-        const auto& own = layout_->arms()[a];
-        Eigen::VectorXd part(index(own.size()));
-        for (std::size_t k = 0; k < own.size(); ++k) {
-          part[index(k)] = score[index(own[k])];
-          t += u_.row(index(own[k])).transpose() * part[index(k)];
-        }
-        const Eigen::VectorXd e = inverses[a] * part;
-        for (std::size_t k = 0; k < own.size(); ++k) e_(index(own[k]), index(g)) = e[index(k)];
-      }
-      inner += t * t.transpose();
-      q_ += e_.col(index(g)) * t.transpose();
+    sandwich_.emplace(bread, s.meat.part(std::move(layout), unknowns));
+    for (std::size_t k = 0; k < s.fourth.size() && k < unknowns.size(); ++k) {
+      const double variance = (*sandwich_)(k, k) / bread(k, k);
+      bound(k, s.fourth[unknowns[k]], variance * variance, s.moves[unknowns[k]]);
     }
-    outer_ = u_ * Eigen::MatrixXd(factor * inverse * inner * inverse);
-    uk_ = u_ * inverse;
   }
 
-  double operator()(std::size_t i, std::size_t j) const {
-    const Eigen::Index r = index(i), c = index(j);
-    const std::size_t arm = layout_->arm(i);
-    double rest = q_.row(r).dot(uk_.row(c)) + uk_.row(r).dot(q_.row(c)) + e_.row(r).dot(e_.row(c));
-    if (arm != ArrowLayout::none && arm == layout_->arm(j))
-      rest += squares_[arm](index(layout_->within(i)), index(layout_->within(j)));
-    return outer_.row(r).dot(u_.row(c)) + factor_ * rest;
+  // Clusters, within which nothing is assumed of the errors.
+  //
+  // 8. A cluster g has the score S_g = Σ s and the part B_g = Σ j jᵀ of the bread.  Without it the
+  //    bread is B − B_g and the gradient −S_g: x moves by d_g = (B − B_g)⁻¹ S_g.
+  //
+  //    ┌─────────────────────────────────────┐
+  //    │  cov x = Σ d_g d_gᵀ,                │
+  //    │  β_g² = (B⁻¹ B_g B⁻¹)_kk/(B⁻¹)_kk,  │
+  //    │  v_g = (d_g)_k²,  ν_k ≤ G − 1       │
+  //    └─────────────────────────────────────┘
+  //
+  //    One value a cluster makes this what stands above.
+  Covariance(const Sandwich& s,
+             const std::vector<std::size_t>& unknowns,
+             const std::shared_ptr<const ArrowLayout>& layout,
+             const ArrowInverse& bread) {
+    const std::size_t n = unknowns.size();
+    std::vector<double> shares(n);
+    std::vector<bool> alone(n);
+    const ArrowMatrix all = s.bread.part(layout, unknowns);
+    for (const auto& g : s.clusters) {
+      const ArrowMatrix own = g.bread.part(layout, unknowns);
+      const ArrowInverse::Sandwich product(bread, own);
+      for (std::size_t k = 0; k < n; ++k) {
+        const double share = product(k, k) / bread(k, k);
+        shares[k] += share * share;
+      }
+      ArrowMatrix rest = own;
+      rest *= -1;
+      rest += all;
+      const auto known = known_to(rest, all, alone);
+      if (known.empty()) continue;
+      const auto part = std::make_shared<const ArrowLayout>(layout->part(known));
+      std::vector<double> score;
+      for (const std::size_t k : known) score.push_back(g.score[unknowns[k]]);
+      const auto moved = ArrowInverse(rest.part(part, known)).times(score);
+      auto& move = moves_.emplace_back(n);
+      for (std::size_t k = 0; k < known.size(); ++k) move[known[k]] = moved[k];
+    }
+    const double left = static_cast<double>(s.clusters.size()) - 1;
+    for (std::size_t k = 0; k < n; ++k) {
+      freedom_.push_back(alone[k] || left < 1 ? nan : left);
+      double squares = 0, fourth = 0;
+      for (const auto& move : moves_) {
+        squares += move[k] * move[k];
+        fourth += std::pow(move[k], 4);
+      }
+      bound(k, shares[k], squares * squares, fourth);
+    }
   }
 
  private:
-  static void put(const std::vector<std::size_t>& rows, const Eigen::MatrixXd& from, RowMajor& to) {
-    for (std::size_t k = 0; k < rows.size(); ++k) to.row(index(rows[k])) = from.row(index(k));
+  /// Bounds the degrees of freedom of an unknown from above.
+  void bound(std::size_t k, double shares, double square_of_sum, double sum_of_squares) {
+    double& nu = freedom_[k];
+    if (std::isnan(nu)) return;
+    if (shares > 0) nu = std::min(nu, 1 / shares);
+    if (sum_of_squares > 0) nu = std::min(nu, 3 * square_of_sum / sum_of_squares);
+    nu = std::max(nu, 1.0);
+  }
+  /// Unknowns that the rest of the bread still determines; marks the others.
+  static std::vector<std::size_t> known_to(const ArrowMatrix& rest,
+                                           const ArrowMatrix& all,
+                                           std::vector<bool>& alone) {
+    constexpr double little = 1e-9;  // of what all know
+    std::vector<std::size_t> seen, known;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (rest(k, k) > little * all(k, k))
+        seen.push_back(k);
+      else
+        alone[k] = true;
+    if (seen.empty()) return known;
+    const auto part = std::make_shared<const ArrowLayout>(rest.layout().part(seen));
+    const auto lost = in_singular_directions(ArrowRoot(rest.part(part, seen), singular), *part);
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      if (lost[k])
+        alone[seen[k]] = true;
+      else
+        known.push_back(seen[k]);
+    return known;
   }
 
-  std::shared_ptr<const ArrowLayout> layout_;
-  double factor_;
-  RowMajor u_, q_, e_, uk_, outer_;  ///< by unknown: U, Q, E times each score, U K, U (K UᵀMU K)
-  std::vector<Eigen::MatrixXd> squares_;  ///< E M E of each arm
+  std::optional<ArrowInverse::Sandwich> sandwich_;
+  std::vector<std::vector<double>> moves_;  ///< [cluster][unknown]
+  std::vector<double> freedom_;
 };
 
 }  // namespace
@@ -142,83 +204,90 @@ double student_t_975(double nu) {
   return boost::math::quantile(boost::math::students_t(nu), 0.975);
 }
 
-Uncertainty uncertainty(const Sandwich& s,
-                        std::span<const double> x,
-                        const Bounds& bounds,
-                        std::size_t values_used,
-                        std::size_t clusters) {
+Determined find_determined(const ArrowMatrix& bread,
+                           std::span<const double> x,
+                           const Bounds& bounds) {
   const std::size_t n = x.size();
-  Uncertainty u;
-  u.status.assign(n, ParameterStatus::free);
-  u.std_error.assign(n, nan);
-  u.correlations.assign(n, std::vector<double>(n, nan));
+  Determined d;
+  d.status.assign(n, ParameterStatus::free);
   const auto range = [&](std::size_t i) { return bounds.high[i] - bounds.low[i]; };
-  const auto effect = [&](std::size_t i) { return s.bread(i, i) * range(i) * range(i); };
+  const auto effect = [&](std::size_t i) { return bread(i, i) * range(i) * range(i); };
   double strongest = 0;
   for (std::size_t i = 0; i < n; ++i) strongest = std::max(strongest, effect(i));
   std::vector<std::size_t> known;
   for (std::size_t i = 0; i < n; ++i) {
     const double near = 1e-7 * range(i);
     if (x[i] <= bounds.low[i] + near || x[i] >= bounds.high[i] - near)
-      u.status[i] = ParameterStatus::at_bound;
+      d.status[i] = ParameterStatus::at_bound;
     else if (!(effect(i) > 1e-18 * strongest))
-      u.status[i] = ParameterStatus::not_identifiable;
+      d.status[i] = ParameterStatus::not_identifiable;
     else
       known.push_back(i);
   }
-  if (known.empty()) return u;
+  if (known.empty()) return d;
 
   // Directions in which nothing changes take their parameters out.
-  const auto layout = std::make_shared<const ArrowLayout>(s.bread.layout().part(known));
-  const ArrowRoot all(s.bread.part(layout, known), singular);
+  const auto layout = std::make_shared<const ArrowLayout>(bread.layout().part(known));
+  const ArrowRoot all(bread.part(layout, known), singular);
   const auto [least, largest] = all.extremes();
-  u.condition = largest / std::max(least, 1e-300);
+  d.condition = largest / std::max(least, 1e-300);
   const auto lost = in_singular_directions(all, *layout);
-  std::vector<std::size_t> determined;
   for (std::size_t k = 0; k < known.size(); ++k)
     if (lost[k])
-      u.status[known[k]] = ParameterStatus::not_identifiable;
+      d.status[known[k]] = ParameterStatus::not_identifiable;
     else
-      determined.push_back(known[k]);
-  const double count = static_cast<double>(values_used), p = static_cast<double>(determined.size());
-  const double g = static_cast<double>(clusters);
-  const double freedom = clusters ? g - 1 : count - p;
-  if (determined.empty() || freedom < 1) return u;
-  u.t = student_t_975(freedom);
+      d.unknowns.push_back(known[k]);
+  return d;
+}
 
-  // The sandwich.
-  //
-  // 1. A cluster's score is s = Σ ρ' r ∂r/∂x over its residuals; the best x makes Σ s = 0.
-  // 2. About the true x*, Σ s(x) = S + H (x − x*) but for squares, with S = Σ s(x*) and the bread
-  //    H = Σ j jᵀ over what is not clipped: x − x* = −H⁻¹ S.
-  // 3. The mean of S is 0, so the covariance of x is H⁻¹ ⟨S Sᵀ⟩ H⁻¹.
-  // 4. Clusters are independent and within one nothing is assumed: ⟨S Sᵀ⟩ is about M = Σ s sᵀ,
-  //    the meat.
-  // 5. Scores at the best x are smaller than those at x*: with G clusters, n values and p unknowns
-  //    G/(G − 1) (n − 1)/(n − p) makes up for it.
-  // 6. H = W⁻¹ (V Λ Vᵀ) W⁻¹ with W = diag(H)^−½, so H⁻¹ = W V Λ⁻¹ Vᵀ W, whatever the units of x.
-  //
-  //    ┌─────────────────────────────────────────────────┐
-  //    │  cov x = G/(G − 1) (n − 1)/(n − p) · H⁻¹ M H⁻¹  │
-  //    └─────────────────────────────────────────────────┘
-  const double correction =
-      (clusters ? g / (g - 1) * (count - 1) : count) / std::max(count - p, 1.0);
-  const SandwichProduct covariance(s, determined, correction);
+Uncertainty uncertainty(const Sandwich& s,
+                        std::span<const double> x,
+                        const Bounds& bounds,
+                        std::size_t values_used) {
+  const std::size_t n = x.size();
+  Determined found = find_determined(s.bread, x, bounds);
+  const auto& determined = found.unknowns;
+  Uncertainty u;
+  u.status = std::move(found.status);
+  u.condition = found.condition;
+  u.std_error.assign(n, nan);
+  u.t.assign(n, nan);
+  u.correlations.assign(n, std::vector<double>(n, nan));
+  if (determined.empty()) return u;
+
+  const auto layout = std::make_shared<const ArrowLayout>(s.bread.layout().part(determined));
+  const ArrowInverse bread(s.bread.part(layout, determined));
+  const Covariance covariance = s.clusters.empty() ? Covariance(s, determined, layout, bread,
+                                                                static_cast<double>(values_used))
+                                                   : Covariance(s, determined, layout, bread);
   std::vector<double> variance;
   for (std::size_t a = 0; a < determined.size(); ++a) variance.push_back(covariance(a, a));
 
   for (std::size_t a = 0; a < determined.size(); ++a) {
     const std::size_t i = determined[a];
-    const double error = std::sqrt(variance[a]);
-    if (2 * u.t * error >= range(i)) {
+    if (std::isnan(covariance.freedom(a))) continue;
+    const double error = std::sqrt(variance[a]), t = student_t_975(covariance.freedom(a));
+    if (2 * t * error >= bounds.high[i] - bounds.low[i]) {
       u.status[i] = ParameterStatus::not_identifiable;
       continue;
     }
     u.std_error[i] = error;
+    u.t[i] = t;
     for (std::size_t b = 0; b < determined.size(); ++b)
       u.correlations[i][determined[b]] = covariance(a, b) / std::sqrt(variance[a] * variance[b]);
   }
   return u;
+}
+
+Uncertainty wider(Uncertainty a, const Uncertainty& b) {
+  for (std::size_t i = 0; i < a.status.size(); ++i) {
+    // Not larger than: that of NaN, too.
+    if (b.std_error[i] * b.t[i] <= a.std_error[i] * a.t[i] || std::isnan(a.std_error[i])) continue;
+    a.status[i] = b.status[i];
+    a.std_error[i] = b.std_error[i];
+    a.t[i] = b.t[i];
+  }
+  return a;
 }
 
 }  // namespace gonio

@@ -10,29 +10,40 @@
 
 namespace gonio {
 
+/// Unknowns that the bread tells apart.
+struct Determined {
+  std::vector<ParameterStatus> status;  ///< `free` of those
+  std::vector<std::size_t> unknowns;    ///< those
+  double condition = 1;  ///< largest over smallest eigenvalue of the bread, scaled to unit diagonal
+};
+/// A parameter at its bound is held there for the others.  Any other is not identifiable if moving it
+/// over its whole range changes nothing, or if it belongs to a direction in which the bread is singular.
+Determined find_determined(const ArrowMatrix& bread, std::span<const double> x, const Bounds&);
+
 /// Per free slot, in their order.
 struct Uncertainty {
   std::vector<ParameterStatus> status;
   std::vector<double> std_error;  ///< NaN where not known
-  double t = 1.96;                ///< half width of the 95 % interval in standard errors
+  std::vector<double> t;          ///< half width of the 95 % interval in standard errors
   std::vector<std::vector<double>> correlations;  ///< NaN for what has no error
-  double condition = 1;  ///< largest over smallest eigenvalue of the bread, scaled to unit diagonal
+  double condition = 1;                           ///< see Determined
 };
 
-/// Standard errors by the sandwich B⁻¹ M B⁻¹, which holds whether or not the metric whitens the
-/// noise, with the usual correction for the degrees of freedom spent [White 1980; Liang, Zeger 1986].
-/// The interval's half width is Student's t with clusters − 1 degrees of freedom, or values − unknowns;
-/// without any degree of freedom nothing is known of the errors.
+/// Standard errors by the sandwich B⁻¹ M B⁻¹, which holds whether or not the metric whitens the noise,
+/// each value's (or each cluster's) residuals being those that a fit without it would leave: HC3 and its
+/// form for clusters [MacKinnon, White 1985; Bell, McCaffrey 2002].  The interval's half width is
+/// Student's t; its degrees of freedom are the number of values (clusters) that the parameter in truth
+/// rests on.
 ///
-/// A parameter at its bound has no error and is held there for the others.  Any other is not
-/// identifiable if moving it over its whole range changes nothing, if it belongs to a direction in
-/// which the bread is singular, or if its interval is as wide as its range.
-/// \param clusters  0: values are independent
+/// What a single value or cluster determines alone has no error: none of the others knows it.  Nor has
+/// what would have an interval as wide as its range, which is not identifiable.
 Uncertainty uncertainty(const Sandwich&,
                         std::span<const double> x,
                         const Bounds&,
-                        std::size_t values_used,
-                        std::size_t clusters);
+                        std::size_t values_used);
+
+/// The one of two that has the wider interval, parameter by parameter; none where one has none.
+Uncertainty wider(Uncertainty, const Uncertainty&);
 
 /// 97.5 % quantile of Student's t for ν > 0 degrees of freedom.
 double student_t_975(double degrees_of_freedom);

@@ -12,8 +12,8 @@
 
 namespace gonio {
 
-bool enough_angles(std::size_t clusters, std::size_t free) {
-  return clusters >= std::max<std::size_t>(8, 2 * free);
+bool enough_angles(std::size_t clusters) {
+  return clusters >= 8;
 }
 
 std::vector<std::string> warnings(const FitOptions& o,
@@ -29,11 +29,10 @@ std::vector<std::string> warnings(const FitOptions& o,
         fmt::format("{} values cannot tell the errors of {} unknowns", d.values_used, free));
   else if (!d.misfit.tested && d.misfit.note.find("too few") != std::string::npos)
     all.push_back("whether the model is the right one is not known: " + d.misfit.note);
-  if (!t.truth && o.intervals != Intervals::independent && !enough_angles(angles, free))
+  if (!t.truth && o.intervals != Intervals::independent && !enough_angles(angles))
     all.push_back(fmt::format(
-        "{} incident angles are few for {} unknowns: errors that the values of one angle share "
-        "make the intervals too narrow",
-        angles, free));
+        "{} incident angle{}: errors that the values of one angle share can hardly be told", angles,
+        angles == 1 ? "" : "s are few"));
   if (const auto retro = retro_peak(t))
     all.push_back(
         fmt::format("the highlight ({:.3g} 1/sr) sits at wo = wi and not at the half vector: a "

@@ -11,8 +11,8 @@
 
 namespace gonio {
 
-/// With few clusters the sums of their scores say too little: at the optimum they add up to zero.
-bool enough_angles(std::size_t clusters, std::size_t free);
+/// Number of clusters from which on their moves alone tell the errors.
+bool enough_angles(std::size_t clusters);
 
 /// \param angles  incident angles of the table   \param free  unknowns
 std::vector<std::string> warnings(

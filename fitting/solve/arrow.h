@@ -59,6 +59,9 @@ class ArrowMatrix {
   ArrowMatrix() : ArrowMatrix(std::make_shared<const ArrowLayout>()) {}
   explicit ArrowMatrix(std::shared_ptr<const ArrowLayout> layout)
       : layout_(std::move(layout)), entries_(layout_->entries()) {}
+  /// \param entries  as entries() gives them
+  ArrowMatrix(std::shared_ptr<const ArrowLayout> layout, std::vector<double> entries)
+      : layout_(std::move(layout)), entries_(std::move(entries)) {}
   /// All head, row by row.
   ArrowMatrix(std::initializer_list<double> dense);
 

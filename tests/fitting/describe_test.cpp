@@ -22,7 +22,7 @@ TEST(Description, GivesRoughnessTheErrorAndTheIntervalThatItsSquareHas) {
   Uncertainty u;
   u.status.assign(3, ParameterStatus::free);
   u.std_error.assign(3, 0.008);
-  u.t = 2;
+  u.t.assign(3, 2);
   FitDocument d;
   d.channels = t.channels;
   describe(d, p, truth.values, u);
@@ -48,6 +48,7 @@ TEST(Description, TellsNoValueOfWhatIsNotIdentifiableAndNoErrorOfWhatIsFixed) {
   Uncertainty u;
   u.status.assign(4, ParameterStatus::free);
   u.std_error.assign(4, 0.01);
+  u.t.assign(4, 2);
   const std::size_t lost = p.free.index(truth.model.find("kd")->first + 1);
   u.status[lost] = ParameterStatus::not_identifiable;
   FitDocument d;

@@ -452,19 +452,28 @@ TEST(Coverage, CountsOnlyIncidentAnglesThatHaveAValue) {
   EXPECT_EQ(d.clusters, 0U);
   EXPECT_NEAR(d.parameters[0].std_error[0], 0.2 * 0.02 / std::sqrt(30), 2e-4);
   ASSERT_EQ(d.warnings.size(), 1U);
-  EXPECT_NE(d.warnings[0].find("1 incident angles are few"), std::string::npos) << d.warnings[0];
+  EXPECT_NE(d.warnings[0].find("1 incident angle: errors"), std::string::npos) << d.warnings[0];
 }
 
-TEST(Coverage, ClustersByAFewAnglesWhenAskedToAndWarnsWhenNot) {
+TEST(Coverage, TakesTheWiderBelowEightIncidentAngles) {
   const BoundModel truth = bind_model("lambert", {}, 1);
   Table t = synthesize(truth, {.layout = Layout::hemisphere, .noise = 0.02});
   t.truth.reset();  // as if measured
   FitOptions o;
   o.model = "lambert";
-  EXPECT_EQ(fit(t, o).document.clusters, 0U);
-  EXPECT_EQ(fit(t, o).document.warnings.size(), 1U);
-  o.intervals = Intervals::by_angle;
+  const auto error = [&](Intervals intervals) {
+    o.intervals = intervals;
+    return fit(t, o).document.parameters[0].std_error[0];
+  };
+  EXPECT_NEAR(error(Intervals::automatic),
+              std::max(error(Intervals::independent), error(Intervals::by_angle)), 1e-15);
+  o.intervals = Intervals::automatic;
   EXPECT_EQ(fit(t, o).document.clusters, 6U);
+  EXPECT_EQ(fit(t, o).document.warnings.size(), 1U);
+  for (std::size_t i = 0; i < t.size(); ++i)  // a gain of each angle: it is by angle that is wider
+    t.values[0][i] *= 1 + 0.05 * std::sin(20 * t.list()->theta_i_deg[i]);
+  EXPECT_EQ(error(Intervals::automatic), error(Intervals::by_angle));
+  EXPECT_GT(error(Intervals::automatic), 2 * error(Intervals::independent));
 }
 
 TEST(Coverage, HoldsForErrorsSharedByAnIncidentAngleOnlyWhenTheyAreClustered) {

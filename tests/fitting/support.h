@@ -29,7 +29,7 @@ inline BoundModel bind(const char* model, const std::string& settings, std::size
 /// Meat of a sandwich, whether of values or of clusters.
 inline double meat(const Sandwich& s, std::size_t i, std::size_t k) {
   double sum = s.meat(i, k);
-  for (const auto& score : s.scores) sum += score[i] * score[k];
+  for (const auto& g : s.clusters) sum += g.score[i] * g.score[k];
   return sum;
 }
 

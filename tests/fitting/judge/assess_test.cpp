@@ -6,6 +6,7 @@
 
 #include "fitting/support.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace gonio {
@@ -63,7 +64,7 @@ TEST(Assessment, PutsEverySampleIntoItsBands) {
   const Sampling s(t, Bins::centre, Metric::log, 0, false);
   const FreeSlots none(std::vector<bool>(m.model.value_count, false));
   for (const bool in_float : {false, true}) {
-    const auto a = assess(s, m, none, no_huber, true, in_float);
+    const auto a = assess(s, m, none, no_huber, true, nullptr, in_float);
     EXPECT_EQ(a.incident_angles, l.theta_i_deg.size());
     std::size_t band = 0;
     for (const auto& b : a.residuals.bands)
@@ -110,7 +111,7 @@ TEST(Sandwich, OfIndependentValuesIsTheSumOfSquaredScoresAndOfClustersTheSquareO
     for (std::size_t q = 0; q < 8; ++q)
       EXPECT_NEAR(meat(a.sandwich, p, q), g[p] * g[q], 1e-9 * std::abs(g[p] * g[q]) + 1e-20);
   // Each value its own: one channel, no angle twice.
-  Case each = small();
+  Case each({.layout = Layout::random, .samples = 300, .noise = 0.1});
   auto& apart = std::get<DirectionList>(each.table.where);
   for (std::size_t i = 0; i < each.table.size(); ++i) {
     apart.theta_i_deg[i] = 0.1 * static_cast<double>(i);
@@ -143,6 +144,98 @@ TEST(Sandwich, UnderHubersLossTakesTheClippedOutOfTheBreadAndClipsTheirScores) {
   const auto a = assess(s, m, FreeSlots({true}), huber, false).sandwich;
   EXPECT_NEAR(a.bread(0, 0), 10 / (kd * kd), 1e-9);
   EXPECT_NEAR(a.meat(0, 0), (small_squares + 2 * huber * huber) / (kd * kd), 1e-12);
+}
+
+TEST(Sandwich, OfValuesTakesTheResidualsThatAFitWithoutEachWouldLeave) {
+  // (f − y) NoL of a Lambertian is linear in kd: the fit without a value is a quotient of sums.
+  const Table t = test::list_of({0.1, 0.12, 0.09, 0.2, 0.11, 0.1, 0.13});
+  const SampleAngles at(t);
+  double jj = 0, jy = 0;
+  std::vector<double> j, y;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double nol = at(i).nol;
+    j.push_back(nol / M_PI);
+    y.push_back(t.values[0][i] * nol);
+    jj += j[i] * j[i];
+    jy += j[i] * y[i];
+  }
+  const double kd = jy / jj;
+  double meat = 0, fourth = 0, moves = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double without = (jy - j[i] * y[i]) / (jj - j[i] * j[i]);
+    meat += std::pow(j[i] * (j[i] * without - y[i]), 2);
+    fourth += std::pow(j[i] * j[i] / jj, 2);
+    moves += std::pow(without - kd, 4) * jj * jj;
+  }
+  const auto m = test::bind("lambert", fmt::format("kd={:.17g}", kd), 1);
+  const Sampling s(t, Bins::centre, Metric::l2_cosine, 0, false);
+  const Influences influences(ArrowMatrix{jj}, {0});
+  for (const bool in_float : {false, true}) {
+    const auto a = assess(s, m, FreeSlots({true}), no_huber, false, &influences, in_float).sandwich;
+    const double digits = in_float ? 1e-4 : 1e-10;
+    EXPECT_NEAR(a.meat(0, 0) / meat, 1, digits);
+    EXPECT_NEAR(a.fourth[0] / fourth, 1, digits);
+    EXPECT_NEAR(a.moves[0] / moves, 1, 10 * digits);
+    EXPECT_EQ(a.alone[0], 0);
+  }
+}
+
+TEST(Sandwich, LearnsNothingFromAValueThatAloneDeterminesSomething) {
+  // Of the second channel one value is left, which its kd follows wherever it goes.
+  Table t = test::list_of({0.1, 0.12, 0.09, 0.2});
+  t.channels = {"a", "b"};
+  t.values.push_back(t.values[0]);
+  for (const std::size_t i : {0U, 1U, 3U}) t.values[1][i] = -1;
+  t.negative_is_noise = false;
+  const auto m = test::bind("lambert", "kd=0.3,0.282743", 2);
+  const FreeSlots free({true, true});
+  const Sampling s(t, Bins::centre, Metric::log, 0, false);
+  const auto bread = assess(s, m, free, no_huber, false).sandwich.bread;
+  const Influences influences(bread, {0, 1});
+  const auto a = assess(s, m, free, no_huber, false, &influences).sandwich;
+  EXPECT_EQ(a.meat(1, 1), 0);
+  EXPECT_NEAR(a.alone[1], 1, 1e-12);
+  EXPECT_NEAR(a.fourth[1], 1, 1e-12);
+  EXPECT_EQ(a.alone[0], 0);
+  EXPECT_NEAR(a.fourth[0], 1.0 / 4, 1e-12);
+}
+
+TEST(Sandwich, IsTheSameWithChannelsAsArms) {
+  constexpr std::size_t channels = 20;
+  const auto m = bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                            parse_settings(std::vector<std::string>{"alpha=0.3"}), channels);
+  const Table t = synthesize(m, {.layout = Layout::random, .samples = 100, .noise = 0.1});
+  const Sampling s(t, Bins::centre, Metric::l2_cosine, 0, false);
+  const std::vector<bool> all(m.model.value_count, true);
+  const FreeSlots dense(all), arrow(m.model, all);
+  ASSERT_EQ(arrow.layout()->arms().size(), channels);
+  std::vector<std::size_t> determined;
+  for (std::size_t i = 0; i < dense.size(); ++i)
+    if (i != dense.index(m.model.find("kd")->first + 3)) determined.push_back(i);
+  const auto judged = [&](const FreeSlots& free) {
+    const auto bread = assess(s, m, free, no_huber, false).sandwich.bread;
+    const Influences influences(bread, determined);
+    return assess(s, m, free, no_huber, false, &influences).sandwich;
+  };
+  const auto a = judged(dense), b = judged(arrow);
+  for (const std::size_t i : determined) {
+    EXPECT_NEAR(b.meat(i, i) / a.meat(i, i), 1, 1e-9) << i;
+    EXPECT_NEAR(b.fourth[i] / a.fourth[i], 1, 1e-9) << i;
+    EXPECT_NEAR(b.moves[i] / a.moves[i], 1, 1e-9) << i;
+  }
+}
+
+TEST(Assessment, CutsManyIncidentAnglesOfAListToWholeDegrees) {
+  std::vector<double> values(361, 0.1);
+  const auto m = test::bind("lambert", "kd=0.3", 1);
+  const auto angles = [&](const Table& t) {
+    return assess(Sampling(t, Bins::centre, Metric::log, 0, false), m, FreeSlots({true}), no_huber,
+                  true)
+        .incident_angles;
+  };
+  EXPECT_EQ(angles(test::list_of(values)), 61U);  // from 10 to 70°
+  values.pop_back();
+  EXPECT_EQ(angles(test::list_of(values)), 360U);
 }
 
 }  // namespace

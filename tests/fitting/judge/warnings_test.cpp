@@ -59,11 +59,9 @@ TEST(Warnings, SaysWhenTheModelDoesNotDescribeTheTable) {
   EXPECT_TRUE(fit_synthetic(metal, settings, {.layout = Layout::random}).document.warnings.empty());
 }
 
-TEST(Warnings, EnoughAnglesAreEightAndTwoForEachUnknown) {
-  EXPECT_TRUE(enough_angles(8, 1));
-  EXPECT_FALSE(enough_angles(7, 1));
-  EXPECT_TRUE(enough_angles(10, 5));
-  EXPECT_FALSE(enough_angles(9, 5));
+TEST(Warnings, EnoughAnglesAreEight) {
+  EXPECT_TRUE(enough_angles(8));
+  EXPECT_FALSE(enough_angles(7));
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ TEST(Folding, InFloatLosesSixDigitsAtMost) {
       EXPECT_NEAR(f.g[i], e.g[i], 2e-5 * std::sqrt(e.cost * e.h(i, i)));
       EXPECT_NEAR(f.h(i, i), e.h(i, i), 2e-5 * e.h(i, i));
     }
-    const auto a = assess(s, c.at_off(), c.free, no_huber, true, false);
-    const auto b = assess(s, c.at_off(), c.free, no_huber, true, true);
+    const auto a = assess(s, c.at_off(), c.free, no_huber, true, nullptr, false);
+    const auto b = assess(s, c.at_off(), c.free, no_huber, true, nullptr, true);
     EXPECT_NEAR(a.residuals.log_rms, b.residuals.log_rms, 1e-5 * a.residuals.log_rms);
     for (std::size_t i = 0; i < 8; ++i)
       EXPECT_NEAR(test::meat(a.sandwich, i, i), test::meat(b.sandwich, i, i),
