@@ -12,6 +12,7 @@
 #include "fitting/judge/bin_sensitivity.h"
 #include "fitting/judge/lack_of_fit.h"
 #include "fitting/judge/physics.h"
+#include "fitting/judge/seen.h"
 #include "fitting/judge/uncertainty.h"
 #include "fitting/judge/undetermined.h"
 #include "fitting/judge/warnings.h"
@@ -122,8 +123,9 @@ FitResult fit(const Table& t,
   Uncertainty u = judged.uncertainty;
   const LackOfFit lack =
       lack_of_fit(sampling, p, f, a.counts.used, judged.clusters > 0);
-  const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, u);
   widen(u, lack);
+  const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, u);
+  keep_to_what_is_seen(t, p, f.model.values, u);
   watch.lap("errors_ms");
 
   FitDocument d;

@@ -563,6 +563,7 @@ LackOfFit lack_of_fit(
 
 void widen(Uncertainty& u, const LackOfFit& l) {
   for (double& e : u.std_error) e *= l.widening;
+  for (double& v : u.variance) v *= l.widening * l.widening;
 }
 
 }  // namespace gonio

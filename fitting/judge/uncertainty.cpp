@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "fitting/judge/arrow_inverse.h"
 
@@ -200,6 +201,15 @@ class Covariance {
 
 }  // namespace
 
+double student_t_950(double nu) {
+  return boost::math::quantile(boost::math::students_t(nu), 0.95);
+}
+
+Uncertainty::Uncertainty(std::size_t n)
+    : status(n, ParameterStatus::free), reason(n), correlations(n, std::vector<double>(n, nan)) {
+  for (auto* x : {&std_error, &t, &low, &high, &limit, &freedom, &variance}) x->assign(n, nan);
+}
+
 double student_t_975(double nu) {
   return boost::math::quantile(boost::math::students_t(nu), 0.975);
 }
@@ -213,11 +223,15 @@ Determined find_determined(const ArrowMatrix& bread,
   const auto range = [&](std::size_t i) { return bounds.high[i] - bounds.low[i]; };
   const auto effect = [&](std::size_t i) { return bread(i, i) * range(i) * range(i); };
   double strongest = 0;
-  for (std::size_t i = 0; i < n; ++i) strongest = std::max(strongest, effect(i));
+  const auto at_bound = [&](std::size_t i) {
+    const double near = 1e-7 * range(i);
+    return x[i] <= bounds.low[i] + near || x[i] >= bounds.high[i] - near;
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    if (!at_bound(i)) strongest = std::max(strongest, effect(i));
   std::vector<std::size_t> known;
   for (std::size_t i = 0; i < n; ++i) {
-    const double near = 1e-7 * range(i);
-    if (x[i] <= bounds.low[i] + near || x[i] >= bounds.high[i] - near)
+    if (at_bound(i))
       d.status[i] = ParameterStatus::at_bound;
     else if (!(effect(i) > 1e-18 * strongest))
       d.status[i] = ParameterStatus::not_identifiable;
@@ -247,12 +261,12 @@ Uncertainty uncertainty(const Sandwich& s,
   const std::size_t n = x.size();
   Determined found = find_determined(s.bread, x, bounds);
   const auto& determined = found.unknowns;
-  Uncertainty u;
+  Uncertainty u(n);
   u.status = std::move(found.status);
   u.condition = found.condition;
-  u.std_error.assign(n, nan);
-  u.t.assign(n, nan);
-  u.correlations.assign(n, std::vector<double>(n, nan));
+  for (std::size_t i = 0; i < n; ++i)
+    if (u.status[i] == ParameterStatus::not_identifiable)
+      u.reason[i] = "other values of the rest make up for any change of it";
   if (determined.empty()) return u;
 
   const auto layout = std::make_shared<const ArrowLayout>(s.bread.layout().part(determined));
@@ -265,10 +279,19 @@ Uncertainty uncertainty(const Sandwich& s,
 
   for (std::size_t a = 0; a < determined.size(); ++a) {
     const std::size_t i = determined[a];
-    if (std::isnan(covariance.freedom(a))) continue;
+    if (std::isnan(covariance.freedom(a))) {
+      u.reason[i] = values_used <= determined.size() ? "no more values than unknowns"
+                    : s.clusters.empty()
+                        ? "one value alone determines it: no interval holds"
+                        : "one incident angle alone determines it: no interval holds";
+      continue;
+    }
+    u.freedom[i] = covariance.freedom(a);
+    u.variance[i] = variance[a] / bread(a, a);
     const double error = std::sqrt(variance[a]), t = student_t_975(covariance.freedom(a));
     if (2 * t * error >= bounds.high[i] - bounds.low[i]) {
       u.status[i] = ParameterStatus::not_identifiable;
+      u.reason[i] = "its interval is as wide as its range";
       continue;
     }
     u.std_error[i] = error;
@@ -286,6 +309,9 @@ Uncertainty wider(Uncertainty a, const Uncertainty& b) {
     a.status[i] = b.status[i];
     a.std_error[i] = b.std_error[i];
     a.t[i] = b.t[i];
+    a.reason[i] = b.reason[i];
+    a.freedom[i] = b.freedom[i];
+    a.variance[i] = b.variance[i];
   }
   return a;
 }

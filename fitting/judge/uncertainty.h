@@ -2,6 +2,7 @@
 /// \file
 /// Uncertainty of the parameters: how well the data determine them.
 
+#include <string>
 #include <vector>
 
 #include "fitting/judge/assess.h"
@@ -22,9 +23,19 @@ Determined find_determined(const ArrowMatrix& bread, std::span<const double> x, 
 
 /// Per free slot, in their order.
 struct Uncertainty {
+  Uncertainty() = default;
+  /// Nothing is known of that many.
+  explicit Uncertainty(std::size_t unknowns);
+
   std::vector<ParameterStatus> status;
   std::vector<double> std_error;  ///< NaN where not known
   std::vector<double> t;          ///< half width of the 95 % interval in standard errors
+  std::vector<double> low, high;  ///< ends of an interval that is not ± t standard errors; else NaN
+  std::vector<double> limit;  ///< one-sided 95 % bound of an upper_limit or lower_limit; else NaN
+  std::vector<std::string> reason;  ///< why there is no more than that; else empty
+  /// Degrees of freedom, and the variance of one value's residual for which the bread alone would give
+  /// that error; NaN where not known.
+  std::vector<double> freedom, variance;
   std::vector<std::vector<double>> correlations;  ///< NaN for what has no error
   double condition = 1;                           ///< see Determined
 };
@@ -47,5 +58,7 @@ Uncertainty wider(Uncertainty, const Uncertainty&);
 
 /// 97.5 % quantile of Student's t for ν > 0 degrees of freedom.
 double student_t_975(double degrees_of_freedom);
+/// 95 % quantile of the same.
+double student_t_950(double degrees_of_freedom);
 
 }  // namespace gonio

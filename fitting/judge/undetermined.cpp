@@ -3,6 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <string>
+
+#include "fitting/judge/arrow_inverse.h"
+#include "fitting/judge/profile.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -32,7 +39,157 @@ Problem diffuse_alone(const Problem& p) {
   return q;
 }
 
+/// Sum of squares of the residuals if the model were 0, or off by a factor e under logs.
+double signal(const FitData<double>& d, std::size_t channels) {
+  double squares = 0;
+  for (const auto& task : d.tasks)
+    for (const auto& b : task)
+      for (std::size_t c = 0; c < channels; ++c)
+        for (std::size_t i = 0; i < b.n; ++i) {
+          const double x = b.weight(c)[i] * (d.link == Link::log ? 1 : b.target(c)[i]);
+          squares += x * x;
+        }
+  return squares;
+}
+
+/// Ends of intervals by the cost itself, where a parabola is no likeness of it.
+class Ends {
+ public:
+  /// \param variance  of a value's residual   \param share  of the whole table that is looked at
+  Ends(const Problem& p,
+       const Profile& profile,
+       const Fitted& f,
+       double variance,
+       double share,
+       double freedom,
+       Uncertainty& u)
+      : problem_(p),
+        profile_(profile),
+        fitted_(f),
+        share_(share),
+        freedom_(std::max(freedom, 1.0)),
+        u_(u) {
+    // Of what has no error of its own the least well known one's.
+    for (const double v : u.variance)
+      if (v > variance) variance = v;
+    variance_ = variance;
+  }
+
+  /// Limit of what stands at a bound, unless it is pushed against that, or is not known to within its
+  /// range.
+  void find_limit(std::size_t i, double luck) const {
+    const double low = problem_.bounds.low[i], high = problem_.bounds.high[i];
+    const auto forget = [&] {
+      u_.status[i] = ParameterStatus::not_identifiable;
+      u_.reason[i] = fmt::format("any value from {:.3g} to {:.3g} does as well", low, high);
+    };
+    const double t = student_t_950(freedom(i)), much = t * t * variance(i) * share_;
+    const bool below = profile_.rise(i, low) < luck, above = profile_.rise(i, high) < luck;
+    if (below && above) return forget();
+    if (!below && !above) return find_ends(i);
+    u_.status[i] = below ? ParameterStatus::upper_limit : ParameterStatus::lower_limit;
+    u_.limit[i] = profile_.reach(i, below ? high : low, much);
+    u_.std_error[i] = u_.low[i] = u_.high[i] = nan;
+    u_.reason[i] =
+        fmt::format("values {} to {:.3g} do as well", below ? "down" : "up", below ? low : high);
+  }
+
+  /// Two ends.
+  void find_ends(std::size_t i) const {
+    const double t = student_t_975(freedom(i)), much = t * t * variance(i) * share_;
+    const double here = profile_.best().model.values[problem_.free.slots()[i]];
+    const double found = fitted_.model.values[problem_.free.slots()[i]];
+    u_.status[i] = ParameterStatus::free;
+    u_.low[i] = found + profile_.reach(i, problem_.bounds.low[i], much) - here;
+    u_.high[i] = found + profile_.reach(i, problem_.bounds.high[i], much) - here;
+    if (std::isnan(u_.std_error[i])) u_.std_error[i] = (u_.high[i] - u_.low[i]) / (2 * t);
+    u_.reason[i].clear();
+  }
+
+  /// True where the cost half-way to the ends of x ± t σ, all others moving along a straight line, is
+  /// that of a parabola to a fifth.
+  bool is_parabola(std::size_t i, const Accumulator<double>& accumulate) const {
+    const auto& best = profile_.best();
+    const auto& h = best.solution.at.h;
+    std::vector<std::size_t> moving;
+    for (std::size_t k = 0; k < h.size(); ++k)
+      if (!std::isnan(u_.std_error[k])) moving.push_back(k);
+    const auto layout = std::make_shared<const ArrowLayout>(h.layout().part(moving));
+    const ArrowInverse inverse(h.part(layout, moving));
+    const auto at = static_cast<std::size_t>(std::ranges::find(moving, i) - moving.begin());
+    // The interval of so many values as are looked at.
+    const double width = u_.t[i] * u_.std_error[i] / std::sqrt(share_);
+    for (const double step : {-width, width}) {
+      auto values = best.model.values;
+      for (std::size_t k = 0; k < moving.size(); ++k) {
+        const std::size_t slot = problem_.free.slots()[moving[k]];
+        values[slot] = std::clamp(values[slot] + step * inverse(k, at) / inverse(at, at),
+                                  problem_.bounds.low[moving[k]], problem_.bounds.high[moving[k]]);
+      }
+      const double rise = 2 * (accumulate.normal_equations(values).cost - best.solution.at.cost);
+      constexpr double alike = 0.2;
+      if (!(std::abs(rise / (step * step / inverse(at, at)) - 1) < alike)) return false;
+    }
+    return true;
+  }
+
+ private:
+  double freedom(std::size_t i) const {
+    return std::isnan(u_.freedom[i]) ? freedom_ : u_.freedom[i];
+  }
+  double variance(std::size_t i) const {
+    return std::isnan(u_.variance[i]) ? variance_ : u_.variance[i];
+  }
+
+  const Problem& problem_;
+  const Profile& profile_;
+  const Fitted& fitted_;
+  double variance_, share_, freedom_;
+  Uncertainty& u_;
+};
+
+/// True where a parameter at its bound would lower the cost beyond it by more than noise does.
+bool is_pushed(const NormalEquations& e, std::size_t i, double left, double rounding) {
+  if (!(e.h(i, i) > 0)) return false;
+  const double gain = e.g[i] * e.g[i] / e.h(i, i);
+  const double variance = std::max((2 * e.cost - gain) / std::max(left, 1.0), rounding);
+  return gain > 3.84 * variance;
+}
+
+/// Takes all lobes' values where the diffuse terms alone, fitted anew, cost no more than `luck` more.
+bool forget_needless_lobes(const Problem& p,
+                           const FitData<double>& thin,
+                           const Fitted& f,
+                           double cost,
+                           double luck,
+                           Uncertainty& u) {
+  if (p.start.model.diffuse.empty() || p.start.model.lobes.empty()) return false;
+  const Problem rest = diffuse_alone(p);
+  const double without =
+      minimise(rest, thin, {rest.start.model, f.model.values, {}}, f.huber).solution.at.cost;
+  if (2 * (without - cost) >= luck) return false;
+  forget_lobes(p, u, Lobes::whole, "without the lobe the model meets the table as well");
+  return true;
+}
+
 }  // namespace
+
+void forget_lobes(const Problem& p, Uncertainty& u, Lobes part, const std::string& why) {
+  for (const auto& l : p.start.model.lobes)
+    for (const auto* t : {&l.ndf, &l.masking, &l.fresnel}) {
+      if (part == Lobes::fresnel && t != &l.fresnel) continue;
+      for (const std::size_t k : t->parameters) {
+        const auto& q = p.start.model.parameters[k];
+        for (std::size_t s = q.first; s < q.first + q.count; ++s) {
+          if (!p.free.mask()[s]) continue;
+          const std::size_t i = p.free.index(s);
+          u.status[i] = ParameterStatus::not_identifiable;
+          u.std_error[i] = u.low[i] = u.high[i] = u.limit[i] = nan;
+          u.reason[i] = why;
+        }
+      }
+    }
+}
 
 bool find_undetermined(const Problem& p,
                        const FitData<double>& thin,
@@ -44,18 +201,19 @@ bool find_undetermined(const Problem& p,
   const std::size_t n = p.free.size();
   if (thin.counts.used == 0) return false;
   const double count = static_cast<double>(thin.counts.used);
-  double effect = 0;  // rounding is not evidence: residuals below 1e-7 of what a parameter can do
-  for (std::size_t i = 0; i < n; ++i) {
-    const double range = p.bounds.high[i] - p.bounds.low[i];
-    effect = std::max(effect, here.h(i, i) * range * range);
-  }
-  const double variance = std::max(2 * here.cost, 1e-14 * effect) / count;
+  // Rounding is not evidence: residuals below 1e-7 of what there is to describe.
+  const double rounding = 1e-14 * signal(thin, p.start.model.channels) / count;
+  const double variance = std::max(2 * here.cost / count, rounding);
   const double share = static_cast<double>(thin.groups) / static_cast<double>(f.groups);
   const double luck = (3.84 + 2 * std::log(static_cast<double>(values_used))) * share;
   const auto costs = accumulate.channel_costs(f.model.values);
-  const auto forget = [&](std::size_t i) {
+  std::vector<bool> had_range(n);  // in which it is known no better: a limit may be
+  for (std::size_t i = 0; i < n; ++i)
+    had_range[i] = u.status[i] == ParameterStatus::not_identifiable && !std::isnan(u.freedom[i]);
+  const auto forget = [&](std::size_t i, std::string why) {
     u.status[i] = ParameterStatus::not_identifiable;
     u.std_error[i] = nan;
+    u.reason[i] = std::move(why);
   };
   for (const auto& q : p.start.model.parameters) {
     std::vector<std::size_t> asked;
@@ -79,22 +237,31 @@ bool find_undetermined(const Problem& p,
       for (std::size_t k = 0; k < q.count; ++k) most[k] = std::max(most[k], std::abs(change[k]));
     }
     for (const std::size_t s : asked)
-      if (2 * most[s - q.first] < luck * variance) forget(p.free.index(s));
+      if (2 * most[s - q.first] < luck * variance)
+        forget(p.free.index(s), "moved over its whole range it changes no more than luck does");
   }
 
-  if (p.start.model.diffuse.empty() || p.start.model.lobes.empty()) return false;
-  const Problem rest = diffuse_alone(p);
-  const double without =
-      minimise(rest, thin, {rest.start.model, f.model.values, {}}, f.huber).solution.at.cost;
-  if (2 * (without - here.cost) >= luck * variance) return false;
-  for (const auto& l : p.start.model.lobes)
-    for (const auto* t : {&l.ndf, &l.masking, &l.fresnel})
-      for (const std::size_t k : t->parameters) {
-        const auto& q = p.start.model.parameters[k];
-        for (std::size_t s = q.first; s < q.first + q.count; ++s)
-          if (p.free.mask()[s]) forget(p.free.index(s));
-      }
-  return true;
+  if (forget_needless_lobes(p, thin, f, here.cost, luck * variance, u)) return true;
+
+  // What is left has a value with an interval, or a limit.
+  constexpr std::size_t many = 32;  // unknowns, each of which would take fits of all the others
+  if (n > many) return false;
+  const Profile profile(p, thin, f);
+  const double left = count / share - static_cast<double>(n);
+  const Ends ends(p, profile, f, variance, share, left, u);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (u.status[i] == ParameterStatus::at_bound) {
+      if (!p.narrowed[i] && !is_pushed(here, i, count - static_cast<double>(n), rounding))
+        ends.find_limit(i, luck * variance);
+    } else if (u.status[i] == ParameterStatus::not_identifiable && had_range[i]) {
+      ends.find_limit(i, luck * variance);
+    } else if (!std::isnan(u.std_error[i])) {
+      const double x = f.model.values[p.free.slots()[i]], width = u.t[i] * u.std_error[i];
+      constexpr double small = 0.03;  // of the value: no cost bends within so little
+      if (width > small * std::abs(x) && !ends.is_parabola(i, accumulate)) ends.find_ends(i);
+    }
+  }
+  return false;
 }
 
 }  // namespace gonio

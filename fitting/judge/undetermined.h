@@ -1,12 +1,18 @@
 #pragma once
 /// \file
-/// Parameters of which the table knows nothing, though their errors are finite numbers.
+/// What is determined: a value with its interval, an upper or lower limit, or nothing.
+
+#include <string>
 
 #include "fitting/judge/uncertainty.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
 
 namespace gonio {
+
+enum class Lobes { whole, fresnel };
+/// Takes the values of all lobes, or of their Fresnel terms, away.
+void forget_lobes(const Problem&, Uncertainty&, Lobes, const std::string& why);
 
 /// Takes the value from parameters that can be anything: moved over its whole range, the others as
 /// they are, such a one lowers or raises the cost by no more than luck does.  A lobe that may be put
@@ -17,6 +23,13 @@ namespace gonio {
 /// The lobe as a whole is asked too: where the diffuse terms alone, fitted anew, do as well or better,
 /// nothing is known of it.  It may be unable to vanish: Schlick's F is 1 at 90° whatever f0 is.
 /// Returns whether that is so.
+///
+/// What is left and stands at a bound of all values there are, or has an interval as wide as its range,
+/// is held elsewhere, the others moved to where they are best.  Where only one end of the range costs
+/// more than luck does it has a limit, the one-sided 95 % bound; where neither does, nothing is known;
+/// else it has an interval.  What stands at a bound and is pushed against it, at_bound, has none of
+/// these.  An interval that is wide for its value, and within which the cost is not a parabola, becomes
+/// that of the values that cost less than t² variances of a value more [profile likelihood].
 /// \param thin  a thinned table   \param values_used  of the whole one
 bool find_undetermined(const Problem&,
                        const FitData<double>& thin,

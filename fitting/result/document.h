@@ -16,10 +16,10 @@
 
 namespace gonio {
 
-enum class ParameterStatus { free, fixed, at_bound, not_identifiable };
+enum class ParameterStatus { free, fixed, at_bound, not_identifiable, upper_limit, lower_limit };
 template <>
-inline constexpr std::array<std::string_view, 4> names_of<ParameterStatus>{
-    "free", "fixed", "at_bound", "not_identifiable"};
+inline constexpr std::array<std::string_view, 6> names_of<ParameterStatus>{
+    "free", "fixed", "at_bound", "not_identifiable", "upper_limit", "lower_limit"};
 
 /// One parameter, one entry per channel where it has channels.  NaN stands for "not known": the
 /// value and error of a parameter that is not identifiable, the error of a fixed one.
@@ -27,6 +27,8 @@ struct FittedParameter {
   std::string name;
   std::vector<double> value, std_error, ci95_low, ci95_high;
   std::vector<ParameterStatus> status;
+  std::vector<double> limit = {};        ///< one-sided 95 % bound of an upper or lower limit
+  std::vector<std::string> reason = {};  ///< why there is no value, interval or limit; else empty
 };
 
 struct FitSolver {

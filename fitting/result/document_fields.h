@@ -23,7 +23,11 @@ struct Description<FittedParameter> {
                               return ends;
                             }),
                             "ends of the 95 % confidence interval"),
-                      field("status", "", per_channel(&FittedParameter::status), "")};
+                      field("status", "", per_channel(&FittedParameter::status), ""),
+                      field("limit", "", per_channel(&FittedParameter::limit),
+                            "one-sided 95 % bound where the status is upper_limit or lower_limit"),
+                      field("reason", "", per_channel(&FittedParameter::reason),
+                            "why no more is known; empty where the value has its interval")};
   }
 };
 

@@ -28,9 +28,9 @@ function flags(t) {
   if (!t.parameters) return [[words(t.status), t.message]];
   if (t.status !== "ok") out.push([words(t.status), t.message]);
   if (t.log_rms > misfit) out.push([`off by ×/÷\u202f${ratio(t.log_rms).slice(1)}`, "model and table differ by this typical factor"]);
-  for (const status of ["not_identifiable", "at_bound"]) {
+  for (const status of ["not_identifiable", "upper_limit", "lower_limit", "at_bound"]) {
     const which = Object.entries(t.parameters).filter(([name, p]) => !name.startsWith("roughness") && list_of(p.status).includes(status)).map(([name]) => name);
-    if (which.length) out.push([`${which.join(", ")} ${words(status)}`, status === "at_bound" ? "the best value may lie beyond the bound" : "the data do not determine it"]);
+    if (which.length) out.push([`${which.join(", ")} ${words(status)}`, status === "at_bound" ? "the best value may lie beyond the bound" : status === "not_identifiable" ? "the data do not determine it" : "the data tell one end alone"]);
   }
   const rest = t.warnings.filter((w) => !w.startsWith("model and table differ"));
   if (rest.length) out.push([many(rest.length, "warning"), rest.join("\n")]);

@@ -13,7 +13,7 @@ function parameter_rows() {
     return values.map((value, c) => ({
       name, channel: values.length > 1 ? c : null, first: c === 0,
       label: values.length > 1 ? `${name}.${channels[c]}` : name,
-      value, error: errors[c], status: states[c], low: intervals[c]?.[0], high: intervals[c]?.[1],
+      value, error: errors[c], status: states[c], limit: list_of(p.limit)[c], low: intervals[c]?.[0], high: intervals[c]?.[1],
       truth: true_value ? true_value[Math.min(c, true_value.length - 1)] : null,
     }));
   });
@@ -48,6 +48,8 @@ function warnings() {
   if (fit.solver.termination !== "converged") warn("Not converged.", fit.solver.message);
   const named = (status) => rows.filter((r) => r.status === status).map((r) => r.label).join(", ");
   if (named("not_identifiable")) warn("Not identifiable:", named("not_identifiable"), ". These data do not determine it; no value is given.");
+  const limits = rows.filter((r) => known(r.limit)).map((r) => `${r.label} ${r.status === "upper_limit" ? "at most" : "at least"} ${significant(r.limit, 3)}`);
+  if (limits.length) warn("Limits alone:", limits.join(", "), " (95 %): values up to the end of the range do as well.");
   if (named("at_bound")) warn("At a bound:", named("at_bound"), ". The best value may lie beyond it.");
   const tied = strongest_correlation();
   if (tied && Math.abs(tied.rho) > 0.95) warn("Hardly separable:", `${tied.a} and ${tied.b} (correlation ${minus(tied.rho.toFixed(3))}).`);

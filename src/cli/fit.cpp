@@ -39,8 +39,10 @@ void print(const FitDocument& d) {
     for (std::size_t c = 0; c < p.value.size(); ++c) {
       const std::string name =
           p.value.size() == 1 ? p.name : fmt::format("{}.{}", p.name, d.channels[c]);
-      say("{:<14}{:<28}{}\n", name, with_error(p.value[c], p.std_error[c]),
-          p.status[c] == ParameterStatus::free ? "" : name_of(p.status[c]));
+      std::string note(p.status[c] == ParameterStatus::free ? "" : name_of(p.status[c]));
+      if (!std::isnan(p.limit[c])) note += fmt::format(" {:.4g}", p.limit[c]);
+      if (!p.reason[c].empty()) note += (note.empty() ? "" : ": ") + p.reason[c];
+      say("{:<14}{:<28}{}\n", name, with_error(p.value[c], p.std_error[c]), note);
     }
   say("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}\n", d.residuals.log_rms,
       d.residuals.rms, d.intervals);

@@ -181,6 +181,11 @@ std::vector<Found> run(const Cell& c, std::size_t seeds) {
     for (const auto& r : results) {
       const auto& q = test::parameter(r.document, p.name);
       f.estimates.push_back(r.model.values[p.first]);
+      if (!std::isnan(q.limit[0])) {
+        ++f.told;
+        f.inside += q.status[0] == ParameterStatus::upper_limit ? x <= q.limit[0] : x >= q.limit[0];
+        continue;
+      }
       if (std::isnan(q.ci95_low[0])) {
         ++f.none;
         continue;

@@ -19,8 +19,7 @@ TEST(Description, GivesRoughnessTheErrorAndTheIntervalThatItsSquareHas) {
   FitOptions o;
   o.model = truth.model.spec;
   const Problem p = pose(t, o);
-  Uncertainty u;
-  u.status.assign(3, ParameterStatus::free);
+  Uncertainty u(3);
   u.std_error.assign(3, 0.008);
   u.t.assign(3, 2);
   FitDocument d;
@@ -45,8 +44,7 @@ TEST(Description, TellsNoValueOfWhatIsNotIdentifiableAndNoErrorOfWhatIsFixed) {
   o.model = truth.model.spec;
   o.fixed = parse_settings(std::vector<std::string>{"alpha=0.3"});
   const Problem p = pose(t, o);
-  Uncertainty u;
-  u.status.assign(4, ParameterStatus::free);
+  Uncertainty u(4);
   u.std_error.assign(4, 0.01);
   u.t.assign(4, 2);
   const std::size_t lost = p.free.index(truth.model.find("kd")->first + 1);

@@ -6,6 +6,7 @@
 
 #include "base/quantile.h"
 #include "brdf/model/evaluate.h"
+#include "table/health/computed.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +21,7 @@ struct Survey {
          highlight_to_deg = -1;       ///< θ_d of valid samples in the highlight
   double darkest = 0, brightest = 0;  ///< a hundredth of the values lies below, above [1/sr]
   double in_noise = 0;                ///< share of values below three times the noise floor
+  bool computed = false;              ///< see one_value_per_angle()
   double tail = 0;  ///< of a GGX lobe as wide as the highlight, where the base is, over its height
 };
 
@@ -39,6 +41,7 @@ Survey survey(const Table& t, const Health& h) {
   const std::size_t step = t.size() / 200'000 + 1;
   const double within = h.peak ? std::max(h.peak->half_width_deg, 3.0) : 3.0;
   Survey s;
+  s.computed = one_value_per_angle(t);
   std::vector<double> values;
   std::vector<Angles<double>> base;
   std::size_t in_noise = 0;
@@ -77,6 +80,15 @@ bool flat(const Health& h, const Survey& s) {
 
 Prospect alpha(const Health& h, const Survey& s) {
   const auto say = [](Verdict v, std::string why) { return Prospect{"alpha", v, std::move(why)}; };
+  if (s.computed)
+    return say(no,
+               "each incident angle holds one constant: the table was computed, and shows no lobe");
+  if (h.retro && h.peak)
+    return say(
+        weakly,
+        fmt::format("two highlights: the larger ({:.3g} 1/sr) sits at wo = wi, where a "
+                    "microfacet lobe has none; the other, at the half vector ({:.3g} 1/sr): {}",
+                    h.retro->height, h.peak->height, peak_in_words(*h.peak)));
   if (h.retro)
     return say(no,
                fmt::format("the highlight sits at wo = wi ({:.3g} 1/sr there) and not at the half "
@@ -102,6 +114,10 @@ Prospect alpha(const Health& h, const Survey& s) {
 Prospect f0(const Health& h, const Survey& s, Verdict of_alpha) {
   const auto say = [](Verdict v, std::string why) { return Prospect{"f0", v, std::move(why)}; };
   if (of_alpha == no) return say(no, "it scales a lobe that these values do not show");
+  if (h.retro)
+    return say(
+        no,
+        "it scales the smaller of two highlights; none of the larger, at wo = wi, is the lobe's");
   if (!h.peak) return say(weakly, "it scales a lobe that is hardly seen");
   if (h.peak->limit == PeakLimit::samples)
     return say(weakly,
@@ -127,6 +143,10 @@ Prospect fresnel(const Survey& s, Verdict of_alpha, bool highlight) {
 
 Prospect kd(const Health& h, const Survey& s) {
   const auto say = [](Verdict v, std::string why) { return Prospect{"kd", v, std::move(why)}; };
+  if (s.computed)
+    return say(weakly,
+               fmt::format("each incident angle holds one constant, from {:.3g} to {:.3g} 1/sr",
+                           s.darkest, s.brightest));
   if (!h.peak)
     return say(
         flat(h, s) ? yes : weakly,

@@ -13,9 +13,10 @@ namespace gonio {
 ///
 /// alpha: yes where a highlight around the half vector is resolved; weakly where it is narrower than
 ///   samples or bins can tell (an upper bound), or where there is none but the values are not flat; no
-///   where they are, without samples there, or for a retro-reflector.  Flat: 98 % of the values lie
+///   where they are, without samples there, for a retro-reflector, or where each incident angle holds
+///   one constant; weakly where a retro-reflector has a second highlight there.  Flat: 98 % of the values lie
 ///   within a factor of 1.25 beside what the noise makes.
-/// f0: as alpha, but weakly where the highlight is first seen beyond θ_d = 45°.
+/// f0: as alpha, but not for a retro-reflector, and weakly where the highlight is first seen beyond θ_d = 45°.
 /// fresnel, the rise towards grazing: yes where a highlight is sampled beyond θ_d = 75°, weakly
 ///   beyond 60°.
 /// kd: yes where the values are flat, or where at most a fifth of the base would be the tail of a GGX

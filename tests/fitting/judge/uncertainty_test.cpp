@@ -182,12 +182,10 @@ TEST(Uncertainty, KnowsNoErrorOfWhatOneClusterAloneDetermines) {
 }
 
 TEST(Uncertainty, IsTheWiderOfTwo) {
-  Uncertainty a{{ParameterStatus::free, ParameterStatus::free, ParameterStatus::free},
-                {1, 1, 1},
-                {2, 4, 2},
-                {},
-                1},
-      b = a;
+  Uncertainty a(3);
+  a.std_error = {1, 1, 1};
+  a.t = {2, 4, 2};
+  Uncertainty b = a;
   b.std_error = {3, 1.5, std::nan("")};
   b.t = {2, 2, 2};
   const auto w = wider(a, b);

@@ -3,9 +3,11 @@
 
 #include <cmath>
 
+#include "base/quantile.h"
 #include "fitting/fit.h"
 #include "fitting/support.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace gonio {
@@ -96,8 +98,7 @@ TEST(Undetermined, AsksForMoreThanTheLargestOfNNormalDeviatesMayGive) {
     const double low = p.bounds.low[0], high = p.bounds.high[0];
     for (const double part : {0.0, 0.03, 0.1, 0.3, 0.6, 1.0})
       most = std::max(most, std::abs(cost_at(low + part * (high - low)) - cost_at(0.3)));
-    Uncertainty u;
-    u.status = {ParameterStatus::free};
+    Uncertainty u(1);
     u.std_error = {0.1};
     find_undetermined(p, data, f, 200, u);
     return Looked{2 * most / (2 * cost_at(0.3) / count), u.status[0]};
@@ -114,6 +115,98 @@ TEST(Undetermined, AsksForMoreThanTheLargestOfNNormalDeviatesMayGive) {
   const double luck = 3.84 + 2 * std::log(count);  // 14.4
   EXPECT_EQ(with(0.9 * luck), ParameterStatus::not_identifiable);
   EXPECT_EQ(with(1.1 * luck), ParameterStatus::free);
+}
+
+TEST(Undetermined, KnowsALobeWhoseValuesReachDownToNothing) {
+  // Logarithms of values below 1e-50 follow kd without bound: that says nothing of other
+  // parameters.
+  struct Lobe {
+    const char *ndf, *settings;
+  };
+  for (const auto& [ndf, settings] :
+       {Lobe{"beckmann/smith_beckmann.correlated/schlick", "alpha=0.5,f0=0.5"},
+        Lobe{"beckmann/smith_beckmann.correlated/schlick", "alpha=0.3,f0=0.9"},
+        Lobe{"gtr/smith_ggx.correlated/schlick", "alpha=0.005,gamma=4,f0=0.5"}})
+    for (const Layout layout : {Layout::in_plane, Layout::hemisphere}) {
+      const auto truth = test::bind(ndf, settings, 3);
+      FitOptions o;
+      o.model = "lambert+" + truth.model.spec;
+      const auto d = fit(synthesize(truth, {.layout = layout, .noise = 0.02}), o).document;
+      EXPECT_NEAR(d.residuals.log_rms, 0.02, 0.003) << settings;
+      for (const auto& p : truth.model.parameters) {
+        const auto& q = parameter(d, p.name);
+        EXPECT_EQ(q.status[0], ParameterStatus::free) << settings << " " << p.name;
+        EXPECT_NEAR(q.value[0], truth.values[p.first], 5 * q.std_error[0])
+            << settings << " " << p.name;
+      }
+      const auto& kd = parameter(d, "kd");
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_EQ(kd.status[c], ParameterStatus::upper_limit) << settings;
+        EXPECT_LT(kd.limit[c], 1e-4) << settings;
+        EXPECT_GT(kd.limit[c], kd.value[c]) << settings;
+      }
+    }
+}
+
+TEST(Undetermined, LimitsHoldAsOftenAsTheySay) {
+  // kd at the edge of what the noise hides.
+  const double kd = 0.0015;
+  const auto truth = test::bind("lambert+ggx/smith_ggx.correlated/schlick",
+                                fmt::format("alpha=0.4,f0=0.3,kd={}", kd), 1);
+  FitOptions o;
+  o.model = truth.model.spec;
+  std::size_t limits = 0, holds = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    const auto d =
+        fit(synthesize(truth,
+                       {.layout = Layout::random, .samples = 80, .noise = 0.1, .seed = seed}),
+            o)
+            .document;
+    const auto& q = parameter(d, "kd");
+    ++all;
+    if (q.status[0] == ParameterStatus::upper_limit) {
+      ++limits;
+      EXPECT_TRUE(std::isnan(q.std_error[0]));
+      holds += kd <= q.limit[0];
+    } else {
+      holds += q.ci95_low[0] <= kd && kd <= q.ci95_high[0];
+    }
+  }
+  EXPECT_GE(limits, 15U);
+  EXPECT_LE(limits, 135U);
+  // A binomial of 150 at 95 % lies in [133, 149] with 99.8 % probability.
+  EXPECT_GE(holds, 133U);
+}
+
+TEST(Undetermined, WhatIsPushedAgainstItsBoundHasNoLimit) {
+  const auto bright = test::bind("lambert", "kd=1", 1);
+  Table t = synthesize(bright, {.layout = Layout::random, .samples = 200, .noise = 0.05});
+  FitOptions o;
+  o.model = "lambert";
+  EXPECT_NE(parameter(fit(t, o).document, "kd").status[0], ParameterStatus::at_bound);
+  for (auto& v : t.values[0]) v *= 1.1;
+  EXPECT_EQ(parameter(fit(t, o).document, "kd").status[0], ParameterStatus::at_bound);
+}
+
+TEST(Undetermined, TakesTheCostsOwnIntervalWhereItIsNoParabola) {
+  // A tail's exponent: the larger, the less of it is left to see.
+  const auto truth =
+      test::bind("lambert+gtr/smith_ggx.correlated/schlick", "alpha=0.2,gamma=2,f0=0.1,kd=0.1", 1);
+  FitOptions o;
+  o.model = truth.model.spec;
+  std::vector<double> longer;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    const auto d =
+        fit(synthesize(truth,
+                       {.layout = Layout::random, .samples = 60, .noise = 0.15, .seed = seed}),
+            o)
+            .document;
+    const auto& gamma = parameter(d, "gamma");
+    if (gamma.status[0] != ParameterStatus::free) continue;
+    longer.push_back((gamma.ci95_high[0] - gamma.value[0]) / (gamma.value[0] - gamma.ci95_low[0]));
+  }
+  ASSERT_GE(longer.size(), 5U);
+  EXPECT_GT(median(longer), 1.1);
 }
 
 }  // namespace

@@ -15,13 +15,15 @@ FitDocument example() {
   using enum ParameterStatus;
   FitDocument d;
   d.model = "lambert+ggx/smith_ggx.correlated/schlick";
-  d.parameters = {{"alpha", {0.25}, {0.01}, {0.23}, {0.27}, {free}},
+  d.parameters = {{"alpha", {0.25}, {0.01}, {0.23}, {0.27}, {free}, {none}, {""}},
                   {"f0",
                    {0.04, none, 1},
                    {1e-3, none, none},
                    {0.03, none, none},
                    {0.05, none, none},
-                   {free, not_identifiable, at_bound}}};
+                   {free, not_identifiable, at_bound},
+                   {none, none, none},
+                   {"", "why", ""}}};
   d.metric = "log";
   d.residuals = {0.1, 0.2, {{"theta_i", 0, 30, 12, 0.1, 0.2}}};
   d.free_names = {"alpha", "f0.r"};
@@ -43,7 +45,9 @@ TEST(FitDocument, FollowsTheContract) {
   const auto text = without_space(to_json(example()));
   EXPECT_HAS(text,
              R"({"schema":"gonio.fit/1","model":"lambert+ggx/smith_ggx.correlated/schlick",)");
-  EXPECT_HAS(text, R"("alpha":{"value":0.25,"std_error":0.01,"ci95":[0.23,0.27],"status":"free"})");
+  EXPECT_HAS(
+      text,
+      R"("alpha":{"value":0.25,"std_error":0.01,"ci95":[0.23,0.27],"status":"free","limit":null,"reason":""})");
   EXPECT_HAS(text, R"("f0":{"value":[0.04,null,1.0],"std_error":[0.001,null,null],)");
   EXPECT_HAS(text, R"("ci95":[[0.03,0.05],[null,null],[null,null]],)");
   EXPECT_HAS(text, R"("status":["free","not_identifiable","at_bound"])");

@@ -1,0 +1,44 @@
+#include "fitting/judge/seen.h"
+
+#include "brdf/model/roughness.h"
+#include "fitting/judge/undetermined.h"
+#include "table/health/computed.h"
+#include "table/health/health.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+
+void keep_to_what_is_seen(const Table& t,
+                          const Problem& p,
+                          std::span<const double> values,
+                          Uncertainty& u) {
+  if (p.start.model.lobes.empty()) return;
+  if (one_value_per_angle(t)) {
+    forget_lobes(p, u, Lobes::whole, "each incident angle holds one constant: a computed table");
+    return;
+  }
+  if (const auto retro = retro_peak(t)) {
+    forget_lobes(p, u, Lobes::fresnel,
+                 fmt::format("the larger highlight ({:.3g} 1/sr) is at wo = wi, and none of it is "
+                             "this lobe's",
+                             retro->height));
+    return;
+  }
+  if (t.truth) return;
+  for (const auto& q : p.start.model.parameters) {
+    // Looking for the peak takes as long as a fit.
+    if (!is_alpha(q.name) || !p.free.mask()[q.first] || values[q.first] >= 0.1) continue;
+    const std::size_t i = p.free.index(q.first);
+    if (u.status[i] != ParameterStatus::free && u.status[i] != ParameterStatus::at_bound) continue;
+    const auto peak = find_peak(t, t.bins()).peak;
+    if (!peak || peak->resolved) return;
+    u.status[i] = ParameterStatus::upper_limit;
+    u.limit[i] = peak->alpha;
+    u.std_error[i] = std::nan("");
+    u.reason[i] = "the samples do not resolve the highlight";
+    return;  // it is the narrowest lobe's
+  }
+}
+
+}  // namespace gonio

@@ -1,0 +1,46 @@
+#include "table/health/computed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "base/quantile.h"
+
+namespace gonio {
+
+bool one_value_per_angle(const Table& t) {
+  const DirectionList* l = t.list();
+  if (!l) return false;
+  constexpr std::size_t few = 8;  // values that may be alike by chance
+  constexpr double alike = 1e-3, other = 1e-2;
+  const SampleAngles at(t);
+  std::map<std::pair<long, long>, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto key =
+        std::pair(std::lround(1000 * l->theta_i_deg[i]), std::lround(1000 * l->phi_i_deg[i]));
+    groups[key].push_back(i);
+    if (groups.size() * few > t.size()) return false;
+  }
+  for (const auto& plane : t.values) {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const auto& [key, samples] : groups) {
+      std::vector<double> values;
+      for (const std::size_t i : samples)
+        if (mask(at(i), plane[i]) == Mask::valid) values.push_back(plane[i]);
+      if (values.size() < few) return false;
+      const double middle = median(values);
+      const auto same = std::ranges::count_if(
+          values, [&](double v) { return std::abs(v - middle) <= alike * middle; });
+      if (20 * same < 19 * std::ssize(values)) return false;
+      least = std::min(least, middle);
+      most = std::max(most, middle);
+    }
+    if (!(most > least * (1 + other))) return false;
+  }
+  return !groups.empty();
+}
+
+}  // namespace gonio
