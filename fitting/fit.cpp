@@ -121,8 +121,7 @@ FitResult fit(const Table& t,
   const Judged judged = judge(sampling, p, f);
   const Assessment& a = judged.assessment;
   Uncertainty u = judged.uncertainty;
-  const LackOfFit lack =
-      lack_of_fit(sampling, p, f, a.counts.used, judged.clusters > 0);
+  const LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.used, judged.clusters > 0);
   widen(u, lack);
   const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, u);
   keep_to_what_is_seen(t, p, f.model.values, u);

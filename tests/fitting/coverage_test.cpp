@@ -221,7 +221,8 @@ void expect_covered(const std::vector<Cell>& cells, std::size_t seeds, double le
       if (f.rests_on_few()) {  // whose intervals may be wide, not narrow
         EXPECT_LE(f.width(), 4) << figures;
       } else {
-        EXPECT_LE(f.width(), 1.5) << figures;
+        // Of few seeds the spread itself is not known well: to 0.97/√n.
+        EXPECT_LE(f.width(), seeds < 1000 ? 1.5 * (1 + 2 / std::sqrt(seeds)) : 1.5) << figures;
         high.emplace_back(f.so_many(0.99), figures);
       }
       low.emplace_back(f.so_few(0.92), figures);
