@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "base/error.h"
@@ -101,9 +102,13 @@ FitResult fit(const Table& t,
 
   const Bins bins = t.bins();
   const bool reciprocal = is_reciprocal(p.start);
+  std::shared_ptr<const BoundModel> bulk;
   const auto sampling_of = [&](Bins convention) {
-    return Sampling(t, convention, o.metric, p.offset, reciprocal && !o.robust, o.copies);
+    Sampling s(t, convention, o.metric, p.offset, reciprocal && !o.robust, o.copies);
+    s.set_bulk(bulk);
+    return s;
   };
+  bulk = bulk_of(p, sampling_of(bins));
   const Sampling sampling = sampling_of(bins);
   Searched found = search(p, sampling, watch, announce);
   const Fitted& f = found.best;

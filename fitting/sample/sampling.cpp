@@ -93,6 +93,7 @@ Sampling::Sampling(const Table& t, Bins bins, Metric metric, double offset, bool
 
 Sampling Sampling::by(Metric metric, double offset) const {
   Sampling s = *this;
+  s.bulk_.reset();
   s.metric_ = metric;
   s.offset_ = metric == Metric::l2_cosine ? 0 : offset;
   return s;
@@ -152,6 +153,11 @@ BlockReader<F>::BlockReader(const Sampling& s,
   for (std::size_t m = 0; m < s.groups().widest(); ++m)
     nol_.push_back(Column<F>::for_overwrite(block));
   for (auto& a : angles_) a = Column<F>::for_overwrite(block);
+  if (const BoundModel* bulk = s.metric() == Metric::relative ? s.bulk() : nullptr) {
+    nothing_free_.assign(bulk->model.value_count, false);
+    bulk_ = std::make_unique<ModelDerivatives<F>>(bulk->model, nothing_free_, kernels<F>());
+    bulk_->set(std::vector<F>(bulk->values.begin(), bulk->values.end()));
+  }
   for (auto& v : values_)
     v = {Column<F>::for_overwrite(block), Column<F>::for_overwrite(block),
          Column<F>::for_overwrite(block)};
@@ -173,7 +179,23 @@ bool BlockReader<F>::next() {
   }
   for (std::size_t m = 0; m < sampling_.groups().widest(); ++m)
     for (std::size_t c = 0; c < sampling_.channels(); ++c) fill(m, c);
+  if (bulk_) limit_weights();
   return true;
+}
+
+template <class F>
+void BlockReader<F>::limit_weights() {
+  const auto offset = static_cast<F>(sampling_.offset());
+  bulk_->run(angles(), [&](std::size_t c) {
+    const F* const bulk = bulk_->channel(c).value;
+    for (std::size_t m = 0; m < sampling_.groups().widest(); ++m) {
+      auto& v = values_[m * sampling_.channels() + c];
+      for (std::size_t i = 0; i < n_; ++i) {
+        const F part = 2 * (v.target[i] + offset) / (bulk[i] + offset);
+        if (part < 1) v.weight[i] *= part;
+      }
+    }
+  });
 }
 
 /// The angles and samples of the next groups.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 
 #include "base/names.h"
 #include "brdf/kernel/kernels.h"
+#include "brdf/model/derivatives.h"
 #include "brdf/model/evaluate.h"
 #include "table/table.h"
 
@@ -98,6 +100,10 @@ class Sampling {
   Metric metric() const { return metric_; }
   /// Samples of this one, compared in another way.
   Sampling by(Metric, double offset) const;
+  /// Model of the data's bulk, for a robust fit; or null.  Under the relative metric a value below half of
+  /// what it says weighs no more than that half would: else the smallest outliers outweigh all others.
+  const BoundModel* bulk() const { return bulk_.get(); }
+  void set_bulk(std::shared_ptr<const BoundModel> bulk) { bulk_ = std::move(bulk); }
   double offset() const { return offset_; }  ///< of the log and relative metrics [1/sr]
   /// Offset that the link adds to f: a difference needs none.
   double link_offset() const { return metric_ == Metric::log ? offset_ : 0; }
@@ -114,6 +120,7 @@ class Sampling {
   Groups groups_;
   Metric metric_;
   double offset_, mean_weight_ = 1;
+  std::shared_ptr<const BoundModel> bulk_;
   std::vector<bool> copied_;  ///< [row]; empty: none is
 };
 
@@ -178,6 +185,7 @@ class BlockReader {
   void place_members(std::size_t row, std::size_t from);
   void gather(std::size_t member, const double* stored);
   void fill(std::size_t member, std::size_t channel);
+  void limit_weights();
 
   /// Groups of a block whose samples lie `step` apart; 0: anywhere, or absent.
   struct Run {
@@ -196,6 +204,8 @@ class BlockReader {
   std::vector<Column<F>> nol_;
   std::vector<Values> values_;
   Column<F> stored_, weight_, ones_;
+  std::unique_ptr<ModelDerivatives<F>> bulk_;  ///< where it limits the weights
+  std::vector<bool> nothing_free_;
   SampleCounts counts_;
 };
 

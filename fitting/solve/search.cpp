@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <tuple>
 #include <type_traits>
 
@@ -108,19 +107,6 @@ Fitted robustly(const Problem& p, const FitData<F>& thin, Fitted f) {
   return f;
 }
 
-/// Start of a robust fit, from the data's bulk: an outlier of a factor of a hundred is as far off as
-/// 4.6 among logarithms, but as 10⁴ squares among relative errors, whose minimum is then near f = 0.
-/// None where no value has a logarithm.
-template <class F>
-std::optional<Start> start_in_bulk(const Problem& p, const Sampling& sampling) {
-  const Sampling logs = sampling.by(Metric::log, p.offset);
-  const auto thin = fit_data<F>(logs, coarse_samples);
-  if (thin.counts.used == 0) return {};
-  const auto starts = find_starts(p, thin, no_huber);
-  Fitted f = robustly(p, thin, minimise(p, thin, {p.start.model, starts[0].values, {}}, no_huber));
-  return Start{f.solution.at.cost, std::move(f.model.values)};
-}
-
 /// Those starts of a thinned table that may be the best of all, as one with more samples tells.
 template <class F>
 std::vector<Start> best_of(const Problem& p, const FitData<F>& more, std::vector<Start> starts) {
@@ -150,9 +136,9 @@ Searched search_in(const Problem& p,
   watch.lap("columns_ms");
 
   announce("finding a start");
-  std::optional<Start> bulk;
-  if (p.options.robust && sampling.metric() != Metric::log) bulk = start_in_bulk<F>(p, sampling);
-  const auto starts = bulk ? std::vector{*bulk} : best_of(p, scan, find_starts(p, thin, no_huber));
+  const BoundModel* const bulk = sampling.bulk();
+  const auto starts =
+      bulk ? std::vector{Start{0, bulk->values}} : best_of(p, scan, find_starts(p, thin, no_huber));
   const auto fitted_from = [&](const Start& s) {
     BoundModel from{p.start.model, s.values, {}};
     if (bulk) return Fitted{std::move(from), no_huber, {}};
@@ -209,6 +195,17 @@ Fitted minimise(const Problem& p, const FitData<F>& data, BoundModel from, doubl
 
 template Fitted minimise(const Problem&, const FitData<float>&, BoundModel, double);
 template Fitted minimise(const Problem&, const FitData<double>&, BoundModel, double);
+
+std::shared_ptr<const BoundModel> bulk_of(const Problem& p, const Sampling& sampling) {
+  if (!p.options.robust || sampling.metric() == Metric::log) return nullptr;
+  // An outlier of a factor of a hundred is as far off as 4.6 among logarithms, but as 10⁴ squares
+  // among relative errors, whose minimum is then near f = 0.
+  const auto thin = fit_data<double>(sampling.by(Metric::log, p.offset), coarse_samples);
+  if (thin.counts.used == 0) return nullptr;
+  const auto starts = find_starts(p, thin, no_huber);
+  Fitted f = minimise(p, thin, {p.start.model, starts[0].values, {}}, no_huber);
+  return std::make_shared<const BoundModel>(robustly(p, thin, std::move(f)).model);
+}
 
 Searched search(Problem p,
                 const Sampling& sampling,

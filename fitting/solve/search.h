@@ -51,6 +51,10 @@ inline constexpr std::size_t scan_samples = 16384;
 
 struct Profile;
 
+/// Optimum of the data's bulk, from which a robust fit begins; null for others, and where no value has a
+/// logarithm.
+std::shared_ptr<const BoundModel> bulk_of(const Problem&, const Sampling&);
+
 struct Searched {
   Fitted best;
   double cost_of_fewer = std::numeric_limits<double>::infinity();  ///< of the model less one lobe

@@ -499,9 +499,9 @@ TEST(Coverage, HoldsForErrorsSharedByAnIncidentAngleOnlyWhenTheyAreClustered) {
   EXPECT_LE(coverage_of_kd(Intervals::independent, 40), 24U);
 }
 
-TEST(Robust, FitsTheBulk) {
+TEST(Robust, FitsTheBulkWhateverTheMetric) {
   for (const Layout layout : {Layout::in_plane, Layout::hemisphere, Layout::random})
-    for (const Metric metric : {Metric::log, Metric::l2_cosine})
+    for (const Metric metric : {Metric::log, Metric::relative, Metric::l2_cosine})
       for (const std::uint64_t seed : {1, 2}) {
         FitOptions o;
         o.metric = metric;
