@@ -161,7 +161,7 @@ std::vector<Row> right_models() {
     r.metric = metric;
     add(r, {0.01, 0.05});
   }
-  for (const Metric metric : {Metric::log, Metric::l2_cosine}) {
+  for (const Metric metric : {Metric::log, Metric::l2_cosine, Metric::relative}) {
     Row r = row;
     r.name = "paint, outliers";
     r.metric = metric;
@@ -278,6 +278,18 @@ TEST(LackOfFit, OfTooFewValuesIsNotKnownAndThatIsSaid) {
                                    {.layout = Layout::random, .samples = 6, .noise = 0.02}));
   EXPECT_FALSE(d.misfit.tested);
   EXPECT_TRUE(warned(d, "the values are too few to tell"));
+}
+
+TEST(LackOfFit, OfFewMeasuredAnglesIsToldThoughTheScaleOfEachIsLeftOpen) {
+  Table t = synthesize(test::bind("lambert+gtr/smith_ggx.correlated/schlick",
+                                  "alpha=0.3,gamma=1.2,f0=0.05,kd=0.05", 1),
+                       {.layout = Layout::hemisphere, .noise = 0.02});
+  t.truth.reset();  // as if measured
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (t.list()->theta_i_deg[i] > 40) t.values[0][i] = std::nan("");
+  const auto d = fit_of(t);
+  EXPECT_LE(d.clusters, 4U);
+  EXPECT_TRUE(d.misfit.told) << d.misfit.note;
 }
 
 TEST(LackOfFit, WidensTheIntervals) {
