@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fitting/judge/arrow_inverse.h"
-#include "fitting/judge/profile.h"
+#include "fitting/judge/profile_likelihood.h"
 
 #include <fmt/format.h>
 
@@ -57,7 +57,7 @@ class Ends {
  public:
   /// \param variance  of a value's residual   \param share  of the whole table that is looked at
   Ends(const Problem& p,
-       const Profile& profile,
+       const ProfileLikelihood& profile,
        const Fitted& f,
        double variance,
        double share,
@@ -142,7 +142,7 @@ class Ends {
   }
 
   const Problem& problem_;
-  const Profile& profile_;
+  const ProfileLikelihood& profile_;
   const Fitted& fitted_;
   double variance_, share_, freedom_;
   Uncertainty& u_;
@@ -246,7 +246,7 @@ bool find_undetermined(const Problem& p,
   // What is left has a value with an interval, or a limit.
   constexpr std::size_t many = 32;  // unknowns, each of which would take fits of all the others
   if (n > many) return false;
-  const Profile profile(p, thin, f);
+  const ProfileLikelihood profile(p, thin, f);
   const double left = count / share - static_cast<double>(n);
   const Ends ends(p, profile, f, variance, share, left, u);
   for (std::size_t i = 0; i < n; ++i) {

@@ -147,18 +147,20 @@ class Profiler {
                    rest_, held_, colours_.from_every_valley(cell.values, loosely).values, closely));
   }
 
-  /// Descents from the values of neighbours, where these do better than a cell's own.
+  /// Descents from the values of the lowest neighbour, where these do better than a cell's own: what
+  /// lies in a lower valley spreads from cell to cell, one for each sweep.
   void learn_from_neighbours(std::vector<ProfileCell>& cells) const {
     constexpr DescentOptions closely{12, 1e-5}, look{1, 0};
     const auto before = cells;
     tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
-      for (const std::size_t j : neighbours(i)) {
-        // A cell can be as low as its neighbour only where that one is lower.
-        if (!(before[j].cost < cells[i].cost)) continue;
-        const Start there = descended(rest_, held_, moved_to(cells[i], before[j].values), look);
-        if (there.cost < cells[i].cost)
-          take(cells[i], descended(rest_, held_, there.values, closely));
-      }
+      const auto around = neighbours(i);
+      const std::size_t lowest =
+          *std::ranges::min_element(around, {}, [&](std::size_t j) { return before[j].cost; });
+      // A cell can be as low as its neighbour only where that one is lower.
+      if (!(before[lowest].cost < cells[i].cost)) return;
+      const Start there = descended(rest_, held_, moved_to(cells[i], before[lowest].values), look);
+      if (there.cost < cells[i].cost)
+        take(cells[i], descended(rest_, held_, there.values, closely));
     });
   }
 

@@ -9,10 +9,10 @@
 
 namespace gonio {
 
-class Profile {
+class ProfileLikelihood {
  public:
   /// Keeps references.
-  Profile(const Problem&, const FitData<double>&, const Fitted&);
+  ProfileLikelihood(const Problem&, const FitData<double>&, const Fitted&);
 
   const Fitted& best() const { return best_; }  ///< of these data
   /// Rise of twice the cost with an unknown held at a value and all others moved to where they are best.

@@ -1,16 +1,16 @@
-#include "fitting/judge/profile.h"
+#include "fitting/judge/profile_likelihood.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace gonio {
 
-Profile::Profile(const Problem& p, const FitData<double>& data, const Fitted& f)
+ProfileLikelihood::ProfileLikelihood(const Problem& p, const FitData<double>& data, const Fitted& f)
     : problem_(p), data_(data), best_(minimise(p, data, f.model, f.huber)) {
   best_.huber = f.huber;
 }
 
-double Profile::rise(std::size_t unknown, double value) const {
+double ProfileLikelihood::rise(std::size_t unknown, double value) const {
   Problem q = problem_;
   auto mask = q.free.mask();
   const std::size_t slot = q.free.slots()[unknown];
@@ -34,7 +34,7 @@ double Profile::rise(std::size_t unknown, double value) const {
   return std::max(0.0, 2 * (cost - best_.solution.at.cost));
 }
 
-double Profile::reach(std::size_t unknown, double end, double much) const {
+double ProfileLikelihood::reach(std::size_t unknown, double end, double much) const {
   const double from = best_.model.values[problem_.free.slots()[unknown]];
   if (rise(unknown, end) < much) return end;
   // The root of the rise is nearly a straight line: steps along it, and halves where these leave

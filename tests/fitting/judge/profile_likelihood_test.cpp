@@ -1,5 +1,5 @@
 // The profile of the cost is that of fits with the parameter held.
-#include "fitting/judge/profile.h"
+#include "fitting/judge/profile_likelihood.h"
 
 #include <cmath>
 
@@ -32,9 +32,9 @@ struct Asked {
   }
 };
 
-TEST(Profile, OfAValueThatTheResidualsFollowLinearlyIsAParabola) {
+TEST(ProfileLikelihood, OfAValueThatTheResidualsFollowLinearlyIsAParabola) {
   const Asked a("lambert", test::list_of({0.1, 0.12, 0.09, 0.2, 0.11}), Metric::l2_cosine);
-  const Profile profile(a.problem, a.data, a.best);
+  const ProfileLikelihood profile(a.problem, a.data, a.best);
   const double kd = profile.best().model.values[0], h = profile.best().solution.at.h(0, 0);
   for (const double step : {-0.1, -0.02, 0.05, 0.2})
     EXPECT_NEAR(profile.rise(0, kd + step), h * step * step, 1e-9 * h) << step;
@@ -45,12 +45,12 @@ TEST(Profile, OfAValueThatTheResidualsFollowLinearlyIsAParabola) {
   EXPECT_NEAR(profile.reach(0, 1, h * 1e-12), kd + 1e-6, 0.02e-6);
 }
 
-TEST(Profile, MovesAllOthersToWhereTheyAreBest) {
+TEST(ProfileLikelihood, MovesAllOthersToWhereTheyAreBest) {
   const auto truth =
       test::bind("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.05,kd=0.2", 1);
   const Table t = synthesize(truth, {.layout = Layout::random, .samples = 300, .noise = 0.05});
   const Asked a("lambert+ggx/smith_ggx.correlated/schlick", t, Metric::log);
-  const Profile profile(a.problem, a.data, a.best);
+  const ProfileLikelihood profile(a.problem, a.data, a.best);
   const std::size_t alpha = a.problem.free.index(truth.model.find("alpha")->first);
   FitOptions held = a.options;
   held.fixed = parse_settings(std::vector<std::string>{"alpha=0.32"});
