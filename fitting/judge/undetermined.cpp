@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fitting/judge/arrow_inverse.h"
-#include "fitting/judge/profile_likelihood.h"
+#include "fitting/judge/cost_along.h"
 
 #include <fmt/format.h>
 
@@ -18,25 +18,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Problem of the model without its lobes.
 Problem diffuse_alone(const Problem& p) {
-  Problem q = p;
-  q.start.model.lobes.clear();
-  std::vector<bool> mask(p.free.mask().size(), false);
-  q.bounds = {};
-  q.narrowed.clear();
-  for (const auto& t : p.start.model.diffuse)
-    for (const std::size_t k : t.parameters) {
-      const auto& parameter = p.start.model.parameters[k];
-      for (std::size_t s = parameter.first; s < parameter.first + parameter.count; ++s)
-        mask[s] = p.free.mask()[s];
-    }
-  for (const std::size_t s : p.free.slots())
-    if (mask[s]) {
-      q.bounds.low.push_back(p.bounds.low[p.free.index(s)]);
-      q.bounds.high.push_back(p.bounds.high[p.free.index(s)]);
-      q.narrowed.push_back(p.narrowed[p.free.index(s)]);
-    }
-  q.free = FreeSlots(q.start.model, std::move(mask));
-  return q;
+  Model model = p.start.model;
+  model.lobes.clear();
+  const auto mask = slots_read(model);
+  return with_free(p, std::move(model), mask);
 }
 
 /// Sum of squares of the residuals if the model were 0, or off by a factor e under logs.
@@ -55,16 +40,19 @@ double signal(const FitData<double>& d, std::size_t channels) {
 /// Ends of intervals by the cost itself, where a parabola is no likeness of it.
 class Ends {
  public:
+  /// \param thin  a thinned table   \param best  fit of that   \param f  of the whole
   /// \param variance  of a value's residual   \param share  of the whole table that is looked at
   Ends(const Problem& p,
-       const ProfileLikelihood& profile,
+       const FitData<double>& thin,
+       const Fitted& best,
        const Fitted& f,
        double variance,
        double share,
        double freedom,
        Uncertainty& u)
       : problem_(p),
-        profile_(profile),
+        thin_(thin),
+        best_(best),
         fitted_(f),
         share_(share),
         freedom_(std::max(freedom, 1.0)),
@@ -84,11 +72,12 @@ class Ends {
       u_.reason[i] = fmt::format("any value from {:.3g} to {:.3g} does as well", low, high);
     };
     const double t = student_t_950(freedom(i)), much = t * t * variance(i) * share_;
-    const bool below = profile_.rise(i, low) < luck, above = profile_.rise(i, high) < luck;
+    CostAlong along(problem_, thin_, best_, i);
+    const bool below = along.rise(low, luck) < luck, above = along.rise(high, luck) < luck;
     if (below && above) return forget();
     if (!below && !above) return find_ends(i);
     u_.status[i] = below ? ParameterStatus::upper_limit : ParameterStatus::lower_limit;
-    u_.limit[i] = profile_.reach(i, below ? high : low, much);
+    u_.limit[i] = along.reach(below ? high : low, much);
     u_.std_error[i] = u_.low[i] = u_.high[i] = nan;
     u_.reason[i] =
         fmt::format("values {} to {:.3g} do as well", below ? "down" : "up", below ? low : high);
@@ -97,11 +86,12 @@ class Ends {
   /// Two ends.
   void find_ends(std::size_t i) const {
     const double t = student_t_975(freedom(i)), much = t * t * variance(i) * share_;
-    const double here = profile_.best().model.values[problem_.free.slots()[i]];
+    CostAlong along(problem_, thin_, best_, i);
+    const double here = best_.model.values[problem_.free.slots()[i]];
     const double found = fitted_.model.values[problem_.free.slots()[i]];
     u_.status[i] = ParameterStatus::free;
-    u_.low[i] = found + profile_.reach(i, problem_.bounds.low[i], much) - here;
-    u_.high[i] = found + profile_.reach(i, problem_.bounds.high[i], much) - here;
+    u_.low[i] = found + along.reach(problem_.bounds.low[i], much) - here;
+    u_.high[i] = found + along.reach(problem_.bounds.high[i], much) - here;
     if (std::isnan(u_.std_error[i])) u_.std_error[i] = (u_.high[i] - u_.low[i]) / (2 * t);
     u_.reason[i].clear();
   }
@@ -109,8 +99,7 @@ class Ends {
   /// True where the cost half-way to the ends of x ± t σ, all others moving along a straight line, is
   /// that of a parabola to a fifth.
   bool is_parabola(std::size_t i, const Accumulator<double>& accumulate) const {
-    const auto& best = profile_.best();
-    const auto& h = best.solution.at.h;
+    const auto& h = best_.solution.at.h;
     std::vector<std::size_t> moving;
     for (std::size_t k = 0; k < h.size(); ++k)
       if (!std::isnan(u_.std_error[k])) moving.push_back(k);
@@ -120,13 +109,13 @@ class Ends {
     // The interval of so many values as are looked at.
     const double width = u_.t[i] * u_.std_error[i] / std::sqrt(share_);
     for (const double step : {-width, width}) {
-      auto values = best.model.values;
+      auto values = best_.model.values;
       for (std::size_t k = 0; k < moving.size(); ++k) {
         const std::size_t slot = problem_.free.slots()[moving[k]];
         values[slot] = std::clamp(values[slot] + step * inverse(k, at) / inverse(at, at),
                                   problem_.bounds.low[moving[k]], problem_.bounds.high[moving[k]]);
       }
-      const double rise = 2 * (accumulate.normal_equations(values).cost - best.solution.at.cost);
+      const double rise = 2 * (accumulate.normal_equations(values).cost - best_.solution.at.cost);
       constexpr double alike = 0.2;
       if (!(std::abs(rise / (step * step / inverse(at, at)) - 1) < alike)) return false;
     }
@@ -142,7 +131,8 @@ class Ends {
   }
 
   const Problem& problem_;
-  const ProfileLikelihood& profile_;
+  const FitData<double>& thin_;
+  const Fitted& best_;
   const Fitted& fitted_;
   double variance_, share_, freedom_;
   Uncertainty& u_;
@@ -246,9 +236,10 @@ bool find_undetermined(const Problem& p,
   // What is left has a value with an interval, or a limit.
   constexpr std::size_t many = 32;  // unknowns, each of which would take fits of all the others
   if (n > many) return false;
-  const ProfileLikelihood profile(p, thin, f);
+  Fitted best = minimise(p, thin, f.model, f.huber);
+  best.huber = f.huber;
   const double left = count / share - static_cast<double>(n);
-  const Ends ends(p, profile, f, variance, share, left, u);
+  const Ends ends(p, thin, best, f, variance, share, left, u);
   for (std::size_t i = 0; i < n; ++i) {
     if (u.status[i] == ParameterStatus::at_bound) {
       if (!p.narrowed[i] && !is_pushed(here, i, count - static_cast<double>(n), rounding))
