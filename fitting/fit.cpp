@@ -126,14 +126,16 @@ FitResult fit(const Table& t,
   const Judged judged = judge(sampling, p, f);
   const Assessment& a = judged.assessment;
   Uncertainty u = judged.uncertainty;
+  watch.lap("errors_ms");
   // Of few angles only the scale of each is left open: all else would be.
   const bool shared =
       judged.clusters > 0 && (o.intervals == Intervals::by_angle || enough_angles(judged.clusters));
   const LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.used, shared);
   widen(u, lack);
+  watch.lap("misfit_ms");
   const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, u);
   keep_to_what_is_seen(t, p, f.model.values, u);
-  watch.lap("errors_ms");
+  watch.lap("limits_ms");
 
   FitDocument d;
   d.model = p.start.model.spec;

@@ -291,21 +291,32 @@ class Walk {
   void add_scores(const std::vector<Run>& runs, const Channel& x) {
     for (const auto& run : runs) {
       std::array<double, K> sum{};
-      std::array<double, K * K> products{};
-      for (std::size_t i = run.begin; i < run.end; ++i) {
-        if (score_[i] == 0 && slope_[i] == 0) continue;  // masked, with derivatives that may be NaN
-        std::array<double, K> j;
-        for (std::size_t p = 0; p < K; ++p) {
-          sum[p] += static_cast<double>(score_[i]) * static_cast<double>(x.j[p][i]);
-          j[p] = static_cast<double>(slope_[i]) * static_cast<double>(x.j[p][i]);
+      std::array<std::array<double, K>, K> products{};
+      // A few at a time in F, whose digits hold these.
+      constexpr std::size_t few = 16;
+      for (std::size_t from = run.begin; from < run.end; from += few) {
+        std::array<F, K> sum_of_few{};
+        std::array<std::array<F, K>, K> products_of_few{};
+        for (std::size_t i = from; i < std::min(run.end, from + few); ++i) {
+          if (score_[i] == 0 && slope_[i] == 0) continue;  // masked: its derivatives may be NaN
+          for (std::size_t p = 0; p < K; ++p) {
+            sum_of_few[p] += score_[i] * x.j[p][i];
+            const F j = slope_[i] * slope_[i] * x.j[p][i];
+            for (std::size_t q = p; q < K; ++q) products_of_few[p][q] += j * x.j[q][i];
+          }
         }
-        for (std::size_t p = 0; p < K; ++p)
-          for (std::size_t q = 0; q < K; ++q) products[p * K + q] += j[p] * j[q];
+        for (std::size_t p = 0; p < K; ++p) {
+          sum[p] += static_cast<double>(sum_of_few[p]);
+          for (std::size_t q = p; q < K; ++q)
+            products[p][q] += static_cast<double>(products_of_few[p][q]);
+        }
       }
       double* const score = part_.scores.data() + run.to * free_.size();
       double* const bread = part_.breads.data() + run.to * free_.layout()->entries();
       for (std::size_t p = 0; p < K; ++p) score[x.free[p]] += sum[p];
-      for (std::size_t e = 0; e < K * K; ++e) bread[x.entry[e]] += products[e];
+      for (std::size_t p = 0; p < K; ++p)
+        for (std::size_t q = 0; q < K; ++q)
+          bread[x.entry[p * K + q]] += products[std::min(p, q)][std::max(p, q)];
     }
   }
   using AddScores = void (Walk::*)(const std::vector<Run>&, const Channel&);
@@ -319,7 +330,7 @@ class Walk {
     const std::size_t k = x.free.size();
     if (k == 0) return;
     kernels_.gram[k + 1](in.padded(), score_, slope_, x.j.data(), bread_[c].lanes());
-    if (influences_) divide_by_leverage(in.size(), x);
+    if (influences_) divide_by_leverage(in.padded(), x);
     if (!by_angle_) {
       kernels_.gram[k + 1](in.padded(), score_, score_, x.j.data(), meat_[c].lanes());
       return;
@@ -330,38 +341,34 @@ class Walk {
 
   /// Sums of fourth powers, and each score over 1 − h.  A value that alone determines something has
   /// residual 0 whatever its error is: its score says nothing.
+  /// \param n  with the padding, where scores are 0
   void divide_by_leverage(std::size_t n, const Channel& x) {
     const auto& at = x.influence;
-    std::array<F, size> leverage{};
+    for (std::size_t k = 0; k < x.free.size(); ++k)
+      for (std::size_t i = 0; i < n; ++i)  // derivatives of masked values may be NaN
+        seen_[k][i] = score_[i] == 0 && slope_[i] == 0 ? F(0) : x.j[k][i];
     for (std::size_t r = 0; r < at.unknown.size(); ++r) {
       auto& beta = beta_[r];  // less the slope
       beta.fill(F(0));
       for (std::size_t k = 0; k < x.free.size(); ++k) {
         const auto factor = static_cast<F>(at.beta[r][k]);
         if (factor == 0) continue;
-        for (std::size_t i = 0; i < n; ++i)  // derivatives of masked values may be NaN
-          beta[i] += slope_[i] == 0 && score_[i] == 0 ? F(0) : factor * x.j[k][i];
+        for (std::size_t i = 0; i < n; ++i) beta[i] += factor * seen_[k][i];
       }
     }
+    std::array<F, size> leverage{};
     for (std::size_t k = 0; k < x.free.size(); ++k) {
       if (at.row[k] == Influences::none) continue;
       const auto factor = static_cast<F>(at.leverage[k]);
       const auto& beta = beta_[at.row[k]];
       for (std::size_t i = 0; i < n; ++i)
-        leverage[i] += slope_[i] == 0 ? F(0) : factor * slope_[i] * slope_[i] * x.j[k][i] * beta[i];
+        leverage[i] += factor * slope_[i] * slope_[i] * seen_[k][i] * beta[i];
     }
     constexpr F all = F(1) - F(1e-6);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (leverage[i] < all) {
-        score_[i] /= F(1) - leverage[i];
-        continue;
-      }
-      score_[i] = 0;
-      for (std::size_t r = 0; r < at.unknown.size(); ++r) {
-        const double beta = static_cast<double>(slope_[i]) * static_cast<double>(beta_[r][i]);
-        part_.alone[at.unknown[r]] += beta * beta;
-      }
-    }
+    std::int32_t lone = 0;
+    for (std::size_t i = 0; i < n; ++i) lone += leverage[i] < all ? 0 : 1;
+    if (lone > 0) leave_out_lone(n, leverage, at);
+    for (std::size_t i = 0; i < n; ++i) score_[i] /= F(1) - leverage[i];
     for (std::size_t r = 0; r < at.unknown.size(); ++r) {
       const std::size_t unknown = at.unknown[r], head = free_.layout()->within(unknown);
       const bool of_head =
@@ -376,17 +383,31 @@ class Walk {
       add(score_, part_.moves, part_.moves_by_arm);
     }
   }
-  /// Σ (a b)⁴, a few at a time in F.
-  static double fourth_powers(std::size_t n, const F* a, const F* b) {
-    constexpr std::size_t few = 64;
-    double sum = 0;
-    for (std::size_t from = 0; from < n; from += few) {
-      F part(0);
-      for (std::size_t i = from; i < std::min(n, from + few); ++i) {
-        const F square = a[i] * b[i] * a[i] * b[i];
-        part += square * square;
+  void leave_out_lone(std::size_t n, std::array<F, size>& leverage, const Influences::Channel& at) {
+    constexpr F all = F(1) - F(1e-6);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (leverage[i] < all) continue;
+      score_[i] = leverage[i] = 0;
+      for (std::size_t r = 0; r < at.unknown.size(); ++r) {
+        const double beta = static_cast<double>(slope_[i]) * static_cast<double>(beta_[r][i]);
+        part_.alone[at.unknown[r]] += beta * beta;
       }
-      sum += static_cast<double>(part);
+    }
+  }
+  /// Σ (a b)⁴ in lanes, which vector instructions add up side by side.
+  /// \param n  a multiple of the lanes
+  static double fourth_powers(std::size_t n, const F* a, const F* b) {
+    static_assert(size % padding == 0);
+    double sum = 0;
+    constexpr std::size_t few = 8 * padding;  // whose sum F holds
+    for (std::size_t from = 0; from < n; from += few) {
+      std::array<F, padding> lanes{};
+      for (std::size_t i = from; i < std::min(n, from + few); i += padding)
+        for (std::size_t l = 0; l < padding; ++l) {
+          const F move = a[i + l] * b[i + l], square = move * move;
+          lanes[l] += square * square;
+        }
+      for (const F lane : lanes) sum += static_cast<double>(lane);
     }
     return sum;
   }
@@ -420,7 +441,8 @@ class Walk {
   bool by_angle_;
   const IncidentKeys& keys_;
   const Influences* influences_;
-  std::vector<std::array<F, size>> beta_;  ///< [row]
+  std::vector<std::array<F, size>> beta_;              ///< [row]
+  std::array<std::array<F, size>, max_columns> seen_;  ///< derivatives, 0 where masked
   const Kernels<F>& kernels_;
   std::vector<F> values_;
   ModelDerivatives<F> derivatives_;
