@@ -226,7 +226,8 @@ std::size_t add_gains(Left& left) {
 struct Inverse {
   Matrix inverse;
   std::size_t rank = 0;
-  explicit Inverse(const Matrix& a) {
+  explicit Inverse(const Matrix& a) : inverse(a) {
+    if (a.size() == 0) return;  // nothing is free
     const Vector scale =
         a.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0; });
     const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scale.asDiagonal() * a * scale.asDiagonal());
@@ -259,11 +260,11 @@ class Scores {
       : width_(width), sums_(units * width), seen_(units) {}
   double* of(std::size_t unit) {
     seen_[unit] = true;
-    return &sums_[unit * width_];
+    return sums_.data() + unit * width_;
   }
   std::size_t count() const { return static_cast<std::size_t>(std::ranges::count(seen_, true)); }
   Eigen::Map<const Vector> at(std::size_t k) const {
-    return Eigen::Map<const Vector>(&sums_[k * width_], index(width_));
+    return Eigen::Map<const Vector>(sums_.data() + k * width_, index(width_));
   }
   Vector sum() const {
     Vector u = Vector::Zero(index(width_));

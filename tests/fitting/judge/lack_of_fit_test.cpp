@@ -315,5 +315,15 @@ TEST(LackOfFit, IsIncludedInTheIntervals) {
   EXPECT_GE(inside, 4U);
 }
 
+TEST(LackOfFit, OfAModelOfWhichNothingIsFreeIsTold) {
+  const Table t = synthesize(test::bind("lambert", "kd=0.2", 1), {.layout = Layout::in_plane});
+  FitOptions o;
+  o.model = "lambert";
+  o.fixed = {{"kd", {0.3}}};
+  const auto m = fit(t, o).document.misfit;
+  EXPECT_TRUE(m.told);
+  EXPECT_NEAR(m.size, 0.4, 0.1);
+}
+
 }  // namespace
 }  // namespace gonio
