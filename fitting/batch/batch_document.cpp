@@ -55,6 +55,10 @@ struct Description<BatchFit> {
   static constexpr auto values_used =
       field("values_used", "", &BatchFit::values_used, "values of the table that were fitted");
   static constexpr auto masked = field("masked", "", &BatchFit::masked, "values left out");
+  static constexpr auto misfit =
+      field("misfit", "", &BatchFit::misfit, "RMS of what follows the angles, of f");
+  static constexpr auto misfit_told =
+      field("misfit_told", "", &BatchFit::misfit_told, "whether that is more than luck");
 
   static constexpr auto fields() {
     return std::tuple{
@@ -66,6 +70,8 @@ struct Description<BatchFit> {
         cost,
         values_used,
         masked,
+        misfit,
+        misfit_told,
         field("warnings", "", &BatchFit::warnings, "sentences to know before believing the values"),
         field("time_ms", "ms", &BatchFit::time_ms, "time from reading to the result")};
   }
@@ -155,6 +161,8 @@ BatchFit read_fit(const JsonReader& j) {
   d.cost = j.at("cost").number();
   d.rms = j.at("residuals").at("rms").number();
   d.log_rms = j.at("residuals").at("log_rms").number();
+  d.misfit = j.at("misfit").at("size").number();
+  d.misfit_told = j.at("misfit").at("told").boolean();
   for (const auto& [phase, ms] : j.at("solver").at("time_ms").members()) d.time_ms += ms.number();
   d.values_used = j.at("input").at("values_used").whole_number();
   for (const auto& [reason, n] : j.at("input").at("masked").members()) d.masked += n.whole_number();
@@ -178,8 +186,16 @@ std::string column(const BatchFit& d, const BatchParameter& p, std::size_t chann
 }  // namespace
 
 BatchFit in_brief(const FitDocument& d) {
-  BatchFit b{d.model, d.channels,    {}, d.residuals.log_rms, d.residuals.rms,
-             d.cost,  d.values_used, 0,  d.warnings,          0};
+  BatchFit b;
+  b.model = d.model;
+  b.channels = d.channels;
+  b.log_rms = d.residuals.log_rms;
+  b.rms = d.residuals.rms;
+  b.cost = d.cost;
+  b.misfit = d.misfit.size;
+  b.misfit_told = d.misfit.told;
+  b.values_used = d.values_used;
+  b.warnings = d.warnings;
   for (const auto& p : d.parameters)
     b.parameters.push_back({p.name, p.value, p.std_error, p.status});
   for (const auto& [reason, n] : d.masked) b.masked += n;
@@ -235,6 +251,8 @@ std::string batch_csv(const std::vector<BatchRow>& rows) {
       Fit::cost,
       Fit::values_used,
       Fit::masked,
+      Fit::misfit,
+      Fit::misfit_told,
       field(
           "warnings", "", [](const BatchFit& f) { return f.warnings.size(); }, "")};
   const std::string none(std::tuple_size_v<decltype(last)> - 1, ',');

@@ -2,6 +2,7 @@
 /// \file
 /// Fits of many tables as documents: one of each table, and of all of them a table as CSV and one JSON document.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct BatchFit {
   std::vector<std::string> channels;
   std::vector<BatchParameter> parameters;
   double log_rms = 0, rms = 0, cost = 0;
+  double misfit = std::numeric_limits<double>::quiet_NaN();  ///< Misfit::size, where it was tested
+  bool misfit_told = false;
   std::size_t values_used = 0, masked = 0;
   std::vector<std::string> warnings;
   double time_ms = 0;  ///< of all phases
@@ -58,7 +61,7 @@ bool is_batch_document(const std::string& path);
 
 /// One line per table, RFC 4180: path, document, status, exit_code, model, then for each parameter
 /// and channel (kd.r) its value, std_error and status, then log_rms, rms [1/sr], cost, values_used,
-/// masked, warnings (how many), message.  Unknown cells are empty; text is never a formula, see
+/// masked, misfit, misfit_told (true or false), warnings (how many), message.  Unknown cells are empty; text is never a formula, see
 /// base/csv.h.
 std::string batch_csv(const std::vector<BatchRow>&);
 

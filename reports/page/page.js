@@ -78,6 +78,9 @@ const milliseconds = (t) => (t >= 1000 ? significant(t / 1000) + "\u202fs" : sig
 /// theta_i as θ with its index below
 const angle_name = (name) => (/^theta_.$/.test(name) ? el("span", {}, "θ", el("sub", {}, name.at(-1))) : name);
 const words = (name) => name.replaceAll("_", " ");
+/// How far a fitted parameter is known, as people say it.
+const status_words = { free: "fitted", fixed: "held", at_bound: "at the end of its range", not_identifiable: "not known",
+                       upper_limit: "upper limit alone", lower_limit: "lower limit alone" };
 
 // --- Colours -----------------------------------------------------------------------------------
 const color = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();

@@ -5,7 +5,6 @@ const page = page_data();
 const tables = page.tables.map((t, i) => ({ ...t, place: i, name: t.path.split("/").pop() }));
 const fitted = tables.filter((t) => t.parameters);
 const failed = tables.filter((t) => !t.parameters);
-const misfit = 0.25;  // log RMS above which the model does not describe a table
 
 // --- What is known of a table as numbers --------------------------------------------------------------
 const mean = (list) => { const v = list_of(list).filter(known); return v.length ? v.reduce((a, b) => a + b, 0) / v.length : null; };
@@ -13,6 +12,7 @@ const names = [...new Set(fitted.flatMap((t) => Object.keys(t.parameters)))];
 const quantities = [
   ...names.map((name) => ({ name, of: (t) => (t.parameters?.[name] ? mean(t.parameters[name].value) : null) })),
   { name: "log_rms", label: "log RMS", of: (t) => t.log_rms ?? null },
+  { name: "misfit", label: "misfit beyond noise", of: (t) => t.misfit ?? null },
   { name: "albedo", label: "albedo at 30°", of: (t) => (t.preview ? mean(t.preview.albedo) : null) },
   { name: "values_used", of: (t) => t.values_used ?? null },
   { name: "masked", of: (t) => t.masked ?? null },
@@ -22,18 +22,21 @@ const label_of = (q) => q.label ?? words(q.name);
 const has_channels = (name) => fitted.some((t) => list_of(t.parameters[name]?.value).length > 1);
 const axis_label = (q) => label_of(q) + (names.includes(q.name) && has_channels(q.name) ? ", mean of the channels" : "");
 
+/// Size of what its model misses, of f.
+const misfit_text = (t) => (!known(t.misfit) ? "–" : t.misfit > 0.5 ? "above half" : percent(t.misfit));
+
 /// What a reader should know of a table before using its numbers: [short, in full]
 function flags(t) {
   const out = [];
   if (!t.parameters) return [[words(t.status), t.message]];
   if (t.status !== "ok") out.push([words(t.status), t.message]);
-  if (t.log_rms > misfit) out.push([`off by ×/÷\u202f${ratio(t.log_rms).slice(1)}`, "model and table differ by this typical factor"]);
-  for (const status of ["not_identifiable", "upper_limit", "lower_limit", "at_bound"]) {
+  if (t.misfit_told) out.push([`misfit ${misfit_text(t)}`, "what is left follows the angles, by so much beyond noise"]);
+  for (const [status, full] of [["not_identifiable", "the data do not determine it"], ["upper_limit", "the data tell the upper end alone"],
+    ["lower_limit", "the data tell the lower end alone"], ["at_bound", "the best value may lie beyond"]]) {
     const which = Object.entries(t.parameters).filter(([name, p]) => !name.startsWith("roughness") && list_of(p.status).includes(status)).map(([name]) => name);
-    if (which.length) out.push([`${which.join(", ")} ${words(status)}`, status === "at_bound" ? "the best value may lie beyond the bound" : status === "not_identifiable" ? "the data do not determine it" : "the data tell one end alone"]);
+    if (which.length) out.push([`${which.join(", ")}: ${status_words[status]}`, full]);
   }
-  const rest = t.warnings.filter((w) => !w.startsWith("model and table differ"));
-  if (rest.length) out.push([many(rest.length, "warning"), rest.join("\n")]);
+  if (t.warnings.length) out.push([many(t.warnings.length, "warning"), t.warnings.join("\n")]);
   return out;
 }
 for (const t of tables) t.flags = flags(t);
@@ -148,10 +151,10 @@ const link = (t) => (t.page ?? t.document ? el("a", { href: "./" + encodeURIComp
 
 function verdict() {
   const typical = median_of(fitted.map((t) => t.log_rms));
-  const far = fitted.filter((t) => t.log_rms > misfit).length;
+  const far = fitted.filter((t) => t.misfit_told).length;
   return el("p", { class: "verdict" },
     known(typical) ? ["Half of the fits are within ", el("b", {}, "×/÷\u202f" + ratio(typical).slice(1)), ` of their table (log RMS ${log_rms_text(typical)}). `] : null,
-    far ? `${far === 1 ? "One is" : `${count(far)} are`} off by more than a typical factor of ${Math.exp(misfit).toFixed(2)}: there the model does not describe the material. ` : null,
+    far ? `Of ${count(far)} the model misses more than noise explains. ` : null,
     page.counts.not_converged ? `${count(page.counts.not_converged)} did not converge. ` : null,
     failed.length ? `${count(failed.length)} could not be fitted. ` : null);
 }
@@ -243,7 +246,7 @@ function overview() {
       g.fillStyle = color_of(p.t);
       g.fill();
       g.lineWidth = p.t === state.near ? 2 : 1;
-      g.strokeStyle = p.t === state.near ? color("accent") : p.t.log_rms > misfit ? color("warn") : color("muted");
+      g.strokeStyle = p.t === state.near ? color("accent") : p.t.misfit_told ? color("warn") : color("muted");
       g.stroke();
     }
     const bins = Array(Math.max(8, Math.min(40, Math.round(2 * Math.sqrt(there.length))))).fill(0);
@@ -288,7 +291,7 @@ function overview() {
   const node = el("div", {}, el("div", { class: "controls" }, select("across", "x"), select("up", "y")), canvas, readout);
   when_resized(canvas, (w) => { width = w; draw(); say(); });
   when_colors_change(() => width && draw());
-  return section("All materials", "One dot per table in the colour of its fitted model under white light from everywhere; with an orange rim where the model misses the table. "
+  return section("All materials", "One dot per table in the colour of its fitted model under white light from everywhere; with an orange rim where the model misses the table by more than noise. "
     + "Below, how many have which value.", node);
 }
 
@@ -314,7 +317,8 @@ function card(t) {
     el("h3", {}, link(t)),
     el("div", { class: "pictures" }, sphere, curve),
     el("dl", {}, shown_names.filter((n) => t.parameters[n]).map((n) => [el("dt", {}, n), el("dd", {}, values_text(t.parameters[n]))]),
-      el("dt", {}, "log RMS"), el("dd", {}, log_rms_text(t.log_rms))),
+      el("dt", {}, "log RMS"), el("dd", {}, log_rms_text(t.log_rms)),
+      el("dt", {}, "misfit"), el("dd", {}, misfit_text(t))),
     flag_list(t)),
   () => { draw_sphere(sphere, t, 76); draw_curve(curve, t, Math.max(60, curve.parentNode.clientWidth - 86), 76); });
 }
@@ -322,14 +326,14 @@ function rows_table(list, state, sort_by) {
   const sorted = (name) => (state.sort === name ? (state.up ? "ascending" : "descending") : "none");
   const head = (name, text, number = true) => el("th", { class: number ? "n" : null, scope: "col", "aria-sort": sorted(name) },
     el("button", { type: "button", onclick: () => sort_by(name) }, text, state.sort === name ? (state.up ? " ↑" : " ↓") : ""));
-  const columns = ["log_rms", "albedo", "values_used", "masked"];
+  const columns = ["log_rms", "misfit", "albedo", "values_used", "masked"];
   return scroll(el("table", { class: "rows" },
     el("thead", {}, el("tr", {}, el("th", {}), head("name", "table", false), names.map((n) => head(n, n)),
       columns.map((n) => head(n, label_of(quantity(n)))), head("flags", "flags", false))),
     el("tbody", {}, list.map((t) => el("tr", {},
       el("td", {}, t.preview ? el("span", { class: "swatch", style: { background: color_of(t) } }) : null), el("th", { scope: "row" }, link(t)),
       t.parameters ? [names.map((n) => el("td", { class: "n" }, t.parameters[n] ? values_text(t.parameters[n]) : "–")),
-        el("td", { class: "n" }, log_rms_text(t.log_rms)), el("td", { class: "n" }, significant(mean(t.preview.albedo))),
+        el("td", { class: "n" }, log_rms_text(t.log_rms)), el("td", { class: t.misfit_told ? "n told" : "n" }, misfit_text(t)), el("td", { class: "n" }, significant(mean(t.preview.albedo))),
         el("td", { class: "n" }, count(t.values_used)), el("td", { class: "n" }, count(t.masked)), el("td", {}, flag_list(t))]
         : el("td", { colspan: names.length + columns.length + 1 }, el("span", { class: "flags" }, el("span", {}, words(t.status))), " ", t.message))))));
 }

@@ -28,6 +28,8 @@ FitDocument a_fit() {
                    {1, 1, 1},
                    {free, not_identifiable, at_bound}}};
   d.residuals = {0.5, 0.25, {}};
+  d.misfit.size = 0.125;
+  d.misfit.told = true;
   d.cost = 1.0 / 3;
   d.values_used = 12;
   d.masked = {{"negative", 3}, {"zero", 4}};
@@ -65,11 +67,11 @@ TEST(BatchDocument, CsvHasALinePerTableAndAColumnPerChannel) {
       "path,document,status,exit_code,model,alpha,alpha.std_error,alpha.status,kd.r,kd.r.std_error,"
       "kd.r.status,kd.g,kd.g.std_error,kd.g.status,kd.b,kd.b.std_error,kd.b.status,log_rms,rms,"
       "cost,"
-      "values_used,masked,warnings,message\n"
-      "broken,,bad_input,3,,,,,,,,,,,,,,,,,,,,\"broken: byte 0: found an empty file, expected "
+      "values_used,masked,misfit,misfit_told,warnings,message\n"
+      "broken,,bad_input,3,,,,,,,,,,,,,,,,,,,,,,\"broken: byte 0: found an empty file, expected "
       "data\"\n"
       "\"in/a, \"\"b\"\".csv\",a.json,ok,0,lambert,0.1,,fixed,0.3,0.01,free,,,not_identifiable,0.1,"
-      "0.02,at_bound,0.25,0.5,0.3333333333333333,12,7,2,fine\n");
+      "0.02,at_bound,0.25,0.5,0.3333333333333333,12,7,0.125,true,2,fine\n");
 }
 
 TEST(BatchDocument, NoCellOfTextIsAFormula) {
@@ -120,8 +122,9 @@ TEST(BatchDocument, ADocumentOfOtherBytesOptionsOrHandsIsNotTaken) {
     write_file(f / "a.json", text.substr(0, cut));
     EXPECT_FALSE(read_batch_document(f / "a.json", "abc", "so")) << cut;
   }
-  for (const char* at : {"/channels", "/parameters/kd/status", "/solver/time_ms", "/input/masked",
-                         "/batch/preview/curve/data", "/batch/preview/sphere", "/cost"}) {
+  for (const char* at :
+       {"/channels", "/parameters/kd/status", "/solver/time_ms", "/input/masked",
+        "/batch/preview/curve/data", "/batch/preview/sphere", "/cost", "/misfit/told"}) {
     json changed = json::parse(text);
     changed[json::json_pointer(at)] = json{{"not", {1, "this"}}};
     write_file(f / "a.json", changed.dump());
