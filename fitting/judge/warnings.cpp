@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include "brdf/model/roughness.h"
 #include "table/health/health.h"
@@ -16,19 +16,37 @@ bool enough_angles(std::size_t clusters) {
   return clusters >= 8;
 }
 
+namespace {
+
+std::string percent(double share) {
+  return share < 0.0995 ? fmt::format("{:.2g} %", 100 * share)
+                        : fmt::format("{:.0f} %", 100 * share);
+}
+
+/// Angles that only repeat another; "" of none.
+std::string copies_in_words(const Table& t) {
+  std::string s;
+  for (const auto& [axis, name] : {std::pair{std::size_t{0}, "incident"}, {1, "outgoing"}})
+    if (const std::size_t n = copied_rows(t, axis))
+      s += fmt::format("{}{} {} angle{}", s.empty() ? "" : " and ", n, name, n == 1 ? "" : "s");
+  return s.empty() ? s : s + " only repeat another value for value";
+}
+
+}  // namespace
+
 std::vector<std::string> warnings(const FitOptions& o,
                                   const Table& t,
                                   const FitDocument& d,
                                   std::size_t angles,
                                   std::size_t free) {
   std::vector<std::string> all;
-  if (d.misfit.told) all.push_back(misfit_in_words(d.misfit));
+  for (auto& w : misfit_in_words(d.misfit)) all.push_back(std::move(w));
   for (auto& w : physics_in_words(d.physics)) all.push_back(std::move(w));
   if (d.values_used <= free)
-    all.push_back(
-        fmt::format("{} values cannot tell the errors of {} unknowns", d.values_used, free));
+    all.push_back(fmt::format("{} value{} cannot tell the errors of {} unknown{}", d.values_used,
+                              d.values_used == 1 ? "" : "s", free, free == 1 ? "" : "s"));
   else if (!d.misfit.tested && d.misfit.note.find("too few") != std::string::npos)
-    all.push_back("whether the model is the right one is not known: " + d.misfit.note);
+    all.push_back("whether the model is right is not known: " + d.misfit.note);
   if (!t.truth && o.intervals != Intervals::independent && !enough_angles(angles))
     all.push_back(fmt::format(
         "{} incident angle{}: errors that the values of one angle share can hardly be told", angles,
@@ -45,18 +63,15 @@ std::vector<std::string> warnings(const FitOptions& o,
   if (std::ranges::any_of(d.parameters, narrow))
     if (const auto peak = find_peak(t, t.bins()).peak; peak && !peak->resolved)
       all.push_back(fmt::format(
-          "the table does not resolve its highlight ({:.0f} samples within the half width of "
-          "{:.2g}°): the width found is that of the samples or the instrument",
+          "the table does not resolve its highlight ({:.0f} samples within its half width of "
+          "{:.2g}°): it may be narrower",
           peak->samples_within, peak->half_width_deg));
-  if (const std::size_t in = copied_rows(t, 0), out = copied_rows(t, 1); in || out)
-    all.push_back(
-        fmt::format("{} incident and {} outgoing angles of the table repeat another value for "
-                    "value: no measurements of their own, {}",
-                    in, out, o.copies ? "though fitted like such" : "and left out"));
+  if (const auto copies = copies_in_words(t); !copies.empty())
+    all.push_back(copies + (o.copies ? ", though fitted as measurements" : ", and are left out"));
   if (d.log_offset > 0)
     all.push_back(fmt::format(
-        "negative values betray a noise floor of {:.2g} 1/sr; they are masked, which lifts what "
-        "is fitted where the signal is not well above it",
+        "negative values betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "
+        "to dark places",
         d.log_offset));
   return all;
 }
@@ -73,9 +88,9 @@ std::vector<std::string> physics_in_words(const Physics& p) {
       }
   if (most > 1.001)
     all.push_back(fmt::format(
-        "the fitted model returns {:.4g} times the light that arrives at theta_i {:.3g}°{}, more "
-        "than there is",
-        most, at, std::isnan(table) ? "" : fmt::format(" (the table {:.3g} times)", table)));
+        "the fitted model returns {:.4g} of the light that arrives at theta_i {:.3g}°{}: more than "
+        "there is",
+        most, at, std::isnan(table) ? "" : fmt::format(" (the table {:.3g})", table)));
   constexpr double far_above = 1.5;
   const double ratio = p.peak_ratio.empty() ? 0 : std::ranges::max(p.peak_ratio);
   if (ratio > far_above)
@@ -85,28 +100,24 @@ std::vector<std::string> physics_in_words(const Physics& p) {
   return all;
 }
 
-std::string misfit_in_words(const Misfit& m) {
-  if (!m.told) return "";
-  std::string s = m.size > 0.5 ? std::string("the model misses the table by more than half")
-                               : fmt::format("the model misses the table by {:.2g} % beyond noise",
-                                             100 * m.size);
-  if (!m.follows.empty()) {
-    s += ", along ";
-    for (std::size_t k = 0; k < m.follows.size(); ++k) s += (k == 0 ? "" : " and ") + m.follows[k];
-  }
+std::vector<std::string> misfit_in_words(const Misfit& m) {
+  if (!m.told) return {};
+  std::string size =
+      m.size > 0.5 ? std::string("more than half") : percent(m.size) + " beyond noise";
+  for (std::size_t k = 0; k < m.follows.size(); ++k)
+    size += (k == 0 ? ", along " : k + 1 < m.follows.size() ? ", " : " and ") + m.follows[k];
+  std::vector<std::string> all{"the model misses the table by " + size +
+                               "; the intervals allow for it"};
   if (const auto& c = m.worst_cell)
-    s += fmt::format(", most at theta_h {:.3g}° to {:.3g}°, theta_d {:.3g}° to {:.3g}° ({:+.2g} %)",
-                     c->theta_h_from_deg, c->theta_h_to_deg, c->theta_d_from_deg, c->theta_d_to_deg,
-                     100 * c->difference);
-  static const std::map<std::string, std::string_view> causes{
-      {"theta_h", "the highlight's shape, as another distribution or a second lobe has it"},
-      {"theta_d", "the Fresnel form, or what couples the diffuse to it"},
-      {"grazing angles", "masking, or the diffuse form"}};
-  std::string usual;
-  for (const auto& f : m.follows)
-    usual += fmt::format("{}{}", usual.empty() ? "" : "; ", causes.at(f));
-  if (!usual.empty()) s += "; the usual cause is " + usual;
-  return s + "; the intervals allow for it";
+    all.push_back(
+        fmt::format("it is furthest off near theta_h {:.2g}°, theta_d {:.2g}°: {}",
+                    (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
+                    (c->theta_d_from_deg + c->theta_d_to_deg) / 2,
+                    c->difference > 9   ? fmt::format("{:.0f} times as bright", 1 + c->difference)
+                    : c->difference > 1 ? fmt::format("{:.2g} times as bright", 1 + c->difference)
+                    : c->difference > 0 ? percent(c->difference) + " too bright"
+                                        : percent(-c->difference) + " too dark"));
+  return all;
 }
 
 }  // namespace gonio

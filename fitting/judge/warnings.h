@@ -21,7 +21,7 @@ std::vector<std::string> warnings(
 /// Sentences of a model that returns more light than arrives, or rises far above its table.
 std::vector<std::string> physics_in_words(const Physics&);
 
-/// Sentence of a misfit that is told; else "".
-std::string misfit_in_words(const Misfit&);
+/// Sentences of a misfit that is told: its size with the angles that it follows, and its place.
+std::vector<std::string> misfit_in_words(const Misfit&);
 
 }  // namespace gonio

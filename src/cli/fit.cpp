@@ -29,38 +29,87 @@ struct Options : Common {
   bool pages = false;
 };
 
+/// "1 iteration", "2 iterations".
+std::string counted(std::size_t n, std::string_view thing) {
+  return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
+/// Name of a reason or an end as people write it.
+std::string words(std::string_view name) {
+  std::string s(name);
+  std::ranges::replace(s, '_', ' ');
+  return s;
+}
+
+/// Value of a parameter as far as it is known.
+std::string value_in_words(const FittedParameter& p, std::size_t c) {
+  using enum ParameterStatus;
+  if (p.status[c] == upper_limit) return fmt::format("≤ {:.3g}", p.limit[c]);
+  if (p.status[c] == lower_limit) return fmt::format("≥ {:.3g}", p.limit[c]);
+  return with_error(p.value[c], p.std_error[c], p.ci95_low[c], p.ci95_high[c]);
+}
+/// Why no more is known of it.
+std::string status_in_words(const FittedParameter& p, std::size_t c) {
+  const std::string reason = p.reason[c].empty() ? "" : "; " + p.reason[c];
+  switch (p.status[c]) {
+    case ParameterStatus::free:
+      return p.reason[c];
+    case ParameterStatus::fixed:
+      return "held";
+    case ParameterStatus::at_bound:
+      return "at the end of its range; the data push beyond it" + reason;
+    case ParameterStatus::not_identifiable:
+      return "not known" + reason;
+    case ParameterStatus::upper_limit:
+      return "at most, at 95 %" + reason;
+    case ParameterStatus::lower_limit:
+      return "at least, at 95 %" + reason;
+  }
+  return "";
+}
+
 void print(const FitDocument& d) {
   say("model   {}\n", d.model);
-  say("values  {} used", d.values_used);
+  std::string values = fmt::format("{} used", d.values_used);
   for (const auto& [reason, count] : d.masked)
-    if (count) say(", {} {}", count, reason);
-  say("\n");
+    if (count) values += fmt::format(", {} {}", count, words(reason));
+  say_below("values  ", values);
   for (const auto& p : d.parameters)
     for (std::size_t c = 0; c < p.value.size(); ++c) {
       const std::string name =
           p.value.size() == 1 ? p.name : fmt::format("{}.{}", p.name, d.channels[c]);
-      std::string note(p.status[c] == ParameterStatus::free ? "" : name_of(p.status[c]));
-      if (!std::isnan(p.limit[c])) note += fmt::format(" {:.4g}", p.limit[c]);
-      if (!p.reason[c].empty()) note += (note.empty() ? "" : ": ") + p.reason[c];
-      say("{:<14}{:<28}{}\n", name, with_error(p.value[c], p.std_error[c]), note);
+      const std::string value = value_in_words(p, c), status = status_in_words(p, c);
+      if (status.empty())
+        say("{:<14}{}\n", name, value);
+      else
+        say_below(fmt::format("{:<14}{:<28}", name, value), status);
     }
-  say("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}\n", d.residuals.log_rms,
-      d.residuals.rms, d.intervals);
+  say_below("", fmt::format("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}",
+                            d.residuals.log_rms, d.residuals.rms, d.intervals));
   for (const auto& s : d.sensitivity) {
-    say("bins    {} assumed; with {}:", d.bins, s.other);
+    std::string changes;
     for (const auto& [name, change] : s.relative_change) {
       std::vector<std::string> known;
       for (const double x : change)
         if (!std::isnan(x)) known.push_back(fmt::format("{:+.2f}", 100 * x));
-      if (!known.empty()) say(" {} {} %", name, fmt::to_string(fmt::join(known, ", ")));
+      if (!known.empty())
+        changes += fmt::format("{}{} {} %", changes.empty() ? "" : "; ", name,
+                               fmt::to_string(fmt::join(known, ", ")));
     }
-    say("\n");
+    if (!changes.empty())
+      say_below("bins    ",
+                fmt::format("samples taken to sit at the {} of their bins; at the {} {}", d.bins,
+                            s.other, changes));
   }
   if (const auto& c = d.certificate; c && !c->cells.empty())
-    say("search  none of {} cells over {} lies below (lowest {:.6g}, the fit {:.6g}): no proof\n",
-        c->cells.size(), fmt::to_string(fmt::join(c->parameters, ", ")), c->lowest, d.cost);
-  for (const auto& w : d.warnings) say("beware  {}\n", w);
-  say("{} after {} iterations: {}\n", d.solver.termination, d.solver.iterations, d.solver.message);
+    say_below("search  ",
+              fmt::format("none of {} over {} lies below (lowest {:.6g}, the fit {:.6g}): no proof",
+                          counted(c->cells.size(), "cell"),
+                          fmt::to_string(fmt::join(c->parameters, ", ")), c->lowest, d.cost));
+  for (const auto& w : d.warnings) say_below("beware  ", w);
+  const bool converged = d.solver.termination == "converged";
+  say_below("", fmt::format("{} after {}{}", converged ? "converged" : "did not converge",
+                            counted(static_cast<std::size_t>(d.solver.iterations), "iteration"),
+                            converged ? "" : ": " + d.solver.message));
 }
 
 /// Line of how far a batch is, and how long still.
@@ -75,11 +124,13 @@ void print(const std::string& folder, const BatchResult& r) {
     return std::ranges::count(r.rows, outcome, &BatchRow::outcome);
   };
   const auto failures = of(Exit::bad_input) + of(Exit::usage);
-  say("tables   {}: {} fitted", r.rows.size(), of(Exit::done));
-  if (const auto n = of(Exit::not_converged)) say(", {} not converged", n);
-  if (failures) say(", {} failed", failures);
-  if (r.count.kept) say("; {} of them kept from before", r.count.kept);
-  say("\n");
+  const auto converged = of(Exit::done), left = of(Exit::not_converged);
+  const auto kept = static_cast<std::ptrdiff_t>(r.count.kept);
+  std::string line = fmt::format("{}: {} fitted", r.rows.size(), converged + left - kept);
+  if (kept) line += fmt::format(", {} kept from before", kept);
+  if (failures) line += fmt::format(", {} failed", failures);
+  if (left) line += fmt::format("; {} did not converge", left);
+  say("tables   {}\n", line);
   constexpr long shown = 5;
   long k = 0;
   for (const auto& row : r.rows)

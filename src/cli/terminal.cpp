@@ -11,6 +11,7 @@
 #include "table/format/metadata.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
@@ -41,10 +42,52 @@ void TimedProgress::operator()(std::size_t done) {
   progress_(fmt::format("{} {} of {}{}", what_, done, all_, time_left(begin_, done, all_)));
 }
 
-std::string with_error(double value, double error) {
+namespace {
+
+/// Columns of the terminal; without one, as many as there are.
+std::size_t columns() {
+  if (::isatty(STDOUT_FILENO) != 1) return std::string::npos;
+  winsize size{};
+  constexpr std::size_t usual = 80, least = 40;
+  const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? std::max<std::size_t>(size.ws_col, least) : usual;
+}
+
+/// Places on a line that UTF-8 takes.
+std::size_t width(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+void say_below(const std::string& head, const std::string& text) {
+  const std::size_t most = columns();
+  std::string line = head;
+  const std::size_t indent = width(head) < most / 2 ? width(head) : 8;
+  bool empty = true;
+  for (const auto& word : split(text, ' ')) {
+    if (!empty && width(line) + 1 + width(word) > most) {
+      say("{}\n", line);
+      line = std::string(indent, ' ');
+      empty = true;
+    }
+    if (!empty) line += ' ';
+    line += word;
+    empty = false;
+  }
+  say("{}\n", line);
+}
+
+std::string with_error(double value, double error, double low, double high) {
   if (std::isnan(value)) return "–";
   if (std::isnan(error)) return fmt::format("{:.6g}", value);
   if (!(error > 0)) return fmt::format("{:.10g} ± 0", value);
+  const double below = value - low, above = high - value;
+  constexpr double uneven = 1.5, least = 1.9;  // a whole interval is 1.96 errors or more each way
+  if (std::max(below, above) > uneven * std::min(below, above) || below < least * error)
+    return fmt::format("{:.3g} (95 %: {:.3g} to {:.3g})", value,
+                       low < 1e-6 * high && low > 0 ? 0.0 : low, high);
   const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 15);
   if (digits == 15) return fmt::format("{:.12g} ± {:.1e}", value, error);
   return fmt::format("{:.{}f} ± {:.{}f}", value, digits, error, digits);

@@ -65,7 +65,11 @@ class TimedProgress {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// "0.15003 ± 0.00012": as many digits as the error leaves; "0.15" if the error is unknown.
-std::string with_error(double value, double error);
+/// Line that begins with `head`; at a terminal that is too narrow for it `text` goes on below itself.
+void say_below(const std::string& head, const std::string& text);
+
+/// "0.15003 ± 0.00012": as many digits as the error leaves; "0.15" if the error is unknown;
+/// "0.12 (95 %: 0 to 0.38)" where the interval is cut, or reaches further to one side.
+std::string with_error(double value, double error, double low, double high);
 
 }  // namespace gonio::cli

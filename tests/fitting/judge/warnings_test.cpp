@@ -2,6 +2,7 @@
 #include "fitting/judge/warnings.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "fitting/fit.h"
 #include "fitting/support.h"
@@ -57,6 +58,75 @@ TEST(Warnings, SaysWhenTheModelDoesNotDescribeTheTable) {
   ASSERT_FALSE(d.warnings.empty());
   EXPECT_TRUE(d.warnings[0].starts_with("the model misses the table by more than half"));
   EXPECT_TRUE(fit_synthetic(metal, settings, {.layout = Layout::random}).document.warnings.empty());
+}
+
+TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
+  Misfit m;
+  m.told = true;
+  m.size = 0.084;
+  m.follows = {"theta_h", "theta_d", "grazing angles"};
+  m.worst_cell = {10, 22.5, 60, 75, 40, -0.3};
+  EXPECT_EQ(misfit_in_words(m),
+            (std::vector<std::string>{"the model misses the table by 8.4 % beyond noise, along "
+                                      "theta_h, theta_d and grazing angles; the intervals allow "
+                                      "for it",
+                                      "it is furthest off near theta_h 16°, theta_d 68°: 30 % too "
+                                      "dark"}));
+  m.worst_cell->difference = 2.4;
+  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": 3.4 times as bright"));
+  m.told = false;
+  EXPECT_TRUE(misfit_in_words(m).empty());
+}
+
+/// Numbers of a sentence: runs of digits, points, signs of powers.
+std::ptrdiff_t numbers_in(const std::string& s) {
+  std::ptrdiff_t n = 0;
+  bool within = false;
+  for (const char c : s) {
+    const bool digit = c >= '0' && c <= '9';
+    n += digit && !within;
+    within = digit || (within && (c == '.' || c == 'e' || c == '-' || c == '+'));
+  }
+  return n;
+}
+
+TEST(Warnings, SayOneThingEachInFewWordsAndNumbers) {
+  const auto all_of = [](const char* model, const char* settings, const SynthOptions& s,
+                         const std::function<void(Table&)>& spoil, const char* fitted) {
+    Table t = synthesize(test::bind(model, settings, 1), s);
+    spoil(t);
+    FitOptions o;
+    o.model = fitted;
+    return fit(t, o).document.warnings;
+  };
+  constexpr const char* paint = "lambert+ggx/smith_ggx.correlated/schlick";
+  const auto as_it_is = [](Table&) {};
+  const auto measured = [](Table& t) { t.truth.reset(); };
+  const auto copied = [](Table& t) {
+    const auto& axes = t.grid()->axes;
+    const std::size_t row = axes[1].size * axes[2].size;
+    for (auto& plane : t.values)
+      for (std::size_t k = 0; k < row; ++k) plane[row + k] = plane[k];
+  };
+  const auto floor = [](Table& t) {
+    for (auto& plane : t.values)
+      for (std::size_t k = 0; k < plane.size(); k += 20) plane[k] = -1e-4;
+  };
+  std::size_t said = 0;
+  for (const auto& list :
+       {all_of("lambert+gtr/smith_ggx.correlated/schlick", "alpha=0.3,gamma=1,f0=0.05,kd=0.2",
+               {.layout = Layout::in_plane, .noise = 0.01}, measured, paint),
+        all_of(paint, "alpha=0.01,f0=0.05,kd=0.1", {.layout = Layout::mbsdf, .noise = 0.02}, copied,
+               paint),
+        all_of(paint, "alpha=0.3,f0=0.05,kd=0.98", {.layout = Layout::hemisphere}, as_it_is, paint),
+        all_of(paint, "alpha=0.3,f0=0.05,kd=0.1", {.layout = Layout::in_plane, .noise = 0.02},
+               floor, "lambert")})
+    for (const auto& w : list) {
+      ++said;
+      EXPECT_LE(w.size(), 118U) << w;  // bytes; ° has two
+      EXPECT_LE(numbers_in(w), 3) << w;
+    }
+  EXPECT_GE(said, 8U);
 }
 
 TEST(Warnings, EnoughAnglesAreEight) {
