@@ -12,6 +12,7 @@
 #include "fitting/judge/assess.h"
 #include "fitting/judge/bin_sensitivity.h"
 #include "fitting/judge/lack_of_fit.h"
+#include "fitting/judge/next_steps.h"
 #include "fitting/judge/physics.h"
 #include "fitting/judge/seen.h"
 #include "fitting/judge/uncertainty.h"
@@ -20,7 +21,6 @@
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
 
-#include <fmt/format.h>
 #include <tbb/task_group.h>
 
 namespace gonio {
@@ -166,17 +166,10 @@ FitResult fit(const Table& t,
   if (found.profile) d.certificate = certificate_of(p, *found.profile);
   d.solver = solver_of(f.solution, std::move(phase_ms));
   d.warnings = t.warnings;
-  for (auto& w : warnings(o, t, d, judged.angles, p.free.size()))
-    d.warnings.push_back(std::move(w));
-  if (found.cost_of_fewer < d.cost)
-    d.warnings.push_back(fmt::format(
-        "with fewer lobes the model meets the table better (cost {:.6g} for {:.6g}): a lobe "
-        "whose F is 1 at 90° cannot vanish",
-        found.cost_of_fewer, d.cost));
-  if (needless)
-    d.warnings.push_back(
-        "without its lobe the model meets the table as well or better: nothing is known of the "
-        "lobe");
+  const FitFacts facts = with_table(
+      {judged.angles, p.free.size(), found.cost_of_fewer, needless, false, false, {}, {}}, o, t, d);
+  for (auto& w : warnings(o, t, d, facts)) d.warnings.push_back(std::move(w));
+  d.next = next_steps(o, d, facts);
   return {std::move(d), std::move(found.best.model)};
 }
 

@@ -34,38 +34,48 @@ std::string copies_in_words(const Table& t) {
 
 }  // namespace
 
+FitFacts with_table(FitFacts f, const FitOptions& o, const Table& t, const FitDocument& d) {
+  f.few_angles = !t.truth && o.intervals != Intervals::independent && !enough_angles(f.angles);
+  f.copies = !copies_in_words(t).empty();
+  f.retro = retro_peak(t);
+  // Asked of narrow lobes alone: looking for the peak takes as long as a fit.
+  const auto narrow = [](const FittedParameter& p) {
+    return is_alpha(p.name) && p.status[0] != ParameterStatus::fixed &&
+           (p.value[0] < 0.1 || p.limit[0] < 0.1);
+  };
+  if (std::ranges::any_of(d.parameters, narrow)) {
+    f.unresolved = find_peak(t, t.bins()).peak;
+    if (f.unresolved && f.unresolved->resolved) f.unresolved.reset();
+  }
+  return f;
+}
+
 std::vector<std::string> warnings(const FitOptions& o,
                                   const Table& t,
                                   const FitDocument& d,
-                                  std::size_t angles,
-                                  std::size_t free) {
+                                  const FitFacts& f) {
   std::vector<std::string> all;
   for (auto& w : misfit_in_words(d.misfit)) all.push_back(std::move(w));
   for (auto& w : physics_in_words(d.physics)) all.push_back(std::move(w));
-  if (d.values_used <= free)
+  if (d.values_used <= f.free)
     all.push_back(fmt::format("{} value{} cannot tell the errors of {} unknown{}", d.values_used,
-                              d.values_used == 1 ? "" : "s", free, free == 1 ? "" : "s"));
+                              d.values_used == 1 ? "" : "s", f.free, f.free == 1 ? "" : "s"));
   else if (!d.misfit.tested && d.misfit.note.find("too few") != std::string::npos)
     all.push_back("whether the model is right is not known: " + d.misfit.note);
-  if (!t.truth && o.intervals != Intervals::independent && !enough_angles(angles))
+  if (f.few_angles)
     all.push_back(fmt::format(
-        "{} incident angle{}: errors that the values of one angle share can hardly be told", angles,
-        angles == 1 ? "" : "s are few"));
-  if (const auto retro = retro_peak(t))
+        "{} incident angle{}: errors that the values of one angle share can hardly be told",
+        f.angles, f.angles == 1 ? "" : "s are few"));
+  if (f.retro)
     all.push_back(
         fmt::format("the highlight ({:.3g} 1/sr) sits at wo = wi and not at the half vector: a "
                     "microfacet lobe cannot describe it",
-                    retro->height));
-  // Asked of narrow lobes alone: looking for the peak takes as long as a fit.
-  const auto narrow = [](const FittedParameter& p) {
-    return is_alpha(p.name) && p.value[0] < 0.1 && p.status[0] != ParameterStatus::fixed;
-  };
-  if (std::ranges::any_of(d.parameters, narrow))
-    if (const auto peak = find_peak(t, t.bins()).peak; peak && !peak->resolved)
-      all.push_back(fmt::format(
-          "the table does not resolve its highlight ({:.0f} samples within its half width of "
-          "{:.2g}°): it may be narrower",
-          peak->samples_within, peak->half_width_deg));
+                    f.retro->height));
+  if (const auto& peak = f.unresolved)
+    all.push_back(
+        fmt::format("the table does not resolve its highlight ({:.0f} samples within its half "
+                    "width of {:.2g}°): it may be narrower",
+                    peak->samples_within, peak->half_width_deg));
   if (const auto copies = copies_in_words(t); !copies.empty())
     all.push_back(copies + (o.copies ? ", though fitted as measurements" : ", and are left out"));
   if (d.log_offset > 0)
@@ -73,12 +83,31 @@ std::vector<std::string> warnings(const FitOptions& o,
         "negative values betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "
         "to dark places",
         d.log_offset));
+  if (f.cost_of_fewer < d.cost)
+    all.push_back(
+        fmt::format("with fewer lobes the model meets the table better (cost {:.6g} for {:.6g}): a "
+                    "lobe whose F is 1 at 90° cannot vanish",
+                    f.cost_of_fewer, d.cost));
+  if (f.needless)
+    all.push_back(
+        "without its lobe the model meets the table as well or better: nothing is known of the "
+        "lobe");
   return all;
+}
+
+namespace {
+constexpr double all_light = 1.001;  // to what its integral is known
+}
+
+bool returns_too_much(const Physics& p) {
+  return std::ranges::any_of(p.model_albedo, [](const auto& of_angle) {
+    return std::ranges::any_of(of_angle, [](double a) { return a > all_light; });
+  });
 }
 
 std::vector<std::string> physics_in_words(const Physics& p) {
   std::vector<std::string> all;
-  double most = 1.001, at = 0, table = 0;  // to what its integral is known
+  double most = all_light, at = 0, table = 0;
   for (std::size_t k = 0; k < p.theta_i_deg.size(); ++k)
     for (std::size_t c = 0; c < p.model_albedo[k].size(); ++c)
       if (p.model_albedo[k][c] > most) {
@@ -86,7 +115,7 @@ std::vector<std::string> physics_in_words(const Physics& p) {
         at = p.theta_i_deg[k];
         table = p.data_albedo[k][c];
       }
-  if (most > 1.001)
+  if (most > all_light)
     all.push_back(fmt::format(
         "the fitted model returns {:.4g} of the light that arrives at theta_i {:.3g}°{}: more than "
         "there is",

@@ -3,20 +3,41 @@
 /// Warnings that a reader must know before believing a fit's numbers.
 
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fitting/result/document.h"
 #include "fitting/solve/options.h"
+#include "table/health/peak.h"
 
 namespace gonio {
 
 /// Number of clusters from which on their moves alone tell the errors.
 bool enough_angles(std::size_t clusters);
 
-/// \param angles  incident angles of the table   \param free  unknowns
-std::vector<std::string> warnings(
-    const FitOptions&, const Table&, const FitDocument&, std::size_t angles, std::size_t free);
+/// Facts of a fit and its table that its document does not hold.
+struct FitFacts {
+  std::size_t angles = 0;  ///< incident angles of the table, where they were counted
+  std::size_t free = 0;    ///< unknowns
+  double cost_of_fewer = std::numeric_limits<double>::infinity();  ///< of the model less one lobe
+  bool needless = false;      ///< whether the diffuse terms alone do as well
+  bool few_angles = false;    ///< whether they are too few for errors that an angle's values share
+  bool copies = false;        ///< whether angles of the table only repeat another
+  std::optional<Peak> retro;  ///< the highlight, where it is at wo = wi
+  std::optional<Peak> unresolved;  ///< that of a narrow lobe, where the samples do not resolve it
+};
+/// Fills in what follows from the table and the document.
+FitFacts with_table(FitFacts, const FitOptions&, const Table&, const FitDocument&);
+
+std::vector<std::string> warnings(const FitOptions&,
+                                  const Table&,
+                                  const FitDocument&,
+                                  const FitFacts&);
+
+/// True where the model returns more light than arrives, by more than its integral's error.
+bool returns_too_much(const Physics&);
 
 /// Sentences of a model that returns more light than arrives, or rises far above its table.
 std::vector<std::string> physics_in_words(const Physics&);

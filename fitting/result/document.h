@@ -107,6 +107,7 @@ struct FitDocument {
   std::string model;
   std::vector<std::string> channels;  ///< of the table, as parameters with channels are indexed
   std::vector<std::string> warnings;  ///< what a reader must know before believing the numbers
+  std::vector<std::string> next;      ///< what may help, see next_steps()
   std::vector<FittedParameter> parameters;  ///< alpha and roughness both
   std::string metric;
   double log_offset = 0;  ///< [1/sr] of the log metric

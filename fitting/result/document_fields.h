@@ -164,6 +164,8 @@ struct Description<FitDocument> {
               "channels of the table, in the order of arrays"),
         field("warnings", "", &FitDocument::warnings,
               "sentences to know before believing the numbers"),
+        field("next", "", &FitDocument::next,
+              "sentences on what to try, the most promising first; models as --model takes them"),
         field("parameters", "", by_name(&FitDocument::parameters), ""),
         field("metric", "", &FitDocument::metric, "how values were compared"),
         field("log_offset", "1/sr", &FitDocument::log_offset, "offset of the log metric"),

@@ -82,6 +82,9 @@ const words = (name) => name.replaceAll("_", " ");
 const status_words = { free: "fitted", fixed: "held", at_bound: "at the end of its range", not_identifiable: "not known",
                        upper_limit: "upper limit alone", lower_limit: "lower limit alone" };
 
+/// A sentence whose options of the program, with what they are given, stand out.
+const with_code = (text) => text.split(/(--[a-z-]+(?: [^ ,;:]*[a-z0-9])?)/).map((part, i) => (i % 2 ? el("code", {}, part) : part));
+
 // --- Colours -----------------------------------------------------------------------------------
 const color = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 /// Of a channel by its name, else by its place; told apart by people who see fewer colours too.

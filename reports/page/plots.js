@@ -422,15 +422,18 @@ function heat_map(x, y, layers, say, text) {
   return { node, set(name) { state.layer = layers[name]; if (width) draw(); tell(); } };
 }
 
-/// An interval around a value on a common scale of relative distance; truth as a tick.
-/// \param low, high, truth  relative to the value; `reach` is the end of the scale
+/// An interval around a value on a common scale of relative distance; truth as a tick.  What goes on beyond the scale ends in
+/// an arrow, as does the open end of a limit, whose other end stands in the middle.
+/// \param low, high, truth  relative to the value, or to the limit; -Infinity or Infinity at an open end; `reach` is the end of the scale
 function interval_drawing(low, high, truth, reach, text) {
   const w = 180, h = 16, x = (r) => w / 2 + (w / 2 - 8) * Math.max(-1, Math.min(1, r / reach));
   const line = (x1, x2, y1, y2, stroke, width) => el("line", { x1, x2, y1, y2, stroke: `var(--${stroke})`, "stroke-width": width });
+  const arrow = (right, fill) => el("path", { d: right ? `M${w - 8} 3 l7 5 l-7 5z` : "M8 3 l-7 5 l7 5z", fill: `var(--${fill})` });
+  const limit = !Number.isFinite(low) || !Number.isFinite(high);
   return el("svg", { width: w, height: h, viewBox: `0 0 ${w} ${h}`, role: "img", "aria-label": text },
     line(2, w - 2, h / 2, h / 2, "rule", 1),
     line(x(low), x(high), h / 2, h / 2, "accent", 4),
-    el("circle", { cx: w / 2, cy: h / 2, r: 3, fill: "var(--ink)" }),
-    known(truth) ? (Math.abs(truth) <= reach ? line(x(truth), x(truth), 1, h - 1, "red", 2)
-      : el("path", { d: truth > 0 ? `M${w - 7} 3 l6 5 l-6 5z` : "M7 3 l-6 5 l6 5z", fill: "var(--red)" })) : null);
+    low < -reach ? arrow(false, "accent") : null, high > reach ? arrow(true, "accent") : null,
+    limit ? line(w / 2, w / 2, 2, h - 2, "accent", 3) : el("circle", { cx: w / 2, cy: h / 2, r: 3, fill: "var(--ink)" }),
+    known(truth) ? (Math.abs(truth) <= reach ? line(x(truth), x(truth), 1, h - 1, "red", 2) : arrow(truth > 0, "red")) : null);
 }

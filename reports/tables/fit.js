@@ -13,7 +13,7 @@ function parameter_rows() {
     return values.map((value, c) => ({
       name, channel: values.length > 1 ? c : null, first: c === 0,
       label: values.length > 1 ? `${name}.${channels[c]}` : name,
-      value, error: errors[c], status: states[c], limit: list_of(p.limit)[c], low: intervals[c]?.[0], high: intervals[c]?.[1],
+      value, error: errors[c], status: states[c], limit: list_of(p.limit)[c], reason: list_of(p.reason ?? "")[c], low: intervals[c]?.[0], high: intervals[c]?.[1],
       truth: true_value ? true_value[Math.min(c, true_value.length - 1)] : null,
     }));
   });
@@ -47,22 +47,24 @@ function warnings() {
   for (const w of fit.warnings ?? []) warn("Beware:", w + ".");
   if (fit.solver.termination !== "converged") warn("Not converged.", fit.solver.message);
   const named = (status) => rows.filter((r) => r.status === status).map((r) => r.label).join(", ");
-  if (named("not_identifiable")) warn("Not identifiable:", named("not_identifiable"), ". These data do not determine it; no value is given.");
-  const limits = rows.filter((r) => known(r.limit)).map((r) => `${r.label} ${r.status === "upper_limit" ? "at most" : "at least"} ${significant(r.limit, 3)}`);
-  if (limits.length) warn("Limits alone:", limits.join(", "), " (95 %): values up to the end of the range do as well.");
-  if (named("at_bound")) warn("At a bound:", named("at_bound"), ". The best value may lie beyond it.");
+  if (named("not_identifiable")) warn("Not known:", named("not_identifiable"), ". These data do not determine it; no value is given.");
+  const limits = [named("upper_limit"), named("lower_limit")].filter(Boolean).join(", ");
+  if (limits) warn("Limits alone:", limits, ". The data tell one end, at 95 %.");
+  if (named("at_bound")) warn("At the end of its range:", named("at_bound"), ". The data push beyond it.");
   const tied = strongest_correlation();
   if (tied && Math.abs(tied.rho) > 0.95) warn("Hardly separable:", `${tied.a} and ${tied.b} (correlation ${minus(tied.rho.toFixed(3))}).`);
   for (const s of fit.bin_sensitivity ?? []) {
-    const changes = Object.entries(s.relative_change)
-      .map(([name, v]) => [name, list_of(v).filter(known).sort((a, b) => Math.abs(b) - Math.abs(a))[0]])
-      .filter(([, x]) => Math.abs(x) > 0.01);
-    if (changes.length)
-      warn("Bin convention matters:", `with samples at the ${s.other} of their bins, `
-        + changes.map(([name, x]) => `${name} changes by ${signed_percent(x)}`).join(", ")
-        + `; the log RMS would be ${log_rms_text(s.log_rms)} instead of ${log_rms_text(fit.residuals.log_rms)}.`);
+    const most = Object.entries(s.relative_change)
+      .flatMap(([name, v]) => list_of(v).filter(known).map((x) => [name, x])).sort(([, a], [, b]) => Math.abs(b) - Math.abs(a))[0];
+    if (most && Math.abs(most[1]) > 0.01)
+      warn("Bin convention matters:", `with samples at the ${s.other} of their bins, ${most[0]} changes most, by ${signed_percent(most[1])}; `
+        + `the log RMS would be ${log_rms_text(s.log_rms)} instead of ${log_rms_text(fit.residuals.log_rms)}.`);
   }
   return warning_list([...out, ...health_warnings(true)]);
+}
+function next_steps() {
+  if (!fit.next?.length) return null;
+  return el("div", { class: "next" }, el("h2", {}, "What to try next"), el("ul", {}, fit.next.map((step) => el("li", {}, with_code(step), "."))));
 }
 function facts() {
   const total = Object.values(fit.solver.time_ms).reduce((a, t) => a + t, 0);
@@ -80,11 +82,22 @@ function facts() {
 function parameters() {
   const with_truth = rows.some((r) => known(r.truth));
   const relative = (r, x) => (x - r.value) / Math.abs(r.value);
+  // An interval that is cut, wider than the error says, or reaches further to one side has ends of their own size.
+  const even = (r) => {
+    const [least, most] = [r.value - r.low, r.high - r.value].sort((a, b) => a - b);
+    return least > 1.9 * r.error && most < Math.min(1.5 * least, 2.8 * r.error);
+  };
+  const number = (r, x) => (!known(r.error) || even(r) ? with_error(x, r.error) : significant(Math.abs(x) < 1e-6 * r.high ? 0 : x, 3));
+  const limit = (r) => `${r.status === "upper_limit" ? "≤" : "≥"} ${significant(r.limit, 3)}`;
   const widths = rows.filter((r) => known(r.value) && r.value !== 0 && known(r.low) && known(r.high))
     .map((r) => Math.max(-relative(r, r.low), relative(r, r.high)));
   const reach = Math.min(1, 1.1 * Math.max(...widths, 0)) || 1;
   const drawing = (r) => {
-    if (!known(r.value) || r.value === 0 || !known(r.low) || !known(r.high)) return "–";
+    if (known(r.limit) && r.limit > 0) {
+      const upper = r.status === "upper_limit", truth = known(r.truth) ? r.truth / r.limit - 1 : null;
+      return interval_drawing(upper ? -Infinity : 0, upper ? 0 : Infinity, truth, reach, `${upper ? "at most" : "at least"} ${significant(r.limit, 3)}`);
+    }
+    if (!known(r.value) || r.value === 0 || !known(r.low) || !known(r.high)) return "";
     const [low, high] = [relative(r, r.low), relative(r, r.high)];
     return interval_drawing(low, high, known(r.truth) ? relative(r, r.truth) : null, reach,
       `95 % interval ${signed_percent(low)} to ${signed_percent(high)} of the value`);
@@ -97,16 +110,17 @@ function parameters() {
   const body = rows.map((r) => [
     r.channel === null ? el("code", {}, r.name)
       : [chip(channel_color(channels[r.channel], r.channel)), el("code", {}, r.label)],
-    { n: known(r.value) ? with_error(r.value, r.error) : "–" },
+    { n: known(r.value) ? number(r, r.value) : known(r.limit) ? limit(r) : "–" },
     { n: known(r.error) ? significant(r.error, 2) : "–" },
-    { n: known(r.low) && known(r.high) ? `${with_error(r.low, r.error)} … ${with_error(r.high, r.error)}` : "–" },
-    el("span", { class: `status ${r.status}` }, words(r.status)),
+    { n: known(r.limit) ? limit(r) : known(r.low) && known(r.high) ? `${number(r, r.low)} … ${number(r, r.high)}` : "–" },
+    el("span", { class: `status ${r.status}` }, status_words[r.status], r.reason ? el("small", {}, r.reason) : null),
     ...(with_truth ? [{ n: known(r.truth) ? plain(r.truth) : "–" }, { n: known(r.truth) ? sigma(r) ?? "–" : "–" }] : []),
     drawing(r),
   ]);
   const clusters = fit.clusters > 0 ? `, ${count(fit.clusters)} clusters` : "";
   return section("Parameters",
-    `Values are written to the second digit of their standard error. Intervals: ${fit.intervals}${clusters}.`
+    `Values are written to the second digit of their standard error. Intervals: ${fit.intervals}${clusters}. `
+      + "A bar stands around its value; what goes on beyond the picture has an arrow, and a limit begins in the middle."
       + (with_truth ? " The table is synthetic: the orange tick is the value it was made with." : ""),
     el("div", { class: "parameters" }, scroll(table(head,
       body.map((b) => b.map((c) => (Array.isArray(c) ? el("span", {}, c) : c))),
@@ -166,6 +180,47 @@ function residuals() {
         el("div", { class: "controls" }, choice("Shown", [["mean", "mean ratio"], ["rms", "RMS"]], "mean", (w) => map.set(w))),
         map.node, el("p", { class: "small muted", "aria-hidden": "true" }, map_text())),
       el("div", {}, band_tables.map((t) => el("div", { class: "scroll", style: { "margin-bottom": "18px" } }, t)))));
+}
+
+// --- Light that comes back -------------------------------------------------------------------------
+function albedo() {
+  const p = fit.physics;
+  if (!p?.theta_i_deg.length) return null;
+  const most = 4;  // channels that are told apart at a glance
+  const shown = channels.length <= most ? channels.map((_, c) => c)
+    : Array.from({ length: most }, (_, k) => Math.round(k * (channels.length - 1) / (most - 1)));
+  const of = (rows, c) => rows.map((row) => list_of(row)[c] ?? null);
+  const x = p.theta_i_deg, above = (v) => known(v) && v > 1.001, all_model = p.model_albedo.flat(), all_data = p.data_albedo.flat();
+  const has_data = all_data.some(known);
+  let top = [0, 0];  // angle and channel where the model is brightest
+  p.model_albedo.forEach((row, k) => list_of(row).forEach((v, c) => { if (v > list_of(p.model_albedo[top[0]])[top[1]]) top = [k, c]; }));
+  const [brightest, data_there] = [p.model_albedo, p.data_albedo].map((rows) => list_of(rows[top[0]])[top[1]]);
+  const share = (v) => significant(v, v > 0.995 && v < 1.095 ? 4 : 3);
+  const words = `The fitted model returns at most ${share(brightest)} of the light, at θ_i ${degrees(x[top[0]])}`
+    + (known(data_there) ? `; there the table returns ${share(data_there)}.` : ".")
+    + (above(brightest) ? " Above 1 more light leaves than arrives: no surface does that." : "");
+  const ratios = (p.peak_ratio ?? []).filter(known);
+  const peaks = ratios.length ? ` At the table's own samples its greatest value is ${[...new Set([Math.min(...ratios), Math.max(...ratios)].map((r) => `×\u202f${significant(r)}`))].join(" to ")} the table's.` : "";
+  const one = Math.max(...all_model, ...all_data.filter(known)) > 0.8;  // else the line is far above all
+  const plot = curve_plot([x, ...(has_data ? shown.map((c) => of(p.data_albedo, c)) : []), ...shown.map((c) => of(p.model_albedo, c)), ...(one ? [x.map(() => 1)] : [])],
+    [...(has_data ? shown.map((c) => ({ color: channel_color(channels[c], c), kind: "points" })) : []),
+     ...shown.map((c) => ({ color: several ? channel_color(channels[c], c) : "ink", kind: "line" })), ...(one ? [{ color: "grey", kind: "line", width: 1, dash: [4, 4] }] : [])],
+    { x_label: "θ_i [°], incident angle", x_ends: [0, 90], y_label: "share of the light", log: false, height: 280, y_of: () => true, text: words });
+  // Of many angles those that stand apart, and where it is brightest.
+  const rows = x.length <= 12 ? x.map((_, k) => k)
+    : [...new Set([...[0, 10, 20, 30, 40, 50, 60, 70, 80, 85].map((deg) => x.reduce((best, v, k) => (Math.abs(v - deg) < Math.abs(x[best] - deg) ? k : best), 0)), top[0]])].sort((a, b) => a - b);
+  const cell = (v) => ({ n: above(v) ? el("span", { class: "told" }, share(v) + ", above 1") : known(v) ? share(v) : "–" });
+  const head = shown.flatMap((c) => [{ n: `model${several ? " " + channels[c] : ""}` }, ...(has_data ? [{ n: `table${several ? " " + channels[c] : ""}` }] : [])]);
+  return section("Light that comes back",
+    "Share of the light from one direction that all directions together return, by the angle it comes from: the fitted model"
+      + (has_data ? " beside the table. Where half of the directions or more lack, the table does not say." : "; this table does not say its own."),
+    el("p", {}, words + peaks),
+    el("div", { class: "columns" },
+      el("figure", {}, el("figcaption", {}, el("span", { class: "keys" },
+        shown.map((c) => el("span", {}, chip(several ? channel_color(channels[c], c) : "ink"), several ? channels[c] : "model"))),
+        el("small", {}, has_data ? " lines: model, points: table" : " lines: model", one ? "; dashed: all of the light" : "")), plot.node),
+      scroll(table([el("span", {}, angle_name("theta_i"), " [°]"), ...head],
+        rows.map((k) => [plain(Number(x[k].toFixed(1)), 3), ...shown.flatMap((c) => [cell(list_of(p.model_albedo[k])[c]), ...(has_data ? [cell(list_of(p.data_albedo[k])[c])] : [])])])))));
 }
 
 // --- How sure -------------------------------------------------------------------------------------
@@ -303,7 +358,7 @@ function input() {
 document.getElementById("page").replaceChildren(
   el("p", { class: "over" }, "gonio fit"),
   el("h1", {}, `${fit.model} fitted to ${file_name}`),
-  verdict(), ...[warnings()].filter(Boolean), facts(),
-  ...[parameters(), curve_section(), residuals(), search(), confidence(), health_section(), solver(), input()].filter(Boolean),
+  verdict(), ...[warnings(), next_steps()].filter(Boolean), facts(),
+  ...[parameters(), curve_section(), residuals(), albedo(), search(), confidence(), health_section(), solver(), input()].filter(Boolean),
   el("footer", {}, "f_r is in 1/sr, without the cosine. alpha is the width of the distribution, roughness = √alpha. ",
     "Every figure of this page is in its data block, and the fit's in fit.json. Plots drawn with uPlot, © Leon Sorokin, MIT licence."));

@@ -106,6 +106,8 @@ void print(const FitDocument& d) {
                           counted(c->cells.size(), "cell"),
                           fmt::to_string(fmt::join(c->parameters, ", ")), c->lowest, d.cost));
   for (const auto& w : d.warnings) say_below("beware  ", w);
+  constexpr std::size_t most = 2;
+  for (std::size_t k = 0; k < std::min(most, d.next.size()); ++k) say_below("try     ", d.next[k]);
   const bool converged = d.solver.termination == "converged";
   say_below("", fmt::format("{} after {}{}", converged ? "converged" : "did not converge",
                             counted(static_cast<std::size_t>(d.solver.iterations), "iteration"),

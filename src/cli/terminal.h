@@ -69,7 +69,7 @@ class TimedProgress {
 void say_below(const std::string& head, const std::string& text);
 
 /// "0.15003 ± 0.00012": as many digits as the error leaves; "0.15" if the error is unknown;
-/// "0.12 (95 %: 0 to 0.38)" where the interval is cut, or reaches further to one side.
+/// "0.12 (95 %: 0 to 0.38)" where the interval is not that of the error.
 std::string with_error(double value, double error, double low, double high);
 
 }  // namespace gonio::cli

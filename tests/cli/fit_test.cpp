@@ -45,6 +45,62 @@ TEST(Fit, LinesAreWrappedBelowTheirTextOnATerminalAndWholeInAPipe) {
       << piped;
 }
 
+TEST(Fit, SaysInTwoLinesWhatToTryNext) {
+  const Folder f;
+  make_misfit(f);
+  const auto next = gonio(f, "fit t.csv --json").json()["next"];
+  ASSERT_GT(next.size(), 2U);
+  const auto said = gonio(f, "fit t.csv").out;
+  for (std::size_t k = 0; k < next.size(); ++k)
+    EXPECT_EQ(said.find("\ntry     " + next[k].get<std::string>() + "\n") != said.npos, k < 2)
+        << said;
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout in_plane -o p.csv").code, 0);
+  EXPECT_EQ(gonio(f, "fit p.csv").out.find("\ntry "), std::string::npos) << "nothing is wrong";
+}
+
+/// True where a sentence holds the words.
+bool any_holds(const nlohmann::json& sentences, const std::string& words) {
+  return std::ranges::any_of(sentences, [&](const nlohmann::json& s) {
+    return s.get<std::string>().find(words) != std::string::npos;
+  });
+}
+
+TEST(Fit, TellsThatSinteredPtfeAsAModelReturnsMoreLightThanArrives) {
+  GONIO_NEEDS_SHARED(path, "data/nist_ptfe/PTFE.data.csv");
+  const Folder f;
+  f.write("ptfe.csv", read_bytes(path));
+  ASSERT_EQ(gonio(f,
+                  "columns ptfe.csv --map theta_i=thetai phi_i=phi theta_o=thetar phi_o=phir "
+                  "f=f_r11 channel=lambda")
+                .code,
+            0);
+  const auto d = gonio(f, "fit ptfe.csv --json").json();
+  const auto& physics = d["physics"];
+  double most = 0, at = 0;
+  for (std::size_t k = 0; k < physics["theta_i_deg"].size(); ++k)
+    for (const auto& albedo : physics["model_albedo"][k])
+      if (albedo > most) most = albedo, at = physics["theta_i_deg"][k];
+  EXPECT_NEAR(most, 1.015, 0.005);
+  EXPECT_EQ(at, 75);
+  EXPECT_TRUE(any_holds(d["warnings"], "at theta_i 75° (the table 0.97")) << d["warnings"];
+  EXPECT_TRUE(any_holds(d["warnings"], "more than there is")) << d["warnings"];
+  EXPECT_TRUE(any_holds(d["next"], "may return less light")) << d["next"];
+}
+
+TEST(Fit, TellsThatACarPaintWithItsCopiesRisesAboveItsTable) {
+  GONIO_NEEDS_SHARED(path, "data/mbsdf/carpaint_blue.mbsdf");
+  const Folder f;
+  const auto kept = gonio(f, "fit '" + path + "' --metric l2_cosine --copies keep --json").json();
+  double most = 0;
+  for (const double ratio : kept["physics"]["peak_ratio"]) most = std::max(most, ratio);
+  EXPECT_GT(most, 2);
+  EXPECT_TRUE(any_holds(kept["warnings"], "times the table's greatest value")) << kept["warnings"];
+  EXPECT_TRUE(any_holds(kept["next"], "fit without --copies keep")) << kept["next"];
+  const auto left = gonio(f, "fit '" + path + "' --metric l2_cosine --json").json();
+  EXPECT_FALSE(any_holds(left["warnings"], "the table's greatest value")) << left["warnings"];
+  EXPECT_FALSE(any_holds(left["next"], "--copies")) << left["next"];
+}
+
 TEST(Fit, SaysWhatIsKnownInPlainWords) {
   const Folder f;
   ASSERT_EQ(gonio(f, "synth lambert --set kd=0.2 --layout in_plane -o t.csv").code, 0);

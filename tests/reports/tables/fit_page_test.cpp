@@ -73,7 +73,15 @@ TEST(FitPage, WhatTheScriptReadsIsInTheDocuments) {
                          "/input/bins",
                          "/input/values_used",
                          "/input/masked",
-                         "/bin_sensitivity"})
+                         "/bin_sensitivity",
+                         "/warnings",
+                         "/next",
+                         "/misfit/tested",
+                         "/misfit/told",
+                         "/physics/theta_i_deg",
+                         "/physics/model_albedo",
+                         "/physics/data_albedo",
+                         "/physics/peak_ratio"})
     EXPECT_TRUE(fit.contains(json::json_pointer(at))) << at;
   for (const char* at :
        {"/samples", "/values", "/valid", "/masked/below_horizon", "/masked/negative",

@@ -1,0 +1,248 @@
+#include "fitting/judge/next_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "brdf/model/model.h"
+#include "brdf/model/roughness.h"
+#include "brdf/model/spec.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+constexpr std::size_t most = 5;
+
+/// Fitted model in parts, of which others are made.
+class Spec {
+ public:
+  explicit Spec(std::string_view model) : parts_(parse_spec(model)) {}
+
+  std::string diffuse() const { return parts_[0].size() == 1 ? parts_[0][0] : ""; }
+  std::size_t lobes() const { return parts_.size() - first(); }
+  const std::string& ndf() const { return parts_[first()][0]; }
+  const std::string& masking() const { return parts_[first()][1]; }
+  const std::string& fresnel() const { return parts_[first()][2]; }
+
+  std::string with_diffuse(const std::string& name) const {
+    Spec s = *this;
+    if (s.diffuse().empty())
+      s.parts_.insert(s.parts_.begin(), {name});
+    else
+      s.parts_[0][0] = name;
+    return s.text();
+  }
+  std::string with_ndf(const std::string& name) const { return with(0, name); }
+  std::string with_masking(const std::string& name) const { return with(1, name); }
+  std::string with_fresnel(const std::string& name) const { return with(2, name); }
+  std::string with_another_lobe() const {
+    Spec s = *this;
+    if (lobes() == 0)
+      s.parts_.push_back({"ggx", "smith_ggx.correlated", "schlick"});
+    else
+      s.parts_.push_back(parts_.back());
+    return s.text();
+  }
+  /// "" where nothing would be left.
+  std::string without_lobe(std::size_t l) const {
+    Spec s = *this;
+    s.parts_.erase(s.parts_.begin() + static_cast<std::ptrdiff_t>(first() + l));
+    if (s.lobes() == 0 && !diffuse().empty()) s.parts_[0][0] = "lambert";  // coupled to no lobe
+    return s.parts_.empty() ? "" : s.text();
+  }
+  bool lobes_alike() const {
+    return std::all_of(parts_.begin() + static_cast<std::ptrdiff_t>(first()), parts_.end(),
+                       [&](const auto& part) { return part == parts_[first()]; });
+  }
+
+ private:
+  std::size_t first() const { return parts_[0].size() == 1 ? 1 : 0; }
+  std::string with(std::size_t term, const std::string& name) const {
+    Spec s = *this;
+    s.parts_[first()][term] = name;
+    return s.text();
+  }
+  std::string text() const {
+    std::string all;
+    for (const auto& part : parts_)
+      all += (all.empty() ? "" : "+") +
+             (part.size() == 1 ? part[0] : part[0] + "/" + part[1] + "/" + part[2]);
+    return all;
+  }
+  std::vector<std::vector<std::string>> parts_;
+};
+
+/// Number of a lobe of which nothing is known though it was fitted.
+std::optional<std::size_t> unknown_lobe(const FitDocument& d) {
+  const Model m = compose(d.model, std::max<std::size_t>(d.channels.size(), 1));
+  const auto in_all = [&](const Lobe& l, ParameterStatus status, ParameterStatus or_this) {
+    for (const auto* t : {&l.ndf, &l.masking, &l.fresnel})
+      for (const std::size_t k : t->parameters) {
+        const auto p =
+            std::ranges::find(d.parameters, m.parameters[k].name, &FittedParameter::name);
+        if (p == d.parameters.end()) return false;
+        for (const auto s : p->status)
+          if (s != status && s != or_this) return false;
+      }
+    return true;
+  };
+  using enum ParameterStatus;
+  for (std::size_t l = 0; l < m.lobes.size(); ++l)
+    if (in_all(m.lobes[l], not_identifiable, fixed) && !in_all(m.lobes[l], fixed, fixed)) return l;
+  return {};
+}
+
+/// Free parameters that are hardly known: their errors are half of their values or more.
+std::vector<std::string> hardly_known(const FitDocument& d) {
+  std::vector<std::string> names;
+  for (const auto& p : d.parameters) {
+    if (p.name.starts_with("roughness")) continue;  // is alpha
+    for (std::size_t c = 0; c < p.value.size(); ++c)
+      if (p.status[c] == ParameterStatus::not_identifiable ||
+          p.std_error[c] > std::abs(p.value[c]) / 2) {
+        names.push_back(p.name);
+        break;
+      }
+  }
+  return names;
+}
+
+/// Names of the two parameters that the data tell apart least, where they hardly do; else "".
+std::pair<std::string, std::string> hardly_told_apart(const FitDocument& d) {
+  const auto bare = [](const std::string& name) { return name.substr(0, name.find('.')); };
+  double strongest = 0.95;
+  std::pair<std::string, std::string> pair;
+  for (std::size_t i = 0; i < d.correlations.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (std::abs(d.correlations[i][k]) > strongest) {
+        strongest = std::abs(d.correlations[i][k]);
+        pair = {bare(d.free_names[k]), bare(d.free_names[i])};
+      }
+  return pair;
+}
+
+/// Steps as they are found, no model named twice.
+class Steps {
+ public:
+  void add(std::string_view sentence) { all_.emplace_back(sentence); }
+  void add_model(const std::string& spec, const std::string& why) {
+    if (spec.empty() || std::ranges::find(models_, spec) != models_.end()) return;
+    models_.push_back(spec);
+    add("--model " + spec + " " + why);
+  }
+  std::vector<std::string> first() && {
+    if (all_.size() > most) all_.resize(most);
+    return std::move(all_);
+  }
+
+ private:
+  std::vector<std::string> all_, models_;
+};
+
+/// Models that usually follow what this one leaves over: the best of each angle first.
+void add_models(Steps& steps, const Spec& spec, const FitDocument& d) {
+  using Models = std::vector<std::pair<std::string, const char*>>;
+  if (spec.lobes() == 0) return steps.add_model(spec.with_another_lobe(), "may follow a highlight");
+  const std::string diffuse = spec.diffuse(), fresnel = spec.fresnel(), ndf = spec.ndf();
+
+  Models highlight, index, grazing;
+  if (ndf != "gtr")
+    highlight.emplace_back(spec.with_ndf("gtr"), "may follow the highlight: its tail is free");
+  if (spec.lobes() == 1)
+    highlight.emplace_back(spec.with_another_lobe(), "may follow the highlight with a second lobe");
+  if (fresnel != "dielectric" && fresnel != "conductor")
+    index.emplace_back(spec.with_fresnel(diffuse.empty() ? "conductor" : "dielectric"),
+                       "may help: its Fresnel is exact");
+  if (diffuse == "lambert")
+    index.emplace_back(spec.with_diffuse("lambert.coupled"),
+                       "may help: its diffuse is what the lobe lets through");
+  if (fresnel == "schlick")
+    index.emplace_back(spec.with_fresnel("schlick.f90"),
+                       "may help: its reflectance at grazing angles is free");
+  if (diffuse == "lambert" || diffuse == "lambert.coupled")
+    grazing.emplace_back(spec.with_diffuse("disney"),
+                         "may help: its diffuse changes at grazing angles");
+  const std::string smith = ndf == "beckmann" ? "smith_beckmann" : "smith_ggx";
+  grazing.emplace_back(
+      spec.with_masking(smith +
+                        (spec.masking() == smith + ".correlated" ? ".separable" : ".correlated")),
+      "may help: its masking is another");
+
+  std::vector<const Models*> asked;
+  for (const auto& angle : d.misfit.follows)
+    asked.push_back(angle == "theta_h" ? &highlight : angle == "theta_d" ? &index : &grazing);
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const auto* models : asked)
+      if (k < models->size()) steps.add_model((*models)[k].first, (*models)[k].second);
+}
+
+}  // namespace
+
+std::vector<std::string> next_steps(const FitOptions& o, const FitDocument& d, const FitFacts& f) {
+  Steps steps;
+  const Spec spec(d.model);
+
+  if (d.solver.termination != "converged")
+    for (const auto& p : d.parameters)
+      if (is_alpha(p.name) && p.status[0] != ParameterStatus::fixed && p.value[0] > 0)
+        steps.add(fmt::format("--bounds {}={:.2g},{:.2g} may let the solver end", p.name,
+                              std::max(p.value[0] / 4, 1e-4), std::min(4 * p.value[0], 1.0)));
+  if (o.copies && f.copies)
+    steps.add("fit without --copies keep: angles that only repeat another are no measurements");
+  if (f.retro)
+    steps.add(
+        "no microfacet model has a highlight at wo = wi: fit without samples near there (weight 0 "
+        "in "
+        "a CSV file)");
+
+  const auto unknown = unknown_lobe(d);
+  if (f.cost_of_fewer < d.cost && spec.lobes_alike())
+    steps.add_model(spec.without_lobe(0), "meets the table better");
+  else if (unknown)
+    steps.add_model(spec.without_lobe(*unknown),
+                    f.needless ? "does as well: nothing is known of the lobe"
+                               : "may do as well: nothing is known of the lobe");
+  if (f.unresolved)
+    steps.add(
+        fmt::format("outgoing angles {:.1g}° apart or less around the mirror direction may resolve "
+                    "the highlight",
+                    2 * f.unresolved->half_width_deg / 3));
+  if (d.misfit.told && !f.retro && !unknown) add_models(steps, spec, d);
+  if (returns_too_much(d.physics) && spec.diffuse() == "lambert" && spec.lobes() > 0)
+    steps.add_model(spec.with_diffuse("lambert.coupled"),
+                    "may return less light: its diffuse is what the lobe lets through");
+
+  for (const auto& s : d.sensitivity)
+    if (s.log_rms < 0.95 * d.residuals.log_rms)
+      steps.add(fmt::format("--bins {} meets the table better: log RMS {:.3g} for {:.3g}", s.other,
+                            s.log_rms, d.residuals.log_rms));
+
+  for (const auto& b : o.bounds) {
+    const auto p = std::ranges::find(d.parameters, b.name, &FittedParameter::name);
+    if (p != d.parameters.end() &&
+        std::ranges::find(p->status, ParameterStatus::at_bound) != p->status.end())
+      steps.add("wider --bounds " + b.name + " may hold a better fit: the data push beyond these");
+  }
+  const auto hardly = hardly_known(d);
+  if (!hardly.empty() && !d.misfit.told && !f.retro && !unknown) {
+    if (const auto [a, b] = hardly_told_apart(d); !a.empty() && a != b)
+      steps.add(fmt::format(
+          "hold {} or {} (--fix) if it is known from elsewhere: these data hardly tell them apart",
+          a, b));
+    else
+      steps.add(
+          fmt::format("hold {} (--fix) if it is known from elsewhere: these data hardly tell it",
+                      hardly.front()));
+  }
+  if (d.log_offset > 0)
+    steps.add("--metric l2_cosine gives dark values, which the noise floor lifts, less weight");
+  if (f.few_angles)
+    steps.add("8 incident angles or more would tell the errors that values of one angle share");
+  return std::move(steps).first();
+}
+
+}  // namespace gonio

@@ -1,0 +1,214 @@
+// What is suggested can be done, and is suggested of fits that need it alone.
+#include "fitting/judge/next_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "fitting/fit.h"
+#include "fitting/support.h"
+#include "support.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+constexpr const char *paint = "lambert+ggx/smith_ggx.correlated/schlick",
+                     *metal = "ggx/smith_ggx.correlated/schlick";
+
+FitDocument fit_of(const Table& t, const std::string& model, FitOptions o = {}) {
+  o.model = model;
+  o.bin_sensitivity = false;
+  return fit(t, o).document;
+}
+
+/// Word after each `option` of the suggestions.
+std::vector<std::string> given(const FitDocument& d, const std::string& option) {
+  std::vector<std::string> values;
+  for (const auto& step : d.next) {
+    const auto words = split(step, ' ');
+    for (std::size_t k = 0; k + 1 < words.size(); ++k)
+      if (words[k] == option) values.push_back(words[k + 1]);
+  }
+  return values;
+}
+bool names(const FitDocument& d, const std::string& words) {
+  return std::ranges::any_of(
+      d.next, [&](const std::string& step) { return step.find(words) != step.npos; });
+}
+
+/// Fits each model, metric and range that is suggested, on the same table.
+void expect_it_can_be_done(const Table& t, const FitDocument& d, const FitOptions& o = {}) {
+  EXPECT_LE(d.next.size(), 5U);
+  for (const auto& model : given(d, "--model")) {
+    EXPECT_NE(model, d.model);
+    const auto other = fit_of(t, model, o);
+    EXPECT_TRUE(std::isfinite(other.cost)) << model;
+    if (names(d, model + " meets the table better")) {
+      EXPECT_LT(other.cost, d.cost) << model;
+    }
+  }
+  for (const auto& metric : given(d, "--metric")) {
+    FitOptions with = o;
+    const auto known = find_value<Metric>(metric);
+    ASSERT_TRUE(known) << metric;
+    with.metric = *known;
+    EXPECT_TRUE(std::isfinite(fit_of(t, d.model, with).cost));
+  }
+  for (const auto& range : given(d, "--bounds")) {
+    if (range.find('=') == range.npos) continue;
+    FitOptions with = o;
+    with.bounds = parse_settings(std::vector{range});
+    EXPECT_TRUE(std::isfinite(fit_of(t, d.model, with).cost)) << range;
+  }
+}
+
+TEST(NextSteps, AreNoneWhereTheModelReproducesTheTable) {
+  for (const Layout layout : {Layout::in_plane, Layout::hemisphere, Layout::random, Layout::mbsdf})
+    for (const double noise : {0.0, 0.02})
+      for (const auto& [model, settings] :
+           {std::pair{paint, "alpha=0.3,f0=0.05,kd=0.2,0.1,0.05"}, {metal, "alpha=0.2,f0=0.9"}}) {
+        const Table t =
+            synthesize(test::bind(model, settings, 3), {.layout = layout, .noise = noise});
+        const auto d = fit_of(t, model);
+        EXPECT_TRUE(d.next.empty()) << name_of(layout) << ": " << d.next.front();
+      }
+}
+
+TEST(NextSteps, NameModelsThatTheSameTableCanBeFittedWith) {
+  std::size_t suggested = 0;
+  for (const auto& [truth, settings, fitted] :
+       {std::tuple{"lambert+gtr/smith_ggx.correlated/schlick", "alpha=0.3,gamma=1,f0=0.05,kd=0.2",
+                   paint},
+        {"lambert+ggx/smith_ggx.correlated/dielectric", "alpha=0.5,eta=1.4,kd=0.1", paint},
+        {"lambert+ggx/smith_ggx.correlated/dielectric", "alpha=0.5,eta=1.4,kd=0.1", "gltf"},
+        {"ggx/smith_ggx.correlated/conductor", "alpha=0.3,eta=0.2,k=3", metal},
+        {"ggx/smith_ggx.correlated/conductor", "alpha=0.3,eta=1.4,k=1", metal},
+        {"disney+ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.05,kd=0.4", paint},
+        {"lambert+beckmann/smith_beckmann.correlated/schlick", "alpha=0.4,f0=0.05,kd=0.1",
+         "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick"},
+        {metal, "alpha=0.4,f0=0.8", "lambert"}}) {
+    const Table t =
+        synthesize(test::bind(truth, settings, 1), {.layout = Layout::hemisphere, .noise = 0.005});
+    const auto d = fit_of(t, fitted);
+    if (!d.misfit.told) continue;
+    suggested += given(d, "--model").size();
+    EXPECT_FALSE(d.next.empty()) << truth << " as " << fitted;
+    expect_it_can_be_done(t, d);
+  }
+  EXPECT_GE(suggested, 12U);
+}
+
+TEST(NextSteps, NameTheTrueModelAmongThoseThatMayHelp) {
+  for (const auto& [truth, settings, fitted] :
+       {std::tuple{"lambert+gtr/smith_ggx.correlated/schlick", "alpha=0.3,gamma=1,f0=0.05,kd=0.2",
+                   paint},
+        {"lambert+ggx/smith_ggx.correlated/dielectric", "alpha=0.5,eta=1.3,kd=0.1", paint},
+        {"ggx/smith_ggx.correlated/conductor", "alpha=0.3,eta=1.4,k=1", metal}}) {
+    const Table t =
+        synthesize(test::bind(truth, settings, 1), {.layout = Layout::hemisphere, .noise = 0.005});
+    const auto d = fit_of(t, fitted);
+    ASSERT_TRUE(d.misfit.told) << truth;
+    EXPECT_TRUE(names(d, "--model " + std::string(truth) + " may"))
+        << truth << ":\n"
+        << fmt::to_string(fmt::join(d.next, "\n"));
+  }
+}
+
+TEST(NextSteps, LeaveOutALobeOfWhichNothingIsKnown) {
+  const Table t =
+      synthesize(test::bind("lambert", "kd=0.3", 1), {.layout = Layout::hemisphere, .noise = 0.02});
+  const auto d = fit_of(t, paint);
+  ASSERT_FALSE(d.next.empty());
+  EXPECT_TRUE(d.next[0].starts_with("--model lambert ")) << d.next[0];
+  EXPECT_EQ(given(d, "--model").size(), 1U) << "no other lobe is worth a try";
+  expect_it_can_be_done(t, d);
+}
+
+TEST(NextSteps, KnowWhatFewerLobesDo) {
+  FitDocument d;
+  d.model = "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick";
+  d.solver.termination = "converged";
+  d.cost = 2;
+  FitFacts f;
+  f.cost_of_fewer = 1;
+  EXPECT_EQ(next_steps({}, d, f), (std::vector<std::string>{"--model " + std::string(paint) +
+                                                            " meets the table better"}));
+  d.model = "lambert+ggx/smith_ggx.correlated/schlick+gtr/smith_ggx.correlated/schlick";
+  EXPECT_TRUE(next_steps({}, d, f).empty()) << "which lobe is too many is not known";
+}
+
+TEST(NextSteps, OfATableThatKnowsTooLittleAreAboutTheTable) {
+  FitDocument d;
+  d.model = paint;
+  d.solver.termination = "converged";
+  const auto step = [&](const FitOptions& o, const FitFacts& f) {
+    const auto all = next_steps(o, d, f);
+    EXPECT_EQ(all.size(), 1U);
+    return all.empty() ? "" : all[0];
+  };
+  FitFacts f;
+  f.few_angles = true;
+  EXPECT_TRUE(step({}, f).starts_with("8 incident angles or more"));
+  f = {};
+  f.unresolved = Peak{0.9, 0.01, 2, false, 100, 1, 60};
+  EXPECT_TRUE(step({}, f).starts_with("outgoing angles 0.6° apart or less"));
+  f = {};
+  f.retro = Peak{0.9, 0.01, 2, true, 100, 1, 60};
+  EXPECT_TRUE(step({}, f).starts_with("no microfacet model has a highlight at wo = wi"));
+  f = {};
+  f.copies = true;
+  FitOptions keep;
+  keep.copies = true;
+  EXPECT_TRUE(step(keep, f).starts_with("fit without --copies keep"));
+  d.log_offset = 0.001;
+  EXPECT_TRUE(step({}, f).starts_with("--metric l2_cosine"));
+}
+
+TEST(NextSteps, HoldWhatTheDataHardlyTell) {
+  FitDocument d;
+  d.model = metal;
+  d.solver.termination = "converged";
+  using enum ParameterStatus;
+  const double none = std::nan("");
+  d.parameters = {{"alpha", {0.3}, {0.2}, {0}, {0.7}, {free}, {none}, {""}},
+                  {"f0", {0.5}, {0.01}, {0.48}, {0.52}, {free}, {none}, {""}}};
+  d.free_names = {"alpha", "f0"};
+  d.correlations = {{1, 0.5}, {0.5, 1}};
+  const auto hold = [&] {
+    const auto all = next_steps({}, d, {});
+    return all.empty() ? "" : all[0];
+  };
+  EXPECT_TRUE(hold().starts_with("hold alpha (--fix)"));
+  d.correlations = {{1, -0.99}, {-0.99, 1}};
+  EXPECT_TRUE(hold().starts_with("hold alpha or f0 (--fix)"));
+  d.parameters[0].std_error = {0.01};
+  EXPECT_EQ(hold(), "") << "well known for all that";
+}
+
+TEST(NextSteps, OfAFitThatDoesNotEndIsARange) {
+  FitDocument d;
+  d.model = metal;
+  d.solver.termination = "not_converged";
+  const double none = std::nan("");
+  d.parameters = {{"alpha", {0.5}, {0.01}, {0.4}, {0.6}, {ParameterStatus::free}, {none}, {""}}};
+  const auto all = next_steps({}, d, {});
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_TRUE(all[0].starts_with("--bounds alpha=0.12,1 ")) << all[0];
+}
+
+TEST(NextSteps, OfMeasuredTablesCanBeDone) {
+  GONIO_NEEDS_SHARED(felt, "data/rgl/acrylic_felt_green_rgb.bsdf");
+  GONIO_NEEDS_SHARED(klems, "data/klems/2011-SA1.xml");
+  for (const auto& path : {felt, klems}) {
+    const Table t = read_table(path);
+    const auto d = fit_of(t, paint);
+    EXPECT_FALSE(given(d, "--model").empty()) << path;
+    expect_it_can_be_done(t, d);
+  }
+}
+
+}  // namespace
+}  // namespace gonio
