@@ -150,7 +150,7 @@ struct Found {
   /// few values of a narrow peak, make the estimate but cannot tell its error well.
   bool rests_on_few() const {
     return name.find("_5 gain") != name.npos || name.find("_6 gain") != name.npos ||
-           name.find("l2_cosine alpha") != name.npos;
+           name.find("l2_cosine alpha") != name.npos || name.find("l2_cosine gamma") != name.npos;
   }
   double without() const { return static_cast<double>(none) / static_cast<double>(told + none); }
   /// Probability of so few (so many) inside if it is that share of all.
