@@ -11,6 +11,7 @@
 #include "fitting/describe.h"
 #include "fitting/judge/assess.h"
 #include "fitting/judge/bin_sensitivity.h"
+#include "fitting/judge/bootstrap.h"
 #include "fitting/judge/lack_of_fit.h"
 #include "fitting/judge/next_steps.h"
 #include "fitting/judge/physics.h"
@@ -54,7 +55,8 @@ struct Judged {
   const char* in_words;
 };
 Judged judge(const Sampling& s, const Problem& p, const Fitted& f) {
-  const auto asked = p.options.intervals;
+  const auto asked =
+      p.options.intervals == Intervals::bootstrap ? Intervals::automatic : p.options.intervals;
   const auto x = p.free.of(f.model.values);
   const auto errors = [&](const Assessment& a) {
     return uncertainty(a.sandwich, x, p.bounds, a.counts.used);
@@ -101,15 +103,15 @@ FitResult fit(const Table& t,
   Stopwatch watch(phase_ms);
 
   const Bins bins = t.bins();
-  const bool reciprocal = is_reciprocal(p.start);
+  const bool folded = is_reciprocal(p.start) && !o.robust;  // a pair of values is one to the fit
   std::shared_ptr<const BoundModel> bulk;
-  const auto sampling_of = [&](Bins convention) {
-    Sampling s(t, convention, o.metric, p.offset, reciprocal && !o.robust, o.copies);
+  const auto sampling_of = [&](Bins convention, bool fold) {
+    Sampling s(t, convention, o.metric, p.offset, fold, o.copies);
     s.set_bulk(bulk);
     return s;
   };
-  bulk = bulk_of(p, sampling_of(bins));
-  const Sampling sampling = sampling_of(bins);
+  bulk = bulk_of(p, sampling_of(bins, folded));
+  const Sampling sampling = sampling_of(bins, folded);
   Searched found = search(p, sampling, watch, announce);
   const Fitted& f = found.best;
 
@@ -121,7 +123,7 @@ FitResult fit(const Table& t,
   if (has_other)
     meanwhile.run([&] {
       const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
-      sensitivity = bin_sensitivity(p, found.scanned, sampling_of(other), other, f);
+      sensitivity = bin_sensitivity(p, found.scanned, sampling_of(other, folded), other, f);
     });
   const Judged judged = judge(sampling, p, f);
   const Assessment& a = judged.assessment;
@@ -136,6 +138,13 @@ FitResult fit(const Table& t,
   const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, u);
   keep_to_what_is_seen(t, p, f.model.values, u);
   watch.lap("limits_ms");
+  const char* in_words = judged.in_words;
+  if (o.intervals == Intervals::bootstrap) {
+    announce("fits of tables drawn from this one");
+    if (bootstrap(sampling_of(bins, false), p, f, shared, lack.widening, u))
+      in_words = shared ? "bootstrap of incident angles" : "bootstrap of values";
+    watch.lap("bootstrap_ms");
+  }
 
   FitDocument d;
   d.model = p.start.model.spec;
@@ -145,7 +154,7 @@ FitResult fit(const Table& t,
   d.log_offset = sampling.offset();
   d.robust = o.robust ? "huber" : "none";
   d.cost = f.solution.at.cost;
-  d.intervals = judged.in_words;
+  d.intervals = in_words;
   d.clusters = judged.clusters;
   d.residuals = a.residuals;
   d.misfit = lack.misfit;

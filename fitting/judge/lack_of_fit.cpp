@@ -530,7 +530,8 @@ LackOfFit lack_of_fit(
   Misfit& m = found.misfit;
   Left left = left_over(s, p, f);
   const std::size_t looked_at = left.values.size();
-  const bool measured = !s.table().truth && p.options.intervals == Intervals::automatic;
+  const bool measured = !s.table().truth && p.options.intervals != Intervals::independent &&
+                        p.options.intervals != Intervals::by_angle;
   const Regression r =
       regress(left, shared, measured && !shared, p.options.robust, rounding_of(s.table()));
   if (!r.tested) {

@@ -74,31 +74,6 @@ class Picker {
   std::vector<F> rows_;
 };
 
-/// Groups picked, cut into blocks and tasks; what is used is counted.
-template <class F>
-FitData<F> picked_from(const FitData<F>& all, std::size_t channels, const std::vector<F>& rows) {
-  constexpr std::size_t block = BlockReader<F>::block, task = Tasks::blocks * block;
-  const std::size_t columns = 5 + 2 * channels;
-  FitData<F> d;
-  d.link = all.link;
-  d.offset = all.offset;
-  d.groups = rows.size() / columns;
-  d.reserve((d.groups + task - 1) / task, channels);
-  for (std::size_t at = 0; at < d.groups; at += block) {
-    const std::size_t n = std::min(block, d.groups - at);
-    const auto& b = d.add_block(at / task, n);
-    for (std::size_t k = 0; k < columns; ++k) {
-      F* const to = b.columns + k * b.n;
-      for (std::size_t i = 0; i < n; ++i) to[i] = rows[(at + i) * columns + k];
-      std::fill(to + n, to + b.n, k < 5 ? F(0.5) : F(0));
-    }
-    for (std::size_t c = 0; c < channels; ++c)
-      d.counts.used += static_cast<std::size_t>(
-          std::count_if(b.weight(c), b.weight(c) + b.n, [](F w) { return w > 0; }));
-  }
-  return d;
-}
-
 /// One pass over the table's groups; every `steps[l]`-th with a value goes into level l too.
 template <class F>
 FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::size_t>& steps) {
@@ -164,6 +139,30 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
 }  // namespace
 
 template <class F>
+FitData<F> picked_from(const FitData<F>& all, std::size_t channels, const std::vector<F>& rows) {
+  constexpr std::size_t block = BlockReader<F>::block, task = Tasks::blocks * block;
+  const std::size_t columns = 5 + 2 * channels;
+  FitData<F> d;
+  d.link = all.link;
+  d.offset = all.offset;
+  d.groups = rows.size() / columns;
+  d.reserve((d.groups + task - 1) / task, channels);
+  for (std::size_t at = 0; at < d.groups; at += block) {
+    const std::size_t n = std::min(block, d.groups - at);
+    const auto& b = d.add_block(at / task, n);
+    for (std::size_t k = 0; k < columns; ++k) {
+      F* const to = b.columns + k * b.n;
+      for (std::size_t i = 0; i < n; ++i) to[i] = rows[(at + i) * columns + k];
+      std::fill(to + n, to + b.n, k < 5 ? F(0.5) : F(0));
+    }
+    for (std::size_t c = 0; c < channels; ++c)
+      d.counts.used += static_cast<std::size_t>(
+          std::count_if(b.weight(c), b.weight(c) + b.n, [](F w) { return w > 0; }));
+  }
+  return d;
+}
+
+template <class F>
 Block<F> FitBlock<F>::angles() const {
   const F* const x = columns;
   return {x, x + n, x + 2 * n, x + 3 * n, x + 4 * n, n};
@@ -225,6 +224,10 @@ template FitData<float> fit_data(const Sampling&, std::size_t);
 template FitData<double> fit_data(const Sampling&, std::size_t);
 template FitLevels<float> fit_levels(const Sampling&, std::span<const std::size_t>);
 template FitLevels<double> fit_levels(const Sampling&, std::span<const std::size_t>);
+template FitData<float> picked_from(const FitData<float>&, std::size_t, const std::vector<float>&);
+template FitData<double> picked_from(const FitData<double>&,
+                                     std::size_t,
+                                     const std::vector<double>&);
 template FitData<double> in_double(const FitData<float>&);
 template FitData<double> in_double(const FitData<double>&);
 

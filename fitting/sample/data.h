@@ -58,6 +58,11 @@ struct FitLevels {
 template <class F>
 FitLevels<F> fit_levels(const Sampling&, std::span<const std::size_t> levels);
 
+/// Groups picked from fit data, cut into blocks and tasks; what is used is counted.
+/// \param rows  [group][column], as the blocks have columns
+template <class F>
+FitData<F> picked_from(const FitData<F>& all, std::size_t channels, const std::vector<F>& rows);
+
 /// Fit data in double.
 template <class F>
 FitData<double> in_double(const FitData<F>&);

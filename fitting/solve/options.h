@@ -16,11 +16,13 @@ namespace gonio {
 enum class Intervals {
   automatic,  ///< by_angle for measured tables with enough incident angles, else independent
   independent,
-  by_angle  ///< values of one incident angle share their errors; needs two angles
+  by_angle,  ///< values of one incident angle share their errors; needs two angles
+  bootstrap  ///< from fits of tables drawn from this one's values, or incident angles where
+             ///< automatic takes these
 };
 template <>
-inline constexpr std::array<std::string_view, 3> names_of<Intervals>{"automatic", "independent",
-                                                                     "by_angle"};
+inline constexpr std::array<std::string_view, 4> names_of<Intervals>{"automatic", "independent",
+                                                                     "by_angle", "bootstrap"};
 
 /// Certificate of the optimum: a search of the cost over the widths for anything lower.
 enum class Certify { none, automatic };

@@ -230,7 +230,8 @@ void add_fit(CommandLine& line) {
       .show_default();
   c.option("--intervals", o->intervals,
            "Whether the values of one incident angle share their errors: independent, by_angle, or "
-           "automatic (by_angle for measured tables)")
+           "automatic (by_angle for measured tables); or bootstrap, from 400 fits of tables drawn "
+           "from this one, which takes as long")
       .one_of(names_of<Intervals>)
       .show_default();
   c.option("--copies", o->copies,
