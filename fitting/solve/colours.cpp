@@ -307,8 +307,7 @@ Start Colours<F>::from_every_valley(std::vector<double> values, const DescentOpt
 template <class F>
 std::vector<Start> Colours<F>::other_valleys(const Start& place,
                                              const DescentOptions& o,
-                                             double worth,
-                                             std::size_t most) const {
+                                             double worth) const {
   std::vector<Start> others;
   const std::size_t channels = held_.start.model.channels;
   for (const Lobe& lobe : lobes_) {
@@ -328,7 +327,6 @@ std::vector<Start> Colours<F>::other_valleys(const Start& place,
     }
   }
   std::erase_if(others, [&](const Start& s) { return !(s.cost <= place.cost * (1 + worth)); });
-  keep_best(others, most);
   return others;
 }
 

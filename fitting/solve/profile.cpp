@@ -54,7 +54,8 @@ class Profiler {
         held_(with_axes_held(p, axes_)),
         rest_(held_.start.model, thin, held_.free, huber),
         whole_(p.start.model, thin, p.free, huber),
-        colours_(held_, thin, huber) {}
+        colours_(held_, thin, huber),
+        indices_(p, thin, huber) {}
 
   Profile run(const std::vector<double>& optimum) const {
     Profile profile{axes_, 0, {}, 0};
@@ -85,12 +86,43 @@ class Profiler {
     return lowest;
   }
   const Problem& held() const { return held_; }
+  /// Bottoms of other valleys of an index or an extinction that are nearly as low: those of one form,
+  /// eta and 1/eta say, differ by so little that no start tells them apart.
+  std::vector<Start> twins(const std::vector<double>& values) const {
+    constexpr double nearly = 1e-3, near_one = 1e-2;
+    if (!indices_.has_valleys()) return {};
+    const double cost = whole_.normal_equations(values).cost;
+    auto others = indices_.other_valleys({cost, values}, {40, 1e-7}, nearly);
+    // Next to eta = 1, where F all but vanishes, the other valley has no bottom to descend to.
+    for (const auto& q : p_.start.model.parameters)
+      for (std::size_t k = q.first; k < q.first + q.count; ++k)
+        if (q.about->name == "eta" && p_.free.mask()[k] && std::abs(values[k] - 1) < near_one) {
+          others.push_back({cost, values});
+          others.back().values[k] = 1 / values[k];
+        }
+    std::vector<Start> apart;
+    for (auto& s : others)
+      if (std::ranges::none_of(apart,
+                               [&](const Start& a) { return are_alike(a.values, s.values); }) &&
+          !are_alike(s.values, values))
+        apart.push_back(std::move(s));
+    return apart;
+  }
   /// Descent of the thinned table with the axes free.
   Start set_free(const ProfileCell& cell) const {
     return descended(whole_, p_, cell.values, {30, 1e-6});
   }
 
  private:
+  /// True of values that are the same but for rounding and the last steps of a descent.
+  bool are_alike(const std::vector<double>& a, const std::vector<double>& b) const {
+    constexpr double same = 1e-5;
+    for (std::size_t i = 0; i < p_.free.size(); ++i) {
+      const std::size_t s = p_.free.slots()[i];
+      if (std::abs(a[s] - b[s]) > same * std::max(std::abs(a[s]), std::abs(b[s]))) return false;
+    }
+    return true;
+  }
   const ModelParameter& parameter(std::size_t axis) const {
     return p_.start.model.parameters[axes_[axis]];
   }
@@ -169,7 +201,8 @@ class Profiler {
   std::size_t side_;  ///< cells along each axis
   Problem held_;
   Accumulator<F> rest_, whole_;
-  Colours<F> colours_;
+  Colours<F> colours_;  ///< with the axes held
+  Colours<F> indices_;  ///< with the shapes held
 };
 
 /// Whether a fit of all samples from there is lower; then it is the fit.
@@ -259,6 +292,8 @@ Profile profile(const Problem& p,
     });
     keep_best(bottoms, most_valleys);
     for (const Start& s : bottoms) moved = moves_to(p, all, s.values, f) || moved;
+    for (const Start& s : profiler.twins(f.model.values))
+      moved = moves_to(p, all, s.values, f) || moved;
 
     // The lowest cells, with all samples.
     std::size_t lowest = low[0];

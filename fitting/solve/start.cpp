@@ -160,9 +160,11 @@ std::vector<Start> join(const Problem& p,
   if (!colours.has_valleys()) return starts;
   // With these shapes, which are none of the grid's, another valley may be the better one.
   std::vector<Start> others;
-  for (const Start& s : starts)
-    for (auto& o : colours.other_valleys(s, {12, 1e-5}, worth_a_descent, most_cells))
-      others.push_back(std::move(o));
+  for (const Start& s : starts) {
+    auto of_one = colours.other_valleys(s, {12, 1e-5}, worth_a_descent);
+    keep_best(of_one, most_cells);
+    for (auto& o : of_one) others.push_back(std::move(o));
+  }
   tbb::parallel_for(std::size_t{0}, others.size(), [&](std::size_t k) {
     others[k] = descended_in_valley(whole, p, others[k].values, closely);
   });

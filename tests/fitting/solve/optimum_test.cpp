@@ -138,6 +138,12 @@ TEST_P(Optimum, IsAsLowAsAnyOf64RandomStartsFinds) {
 }
 INSTANTIATE_TEST_SUITE_P(Tables, Optimum, testing::Range(0, 10));
 
+TEST(LostOptimum, OfTwinValleysAndOfAnExponentWithoutEffectIsFound) {
+  look_at(15);   // an extinction of 20 for one of 0
+  look_at(444);  // alpha = 1, where an exponent has no effect but on the way down
+  look_at(834);  // eta on the other side of 1
+}
+
 /// Tables of one model, and what is asked of their fits: none ends above where the truth is.
 struct Family {
   const char* name;
