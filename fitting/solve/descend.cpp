@@ -123,17 +123,15 @@ std::optional<Step> step_from(const NormalEquations& e,
                               const Bounds& bounds,
                               double lambda) {
   const std::size_t n = x.size();
-  // Where an unknown has no effect its derivatives are rounding, which may look like another's.
-  constexpr double rounding = 1e-24;
-  std::vector<double> effect(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  // Derivatives of an unknown without effect are rounding, which may look like another's.
+  const double least = 1e-20 * e.cost;
+  const auto has_effect = [&](std::size_t i) {
     const double range = bounds.high[i] - bounds.low[i];
-    effect[i] = e.h(i, i) * range * range;
-  }
-  const double least = n == 0 ? 0 : rounding * std::ranges::max(effect);
+    return e.h(i, i) * range * range > least;
+  };
   std::vector<bool> out(n);
   for (std::size_t i = 0; i < n; ++i)
-    out[i] = !(effect[i] > least) || (x[i] <= bounds.low[i] && e.g[i] >= 0) ||
+    out[i] = !has_effect(i) || (x[i] <= bounds.low[i] && e.g[i] >= 0) ||
              (x[i] >= bounds.high[i] && e.g[i] <= 0);
   std::vector<double> by(n);  // of those that have met a bound
   for (std::size_t round = 0; round <= n; ++round) {
