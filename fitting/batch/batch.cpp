@@ -55,7 +55,7 @@ std::vector<std::string> in_folder(const std::string& folder) {
 std::vector<std::string> in_list(const std::string& list) {
   InputFile file(list);
   std::vector<std::string> all;
-  for (auto& line : split(file.read_rest(std::uint64_t{1} << 26), '\n')) {
+  for (auto& line : split(file.read_rest(most_document_bytes), '\n')) {
     if (line.ends_with('\r')) line.pop_back();
     if (line.find('\0') != line.npos) throw bad_input(list, "a path", line, "text");
     if (!line.empty()) all.push_back(std::move(line));

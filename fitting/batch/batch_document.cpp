@@ -5,7 +5,6 @@
 #include <unordered_set>
 
 #include "base/csv_describe.h"
-#include "base/file.h"
 #include "base/json_describe.h"
 #include "fitting/batch/preview_json.h"
 #include "fitting/result/document_fields.h"
@@ -169,11 +168,6 @@ BatchFit read_fit(const JsonReader& j) {
   return d;
 }
 
-Json read_document(const std::string& path) {
-  InputFile file(path);
-  return parse_json(path, file.read_rest(std::uint64_t{1} << 26));
-}
-
 Exit outcome_of(std::string_view termination) {
   return termination == "converged" ? Exit::done : Exit::not_converged;
 }
@@ -213,7 +207,7 @@ std::optional<BatchRow> read_batch_document(const std::string& path,
                                             const std::string& sha256,
                                             const std::string& made_with) {
   try {
-    const Json document = read_document(path);
+    const Json document = read_json(path);
     const JsonReader root(path, document);
     if (root.at("schema").string() != "gonio.fit/1" ||
         root.at("batch").at("made_with").string() != made_with ||
@@ -233,7 +227,7 @@ std::optional<BatchRow> read_batch_document(const std::string& path,
 
 bool is_batch_document(const std::string& path) {
   try {
-    const Json document = read_document(path);
+    const Json document = read_json(path);
     return JsonReader(path, document).at("batch").has("made_with");
   } catch (const Error&) {
     return false;

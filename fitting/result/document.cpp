@@ -1,6 +1,5 @@
 #include "fitting/result/document.h"
 
-#include "base/file.h"
 #include "base/json_describe.h"
 #include "fitting/result/document_fields.h"
 
@@ -19,8 +18,7 @@ std::string comparison_schema() {
 }
 
 FittedModel read_fitted_model(const std::string& path) {
-  InputFile file(path);
-  const Json document = parse_json(path, file.read_rest(std::uint64_t{1} << 26));
+  const Json document = read_json(path);
   const JsonReader root(path, document);
   constexpr const char* schema = "gonio.fit/1";
   if (root.at("schema").string() != schema) root.at("schema").fail(schema);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "base/file.h"
 #include "base/json_reader.h"
 
 namespace gonio {
@@ -30,8 +29,7 @@ CostName name_of(const CostRow& r) {
 }
 
 EarlierCosts read_costs(const std::string& path) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 26U;
-  const auto json = parse_json(path, InputFile(path).read_rest(most));
+  const auto json = read_json(path);
   const JsonReader document(path, json);
   const auto schema = document.at("schema");
   if (const auto s = schema.string(); s != "gonio.bench/1" && s != "gonio.report.cost/1")

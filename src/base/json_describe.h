@@ -21,6 +21,17 @@ namespace gonio {
 /// Number, or null where it is not finite.
 Json number_json(double, Digits);
 
+/// Pairs of a key and a value that stand among the fields of the struct around them.
+template <class V>
+struct Keyed {
+  V entries;
+};
+/// \param pattern  regular expression of their keys
+template <class Get>
+constexpr Field<As<Keyed, Get>> keyed(std::string_view pattern, Get get, std::string_view meaning) {
+  return {pattern, "", {get}, meaning};
+}
+
 /// JSON of any value that has a form: numbers, text, names of enums, optionals, arrays, maps and lists of pairs (objects),
 /// described structs, and the forms of base/describe.h.
 template <class V>
@@ -86,6 +97,8 @@ void put_field(Json& object, const T& of, const Field<Get>& f, Digits digits) {
     } else {
       put_fields(object, value.value, digits);
     }
+  } else if constexpr (form::is<V, Keyed>) {
+    for (const auto& [key, entry] : value.entries) put(object, key, json_of(entry, digits));
   } else if constexpr (form::is<V, IfThere>) {
     if (value.value) put(object, f.name, json_of(*value.value, digits));
   } else {
@@ -173,6 +186,11 @@ void put_schema(Json& object, const Field<Get>& f, bool required) {
       put_schemas<typename Inner::value_type>(object, false);
     else
       put_schemas<Inner>(object, required);
+  } else if constexpr (form::is<V, Keyed>) {
+    using Pairs = std::remove_cvref_t<decltype(std::declval<V>().entries)>;
+    Json schema = schema_of<typename form::Entry<Pairs>::second_type>();
+    put_meaning(schema, f.meaning, f.unit);
+    object["patternProperties"] = {{std::string(f.name), std::move(schema)}};
   } else {
     Json schema;
     if constexpr (form::is<V, IfThere>) {

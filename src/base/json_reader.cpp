@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/file.h"
 
 #include <fmt/format.h>
 
@@ -144,16 +145,6 @@ std::string text_of(const Json& j) {
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json per_channel(const std::vector<double>& v) {
-  return per_channel(v.size(), [&](std::size_t c) { return Json(v[c]); });
-}
-
-Json per_name(const std::vector<std::pair<std::string, std::vector<double>>>& all) {
-  Json out = Json::object();
-  for (const auto& [name, values] : all) members_of(out).emplace_back(name, per_channel(values));
-  return out;
-}
-
 Json parse_json(const std::string& file, const std::string& bytes) {
   if (const auto at = too_deep(bytes); at != bytes.npos)
     throw bad_input(file, place_of(bytes, at), fmt::format("{} levels of brackets", kDeepest + 1),
@@ -161,6 +152,10 @@ Json parse_json(const std::string& file, const std::string& bytes) {
   Builder document(file, bytes);
   Json::sax_parse(bytes, &document);
   return document.take();
+}
+
+Json read_json(const std::string& file) {
+  return parse_json(file, InputFile(file).read_rest(most_document_bytes));
 }
 
 void JsonReader::fail(const std::string& expected) const {

@@ -20,18 +20,9 @@ std::string text_of(const Json&);
 /// The bytes as a document; bytes that are not JSON, or nest deeper than 64 levels, are bad_input
 /// with line and column.
 Json parse_json(const std::string& file, const std::string& bytes);
-
-/// One entry as itself, several as an array: how the contract writes what may have channels.
-template <class Entry>
-Json per_channel(std::size_t n, Entry entry) {
-  if (n == 1) return entry(0);
-  Json all = Json::array();
-  for (std::size_t c = 0; c < n; ++c) all.push_back(entry(c));
-  return all;
-}
-Json per_channel(const std::vector<double>&);
-/// {NAME: number or array}
-Json per_name(const std::vector<std::pair<std::string, std::vector<double>>>&);
+/// A document of a file; one of more bytes than that is refused before it is read.
+Json read_json(const std::string& file);
+inline constexpr std::uint64_t most_document_bytes = std::uint64_t{1} << 26;
 
 /// A value of a document and where it stands ("parameters.alpha.value"); the document must outlive
 /// it.  A value that is not what is asked for is bad_input.

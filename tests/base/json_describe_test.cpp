@@ -85,6 +85,13 @@ Shown example() {
   return s;
 }
 
+/// Were each name looked for among all others, it would take half an hour.
+TEST(JsonOf, AMillionNamesTakesLinearTime) {
+  std::vector<std::pair<std::string, std::vector<double>>> all;
+  for (std::size_t i = 0; i < 1'000'000; ++i) all.push_back({std::to_string(i), {1.0, 2.0}});
+  EXPECT_EQ(json_of(PerName<const decltype(all)&>{all}).size(), all.size());
+}
+
 TEST(JsonOf, HasTheFieldsInTheirOrderAndForms) {
   EXPECT_EQ(
       json_of(example()).dump(),

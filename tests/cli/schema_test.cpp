@@ -7,6 +7,7 @@
 #include "fitting/batch/batch_document.h"
 #include "reports/tables/fit_page.h"
 #include "reports/tables/inspect_page.h"
+#include "table/format/metadata.h"
 #include "table/health/health.h"
 
 #if __has_include(<valijson/validator.hpp>)
@@ -33,6 +34,7 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
                                    {"batch", batch_schema()},
                                    {"compare", comparison_schema()},
                                    {"inspect", health_schema()},
+                                   {"table", side_file_schema()},
                                    {"fit.page", fit_page_schema()},
                                    {"inspect.page", inspect_page_schema()}}) {
     if (write) std::ofstream(path_of(name), std::ios::binary) << text;
@@ -114,6 +116,49 @@ TEST(Schemas, HoldForTheDocumentsOfABatch) {
   EXPECT_EQ(mistakes(o.json(), "batch"), "");
   EXPECT_EQ(mistakes(file(f / "out/summary.page.json"), "batch"), "");
   EXPECT_EQ(mistakes(file(f / "out/b.json"), "fit"), "");
+}
+
+TEST(Schemas, HoldForTheSideFilesOfTables) {
+  const Folder f;
+  make_tables(f);
+  const auto expect_side = [&](const std::string& words, const std::string& table) {
+    ASSERT_EQ(gonio(f, words).code, 0) << words;
+    EXPECT_EQ(mistakes(file(f / (table + ".gonio.json")), "table"), "") << words;
+  };
+  expect_side("convert a.csv b.csv --channels g", "b.csv");
+  expect_side("convert b.mbsdf c.mbsdf --to-bins edge", "c.mbsdf");
+  f.write("map.csv", "a line\nnm;in;out;a;b\n500;0,1;0,2;1;3\n600;0,1;0,2;2;4\n");
+  expect_side(
+      "columns map.csv --skip 1 --map theta_i=in theta_o=#3 f=b channel=nm --radians "
+      "--cosine --forward 0 --scale 0.5",
+      "map.csv");
+  expect_side("columns map.csv --skip 1 --map theta_i=in theta_o=out f_a=a 'f_b c=b' weight=1",
+              "map.csv");
+}
+
+TEST(Schemas, OfSideFilesRefuseWhatTheReaderRefuses) {
+  const Folder f;
+  f.write("t.csv", "theta_i,theta_o,f\n0,10,1\n");
+  const auto judged = [&](const std::string& keys) {
+    const std::string text = R"({"schema": "gonio.table/1")" + keys + "}";
+    f.write("t.csv.gonio.json", text);
+    const bool read = gonio(f, "inspect t.csv").code == 0;
+    EXPECT_EQ(mistakes(json::parse(text), "table").empty(), read) << keys;
+    return read;
+  };
+  for (const char* keys :
+       {"", R"(, "notes": {"by": "hand"})", R"(, "columns": {})",
+        R"(, "columns": {"theta_i": "#1", "f": "#3", "unit": "degrees", "forward": -90})",
+        R"(, "columns": {"f_\n": "f", "weight": "0.5", "cosine": true, "skip": 0})",
+        R"(, "truth": {"model": "lambert", "parameters": {"kd": [1, 0.5]}, "noise": 0, "floor": 0,)"
+        R"( "outliers": 0, "seed": 1})"})
+    EXPECT_TRUE(judged(keys)) << keys;
+  for (const char* keys :
+       {R"(, "note": {})", R"(, "notes": {"by": 1})", R"(, "bins": "middle")",
+        R"(, "columns": {"thetai": "f"})", R"(, "columns": {"f_": "f"})",
+        R"(, "columns": {"f": 4})", R"(, "columns": {"unit": "grad"})",
+        R"(, "columns": {"skip": -1})", R"(, "columns": {"cosine": 1})", R"(, "truth": {})"})
+    EXPECT_FALSE(judged(keys)) << keys;
 }
 
 TEST(Schemas, RefuseADocumentThatHasLessOrMoreOrOtherValues) {

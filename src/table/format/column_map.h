@@ -22,6 +22,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,10 @@ struct ColumnMap {
   std::size_t skip = 0;
 };
 
-/// True for what a column can be: an angle, f, f_NAME, weight or channel.
+/// Regular expression of what a column can be: an angle, f, f_NAME, weight or channel.
+inline constexpr std::string_view role_pattern =
+    "^(theta_i|phi_i|theta_o|phi_o|f|weight|channel|f_[\\s\\S]+)$";
+/// True for these.
 bool is_role(const std::string&);
 
 }  // namespace gonio

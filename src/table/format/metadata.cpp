@@ -7,14 +7,33 @@
 
 #include "base/error.h"
 #include "base/json_reader.h"
+#include "table/format/side_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
 
-constexpr const char* kSchema = "gonio.table/1";
 constexpr double kAny = std::numeric_limits<double>::max();
+
+/// Keys of a described struct that have a name of their own.
+template <Described T>
+const std::vector<std::string>& keys_of() {
+  static const auto keys = [] {
+    std::vector<std::string> names;
+    const Json schema = schema_of<T>();
+    for (const auto& [name, of] : schema["properties"].items()) names.push_back(name);
+    return names;
+  }();
+  return keys;
+}
+/// "no such key; schema, sha256 or notes"
+std::string no_such_key(std::vector<std::string> names) {
+  const std::string last = std::move(names.back());
+  names.pop_back();
+  return fmt::format("no such key; {} or {}", fmt::join(names, ", "), last);
+}
 
 double number_within(const JsonReader& j, double low, double high) {
   const double v = j.number();
@@ -39,10 +58,12 @@ Truth read_truth(const JsonReader& j) {
   return t;
 }
 
-Bins read_bins(const JsonReader& j) {
-  const auto bins = find_value<Bins>(j.string());
-  if (!bins) j.fail("\"centre\" or \"edge\"");
-  return *bins;
+/// A value of an enumeration of two.
+template <Named E>
+E read_name(const JsonReader& j) {
+  const auto value = find_value<E>(j.string());
+  if (!value) j.fail(fmt::format("\"{}\" or \"{}\"", names_of<E>[0], names_of<E>[1]));
+  return *value;
 }
 
 /// A table that other means wrote over an old one must not inherit the old one's truth.
@@ -65,6 +86,13 @@ double scale(const JsonReader& j) {
   return v;
 }
 
+[[noreturn]] void refuse_key(const JsonReader& value) {
+  std::vector<std::string> keys{"theta_i", "phi_i",  "theta_o", "phi_o",
+                                "f",       "f_NAME", "weight",  "channel"};
+  std::ranges::copy(keys_of<ColumnMap>(), std::back_inserter(keys));
+  value.fail(no_such_key(std::move(keys)));
+}
+
 ColumnMap read_column_map(const std::string& file, const JsonReader& j) {
   ColumnMap map;
   const auto members = j.members();
@@ -76,8 +104,8 @@ ColumnMap read_column_map(const std::string& file, const JsonReader& j) {
   for (const auto& [key, value] : members) {
     if (is_role(key))
       map.columns.emplace_back(key, value.string());
-    else if (key == "unit" && (value.string() == "radians" || value.string() == "degrees"))
-      map.radians = value.string() == "radians";
+    else if (key == "unit")
+      map.radians = read_name<AngleUnit>(value) == AngleUnit::radians;
     else if (key == "forward")
       map.forward_deg = number_within(value, -360, 360);
     else if (key == "cosine")
@@ -87,49 +115,33 @@ ColumnMap read_column_map(const std::string& file, const JsonReader& j) {
     else if (key == "skip")
       map.skip = value.whole_number();
     else
-      value.fail(key == "unit" ? "\"degrees\" or \"radians\""
-                               : "no such key; theta_i, phi_i, theta_o, phi_o, f, f_NAME, weight, "
-                                 "channel, unit, forward, cosine, scale or skip");
+      refuse_key(value);
   }
   return map;
 }
 
-Json column_map_json(const ColumnMap& map) {
-  const ColumnMap usual;
-  Json j = Json::object();
-  for (const auto& [role, column] : map.columns) j[role] = column;
-  if (map.radians != usual.radians) j["unit"] = "radians";
-  if (map.forward_deg != usual.forward_deg) j["forward"] = map.forward_deg;
-  if (map.cosine != usual.cosine) j["cosine"] = map.cosine;
-  if (map.scale != usual.scale) j["scale"] = map.scale;
-  if (map.skip != usual.skip) j["skip"] = map.skip;
-  return j;
-}
-
 /// The table's notes: of those with one name the last, where the first stands.
-Json notes_json(const Table& t) {
-  std::vector<std::pair<std::string, Json>> all;
+std::vector<std::pair<std::string, std::string>> notes_of(const Table& t) {
+  std::vector<std::pair<std::string, std::string>> all;
   std::map<std::string_view, std::size_t> known;
   for (const auto& [name, text] : t.notes)
     if (const auto [at, is_new] = known.try_emplace(name, all.size()); is_new)
       all.emplace_back(name, text);
     else
       all[at->second].second = text;
-  return Json::object_t(all.begin(), all.end());  // which looks no name up
+  return all;
 }
 
 Json parse_side(const std::string& file, const std::string& text) {
   Json document = parse_json(file, text);
   const JsonReader root(file, document);
   const auto members = root.members();
-  const std::string expected = std::string("\"schema\": \"") + kSchema + "\"";
+  const std::string expected = std::string("\"schema\": \"") + side_file_id + "\"";
   if (!root.has("schema")) throw bad_input(file, "schema", "no such key", expected);
-  if (root.at("schema").string() != kSchema) root.at("schema").fail(expected);
-  constexpr std::array<std::string_view, 6> keys{"schema",  "sha256", "bins",
-                                                 "columns", "truth",  "notes"};
+  if (root.at("schema").string() != side_file_id) root.at("schema").fail(expected);
+  const auto& keys = keys_of<SideFile>();
   for (const auto& [key, value] : members)
-    if (std::ranges::find(keys, key) == keys.end())
-      value.fail("no such key; schema, sha256, bins, columns, truth or notes");
+    if (std::ranges::find(keys, key) == keys.end()) value.fail(no_such_key(keys));
   return document;
 }
 
@@ -142,12 +154,6 @@ bool is_role(const std::string& name) {
          (name.starts_with("f_") && name.size() > 2);
 }
 
-Json truth_json(const Truth& t) {
-  return {{"model", t.model},       {"parameters", per_name(t.parameters)},
-          {"noise", t.noise},       {"floor", t.floor},
-          {"outliers", t.outliers}, {"seed", t.seed}};
-}
-
 std::string side_path(const std::string& path) {
   return path + ".gonio.json";
 }
@@ -157,12 +163,13 @@ bool needs_metadata(const Table& t) {
 }
 
 std::string metadata_text(const Table& t, const std::string& sha256) {
-  Json j = {{"schema", kSchema}};
-  if (!sha256.empty()) j["sha256"] = sha256;
-  if (keeps_bins(t)) j["bins"] = name_of(t.grid()->bins);
-  if (t.truth) j["truth"] = truth_json(*t.truth);
-  if (!t.notes.empty()) j["notes"] = notes_json(t);
-  return text_of(j);
+  SideFile side{sha256, {}, {}, t.truth, notes_of(t)};
+  if (keeps_bins(t)) side.bins = t.grid()->bins;
+  return text_of(json_of(side));
+}
+
+std::string side_file_schema() {
+  return schema_text<SideFile>("Side file of a table, FILE.gonio.json");
 }
 
 void apply_metadata(Table& t, const std::string& file, const std::string& text) {
@@ -171,7 +178,7 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
   expect_sha256(root, file, t.sha256);
   if (root.has("bins")) {
     if (!t.has_bins()) root.at("bins").fail("none: this table has no bins");
-    std::get<Grid>(t.where).bins = read_bins(root.at("bins"));
+    std::get<Grid>(t.where).bins = read_name<Bins>(root.at("bins"));
   }
   if (root.has("columns") && t.format != "csv")
     root.at("columns").fail("none: this table is not CSV");
@@ -194,8 +201,8 @@ std::optional<ColumnMap> column_map(const std::string& file, const std::string& 
 }
 
 std::string with_columns(const std::string& file, const std::string& text, const ColumnMap& map) {
-  Json document = text.empty() ? Json{{"schema", kSchema}} : parse_side(file, text);
-  document["columns"] = column_map_json(map);
+  Json document = text.empty() ? json_of(SideFile{}) : parse_side(file, text);
+  document["columns"] = json_of(map);
   return text_of(document);
 }
 

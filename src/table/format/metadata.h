@@ -8,6 +8,8 @@
 ///    "columns": how to read them (of CSV, see table/format/column_map.h),
 ///    "truth": {"model", "parameters": {NAME: number or array}, "noise", "floor", "outliers", "seed"},
 ///    "notes": {NAME: string}}
+///
+/// What may stand there is described in table/format/side_file.h.
 
 #include <optional>
 #include <string>
@@ -15,18 +17,15 @@
 #include "table/format/column_map.h"
 #include "table/table.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 namespace gonio {
-
-/// Model, parameters and noise that a table was made from.
-nlohmann::ordered_json truth_json(const Truth&);
 
 std::string side_path(const std::string& path);
 /// True where there is anything that a reader would not assume anyway.
 bool needs_metadata(const Table&);
 /// \param sha256  of the file that this goes beside; empty: said nothing of
 std::string metadata_text(const Table&, const std::string& sha256 = "");
+/// JSON Schema of it.
+std::string side_file_schema();
 /// A sha256 that is not the table's is an error: the text speaks of another.  While the table's is
 /// still being made, that is left to expect_same_table().
 /// \param file  named in errors

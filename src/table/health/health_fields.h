@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/describe.h"
+#include "table/format/side_file.h"
 #include "table/health/health.h"
 
 namespace gonio {
@@ -29,18 +30,6 @@ std::vector<std::pair<std::string_view, Entry>> by_mask(
   for (std::size_t m = 1; m < all.size(); ++m) named.emplace_back(names_of<Mask>[m], all[m]);
   return named;
 }
-
-template <>
-struct Description<Truth> {
-  static constexpr auto fields() {
-    return std::tuple{field("model", "", &Truth::model, ""),
-                      field("parameters", "", per_name(&Truth::parameters), ""),
-                      field("noise", "", &Truth::noise, "σ of the multiplicative noise exp(σ z)"),
-                      field("floor", "1/sr", &Truth::floor, "added to every value"),
-                      field("outliers", "", &Truth::outliers, "share of samples replaced"),
-                      field("seed", "", &Truth::seed, "")};
-  }
-};
 
 template <>
 struct Description<AlbedoSample> {

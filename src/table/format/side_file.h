@@ -1,0 +1,92 @@
+#pragma once
+/// \file
+/// Description of a side file.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/describe.h"
+#include "base/json_describe.h"
+#include "table/format/column_map.h"
+#include "table/table.h"
+
+namespace gonio {
+
+/// Knowledge of a table beyond its format, as it stands in a file.
+struct SideFile {
+  std::string sha256;  ///< of the table's file; empty: nothing is said of it
+  std::optional<Bins> bins;
+  std::optional<ColumnMap> columns;
+  std::optional<Truth> truth;
+  std::vector<std::pair<std::string, std::string>> notes;
+};
+inline constexpr const char* side_file_id = "gonio.table/1";
+
+enum class AngleUnit { degrees, radians };
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<AngleUnit>{"degrees", "radians"};
+
+/// A member of a column map that says something else than a map without it would.
+template <auto member>
+auto unusual(const ColumnMap& map) {
+  const auto value = map.*member;
+  return value != ColumnMap{}.*member ? std::optional(value) : std::nullopt;
+}
+
+template <>
+struct Description<ColumnMap> {
+  static constexpr auto fields() {
+    return std::tuple{
+        keyed(role_pattern, &ColumnMap::columns,
+              "column: its name, its number (#1 is the first), or a constant"),
+        field("unit", "", if_there([](const ColumnMap& map) {
+                return map.radians ? std::optional(AngleUnit::radians) : std::nullopt;
+              }),
+              "of all angles, else degrees"),
+        field("forward", "°", if_there(unusual<&ColumnMap::forward_deg>),
+              "phi_o − phi_i of the mirror direction, else 180"),
+        field("cosine", "", if_there(unusual<&ColumnMap::cosine>), "values are f cos θ_o"),
+        field("scale", "", if_there(unusual<&ColumnMap::scale>),
+              "values times this are f in 1/sr, else 1"),
+        field("skip", "", if_there(unusual<&ColumnMap::skip>),
+              "lines at the top that are passed over")};
+  }
+};
+
+template <>
+struct Description<Truth> {
+  static constexpr auto fields() {
+    return std::tuple{field("model", "", &Truth::model, ""),
+                      field("parameters", "", per_name(&Truth::parameters), ""),
+                      field("noise", "", &Truth::noise, "σ of the multiplicative noise exp(σ z)"),
+                      field("floor", "1/sr", &Truth::floor, "added to every value"),
+                      field("outliers", "", &Truth::outliers, "share of samples replaced"),
+                      field("seed", "", &Truth::seed, "")};
+  }
+};
+static_assert(describes_every_member<Truth>());
+
+template <>
+struct Description<SideFile> {
+  static constexpr auto fields() {
+    return std::tuple{
+        constant_text("schema", side_file_id),
+        field("sha256", "", if_there([](const SideFile& f) {
+                return f.sha256.empty() ? std::nullopt : std::optional(f.sha256);
+              }),
+              "of the table's file; in a side file that gonio wrote"),
+        field("bins", "", if_there(&SideFile::bins), "where a sample sits in its bin"),
+        field("columns", "", if_there(&SideFile::columns), "how to read those of a CSV file"),
+        field("truth", "", if_there(&SideFile::truth), "what the table was made from"),
+        field("notes", "", if_there([](const SideFile& f) {
+                return f.notes.empty() ? std::nullopt : std::optional(f.notes);
+              }),
+              "texts by their names")};
+  }
+};
+
+}  // namespace gonio
