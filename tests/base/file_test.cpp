@@ -5,11 +5,11 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <vector>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "refusal.h"
 #include "support.h"
 
 #include <fcntl.h>
@@ -40,25 +40,15 @@ extern "C" int rename(const char* from, const char* to) noexcept {
 namespace gonio {
 namespace {
 
-using test::Folder;
-
-std::string complaint(const std::function<void()>& f) {
-  try {
-    f();
-    return "";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), Exit::bad_input);
-    return e.what();
-  }
-}
+using test::Folder, test::refusal;
 
 TEST(InputFile, SaysWhatIsNoRegularFile) {
   const Folder folder;
-  EXPECT_NE(complaint([&] { InputFile(folder / "missing"); }).find("No such file"),
+  EXPECT_NE(refusal([&] { InputFile(folder / "missing"); }).find("No such file"),
             std::string::npos);
-  EXPECT_NE(complaint([&] { InputFile(folder / ""); }).find("a directory"), std::string::npos);
-  EXPECT_NE(complaint([] { InputFile("/dev/null"); }).find("a device"), std::string::npos);
-  EXPECT_NE(complaint([&] { InputFile(folder.write("e", "")); }).find("an empty file"),
+  EXPECT_NE(refusal([&] { InputFile(folder / ""); }).find("a directory"), std::string::npos);
+  EXPECT_NE(refusal([] { InputFile("/dev/null"); }).find("a device"), std::string::npos);
+  EXPECT_NE(refusal([&] { InputFile(folder.write("e", "")); }).find("an empty file"),
             std::string::npos);
 }
 
@@ -68,14 +58,14 @@ TEST(InputFile, ReadsAtAnyPlaceAndNamesTheByteWhereItEnds) {
   std::string two(2, ' ');
   in.read_at(7, two.data(), 2);
   EXPECT_EQ(two, "78");
-  EXPECT_NE(complaint([&] { in.read_at(9, two.data(), 2); }).find("byte 10: found the end"),
+  EXPECT_NE(refusal([&] { in.read_at(9, two.data(), 2); }).find("byte 10: found the end"),
             std::string::npos);
 }
 
 TEST(InputFile, KnowsWhetherItWasWrittenToMeanwhile) {
   const Folder folder;
   const auto changed = [](const InputFile& in) {
-    return complaint([&] { in.expect_unchanged(); }).find("changed meanwhile") != std::string::npos;
+    return refusal([&] { in.expect_unchanged(); }).find("changed meanwhile") != std::string::npos;
   };
   const std::string path = folder.write("f", "0123456789");
   const InputFile in(path);
@@ -99,7 +89,7 @@ TEST(InputFile, ReadsInPiecesAndNamesTheByteWhereItEnds) {
   EXPECT_EQ(in.position(), 4U);
   EXPECT_EQ(in.peek(100), "456789");
   std::string many(20, ' ');
-  EXPECT_NE(complaint([&] {
+  EXPECT_NE(refusal([&] {
               in.read(many.data(), 20);
             }).find("byte 10: found the end of the file, expected 14 more"),
             std::string::npos);
@@ -108,7 +98,7 @@ TEST(InputFile, ReadsInPiecesAndNamesTheByteWhereItEnds) {
 TEST(InputFile, RefusesARestThatIsTooLong) {
   const Folder folder;
   InputFile in(folder.write("f", "0123456789"));
-  EXPECT_NE(complaint([&] { in.read_rest(9); }).find("found 10 bytes, expected at most 9"),
+  EXPECT_NE(refusal([&] { in.read_rest(9); }).find("found 10 bytes, expected at most 9"),
             std::string::npos);
   EXPECT_EQ(in.read_rest(10), "0123456789");
 }
@@ -133,9 +123,9 @@ TEST(OutputFile, AppearsWholeOrNotAtAll) {
 
 TEST(OutputFile, SaysWhereItCannotWrite) {
   const Folder folder;
-  EXPECT_NE(complaint([&] { OutputFile(folder / "none/such"); }).find("No such file"),
+  EXPECT_NE(refusal([&] { OutputFile(folder / "none/such"); }).find("No such file"),
             std::string::npos);
-  EXPECT_NE(complaint([&] { OutputFile(folder / ""); }).find("a directory"), std::string::npos);
+  EXPECT_NE(refusal([&] { OutputFile(folder / ""); }).find("a directory"), std::string::npos);
   EXPECT_EQ(folder.entries(), 0U);
 }
 
@@ -156,7 +146,7 @@ TEST(OutputFile, RefusesADeviceOrPipe) {
   const Folder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   for (const std::string& path : {folder / "pipe", std::string("/dev/null")})
-    EXPECT_TRUE(complaint([&] {
+    EXPECT_TRUE(refusal([&] {
                   OutputFile out(path);
                 }).ends_with("writing: found a device or pipe, expected the name of a file"));
   EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
@@ -175,7 +165,7 @@ TEST(OutputFile, FollowsLinks) {
     EXPECT_EQ(test::read_bytes(folder / "there/f"), bytes);
   }
   std::filesystem::create_symlink("circle", folder / "circle");
-  EXPECT_NE(complaint([&] { OutputFile(folder / "circle"); }).find("symbolic links"),
+  EXPECT_NE(refusal([&] { OutputFile(folder / "circle"); }).find("symbolic links"),
             std::string::npos);
 }
 
@@ -229,7 +219,7 @@ TEST(OutputFile, MayHaveTheLongestNameThereIs) {
   const std::string name(255, 'n');
   write_file(folder / name, "x");
   EXPECT_EQ(test::read_bytes(folder / name), "x");
-  EXPECT_NE(complaint([&] { OutputFile(folder / (name + "n")); }).find("too long"),
+  EXPECT_NE(refusal([&] { OutputFile(folder / (name + "n")); }).find("too long"),
             std::string::npos);
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -28,13 +29,8 @@ TEST(Names, LeadFromAValueToItsNameAndBack) {
 }
 
 TEST(Names, ThatThereAreNotAreWrongUsage) {
-  try {
-    value_of<Colour>("rad", "colour");
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), Exit::usage);
-    EXPECT_STREQ(e.what(), "no colour 'rad'; nearest: red, dark green");
-  }
+  EXPECT_EQ(test::refusal([] { value_of<Colour>("rad", "colour"); }, Exit::usage),
+            "no colour 'rad'; nearest: red, dark green");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -13,12 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 5> known{"beckmann", "ggx", "gtr", "blinn_phong", "gtr1"};
 
 std::string refusal(std::string_view name) {
-  try {
-    refuse_name(name, known, "distribution");
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), Exit::usage);
-    return e.what();
-  }
+  return test::refusal([&] { refuse_name(name, known, "distribution"); }, Exit::usage);
 }
 
 TEST(NearestNames, AreThoseThatFewestChangedLettersLeadTo) {

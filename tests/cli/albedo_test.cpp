@@ -161,10 +161,11 @@ TEST(AlbedoCommand, RefusesScatteringOfWhatItIsNotOf) {
   expect_one_line(gonio(f, aniso + "deterministic"), 2, "isotropic");
   EXPECT_EQ(gonio(f, aniso + "walk --walks 1000").code, 0);
   const std::string separable = "albedo ggx/smith_ggx.separable/conductor --mu 0.5 --scattering ";
-  expect_one_line(gonio(f, separable + "walk"), 2, "smith_ggx.separable");
-  expect_one_line(gonio(f, separable + "deterministic"), 2, "smith_ggx.separable");
-  expect_one_line(gonio(f, separable + "fdez_aguera"), 2, "fresnel.schlick");
-  expect_one_line(gonio(f, separable + "turquin --walks 10"), 2, "--walks");
+  expect_one_line_each(f, 2,
+                       {{separable + "walk", "smith_ggx.separable"},
+                        {separable + "deterministic", "smith_ggx.separable"},
+                        {separable + "fdez_aguera", "fresnel.schlick"},
+                        {separable + "turquin --walks 10", "--walks"}});
   for (const char* walks : {"0", "1"})
     expect_one_line(gonio(f, separable + "walk --walks " + walks), 2, "walks");
   for (const char* how : {"walk", "deterministic", "kulla_conty"})

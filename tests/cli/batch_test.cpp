@@ -235,25 +235,30 @@ TEST(Batch, RefusesACallThatCannotBeMeant) {
   f.write("list", "in/a.csv\n");
   f.write("summary.csv", diffuse(0.1, 0.2));
   const std::size_t before = f.entries();
-  for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"fit in", "-o DIR"},
-           {"fit in b.csv", "-o DIR"},
-           {"fit in -o in", "results go elsewhere"},
-           {"fit in -o ./in/", "results go elsewhere"},
-           {"fit in -o out --html p.html", "summary.html"},
-           {"fit in -o out --model lambertt", "lambert"},
-           {"fit in -o out --fix gamma=2", "no parameter 'gamma'"},
-           {"fit in -o out --bounds alpha=0.5,0.1", "the lower first"},
-           {"fit b.csv summary.csv -o .", "is an input"}})
-    expect_one_line(gonio(f, words), 2, holding);
-  for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"fit empty -o out", "no files"},
-           {"fit @nothing -o out", "nothing: opening"},
-           {"fit @empty -o out", "a directory"},
-           {"fit in -o b.csv", "b.csv"},
-           {"fit in -o b.csv/out", "b.csv/out"}})
-    expect_one_line(gonio(f, words), 3, holding);
+  expect_one_line_each(f, 2,
+                       {{"fit in", "-o DIR"},
+                        {"fit in b.csv", "-o DIR"},
+                        {"fit in -o in", "results go elsewhere"},
+                        {"fit in -o ./in/", "results go elsewhere"},
+                        {"fit in -o out --html p.html", "summary.html"},
+                        {"fit in -o out --model lambertt", "lambert"},
+                        {"fit in -o out --fix gamma=2", "no parameter 'gamma'"},
+                        {"fit in -o out --bounds alpha=0.5,0.1", "the lower first"},
+                        {"fit b.csv summary.csv -o .", "is an input"}});
+  expect_one_line_each(f, 3,
+                       {{"fit empty -o out", "no files"},
+                        {"fit @nothing -o out", "nothing: opening"},
+                        {"fit @empty -o out", "a directory"},
+                        {"fit in -o b.csv", "b.csv"},
+                        {"fit in -o b.csv/out", "b.csv/out"}});
   EXPECT_EQ(f.entries(), before);
+}
+
+TEST(Batch, AListOfTooManyBytesIsRefusedBeforeItIsRead) {
+  const Folder f;
+  f.write("list", "a.csv\n");
+  fs::resize_file(f / "list", (1U << 26) + 1);
+  expect_one_line(gonio(f, "fit @list -o out"), 3, "list: byte 0: found 67108865 bytes");
 }
 
 TEST(Batch, AnInputThatCannotBeLookedUpIsOneThatCannotBeRead) {

@@ -32,11 +32,12 @@ TEST(BenchCommand, RefusesABaselineThatIsNoneBeforeItMeasures) {
 
 TEST(BenchCommand, RefusesOptionsWithoutEffect) {
   const Folder f;
-  expect_one_line(gonio(f, "bench fit --full"), 2, "bench kernels");
-  expect_one_line(gonio(f, "bench fit --baseline old.json"), 2, "bench kernels");
-  expect_one_line(gonio(f, "bench --no-plain"), 2, "bench fit");
-  expect_one_line(gonio(f, "bench --filter nothing.such"), 2, "nothing.such");
-  expect_one_line(gonio(f, "bench everything"), 2, "everything");
+  expect_one_line_each(f, 2,
+                       {{"bench fit --full", "bench kernels"},
+                        {"bench fit --baseline old.json", "bench kernels"},
+                        {"bench --no-plain", "bench fit"},
+                        {"bench --filter nothing.such", "nothing.such"},
+                        {"bench everything", "everything"}});
 }
 
 }  // namespace

@@ -116,20 +116,19 @@ TEST(Columns, TellWrongWordsFromWrongFiles) {
   const Folder f;
   f.write("t.csv", kText);
   f.write("noise", "dear reader\n");
-  for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"columns t.csv --map theta=in", "'theta' is none of"},
-           {"columns t.csv --map theta_i", "NAME=COLUMN"},
-           {"columns t.csv --map theta_i=", "NAME=COLUMN"},
-           {"columns t.csv --map f=in f=out", "f twice"},
-           {"columns t.csv --scale 0", "scale"},
-           {"columns t.csv --forward x", "forward"}})
-    expect_one_line(gonio(f, words), 2, holding);
-  for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"columns missing", "missing: opening"},
-           {"columns noise", "noise: the beginning"},
-           {"columns noise --radians", "noise: the beginning"},
-           {"columns t.csv --radians --map theta_i=in theta_o=out f=brdf", "radians"}})
-    expect_one_line(gonio(f, words), 3, holding);
+  expect_one_line_each(f, 2,
+                       {{"columns t.csv --map theta=in", "'theta' is none of"},
+                        {"columns t.csv --map theta_i", "NAME=COLUMN"},
+                        {"columns t.csv --map theta_i=", "NAME=COLUMN"},
+                        {"columns t.csv --map f=in f=out", "f twice"},
+                        {"columns t.csv --scale 0", "scale"},
+                        {"columns t.csv --forward x", "forward"}});
+  expect_one_line_each(
+      f, 3,
+      {{"columns missing", "missing: opening"},
+       {"columns noise", "noise: the beginning"},
+       {"columns noise --radians", "noise: the beginning"},
+       {"columns t.csv --radians --map theta_i=in theta_o=out f=brdf", "radians"}});
   EXPECT_EQ(f.entries(), 2U);
 }
 

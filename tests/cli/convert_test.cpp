@@ -42,21 +42,19 @@ TEST(ConvertCommand, NeverTouchesItsInputAndLeavesNothingWhereItFails) {
   ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout in_plane -o p.csv").code, 0);
   const auto before = read_bytes(f / "p.csv");
   const auto entries = f.entries();
-  for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"convert p.csv p.csv", "is an input"},
-           {"convert p.csv ./p.csv", "is an input"},
-           {"convert p.csv p.csv.gonio.json --to csv", "is an input"},
-           {"convert p.csv other", "--to merl"},
-           {"convert p.csv other.txt", "--to merl"},
-           {"convert p.csv o.csv --channels r,x", "no channel 'x'"},
-           {"convert p.csv o.mbsdf --channels r,g", "one channel or three"},
-           {"convert p.csv o.csv --to png", "png"}})
-    expect_one_line(gonio(f, words), 2, holding);
-  for (const auto& [words, holding] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"convert p.csv o.mbsdf", "--reach"},
-           {"convert missing o.csv", "missing"},
-           {"convert p.csv no/such/o.csv", "writing"}})
-    expect_one_line(gonio(f, words), 3, holding);
+  expect_one_line_each(f, 2,
+                       {{"convert p.csv p.csv", "is an input"},
+                        {"convert p.csv ./p.csv", "is an input"},
+                        {"convert p.csv p.csv.gonio.json --to csv", "is an input"},
+                        {"convert p.csv other", "--to merl"},
+                        {"convert p.csv other.txt", "--to merl"},
+                        {"convert p.csv o.csv --channels r,x", "no channel 'x'"},
+                        {"convert p.csv o.mbsdf --channels r,g", "one channel or three"},
+                        {"convert p.csv o.csv --to png", "png"}});
+  expect_one_line_each(f, 3,
+                       {{"convert p.csv o.mbsdf", "--reach"},
+                        {"convert missing o.csv", "missing"},
+                        {"convert p.csv no/such/o.csv", "writing"}});
   EXPECT_EQ(read_bytes(f / "p.csv"), before);
   EXPECT_EQ(f.entries(), entries);
 }

@@ -49,14 +49,16 @@ TEST(EvalCommand, RefusesWhatHasNoValueThereOrIsNoModel) {
   const Fitted f;
   f.write("list.csv", "theta_i,phi_i,theta_o,phi_o,f\n30,0,30,180,0.1\n");
   f.write("other.json", "{\"schema\": \"gonio.table/1\"}");
-  expect_one_line(gonio(f, "eval list.csv --directions at.csv --json"), 3, "gonio convert");
-  expect_one_line(gonio(f, "eval none.json --directions at.csv --json"), 3, "none.json");
-  expect_one_line(gonio(f, "eval other.json --directions at.csv --json"), 3, "gonio.fit/1");
-  expect_one_line(gonio(f, "eval t.json --set kd=1 --directions at.csv --json"), 2, "--set");
-  expect_one_line(gonio(f, "eval t.binary --set kd=1 --directions at.csv --json"), 2, "--set");
-  expect_one_line(gonio(f, "eval t.json --bins edge --directions at.csv --json"), 2, "--bins");
-  expect_one_line(gonio(f, "eval t.json --directions at.csv -o t.json"), 2, "is an input");
-  expect_one_line(gonio(f, "synth t.json --layout in_plane -o t.json"), 2, "is an input");
+  expect_one_line_each(f, 3,
+                       {{"eval list.csv --directions at.csv --json", "gonio convert"},
+                        {"eval none.json --directions at.csv --json", "none.json"},
+                        {"eval other.json --directions at.csv --json", "gonio.fit/1"}});
+  expect_one_line_each(f, 2,
+                       {{"eval t.json --set kd=1 --directions at.csv --json", "--set"},
+                        {"eval t.binary --set kd=1 --directions at.csv --json", "--set"},
+                        {"eval t.json --bins edge --directions at.csv --json", "--bins"},
+                        {"eval t.json --directions at.csv -o t.json", "is an input"},
+                        {"synth t.json --layout in_plane -o t.json", "is an input"}});
 }
 
 TEST(AlbedoCommand, TakesAFitWhereItTakesAModel) {

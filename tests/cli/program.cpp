@@ -26,4 +26,13 @@ void expect_one_line(const Outcome& o, int code, const std::string& holding) {
   EXPECT_NE(o.err.find(holding), std::string::npos) << o.err;
 }
 
+void expect_one_line_each(const Folder& folder,
+                          int code,
+                          std::initializer_list<std::pair<std::string, std::string>> calls) {
+  for (const auto& [words, holding] : calls) {
+    SCOPED_TRACE("gonio " + words);
+    expect_one_line(gonio(folder, words), code, holding);
+  }
+}
+
 }  // namespace gonio::test

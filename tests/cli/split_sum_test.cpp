@@ -84,14 +84,15 @@ TEST(SplitSumCommand, SaysWhatItIsOffByUnderAnEnvironment) {
 
 TEST(SplitSumCommand, RefusesWhatItCannotDo) {
   const Folder f;
-  expect_one_line(gonio(f, "split_sum --roughness 0.5 --nov 0"), 2, "outside (0, 1]");
-  expect_one_line(gonio(f, "split_sum --roughness 0.5,1.5 --nov 1"), 2, "outside");
-  expect_one_line(gonio(f, "split_sum --roughness 0.5 --nov 1 --masking smith"), 2, "smith");
-  expect_one_line(gonio(f, "split_sum --roughness 0.5 --nov 1 --samples 0"), 2, "samples");
-  expect_one_line(gonio(f, "split_sum --roughness 0.5"), 2, "--nov");
-  expect_one_line(gonio(f, "split_sum"), 2, "--size");
-  expect_one_line(gonio(f, "split_sum --size 8x8"), 2, "-o");
-  expect_one_line(gonio(f, "split_sum --size 8x8 -o t.exr --nov 1"), 2, "or --size");
+  expect_one_line_each(f, 2,
+                       {{"split_sum --roughness 0.5 --nov 0", "outside (0, 1]"},
+                        {"split_sum --roughness 0.5,1.5 --nov 1", "outside"},
+                        {"split_sum --roughness 0.5 --nov 1 --masking smith", "smith"},
+                        {"split_sum --roughness 0.5 --nov 1 --samples 0", "samples"},
+                        {"split_sum --roughness 0.5", "--nov"},
+                        {"split_sum", "--size"},
+                        {"split_sum --size 8x8", "-o"},
+                        {"split_sum --size 8x8 -o t.exr --nov 1", "or --size"}});
   for (const char* size : {"8", "8x", "x8", "8x8x8", "-8x8", "0x8", "8x5000", "8×8"})
     expect_one_line(gonio(f, std::string("split_sum -o t.exr --size ") + size), 2, "8");
   expect_one_line(gonio(f, "split_sum --size 8x8 --precision double -o t.exr"), 2, "precision");
@@ -109,10 +110,11 @@ TEST(SplitSumCommand, RefusesWhatItCannotDo) {
   expect_one_line(gonio(f, light + "none.exr"), 3, "none.exr");
   ASSERT_EQ(gonio(f, "split_sum --size 8x4 --samples 1 -o two.exr").code, 0);
   expect_one_line(gonio(f, light + "two.exr"), 3, "B among them");
-  expect_one_line(gonio(f, light + "none.exr --f0 0"), 2, "f0 = 0 is outside [0.02, 1]");
-  expect_one_line(gonio(f, light + "none.exr --samples 8"), 2, "--samples");
-  expect_one_line(gonio(f, light + "none.exr --precision half"), 2, "--precision");
-  expect_one_line(gonio(f, "split_sum --size 8x8 -o t.exr --environment none.exr"), 2, "--size");
+  expect_one_line_each(f, 2,
+                       {{light + "none.exr --f0 0", "f0 = 0 is outside [0.02, 1]"},
+                        {light + "none.exr --samples 8", "--samples"},
+                        {light + "none.exr --precision half", "--precision"},
+                        {"split_sum --size 8x8 -o t.exr --environment none.exr", "--size"}});
 }
 
 }  // namespace

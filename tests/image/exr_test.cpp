@@ -3,6 +3,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "refusal.h"
 #include "support.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -102,13 +103,8 @@ TEST(Exr, RefusesASmallFileThatClaimsManyChannels) {
   write_header_of_many(folder / "i.exr");
   EXPECT_LT(std::filesystem::file_size(folder / "i.exr"), 10'000U);
   EXPECT_EQ(read_exr_header(folder / "i.exr").channels.size(), 60U);
-  try {
-    read_exr(folder / "i.exr");
-    ADD_FAILURE() << "16 GB read";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("8192 × 8192 pixels × 60 channels"), std::string::npos)
-        << e.what();
-  }
+  EXPECT_HAS(test::refusal([&] { read_exr(folder / "i.exr"); }),
+             "8192 × 8192 pixels × 60 channels");
 }
 
 TEST(Exr, RefusesAnAttributeLongerThanTheFile) {
@@ -123,14 +119,8 @@ TEST(Exr, RefusesAnAttributeLongerThanTheFile) {
   const auto at = bytes.find("four");
   ASSERT_NE(at, bytes.npos);
   bytes.replace(at - 4, 4, "\xff\xff\xff\x7f");
-  try {
-    read_exr(folder.write("b.exr", bytes));
-    FAIL() << "2 GB from a file of 400 bytes";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("attribute note: found 2147483647 bytes"),
-              std::string::npos)
-        << e.what();
-  }
+  EXPECT_HAS(test::refusal([&] { read_exr(folder.write("b.exr", bytes)); }),
+             "attribute note: found 2147483647 bytes");
 }
 
 TEST(Exr, SaysWhereItCannotWriteAndLeavesNothing) {
@@ -153,11 +143,7 @@ TEST(Exr, EitherReadsOrRefusesDamagedFiles) {
     for (auto flips = random() % 5; flips > 0; --flips)
       bytes[random() % bytes.size()] = static_cast<char>(random());
     if (round % 3 == 0) bytes.resize(random() % bytes.size());
-    try {
-      read_exr(folder.write("damaged.exr", bytes));
-    } catch (const Error& e) {
-      EXPECT_EQ(e.code(), Exit::bad_input);
-    }
+    test::refusal([&] { read_exr(folder.write("damaged.exr", bytes)); });
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "base/error.h"
+#include "refusal.h"
 #include "support.h"
 #include "table/format/formats.h"
 
@@ -13,16 +13,9 @@
 
 namespace gonio::test {
 
-/// "" if it reads; else one line with bad_input's exit code.
+/// Line that a file is refused with; "" of one that is read.
 inline std::string complaint(const std::string& path) {
-  try {
-    read_table(path);
-    return "";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), Exit::bad_input);
-    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
-    return e.what();
-  }
+  return refusal([&] { read_table(path); });
 }
 /// Of bytes, through a file that no disk is asked for: thousands a second.
 inline std::string complaint_about(const std::string& bytes) {
@@ -31,7 +24,6 @@ inline std::string complaint_about(const std::string& bytes) {
   EXPECT_EQ(::pwrite(file, bytes.data(), bytes.size(), 0), static_cast<ssize_t>(bytes.size()));
   return complaint("/proc/self/fd/" + std::to_string(file));
 }
-#define EXPECT_COMPLAINT(path, part) \
-  EXPECT_NE(complaint(path).find(part), std::string::npos) << "instead: " << complaint(path)
+#define EXPECT_COMPLAINT(path, part) EXPECT_HAS(complaint(path), part)
 
 }  // namespace gonio::test

@@ -1,9 +1,10 @@
 #include "fitting/result/document.h"
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
-#include "base/error.h"
+#include "refusal.h"
 #include "support.h"
 
 namespace gonio {
@@ -38,8 +39,6 @@ std::string without_space(std::string s) {
   std::erase_if(s, [](char c) { return c == ' ' || c == '\n'; });
   return s;
 }
-#define EXPECT_HAS(text, part) \
-  EXPECT_NE((text).find(part), std::string::npos) << (part) << " in " << (text)
 
 TEST(FitDocument, FollowsTheContract) {
   const auto text = without_space(to_json(example()));
@@ -92,13 +91,8 @@ TEST(FitDocument, ReadsBackItsModel) {
 
 TEST(FitDocument, SaysWhereItIsWrong) {
   const test::Folder folder;
-  const auto complaint = [&](const std::string& text) -> std::string {
-    try {
-      read_fitted_model(folder.write("fit.json", text));
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "no complaint";
+  const auto complaint = [&](const std::string& text) {
+    return test::refusal([&] { read_fitted_model(folder.write("fit.json", text)); });
   };
   EXPECT_HAS(complaint("{\n  \"schema\": ?"), "line 2, column 13");
   EXPECT_HAS(complaint("[]"), "the document: found an empty array, expected an object");
@@ -113,6 +107,8 @@ TEST(FitDocument, SaysWhereItIsWrong) {
   EXPECT_HAS(complaint(head + R"({"a":{"value":[1,"x"]}}})"),
              R"(parameters.a.value[1]: found "x")");
   EXPECT_HAS(complaint(head + R"({"a":{"value":1e999}}})"), "JSON");
+  std::filesystem::resize_file(folder / "fit.json", (1U << 26) + 1);
+  EXPECT_HAS(test::refusal([&] { read_fitted_model(folder / "fit.json"); }), "at most 67108864");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "fitting/fit.h"
 #include "fitting/support.h"
+#include "refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -70,13 +71,7 @@ TEST(Problem, RefusesTiesThatContradictOrAreHalfTold) {
     o.model = model;
     o.fixed = parse_settings(fixed);
     o.bounds = parse_settings(bounds);
-    try {
-      check(o);
-      return std::string();
-    } catch (const Error& e) {
-      EXPECT_EQ(e.code(), Exit::usage);
-      return std::string(e.what());
-    }
+    return test::refusal([&] { check(o); }, Exit::usage);
   };
   constexpr const char* coupled = "lambert.coupled+ggx/smith_ggx.correlated/schlick";
   for (const char* model : {coupled, "gltf"}) {

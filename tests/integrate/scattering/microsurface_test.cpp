@@ -2,18 +2,13 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
+#include "refusal.h"
 
 namespace gonio {
 namespace {
 
 std::string refusal(const std::string& spec) {
-  try {
-    microsurfaces(bind_model(spec, {}));
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), Exit::usage);
-    return e.what();
-  }
-  return "";
+  return test::refusal([&] { microsurfaces(bind_model(spec, {})); }, Exit::usage);
 }
 
 TEST(Microsurface, HasTheSlopesTheWidthsAndTheFresnelOfItsLobe) {

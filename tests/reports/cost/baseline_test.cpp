@@ -1,8 +1,10 @@
 #include "reports/cost/baseline.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include "base/error.h"
+#include "refusal.h"
 #include "support.h"
 
 #include <gtest/gtest.h>
@@ -97,18 +99,8 @@ TEST(CostBaseline, WritesWhatChanged) {
 
 TEST(CostBaseline, RefusesWhatItIsNotSayingWhere) {
   const test::Folder f;
-  const auto refused = [&](const std::string& bytes) -> std::string {
-    try {
-      read_costs(f.write("old.json", bytes));
-    } catch (const Error& e) {
-      EXPECT_EQ(e.code(), Exit::bad_input);
-      return e.what();
-    }
-    return "nothing was thrown";
-  };
-  const auto has = [](const std::string& line, const std::string& words) {
-    EXPECT_NE(line.find(words), line.npos) << line;
-    EXPECT_EQ(line.find('\n'), line.npos) << line;
+  const auto refused = [&](const std::string& bytes) {
+    return test::refusal([&] { read_costs(f.write("old.json", bytes)); });
   };
   const auto with_row = [](const std::string& row) {
     return R"({"schema": "gonio.bench/1", "machine": {"cpu": "", "compiler": "", "flags": ""}, "rows": [)" +
@@ -116,20 +108,23 @@ TEST(CostBaseline, RefusesWhatItIsNotSayingWhere) {
   };
   const std::string names =
       R"("id": "a", "number": "float", "isa": "x", "memory": "cache", "way": "")";
-  has(refused(""), "an empty file");
-  has(refused("{"), "expected JSON");
-  has(refused("[]"), "expected an object");
-  has(refused("{}"), "schema");
-  has(refused(R"({"schema": "gonio.fit/1"})"), "gonio.bench/1");
-  has(refused(R"({"schema": "gonio.bench/1"})"), "machine");
-  has(refused(with_row("3")), "rows[0]");
-  has(refused(with_row("{" + names + "}")), "rows[0].ns: found nothing");
-  has(refused(with_row("{" + names + R"(, "ns": "1"})")), "rows[0].ns");
-  has(refused(with_row("{" + names + R"(, "ns": null, "ns_spread": 1})")), "a time above 0");
-  has(refused(with_row("{" + names + R"(, "ns": 0, "ns_spread": 1})")), "a time above 0");
-  has(refused(with_row("{" + names + R"(, "ns": -1, "ns_spread": 1})")), "a time above 0");
-  has(refused(with_row("{" + names + R"(, "ns": 1, "ns_spread": -1})")), "rows[0].ns_spread");
-  has(refused(with_row("{" + names + R"(, "ns": 1e999, "ns_spread": 0})")), "old.json");
+  EXPECT_HAS(refused(""), "an empty file");
+  EXPECT_HAS(refused("{"), "expected JSON");
+  EXPECT_HAS(refused("[]"), "expected an object");
+  EXPECT_HAS(refused("{}"), "schema");
+  EXPECT_HAS(refused(R"({"schema": "gonio.fit/1"})"), "gonio.bench/1");
+  EXPECT_HAS(refused(R"({"schema": "gonio.bench/1"})"), "machine");
+  EXPECT_HAS(refused(with_row("3")), "rows[0]");
+  EXPECT_HAS(refused(with_row("{" + names + "}")), "rows[0].ns: found nothing");
+  EXPECT_HAS(refused(with_row("{" + names + R"(, "ns": "1"})")), "rows[0].ns");
+  EXPECT_HAS(refused(with_row("{" + names + R"(, "ns": null, "ns_spread": 1})")), "a time above 0");
+  EXPECT_HAS(refused(with_row("{" + names + R"(, "ns": 0, "ns_spread": 1})")), "a time above 0");
+  EXPECT_HAS(refused(with_row("{" + names + R"(, "ns": -1, "ns_spread": 1})")), "a time above 0");
+  EXPECT_HAS(refused(with_row("{" + names + R"(, "ns": 1, "ns_spread": -1})")),
+             "rows[0].ns_spread");
+  EXPECT_HAS(refused(with_row("{" + names + R"(, "ns": 1e999, "ns_spread": 0})")), "old.json");
+  std::filesystem::resize_file(f / "old.json", (1U << 26) + 1);
+  EXPECT_HAS(test::refusal([&] { read_costs(f / "old.json"); }), "at most 67108864");
   EXPECT_THROW(read_costs(f / "nothing.json"), Error);
 }
 

@@ -201,6 +201,15 @@ TEST(SideFile, OfManyKeysTakesLinearTime) {
   EXPECT_COMPLAINT(folder / "m", "0: found 1, expected no such key");
 }
 
+TEST(SideFile, OfTooManyBytesIsRefusedBeforeItIsRead) {
+  const Folder folder;
+  write_table(mbsdf_example(2, 3), folder / "m");
+  folder.write("m.gonio.json", R"({"schema":"gonio.table/1"})");
+  std::filesystem::resize_file(folder / "m.gonio.json", (1U << 24) + 1);  // a hole
+  EXPECT_COMPLAINT(folder / "m",
+                   "m.gonio.json: byte 0: found 16777217 bytes, expected at most 16777216");
+}
+
 TEST(SideFile, KeepsTheLastOfTwoNotesOfOneName) {
   Table t;
   t.notes = {{"a", "1"}, {"b", "2"}, {"a", "3"}};

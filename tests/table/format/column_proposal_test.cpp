@@ -57,6 +57,22 @@ TEST(ColumnProposal, AnglesWithinTwoPiAreRadians) {
   auto degrees = columns;
   degrees[1].highest = 1.65;
   EXPECT_FALSE(propose_columns(degrees).map->radians) << "above a right angle";
+  auto turned = columns;
+  turned[2].highest = 180;
+  EXPECT_FALSE(propose_columns(turned).map->radians) << "an azimuth beyond a turn";
+}
+
+TEST(ColumnProposal, AWordForADirectionAloneIsItsZenithAngle) {
+  const std::vector<ColumnSummary> columns{column("wavelength", 400, 700), column("in", -60, 60),
+                                           column("out", 0, 85), column("value", 0, 9)};
+  const auto p = propose_columns(columns);
+  ASSERT_TRUE(p.map);
+  EXPECT_EQ(
+      p.map->columns,
+      (Map{{"theta_i", "in"}, {"theta_o", "out"}, {"f", "value"}, {"channel", "wavelength"}}));
+  auto letters = columns;
+  letters[1].name = "i", letters[2].name = "o";
+  EXPECT_FALSE(propose_columns(letters).map) << "a letter is no word";
 }
 
 TEST(ColumnProposal, ItsOwnNamesNeedNone) {

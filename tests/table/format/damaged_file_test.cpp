@@ -3,6 +3,7 @@
 #include <cstring>
 #include <random>
 
+#include "refusal.h"
 #include "table/complaint.h"
 #include "table/example.h"
 #include "table/foreign.h"
@@ -115,14 +116,11 @@ TEST(DamagedFile, BesideATableIsAppliedOrRefused) {
   const std::string text = metadata_text(t);
   const auto refused = [](const std::string& side) {
     Table other = mbsdf_example(1, 2);
-    try {
+    const auto line = refusal([&] {
       column_map("side", side);
       apply_metadata(other, "side", side);
-      return false;
-    } catch (const Error& e) {
-      EXPECT_EQ(e.code(), Exit::bad_input);
-      return true;
-    }
+    });
+    return !line.empty();
   };
   EXPECT_FALSE(refused(text));
   for (std::size_t n = 0; n < text.size(); ++n) {
@@ -193,6 +191,24 @@ TEST(RglFile, NamesTheFieldThatIsWrong) {
       "byte 12: found version 2.0");
   EXPECT_COMPLAINT(folder.write("t", bytes.substr(0, 14) + "\xff\xff\xff\xff" + bytes.substr(18)),
                    "4294967295 fields");
+}
+
+TEST(RglFile, OfMoreNumbersThanATableHoldsIsRefused) {
+  const Folder folder;
+  auto fields = RglFile{.size = 3, .f = plain}.fields();
+  const auto values = std::ranges::find(fields, "rgb", &TensorField::name);
+  std::rotate(values, values + 1, fields.end());
+  auto& last = fields.back();
+  ASSERT_EQ(last.name, "rgb");
+  last.shape[3] = last.shape[4] = 1600;  // with four angles each more than 2^26, without them less
+  last.data.clear();
+  const std::string head = tensor_file(fields);
+  std::uintmax_t bytes = sizeof(float);
+  for (const auto n : last.shape) bytes *= n;
+  folder.write("t", head);
+  std::filesystem::resize_file(folder / "t", head.size() + bytes);  // a hole
+  EXPECT_COMPLAINT(folder / "t",
+                   "field rgb: found 10240000 samples × 3 channels, expected at most 67108864");
 }
 
 TEST(MbsdfFile, OfMoreValuesThanATableHoldsIsRefused) {
@@ -282,6 +298,8 @@ TEST(AltaFile, NamesTheLineThatIsWrong) {
                    "INV_STERADIAN_COSINE_FACTOR or RGB_COLOR");
   EXPECT_COMPLAINT(with("#DIM 4 1", "#DIM 4 4097"),
                    "found '4097', expected a whole number from 1 to 4096");
+  EXPECT_COMPLAINT(with("#VS 0", "#FORMAT binary\n#SAMPLE_COUNT 67108865"),
+                   "found '67108865', expected a whole number from 1 to 67108864");
   EXPECT_COMPLAINT(with("#DIM 4 1", "#DIM 3 1"), "found #DIM 3 …, expected 4 for SPHERICAL");
   EXPECT_COMPLAINT(with("#DIM 4 1", "#DIM 4 -1"), "line 2: found '-1'");
   EXPECT_COMPLAINT(with("#DIM 4 1", "#DIM 4 2147483648"), "line 2: found '2147483648'");

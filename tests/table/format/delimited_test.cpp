@@ -1,7 +1,7 @@
 // Text with columns: records, fields, quotes, line ends, encodings.
 #include "table/format/delimited.h"
 
-#include "base/error.h"
+#include "refusal.h"
 #include "support.h"
 
 namespace gonio {
@@ -20,13 +20,7 @@ Parsed parsed(const std::string& text) {
   return p;
 }
 std::string complaint(const std::string& text) {
-  try {
-    parsed(text);
-    return "";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), Exit::bad_input);
-    return e.what();
-  }
+  return test::refusal([&] { parsed(text); });
 }
 
 TEST(Delimited, TakesAnyCharacterWithinQuotes) {
