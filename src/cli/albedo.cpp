@@ -178,23 +178,22 @@ Exit run(const Options& o) {
   // A walk has no bound; 4 standard errors are left once in 16000 times.
   document["error_bound"] = walked ? 4 * error : error;
   if (solved) add_scattered(document, r, grey, o);
-  fmt::print("{}\n", document.dump(2));
+  print_document(document);
   return Exit::done;
 }
 
 }  // namespace
 
 void add_albedo(CommandLine& line) {
-  auto o = std::make_shared<Options>();
   std::vector<std::string> scattering{"single", "walk", "deterministic"};
   scattering.insert(scattering.end(), names_of<Compensation>.begin(), names_of<Compensation>.end());
-  auto c = line.command(
+  auto [c, o] = line.command(
       "albedo",
       "Integrates how much of the light that comes in a model gives back, with a bound of the "
       "error",
       "gonio albedo ggx/smith_ggx.correlated/schlick --set alpha=1 f0=1 --mu 0.01,0.5,1 --average "
       "--scattering deterministic --json",
-      o, run);
+      run);
   c.option("MODEL", o->spec, spec_or_fit).required();
   add_set(c, o->set);
   c.option("--mu", o->mu, "Cosines of the zenith angle, in (0, 1]").delimiter(',');

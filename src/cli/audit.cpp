@@ -115,12 +115,11 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_audit(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command(
+  auto [c, o] = line.command(
       "audit",
       "Measures what entries of the catalogue keep and break: normalisation, "
       "reciprocity, energy, range, and the distance to the form they stand for",
-      "gonio audit masking.schlick_ggx.direct\n  gonio audit --all --html audit.html", o, run);
+      "gonio audit masking.schlick_ggx.direct\n  gonio audit --all --html audit.html", run);
   c.option("ID", o->ids, "Terms, maps or models, as `gonio models` lists them");
   c.flag("--all", o->all, "The whole catalogue");
   c.option("--html", o->html, "A page, NAME.html, and its data beside it, NAME.page.json");

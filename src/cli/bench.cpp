@@ -158,12 +158,11 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_bench(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command(
+  auto [c, o] = line.command(
       "bench",
       "Times every form of the catalogue and whole models on this machine, or the fit of "
       "a MERL table",
-      "gonio bench --json > before.json; gonio bench --baseline before.json", o, run);
+      "gonio bench --json > before.json; gonio bench --baseline before.json", run);
   c.option("WHAT", o->what,
            "kernels: every form, in each number and instruction set; fit: the fit of a MERL table "
            "beside the plain way of doing it")

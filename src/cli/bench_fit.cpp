@@ -258,7 +258,7 @@ Exit bench_fit(const FitBench& o, const Common& common) {
   }
   progress.clear();
   if (common.json) {
-    fmt::print("{}\n", json.dump(2));
+    print_document(json);
     return Exit::done;
   }
   fmt::print("{} values of a MERL table, {} on {} threads; ms: median [least, most] of {}\n",

@@ -206,21 +206,20 @@ Exit run(const Options& o) {
     }
   }
   const Json& shown = documents.size() == 1 ? documents[0] : documents;
-  if (o.json) fmt::print("{}\n", shown.dump(2, ' ', false, Json::error_handler_t::replace));
+  if (o.json) print_document(shown);
   return Exit::done;
 }
 
 }  // namespace
 
 void add_columns(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command(
+  auto [c, o] = line.command(
       "columns",
       "Says what the columns of CSV files are, once: written beside each as FILE.gonio.json. "
       "Without options it shows them.",
       "gonio columns PTFE.data.csv --map theta_i=thetai phi_i=phi theta_o=thetar phi_o=phir "
       "f=f_r11 channel=lambda",
-      o, run);
+      run);
   c.option("FILE", o->files, "CSV: fields between ; tabs, commas or blanks").required();
   c.option("--map", o->words,
            "NAME=COLUMN …: NAME is theta_i, phi_i, theta_o, phi_o, f, f_CHANNEL, weight, or "

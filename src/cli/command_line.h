@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -73,14 +74,15 @@ class CommandLine {
               const std::string& version,
               const std::string& footer);
   ~CommandLine();
-  /// A subcommand with its example under the help, running `run` on options that it keeps alive.
+  /// A subcommand with its example under the help, and the options that it keeps for `run`.
   template <class Options>
-  Command command(const std::string& name,
-                  const std::string& description,
-                  const std::string& example,
-                  std::shared_ptr<Options> options,
-                  Exit (*run)(const Options&)) {
-    return command(name, description, example, [options, run] { return run(*options); });
+  std::pair<Command, Options*> command(const std::string& name,
+                                       const std::string& description,
+                                       const std::string& example,
+                                       Exit (*run)(const Options&)) {
+    const auto options = std::make_shared<Options>();
+    return {command(name, description, example, [options, run] { return run(*options); }),
+            options.get()};
   }
   /// \return  what the subcommand does; empty if help or the version was asked for and is printed
   /// \throws  wrong_usage

@@ -47,9 +47,8 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_compare(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command("compare", "How far a fitted or given model is from a table",
-                        "gonio compare paint.binary paint.json", o, run);
+  auto [c, o] = line.command("compare", "How far a fitted or given model is from a table",
+                             "gonio compare paint.binary paint.json", run);
   c.option("FILE", o->file, "Table").required();
   c.option("MODEL", o->model, spec_or_fit).required();
   add_set(c, o->set);

@@ -167,7 +167,7 @@ Exit run(const Options& o) {
   write_table(c.table, o.output);
   progress.clear();
   if (o.json)
-    fmt::print("{}\n", to_json(from, c, o).dump(2, ' ', false, Json::error_handler_t::replace));
+    print_document(to_json(from, c, o));
   else
     print(from, c, o);
   return Exit::done;
@@ -176,9 +176,8 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_convert(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command("convert", "Writes a table in another format and says what that loses",
-                        "gonio convert paint.binary paint.mbsdf", o, run);
+  auto [c, o] = line.command("convert", "Writes a table in another format and says what that loses",
+                             "gonio convert paint.binary paint.mbsdf", run);
   c.option("IN", o->input, "Table").required();
   c.option("OUT", o->output, "File to write").required();
   c.option("--to", o->convert.format,

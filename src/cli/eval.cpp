@@ -7,6 +7,7 @@
 #include "brdf/model/evaluate.h"
 #include "cli/command.h"
 #include "cli/model_argument.h"
+#include "cli/terminal.h"
 #include "table/format/csv.h"
 #include "table/format/formats.h"
 
@@ -93,7 +94,7 @@ Exit run(const Options& o) {
                       {"phi_o", l.phi_o_deg[i]},
                       {"f", f}});
     }
-    fmt::print("{}\n", document.dump(2));
+    print_document(document);
   }
   return Exit::done;
 }
@@ -101,13 +102,13 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_eval(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command("eval",
-                        "Evaluates a model, or a table between its samples, at the directions of a "
-                        "CSV file: f_r, f_g, f_b in 1/sr, no cosine",
-                        "gonio eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
-                        "--directions in.csv -o out.csv",
-                        o, run);
+  auto [c, o] =
+      line.command("eval",
+                   "Evaluates a model, or a table between its samples, at the directions of a "
+                   "CSV file: f_r, f_g, f_b in 1/sr, no cosine",
+                   "gonio eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
+                   "--directions in.csv -o out.csv",
+                   run);
   c.option("MODEL", o->what, "Model, the fit.json of a fit, or a table").required();
   add_set(c, o->set);
   add_bins(c, o->bins);

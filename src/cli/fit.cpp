@@ -208,11 +208,11 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_fit(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command("fit", "Fits a model to a table, or to each of many",
-                        "gonio fit paint.binary --model lambert+ggx/smith_ggx.correlated/schlick "
-                        "-o paint.json --html paint.html\n  gonio fit tables/ --jobs 2 -o results/",
-                        o, run);
+  auto [c, o] =
+      line.command("fit", "Fits a model to a table, or to each of many",
+                   "gonio fit paint.binary --model lambert+ggx/smith_ggx.correlated/schlick "
+                   "-o paint.json --html paint.html\n  gonio fit tables/ --jobs 2 -o results/",
+                   run);
   c.option("FILE", o->files,
            "A table, its format found from the bytes; or many: several files, a "
            "folder, or @LIST with a path on each line")

@@ -119,9 +119,8 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_inspect(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command("inspect", "What a table holds and what it can be trusted for",
-                        "gonio inspect paint.binary --html paint.html", o, run);
+  auto [c, o] = line.command("inspect", "What a table holds and what it can be trusted for",
+                             "gonio inspect paint.binary --html paint.html", run);
   c.option("FILE", o->file, "A table, its format found from the bytes").required();
   c.option("--html", o->html,
            "A page of the table, NAME.html, and its data beside it, NAME.page.json");

@@ -1,6 +1,8 @@
 // gonio: reads the words, runs one subcommand, turns its outcome into an exit code.
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <new>
 #include <system_error>
@@ -22,6 +24,16 @@ int finish(gonio::Exit code) {
 int fail(gonio::Exit code, const char* what) {
   std::fprintf(stderr, "gonio: %s\n", what);
   return finish(code);
+}
+
+/// Standard output took no more.
+int fail_printing(int error) {
+  const bool closed = error == EPIPE;
+  return fail(gonio::Exit::bad_input,
+              fmt::format("standard output: writing: found {}, expected {}",
+                          closed ? "a closed pipe" : std::strerror(error),
+                          closed ? "a reader that stays to the end" : "room")
+                  .c_str());
 }
 
 /// A write that fails is told by its result, like any other: a closed pipe and the limit of a file's
@@ -63,8 +75,7 @@ int main(int argc, char** argv) {
     const auto action = line.parse(argc, argv);
     if (!action) return finish(Exit::done);  // help, printed
     const Exit code = action();
-    if (std::fflush(stdout) != 0)
-      return fail(Exit::bad_input, "standard output: cannot be written");
+    if (std::fflush(stdout) != 0) return fail_printing(errno);
     return finish(code);
   } catch (const gonio::Error& e) {
     return fail(e.code(), e.what());
@@ -73,8 +84,7 @@ int main(int argc, char** argv) {
                                                   e.code().message(), "a path within reach")
                                      .what());
   } catch (const std::system_error& e) {  // fmt::print and the like
-    return fail(Exit::bad_input,
-                fmt::format("standard output: writing: found {}, expected room", e.what()).c_str());
+    return fail_printing(e.code().value());
   } catch (const std::bad_alloc&) {
     return fail(Exit::bad_input, "out of memory");
   } catch (const std::exception& e) {

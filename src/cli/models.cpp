@@ -2,6 +2,7 @@
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
 #include "cli/command.h"
+#include "cli/terminal.h"
 #include "integrate/light/split_sum.h"
 #include "integrate/scattering/compensation.h"
 #include "optics/refractive_index.h"
@@ -70,8 +71,7 @@ Exit run(const Options& o) {
       metal.push_back(
           {{"symbol", m.symbol}, {"name", m.name}, {"n", n}, {"k", k}, {"source", m.source}});
     }
-    fmt::print("{}\n",
-               Json{{"terms", terms}, {"maps", map}, {"models", model}, {"metals", metal}}.dump(2));
+    print_document({{"terms", terms}, {"maps", map}, {"models", model}, {"metals", metal}});
     return Exit::done;
   }
   for (const auto& t : catalogue()) print(*t.about, t.parameters);
@@ -107,9 +107,9 @@ std::span<const Evaluated> evaluated_by_commands() {
 }
 
 void add_models(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command("models", "The terms that models are composed of, maps and whole models",
-                        "gonio models --json", o, run);
+  auto [c, o] =
+      line.command("models", "The terms that models are composed of, maps and whole models",
+                   "gonio models --json", run);
   add_output(c, *o);
 }
 

@@ -221,12 +221,12 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_report(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command("report",
-                        "Studies what shipped approximations cost and lose: a page DIR/NAME.html, "
-                        "its data DIR/NAME.json "
-                        "and .csv, its pictures in DIR/NAME/; of all, DIR/index.html leads to them",
-                        "gonio report energy -o reports", o, run);
+  auto [c, o] =
+      line.command("report",
+                   "Studies what shipped approximations cost and lose: a page DIR/NAME.html, "
+                   "its data DIR/NAME.json "
+                   "and .csv, its pictures in DIR/NAME/; of all, DIR/index.html leads to them",
+                   "gonio report energy -o reports", run);
   std::vector<std::string> names;
   std::string what;
   for (const auto& kind : report_kinds()) {

@@ -76,7 +76,7 @@ Exit rows(const Options& o) {
     Json document{{"masking", o.masking}};
     if (o.samples > 0) document["samples"] = o.samples;
     document["rows"] = rows;
-    fmt::print("{}\n", document.dump(2));
+    print_document(document);
   }
   return Exit::done;
 }
@@ -124,7 +124,7 @@ Exit table(const Options& o) {
     document["storage_error"] = json_of(storing);
     document["lookup_error"] = json_of(lookup.all);
     document["lookup_error_between_centres"] = json_of(lookup.between);
-    fmt::print("{}\n", document.dump(2));
+    print_document(document);
     return Exit::done;
   }
   say("{}: {} × {}, {}, {}\n", o.out, width, height, precision, exact.masking);
@@ -201,7 +201,7 @@ Exit under_light(const Options& o) {
                       {"masking", o.masking},
                       {"views", view_count},
                       {"rows", rows}};
-  fmt::print("{}\n", document.dump(2));
+  print_document(document);
   return Exit::done;
 }
 
@@ -230,15 +230,14 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_split_sum(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command(
+  auto [c, o] = line.command(
       "split_sum",
       "A and B of the split sum: GGX under Schlick's Fresnel reflects F0 A + B of an even "
       "environment",
       "gonio split_sum --roughness 0.1,0.5 --nov 0.05,1 --json\n"
       "  gonio split_sum --size 64x64 --precision half -o table.exr\n"
       "  gonio split_sum --environment sky.exr --roughness 0.1,0.5 --nov 0.05,1 --f0 0.04,0.9",
-      o, run);
+      run);
   c.option("--roughness", o->roughness, "Roughness, alpha = roughness²").delimiter(',');
   c.option("--nov", o->nov, "Cosines of the view's zenith angle, in (0, 1]").delimiter(',');
   c.option("--masking", o->masking, "Masking term");

@@ -35,22 +35,19 @@ Exit run(const Options& o) {
   write_table(t, o.output);
   progress.clear();
   if (o.json)
-    fmt::print(
-        "{}\n",
-        Json{{"path", o.output}, {"format", t.format}, {"layout", o.layout}, {"samples", t.size()}}
-            .dump(2, ' ', false, Json::error_handler_t::replace));
+    print_document(
+        {{"path", o.output}, {"format", t.format}, {"layout", o.layout}, {"samples", t.size()}});
   return Exit::done;
 }
 
 }  // namespace
 
 void add_synth(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command(
+  auto [c, o] = line.command(
       "synth", "Samples a table from a model, with noise if asked",
       "gonio synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.15 kd=0.2,0.1,0.05 "
       "--layout merl --noise 0.02 -o paint.binary",
-      o, run);
+      run);
   c.option("MODEL", o->spec, spec_or_fit).required();
   add_set(c, o->set);
   c.option("--layout", o->layout, "merl, mbsdf, in_plane, image_slice, hemisphere or random")

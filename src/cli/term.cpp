@@ -5,6 +5,7 @@
 #include "brdf/in_number/one_term.h"
 #include "brdf/model/roughness.h"
 #include "cli/command.h"
+#include "cli/terminal.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,7 +54,7 @@ void print(const Options& o,
   Json document{{"id", about.id}, {"number", o.number}, {"parameters", used}, {"at", where}};
   if (!outputs.empty()) document["outputs"] = outputs;
   document["values"] = values;
-  fmt::print("{}\n", document.dump(2));
+  print_document(document);
 }
 
 Exit run(const Options& o) {
@@ -105,10 +106,9 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_term(CommandLine& line) {
-  auto o = std::make_shared<Options>();
-  auto c = line.command(
+  auto [c, o] = line.command(
       "term", "Evaluates one term or map; a masking term gives G2, or G1 when only nov is given",
-      "gonio term ndf.ggx --set alpha=0.25 --at noh=1,0.9 --json", o, run);
+      "gonio term ndf.ggx --set alpha=0.25 --at noh=1,0.9 --json", run);
   c.option("ID", o->id, "Term or map, as `gonio models` lists it").required();
   add_set(c, o->set);
   c.option("--at", o->at,

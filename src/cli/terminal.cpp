@@ -11,6 +11,7 @@
 #include "table/format/metadata.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/ioctl.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -26,6 +27,10 @@ void Progress::clear() {
 }
 void Progress::operator()(const std::string& what) {
   if (on_) fmt::print(stderr, "\r\033[K{} …", printable(what));
+}
+
+void print_document(const nlohmann::ordered_json& document) {
+  fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::string time_left(std::chrono::steady_clock::time_point begin,

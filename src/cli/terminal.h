@@ -11,6 +11,7 @@
 #include "base/text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json_fwd.hpp>
 
 namespace gonio::cli {
 
@@ -43,6 +44,9 @@ void say(fmt::format_string<Said<T>...> format, const T&... arguments) {
   };
   fmt::print(format, harmless(arguments)...);
 }
+
+/// The one document that --json puts on standard output; bytes that are no text are replaced.
+void print_document(const nlohmann::ordered_json&);
 
 /// Time still needed if the rest goes as what was done: ", 1:05 left"; empty before the
 /// first is done.
