@@ -194,4 +194,14 @@ Image read_exr_header(const std::string& path) {
   return reading(path, [](Imf::InputFile& file) { return without_planes(file.header()); });
 }
 
+std::string attribute_of(const Image& image,
+                         const std::string& name,
+                         const std::string& path,
+                         const char* expected) {
+  const auto found = image.attributes.find(name);
+  if (found == image.attributes.end())
+    throw bad_input(path, "header", "no attribute " + name, expected);
+  return found->second;
+}
+
 }  // namespace gonio

@@ -38,5 +38,10 @@ Image read_exr(const std::string& path,
                const std::vector<std::string>& only = {});
 /// Image without its planes.
 Image read_exr_header(const std::string& path);
+/// Attribute of an image read from a path; one that it lacks is refused.  \param expected  what would have it
+std::string attribute_of(const Image&,
+                         const std::string& name,
+                         const std::string& path,
+                         const char* expected);
 
 }  // namespace gonio

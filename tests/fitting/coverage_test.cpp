@@ -9,6 +9,7 @@
 
 #include "base/quantile.h"
 #include "fitting/fit.h"
+#include "fitting/goniometer.h"
 #include "fitting/support.h"
 
 #include <boost/math/distributions/binomial.hpp>
@@ -66,22 +67,7 @@ Table clean(const BoundModel& truth, Places places, std::uint64_t seed) {
       break;
   }
   Table t = synthesize(truth, {.layout = Layout::random, .samples = 1});
-  DirectionList l;
-  for (int in = 3; in < 75; in += 3)
-    for (int out = 2; out < 80; out += 12)
-      for (int phi = 0; phi <= 180; phi += 45) {
-        l.theta_i_deg.push_back(in);
-        l.phi_i_deg.push_back(0);
-        l.theta_o_deg.push_back(out);
-        l.phi_o_deg.push_back(phi);
-      }
-  t.where = l;
-  t.values.assign(1, Values(l.theta_i_deg.size()));
-  const SampleAngles at(t);
-  std::vector<Angles<double>> angles;
-  for (std::size_t i = 0; i < t.size(); ++i) angles.push_back(at(i));
-  const auto f = evaluate(truth, angles);
-  std::ranges::copy(f[0], t.values[0].begin());
+  test::put_on_goniometer(t, truth);
   return t;
 }
 

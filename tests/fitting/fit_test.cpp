@@ -2,11 +2,13 @@
 #include "fitting/fit.h"
 
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "../support.h"
 #include "base/error.h"
 #include "brdf/model/evaluate.h"
+#include "fitting/goniometer.h"
 #include "fitting/support.h"
 #include "table/format/formats.h"
 
@@ -377,36 +379,21 @@ INSTANTIATE_TEST_SUITE_P(Metrics, MetricCoverage, testing::Values(0U, 1U, 2U), [
   return std::string(names_of<Metric>[i.param]);
 });
 
-/// A goniometer whose gain drifts by 2 % from one incident angle to the next: 24 angles, the values
+/// A goniometer whose gain drifts by 2 % from one incident angle to the next: the values
 /// of each share its error.
 Table drifting(const BoundModel& truth, unsigned seed) {
   Table t;
   t.format = "csv";
   t.channels = {"r", "g", "b"};
-  DirectionList l;
-  std::vector<double> gain;
+  test::put_on_goniometer(t, truth);
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> normal;
-  for (int in = 3; in < 75; in += 3) {
-    const double drift = std::exp(0.02 * normal(engine));
-    for (int out = 2; out < 80; out += 12)
-      for (int phi = 0; phi <= 180; phi += 45) {
-        l.theta_i_deg.push_back(in);
-        l.phi_i_deg.push_back(0);
-        l.theta_o_deg.push_back(out);
-        l.phi_o_deg.push_back(phi);
-        gain.push_back(drift);
-      }
-  }
-  t.where = std::move(l);
-  t.values.assign(3, Values(gain.size()));
-  const SampleAngles at(t);
-  std::vector<Angles<double>> angles;
-  for (std::size_t i = 0; i < gain.size(); ++i) angles.push_back(at(i));
-  const auto f = evaluate(truth, angles);
-  for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t i = 0; i < gain.size(); ++i)
-      t.values[c][i] = f[c][i] * gain[i] * std::exp(0.005 * normal(engine));
+  std::map<double, double> gain;  // by incident angle
+  for (const double in : t.list()->theta_i_deg)
+    if (!gain.contains(in)) gain[in] = std::exp(0.02 * normal(engine));
+  for (auto& channel : t.values)
+    for (std::size_t i = 0; i < channel.size(); ++i)
+      channel[i] *= gain[t.list()->theta_i_deg[i]] * std::exp(0.005 * normal(engine));
   return t;
 }
 

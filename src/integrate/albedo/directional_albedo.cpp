@@ -162,89 +162,119 @@ class Rays {
 constexpr double core_end = 2.5;
 constexpr double radial[] = {0, 1, 1.5, 2};
 
-Integral lobe_part(const Part& part, const View& v, const Goal& goal) {
-  const Model& m = part.model.model;
-  const Rays rays(v, part.widths, m.anisotropic);
+/// Light's direction at a place of the integral: cosines, the half vector in the tangent frame, and what the integrand is
+/// times there.
+struct Light {
+  double nol, noh, voh, sin2_theta_h;
+  double xoh, yoh;
+  double weight;
+};
+
+/// Integral over rectangles of a chart of the hemisphere.
+/// \param chart   chart(y)(x) is the Light there
+/// \param values  values(block, weight, out) writes those of each channel, times the weight
+template <class Chart, class Values>
+Integral integrate_over(const Model& m,
+                        const View& v,
+                        const std::vector<Rectangle>& rectangles,
+                        const Goal& goal,
+                        Chart chart,
+                        Values values) {
   AngleBlock block(m.anisotropic);
   std::vector<double> weight;
-  std::vector<double*> columns(m.channels);
-  const double sides = m.anisotropic ? 1 : 2;
   const auto f = [&](std::span<const double> x, std::span<const double> y,
                      std::span<double* const> out) {
     const auto c = block.resize(x.size());
     weight.resize(x.size());
     for (std::size_t line = 0; line < y.size(); ++line) {
-      const auto r = rays(y[line]);
-      const double end = std::asinh(r.horizon);
-      const double core = end * core_end / (end + core_end);
-      const double scale = 4 * sides * part.widths[0] * part.widths[1] * r.dpsi_dy;
+      const auto along = chart(y[line]);
       for (std::size_t k = 0; k < line_nodes; ++k) {
         const std::size_t i = line * line_nodes + k;
-        const double left = 2 - x[i];
-        const bool tail = x[i] > 1;
-        const double at = tail ? end - (end - core) * left * left * left : core * x[i];
-        const double ds_dx = tail ? 3 * (end - core) * left * left : core;
-        const double e = std::exp(at), rho = (e - 1 / e) / 2, cosh = (e + 1 / e) / 2;
-        const double t2 = rho * rho * r.d2, noh2 = 1 / (1 + t2), noh = std::sqrt(noh2);
-        const double voh = noh * (v.mu + v.sine * r.c * rho);
-        const double nol =
-            std::max(v.mu * r.d2 * (r.horizon - rho) * (rho + r.behind) * noh2, 1e-300);
-        c[0][i] = std::min(nol, 1.0);
+        const Light l = along(x[i]);
+        c[0][i] = std::min(l.nol, 1.0);
         c[1][i] = v.mu;
-        c[2][i] = noh;
-        c[3][i] = std::min(voh, 1.0);
-        c[4][i] = t2 * noh2;
-        if (m.anisotropic) put_frame(c, i, rho * r.dx * noh, rho * r.dy * noh, voh, v);
-        weight[i] = scale * ds_dx * voh * nol * noh2 * noh * rho * cosh;
+        c[2][i] = l.noh;
+        c[3][i] = std::min(l.voh, 1.0);
+        c[4][i] = l.sin2_theta_h;
+        if (m.anisotropic) put_frame(c, i, l.xoh, l.yoh, l.voh, v);
+        weight[i] = l.weight;
       }
     }
+    values(block, weight, out);
+  };
+  return integrate(f, m.channels, rectangles, goal);
+}
+
+Integral lobe_part(const Part& part, const View& v, const Goal& goal) {
+  const Model& m = part.model.model;
+  const Rays rays(v, part.widths, m.anisotropic);
+  const double sides = m.anisotropic ? 1 : 2;
+  const auto chart = [&](double y) {
+    const auto r = rays(y);
+    const double end = std::asinh(r.horizon);
+    const double core = end * core_end / (end + core_end);
+    const double scale = 4 * sides * part.widths[0] * part.widths[1] * r.dpsi_dy;
+    return [=, &v](double x) -> Light {
+      const double left = 2 - x;
+      const bool tail = x > 1;
+      const double at = tail ? end - (end - core) * left * left * left : core * x;
+      const double ds_dx = tail ? 3 * (end - core) * left * left : core;
+      const double e = std::exp(at), rho = (e - 1 / e) / 2, cosh = (e + 1 / e) / 2;
+      const double t2 = rho * rho * r.d2, noh2 = 1 / (1 + t2), noh = std::sqrt(noh2);
+      const double voh = noh * (v.mu + v.sine * r.c * rho);
+      const double nol =
+          std::max(v.mu * r.d2 * (r.horizon - rho) * (rho + r.behind) * noh2, 1e-300);
+      return {nol,
+              noh,
+              voh,
+              t2 * noh2,
+              rho * r.dx * noh,
+              rho * r.dy * noh,
+              scale * ds_dx * voh * nol * noh2 * noh * rho * cosh};
+    };
+  };
+  std::vector<double*> columns(m.channels);
+  const auto values = [&](AngleBlock& block, const std::vector<double>& weight,
+                          std::span<double* const> out) {
     for (std::size_t k = 0; k < m.channels; ++k) columns[k] = block.extra(k);
     evaluate<double>(m, part.model.values, block.block(), columns);
     for (std::size_t k = 0; k < m.channels; ++k)
-      for (std::size_t i = 0; i < x.size(); ++i) out[k][i] = columns[k][i] * weight[i];
+      for (std::size_t i = 0; i < weight.size(); ++i) out[k][i] = columns[k][i] * weight[i];
   };
   std::vector<Rectangle> rectangles;
   for (std::size_t q = 0; q < rays.sectors(); ++q)
     for (std::size_t k = 0; k < 3; ++k)
       rectangles.push_back(
           {{radial[k], static_cast<double>(q)}, {radial[k + 1], static_cast<double>(q + 1)}});
-  return integrate(f, m.channels, rectangles, goal);
+  return integrate_over(m, v, rectangles, goal, chart, values);
 }
 
 /// x is θ_l, y its azimuth from v's.
 Integral diffuse_part(const Part& part, const View& v, const Goal& goal) {
   const Model& m = part.model.model;
-  AngleBlock block(m.anisotropic);
-  std::vector<double> weight;
   const double sides = m.anisotropic ? 1 : 2;
-  const auto f = [&](std::span<const double> x, std::span<const double> y,
-                     std::span<double* const> out) {
-    const auto c = block.resize(x.size());
-    weight.resize(x.size());
-    for (std::size_t line = 0; line < y.size(); ++line) {
-      const double cos_y = std::cos(y[line]), sin_y = std::sin(y[line]);
-      for (std::size_t k = 0; k < line_nodes; ++k) {
-        const std::size_t i = line * line_nodes + k;
-        const double nol = std::cos(x[i]), sine = std::sin(x[i]);
-        // |l + v|² = 2 + 2 l·v, by its components: l·v may be −1
-        const double along = sine * cos_y + v.sine, across = sine * sin_y, up = nol + v.mu;
-        const double in_plane2 = along * along + across * across, length2 = in_plane2 + up * up;
-        const double length = std::sqrt(length2), voh = length / 2;
-        c[0][i] = nol;
-        c[1][i] = v.mu;
-        c[2][i] = up / length;
-        c[3][i] = std::min(voh, 1.0);
-        c[4][i] = in_plane2 / length2;
-        if (m.anisotropic)
-          put_frame(c, i, (along * v.cos_phi - across * v.sin_phi) / length,
-                    (along * v.sin_phi + across * v.cos_phi) / length, voh, v);
-        weight[i] = sides * nol * sine;
-      }
-    }
+  const auto chart = [&](double y) {
+    return [&v, sides, cos_y = std::cos(y), sin_y = std::sin(y)](double x) -> Light {
+      const double nol = std::cos(x), sine = std::sin(x);
+      // |l + v|² = 2 + 2 l·v, by its components: l·v may be −1
+      const double along = sine * cos_y + v.sine, across = sine * sin_y, up = nol + v.mu;
+      const double in_plane2 = along * along + across * across, length2 = in_plane2 + up * up;
+      const double length = std::sqrt(length2);
+      return {nol,
+              up / length,
+              length / 2,
+              in_plane2 / length2,
+              (along * v.cos_phi - across * v.sin_phi) / length,
+              (along * v.sin_phi + across * v.cos_phi) / length,
+              sides * nol * sine};
+    };
+  };
+  const auto values = [&](AngleBlock& block, const std::vector<double>& weight,
+                          std::span<double* const> out) {
     const auto b = block.block();
     double *const value = block.extra(0), *const fresnel = block.extra(1);
     for (std::size_t channel = 0; channel < m.channels; ++channel) {
-      std::fill_n(out[channel], x.size(), 0.0);
+      std::fill_n(out[channel], weight.size(), 0.0);
       const bool coupled = std::ranges::any_of(
           m.diffuse, [](const TermUse& t) { return catalogue()[t.term].coupled; });
       if (coupled) {
@@ -253,7 +283,7 @@ Integral diffuse_part(const Part& part, const View& v, const Goal& goal) {
       }
       for (const auto& t : m.diffuse) {
         term_values(t.term, term_parameters(part.model, t, channel), b, value);
-        for (std::size_t i = 0; i < x.size(); ++i)
+        for (std::size_t i = 0; i < weight.size(); ++i)
           out[channel][i] +=
               weight[i] * value[i] * (catalogue()[t.term].coupled ? 1 - fresnel[i] : 1);
       }
@@ -262,7 +292,7 @@ Integral diffuse_part(const Part& part, const View& v, const Goal& goal) {
   std::vector<Rectangle> rectangles;
   for (int q = 0; q < (m.anisotropic ? 4 : 2); ++q)
     rectangles.push_back({{0, q * pi / 2}, {pi / 2, (q + 1) * pi / 2}});
-  return integrate(f, m.channels, rectangles, goal);
+  return integrate_over(m, v, rectangles, goal, chart, values);
 }
 
 Albedo albedo_of(

@@ -142,11 +142,7 @@ void write_split_sum_table(const std::string& path, const SplitSumTable& t, Stor
 SplitSumTable read_split_sum_table(const std::string& path) {
   const Image image = read_exr(path, 2 * kLargest * kLargest, {"R", "G"});
   const auto attribute = [&](const char* name) {
-    const auto found = image.attributes.find(name);
-    if (found == image.attributes.end())
-      throw bad_input(path, "header", fmt::format("no attribute {}", name),
-                      "a table made by gonio split_sum");
-    return found->second;
+    return attribute_of(image, name, path, "a table made by gonio split_sum");
   };
   attribute(kHow);
   SplitSumTable t;

@@ -63,11 +63,7 @@ Grid image_slice_grid(std::size_t n_theta_h, std::size_t n_theta_d, double phi_d
 Table read_exr_slice(const std::string& path) {
   const Image header = read_exr_header(path);
   const auto attribute = [&](const char* name) {
-    const auto found = header.attributes.find(name);
-    if (found == header.attributes.end())
-      throw bad_input(path, "header", fmt::format("no attribute {}", name),
-                      "an image slice made by gonio");
-    return found->second;
+    return attribute_of(header, name, path, "an image slice made by gonio");
   };
   if (attribute(kLayout) != kSlice) throw bad_input(path, kLayout, attribute(kLayout), kSlice);
   Table t;

@@ -11,6 +11,7 @@
 #include "brdf/model/presets.h"
 #include "reports/audit/audit.h"
 #include "reports/cost/models.h"
+#include "reports/cost/points.h"
 #include "reports/pictures.h"
 
 #include <gtest/gtest.h>
@@ -290,11 +291,7 @@ CostRows small_rows() {
   auto o = short_options("ggx");
   o.full = false;
   r.rows = measure_costs(o);
-  for (const std::string_view picture : {"compensation", "split_sum", "fit"})
-    r.points.push_back({picture, "series", "label", {2, 0.1}, 0.1, 0});
-  for (const double ns : {3.0, 1.0, 2.0})
-    r.points.push_back(
-        {"quadrature", "one integral, roughness 0.5, mu 0.5", "1e-3", {ns, 0.1}, 1 / ns, 0});
+  r.points = test::few_cost_points();
   r.switches = cost_switches(r.rows);
   return r;
 }
