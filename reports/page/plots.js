@@ -15,10 +15,7 @@ function log_ticks(low, high) {
         const x = Number(`${d}e${e}`);
         if (x >= low && x <= high) ticks.push(x);
       }
-  if (ticks.length > 1) return ticks;
-  const step_now = 10 ** Math.floor(Math.log10((high - low) / 2));  // hardly a range: even steps
-  return Array.from({ length: 21 }, (_, i) => (Math.ceil(low / step_now) + i) * step_now)
-    .filter((x) => x <= high).filter((_, i, all) => i % Math.ceil(all.length / 5) === 0);
+  return ticks.length > 2 ? ticks : even_splits(low, high);  // hardly a range
 }
 /// Some five ticks at round numbers.
 function even_splits(low, high) {

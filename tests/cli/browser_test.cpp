@@ -7,6 +7,7 @@
 
 #include "cli/program.h"
 #include "reports/cost/cost.h"
+#include "reports/cost/points.h"
 #include "reports/cross_fit/cross_fit.h"
 #include "reports/energy/energy.h"
 #include "reports/index/index_page.h"
@@ -164,11 +165,7 @@ CostReport small_cost_report() {
   CostRows r;
   r.machine = this_machine();
   r.rows = measure_costs(o);
-  for (const std::string_view picture : {"compensation", "split_sum", "fit"})
-    r.points.push_back({picture, "series", "label", {2, 0.1}, 0.1, 0});
-  for (const double ns : {3.0, 1.0, 2.0})
-    r.points.push_back(
-        {"quadrature", "one integral, roughness 0.5, mu 0.5", "1e-3", {ns, 0.1}, 1 / ns, 0});
+  r.points = few_cost_points();
   r.switches.push_back({"Schlick to exact", "fresnel.schlick", "fresnel.dielectric",
                         r.machine.instruction_sets.back(), "float", "cache", "", 1, 0.1, 2, 9, 0.02,
                         0});
@@ -226,6 +223,44 @@ addEventListener("load", () => setTimeout(() => {
 )"));
 }
 
+/// A curve on logarithmic axes of which a reader cuts out a part; complains of ticks that are not of that part.
+void add_zoom(Pages& pages) {
+  FigureCurve curve{"c", {}, {}, FigureCurve::Kind::both};
+  for (int i = 0; i <= 100; ++i) {
+    curve.x.push_back(std::pow(10, i / 20.0 - 3));
+    curve.y.push_back(curve.x.back() * curve.x.back());
+  }
+  PageJson data{{"schema", "gonio.report.zoom/1"}};
+  data.update(json_of(Pictures{{{"zoom", "Zoom", "", {"x", true}, {"y", true}, {curve}}}, {}},
+                      Digits::six));
+  pages.add("zoom", make_report_page("Zoom", page_text(data), R"(
+document.getElementById("page").replaceChildren(figure_view(page_data().figures[0]));
+const ticks = [], text_of_tick = tick_text;
+tick_text = (x) => { ticks.push(x); return text_of_tick(x); };
+const cut_out = async (from, to) => {
+  const over = document.querySelector(".u-over"), box = over.getBoundingClientRect();
+  for (const [on, what, part] of [[over, "mouseenter", from], [over, "mousemove", from], [over, "mousedown", from], [over, "mousemove", (from + to) / 2], [over, "mousemove", to], [document, "mouseup", to]]) {
+    on.dispatchEvent(new MouseEvent(what, { bubbles: true, view: window, clientX: box.left + part * box.width, clientY: box.top + 50, movementX: 3 }));
+    await new Promise((done) => setTimeout(done, 10));
+    if (what === "mousemove") ticks.length = 0;
+  }
+};
+const { low, high } = page_data().figures[0].x.scales.log, x_at = (part) => low * (high / low) ** part;
+addEventListener("load", () => setTimeout(async () => {
+  for (const [from, to] of [[0.2, 0.6], [0.5, 0.52]]) {
+    await cut_out(from, to);
+    const [x0, x1] = [x_at(from), x_at(to)], of_x = ticks.findIndex((t, i) => i > 0 && t < ticks[i - 1]);
+    const xs = ticks.slice(0, of_x), ys = ticks.slice(of_x);
+    const within = (list, a, b) => list.length > 2 && list.length < 12 && list.every((t) => t > a / 1.05 && t < b * 1.05);
+    if (!within(xs, x0, x1)) console.warn(`of ${x0} to ${x1} the ticks are ${xs}`);
+    if (!within(ys, x0 * x0 / 2, x1 * x1 * 2)) console.warn(`beside ${x0} to ${x1} the ticks are ${ys}`);
+    document.querySelector(".u-over").dispatchEvent(new MouseEvent("dblclick", { bubbles: true }));
+    await new Promise((done) => setTimeout(done, 10));
+  }
+}, 50));
+)"));
+}
+
 /// The pages of the other commands, as they make them.
 void add_commands(Pages& pages) {
   const Folder f;
@@ -253,6 +288,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
   Pages pages;
   add_reports(pages);
   add_gap(pages);
+  add_zoom(pages);
   add_commands(pages);
   const auto told = pages.look(command);
   for (const auto& name : pages.names()) {
