@@ -76,7 +76,7 @@ void print(const Table& t, const Health& h) {
   if (const Grid* g = t.grid(); g && t.has_bins())
     line("bins",
          fmt::format(
-             "{} assumed{}", name_of(g->bins),
+             "samples taken to sit at the {} of theirs{}", name_of(g->bins),
              h.peak && h.peak->bin_sensitivity
                  ? fmt::format("; the other convention changes the peak's alpha by {:+.2f} %",
                                100 * *h.peak->bin_sensitivity)
