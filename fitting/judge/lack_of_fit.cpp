@@ -22,6 +22,7 @@ constexpr double significant = 0.01;          ///< probability below which a mis
 constexpr double worth_telling = 0.01;        ///< of f
 constexpr double of_an_interval = 3;          ///< squares beyond noise, of those of noise
 constexpr double arithmetic = 1e-7;           ///< of f: below it is rounding of our own
+constexpr double faintest = 1e-30;            ///< that the logarithm tells apart [1/sr]
 constexpr std::size_t most_values = 1 << 15;  ///< looked at
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 constexpr std::size_t most_channels = 16, most_gains = 64;
@@ -93,8 +94,8 @@ struct Value {
   double active;                        ///< 1, or 0 where it is clipped
   double change;                        ///< of the residual, by a relative change of f
   double slope;                         ///< of the residual, by f, without the table's weights
-  double weight;                        ///< the root of the table's
-  double f, y;                          ///< [1/sr]
+  double rounding;                      ///< of the residual, by what the datum's digits leave out
+  double f;                             ///< [1/sr]
   double variance = 0;                  ///< of the residual, up to a factor
   std::array<double, max_columns> j{};  ///< derivatives by the unknowns of its channel
   std::size_t gain = 0;  ///< unknown of its incident angle's own scale, where there are such
@@ -138,6 +139,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
   const double finest = grid_of_halves ? 1 : 1000;  // angles of incidence told apart, in a degree
   std::map<long, std::size_t> angles;
   const auto offset = s.link_offset();
+  const FileRounding rounding = rounding_of(s.table());
   const std::size_t members = s.groups().widest();
   const Tasks tasks(s, std::max<std::size_t>(most_values / (members * looked_at), 64),
                     BlockReader<double>::block);
@@ -159,7 +161,12 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
             if (!(w > 0)) continue;
             const double weight = s.root_weight(in.sample(m)[i]);
             const double r = w * (link[i] - data.target[i]);
-            if (!std::isfinite(r) || !std::isfinite(slope[i])) continue;
+            // Below what the link tells apart f is as large as that; such a datum says nothing of
+            // it.
+            const bool faint = slope[i] == 0;
+            const double f_seen = faint ? faintest : value[i],
+                         slope_seen = faint ? 1 / faintest : slope[i];
+            if (!std::isfinite(r) || !std::isfinite(slope_seen) || (faint && r == 0)) continue;
             auto& unit = unit_of[m * in.size() + i];
             if (unit == none) {
               unit = all.units.size();
@@ -175,12 +182,14 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
             v.r = std::clamp(r, -f.huber, f.huber);
             v.active = std::abs(r) <= f.huber ? 1 : 0;
             // By f where the metric divides by y: noise in both would follow itself.
-            v.slope = s.metric() == Metric::relative ? 1 / (value[i] + s.offset())
-                                                     : w / weight * slope[i];
-            v.change = w * slope[i] * value[i];
-            v.weight = weight;
-            v.f = value[i];
-            v.y = data.y[i];
+            v.slope = s.metric() == Metric::relative ? 1 / (f_seen + s.offset())
+                                                     : w / weight * slope_seen;
+            v.change = w * slope_seen * f_seen;
+            v.f = f_seen;
+            const double rounded = std::hypot(rounding.of(data.y[i]), arithmetic * data.y[i]);
+            v.rounding =
+                w * (link_of(s.metric()) == Link::log ? std::log1p(rounded / (data.y[i] + offset))
+                                                      : rounded);
             const auto& of = derivatives[v.channel];
             for (std::size_t q = 0; q < of.size(); ++q) v.j[q] = w * slope[i] * of[q][i];
           }
@@ -196,20 +205,22 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
 
 /// Noise is taken as the likelier of two: of one size in f, or in proportion to f.
 void find_variances(std::vector<Value>& values) {
+  static constexpr double largest =
+      1e150;  // whose square is finite: f may be next to nothing, or 0
   std::array<double, 2> logs{}, squares{};
-  const auto variance = [](const Value& v, std::size_t relative) {
-    const double sigma = v.slope * (relative ? v.f : 1);
-    return sigma * sigma;
+  const auto sigma = [](const Value& v, std::size_t relative) {
+    return std::clamp(v.slope * (relative ? v.f : 1), 1 / largest, largest);
   };
   for (const auto& v : values)
     for (std::size_t k = 0; k < 2; ++k) {
-      logs[k] += std::log(variance(v, k));
-      squares[k] += v.r * v.r / variance(v, k);
+      const double root = v.r / sigma(v, k);
+      logs[k] += 2 * std::log(sigma(v, k));
+      squares[k] += root * root;
     }
   const double n = static_cast<double>(values.size());
   const auto badness = [&](std::size_t k) { return logs[k] + n * std::log(squares[k]); };
-  const std::size_t relative = badness(1) <= badness(0);
-  for (auto& v : values) v.variance = variance(v, relative);
+  const std::size_t relative = !(badness(0) < badness(1));
+  for (auto& v : values) v.variance = sigma(v, relative) * sigma(v, relative);
 }
 
 /// Unknowns of their own for the scale of each channel under each incident angle, where there is room.
@@ -434,22 +445,34 @@ void find_worst_cell(const Left& left,
   if (weights > 0) out.size = std::max(out.size, std::sqrt(squares / weights));
 }
 
-Regression regress(
-    Left& left, bool shared, bool gains, bool heavy_tails, const FileRounding& rounding) {
+/// Whether little else is left than rounding: of all values together, and of each by its own, lest one
+/// whose digits say little hides what others miss by far.
+bool only_rounded(const std::vector<Value>& values) {
+  constexpr double most = 4;  // squares, of those of rounding
+  constexpr double clipped = 100;
+  double squares = 0, rounded = 0, own = 0;
+  for (const auto& v : values) {
+    const double square = v.r * v.r, by_rounding = v.rounding * v.rounding;
+    squares += square;
+    rounded += by_rounding;
+    own += square > clipped * by_rounding ? clipped : square > 0 ? square / by_rounding : 0;
+  }
+  return squares <= most * rounded && own <= most * static_cast<double>(values.size());
+}
+
+Regression regress(Left& left, bool shared, bool gains, bool heavy_tails) {
   Regression out;
   find_variances(left.values);
   if (gains) gains = add_gains(left) > 0;
   const std::size_t units = left.units.size();
   const double n = static_cast<double>(left.values.size());
-  double squares = 0, rounded = 0, changes = 0;
+  double rounded = 0, changes = 0;
   for (const auto& v : left.values) {
-    squares += v.r * v.r;
-    const double sigma = v.weight * v.slope * std::hypot(rounding.of(v.y), arithmetic * v.f);
-    rounded += sigma * sigma;
+    rounded += v.rounding * v.rounding;
     changes += v.change * v.change;
   }
   out.rounding = std::sqrt(rounded / changes);
-  out.rounded = !(squares > 4 * rounded);
+  out.rounded = only_rounded(left.values);
   if (out.rounded) return out;
 
   const std::size_t width = units >= 500 ? fine : smooth;
@@ -532,8 +555,7 @@ LackOfFit lack_of_fit(
   const std::size_t looked_at = left.values.size();
   const bool measured = !s.table().truth && p.options.intervals != Intervals::independent &&
                         p.options.intervals != Intervals::by_angle;
-  const Regression r =
-      regress(left, shared, measured && !shared, p.options.robust, rounding_of(s.table()));
+  const Regression r = regress(left, shared, measured && !shared, p.options.robust);
   if (!r.tested) {
     m.note = r.rounded ? "what is left is no more than the values' own rounding"
              : shared  ? "the incident angles, whose values share errors, are too few to tell"

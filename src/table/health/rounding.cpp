@@ -3,10 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace gonio {
+namespace {
+
+constexpr double uniform = 0.28867513459481287;  ///< standard deviation of a step of 1: 1/√12
+
+int decade_of(double y) {
+  return static_cast<int>(std::floor(std::log10(y)));
+}
+bool is_whole(double x) {
+  return std::abs(x - std::round(x)) <= 1e-13 * std::max(std::abs(x), 1.0);
+}
+bool ends_in_zero(double x) {
+  return std::fmod(std::round(x), 10) == 0;
+}
+
+}  // namespace
 
 double FileRounding::of(double y) const {
+  if (digits > 0) return y > 0 ? uniform * std::pow(10, decade_of(y) + 1 - digits) : 0;
   return std::max(absolute, relative * y);
 }
 
@@ -15,31 +32,32 @@ FileRounding rounding_of(const Table& t) {
   // hold them all.
   constexpr std::size_t looked_at = 400;
   constexpr int most_digits = 9;
+  constexpr double smallest = 1e-290;  // whose digits a double can show
   int decimals = 0, digits = 1;
   bool floats = true;
-  std::size_t seen = 0;
+  std::vector<double> seen;
   const std::size_t step = std::max<std::size_t>(t.size() / looked_at, 1);
-  const auto is_whole = [](double x) {
-    return std::abs(x - std::round(x)) <= 1e-13 * std::max(std::abs(x), 1.0);
-  };
   for (const auto& plane : t.values)
-    for (std::size_t i = 0; i < plane.size(); i += step) {
-      const double v = plane[i];
-      if (!(v > 0) || !std::isfinite(v)) continue;
-      ++seen;
-      floats = floats && static_cast<double>(static_cast<float>(v)) == v;
-      while (decimals <= most_digits &&
-             !(is_whole(v * std::pow(10, decimals)) && v * std::pow(10, decimals) >= 0.5))
-        ++decimals;
-      const int above = static_cast<int>(std::floor(std::log10(v)));
-      while (digits <= most_digits && !is_whole(v * std::pow(10, digits - 1 - above))) ++digits;
-    }
+    for (std::size_t i = 0; i < plane.size(); i += step)
+      if (plane[i] > smallest && std::isfinite(plane[i])) seen.push_back(plane[i]);
+  const auto in_decimals = [&](double v) { return v * std::pow(10, decimals); };
+  const auto in_digits = [&](double v) { return v * std::pow(10, digits - 1 - decade_of(v)); };
+  for (const double v : seen) {
+    floats = floats && static_cast<double>(static_cast<float>(v)) == v;
+    while (decimals <= most_digits && !(is_whole(in_decimals(v)) && in_decimals(v) >= 0.5))
+      ++decimals;
+    while (digits <= most_digits && !is_whole(in_digits(v))) ++digits;
+  }
   FileRounding r;
-  if (seen == 0) return r;
-  const double uniform = 1 / std::sqrt(12.0);
-  if (decimals <= most_digits) r.absolute = uniform * std::pow(10, -decimals);
-  if (digits <= most_digits)
-    r.relative = uniform * std::pow(10, 1 - digits);
+  if (seen.empty()) return r;
+  const bool by_decimals = decimals <= most_digits, by_digits = digits <= most_digits;
+  const auto zeros = [&](const auto& places) {
+    return std::ranges::count_if(seen, [&](double v) { return ends_in_zero(places(v)); });
+  };
+  if (by_decimals && !(by_digits && zeros(in_digits) < zeros(in_decimals)))
+    r.absolute = uniform * std::pow(10, -decimals);
+  else if (by_digits)
+    r.digits = digits;
   else if (floats)
     r.relative = uniform * double{std::numeric_limits<float>::epsilon()};
   return r;

@@ -273,6 +273,46 @@ TEST(LackOfFit, OfWhatDigitsLeaveOutIsNotJudged) {
   EXPECT_TRUE(fit_of(t, "lambert").misfit.told);
 }
 
+void round_to_digits(Table& t, int digits) {
+  for (auto& plane : t.values)
+    for (double& v : plane) v = std::stod(fmt::format("{:.{}g}", v, digits));
+}
+
+TEST(LackOfFit, OfValuesOfFewDigitsIsToldWhereItExceedsThemByFar) {
+  Table t = synthesize(test::bind("ggx/smith_ggx.correlated/schlick", "alpha=0.1,f0=0.5", 3),
+                       {.layout = Layout::in_plane, .noise = 0.02});
+  for (const int digits : {9, 3}) {
+    round_to_digits(t, digits);
+    for (const Metric metric : {Metric::log, Metric::relative}) {
+      FitOptions o;
+      o.metric = metric;
+      // Falls to next to nothing where the values do not: so does what rounding may be of them.
+      o.model = "beckmann/smith_beckmann.correlated/schlick";
+      EXPECT_TRUE(fit(t, o).document.misfit.told) << digits << " " << name_of(metric);
+      o.model = "lambert";
+      EXPECT_TRUE(fit(t, o).document.misfit.told) << digits << " " << name_of(metric);
+    }
+  }
+}
+
+TEST(LackOfFit, OfALobeThatFallsToNothingIsTested) {
+  const char* const lobe = "beckmann/smith_beckmann.correlated/schlick";
+  for (const auto& [layout, samples] :
+       {std::pair{Layout::hemisphere, std::size_t{0}}, {Layout::random, std::size_t{300}}})
+    for (const char* alpha : {"alpha=0.3,f0=0.5", "alpha=0.02,f0=0.5"})
+      for (const Metric metric : {Metric::log, Metric::relative}) {
+        FitOptions o;
+        o.model = lobe;
+        o.metric = metric;
+        const auto m = fit(synthesize(test::bind(lobe, alpha, 3),
+                                      {.layout = layout, .samples = samples, .noise = 0.02}),
+                           o)
+                           .document.misfit;
+        EXPECT_TRUE(m.tested) << m.note;
+        EXPECT_FALSE(m.told) << name_of(layout) << " " << alpha << " " << name_of(metric);
+      }
+}
+
 TEST(LackOfFit, OfTooFewValuesIsNotKnownAndThatIsSaid) {
   const auto d = fit_of(synthesize(test::bind(paint, "alpha=0.3", 1),
                                    {.layout = Layout::random, .samples = 6, .noise = 0.02}));

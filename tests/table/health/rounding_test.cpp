@@ -22,10 +22,18 @@ TEST(FileRounding, OfFixedDecimalsIsOneSize) {
   EXPECT_NEAR(r.of(3), 1e-3 * uniform, 1e-9);
 }
 
-TEST(FileRounding, OfSignificantDigitsIsInProportion) {
+TEST(FileRounding, OfSignificantDigitsIsOfEachValuesOwnDecade) {
   const auto r = rounding_of(of({1.23e-11, 4.5e3, 6.78e-2}));
-  EXPECT_NEAR(r.of(2), 2e-2 * uniform, 1e-9);
-  EXPECT_NEAR(r.of(2e-6), 2e-8 * uniform, 1e-15);
+  EXPECT_NEAR(r.of(2), 1e-2 * uniform, 1e-9);
+  EXPECT_NEAR(r.of(9.99), 1e-2 * uniform, 1e-9);
+  EXPECT_NEAR(r.of(2e-6), 1e-8 * uniform, 1e-15);
+  EXPECT_EQ(r.of(0), 0);
+}
+
+TEST(FileRounding, IsThatOfTheDigitsWhereDecimalsWouldHoldAllTooButEndInZeros) {
+  const auto r = rounding_of(of({0.00123, 0.0456, 0.789, 0.321, 0.0654}));
+  EXPECT_NEAR(r.of(0.5), 1e-3 * uniform, 1e-9);
+  EXPECT_NEAR(r.of(0.005), 1e-5 * uniform, 1e-11);
 }
 
 TEST(FileRounding, OfBinaryNumbersIsThatOfFloatsOrNone) {
