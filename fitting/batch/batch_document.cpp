@@ -40,7 +40,9 @@ struct Description<BatchParameter> {
     return std::tuple{field("value", "", per_channel(&BatchParameter::value), "fitted value"),
                       field("std_error", "", per_channel(&BatchParameter::std_error),
                             "standard error; null where it is not known"),
-                      field("status", "", per_channel(&BatchParameter::status), "")};
+                      field("status", "", per_channel(&BatchParameter::status), ""),
+                      field("limit", "", per_channel(&BatchParameter::limit),
+                            "one-sided 95 % bound where the status is upper_limit or lower_limit")};
   }
 };
 
@@ -146,15 +148,17 @@ BatchFit read_fit(const JsonReader& j) {
   for (const auto& c : j.at("channels").elements()) d.channels.push_back(c.string());
   for (const auto& w : j.at("warnings").elements()) d.warnings.push_back(w.string());
   for (const auto& [name, q] : j.at("parameters").members()) {
-    BatchParameter p{name, q.at("value").numbers(), q.at("std_error").numbers(), {}};
+    BatchParameter p{
+        name, q.at("value").numbers(), q.at("std_error").numbers(), {}, q.at("limit").numbers()};
     for (const auto& s : q.at("status").elements()) {
       const auto known = find_value<ParameterStatus>(s.string());
       if (!known) s.fail("a status");
       p.status.push_back(*known);
     }
     const std::size_t n = p.value.size();
-    if ((n != 1 && n != d.channels.size()) || p.std_error.size() != n || p.status.size() != n)
-      q.fail("a value, an error and a status for all channels or for each");
+    if ((n != 1 && n != d.channels.size()) || p.std_error.size() != n || p.status.size() != n ||
+        p.limit.size() != n)
+      q.fail("a value, an error, a status and a limit for all channels or for each");
     d.parameters.push_back(std::move(p));
   }
   d.cost = j.at("cost").number();
@@ -191,7 +195,7 @@ BatchFit in_brief(const FitDocument& d) {
   b.values_used = d.values_used;
   b.warnings = d.warnings;
   for (const auto& p : d.parameters)
-    b.parameters.push_back({p.name, p.value, p.std_error, p.status});
+    b.parameters.push_back({p.name, p.value, p.std_error, p.status, p.limit});
   for (const auto& [reason, n] : d.masked) b.masked += n;
   for (const auto& [phase, ms] : d.solver.phase_ms) b.time_ms += ms;
   return b;

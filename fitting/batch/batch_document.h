@@ -18,6 +18,7 @@ struct BatchParameter {
   std::string name;
   std::vector<double> value, std_error;
   std::vector<ParameterStatus> status;
+  std::vector<double> limit = {};
 };
 
 /// Part of a fit document that the summary shows.

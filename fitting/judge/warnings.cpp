@@ -18,9 +18,12 @@ bool enough_angles(std::size_t clusters) {
 
 namespace {
 
+/// Factor of two digits, or of whole numbers.
+std::string factor(double x) {
+  return x < 9.95 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x);
+}
 std::string percent(double share) {
-  return share < 0.0995 ? fmt::format("{:.2g} %", 100 * share)
-                        : fmt::format("{:.0f} %", 100 * share);
+  return factor(100 * share) + " %";
 }
 
 /// Angles that only repeat another; "" of none.
@@ -89,7 +92,7 @@ std::vector<std::string> warnings(const FitOptions& o,
                     "lobe whose F is 1 at 90° cannot vanish",
                     f.cost_of_fewer, d.cost));
   if (f.needless)
-    all.push_back(
+    all.emplace_back(
         "without its lobe the model meets the table as well or better: nothing is known of the "
         "lobe");
   return all;
@@ -124,8 +127,8 @@ std::vector<std::string> physics_in_words(const Physics& p) {
   const double ratio = p.peak_ratio.empty() ? 0 : std::ranges::max(p.peak_ratio);
   if (ratio > far_above)
     all.push_back(fmt::format(
-        "the fitted model rises to {:.2g} times the table's greatest value where that has samples",
-        ratio));
+        "the fitted model rises to {} times the table's greatest value where that has samples",
+        factor(ratio)));
   return all;
 }
 
@@ -138,14 +141,12 @@ std::vector<std::string> misfit_in_words(const Misfit& m) {
   std::vector<std::string> all{"the model misses the table by " + size +
                                "; the intervals allow for it"};
   if (const auto& c = m.worst_cell)
-    all.push_back(
-        fmt::format("it is furthest off near theta_h {:.2g}°, theta_d {:.2g}°: {}",
-                    (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
-                    (c->theta_d_from_deg + c->theta_d_to_deg) / 2,
-                    c->difference > 9   ? fmt::format("{:.0f} times as bright", 1 + c->difference)
-                    : c->difference > 1 ? fmt::format("{:.2g} times as bright", 1 + c->difference)
-                    : c->difference > 0 ? percent(c->difference) + " too bright"
-                                        : percent(-c->difference) + " too dark"));
+    all.push_back(fmt::format("it shows most near theta_h {:.2g}°, theta_d {:.2g}°: {}",
+                              (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
+                              (c->theta_d_from_deg + c->theta_d_to_deg) / 2,
+                              c->difference > 1   ? factor(1 + c->difference) + " times as bright"
+                              : c->difference > 0 ? percent(c->difference) + " too bright"
+                                                  : percent(-c->difference) + " too dark"));
   return all;
 }
 

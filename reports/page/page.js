@@ -81,7 +81,10 @@ const words = (name) => name.replaceAll("_", " ");
 /// How far a fitted parameter is known, as people say it.
 const status_words = { free: "fitted", fixed: "held", at_bound: "at the end of its range", not_identifiable: "not known",
                        upper_limit: "upper limit alone", lower_limit: "lower limit alone" };
+const limit_text = (status, limit) => `${status === "upper_limit" ? "≤" : "≥"}\u202f${significant(limit, 3)}`;
 
+/// A sentence with its angles as signs.
+const with_angles = (text) => text.split(/(theta_[hdio])/).map((part, i) => (i % 2 ? angle_name(part) : part));
 /// A sentence whose options of the program, with what they are given, stand out.
 const with_code = (text) => text.split(/(--[a-z-]+(?: [^ ,;:]*[a-z0-9])?)/).map((part, i) => (i % 2 ? el("code", {}, part) : part));
 

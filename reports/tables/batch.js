@@ -154,7 +154,7 @@ function verdict() {
   const far = fitted.filter((t) => t.misfit_told).length;
   return el("p", { class: "verdict" },
     known(typical) ? ["Half of the fits are within ", el("b", {}, "×/÷\u202f" + ratio(typical).slice(1)), ` of their table (log RMS ${log_rms_text(typical)}). `] : null,
-    far ? `Of ${count(far)} the model misses more than noise explains. ` : null,
+    far ? `The model misses ${far === fitted.length && far > 1 ? "all" : count(far)} of them by more than noise. ` : null,
     page.counts.not_converged ? `${count(page.counts.not_converged)} did not converge. ` : null,
     failed.length ? `${count(failed.length)} could not be fitted. ` : null);
 }
@@ -245,7 +245,7 @@ function overview() {
       g.arc(p.x, p.y, p.t === state.near ? 8 : 5.5, 0, 2 * Math.PI);
       g.fillStyle = color_of(p.t);
       g.fill();
-      g.lineWidth = p.t === state.near ? 2 : 1;
+      g.lineWidth = p.t === state.near || p.t.misfit_told ? 2 : 1;
       g.strokeStyle = p.t === state.near ? color("accent") : p.t.misfit_told ? color("warn") : color("muted");
       g.stroke();
     }
@@ -297,9 +297,9 @@ function overview() {
 
 // --- Each ------------------------------------------------------------------------------------------------
 function values_text(p) {
-  const values = list_of(p.value);
+  const values = list_of(p.value), limits = list_of(p.limit), states = list_of(p.status);
+  if (values.length <= 4) return values.map((v, c) => (known(limits[c]) ? limit_text(states[c], limits[c]) : significant(v, 3))).join(", ");
   if (values.every((v) => !known(v))) return "–";
-  if (values.length <= 4) return values.map((v) => significant(v, 3)).join(" ");
   const there = sorted_numbers(values);  // a spectrum
   return `${significant(there[0], 3)} to ${significant(there.at(-1), 3)}`;
 }

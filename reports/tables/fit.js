@@ -44,7 +44,7 @@ function verdict() {
 function warnings() {
   const out = [];
   const warn = (...parts) => out.push(warning(...parts));
-  for (const w of fit.warnings ?? []) warn("Beware:", w + ".");
+  for (const w of fit.warnings ?? []) warn("Beware:", with_angles(w), ".");
   if (fit.solver.termination !== "converged") warn("Not converged.", fit.solver.message);
   const named = (status) => rows.filter((r) => r.status === status).map((r) => r.label).join(", ");
   if (named("not_identifiable")) warn("Not known:", named("not_identifiable"), ". These data do not determine it; no value is given.");
@@ -56,11 +56,12 @@ function warnings() {
   for (const s of fit.bin_sensitivity ?? []) {
     const most = Object.entries(s.relative_change)
       .flatMap(([name, v]) => list_of(v).filter(known).map((x) => [name, x])).sort(([, a], [, b]) => Math.abs(b) - Math.abs(a))[0];
+    const [here, there] = [fit.residuals.log_rms, s.log_rms].map(log_rms_text);
     if (most && Math.abs(most[1]) > 0.01)
-      warn("Bin convention matters:", `with samples at the ${s.other} of their bins, ${most[0]} changes most, by ${signed_percent(most[1])}; `
-        + `the log RMS would be ${log_rms_text(s.log_rms)} instead of ${log_rms_text(fit.residuals.log_rms)}.`);
+      warn("Bin convention matters:", `with samples at the ${s.other} of their bins, ${most[0]} changes most, by ${signed_percent(most[1])}`
+        + (here === there ? "." : `; the log RMS would be ${there} instead of ${here}.`));
   }
-  return warning_list([...out, ...health_warnings(true)]);
+  return warning_list([...out, ...health_warnings(fit)]);
 }
 function next_steps() {
   if (!fit.next?.length) return null;
@@ -87,8 +88,8 @@ function parameters() {
     const [least, most] = [r.value - r.low, r.high - r.value].sort((a, b) => a - b);
     return least > 1.9 * r.error && most < Math.min(1.5 * least, 2.8 * r.error);
   };
-  const number = (r, x) => (!known(r.error) || even(r) ? with_error(x, r.error) : significant(Math.abs(x) < 1e-6 * r.high ? 0 : x, 3));
-  const limit = (r) => `${r.status === "upper_limit" ? "≤" : "≥"} ${significant(r.limit, 3)}`;
+  const number = (r, x) => (!known(r.error) || even(r) ? with_error(x, r.error) : plain(Math.abs(x) < 1e-4 * r.high ? 0 : x, 3));
+  const limit = (r) => limit_text(r.status, r.limit);
   const widths = rows.filter((r) => known(r.value) && r.value !== 0 && known(r.low) && known(r.high))
     .map((r) => Math.max(-relative(r, r.low), relative(r, r.high)));
   const reach = Math.min(1, 1.1 * Math.max(...widths, 0)) || 1;
@@ -200,7 +201,7 @@ function albedo() {
     + (known(data_there) ? `; there the table returns ${share(data_there)}.` : ".")
     + (above(brightest) ? " Above 1 more light leaves than arrives: no surface does that." : "");
   const ratios = (p.peak_ratio ?? []).filter(known);
-  const peaks = ratios.length ? ` At the table's own samples its greatest value is ${[...new Set([Math.min(...ratios), Math.max(...ratios)].map((r) => `×\u202f${significant(r)}`))].join(" to ")} the table's.` : "";
+  const peaks = ratios.length ? ` At the table's own samples the model's greatest value is ${[...new Set([Math.min(...ratios), Math.max(...ratios)].map((r) => plain(r, 2)))].join(" to ")} times the table's.` : "";
   const one = Math.max(...all_model, ...all_data.filter(known)) > 0.8;  // else the line is far above all
   const plot = curve_plot([x, ...(has_data ? shown.map((c) => of(p.data_albedo, c)) : []), ...shown.map((c) => of(p.model_albedo, c)), ...(one ? [x.map(() => 1)] : [])],
     [...(has_data ? shown.map((c) => ({ color: channel_color(channels[c], c), kind: "points" })) : []),
@@ -215,10 +216,11 @@ function albedo() {
     "Share of the light from one direction that all directions together return, by the angle it comes from: the fitted model"
       + (has_data ? " beside the table. Where half of the directions or more lack, the table does not say." : "; this table does not say its own."),
     el("p", {}, words + peaks),
-    el("div", { class: "columns" },
+    el("div", { class: "columns light" },
       el("figure", {}, el("figcaption", {}, el("span", { class: "keys" },
-        shown.map((c) => el("span", {}, chip(several ? channel_color(channels[c], c) : "ink"), several ? channels[c] : "model"))),
-        el("small", {}, has_data ? " lines: model, points: table" : " lines: model", one ? "; dashed: all of the light" : "")), plot.node),
+        several ? shown.map((c) => el("span", {}, chip(channel_color(channels[c], c)), channels[c]))
+          : [has_data ? el("span", {}, chip(channel_color(channels[0], 0)), "table") : null, el("span", {}, chip("ink"), "model")]),
+        el("small", {}, several ? (has_data ? " lines: model, points: table" : " lines: model") : "", one ? " dashed: all of the light" : "")), plot.node),
       scroll(table([el("span", {}, angle_name("theta_i"), " [°]"), ...head],
         rows.map((k) => [plain(Number(x[k].toFixed(1)), 3), ...shown.flatMap((c) => [cell(list_of(p.model_albedo[k])[c]), ...(has_data ? [cell(list_of(p.data_albedo[k])[c])] : [])])])))));
 }

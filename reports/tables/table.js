@@ -12,7 +12,7 @@ const words_of_angle = (name) => symbol[name] ?? words(name);
 const warning = (what, ...rest) => el("li", {}, el("b", {}, what), " ", rest);
 const warning_list = (all) => (all.length ? el("ul", { class: "warnings", "aria-label": "Warnings" }, all) : null);
 
-/// Of the table alone; \param fitted  a fit has told the first of them.
+/// Of the table alone; \param fitted  a fit that has told some of them, or null
 function health_warnings(fitted) {
   const out = [], warn = (...parts) => out.push(warning(...parts)), { peak, noise } = health;
   if (!fitted) {
@@ -20,8 +20,9 @@ function health_warnings(fitted) {
     if (health.retro) warn("Retro-reflective:", "the highlight sits at wo = wi and not at the half vector. A microfacet lobe cannot describe it.");
     if (copies_words()) warn("Copies:", copies_words() + ": no measurements of their own.");
   }
-  if (peak && peak.limit === "samples") warn("Peak not resolved:", peak.in_words + ".");
-  if (peak && peak.limit === "bins") warn("Peak limited by the bins:", peak.in_words + ".");
+  const told = fitted?.warnings?.some((w) => w.includes("does not resolve its highlight"));
+  if (peak && peak.limit === "samples" && !told) warn("Peak not resolved:", `${significant(peak.samples_within, 2)} samples within its half width of ${degrees(peak.half_width_deg, 2)}. It may be narrower.`);
+  if (peak && peak.limit === "bins") warn("Peak limited by the bins:", known(health.bin_sensitivity) ? `where samples sit in them changes its alpha by ${signed_percent(health.bin_sensitivity)}.` : peak.in_words + ".");
   const above_horizon = health.values - (health.masked?.below_horizon ?? 0);
   const lost = (health.masked?.negative ?? 0) + (health.masked?.not_finite ?? 0);
   if (above_horizon > 0 && lost > 0.02 * above_horizon)

@@ -20,13 +20,15 @@ FitDocument a_fit() {
   FitDocument d;
   d.model = "lambert";
   d.channels = {"r", "g", "b"};
-  d.parameters = {{"alpha", {0.1}, {nan}, {nan}, {nan}, {fixed}},
+  d.parameters = {{"alpha", {0.1}, {nan}, {nan}, {nan}, {fixed}, {nan}, {""}},
                   {"kd",
                    {0.3, nan, 0.1},
                    {0.01, nan, 0.02},
                    {0, 0, 0},
                    {1, 1, 1},
-                   {free, not_identifiable, at_bound}}};
+                   {free, not_identifiable, at_bound},
+                   {nan, nan, nan},
+                   {"", "", ""}}};
   d.residuals = {0.5, 0.25, {}};
   d.misfit.size = 0.125;
   d.misfit.told = true;
@@ -141,6 +143,7 @@ TEST(BatchDocument, ADocumentWhoseListsDifferInLengthIsNotTaken) {
                                  {"/parameters/kd/std_error", "[0.1]"},
                                  {"/parameters/kd/status", R"(["free", "free"])"},
                                  {"/parameters/alpha/std_error", "[]"},
+                                 {"/parameters/kd/limit", "[0.1]"},
                                  {"/channels", R"(["r"])"}}) {
     json changed = json::parse(batch_document(a_fit(), *row.preview, "so"));
     changed[json::json_pointer(at)] = json::parse(list);

@@ -70,7 +70,7 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
             (std::vector<std::string>{"the model misses the table by 8.4 % beyond noise, along "
                                       "theta_h, theta_d and grazing angles; the intervals allow "
                                       "for it",
-                                      "it is furthest off near theta_h 16°, theta_d 68°: 30 % too "
+                                      "it shows most near theta_h 16°, theta_d 68°: 30 % too "
                                       "dark"}));
   m.worst_cell->difference = 2.4;
   EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": 3.4 times as bright"));
