@@ -154,15 +154,17 @@ void add_models(Steps& steps, const Spec& spec, const FitDocument& d) {
     highlight.emplace_back(spec.with_ndf("gtr"), "may follow the highlight: its tail is free");
   if (spec.lobes() == 1)
     highlight.emplace_back(spec.with_another_lobe(), "may follow the highlight with a second lobe");
+  // What holds the fitted model within itself comes first.
+  if (fresnel == "schlick")
+    for (auto* models : {&index, &grazing})
+      models->emplace_back(spec.with_fresnel("schlick.f90"),
+                           "may help: its reflectance at grazing angles is free");
   if (fresnel != "dielectric" && fresnel != "conductor")
     index.emplace_back(spec.with_fresnel(diffuse.empty() ? "conductor" : "dielectric"),
                        "may help: its Fresnel is exact");
   if (diffuse == "lambert")
     index.emplace_back(spec.with_diffuse("lambert.coupled"),
                        "may help: its diffuse is what the lobe lets through");
-  if (fresnel == "schlick")
-    index.emplace_back(spec.with_fresnel("schlick.f90"),
-                       "may help: its reflectance at grazing angles is free");
   if (diffuse == "lambert" || diffuse == "lambert.coupled")
     grazing.emplace_back(spec.with_diffuse("disney"),
                          "may help: its diffuse changes at grazing angles");
@@ -195,9 +197,9 @@ std::vector<std::string> next_steps(const FitOptions& o, const FitDocument& d, c
     steps.add("fit without --copies keep: angles that only repeat another are no measurements");
   if (f.retro)
     steps.add(
-        "no microfacet model has a highlight at wo = wi: fit without samples near there (weight 0 "
-        "in "
-        "a CSV file)");
+        "no microfacet model has a highlight at wo = wi: fit without samples near it (weight 0 in "
+        "a "
+        "CSV file)");
 
   const auto unknown = unknown_lobe(d);
   if (f.cost_of_fewer < d.cost && spec.lobes_alike())
@@ -205,13 +207,12 @@ std::vector<std::string> next_steps(const FitOptions& o, const FitDocument& d, c
   else if (unknown)
     steps.add_model(spec.without_lobe(*unknown),
                     f.needless ? "does as well: nothing is known of the lobe"
-                               : "may do as well: nothing is known of the lobe");
+                               : "says all that is known: of the lobe nothing is");
   if (f.unresolved)
     steps.add(
         fmt::format("outgoing angles {:.1g}° apart or less around the mirror direction may resolve "
                     "the highlight",
                     2 * f.unresolved->half_width_deg / 3));
-  if (d.misfit.told && !f.retro && !unknown) add_models(steps, spec, d);
   if (returns_too_much(d.physics) && spec.diffuse() == "lambert" && spec.lobes() > 0)
     steps.add_model(spec.with_diffuse("lambert.coupled"),
                     "may return less light: its diffuse is what the lobe lets through");
@@ -220,6 +221,7 @@ std::vector<std::string> next_steps(const FitOptions& o, const FitDocument& d, c
     if (s.log_rms < 0.95 * d.residuals.log_rms)
       steps.add(fmt::format("--bins {} meets the table better: log RMS {:.3g} for {:.3g}", s.other,
                             s.log_rms, d.residuals.log_rms));
+  if (d.misfit.told && !f.retro && !unknown) add_models(steps, spec, d);
 
   for (const auto& b : o.bounds) {
     const auto p = std::ranges::find(d.parameters, b.name, &FittedParameter::name);

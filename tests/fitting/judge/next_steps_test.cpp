@@ -167,6 +167,28 @@ TEST(NextSteps, OfATableThatKnowsTooLittleAreAboutTheTable) {
   EXPECT_TRUE(step({}, f).starts_with("--metric l2_cosine"));
 }
 
+TEST(NextSteps, KnowWhichBinConventionMeetsTheTable) {
+  for (const auto& [bins, other] : {std::pair{Bins::edge, "edge"}, {Bins::centre, "centre"}}) {
+    Table t = synthesize(test::bind(paint, "alpha=0.1,f0=0.05,kd=0.1", 1),
+                         {.layout = Layout::mbsdf, .bins = bins});
+    EXPECT_TRUE(fit(t, {}).document.next.empty());
+    std::get<Grid>(t.where).bins = bins == Bins::edge ? Bins::centre : Bins::edge;
+    const auto d = fit(t, {}).document;
+    EXPECT_TRUE(names(d, std::string("--bins ") + other + " meets the table better"))
+        << fmt::to_string(fmt::join(d.next, "\n"));
+  }
+}
+
+TEST(NextSteps, OfARangeThatTheDataPushBeyondIsAWiderOne) {
+  const Table t = synthesize(test::bind(metal, "alpha=0.5,f0=0.5", 1),
+                             {.layout = Layout::hemisphere, .noise = 0.02});
+  FitOptions o;
+  o.bounds = parse_settings(std::vector<std::string>{"alpha=0.1,0.3"});
+  EXPECT_TRUE(names(fit_of(t, metal, o), "wider --bounds alpha may hold a better fit"));
+  o.bounds = parse_settings(std::vector<std::string>{"alpha=0.1,0.9"});
+  EXPECT_FALSE(names(fit_of(t, metal, o), "--bounds"));
+}
+
 TEST(NextSteps, HoldWhatTheDataHardlyTell) {
   FitDocument d;
   d.model = metal;
