@@ -180,7 +180,7 @@ function residuals() {
       el("div", {},
         el("div", { class: "controls" }, choice("Shown", [["mean", "mean ratio"], ["rms", "RMS"]], "mean", (w) => map.set(w))),
         map.node, el("p", { class: "small muted", "aria-hidden": "true" }, map_text())),
-      el("div", {}, band_tables.map((t) => el("div", { class: "scroll", style: { "margin-bottom": "18px" } }, t)))));
+      el("div", { class: "bands" }, band_tables.map((t) => el("div", { class: "scroll", style: { "margin-bottom": "18px" } }, t)))));
 }
 
 // --- Light that comes back -------------------------------------------------------------------------
@@ -220,7 +220,7 @@ function albedo() {
       el("figure", {}, el("figcaption", {}, el("span", { class: "keys" },
         several ? shown.map((c) => el("span", {}, chip(channel_color(channels[c], c)), channels[c]))
           : [has_data ? el("span", {}, chip(channel_color(channels[0], 0)), "table") : null, el("span", {}, chip("ink"), "model")]),
-        el("small", {}, several ? (has_data ? " lines: model, points: table" : " lines: model") : "", one ? " dashed: all of the light" : "")), plot.node),
+        el("small", {}, " ", [several ? "lines: model" : null, several && has_data ? "points: table" : null, one ? "dashed: all of the light" : null].filter(Boolean).join(", "))), plot.node),
       scroll(table([el("span", {}, angle_name("theta_i"), " [°]"), ...head],
         rows.map((k) => [plain(Number(x[k].toFixed(1)), 3), ...shown.flatMap((c) => [cell(list_of(p.model_albedo[k])[c]), ...(has_data ? [cell(list_of(p.data_albedo[k])[c])] : [])])])))));
 }

@@ -2,6 +2,7 @@
 #include "fitting/judge/warnings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "fitting/fit.h"
@@ -58,6 +59,20 @@ TEST(Warnings, SaysWhenTheModelDoesNotDescribeTheTable) {
   ASSERT_FALSE(d.warnings.empty());
   EXPECT_TRUE(d.warnings[0].starts_with("the model misses the table by more than half"));
   EXPECT_TRUE(fit_synthetic(metal, settings, {.layout = Layout::random}).document.warnings.empty());
+}
+
+TEST(Warnings, LookForThePeakOfALobeWhoseWidthHasALimitAlone) {
+  const Table t = synthesize(test::bind("ggx/smith_ggx.correlated/schlick", "alpha=0.01", 1),
+                             {.layout = Layout::mbsdf});
+  FitDocument d;
+  const double none = std::nan("");
+  const auto unresolved = [&](double limit) {
+    d.parameters = {
+        {"alpha", {none}, {none}, {none}, {none}, {ParameterStatus::upper_limit}, {limit}, {""}}};
+    return with_table({}, {}, t, d).unresolved.has_value();
+  };
+  EXPECT_TRUE(unresolved(0.02));
+  EXPECT_FALSE(unresolved(0.5)) << "looking for it takes as long as a fit";
 }
 
 TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
