@@ -174,7 +174,7 @@ std::string system_text(const std::string& path) {
 std::string start_of(const std::string& process) {
   const std::string stat = system_text("/proc/" + process + "/stat");
   const auto name_ends = stat.rfind(')');  // a name may hold blanks and ')'
-  if (name_ends == stat.npos) return "";
+  if (name_ends == std::string::npos) return "";
   const auto fields = split(std::string_view(stat).substr(name_ends + 1), ' ');
   constexpr std::size_t start = 20;  // the 22nd of all
   return fields.size() > start ? fields[start] : "";

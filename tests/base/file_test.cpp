@@ -263,10 +263,12 @@ TEST(OutputFile, TakesAwayWhatKilledProcessesLeftAndNothingElse) {
     for (const auto& p : parts) name += (name.empty() ? "" : ".") + p;
     return name.starts_with('.') ? name : "." + name;
   };
+  OutputFile elsewhere(other / "f");
+  const auto ours = std::filesystem::path(elsewhere.temporary_path()).filename().string();
   // "", gonio, home, process, start, counter, tmp
   const std::vector<std::string> kept{
-      with(2, "0123-4"), with(5, "1.0"), with(6, "json"), with(3, "0"),
-      with(3, "x"),      ".gonio.tmp",   "f.tmp"};
+      with(2, "0123-4"), with(5, "1.0"),      with(6, "bak"), with(6, "json"), with(3, "0"),
+      with(3, "x"),      with(3, "-2000000"), ".gonio.tmp",   "f.tmp",         ours};
   const std::string reused = with(3, std::to_string(::getpid()), "1");
   for (const auto& name : kept) folder.write(name, "x");
   folder.write(reused, "of an earlier process of this number");

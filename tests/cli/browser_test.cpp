@@ -237,11 +237,12 @@ void add_zoom(Pages& pages) {
 document.getElementById("page").replaceChildren(figure_view(page_data().figures[0]));
 const ticks = [], text_of_tick = tick_text;
 tick_text = (x) => { ticks.push(x); return text_of_tick(x); };
+const drawn = async () => { await null; await null; await null; };  // a frame out of sight may wait long for a timer
 const cut_out = async (from, to) => {
   const over = document.querySelector(".u-over"), box = over.getBoundingClientRect();
   for (const [on, what, part] of [[over, "mouseenter", from], [over, "mousemove", from], [over, "mousedown", from], [over, "mousemove", (from + to) / 2], [over, "mousemove", to], [document, "mouseup", to]]) {
     on.dispatchEvent(new MouseEvent(what, { bubbles: true, view: window, clientX: box.left + part * box.width, clientY: box.top + 50, movementX: 3 }));
-    await new Promise((done) => setTimeout(done, 10));
+    await drawn();
     if (what === "mousemove") ticks.length = 0;
   }
 };
@@ -255,7 +256,7 @@ addEventListener("load", () => setTimeout(async () => {
     if (!within(xs, x0, x1)) console.warn(`of ${x0} to ${x1} the ticks are ${xs}`);
     if (!within(ys, x0 * x0 / 2, x1 * x1 * 2)) console.warn(`beside ${x0} to ${x1} the ticks are ${ys}`);
     document.querySelector(".u-over").dispatchEvent(new MouseEvent("dblclick", { bubbles: true }));
-    await new Promise((done) => setTimeout(done, 10));
+    await drawn();
   }
 }, 50));
 )"));

@@ -41,6 +41,10 @@ TEST(EvalCommand, TakesATableAndSaysWhatItHoldsBetweenItsSamples) {
       EXPECT_NEAR(table["rows"][i]["f"][c].get<double>(), expected, 1e-3 * expected);
     }
   EXPECT_TRUE(table["rows"][3]["f"][0].is_null()) << "light from below";
+  f.write("edge.csv", "theta_i,phi_i,theta_o,phi_o\n90.5,0,3,3\n");
+  ASSERT_EQ(gonio(f, "convert t.binary t.mbsdf").code, 0);
+  const auto edge = gonio(f, "eval t.mbsdf --directions edge.csv --json").json();
+  EXPECT_TRUE(edge["rows"][0]["f"][0].is_null()) << "within half a bin of one that has a value";
   ASSERT_EQ(gonio(f, "eval t.binary --directions at.csv -o e.csv").code, 0);
   EXPECT_EQ(gonio(f, "inspect e.csv --json").json()["valid"], 9);
 }
