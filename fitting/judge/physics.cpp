@@ -49,7 +49,7 @@ Physics check_physics(const BoundModel& b, const Table& t, const FitData<double>
     p.data_albedo.push_back(a.albedo);
   }
   if (p.theta_i_deg.empty())
-    for (double theta = 0; theta < 90; theta += 15) {
+    for (int theta = 0; theta < 90; theta += 15) {
       p.theta_i_deg.push_back(theta);
       p.data_albedo.emplace_back(t.values.size(), std::nan(""));
     }

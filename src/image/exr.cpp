@@ -25,10 +25,13 @@ namespace gonio {
 namespace {
 
 Image without_planes(const Imf::Header& header) {
-  const auto box = header.dataWindow();
+  const auto& box = header.dataWindow();
+  const auto length = [](std::int64_t first, std::int64_t last) {
+    return static_cast<std::size_t>(last - first + 1);
+  };
   Image image;
-  image.width = static_cast<std::size_t>(box.max.x - box.min.x + 1);
-  image.height = static_cast<std::size_t>(box.max.y - box.min.y + 1);
+  image.width = length(box.min.x, box.max.x);
+  image.height = length(box.min.y, box.max.y);
   for (auto a = header.begin(); a != header.end(); ++a)
     if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
       image.attributes[a.name()] = s->value();

@@ -289,8 +289,10 @@ Integral diffuse_part(const Part& part, const View& v, const Goal& goal) {
       }
     }
   };
+  const int quarters = m.anisotropic ? 4 : 2;
   std::vector<Rectangle> rectangles;
-  for (int q = 0; q < (m.anisotropic ? 4 : 2); ++q)
+  rectangles.reserve(static_cast<std::size_t>(quarters));
+  for (int q = 0; q < quarters; ++q)
     rectangles.push_back({{0, q * pi / 2}, {pi / 2, (q + 1) * pi / 2}});
   return integrate_over(m, v, rectangles, goal, chart, values);
 }
