@@ -96,14 +96,15 @@ std::optional<std::size_t> unknown_lobe(const FitDocument& d) {
   return {};
 }
 
-/// Free parameters that are hardly known: their errors are half of their values or more.
+/// Free parameters that are hardly known: their errors are half of their values or more.  What is known
+/// to be next to nothing is known well: all of them are shares, widths or indices.
 std::vector<std::string> hardly_known(const FitDocument& d) {
   std::vector<std::string> names;
   for (const auto& p : d.parameters) {
     if (p.name.starts_with("roughness")) continue;  // is alpha
     for (std::size_t c = 0; c < p.value.size(); ++c)
       if (p.status[c] == ParameterStatus::not_identifiable ||
-          p.std_error[c] > std::abs(p.value[c]) / 2) {
+          (p.std_error[c] > std::abs(p.value[c]) / 2 && p.ci95_high[c] - p.ci95_low[c] > 0.1)) {
         names.push_back(p.name);
         break;
       }

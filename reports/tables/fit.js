@@ -86,7 +86,7 @@ function parameters() {
   // An interval that is cut, wider than the error says, or reaches further to one side has ends of their own size.
   const even = (r) => {
     const [least, most] = [r.value - r.low, r.high - r.value].sort((a, b) => a - b);
-    return least > 1.9 * r.error && most < Math.min(1.5 * least, 2.8 * r.error);
+    return most < 1e-3 * Math.abs(r.value) || (least > 1.9 * r.error && most < Math.min(1.5 * least, 2.8 * r.error));
   };
   const number = (r, x) => (!known(r.error) || even(r) ? with_error(x, r.error) : plain(Math.abs(x) < 1e-4 * r.high ? 0 : x, 3));
   const limit = (r) => limit_text(r.status, r.limit);

@@ -90,9 +90,10 @@ std::string with_error(double value, double error, double low, double high) {
   if (!(error > 0)) return fmt::format("{:.10g} ± 0", value);
   const double below = value - low, above = high - value;
   // Of few values an interval is wider than the error says, and at the end of a range it is cut.
-  constexpr double uneven = 1.5, least = 1.9, most = 2.8;
-  if (std::max(below, above) > std::min(uneven * std::min(below, above), most * error) ||
-      std::min(below, above) < least * error)
+  constexpr double uneven = 1.5, least = 1.9, most = 2.8, seen = 1e-3;
+  const auto [narrow, wide] = std::minmax(below, above);
+  if (wide > seen * std::abs(value) &&
+      (wide > std::min(uneven * narrow, most * error) || narrow < least * error))
     return fmt::format("{:.3g} (95 %: {:.3g} to {:.3g})", value,
                        low < 1e-6 * high && low > 0 ? 0.0 : low, high);
   const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 15);

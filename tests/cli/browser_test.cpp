@@ -39,7 +39,8 @@ for (const how of ["error", "warn"]) console[how] = (...what) => problems.push(`
 /// Looks at the page, moves a pointer over each plot, and tells the page around it.
 constexpr const char* ask = R"(<script>
 addEventListener("load", () => setTimeout(() => {
-  const seen = { problems, canvases: 0, blank: [], plots: 0, mute: [], wider: document.documentElement.scrollWidth - innerWidth };
+  const seen = { problems, canvases: 0, blank: [], plots: 0, mute: [], wider: document.documentElement.scrollWidth - innerWidth,
+                 text: document.getElementById("page")?.innerText ?? "" };
   const name = (node) => node.closest("[aria-label]")?.getAttribute("aria-label") ?? node.className;
   for (const canvas of document.querySelectorAll("canvas")) {
     if (!canvas.clientWidth || !canvas.width) continue;
@@ -278,6 +279,18 @@ void add_commands(Pages& pages) {
       0);
   run("fit t/a.exr --model lambert+ggx/smith_ggx.correlated/schlick -o fit.json --html fit.html",
       "fit.html");
+  ASSERT_EQ(gonio(f,
+                  "synth ggx/smith_ggx.correlated/schlick --set alpha=0.3 f0=0.9 --layout in_plane "
+                  "--noise 0.02 -o limit.csv")
+                .code,
+            0);
+  run("fit limit.csv --html limit.html", "limit.html");
+  ASSERT_EQ(gonio(f,
+                  "synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.3 f0=0.05 kd=0.98 "
+                  "--layout hemisphere -o bright.csv")
+                .code,
+            0);
+  run("fit bright.csv --html bright.html", "bright.html");
   run("inspect t/a.exr --html inspect.html", "inspect.html");
   run("fit t --model lambert+ggx/smith_ggx.correlated/schlick -o batch", "batch/summary.html");
   run("audit ndf.ggx masking.schlick_ggx.direct model.ue_mobile --html audit.html", "audit.html");
@@ -307,6 +320,15 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
     if (name == "summary") continue;  // thumbnails, which tell nothing
     EXPECT_GT(page["plots"], 0) << name;
   }
+  const auto says = [&](const char* name, const std::string& words) {
+    return told.contains(name) &&
+           told.at(name)["text"].get<std::string>().find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(says("limit", "≤\u202f0.000"));
+  EXPECT_TRUE(says("limit", "values down to 0 do as well"));
+  EXPECT_FALSE(says("limit", "What to try next"));
+  EXPECT_TRUE(says("bright", "What to try next"));
+  EXPECT_TRUE(says("bright", ", above 1")) << "light that the model returns";
 }
 
 }  // namespace

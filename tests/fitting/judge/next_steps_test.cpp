@@ -208,6 +208,8 @@ TEST(NextSteps, HoldWhatTheDataHardlyTell) {
   EXPECT_TRUE(hold().starts_with("hold alpha or f0 (--fix)"));
   d.parameters[0].std_error = {0.01};
   EXPECT_EQ(hold(), "") << "well known for all that";
+  d.parameters[1] = {"f0", {0.001}, {0.001}, {0}, {0.003}, {free}, {none}, {""}};
+  EXPECT_EQ(hold(), "") << "known to be next to nothing";
 }
 
 TEST(NextSteps, OfAFitThatDoesNotEndIsARange) {
