@@ -17,7 +17,7 @@ std::string refusal(Call&& call, Exit code = Exit::bad_input) {
     call();
     return "";
   } catch (const Error& e) {
-    const std::string line = e.what();
+    std::string line = e.what();
     EXPECT_EQ(e.code(), code) << line;
     EXPECT_EQ(line.find('\n'), line.npos) << line;
     return line;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <type_traits>
 
 #include "base/error.h"
@@ -131,7 +130,7 @@ Searched search_in(const Problem& p,
   constexpr std::array levels{coarse_samples, scan_samples, middle_samples};
   const auto data = fit_levels<F>(sampling, levels);
   if (data.all.counts.used == 0) no_values(sampling, data.all.counts);
-  const auto& [thin, scan, middle] = std::tie(data.thinned[0], data.thinned[1], data.thinned[2]);
+  const auto &thin = data.thinned[0], &scan = data.thinned[1], &middle = data.thinned[2];
   FitData<double> scanned = in_double(scan);
   watch.lap("columns_ms");
 
