@@ -9,9 +9,16 @@
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 namespace gonio {
 namespace {
+
+/// True: Ceres' log goes nowhere.  What it would say of a step that failed is no one's but the solver's.
+const bool is_silent = [] {
+  FLAGS_minloglevel = google::GLOG_FATAL;
+  return true;
+}();
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -19,10 +26,11 @@ Eigen::Index index(std::size_t n) {
   return static_cast<Eigen::Index>(n);
 }
 
-bool is_finite(const NormalEquations& e) {
-  return std::isfinite(e.cost) &&
-         std::ranges::all_of(e.h.entries(), [](double x) { return std::isfinite(x); }) &&
-         std::ranges::all_of(e.g, [](double x) { return std::isfinite(x); });
+/// \param scale  of the cost
+bool is_finite(const NormalEquations& e, double scale = 1) {
+  const auto finite = [&](double x) { return std::isfinite(scale * x); };
+  return finite(e.cost) && std::ranges::all_of(e.h.entries(), finite) &&
+         std::ranges::all_of(e.g, finite);
 }
 
 /// Next Gauss–Newton step and what it promises.
@@ -74,19 +82,22 @@ class Enough : public ceres::IterationCallback {
 class Reduced : public ceres::EvaluationCallback {
  public:
   /// \param scale  of the cost, so that none of Ceres' absolute limits depends on the data's unit
+  /// \param units  of the unknowns that Ceres sees, so that none depends on theirs
   /// \param known  what is known already
   Reduced(const NormalEquationsAt& evaluate,
           double scale,
+          std::vector<double> units,
           const std::vector<double>& x,
           const NormalEquations& known)
       : evaluate_(evaluate),
         scale_(scale),
+        units_(std::move(units)),
         layout_(known.h.shared_layout()),
         best_{x, known},
         last_(best_) {
     const auto gather = [&](const std::vector<std::size_t>& unknowns) {
       auto& part = parts_.emplace_back();
-      for (const std::size_t i : unknowns) part.push_back(x[i]);
+      for (const std::size_t i : unknowns) part.push_back(x[i] / units_[i]);
     };
     gather(layout_->head());
     for (const auto& arm : layout_->arms()) gather(arm);
@@ -108,8 +119,9 @@ class Reduced : public ceres::EvaluationCallback {
       if (k > 0) blocks.push_back(parts_[0].data());
       problem.AddResidualBlock(new Part(*this, k), nullptr, blocks);
       for (std::size_t i = 0; i < unknowns.size(); ++i) {
-        problem.SetParameterLowerBound(part, static_cast<int>(i), bounds.low[unknowns[i]]);
-        problem.SetParameterUpperBound(part, static_cast<int>(i), bounds.high[unknowns[i]]);
+        const double unit = units_[unknowns[i]];
+        problem.SetParameterLowerBound(part, static_cast<int>(i), bounds.low[unknowns[i]] / unit);
+        problem.SetParameterUpperBound(part, static_cast<int>(i), bounds.high[unknowns[i]] / unit);
       }
     };
     add(0, layout_->head());
@@ -128,13 +140,14 @@ class Reduced : public ceres::EvaluationCallback {
     if (!new_point && root_) return;
     std::vector<double> x(layout_->size());
     const auto scatter = [&](std::size_t k, const std::vector<std::size_t>& unknowns) {
-      for (std::size_t i = 0; i < unknowns.size(); ++i) x[unknowns[i]] = parts_[k][i];
+      for (std::size_t i = 0; i < unknowns.size(); ++i)
+        x[unknowns[i]] = parts_[k][i] * units_[unknowns[i]];
     };
     scatter(0, layout_->head());
     for (std::size_t a = 0; a < layout_->arms().size(); ++a) scatter(a + 1, layout_->arms()[a]);
     const auto& e = at(x);
     root_.reset();
-    if (!is_finite(e)) return;
+    if (!is_finite(e, scale_)) return;
     ArrowMatrix h = e.h;
     h *= scale_;
     std::vector<double> g = e.g;
@@ -187,6 +200,7 @@ class Reduced : public ceres::EvaluationCallback {
       if (eigen.eigenvalues()[i] > tiny())
         j.row(i) = std::sqrt(eigen.eigenvalues()[i]) *
                    eigen.eigenvectors().col(i).cwiseQuotient(root_->scale()).transpose();
+    in_units(j, layout_->head());
   }
   void arm(std::size_t a, double* residuals, double** jacobians) const {
     const auto& arm = root_->arms()[a];
@@ -200,9 +214,16 @@ class Reduced : public ceres::EvaluationCallback {
         if (arm.root[i] > 0)
           j.row(i) = std::sqrt(arm.eigenvalues[i]) *
                      arm.eigenvectors.col(i).cwiseQuotient(arm.scale).transpose();
+      in_units(j, layout_->arms()[a]);
     }
-    if (jacobians[1])
-      Eigen::Map<RowMajor>(jacobians[1], n, h) = arm.w * root_->scale().cwiseInverse().asDiagonal();
+    if (!jacobians[1]) return;
+    Eigen::Map<RowMajor> j(jacobians[1], n, h);
+    j = arm.w * root_->scale().cwiseInverse().asDiagonal();
+    in_units(j, layout_->head());
+  }
+  /// Makes derivatives by the unknowns those by what Ceres sees.
+  void in_units(Eigen::Map<RowMajor>& j, const std::vector<std::size_t>& unknowns) const {
+    for (std::size_t i = 0; i < unknowns.size(); ++i) j.col(index(i)) *= units_[unknowns[i]];
   }
 
   double tiny() const { return 1e-15 * static_cast<double>(layout_->size()); }
@@ -218,6 +239,7 @@ class Reduced : public ceres::EvaluationCallback {
 
   const NormalEquationsAt& evaluate_;
   double scale_;
+  std::vector<double> units_;
   std::shared_ptr<const ArrowLayout> layout_;
   std::vector<std::vector<double>> parts_;  ///< unknowns of the head and of each arm: Ceres' blocks
   std::optional<ArrowRoot> root_;           ///< none where the sums are not finite
@@ -259,22 +281,30 @@ bool take_last_steps(const NormalEquationsAt& evaluate,
   return false;
 }
 
+double scale_of(double cost) {
+  constexpr double least = 1e-200;
+  return cost > least ? 1 / cost : 1;
+}
+/// Changes of the unknowns that change the residuals by about 1; powers of 2, so that bounds stay as they
+/// are.
+std::vector<double> units_of(const NormalEquations& e, double scale) {
+  std::vector<double> units;
+  for (std::size_t i = 0; i < e.h.size(); ++i) {
+    const double effect = e.h(i, i) * scale;
+    units.push_back(
+        effect > 0 && std::isfinite(effect) ? std::exp2(-std::round(std::log2(effect) / 2)) : 1);
+  }
+  return units;
+}
+
 /// One run of Ceres, all unknowns free inside their bounds, and the last steps after it.
 Solution solve_once(const NormalEquationsAt& evaluate,
                     std::vector<double>& x,
                     const Bounds& bounds,
                     const SolveOptions& options) {
   Solution s;
-  const std::size_t n = x.size();
-
-  // One for the sum of what each unknown changes over its range.
-  double effect = 0;
   s.at = evaluate(x);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double range = bounds.high[i] - bounds.low[i];
-    effect += s.at.h(i, i) * range * range;
-  }
-  if (!is_finite(s.at) || !std::isfinite(effect)) {
+  if (!is_finite(s.at)) {
     s.message = "the sum of squares is not finite at the start";
     return s;
   }
@@ -284,8 +314,10 @@ Solution solve_once(const NormalEquationsAt& evaluate,
     s.converged = true;
     return s;
   }
-  const double scale = effect > 0 ? 1 / effect : 1;
-  Reduced cost(evaluate, scale, x, s.at);
+  // Near 1 are the cost and, for Ceres' limits on its own scaling and damping, each unknown's
+  // effect: one of them may be 10⁶⁰ of another where data reach over as many decades.
+  const double scale = scale_of(s.at.cost);
+  Reduced cost(evaluate, scale, units_of(s.at, scale), x, s.at);
   ceres::Problem::Options with;
   with.evaluation_callback = &cost;
   ceres::Problem problem(with);
@@ -297,7 +329,7 @@ Solution solve_once(const NormalEquationsAt& evaluate,
   o.function_tolerance = options.function_tolerance;
   o.parameter_tolerance = options.parameter_tolerance;
   o.gradient_tolerance = 0;             // absolute: it would depend on the data's unit
-  o.initial_trust_region_radius = 1e6;  // the start is close: nearly a Gauss–Newton step
+  o.initial_trust_region_radius = 1e9;  // the start is close: nearly a Gauss–Newton step
   o.logging_type = ceres::SILENT;
   Enough enough(options.rounding, scale,
                 [&]() -> const NormalEquations& { return cost.best().at; });

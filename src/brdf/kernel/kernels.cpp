@@ -43,6 +43,13 @@ void link(std::size_t n, const F* f, F offset, F* value, F* slope) {
   }
 }
 
+/// True of what the log's link does not take for 0: less would only hide where a model crosses it, and its
+/// relative error has squares past all bounds.
+template <class B>
+auto is_told_from_0(const B& x) {
+  return B(0) < linked<Link::log, B>(x, B(0))[1];
+}
+
 template <Link kind, class F>
 void targets(std::size_t n, const TargetArguments<F>& a, TargetCounts& counts) {
   using B = Lane<F>;
@@ -53,7 +60,7 @@ void targets(std::size_t n, const TargetArguments<F>& a, TargetCounts& counts) {
     const B value = load<B>(a.value + i), w = load<B>(a.weight + i);
     const auto finite = B(-most) <= value && value <= B(most), good = finite && zero <= value;
     const B sum = select<B>(good, value, zero) + offset;
-    const auto use = a.positive ? good && zero < sum : good, on = zero < w;
+    const auto use = a.positive ? good && is_told_from_0(sum) : good, on = zero < w;
     not_finite = not_finite + select<B>(finite, zero, one);
     negative = negative + select<B>(finite && value < zero, one, zero);
     valid = valid + select<B>(good, one, zero);
@@ -91,7 +98,7 @@ void residual_sums(std::size_t n, const ResidualSums<F>& a) {
   for (std::size_t i = 0; i < n; i += lanes<B>) {
     const B f = load<B>(a.f + i), y = load<B>(a.y + i), difference = f - y;
     const B ratio = load<B>(a.log_f + i) - load<B>(a.log_y + i);
-    const auto valid = zero <= y, both = zero < y && zero < f;
+    const auto valid = zero <= y, both = is_told_from_0(y) && zero < f;
     add(a.values + i, valid, one);
     add(a.squares + i, valid, difference * difference);
     add(a.positive + i, both, one);

@@ -31,6 +31,20 @@ TEST(Sampling, CountsEveryValueOnceByWhatItIs) {
   EXPECT_EQ(fit_data<double>(plain).counts.by_reason(plain).count("zero"), 0U);
 }
 
+TEST(Sampling, TakesWhatNoLogarithmTellsFromZeroForZero) {
+  const Table t = test::list_of({0.1, 1e-29, 1e-31, 1e-300, 0.2});
+  for (const Metric m : {Metric::log, Metric::relative}) {
+    const Sampling s(t, Bins::centre, m, 0, false);
+    const auto counts = fit_data<double>(s).counts;
+    EXPECT_EQ(counts.used, 3U);
+    EXPECT_EQ(counts.by_reason(s).at("zero"), 2U);
+    const Sampling above(t, Bins::centre, m, 1e-3, false);
+    EXPECT_EQ(fit_data<double>(above).counts.used, 5U);
+  }
+  const Sampling plain(t, Bins::centre, Metric::l2_cosine, 0, false);
+  EXPECT_EQ(fit_data<double>(plain).counts.used, 5U);
+}
+
 TEST(Sampling, WeighsByTheRootOfTheWeightOverItsMean) {
   Table t = test::list_of({0.1, 0.2});
   t.weights = {1, 3};

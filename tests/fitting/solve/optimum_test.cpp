@@ -197,6 +197,61 @@ INSTANTIATE_TEST_SUITE_P(Families, Truth, testing::ValuesIn(families), [](const 
   return i.param.name;
 });
 
+/// Fits tables of a model, each by its own seed: none ends above where the truth is.
+void expect_no_more_than_truth(const char* model,
+                               const std::string& settings,
+                               SynthOptions how,
+                               Metric metric,
+                               const std::vector<std::uint64_t>& seeds) {
+  const auto truth = test::bind(model, settings, 3);
+  FitOptions o;
+  o.model = model;
+  o.metric = metric;
+  o.bin_sensitivity = false;
+  o.certificate = Certify::automatic;
+  for (const std::uint64_t seed : seeds) {
+    how.seed = seed;
+    const Table t = synthesize(truth, how);
+    const Problem p = pose(t, o);
+    const Sampling s(t, t.bins(), metric, p.offset, is_reciprocal(p.start));
+    const double there = minimise(p, fit_data<double>(s), truth, no_huber).solution.at.cost;
+    const auto r = fit(t, o);
+    EXPECT_LE(r.document.cost, there * (1 + 1e-6))
+        << settings << " " << name_of(metric) << " " << seed << "\n  found" << text_of(r.model);
+  }
+}
+
+TEST(LostOptimum, OfAMetalWithAnIndexBelow1IsNotLostByOneChannel) {
+  const SynthOptions few{.layout = Layout::random, .samples = 150, .noise = 0.1};
+  expect_no_more_than_truth("blinn_phong/cook_torrance/conductor", "alpha=0.24,eta=0.89,k=0.96",
+                            few, Metric::relative, {2, 3, 9});
+  expect_no_more_than_truth("ggx/smith_ggx.correlated/conductor", "alpha=0.3,eta=0.7,k=1.2", few,
+                            Metric::relative, {1, 2});
+}
+
+TEST(LostOptimum, OfValuesOfManyDecadesIsNotLostWithoutADiffusePart) {
+  const SynthOptions few{.layout = Layout::random, .samples = 150, .noise = 0.02};
+  expect_no_more_than_truth("lambert+blinn_phong/smith_ggx.separable/conductor",
+                            "alpha=0.15,eta=0.44,k=2.19,kd=0", few, Metric::relative, {2, 8});
+  expect_no_more_than_truth(
+      "lambert+beckmann/smith_beckmann.correlated/schlick+beckmann/smith_beckmann.correlated/"
+      "schlick",
+      "alpha=0.1,f0=0.04,kd=0,alpha_2=0.5,f0_2=0.1", few, Metric::log, {1, 5, 9});
+  expect_no_more_than_truth(
+      "lambert+beckmann/cook_torrance/schlick+blinn_phong/smith_ggx.correlated/dielectric",
+      "alpha=0.7307,f0=0.04,kd=0,alpha_2=0.2361,eta_2=1.5628",
+      {.layout = Layout::random, .samples = 150, .noise = 0.005}, Metric::log, {482142, 1});
+}
+
+TEST(LostOptimum, OfATableThatFadesBelowAllNumbersIsFound) {
+  for (const char* masking : {"smith_ggx", "smith_beckmann"})
+    for (const Metric metric : {Metric::relative, Metric::log})
+      expect_no_more_than_truth(
+          (std::string("lambert+beckmann/") + masking + ".correlated/conductor").c_str(),
+          "alpha=0.038,eta=0.9305,k=1.5896,kd=0",
+          {.layout = Layout::random, .samples = 60, .noise = 0.005}, metric, {251089, 1});
+}
+
 TEST(LostOptimum, OfTwoLobesIsToldWhereOneDoesBetter) {
   GONIO_NEEDS_SHARED(file, "data/mbsdf/carpaint_blue.mbsdf");
   // F of Schlick is 1 at grazing whatever f0 is: a second lobe cannot vanish.

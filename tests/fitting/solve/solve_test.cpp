@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <glog/logging.h>
 #include <gtest/gtest.h>
 
 namespace gonio {
@@ -92,6 +93,31 @@ TEST(Solve, HoldsAllWhereAllAreAtTheirBounds) {
   EXPECT_TRUE(s.converged);
   EXPECT_EQ(x[0], 1);
   EXPECT_EQ(s.at.cost, 8);
+}
+
+// Relative errors of data that reach over a hundred decades weigh one unknown so.
+TEST(Solve, MovesAnUnknownThatHasANonillionthOfAnothersEffect) {
+  constexpr double steep = 1e60;
+  const auto evaluate = [](const std::vector<double>& x) {
+    const double a = steep * x[0] + x[1] - 0.5, b = x[1] - 0.3;  // residuals a, b
+    NormalEquations e;
+    e.h = {steep * steep, steep, steep, 2};
+    e.g = {steep * a, a + b};
+    e.cost = (a * a + b * b) / 2 + 1;
+    return e;
+  };
+  std::vector<double> x{1e-61, 0.9};
+  const auto s = solve(evaluate, x, {{0, 0}, {1, 1}});
+  EXPECT_TRUE(s.converged);
+  EXPECT_NEAR(x[1], 0.3, 1e-6);
+  EXPECT_NEAR(x[0] * steep, 0.2, 1e-6);
+}
+
+TEST(Solve, LeavesNoLineOfItsLibraryOnStderr) {
+  testing::internal::CaptureStderr();
+  LOG(WARNING) << "as the library does of a step that it cannot take";
+  LOG(ERROR) << "and of one that is not finite";
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 /// Rosenbrock's valley for each of 20 channels, which share a third unknown: J has the form of an arrow.
