@@ -581,7 +581,7 @@ LackOfFit lack_of_fit(
   const double excess = r.excess / r.noise * more;
   m.told = r.p < significant && r.size > r.rounding &&
            (r.size > worth_telling || excess > of_an_interval);
-  if (m.told) found.widening = std::sqrt(1 + 4 * excess * r.functions);
+  if (m.told) found.widening = std::sqrt(1 + 16 * excess);
   return found;
 }
 

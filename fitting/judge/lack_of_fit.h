@@ -29,8 +29,9 @@ struct LackOfFit {
 /// unknown.
 ///
 /// It is told where it is significant at 1 % and exceeds 1 % of f, or what noise does to a parameter.
-/// Misfit that follows a parameter cannot be seen in what is left; it is taken to be up to twice as large
-/// as all that can.
+/// Misfit that follows a parameter cannot be seen in what is left; it is taken to be up to four times as
+/// large as what can be seen along one function.  Then 97 % of the intervals that are told to be a
+/// misfit's hold the truth, of 3,000 of wrong models; with once 75 %.
 ///
 /// \param shared  whether the values of one incident angle share their errors
 LackOfFit lack_of_fit(
