@@ -65,6 +65,10 @@ double CostAlong::reach(double end, double much) {
   if (rise(end, much) < much) return end;
   // The root of the rise is nearly a straight line: steps along it, and halves where these leave
   // what is known to hold the place.  A line that is steep near `from` is met by steps of decades.
+  // So near the end as the way is known, it is the end.
+  const auto snapped = [&](double x) {
+    return std::abs(x - end) < 0.01 * std::abs(from - end) ? end : x;
+  };
   double inside = from, outside = end, at = from + (end - from) / 2, rise_at = rise(at, much);
   for (int step = 0; step < 60 && rise_at > 100 * much && std::abs(at - from) > 1e-300; ++step) {
     outside = at;
@@ -78,9 +82,9 @@ double CostAlong::reach(double end, double much) {
     const bool between = (next - inside) * (next - outside) < 0;
     at = step % 3 < 2 && between ? next : (inside + outside) / 2;
     rise_at = rise(at, much);
-    if (std::abs(std::sqrt(rise_at / much) - 1) < 0.01) return at;
+    if (std::abs(std::sqrt(rise_at / much) - 1) < 0.01) return snapped(at);
   }
-  return outside;
+  return snapped(outside);
 }
 
 }  // namespace gonio

@@ -27,9 +27,11 @@ void keep_to_what_is_seen(const Table& t,
   }
   if (t.truth) return;
   for (const auto& q : p.start.model.parameters) {
-    // Looking for the peak takes as long as a fit.
-    if (!is_alpha(q.name) || !p.free.mask()[q.first] || values[q.first] >= 0.1) continue;
+    if (!is_alpha(q.name) || !p.free.mask()[q.first]) continue;
     const std::size_t i = p.free.index(q.first);
+    const double low = std::isnan(u.low[i]) ? values[q.first] - u.t[i] * u.std_error[i] : u.low[i];
+    // Looking for the peak takes as long as a fit.
+    if (values[q.first] >= 0.1 && !(low < 0.1)) continue;
     if (u.status[i] != ParameterStatus::free && u.status[i] != ParameterStatus::at_bound) continue;
     const auto peak = find_peak(t, t.bins()).peak;
     if (!peak || peak->resolved) return;

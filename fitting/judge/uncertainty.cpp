@@ -268,6 +268,9 @@ Uncertainty uncertainty(const Sandwich& s,
     if (u.status[i] == ParameterStatus::not_identifiable)
       u.reason[i] = "other values of the rest make up for any change of it";
   if (determined.empty()) return u;
+  // What stands at a bound takes up nothing of the values.
+  const auto unknowns = static_cast<std::size_t>(std::ranges::count_if(
+      u.status, [](auto status) { return status != ParameterStatus::at_bound; }));
 
   const auto layout = std::make_shared<const ArrowLayout>(s.bread.layout().part(determined));
   const ArrowInverse bread(s.bread.part(layout, determined));
@@ -279,8 +282,8 @@ Uncertainty uncertainty(const Sandwich& s,
 
   for (std::size_t a = 0; a < determined.size(); ++a) {
     const std::size_t i = determined[a];
-    if (std::isnan(covariance.freedom(a))) {
-      u.reason[i] = values_used <= determined.size() ? "no more values than unknowns"
+    if (std::isnan(covariance.freedom(a)) || values_used <= unknowns) {
+      u.reason[i] = values_used <= unknowns ? "no more values than unknowns"
                     : s.clusters.empty()
                         ? "one value alone determines it: no interval holds"
                         : "one incident angle alone determines it: no interval holds";

@@ -69,6 +69,7 @@ class Ends {
     const double low = problem_.bounds.low[i], high = problem_.bounds.high[i];
     const auto forget = [&] {
       u_.status[i] = ParameterStatus::not_identifiable;
+      u_.std_error[i] = u_.low[i] = u_.high[i] = u_.limit[i] = nan;
       u_.reason[i] = fmt::format("any value from {:.3g} to {:.3g} does as well", low, high);
     };
     const double t = student_t_950(freedom(i)), much = t * t * variance(i) * share_;
@@ -76,8 +77,10 @@ class Ends {
     const bool below = along.rise(low, luck) < luck, above = along.rise(high, luck) < luck;
     if (below && above) return forget();
     if (!below && !above) return find_ends(i);
+    const double end = below ? high : low;
+    u_.limit[i] = along.reach(end, much);
+    if (u_.limit[i] == end) return forget();
     u_.status[i] = below ? ParameterStatus::upper_limit : ParameterStatus::lower_limit;
-    u_.limit[i] = along.reach(below ? high : low, much);
     u_.std_error[i] = u_.low[i] = u_.high[i] = nan;
     u_.reason[i] =
         fmt::format("values {} to {:.3g} do as well", below ? "down" : "up", below ? low : high);
@@ -122,6 +125,25 @@ class Ends {
     return true;
   }
 
+  /// True where an unknown that has a limit may move this one: at a bound without a slope nothing tells.
+  bool is_tied_to_a_limit(std::size_t i) const {
+    const auto& h = best_.solution.at.h;
+    const auto& layout = h.layout();
+    for (std::size_t k = 0; k < h.size(); ++k) {
+      if (u_.status[k] != ParameterStatus::upper_limit &&
+          u_.status[k] != ParameterStatus::lower_limit)
+        continue;
+      const bool meet = layout.arm(i) == layout.arm(k) || layout.arm(i) == ArrowLayout::none ||
+                        layout.arm(k) == ArrowLayout::none;
+      constexpr double loosely = 0.1, flat = 1e-6;
+      const double range = problem_.bounds.high[k] - problem_.bounds.low[k];
+      if (meet && (!(h(k, k) * range * range > flat * best_.solution.at.cost) ||
+                   h(i, k) * h(i, k) > loosely * loosely * h(i, i) * h(k, k)))
+        return true;
+    }
+    return false;
+  }
+
  private:
   double freedom(std::size_t i) const {
     return std::isnan(u_.freedom[i]) ? freedom_ : u_.freedom[i];
@@ -136,6 +158,8 @@ class Ends {
   const Fitted& fitted_;
   double variance_, share_, freedom_;
   Uncertainty& u_;
+  mutable std::map<std::size_t, double>
+      variance_of_unit_;  ///< (B⁻¹)_ii of those that have a tangent
 };
 
 /// True where a parameter at its bound would lower the cost beyond it by more than noise does.
@@ -246,11 +270,25 @@ bool find_undetermined(const Problem& p,
         ends.find_limit(i, luck * variance);
     } else if (u.status[i] == ParameterStatus::not_identifiable && had_range[i]) {
       ends.find_limit(i, luck * variance);
-    } else if (!std::isnan(u.std_error[i])) {
-      const double x = f.model.values[p.free.slots()[i]], width = u.t[i] * u.std_error[i];
-      constexpr double small = 0.03;  // of the value: no cost bends within so little
-      if (width > small * std::abs(x) && !ends.is_parabola(i, accumulate)) ends.find_ends(i);
     }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (std::isnan(u.std_error[i]) || !std::isnan(u.low[i])) continue;
+    const double x = f.model.values[p.free.slots()[i]], width = u.t[i] * u.std_error[i];
+    constexpr double small = 0.03;  // of the value: no cost bends within so little
+    if (ends.is_tied_to_a_limit(i) ||
+        (width > small * std::abs(x) && !ends.is_parabola(i, accumulate)))
+      ends.find_ends(i);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (std::isnan(u.std_error[i])) continue;
+    const double x = f.model.values[p.free.slots()[i]], width = u.t[i] * u.std_error[i];
+    const double low = std::isnan(u.low[i]) ? x - width : u.low[i],
+                 high = std::isnan(u.high[i]) ? x + width : u.high[i];
+    const double some = 0.01 * (p.bounds.high[i] - p.bounds.low[i]);
+    if (!(low <= p.bounds.low[i] + some && high >= p.bounds.high[i] - some)) continue;
+    forget(i, "its interval is as wide as its range");
+    u.low[i] = u.high[i] = nan;
   }
   return false;
 }

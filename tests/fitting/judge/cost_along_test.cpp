@@ -41,6 +41,8 @@ TEST(CostAlong, OfAValueThatTheResidualsFollowLinearlyIsAParabola) {
   EXPECT_NEAR(along.reach(1, h * 0.04), kd + 0.2, 0.01 * 0.2);
   EXPECT_NEAR(along.reach(0, h * 0.01), kd - 0.1, 0.01 * 0.1);
   EXPECT_EQ(along.reach(kd + 0.1, h), kd + 0.1) << "never that much";
+  EXPECT_EQ(along.reach(kd + 0.1005, h * 0.01), kd + 0.1005)
+      << "so near the end that it is the end";
   // Far below what the ends cost.
   EXPECT_NEAR(along.reach(1, h * 1e-12), kd + 1e-6, 0.02e-6);
 }

@@ -209,5 +209,85 @@ TEST(Undetermined, TakesTheCostsOwnIntervalWhereItIsNoParabola) {
   EXPECT_GT(median(longer), 1.1);
 }
 
+/// Seeds of so many whose intervals of a parameter hold the truth, of those that state one.
+struct Held {
+  unsigned stated = 0, inside = 0;
+};
+Held held(const char* model,
+          const std::string& settings,
+          const char* name,
+          SynthOptions synth,
+          unsigned seeds) {
+  const auto truth = test::bind(model, settings, 1);
+  Held h;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    synth.seed = seed;
+    FitOptions o;
+    o.model = model;
+    const auto d = fit(synthesize(truth, synth), o).document;
+    const auto& q = parameter(d, name);
+    if (std::isnan(q.ci95_low[0])) continue;
+    ++h.stated;
+    const double x = truth.values[truth.model.find(name)->first];
+    h.inside += q.ci95_low[0] <= x && x <= q.ci95_high[0];
+  }
+  return h;
+}
+
+TEST(Undetermined, WhatHasALimitMovesTheOthersToo) {
+  // k = 0 has no slope: held there, it would hold eta, too.
+  const SynthOptions in_plane{.layout = Layout::in_plane, .noise = 0.02};
+  const auto metal = held("ggx/smith_ggx.correlated/conductor", "alpha=0.3,eta=9,k=1", "eta",
+                          {.layout = Layout::random, .samples = 200, .noise = 0.02}, 16);
+  EXPECT_GE(metal.inside + 2, metal.stated);
+  const auto clear =
+      held("ggx/smith_ggx.correlated/conductor", "alpha=0.3,eta=1.5,k=0.05", "eta", in_plane, 16);
+  EXPECT_GE(clear.inside + 2, clear.stated);
+  const auto dark = held("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.6,f0=0.001,kd=0.5",
+                         "kd", in_plane, 16);
+  EXPECT_GE(dark.inside + 2, dark.stated);
+}
+
+TEST(Undetermined, DiffuseThatIsNotThereLeavesTheLobesIntervalsWhole) {
+  const SynthOptions in_plane{.layout = Layout::in_plane, .noise = 0.02};
+  for (const char* name : {"eta", "k"}) {
+    const auto h = held("lambert+gtr/cook_torrance/conductor",
+                        "alpha=0.07,gamma=6.4,eta=2,k=5.7,kd=0", name, in_plane, 12);
+    EXPECT_GE(h.inside + 2, h.stated) << name;
+  }
+}
+
+TEST(Undetermined, AnIntervalReachesTheEndThatIsNextToIt) {
+  const auto h = held("lambert+ggx/smith_ggx.correlated/dielectric", "alpha=0.1,eta=1.5,kd=0", "kd",
+                      {.layout = Layout::in_plane, .noise = 0.05}, 20);
+  EXPECT_GE(h.inside + 2, h.stated);
+}
+
+TEST(Undetermined, TwoSamplesTellNoInterval) {
+  Table t = synthesize(
+      test::bind("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.05,kd=0.3", 3),
+      {.layout = Layout::random, .samples = 2, .noise = 0.02});
+  FitOptions o;
+  const auto d = fit(t, o).document;
+  for (const auto& q : d.parameters)
+    for (std::size_t c = 0; c < q.value.size(); ++c)
+      EXPECT_TRUE(std::isnan(q.ci95_low[c])) << q.name;
+}
+
+TEST(Undetermined, AnIntervalAsWideAsTheRangeIsNoValue) {
+  // A wrong model, whose misfit leaves nothing known.
+  Table t = synthesize(test::bind("ggx/smith_ggx.correlated/conductor", "alpha=0.1,eta=0.2,k=3", 1),
+                       {.layout = Layout::in_plane, .noise = 0.05});
+  FitOptions o;
+  for (const char* model : {"lambert+ggx/smith_ggx.correlated/schlick",
+                            "lambert+beckmann/smith_beckmann.correlated/schlick", "lambert"}) {
+    o.model = model;
+    const auto d = fit(t, o).document;
+    for (const auto& q : d.parameters)
+      for (std::size_t c = 0; c < q.value.size(); ++c)
+        EXPECT_FALSE(q.ci95_high[c] - q.ci95_low[c] > 0.99) << model << " " << q.name;
+  }
+}
+
 }  // namespace
 }  // namespace gonio
