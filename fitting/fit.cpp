@@ -50,7 +50,8 @@ void forget_unknown(BinSensitivity& s, const FitDocument& d) {
 struct Judged {
   Assessment assessment;
   Uncertainty uncertainty;
-  std::size_t angles;    ///< incident angles of the table
+  std::vector<double> seen_against;  ///< standard errors of what a misfit is judged against
+  std::size_t angles;                ///< incident angles of the table
   std::size_t clusters;  ///< those whose values share their errors; 0: all are independent
   const char* in_words;
 };
@@ -74,19 +75,23 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f) {
   if (asked == Intervals::independent || (asked == Intervals::automatic && s.table().truth)) {
     auto a = by_value();
     auto u = errors(a);
-    return {std::move(a), std::move(u), 0, 0, independent};
+    auto e = u.std_error;
+    return {std::move(a), std::move(u), std::move(e), 0, 0, independent};
   }
   auto a = assess(s, f.model, p.free, f.huber, true, nullptr, f.in_float);
   const std::size_t angles = a.incident_angles;
   if (asked == Intervals::by_angle && angles < 2)
     throw wrong_usage("intervals by_angle: the table has one incident angle");
   auto u = errors(a);
-  if (asked == Intervals::by_angle || enough_angles(angles))
-    return {std::move(a), std::move(u), angles, angles, clustered};
+  if (asked == Intervals::by_angle || enough_angles(angles)) {
+    auto e = u.std_error;
+    return {std::move(a), std::move(u), std::move(e), angles, angles, clustered};
+  }
   const auto values = errors(by_value());
-  if (angles < 2) return {std::move(a), values, angles, 0, independent};
-  return {std::move(a), wider(std::move(u), values), angles, angles,
-          "the wider of clustered by incident angle and independent values"};
+  if (angles < 2) return {std::move(a), values, values.std_error, angles, 0, independent};
+  return {std::move(a),     wider(std::move(u), values),
+          values.std_error, angles,
+          angles,           "the wider of clustered by incident angle and independent values"};
 }
 
 }  // namespace
@@ -133,9 +138,9 @@ FitResult fit(const Table& t,
   const bool shared =
       judged.clusters > 0 && (o.intervals == Intervals::by_angle || enough_angles(judged.clusters));
   const LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.used, shared);
-  widen(u, lack);
+  widen(u, lack, judged.seen_against);
   watch.lap("misfit_ms");
-  const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, u);
+  const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, lack.misfit.told, u);
   keep_to_what_is_seen(t, p, f.model.values, u);
   watch.lap("limits_ms");
   const char* in_words = judged.in_words;

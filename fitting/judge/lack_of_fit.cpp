@@ -585,9 +585,14 @@ LackOfFit lack_of_fit(
   return found;
 }
 
-void widen(Uncertainty& u, const LackOfFit& l) {
-  for (double& e : u.std_error) e *= l.widening;
-  for (double& v : u.variance) v *= l.widening * l.widening;
+void widen(Uncertainty& u, const LackOfFit& l, std::span<const double> seen_against) {
+  for (std::size_t i = 0; i < u.std_error.size(); ++i) {
+    double& e = u.std_error[i];
+    const double base = std::isnan(seen_against[i]) ? e : seen_against[i];
+    const double wider = std::hypot(e, std::sqrt(l.widening * l.widening - 1) * base);
+    u.variance[i] *= wider * wider / (e * e);
+    e = wider;
+  }
 }
 
 }  // namespace gonio

@@ -2,6 +2,7 @@
 /// \file
 /// Lack of fit: whether what a model leaves over follows the angles, which no noise does.
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ LackOfFit lack_of_fit(
     const Sampling&, const Problem&, const Fitted&, std::size_t values_used, bool shared);
 
 /// Makes the intervals as wide as a misfit asks.
-void widen(Uncertainty&, const LackOfFit&);
+/// \param seen_against  errors of the values that it was judged against: where the intervals are those of
+///                      a few clusters they know of it already, and as much is added as it does to these
+void widen(Uncertainty&, const LackOfFit&, std::span<const double> seen_against);
 
 }  // namespace gonio

@@ -209,6 +209,7 @@ bool find_undetermined(const Problem& p,
                        const FitData<double>& thin,
                        const Fitted& f,
                        std::size_t values_used,
+                       bool widened,
                        Uncertainty& u) {
   const Accumulator<double> accumulate(p.start.model, thin, p.free, f.huber);
   const NormalEquations here = accumulate.normal_equations(f.model.values);
@@ -287,6 +288,10 @@ bool find_undetermined(const Problem& p,
                  high = std::isnan(u.high[i]) ? x + width : u.high[i];
     const double some = 0.01 * (p.bounds.high[i] - p.bounds.low[i]);
     if (!(low <= p.bounds.low[i] + some && high >= p.bounds.high[i] - some)) continue;
+    if (widened) {  // by what the model cannot describe: of this model it is still the best value
+      u.reason[i] = "the misfit leaves its whole range open";
+      continue;
+    }
     forget(i, "its interval is as wide as its range");
     u.low[i] = u.high[i] = nan;
   }

@@ -335,9 +335,16 @@ TEST(LackOfFit, OfFewMeasuredAnglesIsToldThoughTheScaleOfEachIsLeftOpen) {
 TEST(LackOfFit, WidensTheIntervals) {
   Uncertainty u;
   u.std_error = {0.1, std::nan("")};
-  widen(u, LackOfFit{{}, 3});
+  u.variance = {1, std::nan("")};
+  auto few = u;
+  widen(u, LackOfFit{{}, 3}, u.std_error);
   EXPECT_NEAR(u.std_error[0], 0.3, 1e-15);
+  EXPECT_NEAR(u.variance[0], 9, 1e-14);
   EXPECT_TRUE(std::isnan(u.std_error[1]));
+  // Of clusters that make wide intervals as they are.
+  const std::vector<double> values{0.01, 0.01};
+  widen(few, LackOfFit{{}, 3}, values);
+  EXPECT_NEAR(few.std_error[0], std::sqrt(0.01 + 8 * 1e-4), 1e-15);
 }
 
 TEST(LackOfFit, IsIncludedInTheIntervals) {
