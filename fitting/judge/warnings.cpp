@@ -35,6 +35,18 @@ std::string copies_in_words(const Table& t) {
   return s.empty() ? s : s + " only repeat another value for value";
 }
 
+/// Bias of relative errors, of the values: the mean of 1/y is above 1/f by s² for noise of size s; 0 where
+/// it is little beside every interval.
+double telling_bias(const FitOptions& o, const FitDocument& d) {
+  if (o.metric != Metric::relative || d.misfit.told) return 0;
+  const double bias = d.residuals.log_rms * d.residuals.log_rms;
+  constexpr double little = 0.5;  // of half an interval
+  for (const auto& p : d.parameters)
+    for (std::size_t c = 0; c < p.value.size(); ++c)
+      if (bias * std::abs(p.value[c]) > little * (p.ci95_high[c] - p.ci95_low[c]) / 2) return bias;
+  return 0;
+}
+
 }  // namespace
 
 FitFacts with_table(FitFacts f, const FitOptions& o, const Table& t, const FitDocument& d) {
@@ -81,6 +93,11 @@ std::vector<std::string> warnings(const FitOptions& o,
                     peak->samples_within, peak->half_width_deg));
   if (const auto copies = copies_in_words(t); !copies.empty())
     all.push_back(copies + (o.copies ? ", though fitted as measurements" : ", and are left out"));
+  if (const double bias = telling_bias(o, d); bias > 0)
+    all.push_back(
+        fmt::format("relative errors shift values by about {}, more than intervals allow for: "
+                    "--metric log does not",
+                    percent(bias)));
   if (d.log_offset > 0)
     all.push_back(fmt::format(
         "negative values betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "

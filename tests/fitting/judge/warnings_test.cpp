@@ -144,6 +144,28 @@ TEST(Warnings, SayOneThingEachInFewWordsAndNumbers) {
   EXPECT_GE(said, 8U);
 }
 
+TEST(Warnings, SayWhatRelativeErrorsShiftWhereItIsMoreThanAnInterval) {
+  const auto warned = [](Metric metric, double noise, std::size_t samples, double outliers) {
+    FitOptions o;
+    o.metric = metric;
+    o.robust = outliers > 0;
+    const auto d = fit(synthesize(test::bind(o.model.c_str(), "alpha=0.2,f0=0.05,kd=0.2", 1),
+                                  {.layout = Layout::random,
+                                   .samples = samples,
+                                   .noise = noise,
+                                   .outliers = outliers}),
+                       o)
+                       .document;
+    return std::ranges::any_of(d.warnings, [](const std::string& w) {
+      return w.starts_with("relative errors shift values by about");
+    });
+  };
+  EXPECT_TRUE(warned(Metric::relative, 0.05, 2000, 0));
+  EXPECT_TRUE(warned(Metric::relative, 0.02, 2000, 0.2));
+  EXPECT_FALSE(warned(Metric::relative, 0.01, 60, 0));
+  EXPECT_FALSE(warned(Metric::log, 0.05, 2000, 0));
+}
+
 TEST(Warnings, EnoughAnglesAreEight) {
   EXPECT_TRUE(enough_angles(8));
   EXPECT_FALSE(enough_angles(7));
