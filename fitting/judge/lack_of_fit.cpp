@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "base/quantile.h"
 #include "brdf/model/derivatives.h"
 #include "table/health/rounding.h"
 
@@ -20,9 +21,10 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double significant = 0.01;          ///< probability below which a misfit is one
 constexpr double worth_telling = 0.01;        ///< of f
-constexpr double of_an_interval = 3;          ///< squares beyond noise, of those of noise
+constexpr double of_an_interval = 1;          ///< squares beyond noise, of those of noise
 constexpr double arithmetic = 1e-7;           ///< of f: below it is rounding of our own
 constexpr double faintest = 1e-30;            ///< that the logarithm tells apart [1/sr]
+constexpr double many = 50;                   ///< samples for each function
 constexpr std::size_t most_values = 1 << 15;  ///< looked at
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 constexpr std::size_t most_channels = 16, most_gains = 64;
@@ -40,11 +42,11 @@ Eigen::Index index(std::size_t n) {
 enum class Follows { nothing, theta_h, theta_d, grazing };
 constexpr std::array<std::string_view, 4> names{"", "theta_h", "theta_d", "grazing angles"};
 
-constexpr std::size_t smooth = 9, fine = 11;
+constexpr std::size_t smooth = 10, fine = 12;
 constexpr std::array<Follows, fine> belongs{Follows::nothing, Follows::theta_h, Follows::theta_d,
                                             Follows::nothing, Follows::theta_h, Follows::theta_d,
                                             Follows::theta_d, Follows::grazing, Follows::grazing,
-                                            Follows::theta_h, Follows::theta_h};
+                                            Follows::grazing, Follows::theta_h, Follows::theta_h};
 
 /// Values of these functions.  θ_h counts by its logarithm above 2°: highlights are narrow.
 std::array<double, fine> functions(const Angles<double>& a) {
@@ -60,6 +62,7 @@ std::array<double, fine> functions(const Angles<double>& a) {
           theta_d * theta_d * theta_d,
           a.nol + a.nov,
           a.nol * a.nov,
+          1 / ((a.nol + 0.1) * (a.nov + 0.1)),
           h * h * h,
           h * h * h * h};
 }
@@ -90,13 +93,14 @@ std::size_t cell_of(const Angles<double>& a) {
 /// One value of a thinned table, as a fit compares it.
 struct Value {
   std::size_t unit, channel;
-  double r;                             ///< residual, clipped as the robust loss does
-  double active;                        ///< 1, or 0 where it is clipped
-  double change;                        ///< of the residual, by a relative change of f
-  double slope;                         ///< of the residual, by f, without the table's weights
-  double rounding;                      ///< of the residual, by what the datum's digits leave out
-  double f;                             ///< [1/sr]
-  double variance = 0;                  ///< of the residual, up to a factor
+  double r;             ///< residual, clipped as the robust loss does
+  double whole;         ///< before that
+  double active;        ///< 1, or 0 where it is clipped; its weight while that settles
+  double change;        ///< of the residual, by a relative change of f
+  double slope;         ///< of the residual, by f, without the table's weights
+  double rounding;      ///< of the residual, by what the datum's digits leave out
+  double f;             ///< [1/sr]
+  double variance = 0;  ///< of the residual, up to a factor
   std::array<double, max_columns> j{};  ///< derivatives by the unknowns of its channel
   std::size_t gain = 0;  ///< unknown of its incident angle's own scale, where there are such
 };
@@ -112,6 +116,8 @@ struct Left {
   std::vector<std::vector<std::size_t>> unknowns;  ///< of each channel looked at
   std::size_t count = 0;                           ///< of the unknowns
   std::size_t angles = 0;
+  std::size_t without_logarithm = 0;  ///< values of 0 where f is not
+  bool robust = false;
 };
 
 Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
@@ -179,6 +185,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
             auto& v = all.values.emplace_back();
             v.unit = unit;
             v.channel = c / stride;
+            v.whole = r;
             v.r = std::clamp(r, -f.huber, f.huber);
             v.active = std::abs(r) <= f.huber ? 1 : 0;
             // By f where the metric divides by y: noise in both would follow itself.
@@ -186,6 +193,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
                                                      : w / weight * slope_seen;
             v.change = w * slope_seen * f_seen;
             v.f = f_seen;
+            all.without_logarithm += !(data.y[i] > 0) && value[i] > faintest;
             const double rounded = std::hypot(rounding.of(data.y[i]), arithmetic * data.y[i]);
             v.rounding =
                 w * (link_of(s.metric()) == Link::log ? std::log1p(rounded / (data.y[i] + offset))
@@ -198,29 +206,40 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
     }
   }
   all.angles = angles.size();
+  all.robust = p.options.robust;
   return all;
 }
 
 // ---- noise --------------------------------------------------------------------------------------
 
-/// Noise is taken as the likelier of two: of one size in f, or in proportion to f.
-void find_variances(std::vector<Value>& values) {
+/// Noise is taken as the likelier of two: of one size in f, or in proportion to f; normal, or Cauchy's
+/// for a robust fit, before anything is clipped.
+/// \return  whether in proportion
+bool find_variances(Left& left) {
   static constexpr double largest =
       1e150;  // whose square is finite: f may be next to nothing, or 0
-  std::array<double, 2> logs{}, squares{};
   const auto sigma = [](const Value& v, std::size_t relative) {
     return std::clamp(v.slope * (relative ? v.f : 1), 1 / largest, largest);
   };
-  for (const auto& v : values)
-    for (std::size_t k = 0; k < 2; ++k) {
-      const double root = v.r / sigma(v, k);
-      logs[k] += 2 * std::log(sigma(v, k));
-      squares[k] += root * root;
+  const double n = static_cast<double>(left.values.size());
+  const auto badness = [&](std::size_t relative) {
+    double logs = 0, squares = 0;
+    std::vector<double> sizes;
+    for (const auto& v : left.values) {
+      const double root = v.whole / sigma(v, relative);
+      logs += 2 * std::log(sigma(v, relative));
+      squares += root * root;
+      if (left.robust) sizes.push_back(std::abs(root));
     }
-  const double n = static_cast<double>(values.size());
-  const auto badness = [&](std::size_t k) { return logs[k] + n * std::log(squares[k]); };
-  const std::size_t relative = !(badness(0) < badness(1));
-  for (auto& v : values) v.variance = sigma(v, relative) * sigma(v, relative);
+    if (!left.robust) return logs + n * std::log(squares);
+    if (sizes.empty()) return 0.0;
+    const double scale = median(sizes);
+    for (const double size : sizes) logs += 2 * std::log(scale + size / scale * size);
+    return logs - n * std::log(scale * scale);
+  };
+  const bool relative = !(badness(0) < badness(1));
+  for (auto& v : left.values) v.variance = sigma(v, relative) * sigma(v, relative);
+  return relative;
 }
 
 /// Unknowns of their own for the scale of each channel under each incident angle, where there is room.
@@ -326,7 +345,7 @@ class Projected {
         if (v.active == 0) return;
         for (Eigen::Index k = 0; k < q; ++k)
           c(i, k) += j * weighted * functions[static_cast<std::size_t>(k)];
-        each(v, [&](Eigen::Index l, double other) { a(i, l) += j * other; });
+        each(v, [&](Eigen::Index l, double other) { a(i, l) += v.active * j * other; });
       });
     }
     Inverse solved(a);
@@ -337,11 +356,13 @@ class Projected {
   }
   std::size_t rank() const { return rank_; }
   const Matrix& inverse() const { return inverse_; }
-  double residual(const Value& v) const {
-    double r = v.r;
-    if (v.active > 0) each(v, [&](Eigen::Index i, double j) { r -= j * step_[i]; });
-    return r;
+  /// Residual that the unknowns take up.
+  double taken_up(const Value& v) const {
+    double sum = 0;
+    each(v, [&](Eigen::Index i, double j) { sum += j * step_[i]; });
+    return sum;
   }
+  double residual(const Value& v) const { return v.active > 0 ? v.r - taken_up(v) : v.r; }
   void functions(const Value& v, double* out) const {
     const auto& own = left_.units[v.unit].functions;
     const double weighted = v.change / v.variance;
@@ -460,10 +481,30 @@ bool only_rounded(const std::vector<Value>& values) {
   return squares <= most * rounded && own <= most * static_cast<double>(values.size());
 }
 
-Regression regress(Left& left, bool shared, bool gains, bool heavy_tails) {
+/// Takes each angle's own scale out of what a robust fit leaves, which then clips other values: else one
+/// whose values are clipped all alike could take nothing up.
+void settle(Left& left) {
+  constexpr int rounds = 20;
+  for (int round = 0; round <= rounds; ++round) {
+    std::vector<double> sizes;
+    for (const auto& v : left.values) sizes.push_back(std::abs(v.whole));
+    const double huber = huber_of(std::move(sizes));
+    for (auto& v : left.values) {
+      v.r = std::clamp(v.whole, -huber, huber);
+      const double part = huber / std::max(std::abs(v.whole), huber);
+      v.active = round < rounds ? part : std::floor(part);
+    }
+    if (round == rounds) break;
+    const Projected projected(left, 0, true);
+    for (auto& v : left.values) v.whole -= projected.taken_up(v);
+  }
+}
+
+Regression regress(Left& left, bool shared, bool gains) {
   Regression out;
-  find_variances(left.values);
+  find_variances(left);
   if (gains) gains = add_gains(left) > 0;
+  if (gains && left.robust) settle(left);
   const std::size_t units = left.units.size();
   const double n = static_cast<double>(left.values.size());
   double rounded = 0, changes = 0;
@@ -525,7 +566,7 @@ Regression regress(Left& left, bool shared, bool gains, bool heavy_tails) {
   const Matrix meat = t.transpose() * scores.squares() * t;
   out.tested = true;
   out.functions = of;
-  if (shared || heavy_tails || independent >= 12 * of) {
+  if (shared || independent >= many * of) {
     out.p = luck_of_scores(u.dot(Inverse(meat).inverse * u), of, independent);
     out.noise = meat.trace();
   } else {
@@ -551,11 +592,20 @@ LackOfFit lack_of_fit(
     const Sampling& s, const Problem& p, const Fitted& f, std::size_t values_used, bool shared) {
   LackOfFit found;
   Misfit& m = found.misfit;
+  bool by_logarithms = s.metric() == Metric::log;
   Left left = left_over(s, p, f);
+  if (!by_logarithms && p.free.size() > 0 && !only_rounded(left.values) && find_variances(left) &&
+      100 * left.without_logarithm <= left.values.size()) {
+    // Whose squares weigh such noise unequally the highlight alone determines the parameters, whose
+    // errors move faint values by far more than these are wrong: and none of that is a misfit.
+    const Sampling logs = s.by(Metric::log, p.offset);
+    left = left_over(logs, p, compared_by(logs, p, scan_samples, f));
+    by_logarithms = true;
+  }
   const std::size_t looked_at = left.values.size();
   const bool measured = !s.table().truth && p.options.intervals != Intervals::independent &&
                         p.options.intervals != Intervals::by_angle;
-  const Regression r = regress(left, shared, measured && !shared, p.options.robust);
+  const Regression r = regress(left, shared, measured && !shared);
   if (!r.tested) {
     m.note = r.rounded ? "what is left is no more than the values' own rounding"
              : shared  ? "the incident angles, whose values share errors, are too few to tell"
@@ -567,8 +617,7 @@ LackOfFit lack_of_fit(
   m.worst_cell = r.worst;
   if (auto& cell = m.worst_cell) {  // of the data, where it was of f
     const double off = cell->difference;
-    cell->difference =
-        link_of(s.metric()) == Link::log ? std::expm1(off) : off / (1 - std::min(off, 0.99));
+    cell->difference = by_logarithms ? std::expm1(off) : off / (1 - std::min(off, 0.99));
   }
   m.size = r.size;
   const double most = std::ranges::max(r.follows);

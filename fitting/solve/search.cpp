@@ -18,14 +18,12 @@ namespace gonio {
 namespace {
 
 constexpr std::size_t coarse_samples = 2048, middle_samples = 32768;
-/// Huber's threshold: 1.345 times the spread that the residuals' median size tells, 1.4826 times that
-/// size if they are normal.
+
 template <class F>
 double huber_threshold(const Problem& p, const FitData<F>& data, const Fitted& f) {
   auto r = Accumulator<F>(p.start.model, data, p.free).residuals(f.model.values);
-  if (r.empty()) return no_huber;
   for (auto& x : r) x = std::abs(x);
-  return std::max(1.345 * 1.4826 * median(r), 1e-12);
+  return huber_of({r.begin(), r.end()});
 }
 
 /// Cost of one value's rounding in float, ½ (5e-7 x)² on average, where x is a value's residual if the
@@ -206,6 +204,15 @@ std::shared_ptr<const BoundModel> bulk_of(const Problem& p, const Sampling& samp
   const auto starts = find_starts(p, thin, no_huber);
   Fitted f = minimise(p, thin, {p.start.model, starts[0].values, {}}, no_huber);
   return std::make_shared<const BoundModel>(robustly(p, thin, std::move(f)).model);
+}
+
+double huber_of(std::vector<double> sizes) {
+  return sizes.empty() ? no_huber : std::max(1.345 * 1.4826 * median(sizes), 1e-12);
+}
+
+Fitted compared_by(const Sampling& s, const Problem& p, std::size_t most, const Fitted& from) {
+  const auto thin = fit_data<double>(s, most);
+  return p.options.robust ? robustly(p, thin, from) : minimise(p, thin, from.model, no_huber);
 }
 
 Searched search(Problem p,

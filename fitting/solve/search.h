@@ -55,6 +55,14 @@ struct Profile;
 /// logarithm.
 std::shared_ptr<const BoundModel> bulk_of(const Problem&, const Sampling&);
 
+/// Huber's threshold: 1.345 times the spread that the residuals' median size tells, 1.4826 times that
+/// size if they are normal; no_huber without residuals.
+double huber_of(std::vector<double> sizes);
+
+/// Optimum of about `most` groups of a table that are compared in another way, from one already found; a
+/// robust fit's with outliers of that way.
+Fitted compared_by(const Sampling&, const Problem&, std::size_t most, const Fitted& from);
+
 struct Searched {
   Fitted best;
   double cost_of_fewer = std::numeric_limits<double>::infinity();  ///< of the model less one lobe

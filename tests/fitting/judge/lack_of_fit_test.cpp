@@ -19,7 +19,7 @@ namespace {
 constexpr const char* paint = "lambert+ggx/smith_ggx.correlated/schlick";
 
 /// Noise of a table, beside what synthesize() knows.
-enum class Disturbance { none, additive, gains };
+enum class Disturbance { none, additive, gains, large_gains };
 
 struct Row {
   const char *name, *truth, *settings;
@@ -40,12 +40,13 @@ Table disturbed(const Row& r, std::uint64_t seed) {
   if (r.disturbance == Disturbance::additive)
     for (auto& plane : t.values)
       for (double& v : plane) v += 0.002 * normal(random);
-  if (r.disturbance == Disturbance::gains) {
+  if (r.disturbance == Disturbance::gains || r.disturbance == Disturbance::large_gains) {
+    const double spread = r.disturbance == Disturbance::gains ? 0.02 : 0.05;
     t.truth.reset();  // as if measured
     std::map<double, double> gain;
     for (std::size_t i = 0; i < t.size(); ++i) {
       double& g = gain[t.list()->theta_i_deg[i]];
-      if (g == 0) g = std::exp(0.02 * normal(random));
+      if (g == 0) g = std::exp(spread * normal(random));
       for (auto& plane : t.values) plane[i] *= g;
     }
   }
@@ -144,6 +145,91 @@ std::vector<Row> wrong_models() {
   return all;
 }
 
+/// Rows whose metric or loss hides what logarithms show.
+std::vector<Row> wrong_under_other_metrics() {
+  const auto random = [](std::size_t samples, double noise) {
+    return SynthOptions{.layout = Layout::random, .samples = samples, .noise = noise};
+  };
+  const char* const narrow = "alpha=0.092,f0=0.08,kd=0.3";
+  return {{"cook_torrance",
+           paint,
+           narrow,
+           "cook_torrance",
+           {{"alpha", {0.092}}, {"f0", {0.08}}},
+           random(200, 0.05),
+           Disturbance::none,
+           Metric::l2_cosine},
+          {"faint separable",
+           "lambert+ggx/smith_ggx.separable/schlick",
+           "alpha=0.162,f0=0.04,kd=0.02",
+           paint,
+           {{"alpha", {0.162}}, {"f0", {0.04}}, {"kd", {0.02}}},
+           random(200, 0.02)},
+          {"schlick_ggx, outliers",
+           paint,
+           "alpha=0.556,f0=0.04,kd=0.6",
+           "lambert+ggx/schlick_ggx.half_alpha/schlick",
+           {{"alpha", {0.556}}, {"f0", {0.04}}, {"kd", {0.6}}},
+           random(60, 0.02),
+           Disturbance::none,
+           Metric::relative,
+           true},
+          {"gtr as ggx, outliers",
+           "lambert+gtr/smith_ggx.correlated/schlick",
+           "alpha=0.287,gamma=2.48,f0=0.3,kd=0.3",
+           paint,
+           {{"alpha", {0.287}}, {"f0", {0.3}}, {"kd", {0.3}}},
+           random(60, 0.005),
+           Disturbance::none,
+           Metric::l2_cosine,
+           true}};
+}
+
+/// Rows whose highlight alone determines what the metric weighs, and robust ones whose angles have a
+/// scale of their own.
+std::vector<Row> right_under_other_metrics() {
+  const char* const two =
+      "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick";
+  const char* const gtr = "gtr/schlick_ggx.half_alpha/schlick";
+  const char* const beckmann = "beckmann/smith_beckmann.correlated/schlick";
+  std::vector<Row> all{{"two lobes",
+                        two,
+                        "alpha=0.067,f0=0.04,alpha_2=0.528,f0_2=0.3,kd=0.1",
+                        two,
+                        {},
+                        {.layout = Layout::in_plane, .noise = 0.1},
+                        Disturbance::none,
+                        Metric::l2_cosine},
+                       {"narrow gtr",
+                        gtr,
+                        "alpha=0.0383,gamma=3.823,f0=0.074",
+                        gtr,
+                        {},
+                        {.layout = Layout::random, .samples = 300, .noise = 0.1},
+                        Disturbance::none,
+                        Metric::l2_cosine},
+                       {"narrow beckmann",
+                        beckmann,
+                        "alpha=0.02,f0=0.5",
+                        beckmann,
+                        {},
+                        {.layout = Layout::hemisphere, .noise = 0.02},
+                        Disturbance::none,
+                        Metric::l2_cosine}};
+  for (const Layout layout : {Layout::in_plane, Layout::hemisphere})
+    for (const Metric metric : {Metric::log, Metric::l2_cosine, Metric::relative})
+      all.push_back({"paint, gains, outliers",
+                     paint,
+                     "alpha=0.2,f0=0.05,kd=0.2",
+                     paint,
+                     {},
+                     {.layout = layout, .noise = 0.02},
+                     Disturbance::large_gains,
+                     metric,
+                     true});
+  return all;
+}
+
 std::vector<Row> right_models() {
   std::vector<Row> all;
   const Row row{"paint",
@@ -235,6 +321,21 @@ TEST(LackOfFit, OfTheRightModelIsNotTold) {
   if (std::getenv("GONIO_LONG")) fmt::print("{}", table);
 }
 
+TEST(LackOfFit, OfEachWrongModelIsToldWhateverTheMetric) {
+  for (const auto& r : wrong_under_other_metrics()) {
+    const Tally t = tally(r, 10);
+    EXPECT_GE(t.told, 9U) << line(r, t);
+    EXPECT_LE(10 * t.silent_and_wrong, t.stated) << line(r, t);
+  }
+}
+
+TEST(LackOfFit, OfEachRightModelIsNotToldWhateverTheMetric) {
+  for (const auto& r : right_under_other_metrics()) {
+    const Tally t = tally(r, 20);
+    EXPECT_LE(t.told, 1U) << line(r, t);
+  }
+}
+
 FitDocument fit_of(const Table& t, const char* model = paint) {
   FitOptions o;
   o.model = model;
@@ -300,7 +401,7 @@ TEST(LackOfFit, OfALobeThatFallsToNothingIsTested) {
   for (const auto& [layout, samples] :
        {std::pair{Layout::hemisphere, std::size_t{0}}, {Layout::random, std::size_t{300}}})
     for (const char* alpha : {"alpha=0.3,f0=0.5", "alpha=0.02,f0=0.5"})
-      for (const Metric metric : {Metric::log, Metric::relative}) {
+      for (const Metric metric : {Metric::log, Metric::l2_cosine, Metric::relative}) {
         FitOptions o;
         o.model = lobe;
         o.metric = metric;
