@@ -105,14 +105,18 @@ void merge(Profile& p) {
   p = std::move(merged);
 }
 
-/// The three values that a profile may have its highlight in, and what they stand on.
+/// Height of the highlight that a profile may have in its first three values, and what these stand on.
 struct Ends {
   double height, base;
 };
-Ends ends_of(const Profile& p) {
+Ends ends_of(const Profile& p, Around around) {
   std::vector<double> values;
   for (const auto& s : p) values.push_back(s.value);
-  const double height = std::max({values[0], values[1], values[2]});
+  std::array first{values[0], values[1], values[2]};
+  std::ranges::sort(first);
+  // A mirror peak may lie between the samples; where a table is not expected to have one, a single
+  // value may be an outlier.
+  const double height = first[around == Around::retro ? 1 : 2];
   return {height, quantile(values, 0.1)};
 }
 
@@ -152,7 +156,7 @@ PeakSearch find_peak(const Table& t, Bins bins, Around around) {
   for (const auto& profile : profiles) {
     if (profile.size() < 8 || profile[0].angle > std::min(first + kSlack, kReach)) continue;
     ++search.profiles;
-    const Ends ends = ends_of(profile);
+    const Ends ends = ends_of(profile, around);
     contrasts.push_back(ends.base > 0     ? ends.height / ends.base
                         : ends.height > 0 ? std::numeric_limits<double>::infinity()
                                           : 1);

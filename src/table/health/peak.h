@@ -34,9 +34,10 @@ struct PeakSearch {
 /// At each of eight θ_d from 5° to 45° (around the retro direction: of eight θ_h) the samples' mean
 /// over channels (and φ_d) makes a profile over the other angle, used if it has eight angles or more,
 /// the first within 3° of 0 and not 0.25° later than the best profile's: one that starts beside a
-/// narrow highlight says nothing of it.  Its height is the largest of the three values nearest 0, its
-/// base the value that a tenth of the profile stays below; the peak holds the medians over these
-/// profiles.  Absent where half of the profiles or more stay below 1.5 times their base.
+/// narrow highlight says nothing of it.  Its height is the largest of the three values nearest 0 (around
+/// the retro direction the second: a highlight there is more than one value), its base the value that a
+/// tenth of the profile stays below; the peak holds the medians over these profiles.  Absent where half
+/// of the profiles or more stay below 1.5 times their base.
 /// \param bins  where samples sit in their bins
 PeakSearch find_peak(const Table&, Bins bins, Around = Around::half_vector);
 

@@ -11,6 +11,7 @@
 #include "table/format/formats.h"
 #include "table/health/computed.h"
 #include "table/health/health.h"
+#include "table/health/peak.h"
 
 #include <gtest/gtest.h>
 
@@ -67,6 +68,33 @@ TEST(Seen, OneConstantForEachIncidentAngleIsAComputedTableAndShowsNoLobe) {
   EXPECT_FALSE(
       one_value_per_angle(in_plane({0, 20, 40, 60}, 2, [](double, double) { return 0.2; })));
   EXPECT_FALSE(one_value_per_angle(in_plane({0, 20, 40, 60}, 40, constant)));
+}
+
+TEST(Seen, RowsThatAreRepeatedAreNoComputedTable) {
+  // One outgoing direction at each incident angle, eight rows of it; and eight of them.
+  Table t =
+      in_plane({0, 10, 20, 30, 40, 50, 60, 70}, 20, [](double in, double) { return 0.1 + in; });
+  DirectionList l = *t.list();
+  EXPECT_TRUE(one_value_per_angle(t));
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    l.theta_o_deg[i] = l.theta_i_deg[i];
+    l.phi_o_deg[i] = 180;
+  }
+  t.where = l;
+  EXPECT_FALSE(one_value_per_angle(t));
+}
+
+TEST(Seen, OutliersAreNoHighlightAtTheRetroDirection) {
+  for (const std::uint64_t seed : {1001U, 1002U, 1010U}) {
+    const Table t =
+        synthesize(test::bind(paint, "alpha=0.2,f0=0.05,kd=0.2", 3),
+                   {.layout = Layout::in_plane, .noise = 0.02, .outliers = 0.2, .seed = seed});
+    EXPECT_FALSE(retro_peak(t)) << seed;
+    FitOptions o;
+    o.model = paint;
+    o.robust = true;
+    EXPECT_FALSE(std::isnan(parameter(fit(t, o).document, "f0").value[0])) << seed;
+  }
 }
 
 /// Lobes around wo = wi and around the mirror direction.
