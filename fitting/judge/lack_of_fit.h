@@ -27,7 +27,8 @@ struct LackOfFit {
 /// Of many samples only that their errors are independent is assumed [Hotelling's T² of the scores, as
 /// the intervals' sandwich], of few that they are of one size in f or in proportion to it [an F test].
 /// Of a measured table with too few incident angles for clusters the scale of each angle is taken to be
-/// unknown.
+/// unknown; a robust fit then clips beside that scale.  Where noise is in proportion to f, and the metric is
+/// another than log, a refit by logarithms is judged: size and cell are that refit's.
 ///
 /// It is told where it is significant at 1 % and exceeds 1 % of f, or what noise does to a parameter.
 /// Misfit that follows a parameter cannot be seen in what is left; it is taken to be up to four times as

@@ -68,10 +68,9 @@ bool float_suffices(const Problem& p, const Fitted& f, std::size_t values_used) 
   std::string reasons;
   for (const auto& [reason, count] : counts.by_reason(sampling))
     if (count) reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
-  throw bad_input(sampling.table().path, "values",
-                  fmt::format("none that can be used ({})", reasons),
-                  sampling.metric() == Metric::l2_cosine ? "at least one"
-                                                         : "at least one above 1e-30 [1/sr]");
+  throw bad_input(
+      sampling.table().path, "values", fmt::format("none that can be used ({})", reasons),
+      sampling.metric() == Metric::l2_cosine ? "at least one" : "at least one above 1e-30 [1/sr]");
 }
 
 /// Least cost of all samples that the model less one lobe of several reaches, where it is less than that

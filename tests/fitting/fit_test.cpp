@@ -476,6 +476,8 @@ TEST(Coverage, HoldsForErrorsSharedByAnIncidentAngleOnlyWhenTheyAreClustered) {
     for (unsigned seed = 1; seed <= seeds; ++seed) {
       const auto d = fit(drifting(truth, seed), o).document;
       EXPECT_EQ(d.clusters, intervals == Intervals::independent ? 0U : 24U);
+      // The drift may be told as a misfit, for which intervals allow.
+      if (intervals == Intervals::independent && d.misfit.told) continue;
       const auto& kd = d.parameters[0];
       inside += kd.ci95_low[0] <= 0.2 && 0.2 <= kd.ci95_high[0];
     }
