@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <type_traits>
 
@@ -73,30 +74,6 @@ bool float_suffices(const Problem& p, const Fitted& f, std::size_t values_used) 
       sampling.metric() == Metric::l2_cosine ? "at least one" : "at least one above 1e-30 [1/sr]");
 }
 
-/// Least cost of all samples that the model less one lobe of several reaches, where it is less than that
-/// of the whole on a thinned table: not every lobe can vanish.
-/// \param middle_cost  of the whole model
-template <class F>
-double cost_of_fewer(const Problem& p,
-                     const FitData<F>& thin,
-                     const FitData<F>& middle,
-                     const FitData<F>& all,
-                     double middle_cost) {
-  double least = std::numeric_limits<double>::infinity();
-  const Model& m = p.start.model;
-  if (m.lobes.size() < 2 || p.options.robust) return least;
-  for (std::size_t l = 0; l < m.lobes.size(); ++l) {
-    Model fewer = m;
-    fewer.lobes.erase(fewer.lobes.begin() + static_cast<std::ptrdiff_t>(l));
-    const Problem q = with_free(p, fewer, slots_read(fewer));
-    Fitted f =
-        minimise(q, middle, {fewer, find_starts(q, thin, no_huber).front().values, {}}, no_huber);
-    if (f.solution.at.cost < middle_cost)
-      least = std::min(least, minimise(q, all, f.model, no_huber).solution.at.cost);
-  }
-  return least;
-}
-
 /// Fit of a thinned table whose outliers count less and less.
 template <class F>
 Fitted robustly(const Problem& p, const FitData<F>& thin, Fitted f) {
@@ -116,6 +93,51 @@ std::vector<Start> best_of(const Problem& p, const FitData<F>& more, std::vector
   std::erase_if(starts,
                 [&](const Start& s) { return s.cost > starts.front().cost * (1 + worth_a_fit); });
   return starts;
+}
+
+/// The model with some of its lobes, each by its bit.
+Model with_lobes(const Model& m, std::size_t bits) {
+  Model some = m;
+  some.lobes.clear();
+  for (std::size_t l = 0; l < m.lobes.size(); ++l)
+    if (bits >> l & 1U) some.lobes.push_back(m.lobes[l]);
+  return some;
+}
+
+/// Least cost of all samples that the model reaches with fewer of its several lobes, where these are
+/// better on a thinned table: not every lobe can vanish.
+/// \param middle_cost  of the whole model
+template <class F>
+double cost_of_fewer(const Problem& p, const FitLevels<F>& data, double middle_cost) {
+  double least = std::numeric_limits<double>::infinity();
+  const Model& m = p.start.model;
+  if (m.lobes.size() < 2 || p.options.robust) return least;
+  const FitData<F>&thin = data.thinned[0], &scan = data.thinned[1], &middle = data.thinned[2];
+  // Then one lobe is as good as another.
+  const bool is_alike = p.options.fixed.empty() && p.options.bounds.empty() &&
+                        std::ranges::all_of(m.lobes, [&](const Lobe& l) {
+                          const Lobe& first = m.lobes.front();
+                          return l.ndf.term == first.ndf.term &&
+                                 l.masking.term == first.masking.term &&
+                                 l.fresnel.term == first.fresnel.term;
+                        });
+  for (std::size_t bits = 0; bits + 1 < std::size_t{1} << m.lobes.size(); ++bits) {
+    const Model fewer = with_lobes(m, bits);
+    if (fewer.lobes.empty() && fewer.diffuse.empty()) continue;
+    if (is_alike && std::has_single_bit(bits) && bits > 1) continue;
+    const Problem q = with_free(p, fewer, slots_read(fewer));
+    Fitted f{q.start, no_huber, {}};
+    f.solution.at.cost = std::numeric_limits<double>::infinity();
+    for (const Start& s : best_of(q, scan, find_starts(q, thin, no_huber))) {
+      Fitted other = minimise(q, middle, {fewer, s.values, {}}, no_huber);
+      if (other.solution.at.cost < f.solution.at.cost) f = std::move(other);
+    }
+    if (!(f.solution.at.cost < middle_cost)) continue;
+    f = minimise(q, data.all, std::move(f.model), no_huber);
+    profile(q, thin, scan, data.all, f);
+    least = std::min(least, f.solution.at.cost);
+  }
+  return least;
 }
 
 /// From nothing to the best fit of all samples.  A model that does not fit converges slowly: most of
@@ -167,7 +189,7 @@ Searched search_in(const Problem& p,
   if (p.options.certificate == Certify::none) return found;
   announce("looking for other valleys");
   found.profile = std::make_shared<const Profile>(profile(p, thin, scan, data.all, found.best));
-  found.cost_of_fewer = cost_of_fewer(p, thin, middle, data.all, middle_cost);
+  found.cost_of_fewer = cost_of_fewer(p, data, middle_cost);
   watch.lap("certificate_ms");
   return found;
 }

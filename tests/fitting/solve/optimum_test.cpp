@@ -11,6 +11,7 @@
 #include "fitting/support.h"
 #include "support.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
@@ -269,6 +270,27 @@ TEST(LostOptimum, OfTwoLobesIsToldWhereOneDoesBetter) {
     EXPECT_EQ(told, b.cost > a.cost) << a.cost << " " << b.cost;
     EXPECT_LT(b.cost, 1.05 * a.cost);
   }
+}
+
+TEST(LostOptimum, OfTwoLobesIsComparedWithTheBestOfFewer) {
+  GONIO_NEEDS_SHARED(file, "data/mbsdf/carpaint_blue.mbsdf");
+  const Table t = read_table(file);
+  FitOptions o;
+  o.metric = Metric::relative;
+  o.bin_sensitivity = false;
+  o.certificate = Certify::automatic;
+  const std::string lobe = "+ggx/smith_ggx.correlated/schlick";
+  const auto cost_of = [&](const std::string& model) {
+    o.model = model;
+    return fit(t, o).document.cost;
+  };
+  const double least = std::min(cost_of("lambert"), cost_of("lambert" + lobe));
+  o.model = "lambert" + lobe + lobe;
+  const auto two = fit(t, o).document;
+  ASSERT_GT(two.cost, least);
+  EXPECT_TRUE(std::ranges::any_of(two.warnings, [&](const std::string& w) {
+    return w.find(fmt::format("(cost {:.6g} for", least)) != std::string::npos;
+  })) << least;
 }
 
 TEST(LostOptimum, OfARetroreflectorIsNotTheFirstValley) {
