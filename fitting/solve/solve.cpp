@@ -329,7 +329,7 @@ Solution solve_once(const NormalEquationsAt& evaluate,
   o.function_tolerance = options.function_tolerance;
   o.parameter_tolerance = options.parameter_tolerance;
   o.gradient_tolerance = 0;             // absolute: it would depend on the data's unit
-  o.initial_trust_region_radius = 1e9;  // the start is close: nearly a Gauss–Newton step
+  o.initial_trust_region_radius = 1e6;  // the start is close: nearly a Gauss–Newton step
   o.logging_type = ceres::SILENT;
   Enough enough(options.rounding, scale,
                 [&]() -> const NormalEquations& { return cost.best().at; });
