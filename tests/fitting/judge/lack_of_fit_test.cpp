@@ -9,6 +9,7 @@
 
 #include "fitting/fit.h"
 #include "fitting/support.h"
+#include "many_fits.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -289,9 +290,7 @@ std::string line(const Row& r, const Tally& t) {
 }
 
 TEST(LackOfFit, OfAWrongModelIsNotSilentAndWrong) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "many fits, whose numbers are looked at without a sanitizer";
-#endif
+  GONIO_MANY_FITS();
   std::string table;
   unsigned wrong = 0, stated = 0;
   for (const auto& r : wrong_models()) {
@@ -306,9 +305,7 @@ TEST(LackOfFit, OfAWrongModelIsNotSilentAndWrong) {
 }
 
 TEST(LackOfFit, OfTheRightModelIsNotTold) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "many fits, whose numbers are looked at without a sanitizer";
-#endif
+  GONIO_MANY_FITS();
   std::string table;
   unsigned told = 0, fits = 0;
   for (const auto& r : right_models()) {
@@ -330,6 +327,7 @@ TEST(LackOfFit, OfEachWrongModelIsToldWhateverTheMetric) {
 }
 
 TEST(LackOfFit, OfEachRightModelIsNotToldWhateverTheMetric) {
+  GONIO_MANY_FITS();
   for (const auto& r : right_under_other_metrics()) {
     const Tally t = tally(r, 20);
     EXPECT_LE(t.told, 1U) << line(r, t);

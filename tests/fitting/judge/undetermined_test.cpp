@@ -6,6 +6,7 @@
 #include "base/quantile.h"
 #include "fitting/fit.h"
 #include "fitting/support.h"
+#include "many_fits.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -249,6 +250,7 @@ TEST(Undetermined, WhatHasALimitMovesTheOthersToo) {
 }
 
 TEST(Undetermined, DiffuseThatIsNotThereLeavesTheLobesIntervalsWhole) {
+  GONIO_MANY_FITS();
   const SynthOptions in_plane{.layout = Layout::in_plane, .noise = 0.02};
   for (const char* name : {"eta", "k"}) {
     const auto h = held("lambert+gtr/cook_torrance/conductor",

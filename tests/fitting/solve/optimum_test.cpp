@@ -9,6 +9,7 @@
 #include "fitting/solve/descend.h"
 #include "fitting/solve/search.h"
 #include "fitting/support.h"
+#include "many_fits.h"
 #include "support.h"
 
 #include <fmt/format.h>
@@ -130,9 +131,7 @@ void look_at(std::uint64_t seed) {
 class Optimum : public testing::TestWithParam<int> {};
 
 TEST_P(Optimum, IsAsLowAsAnyOf64RandomStartsFinds) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "many fits, whose numbers are looked at without a sanitizer";
-#endif
+  GONIO_MANY_FITS();
   const bool is_long = std::getenv("GONIO_LONG") != nullptr;
   const int count = is_long ? 100 : 2;
   for (int k = 0; k < count; ++k) look_at(static_cast<std::uint64_t>(100 * GetParam() + k));
@@ -140,6 +139,7 @@ TEST_P(Optimum, IsAsLowAsAnyOf64RandomStartsFinds) {
 INSTANTIATE_TEST_SUITE_P(Tables, Optimum, testing::Range(0, 10));
 
 TEST(LostOptimum, OfTwinValleysAndOfAnExponentWithoutEffectIsFound) {
+  GONIO_MANY_FITS();
   look_at(15);   // an extinction of 20 for one of 0
   look_at(444);  // alpha = 1, where an exponent has no effect but on the way down
   look_at(834);  // eta on the other side of 1
@@ -170,9 +170,7 @@ const Family families[] = {
 class Truth : public testing::TestWithParam<Family> {};
 
 TEST_P(Truth, LiesBelowNoFit) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "many fits, whose numbers are looked at without a sanitizer";
-#endif
+  GONIO_MANY_FITS();
   for (const auto& settings : GetParam().settings)
     for (const Metric metric : {Metric::log, Metric::l2_cosine, Metric::relative})
       for (const Layout layout : {Layout::in_plane, Layout::hemisphere, Layout::random})
@@ -231,6 +229,7 @@ TEST(LostOptimum, OfAMetalWithAnIndexBelow1IsNotLostByOneChannel) {
 }
 
 TEST(LostOptimum, OfValuesOfManyDecadesIsNotLostWithoutADiffusePart) {
+  GONIO_MANY_FITS();
   const SynthOptions few{.layout = Layout::random, .samples = 150, .noise = 0.02};
   expect_no_more_than_truth("lambert+blinn_phong/smith_ggx.separable/conductor",
                             "alpha=0.15,eta=0.44,k=2.19,kd=0", few, Metric::relative, {2, 8});
@@ -254,6 +253,7 @@ TEST(LostOptimum, OfATableThatFadesBelowAllNumbersIsFound) {
 }
 
 TEST(LostOptimum, OfTwoLobesIsToldWhereOneDoesBetter) {
+  GONIO_MANY_FITS();
   GONIO_NEEDS_SHARED(file, "data/mbsdf/carpaint_blue.mbsdf");
   // F of Schlick is 1 at grazing whatever f0 is: a second lobe cannot vanish.
   const Table t = read_table(file);
@@ -273,6 +273,7 @@ TEST(LostOptimum, OfTwoLobesIsToldWhereOneDoesBetter) {
 }
 
 TEST(LostOptimum, OfTwoLobesIsComparedWithTheBestOfFewer) {
+  GONIO_MANY_FITS();
   GONIO_NEEDS_SHARED(file, "data/mbsdf/carpaint_blue.mbsdf");
   const Table t = read_table(file);
   FitOptions o;
