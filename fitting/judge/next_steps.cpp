@@ -60,7 +60,7 @@ class Spec {
   }
 
  private:
-  std::size_t first() const { return parts_[0].size() == 1 ? 1 : 0; }
+  std::size_t first() const { return !parts_.empty() && parts_[0].size() == 1 ? 1 : 0; }
   std::string with(std::size_t term, const std::string& name) const {
     Spec s = *this;
     s.parts_[first()][term] = name;
