@@ -200,6 +200,20 @@ void add_reports(Pages& pages) {
   add("index", index_page_html(to_json(index)));
 }
 
+/// Script of when_drawn(then): calls it once the page's plot is there, however late that is.
+constexpr const char* when_drawn = R"(
+const when_drawn = (then) => {
+  const is_there = () => document.querySelector(".u-over") !== null;
+  if (is_there()) return setTimeout(then, 50);
+  const watch = new MutationObserver(() => {
+    if (!is_there()) return;
+    watch.disconnect();
+    setTimeout(then, 50);
+  });
+  watch.observe(document.body, { childList: true, subtree: true });
+};
+)";
+
 /// A curve of five points without the middle one; complains where its line is not what it should be.
 void add_gap(Pages& pages) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -207,9 +221,9 @@ void add_gap(Pages& pages) {
   PageJson data{{"schema", "gonio.report.gap/1"}};
   data.update(
       json_of(Pictures{{{"gap", "Gap", "", {"x", false, 0, 4}, {"y"}, {curve}}}, {}}, Digits::six));
-  pages.add("gap", make_report_page("Gap", page_text(data), R"(
+  pages.add("gap", make_report_page("Gap", page_text(data), std::string(when_drawn) + R"(
 document.getElementById("page").replaceChildren(figure_view(page_data().figures[0]));
-addEventListener("load", () => setTimeout(() => {
+addEventListener("load", () => when_drawn(() => {
   const canvas = document.querySelector("canvas"), frame = canvas.getBoundingClientRect();
   const plot = document.querySelector(".u-over").getBoundingClientRect();
   const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
@@ -220,7 +234,7 @@ addEventListener("load", () => setTimeout(() => {
   };
   for (const x of [0.5, 3.5]) if (!is_drawn_at(x)) console.warn(`no line at ${x}`);
   for (const x of [1.5, 2, 2.5]) if (is_drawn_at(x)) console.warn(`a line at ${x}, where a point is missing`);
-}, 200));
+}));
 )"));
 }
 
@@ -234,7 +248,7 @@ void add_zoom(Pages& pages) {
   PageJson data{{"schema", "gonio.report.zoom/1"}};
   data.update(json_of(Pictures{{{"zoom", "Zoom", "", {"x", true}, {"y", true}, {curve}}}, {}},
                       Digits::six));
-  pages.add("zoom", make_report_page("Zoom", page_text(data), R"(
+  pages.add("zoom", make_report_page("Zoom", page_text(data), std::string(when_drawn) + R"(
 document.getElementById("page").replaceChildren(figure_view(page_data().figures[0]));
 const ticks = [], text_of_tick = tick_text;
 tick_text = (x) => { ticks.push(x); return text_of_tick(x); };
@@ -248,7 +262,7 @@ const cut_out = async (from, to) => {
   }
 };
 const { low, high } = page_data().figures[0].x.scales.log, x_at = (part) => low * (high / low) ** part;
-addEventListener("load", () => setTimeout(async () => {
+addEventListener("load", () => when_drawn(async () => {
   for (const [from, to] of [[0.2, 0.6], [0.5, 0.52]]) {
     await cut_out(from, to);
     const [x0, x1] = [x_at(from), x_at(to)], of_x = ticks.findIndex((t, i) => i > 0 && t < ticks[i - 1]);
@@ -259,7 +273,7 @@ addEventListener("load", () => setTimeout(async () => {
     document.querySelector(".u-over").dispatchEvent(new MouseEvent("dblclick", { bubbles: true }));
     await drawn();
   }
-}, 50));
+}));
 )"));
 }
 
