@@ -74,19 +74,16 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f) {
   constexpr const char* clustered = "clustered by incident angle";
   if (asked == Intervals::independent || (asked == Intervals::automatic && s.table().truth)) {
     auto a = by_value();
-    auto u = errors(a);
-    auto e = u.std_error;
-    return {std::move(a), std::move(u), std::move(e), 0, 0, independent};
+    const auto u = errors(a);
+    return {std::move(a), u, u.std_error, 0, 0, independent};
   }
   auto a = assess(s, f.model, p.free, f.huber, true, nullptr, f.in_float);
   const std::size_t angles = a.incident_angles;
   if (asked == Intervals::by_angle && angles < 2)
     throw wrong_usage("intervals by_angle: the table has one incident angle");
   auto u = errors(a);
-  if (asked == Intervals::by_angle || enough_angles(angles)) {
-    auto e = u.std_error;
-    return {std::move(a), std::move(u), std::move(e), angles, angles, clustered};
-  }
+  if (asked == Intervals::by_angle || enough_angles(angles))
+    return {std::move(a), u, u.std_error, angles, angles, clustered};
   const auto values = errors(by_value());
   if (angles < 2) return {std::move(a), values, values.std_error, angles, 0, independent};
   return {std::move(a),     wider(std::move(u), values),

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is told of a call that is refused.
+/// Words that a refused call is told with.
 
 #include <string>
 

@@ -63,12 +63,12 @@ double CostAlong::rise(double value, double scale) {
 double CostAlong::reach(double end, double much) {
   const double from = solved_.front().first;
   if (rise(end, much) < much) return end;
-  // The root of the rise is nearly a straight line: steps along it, and halves where these leave
-  // what is known to hold the place.  A line that is steep near `from` is met by steps of decades.
   // So near the end as the way is known, it is the end.
   const auto snapped = [&](double x) {
     return std::abs(x - end) < 0.01 * std::abs(from - end) ? end : x;
   };
+  // The root of the rise is nearly a straight line: steps along it, and halves where these leave
+  // what is known to hold the place.  A line that is steep near `from` is met by steps of decades.
   double inside = from, outside = end, at = from + (end - from) / 2, rise_at = rise(at, much);
   for (int step = 0; step < 60 && rise_at > 100 * much && std::abs(at - from) > 1e-300; ++step) {
     outside = at;

@@ -466,7 +466,7 @@ void find_worst_cell(const Left& left,
   if (weights > 0) out.size = std::max(out.size, std::sqrt(squares / weights));
 }
 
-/// Whether little else is left than rounding: of all values together, and of each by its own, lest one
+/// True where little else is left than rounding: of all values together, and of each by its own, lest one
 /// whose digits say little hides what others miss by far.
 bool only_rounded(const std::vector<Value>& values) {
   constexpr double most = 4;  // squares, of those of rounding

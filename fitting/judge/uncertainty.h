@@ -46,8 +46,8 @@ struct Uncertainty {
 /// Student's t; its degrees of freedom are the number of values (clusters) that the parameter in truth
 /// rests on.
 ///
-/// What a single value or cluster determines alone has no error: none of the others knows it.  Nor has
-/// what would have an interval as wide as its range, which is not identifiable.
+/// An unknown that a single value or cluster determines alone has no error: none of the others knows it.
+/// Nor has one whose interval would be as wide as its range, which is not identifiable.
 Uncertainty uncertainty(const Sandwich&,
                         std::span<const double> x,
                         const Bounds&,

@@ -16,14 +16,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Problem of the model without its lobes.
-Problem diffuse_alone(const Problem& p) {
-  Model model = p.start.model;
-  model.lobes.clear();
-  const auto mask = slots_read(model);
-  return with_free(p, std::move(model), mask);
-}
-
 /// Sum of squares of the residuals if the model were 0, or off by a factor e under logs.
 double signal(const FitData<double>& d, std::size_t channels) {
   double squares = 0;
@@ -178,7 +170,8 @@ bool forget_needless_lobes(const Problem& p,
                            double luck,
                            Uncertainty& u) {
   if (p.start.model.diffuse.empty() || p.start.model.lobes.empty()) return false;
-  const Problem rest = diffuse_alone(p);
+  const Model diffuse = with_lobes(p.start.model, {});
+  const Problem rest = with_free(p, diffuse, slots_read(diffuse));
   const double without =
       minimise(rest, thin, {rest.start.model, f.model.values, {}}, f.huber).solution.at.cost;
   if (2 * (without - cost) >= luck) return false;

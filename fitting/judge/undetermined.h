@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is determined: a value with its interval, an upper or lower limit, or nothing.
+/// Limits of what is determined: a value with its interval, an upper or lower limit, or nothing.
 
 #include <string>
 
@@ -24,8 +24,8 @@ void forget_lobes(const Problem&, Uncertainty&, Lobes, const std::string& why);
 /// nothing is known of it.  It may be unable to vanish: Schlick's F is 1 at 90° whatever f0 is.
 /// Returns whether that is so.
 ///
-/// What is left and stands at a bound of all values there are, or has an interval as wide as its range,
-/// is held elsewhere, the others moved to where they are best.  Where only one end of the range costs
+/// A parameter that is left and stands at a bound of all values there are, or has an interval as wide as
+/// its range, is held elsewhere, the others moved to where they are best.  Where only one end of the range costs
 /// more than luck does it has a limit, the one-sided 95 % bound; where neither does, nothing is known;
 /// else it has an interval.  What stands at a bound and is pushed against it, at_bound, has none of
 /// these.  An interval that is wide for its value, and within which the cost is not a parabola, becomes

@@ -135,6 +135,18 @@ std::vector<bool> slots_read(const Model& m) {
   return read;
 }
 
+Model with_lobes(const Model& m, std::span<const std::size_t> lobes) {
+  Model some = m;
+  some.lobes.clear();
+  for (const std::size_t l : lobes) some.lobes.push_back(m.lobes[l]);
+  return some;
+}
+
+bool are_alike(const Lobe& a, const Lobe& b) {
+  return a.ndf.term == b.ndf.term && a.masking.term == b.masking.term &&
+         a.fresnel.term == b.fresnel.term;
+}
+
 bool is_reciprocal(const BoundModel& b) {
   std::vector<Angles<double>> there, back;
   for (const double theta_h : {2.0, 15.0, 40.0})

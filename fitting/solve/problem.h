@@ -2,6 +2,7 @@
 /// \file
 /// Problem that a fit solves: which parameters are free, and within which bounds.
 
+#include <span>
 #include <vector>
 
 #include "fitting/solve/accumulate.h"
@@ -35,6 +36,12 @@ Problem with_free(const Problem&, Model model, const std::vector<bool>& mask);
 
 /// Slots of the parameters that a model's terms read: those of fewer terms leave some unread.
 std::vector<bool> slots_read(const Model&);
+
+/// The model with some of its lobes, in that order.
+Model with_lobes(const Model&, std::span<const std::size_t> lobes);
+
+/// True of lobes of the same terms: then one is as good as the other.
+bool are_alike(const Lobe&, const Lobe&);
 
 /// True where f stays the same with light and viewer exchanged: then such samples are one to the fit.
 bool is_reciprocal(const BoundModel&);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <type_traits>
 
@@ -95,15 +94,6 @@ std::vector<Start> best_of(const Problem& p, const FitData<F>& more, std::vector
   return starts;
 }
 
-/// The model with some of its lobes, each by its bit.
-Model with_lobes(const Model& m, std::size_t bits) {
-  Model some = m;
-  some.lobes.clear();
-  for (std::size_t l = 0; l < m.lobes.size(); ++l)
-    if (bits >> l & 1U) some.lobes.push_back(m.lobes[l]);
-  return some;
-}
-
 /// Least cost of all samples that the model reaches with fewer of its several lobes, where these are
 /// better on a thinned table: not every lobe can vanish.
 /// \param middle_cost  of the whole model
@@ -113,18 +103,16 @@ double cost_of_fewer(const Problem& p, const FitLevels<F>& data, double middle_c
   const Model& m = p.start.model;
   if (m.lobes.size() < 2 || p.options.robust) return least;
   const FitData<F>&thin = data.thinned[0], &scan = data.thinned[1], &middle = data.thinned[2];
-  // Then one lobe is as good as another.
-  const bool is_alike = p.options.fixed.empty() && p.options.bounds.empty() &&
-                        std::ranges::all_of(m.lobes, [&](const Lobe& l) {
-                          const Lobe& first = m.lobes.front();
-                          return l.ndf.term == first.ndf.term &&
-                                 l.masking.term == first.masking.term &&
-                                 l.fresnel.term == first.fresnel.term;
-                        });
+  const bool any_will_do =
+      p.options.fixed.empty() && p.options.bounds.empty() &&
+      std::ranges::all_of(m.lobes, [&](const Lobe& l) { return are_alike(l, m.lobes.front()); });
   for (std::size_t bits = 0; bits + 1 < std::size_t{1} << m.lobes.size(); ++bits) {
-    const Model fewer = with_lobes(m, bits);
+    std::vector<std::size_t> kept;
+    for (std::size_t l = 0; l < m.lobes.size(); ++l)
+      if (bits >> l & 1U) kept.push_back(l);
+    const Model fewer = with_lobes(m, kept);
     if (fewer.lobes.empty() && fewer.diffuse.empty()) continue;
-    if (is_alike && std::has_single_bit(bits) && bits > 1) continue;
+    if (any_will_do && kept.size() == 1 && kept[0] > 0) continue;
     const Problem q = with_free(p, fewer, slots_read(fewer));
     Fitted f{q.start, no_huber, {}};
     f.solution.at.cost = std::numeric_limits<double>::infinity();

@@ -173,25 +173,13 @@ std::vector<Start> join(const Problem& p,
   return starts;
 }
 
-/// The model with some of its lobes, in that order.
-Model with_lobes(const Model& m, std::span<const std::size_t> lobes) {
-  Model some = m;
-  some.lobes.clear();
-  for (const std::size_t l : lobes) some.lobes.push_back(m.lobes[l]);
-  return some;
-}
-
 /// Orders in which the lobes join: each may be the last one, where it is not like the others.
 std::vector<std::vector<std::size_t>> orders_of(const Model& m) {
   std::vector<std::size_t> in_order(m.lobes.size());
   for (std::size_t l = 0; l < in_order.size(); ++l) in_order[l] = l;
   std::vector<std::vector<std::size_t>> orders{in_order};
   if (m.lobes.size() < 2) return orders;
-  const auto& a = m.lobes.front();
-  const auto& b = m.lobes.back();
-  if (a.ndf.term == b.ndf.term && a.masking.term == b.masking.term &&
-      a.fresnel.term == b.fresnel.term)
-    return orders;
+  if (are_alike(m.lobes.front(), m.lobes.back())) return orders;
   std::ranges::reverse(in_order);
   orders.push_back(in_order);
   return orders;

@@ -132,7 +132,7 @@ struct Found {
     // Half the range that holds 95 % of them.
     return median(w) / ((quantile(e, 0.975) - quantile(e, 0.025)) / 2);
   }
-  /// Whether an interval that holds must be wider than what the spread asks: a few incident angles, or the
+  /// True where an interval that holds must be wider than what the spread asks: a few incident angles, or the
   /// few values of a narrow peak, make the estimate but cannot tell its error well.
   bool rests_on_few() const {
     return name.find("_5 gain") != name.npos || name.find("_6 gain") != name.npos ||
