@@ -9,8 +9,8 @@
 ///   wi_z = cos θ_h cos θ_d − sin θ_h sin θ_d cos φ_d
 ///   wo_z = cos θ_h cos θ_d + sin θ_h sin θ_d cos φ_d
 
-#include "geometry/angles.h"
 #include "geometry/direction.h"
+#include "geometry/half_vector.h"
 
 namespace gonio {
 
@@ -19,20 +19,12 @@ struct HalfDifference {
   double theta_h = 0, phi_h = 0, theta_d = 0, phi_d = 0;
 };
 
-/// h = (wi + wo)/|wi + wo|;  VoH = |wi + wo|/2;  sin²θ_h = (h_x² + h_y²)
-inline Angles<double> angles(const DirectionPair& p) {
-  const double x = p.wi.x + p.wo.x, y = p.wi.y + p.wo.y, z = p.wi.z + p.wo.z;
-  const double xy2 = x * x + y * y, length2 = xy2 + z * z;
-  if (length2 <= 0) return {p.wi.z, p.wo.z, 0, 0, 1};  // opposite directions have no half vector
-  const double length = std::sqrt(length2);
-  return {p.wi.z, p.wo.z, z / length, length / 2, xy2 / length2};
-}
-
 /// With the tangent +x and the bitangent +y.
 inline FrameAngles<double> frame_angles(const DirectionPair& p) {
-  const double x = p.wi.x + p.wo.x, y = p.wi.y + p.wo.y, z = p.wi.z + p.wo.z;
-  const double length = std::hypot(x, y, z), scale = length > 0 ? 1 / length : 0;
-  return {angles(p), x * scale, y * scale, p.wi.x, p.wi.y, p.wo.x, p.wo.y};
+  return angles_between<double>({p.wi.x, p.wi.y, p.wi.z}, {p.wo.x, p.wo.y, p.wo.z});
+}
+inline Angles<double> angles(const DirectionPair& p) {
+  return frame_angles(p);
 }
 
 DirectionPair directions(const HalfDifference&);

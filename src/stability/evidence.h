@@ -1,0 +1,69 @@
+#pragma once
+/// \file
+/// Evidence for what a formula does in a number: of three kinds, which are never mixed.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/names.h"
+#include "brdf/in_number/number.h"
+
+namespace gonio::stability {
+
+///   exhaustive  every input there is was looked at
+///   searched    seeds and climbing: the worst that was found, and there may be worse
+///   proved      it holds for every input of the domain
+///   open        neither proved nor refuted
+enum class Evidence { exhaustive, searched, proved, open };
+
+/// Arithmetic of a processor: a number, and what compilers and drivers may do to it.
+struct Arithmetic {
+  Number number = Number::half;
+  bool flush = false;     ///< results below the least normal number become 0
+  bool contract = false;  ///< a b + c is rounded once
+
+  friend bool operator==(const Arithmetic&, const Arithmetic&) = default;
+};
+
+/// Something's largest value, and the inputs where it is; empty: nowhere.
+struct Worst {
+  double value = 0;
+  std::vector<double> at;
+};
+/// Number of inputs at which something happens, and the first of them.
+struct Count {
+  std::uint64_t count = 0;
+  std::vector<double> first;
+};
+
+/// Statement about a subject over its domain, in one arithmetic, from looking at inputs.
+struct Looked {
+  Evidence evidence = Evidence::searched;
+  std::uint64_t evaluations = 0;
+  Worst relative;  ///< |x / f − 1| where f and x are normal numbers
+  Worst ulp;       ///< |x − f| in units of the last digit of f
+  double condition =
+      0;           ///< of the inputs, where `ulp` is: how many units a unit of the inputs is worth
+  Worst beyond;    ///< ulp over max(1, condition)
+  Count no_value;  ///< NaN or infinite, where f is a number of this kind's range
+  Count negative;  ///< below 0, where f is not
+  Count overflow;  ///< infinite because f is larger than the largest number
+  Count vanished;  ///< 0 where f is a normal number
+  Count irreciprocal;               ///< another value with light and view exchanged
+  std::optional<double> safe_from;  ///< of the parameter that decides: from there on every input
+                                    ///< looked at keeps the tolerance
+  double tolerance = 0;             ///< relative: 0.02 in half
+  bool settled = true;              ///< searches from two seeds agree within a factor of two
+};
+
+}  // namespace gonio::stability
+
+namespace gonio {
+template <>
+inline constexpr std::array<std::string_view, 4> names_of<stability::Evidence>{
+    "exhaustive", "searched", "proved", "open"};
+}  // namespace gonio

@@ -1,0 +1,161 @@
+#include "stability/subject.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "brdf/catalogue/registry.h"
+#include "brdf/in_number/number.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio::stability {
+namespace {
+
+using Row = FrameAngles<double>;
+
+/// Least width and least cosine that are looked at, whatever a fit or a scene may have.
+constexpr double least_width = 1e-6, least_cosine = 1e-8;
+
+/// True where a term's value depends on an angle: by values on both sides of it, at angles like no others; at several, for a
+/// minimum or a clamp may hide one.
+bool reads(std::size_t term, double Row::*angle) {
+  static const std::array<Row, 3> places{{
+      {{0.61, 0.53, 0.83, 0.71, 0.3111}, 0.41, 0.37, 0.57, -0.44, 0.31, 0.66},
+      {{0.11, 0.93, 0.27, 0.79, 0.9271}, 0.81, 0.51, 0.87, -0.48, 0.33, 0.16},
+      {{0.89, 0.07, 0.35, 0.97, 0.8775}, 0.77, 0.53, 0.31, 0.33, 0.61, -0.79},
+  }};
+  std::vector<double> p;
+  for (const auto& q : catalogue()[term].parameters) p.push_back(q.start);
+  return std::ranges::any_of(places, [&](const Row& place) {
+    std::array rows{place, place};
+    rows[1].*angle *= 0.97;
+    std::array<double, 2> value{};
+    catalogue_in(Number::double_).terms[term].values(p, rows, value.data());
+    return value[0] < value[1] || value[1] < value[0];
+  });
+}
+
+std::vector<Given> given_to(std::size_t term) {
+  const auto& entry = catalogue()[term];
+  const bool half = reads(term, &Row::noh) || reads(term, &Row::voh);
+  switch (entry.role()) {
+    case Role::ndf:
+      if (entry.anisotropic) return {Given::frame};
+      if (reads(term, &Row::sin2_theta_h)) return {Given::cross, Given::cosine};
+      return {Given::cosine};
+    case Role::fresnel:
+      return {Given::facet};
+    case Role::masking:
+    case Role::diffuse:
+      break;
+  }
+  return {entry.anisotropic ? Given::turned : half ? Given::directions : Given::cosines};
+}
+
+Input input_of(const Parameter& p) {
+  Input i{std::string(p.name), p.legal, p.legal, {}};
+  if (p.name.starts_with("alpha")) {
+    // Two widths: their ratio is a surface's anisotropy, up to 1e4.
+    i.legal = {least_width, p.legal.high};
+    i.domain = {p.name == "alpha" ? least_width : 1e-4, 1};
+  }
+  if (p.name == "eta" || p.name == "gamma") i.edges = {1};
+  return i;
+}
+
+std::vector<Input> angles_given(Given given) {
+  const Range part{0, 1}, above{least_cosine, 1}, turn{-1, 1};
+  const auto angle = [](const char* name, Range domain, Range legal) {
+    return Input{name, domain, legal, {}};
+  };
+  const Input nol = angle("nol", above, part), nov = angle("nov", above, part);
+  switch (given) {
+    case Given::cross:
+      return {angle("sin2_theta_h", part, part)};
+    case Given::cosine:
+      return {angle("noh", above, part)};
+    case Given::frame:
+      return {angle("sin2_theta_h", part, part), angle("cos_phi_h", part, turn)};
+    case Given::facet:
+      return {angle("voh", part, part)};
+    case Given::cosines:
+      return {nol, nov};
+    case Given::directions:
+      return {nol, nov, angle("cos_phi", turn, turn)};
+    case Given::turned:
+      break;
+  }
+  return {nol, angle("cos_phi_l", part, turn), nov, angle("cos_phi_v", turn, turn)};
+}
+
+Subject subject(std::string id, Given given, std::vector<Input> inputs) {
+  Subject s{std::move(id), {}, {}, given, std::move(inputs), 0, {}};
+  s.parameters = s.inputs.size();
+  const auto width =
+      std::ranges::find_if(s.inputs, [](const auto& i) { return i.name.starts_with("alpha"); });
+  if (s.parameters > 0)
+    s.decides = width == s.inputs.end() ? 0 : static_cast<std::size_t>(width - s.inputs.begin());
+  for (auto& i : angles_given(given)) s.inputs.push_back(std::move(i));
+  return s;
+}
+
+Subject subject_of_model(std::string_view spec) {
+  Model m = compose(spec, 1);
+  std::vector<Input> inputs;
+  for (const auto& p : m.parameters) {
+    inputs.push_back(input_of(*p.about));
+    inputs.back().name = p.name;
+  }
+  auto s = subject(m.spec, m.anisotropic ? Given::turned : Given::directions, std::move(inputs));
+  s.model = std::move(m);
+  return s;
+}
+
+}  // namespace
+
+std::size_t angle_count(Given given) {
+  return angles_given(given).size();
+}
+
+std::vector<Subject> subjects_of_term(std::size_t term) {
+  const auto& entry = catalogue()[term];
+  std::vector<Subject> all;
+  for (const auto given : given_to(term)) {
+    std::vector<Input> inputs;
+    for (const auto& p : entry.parameters) inputs.push_back(input_of(p));
+    all.push_back(subject(std::string(entry.id()), given, std::move(inputs)));
+    all.back().term = term;
+  }
+  return all;
+}
+
+std::vector<Subject> subjects_of(std::string_view id_or_spec) {
+  const bool is_id = std::ranges::any_of(
+      names_of<Role>, [&](auto role) { return id_or_spec.starts_with(std::string(role) + "."); });
+  if (is_id) return subjects_of_term(find_term(id_or_spec));
+  return {subject_of_model(id_or_spec)};
+}
+
+void set_domain(Subject& s, std::string_view name, Range range) {
+  const auto input = std::ranges::find(s.inputs, name, &Input::name);
+  if (input == s.inputs.end()) {
+    std::vector<std::string_view> names;
+    for (const auto& i : s.inputs) names.push_back(i.name);
+    throw wrong_usage(fmt::format("{}, given by {}, has no input '{}'; it has: {}", s.id, s.form(),
+                                  name, fmt::join(names, ", ")));
+  }
+  const auto refuse = [&](std::string_view why) {
+    throw wrong_usage(
+        fmt::format("domain {}={},{}: {}; expected LOW,HIGH within [{}, {}], LOW at most HIGH",
+                    name, range.low, range.high, why, input->legal.low, input->legal.high));
+  };
+  if (std::isnan(range.low) || std::isnan(range.high)) refuse("not a number");
+  if (range.high < range.low) refuse("reversed");
+  if (!input->legal.holds(range.low) || !input->legal.holds(range.high))
+    refuse("outside its range");
+  input->domain = range;
+}
+
+}  // namespace gonio::stability
