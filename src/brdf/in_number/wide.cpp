@@ -22,6 +22,8 @@ namespace {
 
 using Row = FrameAngles<Wide>;
 
+}  // namespace
+
 const WideEntry& wide_term(std::size_t term) {
   static const auto all = [] {
     std::vector<WideEntry> terms;
@@ -32,8 +34,6 @@ const WideEntry& wide_term(std::size_t term) {
   }();
   return all[term];
 }
-
-}  // namespace
 
 void wide_values(WideTerm term,
                  bool g2,

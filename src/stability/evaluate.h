@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// A subject's value at one set of inputs, in a number.
+
+#include <span>
+#include <vector>
+
+#include "brdf/in_number/number.h"
+#include "stability/subject.h"
+
+namespace gonio::stability {
+
+/// x as the number holds it.  \param parameter  of mixed numbers parameters are halves, angles floats
+double rounded(Number, double x, bool parameter);
+/// Inputs as the number holds them.
+std::vector<double> rounded(const Subject&, Number, std::span<const double> inputs);
+
+/// Value of a term; its inputs are rounded to the number first, and its angles follow from them in the number.
+double value_of(const Subject&, Number, std::span<const double> inputs);
+
+/// Value in fifty digits of inputs that are exact as they are, with its condition in these inputs.
+WideValue truth_of(const Subject&, std::span<const double> inputs);
+
+/// Number's bits, "0x3c00"; of a mixed number's parameters those of the half.
+std::string hex(Number, double x, bool parameter);
+
+}  // namespace gonio::stability

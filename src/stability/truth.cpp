@@ -1,0 +1,30 @@
+// A subject in fifty digits, its angles from its inputs in as many.
+#include "brdf/in_number/wide.h"
+#include "stability/evaluate.h"
+
+namespace gonio::stability {
+
+WideValue truth_of(const Subject& s, std::span<const double> inputs) {
+  const auto& term = wide_term(s.term.value());
+  std::vector<Wide> in(inputs.begin(), inputs.end());
+  const auto value = [&] {
+    const auto row = angles_of<Wide>(s.given, std::span<const Wide>(in).subspan(s.parameters));
+    Wide f;
+    term.f({in.begin(), in.begin() + static_cast<std::ptrdiff_t>(s.parameters)}, {&row, 1}, &f);
+    return f;
+  };
+  const Wide f = value(), step = 1e-20;
+  Wide sum = 0;
+  for (auto& x : in) {
+    if (x == 0) continue;
+    const Wide before = x;
+    x *= 1 - step;  // downwards: a cosine may be 1
+    sum += abs(value() - f);
+    x = before;
+  }
+  const auto nearest = static_cast<double>(f);
+  return {nearest, static_cast<double>(Wide(f - nearest)),
+          static_cast<double>(Wide(sum / (step * abs(f))))};
+}
+
+}  // namespace gonio::stability

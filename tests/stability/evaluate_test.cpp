@@ -1,0 +1,61 @@
+#include "stability/evaluate.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "brdf/catalogue/registry.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio::stability {
+namespace {
+
+Subject ggx(std::size_t form) {
+  return subjects_of("ndf.ggx").at(form);
+}
+
+TEST(StabilityValue, OfGgxAtItsPeakIsOneOverPiAlphaSquared) {
+  const std::array in{0.25, 0.0};
+  EXPECT_NEAR(value_of(ggx(0), Number::double_, in), 16 / std::numbers::pi, 1e-14);
+  EXPECT_NEAR(truth_of(ggx(0), in).value, 16 / std::numbers::pi, 1e-14);
+}
+
+TEST(StabilityValue, FollowsFromItsInputsInTheNumber) {
+  // 1 − c² of a cosine next to 1: in half it is c's spacing, 2⁻¹⁰, where the true sine's square is
+  // 2⁻¹⁰ − 2⁻²².
+  const double c = 1 - 0x1p-11, alpha = 0.0625;
+  const std::array in{alpha, c};
+  const double s2 = 0x1p-10, t = alpha * alpha * c * c + s2;
+  EXPECT_NEAR(value_of(ggx(1), Number::half, in), alpha * alpha / (std::numbers::pi * t * t),
+              0.01 * value_of(ggx(1), Number::half, in));
+  const auto truth = truth_of(ggx(1), in);
+  const double true_s2 = (1 - c) * (1 + c), true_t = alpha * alpha * c * c + true_s2;
+  EXPECT_NEAR(truth.value / (alpha * alpha / (std::numbers::pi * true_t * true_t)), 1, 1e-12);
+}
+
+TEST(StabilityValue, HasTheConditionOfItsInputs) {
+  // D of the peak is 1/(π α²): two units for each of alpha's; sin²θ_h = 0 has no digits to lose.
+  EXPECT_NEAR(truth_of(ggx(0), std::array{0.25, 0.0}).condition, 2, 1e-9);
+  // Given NoH, a unit of its last digit moves the sine by far more.
+  EXPECT_GT(truth_of(ggx(1), std::array{0.01, 1 - 1e-6}).condition, 1e4);
+}
+
+TEST(StabilityValue, IsOfInputsAsTheNumberHoldsThem) {
+  const auto subject = ggx(0);
+  EXPECT_EQ(rounded(subject, Number::half, std::array{0.1, 0.1})[0], 0.0999755859375);
+  EXPECT_EQ(rounded(subject, Number::mixed, std::array{0.1, 0.1})[0], 0.0999755859375);
+  EXPECT_EQ(rounded(subject, Number::mixed, std::array{0.1, 0.1})[1], static_cast<double>(0.1F));
+}
+
+TEST(StabilityValue, IsToldByTheBitsOfItsInputs) {
+  EXPECT_EQ(hex(Number::half, 1, true), "0x3c00");
+  EXPECT_EQ(hex(Number::half, 0x1p-24, true), "0x0001");
+  EXPECT_EQ(hex(Number::half, 0x1p-14, true), "0x0400");
+  EXPECT_EQ(hex(Number::half, -65504, true), "0xfbff");
+  EXPECT_EQ(hex(Number::half, INFINITY, true), "0x7c00");
+  EXPECT_EQ(hex(Number::mixed, 1, false), "0x3f800000");
+  EXPECT_EQ(hex(Number::double_, 1, false), "0x3ff0000000000000");
+}
+
+}  // namespace
+}  // namespace gonio::stability
