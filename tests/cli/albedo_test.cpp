@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "cli/program.h"
+#include "many_fits.h"
 
 namespace gonio::test {
 namespace {
@@ -183,6 +184,7 @@ TEST(AlbedoCommand, ScatteringSaysThatAnIntegralDiverges) {
 }
 
 TEST(AlbedoCommand, SaysThatAModelHasNoAverage) {
+  GONIO_MANY_FITS();
   const Folder f;
   expect_one_line(gonio(f,
                         "albedo beckmann_aniso.as_written/none/schlick --set alpha_x=1 "

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "many_fits.h"
+
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -296,6 +298,7 @@ TEST(Program, ShowsAnExampleWithEveryHelp) {
 }
 
 TEST(Program, BenchesAFitWithItsSpreads) {
+  GONIO_MANY_FITS();
   const Folder f;
   const auto o = gonio(f, "bench fit --repeats 1 --no-plain --json");
   ASSERT_EQ(o.code, 0) << o.err;

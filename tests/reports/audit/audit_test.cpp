@@ -7,6 +7,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
+#include "many_fits.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,8 @@ TEST(Audit, CallsAMistakeWhatDiffersFromTheFormItIsNamedForAndNothingElse) {
   for (const auto& p : presets())
     if (!p.about.named_for.empty()) claims.insert(std::string(p.about.id));
   EXPECT_EQ(claims, expected);  // nothing else claims to be another form
-  for (const auto& id : expected) EXPECT_TRUE(entry(id).mistake) << id;
+  const std::set<std::string> quick{"f0.from_ior.as_written", "fresnel.linear.as_written"};
+  for (const auto& id : test::few(2) > 1 ? expected : quick) EXPECT_TRUE(entry(id).mistake) << id;
 }
 
 TEST(Audit, FindsEveryReferenceThatAnEntryNames) {

@@ -8,6 +8,7 @@
 
 #include "integrate/rule/quadrature.h"
 #include "integrate/scattering/half_space.h"
+#include "many_fits.h"
 #include "reports/cross_fit/cases.h"
 #include "reports/pictures.h"
 
@@ -88,6 +89,7 @@ TEST(CrossFit, WhatIsPiTimesABrdfIsFittedToPiTimesTheTruth) {
 TEST(CrossFit, ExactFormsOfAReportComeBack) {
   auto o = cross_fit_options(true);
   o.roughness = {0.1, 0.6};
+  o.roughness.resize(test::few(2));
   o.bins = 10;
   o.walks = 16;
   o.forms = {"none of them"};
