@@ -10,104 +10,239 @@
 ///
 /// An emulation, and not _Float16: clang before 15 has none on x86, later ones keep float between
 /// operations unless told otherwise.
+///
+/// Drivers are free in two things, which HalfRules names.  A register full of halves (half_lanes.h) is
+/// the same class over a register of floats.
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
 
+#include "number/exact.h"
 #include "number/real.h"
 
 namespace gonio::inline GONIO_ARCH {
 
-/// Raised by operations, lowered by whoever asks, as IEEE 754 has them: a finite value became infinite;
-/// a value below 2⁻¹⁴ was not exact.
+/// Raised by operations on one half, lowered by whoever asks, as IEEE 754 has them: a finite value became
+/// infinite; a value below 2⁻¹⁴ was not exact.
 struct HalfFlags {
   bool overflow = false, underflow = false;
 };
 inline thread_local HalfFlags half_flags;
 
-class Half {
+/// Liberties that drivers take with halves.
+struct HalfRules {
+  /// What is below 2⁻¹⁴ after rounding becomes 0, its sign kept.
+  bool flush = false;
+  /// a b + c, a b − c and c − a b are rounded once; of two products the first is not rounded.  A product
+  /// keeps what it was before it was rounded until it is added, chosen by select or leaves the formula.
+  bool contract = false;
+};
+
+/// Floats' bits as integers: of a float here, of a register of them in half_lanes.h.
+template <class R>
+struct BitsOf;
+template <>
+struct BitsOf<float> {
+  using Type = std::uint32_t;
+  static constexpr Type of(float x) { return std::bit_cast<Type>(x); }
+  static constexpr float as_float(Type bits) { return std::bit_cast<float>(bits); }
+  static constexpr Type select(bool m, Type a, Type b) { return m ? a : b; }
+};
+
+/// \tparam R  float, or a register of floats
+template <class R, HalfRules rules = HalfRules{}>
+class HalfOver {
  public:
-  constexpr Half() = default;
-  explicit constexpr Half(std::same_as<int> auto x) : v_(rounded(static_cast<float>(x))) {}
-  explicit constexpr Half(std::floating_point auto x) : v_(rounded(to_odd(x))) {}
-  explicit constexpr operator float() const { return v_; }
-  explicit constexpr operator double() const { return static_cast<double>(v_); }
+  using One = HalfOver<float, rules>;
+  static constexpr bool is_one = std::same_as<R, float>;
 
-  friend constexpr Half operator+(Half a, Half b) { return Half(a.v_ + b.v_); }
-  friend constexpr Half operator-(Half a, Half b) { return Half(a.v_ - b.v_); }
-  friend constexpr Half operator*(Half a, Half b) { return Half(a.v_ * b.v_); }
-  friend constexpr Half operator/(Half a, Half b) { return Half(a.v_ / b.v_); }
-  friend constexpr Half operator-(Half a) { return Half(-a.v_); }
-  friend constexpr Half operator+(std::same_as<int> auto s, Half a) { return Half(s) + a; }
-  friend constexpr Half operator+(Half a, std::same_as<int> auto s) { return a + Half(s); }
-  friend constexpr Half operator-(std::same_as<int> auto s, Half a) { return Half(s) - a; }
-  friend constexpr Half operator-(Half a, std::same_as<int> auto s) { return a - Half(s); }
-  friend constexpr Half operator*(std::same_as<int> auto s, Half a) { return Half(s) * a; }
-  friend constexpr Half operator*(Half a, std::same_as<int> auto s) { return a * Half(s); }
-  friend constexpr Half operator/(std::same_as<int> auto s, Half a) { return Half(s) / a; }
-  friend constexpr Half operator/(Half a, std::same_as<int> auto s) { return a / Half(s); }
-  friend constexpr bool operator<(Half a, Half b) { return a.v_ < b.v_; }
-
-  friend Half sqrt(Half a) { return Half(std::sqrt(a.v_)); }
-  friend Half exp(Half a) {  // a double holds e^±100, so that the flags are raised
-    return Half(std::exp(std::clamp(static_cast<double>(a.v_), -100.0, 100.0)));
+  constexpr HalfOver() = default;
+  explicit constexpr HalfOver(std::same_as<int> auto x) : HalfOver(static_cast<float>(x)) {}
+  explicit constexpr HalfOver(std::floating_point auto x) {
+    if constexpr (is_one)
+      v_ = rounded(to_odd(x));
+    else
+      v_ = R(static_cast<float>(One(x)));
   }
-  friend Half log(Half a) { return Half(std::log(static_cast<double>(a.v_))); }
+  explicit HalfOver(const std::same_as<One> auto& x) requires(!is_one)
+      : v_(static_cast<float>(x)) {}
+  explicit HalfOver(const std::same_as<R> auto& x) requires(!is_one) : v_(rounded(x)) {}
+  explicit constexpr operator float() const requires is_one { return v_; }
+  explicit constexpr operator double() const requires is_one { return static_cast<double>(v_); }
+  /// Its values, which floats hold.
+  constexpr const R& as_floats() const { return v_; }
+
+  friend constexpr HalfOver operator+(const HalfOver& a, const HalfOver& b) {
+    if constexpr (rules.contract) {
+      if (a.product_.is) return rounded_once(a.product_.exact, b.v_);
+      if (b.product_.is) return rounded_once(b.product_.exact, a.v_);
+    }
+    return raw(rounded(a.v_ + b.v_));
+  }
+  friend constexpr HalfOver operator-(const HalfOver& a, const HalfOver& b) {
+    if constexpr (rules.contract)
+      return a + (-b);
+    else
+      return raw(rounded(a.v_ - b.v_));
+  }
+  friend constexpr HalfOver operator*(const HalfOver& a, const HalfOver& b) {
+    const R exact = a.v_ * b.v_;  // 22 bits, between 2⁻⁴⁸ and 2³²
+    HalfOver p = raw(rounded(exact));
+    if constexpr (rules.contract) p.product_ = {exact, true};
+    return p;
+  }
+  friend constexpr HalfOver operator/(const HalfOver& a, const HalfOver& b) {
+    return raw(rounded(a.v_ / b.v_));
+  }
+  friend constexpr HalfOver operator-(const HalfOver& a) {
+    HalfOver n = raw(negated(a.v_));
+    if constexpr (rules.contract) n.product_ = {negated(a.product_.exact), a.product_.is};
+    return n;
+  }
+  friend constexpr HalfOver operator+(std::same_as<int> auto s, const HalfOver& a) {
+    return HalfOver(s) + a;
+  }
+  friend constexpr HalfOver operator+(const HalfOver& a, std::same_as<int> auto s) {
+    return a + HalfOver(s);
+  }
+  friend constexpr HalfOver operator-(std::same_as<int> auto s, const HalfOver& a) {
+    return HalfOver(s) - a;
+  }
+  friend constexpr HalfOver operator-(const HalfOver& a, std::same_as<int> auto s) {
+    return a - HalfOver(s);
+  }
+  friend constexpr HalfOver operator*(std::same_as<int> auto s, const HalfOver& a) {
+    return HalfOver(s) * a;
+  }
+  friend constexpr HalfOver operator*(const HalfOver& a, std::same_as<int> auto s) {
+    return a * HalfOver(s);
+  }
+  friend constexpr HalfOver operator/(std::same_as<int> auto s, const HalfOver& a) {
+    return HalfOver(s) / a;
+  }
+  friend constexpr HalfOver operator/(const HalfOver& a, std::same_as<int> auto s) {
+    return a / HalfOver(s);
+  }
+  friend constexpr mask_t<R> operator<(const HalfOver& a, const HalfOver& b) { return a.v_ < b.v_; }
+
+  friend HalfOver sqrt(const HalfOver& a) { return raw(rounded(sqrt(a.v_))); }
+  friend HalfOver exp(const HalfOver& a) {
+    return one_by_one(a, [](float x) {  // a double holds e^±100, so that the flags are raised
+      return std::exp(std::clamp(static_cast<double>(x), -100.0, 100.0));
+    });
+  }
+  friend HalfOver log(const HalfOver& a) {
+    return one_by_one(a, [](float x) { return std::log(static_cast<double>(x)); });
+  }
 
  private:
-  /// To float without spoiling the rounding that follows: of the two floats around x the one whose
-  /// last bit is set, so that it is no tie where x is none.           [Boldo & Melquiond 2008]
+  friend struct RealTraits<HalfOver>;
+  struct Product {
+    R exact = R(0.0F);
+    bool is = false;  // known when compiled: it depends on the formula alone
+  };
+  struct Nothing {};
+
+  static constexpr HalfOver raw(const R& value) {
+    HalfOver h;
+    h.v_ = value;
+    return h;
+  }
+  static constexpr R negated(const R& x) {  // 0 too, which a register's minus may leave as it is
+    using Integer = typename BitsOf<R>::Type;
+    constexpr auto sign = std::numeric_limits<std::int32_t>::min();
+    return BitsOf<R>::as_float(BitsOf<R>::of(x) ^ Integer(sign));
+  }
+  static HalfOver one_by_one(const HalfOver& a, auto&& in_double) {
+    if constexpr (is_one)
+      return HalfOver(in_double(a.v_));
+    else
+      return raw(BitsOf<R>::one_by_one(
+          a.v_, [&](float x) { return static_cast<float>(One(in_double(x))); }));
+  }
+
+  /// Sum of a product of 22 bits and a half, rounded once: to the odd of the two floats around it first.
+  static constexpr HalfOver rounded_once(const R& product, const R& b) {
+    const R sum = product + b, rest = sum_error<R>(product, b, sum);
+    const R side = rest * sum;  // at least 2⁻¹²⁰
+    return raw(rounded(odd<R>(sum, R(0.0F) < side, side < R(0.0F))));
+  }
+
+  /// Of the two floats around an exact value, of which x is the nearest, the one whose last bit is set, so
+  /// that it is no tie where the exact value is none.                    [Boldo & Melquiond 2008]
+  ///
+  /// \param outwards, inwards  the exact value lies beyond x, or on this side of it
+  template <class F>
+  static constexpr F odd(const F& x, const mask_t<F>& outwards, const mask_t<F>& inwards) {
+    using Bits = BitsOf<F>;
+    using Integer = typename Bits::Type;
+    const Integer bits = Bits::of(x);
+    return gonio::select<F>(
+        outwards, Bits::as_float(bits | Integer(1)),
+        gonio::select<F>(inwards, Bits::as_float((bits - Integer(1)) | Integer(1)), x));
+  }
   template <class F>
   static constexpr float to_odd(F x) {
     const float f = static_cast<float>(x);
-    const auto bits = std::bit_cast<std::uint32_t>(f);
     const F back = static_cast<F>(f);
-    if (!(back < x || x < back) || (bits & 1)) return f;
-    const bool outwards = (back < x) == (F(0) < x);
-    return std::bit_cast<float>(outwards ? bits + 1 : bits - 1);
+    const bool less = back < x, more = x < back, positive = F(0) < x;
+    return odd<float>(f, positive ? less : more, positive ? more : less);
   }
   static constexpr float to_odd(float x) { return x; }
 
-  static constexpr float rounded(float x) {
-    constexpr std::uint32_t largest = std::bit_cast<std::uint32_t>(65504.0F);
-    const auto bits = std::bit_cast<std::uint32_t>(x), sign = bits & 0x8000'0000,
-               size = bits ^ sign;
-    if (size > 0x7f80'0000) return x;  // NaN
-    std::uint32_t to = 0;
-    if (size < 0x3880'0000) {  // below 2⁻¹⁴: the last digit is 2⁻²⁴, which is that of a float at ½
-      to = std::bit_cast<std::uint32_t>(std::bit_cast<float>(size) + 0.5F - 0.5F);
-      if (to != size) half_flags.underflow = true;
+  static constexpr R rounded(const R& x) {
+    using Bits = BitsOf<R>;
+    using Integer = typename Bits::Type;
+    constexpr std::int32_t infinite = 0x7f80'0000, normal = 0x3880'0000;  // 2⁻¹⁴
+    const Integer bits = Bits::of(x), size = bits & Integer(0x7fff'ffff), sign = bits ^ size;
+    Integer to;
+    if constexpr (requires { Bits::nearest_half(x); }) {
+      to = Bits::of(Bits::nearest_half(x)) ^ sign;
     } else {
-      to = (size + 0xfff + (size >> 13 & 1)) & ~0x1fffU;
-      if (to > largest) {
-        if (size < 0x7f80'0000) half_flags.overflow = true;
-        to = 0x7f80'0000;
-      }
+      constexpr std::int32_t largest = std::bit_cast<std::int32_t>(65504.0F);
+      const Integer even = (size + Integer(0xfff) + (size >> 13 & Integer(1))) & Integer(~0x1fff);
+      to = Bits::select(even > Integer(largest), Integer(infinite), even);
+      // below 2⁻¹⁴ the last digit is 2⁻²⁴, which is that of a float at ½
+      to = Bits::select(size < Integer(normal), Bits::of(Bits::as_float(size) + R(0.5F) - R(0.5F)),
+                        to);
+      to = Bits::select(size > Integer(infinite), size, to);  // NaN
     }
-    return std::bit_cast<float>(to | sign);
+    if constexpr (rules.flush) to = Bits::select(to < Integer(normal), Integer(0), to);
+    if constexpr (is_one) {
+      if (size < Integer(normal) && to != size) half_flags.underflow = true;
+      if (size < Integer(infinite) && to == Integer(infinite)) half_flags.overflow = true;
+    }
+    return Bits::as_float(to | sign);
   }
 
-  float v_ = 0;
+  R v_ = R(0.0F);
+  [[no_unique_address]] std::conditional_t<rules.contract, Product, Nothing> product_;
 };
 
-template <>
-struct RealTraits<Half> {
-  using Base = Half;  // constants are rounded once, from long double
-  using Plain = Half;
-  using Mask = bool;
-  static constexpr Half select(bool m, Half a, Half b) { return m ? a : b; }
+using Half = HalfOver<float>;
+
+template <class R, HalfRules rules>
+struct RealTraits<HalfOver<R, rules>> {
+  using Base = HalfOver<float, rules>;  // constants are rounded once, from long double
+  using Plain = HalfOver<R, rules>;
+  using Mask = mask_t<R>;
+  static constexpr Plain select(const Mask& m, const Plain& a, const Plain& b) {
+    return Plain::raw(gonio::select<R>(m, a.v_, b.v_));
+  }
 };
 
 }  // namespace gonio::inline GONIO_ARCH
 
-template <>
-class std::numeric_limits<gonio::Half> {
+template <gonio::HalfRules rules>
+class std::numeric_limits<gonio::HalfOver<float, rules>> {
+  using Half = gonio::HalfOver<float, rules>;
+
  public:
   static constexpr bool is_specialized = true;
   static constexpr int digits = 11, min_exponent = -13, max_exponent = 16;
-  static constexpr gonio::Half min() { return gonio::Half(0x1p-14F); }
-  static constexpr gonio::Half max() { return gonio::Half(65504.0F); }
-  static constexpr gonio::Half epsilon() { return gonio::Half(0x1p-10F); }
+  static constexpr Half min() { return Half(0x1p-14F); }
+  static constexpr Half max() { return Half(65504.0F); }
+  static constexpr Half epsilon() { return Half(0x1p-10F); }
 };

@@ -236,6 +236,66 @@ TEST(Half, RaisesAFlagWhereItsRangeEndsAndNowhereElse) {
   EXPECT_EQ(flags([&] { return large * 0; }), none);
 }
 
+// ---- Liberties
+// ------------------------------------------------------------------------------------
+
+using Flushed = HalfOver<float, HalfRules{true, false}>;
+using Contracted = HalfOver<float, HalfRules{false, true}>;
+
+TEST(Half, FlushedIsZeroWhereItWouldBeSubnormalAndElseTheSame) {
+  for (unsigned bits = 0; bits < 0x10000; ++bits) {
+    const double x = decoded(bits), kept = std::abs(x) < 0x1p-14 ? std::copysign(0.0, x) : x;
+    ASSERT_TRUE(same(static_cast<double>(Flushed(x)), kept)) << x;
+    ASSERT_TRUE(same(static_cast<double>(Flushed(x) * 1), kept)) << x;
+  }
+  EXPECT_EQ(static_cast<double>(Flushed(0x1p-14) - Flushed(0x1.004p-14)), 0);
+  EXPECT_EQ(static_cast<double>(Flushed(0x1p-14 - 0x1p-26)), 0x1p-14);  // rounded first
+}
+
+/// The sign of a b + c − x, exactly: a double holds a b as it does c − x.
+double contracted(double a, double b, double c) {
+  const double s = a * b < -c ? -1 : 1;
+  return s * nearest([=](double x) { return s * a * b - (x - s * c); });
+}
+
+void expect_contracted(double a, double b, double c) {
+  const Contracted x(a), y(b), z(c);
+  const auto value = [](const Contracted& h) { return static_cast<double>(h); };
+  ASSERT_EQ(value(x * y + z), contracted(a, b, c)) << a << " * " << b << " + " << c;
+  ASSERT_EQ(value(z + x * y), contracted(a, b, c)) << a << " * " << b << " + " << c;
+  ASSERT_EQ(value(x * y - z), contracted(a, b, -c)) << a << " * " << b << " - " << c;
+  ASSERT_EQ(value(z - x * y), contracted(-a, b, c)) << c << " - " << a << " * " << b;
+  ASSERT_EQ(value(-(x * y) + z), contracted(-a, b, c)) << c << " - " << a << " * " << b;
+  ASSERT_TRUE(same(value(x * y), nearest(a * b))) << a << " * " << b;
+}
+
+TEST(Half, ContractedRoundsAProductAndASumOnceInAMillionPlaces) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 1'000'000; ++i) {
+    const double a = decoded(random() & 0xffff), b = decoded(random() & 0xffff);
+    double c = decoded(random() & 0xffff);
+    // beside the product, and where what is lost of the product decides
+    if (i % 4 == 1) c = -value(Half(a * b));
+    if (i % 4 == 2) c = std::ldexp(value(Half(a * b)), static_cast<int>(random() % 50) - 25);
+    c = value(Half(c));
+    if (!std::isfinite(a) || !std::isfinite(b) || !std::isfinite(c)) continue;
+    expect_contracted(a, b, c);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Half, ContractedRoundsTheSecondOfTwoProductsAndWhatWasSelected) {
+  const Contracted x(1 + 0x1p-10), one(1), zero(0);
+  const auto value = [](const Contracted& h) { return static_cast<double>(h); };
+  const double square = value(x * x);
+  EXPECT_EQ(square, 1 + 0x1p-9);
+  EXPECT_EQ(value(x * x - Contracted(square) * one),
+            0x1p-20);  // of the first the digits that a half has not
+  EXPECT_EQ(value(one * one - x * x), 1 - square);
+  EXPECT_EQ(value(select<Contracted>(true, x * x, one) - Contracted(square)), 0);
+  EXPECT_EQ(value((x * x + zero) - Contracted(square)), 0);
+}
+
 TEST(Half, RoundsAnIntegerBeforeItIsUsed) {
   EXPECT_EQ(value(2049 - Half(2048)), 0);
   EXPECT_EQ(value(Half(1) * 2051), 2052);
