@@ -3,9 +3,8 @@
 #include <bit>
 #include <cstdint>
 
-#include "base/error.h"
-#include "number/half.h"
-#include "number/mixed.h"
+#include "brdf/in_number/terms_in.h"
+#include "stability/value_over.h"
 
 #include <fmt/format.h>
 
@@ -13,41 +12,11 @@ namespace gonio::stability {
 namespace {
 
 template <class T>
-FrameAngles<double> to_double(const FrameAngles<T>& a, auto&& out) {
-  return {{out(a.nol), out(a.nov), out(a.noh), out(a.voh), out(a.sin2_theta_h)},
-          out(a.xoh),
-          out(a.yoh),
-          out(a.xol),
-          out(a.yol),
-          out(a.xov),
-          out(a.yov)};
-}
-
-/// Angles that follow in the number, as doubles that hold them exactly.
-template <class T>
-FrameAngles<double> angles_in_number(Given given, std::span<const double> in) {
-  std::vector<T> x;
-  for (const double v : in) x.push_back(static_cast<T>(v));
-  return to_double(angles_of<T>(given, x), [](const T& v) { return static_cast<double>(v); });
-}
-
-FrameAngles<double> angles_in(Number number, Given given, std::span<const double> in) {
-  switch (number) {
-    case Number::half:
-      return angles_in_number<Half>(given, in);
-    case Number::float_:
-    case Number::mixed:
-      return angles_in_number<float>(given, in);
-    case Number::double_:
-    case Number::wide:
-      break;
-  }
-  return angles_in_number<double>(given, in);
-}
-
-std::size_t index_of(const Subject& s) {
-  if (!s.term) throw wrong_usage(fmt::format("{}: a term is expected here, not a model", s.id));
-  return *s.term;
+double value_in_number(const Subject& s, std::span<const double> inputs) {
+  std::vector<T> in;
+  for (const double x : inputs)
+    in.push_back(in.size() < s.parameters ? Conversion<T>::parameter(x) : Conversion<T>::angle(x));
+  return Conversion<T>::out(value_over<T>(s, in));
 }
 
 }  // namespace
@@ -67,13 +36,19 @@ std::vector<double> rounded(const Subject& s, Number number, std::span<const dou
 }
 
 double value_of(const Subject& s, Number number, std::span<const double> inputs) {
-  const auto in = rounded(s, number, inputs);
-  const auto parameters = std::span(in).first(s.parameters),
-             angles = std::span(in).subspan(s.parameters);
-  const auto row = angles_in(number, s.given, angles);
-  double value = 0;
-  catalogue_in(number).terms[index_of(s)].values(parameters, {&row, 1}, &value);
-  return value;
+  switch (number) {
+    case Number::half:
+      return value_in_number<Half>(s, inputs);
+    case Number::mixed:
+      return value_in_number<Mixed>(s, inputs);
+    case Number::float_:
+      return value_in_number<float>(s, inputs);
+    case Number::double_:
+      return value_in_number<double>(s, inputs);
+    case Number::wide:
+      break;
+  }
+  return truth_of(s, inputs).value;
 }
 
 std::string hex(Number number, double x, bool parameter) {

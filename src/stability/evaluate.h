@@ -15,7 +15,8 @@ double rounded(Number, double x, bool parameter);
 /// Inputs as the number holds them.
 std::vector<double> rounded(const Subject&, Number, std::span<const double> inputs);
 
-/// Value of a term; its inputs are rounded to the number first, and its angles follow from them in the number.
+/// Value of a term, or of a model by the product rule in the number; its inputs are rounded to the number first, and its
+/// angles follow from them in it.
 double value_of(const Subject&, Number, std::span<const double> inputs);
 
 /// Value in fifty digits of inputs that are exact as they are, with its condition in these inputs.

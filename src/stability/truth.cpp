@@ -1,18 +1,13 @@
 // A subject in fifty digits, its angles from its inputs in as many.
-#include "brdf/in_number/wide.h"
+#include "number/wide.h"
 #include "stability/evaluate.h"
+#include "stability/value_over.h"
 
 namespace gonio::stability {
 
 WideValue truth_of(const Subject& s, std::span<const double> inputs) {
-  const auto& term = wide_term(s.term.value());
   std::vector<Wide> in(inputs.begin(), inputs.end());
-  const auto value = [&] {
-    const auto row = angles_of<Wide>(s.given, std::span<const Wide>(in).subspan(s.parameters));
-    Wide f;
-    term.f({in.begin(), in.begin() + static_cast<std::ptrdiff_t>(s.parameters)}, {&row, 1}, &f);
-    return f;
-  };
+  const auto value = [&] { return value_over<Wide>(s, in); };
   const Wide f = value(), step = 1e-20;
   Wide sum = 0;
   for (auto& x : in) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/evaluate.h"
 
 #include <gtest/gtest.h>
 
@@ -45,6 +46,24 @@ TEST(StabilityValue, IsOfInputsAsTheNumberHoldsThem) {
   EXPECT_EQ(rounded(subject, Number::half, std::array{0.1, 0.1})[0], 0.0999755859375);
   EXPECT_EQ(rounded(subject, Number::mixed, std::array{0.1, 0.1})[0], 0.0999755859375);
   EXPECT_EQ(rounded(subject, Number::mixed, std::array{0.1, 0.1})[1], static_cast<double>(0.1F));
+}
+
+TEST(StabilityValue, OfAModelIsTheProductOfItsTerms) {
+  // Against the composed kernels, which the program evaluates models with.
+  const auto bound = bind_model(
+      "lambert.coupled+ggx/smith_ggx.correlated/schlick+beckmann/smith_beckmann.correlated/schlick",
+      parse_settings(std::array<std::string, 1>{"alpha=0.3,kd=0.4,f0=0.05,alpha_2=0.6,f0_2=0.2"}),
+      1);
+  const auto s = subjects_of(bound.model.spec).at(0);
+  std::vector<double> in;
+  for (const auto& p : bound.model.parameters) in.push_back(bound.values[p.first]);
+  const std::array angles{0.7, 0.4, -0.3};
+  in.insert(in.end(), angles.begin(), angles.end());
+  const auto a = angles_of<double>(Given::directions, angles);
+  const double want = evaluate(bound, std::span<const FrameAngles<double>>(&a, 1))[0][0];
+  EXPECT_NEAR(value_of(s, Number::double_, in), want, 1e-14 * want);
+  EXPECT_NEAR(truth_of(s, in).value, want, 1e-13 * want);
+  EXPECT_NEAR(value_of(s, Number::half, in), want, 0.02 * want);
 }
 
 TEST(StabilityValue, IsToldByTheBitsOfItsInputs) {

@@ -7,11 +7,14 @@
 #include "brdf/catalogue/diffuse_terms.h"
 #include "brdf/catalogue/fresnel_terms.h"
 #include "brdf/catalogue/maps.h"
+#include "brdf/in_number/functions.h"
 
 namespace gonio {
 
 GONIO_TERMS_IN_WIDE(Role::fresnel, FresnelTerms)
+GONIO_TERMS_AS_FUNCTIONS(Role::fresnel, FresnelTerms, Wide)
 GONIO_TERMS_IN_WIDE(Role::diffuse, DiffuseTerms)
+GONIO_TERMS_AS_FUNCTIONS(Role::diffuse, DiffuseTerms, Wide)
 
 std::span<const MapIn> maps_in_wide() {
   static constexpr auto all = table_in<Wide>(Maps{});
@@ -21,8 +24,6 @@ std::span<const MapIn> maps_in_wide() {
 namespace {
 
 using Row = FrameAngles<Wide>;
-
-}  // namespace
 
 const WideEntry& wide_term(std::size_t term) {
   static const auto all = [] {
@@ -34,6 +35,8 @@ const WideEntry& wide_term(std::size_t term) {
   }();
   return all[term];
 }
+
+}  // namespace
 
 void wide_values(WideTerm term,
                  bool g2,

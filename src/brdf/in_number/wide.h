@@ -21,8 +21,6 @@ struct WideEntry {
 };
 template <Role role>
 std::span<const WideEntry> wide_terms();
-/// The entry of a term by its index in the catalogue.
-const WideEntry& wide_term(std::size_t term);
 
 /// A term's values at rows, rounded to double.
 void wide_values(WideTerm term,

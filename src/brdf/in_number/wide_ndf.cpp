@@ -1,9 +1,11 @@
 // Every normal distribution in fifty digits.
 #include "brdf/catalogue/distributions.h"
+#include "brdf/in_number/functions.h"
 #include "brdf/in_number/wide.h"
 
 namespace gonio {
 
 GONIO_TERMS_IN_WIDE(Role::ndf, Distributions)
+GONIO_TERMS_AS_FUNCTIONS(Role::ndf, Distributions, Wide)
 
 }  // namespace gonio
