@@ -19,8 +19,9 @@ std::vector<double> rounded(const Subject&, Number, std::span<const double> inpu
 /// angles follow from them in it.
 double value_of(const Subject&, Number, std::span<const double> inputs);
 
-/// Value in fifty digits of inputs that are exact as they are, with its condition in these inputs.
-WideValue truth_of(const Subject&, std::span<const double> inputs);
+/// Value in fifty digits of inputs that are exact as they are, with its condition in these inputs, which costs as many
+/// evaluations as there are inputs.  \param condition  else it is 1
+WideValue truth_of(const Subject&, std::span<const double> inputs, bool condition = true);
 
 /// Number's bits, "0x3c00"; of a mixed number's parameters those of the half.
 std::string hex(Number, double x, bool parameter);

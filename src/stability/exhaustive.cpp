@@ -1,16 +1,14 @@
 #include "stability/exhaustive.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <new>
 #include <numeric>
 #include <vector>
 
 #include "base/error.h"
 #include "stability/evaluate.h"
+#include "stability/places.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -40,16 +38,9 @@ class Column {
 /// All halves within a range, ascending; if there is none, the one next to its lower end.
 std::vector<double> halves_within(const Range& range) {
   std::vector<double> all;
-  const auto size = [](int bits) {
-    const int exponent = bits >> 10, digits = bits & 1023;
-    return exponent == 0 ? std::ldexp(digits, -24) : std::ldexp(1024 + digits, exponent - 25);
-  };
-  constexpr int largest = 0x7bff;
-  for (int bits = -largest; bits <= largest; ++bits) {
-    const double x = bits < 0 ? -size(-bits) : size(bits);
-    if (range.holds(x)) all.push_back(x);
-  }
-  if (all.empty()) all.push_back(static_cast<double>(Half(range.low)));
+  const auto places = places_within(Number::half, range, true);
+  for (auto p = places.first; p <= places.last; ++p)
+    all.push_back(at_place(Number::half, p, true));
   return all;
 }
 

@@ -5,10 +5,13 @@
 
 namespace gonio::stability {
 
-WideValue truth_of(const Subject& s, std::span<const double> inputs) {
+WideValue truth_of(const Subject& s, std::span<const double> inputs, bool condition) {
   std::vector<Wide> in(inputs.begin(), inputs.end());
   const auto value = [&] { return value_over<Wide>(s, in); };
   const Wide f = value(), step = 1e-20;
+  const auto nearest = static_cast<double>(f);
+  const auto rest = static_cast<double>(Wide(f - nearest));
+  if (!condition) return {nearest, rest, 1};
   Wide sum = 0;
   for (auto& x : in) {
     if (x == 0) continue;
@@ -17,9 +20,7 @@ WideValue truth_of(const Subject& s, std::span<const double> inputs) {
     sum += abs(value() - f);
     x = before;
   }
-  const auto nearest = static_cast<double>(f);
-  return {nearest, static_cast<double>(Wide(f - nearest)),
-          static_cast<double>(Wide(sum / (step * abs(f))))};
+  return {nearest, rest, static_cast<double>(Wide(sum / (step * abs(f))))};
 }
 
 }  // namespace gonio::stability

@@ -1,0 +1,433 @@
+#include "stability/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "stability/evaluate.h"
+#include "stability/kernel/half_columns.h"
+#include "stability/places.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio::stability {
+namespace {
+
+using Inputs = std::vector<double>;
+
+/// Size of a number's last digit, and its range.
+struct Format {
+  int digits, least_exponent;
+  double most;
+
+  double least_normal() const { return std::ldexp(1, least_exponent); }
+  double ulp(double f) const {
+    const int exponent = f == 0 ? least_exponent : std::max(std::ilogb(f), least_exponent);
+    return std::ldexp(1, exponent + 1 - digits);
+  }
+};
+Format format_of(Number number) {
+  switch (number) {
+    case Number::half:
+      return {11, -14, 65504};
+    case Number::mixed:  // some results are floats, of what halves had left
+      return {11, -126, static_cast<double>(std::numeric_limits<float>::max())};
+    case Number::float_:
+      return {24, -126, static_cast<double>(std::numeric_limits<float>::max())};
+    case Number::double_:
+    case Number::wide:
+      break;
+  }
+  return {53, -1022, std::numeric_limits<double>::max()};
+}
+
+/// A result, judged.
+struct Judged {
+  double relative = 0, ulp = 0, beyond = 0;  ///< 0 where they are not asked for
+  bool no_value = false, negative = false, overflow = false, vanished = false, irreciprocal = false;
+  bool lost = false;  ///< beyond the tolerance, or no value
+};
+
+class Judge {
+ public:
+  Judge(const Subject& s, const Arithmetic& a, double tolerance)
+      : s_(s), a_(a), format_(format_of(a.number)), tolerance_(tolerance) {}
+
+  bool wide() const { return a_.number == Number::double_; }
+
+  double value(const Inputs& in) const {
+    return a_.number == Number::half && s_.term ? in_half(in) : value_of(s_, a_.number, in);
+  }
+
+  /// \param condition  `beyond` is wanted too
+  Judged of(const Inputs& in, bool condition) const {
+    if (wide()) return against(truth_of(s_, in, condition), in);
+    WideValue f{value_of(s_, Number::double_, in), 0, 1};
+    if (condition) f.condition = condition_in_double(in, f.value);
+    return against(f, in);
+  }
+  Judged confirmed(const Inputs& in) const { return against(truth_of(s_, in), in); }
+
+ private:
+  Judged against(const WideValue& f, const Inputs& in) const {
+    const double x = value(in), size = std::abs(f.value), normal = format_.least_normal();
+    Judged j;
+    if (s_.given == Given::cosines) {
+      Inputs exchanged = in;
+      std::swap(exchanged[s_.parameters], exchanged[s_.parameters + 1]);
+      const double y = value(exchanged);
+      j.irreciprocal = x < y || y < x || std::isnan(x) != std::isnan(y);
+    }
+    if (std::isnan(f.value)) return j;
+    const bool is_value = std::abs(x) <= format_.most;
+    if (!(size <= format_.most)) {
+      j.overflow = !is_value;
+      j.lost = true;
+      return j;
+    }
+    if (!is_value) {
+      j.no_value = j.lost = true;
+      return j;
+    }
+    const double error = std::abs((x - f.value) - f.rest);
+    j.ulp = error / format_.ulp(f.value);
+    j.beyond = j.ulp / std::max(1.0, f.condition);
+    if (normal <= size && normal <= std::abs(x)) j.relative = error / size;
+    j.negative = x < 0 && f.value >= 0;
+    j.vanished = x == 0 && normal <= size;
+    j.lost = tolerance_ * std::max(size, normal) < error;
+    return j;
+  }
+
+  double condition_in_double(Inputs in, double f) const {
+    double sum = 0;
+    const double step = 0x1p-22;
+    for (double& x : in) {
+      if (x == 0) continue;
+      const double before = x;
+      x *= 1 - step;
+      sum += std::abs(value_of(s_, Number::double_, in) - f);
+      x = before;
+    }
+    return sum / (step * std::abs(f));
+  }
+
+  double in_half(const Inputs& in) const {
+    alignas(64) std::array<std::array<float, padding>, 4> given{};
+    alignas(64) std::array<std::array<float, padding>, 11> angle{};
+    alignas(64) std::array<float, padding> out{};
+    std::array<float, max_parameters> p{};
+    std::array<const float*, 4> columns{};
+    AngleColumns<float> to{};
+    const std::size_t angles = in.size() - s_.parameters;
+    for (std::size_t k = 0; k < s_.parameters; ++k) p[k] = static_cast<float>(in[k]);
+    for (std::size_t k = 0; k < angles; ++k) {
+      given[k].fill(static_cast<float>(in[s_.parameters + k]));
+      columns[k] = given[k].data();
+    }
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] = angle[k].data();
+    const auto& kernel = half_kernels();
+    const auto rules = index_of({a_.flush, a_.contract});
+    kernel.angles[rules](s_.given, padding, std::span(columns).first(angles), to);
+    const auto at = [&](std::size_t k) -> const float* { return to[k]; };
+    kernel.terms[*s_.term][rules](
+        {at(0), at(1), at(2), at(3), at(4), padding, {at(5), at(6), at(7), at(8), at(9), at(10)}},
+        p.data(), out.data());
+    return static_cast<double>(out[0]);
+  }
+
+  const Subject& s_;
+  Arithmetic a_;
+  Format format_;
+  double tolerance_;
+};
+
+/// Domain of a subject in a number: inputs near its edges, and steps within.
+class Domain {
+ public:
+  Domain(const Subject& s, Number number) : s_(s), number_(number) {
+    for (std::size_t k = 0; k < s.inputs.size(); ++k)
+      places_.push_back(places_within(number, s.inputs[k].domain, k < s.parameters));
+    const auto index = [&](std::string_view name) {
+      return static_cast<std::size_t>(std::ranges::find(s.inputs, name, &Input::name) -
+                                      s.inputs.begin());
+    };
+    eta_ = index("eta"), k_ = index("k"), voh_ = index("voh"), nol_ = index("nol"),
+    nov_ = index("nov");
+  }
+
+  Inputs seed(Draws& draw) const {
+    Inputs in;
+    for (const auto& i : s_.inputs) in.push_back(near_an_edge(i, draw));
+    const auto has = [&](std::size_t k) { return k < in.size(); };
+    // where inputs meet: equal cosines, the critical angle
+    if (has(nol_) && has(nov_) && draw.uniform() < 0.25)
+      in[nov_] = in[nol_] * (1 + signed_part(draw));
+    if (has(eta_) && has(voh_) && draw.uniform() < 0.5) {
+      const double k = has(k_) ? in[k_] : 0, c2 = (1 - in[eta_]) * (1 + in[eta_]) + k * k;
+      if (c2 > 0 && c2 < 1) in[voh_] = std::sqrt(c2) * (1 + signed_part(draw));
+    }
+    for (std::size_t k = 0; k < in.size(); ++k) in[k] = within(k, in[k]);
+    return in;
+  }
+
+  /// A step of 1, 2, 4 … places in one input, now and then in two.
+  Inputs step(Inputs in, Draws& draw) const {
+    for (int steps = draw.uniform() < 0.25 ? 2 : 1; steps > 0; --steps) {
+      const auto k = std::min(
+          static_cast<std::size_t>(draw.uniform() * static_cast<double>(in.size())), in.size() - 1);
+      const auto& p = places_[k];
+      if (p.first == p.last) continue;
+      const double most = std::log2(static_cast<double>(p.last - p.first));
+      const auto by = std::int64_t{1} << static_cast<int>(draw.uniform() * most);
+      const auto from = place_of(number_, in[k], k < s_.parameters);
+      const auto to = std::clamp(draw.uniform() < 0.5 ? from - by : from + by, p.first, p.last);
+      in[k] = at_place(number_, to, k < s_.parameters);
+    }
+    return in;
+  }
+
+  /// The next value of an input above; none at its end.
+  std::optional<double> above(std::size_t k, double x) const {
+    const auto next = place_of(number_, x, k < s_.parameters) + 1;
+    if (next > places_[k].last) return {};
+    return at_place(number_, next, k < s_.parameters);
+  }
+  double lowest(std::size_t k) const {
+    return at_place(number_, places_[k].first, k < s_.parameters);
+  }
+
+ private:
+  /// 1 down to beyond the number's last digit, in logarithms.
+  double part(Draws& draw) const {
+    return std::exp2(-draw.uniform() * (format_of(number_).digits + 3));
+  }
+  double signed_part(Draws& draw) const {
+    const double p = part(draw);
+    return draw.uniform() < 0.5 ? -p : p;
+  }
+  double near_an_edge(const Input& i, Draws& draw) const {
+    const auto [low, high] = i.domain;
+    const double span = high - low, which = draw.uniform(), side = draw.uniform();
+    if (which < 0.15) return low + span * draw.uniform();
+    if (which < 0.25) return side < 0.5 ? low : high;
+    if (which < 0.4 && !i.edges.empty()) {
+      const auto n = static_cast<double>(i.edges.size());
+      const auto edge = i.edges[std::min(static_cast<std::size_t>(side * n), i.edges.size() - 1)];
+      return edge * (1 + signed_part(draw));
+    }
+    if (which < 0.6) return high - span * part(draw);
+    if (low > 0) return low * std::pow(high / low, draw.uniform());
+    if (low < 0 && which < 0.8) return span * signed_part(draw) / 2;  // towards 0
+    // as small as numbers get, and seldom smaller than what still counts
+    const double least = which < 0.7 ? format_of(number_).least_exponent - 10.0 : -50.0;
+    return low + span * std::exp2(draw.uniform() * least);
+  }
+  double within(std::size_t k, double x) const {
+    const bool parameter = k < s_.parameters;
+    const auto& p = places_[k];
+    return at_place(
+        number_,
+        std::clamp(place_of(number_, rounded(number_, x, parameter), parameter), p.first, p.last),
+        parameter);
+  }
+
+  const Subject& s_;
+  Number number_;
+  std::vector<Places> places_;
+  std::size_t eta_ = 0, k_ = 0, voh_ = 0, nol_ = 0, nov_ = 0;
+};
+
+/// What a climb began with, what it led to, and what it met.
+struct Looking {
+  Inputs in;
+  Judged judged;
+};
+/// Inputs at which something happens, as they are met.
+struct Met {
+  Count no_value, negative, overflow, vanished, irreciprocal;
+  std::uint64_t evaluations = 0;
+  std::optional<Inputs> lost;  ///< beyond the tolerance, with the largest deciding parameter
+
+  void look(const Subject& s, const Inputs& in, const Judged& j) {
+    ++evaluations;
+    const auto add = [&](Count& c, bool happens) {
+      if (!happens) return;
+      if (c.count++ == 0) c.first = in;
+    };
+    add(no_value, j.no_value);
+    add(negative, j.negative);
+    add(overflow, j.overflow);
+    add(vanished, j.vanished);
+    add(irreciprocal, j.irreciprocal);
+    if (j.lost && s.decides && (!lost || (*lost)[*s.decides] < in[*s.decides])) lost = in;
+  }
+  void add(const Subject& s, const Met& other) {
+    const auto join = [](Count& c, const Count& d) {
+      if (c.count == 0) c.first = d.first;
+      c.count += d.count;
+    };
+    join(no_value, other.no_value);
+    join(negative, other.negative);
+    join(overflow, other.overflow);
+    join(vanished, other.vanished);
+    join(irreciprocal, other.irreciprocal);
+    evaluations += other.evaluations;
+    if (other.lost && (!lost || (*lost)[*s.decides] < (*other.lost)[*s.decides])) lost = other.lost;
+  }
+};
+
+/// Aims of a climb: a larger error, relative or in units of the last digit, or than the condition explains; a larger
+/// parameter at which the tolerance is not kept.
+enum class Aim { relative, ulp, beyond, parameter };
+constexpr std::array aims{Aim::relative, Aim::ulp, Aim::beyond, Aim::parameter};
+
+double reached(Aim aim, const Subject& s, const Looking& l) {
+  switch (aim) {
+    case Aim::relative:
+      return l.judged.relative;
+    case Aim::ulp:
+      return l.judged.ulp;
+    case Aim::beyond:
+      return l.judged.beyond;
+    case Aim::parameter:
+      break;
+  }
+  return l.judged.lost && s.decides ? l.in[*s.decides] : 0;
+}
+
+/// What one seed finds.
+struct Found {
+  Met met;
+  Worst relative, ulp, beyond;
+};
+
+/// Operations of one evaluation.
+std::size_t operations_of(const Subject& s) {
+  const auto of = [](std::size_t term) {
+    const auto o = gonio::operations_of(term);
+    return o.parameters.total() + o.sample.total();
+  };
+  if (s.term) return of(*s.term);
+  std::size_t sum = 0;
+  for (const auto& use : s.model->diffuse) sum += of(use.term);
+  for (const auto& lobe : s.model->lobes)
+    sum += of(lobe.ndf.term) + of(lobe.masking.term) + of(lobe.fresnel.term);
+  return sum;
+}
+
+Found from_one_seed(
+    const Subject& s, const Judge& judge, const Domain& domain, std::uint64_t seed, double effort) {
+  const auto times = [&](double n) { return static_cast<std::size_t>(std::ceil(n * effort)); };
+  const std::size_t seeds = times(judge.wide() ? 3000 : 40'000), starts = judge.wide() ? 12 : 24,
+                    steps = times(judge.wide() ? 300 : 3000);
+  std::vector<Looking> seen(seeds);
+  tbb::parallel_for(std::size_t{0}, seeds, [&](std::size_t i) {
+    Draws draw(seed, i);
+    seen[i].in = domain.seed(draw);
+    seen[i].judged = judge.of(seen[i].in, !judge.wide());
+  });
+  Found found;
+  for (const auto& l : seen) found.met.look(s, l.in, l.judged);
+
+  struct Climb {
+    Aim aim;
+    Looking at;
+    Met met;
+  };
+  std::vector<Climb> climbs;
+  for (const Aim aim : aims) {
+    std::vector<std::size_t> order(seeds);
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, std::greater<>(),
+                             [&](auto i) { return reached(aim, s, seen[i]); });
+    for (std::size_t k = 0; k < std::min(starts, seeds); ++k)
+      if (reached(aim, s, seen[order[k]]) > 0) climbs.push_back({aim, seen[order[k]], {}});
+  }
+  tbb::parallel_for(std::size_t{0}, climbs.size(), [&](std::size_t c) {
+    auto& climb = climbs[c];
+    Draws draw(seed, c, 1);
+    const bool condition = climb.aim == Aim::beyond;
+    if (judge.wide() && condition) climb.at.judged = judge.of(climb.at.in, true);
+    for (std::size_t k = 0; k < steps; ++k) {
+      Looking next{domain.step(climb.at.in, draw), {}};
+      if (next.in == climb.at.in) continue;
+      next.judged = judge.of(next.in, condition);
+      climb.met.look(s, next.in, next.judged);
+      if (reached(climb.aim, s, next) >= reached(climb.aim, s, climb.at))
+        climb.at = std::move(next);
+    }
+  });
+  for (const auto& climb : climbs) {
+    found.met.add(s, climb.met);
+    const auto j = judge.confirmed(climb.at.in);
+    const auto keep = [&](Worst& w, double value) {
+      if (value > w.value) w = {value, climb.at.in};
+    };
+    keep(found.relative, j.relative);
+    keep(found.ulp, j.ulp);
+    keep(found.beyond, j.beyond);
+  }
+  return found;
+}
+
+}  // namespace
+
+double usual_tolerance(Number number) {
+  switch (number) {
+    case Number::half:
+    case Number::mixed:
+      return 0.02;
+    case Number::float_:
+      return 1e-4;
+    case Number::double_:
+    case Number::wide:
+      break;
+  }
+  return 1e-10;
+}
+
+Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& options) {
+  if ((a.flush || a.contract) && (a.number != Number::half || !s.term))
+    throw wrong_usage(
+        fmt::format("{}: flushing and contraction are known of terms in half alone, not in {}",
+                    s.id, name_of(a.number)));
+  Looked looked;
+  looked.evidence = Evidence::searched;
+  looked.tolerance = options.tolerance > 0 ? options.tolerance : usual_tolerance(a.number);
+  const Judge judge(s, a, looked.tolerance);
+  const Domain domain(s, a.number);
+  // What is dear is looked at less often, so that an entry takes seconds.
+  const double effort =
+      options.effort * std::min(1.0, 300.0 / static_cast<double>(operations_of(s) + 1));
+  Found one = from_one_seed(s, judge, domain, 2 * options.seed, effort);
+  const Found two = from_one_seed(s, judge, domain, 2 * options.seed + 1, effort);
+
+  const double few = 8 * std::ldexp(1, 1 - format_of(a.number).digits);
+  const auto agree = [](double x, double y, double little) {
+    return std::max(x, y) <= std::max(little, 2 * std::min(x, y));
+  };
+  looked.settled = agree(one.relative.value, two.relative.value, few) &&
+                   agree(one.beyond.value, two.beyond.value, 8);
+  one.met.add(s, two.met);
+  const auto worse = [](const Worst& x, const Worst& y) { return x.value < y.value ? y : x; };
+  looked.relative = worse(one.relative, two.relative);
+  looked.ulp = worse(one.ulp, two.ulp);
+  looked.beyond = worse(one.beyond, two.beyond);
+  if (!looked.ulp.at.empty()) looked.condition = truth_of(s, looked.ulp.at).condition;
+  looked.evaluations = one.met.evaluations;
+  looked.no_value = one.met.no_value;
+  looked.negative = one.met.negative;
+  looked.overflow = one.met.overflow;
+  looked.vanished = one.met.vanished;
+  looked.irreciprocal = one.met.irreciprocal;
+  if (s.decides)
+    looked.safe_from = one.met.lost ? domain.above(*s.decides, (*one.met.lost)[*s.decides])
+                                    : domain.lowest(*s.decides);
+  return looked;
+}
+
+}  // namespace gonio::stability
