@@ -31,6 +31,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "number/half.h"
 #include "number/real.h"
@@ -44,14 +45,16 @@ struct Rounding {
   bool flushed = false;    ///< a subnormal, read or computed, may be taken for 0
   bool any_gpu = false;    ///< what Vulkan allows, below; else to nearest, ties to even
   bool infinities = true;  ///< any_gpu: the shader declares SignedZeroInfNanPreserve
-  double library_ulps =
-      1;  ///< how much exp and log of float and double may err; not read by any_gpu
+  /// any_gpu: √0 is 0, as it is everywhere, though 1 / inversesqrt does not promise it.
+  bool root_of_zero = true;
+  /// Error of exp and log of float and double; not read by any_gpu.
+  double library_ulps = 1;
 
   /// Vulkan's bounds for a shader that declares no execution mode, its expressions `precise` unless contracted.
   ///
   ///   + − ×        correctly rounded, to either neighbour: the mode is the implementation's
   ///   ÷            2.5 ulp for divisors of 2^±126, in half 2^±14; else nothing
-  ///   √            1 / inversesqrt, which errs by 2 ulp: 4.5 eps together; of 0 nothing
+  ///   √            1 / inversesqrt, which errs by 2 ulp: 4.5 eps together; of 0 as `root_of_zero` says
   ///   exp          3 + 2 |x| ulp, in half 1 + 2 |x|
   ///   log          3 ulp; within [1/2, 2] 2⁻²¹, in half 2⁻⁷
   ///   subnormals   kept or flushed; infinities and NaN: an operation that may make one may give anything
@@ -93,6 +96,31 @@ struct Directions {
   bool rises(std::size_t input) const { return !(down >> input & 1); }
   bool falls(std::size_t input) const { return !(up >> input & 1); }
 };
+
+/// Outcomes that comparisons are given which have either, in the order in which they are asked for: a formula is then
+/// evaluated once for every way through it.
+class EnclosurePaths {
+ public:
+  bool next() {
+    if (asked_ == outcomes_.size()) outcomes_.push_back(true);
+    return outcomes_[asked_++];
+  }
+  /// To the next way; false after the last.
+  bool advance() {
+    asked_ = 0;
+    while (!outcomes_.empty() && !outcomes_.back()) outcomes_.pop_back();
+    if (outcomes_.empty()) return false;
+    outcomes_.back() = false;
+    return true;
+  }
+
+ private:
+  std::vector<bool> outcomes_;
+  std::size_t asked_ = 0;
+};
+
+/// This thread's, if a formula is evaluated way by way.
+inline thread_local EnclosurePaths* enclosure_paths = nullptr;
 
 /// Outcome of a comparison of enclosures, and what is then known of those compared.
 class EnclosureMask {
@@ -153,12 +181,51 @@ class Enclosure {
     return x;
   }
 
+  /// Hull of a formula's values over all ways through its comparisons, which is narrower than what select makes of
+  /// each; as it is where there are more ways than `most`.
+  static Enclosure over_all_ways(auto&& formula, int most = 16) {
+    EnclosurePaths paths;
+    Enclosure all;
+    for (int way = 0; way < most; ++way) {
+      enclosure_paths = &paths;
+      const Enclosure one = formula();
+      enclosure_paths = nullptr;
+      if (way == 0)
+        all = one;
+      else
+        all.join(one);
+      if (!paths.advance()) {
+        // Of two inputs each may go another way, which says nothing of rise and fall.
+        if (way > 0) all.by_ = all.by_.unknown();
+        return all;
+      }
+    }
+    return formula();
+  }
+
   double low() const { return lo_; }
   double high() const { return hi_; }
   bool may_be_nan() const { return nan_; }
   const Directions& directions() const { return by_; }
   bool is_finite() const { return !nan_ && std::isfinite(lo_) && std::isfinite(hi_); }
   bool holds(double x) const { return std::isnan(x) ? nan_ : lo_ <= x && x <= hi_; }
+
+  /// Neighbour of x in F towards `to`.
+  static double after(double x, double to) {
+    if (x == to) return x;
+    if (digits_of == 53) return std::nextafter(x, to);
+    if (digits_of == 24)
+      return static_cast<double>(std::nextafter(static_cast<float>(x), static_cast<float>(to)));
+    if (x == 0) return to > 0 ? least_step : -least_step;
+    if (std::isinf(x)) return std::copysign(65504.0, x);
+    const double size = std::abs(x);
+    const bool outwards = (to > x) == (x > 0);
+    int exponent = std::ilogb(size);
+    if (!outwards && std::ldexp(1.0, exponent) == size) --exponent;
+    const double step = std::max(std::ldexp(1.0, exponent + 1 - digits_of), least_step);
+    const double moved = size + (outwards ? step : -step);
+    return std::copysign(moved > 65504 ? infinity : moved, x);
+  }
 
   friend Enclosure operator-(const Enclosure& a) {
     Enclosure r = a;
@@ -209,6 +276,8 @@ class Enclosure {
   }
 
   friend Enclosure operator/(const Enclosure& a, const Enclosure& b) {
+    if (b.lo_ == 1 && b.hi_ == 1 && !b.nan_)
+      return a;  // no division: of a term that is no Quotient
     const Rounding& rule = rounding_now;
     const Enclosure x = a.read(rule), y = b.read(rule);
     const bool nan =
@@ -265,7 +334,9 @@ class Enclosure {
     const Rounding& rule = rounding_now;
     const Enclosure x = a.read(rule);
     if (rule.any_gpu) {
-      if (x.nan_ || !(x.lo_ > 0) || x.hi_ == infinity) return anything(x.by_.unknown());
+      const bool defined = rule.root_of_zero ? x.lo_ >= 0 : x.lo_ > 0;
+      if (x.nan_ || !defined || x.hi_ == infinity) return anything(x.by_.unknown());
+      if (x.hi_ == 0) return made(rule, 0, 0, false, {});
       return spread(rule, std::sqrt(x.lo_), std::sqrt(x.hi_), 4.51, 4.51, 0, x.by_.unknown());
     }
     const double lo = x.lo_ < 0 ? -0.0 : x.lo_, hi = x.hi_ < 0 ? infinity : x.hi_;
@@ -333,22 +404,6 @@ class Enclosure {
   static double nearest(double x) { return static_cast<double>(static_cast<F>(x)); }
   static bool negative(double x) { return std::signbit(x); }
 
-  /// Neighbour of x in F towards `to`.
-  static double after(double x, double to) {
-    if (x == to) return x;
-    if (digits_of == 53) return std::nextafter(x, to);
-    if (digits_of == 24)
-      return static_cast<double>(std::nextafter(static_cast<float>(x), static_cast<float>(to)));
-    if (x == 0) return to > 0 ? least_step : -least_step;
-    if (std::isinf(x)) return std::copysign(65504.0, x);
-    const double size = std::abs(x);
-    const bool outwards = (to > x) == (x > 0);
-    int exponent = std::ilogb(size);
-    if (!outwards && std::ldexp(1.0, exponent) == size) --exponent;
-    const double step = std::max(std::ldexp(1.0, exponent + 1 - digits_of), least_step);
-    const double moved = size + (outwards ? step : -step);
-    return std::copysign(moved > 65504 ? infinity : moved, x);
-  }
   /// Value of F next to x on the side told, or x.
   static double outwards(double x, bool up) {
     const double n = nearest(x);
@@ -536,6 +591,10 @@ class Enclosure {
     const Enclosure x = a.read(rule), y = b.read(rule);
     EnclosureMask m(x.lo_ < y.hi_, x.hi_ >= y.lo_ || x.nan_ || y.nan_);
     m.inputs_ = x.by_ | y.by_;
+    if (enclosure_paths && m.can_hold_ && m.can_fail_) {
+      m.can_hold_ = enclosure_paths->next();
+      m.can_fail_ = !m.can_hold_;
+    }
     // What is flushed for the comparison alone makes it tell less.
     const auto tells = [&](const Enclosure& of, bool held) {
       return !of.subnormal(rule) && (held || !rule.flushed || !of.holds(0));

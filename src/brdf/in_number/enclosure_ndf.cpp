@@ -1,4 +1,5 @@
-// Every normal distribution in enclosures.
+// Every normal distribution in enclosures, and in halves that are flushed or contracted, as
+// enclosures may have them.
 #include "brdf/catalogue/distributions.h"
 #include "brdf/in_number/functions.h"
 #include "number/enclosure.h"
@@ -8,5 +9,8 @@ namespace gonio {
 GONIO_TERMS_AS_FUNCTIONS(Role::ndf, Distributions, Enclosure<Half>)
 GONIO_TERMS_AS_FUNCTIONS(Role::ndf, Distributions, Enclosure<float>)
 GONIO_TERMS_AS_FUNCTIONS(Role::ndf, Distributions, Enclosure<double>)
+GONIO_TERMS_AS_FUNCTIONS(Role::ndf, Distributions, FlushedHalf)
+GONIO_TERMS_AS_FUNCTIONS(Role::ndf, Distributions, ContractedHalf)
+GONIO_TERMS_AS_FUNCTIONS(Role::ndf, Distributions, FlushedContractedHalf)
 
 }  // namespace gonio

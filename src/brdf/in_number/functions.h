@@ -9,12 +9,18 @@
 
 #include "brdf/term/term.h"
 #include "brdf/term/term_list.h"
+#include "number/half.h"
 #include "number/quotient.h"
 
 namespace gonio {
 
 template <class T>
 using TermFunction = Quotient<T> (*)(std::span<const T> parameters, const FrameAngles<T>& angles);
+
+/// Halves with the liberties that drivers take.
+using FlushedHalf = HalfOver<float, HalfRules{.flush = true}>;
+using ContractedHalf = HalfOver<float, HalfRules{.contract = true}>;
+using FlushedContractedHalf = HalfOver<float, HalfRules{.flush = true, .contract = true}>;
 
 /// One role's terms, in the order of the catalogue.
 template <class T, Role role>
