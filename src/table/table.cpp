@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
+
+#include "table/grid_cell.h"
 
 namespace gonio {
 
@@ -93,49 +94,8 @@ double SampleAngles::theta_i(std::size_t i) const {
 }
 
 double Interpolator::operator()(const DirectionPair& p, std::size_t channel) const {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const Grid* g = table_.grid();
-  if (!g) return table_.between ? table_.between(p, channel) : none;
-  std::array<double, 3> angle;
-  if (g->kind == Grid::Kind::half_difference) {
-    const auto a = half_difference(p);
-    angle = {a.theta_h, a.theta_d, a.phi_d < 0 ? a.phi_d + g->axes[2].span : a.phi_d};
-  } else {
-    const double phi = std::remainder(phi_of(p.wo) - phi_of(p.wi), 2 * std::numbers::pi);
-    angle = {theta_of(p.wi), theta_of(p.wo), std::abs(phi)};
-  }
-  std::array<std::array<std::size_t, 2>, 3> corner;
-  std::array<double, 3> part;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const Axis& axis = g->axes[a];
-    const auto size = static_cast<std::ptrdiff_t>(axis.size);
-    const double x = axis.index(angle[a], g->bins), last = static_cast<double>(size - 1);
-    if (!(x >= -1 && x <= last + 1)) return none;
-    const bool periodic = axis.name == "phi_d" && axis.has_bins();
-    const double inside = periodic ? x : std::clamp(x, 0.0, last);
-    const auto low = static_cast<std::ptrdiff_t>(std::floor(inside));
-    part[a] = inside - static_cast<double>(low);
-    for (std::ptrdiff_t up = 0; up < 2; ++up) {
-      const std::ptrdiff_t i = low + up;
-      corner[a][static_cast<std::size_t>(up)] =
-          static_cast<std::size_t>(periodic ? (i + size) % size : std::min(i, size - 1));
-    }
-  }
-  double sum = 0, weight = 0;
-  for (unsigned bits = 0; bits < 8; ++bits) {
-    double w = 1;
-    std::size_t i = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const unsigned up = (bits >> a) & 1U;
-      w *= up ? part[a] : 1 - part[a];
-      i = i * g->axes[a].size + corner[a][up];
-    }
-    const double v = table_.values[channel][i];
-    if (w == 0 || mask(at_(i), v) != Mask::valid) continue;
-    sum += w * v;
-    weight += w;
-  }
-  return weight > 0.5 ? sum / weight : none;
+  if (table_.grid()) return cell_around(table_, at_, p).mean_of(table_.values[channel]);
+  return table_.between ? table_.between(p, channel) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace gonio

@@ -7,6 +7,7 @@
 
 #include "integrate/rule/quadrature.h"
 #include "table/format/rgl_function.h"
+#include "table/grid_cell.h"
 #include "table/health/key_counts.h"
 
 #include <tbb/parallel_for.h>
@@ -122,16 +123,22 @@ std::vector<AlbedoSample> of_list(const Table& t) {
 }  // namespace
 
 AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
+  const auto nodes = cosine_hemisphere(48, 96);
+  const Direction wi = direction(theta_i_deg * degree, 0);
+  if (t.grid()) {
+    const SampleAngles at(t);
+    std::vector<GridCell> cells;
+    for (const auto& node : nodes) cells.push_back(cell_around(t, at, {wi, node.direction}));
+    return integrate(theta_i_deg, nodes, t.channels.size(), [&](std::size_t node, std::size_t c) {
+      return cells[node].mean_of(t.values[c]);
+    });
+  }
   const Interpolator between(t);
   // The cosine of the integral takes back what RGL divides by.
   const RglFunction rgl = rgl_function(t);
-  const auto f = [&](const DirectionPair& p, std::size_t c) {
-    return rgl ? rgl(p, c) : between(p, c);
-  };
-  const auto nodes = cosine_hemisphere(48, 96);
-  const Direction wi = direction(theta_i_deg * degree, 0);
   return integrate(theta_i_deg, nodes, t.channels.size(), [&](std::size_t node, std::size_t c) {
-    return f({wi, nodes[node].direction}, c);
+    const DirectionPair p{wi, nodes[node].direction};
+    return rgl ? rgl(p, c) : between(p, c);
   });
 }
 

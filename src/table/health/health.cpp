@@ -157,6 +157,18 @@ IncidentAngles incident_angles(const DirectionList& l) {
   const auto rounded = [&](double deg) {
     return static_cast<std::size_t>(turn + std::clamp(std::lround(deg * 1000), -turn, turn));
   };
+  if (l.theta_i_deg.size() <
+      static_cast<std::size_t>(turn) / 10) {  // a place for each would take longer
+    std::vector<std::size_t> met;
+    for (const double deg : l.theta_i_deg) met.push_back(rounded(deg));
+    std::ranges::sort(met);
+    met.erase(std::unique(met.begin(), met.end()), met.end());
+    IncidentAngles few{met.size(), {}};
+    for (const double deg : l.theta_i_deg)
+      few.number.push_back(
+          static_cast<std::uint32_t>(std::ranges::lower_bound(met, rounded(deg)) - met.begin()));
+    return few;
+  }
   std::vector<std::uint32_t> number(2 * turn + 1);
   for (const double deg : l.theta_i_deg) number[rounded(deg)] = 1;
   IncidentAngles all;
