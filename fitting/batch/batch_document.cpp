@@ -266,8 +266,8 @@ std::string batch_csv(const std::vector<BatchRow>& rows) {
 
   std::string csv = csv_columns(first) + ",model";
   for (const auto& name : columns)
-    csv += fmt::format(",{},{},{}", csv_text(name), csv_text(name + ".std_error"),
-                       csv_text(name + ".status"));
+    csv += fmt::format(",{},{},{},{}", csv_text(name), csv_text(name + ".std_error"),
+                       csv_text(name + ".status"), csv_text(name + ".limit"));
   csv += "," + csv_columns(last) + ",message\n";
   for (const auto& r : rows) {
     csv += csv_cells(first, r) + "," + (r.fit ? csv_text(r.fit->model) : "");
@@ -275,10 +275,10 @@ std::string batch_csv(const std::vector<BatchRow>& rows) {
     if (r.fit)
       for (const auto& p : r.fit->parameters)
         for (std::size_t c = 0; c < p.value.size(); ++c)
-          cells[column(*r.fit, p, c)] =
-              fmt::format(",{},{},{}", csv_number(p.value[c]), csv_number(p.std_error[c]),
-                          name_of(p.status[c]));
-    for (const auto& name : columns) csv += cells.contains(name) ? cells.at(name) : ",,,";
+          cells[column(*r.fit, p, c)] = fmt::format(
+              ",{},{},{},{}", csv_number(p.value[c]), csv_number(p.std_error[c]),
+              name_of(p.status[c]), csv_number(p.limit.empty() ? std::nan("") : p.limit[c]));
+    for (const auto& name : columns) csv += cells.contains(name) ? cells.at(name) : ",,,,";
     csv += "," + (r.fit ? csv_cells(last, *r.fit) : none) + "," + csv_text(r.message) + "\n";
   }
   return csv;

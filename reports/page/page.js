@@ -51,7 +51,7 @@ function significant(x, digits = 3) {
     return minus((x / 10 ** power).toFixed(digits - 1)) + "·10" + superscript(power);
   return minus(x.toFixed(Math.max(0, digits - 1 - power))).replace(/^\d{5,}$/, count);
 }
-/// As short as it can be written within `digits` significant digits: 15, 0.04
+/// Shortest text of a number within `digits` significant digits: 15, 0.04
 const plain = (x, digits = 6) => (known(x) ? minus(String(Number(x.toPrecision(digits)))) : "–");
 /// x to the digit that the second of its error stands at
 function decimals_for(error) {
@@ -78,7 +78,7 @@ const milliseconds = (t) => (t >= 1000 ? significant(t / 1000) + "\u202fs" : sig
 /// theta_i as θ with its index below
 const angle_name = (name) => (/^theta_.$/.test(name) ? el("span", {}, "θ", el("sub", {}, name.at(-1))) : name);
 const words = (name) => name.replaceAll("_", " ");
-/// How far a fitted parameter is known, as people say it.
+/// Words for how far a fitted parameter is known.
 const status_words = { free: "fitted", fixed: "held", at_bound: "at the end of its range", not_identifiable: "not known",
                        upper_limit: "upper limit alone", lower_limit: "lower limit alone" };
 const limit_text = (status, limit) => `${status === "upper_limit" ? "≤" : "≥"}\u202f${significant(limit, 3)}`;
@@ -90,7 +90,7 @@ const with_code = (text) => text.split(/(--[a-z-]+(?: [^ ,;:]*[a-z0-9])?)/).map(
 
 // --- Colours -----------------------------------------------------------------------------------
 const color = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
-/// Of a channel by its name, else by its place; told apart by people who see fewer colours too.
+/// Colour of a channel by its name, else by its place; told apart by people who see fewer colours too.
 function channel_color(name, index) {
   const named = { r: "red", g: "green", b: "blue", f: "accent" };
   return named[name] ?? ["accent", "red", "green", "extra", "grey"][index % 5];

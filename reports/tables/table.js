@@ -12,7 +12,7 @@ const words_of_angle = (name) => symbol[name] ?? words(name);
 const warning = (what, ...rest) => el("li", {}, el("b", {}, what), " ", rest);
 const warning_list = (all) => (all.length ? el("ul", { class: "warnings", "aria-label": "Warnings" }, all) : null);
 
-/// Of the table alone; \param fitted  a fit that has told some of them, or null
+/// Warnings of the table alone; \param fitted  a fit that has told some of them, or null
 function health_warnings(fitted) {
   const out = [], warn = (...parts) => out.push(warning(...parts)), { peak, noise } = health;
   if (!fitted) {

@@ -64,16 +64,20 @@ BatchRow a_failure() {
 }
 
 TEST(BatchDocument, CsvHasALinePerTableAndAColumnPerChannel) {
+  BatchRow row = a_row();
+  row.fit->parameters[1].status[1] = ParameterStatus::upper_limit;
+  row.fit->parameters[1].limit = {nan, 0.07, nan};
   EXPECT_EQ(
-      batch_csv({a_failure(), a_row()}),
-      "path,document,status,exit_code,model,alpha,alpha.std_error,alpha.status,kd.r,kd.r.std_error,"
-      "kd.r.status,kd.g,kd.g.std_error,kd.g.status,kd.b,kd.b.std_error,kd.b.status,log_rms,rms,"
-      "cost,"
+      batch_csv({a_failure(), row}),
+      "path,document,status,exit_code,model,alpha,alpha.std_error,alpha.status,alpha.limit,kd.r,"
+      "kd.r.std_error,kd.r.status,kd.r.limit,kd.g,kd.g.std_error,kd.g.status,kd.g.limit,kd.b,"
+      "kd.b.std_error,kd.b.status,kd.b.limit,log_rms,rms,cost,"
       "values_used,masked,misfit,misfit_told,warnings,message\n"
-      "broken,,bad_input,3,,,,,,,,,,,,,,,,,,,,,,\"broken: byte 0: found an empty file, expected "
+      "broken,,bad_input,3,,,,,,,,,,,,,,,,,,,,,,,,,,\"broken: byte 0: found an empty file, "
+      "expected "
       "data\"\n"
-      "\"in/a, \"\"b\"\".csv\",a.json,ok,0,lambert,0.1,,fixed,0.3,0.01,free,,,not_identifiable,0.1,"
-      "0.02,at_bound,0.25,0.5,0.3333333333333333,12,7,0.125,true,2,fine\n");
+      "\"in/a, \"\"b\"\".csv\",a.json,ok,0,lambert,0.1,,fixed,,0.3,0.01,free,,,,upper_limit,0.07,"
+      "0.1,0.02,at_bound,,0.25,0.5,0.3333333333333333,12,7,0.125,true,2,fine\n");
 }
 
 TEST(BatchDocument, NoCellOfTextIsAFormula) {
