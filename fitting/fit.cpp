@@ -60,7 +60,7 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f) {
       p.options.intervals == Intervals::bootstrap ? Intervals::automatic : p.options.intervals;
   const auto x = p.free.of(f.model.values);
   const auto errors = [&](const Assessment& a) {
-    return uncertainty(a.sandwich, x, p.bounds, a.counts.used);
+    return uncertainty(a.sandwich, x, p.bounds, a.counts.samples);
   };
   const auto by_value = [&] {
     const bool clips = p.options.robust;  // then not all that was fitted is in the bread
@@ -134,16 +134,16 @@ FitResult fit(const Table& t,
   // Of few angles only the scale of each is left open: all else would be.
   const bool shared =
       judged.clusters > 0 && (o.intervals == Intervals::by_angle || enough_angles(judged.clusters));
-  const LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.used, shared);
+  const LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.samples, shared);
   widen(u, lack, judged.seen_against);
   watch.lap("misfit_ms");
-  const bool needless = find_undetermined(p, found.scanned, f, a.counts.used, lack.misfit.told, u);
+  const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u);
   keep_to_what_is_seen(t, p, f.model.values, u);
   watch.lap("limits_ms");
   const char* in_words = judged.in_words;
   if (o.intervals == Intervals::bootstrap) {
     announce("fits of tables drawn from this one");
-    if (bootstrap(sampling_of(bins, false), p, f, shared, lack.widening, u))
+    if (bootstrap(sampling_of(bins, false), p, f, shared, lack.widening, judged.seen_against, u))
       in_words = shared ? "bootstrap of incident angles" : "bootstrap of values";
     watch.lap("bootstrap_ms");
   }

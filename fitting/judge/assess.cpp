@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <utility>
 
 #include "brdf/model/derivatives.h"
-#include "fitting/judge/arrow_inverse.h"
-#include "table/health/health.h"
+#include "fitting/sample/incident_angles.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -18,92 +17,6 @@ namespace gonio {
 namespace {
 
 constexpr std::size_t none = static_cast<std::size_t>(-1);
-
-/// Which interval between given angles a cosine lies in.
-class AngleBands {
- public:
-  explicit AngleBands(std::vector<double> edges_deg) : edges_deg_(std::move(edges_deg)) {
-    for (const double e : edges_deg_) cosine_.push_back(std::cos(e * degree));
-    for (std::size_t k = 0; k < near_.size(); ++k)
-      near_[k] = onwards(0, std::min(static_cast<double>(k + 1) / cells, 1.0));
-  }
-  std::size_t size() const { return edges_deg_.size() - 1; }
-  double from_deg(std::size_t band) const { return edges_deg_[band]; }
-  double to_deg(std::size_t band) const { return edges_deg_[band + 1]; }
-  std::size_t operator()(double cosine) const {
-    return onwards(near_[static_cast<std::size_t>(std::clamp(cosine, 0.0, 1.0) * cells)], cosine);
-  }
-  /// True where operator() would give that band.
-  bool holds(std::size_t band, double cosine) const {
-    return (band == 0 || cosine < cosine_[band]) &&
-           (band + 1 == size() || cosine >= cosine_[band + 1]);
-  }
-  /// Adds `step` times the band of each cosine.
-  template <class F>
-  void add_to(std::size_t n, const F* cosine, std::int32_t step, std::int32_t* sum) const {
-    for (std::size_t band = 1; band < size(); ++band) {
-      auto edge = static_cast<F>(cosine_[band]);  // of all F below it, and of no other
-      if (static_cast<double>(edge) < cosine_[band]) edge = std::nextafter(edge, F(2));
-      for (std::size_t i = 0; i < n; ++i) sum[i] += cosine[i] < edge ? step : 0;
-    }
-  }
-
- private:
-  static constexpr double cells = 1024;
-  std::size_t onwards(std::size_t band, double cosine) const {
-    while (band + 1 < size() && cosine < cosine_[band + 1]) ++band;
-    return band;
-  }
-  std::vector<double> edges_deg_, cosine_;
-  /// The band of the largest cosine of each cell: none of the cell lies in a band before it.
-  std::array<std::size_t, static_cast<std::size_t>(cells) + 1> near_{};
-};
-
-/// Small numbers that tell incident angles apart.
-class IncidentKeys {
- public:
-  explicit IncidentKeys(const Sampling& s)
-      : grid_(s.table().grid()), first_(first_of_copies(s.table())) {
-    if (grid_) {
-      count_ = first_.empty() ? degrees_.size() : first_.size();
-      if (!first_.empty()) samples_per_angle_ = grid_->axes[1].size * grid_->axes[2].size;
-      return;
-    }
-    auto angles = incident_angles(*s.table().list());
-    count_ = angles.count;
-    rank_ = std::move(angles.number);
-    constexpr std::size_t many = 360;
-    if (count_ <= many) return;
-    std::map<long, std::uint32_t> degrees;
-    for (std::size_t i = 0; i < rank_.size(); ++i) {
-      const long degree = std::lround(s.table().list()->theta_i_deg[i]);
-      rank_[i] =
-          degrees.try_emplace(degree, static_cast<std::uint32_t>(degrees.size())).first->second;
-    }
-    count_ = degrees.size();
-  }
-  std::size_t count() const { return count_; }
-  /// \param last  that of a neighbour, where the answer is looked for first; or `none`
-  std::size_t operator()(std::size_t sample, double nol, std::size_t last) const {
-    if (grid_ && first_.empty() && last != none && degrees_.holds(last, nol)) return last;
-    if (!grid_) return rank_[sample];
-    return first_.empty() ? degrees_(nol) : first_[sample / samples_per_angle_];
-  }
-
- private:
-  /// Cut at three quarters: grids tend to have their angles at whole and half degrees.
-  static std::vector<double> whole_degrees() {
-    std::vector<double> edges{0};
-    for (double e = 0.75; e < 90; ++e) edges.push_back(e);
-    edges.push_back(90);
-    return edges;
-  }
-  const Grid* grid_;
-  std::vector<std::size_t> first_;
-  std::size_t samples_per_angle_ = 1, count_ = 0;
-  std::vector<std::uint32_t> rank_;
-  AngleBands degrees_{whole_degrees()};
-};
 
 struct Sums {
   double values = 0, positive = 0, squares = 0, log_squares = 0;
@@ -154,15 +67,13 @@ class Walk {
        const BoundModel& b,
        const FreeSlots& free,
        double huber,
-       bool by_incident_angle,
-       const IncidentKeys& keys,
+       const IncidentKeys* keys,
        const Influences* influences)
       : sampling_(s),
         free_(free),
         huber_(static_cast<F>(std::min(huber, double{std::numeric_limits<F>::max()}))),
-        by_angle_(by_incident_angle),
         keys_(keys),
-        influences_(by_incident_angle ? nullptr : influences),
+        influences_(keys ? nullptr : influences),
         kernels_(kernels<F>()),
         values_(b.values.begin(), b.values.end()),
         derivatives_(b.model, free.mask(), kernels_) {
@@ -172,20 +83,41 @@ class Walk {
     for (std::size_t m = 0; m < s.groups().widest(); ++m)
       for (auto* sums : {&values_seen_[m], &positive_[m], &squares_[m], &log_squares_[m]})
         *sums = Column<F>::for_overwrite(size);
+    std::size_t most_rows = 0;
     for (std::size_t c = 0; c < s.channels(); ++c) {
       auto& x = channel_.emplace_back();
       for (const auto& [slot, column] : derivatives_.channel(c).d) {
         x.j[x.free.size()] = column;
         x.free.push_back(free.index(slot));
       }
-      for (const std::size_t i : x.free)
-        for (const std::size_t j : x.free) x.entry.push_back(free.layout()->at(i, j));
+      for (std::size_t p = 0; p < x.free.size(); ++p)
+        for (std::size_t q = p; q < x.free.size(); ++q) {
+          const auto [i, j] = std::minmax(x.free[p], x.free[q]);
+          x.upper.push_back(free.layout()->at(i, j));
+          if (free.layout()->at(j, i) != x.upper.back())
+            mirrored_.emplace_back(x.upper.back(), free.layout()->at(j, i));
+        }
       if (!influences_) continue;
       x.influence = influences_->channel(x.free);
       for (const std::size_t i : x.free)
         if (free.layout()->arm(i) != ArrowLayout::none) x.arm = free.layout()->arm(i);
-      if (x.influence.unknown.size() > beta_.size()) beta_.resize(x.influence.unknown.size());
+      const auto& at = x.influence;
+      const std::size_t k = x.free.size(), rows = at.unknown.size();
+      for (const auto& row : at.beta)
+        for (const double b : row) x.beta.push_back(static_cast<F>(b));
+      x.product.resize(k * k);
+      for (std::size_t p = 0; p < k; ++p)
+        for (std::size_t q = 0; q < k && at.row[p] != Influences::none; ++q)
+          x.product[p * k + q] = static_cast<F>(at.leverage[p] * at.beta[at.row[p]][q]);
+      most_rows = std::max(most_rows, rows);
     }
+    if (!influences_) return;
+    for (auto* sums : {&fourth_, &moves_}) *sums = Column<F>(most_rows * padding);
+    for (std::size_t m = 0; m < s.groups().widest(); ++m) per_root_[m] = Column<F>(size, F(1));
+    columns_.resize(max_columns);
+    for (auto& column : columns_) column = Column<F>(size);
+    for (std::size_t k = 0; k + 1 < max_columns; ++k) seen_[k] = columns_[k].data();
+    leverage_ = columns_.back().data();
   }
 
   Part run(BlockReader<F>& in) {
@@ -200,13 +132,17 @@ class Walk {
                                  std::vector<double>(free_.layout()->head().size()));
       part_.moves_by_arm = part_.fourth_by_arm;
     }
-    place_.assign(keys_.count(), none);
+    place_.assign(keys_ ? keys_->count() : 0, none);
     bread_.assign(sampling_.channels(), {});
     meat_.assign(sampling_.channels(), {});
     while (in.next()) block(in);
     for (std::size_t c = 0; c < sampling_.channels(); ++c) {
       bread_[c].scatter(channel_[c].free, n, part_.bread, nullptr);
-      if (!by_angle_) meat_[c].scatter(channel_[c].free, n, part_.meat, nullptr);
+      if (!keys_) meat_[c].scatter(channel_[c].free, n, part_.meat, nullptr);
+    }
+    for (std::size_t k = 0; k < part_.keys.size(); ++k) {
+      double* const bread = part_.breads.data() + k * free_.layout()->entries();
+      for (const auto& [upper, lower] : mirrored_) bread[lower] = bread[upper];
     }
     part_.counts = in.counts();
     return std::move(part_);
@@ -217,15 +153,17 @@ class Walk {
   struct Channel {
     std::vector<std::size_t> free;
     std::array<const F*, max_columns> j{};
-    std::vector<std::size_t> entry;  ///< [derivative][derivative] of the matrices
+    std::vector<std::size_t> upper;  ///< entries of the matrices, row by row from the diagonal on
     Influences::Channel influence;
+    std::vector<F> product, beta;  ///< its influence, as kernels read it
     std::size_t arm = ArrowLayout::none;
   };
 
   void block(const BlockReader<F>& in) {
     const std::size_t members = sampling_.groups().widest();
     const auto x = in.angles();
-    if (by_angle_) find_incident_angles(in, members);
+    if (keys_) find_incident_angles(in, members);
+    if (influences_ && sampling_.is_counted()) find_counts(in, members);
     for (std::size_t m = 0; m < members; ++m)
       for (auto* sums : {&values_seen_[m], &positive_[m], &squares_[m], &log_squares_[m]})
         std::fill_n(sums->data(), x.n, F(0));
@@ -270,7 +208,7 @@ class Walk {
       std::size_t last = none;
       for (std::size_t i = 0; i < in.size(); ++i) {
         if (!(weight[i] > 0)) continue;  // adds nothing to any
-        const std::size_t key = keys_(in.sample(m)[i], static_cast<double>(in.nol(m)[i]), last);
+        const std::size_t key = (*keys_)(in.sample(m)[i], static_cast<double>(in.nol(m)[i]), last);
         if (key == last) continue;
         last = key;
         if (place_[key] == none) {
@@ -285,38 +223,30 @@ class Walk {
     }
   }
 
-  /// Σ score j and Σ slope² j jᵀ over each run.
+  /// Σ score j and Σ slope² j jᵀ over each run, the upper half of it.
   /// \tparam K  how many columns j has
   template <std::size_t K>
   void add_scores(const std::vector<Run>& runs, const Channel& x) {
     for (const auto& run : runs) {
-      std::array<double, K> sum{};
-      std::array<std::array<double, K>, K> products{};
+      double* const score = part_.scores.data() + run.to * free_.size();
+      double* const bread = part_.breads.data() + run.to * free_.layout()->entries();
       // A few at a time in F, whose digits hold these.
       constexpr std::size_t few = 16;
       for (std::size_t from = run.begin; from < run.end; from += few) {
-        std::array<F, K> sum_of_few{};
-        std::array<std::array<F, K>, K> products_of_few{};
+        std::array<F, K> sum{};
+        std::array<F, K*(K + 1) / 2> products{};
         for (std::size_t i = from; i < std::min(run.end, from + few); ++i) {
           if (score_[i] == 0 && slope_[i] == 0) continue;  // masked: its derivatives may be NaN
-          for (std::size_t p = 0; p < K; ++p) {
-            sum_of_few[p] += score_[i] * x.j[p][i];
+          for (std::size_t p = 0, e = 0; p < K; ++p) {
+            sum[p] += score_[i] * x.j[p][i];
             const F j = slope_[i] * slope_[i] * x.j[p][i];
-            for (std::size_t q = p; q < K; ++q) products_of_few[p][q] += j * x.j[q][i];
+            for (std::size_t q = p; q < K; ++q) products[e++] += j * x.j[q][i];
           }
         }
-        for (std::size_t p = 0; p < K; ++p) {
-          sum[p] += static_cast<double>(sum_of_few[p]);
-          for (std::size_t q = p; q < K; ++q)
-            products[p][q] += static_cast<double>(products_of_few[p][q]);
-        }
+        for (std::size_t p = 0; p < K; ++p) score[x.free[p]] += static_cast<double>(sum[p]);
+        for (std::size_t e = 0; e < products.size(); ++e)
+          bread[x.upper[e]] += static_cast<double>(products[e]);
       }
-      double* const score = part_.scores.data() + run.to * free_.size();
-      double* const bread = part_.breads.data() + run.to * free_.layout()->entries();
-      for (std::size_t p = 0; p < K; ++p) score[x.free[p]] += sum[p];
-      for (std::size_t p = 0; p < K; ++p)
-        for (std::size_t q = 0; q < K; ++q)
-          bread[x.entry[p * K + q]] += products[std::min(p, q)][std::max(p, q)];
     }
   }
   using AddScores = void (Walk::*)(const std::vector<Run>&, const Channel&);
@@ -330,8 +260,8 @@ class Walk {
     const std::size_t k = x.free.size();
     if (k == 0) return;
     kernels_.gram[k + 1](in.padded(), score_, slope_, x.j.data(), bread_[c].lanes());
-    if (influences_) divide_by_leverage(in.padded(), x);
-    if (!by_angle_) {
+    if (influences_) divide_by_leverage(in.padded(), x, per_root_[m].data());
+    if (!keys_) {
       kernels_.gram[k + 1](in.padded(), score_, score_, x.j.data(), meat_[c].lanes());
       return;
     }
@@ -339,77 +269,59 @@ class Walk {
     (this->*add[k])(runs_[m], x);
   }
 
+  /// 1/√count of each value.
+  void find_counts(const BlockReader<F>& in, std::size_t members) {
+    for (std::size_t m = 0; m < members; ++m)
+      for (std::size_t i = 0; i < in.size(); ++i) {
+        const std::size_t sample = in.sample(m)[i];
+        const double count = sample == none ? 0 : sampling_.count_of(sample);
+        per_root_[m][i] = count > 0 ? static_cast<F>(1 / std::sqrt(count)) : F(1);
+      }
+  }
+
   /// Sums of fourth powers, and each score over 1 − h.  A value that alone determines something has
   /// residual 0 whatever its error is: its score says nothing.
   /// \param n  with the padding, where scores are 0
-  void divide_by_leverage(std::size_t n, const Channel& x) {
+  void divide_by_leverage(std::size_t n, const Channel& x, const F* per_root) {
     const auto& at = x.influence;
-    for (std::size_t k = 0; k < x.free.size(); ++k)
-      for (std::size_t i = 0; i < n; ++i)  // derivatives of masked values may be NaN
-        seen_[k][i] = score_[i] == 0 && slope_[i] == 0 ? F(0) : x.j[k][i];
-    for (std::size_t r = 0; r < at.unknown.size(); ++r) {
-      auto& beta = beta_[r];  // less the slope
-      beta.fill(F(0));
-      for (std::size_t k = 0; k < x.free.size(); ++k) {
-        const auto factor = static_cast<F>(at.beta[r][k]);
-        if (factor == 0) continue;
-        for (std::size_t i = 0; i < n; ++i) beta[i] += factor * seen_[k][i];
-      }
-    }
-    std::array<F, size> leverage{};
-    for (std::size_t k = 0; k < x.free.size(); ++k) {
-      if (at.row[k] == Influences::none) continue;
-      const auto factor = static_cast<F>(at.leverage[k]);
-      const auto& beta = beta_[at.row[k]];
-      for (std::size_t i = 0; i < n; ++i)
-        leverage[i] += factor * slope_[i] * slope_[i] * seen_[k][i] * beta[i];
-    }
-    constexpr F all = F(1) - F(1e-6);
+    const std::size_t k = x.free.size(), rows = at.unknown.size();
+    for (auto* sums : {&fourth_, &moves_}) std::fill_n(sums->data(), rows * padding, F(0));
+    const InfluenceArguments<F> a{slope_, per_root, x.j.data(), seen_.data(),   x.product,
+                                  x.beta, score_,   leverage_,  fourth_.data(), moves_.data()};
+    kernels_.leverage[k](n, a);
     std::int32_t lone = 0;
-    for (std::size_t i = 0; i < n; ++i) lone += leverage[i] < all ? 0 : 1;
-    if (lone > 0) leave_out_lone(n, leverage, at);
-    for (std::size_t i = 0; i < n; ++i) score_[i] /= F(1) - leverage[i];
-    for (std::size_t r = 0; r < at.unknown.size(); ++r) {
+    for (std::size_t i = 0; i < n; ++i) lone += leverage_[i] < all ? 0 : 1;
+    if (lone > 0) leave_out_lone(n, x);
+    kernels_.moves[k](n, a);
+    for (std::size_t r = 0; r < rows; ++r) {
       const std::size_t unknown = at.unknown[r], head = free_.layout()->within(unknown);
       const bool of_head =
           x.arm != ArrowLayout::none && free_.layout()->arm(unknown) == ArrowLayout::none;
-      const auto add = [&](const F* factor, std::vector<double>& to,
+      const auto add = [&](const Column<F>& lanes, std::vector<double>& to,
                            std::vector<std::vector<double>>& by_arm) {
-        const double sum = fourth_powers(n, factor, beta_[r].data());
+        double sum = 0;
+        for (std::size_t l = 0; l < padding; ++l)
+          sum += static_cast<double>(lanes.data()[r * padding + l]);
         to[unknown] += sum;
         if (of_head) by_arm[x.arm][head] += sum;
       };
-      add(slope_, part_.fourth, part_.fourth_by_arm);
-      add(score_, part_.moves, part_.moves_by_arm);
+      add(fourth_, part_.fourth, part_.fourth_by_arm);
+      add(moves_, part_.moves, part_.moves_by_arm);
     }
   }
-  void leave_out_lone(std::size_t n, std::array<F, size>& leverage, const Influences::Channel& at) {
-    constexpr F all = F(1) - F(1e-6);
+  void leave_out_lone(std::size_t n, const Channel& x) {
+    const std::size_t k = x.free.size();
     for (std::size_t i = 0; i < n; ++i) {
-      if (leverage[i] < all) continue;
-      score_[i] = leverage[i] = 0;
-      for (std::size_t r = 0; r < at.unknown.size(); ++r) {
-        const double beta = static_cast<double>(slope_[i]) * static_cast<double>(beta_[r][i]);
-        part_.alone[at.unknown[r]] += beta * beta;
+      if (leverage_[i] < all) continue;
+      score_[i] = leverage_[i] = 0;
+      for (std::size_t r = 0; r < x.influence.unknown.size(); ++r) {
+        double beta = 0;
+        for (std::size_t p = 0; p < k; ++p)
+          beta += static_cast<double>(x.beta[r * k + p]) * static_cast<double>(seen_[p][i]);
+        beta *= static_cast<double>(slope_[i]);
+        part_.alone[x.influence.unknown[r]] += beta * beta;
       }
     }
-  }
-  /// Σ (a b)⁴ in lanes, which vector instructions add up side by side.
-  /// \param n  a multiple of the lanes
-  static double fourth_powers(std::size_t n, const F* a, const F* b) {
-    static_assert(size % padding == 0);
-    double sum = 0;
-    constexpr std::size_t few = 8 * padding;  // whose sum F holds
-    for (std::size_t from = 0; from < n; from += few) {
-      std::array<F, padding> lanes{};
-      for (std::size_t i = from; i < std::min(n, from + few); i += padding)
-        for (std::size_t l = 0; l < padding; ++l) {
-          const F move = a[i + l] * b[i + l], square = move * move;
-          lanes[l] += square * square;
-        }
-      for (const F lane : lanes) sum += static_cast<double>(lane);
-    }
-    return sum;
   }
 
   void bands_of(const BlockReader<F>& in, const Block<F>& x, std::size_t members) {
@@ -438,16 +350,21 @@ class Walk {
   const Sampling& sampling_;
   const FreeSlots& free_;
   F huber_;
-  bool by_angle_;
-  const IncidentKeys& keys_;
+  const IncidentKeys* keys_;  ///< where values of one incident angle make a cluster; else nullptr
   const Influences* influences_;
-  std::vector<std::array<F, size>> beta_;              ///< [row]
-  std::array<std::array<F, size>, max_columns> seen_;  ///< derivatives, 0 where masked
+  static constexpr F all = F(1) - F(1e-6);  ///< leverage from which on a value is alone
+  std::vector<Column<F>> columns_;
+  std::array<F*, max_columns - 1> seen_{};  ///< derivatives, 0 where masked
+  F* leverage_ = nullptr;
+  Column<F> fourth_, moves_;  ///< lane sums of each row
+  std::array<Column<F>, Groups::most> per_root_;
   const Kernels<F>& kernels_;
   std::vector<F> values_;
   ModelDerivatives<F> derivatives_;
   F *link_, *link_slope_, *log_f_, *log_y_, *unused_, *score_, *slope_;
   std::vector<Channel> channel_;
+  std::vector<std::pair<std::size_t, std::size_t>>
+      mirrored_;  ///< entries, and those across the diagonal
   std::vector<GramSums<F>> bread_, meat_;
   alignas(64) std::array<F, padding> cost_{};
   std::vector<std::size_t> place_;
@@ -485,11 +402,12 @@ Assessment assess_in(const Sampling& s,
                      const Influences* influences,
                      std::size_t most) {
   const std::size_t n = free.size();
-  const IncidentKeys keys(s);
+  std::optional<IncidentKeys> keys;
+  if (by_incident_angle) keys.emplace(s);
   const Tasks tasks(s, most, BlockReader<F>::block);
   std::vector<Part> parts(tasks.count);
   tbb::enumerable_thread_specific<Walk<F>> walks(
-      [&] { return Walk<F>(s, b, free, huber, by_incident_angle, keys, influences); });
+      [&] { return Walk<F>(s, b, free, huber, keys ? &*keys : nullptr, influences); });
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
     BlockReader<F> in(s, tasks.first(k), tasks.last(k), tasks.step);
     parts[k] = walks.local().run(in);
@@ -497,8 +415,9 @@ Assessment assess_in(const Sampling& s,
   Assessment a;
   const std::size_t entries = free.layout()->entries();
   a.sandwich.bread = a.sandwich.meat = ArrowMatrix(free.layout());
-  std::vector<std::vector<double>> scores(keys.count()), breads(keys.count());
-  std::vector<bool> seen(keys.count());
+  const std::size_t angles = keys ? keys->count() : 0;
+  std::vector<std::vector<double>> scores(angles), breads(angles);
+  std::vector<bool> seen(angles);
   std::vector<std::vector<double>> fourth_by_arm, moves_by_arm;
   BandSums sums = no_sums();
   for (const auto& p : parts) {  // in the order of the samples
@@ -536,63 +455,6 @@ Assessment assess_in(const Sampling& s,
 }
 
 }  // namespace
-
-// ---- influences ---------------------------------------------------------------------------------
-
-Influences::Influences(const ArrowMatrix& bread, const std::vector<std::size_t>& determined)
-    : layout_(bread.shared_layout()), place_(bread.size(), none) {
-  const auto layout = std::make_shared<const ArrowLayout>(layout_->part(determined));
-  inverse_ = std::make_shared<const ArrowInverse>(bread.part(layout, determined));
-  for (std::size_t k = 0; k < determined.size(); ++k) {
-    place_[determined[k]] = k;
-    error_.push_back(std::sqrt((*inverse_)(k, k)));
-  }
-}
-
-Influences::Channel Influences::channel(const std::vector<std::size_t>& free) const {
-  Channel c;
-  std::vector<std::size_t> moved = layout_->head();
-  for (const std::size_t i : free)
-    if (layout_->arm(i) != ArrowLayout::none) moved.push_back(i);
-  c.row.assign(free.size(), none);
-  c.leverage.assign(free.size(), 0);
-  for (const std::size_t i : moved) {
-    const std::size_t a = place_[i];
-    if (a == none) continue;
-    auto& beta = c.beta.emplace_back();
-    for (std::size_t k = 0; k < free.size(); ++k) {
-      const std::size_t b = place_[free[k]];
-      beta.push_back(b == none ? 0 : (*inverse_)(a, b) / error_[a]);
-      if (free[k] != i) continue;
-      c.row[k] = c.unknown.size();
-      c.leverage[k] = error_[a];
-    }
-    c.unknown.push_back(i);
-  }
-  return c;
-}
-
-void Influences::add_others(const std::vector<std::vector<double>>& by_arm,
-                            std::vector<double>& fourth) const {
-  const auto& head = layout_->head();
-  const auto all = fourth;
-  for (std::size_t a = 0; a < by_arm.size(); ++a)
-    for (const std::size_t i : layout_->arms()[a]) {
-      if (place_[i] == none) continue;
-      double root = 0;
-      std::size_t column = 0;  // of the determined ones in the head
-      for (std::size_t h = 0; h < head.size(); ++h) {
-        const std::size_t place = place_[head[h]];
-        if (place == none) continue;
-        const double share =
-            std::abs(inverse_->along(place_[i], column++)) * error_[place] / error_[place_[i]];
-        root += share * std::pow(std::max(all[head[h]] - by_arm[a][h], 0.0), 0.25);
-      }
-      fourth[i] += std::pow(root, 4);
-    }
-}
-
-// ---- assessment ---------------------------------------------------------------------------------
 
 Assessment assess(const Sampling& s,
                   const BoundModel& b,

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/quantile.h"
+#include "fitting/judge/lack_of_fit.h"
+#include "fitting/sample/incident_angles.h"
 #include "fitting/solve/colours.h"
 
 #include <tbb/parallel_for.h>
@@ -31,23 +33,13 @@ std::vector<std::vector<double>> rows_of(const FitData<double>& d, std::size_t c
 
 /// Rows that are drawn together.
 std::vector<std::vector<std::size_t>> units_of(const std::vector<std::vector<double>>& rows,
-                                               bool by_angle) {
-  std::vector<std::vector<std::size_t>> units;
-  if (!by_angle) {
-    for (std::size_t i = 0; i < rows.size(); ++i) units.push_back({i});
-    return units;
-  }
-  constexpr std::size_t many = 360;
-  for (const double steps_per_degree : {1000.0, 1.0}) {
-    std::map<long, std::vector<std::size_t>> angles;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      angles[std::lround(std::acos(std::min(rows[i][0], 1.0)) / degree * steps_per_degree)]
-          .push_back(i);
-    units.clear();
-    for (auto& [angle, own] : angles) units.push_back(std::move(own));
-    if (units.size() <= many) break;
-  }
-  return units;
+                                               const IncidentKeys* angles) {
+  std::map<std::size_t, std::vector<std::size_t>> units;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    units[angles ? angles->near(rows[i][0]) : i].push_back(i);
+  std::vector<std::vector<std::size_t>> all;
+  for (auto& [key, own] : units) all.push_back(std::move(own));
+  return all;
 }
 
 }  // namespace
@@ -57,11 +49,13 @@ bool bootstrap(const Sampling& unfolded,
                const Fitted& f,
                bool by_angle,
                double widening,
+               std::span<const double> seen_against,
                Uncertainty& u) {
   const std::size_t channels = unfolded.channels(), n = p.free.size();
   const auto thin = fit_data<double>(unfolded, scan_samples);
   const auto rows = rows_of(thin, channels);
-  const auto units = units_of(rows, by_angle);
+  const IncidentKeys angles(unfolded);
+  const auto units = units_of(rows, by_angle ? &angles : nullptr);
   if (units.size() < 2) return false;
 
   std::vector<std::vector<double>> found(bootstrap_tables);
@@ -77,7 +71,7 @@ bool bootstrap(const Sampling& unfolded,
   });
 
   const double count = static_cast<double>(units.size());
-  double part = std::sqrt(count / (count - 1)) * widening;
+  double part = std::sqrt(count / (count - 1));
   if (!by_angle && unfolded.groups().size() > scan_samples)
     part *= std::sqrt(count / static_cast<double>(unfolded.groups().size()));
   for (std::size_t i = 0; i < n; ++i) {
@@ -91,9 +85,11 @@ bool bootstrap(const Sampling& unfolded,
       squares += moves.back() * moves.back();
     }
     constexpr double tables = bootstrap_tables;
-    u.std_error[i] = std::sqrt(std::max(0.0, squares - sum * sum / tables) / (tables - 1));
-    u.low[i] = value + quantile(moves, 0.025);
-    u.high[i] = value + quantile(moves, 0.975);
+    const double error = std::sqrt(std::max(0.0, squares - sum * sum / tables) / (tables - 1));
+    u.std_error[i] = widened(error, widening, seen_against[i]);
+    const double wider = error > 0 ? u.std_error[i] / error : 1;
+    u.low[i] = value + wider * quantile(moves, 0.025);
+    u.high[i] = value + wider * quantile(moves, 0.975);
   }
   return true;
 }

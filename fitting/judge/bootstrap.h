@@ -17,15 +17,16 @@ inline constexpr std::size_t bootstrap_tables = 400;
 /// tables with as many values, or incident angles, as this one, each drawn from all of them at random
 /// with return [Efron 1979].  Of a large table a thinned one is drawn from; the spread of independent
 /// values is then smaller by the root of their number.
-/// \param by_angle  whether whole incident angles are drawn: those of a list to 0.001°, by whole degrees
-///                  where these are more than 360
-/// \param widening  of the intervals, by a misfit
+/// A row is drawn whole, however many samples it counts as.
+/// \param by_angle      whether whole incident angles are drawn, as IncidentKeys tells them apart
+/// \param widening      of the intervals, by a misfit   \param seen_against  see widened()
 /// \returns false, and leaves all as it is, where there are not two to draw from
 bool bootstrap(const Sampling& unfolded,
                const Problem&,
                const Fitted&,
                bool by_angle,
                double widening,
+               std::span<const double> seen_against,
                Uncertainty&);
 
 }  // namespace gonio

@@ -37,11 +37,14 @@ struct LackOfFit {
 ///
 /// \param shared  whether the values of one incident angle share their errors
 LackOfFit lack_of_fit(
-    const Sampling&, const Problem&, const Fitted&, std::size_t values_used, bool shared);
+    const Sampling&, const Problem&, const Fitted&, double samples_used, bool shared);
 
-/// Makes the intervals as wide as a misfit asks.
-/// \param seen_against  errors of the values that it was judged against: where the intervals are those of
-///                      a few clusters they know of it already, and as much is added as it does to these
+/// Error as wide as a misfit asks.
+/// \param widening      LackOfFit's
+/// \param seen_against  error of the values that it was judged against: where the intervals are those of a
+///                      few clusters they know of it already, and as much is added as it does to this; or NaN
+double widened(double error, double widening, double seen_against);
+/// Makes the intervals as wide as that.
 void widen(Uncertainty&, const LackOfFit&, std::span<const double> seen_against);
 
 }  // namespace gonio

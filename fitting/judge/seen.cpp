@@ -1,5 +1,8 @@
 #include "fitting/judge/seen.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "brdf/model/roughness.h"
 #include "fitting/judge/undetermined.h"
 #include "table/health/computed.h"
@@ -9,10 +12,31 @@
 
 namespace gonio {
 
+namespace {
+
+void forget_empty_channels(const Table& t, const Problem& p, Uncertainty& u) {
+  for (std::size_t c = 0; c < t.channels.size(); ++c) {
+    if (std::ranges::any_of(t.values[c], [&](double y) {
+          return std::isfinite(y) && usable(p.options.metric, y, p.offset);
+        }))
+      continue;
+    for (const auto& q : p.start.model.parameters) {
+      if (q.count == 1 || !p.free.mask()[q.slot(c)]) continue;
+      const std::size_t i = p.free.index(q.slot(c));
+      u.status[i] = ParameterStatus::not_identifiable;
+      u.std_error[i] = std::nan("");
+      u.reason[i] = "no value of its channel can be used";
+    }
+  }
+}
+
+}  // namespace
+
 void keep_to_what_is_seen(const Table& t,
                           const Problem& p,
                           std::span<const double> values,
                           Uncertainty& u) {
+  forget_empty_channels(t, p, u);
   if (p.start.model.lobes.empty()) return;
   if (one_value_per_angle(t)) {
     forget_lobes(p, u, Lobes::whole, "each incident angle holds one constant: a computed table");

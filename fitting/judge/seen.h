@@ -9,6 +9,7 @@
 namespace gonio {
 
 /// Takes values and intervals away that the table cannot mean:
+///   all of a channel without a value that can be used;
 ///   all of a lobe, where each incident angle holds one constant;
 ///   its F0 or indices, where the larger highlight is at wo = wi: they would scale the other alone;
 ///   the width of a measured highlight that the samples do not resolve, which has an upper limit.

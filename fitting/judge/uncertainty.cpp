@@ -257,7 +257,7 @@ Determined find_determined(const ArrowMatrix& bread,
 Uncertainty uncertainty(const Sandwich& s,
                         std::span<const double> x,
                         const Bounds& bounds,
-                        std::size_t values_used) {
+                        double samples_used) {
   const std::size_t n = x.size();
   Determined found = find_determined(s.bread, x, bounds);
   const auto& determined = found.unknowns;
@@ -269,21 +269,21 @@ Uncertainty uncertainty(const Sandwich& s,
       u.reason[i] = "other values of the rest make up for any change of it";
   if (determined.empty()) return u;
   // What stands at a bound takes up nothing of the values.
-  const auto unknowns = static_cast<std::size_t>(std::ranges::count_if(
+  const auto unknowns = static_cast<double>(std::ranges::count_if(
       u.status, [](auto status) { return status != ParameterStatus::at_bound; }));
 
   const auto layout = std::make_shared<const ArrowLayout>(s.bread.layout().part(determined));
   const ArrowInverse bread(s.bread.part(layout, determined));
-  const Covariance covariance = s.clusters.empty() ? Covariance(s, determined, layout, bread,
-                                                                static_cast<double>(values_used))
-                                                   : Covariance(s, determined, layout, bread);
+  const Covariance covariance = s.clusters.empty()
+                                    ? Covariance(s, determined, layout, bread, samples_used)
+                                    : Covariance(s, determined, layout, bread);
   std::vector<double> variance;
   for (std::size_t a = 0; a < determined.size(); ++a) variance.push_back(covariance(a, a));
 
   for (std::size_t a = 0; a < determined.size(); ++a) {
     const std::size_t i = determined[a];
-    if (std::isnan(covariance.freedom(a)) || values_used <= unknowns) {
-      u.reason[i] = values_used <= unknowns ? "no more values than unknowns"
+    if (std::isnan(covariance.freedom(a)) || samples_used <= unknowns) {
+      u.reason[i] = samples_used <= unknowns ? "no more values than unknowns"
                     : s.clusters.empty()
                         ? "one value alone determines it: no interval holds"
                         : "one incident angle alone determines it: no interval holds";

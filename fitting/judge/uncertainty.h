@@ -51,7 +51,7 @@ struct Uncertainty {
 Uncertainty uncertainty(const Sandwich&,
                         std::span<const double> x,
                         const Bounds&,
-                        std::size_t values_used);
+                        double samples_used);
 
 /// The one of two that has the wider interval, parameter by parameter; none where one has none.
 Uncertainty wider(Uncertainty, const Uncertainty&);

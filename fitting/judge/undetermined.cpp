@@ -150,8 +150,6 @@ class Ends {
   const Fitted& fitted_;
   double variance_, share_, freedom_;
   Uncertainty& u_;
-  mutable std::map<std::size_t, double>
-      variance_of_unit_;  ///< (B⁻¹)_ii of those that have a tangent
 };
 
 /// True where a parameter at its bound would lower the cost beyond it by more than noise does.
@@ -201,19 +199,20 @@ void forget_lobes(const Problem& p, Uncertainty& u, Lobes part, const std::strin
 bool find_undetermined(const Problem& p,
                        const FitData<double>& thin,
                        const Fitted& f,
-                       std::size_t values_used,
+                       const SampleCounts& counts,
                        bool widened,
                        Uncertainty& u) {
   const Accumulator<double> accumulate(p.start.model, thin, p.free, f.huber);
   const NormalEquations here = accumulate.normal_equations(f.model.values);
   const std::size_t n = p.free.size();
   if (thin.counts.used == 0) return false;
-  const double count = static_cast<double>(thin.counts.used);
+  const double count =
+      static_cast<double>(thin.counts.used) * counts.samples / static_cast<double>(counts.used);
   // Rounding is not evidence: residuals below 1e-7 of what there is to describe.
   const double rounding = 1e-14 * signal(thin, p.start.model.channels) / count;
   const double variance = std::max(2 * here.cost / count, rounding);
   const double share = static_cast<double>(thin.groups) / static_cast<double>(f.groups);
-  const double luck = (3.84 + 2 * std::log(static_cast<double>(values_used))) * share;
+  const double luck = (3.84 + 2 * std::log(counts.samples)) * share;
   const auto costs = accumulate.channel_costs(f.model.values);
   std::vector<bool> had_range(n);  // in which it is known no better: a limit may be
   for (std::size_t i = 0; i < n; ++i)

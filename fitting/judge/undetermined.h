@@ -30,13 +30,13 @@ void forget_lobes(const Problem&, Uncertainty&, Lobes, const std::string& why);
 /// else it has an interval.  What stands at a bound and is pushed against it, at_bound, has none of
 /// these.  An interval that is wide for its value, and within which the cost is not a parabola, becomes
 /// that of the values that cost less than t² variances of a value more [profile likelihood].
-/// \param thin  a thinned table   \param values_used  of the whole one
+/// \param thin  a thinned table   \param counts  of the whole one
 /// \param widened  whether the intervals allow for a misfit: a value whose whole range that leaves open
 ///                 stays, as the best one of this model
 bool find_undetermined(const Problem&,
                        const FitData<double>& thin,
                        const Fitted&,
-                       std::size_t values_used,
+                       const SampleCounts&,
                        bool widened,
                        Uncertainty&);
 

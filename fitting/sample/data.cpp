@@ -118,7 +118,7 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
         count += largest[i] > 0;
       }
       for (auto& level : part.levels) level.look_at(b, {with_value.data(), count});
-      part.groups += in.size();
+      part.groups += count;
     }
     part.counts = in.counts();
   });

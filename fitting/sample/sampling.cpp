@@ -86,9 +86,12 @@ Sampling::Sampling(const Table& t, Bins bins, Metric metric, double offset, bool
       ++samples;
     }
   }
-  if (samples > 0) mean_weight_ = sum / samples;
-  if (!std::isfinite(mean_weight_))
+  if (!std::isfinite(sum))
     throw bad_input(t.path, "weights", "a sum that is not finite", "weights of a usual size");
+  constexpr double most = 1e9;
+  is_counted_ = std::ranges::all_of(
+      t.weights, [](double w) { return w >= 0 && w <= most && w == std::floor(w); });
+  if (samples > 0 && !is_counted_) mean_weight_ = sum / samples;
 }
 
 Sampling Sampling::by(Metric metric, double offset) const {
@@ -105,6 +108,7 @@ double Sampling::root_weight(std::size_t i) const {
 
 void SampleCounts::add(const SampleCounts& o) {
   used += o.used;
+  samples += o.samples;
   zero += o.zero;
   zero_weight += o.zero_weight;
   copied += o.copied;
@@ -377,7 +381,14 @@ void BlockReader<F>::fill(std::size_t member, std::size_t channel) {
   counts_.masked[static_cast<std::size_t>(Mask::valid)] += c.valid;
   counts_.zero += c.zero;
   counts_.zero_weight += c.zero_weight;
-  counts_.used += c.valid - c.zero - c.zero_weight;
+  const std::size_t used = c.valid - c.zero - c.zero_weight;
+  counts_.used += used;
+  if (!sampling_.is_counted()) {
+    counts_.samples += static_cast<double>(used);
+    return;
+  }
+  for (std::size_t i = 0; i < n_; ++i)
+    if (v.weight[i] > 0) counts_.samples += sampling_.count_of(sample[i]);
 }
 
 template class BlockReader<float>;

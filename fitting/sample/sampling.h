@@ -33,9 +33,9 @@ inline constexpr std::array<std::string_view, 3> names_of<Metric>{"log", "l2_cos
 constexpr Link link_of(Metric m) {
   return m == Metric::log ? Link::log : Link::identity;
 }
-/// True where a datum that is valid (≥ 0) can be used: log and relative need y + offset > 0.
+/// True where a datum that is valid (≥ 0) can be used: log and relative need y + offset above `faintest`.
 constexpr bool usable(Metric m, double y, double offset) {
-  return y >= 0 && (m == Metric::l2_cosine || y + offset > 0);
+  return y >= 0 && (m == Metric::l2_cosine || y + offset > static_cast<double>(faintest));
 }
 
 /// Samples at which every isotropic reciprocal model has one value: those that change places with
@@ -108,8 +108,11 @@ class Sampling {
   /// Offset that the link adds to f: a difference needs none.
   double link_offset() const { return metric_ == Metric::log ? offset_ : 0; }
   std::size_t channels() const { return table_.values.size(); }
-  /// √(weight over the mean weight)
+  /// √weight, of weights that are all whole numbers; of others √(weight over the mean weight).
   double root_weight(std::size_t sample) const;
+  /// Samples that one of the table counts as: its weight where all are whole numbers, else 1.
+  double count_of(std::size_t sample) const { return is_counted_ ? table_.weights[sample] : 1; }
+  bool is_counted() const { return is_counted_; }
   /// True for rows of the table that are left out: their values only repeat those of others.
   bool is_copy(std::size_t row) const { return !copied_.empty() && copied_[row]; }
   bool has_copies() const { return !copied_.empty(); }
@@ -120,12 +123,14 @@ class Sampling {
   Groups groups_;
   Metric metric_;
   double offset_, mean_weight_ = 1;
+  bool is_counted_ = false;
   std::shared_ptr<const BoundModel> bulk_;
   std::vector<bool> copied_;  ///< [row]; empty: none is
 };
 
 struct SampleCounts {
   std::size_t used = 0, zero = 0, zero_weight = 0, copied = 0;
+  double samples = 0;  ///< that those used count as, see Sampling::count_of()
   std::array<std::size_t, names_of<Mask>.size()> masked{};  ///< by Mask
 
   void add(const SampleCounts&);

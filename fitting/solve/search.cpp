@@ -51,11 +51,11 @@ double rounding_in_float(const FitData<double>& thin, std::size_t channels) {
 
 /// True where what float rounds off is less than a twentieth of each standard error, as a first look at
 /// JᵀJ gives it.
-bool float_suffices(const Problem& p, const Fitted& f, std::size_t values_used) {
+bool float_suffices(const Problem& p, const Fitted& f, double samples_used) {
   constexpr double rounding = 1e-7;
   const auto x = p.free.of(f.model.values);
   const std::size_t n = x.size();
-  const double variance = 2 * f.solution.at.cost / static_cast<double>(values_used);
+  const double variance = 2 * f.solution.at.cost / samples_used;
   for (std::size_t i = 0; i < n; ++i) {
     // 1/H_ii is the variance with all others known: not more than that of the parameter
     const double h = f.solution.at.h(i, i);
@@ -171,7 +171,7 @@ Searched search_in(const Problem& p,
   announce("fitting all samples");
   f = minimise(p, data.all, f.model, f.huber);
   f.groups = data.all.groups;
-  f.in_float = std::is_same_v<F, float> && float_suffices(p, f, data.all.counts.used);
+  f.in_float = std::is_same_v<F, float> && float_suffices(p, f, data.all.counts.samples);
   watch.lap("solve_ms");
   Searched found{std::move(f), std::numeric_limits<double>::infinity(), std::move(scanned), {}};
   if (p.options.certificate == Certify::none) return found;

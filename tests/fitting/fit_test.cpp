@@ -215,6 +215,80 @@ TEST(Fit, DoesNotDependOnTheUnitOfTheWeightsOrTheValues) {
       1e-6, 1e-13);
 }
 
+/// Table with each sample as often as its weight says.
+Table repeated(Table t) {
+  const DirectionList from = *t.list();
+  DirectionList to;
+  const auto values = t.values;
+  for (auto& plane : t.values) plane.clear();
+  for (std::size_t i = 0; i < t.weights.size(); ++i)
+    for (double k = 0; k < t.weights[i]; ++k) {
+      to.theta_i_deg.push_back(from.theta_i_deg[i]);
+      to.phi_i_deg.push_back(from.phi_i_deg[i]);
+      to.theta_o_deg.push_back(from.theta_o_deg[i]);
+      to.phi_o_deg.push_back(from.phi_o_deg[i]);
+      for (std::size_t c = 0; c < values.size(); ++c) t.values[c].push_back(values[c][i]);
+    }
+  t.where = std::move(to);
+  t.weights.clear();
+  return t;
+}
+
+TEST(Fit, OfWholeWeightsIsThatOfATableWithEachSampleAsOften) {
+  const BoundModel wrong =
+      bind_model("lambert+ggx/smith_ggx.correlated/dielectric",
+                 parse_settings(std::vector<std::string>{"alpha=0.6,eta=1.5,kd=0.2,0.1,0.05"}), 3);
+  for (const bool right : {true, false})
+    for (const bool measured : {true, false})
+      for (const Metric metric : {Metric::log, Metric::l2_cosine, Metric::relative}) {
+        Table t =
+            synthesize(right ? bind_model(paint, parse_settings(materials[0].settings), 3) : wrong,
+                       {.layout = Layout::random, .samples = 150, .noise = 0.03});
+        if (measured) t.truth.reset();
+        for (std::size_t i = 0; i < t.size(); ++i)
+          t.weights.push_back(static_cast<double>((7 * i) % 4));
+        FitOptions o;
+        o.metric = metric;
+        const auto a = fit(t, o).document, b = fit(repeated(t), o).document;
+        const auto near = [](double x, double y, double part, const std::string& what) {
+          EXPECT_EQ(std::isnan(x), std::isnan(y)) << what;
+          if (!std::isnan(x)) {
+            EXPECT_NEAR(x, y, part * std::abs(y)) << what;
+          }
+        };
+        near(a.cost, b.cost, 1e-9, "cost");
+        EXPECT_EQ(a.intervals, b.intervals);
+        EXPECT_EQ(a.misfit.told, b.misfit.told);
+        near(a.misfit.p, b.misfit.p, 1e-4, "p");
+        near(a.misfit.size, b.misfit.size, 1e-4, "size");
+        for (std::size_t p = 0; p < a.parameters.size(); ++p)
+          for (std::size_t c = 0; c < a.parameters[p].value.size(); ++c) {
+            const auto &x = a.parameters[p], &y = b.parameters[p];
+            const std::string what = x.name + " " + std::string(name_of(metric)) +
+                                     (measured ? " measured" : "") + (right ? "" : " wrong");
+            EXPECT_EQ(x.status[c], y.status[c]) << what;
+            near(x.value[c], y.value[c], 1e-5, what);
+            near(x.std_error[c], y.std_error[c], 1e-3, what);
+            near(x.ci95_low[c], y.ci95_low[c], 1e-3, what);
+            near(x.ci95_high[c], y.ci95_high[c], 1e-3, what);
+            near(x.limit[c], y.limit[c], 1e-3, what);
+          }
+      }
+}
+
+TEST(Fit, OfTwiceTheWeightKnowsRootTwoMore) {
+  Table t = synthesize(bind_model(paint, parse_settings(materials[0].settings), 3),
+                       {.layout = Layout::random, .samples = 3000, .noise = 0.03, .seed = 2});
+  t.weights.assign(t.size(), 1);
+  const auto once = fit(t, {}).document;
+  t.weights.assign(t.size(), 2);
+  const auto twice = fit(t, {}).document;
+  EXPECT_NEAR(twice.cost / once.cost, 2, 1e-6);
+  ASSERT_FALSE(once.misfit.told || twice.misfit.told);
+  EXPECT_NEAR(parameter(once, "alpha").std_error[0] / parameter(twice, "alpha").std_error[0],
+              std::sqrt(2), 0.02);
+}
+
 TEST(Fit, OfASpectrumFindsEveryChannelAndItsErrors) {
   constexpr std::size_t channels = 40;  // enough for each to have a block of its own
   Setting kd{"kd", {}}, f0{"f0", {}};

@@ -47,7 +47,7 @@ void link(std::size_t n, const F* f, F offset, F* value, F* slope) {
 /// relative error has squares past all bounds.
 template <class B>
 auto is_told_from_0(const B& x) {
-  return B(0) < linked<Link::log, B>(x, B(0))[1];
+  return constant<B>(faintest) < x;
 }
 
 template <Link kind, class F>
@@ -147,6 +147,57 @@ void gram(std::size_t n, const F* r, const F* slope, const F* const* j, F* sums)
   products.store_to(sums);
 }
 
+// ---- influences ---------------------------------------------------------------------------------
+
+template <class F, std::size_t K>
+void leverage(std::size_t n, const InfluenceArguments<F>& a) {
+  using B = Lane<F>;
+  const B zero(0);
+  for (std::size_t i = 0; i < n; i += lanes<B>) {
+    const B slope = load<B>(a.slope + i), score = load<B>(a.score + i);
+    const auto on = slope < zero || zero < slope || score < zero || zero < score;
+    std::array<B, K> j;
+    for (std::size_t k = 0; k < K; ++k) {
+      j[k] = select<B>(on, load<B>(a.j[k] + i), zero);
+      store<B>(a.seen[k] + i, j[k]);
+    }
+    B sum(0);
+    for (std::size_t k = 0; k < K; ++k) {
+      B row(0);
+      for (std::size_t l = 0; l < K; ++l) row = row + B(a.product[k * K + l]) * j[l];
+      sum = sum + j[k] * row;
+    }
+    const B root = slope * load<B>(a.per_root + i);
+    store<B>(a.h + i, root * root * sum);
+  }
+}
+
+template <class F, std::size_t K>
+void moves(std::size_t n, const InfluenceArguments<F>& a) {
+  using B = Lane<F>;
+  const B one(1);
+  for (std::size_t i = 0; i < n; i += lanes<B>)
+    store<B>(a.score + i,
+             load<B>(a.score + i) * load<B>(a.per_root + i) / (one - load<B>(a.h + i)));
+  if constexpr (K > 0) {
+    for (std::size_t r = 0; r < a.beta.size() / K; ++r) {
+      const F* const factor = a.beta.data() + r * K;
+      B fourth = load<B>(a.fourth + r * padding), moves = load<B>(a.moves + r * padding);
+      for (std::size_t i = 0; i < n; i += lanes<B>) {
+        B beta(0);
+        for (std::size_t k = 0; k < K; ++k) beta = beta + B(factor[k]) * load<B>(a.seen[k] + i);
+        const B per_root = load<B>(a.per_root + i), by_slope = load<B>(a.slope + i) * beta,
+                by_score = load<B>(a.score + i) * beta;
+        const B share = by_slope * by_slope * per_root, move = by_score * by_score * per_root;
+        fourth = fourth + share * share;
+        moves = moves + move * move;
+      }
+      store<B>(a.fourth + r * padding, fourth);
+      store<B>(a.moves + r * padding, moves);
+    }
+  }
+}
+
 // ---- the table ----------------------------------------------------------------------------------
 
 #define GONIO_TEXT_(x) #x
@@ -166,7 +217,9 @@ constexpr Kernels<F> table(std::index_sequence<K...>) {
           residual_sums<F>,
           residual<false, F>,
           residual<true, F>,
-          {nullptr, gram<F, K + 1>...}};
+          {nullptr, gram<F, K + 1>...},
+          {leverage<F, K>...},
+          {moves<F, K>...}};
 }
 
 }  // namespace

@@ -19,6 +19,8 @@
 namespace gonio {
 
 inline constexpr std::size_t padding = 16;
+/// The largest value that no logarithm tells from 0 [1/sr].
+inline constexpr long double faintest = 1e-30L;
 /// The most columns of one channel's normal equations: the residual and its derivatives.
 inline constexpr std::size_t max_columns = 10;
 /// The most parameters of a term.
@@ -121,13 +123,13 @@ struct TargetArguments {
   const F *weight, *cosine;  ///< factors of w
   F offset;
   bool relative;               ///< w is divided by value + offset too, and the link's offset is 0
-  bool positive;               ///< value + offset must be above 0 to be compared with
+  bool positive;               ///< value + offset must be above 1e-30 to be compared with
   F *y, *target, *out_weight;  ///< −1, 0, 0 where masked
 };
 /// Counts of values by what they are.
 struct TargetCounts {
   std::size_t not_finite = 0, negative = 0, valid = 0;
-  std::size_t zero = 0;         ///< valid, but not above 0 where they must be
+  std::size_t zero = 0;         ///< valid, but not above 1e-30 where they must be
   std::size_t zero_weight = 0;  ///< could be compared with, were it not for their weight
 };
 
@@ -136,7 +138,7 @@ template <class F>
 struct ResidualSums {
   const F *f, *y, *log_f, *log_y;
   F *values, *squares;        ///< where y ≥ 0: how many, Σ (f − y)²
-  F *positive, *log_squares;  ///< where both are above 0: how many, Σ (ln f − ln y)²
+  F *positive, *log_squares;  ///< where y is above 1e-30 and f above 0: how many, Σ (ln f − ln y)²
 };
 
 /// One channel of one block.  Where the weight is not above 0 the sample is masked, whatever else
@@ -148,6 +150,20 @@ struct ResidualArguments {
   F huber;  ///< residuals beyond it count linearly
   F *r, *weighted_slope;
   F* cost;  ///< lane sums of ρ(r²), `padding` of them
+};
+
+/// Values of one channel and what each does to the unknowns by its derivatives j: β_r = slope Σ_k beta_rk j_k,
+/// and its leverage h = slope² Σ_kl product_kl j_k j_l.  A value that counts as c samples stands for each of
+/// them: h/c of it is one's leverage.
+template <class F>
+struct InfluenceArguments {
+  const F *slope, *per_root;         ///< as `influence` leaves it; 1/√c
+  const F* const* j;                 ///< [k]
+  F* const* seen;                    ///< [k]; j, or 0 where it is masked: `leverage` makes them
+  std::span<const F> product, beta;  ///< [k][l]; [r][k]
+  F* score;           ///< as `influence` leaves it; `moves` makes it score/(√c (1 − h))
+  F* h;               ///< of one of the c: `leverage` makes it
+  F *fourth, *moves;  ///< lane sums of c times β⁴ and (β score/slope)⁴ of one, [r][padding]
 };
 
 /// Columns and parameters that fused normal equations read, and the sums that they add to.
@@ -221,6 +237,10 @@ struct Kernels {
   std::array<void (*)(std::size_t n, const F* r, const F* slope, const F* const* j, F* sums),
              max_columns + 1>
       gram;
+
+  /// Leverages of values; the scores, and sums of fourth powers, that follow; [k]: k derivatives
+  using Influence = void (*)(std::size_t n, const InfluenceArguments<F>&);
+  std::array<Influence, max_columns> leverage, moves;
 };
 
 /// Kernels of the best set that this machine and build have, or of the named one.  The environment

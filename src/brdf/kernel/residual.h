@@ -10,10 +10,10 @@
 namespace gonio::inline GONIO_ARCH {
 
 /// link(f + offset) and its derivative by f.  A model value of 0 (kd = 0 without a lobe) counts as tiny and
-/// has no slope: the log never sees it.
+/// has no slope: the log never sees it.  A call for each few samples would take as long as the log.
 template <Link kind, class B>
-std::array<B, 2> linked(const B& f, const B& offset) {
-  const B x = f + offset, one(1), tiny = constant<B>(1e-30L);
+[[gnu::always_inline]] inline std::array<B, 2> linked(const B& f, const B& offset) {
+  const B x = f + offset, one(1), tiny = constant<B>(faintest);
   if constexpr (kind == Link::identity) return {x, one};
   const auto positive = tiny < x;
   const B y = select<B>(positive, x, tiny);

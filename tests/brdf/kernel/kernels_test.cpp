@@ -91,7 +91,7 @@ TYPED_TEST(ColumnKernels, LogOfNothingIsTinyAndHasNoSlope) {
   }
 }
 
-/// What Huber makes of a residual, as one would write it in double.
+/// Huber's residual, as one would write it in double.
 struct Huber {
   double rho, rho1;  // of r²
 };
@@ -222,6 +222,72 @@ TYPED_TEST(ColumnKernels, GramIsTheNaiveSumOfProducts) {
                       double(this->few) * size)
               << set << " " << columns << ": " << a << ", " << b;
         }
+    }
+}
+
+TYPED_TEST(ColumnKernels, InfluenceIsThatOfEachOfTheSamplesThatAValueCountsAs) {
+  using F = TypeParam;
+  for (const auto& set : instruction_sets())
+    for (std::size_t k = 1; k < max_columns; ++k) {
+      const std::size_t rows = k + 2;
+      auto score = this->random_column(), slope = this->random_column();
+      const auto per_root = this->random_column(F(0.3), 1);
+      std::vector<Column<F>> jacobian, seen;
+      for (std::size_t i = 0; i < k; ++i) {
+        jacobian.push_back(this->random_column());
+        seen.push_back(this->random_column());
+      }
+      for (const std::size_t masked : {std::size_t{3}, n - 1}) {
+        score[masked] = slope[masked] = 0;
+        for (auto& c : jacobian) c[masked] = std::numeric_limits<F>::quiet_NaN();
+      }
+      score[5] = slope[6] = 0;  // alone neither masks
+      std::vector<const F*> j;
+      std::vector<F*> to;
+      for (std::size_t i = 0; i < k; ++i) {
+        j.push_back(jacobian[i].data());
+        to.push_back(seen[i].data());
+      }
+      std::vector<F> product(k * k), beta(rows * k);
+      for (F& x : product) x = this->draw(F(-0.002), F(0.002));
+      for (F& x : beta) x = this->draw(-1, 1);
+      Column<F> h(n), fourth(rows * padding, 0), moves(rows * padding, 0);
+      const auto before = score.data();
+      const std::vector<F> old(before, before + n);
+      const InfluenceArguments<F> a{
+          slope.data(), per_root.data(), j.data(), to.data(),     product,
+          beta,         score.data(),    h.data(), fourth.data(), moves.data()};
+      kernels<F>(set).leverage[k](n, a);
+      kernels<F>(set).moves[k](n, a);
+      std::vector<double> shares(rows), moved(rows);
+      for (std::size_t i = 0; i < n; ++i) {
+        const bool on = old[i] != 0 || slope[i] != 0;
+        const double count = 1 / (double(per_root[i]) * double(per_root[i]));
+        const auto at = [&](std::size_t p) { return on ? double(jacobian[p][i]) : 0; };
+        double leverage = 0;
+        for (std::size_t p = 0; p < k; ++p)
+          for (std::size_t q = 0; q < k; ++q)
+            leverage += double(product[p * k + q]) * at(p) * at(q);
+        leverage *= double(slope[i]) * double(slope[i]) / count;
+        EXPECT_NEAR(double(h[i]), leverage, double(this->few)) << set << " " << k;
+        const double one = double(old[i]) / count / (1 - leverage);  // the score of one of them
+        EXPECT_NEAR(double(score[i]) * double(score[i]), count * one * one,
+                    double(this->few) * (1 + count * one * one));
+        for (std::size_t r = 0; r < rows; ++r) {
+          double move = 0;
+          for (std::size_t p = 0; p < k; ++p) move += double(beta[r * k + p]) * at(p);
+          shares[r] += count * std::pow(double(slope[i]) / std::sqrt(count) * move, 4);
+          moved[r] += count * std::pow(one * move, 4);
+        }
+      }
+      for (std::size_t r = 0; r < rows; ++r) {
+        const auto sum = [&](const Column<F>& lanes) {
+          return double(
+              std::accumulate(lanes.data() + r * padding, lanes.data() + (r + 1) * padding, F(0)));
+        };
+        EXPECT_NEAR(sum(fourth) / shares[r], 1, 20 * double(this->few)) << set << " " << k;
+        EXPECT_NEAR(sum(moves) / moved[r], 1, 20 * double(this->few)) << set << " " << k;
+      }
     }
 }
 

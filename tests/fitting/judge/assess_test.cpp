@@ -41,6 +41,28 @@ TEST(Folding, ChangesNothingThatAnAssessmentSays) {
     }
 }
 
+TEST(Assessment, BreadsOfIncidentAnglesAddUpToTheWhole) {
+  constexpr std::size_t channels = 40;  // enough for each to have a block of its own
+  Setting kd{"kd", {}};
+  for (std::size_t c = 0; c < channels; ++c)
+    kd.values.push_back(0.1 + 0.01 * static_cast<double>(c));
+  const auto model = bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                                {{"alpha", {0.3}}, {"f0", {0.05}}, kd}, channels);
+  const Table t = synthesize(model, {.layout = Layout::in_plane, .noise = 0.05});
+  const FreeSlots free(model.model, std::vector<bool>(model.values.size(), true));
+  ASSERT_FALSE(free.layout()->arms().empty());
+  const Sampling s(t, t.bins(), Metric::log, 0, false);
+  const auto a = assess(s, model, free, no_huber, true);
+  ASSERT_EQ(a.sandwich.clusters.size(), 5U);
+  for (std::size_t i = 0; i < free.size(); ++i)
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      double sum = 0;
+      for (const auto& g : a.sandwich.clusters) sum += g.bread(i, k);
+      const auto& all = a.sandwich.bread;
+      EXPECT_NEAR(sum, all(i, k), 1e-9 * std::sqrt(all(i, i) * all(k, k))) << i << " " << k;
+    }
+}
+
 TEST(Assessment, PutsEverySampleIntoItsBands) {
   // Beside each edge, where a look-up may slip: θ_h of samples in the plane of incidence.
   const std::vector<double> edges{0, 1, 3, 8, 20, 45, 90};

@@ -461,6 +461,12 @@ TEST(LackOfFit, IsIncludedInTheIntervals) {
   EXPECT_GE(inside, 4U);
 }
 
+TEST(LackOfFit, AddsToAnErrorWhatItDoesToTheErrorThatItWasJudgedAgainst) {
+  EXPECT_NEAR(widened(3, 2, 1), std::sqrt(9.0 + 3.0), 1e-15);
+  EXPECT_NEAR(widened(3, 2, std::nan("")), 6, 1e-14);
+  EXPECT_EQ(widened(3, 1, 1), 3);
+}
+
 TEST(LackOfFit, OfAModelOfWhichNothingIsFreeIsTold) {
   const Table t = synthesize(test::bind("lambert", "kd=0.2", 1), {.layout = Layout::in_plane});
   FitOptions o;

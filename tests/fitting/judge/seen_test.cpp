@@ -25,6 +25,20 @@ const Prospect& prospect(const Health& h, std::string_view of) {
   return *std::ranges::find(h.prospects, of, &Prospect::of);
 }
 
+TEST(Seen, NothingIsKnownOfAChannelOfZeros) {
+  Table t = synthesize(test::bind(paint, "alpha=0.3,f0=0.05,kd=0.2", 3),
+                       {.layout = Layout::random, .samples = 200, .noise = 0.02});
+  std::ranges::fill(t.values[2], 0);
+  const auto d = fit(t, {}).document;
+  for (const char* name : {"kd", "f0"}) {
+    const auto& p = parameter(d, name);
+    EXPECT_EQ(p.status[1], ParameterStatus::free);
+    EXPECT_EQ(p.status[2], ParameterStatus::not_identifiable);
+    EXPECT_TRUE(std::isnan(p.value[2]));
+    EXPECT_EQ(p.reason[2], "no value of its channel can be used");
+  }
+}
+
 /// Values by outgoing angle in the plane of incidence, at some incident angles.
 template <class Value>
 Table in_plane(const std::vector<double>& incident, double step, Value&& value) {

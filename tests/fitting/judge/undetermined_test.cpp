@@ -17,6 +17,8 @@ namespace {
 
 using test::parameter;
 
+const SampleCounts counted{.used = 200, .samples = 200};
+
 FitResult fit_synthetic(const char* model, const std::string& settings, const SynthOptions& s) {
   FitOptions o;
   o.model = model;
@@ -102,7 +104,7 @@ TEST(Undetermined, AsksForMoreThanTheLargestOfNNormalDeviatesMayGive) {
       most = std::max(most, std::abs(cost_at(low + part * (high - low)) - cost_at(0.3)));
     Uncertainty u(1);
     u.std_error = {0.1};
-    find_undetermined(p, data, f, 200, false, u);
+    find_undetermined(p, data, f, counted, false, u);
     return Looked{2 * most / (2 * cost_at(0.3) / count), u.status[0]};
   };
   const auto with = [&](double deviates) {
@@ -293,7 +295,7 @@ TEST(Undetermined, AnIntervalAsWideAsTheRangeIsNoValueUnlessItIsTheMisfits) {
     u.t = {2, 2};
     u.freedom = {100, 100};
     u.variance = {1e9, 1e9};
-    find_undetermined(p, data, f, 200, widened, u);
+    find_undetermined(p, data, f, counted, widened, u);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_EQ(u.status[i], widened ? ParameterStatus::free : ParameterStatus::not_identifiable);
       EXPECT_EQ(u.reason[i], widened ? "the misfit leaves its whole range open"

@@ -47,10 +47,24 @@ TEST(Sampling, TakesWhatNoLogarithmTellsFromZeroForZero) {
 
 TEST(Sampling, WeighsByTheRootOfTheWeightOverItsMean) {
   Table t = test::list_of({0.1, 0.2});
-  t.weights = {1, 3};
+  t.weights = {0.5, 1.5};
   const Sampling s(t, Bins::centre, Metric::log, 0, false);
   EXPECT_NEAR(s.root_weight(0), std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(s.root_weight(1), std::sqrt(1.5), 1e-15);
+  EXPECT_EQ(s.count_of(1), 1);
+  EXPECT_EQ(fit_data<double>(s).counts.samples, 2);
+}
+
+TEST(Sampling, CountsAsManySamplesAsAWholeWeightSays) {
+  Table t = test::list_of({0.1, 0.2, 0.3, -1});
+  t.weights = {1, 3, 0, 5};
+  const Sampling s(t, Bins::centre, Metric::log, 0, false);
+  EXPECT_EQ(s.root_weight(0), 1);
+  EXPECT_EQ(s.root_weight(1), std::sqrt(3));
+  EXPECT_EQ(s.count_of(1), 3);
+  const auto counts = fit_data<double>(s).counts;
+  EXPECT_EQ(counts.used, 2U);
+  EXPECT_EQ(counts.samples, 4);
 }
 
 TEST(Sampling, LeavesOutWhatOnlyRepeatsAnotherAngle) {

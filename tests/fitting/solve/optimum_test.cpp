@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
+#include <span>
 
 #include "brdf/model/roughness.h"
 #include "fitting/fit.h"
@@ -250,6 +251,25 @@ TEST(LostOptimum, OfATableThatFadesBelowAllNumbersIsFound) {
           (std::string("lambert+beckmann/") + masking + ".correlated/conductor").c_str(),
           "alpha=0.038,eta=0.9305,k=1.5896,kd=0",
           {.layout = Layout::random, .samples = 60, .noise = 0.005}, metric, {251089, 1});
+}
+
+TEST(LostOptimum, OfALobeThatVanishesAtAnIndexOf1IsNotAboveTheDiffuseAlone) {
+  const Table tables[] = {
+      synthesize(test::bind("lambert", "kd=0.2", 3),
+                 {.layout = Layout::random, .samples = 40, .noise = 0.1, .seed = 2}),
+      synthesize(test::bind("lambert", "kd=0.2", 1), {.layout = Layout::in_plane, .noise = 0.02})};
+  for (const Table& t : std::span(tables).first(test::few(2)))
+    for (const Metric metric : {Metric::log, Metric::relative}) {
+      FitOptions o;
+      o.metric = metric;
+      o.certificate = Certify::automatic;
+      o.model = "lambert";
+      const double alone = fit(t, o).document.cost;
+      for (const char* fresnel : {"conductor", "dielectric"}) {
+        o.model = std::string("lambert+ggx/smith_ggx.correlated/") + fresnel;
+        EXPECT_LE(fit(t, o).document.cost, alone * (1 + 1e-6)) << fresnel << name_of(metric);
+      }
+    }
 }
 
 TEST(LostOptimum, OfTwoLobesIsToldWhereOneDoesBetter) {

@@ -1,0 +1,191 @@
+#include "fitting/judge/left_over.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+#include "base/quantile.h"
+#include "brdf/model/derivatives.h"
+#include "fitting/sample/incident_angles.h"
+#include "table/health/rounding.h"
+
+namespace gonio::misfit {
+namespace {
+
+constexpr double arithmetic = 1e-7;           ///< of f: below it is rounding of our own
+constexpr std::size_t most_values = 1 << 15;  ///< looked at
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+constexpr std::size_t most_channels = 16;
+
+/// Values of the smooth functions.  θ_h counts by its logarithm above 2°: highlights are narrow.
+std::array<double, fine> functions(const Angles<double>& a) {
+  const double theta_d = std::acos(std::clamp(a.voh, -1.0, 1.0));
+  const double theta_h = std::asin(std::sqrt(std::clamp(a.sin2_theta_h, 0.0, 1.0)));
+  const double h = std::log1p(theta_h / (2 * degree)) / 2;
+  return {1,
+          h,
+          theta_d,
+          h * theta_d,
+          h * h,
+          theta_d * theta_d,
+          theta_d * theta_d * theta_d,
+          a.nol + a.nov,
+          a.nol * a.nov,
+          1 / ((a.nol + 0.1) * (a.nov + 0.1)),
+          h * h * h,
+          h * h * h * h};
+}
+
+std::size_t cell_of(const Angles<double>& a) {
+  const double theta_d = std::acos(std::clamp(a.voh, 0.0, 1.0)) / degree;
+  const double theta_h = std::asin(std::sqrt(std::clamp(a.sin2_theta_h, 0.0, 1.0))) / degree;
+  const auto place = [](double x, std::size_t n) {
+    return std::min(static_cast<std::size_t>(x), n - 1);
+  };
+  return place(rows * std::sqrt(theta_h / 90), rows) * columns +
+         place(columns * theta_d / 90, columns);
+}
+
+}  // namespace
+
+double row_edge(std::size_t k) {
+  const double part = static_cast<double>(k) / rows;
+  return 90 * part * part;
+}
+double column_edge(std::size_t k) {
+  return 90.0 * static_cast<double>(k) / columns;
+}
+
+Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
+  const std::size_t stride = (s.channels() + most_channels - 1) / most_channels;
+  const std::size_t looked_at = (s.channels() + stride - 1) / stride;
+  Left all;
+  ModelDerivatives<double> model(f.model.model, p.free.mask(), kernels<double>());
+  model.set(f.model.values);
+  double *const link = model.fresh(), *const slope = model.fresh();
+
+  std::vector<std::vector<const double*>> derivatives;
+  std::map<std::size_t, std::size_t> numbers;  // of the unknowns met
+  for (std::size_t c = 0; c < s.channels(); c += stride) {
+    auto& unknowns = all.unknowns.emplace_back();
+    auto& of = derivatives.emplace_back();
+    for (const auto& [slot, column] : model.channel(c).d) {
+      unknowns.push_back(numbers.emplace(slot, numbers.size()).first->second);
+      of.push_back(column);
+    }
+  }
+  all.count = numbers.size();
+
+  const IncidentKeys keys(s);
+  std::map<std::size_t, std::size_t> angles;  // numbers of those met
+  const auto offset = s.link_offset();
+  const FileRounding rounding = rounding_of(s.table());
+  const std::size_t members = s.groups().widest();
+  const Tasks tasks(s, std::max<std::size_t>(most_values / (members * looked_at), 64),
+                    BlockReader<double>::block);
+  std::vector<std::size_t> unit_of;
+  for (std::size_t k = 0; k < tasks.count; ++k) {
+    BlockReader<double> in(s, tasks.first(k), tasks.last(k), tasks.step);
+    while (in.next()) {
+      const auto x = in.angles();
+      unit_of.assign(members * in.size(), none);
+      model.run(x, [&](std::size_t c) {
+        if (c % stride != 0) return;
+        const double* const value = model.channel(c).value;
+        kernels<double>().link[static_cast<std::size_t>(link_of(s.metric()))](x.n, value, offset,
+                                                                              link, slope);
+        for (std::size_t m = 0; m < members; ++m) {
+          const auto& data = in.values(m, c);
+          for (std::size_t i = 0; i < in.size(); ++i) {
+            const double w = data.weight[i];
+            if (!(w > 0)) continue;
+            const double weight = s.root_weight(in.sample(m)[i]);
+            const double r = w * (link[i] - data.target[i]);
+            // Below what the link tells apart f is as large as that; such a datum says nothing of
+            // it.
+            const bool faint = slope[i] == 0;
+            constexpr double least = static_cast<double>(faintest);
+            const double f_seen = faint ? least : value[i],
+                         slope_seen = faint ? 1 / least : slope[i];
+            if (!std::isfinite(r) || !std::isfinite(slope_seen) || (faint && r == 0)) continue;
+            auto& unit = unit_of[m * in.size() + i];
+            if (unit == none) {
+              unit = all.units.size();
+              const Angles<double> a{x.nol[i], x.nov[i], x.noh[i], x.voh[i], x.sin2_theta_h[i]};
+              const std::size_t key = keys(in.sample(m)[i], in.nol(m)[i]);
+              all.units.push_back({functions(a), cell_of(a),
+                                   angles.emplace(key, angles.size()).first->second,
+                                   s.count_of(in.sample(m)[i])});
+            }
+            auto& v = all.values.emplace_back();
+            v.unit = unit;
+            v.channel = c / stride;
+            v.whole = r;
+            v.root_count = std::sqrt(all.units[unit].count);
+            all.samples += all.units[unit].count;
+            v.r = std::clamp(r, -f.huber, f.huber);
+            v.active = std::abs(r) <= f.huber ? 1 : 0;
+            // By f where the metric divides by y: noise in both would follow itself.
+            v.slope = s.metric() == Metric::relative ? 1 / (f_seen + s.offset())
+                                                     : w / weight * slope_seen;
+            v.change = w * slope_seen * f_seen;
+            v.f = f_seen;
+            all.without_logarithm += !(data.y[i] > 0) && value[i] > least;
+            const double rounded = std::hypot(rounding.of(data.y[i]), arithmetic * data.y[i]);
+            v.rounding =
+                w * (link_of(s.metric()) == Link::log ? std::log1p(rounded / (data.y[i] + offset))
+                                                      : rounded);
+            const auto& of = derivatives[v.channel];
+            for (std::size_t q = 0; q < of.size(); ++q) v.j[q] = w * slope[i] * of[q][i];
+          }
+        }
+      });
+    }
+  }
+  all.angles = angles.size();
+  all.robust = p.options.robust;
+  return all;
+}
+
+bool find_variances(Left& left) {
+  static constexpr double largest =
+      1e150;  // whose square is finite: f may be next to nothing, or 0
+  const auto sigma = [](const Value& v, std::size_t relative) {
+    return std::clamp(v.slope * (relative ? v.f : 1), 1 / largest, largest);
+  };
+  const double n = left.samples;
+  const auto badness = [&](std::size_t relative) {
+    double logs = 0, squares = 0;
+    std::vector<double> sizes;
+    for (const auto& v : left.values) {
+      const double root = v.whole / sigma(v, relative);
+      logs += 2 * v.root_count * v.root_count * std::log(sigma(v, relative));
+      squares += root * root;
+      if (left.robust) sizes.push_back(std::abs(root));
+    }
+    if (!left.robust) return logs + n * std::log(squares);
+    if (sizes.empty()) return 0.0;
+    const double scale = median(sizes);
+    for (const double size : sizes) logs += 2 * std::log(scale + size / scale * size);
+    return logs - n * std::log(scale * scale);
+  };
+  const bool relative = !(badness(0) < badness(1));
+  for (auto& v : left.values) v.variance = sigma(v, relative) * sigma(v, relative);
+  return relative;
+}
+
+bool only_rounded(const std::vector<Value>& values) {
+  constexpr double most = 4;  // squares, of those of rounding
+  constexpr double clipped = 100;
+  double squares = 0, rounded = 0, own = 0;
+  for (const auto& v : values) {
+    const double square = v.r * v.r, by_rounding = v.rounding * v.rounding;
+    squares += square;
+    rounded += by_rounding;
+    own += square > clipped * by_rounding ? clipped : square > 0 ? square / by_rounding : 0;
+  }
+  return squares <= most * rounded && own <= most * static_cast<double>(values.size());
+}
+
+}  // namespace gonio::misfit

@@ -1,0 +1,77 @@
+#pragma once
+/// \file
+/// Residuals of a thinned table, value by value, beside the angles that they may follow.
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "fitting/solve/problem.h"
+#include "fitting/solve/search.h"
+
+namespace gonio::misfit {
+
+/// Directions of misfit: what usually follows an angle, and the functions that tell it.
+enum class Follows { nothing, theta_h, theta_d, grazing };
+inline constexpr std::array<std::string_view, 4> names{"", "theta_h", "theta_d", "grazing angles"};
+
+/// Smooth functions of the angles: of few samples the first `smooth`, of many the `fine`.
+inline constexpr std::size_t smooth = 10, fine = 12;
+inline constexpr std::array<Follows, fine> belongs{
+    Follows::nothing, Follows::theta_h, Follows::theta_d, Follows::nothing,
+    Follows::theta_h, Follows::theta_d, Follows::theta_d, Follows::grazing,
+    Follows::grazing, Follows::grazing, Follows::theta_h, Follows::theta_h};
+
+/// Cells of the residual map: five of the page's along each angle.
+inline constexpr std::size_t rows = 9, columns = 6;
+/// Edges of a row in θ_h, of a column in θ_d [degrees].
+double row_edge(std::size_t row);
+double column_edge(std::size_t column);
+
+/// One value of a thinned table, as a fit compares it.
+struct Value {
+  std::size_t unit, channel;
+  double r;             ///< residual, clipped as the robust loss does
+  double whole;         ///< before that
+  double root_count;    ///< √ of the samples that it counts as, a factor of the residual
+  double active;        ///< 1, or 0 where it is clipped; its weight while that settles
+  double change;        ///< of the residual, by a relative change of f
+  double slope;         ///< of the residual, by f, without the table's weights
+  double rounding;      ///< of the residual, by what the datum's digits leave out
+  double f;             ///< [1/sr]
+  double variance = 0;  ///< of the residual, up to a factor
+  std::array<double, max_columns> j{};  ///< derivatives by the unknowns of its channel
+  std::size_t gain = 0;  ///< unknown of its incident angle's own scale, where there are such
+};
+/// One sample, or one incident angle of one cell: its values share their errors.
+struct Unit {
+  std::array<double, fine> functions;
+  std::size_t cell, angle;
+  double count;  ///< samples that it counts as
+};
+
+/// Residuals of a table, and the units that share their errors.
+struct Left {
+  std::vector<Value> values;
+  std::vector<Unit> units;
+  std::vector<std::vector<std::size_t>> unknowns;  ///< of each channel looked at
+  std::size_t count = 0;                           ///< of the unknowns
+  std::size_t angles = 0;
+  std::size_t without_logarithm = 0;  ///< values of 0 where f is not
+  double samples = 0;                 ///< that the values count as
+  bool robust = false;
+};
+
+Left left_over(const Sampling&, const Problem&, const Fitted&);
+
+/// Noise is taken as the likelier of two: of one size in f, or in proportion to f; normal, or Cauchy's
+/// for a robust fit, before anything is clipped.
+/// \return  whether in proportion
+bool find_variances(Left&);
+
+/// True where little else is left than rounding: of all values together, and of each by its own, lest one
+/// whose digits say little hides what others miss by far.
+bool only_rounded(const std::vector<Value>&);
+
+}  // namespace gonio::misfit

@@ -1,0 +1,346 @@
+#include "fitting/judge/regression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "base/quantile.h"
+
+#include <Eigen/Eigenvalues>
+#include <boost/math/distributions/fisher_f.hpp>
+
+namespace gonio::misfit {
+namespace {
+
+constexpr double many = 50;  ///< samples for each function
+constexpr std::size_t most_gains = 64;
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+Eigen::Index index(std::size_t n) {
+  return static_cast<Eigen::Index>(n);
+}
+
+/// Unknowns of their own for the scale of each channel under each incident angle, where there is room.
+std::size_t add_gains(Left& left) {
+  const std::size_t channels = left.unknowns.size(), gains = left.angles * channels;
+  if (left.angles < 2 || 4 * left.angles > left.units.size() || left.count + gains > most_gains)
+    return 0;
+  for (auto& v : left.values) v.gain = left.count + left.units[v.unit].angle * channels + v.channel;
+  left.count += gains;
+  return gains;
+}
+
+/// Pseudoinverse of a positive semidefinite matrix, and its rank.
+struct Inverse {
+  Matrix inverse;
+  std::size_t rank = 0;
+  explicit Inverse(const Matrix& a) : inverse(a) {
+    if (a.size() == 0) return;  // nothing is free
+    const Vector scale =
+        a.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0; });
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scale.asDiagonal() * a * scale.asDiagonal());
+    const Vector roots =
+        eigen.eigenvalues().unaryExpr([](double l) { return l > 1e-10 ? 1 / std::sqrt(l) : 0; });
+    const Matrix half = scale.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
+    inverse = half * half.transpose();
+    rank = static_cast<std::size_t>((roots.array() > 0).count());
+  }
+};
+
+/// Probability of so large an F by luck.
+double luck(double f, double of, double freedom) {
+  if (!(f > 0)) return 1;
+  return boost::math::cdf(boost::math::complement(boost::math::fisher_f(of, freedom), f));
+}
+/// That of W = Uᵀ(Σ z zᵀ)⁻¹U over `units` independent scores z with the sum U (Hotelling), which is at
+/// most their number.
+double luck_of_scores(double w, double of, double units) {
+  const double rest = std::max(units - w, 1e-12 * units);
+  return luck(w / of / (rest / (units - of)), of, units - of);
+}
+
+/// Sums of scores over units, or over incident angles.
+class Scores {
+ public:
+  Scores(std::size_t units, std::size_t width)
+      : width_(width), sums_(units * width), counts_(units) {}
+  /// \param count  samples that the unit counts as: each has that part of its score
+  double* of(std::size_t unit, double count) {
+    counts_[unit] = count;
+    return sums_.data() + unit * width_;
+  }
+  double count() const { return std::accumulate(counts_.begin(), counts_.end(), 0.0); }
+  Eigen::Map<const Vector> at(std::size_t k) const {
+    return Eigen::Map<const Vector>(sums_.data() + k * width_, index(width_));
+  }
+  Vector sum() const {
+    Vector u = Vector::Zero(index(width_));
+    for (std::size_t k = 0; k < counts_.size(); ++k) u += at(k);
+    return u;
+  }
+  Matrix squares() const {
+    Matrix m = Matrix::Zero(index(width_), index(width_));
+    for (std::size_t k = 0; k < counts_.size(); ++k)
+      if (counts_[k] > 0) m.selfadjointView<Eigen::Lower>().rankUpdate(at(k), 1 / counts_[k]);
+    return m.selfadjointView<Eigen::Lower>();
+  }
+
+ private:
+  std::size_t width_;
+  std::vector<double> sums_;
+  std::vector<double> counts_;  ///< 0 of those without a score
+};
+
+/// Residuals projected: what is left when the unknowns are moved to where these scores are 0, and the
+/// functions without what unknowns could take up.
+class Projected {
+ public:
+  Projected(const Left& left, std::size_t width, bool gains)
+      : left_(left), width_(width), gains_(gains) {
+    const auto n = index(left.count), q = index(width);
+    Matrix a = Matrix::Zero(n, n), c = Matrix::Zero(n, q);
+    Vector g = Vector::Zero(n);
+    for (const auto& v : left.values) {
+      const auto& functions = left.units[v.unit].functions;
+      const double weighted = v.active * v.change / v.variance;
+      each(v, [&](Eigen::Index i, double j) {
+        g[i] += j * v.r;
+        if (v.active == 0) return;
+        for (Eigen::Index k = 0; k < q; ++k)
+          c(i, k) += j * weighted * functions[static_cast<std::size_t>(k)];
+        each(v, [&](Eigen::Index l, double other) { a(i, l) += v.active * j * other; });
+      });
+    }
+    Inverse solved(a);
+    rank_ = solved.rank;
+    inverse_ = std::move(solved.inverse);
+    functions_ = (inverse_ * c).transpose();
+    step_ = inverse_ * g;
+  }
+  std::size_t rank() const { return rank_; }
+  const Matrix& inverse() const { return inverse_; }
+  /// Residual that the unknowns take up.
+  double taken_up(const Value& v) const {
+    double sum = 0;
+    each(v, [&](Eigen::Index i, double j) { sum += j * step_[i]; });
+    return sum;
+  }
+  double residual(const Value& v) const { return v.active > 0 ? v.r - taken_up(v) : v.r; }
+  void functions(const Value& v, double* out) const {
+    const auto& own = left_.units[v.unit].functions;
+    const double weighted = v.change / v.variance;
+    for (std::size_t k = 0; k < width_; ++k) out[k] = weighted * own[k];
+    each(v, [&](Eigen::Index i, double j) {
+      for (std::size_t k = 0; k < width_; ++k) out[k] -= j * functions_(index(k), i);
+    });
+  }
+
+  /// Unknowns that a value knows, and its derivatives by them.
+  template <class Visit>
+  void each(const Value& v, Visit&& visit) const {
+    const auto& unknowns = left_.unknowns[v.channel];
+    for (std::size_t k = 0; k < unknowns.size(); ++k) visit(index(unknowns[k]), v.j[k]);
+    if (gains_) visit(index(v.gain), v.change);
+  }
+
+ private:
+  const Left& left_;
+  std::size_t width_, rank_ = 0;
+  bool gains_;
+  Matrix inverse_, functions_;
+  Vector step_;
+};
+
+/// Cells, each one function of its own: 1 in it and 0 elsewhere, projected as the smooth ones are.  The
+/// worst is the one that is furthest off for what noise does to it.
+void find_worst_cell(const Left& left,
+                     const Projected& projected,
+                     const std::vector<double>& r,
+                     bool shared,
+                     double variance,
+                     Regression& out) {
+  constexpr std::size_t cells = rows * columns;
+  const auto n = index(left.count);
+  struct Cell {
+    double sum = 0, weight = 0, squares = 0;
+    Vector with_function, with_change, with_score;  ///< products with the derivatives
+    std::size_t values = 0;
+    double scores = 0;
+  };
+  std::array<Cell, cells> all;
+  for (auto& c : all) c.with_function = c.with_change = c.with_score = Vector::Zero(n);
+  const std::size_t units = shared ? left.angles : left.units.size();
+  Scores moves(units, left.count);                                              // Σ j r
+  std::vector<std::pair<double, double>> scores(units * (shared ? cells : 1));  // count, score
+  for (std::size_t i = 0; i < left.values.size(); ++i) {
+    const auto& v = left.values[i];
+    const auto& unit = left.units[v.unit];
+    auto& cell = all[unit.cell];
+    const double function = v.change / v.variance;
+    cell.sum += function * r[i];
+    cell.weight += v.active * function * v.change;
+    ++cell.values;
+    const std::size_t of = shared ? unit.angle : v.unit;
+    auto& [count, score] = scores[shared ? of * cells + unit.cell : of];
+    count = shared ? 1 : unit.count;
+    score += function * r[i];
+    double* const move = moves.of(of, count);
+    projected.each(v, [&](Eigen::Index k, double j) {
+      move[k] += j * r[i];
+      cell.with_function[k] += v.active * function * j;
+      cell.with_change[k] += v.active * v.change * j;
+    });
+  }
+  for (std::size_t k = 0; k < scores.size(); ++k) {
+    const auto& [count, score] = scores[k];
+    if (count == 0) continue;
+    const std::size_t of = shared ? k / cells : k;
+    auto& cell = all[shared ? k % cells : left.units[k].cell];
+    cell.squares += score * score / count;
+    cell.with_score += score / count * moves.at(of);
+    cell.scores += count;
+  }
+  const Matrix move_squares = moves.squares();
+  constexpr double few = 3, enough = 20;
+  double tested = 0, least = 1, furthest = 0, squares = 0, weights = 0;
+  for (std::size_t k = 0; k < cells; ++k) {
+    const Cell& c = all[k];
+    const Vector taken_up = projected.inverse() * c.with_function;
+    const double weight = c.weight - taken_up.dot(c.with_change);
+    const double noise =
+        c.squares - 2 * taken_up.dot(c.with_score) + taken_up.dot(move_squares * taken_up);
+    if (c.scores < few || !(weight > 0.05 * c.weight) || !(noise > 1e-9 * c.squares)) continue;
+    const double square = c.sum * c.sum;
+    if (c.scores >= enough) {
+      ++tested;
+      least = std::min(least, luck_of_scores(square / noise, 1, c.scores));
+    }
+    squares += std::max(0.0, (square - noise) / weight);
+    weights += weight;
+    const double distance = square / std::max(noise, weight * variance);
+    if (distance <= furthest) continue;
+    furthest = distance;
+    out.worst = {row_edge(k / columns),
+                 row_edge(k / columns + 1),
+                 column_edge(k % columns),
+                 column_edge(k % columns + 1),
+                 c.values,
+                 c.sum / weight};
+  }
+  if (tested > 0) out.p = std::min(1.0, 2 * std::min(out.p, least * tested));
+  if (weights > 0) out.size = std::max(out.size, std::sqrt(squares / weights));
+}
+
+/// Takes each angle's own scale out of what a robust fit leaves, which then clips other values: else one
+/// whose values are clipped all alike could take nothing up.
+void settle(Left& left) {
+  constexpr int rounds = 20;
+  for (int round = 0; round <= rounds; ++round) {
+    std::vector<double> sizes;
+    for (const auto& v : left.values) sizes.push_back(std::abs(v.whole));
+    const double huber = huber_of(std::move(sizes));
+    for (auto& v : left.values) {
+      v.r = std::clamp(v.whole, -huber, huber);
+      const double part = huber / std::max(std::abs(v.whole), huber);
+      v.active = round < rounds ? part : std::floor(part);
+    }
+    if (round == rounds) break;
+    const Projected projected(left, 0, true);
+    for (auto& v : left.values) v.whole -= projected.taken_up(v);
+  }
+}
+
+}  // namespace
+
+Regression regress(Left& left, bool shared, bool gains) {
+  Regression out;
+  find_variances(left);
+  if (gains) gains = add_gains(left) > 0;
+  if (gains && left.robust) settle(left);
+  const std::size_t units = left.units.size();
+  const double n = left.samples;
+  double rounded = 0, changes = 0;
+  for (const auto& v : left.values) {
+    rounded += v.rounding * v.rounding;
+    changes += v.change * v.change;
+  }
+  out.rounding = std::sqrt(rounded / changes);
+  out.rounded = only_rounded(left.values);
+  if (out.rounded) return out;
+
+  double samples = 0;
+  for (const auto& unit : left.units) samples += unit.count;
+  const std::size_t width = samples >= 500 ? fine : smooth;
+  const Projected projected(left, width, gains);
+  const auto q = index(width);
+  Scores scores(shared ? left.angles : units, width);
+  std::vector<double> r(left.values.size()), of_unit(units), z(width);
+  Matrix noise = Matrix::Zero(q, q);  // of the scores, if the variances are right
+  Vector length = Vector::Zero(q);    // of each function before its projection
+  double chi = 0, weight = 0;
+  for (std::size_t i = 0; i < left.values.size(); ++i) {
+    const auto& v = left.values[i];
+    const auto& unit = left.units[v.unit];
+    r[i] = projected.residual(v);
+    projected.functions(v, z.data());
+    double* const sum = scores.of(shared ? unit.angle : v.unit, shared ? 1 : unit.count);
+    for (std::size_t k = 0; k < width; ++k) sum[k] += z[k] * r[i];
+    const Eigen::Map<const Vector> of(z.data(), q);
+    noise.selfadjointView<Eigen::Lower>().rankUpdate(of, v.variance);
+    const double whole = v.change * v.change / v.variance;
+    for (std::size_t k = 0; k < width; ++k)
+      length[index(k)] += whole * unit.functions[k] * unit.functions[k];
+    chi += r[i] * r[i] / v.variance;
+    of_unit[v.unit] += r[i] / std::sqrt(v.variance);
+    weight += v.active * whole;
+  }
+  noise = Matrix(noise.selfadjointView<Eigen::Lower>());
+  double common = 0;  // channels of a sample that share their errors count less
+  for (const double x : of_unit) common += x * x;
+  common = std::max(1.0, common / chi);
+  const double freedom = n / common - static_cast<double>(projected.rank());
+  const double independent = scores.count();
+  const double most = shared ? (independent - 2) / 3 : freedom / 4;
+  if (!(most >= 1)) return out;
+  const double variance = chi / (n - static_cast<double>(projected.rank()));
+
+  // Functions of unit variance, the best visible ones first.
+  const Vector scale = length.unaryExpr([](double l) { return l > 0 ? 1 / std::sqrt(l) : 0; });
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scale.asDiagonal() * noise *
+                                                    scale.asDiagonal());
+  Eigen::Index kept = 0;
+  while (kept < q && static_cast<double>(kept + 1) <= most &&
+         eigen.eigenvalues()[q - 1 - kept] > 1e-6)
+    ++kept;
+  if (kept == 0) return out;
+  const Matrix t = scale.asDiagonal() * eigen.eigenvectors().rightCols(kept) *
+                   eigen.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Vector sum = scores.sum(), u = t.transpose() * sum;
+  const double of = static_cast<double>(kept);
+  const Matrix meat = t.transpose() * scores.squares() * t;
+  out.tested = true;
+  out.functions = of;
+  if (shared || independent >= many * of) {
+    out.p = luck_of_scores(u.dot(Inverse(meat).inverse * u), of, independent);
+    out.noise = meat.trace();
+  } else {
+    const double w = u.squaredNorm() / (variance * common);
+    out.p = luck_of_scores(w, of, freedom);
+    out.noise = of * variance * common;
+  }
+  out.excess = std::max(0.0, u.squaredNorm() - out.noise);
+  out.size = std::sqrt(out.excess / weight);
+  for (std::size_t g = 1; g < names.size(); ++g) {
+    std::vector<Eigen::Index> own;
+    for (std::size_t k = 0; k < width; ++k)
+      if (static_cast<std::size_t>(belongs[k]) == g) own.push_back(index(k));
+    out.follows[g] = sum(own).dot(Inverse(noise(own, own)).inverse * Vector(sum(own)));
+  }
+  find_worst_cell(left, projected, r, shared, variance, out);
+  return out;
+}
+
+}  // namespace gonio::misfit
