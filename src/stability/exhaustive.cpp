@@ -39,8 +39,7 @@ class Column {
 std::vector<double> halves_within(const Range& range) {
   std::vector<double> all;
   const auto places = places_within(Number::half, range, true);
-  for (auto p = places.first; p <= places.last; ++p)
-    all.push_back(at_place(Number::half, p, true));
+  for (auto p = places.first; p <= places.last; ++p) all.push_back(at_place(Number::half, p, true));
   return all;
 }
 
