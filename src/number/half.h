@@ -33,7 +33,7 @@ inline thread_local HalfFlags half_flags;
 
 /// Liberties that drivers take with halves.
 struct HalfRules {
-  /// What is below 2⁻¹⁴ after rounding becomes 0, its sign kept.
+  /// Subnormal results become 0, their sign kept: what is below 2⁻¹⁴ after rounding.
   bool flush = false;
   /// a b + c, a b − c and c − a b are rounded once; of two products the first is not rounded.  A product
   /// keeps what it was before it was rounded until it is added, chosen by select or leaves the formula.
@@ -170,7 +170,7 @@ class HalfOver {
     return raw(rounded(odd<R>(sum, R(0.0F) < side, side < R(0.0F))));
   }
 
-  /// Of the two floats around an exact value, of which x is the nearest, the one whose last bit is set, so
+  /// That of the two floats around an exact value, x the nearest of them, whose last bit is set, so
   /// that it is no tie where the exact value is none.                    [Boldo & Melquiond 2008]
   ///
   /// \param outwards, inwards  the exact value lies beyond x, or on this side of it

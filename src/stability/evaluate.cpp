@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "base/error.h"
 #include "brdf/in_number/terms_in.h"
 #include "stability/value_over.h"
 
@@ -35,10 +36,16 @@ std::vector<double> rounded(const Subject& s, Number number, std::span<const dou
   return out;
 }
 
-double value_of(const Subject& s, Number number, std::span<const double> inputs) {
-  switch (number) {
+double value_of(const Subject& s, const Arithmetic& a, std::span<const double> inputs) {
+  if (a.number != Number::half && (a.flush || a.contract))
+    throw wrong_usage(fmt::format("{}: flushing and contraction are known in half alone, not in {}",
+                                  s.id, name_of(a.number)));
+  switch (a.number) {
     case Number::half:
-      return value_in_number<Half>(s, inputs);
+      return a.flush && a.contract ? value_in_number<FlushedContractedHalf>(s, inputs)
+             : a.flush             ? value_in_number<FlushedHalf>(s, inputs)
+             : a.contract          ? value_in_number<ContractedHalf>(s, inputs)
+                                   : value_in_number<Half>(s, inputs);
     case Number::mixed:
       return value_in_number<Mixed>(s, inputs);
     case Number::float_:
@@ -49,6 +56,9 @@ double value_of(const Subject& s, Number number, std::span<const double> inputs)
       break;
   }
   return truth_of(s, inputs).value;
+}
+double value_of(const Subject& s, Number number, std::span<const double> inputs) {
+  return value_of(s, Arithmetic{number}, inputs);
 }
 
 std::string hex(Number number, double x, bool parameter) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "brdf/in_number/number.h"
+#include "stability/evidence.h"
 #include "stability/subject.h"
 
 namespace gonio::stability {
@@ -17,6 +18,9 @@ std::vector<double> rounded(const Subject&, Number, std::span<const double> inpu
 
 /// Value of a term, or of a model by the product rule in the number; its inputs are rounded to the number first, and its
 /// angles follow from them in it.
+///
+/// \throws Error (wrong usage) of flushing or contraction in another number than half
+double value_of(const Subject&, const Arithmetic&, std::span<const double> inputs);
 double value_of(const Subject&, Number, std::span<const double> inputs);
 
 /// Value in fifty digits of inputs that are exact as they are, with its condition in these inputs, which costs as many

@@ -11,6 +11,7 @@
 
 #include "base/names.h"
 #include "brdf/in_number/number.h"
+#include "number/half.h"
 
 namespace gonio::stability {
 
@@ -53,7 +54,10 @@ struct Looked {
   Count negative;  ///< below 0, where f is not
   Count overflow;  ///< infinite because f is larger than the largest number
   Count vanished;  ///< 0 where f is a normal number
-  Count irreciprocal;               ///< another value with light and view exchanged
+  Count irreciprocal;  ///< another value with light and view exchanged
+  Count not_monotone;  ///< at the next value of the last input it rises where f falls, or falls
+                       ///< where f rises
+  HalfFlags flags;     ///< raised on the way to the worst relative error, of half
   std::optional<double> safe_from;  ///< of the parameter that decides: from there on every input
                                     ///< looked at keeps the tolerance
   double tolerance = 0;             ///< relative: 0.02 in half

@@ -35,7 +35,7 @@ class Column {
   std::vector<Part> v_;
 };
 
-/// All halves within a range, ascending; if there is none, the one next to its lower end.
+/// Halves within a range, all of them, ascending; if there is none, the one next to its lower end.
 std::vector<double> halves_within(const Range& range) {
   std::vector<double> all;
   const auto places = places_within(Number::half, range, true);
@@ -43,7 +43,7 @@ std::vector<double> halves_within(const Range& range) {
   return all;
 }
 
-/// What is walked over: rows of columns, one of the inputs each, the others fixed.
+/// Inputs that are walked over: rows of columns, one of the inputs each, the others fixed.
 struct Walk {
   std::vector<std::vector<double>> values;  ///< of each input
   std::size_t row = 0, column = 0;          ///< inputs; none: values.size()
@@ -119,6 +119,13 @@ class Rows {
   std::size_t padded() const { return got_.size(); }
   const float* got() const { return got_.data(); }
   const double* want() const { return want_.data(); }
+
+  /// True where the value next to column i goes the other way than it should.
+  bool goes_astray(std::size_t i) const {
+    const float x = got()[i], y = got()[i + 1];
+    const double f = want()[i], g = want()[i + 1];
+    return bool((x < y) & (g < f)) | bool((y < x) & (f < g));
+  }
 
   /// Inputs at row r and column c.
   std::vector<double> inputs(std::size_t r, std::size_t c) const {
@@ -213,12 +220,15 @@ Looked exhaustive(const Subject& s,
   const Formula own = formula ? *formula : formula_of(*s.term, rules);
   const std::size_t rows = walk->row < s.inputs.size() ? walk->values[walk->row].size() : 1;
   std::vector<Compared> by_row(rows);
+  std::vector<std::uint64_t> astray(rows);  // not monotone where f is
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows, 64), [&](const auto& part) {
     Rows evaluated(s, *walk, rules, own);
     for (std::size_t r = part.begin(); r != part.end(); ++r) {
       evaluated.evaluate(r);
       half_kernels().compare(evaluated.padded(), evaluated.got(), evaluated.want(), tolerance,
                              by_row[r]);
+      for (std::size_t i = 0; i + 1 < evaluated.columns(); ++i)
+        astray[r] += evaluated.goes_astray(i) ? 1 : 0;
     }
   });
 
@@ -240,6 +250,15 @@ Looked exhaustive(const Subject& s,
           c.first = again.inputs(r, i);
     }
   };
+  for (std::size_t r = 0; r < rows; ++r) {
+    if (astray[r] > 0 && found.not_monotone.count == 0) {
+      again.evaluate(r);
+      std::size_t i = 0;
+      while (!again.goes_astray(i)) ++i;
+      found.not_monotone.first = again.inputs(r, i);
+    }
+    found.not_monotone.count += astray[r];
+  }
   count(found.no_value, &Compared::no_value);
   count(found.negative, &Compared::negative);
   count(found.overflow, &Compared::overflow);
@@ -281,6 +300,11 @@ Looked exhaustive(const Subject& s,
     return formula ? claimed : error_in_ulp(truth_of(s, in), x);
   });
   if (!formula) {
+    if (!found.relative.at.empty()) {
+      half_flags = {};
+      value_of(s, {Number::half, rules.flush, rules.contract}, found.relative.at);
+      found.flags = half_flags;
+    }
     if (!found.ulp.at.empty()) found.condition = truth_of(s, found.ulp.at).condition;
     worst(found.beyond, &Compared::ulp, std::min<std::size_t>(rows, 256),
           [&](const auto& in, double x, double) {

@@ -4,13 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/error.h"
 #include "base/random.h"
 #include "stability/evaluate.h"
-#include "stability/kernel/half_columns.h"
 #include "stability/places.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace gonio::stability {
@@ -20,34 +17,44 @@ using Inputs = std::vector<double>;
 
 /// Size of a number's last digit, and its range.
 struct Format {
-  int digits, least_exponent;
+  int digits;
+  int least_exponent;  ///< of what counts: less is held against 2 to this power
   double most;
 
-  double least_normal() const { return std::ldexp(1, least_exponent); }
+  double least() const { return std::ldexp(1, least_exponent); }
   double ulp(double f) const {
-    const int exponent = f == 0 ? least_exponent : std::max(std::ilogb(f), least_exponent);
-    return std::ldexp(1, exponent + 1 - digits);
+    return std::ldexp(1, (std::abs(f) < least() ? least_exponent : std::ilogb(f)) + 1 - digits);
   }
 };
+/// Exponent below which a result is black, in whatever light.
+constexpr int black = -64;
 Format format_of(Number number) {
+  constexpr auto most_float = static_cast<double>(std::numeric_limits<float>::max());
   switch (number) {
     case Number::half:
       return {11, -14, 65504};
     case Number::mixed:  // some results are floats, of what halves had left
-      return {11, -126, static_cast<double>(std::numeric_limits<float>::max())};
+      return {11, black, most_float};
     case Number::float_:
-      return {24, -126, static_cast<double>(std::numeric_limits<float>::max())};
+      return {24, black, most_float};
     case Number::double_:
     case Number::wide:
       break;
   }
-  return {53, -1022, std::numeric_limits<double>::max()};
+  return {53, black, std::numeric_limits<double>::max()};
 }
+/// Exponent down to which seeds of a number go: its least normal number's.
+int least_exponent_of(Number number) {
+  return number == Number::half ? -14 : number == Number::double_ ? -1022 : -126;
+}
+/// Least result of which a tolerance is asked, in every number: that of the least normal half.
+constexpr double asked_of = 0x1p-14;
 
 /// A result, judged.
 struct Judged {
   double relative = 0, ulp = 0, beyond = 0;  ///< 0 where they are not asked for
-  bool no_value = false, negative = false, overflow = false, vanished = false, irreciprocal = false;
+  bool no_value = false, negative = false, overflow = false, vanished = false, irreciprocal = false,
+       not_monotone = false;
   bool lost = false;  ///< beyond the tolerance, or no value
 };
 
@@ -58,9 +65,7 @@ class Judge {
 
   bool wide() const { return a_.number == Number::double_; }
 
-  double value(const Inputs& in) const {
-    return a_.number == Number::half && s_.term ? in_half(in) : value_of(s_, a_.number, in);
-  }
+  double value(const Inputs& in) const { return value_of(s_, a_, in); }
 
   /// \param condition  `beyond` is wanted too
   Judged of(const Inputs& in, bool condition) const {
@@ -69,11 +74,21 @@ class Judge {
     if (condition) f.condition = condition_in_double(in, f.value);
     return against(f, in);
   }
+  /// True where the value at `next` goes the other way than it should.
+  bool goes_astray(const Inputs& in, const Inputs& next) const {
+    const auto exact = [&](const Inputs& x) {
+      return wide() ? truth_of(s_, x, false) : WideValue{value_of(s_, Number::double_, x), 0, 1};
+    };
+    const double x = value(in), y = value(next);
+    const auto f = exact(in), g = exact(next);
+    const double rise = (g.value - f.value) + (g.rest - f.rest);
+    return (x < y && rise < 0) || (y < x && 0 < rise);
+  }
   Judged confirmed(const Inputs& in) const { return against(truth_of(s_, in), in); }
 
  private:
   Judged against(const WideValue& f, const Inputs& in) const {
-    const double x = value(in), size = std::abs(f.value), normal = format_.least_normal();
+    const double x = value(in), size = std::abs(f.value), least = format_.least();
     Judged j;
     if (s_.given == Given::cosines) {
       Inputs exchanged = in;
@@ -95,10 +110,10 @@ class Judge {
     const double error = std::abs((x - f.value) - f.rest);
     j.ulp = error / format_.ulp(f.value);
     j.beyond = j.ulp / std::max(1.0, f.condition);
-    if (normal <= size && normal <= std::abs(x)) j.relative = error / size;
+    if (least <= size && least <= std::abs(x)) j.relative = error / size;
     j.negative = x < 0 && f.value >= 0;
-    j.vanished = x == 0 && normal <= size;
-    j.lost = tolerance_ * std::max(size, normal) < error;
+    j.vanished = x == 0 && least <= size;
+    j.lost = tolerance_ * std::max(size, asked_of) < error;
     return j;
   }
 
@@ -113,30 +128,6 @@ class Judge {
       x = before;
     }
     return sum / (step * std::abs(f));
-  }
-
-  double in_half(const Inputs& in) const {
-    alignas(64) std::array<std::array<float, padding>, 4> given{};
-    alignas(64) std::array<std::array<float, padding>, 11> angle{};
-    alignas(64) std::array<float, padding> out{};
-    std::array<float, max_parameters> p{};
-    std::array<const float*, 4> columns{};
-    AngleColumns<float> to{};
-    const std::size_t angles = in.size() - s_.parameters;
-    for (std::size_t k = 0; k < s_.parameters; ++k) p[k] = static_cast<float>(in[k]);
-    for (std::size_t k = 0; k < angles; ++k) {
-      given[k].fill(static_cast<float>(in[s_.parameters + k]));
-      columns[k] = given[k].data();
-    }
-    for (std::size_t k = 0; k < to.size(); ++k) to[k] = angle[k].data();
-    const auto& kernel = half_kernels();
-    const auto rules = index_of({a_.flush, a_.contract});
-    kernel.angles[rules](s_.given, padding, std::span(columns).first(angles), to);
-    const auto at = [&](std::size_t k) -> const float* { return to[k]; };
-    kernel.terms[*s_.term][rules](
-        {at(0), at(1), at(2), at(3), at(4), padding, {at(5), at(6), at(7), at(8), at(9), at(10)}},
-        p.data(), out.data());
-    return static_cast<double>(out[0]);
   }
 
   const Subject& s_;
@@ -223,7 +214,7 @@ class Domain {
     if (low > 0) return low * std::pow(high / low, draw.uniform());
     if (low < 0 && which < 0.8) return span * signed_part(draw) / 2;  // towards 0
     // as small as numbers get, and seldom smaller than what still counts
-    const double least = which < 0.7 ? format_of(number_).least_exponent - 10.0 : -50.0;
+    const double least = which < 0.7 ? least_exponent_of(number_) - 10.0 : -50.0;
     return low + span * std::exp2(draw.uniform() * least);
   }
   double within(std::size_t k, double x) const {
@@ -241,14 +232,14 @@ class Domain {
   std::size_t eta_ = 0, k_ = 0, voh_ = 0, nol_ = 0, nov_ = 0;
 };
 
-/// What a climb began with, what it led to, and what it met.
+/// Inputs that were looked at.
 struct Looking {
   Inputs in;
   Judged judged;
 };
 /// Inputs at which something happens, as they are met.
 struct Met {
-  Count no_value, negative, overflow, vanished, irreciprocal;
+  Count no_value, negative, overflow, vanished, irreciprocal, not_monotone;
   std::uint64_t evaluations = 0;
   std::optional<Inputs> lost;  ///< beyond the tolerance, with the largest deciding parameter
 
@@ -263,6 +254,7 @@ struct Met {
     add(overflow, j.overflow);
     add(vanished, j.vanished);
     add(irreciprocal, j.irreciprocal);
+    add(not_monotone, j.not_monotone);
     if (j.lost && s.decides && (!lost || (*lost)[*s.decides] < in[*s.decides])) lost = in;
   }
   void add(const Subject& s, const Met& other) {
@@ -275,6 +267,7 @@ struct Met {
     join(overflow, other.overflow);
     join(vanished, other.vanished);
     join(irreciprocal, other.irreciprocal);
+    join(not_monotone, other.not_monotone);
     evaluations += other.evaluations;
     if (other.lost && (!lost || (*lost)[*s.decides] < (*other.lost)[*s.decides])) lost = other.lost;
   }
@@ -299,7 +292,7 @@ double reached(Aim aim, const Subject& s, const Looking& l) {
   return l.judged.lost && s.decides ? l.in[*s.decides] : 0;
 }
 
-/// What one seed finds.
+/// Findings from one seed.
 struct Found {
   Met met;
   Worst relative, ulp, beyond;
@@ -329,6 +322,11 @@ Found from_one_seed(
     Draws draw(seed, i);
     seen[i].in = domain.seed(draw);
     seen[i].judged = judge.of(seen[i].in, !judge.wide());
+    auto next = seen[i].in;
+    if (const auto above = domain.above(next.size() - 1, next.back())) {
+      next.back() = *above;
+      seen[i].judged.not_monotone = judge.goes_astray(seen[i].in, next);
+    }
   });
   Found found;
   for (const auto& l : seen) found.met.look(s, l.in, l.judged);
@@ -391,10 +389,6 @@ double usual_tolerance(Number number) {
 }
 
 Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& options) {
-  if ((a.flush || a.contract) && (a.number != Number::half || !s.term))
-    throw wrong_usage(
-        fmt::format("{}: flushing and contraction are known of terms in half alone, not in {}",
-                    s.id, name_of(a.number)));
   Looked looked;
   looked.evidence = Evidence::searched;
   looked.tolerance = options.tolerance > 0 ? options.tolerance : usual_tolerance(a.number);
@@ -417,6 +411,11 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   looked.relative = worse(one.relative, two.relative);
   looked.ulp = worse(one.ulp, two.ulp);
   looked.beyond = worse(one.beyond, two.beyond);
+  if (a.number == Number::half && !looked.relative.at.empty()) {
+    half_flags = {};
+    value_of(s, a, looked.relative.at);
+    looked.flags = half_flags;
+  }
   if (!looked.ulp.at.empty()) looked.condition = truth_of(s, looked.ulp.at).condition;
   looked.evaluations = one.met.evaluations;
   looked.no_value = one.met.no_value;
@@ -424,6 +423,7 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   looked.overflow = one.met.overflow;
   looked.vanished = one.met.vanished;
   looked.irreciprocal = one.met.irreciprocal;
+  looked.not_monotone = one.met.not_monotone;
   if (s.decides)
     looked.safe_from = one.met.lost ? domain.above(*s.decides, (*one.met.lost)[*s.decides])
                                     : domain.lowest(*s.decides);

@@ -17,18 +17,19 @@ namespace gonio::stability {
 double usual_tolerance(Number);
 
 struct SearchOptions {
-  double tolerance = 0;  ///< relative; 0: the usual one
+  double tolerance = 0;  ///< relative, of a result above 2⁻¹⁴; below it of 2⁻¹⁴; 0: the usual one
   std::uint64_t seed = 1;
   double effort = 1;  ///< times as many seeds and steps
 };
 
 /// Worst that is found, the same for a seed whatever the threads.
 ///
-/// `irreciprocal` is looked at where NoL and NoV are given, and nothing else of the directions.  Units of mixed numbers are
-/// those of a half.  `settled`: both seeds' worst relative error, and worst beyond the condition, agree within a factor of two, or are
-/// less than 8 units.
+/// Results below 2⁻⁶⁴, in other numbers than half, are black and count as if they were that.  `irreciprocal` is looked at
+/// where NoL and NoV are given, and nothing else of the directions.  Units of mixed numbers are those of a half.
+/// `settled`: both seeds' worst relative error, and worst beyond the condition, agree within a factor of two, or are less
+/// than 8 units.
 ///
-/// \throws Error (wrong usage) of flushing or contraction but of a term in half
+/// \throws Error (wrong usage) of flushing or contraction in another number than half
 Looked search(const Subject&, const Arithmetic&, const SearchOptions& = {});
 
 }  // namespace gonio::stability

@@ -81,6 +81,8 @@ TEST(Exhaustive, SaysFromWhichAlphaOnTheDistributionOfGgxKeepsTwoPercentInHalf) 
   EXPECT_EQ(hex(Number::half, found.relative.at[1], false), "0x0ce6");
   EXPECT_EQ(found.no_value.count, 20'452'764U);
   EXPECT_EQ(found.negative.count, 0U);
+  EXPECT_TRUE(found.flags.underflow);
+  EXPECT_FALSE(found.flags.overflow);
 }
 
 TEST(Exhaustive, FlushedSubnormalsCostTheDistributionOfGgxTwiceAsMuchOfItsDomain) {
@@ -102,6 +104,21 @@ TEST(Exhaustive, MaskingOfOneDirectionIsWorstWhereItsCosineIsLeast) {
   EXPECT_EQ(hex(Number::half, found.relative.at[0], true), "0x09a8");
   EXPECT_EQ(hex(Number::half, found.relative.at[2], false), "0x0081");
   EXPECT_NEAR(*found.safe_from, 0.00113297, 1e-8);
+}
+
+TEST(Exhaustive, CountsNeighboursBetweenWhichTheValueGoesTheWrongWay) {
+  auto s = subject("ndf.ggx", Given::cross);
+  set_domain(s, "alpha", {0.5, 0.5});
+  const auto own = formula_of(*s.term, {});
+  const double at = 0.25;
+  const Formula with{[=](const Block<float>& x, const float* p, float* out) {
+                       own.halves(x, p, out);
+                       for (std::size_t i = 0; i < x.n; ++i)
+                         if (static_cast<double>(x.sin2_theta_h[i]) == at) out[i] *= 0.9F;
+                     },
+                     own.doubles};
+  const auto sound = exhaustive(s, {}), found = exhaustive(s, {}, 0.02, &with);
+  EXPECT_EQ(found.not_monotone.count, sound.not_monotone.count + 1);
 }
 
 TEST(Exhaustive, WalksOverTwoAnglesOfATermWithoutParameters) {

@@ -8,7 +8,7 @@
 #include "many_fits.h"
 #include "number/half.h"
 #include "stability/evaluate.h"
-#include "stability/exhaustive.h"
+#include "stability/places.h"
 
 #include <tbb/global_control.h>
 
@@ -26,7 +26,7 @@ Subject subject(std::string_view id, Given given) {
   throw std::logic_error("no such subject");
 }
 
-/// As much effort as a sanitizer has time for.
+/// Effort for which a sanitizer has time.
 SearchOptions options() {
   return {0, 1, test::few(2) == 2 ? 1.0 : 0.05};
 }
@@ -111,7 +111,24 @@ TEST(Search, IsNotSettledWhereTwoSeedsFoundDifferentThings) {
 TEST(Search, RefusesLibertiesInNumbersWhereTheyAreNotKnown) {
   const auto s = subject("ndf.ggx", Given::cross);
   EXPECT_THROW(search(s, {Number::float_, true, false}), Error);
-  EXPECT_THROW(search(subjects_of("lambert").front(), contracted), Error);
+}
+
+TEST(Search, CountsNeighboursBetweenWhichTheValueGoesTheWrongWay) {
+  // 1 − c² of half cosines jumps by more than alpha's share: D of NoH² alpha² + 1 − NoH² in half is
+  // a staircase.
+  const auto s = subject("ndf.gtr", Given::cosine);
+  const auto found = search(s, half, {0, 1, 0.1});
+  ASSERT_GT(found.not_monotone.count, 0U);
+  Inputs at = found.not_monotone.first, next = at;
+  next[2] = at_place(Number::half, place_of(Number::half, at[2], false) + 1, false);
+  const double rise = value_of(s, Number::half, next) - value_of(s, Number::half, at);
+  EXPECT_LT(rise * (truth_of(s, next).value - truth_of(s, at).value), 0);
+}
+
+TEST(Search, TellsTheFlagsThatWereRaisedOnTheWayToTheWorst) {
+  const auto found = search(subject("ndf.ggx", Given::cross), half, {0, 1, 0.1});
+  EXPECT_TRUE(found.flags.underflow);
+  EXPECT_FALSE(found.flags.overflow);
 }
 
 TEST(Search, LooksAtModelsToo) {
@@ -119,6 +136,8 @@ TEST(Search, LooksAtModelsToo) {
       search(subjects_of("ggx/smith_ggx.correlated/schlick").front(), in_float, {0, 1, 0.02});
   EXPECT_GT(found.relative.value, 1e-7);
   EXPECT_EQ(found.no_value.count, 0U);
+  const auto spec = subjects_of("ggx/smith_ggx.correlated/schlick").front();
+  EXPECT_GT(search(spec, contracted, {0, 1, 0.02}).relative.value, 1e-3);
 }
 
 // ---- What is known of naive forms
