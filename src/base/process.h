@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// Other programs, run without a shell.
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace gonio {
+
+struct ProcessResult {
+  int status;          ///< exit status; −1: it was ended by a signal, or by the limit
+  bool out_of_time;    ///< it ran longer than it may
+  std::string output;  ///< of both its streams
+};
+
+/// A program of that name among those of PATH, given the input; no value where there is none, or it cannot be started.
+///
+/// \param seconds  after which it is ended
+std::optional<ProcessResult> run_program(const std::string& name,
+                                         std::span<const std::string> arguments,
+                                         const std::string& input,
+                                         double seconds);
+
+}  // namespace gonio

@@ -1,0 +1,41 @@
+#include "base/process.h"
+
+#include <chrono>
+#include <vector>
+
+namespace gonio {
+namespace {
+
+TEST(Program, ReadsItsInputAndGivesItsOutputAndStatus) {
+  const auto cat = run_program("cat", {}, "one\ntwo", 10);
+  ASSERT_TRUE(cat);
+  EXPECT_EQ(cat->status, 0);
+  EXPECT_EQ(cat->output, "one\ntwo");
+  const std::vector<std::string> arguments{"a b", "-e"};
+  const auto grep = run_program("grep", arguments, "", 10);
+  ASSERT_TRUE(grep);
+  EXPECT_NE(grep->status, 0);
+  EXPECT_FALSE(grep->output.empty()) << "what it says of its errors is part of it";
+}
+
+TEST(Program, IsGivenItsWordsAsTheyAre) {
+  const std::vector<std::string> arguments{"%s", "$(id) `id` ; * \"x\""};
+  EXPECT_EQ(run_program("printf", arguments, "", 10)->output, arguments[1]);
+}
+
+TEST(Program, ThatIsNotThereIsNoResult) {
+  EXPECT_FALSE(run_program("gonio-no-such-program", {}, "", 10));
+}
+
+TEST(Program, ThatRunsTooLongIsEnded) {
+  const std::vector<std::string> arguments{"60"};
+  const auto start = std::chrono::steady_clock::now();
+  const auto sleep = run_program("sleep", arguments, "", 0.05);
+  ASSERT_TRUE(sleep);
+  EXPECT_TRUE(sleep->out_of_time);
+  EXPECT_EQ(sleep->status, -1);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+}  // namespace
+}  // namespace gonio
