@@ -207,6 +207,7 @@ class Enclosure {
   double high() const { return hi_; }
   bool may_be_nan() const { return nan_; }
   const Directions& directions() const { return by_; }
+  bool may_be_subnormal() const { return near_zero() && !(lo_ == 0 && hi_ == 0); }
   bool is_finite() const { return !nan_ && std::isfinite(lo_) && std::isfinite(hi_); }
   bool holds(double x) const { return std::isnan(x) ? nan_ : lo_ <= x && x <= hi_; }
 
@@ -508,9 +509,7 @@ class Enclosure {
   bool holds_negative_zero() const { return negative(lo_) && hi_ >= 0; }
   bool near_zero() const { return lo_ < least_normal && hi_ > -least_normal; }
   /// True where subnormals are flushed and this may be one.
-  bool subnormal(const Rounding& rule) const {
-    return rule.flushed && near_zero() && !(lo_ == 0 && hi_ == 0);
-  }
+  bool subnormal(const Rounding& rule) const { return rule.flushed && may_be_subnormal(); }
   /// This as an operation reads it.
   Enclosure read(const Rounding& rule) const {
     Enclosure r = *this;

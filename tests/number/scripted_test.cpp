@@ -1,0 +1,63 @@
+#include "number/scripted.h"
+
+namespace gonio {
+namespace {
+
+static_assert(Real<Scripted<Half>> && Real<Scripted<float>> && Real<Scripted<double>>);
+
+using S = Scripted<float>;
+
+TEST(Scripted, WritesEachOperationRoundedAndExact) {
+  Script script;
+  const S x = S::input("x0", 1, 2), root = sqrt(x * x + 3), rest = 1 - x;
+  EXPECT_EQ(script.text(),
+            "r1 = rnd(x0 * x0); e1 = x0 * x0;\n"
+            "r2 = rnd(r1 + 0xcp-2); e2 = e1 + 0xcp-2;\n"
+            "r3 = rnd(sqrt(r2)); e3 = sqrt(e2);\n"
+            "r4 = rnd(0x8p-3 - x0); e4 = 0x8p-3 - x0;\n");
+  root / rest;
+  EXPECT_EQ(script.refused(), "a value that is not proved to be finite") << "1 − x may be 0";
+}
+
+TEST(Scripted, RoundsAConstantInOneOfTheTwo) {
+  Script script;
+  const S third = S::input("x0", 1, 2) * constant<S>(1.0L / 3);
+  EXPECT_NE(third.rounded(), third.exact());
+  EXPECT_EQ(script.text(), "r1 = rnd(x0 * 0xa.aaaabp-5); e1 = x0 * 0xa.aaaaaaaaaaaaaabp-5;\n");
+}
+
+TEST(Scripted, DecidesWhatAllInputsDecideAlike) {
+  Script script;
+  const S x = S::input("x0", 1, 2);
+  EXPECT_EQ((max<S>(1 - x, S(0))).rounded(), S(0).rounded()) << "they touch at 0";
+  EXPECT_EQ((select<S>(S(0) < x, x, S(7))).rounded(), "x0");
+  EXPECT_EQ(script.refused(), "");
+  min<S>(x, constant<S>(1.5L));
+  EXPECT_EQ(script.refused(), "a choice that inputs of the domain make differently");
+}
+
+TEST(Scripted, OfAnyGpuBoundsEachOperationByItself) {
+  const RoundingScope scope(Rounding::vulkan());
+  Script script;
+  const S x = S::input("x0", 1, 2);
+  sqrt(x * x) / x;
+  EXPECT_EQ(script.text(),
+            "r1 = mul_rel<23>(x0, x0); e1 = x0 * x0;\n"
+            "q2 = sqrt(r1);\nr2 = mul_rel<20>(1, q2); e2 = sqrt(e1);\n"
+            "q3 = r2 / x0;\nr3 = mul_rel<21>(1, q3); e3 = e2 / x0;\n");
+  EXPECT_EQ(script.hints(), "1 * q2 -> q2;\n1 * q3 -> q3;\n");
+}
+
+TEST(Scripted, KnowsThatADifferenceOfNormalNumbersIsNotSubnormal) {
+  const RoundingScope scope(Rounding{.flushed = true});
+  Script normal;
+  1 - S::input("x0", 0.001F, 1);
+  EXPECT_EQ(normal.refused(), "");
+  Script subnormal;
+  const S small = S::input("x0", 1e-30F, 1);
+  small* small;
+  EXPECT_EQ(subnormal.refused(), "a value that may be subnormal");
+}
+
+}  // namespace
+}  // namespace gonio
