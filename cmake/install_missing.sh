@@ -52,6 +52,13 @@ install_validator() {
   echo "Without valijson: documents are not held against their schemas."
 }
 
+# Gappa, which proves bounds of relative errors; without it these proofs are left out and say so.
+install_prover() {
+  command -v gappa >/dev/null && return 0
+  if command -v apt-get >/dev/null; then (gonio_tools=(gappa:gappa) gonio_libraries=(); install_missing) && return 0; fi
+  echo "Without Gappa: no bound of a relative error is proved."
+}
+
 # build PRESET [OPTIONS of cmake --build]
 build() {
   cmake --preset "$1" --log-level=WARNING
