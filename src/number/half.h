@@ -128,14 +128,8 @@ class HalfOver {
   friend constexpr mask_t<R> operator<(const HalfOver& a, const HalfOver& b) { return a.v_ < b.v_; }
 
   friend HalfOver sqrt(const HalfOver& a) { return raw(rounded(sqrt(a.v_))); }
-  friend HalfOver exp(const HalfOver& a) {
-    return one_by_one(a, [](float x) {  // a double holds e^±100, so that the flags are raised
-      return std::exp(std::clamp(static_cast<double>(x), -100.0, 100.0));
-    });
-  }
-  friend HalfOver log(const HalfOver& a) {
-    return one_by_one(a, [](float x) { return std::log(static_cast<double>(x)); });
-  }
+  friend HalfOver exp(const HalfOver& a) { return function_of<Exp>(a); }
+  friend HalfOver log(const HalfOver& a) { return function_of<Log>(a); }
 
  private:
   friend struct RealTraits<HalfOver>;
@@ -155,12 +149,20 @@ class HalfOver {
     constexpr auto sign = std::numeric_limits<std::int32_t>::min();
     return BitsOf<R>::as_float(BitsOf<R>::of(x) ^ Integer(sign));
   }
-  static HalfOver one_by_one(const HalfOver& a, auto&& in_double) {
+  struct Exp {  // a double holds e^±100, so that the flags are raised
+    static double at(float x) {
+      return std::exp(std::clamp(static_cast<double>(x), -100.0, 100.0));
+    }
+  };
+  struct Log {
+    static double at(float x) { return std::log(static_cast<double>(x)); }
+  };
+  template <class Function>
+  static HalfOver function_of(const HalfOver& a) {
     if constexpr (is_one)
-      return HalfOver(in_double(a.v_));
+      return HalfOver(Function::at(a.v_));
     else
-      return raw(BitsOf<R>::one_by_one(
-          a.v_, [&](float x) { return static_cast<float>(One(in_double(x))); }));
+      return raw(BitsOf<R>::template looked_up<One, Function>(a.v_));
   }
 
   /// Sum of a product of 22 bits and a half, rounded once: to the odd of the two floats around it first.

@@ -4,14 +4,35 @@
 /// can be looked at.  Where the set has a conversion to binary16 that rounds, elsewhere by the rule of
 /// half.h itself.
 ///
-/// It raises no flags.
+/// It raises no flags.  exp and log are those of one half, from a table of all.
 
 #include <array>
+#include <vector>
 
 #include "number/batch.h"
 #include "number/half.h"
 
 namespace gonio::inline GONIO_ARCH {
+
+/// Values of a function at every half, by the upper bits of the float that holds it; the lower are 0.
+template <class Half, class Function>
+class HalfTable {
+ public:
+  HalfTable() : values_(std::size_t{1} << (32 - lower)) {
+    const auto flags = half_flags;
+    for (std::uint32_t k = 0; k < values_.size(); ++k) {
+      const auto x = std::bit_cast<float>(k << lower);
+      const float size = std::abs(x);
+      if (!(size > 0) || size >= 0x1p-24F) values_[k] = static_cast<float>(Half(Function::at(x)));
+    }
+    half_flags = flags;
+  }
+  float at(std::int32_t bits) const { return values_[static_cast<std::uint32_t>(bits) >> lower]; }
+
+ private:
+  static constexpr int lower = 13;
+  std::vector<float> values_;
+};
 
 template <class Arch>
 struct BitsOf<xsimd::batch<float, Arch>> {
@@ -28,12 +49,15 @@ struct BitsOf<xsimd::batch<float, Arch>> {
     return Register(_mm512_cvtph_ps(_mm512_cvtps_ph(x, nearest)));
   }
 #endif
-  /// f of each lane, a float.
-  static Register one_by_one(const Register& x, auto&& f) {
-    alignas(64) std::array<float, Register::size> lane;
-    x.store_aligned(lane.data());
-    for (float& y : lane) y = f(y);
-    return Register::load_aligned(lane.data());
+  /// A function of each lane, a half: there are so few of them that a table has all values.
+  template <class Half, class Function>
+  static Register looked_up(const Register& x) {
+    static const HalfTable<Half, Function> table;
+    alignas(64) std::array<std::int32_t, Register::size> bits;
+    alignas(64) std::array<float, Register::size> value;
+    of(x).store_aligned(bits.data());
+    for (std::size_t k = 0; k < bits.size(); ++k) value[k] = table.at(bits[k]);
+    return Register::load_aligned(value.data());
   }
 };
 
