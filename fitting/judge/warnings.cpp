@@ -141,7 +141,15 @@ std::vector<std::string> physics_in_words(const Physics& p) {
         "there is",
         most, at, std::isnan(table) ? "" : fmt::format(" (the table {:.3g})", table)));
   constexpr double far_above = 1.5;
-  const double ratio = p.peak_ratio.empty() ? 0 : std::ranges::max(p.peak_ratio);
+  double ratio = 0;  // of channels that are dark in the model too there is none
+  bool dark = false;
+  for (const double r : p.peak_ratio)
+    if (std::isinf(r))
+      dark = true;
+    else
+      ratio = std::max(ratio, r);
+  if (dark)
+    all.push_back("the fitted model is not dark where a channel of the table is 0 everywhere");
   if (ratio > far_above)
     all.push_back(fmt::format(
         "the fitted model rises to {} times the table's greatest value where that has samples",
