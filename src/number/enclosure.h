@@ -174,7 +174,7 @@ class Enclosure {
   static Enclosure between(F low, F high) {
     return named(static_cast<double>(low), static_cast<double>(high), false);
   }
-  /// The same as the input of that number, below 32, by which results say whether they rise or fall.
+  /// Input of that number, below 32, by which results say whether they rise or fall.
   static Enclosure input(F low, F high, std::size_t number) {
     Enclosure x = between(low, high);
     x.by_ = Directions::rising(number);
@@ -612,7 +612,7 @@ class Enclosure {
     r.by_ = (a.by_ | b.by_ | m.inputs_).unknown();
     return r;
   }
-  /// As gonio::max chooses, and as a GPU may: of what is no number the other.
+  /// Maximum as gonio::max chooses it, and as a GPU may: of what is no number the other.
   static Enclosure max(const Enclosure& a, const Enclosure& b) {
     // Flushed for the comparison alone, subnormals are all alike: the lesser may be taken.
     const Rounding& rule = rounding_now;

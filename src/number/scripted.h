@@ -45,7 +45,7 @@ class Script {
     text_ += "r" + number + " = " + rounded + "; e" + number + " = " + exact + ";\n";
     return count_;
   }
-  /// The same of a quotient or a root that errs by 2^−bits of it: Gappa knows such products, and that 1 · q is q.
+  /// Definition of a quotient or a root that errs by 2^−bits of it: Gappa knows such products, and that 1 · q is q.
   int define_within(int bits, const std::string& rounded, const std::string& exact) {
     const auto number = std::to_string(count_ + 1), q = "q" + number;
     text_ += q + " = " + rounded + ";\n";
@@ -152,7 +152,7 @@ class Scripted {
   /// Digits of the unit of Vulkan's bounds, 2^−unit_bits of a value; of double they are float's.
   static constexpr int unit_bits = std::min(std::numeric_limits<F>::digits, 24) - 1;
 
-  /// What `define` defines, of whose values but 0 none is less than `least`.  Gappa's floats neither overflow nor are
+  /// Number that `define` defines, of whose values but 0 none is less than `least`.  Gappa's floats neither overflow nor are
   /// they flushed.
   static Scripted defined(const Enclosure<F>& value, double least, auto&& define) {
     Scripted r;

@@ -79,7 +79,7 @@ Proof prove(const Provable<F>&,
             const Range& required,
             const ProofBudget& = {});
 
-/// The same of a subject over its domain, in half, float or double; wrong usage for another number.
+/// Claim about a subject over its domain, in half, float or double; wrong usage for another number.
 Proof prove(
     const Subject&, Number, const Rounding&, const Range& required, const ProofBudget& = {});
 

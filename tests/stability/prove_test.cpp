@@ -193,6 +193,32 @@ TEST(Proof, GoesToTheFacesOfABoxWhereAValueOnlyRises) {
   EXPECT_FALSE(prove(s, Number::half, {}, {0, 0.999}).holds());
 }
 
+TEST(Proof, GoesToTheRightFace) {
+  const auto s = subject("fresnel.schlick", Given::facet, {{"voh", {0.5, 1}}});
+  const auto p = prove(s, Number::float_, {}, {0, 0.97});
+  EXPECT_FALSE(p.holds()) << "F is 1 where f0 is";
+  ASSERT_TRUE(p.counterexample);
+  EXPECT_GT(p.counterexample->value, 0.97);
+}
+
+TEST(Proof, IsNoneWhereAValueMayBeNoNumberHoweverNarrowItsRange) {
+  const Provable<float> f{[](auto in) { return sqrt(in[0]); },
+                          [](auto in) { return std::sqrt(in[0]); }};
+  const auto p = prove<float>(f, std::vector<Range>{{-1, 1}}, {}, {0, 1});
+  ASSERT_TRUE(p.counterexample);
+  EXPECT_TRUE(std::isnan(p.counterexample->value));
+}
+
+TEST(Proof, IsOpenWhereSingleInputsAreNeitherProvedNorRefuted) {
+  // Vulkan lets e^x be negative where it is subnormal; nobody's is.
+  const auto s =
+      subject("ndf.beckmann", Given::cosine, {{"alpha", {0.5, 0.502}}, {"noh", {0.25, 0.251}}});
+  const auto p = prove(s, Number::half, Rounding::vulkan(), finite_and_not_negative(Number::half));
+  EXPECT_EQ(p.evidence, Evidence::open);
+  EXPECT_FALSE(p.out_of_budget);
+  EXPECT_GT(p.open_boxes, 0U);
+}
+
 TEST(Proof, OfAFormWithGuardsGoesEveryWayThroughThem) {
   for (const auto& [id, given] :
        {std::pair{"ndf.gtr1", Given::cross}, {"ndf.gtr1", Given::cosine}}) {
