@@ -61,7 +61,7 @@ struct Rounding {
   ///   double       what float has
   ///                             [Vulkan 1.4, appendix 'Vulkan Environment for SPIR-V', 'Precision of
   ///                              Individual Operations' and the rules before it]
-  /// What it leaves out: reassociation, which Vulkan allows of what is not `precise`.
+  /// Left out: reassociation, which Vulkan allows of what is not `precise`.
   static constexpr Rounding vulkan() {
     return {.flushed = true, .any_gpu = true, .infinities = false};
   }

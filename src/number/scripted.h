@@ -221,7 +221,7 @@ struct RealTraits<Scripted<F>> {
   static Plain select(const Mask& m, const Plain& a, const Plain& b) {
     return Plain::select(m, a, b);
   }
-  /// Of values that touch, as 1 − x and 0 for x up to 1, either is the greater one there.
+  /// Greater one; of values that touch, as 1 − x and 0 for x up to 1, either is it there.
   static Plain max(const Plain& a, const Plain& b) {
     if (a.value_.low() >= b.value_.high() && !a.value_.may_be_nan()) return a;
     if (b.value_.low() >= a.value_.high() && !b.value_.may_be_nan()) return b;
