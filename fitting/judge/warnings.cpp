@@ -149,7 +149,7 @@ std::vector<std::string> physics_in_words(const Physics& p) {
     else
       ratio = std::max(ratio, r);
   if (dark)
-    all.push_back("the fitted model is not dark where a channel of the table is 0 everywhere");
+    all.emplace_back("the fitted model is not dark where a channel of the table is 0 everywhere");
   if (ratio > far_above)
     all.push_back(fmt::format(
         "the fitted model rises to {} times the table's greatest value where that has samples",
