@@ -52,6 +52,13 @@ bool is_true(const FittedParameter& p, std::size_t c, double truth) {
   return false;
 }
 
+FitOptions comparing(Metric metric, bool robust = false) {
+  FitOptions o;
+  o.metric = metric;
+  o.robust = robust;
+  return o;
+}
+
 struct HardTable {
   const char* model;
   const char* settings;
@@ -89,8 +96,8 @@ TEST(HardData, OfAMirrorNarrowerThanABinIsFittedAndSaidToBeUnresolved) {
     for (const auto layout : {Layout::in_plane, Layout::hemisphere, Layout::mbsdf})
       for (const auto& [model, settings] :
            {std::pair{metal, "alpha=0.001,f0=0.5"}, {paint, "alpha=0.001,f0=0.05,kd=0.3"}}) {
-        const auto d = expect_true_of(
-            {model, settings, {.layout = layout, .noise = 0.02}, {.metric = metric}});
+        const auto d =
+            expect_true_of({model, settings, {.layout = layout, .noise = 0.02}, comparing(metric)});
         const bool known = test::parameter(d, "alpha").status[0] == ParameterStatus::free;
         EXPECT_TRUE(!known || std::ranges::any_of(d.warnings,
                                                   [](const std::string& w) {
@@ -109,7 +116,7 @@ TEST(HardData, OfTheEndsOfWidthAndReflectanceIsFitted) {
            {"alpha=1,f0=0.5,kd=0.3", "alpha=1,f0=0.04,kd=0.3", "alpha=0.2,f0=0,kd=0.3",
             "alpha=0.2,f0=1,kd=0.3", "alpha=0.2,f0=0,kd=0", "alpha=0.2,f0=1,kd=0",
             "alpha=0.2,f0=0,0.5,1,kd=0,0.5,1"})
-        expect_true_of({paint, settings, {.layout = layout, .noise = 0.02}, {.metric = metric}});
+        expect_true_of({paint, settings, {.layout = layout, .noise = 0.02}, comparing(metric)});
 }
 
 TEST(HardData, OfSamplesThatStandTwiceHasTheSameValues) {
@@ -117,7 +124,7 @@ TEST(HardData, OfSamplesThatStandTwiceHasTheSameValues) {
     const HardTable h{paint,
                       "alpha=0.2,f0=0.05,kd=0.3",
                       {.layout = Layout::random, .samples = 300, .noise = 0.02},
-                      {.metric = metric}};
+                      comparing(metric)};
     const auto once = expect_true_of(h),
                twice = expect_true_of(h, [](Table&t) {
                  auto list = *t.list();
@@ -143,7 +150,7 @@ TEST(HardData, OfADarkChannelKnowsTheOthersOrSaysThatItBendsThem) {
       const auto d = expect_true_of({paint,
                                      "alpha=0.2,f0=0.05,kd=0.3,0,0.3",
                                      {.layout = layout, .noise = 0.02},
-                                     {.metric = metric}},
+                                     comparing(metric)},
                                     [](Table& t) {
                                       for (auto& v : t.values[1]) v = 0;
                                     });
@@ -156,7 +163,7 @@ TEST(HardData, OfOneIncidentAngleIsFitted) {
   for (const auto metric : metrics)
     for (const char* settings : {"alpha=0.2,f0=0.05,kd=0.3", "alpha=0.02,f0=0.5,kd=0.01"})
       expect_true_of(
-          {paint, settings, {.layout = Layout::in_plane, .noise = 0.02}, {.metric = metric}},
+          {paint, settings, {.layout = Layout::in_plane, .noise = 0.02}, comparing(metric)},
           [](Table& t) {
             const auto& theta_i = t.list()->theta_i_deg;
             for (std::size_t i = 0; i < t.size(); ++i)
@@ -173,7 +180,7 @@ TEST(HardData, OfThirtyPercentNoiseIsFittedOrSaidToBeShifted) {
         const auto d = expect_true_of({paint,
                                        "alpha=0.2,f0=0.05,kd=0.3",
                                        {.layout = layout, .noise = 0.3, .seed = seed},
-                                       {.metric = metric}});
+                                       comparing(metric)});
         EXPECT_TRUE(metric != Metric::relative || has_reservations(d));
       }
 }
@@ -186,7 +193,7 @@ TEST(HardData, OfTwentyPercentOutliersIsFittedOrSaidToBeShifted) {
         const auto d = expect_true_of({paint,
                                        "alpha=0.2,f0=0.05,kd=0.3",
                                        {.layout = layout, .noise = 0.02, .outliers = 0.2},
-                                       {.metric = metric, .robust = robust}});
+                                       comparing(metric, robust)});
         if (robust) {
           EXPECT_NEAR(test::parameter(d, "alpha").value[0], 0.2, 0.01);
         }
