@@ -14,7 +14,8 @@
 namespace gonio {
 
 struct ReportOptions {
-  bool full = false;  ///< finer, some minutes
+  bool full = false;        ///< finer, some minutes
+  bool one_of_all = false;  ///< made with all others: what takes minutes alone looks at less
   struct Light {
     std::string name;
     Environment map;

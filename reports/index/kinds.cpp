@@ -7,6 +7,7 @@
 #include "reports/energy/energy.h"
 #include "reports/remap/remap.h"
 #include "reports/schlick/schlick.h"
+#include "reports/stability/stability.h"
 
 namespace gonio {
 namespace {
@@ -39,6 +40,12 @@ ReportFiles cost(const ReportOptions& o, const ReportProgress& done) {
   return files(cost_report(cost_options(o.full), done), cost_page_html);
 }
 
+ReportFiles stability(const ReportOptions& o, const ReportProgress& done) {
+  using Setting = StabilityOptions::Setting;
+  const auto setting = o.full ? Setting::full : o.one_of_all ? Setting::brief : Setting::quick;
+  return files(stability_report({setting}, done), stability_page_html);
+}
+
 constexpr std::array kinds{
     ReportKind{"energy", "what single scattering loses, and what gives it back", energy,
                energy_schema, 25},
@@ -49,7 +56,9 @@ constexpr std::array kinds{
     ReportKind{"cross_fit", "what fits with shipped approximations make of roughness, F0 and gamma",
                cross_fit, cross_fit_schema, 60},
     ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost,
-               cost_schema, 40}};
+               cost_schema, 40},
+    ReportKind{"stability", "which formulas stay stable in few bits, and from which inputs on",
+               stability, stability_schema, 40}};
 
 }  // namespace
 

@@ -31,6 +31,7 @@ void add_bench(CommandLine&);
 void add_albedo(CommandLine&);
 void add_split_sum(CommandLine&);
 void add_report(CommandLine&);
+void add_stability(CommandLine&);
 
 /// Entries of the catalogue that are neither term nor map nor composed of terms, and what evaluates them.
 struct Evaluated {

@@ -164,7 +164,7 @@ Exit run(const Options& o) {
   namespace fs = std::filesystem;
   use_jobs(o.jobs);
   if (o.json && o.name == all_reports) throw wrong_usage("--json is for one report");
-  ReportOptions options{o.full, {}};
+  ReportOptions options{o.full, o.name == all_reports, {}};
   for (const auto& path : o.environments) {
     const std::string name = fs::path(path).stem().string();
     if (std::ranges::find(options.environments, name, &ReportOptions::Light::name) !=

@@ -7,6 +7,7 @@
 #include "fitting/batch/batch_document.h"
 #include "reports/tables/fit_page.h"
 #include "reports/tables/inspect_page.h"
+#include "stability/answer.h"
 #include "table/format/metadata.h"
 #include "table/health/health.h"
 
@@ -33,6 +34,7 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
   for (const auto& [name, text] : {std::pair("fit", fit_schema()),
                                    {"batch", batch_schema()},
                                    {"compare", comparison_schema()},
+                                   {"stability", stability::answer_schema()},
                                    {"inspect", health_schema()},
                                    {"table", side_file_schema()},
                                    {"fit.page", fit_page_schema()},

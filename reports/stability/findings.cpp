@@ -1,0 +1,113 @@
+// The atlas in sentences: made from its rows alone.
+#include <algorithm>
+
+#include "brdf/catalogue/registry.h"
+#include "reports/finding/words.h"
+#include "reports/stability/stability.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+using Rows = std::vector<const StabilityRow*>;
+
+const StabilityRow* find(const StabilityRows& r,
+                         std::string_view id,
+                         std::string_view form,
+                         std::string_view number) {
+  const auto at = std::ranges::find_if(r.rows, [&](const StabilityRow& row) {
+    return row.id == id && row.form == form && row.number == number;
+  });
+  return at == r.rows.end() ? nullptr : &*at;
+}
+Rows in_number(const StabilityRows& r, std::string_view number) {
+  Rows out;
+  for (const auto& row : r.rows)
+    if (row.number == number) out.push_back(&row);
+  return out;
+}
+
+/// "alpha 0.035", "no alpha"
+std::string from_text(const StabilityRow& r) {
+  return r.safe_from ? fmt::format("{} {:.2g}", r.decides, *r.safe_from) : "no " + r.decides;
+}
+
+/// Which alpha a distribution may be clamped to, in half.
+void which_alpha(Findings& to, const StabilityRows& r) {
+  const auto* cross = find(r, "ndf.ggx", "cross", "half");
+  const auto* cosine = find(r, "ndf.ggx", "cosine", "half");
+  if (!cross || !cosine) return;
+  std::string answer = fmt::format(
+      "GGX in half precision keeps {} from {} on, if the shader computes |n × h|². From NoH alone "
+      "it does so from {} on.",
+      percent(cross->tolerance, 1), from_text(*cross), from_text(*cosine));
+  to.say(answer);
+  to.questions.push_back({"Which alpha may I clamp to in half precision?", std::move(answer), {}});
+  struct Named {
+    std::string_view name, id, form;
+  };
+  static constexpr Named others[] = {
+      {"Beckmann", "ndf.beckmann", "cross"},
+      {"Blinn–Phong", "ndf.blinn_phong", "cross"},
+      {"GTR of every gamma", "ndf.gtr", "cross"},
+      {"The mobile form with a cross product", "ndf.ggx.mobile.cross", "cross"},
+      {"The mobile form from NoH", "ndf.ggx.mobile", "cosine"},
+      {"Unreal's mobile GGX", "ndf.ggx.ue_mobile", "cosine"}};
+  for (const auto& o : others)
+    if (const auto* row = find(r, o.id, o.form, "half"))
+      to.say(fmt::format("{} in half keeps {} from {} on.", o.name, percent(row->tolerance, 1),
+                         from_text(*row)));
+}
+
+/// What ships in mixed precision: parameters in half, angles in float.
+void as_shipped(Findings& to, const StabilityRows& r) {
+  const auto* mobile = find(r, "ndf.ggx.mobile", "cosine", "mixed");
+  const auto* cross = find(r, "ndf.ggx.mobile.cross", "cross", "mixed");
+  if (!mobile || !cross) return;
+  to.say(fmt::format(
+      "The mobile GGX with half parameters and float angles keeps {} from {} on; with a cross "
+      "product from {} on.",
+      percent(mobile->tolerance, 1), from_text(*mobile), from_text(*cross)));
+}
+
+void without_a_value(Findings& to, const StabilityRows& r) {
+  for (const std::string_view number : {"half", "float", "double"}) {
+    const auto all = in_number(r, number);
+    if (all.empty()) continue;
+    const auto fails = static_cast<std::size_t>(
+        std::ranges::count_if(all, [](const StabilityRow* row) { return row->nonfinite > 0; }));
+    const auto proved = static_cast<std::size_t>(std::ranges::count_if(
+        all, [](const StabilityRow* row) { return row->finite_from.has_value(); }));
+    to.say(fmt::format(
+        "In {} {} forms have inputs without a value, infinite or NaN. Of {} a value is proved for "
+        "every input from some parameter on.",
+        number, of_all(fails, all.size()), number_or_none(proved)));
+  }
+}
+
+void clamps(Findings& to, const StabilityRows& r) {
+  for (const auto& c : r.clamps) {
+    if (c.number != "half") continue;
+    const auto up_to = [&](const std::optional<double>& x) {
+      return x ? fmt::format("up to {} {:.2g}", c.by, *x) : std::string("nowhere");
+    };
+    to.say(fmt::format(
+        "{} in half: without it values are missing {}, with it {}. It changes values by more than "
+        "1 % {}.",
+        c.clamp, up_to(c.no_value_without), up_to(c.no_value_with), up_to(c.changed_to)));
+  }
+}
+
+}  // namespace
+
+Findings findings(const StabilityRows& r) {
+  Findings f;
+  which_alpha(f, r);
+  as_shipped(f, r);
+  without_a_value(f, r);
+  clamps(f, r);
+  return f;
+}
+
+}  // namespace gonio

@@ -1,0 +1,133 @@
+#include "reports/stability/stability.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "brdf/catalogue/registry.h"
+#include "brdf/in_number/number.h"
+#include "stability/answer.h"
+#include "stability/evaluate.h"
+#include "stability/prove.h"
+#include "stability/search.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+using namespace stability;
+using Depth = StabilityOptions::Setting;
+
+constexpr std::uint64_t seed = 1;
+
+std::vector<std::string> forms(const StabilityOptions& o) {
+  if (!o.ids.empty()) return o.ids;
+  if (o.setting == Depth::brief)
+    return {"ndf.ggx",
+            "ndf.ggx.ue_mobile",
+            "ndf.ggx.mobile",
+            "ndf.ggx.mobile.cross",
+            "ndf.gtr",
+            "ndf.gtr1",
+            "ndf.beckmann",
+            "ndf.blinn_phong",
+            "masking.smith_ggx.separable",
+            "masking.smith_ggx.correlated",
+            "masking.schlick_ggx.direct",
+            "masking.ue_joint",
+            "masking.ue_joint.clamped",
+            "fresnel.schlick",
+            "fresnel.f82",
+            "fresnel.dielectric",
+            "fresnel.conductor"};
+  std::vector<std::string> all;
+  for (const auto& entry : catalogue()) all.emplace_back(entry.id());
+  return all;
+}
+
+std::vector<Arithmetic> arithmetics(Depth setting) {
+  std::vector<Arithmetic> all{{Number::half, false, false}, {Number::mixed, false, false}};
+  if (setting == Depth::full) {
+    all.push_back({Number::half, true, false});
+    all.push_back({Number::half, false, true});
+  }
+  all.push_back({Number::float_, false, false});
+  if (setting != Depth::brief) all.push_back({Number::double_, false, false});
+  return all;
+}
+std::string text_of(const Arithmetic& a) {
+  return fmt::format("{}{}{}", name_of(a.number), a.flush ? ", flushed" : "",
+                     a.contract ? ", contracted" : "");
+}
+
+/// Least value of the parameter that decides from which on every input is proved to have a value.
+std::optional<double> finite_from(const Subject& s, const Arithmetic& a, Depth setting) {
+  if (a.number == Number::mixed) return {};
+  return proved_from(s, a.number, rounding_of(a), finite_values(a.number),
+                     {.boxes = setting == Depth::brief ? 300U : 2000U});
+}
+
+StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
+  const auto& entry = catalogue()[*s.term];
+  const double tolerance = usual_tolerance(a.number);
+  const Looked l = look(s, a, tolerance, seed);
+  StabilityRow r{s.id,
+                 std::string(s.form()),
+                 text_of(a),
+                 l.evidence,
+                 l.ulp.value,
+                 l.relative.value,
+                 {},
+                 l.condition,
+                 stability::text_of(s, l.relative.at),
+                 hex_of(s, a.number, l.relative.at),
+                 l.no_value.count,
+                 stability::text_of(s, l.no_value.count ? l.no_value.first : std::vector<double>{}),
+                 l.negative.count,
+                 l.overflow.count,
+                 l.vanished.count,
+                 l.irreciprocal.count,
+                 s.decides ? s.inputs[*s.decides].name : "",
+                 l.safe_from,
+                 tolerance,
+                 finite_from(s, a, setting),
+                 l.evaluations,
+                 l.settled,
+                 entry.as_shipped ? std::string(entry.about->reference()) : "",
+                 operations_of(*s.term).sample.total(),
+                 0};
+  if (!r.stable.empty()) r.stable_operations = operations_of(find_term(r.stable)).sample.total();
+  return r;
+}
+
+}  // namespace
+
+StabilityRows stability_rows(const StabilityOptions& o, const ReportProgress& done) {
+  StabilityRows r;
+  struct Job {
+    Subject subject;
+    Arithmetic arithmetic;
+  };
+  std::vector<Job> jobs;
+  for (const auto& id : forms(o))
+    for (const auto& s : subjects_of(id))
+      for (const auto& a : arithmetics(o.setting)) jobs.push_back({s, a});
+  for (const auto& job : jobs) {
+    if (done)
+      done("every form in every number",
+           0.9 * static_cast<double>(r.rows.size()) / static_cast<double>(jobs.size()));
+    r.rows.push_back(row_of(job.subject, job.arithmetic, o.setting));
+  }
+  const bool all = o.setting != Depth::brief;
+  if (done) done("pictures", 0.9);
+  r.by_alpha = errors_by_alpha(all);
+  r.maps = error_maps(all);
+  r.clamps = clamp_rows();
+  return r;
+}
+
+StabilityReport stability_report(const StabilityOptions& o, const ReportProgress& done) {
+  return report_of(o.setting == Depth::full, stability_rows(o, done));
+}
+
+}  // namespace gonio

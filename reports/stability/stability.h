@@ -1,0 +1,101 @@
+#pragma once
+/// \file
+/// The atlas of numerical stability: from which inputs on each form of the catalogue fails in each number, what the clamps
+/// that shaders ship cost and save, and which form to take instead.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/finding/report.h"
+#include "stability/evidence.h"
+
+namespace gonio {
+
+/// A form in a number over the hard domain.
+struct StabilityRow {
+  std::string id, form;  ///< form: how its angles are given, stability::Given
+  std::string number;    ///< with what else is done to it: "half, flushed", "half, contracted"
+  stability::Evidence evidence;
+  double worst_ulp, worst_rel;
+  std::optional<double> proved_rel;  ///< bound of the relative error, where one is proved
+  double condition;                  ///< of the inputs where worst_ulp is
+  std::string at, inputs_hex;  ///< where worst_rel is: "alpha 0.01, noh 1", and the same in bits
+  std::uint64_t nonfinite;     ///< inputs without a value, of those looked at
+  std::string nonfinite_at;    ///< the first
+  std::uint64_t negative, overflow, vanished, irreciprocal;
+  std::string decides;  ///< the parameter that people clamp; empty: there is none
+  std::optional<double>
+      safe_from;     ///< of it: from there on the tolerance is kept by every input looked at
+  double tolerance;  ///< relative
+  std::optional<double> finite_from;  ///< of it: from there on a value is proved for every input
+  std::uint64_t evaluations;
+  bool settled;  ///< searches from two seeds agree within a factor of two
+  std::string
+      stable;  ///< id of the form that stands for the same without the fault; empty: this one
+  std::size_t operations;         ///< of one sample
+  std::size_t stable_operations;  ///< of that form
+};
+
+/// A clamp that shaders ship: a form with it and the same without, in a number, over the same inputs.
+struct ClampRow {
+  std::string clamp, where;  ///< "min(D, 2048)", id of the form that has it
+  std::string by;            ///< "alpha", or "cosine": the smaller of NoL and NoV
+  std::string number;
+  /// Largest of these at which an input has no value; none: everywhere there is one.
+  std::optional<double> no_value_without, no_value_with;
+  double worst_without, worst_with;  ///< most relative error against the form without it in double
+  std::optional<double>
+      changed_to;  ///< largest of these at which it changes a value by more than 1 %, in double
+  double changed_most;  ///< most |with / without − 1|, in double
+};
+
+struct StabilityRows {
+  std::vector<StabilityRow> rows;
+  std::vector<ClampRow> clamps;
+  /// Curves of the worst relative error over all angles by a form's alpha: NaN where an input has no value.
+  struct ByAlpha {
+    std::string id, form, number;
+    std::vector<double> alpha, worst;
+  };
+  std::vector<ByAlpha> by_alpha;
+  /// Relative error by alpha and angle, the worst of each cell: [alpha][angle].
+  struct Map {
+    std::string id, form, number;
+    std::vector<double> alpha, angle, error;
+  };
+  std::vector<Map> maps;
+};
+
+/// Setting: what is looked at, and for how long.
+struct StabilityOptions {
+  /// brief: distributions, masking and Fresnel forms that people ship, in half, mixed and float; quick: every form in every number;
+  /// full: half also flushed and contracted, longer searches.
+  enum class Setting { brief, quick, full } setting = Setting::quick;
+  std::vector<std::string> ids{};  ///< empty: as the setting says
+};
+
+StabilityRows stability_rows(const StabilityOptions&, const ReportProgress& done = {});
+std::vector<ClampRow> clamp_rows();
+std::vector<StabilityRows::ByAlpha> errors_by_alpha(bool all);
+std::vector<StabilityRows::Map> error_maps(bool all);
+
+Findings findings(const StabilityRows&);
+/// Pictures of the page, by family: figures error_by_alpha of number and kind; maps error of form and number.
+Pictures pictures(const StabilityRows&);
+
+using StabilityReport = Report<StabilityRows>;
+StabilityReport stability_report(const StabilityOptions&, const ReportProgress& done = {});
+
+/// Document {"rows": […], …}: flat objects; what is not known is null.
+std::string to_json(const StabilityReport&);
+/// Its rows as CSV.
+std::string rows_csv(const StabilityReport&);
+/// JSON Schema of the document.
+std::string stability_schema();
+/// \param data  of to_json() above
+std::string stability_page_html(std::string_view data);
+
+}  // namespace gonio

@@ -1,0 +1,79 @@
+"use strict";
+// The atlas of numerical stability: which alpha is safe in which number, what clamps save and cost.
+
+const { rows, clamps, figures, maps, findings, full } = page_data();
+const short = (id) => id.slice(id.indexOf(".") + 1);
+const given = { cross: "|n × h|²", cosine: "NoH alone", frame: "h in the frame", facet: "VoH", cosines: "NoL, NoV", directions: "two directions", turned: "two directions" };
+const evidence_words = { exhaustive: "every input", searched: "search", proved: "proved", open: "open" };
+const error_text = (x) => (known(x) ? (x >= 10 ? "×" + significant(x + 1, 2) : percent(x)) : "–");
+const at_title = (r) => [r.inputs, r.inputs_hex].filter(Boolean).join("; ");
+const worst = (r) => ({ n: el("span", { title: at_title(r) }, error_text(r.worst_rel)) });
+const none_or = (n, title) => ({ n: n ? el("span", { title }, count(n)) : "none" });
+const from = (r) => ({ n: !r.decides ? "–" : known(r.safe_from) ? significant(r.safe_from, 2) : "nowhere" });
+
+// --- The question that people come with ----------------------------------------------------------------------------
+function clamp_question() {
+  const is_width = (r) => r.decides === "alpha" && r.id.startsWith("ndf.");
+  const numbers = unique(rows.filter(is_width).map((r) => r.number));
+  let number = numbers.includes("half") ? "half" : numbers[0];
+  const body = changing(() => el("div", {}, el("div", { class: "controls" },
+    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })),
+  scroll(table(["distribution", "given", { n: "alpha from" }, { n: "a value is proved from" }, { n: "worst below" }, { n: "no value at" }, "take instead", { n: "operations" }, "by"],
+    rows.filter((r) => is_width(r) && r.number === number).map((r) => [el("code", {}, short(r.id)), given[r.form], from(r), { n: known(r.finite_from) ? significant(r.finite_from, 2) : "–" }, worst(r),
+      none_or(r.nonfinite, r.nonfinite_at), r.stable ? el("code", {}, short(r.stable)) : r.form === "cosine" ? `the same, from ${given.cross}` : "–",
+      { n: r.stable ? `${r.operations} → ${r.stable_operations}` : r.operations }, evidence_words[r.evidence]])))));
+  return section("Which alpha is safe", "From this alpha on every input that was looked at keeps the tolerance: 2 % in half and mixed numbers, 0.0001 in float, 10⁻¹⁰ in double. "
+    + "The worst input, also in bits, stands under the pointer.", body.node);
+}
+
+// --- Pictures -------------------------------------------------------------------------------------------------------
+function by_alpha() {
+  const numbers = choices_of(figures, "error_by_alpha", "number");
+  if (!numbers.length) return null;
+  let number = numbers[0], kind = choices_of(figures, "error_by_alpha", "kind")[0];
+  const panels = changing(() => el("div", {}, el("div", { class: "controls" },
+    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; panels.again(); }),
+    choice("Kind", choices_of(figures, "error_by_alpha", "kind", { number }).map((k) => [k, k]), kind, (k) => { kind = k; panels.again(); })),
+  figure_view(picture_of(figures, "error_by_alpha", { number, kind }), { height: 380 })));
+  return section("How errors grow as surfaces get smooth", "The worst over all angles, at each alpha.", panels.node);
+}
+function error_maps() {
+  const forms = choices_of(maps, "error", "form");
+  if (!forms.length) return null;
+  let form = forms.includes("ggx from NoH") ? "ggx from NoH" : forms[0], number = "half";
+  const panels = changing(() => el("div", {}, el("div", { class: "controls" },
+    chooser("Form", forms.map((f) => [f, f]), form, (f) => { form = f; panels.again(); }),
+    choice("Number", choices_of(maps, "error", "number", { form }).map((n) => [n, n]), number, (n) => { number = n; panels.again(); })),
+  map_view(picture_of(maps, "error", { form, number }), { value_text: error_text })));
+  return section("Where errors are", "By alpha and angle, both in logarithms.", panels.node);
+}
+
+// --- Clamps ------------------------------------------------------------------------------------------------------------
+const clamp_table = () => {
+  const up_to = (c, x) => ({ n: known(x) ? `${c.by} ${significant(x, 2)}` : "nowhere" });
+  return section("What shipped clamps save and cost", "The same inputs with the clamp and without it. What it saves: inputs without a value, and the worst error of the others. What it costs: it changes values by more than 1 % up to the width or cosine told. "
+    + "Cosine: the smaller of NoL and NoV.",
+    scroll(table(["clamp", "in", "number", { n: "no value up to, without" }, { n: "with" }, { n: "worst, without" }, { n: "with" }, { n: "changes values up to" }, { n: "by at most" }],
+      clamps.map((c) => [c.clamp, el("code", {}, c.where), c.number, up_to(c, c.no_value_without), up_to(c, c.no_value_with), ...[c.worst_without, c.worst_with].map((x) => ({ n: error_text(x) })),
+        up_to(c, c.changed_to), { n: error_text(c.changed_most) }]), { row_class: (i) => (i && clamps[i].clamp !== clamps[i - 1].clamp ? "first" : null) })));
+};
+
+// --- Everything -----------------------------------------------------------------------------------------------------------
+function every_form() {
+  const numbers = unique(rows.map((r) => r.number)), kinds = unique(rows.map((r) => r.id.split(".")[0]));
+  let number = numbers[0], kind = kinds[0];
+  const body = changing(() => el("div", {}, el("div", { class: "controls" },
+    choice("Kind", kinds.map((k) => [k, k]), kind, (k) => { kind = k; body.again(); }),
+    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })),
+  scroll(table(["form", "given", { n: "worst" }, { n: "ulp" }, { n: "condition there" }, { n: "proved" }, { n: "no value" }, { n: "negative" }, { n: "overflow" }, { n: "vanished" }, "safe from", { n: "looked at" }, "by"],
+    rows.filter((r) => r.number === number && r.id.startsWith(kind)).map((r) => [el("code", {}, short(r.id)), given[r.form], worst(r), { n: significant(r.worst_ulp, 2) }, { n: significant(r.condition, 2) },
+      { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, none_or(r.nonfinite, r.nonfinite_at), none_or(r.negative), none_or(r.overflow), none_or(r.vanished),
+      !r.decides ? "–" : known(r.safe_from) ? `${r.decides} ${significant(r.safe_from, 2)}` : "nowhere", { n: count(r.evaluations) }, evidence_words[r.evidence] + (r.settled ? "" : ", not settled")])))));
+  return section("Every form in every number", "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every input”: each half there is was evaluated. “Search”: the worst that seeds and climbing found from two starts; there may be worse.", body.node);
+}
+
+document.getElementById("page").replaceChildren(...[
+  el("p", { class: "over" }, "gonio report stability"), el("h1", {}, "Which formulas stay stable in few bits"),
+  findings_view(findings),
+  clamp_question(), by_alpha(), error_maps(), clamps.length ? clamp_table() : null, every_form(),
+  el("footer", {}, `${full ? "Full" : "Quick"} setting. Truths are computed in double, the worst of them again in fifty digits. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));

@@ -1,0 +1,129 @@
+#include "stability/answer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/nearest_names.h"
+#include "brdf/model/spec.h"
+#include "stability/evaluate.h"
+#include "stability/exhaustive.h"
+#include "stability/prove.h"
+#include "stability/search.h"
+
+#include <fmt/format.h>
+
+namespace gonio::stability {
+namespace {
+
+constexpr std::string_view relative_prefix = "relative=";
+
+NamedInput named(const Subject& s, Number number, std::span<const double> inputs) {
+  NamedInput out{
+      {}, {}, value_of(s, number, inputs), truth_of(s, rounded(s, number, inputs)).value};
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    out.inputs.emplace_back(s.inputs[k].name, inputs[k]);
+    out.inputs_hex.emplace_back(s.inputs[k].name, hex(number, inputs[k], k < s.parameters));
+  }
+  return out;
+}
+
+/// Inputs for which looking found that the requirement does not hold; empty: none.
+std::vector<double> broken_at(const Looked& looked, const Requirement& required) {
+  switch (required.kind) {
+    case Requirement::Kind::finite:
+      return looked.no_value.count ? looked.no_value.first : looked.overflow.first;
+    case Requirement::Kind::nonnegative:
+      return looked.negative.first;
+    case Requirement::Kind::relative:
+      break;
+  }
+  if (looked.no_value.count) return looked.no_value.first;
+  if (looked.overflow.count) return looked.overflow.first;
+  return looked.relative.value > required.limit ? looked.relative.at : std::vector<double>{};
+}
+
+void prove_into(Answer& a, const Question& q) {
+  const auto number = q.arithmetic.number;
+  const bool finite = q.requirement.kind == Requirement::Kind::finite;
+  const auto proof =
+      prove(q.subject, number, rounding_of(q.arithmetic),
+            finite ? finite_values(number) : finite_and_not_negative(number), {.boxes = q.boxes});
+  a.boxes = proof.boxes;
+  a.open_share = proof.open_share;
+  a.range = proof.range;
+  if (proof.holds()) a.evidence = Evidence::proved;
+  if (proof.counterexample)
+    a.counterexample = named(q.subject, number, proof.counterexample->inputs);
+}
+
+}  // namespace
+
+std::string Requirement::text() const {
+  if (kind == Kind::finite) return "finite";
+  if (kind == Kind::nonnegative) return "nonnegative";
+  return fmt::format("{}{:g}", relative_prefix, limit);
+}
+Requirement parse_requirement(std::string_view text) {
+  if (text == "finite") return {};
+  if (text == "nonnegative") return {Requirement::Kind::nonnegative, 0};
+  if (!text.starts_with(relative_prefix))
+    throw wrong_usage(
+        fmt::format("required: found '{}', expected finite, nonnegative or relative=X", text));
+  const double x = parse_number(text.substr(relative_prefix.size()), "required relative");
+  if (!(x > 0) || std::isinf(x))
+    throw wrong_usage(fmt::format("required relative: found {}, expected a number above 0", x));
+  return {Requirement::Kind::relative, x};
+}
+
+std::string text_of(const Subject& s, std::span<const double> inputs) {
+  std::string text;
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    text += fmt::format("{}{} {:.6g}", k ? ", " : "", s.inputs[k].name, inputs[k]);
+  return text;
+}
+std::string hex_of(const Subject& s, Number number, std::span<const double> inputs) {
+  std::string text;
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    text += fmt::format("{}{} {}", k ? ", " : "", s.inputs[k].name,
+                        hex(number, inputs[k], k < s.parameters));
+  return text;
+}
+
+Looked look(const Subject& s, const Arithmetic& a, double tolerance, std::uint64_t seed) {
+  if (a.number == Number::half && can_be_exhausted(s))
+    return exhaustive(s, {a.flush, a.contract}, tolerance);
+  return search(s, a, {.tolerance = tolerance, .seed = seed});
+}
+
+Answer answer(const Question& q) {
+  const auto number = q.arithmetic.number;
+  Answer a;
+  a.id = q.subject.id;
+  a.form = q.subject.form();
+  a.arithmetic = q.arithmetic;
+  a.requirement = q.requirement.text();
+  for (const auto& i : q.subject.inputs)
+    a.domain.emplace_back(i.name, std::vector{i.domain.low, i.domain.high});
+
+  const bool relative = q.requirement.kind == Requirement::Kind::relative;
+  a.looked = look(q.subject, q.arithmetic, relative ? q.requirement.limit : usual_tolerance(number),
+                  q.seed);
+  a.worst_at = text_of(q.subject, a.looked.relative.at);
+  a.worst_hex = hex_of(q.subject, number, a.looked.relative.at);
+  if (const auto at = broken_at(a.looked, q.requirement); !at.empty()) {
+    a.evidence = a.looked.evidence;
+    a.counterexample = named(q.subject, number, at);
+    return a;
+  }
+  if (!relative && number != Number::mixed) prove_into(a, q);
+  if (a.counterexample)
+    a.evidence = Evidence::searched;
+  else if (a.evidence != Evidence::proved && a.looked.evidence == Evidence::exhaustive)
+    a.evidence = Evidence::exhaustive;
+  a.holds = !a.counterexample && a.evidence != Evidence::open;
+  return a;
+}
+
+}  // namespace gonio::stability

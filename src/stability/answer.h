@@ -1,0 +1,75 @@
+#pragma once
+/// \file
+/// Answers to one question: does a formula keep what is required of it, over a domain, in a number?
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "stability/evidence.h"
+#include "stability/subject.h"
+
+namespace gonio::stability {
+
+/// What is required of every input of the domain.
+struct Requirement {
+  enum class Kind { finite, nonnegative, relative } kind = Kind::finite;
+  double limit = 0;  ///< of relative: most |x / f − 1|
+
+  std::string text() const;
+};
+/// "finite", "nonnegative" or "relative=0.02"; wrong usage for all else.
+Requirement parse_requirement(std::string_view text);
+
+struct Question {
+  Subject subject;
+  Arithmetic arithmetic;
+  Requirement requirement;
+  std::uint64_t seed = 1;
+  /// Boxes of a proof, after which what is unproved is open; a search looks at as many inputs, about.
+  std::uint64_t boxes = 20'000;
+};
+
+/// An input for which a requirement does not hold.
+struct NamedInput {
+  std::vector<std::pair<std::string, double>> inputs;
+  std::vector<std::pair<std::string, std::string>> inputs_hex;  ///< the same as the number's bits
+  double value, exact;
+};
+
+struct Answer {
+  std::string id, form;
+  Arithmetic arithmetic;
+  std::vector<std::pair<std::string, std::vector<double>>> domain;
+  std::string requirement;
+  Evidence evidence = Evidence::open;  ///< of `holds`
+  bool holds = false;
+  std::optional<NamedInput> counterexample;
+  Looked looked;
+  std::string worst_at, worst_hex;   ///< where looked.relative is
+  std::optional<double> proved_rel;  ///< bound of the relative error
+  std::optional<Range> range;        ///< that the value is proved to lie in
+  std::uint64_t boxes = 0;           ///< of the proof
+  double open_share = 0;             ///< part of the domain that is neither proved nor refuted
+};
+
+/// Answer by whatever evidence is the strongest: of one or two halves every input, else a proof; a search refutes, and
+/// tells the worst, but never establishes.
+Answer answer(const Question&);
+/// Everything that looking finds: every input where they are halves and few, else a search.
+Looked look(const Subject&, const Arithmetic&, double tolerance, std::uint64_t seed);
+
+/// "alpha 0.01, noh 1"
+std::string text_of(const Subject&, std::span<const double> inputs);
+/// "alpha 0x211f, noh 0x3c00"
+std::string hex_of(const Subject&, Number, std::span<const double> inputs);
+
+/// Document of an answer (gonio.stability/1).
+std::string to_json(const Answer&);
+std::string answer_schema();
+
+}  // namespace gonio::stability

@@ -1,0 +1,71 @@
+// gonio stability: what it says, how it exits, what it refuses.
+#include "cli/program.h"
+
+namespace gonio::test {
+namespace {
+
+TEST(StabilityCommand, AnswersForOnesOwnDomain) {
+  const Folder f;
+  const auto o =
+      gonio(f, "stability ndf.ggx --domain alpha=0.1,0.11 --require relative=0.02 --json");
+  EXPECT_EQ(o.code, 0) << o.err;
+  const auto j = o.json();
+  EXPECT_EQ(j["schema"], "gonio.stability/1");
+  EXPECT_EQ(j["id"], "ndf.ggx");
+  EXPECT_EQ(j["form"], "cross");
+  EXPECT_EQ(j["number"], "half");
+  EXPECT_EQ(j["evidence"], "exhaustive");
+  EXPECT_EQ(j["holds"], true);
+  EXPECT_TRUE(j["counterexample"].is_null());
+  EXPECT_EQ(j["domain"]["alpha"][1], 0.11);
+}
+
+TEST(StabilityCommand, ExitsWith1AndAnInputWhereWhatIsRequiredDoesNotHold) {
+  const Folder f;
+  const std::string words = "stability ndf.ggx --domain alpha=0.001,0.0012 ";
+  const auto o = gonio(f, words + "--json");
+  EXPECT_EQ(o.code, 1);
+  const auto j = o.json();
+  EXPECT_EQ(j["holds"], false);
+  EXPECT_EQ(j["counterexample"]["inputs_hex"]["sin2_theta_h"], "0x0000");
+  const auto text = gonio(f, words);
+  EXPECT_EQ(text.code, 1);
+  EXPECT_NE(text.out.find("does not hold"), text.out.npos) << text.out;
+  EXPECT_EQ(text.err, "");
+}
+
+TEST(StabilityCommand, TakesTheFormThatHasTheInputsOfTheDomain) {
+  const Folder f;
+  const auto j = gonio(f, "stability ndf.ggx --domain noh=0.5,0.6 alpha=0.5,0.51 --json").json();
+  EXPECT_EQ(j["form"], "cosine");
+}
+
+TEST(StabilityCommand, LooksAtWholeModels) {
+  const Folder f;
+  const auto o = gonio(f,
+                       "stability lambert+ggx/smith_ggx.correlated/schlick --number float --domain "
+                       "alpha=0.1,1 nol=0.01,1 nov=0.01,1 --json");
+  const auto j = o.json();
+  EXPECT_TRUE(o.code == 0 || o.code == 1) << o.err;
+  EXPECT_EQ(j["domain"].size(), 6U);
+  EXPECT_LT(j["worst_rel"], 1e-2);
+}
+
+TEST(StabilityCommand, RefusesInOneLine) {
+  const Folder f;
+  expect_one_line_each(f, 2,
+                       {{"stability ndf.none", "ndf.none"},
+                        {"stability ndf.ggx --domain alpha=0.5,0.1", "reversed"},
+                        {"stability ndf.ggx --domain alpha=0.1", "LOW,HIGH"},
+                        {"stability ndf.ggx --domain alpha=0.1,7", "outside its range"},
+                        {"stability ndf.ggx --domain alpha=nan,1", "alpha"},
+                        {"stability ndf.ggx --domain alpha=,", "alpha"},
+                        {"stability ndf.ggx --domain beta=0.1,1", "it has: alpha"},
+                        {"stability ndf.ggx --require relative", "relative=X"},
+                        {"stability ndf.ggx --require relative=x", "relative"},
+                        {"stability ndf.ggx --form facet", "facet"},
+                        {"stability ndf.ggx --number wide", "wide"}});
+}
+
+}  // namespace
+}  // namespace gonio::test
