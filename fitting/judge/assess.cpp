@@ -104,7 +104,7 @@ class Walk {
       const auto& at = x.influence;
       const std::size_t k = x.free.size(), rows = at.unknown.size();
       for (const auto& row : at.beta)
-        for (const double b : row) x.beta.push_back(static_cast<F>(b));
+        for (const double beta : row) x.beta.push_back(static_cast<F>(beta));
       x.product.resize(k * k);
       for (std::size_t p = 0; p < k; ++p)
         for (std::size_t q = 0; q < k && at.row[p] != Influences::none; ++q)
