@@ -8,6 +8,7 @@
 #include "stability/answer.h"
 #include "stability/evaluate.h"
 #include "stability/prove.h"
+#include "stability/prove_relative.h"
 #include "stability/search.h"
 
 #include <fmt/format.h>
@@ -67,6 +68,14 @@ std::optional<double> finite_from(const Subject& s, const Arithmetic& a, Depth s
                      {.boxes = setting == Depth::brief ? 300U : 2000U});
 }
 
+/// Bound of the relative error in float, and with all the time also in half.
+std::optional<double> proved_rel(const Subject& s, const Arithmetic& a, Depth setting) {
+  const bool full = setting == Depth::full;
+  if (setting == Depth::brief || a.flush || a.contract) return {};
+  if (a.number != Number::float_ && !(full && a.number == Number::half)) return {};
+  return prove_relative(s, a.number, rounding_of(a), full ? 10 : 2).bound;
+}
+
 StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
   const auto& entry = catalogue()[*s.term];
   const double tolerance = usual_tolerance(a.number);
@@ -77,7 +86,7 @@ StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
                  l.evidence,
                  l.ulp.value,
                  l.relative.value,
-                 {},
+                 proved_rel(s, a, setting),
                  l.condition,
                  stability::text_of(s, l.relative.at),
                  hex_of(s, a.number, l.relative.at),

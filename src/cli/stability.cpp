@@ -43,6 +43,7 @@ Subject chosen(const Options& o, const std::vector<Setting>& domain) {
 std::string evidence_text(const Answer& a) {
   switch (a.evidence) {
     case Evidence::proved:
+      if (a.boxes == 0) return "proved for every input, by Gappa";
       return fmt::format("proved for every input, in {} {}", a.boxes,
                          a.boxes == 1 ? "box" : "boxes");
     case Evidence::exhaustive:
@@ -53,8 +54,9 @@ std::string evidence_text(const Answer& a) {
       break;
   }
   if (a.boxes == 0)
-    return fmt::format("a search of {} inputs found nothing, which proves nothing",
-                       a.looked.evaluations);
+    return fmt::format("a search of {} inputs found nothing, which proves nothing{}{}",
+                       a.looked.evaluations,
+                       a.unproved_because.empty() ? "" : "; no proof: ", a.unproved_because);
   return fmt::format(
       "neither proved nor refuted: {:.2g} % of the domain stay open, and a search of {} inputs "
       "found nothing",

@@ -10,6 +10,7 @@
 #include "stability/evaluate.h"
 #include "stability/exhaustive.h"
 #include "stability/prove.h"
+#include "stability/prove_relative.h"
 #include "stability/search.h"
 
 #include <fmt/format.h>
@@ -56,6 +57,27 @@ void prove_into(Answer& a, const Question& q) {
   if (proof.holds()) a.evidence = Evidence::proved;
   if (proof.counterexample)
     a.counterexample = named(q.subject, number, proof.counterexample->inputs);
+}
+
+/// Proof of a bound of the relative error; of all inputs but the ends that it leaves out it holds, and then the rest is open.
+void prove_relative_into(Answer& a, const Question& q) {
+  const auto proof = prove_relative(q.subject, q.arithmetic.number, rounding_of(q.arithmetic));
+  if (!proof.bound) {
+    a.unproved_because = proof.why;
+    return;
+  }
+  a.proved_rel = proof.bound;
+  bool whole = proof.domain.size() == q.subject.inputs.size();
+  for (std::size_t k = 0; whole && k < proof.domain.size(); ++k) {
+    const auto &all = q.subject.inputs[k].domain, &part = proof.domain[k];
+    whole = part.low <= all.low && all.high <= part.high;
+  }
+  if (*proof.bound > q.requirement.limit)
+    a.unproved_because = "the bound that is proved is larger";
+  else if (!whole)
+    a.unproved_because = "the bound that is proved leaves out the domain's very ends";
+  else
+    a.evidence = Evidence::proved;
 }
 
 }  // namespace
@@ -117,7 +139,12 @@ Answer answer(const Question& q) {
     a.counterexample = named(q.subject, number, at);
     return a;
   }
-  if (!relative && number != Number::mixed) prove_into(a, q);
+  if (number != Number::mixed && a.looked.evidence != Evidence::exhaustive) {
+    if (relative)
+      prove_relative_into(a, q);
+    else
+      prove_into(a, q);
+  }
   if (a.counterexample)
     a.evidence = Evidence::searched;
   else if (a.evidence != Evidence::proved && a.looked.evidence == Evidence::exhaustive)

@@ -52,6 +52,7 @@ struct Answer {
   Looked looked;
   std::string worst_at, worst_hex;   ///< where looked.relative is
   std::optional<double> proved_rel;  ///< bound of the relative error
+  std::string unproved_because;      ///< where a relative error was required and is not proved
   std::optional<Range> range;        ///< that the value is proved to lie in
   std::uint64_t boxes = 0;           ///< of the proof
   double open_share = 0;             ///< part of the domain that is neither proved nor refuted

@@ -44,6 +44,9 @@ struct Description<stability::Answer> {
         field("worst_at", "", &A::worst_at, "where worst_rel is"),
         field("worst_hex", "", &A::worst_hex, "the same in bits"),
         field("proved_rel", "", &A::proved_rel, "bound of the relative error, where one is proved"),
+        field("unproved_because", "", &A::unproved_because,
+              "why a relative error that is required is not proved; empty: it is, or no proof was "
+              "needed"),
         field("range", "", range, "that the value is proved to lie in"),
         field("evaluations", "", at(&A::looked, &L::evaluations), ""),
         field("boxes", "", &A::boxes, "of the proof"),
