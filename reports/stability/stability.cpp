@@ -61,11 +61,14 @@ std::string text_of(const Arithmetic& a) {
                      a.contract ? ", contracted" : "");
 }
 
-/// Least value of the parameter that decides from which on every input is proved to have a value.
+/// Least value of the parameter that decides from which on every input is proved to have a value.  Forms of many operations
+/// get fewer boxes: the time is that of operations.
 std::optional<double> finite_from(const Subject& s, const Arithmetic& a, Depth setting) {
   if (a.number == Number::mixed) return {};
+  const std::size_t most = setting == Depth::brief ? 300 : 2000,
+                    operations = operations_of(*s.term).sample.total();
   return proved_from(s, a.number, rounding_of(a), finite_values(a.number),
-                     {.boxes = setting == Depth::brief ? 300U : 2000U});
+                     {.boxes = std::max<std::size_t>(100, std::min(most, 40 * most / operations))});
 }
 
 /// Bound of the relative error in float, and with all the time also in half.
