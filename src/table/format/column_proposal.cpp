@@ -152,7 +152,8 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns) {
   for (const auto a : {theta_i, theta_o})
     if (!found.angle[a])
       p.said.push_back(fmt::format("no column is called like {}", angle_names[a]));
-  if (!found.value && !by_channel) p.said.emplace_back("no column is called like a value, f or brdf");
+  if (!found.value && !by_channel)
+    p.said.emplace_back("no column is called like a value, f or brdf");
   if (!p.said.empty() && (!found.angle[theta_i] || !found.angle[theta_o])) return p;
   if (!found.value && !by_channel) return p;
 
