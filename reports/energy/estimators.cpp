@@ -82,7 +82,7 @@ class Sampler {
   }
 
   /// σ(v) = NoV (1 + Λ(v))
-  double area() const { return (mu_ + SmithRoot<double>(alpha_)(mu_)) / 2; }
+  double area() const { return (mu_ + SmithRoot<double>(alpha_)(mu_) / smith_scale) / 2; }
 
   Facet facet(Draws& draw) {
     if (drawn_ == Drawn::visible_normals) return facets_({-sine_, 0, -mu_}, area(), draw);

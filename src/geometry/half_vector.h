@@ -17,15 +17,18 @@ struct Coordinates {
 ///
 ///   VoH = |l + v|/2,   sin²θ_h = |n × (l + v)|²/|l + v|²
 ///
-/// Opposite directions have no half vector: there NoH and VoH are 0.
+/// Opposite directions have no half vector: there NoH and VoH are 0.  Of almost opposite ones l + v is exact but
+/// small, its square smaller: it is computed of 64 (l + v), so that in half angles of 0.1° are left to tell.
 template <Real B>
 FrameAngles<B> angles_between(const Coordinates<B>& l, const Coordinates<B>& v) {
-  const B x = l.x + v.x, y = l.y + v.y, z = l.z + v.z;
+  constexpr int scale = 64;  // whose greatest square, (2 · 64)², half holds
+  const B x = scale * (l.x + v.x), y = scale * (l.y + v.y), z = scale * (l.z + v.z);
   const B across = x * x + y * y, length2 = across + z * z;
   const auto exists = B(0) < length2;
   const B safe = select<B>(exists, length2, B(1)), length = sqrt(safe);
   const auto only = [&](const B& value) { return select<B>(exists, value, B(0)); };
-  return {{l.z, v.z, only(z / length), only(length / 2), select<B>(exists, across / safe, B(1))},
+  return {{l.z, v.z, only(z / length), only(length / (2 * scale)),
+           select<B>(exists, across / safe, B(1))},
           only(x / length),
           only(y / length),
           l.x,

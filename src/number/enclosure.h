@@ -169,6 +169,14 @@ class Enclosure {
   Enclosure() = default;
   explicit Enclosure(std::same_as<int> auto x) : Enclosure(point(nearest(x))) {}
   explicit Enclosure(F x) : Enclosure(point(static_cast<double>(x))) {}
+  /// What is enclosed in another number, rounded to F.
+  template <class G>
+  explicit Enclosure(const Enclosure<G>& x) requires(!std::same_as<F, G>)
+      : Enclosure(made(rounding_now,
+                       rounded(rounding_now, x.low(), false),
+                       rounded(rounding_now, x.high(), true),
+                       x.may_be_nan(),
+                       x.directions())) {}
   /// A value that may be anything from low to high.  Its copies are the same value; two inputs that are free of
   /// one another are two of these.
   static Enclosure between(F low, F high) {
@@ -658,6 +666,8 @@ struct RealTraits<Enclosure<F>> {
   }
   static Plain max(const Plain& a, const Plain& b) { return Plain::max(a, b); }
   static Plain min(const Plain& a, const Plain& b) { return Plain::min(a, b); }
+  static auto roomy(const Plain& x) requires requires(const F& f) { RealTraits<F>::roomy(f); }
+  { return Enclosure<decltype(RealTraits<F>::roomy(F()))>(x); }
 };
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -10,10 +10,14 @@
 
 namespace gonio::inline GONIO_ARCH {
 
-/// True of a T that computes as its base does, bit by bit, in float or double.  Others lose nothing here
-/// (Wide), or are there to show what they lose (Half, Mixed).
+/// True of a number that is rounded to nearest after every operation.
+template <class F>
+inline constexpr bool rounds_to_nearest = std::floating_point<F>;
+
+/// True of a T that computes as its base does, bit by bit, in such a number.  Others lose nothing here (Wide), or do
+/// not stay in one number (Mixed).
 template <class T>
-inline constexpr bool computes_as_base = std::floating_point<base_t<T>>;
+inline constexpr bool computes_as_base = rounds_to_nearest<base_t<T>>;
 
 /// a + b = sum + sum_error                                                            [Knuth 1969]
 template <Real T>

@@ -233,7 +233,12 @@ struct RealTraits<HalfOver<R, rules>> {
   static constexpr Plain select(const Mask& m, const Plain& a, const Plain& b) {
     return Plain::raw(gonio::select<R>(m, a.v_, b.v_));
   }
+  /// x in a number with room for a block's constants, which T(…) takes back rounded.
+  static constexpr R roomy(const Plain& x) { return x.as_floats(); }
 };
+
+template <HalfRules rules>
+inline constexpr bool rounds_to_nearest<HalfOver<float, rules>> = true;
 
 }  // namespace gonio::inline GONIO_ARCH
 

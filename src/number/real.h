@@ -107,7 +107,7 @@ constexpr T pi() {
   return constant<T>(3.14159265358979323846264338327950288L);
 }
 
-/// x as a shader's variable declared `half` or `float` holds it: Mixed (mixed.h) alone has both.
+/// x as a shader's variable declared `half` or `float` holds it: Mixed alone has both, found by in_half(x), not in_half<T>(x).
 template <Real T>
 constexpr T in_half(const T& x) {
   return x;

@@ -22,8 +22,21 @@ inline constexpr int digits = std::max(24, std::numeric_limits<base_t<T>>::digit
 /// and whose reciprocal's square are normal numbers.  Too small to matter, but for Half, of which it is 2⁻⁶.
 template <Real T>
 T small() {
-  constexpr int exponent = std::max(std::numeric_limits<base_t<T>>::min_exponent / 2, -511);
+  constexpr int exponent = std::max(std::numeric_limits<base_t<T>>::min_exponent / 2, -510);
   return constant<T>(std::ldexp(1.0L, exponent));
+}
+/// Upper bound for a factor of what may be 0: the greatest number, of those that double holds.
+template <Real T>
+T most() {
+  constexpr int exponent = std::min(std::numeric_limits<base_t<T>>::max_exponent, 1024);
+  constexpr int bits = std::min(std::numeric_limits<base_t<T>>::digits, 53);
+  return constant<T>(std::ldexp(1 - std::ldexp(1.0L, -bits), exponent));
+}
+/// Lower bound for a square that is divided by: small<T>() where that is below 2⁻¹⁴; in Half that, its least normal
+/// number.  The reciprocal is finite, its square only where small<T>() is small.
+template <Real T>
+T small_square() {
+  return min<T>(small<T>(), constant<T>(0x1p-14L));
 }
 /// Lower bound for a divisor that would be 0, where nothing but the quotient is needed, and no square of it: the least
 /// normal number, whose reciprocal is finite too.

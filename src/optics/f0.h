@@ -105,18 +105,21 @@ struct F0Metallic {
 ///   n_max − n     = g d,   d = n_max − n_min = 2 s (1 + s)/((1 − s)(1 + r))
 ///   n − 1/n_max   = (1 − g) d + 2 s (1 − s)/((1 + r)(1 + s))
 ///
+/// which are left apart: in half their product is too large where r is near 1.
+///
 /// \param r  in (0, 1)   \param g  in [0, 1]
 template <Real T>
 struct TintedIndex {
-  T n, n_less_one, k2;
+  T n, n_less_one;
+  T above, below;  ///< n_max − n, n − 1/n_max; k² is their product
 };
 template <Real T>
 TintedIndex<T> tinted_index(const T& r, const T& g) {
   const T s = sqrt(r), rest = 1 - g, one_less_s = (1 - r) / (1 + s);
   const T d = 2 * s * (1 + s) / (one_less_s * (1 + r));
   return {g * (1 - r) / (1 + r) + rest * (1 + s) / one_less_s,
-          rest * 2 * s / one_less_s - g * 2 * r / (1 + r),
-          g * d * (rest * d + 2 * s * one_less_s / ((1 + r) * (1 + s)))};
+          rest * 2 * s / one_less_s - g * 2 * r / (1 + r), g * d,
+          rest * d + 2 * s * one_less_s / ((1 + r) * (1 + s))};
 }
 
 /// (r, g) → (n, k)
@@ -136,7 +139,7 @@ struct IndexFromEdgeTint {
 
   static std::array<T, 2> apply(std::span<const T, 2> p) {
     const auto i = tinted_index<T>(p[0], p[1]);
-    return {i.n, sqrt_from_0<T>(i.k2)};
+    return {i.n, sqrt_from_0<T>(i.above * i.below)};
   }
 };
 

@@ -6,11 +6,15 @@
 /// Each is a term (brdf/term/term.h): the constructor takes the parameters, which may carry derivatives;
 /// operator() takes the cosines of one sample, which never do.  Unpolarised light, from vacuum.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <span>
 
 #include "geometry/angles.h"
 #include "number/exact.h"
+#include "number/known.h"
 #include "number/parameter.h"
 #include "number/quotient.h"
 #include "number/real.h"
@@ -28,11 +32,11 @@ struct NearCritical {
 
   NearCritical(const T& eta, const T& k) : NearCritical(two_part_q(eta, k)) {}
 
-  /// c² − q where that is less than a quarter of c², else `otherwise`, which is c² − q too
-  T difference(const plain_t<T>& c, const T& otherwise) const {
-    const auto quarter = T(square(c) * constant<plain_t<T>>(0.25L));
+  /// κ (c² − q) where that is less than a quarter of κ c², else `otherwise`, which is κ (c² − q) too
+  T difference(const plain_t<T>& c, const auto& scale, const T& c2, const T& otherwise) const {
+    const auto quarter = c2 * constant<plain_t<T>>(0.25L);
     const auto near = otherwise < quarter && -otherwise < quarter;
-    return select<T>(near, ((c - high) - low) * (c + high), otherwise);
+    return select<T>(near, scale * (((c - high) - low) * (c + high)), otherwise);
   }
 
  private:
@@ -60,8 +64,9 @@ struct NearCritical {
 ///   g² = η² − 1 + c²,   r_s = (g − c)/(g + c),   r_p = r_s (c (g + c) − 1)/(c (g − c) + 1)
 ///   F = (r_s² + r_p²)/2;   F = 1 where g² < 0                            [Walter 2007, Eq. 22]
 ///
-/// Computed with e = (η − 1)(η + 1) and u = g + c, so that nothing cancels as η → 1:
-///   r_s = e/u²,   r_p/r_s = u (c g − s²)/(c e + u),   s² = (1 − c)(1 + c)
+/// Computed with e = (η − 1)(η + 1) and u = g + c, so that nothing cancels as η → 1 nor, seen from inside, in the
+/// denominator c e + u:
+///   r_s = e/u²,   r_p/r_s = u (c g − s²)/(c η² + g),   s² = (1 − c)(1 + c)
 ///
 /// \param eta  refractive index, transmitted over incident side, > 0; below 1: seen from inside
 template <Real T>
@@ -76,19 +81,20 @@ struct Dielectric {
   static constexpr std::array parameters{
       Parameter{"eta", {0.2, 10}, {1, 4}, 1.5, true, "refractive index, transmitted / incident"}};
 
-  T e;
+  T e, eta2;
   NearCritical<T> critical;
 
-  explicit Dielectric(std::span<const T, 1> p) : e((p[0] - 1) * (p[0] + 1)), critical(p[0], T(0)) {}
+  explicit Dielectric(std::span<const T, 1> p)
+      : e((p[0] - 1) * (p[0] + 1)), eta2(square(p[0])), critical(p[0], T(0)) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
-    const auto c = a.voh, s2 = (1 - c) * (1 + c);
-    const T g2 = critical.difference(c, e + square(c));
+    const auto c = a.voh, s2 = (1 - c) * (1 + c), c2 = square(c);
+    const T g2 = critical.difference(c, One{}, T(c2), e + c2);
     const auto refracts = T(0) < g2;  // else: total internal reflection, or η = 1 at c = 0
     const T g = sqrt(select<T>(refracts, g2, T(1)));
     const T u = g + c;
     const T rs = e / square(u);
-    const T rp_over_rs = u * (c * g - s2) / (c * e + u);
+    const T rp_over_rs = u * (c * g - s2) / (c * eta2 + g);
     const T f = square(rs) * (1 + square(rp_over_rs)) / 2;
     const T beyond = select<T>(e < T(0), T(1), T(0));
     return select<T>(refracts, f, beyond);
@@ -143,7 +149,8 @@ Quotient<T> reflectance_of_root(
 ///   │  the larger of a and b is √((m + |t|)/2), the smaller η k over it  │   a is the larger where t > 0
 ///   └────────────────────────────────────────────────────────────────────┘
 ///
-/// and F from a, m and |N² − 1|² by reflectance_of_root, its four steps.
+/// and F from a, m and |N² − 1|² by reflectance_of_root, its four steps.  √κ comes first, from η and k as parts of
+/// the largest of them and 1, and multiplies each: in half k² itself is too large beyond k = 255.
 ///
 /// \param eta  real part, > 0   \param k  extinction coefficient, ≥ 0
 template <Real T>
@@ -160,22 +167,23 @@ struct Conductor {
       Parameter{"eta", {0.001, 20}, {0.01, 10}, 1.5, true, "refractive index, real part"},
       Parameter{"k", {0, 1000}, {0, 20}, 3, true, "extinction coefficient"}};
 
-  T less_one;           // Re N² − 1
-  T scale, root_scale;  // κ, √κ
+  T root_scale, scale;  // √κ, κ
+  T less_one;           // κ (Re N² − 1)
   T im, n4;             // κ η k = κ Im N²/2, κ² |N² − 1|²
   NearCritical<T> critical;
 
   explicit Conductor(std::span<const T, 2> p)
-      : less_one((p[0] - 1) * (p[0] + 1) - square(p[1])),
-        scale(1 / max<T>(square(p[0]) + square(p[1]), T(1))),
-        root_scale(sqrt(scale)),
-        im(scale * p[0] * p[1]),
-        n4(square(scale * less_one) + 4 * square(im)),
+      : root_scale(of_largest(p, 1 / max<T>(max<T>(p[0], p[1]), T(1)))),
+        scale(square(root_scale)),
+        less_one((p[0] - 1) * root_scale * ((p[0] + 1) * root_scale) - square(p[1] * root_scale)),
+        im(p[0] * root_scale * (p[1] * root_scale)),
+        n4(square(less_one) + 4 * square(im)),
         critical(p[0], p[1]) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& x) const {
     const auto c = x.voh;
-    const T t = scale * critical.difference(c, less_one + square(c));  // κ Re (N² − s²)
+    const T c2 = scale * square(c);
+    const T t = critical.difference(c, scale, c2, less_one + c2);  // κ Re (N² − s²)
     const auto a_larger = T(0) < t;
     const T abs_t = select<T>(a_larger, t, -t);
     const T t2 = square(t) + 4 * square(im);  // (κ m)²; where it is too small to hold, m is about
@@ -187,14 +195,20 @@ struct Conductor {
     const auto f = reflectance_of_root<T>(c, scale, n4, m, a);
     return {f.num, select<T>(T(0) < n4, f.den, T(1))};  // N = 1: there is nothing
   }
+
+ private:
+  /// √κ = s/√max(s² |N|², s²)
+  static T of_largest(std::span<const T, 2> p, const T& s) {
+    return s / sqrt(max<T>(square(p[0] * s) + square(p[1] * s), square(s)));
+  }
 };
 
 /// Exact Fresnel reflectance of a conductor in an artist's terms: its reflectance at normal incidence
 /// and its tint at the edge, from which f0.h has N = n + i k.              [Gulbrandsen 2014]
 ///
 /// It needs k's square alone: at g = 0, where k is 0, the root would have no slope.  f0 = 1 has
-/// no finite index and √f0 no slope at 0, so below 2⁻²⁰ and above 1 − 2⁻¹⁶ F runs straight to 0 and
-/// to 1; at normal incidence that is still exact.
+/// no finite index and √f0 no slope at 0, so below 2⁻²⁰ and above 1 − 2⁻¹⁶ (in half 1 − 2⁻⁸, of which 1 can be told)
+/// F runs straight to 0 and to 1; at normal incidence that is still exact.
 ///
 /// \param f0  reflectance at normal incidence, r in the paper
 /// \param g   edge tint: 0 the index that is real, 1 the lowest real part that the paper allows
@@ -211,8 +225,9 @@ struct Gulbrandsen {
       Parameter{"f0", {0, 1}, {0.01, 0.99}, 0.8, true, "reflectance at normal incidence"},
       Parameter{"g", {0, 1}, {0, 1}, 0.5, true, "edge tint"}};
 
-  T re, less_one;       // Re N², Re N² − 1
-  T scale, root_scale;  // κ, √κ
+  T root_scale, scale;  // √κ, κ
+  T k2;                 // κ k²
+  T re, less_one;       // κ Re N², κ (Re N² − 1)
   T im2;                // κ² (n k)²
   T n4;                 // κ² |N² − 1|²
   T low, high;          // how far f0 is on the straight runs
@@ -222,7 +237,7 @@ struct Gulbrandsen {
 
   T operator()(const Angles<plain_t<T>>& x) const {
     const auto c = x.voh, c2 = square(c), s2 = (1 - c) * (1 + c);
-    const T t = scale * select<T>(s2 < c2, re - s2, less_one + c2);  // by what lies closest
+    const T t = select<T>(s2 < c2, re - scale * s2, less_one + scale * c2);  // by what lies closest
     const auto a_larger = T(0) < t;
     const T m = sqrt(square(t) + 4 * im2);
     const T larger2 = (m + select<T>(a_larger, t, -t)) / 2;
@@ -233,17 +248,26 @@ struct Gulbrandsen {
 
  private:
   static T least() { return constant<T>(0x1p-20L); }
-  static T most() { return constant<T>(1 - 0x1p-16L); }
+  static T most() {
+    constexpr int bits = std::min(16, std::numeric_limits<base_t<T>>::digits - 3);
+    return constant<T>(1 - std::ldexp(1.0L, -bits));
+  }
 
   Gulbrandsen(const T& f0, const TintedIndex<T>& i)
-      : re(square(i.n) - i.k2),
-        less_one(i.n_less_one * (i.n + 1) - i.k2),
-        scale(1 / max<T>(square(i.n) + i.k2, T(1))),
-        root_scale(sqrt(scale)),
-        im2((scale * square(i.n)) * (scale * i.k2)),
-        n4(square(scale * less_one) + 4 * im2),
+      : root_scale(of_largest(i, 1 / max<T>(i.n, T(1)))),
+        scale(square(root_scale)),
+        k2(i.above * root_scale * (i.below * root_scale)),
+        re(square(i.n * root_scale) - k2),
+        less_one(i.n_less_one * root_scale * ((i.n + 1) * root_scale) - k2),
+        im2(square(i.n * root_scale) * k2),
+        n4(square(less_one) + 4 * im2),
         low(min<T>(f0 / least(), T(1))),
         high(max<T>((f0 - most()) / (1 - most()), T(0))) {}
+
+  /// √κ, as Conductor has it
+  static T of_largest(const TintedIndex<T>& i, const T& s) {
+    return s / sqrt(max<T>(square(i.n * s) + i.above * s * (i.below * s), square(s)));
+  }
 };
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -257,9 +257,10 @@ struct Disney2015 {
 /// as Blender does: for dark tints the formula would go below, at angles of less than 82°.
 ///
 /// Computed as tint F_s + (1 − tint)(F_s − F_s(1/7) w), w = c (1 − c)⁶/(1/7 (6/7)⁶), where dark tints
-/// leave little of large parts; with u = (7 c − 1)/6 and v = 1 − u nothing cancels in either:
+/// leave little of large parts; with u = (7 c − 1)/6 and v = 1 − u = 7/6 (1 − c) nothing cancels in either:
 ///   1 − w = u² (1 + 2 v + 3 v² + 4 v³ + 5 v⁴ + 6 v⁵)
-///   F_s − F_s(1/7) w = f0 (1 − w) − (1 − f0)(1 − c)⁵ u (6 v − 1)
+///   F_s − F_s(1/7) w = f0 (1 − w) − (1 − f0)(1 − c)⁵ u (6 − 7 c)
+/// and (8 c − 1) − c and c − (8 c − 6) are exact where they are small.
 ///
 /// \param f82_tint  what the edge reflects, as a part of what Schlick would; 1: Schlick
 template <Real T>
@@ -284,10 +285,10 @@ struct F82Tint {
 
   T operator()(const Angles<plain_t<T>>& a) const {
     using B = plain_t<T>;
-    const B m5 = schlick_weight(a.voh);
-    const B u = (7 * a.voh - 1) * constant<B>(1.0L / 6), v = 1 - u;
+    const B &c = a.voh, m5 = schlick_weight(c), eight = 8 * c;
+    const B u = ((eight - 1) - c) * constant<B>(1.0L / 6), v = (1 - c) * constant<B>(7.0L / 6);
     const B sum = 1 + v * (2 + v * (3 + v * (4 + v * (5 + v * 6))));
-    const T darkest = f0 * (square(u) * sum) - (1 - f0) * (m5 * u * (6 * v - 1));
+    const T darkest = f0 * (square(u) * sum) - (1 - f0) * (m5 * u * (c - (eight - 6)));
     return max<T>(tint * schlick<T>(f0, m5) + (1 - tint) * darkest, T(0));
   }
 };
@@ -324,8 +325,7 @@ struct Lazanyi {
 
   T f0, slope, height, exponent;
 
-  explicit Lazanyi(std::span<const T, 4> p)
-      : Lazanyi(p, square(p[1]), 1 / (square(p[0] + 1) + square(p[1]))) {}
+  explicit Lazanyi(std::span<const T, 4> p) : Lazanyi(p, 1 / max<T>(p[0] + 1, p[1])) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
     const auto m = 1 - a.voh;
@@ -336,9 +336,12 @@ struct Lazanyi {
   }
 
  private:
-  Lazanyi(std::span<const T, 4> p, const T& k2, const T& per_den)
-      : f0((square(p[0] - 1) + k2) * per_den),
-        slope(4 * p[0] * per_den),
+  // of n + 1 and k as parts of the larger, s times as large: in half k² itself would be too large
+  Lazanyi(std::span<const T, 4> p, const T& s)
+      : Lazanyi(p, s, square(p[1] * s), 1 / (square((p[0] + 1) * s) + square(p[1] * s))) {}
+  Lazanyi(std::span<const T, 4> p, const T& s, const T& k2, const T& per_den)
+      : f0((square((p[0] - 1) * s) + k2) * per_den),
+        slope(4 * (p[0] * s) * s * per_den),
         height(p[2]),
         exponent(p[3]) {}
 };

@@ -9,6 +9,9 @@
 /// The code computes c Λ(c), c = NoL or NoV, which is finite at grazing angles:
 ///
 ///   V = 1/(4 (NoL + cΛ(l)) (NoV + cΛ(v)))   and   1/(4 (NoL NoV + NoV cΛ(l) + NoL cΛ(v)))
+///
+/// Squares of small widths and cosines, and products of two of them, have few digits in half.  They are computed of
+/// 32 (16 for Beckmann's) times the widths and cosines, of which the largest square, (32 · 4)², still fits.
 
 #include "brdf/formula/widths.h"
 #include "brdf/term/term.h"
@@ -16,24 +19,32 @@
 
 namespace gonio::inline GONIO_ARCH {
 
+/// Factor by which the roots r and R of GGX's and GTR's masking are larger than what they stand for.
+inline constexpr int smith_scale = 32;
+
 /// V of r(c) = c (1 + 2 Λ(c)) at l and v, light and view independent:  1/((NoL + r(l)) (NoV + r(v)))
+///
+/// \param r_l, r_v  smith_scale r
 template <Real T>
 Quotient<T> smith_separable(const Angles<plain_t<T>>& a, const T& r_l, const T& r_v) {
-  return {T(1), (r_l + a.nol) * (r_v + a.nov)};
+  return {T(smith_scale * smith_scale), (r_l + a.nol * smith_scale) * (r_v + a.nov * smith_scale)};
 }
 /// V correlated through the height of the facet:  1/(2 (NoL r(v) + NoV r(l)))
+///
+/// \param r_l, r_v  smith_scale r
 template <Real T>
 Quotient<T> smith_correlated(const Angles<plain_t<T>>& a, const T& r_l, const T& r_v) {
-  const T sum = a.nol * r_v + a.nov * r_l;
-  return {T(1), sum + sum};
+  return {T(smith_scale / 2), a.nol * r_v + a.nov * r_l};
 }
 
-/// √(α² + (1 − α²) c²) = c √(1 + α² tan²θ), with (1 − α) (1 + α) for 1 − α²
+/// smith_scale √(α² + (1 − α²) c²) = smith_scale c √(1 + α² tan²θ), with (1 − α) (1 + α) for 1 − α²
 template <Real T>
 struct SmithRoot {
   T alpha2, rest;
-  explicit SmithRoot(const T& alpha) : alpha2(square(alpha)), rest((1 - alpha) * (1 + alpha)) {}
-  T operator()(const plain_t<T>& c) const { return sqrt(alpha2 + rest * square(c)); }
+  explicit SmithRoot(const T& alpha)
+      : alpha2(square(alpha * smith_scale)),
+        rest((1 - alpha) * (1 + alpha) * (smith_scale * smith_scale)) {}
+  T operator()(const plain_t<T>& c) const { return sqrt(alpha2 + rest * c * c); }
 };
 
 /// Smith masking for GGX, light and view independent.
@@ -100,7 +111,8 @@ struct SmithGgxAnisoCorrelated {
 
   T x2, y2;
 
-  explicit SmithGgxAnisoCorrelated(std::span<const T, 2> p) : x2(square(p[0])), y2(square(p[1])) {}
+  explicit SmithGgxAnisoCorrelated(std::span<const T, 2> p)
+      : x2(square(p[0] * smith_scale)), y2(square(p[1] * smith_scale)) {}
 
   Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
     return smith_correlated<T>(a, length(a.xol, a.yol, a.nol), length(a.xov, a.yov, a.nov));
@@ -109,7 +121,7 @@ struct SmithGgxAnisoCorrelated {
  private:
   using P = plain_t<T>;
   T length(const P& x, const P& y, const P& z) const {
-    return sqrt(x2 * square(x) + y2 * square(y) + square(z));
+    return sqrt(x2 * x * x + y2 * y * y + square(z * smith_scale));
   }
 };
 
@@ -117,16 +129,26 @@ struct SmithGgxAnisoCorrelated {
 ///
 ///   Λ(a) = (erf(a) − 1)/2 + e^(−a²)/(2a√π) = ierfc(a)/(2a),   a = c/w    [Walter 2007, Eq. 26]
 ///
-/// so that c Λ = w ierfc(c/w)/2, in which nothing cancels (number/special.h).
+/// so that c Λ = w ierfc(c/w)/2, in which nothing cancels (number/special.h).  From a = 64 on, where nothing is left
+/// of e^(−a²), a is 64.
 template <Real T>
 T beckmann_c_lambda(const plain_t<T>& c, const T& w) {
-  return w * ierfc<T>(c / max<T>(w, small<T>())) / 2;
+  return w * ierfc<T>(c / max<T>(w, T(c * constant<plain_t<T>>(0x1p-6L)))) / 2;
 }
 
+/// Factor by which what is multiplied for Beckmann's V is larger than what it stands for.
+inline constexpr int beckmann_scale = 16;
+
+/// V light and view independent, of c + c Λ at l and v.
+template <Real T>
+Quotient<T> beckmann_separable(const T& l, const T& v) {
+  return {T(beckmann_scale * beckmann_scale / 4), (l * beckmann_scale) * (v * beckmann_scale)};
+}
 /// V correlated through the height of the facet, of c Λ at l and v.
 template <Real T>
 Quotient<T> beckmann_correlated(const Angles<plain_t<T>>& a, const T& l, const T& v) {
-  return {T(1), 4 * (a.nov * l + a.nol * v + a.nol * a.nov)};
+  const auto nol = a.nol * beckmann_scale, nov = a.nov * beckmann_scale;
+  return {T(beckmann_scale / 4), nov * l + nol * v + nol * a.nov};
 }
 
 /// sin θ of a direction by its cosine.
@@ -151,7 +173,7 @@ struct SmithBeckmannSeparable {
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
     const T l = beckmann_c_lambda<T>(a.nol, alpha * sine_of(a.nol)) + a.nol;
     const T v = beckmann_c_lambda<T>(a.nov, alpha * sine_of(a.nov)) + a.nov;
-    return {T(1), 4 * l * v};
+    return beckmann_separable<T>(l, v);
   }
 };
 
@@ -189,7 +211,7 @@ struct SmithBeckmannAnisoCorrelated {
   T x2, y2;
 
   explicit SmithBeckmannAnisoCorrelated(std::span<const T, 2> p)
-      : x2(square(p[0])), y2(square(p[1])) {}
+      : x2(square(p[0] * smith_scale)), y2(square(p[1] * smith_scale)) {}
 
   Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
     return beckmann_correlated<T>(a, beckmann_c_lambda<T>(a.nol, width(a.xol, a.yol)),
@@ -199,7 +221,9 @@ struct SmithBeckmannAnisoCorrelated {
  private:
   using P = plain_t<T>;
   T width(const P& x, const P& y) const {
-    return sqrt(max<T>(x2 * square(x) + y2 * square(y), square(small<T>())));
+    const T length2 = x2 * x * x + y2 * y * y;
+    const T some = min<T>(least<T>(), constant<T>(0x1p-24L));  // the root of 0 has no slope
+    return sqrt(max<T>(length2, some)) * constant<P>(1.0L / smith_scale);
   }
 };
 

@@ -90,7 +90,7 @@ struct Implicit {
 /// No masking: G = 1,  V = 1 / (4 NoL NoV).
 ///
 /// Has no bound where either direction grazes, so its domain is NoL, NoV > 0.  At 0 it is finite and
-/// huge: NoL NoV counts as the least normal number at the least.
+/// huge: 4 NoL NoV counts as the least normal number at the least.
 template <Real T>
 struct Unmasked {
   static constexpr About about{"masking.none", "None", "G2 = 1",
@@ -100,7 +100,7 @@ struct Unmasked {
   explicit Unmasked(std::span<const T, 0>) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    return {T(1), T(4 * max<plain_t<T>>(a.nol * a.nov, least<plain_t<T>>()))};
+    return {T(1), T(max<plain_t<T>>(4 * (a.nol * a.nov), least<plain_t<T>>()))};
   }
 };
 

@@ -4,6 +4,9 @@
 ///
 /// t = α² cos²θ_h + sin²θ_h is (NoH² (α² − 1) + 1) without its cancellation (ndf_ggx.h).  Where a formula has
 /// tan θ_h, NoH² is kept off 0: h is at the horizon only for directions outside the domain.
+///
+/// 1/α² overflows in half below α = 0.004, and a tiny exponential times a huge peak loses the digits of a subnormal
+/// in every number.  So 1/α is multiplied by twice, and D is the square of √peak times the root of the exponential.
 
 #include "brdf/formula/widths.h"
 #include "brdf/term/term.h"
@@ -14,7 +17,7 @@ namespace gonio::inline GONIO_ARCH {
 /// ln NoH², also near the peak, where NoH has lost its digits.
 template <Real B>
 B log_cos2_theta_h(const Angles<B>& a) {
-  return log_near_one<B>(max<B>(square(a.noh), square(small<B>())), -a.sin2_theta_h);
+  return log_near_one<B>(max<B>(square(a.noh), least<B>()), -a.sin2_theta_h);
 }
 
 /// Blinn–Phong with the exponent p that gives it the peak, and for smooth surfaces the shape, of
@@ -31,14 +34,15 @@ struct BlinnPhong {
                                "Unreal Engine 4 (D_Blinn)"};
   static constexpr std::array parameters{alpha_parameter};
 
-  T half_p, peak;
+  T per_alpha, quarter_p_alpha, root_peak;
 
   explicit BlinnPhong(std::span<const T, 1> p)
-      : half_p((1 - p[0]) * (1 + p[0]) / square(p[0])),
-        peak(1 / (pi<plain_t<T>>() * square(p[0]))) {}
+      : per_alpha(1 / p[0]),
+        quarter_p_alpha((1 - p[0]) * (1 + p[0]) * per_alpha / 2),
+        root_peak(per_alpha / sqrt(pi<plain_t<T>>())) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
-    return peak * exp(half_p * log_cos2_theta_h(a));
+    return square(root_peak * exp(quarter_p_alpha * log_cos2_theta_h(a) * per_alpha));
   }
 };
 
@@ -55,14 +59,17 @@ struct Beckmann {
                                "Unreal Engine 4 (D_Beckmann), Mitsuba, pbrt-v3"};
   static constexpr std::array parameters{alpha_parameter};
 
-  T per_alpha2, norm;
+  T per_alpha, minus_half_per_alpha, root_norm;
 
   explicit Beckmann(std::span<const T, 1> p)
-      : per_alpha2(1 / square(p[0])), norm(per_alpha2 / pi<plain_t<T>>()) {}
+      : per_alpha(1 / p[0]),
+        minus_half_per_alpha(-per_alpha / 2),
+        root_norm(per_alpha / sqrt(pi<plain_t<T>>())) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
-    const auto per_cos2 = 1 / max<plain_t<T>>(square(a.noh), small<plain_t<T>>());
-    return exp(-(a.sin2_theta_h * per_cos2) * per_alpha2) * norm * square(per_cos2);
+    const auto per_cos2 = 1 / max<plain_t<T>>(square(a.noh), small_square<plain_t<T>>());
+    const T half_x2 = a.sin2_theta_h * per_cos2 * per_alpha * minus_half_per_alpha;
+    return square(exp(half_x2) * per_cos2 * root_norm);
   }
 };
 
@@ -72,10 +79,13 @@ struct Beckmann {
 ///
 /// With L = ln α², E(z) = (eᶻ − 1)/z = eᶻ E(−z) and u = t/α² = cos²θ_h + sin²θ_h/α² the same is
 ///
-///   D = E(L) / (π α² E((γ − 1) L)) · u^−γ
+///   D = E(L) / (π E(−|γ − 1| |L|)) · (t^−γ where γ < 1, else u^−γ/α²)
 ///
 /// E has no hole: neither γ = 1 (Berry, GTR1) nor α = 1 (D = 1/π) is a special case, no digit is
 /// lost near them; and nothing overflows on the way, as α^−2γ does in float.  γ = 2 is GGX.
+///
+/// A power's error is that of its exponent, γ ln t or γ ln u.  Where γ < 1 most of D, and least of what it
+/// depends on, is far from the peak, where t is about 1; where γ > 1 it is at the peak, where u is.
 template <Real T>
 struct Gtr {
   static constexpr About about{
@@ -87,18 +97,26 @@ struct Gtr {
       ""};
   static constexpr std::array parameters{alpha_parameter, gamma_parameter};
 
-  T per_alpha2, gamma, peak;
+  T of_cos2, of_sin2;  // t or u
+  T minus_half_gamma, root_norm;
 
-  explicit Gtr(std::span<const T, 2> p)
-      : per_alpha2(1 / square(p[0])), gamma(p[1]), peak(d_at_peak(-log(per_alpha2))) {}
+  explicit Gtr(std::span<const T, 2> p) : Gtr(p, p[1] < T(1), log(p[0])) {}
 
   T operator()(const Angles<plain_t<T>>& a) const {
-    return peak * exp(-gamma * log(square(a.noh) + a.sin2_theta_h * per_alpha2));
+    const T base = square(a.noh) * of_cos2 + a.sin2_theta_h * of_sin2;
+    return square(root_norm * exp(minus_half_gamma * log(base)));
   }
 
  private:
-  T d_at_peak(const T& l) const {
-    return expm1_over<T>(l) * per_alpha2 / (pi<plain_t<T>>() * expm1_over<T>((gamma - 1) * l));
+  Gtr(std::span<const T, 2> p, const mask_t<T>& wide, const T& log_alpha)
+      : of_cos2(select<T>(wide, square(p[0]), T(1))),
+        of_sin2(select<T>(wide, T(1), min<T>(square(1 / p[0]), most<T>()))),
+        minus_half_gamma(-p[1] / 2),
+        root_norm(select<T>(wide, T(1), 1 / p[0]) *
+                  norm(select<T>(wide, 1 - p[1], p[1] - 1), 2 * log_alpha)) {}
+
+  static T norm(const T& apart, const T& l) {
+    return sqrt(expm1_over<T>(l) / (pi<plain_t<T>>() * expm1_over<T>(apart * l)));
   }
 };
 
@@ -115,13 +133,15 @@ struct Gtr1 {
                                "Disney (clear coat)"};
   static constexpr std::array parameters{alpha_parameter};
 
-  T alpha2, num;
+  T alpha, per_alpha, num;
 
   explicit Gtr1(std::span<const T, 1> p)
-      : alpha2(square(p[0])), num(expm1_over<T>(log(alpha2)) / pi<plain_t<T>>()) {}
+      : alpha(p[0]),
+        per_alpha(1 / p[0]),
+        num(expm1_over<T>(2 * log(p[0])) * per_alpha / pi<plain_t<T>>()) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    return {num, alpha2 * square(a.noh) + a.sin2_theta_h};
+    return {num, alpha * square(a.noh) + per_alpha * a.sin2_theta_h};
   }
 };
 

@@ -10,6 +10,12 @@
 namespace gonio::inline GONIO_ARCH {
 
 /// Anisotropic GGX:  D = 1 / (π α_x α_y (XoH²/α_x² + YoH²/α_y² + NoH²)²)   [Burley 2012, Eq. 13]
+///
+/// As of GGX (ndf_ggx.h), with the widths' product in the square:  D = (1/π) / u²,
+///
+///   u = XoH² √(α_y/α_x)/α_x + YoH² √(α_x/α_y)/α_y + NoH² √(α_x α_y)
+///
+/// of which the first two factors alone leave half, where one width is below a thousandth of the other.
 template <Real T>
 struct GgxAniso {
   static constexpr About about{"ndf.ggx_aniso",
@@ -22,15 +28,20 @@ struct GgxAniso {
   static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
   static constexpr bool anisotropic = true;
 
-  T per_x2, per_y2, pi_xy;
+  T of_x, of_y, of_z, num;
 
-  explicit GgxAniso(std::span<const T, 2> p)
-      : per_x2(1 / square(p[0])), per_y2(1 / square(p[1])), pi_xy(pi<plain_t<T>>() * p[0] * p[1]) {}
+  explicit GgxAniso(std::span<const T, 2> p) : GgxAniso(p, sqrt(p[1] / p[0])) {}
 
   Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
-    const T s = square(a.xoh) * per_x2 + square(a.yoh) * per_y2 + square(a.noh);
-    return {T(1), pi_xy * square(s)};
+    return {num, square(square(a.xoh) * of_x + square(a.yoh) * of_y + square(a.noh) * of_z)};
   }
+
+ private:
+  GgxAniso(std::span<const T, 2> p, const T& ratio)
+      : of_x(min<T>(ratio / p[0], most<T>())),
+        of_y(min<T>(1 / (ratio * p[1]), most<T>())),
+        of_z(ratio * p[0]),
+        num(1 / pi<plain_t<T>>()) {}
 };
 
 /// Anisotropic Beckmann:
@@ -47,17 +58,18 @@ struct BeckmannAniso {
   static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
   static constexpr bool anisotropic = true;
 
-  T per_x2, per_y2, norm;
+  T per_x, per_y;  // 1/(α √2), so that the exponential is the root
+  T root_norm;     // 1/√(π α_x α_y)
 
   explicit BeckmannAniso(std::span<const T, 2> p)
-      : per_x2(1 / square(p[0])),
-        per_y2(1 / square(p[1])),
-        norm(1 / (pi<plain_t<T>>() * p[0] * p[1])) {}
+      : per_x(constant<plain_t<T>>(0.70710678118654752440L) / p[0]),
+        per_y(constant<plain_t<T>>(0.70710678118654752440L) / p[1]),
+        root_norm(constant<plain_t<T>>(0.56418958354775628695L) / (sqrt(p[0]) * sqrt(p[1]))) {}
 
   T operator()(const FrameAngles<plain_t<T>>& a) const {
-    const auto per_cos2 = 1 / max<plain_t<T>>(square(a.noh), small<plain_t<T>>());
-    const T x2 = square(a.xoh) * per_cos2 * per_x2 + square(a.yoh) * per_cos2 * per_y2;
-    return exp(-x2) * norm * square(per_cos2);
+    const auto per_cos2 = 1 / max<plain_t<T>>(square(a.noh), small_square<plain_t<T>>());
+    const T half_x2 = (square(per_x * a.xoh) + square(per_y * a.yoh)) * per_cos2;
+    return square(exp(-half_x2) * per_cos2 * root_norm);
   }
 };
 
@@ -104,34 +116,34 @@ struct BeckmannAnisoAsWritten {
 /// D is that of width 1 with the slope of the direction scaled.  (Seed 001 prints the anisotropic form
 /// with one α too many, in the argument of g.)
 ///
-/// Shape: `T log_g(const T& x2) const`, ln g by x².  In logarithms nothing overflows at the horizon.
+/// Shape: `T log_g(const T& x2) const`, ln g by x².  In logarithms nothing overflows at the horizon, and of a root
+/// nothing is lost as subnormal before 1/(α_x α_y) brings it back.
 template <template <class> class Shape, Real T>
 struct ShapeInvariant {
   using P = plain_t<T>;
   Shape<T> shape;
-  T per_x2, per_y2, norm;
+  T per_x, per_y, root_norm;
 
   ShapeInvariant(const Shape<T>& s, const T& alpha_x, const T& alpha_y)
       : shape(s),
-        per_x2(1 / square(alpha_x)),
-        per_y2(1 / square(alpha_y)),
-        norm(1 / (alpha_x * alpha_y)) {}
+        per_x(1 / alpha_x),
+        per_y(1 / alpha_y),
+        root_norm(1 / (sqrt(alpha_x) * sqrt(alpha_y))) {}
   ShapeInvariant(const Shape<T>& s, const T& alpha) : ShapeInvariant(s, alpha, alpha) {}
 
   /// Isotropic: reads α_x alone.
   T operator()(const Angles<P>& a) const {
-    const P per_cos2 = 1 / cos2(a);
-    return density(a.sin2_theta_h * per_cos2 * per_x2, a);
+    return density(a.sin2_theta_h * per_x * per_x * (1 / cos2(a)), a);
   }
   T operator()(const FrameAngles<P>& a) const {
-    const P per_cos2 = 1 / cos2(a);
-    return density(square(a.xoh) * per_cos2 * per_x2 + square(a.yoh) * per_cos2 * per_y2, a);
+    return density((square(a.xoh * per_x) + square(a.yoh * per_y)) * (1 / cos2(a)), a);
   }
 
  private:
-  static P cos2(const Angles<P>& a) { return max<P>(square(a.noh), small<P>()); }
+  static P cos2(const Angles<P>& a) { return max<P>(square(a.noh), small_square<P>()); }
   T density(const T& x2, const Angles<P>& a) const {
-    return exp(shape.log_g(x2) - 2 * log_near_one<P>(cos2(a), -a.sin2_theta_h)) * norm;
+    const P log_cos2 = log_near_one<P>(cos2(a), -a.sin2_theta_h);
+    return square(exp(shape.log_g(x2) * constant<P>(0.5L) - log_cos2) * root_norm);
   }
 };
 

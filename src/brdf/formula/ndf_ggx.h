@@ -27,6 +27,13 @@ namespace gonio::inline GONIO_ARCH {
 ///       └────────────────────────────────────┘
 ///
 ///    both summands are positive: D is as exact as what it is given.  The division is left to the product.
+///
+/// 4. In half α² has few digits below α = 0.008, the bracket's square overflows or vanishes, and D may be 0/0.  Of
+///    u = bracket/α, which lies between α and 1/α, none does before D itself leaves the range:
+///
+///       ┌──────────────────────────────────────────────┐
+///       │  D = (1/π) / u²,   u = α NoH² + |n×h|² (1/α)  │
+///       └──────────────────────────────────────────────┘
 template <Real T>
 struct Ggx {
   static constexpr About about{
@@ -38,12 +45,13 @@ struct Ggx {
       "Disney, Unreal Engine 4 (D_GGX), Unity, Filament, glTF 2.0, Mitsuba, pbrt"};
   static constexpr std::array parameters{alpha_parameter};
 
-  T alpha2, num;
+  T alpha, per_alpha, num;
 
-  explicit Ggx(std::span<const T, 1> p) : alpha2(square(p[0])), num(alpha2 / pi<plain_t<T>>()) {}
+  explicit Ggx(std::span<const T, 1> p)
+      : alpha(p[0]), per_alpha(1 / p[0]), num(1 / pi<plain_t<T>>()) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    return {num, square(alpha2 * square(a.noh) + a.sin2_theta_h)};
+    return {num, square(alpha * square(a.noh) + per_alpha * a.sin2_theta_h)};
   }
 };
 

@@ -278,7 +278,7 @@ bool everywhere(const Mask& m) {
 
 /// The coefficients of P in the variable of its γ.
 template <Real T>
-Coefficients<T> coefficients(const T& alpha, const T& gamma) {
+Coefficients<T> coefficients_in(const T& alpha, const T& gamma) {
   const auto wide = gamma < T(3);
   if (everywhere(wide)) return of_mixture<T>(alpha, gamma);
   if (everywhere(!wide)) return of_table<T>(alpha, gamma);
@@ -288,9 +288,22 @@ Coefficients<T> coefficients(const T& alpha, const T& gamma) {
   return r;
 }
 
+/// The same where T has room for powers from e⁻²¹ to e³⁰; else found in a number that has, and rounded.
+template <Real T>
+Coefficients<T> coefficients(const T& alpha, const T& gamma) {
+  if constexpr (requires { RealTraits<T>::roomy(alpha); }) {
+    const auto roomy = coefficients_in(RealTraits<T>::roomy(alpha), RealTraits<T>::roomy(gamma));
+    auto r = zeros<T, terms>();
+    for (std::size_t n = 0; n < terms; ++n) r[n] = T(roomy[n]);
+    return r;
+  } else {
+    return coefficients_in<T>(in_float(alpha), in_float(gamma));
+  }
+}
+
 }  // namespace smith_gtr
 
-/// r of the file's head: 1 where c = 1, never below c.
+/// smith_scale r, r of the file's head: 1 where c = 1, never below c.
 ///
 /// Measured in double against the integral over the whole of what is legal: G₁ = 2c/(c + r) is off by
 /// at most 4e-8 for γ < 3 and 5e-7 from there on, p ∂G₁/∂p by 2e-5; G₁ in float by another
@@ -299,7 +312,7 @@ template <Real T>
 struct SmithGtrRoot {
   using P = plain_t<T>;
 
-  T alpha;
+  T alpha;  // smith_scale α
   SmithRoot<T> root;
   P of_log, of_v;  // w = of_log ln v + of_v v − 1
   smith_gtr::Coefficients<T> coefficients;
@@ -310,12 +323,12 @@ struct SmithGtrRoot {
 
   T operator()(const P& c) const {
     const T g = root(c);
-    return max<T>(of_root * g + polynomial(alpha / g), T(c));
+    return max<T>(of_root * g + polynomial(alpha / g) * smith_scale, T(c * smith_scale));
   }
 
  private:
   SmithGtrRoot(const T& a, const mask_t<T>& wide, const smith_gtr::Coefficients<T>& of_p)
-      : alpha(a),
+      : alpha(a * smith_scale),
         root(a),
         of_log(select<P>(wide, constant<P>(-1 / (2 * smith_gtr::fixed::ln10)), P(0))),
         of_v(select<P>(wide, P(0), P(2))),

@@ -272,12 +272,24 @@ TEST(NumberTypes, MixedIsWhatAShadersDeclarationsCompute) {
     }
 }
 
+TEST(NumberTypes, MixedRoundsNoHToHalfWhereAShaderDeclaresItSo) {
+  // half GGX_Mobile(half roughness, half NoH): 1 − NoH² is a half's too before it is assigned to a float
+  const auto term = find_term("ndf.ggx.mobile");
+  for (const double noh : {0.9, 0.999, 0.99976, 0.9999, 1.0}) {
+    const Half c(noh);
+    const auto rest = static_cast<float>(1 - c * c), a = static_cast<float>(Half(0.03)),
+               n = static_cast<float>(c) * a, p = a / (rest + n * n);
+    const Sample s{{0.03}, test::framed({0.5, 0.5, noh, 0.5, (1 - noh) * (1 + noh)})};
+    EXPECT_EQ(value_in(Number::mixed, term, s), as_half(std::min(p * p, 2048.0F))) << s;
+  }
+}
+
 TEST(NumberTypes, HalfIsTheFormulaRoundedAfterEveryOperation) {
   const Sample s{{0.3}, test::framed({0.5, 0.5, 0.9, 0.5, 0.19})};
-  const Half a2 = Half(0.3) * Half(0.3), pi_(3.14159265358979);
-  const Half t = a2 * (Half(0.9) * Half(0.9)) + Half(0.19);
+  const Half a(0.3), pi_(3.14159265358979);
+  const Half u = a * (Half(0.9) * Half(0.9)) + 1 / a * Half(0.19);
   EXPECT_EQ(value_in(Number::half, find_term("ndf.ggx"), s),
-            static_cast<double>(a2 / pi_ / (t * t)));
+            static_cast<double>(1 / pi_ / (u * u)));
 }
 
 /// Of a term in half at these parameters, as exact as sixteen units of its last digit.
@@ -342,9 +354,8 @@ TEST(NumberTypes, OperationsAreCountedOncePerParametersAndOncePerSample) {
   using O = Operation;
   const auto ggx = operations_of(find_term("ndf.ggx"));
   Operations once, each;
-  once[O::mul] = 1;  // α²
-  once[O::div] = 1;  // α² / π
-  each[O::mul] = 3;  // (α² · c² + s²)²
+  once[O::div] = 2;  // 1/α, 1/π
+  each[O::mul] = 4;  // (α · c² + s² · 1/α)²
   each[O::add] = 1;
   each[O::div] = 1;
   EXPECT_EQ(ggx.parameters, once);
