@@ -31,10 +31,17 @@ function by_alpha() {
   const numbers = choices_of(figures, "error_by_alpha", "number");
   if (!numbers.length) return null;
   let number = numbers[0], kind = choices_of(figures, "error_by_alpha", "kind")[0];
-  const panels = changing(() => el("div", {}, el("div", { class: "controls" },
-    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; panels.again(); }),
-    choice("Kind", choices_of(figures, "error_by_alpha", "kind", { number }).map((k) => [k, k]), kind, (k) => { kind = k; panels.again(); })),
-  figure_view(picture_of(figures, "error_by_alpha", { number, kind }), { height: 380 })));
+  const all = "all alike";
+  let form = all;
+  const panels = changing(() => {
+    const figure = picture_of(figures, "error_by_alpha", { number, kind }), names = [all, ...figure.curves.filter((c) => !c.dashed).map((c) => c.name)];
+    if (!names.includes(form)) form = all;
+    return el("div", {}, el("div", { class: "controls" },
+      choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; panels.again(); }),
+      choice("Kind", choices_of(figures, "error_by_alpha", "kind", { number }).map((k) => [k, k]), kind, (k) => { kind = k; panels.again(); }),
+      chooser("Form", names.map((n) => [n, n]), form, (f) => { form = f; panels.again(); })),
+    figure_view(figure, { height: 380, emphasis: form === all ? undefined : form }));
+  });
   return section("How errors grow as surfaces get smooth", "The worst over all angles, at each alpha.", panels.node);
 }
 function error_maps() {

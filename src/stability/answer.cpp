@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::string_view relative_prefix = "relative=";
 
-NamedInput named(const Subject& s, Number number, std::span<const double> inputs) {
-  NamedInput out{
-      {}, {}, value_of(s, number, inputs), truth_of(s, rounded(s, number, inputs)).value};
+NamedInput named(const Subject& s, const Arithmetic& a, std::span<const double> inputs) {
+  const Number number = a.number;
+  NamedInput out{{}, {}, value_of(s, a, inputs), truth_of(s, rounded(s, number, inputs)).value};
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     out.inputs.emplace_back(s.inputs[k].name, inputs[k]);
     out.inputs_hex.emplace_back(s.inputs[k].name, hex(number, inputs[k], k < s.parameters));
@@ -56,7 +56,7 @@ void prove_into(Answer& a, const Question& q) {
   a.range = proof.range;
   if (proof.holds()) a.evidence = Evidence::proved;
   if (proof.counterexample)
-    a.counterexample = named(q.subject, number, proof.counterexample->inputs);
+    a.counterexample = named(q.subject, q.arithmetic, proof.counterexample->inputs);
 }
 
 /// Proof of a bound of the relative error; of all inputs but the ends that it leaves out it holds, and then the rest is open.
@@ -136,7 +136,7 @@ Answer answer(const Question& q) {
   a.worst_hex = hex_of(q.subject, number, a.looked.relative.at);
   if (const auto at = broken_at(a.looked, q.requirement); !at.empty()) {
     a.evidence = a.looked.evidence;
-    a.counterexample = named(q.subject, number, at);
+    a.counterexample = named(q.subject, q.arithmetic, at);
     return a;
   }
   if (number != Number::mixed && a.looked.evidence != Evidence::exhaustive) {

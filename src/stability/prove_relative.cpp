@@ -113,14 +113,16 @@ RelativeProof prove_relative(const Subject& s,
   const double below_1 = 1 - std::ldexp(1.0, half     ? -11
                                              : single ? -24
                                                       : -53),
-               least_normal = std::ldexp(1.0, half     ? -14
-                                              : single ? -126
-                                                       : -1022);
+               // Twice the least normal number: of less a product with what may be just below 1 is
+               // subnormal.
+      least = std::ldexp(1.0, half     ? -13
+                              : single ? -125
+                                       : -1021);
   Domain part = all;
   for (std::size_t k = s.parameters; k < part.size(); ++k) {
     auto& [low, high] = part[k];
     if (low < below_1 && high == 1) high = below_1;
-    if (rule.flushed && low == 0 && least_normal < high) low = least_normal;
+    if (low == 0 && least < high) low = least;
   }
 
   using Clock = std::chrono::steady_clock;
@@ -140,12 +142,13 @@ RelativeProof prove_relative(const Subject& s,
         if (run->status == 0) bound = gappa_bound(run->output);
         why = run->out_of_time ? "Gappa was out of time" : "Gappa found no bound";
       }
-      if (bound && (!proof.bound || *bound < *proof.bound)) proof = {bound, domain, {}};
+      // What leaves inputs out must say much more.
+      if (bound && (!proof.bound || *bound < (narrower ? 0.1 : 1) * *proof.bound))
+        proof = {bound, domain, {}};
       if (!proof.bound) proof.why = why;
     }
-    if (proof.bound) return proof;
   }
-  proof.domain = all;
+  if (!proof.bound) proof.domain = all;
   return proof;
 }
 

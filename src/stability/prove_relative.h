@@ -18,8 +18,8 @@ namespace gonio::stability {
 
 struct RelativeProof {
   std::optional<double> bound;  ///< of |x / f − 1|
-  /// Inputs for which it holds: those of the subject, but for angles of 1 itself where √(1 − 1) would be, and of less than
-  /// the least normal number where that may be flushed.
+  /// Inputs for which it holds: those of the subject; or, where that bounds ten times as closely, without angles of 1
+  /// itself, where √(1 − 1) would be, and of less than twice the least normal number, whose products lose digits.
   std::vector<Range> domain;
   std::string why;  ///< where there is no bound: in a few words, why not
 };

@@ -36,13 +36,11 @@ TEST(Search, FindsTheWorstThatLookingAtEveryPairFinds) {
   const auto found = search(s, half, options());
   EXPECT_TRUE(found.settled);
   EXPECT_EQ(found.evidence, Evidence::searched);
-  EXPECT_GT(found.relative.value, 2.1);  // more than the seeds alone have
-  EXPECT_LT(found.relative.value, 2.139);
-  EXPECT_GT(found.ulp.value, 2791.0 / 2);
-  EXPECT_LT(found.ulp.value, 2792);
-  EXPECT_GT(found.no_value.count, 0U);
-  EXPECT_NEAR(*found.safe_from, 0.0351, 0.0004);
-  EXPECT_LT(*found.safe_from, 0.03515);
+  EXPECT_GT(found.relative.value, 0.006);
+  EXPECT_LT(found.relative.value, 0.00714);
+  EXPECT_EQ(found.no_value.count, 0U);
+  EXPECT_NEAR(*found.safe_from, 0.00391, 0.0004);
+  EXPECT_LT(*found.safe_from, 0.00392);
 }
 
 TEST(Search, IsTheSameForASeedWhateverTheThreads) {

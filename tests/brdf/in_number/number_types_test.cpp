@@ -273,7 +273,8 @@ TEST(NumberTypes, MixedIsWhatAShadersDeclarationsCompute) {
 }
 
 TEST(NumberTypes, MixedRoundsNoHToHalfWhereAShaderDeclaresItSo) {
-  // half GGX_Mobile(half roughness, half NoH): 1 − NoH² is a half's too before it is assigned to a float
+  // half GGX_Mobile(half roughness, half NoH): 1 − NoH² is a half's too before it is assigned to a
+  // float
   const auto term = find_term("ndf.ggx.mobile");
   for (const double noh : {0.9, 0.999, 0.99976, 0.9999, 1.0}) {
     const Half c(noh);
