@@ -35,6 +35,9 @@ struct Description<StabilityRow> {
         field("vanished", "", &R::vanished, "inputs whose value is 0 and should not be"),
         field("irreciprocal", "", &R::irreciprocal,
               "inputs with another value where light and view are exchanged"),
+        field("not_monotone", "", &R::not_monotone,
+              "neighbours between which the value rises where it should fall, or falls where it "
+              "should rise"),
         field("decides", "", &R::decides, "parameter that people clamp"),
         field("safe_from", "", &R::safe_from,
               "of it: from there on every input looked at keeps the tolerance; null: nowhere"),

@@ -99,6 +99,7 @@ StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
                  l.overflow.count,
                  l.vanished.count,
                  l.irreciprocal.count,
+                 l.not_monotone.count,
                  s.decides ? s.inputs[*s.decides].name : "",
                  l.safe_from,
                  tolerance,

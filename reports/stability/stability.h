@@ -25,7 +25,7 @@ struct StabilityRow {
   std::string at, inputs_hex;  ///< where worst_rel is: "alpha 0.01, noh 1", and the same in bits
   std::uint64_t nonfinite;     ///< inputs without a value, of those looked at
   std::string nonfinite_at;    ///< the first
-  std::uint64_t negative, overflow, vanished, irreciprocal;
+  std::uint64_t negative, overflow, vanished, irreciprocal, not_monotone;
   std::string decides;  ///< the parameter that people clamp; empty: there is none
   std::optional<double>
       safe_from;     ///< of it: from there on the tolerance is kept by every input looked at

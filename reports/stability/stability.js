@@ -72,11 +72,12 @@ function every_form() {
   const body = changing(() => el("div", {}, el("div", { class: "controls" },
     choice("Kind", kinds.map((k) => [k, k]), kind, (k) => { kind = k; body.again(); }),
     choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })),
-  scroll(table(["form", "given", { n: "worst" }, { n: "ulp" }, { n: "condition there" }, { n: "proved" }, { n: "no value" }, { n: "negative" }, { n: "overflow" }, { n: "vanished" }, "safe from", { n: "looked at" }, "by"],
+  scroll(table(["form", "given", { n: "worst" }, { n: "ulp" }, { n: "condition there" }, { n: "proved" }, { n: "no value" }, { n: "negative" }, { n: "overflow" }, { n: "vanished" }, { n: "wrong way" }, { n: "irreciprocal" }, "safe from", { n: "looked at" }, "by"],
     rows.filter((r) => r.number === number && r.id.startsWith(kind)).map((r) => [el("code", {}, short(r.id)), given[r.form], worst(r), { n: significant(r.worst_ulp, 2) }, { n: significant(r.condition, 2) },
-      { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, none_or(r.nonfinite, r.nonfinite_at), none_or(r.negative), none_or(r.overflow), none_or(r.vanished),
+      { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, none_or(r.nonfinite, r.nonfinite_at), none_or(r.negative), none_or(r.overflow), none_or(r.vanished), none_or(r.not_monotone), none_or(r.irreciprocal),
       !r.decides ? "–" : known(r.safe_from) ? `${r.decides} ${significant(r.safe_from, 2)}` : "nowhere", { n: count(r.evaluations) }, evidence_words[r.evidence] + (r.settled ? "" : ", not settled")])))));
-  return section("Every form in every number", "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every input”: each half there is was evaluated. “Search”: the worst that seeds and climbing found from two starts; there may be worse.", body.node);
+  return section("Every form in every number", "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every input”: each half there is was evaluated. “Search”: the worst that seeds and climbing found from two starts; there may be worse. Results below 5·10⁻²⁰ count as black in float, double and mixed numbers, and errors below a half’s least normal number are measured against that. "
+    + "Vanished: 0 where a value should be. Wrong way: neighbours between which the value rises where it should fall. Irreciprocal: another value with light and view exchanged.", body.node);
 }
 
 document.getElementById("page").replaceChildren(...[
