@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "brdf/catalogue/registry.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "brdf/term/product.h"
 #include "stability/subject.h"
 

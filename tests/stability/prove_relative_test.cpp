@@ -7,7 +7,7 @@
 #include "any_machine.h"
 #include "brdf/formula/masking.h"
 #include "brdf/formula/ndf_ggx.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "many_fits.h"
 #include "stability/evaluate.h"
 

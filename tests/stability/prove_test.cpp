@@ -10,7 +10,7 @@
 #include "brdf/formula/ndf_anisotropic.h"
 #include "brdf/formula/ndf_ggx.h"
 #include "brdf/formula/ndf_shipped.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "many_fits.h"
 #include "optics/fresnel_approximate.h"
 #include "stability/evaluate.h"

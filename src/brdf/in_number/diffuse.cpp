@@ -1,6 +1,6 @@
 // Every diffuse term in every number but fifty digits.
 #include "brdf/catalogue/diffuse_terms.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "brdf/in_number/terms_in.h"
 
 namespace gonio {

@@ -1,6 +1,6 @@
 // Every Fresnel in every number but fifty digits.
 #include "brdf/catalogue/fresnel_terms.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "brdf/in_number/terms_in.h"
 
 namespace gonio {

@@ -1,6 +1,6 @@
 // Every normal distribution in every number but fifty digits.
 #include "brdf/catalogue/distributions.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "brdf/in_number/terms_in.h"
 
 namespace gonio {

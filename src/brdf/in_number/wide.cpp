@@ -7,7 +7,7 @@
 #include "brdf/catalogue/diffuse_terms.h"
 #include "brdf/catalogue/fresnel_terms.h"
 #include "brdf/catalogue/maps.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 
 namespace gonio {
 

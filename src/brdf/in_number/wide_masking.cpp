@@ -1,6 +1,6 @@
 // Every masking in fifty digits.
 #include "brdf/catalogue/masking_terms.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "brdf/in_number/wide.h"
 
 namespace gonio {

@@ -1,6 +1,6 @@
 // Every normal distribution in fifty digits.
 #include "brdf/catalogue/distributions.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "brdf/in_number/wide.h"
 
 namespace gonio {

@@ -1,6 +1,6 @@
 // Every diffuse term as a script for Gappa.
 #include "brdf/catalogue/diffuse_terms.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "number/scripted.h"
 
 namespace gonio {

@@ -1,7 +1,7 @@
 // Every Fresnel in enclosures, and in halves that are flushed or contracted, as enclosures may have
 // them.
 #include "brdf/catalogue/fresnel_terms.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "number/enclosure.h"
 
 namespace gonio {

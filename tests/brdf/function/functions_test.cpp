@@ -1,4 +1,4 @@
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 
 #include <random>
 #include <vector>

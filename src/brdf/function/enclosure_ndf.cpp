@@ -1,7 +1,7 @@
 // Every normal distribution in enclosures, and in halves that are flushed or contracted, as
 // enclosures may have them.
 #include "brdf/catalogue/distributions.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "number/enclosure.h"
 
 namespace gonio {

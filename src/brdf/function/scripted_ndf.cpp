@@ -1,6 +1,6 @@
 // Every normal distribution as a script for Gappa.
 #include "brdf/catalogue/distributions.h"
-#include "brdf/in_number/functions.h"
+#include "brdf/function/functions.h"
 #include "number/scripted.h"
 
 namespace gonio {
