@@ -66,7 +66,7 @@ std::string text_of(const Arithmetic& a) {
 std::optional<double> finite_from(const Subject& s, const Arithmetic& a, Depth setting) {
   if (a.number == Number::mixed) return {};
   const std::size_t most = setting == Depth::brief ? 300 : 2000,
-                    operations = operations_of(*s.term).sample.total();
+                    operations = std::max<std::size_t>(1, operations_of(*s.term).sample.total());
   return proved_from(s, a.number, rounding_of(a), finite_values(a.number),
                      {.boxes = std::max<std::size_t>(100, std::min(most, 40 * most / operations))});
 }

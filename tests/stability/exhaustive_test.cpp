@@ -32,9 +32,10 @@ const bool all_cases = test::few(2) == 2;
 
 TEST(Exhaustive, FindsAFaultPlantedAtASinglePairOfInputs) {
   auto s = subject("ndf.ggx", Given::cross);
-  set_domain(s, "alpha", {0.25, 0.5});
+  const double least = all_cases ? 0.25 : 0.30126953125;
+  set_domain(s, "alpha", {least, all_cases ? 0.5 : 0.302});
   const auto sound = exhaustive(s, {});
-  EXPECT_EQ(sound.evaluations, 1025U * 15361U);
+  EXPECT_EQ(sound.evaluations, (all_cases ? 1025U : 3U) * 15361U);
   EXPECT_EQ(sound.no_value.count, 0U);
   EXPECT_LT(sound.relative.value, 0.007);
 
@@ -54,7 +55,7 @@ TEST(Exhaustive, FindsAFaultPlantedAtASinglePairOfInputs) {
   const auto larger = planted(1.01F);
   EXPECT_EQ(larger.relative.at, at);
   EXPECT_NEAR(larger.relative.value, 0.01, 0.007);
-  EXPECT_EQ(larger.safe_from, 0.25);  // it keeps the tolerance
+  EXPECT_EQ(larger.safe_from, least);  // it keeps the tolerance
   const auto lost = planted(1.1F);
   EXPECT_EQ(lost.ulp.at, at);
   EXPECT_EQ(lost.safe_from, 1236 * 0x1p-12);
@@ -87,11 +88,12 @@ TEST(Exhaustive, SaysFromWhichAlphaOnTheDistributionOfGgxKeepsTwoPercentInHalf) 
 
 TEST(Exhaustive, FlushedSubnormalsCostTheDistributionOfGgxMoreOfItsDomain) {
   auto s = subject("ndf.ggx", Given::cross);
-  set_domain(s, "alpha", {0.002, 0.1});
+  set_domain(s, "alpha", {0.0038, all_cases ? 0.1 : 0.00395});
   const auto kept = exhaustive(s, {}), flushed = exhaustive(s, {true, false});
-  ASSERT_TRUE(kept.safe_from && flushed.safe_from);
-  EXPECT_NEAR(*kept.safe_from, 1025 * 0x1p-18, 1e-12);
-  EXPECT_GT(*flushed.safe_from, 1.5 * *kept.safe_from);
+  EXPECT_NEAR(kept.safe_from.value(), 1025 * 0x1p-18, 1e-12);
+  // Of few widths none is safe.
+  EXPECT_EQ(flushed.safe_from.has_value(), all_cases);
+  EXPECT_GT(flushed.safe_from.value_or(1), 1.5 * *kept.safe_from);
 }
 
 TEST(Exhaustive, MaskingOfOneDirectionIsWorstWhereItsCosineIsLeast) {
@@ -99,9 +101,11 @@ TEST(Exhaustive, MaskingOfOneDirectionIsWorstWhereItsCosineIsLeast) {
   EXPECT_FALSE(can_be_exhausted(s));
   EXPECT_THROW(exhaustive(s, {}), std::exception);
   set_domain(s, "nol", {1, 1});
-  set_domain(s, "alpha", {1e-4, 0.0012});
+  set_domain(s, "alpha", {1e-4, all_cases ? 0.0012 : 1.001e-4});
   ASSERT_TRUE(can_be_exhausted(s));
   const auto found = exhaustive(s, {});
+  EXPECT_LT(found.relative.value, 0.0032);
+  if (!all_cases) return;
   EXPECT_NEAR(found.relative.value, 0.003148, 1e-6);
   EXPECT_EQ(hex(Number::half, found.relative.at[0], true), "0x0696");
   EXPECT_EQ(hex(Number::half, found.relative.at[2], false), "0x009a");

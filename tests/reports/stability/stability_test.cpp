@@ -43,6 +43,13 @@ TEST(StabilityReport, OfFloatHasAProofFromSomeAlphaOn) {
   EXPECT_EQ(r.nonfinite, 0U);
 }
 
+TEST(StabilityReport, LooksAtFormsOfNoOperations) {
+  const auto r = stability_rows({StabilityOptions::Setting::brief, {"fresnel.constant"}});
+  ASSERT_FALSE(r.rows.empty());
+  EXPECT_EQ(r.rows[0].operations, 0U);
+  EXPECT_EQ(r.rows[0].worst_rel, 0);
+}
+
 TEST(StabilityReport, OfAClampSaysWhatItSavesAndCosts) {
   const auto rows = clamp_rows();
   const auto find = [&](std::string_view clamp, std::string_view number) {
