@@ -36,12 +36,12 @@ std::string from_text(const StabilityRow& r) {
 /// Which alpha a distribution may be clamped to, in half.
 void which_alpha(Findings& to, const StabilityRows& r) {
   const auto* cross = find(r, "ndf.ggx", "cross", "half");
-  const auto* cosine = find(r, "ndf.ggx", "cosine", "half");
-  if (!cross || !cosine) return;
-  std::string answer = fmt::format(
-      "GGX in half precision keeps {} from {} on, if the shader computes |n × h|². From NoH alone "
-      "it does so from {} on.",
-      percent(cross->tolerance, 1), from_text(*cross), from_text(*cosine));
+  if (!cross) return;
+  std::string answer =
+      fmt::format("GGX in half precision keeps {} from {} on, if the shader computes |n × h|².",
+                  percent(cross->tolerance, 1), from_text(*cross));
+  if (const auto* mobile = find(r, "ndf.ggx.mobile", "cosine", "mixed"))
+    answer += fmt::format(" Where it rounds NoH to half instead, from {} on.", from_text(*mobile));
   to.say(answer);
   to.questions.push_back({"Which alpha may I clamp to in half precision?", std::move(answer), {}});
   struct Named {
@@ -55,20 +55,18 @@ void which_alpha(Findings& to, const StabilityRows& r) {
       {"The mobile form from NoH", "ndf.ggx.mobile", "cosine"},
       {"Unreal's mobile GGX", "ndf.ggx.ue_mobile", "cosine"}};
   for (const auto& o : others)
-    if (const auto* row = find(r, o.id, o.form, "half"))
-      to.say(fmt::format("{} in half keeps {} from {} on.", o.name, percent(row->tolerance, 1),
-                         from_text(*row)));
-}
-
-/// What ships in mixed precision: parameters in half, angles in float.
-void as_shipped(Findings& to, const StabilityRows& r) {
-  const auto* mobile = find(r, "ndf.ggx.mobile", "cosine", "mixed");
-  const auto* cross = find(r, "ndf.ggx.mobile.cross", "cross", "mixed");
-  if (!mobile || !cross) return;
-  to.say(fmt::format(
-      "The mobile GGX with half parameters and float angles keeps {} from {} on; with a cross "
-      "product from {} on.",
-      percent(mobile->tolerance, 1), from_text(*mobile), from_text(*cross)));
+    if (const auto* row = find(r, o.id, o.form, "half")) {
+      // All but the whole range is lost: what matters is by how much.
+      const bool nowhere = !row->safe_from || *row->safe_from > 0.9;
+      const std::string worst =
+          row->worst_rel > 1
+              ? fmt::format("values up to {:.2g} times too large", 1 + row->worst_rel)
+              : fmt::format("errors up to {}", percent(row->worst_rel, 2));
+      to.say(nowhere ? fmt::format("{} in half does not keep {}: there are {}.", o.name,
+                                   percent(row->tolerance, 1), worst)
+                     : fmt::format("{} in half keeps {} from {} on.", o.name,
+                                   percent(row->tolerance, 1), from_text(*row)));
+    }
 }
 
 void without_a_value(Findings& to, const StabilityRows& r) {
@@ -79,10 +77,11 @@ void without_a_value(Findings& to, const StabilityRows& r) {
         std::ranges::count_if(all, [](const StabilityRow* row) { return row->nonfinite > 0; }));
     const auto proved = static_cast<std::size_t>(std::ranges::count_if(
         all, [](const StabilityRow* row) { return row->finite_from.has_value(); }));
-    to.say(fmt::format(
-        "In {} {} forms have inputs without a value, infinite or NaN. Of {} a value is proved for "
-        "every input from some parameter on.",
-        number, of_all(fails, all.size()), number_or_none(proved)));
+    to.say(
+        fmt::format("In {}, inputs without a value were found for {} forms. For {} forms a value "
+                    "is proved for every "
+                    "input from some parameter on.",
+                    number, of_all(fails, all.size()), number_or_none(proved)));
   }
 }
 
@@ -104,7 +103,6 @@ void clamps(Findings& to, const StabilityRows& r) {
 Findings findings(const StabilityRows& r) {
   Findings f;
   which_alpha(f, r);
-  as_shipped(f, r);
   without_a_value(f, r);
   clamps(f, r);
   return f;

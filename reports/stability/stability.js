@@ -23,7 +23,7 @@ function clamp_question() {
       none_or(r.nonfinite, r.nonfinite_at), r.stable ? el("code", {}, short(r.stable)) : r.form === "cosine" ? `the same, from ${given.cross}` : "–",
       { n: r.stable ? `${r.operations} → ${r.stable_operations}` : r.operations }, evidence_words[r.evidence]])))));
   return section("Which alpha is safe", "From this alpha on every input that was looked at keeps the tolerance: 2 % in half and mixed numbers, 0.0001 in float, 10⁻¹⁰ in double. "
-    + "The worst input, also in bits, stands under the pointer.", body.node);
+    + "Inputs count as exact: a NoH that is rounded to half on its way brings an error of its own, as ggx.mobile shows in mixed numbers. The worst input, also in bits, stands under the pointer.", body.node);
 }
 
 // --- Pictures -------------------------------------------------------------------------------------------------------
