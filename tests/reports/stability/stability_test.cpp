@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "many_fits.h"
 #include "reports/pictures.h"
 
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@ const StabilityRow& row(std::string_view form, std::string_view number) {
 }
 
 TEST(StabilityReport, SaysFromWhichAlphaOnGgxIsSafeInHalf) {
+  GONIO_MANY_FITS();
   const auto& r = row("cross", "half");
   EXPECT_EQ(r.evidence, stability::Evidence::exhaustive);
   EXPECT_EQ(r.decides, "alpha");
@@ -37,6 +39,7 @@ TEST(StabilityReport, SaysFromWhichAlphaOnGgxIsSafeInHalf) {
 }
 
 TEST(StabilityReport, OfFloatHasAProofFromSomeAlphaOn) {
+  GONIO_MANY_FITS();
   const auto& r = row("cross", "float");
   ASSERT_TRUE(r.finite_from);
   EXPECT_LE(*r.finite_from, 1e-4);
@@ -44,6 +47,7 @@ TEST(StabilityReport, OfFloatHasAProofFromSomeAlphaOn) {
 }
 
 TEST(StabilityReport, LooksAtFormsOfNoOperations) {
+  GONIO_MANY_FITS();
   const auto r = stability_rows({StabilityOptions::Setting::brief, {"fresnel.constant"}});
   ASSERT_FALSE(r.rows.empty());
   EXPECT_EQ(r.rows[0].operations, 0U);
@@ -68,11 +72,13 @@ TEST(StabilityReport, OfAClampSaysWhatItSavesAndCosts) {
 }
 
 TEST(StabilityReport, PicturesAreWhole) {
+  GONIO_MANY_FITS();
   test::expect_whole(report().pictures);
   EXPECT_FALSE(report().pictures.maps.empty());
 }
 
 TEST(StabilityReport, ErrorsByAlphaBreakWhereAnInputHasNoValue) {
+  GONIO_MANY_FITS();
   const auto curves = errors_by_alpha(false);
   const auto ggx = std::ranges::find_if(curves, [](const auto& c) {
     return c.id == "ndf.ggx" && c.form == "cross" && c.number == "half";
@@ -83,6 +89,7 @@ TEST(StabilityReport, ErrorsByAlphaBreakWhereAnInputHasNoValue) {
 }
 
 TEST(StabilityReport, TellsEachRowAsAFlatObject) {
+  GONIO_MANY_FITS();
   const auto j = nlohmann::json::parse(to_json(report()));
   EXPECT_EQ(j["schema"], "gonio.report.stability/1");
   ASSERT_FALSE(j["rows"].empty());
