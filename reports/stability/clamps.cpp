@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
+#include <numbers>
 
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/number.h"
@@ -56,7 +56,7 @@ std::vector<Clamp> clamps() {
   const auto of = [](stability::Subject s) {
     return [s](Number n, const Inputs& x) { return stability::value_of(s, n, x); };
   };
-  constexpr double pi = 3.14159265358979323846;
+  constexpr double pi = std::numbers::pi;
   return {
       {"alpha = max(r², 0.001)", "ndf.gtr.as_written", "alpha", half_vectors(),
        [gtr](Number n, const Inputs& x) {

@@ -56,11 +56,6 @@ std::vector<Arithmetic> arithmetics(Depth setting) {
   if (setting != Depth::brief) all.push_back({Number::double_, false, false});
   return all;
 }
-std::string text_of(const Arithmetic& a) {
-  return fmt::format("{}{}{}", name_of(a.number), a.flush ? ", flushed" : "",
-                     a.contract ? ", contracted" : "");
-}
-
 /// Least value of the parameter that decides from which on every input is proved to have a value.  Forms of many operations
 /// get fewer boxes: the time is that of operations.
 std::optional<double> finite_from(const Subject& s, const Arithmetic& a, Depth setting) {
@@ -85,7 +80,7 @@ StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
   const Looked l = look(s, a, tolerance, seed);
   StabilityRow r{s.id,
                  std::string(s.form()),
-                 text_of(a),
+                 stability::text_of(a),
                  l.evidence,
                  l.ulp.value,
                  l.relative.value,

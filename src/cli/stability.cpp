@@ -67,8 +67,7 @@ void print(const Answer& a) {
   const auto line = [](const char* name, const std::string& text) {
     fmt::print("  {:<16}{}\n", name, text);
   };
-  fmt::print("{}, angles by {}, in {}{}{}\n", a.id, a.form, name_of(a.arithmetic.number),
-             a.arithmetic.flush ? ", flushed" : "", a.arithmetic.contract ? ", contracted" : "");
+  fmt::print("{}, angles by {}, in {}\n", a.id, a.form, text_of(a.arithmetic));
   for (const auto& [name, ends] : a.domain)
     line(name.c_str(), fmt::format("{:.6g} to {:.6g}", ends[0], ends[1]));
   line(a.requirement.c_str(), fmt::format("{}: {}",

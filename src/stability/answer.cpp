@@ -1,11 +1,8 @@
 #include "stability/answer.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/error.h"
-#include "base/nearest_names.h"
 #include "brdf/model/spec.h"
 #include "stability/evaluate.h"
 #include "stability/exhaustive.h"
@@ -30,19 +27,14 @@ NamedInput named(const Subject& s, const Arithmetic& a, std::span<const double> 
   return out;
 }
 
-/// Inputs for which looking found that the requirement does not hold; empty: none.
+/// Inputs for which looking found that the requirement does not hold; empty: none.  What has no value keeps none.
 std::vector<double> broken_at(const Looked& looked, const Requirement& required) {
-  switch (required.kind) {
-    case Requirement::Kind::finite:
-      return looked.no_value.count ? looked.no_value.first : looked.overflow.first;
-    case Requirement::Kind::nonnegative:
-      return looked.negative.first;
-    case Requirement::Kind::relative:
-      break;
-  }
   if (looked.no_value.count) return looked.no_value.first;
   if (looked.overflow.count) return looked.overflow.first;
-  return looked.relative.value > required.limit ? looked.relative.at : std::vector<double>{};
+  if (required.kind == Requirement::Kind::nonnegative) return looked.negative.first;
+  const bool off =
+      required.kind == Requirement::Kind::relative && looked.relative.value > required.limit;
+  return off ? looked.relative.at : std::vector<double>{};
 }
 
 void prove_into(Answer& a, const Question& q) {
@@ -51,10 +43,10 @@ void prove_into(Answer& a, const Question& q) {
   const auto proof =
       prove(q.subject, number, rounding_of(q.arithmetic),
             finite ? finite_values(number) : finite_and_not_negative(number), {.boxes = q.boxes});
+  a.evidence = proof.evidence;
   a.boxes = proof.boxes;
   a.open_share = proof.open_share;
   a.range = proof.range;
-  if (proof.holds()) a.evidence = Evidence::proved;
   if (proof.counterexample)
     a.counterexample = named(q.subject, q.arithmetic, proof.counterexample->inputs);
 }
@@ -67,14 +59,9 @@ void prove_relative_into(Answer& a, const Question& q) {
     return;
   }
   a.proved_rel = proof.bound;
-  bool whole = proof.domain.size() == q.subject.inputs.size();
-  for (std::size_t k = 0; whole && k < proof.domain.size(); ++k) {
-    const auto &all = q.subject.inputs[k].domain, &part = proof.domain[k];
-    whole = part.low <= all.low && all.high <= part.high;
-  }
   if (*proof.bound > q.requirement.limit)
     a.unproved_because = "the bound that is proved is larger";
-  else if (!whole)
+  else if (!proof.whole)
     a.unproved_because = "the bound that is proved leaves out the domain's very ends";
   else
     a.evidence = Evidence::proved;
@@ -99,6 +86,10 @@ Requirement parse_requirement(std::string_view text) {
   return {Requirement::Kind::relative, x};
 }
 
+std::string text_of(const Arithmetic& a) {
+  return fmt::format("{}{}{}", name_of(a.number), a.flush ? ", flushed" : "",
+                     a.contract ? ", contracted" : "");
+}
 std::string text_of(const Subject& s, std::span<const double> inputs) {
   std::string text;
   for (std::size_t k = 0; k < inputs.size(); ++k)
@@ -139,16 +130,12 @@ Answer answer(const Question& q) {
     a.counterexample = named(q.subject, q.arithmetic, at);
     return a;
   }
-  if (number != Number::mixed && a.looked.evidence != Evidence::exhaustive) {
-    if (relative)
-      prove_relative_into(a, q);
-    else
-      prove_into(a, q);
-  }
-  if (a.counterexample)
-    a.evidence = Evidence::searched;
-  else if (a.evidence != Evidence::proved && a.looked.evidence == Evidence::exhaustive)
+  if (a.looked.evidence == Evidence::exhaustive)
     a.evidence = Evidence::exhaustive;
+  else if (relative && number != Number::mixed)
+    prove_relative_into(a, q);
+  else if (number != Number::mixed)
+    prove_into(a, q);
   a.holds = !a.counterexample && a.evidence != Evidence::open;
   return a;
 }

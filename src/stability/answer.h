@@ -15,7 +15,7 @@
 
 namespace gonio::stability {
 
-/// What is required of every input of the domain.
+/// Requirement that every input of the domain must keep; a value, not infinite, is part of each.
 struct Requirement {
   enum class Kind { finite, nonnegative, relative } kind = Kind::finite;
   double limit = 0;  ///< of relative: most |x / f − 1|
@@ -30,8 +30,7 @@ struct Question {
   Arithmetic arithmetic;
   Requirement requirement;
   std::uint64_t seed = 1;
-  /// Boxes of a proof, after which what is unproved is open; a search looks at as many inputs, about.
-  std::uint64_t boxes = 20'000;
+  std::uint64_t boxes = 20'000;  ///< of a proof, after which what is unproved is open
 };
 
 /// An input for which a requirement does not hold.
@@ -64,6 +63,8 @@ Answer answer(const Question&);
 /// Everything that looking finds: every input where they are halves and few, else a search.
 Looked look(const Subject&, const Arithmetic&, double tolerance, std::uint64_t seed);
 
+/// "half, flushed"
+std::string text_of(const Arithmetic&);
 /// "alpha 0.01, noh 1"
 std::string text_of(const Subject&, std::span<const double> inputs);
 /// "alpha 0x211f, noh 0x3c00"

@@ -138,13 +138,13 @@ RelativeProof prove_relative(const Subject& s,
       std::optional<double> bound;
       if (!text.empty()) {
         const auto run = run_program("gappa", {}, text, std::max(0.0, seconds - spent.count()));
-        if (!run) return {{}, all, "Gappa is not installed"};
+        if (!run) return {{}, all, false, "Gappa is not installed"};
         if (run->status == 0) bound = gappa_bound(run->output);
         why = run->out_of_time ? "Gappa was out of time" : "Gappa found no bound";
       }
       // What leaves inputs out must say much more.
       if (bound && (!proof.bound || *bound < (narrower ? 0.1 : 1) * *proof.bound))
-        proof = {bound, domain, {}};
+        proof = {bound, domain, !narrower, {}};
       if (!proof.bound) proof.why = why;
     }
   }

@@ -21,7 +21,8 @@ struct RelativeProof {
   /// Inputs for which it holds: those of the subject; or, where that bounds ten times as closely, without angles of 1
   /// itself, where √(1 − 1) would be, and of less than twice the least normal number, whose products lose digits.
   std::vector<Range> domain;
-  std::string why;  ///< where there is no bound: in a few words, why not
+  bool whole = false;  ///< the domain is all of the subject's
+  std::string why;     ///< where there is no bound: in a few words, why not
 };
 
 /// The lowest bound that Gappa finds, told where to split the domain and not.  Nothing overflows on the way, which

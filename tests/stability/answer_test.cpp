@@ -88,6 +88,23 @@ TEST(StabilityAnswer, HasTheBoundThatGappaProvesOrSaysWhyNot) {
   }
 }
 
+TEST(StabilityAnswer, ProvesABoundOverADomainWhoseEndsAreNoFloats) {
+  auto q = about("masking.ue_joint", Number::float_, "relative=1e-5");
+  for (const auto* input : {"alpha", "nol", "nov"}) set_domain(q.subject, input, {0.001, 0.9});
+  const auto a = answer(q);
+  if (a.unproved_because == "Gappa is not installed") GTEST_SKIP() << a.unproved_because;
+  EXPECT_TRUE(a.holds) << a.unproved_because;
+  EXPECT_EQ(a.evidence, Evidence::proved);
+}
+
+TEST(StabilityAnswer, OfWhatHasNoValueIsThatItKeepsNoRequirement) {
+  for (const auto* required : {"finite", "nonnegative", "relative=0.02"}) {
+    auto q = about("ndf.ggx", Number::half, required);
+    set_domain(q.subject, "alpha", {0.001, 0.001001});  // the peak is more than a half holds
+    EXPECT_FALSE(answer(q).holds) << required;
+  }
+}
+
 TEST(StabilityAnswer, RefusesARequirementThatIsNone) {
   for (const auto* text : {"relative", "relative=", "relative=0", "relative=-1", "relative=nan",
                            "relative=inf", "exact", ""})
