@@ -21,11 +21,6 @@ std::vector<double> in_logarithms(double low, double high, std::size_t n) {
   return x;
 }
 
-stability::Subject one_subject(std::string_view id, std::string_view given) {
-  auto all = stability::subjects_of(id);
-  return *std::ranges::find(all, given, &stability::Subject::form);
-}
-
 namespace {
 
 using stability::Given;

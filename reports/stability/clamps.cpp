@@ -47,12 +47,11 @@ double mapped(const char* map, Number number, double x) {
 }
 
 std::vector<Clamp> clamps() {
-  using stabilities::one_subject;
-  const auto gtr = one_subject("ndf.gtr.as_written", "cosine"),
-             ggx = one_subject("ndf.ggx", "cosine"),
-             mobile = one_subject("ndf.ggx.mobile", "cosine"),
-             joint = one_subject("masking.ue_joint", "cosines"),
-             clamped = one_subject("masking.ue_joint.clamped", "cosines");
+  using stability::subject_of;
+  const auto gtr = subject_of("ndf.gtr.as_written", "cosine"),
+             ggx = subject_of("ndf.ggx", "cosine"), mobile = subject_of("ndf.ggx.mobile", "cosine"),
+             joint = subject_of("masking.ue_joint", "cosines"),
+             clamped = subject_of("masking.ue_joint.clamped", "cosines");
   const auto of = [](stability::Subject s) {
     return [s](Number n, const Inputs& x) { return stability::value_of(s, n, x); };
   };

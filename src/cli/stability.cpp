@@ -23,14 +23,8 @@ struct Options : Common {
 
 /// The subject in the form that was asked for, or in the one that has the inputs of the domain, or in the first.
 Subject chosen(const Options& o, const std::vector<Setting>& domain) {
+  if (o.form) return subject_of(o.subject, *o.form);
   const auto all = subjects_of(o.subject);
-  std::vector<std::string_view> forms;
-  for (const auto& s : all) forms.push_back(s.form());
-  if (o.form) {
-    const auto at = std::ranges::find(forms, *o.form);
-    if (at == forms.end()) refuse_name(*o.form, forms, "form of " + o.subject);
-    return all[static_cast<std::size_t>(at - forms.begin())];
-  }
   const auto has_all = [&](const Subject& s) {
     return std::ranges::all_of(domain, [&](const Setting& d) {
       return std::ranges::find(s.inputs, d.name, &Input::name) != s.inputs.end();

@@ -1,10 +1,12 @@
 #include "stability/evaluate.h"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "base/error.h"
 #include "brdf/in_number/terms_in.h"
+#include "stability/places.h"
 #include "stability/value_over.h"
 
 #include <fmt/format.h>
@@ -63,18 +65,11 @@ double value_of(const Subject& s, Number number, std::span<const double> inputs)
 
 std::string hex(Number number, double x, bool parameter) {
   if (number == Number::half || (number == Number::mixed && parameter)) {
-    // A half's bits from those of the float that holds it: 5 of the exponent, 10 of the digits.
-    const auto f = static_cast<float>(static_cast<Half>(x));
-    const auto bits = std::bit_cast<std::uint32_t>(f), sign = bits >> 16 & 0x8000U,
-               size = bits & 0x7fff'ffffU;
-    std::uint32_t to = 0;
-    if (size >= 0x7f80'0000U)
-      to = size > 0x7f80'0000U ? 0x7e00U : 0x7c00U;
-    else if (size >= 0x3880'0000U)
-      to = (size - 0x3800'0000U) >> 13;
-    else
-      to = static_cast<std::uint32_t>(std::bit_cast<float>(size) * 0x1p24F);
-    return fmt::format("0x{:04x}", sign | to);
+    const double held = std::abs(rounded(number, x, parameter));
+    const std::int64_t size = std::isnan(held)   ? 0x7e00
+                              : std::isinf(held) ? 0x7c00
+                                                 : place_of(number, held, parameter);
+    return fmt::format("0x{:04x}", (std::signbit(x) ? 0x8000 : 0) | size);
   }
   if (number == Number::float_ || number == Number::mixed)
     return fmt::format("0x{:08x}", std::bit_cast<std::uint32_t>(static_cast<float>(x)));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/nearest_names.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/number.h"
 
@@ -136,6 +137,15 @@ std::vector<Subject> subjects_of(std::string_view id_or_spec) {
       names_of<Role>, [&](auto role) { return id_or_spec.starts_with(std::string(role) + "."); });
   if (is_id) return subjects_of_term(find_term(id_or_spec));
   return {subject_of_model(id_or_spec)};
+}
+
+Subject subject_of(std::string_view id_or_spec, std::string_view form) {
+  auto all = subjects_of(id_or_spec);
+  const auto at = std::ranges::find(all, form, &Subject::form);
+  if (at != all.end()) return std::move(*at);
+  std::vector<std::string_view> forms;
+  for (const auto& s : all) forms.push_back(s.form());
+  refuse_name(form, forms, fmt::format("form of {}", id_or_spec));
 }
 
 void set_domain(Subject& s, std::string_view name, Range range) {

@@ -2,7 +2,7 @@
 /// \file
 /// Subjects of the stability atlas: a term or a model, the numbers it is made of, and where these may lie.
 ///
-/// What depends on one another is given as what it is made of, and the rest follows in the number that is looked at, as
+/// Inputs that depend on one another are given as what they are made of, and the rest follows in the number that is looked at, as
 /// a shader would compute it: NoH from sin²θ_h, or sin²θ_h from NoH; the half vector from two directions.
 
 #include <cstddef>
@@ -45,6 +45,9 @@ struct Subject {
 std::vector<Subject> subjects_of_term(std::size_t term);
 /// A term by its id, or a model by its spec; wrong usage if it is neither.
 std::vector<Subject> subjects_of(std::string_view id_or_spec);
+
+/// The one whose angles are given so; wrong usage that names the others if it has none.
+Subject subject_of(std::string_view id_or_spec, std::string_view form);
 
 /// Narrows the domain of an input; refuses a name it has not, and ends that are reversed, not numbers or outside what is legal.
 void set_domain(Subject&, std::string_view input, Range);

@@ -4,17 +4,12 @@
 
 #include "many_fits.h"
 #include "stability/evaluate.h"
+#include "stability/subjects.h"
 
 namespace gonio::stability {
 namespace {
 
 using Inputs = std::vector<double>;
-
-Subject subject(std::string_view id, Given given) {
-  for (auto& s : subjects_of(id))
-    if (s.given == given) return s;
-  throw std::logic_error("no such subject");
-}
 
 /// A formula f(parameter, angle) over any number as columns.
 Formula columns(auto angle, auto f) {

@@ -10,23 +10,13 @@
 #include "brdf/function/functions.h"
 #include "many_fits.h"
 #include "stability/evaluate.h"
+#include "stability/subjects.h"
 
 namespace gonio::stability {
 namespace {
 
 using test::AnyMachine;
 
-Subject subject(std::string_view id,
-                Given given,
-                const std::vector<std::pair<const char*, Range>>& domain) {
-  for (auto& s : subjects_of(id))
-    if (s.given == given) {
-      for (const auto& [input, range] : domain) set_domain(s, input, range);
-      return s;
-    }
-  ADD_FAILURE() << id << " is not given so";
-  return subjects_of(id).front();
-}
 Subject ggx(Given given) {
   return subject("ndf.ggx", given, {{"alpha", {1e-3, 1}}});
 }

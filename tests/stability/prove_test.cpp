@@ -14,6 +14,7 @@
 #include "many_fits.h"
 #include "optics/fresnel_approximate.h"
 #include "stability/evaluate.h"
+#include "stability/subjects.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -24,18 +25,6 @@ namespace {
 using test::AnyMachine;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Subject subject(std::string_view id,
-                Given given,
-                const std::vector<std::pair<const char*, Range>>& domain) {
-  for (auto& s : subjects_of(id))
-    if (s.given == given) {
-      for (const auto& [input, range] : domain) set_domain(s, input, range);
-      return s;
-    }
-  ADD_FAILURE() << id << " is not given so";
-  return subjects_of(id).front();
-}
 
 /// A term as a template, given its angles in one way: in any number, in that which is proved and in machines.
 template <template <class> class Term, Given given>

@@ -9,6 +9,7 @@
 #include "number/half.h"
 #include "stability/evaluate.h"
 #include "stability/places.h"
+#include "stability/subjects.h"
 
 #include <tbb/global_control.h>
 
@@ -19,12 +20,6 @@ using Inputs = std::vector<double>;
 
 constexpr Arithmetic half{Number::half}, contracted{Number::half, false, true},
     in_float{Number::float_}, in_double{Number::double_};
-
-Subject subject(std::string_view id, Given given) {
-  for (auto& s : subjects_of(id))
-    if (s.given == given) return s;
-  throw std::logic_error("no such subject");
-}
 
 /// Effort for which a sanitizer has time.
 SearchOptions options() {
