@@ -169,7 +169,7 @@ class Enclosure {
   Enclosure() = default;
   explicit Enclosure(std::same_as<int> auto x) : Enclosure(point(nearest(x))) {}
   explicit Enclosure(F x) : Enclosure(point(static_cast<double>(x))) {}
-  /// What is enclosed in another number, rounded to F.
+  /// Enclosure in another number, rounded to F.
   template <class G>
   explicit Enclosure(const Enclosure<G>& x) requires(!std::same_as<F, G>)
       : Enclosure(made(rounding_now,

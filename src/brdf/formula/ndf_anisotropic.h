@@ -11,7 +11,7 @@ namespace gonio::inline GONIO_ARCH {
 
 /// Anisotropic GGX:  D = 1 / (π α_x α_y (XoH²/α_x² + YoH²/α_y² + NoH²)²)   [Burley 2012, Eq. 13]
 ///
-/// As of GGX (ndf_ggx.h), with the widths' product in the square:  D = (1/π) / u²,
+/// Square as of GGX (ndf_ggx.h), with the widths' product in it:  D = (1/π) / u²,
 ///
 ///   u = XoH² √(α_y/α_x)/α_x + YoH² √(α_x/α_y)/α_y + NoH² √(α_x α_y)
 ///

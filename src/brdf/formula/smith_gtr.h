@@ -288,7 +288,7 @@ Coefficients<T> coefficients_in(const T& alpha, const T& gamma) {
   return r;
 }
 
-/// The same where T has room for powers from e⁻²¹ to e³⁰; else found in a number that has, and rounded.
+/// Coefficients in T where it has room for powers from e⁻²¹ to e³⁰; else found in a number that has, and rounded.
 template <Real T>
 Coefficients<T> coefficients(const T& alpha, const T& gamma) {
   if constexpr (requires { RealTraits<T>::roomy(alpha); }) {
