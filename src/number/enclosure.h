@@ -10,7 +10,7 @@
 /// that it keeps is proved.  What may be no number is remembered; a mask is yes, no or either, and of
 /// `either` select gives the hull of both sides.
 ///
-/// Which arithmetic F has is said by the thread's Rounding, so that a formula is compiled once for it:
+/// Which arithmetic F has is said by the thread's Rounding (rounding.h), so that a formula is compiled once for it:
 /// IEEE 754's, with subnormals or without, contracted or not, or all that Vulkan allows a GPU.
 ///
 /// Four things make it narrower than intervals are:
@@ -31,136 +31,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
+#include "number/enclosure_mask.h"
 #include "number/half.h"
 #include "number/real.h"
+#include "number/rounding.h"
 
 namespace gonio::inline GONIO_ARCH {
-
-/// Rules by which results are rounded.
-struct Rounding {
-  /// a · b + c may be rounded once in place of twice; not where a · b went through min, max or select.
-  bool contracted = false;
-  bool flushed = false;    ///< a subnormal, read or computed, may be taken for 0
-  bool any_gpu = false;    ///< what Vulkan allows, below; else to nearest, ties to even
-  bool infinities = true;  ///< any_gpu: the shader declares SignedZeroInfNanPreserve
-  /// any_gpu: √0 is 0, as it is everywhere, though 1 / inversesqrt does not promise it.
-  bool root_of_zero = true;
-  /// Error of exp and log of float and double; not read by any_gpu.
-  double library_ulps = 1;
-
-  /// Vulkan's bounds for a shader that declares no execution mode, its expressions `precise` unless contracted.
-  ///
-  ///   + − ×        correctly rounded, to either neighbour: the mode is the implementation's
-  ///   ÷            2.5 ulp for divisors of 2^±126, in half 2^±14; else nothing
-  ///   √            1 / inversesqrt, which errs by 2 ulp: 4.5 eps together; of 0 as `root_of_zero` says
-  ///   exp          3 + 2 |x| ulp, in half 1 + 2 |x|
-  ///   log          3 ulp; within [1/2, 2] 2⁻²¹, in half 2⁻⁷
-  ///   subnormals   kept or flushed; infinities and NaN: an operation that may make one may give anything
-  ///   double       what float has
-  ///                             [Vulkan 1.4, appendix 'Vulkan Environment for SPIR-V', 'Precision of
-  ///                              Individual Operations' and the rules before it]
-  /// Left out: reassociation, which Vulkan allows of what is not `precise`.
-  static constexpr Rounding vulkan() {
-    return {.flushed = true, .any_gpu = true, .infinities = false};
-  }
-};
-
-inline thread_local Rounding rounding_now;
-
-/// Rounding of this thread, until it ends.
-class RoundingScope {
- public:
-  explicit RoundingScope(const Rounding& rule) : before_(rounding_now) { rounding_now = rule; }
-  RoundingScope(const RoundingScope&) = delete;
-  RoundingScope& operator=(const RoundingScope&) = delete;
-  ~RoundingScope() { rounding_now = before_; }
-
- private:
-  Rounding before_;
-};
-
-/// Inputs by which a value may rise and may fall, a bit each; neither: it does not depend on it.
-struct Directions {
-  std::uint32_t up = 0, down = 0;
-
-  static Directions rising(std::size_t input) { return {std::uint32_t{1} << input, 0}; }
-  Directions reversed() const { return {down, up}; }
-  Directions unknown() const { return {up | down, up | down}; }
-  /// Those of this times a factor between low and high.
-  Directions times(double low, double high) const {
-    return 0 <= low ? *this : high <= 0 ? reversed() : unknown();
-  }
-  friend Directions operator|(Directions a, Directions b) { return {a.up | b.up, a.down | b.down}; }
-  bool rises(std::size_t input) const { return !(down >> input & 1); }
-  bool falls(std::size_t input) const { return !(up >> input & 1); }
-};
-
-/// Outcomes that comparisons are given which have either, in the order in which they are asked for: a formula is then
-/// evaluated once for every way through it.
-class EnclosurePaths {
- public:
-  bool next() {
-    if (asked_ == outcomes_.size()) outcomes_.push_back(true);
-    return outcomes_[asked_++];
-  }
-  /// To the next way; false after the last.
-  bool advance() {
-    asked_ = 0;
-    while (!outcomes_.empty() && !outcomes_.back()) outcomes_.pop_back();
-    if (outcomes_.empty()) return false;
-    outcomes_.back() = false;
-    return true;
-  }
-
- private:
-  std::vector<bool> outcomes_;
-  std::size_t asked_ = 0;
-};
-
-/// This thread's, if a formula is evaluated way by way.
-inline thread_local EnclosurePaths* enclosure_paths = nullptr;
-
-/// Outcome of a comparison of enclosures, and what is then known of those compared.
-class EnclosureMask {
- public:
-  /// A bound of the value `id`, where the outcome is the one that it belongs to.
-  struct Bound {
-    std::int64_t id = 0;
-    bool below = false;  ///< value ≤ x, else value ≥ x
-    double x = 0;
-  };
-  using Bounds = std::array<Bound, 4>;  // those of id 0 say nothing
-
-  EnclosureMask(bool can_hold, bool can_fail) : can_hold_(can_hold), can_fail_(can_fail) {}
-  bool can_hold() const { return can_hold_; }
-  bool can_fail() const { return can_fail_; }
-
-  friend EnclosureMask operator!(EnclosureMask a) {
-    std::swap(a.can_hold_, a.can_fail_);
-    std::swap(a.held_, a.failed_);
-    return a;
-  }
-  friend EnclosureMask operator&&(const EnclosureMask& a, const EnclosureMask& b) {
-    EnclosureMask both(a.can_hold_ && b.can_hold_, a.can_fail_ || b.can_fail_);
-    std::copy_n(a.held_.begin(), 2, both.held_.begin());
-    std::copy_n(b.held_.begin(), 2, both.held_.begin() + 2);
-    both.inputs_ = a.inputs_ | b.inputs_;
-    return both;
-  }
-  friend EnclosureMask operator||(const EnclosureMask& a, const EnclosureMask& b) {
-    return !(!a && !b);
-  }
-
- private:
-  template <class F>
-  friend class Enclosure;
-
-  bool can_hold_, can_fail_;
-  Bounds held_, failed_;
-  Directions inputs_;
-};
 
 /// \tparam F  Half, float or double
 template <class F>
