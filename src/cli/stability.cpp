@@ -16,8 +16,8 @@ struct Options : Common {
   std::string subject, number = "half", require = "finite";
   std::optional<std::string> form;
   std::vector<std::string> domain;
-  bool flush = false, contract = false;
-  std::uint64_t boxes = Question{}.boxes;
+  bool flush = false, contract = false, any_gpu = false;
+  std::optional<std::uint64_t> boxes;
   std::uint64_t seed = Question{}.seed;
 };
 
@@ -47,14 +47,15 @@ std::string evidence_text(const Answer& a) {
     case Evidence::open:
       break;
   }
+  const auto looking =
+      fmt::format("{} of {} inputs{} found nothing",
+                  a.looked.evidence == Evidence::exhaustive ? "a look at every one" : "a search",
+                  a.looked.evaluations, a.arithmetic.any_gpu ? " in IEEE arithmetic" : "");
   if (a.boxes == 0)
-    return fmt::format("a search of {} inputs found nothing, which proves nothing{}{}",
-                       a.looked.evaluations,
+    return fmt::format("{}, which proves nothing{}{}", looking,
                        a.unproved_because.empty() ? "" : "; no proof: ", a.unproved_because);
-  return fmt::format(
-      "neither proved nor refuted: {:.2g} % of the domain stay open, and a search of {} inputs "
-      "found nothing",
-      100 * a.open_share, a.looked.evaluations);
+  return fmt::format("neither proved nor refuted: {:.2g} % of the domain stay open, and {}; {}",
+                     100 * a.open_share, looking, a.unproved_because);
 }
 
 void print(const Answer& a) {
@@ -73,15 +74,19 @@ void print(const Answer& a) {
     for (std::size_t k = 0; k < c->inputs.size(); ++k)
       line(k == 0 ? "at" : "", fmt::format("{} = {:.9g}  {}", c->inputs[k].first,
                                            c->inputs[k].second, c->inputs_hex[k].second));
-    line("", fmt::format("gives {:.9g}, exact {:.9g}", c->value, c->exact));
+    line("",
+         fmt::format("gives {:.9g}{}, exact {:.9g}", c->value,
+                     a.arithmetic.any_gpu ? " in an arithmetic that GPUs may have" : "", c->exact));
   }
   if (!a.worst_at.empty())
-    line("worst found", fmt::format("{:.2g} relative, at {}", a.looked.relative.value, a.worst_at));
+    line("worst found", fmt::format("{:.2g} relative{}, at {}", a.looked.relative.value,
+                                    a.arithmetic.any_gpu ? " in IEEE arithmetic" : "", a.worst_at));
   if (a.proved_rel) line("proved", fmt::format("{:.2g} relative at most", *a.proved_rel));
   if (a.range) line("range", fmt::format("{:.6g} to {:.6g}, proved", a.range->low, a.range->high));
   if (a.looked.safe_from)
-    line("safe from", fmt::format("{:.4g}: from there on within {:.2g}", *a.looked.safe_from,
-                                  a.looked.tolerance));
+    line("safe from",
+         fmt::format("{:.4g}: from there on within {:.2g}{}", *a.looked.safe_from,
+                     a.looked.tolerance, a.arithmetic.any_gpu ? " in IEEE arithmetic" : ""));
   if (!a.looked.settled) line("not settled", "searches from two seeds differ: there may be worse");
 }
 
@@ -90,7 +95,7 @@ Exit run(const Options& o) {
   std::vector<Setting> domain = parse_settings(o.domain);
   Question q;
   q.subject = chosen(o, domain);
-  q.arithmetic = {value_of<Number>(o.number, "number"), o.flush, o.contract};
+  q.arithmetic = {value_of<Number>(o.number, "number"), o.flush, o.contract, o.any_gpu};
   q.requirement = parse_requirement(o.require);
   q.boxes = o.boxes;
   q.seed = o.seed;
@@ -131,7 +136,17 @@ void add_stability(CommandLine& line) {
   c.option("--require", o->require, "finite, nonnegative, or relative=X: most |x/f − 1|");
   c.flag("--flush", o->flush, "Results below the least normal number become 0");
   c.flag("--contract", o->contract, "A product and a sum are rounded once");
-  c.option("--boxes", o->boxes, "Boxes of a proof, after which what is unproved is open")
+  c.flag("--any-gpu", o->any_gpu,
+         "What is proved holds on every GPU that keeps Vulkan 1.4: for half, float, and double, of "
+         "which Vulkan asks no "
+         "more than of float; for shaders without float controls (no execution mode for rounding, "
+         "denormals, infinities "
+         "or NaN), every expression `precise`, or with --contract a b + c fused at will; √0 is 0; "
+         "subnormals kept or "
+         "flushed");
+  c.option("--boxes", o->boxes,
+           "Boxes of a proof, after which what is unproved is open  (default: 20 000, fewer where "
+           "they take longer)")
       .in(std::uint64_t{1}, std::uint64_t{100'000'000});
   add_seed(c, o->seed, "Seed of the search (1)");
   add_jobs(c, *o);

@@ -135,8 +135,12 @@ class Scripted {
                                   : script.define("rnd(" + r + ")", e);
     });
   }
-  friend Scripted exp(const Scripted& a) { return refused("exp", exp(a.value_)); }
-  friend Scripted log(const Scripted& a) { return refused("log", log(a.value_)); }
+  friend Scripted exp(const Scripted& a) {
+    return refused("exp, which Gappa does not know", exp(a.value_));
+  }
+  friend Scripted log(const Scripted& a) {
+    return refused("log, which Gappa does not know", log(a.value_));
+  }
 
  private:
   friend struct RealTraits<Scripted>;

@@ -27,6 +27,11 @@ NamedInput named(const Subject& s, const Arithmetic& a, std::span<const double> 
   return out;
 }
 
+/// Arithmetic that is looked at: of any GPU IEEE's, which is one of those that the rule allows.
+Arithmetic looked_at(const Arithmetic& a) {
+  return a.any_gpu ? Arithmetic{a.number} : a;
+}
+
 /// Inputs for which looking found that the requirement does not hold; empty: none.  What has no value keeps none.
 std::vector<double> broken_at(const Looked& looked, const Requirement& required) {
   if (looked.no_value.count) return looked.no_value.first;
@@ -40,15 +45,21 @@ std::vector<double> broken_at(const Looked& looked, const Requirement& required)
 void prove_into(Answer& a, const Question& q) {
   const auto number = q.arithmetic.number;
   const bool finite = q.requirement.kind == Requirement::Kind::finite;
-  const auto proof =
-      prove(q.subject, number, rounding_of(q.arithmetic),
-            finite ? finite_values(number) : finite_and_not_negative(number), {.boxes = q.boxes});
+  const auto usual_boxes = static_cast<std::uint64_t>(20'000 * share_of_cheap(q.subject));
+  const auto proof = prove(q.subject, number, rounding_of(q.arithmetic),
+                           finite ? finite_values(number) : finite_and_not_negative(number),
+                           {.boxes = q.boxes.value_or(usual_boxes)});
   a.evidence = proof.evidence;
   a.boxes = proof.boxes;
   a.open_share = proof.open_share;
   a.range = proof.range;
-  if (proof.counterexample)
-    a.counterexample = named(q.subject, q.arithmetic, proof.counterexample->inputs);
+  if (const auto& c = proof.counterexample) {
+    a.counterexample = named(q.subject, looked_at(q.arithmetic), c->inputs);
+    a.counterexample->value = c->value;  // of any GPU that of one which flushes
+  }
+  if (a.evidence != Evidence::open) return;
+  a.unproved_because = proof.out_of_budget ? "out of boxes" : "inputs cannot be told apart further";
+  if (!proof.open.empty()) a.unproved_because += "; " + proof.open[0].text(q.subject);
 }
 
 /// Proof of a bound of the relative error; of all inputs but the ends that it leaves out it holds, and then the rest is open.
@@ -87,8 +98,8 @@ Requirement parse_requirement(std::string_view text) {
 }
 
 std::string text_of(const Arithmetic& a) {
-  return fmt::format("{}{}{}", name_of(a.number), a.flush ? ", flushed" : "",
-                     a.contract ? ", contracted" : "");
+  return fmt::format("{}{}{}{}", name_of(a.number), a.flush ? ", flushed" : "",
+                     a.contract ? ", contracted" : "", a.any_gpu ? ", on any GPU" : "");
 }
 std::string text_of(const Subject& s, std::span<const double> inputs) {
   std::string text;
@@ -112,6 +123,11 @@ Looked look(const Subject& s, const Arithmetic& a, double tolerance, std::uint64
 
 Answer answer(const Question& q) {
   const auto number = q.arithmetic.number;
+  const bool any_gpu = q.arithmetic.any_gpu;
+  if (any_gpu && number == Number::mixed)
+    throw wrong_usage("any GPU: found mixed numbers, expected half, float or double");
+  if (any_gpu && q.arithmetic.flush)
+    throw wrong_usage("any GPU: found flushing too, expected neither: any GPU may flush or not");
   Answer a;
   a.id = q.subject.id;
   a.form = q.subject.form();
@@ -121,16 +137,16 @@ Answer answer(const Question& q) {
     a.domain.emplace_back(i.name, std::vector{i.domain.low, i.domain.high});
 
   const bool relative = q.requirement.kind == Requirement::Kind::relative;
-  a.looked = look(q.subject, q.arithmetic, relative ? q.requirement.limit : usual_tolerance(number),
-                  q.seed);
+  a.looked = look(q.subject, looked_at(q.arithmetic),
+                  relative ? q.requirement.limit : usual_tolerance(number), q.seed);
   a.worst_at = text_of(q.subject, a.looked.relative.at);
   a.worst_hex = hex_of(q.subject, number, a.looked.relative.at);
   if (const auto at = broken_at(a.looked, q.requirement); !at.empty()) {
     a.evidence = a.looked.evidence;
-    a.counterexample = named(q.subject, q.arithmetic, at);
+    a.counterexample = named(q.subject, looked_at(q.arithmetic), at);
     return a;
   }
-  if (a.looked.evidence == Evidence::exhaustive)
+  if (a.looked.evidence == Evidence::exhaustive && !any_gpu)
     a.evidence = Evidence::exhaustive;
   else if (relative && number != Number::mixed)
     prove_relative_into(a, q);

@@ -30,7 +30,8 @@ struct Question {
   Arithmetic arithmetic;
   Requirement requirement;
   std::uint64_t seed = 1;
-  std::uint64_t boxes = 20'000;  ///< of a proof, after which what is unproved is open
+  /// Boxes of a proof, after which what is unproved is open; none: 20 000, and of what is dear as many as take seconds.
+  std::optional<std::uint64_t> boxes{};
 };
 
 /// An input for which a requirement does not hold.
@@ -51,7 +52,8 @@ struct Answer {
   Looked looked;
   std::string worst_at, worst_hex;   ///< where looked.relative is
   std::optional<double> proved_rel;  ///< bound of the relative error
-  std::string unproved_because;      ///< where a relative error was required and is not proved
+  std::string unproved_because;      ///< why what is required is open; empty: it is not, or nobody
+                                     ///< could have proved it
   std::optional<Range> range;        ///< that the value is proved to lie in
   std::uint64_t boxes = 0;           ///< of the proof
   double open_share = 0;             ///< part of the domain that is neither proved nor refuted
@@ -59,11 +61,16 @@ struct Answer {
 
 /// Answer by whatever evidence is the strongest: of one or two halves every input, else a proof; a search refutes, and
 /// tells the worst, but never establishes.
+///
+/// On any GPU proofs alone establish.  What is looked at is IEEE arithmetic, which is one of those that the rule allows: a
+/// counterexample of it is one, and the worst that it shows is a lower bound of the worst.
+///
+/// \throws Error (wrong usage) of any GPU in mixed numbers, for which nothing is proved
 Answer answer(const Question&);
 /// Everything that looking finds: every input where they are halves and few, else a search.
 Looked look(const Subject&, const Arithmetic&, double tolerance, std::uint64_t seed);
 
-/// "half, flushed"
+/// "half, flushed", "float, on any GPU"
 std::string text_of(const Arithmetic&);
 /// "alpha 0.01, noh 1"
 std::string text_of(const Subject&, std::span<const double> inputs);

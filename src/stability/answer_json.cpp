@@ -29,6 +29,10 @@ struct Description<stability::Answer> {
               "results below the least normal number become 0"),
         field("contract", "", at(&A::arithmetic, &stability::Arithmetic::contract),
               "a b + c is rounded once"),
+        field(
+            "any_gpu", "", at(&A::arithmetic, &stability::Arithmetic::any_gpu),
+            "all that Vulkan allows a GPU: proofs alone establish, and what was looked at is IEEE "
+            "arithmetic, which is one of those allowed"),
         field("domain", "", &A::domain, "ends of each input"),
         field("requirement", "", &A::requirement, "finite, nonnegative or relative=X"),
         field("evidence", "", &A::evidence,
@@ -45,8 +49,9 @@ struct Description<stability::Answer> {
         field("worst_hex", "", &A::worst_hex, "the same in bits"),
         field("proved_rel", "", &A::proved_rel, "bound of the relative error, where one is proved"),
         field("unproved_because", "", &A::unproved_because,
-              "why a relative error that is required is not proved; empty: it is, or no proof was "
-              "needed"),
+              "why what is required is open, or the bound that is proved no proof of it; empty: it "
+              "is "
+              "neither, or nothing can be proved in this number"),
         field("range", "", range, "that the value is proved to lie in"),
         field("evaluations", "", at(&A::looked, &L::evaluations), ""),
         field("boxes", "", &A::boxes, "of the proof"),

@@ -1,5 +1,6 @@
 #include "stability/evaluate.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -61,6 +62,21 @@ double value_of(const Subject& s, const Arithmetic& a, std::span<const double> i
 }
 double value_of(const Subject& s, Number number, std::span<const double> inputs) {
   return value_of(s, Arithmetic{number}, inputs);
+}
+
+double share_of_cheap(const Subject& s) {
+  std::size_t operations = 1;
+  const auto add = [&](std::size_t term) {
+    const auto o = operations_of(term);
+    operations += o.parameters.total() + o.sample.total();
+  };
+  if (s.term) add(*s.term);
+  if (s.model) {
+    for (const auto& use : s.model->diffuse) add(use.term);
+    for (const auto& lobe : s.model->lobes)
+      for (const auto& use : {lobe.ndf, lobe.masking, lobe.fresnel}) add(use.term);
+  }
+  return std::min(1.0, 300.0 / static_cast<double>(operations));
 }
 
 std::string hex(Number number, double x, bool parameter) {

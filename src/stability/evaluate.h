@@ -27,6 +27,9 @@ double value_of(const Subject&, Number, std::span<const double> inputs);
 /// evaluations as there are inputs.  \param condition  else it is 1
 WideValue truth_of(const Subject&, std::span<const double> inputs, bool condition = true);
 
+/// Share of the work of a subject of few operations that one of many gets, so that each takes seconds, in (0, 1].
+double share_of_cheap(const Subject&);
+
 /// Number's bits, "0x3c00"; of a mixed number's parameters those of the half.
 std::string hex(Number, double x, bool parameter);
 

@@ -26,6 +26,9 @@ struct Arithmetic {
   Number number = Number::half;
   bool flush = false;     ///< results below the least normal number become 0
   bool contract = false;  ///< a b + c is rounded once
+  /// Results are all that Vulkan allows a GPU (Rounding::vulkan, number/rounding.h), and not one processor's: proofs know
+  /// it, looking does not.
+  bool any_gpu = false;
 
   friend bool operator==(const Arithmetic&, const Arithmetic&) = default;
 };

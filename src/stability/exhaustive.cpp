@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <vector>
 
 #include "base/error.h"
+#include "brdf/model/evaluate.h"
 #include "stability/evaluate.h"
 #include "stability/places.h"
 
@@ -18,22 +20,15 @@ namespace {
 
 constexpr std::size_t angles = 11, chunk = 1024;
 
-/// A column as kernels want it: aligned, and padded.
+constexpr std::size_t padded_size(std::size_t n) {
+  return (n + padding - 1) / padding * padding;
+}
 template <class F>
-class Column {
- public:
-  explicit Column(std::size_t n) : v_((n + padding - 1) / padding) {}
-  F* data() { return v_.data()->at.data(); }
-  const F* data() const { return v_.data()->at.data(); }
-  std::size_t size() const { return v_.size() * padding; }
-  void fill(F x) { std::fill_n(data(), size(), x); }
-
- private:
-  struct alignas(64) Part {
-    std::array<F, padding> at{};
-  };
-  std::vector<Part> v_;
-};
+std::vector<Column<F>> columns_of(std::size_t count, std::size_t n) {
+  std::vector<Column<F>> all;
+  for (std::size_t k = 0; k < count; ++k) all.emplace_back(n);
+  return all;
+}
 
 /// Halves within a range, all of them, ascending; if there is none, the one next to its lower end.
 std::vector<double> halves_within(const Range& range) {
@@ -73,12 +68,13 @@ class Rows {
         rules_(index_of(rules)),
         formula_(formula),
         n_(walk.column < walk.values.size() ? walk.values[walk.column].size() : 1),
-        half_in_(s.inputs.size() - s.parameters, Column<float>(n_)),
-        double_in_(half_in_.size(), Column<double>(n_)),
-        half_angles_(angles, Column<float>(n_)),
-        double_angles_(angles, Column<double>(n_)),
-        got_(n_),
-        want_(n_) {
+        padded_(padded_size(n_)),
+        half_in_(columns_of<float>(s.inputs.size() - s.parameters, padded_)),
+        double_in_(columns_of<double>(half_in_.size(), padded_)),
+        half_angles_(columns_of<float>(angles, padded_)),
+        double_angles_(columns_of<double>(angles, padded_)),
+        got_(padded_),
+        want_(padded_) {
     for (std::size_t k = 0; k < half_in_.size(); ++k) {
       const auto& values = walk.values[s.parameters + k];
       fill(k, values[0]);
@@ -104,19 +100,18 @@ class Rows {
       fill(walk_.row - s_.parameters, at[walk_.row]);
       find_angles();
     }
-    for (std::size_t first = 0; first < got_.size(); first += chunk) {
-      const std::size_t n = std::min(chunk, got_.size() - first);
+    for (std::size_t first = 0; first < padded_; first += chunk) {
+      const std::size_t n = std::min(chunk, padded_ - first);
       formula_.halves(block(half_angles_).part(first, n), half_parameters.data(),
                       got_.data() + first);
       formula_.doubles(block(double_angles_).part(first, n), double_parameters.data(),
                        want_.data() + first);
     }
-    std::fill(want_.data() + n_, want_.data() + want_.size(),
-              std::numeric_limits<double>::quiet_NaN());
+    std::fill(want_.data() + n_, want_.data() + padded_, std::numeric_limits<double>::quiet_NaN());
   }
 
   std::size_t columns() const { return n_; }
-  std::size_t padded() const { return got_.size(); }
+  std::size_t padded() const { return padded_; }
   const float* got() const { return got_.data(); }
   const double* want() const { return want_.data(); }
 
@@ -137,8 +132,8 @@ class Rows {
 
  private:
   void fill(std::size_t angle, double x) {
-    half_in_[angle].fill(static_cast<float>(x));
-    double_in_[angle].fill(x);
+    std::fill_n(half_in_[angle].data(), padded_, static_cast<float>(x));
+    std::fill_n(double_in_[angle].data(), padded_, x);
   }
   void find_angles() {
     const auto& kernel = half_kernels();
@@ -148,7 +143,7 @@ class Rows {
       AngleColumns<F> to;
       for (const auto& c : columns) in.push_back(c.data());
       for (std::size_t k = 0; k < angles; ++k) to[k] = out[k].data();
-      compute(s_.given, got_.size(), std::span<const F* const>(in), to);
+      compute(s_.given, padded_, std::span<const F* const>(in), to);
     };
     find(half_in_, half_angles_, kernel.angles[rules_]);
     find(double_in_, double_angles_, kernel.double_angles);
@@ -160,7 +155,7 @@ class Rows {
             a[2].data(),
             a[3].data(),
             a[4].data(),
-            got_.size(),
+            padded_,
             {a[5].data(), a[6].data(), a[7].data(), a[8].data(), a[9].data(), a[10].data()}};
   }
 
@@ -168,7 +163,7 @@ class Rows {
   const Walk& walk_;
   std::size_t rules_;
   const Formula& formula_;
-  std::size_t n_;
+  std::size_t n_, padded_;
   std::vector<Column<float>> half_in_;
   std::vector<Column<double>> double_in_;
   std::vector<Column<float>> half_angles_;
@@ -194,12 +189,14 @@ Compared compared(double got, double want, double tolerance) {
 Formula formula_of(std::size_t term, const HalfRules& rules, std::string_view instruction_set) {
   const HalfColumn in_halves = half_kernels(instruction_set).terms[term][index_of(rules)];
   const auto in_double = kernels<double>(instruction_set).terms[term].add_product;
-  Column<double> none(chunk), one(chunk);
-  one.fill(1);
-  return {in_halves, [=](const Block<double>& x, const double* parameters, double* out) {
+  struct Constants {
+    Column<double> none{chunk}, one{chunk, 1};
+  };
+  return {in_halves, [=, of = std::make_shared<const Constants>()](
+                         const Block<double>& x, const double* parameters, double* out) {
             for (std::size_t first = 0; first < x.n; first += chunk)
               in_double(x.part(first, std::min(chunk, x.n - first)), parameters,
-                        {one.data(), nullptr, none.data(), out + first, nullptr});
+                        {of->one.data(), nullptr, of->none.data(), out + first, nullptr});
           }};
 }
 

@@ -38,6 +38,15 @@ double from_bits(Number number, std::int64_t bits, bool parameter) {
 
 }  // namespace
 
+double largest(Number number) {
+  if (number == Number::half) return 65504;
+  return is_float(number) ? static_cast<double>(std::numeric_limits<float>::max())
+                          : std::numeric_limits<double>::max();
+}
+int least_exponent(Number number) {
+  return number == Number::half ? -14 : is_float(number) ? -126 : -1022;
+}
+
 std::int64_t place_of(Number number, double x, bool parameter) {
   return x < 0 ? -bits_of(number, -x, parameter) : bits_of(number, std::abs(x), parameter);
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Places of a number's values in their order: neighbours are one apart, 0 has place 0.
+/// Values of a number: their range, and their places in order, neighbours one apart, 0 at place 0.
 
 #include <cstdint>
 
@@ -12,6 +12,11 @@ namespace gonio::stability {
 /// Place of x, a value of the number.  \param parameter  as in `rounded` (evaluate.h)
 std::int64_t place_of(Number, double x, bool parameter);
 double at_place(Number, std::int64_t place, bool parameter);
+
+/// Largest finite value of a number; of mixed ones that of a float, which results are.
+double largest(Number);
+/// Exponent of its least normal value.
+int least_exponent(Number);
 
 /// First and last place within a range; where it holds none, that of the value next to its lower end.
 struct Places {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <random>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "stability/evaluate.h"
+#include "stability/places.h"
 #include "stability/value_over.h"
 
 #include <fmt/format.h>
@@ -84,13 +85,11 @@ class Prover {
 
   /// Places all over a box that stays open.
   void search(const Sides& box, int places, std::uint64_t seed, Outcome& out) const {
-    std::mt19937_64 random(seed);
+    Draws draw(seed);
     std::vector<double> x(box.size());
     for (int k = 0; k < places && out.refuted.empty(); ++k) {
       for (std::size_t i = 0; i < box.size(); ++i) {
-        const double low = Measure<F>::of(box[i].low),
-                     share = std::ldexp(static_cast<double>(random() >> 11), -53);
-        const double u = low + share * Measure<F>::width(box[i]);
+        const double u = Measure<F>::of(box[i].low) + draw.uniform() * Measure<F>::width(box[i]);
         x[i] = std::clamp(Measure<F>::rounded(Measure<F>::back(u)), box[i].low, box[i].high);
       }
       refutes(x, out);
@@ -182,17 +181,29 @@ Provable<F> provable(const Subject& s, const Rounding& rule) {
 }  // namespace
 
 Range finite_values(Number number) {
-  const double most = number == Number::half ? 65504
-                      : number == Number::float_
-                          ? static_cast<double>(std::numeric_limits<float>::max())
-                          : std::numeric_limits<double>::max();
-  return {-most, most};
+  return {-largest(number), largest(number)};
 }
 Range finite_and_not_negative(Number number) {
   return {0, finite_values(number).high};
 }
 
+std::string OpenBox::text(const Subject& s) const {
+  std::string text;
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const auto [low, high] = inputs[k];
+    text += fmt::format("{}{} {:.3g}", k ? ", " : "", s.inputs[k].name, low);
+    if (low < high) text += fmt::format(" to {:.3g}", high);
+  }
+  return fmt::format("{}: values from {:.3g} to {:.3g}{}", text, values.low, values.high,
+                     may_be_nan ? ", or no number" : "");
+}
+
 Rounding rounding_of(const Arithmetic& a) {
+  if (a.any_gpu) {
+    Rounding rule = Rounding::vulkan();
+    rule.contracted = a.contract;
+    return rule;
+  }
   return {.contracted = a.contract, .flushed = a.flush};
 }
 

@@ -48,6 +48,9 @@ struct OpenBox {
   std::vector<Range> inputs;
   Range values;
   bool may_be_nan;
+
+  /// "alpha 0.01 to 0.02, noh 1: values from 3 to inf, or no number"
+  std::string text(const Subject&) const;
 };
 
 struct Proof {
@@ -68,7 +71,7 @@ struct Proof {
 Range finite_values(Number);
 Range finite_and_not_negative(Number);
 
-/// Rounding by which an arithmetic's results lie in enclosures.
+/// Rounding by which an arithmetic's results lie in enclosures; of any GPU subnormals are flushed or not, whatever it says.
 Rounding rounding_of(const Arithmetic&);
 
 /// Claim that all values over the domain are numbers within the bounds required.  Same result whatever the threads.

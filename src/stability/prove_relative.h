@@ -8,13 +8,17 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "number/enclosure.h"
+#include "number/rounding.h"
 #include "stability/evidence.h"
 #include "stability/subject.h"
 
 namespace gonio::stability {
+
+/// RelativeProof::why on a machine without Gappa.
+inline constexpr std::string_view without_gappa = "Gappa is not installed";
 
 struct RelativeProof {
   std::optional<double> bound;  ///< of |x / f − 1|

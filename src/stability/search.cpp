@@ -18,34 +18,29 @@ using Inputs = std::vector<double>;
 /// Size of a number's last digit, and its range.
 struct Format {
   int digits;
-  int least_exponent;  ///< of what counts: less is held against 2 to this power
+  int least_counted;  ///< less than 2 to this power is held against that
   double most;
 
-  double least() const { return std::ldexp(1, least_exponent); }
+  double least() const { return std::ldexp(1, least_counted); }
   double ulp(double f) const {
-    return std::ldexp(1, (std::abs(f) < least() ? least_exponent : std::ilogb(f)) + 1 - digits);
+    return std::ldexp(1, (std::abs(f) < least() ? least_counted : std::ilogb(f)) + 1 - digits);
   }
 };
 /// Exponent below which a result is black, in whatever light.
 constexpr int black = -64;
 Format format_of(Number number) {
-  constexpr auto most_float = static_cast<double>(std::numeric_limits<float>::max());
   switch (number) {
     case Number::half:
-      return {11, -14, 65504};
+      return {11, least_exponent(number), largest(number)};
     case Number::mixed:  // some results are floats, of what halves had left
-      return {11, black, most_float};
+      return {11, black, largest(number)};
     case Number::float_:
-      return {24, black, most_float};
+      return {24, black, largest(number)};
     case Number::double_:
     case Number::wide:
       break;
   }
-  return {53, black, std::numeric_limits<double>::max()};
-}
-/// Exponent down to which seeds of a number go: its least normal number's.
-int least_exponent_of(Number number) {
-  return number == Number::half ? -14 : number == Number::double_ ? -1022 : -126;
+  return {53, black, largest(number)};
 }
 /// Least result of which a tolerance is asked, in every number: that of the least normal half.
 constexpr double asked_of = 0x1p-14;
@@ -214,7 +209,7 @@ class Domain {
     if (low > 0) return low * std::pow(high / low, draw.uniform());
     if (low < 0 && which < 0.8) return span * signed_part(draw) / 2;  // towards 0
     // as small as numbers get, and seldom smaller than what still counts
-    const double least = which < 0.7 ? least_exponent_of(number_) - 10.0 : -50.0;
+    const double least = which < 0.7 ? least_exponent(number_) - 10.0 : -50.0;
     return low + span * std::exp2(draw.uniform() * least);
   }
   double within(std::size_t k, double x) const {
@@ -298,20 +293,6 @@ struct Found {
   Worst relative, ulp, beyond;
 };
 
-/// Operations of one evaluation.
-std::size_t operations_of(const Subject& s) {
-  const auto of = [](std::size_t term) {
-    const auto o = gonio::operations_of(term);
-    return o.parameters.total() + o.sample.total();
-  };
-  if (s.term) return of(*s.term);
-  std::size_t sum = 0;
-  for (const auto& use : s.model->diffuse) sum += of(use.term);
-  for (const auto& lobe : s.model->lobes)
-    sum += of(lobe.ndf.term) + of(lobe.masking.term) + of(lobe.fresnel.term);
-  return sum;
-}
-
 Found from_one_seed(
     const Subject& s, const Judge& judge, const Domain& domain, std::uint64_t seed, double effort) {
   const auto times = [&](double n) { return static_cast<std::size_t>(std::ceil(n * effort)); };
@@ -394,9 +375,7 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   looked.tolerance = options.tolerance > 0 ? options.tolerance : usual_tolerance(a.number);
   const Judge judge(s, a, looked.tolerance);
   const Domain domain(s, a.number);
-  // What is dear is looked at less often, so that an entry takes seconds.
-  const double effort =
-      options.effort * std::min(1.0, 300.0 / static_cast<double>(operations_of(s) + 1));
+  const double effort = options.effort * share_of_cheap(s);
   Found one = from_one_seed(s, judge, domain, 2 * options.seed, effort);
   const Found two = from_one_seed(s, judge, domain, 2 * options.seed + 1, effort);
 

@@ -120,6 +120,23 @@ TEST(Schemas, HoldForTheDocumentsOfABatch) {
   EXPECT_EQ(mistakes(file(f / "out/b.json"), "fit"), "");
 }
 
+TEST(Schemas, HoldForTheAnswersOfStability) {
+  const Folder f;
+  for (const auto& [words, code] :
+       {std::pair("ndf.ggx --domain alpha=0.1,0.11 --require relative=0.02", 0),  // every half
+        std::pair("ndf.ggx --number float --domain alpha=1e-3,1", 0),             // proved, a range
+        std::pair("ndf.ggx --domain alpha=0.001,0.0012", 1),          // infinite where it fails
+        std::pair("ndf.ggx --number mixed --domain alpha=0.1,1", 1),  // open, of no proof
+        std::pair("fresnel.dielectric --number float --boxes 2 --require nonnegative", 1),
+        std::pair("fresnel.constant --number double", 0),  // nothing that decides
+        std::pair("ndf.ggx --any-gpu --domain alpha=0.1,0.2", 0),
+        std::pair("ndf.ggx --any-gpu --domain alpha=0.1,0.2 --require relative=1e-3", 1)}) {
+    const auto o = gonio(f, std::string("stability ") + words + " --json");
+    EXPECT_EQ(o.code, code) << words << o.err;
+    EXPECT_EQ(mistakes(o.json(), "stability"), "") << words;
+  }
+}
+
 TEST(Schemas, HoldForTheSideFilesOfTables) {
   const Folder f;
   make_tables(f);

@@ -41,6 +41,23 @@ TEST(StabilityCommand, TakesTheFormThatHasTheInputsOfTheDomain) {
   EXPECT_EQ(j["form"], "cosine");
 }
 
+TEST(StabilityCommand, ProvesWhatHoldsOnAnyGpu) {
+  const Folder f;
+  const std::string words = "stability ndf.ggx --any-gpu --domain alpha=0.1,0.2 ";
+  const auto o = gonio(f, words + "--json");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.json()["any_gpu"], true);
+  EXPECT_EQ(o.json()["evidence"], "proved");
+  EXPECT_EQ(gonio(f, "stability ndf.ggx --domain alpha=0.1,0.11 --json").json()["any_gpu"], false);
+  const auto text = gonio(f, words).out;
+  EXPECT_NE(text.find("in half, on any GPU"), text.npos) << text;
+  EXPECT_NE(text.find("relative in IEEE arithmetic, at"), text.npos) << text;
+  const auto open = gonio(f, words + "--require relative=1e-3");
+  EXPECT_EQ(open.code, 1);
+  const auto refuted = gonio(f, words + "--require relative=1e-6");
+  EXPECT_NE(refuted.out.find("in an arithmetic that GPUs may have"), text.npos) << refuted.out;
+}
+
 TEST(StabilityCommand, LooksAtWholeModels) {
   const Folder f;
   const auto o = gonio(f,
@@ -65,6 +82,8 @@ TEST(StabilityCommand, RefusesInOneLine) {
                         {"stability ndf.ggx --require relative", "relative=X"},
                         {"stability ndf.ggx --require relative=x", "relative"},
                         {"stability ndf.ggx --form facet", "facet"},
+                        {"stability ndf.ggx --number mixed --any-gpu", "mixed"},
+                        {"stability ndf.ggx --flush --any-gpu", "flushing"},
                         {"stability ndf.ggx --number wide", "wide"}});
 }
 

@@ -4,6 +4,7 @@
 
 #include "refusal.h"
 #include "stability/evaluate.h"
+#include "stability/exhaustive.h"
 
 #include <gtest/gtest.h>
 
@@ -103,6 +104,83 @@ TEST(StabilityAnswer, OfWhatHasNoValueIsThatItKeepsNoRequirement) {
     set_domain(q.subject, "alpha", {0.001, 0.001001});  // the peak is more than a half holds
     EXPECT_FALSE(answer(q).holds) << required;
   }
+}
+
+/// The same on any GPU.
+Question on_any_gpu(Question q) {
+  q.arithmetic.any_gpu = true;
+  return q;
+}
+
+TEST(StabilityAnswer, OnAnyGpuIsEstablishedByAProofAloneThoughEveryHalfWasLookedAt) {
+  auto q = about("ndf.ggx", Number::half, "finite");
+  set_domain(q.subject, "alpha", {0.1, 0.101});
+  EXPECT_EQ(answer(q).evidence, Evidence::exhaustive);
+  const auto a = answer(on_any_gpu(q));
+  EXPECT_TRUE(a.holds);
+  EXPECT_EQ(a.evidence, Evidence::proved);
+  EXPECT_EQ(a.unproved_because, "");
+  EXPECT_EQ(text_of(a.arithmetic), "half, on any GPU");
+  ASSERT_TRUE(a.range);
+  const auto own = exhaustive(q.subject, {}, 0.02);
+  EXPECT_GT(a.range->high, value_of(q.subject, Number::half, own.relative.at));
+}
+
+TEST(StabilityAnswer, OnAnyGpuIsRefutedByWhatIeeeArithmeticGives) {
+  auto q = about("ndf.ggx", Number::half, "finite");
+  set_domain(q.subject, "alpha", {0.001, 0.001001});
+  const auto a = answer(on_any_gpu(q));
+  EXPECT_FALSE(a.holds);
+  ASSERT_TRUE(a.counterexample);
+  EXPECT_EQ(a.evidence, Evidence::exhaustive);
+  EXPECT_TRUE(std::isinf(a.counterexample->value));
+}
+
+TEST(StabilityAnswer, OnAnyGpuIsRefutedByOneThatFlushes) {
+  auto q = about("masking.ue_joint", Number::half, "finite");
+  set_domain(q.subject, "alpha", {1e-6, 1e-6});
+  set_domain(q.subject, "nol", {1, 1});
+  set_domain(q.subject, "nov", {5e-5, 5.1e-5});
+  EXPECT_TRUE(answer(q).holds);
+  const auto a = answer(on_any_gpu(q));
+  EXPECT_FALSE(a.holds);
+  ASSERT_TRUE(a.counterexample);
+  EXPECT_EQ(a.evidence, Evidence::searched);
+  EXPECT_FALSE(std::isfinite(a.counterexample->value)) << "it is the flushing machine's";
+}
+
+TEST(StabilityAnswer, OnAnyGpuKeepsTheBoundThatGappaProves) {
+  auto q = about("ndf.ggx", Number::float_, "relative=0.01");
+  set_domain(q.subject, "alpha", {1e-3, 1});
+  set_domain(q.subject, "sin2_theta_h", {1e-6, 0.999});
+  const auto plain = answer(q), a = answer(on_any_gpu(q));
+  if (a.unproved_because == "Gappa is not installed") GTEST_SKIP() << a.unproved_because;
+  EXPECT_TRUE(a.holds) << a.unproved_because;
+  EXPECT_EQ(a.evidence, Evidence::proved);
+  ASSERT_TRUE(plain.proved_rel && a.proved_rel);
+  EXPECT_GT(*a.proved_rel, *plain.proved_rel) << "more is allowed";
+}
+
+TEST(StabilityAnswer, OnAnyGpuThatStaysOpenSaysWhy) {
+  auto relative = about("ndf.gtr1", Number::float_, "relative=0.1");
+  set_domain(relative.subject, "alpha", {0.3, 0.4});
+  const auto r = answer(on_any_gpu(relative));
+  EXPECT_FALSE(r.holds);
+  EXPECT_EQ(r.evidence, Evidence::open);
+  EXPECT_NE(r.unproved_because, "");
+  auto finite = about("fresnel.conductor", Number::float_, "nonnegative");
+  finite.boxes = 10;
+  const auto f = answer(on_any_gpu(finite));
+  EXPECT_EQ(f.evidence, Evidence::open);
+  EXPECT_NE(f.unproved_because.find("out of boxes; eta "), std::string::npos) << f.unproved_because;
+}
+
+TEST(StabilityAnswer, OnAnyGpuRefusesNumbersAndLibertiesThatItHasNoRuleFor) {
+  const auto mixed = on_any_gpu(about("ndf.ggx", Number::mixed, "finite"));
+  EXPECT_NE(refusal([&] { answer(mixed); }, Exit::usage).find("mixed"), std::string::npos);
+  auto flushed = on_any_gpu(about("ndf.ggx", Number::half, "finite"));
+  flushed.arithmetic.flush = true;
+  EXPECT_NE(refusal([&] { answer(flushed); }, Exit::usage).find("flushing"), std::string::npos);
 }
 
 TEST(StabilityAnswer, RefusesARequirementThatIsNone) {

@@ -66,6 +66,35 @@ TEST(StabilityValue, OfAModelIsTheProductOfItsTerms) {
   EXPECT_NEAR(value_of(s, Number::half, in), want, 0.02 * want);
 }
 
+TEST(StabilityValue, IsOfHalvesFlushedAndContractedAsAsked) {
+  const auto joint = subjects_of("masking.ue_joint").at(0);
+  const std::array small{1e-6, 1.0, 5e-5};  // its divisor is a sum of subnormals
+  const auto at = [&](const auto& in, bool flush, bool contract) {
+    return value_of(joint, {Number::half, flush, contract}, in);
+  };
+  EXPECT_NEAR(at(small, false, false), 4949, 50);
+  EXPECT_NEAR(at(small, false, true), 4949, 50);
+  EXPECT_TRUE(std::isinf(at(small, true, false)));
+  EXPECT_TRUE(std::isinf(at(small, true, true)));
+  std::size_t contracted = 0, flushed = 0;
+  for (int k = 1; k < 100; ++k) {
+    const std::array in{0.3, 0.009 * k, 0.7};
+    contracted += at(in, false, true) != at(in, false, false);
+    EXPECT_EQ(at(in, true, true), at(in, false, true));
+    flushed += at(in, true, false) != at(in, false, false);
+  }
+  EXPECT_GT(contracted, 10U);
+  EXPECT_EQ(flushed, 0U);
+}
+
+TEST(StabilityValue, OfManyOperationsGetsAShareOfTheWork) {
+  EXPECT_EQ(share_of_cheap(ggx(0)), 1);
+  const double gtr = share_of_cheap(subjects_of("masking.smith_gtr.correlated").at(0));
+  EXPECT_LT(gtr, 0.5);
+  EXPECT_GT(gtr, 0);
+  EXPECT_LT(share_of_cheap(subjects_of("ggx/smith_gtr.correlated/conductor").at(0)), gtr);
+}
+
 TEST(StabilityValue, IsToldByTheBitsOfItsInputs) {
   EXPECT_EQ(hex(Number::half, 1, true), "0x3c00");
   EXPECT_EQ(hex(Number::half, 0x1p-24, true), "0x0001");

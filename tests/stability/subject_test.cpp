@@ -83,6 +83,26 @@ TEST(Subject, AnglesOfOppositeDirectionsHaveNoHalfVector) {
   EXPECT_EQ(a.sin2_theta_h, 1);
 }
 
+TEST(Subject, KnowsWhatPeopleClampAndWhereFormulasAreHardOnTheirOwn) {
+  const auto decides = [](const char* id) {
+    const auto s = subjects_of(id).at(0);
+    return s.decides ? s.inputs[*s.decides].name : "";
+  };
+  EXPECT_EQ(decides("ndf.gtr"), "alpha");
+  EXPECT_EQ(decides("ndf.ggx_aniso"), "alpha_x");
+  EXPECT_EQ(decides("fresnel.schlick"), "f0");
+  EXPECT_EQ(decides("masking.neumann"), "");
+  const auto gtr = subjects_of("ndf.gtr").at(0);
+  EXPECT_EQ(gtr.inputs[1].name, "gamma");
+  EXPECT_EQ(gtr.inputs[1].edges, std::vector{1.0});
+  EXPECT_EQ(subjects_of("fresnel.dielectric").at(0).inputs[0].edges, std::vector{1.0});
+  EXPECT_TRUE(gtr.inputs[0].edges.empty());
+  // Anisotropy up to 1e4, cosines from 1e-8.
+  const auto aniso = subjects_of("masking.smith_ggx_aniso.correlated").at(0);
+  EXPECT_EQ(aniso.inputs[0].domain.low, 1e-4);
+  EXPECT_EQ(aniso.inputs[2].domain.low, 1e-8);
+}
+
 TEST(Subject, RefusesADomainThatIsNone) {
   auto s = subjects_of("ndf.ggx")[0];
   set_domain(s, "alpha", {0.05, 1});
