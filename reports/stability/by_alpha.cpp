@@ -7,6 +7,7 @@
 #include "brdf/catalogue/registry.h"
 #include "reports/stability/measure.h"
 #include "reports/stability/stability.h"
+#include "stability/places.h"
 
 #include <tbb/parallel_for.h>
 
@@ -62,11 +63,10 @@ double error_at(const Subject& s, Number number, const Inputs& at) {
   const auto in = stability::rounded(s, number, at);
   const double exact = stability::value_of(s, Number::double_, in),
                value = stability::value_of(s, number, in);
-  const bool half = number == Number::half;
-  const double least = half ? 0x1p-14 : 0x1p-126, largest = half ? 65504.0 : 0x1.fffffep127;
   if (!std::isfinite(exact)) return 0;
   if (!std::isfinite(value)) return nan;
-  if (std::abs(exact) < least || std::abs(exact) > largest) return 0;
+  const double least = std::ldexp(1, stability::least_exponent(number));
+  if (std::abs(exact) < least || std::abs(exact) > stability::largest(number)) return 0;
   return std::abs(value / exact - 1);
 }
 

@@ -4,11 +4,14 @@
 #include "brdf/catalogue/registry.h"
 #include "reports/finding/words.h"
 #include "reports/stability/stability.h"
+#include "stability/prove_relative.h"
 
 #include <fmt/format.h>
 
 namespace gonio {
 namespace {
+
+using stability::without_gappa;
 
 using Rows = std::vector<const StabilityRow*>;
 
@@ -85,6 +88,42 @@ void without_a_value(Findings& to, const StabilityRows& r) {
   }
 }
 
+/// What is proved under all that Vulkan allows a GPU.
+void any_gpu(Findings& to, const StabilityRows& r) {
+  const auto find = [&](std::string_view id, std::string_view form, std::string_view number) {
+    const auto at = std::ranges::find_if(r.any_gpu, [&](const AnyGpuRow& row) {
+      return row.id == id && row.form == form && row.number == number;
+    });
+    return at == r.any_gpu.end() ? nullptr : &*at;
+  };
+  for (const std::string_view number : {"float", "half"}) {
+    std::size_t all = 0, keep = 0;
+    for (const auto& row : r.any_gpu) {
+      if (row.number != number) continue;
+      if (row.why == without_gappa) {
+        to.say(fmt::format("No error is proved on any GPU: {} here.", without_gappa));
+        return;
+      }
+      ++all;
+      if (row.keeps) ++keep;
+    }
+    if (all == 0) continue;
+    std::string text = fmt::format("On any GPU {} in {} is proved for {} forms.",
+                                   percent(any_gpu_tolerance, 1), number, of_all(keep, all));
+    const auto bound = [&](const char* form) -> std::optional<double> {
+      const auto* row = find("ndf.ggx", form, number);
+      return row ? row->proved_rel : std::nullopt;
+    };
+    const auto cross = bound("cross"), cosine = bound("cosine");
+    if (cross) text += fmt::format(" GGX from |n × h|² errs by {} at most", percent(*cross, 2));
+    if (cross && cosine)
+      text += fmt::format("; from NoH alone {} is all that is proved.", percent(*cosine, 2));
+    else if (cross)
+      text += "; from NoH alone nothing is proved.";
+    to.say(std::move(text));
+  }
+}
+
 void clamps(Findings& to, const StabilityRows& r) {
   for (const auto& c : r.clamps) {
     if (c.number != "half") continue;
@@ -104,6 +143,7 @@ Findings findings(const StabilityRows& r) {
   Findings f;
   which_alpha(f, r);
   without_a_value(f, r);
+  any_gpu(f, r);
   clamps(f, r);
   return f;
 }

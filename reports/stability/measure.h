@@ -2,13 +2,24 @@
 /// \file
 /// Places where the atlas looks at forms by their width, and what it finds there: for its pictures.
 
+#include <string>
 #include <vector>
 
+#include "reports/stability/stability.h"
 #include "stability/evaluate.h"
 
 namespace gonio::stabilities {
 
 using Inputs = std::vector<double>;
+
+/// Ids of the forms that a setting looks at.
+std::vector<std::string> forms(const StabilityOptions&);
+
+/// "overflow, underflow"; "" of neither.
+std::string text_of(const HalfFlags&);
+/// StabilityRow::misses and its reason, of a row that has all else.
+bool misses_target(const StabilityRow&, Number);
+std::string reason_of(const StabilityRow&, Number);
 
 /// n values from low to high, each by the same factor.
 std::vector<double> in_logarithms(double low, double high, std::size_t n);

@@ -22,12 +22,15 @@ struct Description<StabilityRow> {
         field("evidence", "", &R::evidence,
               "exhaustive: every input was looked at; searched: there may be worse"),
         field("worst_ulp", "", &R::worst_ulp, "most error in units of the last digit"),
+        field("ulp_beyond", "", &R::ulp_beyond,
+              "most units over what a unit of the inputs is worth there, where that is above one"),
         field("worst_rel", "", &R::worst_rel, "most relative error"),
         field("proved_rel", "", &R::proved_rel, "bound of it, where one is proved"),
         field("condition", "", &R::condition,
               "units of the last digit that a unit of the inputs is worth, where worst_ulp is"),
         field("inputs", "", &R::at, "where worst_rel is"),
         field("inputs_hex", "", &R::inputs_hex, "the same in the number's bits"),
+        field("flags", "", &R::flags, "that a half raises on the way there: overflow, underflow"),
         field("nonfinite", "", &R::nonfinite, "inputs without a value, of those looked at"),
         field("nonfinite_at", "", &R::nonfinite_at, "the first of them"),
         field("negative", "", &R::negative, "inputs whose value is below 0"),
@@ -49,7 +52,13 @@ struct Description<StabilityRow> {
         field("stable", "", &R::stable,
               "id of the form that stands for the same without the fault"),
         field("operations", "", &R::operations, "of one sample"),
-        field("stable_operations", "", &R::stable_operations, "of that form")};
+        field("stable_operations", "", &R::stable_operations, "of that form"),
+        field(
+            "misses", "", &R::misses,
+            "float and double: more than 8 units beyond what the inputs are worth, or no value; "
+            "half and mixed: the tolerance is not kept from alpha 0.05 on, or of another parameter "
+            "everywhere"),
+        field("reason", "", &R::reason, "why it misses")};
   }
 };
 static_assert(describes_every_member<StabilityRow>());
@@ -77,6 +86,24 @@ struct Description<ClampRow> {
 static_assert(describes_every_member<ClampRow>());
 
 template <>
+struct Description<AnyGpuRow> {
+  static constexpr auto fields() {
+    using R = AnyGpuRow;
+    return std::tuple{
+        field("id", "", &R::id, "of the catalogue"),
+        field("form", "", &R::form, "how its angles are given"),
+        field("number", "", &R::number, "float or half"),
+        field("domain", "", &R::domain, "for which the bound is proved, or was looked for"),
+        field("evidence", "", &R::evidence, "proved; open: there is no bound"),
+        field("proved_rel", "", &R::proved_rel, "bound of the relative error"),
+        field("keeps", "", &R::keeps, "it is at most 1 %"),
+        field("finite", "", &R::finite, "a value is proved for every input of the domain"),
+        field("why", "", &R::why, "where 1 % is not proved")};
+  }
+};
+static_assert(describes_every_member<AnyGpuRow>());
+
+template <>
 struct Description<StabilityReport> {
   static constexpr auto fields() {
     using R = StabilityReport;
@@ -86,6 +113,8 @@ struct Description<StabilityReport> {
         field("findings", "", at(&R::findings, &Findings::sentences), findings_meaning),
         field("rows", "", at(&R::rows, &StabilityRows::rows), "a form in a number, each"),
         field("clamps", "", at(&R::rows, &StabilityRows::clamps), "what each saves and costs"),
+        field("any_gpu", "", at(&R::rows, &StabilityRows::any_gpu),
+              "what is proved under all that Vulkan allows a GPU"),
         inlined(&R::pictures)};
   }
 };

@@ -5,6 +5,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/number.h"
+#include "reports/stability/measure.h"
 #include "stability/answer.h"
 #include "stability/evaluate.h"
 #include "stability/prove.h"
@@ -14,14 +15,10 @@
 #include <fmt/format.h>
 
 namespace gonio {
-namespace {
 
-using namespace stability;
 using Depth = StabilityOptions::Setting;
 
-constexpr std::uint64_t seed = 1;
-
-std::vector<std::string> forms(const StabilityOptions& o) {
+std::vector<std::string> stabilities::forms(const StabilityOptions& o) {
   if (!o.ids.empty()) return o.ids;
   if (o.setting == Depth::brief)
     return {"ndf.ggx",
@@ -45,6 +42,12 @@ std::vector<std::string> forms(const StabilityOptions& o) {
   for (const auto& entry : catalogue()) all.emplace_back(entry.id());
   return all;
 }
+
+namespace {
+
+using namespace stability;
+
+constexpr std::uint64_t seed = 1;
 
 std::vector<Arithmetic> arithmetics(Depth setting) {
   std::vector<Arithmetic> all{{Number::half, false, false}, {Number::mixed, false, false}};
@@ -83,11 +86,13 @@ StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
                  stability::text_of(a),
                  l.evidence,
                  l.ulp.value,
+                 l.beyond.value,
                  l.relative.value,
                  proved_rel(s, a, setting),
                  l.condition,
                  stability::text_of(s, l.relative.at),
                  hex_of(s, a.number, l.relative.at),
+                 stabilities::text_of(l.flags),
                  l.no_value.count,
                  stability::text_of(s, l.no_value.count ? l.no_value.first : std::vector<double>{}),
                  l.negative.count,
@@ -103,7 +108,11 @@ StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
                  l.settled,
                  entry.as_shipped ? std::string(entry.about->reference()) : "",
                  operations_of(*s.term).sample.total(),
-                 0};
+                 0,
+                 false,
+                 {}};
+  r.misses = stabilities::misses_target(r, a.number);
+  if (r.misses) r.reason = stabilities::reason_of(r, a.number);
   if (!r.stable.empty()) r.stable_operations = operations_of(find_term(r.stable)).sample.total();
   return r;
 }
@@ -117,7 +126,7 @@ StabilityRows stability_rows(const StabilityOptions& o, const ReportProgress& do
     Arithmetic arithmetic;
   };
   std::vector<Job> jobs;
-  for (const auto& id : forms(o))
+  for (const auto& id : stabilities::forms(o))
     for (const auto& s : subjects_of(id))
       for (const auto& a : arithmetics(o.setting)) jobs.push_back({s, a});
   for (const auto& job : jobs) {
@@ -127,7 +136,8 @@ StabilityRows stability_rows(const StabilityOptions& o, const ReportProgress& do
     r.rows.push_back(row_of(job.subject, job.arithmetic, o.setting));
   }
   const bool all = o.setting != Depth::brief;
-  if (done) done("pictures", 0.9);
+  if (done) done("any GPU, and pictures", 0.9);
+  r.any_gpu = any_gpu_rows(o);
   r.by_alpha = errors_by_alpha(all);
   r.maps = error_maps(all);
   r.clamps = clamp_rows();

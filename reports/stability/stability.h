@@ -19,12 +19,16 @@ struct StabilityRow {
   std::string id, form;  ///< form: how its angles are given, stability::Given
   std::string number;    ///< with what else is done to it: "half, flushed", "half, contracted"
   stability::Evidence evidence;
-  double worst_ulp, worst_rel;
+  double worst_ulp;
+  double ulp_beyond;  ///< most units over what a unit of the inputs is worth there, where that is
+                      ///< above one
+  double worst_rel;
   std::optional<double> proved_rel;  ///< bound of the relative error, where one is proved
   double condition;                  ///< of the inputs where worst_ulp is
   std::string at, inputs_hex;  ///< where worst_rel is: "alpha 0.01, noh 1", and the same in bits
-  std::uint64_t nonfinite;     ///< inputs without a value, of those looked at
-  std::string nonfinite_at;    ///< the first
+  std::string flags;         ///< that a half raises on the way there: "overflow", "underflow", both
+  std::uint64_t nonfinite;   ///< inputs without a value, of those looked at
+  std::string nonfinite_at;  ///< the first
   std::uint64_t negative, overflow, vanished, irreciprocal, not_monotone;
   std::string decides;  ///< the parameter that people clamp; empty: there is none
   std::optional<double>
@@ -37,6 +41,10 @@ struct StabilityRow {
       stable;  ///< id of the form that stands for the same without the fault; empty: this one
   std::size_t operations;         ///< of one sample
   std::size_t stable_operations;  ///< of that form
+  /// Of float and double: more than 8 units beyond what the inputs' rounding is worth, or no value or a negative one; of
+  /// half and mixed: the tolerance is not kept from alpha 0.05 on, or of another parameter or of none everywhere.
+  bool misses;
+  std::string reason;  ///< why; empty: it does not
 };
 
 /// A clamp that shaders ship: a form with it and the same without, in a number, over the same inputs.
@@ -52,9 +60,22 @@ struct ClampRow {
   double changed_most;  ///< most |with / without − 1|, in double
 };
 
+/// A form under all that Vulkan allows a GPU (gonio stability --any-gpu), over a domain that is smaller than the hard one.
+struct AnyGpuRow {
+  std::string id, form, number;
+  std::string domain;  ///< for which the bound is proved: "alpha 0.001 to 1, nol 0.001 to 1 …"
+  stability::Evidence evidence;
+  std::optional<double> proved_rel;  ///< bound of the relative error
+  bool keeps;                        ///< it is at most `any_gpu_tolerance`
+  bool finite;                       ///< a value is proved for every input of the domain
+  std::string why;                   ///< where it is not proved to keep the tolerance
+};
+constexpr double any_gpu_tolerance = 0.01;
+
 struct StabilityRows {
   std::vector<StabilityRow> rows;
   std::vector<ClampRow> clamps;
+  std::vector<AnyGpuRow> any_gpu;
   /// Curves of the worst relative error over all angles by a form's alpha: NaN where an input has no value.
   struct ByAlpha {
     std::string id, form, number;
@@ -79,6 +100,7 @@ struct StabilityOptions {
 
 StabilityRows stability_rows(const StabilityOptions&, const ReportProgress& done = {});
 std::vector<ClampRow> clamp_rows();
+std::vector<AnyGpuRow> any_gpu_rows(const StabilityOptions&);
 std::vector<StabilityRows::ByAlpha> errors_by_alpha(bool all);
 std::vector<StabilityRows::Map> error_maps(bool all);
 

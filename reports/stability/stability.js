@@ -1,7 +1,7 @@
 "use strict";
 // The atlas of numerical stability: which alpha is safe in which number, what clamps save and cost.
 
-const { rows, clamps, figures, maps, findings, full } = page_data();
+const { rows, clamps, any_gpu, figures, maps, findings, full } = page_data();
 const short = (id) => id.slice(id.indexOf(".") + 1);
 const given = { cross: "|n × h|²", cosine: "NoH alone", frame: "h in the frame", facet: "VoH", cosines: "NoL, NoV", directions: "two directions", turned: "two directions" };
 const evidence_words = { exhaustive: "every input", searched: "search", proved: "proved", open: "open" };
@@ -11,6 +11,8 @@ const worst = (r) => ({ n: el("span", { title: at_title(r) }, error_text(r.worst
 const none_or = (n, title) => ({ n: n ? el("span", { title }, count(n)) : "none" });
 const from = (r) => ({ n: !r.decides ? "–" : known(r.safe_from) ? significant(r.safe_from, 2) : "nowhere" });
 
+const why_missed = (r) => (r.misses ? el("span", { class: "reason" }, r.reason) : "–");
+
 // --- The question that people come with ----------------------------------------------------------------------------
 function clamp_question() {
   const is_width = (r) => r.decides === "alpha" && r.id.startsWith("ndf.");
@@ -18,10 +20,10 @@ function clamp_question() {
   let number = numbers.includes("half") ? "half" : numbers[0];
   const body = changing(() => el("div", {}, el("div", { class: "controls" },
     choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })),
-  scroll(table(["distribution", "given", { n: "alpha from" }, { n: "a value is proved from" }, { n: "worst below" }, { n: "no value at" }, "take instead", { n: "operations" }, "by"],
+  scroll(table(["distribution", "given", { n: "alpha from" }, { n: "a value is proved from" }, { n: "worst below" }, { n: "no value at" }, "take instead", { n: "operations" }, "by", "what it misses, and why"],
     rows.filter((r) => is_width(r) && r.number === number).map((r) => [el("code", {}, short(r.id)), given[r.form], from(r), { n: known(r.finite_from) ? significant(r.finite_from, 2) : "–" }, worst(r),
       none_or(r.nonfinite, r.nonfinite_at), r.stable ? el("code", {}, short(r.stable)) : r.form === "cosine" ? `the same, from ${given.cross}` : "–",
-      { n: r.stable ? `${r.operations} → ${r.stable_operations}` : r.operations }, evidence_words[r.evidence]])))));
+      { n: r.stable ? `${r.operations} → ${r.stable_operations}` : r.operations }, evidence_words[r.evidence], why_missed(r)])))));
   return section("Which alpha is safe", "From this alpha on every input that was looked at keeps the tolerance: 2 % in half and mixed numbers, 0.0001 in float, 10⁻¹⁰ in double. "
     + "Inputs count as exact: a NoH that is rounded to half on its way brings an error of its own, as ggx.mobile shows in mixed numbers. The worst input, also in bits, stands under the pointer.", body.node);
 }
@@ -65,6 +67,22 @@ const clamp_table = () => {
         up_to(c, c.changed_to), { n: error_text(c.changed_most) }]), { row_class: (i) => (i && clamps[i].clamp !== clamps[i - 1].clamp ? "first" : null) })));
 };
 
+// --- On any GPU --------------------------------------------------------------------------------------------------------
+function on_any_gpu() {
+  if (!any_gpu.length) return null;
+  const numbers = unique(any_gpu.map((r) => r.number));
+  let number = numbers[0], shown = "proved";
+  const body = changing(() => el("div", {}, el("div", { class: "controls" },
+    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); }),
+    choice("Forms", [["proved", "with a bound"], ["open", "open"]], shown, (s) => { shown = s; body.again(); })),
+  scroll(table(["form", "given", { n: "error at most" }, "1 %", "a value", "over", "why not"],
+    any_gpu.filter((r) => r.number === number && r.evidence === shown).sort((a, b) => (a.proved_rel ?? 0) - (b.proved_rel ?? 0))
+      .map((r) => [el("code", {}, short(r.id)), given[r.form], { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, r.keeps ? "kept" : "not proved",
+        r.finite ? "always" : "not proved", r.domain.replaceAll("_", " "), r.why || "–"])))));
+  return section("On any GPU", "Proved for every GPU that keeps Vulkan 1.4, whatever it makes of what Vulkan leaves open: rounding up or down, division within 2.5 units, subnormals kept or dropped. "
+    + "The shader declares no float controls, and its expressions are `precise`, so that nothing is fused or reordered. Domains are smaller than the hard one.", body.node);
+}
+
 // --- Everything -----------------------------------------------------------------------------------------------------------
 function every_form() {
   const numbers = unique(rows.map((r) => r.number)), kinds = unique(rows.map((r) => r.id.split(".")[0]));
@@ -72,16 +90,16 @@ function every_form() {
   const body = changing(() => el("div", {}, el("div", { class: "controls" },
     choice("Kind", kinds.map((k) => [k, k]), kind, (k) => { kind = k; body.again(); }),
     choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })),
-  scroll(table(["form", "given", { n: "worst" }, { n: "ulp" }, { n: "condition there" }, { n: "proved" }, { n: "no value" }, { n: "negative" }, { n: "overflow" }, { n: "vanished" }, { n: "wrong way" }, { n: "irreciprocal" }, "safe from", { n: "looked at" }, "by"],
-    rows.filter((r) => r.number === number && r.id.startsWith(kind)).map((r) => [el("code", {}, short(r.id)), given[r.form], worst(r), { n: significant(r.worst_ulp, 2) }, { n: significant(r.condition, 2) },
+  scroll(table(["form", "given", { n: "worst" }, { n: "ulp" }, { n: "condition there" }, { n: "ulp beyond it" }, "half raised", { n: "proved" }, { n: "no value" }, { n: "negative" }, { n: "overflow" }, { n: "vanished" }, { n: "wrong way" }, { n: "irreciprocal" }, "safe from", { n: "looked at" }, "by", "misses, because"],
+    rows.filter((r) => r.number === number && r.id.startsWith(kind)).map((r) => [el("code", {}, short(r.id)), given[r.form], worst(r), { n: significant(r.worst_ulp, 2) }, { n: significant(r.condition, 2) }, { n: significant(r.ulp_beyond, 2) }, r.flags || "–",
       { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, none_or(r.nonfinite, r.nonfinite_at), none_or(r.negative), none_or(r.overflow), none_or(r.vanished), none_or(r.not_monotone), none_or(r.irreciprocal),
-      !r.decides ? "–" : known(r.safe_from) ? `${r.decides} ${significant(r.safe_from, 2)}` : "nowhere", { n: count(r.evaluations) }, evidence_words[r.evidence] + (r.settled ? "" : ", not settled")])))));
-  return section("Every form in every number", "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every input”: each half there is was evaluated. “Search”: the worst that seeds and climbing found from two starts; there may be worse. Results below 5·10⁻²⁰ count as black in float, double and mixed numbers, and errors below a half’s least normal number are measured against that. "
-    + "Vanished: 0 where a value should be. Wrong way: neighbours between which the value rises where it should fall. Irreciprocal: another value with light and view exchanged.", body.node);
+      !r.decides ? "–" : known(r.safe_from) ? `${r.decides} ${significant(r.safe_from, 2)}` : "nowhere", { n: count(r.evaluations) }, evidence_words[r.evidence] + (r.settled ? "" : ", not settled"), why_missed(r)])))));
+  return section("Every form in every number", "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every input”: each half there is was evaluated. “Search”: the worst that seeds and climbing found from two starts; there may be worse. Results below 2⁻⁶⁴, 5·10⁻²⁰, count as black in float, double and mixed numbers, and errors below a half’s least normal number are measured against that. "
+    + "Vanished: 0 where a value should be. Wrong way: neighbours between which the value rises where it should fall. Irreciprocal: another value with light and view exchanged. Half raised: flags on the way to the worst input. Targets: in float and double 8 units beyond what a unit of the inputs is worth there; in half and mixed numbers 2 % from alpha 0.05 on.", body.node);
 }
 
 document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio report stability"), el("h1", {}, "Which formulas stay stable in few bits"),
   findings_view(findings),
-  clamp_question(), by_alpha(), error_maps(), clamps.length ? clamp_table() : null, every_form(),
+  clamp_question(), by_alpha(), error_maps(), clamps.length ? clamp_table() : null, on_any_gpu(), every_form(),
   el("footer", {}, `${full ? "Full" : "Quick"} setting. Truths are computed in double, the worst of them again in fifty digits. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));

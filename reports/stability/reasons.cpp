@@ -1,0 +1,75 @@
+// Targets that a form misses, and why.
+#include <algorithm>
+
+#include "reports/stability/measure.h"
+
+#include <fmt/format.h>
+
+namespace gonio::stabilities {
+namespace {
+
+bool has_few_bits(Number n) {
+  return n == Number::half || n == Number::mixed;
+}
+
+/// Reason of forms whose id begins so, found where their worst inputs are.
+struct Known {
+  std::string_view id;
+  bool few_bits;
+  std::string_view reason;
+};
+constexpr Known known[] = {
+    {"ndf.beckmann", true,
+     "the exponential makes a relative error of what its argument was rounded by, most far from "
+     "the "
+     "peak and at the horizon"},
+    {"ndf.blinn_phong", true,
+     "the exponent is p times a rounded logarithm; at NoH = 0 the number's own least value stands "
+     "for it"},
+    {"ndf.gtr", true,
+     "the power makes a relative error of what gamma times a logarithm was rounded by, most at the "
+     "horizon"},
+    {"ndf.beckmann", false,
+     "the exponential makes a relative error of what its argument was rounded by"},
+    {"ndf.blinn_phong", false, "at NoH = 0 the number's own least value stands for it"},
+    {"ndf.gtr", false,
+     "the power makes a relative error of what gamma times a logarithm was rounded by"},
+    {"ndf.shape_invariant", false,
+     "the power makes a relative error of what gamma times a logarithm was rounded by"},
+    {"masking.smith_gtr", false,
+     "a polynomial of 24 terms whose coefficients are found in the same number"},
+    {"masking.smith_beckmann", false, "the error function and the exponential err by themselves"},
+    {"fresnel.f82", true, "the dip is a difference, which cancels where F is nearly 0"},
+    {"fresnel.f82", false, "the dip is a difference, which cancels where F is nearly 0"},
+    {"fresnel.dielectric", false,
+     "roundings of a dozen operations add up where F is near 1 and its inputs' own cost nothing"}};
+
+}  // namespace
+
+std::string text_of(const HalfFlags& flags) {
+  if (flags.overflow && flags.underflow) return "overflow, underflow";
+  return flags.overflow ? "overflow" : flags.underflow ? "underflow" : "";
+}
+
+bool misses_target(const StabilityRow& r, Number number) {
+  constexpr double units = 8, width = 0.05;
+  if (!has_few_bits(number)) return r.ulp_beyond > units || r.nonfinite > 0 || r.negative > 0;
+  if (r.decides.empty()) return r.worst_rel > r.tolerance || r.nonfinite > 0;
+  return !r.safe_from ||
+         (r.decides.starts_with("alpha") ? *r.safe_from > width
+                                         : r.worst_rel > r.tolerance || r.nonfinite > 0);
+}
+
+std::string reason_of(const StabilityRow& r, Number number) {
+  const auto at = std::ranges::find_if(known, [&](const Known& k) {
+    return r.id.starts_with(k.id) && k.few_bits == has_few_bits(number);
+  });
+  if (at != std::end(known)) return std::string(at->reason);
+  if (r.nonfinite > 0) return "what is computed on the way leaves the range of the number";
+  if (!r.flags.empty()) return fmt::format("on the way there is {}", r.flags);
+  if (r.worst_ulp <= 4 * r.condition)
+    return "what its inputs were rounded by already costs as much there";
+  return r.condition > 8 ? "a difference cancels on the way" : "roundings add up";
+}
+
+}  // namespace gonio::stabilities
