@@ -1,5 +1,6 @@
 // gonio stability: what a formula keeps in a number, over one's own domain.
 #include <algorithm>
+#include <cmath>
 
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -41,7 +42,9 @@ std::string evidence_text(const Answer& a) {
       return fmt::format("proved for every input, in {} {}", a.boxes,
                          a.boxes == 1 ? "box" : "boxes");
     case Evidence::exhaustive:
-      return fmt::format("every one of {} inputs was looked at", a.looked.evaluations);
+      return a.looked.evaluations == 1
+                 ? "its one input was looked at"
+                 : fmt::format("every one of {} inputs was looked at", a.looked.evaluations);
     case Evidence::searched:
       return fmt::format("a search of {} inputs found one", a.looked.evaluations);
     case Evidence::open:
@@ -54,7 +57,7 @@ std::string evidence_text(const Answer& a) {
   if (a.boxes == 0)
     return fmt::format("{}, which proves nothing{}{}", looking,
                        a.unproved_because.empty() ? "" : "; no proof: ", a.unproved_because);
-  return fmt::format("neither proved nor refuted: {:.2g} % of the domain stay open, and {}; {}",
+  return fmt::format("neither proved nor refuted: {:.3g} % of the domain stay open, and {}; {}",
                      100 * a.open_share, looking, a.unproved_because);
 }
 
@@ -147,7 +150,7 @@ void add_stability(CommandLine& line) {
   c.option("--boxes", o->boxes,
            "Boxes of a proof, after which what is unproved is open  (default: 20 000, fewer where "
            "they take longer)")
-      .in(std::uint64_t{1}, std::uint64_t{100'000'000});
+      .in(std::uint64_t{1}, std::uint64_t{1'000'000});
   add_seed(c, o->seed, "Seed of the search (1)");
   add_jobs(c, *o);
   add_output(c, *o);

@@ -32,14 +32,19 @@ Arithmetic looked_at(const Arithmetic& a) {
   return a.any_gpu ? Arithmetic{a.number} : a;
 }
 
-/// Inputs for which looking found that the requirement does not hold; empty: none.  What has no value keeps none.
+/// Inputs for which looking found that the requirement does not hold; empty: none.  What has no value keeps none, and
+/// an error is asked of what is small, too.
 std::vector<double> broken_at(const Looked& looked, const Requirement& required) {
-  if (looked.no_value.count) return looked.no_value.first;
-  if (looked.overflow.count) return looked.overflow.first;
-  if (required.kind == Requirement::Kind::nonnegative) return looked.negative.first;
-  const bool off =
-      required.kind == Requirement::Kind::relative && looked.relative.value > required.limit;
-  return off ? looked.relative.at : std::vector<double>{};
+  const auto first = [](std::initializer_list<const Count*> counts) {
+    for (const Count* c : counts)
+      if (c->count > 0) return c->first;
+    return std::vector<double>{};
+  };
+  const auto none = first({&looked.no_value, &looked.overflow, &looked.undefined});
+  if (!none.empty() || required.kind == Requirement::Kind::finite) return none;
+  if (required.kind == Requirement::Kind::nonnegative)
+    return first({&looked.negative, &looked.negative_too});
+  return looked.relative.value > required.limit ? looked.relative.at : first({&looked.lost});
 }
 
 void prove_into(Answer& a, const Question& q) {

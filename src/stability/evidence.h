@@ -51,12 +51,17 @@ struct Looked {
   Worst relative;  ///< |x / f − 1| where f and x are normal numbers
   Worst ulp;       ///< |x − f| in units of the last digit of f
   double condition =
-      0;           ///< of the inputs, where `ulp` is: how many units a unit of the inputs is worth
-  Worst beyond;    ///< ulp over max(1, condition)
-  Count no_value;  ///< NaN or infinite, where f is a number of this kind's range
-  Count negative;  ///< below 0, where f is not
-  Count overflow;  ///< infinite because f is larger than the largest number
-  Count vanished;  ///< 0 where f is a normal number
+      0;            ///< of the inputs, where `ulp` is: how many units a unit of the inputs is worth
+  Worst beyond;     ///< ulp over max(1, condition)
+  Count no_value;   ///< NaN or infinite, where f is a number of this kind's range
+  Count negative;   ///< below 0, where f is not
+  Count overflow;   ///< infinite because f is larger than the largest number
+  Count undefined;  ///< NaN or infinite where f is no number, either
+  Count negative_too;  ///< below 0, as f is
+  /// Off by more than the tolerance of f, or of the least number that is asked for where f is less: 2⁻¹⁴ in half and
+  /// mixed, 2⁻⁶⁴ in float and double, below which a result is black in whatever light; or no value.
+  Count lost;
+  Count vanished;      ///< 0 where f is a normal number
   Count irreciprocal;  ///< another value with light and view exchanged
   Count not_monotone;  ///< at the next value of the last input it rises where f falls, or falls
                        ///< where f rises

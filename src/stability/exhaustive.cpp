@@ -30,7 +30,7 @@ std::vector<Column<F>> columns_of(std::size_t count, std::size_t n) {
   return all;
 }
 
-/// Halves within a range, all of them, ascending; if there is none, the one next to its lower end.
+/// Halves of a range, all of them, ascending, from the one next to its lower end to the one next to its upper.
 std::vector<double> halves_within(const Range& range) {
   std::vector<double> all;
   const auto places = places_within(Number::half, range, true);
@@ -87,7 +87,7 @@ class Rows {
     find_angles();
   }
 
-  /// Values of row r, in halves and in double; beyond the column's end these are NaN.
+  /// Values of row r, in halves and in double; beyond the column's end 0 and NaN, of which nothing is asked.
   void evaluate(std::size_t r) {
     std::array<float, max_parameters> half_parameters{};
     std::array<double, max_parameters> double_parameters{};
@@ -107,6 +107,7 @@ class Rows {
       formula_.doubles(block(double_angles_).part(first, n), double_parameters.data(),
                        want_.data() + first);
     }
+    std::fill(got_.data() + n_, got_.data() + padded_, 0.0F);
     std::fill(want_.data() + n_, want_.data() + padded_, std::numeric_limits<double>::quiet_NaN());
   }
 
@@ -260,6 +261,9 @@ Looked exhaustive(const Subject& s,
   count(found.negative, &Compared::negative);
   count(found.overflow, &Compared::overflow);
   count(found.vanished, &Compared::vanished);
+  count(found.undefined, &Compared::undefined);
+  count(found.negative_too, &Compared::negative_too);
+  count(found.lost, &Compared::beyond_tolerance);
 
   // The worst: by rows, those that claim most first, until none can claim more than what is
   // confirmed.

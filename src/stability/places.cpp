@@ -57,14 +57,10 @@ double at_place(Number number, std::int64_t place, bool parameter) {
 
 Places places_within(Number number, const Range& range, bool parameter) {
   const auto next_to = [&](double x) {
-    return place_of(number, rounded(number, x, parameter), parameter);
+    const auto place = place_of(number, rounded(number, x, parameter), parameter);
+    return place == 0 && x > 0 ? 1 : place;
   };
-  Places p{next_to(range.low), next_to(range.high)};
-  const std::int64_t nearest = p.first;
-  if (at_place(number, p.first, parameter) < range.low) ++p.first;
-  if (range.high < at_place(number, p.last, parameter)) --p.last;
-  if (p.last < p.first) return {nearest, nearest};
-  return p;
+  return {next_to(range.low), next_to(range.high)};
 }
 
 }  // namespace gonio::stability

@@ -18,7 +18,8 @@ double largest(Number);
 /// Exponent of its least normal value.
 int least_exponent(Number);
 
-/// First and last place within a range; where it holds none, that of the value next to its lower end.
+/// First and last place of a range, whose ends are rounded to nearest as a shader's constants are; what is above 0 stays
+/// above.
 struct Places {
   std::int64_t first, last;
 };

@@ -89,8 +89,11 @@ class Prover {
     std::vector<double> x(box.size());
     for (int k = 0; k < places && out.refuted.empty(); ++k) {
       for (std::size_t i = 0; i < box.size(); ++i) {
-        const double u = Measure<F>::of(box[i].low) + draw.uniform() * Measure<F>::width(box[i]);
-        x[i] = std::clamp(Measure<F>::rounded(Measure<F>::back(u)), box[i].low, box[i].high);
+        const auto [low, high] = box[i];
+        const double part = draw.uniform(), width = Measure<F>::width(box[i]);
+        const double at = width > 0 ? Measure<F>::back(Measure<F>::of(low) + part * width)
+                                    : low + part * (high - low);
+        x[i] = std::clamp(Measure<F>::rounded(at), low, high);
       }
       refutes(x, out);
     }
@@ -137,21 +140,24 @@ class Prover {
   Range required_;
 };
 
-/// Halves of a box across its longest side, which no input of the number lies between; none of a single input.
+/// Halves of a box across its longest side, which no input of the number lies between; none of a single input.  Sides too
+/// short for the measure are halved as they are.
 template <class F>
 std::vector<Sides> halves(const Sides& box) {
   std::size_t longest = 0;
-  double width = 0;
+  double width = -1;
   for (std::size_t i = 0; i < box.size(); ++i)
-    if (const double w = Measure<F>::width(box[i]); w > width) {
+    if (const double w = Measure<F>::width(box[i]); w > width && box[i].low < box[i].high) {
       longest = i;
       width = w;
     }
-  if (width == 0) return {};
+  if (width < 0) return {};
   const auto [low, high] = box[longest];
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double before_high = Enclosure<F>::after(high, -infinity);
-  const double cut = std::clamp(Measure<F>::middle(box[longest]), low, before_high);
+  const double middle =
+      width > 0 ? Measure<F>::middle(box[longest]) : Measure<F>::rounded(low + (high - low) / 2);
+  const double cut = std::clamp(middle, low, before_high);
   Sides lower = box, upper = box;
   lower[longest].high = cut;
   upper[longest].low = Enclosure<F>::after(cut, infinity);
@@ -223,7 +229,8 @@ Proof prove(const Provable<F>& formula,
   const auto share = [&](const Sides& box) {
     double s = 1;
     for (std::size_t i = 0; i < box.size(); ++i)
-      if (all[i].low < all[i].high) s *= Measure<F>::width(box[i]) / Measure<F>::width(all[i]);
+      if (const double whole = Measure<F>::width(all[i]); whole > 0)
+        s *= Measure<F>::width(box[i]) / whole;
     return s;
   };
   Proof proof;
@@ -240,10 +247,10 @@ Proof prove(const Provable<F>& formula,
   std::vector<Sides> wave{all}, next;
   for (; !wave.empty(); std::swap(wave, next)) {
     next.clear();
-    for (std::size_t first = 0; first < wave.size(); first += part) {
+    for (std::size_t first = 0, count = 0; first < wave.size(); first += count) {
       const std::chrono::duration<double> spent = Clock::now() - start;
       const std::size_t allowed = budget.boxes - std::min(budget.boxes, proof.boxes);
-      const std::size_t count = std::min({part, wave.size() - first, allowed});
+      count = std::min({part, wave.size() - first, allowed});
       if (proof.counterexample || count == 0 || spent.count() > budget.seconds) {
         proof.out_of_budget = !proof.counterexample;
         left.insert(left.end(), wave.begin() + static_cast<std::ptrdiff_t>(first), wave.end());

@@ -33,7 +33,7 @@ Format format_of(Number number) {
     case Number::half:
       return {11, least_exponent(number), largest(number)};
     case Number::mixed:  // some results are floats, of what halves had left
-      return {11, black, largest(number)};
+      return {11, least_exponent(Number::half), largest(number)};
     case Number::float_:
       return {24, black, largest(number)};
     case Number::double_:
@@ -42,14 +42,11 @@ Format format_of(Number number) {
   }
   return {53, black, largest(number)};
 }
-/// Least result of which a tolerance is asked, in every number: that of the least normal half.
-constexpr double asked_of = 0x1p-14;
-
 /// A result, judged.
 struct Judged {
   double relative = 0, ulp = 0, beyond = 0;  ///< 0 where they are not asked for
-  bool no_value = false, negative = false, overflow = false, vanished = false, irreciprocal = false,
-       not_monotone = false;
+  bool no_value = false, negative = false, overflow = false, undefined = false,
+       negative_too = false, vanished = false, irreciprocal = false, not_monotone = false;
   bool lost = false;  ///< beyond the tolerance, or no value
 };
 
@@ -91,8 +88,11 @@ class Judge {
       const double y = value(exchanged);
       j.irreciprocal = x < y || y < x || std::isnan(x) != std::isnan(y);
     }
-    if (std::isnan(f.value)) return j;
     const bool is_value = std::abs(x) <= format_.most;
+    if (std::isnan(f.value)) {
+      j.undefined = !is_value;
+      return j;
+    }
     if (!(size <= format_.most)) {
       j.overflow = !is_value;
       j.lost = true;
@@ -107,8 +107,9 @@ class Judge {
     j.beyond = j.ulp / std::max(1.0, f.condition);
     if (least <= size && least <= std::abs(x)) j.relative = error / size;
     j.negative = x < 0 && f.value >= 0;
+    j.negative_too = x < 0 && f.value < 0;
     j.vanished = x == 0 && least <= size;
-    j.lost = tolerance_ * std::max(size, asked_of) < error;
+    j.lost = tolerance_ * std::max(size, least) < error;
     return j;
   }
 
@@ -234,35 +235,33 @@ struct Looking {
 };
 /// Inputs at which something happens, as they are met.
 struct Met {
-  Count no_value, negative, overflow, vanished, irreciprocal, not_monotone;
+  static constexpr std::array counts{
+      &Looked::no_value,  &Looked::negative,     &Looked::overflow,
+      &Looked::undefined, &Looked::negative_too, &Looked::vanished,
+      &Looked::lost,      &Looked::irreciprocal, &Looked::not_monotone};
+  static constexpr std::array of{&Judged::no_value,  &Judged::negative,     &Judged::overflow,
+                                 &Judged::undefined, &Judged::negative_too, &Judged::vanished,
+                                 &Judged::lost,      &Judged::irreciprocal, &Judged::not_monotone};
+  Looked looked;  ///< its counts
   std::uint64_t evaluations = 0;
   std::optional<Inputs> lost;  ///< beyond the tolerance, with the largest deciding parameter
 
   void look(const Subject& s, const Inputs& in, const Judged& j) {
     ++evaluations;
-    const auto add = [&](Count& c, bool happens) {
-      if (!happens) return;
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      if (!(j.*of[k])) continue;
+      Count& c = looked.*counts[k];
       if (c.count++ == 0) c.first = in;
-    };
-    add(no_value, j.no_value);
-    add(negative, j.negative);
-    add(overflow, j.overflow);
-    add(vanished, j.vanished);
-    add(irreciprocal, j.irreciprocal);
-    add(not_monotone, j.not_monotone);
+    }
     if (j.lost && s.decides && (!lost || (*lost)[*s.decides] < in[*s.decides])) lost = in;
   }
   void add(const Subject& s, const Met& other) {
-    const auto join = [](Count& c, const Count& d) {
+    for (const auto count : counts) {
+      Count& c = looked.*count;
+      const Count& d = other.looked.*count;
       if (c.count == 0) c.first = d.first;
       c.count += d.count;
-    };
-    join(no_value, other.no_value);
-    join(negative, other.negative);
-    join(overflow, other.overflow);
-    join(vanished, other.vanished);
-    join(irreciprocal, other.irreciprocal);
-    join(not_monotone, other.not_monotone);
+    }
     evaluations += other.evaluations;
     if (other.lost && (!lost || (*lost)[*s.decides] < (*other.lost)[*s.decides])) lost = other.lost;
   }
@@ -397,12 +396,7 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   }
   if (!looked.ulp.at.empty()) looked.condition = truth_of(s, looked.ulp.at).condition;
   looked.evaluations = one.met.evaluations;
-  looked.no_value = one.met.no_value;
-  looked.negative = one.met.negative;
-  looked.overflow = one.met.overflow;
-  looked.vanished = one.met.vanished;
-  looked.irreciprocal = one.met.irreciprocal;
-  looked.not_monotone = one.met.not_monotone;
+  for (const auto count : Met::counts) looked.*count = one.met.looked.*count;
   if (s.decides)
     looked.safe_from = one.met.lost ? domain.above(*s.decides, (*one.met.lost)[*s.decides])
                                     : domain.lowest(*s.decides);

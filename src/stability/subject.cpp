@@ -7,6 +7,7 @@
 #include "base/nearest_names.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/number.h"
+#include "brdf/model/presets.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -136,7 +137,8 @@ std::vector<Subject> subjects_of(std::string_view id_or_spec) {
   const bool is_id = std::ranges::any_of(
       names_of<Role>, [&](auto role) { return id_or_spec.starts_with(std::string(role) + "."); });
   if (is_id) return subjects_of_term(find_term(id_or_spec));
-  return {subject_of_model(id_or_spec)};
+  const Preset* const preset = find_preset(id_or_spec);
+  return {subject_of_model(preset ? preset->spec : id_or_spec)};
 }
 
 Subject subject_of(std::string_view id_or_spec, std::string_view form) {

@@ -112,6 +112,30 @@ Question on_any_gpu(Question q) {
   return q;
 }
 
+TEST(StabilityAnswer, OfWhatTheFormulaItselfHasNoValueForIsThatItIsNotFinite) {
+  for (const Number number : {Number::half, Number::float_}) {
+    auto q = about("ndf.beckmann_aniso.as_written", number, "finite");
+    set_domain(q.subject, "alpha_x", {0.5, 0.5});
+    set_domain(q.subject, "alpha_y", {0.5, 0.5});
+    set_domain(q.subject, "sin2_theta_h", {1, 1});
+    const auto a = answer(q);
+    EXPECT_FALSE(a.holds);
+    ASSERT_TRUE(a.counterexample);
+    EXPECT_TRUE(std::isnan(a.counterexample->exact));
+  }
+}
+
+TEST(StabilityAnswer, OfARelativeErrorAsksWhatVanished) {
+  auto q = about("ndf.ggx.ue_mobile", Number::half, "relative=0.02");
+  set_domain(q.subject, "alpha", {1e-4, 1e-4});
+  set_domain(q.subject, "noh", {0.9985, 0.9985});
+  const auto a = answer(q);
+  EXPECT_FALSE(a.holds);
+  ASSERT_TRUE(a.counterexample);
+  EXPECT_EQ(a.counterexample->value, 0);
+  EXPECT_GT(a.counterexample->exact, 1e-3);
+}
+
 TEST(StabilityAnswer, OnAnyGpuIsEstablishedByAProofAloneThoughEveryHalfWasLookedAt) {
   auto q = about("ndf.ggx", Number::half, "finite");
   set_domain(q.subject, "alpha", {0.1, 0.101});

@@ -295,6 +295,32 @@ TEST(Proof, OfWhatCanBeNeitherProvedNorRefutedIsOpenAndSaysHowMuch) {
   EXPECT_TRUE(more.holds());
 }
 
+TEST(Proof, WhoseBoxesRunOutLeavesNoneOfThemOut) {
+  auto s = subjects_of("fresnel.conductor").at(0);
+  set_domain(s, "voh", {0.5, 0.5});
+  set_domain(s, "k", {0, 0});
+  set_domain(s, "eta", {0.5, 1});  // F is 0 at its end, and its enclosure there below
+  for (std::uint64_t boxes = 1; boxes <= 50; ++boxes) {
+    const auto p =
+        prove(s, Number::float_, {}, finite_and_not_negative(Number::float_), {.boxes = boxes});
+    EXPECT_EQ(p.evidence, Evidence::open) << boxes;
+    EXPECT_LE(p.boxes, boxes);
+    EXPECT_GT(p.open_share, 0) << boxes;
+  }
+}
+
+TEST(Proof, HalvesASideTooShortForItsLogarithm) {
+  auto s = subjects_of("fresnel.conductor").at(0);
+  set_domain(s, "voh", {0.5, 0.5});
+  set_domain(s, "k", {0, 1e-30});
+  set_domain(s, "eta", {0.5, 1});
+  const auto p =
+      prove(s, Number::float_, {}, finite_and_not_negative(Number::float_), {.boxes = 200});
+  EXPECT_EQ(p.evidence, Evidence::open);
+  EXPECT_GT(p.boxes, 1U);
+  EXPECT_GE(p.open_share, 0);
+}
+
 TEST(Proof, IsTheSameWhateverTheThreads) {
   const auto s = subject("fresnel.dielectric", Given::facet, {});
   const auto run = [&] { return prove(s, Number::half, {}, {0, 1}, {.boxes = 600}); };

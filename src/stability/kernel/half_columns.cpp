@@ -82,7 +82,8 @@ void compare(std::size_t n, const float* x, const double* f, double tolerance, C
   const B zero(0.0), most(65504.0), infinite(65520.0), normal(0x1p-14), keeps(tolerance);
   const B one(1.0);
   B relative(0.0), ulp(0.0);
-  B nothing(0.0), over(0.0), negative(0.0), vanished(0.0), lost(0.0);
+  B nothing(0.0), over(0.0), undefined(0.0), negative(0.0), negative_too(0.0), vanished(0.0),
+      lost(0.0);
   alignas(64) std::array<double, width> as_double;
   for (std::size_t i = 0; i < n; i += width) {
     for (std::size_t k = 0; k < width; ++k) as_double[k] = static_cast<double>(x[i + k]);
@@ -90,7 +91,7 @@ void compare(std::size_t n, const float* x, const double* f, double tolerance, C
     const B size_got = select<B>(got < zero, -got, got), size = select<B>(want < zero, -want, want);
     const B error = select<B>(got < want, want - got, got - want);
     const auto a_value = size_got <= most, in_range = size < infinite;
-    const auto too_large = infinite <= size;  // neither: f is no number, and nothing is asked
+    const auto too_large = infinite <= size;  // neither: f is no number
     const auto no_value = in_range && !a_value, is_normal = normal <= size;
     const auto compared = in_range && a_value;
     const auto both_normal = compared && is_normal && normal <= size_got;
@@ -101,13 +102,17 @@ void compare(std::size_t n, const float* x, const double* f, double tolerance, C
     };
     add(nothing, no_value);
     add(over, too_large && !a_value);
+    add(undefined, !in_range && !too_large && !a_value);
     add(negative, compared && got < zero && zero <= want);
+    add(negative_too, compared && got < zero && want < zero);
     add(vanished, compared && is_normal && size_got <= zero);
     add(lost, no_value || too_large || (compared && keeps * max<B>(size, normal) < error));
   }
   found.no_value += total(nothing);
   found.overflow += total(over);
+  found.undefined += total(undefined);
   found.negative += total(negative);
+  found.negative_too += total(negative_too);
   found.vanished += total(vanished);
   found.beyond_tolerance += total(lost);
   for (const double r : lanes_of<B>(relative)) found.relative = std::max(found.relative, r);

@@ -36,7 +36,8 @@ struct Compared {
   std::uint64_t no_value = 0, negative = 0, overflow = 0, vanished = 0;  ///< as in Looked
   std::uint64_t beyond_tolerance =
       0;  ///< more than that of f, or of 2⁻¹⁴ where f is less; or no value
-  double relative = 0, ulp = 0;  ///< the largest, as in Looked
+  double relative = 0, ulp = 0;                   ///< the largest, as in Looked
+  std::uint64_t undefined = 0, negative_too = 0;  ///< as in Looked
 
   friend bool operator==(const Compared&, const Compared&) = default;
 };
