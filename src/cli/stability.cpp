@@ -85,7 +85,7 @@ void print(const Answer& a) {
     line("worst found", fmt::format("{:.2g} relative{}, at {}", a.looked.relative.value,
                                     a.arithmetic.any_gpu ? " in IEEE arithmetic" : "", a.worst_at));
   if (a.proved_rel) line("proved", fmt::format("{:.2g} relative at most", *a.proved_rel));
-  if (a.range) line("range", fmt::format("{:.6g} to {:.6g}, proved", a.range->low, a.range->high));
+  if (a.range) line("within", fmt::format("{:.6g} to {:.6g}, proved", a.range->low, a.range->high));
   if (a.looked.safe_from)
     line("safe from",
          fmt::format("{:.4g}: from there on within {:.2g}{}", *a.looked.safe_from,

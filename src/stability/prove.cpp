@@ -164,24 +164,13 @@ std::vector<Sides> halves(const Sides& box) {
   return {lower, upper};
 }
 
-template <class T>
-double value_in(const Subject& s, std::span<const double> inputs) {
-  std::vector<T> in;
-  for (const double x : inputs) in.push_back(static_cast<T>(x));
-  return static_cast<double>(value_over<T>(s, in));
-}
-
 /// A subject in one arithmetic that the rule allows: to nearest, and in half with all liberties that it may take.
 template <class F>
 Provable<F> provable(const Subject& s, const Rounding& rule) {
-  auto* value = &value_in<F>;
-  if constexpr (std::same_as<F, Half>)
-    value = rule.flushed && rule.contracted ? &value_in<FlushedContractedHalf>
-            : rule.flushed                  ? &value_in<FlushedHalf>
-            : rule.contracted               ? &value_in<ContractedHalf>
-                                            : value;
+  Arithmetic a{number_of<F>};
+  if (a.number == Number::half) a.flush = rule.flushed, a.contract = rule.contracted;
   return {[&s](std::span<const Enclosure<F>> in) { return value_over<Enclosure<F>>(s, in); },
-          [&s, value](std::span<const double> in) { return value(s, in); }};
+          [&s, a](std::span<const double> in) { return value_of(s, a, in); }};
 }
 
 }  // namespace

@@ -64,9 +64,16 @@ TEST(StabilityCommand, LooksAtWholeModels) {
                        "stability lambert+ggx/smith_ggx.correlated/schlick --number float --domain "
                        "alpha=0.1,1 nol=0.01,1 nov=0.01,1 --json");
   const auto j = o.json();
-  EXPECT_TRUE(o.code == 0 || o.code == 1) << o.err;
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(j["evidence"], "proved");
   EXPECT_EQ(j["domain"].size(), 6U);
   EXPECT_LT(j["worst_rel"], 1e-2);
+}
+
+TEST(StabilityCommand, TakesTheNameOfAModelForItsSpec) {
+  const Folder f;
+  const auto j = gonio(f, "stability disney --number float --boxes 1 --json").json();
+  EXPECT_EQ(j["id"], "disney+ggx_aniso/disney_remap/schlick+gtr1/disney_coat/schlick.weighted");
 }
 
 TEST(StabilityCommand, RefusesInOneLine) {
