@@ -48,6 +48,18 @@ std::string name_of(const Json& j) {
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// Step from an object to its member, as a part of a place.
+std::string step_to(const std::string& key, Places places, bool is_first) {
+  if (places == Places::dotted) return is_first ? key : "." + key;
+  std::string escaped = "/";
+  for (const char c : key)
+    if (c == '~' || c == '/')
+      escaped += c == '~' ? "~0" : "~1";
+    else
+      escaped += c;
+  return escaped;
+}
+
 using Members = std::vector<Json::object_t::value_type>;
 
 /// The members of an object, to add to without a search for the name.
@@ -159,63 +171,86 @@ Json read_json(const std::string& file) {
 }
 
 void JsonReader::fail(const std::string& expected) const {
-  throw bad_input(file_, place_.empty() ? "the document" : place_, name_of(value_), expected);
+  fail(name_of(*value_), expected);
+}
+
+void JsonReader::fail(const std::string& found, const std::string& expected) const {
+  throw bad_input(*file_, place_.empty() ? "the document" : place_, found, expected);
 }
 
 void JsonReader::expect_object() const {
-  if (!value_.is_object()) fail("an object");
+  if (!value_->is_object()) fail("an object");
 }
 
 bool JsonReader::has(const std::string& key) const {
-  return value_.is_object() && value_.contains(key);
+  return value_->is_object() && value_->contains(key);
 }
 
-std::string JsonReader::place_of(const std::string& key) const {
-  return place_.empty() ? key : place_ + "." + key;
+JsonReader JsonReader::within(const Json& value, std::string step) const {
+  // An error cuts it before that (base/error.h), and each element of an array has its own.
+  constexpr std::size_t most = 256;
+  std::string place = place_ + std::move(step);
+  if (place.size() > most) place.resize(most);
+  return {*file_, value, std::move(place), places_};
 }
 
 JsonReader JsonReader::at(const std::string& key) const {
   expect_object();
-  const auto found = value_.find(key);
-  if (found == value_.end()) throw bad_input(file_, place_of(key), "nothing", "a value");
-  return {file_, *found, place_of(key)};
+  const auto found = value_->find(key);
+  static const Json nothing;
+  if (found == value_->end())
+    within(nothing, step_to(key, places_, place_.empty())).fail("nothing", "a value");
+  return within(*found, step_to(key, places_, place_.empty()));
+}
+
+JsonReader JsonReader::at(std::size_t index) const {
+  if (!is_array()) fail("an array");
+  static const Json nothing;
+  const std::string step =
+      places_ == Places::dotted ? fmt::format("[{}]", index) : fmt::format("/{}", index);
+  if (index >= size()) within(nothing, step).fail("nothing", "a value");
+  return within((*value_)[index], step);
+}
+
+void JsonReader::visit_members(
+    const std::function<void(const std::string&, const JsonReader&)>& visit) const {
+  expect_object();
+  for (const auto& [key, value] : value_->get_ref<const Json::object_t&>())
+    visit(key, within(value, step_to(key, places_, place_.empty())));
 }
 
 std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
-  expect_object();
   std::vector<std::pair<std::string, JsonReader>> out;
-  for (const auto& [key, value] : value_.get_ref<const Json::object_t&>())
-    out.emplace_back(key, JsonReader(file_, value, place_of(key)));
+  visit_members([&](const auto& key, const auto& value) { out.emplace_back(key, value); });
   return out;
 }
 
 std::vector<JsonReader> JsonReader::elements() const {
-  if (!value_.is_array()) return {*this};
+  if (!is_array()) return {*this};
   std::vector<JsonReader> out;
-  for (std::size_t i = 0; i < value_.size(); ++i)
-    out.emplace_back(file_, value_[i], fmt::format("{}[{}]", place_, i));
+  for (std::size_t i = 0; i < size(); ++i) out.push_back(at(i));
   return out;
 }
 
 std::string JsonReader::string() const {
-  if (!value_.is_string()) fail("a string");
-  return value_.get<std::string>();
+  if (!value_->is_string()) fail("a string");
+  return value_->get<std::string>();
 }
 
 bool JsonReader::boolean() const {
-  if (!value_.is_boolean()) fail("true or false");
-  return value_.get<bool>();
+  if (!value_->is_boolean()) fail("true or false");
+  return value_->get<bool>();
 }
 
 double JsonReader::number() const {
-  if (value_.is_null()) return std::numeric_limits<double>::quiet_NaN();
-  if (!value_.is_number()) fail("a number or null");
-  return value_.get<double>();
+  if (value_->is_null()) return std::numeric_limits<double>::quiet_NaN();
+  if (!value_->is_number()) fail("a number or null");
+  return value_->get<double>();
 }
 
 std::uint64_t JsonReader::whole_number() const {
-  if (!value_.is_number_unsigned()) fail("a whole number");
-  return value_.get<std::uint64_t>();
+  if (!value_->is_number_unsigned()) fail("a whole number");
+  return value_->get<std::uint64_t>();
 }
 
 std::vector<double> JsonReader::numbers() const {

@@ -4,7 +4,9 @@
 /// error can name it.
 /// Dear to compile: for .cpp files only.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,32 +26,49 @@ Json parse_json(const std::string& file, const std::string& bytes);
 Json read_json(const std::string& file);
 inline constexpr std::uint64_t most_document_bytes = std::uint64_t{1} << 26;
 
-/// A value of a document and where it stands ("parameters.alpha.value"); the document must outlive
-/// it.  A value that is not what is asked for is bad_input.
+/// Way to write where a value stands: "parameters.alpha[0]", or "/parameters/alpha/0" [RFC 6901].
+enum class Places { dotted, pointer };
+
+/// A value of a document and where it stands; document and file name must outlive it.  A value that is
+/// not what is asked for is bad_input.
 class JsonReader {
  public:
-  JsonReader(const std::string& file, const Json& value, std::string place = "")
-      : file_(file), value_(value), place_(std::move(place)) {}
+  JsonReader(const std::string& file,
+             const Json& value,
+             std::string place = "",
+             Places places = Places::dotted)
+      : file_(&file), value_(&value), place_(std::move(place)), places_(places) {}
 
+  const std::string& file() const { return *file_; }
   JsonReader at(const std::string& key) const;  ///< of an object; must be there
+  JsonReader at(std::size_t index) const;       ///< of an array; must be there
   bool has(const std::string& key) const;
+  bool is_array() const { return value_->is_array(); }
+  bool is_number() const { return value_->is_number(); }
+  bool is_string() const { return value_->is_string(); }
+  std::size_t size() const { return value_->size(); }  ///< of an array or an object
   std::vector<std::pair<std::string, JsonReader>> members() const;
+  /// Each member of an object, one after the other: of any number without memory for all.
+  void visit_members(const std::function<void(const std::string&, const JsonReader&)>&) const;
   std::vector<JsonReader> elements() const;  ///< of an array, which may be empty; else it alone
-  bool is_null() const { return value_.is_null(); }
+  bool is_null() const { return value_->is_null(); }
   std::string string() const;
   bool boolean() const;
   double number() const;  ///< NaN where null
   std::uint64_t whole_number() const;
   std::vector<double> numbers() const;  ///< one number or an array of at least one
 
+  void expect_object() const;
   [[noreturn]] void fail(const std::string& expected) const;
+  /// Failure whose words for what was found say more than the value itself.
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
 
  private:
-  void expect_object() const;
-  std::string place_of(const std::string& key) const;
-  const std::string& file_;
-  const Json& value_;
+  JsonReader within(const Json& value, std::string step) const;
+  const std::string* file_;
+  const Json* value_;
   std::string place_;
+  Places places_;
 };
 
 }  // namespace gonio

@@ -64,5 +64,28 @@ TEST(JsonReader, NamesThePlaceOfAMember) {
             "file: a.b: found \"x\", expected a number or null");
 }
 
+TEST(JsonReader, NamesPlacesAsPointersWhereAsked) {
+  const Json document = parse_json("file", R"({"a/b":[{"c~d":"x"}]})");
+  const std::string file = "file";
+  const JsonReader root(file, document, "", Places::pointer);
+  EXPECT_EQ(test::refusal([&] { root.at("a/b").at(0).at("c~d").number(); }),
+            "file: /a~1b/0/c~0d: found \"x\", expected a number or null");
+  EXPECT_EQ(test::refusal([&] { root.at("a/b").at(1); }),
+            "file: /a~1b/1: found nothing, expected a value");
+  EXPECT_EQ(test::refusal([&] { root.number(); }),
+            "file: the document: found an object, expected a number or null");
+  EXPECT_EQ(test::refusal([&] { JsonReader(file, document).at("a/b").at(1); }),
+            "file: a/b[1]: found nothing, expected a value");
+}
+
+/// Each of them with the whole name takes 100 GB.
+TEST(JsonReader, OfManyValuesUnderALongNameTakesLinearMemory) {
+  std::string text = "{\"" + std::string(1'000'000, 'n') + "\":[0";
+  for (int i = 0; i < 100'000; ++i) text += ",0";
+  const Json document = parse_json("file", text + "]}");
+  const auto members = JsonReader("file", document).members();
+  EXPECT_EQ(members[0].second.elements().size(), 100'001U);
+}
+
 }  // namespace
 }  // namespace gonio
