@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/names.h"
+#include "brdf/model/fitted_model.h"
 #include "table/health/health.h"
 
 namespace gonio {
@@ -134,14 +135,6 @@ struct FitDocument {
 
 /// The document as JSON text, schema "gonio.fit/1"; what is not a finite number is null.
 std::string to_json(const FitDocument&);
-
-/// Part of a fit.json that says what was fitted: the model and its parameters' values; NaN where null.
-struct FittedModel {
-  std::string model;
-  std::vector<std::pair<std::string, std::vector<double>>> parameters;
-  std::vector<std::string> channels = {};  ///< empty where the file does not name them
-};
-FittedModel read_fitted_model(const std::string& path);
 
 /// Residuals of a model against a table.
 struct Comparison {

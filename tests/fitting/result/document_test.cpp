@@ -89,27 +89,5 @@ TEST(FitDocument, ReadsBackItsModel) {
   EXPECT_TRUE(std::isnan(fit.parameters[1].second[1]));
 }
 
-TEST(FitDocument, SaysWhereItIsWrong) {
-  const test::Folder folder;
-  const auto complaint = [&](const std::string& text) {
-    return test::refusal([&] { read_fitted_model(folder.write("fit.json", text)); });
-  };
-  EXPECT_HAS(complaint("{\n  \"schema\": ?"), "line 2, column 13");
-  EXPECT_HAS(complaint("[]"), "the document: found an empty array, expected an object");
-  EXPECT_HAS(complaint("{}"), "schema: found nothing");
-  EXPECT_HAS(complaint(R"({"schema":"gonio.fit/2"})"), R"(schema: found "gonio.fit/2")");
-  EXPECT_HAS(complaint(R"({"schema":"gonio.fit/1","model":3})"), "model: found 3");
-  const std::string head = R"({"schema":"gonio.fit/1","model":"m","parameters":)";
-  EXPECT_HAS(complaint(head + "[1]}"), "parameters: found an array, expected an object");
-  EXPECT_HAS(complaint(head + R"({"a":{}}})"), "parameters.a.value: found nothing");
-  EXPECT_HAS(complaint(head + R"({"a":{"value":[]}}})"),
-             "parameters.a.value: found an empty array");
-  EXPECT_HAS(complaint(head + R"({"a":{"value":[1,"x"]}}})"),
-             R"(parameters.a.value[1]: found "x")");
-  EXPECT_HAS(complaint(head + R"({"a":{"value":1e999}}})"), "JSON");
-  std::filesystem::resize_file(folder / "fit.json", (1U << 26) + 1);
-  EXPECT_HAS(test::refusal([&] { read_fitted_model(folder / "fit.json"); }), "at most 67108864");
-}
-
 }  // namespace
 }  // namespace gonio

@@ -1,0 +1,64 @@
+#include "brdf/model/fitted_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/json_reader.h"
+#include "brdf/model/roughness.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+FittedModel fitted_model(const std::string& path, const Json& document) {
+  const JsonReader root(path, document);
+  constexpr const char* schema = "gonio.fit/1";
+  if (root.at("schema").string() != schema) root.at("schema").fail(schema);
+  FittedModel fit{root.at("model").string(), {}};
+  if (root.has("channels"))
+    for (const auto& channel : root.at("channels").elements())
+      fit.channels.push_back(channel.string());
+  for (const auto& [name, parameter] : root.at("parameters").members())
+    fit.parameters.emplace_back(name, parameter.at("value").numbers());
+  return fit;
+}
+
+}  // namespace
+
+FittedModel read_fitted_model(const std::string& path) {
+  return fitted_model(path, read_json(path));
+}
+
+FittedModel parse_fitted_model(const std::string& path, const std::string& bytes) {
+  return fitted_model(path, parse_json(path, bytes));
+}
+
+BoundModel bind_fitted(const std::string& path,
+                       const FittedModel& fitted,
+                       std::optional<std::size_t> channels) {
+  std::vector<Setting> settings;
+  for (const auto& [name, values] : fitted.parameters) {
+    if (is_roughness(name)) continue;  // alpha says the same
+    for (const double v : values)
+      if (std::isnan(v))
+        throw bad_input(path, "parameters." + name, "null (not identifiable)",
+                        "a value; fit again with --fix " + name + "=…");
+    settings.push_back({name, values});
+  }
+  try {
+    BoundModel b = bind_model(fitted.model, settings, channels);
+    for (const auto& p : b.model.parameters)
+      if (std::ranges::find(b.given, p.name) == b.given.end())
+        throw wrong_usage("nothing for '" + p.name + "'");
+    return b;
+  } catch (const Error& e) {  // the words are the file's, not the user's
+    throw bad_input(
+        path, "model and parameters", e.what(),
+        channels ? fmt::format("a model of {} channel{}", *channels, *channels == 1 ? "" : "s")
+                 : "a model that can be evaluated");
+  }
+}
+
+}  // namespace gonio

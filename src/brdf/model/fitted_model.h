@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// Model that a fit's document holds, gonio.fit/1.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "brdf/model/model.h"
+
+namespace gonio {
+
+/// Part of a fit.json that says what was fitted: the model and its parameters' values; NaN where null.
+struct FittedModel {
+  std::string model;
+  std::vector<std::pair<std::string, std::vector<double>>> parameters;
+  std::vector<std::string> channels = {};  ///< empty where the file does not name them
+};
+FittedModel read_fitted_model(const std::string& path);
+/// Model in a document's bytes.  \param path  named in errors
+FittedModel parse_fitted_model(const std::string& path, const std::string& bytes);
+
+/// Model with its values; a parameter without one is bad input of that file.
+/// \param channels  of the model; else as many as its colours have
+BoundModel bind_fitted(const std::string& path,
+                       const FittedModel& fitted,
+                       std::optional<std::size_t> channels);
+
+}  // namespace gonio
