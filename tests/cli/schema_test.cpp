@@ -5,8 +5,11 @@
 
 #include "cli/program.h"
 #include "fitting/batch/batch_document.h"
+#include "refusal.h"
 #include "reports/tables/fit_page.h"
 #include "reports/tables/inspect_page.h"
+#include "scene/description/scene.h"
+#include "scene/description/scene_example.h"
 #include "stability/answer.h"
 #include "table/format/metadata.h"
 #include "table/health/health.h"
@@ -37,6 +40,7 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
                                    {"stability", stability::answer_schema()},
                                    {"inspect", health_schema()},
                                    {"table", side_file_schema()},
+                                   {"scene", scene::scene_schema()},
                                    {"fit.page", fit_page_schema()},
                                    {"inspect.page", inspect_page_schema()}}) {
     if (write) std::ofstream(path_of(name), std::ios::binary) << text;
@@ -178,6 +182,66 @@ TEST(Schemas, OfSideFilesRefuseWhatTheReaderRefuses) {
         R"(, "columns": {"f": 4})", R"(, "columns": {"unit": "grad"})",
         R"(, "columns": {"skip": -1})", R"(, "columns": {"cosine": 1})", R"(, "truth": {})"})
     EXPECT_FALSE(judged(keys)) << keys;
+}
+
+/// Places of all values of a document.
+void places(const json& value, const json::json_pointer& at, std::vector<json::json_pointer>& all) {
+  if (!at.empty()) all.push_back(at);
+  if (value.is_object())
+    for (const auto& [key, member] : value.items()) places(member, at / key, all);
+  if (value.is_array())
+    for (std::size_t i = 0; i < value.size(); ++i) places(value[i], at / i, all);
+}
+
+/// A scene with each value left out, replaced by others, and with a key too many: schema and reader refuse the same, but for what a
+/// schema cannot say.
+TEST(Schemas, OfScenesRefuseWhatTheReaderRefuses) {
+  const Folder f;
+  std::size_t both = 0, neither = 0;
+  const auto judge = [&](const json& document) {
+    const std::string path = f.write("s.json", document.dump());
+    const std::string line = refusal([&] { scene::read_scene(path); });
+    const bool refused = !mistakes(document, "scene").empty();
+    both += refused && !line.empty();
+    neither += !refused && line.empty();
+    if (refused == !line.empty()) return;
+    EXPECT_FALSE(line.empty()) << "read: " << document;
+    bool beyond_a_schema = false;
+    for (const char* words :
+         {"expected a model", "expected parameters of the model", "expected one of the materials",
+          "a metal's symbol", "a number, or one per channel", "not 0", "[low, high]",
+          "from limit on", "black lights", "opening:"})
+      beyond_a_schema |= line.find(words) != line.npos;
+    EXPECT_TRUE(beyond_a_schema) << line;
+  };
+  const json whole = json::parse(scene::test::example().dump());
+  judge(whole);
+  EXPECT_EQ(neither, 1U);
+  std::vector<json::json_pointer> all;
+  places(whole, json::json_pointer(), all);
+  for (const auto& at : all) {
+    json without = whole;
+    json& above = without[at.parent_pointer()];
+    if (above.is_array())
+      above.erase(std::stoul(at.back()));
+    else
+      above.erase(at.back());
+    judge(without);
+    for (const json& other :
+         {json(nullptr), json(true), json("words"), json(""), json(-1), json(0), json(0.5),
+          json(1e13), json::array(), json::array({1, 2, 3}), json::object()}) {
+      json with = whole;
+      with[at] = other;
+      judge(with);
+    }
+    if (whole[at].is_object() && at.back() != "materials" && at.back() != "parameters") {
+      json with = whole;
+      with[at]["further"] = 1;
+      judge(with);
+    }
+  }
+  EXPECT_GT(both, 500U);
+  EXPECT_GT(neither, 100U);
 }
 
 TEST(Schemas, RefuseADocumentThatHasLessOrMoreOrOtherValues) {

@@ -1,0 +1,211 @@
+#include "scene/description/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/nearest.h"
+#include "base/sha256.h"
+#include "brdf/model/fitted_model.h"
+#include "scene/description/gltf_file.h"
+#include "scene/description/scene_keys.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio::scene {
+namespace {
+
+constexpr std::size_t kChannels = 3;
+
+/// Files that a scene names, and what was read of them.
+class Files {
+ public:
+  Files(const std::string& scene, const std::string& digest)
+      : folder_(std::filesystem::path(scene).parent_path()), digests_{digest} {}
+
+  BoundModel fit(const std::string& name) {
+    const std::string path = path_of(name);
+    const std::string bytes = InputFile(path).read_rest(most_document_bytes);
+    digests_.push_back(sha256(bytes));
+    return bind_fitted(path, parse_fitted_model(path, bytes), kChannels);
+  }
+  const GltfFile& gltf(const std::string& name) {
+    const auto [at, is_new] = gltf_.try_emplace(name);
+    if (is_new) {
+      at->second = std::make_unique<GltfFile>(path_of(name));
+      gltf_order_.push_back(at->second.get());
+    }
+    return *at->second;
+  }
+  std::shared_ptr<const Mesh> mesh(const MeshShape& shape) {
+    const auto* node = std::get_if<MeshShape::Node>(&shape.part);
+    const std::string& name = node ? node->name : std::get<MeshShape::OfName>(shape.part).name;
+    auto& known = meshes_[{shape.path, node != nullptr, name}];
+    if (!known)
+      known = std::make_shared<const Mesh>(
+          (node ? read_mesh_of_node : read_mesh)(gltf(shape.path), name, budget_));
+    return known;
+  }
+  Environment environment(const std::string& name) {
+    const InputFile file(path_of(name));
+    digests_.push_back(sha256_of_file(file));
+    Environment map = read_environment(file.path());
+    file.expect_unchanged();
+    return map;
+  }
+  /// Digest of the list of all files' digests.
+  std::string digest() const {
+    auto all = digests_;
+    for (const GltfFile* file : gltf_order_)
+      for (auto& d : file->digests()) all.push_back(std::move(d));
+    std::string list;
+    for (const auto& d : all) list += d + '\n';
+    return sha256(list);
+  }
+
+ private:
+  std::string path_of(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::filesystem::path folder_;
+  std::vector<std::string> digests_;
+  std::map<std::string, std::unique_ptr<GltfFile>> gltf_;
+  std::vector<const GltfFile*> gltf_order_;
+  std::map<std::tuple<std::string, bool, std::string>, std::shared_ptr<const Mesh>> meshes_;
+  MeshBudget budget_;
+};
+
+/// \param at  the material
+BoundModel model_of(const FromSpec& from, const JsonReader& at) {
+  std::vector<Setting> settings;
+  for (const auto& [name, given] : from.parameters) {
+    const bool is_metal = name == "metal";
+    if (given.word.empty() == is_metal)
+      at.at("parameters")
+          .at(name)
+          .fail(is_metal ? "a metal's symbol" : "a number, or one per channel");
+    settings.push_back({name, given.values, given.word});
+  }
+  const auto bound = [&](const char* key, const char* expected, std::vector<Setting> with) {
+    try {
+      return bind_model(from.model, std::move(with), kChannels);
+    } catch (const Error& e) {  // the words are the file's, not the user's
+      at.at(key).fail(fmt::format("{} ({})", expected, e.what()));
+    }
+  };
+  bound("model", "a model", {});
+  return bound("parameters", "parameters of the model", std::move(settings));
+}
+
+std::variant<BoundModel, GltfMaterial> resolved(const Material& m,
+                                                const JsonReader& at,
+                                                Files& files) {
+  if (const auto* spec = std::get_if<FromSpec>(&m.from)) return model_of(*spec, at);
+  if (const auto* fit = std::get_if<FromFit>(&m.from)) return files.fit(fit->path);
+  const auto& gltf = std::get<FromGltf>(m.from);
+  return read_material(files.gltf(gltf.path), gltf.material);
+}
+
+std::vector<Material> materials_of(SceneFile& file, const JsonReader& at, Files& files) {
+  std::vector<Material> all;
+  for (auto& [name, material] : file.materials) {
+    material.is = resolved(material, at.at(name), files);
+    material.name = name;
+    all.push_back(std::move(material));
+  }
+  return all;
+}
+
+std::vector<Object> objects_of(SceneFile& file,
+                               const std::vector<Material>& materials,
+                               const JsonReader& at,
+                               Files& files) {
+  std::unordered_map<std::string_view, std::size_t> number;
+  for (std::size_t i = 0; i < materials.size(); ++i) number[materials[i].name] = i;
+  std::vector<Object> all;
+  for (auto& [material, shape] : file.objects) {
+    const auto found = number.find(material);
+    if (found == number.end()) {
+      std::vector<std::string_view> names;
+      for (const auto& m : materials) names.push_back(m.name);
+      at.at(all.size())
+          .at("material")
+          .fail(fmt::format("one of the materials; nearest: {}",
+                            fmt::join(nearest(material, names), ", ")));
+    }
+    if (auto* mesh = std::get_if<MeshShape>(&shape)) mesh->mesh = files.mesh(*mesh);
+    all.push_back({std::move(shape), found->second});
+  }
+  return all;
+}
+
+bool shines(const Light& light) {
+  const auto is_bright = [](const auto& c) {
+    return std::ranges::any_of(c, [](auto v) { return v > 0; });
+  };
+  if (const auto* l = std::get_if<DirectionalLight>(&light)) return is_bright(l->irradiance);
+  if (const auto* l = std::get_if<RectangleLight>(&light)) return is_bright(l->radiance);
+  const auto& l = std::get<EnvironmentLight>(light);
+  return l.scale > 0 && std::ranges::any_of(l.map.radiance, is_bright);
+}
+
+std::vector<Light> lights_of(SceneFile& file, const JsonReader& at, Files& files) {
+  std::vector<Light> all;
+  bool has_environment = false;
+  for (auto& [light] : file.lights) {
+    if (auto* e = std::get_if<EnvironmentLight>(&light)) {
+      if (std::exchange(has_environment, true))
+        at.at(all.size()).fail("a second environment", "one at most");
+      e->map = files.environment(e->path);
+    }
+    all.push_back(std::move(light));
+  }
+  if (std::ranges::none_of(all, shines)) at.fail("black lights alone", "one that shines");
+  return all;
+}
+
+}  // namespace
+
+Direction direction_of(double elevation_deg, double azimuth_deg) {
+  const double e = elevation_deg * degree, a = azimuth_deg * degree;
+  return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
+}
+
+Rgb EnvironmentLight::radiance(const Direction& d) const {
+  Rgb c = map({d.z, d.x, d.y});
+  for (double& v : c) v *= scale;
+  return c;
+}
+
+Scene read_scene(const std::string& path) {
+  const std::string bytes = InputFile(path).read_rest(most_document_bytes);
+  const Json document = parse_json(path, bytes);
+  const JsonReader root(path, document, "", Places::pointer);
+  SceneFile file;
+  read_form(root, file);
+  Files files(path, sha256(bytes));
+
+  Scene s;
+  s.path = path;
+  s.materials = materials_of(file, root.at("materials"), files);
+  s.objects = objects_of(file, s.materials, root.at("objects"), files);
+  s.lights = lights_of(file, root.at("lights"), files);
+  s.view = file.view.view;
+  s.exposure = file.exposure;
+  s.tolerance = file.tolerance;
+  s.budget_ns = file.budget_ns;
+  s.seed = file.seed;
+  s.sha256 = files.digest();
+  return s;
+}
+
+std::string scene_schema() {
+  return form_schema<SceneFile>("Scene");
+}
+
+}  // namespace gonio::scene
