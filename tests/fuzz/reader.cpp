@@ -1,15 +1,9 @@
-// Any bytes given to one reader: it reads them or says bad_input, and nothing else happens.
-#include <cstdint>
-#include <cstdlib>
-
-#include "base/error.h"
+// Any bytes given to one reader of tables.
 #include "base/file.h"
+#include "fuzz/one_file.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
 #include "table/health/health.h"
-
-#include <sys/mman.h>
-#include <unistd.h>
 
 namespace {
 
@@ -42,7 +36,7 @@ Table read(InputFile& in) {
 #endif
 }
 
-/// What every user of a table asks of it.
+/// Questions that every user of a table asks of it.
 void use(const Table& t) {
   const SampleAngles at(t);
   std::size_t valid = 0;
@@ -62,16 +56,8 @@ void use(const Table& t) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const int file = ::memfd_create("input", 0);
-  static const std::string path = "/proc/self/fd/" + std::to_string(file);
-  if (::ftruncate(file, 0) != 0 || ::pwrite(file, data, size, 0) != static_cast<ssize_t>(size))
-    std::abort();
-  try {
+  return fuzz::read_as_file(data, size, [](const std::string& path) {
     InputFile in(path);
     use(read(in));
-  } catch (const Error& e) {
-    if (e.code() != Exit::bad_input || std::string(e.what()).find('\n') != std::string::npos)
-      std::abort();
-  }
-  return 0;
+  });
 }

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "scene/description/gltf_example.h"
+#include "scene/description/scene_example.h"
 #include "table/example.h"
 #include "table/foreign.h"
 #include "table/format/formats.h"
@@ -76,5 +78,9 @@ int main(int argc, char** argv) {
   t.notes = {{"a", "b"}};
   save("side", "truth", metadata_text(t));
   save("side", "columns", with_columns("side", "", ColumnMap{}));
+  const auto square = scene::test::square_gltf();
+  save("gltf", "text", square.dump());
+  save("gltf", "binary", scene::test::glb(square, scene::test::square_bytes()));
+  save("scene", "whole", scene::test::example().dump());
   return 0;
 }
