@@ -8,10 +8,17 @@
 #include "brdf/kernel/kernels.h"
 #include "brdf/term/term.h"
 #include "number/batch.h"
+#ifdef GONIO_SHAKEN
+#include "number/shaken.h"
+#endif
 
 namespace gonio::inline GONIO_ARCH {
 
-#ifdef GONIO_SCALAR
+/// Number in which a loop takes its samples.
+#ifdef GONIO_SHAKEN
+template <class F>
+using Lane = Shaken<F>;
+#elif defined(GONIO_SCALAR)
 template <class F>
 using Lane = F;
 #else

@@ -106,7 +106,10 @@ void shade(const Block<F>& x, const ChannelColumns<F>& j) {
 }
 template <template <class> class Term, class F>
 F uniform(const F* p) {
-  return bind<Term<F>, F>(p, [](F x, std::size_t) { return x; })(Angles<F>{});
+  using B = Lane<F>;
+  alignas(64) std::array<F, lanes<B>> value;
+  store<B>(value.data(), bind_value<Term, F>(p)(Angles<B>{}));
+  return value[0];
 }
 template <template <class> class Term, class F>
 constexpr auto shades() {
