@@ -82,9 +82,9 @@ std::vector<AnyGpuRow> any_gpu_rows(const StabilityOptions& o) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows.size(), 1), [&](const auto& part) {
     for (std::size_t k = part.begin(); k != part.end(); ++k)
       rows[k] = row_of(subjects[k % subjects.size()], numbers[k / subjects.size()],
-                       brief                        ? 1.5
+                       brief                      ? 1.5
                        : o.setting == Depth::full ? 10
-                                                    : 3);
+                                                  : 3);
   });
   return rows;
 }

@@ -1,5 +1,6 @@
 // The atlas in sentences: made from its rows alone.
 #include <algorithm>
+#include <cmath>
 
 #include "brdf/catalogue/registry.h"
 #include "reports/finding/words.h"
@@ -35,6 +36,13 @@ Rows in_number(const StabilityRows& r, std::string_view number) {
 std::string from_text(const StabilityRow& r) {
   return r.safe_from ? fmt::format("{} {:.2g}", r.decides, *r.safe_from) : "no " + r.decides;
 }
+/// "errors up to 3.6 %", "values up to 3900 times too large"
+std::string worst_text(double relative) {
+  if (relative <= 1) return fmt::format("errors up to {}", percent(relative, 2));
+  if (relative > 1e6) return "values more than a million times too large";
+  const double unit = std::pow(10, std::floor(std::log10(relative)) - 1);
+  return fmt::format("values up to {:g} times too large", std::round((1 + relative) / unit) * unit);
+}
 
 /// Which alpha a distribution may be clamped to, in half.
 void which_alpha(Findings& to, const StabilityRows& r) {
@@ -43,8 +51,12 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   std::string answer =
       fmt::format("GGX in half precision keeps {} from {} on, if the shader computes |n × h|².",
                   percent(cross->tolerance, 1), from_text(*cross));
+  if (cross->safe_from)
+    answer += fmt::format(" A clamp there changes surfaces of a roughness below {:.2g} alone.",
+                          std::sqrt(*cross->safe_from));
   if (const auto* mobile = find(r, "ndf.ggx.mobile", "cosine", "mixed"))
-    answer += fmt::format(" Where it rounds NoH to half instead, from {} on.", from_text(*mobile));
+    answer += fmt::format(" Where it rounds NoH to half instead, it does so from {} on.",
+                          from_text(*mobile));
   to.say(answer);
   to.questions.push_back({"Which alpha may I clamp to in half precision?", std::move(answer), {}});
   struct Named {
@@ -61,14 +73,15 @@ void which_alpha(Findings& to, const StabilityRows& r) {
     if (const auto* row = find(r, o.id, o.form, "half")) {
       // All but the whole range is lost: what matters is by how much.
       const bool nowhere = !row->safe_from || *row->safe_from > 0.9;
-      const std::string worst =
-          row->worst_rel > 1
-              ? fmt::format("values up to {:.2g} times too large", 1 + row->worst_rel)
-              : fmt::format("errors up to {}", percent(row->worst_rel, 2));
-      to.say(nowhere ? fmt::format("{} in half does not keep {}: there are {}.", o.name,
-                                   percent(row->tolerance, 1), worst)
-                     : fmt::format("{} in half keeps {} from {} on.", o.name,
-                                   percent(row->tolerance, 1), from_text(*row)));
+      const auto keeps = percent(row->tolerance, 1);
+      if (nowhere)
+        to.say(fmt::format("{} in half does not keep {}: {} there are {}.", o.name, keeps,
+                           row->worst_from_usual ? "even from alpha 0.05 on" : "somewhere",
+                           worst_text(row->worst_from_usual.value_or(row->worst_rel))));
+      else if (*row->safe_from < 1e-5)
+        to.say(fmt::format("{} in half keeps {} for every alpha.", o.name, keeps));
+      else
+        to.say(fmt::format("{} in half keeps {} from {} on.", o.name, keeps, from_text(*row)));
     }
 }
 

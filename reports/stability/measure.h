@@ -17,6 +17,8 @@ std::vector<std::string> forms(const StabilityOptions&);
 
 /// "overflow, underflow"; "" of neither.
 std::string text_of(const HalfFlags&);
+/// Width from which on people expect half to be good enough.
+constexpr double usual_width = 0.05;
 /// StabilityRow::misses and its reason, of a row that has all else.
 bool misses_target(const StabilityRow&, Number);
 std::string reason_of(const StabilityRow&, Number);

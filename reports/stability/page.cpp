@@ -58,7 +58,10 @@ struct Description<StabilityRow> {
             "float and double: more than 8 units beyond what the inputs are worth, or no value; "
             "half and mixed: the tolerance is not kept from alpha 0.05 on, or of another parameter "
             "everywhere"),
-        field("reason", "", &R::reason, "why it misses")};
+        field("reason", "", &R::reason, "why it misses"),
+        field("worst_rel_alpha_0_05", "", &R::worst_from_usual,
+              "most relative error from alpha 0.05 on, of a distribution in half or mixed that "
+              "misses")};
   }
 };
 static_assert(describes_every_member<StabilityRow>());

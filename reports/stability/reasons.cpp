@@ -41,6 +41,10 @@ constexpr Known known[] = {
     {"masking.smith_beckmann", false, "the error function and the exponential err by themselves"},
     {"fresnel.f82", true, "the dip is a difference, which cancels where F is nearly 0"},
     {"fresnel.f82", false, "the dip is a difference, which cancels where F is nearly 0"},
+    {"fresnel.conductor", true, "where eta is 1 and k nearly 0, F is a difference that cancels"},
+    {"fresnel.conductor", false, "where eta is 1 and k nearly 0, F is a difference that cancels"},
+    {"ndf.ggx.mobile", true,
+     "NoH is rounded to half, and 1 − NoH² is left with few of its digits near the peak"},
     {"fresnel.dielectric", false,
      "roundings of a dozen operations add up where F is near 1 and its inputs' own cost nothing"}};
 
@@ -52,11 +56,11 @@ std::string text_of(const HalfFlags& flags) {
 }
 
 bool misses_target(const StabilityRow& r, Number number) {
-  constexpr double units = 8, width = 0.05;
+  constexpr double units = 8;
   if (!has_few_bits(number)) return r.ulp_beyond > units || r.nonfinite > 0 || r.negative > 0;
   if (r.decides.empty()) return r.worst_rel > r.tolerance || r.nonfinite > 0;
   return !r.safe_from ||
-         (r.decides.starts_with("alpha") ? *r.safe_from > width
+         (r.decides.starts_with("alpha") ? *r.safe_from > usual_width
                                          : r.worst_rel > r.tolerance || r.nonfinite > 0);
 }
 
@@ -65,7 +69,8 @@ std::string reason_of(const StabilityRow& r, Number number) {
     return r.id.starts_with(k.id) && k.few_bits == has_few_bits(number);
   });
   if (at != std::end(known)) return std::string(at->reason);
-  if (r.nonfinite > 0) return "what is computed on the way leaves the range of the number";
+  if (r.nonfinite + r.overflow > 0)
+    return "values, or what is computed on the way, leave the range of the number";
   if (!r.flags.empty()) return fmt::format("on the way there is {}", r.flags);
   if (r.worst_ulp <= 4 * r.condition)
     return "what its inputs were rounded by already costs as much there";

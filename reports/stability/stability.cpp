@@ -110,9 +110,16 @@ StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
                  operations_of(*s.term).sample.total(),
                  0,
                  false,
+                 {},
                  {}};
   r.misses = stabilities::misses_target(r, a.number);
   if (r.misses) r.reason = stabilities::reason_of(r, a.number);
+  const bool few_bits = a.number == Number::half || a.number == Number::mixed;
+  if (r.misses && few_bits && entry.role() == Role::ndf && r.decides == "alpha") {
+    Subject usual = s;
+    set_domain(usual, r.decides, {stabilities::usual_width, 1});
+    r.worst_from_usual = look(usual, a, tolerance, seed).relative.value;
+  }
   if (!r.stable.empty()) r.stable_operations = operations_of(find_term(r.stable)).sample.total();
   return r;
 }

@@ -11,7 +11,7 @@ const worst = (r) => ({ n: el("span", { title: at_title(r) }, error_text(r.worst
 const none_or = (n, title) => ({ n: n ? el("span", { title }, count(n)) : "none" });
 const from = (r) => ({ n: !r.decides ? "–" : known(r.safe_from) ? significant(r.safe_from, 2) : "nowhere" });
 
-const why_missed = (r) => (r.misses ? el("span", { class: "reason" }, r.reason) : "–");
+const dense = (node) => el("div", { class: "scroll dense" }, node);
 
 // --- The question that people come with ----------------------------------------------------------------------------
 function clamp_question() {
@@ -20,12 +20,12 @@ function clamp_question() {
   let number = numbers.includes("half") ? "half" : numbers[0];
   const body = changing(() => el("div", {}, el("div", { class: "controls" },
     choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })),
-  scroll(table(["distribution", "given", { n: "alpha from" }, { n: "a value is proved from" }, { n: "worst below" }, { n: "no value at" }, "take instead", { n: "operations" }, "by", "what it misses, and why"],
-    rows.filter((r) => is_width(r) && r.number === number).map((r) => [el("code", {}, short(r.id)), given[r.form], from(r), { n: known(r.finite_from) ? significant(r.finite_from, 2) : "–" }, worst(r),
-      none_or(r.nonfinite, r.nonfinite_at), r.stable ? el("code", {}, short(r.stable)) : r.form === "cosine" ? `the same, from ${given.cross}` : "–",
-      { n: r.stable ? `${r.operations} → ${r.stable_operations}` : r.operations }, evidence_words[r.evidence], why_missed(r)])))));
+  dense(table(["distribution", "given", { n: "alpha from" }, { n: "worst" }, { n: "from 0.05 on" }, { n: "no value at" }, { n: "finite: proved from" }, "take instead", { n: "operations" }, "by"],
+    rows.filter((r) => is_width(r) && r.number === number).map((r) => [el("code", {}, short(r.id)), given[r.form], from(r), worst(r), { n: known(r.worst_rel_alpha_0_05) ? error_text(r.worst_rel_alpha_0_05) : "–" },
+      none_or(r.nonfinite, r.nonfinite_at), { n: known(r.finite_from) ? significant(r.finite_from, 2) : "–" }, r.stable ? el("code", {}, short(r.stable)) : r.form === "cosine" ? `from ${given.cross}` : "–",
+      { n: r.stable ? `${r.operations} → ${r.stable_operations}` : r.operations }, evidence_words[r.evidence]])))));
   return section("Which alpha is safe", "From this alpha on every input that was looked at keeps the tolerance: 2 % in half and mixed numbers, 0.0001 in float, 10⁻¹⁰ in double. "
-    + "Inputs count as exact: a NoH that is rounded to half on its way brings an error of its own, as ggx.mobile shows in mixed numbers. The worst input, also in bits, stands under the pointer.", body.node);
+    + "Inputs count as exact: a NoH that is rounded to half on its way brings an error of its own, as ggx.mobile shows in mixed numbers. The worst input, also in bits, stands under the pointer. From 0.05 on: the worst from that alpha on, of what does not keep 2 % there.", body.node);
 }
 
 // --- Pictures -------------------------------------------------------------------------------------------------------
@@ -62,7 +62,7 @@ const clamp_table = () => {
   const up_to = (c, x) => ({ n: known(x) ? `${c.by} ${significant(x, 2)}` : "nowhere" });
   return section("What shipped clamps save and cost", "The same inputs with the clamp and without it. What it saves: inputs without a value, and the worst error of the others. What it costs: it changes values by more than 1 % up to the width or cosine told. "
     + "Cosine: the smaller of NoL and NoV.",
-    scroll(table(["clamp", "in", "number", { n: "no value up to, without" }, { n: "with" }, { n: "worst, without" }, { n: "with" }, { n: "changes values up to" }, { n: "by at most" }],
+    dense(table(["clamp", "in", "number", { n: "no value up to, without" }, { n: "with" }, { n: "worst, without" }, { n: "with" }, { n: "changes values up to" }, { n: "by at most" }],
       clamps.map((c) => [c.clamp, el("code", {}, c.where), c.number, up_to(c, c.no_value_without), up_to(c, c.no_value_with), ...[c.worst_without, c.worst_with].map((x) => ({ n: error_text(x) })),
         up_to(c, c.changed_to), { n: error_text(c.changed_most) }]), { row_class: (i) => (i && clamps[i].clamp !== clamps[i - 1].clamp ? "first" : null) })));
 };
@@ -75,12 +75,28 @@ function on_any_gpu() {
   const body = changing(() => el("div", {}, el("div", { class: "controls" },
     choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); }),
     choice("Forms", [["proved", "with a bound"], ["open", "open"]], shown, (s) => { shown = s; body.again(); })),
-  scroll(table(["form", "given", { n: "error at most" }, "1 %", "a value", "over", "why not"],
+  dense(table(["form", "given", { n: "error at most" }, "1 %", "a value", "over", "why not"],
     any_gpu.filter((r) => r.number === number && r.evidence === shown).sort((a, b) => (a.proved_rel ?? 0) - (b.proved_rel ?? 0))
       .map((r) => [el("code", {}, short(r.id)), given[r.form], { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, r.keeps ? "kept" : "not proved",
-        r.finite ? "always" : "not proved", r.domain.replaceAll("_", " "), r.why || "–"])))));
+        r.finite ? "always" : "not proved", r.domain.replace("sin2_theta_h", "sin²θ_h"), r.why || "–"])))));
   return section("On any GPU", "Proved for every GPU that keeps Vulkan 1.4, whatever it makes of what Vulkan leaves open: rounding up or down, division within 2.5 units, subnormals kept or dropped. "
-    + "The shader declares no float controls, and its expressions are `precise`, so that nothing is fused or reordered. Domains are smaller than the hard one.", body.node);
+    + "The shader declares no float controls, and its expressions are “precise”, so that nothing is fused or reordered. Domains are smaller than the hard one.", body.node);
+}
+
+// --- Targets -----------------------------------------------------------------------------------------------------------
+function missed() {
+  const groups = new Map();
+  for (const r of rows.filter((r) => r.misses)) {
+    const key = r.id + r.reason, g = groups.get(key) ?? { id: r.id, reason: r.reason, numbers: [], worst: 0, beyond: 0 };
+    g.numbers.push(r.number);
+    g.worst = Math.max(g.worst, r.worst_rel ?? 0);
+    g.beyond = Math.max(g.beyond, r.ulp_beyond ?? 0);
+    groups.set(key, g);
+  }
+  if (!groups.size) return null;
+  return section("What misses its target, and why", "Targets: in float and double 8 units of the last digit beyond what a unit of the inputs is worth there, and a value that is not negative; in half and mixed numbers 2 % from alpha 0.05 on, of other forms everywhere.",
+    dense(table(["form", "in", { n: "worst" }, { n: "units beyond its inputs" }, "because"],
+      [...groups.values()].map((g) => [el("code", {}, short(g.id)), unique(g.numbers).join(", "), { n: error_text(g.worst) }, { n: significant(g.beyond, 2) }, el("span", { class: "reason" }, g.reason)]))));
 }
 
 // --- Everything -----------------------------------------------------------------------------------------------------------
@@ -90,16 +106,16 @@ function every_form() {
   const body = changing(() => el("div", {}, el("div", { class: "controls" },
     choice("Kind", kinds.map((k) => [k, k]), kind, (k) => { kind = k; body.again(); }),
     choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })),
-  scroll(table(["form", "given", { n: "worst" }, { n: "ulp" }, { n: "condition there" }, { n: "ulp beyond it" }, "half raised", { n: "proved" }, { n: "no value" }, { n: "negative" }, { n: "overflow" }, { n: "vanished" }, { n: "wrong way" }, { n: "irreciprocal" }, "safe from", { n: "looked at" }, "by", "misses, because"],
+  dense(table(["form", "given", { n: "worst" }, { n: "ulp" }, { n: "condition there" }, { n: "ulp beyond it" }, "half raised", { n: "proved" }, { n: "no value" }, { n: "negative" }, { n: "overflow" }, { n: "vanished" }, { n: "wrong way" }, { n: "irreciprocal" }, "safe from", { n: "looked at" }, "by"],
     rows.filter((r) => r.number === number && r.id.startsWith(kind)).map((r) => [el("code", {}, short(r.id)), given[r.form], worst(r), { n: significant(r.worst_ulp, 2) }, { n: significant(r.condition, 2) }, { n: significant(r.ulp_beyond, 2) }, r.flags || "–",
       { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, none_or(r.nonfinite, r.nonfinite_at), none_or(r.negative), none_or(r.overflow), none_or(r.vanished), none_or(r.not_monotone), none_or(r.irreciprocal),
-      !r.decides ? "–" : known(r.safe_from) ? `${r.decides} ${significant(r.safe_from, 2)}` : "nowhere", { n: count(r.evaluations) }, evidence_words[r.evidence] + (r.settled ? "" : ", not settled"), why_missed(r)])))));
+      !r.decides ? "–" : known(r.safe_from) ? `${r.decides} ${significant(r.safe_from, 2)}` : "nowhere", { n: count(r.evaluations) }, evidence_words[r.evidence] + (r.settled ? "" : ", not settled")])))));
   return section("Every form in every number", "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every input”: each half there is was evaluated. “Search”: the worst that seeds and climbing found from two starts; there may be worse. Results below 2⁻⁶⁴, 5·10⁻²⁰, count as black in float, double and mixed numbers, and errors below a half’s least normal number are measured against that. "
-    + "Vanished: 0 where a value should be. Wrong way: neighbours between which the value rises where it should fall. Irreciprocal: another value with light and view exchanged. Half raised: flags on the way to the worst input. Targets: in float and double 8 units beyond what a unit of the inputs is worth there; in half and mixed numbers 2 % from alpha 0.05 on.", body.node);
+    + "Vanished: 0 where a value should be. Wrong way: neighbours between which the value rises where it should fall. Irreciprocal: another value with light and view exchanged. Half raised: flags on the way to the worst input.", body.node);
 }
 
 document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio report stability"), el("h1", {}, "Which formulas stay stable in few bits"),
   findings_view(findings),
-  clamp_question(), by_alpha(), error_maps(), clamps.length ? clamp_table() : null, on_any_gpu(), every_form(),
+  clamp_question(), by_alpha(), error_maps(), clamps.length ? clamp_table() : null, on_any_gpu(), missed(), every_form(),
   el("footer", {}, `${full ? "Full" : "Quick"} setting. Truths are computed in double, the worst of them again in fifty digits. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));

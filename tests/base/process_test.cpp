@@ -27,6 +27,12 @@ TEST(Program, ThatIsNotThereIsNoResult) {
   EXPECT_FALSE(run_program("gonio-no-such-program", {}, "", 10));
 }
 
+TEST(Program, ThatIsNotThereIsNoResultOfAShellEither) {
+  const std::vector<std::string> arguments{"-c", "exit 127"};
+  EXPECT_FALSE(run_program("sh", arguments, "", 10));
+  EXPECT_EQ(run_program("sh", std::vector<std::string>{"-c", "exit 126"}, "", 10)->status, 126);
+}
+
 TEST(Program, ThatRunsTooLongIsEnded) {
   const std::vector<std::string> arguments{"60"};
   const auto start = std::chrono::steady_clock::now();

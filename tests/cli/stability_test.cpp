@@ -58,6 +58,12 @@ TEST(StabilityCommand, ProvesWhatHoldsOnAnyGpu) {
   EXPECT_NE(refuted.out.find("in an arithmetic that GPUs may have"), text.npos) << refuted.out;
 }
 
+TEST(StabilityCommand, TakesAsManyBoxesAsItIsGiven) {
+  const Folder f;
+  const std::string words = "stability fresnel.dielectric --number float --require nonnegative ";
+  EXPECT_LE(gonio(f, words + "--boxes 2 --json").json()["boxes"], 2);
+}
+
 TEST(StabilityCommand, LooksAtWholeModels) {
   const Folder f;
   const auto o = gonio(f,

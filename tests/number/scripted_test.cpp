@@ -59,5 +59,15 @@ TEST(Scripted, KnowsThatADifferenceOfNormalNumbersIsNotSubnormal) {
   EXPECT_EQ(subnormal.refused(), "a value that may be subnormal");
 }
 
+TEST(Scripted, KnowsHowSmallADifferenceMayBe) {
+  const RoundingScope scope(Rounding{.flushed = true});
+  Script script;
+  const S x = S::input("x0", 1, 2), y = S::input("x1", 1, 2), difference = x - y;  // 0 or 2⁻²⁴
+  const S fifth = difference * difference * difference * difference * difference;
+  EXPECT_EQ(script.refused(), "");
+  fifth* difference;
+  EXPECT_EQ(script.refused(), "a value that may be subnormal");
+}
+
 }  // namespace
 }  // namespace gonio

@@ -185,6 +185,19 @@ TEST(StabilityAnswer, OnAnyGpuKeepsTheBoundThatGappaProves) {
   EXPECT_GT(*a.proved_rel, *plain.proved_rel) << "more is allowed";
 }
 
+TEST(StabilityAnswer, OfABoundThatIsLargerThanWhatIsRequiredIsOpen) {
+  auto q = about("ndf.ggx", Number::float_, "relative=3e-6");  // which no search refutes
+  set_domain(q.subject, "alpha", {1e-3, 1});
+  set_domain(q.subject, "sin2_theta_h", {1e-6, 0.999});
+  const auto a = answer(on_any_gpu(q));
+  if (a.unproved_because == "Gappa is not installed") GTEST_SKIP() << a.unproved_because;
+  EXPECT_FALSE(a.holds);
+  EXPECT_FALSE(a.counterexample);
+  EXPECT_EQ(a.evidence, Evidence::open);
+  EXPECT_GT(a.proved_rel.value_or(0), 3e-6);
+  EXPECT_EQ(a.unproved_because, "the bound that is proved is larger");
+}
+
 TEST(StabilityAnswer, OnAnyGpuThatStaysOpenSaysWhy) {
   auto relative = about("ndf.gtr1", Number::float_, "relative=0.1");
   set_domain(relative.subject, "alpha", {0.3, 0.4});

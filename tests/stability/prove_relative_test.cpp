@@ -88,6 +88,19 @@ TEST(RelativeProof, ThatOnePerCentIsKeptOnAnyGpuIsGivenForRationalFormsInFloat) 
   }
 }
 
+TEST(RelativeProof, SaysForWhichInputsItHolds) {
+  const auto all = prove_relative(smith(), Number::float_, Rounding::vulkan());
+  GONIO_NEEDS_GAPPA(all);
+  ASSERT_TRUE(all.bound) << all.why;
+  EXPECT_TRUE(all.whole);
+  // A product with sin²θ_h = 0 may be flushed: the domain's end is left out.
+  const auto part = prove_relative(ggx(Given::cross), Number::float_, Rounding::vulkan());
+  ASSERT_TRUE(part.bound) << part.why;
+  EXPECT_FALSE(part.whole);
+  EXPECT_EQ(part.domain[1].low, 0x1p-125);
+  EXPECT_EQ(part.domain[1].high, 1 - 0x1p-24);
+}
+
 TEST(RelativeProof, OfTheSineFromTheCosineIsNoneWorthTheName) {
   const auto p = prove_relative(ggx(Given::cosine), Number::float_);
   GONIO_NEEDS_GAPPA(p);

@@ -105,8 +105,9 @@ TEST(StabilityFindings, SayFromWhichAlphaOnAndThatOthersNeverDo) {
   r.rows[1].safe_from = 0.22;
   r.rows[2].safe_from = 1;
   r.rows[2].worst_rel = 0.099;
+  r.rows[2].worst_from_usual = 0.036;
   r.rows[3].safe_from.reset();
-  r.rows[3].worst_rel = 6;
+  r.rows[3].worst_rel = 3862;
   r.rows[3].nonfinite = 2;
   r.rows[2].finite_from = 0.01;
   const auto f = findings(r);
@@ -114,16 +115,47 @@ TEST(StabilityFindings, SayFromWhichAlphaOnAndThatOthersNeverDo) {
   EXPECT_EQ(
       f.questions[0].answer,
       "GGX in half precision keeps 2\u00a0% from alpha 0.004 on, if the shader computes |n × h|². "
-      "Where it rounds NoH to half instead, from alpha 0.22 on.");
-  EXPECT_TRUE(
-      says(f, "Beckmann in half does not keep 2\u00a0%: there are errors up to 9.9\u00a0%."));
+      "A clamp there changes surfaces of a roughness below 0.063 alone. Where it rounds NoH to "
+      "half instead, it does so from alpha 0.22 on.");
   EXPECT_TRUE(says(f,
-                   "GTR of every gamma in half does not keep 2\u00a0%: there are values up to 7 "
-                   "times too large."));
+                   "Beckmann in half does not keep 2\u00a0%: even from alpha 0.05 on there are "
+                   "errors up to 3.6\u00a0%."));
+  EXPECT_TRUE(says(f,
+                   "GTR of every gamma in half does not keep 2\u00a0%: somewhere there are "
+                   "values up to 3900 times too large."));
   EXPECT_TRUE(
       says(f,
            "In half, inputs without a value were found for 1 of 3 forms. For 1 forms a value is "
            "proved for every input from some parameter on."));
+}
+
+TEST(StabilityFindings, SayWhichMobileFormsMayBeClampedAnywhere) {
+  StabilityRows r;
+  r.rows = {made_row("ndf.ggx", "cross", "half"), made_row("ndf.ggx.mobile.cross", "cross", "half"),
+            made_row("ndf.ggx.mobile", "cosine", "half"), made_row("ndf.gtr", "cross", "half")};
+  r.rows[1].safe_from = 1e-6;
+  r.rows[2].safe_from = 0.19;
+  r.rows[3].safe_from = 0.96;
+  r.rows[3].worst_rel = 1e9;
+  const auto f = findings(r);
+  EXPECT_TRUE(
+      says(f, "The mobile form with a cross product in half keeps 2\u00a0% for every alpha."));
+  EXPECT_TRUE(says(f, "The mobile form from NoH in half keeps 2\u00a0% from alpha 0.19 on."));
+  EXPECT_TRUE(
+      says(f,
+           "GTR of every gamma in half does not keep 2\u00a0%: somewhere there are values more "
+           "than a million times too large."));
+}
+
+TEST(StabilityReport, OfADistributionThatMissesTellsTheWorstFromTheUsualWidthOn) {
+  GONIO_MANY_FITS();
+  const auto r = stability_rows({StabilityOptions::Setting::brief, {"ndf.beckmann"}}).rows.at(0);
+  EXPECT_TRUE(r.misses);
+  ASSERT_TRUE(r.worst_from_usual);
+  EXPECT_LT(*r.worst_from_usual, 0.05);
+  EXPECT_GT(*r.worst_from_usual, 0.02);
+  EXPECT_GT(r.worst_rel, *r.worst_from_usual) << "narrower widths are worse";
+  EXPECT_FALSE(row("cross", "half").worst_from_usual);
 }
 
 TEST(StabilityFindings, SayWhatClampsSaveAndCostInHalfAlone) {
@@ -209,7 +241,7 @@ TEST(StabilityTargets, WhatMissesHasItsReason) {
   r.flags = "overflow";
   EXPECT_EQ(reason_of(r, Number::half), "on the way there is overflow");
   r.nonfinite = 1;
-  EXPECT_NE(reason_of(r, Number::half).find("leaves the range"), std::string::npos);
+  EXPECT_NE(reason_of(r, Number::half).find("leave the range"), std::string::npos);
   EXPECT_EQ(stabilities::text_of(HalfFlags{true, true}), "overflow, underflow");
   EXPECT_EQ(stabilities::text_of(HalfFlags{}), "");
 }
