@@ -101,7 +101,7 @@ void without_a_value(Findings& to, const StabilityRows& r) {
   }
 }
 
-/// What is proved under all that Vulkan allows a GPU.
+/// Sentences on what is proved under all that Vulkan allows a GPU.
 void any_gpu(Findings& to, const StabilityRows& r) {
   const auto find = [&](std::string_view id, std::string_view form, std::string_view number) {
     const auto at = std::ranges::find_if(r.any_gpu, [&](const AnyGpuRow& row) {

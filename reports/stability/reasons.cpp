@@ -45,6 +45,8 @@ constexpr Known known[] = {
     {"fresnel.conductor", false, "where eta is 1 and k nearly 0, F is a difference that cancels"},
     {"ndf.ggx.mobile", true,
      "NoH is rounded to half, and 1 − NoH² is left with few of its digits near the peak"},
+    {"fresnel.dielectric", true,
+     "next to the critical angle F depends on a difference that cancels"},
     {"fresnel.dielectric", false,
      "roundings of a dozen operations add up where F is near 1 and its inputs' own cost nothing"}};
 

@@ -41,8 +41,8 @@ struct StabilityRow {
       stable;  ///< id of the form that stands for the same without the fault; empty: this one
   std::size_t operations;         ///< of one sample
   std::size_t stable_operations;  ///< of that form
-  /// Of float and double: more than 8 units beyond what the inputs' rounding is worth, or no value or a negative one; of
-  /// half and mixed: the tolerance is not kept from alpha 0.05 on, or of another parameter or of none everywhere.
+  /// True where a target is not kept.  Float and double: more than 8 units beyond what the inputs' rounding is worth, no
+  /// value or a negative one.  Half and mixed: less than the tolerance from alpha 0.05 on, or of other parameters anywhere.
   bool misses;
   std::string reason;  ///< why; empty: it does not
   /// Most relative error of alpha from 0.05 on, of a distribution in half or mixed that misses; none: nobody looked.

@@ -106,7 +106,7 @@ TEST(StabilityAnswer, OfWhatHasNoValueIsThatItKeepsNoRequirement) {
   }
 }
 
-/// The same on any GPU.
+/// Question on any GPU.
 Question on_any_gpu(Question q) {
   q.arithmetic.any_gpu = true;
   return q;

@@ -201,9 +201,10 @@ TEST(StabilityReport, OnAnyGpuHasABoundOrAReasonForEveryForm) {
     EXPECT_EQ(r.keeps, r.why.empty()) << r.form;
     EXPECT_EQ(r.number, "float");
     EXPECT_NE(r.domain.find("alpha 0.001 to 1"), std::string::npos) << r.domain;
-    if (r.why == "Gappa is not installed") continue;
+    if (r.why == "Gappa is not installed" || r.why == "Gappa was out of time") continue;
     EXPECT_EQ(r.keeps, r.form == "cross");
     EXPECT_EQ(r.proved_rel.value_or(1) < 1e-5, r.form == "cross");
+    EXPECT_GT(r.proved_rel.value_or(1), 3e-6) << "IEEE arithmetic alone keeps less";
   }
 }
 
