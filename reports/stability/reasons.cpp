@@ -74,9 +74,12 @@ std::string reason_of(const StabilityRow& r, Number number) {
   if (r.nonfinite + r.overflow > 0)
     return "values, or what is computed on the way, leave the range of the number";
   if (!r.flags.empty()) return fmt::format("on the way there is {}", r.flags);
-  if (r.worst_ulp <= 4 * r.condition)
-    return "what its inputs were rounded by already costs as much there";
-  return r.condition > 8 ? "a difference cancels on the way" : "roundings add up";
+  constexpr double few = 8, lost = 1000;  // units beyond what the inputs' own rounding is worth
+  if (r.ulp_beyond <= few) return "what its inputs were rounded by already costs as much";
+  if (r.ulp_beyond <= lost) return "roundings of its operations add up";
+  return has_few_bits(number)
+             ? "likely a difference that cancels on the way, or a half below its normal range"
+             : "likely a difference that cancels on the way";
 }
 
 }  // namespace gonio::stabilities

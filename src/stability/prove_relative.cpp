@@ -61,7 +61,7 @@ std::optional<double> read_number(std::string_view text) {
   if (const char* last = text.data() + text.size(); end != last && *end == 'b')
     if (std::from_chars(end + 1, last, exponent).ec != std::errc()) return {};
   const double size = std::ldexp(std::abs(static_cast<double>(integer)), exponent);
-  return std::nextafter(size, std::numeric_limits<double>::infinity());
+  return size > 0 ? std::nextafter(size, std::numeric_limits<double>::infinity()) : 0;
 }
 
 }  // namespace

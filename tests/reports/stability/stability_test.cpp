@@ -235,10 +235,12 @@ TEST(StabilityTargets, WhatMissesHasItsReason) {
                 .find("polynomial"),
             std::string::npos);
   auto r = made_row("ndf.other", "cross", "half");
-  EXPECT_EQ(reason_of(r, Number::half),
-            "what its inputs were rounded by already costs as much there");
-  r.worst_ulp = 100;
-  EXPECT_EQ(reason_of(r, Number::half), "roundings add up");
+  EXPECT_EQ(reason_of(r, Number::half), "what its inputs were rounded by already costs as much");
+  r.ulp_beyond = 100;
+  EXPECT_EQ(reason_of(r, Number::half), "roundings of its operations add up");
+  r.ulp_beyond = 1e5;
+  EXPECT_NE(reason_of(r, Number::mixed).find("a half below its normal range"), std::string::npos);
+  EXPECT_EQ(reason_of(r, Number::float_), "likely a difference that cancels on the way");
   r.flags = "overflow";
   EXPECT_EQ(reason_of(r, Number::half), "on the way there is overflow");
   r.nonfinite = 1;
