@@ -80,7 +80,6 @@ class AnyMachine {
   }
   friend M operator/(const M& a, const M& b) {
     const M x = a.read(), y = b.read();
-    if (exact(y.v_) == 1) return a;  // which nobody computes
     if (!rounding_now.any_gpu) return kept(x.v_ / y.v_);
     const Exact d = std::abs(exact(y.v_)), most = is_half ? 0x1p14L : 0x1p126L;
     if (!(1 / most <= d && d <= most)) return anything();
@@ -90,7 +89,7 @@ class AnyMachine {
     using std::sqrt;
     const M x = a.read();
     if (!rounding_now.any_gpu) return kept(sqrt(x.v_));
-    if (exact(x.v_) == 0 && rounding_now.root_of_zero) return kept(x.v_);
+    if (exact(x.v_) == 0) return kept(x.v_);
     if (!(exact(x.v_) > 0)) return anything();
     const M r = within(1 / sqrt(exact(x.v_)), 2, 0);
     return within(1 / exact(r.v_), 2.5L, 0);

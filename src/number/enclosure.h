@@ -20,9 +20,8 @@
 ///   - a value knows by which inputs it only rises or only falls, rounding included: its bounds over the box
 ///     are then those at the box's faces (prove.h uses it).
 ///
-/// exp and log: of Half one rounding of the true value; of float and double they are within Rounding's
-/// `library_ulps` of it, and not above 1 for exp(x ≤ 0).  glibc's err by less than 1 ulp; the double ones are
-/// used here to bound them.
+/// exp and log: of Half one rounding of the true value; of float and double they are within 1 ulp of it, and not above
+/// 1 for exp(x ≤ 0).  glibc's err by less; the double ones are used here to bound them.
 
 #include <algorithm>
 #include <array>
@@ -59,7 +58,7 @@ class Enclosure {
   static Enclosure between(F low, F high) {
     return named(static_cast<double>(low), static_cast<double>(high), false);
   }
-  /// Input of that number, below 32, by which results say whether they rise or fall.
+  /// Input of that number, by which results say whether they rise or fall.
   static Enclosure input(F low, F high, std::size_t number) {
     Enclosure x = between(low, high);
     x.by_ = Directions::rising(number);
@@ -72,9 +71,10 @@ class Enclosure {
     EnclosurePaths paths;
     Enclosure all;
     for (int way = 0; way < most; ++way) {
-      enclosure_paths = &paths;
-      const Enclosure one = formula();
-      enclosure_paths = nullptr;
+      const Enclosure one = [&] {
+        const EnclosurePathsScope scope(paths);
+        return formula();
+      }();
       if (way == 0)
         all = one;
       else
@@ -162,8 +162,6 @@ class Enclosure {
   }
 
   friend Enclosure operator/(const Enclosure& a, const Enclosure& b) {
-    if (b.lo_ == 1 && b.hi_ == 1 && !b.nan_)
-      return a;  // no division: of a term that is no Quotient
     const Rounding& rule = rounding_now;
     const Enclosure x = a.read(rule), y = b.read(rule);
     const bool nan =
@@ -220,8 +218,7 @@ class Enclosure {
     const Rounding& rule = rounding_now;
     const Enclosure x = a.read(rule);
     if (rule.any_gpu) {
-      const bool defined = rule.root_of_zero ? x.lo_ >= 0 : x.lo_ > 0;
-      if (x.nan_ || !defined || x.hi_ == infinity) return anything(x.by_.unknown());
+      if (x.nan_ || !(x.lo_ >= 0) || x.hi_ == infinity) return anything(x.by_.unknown());
       if (x.hi_ == 0) return made(rule, 0, 0, false, {});
       return spread(rule, std::sqrt(x.lo_), std::sqrt(x.hi_), 4.51, 4.51, 0, x.by_.unknown());
     }
@@ -245,9 +242,9 @@ class Enclosure {
     }
     if (digits_of < 24)
       return made(rule, nearest(lo * (1 - slack)), nearest(hi * (1 + slack)), x.nan_, by);
-    Enclosure r = spread(rule, lo, hi, rule.library_ulps, rule.library_ulps, 0, by);
+    Enclosure r = spread(rule, lo, hi, library_ulps, library_ulps, 0, by);
     r.lo_ = std::max(r.lo_, 0.0);
-    if (x.hi_ <= 0 && rule.library_ulps <= 1) r.hi_ = std::min(r.hi_, 1.0);
+    if (x.hi_ <= 0) r.hi_ = std::min(r.hi_, 1.0);
     if (x.lo_ == 0 && x.hi_ == 0) r = with_bounds(1, 1, false, by);
     r.nan_ = x.nan_;
     return r;
@@ -267,7 +264,7 @@ class Enclosure {
     if (digits_of < 24)
       return made(rule, nearest(lo - std::abs(lo) * slack), nearest(hi + std::abs(hi) * slack), nan,
                   by);
-    Enclosure r = spread(rule, lo, hi, rule.library_ulps, rule.library_ulps, 0, by);
+    Enclosure r = spread(rule, lo, hi, library_ulps, library_ulps, 0, by);
     if (x.lo_ == 1) r.lo_ = 0;
     if (x.hi_ == 1) r.hi_ = 0;
     r.nan_ = nan;
@@ -280,6 +277,7 @@ class Enclosure {
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int digits_of = Limits::digits;
+  static constexpr double library_ulps = 1;  // of exp and log of float and double
   static constexpr double slack = 0x1p-50;  // more than double's own errors
   inline static const double least_normal = std::ldexp(1.0, Limits::min_exponent - 1);
   inline static const double least_step = std::ldexp(1.0, Limits::min_exponent - digits_of);

@@ -13,11 +13,16 @@
 
 namespace gonio::inline GONIO_ARCH {
 
-/// Inputs by which a value may rise and may fall, a bit each; neither: it does not depend on it.
+/// Inputs by which a value may rise and may fall, a bit each; neither: it does not depend on it.  By those of numbers
+/// that have no bit it may do either.
 struct Directions {
-  std::uint32_t up = 0, down = 0;
+  static constexpr std::size_t most = 64;  ///< inputs that have a bit
 
-  static Directions rising(std::size_t input) { return {std::uint32_t{1} << input, 0}; }
+  std::uint64_t up = 0, down = 0;
+
+  static Directions rising(std::size_t input) {
+    return {input < most ? std::uint64_t{1} << input : 0, 0};
+  }
   Directions reversed() const { return {down, up}; }
   Directions unknown() const { return {up | down, up | down}; }
   /// Those of this times a factor between low and high.
@@ -25,8 +30,8 @@ struct Directions {
     return 0 <= low ? *this : high <= 0 ? reversed() : unknown();
   }
   friend Directions operator|(Directions a, Directions b) { return {a.up | b.up, a.down | b.down}; }
-  bool rises(std::size_t input) const { return !(down >> input & 1); }
-  bool falls(std::size_t input) const { return !(up >> input & 1); }
+  bool rises(std::size_t input) const { return input < most && !(down >> input & 1); }
+  bool falls(std::size_t input) const { return input < most && !(up >> input & 1); }
 };
 
 /// Outcomes that comparisons are given which have either, in the order in which they are asked for: a formula is then
@@ -53,6 +58,20 @@ class EnclosurePaths {
 
 /// This thread's, if a formula is evaluated way by way.
 inline thread_local EnclosurePaths* enclosure_paths = nullptr;
+
+/// Ways by which this thread's comparisons go, until it ends.
+class EnclosurePathsScope {
+ public:
+  explicit EnclosurePathsScope(EnclosurePaths& paths) : before_(enclosure_paths) {
+    enclosure_paths = &paths;
+  }
+  EnclosurePathsScope(const EnclosurePathsScope&) = delete;
+  EnclosurePathsScope& operator=(const EnclosurePathsScope&) = delete;
+  ~EnclosurePathsScope() { enclosure_paths = before_; }
+
+ private:
+  EnclosurePaths* before_;
+};
 
 /// Outcome of a comparison of enclosures, and what is then known of those compared.
 class EnclosureMask {

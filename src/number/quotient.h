@@ -9,7 +9,8 @@ namespace gonio::inline GONIO_ARCH {
 template <Real T>
 struct Quotient {
   T num, den;
-  T value() const { return num / den; }
+  bool whole = false;  ///< no fraction at all: den is 1, and nobody divides by it
+  T value() const { return whole ? num : num / den; }
 };
 
 template <Real T>
@@ -18,7 +19,7 @@ Quotient<T> as_quotient(const Quotient<T>& q) {
 }
 template <Real T>
 Quotient<T> as_quotient(const T& x) {
-  return {x, T(1)};
+  return {x, T(1), true};
 }
 template <Real T>
 T as_value(const Quotient<T>& q) {

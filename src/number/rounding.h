@@ -13,16 +13,13 @@ struct Rounding {
   bool flushed = false;    ///< a subnormal, read or computed, may be taken for 0
   bool any_gpu = false;    ///< what Vulkan allows, below; else to nearest, ties to even
   bool infinities = true;  ///< any_gpu: the shader declares SignedZeroInfNanPreserve
-  /// any_gpu: √0 is 0, as it is everywhere, though 1 / inversesqrt does not promise it.
-  bool root_of_zero = true;
-  /// Error of exp and log of float and double; not read by any_gpu.
-  double library_ulps = 1;
 
   /// Vulkan's bounds for a shader that declares no execution mode, its expressions `precise` unless contracted.
   ///
   ///   + − ×        correctly rounded, to either neighbour: the mode is the implementation's
   ///   ÷            2.5 ulp for divisors of 2^±126, in half 2^±14; else nothing
-  ///   √            1 / inversesqrt, which errs by 2 ulp: 4.5 eps together; of 0 as `root_of_zero` says
+  ///   √            1 / inversesqrt, which errs by 2 ulp: 4.5 eps together; of 0 it is 0,
+  ///                as it is everywhere, though 1 / inversesqrt does not promise it
   ///   exp          3 + 2 |x| ulp, in half 1 + 2 |x|
   ///   log          3 ulp; within [1/2, 2] 2⁻²¹, in half 2⁻⁷
   ///   subnormals   kept or flushed; infinities and NaN: an operation that may make one may give anything

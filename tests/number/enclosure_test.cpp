@@ -7,6 +7,7 @@
 
 #include "any_machine.h"
 #include "many_fits.h"
+#include "number/quotient.h"
 #include "number/special.h"
 
 namespace gonio {
@@ -309,6 +310,42 @@ TEST(Enclosure, OfAnyGpuGivesNeighboursWhereThatIsAllowedAndTheValueItselfWhereI
   EXPECT_TRUE((E(3e38F) * 2).may_be_nan()) << "infinities need not be preserved";
   EXPECT_EQ(E(1e-39F).low(), static_cast<double>(1e-39F));
   EXPECT_EQ((E(1e-39F) * 1).low(), 0) << "subnormals may be flushed";
+}
+
+TEST(Enclosure, OfADivisionByOneErrsAsAnyOtherWhileWhatIsNoFractionIsNotDivided) {
+  {
+    const RoundingScope scope(Rounding::vulkan());
+    const E by_1 = E(3) / E(1), by_2 = E(3) / E(2);
+    EXPECT_EQ(by_1.high(), 2 * by_2.high());
+    EXPECT_EQ(by_1.low(), 2 * by_2.low());
+    EXPECT_LT(by_1.low(), 3);
+    EXPECT_EQ(as_quotient<E>(E(3)).value().high(), 3);
+  }
+  const RoundingScope scope(Rounding{.flushed = true});
+  EXPECT_EQ((E::between(1e-39F, 1e-38F) / E(1)).low(), 0) << "a subnormal is flushed as it is read";
+}
+
+TEST(Enclosure, ForgetsTheWaysOfAFormulaThatThrows) {
+  const E x = E::between(0, 2);
+  const auto throws = [&]() -> E {
+    const auto less = x < E(1);
+    throw less.can_hold();
+  };
+  EXPECT_THROW(E::over_all_ways(throws), bool);
+  EXPECT_EQ(enclosure_paths, nullptr);
+  const auto less = x < E(1);
+  EXPECT_TRUE(less.can_hold() && less.can_fail());
+}
+
+TEST(Directions, AreKnownOfTheFirstInputsAndOfOthersEither) {
+  for (const std::size_t input : {0, 31, 32, 40, 63, 64, 70, 1000}) {
+    const auto by = Directions::rising(input);
+    for (std::size_t other = 0; other < 100; ++other) {
+      const bool numbered = other < Directions::most;
+      EXPECT_EQ(by.rises(other), numbered) << input << " " << other;
+      EXPECT_EQ(by.falls(other), numbered && other != input) << input << " " << other;
+    }
+  }
 }
 
 TEST(Enclosure, ServesAsBaseOfFunctionsThatAreMadeOfIts) {

@@ -84,6 +84,8 @@ TEST(Quotient, DividesWhenAskedForItsValueAndNotBefore) {
   EXPECT_EQ(as_quotient<double>(3.0).num, 3);
   EXPECT_EQ(as_quotient<double>(3.0).den, 1);
   EXPECT_EQ(as_quotient<double>(Quotient<double>{1, 0}).num, 1);
+  EXPECT_TRUE(as_quotient<double>(3.0).whole);
+  EXPECT_FALSE((as_quotient<double>(Quotient<double>{3, 1}).whole));
 }
 
 TEST(Range, HoldsItsEndsAndNeverNaN) {

@@ -20,7 +20,7 @@ namespace gonio::inline GONIO_ARCH {
 /// Fractions in the rule: a product stays one, a sum divides.
 template <Real T>
 Quotient<T> operator*(const Quotient<T>& a, const Quotient<T>& b) {
-  return {a.num * b.num, a.den * b.den};
+  return {a.num * b.num, a.den * b.den, a.whole && b.whole};
 }
 template <Real T>
 T operator+(const T& x, const Quotient<T>& q) {

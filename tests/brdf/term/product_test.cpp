@@ -28,6 +28,14 @@ TEST(Product, DividesFractionsOnce) {
   EXPECT_EQ(as_value<double>(lobe_on(Zero{}, Zero{}, One{}, shape, f)), 6.0 / 77.0);
 }
 
+TEST(Product, OfWhatIsNoFractionIsNone) {
+  const auto shape = as_quotient<double>(2.5), f = as_quotient<double>(0.5);
+  EXPECT_TRUE((shape * f).whole);
+  EXPECT_FALSE((shape * Quotient<double>{0.5, 1}).whole);
+  EXPECT_FALSE((Quotient<double>{2.5, 1} * f).whole);
+  EXPECT_EQ((shape * f).value(), 1.25);
+}
+
 /// The rule's derivatives by all that it is given, by Dual, in the order weight, D V, F, what lies below.
 Dual<double, 4> by_dual() {
   using T = Dual<double, 4>;
