@@ -4,8 +4,9 @@
 /// one rounded as the thread's Rounding has it and the other exact, so that Gappa can bound what the one is off
 /// the other.
 ///
-/// Forms of + − × ÷ √ only.  A comparison is decided where every value of the domain decides it alike, which the
-/// enclosure that goes with each number tells (enclosure.h); what cannot be written makes the script say why.
+/// Forms of + − × ÷ √ only.  A comparison is decided where every value of the domain decides it alike, rounded and exact:
+/// the enclosure (enclosure.h) and the interval that go with each number tell.  What cannot be written makes the
+/// script say why.
 
 #include <algorithm>
 #include <sstream>
@@ -13,6 +14,8 @@
 #include <string_view>
 
 #include "number/enclosure.h"
+#include "number/exact.h"
+#include "number/interval.h"
 #include "number/real.h"
 
 namespace gonio::inline GONIO_ARCH {
@@ -66,6 +69,10 @@ struct ScriptedConstant {
   explicit ScriptedConstant(std::floating_point auto x) : value(x) {}
 };
 
+/// Error terms (exact.h) are the number's, which has them because it rounds.
+template <class F>
+inline constexpr bool rounds_to_nearest<ScriptedConstant<F>> = rounds_to_nearest<F>;
+
 template <class F>
 class Scripted {
  public:
@@ -74,19 +81,24 @@ class Scripted {
       : rounded_(text(static_cast<long double>(x))),
         exact_(rounded_),
         value_(x),
-        least_(std::max(std::abs(x), 1)),
-        one_(x == 1) {}
+        exact_value_{static_cast<double>(x), static_cast<double>(x)},
+        least_(std::max(std::abs(x), 1)) {}
   explicit Scripted(const ScriptedConstant<F>& x)
       : rounded_(text(static_cast<long double>(static_cast<double>(static_cast<F>(x.value))))),
         exact_(text(x.value)),
         value_(static_cast<F>(x.value)),
-        least_(std::max(value_.low(), -value_.high())) {}
+        exact_value_(Interval::holding(x.value)),
+        least_(std::max(value_.low(), -value_.high())) {
+    if (auto* script = Script::now(); script && rounding_now.flushed && value_.may_be_subnormal())
+      script->refuse("a constant that may be flushed");
+  }
   explicit Scripted(F x) : Scripted(ScriptedConstant<F>(static_cast<double>(x))) {}
   /// An input that the script calls by that name, from low to high.
   static Scripted input(const std::string& name, F low, F high) {
     Scripted x;
     x.rounded_ = x.exact_ = name;
     x.value_ = Enclosure<F>::between(low, high);
+    x.exact_value_ = {x.value_.low(), x.value_.high()};
     x.least_ = std::max({x.value_.low(), -x.value_.high(), 0.0});
     if (auto* script = Script::now(); script && rounding_now.flushed && x.least_ < least_normal)
       script->refuse("an input that may be subnormal");
@@ -96,25 +108,31 @@ class Scripted {
   const std::string& exact() const { return exact_; }
 
   friend Scripted operator-(const Scripted& a) {
-    return defined(-a.value_, a.least_,
+    return defined(-a.value_, -a.exact_value_, a.least_,
                    [&](Script& script) { return script.define("-" + a.rounded_, "-" + a.exact_); });
   }
   friend Scripted operator+(const Scripted& a, const Scripted& b) {
-    return binary(a, "+", "add_rel", b, a.value_ + b.value_, least_of_sum(a, b, 1));
+    return binary(a, "+", "add_rel", b, a.value_ + b.value_, a.exact_value_ + b.exact_value_,
+                  least_of_sum(a, b, 1));
   }
   friend Scripted operator-(const Scripted& a, const Scripted& b) {
-    return binary(a, "-", "sub_rel", b, a.value_ - b.value_, least_of_sum(a, b, -1));
+    return binary(a, "-", "sub_rel", b, a.value_ - b.value_, a.exact_value_ - b.exact_value_,
+                  least_of_sum(a, b, -1));
   }
   friend Scripted operator*(const Scripted& a, const Scripted& b) {
-    return binary(a, "*", "mul_rel", b, a.value_ * b.value_, a.least_ * b.least_);
+    const bool same = !a.exact_.empty() && a.exact_ == b.exact_;
+    return binary(a, "*", "mul_rel", b, a.value_ * b.value_,
+                  same ? square(a.exact_value_) : a.exact_value_ * b.exact_value_,
+                  a.least_ * b.least_);
   }
   friend Scripted operator/(const Scripted& a, const Scripted& b) {
-    if (b.one_) return a;
-    return defined(a.value_ / b.value_, a.least_ / size(b), [&](Script& script) {
-      const auto r = a.rounded_ + " / " + b.rounded_, e = a.exact_ + " / " + b.exact_;
-      return rounding_now.any_gpu ? script.define_within(unit_bits - 2, r, e)  // 2.5 < 4
-                                  : script.define("rnd(" + r + ")", e);
-    });
+    return defined(
+        a.value_ / b.value_, a.exact_value_ / b.exact_value_, a.least_ / size(b),
+        [&](Script& script) {
+          const auto r = a.rounded_ + " / " + b.rounded_, e = a.exact_ + " / " + b.exact_;
+          return rounding_now.any_gpu ? script.define_within(unit_bits - 2, r, e)  // 2.5 < 4
+                                      : script.define("rnd(" + r + ")", e);
+        });
   }
   friend Scripted operator+(std::same_as<int> auto s, const Scripted& a) { return Scripted(s) + a; }
   friend Scripted operator+(const Scripted& a, std::same_as<int> auto s) { return a + Scripted(s); }
@@ -125,11 +143,13 @@ class Scripted {
   friend Scripted operator/(std::same_as<int> auto s, const Scripted& a) { return Scripted(s) / a; }
   friend Scripted operator/(const Scripted& a, std::same_as<int> auto s) { return a / Scripted(s); }
   friend EnclosureMask operator<(const Scripted& a, const Scripted& b) {
-    return a.value_ < b.value_;
+    const EnclosureMask m = a.value_ < b.value_;
+    const Interval &x = a.exact_value_, &y = b.exact_value_;
+    return EnclosureMask(m.can_hold() || x.low < y.high, m.can_fail() || y.low <= x.high);
   }
 
   friend Scripted sqrt(const Scripted& a) {
-    return defined(sqrt(a.value_), std::sqrt(a.least_), [&](Script& script) {
+    return defined(sqrt(a.value_), sqrt(a.exact_value_), std::sqrt(a.least_), [&](Script& script) {
       const auto r = "sqrt(" + a.rounded_ + ")", e = "sqrt(" + a.exact_ + ")";
       return rounding_now.any_gpu ? script.define_within(unit_bits - 3, r, e)  // 4.51 < 8
                                   : script.define("rnd(" + r + ")", e);
@@ -158,9 +178,13 @@ class Scripted {
 
   /// Number that `define` defines, of whose values but 0 none is less than `least`.  Gappa's floats neither overflow nor are
   /// they flushed.
-  static Scripted defined(const Enclosure<F>& value, double least, auto&& define) {
+  static Scripted defined(const Enclosure<F>& value,
+                          const Interval& exact_value,
+                          double least,
+                          auto&& define) {
     Scripted r;
     r.value_ = value;
+    r.exact_value_ = exact_value;
     r.least_ = std::max({least * (1 - 0x1p-8), value.low(), -value.high()});  // roundings and more
     if (!value.is_finite()) return refused("a value that is not proved to be finite", value);
     if (rounding_now.flushed && r.least_ < least_normal)
@@ -178,8 +202,9 @@ class Scripted {
                          const std::string& relative,
                          const Scripted& b,
                          const Enclosure<F>& value,
+                         const Interval& exact_value,
                          double least) {
-    return defined(value, least, [&](Script& script) {
+    return defined(value, exact_value, least, [&](Script& script) {
       const auto e = a.exact_ + " " + sign + " " + b.exact_;
       if (rounding_now.any_gpu)
         return script.define(relative + "<" + std::to_string(unit_bits) + ">(" + a.rounded_ + ", " +
@@ -202,7 +227,13 @@ class Scripted {
     if (auto* script = Script::now()) script->refuse(what);
     Scripted r;
     r.value_ = value;
+    r.exact_value_ = {};
     return r;
+  }
+  /// True where a is b or greater, whatever the inputs, rounded and exact.
+  static bool not_below(const Scripted& a, const Scripted& b) {
+    return a.value_.low() >= b.value_.high() && a.exact_value_.low >= b.exact_value_.high &&
+           !a.value_.may_be_nan();
   }
   static Scripted select(const EnclosureMask& m, const Scripted& a, const Scripted& b) {
     if (!m.can_fail()) return a;
@@ -213,8 +244,8 @@ class Scripted {
 
   std::string rounded_, exact_;
   Enclosure<F> value_;
+  Interval exact_value_;
   double least_ = 0;  // of its sizes but 0
-  bool one_ = false;
 };
 
 template <class F>
@@ -227,14 +258,14 @@ struct RealTraits<Scripted<F>> {
   }
   /// Greater one; of values that touch, as 1 − x and 0 for x up to 1, either is it there.
   static Plain max(const Plain& a, const Plain& b) {
-    if (a.value_.low() >= b.value_.high() && !a.value_.may_be_nan()) return a;
-    if (b.value_.low() >= a.value_.high() && !b.value_.may_be_nan()) return b;
-    return Plain::select(a.value_ < b.value_, b, a);
+    if (Plain::not_below(a, b)) return a;
+    if (Plain::not_below(b, a)) return b;
+    return Plain::select(a < b, b, a);
   }
   static Plain min(const Plain& a, const Plain& b) {
-    if (a.value_.high() <= b.value_.low() && !a.value_.may_be_nan()) return a;
-    if (b.value_.high() <= a.value_.low() && !b.value_.may_be_nan()) return b;
-    return Plain::select(b.value_ < a.value_, b, a);
+    if (Plain::not_below(b, a)) return a;
+    if (Plain::not_below(a, b)) return b;
+    return Plain::select(b < a, b, a);
   }
 };
 

@@ -1,9 +1,16 @@
 #include "number/scripted.h"
 
+#include "number/exact.h"
+#include "number/quotient.h"
+
 namespace gonio {
 namespace {
 
 static_assert(Real<Scripted<Half>> && Real<Scripted<float>> && Real<Scripted<double>>);
+
+// The same sums of error terms are taken as in the number that is written down.
+static_assert(computes_as_base<Scripted<Half>> && computes_as_base<Scripted<float>> &&
+              computes_as_base<Scripted<double>>);
 
 using S = Scripted<float>;
 
@@ -34,6 +41,58 @@ TEST(Scripted, DecidesWhatAllInputsDecideAlike) {
   EXPECT_EQ(script.refused(), "");
   min<S>(x, constant<S>(1.5L));
   EXPECT_EQ(script.refused(), "a choice that inputs of the domain make differently");
+}
+
+TEST(Scripted, WritesTheTermsOfAProductsError) {
+  Script script;
+  const S x = S::input("x0", 1, 2), error = product_error<S>(x, x, x * x);
+  EXPECT_NE(error.rounded(), S(0).rounded());
+  EXPECT_NE(script.text().find(" = rnd(x0 * 0x8.008p+9);"), std::string::npos) << script.text();
+}
+
+TEST(Scripted, KnowsThatASquareIsNotBelowZero) {
+  Script script;
+  const S x = S::input("x0", -1, 1), s = x * x;
+  EXPECT_EQ((max<S>(s, S(0))).rounded(), s.rounded());
+  EXPECT_EQ(script.refused(), "");
+  max<S>(x * -x, S(0));
+  EXPECT_NE(script.refused(), "");
+}
+
+TEST(Scripted, RefusesAChoiceThatTheExactFormulaMakesDifferently) {
+  // 0.7 is below 0.7L in float, so the least x is: but not below the constant as it is rounded.
+  const float low = 0.7F;
+  ASSERT_LT(low, 0.7L);
+  const auto refused = [&](auto&& formula) {
+    Script script;
+    formula(S::input("x0", low, 2));
+    return script.refused();
+  };
+  const auto c = [] { return constant<S>(0.7L); };
+  const std::string other = "a choice that inputs of the domain make differently";
+  EXPECT_EQ(refused([&](const S& x) { select<S>(x < c(), x, 2 * x); }), other);
+  EXPECT_EQ(refused([&](const S& x) { select<S>(!(c() < x) && x < S(3), x, 2 * x); }), other);
+  EXPECT_EQ(refused([&](const S& x) { max<S>(x, c()); }), other);
+  EXPECT_EQ(refused([&](const S& x) { min<S>(c(), x); }), other);
+  EXPECT_EQ(refused([&](const S& x) { select<S>(x < constant<S>(0.6L), x, 2 * x); }), "");
+  EXPECT_EQ(refused([&](const S& x) { max<S>(x, constant<S>(0.6L)); }), "");
+  EXPECT_EQ(refused([&](const S& x) { min<S>(x, S(2)); }), "") << "they touch, and do so exactly";
+}
+
+TEST(Scripted, DividesByWhatHappensToBeOne) {
+  Script script;
+  const S x = S::input("x0", 1, 2), same = x / select<S>(x < S(3), S(1), x);
+  EXPECT_NE(same.rounded(), "x0");
+  EXPECT_EQ(as_quotient<S>(x).value().rounded(), "x0");
+}
+
+TEST(Scripted, RefusesAConstantThatMayBeFlushed) {
+  const RoundingScope scope(Rounding::vulkan());
+  Script script;
+  constant<S>(1e-30L);
+  EXPECT_EQ(script.refused(), "");
+  constant<Scripted<Half>>(1e-5L);
+  EXPECT_EQ(script.refused(), "a constant that may be flushed");
 }
 
 TEST(Scripted, OfAnyGpuBoundsEachOperationByItself) {
