@@ -287,7 +287,9 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
             });
 
             const auto [value, slope] = linked<kind, B>(f, offset);
-            const auto [r, w] = weighted<B>(value, slope, load<B>(target + i), load<B>(weight + i));
+            const auto compared =
+                weighted<B>(value, slope, load<B>(target + i), load<B>(weight + i));
+            const B &r = compared[0], &w = compared[1];  // names that lambdas may capture
             std::array<B, K>
                 column;  // made after the link: what lives across a logarithm is spilled
             column[0] = r;

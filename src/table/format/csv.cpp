@@ -268,7 +268,7 @@ class Reader {
     if (const auto found = by_name.columns(word); !word.empty() && !found.empty()) {
       if (found.size() > 1)
         lines_.fail(word, "a second column of that name", "one, or its number as #1");
-      return found.front();
+      return *found.begin();
     }
     if (word.starts_with('#'))
       if (const auto number = number_from<std::size_t>(std::string_view(word).substr(1));
