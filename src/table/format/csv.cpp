@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -99,9 +100,11 @@ class Names {
     std::ranges::stable_sort(order_, {}, [&](std::size_t k) { return names_[k]; });
   }
   /// Ascending.
-  auto columns(std::string_view name) const {
-    return std::ranges::equal_range(order_, without_blanks(name), {},
-                                    [&](std::size_t k) { return names_[k]; });
+  std::span<const std::size_t> columns(std::string_view name) const {
+    const auto of = [&](std::size_t k) { return names_[k]; };
+    const auto word = without_blanks(name);
+    return {std::ranges::lower_bound(order_, word, {}, of),
+            std::ranges::upper_bound(order_, word, {}, of)};
   }
 
  private:
@@ -268,7 +271,7 @@ class Reader {
     if (const auto found = by_name.columns(word); !word.empty() && !found.empty()) {
       if (found.size() > 1)
         lines_.fail(word, "a second column of that name", "one, or its number as #1");
-      return *found.begin();
+      return found.front();
     }
     if (word.starts_with('#'))
       if (const auto number = number_from<std::size_t>(std::string_view(word).substr(1));
