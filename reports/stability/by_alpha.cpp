@@ -29,7 +29,7 @@ using stability::Subject;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Half vectors from the peak to the horizon as sin²θ_h, or pairs of directions at the same angle as its cosine.
+/// Half vectors from the peak to the horizon as sin²θ_h, or directions by their cosine.
 std::vector<double> angles(const Subject& s, std::size_t n) {
   const bool distribution = s.given == Given::cross || s.given == Given::cosine;
   auto x = in_logarithms(distribution ? 1e-8 : 1e-6, distribution ? 0.9999 : 1, n);
@@ -37,8 +37,9 @@ std::vector<double> angles(const Subject& s, std::size_t n) {
   return x;
 }
 
-/// Inputs of a subject at a width and an angle of these; parameters beside the width start where a fit does.
-Inputs inputs(const Subject& s, double alpha, double angle) {
+/// Inputs of a subject at a width and an angle of these, of two directions one each; parameters beside the width start where
+/// a fit does.
+Inputs inputs(const Subject& s, double alpha, double angle, double other) {
   Inputs in;
   const auto& own = catalogue()[*s.term].parameters;
   for (std::size_t k = 0; k < s.parameters; ++k)
@@ -52,7 +53,7 @@ Inputs inputs(const Subject& s, double alpha, double angle) {
       break;
     default:
       in.push_back(angle);
-      in.push_back(angle);
+      in.push_back(other);
   }
   return in;
 }
@@ -63,8 +64,8 @@ double error_at(const Subject& s, Number number, const Inputs& at) {
   const auto in = stability::rounded(s, number, at);
   const double exact = stability::value_of(s, Number::double_, in),
                value = stability::value_of(s, number, in);
-  if (!std::isfinite(exact)) return 0;
   if (!std::isfinite(value)) return nan;
+  if (!std::isfinite(exact)) return 0;
   const double least = std::ldexp(1, stability::least_exponent(number));
   if (std::abs(exact) < least || std::abs(exact) > stability::largest(number)) return 0;
   return std::abs(value / exact - 1);
@@ -114,11 +115,13 @@ std::vector<StabilityRows::ByAlpha> errors_by_alpha(bool all) {
   using namespace stabilities;
   return of_each<StabilityRows::ByAlpha>(all, [&](const Subject& s, Number number) {
     StabilityRows::ByAlpha row{s.id, std::string(s.form()), std::string(name_of(number)), {}, {}};
-    const auto at = angles(s, all ? 800 : 200);
+    const bool two = s.given == Given::cosines;  // every pair of them
+    const auto at = two ? angles(s, all ? 28 : 14) : angles(s, all ? 800 : 200);
     for (const double alpha : in_logarithms(least_width(number), 1, all ? 121 : 61)) {
       double worst = 0;
-      for (const double angle : at) {
-        const double e = error_at(s, number, inputs(s, alpha, angle));
+      for (std::size_t k = 0; k < (two ? at.size() * at.size() : at.size()); ++k) {
+        const double e =
+            error_at(s, number, inputs(s, alpha, at[k % at.size()], at[k / at.size()]));
         if (!(e <= worst)) worst = e;
         if (std::isnan(worst)) break;
       }
@@ -147,9 +150,9 @@ std::vector<StabilityRows::Map> error_maps(bool all) {
       for (std::size_t b = 0; b < cells; ++b) {
         double worst = 0;
         for (std::size_t k = 0; k < looks * looks; ++k) {
+          const double angle = within(map.angle, b, k % looks);
           const double e =
-              error_at(s, number,
-                       inputs(s, within(map.alpha, a, k / looks), within(map.angle, b, k % looks)));
+              error_at(s, number, inputs(s, within(map.alpha, a, k / looks), angle, angle));
           if (!(e <= worst)) worst = e;
           if (std::isnan(worst)) break;
         }

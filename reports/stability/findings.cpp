@@ -57,6 +57,9 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   if (const auto* mobile = find(r, "ndf.ggx.mobile", "cosine", "mixed"))
     answer += fmt::format(" Where it rounds NoH to half instead, it does so from {} on.",
                           from_text(*mobile));
+  if (const auto* flushed = find(r, "ndf.ggx", "cross", "half, flushed"))
+    answer += fmt::format(" On a processor that drops subnormals |n × h|² needs {}.",
+                          from_text(*flushed));
   to.say(answer);
   to.questions.push_back({"Which alpha may I clamp to in half precision?", std::move(answer), {}});
   struct Named {
@@ -89,8 +92,8 @@ void without_a_value(Findings& to, const StabilityRows& r) {
   for (const std::string_view number : {"half", "float", "double"}) {
     const auto all = in_number(r, number);
     if (all.empty()) continue;
-    const auto fails = static_cast<std::size_t>(
-        std::ranges::count_if(all, [](const StabilityRow* row) { return row->nonfinite > 0; }));
+    const auto fails = static_cast<std::size_t>(std::ranges::count_if(
+        all, [](const StabilityRow* row) { return row->nonfinite + row->overflow > 0; }));
     const auto proved = static_cast<std::size_t>(std::ranges::count_if(
         all, [](const StabilityRow* row) { return row->finite_from.has_value(); }));
     to.say(

@@ -8,6 +8,7 @@
 #include "reports/stability/measure.h"
 #include "stability/answer.h"
 #include "stability/evaluate.h"
+#include "stability/exhaustive.h"
 #include "stability/prove.h"
 #include "stability/prove_relative.h"
 #include "stability/search.h"
@@ -49,14 +50,14 @@ using namespace stability;
 
 constexpr std::uint64_t seed = 1;
 
-std::vector<Arithmetic> arithmetics(Depth setting) {
-  std::vector<Arithmetic> all{{Number::half, false, false}, {Number::mixed, false, false}};
-  if (setting == Depth::full) {
+/// Arithmetics in which a subject is looked at; the liberties of half where every half is looked at, or with all the time.
+std::vector<Arithmetic> arithmetics(const Subject& s, Depth setting) {
+  std::vector<Arithmetic> all{{Number::half}, {Number::mixed}, {Number::float_}};
+  if (setting == Depth::full || (setting == Depth::quick && can_be_exhausted(s))) {
     all.push_back({Number::half, true, false});
     all.push_back({Number::half, false, true});
   }
-  all.push_back({Number::float_, false, false});
-  if (setting != Depth::brief) all.push_back({Number::double_, false, false});
+  if (setting != Depth::brief) all.push_back({Number::double_});
   return all;
 }
 /// Least value of the parameter that decides from which on every input is proved to have a value.  Forms of many operations
@@ -135,7 +136,7 @@ StabilityRows stability_rows(const StabilityOptions& o, const ReportProgress& do
   std::vector<Job> jobs;
   for (const auto& id : stabilities::forms(o))
     for (const auto& s : subjects_of(id))
-      for (const auto& a : arithmetics(o.setting)) jobs.push_back({s, a});
+      for (const auto& a : arithmetics(s, o.setting)) jobs.push_back({s, a});
   for (const auto& job : jobs) {
     if (done)
       done("every form in every number",

@@ -20,9 +20,9 @@ function clamp_question() {
   let number = numbers.includes("half") ? "half" : numbers[0];
   const body = changing(() => el("div", {}, el("div", { class: "controls" },
     choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })),
-  dense(table(["distribution", "given", { n: "alpha from" }, { n: "worst" }, { n: "from 0.05 on" }, { n: "no value at" }, { n: "finite: proved from" }, "take instead", { n: "operations" }, "by"],
+  dense(table(["distribution", "given", { n: "alpha from" }, { n: "worst" }, { n: "from 0.05 on" }, { n: "without a value" }, { n: "finite: proved from" }, "take instead", { n: "operations" }, "by"],
     rows.filter((r) => is_width(r) && r.number === number).map((r) => [el("code", {}, short(r.id)), given[r.form], from(r), worst(r), { n: known(r.worst_rel_alpha_0_05) ? error_text(r.worst_rel_alpha_0_05) : "–" },
-      none_or(r.nonfinite, r.nonfinite_at), { n: known(r.finite_from) ? significant(r.finite_from, 2) : "–" }, r.stable ? el("code", {}, short(r.stable)) : r.form === "cosine" ? `from ${given.cross}` : "–",
+      none_or(r.nonfinite + r.overflow, r.nonfinite_at), { n: known(r.finite_from) ? significant(r.finite_from, 2) : "–" }, r.stable ? el("code", {}, short(r.stable)) : r.form === "cosine" ? `from ${given.cross}` : "–",
       { n: r.stable ? `${r.operations} → ${r.stable_operations}` : r.operations }, evidence_words[r.evidence]])))));
   return section("Which alpha is safe", "From this alpha on every input that was looked at keeps the tolerance: 2 % in half and mixed numbers, 0.0001 in float, 10⁻¹⁰ in double. "
     + "Inputs count as exact: a NoH that is rounded to half on its way brings an error of its own, as ggx.mobile shows in mixed numbers. The worst input, also in bits, stands under the pointer. From 0.05 on: the worst from that alpha on, of what does not keep 2 % there.", body.node);
