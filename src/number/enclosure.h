@@ -278,7 +278,7 @@ class Enclosure {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int digits_of = Limits::digits;
   static constexpr double library_ulps = 1;  // of exp and log of float and double
-  static constexpr double slack = 0x1p-50;  // more than double's own errors
+  static constexpr double slack = 0x1p-50;   // more than double's own errors
   inline static const double least_normal = std::ldexp(1.0, Limits::min_exponent - 1);
   inline static const double least_step = std::ldexp(1.0, Limits::min_exponent - digits_of);
   /// Size of the last digit of Vulkan's bounds over the value: of double they are float's.
