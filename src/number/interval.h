@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "number/real.h"
+#include "number/exact.h"
 
 namespace gonio::inline GONIO_ARCH {
 
@@ -67,8 +67,8 @@ struct Interval {
   /// True of what is so small that its error, 53 digits below it, may be 0 without being so.
   static bool small(double x) { return std::abs(x) < 0x1p-900; }
   static double sum(double a, double b, bool up) {
-    const double s = a + b, of_b = s - a;
-    return outwards(s, (a - (s - of_b)) + (b - of_b) == 0, up);  // [Knuth 1969]
+    const double s = a + b;
+    return outwards(s, sum_error(a, b, s) == 0, up);
   }
   static Interval hull(const Interval& a, const Interval& b, auto&& operation) {
     Interval r{infinity, -infinity};

@@ -235,30 +235,36 @@ struct Looking {
 };
 /// Inputs at which something happens, as they are met.
 struct Met {
-  static constexpr std::array counts{
-      &Looked::no_value,  &Looked::negative,     &Looked::overflow,
-      &Looked::undefined, &Looked::negative_too, &Looked::vanished,
-      &Looked::lost,      &Looked::irreciprocal, &Looked::not_monotone};
-  static constexpr std::array of{&Judged::no_value,  &Judged::negative,     &Judged::overflow,
-                                 &Judged::undefined, &Judged::negative_too, &Judged::vanished,
-                                 &Judged::lost,      &Judged::irreciprocal, &Judged::not_monotone};
+  struct Event {
+    Count Looked::*count;
+    bool Judged::*happens;
+  };
+  static constexpr Event events[] = {{&Looked::no_value, &Judged::no_value},
+                                     {&Looked::negative, &Judged::negative},
+                                     {&Looked::overflow, &Judged::overflow},
+                                     {&Looked::undefined, &Judged::undefined},
+                                     {&Looked::negative_too, &Judged::negative_too},
+                                     {&Looked::vanished, &Judged::vanished},
+                                     {&Looked::lost, &Judged::lost},
+                                     {&Looked::irreciprocal, &Judged::irreciprocal},
+                                     {&Looked::not_monotone, &Judged::not_monotone}};
   Looked looked;  ///< its counts
   std::uint64_t evaluations = 0;
   std::optional<Inputs> lost;  ///< beyond the tolerance, with the largest deciding parameter
 
   void look(const Subject& s, const Inputs& in, const Judged& j) {
     ++evaluations;
-    for (std::size_t k = 0; k < counts.size(); ++k) {
-      if (!(j.*of[k])) continue;
-      Count& c = looked.*counts[k];
+    for (const auto& e : events) {
+      if (!(j.*e.happens)) continue;
+      Count& c = looked.*e.count;
       if (c.count++ == 0) c.first = in;
     }
     if (j.lost && s.decides && (!lost || (*lost)[*s.decides] < in[*s.decides])) lost = in;
   }
   void add(const Subject& s, const Met& other) {
-    for (const auto count : counts) {
-      Count& c = looked.*count;
-      const Count& d = other.looked.*count;
+    for (const auto& e : events) {
+      Count& c = looked.*e.count;
+      const Count& d = other.looked.*e.count;
       if (c.count == 0) c.first = d.first;
       c.count += d.count;
     }
@@ -396,7 +402,7 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   }
   if (!looked.ulp.at.empty()) looked.condition = truth_of(s, looked.ulp.at).condition;
   looked.evaluations = one.met.evaluations;
-  for (const auto count : Met::counts) looked.*count = one.met.looked.*count;
+  for (const auto& e : Met::events) looked.*e.count = one.met.looked.*e.count;
   if (s.decides)
     looked.safe_from = one.met.lost ? domain.above(*s.decides, (*one.met.lost)[*s.decides])
                                     : domain.lowest(*s.decides);
