@@ -7,6 +7,6 @@
 
 namespace gonio::inline GONIO_ARCH {
 
-using DiffuseTerms = TermList<Lambert, LambertCoupled, DisneyDiffuse>;
+using DiffuseTerms = TermList<Lambert, LambertCoupled, DisneyDiffuse, DisneyDiffuseCoupled>;
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -66,4 +66,19 @@ struct DisneyDiffuse {
   }
 };
 
+/// Disney's diffuse under an interface:  (1 − F(VoH)) f
+template <Real T>
+struct DisneyDiffuseCoupled : DisneyDiffuse<T> {
+  static constexpr About about{
+      "diffuse.disney.coupled",
+      "Disney's diffuse under the first lobe's interface",
+      "f = (1 − F(VoH)) f of diffuse.disney",
+      "Burley 2012, section 5.3; the interface as of diffuse.lambert.coupled",
+      "",
+      "",
+      "diffuse.lambert.coupled"};
+  static constexpr bool coupled = true;
+  using DisneyDiffuse<T>::DisneyDiffuse;
+};
+
 }  // namespace gonio::inline GONIO_ARCH

@@ -80,6 +80,15 @@ class Files {
   MeshBudget budget_;
 };
 
+/// Spec of a model whose last lobe may be a coat, without the word for that.
+std::pair<std::string, bool> without_coat(const std::string& spec) {
+  static constexpr std::string_view coat = "coat:";
+  const auto last = spec.rfind('+');
+  if (last == std::string::npos || spec.compare(last + 1, coat.size(), coat) != 0)
+    return {spec, false};
+  return {spec.substr(0, last + 1) + spec.substr(last + 1 + coat.size()), true};
+}
+
 /// \param at  the material
 BoundModel model_of(const FromSpec& from, const JsonReader& at) {
   std::vector<Setting> settings;
@@ -93,7 +102,10 @@ BoundModel model_of(const FromSpec& from, const JsonReader& at) {
   }
   const auto bound = [&](const char* key, const char* expected, std::vector<Setting> with) {
     try {
-      return bind_model(from.model, std::move(with), kChannels);
+      auto model = bind_model(without_coat(from.model).first, std::move(with), kChannels);
+      if (without_coat(from.model).second && model.model.lobes.empty())
+        throw wrong_usage("a coat is a lobe");
+      return model;
     } catch (const Error& e) {  // the words are the file's, not the user's
       at.at(key).fail(fmt::format("{} ({})", expected, e.what()));
     }
@@ -115,6 +127,8 @@ std::vector<Material> materials_of(SceneFile& file, const JsonReader& at, Files&
   std::vector<Material> all;
   for (auto& [name, material] : file.materials) {
     material.is = resolved(material, at.at(name), files);
+    if (const auto* spec = std::get_if<FromSpec>(&material.from))
+      material.coated = without_coat(spec->model).second;
     material.name = name;
     all.push_back(std::move(material));
   }

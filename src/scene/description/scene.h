@@ -30,7 +30,7 @@ struct Given {
   std::vector<double> values;
   std::string word;
 };
-/// Model by its spec, or a preset.
+/// Model by its spec, or a preset.  "coat:" before its last lobe puts that lobe on all others: f = below + F (D V − below).
 struct FromSpec {
   std::string model;
   std::vector<std::pair<std::string, Given>> parameters;
@@ -48,6 +48,7 @@ struct Material {
   std::string name;
   std::variant<FromSpec, FromFit, FromGltf> from;  ///< as the file says, paths too
   std::variant<BoundModel, GltfMaterial> is;       ///< a model has three channels
+  bool coated = false;                             ///< the model's last lobe lies on all others
 };
 
 // --- Objects ---

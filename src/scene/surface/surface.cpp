@@ -1,0 +1,366 @@
+#include "scene/surface/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "brdf/catalogue/registry.h"
+#include "brdf/formula/scattering.h"
+#include "brdf/formula/widths.h"
+#include "brdf/in_number/number.h"
+#include "brdf/model/evaluate.h"
+#include "integrate/rule/slopes.h"
+#include "integrate/scattering/compensation.h"
+#include "optics/f0.h"
+#include "optics/fresnel_approximate.h"
+
+#include <fmt/format.h>
+
+namespace gonio::scene {
+namespace {
+
+constexpr std::size_t channels = 3;
+/// Largest F0 that is taken for a dielectric's: eta = 3.
+constexpr double most_dielectric_f0 = 0.25;
+constexpr double f82_cosine = 1.0 / 7;
+
+std::string_view name_of_term(const TermUse& t) {
+  return short_id(catalogue()[t.term].id());
+}
+bool all_equal(const std::vector<double>& v) {
+  return std::ranges::all_of(v, [&](double x) { return x == v[0]; });
+}
+bool all_zero(const std::vector<double>& v) {
+  return std::ranges::all_of(v, [](double x) { return x == 0; });
+}
+
+/// Parameters of some terms with their values.
+std::vector<Setting> settings_of(const BoundModel& b, std::initializer_list<const TermUse*> terms) {
+  std::vector<Setting> all;
+  for (const auto* t : terms)
+    for (const auto k : t->parameters) {
+      const auto& p = b.model.parameters[k];
+      if (std::ranges::find(all, p.name, &Setting::name) == all.end())
+        all.push_back({p.name,
+                       {b.values.begin() + static_cast<std::ptrdiff_t>(p.first),
+                        b.values.begin() + static_cast<std::ptrdiff_t>(p.first + p.count)}});
+    }
+  return all;
+}
+double number_of(const std::vector<Setting>& all, std::string_view name, double otherwise) {
+  const auto at = std::ranges::find(all, name, &Setting::name);
+  return at == all.end() ? otherwise : at->values[0];
+}
+
+std::string spec_of(const Lobe& l) {
+  return fmt::format("{}/{}/{}", name_of_term(l.ndf), name_of_term(l.masking),
+                     name_of_term(l.fresnel));
+}
+
+/// Model of those of the settings that it has.
+BoundModel bound(const std::string& spec, const std::vector<Setting>& settings) {
+  const Model m = compose(spec, 1);
+  std::vector<Setting> own;
+  for (const auto& s : settings)
+    if (m.find(s.name)) own.push_back(s);
+  return bind_model(spec, own, channels);
+}
+
+/// F of each channel at a cosine.
+std::vector<double> reflectance(const BoundModel& b, const TermUse& fresnel, double cosine) {
+  std::vector<double> f;
+  const std::array row{FrameAngles<double>{{cosine, cosine, cosine, cosine, 0}, 0, 0, 0, 0, 0, 0}};
+  for (std::size_t c = 0; c < channels; ++c) {
+    double value = 0;
+    catalogue_in(Number::double_)
+        .terms[fresnel.term]
+        .values(term_parameters(b, fresnel, c), row, &value);
+    f.push_back(value);
+  }
+  return f;
+}
+
+struct Family {
+  std::string_view isotropic, anisotropic, name;
+};
+constexpr std::array families{Family{"ggx", "ggx_aniso", "ggx"},
+                              Family{"beckmann", "beckmann_aniso", "beckmann"},
+                              Family{"gtr", "", "gtr"}};
+
+const Family* family_of(std::string_view ndf) {
+  const auto at = std::ranges::find_if(
+      families, [&](const Family& f) { return f.isotropic == ndf || f.anisotropic == ndf; });
+  return at == families.end() ? nullptr : &*at;
+}
+bool stands_for_smith(std::string_view masking) {
+  return masking.starts_with("smith_") || masking.starts_with("schlick_") ||
+         masking.starts_with("ue_joint") || masking == "hammon" || masking == "disney_remap";
+}
+
+}  // namespace
+
+std::string Surface::spec() const {
+  return coat ? fmt::format("{}+coat:{}", base.model.spec, coat->model.spec) : base.model.spec;
+}
+
+std::vector<std::pair<std::string, std::vector<double>>> Surface::parameters() const {
+  auto all = named_values(base);
+  if (coat)
+    for (auto& [name, values] : named_values(*coat))
+      all.emplace_back(fmt::format("{}_{}", name, base.model.lobes.size() + 1), values);
+  return all;
+}
+
+Look::Look(const Material& m) {
+  if (const auto* model = std::get_if<BoundModel>(&m.is))
+    read(*model, m.coated);
+  else
+    read(std::get<GltfMaterial>(m.is));
+  if (coat_.lobe.empty()) {
+    coat_.lobe = "ggx/smith_ggx.correlated/schlick.weighted";
+    coat_.parameters = {{"alpha", {0.01}}, {"f0", {0.04}}, {"weight", {0}}};
+  }
+  coat_.absent = number_of(coat_.parameters, "weight", 1) == 0;
+  coat_.width = number_of(coat_.parameters, "alpha", 0.1);
+  offer_forms();
+  if (first_.known) albedo_ = lobe_albedo(surface(exact()).base);
+}
+
+void Look::read(const BoundModel& b, bool coated) {
+  auto lobes = b.model.lobes;
+  if (coated) {
+    const Lobe& lobe = lobes.back();
+    coat_.lobe = spec_of(lobe);
+    coat_.parameters = settings_of(b, {&lobe.ndf, &lobe.masking, &lobe.fresnel});
+    for (auto& s : coat_.parameters)
+      if (lobes.size() > 1) s.name.resize(s.name.rfind('_'));
+    lobes.pop_back();
+  }
+  if (!b.model.diffuse.empty()) {
+    const TermUse& term = b.model.diffuse[0];
+    std::string_view kind = name_of_term(term);
+    diffuse_.coupled = catalogue()[term.term].coupled;
+    if (diffuse_.coupled) kind.remove_suffix(std::string_view(".coupled").size());
+    diffuse_.kind = kind;
+    const auto given = settings_of(b, {&term});
+    diffuse_.kd = std::ranges::find(given, "kd", &Setting::name)->values;
+    diffuse_.alpha = number_of(given, "alpha", 1);
+  }
+  if (lobes.empty()) return;
+  const Lobe& first = lobes[0];
+  first_.any = true;
+  first_.ndf = name_of_term(first.ndf);
+  first_.masking = name_of_term(first.masking);
+  first_.shape = settings_of(b, {&first.ndf, &first.masking});
+  first_.known = family_of(first_.ndf) && stands_for_smith(first_.masking);
+  const double alpha = number_of(first_.shape, "alpha", 1);
+  first_.alpha_x = number_of(first_.shape, "alpha_x", alpha);
+  first_.alpha_y = number_of(first_.shape, "alpha_y", alpha);
+  first_.gamma = number_of(first_.shape, "gamma", 2);
+  read_fresnel(name_of_term(first.fresnel), b, first.fresnel);
+  for (std::size_t l = 1; l < lobes.size(); ++l) {
+    others_ += '+' + spec_of(lobes[l]);
+    for (auto& s : settings_of(b, {&lobes[l].ndf, &lobes[l].masking, &lobes[l].fresnel}))
+      others_settings_.push_back(std::move(s));
+  }
+}
+
+void Look::read_fresnel(std::string_view id, const BoundModel& b, const TermUse& term) {
+  fresnel_.parameters = settings_of(b, {&term});
+  const auto f0 = reflectance(b, term, 1);
+  if (id == "schlick" || (id == "schlick.f90" && number_of(fresnel_.parameters, "f90", 1) == 1)) {
+    if (all_equal(f0) && f0[0] <= most_dielectric_f0) {
+      const double eta = IorFromF0<double>::apply(std::array{f0[0]})[0];
+      const std::vector<Setting> parameters{{"eta", {eta}}};
+      const BoundModel exact = bound("ggx/smith_ggx.correlated/dielectric", parameters);
+      read_fresnel("dielectric", exact, exact.model.lobes[0].fresnel);
+      return;
+    }
+    id = "schlick";
+    fresnel_.parameters = {{"f0", f0}};
+  }
+  fresnel_.id = id;
+  fresnel_.f0 = f0;
+  fresnel_.has_schlick = id == "dielectric" || id == "conductor" || id == "gulbrandsen" ||
+                         id == "f82" || id == "lazanyi";
+  fresnel_.has_f82 = fresnel_.has_schlick && id != "f82";
+  const auto edge = reflectance(b, term, f82_cosine);
+  for (std::size_t c = 0; c < channels; ++c)
+    fresnel_.f82_tint.push_back(
+        std::clamp(edge[c] / schlick<double>(f0[c], schlick_weight(f82_cosine)), 0.0, 1.0));
+}
+
+void Look::read(const GltfMaterial& m) {
+  const double alpha = std::max(m.roughness * m.roughness, alpha_parameter.legal.low);
+  const double f0_of_ior = F0FromIor<double>::apply(std::array{m.ior, 1.0})[0];
+  const double f90 = m.specular + m.metallic * (1 - m.specular);
+  std::vector<double> f0, kd;
+  for (std::size_t c = 0; c < channels; ++c) {
+    const double dielectric = std::min(f0_of_ior * m.specular_color[c], 1.0) * m.specular;
+    f0.push_back(dielectric + m.metallic * (m.base_color[c] - dielectric));
+    kd.push_back(m.base_color[c] * (1 - m.metallic));
+  }
+  std::vector<Setting> settings{{"alpha", {alpha}}, {"f0", f0}, {"f90", {f90}}, {"kd", kd}};
+  const bool turned = m.anisotropy > 0;
+  settings.push_back({"alpha_x", {alpha + (1 - alpha) * m.anisotropy * m.anisotropy}});
+  settings.push_back({"alpha_y", {alpha}});
+  read(bound(fmt::format(
+                 "lambert.coupled+{}/schlick.f90",
+                 turned ? "ggx_aniso/smith_ggx_aniso.correlated" : "ggx/smith_ggx.correlated"),
+             settings),
+       false);
+  turn_ = m.anisotropy_rotation;
+  coat_.lobe = "ggx/smith_ggx.correlated/schlick.weighted";
+  coat_.parameters = {
+      {"alpha",
+       {std::max(m.clearcoat_roughness * m.clearcoat_roughness, alpha_parameter.legal.low)}},
+      {"f0", {0.04}},
+      {"weight", {m.clearcoat}}};
+}
+
+void Look::offer_forms() {
+  const auto offer = [&](Effect e, std::vector<std::string_view> names, bool same = false,
+                         std::string why = {}) {
+    Offer& o = offers_[static_cast<std::size_t>(e)];
+    const auto all = forms_of(e);
+    for (const auto name : names)
+      o.forms.push_back(static_cast<std::size_t>(std::ranges::find(all, name) - all.begin()));
+    o.same_as_exact = same ? o.forms.front() : o.forms.back();
+    o.why = same || o.forms.size() == 1 ? std::move(why) : "";
+  };
+  const bool dark = all_zero(diffuse_.kd);
+  if (diffuse_.kind == "none") diffuse_ = {"disney", first_.any, {0, 0, 0}, 1};
+  std::vector<std::string_view> kinds{"none", "lambert"};
+  if (diffuse_.kind == "disney") kinds.emplace_back("disney");
+  if (!first_.any) kinds.erase(kinds.begin());  // it is all that there is
+  offer(Effect::diffuse, kinds, dark,
+        first_.any ? "its diffuse albedo is 0" : "it is all there is");
+  if (diffuse_.coupled)
+    offer(Effect::coupling, {"off", "on"}, dark, "its diffuse albedo is 0");
+  else
+    offer(Effect::coupling, {"off"}, false, "it is given uncoupled");
+
+  const bool gtr = first_.ndf == "gtr";
+  const std::string as_given = first_.any ? "its lobe is of another kind" : "it has no lobe";
+  if (first_.known && !gtr)
+    offer(Effect::anisotropy, {"off", "on"}, first_.alpha_x == first_.alpha_y,
+          "it is as wide along the tangent as across");
+  else
+    offer(Effect::anisotropy, {"off"}, false, as_given);
+  if (first_.known && gtr)
+    offer(Effect::tail, {"ggx", "gtr"}, first_.gamma == 2, "gamma is 2, which is GGX");
+  else
+    offer(Effect::tail, {"ggx"}, false, first_.known ? "its tail is its distribution's" : as_given);
+  if (first_.known) {
+    offer(Effect::masking, {"schlick_k", "separable", "correlated"});
+    offer(Effect::compensation, {"none", "turquin", "fdez_aguera", "kulla_conty"});
+  } else {
+    offer(Effect::masking, {"correlated"}, false, as_given);
+    offer(Effect::compensation, {"none"}, false, as_given);
+  }
+  if (fresnel_.id == "f82")
+    offer(Effect::fresnel, {"schlick", "f82"});
+  else if (fresnel_.has_schlick)
+    offer(Effect::fresnel, {"schlick", "f82", "exact"});
+  else if (fresnel_.id == "schlick")
+    offer(Effect::fresnel, {"schlick"}, false, "its F0 is all that is known of it");
+  else
+    offer(Effect::fresnel, {"exact"}, false, as_given);
+  offer(Effect::coat, {"off", "on"}, coat_.absent, "its coat has no weight");
+  offer(Effect::precision, {"float", "double"});
+}
+
+Forms Look::exact() const {
+  Forms f;
+  for (std::size_t e = 0; e < effect_count; ++e) f.form[e] = offers_[e].forms.back();
+  return f;
+}
+Forms Look::structural() const {
+  Forms f;
+  for (std::size_t e = 0; e < effect_count; ++e) f.form[e] = offers_[e].same_as_exact;
+  return f;
+}
+
+Surface Look::surface(const Forms& forms) const {
+  Surface s;
+  std::string spec;
+  Settings settings;
+  const auto diffuse = forms.name(Effect::diffuse);
+  if (diffuse != "none") {
+    spec = diffuse_.kind == "lambert" || diffuse == "lambert" ? "lambert" : diffuse_.kind;
+    if (forms.name(Effect::coupling) == "on") spec += ".coupled";
+    settings.push_back({"kd", diffuse_.kd});
+  }
+  if (first_.any) {
+    if (!spec.empty()) spec += '+';
+    const double alpha = std::sqrt(first_.alpha_x * first_.alpha_y);
+    if (first_.known) {
+      const Family& family = *family_of(first_.ndf);
+      const bool anisotropic = forms.name(Effect::anisotropy) == "on";
+      const bool tail = forms.name(Effect::tail) == "gtr";
+      // GTR under a masking of GGX is held under that one, as it was given.
+      const std::string_view smith = family.name != "gtr"                              ? family.name
+                                     : tail && first_.masking.starts_with("smith_gtr") ? "gtr"
+                                                                                       : "ggx";
+      const auto masking = forms.name(Effect::masking);
+      spec += anisotropic            ? family.anisotropic
+              : family.name != "gtr" ? family.isotropic
+              : tail                 ? "gtr"
+                                     : "ggx";
+      if (masking == "schlick_k")
+        spec += smith == "beckmann" ? "/schlick_beckmann" : "/schlick_ggx.half_alpha";
+      else
+        spec += fmt::format("/smith_{}{}.{}", smith,
+                            anisotropic && masking == "correlated" ? "_aniso" : "", masking);
+      settings.push_back({"alpha_x", {first_.alpha_x}});
+      settings.push_back({"alpha_y", {first_.alpha_y}});
+      settings.push_back({"alpha", {alpha}});
+      settings.push_back({"gamma", {first_.gamma}});
+    } else {
+      spec += first_.ndf + '/' + first_.masking;
+      settings.insert(settings.end(), first_.shape.begin(), first_.shape.end());
+    }
+    const auto fresnel = forms.name(Effect::fresnel);
+    spec += '/';
+    if (fresnel == "exact" || (fresnel == "f82" && fresnel_.id == "f82")) {
+      spec += fresnel_.id;
+      settings.insert(settings.end(), fresnel_.parameters.begin(), fresnel_.parameters.end());
+    } else {
+      spec += fresnel;
+      settings.push_back({"f0", fresnel_.f0});
+      settings.push_back({"f82_tint", fresnel_.f82_tint});
+    }
+  }
+  if (std::ranges::find(settings, "alpha", &Setting::name) == settings.end())
+    settings.push_back({"alpha", {diffuse_.alpha}});
+  settings.insert(settings.end(), others_settings_.begin(), others_settings_.end());
+  s.base = bound(spec + others_, settings);
+  if (forms.name(Effect::coat) == "on") s.coat = bound(coat_.lobe, coat_.parameters);
+  s.single = forms.name(Effect::precision) == "float";
+
+  auto& m = s.multiple;
+  m.form = forms[Effect::compensation];
+  m.albedo = albedo_.curve;
+  const auto how = forms.name(Effect::compensation);
+  const auto average =
+      how == "kulla_conty"
+          ? fresnel_average(s.base, s.base.model.lobes[0].fresnel, {1e-6, 10'000}).value
+          : fresnel_.f0;
+  for (std::size_t c = 0; c < channels && how != "none"; ++c) {
+    if (how == "kulla_conty") {
+      const std::array p{0.0, 0.0, albedo_.average, average[c]};
+      m.strength[c] = KullaContyLobe<double>::apply(p)[0];
+    } else {
+      m.strength[c] = how == "turquin" ? fresnel_.f0[c] : schlick_average<double>(fresnel_.f0[c]);
+    }
+  }
+  return s;
+}
+
+std::vector<double> Look::widths() const {
+  std::vector<double> all;
+  if (first_.any) all.push_back(std::max(first_.alpha_x, first_.alpha_y));
+  if (!coat_.absent) all.push_back(coat_.width);
+  return all;
+}
+
+}  // namespace gonio::scene

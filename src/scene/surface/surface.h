@@ -1,0 +1,113 @@
+#pragma once
+/// \file
+/// Surface of a material, its effects in chosen forms, and which forms a material leaves to choose.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "brdf/model/model.h"
+#include "scene/description/scene.h"
+#include "scene/surface/effect.h"
+#include "scene/surface/lobe_albedo.h"
+
+namespace gonio::scene {
+
+/// Light that leaves the first lobe after several bounces, in a form of Effect::compensation.
+struct MultipleScattering {
+  std::size_t form = 0;  ///< of forms_of(Effect::compensation)
+  AlbedoCurve<double> albedo{};
+  /// By channel: of turquin F0; of fdez_aguera F_avg; of kulla_conty f of two directions from which
+  /// nothing comes out at once [1/sr].
+  std::array<double, 3> strength{};
+};
+
+/// Surface, as it is evaluated: three channels.
+struct Surface {
+  BoundModel base;                 ///< diffuse terms and lobes
+  std::optional<BoundModel> coat;  ///< one lobe; what is below it loses what the lobe's F keeps
+  MultipleScattering multiple;
+  bool single = false;  ///< computed in float
+
+  /// "lambert.coupled+ggx/smith_ggx.correlated/schlick+coat:ggx/…"
+  std::string spec() const;
+  /// Every parameter of that spec; those of the coat end in the number of its lobe.
+  std::vector<std::pair<std::string, std::vector<double>>> parameters() const;
+};
+
+/// Forms of an effect that a material leaves to choose.
+struct Offer {
+  std::vector<std::size_t> forms;  ///< cheapest first, the exact one last; never empty
+  /// Cheapest form that gives exactly what the exact one gives, and in words why; the exact one itself where every
+  /// cheaper form may differ.
+  std::size_t same_as_exact = 0;
+  std::string why;
+};
+
+/// Material, as its effects see it.
+///
+/// Exact is what the material stands for: GGX and Beckmann under Smith's correlated masking, a conductor or dielectric under
+/// Fresnel's equations, with all that its facets reflect after several bounces.  A grey F0 of at most a quarter is a
+/// dielectric's; a coloured F0 says nothing of other angles, so that Schlick's form is then all there is.  Effects
+/// that a material does not show, an absent coat or a diffuse albedo of 0, stand in the exact form all the
+/// same, for that is what a shader for every material computes.
+class Look {
+ public:
+  explicit Look(const Material&);
+
+  const Offer& offer(Effect e) const { return offers_[static_cast<std::size_t>(e)]; }
+  /// Every effect in its exact form.
+  Forms exact() const;
+  /// Every effect in the cheapest form that is the same.
+  Forms structural() const;
+  /// \param forms  each one that is offered
+  Surface surface(const Forms& forms) const;
+  /// Turn of the tangent about the normal [rad].
+  double turn() const { return turn_; }
+  /// Widths of the lobes, the coat's too: what directions are drawn from.
+  std::vector<double> widths() const;
+
+ private:
+  using Settings = std::vector<Setting>;
+  void read(const BoundModel&, bool coated);
+  void read(const GltfMaterial&);
+  void read_fresnel(std::string_view id, const BoundModel&, const TermUse&);
+  void offer_forms();
+
+  std::array<Offer, effect_count> offers_;
+  struct Diffuse {
+    std::string kind = "none";
+    bool coupled = false;
+    std::vector<double> kd{0, 0, 0};
+    double alpha = 1;
+  } diffuse_;
+  /// First lobe.
+  struct First {
+    bool known = false;  ///< its distribution and masking are of those that forms are of
+    bool any = false;
+    std::string ndf, masking;  ///< as given
+    double alpha_x = 1, alpha_y = 1, gamma = 2;
+    Settings shape;  ///< of D and V as given
+  } first_;
+  struct Fresnel {
+    std::string id;
+    Settings parameters;
+    bool has_schlick = false, has_f82 = false;
+    std::vector<double> f0, f82_tint;
+  } fresnel_;
+  std::string others_;  ///< spec of further lobes, "+…"
+  Settings others_settings_;
+  struct Coat {
+    std::string lobe;
+    Settings parameters;
+    double width = 0.1;
+    bool absent = false;
+  } coat_;
+  double turn_ = 0;
+  LobeAlbedo albedo_;
+};
+
+}  // namespace gonio::scene
