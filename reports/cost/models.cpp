@@ -14,9 +14,8 @@
 #include "brdf/in_number/number.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/presets.h"
-#include "image/colour_difference.h"
+#include "image/display.h"
 #include "integrate/albedo/directional_albedo.h"
-#include "optics/spectrum.h"
 #include "reports/audit/entry.h"
 #include "reports/measure/samples.h"
 #include "reports/measure/surfaces.h"
@@ -147,7 +146,7 @@ std::array<FresnelSurface, 2> surfaces() {
 
 /// Colour in the light in which a perfect diffuser is white.
 Lab seen(const Albedo& a) {
-  return lab(xyz_of_srgb({a.value[0], a.value[1], a.value[2]}), xyz_of_srgb({1, 1, 1}));
+  return lab_of_display({a.value[0], a.value[1], a.value[2]});
 }
 
 /// The largest that gold differs by in even light, at NoV 0.1, 0.5 and 1 and roughness 0.2, 0.5 and 1; not a

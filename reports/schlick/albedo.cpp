@@ -4,9 +4,8 @@
 #include <array>
 
 #include "brdf/catalogue/registry.h"
-#include "image/colour_difference.h"
+#include "image/display.h"
 #include "integrate/albedo/directional_albedo.h"
-#include "optics/spectrum.h"
 #include "reports/schlick/schlick.h"
 
 #include <fmt/format.h>
@@ -38,7 +37,7 @@ std::vector<Setting> exact_settings(const FresnelSurface& s) {
 /// Colour in the light in which a perfect diffuser is white; of one channel grey.
 Lab seen(const std::vector<double>& albedo) {
   const std::array rgb{albedo.front(), albedo[albedo.size() / 2], albedo.back()};
-  return lab(xyz_of_srgb(rgb), xyz_of_srgb({1, 1, 1}));
+  return lab_of_display(rgb);
 }
 
 void add_surface(RoughFresnel& to, const FresnelSurface& s) {

@@ -25,12 +25,12 @@ Rgb Environment::texel(std::size_t i, std::size_t j) const {
   return {double{l[0]}, double{l[1]}, double{l[2]}};
 }
 
-Rgb Environment::operator()(const Direction& d) const {
+std::array<std::size_t, 2> Environment::texel_at(const Direction& d) const {
   const auto index = [](double part, std::size_t n) {
     return std::min(static_cast<std::size_t>(part * static_cast<double>(n)), n - 1);
   };
-  return texel(index((1 - phi_of(d) / std::numbers::pi) / 2, width),
-               index(theta_of(d) / std::numbers::pi, height));
+  return {index((1 - phi_of(d) / std::numbers::pi) / 2, width),
+          index(theta_of(d) / std::numbers::pi, height)};
 }
 
 Environment read_environment(const std::string& path) {

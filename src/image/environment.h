@@ -34,7 +34,12 @@ struct Environment {
   double theta(double y) const;
   double phi(double x) const;
   Rgb texel(std::size_t i, std::size_t j) const;
-  Rgb operator()(const Direction&) const;
+  /// Numbers i, j of the texel that lies in a direction.
+  std::array<std::size_t, 2> texel_at(const Direction&) const;
+  Rgb operator()(const Direction& d) const {
+    const auto [i, j] = texel_at(d);
+    return texel(i, j);
+  }
 };
 
 /// The channels R, G, B of an OpenEXR file, twice as wide as high and at most 8192 wide.  A value that is

@@ -34,9 +34,13 @@ class GgxFacets {
   GgxFacets(double alpha_x, double alpha_y) : alpha_x_(alpha_x), alpha_y_(alpha_y) {}
 
   Facet operator()(const Direction& w, double area, Draws& draw) const {
+    return (*this)(w, area, {draw.uniform(), draw.uniform()});
+  }
+  /// Facet of a point of the unit square.
+  Facet operator()(const Direction& w, double area, const std::array<double, 2>& point) const {
     const double per_length = 1 / (2 * area + w.z), height = 2 * area * per_length;  // 1 + u_z
-    const double down = height * draw.uniform();                                     // 1 − z
-    const double phi = 2 * std::numbers::pi * draw.uniform();
+    const double down = height * point[0];                                           // 1 − z
+    const double phi = 2 * std::numbers::pi * point[1];
     const double sine = std::sqrt(down * (2 - down));
     return {alpha_x_ * (sine * std::cos(phi) - alpha_x_ * w.x * per_length),
             alpha_y_ * (sine * std::sin(phi) - alpha_y_ * w.y * per_length), height - down};

@@ -191,7 +191,7 @@ Direction direction_of(double elevation_deg, double azimuth_deg) {
 }
 
 Rgb EnvironmentLight::radiance(const Direction& d) const {
-  Rgb c = map({d.z, d.x, d.y});
+  Rgb c = map(into_map(d));
   for (double& v : c) v *= scale;
   return c;
 }

@@ -105,6 +105,9 @@ struct EnvironmentLight {
 
   /// Radiance that comes from a direction of the scene; the map's middle is +z, its left half +x.
   Rgb radiance(const Direction&) const;
+  /// Direction in the map of one of the scene, and back.
+  static Direction into_map(const Direction& d) { return {d.z, d.x, d.y}; }
+  static Direction out_of_map(const Direction& d) { return {d.y, d.z, d.x}; }
 };
 using Light = std::variant<DirectionalLight, RectangleLight, EnvironmentLight>;
 

@@ -1,0 +1,46 @@
+#include "scene/trace/camera.h"
+
+#include <cmath>
+
+namespace gonio::scene {
+namespace {
+
+Vector vector_of(const Direction& d) {
+  return {d.x, d.y, d.z};
+}
+
+}  // namespace
+
+Ray ray(const Camera& c, double x, double y, double aspect) {
+  const Vector forward = vector_of(direction(c.target - c.position));
+  const Vector right = vector_of(direction(cross(forward, c.up))), up = cross(right, forward);
+  const double half = std::tan(c.fov_deg * degree / 2);
+  return {c.position,
+          direction(forward + ((2 * x - 1) * half * aspect) * right + ((1 - 2 * y) * half) * up)};
+}
+
+Camera camera_of(const Orbit& o, double elevation_deg, double azimuth_deg) {
+  // a quarter of a turn further up lies the direction in which the elevation grows
+  return {o.target + o.distance * vector_of(direction_of(elevation_deg, azimuth_deg)), o.target,
+          vector_of(direction_of(elevation_deg + 90, azimuth_deg)), Camera{}.fov_deg};
+}
+
+Camera middle_camera(const View& view) {
+  if (const auto* camera = std::get_if<Camera>(&view)) return *camera;
+  const auto& o = std::get<Orbit>(view);
+  const auto middle = [](const std::array<double, 2>& ends) { return (ends[0] + ends[1]) / 2; };
+  return camera_of(o, middle(o.from.elevation_deg), middle(o.from.azimuth_deg));
+}
+
+Camera draw_camera(const View& view, Draws& draw) {
+  if (const auto* camera = std::get_if<Camera>(&view)) return *camera;
+  const auto& o = std::get<Orbit>(view);
+  const double elevation = draw_between(o.from.elevation_deg, draw);
+  return camera_of(o, elevation, draw_between(o.from.azimuth_deg, draw));
+}
+
+double draw_between(const std::array<double, 2>& ends, Draws& draw) {
+  return ends[0] + (ends[1] - ends[0]) * draw.uniform();
+}
+
+}  // namespace gonio::scene
