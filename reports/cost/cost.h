@@ -13,7 +13,7 @@
 #include "number/counted.h"
 #include "reports/finding/report.h"
 #include "reports/measure/machine.h"
-#include "reports/measure/timing.h"
+#include "timing/timing.h"
 #include "reports/picture/figure.h"
 
 namespace gonio {

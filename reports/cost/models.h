@@ -18,9 +18,6 @@ struct Whole {
 };
 std::vector<Whole> wholes();
 
-/// Operations of one sample in all channels, the model written as one formula: where a lobe multiplies the fractions D, V and F, it
-/// divides once.
-Operations operations_of_model(const Model&);
 std::size_t table_bytes(const Model&);
 std::size_t table_bytes(std::string_view term);
 

@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/cost/model_operations.h"
 #include "brdf/in_number/number.h"
 #include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
@@ -204,7 +205,7 @@ FactsByName facts_of(const std::vector<Subject>& subjects,
     Facts& f = all[i]->second;
     const bool is_float = number == "float";
     if (const auto w = std::ranges::find(models, id, &Whole::id); w != models.end()) {
-      f = {operations_of_model(w->model.model), table_bytes(w->model.model), {}};
+      f = {operations_of(w->model.model), table_bytes(w->model.model), {}};
       if (errors) f.error = is_float ? error_of_whole<float>(*w) : error_of_whole<double>(*w);
     } else if (id == "bound.columns") {
       f.operations[Operation::mul] = 2;

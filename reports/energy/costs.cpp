@@ -10,7 +10,7 @@
 #include "number/counted.h"
 #include "optics/fresnel_approximate.h"
 #include "reports/energy/energy.h"
-#include "reports/measure/timing.h"
+#include "timing/timing.h"
 
 #include <fmt/format.h>
 

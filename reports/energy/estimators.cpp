@@ -11,7 +11,7 @@
 #include "integrate/rule/slopes.h"
 #include "integrate/scattering/visible_facets.h"
 #include "reports/energy/energy.h"
-#include "reports/measure/timing.h"
+#include "timing/timing.h"
 
 namespace gonio {
 namespace {

@@ -8,7 +8,7 @@
 #include "integrate/light/split_sum_light.h"
 #include "integrate/light/split_sum_table.h"
 #include "reports/energy/energy.h"
-#include "reports/measure/timing.h"
+#include "timing/timing.h"
 
 namespace gonio {
 namespace {

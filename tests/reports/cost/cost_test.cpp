@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "brdf/catalogue/registry.h"
+#include "brdf/cost/model_operations.h"
 #include "brdf/in_number/number.h"
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/presets.h"
@@ -141,7 +142,7 @@ TEST(Cost, CountsTheOperationsOfATermAsCountedDoes) {
 
 TEST(Cost, AModelDividesOnceALobe) {
   const auto of = [](std::string_view spec) {
-    return costing::operations_of_model(bind_model(spec, {}, 1).model);
+    return operations_of(bind_model(spec, {}, 1).model);
   };
   const auto ggx = of("ggx/smith_ggx.correlated/schlick");
   EXPECT_EQ(ggx[Operation::div], 1U);
@@ -156,7 +157,7 @@ TEST(Cost, AModelDividesOnceALobe) {
   EXPECT_EQ(diffuse[Operation::add], ggx[Operation::add] + 1);
   // three channels share D and V, and their division
   auto three =
-      costing::operations_of_model(bind_model("ggx/smith_ggx.correlated/schlick", {}, 3).model);
+      operations_of(bind_model("ggx/smith_ggx.correlated/schlick", {}, 3).model);
   EXPECT_EQ(three[Operation::div], 1U);
   EXPECT_EQ(three[Operation::sqrt], 2U);
   EXPECT_EQ(three.total(), ggx.total() + 2 * (part("fresnel.schlick").total() + 1));

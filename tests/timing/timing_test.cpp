@@ -1,4 +1,4 @@
-#include "reports/measure/timing.h"
+#include "timing/timing.h"
 
 #include <algorithm>
 #include <vector>
