@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Form of a document that people write: each key once, with the values that it takes.  Reading, which refuses anything else by its
-/// place, and the JSON Schema follow from it.
+/// Form of a document that is read: each key once, with the values that it takes.  Reading, which refuses anything else by its
+/// place, writing, and the JSON Schema follow from it.
 ///
 ///   struct Width {
 ///     double alpha = 0.1;
@@ -13,9 +13,9 @@
 ///     f.required("of", w.of, "its name");
 ///   }
 ///   Width w;
-///   read_form(JsonReader(file, document), w);     form_schema<Width>("Width of a distribution")
+///   read_form(JsonReader(file, document), w);     form_schema<Width>("Width of a distribution")     form_json(w)
 ///
-/// A value is a number, a whole number, text, the name of an enum's value, an array of numbers, a struct of three of them x, y
+/// A value is a number, a whole number, true or false, text, the name of an enum's value, an array of numbers, a struct of three of them x, y
 /// and z, a list, a list of pairs (an object of any names), an optional, or a struct with keys.  What a document leaves out
 /// keeps the value that it has in the struct.
 /// Dear to compile: for .cpp files only.
@@ -106,6 +106,8 @@ void read_value(const JsonReader& j, V& value, const Rule&... rule) {
   using namespace form_detail;
   if constexpr (std::same_as<V, double>) {
     value = number_in(j, Numbers{rule...});
+  } else if constexpr (std::same_as<V, bool>) {
+    value = j.boolean();
   } else if constexpr (std::same_as<V, std::uint64_t>) {
     value = j.whole_number();
   } else if constexpr (std::same_as<V, std::string>) {
@@ -151,6 +153,9 @@ Json value_schema(const V& value, bool with_default, const Rule&... rule) {
   };
   if constexpr (std::same_as<V, double>) {
     out = numbers_schema(Numbers{rule...});
+    left_out(value);
+  } else if constexpr (std::same_as<V, bool>) {
+    out = {{"type", "boolean"}};
     left_out(value);
   } else if constexpr (std::same_as<V, std::uint64_t>) {
     out = {{"type", "integer"}, {"minimum", 0}};
@@ -314,6 +319,59 @@ class FormSchema {
 
   std::vector<Json> alternatives_;
 };
+
+/// Writer of an object by its form; an optional without a value is left out.
+class FormWriter {
+ public:
+  void constant(const std::string& key, std::string_view is) { put(json_, key, std::string(is)); }
+  template <class V, class... Rule>
+  void required(const std::string& key, const V& value, std::string_view, const Rule&...) {
+    put(json_, key, value_json(value));
+  }
+  template <class V, class... Rule>
+  void optional(const std::string& key, const V& value, std::string_view, const Rule&...) {
+    if constexpr (form::is<V, std::optional>) {
+      if (value) put(json_, key, value_json(*value));
+    } else {
+      put(json_, key, value_json(value));
+    }
+  }
+  void expect(bool, const std::string&, const std::string&) const {}
+  Json json() && { return std::move(json_); }
+
+  template <class V>
+  static Json value_json(const V& value) {
+    using namespace form_detail;
+    if constexpr (is_named_list<V>) {
+      Json object = Json::object();
+      for (const auto& [name, member] : value) put(object, name, value_json(member));
+      return object;
+    } else if constexpr (is_list<V>) {
+      Json array = Json::array();
+      for (const auto& entry : value) array.push_back(value_json(entry));
+      return array;
+    } else if constexpr (std::is_arithmetic_v<V> || Named<V> || std::same_as<V, std::string> ||
+                         is_numbers<V>) {
+      return json_of(value);
+    } else if constexpr (Triple<V>) {
+      return json_of(array_of(value));
+    } else {
+      FormWriter f;
+      V copy = value;
+      keys(f, copy);
+      return std::move(f).json();
+    }
+  }
+
+ private:
+  Json json_ = Json::object();
+};
+
+/// JSON of a struct by its form.
+template <class T>
+Json form_json(const T& value) {
+  return FormWriter::value_json(value);
+}
 
 template <class T>
 void read_form(const JsonReader& j, T& value) {
