@@ -32,6 +32,8 @@ void add_albedo(CommandLine&);
 void add_split_sum(CommandLine&);
 void add_report(CommandLine&);
 void add_stability(CommandLine&);
+void add_plan(CommandLine&);
+void add_verify(CommandLine&);
 
 /// Entries of the catalogue that are neither term nor map nor composed of terms, and what evaluates them.
 struct Evaluated {

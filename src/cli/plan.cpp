@@ -1,0 +1,99 @@
+// gonio plan: the effects that each material of a scene needs.
+#include <algorithm>
+
+#include "cli/command.h"
+#include "cli/output_files.h"
+#include "cli/terminal.h"
+#include "scene/plan/document.h"
+
+#include <fmt/format.h>
+
+namespace gonio::cli {
+namespace {
+
+using namespace scene;
+
+struct Options : Common {
+  std::string scene, output, cost = "time";
+  std::size_t samples = PlanOptions{}.samples;
+  std::optional<std::uint64_t> seed;
+};
+
+std::string unit_of(const Tolerance& t) {
+  return t.metric == Metric::relative ? "relative" : "ΔE2000";
+}
+
+void print(const MaterialPlan& m, const Tolerance& t) {
+  say("{}: {:.3g} × as fast, {:.0f} % fewer operations\n", m.name, m.speedup, 100 * m.ops_saved);
+  say("  take    {}\n", m.spec);
+  std::string kept, dropped, none;
+  for (const auto& e : m.effects) {
+    auto& list = e.keep ? kept : e.why == Why::structural ? none : dropped;
+    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", name_of(e.effect),
+                        e.keep ? fmt::format(" ({})", e.form) : "");
+  }
+  say_below("  keep    ", kept.empty() ? "nothing" : kept);
+  if (!dropped.empty()) say_below("  drop    ", dropped);
+  if (!none.empty()) say_below("  absent  ", none);
+  if (m.checked.samples == 0) {
+    say("  check   no cheaper set keeps the tolerance: what changes nothing is dropped\n");
+    return;
+  }
+  say_below("  check   ",
+            fmt::format(
+                "{:.3g} % of {} fresh points differ by at most {} {:.2g}; the worst by {:.2g}",
+                100 * t.quantile, m.checked.samples, unit_of(t), m.checked.upper, m.checked.worst));
+  if (m.passed_over > 0)
+    say("          {} cheaper {} where chosen and failed on fresh points\n", m.passed_over,
+        m.passed_over == 1 ? "set held" : "sets held");
+}
+
+Exit run(const Options& o) {
+  use_jobs(o.jobs);
+  OutputFiles files({o.scene}, o.output, "");
+  Scene s = read_scene(o.scene);
+  if (o.seed) s.seed = *o.seed;
+  PlanOptions options;
+  options.samples = o.samples;
+  options.cost = value_of<Cost>(o.cost, "cost");
+  TimedProgress progress(o.quiet, "planning", s.materials.size());
+  const Plan plan = plan_scene(s, options, [&](double done) {
+    progress(static_cast<std::size_t>(done * static_cast<double>(s.materials.size())));
+  });
+  progress.clear();
+  const auto document = to_json(plan);
+  files.write_document(document);
+  files.commit();
+  if (o.json)
+    fmt::print("{}", document);
+  else
+    for (const auto& m : plan.materials) print(m, plan.tolerance);
+  if (!plan.budget) return Exit::done;
+  const auto& b = *plan.budget;
+  if (!o.json)
+    say("budget: {:.4g} ns of {:.4g} a point; the worst material's error is at most {:.3g}\n", b.ns,
+        b.budget_ns, b.error);
+  return b.fits ? Exit::done : Exit::check_failed;
+}
+
+}  // namespace
+
+void add_plan(CommandLine& line) {
+  auto [c, o] = line.command("plan",
+                             "Says for each material of a scene which optical effects to simulate "
+                             "there, which to drop, and "
+                             "what that saves, within the scene's tolerance",
+                             "gonio plan scene.json -o plan.json", run);
+  c.option("SCENE", o->scene, "Scene, gonio.scene/1").required();
+  c.option("-o,--output", o->output, "The plan as a document, gonio.plan/1");
+  c.option("--samples", o->samples, "Points that sets of effects are compared on (4096)")
+      .in(std::size_t{512}, std::size_t{65'536});
+  c.option("--cost", o->cost,
+           "What sets are compared by: time, as measured here, or operations, the same everywhere")
+      .one_of(names_of<Cost>);
+  add_seed(c, o->seed, "Seed of the points, in place of the scene's");
+  add_jobs(c, *o);
+  add_output(c, *o);
+}
+
+}  // namespace gonio::cli

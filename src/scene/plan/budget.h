@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// A time for a whole scene, shared out among its materials.
+
+#include <cstddef>
+#include <vector>
+
+namespace gonio::scene {
+
+/// Set of forms that a material may take.
+struct Choice {
+  double ns = 0;     ///< of a visible sample
+  double error = 0;  ///< upper bound of its quantile
+};
+struct Sharer {
+  double coverage = 0;          ///< of the picture
+  std::vector<Choice> choices;  ///< not empty
+};
+struct Shares {
+  std::vector<std::size_t> choice;  ///< of each material
+  double ns = 0;                    ///< mean over visible samples, weighted by coverage
+  double error = 0;                 ///< the worst
+  bool fits = false;                ///< within the budget; else each takes what is cheapest
+};
+
+/// Choices with the least worst error whose mean time keeps the budget; of those with that error the cheapest.  The worst
+/// error is one of the choices' own: the least of these for which everyone's cheapest choice within it fits.
+Shares share_out(const std::vector<Sharer>&, double budget_ns);
+
+}  // namespace gonio::scene

@@ -1,0 +1,89 @@
+#include "scene/plan/cost.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "brdf/cost/model_operations.h"
+#include "brdf/formula/scattering.h"
+#include "number/counted.h"
+
+namespace gonio::scene {
+namespace {
+
+using C = Counted<double>;
+constexpr std::size_t channels = 3;
+constexpr std::size_t most_rows = 2048;  ///< that stay in a core's cache
+
+Operations of_multiple(const MultipleScattering& m) {
+  const auto how = forms_of(Effect::compensation)[m.form];
+  const auto curve = m.albedo.in<C>();
+  const C nol(0.5), nov(0.6), one(1.0), half(0.5);
+  return count_operations([&] {
+    if (how == "none") return;
+    const C e = value_at(curve, nov);
+    if (how == "kulla_conty") {
+      const C lost = (1 - value_at(curve, nol)) * (1 - e);
+      for (std::size_t c = 0; c < channels; ++c) static_cast<void>(one + half * lost);
+      return;
+    }
+    for (std::size_t c = 0; c < channels; ++c) {
+      if (how == "turquin") {
+        Turquin<C>::apply(std::array{one, e, half});
+        continue;
+      }
+      const C bounced = half * (1 - e);
+      static_cast<void>(one + one * bounced / (1 - bounced));
+    }
+  });
+}
+
+/// Work that a timing repeats.
+template <class F>
+std::function<void()> work(const Surface& s, const Block<F>& x) {
+  struct State {
+    SurfaceEvaluator<F> evaluate;
+    std::vector<Column<F>> f;
+    std::array<F*, channels> out{};
+  };
+  auto state =
+      std::make_shared<State>(State{SurfaceEvaluator<F>(s, SurfaceKernels<F>::composed()), {}, {}});
+  for (std::size_t c = 0; c < channels; ++c)
+    state->out[c] = state->f.emplace_back(Column<F>(x.n)).data();
+  return [state, x] { state->evaluate(x, state->out); };
+}
+
+}  // namespace
+
+double operations_of(const Surface& s) {
+  Operations sum = gonio::operations_of(s.base.model);
+  sum += of_multiple(s.multiple);
+  if (s.multiple.form != 0 && forms_of(Effect::compensation)[s.multiple.form] != "kulla_conty" &&
+      (!s.base.model.diffuse.empty() || s.base.model.lobes.size() > 1)) {
+    Model lobe = s.base.model;  // evaluated once more, alone
+    lobe.diffuse.clear();
+    lobe.lobes.resize(1);
+    sum += gonio::operations_of(lobe);
+  }
+  if (s.coat) {
+    sum += gonio::operations_of(s.coat->model);
+    sum[Operation::add] += 2 * channels;  // on all that is below
+  }
+  return static_cast<double>(sum.total());
+}
+
+std::vector<Timing> times_of(std::span<const Surface> surfaces, const LitPoints& points) {
+  const std::size_t n = std::min(points.angles.size(), most_rows);
+  if (n == 0) return std::vector<Timing>(surfaces.size(), Timing{0, 0});
+  const LitColumns columns(std::span(points.angles).first(n));
+  std::vector<Timed> timed;
+  for (const auto& s : surfaces)
+    timed.push_back({n, s.single ? work<float>(s, columns.narrow.block())
+                                 : work<double>(s, columns.wide.block())});
+  TimingOptions options;
+  options.repetitions = 9;
+  options.seconds = 1e-4;
+  options.of_thread = true;
+  return time_all(timed, options);
+}
+
+}  // namespace gonio::scene

@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// Difference between what is seen and what should be.
+
+#include <span>
+#include <vector>
+
+#include "scene/description/scene.h"
+
+namespace gonio::scene {
+
+/// Difference of each radiance from the reference's, by the metric of a scene's tolerance.
+///
+///   delta_e_2000   of display colours (image/display.h)
+///   relative       the channel's that differs most: |L − L₀|/L₀; 0 where both are 0, 1 where L₀ alone is
+std::vector<double> differences(Metric,
+                                double exposure,
+                                std::span<const Rgb> reference,
+                                std::span<const Rgb> radiance);
+
+/// Differences of independent points, as a tolerance judges them.
+struct Judgement {
+  std::size_t samples = 0, exceeding = 0;  ///< those beyond the limit
+  double quantile = 0;                     ///< of the differences
+  double upper = 0;                        ///< its upper confidence bound
+  double bound = 1;                        ///< of the share that is beyond the limit
+  double worst = 0;
+
+  /// True where the bound of the quantile keeps the limit, and none is beyond the greatest.
+  bool keeps(const Tolerance& t) const { return upper <= t.limit && worst <= t.max; }
+};
+/// \param values  reordered
+Judgement judge(std::vector<double>& values, const Tolerance&);
+
+}  // namespace gonio::scene

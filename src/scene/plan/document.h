@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// Plan as a document, gonio.plan/1.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/plan/plan.h"
+
+namespace gonio::scene {
+
+std::string to_json(const Plan&);
+std::string plan_schema();
+
+/// Forms that a plan chooses, by material of the scene; no value for those that no object has.
+struct PlannedForms {
+  std::vector<std::optional<Forms>> by_material;
+};
+
+/// Forms of a plan's document.  A plan of another scene, forms that a material does not offer, and a spec that is not that of the
+/// forms are bad_input.
+PlannedForms read_plan(const std::string& path, const Scene&, const std::vector<Look>&);
+
+}  // namespace gonio::scene

@@ -1,0 +1,335 @@
+#include "scene/plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "base/error.h"
+#include "scene/plan/bounds.h"
+#include "scene/plan/budget.h"
+#include "scene/plan/confidence.h"
+#include "scene/plan/cost.h"
+#include "scene/plan/reference.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio::scene {
+namespace {
+
+constexpr std::size_t most_candidates = 512;
+/// Streams of points: those that sets are compared on, those that the chosen one is checked on; verify.cpp has its own.
+constexpr std::uint64_t choosing = 1, checking = 2;
+/// Times that differ by less are taken for the same.
+constexpr double least_spread = 0.03;
+/// Part of the greatest difference that the check leaves unused: no draw shows the very worst point.
+constexpr double reserve = 0.9;
+/// Part of the limit that a proved bound may take without being measured.
+constexpr double proved_share = 0.1;
+
+constexpr std::array<Effect, effect_count> all_effects{
+    Effect::fresnel, Effect::compensation, Effect::masking,  Effect::anisotropy, Effect::coat,
+    Effect::tail,    Effect::diffuse,      Effect::coupling, Effect::precision};
+
+/// Key of a set by what it computes: what is not there has no form.
+std::tuple<std::string, std::size_t, bool> key_of(const Surface& s) {
+  return {s.spec(), s.multiple.form, s.single};
+}
+
+/// Puts forms into a plan, and what follows from them.
+void take(MaterialPlan& p, const Look& look, const Forms& forms, double ns) {
+  const Surface surface = look.surface(forms);
+  p.forms = forms;
+  p.ns = ns;
+  p.spec = surface.spec();
+  p.parameters = surface.parameters();
+  p.speedup = p.ns_exact / p.ns;
+  p.ops_saved = 1 - operations_of(surface) / operations_of(look.surface(look.exact()));
+  for (auto& e : p.effects) {
+    e.keep = forms.keeps(e.effect);
+    e.form = forms.name(e.effect);
+  }
+}
+
+class MaterialPlanner {
+ public:
+  MaterialPlanner(const Lit& lit, std::size_t material, const PlanOptions& o)
+      : MaterialPlanner(lit, lit.scene, material, o) {}
+  MaterialPlanner(const Lit& lit, const Scene& s, std::size_t material, const PlanOptions& o)
+      : scene_(s),
+        options_(o),
+        look_(lit.looks[material]),
+        drawer_(lit.drawer(material, o.directions)),
+        exact_(look_.surface(look_.exact())),
+        reference_(seen(drawer_.draw(choosing, 0, o.samples), s, material), exact_) {
+    for (const auto& object : s.objects)
+      if (object.material == material) join(reached_angles(s, object));
+  }
+
+  MaterialPlan plan() {
+    screen();
+    make_candidates();
+    measure();
+    return chosen();
+  }
+
+ private:
+  static LitPoints seen(LitPoints p, const Scene& s, std::size_t material) {
+    if (p.count == 0)
+      throw bad_input(s.path, fmt::format("material '{}'", s.materials[material].name),
+                      "no view that shows it", "an object of it in the picture");
+    return p;
+  }
+  void join(const ReachedAngles& r) {
+    reached_.voh.low = std::min(reached_.voh.low, r.voh.low);
+    reached_.voh.high = std::max(reached_.voh.high, r.voh.high);
+  }
+  Judgement judged(const Surface& s) const {
+    auto d = reference_.differences_of(scene_, s);
+    return judge(d, scene_.tolerance);
+  }
+  /// All exact but one.
+  Surface with(Effect e, std::size_t form) const {
+    Forms f = look_.exact();
+    f[e] = form;
+    return look_.surface(f);
+  }
+
+  /// Effects one by one.
+  void screen() {
+    std::vector<Surface> dropped;
+    for (const Effect e : all_effects) {
+      const auto& offer = look_.offer(e);
+      dropped.push_back(with(e, offer.forms.front()));
+      PlannedEffect planned;
+      planned.effect = e;
+      auto& left = left_[static_cast<std::size_t>(e)];
+      if (offer.same_as_exact == offer.forms.front()) {
+        planned.why = Why::structural;
+        planned.reason = offer.why;
+        left = {offer.forms.front()};
+      } else if (const auto bound = proved(e, offer.forms.front());
+                 bound && *bound <= proved_share * scene_.tolerance.limit) {
+        planned.why = Why::proved;
+        planned.error_if_dropped = *bound;
+        left = {offer.forms.front()};
+      } else {
+        planned.error_if_dropped = judged(dropped.back()).quantile;
+        for (const auto form : offer.forms)
+          if (form >= offer.same_as_exact || scene_.budget_ns ||
+              judged(with(e, form)).keeps(scene_.tolerance))
+            left.push_back(form);
+      }
+      effects_.push_back(planned);
+    }
+    dropped.push_back(exact_);
+    const auto times = times_of(dropped, reference_.points);
+    const double ns = times.back().ns, ops = operations_of(exact_);
+    for (std::size_t i = 0; i < effects_.size(); ++i) {
+      effects_[i].ns_saved = ns - times[i].ns;
+      effects_[i].ops_saved = ops - operations_of(dropped[i]);
+    }
+  }
+  std::optional<double> proved(Effect e, std::size_t form) const {
+    const auto change = change_bound(look_, e, form, reached_);
+    if (!change) return {};
+    return scene_.tolerance.metric == Metric::relative ? *change : delta_e_bound(*change);
+  }
+
+  /// Combinations of the forms that are left; where these are too many, the effect that saves the least time is left exact.
+  void make_candidates() {
+    const auto count = [&] {
+      std::size_t n = 1;
+      for (const auto& forms : left_) n *= forms.size();
+      return n;
+    };
+    while (count() > most_candidates) {
+      std::size_t least = effect_count;
+      for (std::size_t e = 0; e < effect_count; ++e)
+        if (left_[e].size() > 1 &&
+            (least == effect_count || effects_[e].ns_saved < effects_[least].ns_saved))
+          least = e;
+      // Forms between the cheapest and the exact one go first.
+      auto& forms = left_[least];
+      const auto most = std::ranges::max_element(left_, {}, [](const auto& f) { return f.size(); });
+      if (most->size() > 2)
+        most->erase(most->end() - 2);
+      else
+        forms = {forms.back()};
+    }
+    std::set<std::tuple<std::string, std::size_t, bool>> known;
+    for (std::size_t i = 0, n = count(); i < n; ++i) {
+      Candidate c;
+      std::size_t rest = i;
+      for (std::size_t e = 0; e < effect_count; ++e) {
+        c.forms.form[e] = left_[e][rest % left_[e].size()];
+        rest /= left_[e].size();
+      }
+      if (!c.forms.keeps(Effect::diffuse) && look_.offer(Effect::diffuse).forms.front() == 0)
+        c.forms[Effect::coupling] = 0;
+      Surface s = look_.surface(c.forms);
+      if (!known.insert(key_of(s)).second) continue;
+      candidates_.push_back(c);
+      surfaces_.push_back(std::move(s));
+    }
+  }
+
+  void measure() {
+    tbb::parallel_for(std::size_t{0}, candidates_.size(), [&](std::size_t i) {
+      candidates_[i].error = judged(surfaces_[i]);
+      candidates_[i].ops = operations_of(surfaces_[i]);
+    });
+    auto timed = surfaces_;
+    timed.push_back(exact_);
+    const auto times = times_of(timed, reference_.points);
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      candidates_[i].ns = times[i].ns;
+      candidates_[i].ns_spread = times[i].spread_ns;
+    }
+    ns_exact_ = times.back().ns;
+  }
+
+  double cost(const Candidate& c) const { return options_.cost == Cost::time ? c.ns : c.ops; }
+  double spread(const Candidate& c) const {
+    return options_.cost == Cost::time ? std::max(c.ns_spread, least_spread * c.ns) : 0;
+  }
+
+  /// Those that keep the tolerance, best first: the cheapest, and before it those as cheap that keep fewer effects.
+  std::vector<const Candidate*> in_order() const {
+    std::vector<const Candidate*> left, order;
+    for (const auto& c : candidates_)
+      if (c.error.keeps(scene_.tolerance)) left.push_back(&c);
+    std::ranges::sort(left, [&](auto* a, auto* b) {
+      return std::tuple(cost(*a), a->forms.form) < std::tuple(cost(*b), b->forms.form);
+    });
+    while (!left.empty()) {
+      const double most = cost(*left[0]) + spread(*left[0]);
+      const auto end = std::ranges::find_if(left, [&](auto* c) { return cost(*c) > most; });
+      const auto best = std::min_element(left.begin(), end, [&](auto* a, auto* b) {
+        return std::tuple(a->kept(), a->ops, cost(*a)) < std::tuple(b->kept(), b->ops, cost(*b));
+      });
+      order.push_back(*best);
+      left.erase(best);
+    }
+    return order;
+  }
+
+  bool passes(const Judgement& j) const {
+    const auto& t = scene_.tolerance;
+    return j.bound <= share_that_passes(t.quantile, verified_samples, t.confidence) &&
+           j.worst <= reserve * t.max;
+  }
+
+  MaterialPlan chosen() {
+    MaterialPlan p;
+    p.effects = std::move(effects_);
+    for (auto& e : p.effects)
+      if (e.reason.empty()) e.reason = reason(e);
+    p.ns_exact = ns_exact_;
+    p.coverage = drawer_.coverage();
+    p.directions = static_cast<double>(reference_.points.point.size()) /
+                   static_cast<double>(reference_.points.count);
+    front(p);
+    if (scene_.budget_ns) return p;
+    for (const auto* c : in_order()) {
+      p.checked =
+          judge_fresh(scene_, drawer_, checking, options_.fresh, exact_, look_.surface(c->forms));
+      if (passes(p.checked)) {
+        take(p, look_, c->forms, c->ns);
+        return p;
+      }
+      ++p.passed_over;
+    }
+    // What changes nothing needs no check.
+    p.checked = {};
+    const auto same = look_.structural();
+    take(p, look_, same, times_of(std::array{look_.surface(same)}, reference_.points)[0].ns);
+    return p;
+  }
+  std::string reason(const PlannedEffect& e) const {
+    const auto unit = scene_.tolerance.metric == Metric::relative ? "" : "ΔE2000 ";
+    if (e.why == Why::proved)
+      return fmt::format("dropping it changes no point by more than {}{:.2g}, by proof", unit,
+                         e.error_if_dropped);
+    return fmt::format("dropping it alone changes {:.3g} % of the points by more than {}{:.2g}",
+                       100 * (1 - scene_.tolerance.quantile), unit, e.error_if_dropped);
+  }
+  void front(MaterialPlan& p) const {
+    std::vector<Candidate> all = candidates_;
+    std::ranges::sort(all, {},
+                      [&](const Candidate& c) { return std::tuple(cost(c), c.error.upper); });
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& c : all)
+      if (c.error.upper < least) {
+        least = c.error.upper;
+        p.front.push_back(c);
+      }
+  }
+
+  const Scene& scene_;
+  const PlanOptions& options_;
+  const Look& look_;
+  PointDrawer drawer_;
+  Surface exact_;
+  Reference reference_;
+  ReachedAngles reached_{{1, 0}};
+  std::vector<PlannedEffect> effects_;
+  std::array<std::vector<std::size_t>, effect_count> left_;
+  std::vector<Candidate> candidates_;
+  std::vector<Surface> surfaces_;
+  double ns_exact_ = 0;
+};
+
+}  // namespace
+
+std::size_t Candidate::kept() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(all_effects, [&](Effect e) { return forms.keeps(e); }));
+}
+
+namespace {
+
+/// Shares the scene's time out, and checks what each material got.
+void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
+  const Scene& s = lit.scene;
+  std::vector<Sharer> sharers;
+  for (const auto& m : plan.materials) {
+    Sharer sharer{m.coverage, {}};
+    for (const auto& c : m.front) sharer.choices.push_back({c.ns * m.directions, c.error.upper});
+    sharers.push_back(std::move(sharer));
+  }
+  const auto shares = share_out(sharers, *s.budget_ns);
+  plan.budget = Budget{*s.budget_ns, shares.ns, shares.error, shares.fits};
+  for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+    auto& m = plan.materials[i];
+    const auto& c = m.front[shares.choice[i]];
+    const auto index = static_cast<std::size_t>(
+        std::ranges::find(s.materials, m.name, &Material::name) - s.materials.begin());
+    const Look& look = lit.looks[index];
+    take(m, look, c.forms, c.ns);
+    m.checked = judge_fresh(s, lit.drawer(index, options.directions), checking, options.fresh,
+                            look.surface(look.exact()), look.surface(c.forms));
+  }
+}
+
+}  // namespace
+
+Plan plan_scene(const Scene& s,
+                const PlanOptions& options,
+                const std::function<void(double)>& done) {
+  const Lit lit(s);
+  Plan plan{s.sha256, s.tolerance, {}, {}};
+  for (std::size_t m = 0; m < s.materials.size(); ++m) {
+    if (std::ranges::find(s.objects, m, &Object::material) == s.objects.end()) continue;
+    plan.materials.push_back(MaterialPlanner(lit, m, options).plan());
+    plan.materials.back().name = s.materials[m].name;
+    if (done) done(static_cast<double>(m + 1) / static_cast<double>(s.materials.size()));
+  }
+  if (s.budget_ns) share(plan, lit, options);
+  return plan;
+}
+
+}  // namespace gonio::scene

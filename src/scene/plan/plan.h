@@ -1,0 +1,115 @@
+#pragma once
+/// \file
+/// Plan of a scene: for each material the forms of its effects that keep the scene's tolerance at the least cost.
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/names.h"
+#include "scene/description/scene.h"
+#include "scene/plan/difference.h"
+#include "scene/surface/surface.h"
+
+namespace gonio::scene {
+
+/// Ground on which a form was chosen: it is the same; it is proved to differ by no more than the tolerance; it was measured.
+enum class Why { structural, proved, measured };
+
+/// Effect of a material in a plan.
+struct PlannedEffect {
+  Effect effect{};
+  bool keep = false;  ///< its form is not the cheapest
+  std::string form;
+  Why why = Why::measured;
+  std::string reason;  ///< in words
+  double error_if_dropped =
+      0;  ///< quantile, all else exact; where it is proved, the bound of any difference
+  double ns_saved = 0,
+         ops_saved = 0;  ///< by its cheapest form, all else exact, of one direction of light
+};
+
+/// Set of forms that was measured.
+struct Candidate {
+  Forms forms;
+  double ns = 0, ns_spread = 0;  ///< of f of one direction of light
+  double ops = 0;
+  Judgement error;
+
+  /// Number of effects that it keeps.
+  std::size_t kept() const;
+};
+
+struct MaterialPlan {
+  std::string name;
+  std::vector<PlannedEffect> effects;
+  std::string spec;
+  std::vector<std::pair<std::string, std::vector<double>>> parameters;
+  double speedup = 1, ops_saved = 0;  ///< all effects exact against the plan: ratio of times, and
+                                      ///< the share of operations
+  double ns = 0, ns_exact = 0;
+  Judgement checked;  ///< on fresh points
+  std::size_t passed_over =
+      0;  ///< cheaper sets that kept the tolerance where they were chosen, but not on fresh points
+  double coverage = 0;           ///< of the picture
+  double directions = 0;         ///< of light that come to a point, on average
+  std::vector<Candidate> front;  ///< none of the others is cheaper and errs less
+  Forms forms;
+};
+
+/// A time for all materials, and what came of it.
+struct Budget {
+  double budget_ns = 0;  ///< mean over visible points, weighted by coverage
+  double ns = 0;         ///< of the plan
+  double error = 0;      ///< the worst of the materials' upper bounds
+  bool fits = false;     ///< else every material takes what is cheapest
+};
+
+struct Plan {
+  std::string scene_sha256;
+  Tolerance tolerance;
+  std::vector<MaterialPlan> materials;
+  std::optional<Budget> budget;
+};
+
+/// Cost by which sets are compared: time as it was measured, or operations, which are the same everywhere.
+enum class Cost { time, operations };
+
+struct PlanOptions {
+  std::size_t samples = 4096;   ///< points that sets are compared on
+  std::size_t fresh = 65'536;   ///< points that the chosen set is checked on
+  std::size_t directions = 64;  ///< of each light that has an extent
+  Cost cost = Cost::time;
+};
+/// Points of a verification.  \see verify
+inline constexpr std::size_t verified_samples = 16'384;
+
+/// Plan of a scene.  A material that no view shows is wrong: bad_input.
+///
+///   1  effects that change nothing take their cheapest form
+///   2  so do those whose change is proved to be less than a tenth of the tolerance
+///   3  of the others, every form that keeps the tolerance while all else is exact is a candidate's; candidates are their
+///      combinations, at most 512
+/// Where the scene has a budget, all forms are candidates', and in place of 4 those are taken whose worst error is the least that
+/// the budget leaves; the tolerance may be broken then, which a verification tells.
+///
+///   4  the cheapest that keeps the tolerance, ties within the spread of times going to fewer effects, is checked on fresh
+///      points, strictly enough that fresh ones of a verification are likely to agree; if it fails the next is taken
+///
+/// \param done  part that is done, in [0, 1]
+Plan plan_scene(const Scene&,
+                const PlanOptions& = {},
+                const std::function<void(double)>& done = {});
+
+}  // namespace gonio::scene
+
+template <>
+inline constexpr std::array<std::string_view, 3> gonio::names_of<gonio::scene::Why>{
+    "structural", "proved", "measured"};
+template <>
+inline constexpr std::array<std::string_view, 2> gonio::names_of<gonio::scene::Cost>{"time",
+                                                                                     "operations"};

@@ -1,0 +1,167 @@
+#include "scene/plan/samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/half_vector.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio::scene {
+namespace {
+
+constexpr std::size_t most_looks =
+    20'000;  ///< for one point: what fills less of the picture is not seen
+constexpr int candidates = 4;
+
+FrameAngles<double> angles_of(const Frame& frame, const Direction& light, const Direction& viewer) {
+  const Direction l = frame.inside(light), v = frame.inside(viewer);
+  return angles_between<double>({l.x, l.y, l.z}, {v.x, v.y, v.z});
+}
+
+template <class F>
+std::vector<Rgb> radiance_in(const Surface& s, const LitPoints& p, const Block<F>& x) {
+  std::array<Column<F>, 3> f{Column<F>(x.n), Column<F>(x.n), Column<F>(x.n)};
+  const std::array out{f[0].data(), f[1].data(), f[2].data()};
+  SurfaceEvaluator<F> evaluate(s);
+  evaluate(x, out);
+  std::vector<Rgb> sum(p.count, Rgb{});
+  for (std::size_t i = 0; i < p.point.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[p.point[i]][c] += static_cast<double>(f[c][i]) * p.weight[i][c];
+  return sum;
+}
+
+std::vector<double> turns_of(const std::vector<Look>& looks) {
+  std::vector<double> turns;
+  for (const auto& l : looks) turns.push_back(l.turn());
+  return turns;
+}
+
+}  // namespace
+
+Lit::Lit(const Scene& s)
+    : scene(s),
+      looks(s.materials.begin(), s.materials.end()),
+      tracer(s, turns_of(looks)),
+      lighting(s, &tracer) {}
+
+PointDrawer Lit::drawer(std::size_t material, std::size_t directions) const {
+  return {scene, material, looks[material].widths(), tracer, lighting, directions};
+}
+
+LitColumns::LitColumns(std::span<const FrameAngles<double>> rows)
+    : wide(rows.size(), true), narrow(rows.size(), true) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    wide.set(i, rows[i]);
+    narrow.set(i, rows[i]);
+  }
+}
+
+std::vector<Rgb> radiance(const Surface& s, const LitPoints& p, const LitColumns& columns) {
+  return s.single ? radiance_in<float>(s, p, columns.narrow.block())
+                  : radiance_in<double>(s, p, columns.wide.block());
+}
+
+PointDrawer::PointDrawer(const Scene& s,
+                         std::size_t material,
+                         std::vector<double> widths,
+                         const Tracer& tracer,
+                         const Lighting& lighting,
+                         std::size_t directions)
+    : scene_(s),
+      material_(material),
+      directions_(directions),
+      widths_(std::move(widths)),
+      tracer_(tracer),
+      lighting_(lighting) {
+  constexpr std::size_t looks = 16'384;
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < looks; ++i) {
+    Draws draw(s.seed, 0, material, i);
+    seen += look_once(draw).has_value();
+  }
+  coverage_ = static_cast<double>(seen) / looks;
+}
+
+std::optional<PointDrawer::Seen> PointDrawer::look_once(Draws& draw) const {
+  const Camera camera = draw_camera(scene_.view, draw);
+  const double x = draw.uniform(), y = draw.uniform();
+  const Ray seen = ray(camera, x, y, 1);
+  const auto hit = tracer_.closest(seen.origin, seen.direction);
+  if (!hit || hit->material != material_) return {};
+  const Direction to_viewer{-seen.direction.x, -seen.direction.y, -seen.direction.z};
+  if (!(dot(hit->frame.z, to_viewer) > 0)) return {};
+  return Seen{*hit, to_viewer};
+}
+
+std::optional<PointDrawer::Seen> PointDrawer::look(Draws& draw) const {
+  for (std::size_t i = 0; i < most_looks; ++i)
+    if (auto seen = look_once(draw)) return seen;
+  return {};
+}
+
+double PointDrawer::near_peak(const Seen& seen) const {
+  double nearest = 0;
+  for (const auto& light : scene_.lights) {
+    Direction l;
+    if (const auto* d = std::get_if<DirectionalLight>(&light)) {
+      const auto* fixed = std::get_if<DirectionalLight::Fixed>(&d->from);
+      if (!fixed) continue;
+      l = fixed->direction;
+    } else if (const auto* r = std::get_if<RectangleLight>(&light)) {
+      l = direction(r->center - seen.hit.position);
+    } else {
+      continue;
+    }
+    const auto a = angles_of(seen.hit.frame, l, seen.to_viewer);
+    if (!(a.nol > 0)) continue;
+    for (const double w : widths_) {
+      const double width2 = w * w, peak = width2 / (width2 + a.sin2_theta_h);
+      nearest = std::max(nearest, peak * peak);
+    }
+  }
+  return nearest;
+}
+
+LitPoints PointDrawer::draw(std::uint64_t stream, std::size_t first, std::size_t count) const {
+  struct One {
+    Seen seen;
+    std::vector<Incident> light;
+  };
+  std::vector<std::optional<One>> all(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    Draws draws(scene_.seed, stream, material_, first + i);
+    auto seen = look(draws);
+    if (!seen) return;
+    if ((first + i) % 2 == 1) {
+      double sum = near_peak(*seen) + 1e-3;
+      for (int k = 1; k < candidates; ++k) {
+        const auto other = look(draws);
+        if (!other) continue;
+        const double weight = near_peak(*other) + 1e-3;
+        sum += weight;
+        if (draws.uniform() * sum < weight) seen = other;
+      }
+    }
+    One& one = all[i].emplace(One{*seen, {}});
+    lighting_.incident(seen->hit.position, seen->hit.frame, seen->to_viewer, widths_, directions_,
+                       draws, one.light);
+  });
+  LitPoints p;
+  for (const auto& one : all) {
+    if (!one) continue;
+    for (const auto& light : one->light) {
+      const auto a = angles_of(one->seen.hit.frame, light.direction, one->seen.to_viewer);
+      if (!(a.nol > 0)) continue;
+      p.angles.push_back(a);
+      p.point.push_back(static_cast<std::uint32_t>(p.count));
+      p.weight.push_back(light.weight);
+    }
+    ++p.count;
+  }
+  return p;
+}
+
+}  // namespace gonio::scene

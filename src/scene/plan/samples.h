@@ -1,0 +1,87 @@
+#pragma once
+/// \file
+/// Points of a material that viewers see, each with all the light that comes to it.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/random.h"
+#include "brdf/model/evaluate.h"
+#include "scene/description/scene.h"
+#include "scene/light/lighting.h"
+#include "scene/surface/evaluate.h"
+#include "scene/trace/camera.h"
+#include "scene/trace/tracer.h"
+
+namespace gonio::scene {
+
+/// Points drawn one independent of the other, and a row for each direction that light comes from: its radiance is the sum of
+/// f · weight over its rows.
+struct LitPoints {
+  std::size_t count = 0;
+  std::vector<FrameAngles<double>> angles;  ///< [row]
+  std::vector<std::uint32_t> point;         ///< [row]
+  std::vector<Rgb> weight;                  ///< [row]
+};
+
+/// Columns of rows in double and in float.
+struct LitColumns {
+  AngleColumns<double> wide;
+  AngleColumns<float> narrow;
+
+  explicit LitColumns(std::span<const FrameAngles<double>>);
+};
+
+/// Radiance of every point.
+std::vector<Rgb> radiance(const Surface&, const LitPoints&, const LitColumns&);
+
+/// What draws points of one material.
+///
+/// A point is seen through a place drawn evenly over the picture of a camera that is drawn from those of the scene.  For half of the
+/// points four are drawn, and one of them taken by how near to a lobe's peak its normal is: highlights, where materials differ
+/// most, are small.
+class PointDrawer {
+ public:
+  /// \param widths      of the material's lobes
+  /// \param directions  of each light that has an extent
+  PointDrawer(const Scene&,
+              std::size_t material,
+              std::vector<double> widths,
+              const Tracer&,
+              const Lighting&,
+              std::size_t directions);
+  /// Points first … first + count − 1 of a stream; the same whatever else was drawn.
+  LitPoints draw(std::uint64_t stream, std::size_t first, std::size_t count) const;
+  /// Share of the picture that the material is seen in.
+  double coverage() const { return coverage_; }
+
+ private:
+  struct Seen {
+    Hit hit;
+    Direction to_viewer;
+  };
+  std::optional<Seen> look_once(Draws&) const;
+  std::optional<Seen> look(Draws&) const;
+  double near_peak(const Seen&) const;
+
+  const Scene& scene_;
+  std::size_t material_, directions_;
+  std::vector<double> widths_;
+  double coverage_ = 0;
+  const Tracer& tracer_;
+  const Lighting& lighting_;
+};
+
+/// Scene with the looks of its materials, and what rays and light need of it.
+struct Lit {
+  const Scene& scene;
+  std::vector<Look> looks;  ///< by material
+  Tracer tracer;
+  Lighting lighting;
+
+  explicit Lit(const Scene&);
+  PointDrawer drawer(std::size_t material, std::size_t directions) const;
+};
+
+}  // namespace gonio::scene

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// Verification of a plan: its forms on fresh points of its scene.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scene/plan/document.h"
+#include "scene/plan/plan.h"
+
+namespace gonio::scene {
+
+struct VerifiedMaterial {
+  std::string name;
+  Judgement found;
+  bool holds = false;
+};
+
+struct Verification {
+  Tolerance tolerance;
+  std::vector<VerifiedMaterial> materials;
+
+  bool holds() const;
+};
+
+/// Judgement of each material that an object has, by its exact surface in double.  The tolerance holds where the share of points
+/// beyond its limit is proved, with its confidence, to be no more than its quantile leaves, and none is beyond its greatest.
+/// \param seed  of the points, beside the scene's
+Verification verify(const Scene&,
+                    const PlannedForms&,
+                    std::uint64_t seed = 1,
+                    std::size_t samples = verified_samples,
+                    const std::function<void(double)>& done = {});
+
+std::string to_json(const Verification&);
+
+}  // namespace gonio::scene
