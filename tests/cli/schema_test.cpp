@@ -10,6 +10,8 @@
 #include "reports/tables/inspect_page.h"
 #include "scene/description/scene.h"
 #include "scene/description/scene_example.h"
+#include "scene/plan/document.h"
+#include "scene/plan/verify.h"
 #include "stability/answer.h"
 #include "table/format/metadata.h"
 #include "table/health/health.h"
@@ -41,6 +43,8 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
                                    {"inspect", health_schema()},
                                    {"table", side_file_schema()},
                                    {"scene", scene::scene_schema()},
+                                   {"plan", scene::plan_schema()},
+                                   {"verification", scene::verification_schema()},
                                    {"fit.page", fit_page_schema()},
                                    {"inspect.page", inspect_page_schema()}}) {
     if (write) std::ofstream(path_of(name), std::ios::binary) << text;

@@ -131,7 +131,7 @@ ReachedAngles reached_angles(const Scene& s, const Object& object) {
     least = std::min(least, std::max(apart - play, 0.0));
     most = std::max(most, std::min(apart + play, std::numbers::pi));
   }
-  return {{std::max(std::cos(most / 2), 0.0), std::cos(least / 2)}};
+  return {{most < std::numbers::pi ? std::cos(most / 2) : 0, std::cos(least / 2)}};
 }
 
 std::optional<double> change_bound(const Look& look,

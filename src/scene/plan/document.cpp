@@ -12,18 +12,19 @@
 
 namespace gonio::scene {
 
+constexpr Numbers amounts{0, Numbers::any};
+
 template <class Form>
 void keys(Form& f, Budget& b) {
-  constexpr Numbers sizes{0, Numbers::any};
-  f.required("budget_ns", b.budget_ns, "mean time of a visible point", sizes);
-  f.required("ns", b.ns, "of the plan", sizes);
-  f.required("error", b.error, "upper bound of the worst material's quantile", sizes);
+  f.required("budget_ns", b.budget_ns, "mean time of a visible point", amounts);
+  f.required("ns", b.ns, "of the plan", amounts);
+  f.required("error", b.error, "upper bound of the worst material's quantile", amounts);
   f.required("fits", b.fits, "false: even the cheapest forms take longer");
 }
 
 namespace {
 
-constexpr Numbers shares{0, 1}, sizes{0, Numbers::any};
+constexpr Numbers shares{0, 1};
 
 struct FrontFile {
   std::vector<std::pair<std::string, std::string>> forms;
@@ -35,10 +36,10 @@ void keys(Form& f, FrontFile& c) {
   f.required("forms", c.forms, "by effect", Entries{0, effect_count});
   f.required("ns", c.ns, "of f of one direction of light", Numbers{});
   f.required("ns_spread", c.ns_spread, "half the distance of the quartiles", Numbers{});
-  f.required("ops", c.ops, "operations of the same", sizes);
-  f.required("error_quantile", c.error_quantile, "quantile of the differences", sizes);
-  f.optional("error_upper", c.error_upper, "its upper confidence bound", sizes);
-  f.required("worst", c.worst, "greatest difference", sizes);
+  f.required("ops", c.ops, "operations of the same", amounts);
+  f.required("error_quantile", c.error_quantile, "quantile of the differences", amounts);
+  f.optional("error_upper", c.error_upper, "its upper confidence bound", amounts);
+  f.required("worst", c.worst, "greatest difference", amounts);
 }
 
 struct EffectFile {
@@ -59,7 +60,7 @@ void keys(Form& f, EffectFile& e) {
       "error_if_dropped", e.error_if_dropped,
       "quantile of the differences where it alone takes its cheapest form; a bound of all of "
       "them where it is proved",
-      sizes);
+      amounts);
   f.required("ns_saved", e.ns_saved, "by that, of f of one direction of light", Numbers{});
   f.required("ops_saved", e.ops_saved, "operations, of the same", Numbers{});
   f.optional("reason", e.reason, "in words");
@@ -81,19 +82,19 @@ void keys(Form& f, MaterialFile& m) {
   f.required("effects", m.effects, "each effect once", Entries{effect_count, effect_count});
   f.required("spec", m.spec, "model of these forms; compensation and precision are not in it");
   f.optional("parameters", m.parameters, "of the spec");
-  f.required("speedup", m.speedup, "time of all effects exact, over the plan's", sizes);
+  f.required("speedup", m.speedup, "time of all effects exact, over the plan's", amounts);
   f.optional("ops_saved", m.ops_saved, "share of the operations", Numbers{});
-  f.optional("ns", m.ns, "of f of one direction of light", sizes);
-  f.optional("ns_exact", m.ns_exact, "of the same, all effects exact", sizes);
-  f.required("error_quantile", m.error_quantile, "of the differences on fresh points", sizes);
-  f.optional("error_upper", m.error_upper, "its upper confidence bound", sizes);
-  f.optional("worst", m.worst, "greatest difference of these", sizes);
+  f.optional("ns", m.ns, "of f of one direction of light", amounts);
+  f.optional("ns_exact", m.ns_exact, "of the same, all effects exact", amounts);
+  f.required("error_quantile", m.error_quantile, "of the differences on fresh points", amounts);
+  f.optional("error_upper", m.error_upper, "its upper confidence bound", amounts);
+  f.optional("worst", m.worst, "greatest difference of these", amounts);
   f.optional("exceeding_bound", m.exceeding_bound, "upper bound of the share beyond the limit",
              shares);
   f.required("samples", m.samples, "fresh points");
   f.optional("passed_over", m.passed_over, "cheaper sets that failed on the fresh points");
   f.optional("coverage", m.coverage, "share of the picture that shows the material", shares);
-  f.optional("directions", m.directions, "of light that come to a point, on average", sizes);
+  f.optional("directions", m.directions, "of light that come to a point, on average", amounts);
   f.optional("front", m.front, "sets of forms of which none is cheaper and errs less");
 }
 

@@ -97,6 +97,7 @@ std::optional<PointDrawer::Seen> PointDrawer::look_once(Draws& draw) const {
 }
 
 std::optional<PointDrawer::Seen> PointDrawer::look(Draws& draw) const {
+  if (coverage_ == 0) return {};
   for (std::size_t i = 0; i < most_looks; ++i)
     if (auto seen = look_once(draw)) return seen;
   return {};

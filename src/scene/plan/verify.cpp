@@ -2,10 +2,41 @@
 
 #include <algorithm>
 
-#include "base/json_describe.h"
+#include "base/json_form.h"
 #include "scene/plan/reference.h"
 
 namespace gonio::scene {
+namespace {
+
+struct VerifiedFile {
+  bool holds = false;
+  std::uint64_t exceeding = 0, samples = 0;
+  double upper_bound = 1, confidence = 0, worst = 0, quantile = 0;
+};
+template <class Form>
+void keys(Form& f, VerifiedFile& m) {
+  constexpr Numbers share{0, 1}, amount{0, Numbers::any};
+  f.required("holds", m.holds, "the tolerance");
+  f.required("exceeding", m.exceeding, "points that differ by more than the limit");
+  f.required("samples", m.samples, "points");
+  f.required("upper_bound", m.upper_bound, "of the share of all points that do", share);
+  f.required("confidence", m.confidence, "of the bound", share);
+  f.required("worst", m.worst, "greatest difference", amount);
+  f.required("error_quantile", m.quantile, "quantile of the differences", amount);
+}
+
+struct VerificationFile {
+  bool holds = false;
+  std::vector<std::pair<std::string, VerifiedFile>> materials;
+};
+template <class Form>
+void keys(Form& f, VerificationFile& v) {
+  f.constant("schema", "gonio.verification/1");
+  f.required("holds", v.holds, "for every material");
+  f.required("materials", v.materials, "by name");
+}
+
+}  // namespace
 
 bool Verification::holds() const {
   return std::ranges::all_of(materials, &VerifiedMaterial::holds);
@@ -33,16 +64,16 @@ Verification verify(const Scene& s,
 }
 
 std::string to_json(const Verification& v) {
-  Json materials = Json::object();
+  VerificationFile f{v.holds(), {}};
   for (const auto& m : v.materials)
-    materials[m.name] = {{"holds", m.holds},
-                         {"exceeding", m.found.exceeding},
-                         {"samples", m.found.samples},
-                         {"upper_bound", m.found.bound},
-                         {"confidence", v.tolerance.confidence},
-                         {"worst", m.found.worst}};
-  return text_of(
-      Json{{"schema", "gonio.verification/1"}, {"holds", v.holds()}, {"materials", materials}});
+    f.materials.emplace_back(
+        m.name, VerifiedFile{m.holds, m.found.exceeding, m.found.samples, m.found.bound,
+                             v.tolerance.confidence, m.found.worst, m.found.quantile});
+  return text_of(form_json(f));
+}
+
+std::string verification_schema() {
+  return form_schema<VerificationFile>("Verification of a plan");
 }
 
 }  // namespace gonio::scene

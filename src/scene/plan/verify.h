@@ -33,6 +33,8 @@ Verification verify(const Scene&,
                     std::size_t samples = verified_samples,
                     const std::function<void(double)>& done = {});
 
+/// Document gonio.verification/1, and its schema.
 std::string to_json(const Verification&);
+std::string verification_schema();
 
 }  // namespace gonio::scene

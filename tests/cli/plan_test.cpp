@@ -1,0 +1,129 @@
+// gonio plan and gonio verify: what they say, how they exit, what they refuse.
+#include "cli/program.h"
+
+namespace gonio::test {
+namespace {
+
+using nlohmann::json;
+
+json scene() {
+  return json::parse(R"({
+    "schema": "gonio.scene/1",
+    "materials": {
+      "plastic": {"model": "disney.coupled+ggx/smith_ggx.correlated/dielectric",
+                  "parameters": {"kd": [0.5, 0.03, 0.02], "roughness": 0.25, "eta": 1.49}}},
+    "objects": [{"shape": "sphere", "material": "plastic"}],
+    "lights": [
+      {"type": "directional", "direction": [0.5, 0.6, 0.62], "irradiance": [1.9, 1.9, 1.9]},
+      {"type": "directional", "direction": [-0.7, 0.2, 0.69], "irradiance": [1.9, 1.9, 1.9]}],
+    "view": {"position": [0, 0, 10], "target": [0, 0, 0], "fov_deg": 14},
+    "tolerance": {"metric": "delta_e_2000", "limit": 1, "max": 4}
+  })");
+}
+/// Effect of the plan's one material.
+const json& effect(const json& plan, const std::string& name) {
+  for (const auto& e : plan["materials"]["plastic"]["effects"])
+    if (e["effect"] == name) return e;
+  return plan;
+}
+
+TEST(PlanCommand, MakesAPlanThatHolds) {
+  const Folder f;
+  f.write("scene.json", scene().dump());
+  const auto o = gonio(f, "plan scene.json -o plan.json");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("× as fast"), o.out.npos) << o.out;
+  const auto plan = json::parse(read_bytes(f / "plan.json"));
+  EXPECT_EQ(plan["schema"], "gonio.plan/1");
+  EXPECT_EQ(effect(plan, "fresnel")["keep"], false);
+  EXPECT_EQ(effect(plan, "coat")["why"], "structural");
+  EXPECT_GT(plan["materials"]["plastic"]["speedup"], 1);
+  const auto v = gonio(f, "verify scene.json plan.json --json");
+  EXPECT_EQ(v.code, 0) << v.out;
+  EXPECT_EQ(v.json()["holds"], true);
+  EXPECT_EQ(v.json()["materials"]["plastic"]["samples"], 16384);
+  EXPECT_LE(v.json()["materials"]["plastic"]["upper_bound"], 0.01);
+}
+
+TEST(PlanCommand, KeepsAnotherEffectUnderAnotherLight) {
+  const Folder f;
+  auto s = scene();
+  s["lights"][0]["direction"] = {0.9, 0.3, -0.3};
+  f.write("scene.json", s.dump());
+  const auto plan = gonio(f, "plan scene.json --json").json();
+  EXPECT_EQ(effect(plan, "fresnel")["keep"], true);
+  EXPECT_EQ(effect(plan, "fresnel")["form"], "exact");
+}
+
+TEST(PlanCommand, IsTheSameForASeedWhereOperationsDecide) {
+  const Folder f;
+  f.write("scene.json", scene().dump());
+  const auto chosen = [&](const std::string& jobs) {
+    const auto plan = gonio(f, "plan scene.json --json --cost operations --jobs " + jobs).json();
+    return plan["materials"]["plastic"]["spec"].dump() +
+           plan["materials"]["plastic"]["error_quantile"].dump();
+  };
+  EXPECT_EQ(chosen("1"), chosen("2"));
+}
+
+TEST(VerifyCommand, ExitsWith1WhereAnEditedPlanBreaksTheTolerance) {
+  const Folder f;
+  f.write("scene.json", scene().dump());
+  auto plan = gonio(f, "plan scene.json --json").json();
+  auto& m = plan["materials"]["plastic"];
+  for (auto& e : m["effects"])
+    if (e["effect"] == "diffuse")
+      e["form"] = "none", e["keep"] = false;
+    else if (e["effect"] == "coupling")
+      e["form"] = "off", e["keep"] = false;
+  f.write("plan.json", plan.dump());
+  expect_one_line(gonio(f, "verify scene.json plan.json"), 3, "/materials/plastic/spec");
+  const std::string spec = m["spec"];
+  m["spec"] = spec.substr(spec.find('+') + 1);
+  f.write("plan.json", plan.dump());
+  const auto o = gonio(f, "verify scene.json plan.json");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.out.find("is broken"), o.out.npos) << o.out;
+}
+
+TEST(VerifyCommand, RefusesAPlanOfAnotherScene) {
+  const Folder f;
+  f.write("scene.json", scene().dump());
+  EXPECT_EQ(gonio(f, "plan scene.json -o plan.json").code, 0);
+  auto other = scene();
+  other["exposure"] = 2;
+  f.write("other.json", other.dump());
+  expect_one_line(gonio(f, "verify other.json plan.json"), 3, "/scene_sha256");
+}
+
+TEST(PlanCommand, ExitsWith1WhereNothingKeepsTheBudget) {
+  const Folder f;
+  auto s = scene();
+  s["budget_ns"] = 0.001;
+  f.write("scene.json", s.dump());
+  const auto o = gonio(f, "plan scene.json");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.out.find("budget"), o.out.npos);
+}
+
+TEST(PlanCommand, RefusesWithOneLine) {
+  const Folder f;
+  f.write("scene.json", scene().dump());
+  auto unseen = scene();
+  unseen["objects"][0]["center"] = {0, 0, 50};
+  f.write("unseen.json", unseen.dump());
+  expect_one_line_each(f, 3,
+                       {{"plan none.json", "none.json"},
+                        {"plan unseen.json -o p.json", "material 'plastic'"},
+                        {"verify scene.json none.json", "none.json"},
+                        {"verify scene.json scene.json", "gonio.plan/1"}});
+  expect_one_line_each(f, 2,
+                       {{"plan scene.json -o scene.json", "scene.json"},
+                        {"plan scene.json --cost money", "time"},
+                        {"plan", "SCENE"},
+                        {"verify scene.json", "PLAN"}});
+  EXPECT_FALSE(std::filesystem::exists(f / "p.json"));
+}
+
+}  // namespace
+}  // namespace gonio::test

@@ -1,0 +1,83 @@
+#include "scene/plan/budget.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/random.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio::scene {
+namespace {
+
+std::vector<Sharer> some(std::uint64_t seed, std::size_t materials, std::size_t choices) {
+  Draws draw(seed, 1);
+  std::vector<Sharer> all;
+  for (std::size_t m = 0; m < materials; ++m) {
+    Sharer s{draw.uniform(), {}};
+    for (std::size_t i = 0; i < choices; ++i)
+      s.choices.push_back({1 + 50 * draw.uniform(), 5 * draw.uniform()});
+    all.push_back(std::move(s));
+  }
+  return all;
+}
+
+double mean_ns(const std::vector<Sharer>& all, const std::vector<std::size_t>& choice) {
+  double ns = 0, covered = 0;
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    ns += all[m].coverage * all[m].choices[choice[m]].ns;
+    covered += all[m].coverage;
+  }
+  return ns / covered;
+}
+
+TEST(Budget, HasTheLeastWorstErrorOfAllWaysToShare) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const auto all = some(seed, 4, 5);
+    const double budget = 25;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 625; ++i) {
+      const std::vector<std::size_t> choice{i % 5, i / 5 % 5, i / 25 % 5, i / 125};
+      if (mean_ns(all, choice) > budget) continue;
+      double error = 0;
+      for (std::size_t m = 0; m < 4; ++m) error = std::max(error, all[m].choices[choice[m]].error);
+      least = std::min(least, error);
+    }
+    const auto s = share_out(all, budget);
+    ASSERT_EQ(s.fits, least < std::numeric_limits<double>::infinity());
+    if (!s.fits) continue;
+    EXPECT_EQ(s.error, least);
+    EXPECT_NEAR(s.ns, mean_ns(all, s.choice), 1e-12);
+    EXPECT_LE(s.ns, budget);
+  }
+}
+
+TEST(Budget, TakesTheCheapestWhereNothingFits) {
+  const auto all = some(3, 3, 4);
+  const auto s = share_out(all, 0.5);
+  EXPECT_FALSE(s.fits);
+  for (std::size_t m = 0; m < all.size(); ++m)
+    for (const auto& c : all[m].choices) EXPECT_LE(all[m].choices[s.choice[m]].ns, c.ns);
+}
+
+TEST(Budget, IsNeverWorseThanTheSameTimeForEachMaterial) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const auto all = some(seed, 20, 30);
+    constexpr double budget = 12;
+    double each = 0;  // the worst error, each by itself within the budget
+    bool possible = true;
+    for (const auto& sharer : all) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto& c : sharer.choices)
+        if (c.ns <= budget) least = std::min(least, c.error);
+      possible &= least < std::numeric_limits<double>::infinity();
+      each = std::max(each, least);
+    }
+    if (possible) {
+      EXPECT_LE(share_out(all, budget).error, each);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gonio::scene

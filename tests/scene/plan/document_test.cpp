@@ -1,0 +1,113 @@
+#include "scene/plan/document.h"
+
+#include "base/json_reader.h"
+#include "refusal.h"
+#include "scene/plan/scenes.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio::scene {
+namespace {
+
+using gonio::test::Folder;
+using gonio::test::refusal;
+
+Scene scene() {
+  return test::sphere(test::red_plastic(), test::front());
+}
+const Plan& plan() {
+  static const Plan p = plan_scene(
+      scene(), {.samples = 2048, .fresh = 16'384, .directions = 4, .cost = Cost::operations});
+  return p;
+}
+PlannedForms read(const std::string& text, const Scene& s = scene()) {
+  const Folder folder;
+  return read_plan(folder.write("plan.json", text), s, {s.materials.begin(), s.materials.end()});
+}
+/// The document, changed.
+std::string changed(auto&& change) {
+  auto document = Json::parse(to_json(plan()));
+  change(document);
+  return document.dump();
+}
+Json& effect(Json& document, const std::string& name) {
+  for (auto& e : document["materials"]["it"]["effects"])
+    if (e["effect"] == name) return e;
+  return document;
+}
+
+TEST(PlanDocument, GivesItsFormsBack) {
+  const auto forms = read(to_json(plan()));
+  ASSERT_EQ(forms.by_material.size(), 1U);
+  EXPECT_EQ(forms.by_material[0], plan().materials[0].forms);
+}
+
+TEST(PlanDocument, HasTheKeysOfTheContract) {
+  const auto document = Json::parse(to_json(plan()));
+  EXPECT_EQ(document["schema"], "gonio.plan/1");
+  EXPECT_EQ(document["scene_sha256"], scene().sha256);
+  const auto& m = document["materials"]["it"];
+  for (const char* key : {"effects", "spec", "speedup", "error_quantile", "error_upper", "samples"})
+    EXPECT_TRUE(m.contains(key)) << key;
+  for (const auto& e : m["effects"])
+    for (const char* key :
+         {"effect", "keep", "form", "why", "error_if_dropped", "ns_saved", "ops_saved"})
+      EXPECT_TRUE(e.contains(key)) << key;
+}
+
+TEST(PlanDocument, IsRefusedForAnotherScene) {
+  Scene other = scene();
+  other.sha256 = "of another";
+  EXPECT_HAS(refusal([&] { read(to_json(plan()), other); }), "/scene_sha256");
+}
+
+TEST(PlanDocument, IsRefusedWhereSpecAndFormsDisagree) {
+  EXPECT_HAS(refusal([] {
+               read(changed([](Json& d) {
+                 effect(d, "fresnel")["form"] = "exact";
+                 effect(d, "fresnel")["keep"] = true;
+               }));
+             }),
+             "/materials/it/spec");
+  EXPECT_HAS(
+      refusal([] { read(changed([](Json& d) { d["materials"]["it"]["spec"] = "lambert"; })); }),
+      "/materials/it/spec");
+}
+
+TEST(PlanDocument, IsRefusedWhereKeepAndFormDisagree) {
+  EXPECT_HAS(refusal([] { read(changed([](Json& d) { effect(d, "diffuse")["keep"] = false; })); }),
+             "/keep");
+}
+
+TEST(PlanDocument, IsRefusedWithAFormThatTheMaterialHasNot) {
+  EXPECT_HAS(refusal([] { read(changed([](Json& d) { effect(d, "tail")["form"] = "gtr"; })); }),
+             "a form that this material offers: ggx");
+}
+
+TEST(PlanDocument, IsRefusedWithAnEffectTwice) {
+  EXPECT_HAS(refusal([] {
+               read(changed([](Json& d) {
+                 auto& e = d["materials"]["it"]["effects"];
+                 e[1] = e[0];
+               }));
+             }),
+             "each effect once");
+}
+
+TEST(PlanDocument, IsRefusedWithoutAMaterialOrWithOneTooMany) {
+  EXPECT_HAS(refusal([] { read(changed([](Json& d) { d["materials"] = Json::object(); })); }),
+             "no 'it'");
+  EXPECT_HAS(refusal([] {
+               read(changed([](Json& d) { d["materials"]["other"] = d["materials"]["it"]; }));
+             }),
+             "a material of the scene");
+}
+
+TEST(PlanDocument, IsRefusedOfALaterVersion) {
+  EXPECT_HAS(refusal([] { read(changed([](Json& d) { d["schema"] = "gonio.plan/2"; })); }),
+             "gonio.plan/1");
+}
+
+}  // namespace
+}  // namespace gonio::scene
