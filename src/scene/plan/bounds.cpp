@@ -16,24 +16,6 @@ namespace {
 
 constexpr std::size_t channels = 3;
 
-/// Sphere around an object.
-struct Around {
-  Vector center;
-  double radius;
-};
-Around around(const Object& o) {
-  if (const auto* s = std::get_if<Sphere>(&o.shape)) return {s->center, s->radius};
-  const auto& points = std::get<MeshShape>(o.shape).mesh->positions;
-  std::array<double, 3> low{points[0][0], points[0][1], points[0][2]}, high = low;
-  for (const auto& p : points)
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min<double>(low[k], p[k]);
-      high[k] = std::max<double>(high[k], p[k]);
-    }
-  const Vector a{low[0], low[1], low[2]}, b{high[0], high[1], high[2]};
-  return {0.5 * (a + b), 0.5 * length(b - a)};
-}
-
 /// Directions within an angle of one.
 struct Cone {
   Direction axis;
@@ -41,7 +23,7 @@ struct Cone {
 };
 
 /// Cone of directions from any point of the sphere to a point; all, where that lies within.
-Cone towards(const Around& from, const Vector& point) {
+Cone towards(const BoundingSphere& from, const Vector& point) {
   const Vector way = point - from.center;
   const double far = length(way);
   if (!(far > from.radius)) return {{0, 0, 1}, std::numbers::pi};
@@ -59,7 +41,7 @@ double between(const Direction& a, const Direction& b) {
   return std::atan2(length(cross(u, v)), dot(u, v));
 }
 
-Cone viewers(const Scene& s, const Around& object) {
+Cone viewers(const Scene& s, const BoundingSphere& object) {
   if (const auto* camera = std::get_if<Camera>(&s.view)) return towards(object, camera->position);
   const auto& orbit = std::get<Orbit>(s.view);
   Cone from = of_range(orbit.from);
@@ -68,7 +50,7 @@ Cone viewers(const Scene& s, const Around& object) {
   if (!(orbit.distance > beside)) return {{0, 0, 1}, std::numbers::pi};
   return {from.axis, from.angle + std::asin(beside / orbit.distance)};
 }
-Cone light_from(const Light& light, const Around& object) {
+Cone light_from(const Light& light, const BoundingSphere& object) {
   if (const auto* l = std::get_if<DirectionalLight>(&light)) {
     if (const auto* fixed = std::get_if<DirectionalLight::Fixed>(&l->from))
       return {fixed->direction, 0};
@@ -76,7 +58,7 @@ Cone light_from(const Light& light, const Around& object) {
   }
   if (const auto* l = std::get_if<RectangleLight>(&light)) {
     // Seen from the middle the corners lie furthest from its centre.
-    const Around wider{object.center, object.radius + length(l->u) + length(l->v)};
+    const BoundingSphere wider{object.center, object.radius + length(l->u) + length(l->v)};
     return towards(wider, l->center);
   }
   return {{0, 0, 1}, std::numbers::pi};
@@ -121,8 +103,21 @@ std::optional<double> fresnel_change(const Surface& exact, const Surface& form, 
 
 }  // namespace
 
+BoundingSphere bounding_sphere(const Object& o) {
+  if (const auto* s = std::get_if<Sphere>(&o.shape)) return {s->center, s->radius};
+  const auto& points = std::get<MeshShape>(o.shape).mesh->positions;
+  std::array<double, 3> low{points[0][0], points[0][1], points[0][2]}, high = low;
+  for (const auto& p : points)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min<double>(low[k], p[k]);
+      high[k] = std::max<double>(high[k], p[k]);
+    }
+  const Vector a{low[0], low[1], low[2]}, b{high[0], high[1], high[2]};
+  return {0.5 * (a + b), 0.5 * length(b - a)};
+}
+
 ReachedAngles reached_angles(const Scene& s, const Object& object) {
-  const Around sphere = around(object);
+  const BoundingSphere sphere = bounding_sphere(object);
   const Cone view = viewers(s, sphere);
   double least = std::numbers::pi, most = 0;
   for (const auto& light : s.lights) {

@@ -10,6 +10,13 @@
 
 namespace gonio::scene {
 
+/// Sphere that holds an object.
+struct BoundingSphere {
+  Vector center;
+  double radius = 0;
+};
+BoundingSphere bounding_sphere(const Object&);
+
 /// Angles that lights and viewers of a scene leave.
 struct ReachedAngles {
   Range voh{0, 1};  ///< cosine of half the angle between light and viewer

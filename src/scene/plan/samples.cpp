@@ -20,6 +20,14 @@ FrameAngles<double> angles_of(const Frame& frame, const Direction& light, const 
   return angles_between<double>({l.x, l.y, l.z}, {v.x, v.y, v.z});
 }
 
+bool passes_through(const Ray& ray, const BoundingSphere& sphere) {
+  const Vector way = sphere.center - ray.origin;
+  const Vector d{ray.direction.x, ray.direction.y, ray.direction.z};
+  const Vector beside = way - dot(way, d) * d;
+  const double wide = 1.001 * sphere.radius;  // a mesh's points are floats
+  return dot(beside, beside) <= wide * wide;
+}
+
 template <class F>
 std::vector<Rgb> radiance_in(const Surface& s, const LitPoints& p, const Block<F>& x) {
   std::array<Column<F>, 3> f{Column<F>(x.n), Column<F>(x.n), Column<F>(x.n)};
@@ -76,6 +84,8 @@ PointDrawer::PointDrawer(const Scene& s,
       widths_(std::move(widths)),
       tracer_(tracer),
       lighting_(lighting) {
+  for (const auto& object : s.objects)
+    if (object.material == material) bounds_.push_back(bounding_sphere(object));
   constexpr std::size_t looks = 16'384;
   std::size_t seen = 0;
   for (std::size_t i = 0; i < looks; ++i) {
@@ -89,6 +99,8 @@ std::optional<PointDrawer::Seen> PointDrawer::look_once(Draws& draw) const {
   const Camera camera = draw_camera(scene_.view, draw);
   const double x = draw.uniform(), y = draw.uniform();
   const Ray seen = ray(camera, x, y, 1);
+  if (std::ranges::none_of(bounds_, [&](const auto& b) { return passes_through(seen, b); }))
+    return {};
   const auto hit = tracer_.closest(seen.origin, seen.direction);
   if (!hit || hit->material != material_) return {};
   const Direction to_viewer{-seen.direction.x, -seen.direction.y, -seen.direction.z};

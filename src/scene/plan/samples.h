@@ -10,6 +10,7 @@
 #include "brdf/model/evaluate.h"
 #include "scene/description/scene.h"
 #include "scene/light/lighting.h"
+#include "scene/plan/bounds.h"
 #include "scene/surface/evaluate.h"
 #include "scene/trace/camera.h"
 #include "scene/trace/tracer.h"
@@ -68,6 +69,8 @@ class PointDrawer {
   const Scene& scene_;
   std::size_t material_, directions_;
   std::vector<double> widths_;
+  std::vector<BoundingSphere>
+      bounds_;  ///< of the material's objects: rays past all of them are not traced
   double coverage_ = 0;
   const Tracer& tracer_;
   const Lighting& lighting_;
