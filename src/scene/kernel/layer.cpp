@@ -1,8 +1,8 @@
 // Multiple scattering over columns, per instruction set.
 #include "scene/kernel/layer.h"
 
-#include "brdf/formula/scattering.h"
 #include "brdf/kernel/lane.h"
+#include "scene/kernel/multiple.h"
 
 namespace gonio::scene {
 inline namespace GONIO_ARCH {
@@ -31,11 +31,7 @@ void turquin(const Block<F>& x,
              const AlbedoCurve<F>& curve,
              const std::array<F, max_channels>& strength,
              const MultipleColumns<F>& m) {
-  using B = Lane<F>;
-  brighten(x, curve, strength, m, [](const B& f, const B& e, const B& f0) {
-    const std::array p{f, e, f0};
-    return Turquin<B>::apply(p)[0] - f;
-  });
+  brighten(x, curve, strength, m, added_by_turquin<Lane<F>>);
 }
 
 template <class F>
@@ -43,11 +39,7 @@ void fdez_aguera(const Block<F>& x,
                  const AlbedoCurve<F>& curve,
                  const std::array<F, max_channels>& strength,
                  const MultipleColumns<F>& m) {
-  using B = Lane<F>;
-  brighten(x, curve, strength, m, [](const B& f, const B& e, const B& f_average) {
-    const B bounced = f_average * (1 - e);
-    return f * bounced / (1 - bounced);
-  });
+  brighten(x, curve, strength, m, added_by_fdez_aguera<Lane<F>>);
 }
 
 template <class F>
@@ -59,10 +51,9 @@ void kulla_conty(const Block<F>& x,
   const auto m = columns;
   const auto albedo = curve.template in<B>();
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-    const B lost = (1 - value_at<B>(albedo, load<B>(x.nol + i))) *
-                   (1 - value_at<B>(albedo, load<B>(x.nov + i)));
+    const B lost = lost_to_bounces(albedo, load<B>(x.nol + i), load<B>(x.nov + i));
     for (std::size_t c = 0; c < max_channels; ++c)
-      store<B>(m.f[c] + i, load<B>(m.f[c] + i) + B(strength[c]) * lost);
+      store<B>(m.f[c] + i, load<B>(m.f[c] + i) + added_by_kulla_conty(B(strength[c]), lost));
   }
 }
 

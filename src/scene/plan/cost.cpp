@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "brdf/cost/model_operations.h"
-#include "brdf/formula/scattering.h"
 #include "number/counted.h"
+#include "scene/kernel/multiple.h"
 
 namespace gonio::scene {
 namespace {
@@ -20,20 +20,16 @@ Operations of_multiple(const MultipleScattering& m) {
   const C nol(0.5), nov(0.6), one(1.0), half(0.5);
   return count_operations([&] {
     if (how == "none") return;
-    const C e = value_at(curve, nov);
     if (how == "kulla_conty") {
-      const C lost = (1 - value_at(curve, nol)) * (1 - e);
-      for (std::size_t c = 0; c < channels; ++c) static_cast<void>(one + half * lost);
+      const C lost = lost_to_bounces(curve, nol, nov);
+      for (std::size_t c = 0; c < channels; ++c)
+        static_cast<void>(one + added_by_kulla_conty(half, lost));
       return;
     }
-    for (std::size_t c = 0; c < channels; ++c) {
-      if (how == "turquin") {
-        Turquin<C>::apply(std::array{one, e, half});
-        continue;
-      }
-      const C bounced = half * (1 - e);
-      static_cast<void>(one + one * bounced / (1 - bounced));
-    }
+    const C e = value_at(curve, nov);
+    for (std::size_t c = 0; c < channels; ++c)
+      static_cast<void>(one + (how == "turquin" ? added_by_turquin(one, e, half)
+                                                : added_by_fdez_aguera(one, e, half)));
   });
 }
 

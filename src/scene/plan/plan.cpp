@@ -12,6 +12,7 @@
 #include "scene/plan/budget.h"
 #include "scene/plan/confidence.h"
 #include "scene/plan/cost.h"
+#include "scene/plan/half.h"
 #include "scene/plan/reference.h"
 
 #include <fmt/format.h>
@@ -239,6 +240,7 @@ class MaterialPlanner {
           judge_fresh(scene_, drawer_, checking, options_.fresh, exact_, look_.surface(c->forms));
       if (passes(p.checked)) {
         take(p, look_, c->forms, c->ns);
+        p.in_half = in_half(look_.surface(c->forms));
         return p;
       }
       ++p.passed_over;
@@ -247,7 +249,13 @@ class MaterialPlanner {
     p.checked = {};
     const auto same = look_.structural();
     take(p, look_, same, times_of(std::array{look_.surface(same)}, reference_.points)[0].ns);
+    p.in_half = in_half(look_.surface(same));
     return p;
+  }
+  Judgement in_half(const Surface& s) const {
+    auto d = differences(scene_.tolerance.metric, scene_.exposure, reference_.exact,
+                         radiance_in_half(s, reference_.points));
+    return judge(d, scene_.tolerance);
   }
   std::string reason(const PlannedEffect& e) const {
     const auto unit = scene_.tolerance.metric == Metric::relative ? "" : "ΔE2000 ";

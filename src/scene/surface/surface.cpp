@@ -343,7 +343,7 @@ Surface Look::surface(const Forms& forms) const {
   const auto how = forms.name(Effect::compensation);
   const auto average =
       how == "kulla_conty"
-          ? fresnel_average(s.base, s.base.model.lobes[0].fresnel, {1e-6, 10'000}).value
+          ? fresnel_average(s.base, s.base.model.lobes[0].fresnel, {1e-9, 100'000}).value
           : fresnel_.f0;
   for (std::size_t c = 0; c < channels && how != "none"; ++c) {
     if (how == "kulla_conty") {
