@@ -9,6 +9,7 @@
 
 #include "brdf/model/evaluate.h"
 #include "fitting/batch/preview_json.h"
+#include "image/display.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "table/cut/cuts.h"
 
@@ -94,14 +95,6 @@ std::array<double, 3> rgb(const std::vector<std::string>& channels, std::span<co
   return {mean, mean, mean};
 }
 
-/// IEC 61966-2-1
-char srgb_byte(double linear) {
-  // Of a model whose albedo diverges it is no number.
-  const double x = linear < 1 ? std::max(linear, 0.0) : 1;
-  const double v = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-  return static_cast<char>(static_cast<unsigned char>(std::lround(255 * v)));
-}
-
 /// Goal as close as the picture and its four digits show.
 constexpr Goal seen{.error = 1e-4, .evaluations = 100'000};
 
@@ -143,7 +136,8 @@ std::string sphere(const std::vector<std::string>& channels, const BoundModel& f
     for (std::size_t c = 0; c < shown.size(); ++c)
       shown[c] = sky * interpolated(under_sky, c, x[i].nov) +
                  sun * std::numbers::pi * f[c][i] * std::max(x[i].nol, 0.0);
-    for (const double v : rgb(channels, shown)) bytes += inside[i] ? srgb_byte(v) : '\0';
+    for (const double v : rgb(channels, shown))
+      bytes += inside[i] ? static_cast<char>(srgb_byte(v)) : '\0';
   }
   return bytes;
 }

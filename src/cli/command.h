@@ -34,6 +34,7 @@ void add_report(CommandLine&);
 void add_stability(CommandLine&);
 void add_plan(CommandLine&);
 void add_verify(CommandLine&);
+void add_render(CommandLine&);
 
 /// Entries of the catalogue that are neither term nor map nor composed of terms, and what evaluates them.
 struct Evaluated {

@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
   gonio::cli::add_stability(line);
   gonio::cli::add_plan(line);
   gonio::cli::add_verify(line);
+  gonio::cli::add_render(line);
   gonio::cli::add_eval(line);
   gonio::cli::add_synth(line);
   gonio::cli::add_columns(line);

@@ -9,7 +9,6 @@
 #include "brdf/formula/ndf_ggx.h"
 #include "geometry/half_difference.h"
 #include "integrate/scattering/visible_facets.h"
-#include "scene/trace/camera.h"
 
 namespace gonio::scene {
 namespace {
@@ -66,6 +65,31 @@ class Lighting::Point {
   Vector position;
   Frame frame;
   std::vector<Lobe> lobes;
+};
+
+/// Points of the unit square: those of Hammersley that are a call's, shifted by what was drawn.
+class Lighting::Spread {
+ public:
+  Spread(std::size_t each, const Part& part, Draws& draw)
+      : count(each),
+        first_(part.index * each),
+        all_(static_cast<double>(each * part.all)),
+        shift_{draw.uniform(), draw.uniform()} {}
+
+  std::size_t count;
+  Square operator()(std::size_t i) const {
+    Square p = hammersley(static_cast<std::uint32_t>(first_ + i), all_);
+    for (std::size_t k = 0; k < 2; ++k) {
+      p[k] += shift_[k];
+      p[k] -= std::floor(p[k]);
+    }
+    return p;
+  }
+
+ private:
+  std::size_t first_;
+  double all_;
+  Square shift_;
 };
 
 /// Rectangle as seen from a point.
@@ -190,15 +214,16 @@ Lighting::Sky Lighting::sky_of(const EnvironmentLight& light) {
 
 void Lighting::add_from(const DirectionalLight& light,
                         const Point& at,
-                        Draws& draw,
+                        const Spread& spread,
                         std::vector<Incident>& out) const {
   const auto* fixed = std::get_if<DirectionalLight::Fixed>(&light.from);
-  const auto from = [&] {
-    const auto& range = std::get<DirectionalLight::Ranging>(light.from).range;
-    const double elevation = draw_between(range.elevation_deg, draw);
-    return direction_of(elevation, draw_between(range.azimuth_deg, draw));
+  const auto drawn = [&] {
+    const auto& [elevation, azimuth] = std::get<DirectionalLight::Ranging>(light.from).range;
+    const auto [up, around] = spread(0);
+    return direction_of(std::lerp(elevation[0], elevation[1], up),
+                        std::lerp(azimuth[0], azimuth[1], around));
   };
-  const Direction d = fixed ? fixed->direction : from();
+  const Direction d = fixed ? fixed->direction : drawn();
   const double cosine = dot(d, at.frame.z);
   if (!(cosine > 0)) return;
   if (tracer_ &&
@@ -211,26 +236,22 @@ void Lighting::add_from(const DirectionalLight& light,
 template <class Source>
 void Lighting::add_from(const Source& source,
                         const Point& at,
-                        std::size_t count,
-                        Draws& draw,
+                        const Spread& spread,
                         std::vector<Incident>& out) const {
   if (!source.shines()) return;
   const std::size_t lobes = at.lobes.size() + (Source::is_everywhere ? 1 : 0);
   const double of_light = lobes > 0 ? 0.5 : 1;
   const double of_lobe = (1 - of_light) / static_cast<double>(std::max<std::size_t>(lobes, 1));
-  const auto n = static_cast<double>(count);
-  const double shift = draw.uniform(), turn = draw.uniform();
-  const auto drawn = [&](double u, double v) {
+  const auto drawn = [&](const Square& p) {
+    const auto [u, v] = p;
     if (u < of_light) return at.frame.inside(source.draw({stretched(u, 0, of_light), v}));
     const double rest = u - of_light;
     const auto k = std::min(static_cast<std::size_t>(rest / of_lobe), lobes - 1);
     const Square point{stretched(rest, static_cast<double>(k) * of_lobe, of_lobe), v};
     return k < at.lobes.size() ? at.lobes[k].draw(point) : cosine_direction({v, point[0]});
   };
-  for (std::size_t i = 0; i < count; ++i) {
-    const double u = stretched(static_cast<double>(i) + shift, 0, n);
-    const double mirrored = radical_inverse(static_cast<std::uint32_t>(i)) + turn;
-    const Direction l = drawn(u, mirrored - std::floor(mirrored));
+  for (std::size_t i = 0; i < spread.count; ++i) {
+    const Direction l = drawn(spread(i));
     if (!(l.z > 0)) continue;
     const Direction d = at.frame.outside(l);
     const auto light = source.towards(d);
@@ -240,7 +261,7 @@ void Lighting::add_from(const Source& source,
     if constexpr (Source::is_everywhere) density += of_lobe * l.z / std::numbers::pi;
     if (tracer_ && tracer_->occluded(at.position, at.frame.z, d, light.distance)) continue;
     Incident& incident = out.emplace_back(Incident{d, light.radiance});
-    for (double& w : incident.weight) w *= l.z / (n * density);
+    for (double& w : incident.weight) w *= l.z / (static_cast<double>(spread.count) * density);
   }
 }
 
@@ -250,17 +271,20 @@ void Lighting::incident(const Vector& position,
                         std::span<const double> widths,
                         std::size_t count,
                         Draws& draw,
-                        std::vector<Incident>& out) const {
+                        std::vector<Incident>& out,
+                        Part part) const {
   const Direction viewer = frame.inside(to_viewer);
   if (!(viewer.z > 0)) return;
   const Point at(position, frame, viewer, widths);
   for (const auto& light : lights_) {
-    if (const auto* d = std::get_if<DirectionalLight>(&light))
-      add_from(*d, at, draw, out);
+    const auto* d = std::get_if<DirectionalLight>(&light);
+    const Spread spread(d ? 1 : count, part, draw);
+    if (d)
+      add_from(*d, at, spread, out);
     else if (const auto* r = std::get_if<Rectangle>(&light))
-      add_from(FromRectangle(*r, position), at, count, draw, out);
+      add_from(FromRectangle(*r, position), at, spread, out);
     else
-      add_from(FromSky(std::get<Sky>(light)), at, count, draw, out);
+      add_from(FromSky(std::get<Sky>(light)), at, spread, out);
   }
 }
 

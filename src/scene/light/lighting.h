@@ -22,6 +22,11 @@ struct Incident {
   Rgb weight;           ///< radiance × cosine/density, what is occluded left out
 };
 
+/// Part of a set of directions that several calls share, each with the draws of the first.
+struct Part {
+  std::size_t index = 0, all = 1;
+};
+
 /// Lights of a scene, ready to be drawn from.  Rectangles and environments are drawn from by the balance heuristic
 /// [Veach & Guibas 1995]: half of the directions by the light (a point of the rectangle; a texel by its luminance), the
 /// others by lobes, in equal shares: of GGX's visible normals, and under an environment by the cosine.
@@ -36,13 +41,15 @@ class Lighting {
   /// ranges, and of each other light `count` that are spread evenly.  None where the viewer is below the horizon.
   ///
   /// \param widths  of the lobes, from Look::widths()
+  /// \param part    of `count` × its parts that are spread evenly together, as over the points of one pixel
   void incident(const Vector& position,
                 const Frame&,
                 const Direction& to_viewer,
                 std::span<const double> widths,
                 std::size_t count,
                 Draws&,
-                std::vector<Incident>& out) const;
+                std::vector<Incident>& out,
+                Part = {}) const;
 
  private:
   struct Rectangle {
@@ -57,13 +64,13 @@ class Lighting {
     std::vector<float> within;  ///< [j * width + i]: up to texel i's end
   };
   class Point;
+  class Spread;
   class FromRectangle;
   class FromSky;
   static Sky sky_of(const EnvironmentLight&);
-  void add_from(const DirectionalLight&, const Point&, Draws&, std::vector<Incident>&) const;
+  void add_from(const DirectionalLight&, const Point&, const Spread&, std::vector<Incident>&) const;
   template <class Source>
-  void add_from(
-      const Source&, const Point&, std::size_t count, Draws&, std::vector<Incident>&) const;
+  void add_from(const Source&, const Point&, const Spread&, std::vector<Incident>&) const;
 
   std::vector<std::variant<DirectionalLight, Rectangle, Sky>> lights_;
   const Tracer* tracer_;

@@ -11,12 +11,17 @@ Vector vector_of(const Direction& d) {
 
 }  // namespace
 
-Ray ray(const Camera& c, double x, double y, double aspect) {
+Rays::Rays(const Camera& c, double aspect) : origin_(c.position) {
   const Vector forward = vector_of(direction(c.target - c.position));
   const Vector right = vector_of(direction(cross(forward, c.up))), up = cross(right, forward);
   const double half = std::tan(c.fov_deg * degree / 2);
-  return {c.position,
-          direction(forward + ((2 * x - 1) * half * aspect) * right + ((1 - 2 * y) * half) * up)};
+  right_ = 2 * half * aspect * right;
+  down_ = -2 * half * up;
+  corner_ = forward - 0.5 * (right_ + down_);
+}
+
+Ray Rays::operator()(double x, double y) const {
+  return {origin_, direction(corner_ + x * right_ + y * down_)};
 }
 
 Camera camera_of(const Orbit& o, double elevation_deg, double azimuth_deg) {
@@ -35,12 +40,11 @@ Camera middle_camera(const View& view) {
 Camera draw_camera(const View& view, Draws& draw) {
   if (const auto* camera = std::get_if<Camera>(&view)) return *camera;
   const auto& o = std::get<Orbit>(view);
-  const double elevation = draw_between(o.from.elevation_deg, draw);
-  return camera_of(o, elevation, draw_between(o.from.azimuth_deg, draw));
-}
-
-double draw_between(const std::array<double, 2>& ends, Draws& draw) {
-  return ends[0] + (ends[1] - ends[0]) * draw.uniform();
+  const auto between = [&](const std::array<double, 2>& ends) {
+    return std::lerp(ends[0], ends[1], draw.uniform());
+  };
+  const double elevation = between(o.from.elevation_deg);
+  return camera_of(o, elevation, between(o.from.azimuth_deg));
 }
 
 }  // namespace gonio::scene

@@ -14,8 +14,20 @@ struct Ray {
   Direction direction;
 };
 
-/// Ray through a point of the picture.  \param x, y  in [0, 1], from its left and from its top  \param aspect  width/height
-Ray ray(const Camera&, double x, double y, double aspect);
+/// Rays of a camera through the points of its picture.
+class Rays {
+ public:
+  /// \param aspect  width/height
+  Rays(const Camera&, double aspect);
+  /// \param x, y  in [0, 1], from the picture's left and from its top
+  Ray operator()(double x, double y) const;
+
+ private:
+  Vector origin_, corner_, right_, down_;  ///< the picture at a distance of 1
+};
+inline Ray ray(const Camera& c, double x, double y, double aspect) {
+  return Rays(c, aspect)(x, y);
+}
 
 /// Camera of an orbit.  Above and below the target up is what it becomes on the way there.
 Camera camera_of(const Orbit&, double elevation_deg, double azimuth_deg);
@@ -23,8 +35,5 @@ Camera camera_of(const Orbit&, double elevation_deg, double azimuth_deg);
 Camera middle_camera(const View&);
 /// Camera drawn evenly in elevation and azimuth.
 Camera draw_camera(const View&, Draws&);
-
-/// Angle drawn evenly between both ends.
-double draw_between(const std::array<double, 2>& ends, Draws&);
 
 }  // namespace gonio::scene
