@@ -13,6 +13,17 @@ TEST(Display, ExposesThenClips) {
   EXPECT_EQ(displayed({-1e-3, 0, 0}, 1)[0], 0);
 }
 
+// 0.5 and 0.2140 (which is 0.5 as a display's code) by the standard's formula
+TEST(Display, CodesAsTheStandardSays) {
+  EXPECT_EQ(srgb_byte(0), 0);
+  EXPECT_EQ(srgb_byte(1), 255);
+  EXPECT_EQ(srgb_byte(0.5), 188);
+  EXPECT_EQ(srgb_byte(0.2140), 127);
+  EXPECT_EQ(srgb_byte(0.001), 3);
+  EXPECT_EQ(srgb_byte(7), 255);
+  EXPECT_EQ(srgb_byte(-7), 0);
+}
+
 // CIELAB of sRGB's primaries under D65, as published calculators give it
 TEST(Display, HasTheColoursOfItsPrimaries) {
   const auto expect = [](const Rgb& c, const Lab& published) {

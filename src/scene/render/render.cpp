@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <mutex>
 #include <numeric>
+#include <utility>
 #include <variant>
 
 #include "geometry/half_difference.h"
 #include "geometry/sampling.h"
-#include "image/display.h"
 #include "scene/light/lighting.h"
 #include "scene/surface/evaluate.h"
 #include "scene/trace/camera.h"
@@ -26,19 +26,20 @@ class Gathered {
   explicit Gathered(const Surface& s)
       : evaluate_(s),
         angles_(most, s.base.model.anisotropic || (s.coat && s.coat->model.anisotropic)),
-        f_{Column<F>(most), Column<F>(most), Column<F>(most)} {}
+        f_{Column<F>(most), Column<F>(most), Column<F>(most)} {
+    for (std::size_t i = 0; i < most; ++i)  // so that whatever follows the last is harmless
+      angles_.set(i, frame_angles({{0, 0, 1}, {0, 0, 1}}));
+  }
 
   void add(const FrameAngles<double>& a, const Rgb& weight, Rgb& to) {
     angles_.set(light_.size(), a);
     light_.push_back({weight, &to});
-    last_ = a;
     if (light_.size() == most) reflect();
   }
   /// Adds what it has gathered to where it belongs.
   void reflect() {
     const std::size_t n = light_.size(), padded = (n + padding - 1) / padding * padding;
     if (n == 0) return;
-    for (std::size_t i = n; i < padded; ++i) angles_.set(i, last_);
     evaluate_(angles_.block().part(0, padded),
               std::array{f_[0].data(), f_[1].data(), f_[2].data()});
     for (std::size_t i = 0; i < n; ++i)
@@ -57,8 +58,20 @@ class Gathered {
   AngleColumns<F> angles_;
   std::array<Column<F>, 3> f_;
   std::vector<Light> light_;
-  FrameAngles<double> last_{};
 };
+
+/// Numbers below n in any order, always the same: neighbours among a pixel's places are none among the directions of its
+/// light, or what one leaves out would be missing from the other.
+std::vector<std::size_t> shuffled(std::size_t n) {
+  std::vector<std::size_t> all(n);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Draws draw(n);
+  for (std::size_t left = n; left > 1; --left)
+    std::swap(all[left - 1],
+              all[std::min(static_cast<std::size_t>(draw.uniform() * static_cast<double>(left)),
+                           left - 1)]);
+  return all;
+}
 
 /// Painter of one thread.
 class Painter {
@@ -66,10 +79,12 @@ class Painter {
   Painter(const Scene& scene,
           std::span<const Shown> materials,
           const RenderOptions& o,
+          std::span<const std::size_t> order,
           const Tracer& tracer,
           const Lighting& lights)
       : materials_(materials),
         o_(o),
+        shuffled_(order),
         tracer_(tracer),
         lights_(lights),
         rays_(middle_camera(scene.view),
@@ -83,8 +98,6 @@ class Painter {
     }
     for (const auto& light : scene.lights)
       if (const auto* e = std::get_if<EnvironmentLight>(&light)) sky_ = e;
-    // neighbours in one set of points are none in the other
-    for (stride_ = o.samples * 618 / 1000 | 1U; std::gcd(stride_, o.samples) != 1;) stride_ += 2;
   }
 
   /// Sums of the samples of a rectangle of pixels.
@@ -97,7 +110,7 @@ class Painter {
     for (std::size_t y = y0, k = 0; y < y1; ++y)
       for (std::size_t x = x0; x < x1; ++x, ++k)
         std::ranges::transform(sums_[k], to.radiance[y * o_.width + x].begin(),
-                               [&](double v) { return static_cast<float>(v / n); });
+                               [&](double v) { return v / n; });
   }
 
  private:
@@ -112,7 +125,7 @@ class Painter {
       }
       const Ray r = rays_((static_cast<double>(x) + point[0]) / static_cast<double>(o_.width),
                           (static_cast<double>(y) + point[1]) / static_cast<double>(o_.height));
-      look_along(r, {s * stride_ % o_.samples, o_.samples}, draw, to);
+      look_along(r, {shuffled_[s], o_.samples}, draw, to);
     }
   }
   void look_along(const Ray& r, const Part& part, Draws draw, Rgb& to) {
@@ -137,11 +150,11 @@ class Painter {
 
   std::span<const Shown> materials_;
   const RenderOptions& o_;
+  std::span<const std::size_t> shuffled_;
   const Tracer& tracer_;
   const Lighting& lights_;
   Rays rays_;
   const EnvironmentLight* sky_ = nullptr;
-  std::size_t stride_ = 1;
   std::vector<std::variant<Gathered<float>, Gathered<double>>> surfaces_;
   std::vector<Rgb> sums_;
   std::vector<Incident> incident_;
@@ -157,7 +170,8 @@ Picture render(const Scene& scene,
   for (const auto& m : materials) turns.push_back(m.turn);
   const Tracer tracer(scene, turns);
   const Lighting lights(scene, &tracer);
-  Picture picture{o.width, o.height, std::vector<std::array<float, 3>>(o.width * o.height)};
+  const auto order = shuffled(o.samples);
+  Picture picture{o.width, o.height, std::vector<Rgb>(o.width * o.height)};
 
   constexpr std::size_t side = 8;  // pixels of a part
   const std::size_t across = (o.width + side - 1) / side,
@@ -165,7 +179,7 @@ Picture render(const Scene& scene,
   std::size_t done = 0;
   std::mutex telling;
   tbb::enumerable_thread_specific<Painter> painters(
-      [&] { return Painter(scene, materials, o, tracer, lights); });
+      [&] { return Painter(scene, materials, o, order, tracer, lights); });
   tbb::parallel_for(std::size_t{0}, all, [&](std::size_t i) {
     const std::size_t x = i % across * side, y = i / across * side;
     painters.local().paint(x, std::min(x + side, o.width), y, std::min(y + side, o.height),
@@ -175,17 +189,6 @@ Picture render(const Scene& scene,
     if (progress) progress(done, all);
   });
   return picture;
-}
-
-std::vector<float> differences(const Picture& x, const Picture& y, double exposure) {
-  std::vector<float> all(x.radiance.size());
-  const auto seen = [&](const std::array<float, 3>& c) {
-    return lab_of_display(displayed({double{c[0]}, double{c[1]}, double{c[2]}}, exposure));
-  };
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    all[i] = static_cast<float>(delta_e_2000(seen(x.radiance[i]), seen(y.radiance[i])));
-  });
-  return all;
 }
 
 }  // namespace gonio::scene

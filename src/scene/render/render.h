@@ -1,8 +1,7 @@
 #pragma once
 /// \file
-/// Pictures of a scene: radiance by pixel, and how far two pictures differ to the eye.
+/// Pictures of a scene: radiance by pixel.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -33,7 +32,7 @@ struct RenderOptions {
 
 struct Picture {
   std::size_t width = 0, height = 0;
-  std::vector<std::array<float, 3>> radiance;  ///< linear RGB, row by row from the top
+  std::vector<Rgb> radiance;  ///< linear RGB, row by row from the top
 };
 
 /// Picture from the middle of the scene's views, where nothing is hit the environment or black.  Light comes from the
@@ -47,8 +46,5 @@ Picture render(const Scene&,
                std::span<const Shown> materials,
                const RenderOptions&,
                const std::function<void(std::size_t done, std::size_t all)>& progress = {});
-
-/// Difference of each pixel as displayed [CIEDE2000].  \param y  as large as x
-std::vector<float> differences(const Picture& x, const Picture& y, double exposure);
 
 }  // namespace gonio::scene
