@@ -6,6 +6,7 @@
 #include "reports/cross_fit/cross_fit.h"
 #include "reports/energy/energy.h"
 #include "reports/remap/remap.h"
+#include "reports/scenes/scenes.h"
 #include "reports/schlick/schlick.h"
 #include "reports/stability/stability.h"
 
@@ -46,6 +47,10 @@ ReportFiles stability(const ReportOptions& o, const ReportProgress& done) {
   return files(stability_report({setting}, done), stability_page_html);
 }
 
+ReportFiles scenes(const ReportOptions& o, const ReportProgress& done) {
+  return files(scenes_report(scenes_options(o.full), done), scenes_page_html);
+}
+
 constexpr std::array kinds{
     ReportKind{"energy", "what single scattering loses, and what gives it back", energy,
                energy_schema, 25},
@@ -58,7 +63,10 @@ constexpr std::array kinds{
     ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost,
                cost_schema, 40},
     ReportKind{"stability", "which formulas stay stable in few bits, and from which inputs on",
-               stability, stability_schema, 40}};
+               stability, stability_schema, 40},
+    ReportKind{"scenes",
+               "which effects a material needs in a scene, and what leaving out the others saves",
+               scenes, scenes_schema, 40}};
 
 }  // namespace
 

@@ -104,7 +104,7 @@ function map_view(map, o = {}) {
   const slices = map.slices ?? [map.value];
   let shown = Math.max(0, slices.indexOf(o.slice));
   const layer = (first) => ({ at: (k) => (known(map.values[first + k]) ? at(map.values[first + k]) : null), colors: () => map.colours.map(color),
-    label: map.value, ticks: map.ticks.map((v) => [at(v), tick_text(v)]),
+    above: known(map.line) ? (k) => map.values[first + k] > map.line : undefined, label: map.value, ticks: map.ticks.map((v) => [at(v), tick_text(v)]),
     text: map.x.names && map.y.names ? (k) => (known(map.values[first + k]) ? significant(map.values[first + k], 2) : null) : undefined });
   const say = (cell) => {
     const k = shown * cells + cell, v = map.values[k];

@@ -247,7 +247,8 @@ function map_axis(name, edges) {
 ///                ticks, names: of the cells, instead of ticks; edges then count them}
 /// \param layers  {name: {at(k): place on the scale in [0, 1], or null; colors: function to a list, or
 ///                 color(k); ticks: [[place, text]…]; label; ground: colour where nothing is;
-///                 text(k): what stands in the cell, where there is room}}, of cell k = x · cells of y + y
+///                 text(k): what stands in the cell, where there is room; above(k): it is beyond a line that is
+///                 drawn}}, of cell k = x · cells of y + y
 /// \param say(k)  what is at a cell   \param text  the picture in words
 /// Returns {node, set(name)}.
 function heat_map(x, y, layers, say, text) {
@@ -327,6 +328,20 @@ function heat_map(x, y, layers, say, text) {
         g.textBaseline = "middle";
         g.fillText(said, (l + r) / 2, (t + b) / 2);
       }
+    if (layer.above) {  // a line between cells of which only one is
+      g.beginPath();
+      const edge = (k, other, ...[l, t, r, b]) => { if (layer.above(k) !== layer.above(other)) { g.moveTo(l, t); g.lineTo(r, b); } };
+      for (let i = 0; i < nx; ++i)
+        for (let j = 0; j < ny; ++j) {
+          const k = i * ny + j, [l, r] = [i, i + 1].map((e) => Math.round(x_of(x.edges[e]))), [b, t] = [j, j + 1].map((e) => Math.round(y_of(y.edges[e])));
+          if (i + 1 < nx) edge(k, k + ny, r, t, r, b);
+          if (j + 1 < ny) edge(k, k + 1, l, t, r, t);
+        }
+      g.strokeStyle = color("ink");
+      g.lineWidth = 2;
+      g.stroke();
+      g.lineWidth = 1;
+    }
     g.strokeStyle = color("rule");
     g.strokeRect(x0 + 0.5, y1 + 0.5, x1 - x0 - 1, y0 - y1 - 1);
 

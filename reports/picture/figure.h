@@ -82,6 +82,8 @@ struct FigureMap {
   Scale scale = Scale::linear;
   /// The value at the end of the colours, so that maps can be compared; else as the values ask for.
   double limit = std::numeric_limits<double>::quiet_NaN();
+  /// Value that a line is drawn at, between cells above it and the others; not finite: no line.
+  double line = std::numeric_limits<double>::quiet_NaN();
   std::string family{};  ///< as a figure's
   FigureChoices choices{};
   /// Names of several maps over the same axes, "roughness 0.3"; their values one map after the other.

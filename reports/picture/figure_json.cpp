@@ -126,6 +126,7 @@ Json json(const FigureMap& m) {
            {"ticks", page_json(colours.ticks)},
            {"colours", json_of(colours_of(m))},
            {"values", page_json(m.values)}};
+  if (std::isfinite(m.line)) out["line"] = page_json(m.line);
   if (!m.slices.empty()) out["slices"] = m.slices;
   return out;
 }

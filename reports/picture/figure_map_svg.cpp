@@ -109,7 +109,7 @@ class Drawing {
 
   /// A map in its frame.  \param ticks  at most about
   std::string panel(std::size_t slice, std::size_t ticks, bool x_ticks, bool y_ticks) const {
-    std::string out = cells(slice) + cell_texts(slice);
+    std::string out = cells(slice) + line(slice) + cell_texts(slice);
     out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" stroke=\"{}\"/>\n",
                        number(left_), number(top_), number(right_ - left_), number(bottom_ - top_),
                        svg::rule);
@@ -145,6 +145,23 @@ class Drawing {
     for (const auto& [s, path] : paths)
       out += fmt::format("<path d=\"{}\" fill=\"{}\"/>\n", path, hex(shade(s)));
     return out + "</g>\n";
+  }
+
+  /// Edges between cells above the map's line and others.
+  std::string line(std::size_t slice) const {
+    if (!std::isfinite(m_.line)) return "";
+    const auto above = [&](std::size_t i, std::size_t j) { return value(slice, i, j) > m_.line; };
+    std::string path;
+    for (std::size_t i = 0; i < m_.x.size(); ++i)
+      for (std::size_t j = 0; j < m_.y.size(); ++j) {
+        const std::string right = number(x_at(x_edges_[i + 1])),
+                          top = number(y_at(y_edges_[j + 1]));
+        if (i + 1 < m_.x.size() && above(i, j) != above(i + 1, j))
+          path += "M" + right + " " + number(y_at(y_edges_[j])) + "V" + top;
+        if (j + 1 < m_.y.size() && above(i, j) != above(i, j + 1))
+          path += "M" + number(x_at(x_edges_[i])) + " " + top + "H" + right;
+      }
+    return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, svg::ink);
   }
 
   /// The numbers in the cells of a small matrix.

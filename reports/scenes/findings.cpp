@@ -1,0 +1,218 @@
+// The scenes in sentences: made from their rows alone.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "reports/finding/words.h"
+#include "reports/scenes/scenes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+namespace {
+
+/// Share of the time below which as good as nothing is saved.
+constexpr double little = 0.1;
+constexpr std::string_view no_difference = "no visible difference";
+
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
+  return text;
+}
+/// "2.1", "12": two digits.
+std::string times_text(double ratio) {
+  return fmt::format("{:.{}f}", ratio, ratio < 9.95 ? 1 : 0);
+}
+std::string delta_text(double error) {
+  return fmt::format("{:.{}f}", error, error < 9.95 ? error < 0.095 ? 2 : 1 : 0);
+}
+double saved(const SceneRow& r) {
+  return 1 - r.ns_float / r.ns_exact_float;
+}
+/// "a rim light": a light as it stands in a sentence.
+std::string light_text(const std::string& light) {
+  return light == "sky and sun" ? "sky and sun" : "a " + light;
+}
+std::string scene_text(const SceneRow& r) {
+  return fmt::format("{} under {}", r.material, light_text(r.light));
+}
+/// "a", "a and b", "a, b and c"
+std::string list_text(const std::vector<std::string>& all) {
+  if (all.size() < 2) return all.empty() ? "" : all[0];
+  return fmt::format("{} and {}", fmt::join(all.begin(), all.end() - 1, ", "), all.back());
+}
+
+/// Scenes, those of a material together: "everything needed under a rim light and sky and sun".
+std::string scenes_text(const std::vector<const SceneRow*>& rows) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < rows.size();) {
+    std::vector<std::string> lights;
+    const auto& material = rows[i]->material;
+    for (; i < rows.size() && rows[i]->material == material; ++i)
+      lights.push_back(light_text(rows[i]->light));
+    parts.push_back(fmt::format("{} under {}", material, list_text(lights)));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// What plans save, and where they save nothing.
+void savings(Findings& to, const ScenesRows& r) {
+  std::vector<double> all;
+  std::vector<const SceneRow*> none;
+  for (const auto& row : r.rows) {
+    all.push_back(saved(row));
+    if (saved(row) < little) none.push_back(&row);
+  }
+  std::ranges::sort(all);
+  const auto& least = *std::ranges::min_element(r.rows, {}, saved);
+  const auto& most = *std::ranges::max_element(r.rows, {}, saved);
+  const double middle = (all[(all.size() - 1) / 2] + all[all.size() / 2]) / 2;
+  to.say(fmt::format(
+      "At {}, plans save {} of a float shader’s time in the middle scene, and {} at most, for {}; "
+      "{}.",
+      no_difference, percent(middle, 2), percent(all.back(), 2), scene_text(most),
+      none.empty() ? fmt::format("the least is saved for {}", scene_text(least))
+                   : fmt::format("as good as nothing can be saved for {}", scenes_text(none))));
+  to.questions.push_back(
+      {"Which effects does a material need in a scene?", to.sentences.back(), "plans"});
+  to.say(fmt::format(
+      "{} means that ΔE2000 to everything on, in double, is at most {:g} at {} of the "
+      "points; half of them are drawn near highlights.",
+      capital(std::string(no_difference)), r.tolerance.limit, percent(r.tolerance.quantile, 2)));
+}
+
+/// What float does, apart from what plans drop.
+void precision(Findings& to, const ScenesRows& r) {
+  std::vector<double> ratios;
+  double most = 0;
+  for (const auto& row : r.rows) ratios.push_back(row.ns_exact / row.ns_exact_float);
+  for (const auto& e : r.effects)
+    if (e.effect == "precision") most = std::max(most, e.error_if_dropped);
+  std::ranges::sort(ratios);
+  to.say(
+      fmt::format("Float instead of double, which shaders ship anyway, makes everything on {} "
+                  "times as fast and "
+                  "changes ΔE2000 by less than {}; it is not counted there.",
+                  times_text(ratios[ratios.size() / 2]),
+                  most < 0.01 ? std::string("0.01") : fmt::format("{:.1g}", most)));
+}
+
+/// Effects that one light needs and another does not, where that is clearest.
+void lights(Findings& to, const ScenesRows& r) {
+  const SceneEffectRow *kept = nullptr, *dropped = nullptr;
+  double contrast = 0;
+  for (const auto& a : r.effects)
+    for (const auto& b : r.effects) {
+      if (a.material != b.material || a.effect != b.effect || !a.keep || b.keep ||
+          b.why != "measured")
+        continue;
+      const double c = a.error_if_dropped - b.error_if_dropped;
+      if (c > contrast) {
+        contrast = c;
+        kept = &a;
+        dropped = &b;
+      }
+    }
+  if (!kept) return;
+  to.say(fmt::format(
+      "The light decides: {} needs {} under {}, where dropping it costs ΔE2000 {}; under {} that "
+      "costs "
+      "{}, and it is dropped.",
+      kept->material, kept->name, light_text(kept->light), delta_text(kept->error_if_dropped),
+      light_text(dropped->light), delta_text(dropped->error_if_dropped)));
+  to.questions.push_back(
+      {"Does the light decide what a material needs?", to.sentences.back(), "effects"});
+  const auto row = [&](const SceneEffectRow& e) {
+    return std::ranges::find_if(
+        r.rows, [&](const SceneRow& x) { return x.material == e.material && x.light == e.light; });
+  };
+  const auto slow = row(*kept), fast = row(*dropped);
+  if (slow != r.rows.end() && fast != r.rows.end() && fast->speedup_float > slow->speedup_float)
+    to.say(fmt::format(
+        "So {} is {} times as fast as with everything on under {}, and {} times under {}.",
+        kept->material, times_text(fast->speedup_float), light_text(fast->light),
+        times_text(slow->speedup_float), light_text(slow->light)));
+}
+
+/// Scenes that keep an effect.
+void counts(Findings& to, const ScenesRows& r) {
+  std::map<std::string, std::size_t> kept;
+  std::map<std::string, std::string> names;
+  for (const auto& e : r.effects) {
+    kept[e.effect] += e.keep;
+    names.try_emplace(e.effect, e.name);
+  }
+  std::vector<std::pair<std::size_t, std::string>> order;
+  for (const char* effect : {"fresnel", "compensation", "masking", "coupling"})
+    if (kept.contains(effect)) order.emplace_back(kept[effect], effect);
+  if (order.size() < 2) return;
+  std::ranges::stable_sort(order, std::greater<>(), &std::pair<std::size_t, std::string>::first);
+  static const std::map<std::string, std::string> any{{"fresnel", "better than Schlick’s Fresnel"},
+                                                      {"compensation", "multiple scattering"},
+                                                      {"masking", "Smith’s masking"},
+                                                      {"coupling", "diffuse coupled to Fresnel"}};
+  to.say(fmt::format("Of {} scenes, {} keep {}, the most; {} keep {}, the fewest.", r.rows.size(),
+                     number_or_none(order.front().first), any.at(order.front().second),
+                     number_or_none(order.back().first), any.at(order.back().second)));
+}
+
+void verified(Findings& to, const ScenesRows& r) {
+  std::vector<const SceneRow*> broken;
+  for (const auto& row : r.rows)
+    if (!row.holds) broken.push_back(&row);
+  const auto worst = std::ranges::max_element(r.rows, {}, &SceneRow::upper_bound);
+  if (broken.empty())
+    to.say(
+        fmt::format("On fresh points {} hold: the share of points beyond the limit is at most {}, "
+                    "with a confidence of {}.",
+                    r.rows.size() == 1 ? "the plan is seen to" : "all plans",
+                    percent(worst->upper_bound, 2), percent(r.tolerance.confidence, 2)));
+  else
+    to.say(fmt::format("On fresh points {} plans do not hold: {}.",
+                       of_all(broken.size(), r.rows.size()), scenes_text(broken)));
+}
+
+/// Angle from which on a map's effect is seen at its material's own roughness.
+void switches(Findings& to, const ScenesRows& r) {
+  for (const auto& m : r.maps) {
+    if (m.light_deg.empty() || m.roughness.empty()) continue;
+    const auto near = std::ranges::min_element(
+        m.roughness, {}, [&](double x) { return std::abs(x - m.own_roughness); });
+    const auto j = static_cast<std::size_t>(near - m.roughness.begin());
+    std::size_t n = 0, first = m.light_deg.size();
+    for (std::size_t i = 0; i < m.light_deg.size(); ++i)
+      if (m.error[i * m.roughness.size() + j] > r.tolerance.limit) {
+        first = std::min(first, i);
+        ++n;
+      }
+    const std::string head = fmt::format("{} of roughness {:.2g}", capital(m.material), *near);
+    if (n == 0)
+      to.say(fmt::format("{} needs {} under no single light.", head, m.name));
+    else if (n == m.light_deg.size())
+      to.say(fmt::format("{} needs {} under every single light.", head, m.name));
+    else if (n == m.light_deg.size() - first)
+      to.say(fmt::format("{} needs {} once the light stands {:g}° or more from the viewer.", head,
+                         m.name, m.light_deg[first]));
+    else
+      to.say(fmt::format("{} needs {} under some single lights, the first {:g}° from the viewer.",
+                         head, m.name, m.light_deg[first]));
+  }
+}
+
+}  // namespace
+
+Findings findings(const ScenesRows& r) {
+  Findings f;
+  if (r.rows.empty()) return f;
+  savings(f, r);
+  lights(f, r);
+  precision(f, r);
+  verified(f, r);
+  counts(f, r);
+  switches(f, r);
+  return f;
+}
+
+}  // namespace gonio

@@ -1,0 +1,28 @@
+#pragma once
+/// \file
+/// What the report measures of a scene, and the names that it gives to effects.
+
+#include <string>
+#include <string_view>
+
+#include "reports/scenes/scenes.h"
+#include "scene/plan/samples.h"
+#include "scene/surface/effect.h"
+
+namespace gonio::scenes {
+
+/// Name of an effect in a form: "exact Fresnel", "height-correlated masking".
+std::string name_of_form(scene::Effect, std::size_t form);
+/// Name of an effect as a whole: "Fresnel", "masking".
+std::string_view name_of_effect(scene::Effect);
+
+/// Picture of a lit scene of one sphere.  \param pixels  width and height
+ScenePicture picture_of(const scene::Lit&,
+                        const scene::Surface& everything,
+                        const scene::Surface& planned,
+                        std::size_t pixels);
+
+/// Maps of where effects switch on: of some that people ask for, at most six.
+std::vector<SceneMap> switch_maps(const ScenesOptions&, const std::function<void(double)>& done);
+
+}  // namespace gonio::scenes
