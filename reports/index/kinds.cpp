@@ -66,7 +66,7 @@ constexpr std::array kinds{
                stability, stability_schema, 40},
     ReportKind{"scenes",
                "which effects a material needs in a scene, and what leaving out the others saves",
-               scenes, scenes_schema, 40}};
+               scenes, scenes_schema, 25}};
 
 }  // namespace
 

@@ -1,8 +1,7 @@
 // The scenes in sentences: made from their rows alone.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "reports/finding/words.h"
 #include "reports/scenes/scenes.h"
@@ -31,12 +30,12 @@ std::string delta_text(double error) {
 double saved(const SceneRow& r) {
   return 1 - r.ns_float / r.ns_exact_float;
 }
-/// "a rim light": a light as it stands in a sentence.
-std::string light_text(const std::string& light) {
-  return light == "sky and sun" ? "sky and sun" : "a " + light;
+/// Material as it stands in a sentence.
+std::string material_text(const std::string& material) {
+  return material == "everything needed" ? "the material that needs everything" : material;
 }
 std::string scene_text(const SceneRow& r) {
-  return fmt::format("{} under {}", r.material, light_text(r.light));
+  return fmt::format("{} under {}", material_text(r.material), r.light);
 }
 /// "a", "a and b", "a, b and c"
 std::string list_text(const std::vector<std::string>& all) {
@@ -44,20 +43,20 @@ std::string list_text(const std::vector<std::string>& all) {
   return fmt::format("{} and {}", fmt::join(all.begin(), all.end() - 1, ", "), all.back());
 }
 
-/// Scenes, those of a material together: "everything needed under a rim light and sky and sun".
+/// Scenes, those of a material together: "chalk under rim light, and under sky and sun".
 std::string scenes_text(const std::vector<const SceneRow*>& rows) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < rows.size();) {
     std::vector<std::string> lights;
     const auto& material = rows[i]->material;
     for (; i < rows.size() && rows[i]->material == material; ++i)
-      lights.push_back(light_text(rows[i]->light));
-    parts.push_back(fmt::format("{} under {}", material, list_text(lights)));
+      lights.push_back("under " + rows[i]->light);
+    parts.push_back(fmt::format("{} {}", material_text(material), list_text(lights)));
   }
-  return fmt::format("{}", fmt::join(parts, "; "));
+  return list_text(parts);
 }
 
-/// What plans save, and where they save nothing.
+/// Time that plans save, and where they save nothing.
 void savings(Findings& to, const ScenesRows& r) {
   std::vector<double> all;
   std::vector<const SceneRow*> none;
@@ -68,10 +67,10 @@ void savings(Findings& to, const ScenesRows& r) {
   std::ranges::sort(all);
   const auto& least = *std::ranges::min_element(r.rows, {}, saved);
   const auto& most = *std::ranges::max_element(r.rows, {}, saved);
-  const double middle = (all[(all.size() - 1) / 2] + all[all.size() / 2]) / 2;
+  const double middle = all[all.size() / 2];
   to.say(fmt::format(
-      "At {}, plans save {} of a float shader’s time in the middle scene, and {} at most, for {}; "
-      "{}.",
+      "At {}, plans save at least {} of a float shader’s time in half of the scenes, and {} for "
+      "{}; {}.",
       no_difference, percent(middle, 2), percent(all.back(), 2), scene_text(most),
       none.empty() ? fmt::format("the least is saved for {}", scene_text(least))
                    : fmt::format("as good as nothing can be saved for {}", scenes_text(none))));
@@ -83,7 +82,7 @@ void savings(Findings& to, const ScenesRows& r) {
       capital(std::string(no_difference)), r.tolerance.limit, percent(r.tolerance.quantile, 2)));
 }
 
-/// What float does, apart from what plans drop.
+/// Part of float in the speed, apart from what plans drop.
 void precision(Findings& to, const ScenesRows& r) {
   std::vector<double> ratios;
   double most = 0;
@@ -120,8 +119,8 @@ void lights(Findings& to, const ScenesRows& r) {
       "The light decides: {} needs {} under {}, where dropping it costs ΔE2000 {}; under {} that "
       "costs "
       "{}, and it is dropped.",
-      kept->material, kept->name, light_text(kept->light), delta_text(kept->error_if_dropped),
-      light_text(dropped->light), delta_text(dropped->error_if_dropped)));
+      kept->material, kept->name, kept->light, delta_text(kept->error_if_dropped), dropped->light,
+      delta_text(dropped->error_if_dropped)));
   to.questions.push_back(
       {"Does the light decide what a material needs?", to.sentences.back(), "effects"});
   const auto row = [&](const SceneEffectRow& e) {
@@ -132,30 +131,26 @@ void lights(Findings& to, const ScenesRows& r) {
   if (slow != r.rows.end() && fast != r.rows.end() && fast->speedup_float > slow->speedup_float)
     to.say(fmt::format(
         "So {} is {} times as fast as with everything on under {}, and {} times under {}.",
-        kept->material, times_text(fast->speedup_float), light_text(fast->light),
-        times_text(slow->speedup_float), light_text(slow->light)));
+        kept->material, times_text(fast->speedup_float), fast->light,
+        times_text(slow->speedup_float), slow->light));
 }
 
-/// Scenes that keep an effect.
+/// Effects that most scenes keep, and that fewest do.
 void counts(Findings& to, const ScenesRows& r) {
-  std::map<std::string, std::size_t> kept;
-  std::map<std::string, std::string> names;
-  for (const auto& e : r.effects) {
-    kept[e.effect] += e.keep;
-    names.try_emplace(e.effect, e.name);
-  }
-  std::vector<std::pair<std::size_t, std::string>> order;
-  for (const char* effect : {"fresnel", "compensation", "masking", "coupling"})
-    if (kept.contains(effect)) order.emplace_back(kept[effect], effect);
-  if (order.size() < 2) return;
-  std::ranges::stable_sort(order, std::greater<>(), &std::pair<std::size_t, std::string>::first);
-  static const std::map<std::string, std::string> any{{"fresnel", "better than Schlick’s Fresnel"},
-                                                      {"compensation", "multiple scattering"},
-                                                      {"masking", "Smith’s masking"},
-                                                      {"coupling", "diffuse coupled to Fresnel"}};
+  struct Asked {
+    std::string_view effect, name;
+    std::size_t kept = 0;
+  };
+  std::array asked{Asked{"fresnel", "better than Schlick’s Fresnel"},
+                   Asked{"compensation", "multiple scattering"},
+                   Asked{"masking", "Smith’s masking"},
+                   Asked{"coupling", "diffuse coupled to Fresnel"}};
+  for (const auto& e : r.effects)
+    if (const auto at = std::ranges::find(asked, e.effect, &Asked::effect); at != asked.end())
+      at->kept += e.keep;
+  const auto [least, most] = std::ranges::minmax(asked, {}, &Asked::kept);
   to.say(fmt::format("Of {} scenes, {} keep {}, the most; {} keep {}, the fewest.", r.rows.size(),
-                     number_or_none(order.front().first), any.at(order.front().second),
-                     number_or_none(order.back().first), any.at(order.back().second)));
+                     number_or_none(most.kept), most.name, number_or_none(least.kept), least.name));
 }
 
 void verified(Findings& to, const ScenesRows& r) {
@@ -174,30 +169,29 @@ void verified(Findings& to, const ScenesRows& r) {
                        of_all(broken.size(), r.rows.size()), scenes_text(broken)));
 }
 
-/// Angle from which on a map's effect is seen at its material's own roughness.
+/// Angles of light at which an effect is seen at its material's own roughness.
 void switches(Findings& to, const ScenesRows& r) {
   for (const auto& m : r.maps) {
     if (m.light_deg.empty() || m.roughness.empty()) continue;
     const auto near = std::ranges::min_element(
         m.roughness, {}, [&](double x) { return std::abs(x - m.own_roughness); });
     const auto j = static_cast<std::size_t>(near - m.roughness.begin());
-    std::size_t n = 0, first = m.light_deg.size();
+    std::vector<std::size_t> seen;
     for (std::size_t i = 0; i < m.light_deg.size(); ++i)
-      if (m.error[i * m.roughness.size() + j] > r.tolerance.limit) {
-        first = std::min(first, i);
-        ++n;
-      }
-    const std::string head = fmt::format("{} of roughness {:.2g}", capital(m.material), *near);
-    if (n == 0)
-      to.say(fmt::format("{} needs {} under no single light.", head, m.name));
-    else if (n == m.light_deg.size())
-      to.say(fmt::format("{} needs {} under every single light.", head, m.name));
-    else if (n == m.light_deg.size() - first)
-      to.say(fmt::format("{} needs {} once the light stands {:g}° or more from the viewer.", head,
-                         m.name, m.light_deg[first]));
-    else
-      to.say(fmt::format("{} needs {} under some single lights, the first {:g}° from the viewer.",
-                         head, m.name, m.light_deg[first]));
+      if (m.error[i * m.roughness.size() + j] > r.tolerance.limit) seen.push_back(i);
+    std::string where = "under no single light";
+    if (!seen.empty()) {
+      const bool from_start = seen.front() == 0, to_end = seen.back() + 1 == m.light_deg.size();
+      const double first = m.light_deg[seen.front()], last = m.light_deg[seen.back()];
+      where = from_start && to_end ? "under a single light from any side"
+              : from_start         ? fmt::format("with a light up to {:g}° from the viewer", last)
+              : to_end ? fmt::format("with a light {:g}° or more from the viewer", first)
+              : first == last
+                  ? fmt::format("with a light about {:g}° from the viewer", first)
+                  : fmt::format("with a light {:g}° to {:g}° from the viewer", first, last);
+    }
+    to.say(fmt::format("{} of roughness {:.2g} needs {} {}.", capital(m.material), *near, m.name,
+                       where));
   }
 }
 

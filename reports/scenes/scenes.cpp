@@ -20,12 +20,8 @@ ScenesOptions scenes_options(bool full) {
   o.full = full;
   o.materials = scenes::material_names();
   o.lights = scenes::light_names();
-  if (!full) {
-    o.plan.samples = 2048;
-    o.plan.fresh = 32'768;
-    o.plan.directions = 32;
-  }
-  for (int deg = 0; deg <= 165; deg += full ? 5 : 15) o.map_angle_deg.push_back(deg);
+  if (!full) o.plan.directions = 32;
+  for (int deg = 0; deg <= 150; deg += full ? 5 : 15) o.map_angle_deg.push_back(deg);
   if (full)
     for (int r = 1; r <= 20; ++r) o.map_roughness.push_back(0.05 * r);
   else  // those of the materials among them
