@@ -34,8 +34,10 @@ function tick_text(x) {
 
 /// Where labels of points go, so that none hides another: [[text, x, y]…], as many as find a place.
 /// \param points  [{x, y, label, width}] in pixels   \param box  {left, top, right, bottom} to stay in
-function label_places(points, box) {
-  const taken = points.map(({ x, y }) => [x - 3, y - 3, x + 3, y + 3]), out = [];
+/// \param lines   [[{x, y}…]…], level ones to keep off
+function label_places(points, box, lines = []) {
+  const taken = [...points.map(({ x, y }) => [x - 3, y - 3, x + 3, y + 3]),
+    ...lines.map((l) => [l[0].x, Math.min(l[0].y, l.at(-1).y) - 1, l.at(-1).x, Math.max(l[0].y, l.at(-1).y) + 1])], out = [];
   const free = ([l, t, r, b]) => l > box.left && r < box.right && t > box.top && b < box.bottom
     && !taken.some((o) => l < o[2] && o[0] < r && t < o[3] && o[1] < b);
   for (const { x, y, label, width: w } of points) {
@@ -153,9 +155,11 @@ function curve_plot(data, series, o) {
   }
   const most_labels = 60;  // more of them would hide the points
   function draw_labels(u) {
-    const points = [], g = u.ctx, ratio = devicePixelRatio, { left, top, width, height } = u.bbox;
+    const points = [], level = new Map(), g = u.ctx, ratio = devicePixelRatio, { left, top, width, height } = u.bbox;
     g.save();
     g.font = plot_font.replace("12px", "11px");
+    drawn(u, (s, i, x, y) => s.mute && level.set(s, [...level.get(s) ?? [], { x: u.valToPos(x, "x"), y: u.valToPos(y, "y") }]));
+    const lines = [...level.values()].filter((l) => Math.abs(l[0].y - l.at(-1).y) < 2);
     drawn(u, (s, i, x, y) => s.labels?.[i] && points.push({ x: u.valToPos(x, "x"), y: u.valToPos(y, "y"), label: s.labels[i], width: g.measureText(s.labels[i]).width }));
     if (points.length && points.length <= most_labels) {
       g.translate(left, top);
@@ -163,7 +167,7 @@ function curve_plot(data, series, o) {
       g.fillStyle = color("ink");
       g.textBaseline = "middle";
       g.textAlign = "left";
-      for (const [label, x, y] of label_places(points, { left: 0, top: 0, right: width / ratio, bottom: height / ratio })) g.fillText(label, x, y);
+      for (const [label, x, y] of label_places(points, { left: 0, top: 0, right: width / ratio, bottom: height / ratio }, lines)) g.fillText(label, x, y);
     }
     g.restore();
   }

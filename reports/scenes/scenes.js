@@ -91,7 +91,7 @@ function one_material() {
     told_by_cell(["effect", "here", { n: "ΔE2000 if dropped" }, { n: "ns saved" }, { n: "operations saved" }, "why"],
       [...list].sort((a, b) => b.keep - a.keep || (a.why === "structural") - (b.why === "structural")).map((e) => [capital(e.name),
         e.keep ? el("span", { class: "verdict-yes" }, e.keeps === e.name ? "keep" : `keep ${e.keeps}`) : e.why === "structural" ? el("span", { class: "muted" }, "absent") : "drop",
-        { n: e.why === "structural" ? "0" : (e.why === "proved" ? "≤ " : "") + delta(e.error_if_dropped) }, { n: significant(e.ns_saved, 2) }, { n: significant(e.ops_saved, 3) },
+        { n: e.why === "structural" ? "0" : (e.why === "proved" ? "≤ " : "") + delta(e.error_if_dropped) }, { n: significant(e.ns_saved, 2) }, { n: count(Math.round(e.ops_saved)) },
         el("span", { class: "muted" }, e.why === "structural" ? e.reason : why_words[e.why])])),
     row ? el("p", { class: "small verification" }, `On ${count(row.samples)} fresh points ${many(row.exceeding, "point")} lie beyond ΔE2000 ${limit}; with a confidence of ${percent(confidence)} that is less than ${percent(row.upper_bound)} of all. The plan is `, el("code", {}, row.spec), ".") : null,
     figure ? el("div", { class: "front" }, figure_view(figure, { height: 320 })) : null);
@@ -117,6 +117,7 @@ document.getElementById("page").replaceChildren(...[
   findings_view(findings, 3),
   plans(), pictures(), shares(), one_material(), switches(),
   section("How it is measured", null, el("ul", { class: "findings" },
+    el("li", {}, "Front light: three lights on the viewer’s side. Rim light: one of these, and two from behind the sphere. Sky and sun: an even sky over a darker ground, and a small bright sun."),
     el("li", {}, "The points are drawn evenly over the picture of a sphere; for every second one, the nearest to a highlight of four is likely to be taken."),
     el("li", {}, "Everything on is one surface with each effect in its exact form, in double, whether the material has it or not, as in a shader for all materials."),
     el("li", {}, "Times are of column kernels, composed on both sides: nothing is fused for the plan alone."),

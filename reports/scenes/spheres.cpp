@@ -17,7 +17,7 @@ namespace {
 using namespace scene;
 
 constexpr std::size_t across = 3;        ///< looks into a pixel, each way
-constexpr std::size_t directions = 16;   ///< of light from all around, for each of them
+constexpr std::size_t directions = 32;   ///< of light from all around, for each of them
 constexpr std::uint64_t stream = 2'000;  ///< of draws, after those of plans and verifications
 
 /// Points that looks into a picture meet, a row for each direction of light, with the pixel in the place of the point.

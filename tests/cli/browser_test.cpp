@@ -14,6 +14,7 @@
 #include "reports/page/page.h"
 #include "reports/picture/document.h"
 #include "reports/remap/remap.h"
+#include "reports/scenes/scenes.h"
 #include "reports/schlick/schlick.h"
 
 namespace gonio::test {
@@ -173,6 +174,21 @@ CostReport small_cost_report() {
   return report_of(false, std::move(r));
 }
 
+ScenesReport small_scenes_report() {
+  ScenesOptions o;
+  o.materials = {"red plastic"};
+  o.lights = {"front light", "rim light"};
+  o.plan.samples = 512;
+  o.plan.fresh = 8192;
+  o.plan.cost = scene::Cost::operations;
+  o.verified = 1024;
+  o.pixels = 16;
+  o.map_angle_deg = {0, 60, 120};
+  o.map_roughness = {0.25, 0.6};
+  o.map_samples = 256;
+  return scenes_report(o);
+}
+
 void add_reports(Pages& pages) {
   const auto add = [&](const char* name, const std::string& html) { pages.add(name, html); };
   add("energy", energy_page_html(to_json(small_energy_report())));
@@ -188,6 +204,7 @@ void add_reports(Pages& pages) {
   add("cross_fit", cross_fit_page_html(cross_fit_report(
                        {false, {0.5}, {1.5}, {"Au"}, {3}, 12, 64, {"fresnel.schlick"}})));
   add("cost", cost_page_html(to_json(small_cost_report())));
+  add("scenes", scenes_page_html(to_json(small_scenes_report())));
   ReportIndex index{{}, "0.1.0", false, 0};
   index.reports.push_back(
       {"schlick",
@@ -342,6 +359,8 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
   EXPECT_TRUE(says("limit", "values down to 0 do as well"));
   EXPECT_FALSE(says("limit", "What to try next"));
   EXPECT_TRUE(says("bright", "What to try next"));
+  EXPECT_TRUE(says("scenes", "Exact Fresnel, "))
+      << "what red plastic needs under a rim light";
   EXPECT_TRUE(says("bright", ", above 1")) << "light that the model returns";
 }
 
