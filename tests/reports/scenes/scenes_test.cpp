@@ -148,9 +148,10 @@ TEST(ScenesReport, ShowsASphereAndWhereThePlanDiffers) {
     const auto disc = static_cast<double>(
         std::ranges::count_if(apart, [](char c) { return static_cast<unsigned char>(c) != 255; }));
     EXPECT_NEAR(disc / static_cast<double>(n * n), 0.71, 0.04) << "a sphere seen at 10 radii";
-    for (std::size_t i = 0; i < apart.size(); ++i)
-      if (all.substr(3 * i, 3) != some.substr(3 * i, 3))
-        EXPECT_GT(byte(apart, i), 0) << "colours differ, and the difference says nothing";
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (std::abs(byte(all, i) - byte(some, i)) > 2) {
+        EXPECT_GT(byte(apart, i / 3), 0) << "colours differ, and the difference says nothing";
+      }
     EXPECT_LE(p.worst, 4);
   }
 }
