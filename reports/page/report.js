@@ -14,6 +14,13 @@ function findings_view(findings, at_once = 5) {
   addEventListener("beforeprint", () => { more.open = true; });
   return el("div", { class: "verdict" }, told(findings.slice(0, at_once)), more);
 }
+/// A table whose rows become cards where there is little room: each cell then tells what it is of.
+function told_by_cell(head, list, classes) {
+  const t = table(head, list, { row_class: classes });
+  const names = head.map((h) => h?.n ?? h);
+  for (const row of t.tBodies[0].rows) [...row.cells].forEach((cell, k) => k && cell.setAttribute("data-of", names[k]));
+  return el("div", { class: "told-by-cell" }, t);
+}
 /// A place whose content is made again whenever a choice changes.
 function changing(make) {
   const node = el("div", {});

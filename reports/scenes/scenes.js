@@ -8,14 +8,6 @@ const times = (x) => `${x < 9.95 ? x.toFixed(1) : x.toFixed(0)}\u202f×`;
 const found = (list, material, light) => list.find((r) => r.material === material && r.light === light);
 const delta = (x) => (x < 0.005 ? "0" : significant(x, 2));
 
-/// A table whose rows become cards where there is little room: each cell then tells what it is of.
-function told_by_cell(head, list, classes) {
-  const t = table(head, list, { row_class: classes });
-  const names = head.map((h) => h?.n ?? h);
-  for (const row of t.tBodies[0].rows) [...row.cells].forEach((cell, k) => k && cell.setAttribute("data-of", names[k]));
-  return el("div", { class: "told-by-cell" }, t);
-}
-
 // --- The plans ---------------------------------------------------------------------------------------------------------
 function plans() {
   const cell = (material, light) => {

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
+#include "reports/scenes/plan_page.h"
 #include "scene/plan/document.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace {
 using namespace scene;
 
 struct Options : Common {
-  std::string scene, output, cost = "time";
+  std::string scene, output, page, cost = "time";
   std::size_t samples = PlanOptions{}.samples;
   std::optional<std::uint64_t> seed;
 };
@@ -59,7 +60,7 @@ void print(const MaterialPlan& m, const Tolerance& t) {
 
 Exit run(const Options& o) {
   use_jobs(o.jobs);
-  OutputFiles files({o.scene}, o.output, "");
+  OutputFiles files({o.scene}, o.output, o.page);
   Scene s = read_scene(o.scene);
   if (o.seed) s.seed = *o.seed;
   PlanOptions options;
@@ -72,6 +73,7 @@ Exit run(const Options& o) {
   progress.clear();
   const auto document = to_json(plan);
   files.write_document(document);
+  if (files.has_page()) files.write_page(plan_page_html(document), document);
   files.commit();
   if (o.json)
     fmt::print("{}", document);
@@ -95,6 +97,7 @@ void add_plan(CommandLine& line) {
                              "gonio plan scene.json -o plan.json", run);
   c.option("SCENE", o->scene, "Scene, gonio.scene/1").required();
   c.option("-o,--output", o->output, "The plan as a document, gonio.plan/1");
+  c.option("--html", o->page, "The plan as a page: what to keep, what to drop and why");
   c.option("--samples", o->samples, "Points that sets of effects are compared on (4096)")
       .in(std::size_t{512}, std::size_t{65'536});
   c.option("--cost", o->cost,

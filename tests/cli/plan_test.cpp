@@ -45,6 +45,17 @@ TEST(PlanCommand, MakesAPlanThatHolds) {
   EXPECT_LE(v.json()["materials"]["plastic"]["upper_bound"], 0.01);
 }
 
+TEST(PlanCommand, ShowsThePlanAsAPage) {
+  const Folder f;
+  f.write("scene.json", scene().dump());
+  const auto o = gonio(f, "plan scene.json --html plan.html -o plan.json --quiet");
+  EXPECT_EQ(o.code, 0) << o.err;
+  const auto page = read_bytes(f / "plan.html");
+  EXPECT_NE(page.find("Only what the scene needs"), page.npos);
+  EXPECT_NE(page.find("gonio.plan/1"), page.npos);  // its data
+  EXPECT_EQ(read_bytes(f / "plan.page.json"), read_bytes(f / "plan.json"));
+}
+
 TEST(PlanCommand, KeepsAnotherEffectUnderAnotherLight) {
   const Folder f;
   auto s = scene();
