@@ -3,7 +3,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "scene/plan/samples.h"
+#include "scene/plan/confidence.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ using namespace scene;
 
 struct Options : Common {
   std::string scene, plan;
-  std::size_t samples = verified_samples;
+  std::optional<std::size_t> samples;
   std::uint64_t seed = 1;
 };
 
@@ -31,6 +31,10 @@ Exit run(const Options& o) {
   use_jobs(o.jobs);
   check_outputs({o.scene, o.plan}, {});
   const Scene s = read_scene(o.scene);
+  const std::size_t needed = draws_needed(s.tolerance.quantile, s.tolerance.confidence);
+  if (o.samples && *o.samples < needed)
+    throw wrong_usage(fmt::format(
+        "--samples {}: this scene's quantile and confidence need {} at least", *o.samples, needed));
   const auto planned = read_plan(o.plan, s, {s.materials.begin(), s.materials.end()});
   TimedProgress progress(o.quiet, "verifying", s.materials.size());
   const auto v = verify(s, planned, o.seed, o.samples, [&](double done) {
@@ -53,7 +57,7 @@ void add_verify(CommandLine& line) {
       "gonio verify scene.json plan.json", run);
   c.option("SCENE", o->scene, "Scene that the plan was made for").required();
   c.option("PLAN", o->plan, "Plan, gonio.plan/1").required();
-  c.option("--samples", o->samples, "Fresh points (16384)")
+  c.option("--samples", o->samples, "Fresh points (16384, more where the tolerance needs them)")
       .in(std::size_t{512}, std::size_t{1} << 22);
   add_seed(c, o->seed, "Seed of the fresh points (1)");
   add_jobs(c, *o);

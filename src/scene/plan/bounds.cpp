@@ -94,9 +94,6 @@ std::optional<double> fresnel_change(const Surface& exact, const Surface& form, 
       }
     }
   }
-  for (std::size_t k = 0; k < channels; ++k)
-    if (const double s = exact.multiple.strength[k]; s > 0)
-      worst = std::max(worst, std::abs(form.multiple.strength[k] - s) / s);
   // The bound's own rounding, and what the quadrature of F_avg may be off by, 1e-9 of a share of 1
   // % at least.
   worst = worst * (1 + 1e-12) + 4e-7;

@@ -29,8 +29,7 @@ ReachedAngles reached_angles(const Scene&, const Object&);
 /// Most by which f changes, relative to the exact, where one effect takes a form and all others are exact: all that adds up to f is
 /// positive, so that f changes by no more than the part that changes most.
 ///
-///   Fresnel    max(|F − F'|/F, |F − F'|/(1 − F)), the latter where light goes below; and the change of F_avg² by several
-///              bounces
+///   Fresnel    max(|F − F'|/F, |F − F'|/(1 − F)), the latter where light goes below; several bounces have the exact F_avg
 ///
 /// by enclosures of the terms over pieces of the range, rounding included.  No value where the change is not bounded by angles
 /// alone, or by no less than 1.

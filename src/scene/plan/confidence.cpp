@@ -1,6 +1,7 @@
 #include "scene/plan/confidence.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <boost/math/distributions/binomial.hpp>
@@ -20,6 +21,10 @@ double exceedance_bound(std::size_t exceeding, std::size_t n, double confidence)
   if (exceeding >= n) return 1;
   return boost::math::ibeta_inv(static_cast<double>(exceeding) + 1,
                                 static_cast<double>(n - exceeding), confidence);
+}
+
+std::size_t draws_needed(double quantile, double confidence) {
+  return static_cast<std::size_t>(std::ceil(std::log1p(-confidence) / std::log(quantile)));
 }
 
 double quantile_bound(std::vector<double>& values, double quantile, double confidence) {

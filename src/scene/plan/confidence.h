@@ -12,6 +12,11 @@ namespace gonio::scene {
 ///   B⁻¹(confidence; x + 1, n − x)                                               [Clopper & Pearson 1934]
 double exceedance_bound(std::size_t exceeding, std::size_t n, double confidence);
 
+/// Least number of draws of which, if none is beyond a limit, the quantile is shown to keep it.
+///
+///   n ≥ ln(1 − confidence)/ln(quantile)
+std::size_t draws_needed(double quantile, double confidence);
+
 /// Upper bound of a quantile from independent draws: the least of them, in their order, that is above it with that confidence;
 /// infinite where no draw is.  \param values  reordered
 double quantile_bound(std::vector<double>& values, double quantile, double confidence);

@@ -220,7 +220,8 @@ class MaterialPlanner {
 
   bool passes(const Judgement& j) const {
     const auto& t = scene_.tolerance;
-    return j.bound <= share_that_passes(t.quantile, verified_samples, t.confidence) &&
+    return j.bound <=
+               share_that_passes(t.quantile, samples_of_verification(scene_), t.confidence) &&
            j.worst <= reserve * t.max;
   }
 
@@ -325,9 +326,24 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
 
 }  // namespace
 
-Plan plan_scene(const Scene& s,
-                const PlanOptions& options,
-                const std::function<void(double)>& done) {
+std::size_t samples_of_verification(const Scene& s) {
+  constexpr std::size_t most = 65'536;
+  const std::size_t needed = draws_needed(s.tolerance.quantile, s.tolerance.confidence);
+  if (4 * needed > most)
+    throw bad_input(s.path, "/tolerance",
+                    fmt::format("quantile {} with confidence {}, which {} points would show",
+                                s.tolerance.quantile, s.tolerance.confidence, needed),
+                    fmt::format("what {} points can show", most / 4));
+  return std::max(verified_samples, 4 * needed);
+}
+
+Plan plan_scene(const Scene& s, const PlanOptions& asked, const std::function<void(double)>& done) {
+  PlanOptions options = asked;
+  const std::size_t verified = samples_of_verification(s);
+  if (verified > verified_samples) {
+    options.samples = std::max(asked.samples, verified / 2);
+    options.fresh = std::max(asked.fresh, 4 * verified);
+  }
   const Lit lit(s);
   Plan plan{s.sha256, s.tolerance, {}, {}};
   for (std::size_t m = 0; m < s.materials.size(); ++m) {

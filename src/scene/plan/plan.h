@@ -88,8 +88,11 @@ struct PlanOptions {
   std::size_t directions = 64;  ///< of each light that has an extent
   Cost cost = Cost::time;
 };
-/// Points of a verification.  \see verify
+/// Points of a verification, as a rule.
 inline constexpr std::size_t verified_samples = 16'384;
+/// Points that show that a tolerance is kept: these, or four times as many as its quantile and confidence need.  Bad input of the
+/// scene where that is more than 65 536.  \see verify
+std::size_t samples_of_verification(const Scene&);
 
 /// Plan of a scene.  A material that no view shows is wrong: bad_input.
 ///

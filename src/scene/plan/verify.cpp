@@ -45,7 +45,7 @@ bool Verification::holds() const {
 Verification verify(const Scene& s,
                     const PlannedForms& planned,
                     std::uint64_t seed,
-                    std::size_t samples,
+                    std::optional<std::size_t> samples,
                     const std::function<void(double)>& done) {
   constexpr std::uint64_t verifying = 1'000;  // after the planner's streams
   const Lit lit(s);
@@ -54,7 +54,8 @@ Verification verify(const Scene& s,
     if (!planned.by_material[m]) continue;
     const auto& look = lit.looks[m];
     VerifiedMaterial one{s.materials[m].name, {}, false};
-    one.found = judge_fresh(s, lit.drawer(m, PlanOptions{}.directions), verifying + seed, samples,
+    one.found = judge_fresh(s, lit.drawer(m, PlanOptions{}.directions), verifying + seed,
+                            samples.value_or(samples_of_verification(s)),
                             look.surface(look.exact()), look.surface(*planned.by_material[m]));
     one.holds = one.found.bound <= 1 - s.tolerance.quantile && one.found.worst <= s.tolerance.max;
     v.materials.push_back(std::move(one));

@@ -3,6 +3,7 @@
 /// Verification of a plan: its forms on fresh points of its scene.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,12 @@ struct Verification {
 
 /// Judgement of each material that an object has, by its exact surface in double.  The tolerance holds where the share of points
 /// beyond its limit is proved, with its confidence, to be no more than its quantile leaves, and none is beyond its greatest.
-/// \param seed  of the points, beside the scene's
+/// \param seed     of the points, beside the scene's
+/// \param samples  points; else as many as the tolerance needs
 Verification verify(const Scene&,
                     const PlannedForms&,
                     std::uint64_t seed = 1,
-                    std::size_t samples = verified_samples,
+                    std::optional<std::size_t> samples = {},
                     const std::function<void(double)>& done = {});
 
 /// Document gonio.verification/1, and its schema.

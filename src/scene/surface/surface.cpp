@@ -122,7 +122,10 @@ Look::Look(const Material& m) {
   coat_.absent = number_of(coat_.parameters, "weight", 1) == 0;
   coat_.width = number_of(coat_.parameters, "alpha", 0.1);
   offer_forms();
-  if (first_.known) albedo_ = lobe_albedo(surface(exact()).base);
+  if (!first_.known) return;
+  const auto base = surface(structural()).base;
+  fresnel_.average = fresnel_average(base, base.model.lobes[0].fresnel, {1e-9, 100'000}).value;
+  albedo_ = lobe_albedo(surface(exact()).base);
 }
 
 void Look::read(const BoundModel& b, bool coated) {
@@ -158,9 +161,10 @@ void Look::read(const BoundModel& b, bool coated) {
   first_.gamma = number_of(first_.shape, "gamma", 2);
   read_fresnel(name_of_term(first.fresnel), b, first.fresnel);
   for (std::size_t l = 1; l < lobes.size(); ++l) {
+    const auto given = settings_of(b, {&lobes[l].ndf, &lobes[l].masking, &lobes[l].fresnel});
+    if (number_of(given, fmt::format("weight_{}", l + 1), 1) == 0) continue;  // there is none of it
     others_ += '+' + spec_of(lobes[l]);
-    for (auto& s : settings_of(b, {&lobes[l].ndf, &lobes[l].masking, &lobes[l].fresnel}))
-      others_settings_.push_back(std::move(s));
+    others_settings_.insert(others_settings_.end(), given.begin(), given.end());
   }
 }
 
@@ -254,7 +258,7 @@ void Look::offer_forms() {
     offer(Effect::masking, {"schlick_k", "separable", "correlated"});
     offer(Effect::compensation, {"none", "turquin", "fdez_aguera", "kulla_conty"});
   } else {
-    offer(Effect::masking, {"correlated"}, false, as_given);
+    offer(Effect::masking, {first_.any ? "correlated" : "schlick_k"}, false, as_given);
     offer(Effect::compensation, {"none"}, false, as_given);
   }
   if (fresnel_.id == "f82")
@@ -264,7 +268,7 @@ void Look::offer_forms() {
   else if (fresnel_.id == "schlick")
     offer(Effect::fresnel, {"schlick"}, false, "its F0 is all that is known of it");
   else
-    offer(Effect::fresnel, {"exact"}, false, as_given);
+    offer(Effect::fresnel, {first_.any ? "exact" : "schlick"}, false, as_given);
   offer(Effect::coat, {"off", "on"}, coat_.absent, "its coat has no weight");
   offer(Effect::precision, {"float", "double"});
 }
@@ -341,13 +345,9 @@ Surface Look::surface(const Forms& forms) const {
   m.form = forms[Effect::compensation];
   m.albedo = albedo_.curve;
   const auto how = forms.name(Effect::compensation);
-  const auto average =
-      how == "kulla_conty"
-          ? fresnel_average(s.base, s.base.model.lobes[0].fresnel, {1e-9, 100'000}).value
-          : fresnel_.f0;
   for (std::size_t c = 0; c < channels && how != "none"; ++c) {
     if (how == "kulla_conty") {
-      const std::array p{0.0, 0.0, albedo_.average, average[c]};
+      const std::array p{0.0, 0.0, albedo_.average, fresnel_.average[c]};
       m.strength[c] = KullaContyLobe<double>::apply(p)[0];
     } else {
       m.strength[c] = how == "turquin" ? fresnel_.f0[c] : schlick_average<double>(fresnel_.f0[c]);

@@ -97,6 +97,7 @@ class Look {
     Settings parameters;
     bool has_schlick = false, has_f82 = false;
     std::vector<double> f0, f82_tint;
+    std::vector<double> average{0, 0, 0};  ///< of the exact form over the hemisphere
   } fresnel_;
   std::string others_;  ///< spec of further lobes, "+…"
   Settings others_settings_;

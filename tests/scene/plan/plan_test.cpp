@@ -167,6 +167,31 @@ TEST(Plan, RefusesAMaterialThatNoViewShows) {
   EXPECT_HAS(gonio::test::refusal([&] { plan_scene(s, quick()); }), "no view that shows it");
 }
 
+TEST(Plan, ProvesThatFresnelDoesNotShowUnderALightBesideTheViewer) {
+  Scene s = test::sphere(test::red_plastic(), {test::light({.03, .03, 1})});
+  s.view = Camera{{0, 0, 300}, {0, 0, 0}, {0, 1, 0}, .5};
+  const auto p = plan_scene(s, quick()).materials[0];
+  EXPECT_EQ(p.effects[0].why, Why::proved);
+  EXPECT_FALSE(p.effects[0].keep);
+  EXPECT_LE(p.effects[0].error_if_dropped, 0.1);
+}
+
+TEST(Plan, TellsTheTimeOfAMaterialInTheDark) {
+  const auto p = planned(test::red_plastic(), {test::light({0, 0, -1})});
+  EXPECT_EQ(kept(p), Names{});
+  EXPECT_GT(p.ns, 0);
+  EXPECT_EQ(p.checked.worst, 0);
+}
+
+TEST(Plan, DrawsAsManyPointsAsItsToleranceNeeds) {
+  Scene s = test::sphere(test::red_plastic(), test::front());
+  EXPECT_EQ(samples_of_verification(s), 16'384U);
+  s.tolerance.quantile = 0.9995;
+  EXPECT_EQ(samples_of_verification(s), 4 * 5990U);  // ln 0.05/ln 0.9995 = 5989.97
+  s.tolerance = {.quantile = 0.9999, .limit = 1, .max = 4, .confidence = 0.999};
+  EXPECT_HAS(gonio::test::refusal([&] { plan_scene(s, quick()); }), "/tolerance");
+}
+
 TEST(Verify, FailsNoMoreOftenThanTheConfidenceAllows) {
   GONIO_MANY_FITS();
   // 6 materials, 3 lights' sides of which two, 20 seeds: of 240 at 5 % at most 21 in 99 % of cases.

@@ -19,8 +19,7 @@ TEST(LobeAlbedo, IsWithinWhatItSaysOfGgx) {
                                            .is))
                            .curve;
     for (double mu = 1e-4; mu < 1; mu *= 1.3)
-      EXPECT_NEAR(value_at(curve, mu), ggx_albedo(alpha, mu).value, 4.3e-5)
-          << alpha << ' ' << mu;
+      EXPECT_NEAR(value_at(curve, mu), ggx_albedo(alpha, mu).value, 4.3e-5) << alpha << ' ' << mu;
   }
 }
 

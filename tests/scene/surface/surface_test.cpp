@@ -6,9 +6,9 @@
 #include "brdf/model/evaluate.h"
 #include "geometry/half_vector.h"
 #include "scene/plan/scenes.h"
+#include "scene/surface/evaluate.h"
 
 #include <gtest/gtest.h>
-#include "scene/surface/evaluate.h"
 
 namespace gonio::scene {
 namespace {
@@ -130,6 +130,18 @@ TEST(Look, TakesMetalsOfGltfByTheirF0) {
   EXPECT_EQ(s.spec(), "ggx_aniso/smith_ggx_aniso.correlated/schlick");
   EXPECT_NEAR(s.base.values[s.base.model.find("alpha_x")->first], 0.16 + 0.84 * 0.25, 1e-12);
   EXPECT_NEAR(s.base.values[s.base.model.find("alpha_y")->first], 0.16, 1e-12);
+}
+
+TEST(Look, LeavesOutALobeOfNoWeight) {
+  const Look look(test::material("disney", {"base_color=0.5", "roughness=0.4"}));
+  EXPECT_EQ(look.surface(look.exact()).base.model.lobes.size(), 1U);
+}
+
+TEST(Look, HasNoEffectsOfALobeWhereThereIsNone) {
+  const Look look(test::material("lambert", {"kd=0.5"}));
+  for (const auto e : {Effect::fresnel, Effect::masking, Effect::compensation, Effect::coupling})
+    EXPECT_FALSE(look.structural().keeps(e));
+  EXPECT_EQ(look.surface(look.structural()).spec(), "lambert");
 }
 
 TEST(Look, TakesALaterLobeAsGiven) {
