@@ -59,6 +59,17 @@ install_prover() {
   echo "Without Gappa: no bound of a relative error is proved."
 }
 
+# Mitsuba, which pictures are compared with, in build/mitsuba; without it that is left out.
+install_mitsuba() {
+  local at=build/mitsuba
+  if { [ -x "$at/bin/pip" ] || python3 -m venv "$at" >/dev/null 2>&1; } &&
+    "$at/bin/pip" install -qq --disable-pip-version-check --require-hashes --only-binary :all: -r tests/scene/render/beside_mitsuba.txt 2>/dev/null; then
+    return 0
+  fi
+  echo "Without Mitsuba: pictures are not compared with its."
+  return 1
+}
+
 # build PRESET [OPTIONS of cmake --build]
 build() {
   cmake --preset "$1" --log-level=WARNING

@@ -3,8 +3,11 @@
 #include <fstream>
 
 #include "cli/program.h"
+#include "image/display.h"
 #include "image/exr.h"
 #include "scene/description/scene_example.h"
+
+#include <png.h>
 
 namespace gonio::test {
 namespace {
@@ -18,7 +21,7 @@ nlohmann::json golden_sphere() {
   s["objects"] = {{{"shape", "sphere"}, {"material", "satin gold"}, {"center", {0, 1, 0}}}};
   s["lights"].erase(1);
   s["view"]["orbit"]["distance"] = 4;
-  s["tolerance"]["max"] = 30;
+  s["tolerance"] = {{"metric", "delta_e_2000"}, {"quantile", 0.5}, {"limit", 1.5}, {"max", 90}};
   return s;
 }
 struct SceneFolder : Folder {
@@ -54,6 +57,17 @@ TEST(RenderCommand, WritesAPngThatSaysHowItIsToned) {
   EXPECT_NE(read_bytes(f / "b.png"), bytes);
 }
 
+/// Pixels of a PNG, row by row.
+std::vector<std::array<unsigned char, 3>> png_pixels(const std::string& bytes) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  EXPECT_NE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()), 0);
+  image.format = PNG_FORMAT_RGB;
+  std::vector<std::array<unsigned char, 3>> pixels(std::size_t{image.width} * image.height);
+  EXPECT_NE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr), 0);
+  return pixels;
+}
+
 TEST(RenderCommand, LaysAPlanBesideAllEffects) {
   const SceneFolder f;
   ASSERT_EQ(gonio(f, "plan scene.json -o plan.json --samples 512 --cost operations --quiet").code,
@@ -70,6 +84,23 @@ TEST(RenderCommand, LaysAPlanBesideAllEffects) {
   EXPECT_EQ(gonio(f, words + "--plan plan.json -o a.png").code, 0);
   const auto bytes = read_bytes(f / "a.png");
   EXPECT_EQ(bytes.substr(16, 8), (std::string{0, 0, 0, 120, 0, 0, 0, 20}));  // three panels
+  const auto pixels = png_pixels(bytes);
+  std::size_t red = 0, grey = 0;
+  for (std::size_t y = 0; y < 20; ++y)
+    for (std::size_t x = 0; x < 40; ++x) {
+      const float d = image.planes[3][y * 40 + x] / 1.5F;  // of the limit
+      const auto& shown = pixels[y * 120 + 80 + x];
+      (d > 1 ? red : grey) += d > 0 ? 1 : 0;
+      EXPECT_EQ(shown[1], shown[2]);
+      EXPECT_NEAR(shown[1], d > 1 ? 0 : 255 * d, 0.51);
+      EXPECT_EQ(shown[0], d > 1 ? 255 : shown[1]);
+      for (std::size_t panel = 0; panel < 2; ++panel) {  // G, exposed by a half
+        const float g = image.planes[panel == 0 ? 1 : 5][y * 40 + x] / 2;
+        EXPECT_EQ(pixels[y * 120 + panel * 40 + x][1], srgb_byte(double{g}));
+      }
+    }
+  EXPECT_GT(red, 0U);
+  EXPECT_GT(grey, 20U);
   // all effects alone are the same picture as beside a plan
   EXPECT_EQ(gonio(f, words + "-o b.exr").code, 0);
   EXPECT_EQ(read_exr(f / "b.exr").planes[1], image.planes[1]);

@@ -185,6 +185,7 @@ Lighting::Lighting(const Scene& scene, const Tracer* tracer) : tracer_(tracer) {
     if (const auto* d = std::get_if<DirectionalLight>(&light)) {
       lights_.emplace_back(*d);
     } else if (const auto* r = std::get_if<RectangleLight>(&light)) {
+      if (is_black(r->radiance)) continue;
       const Vector normal = cross(r->u, r->v);
       lights_.emplace_back(Rectangle{*r, direction(normal), 4 * length(normal)});
     } else {
