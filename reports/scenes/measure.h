@@ -16,11 +16,11 @@ std::string name_of_form(scene::Effect, std::size_t form);
 /// Name of an effect as a whole: "Fresnel", "masking".
 std::string_view name_of_effect(scene::Effect);
 
-/// Picture of a lit scene of one sphere.  \param pixels  width and height
+/// Picture of a lit scene of one sphere, with all effects and as planned.  \param pixels  width and height
 ScenePicture picture_of(const scene::Lit&,
-                        const scene::Surface& everything,
-                        const scene::Surface& planned,
-                        std::size_t pixels);
+                        const scene::Forms& planned,
+                        std::size_t pixels,
+                        std::size_t samples);
 
 /// Maps of where effects switch on: of some that people ask for, at most six.
 std::vector<SceneMap> switch_maps(const ScenesOptions&, const std::function<void(double)>& done);

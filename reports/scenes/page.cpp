@@ -91,7 +91,7 @@ struct Description<ScenePicture> {
                       field("light", "", &P::light, ""),
                       field("pixels", "", &P::pixels, "width and height"),
                       field("everything", "", &P::everything,
-                            "with all effects, as shown: bytes of red, green and blue in base64"),
+                            "with all effects, as a display shows it: a PNG in base64"),
                       field("planned", "", &P::planned, "the same as planned"),
                       field("difference", "", &P::difference,
                             "50 times ΔE2000 of these, a byte of at most 254 a pixel in base64; "

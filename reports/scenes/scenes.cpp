@@ -91,8 +91,7 @@ class SceneMeasurement {
     add_row();
     add_effects();
     add_front();
-    auto picture = scenes::picture_of(lit_, look_.surface(look_.exact()),
-                                      look_.surface(plan_.forms), options_.pixels);
+    auto picture = scenes::picture_of(lit_, plan_.forms, options_.pixels, options_.picture_samples);
     picture.material = material_;
     picture.light = light_;
     to_.pictures.push_back(std::move(picture));

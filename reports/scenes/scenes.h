@@ -19,6 +19,7 @@ struct ScenesOptions {
   scene::PlanOptions plan{};
   std::size_t verified = scene::verified_samples;  ///< fresh points of a verification
   std::size_t pixels = 96;                         ///< width of a picture
+  std::size_t picture_samples = 64;                ///< of a pixel
   std::vector<double> map_angle_deg, map_roughness;
   std::size_t map_samples = 1024;
 };
@@ -59,8 +60,8 @@ struct SceneFrontRow {
 struct ScenePicture {
   std::string material, light;
   std::size_t pixels = 0;  ///< width and height
-  /// Bytes, rows from the top, as base64: red, green, blue of what is shown with all effects, and as planned; 50 times
-  /// the difference, at most 254, and 255 beside the sphere.
+  /// In base64: PNG with all effects, and as planned; rows from the top of 50 times the difference of each pixel, a byte of
+  /// at most 254, and 255 beside the sphere.
   std::string everything, planned, difference;
   double worst = 0;  ///< greatest difference of a pixel
 };

@@ -28,25 +28,22 @@ function difference_color(x) {
   const list = x <= limit ? ["zero", "rms-1"] : ["high-1", "high-2"];
   return between_colors(list.map(color), x <= limit ? x / limit : (x - limit) / (max - limit));
 }
-/// \param rgb(i)  of pixel i
-function sphere(pixels, mask, text, rgb, recolored) {
-  const canvas = el("canvas", { class: "sphere", width: pixels, height: pixels, role: "img", "aria-label": text });
+function difference_picture(p, text) {
+  const canvas = el("canvas", { class: "sphere", width: p.pixels, height: p.pixels, role: "img", "aria-label": text }), parts = bytes_of(p.difference);
   const draw = () => {
-    const g = canvas.getContext("2d"), image = g.createImageData(pixels, pixels);
-    mask.forEach((m, i) => { if (m !== beside) image.data.set([...rgb(i), 255], 4 * i); });
+    const g = canvas.getContext("2d"), image = g.createImageData(p.pixels, p.pixels);
+    parts.forEach((part, i) => { if (part !== beside) image.data.set([...difference_color(part / per_byte).match(/\d+/g).map(Number), 255], 4 * i); });
     g.putImageData(image, 0, 0);
   };
   draw();
-  if (recolored) when_colors_change(draw);
+  when_colors_change(draw);
   return canvas;
 }
 function triple(p) {
-  const mask = bytes_of(p.difference), of = `${p.material} under ${p.light}`;
-  const shown = (text) => { const bytes = bytes_of(text); return (i) => bytes.subarray(3 * i, 3 * i + 3); };
-  const differs = (i) => difference_color(mask[i] / per_byte).match(/\d+/g).map(Number);
-  return el("figure", {}, el("figcaption", {}, capital(p.light), el("span", {}, `, ΔE up to ${delta(p.worst)}`)), el("div", { class: "sphere-row" },
-    sphere(p.pixels, mask, `${of}, everything on`, shown(p.everything)), sphere(p.pixels, mask, `${of}, as planned`, shown(p.planned)),
-    sphere(p.pixels, mask, `${of}, difference`, differs, true)));
+  const of = `${p.material} under ${p.light}`;
+  const shown = (png, how) => el("img", { class: "sphere", width: p.pixels, height: p.pixels, src: `data:image/png;base64,${png}`, alt: `${of}, ${how}` });
+  return el("figure", {}, el("figcaption", {}, capital(p.light), el("span", {}, `, ΔE up to ${delta(p.worst)}`)),
+    el("div", { class: "sphere-row" }, shown(p.everything, "everything on"), shown(p.planned, "as planned"), difference_picture(p, `${of}, difference`)));
 }
 function pictures() {
   const key = (name) => el("span", { class: "step", style: { background: `var(--${name})` } });

@@ -183,6 +183,7 @@ ScenesReport small_scenes_report() {
   o.plan.cost = scene::Cost::operations;
   o.verified = 1024;
   o.pixels = 16;
+  o.picture_samples = 4;
   o.map_angle_deg = {0, 60, 120};
   o.map_roughness = {0.25, 0.6};
   o.map_samples = 256;
