@@ -43,7 +43,7 @@ def directions(width, height, at_poles):
 
 
 def write_map(path, at_poles):
-    mi.Bitmap(sky(directions(1024, 512, at_poles)).astype(np.float32)).write(str(path))
+    mi.Bitmap(sky(directions(512, 256, at_poles)).astype(np.float32)).write(str(path))
 
 
 def gonio_scene(lights, diffuse, alpha, folder):
