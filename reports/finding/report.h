@@ -21,6 +21,7 @@ struct ReportOptions {
     Environment map;
   };
   std::vector<Light> environments{};  ///< of the reports that light something
+  std::string asset{};                ///< glTF file of the report of scenes; empty: none
 };
 
 /// Callback that is told what is being done, and the part of the whole that is done, in [0, 1].

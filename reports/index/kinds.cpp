@@ -48,7 +48,9 @@ ReportFiles stability(const ReportOptions& o, const ReportProgress& done) {
 }
 
 ReportFiles scenes(const ReportOptions& o, const ReportProgress& done) {
-  return files(scenes_report(scenes_options(o.full), done), scenes_page_html);
+  auto options = scenes_options(o.full);
+  options.asset = o.asset;
+  return files(scenes_report(options, done), scenes_page_html);
 }
 
 constexpr std::array kinds{

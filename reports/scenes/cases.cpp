@@ -56,7 +56,7 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-Material material_of(const Case& c) {
+Material made(const Case& c) {
   Material m;
   m.name = c.name;
   m.coated = !c.coat.empty();
@@ -116,9 +116,6 @@ std::vector<std::string> names_in(const List& list) {
   for (const auto& entry : list) names.emplace_back(entry.name);
   return names;
 }
-const Case& find_case(std::string_view material) {
-  return *std::ranges::find(cases(), material, &Case::name);
-}
 
 }  // namespace
 
@@ -129,10 +126,14 @@ std::vector<std::string> light_names() {
   return names_in(lights);
 }
 
-Scene scene_of(std::string_view material, std::string_view light) {
+Material material_of(std::string_view name) {
+  return made(*std::ranges::find(cases(), name, &Case::name));
+}
+
+Scene scene_of(Material material, std::string_view light) {
   Scene s;
-  s.path = s.sha256 = fmt::format("{}, {}", material, light);
-  s.materials = {material_of(find_case(material))};
+  s.path = s.sha256 = fmt::format("{}, {}", material.name, light);
+  s.materials = {std::move(material)};
   s.objects = {{Sphere{}, 0}};
   s.lights = std::ranges::find(lights, light, &NamedLight::name)->make();
   s.view = Camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 12};
@@ -140,7 +141,7 @@ Scene scene_of(std::string_view material, std::string_view light) {
 }
 
 double roughness_of(std::string_view material) {
-  const auto model = std::get<BoundModel>(material_of(find_case(material)).is);
+  const auto model = std::get<BoundModel>(material_of(material).is);
   const auto width = [&](const char* name) {
     const auto* p = model.model.find(name);
     return p ? model.values[p->first] : 0;

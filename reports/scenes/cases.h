@@ -14,8 +14,10 @@ namespace gonio::scenes {
 std::vector<std::string> material_names();
 /// Names of the lights: "front light", "rim light", "sky and sun".
 std::vector<std::string> light_names();
+/// Material of that name.
+scene::Material material_of(std::string_view name);
 /// Scene of both.  Its name stands where a file's path and digest would.
-scene::Scene scene_of(std::string_view material, std::string_view light);
+scene::Scene scene_of(scene::Material, std::string_view light);
 /// Roughness of a material's first lobe, √α of its mean width.
 double roughness_of(std::string_view material);
 

@@ -169,6 +169,17 @@ void verified(Findings& to, const ScenesRows& r) {
                        of_all(broken.size(), r.rows.size()), scenes_text(broken)));
 }
 
+/// Materials of an asset that were not planned.
+void left_out(Findings& to, const ScenesRows& r) {
+  if (r.left_out.empty()) return;
+  to.say(
+      fmt::format("Of the asset, {} with textures, or otherwise no single surface, {} left out; "
+                  "the page names {} at its end.",
+                  r.left_out.size() == 1 ? std::string("one material")
+                                         : fmt::format("{} materials", r.left_out.size()),
+                  r.left_out.size() == 1 ? "is" : "are", r.left_out.size() == 1 ? "it" : "them"));
+}
+
 /// Angles of light at which an effect is seen at its material's own roughness.
 void switches(Findings& to, const ScenesRows& r) {
   for (const auto& m : r.maps) {
@@ -204,6 +215,7 @@ Findings findings(const ScenesRows& r) {
   lights(f, r);
   precision(f, r);
   verified(f, r);
+  left_out(f, r);
   counts(f, r);
   switches(f, r);
   return f;

@@ -102,6 +102,16 @@ struct Description<ScenePicture> {
 static_assert(describes_every_member<ScenePicture>());
 
 template <>
+struct Description<SceneLeftOut> {
+  static constexpr auto fields() {
+    using L = SceneLeftOut;
+    return std::tuple{field("material", "", &L::material, "of the asset"),
+                      field("why", "", &L::why, "found and expected")};
+  }
+};
+static_assert(describes_every_member<SceneLeftOut>());
+
+template <>
 struct Description<ScenesReport> {
   static constexpr auto fields() {
     using R = ScenesReport;
@@ -125,6 +135,8 @@ struct Description<ScenesReport> {
         field("front", "", at(&R::rows, &ScenesRows::front),
               "sets of forms of which none is cheaper and errs less"),
         field("spheres", "", at(&R::rows, &ScenesRows::pictures), "pictures of the scenes"),
+        field("left_out", "", at(&R::rows, &ScenesRows::left_out),
+              "materials of the asset that are no scenes here"),
         inlined(&R::pictures)};
   }
 };

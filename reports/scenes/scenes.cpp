@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
+#include "reports/scenes/asset.h"
 #include "reports/scenes/cases.h"
 #include "reports/scenes/measure.h"
 #include "scene/plan/cost.h"
@@ -77,12 +79,15 @@ std::array<double, N> median_times(const std::array<Surface, N>& surfaces,
 
 class SceneMeasurement {
  public:
-  SceneMeasurement(ScenesRows& to, const ScenesOptions& o, std::string material, std::string light)
+  SceneMeasurement(ScenesRows& to,
+                   const ScenesOptions& o,
+                   const Material& material,
+                   std::string light)
       : to_(to),
         options_(o),
-        material_(std::move(material)),
+        material_(material.name),
         light_(std::move(light)),
-        scene_(scenes::scene_of(material_, light_)),
+        scene_(scenes::scene_of(material, light_)),
         lit_(scene_),
         look_(lit_.looks[0]),
         plan_(plan_scene(scene_, o.plan).materials.at(0)) {}
@@ -182,7 +187,7 @@ std::vector<SceneMap> scenes::switch_maps(const ScenesOptions& o,
   std::vector<SceneMap> maps;
   for (const auto& a : asked) {
     if (std::ranges::find(o.materials, a.material) == o.materials.end()) continue;
-    const Scene s = scene_of(a.material, light_names()[0]);
+    const Scene s = scene_of(material_of(a.material), light_names()[0]);
     const Look look(s.materials[0]);
     const auto map = effect_map(s, 0, o.map_angle_deg, o.map_roughness, o.map_samples);
     for (const Effect e : a.effects)
@@ -197,8 +202,15 @@ std::vector<SceneMap> scenes::switch_maps(const ScenesOptions& o,
 ScenesRows scenes_rows(const ScenesOptions& o, const ReportProgress& done) {
   ScenesRows r;
   r.tolerance = Tolerance{};
-  const double all = static_cast<double>(o.materials.size() * o.lights.size());
-  for (const auto& material : o.materials)
+  std::vector<Material> materials;
+  for (const auto& name : o.materials) materials.push_back(scenes::material_of(name));
+  if (!o.asset.empty()) {
+    auto asset = scenes::asset_materials(o.asset);
+    std::ranges::move(asset.materials, std::back_inserter(materials));
+    r.left_out = std::move(asset.left_out);
+  }
+  const double all = static_cast<double>(materials.size() * o.lights.size());
+  for (const auto& material : materials)
     for (const auto& light : o.lights) {
       if (done) done("planning", 0.9 * static_cast<double>(r.rows.size()) / all);
       SceneMeasurement(r, o, material, light).add();

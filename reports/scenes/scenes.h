@@ -16,6 +16,7 @@ namespace gonio {
 struct ScenesOptions {
   bool full = false;
   std::vector<std::string> materials, lights;  ///< names of reports/scenes/cases.h
+  std::string asset;  ///< glTF file whose materials are planned, too; empty: none
   scene::PlanOptions plan{};
   std::size_t verified = scene::verified_samples;  ///< fresh points of a verification
   std::size_t pixels = 96;                         ///< width of a picture
@@ -73,6 +74,11 @@ struct SceneMap {
   std::vector<double> error;  ///< [angle * roughness.size() + roughness], where it is dropped
 };
 
+/// Material of an asset that is no scene of the report.
+struct SceneLeftOut {
+  std::string material, why;
+};
+
 struct ScenesRows {
   scene::Tolerance tolerance;
   std::vector<SceneRow> rows;
@@ -80,6 +86,7 @@ struct ScenesRows {
   std::vector<SceneFrontRow> front;
   std::vector<ScenePicture> pictures;
   std::vector<SceneMap> maps;
+  std::vector<SceneLeftOut> left_out;
 };
 
 ScenesRows scenes_rows(const ScenesOptions&, const ReportProgress& done = {});

@@ -1,7 +1,7 @@
 "use strict";
 // Scenes: which effects a material needs under a light, and what leaving out the others saves.
 
-const { rows, effects, front, spheres, figures, maps, findings, quantile, limit, max, confidence, full } = page_data();
+const { rows, effects, left_out, front, spheres, figures, maps, findings, quantile, limit, max, confidence, full } = page_data();
 const materials = unique(rows.map((r) => r.material)), lights = unique(rows.map((r) => r.light));
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 const times = (x) => `${x < 9.95 ? x.toFixed(1) : x.toFixed(0)}\u202f×`;
@@ -111,4 +111,5 @@ document.getElementById("page").replaceChildren(...[
     el("li", {}, "Everything on is one surface with each effect in its exact form, in double, whether the material has it or not, as in a shader for all materials."),
     el("li", {}, "Times are of column kernels, composed on both sides: nothing is fused for the plan alone."),
     el("li", {}, `A plan is chosen on one set of points, checked on a second, and verified here on a third of ${count(rows[0]?.samples ?? 0)}.`))),
+  left_out.length ? section("Left out of the asset", null, el("dl", { class: "pairs" }, left_out.map((m) => [el("dt", {}, m.material), el("dd", {}, m.why)]))) : null,
   el("footer", {}, `${full ? "Full" : "Quick"} setting. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));

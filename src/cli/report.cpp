@@ -19,7 +19,7 @@ namespace gonio::cli {
 namespace {
 
 struct Options : Common {
-  std::string name, output;
+  std::string name, output, asset;
   std::vector<std::string> environments;
   bool full = false;
 };
@@ -164,7 +164,7 @@ Exit run(const Options& o) {
   namespace fs = std::filesystem;
   use_jobs(o.jobs);
   if (o.json && o.name == all_reports) throw wrong_usage("--json is for one report");
-  ReportOptions options{o.full, o.name == all_reports, {}};
+  ReportOptions options{o.full, o.name == all_reports, {}, o.asset};
   for (const auto& path : o.environments) {
     const std::string name = fs::path(path).stem().string();
     if (std::ranges::find(options.environments, name, &ReportOptions::Light::name) !=
@@ -240,6 +240,8 @@ void add_report(CommandLine& line) {
            "An environment map, latitude by longitude in OpenEXR: what the split sum is off by "
            "under it; may be given several times")
       .one_each();
+  c.option("--asset", o->asset,
+           "A glTF file: its materials without textures are among the scenes, others are named");
   c.flag("--full", o->full, "Finer in roughness and angle, some minutes");
   add_jobs(c, *o);
   add_output(c, *o);

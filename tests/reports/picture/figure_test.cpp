@@ -181,6 +181,24 @@ TEST(FigureMapSvg, WritesNumbersIntoASmallMatrix) {
     EXPECT_NE(svg.find(text), svg.npos) << text;
 }
 
+TEST(FigureMapSvg, DrawsItsLineBetweenCellsOnEitherSideOfIt) {
+  auto m = cells();
+  const auto lines = [](const std::string& svg) {
+    const auto at = svg.find("stroke-width=\"2\"");
+    if (at == svg.npos) return std::ptrdiff_t{0};
+    const auto begin = svg.rfind("<path", at);
+    return std::ranges::count(svg.substr(begin, at - begin), 'M');
+  };
+  EXPECT_EQ(lines(to_svg(m)), 0) << "without a line";
+  EXPECT_FALSE(maps_json({{}, {m}})[0].contains("line"));
+  m.x = {"x", {1, 2}};
+  m.y = {"y", {1, 2, 3}};
+  m.values = {0, 0, 2, 0, 2, 2};
+  m.line = 1;
+  EXPECT_EQ(lines(to_svg(m)), 3) << "above (1, 2), right of (1, 2), above (2, 1)";
+  EXPECT_EQ(maps_json({{}, {m}})[0]["line"], 1);
+}
+
 TEST(FigureMapExr, ReadsBackRightWayUp) {
   const test::Folder folder;
   const auto image = read_exr(folder.write("cells.exr", to_exr(cells())));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -178,7 +179,7 @@ TEST(ScenesCases, AreScenesThatHaveTheirEffects) {
   EXPECT_EQ(scenes::material_names().size(), 6U);
   EXPECT_EQ(scenes::light_names().size(), 3U);
   for (const auto& name : scenes::material_names()) {
-    const auto s = scenes::scene_of(name, "front light");
+    const auto s = scenes::scene_of(scenes::material_of(name), "front light");
     const scene::Look look(s.materials.at(0));
     const auto absent = [&](scene::Effect e) {
       const auto& offer = look.offer(e);
@@ -192,6 +193,31 @@ TEST(ScenesCases, AreScenesThatHaveTheirEffects) {
     EXPECT_EQ(absent(scene::Effect::fresnel), false) << name;
   }
   EXPECT_NEAR(scenes::roughness_of("satin gold"), 0.45, 1e-12);
+}
+
+TEST(ScenesAsset, IsPlannedWithoutWhatHasTextures) {
+  GONIO_MANY_FITS();
+  const std::string path = ::testing::TempDir() + "gonio_asset.gltf";
+  std::ofstream(path) << R"({"asset": {"version": "2.0"}, "textures": [{}], "materials": [
+    {"name": "plain", "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.4}},
+    {"name": "drawn", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]})";
+  auto o = few();
+  o.materials.clear();
+  o.lights = {"front light"};
+  o.asset = path;
+  const auto r = scenes_rows(o);
+  ASSERT_EQ(r.rows.size(), 1U);
+  EXPECT_EQ(r.rows[0].material, "plain");
+  EXPECT_TRUE(r.rows[0].holds);
+  ASSERT_EQ(r.left_out.size(), 1U);
+  EXPECT_EQ(r.left_out[0].material, "drawn");
+  EXPECT_NE(r.left_out[0].why.find("texture"), std::string::npos);
+  EXPECT_EQ(r.left_out[0].why.find(path), std::string::npos) << "it is known which file";
+  const auto said = findings(r).sentences;
+  EXPECT_NE(std::ranges::find(said,
+                              "Of the asset, one material with textures, or otherwise no single "
+                              "surface, is left out; the page names it at its end."),
+            said.end());
 }
 
 TEST(ScenesNames, AreOneForEachForm) {
