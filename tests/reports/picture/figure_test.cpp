@@ -193,9 +193,9 @@ TEST(FigureMapSvg, DrawsItsLineBetweenCellsOnEitherSideOfIt) {
   EXPECT_FALSE(maps_json({{}, {m}})[0].contains("line"));
   m.x = {"x", {1, 2}};
   m.y = {"y", {1, 2, 3}};
-  m.values = {0, 0, 2, 0, 2, 2};
+  m.values = {0, 0, 0, 0, 2, 2};
   m.line = 1;
-  EXPECT_EQ(lines(to_svg(m)), 3) << "above (1, 2), right of (1, 2), above (2, 1)";
+  EXPECT_EQ(lines(to_svg(m)), 3) << "right of (1, 2) and of (1, 3), above (2, 1)";
   EXPECT_EQ(maps_json({{}, {m}})[0]["line"], 1);
 }
 

@@ -153,7 +153,10 @@ TEST(ScenesReport, ShowsASphereAndWhereThePlanDiffers) {
     for (std::size_t i = 0; i < apart.size(); ++i)
       if (byte(apart, i) != 255) most = std::max(most, byte(apart, i) / 50.0);
     EXPECT_NEAR(most, p.worst, 0.011);
-    if (p.worst > 0.5) EXPECT_NE(p.everything, p.planned);
+    if (p.material == "red plastic") {  // of which a plan leaves out what is just seen
+      EXPECT_GT(p.worst, 0.1) << p.light;
+      EXPECT_NE(p.everything, p.planned);
+    }
     EXPECT_LE(p.worst, 4);
   }
 }
