@@ -76,7 +76,7 @@ Exit run(const Options& o) {
   if (files.has_page()) files.write_page(plan_page_html(document), document);
   files.commit();
   if (o.json)
-    fmt::print("{}", document);
+    fmt::print("{}\n", document);
   else
     for (const auto& m : plan.materials) print(m, plan.tolerance);
   if (!plan.budget) return Exit::done;

@@ -74,9 +74,10 @@ Interval fresnel_over(const BoundModel& b, std::size_t channel, const Interval& 
       .value();
 }
 
-/// Largest size of a − b, relative to b and to what b leaves of 1.
-std::optional<double> fresnel_change(const Surface& exact, const Surface& form, const Range& voh) {
+/// Largest size of a − b, relative to b and to what b leaves of 1; infinite where that is not bounded.
+double fresnel_change(const Surface& exact, const Surface& form, const Range& voh) {
   constexpr int pieces = 4096;
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
   const bool passes = !exact.base.model.diffuse.empty();
   double worst = 0;
   const double step = (voh.high - voh.low) / pieces;
@@ -85,19 +86,16 @@ std::optional<double> fresnel_change(const Surface& exact, const Surface& form, 
     const auto c = Interval::between(std::min(low, high), high);
     for (std::size_t k = 0; k < channels; ++k) {
       const auto a = fresnel_over(form.base, k, c), b = fresnel_over(exact.base, k, c);
-      if (!a.is_finite() || !b.is_finite() || !(b.low() > 0)) return {};
+      if (!a.is_finite() || !b.is_finite() || !(b.low() > 0)) return unbounded;
       const double size = std::max(a.high() - b.low(), b.high() - a.low());
       worst = std::max(worst, size / b.low());
       if (passes) {
-        if (!(b.high() < 1)) return {};
+        if (!(b.high() < 1)) return unbounded;
         worst = std::max(worst, size / (1 - b.high()));
       }
     }
   }
-  // The bound's own rounding, and what the quadrature of F_avg may be off by, 1e-9 of a share of 1
-  // % at least.
-  worst = worst * (1 + 1e-12) + 4e-7;
-  return worst < 1 ? std::optional(worst) : std::nullopt;
+  return worst * (1 + 1e-12);  // the bound's own rounding
 }
 
 }  // namespace
@@ -137,7 +135,8 @@ std::optional<double> change_bound(const Look& look,
   changed[effect] = form;
   const Surface exact = look.surface(look.exact());
   if (exact.base.model.lobes.empty()) return {};
-  return fresnel_change(exact, look.surface(changed), reached.voh);
+  const double change = fresnel_change(exact, look.surface(changed), reached.voh);
+  return change < 1 ? std::optional(change) : std::nullopt;
 }
 
 double delta_e_bound(double change) {

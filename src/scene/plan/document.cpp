@@ -193,7 +193,7 @@ Forms forms_in(const MaterialFile& m, const Look& look, const JsonReader& at) {
 std::string to_json(const Plan& p) {
   PlanFile f{p.scene_sha256, p.tolerance, {}, p.budget};
   for (const auto& m : p.materials) f.materials.emplace_back(m.name, file_of(m));
-  return text_of(form_json(f));
+  return form_json(f).dump(2);
 }
 
 std::string plan_schema() {

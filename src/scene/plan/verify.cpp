@@ -70,7 +70,7 @@ std::string to_json(const Verification& v) {
     f.materials.emplace_back(
         m.name, VerifiedFile{m.holds, m.found.exceeding, m.found.samples, m.found.bound,
                              v.tolerance.confidence, m.found.worst, m.found.quantile});
-  return text_of(form_json(f));
+  return form_json(f).dump(2);
 }
 
 std::string verification_schema() {

@@ -11,7 +11,7 @@
 #include "table/format/delimited.h"
 #include "table/format/metadata.h"
 
-#include <tbb/task_group.h>
+#include <tbb/task_arena.h>
 
 namespace gonio {
 namespace {
@@ -57,34 +57,42 @@ std::string side_text(const std::string& path) {
 }
 
 /// SHA-256 of an open file, made by whichever thread has nothing else to do.
+/// Digest of a file, made by a thread of its own where more than one may run: waiting for one needs no memory, which for a task of
+/// TBB's it may.
 class TableAndDigest::Digest {
  public:
   explicit Digest(const std::string& path) : file_(path) {}
   ~Digest() {
-    if (begun_) work_.wait();
+    if (work_.joinable()) work_.join();
   }
   InputFile& file() { return file_; }
   void begin() {
-    begun_ = true;
-    work_.run([this] {
-      try {
-        digits_ = sha256_of_file(file_);
-      } catch (...) {
-        failure_ = std::current_exception();
-      }
-    });
+    if (tbb::this_task_arena::max_concurrency() == 1) return;
+    try {
+      work_ = std::thread([this] { make(); });
+    } catch (const std::system_error&) {  // no thread to be had: whoever waits makes it
+    }
   }
   const std::string& wait() {
-    if (!begun_) begin();
-    work_.wait();
+    if (work_.joinable())
+      work_.join();
+    else if (digits_.empty())
+      make();
     if (failure_) std::rethrow_exception(failure_);
     return digits_;
   }
 
  private:
+  void make() {
+    try {
+      digits_ = sha256_of_file(file_);
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+  }
+
   InputFile file_;
-  tbb::task_group work_;
-  bool begun_ = false;
+  std::thread work_;
   std::string digits_;
   std::exception_ptr failure_;
 };
