@@ -13,8 +13,8 @@
 #include "number/counted.h"
 #include "reports/finding/report.h"
 #include "reports/measure/machine.h"
-#include "timing/timing.h"
 #include "reports/picture/figure.h"
+#include "timing/timing.h"
 
 namespace gonio {
 

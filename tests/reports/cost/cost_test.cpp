@@ -156,8 +156,7 @@ TEST(Cost, AModelDividesOnceALobe) {
   const auto diffuse = of("lambert+ggx/smith_ggx.correlated/schlick");
   EXPECT_EQ(diffuse[Operation::add], ggx[Operation::add] + 1);
   // three channels share D and V, and their division
-  auto three =
-      operations_of(bind_model("ggx/smith_ggx.correlated/schlick", {}, 3).model);
+  auto three = operations_of(bind_model("ggx/smith_ggx.correlated/schlick", {}, 3).model);
   EXPECT_EQ(three[Operation::div], 1U);
   EXPECT_EQ(three[Operation::sqrt], 2U);
   EXPECT_EQ(three.total(), ggx.total() + 2 * (part("fresnel.schlick").total() + 1));
