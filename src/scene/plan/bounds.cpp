@@ -131,9 +131,9 @@ std::optional<double> change_bound(const Look& look,
                                    std::size_t form,
                                    const ReachedAngles& reached) {
   if (effect != Effect::fresnel) return {};
-  Forms changed = look.exact();
+  Forms changed = look.structural();  // the same as exact, and what is absent reflects nothing
+  const Surface exact = look.surface(changed);
   changed[effect] = form;
-  const Surface exact = look.surface(look.exact());
   if (exact.base.model.lobes.empty()) return {};
   const double change = fresnel_change(exact, look.surface(changed), reached.voh);
   return change < 1 ? std::optional(change) : std::nullopt;

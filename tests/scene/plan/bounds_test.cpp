@@ -74,6 +74,27 @@ TEST(ChangeBound, IsNeverExceeded) {
   }
 }
 
+TEST(ChangeBound, IsNearlyMetByAMetal) {
+  // All light is the lobe's; a small sphere far away has one angle between light and viewer.
+  Scene s = test::sphere(test::satin_gold(), {test::light({1, .1, .1})});
+  std::get<Sphere>(s.objects[0].shape).radius = 0.01;
+  std::get<Camera>(s.view).fov_deg = 0.12;
+  s.tolerance.metric = Metric::relative;
+  const Lit lit(s);
+  const Look& look = lit.looks[0];
+  Forms exact = look.structural(), forms = exact;
+  exact[Effect::compensation] = forms[Effect::compensation] = 0;
+  forms[Effect::fresnel] = 0;
+  const auto bound = change_bound(look, Effect::fresnel, 0, reached_angles(s, s.objects[0]));
+  ASSERT_TRUE(bound);
+  const Reference reference(lit.drawer(0, 1).draw(9, 0, 500), look.surface(exact));
+  double worst = 0;
+  for (const double d : reference.differences_of(s, look.surface(forms)))
+    worst = std::max(worst, d);
+  EXPECT_LE(worst, *bound);
+  EXPECT_GT(worst, 0.9 * *bound);
+}
+
 TEST(ChangeBound, ProvesNothingOfOtherEffects) {
   const Look look(test::red_plastic());
   EXPECT_FALSE(change_bound(look, Effect::masking, 0, {}));

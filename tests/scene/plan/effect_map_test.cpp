@@ -1,5 +1,7 @@
 #include "scene/plan/effect_map.h"
 
+#include <cmath>
+
 #include "scene/plan/scenes.h"
 
 #include <gtest/gtest.h>
@@ -29,6 +31,7 @@ TEST(EffectMap, WidensBothAxesOfAnAnisotropicLobe) {
   const auto map =
       effect_map(test::sphere(test::brushed_aluminium(), test::front()), 0, {30}, {0.2, 0.5}, 512);
   for (std::size_t r = 0; r < 2; ++r) EXPECT_GT(map.at(Effect::anisotropy, 0, r), 1);
+  EXPECT_GT(std::abs(map.at(Effect::anisotropy, 0, 0) - map.at(Effect::anisotropy, 0, 1)), 0.1);
 }
 
 }  // namespace
