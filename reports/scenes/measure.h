@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the report measures of a scene, and the names that it gives to effects.
+/// Measurements of scenes, and the names that the report gives to effects.
 
 #include <string>
 #include <string_view>

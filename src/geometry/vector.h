@@ -30,6 +30,9 @@ inline Vector cross(const Vector& a, const Vector& b) {
 inline double length(const Vector& a) {
   return std::hypot(a.x, a.y, a.z);
 }
+inline Vector vector_of(const Direction& d) {
+  return {d.x, d.y, d.z};
+}
 /// Direction of a vector.  \param a  not zero
 inline Direction direction(const Vector& a) {
   const double l = length(a);

@@ -15,9 +15,6 @@ namespace {
 
 using Square = std::array<double, 2>;  ///< point of the unit square
 
-Vector vector_of(const Direction& d) {
-  return {d.x, d.y, d.z};
-}
 bool is_black(const Rgb& c) {
   return c[0] == 0 && c[1] == 0 && c[2] == 0;
 }
@@ -159,7 +156,7 @@ class Lighting::FromSky {
     for (double& v : radiance) v *= s_.light->scale;
     return {radiance, row_share(j) * share(i, j) / solid_angle(map_, j)};
   }
-  /// Of each texel of a row [sr].
+  /// Solid angle of each texel of a row [sr].
   static double solid_angle(const Environment& map, std::size_t j) {
     const double height = std::cos(map.theta(static_cast<double>(j))) -
                           std::cos(map.theta(static_cast<double>(j + 1)));

@@ -37,7 +37,7 @@ Cone of_range(const AngleRange& r) {
   return {direction_of((e0 + e1) / 2, (a0 + a1) / 2), std::min(angle, std::numbers::pi)};
 }
 double between(const Direction& a, const Direction& b) {
-  const Vector u{a.x, a.y, a.z}, v{b.x, b.y, b.z};
+  const Vector u = vector_of(a), v = vector_of(b);
   return std::atan2(length(cross(u, v)), dot(u, v));
 }
 

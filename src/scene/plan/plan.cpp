@@ -36,7 +36,8 @@ constexpr std::array<Effect, effect_count> all_effects{
     Effect::tail,    Effect::diffuse,      Effect::coupling, Effect::precision};
 
 /// Key of a set by what it computes: what is not there has no form.
-std::tuple<std::string, std::size_t, bool> key_of(const Surface& s) {
+using Key = std::tuple<std::string, std::size_t, bool>;
+Key key_of(const Surface& s) {
   return {s.spec(), s.multiple.form, s.single};
 }
 
@@ -58,16 +59,14 @@ void take(MaterialPlan& p, const Look& look, const Forms& forms, double ns) {
 class MaterialPlanner {
  public:
   MaterialPlanner(const Lit& lit, std::size_t material, const PlanOptions& o)
-      : MaterialPlanner(lit, lit.scene, material, o) {}
-  MaterialPlanner(const Lit& lit, const Scene& s, std::size_t material, const PlanOptions& o)
-      : scene_(s),
+      : scene_(lit.scene),
         options_(o),
         look_(lit.looks[material]),
         drawer_(lit.drawer(material, o.directions)),
         exact_(look_.surface(look_.exact())),
-        reference_(seen(drawer_.draw(choosing, 0, o.samples), s, material), exact_) {
-    for (const auto& object : s.objects)
-      if (object.material == material) join(reached_angles(s, object));
+        reference_(seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_) {
+    for (const auto& object : scene_.objects)
+      if (object.material == material) join(reached_angles(scene_, object));
   }
 
   MaterialPlan plan() {
@@ -161,7 +160,7 @@ class MaterialPlanner {
       else
         forms = {forms.back()};
     }
-    std::set<std::tuple<std::string, std::size_t, bool>> known;
+    std::set<Key> known;
     for (std::size_t i = 0, n = count(); i < n; ++i) {
       Candidate c;
       std::size_t rest = i;
@@ -237,11 +236,11 @@ class MaterialPlanner {
     front(p);
     if (scene_.budget_ns) return p;
     for (const auto* c : in_order()) {
-      p.checked =
-          judge_fresh(scene_, drawer_, checking, options_.fresh, exact_, look_.surface(c->forms));
+      const auto& surface = surfaces_[static_cast<std::size_t>(c - candidates_.data())];
+      p.checked = judge_fresh(scene_, drawer_, checking, options_.fresh, exact_, surface);
       if (passes(p.checked)) {
         take(p, look_, c->forms, c->ns);
-        p.in_half = in_half(look_.surface(c->forms));
+        p.in_half = in_half(surface);
         return p;
       }
       ++p.passed_over;
@@ -249,8 +248,9 @@ class MaterialPlanner {
     // What changes nothing needs no check.
     p.checked = {};
     const auto same = look_.structural();
-    take(p, look_, same, times_of(std::array{look_.surface(same)}, reference_.points)[0].ns);
-    p.in_half = in_half(look_.surface(same));
+    const std::array surface{look_.surface(same)};
+    take(p, look_, same, times_of(surface, reference_.points)[0].ns);
+    p.in_half = in_half(surface[0]);
     return p;
   }
   Judgement in_half(const Surface& s) const {
@@ -296,7 +296,7 @@ class MaterialPlanner {
 
 std::size_t Candidate::kept() const {
   return static_cast<std::size_t>(
-      std::ranges::count_if(all_effects, [&](Effect e) { return forms.keeps(e); }));
+      std::ranges::count_if(forms.form, [](std::size_t form) { return form > 0; }));
 }
 
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/half_vector.h"
+#include "geometry/half_difference.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -16,13 +16,12 @@ constexpr std::size_t most_looks =
 constexpr int candidates = 4;
 
 FrameAngles<double> angles_of(const Frame& frame, const Direction& light, const Direction& viewer) {
-  const Direction l = frame.inside(light), v = frame.inside(viewer);
-  return angles_between<double>({l.x, l.y, l.z}, {v.x, v.y, v.z});
+  return frame_angles({frame.inside(light), frame.inside(viewer)});
 }
 
 bool passes_through(const Ray& ray, const BoundingSphere& sphere) {
   const Vector way = sphere.center - ray.origin;
-  const Vector d{ray.direction.x, ray.direction.y, ray.direction.z};
+  const Vector d = vector_of(ray.direction);
   const Vector beside = way - dot(way, d) * d;
   const double wide = 1.001 * sphere.radius;  // a mesh's points are floats
   return dot(beside, beside) <= wide * wide;

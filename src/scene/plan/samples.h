@@ -37,7 +37,7 @@ struct LitColumns {
 /// Radiance of every point.
 std::vector<Rgb> radiance(const Surface&, const LitPoints&, const LitColumns&);
 
-/// What draws points of one material.
+/// Drawer of points of one material.
 ///
 /// A point is seen through a place drawn evenly over the picture of a camera that is drawn from those of the scene.  For half of the
 /// points four are drawn, and one of them taken by how near to a lobe's peak its normal is: highlights, where materials differ

@@ -38,7 +38,7 @@ struct Picture {
 /// Picture from the middle of the scene's views, where nothing is hit the environment or black.  Light comes from the
 /// lights alone: objects do not light each other, but they cast shadows.
 ///
-/// The same options give the same directions, whatever the surfaces and whatever the threads.
+/// Directions follow from the options alone, whatever the surfaces and whatever the threads.
 ///
 /// \param materials  as many as the scene has
 /// \param progress   is told how many of all parts are done, by one thread at a time

@@ -3,13 +3,6 @@
 #include <cmath>
 
 namespace gonio::scene {
-namespace {
-
-Vector vector_of(const Direction& d) {
-  return {d.x, d.y, d.z};
-}
-
-}  // namespace
 
 Rays::Rays(const Camera& c, double aspect) : origin_(c.position) {
   const Vector forward = vector_of(direction(c.target - c.position));

@@ -16,9 +16,6 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-Vector vector_of(const Direction& d) {
-  return {d.x, d.y, d.z};
-}
 Vector vector_of(const float* v) {
   return {double{v[0]}, double{v[1]}, double{v[2]}};
 }

@@ -18,9 +18,6 @@ using test::square;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-Vector vector_of(const Direction& d) {
-  return {d.x, d.y, d.z};
-}
 double off(const Direction& a, const Direction& b) {
   return length(vector_of(a) - vector_of(b));
 }
