@@ -153,6 +153,24 @@ void counts(Findings& to, const ScenesRows& r) {
                      number_or_none(most.kept), most.name, number_or_none(least.kept), least.name));
 }
 
+/// What three wavelengths in place of a metal's spectrum would change.
+void metals(Findings& to, const ScenesRows& r) {
+  std::vector<const SceneEffectRow*> rows;
+  for (const auto& e : r.effects)
+    if (e.effect == "spectrum" && e.why == "measured") rows.push_back(&e);
+  if (rows.empty()) return;
+  const auto [least, most] =
+      std::ranges::minmax_element(rows, {}, &SceneEffectRow::error_if_dropped);
+  to.say(
+      fmt::format("Fresnel’s equations at three wavelengths in place of a metal’s spectrum change "
+                  "{} by ΔE2000 {} under {}{}.",
+                  (*most)->material, delta_text((*most)->error_if_dropped), (*most)->light,
+                  (*least)->material == (*most)->material
+                      ? std::string()
+                      : fmt::format(", and {} by {}", (*least)->material,
+                                    delta_text((*least)->error_if_dropped))));
+}
+
 void verified(Findings& to, const ScenesRows& r) {
   std::vector<const SceneRow*> broken;
   for (const auto& row : r.rows)
@@ -214,6 +232,7 @@ Findings findings(const ScenesRows& r) {
   savings(f, r);
   lights(f, r);
   precision(f, r);
+  metals(f, r);
   verified(f, r);
   left_out(f, r);
   counts(f, r);

@@ -38,6 +38,8 @@ std::string name_of_form(Effect effect, std::size_t form) {
                      {"disney", "retro-reflective diffuse"}});
     case Effect::coupling:
       return one_of({{"off", "uncoupled diffuse"}, {"on", "coupled diffuse"}});
+    case Effect::spectrum:
+      return one_of({{"rgb", "three wavelengths"}, {"spectral", "the metal’s spectrum"}});
     default:
       return std::string(id);
   }

@@ -61,7 +61,8 @@ std::array<double, N> median_times(const std::array<Surface, N>& surfaces,
   constexpr int rounds = 5;
   const auto same = [](const Surface& a, const Surface& b) {
     return a.spec() == b.spec() && a.parameters() == b.parameters() &&
-           a.multiple.form == b.multiple.form && a.single == b.single;
+           a.multiple.form == b.multiple.form && a.spectrum.has_value() == b.spectrum.has_value() &&
+           a.single == b.single;
   };
   std::array<std::vector<double>, N> all;
   for (int round = 0; round < rounds; ++round) {

@@ -1,5 +1,8 @@
 #include "optics/spectrum.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "optics/fresnel.h"
 
 namespace gonio {
@@ -121,6 +124,19 @@ Vector xyz(const Spectrum& reflectance) {
 
 Vector linear_srgb(const Spectrum& reflectance) {
   return to_rgb * xyz(reflectance);
+}
+
+std::array<Waveband, wavebands> waveband_colours() {
+  constexpr double first = 400, step = 20;
+  std::array<Waveband, wavebands> all;
+  for (std::size_t b = 0; b < wavebands; ++b) {
+    all[b].nm = first + step * static_cast<double>(b);
+    all[b].rgb = linear_srgb(spectrum([&](double nm) {
+      const double within = std::clamp(nm, first, first + step * (wavebands - 1));
+      return std::max(0.0, 1 - std::abs(within - all[b].nm) / step);
+    }));
+  }
+  return all;
 }
 
 Vector xyz_of_srgb(const Vector& rgb) {

@@ -33,6 +33,16 @@ std::array<double, 3> xyz(const Spectrum& reflectance);
 /// from that standard's rounded x = 0.3127, y = 0.3290 by 2e-5.
 std::array<double, 3> linear_srgb(const Spectrum& reflectance);
 
+/// Wavelength that stands for those about it, and what light of it that is reflected adds to linear sRGB.
+struct Waveband {
+  double nm;
+  std::array<double, 3> rgb;
+};
+/// Bands by 20 nm from 400 to 700 nm, the first and last with all beyond: Σ R(nm) rgb is linear_srgb() of an R that is linear
+/// between them, and 1, 1, 1 of R = 1.  Of the measured metals at every angle it is within 4e-3.
+inline constexpr std::size_t wavebands = 16;
+std::array<Waveband, wavebands> waveband_colours();
+
 /// XYZ of linear sRGB, by the inverse of that matrix: {1, 1, 1} is the white of xyz().
 std::array<double, 3> xyz_of_srgb(const std::array<double, 3>& rgb);
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 
+#include "optics/fresnel.h"
 #include "support.h"
 
 namespace gonio {
@@ -102,6 +103,29 @@ TEST(ReflectanceRgb, OfTheShortcutIsFarOffForGoldAndNearForAluminium) {
   };
   EXPECT_NEAR(worst("Au"), 0.081, 1e-3) << "red is out of the gamut: 1.038 for 0.957";
   EXPECT_LT(worst("Al"), 0.005);
+}
+
+TEST(WavebandColours, AddUpToWhiteAndToTheColoursOfMetals) {
+  const auto bands = waveband_colours();
+  for (std::size_t c = 0; c < 3; ++c) {
+    double white = 0;
+    for (const auto& b : bands) white += b.rgb[c];
+    EXPECT_NEAR(white, 1, 1e-13);
+  }
+  double worst = 0;
+  for (const auto& m : metals())
+    for (const double cosine : {0.02, 0.1, 0.3, 0.6, 1.0}) {
+      Rgb sum{};
+      for (const auto& b : bands) {
+        const Index n = m.at(b.nm);
+        const std::array p{n.n, n.k};
+        const double f = Conductor<double>(p)({cosine, cosine, 1, cosine, 0}).value();
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += b.rgb[c] * f;
+      }
+      const auto exact = reflectance_rgb(m, cosine);
+      for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::abs(sum[c] - exact[c]));
+    }
+  EXPECT_LT(worst, 4e-3);
 }
 
 /// A CSV of numbers under a line of names.

@@ -1,7 +1,8 @@
-// Multiple scattering over columns, per instruction set.
+// Multiple scattering and spectra of metals over columns, per instruction set.
 #include "scene/kernel/layer.h"
 
 #include "brdf/kernel/lane.h"
+#include "brdf/term/product.h"
 #include "scene/kernel/multiple.h"
 
 namespace gonio::scene {
@@ -57,12 +58,27 @@ void kulla_conty(const Block<F>& x,
   }
 }
 
+template <class F>
+void spectral(const Block<F>& x, const SpectralMetal<F>& metal, const ChannelColumns<F>& columns) {
+  using B = Lane<F>;
+  const auto j = columns;
+  const SpectralReflectance<B> reflectance(metal.template in<B>());
+  for (std::size_t i = 0; i < x.n; i += lanes<B>) {
+    const auto f = reflectance(load<B>(x.voh + i));
+    const B factor = load<B>(j.factor + i);
+    for (std::size_t c = 0; c < max_channels; ++c) {
+      const B base = j.base[c] ? load<B>(j.base[c] + i) : B(0);
+      store<B>(j.out[c] + i, lobe_on(base, j.coupled ? base : B(0), One{}, factor, f[c]));
+    }
+  }
+}
+
 extern const LayerKernels<float> layer_float;
 extern const LayerKernels<double> layer_double;
 const LayerKernels<float> layer_float{GONIO_TEXT(GONIO_ARCH), turquin<float>, fdez_aguera<float>,
-                                      kulla_conty<float>};
+                                      kulla_conty<float>, spectral<float>};
 const LayerKernels<double> layer_double{GONIO_TEXT(GONIO_ARCH), turquin<double>,
-                                        fdez_aguera<double>, kulla_conty<double>};
+                                        fdez_aguera<double>, kulla_conty<double>, spectral<double>};
 
 }  // namespace GONIO_ARCH
 }  // namespace gonio::scene

@@ -1,11 +1,12 @@
 #pragma once
 /// \file
-/// Multiple scattering over columns: the border between plain code and code compiled per instruction set.
+/// Multiple scattering and spectra of metals over columns: the border between plain code and code compiled per instruction set.
 
 #include <array>
 
 #include "brdf/kernel/kernels.h"
 #include "scene/kernel/albedo_curve.h"
+#include "scene/kernel/spectral.h"
 
 namespace gonio::scene {
 
@@ -22,10 +23,15 @@ using MultipleKernel = void (*)(const Block<F>&,
                                 const std::array<F, max_channels>& strength,
                                 const MultipleColumns<F>&);
 
+/// A loop over three channels, as a Fresnel term's: out_c = base_c + factor F_c or base_c + (factor − base_c) F_c.
+template <class F>
+using SpectralKernel = void (*)(const Block<F>&, const SpectralMetal<F>&, const ChannelColumns<F>&);
+
 template <class F>
 struct LayerKernels {
   std::string_view instruction_set;
   MultipleKernel<F> turquin, fdez_aguera, kulla_conty;
+  SpectralKernel<F> spectral;
 };
 
 /// Kernels of the set that brdf's kernels are taken from.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -65,13 +66,19 @@ Cone light_from(const Light& light, const BoundingSphere& object) {
 }
 
 using Interval = Enclosure<double>;
-Interval fresnel_over(const BoundModel& b, std::size_t channel, const Interval& voh) {
-  const TermUse& term = b.model.lobes[0].fresnel;
-  std::vector<Interval> parameters;
-  for (const double p : term_parameters(b, term, channel)) parameters.emplace_back(p);
-  const auto& c = voh;  // which is all that it reads
-  return term_function<Interval>(term.term)(parameters, {{c, c, c, c, c}, c, c, c, c, c, c})
-      .value();
+using Reflectance = std::function<std::array<Interval, channels>(const Interval& voh)>;
+Reflectance fresnel_of(const Surface& s) {
+  if (s.spectrum) return SpectralReflectance<Interval>(s.spectrum->in<Interval>());
+  const TermUse& term = s.base.model.lobes[0].fresnel;
+  std::array<std::vector<Interval>, channels> parameters;
+  for (std::size_t k = 0; k < channels; ++k)
+    for (const double p : term_parameters(s.base, term, k)) parameters[k].emplace_back(p);
+  return [parameters, f = term_function<Interval>(term.term)](const Interval& c) {
+    const FrameAngles<Interval> all{{c, c, c, c, c}, c, c, c, c, c, c};  // it reads VoH alone
+    std::array<Interval, channels> values;
+    for (std::size_t k = 0; k < channels; ++k) values[k] = f(parameters[k], all).value();
+    return values;
+  };
 }
 
 /// Largest size of a − b, relative to b and to what b leaves of 1; infinite where that is not bounded.
@@ -80,12 +87,14 @@ double fresnel_change(const Surface& exact, const Surface& form, const Range& vo
   constexpr double unbounded = std::numeric_limits<double>::infinity();
   const bool passes = !exact.base.model.diffuse.empty();
   double worst = 0;
+  const Reflectance exact_at = fresnel_of(exact), form_at = fresnel_of(form);
   const double step = (voh.high - voh.low) / pieces;
   for (int i = 0; i < pieces; ++i) {
     const double low = voh.low + i * step, high = std::min(low + 1.000001 * step, voh.high);
     const auto c = Interval::between(std::min(low, high), high);
+    const auto of_form = form_at(c), of_exact = exact_at(c);
     for (std::size_t k = 0; k < channels; ++k) {
-      const auto a = fresnel_over(form.base, k, c), b = fresnel_over(exact.base, k, c);
+      const auto &a = of_form[k], &b = of_exact[k];
       if (!a.is_finite() || !b.is_finite() || !(b.low() > 0)) return unbounded;
       const double size = std::max(a.high() - b.low(), b.high() - a.low());
       worst = std::max(worst, size / b.low());

@@ -33,6 +33,20 @@ Operations of_multiple(const MultipleScattering& m) {
   });
 }
 
+/// What Fresnel's equations of every band cost more than those of three channels.
+Operations of_spectrum(const SpectralMetal<double>& m) {
+  const SpectralReflectance<C> f(m.in<C>());
+  return count_operations([&] { static_cast<void>(f(C(0.5))); });
+}
+Operations of_channels() {
+  const std::array p{C(0.2), C(3.0)};
+  const Conductor<C> f(p);
+  const C c(0.5);
+  return count_operations([&] {
+    for (std::size_t i = 0; i < channels; ++i) static_cast<void>(f({c, c, c, c, c}).value());
+  });
+}
+
 /// Work that a timing repeats.
 template <class F>
 std::function<void()> work(const Surface& s, const Block<F>& x) {
@@ -64,7 +78,11 @@ double operations_of(const Surface& s) {
     sum += gonio::operations_of(s.coat->model);
     sum[Operation::add] += 2 * channels;  // on all that is below
   }
-  return static_cast<double>(sum.total());
+  auto total = static_cast<double>(sum.total());
+  if (s.spectrum)
+    total += static_cast<double>(of_spectrum(*s.spectrum).total()) -
+             static_cast<double>(of_channels().total());
+  return total;
 }
 
 std::vector<Timing> times_of(std::span<const Surface> surfaces, const LitPoints& points) {

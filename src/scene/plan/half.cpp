@@ -48,6 +48,16 @@ Shares shares_of(const BoundModel& b,
   return s;
 }
 
+/// F of a channel by the spectrum, its sum in halves too.
+Values spectral_in_half(const SpectralMetal<double>& metal,
+                        std::size_t channel,
+                        std::span<const FrameAngles<double>> rows) {
+  const SpectralReflectance<Half> f(metal.in<Half>());
+  Values out;
+  for (const auto& a : rows) out.push_back(static_cast<double>(f(Half(a.voh))[channel]));
+  return out;
+}
+
 Half multiple(const MultipleScattering& m,
               const AlbedoCurve<Half>& albedo,
               std::size_t channel,
@@ -68,7 +78,8 @@ std::vector<Rgb> radiance_in_half(const Surface& s, const LitPoints& p) {
   std::vector<Rgb> sum(p.count, Rgb{});
   const auto albedo = s.multiple.albedo.in<Half>();
   for (std::size_t c = 0; c < channels; ++c) {
-    const Shares base = shares_of(s.base, c, p.angles);
+    Shares base = shares_of(s.base, c, p.angles);
+    if (s.spectrum) base.fresnel[0] = spectral_in_half(*s.spectrum, c, p.angles);
     const Shares coat = s.coat ? shares_of(*s.coat, c, p.angles) : Shares{};
     for (std::size_t i = 0; i < p.angles.size(); ++i) {
       Half f(0);

@@ -33,12 +33,12 @@ constexpr double proved_share = 0.1;
 
 constexpr std::array<Effect, effect_count> all_effects{
     Effect::fresnel, Effect::compensation, Effect::masking,  Effect::anisotropy, Effect::coat,
-    Effect::tail,    Effect::diffuse,      Effect::coupling, Effect::precision};
+    Effect::tail,    Effect::diffuse,      Effect::coupling, Effect::spectrum,   Effect::precision};
 
 /// Key of a set by what it computes: what is not there has no form.
-using Key = std::tuple<std::string, std::size_t, bool>;
+using Key = std::tuple<std::string, std::size_t, bool, bool>;
 Key key_of(const Surface& s) {
-  return {s.spec(), s.multiple.form, s.single};
+  return {s.spec(), s.multiple.form, s.spectrum.has_value(), s.single};
 }
 
 /// Puts forms into a plan, and what follows from them.
@@ -170,6 +170,7 @@ class MaterialPlanner {
       }
       if (!c.forms.keeps(Effect::diffuse) && look_.offer(Effect::diffuse).forms.front() == 0)
         c.forms[Effect::coupling] = 0;
+      if (c.forms.name(Effect::fresnel) != "exact") c.forms[Effect::spectrum] = 0;
       Surface s = look_.surface(c.forms);
       if (!known.insert(key_of(s)).second) continue;
       candidates_.push_back(c);

@@ -8,7 +8,7 @@ std::span<const std::string_view> forms_of(Effect effect) {
   static constexpr std::array<std::string_view, 4> compensation{"none", "turquin", "fdez_aguera",
                                                                 "kulla_conty"};
   static constexpr std::array<std::string_view, 2> off_on{"off", "on"}, tail{"ggx", "gtr"},
-      precision{"float", "double"};
+      spectrum{"rgb", "spectral"}, precision{"float", "double"};
   switch (effect) {
     case Effect::fresnel:
       return fresnel;
@@ -20,6 +20,8 @@ std::span<const std::string_view> forms_of(Effect effect) {
       return tail;
     case Effect::diffuse:
       return diffuse;
+    case Effect::spectrum:
+      return spectrum;
     case Effect::precision:
       return precision;
     default:

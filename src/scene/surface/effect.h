@@ -22,9 +22,10 @@ enum class Effect {
   tail,          ///< a distribution that falls off more slowly than GGX, or faster
   diffuse,       ///< light from below the surface
   coupling,      ///< what of it the interface lets through
+  spectrum,      ///< of a metal's index, in place of three wavelengths
   precision,     ///< number that all is computed in
 };
-inline constexpr std::size_t effect_count = 9;
+inline constexpr std::size_t effect_count = 10;
 
 /// Names of an effect's forms, from cheap to exact.
 std::span<const std::string_view> forms_of(Effect);
@@ -45,6 +46,6 @@ struct Forms {
 
 template <>
 inline constexpr std::array<std::string_view, gonio::scene::effect_count>
-    gonio::names_of<gonio::scene::Effect>{"fresnel",    "compensation", "masking",
-                                          "anisotropy", "coat",         "tail",
-                                          "diffuse",    "coupling",     "precision"};
+    gonio::names_of<gonio::scene::Effect>{"fresnel",  "compensation", "masking", "anisotropy",
+                                          "coat",     "tail",         "diffuse", "coupling",
+                                          "spectrum", "precision"};

@@ -26,7 +26,7 @@ struct SurfaceKernels {
   }
 };
 
-/// f of one surface, block by block: the base, then what leaves it after several bounces, then the coat.  What a surface has
+/// f of one surface, block by block: the base, of a metal's spectrum what is under its lobe and then that, then what leaves it after several bounces, then the coat.  What a surface has
 /// not costs nothing: no kernel of it is called.  Not shared by threads.
 template <class F>
 class SurfaceEvaluator {
@@ -35,22 +35,42 @@ class SurfaceEvaluator {
   /// f of three channels, each as long as x.  Below the horizon the terms are not defined.
   void operator()(const Block<F>& x, std::span<F* const> out);
   /// True of a base that one fused loop computes.
-  bool is_fused() const { return base_.is_fused(); }
+  bool is_fused() const { return base_ && base_->is_fused(); }
 
  private:
-  void add_multiple(const Block<F>&, const std::array<F*, max_channels>& out);
-  void add_coat(const Block<F>&, const std::array<F*, max_channels>& out);
+  using Columns = std::array<F*, max_channels>;
+  /// Terms of a lobe's shape D V and their parameters.
+  struct Shape {
+    std::array<std::size_t, 2> term{};
+    std::array<std::vector<F>, 2> parameters;
+  };
+  static Shape shape_of(const BoundModel&, const Lobe&);
+  /// D V, in a scratch column that another call writes over.
+  const F* shape(const Block<F>&, const Shape&);
+  /// Scratch columns of the first lobe alone.
+  Columns alone();
+  void add_spectral(const Block<F>&, const Columns& out);
+  void add_multiple(const Block<F>&, const Columns& out);
+  void add_coat(const Block<F>&, const Columns& out);
 
   SurfaceKernels<F> kernels_;
-  Evaluator<F> base_;
+  std::optional<Evaluator<F>>
+      base_;  ///< without the first lobe, where that is spectral; then none if nothing is left
   std::optional<Evaluator<F>> lobe_;  ///< first lobe alone, where a share of it is added
+  struct Spectral {
+    Shape shape;
+    SpectralMetal<F> metal;
+    bool coupled;
+    bool alone;  ///< is wanted alone too
+  };
+  std::optional<Spectral> spectral_;
   MultipleKernel<F> multiple_ = nullptr;
   AlbedoCurve<F> albedo_{};
   std::array<F, max_channels> strength_{};
-  /// Terms D, V, F of the coat, and their parameters by channel.
   struct Coat {
-    std::array<std::size_t, 3> term;
-    std::array<std::array<std::vector<F>, max_channels>, 3> parameters;
+    Shape shape;
+    std::size_t fresnel;                                  ///< term
+    std::array<std::vector<F>, max_channels> parameters;  ///< of F, by channel
   };
   std::optional<Coat> coat_;
   using Between = typename Evaluator<F>::Between;

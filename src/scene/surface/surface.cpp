@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "brdf/catalogue/registry.h"
 #include "brdf/formula/scattering.h"
@@ -12,6 +13,7 @@
 #include "integrate/scattering/compensation.h"
 #include "optics/f0.h"
 #include "optics/fresnel_approximate.h"
+#include "optics/spectrum.h"
 
 #include <fmt/format.h>
 
@@ -65,6 +67,11 @@ BoundModel bound(const std::string& spec, const std::vector<Setting>& settings) 
   return bind_model(spec, own, channels);
 }
 
+/// Reflectance near 82° over Schlick's.
+double edge_tint(double f0, double edge) {
+  return std::clamp(edge / schlick<double>(f0, schlick_weight(f82_cosine)), 0.0, 1.0);
+}
+
 /// F of each channel at a cosine.
 std::vector<double> reflectance(const BoundModel& b, const TermUse& fresnel, double cosine) {
   std::vector<double> f;
@@ -77,6 +84,38 @@ std::vector<double> reflectance(const BoundModel& b, const TermUse& fresnel, dou
     f.push_back(value);
   }
   return f;
+}
+
+/// Index of a metal by bands.
+SpectralMetal<double> spectral(const gonio::Material& metal) {
+  static_assert(SpectralMetal<double>::bands == wavebands);
+  SpectralMetal<double> m;
+  const auto bands = waveband_colours();
+  for (std::size_t b = 0; b < wavebands; ++b) {
+    const Index n = metal.at(bands[b].nm);
+    m.eta[b] = n.n;
+    m.k[b] = n.k;
+    for (std::size_t c = 0; c < channels; ++c) m.weight[c][b] = bands[b].rgb[c];
+  }
+  return m;
+}
+/// Σ_b weight_cb values_b
+std::vector<double> colour(const SpectralMetal<double>& m, const std::vector<double>& values) {
+  std::vector<double> rgb;
+  for (const auto& weight : m.weight)
+    rgb.push_back(std::inner_product(weight.begin(), weight.end(), values.begin(), 0.0));
+  return rgb;
+}
+/// F_avg of each band.
+std::vector<double> band_averages(const SpectralMetal<double>& m) {
+  std::vector<double> all;
+  for (std::size_t b = 0; b < wavebands; ++b) {
+    const BoundModel one =
+        bind_model("ggx/smith_ggx.correlated/conductor",
+                   std::vector<Setting>{{"alpha", {1}}, {"eta", {m.eta[b]}}, {"k", {m.k[b]}}}, 1);
+    all.push_back(fresnel_average(one, one.model.lobes[0].fresnel, {1e-9, 100'000}).value[0]);
+  }
+  return all;
 }
 
 struct Family {
@@ -115,6 +154,7 @@ Look::Look(const Material& m) {
     read(*model, m.coated);
   else
     read(std::get<GltfMaterial>(m.is));
+  read_spectrum(m);
   if (coat_.lobe.empty()) {
     coat_.lobe = "ggx/smith_ggx.correlated/schlick.weighted";
     coat_.parameters = {{"alpha", {0.01}}, {"f0", {0.04}}, {"weight", {0}}};
@@ -126,6 +166,22 @@ Look::Look(const Material& m) {
   const auto base = surface(structural()).base;
   fresnel_.average = fresnel_average(base, base.model.lobes[0].fresnel, {1e-9, 100'000}).value;
   albedo_ = lobe_albedo(surface(exact()).base);
+}
+
+void Look::read_spectrum(const Material& m) {
+  const auto* from = std::get_if<FromSpec>(&m.from);
+  if (!from || fresnel_.id != "conductor" || !others_.empty()) return;
+  const auto named =
+      std::ranges::find(from->parameters, "metal", &std::pair<std::string, Given>::first);
+  if (named == from->parameters.end()) return;
+  fresnel_.spectrum = spectral(*find_metal(named->second.word));
+  fresnel_.band_average = band_averages(*fresnel_.spectrum);
+  const SpectralReflectance<double> f(*fresnel_.spectrum);
+  const auto at_normal = f(1), at_edge = f(f82_cosine);
+  for (std::size_t c = 0; c < channels; ++c) {
+    fresnel_.f0[c] = std::clamp(at_normal[c], 0.0, 1.0);  // gold's red is above 1
+    fresnel_.f82_tint[c] = edge_tint(fresnel_.f0[c], at_edge[c]);
+  }
 }
 
 void Look::read(const BoundModel& b, bool coated) {
@@ -188,9 +244,7 @@ void Look::read_fresnel(std::string_view id, const BoundModel& b, const TermUse&
                          id == "f82" || id == "lazanyi";
   fresnel_.has_f82 = fresnel_.has_schlick && id != "f82";
   const auto edge = reflectance(b, term, f82_cosine);
-  for (std::size_t c = 0; c < channels; ++c)
-    fresnel_.f82_tint.push_back(
-        std::clamp(edge[c] / schlick<double>(f0[c], schlick_weight(f82_cosine)), 0.0, 1.0));
+  for (std::size_t c = 0; c < channels; ++c) fresnel_.f82_tint.push_back(edge_tint(f0[c], edge[c]));
 }
 
 void Look::read(const GltfMaterial& m) {
@@ -270,6 +324,10 @@ void Look::offer_forms() {
   else
     offer(Effect::fresnel, {first_.any ? "exact" : "schlick"}, false, as_given);
   offer(Effect::coat, {"off", "on"}, coat_.absent, "its coat has no weight");
+  if (fresnel_.spectrum)
+    offer(Effect::spectrum, {"rgb", "spectral"});
+  else
+    offer(Effect::spectrum, {"rgb"}, false, "no spectrum is known of it");
   offer(Effect::precision, {"float", "double"});
 }
 
@@ -339,20 +397,30 @@ Surface Look::surface(const Forms& forms) const {
   settings.insert(settings.end(), others_settings_.begin(), others_settings_.end());
   s.base = bound(spec + others_, settings);
   if (forms.name(Effect::coat) == "on") s.coat = bound(coat_.lobe, coat_.parameters);
+  const bool equations = forms.name(Effect::fresnel) == "exact";
+  if (equations && forms.name(Effect::spectrum) == "spectral") s.spectrum = fresnel_.spectrum;
   s.single = forms.name(Effect::precision) == "float";
 
   auto& m = s.multiple;
   m.form = forms[Effect::compensation];
   m.albedo = albedo_.curve;
   const auto how = forms.name(Effect::compensation);
-  for (std::size_t c = 0; c < channels && how != "none"; ++c) {
-    if (how == "kulla_conty") {
-      const std::array p{0.0, 0.0, albedo_.average, fresnel_.average[c]};
-      m.strength[c] = KullaContyLobe<double>::apply(p)[0];
-    } else {
-      m.strength[c] = how == "turquin" ? fresnel_.f0[c] : schlick_average<double>(fresnel_.f0[c]);
+  if (how == "none") return s;
+  const bool by_channel = equations && !s.spectrum;
+  if (how == "kulla_conty") {
+    const bool by_band = fresnel_.spectrum && !by_channel;
+    auto strength = by_band ? fresnel_.band_average : fresnel_.average;
+    for (double& x : strength) {
+      const std::array p{0.0, 0.0, albedo_.average, x};
+      x = KullaContyLobe<double>::apply(p)[0];
     }
+    if (by_band) strength = colour(*fresnel_.spectrum, strength);
+    std::ranges::copy(strength, m.strength.begin());
+    return s;
   }
+  const auto f0 = by_channel ? reflectance(s.base, s.base.model.lobes[0].fresnel, 1) : fresnel_.f0;
+  for (std::size_t c = 0; c < channels; ++c)
+    m.strength[c] = how == "turquin" ? f0[c] : schlick_average<double>(f0[c]);
   return s;
 }
 

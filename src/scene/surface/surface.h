@@ -11,6 +11,7 @@
 
 #include "brdf/model/model.h"
 #include "scene/description/scene.h"
+#include "scene/kernel/spectral.h"
 #include "scene/surface/effect.h"
 #include "scene/surface/lobe_albedo.h"
 
@@ -30,6 +31,8 @@ struct Surface {
   BoundModel base;                 ///< diffuse terms and lobes
   std::optional<BoundModel> coat;  ///< one lobe; what is below it loses what the lobe's F keeps
   MultipleScattering multiple;
+  /// What the F of the first lobe is in place of the model's.
+  std::optional<SpectralMetal<double>> spectrum;
   bool single = false;  ///< computed in float
 
   /// "lambert.coupled+ggx/smith_ggx.correlated/schlick+coat:ggx/…"
@@ -51,7 +54,8 @@ struct Offer {
 ///
 /// Exact is what the material stands for: GGX and Beckmann under Smith's correlated masking, a conductor or dielectric under
 /// Fresnel's equations, with all that its facets reflect after several bounces.  A grey F0 of at most a quarter is a
-/// dielectric's; a coloured F0 says nothing of other angles, so that Schlick's form is then all there is.  Effects
+/// dielectric's; a coloured F0 says nothing of other angles, so that Schlick's form is then all there is.  Of a metal that is
+/// named, Fresnel's equations hold for every wavelength, under light of D65's spectrum that a light's colour filters.  Effects
 /// that a material does not show, an absent coat or a diffuse albedo of 0, stand in the exact form all the
 /// same, for that is what a shader for every material computes.
 class Look {
@@ -73,6 +77,7 @@ class Look {
  private:
   using Settings = std::vector<Setting>;
   void read(const BoundModel&, bool coated);
+  void read_spectrum(const Material&);
   void read(const GltfMaterial&);
   void read_fresnel(std::string_view id, const BoundModel&, const TermUse&);
   void offer_forms();
@@ -97,7 +102,9 @@ class Look {
     Settings parameters;
     bool has_schlick = false, has_f82 = false;
     std::vector<double> f0, f82_tint;
-    std::vector<double> average{0, 0, 0};  ///< of the exact form over the hemisphere
+    /// Of the exact form over the hemisphere, by channel and by band.
+    std::vector<double> average{0, 0, 0}, band_average;
+    std::optional<SpectralMetal<double>> spectrum;
   } fresnel_;
   std::string others_;  ///< spec of further lobes, "+…"
   Settings others_settings_;

@@ -49,7 +49,9 @@ TEST(Plan, TurnsExactFresnelOnWithARimLight) {
 }
 
 TEST(Plan, KeepsWhatAMaterialNeeds) {
-  EXPECT_EQ(kept(planned(test::satin_gold(), test::front())), (Names{"compensation", "masking"}));
+  EXPECT_EQ(kept(planned(test::satin_gold(), test::front())),
+            (Names{"fresnel", "compensation", "masking", "spectrum"}))
+      << "no F0 within the gamut is gold's";
   EXPECT_EQ(kept(planned(test::chalk(), test::front())), (Names{"diffuse", "coupling"}));
   EXPECT_EQ(kept(planned(test::car_paint(), test::front())), (Names{"coat", "diffuse"}));
   const auto metal = planned(test::brushed_aluminium(), test::front());

@@ -14,7 +14,10 @@ namespace gonio::scene::test {
 inline Material material(const std::string& spec,
                          const std::vector<std::string>& settings,
                          bool coated = false) {
-  return {"it", FromSpec{}, bind_model(spec, parse_settings(settings), 3), coated};
+  const auto given = parse_settings(settings);
+  FromSpec from{spec, {}};
+  for (const auto& s : given) from.parameters.emplace_back(s.name, Given{s.values, s.text});
+  return {"it", std::move(from), bind_model(spec, given, 3), coated};
 }
 
 inline DirectionalLight light(const Vector& towards, double irradiance = 1.9) {

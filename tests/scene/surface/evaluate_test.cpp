@@ -8,6 +8,7 @@
 #include "geometry/half_vector.h"
 #include "integrate/rule/quadrature.h"
 #include "optics/fresnel_approximate.h"
+#include "optics/spectrum.h"
 #include "scene/plan/scenes.h"
 
 #include <gtest/gtest.h>
@@ -125,6 +126,58 @@ TEST(SurfaceEvaluator, LaysTheCoatOnAllElse) {
   }
 }
 
+/// Reflectance of a metal by all of its spectrum.
+Rgb reflectance(const char* metal, double voh) {
+  return reflectance_rgb(*find_metal(metal), voh);
+}
+
+TEST(SurfaceEvaluator, ReflectsTheSpectrumOfAMetal) {
+  const auto white =
+      with(test::material("ggx/smith_ggx.correlated/schlick", {"roughness=0.45", "f0=1"}),
+           Effect::compensation, "none");
+  const auto gold = with(test::satin_gold(), Effect::compensation, "none");
+  ASSERT_TRUE(gold.spectrum);
+  const auto angles = some_angles();
+  const auto shape = values<double>(white, angles), f = values<double>(gold, angles);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto exact = reflectance("Au", angles[i].voh);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(f[c][i] / shape[c][i], exact[c], 4e-3);
+  }
+}
+
+TEST(SurfaceEvaluator, LetsTheRestOfTheSpectrumThroughToACoupledDiffuse) {
+  const auto made = [](const char* kd) {
+    return with(test::material("lambert.coupled+ggx/smith_ggx.correlated/conductor",
+                               {"roughness=0.45", "metal=Au", kd}),
+                Effect::compensation, "none");
+  };
+  const auto lit = made("kd=0.5"), dark = made("kd=0");
+  ASSERT_TRUE(lit.spectrum && dark.spectrum && dark.base.model.diffuse.empty());
+  const auto angles = some_angles();
+  const auto f = values<double>(lit, angles), g = values<double>(dark, angles);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto exact = reflectance("Au", angles[i].voh);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(f[c][i] - g[c][i], 0.5 / std::numbers::pi * (1 - exact[c]),
+                  2e-3 + 1e-13 * g[c][i]);
+  }
+}
+
+TEST(SurfaceEvaluator, BrightensASpectralLobeAlone) {
+  const auto angles = some_angles();
+  for (const char* how : {"turquin", "fdez_aguera"}) {
+    const auto of = [&](const char* kd) {
+      return values<double>(with(test::material("lambert+ggx/smith_ggx.correlated/conductor",
+                                                {"roughness=0.6", "metal=Cu", kd}),
+                                 Effect::compensation, how),
+                            angles);
+    };
+    const auto f = of("kd=0.3"), g = of("kd=0");
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_NEAR(f[1][i] - g[1][i], 0.3 / std::numbers::pi, 1e-12 * (1 + g[1][i]));
+  }
+}
+
 TEST(SurfaceEvaluator, ComputesTheSameFusedAndComposed) {
   const Look look(test::satin_gold());
   Forms forms = look.structural();
@@ -140,8 +193,10 @@ TEST(SurfaceEvaluator, ComputesTheSameFusedAndComposed) {
 
 TEST(SurfaceEvaluator, ComputesTheSameBitsInEveryInstructionSet) {
   const auto angles = some_angles();
-  for (const char* how : {"turquin", "fdez_aguera", "kulla_conty"}) {
-    const auto s = with(test::car_paint(), Effect::compensation, how);
+  for (const auto& s : {with(test::car_paint(), Effect::compensation, "turquin"),
+                        with(test::car_paint(), Effect::compensation, "fdez_aguera"),
+                        with(test::car_paint(), Effect::compensation, "kulla_conty"),
+                        with(test::satin_gold(), Effect::spectrum, "spectral")}) {
     const auto in = [&](std::string_view set) {
       SurfaceKernels<float> k{kernels<float>(set), layer_kernels<float>(set)};
       k.terms.fused = {};
@@ -151,7 +206,8 @@ TEST(SurfaceEvaluator, ComputesTheSameBitsInEveryInstructionSet) {
     for (const auto& set : instruction_sets()) {
       const auto f = in(set);
       for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(f[c][i], scalar[c][i]) << set << ' ' << how;
+        for (std::size_t c = 0; c < 3; ++c)
+          ASSERT_EQ(f[c][i], scalar[c][i]) << set << ' ' << s.spec();
     }
   }
 }
@@ -173,6 +229,7 @@ TEST(SurfaceEvaluator, LosesLittleInFloat) {
 std::size_t called = 0;
 MultipleKernel<double> counted_multiple = nullptr;
 typename TermKernels<double>::Shade counted_shade = nullptr;
+SpectralKernel<double> counted_spectral = nullptr;
 
 TEST(SurfaceEvaluator, NeverCallsTheKernelOfADroppedEffect) {
   SurfaceKernels<double> k = SurfaceKernels<double>::composed();
@@ -199,6 +256,20 @@ TEST(SurfaceEvaluator, NeverCallsTheKernelOfADroppedEffect) {
   called = 0;
   forms[Effect::compensation] = forms[Effect::coat] = 0;
   values<double>(look.surface(forms), angles, k);
+  EXPECT_EQ(called, 0U);
+
+  counted_spectral = k.layers.spectral;
+  k.layers.spectral = [](const Block<double>& x, const SpectralMetal<double>& m,
+                         const ChannelColumns<double>& c) {
+    ++called;
+    counted_spectral(x, m, c);
+  };
+  values<double>(with(test::satin_gold(), Effect::compensation, "none"), angles, k);
+  EXPECT_EQ(called, n / Evaluator<double>::Between::block);
+  called = 0;
+  auto in_rgb = with(test::satin_gold(), Effect::spectrum, "rgb");
+  in_rgb.multiple = {};
+  values<double>(in_rgb, angles, k);
   EXPECT_EQ(called, 0U);
 }
 

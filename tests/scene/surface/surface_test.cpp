@@ -50,6 +50,33 @@ TEST(Look, LiftsWhatAModelApproximates) {
   EXPECT_NEAR(s.base.values[s.base.model.find("eta")->first], 1.5, 1e-12);
 }
 
+TEST(Look, KnowsTheSpectrumOfAMetalThatIsNamed) {
+  const Look gold(test::satin_gold());
+  EXPECT_EQ(gold.exact().name(Effect::spectrum), "spectral");
+  EXPECT_TRUE(gold.surface(gold.exact()).spectrum);
+  const auto values_of = [&](const char* fresnel, const char* spectrum) {
+    Forms f = gold.structural();
+    const auto put = [&](Effect e, std::string_view form) {
+      f[e] = static_cast<std::size_t>(std::ranges::find(forms_of(e), form) - forms_of(e).begin());
+    };
+    put(Effect::fresnel, fresnel);
+    put(Effect::spectrum, spectrum);
+    return gold.surface(f);
+  };
+  const auto schlick = values_of("schlick", "rgb");
+  EXPECT_FALSE(schlick.spectrum);
+  const auto* f0 = &schlick.base.values[schlick.base.model.find("f0")->first];
+  EXPECT_EQ(f0[0], 1) << "its red is above 1";
+  EXPECT_NEAR(f0[1], 0.7284, 4e-3);
+  EXPECT_NEAR(f0[2], 0.3646, 4e-3);
+  EXPECT_FALSE(values_of("exact", "rgb").spectrum);
+  EXPECT_FALSE(values_of("schlick", "spectral").spectrum) << "Schlick's form has none";
+
+  const Look by_index(test::material("ggx/smith_ggx.correlated/conductor", {"eta=0.2", "k=3"}));
+  EXPECT_EQ(by_index.offer(Effect::spectrum).forms, (std::vector<std::size_t>{0}));
+  EXPECT_FALSE(by_index.offer(Effect::spectrum).why.empty());
+}
+
 TEST(Look, LeavesAColouredF0Schlick) {
   const Look look(test::material("ggx/smith_ggx.correlated/schlick", {"f0=0.9,0.6,0.2"}));
   EXPECT_EQ(look.offer(Effect::fresnel).forms, (std::vector<std::size_t>{0}));
