@@ -40,6 +40,8 @@ std::string name_of_form(Effect effect, std::size_t form) {
       return one_of({{"off", "uncoupled diffuse"}, {"on", "coupled diffuse"}});
     case Effect::spectrum:
       return one_of({{"rgb", "three wavelengths"}, {"spectral", "the metal’s spectrum"}});
+    case Effect::environment:
+      return one_of({{"split_sum", "split sum"}, {"quadrature", "the environment’s integral"}});
     default:
       return std::string(id);
   }

@@ -98,7 +98,7 @@ std::string png_of(const Pictures& p, double exposure, Notes notes) {
 }
 
 Pictures pictures_of(const Scene& scene, const Options& o) {
-  const std::vector<Look> looks(scene.materials.begin(), scene.materials.end());
+  const auto looks = looks_of(scene);
   std::optional<PlannedForms> plan;
   if (!o.plan.empty()) plan = read_plan(o.plan, scene, looks);
   constexpr std::size_t steps = 100;

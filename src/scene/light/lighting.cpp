@@ -227,7 +227,7 @@ void Lighting::add_from(const DirectionalLight& light,
   if (tracer_ &&
       tracer_->occluded(at.position, at.frame.z, d, std::numeric_limits<double>::infinity()))
     return;
-  Incident& i = out.emplace_back(Incident{d, light.irradiance});
+  Incident& i = out.emplace_back(Incident{d, light.irradiance, false});
   for (double& v : i.weight) v *= cosine;
 }
 
@@ -258,7 +258,7 @@ void Lighting::add_from(const Source& source,
     for (const auto& lobe : at.lobes) density += of_lobe * lobe.density(l);
     if constexpr (Source::is_everywhere) density += of_lobe * l.z / std::numbers::pi;
     if (tracer_ && tracer_->occluded(at.position, at.frame.z, d, light.distance)) continue;
-    Incident& incident = out.emplace_back(Incident{d, light.radiance});
+    Incident& incident = out.emplace_back(Incident{d, light.radiance, Source::is_everywhere});
     for (double& w : incident.weight) w *= l.z / (static_cast<double>(spread.count) * density);
   }
 }

@@ -20,6 +20,7 @@ namespace gonio::scene {
 struct Incident {
   Direction direction;  ///< of the world
   Rgb weight;           ///< radiance × cosine/density, what is occluded left out
+  bool of_sky = false;  ///< comes from an environment
 };
 
 /// Part of a set of directions that several calls share, each with the draws of the first.

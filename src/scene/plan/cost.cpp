@@ -1,6 +1,8 @@
 #include "scene/plan/cost.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <memory>
 
 #include "brdf/cost/model_operations.h"
@@ -47,24 +49,61 @@ Operations of_channels() {
   });
 }
 
+Operations of_lookups(const ImageLit& lit) {
+  const LookedUp<C> at{C(0.5),
+                       {C(1), C(1), C(1)},
+                       {C(1), C(1), C(1)},
+                       {C(1), C(1), C(1)},
+                       C(0.8),
+                       C(0.1),
+                       C(0.8),
+                       C(0.1),
+                       C(0.9)};
+  return count_operations([&] { static_cast<void>(image_lit(lit.parts(), at)); });
+}
+
+/// Share of a row, of n, that is evaluated, and points that are looked up.
+struct Looking {
+  std::size_t rows, points;
+};
+Looking looking(const Surface& s, const LitPoints& p, std::size_t n) {
+  if (!s.image_lit || p.point.empty()) return {n, 0};
+  const double per_row = static_cast<double>(n) / static_cast<double>(p.point.size());
+  const auto rows = static_cast<double>(p.sky) * per_row,
+             points = static_cast<double>(p.count) * per_row;
+  return {static_cast<std::size_t>(std::lround(rows)),
+          std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(points)), 1, p.count)};
+}
+
 /// Work that a timing repeats.
 template <class F>
-std::function<void()> work(const Surface& s, const Block<F>& x) {
+std::function<void()> work(const Surface& s,
+                           const Block<F>& all,
+                           const Looking& looking,
+                           std::span<const SkyView> views) {
+  const auto x = all.part(0, (looking.rows + padding - 1) / padding * padding);
   struct State {
     SurfaceEvaluator<F> evaluate;
     std::vector<Column<F>> f;
     std::array<F*, channels> out{};
+    std::vector<Rgb> looked_up;
   };
-  auto state =
-      std::make_shared<State>(State{SurfaceEvaluator<F>(s, SurfaceKernels<F>::composed()), {}, {}});
+  auto state = std::make_shared<State>(
+      State{SurfaceEvaluator<F>(s, SurfaceKernels<F>::composed()), {}, {}, {}});
   for (std::size_t c = 0; c < channels; ++c)
-    state->out[c] = state->f.emplace_back(Column<F>(x.n)).data();
-  return [state, x] { state->evaluate(x, state->out); };
+    state->out[c] = state->f.emplace_back(Column<F>(std::max(x.n, padding))).data();
+  const auto seen = views.first(looking.points);
+  state->looked_up.resize(seen.size());
+  return [state, x, seen, lit = s.image_lit] {
+    if (x.n > 0) state->evaluate(x, state->out);
+    if (lit) std::ranges::transform(seen, state->looked_up.begin(), std::cref(*lit));
+  };
 }
 
 }  // namespace
 
-double operations_of(const Surface& s) {
+namespace {
+double operations_of_row(const Surface& s) {
   Operations sum = gonio::operations_of(s.base.model);
   sum += of_multiple(s.multiple);
   if (s.multiple.form != 0 && forms_of(Effect::compensation)[s.multiple.form] != "kulla_conty" &&
@@ -84,6 +123,16 @@ double operations_of(const Surface& s) {
              static_cast<double>(of_channels().total());
   return total;
 }
+}  // namespace
+
+double operations_of(const Surface& s, const LitPoints& p) {
+  const double row = operations_of_row(s);
+  if (!s.image_lit || p.point.empty()) return row;
+  const auto rows = static_cast<double>(p.point.size());
+  return row * static_cast<double>(p.sky) / rows +
+         static_cast<double>(of_lookups(*s.image_lit).total()) * static_cast<double>(p.count) /
+             rows;
+}
 
 std::vector<Timing> times_of(std::span<const Surface> surfaces, const LitPoints& points) {
   // Where no light comes to any point, angles like any others.
@@ -94,8 +143,9 @@ std::vector<Timing> times_of(std::span<const Surface> surfaces, const LitPoints&
   const LitColumns columns(std::span<const FrameAngles<double>>(rows).first(n));
   std::vector<Timed> timed;
   for (const auto& s : surfaces)
-    timed.push_back({n, s.single ? work<float>(s, columns.narrow.block())
-                                 : work<double>(s, columns.wide.block())});
+    timed.push_back(
+        {n, s.single ? work<float>(s, columns.narrow.block(), looking(s, points, n), points.view)
+                     : work<double>(s, columns.wide.block(), looking(s, points, n), points.view)});
   TimingOptions options;
   options.repetitions = 9;
   options.seconds = 1e-4;

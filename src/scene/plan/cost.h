@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Cost of a surface: f of one direction of light in three channels.
+/// Cost of a surface by direction of light: of f in three channels, and of what is looked up in place of an environment's directions.
 
 #include <functional>
 #include <span>
@@ -11,10 +11,11 @@
 
 namespace gonio::scene {
 
-/// Operations, those of several bounces and of the coat too.
-double operations_of(const Surface&);
+/// Operations of a row, those of several bounces and of the coat too; lookups count nothing.
+double operations_of(const Surface&, const LitPoints&);
 
-/// Times of one row [ns], each composed of its terms' kernels, measured side by side.
+/// Times of a row [ns], each composed of its terms' kernels, measured side by side.  A surface that looks the environment up spares
+/// its rows, and looks up once a point.
 std::vector<Timing> times_of(std::span<const Surface>, const LitPoints&);
 
 }  // namespace gonio::scene

@@ -1,5 +1,8 @@
 #include "scene/plan/half.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/number.h"
 #include "brdf/term/product.h"
@@ -76,12 +79,17 @@ Half multiple(const MultipleScattering& m,
 
 std::vector<Rgb> radiance_in_half(const Surface& s, const LitPoints& p) {
   std::vector<Rgb> sum(p.count, Rgb{});
+  std::span<const FrameAngles<double>> angles = p.angles;
+  if (s.image_lit) {
+    std::ranges::transform(p.view, sum.begin(), std::cref(*s.image_lit));
+    angles = angles.first(p.sky);
+  }
   const auto albedo = s.multiple.albedo.in<Half>();
   for (std::size_t c = 0; c < channels; ++c) {
-    Shares base = shares_of(s.base, c, p.angles);
-    if (s.spectrum) base.fresnel[0] = spectral_in_half(*s.spectrum, c, p.angles);
-    const Shares coat = s.coat ? shares_of(*s.coat, c, p.angles) : Shares{};
-    for (std::size_t i = 0; i < p.angles.size(); ++i) {
+    Shares base = shares_of(s.base, c, angles);
+    if (s.spectrum) base.fresnel[0] = spectral_in_half(*s.spectrum, c, angles);
+    const Shares coat = s.coat ? shares_of(*s.coat, c, angles) : Shares{};
+    for (std::size_t i = 0; i < angles.size(); ++i) {
       Half f(0);
       for (const auto& d : base.diffuse) f = f + Half(d[i]);
       for (std::size_t l = 0; l < base.shape.size(); ++l) {
@@ -90,7 +98,7 @@ std::vector<Rgb> radiance_in_half(const Surface& s, const LitPoints& p) {
       }
       if (!base.shape.empty())
         f = f + multiple(s.multiple, albedo, c, Half(base.shape[0][i]) * Half(base.fresnel[0][i]),
-                         p.angles[i]);
+                         angles[i]);
       if (s.coat) f = lobe_on(f, f, One{}, Half(coat.shape[0][i]), Half(coat.fresnel[0][i]));
       sum[p.point[i]][c] += static_cast<double>(f) * p.weight[i][c];
     }

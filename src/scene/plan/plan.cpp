@@ -32,24 +32,25 @@ constexpr double reserve = 0.9;
 constexpr double proved_share = 0.1;
 
 constexpr std::array<Effect, effect_count> all_effects{
-    Effect::fresnel, Effect::compensation, Effect::masking,  Effect::anisotropy, Effect::coat,
-    Effect::tail,    Effect::diffuse,      Effect::coupling, Effect::spectrum,   Effect::precision};
+    Effect::fresnel,  Effect::compensation, Effect::masking,  Effect::anisotropy,
+    Effect::coat,     Effect::tail,         Effect::diffuse,  Effect::coupling,
+    Effect::spectrum, Effect::environment,  Effect::precision};
 
 /// Key of a set by what it computes: what is not there has no form.
-using Key = std::tuple<std::string, std::size_t, bool, bool>;
+using Key = std::tuple<std::string, std::size_t, bool, bool, bool>;
 Key key_of(const Surface& s) {
-  return {s.spec(), s.multiple.form, s.spectrum.has_value(), s.single};
+  return {s.spec(), s.multiple.form, s.spectrum.has_value(), s.image_lit != nullptr, s.single};
 }
 
 /// Puts forms into a plan, and what follows from them.
-void take(MaterialPlan& p, const Look& look, const Forms& forms, double ns) {
+void take(MaterialPlan& p, const Look& look, const Forms& forms, double ns, double ops) {
   const Surface surface = look.surface(forms);
   p.forms = forms;
   p.ns = ns;
   p.spec = surface.spec();
   p.parameters = surface.parameters();
   p.speedup = p.ns_exact / p.ns;
-  p.ops_saved = 1 - operations_of(surface) / operations_of(look.surface(look.exact()));
+  p.ops_saved = 1 - ops / p.ops_exact;
   for (auto& e : p.effects) {
     e.keep = forms.keeps(e.effect);
     e.form = forms.name(e.effect);
@@ -64,7 +65,8 @@ class MaterialPlanner {
         look_(lit.looks[material]),
         drawer_(lit.drawer(material, o.directions)),
         exact_(look_.surface(look_.exact())),
-        reference_(seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_) {
+        reference_(seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_),
+        start_(look_.exact()) {
     for (const auto& object : scene_.objects)
       if (object.material == material) join(reached_angles(scene_, object));
   }
@@ -88,18 +90,35 @@ class MaterialPlanner {
     reached_.voh.high = std::max(reached_.voh.high, r.voh.high);
   }
   Judgement judged(const Surface& s) const {
-    auto d = reference_.differences_of(scene_, s);
+    auto d = (s.image_lit ? *under_sky_ : reference_).differences_of(scene_, s);
     return judge(d, scene_.tolerance);
   }
   /// All exact but one.
-  Surface with(Effect e, std::size_t form) const {
-    Forms f = look_.exact();
+  Surface with(Effect e, std::size_t form) const { return with(look_.exact(), e, form); }
+  Surface with(Forms f, Effect e, std::size_t form) const {
     f[e] = form;
     return look_.surface(f);
   }
 
+  /// Whether the environment may be looked up, which decides what the other effects change.
+  void screen_environment() {
+    const auto& offer = look_.offer(Effect::environment);
+    if (offer.forms.size() < 2) return;
+    constexpr std::size_t few = 1024;
+    const auto reference = [&](std::size_t n) {
+      under_sky_.emplace(Reference::under_sky(drawer_, choosing, 0, n, exact_));
+    };
+    const Surface looked_up = with(Effect::environment, offer.forms.front());
+    reference(std::min(few, options_.samples));
+    if (!scene_.budget_ns && !judged(looked_up).keeps(scene_.tolerance)) return;
+    reference(options_.samples);
+    if (judged(looked_up).keeps(scene_.tolerance))
+      start_[Effect::environment] = offer.forms.front();
+  }
+
   /// Effects one by one.
   void screen() {
+    screen_environment();
     std::vector<Surface> dropped;
     for (const Effect e : all_effects) {
       const auto& offer = look_.offer(e);
@@ -119,18 +138,18 @@ class MaterialPlanner {
       } else {
         planned.error_if_dropped = judged(dropped.back()).quantile;
         for (const auto form : offer.forms)
-          if (form >= offer.same_as_exact || scene_.budget_ns ||
-              judged(with(e, form)).keeps(scene_.tolerance))
+          if (form == start_[e] || scene_.budget_ns ||
+              (e != Effect::environment && judged(with(start_, e, form)).keeps(scene_.tolerance)))
             left.push_back(form);
       }
       effects_.push_back(planned);
     }
     dropped.push_back(exact_);
     const auto times = times_of(dropped, reference_.points);
-    const double ns = times.back().ns, ops = operations_of(exact_);
+    const double ns = times.back().ns, ops = operations_of(exact_, reference_.points);
     for (std::size_t i = 0; i < effects_.size(); ++i) {
       effects_[i].ns_saved = ns - times[i].ns;
-      effects_[i].ops_saved = ops - operations_of(dropped[i]);
+      effects_[i].ops_saved = ops - operations_of(dropped[i], reference_.points);
     }
   }
   std::optional<double> proved(Effect e, std::size_t form) const {
@@ -181,7 +200,7 @@ class MaterialPlanner {
   void measure() {
     tbb::parallel_for(std::size_t{0}, candidates_.size(), [&](std::size_t i) {
       candidates_[i].error = judged(surfaces_[i]);
-      candidates_[i].ops = operations_of(surfaces_[i]);
+      candidates_[i].ops = operations_of(surfaces_[i], reference_.points);
     });
     auto timed = surfaces_;
     timed.push_back(exact_);
@@ -218,6 +237,10 @@ class MaterialPlanner {
     return order;
   }
 
+  /// Points of the check: fewer where each has the many directions that a lookup is compared with.
+  std::size_t fresh(const Surface& s) const {
+    return s.image_lit ? std::min(options_.fresh, samples_of_verification(scene_)) : options_.fresh;
+  }
   bool passes(const Judgement& j) const {
     const auto& t = scene_.tolerance;
     return j.bound <=
@@ -231,6 +254,7 @@ class MaterialPlanner {
     for (auto& e : p.effects)
       if (e.reason.empty()) e.reason = reason(e);
     p.ns_exact = ns_exact_;
+    p.ops_exact = operations_of(exact_, reference_.points);
     p.coverage = drawer_.coverage();
     p.directions = static_cast<double>(reference_.points.point.size()) /
                    static_cast<double>(reference_.points.count);
@@ -238,9 +262,9 @@ class MaterialPlanner {
     if (scene_.budget_ns) return p;
     for (const auto* c : in_order()) {
       const auto& surface = surfaces_[static_cast<std::size_t>(c - candidates_.data())];
-      p.checked = judge_fresh(scene_, drawer_, checking, options_.fresh, exact_, surface);
+      p.checked = judge_fresh(scene_, drawer_, checking, fresh(surface), exact_, surface);
       if (passes(p.checked)) {
-        take(p, look_, c->forms, c->ns);
+        take(p, look_, c->forms, c->ns, c->ops);
         p.in_half = in_half(surface);
         return p;
       }
@@ -250,13 +274,15 @@ class MaterialPlanner {
     p.checked = {};
     const auto same = look_.structural();
     const std::array surface{look_.surface(same)};
-    take(p, look_, same, times_of(surface, reference_.points)[0].ns);
+    take(p, look_, same, times_of(surface, reference_.points)[0].ns,
+         operations_of(surface[0], reference_.points));
     p.in_half = in_half(surface[0]);
     return p;
   }
   Judgement in_half(const Surface& s) const {
-    auto d = differences(scene_.tolerance.metric, scene_.exposure, reference_.exact,
-                         radiance_in_half(s, reference_.points));
+    const Reference& r = s.image_lit ? *under_sky_ : reference_;
+    auto d = differences(scene_.tolerance.metric, scene_.exposure, r.exact,
+                         radiance_in_half(s, r.points));
     return judge(d, scene_.tolerance);
   }
   std::string reason(const PlannedEffect& e) const {
@@ -285,6 +311,9 @@ class MaterialPlanner {
   PointDrawer drawer_;
   Surface exact_;
   Reference reference_;
+  std::optional<Reference>
+      under_sky_;  ///< what surfaces that look the environment up are compared with
+  Forms start_;    ///< exact, but for an environment that may be looked up
   ReachedAngles reached_{{1, 0}};
   std::vector<PlannedEffect> effects_;
   std::array<std::vector<std::size_t>, effect_count> left_;
@@ -319,7 +348,7 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
     const auto index = static_cast<std::size_t>(
         std::ranges::find(s.materials, m.name, &Material::name) - s.materials.begin());
     const Look& look = lit.looks[index];
-    take(m, look, c.forms, c.ns);
+    take(m, look, c.forms, c.ns, c.ops);
     m.checked = judge_fresh(s, lit.drawer(index, options.directions), checking, options.fresh,
                             look.surface(look.exact()), look.surface(c.forms));
   }

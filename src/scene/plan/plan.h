@@ -51,7 +51,7 @@ struct MaterialPlan {
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
   double speedup = 1, ops_saved = 0;  ///< all effects exact against the plan: ratio of times, and
                                       ///< the share of operations
-  double ns = 0, ns_exact = 0;
+  double ns = 0, ns_exact = 0, ops_exact = 0;
   Judgement checked;  ///< on fresh points
   std::size_t passed_over =
       0;  ///< cheaper sets that kept the tolerance where they were chosen, but not on fresh points

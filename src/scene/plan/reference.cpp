@@ -4,6 +4,31 @@
 
 namespace gonio::scene {
 
+Reference Reference::under_sky(const PointDrawer& drawer,
+                               std::uint64_t stream,
+                               std::size_t first,
+                               std::size_t count,
+                               const Surface& exact) {
+  constexpr std::size_t part = 256, directions = 1024;
+  const PointDrawer finer = drawer.with_directions(directions);
+  LitPoints all;
+  std::vector<Rgb> light;
+  for (std::size_t at = 0; at < count; at += part) {
+    const Reference r(finer.draw(stream, first + at, std::min(part, count - at)), exact);
+    const auto& p = r.points;
+    const auto rows = static_cast<std::ptrdiff_t>(p.sky);
+    all.angles.insert(all.angles.end(), p.angles.begin(), p.angles.begin() + rows);
+    all.weight.insert(all.weight.end(), p.weight.begin(), p.weight.begin() + rows);
+    for (std::size_t i = 0; i < p.sky; ++i)
+      all.point.push_back(p.point[i] + static_cast<std::uint32_t>(all.count));
+    all.view.insert(all.view.end(), p.view.begin(), p.view.end());
+    light.insert(light.end(), r.exact.begin(), r.exact.end());
+    all.count += p.count;
+  }
+  all.sky = all.point.size();
+  return {std::move(all), std::move(light)};
+}
+
 Judgement judge_fresh(const Scene& s,
                       const PointDrawer& drawer,
                       std::uint64_t stream,
@@ -13,7 +38,9 @@ Judgement judge_fresh(const Scene& s,
   constexpr std::size_t part = 4096;
   std::vector<double> all;
   for (std::size_t at = 0; at < samples; at += part) {
-    const Reference fresh(drawer.draw(stream, at, std::min(part, samples - at)), exact);
+    const std::size_t n = std::min(part, samples - at);
+    const Reference fresh = surface.image_lit ? Reference::under_sky(drawer, stream, at, n, exact)
+                                              : Reference(drawer.draw(stream, at, n), exact);
     const auto d = fresh.differences_of(s, surface);
     all.insert(all.end(), d.begin(), d.end());
   }

@@ -15,11 +15,23 @@ struct Reference {
   LitColumns columns;
   std::vector<Rgb> exact;
 
+  /// Points whose light of an environment is summed over so many directions that a surface which looks it up can be compared
+  /// with that: 1024 a point, of which the noise is a tenth of what one sees.  The rows of the environment are let go.
+  static Reference under_sky(const PointDrawer&,
+                             std::uint64_t stream,
+                             std::size_t first,
+                             std::size_t count,
+                             const Surface& exact);
+
   Reference(LitPoints p, const Surface& surface)
       : points(std::move(p)), columns(points.angles), exact(radiance(surface, points, columns)) {}
   std::vector<double> differences_of(const Scene& s, const Surface& surface) const {
     return differences(s.tolerance.metric, s.exposure, exact, radiance(surface, points, columns));
   }
+
+ private:
+  Reference(LitPoints p, std::vector<Rgb> radiance)
+      : points(std::move(p)), columns(points.angles), exact(std::move(radiance)) {}
 };
 
 /// Judgement on points first drawn for it, a part after the other: memory does not grow with their number.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "geometry/half_difference.h"
 
@@ -28,13 +29,16 @@ bool passes_through(const Ray& ray, const BoundingSphere& sphere) {
 }
 
 template <class F>
-std::vector<Rgb> radiance_in(const Surface& s, const LitPoints& p, const Block<F>& x) {
+std::vector<Rgb> radiance_in(const Surface& s, const LitPoints& p, const Block<F>& all) {
+  const std::size_t rows = s.image_lit ? p.sky : p.point.size();
+  const auto x = all.part(0, (rows + padding - 1) / padding * padding);
   std::array<Column<F>, 3> f{Column<F>(x.n), Column<F>(x.n), Column<F>(x.n)};
   const std::array out{f[0].data(), f[1].data(), f[2].data()};
   SurfaceEvaluator<F> evaluate(s);
   evaluate(x, out);
   std::vector<Rgb> sum(p.count, Rgb{});
-  for (std::size_t i = 0; i < p.point.size(); ++i)
+  if (s.image_lit) std::ranges::transform(p.view, sum.begin(), std::cref(*s.image_lit));
+  for (std::size_t i = 0; i < rows; ++i)
     for (std::size_t c = 0; c < 3; ++c)
       sum[p.point[i]][c] += static_cast<double>(f[c][i]) * p.weight[i][c];
   return sum;
@@ -49,10 +53,7 @@ std::vector<double> turns_of(const std::vector<Look>& looks) {
 }  // namespace
 
 Lit::Lit(const Scene& s)
-    : scene(s),
-      looks(s.materials.begin(), s.materials.end()),
-      tracer(s, turns_of(looks)),
-      lighting(s, &tracer) {}
+    : scene(s), looks(looks_of(s)), tracer(s, turns_of(looks)), lighting(s, &tracer) {}
 
 PointDrawer Lit::drawer(std::size_t material, std::size_t directions) const {
   return {scene, material, looks[material].widths(), tracer, lighting, directions};
@@ -161,18 +162,27 @@ LitPoints PointDrawer::draw(std::uint64_t stream, std::size_t first, std::size_t
     lighting_.incident(seen->hit.position, seen->hit.frame, seen->to_viewer, widths_, directions_,
                        draws, one.light);
   });
+  std::erase_if(all, [](const auto& one) { return !one; });
   LitPoints p;
-  for (const auto& one : all) {
-    if (!one) continue;
-    for (const auto& light : one->light) {
-      const auto a = angles_of(one->seen.hit.frame, light.direction, one->seen.to_viewer);
-      if (!(a.nol > 0)) continue;
-      p.angles.push_back(a);
-      p.point.push_back(static_cast<std::uint32_t>(p.count));
-      p.weight.push_back(light.weight);
+  p.count = all.size();
+  const bool has_sky = std::ranges::any_of(
+      scene_.lights, [](const Light& l) { return std::holds_alternative<EnvironmentLight>(l); });
+  for (const bool of_sky : {false, true}) {
+    p.sky = p.point.size();
+    for (std::size_t i = 0; i < p.count; ++i) {
+      const Seen& seen_here = all[i]->seen;
+      for (const auto& light : all[i]->light) {
+        if (light.of_sky != of_sky) continue;
+        const auto a = angles_of(seen_here.hit.frame, light.direction, seen_here.to_viewer);
+        if (!(a.nol > 0)) continue;
+        p.angles.push_back(a);
+        p.point.push_back(static_cast<std::uint32_t>(i));
+        p.weight.push_back(light.weight);
+      }
     }
-    ++p.count;
   }
+  for (std::size_t i = 0; has_sky && i < p.count; ++i)
+    p.view.push_back(sky_view(all[i]->seen.hit.frame, all[i]->seen.to_viewer));
   return p;
 }
 

@@ -24,6 +24,8 @@ struct LitPoints {
   std::vector<FrameAngles<double>> angles;  ///< [row]
   std::vector<std::uint32_t> point;         ///< [row]
   std::vector<Rgb> weight;                  ///< [row]
+  std::size_t sky = 0;        ///< row of the first of those of an environment, which come last
+  std::vector<SkyView> view;  ///< [point]; where there is an environment
 };
 
 /// Columns of rows in double and in float.
@@ -34,7 +36,7 @@ struct LitColumns {
   explicit LitColumns(std::span<const FrameAngles<double>>);
 };
 
-/// Radiance of every point.
+/// Radiance of every point.  Where the surface looks an environment up, the rows of that are left out.
 std::vector<Rgb> radiance(const Surface&, const LitPoints&, const LitColumns&);
 
 /// Drawer of points of one material.
@@ -56,6 +58,12 @@ class PointDrawer {
   LitPoints draw(std::uint64_t stream, std::size_t first, std::size_t count) const;
   /// Share of the picture that the material is seen in, by 16 384 looks; 0: no points are drawn.
   double coverage() const { return coverage_; }
+  /// Drawer of the same points with another number of directions.
+  PointDrawer with_directions(std::size_t n) const {
+    PointDrawer other = *this;
+    other.directions_ = n;
+    return other;
+  }
 
  private:
   struct Seen {
@@ -79,7 +87,7 @@ class PointDrawer {
 /// Scene with the looks of its materials, and what rays and light need of it.
 struct Lit {
   const Scene& scene;
-  std::vector<Look> looks;  ///< by material
+  std::vector<Look> looks;  ///< by material, under the scene's environment
   Tracer tracer;
   Lighting lighting;
 

@@ -138,11 +138,17 @@ class Painter {
     }
     const Direction viewer{-r.direction.x, -r.direction.y, -r.direction.z};
     const auto& frame = hit->frame;
+    const auto& lit = materials_[hit->material].surface.image_lit;
+    if (lit && dot(frame.z, viewer) > 0) {
+      const Rgb radiance = (*lit)(sky_view(frame, viewer));
+      for (std::size_t c = 0; c < 3; ++c) to[c] += radiance[c];
+    }
     incident_.clear();
     lights_.incident(hit->position, frame, viewer, materials_[hit->material].widths, 1, draw,
                      incident_, part);
     const Direction v = frame.inside(viewer);
     for (const auto& i : incident_) {
+      if (lit && i.of_sky) continue;
       const auto a = frame_angles({frame.inside(i.direction), v});
       std::visit([&](auto& gathered) { gathered.add(a, i.weight, to); }, surfaces_[hit->material]);
     }

@@ -8,7 +8,8 @@ std::span<const std::string_view> forms_of(Effect effect) {
   static constexpr std::array<std::string_view, 4> compensation{"none", "turquin", "fdez_aguera",
                                                                 "kulla_conty"};
   static constexpr std::array<std::string_view, 2> off_on{"off", "on"}, tail{"ggx", "gtr"},
-      spectrum{"rgb", "spectral"}, precision{"float", "double"};
+      spectrum{"rgb", "spectral"}, environment{"split_sum", "quadrature"},
+      precision{"float", "double"};
   switch (effect) {
     case Effect::fresnel:
       return fresnel;
@@ -22,6 +23,8 @@ std::span<const std::string_view> forms_of(Effect effect) {
       return diffuse;
     case Effect::spectrum:
       return spectrum;
+    case Effect::environment:
+      return environment;
     case Effect::precision:
       return precision;
     default:

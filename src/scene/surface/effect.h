@@ -23,9 +23,10 @@ enum class Effect {
   diffuse,       ///< light from below the surface
   coupling,      ///< what of it the interface lets through
   spectrum,      ///< of a metal's index, in place of three wavelengths
+  environment,   ///< light of an environment: two lookups, or an integral over directions
   precision,     ///< number that all is computed in
 };
-inline constexpr std::size_t effect_count = 10;
+inline constexpr std::size_t effect_count = 11;
 
 /// Names of an effect's forms, from cheap to exact.
 std::span<const std::string_view> forms_of(Effect);
@@ -46,6 +47,6 @@ struct Forms {
 
 template <>
 inline constexpr std::array<std::string_view, gonio::scene::effect_count>
-    gonio::names_of<gonio::scene::Effect>{"fresnel",  "compensation", "masking", "anisotropy",
-                                          "coat",     "tail",         "diffuse", "coupling",
-                                          "spectrum", "precision"};
+    gonio::names_of<gonio::scene::Effect>{"fresnel",  "compensation", "masking",  "anisotropy",
+                                          "coat",     "tail",         "diffuse",  "coupling",
+                                          "spectrum", "environment",  "precision"};

@@ -149,7 +149,7 @@ std::vector<std::pair<std::string, std::vector<double>>> Surface::parameters() c
   return all;
 }
 
-Look::Look(const Material& m) {
+Look::Look(const Material& m, std::shared_ptr<const ImageLight> sky) : sky_(std::move(sky)) {
   if (const auto* model = std::get_if<BoundModel>(&m.is))
     read(*model, m.coated);
   else
@@ -328,6 +328,13 @@ void Look::offer_forms() {
     offer(Effect::spectrum, {"rgb", "spectral"});
   else
     offer(Effect::spectrum, {"rgb"}, false, "no spectrum is known of it");
+  // Two sums stand for one lobe of GGX's kind, and for what is diffuse.
+  if (!sky_)
+    offer(Effect::environment, {"split_sum"}, false, "no environment lights it");
+  else if (first_.any && (!first_.known || !others_.empty()))
+    offer(Effect::environment, {"quadrature"}, false, "two sums do not stand for its lobes");
+  else
+    offer(Effect::environment, {"split_sum", "quadrature"});
   offer(Effect::precision, {"float", "double"});
 }
 
@@ -401,6 +408,8 @@ Surface Look::surface(const Forms& forms) const {
   if (equations && forms.name(Effect::spectrum) == "spectral") s.spectrum = fresnel_.spectrum;
   s.single = forms.name(Effect::precision) == "float";
 
+  if (sky_ && forms.name(Effect::environment) == "split_sum") s.image_lit = image_lit(s, forms);
+
   auto& m = s.multiple;
   m.form = forms[Effect::compensation];
   m.albedo = albedo_.curve;
@@ -422,6 +431,41 @@ Surface Look::surface(const Forms& forms) const {
   for (std::size_t c = 0; c < channels; ++c)
     m.strength[c] = how == "turquin" ? f0[c] : schlick_average<double>(f0[c]);
   return s;
+}
+
+std::shared_ptr<const ImageLit> Look::image_lit(const Surface& s, const Forms& forms) const {
+  const auto rgb = [](const std::vector<double>& v) {
+    return v.size() == 1 ? Rgb{v[0], v[0], v[0]} : Rgb{v[0], v[1], v[2]};
+  };
+  ImageLitParts parts;
+  if (first_.any) {
+    const auto masking = forms.name(Effect::masking);
+    parts.lobe = ImageLitParts::Layer{masking == "schlick_k" ? std::string("schlick_ggx.half_alpha")
+                                                             : fmt::format("smith_ggx.{}", masking),
+                                      std::sqrt(first_.alpha_x * first_.alpha_y), rgb(fresnel_.f0)};
+  }
+  if (s.coat) {
+    const auto& fresnel = s.coat->model.lobes[0].fresnel;
+    auto f0 = reflectance(*s.coat, fresnel, 1);
+    const double weight = number_of(coat_.parameters, "weight", 1);
+    if (weight > 0)
+      for (double& x : f0) x /= weight;
+    parts.coat = ImageLitParts::Layer{"smith_ggx.correlated", coat_.width, rgb(f0), weight};
+  }
+  if (!s.base.model.diffuse.empty()) parts.kd = rgb(diffuse_.kd);
+  parts.coupled = forms.name(Effect::coupling) == "on";
+  parts.compensated = forms.name(Effect::compensation) != "none";
+  return std::make_shared<const ImageLit>(*sky_, std::move(parts));
+}
+
+std::vector<Look> looks_of(const Scene& s) {
+  std::shared_ptr<const ImageLight> sky;
+  for (const auto& light : s.lights)
+    if (const auto* e = std::get_if<EnvironmentLight>(&light))
+      sky = std::make_shared<ImageLight>(*e);
+  std::vector<Look> looks;
+  for (const auto& m : s.materials) looks.emplace_back(m, sky);
+  return looks;
 }
 
 std::vector<double> Look::widths() const {

@@ -3,6 +3,7 @@
 /// Surface of a material, its effects in chosen forms, and which forms a material leaves to choose.
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "scene/description/scene.h"
 #include "scene/kernel/spectral.h"
 #include "scene/surface/effect.h"
+#include "scene/surface/image_light.h"
 #include "scene/surface/lobe_albedo.h"
 
 namespace gonio::scene {
@@ -33,6 +35,8 @@ struct Surface {
   MultipleScattering multiple;
   /// What the F of the first lobe is in place of the model's.
   std::optional<SpectralMetal<double>> spectrum;
+  /// What an environment's light gives, where that is not gathered direction by direction.
+  std::shared_ptr<const ImageLit> image_lit;
   bool single = false;  ///< computed in float
 
   /// "lambert.coupled+ggx/smith_ggx.correlated/schlick+coat:ggx/…"
@@ -60,7 +64,8 @@ struct Offer {
 /// same, for that is what a shader for every material computes.
 class Look {
  public:
-  explicit Look(const Material&);
+  /// \param sky  environment that the material stands in; nullptr: none
+  explicit Look(const Material&, std::shared_ptr<const ImageLight> sky = nullptr);
 
   const Offer& offer(Effect e) const { return offers_[static_cast<std::size_t>(e)]; }
   /// Every effect in its exact form.
@@ -81,6 +86,7 @@ class Look {
   void read(const GltfMaterial&);
   void read_fresnel(std::string_view id, const BoundModel&, const TermUse&);
   void offer_forms();
+  std::shared_ptr<const ImageLit> image_lit(const Surface&, const Forms&) const;
 
   std::array<Offer, effect_count> offers_;
   struct Diffuse {
@@ -116,6 +122,10 @@ class Look {
   } coat_;
   double turn_ = 0;
   LobeAlbedo albedo_;
+  std::shared_ptr<const ImageLight> sky_;
 };
+
+/// Looks of a scene's materials, under its environment if it has one.
+std::vector<Look> looks_of(const Scene&);
 
 }  // namespace gonio::scene

@@ -95,7 +95,7 @@ TEST(ScenesReport, EverythingNeededKeepsNearlyEverything) {
          {"compensation", "masking", "anisotropy", "coat", "diffuse", "coupling"})
       EXPECT_TRUE(effect("everything needed", light, name).keep) << light << ": " << name;
   EXPECT_TRUE(effect("everything needed", "rim light", "fresnel").keep);
-  EXPECT_EQ(row("everything needed", "rim light").absent, "tail, spectrum");
+  EXPECT_EQ(row("everything needed", "rim light").absent, "tail, spectrum, environment");
 }
 
 TEST(ScenesReport, TellsEachEffectOnceAndInOneOfThreeLists) {

@@ -233,5 +233,43 @@ TEST(Verify, DrawsOtherPointsForAnotherSeed) {
   EXPECT_NE(worst(1), plan.materials[0].checked.worst);
 }
 
+/// A sky that is brighter above, and on one side.
+Environment soft_sky() {
+  Environment map{32, 16, {}, 0};
+  for (std::size_t j = 0; j < map.height; ++j)
+    for (std::size_t i = 0; i < map.width; ++i) {
+      const double l = 0.3 + 0.2 * std::cos(map.theta(static_cast<double>(j) + 0.5)) +
+                       0.1 * std::cos(map.phi(static_cast<double>(i) + 0.5));
+      map.radiance.push_back({static_cast<float>(l), static_cast<float>(l), static_cast<float>(l)});
+    }
+  return map;
+}
+std::vector<Light> under_soft_sky() {
+  return {EnvironmentLight{"", 1, soft_sky()}};
+}
+
+TEST(Plan, LooksASoftSkyUpForWhatIsMatteAndNotForGold) {
+  const auto matte = planned(test::material("lambert", {"kd=0.5"}), under_soft_sky());
+  EXPECT_FALSE(keeps(matte, "environment"));
+  EXPECT_LE(matte.checked.upper, 1);
+  EXPECT_GT(matte.ops_saved, 0);
+  const auto gold = planned(test::satin_gold(), under_soft_sky());
+  EXPECT_TRUE(keeps(gold, "environment"));
+  const auto e = std::ranges::find(gold.effects, Effect::environment, &PlannedEffect::effect);
+  EXPECT_GT(e->error_if_dropped, 1);
+  EXPECT_EQ(e->why, Why::measured);
+  EXPECT_GT(e->ops_saved, 0);
+}
+
+TEST(Verify, FindsALookupThatAPlanDoesNotAllow) {
+  const Scene s = test::sphere(test::satin_gold(), under_soft_sky());
+  const auto look = std::move(looks_of(s)[0]);
+  PlannedForms forms;
+  forms.by_material = {look.exact()};
+  EXPECT_TRUE(verify(s, forms, 1, 2048).holds());
+  (*forms.by_material[0])[Effect::environment] = 0;
+  EXPECT_FALSE(verify(s, forms, 1, 2048).holds());
+}
+
 }  // namespace
 }  // namespace gonio::scene

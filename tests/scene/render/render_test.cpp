@@ -188,5 +188,18 @@ TEST(Render, TellsHowMuchIsDone) {
   EXPECT_EQ(last, 15);
 }
 
+TEST(Render, LooksTheEnvironmentUpInPlaceOfItsDirections) {
+  Scene s = lit(white, {EnvironmentLight{"", 2, {2, 1, {{1, 1, 1}, {1, 1, 1}}, 0}}});
+  std::get<Camera>(s.view).fov_deg = 1e-3;
+  const Look look = std::move(looks_of(s)[0]);
+  Forms forms = look.exact();
+  forms[Effect::environment] = 0;
+  const Rgb drawn =
+      render(s, std::array{Shown(look, look.exact())}, {1, 1, 1 << 12, 1}).radiance[0];
+  const Rgb looked_up = render(s, std::array{Shown(look, forms)}, {1, 1, 1, 1}).radiance[0];
+  EXPECT_NEAR(looked_up[0], drawn[0], 5e-3 * drawn[0]);
+  EXPECT_NEAR(looked_up[0], 2, 1e-6);
+}
+
 }  // namespace
 }  // namespace gonio::scene
