@@ -177,9 +177,15 @@ void Look::read_spectrum(const Material& m) {
   fresnel_.spectrum = spectral(*find_metal(named->second.word));
   fresnel_.band_average = band_averages(*fresnel_.spectrum);
   const SpectralReflectance<double> f(*fresnel_.spectrum);
-  const auto at_normal = f(1), at_edge = f(f82_cosine);
+  auto at_normal = f(1);
+  const auto at_edge = f(f82_cosine);
+  // Gold's red is 1.04.  Within the gamut, half way between keeping the brightness and keeping the
+  // hue is nearest: ΔE2000 0.75.
+  const double most = std::ranges::max(at_normal);
+  if (most > 1)
+    for (double& x : at_normal) x /= std::sqrt(most);
   for (std::size_t c = 0; c < channels; ++c) {
-    fresnel_.f0[c] = std::clamp(at_normal[c], 0.0, 1.0);  // gold's red is above 1
+    fresnel_.f0[c] = std::clamp(at_normal[c], 0.0, 1.0);
     fresnel_.f82_tint[c] = edge_tint(fresnel_.f0[c], at_edge[c]);
   }
 }

@@ -49,9 +49,13 @@ TEST(Plan, TurnsExactFresnelOnWithARimLight) {
 }
 
 TEST(Plan, KeepsWhatAMaterialNeeds) {
-  EXPECT_EQ(kept(planned(test::satin_gold(), test::front())),
-            (Names{"fresnel", "compensation", "masking", "spectrum"}))
-      << "no F0 within the gamut is gold's";
+  Tolerance tight, loose;  // no F0 within the gamut is nearer to gold's than 0.75
+  tight.limit = 0.5;
+  loose.limit = 1.5;
+  EXPECT_EQ(kept(planned(test::satin_gold(), test::front(), tight)),
+            (Names{"fresnel", "compensation", "masking", "spectrum"}));
+  EXPECT_EQ(kept(planned(test::satin_gold(), test::front(), loose)),
+            (Names{"compensation", "masking"}));
   EXPECT_EQ(kept(planned(test::chalk(), test::front())), (Names{"diffuse", "coupling"}));
   EXPECT_EQ(kept(planned(test::car_paint(), test::front())), (Names{"coat", "diffuse"}));
   const auto metal = planned(test::brushed_aluminium(), test::front());
