@@ -6,6 +6,8 @@
 
 #include "scene/description/gltf_example.h"
 #include "scene/description/scene_example.h"
+#include "scene/plan/document.h"
+#include "scene/plan/scenes.h"
 #include "table/example.h"
 #include "table/foreign.h"
 #include "table/format/formats.h"
@@ -82,5 +84,9 @@ int main(int argc, char** argv) {
   save("gltf", "text", square.dump());
   save("gltf", "binary", scene::test::glb(square, scene::test::square_bytes()));
   save("scene", "whole", scene::test::example().dump());
+  const auto lit = scene::test::sphere(scene::test::car_paint(), scene::test::front());
+  save(
+      "plan", "whole",
+      to_json(plan_scene(lit, {.samples = 256, .fresh = 16'384, .cost = scene::Cost::operations})));
   return 0;
 }

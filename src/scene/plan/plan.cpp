@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "scene/plan/bounds.h"
 #include "scene/plan/budget.h"
+#include "scene/plan/combinations.h"
 #include "scene/plan/confidence.h"
 #include "scene/plan/cost.h"
 #include "scene/plan/half.h"
@@ -30,11 +31,6 @@ constexpr double least_spread = 0.03;
 constexpr double reserve = 0.9;
 /// Part of the limit that a proved bound may take without being measured.
 constexpr double proved_share = 0.1;
-
-constexpr std::array<Effect, effect_count> all_effects{
-    Effect::fresnel,  Effect::compensation, Effect::masking,  Effect::anisotropy,
-    Effect::coat,     Effect::tail,         Effect::diffuse,  Effect::coupling,
-    Effect::spectrum, Effect::environment,  Effect::precision};
 
 /// Key of a set by what it computes: what is not there has no form.
 using Key = std::tuple<std::string, std::size_t, bool, bool, bool>;
@@ -120,12 +116,13 @@ class MaterialPlanner {
   void screen() {
     screen_environment();
     std::vector<Surface> dropped;
-    for (const Effect e : all_effects) {
+    for (std::size_t i = 0; i < effect_count; ++i) {
+      const auto e = static_cast<Effect>(i);
       const auto& offer = look_.offer(e);
       dropped.push_back(with(e, offer.forms.front()));
       PlannedEffect planned;
       planned.effect = e;
-      auto& left = left_[static_cast<std::size_t>(e)];
+      auto& left = left_[i];
       if (offer.same_as_exact == offer.forms.front()) {
         planned.why = Why::structural;
         planned.reason = offer.why;
@@ -158,35 +155,14 @@ class MaterialPlanner {
     return scene_.tolerance.metric == Metric::relative ? *change : delta_e_bound(*change);
   }
 
-  /// Combinations of the forms that are left; where these are too many, the effect that saves the least time is left exact.
   void make_candidates() {
-    const auto count = [&] {
-      std::size_t n = 1;
-      for (const auto& forms : left_) n *= forms.size();
-      return n;
-    };
-    while (count() > most_candidates) {
-      std::size_t least = effect_count;
-      for (std::size_t e = 0; e < effect_count; ++e)
-        if (left_[e].size() > 1 &&
-            (least == effect_count || effects_[e].ns_saved < effects_[least].ns_saved))
-          least = e;
-      // Forms between the cheapest and the exact one go first.
-      auto& forms = left_[least];
-      const auto most = std::ranges::max_element(left_, {}, [](const auto& f) { return f.size(); });
-      if (most->size() > 2)
-        most->erase(most->end() - 2);
-      else
-        forms = {forms.back()};
-    }
+    std::array<double, effect_count> ns_saved;
+    std::ranges::transform(effects_, ns_saved.begin(), &PlannedEffect::ns_saved);
+    thin_out(left_, ns_saved, most_candidates);
     std::set<Key> known;
-    for (std::size_t i = 0, n = count(); i < n; ++i) {
+    for (const Forms& forms : combinations(left_)) {
       Candidate c;
-      std::size_t rest = i;
-      for (std::size_t e = 0; e < effect_count; ++e) {
-        c.forms.form[e] = left_[e][rest % left_[e].size()];
-        rest /= left_[e].size();
-      }
+      c.forms = forms;
       if (!c.forms.keeps(Effect::diffuse) && look_.offer(Effect::diffuse).forms.front() == 0)
         c.forms[Effect::coupling] = 0;
       if (c.forms.name(Effect::fresnel) != "exact") c.forms[Effect::spectrum] = 0;
@@ -316,7 +292,7 @@ class MaterialPlanner {
   Forms start_;    ///< exact, but for an environment that may be looked up
   ReachedAngles reached_{{1, 0}};
   std::vector<PlannedEffect> effects_;
-  std::array<std::vector<std::size_t>, effect_count> left_;
+  FormsLeft left_;
   std::vector<Candidate> candidates_;
   std::vector<Surface> surfaces_;
   double ns_exact_ = 0;
