@@ -6,12 +6,30 @@
 #include <numbers>
 
 namespace gonio {
+namespace {
+
+bool has_value(double v) {
+  return std::isfinite(v) && v >= 0;
+}
+
+}  // namespace
+
+GridCell GridCell::valid_in(const std::vector<Values>& channels) const {
+  GridCell kept;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = sample[k];
+    if (!std::ranges::all_of(channels, [i](const Values& v) { return has_value(v[i]); })) continue;
+    kept.sample[kept.count] = i;
+    kept.part[kept.count++] = part[k];
+  }
+  return kept;
+}
 
 double GridCell::mean_of(const Values& values) const {
   double sum = 0, weight = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const double v = values[sample[k]];
-    if (!(std::isfinite(v) && v >= 0)) continue;
+    if (!has_value(v)) continue;
     sum += part[k] * v;
     weight += part[k];
   }

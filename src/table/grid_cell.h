@@ -14,6 +14,8 @@ struct GridCell {
   std::array<double, 8> part;
   std::size_t count = 0;  ///< of those above the horizon; none outside the grid by more than a bin
 
+  /// Those whose values all of these channels have.
+  GridCell valid_in(const std::vector<Values>& channels) const;
   /// Mean of a channel's valid values; NaN where they carry half of the weight or less.
   double mean_of(const Values&) const;
 };

@@ -6,12 +6,11 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
-#include <unordered_map>
-#include <unordered_set>
 
 #include "base/error.h"
 #include "base/quantile.h"
 #include "table/format/formats.h"
+#include "table/nearest_sample.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,14 +22,6 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kChunk = 4096;
 
-DirectionPair swapped(const DirectionPair& p) {
-  return {p.wo, p.wi};
-}
-DirectionPair mirrored(DirectionPair p) {
-  p.wi.y = -p.wi.y;
-  p.wo.y = -p.wo.y;
-  return p;
-}
 bool above_horizon(const DirectionPair& p) {
   return p.wi.z > horizon_cosine && p.wo.z > horizon_cosine;
 }
@@ -189,14 +180,6 @@ void resample(const Table& from, Table& to, Loss& loss) {
   f.tell(loss);
 }
 
-/// Turned so that the light is at azimuth 0: all layouts are of isotropic surfaces.
-DirectionPair turned(const DirectionPair& p) {
-  const double r = std::hypot(p.wi.x, p.wi.y);
-  if (r == 0) return p;
-  const double c = p.wi.x / r, s = p.wi.y / r;
-  return {{r, 0, p.wi.z}, {p.wo.x * c + p.wo.y * s, p.wo.y * c - p.wo.x * s, p.wo.z}};
-}
-
 /// The bin that a direction pair falls in.
 std::optional<std::size_t> bin_of(const Grid& g, const DirectionPair& p, double reach) {
   std::array<double, 3> angle;
@@ -222,55 +205,6 @@ std::optional<std::size_t> bin_of(const Grid& g, const DirectionPair& p, double 
   return bin;
 }
 
-/// Finds the sample nearest to a direction pair, within reach in wi and in wo.
-class Nearest {
- public:
-  explicit Nearest(double reach) : reach_(2 * std::sin(reach / 2)), size_(std::max(reach_, 1e-3)) {}
-
-  void add(const DirectionPair& p, std::size_t sample) {
-    const auto q = turned(p);
-    // One in a quarter of a cell: dense samples have bins of their own, the rest need not see all.
-    if (taken_.insert(key(cell_of(q, size_ / 4))).second)
-      cells_[key(cell_of(q, size_))].push_back({q, sample});
-  }
-  std::optional<std::size_t> operator()(const DirectionPair& p) const {
-    const auto q = turned(p);
-    const auto home = cell_of(q, size_);
-    double best = std::numeric_limits<double>::max();
-    std::optional<std::size_t> found;
-    for (int k = 0; k < 81; ++k) {
-      const auto cell = cells_.find(key({home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1,
-                                         home[2] + k / 9 % 3 - 1, home[3] + k / 27 - 1}));
-      if (cell == cells_.end()) continue;
-      for (const auto& [at, sample] : cell->second) {
-        const double in = squared(at.wi, q.wi), out = squared(at.wo, q.wo);
-        if (std::max(in, out) > reach_ * reach_ || in + out >= best) continue;
-        best = in + out;
-        found = sample;
-      }
-    }
-    return found;
-  }
-
- private:
-  using Cell = std::array<std::int64_t, 4>;
-  static double squared(const Direction& a, const Direction& b) {
-    return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z);
-  }
-  static Cell cell_of(const DirectionPair& q, double size) {
-    const auto index = [&](double x) { return static_cast<std::int64_t>(std::floor(x / size)); };
-    return {index(q.wi.x), index(q.wo.x), index(q.wo.y), index(q.wo.z)};
-  }
-  static std::uint64_t key(const Cell& c) {
-    std::uint64_t all = 0;
-    for (const auto i : c) all = (all << 16U) | (static_cast<std::uint64_t>(i) & 0xffffU);
-    return all;
-  }
-  double reach_, size_;  ///< as chords; of a cell
-  std::unordered_set<std::uint64_t> taken_;
-  std::unordered_map<std::uint64_t, std::vector<std::pair<DirectionPair, std::size_t>>> cells_;
-};
-
 void gather(const Table& from, Table& to, double reach_deg, Loss& loss) {
   loss.method = Loss::Method::gathered;
   const Grid& grid = *to.grid();
@@ -279,7 +213,7 @@ void gather(const Table& from, Table& to, double reach_deg, Loss& loss) {
   const std::size_t channels = to.values.size();
   std::vector<char> seen(to.size(), 0);
   std::vector<std::vector<std::uint32_t>> counts(channels, std::vector<std::uint32_t>(to.size()));
-  Nearest nearest(reach);
+  NearestSample nearest(reach);
   for (std::size_t i = 0; i < from.size(); ++i) {
     const auto p = source.directions(i);
     if (!above_horizon(p)) continue;
