@@ -87,14 +87,6 @@ std::optional<Thumbnail> thumbnail(const Table& table, const BoundModel& fitted)
   return t;
 }
 
-std::array<double, 3> rgb(const std::vector<std::string>& channels, std::span<const double> f) {
-  if (channels == std::vector<std::string>{"r", "g", "b"}) return {f[0], f[1], f[2]};
-  double sum = 0;
-  for (const double v : f) sum += v;
-  const double mean = sum / static_cast<double>(f.size());
-  return {mean, mean, mean};
-}
-
 /// Goal as close as the picture and its four digits show.
 constexpr Goal seen{.error = 1e-4, .evaluations = 100'000};
 
@@ -136,7 +128,7 @@ std::string sphere(const std::vector<std::string>& channels, const BoundModel& f
     for (std::size_t c = 0; c < shown.size(); ++c)
       shown[c] = sky * interpolated(under_sky, c, x[i].nov) +
                  sun * std::numbers::pi * f[c][i] * std::max(x[i].nol, 0.0);
-    for (const double v : rgb(channels, shown))
+    for (const double v : colour_of_channels(channels, shown))
       bytes += inside[i] ? static_cast<char>(srgb_byte(v)) : '\0';
   }
   return bytes;

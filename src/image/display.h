@@ -2,6 +2,11 @@
 /// \file
 /// Radiance as a display shows it: exposed, and clipped to what it can show.
 
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "image/colour_difference.h"
 #include "image/environment.h"
 
@@ -11,7 +16,14 @@ namespace gonio {
 Rgb displayed(const Rgb& radiance, double exposure);
 /// Byte of one of its channels [IEC 61966-2-1]; of what is no number 255.
 unsigned char srgb_byte(double linear);
+/// Those bytes of a radiance, exposed and clipped.
+std::array<unsigned char, 3> displayed_bytes(const Rgb& radiance, double exposure);
 /// Colour of linear sRGB under D65, beside the display's white, {1, 1, 1}.
 Lab lab_of_display(const Rgb&);
+/// ΔE2000 between two radiances as a display shows them; infinite where either is no number.
+double displayed_difference(const Rgb& radiance, const Rgb& reference, double exposure);
+
+/// Colour of values by channel: those of r, g, b themselves, of other channels the grey of their mean.
+Rgb colour_of_channels(const std::vector<std::string>& channels, std::span<const double> values);
 
 }  // namespace gonio

@@ -1,5 +1,7 @@
 #include "image/display.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace gonio {
@@ -37,6 +39,22 @@ TEST(Display, HasTheColoursOfItsPrimaries) {
   expect({1, 0, 0}, {53.24, 80.09, 67.20});
   expect({0, 1, 0}, {87.73, -86.18, 83.18});
   expect({0, 0, 1}, {32.30, 79.19, -107.86});
+}
+
+TEST(Display, SeesNoDifferenceBeyondItsWhite) {
+  EXPECT_EQ(displayed_difference({7, 7, 7}, {2, 3, 4}, 1), 0);
+  EXPECT_NEAR(displayed_difference({0, 0, 0}, {1, 1, 1}, 1), 100, 1e-3);
+  EXPECT_NEAR(displayed_difference({0, 0, 0}, {1, 1, 1}, 2), 100, 1e-3);
+  EXPECT_GT(displayed_difference({0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}, 2),
+            displayed_difference({0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}, 0.01));
+  EXPECT_TRUE(std::isinf(displayed_difference({std::nan(""), 0, 0}, {0, 0, 0}, 1)));
+}
+
+TEST(Display, ShowsChannelsThatAreNoColoursAsTheGreyOfTheirMean) {
+  const std::array values{0.1, 0.2, 0.6};
+  EXPECT_EQ(colour_of_channels({"r", "g", "b"}, values), (Rgb{0.1, 0.2, 0.6}));
+  for (const double v : colour_of_channels({"351", "532", "633"}, values)) EXPECT_DOUBLE_EQ(v, 0.3);
+  EXPECT_EQ(colour_of_channels({"f"}, std::span(values).first(1)), (Rgb{0.1, 0.1, 0.1}));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/quantile.h"
-#include "image/colour_difference.h"
 #include "image/display.h"
 #include "scene/plan/confidence.h"
 
@@ -29,12 +28,8 @@ std::vector<double> differences(Metric metric,
                                 std::span<const Rgb> radiance) {
   std::vector<double> all(reference.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (metric == Metric::relative) {
-      all[i] = relative(reference[i], radiance[i]);
-    } else {
-      const Rgb a = displayed(reference[i], exposure), b = displayed(radiance[i], exposure);
-      all[i] = a == b ? 0 : delta_e_2000(lab_of_display(a), lab_of_display(b));
-    }
+    all[i] = metric == Metric::relative ? relative(reference[i], radiance[i])
+                                        : displayed_difference(radiance[i], reference[i], exposure);
     if (std::isnan(all[i])) all[i] = std::numeric_limits<double>::infinity();
   }
   return all;
