@@ -236,6 +236,28 @@ function between_colors(list, t) {
 const diverging = () => ["low-2", "low-1", "zero", "high-1", "high-2"].map(color);
 const sequential = () => ["zero", "rms-1", "rms-2"].map(color);
 
+/// Colour of a difference: one course below what is hardly seen, another from there to the greatest.
+function difference_color(x, { limit, max }) {
+  const list = x <= limit ? ["zero", "rms-1"] : ["high-1", "high-2"];
+  return between_colors(list.map(color), x <= limit ? x / limit : (x - limit) / (max - limit));
+}
+/// A square picture of differences, a byte a pixel in base64: \param scale  {steps to 1, limit, max, not_covered: the byte of pixels
+/// that have none, if there are such}.  255 is beside the picture.
+function difference_picture(bytes, pixels, scale, text) {
+  const canvas = el("canvas", { class: "sphere", width: pixels, height: pixels, role: "img", "aria-label": text });
+  const parts = Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0)), beside = 255, greys = [136, 184];
+  const draw = () => {
+    const g = canvas.getContext("2d"), image = g.createImageData(pixels, pixels);
+    const colours = Array.from({ length: beside }, (_, part) => difference_color(part / scale.steps, scale).match(/\d+/g).map(Number));
+    const stripes = (i) => Array(3).fill(greys[((i % pixels) + Math.floor(i / pixels)) % 8 < 4 ? 0 : 1]);
+    parts.forEach((part, i) => { if (part !== beside) image.data.set([...(part === scale.not_covered ? stripes(i) : colours[part]), 255], 4 * i); });
+    g.putImageData(image, 0, 0);
+  };
+  draw();
+  when_colors_change(draw);
+  return canvas;
+}
+
 /// An axis of a map over angles: {edges [°], …how it is drawn}.  theta_h grows as its square root: the peak is seen.
 function map_axis(name, edges) {
   const root = name === "theta_h";

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "image/lit_sphere.h"
+
 #include <fmt/format.h>
 
 namespace gonio::scenes {
@@ -84,12 +86,12 @@ Environment sky_and_sun() {
   return map;
 }
 
-std::vector<Light> directional(const std::array<Vector, 3>& towards) {
+std::vector<Light> directional(const SphereLight& light) {
   constexpr double irradiance = 0.6 * std::numbers::pi;
   std::vector<Light> all;
-  for (const auto& v : towards)
-    all.emplace_back(DirectionalLight{DirectionalLight::Fixed{direction(v)},
-                                      {irradiance, irradiance, irradiance}});
+  for (const auto& d : light.towards)
+    all.emplace_back(
+        DirectionalLight{DirectionalLight::Fixed{d}, {irradiance, irradiance, irradiance}});
   return all;
 }
 
@@ -97,15 +99,9 @@ struct NamedLight {
   std::string_view name;
   std::vector<Light> (*make)();
 };
-constexpr std::array lights{
-    NamedLight{"front light",
-               [] {
-                 return directional({{{0.5, 0.6, 0.62}, {-0.7, 0.2, 0.69}, {0.1, -0.5, 0.86}}});
-               }},
-    NamedLight{"rim light",
-               [] {
-                 return directional({{{0.9, 0.3, -0.3}, {-0.95, 0.1, -0.2}, {0.5, 0.6, 0.62}}});
-               }},
+const std::array lights{
+    NamedLight{sphere_lights()[0].name, [] { return directional(sphere_lights()[0]); }},
+    NamedLight{sphere_lights()[1].name, [] { return directional(sphere_lights()[1]); }},
     NamedLight{"sky and sun", [] {
                  return std::vector<Light>{EnvironmentLight{"sky and sun", 1, sky_and_sun()}};
                }}};

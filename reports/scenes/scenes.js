@@ -21,29 +21,11 @@ function plans() {
 }
 
 // --- Pictures ----------------------------------------------------------------------------------------------------------
-const bytes_of = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-const beside = 255, per_byte = 50;
-/// Colour of a difference: one course below the limit, another above it.
-function difference_color(x) {
-  const list = x <= limit ? ["zero", "rms-1"] : ["high-1", "high-2"];
-  return between_colors(list.map(color), x <= limit ? x / limit : (x - limit) / (max - limit));
-}
-function difference_picture(p, text) {
-  const canvas = el("canvas", { class: "sphere", width: p.pixels, height: p.pixels, role: "img", "aria-label": text }), parts = bytes_of(p.difference);
-  const draw = () => {
-    const g = canvas.getContext("2d"), image = g.createImageData(p.pixels, p.pixels);
-    parts.forEach((part, i) => { if (part !== beside) image.data.set([...difference_color(part / per_byte).match(/\d+/g).map(Number), 255], 4 * i); });
-    g.putImageData(image, 0, 0);
-  };
-  draw();
-  when_colors_change(draw);
-  return canvas;
-}
 function triple(p) {
   const of = `${p.material} under ${p.light}`;
   const shown = (png, how) => el("img", { class: "sphere", width: p.pixels, height: p.pixels, src: `data:image/png;base64,${png}`, alt: `${of}, ${how}` });
   return el("figure", {}, el("figcaption", {}, capital(p.light), el("span", {}, `, ΔE up to ${delta(p.worst)}`)),
-    el("div", { class: "sphere-row" }, shown(p.everything, "everything on"), shown(p.planned, "as planned"), difference_picture(p, `${of}, difference`)));
+    el("div", { class: "sphere-row" }, shown(p.everything, "everything on"), shown(p.planned, "as planned"), difference_picture(p.difference, p.pixels, { steps: 50, limit, max }, `${of}, difference`)));
 }
 function pictures() {
   const key = (name) => el("span", { class: "step", style: { background: `var(--${name})` } });

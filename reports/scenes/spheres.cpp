@@ -18,10 +18,8 @@ using namespace scene;
 /// PNG of what a display shows, in base64.
 std::string shown(const Picture& p, double exposure) {
   PngImage image{p.width, p.height, {}, {}};
-  for (const auto& radiance : p.radiance) {
-    const Rgb c = displayed(radiance, exposure);
-    image.pixels.push_back({srgb_byte(c[0]), srgb_byte(c[1]), srgb_byte(c[2])});
-  }
+  for (const auto& radiance : p.radiance)
+    image.pixels.push_back(displayed_bytes(radiance, exposure));
   return base64(png_bytes(image));
 }
 

@@ -38,6 +38,50 @@ struct Description<ResidualMap> {
   }
 };
 
+template <>
+struct Description<ModelSphere> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("picture", "", &ModelSphere::picture, "PNG in base64"),
+        field("difference", "", &ModelSphere::difference,
+              "a byte a pixel in base64: 25 ΔE2000, 253 more, 254 not covered, 255 beside the "
+              "sphere"),
+        field("median", "", &ModelSphere::median, "of ΔE2000 from the table, pixels it covers"),
+        field("p95", "", &ModelSphere::p95, "95th percentile of these"),
+        field("spacing_median", "", &ModelSphere::spacing_median,
+              "of ΔE2000 that the spacing of the table's samples alone makes"),
+        field("spacing_p95", "", &ModelSphere::spacing_p95, "95th percentile of these")};
+  }
+};
+static_assert(describes_every_member<ModelSphere>());
+
+template <>
+struct Description<SpheresUnderLight> {
+  static constexpr auto fields() {
+    using Light = SpheresUnderLight;
+    return std::tuple{
+        field("light", "", &Light::light, "front light, rim light or flash"),
+        field("covered", "", &Light::covered, "share of the lit pixels that the table covers"),
+        field("exposure", "sr", &Light::exposure,
+              "what radiance over irradiance is multiplied with"),
+        field("table", "", &Light::table, "PNG in base64; empty where too little is covered"),
+        field("models", "", &Light::models, "spheres of the models, likewise")};
+  }
+};
+static_assert(describes_every_member<SpheresUnderLight>());
+
+template <>
+struct Description<Spheres> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("pixels", "", &Spheres::pixels, "width and height of the pictures"),
+        field("models", "", &Spheres::models, "specs of the models"),
+        field("channels", "", &Spheres::channels, "those shown: in their colours, or as a grey"),
+        field("lights", "", &Spheres::lights, "the spheres by light")};
+  }
+};
+static_assert(describes_every_member<Spheres>());
+
 /// Document of a fit's page.
 struct FitPageDocument {
   Embedded<FitDocument> fit;
@@ -53,7 +97,9 @@ struct Description<FitPageDocument> {
         field("channels", "", at(&FitPageDocument::page, &FitPage::channels), ""),
         field("curves", "", at(&FitPageDocument::page, &FitPage::curves), "data against model"),
         field("residual_map", "", at(&FitPageDocument::page, &FitPage::residual_map),
-              "where the model is off")};
+              "where the model is off"),
+        field("spheres", "", at(&FitPageDocument::page, &FitPage::spheres),
+              "the same sphere, table and fit")};
   }
 };
 

@@ -361,6 +361,6 @@ document.getElementById("page").replaceChildren(
   el("p", { class: "over" }, "gonio fit"),
   el("h1", {}, `${fit.model} fitted to ${file_name}`),
   verdict(), ...[warnings(), next_steps()].filter(Boolean), facts(),
-  ...[parameters(), curve_section(), residuals(), albedo(), search(), confidence(), health_section(), solver(), input()].filter(Boolean),
+  ...[parameters(), curve_section(), spheres_section(page.spheres, "fit"), residuals(), albedo(), search(), confidence(), health_section(), solver(), input()].filter(Boolean),
   el("footer", {}, "f_r is in 1/sr, without the cosine. alpha is the width of the distribution, roughness = √alpha. ",
     "Every figure of this page is in its data block, and the fit's in fit.json. Plots drawn with uPlot, © Leon Sorokin, MIT licence."));

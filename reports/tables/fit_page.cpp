@@ -9,7 +9,8 @@
 namespace gonio {
 
 FitPage make_fit_page(const Table& table, const BoundModel& fitted) {
-  return {table.channels, make_cuts(table, fitted), make_residual_map(table, fitted)};
+  return {table.channels, make_cuts(table, fitted), make_residual_map(table, fitted),
+          make_spheres(table, {&fitted, 1})};
 }
 
 std::string to_json(const FitPage& page, std::string_view fit_json, std::string_view health_json) {
@@ -21,7 +22,8 @@ std::string fit_page_schema() {
 }
 
 std::string fit_page_html(std::string_view title, std::string_view data) {
-  return make_page(title, data, std::string(assets::table_js).append(assets::fit_js));
+  return make_page(title, data,
+                   std::string(assets::table_js).append(assets::spheres_js).append(assets::fit_js));
 }
 
 }  // namespace gonio

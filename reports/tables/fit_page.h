@@ -9,6 +9,7 @@
 
 #include "fitting/result/document.h"
 #include "reports/tables/residual_map.h"
+#include "reports/tables/spheres.h"
 #include "table/cut/cuts.h"
 
 namespace gonio {
@@ -18,11 +19,12 @@ struct FitPage {
   std::vector<std::string> channels;
   std::vector<Cut> curves;
   ResidualMap residual_map;
+  Spheres spheres;
 };
 
 FitPage make_fit_page(const Table&, const BoundModel& fitted);
 
-/// {"fit": …, "health": …, "channels", "curves", "residual_map"}: every figure of the page; what is
+/// {"fit": …, "health": …, "channels", "curves", "residual_map", "spheres"}: every figure of the page; what is
 /// not known is null.
 /// \param fit_json, health_json  the documents as JSON text
 std::string to_json(const FitPage&, std::string_view fit_json, std::string_view health_json);

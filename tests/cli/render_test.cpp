@@ -5,9 +5,8 @@
 #include "cli/program.h"
 #include "image/display.h"
 #include "image/exr.h"
+#include "png_pixels.h"
 #include "scene/description/scene_example.h"
-
-#include <png.h>
 
 namespace gonio::test {
 namespace {
@@ -58,17 +57,6 @@ TEST(RenderCommand, WritesAPngThatSaysHowItIsToned) {
   EXPECT_NE(read_bytes(f / "b.png"), bytes);
 }
 
-/// Pixels of a PNG, row by row.
-std::vector<std::array<unsigned char, 3>> png_pixels(const std::string& bytes) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  EXPECT_NE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()), 0);
-  image.format = PNG_FORMAT_RGB;
-  std::vector<std::array<unsigned char, 3>> pixels(std::size_t{image.width} * image.height);
-  EXPECT_NE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr), 0);
-  return pixels;
-}
-
 TEST(RenderCommand, LaysAPlanBesideAllEffects) {
   const SceneFolder f;
   ASSERT_EQ(gonio(f, "plan scene.json -o plan.json --samples 512 --cost operations --quiet").code,
@@ -85,7 +73,7 @@ TEST(RenderCommand, LaysAPlanBesideAllEffects) {
   EXPECT_EQ(gonio(f, words + "--plan plan.json -o a.png").code, 0);
   const auto bytes = read_bytes(f / "a.png");
   EXPECT_EQ(bytes.substr(16, 8), (std::string{0, 0, 0, 120, 0, 0, 0, 20}));  // three panels
-  const auto pixels = png_pixels(bytes);
+  const auto pixels = png_pixels(bytes).pixels;
   std::size_t red = 0, grey = 0;
   for (std::size_t y = 0; y < 20; ++y)
     for (std::size_t x = 0; x < 40; ++x) {

@@ -1,7 +1,8 @@
 #include "image/png.h"
 
+#include "png_pixels.h"
+
 #include <gtest/gtest.h>
-#include <png.h>
 
 namespace gonio {
 namespace {
@@ -15,15 +16,10 @@ TEST(Png, KeepsPixelsAndText) {
   EXPECT_NE(bytes.find(std::string("tEXtseed\0", 9) + '7'), bytes.npos);
   EXPECT_NE(bytes.find("sRGB"), bytes.npos);
 
-  png_image read{};
-  read.version = PNG_IMAGE_VERSION;
-  ASSERT_NE(png_image_begin_read_from_memory(&read, bytes.data(), bytes.size()), 0);
-  EXPECT_EQ(read.width, 3);
-  EXPECT_EQ(read.height, 2);
-  read.format = PNG_FORMAT_RGB;
-  std::vector<std::array<unsigned char, 3>> pixels(6);
-  ASSERT_NE(png_image_finish_read(&read, nullptr, pixels.data(), 0, nullptr), 0);
-  EXPECT_EQ(pixels, image.pixels);
+  const auto read = test::png_pixels(bytes);
+  EXPECT_EQ(read.width, 3U);
+  EXPECT_EQ(read.height, 2U);
+  EXPECT_EQ(read.pixels, image.pixels);
 }
 
 }  // namespace

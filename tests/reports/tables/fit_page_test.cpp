@@ -26,6 +26,9 @@ TEST(FitPage, DataHoldBothDocumentsAndTheFigures) {
   EXPECT_EQ(curve.at("data")[0].size(), curve.at("deg").size());
   EXPECT_EQ(curve.at("model")[2].size(), curve.at("deg").size());
   EXPECT_EQ(data.at("residual_map").at("mean").size(), page.residual_map.mean.size());
+  const json& light = data.at("spheres").at("lights")[0];
+  EXPECT_EQ(light.at("table"), page.spheres.lights[0].table);
+  EXPECT_EQ(light.at("models")[0].at("difference"), page.spheres.lights[0].models[0].difference);
 }
 
 TEST(FitPage, WhatIsNotKnownIsNull) {
