@@ -1,8 +1,8 @@
 // The same sphere as the table has it and as models have it, under three lights, and what is seen of the difference.
 
-const seen = { steps: 25, not_covered: 254, limit: 1, max: 10 };
+const sphere_scale = { steps: 25, not_covered: 254, limit: 1, max: 10 };
 const share_covered = (x) => (x < 1 && x > 0.995 ? "> 99\u202f%" : percent(x));
-const delta_e = (x) => (x < 0.005 ? "0" : significant(x, 2));
+const delta_e = (x) => (x < 0.005 ? "0" : x < 1 ? x.toFixed(2) : significant(x, 2));
 
 /// \param name  what the page calls a model: "fit", or where there are several null, for their own names
 function spheres_section(spheres, name) {
@@ -16,6 +16,7 @@ function spheres_section(spheres, name) {
       shown.map((l) => spheres_under(spheres, l, m, name ?? model)))),
     scroll(spheres_table(spheres, name)), el("p", { class: "small muted", style: { "margin-top": "12px" } }, spheres_how(spheres)));
   node.id = "spheres";
+  if (!name) node.classList.add("long");
   return node;
 }
 
@@ -28,20 +29,21 @@ function spheres_answer(shown, models, name) {
   const w = worst_of(best, "median"), most = of(w, best), tail = of(worst_of(best, "p95"), best).p95;
   const shares = [Math.min, Math.max].map((f) => percent(f(...shown.map((l) => l.covered))));
   const part = shown.every((l) => l.covered > 0.9) ? "" : ` The table covers ${shares[0] === shares[1] ? "" : `${shares[0]} to `}${shares[1]} of what light reaches.`;
-  const first = name ? "" : `Of ${many(models.length, "model")} `;
-  if (tail <= seen.limit) return capital(`${first}${who} looks like the table ${under}: 95 % of the pixels differ by less than ΔE2000 ${delta_e(Math.max(tail, 0.01))}.${part}`);
-  const looks = most.median <= seen.limit ? "looks almost like the table" : most.median <= 3 ? "can be told from the table" : "looks different from the table";
-  const half = `Under ${w.light}, where it differs most, half of the pixels are within ΔE2000 ${delta_e(most.median)} and 95 % within ${delta_e(most.p95)}.`;
-  const spacing = known(most.spacing_p95) && most.spacing_p95 > 0.5 * most.p95
-    ? ` Much of that is the spacing of the table's samples and not the ${name ?? "model"}: by it alone 95 % are within ${delta_e(most.spacing_p95)}.` : "";
-  return `${capital(first + who)} ${looks}. ${half}${spacing}${part}`;
+  const first = name ? "" : `of ${many(models.length, "model")} `, closest = name ? "" : " comes closest: it";
+  if (tail <= sphere_scale.limit) return capital(`${first}${who}${closest} looks like the table ${under}: 95\u202f% of the pixels differ by less than ΔE2000 ${delta_e(Math.max(tail, 0.01))}.${part}`);
+  const half = `Under ${w.light}${shown.length > 1 ? ", where it differs most," : ""} half of the pixels are within ΔE2000 ${delta_e(most.median)} and 95\u202f% within ${delta_e(most.p95)}.`;
+  const by_spacing = (key) => known(most["spacing_" + key]) && most["spacing_" + key] > 0.5 * most[key];
+  const spacing = by_spacing("p95") ? ` Much of that is the spacing of the table’s samples and not the ${name ?? "model"}: by it alone 95\u202f% are within ${delta_e(most.spacing_p95)}.` : "";
+  if (most.median > sphere_scale.limit && by_spacing("median")) return `The table’s samples lie too far apart to tell whether ${who} looks like it. ${half}${spacing}${part}`;
+  const looks = most.median <= sphere_scale.limit ? "looks almost like the table" : most.median <= 3 ? "can be told from the table" : "looks different from the table";
+  return `${capital(first + who)}${closest} ${looks}. ${half}${spacing}${part}`;
 }
 
 function spheres_keys(shown) {
   const key = (name) => el("span", { class: "step", style: { background: `var(--${name})` } });
   const hatched = shown.some((l) => l.covered < 1);
-  return el("p", { class: "small keys" }, el("span", {}, key("zero"), "no difference"), el("span", {}, key("rms-1"), `ΔE2000 ${seen.limit}, hardly seen`),
-    el("span", {}, key("high-1"), `above ${seen.limit}, seen side by side`), el("span", {}, key("high-2"), `${seen.max} or more`),
+  return el("p", { class: "small keys" }, el("span", {}, key("zero"), "no difference"), el("span", {}, key("rms-1"), `ΔE2000 ${sphere_scale.limit}, hardly seen`),
+    el("span", {}, key("high-1"), `above ${sphere_scale.limit}, seen side by side`), el("span", {}, key("high-2"), `${sphere_scale.max} or more`),
     hatched ? el("span", {}, el("span", { class: "step hatched" }), "the table has no value") : null);
 }
 
@@ -51,13 +53,13 @@ function spheres_under(spheres, l, m, name) {
   const picture = (png, of) => el("img", { class: "sphere", width: spheres.pixels, height: spheres.pixels, src: `data:image/png;base64,${png}`, alt: `Sphere under ${l.light}, ${of}` });
   return el("figure", {}, el("figcaption", {}, light, el("span", {}, `, half within ΔE ${delta_e(model.median)}`)),
     el("div", { class: "sphere-row" }, picture(l.table, "table"), picture(model.picture, name),
-      difference_picture(model.difference, spheres.pixels, seen, `Sphere under ${l.light}, difference between table and ${name}: half of the pixels within ΔE2000 ${delta_e(model.median)}`),
+      difference_picture(model.difference, spheres.pixels, sphere_scale, `Sphere under ${l.light}, difference between table and ${name}: half of the pixels within ΔE2000 ${delta_e(model.median)}`),
       el("small", {}, "table"), el("small", {}, name === "fit" ? name : "model"), el("small", {}, "difference")));
 }
 
 function spheres_table(spheres, name) {
   const spacing = spheres.lights.some((l) => l.models.some((m) => known(m.spacing_median)));
-  const head = ["light", ...(name ? [] : ["model"]), { n: "covered" }, { n: "ΔE2000, half below" }, { n: "95 % below" }, ...(spacing ? [{ n: "spacing alone, half" }, { n: "95 %" }] : [])];
+  const head = ["light", ...(name ? [] : ["model"]), { n: "covered" }, { n: "ΔE2000, half below" }, { n: "95\u202f% below" }, ...(spacing ? [{ n: "spacing alone, half" }, { n: "95\u202f%" }] : [])];
   const cells = (m) => [m?.median, m?.p95, ...(spacing ? [m?.spacing_median, m?.spacing_p95] : [])].map((x) => ({ n: known(x) ? delta_e(x) : "–" }));
   return table(head, spheres.lights.flatMap((l) => (l.table ? spheres.models.map((model, k) => [model, l.models[k]]) : [["–", null]])
     .map(([model, m]) => [l.light, ...(name ? [] : [el("code", {}, model)]), { n: share_covered(l.covered) }, ...cells(m)])));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -19,9 +20,9 @@ DirectionPair onto(const Grid& g, const DirectionPair& p) {
   if (g.kind == Grid::Kind::half_difference) {
     auto a = half_difference(p);
     if (one) {
-      const double away = std::abs(std::remainder(a.phi_d, std::numbers::pi));
+      const double phi = std::remainder(a.phi_d, std::numbers::pi);
       const double there = std::abs(std::remainder(last.angle(0, g.bins), std::numbers::pi));
-      a.phi_d += std::copysign(there - away, std::remainder(a.phi_d, std::numbers::pi));
+      a.phi_d += std::copysign(there, phi) - phi;
     }
     return directions({inside(0, a.theta_h), a.phi_h, inside(1, a.theta_d), a.phi_d});
   }
@@ -32,6 +33,13 @@ DirectionPair onto(const Grid& g, const DirectionPair& p) {
           direction(inside(1, theta_of(p.wo)), phi_i + std::copysign(to, phi))};
 }
 
+/// One of a pair and its mirror images, the light at azimuth 0.
+DirectionPair folded(const DirectionPair& p) {
+  DirectionPair q = turned(p);
+  q.wo.y = std::abs(q.wo.y);
+  return q;
+}
+
 }  // namespace
 
 Lookup::Lookup(const Table& t, double reach)
@@ -40,11 +48,7 @@ Lookup::Lookup(const Table& t, double reach)
   for (std::size_t i = 0; i < t.size(); ++i) {
     const auto p = at_.directions(i);
     const auto is_valid = [&](const Values& v) { return mask(angles(p), v[i]) == Mask::valid; };
-    if (!std::ranges::all_of(t.values, is_valid)) continue;
-    for (const auto& q : {p, swapped(p)}) {
-      nearest_.add(q, i);
-      nearest_.add(mirrored(q), i);
-    }
+    if (std::ranges::all_of(t.values, is_valid)) nearest_.add(folded(p), i);
   }
 }
 
@@ -64,11 +68,16 @@ GridCell Lookup::operator()(const DirectionPair& p) const {
     return cell.valid_in(table_.values);
   }
   GridCell one;
-  if (const auto sample = nearest_(p)) {
-    one.sample[0] = *sample;
-    one.part[0] = 1;
-    one.count = 1;
-  }
+  double best = std::numeric_limits<double>::max();
+  for (const auto& q : {folded(p), folded(swapped(p))})
+    if (const auto sample = nearest_(q)) {
+      const auto [in, out] = squared_chords(q, folded(at_.directions(*sample)));
+      if (in + out >= best) continue;
+      best = in + out;
+      one.sample[0] = *sample;
+      one.part[0] = 1;
+      one.count = 1;
+    }
   return one;
 }
 
