@@ -2,8 +2,6 @@
 /// \file
 /// What a table says at any pair of directions, or that it says nothing there.
 
-#include <vector>
-
 #include "table/grid_cell.h"
 #include "table/nearest_sample.h"
 #include "table/table.h"

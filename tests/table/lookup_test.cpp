@@ -92,6 +92,12 @@ TEST(Lookup, OfAListIsItsNearestSampleMirroredOrSwapped) {
   EXPECT_TRUE(std::isnan(value(t, pair(30, 50, 75))));
 }
 
+TEST(Lookup, OfAListTakesTheNearerOfBothWays) {
+  const Table t = listed({{30, 53.5}, {0, 0}, {50, 30}, {60, 60}});
+  EXPECT_EQ(value(t, pair(30, 50.5, 60)), t.values[0][0]);
+  EXPECT_EQ(value(t, pair(30, 53, 60)), t.values[0][1]);
+}
+
 TEST(Lookup, OfAListTakesNoSampleThatAChannelMasks) {
   Table t = listed({{30, 30}, {0, 0}, {50, 53}, {60, 60}});
   t.values[1][0] = -1;
