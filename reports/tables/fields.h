@@ -48,6 +48,7 @@ struct Description<ModelSphere> {
               "sphere"),
         field("median", "", &ModelSphere::median, "of ΔE2000 from the table, pixels it covers"),
         field("p95", "", &ModelSphere::p95, "95th percentile of these"),
+        field("itp_median", "", &ModelSphere::itp_median, "of ΔE_ITP, white at 203 cd/m²"),
         field("spacing_median", "", &ModelSphere::spacing_median,
               "of ΔE2000 that the spacing of the table's samples alone makes"),
         field("spacing_p95", "", &ModelSphere::spacing_p95, "95th percentile of these")};

@@ -158,10 +158,13 @@ std::string picture(const std::vector<Rgb>& radiance,
 std::vector<double> differences(const std::vector<Rgb>& reference,
                                 const std::vector<Rgb>& radiance,
                                 double exposure,
-                                const std::vector<std::size_t>& pixels) {
+                                const std::vector<std::size_t>& pixels,
+                                double (*difference)(const Rgb&,
+                                                     const Rgb&,
+                                                     double) = displayed_difference) {
   std::vector<double> all(pixels.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
-    all[k] = displayed_difference(radiance[pixels[k]], reference[pixels[k]], exposure);
+    all[k] = difference(radiance[pixels[k]], reference[pixels[k]], exposure);
   });
   return all;
 }
@@ -200,9 +203,12 @@ SpheresUnderLight Comparison::under(const SphereLight& light) const {
                   difference_bytes(sphere, covered, apart),
                   0,
                   0,
+                  0,
                   none,
                   none};
     m.median = median(apart);
+    auto in_light = differences(table, radiance, s.exposure, covered.pixels, difference_in_light);
+    m.itp_median = median(in_light);
     m.p95 = quantile(apart, 0.95);
     if (lookup_) {
       const auto seen = sphere.radiance(through_samples(cells, model));

@@ -17,6 +17,7 @@ struct ModelSphere {
   /// A byte a pixel in base64: difference_steps to ΔE2000 1, at most most_byte; or one of the two below.
   std::string difference;
   double median = 0, p95 = 0;  ///< ΔE2000 over the pixels compared
+  double itp_median = 0;       ///< ΔE_ITP over the same, white at 203 cd/m²
   /// The same between the model and what its values at the table's samples give by the table's lookup: what the
   /// samples' spacing alone makes.  NaN where the format defines f everywhere.
   double spacing_median = 0, spacing_p95 = 0;

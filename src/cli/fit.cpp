@@ -5,13 +5,18 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/error.h"
+#include "brdf/model/presets.h"
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "fitting/batch/batch.h"
 #include "fitting/batch/fit_file.h"
+#include "fitting/choice/document.h"
 #include "reports/tables/batch_page.h"
 #include "reports/tables/fit_page.h"
+#include "reports/tables/spheres.h"
+#include "table/format/formats.h"
 #include "table/health/health.h"
 
 #include <fmt/format.h>
@@ -23,7 +28,7 @@ struct Options : Common {
   std::vector<std::string> files;
   std::string metric = "log", intervals = "automatic", robust = "none", copies = "leave_out";
   std::string certificate = "auto", output, html;
-  std::vector<std::string> fix, bounds;
+  std::vector<std::string> fix, bounds, models;
   FitOptions fit;
   std::optional<std::string> bins;
   bool pages = false;
@@ -169,6 +174,88 @@ Exit run_batch(const Options& o, const HowFitted& how) {
   return result.outcome();
 }
 
+void print(const ModelChoice& choice, const Advice& advice) {
+  if (!advice.recommended.empty()) {
+    say_below("take    ", advice.recommended);
+    say_below("because ", advice.reason);
+    for (const auto& m : advice.as_good) say_below("as good ", m);
+    for (const auto& d : advice.disagreement) say_below("but     ", d);
+  }
+  const auto number = [](double x, const char* form) {
+    return std::isnan(x) ? std::string("–") : fmt::format(fmt::runtime(form), x);
+  };
+  say("\n{:>9} {:>9} {:>8} {:>6} {:>6} {:>6}  {}\n", "unseen", "log RMS", "BIC", "ΔE2000", "ns",
+      "free", "model");
+  for (const auto& r : choice.rows) {
+    say("{:>9} {:>9} {:>8} {:>6} {:>6} {:>6}  {}{}\n", number(r.cv_log_rms, "{:.4g}"),
+        number(r.log_rms, "{:.4g}"), number(r.bic, "{:.0f}"), number(r.delta_e_2000, "{:.2g}"),
+        number(r.ns, "{:.2g}"), r.compared ? fmt::to_string(r.parameters) : "–", r.model,
+        r.parameters_at_bound.empty()
+            ? ""
+            : fmt::format(", {} at a bound", fmt::join(r.parameters_at_bound, ", ")));
+    if (!r.note.empty()) say_below("          ", r.note);
+  }
+}
+
+/// Differences of a rendered sphere, where the table covers enough of it.
+void add_spheres(const Table& t, ModelChoice& choice) {
+  std::vector<BoundModel> models;
+  std::vector<ModelRow*> rows;
+  for (std::size_t k = 0; k < choice.rows.size(); ++k)
+    if (choice.rows[k].compared) {
+      models.push_back(choice.fits[k]);
+      rows.push_back(&choice.rows[k]);
+    }
+  const Spheres spheres = make_spheres(t, models);
+  const auto covered = [](const SpheresUnderLight& l) { return !l.models.empty(); };
+  const auto lights = std::ranges::count_if(spheres.lights, covered);
+  for (std::size_t k = 0; k < rows.size() && lights > 0; ++k) {
+    rows[k]->delta_e_2000 = rows[k]->delta_e_itp = 0;
+    for (const auto& l : spheres.lights)
+      if (covered(l)) {
+        rows[k]->delta_e_2000 += l.models[k].median / static_cast<double>(lights);
+        rows[k]->delta_e_itp += l.models[k].itp_median / static_cast<double>(lights);
+      }
+  }
+}
+
+/// Models compared on one table.
+Exit run_models(const Options& o, const FitOptions& options) {
+  if (is_batch(o.files)) throw wrong_usage("--models compares on one table");
+  if (o.pages || !o.html.empty()) throw wrong_usage("--models has no page: -o CHOICE.json");
+  std::vector<std::string> models = o.models;
+  if (models == std::vector<std::string>{"all"})
+    models.assign(usual_models().begin(), usual_models().end());
+  for (const auto& m : models) {  // a word that nobody knows is wrong usage, whatever the table
+    std::vector<Setting> none;
+    compose(resolve_preset(m, none), 1);
+  }
+  OutputFiles out(o.files, o.output, {});
+  Progress progress(o.quiet);
+  progress("reading " + o.files[0]);
+  TableAndDigest in(o.files[0], bins_from(o.bins));
+  ModelChoice choice =
+      compare_models(in.table, options, models, [&](const std::string& what, double part) {
+        progress(fmt::format("{} ({:.0f} %)", what, 100 * part));
+      });
+  add_spheres(in.table, choice);
+  in.finish();
+  const Advice advice = advise(choice);
+  if (advice.recommended.empty())
+    throw bad_input(o.files[0], "models", choice.rows[0].note,
+                    "a table that one of them can be fitted to");
+  const std::string json =
+      to_json(choice, advice, {o.files[0], in.table.sha256, in.table.format, o.metric});
+  out.write_document(json);
+  out.commit();
+  progress.clear();
+  if (o.json)
+    fmt::print("{}", json);
+  else
+    print(choice, advice);
+  return Exit::done;
+}
+
 Exit run(const Options& o) {
   use_jobs(o.jobs);
   FitOptions options = o.fit;
@@ -180,6 +267,7 @@ Exit run(const Options& o) {
   options.fixed = parse_settings(o.fix);
   options.bounds = parse_settings(o.bounds);
 
+  if (!o.models.empty()) return run_models(o, options);
   const auto bins = bins_from(o.bins);
   if (is_batch(o.files)) return run_batch(o, {options, bins});
   if (o.pages) throw wrong_usage("--pages is of many tables; the page of one is --html PAGE.html");
@@ -218,6 +306,11 @@ void add_fit(CommandLine& line) {
            "folder, or @LIST with a path on each line")
       .required();
   c.option("--model", o->fit.model, "Model; all its parameters are fitted").show_default();
+  c.option("--models", o->models,
+           "Models to compare in place of one fit: A,B,C, or all for the usual ones. Says which to "
+           "take, by the incident "
+           "angles that each fit had not seen")
+      .delimiter(',');
   c.option("--fix", o->fix, "Parameters held at a value: NAME=VALUE …").at_most(64);
   c.option("--bounds", o->bounds, "Where a parameter is looked for: NAME=LOW,HIGH …").at_most(64);
   c.option("--grey", o->fit.grey, "Colour parameters with one value for all channels: NAME …")

@@ -1,5 +1,6 @@
 #include "image/colour_difference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -62,6 +63,43 @@ double delta_e_2000(const Lab& x, const Lab& y) {
   const double dc = (cy - cx) / (1 + 0.045 * c);
   const double dhue = 2 * std::sqrt(cx * cy) * std::sin(dh / 2) / (1 + 0.015 * c * t);
   return std::sqrt(dl * dl + dc * dc + dhue * dhue + turned * dc * dhue);
+}
+
+namespace {
+
+using Triple = std::array<double, 3>;
+Triple product(const std::array<Triple, 3>& rows, const Triple& v) {
+  Triple out{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) out[i] += rows[i][k] * v[k];
+  return out;
+}
+
+/// Signal of the perceptual quantiser, the inverse of the display's curve [BT.2100-2, table 4].
+double quantised(double light) {
+  constexpr double m1 = 2610.0 / 16384, m2 = 2523.0 / 4096 * 128, c1 = 3424.0 / 4096,
+                   c2 = 2413.0 / 4096 * 32, c3 = 2392.0 / 4096 * 32, most = 10'000;
+  const double y = std::pow(std::clamp(light / most, 0.0, 1.0), m1);
+  return std::pow((c1 + c2 * y) / (1 + c3 * y), m2);
+}
+
+}  // namespace
+
+Itp itp(const std::array<double, 3>& rgb) {
+  constexpr std::array<Triple, 3> to_2020{Triple{0.6274, 0.3293, 0.0433},  // BT.2087-0
+                                          Triple{0.0691, 0.9195, 0.0114},
+                                          Triple{0.0164, 0.0880, 0.8956}};
+  constexpr std::array<Triple, 3> to_lms{Triple{1688, 2146, 262}, Triple{683, 2951, 462},
+                                         Triple{99, 309, 3688}};
+  Triple cones = product(to_lms, product(to_2020, rgb));
+  for (double& v : cones) v = quantised(v / 4096);
+  const auto [l, m, s] = cones;
+  return {(l + m) / 2, (6610 * l - 13613 * m + 7003 * s) / 4096 / 2,
+          (17933 * l - 17390 * m - 543 * s) / 4096};
+}
+
+double delta_e_itp(const Itp& a, const Itp& b) {
+  return 720 * std::hypot(a.i - b.i, a.t - b.t, a.p - b.p);
 }
 
 }  // namespace gonio

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Difference between two colours as seen: CIELAB and CIEDE2000.
+/// Difference between two colours as seen: CIELAB and CIEDE2000, and ΔE_ITP for more light than a display's white.
 
 #include <array>
 
@@ -16,5 +16,16 @@ Lab lab(const std::array<double, 3>& xyz, const std::array<double, 3>& white);
 /// ΔE₀₀ with k_L = k_C = k_H = 1; 1 is about what is just seen side by side.
 ///                                    [CIE 142-2001; Sharma, Wu and Dalal 2005, Eq. 2 to 22]
 double delta_e_2000(const Lab&, const Lab&);
+
+/// Light's intensity I, and its difference from yellow to blue T and from green to red P, each by what the eye tells apart over
+/// five decades [ITU-R BT.2100-2, IC_T C_P; BT.2124-0: T = C_T/2].
+struct Itp {
+  double i, t, p;
+};
+/// \param rgb  linear light with BT.709's primaries [cd/m²]; negative is dark, 10 000 the most
+Itp itp(const std::array<double, 3>& rgb);
+
+/// ΔE_ITP = 720 √(ΔI² + ΔT² + ΔP²); 1 is about what is just seen.                   [ITU-R BT.2124-0]
+double delta_e_itp(const Itp&, const Itp&);
 
 }  // namespace gonio

@@ -37,6 +37,16 @@ double displayed_difference(const Rgb& radiance, const Rgb& reference, double ex
   return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
 }
 
+double difference_in_light(const Rgb& radiance, const Rgb& reference, double exposure) {
+  constexpr double white = 203;
+  const auto of = [&](Rgb c) {
+    for (double& v : c) v *= white * exposure;
+    return itp(c);
+  };
+  const double d = delta_e_itp(of(radiance), of(reference));
+  return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
+}
+
 Rgb colour_of_channels(const std::vector<std::string>& channels, std::span<const double> values) {
   if (channels == std::vector<std::string>{"r", "g", "b"}) return {values[0], values[1], values[2]};
   const double mean =

@@ -23,6 +23,9 @@ Lab lab_of_display(const Rgb&);
 /// ΔE2000 between two radiances as a display shows them; infinite where either is no number.
 double displayed_difference(const Rgb& radiance, const Rgb& reference, double exposure);
 
+/// ΔE_ITP between two radiances, exposed and not clipped, white at 203 cd/m² [ITU-R BT.2408]; infinite where either is no number.
+double difference_in_light(const Rgb& radiance, const Rgb& reference, double exposure);
+
 /// Colour of values by channel: those of r, g, b themselves, of other channels the grey of their mean.
 Rgb colour_of_channels(const std::vector<std::string>& channels, std::span<const double> values);
 

@@ -5,6 +5,7 @@
 
 #include "cli/program.h"
 #include "fitting/batch/batch_document.h"
+#include "fitting/choice/document.h"
 #include "refusal.h"
 #include "reports/tables/fit_page.h"
 #include "reports/tables/inspect_page.h"
@@ -45,6 +46,7 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
                                    {"scene", scene::scene_schema()},
                                    {"plan", scene::plan_schema()},
                                    {"verification", scene::verification_schema()},
+                                   {"models", models_schema()},
                                    {"fit.page", fit_page_schema()},
                                    {"inspect.page", inspect_page_schema()}}) {
     if (write) std::ofstream(path_of(name), std::ios::binary) << text;

@@ -74,5 +74,28 @@ TEST(Lab, HasNoJumpWhereTheCubeRootBegins) {
   EXPECT_NEAR(above.l, 8, 1e-8);
 }
 
+TEST(Itp, OfGreyHasNoColourAndThePublishedSignal) {
+  const auto white = itp({203, 203, 203});
+  EXPECT_NEAR(white.i, 0.5807, 1e-4) << "BT.2408: 203 cd/m² are 58 % of the signal";
+  for (const double light : {0.0, 0.1, 100.0, 10'000.0}) {
+    const auto grey = itp({light, light, light});
+    EXPECT_NEAR(grey.t, 0, 1e-6);
+    EXPECT_NEAR(grey.p, 0, 1e-6);
+  }
+  EXPECT_NEAR(itp({10'000, 10'000, 10'000}).i, 1, 1e-12);
+  EXPECT_LT(itp({0, 0, 0}).i, 1e-6);
+}
+
+TEST(Itp, TellsHuesAndLightsBeyondADisplaysWhite) {
+  EXPECT_LT(itp({203, 180, 20}).t, 0) << "yellow";
+  EXPECT_GT(itp({20, 20, 203}).t, 0) << "blue";
+  EXPECT_GT(itp({203, 20, 20}).p, 0) << "red";
+  EXPECT_LT(itp({20, 203, 20}).p, 0) << "green";
+  const auto of = [](double light) { return itp({light, light, light}); };
+  // One step of 720 in the signal is about 1 % of the light there.
+  EXPECT_NEAR(delta_e_itp(of(203), of(203 * 1.01)), 0.72, 0.2);
+  EXPECT_GT(delta_e_itp(of(2000), of(3000)), 20);
+}
+
 }  // namespace
 }  // namespace gonio

@@ -1,0 +1,242 @@
+#include "fitting/choice/choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "base/error.h"
+#include "brdf/model/evaluate.h"
+#include "fitting/choice/cross_validation.h"
+#include "fitting/fit.h"
+#include "fitting/solve/problem.h"
+#include "timing/timing.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+/// Samples that a model is timed over.
+constexpr std::size_t timed_samples = 4096;
+/// Groups of samples that residuals are summed over.
+constexpr std::size_t most_groups = 1 << 17;
+
+/// Free values of a fit.
+std::size_t free_values(const FitDocument& d) {
+  std::size_t n = 0;
+  for (const auto& p : d.parameters) {
+    if (p.name.starts_with("roughness")) continue;  // alpha's other name
+    n += static_cast<std::size_t>(
+        std::ranges::count_if(p.status, [](auto s) { return s != ParameterStatus::fixed; }));
+  }
+  return n;
+}
+std::vector<std::string> at_bound(const FitDocument& d) {
+  std::vector<std::string> names;
+  for (const auto& p : d.parameters)
+    if (!p.name.starts_with("roughness") &&
+        std::ranges::find(p.status, ParameterStatus::at_bound) != p.status.end())
+      names.push_back(p.name);
+  return names;
+}
+
+std::vector<double> times_of(const Table& t, std::span<const BoundModel> models) {
+  const std::size_t n = std::min(t.size(), timed_samples);
+  const std::size_t step = t.size() / n;
+  const SampleAngles at(t);
+  auto x = std::make_shared<AngleColumns<float>>(n, true);
+  for (std::size_t i = 0; i < n; ++i) x->set(i, at.frame(i * step));
+  std::vector<Timed> all;
+  for (const auto& b : models) {
+    struct State {
+      Evaluator<float> evaluate;
+      std::vector<Column<float>> f;
+      std::vector<float*> out;
+    };
+    auto s = std::make_shared<State>(State{Evaluator<float>(b.model), {}, {}});
+    const std::vector<float> values(b.values.begin(), b.values.end());
+    s->evaluate.set(values);
+    for (std::size_t c = 0; c < b.model.channels; ++c)
+      s->out.push_back(s->f.emplace_back(Column<float>(x->padded())).data());
+    all.push_back({n, [s, x] { s->evaluate(x->block(), s->out); }});
+  }
+  TimingOptions options;
+  options.of_thread = true;
+  std::vector<double> ns;
+  for (const auto& t : time_all(all, options)) ns.push_back(t.ns);
+  return ns;
+}
+
+/// Mean squares of a model on blocks less those of another: their mean, and the standard error of it.
+struct Behind {
+  double mean, error;
+};
+Behind behind(const std::vector<LogResiduals>& a, const std::vector<LogResiduals>& best) {
+  std::vector<double> d;
+  for (std::size_t b = 0; b < a.size(); ++b)
+    if (a[b].values > 0) d.push_back((a[b].squares - best[b].squares) / a[b].values);
+  const auto n = static_cast<double>(d.size());
+  double mean = 0, squares = 0;
+  for (const double x : d) mean += x / n;
+  for (const double x : d) squares += (x - mean) * (x - mean);
+  return {mean, std::sqrt(squares / (n * std::max(n - 1, 1.0)))};
+}
+
+template <class Of>
+const ModelRow* least(const std::vector<ModelRow>& rows, Of of) {
+  const ModelRow* best = nullptr;
+  for (const auto& r : rows)
+    if (!std::isnan(of(r)) && (!best || of(r) < of(*best))) best = &r;
+  return best;
+}
+
+}  // namespace
+
+std::span<const std::string_view> usual_models() {
+  static constexpr std::array<std::string_view, 11> all{
+      "lambert",
+      "lambert+ggx/smith_ggx.correlated/schlick",
+      "lambert+ggx/smith_ggx.correlated/schlick.f90",
+      "lambert+beckmann/smith_beckmann.correlated/schlick",
+      "lambert+gtr/smith_ggx.correlated/schlick",
+      "lambert.coupled+ggx/smith_ggx.correlated/dielectric",
+      "disney.coupled+ggx/smith_ggx.correlated/dielectric",
+      "ggx/smith_ggx.correlated/schlick",
+      "ggx/smith_ggx.correlated/conductor",
+      "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick",
+      "lambert+ggx/smith_ggx.correlated/schlick.weighted+ggx/smith_ggx.correlated/"
+      "schlick.weighted"};
+  return all;
+}
+
+ModelChoice compare_models(const Table& t,
+                           const FitOptions& options,
+                           std::span<const std::string> models,
+                           const std::function<void(const std::string&, double)>& progress) {
+  ModelChoice choice;
+  std::vector<std::vector<LogResiduals>> left_out(models.size());
+  std::vector<ResidualsByAngle> residuals(models.size());
+  std::optional<Blocks> blocks;
+  const auto share = [&](double steps) { return steps / (2 * static_cast<double>(models.size())); };
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    ModelRow row;
+    row.model = models[k];
+    choice.fits.emplace_back();
+    try {
+      FitOptions o = options;
+      o.model = models[k];
+      if (progress) progress("fitting " + row.model, share(2.0 * static_cast<double>(k)));
+      FitResult fitted = fit(t, o);
+      const FitDocument& d = fitted.document;
+      row.compared = true;
+      row.converged = d.solver.termination == "converged";
+      if (!row.converged) row.note = "the fit did not converge";
+      row.parameters = free_values(d);
+      row.parameters_at_bound = at_bound(d);
+      if (progress)
+        progress("leaving out angles of " + row.model, share(2.0 * static_cast<double>(k) + 1));
+      const FitOptions whole = expanded(o);
+      const Problem p = pose(t, whole);
+      const Sampling by_log(t, t.bins(), Metric::log, p.offset, false, o.copies);
+      residuals[k] = log_residuals(by_log, fitted.model, most_groups);
+      row.log_rms = total(residuals[k]).rms();
+      if (!blocks) blocks = incident_blocks(by_log);
+      left_out[k] = cross_validate(t, whole, *blocks, fitted.model);
+      if (blocks->count > 0) {
+        LogResiduals unseen;
+        for (const auto& b : left_out[k]) unseen.add(b);
+        row.cv_log_rms = unseen.rms();
+      }
+      choice.fits.back() = std::move(fitted.model);
+    } catch (const Error& e) {
+      row = {};
+      row.model = models[k];
+      row.note = e.what();
+    }
+    choice.rows.push_back(std::move(row));
+  }
+  choice.blocks = blocks ? blocks->count : 0;
+  auto& rows = choice.rows;
+  const ModelRow* nearest = least(rows, [](const auto& r) { return r.log_rms; });
+  if (!nearest) return choice;
+  const auto index = [&](const ModelRow* r) { return static_cast<std::size_t>(r - rows.data()); };
+  choice.effective_values = effective_values(residuals[index(nearest)]);
+  const ModelRow* best = least(rows, [](const auto& r) { return r.cv_log_rms; });
+  std::vector<BoundModel> timed;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    auto& r = rows[k];
+    if (!r.compared) continue;
+    timed.push_back(choice.fits[k]);
+    const double n = choice.effective_values, p = static_cast<double>(r.parameters);
+    const double fit_of = 2 * n * std::log(r.log_rms);
+    r.aic = fit_of + 2 * p;
+    r.bic = fit_of + p * std::log(n);
+    if (!best) continue;
+    const auto b = behind(left_out[k], left_out[index(best)]);
+    r.cv_behind = b.mean > 0 ? b.mean / b.error : 0;
+  }
+  const auto ns = times_of(t, timed);
+  std::size_t next = 0;
+  for (auto& r : rows)
+    if (r.compared) r.ns = ns[next++];
+  return choice;
+}
+
+Advice advise(const ModelChoice& choice) {
+  constexpr double errors = 2, seen = 0.05, same = 0.001;
+  Advice a;
+  const auto& rows = choice.rows;
+  const auto cv = [](const ModelRow& r) { return r.cv_log_rms; };
+  const auto bic = [](const ModelRow& r) { return r.bic; };
+  const ModelRow* best = least(rows, cv);
+  const bool predicted = best != nullptr;
+  if (!predicted) best = least(rows, bic);
+  if (!best) return a;
+  const auto judge = [&](const ModelRow& r) { return predicted ? cv(r) : bic(r); };
+  const auto as_good = [&](const ModelRow& r) {
+    if (std::isnan(judge(r))) return false;
+    if (!predicted) return r.bic <= best->bic + 2;
+    const double more = r.cv_log_rms / best->cv_log_rms - 1;
+    return more <= same || (more <= seen && r.cv_behind <= errors);
+  };
+  const ModelRow* take = best;
+  for (const auto& r : rows)
+    if (as_good(r) && r.converged &&
+        std::pair(r.parameters, judge(r)) < std::pair(take->parameters, judge(*take)))
+      take = &r;
+  a.recommended = take->model;
+  for (const auto& r : rows)
+    if (&r != take && as_good(r)) a.as_good.push_back(r.model);
+  if (!predicted)
+    a.reason = fmt::format(
+        "The table has too few incident angles to leave some out, so BIC decides: it is least for "
+        "{}.",
+        take->model);
+  else if (take == best)
+    a.reason = fmt::format(
+        "On incident angles that it had not seen, {} is nearest to the table: its log RMS there is "
+        "{:.3g}.",
+        take->model, take->cv_log_rms);
+  else
+    a.reason = fmt::format(
+        "{} has the fewest parameters of the {} that the table cannot tell apart: its log RMS on "
+        "unseen incident angles is "
+        "{:.3g}, and the least {:.3g}.",
+        take->model, a.as_good.size() + 1, take->cv_log_rms, best->cv_log_rms);
+  const auto disagrees = [&](const char* judge_name, auto of, double by) {
+    const ModelRow* other = least(rows, of);
+    if (!other || other == take || std::isnan(of(*take)) || of(*take) <= of(*other) + by) return;
+    if (std::ranges::find(a.as_good, other->model) != a.as_good.end()) return;
+    a.disagreement.push_back(
+        fmt::format("{} prefers {}: {:.3g}, and {:.3g} of the one that is recommended.", judge_name,
+                    other->model, of(*other), of(*take)));
+  };
+  if (predicted) disagrees("BIC", bic, 2);
+  disagrees(
+      "The colour of a rendered sphere (ΔE_ITP)", [](const auto& r) { return r.delta_e_itp; }, 0.5);
+  return a;
+}
+
+}  // namespace gonio

@@ -1,0 +1,76 @@
+#pragma once
+/// \file
+/// Choice among models for one table: what each leaves, on angles that it was not fitted to, and which to take.
+
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "brdf/model/model.h"
+#include "fitting/result/document.h"
+#include "fitting/solve/options.h"
+#include "table/table.h"
+
+namespace gonio {
+
+/// One model beside the others.
+struct ModelRow {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  std::string model;
+  std::string note;       ///< why it cannot be compared, or what to beware of; else empty
+  bool compared = false;  ///< false: all figures are unknown
+  bool converged = false;
+  std::size_t parameters = 0;  ///< free ones, each channel's counted
+  double log_rms = unknown;
+  double cv_log_rms = unknown;  ///< of incident angles that the fit had not seen
+  /// By how much its mean square on these is above the least of all, in standard errors over the blocks.
+  double cv_behind = unknown;
+  double aic = unknown, bic = unknown;
+  double delta_e_2000 = unknown,
+         delta_e_itp = unknown;  ///< of a rendered sphere; the caller's to fill in
+  double ns = unknown;           ///< of one sample in all channels
+  std::vector<std::string> parameters_at_bound;
+};
+
+struct ModelChoice {
+  std::vector<ModelRow> rows;    ///< in the order asked
+  std::vector<BoundModel> fits;  ///< of each row; empty models where there is none
+  /// Values that would say as much if each were independent: what AIC and BIC count.
+  double effective_values = ModelRow::unknown;
+  std::size_t blocks = 0;  ///< of incident angles
+};
+
+/// Models that are compared where `all` is asked for.
+std::span<const std::string_view> usual_models();
+
+/// Fits of each model, judged side by side:
+///
+///   cv_log_rms   log RMS over blocks of incident angles, each predicted by a fit of the others
+///   aic          n ln(RMS²) + 2 p,   bic   n ln(RMS²) + p ln n,   with n effective_values and p parameters
+///
+/// n is the number of values over their design effect 1 + (m − 1) ρ, m values an incident angle, ρ the correlation of the residuals
+/// within one: of the model that leaves least.                                              [Kish 1965]
+///
+/// A model that this table cannot be fitted with stays among the rows, with the reason.
+/// \param progress  is told what is done and the share of all
+ModelChoice compare_models(const Table&,
+                           const FitOptions&,
+                           std::span<const std::string> models,
+                           const std::function<void(const std::string&, double)>& progress = {});
+
+/// Recommendation, and why.
+struct Advice {
+  std::string recommended;                ///< model; empty where none could be compared
+  std::string reason;                     ///< one sentence
+  std::vector<std::string> as_good;       ///< models that the table cannot tell from it
+  std::vector<std::string> disagreement;  ///< sentences: what other judges prefer
+};
+
+/// The least parameters among the models that cannot be told from the one that predicts best: at most 5 % more log RMS on unseen angles
+/// and at most two standard errors over the blocks, or 0.1 % more.  Among as many parameters the one that predicts best.  Without blocks BIC decides.
+Advice advise(const ModelChoice&);
+
+}  // namespace gonio

@@ -1,0 +1,68 @@
+#include "fitting/choice/log_residuals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "brdf/model/evaluate.h"
+#include "fitting/sample/incident_angles.h"
+
+namespace gonio {
+
+double LogResiduals::rms() const {
+  return std::sqrt(squares / values);
+}
+
+ResidualsByAngle log_residuals(const Sampling& s, const BoundModel& model, std::size_t most) {
+  const IncidentKeys keys(s);
+  ResidualsByAngle all;
+  Evaluator<double> evaluate(model.model);
+  evaluate.set(model.values);
+  constexpr std::size_t block = BlockReader<double>::block;
+  std::vector<Column<double>> f;
+  std::vector<double*> out;
+  for (std::size_t c = 0; c < s.channels(); ++c)
+    out.push_back(f.emplace_back(Column<double>(block)).data());
+  const std::size_t members = s.groups().widest();
+  const Tasks tasks(s, most, block);
+  for (std::size_t k = 0; k < tasks.count; ++k) {
+    BlockReader<double> in(s, tasks.first(k), tasks.last(k), tasks.step);
+    while (in.next()) {
+      evaluate(in.angles(), out);
+      for (std::size_t m = 0; m < members; ++m)
+        for (std::size_t c = 0; c < s.channels(); ++c) {
+          const auto& data = in.values(m, c);
+          for (std::size_t i = 0; i < in.size(); ++i) {
+            if (!(data.weight[i] > 0)) continue;
+            const double r = std::log(out[c][i] + s.offset()) - data.target[i];
+            if (std::isfinite(r)) all[keys(in.sample(m)[i], in.nol(m)[i])].add({1, r, r * r});
+          }
+        }
+    }
+  }
+  return all;
+}
+
+LogResiduals total(const ResidualsByAngle& angles) {
+  LogResiduals all;
+  for (const auto& [key, a] : angles) all.add(a);
+  return all;
+}
+
+double effective_values(const ResidualsByAngle& angles) {
+  const LogResiduals all = total(angles);
+  double squared_sizes = 0, between_squares = 0;
+  for (const auto& [key, a] : angles) {
+    squared_sizes += a.values * a.values;
+    between_squares += a.sum * a.sum / a.values;
+  }
+  const auto k = static_cast<double>(angles.size());
+  if (k < 2 || all.values <= k) return all.values;
+  const double between = (between_squares - all.sum * all.sum / all.values) / (k - 1);
+  const double within = (all.squares - between_squares) / (all.values - k);
+  const double m = (all.values - squared_sizes / all.values) / (k - 1);
+  const double variance = between + (m - 1) * within;
+  const double rho = variance > 0 ? std::clamp((between - within) / variance, 0.0, 1.0) : 0;
+  return std::max(k, all.values / (1 + (m - 1) * rho));
+}
+
+}  // namespace gonio

@@ -1,0 +1,57 @@
+// gonio fit --models as a person at a terminal sees it.
+#include "cli/program.h"
+
+namespace gonio::test {
+namespace {
+
+constexpr const char* two =
+    "lambert+ggx/smith_ggx.correlated/schlick,lambert+gtr/smith_ggx.correlated/schlick";
+
+void make_table(const Folder& f) {
+  ASSERT_EQ(
+      gonio(f,
+            "synth lambert+gtr/smith_ggx.correlated/schlick --set alpha=0.2 gamma=1.3 f0=0.05 "
+            "kd=0.3 --layout hemisphere --noise 0.02 -o t.csv")
+          .code,
+      0);
+}
+
+TEST(Models, SaysFirstWhichToTakeAndWhy) {
+  const Folder f;
+  make_table(f);
+  const auto o = gonio(f, std::string("fit t.csv --models ") + two + " -o c.json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_TRUE(o.out.starts_with("take    lambert+gtr/smith_ggx.correlated/schlick\nbecause "))
+      << o.out;
+  const auto document = gonio(f, std::string("fit t.csv --json --models ") + two).json();
+  EXPECT_EQ(document["schema"], "gonio.models/1");
+  EXPECT_EQ(document["recommended"], "lambert+gtr/smith_ggx.correlated/schlick");
+  const auto& rows = document["models"];
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_GT(rows[0]["cv_log_rms"], rows[1]["cv_log_rms"]);
+  EXPECT_GT(rows[0]["bic"], rows[1]["bic"]);
+  EXPECT_GT(rows[0]["delta_e_2000"], rows[1]["delta_e_2000"]);
+  EXPECT_GT(rows[0]["delta_e_itp"], rows[1]["delta_e_itp"]);
+  EXPECT_GT(rows[0]["ns"], 0);
+}
+
+TEST(Models, OfAllAreTheUsualOnesAndEachStaysInTheTable) {
+  const Folder f;
+  make_table(f);
+  const auto rows = gonio(f, "fit t.csv --json --models all").json()["models"];
+  EXPECT_GT(rows.size(), 8U);
+  for (const auto& r : rows) EXPECT_TRUE(r.contains("cv_log_rms") || r.contains("note")) << r;
+}
+
+TEST(Models, AreOfOneTableAndHaveNoPage) {
+  const Folder f;
+  make_table(f);
+  EXPECT_EQ(gonio(f, std::string("fit t.csv t.csv --models ") + two).code, 2);
+  EXPECT_EQ(gonio(f, std::string("fit t.csv --html p.html --models ") + two).code, 2);
+  const auto none = gonio(f, "fit t.csv --models no_such_model -o c.json");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("no_such_model"), std::string::npos) << none.err;
+}
+
+}  // namespace
+}  // namespace gonio::test

@@ -1,0 +1,90 @@
+#include "fitting/choice/cross_validation.h"
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "data_synth/synth.h"
+#include "fitting/fit.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+BoundModel paint() {
+  return bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                    parse_settings(std::vector<std::string>{"alpha=0.2", "f0=0.05", "kd=0.3"}), 1);
+}
+Table table_of(Layout layout) {
+  BoundModel model = paint();
+  if (layout == Layout::merl)
+    model =
+        bind_model(model.model.spec,
+                   parse_settings(std::vector<std::string>{"alpha=0.2", "f0=0.05", "kd=0.3"}), 3);
+  SynthOptions s;
+  s.layout = layout;
+  return synthesize(model, s);
+}
+Sampling by_log(const Table& t) {
+  return {t, t.bins(), Metric::log, 0, false};
+}
+
+TEST(IncidentBlocks, KeepNeighboursTogether) {
+  const Table t = table_of(Layout::mbsdf);
+  const Blocks b = incident_blocks(by_log(t), 4);
+  ASSERT_EQ(b.count, 4U);
+  EXPECT_TRUE(b.of_exchanged.empty());
+  const SampleAngles at(t);
+  std::map<double, std::set<std::uint16_t>> of_angle;
+  for (std::size_t i = 0; i < t.size(); ++i) of_angle[at.theta_i(i)].insert(b.of_sample[i]);
+  std::uint16_t last = 0;
+  std::set<std::uint16_t> met;
+  for (const auto& [theta, blocks] : of_angle) {
+    ASSERT_EQ(blocks.size(), 1U);
+    EXPECT_GE(*blocks.begin(), last);
+    last = *blocks.begin();
+    met.insert(last);
+  }
+  EXPECT_EQ(met.size(), 4U);
+}
+
+TEST(IncidentBlocks, KnowTheSampleWithLightAndViewerExchanged) {
+  const Table t = table_of(Layout::merl);
+  const Sampling s = by_log(t);
+  const Blocks b = incident_blocks(s);
+  ASSERT_EQ(b.of_exchanged.size(), t.size());
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < t.size(); i += 997) {
+    const auto a = s.angles()(i);
+    if (std::abs(a.nol - a.nov) < 1e-9) {
+      EXPECT_EQ(b.of_sample[i], b.of_exchanged[i]);
+    }
+    apart += b.of_sample[i] != b.of_exchanged[i];
+  }
+  EXPECT_GT(apart, 0U);
+}
+
+TEST(CrossValidation, PredictsAngleByAngleWhatTheRightModelHas) {
+  const Table t = table_of(Layout::mbsdf);
+  FitOptions o;
+  o.model = paint().model.spec;
+  const auto blocks = incident_blocks(by_log(t));
+  const auto right = cross_validate(t, o, blocks, paint());
+  ASSERT_EQ(right.size(), blocks.count);
+  for (const auto& b : right) {
+    EXPECT_GT(b.values, 500);
+    EXPECT_LT(b.rms(), 1e-6);
+  }
+  // Without its lobe it fits worst the angles at which that is brightest.
+  o.model = "lambert";
+  const auto wrong = cross_validate(
+      t, o, blocks, bind_model("lambert", parse_settings(std::vector<std::string>{"kd=0.3"}), 1));
+  LogResiduals all;
+  for (const auto& b : wrong) all.add(b);
+  const FitResult whole = fit(t, o);
+  EXPECT_GT(all.rms(), total(log_residuals(by_log(t), whole.model)).rms());
+}
+
+}  // namespace
+}  // namespace gonio
