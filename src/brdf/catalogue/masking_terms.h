@@ -35,6 +35,7 @@ using MaskingTerms = TermList<SmithGgxSeparable,
                               Neumann,
                               Kelemen,
                               Implicit,
-                              Unmasked>;
+                              Unmasked,
+                              SmithGgxAnisoSeparable>;
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -92,8 +92,46 @@ struct SmithGgxCorrelated {
   }
 };
 
-/// Smith for the anisotropic GGX, correlated:  c √(1 + α_x² tan²θ cos²φ + α_y² tan²θ sin²φ) is the
-/// length of (α_x XoV, α_y YoV, NoV).
+/// Root of the anisotropic GGX:  c √(1 + α_x² tan²θ cos²φ + α_y² tan²θ sin²φ), which is the length of
+/// (α_x x, α_y y, c), smith_scale times.                                       [Heitz 2014, section 5.4]
+template <Real T>
+struct SmithAnisoRoot {
+  using P = plain_t<T>;
+  T x2, y2;
+
+  explicit SmithAnisoRoot(std::span<const T, 2> p)
+      : x2(square(p[0] * smith_scale)), y2(square(p[1] * smith_scale)) {}
+
+  T operator()(const P& x, const P& y, const P& c) const {
+    return sqrt(x2 * x * x + y2 * y * y + square(c * smith_scale));
+  }
+};
+
+/// Smith for the anisotropic GGX, light and view independent.
+///
+///   V = 1 / ((NoL + |(α_x XoL, α_y YoL, NoL)|) (NoV + |(α_x XoV, α_y YoV, NoV)|))
+///                                                     [Heitz 2014, section 5.4; Walter 2007, Eq. 34]
+template <Real T>
+struct SmithGgxAnisoSeparable {
+  static constexpr About about{"masking.smith_ggx_aniso.separable",
+                               "Smith for anisotropic GGX, separable",
+                               "G2 = G1(l) G1(v), G1(v) = 2 NoV / (NoV + |(αx XoV, αy YoV, NoV)|)",
+                               "Walter et al. 2007, Eq. 34; Heitz 2014, section 5.4",
+                               "",
+                               "Disney (since 2017), Mitsuba"};
+  static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
+  static constexpr bool anisotropic = true;
+
+  SmithAnisoRoot<T> root;
+
+  explicit SmithGgxAnisoSeparable(std::span<const T, 2> p) : root(p) {}
+
+  Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
+    return smith_separable<T>(a, root(a.xol, a.yol, a.nol), root(a.xov, a.yov, a.nov));
+  }
+};
+
+/// Smith for the anisotropic GGX, correlated.
 ///
 ///   V = 1 / (2 (NoL |(α_x XoV, α_y YoV, NoV)| + NoV |(α_x XoL, α_y YoL, NoL)|))
 ///                                                                 [Heitz 2014, sections 5.4 and 6.2]
@@ -109,19 +147,12 @@ struct SmithGgxAnisoCorrelated {
   static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
   static constexpr bool anisotropic = true;
 
-  T x2, y2;
+  SmithAnisoRoot<T> root;
 
-  explicit SmithGgxAnisoCorrelated(std::span<const T, 2> p)
-      : x2(square(p[0] * smith_scale)), y2(square(p[1] * smith_scale)) {}
+  explicit SmithGgxAnisoCorrelated(std::span<const T, 2> p) : root(p) {}
 
   Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
-    return smith_correlated<T>(a, length(a.xol, a.yol, a.nol), length(a.xov, a.yov, a.nov));
-  }
-
- private:
-  using P = plain_t<T>;
-  T length(const P& x, const P& y, const P& z) const {
-    return sqrt(x2 * x * x + y2 * y * y + square(z * smith_scale));
+    return smith_correlated<T>(a, root(a.xol, a.yol, a.nol), root(a.xov, a.yov, a.nov));
   }
 };
 
@@ -136,19 +167,19 @@ T beckmann_c_lambda(const plain_t<T>& c, const T& w) {
   return w * ierfc<T>(c / max<T>(w, T(c * constant<plain_t<T>>(0x1p-6L)))) / 2;
 }
 
-/// Factor by which what is multiplied for Beckmann's V is larger than what it stands for.
-inline constexpr int beckmann_scale = 16;
+/// Factor by which what is multiplied for a V of c Λ is larger than what it stands for.
+inline constexpr int lambda_scale = 16;
 
 /// V light and view independent, of c + c Λ at l and v.
 template <Real T>
-Quotient<T> beckmann_separable(const T& l, const T& v) {
-  return {T(beckmann_scale * beckmann_scale / 4), (l * beckmann_scale) * (v * beckmann_scale)};
+Quotient<T> lambda_separable(const T& l, const T& v) {
+  return {T(lambda_scale * lambda_scale / 4), (l * lambda_scale) * (v * lambda_scale)};
 }
 /// V correlated through the height of the facet, of c Λ at l and v.
 template <Real T>
-Quotient<T> beckmann_correlated(const Angles<plain_t<T>>& a, const T& l, const T& v) {
-  const auto nol = a.nol * beckmann_scale, nov = a.nov * beckmann_scale;
-  return {T(beckmann_scale / 4), nov * l + nol * v + nol * a.nov};
+Quotient<T> lambda_correlated(const Angles<plain_t<T>>& a, const T& l, const T& v) {
+  const auto nol = a.nol * lambda_scale, nov = a.nov * lambda_scale;
+  return {T(lambda_scale / 4), nov * l + nol * v + nol * a.nov};
 }
 
 /// sin θ of a direction by its cosine.
@@ -173,7 +204,7 @@ struct SmithBeckmannSeparable {
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
     const T l = beckmann_c_lambda<T>(a.nol, alpha * sine_of(a.nol)) + a.nol;
     const T v = beckmann_c_lambda<T>(a.nov, alpha * sine_of(a.nov)) + a.nov;
-    return beckmann_separable<T>(l, v);
+    return lambda_separable<T>(l, v);
   }
 };
 
@@ -192,8 +223,8 @@ struct SmithBeckmannCorrelated {
   explicit SmithBeckmannCorrelated(std::span<const T, 1> p) : alpha(p[0]) {}
 
   Quotient<T> operator()(const Angles<plain_t<T>>& a) const {
-    return beckmann_correlated<T>(a, beckmann_c_lambda<T>(a.nol, alpha * sine_of(a.nol)),
-                                  beckmann_c_lambda<T>(a.nov, alpha * sine_of(a.nov)));
+    return lambda_correlated<T>(a, beckmann_c_lambda<T>(a.nol, alpha * sine_of(a.nol)),
+                                beckmann_c_lambda<T>(a.nov, alpha * sine_of(a.nov)));
   }
 };
 
@@ -214,8 +245,8 @@ struct SmithBeckmannAnisoCorrelated {
       : x2(square(p[0] * smith_scale)), y2(square(p[1] * smith_scale)) {}
 
   Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
-    return beckmann_correlated<T>(a, beckmann_c_lambda<T>(a.nol, width(a.xol, a.yol)),
-                                  beckmann_c_lambda<T>(a.nov, width(a.xov, a.yov)));
+    return lambda_correlated<T>(a, beckmann_c_lambda<T>(a.nol, width(a.xol, a.yol)),
+                                beckmann_c_lambda<T>(a.nov, width(a.xov, a.yov)));
   }
 
  private:

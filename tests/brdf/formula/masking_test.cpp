@@ -42,6 +42,7 @@ constexpr double alphas[] = {1e-4, 1e-2, 0.1, 0.25, 0.5, 0.9, 1};
 /// Smith's and what stands for it with the same monotony: G₁ from 0 at the horizon to 1 at the normal.
 constexpr std::string_view smithlike[] = {"masking.smith_ggx.separable",
                                           "masking.smith_ggx.correlated",
+                                          "masking.smith_ggx_aniso.separable",
                                           "masking.smith_ggx_aniso.correlated",
                                           "masking.smith_beckmann.separable",
                                           "masking.smith_beckmann.correlated",
@@ -180,7 +181,8 @@ TEST(SmithBeckmannRational, IsWithinItsAuthorsBoundAndJumps) {
 
 TEST(AnisotropicSmith, IsTheIsotropicOneOfTheWidthAlongTheDirection) {
   for (const auto& [id, isotropic] :
-       {std::pair{"masking.smith_ggx_aniso.correlated", "masking.smith_ggx.correlated"},
+       {std::pair{"masking.smith_ggx_aniso.separable", "masking.smith_ggx.separable"},
+        {"masking.smith_ggx_aniso.correlated", "masking.smith_ggx.correlated"},
         {"masking.smith_beckmann_aniso.correlated", "masking.smith_beckmann.correlated"}}) {
     const auto aniso = find_term(id), iso = find_term(isotropic);
     for (const double azimuth : {0.0, 0.6, pi / 2, 2.5})
@@ -389,7 +391,8 @@ double visible_area(std::size_t ndf,
 TEST(AnisotropicSmith, LeavesAsMuchFacetAreaAsTheSurfaceShows) {
   const auto outer = gauss_legendre(160), inner = gauss_legendre(96);
   for (const auto& [masking, ndf] :
-       {std::pair{"masking.smith_ggx_aniso.correlated", "ndf.ggx_aniso"},
+       {std::pair{"masking.smith_ggx_aniso.separable", "ndf.ggx_aniso"},
+        {"masking.smith_ggx_aniso.correlated", "ndf.ggx_aniso"},
         {"masking.smith_beckmann_aniso.correlated", "ndf.beckmann_aniso"}})
     for (const auto& p : {test::Parameters{0.2, 0.5}, {0.6, 0.3}, {0.4, 0.4}})
       for (const double nov : {0.1, 0.4, 0.8, 1.0})
