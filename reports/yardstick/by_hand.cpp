@@ -186,7 +186,8 @@ void filament(const Block<F>& x, const F* p, F* const* out) {
 }
 
 /// Values: kd, alpha, alpha_x, alpha_y, f0, alpha_2, f0_2, weight_2.
-template <class F>
+/// \param own_widths  masked by alpha_x and alpha_y, not by the remapped roughness
+template <class F, bool own_widths>
 void disney(const Block<F>& x, const F* p, F* const* out) {
   using B = Lane<F>;
   const Colours<F> colours(p, p + 6);
@@ -194,6 +195,7 @@ void disney(const Block<F>& x, const F* p, F* const* out) {
   const Root<F> root(g), coat_root(F(0.25));
   const B two_r(2 * r), x2(1 / (p[4] * p[4])), y2(1 / (p[5] * p[5]));
   const B pi_xy(pi_of<F> * p[4] * p[5]), coat_less(coat2 - 1);
+  const B ax2(p[4] * p[4]), ay2(p[5] * p[5]);
   const B coat_num(p[13] * (coat2 - 1) / (pi_of<F> * std::log(coat2))), coat_f0(p[10]);
   each(x, [&](std::size_t i) {
     const B nol = load<B>(x.nol + i), nov = load<B>(x.nov + i), noh = load<B>(x.noh + i);
@@ -203,7 +205,12 @@ void disney(const Block<F>& x, const F* p, F* const* out) {
         (B(1) + edge * power_5<B>(B(1) - nol)) * (B(1) + edge * power_5<B>(B(1) - nov));
     const B xoh = load<B>(x.frame[0] + i), yoh = load<B>(x.frame[1] + i);
     const B s = xoh * xoh * x2 + yoh * yoh * y2 + noh * noh;
-    const B base = B(1) / (pi_xy * s * s * (nol + root(nol)) * (nov + root(nov)));
+    const auto masked = [&](const B& c, std::size_t along) {
+      if constexpr (!own_widths) return c + root(c);
+      const B t = load<B>(x.frame[along] + i), b = load<B>(x.frame[along + 1] + i);
+      return c + sqrt(t * t * ax2 + b * b * ay2 + c * c);
+    };
+    const B base = B(1) / (pi_xy * s * s * masked(nol, 2) * masked(nov, 4));
     const B coat =
         coat_num * (coat_f0 + (B(1) - coat_f0) * m5) /
         ((noh * noh * coat_less + B(1)) * (nol + coat_root(nol)) * (nov + coat_root(nov)));
@@ -269,7 +276,10 @@ constexpr std::array table{
     HandWritten<F>{"lambert+ggx/smith_ggx.correlated/schlick.f90", 3, filament<F>},
     HandWritten<F>{
         "diffuse.disney+ggx_aniso/disney_remap/schlick+gtr1/disney_coat/schlick.weighted", 3,
-        disney<F>},
+        disney<F, false>},
+    HandWritten<F>{"diffuse.disney+ggx_aniso/smith_ggx_aniso.separable/schlick+gtr1/disney_coat/"
+                   "schlick.weighted",
+                   3, disney<F, true>},
     HandWritten<F>{"ggx.ue_mobile/ue_joint.clamped/schlick.ue", 3, ue_mobile<F>},
     HandWritten<F>{"ggx.mobile/ue_mobile_simple/constant", 3, ue_mobile_simple<F>},
     HandWritten<F>{"ggx/unity_mobile/constant", 3, unity_mobile<F>}};

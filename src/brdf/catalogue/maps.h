@@ -26,6 +26,7 @@ using Maps = MapList<ClampAlpha,
                      KullaContyLinear,
                      KullaContyLobe,
                      Turquin,
+                     TurquinAverage,
                      FdezAguera,
                      AlbedoFit,
                      AlbedoFitMaterialx>;

@@ -51,7 +51,7 @@ struct DisneyDiffuse {
       "001",
       "Disney's principled BRDF; Unreal Engine and Frostbite offer it, Frostbite renormalised",
       "diffuse.lambert"};
-  static constexpr std::array parameters{Lambert<T>::parameters[0], alpha_parameter};
+  static constexpr std::array parameters{Lambert<T>::parameters[0], any_alpha_parameter};
   static constexpr bool coupled = false;
 
   T value, two_r;

@@ -178,7 +178,7 @@ struct DisneyRemap {
                                "001",
                                "Disney (2012)",
                                "masking.smith_ggx.separable"};
-  static constexpr std::array parameters{alpha_parameter};
+  static constexpr std::array parameters{any_alpha_parameter};
 
   SmithRoot<T> root;
 

@@ -27,10 +27,23 @@ inline constexpr Parameter e_average_parameter =
 inline constexpr Parameter f_average_parameter =
     albedo_parameter("f_average", 0, 0.5, true, "average of the Fresnel term, 2 ∫ F mu dmu");
 
-/// F_avg of Schlick's approximation,  F0 + (1 − F0)/21
+/// Albedos of a lobe that a shader has fitted, MaterialX's among them: its E reaches 1.0348, of a mirror at the horizon.
+inline constexpr double most_fitted_albedo = 1.04;
+inline constexpr Parameter fitted_e_single_parameter{
+    "e_single", {0, most_fitted_albedo},
+    {0, 1},     0.5,
+    true,       "albedo of single scattering, Fresnel included"};
+inline constexpr Parameter fitted_e_parameter{"e",   {0.01, most_fitted_albedo}, {0.01, 1}, 0.7,
+                                              false, "albedo at F = 1"};
+
+/// F_avg of Schlick's approximation,  F0 + (F90 − F0)/21
+template <Real T>
+T schlick_average(const T& f0, const T& f90) {
+  return f0 + (f90 - f0) / 21;
+}
 template <Real T>
 T schlick_average(const T& f0) {
-  return f0 + (1 - f0) / 21;
+  return schlick_average<T>(f0, T(1));
 }
 
 /// Share of the light that a first facet's shadowing took that comes out in the end, if each further bounce
@@ -108,7 +121,7 @@ struct KullaContyLobe {
   }
 };
 
-/// The lobe as it is, brighter:  albedo = E_single (1 + F0 (1/E − 1))
+/// The lobe as it is, brighter:  albedo = E_single (1 + F0 (1/E − 1)),  less than E_single where a fitted E is above 1
 template <Real T>
 struct Turquin {
   static constexpr About about{
@@ -118,11 +131,34 @@ struct Turquin {
       "Turquin 2019, Practical Multiple Scattering Compensation for Microfacet Models",
       "",
       "Filament"};
-  static constexpr std::array parameters{e_single_parameter, e_parameter, f0_parameter};
+  static constexpr std::array parameters{fitted_e_single_parameter, fitted_e_parameter,
+                                         f0_parameter};
   static constexpr std::array<std::string_view, 1> outputs{"albedo"};
 
   static std::array<T, 1> apply(std::span<const T, 3> p) {
     return {p[0] * (1 + p[2] * (1 - p[1]) / p[1])};
+  }
+};
+
+/// Turquin's with the average of the Fresnel term in place of its least value, for what comes out was reflected at all
+/// angles:  albedo = E_single (1 + F_avg (1/E − 1)),  F_avg = F0 + (F90 − F0)/21
+template <Real T>
+struct TurquinAverage {
+  static constexpr About about{
+      "scattering.turquin.f_avg",
+      "Single scattering made brighter by what it lost, with the average Fresnel reflectance",
+      "albedo = e_single (1 + F_avg (1/e − 1)), F_avg = f0 + (f90 − f0)/21",
+      "MaterialX, mx_microfacet_specular.glsl, mx_ggx_energy_compensation, since June 2026",
+      "",
+      "MaterialX",
+      "scattering.turquin"};
+  static constexpr std::array parameters{fitted_e_single_parameter, fitted_e_parameter,
+                                         SchlickF90<T>::parameters[0],
+                                         SchlickF90<T>::parameters[1]};
+  static constexpr std::array<std::string_view, 1> outputs{"albedo"};
+
+  static std::array<T, 1> apply(std::span<const T, 4> p) {
+    return Turquin<T>::apply(std::array{p[0], p[1], schlick_average<T>(p[2], p[3])});
   }
 };
 

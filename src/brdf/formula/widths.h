@@ -9,6 +9,9 @@ namespace gonio::inline GONIO_ARCH {
 
 inline constexpr Parameter alpha_parameter{"alpha", {1e-4, 1}, {1e-4, 1},
                                            0.3,     false,     "width, roughness²"};
+/// α of terms that read r = √α and divide by neither: r is 0 to the sixth digit.
+inline constexpr Parameter any_alpha_parameter{"alpha", {1e-12, 1}, {1e-4, 1},
+                                               0.3,     false,      "width, roughness²"};
 inline constexpr Parameter alpha_x_parameter{"alpha_x", {1e-4, 4}, {1e-4, 1},
                                              0.3,       false,     "width along the tangent"};
 inline constexpr Parameter alpha_y_parameter{"alpha_y", {1e-4, 4}, {1e-4, 1},

@@ -14,6 +14,9 @@ using Hot =
     FusedList<ModelTerms<TermList<DisneyDiffuse>,
                          TermList<GgxAniso, DisneyRemap, Schlick>,
                          TermList<Gtr1, DisneyCoat, SchlickWeighted>>,
+              ModelTerms<TermList<DisneyDiffuse>,
+                         TermList<GgxAniso, SmithGgxAnisoSeparable, Schlick>,
+                         TermList<Gtr1, DisneyCoat, SchlickWeighted>>,
               ModelTerms<TermList<>, TermList<GgxUeMobile, UeJointClamped, SchlickUe>>,
               ModelTerms<TermList<>, TermList<GgxMobile, UeMobileSimple, ConstantReflectance>>>;
 using HotFits = FusedList<>;

@@ -32,6 +32,9 @@ TermUse use(Model& m,
       m.value_count += count;
     } else {
       t.parameters.push_back(static_cast<std::size_t>(known - m.parameters.begin()));
+      const Range& legal = known->about->legal;
+      if (legal.holds(p.legal.low) && legal.holds(p.legal.high))
+        known->about = &p;  // legal in both
     }
   }
   return t;

@@ -86,7 +86,7 @@ std::vector<Setting> disney(const PresetValues& v) {
   const auto [x, y] = mapped<AnisoDisney, double>(r, v.number("anisotropy"));
   add(s, "alpha_x", std::max(x, 0.001));
   add(s, "alpha_y", std::max(y, 0.001));
-  add(s, "alpha", width_of(r));
+  add(s, "alpha", std::max(alpha_of(r), any_alpha_parameter.legal.low));
   add(s, "alpha_2", 0.1 + (0.001 - 0.1) * gloss);
   add(s, "f0_2", 0.04);
   add(s, "weight_2", 0.25 * v.number("clearcoat"));
@@ -117,14 +117,22 @@ constexpr std::array all{
         "lambert.coupled+ggx/smith_ggx.correlated/schlick",
         metallic_roughness,
         cook_torrance},
-    Preset{
-        {"model.disney", "Disney's principled BRDF: base, coat and diffuse",
-         "f = f_disney + GTR2aniso F G + 0.25 clearcoat GTR1 F G(0.25)", "Burley 2012, Appendix B",
-         "001", "Disney's Hyperion, as published in 2012 without sheen, tint and subsurface"},
-        "disney+ggx_aniso/disney_remap/schlick+gtr1/disney_coat/schlick.weighted",
-        disney_parameters,
-        disney,
-        disney_held},
+    Preset{{"model.disney", "Disney's principled BRDF: base, coat and diffuse",
+            "f = f_disney + GTR2aniso F G((0.5 + r/2)²) + 0.25 clearcoat GTR1 F G(0.25)",
+            "Burley 2012, Appendix B; disney.brdf of 2012 to 2016", "001",
+            "Disney's Hyperion, as published in 2012 without sheen, tint and subsurface"},
+           "disney+ggx_aniso/disney_remap/schlick+gtr1/disney_coat/schlick.weighted",
+           disney_parameters,
+           disney,
+           disney_held},
+    Preset{{"model.disney2017", "Disney's principled BRDF, masked by its own widths",
+            "f = f_disney + GTR2aniso F G(alpha_x, alpha_y) + 0.25 clearcoat GTR1 F G(0.25)",
+            "disney.brdf since February 2017 (wdas/brdf); Heitz 2014, section 5.4", "",
+            "Disney's BRDF Explorer, without sheen, tint and subsurface"},
+           "disney+ggx_aniso/smith_ggx_aniso.separable/schlick+gtr1/disney_coat/schlick.weighted",
+           disney_parameters,
+           disney,
+           disney_held},
     Preset{{"model.ue_mobile", "Unreal Engine's mobile specular, as shipped",
             "f = min(α²/d², 2048) · 0.5/max(…, 0.001) · F_Schlick; π times a BRDF, without 1/π",
             "as shipped, seed 004", "004", "a mobile variant of Unreal Engine 4", "",

@@ -49,6 +49,31 @@ TEST(Turquin, GivesBackAllAtFOneAndScalesTheLobe) {
   EXPECT_DOUBLE_EQ(Turquin<double>::apply(std::array{0.02, 0.5, 0.04})[0], 0.02 * 1.04);
 }
 
+TEST(TurquinAverage, GivesBackMoreThanTurquinButAtFOne) {
+  const auto average = [](double single, double e, double f0, double f90) {
+    return TurquinAverage<double>::apply(std::array{single, e, f0, f90})[0];
+  };
+  EXPECT_DOUBLE_EQ(average(0.6, 0.6, 1, 1), 1);
+  EXPECT_DOUBLE_EQ(average(0.02, 0.5, 0.04, 1), 0.02 * (1.04 + 0.96 / 21));
+  EXPECT_DOUBLE_EQ(average(0.02, 0.5, 0.04, 0.04),
+                   Turquin<double>::apply(std::array{0.02, 0.5, 0.04})[0]);
+}
+
+/// What MaterialX does, all of it: the fit's E is above 1 where smooth and grazing, and the map takes it.
+TEST(Turquin, TakesWhateverMaterialxsFitGives) {
+  double most = 0;
+  for (int r = 0; r <= 100; ++r)
+    for (int c = 0; c <= 100; ++c) {
+      const double alpha = std::max(1e-4, r * r / 1e4);
+      const double e = AlbedoFitMaterialx<double>::apply(std::array{alpha, c / 100.0})[0];
+      most = std::max(most, e);
+      EXPECT_TRUE(Turquin<double>::parameters[1].legal.holds(e));
+      EXPECT_TRUE(TurquinAverage<double>::parameters[0].legal.holds(e));
+    }
+  EXPECT_NEAR(most, 1.0348, 1e-3);
+  EXPECT_DOUBLE_EQ(Turquin<double>::apply(std::array{1.03, 1.03, 1.0})[0], 1);
+}
+
 /// As published: FssEss + FmsEms.
 TEST(FdezAguera, IsTheSumOfBothLobes) {
   const double a = 0.5, b = 0.1, f0 = 0.3;

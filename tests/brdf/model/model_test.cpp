@@ -96,6 +96,15 @@ TEST(Model, SharesAParameterWithinALobeAndNumbersThoseOfLaterLobes) {
   EXPECT_EQ(m.find("alpha_4"), nullptr);
 }
 
+TEST(Model, TakesOfASharedParameterWhatIsLegalInAllTerms) {
+  const auto legal = [](const std::string& spec) {
+    return compose(spec, 1).find("alpha")->about->legal;
+  };
+  EXPECT_EQ(legal("disney+ggx_aniso/disney_remap/schlick").low, 1e-12);
+  EXPECT_EQ(legal("disney+ggx/disney_remap/schlick").low, 1e-4);
+  EXPECT_EQ(legal("ggx/disney_remap/schlick").low, 1e-4);
+}
+
 TEST(Model, GivesEachValueASlotOfItsOwn) {
   const Model m = compose("lambert.coupled+" + glass + "+" + metal, 4);
   std::vector<int> used(m.value_count);

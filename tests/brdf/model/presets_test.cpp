@@ -63,6 +63,28 @@ TEST(Preset, DisneyIsABaseACoatAndItsDiffuse) {
               diffuse + base + coat, 1e-9 * coat);
 }
 
+TEST(Preset, DisneyOf2017IsMaskedByItsOwnWidths) {
+  const double edge = 1 - 0.14 * m5, diffuse = 0.5 / pi * edge * edge;
+  EXPECT_NEAR(value("disney2017", {"base_color=0.5", "roughness=0.5"}),
+              diffuse + d * separable * schlick, 1e-12);
+  // aspect = √0.1: l and v lie over the tangent, where the width is α_x = 0.25/aspect
+  const double root_x = std::sqrt(0.64 * 0.0625 / 0.1 + 0.36);
+  EXPECT_NEAR(value("disney2017", {"base_color=0.5", "roughness=0.5", "anisotropy=1"}),
+              diffuse + d / ((0.6 + root_x) * (0.6 + root_x)) * schlick, 1e-12);
+}
+
+TEST(Preset, DisneyRemapsARoughnessOfNothingToAQuarter) {
+  // alpha_g = (0.5 + 0/2)²; the widths of D end at 0.001
+  const double root_g = std::sqrt(0.0625 + 0.9375 * 0.36),
+               per = 1 / ((0.6 + root_g) * (0.6 + root_g));
+  EXPECT_NEAR(value("disney", {"base_color=0", "roughness=0"}) * pi * 1e-6 / schlick, per,
+              1e-5 * per);
+  const double root_r = std::sqrt(std::pow(0.5025, 4) * 0.64 + 0.36);
+  const double at_5e_3 = 1 / ((0.6 + root_r) * (0.6 + root_r));
+  EXPECT_NEAR(value("disney", {"base_color=0", "roughness=0.005"}) * pi * 1e-6 / schlick, at_5e_3,
+              1e-12);
+}
+
 TEST(Preset, DisneysAnisotropyMovesTheWidthsApart) {
   // at the peak D = 1/(π alpha_x alpha_y), and the product of the widths stays
   EXPECT_NEAR(value("disney", {"base_color=0", "roughness=0.5", "anisotropy=1"}),
