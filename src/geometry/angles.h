@@ -20,4 +20,11 @@ struct FrameAngles : Angles<B> {
   B xoh, yoh, xol, yol, xov, yov;
 };
 
+/// VoH, which for any two directions is at least (NoL + NoV)/2: 2 VoH NoH = NoL + NoV.  Angles that no
+/// two directions have get the bound, which is above 0 throughout the domain.
+template <Real B>
+B least_voh(const Angles<B>& a) {
+  return max<B>(a.voh, (a.nol + a.nov) / 2);
+}
+
 }  // namespace gonio::inline GONIO_ARCH

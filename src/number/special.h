@@ -57,6 +57,17 @@ T expm1_over(const T& z) {
   return select<T>(far, (exp(safe) - 1) / safe, series);
 }
 
+/// arcsin x of 0 ≤ x ≤ 1, given with c = √(1 − x²):  8 arctan t of t = tan(arcsin(x)/8), where t ≤ 0.2.
+template <Real T>
+T arcsin(const T& x, const T& c) {
+  constexpr int terms = digits<T> / 4 + 1;
+  const auto half = [](const T& t) { return t / (1 + sqrt(1 + square(t))); };
+  const T t = half(half(x / (1 + c))), t2 = square(t);
+  T series = 1 / constant<T>(2 * terms + 1);
+  for (int k = terms - 1; k >= 0; --k) series = 1 / constant<T>(2 * k + 1) - series * t2;
+  return series * t * 8;
+}
+
 /// ln u of u > 0 given with u − 1, which of u alone would have lost its digits near 1:
 /// ln u / (u − 1) is smooth there, whatever u lost.                      [after Kahan's log1p]
 template <Real T>

@@ -7,6 +7,14 @@
 
 namespace gonio::inline GONIO_ARCH {
 
-using DiffuseTerms = TermList<Lambert, LambertCoupled, DisneyDiffuse, DisneyDiffuseCoupled>;
+using DiffuseTerms = TermList<Lambert,
+                              LambertCoupled,
+                              DisneyDiffuse,
+                              DisneyDiffuseCoupled,
+                              FrostbiteDiffuse,
+                              HammonDiffuse,
+                              OrenNayar,
+                              OrenNayarFujii,
+                              Eon>;
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -8,13 +8,6 @@
 
 namespace gonio::inline GONIO_ARCH {
 
-/// VoH, which for any two directions is at least (NoL + NoV)/2: 2 VoH NoH = NoL + NoV.  Angles that no
-/// two directions have get the bound, which is above 0 throughout the domain.
-template <Real B>
-B least_voh(const Angles<B>& a) {
-  return max<B>(a.voh, (a.nol + a.nov) / 2);
-}
-
 /// V-shaped grooves of equal slopes:  G = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)
 ///                                                                   [Cook & Torrance 1982]
 /// With m and M the lesser and the greater of NoL and NoV,  V = NoH / (2 M max(2 m NoH, VoH)).

@@ -249,7 +249,7 @@ Integral lobe_part(const Part& part, const View& v, const Goal& goal) {
   return integrate_over(m, v, rectangles, goal, chart, values);
 }
 
-/// x is θ_l, y its azimuth from v's.
+/// x is θ_l, y its azimuth from v's.  Apart at θ_l = θ_v and a quarter turn from v, where Oren and Nayar's have kinks.
 Integral diffuse_part(const Part& part, const View& v, const Goal& goal) {
   const Model& m = part.model.model;
   const double sides = m.anisotropic ? 1 : 2;
@@ -291,9 +291,11 @@ Integral diffuse_part(const Part& part, const View& v, const Goal& goal) {
   };
   const int quarters = m.anisotropic ? 4 : 2;
   std::vector<Rectangle> rectangles;
-  rectangles.reserve(static_cast<std::size_t>(quarters));
+  rectangles.reserve(2 * static_cast<std::size_t>(quarters));
+  const double theta_v = std::atan2(v.sine, v.mu);
   for (int q = 0; q < quarters; ++q)
-    rectangles.push_back({{0, q * pi / 2}, {pi / 2, (q + 1) * pi / 2}});
+    for (const auto& [from, to] : {std::pair{0.0, theta_v}, {theta_v, pi / 2}})
+      if (from < to) rectangles.push_back({{from, q * pi / 2}, {to, (q + 1) * pi / 2}});
   return integrate_over(m, v, rectangles, goal, chart, values);
 }
 

@@ -90,6 +90,17 @@ TEST(LogNearOne, KeepsItsDigitsAndItsDerivativeBesideOne) {
   }
 }
 
+TEST(Arcsin, KeepsItsDigitsFromZeroToAQuarterTurn) {
+  const double eps = std::numeric_limits<double>::epsilon();
+  for (const double x : {1e-300, 1e-9, 0.01, 0.4, 0.9, 0.999999, 1.0}) {
+    const Wide c = sqrt((1 - Wide(x)) * (1 + Wide(x))),
+               truth = boost::multiprecision::asin(Wide(x));
+    EXPECT_LE(relative_error(arcsin<double>(x, static_cast<double>(c)), truth), 6 * eps) << x;
+    EXPECT_LT(abs(arcsin<Wide>(Wide(x), c) / truth - 1), Wide(1e-45)) << x;
+  }
+  EXPECT_EQ(arcsin<double>(0, 1), 0);
+}
+
 // ---- Fresnel against the textbook ---------------------------------------------------------------
 
 /// The amplitudes of Born & Wolf with the complex root written out.

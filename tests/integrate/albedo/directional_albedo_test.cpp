@@ -66,6 +66,15 @@ TEST(DirectionalAlbedo, OfWhiteGgxAtAlphaOneAveragesToTheClosedForm) {
   EXPECT_LE(separable.error, 1e-9);
 }
 
+TEST(DirectionalAlbedo, OfWhiteEonIsOneAtGrazingAnglesToo) {
+  for (const double r : {0.1, 1.0})
+    for (const double mu : {1e-4, 1e-3, 0.02, 0.3, 0.9, 1.0}) {
+      const auto a = at(bind_model("eon", {{"kd", {1}}, {"r", {r}}}, 1), mu, 0, {1e-9, 1'000'000});
+      EXPECT_NEAR(a.value[0], 1, a.error + 1e-14) << r << " " << mu;
+      EXPECT_LE(a.error, 1e-9);
+    }
+}
+
 /// Every alpha and mu that there is, against itself a hundred thousand times finer.
 TEST(DirectionalAlbedo, ItsBoundIsTrueAndWhatWasAskedFor) {
   for (const std::string masking : {"smith_ggx.correlated", "smith_ggx.separable"})

@@ -283,7 +283,7 @@ TEST(SceneErrors, NameValuesThatDoNotFitEachOther) {
 TEST(SceneErrors, NameWhatAModelDoesNotTake) {
   EXPECT_EQ(complaint("/materials/chalk/model", "lambrt"),
             "s.json: /materials/chalk/model: found \"lambrt\", expected a model (no diffuse term "
-            "'lambrt'; nearest: lambert, disney, lambert.coupled)");
+            "'lambrt'; nearest: lambert, hammon, disney)");
   EXPECT_EQ(complaint("/materials/chalk/parameters/alpha", 0.1),
             "s.json: /materials/chalk/parameters: found an object, expected parameters of the "
             "model (model 'lambert' has no "
