@@ -74,7 +74,7 @@ Start descended_inside(const Accumulator<F>& accumulate,
 }  // namespace
 
 bool is_shape(const ModelParameter& q) {
-  return is_alpha(q.name) || base_name(q) == "gamma";
+  return is_alpha(q.name) || base_name(q) == "gamma" || base_name(q) == "tail";
 }
 
 void keep_best(std::vector<Start>& starts, std::size_t most) {

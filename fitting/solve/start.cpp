@@ -40,7 +40,7 @@ Range bounds_of(const Problem& p, const ModelParameter& q) {
   return {p.bounds.low[i], p.bounds.high[i]};
 }
 
-/// Rungs of a ladder that lie inside; where these are few, as many more spread evenly by ratio.
+/// Rungs of a ladder that lie inside; where these are few, as many more spread evenly by ratio, from 0 evenly.
 std::vector<double> rungs_inside(std::span<const double> ladder, const Range& range) {
   constexpr std::size_t few = 4;
   std::vector<double> inside;
@@ -48,9 +48,11 @@ std::vector<double> rungs_inside(std::span<const double> ladder, const Range& ra
     if (x >= range.low && x <= range.high) inside.push_back(x);
   if (inside.size() >= few) return inside;
   inside.clear();
-  for (std::size_t k = 0; k < few; ++k)
-    inside.push_back(range.low *
-                     std::pow(range.high / range.low, (0.5 + static_cast<double>(k)) / few));
+  for (std::size_t k = 0; k < few; ++k) {
+    const double part = (0.5 + static_cast<double>(k)) / few;
+    inside.push_back(range.low > 0 ? range.low * std::pow(range.high / range.low, part)
+                                   : part * range.high);
+  }
   return inside;
 }
 
@@ -63,7 +65,7 @@ struct Axis {
 /// Those of the free shapes of a lobe that no earlier one shares.
 std::vector<Axis> axes_of(const Problem& p, const Lobe& lobe, const std::vector<bool>& before) {
   static constexpr std::array widths{0.001, 0.003, 0.01, 0.03, 0.07, 0.15, 0.3, 0.5, 0.8};
-  static constexpr std::array exponents{0.7, 1.3, 2.0, 3.5, 8.0};
+  static constexpr std::array exponents{0.7, 1.3, 2.0, 3.5, 8.0}, tails{0.0, 0.2, 0.5, 1.0, 1.3};
   std::vector<Axis> axes;
   std::vector<bool> seen(p.start.model.parameters.size());
   for (const auto* t : {&lobe.ndf, &lobe.masking})
@@ -71,8 +73,10 @@ std::vector<Axis> axes_of(const Problem& p, const Lobe& lobe, const std::vector<
       const auto& q = p.start.model.parameters[k];
       if (seen[k] || before[q.first] || !is_free(p, q)) continue;
       seen[k] = true;
-      const std::span<const double> ladder =
-          is_alpha(q.name) ? std::span<const double>(widths) : std::span<const double>(exponents);
+      const std::span<const double> ladder = is_alpha(q.name) ? std::span<const double>(widths)
+                                             : base_name(q) == "tail"
+                                                 ? std::span<const double>(tails)
+                                                 : std::span<const double>(exponents);
       axes.push_back({k, rungs_inside(ladder, bounds_of(p, q))});
     }
   return axes;

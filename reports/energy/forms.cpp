@@ -39,10 +39,13 @@ std::vector<EnergyForm> all_forms() {
     if (role_of(masking) != Role::masking || t.anisotropic) continue;
     const bool coat = masking == "masking.disney_coat";
     const std::string ndf = "ndf." + std::string(shape_of_term(masking));
+    if (ndf == "ndf.charlie") continue;  // sheen: what it does not reflect is for what lies below
     if (coat)
       gtr(masking, 1, most_coat_roughness);
     else if (ndf == "ndf.gtr")
       for (const double gamma : {1.0, 1.5, 3.0}) gtr(masking, gamma, 1);
+    else if (ndf == "ndf.student_t")
+      continue;  // at its tail's ends that of the other two
     else
       out.push_back({masking, ndf, masking});
   }

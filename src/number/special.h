@@ -57,6 +57,18 @@ T expm1_over(const T& z) {
   return select<T>(far, (exp(safe) - 1) / safe, series);
 }
 
+/// ln(1 + x)/x of x ≥ 0, continued through x = 0: twice the series of artanh x/(x + 2), where the quotient would be 0/0.
+template <Real T>
+T log1p_over(const T& x) {
+  constexpr int terms = digits<T> / 4 + 1;  // (x/(x + 2))² ≤ 1/25
+  const auto far = constant<T>(0.5L) < x;
+  const T near = select<T>(far, T(0), x), z2 = square(near / (2 + near));
+  T series = 1 / constant<T>(2 * terms + 1);
+  for (int k = terms - 1; k >= 0; --k) series = 1 / constant<T>(2 * k + 1) + series * z2;
+  const T safe = select<T>(far, x, T(1));
+  return select<T>(far, log(1 + safe) / safe, series * 2 / (2 + near));
+}
+
 /// arcsin x of 0 ≤ x ≤ 1, given with c = √(1 − x²):  8 arctan t of t = tan(arcsin(x)/8), where t ≤ 0.2.
 template <Real T>
 T arcsin(const T& x, const T& c) {

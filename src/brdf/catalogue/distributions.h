@@ -22,6 +22,7 @@ using Distributions = TermList<BlinnPhong,
                                BeckmannAniso,
                                BeckmannAnisoAsWritten,
                                GgxAniso,
-                               StudentT>;
+                               StudentT,
+                               StudentTail>;
 
 }  // namespace gonio::inline GONIO_ARCH

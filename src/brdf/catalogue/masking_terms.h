@@ -6,6 +6,7 @@
 #include "brdf/formula/masking_classic.h"
 #include "brdf/formula/masking_shipped.h"
 #include "brdf/formula/smith_gtr.h"
+#include "brdf/formula/smith_student.h"
 #include "brdf/term/term_list.h"
 
 namespace gonio::inline GONIO_ARCH {
@@ -36,6 +37,8 @@ using MaskingTerms = TermList<SmithGgxSeparable,
                               Kelemen,
                               Implicit,
                               Unmasked,
-                              SmithGgxAnisoSeparable>;
+                              SmithGgxAnisoSeparable,
+                              SmithStudentSeparable,
+                              SmithStudentCorrelated>;
 
 }  // namespace gonio::inline GONIO_ARCH

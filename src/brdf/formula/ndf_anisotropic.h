@@ -184,4 +184,45 @@ struct StudentT {
   T operator()(const FrameAngles<plain_t<T>>& a) const { return d(a); }
 };
 
+/// g(x) = (1 + τ x²)^−(1 + 1/τ) / π:  Student's t by its tail, 1/τ + 1 = γ.  τ = 0 is Beckmann and τ = 1 GGX, both reached.
+template <Real T>
+struct TailShape {
+  T tail, log_pi;
+
+  explicit TailShape(const T& t) : tail(t), log_pi(log(pi<plain_t<T>>())) {}
+
+  T log_g(const T& x2) const {
+    // Where τ x² is small, nothing is left of g from x² = 4096 on: there a slope by τ, −x⁴/2, would
+    // leave its number.
+    // What is no number in half is taken for nothing.
+    const auto held = x2 < most<T>() / 2;
+    const T some = select<T>(held, x2, T(1));
+    const T x = select<T>(constant<T>(0.5L) < tail * some, some, min<T>(some, T(4096)));
+    return -select<T>(held, x * log1p_over<T>(tail * x) * (1 + tail) + log_pi, most<T>() / 4);
+  }
+};
+
+/// Student's t distribution of slopes, between Beckmann's and GGX's and beyond, by its tail τ: 0 Beckmann, 1 GGX, above it
+/// longer.  Ribardière's γ is 1 + 1/τ, and (1 + τ x²)^−γ/π is his distribution; τ is what a fit should vary, for half of
+/// what surfaces have lies between γ = 2 and ∞, where γ says nothing.
+///
+///   D = (1 + τ x²)^−(1 + 1/τ) / (π α² NoH⁴),   x = tan θ_h/α
+///
+/// With an axis less, ndf.shape_invariant by γ.
+template <Real T>
+struct StudentTail {
+  static constexpr About about{
+      "ndf.student_t", "Student's t distribution of slopes",
+      "D = (1 + τ tan²θ_h/α²)^−(1 + 1/τ) / (π α² NoH⁴), τ the tail, γ = 1 + 1/τ",
+      "Ribardière, Bringier, Meneveaux, Simonot 2017, STD: Student's t-Distribution of Slopes for "
+      "Microfacet Based BSDFs"};
+  static constexpr std::array parameters{alpha_parameter, tail_parameter};
+
+  ShapeInvariant<TailShape, T> d;
+
+  explicit StudentTail(std::span<const T, 2> p) : d(TailShape<T>(p[1]), p[0]) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const { return d(a); }
+};
+
 }  // namespace gonio::inline GONIO_ARCH

@@ -18,5 +18,7 @@ inline constexpr Parameter alpha_y_parameter{"alpha_y", {1e-4, 4}, {1e-4, 1},
                                              0.3,       false,     "width along the bitangent"};
 inline constexpr Parameter gamma_parameter{"gamma", {0.5, 10}, {0.5, 10},
                                            2,       false,     "tail exponent; 1 Berry, 2 GGX"};
+inline constexpr Parameter tail_parameter{
+    "tail", {0, 1.5}, {0, 1.5}, 1, false, "tail τ of Student's t; 0 Beckmann, 1 GGX"};
 
 }  // namespace gonio::inline GONIO_ARCH

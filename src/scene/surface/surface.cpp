@@ -131,7 +131,8 @@ const Family* family_of(std::string_view ndf) {
   return at == families.end() ? nullptr : &*at;
 }
 bool stands_for_smith(std::string_view masking) {
-  return masking.starts_with("smith_") || masking.starts_with("schlick_") ||
+  return masking.starts_with("smith_ggx") || masking.starts_with("smith_beckmann") ||
+         masking.starts_with("smith_gtr") || masking.starts_with("schlick_") ||
          masking.starts_with("ue_joint") || masking == "hammon" || masking == "disney_remap";
 }
 
@@ -209,6 +210,8 @@ void Look::read(const BoundModel& b, bool coated) {
     const auto given = settings_of(b, {&term});
     diffuse_.kd = std::ranges::find(given, "kd", &Setting::name)->values;
     diffuse_.alpha = number_of(given, "alpha", 1);
+    for (const auto& s : given)
+      if (s.name != "kd" && s.name != "alpha") diffuse_.others.push_back(s);
   }
   if (lobes.empty()) return;
   const Lobe& first = lobes[0];
@@ -292,12 +295,16 @@ void Look::offer_forms() {
     o.why = same || o.forms.size() == 1 ? std::move(why) : "";
   };
   const bool dark = all_zero(diffuse_.kd);
-  if (diffuse_.kind == "none") diffuse_ = {"disney", first_.any, {0, 0, 0}, 1};
-  std::vector<std::string_view> kinds{"none", "lambert"};
-  if (diffuse_.kind == "disney") kinds.emplace_back("disney");
-  if (!first_.any) kinds.erase(kinds.begin());  // it is all that there is
-  offer(Effect::diffuse, kinds, dark,
-        first_.any ? "its diffuse albedo is 0" : "it is all there is");
+  if (diffuse_.kind == "none") diffuse_ = {"disney", first_.any, {0, 0, 0}, 1, {}};
+  if (diffuse_.kind == "lambert" || diffuse_.kind == "disney") {
+    std::vector<std::string_view> kinds{"none", "lambert"};
+    if (diffuse_.kind == "disney") kinds.emplace_back("disney");
+    if (!first_.any) kinds.erase(kinds.begin());  // it is all that there is
+    offer(Effect::diffuse, kinds, dark,
+          first_.any ? "its diffuse albedo is 0" : "it is all there is");
+  } else {
+    offer(Effect::diffuse, {"disney"}, false, "its diffuse term is of another kind");
+  }
   if (diffuse_.coupled)
     offer(Effect::coupling, {"off", "on"}, dark, "its diffuse albedo is 0");
   else
@@ -364,6 +371,7 @@ Surface Look::surface(const Forms& forms) const {
     spec = diffuse_.kind == "lambert" || diffuse == "lambert" ? "lambert" : diffuse_.kind;
     if (forms.name(Effect::coupling) == "on") spec += ".coupled";
     settings.push_back({"kd", diffuse_.kd});
+    settings.insert(settings.end(), diffuse_.others.begin(), diffuse_.others.end());
   }
   if (first_.any) {
     if (!spec.empty()) spec += '+';

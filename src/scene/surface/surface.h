@@ -94,6 +94,7 @@ class Look {
     bool coupled = false;
     std::vector<double> kd{0, 0, 0};
     double alpha = 1;
+    Settings others;  ///< further parameters of a term that no form stands for
   } diffuse_;
   /// First lobe.
   struct First {

@@ -44,6 +44,8 @@ constexpr std::string_view smithlike[] = {"masking.smith_ggx.separable",
                                           "masking.smith_ggx.correlated",
                                           "masking.smith_ggx_aniso.separable",
                                           "masking.smith_ggx_aniso.correlated",
+                                          "masking.smith_student_t.separable",
+                                          "masking.smith_student_t.correlated",
                                           "masking.smith_beckmann.separable",
                                           "masking.smith_beckmann.correlated",
                                           "masking.smith_beckmann_aniso.correlated",
@@ -352,6 +354,18 @@ TEST(SmithGtr, LeavesAsMuchFacetAreaAsTheSurfaceShows) {
           const test::Parameters p{alpha, gamma};
           const double g = 4 * nov * test::value_of(find_term(m), p, {1, nov, 0.5, 0.5, 0.75});
           EXPECT_NEAR(g * visible_area(find_term("ndf.gtr"), p, nov) / nov, 1, 5e-7)
+              << test::text(p) << nov;
+        }
+}
+
+TEST(SmithStudent, LeavesAsMuchFacetAreaAsTheSurfaceShows) {
+  for (const auto* m : {"masking.smith_student_t.separable", "masking.smith_student_t.correlated"})
+    for (const double tail : {0.0, 0.3, 0.7, 1.0})
+      for (const double alpha : {0.01, 0.25, 0.9})
+        for (const double nov : {0.05, 0.3, 0.7, 0.99, 1.0}) {
+          const test::Parameters p{alpha, tail};
+          const double g = 4 * nov * test::value_of(find_term(m), p, {1, nov, 0.5, 0.5, 0.75});
+          EXPECT_NEAR(g * visible_area(find_term("ndf.student_t"), p, nov) / nov, 1, 1e-8)
               << test::text(p) << nov;
         }
 }

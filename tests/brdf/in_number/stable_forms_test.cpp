@@ -45,7 +45,7 @@ double value_in(Number number, std::size_t term, const Sample& s) {
 }
 
 bool is_dear(std::string_view id) {
-  return id.starts_with("masking.smith_gtr");
+  return id.starts_with("masking.smith_gtr") || id.starts_with("masking.smith_student_t");
 }
 
 // ---- Float and double ---------------------------------------------------------------------------
@@ -56,6 +56,8 @@ double allowed(std::string_view id) {
   if (id == "ndf.gtr") return 12;
   // 24 terms of a series, the largest ten times their sum where γ is.
   if (is_dear(id)) return 24;
+  // e^L of a quotient L up to 20
+  if (id == "masking.smith_charlie.correlated") return 48;
   return 8;
 }
 
@@ -111,6 +113,7 @@ constexpr InHalf in_half_terms[] = {
     {"masking.smith_ggx.separable", 0.02, 1e-4},
     {"masking.smith_ggx.correlated", 0.02, 1e-4},
     {"masking.smith_ggx_aniso.correlated", 0.02, 1e-4},
+    {"masking.smith_ggx_aniso.separable", 0.02, 1e-4},
     {"masking.smith_beckmann.separable", 0.02, 1e-4},
     {"masking.smith_beckmann.correlated", 0.02, 1e-4},
     {"masking.schlick_ggx.half_alpha", 0.02, 1e-4},
@@ -130,6 +133,7 @@ constexpr InHalf in_half_terms[] = {
     {"fresnel.schlick.weighted", 0.02, 1e-4},
     {"fresnel.dielectric", 0.02, 1e-4},
     {"diffuse.disney", 0.02, 1e-4},
+    {"diffuse.frostbite", 0.02, 1e-4},
 };
 
 /// A value that a half holds with all its digits, and not within 2 % of where it is infinite.

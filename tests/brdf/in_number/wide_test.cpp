@@ -90,6 +90,20 @@ TEST(LogNearOne, KeepsItsDigitsAndItsDerivativeBesideOne) {
   }
 }
 
+TEST(Log1pOver, KeepsItsDigitsAndItsSlopeThroughZero) {
+  const double eps = std::numeric_limits<double>::epsilon();
+  for (const double x : {1e-30, 1e-12, 1e-3, 0.3, 0.5, 0.500001, 1.0, 40.0, 1e20}) {
+    const Wide truth = log(1 + Wide(x)) / x;
+    const Wide near = 1 - Wide(x) / 2 + Wide(x) * x / 3;  // 1 + x has not all of x
+    EXPECT_LE(relative_error(log1p_over<double>(x), x < 1e-11 ? near : truth), 4 * eps) << x;
+    if (x > 1e-4) {
+      EXPECT_LT(abs(log1p_over<Wide>(Wide(x)) / truth - 1), Wide(1e-44)) << x;
+    }
+  }
+  EXPECT_EQ(log1p_over<double>(0), 1);
+  EXPECT_NEAR((log1p_over<Dual<double, 1>>(Dual<double, 1>::variable(0, 0)).d[0]), -0.5, eps);
+}
+
 TEST(Arcsin, KeepsItsDigitsFromZeroToAQuarterTurn) {
   const double eps = std::numeric_limits<double>::epsilon();
   for (const double x : {1e-300, 1e-9, 0.01, 0.4, 0.9, 0.999999, 1.0}) {

@@ -111,7 +111,7 @@ TEST(RemapReport, FormsOfTheHalfVectorAreAveragedOverAzimuths) {
   EXPECT_FALSE(remapping::reads_half(find_term(correlated)));
 }
 
-TEST(RemapReport, EveryIsotropicFormButGtrsHasItsOwnReferences) {
+TEST(RemapReport, EveryIsotropicFormOfGgxAndBeckmannHasItsOwnReferences) {
   std::set<std::string> forms;
   const auto r = of({}, {1});
   for (const auto& x : r.rows) {

@@ -83,6 +83,22 @@ TEST(Look, LeavesAColouredF0Schlick) {
   EXPECT_FALSE(look.offer(Effect::fresnel).why.empty());
 }
 
+TEST(Look, LeavesTermsThatNoFormStandsForAsTheyAre) {
+  const Look look(test::material("eon+student_t/smith_student_t.correlated/conductor",
+                                 {"kd=0.5,0.3,0.1", "r=0.7", "alpha=0.3", "tail=0.4"}));
+  for (const auto& forms : {look.structural(), look.exact()}) {
+    const auto s = look.surface(forms);
+    EXPECT_EQ(s.base.model.spec, "eon+student_t/smith_student_t.correlated/conductor");
+    const auto is = [&](const char* name) { return s.base.values[s.base.model.find(name)->first]; };
+    EXPECT_EQ(is("kd"), 0.5);
+    EXPECT_EQ(is("r"), 0.7);
+    EXPECT_EQ(is("tail"), 0.4);
+  }
+  EXPECT_EQ(look.offer(Effect::diffuse).why, "its diffuse term is of another kind");
+  const Look mixed(test::material("ggx/smith_student_t.correlated/conductor", {"tail=0.4"}));
+  EXPECT_EQ(mixed.surface(mixed.structural()).spec(), "ggx/smith_student_t.correlated/conductor");
+}
+
 TEST(Look, GivesTheExactFormLast) {
   for (const auto& m : test::six()) {
     const Look look(m);
