@@ -23,6 +23,7 @@ using Distributions = TermList<BlinnPhong,
                                BeckmannAnisoAsWritten,
                                GgxAniso,
                                StudentT,
+                               Charlie,
                                StudentTail>;
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -38,6 +38,7 @@ using MaskingTerms = TermList<SmithGgxSeparable,
                               Implicit,
                               Unmasked,
                               SmithGgxAnisoSeparable,
+                              SmithCharlie,
                               SmithStudentSeparable,
                               SmithStudentCorrelated>;
 

@@ -145,4 +145,34 @@ struct Gtr1 {
   }
 };
 
+/// Sheen: facets that stand up as fibres do, the more the smaller α.  No highlight: 0 at the normal, greatest at the horizon.
+///
+///   D = (2 + 1/α)/(2π) sin^(1/α) θ_h                                    [Estevez & Kulla 2017, Eq. 2]
+///
+/// The published r is α here, as in glTF and Filament, whose roughness is √α.
+template <Real T>
+struct Charlie {
+  static constexpr About about{
+      "ndf.charlie",
+      "Charlie, for sheen",
+      "D = (2 + 1/α)/(2π) sin^(1/α) θ_h",
+      "Estevez, Kulla 2017, Production Friendly Microfacet Sheen BRDF, Eq. 2",
+      "",
+      "Sony Imageworks' Arnold, glTF 2.0 (KHR_materials_sheen), Filament"};
+  static constexpr std::array parameters{alpha_parameter};
+
+  T quarter_per_alpha, root_peak;
+
+  explicit Charlie(std::span<const T, 1> p)
+      : quarter_per_alpha(min<T>(1 / (4 * p[0]), most<T>())),
+        root_peak(sqrt((1 + 2 * quarter_per_alpha) / pi<plain_t<T>>())) {}
+
+  T operator()(const Angles<plain_t<T>>& a) const {
+    using P = plain_t<T>;
+    const P sin2 = select<P>(P(0) < a.sin2_theta_h, a.sin2_theta_h, P(1));
+    const T root = root_peak * exp(quarter_per_alpha * log_near_one<P>(sin2, -square(a.noh)));
+    return square(select<T>(T(0) < T(a.sin2_theta_h), root, T(0)));
+  }
+};
+
 }  // namespace gonio::inline GONIO_ARCH

@@ -370,6 +370,36 @@ TEST(SmithStudent, LeavesAsMuchFacetAreaAsTheSurfaceShows) {
         }
 }
 
+/// Estevez and Kulla fitted Λ to what Charlie's facets show: how well is measured here.
+TEST(SmithCharlie, LeavesNearlyAsMuchFacetAreaAsTheSurfaceShows) {
+  double worst = 0;
+  for (const double alpha : {0.1, 0.25, 0.5, 1.0})
+    for (const double nov : {0.05, 0.1, 0.3, 0.5, 0.7, 0.99}) {
+      const double shown = g1(find_term("masking.smith_charlie.correlated"), alpha, nov) *
+                           visible_area(find_term("ndf.charlie"), {alpha}, nov) / nov;
+      worst = std::max(worst, std::abs(shown - 1));
+    }
+  EXPECT_NEAR(worst, 0.116, 0.0005);
+}
+
+TEST(SmithCharlie, IsItsPublishedFit) {  // at α = 0 and α = 1 of the table's two columns
+  const auto lambda = [](double c, bool smooth) {
+    const auto l = [&](double x) {
+      return smooth ? 25.3245 / (1 + 3.32435 * std::pow(x, 0.16801)) - 1.27393 * x - 4.85967
+                    : 21.5473 / (1 + 3.82987 * std::pow(x, 0.19823)) - 1.97760 * x - 4.32054;
+    };
+    return c < 0.5 ? std::exp(l(c)) : std::exp(2 * l(0.5) - l(1 - c));
+  };
+  const auto m = find_term("masking.smith_charlie.correlated");
+  for (const double l : {0.01, 0.3, 0.5, 0.8, 0.999})
+    for (const double v : {0.02, 0.45, 0.55, 0.9}) {
+      const double g = 1 / (1 + lambda(l, false) + lambda(v, false));
+      EXPECT_NEAR(g2(m, 1, l, v), g, 1e-13 * g) << l << " " << v;
+      const double smooth = 1 / (1 + lambda(l, true) + lambda(v, true));
+      EXPECT_NEAR(g2(m, 1e-12, l, v), smooth, 1e-9 * smooth) << l << " " << v;
+    }
+}
+
 /// The same of an anisotropic distribution: the azimuth by Gauss over the arc that v sees.
 double visible_area(std::size_t ndf,
                     const test::Parameters& p,

@@ -430,6 +430,17 @@ TEST(StudentNdf, IsGgxAndBeckmannAtItsEndsAndTheShapeInvariantOneBetween) {
     }
 }
 
+TEST(CharlieNdf, IsItsFormulaAndLeavesTheNormalDark) {
+  const auto charlie = find_term("ndf.charlie");
+  for (const double alpha : {0.05, 0.3, 1.0})
+    for (const double sine : {0.1, 0.5, 0.9, 1.0}) {
+      const double d = (2 + 1 / alpha) / (2 * pi) * std::pow(sine, 1 / alpha);
+      const double cosine = std::sqrt(1 - sine * sine);
+      EXPECT_NEAR(test::value_of(charlie, {alpha}, {1, 1, cosine, 1, sine * sine}), d, 1e-13 * d);
+    }
+  EXPECT_LT(test::value_of(charlie, {0.3}, {1, 1, 1, 1, 0}), 1e-100);
+}
+
 /// How far D cos⁴θ_h α² is from a function of tan θ_h/α alone, at 1 over the widths 0.1 and 0.8.
 double shape_changes(std::string_view id, Parameters p) {
   const auto g = [&](double alpha, double x) {
