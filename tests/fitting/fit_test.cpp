@@ -122,6 +122,18 @@ TEST(Fit, RecoversIndicesOfDielectricAndConductor) {
   }
 }
 
+TEST(Fit, RecoversTheTailOfStudentsTAndTheTiltOfEonsFacets) {
+  const Material cloth{"cloth",
+                       "eon+student_t/smith_student_t.correlated/schlick",
+                       {"alpha=0.2", "tail=0.45", "f0=0.05", "kd=0.3", "r=0.6"}};
+  SynthOptions s;
+  s.layout = Layout::random;
+  const auto r = fit_synthetic(cloth, s);
+  each_value(cloth, r.document, [](const auto& name, double truth, double fitted, double) {
+    EXPECT_NEAR(fitted / truth, 1, 1e-6) << name;
+  });
+}
+
 TEST(Fit, HoldsWhatIsFixedAndStaysInsideItsBounds) {
   SynthOptions s;
   s.layout = Layout::random;

@@ -227,6 +227,8 @@ TEST(HardData, SolvesFromEveryCornerOfTheBounds) {
   for (const auto& [model, settings] :
        {std::pair{paint, "alpha=0.2,f0=0.05,kd=0.3"},
         {"lambert+gtr/smith_gtr.correlated/schlick", "alpha=0.2,gamma=1.5,f0=0.05,kd=0.3"},
+        {"eon+student_t/smith_student_t.correlated/schlick",
+         "alpha=0.2,tail=0.4,f0=0.05,kd=0.3,r=0.6"},
         {"gtr1/smith_ggx.separable/f82", "alpha=0.1,f0=0.7,f82_tint=0.8"},
         {"beckmann/smith_beckmann.correlated/conductor", "alpha=0.2,eta=0.3,k=4"},
         {"blinn_phong/smith_beckmann.rational/gulbrandsen", "alpha=0.2"},
