@@ -57,14 +57,23 @@ T expm1_over(const T& z) {
   return select<T>(far, (exp(safe) - 1) / safe, series);
 }
 
+/// 1/n, of narrow numbers known when compiled.
+template <Real T>
+T reciprocal(int n) {
+  if constexpr (std::numeric_limits<long double>::digits < digits<T>)
+    return 1 / constant<T>(n);
+  else
+    return constant<T>(1.0L / n);
+}
+
 /// ln(1 + x)/x of x ≥ 0, continued through x = 0: twice the series of artanh x/(x + 2), where the quotient would be 0/0.
 template <Real T>
 T log1p_over(const T& x) {
   constexpr int terms = digits<T> / 4 + 1;  // (x/(x + 2))² ≤ 1/25
   const auto far = constant<T>(0.5L) < x;
   const T near = select<T>(far, T(0), x), z2 = square(near / (2 + near));
-  T series = 1 / constant<T>(2 * terms + 1);
-  for (int k = terms - 1; k >= 0; --k) series = 1 / constant<T>(2 * k + 1) + series * z2;
+  T series = reciprocal<T>(2 * terms + 1);
+  for (int k = terms - 1; k >= 0; --k) series = reciprocal<T>(2 * k + 1) + series * z2;
   const T safe = select<T>(far, x, T(1));
   return select<T>(far, log(1 + safe) / safe, series * 2 / (2 + near));
 }
@@ -75,8 +84,8 @@ T arcsin(const T& x, const T& c) {
   constexpr int terms = digits<T> / 4 + 1;
   const auto half = [](const T& t) { return t / (1 + sqrt(1 + square(t))); };
   const T t = half(half(x / (1 + c))), t2 = square(t);
-  T series = 1 / constant<T>(2 * terms + 1);
-  for (int k = terms - 1; k >= 0; --k) series = 1 / constant<T>(2 * k + 1) - series * t2;
+  T series = reciprocal<T>(2 * terms + 1);
+  for (int k = terms - 1; k >= 0; --k) series = reciprocal<T>(2 * k + 1) - series * t2;
   return series * t * 8;
 }
 

@@ -203,8 +203,8 @@ struct TailShape {
 };
 
 /// Student's t distribution of slopes, between Beckmann's and GGX's and beyond, by its tail τ: 0 Beckmann, 1 GGX, above it
-/// longer.  Ribardière's γ is 1 + 1/τ, and (1 + τ x²)^−γ/π is his distribution; τ is what a fit should vary, for half of
-/// what surfaces have lies between γ = 2 and ∞, where γ says nothing.
+/// longer.  Ribardière's γ is 1 + 1/τ, and (1 + τ x²)^−γ/π is his distribution; of τ a fit reaches both ends, and γ = ∞ is
+/// as near as any other.
 ///
 ///   D = (1 + τ x²)^−(1 + 1/τ) / (π α² NoH⁴),   x = tan θ_h/α
 ///
