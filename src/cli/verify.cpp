@@ -35,7 +35,7 @@ Exit run(const Options& o) {
   if (o.samples && *o.samples < needed)
     throw wrong_usage(fmt::format(
         "--samples {}: this scene's quantile and confidence need {} at least", *o.samples, needed));
-  const auto planned = read_plan(o.plan, s, {s.materials.begin(), s.materials.end()});
+  const auto planned = read_plan(o.plan, s, looks_of(s));
   TimedProgress progress(o.quiet, "verifying", s.materials.size());
   const auto v = verify(s, planned, o.seed, o.samples, [&](double done) {
     progress(static_cast<std::size_t>(done * static_cast<double>(s.materials.size())));

@@ -98,6 +98,53 @@ TEST(VerifyCommand, ExitsWith1WhereAnEditedPlanBreaksTheTolerance) {
   EXPECT_NE(o.out.find("is broken"), o.out.npos) << o.out;
 }
 
+/// The scene under a map, which is a picture of it.
+void make_sky(const Folder& f) {
+  f.write("lit.json", scene().dump());
+  ASSERT_EQ(gonio(f, "render lit.json --width 64 --height 32 --samples 4 -o sky.exr --quiet").code,
+            0);
+  auto s = scene();
+  s["lights"] = json::parse(R"([{"type": "environment", "path": "sky.exr", "scale": 30}])");
+  s["materials"]["plastic"] = json::parse(
+      R"({"model": "ggx/smith_ggx.correlated/schlick", "parameters": {"f0": [0.9, 0.6, 0.3], "roughness": 0.4}})");
+  f.write("scene.json", s.dump());
+}
+
+TEST(VerifyCommand, TakesAPlanUnderAnEnvironmentAndCatchesItsLookup) {
+  const Folder f;
+  make_sky(f);
+  ASSERT_EQ(gonio(f, "plan scene.json -o plan.json --samples 512 --quiet").code, 0);
+  auto plan = json::parse(read_bytes(f / "plan.json"));
+  EXPECT_EQ(effect(plan, "environment")["form"], "quadrature");
+  EXPECT_EQ(gonio(f, "verify scene.json plan.json --quiet").code, 0);
+  EXPECT_EQ(
+      gonio(f, "render scene.json --plan plan.json --width 16 --height 16 --samples 4 -o p.png")
+          .code,
+      0);
+  for (auto& e : plan["materials"]["plastic"]["effects"])
+    if (e["effect"] == "environment") {
+      e["form"] = "split_sum";
+      e["keep"] = false;
+    }
+  f.write("plan.json", plan.dump());
+  EXPECT_EQ(gonio(f, "verify scene.json plan.json --samples 1024 --quiet").code, 1);
+}
+
+TEST(VerifyCommand, RefusesParametersThatAreNotThoseOfThePlansForms) {
+  const Folder f;
+  f.write("scene.json", scene().dump());
+  ASSERT_EQ(gonio(f, "plan scene.json -o plan.json --quiet").code, 0);
+  const auto plan = json::parse(read_bytes(f / "plan.json"));
+  auto other = plan;
+  other["materials"]["plastic"]["parameters"]["kd"] = {0.1, 0.1, 0.1};
+  f.write("plan.json", other.dump());
+  expect_one_line(gonio(f, "verify scene.json plan.json"), 3, "/materials/plastic/parameters");
+  other = plan;
+  other["tolerance"]["limit"] = 100;
+  f.write("plan.json", other.dump());
+  expect_one_line(gonio(f, "verify scene.json plan.json"), 3, "/tolerance");
+}
+
 TEST(VerifyCommand, RefusesAPlanOfAnotherScene) {
   const Folder f;
   f.write("scene.json", scene().dump());

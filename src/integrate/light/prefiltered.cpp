@@ -33,20 +33,20 @@ struct Sum {
     z += w * from.z;
   }
   /// \param middle  centre of a patch of no light
-  Patch done(const Direction& middle) {
+  Patch done(const Direction& middle, double width) {
     const double length = std::hypot(x, y, z);
     // Light from all around has no centre.
     patch.centre = length > 1e-9 * weight && weight > 0
                        ? Direction{x / length, y / length, z / length}
                        : middle;
+    patch.width = width;
     return patch;
   }
 };
 
-/// Patches of a level as equal steps of latitude and longitude.
-double width_of(const Level& l) {
-  return std::max(std::numbers::pi / static_cast<double>(l.height),
-                  2 * std::numbers::pi / static_cast<double>(l.width));
+/// Extent of the widest of n patches that are made of so many equal steps of an angle [rad].
+double widest(double angle, std::size_t steps, std::size_t n) {
+  return angle * static_cast<double>((steps + n - 1) / n) / static_cast<double>(steps);
 }
 Direction middle_of(const Level& l, std::size_t i, std::size_t j) {
   const Environment map{l.width, l.height, {}, 0};
@@ -75,8 +75,10 @@ Level first_level(const Environment& map) {
           solid_angle);
     }
   }
+  const double width = std::max(widest(std::numbers::pi, rows, l.height),
+                                widest(2 * std::numbers::pi, columns, l.width));
   for (std::size_t k = 0; k < sums.size(); ++k)
-    l.patch.push_back(sums[k].done(middle_of(l, k % l.width, k / l.width)));
+    l.patch.push_back(sums[k].done(middle_of(l, k % l.width, k / l.width), width));
   return l;
 }
 
@@ -91,7 +93,8 @@ Level above(const Level& below) {
       sums[j / 2 * l.width + i / 2].add(p.flux, p.centre, p.solid_angle);
     }
   for (std::size_t k = 0; k < sums.size(); ++k)
-    l.patch.push_back(sums[k].done(middle_of(l, k % l.width, k / l.width)));
+    l.patch.push_back(
+        sums[k].done(middle_of(l, k % l.width, k / l.width), 2 * below.patch[0].width));
   return l;
 }
 
@@ -126,8 +129,6 @@ struct Gathering {
 LightPyramid::LightPyramid(const Environment& map) {
   levels_.push_back(first_level(map));
   while (levels_.back().height > 1) levels_.push_back(above(levels_.back()));
-  for (auto& l : levels_)
-    for (auto& p : l.patch) p.width = width_of(l);
 }
 
 template <class Weight>
@@ -178,7 +179,7 @@ Rgb FilteredLight::operator()(const Direction& d) const {
 }
 
 FilteredLight prefiltered(const LightPyramid& light, double alpha) {
-  constexpr double narrowest = 0.02;
+  constexpr double narrowest = 0.01;
   const double a = std::max(alpha, narrowest);
   const std::array parameter{a};
   const Ggx<double> d(parameter);

@@ -52,7 +52,7 @@ class FilteredLight {
 
 /// P(r) = ∫ L D NoL dω / ∫ D NoL dω with n = v = r [Karis 2013].  A patch counts as one direction where it is at most a quarter as
 /// wide as the lobe is there.  Under even light it is exact.
-/// \param alpha  a lobe narrower than the patches, 0.02, is as wide as they are
+/// \param alpha  a lobe narrower than 0.01, about a patch, is taken for that wide
 FilteredLight prefiltered(const LightPyramid&, double alpha);
 
 /// E(n)/π, irradiance as the radiance of an even environment that gives as much.

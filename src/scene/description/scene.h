@@ -133,6 +133,7 @@ enum class Metric { delta_e_2000, relative };
 struct Tolerance {
   Metric metric = Metric::delta_e_2000;
   double quantile = 0.99, limit = 1, max = 4, confidence = 0.95;
+  bool operator==(const Tolerance&) const = default;
 };
 
 struct Scene {

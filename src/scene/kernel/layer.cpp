@@ -2,7 +2,6 @@
 #include "scene/kernel/layer.h"
 
 #include "brdf/kernel/lane.h"
-#include "brdf/term/product.h"
 #include "scene/kernel/multiple.h"
 
 namespace gonio::scene {
@@ -68,7 +67,7 @@ void spectral(const Block<F>& x, const SpectralMetal<F>& metal, const ChannelCol
     const B factor = load<B>(j.factor + i);
     for (std::size_t c = 0; c < max_channels; ++c) {
       const B base = j.base[c] ? load<B>(j.base[c] + i) : B(0);
-      store<B>(j.out[c] + i, lobe_on(base, j.coupled ? base : B(0), One{}, factor, f[c]));
+      store<B>(j.out[c] + i, spectral_lobe<B>(base, j.coupled ? base : B(0), factor, f[c]));
     }
   }
 }

@@ -62,6 +62,12 @@ class SpectralReflectance {
   std::array<std::array<T, bands>, 3> weight_;
 };
 
+/// Lobe on what lies under it.  A colour's F may be above 1, as gold's red is; no more than all is kept from below.
+template <Real T>
+T spectral_lobe(const T& base, const T& under, const T& dv, const T& f) {
+  return base + dv * f - under * min<T>(f, T(1));
+}
+
 }  // namespace GONIO_ARCH
 
 }  // namespace gonio::scene

@@ -94,7 +94,9 @@ struct MaterialFile {
 template <class Form>
 void keys(Form& f, MaterialFile& m) {
   f.required("effects", m.effects, "each effect once", Entries{effect_count, effect_count});
-  f.required("spec", m.spec, "model of these forms; compensation and precision are not in it");
+  f.required(
+      "spec", m.spec,
+      "model of these forms; compensation, spectrum, environment and precision are not in it");
   f.optional("parameters", m.parameters, "of the spec");
   f.required("speedup", m.speedup, "time of all effects exact, over the plan's", amounts);
   f.optional("ops_saved", m.ops_saved, "share of the operations", Numbers{});
@@ -115,7 +117,7 @@ void keys(Form& f, MaterialFile& m) {
 
 struct PlanFile {
   std::string scene_sha256;
-  Tolerance tolerance;
+  std::optional<Tolerance> tolerance;
   std::vector<std::pair<std::string, MaterialFile>> materials;
   std::optional<Budget> budget;
 };
@@ -183,8 +185,23 @@ Forms forms_in(const MaterialFile& m, const Look& look, const JsonReader& at) {
       place.at("keep").fail(forms.keeps(e.effect) ? "true, as its form is not the cheapest"
                                                   : "false, as its form is the cheapest");
   }
-  const auto spec = look.surface(forms).spec();
-  if (spec != m.spec) at.at("spec").fail(fmt::format("'{}', which its forms make", spec));
+  if (const Forms plain = look.plain(forms); plain != forms)
+    for (std::size_t i = 0; i < effect_count; ++i)
+      if (const auto e = static_cast<Effect>(i); plain[e] != forms[e])
+        at.at("effects").fail(fmt::format("{} '{}', which is all that the other forms leave of it",
+                                          name_of(e), plain.name(e)));
+  const Surface surface = look.surface(forms);
+  if (surface.spec() != m.spec)
+    at.at("spec").fail(fmt::format("'{}', which its forms make", surface.spec()));
+  // Who edits forms by hand need not know the parameters that others have, but these are the
+  // material's.
+  const auto parameters = surface.parameters();
+  for (const auto& [name, values] : m.parameters) {
+    const auto own =
+        std::ranges::find(parameters, name, &std::pair<std::string, std::vector<double>>::first);
+    if (own != parameters.end() && own->second != values)
+      at.at("parameters").at(name).fail("what its forms make of the scene's material");
+  }
   return forms;
 }
 
@@ -207,6 +224,8 @@ PlannedForms read_plan(const std::string& path, const Scene& s, const std::vecto
   read_form(root, file);
   if (file.scene_sha256 != s.sha256)
     root.at("scene_sha256").fail(fmt::format("'{}', which is that of {}", s.sha256, s.path));
+  if (file.tolerance && *file.tolerance != s.tolerance)
+    root.at("tolerance").fail("that of the scene");
   PlannedForms planned{std::vector<std::optional<Forms>>(s.materials.size())};
   for (const auto& [name, material] : file.materials) {
     const auto found = std::ranges::find(s.materials, name, &Material::name);

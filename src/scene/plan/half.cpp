@@ -94,7 +94,9 @@ std::vector<Rgb> radiance_in_half(const Surface& s, const LitPoints& p) {
       for (const auto& d : base.diffuse) f = f + Half(d[i]);
       for (std::size_t l = 0; l < base.shape.size(); ++l) {
         const Half under = l == 0 && base.coupled ? f : Half(0);
-        f = lobe_on(f, under, One{}, Half(base.shape[l][i]), Half(base.fresnel[l][i]));
+        const Half dv(base.shape[l][i]), fresnel(base.fresnel[l][i]);
+        f = s.spectrum && l == 0 ? spectral_lobe(f, under, dv, fresnel)
+                                 : lobe_on(f, under, One{}, dv, fresnel);
       }
       if (!base.shape.empty())
         f = f + multiple(s.multiple, albedo, c, Half(base.shape[0][i]) * Half(base.fresnel[0][i]),

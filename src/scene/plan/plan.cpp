@@ -53,6 +53,16 @@ void take(MaterialPlan& p, const Look& look, const Forms& forms, double ns, doub
   }
 }
 
+/// Points of a check: fewer where each has the many directions that a lookup is compared with.
+std::size_t fresh_points(const Scene& scene, const PlanOptions& o, const Surface& s) {
+  return s.image_lit ? std::min(o.fresh, samples_of_verification(scene)) : o.fresh;
+}
+Judgement judged_in_half(const Scene& scene, const Reference& r, const Surface& s) {
+  auto d =
+      differences(scene.tolerance.metric, scene.exposure, r.exact, radiance_in_half(s, r.points));
+  return judge(d, scene.tolerance);
+}
+
 class MaterialPlanner {
  public:
   MaterialPlanner(const Lit& lit, std::size_t material, const PlanOptions& o)
@@ -61,8 +71,7 @@ class MaterialPlanner {
         look_(lit.looks[material]),
         drawer_(lit.drawer(material, o.directions)),
         exact_(look_.surface(look_.exact())),
-        reference_(seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_),
-        start_(look_.exact()) {
+        reference_(seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_) {
     for (const auto& object : scene_.objects)
       if (object.material == material) join(reached_angles(scene_, object));
   }
@@ -78,43 +87,63 @@ class MaterialPlanner {
   static LitPoints seen(LitPoints p, const Scene& s, std::size_t material) {
     if (p.count == 0)
       throw bad_input(s.path, fmt::format("material '{}'", s.materials[material].name),
-                      "no view that shows it", "an object of it in the picture");
+                      "none of 16384 looks from its views meets it",
+                      "an object of it that is larger in the picture");
     return p;
   }
   void join(const ReachedAngles& r) {
     reached_.voh.low = std::min(reached_.voh.low, r.voh.low);
     reached_.voh.high = std::max(reached_.voh.high, r.voh.high);
   }
+  const Reference& compared_with(const Surface& s) const {
+    return s.image_lit ? *under_sky_ : reference_;
+  }
   Judgement judged(const Surface& s) const {
-    auto d = (s.image_lit ? *under_sky_ : reference_).differences_of(scene_, s);
+    auto d = compared_with(s).differences_of(scene_, s);
     return judge(d, scene_.tolerance);
   }
   /// All exact but one.
-  Surface with(Effect e, std::size_t form) const { return with(look_.exact(), e, form); }
-  Surface with(Forms f, Effect e, std::size_t form) const {
+  Surface with(Effect e, std::size_t form) const { return with(e, form, e, form); }
+  /// All exact but two.
+  Surface with(Effect e, std::size_t form, Effect other, std::size_t other_form) const {
+    Forms f = look_.exact();
     f[e] = form;
+    f[other] = other_form;
     return look_.surface(f);
   }
+  /// Forms without what has no part in the light that comes here.  Where all of it is looked up, GGX as wide in all directions,
+  /// Schlick's Fresnel, Lambert's diffuse and one compensation are all that is computed.
+  Forms plain(Forms f) const {
+    f = look_.plain(f);
+    if (f.name(Effect::environment) != "split_sum" || !under_sky_ ||
+        !under_sky_->points.angles.empty())
+      return f;
+    for (const Effect e : {Effect::fresnel, Effect::anisotropy, Effect::tail, Effect::precision})
+      f[e] = look_.offer(e).forms.front();
+    constexpr std::size_t fdez_aguera = 2, lambert = 1;
+    if (f.keeps(Effect::compensation)) f[Effect::compensation] = fdez_aguera;
+    if (look_.offer(Effect::diffuse).forms.size() > 1)
+      f[Effect::diffuse] = std::min(f[Effect::diffuse], lambert);
+    return look_.plain(f);
+  }
 
-  /// Whether the environment may be looked up, which decides what the other effects change.
-  void screen_environment() {
+  /// Whether the environment may be looked up.
+  bool may_look_up() {
     const auto& offer = look_.offer(Effect::environment);
-    if (offer.forms.size() < 2) return;
+    if (offer.forms.size() < 2) return false;
     constexpr std::size_t few = 1024;
-    const auto reference = [&](std::size_t n) {
-      under_sky_.emplace(Reference::under_sky(drawer_, choosing, 0, n, exact_));
-    };
     const Surface looked_up = with(Effect::environment, offer.forms.front());
-    reference(std::min(few, options_.samples));
-    if (!scene_.budget_ns && !judged(looked_up).keeps(scene_.tolerance)) return;
-    reference(options_.samples);
-    if (judged(looked_up).keeps(scene_.tolerance))
-      start_[Effect::environment] = offer.forms.front();
+    for (const std::size_t n : {std::min(few, options_.samples), options_.samples}) {
+      under_sky_.emplace(Reference::under_sky(drawer_, choosing, 0, n, exact_));
+      if (!scene_.budget_ns && !judged(looked_up).keeps(scene_.tolerance)) return false;
+    }
+    return true;
   }
 
   /// Effects one by one.
   void screen() {
-    screen_environment();
+    const bool looks_up = may_look_up();
+    const std::size_t lookup = look_.offer(Effect::environment).forms.front();
     std::vector<Surface> dropped;
     for (std::size_t i = 0; i < effect_count; ++i) {
       const auto e = static_cast<Effect>(i);
@@ -134,10 +163,15 @@ class MaterialPlanner {
         left = {offer.forms.front()};
       } else {
         planned.error_if_dropped = judged(dropped.back()).quantile;
+        const auto may_be = [&](std::size_t form) {
+          if (form == offer.forms.back() || scene_.budget_ns) return true;
+          if (e == Effect::environment) return looks_up;
+          return judged(with(e, form)).keeps(scene_.tolerance) ||
+                 (looks_up &&
+                  judged(with(Effect::environment, lookup, e, form)).keeps(scene_.tolerance));
+        };
         for (const auto form : offer.forms)
-          if (form == start_[e] || scene_.budget_ns ||
-              (e != Effect::environment && judged(with(start_, e, form)).keeps(scene_.tolerance)))
-            left.push_back(form);
+          if (may_be(form)) left.push_back(form);
       }
       effects_.push_back(planned);
     }
@@ -156,16 +190,15 @@ class MaterialPlanner {
   }
 
   void make_candidates() {
-    std::array<double, effect_count> ns_saved;
-    std::ranges::transform(effects_, ns_saved.begin(), &PlannedEffect::ns_saved);
-    thin_out(left_, ns_saved, most_candidates);
+    std::array<double, effect_count> saved;
+    std::ranges::transform(effects_, saved.begin(), [&](const PlannedEffect& e) {
+      return options_.cost == Cost::time ? e.ns_saved : e.ops_saved;
+    });
+    thin_out(left_, saved, most_candidates);
     std::set<Key> known;
     for (const Forms& forms : combinations(left_)) {
       Candidate c;
-      c.forms = forms;
-      if (!c.forms.keeps(Effect::diffuse) && look_.offer(Effect::diffuse).forms.front() == 0)
-        c.forms[Effect::coupling] = 0;
-      if (c.forms.name(Effect::fresnel) != "exact") c.forms[Effect::spectrum] = 0;
+      c.forms = plain(forms);
       Surface s = look_.surface(c.forms);
       if (!known.insert(key_of(s)).second) continue;
       candidates_.push_back(c);
@@ -213,9 +246,14 @@ class MaterialPlanner {
     return order;
   }
 
-  /// Points of the check: fewer where each has the many directions that a lookup is compared with.
-  std::size_t fresh(const Surface& s) const {
-    return s.image_lit ? std::min(options_.fresh, samples_of_verification(scene_)) : options_.fresh;
+  /// Judgement on fresh points; those with the many directions that a lookup is compared with are drawn once.
+  Judgement checked(const Surface& s) {
+    if (!s.image_lit) return judge_fresh(scene_, drawer_, checking, options_.fresh, exact_, s);
+    if (!fresh_under_sky_)
+      fresh_under_sky_.emplace(
+          Reference::under_sky(drawer_, checking, 0, fresh_points(scene_, options_, s), exact_));
+    auto d = fresh_under_sky_->differences_of(scene_, s);
+    return judge(d, scene_.tolerance);
   }
   bool passes(const Judgement& j) const {
     const auto& t = scene_.tolerance;
@@ -238,10 +276,10 @@ class MaterialPlanner {
     if (scene_.budget_ns) return p;
     for (const auto* c : in_order()) {
       const auto& surface = surfaces_[static_cast<std::size_t>(c - candidates_.data())];
-      p.checked = judge_fresh(scene_, drawer_, checking, fresh(surface), exact_, surface);
+      p.checked = checked(surface);
       if (passes(p.checked)) {
         take(p, look_, c->forms, c->ns, c->ops);
-        p.in_half = in_half(surface);
+        p.in_half = judged_in_half(scene_, compared_with(surface), surface);
         return p;
       }
       ++p.passed_over;
@@ -252,14 +290,8 @@ class MaterialPlanner {
     const std::array surface{look_.surface(same)};
     take(p, look_, same, times_of(surface, reference_.points)[0].ns,
          operations_of(surface[0], reference_.points));
-    p.in_half = in_half(surface[0]);
+    p.in_half = judged_in_half(scene_, compared_with(surface[0]), surface[0]);
     return p;
-  }
-  Judgement in_half(const Surface& s) const {
-    const Reference& r = s.image_lit ? *under_sky_ : reference_;
-    auto d = differences(scene_.tolerance.metric, scene_.exposure, r.exact,
-                         radiance_in_half(s, r.points));
-    return judge(d, scene_.tolerance);
   }
   std::string reason(const PlannedEffect& e) const {
     const auto unit = scene_.tolerance.metric == Metric::relative ? "" : "ΔE2000 ";
@@ -287,9 +319,8 @@ class MaterialPlanner {
   PointDrawer drawer_;
   Surface exact_;
   Reference reference_;
-  std::optional<Reference>
-      under_sky_;  ///< what surfaces that look the environment up are compared with
-  Forms start_;    ///< exact, but for an environment that may be looked up
+  /// What surfaces that look the environment up are compared with, and its fresh points.
+  std::optional<Reference> under_sky_, fresh_under_sky_;
   ReachedAngles reached_{{1, 0}};
   std::vector<PlannedEffect> effects_;
   FormsLeft left_;
@@ -325,8 +356,14 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
         std::ranges::find(s.materials, m.name, &Material::name) - s.materials.begin());
     const Look& look = lit.looks[index];
     take(m, look, c.forms, c.ns, c.ops);
-    m.checked = judge_fresh(s, lit.drawer(index, options.directions), checking, options.fresh,
-                            look.surface(look.exact()), look.surface(c.forms));
+    const auto drawer = lit.drawer(index, options.directions);
+    const Surface exact = look.surface(look.exact()), surface = look.surface(c.forms);
+    m.checked = judge_fresh(s, drawer, checking, fresh_points(s, options, surface), exact, surface);
+    m.in_half = judged_in_half(
+        s,
+        surface.image_lit ? Reference::under_sky(drawer, choosing, 0, options.samples, exact)
+                          : Reference(drawer.draw(choosing, 0, options.samples), exact),
+        surface);
   }
 }
 

@@ -99,12 +99,12 @@ std::size_t samples_of_verification(const Scene&);
 ///   1  effects that change nothing take their cheapest form
 ///   2  so do those whose change is proved to be less than a tenth of the tolerance
 ///   3  of the others, every form that keeps the tolerance while all else is exact is a candidate's; candidates are their
-///      combinations, at most 512
-/// Where the scene has a budget, all forms are candidates', and in place of 4 those are taken whose worst error is the least that
-/// the budget leaves; the tolerance may be broken then, which a verification tells.
-///
+///      combinations, at most 512.  Those that look an environment up are compared with 1024 directions a point
 ///   4  the cheapest that keeps the tolerance, ties within the spread of times going to fewer effects, is checked on fresh
 ///      points, strictly enough that fresh ones of a verification are likely to agree; if it fails the next is taken
+///
+/// Where the scene has a budget, all forms are candidates', and in place of 4 those are taken whose worst error is the least that
+/// the budget leaves; the tolerance may be broken then, which a verification tells.
 ///
 /// \param done  part that is done, in [0, 1]
 Plan plan_scene(const Scene&,

@@ -161,7 +161,11 @@ Look::Look(const Material& m, std::shared_ptr<const ImageLight> sky) : sky_(std:
     coat_.parameters = {{"alpha", {0.01}}, {"f0", {0.04}}, {"weight", {0}}};
   }
   coat_.absent = number_of(coat_.parameters, "weight", 1) == 0;
-  coat_.width = number_of(coat_.parameters, "alpha", 0.1);
+  const double alpha = number_of(coat_.parameters, "alpha", 0.1);
+  const double x = number_of(coat_.parameters, "alpha_x", alpha);
+  const double y = number_of(coat_.parameters, "alpha_y", alpha);
+  coat_.width = std::max(x, y);
+  coat_.mean_width = std::sqrt(x * y);
   offer_forms();
   if (!first_.known) return;
   const auto base = surface(structural()).base;
@@ -171,10 +175,11 @@ Look::Look(const Material& m, std::shared_ptr<const ImageLight> sky) : sky_(std:
 
 void Look::read_spectrum(const Material& m) {
   const auto* from = std::get_if<FromSpec>(&m.from);
-  if (!from || fresnel_.id != "conductor" || !others_.empty()) return;
+  if (!from || fresnel_.id != "conductor") return;
   const auto named =
       std::ranges::find(from->parameters, "metal", &std::pair<std::string, Given>::first);
-  if (named == from->parameters.end()) return;
+  fresnel_.is_named = named != from->parameters.end();
+  if (!fresnel_.is_named || !others_.empty()) return;
   fresnel_.spectrum = spectral(*find_metal(named->second.word));
   fresnel_.band_average = band_averages(*fresnel_.spectrum);
   const SpectralReflectance<double> f(*fresnel_.spectrum);
@@ -340,11 +345,12 @@ void Look::offer_forms() {
   if (fresnel_.spectrum)
     offer(Effect::spectrum, {"rgb", "spectral"});
   else
-    offer(Effect::spectrum, {"rgb"}, false, "no spectrum is known of it");
+    offer(Effect::spectrum, {"rgb"}, false,
+          fresnel_.is_named ? "its further lobes have none" : "no spectrum is known of it");
   // Two sums stand for one lobe of GGX's kind, and for what is diffuse.
   if (!sky_)
     offer(Effect::environment, {"split_sum"}, false, "no environment lights it");
-  else if (first_.any && (!first_.known || !others_.empty()))
+  else if ((first_.any && (!first_.known || !others_.empty())) || !coat_.lobe.starts_with("ggx"))
     offer(Effect::environment, {"quadrature"}, false, "two sums do not stand for its lobes");
   else
     offer(Effect::environment, {"split_sum", "quadrature"});
@@ -359,6 +365,14 @@ Forms Look::exact() const {
 Forms Look::structural() const {
   Forms f;
   for (std::size_t e = 0; e < effect_count; ++e) f.form[e] = offers_[e].same_as_exact;
+  return f;
+}
+
+Forms Look::plain(Forms f) const {
+  if (f.name(Effect::diffuse) == "none")
+    f[Effect::coupling] = offer(Effect::coupling).forms.front();
+  if (f.name(Effect::fresnel) != "exact")
+    f[Effect::spectrum] = offer(Effect::spectrum).forms.front();
   return f;
 }
 
@@ -464,7 +478,7 @@ std::shared_ptr<const ImageLit> Look::image_lit(const Surface& s, const Forms& f
     const double weight = number_of(coat_.parameters, "weight", 1);
     if (weight > 0)
       for (double& x : f0) x /= weight;
-    parts.coat = ImageLitParts::Layer{"smith_ggx.correlated", coat_.width, rgb(f0), weight};
+    parts.coat = ImageLitParts::Layer{"smith_ggx.correlated", coat_.mean_width, rgb(f0), weight};
   }
   if (!s.base.model.diffuse.empty()) parts.kd = rgb(diffuse_.kd);
   parts.coupled = forms.name(Effect::coupling) == "on";

@@ -72,6 +72,8 @@ class Look {
   Forms exact() const;
   /// Every effect in the cheapest form that is the same.
   Forms structural() const;
+  /// Forms without what the others leave nothing of: the coupling of no diffuse, the spectrum of a form that has none.
+  Forms plain(Forms) const;
   /// \param forms  each one that is offered
   Surface surface(const Forms& forms) const;
   /// Turn of the tangent about the normal [rad].
@@ -112,13 +114,14 @@ class Look {
     /// Of the exact form over the hemisphere, by channel and by band.
     std::vector<double> average{0, 0, 0}, band_average;
     std::optional<SpectralMetal<double>> spectrum;
+    bool is_named = false;  ///< a metal
   } fresnel_;
   std::string others_;  ///< spec of further lobes, "+…"
   Settings others_settings_;
   struct Coat {
     std::string lobe;
     Settings parameters;
-    double width = 0.1;
+    double width = 0.1, mean_width = 0.1;  ///< the wider of both, and their geometric mean
     bool absent = false;
   } coat_;
   double turn_ = 0;

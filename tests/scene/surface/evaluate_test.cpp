@@ -158,7 +158,7 @@ TEST(SurfaceEvaluator, LetsTheRestOfTheSpectrumThroughToACoupledDiffuse) {
   for (std::size_t i = 0; i < n; ++i) {
     const auto exact = reflectance("Au", angles[i].voh);
     for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(f[c][i] - g[c][i], 0.5 / std::numbers::pi * (1 - exact[c]),
+      EXPECT_NEAR(f[c][i] - g[c][i], 0.5 / std::numbers::pi * (1 - std::min(exact[c], 1.0)),
                   2e-3 + 1e-13 * g[c][i]);
   }
 }
