@@ -74,6 +74,10 @@ void lay_out(Table& t, const SynthOptions& o) {
       t.format = "mbsdf";
       t.where = mbsdf_grid(45, 90, o.bins);
       break;
+    case Layout::utia:
+      t.format = "utia";
+      t.where = utia_directions();
+      break;
     case Layout::image_slice:
       t.format = "exr";
       t.where = image_slice_grid(o.slice, o.slice, 90 * degree, o.bins);
@@ -97,9 +101,9 @@ void lay_out(Table& t, const SynthOptions& o) {
 
 Table synthesize(const BoundModel& b, const SynthOptions& o) {
   const std::size_t channels = b.model.channels;
-  if (o.layout == Layout::merl && channels != 3)
-    throw wrong_usage(
-        fmt::format("a MERL table has 3 channels, the colours given have {}", channels));
+  if ((o.layout == Layout::merl || o.layout == Layout::utia) && channels != 3)
+    throw wrong_usage(fmt::format("a {} table has 3 channels, the colours given have {}",
+                                  o.layout == Layout::merl ? "MERL" : "UTIA", channels));
   if (o.layout == Layout::mbsdf && channels != 3 && channels != 1)
     throw wrong_usage(
         fmt::format("an MBSDF table has 1 or 3 channels, the colours given have {}", channels));
@@ -116,7 +120,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
   if (b.model.anisotropic && t.grid())
     throw wrong_usage(
         fmt::format("model '{}' is anisotropic: layout {} does not say how the surface was turned; "
-                    "those of direction lists do: in_plane, hemisphere, random",
+                    "those of direction lists do: utia, in_plane, hemisphere, random",
                     b.model.spec, name_of(o.layout)));
   const SampleAngles at(t);
   constexpr std::size_t chunk = 16384;

@@ -14,16 +14,18 @@ namespace gonio {
 
 /// Where the samples are taken, and the file format that goes with it.
 enum class Layout {
-  merl,      ///< 90 × 90 × 180 over theta_h, theta_d, phi_d; MERL binary, three channels
-  mbsdf,     ///< 45 × 45 × 90 over theta_i, theta_o, phi; NVIDIA MBSDF
+  merl,   ///< 90 × 90 × 180 over theta_h, theta_d, phi_d; MERL binary, three channels
+  mbsdf,  ///< 45 × 45 × 90 over theta_i, theta_o, phi; NVIDIA MBSDF
+  utia,  ///< 241 × 241 directions, θ by 15° to 75° and φ by 7.5°, of anisotropic models too; UTIA
+         ///< binary, three channels
   in_plane,  ///< 5 incident angles × theta_o −85° to 85° by 1° in the plane of incidence; CSV
   image_slice,  ///< 90 × 90 (or `slice`) over theta_h, theta_d at phi_d = 90°; OpenEXR
   hemisphere,   ///< 6 incident angles × theta_o by 5° × phi_o by 10°; CSV
   random        ///< half uniform over both hemispheres, half with theta_h log-uniform; CSV
 };
 template <>
-inline constexpr std::array<std::string_view, 6> names_of<Layout>{
-    "merl", "mbsdf", "in_plane", "image_slice", "hemisphere", "random"};
+inline constexpr std::array<std::string_view, 7> names_of<Layout>{
+    "merl", "mbsdf", "utia", "in_plane", "image_slice", "hemisphere", "random"};
 
 struct SynthOptions {
   Layout layout = Layout::merl;

@@ -32,6 +32,9 @@ Exit run(const Options& o) {
   progress("reading " + o.file);
   const Table t = read_table(o.file, bins_from(o.bins));
   const BoundModel m = model_argument(o.model, o.set, t.channels.size()).model;
+  if (m.model.anisotropic)
+    throw wrong_usage(
+        fmt::format("model '{}' is anisotropic: compare takes isotropic models", m.model.spec));
   progress("comparing");
   const Sampling sampling(t, t.bins(), Metric::l2_cosine, 0, false);
   const FreeSlots nothing(std::vector<bool>(m.model.value_count, false));

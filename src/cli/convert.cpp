@@ -28,10 +28,11 @@ std::string format_of(const Options& o) {
   if (!o.convert.format.empty()) return o.convert.format;
   const auto extension = std::filesystem::path(o.output).extension().string();
   if (extension == ".binary") return "merl";
+  if (extension == ".bin") return "utia";
   if (extension == ".mbsdf" || extension == ".csv" || extension == ".exr")
     return extension.substr(1);
   throw wrong_usage(
-      fmt::format("what {} is to be is not clear: --to merl, mbsdf, csv or exr", o.output));
+      fmt::format("what {} is to be is not clear: --to merl, mbsdf, utia, csv or exr", o.output));
 }
 
 std::string layout(const Table& t) {
@@ -181,8 +182,9 @@ void add_convert(CommandLine& line) {
   c.option("IN", o->input, "Table").required();
   c.option("OUT", o->output, "File to write").required();
   c.option("--to", o->convert.format,
-           "merl, mbsdf, csv or exr (a slice); default: by OUT's ending, .binary being merl")
-      .one_of({"merl", "mbsdf", "csv", "exr"});
+           "merl, mbsdf, utia, csv or exr (a slice); default: by OUT's ending, .binary being merl "
+           "and .bin utia")
+      .one_of({"merl", "mbsdf", "utia", "csv", "exr"});
   c.option("--channels", o->channels, "Which, in this order: NAME,NAME,…");
   add_bins(c, o->bins);
   c.option("--to-bins", o->to_bins, "Where a sample sits in OUT's bins (default: as in IN)")

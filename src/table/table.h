@@ -95,8 +95,9 @@ inline constexpr double least_cosine = 0.01;
 /// Values as stored: f_r in 1/sr, without the cosine; invalid ones included (see mask()).
 struct Table {
   std::string path;
-  std::string sha256;                 ///< of the file, where reading it had a reason to know
-  std::string format;                 ///< "csv", "merl", "mbsdf", "exr", "rgl", "klems", "alta"
+  std::string sha256;  ///< of the file, where reading it had a reason to know
+  std::string format;  ///< "csv", "merl", "mbsdf", "exr", "rgl", "klems", "alta", "utia",
+                       ///< "ngan"
   std::vector<std::string> channels;  ///< "r", "g", "b"; "f" if there is one
   std::variant<Grid, DirectionList> where;
   std::vector<Values> values;     ///< [channel][sample]

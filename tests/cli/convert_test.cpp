@@ -37,6 +37,26 @@ TEST(ConvertCommand, KeepsAFitWhereTheLayoutCanHoldIt) {
   EXPECT_NEAR(fit["parameters"]["alpha"]["value"], 0.4, 0.01);
 }
 
+TEST(ConvertCommand, TakesAUtiaTableToCsvAndBackToTheSameBytes) {
+  const Folder f;
+  ASSERT_EQ(
+      gonio(f,
+            "synth ggx_aniso/smith_ggx_aniso.correlated/schlick --set alpha_x=0.35 alpha_y=0.2 "
+            "f0=0.6,0.5,0.4 --layout utia -o a.bin")
+          .code,
+      0);
+  const auto inspected = gonio(f, "inspect a.bin --json").json();
+  EXPECT_EQ(inspected["format"], "utia");
+  EXPECT_EQ(inspected["warnings"].size(), 0U) << "its side file says what its numbers are";
+  ASSERT_EQ(gonio(f, "convert a.bin a.csv").code, 0);
+  const auto back = gonio(f, "convert a.csv b.bin --json").json();
+  EXPECT_EQ(back["output"]["format"], "utia");
+  EXPECT_EQ(back["method"], "copied");
+  EXPECT_EQ(read_bytes(f / "b.bin"), read_bytes(f / "a.bin"));
+  std::filesystem::remove(f / "b.bin.gonio.json");
+  EXPECT_NE(gonio(f, "inspect b.bin").out.find("beware"), std::string::npos);
+}
+
 TEST(ConvertCommand, NeverTouchesItsInputAndLeavesNothingWhereItFails) {
   const Folder f;
   ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout in_plane -o p.csv").code, 0);

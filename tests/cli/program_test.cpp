@@ -44,6 +44,10 @@ TEST(Program, GoesFromSynthOverInspectAndFitToCompare) {
   EXPECT_NEAR(same["residuals"]["log_rms"], document["residuals"]["log_rms"], 1e-9);
   const auto truth = gonio(f, std::string("compare p.mbsdf ") + paint + " --json").json();
   EXPECT_NEAR(truth["residuals"]["log_rms"], 0.02, 0.001);
+  expect_one_line(gonio(f,
+                        "compare p.mbsdf ggx_aniso/smith_ggx_aniso.correlated/schlick --set "
+                        "alpha_x=0.3 alpha_y=0.2 f0=0.5"),
+                  2, "is anisotropic");
   const auto other = gonio(f, "compare p.mbsdf lambert --set kd=0.2 --json").json();
   EXPECT_GT(other["residuals"]["log_rms"], 0.1);
 }

@@ -101,8 +101,23 @@ TEST(Synth, RemembersTheTruth) {
   EXPECT_EQ(kd->second, (std::vector<double>{0.2, 0.1, 0.05}));
 }
 
-TEST(Synth, RefusesAMerlTableOfTwoChannels) {
+TEST(Synth, RefusesAMerlOrUtiaTableOfTwoChannels) {
   const auto b = bind_model("lambert", parse_settings(std::vector<std::string>{"kd=0.1,0.2"}));
+  EXPECT_THROW(synthesize(b, {.layout = Layout::merl}), Error);
+  EXPECT_THROW(synthesize(b, {.layout = Layout::utia}), Error);
+}
+
+TEST(Synth, AUtiaTableKnowsHowTheSurfaceWasTurned) {
+  const auto b =
+      bind_model("ggx_aniso/smith_ggx_aniso.correlated/schlick",
+                 parse_settings(std::vector<std::string>{"alpha_x=0.4,alpha_y=0.1,f0=0.5"}), 3);
+  const Table t = synthesize(b, {.layout = Layout::utia});
+  // Light and viewer 15° apart in the plane of the tangent, then in that of the bitangent: D of the
+  // half vector at 7.5°.
+  const auto width = [](double alpha) { return std::pow(std::tan(7.5 * degree) / alpha, 2); };
+  const double along = t.values[0][1], across = t.values[0][1 + 12];
+  EXPECT_NEAR(along / across, std::pow((1 + width(0.1)) / (1 + width(0.4)), 2), 0.02)
+      << "masking hardly differs so near the normal";
   EXPECT_THROW(synthesize(b, {.layout = Layout::merl}), Error);
 }
 

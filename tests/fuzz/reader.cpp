@@ -1,4 +1,6 @@
 // Any bytes given to one reader of tables.
+#include <fstream>
+
 #include "base/file.h"
 #include "fuzz/one_file.h"
 #include "table/format/formats.h"
@@ -24,6 +26,10 @@ Table read(InputFile& in) {
   return read_klems(in);
 #elif defined(GONIO_FUZZ_alta)
   return read_alta(in);
+#elif defined(GONIO_FUZZ_utia)
+  return read_utia(in);
+#elif defined(GONIO_FUZZ_ngan)
+  return read_ngan(in);
 #elif defined(GONIO_FUZZ_side)
   const std::string text = in.read_rest();
   column_map("side", text);
@@ -56,7 +62,13 @@ void use(const Table& t) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return fuzz::read_as_file(data, size, [](const std::string& path) {
+  return fuzz::read_as_file(data, size, [&](const std::string& path) {
+#if defined(GONIO_FUZZ_utia)  // whose files all have one size, more than a fuzzer tries
+    std::string bytes(1'990'656, '\0');
+    for (std::size_t k = 0; size > 0 && k < bytes.size(); ++k)
+      bytes[k] = static_cast<char>(data[k % size]);
+    std::ofstream(path, std::ios::binary) << bytes;
+#endif
     InputFile in(path);
     use(read(in));
   });

@@ -1,4 +1,5 @@
 // gonio_fuzz_seeds DIR: for each reader small files that it reads, to begin from.
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -75,6 +76,8 @@ int main(int argc, char** argv) {
        "ISOTROPIC_TV_TL\n"
        "#PARAM_OUT INV_STERADIAN\n#BEGIN_STREAM\n" +
            bytes_of(std::array<double, 3>{0.1, 0.2, 0.3}));
+  save("utia", "numbers", bytes_of(std::array<double, 5>{0.3, 0, -1, 1e300, NAN}));
+  save("ngan", "half", ngan_file({2, 1, 3, 2}, true, [](std::size_t k) { return k; }));
   Table t = mbsdf_example(1, 2);
   t.truth = truth_example();
   t.notes = {{"a", "b"}};

@@ -2,6 +2,7 @@
 /// \file
 /// Files in formats that gonio reads and does not write, made from functions of directions.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <numbers>
@@ -183,6 +184,20 @@ struct KlemsFile {
     return text + "</Layer></Optical></WindowElement>\n";
   }
 };
+
+/// A file of MIT CSAIL's anisotropic measurements.  \param value  of a bin, by its number; without it there are none
+template <class Value = std::nullptr_t>
+std::string ngan_file(const std::array<std::int32_t, 4>& bins, bool half, Value value) {
+  std::array<std::int32_t, 16> header{bins[0], bins[1], bins[2], bins[3]};
+  header[6] = 1;
+  header[9] = half;
+  header[10] = 3;
+  std::string bytes = bytes_of(header);
+  if constexpr (!std::is_same_v<Value, std::nullptr_t>)
+    for (std::size_t k = 0; k < 3 * std::size_t(bins[0] * bins[1] * bins[2] * bins[3]); ++k)
+      bytes += bytes_of(static_cast<float>(value(k)));
+  return bytes;
+}
 
 /// \param rows  the numbers of each sample
 inline std::string alta_file(const std::string& in,

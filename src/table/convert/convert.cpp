@@ -75,7 +75,7 @@ Table with_channels(const Table& t, const ConvertOptions& o, Loss& loss) {
   if (n != 1 && n != 3)
     throw wrong_usage(fmt::format("{} holds one channel or three: --channels takes them of {}",
                                   o.format, fmt::join(t.channels, ", ")));
-  loss.replicated = n == 1 && o.format == "merl";
+  loss.replicated = n == 1 && (o.format == "merl" || o.format == "utia");
   const std::vector<std::string> rgb{"r", "g", "b"};
   if (n == 3 && out.channels != rgb) loss.renamed = std::exchange(out.channels, rgb);
   if (n == 1) out.channels = {"f"};
@@ -126,11 +126,14 @@ Table listed(Table t, Loss& loss) {
 /// kept of some thousand bins.
 class Resampling {
  public:
-  Resampling(const Table& from, const Grid& to)
+  /// \param to  its grid, or nullptr of a list, which has a value for each pair
+  Resampling(const Table& from, const Grid* to)
       : from_(from),
         f_(from),
-        ways_(joins_ways(to) && !is_slice(to) && !(from.grid() && joins_ways(*from.grid()))),
-        sides_(joins_sides(to) && !is_slice(to) && !(from.grid() && joins_sides(*from.grid()))) {}
+        ways_(to && joins_ways(*to) && !is_slice(*to) &&
+              !(from.grid() && joins_ways(*from.grid()))),
+        sides_(to && joins_sides(*to) && !is_slice(*to) &&
+               !(from.grid() && joins_sides(*from.grid()))) {}
 
   double operator()(const DirectionPair& p, std::size_t channel, bool keep) {
     double sum = 0;
@@ -167,7 +170,7 @@ class Resampling {
 void resample(const Table& from, Table& to, Loss& loss) {
   loss.method = Loss::Method::interpolated;
   loss.one_phi_d = from.grid() && is_slice(*from.grid());
-  Resampling f(from, *to.grid());
+  Resampling f(from, to.grid());
   const SampleAngles at(to);
   const std::size_t every = 1 + to.size() / 20'000;
   for_each_chunk(to.size(), [&](std::size_t first, std::size_t last) {
@@ -328,24 +331,35 @@ Conversion convert(const Table& source, const ConvertOptions& o) {
   Table from = with_channels(source, o, loss);
   from.path = source.path;
   loss.rounded = o.format == "mbsdf" || o.format == "exr";
-  const bool to_list = o.format == "csv";
-  const std::optional<Grid> grid = to_list ? std::nullopt : std::optional(target_grid(source, o));
+  const bool to_list = o.format == "csv", to_utia = o.format == "utia";
+  const std::optional<Grid> grid =
+      to_list || to_utia ? std::nullopt : std::optional(target_grid(source, o));
   Table& to = result.table;
-  if (grid ? source.grid() && *source.grid() == *grid : !source.grid()) {
+  if (grid      ? source.grid() && *source.grid() == *grid
+      : to_utia ? has_utia_directions(source)
+                : !source.grid()) {
     to = from;
     to.between = {};
   } else if (to_list) {
     to = listed(from, loss);
   } else {
-    to.where = *grid;
+    if (grid)
+      to.where = *grid;
+    else
+      to.where = utia_directions();
     to.channels = from.channels;
-    to.values.assign(from.values.size(), Values(grid->size(), kNone));
+    to.values.assign(from.values.size(),
+                     Values(grid ? grid->size() : to.list()->theta_i_deg.size(), kNone));
     if (from.grid() || from.between)
       resample(from, to, loss);
-    else
+    else if (grid)
       gather(from, to, o.reach_deg, loss);
+    else
+      throw bad_input(from.path, "converting", "a list of other directions than UTIA's",
+                      "a grid, or a format that says what lies between its samples");
   }
   to.format = o.format;
+  if (to_utia) interpolate_utia(to);
   if (loss.method == Loss::Method::copied || loss.method == Loss::Method::listed)
     to.truth = source.truth;
   settle_values(to, loss);

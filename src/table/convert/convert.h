@@ -12,7 +12,7 @@
 namespace gonio {
 
 struct ConvertOptions {
-  std::string format;                 ///< merl, mbsdf, csv or exr
+  std::string format;                 ///< merl, mbsdf, utia, csv or exr
   std::vector<std::string> channels;  ///< which, in this order; empty: all
   /// Bin convention of the result; else the source's.  The result's sizes where the layout leaves them open: the
   /// source's if that is of the format, else 45 × 45 × 90 (MBSDF) or 90 × 90 (slice).
@@ -61,7 +61,7 @@ struct Conversion {
 
 /// Masked values stay without data: −1 in MERL, else NaN.  The truth stays where values do.  Wrong
 /// usage where the format cannot hold the channels; bad_input where a list's samples reach less than
-/// half of the bins.
+/// half of the bins, and where one is to become UTIA's that neither has UTIA's directions nor says what lies between its own.
 Conversion convert(const Table&, const ConvertOptions&);
 
 }  // namespace gonio

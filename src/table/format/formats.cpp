@@ -28,17 +28,21 @@ Table read_by_format(InputFile& in, const ColumnMap* map) {
   if (is_klems(head)) return read_klems(in);
   if (!map && is_alta(head)) return read_alta(in);
   if (is_merl(head, in.size())) return read_merl(in);
+  if (is_ngan(head)) return read_ngan(in);
   if (map || is_csv(head)) return read_csv(in, map);
+  if (is_utia(in.size())) return read_utia(in);  // known by its size alone
   expect_no_utf16(in.path(), head);
   throw bad_input(in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
-                  "a MERL, MBSDF, RGL, Klems XML or ALTA file, an image slice in OpenEXR, or CSV");
+                  "a MERL, MBSDF, RGL, Klems XML, ALTA, UTIA or MIT CSAIL file, an image slice in "
+                  "OpenEXR, or CSV");
 }
 
 void write_by_format(const Table& t, OutputFile& out, const std::string& path) {
   if (t.format == "merl") return write_merl(t, out, path);
   if (t.format == "mbsdf") return write_mbsdf(t, out, path);
+  if (t.format == "utia") return write_utia(t, out, path);
   if (t.format == "csv") return write_csv(t, out);
-  throw wrong_usage("unknown table format '" + t.format + "': use csv, merl, mbsdf or exr");
+  throw wrong_usage("unknown table format '" + t.format + "': use csv, merl, mbsdf, utia or exr");
 }
 
 }  // namespace

@@ -12,7 +12,9 @@
 #include "table/format/klems.h"
 #include "table/format/mbsdf.h"
 #include "table/format/merl.h"
+#include "table/format/ngan.h"
 #include "table/format/rgl.h"
+#include "table/format/utia.h"
 #include "table/table.h"
 
 namespace gonio {

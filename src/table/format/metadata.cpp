@@ -58,11 +58,14 @@ Truth read_truth(const JsonReader& j) {
   return t;
 }
 
-/// A value of an enumeration of two.
+/// A value of an enumeration.
 template <Named E>
 E read_name(const JsonReader& j) {
   const auto value = find_value<E>(j.string());
-  if (!value) j.fail(fmt::format("\"{}\" or \"{}\"", names_of<E>[0], names_of<E>[1]));
+  constexpr auto names = names_of<E>;
+  if (!value)
+    j.fail(fmt::format("\"{}\" or \"{}\"", fmt::join(names.begin(), names.end() - 1, "\", \""),
+                       names.back()));
   return *value;
 }
 
@@ -159,11 +162,13 @@ std::string side_path(const std::string& path) {
 }
 
 bool needs_metadata(const Table& t) {
-  return t.truth || !t.notes.empty() || (keeps_bins(t) && t.grid()->bins != Bins::centre);
+  return t.truth || !t.notes.empty() || t.format == "utia" ||
+         (keeps_bins(t) && t.grid()->bins != Bins::centre);
 }
 
 std::string metadata_text(const Table& t, const std::string& sha256) {
-  SideFile side{sha256, {}, {}, t.truth, notes_of(t)};
+  SideFile side{sha256, {}, {}, {}, t.truth, notes_of(t)};
+  if (t.format == "utia") side.values = UtiaValues::f_r;
   if (keeps_bins(t)) side.bins = t.grid()->bins;
   return text_of(json_of(side));
 }
@@ -179,6 +184,10 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
   if (root.has("bins")) {
     if (!t.has_bins()) root.at("bins").fail("none: this table has no bins");
     std::get<Grid>(t.where).bins = read_name<Bins>(root.at("bins"));
+  }
+  if (root.has("values")) {
+    if (t.format != "utia") root.at("values").fail("none: this table is not UTIA's");
+    interpret_utia(t, read_name<UtiaValues>(root.at("values")));
   }
   if (root.has("columns") && t.format != "csv")
     root.at("columns").fail("none: this table is not CSV");

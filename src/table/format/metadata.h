@@ -5,6 +5,7 @@
 ///
 ///   {"schema": "gonio.table/1", "sha256": of the table's file (in a side file that gonio wrote),
 ///    "bins": "centre"|"edge" (where there are bins),
+///    "values": "f_r"|"srgb"|"dj_brdf"|"xyz" (of a UTIA file, see table/format/utia.h),
 ///    "columns": how to read them (of CSV, see table/format/column_map.h),
 ///    "truth": {"model", "parameters": {NAME: number or array}, "noise", "floor", "outliers", "seed"},
 ///    "notes": {NAME: string}}

@@ -12,6 +12,7 @@
 #include "base/describe.h"
 #include "base/json_describe.h"
 #include "table/format/column_map.h"
+#include "table/format/utia.h"
 #include "table/table.h"
 
 namespace gonio {
@@ -20,6 +21,7 @@ namespace gonio {
 struct SideFile {
   std::string sha256;  ///< of the table's file; empty: nothing is said of it
   std::optional<Bins> bins;
+  std::optional<UtiaValues> values;
   std::optional<ColumnMap> columns;
   std::optional<Truth> truth;
   std::vector<std::pair<std::string, std::string>> notes;
@@ -80,6 +82,7 @@ struct Description<SideFile> {
               }),
               "of the table's file; in a side file that gonio wrote"),
         field("bins", "", if_there(&SideFile::bins), "where a sample sits in its bin"),
+        field("values", "", if_there(&SideFile::values), "what the numbers of a UTIA file are"),
         field("columns", "", if_there(&SideFile::columns), "how to read those of a CSV file"),
         field("truth", "", if_there(&SideFile::truth), "what the table was made from"),
         field("notes", "", if_there([](const SideFile& f) {

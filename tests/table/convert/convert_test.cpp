@@ -291,6 +291,42 @@ TEST(Convert, TellsWhatBecomesOfChannelsAndWeights) {
   EXPECT_FALSE(convert(list, to("csv")).loss.weights_dropped);
 }
 
+TEST(Convert, MakesAUtiaTableOfAGridAndTakesItBack) {
+  Table t = wide_mbsdf();
+  const auto [utia, loss] = convert(t, to("utia"));
+  EXPECT_EQ(loss.method, Loss::Method::interpolated);
+  EXPECT_TRUE(loss.replicated);
+  EXPECT_FALSE(loss.mirror) << "UTIA's has a value for φ and one for −φ";
+  EXPECT_FALSE(loss.reciprocity);
+  EXPECT_EQ(loss.bins, 241U * 241U);
+  EXPECT_GT(loss.lost, 0U) << "beyond 75° nothing comes back";
+  const SampleAngles at(utia);
+  double largest = 0;
+  for (std::size_t i = 0; i < utia.size(); ++i)
+    largest = std::max(largest, std::abs(utia.values[0][i] / lobe(at(i), 0.5, 0.3) - 1));
+  EXPECT_LT(largest, 0.02) << "2° bins of a wide lobe, read between";
+  const Folder folder;
+  write_table(utia, folder / "m.bin");
+  EXPECT_EQ(read_table(folder / "m.bin").values[1], utia.values[0]);
+  const auto again = convert(read_table(folder / "m.bin"), to("utia"));
+  EXPECT_EQ(again.loss.method, Loss::Method::copied);
+  EXPECT_EQ(again.loss.largest, 0);
+  const auto list = convert(again.table, to("csv")).table;
+  EXPECT_EQ(convert(list, to("utia")).loss.method, Loss::Method::copied) << "the same directions";
+  const auto mbsdf = convert(again.table, to("mbsdf"));
+  EXPECT_EQ(mbsdf.loss.method, Loss::Method::interpolated);
+  EXPECT_TRUE(mbsdf.loss.mirror);
+}
+
+TEST(Convert, MakesNoUtiaTableOfAListThatSaysNothingBetweenItsSamples) {
+  Table t = csv_example();
+  t.path = "t.csv";
+  t.channels.pop_back();
+  t.values.pop_back();
+  EXPECT_HAS(refusal([&] { convert(t, to("utia")); }),
+             "t.csv: converting: found a list of other directions than UTIA's");
+}
+
 TEST(Convert, CutsASliceAndTakesItForTheWhole) {
   const Table t = wide_merl();
   auto o = to("exr");

@@ -56,6 +56,7 @@ std::vector<Sample> samples() {
            alta_file("RUSIN_TH_TD_PD", "INV_STERADIAN_COSINE_FACTOR", 3, 1,
                      {{0.1, 0.2, 0.3, 0.4}, {0.5, 0.6, 0.7, 0.8}}),
            150, false},
+          {"ngan", ngan_file({2, 1, 3, 2}, false, [](std::size_t k) { return k; }), 64},
           {"csv", first_lines(written(csv_example()), 4), 60, false},
           {"merl", std::string("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", 12) + "values", 12}};
 }
@@ -107,6 +108,19 @@ TEST(DamagedFile, WithChangedBytesIsReadOrRefused) {
             static_cast<char>(random());
       complaint_about(changed);
     }
+}
+
+TEST(DamagedFile, OfUtiasSizeIsReadWhateverItsBytesAre) {
+  std::mt19937_64 random(3);
+  std::string bytes(1'990'656, '\0');
+  for (std::size_t at = 0; at + 8 <= bytes.size(); at += 8) {
+    const std::uint64_t number = random();
+    std::memcpy(bytes.data() + at, &number, sizeof number);
+  }
+  bytes[0] = '\xff';  // no text
+  EXPECT_EQ(complaint_about(bytes), "");
+  EXPECT_NE(complaint_about(bytes + bytes[1]), "");
+  EXPECT_NE(complaint_about(bytes.substr(1)), "");
 }
 
 TEST(DamagedFile, BesideATableIsAppliedOrRefused) {
