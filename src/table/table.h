@@ -97,7 +97,7 @@ struct Table {
   std::string path;
   std::string sha256;  ///< of the file, where reading it had a reason to know
   std::string format;  ///< "csv", "merl", "mbsdf", "exr", "rgl", "klems", "alta", "utia",
-                       ///< "ngan"
+                       ///< "ngan", "astm", "ssdd"
   std::vector<std::string> channels;  ///< "r", "g", "b"; "f" if there is one
   std::variant<Grid, DirectionList> where;
   std::vector<Values> values;     ///< [channel][sample]

@@ -30,6 +30,10 @@ Table read(InputFile& in) {
   return read_utia(in);
 #elif defined(GONIO_FUZZ_ngan)
   return read_ngan(in);
+#elif defined(GONIO_FUZZ_astm)
+  return read_astm(in);
+#elif defined(GONIO_FUZZ_ssdd)
+  return read_ssdd(in);
 #elif defined(GONIO_FUZZ_side)
   const std::string text = in.read_rest();
   column_map("side", text);

@@ -77,6 +77,11 @@ int main(int argc, char** argv) {
        "#PARAM_OUT INV_STERADIAN\n#BEGIN_STREAM\n" +
            bytes_of(std::array<double, 3>{0.1, 0.2, 0.3}));
   save("utia", "numbers", bytes_of(std::array<double, 5>{0.3, 0, -1, 1e300, NAN}));
+  save("astm", "colours",
+       "NUM_POINTS 2\nVARS theta_i,phi_i,theta_s,phi_s,R,G\n0.5,0,-0.2,3,1,2\n0.1,0,0,0,nan,2\n");
+  for (const char* type : {"spherical", "specular", "half_difference"})
+    save("ssdd", type, ssdd_file(type, "ascii", "1\n2\n"));
+  save("ssdd", "binary", ssdd_file("specular", "binary", bytes_of(std::array<float, 2>{1, 2})));
   save("ngan", "half", ngan_file({2, 1, 3, 2}, true, [](std::size_t k) { return k; }));
   Table t = mbsdf_example(1, 2);
   t.truth = truth_example();

@@ -185,6 +185,15 @@ struct KlemsFile {
   }
 };
 
+/// An SSDD file of two samples.  \param type  PARAM_TYPE less its ending
+inline std::string ssdd_file(const std::string& type,
+                             const std::string& mode,
+                             const std::string& numbers) {
+  return "VERSION 0.3\nDATA_TYPE brdf\nCOLOR_MODEL monochrome\nPARAM_TYPE " + type +
+         "_coordinate_system\nPARAM0_LIST 10 20\nPARAM2_LIST 30\nPARAM3_LIST 0\nDATA " + mode +
+         "\n" + numbers;
+}
+
 /// A file of MIT CSAIL's anisotropic measurements.  \param value  of a bin, by its number; without it there are none
 template <class Value = std::nullptr_t>
 std::string ngan_file(const std::array<std::int32_t, 4>& bins, bool half, Value value) {

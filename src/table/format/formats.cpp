@@ -27,13 +27,16 @@ Table read_by_format(InputFile& in, const ColumnMap* map) {
   if (is_rgl(head)) return read_rgl(in);
   if (is_klems(head)) return read_klems(in);
   if (!map && is_alta(head)) return read_alta(in);
+  if (!map && is_astm(head)) return read_astm(in);
+  if (!map && is_ssdd(head)) return read_ssdd(in);
   if (is_merl(head, in.size())) return read_merl(in);
   if (is_ngan(head)) return read_ngan(in);
   if (map || is_csv(head)) return read_csv(in, map);
   if (is_utia(in.size())) return read_utia(in);  // known by its size alone
   expect_no_utf16(in.path(), head);
   throw bad_input(in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
-                  "a MERL, MBSDF, RGL, Klems XML, ALTA, UTIA or MIT CSAIL file, an image slice in "
+                  "a MERL, MBSDF, RGL, Klems XML, ALTA, ASTM E1392, SSDD, UTIA or MIT CSAIL file, "
+                  "an image slice in "
                   "OpenEXR, or CSV");
 }
 

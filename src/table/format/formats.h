@@ -7,6 +7,7 @@
 #include <string>
 
 #include "table/format/alta.h"
+#include "table/format/astm.h"
 #include "table/format/csv.h"
 #include "table/format/exr_slice.h"
 #include "table/format/klems.h"
@@ -14,6 +15,7 @@
 #include "table/format/merl.h"
 #include "table/format/ngan.h"
 #include "table/format/rgl.h"
+#include "table/format/ssdd.h"
 #include "table/format/utia.h"
 #include "table/table.h"
 

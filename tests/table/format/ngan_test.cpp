@@ -63,6 +63,7 @@ TEST(NganFile, OfTheWrongLengthIsRefused) {
                    "byte 0: found 2 × 3 × 4 × 5 bins in 1492 bytes, expected 64 bytes and 12");
   EXPECT_COMPLAINT(folder.write("m", good.substr(0, good.size() - 1)), "in 1503 bytes");
   EXPECT_COMPLAINT(folder.write("m", good.substr(0, 64)), "in 64 bytes");
+  EXPECT_COMPLAINT(folder.write("m", good + good.substr(64, 12)), "in 1516 bytes");
   std::string lies = good;
   for (std::size_t k = 0; k < 4; ++k) lies.replace(4 * k, 4, std::string("\0\0\1\0", 4));
   EXPECT_COMPLAINT(folder.write("m", lies), "65536 × 65536 × 65536 × 65536 bins")
