@@ -127,7 +127,7 @@ TEST(VerifyCommand, TakesAPlanUnderAnEnvironmentAndCatchesItsLookup) {
       e["keep"] = false;
     }
   f.write("plan.json", plan.dump());
-  EXPECT_EQ(gonio(f, "verify scene.json plan.json --samples 1024 --quiet").code, 1);
+  EXPECT_EQ(gonio(f, "verify scene.json plan.json --samples 512 --quiet").code, 1);
 }
 
 TEST(VerifyCommand, RefusesParametersThatAreNotThoseOfThePlansForms) {

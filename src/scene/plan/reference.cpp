@@ -9,8 +9,8 @@ Reference Reference::under_sky(const PointDrawer& drawer,
                                std::size_t first,
                                std::size_t count,
                                const Surface& exact) {
-  constexpr std::size_t part = 256, directions = 1024;
-  const PointDrawer finer = drawer.with_directions(directions);
+  constexpr std::size_t part = 256, times = 16;
+  const PointDrawer finer = drawer.with_directions(times * drawer.directions());
   LitPoints all;
   std::vector<Rgb> light;
   for (std::size_t at = 0; at < count; at += part) {

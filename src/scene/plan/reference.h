@@ -16,7 +16,7 @@ struct Reference {
   std::vector<Rgb> exact;
 
   /// Points whose light of an environment is summed over so many directions that a surface which looks it up can be compared
-  /// with that: 1024 a point, of which the noise is a tenth of what one sees.  The rows of the environment are let go.
+  /// with that: 16 times as many as the drawer draws, 1024 as a rule.  The rows of the environment are let go.
   static Reference under_sky(const PointDrawer&,
                              std::uint64_t stream,
                              std::size_t first,

@@ -58,6 +58,8 @@ class PointDrawer {
   LitPoints draw(std::uint64_t stream, std::size_t first, std::size_t count) const;
   /// Share of the picture that the material is seen in, by 16 384 looks; 0: no points are drawn.
   double coverage() const { return coverage_; }
+  /// Directions of each light that has an extent.
+  std::size_t directions() const { return directions_; }
   /// Drawer of the same points with another number of directions.
   PointDrawer with_directions(std::size_t n) const {
     PointDrawer other = *this;

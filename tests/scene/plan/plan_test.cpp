@@ -117,7 +117,9 @@ TEST(Plan, IsTheSameForASeedWhateverTheThreads) {
 
 TEST(Plan, KeepsCompensationInAFurnaceWhereTheLossExceedsTheTolerance) {
   constexpr double limit = 0.05;
-  for (const double roughness : {0.2, 0.4, 0.6, 0.9}) {
+  std::vector<double> all{0.6, 0.2, 0.4, 0.9};
+  all.resize(gonio::test::few(4));
+  for (const double roughness : all) {
     const double alpha = roughness * roughness;
     // Share of the points that lose more: what a far viewer sees evenly is μ².
     int beyond = 0;
@@ -253,6 +255,7 @@ std::vector<Light> under_soft_sky() {
 }
 
 TEST(Plan, LooksASoftSkyUpForWhatIsMatteAndNotForGold) {
+  GONIO_MANY_FITS();
   Tolerance loose;
   loose.limit = 3;
   const auto matte = planned(test::material("lambert.coupled+ggx/smith_ggx.correlated/schlick",
@@ -275,9 +278,9 @@ TEST(Verify, FindsALookupThatAPlanDoesNotAllow) {
   const auto look = std::move(looks_of(s)[0]);
   PlannedForms forms;
   forms.by_material = {look.exact()};
-  EXPECT_TRUE(verify(s, forms, 1, 2048).holds());
+  EXPECT_TRUE(verify(s, forms, 1, 512).holds());
   (*forms.by_material[0])[Effect::environment] = 0;
-  EXPECT_FALSE(verify(s, forms, 1, 2048).holds());
+  EXPECT_FALSE(verify(s, forms, 1, 512).holds());
 }
 
 }  // namespace
