@@ -65,7 +65,7 @@ std::vector<double> times_of(const Table& t, std::span<const BoundModel> models)
   TimingOptions options;
   options.of_thread = true;
   std::vector<double> ns;
-  for (const auto& t : time_all(all, options)) ns.push_back(t.ns);
+  for (const auto& timing : time_all(all, options)) ns.push_back(timing.ns);
   return ns;
 }
 
