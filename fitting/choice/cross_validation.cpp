@@ -47,22 +47,20 @@ LogResiduals left_out(const Table& t,
 Blocks incident_blocks(const Sampling& s, std::size_t most) {
   const Table& t = s.table();
   const IncidentKeys keys(s);
-  // By angle: keys of a list are in any order.
-  std::vector<std::pair<double, std::size_t>> angle(keys.count(), {2, 0});
+  std::vector<bool> met(keys.count());  // keys rise with the angle
   std::vector<std::size_t> key(t.size());
   for (std::size_t i = 0; i < t.size(); ++i) {
     const double nol = s.angles()(i).nol;
     key[i] = keys(i, std::clamp(nol, 0.0, 1.0));
-    if (nol > 0) angle[key[i]] = {-nol, key[i]};
+    if (nol > 0) met[key[i]] = true;
   }
-  std::erase_if(angle, [](const auto& a) { return a.first > 1; });
-  std::ranges::sort(angle);
+  const auto angles = static_cast<std::size_t>(std::ranges::count(met, true));
   Blocks b;
-  if (angle.size() < 2) return b;
-  b.count = std::min(most, angle.size());
+  if (angles < 2) return b;
+  b.count = std::min(most, angles);
   std::vector<std::uint16_t> of_key(keys.count(), 0);
-  for (std::size_t rank = 0; rank < angle.size(); ++rank)
-    of_key[angle[rank].second] = static_cast<std::uint16_t>(rank * b.count / angle.size());
+  for (std::size_t k = 0, rank = 0; k < met.size(); ++k)
+    if (met[k]) of_key[k] = static_cast<std::uint16_t>(rank++ * b.count / angles);
   b.of_sample.resize(t.size());
   for (std::size_t i = 0; i < t.size(); ++i) b.of_sample[i] = of_key[key[i]];
   if (const Grid* grid = t.grid(); grid && grid->kind == Grid::Kind::half_difference)

@@ -32,6 +32,8 @@ TEST(Models, SaysFirstWhichToTakeAndWhy) {
   EXPECT_GT(rows[0]["bic"], rows[1]["bic"]);
   EXPECT_GT(rows[0]["delta_e_2000"], rows[1]["delta_e_2000"]);
   EXPECT_GT(rows[0]["delta_e_itp"], rows[1]["delta_e_itp"]);
+  EXPECT_GT(rows[0]["delta_e_itp"], 1.2 * rows[0]["delta_e_2000"].get<double>())
+      << "its steps are finer in what is dark and in light beyond white";
   EXPECT_GT(rows[0]["ns"], 0);
 }
 

@@ -1,5 +1,6 @@
 #include "fitting/choice/cross_validation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -49,6 +50,24 @@ TEST(IncidentBlocks, KeepNeighboursTogether) {
   EXPECT_EQ(met.size(), 4U);
 }
 
+TEST(IncidentBlocks, GoByTheAnglesOfAListInAnyOrder) {
+  Table t = table_of(Layout::in_plane);
+  auto& list = std::get<DirectionList>(t.where);
+  for (auto* column : {&list.theta_i_deg, &list.phi_i_deg, &list.theta_o_deg, &list.phi_o_deg})
+    std::ranges::rotate(*column, column->begin() + static_cast<std::ptrdiff_t>(column->size() / 2));
+  const Blocks b = incident_blocks(by_log(t), 2);
+  ASSERT_EQ(b.count, 2U);
+  double most_of_first = 0, least_of_second = 90;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double theta = list.theta_i_deg[i];
+    if (b.of_sample[i] == 0)
+      most_of_first = std::max(most_of_first, theta);
+    else
+      least_of_second = std::min(least_of_second, theta);
+  }
+  EXPECT_LT(most_of_first, least_of_second);
+}
+
 TEST(IncidentBlocks, KnowTheSampleWithLightAndViewerExchanged) {
   const Table t = table_of(Layout::merl);
   const Sampling s = by_log(t);
@@ -76,14 +95,18 @@ TEST(CrossValidation, PredictsAngleByAngleWhatTheRightModelHas) {
     EXPECT_GT(b.values, 500);
     EXPECT_LT(b.rms(), 1e-6);
   }
-  // Without its lobe it fits worst the angles at which that is brightest.
+}
+
+TEST(CrossValidation, DoesNotFitWhatItPredicts) {
+  const Table t = table_of(Layout::in_plane);  // so few values that none is passed over
+  FitOptions o;
   o.model = "lambert";
-  const auto wrong = cross_validate(
-      t, o, blocks, bind_model("lambert", parse_settings(std::vector<std::string>{"kd=0.3"}), 1));
-  LogResiduals all;
-  for (const auto& b : wrong) all.add(b);
   const FitResult whole = fit(t, o);
-  EXPECT_GT(all.rms(), total(log_residuals(by_log(t), whole.model)).rms());
+  LogResiduals unseen;
+  for (const auto& b : cross_validate(t, o, incident_blocks(by_log(t)), whole.model)) unseen.add(b);
+  const auto seen = total(log_residuals(by_log(t), whole.model));
+  EXPECT_EQ(unseen.values, seen.values);
+  EXPECT_GT(unseen.rms(), 1.01 * seen.rms());
 }
 
 }  // namespace
