@@ -7,7 +7,7 @@ const unit = tolerance.metric === "relative" ? "" : "ΔE2000 ";
 const unit_name = tolerance.metric === "relative" ? "change" : "ΔE2000";
 const times = (x) => `${x < 9.95 ? x.toFixed(1) : x.toFixed(0)}\u202f×`;
 const effect_words = { fresnel: "Fresnel", compensation: "multiple scattering", masking: "masking", anisotropy: "anisotropy", coat: "coat", tail: "tail",
-  diffuse: "diffuse", coupling: "coupling of the diffuse", precision: "double precision" };
+  diffuse: "diffuse", coupling: "coupling of the diffuse", spectrum: "spectrum of the metal", environment: "integral over the environment", precision: "double precision" };
 const form_words = (e) => (["on", "off"].includes(e.form) ? "" : ` (${words(e.form)})`);
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 const names = (list) => list.map((e) => effect_words[e.effect] + (e.keep ? form_words(e) : "")).join(", ");
@@ -50,7 +50,7 @@ function one(m) {
     el("p", { class: "small" }, "The model: ", el("code", {}, m.spec)),
     front.length > 1 ? el("details", {}, el("summary", {}, `${front.length} sets of which none is faster and errs less`),
       scroll(table(["keeps", { n: "ns" }, { n: "operations" }, { n: `${unit_name} at ${percent(tolerance.quantile)}` }, { n: "worst" }],
-        front.map((c) => [Object.entries(c.forms).filter(([, form]) => !["none", "off", "schlick", "schlick_k", "ggx", "float"].includes(form)).map(([e, form]) => effect_words[e] + form_words({ form })).join(", ") || "nothing",
+        front.map((c) => [Object.entries(c.forms).filter(([, form]) => !["none", "off", "schlick", "schlick_k", "ggx", "rgb", "split_sum", "float"].includes(form)).map(([e, form]) => effect_words[e] + form_words({ form })).join(", ") || "nothing",
           { n: significant(c.ns, 3) }, { n: count(Math.round(c.ops)) }, { n: significant(c.error_quantile, 2) }, { n: significant(c.worst, 2) }])))) : null);
   node.id = encodeURIComponent(m.name);
   return node;

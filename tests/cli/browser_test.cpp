@@ -325,6 +325,13 @@ void add_commands(Pages& pages) {
   run("fit bright.csv --html bright.html", "bright.html");
   run("inspect t/a.exr --html inspect.html", "inspect.html");
   run("fit t --model lambert+ggx/smith_ggx.correlated/schlick -o batch", "batch/summary.html");
+  f.write("scene.json", R"({"schema": "gonio.scene/1",
+    "materials": {"gold": {"model": "ggx/smith_ggx.correlated/conductor",
+                           "parameters": {"roughness": 0.4, "metal": "Au"}}},
+    "objects": [{"shape": "sphere", "material": "gold"}],
+    "lights": [{"type": "directional", "direction": [0, 0, 1], "irradiance": [2, 2, 2]}],
+    "view": {"position": [0, 0, 10], "target": [0, 0, 0]}})");
+  run("plan scene.json --samples 512 --cost operations --html plan.html", "plan.html");
   run("audit ndf.ggx masking.schlick_ggx.direct model.ue_mobile --html audit.html", "audit.html");
 }
 
@@ -347,7 +354,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
     EXPECT_TRUE(page["blank"].empty()) << name << ": nothing drawn: " << page["blank"].dump();
     EXPECT_TRUE(page["mute"].empty()) << name << ": tells nothing: " << page["mute"].dump();
     EXPECT_LE(page["wider"], 0) << name << " is wider than 500 px, by so many";
-    if (name == "index" || name == "audit") continue;  // no canvas there
+    if (name == "index" || name == "audit" || name == "plan") continue;  // no canvas there
     EXPECT_GT(page["canvases"], 0) << name;
     if (name == "summary") continue;  // thumbnails, which tell nothing
     EXPECT_GT(page["plots"], 0) << name;
