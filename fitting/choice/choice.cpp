@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/roughness.h"
 #include "fitting/choice/cross_validation.h"
 #include "fitting/fit.h"
 #include "fitting/solve/problem.h"
@@ -27,7 +28,7 @@ constexpr std::size_t most_groups = 1 << 17;
 std::size_t free_values(const FitDocument& d) {
   std::size_t n = 0;
   for (const auto& p : d.parameters) {
-    if (p.name.starts_with("roughness")) continue;  // alpha's other name
+    if (is_roughness(p.name)) continue;  // alpha's other name
     n += static_cast<std::size_t>(
         std::ranges::count_if(p.status, [](auto s) { return s != ParameterStatus::fixed; }));
   }
@@ -36,7 +37,7 @@ std::size_t free_values(const FitDocument& d) {
 std::vector<std::string> at_bound(const FitDocument& d) {
   std::vector<std::string> names;
   for (const auto& p : d.parameters)
-    if (!p.name.starts_with("roughness") &&
+    if (!is_roughness(p.name) &&
         std::ranges::find(p.status, ParameterStatus::at_bound) != p.status.end())
       names.push_back(p.name);
   return names;

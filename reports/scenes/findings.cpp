@@ -153,7 +153,7 @@ void counts(Findings& to, const ScenesRows& r) {
                      number_or_none(most.kept), most.name, number_or_none(least.kept), least.name));
 }
 
-/// What three wavelengths in place of a metal's spectrum would change.
+/// Change by three wavelengths in place of a metal's spectrum.
 void metals(Findings& to, const ScenesRows& r) {
   std::vector<const SceneEffectRow*> rows;
   for (const auto& e : r.effects)

@@ -154,7 +154,7 @@ std::string picture(const std::vector<Rgb>& radiance,
   return base64(png_bytes(image));
 }
 
-/// Of each covered pixel.
+/// Differences of each covered pixel.
 std::vector<double> differences(const std::vector<Rgb>& reference,
                                 const std::vector<Rgb>& radiance,
                                 double exposure,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The same sphere as a table has it and as models fitted to it have it, under three lights.
+/// Sphere as a table has it and as models fitted to it have it, under three lights.
 
 #include <span>
 #include <string>
@@ -18,7 +18,7 @@ struct ModelSphere {
   std::string difference;
   double median = 0, p95 = 0;  ///< ΔE2000 over the pixels compared
   double itp_median = 0;       ///< ΔE_ITP over the same, white at 203 cd/m²
-  /// The same between the model and what its values at the table's samples give by the table's lookup: what the
+  /// ΔE2000 between the model and what its values at the table's samples give by the table's lookup: what the
   /// samples' spacing alone makes.  NaN where the format defines f everywhere.
   double spacing_median = 0, spacing_p95 = 0;
 
@@ -31,7 +31,7 @@ struct SpheresUnderLight {
   std::string light;
   double covered =
       0;  ///< share of the pixels that light reaches for which the table has all values
-  /// What radiance over a light's irradiance is multiplied with: that makes the table's 99th percentile white [sr].
+  /// Factor of radiance over a light's irradiance: that makes the table's 99th percentile white [sr].
   double exposure = 0;
   std::string table;                ///< PNG in base64; hatched where the table does not cover
   std::vector<ModelSphere> models;  ///< none, and no table, where it covers less than least_share
@@ -44,7 +44,7 @@ struct Spheres {
   std::vector<SpheresUnderLight> lights;
 
   static constexpr double least_share = 1.0 / 3;
-  /// How far a sample is taken for a pair of directions, in wi and in wo, where a table is no grid [°].
+  /// Reach of a sample, in wi and in wo, where a table is no grid [°].
   static constexpr double reach_deg = 5;
 };
 

@@ -100,9 +100,6 @@ std::function<void()> work(const Surface& s,
   };
 }
 
-}  // namespace
-
-namespace {
 double operations_of_row(const Surface& s) {
   Operations sum = gonio::operations_of(s.base.model);
   sum += of_multiple(s.multiple);
@@ -123,6 +120,7 @@ double operations_of_row(const Surface& s) {
              static_cast<double>(of_channels().total());
   return total;
 }
+
 }  // namespace
 
 double operations_of(const Surface& s, const LitPoints& p) {

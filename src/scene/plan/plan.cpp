@@ -133,11 +133,13 @@ class MaterialPlanner {
     if (offer.forms.size() < 2) return false;
     constexpr std::size_t few = 1024;
     const Surface looked_up = with(Effect::environment, offer.forms.front());
-    for (const std::size_t n : {std::min(few, options_.samples), options_.samples}) {
+    const auto keeps_at = [&](std::size_t n) {
       under_sky_.emplace(Reference::under_sky(drawer_, choosing, 0, n, exact_));
-      if (!scene_.budget_ns && !judged(looked_up).keeps(scene_.tolerance)) return false;
-    }
-    return true;
+      return scene_.budget_ns || judged(looked_up).keeps(scene_.tolerance);
+    };
+    // A few points tell most that it may not be.
+    const bool ask_few = !scene_.budget_ns && few < options_.samples;
+    return (!ask_few || keeps_at(few)) && keeps_at(options_.samples);
   }
 
   /// Effects one by one.
