@@ -19,6 +19,7 @@
 #include "fitting/judge/uncertainty.h"
 #include "fitting/judge/undetermined.h"
 #include "fitting/judge/warnings.h"
+#include "fitting/solve/order.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
 
@@ -100,7 +101,7 @@ FitResult fit(const Table& t,
   const auto announce = [&](const char* what) {
     if (phase) phase(what);
   };
-  const Problem p = pose(t, o);
+  Problem p = pose(t, o);
   std::vector<std::pair<std::string, double>> phase_ms;
   Stopwatch watch(phase_ms);
 
@@ -108,13 +109,14 @@ FitResult fit(const Table& t,
   const bool folded = is_reciprocal(p.start) && !o.robust;  // a pair of values is one to the fit
   std::shared_ptr<const BoundModel> bulk;
   const auto sampling_of = [&](Bins convention, bool fold) {
-    Sampling s(t, convention, o.metric, p.offset, fold, o.copies);
+    Sampling s(t, convention, o.metric, p.offset, fold, o.copies, p.start.model.anisotropic);
     s.set_bulk(bulk);
     return s;
   };
   bulk = bulk_of(p, sampling_of(bins, folded));
   const Sampling sampling = sampling_of(bins, folded);
   Searched found = search(p, sampling, watch, announce);
+  const auto in_order = put_in_order(p, found.best);
   const Fitted& f = found.best;
 
   announce("standard errors");
@@ -140,6 +142,8 @@ FitResult fit(const Table& t,
   const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u);
   keep_to_what_is_seen(t, p, f.model.values, u);
   watch.lap("limits_ms");
+  for (std::size_t i = 0; i < in_order.size(); ++i)
+    if (u.reason[i].empty()) u.reason[i] = in_order[i];
   const char* in_words = judged.in_words;
   if (o.intervals == Intervals::bootstrap) {
     announce("fits of tables drawn from this one");

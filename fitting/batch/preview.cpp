@@ -107,7 +107,7 @@ std::string sphere(const std::vector<std::string>& channels, const BoundModel& f
   const Direction light{0, std::sin(sun_deg * degree), std::cos(sun_deg * degree)};
   const double voh = std::cos(sun_deg / 2 * degree);
   const Direction half{0, std::sin(sun_deg / 2 * degree), voh};
-  std::vector<Angles<double>> x;
+  std::vector<FrameAngles<double>> x;
   std::vector<bool> inside;
   for (std::size_t row = 0; row < n; ++row)
     for (std::size_t column = n / 2; column < n; ++column) {
@@ -118,7 +118,17 @@ std::string sphere(const std::vector<std::string>& channels, const BoundModel& f
       inside.push_back(z2 > 0);
       const Direction normal{right, up, std::sqrt(std::max(z2, 0.0))};
       const double noh = std::clamp(dot(normal, half), 0.0, 1.0);
-      x.push_back({dot(normal, light), normal.z, noh, voh, (1 - noh) * (1 + noh)});
+      // The tangent is where the azimuth around the vertical grows.
+      const double across = std::max(std::hypot(normal.x, normal.z), 1e-9);
+      const Direction tangent{normal.z / across, 0, -normal.x / across};
+      const Direction bitangent{-normal.x * up / across, across, -normal.z * up / across};
+      x.push_back({{dot(normal, light), normal.z, noh, voh, (1 - noh) * (1 + noh)},
+                   dot(tangent, half),
+                   dot(bitangent, half),
+                   dot(tangent, light),
+                   dot(bitangent, light),
+                   tangent.z,
+                   bitangent.z});
     }
   const auto f = evaluate(fitted, x);
 

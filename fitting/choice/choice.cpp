@@ -96,12 +96,13 @@ const ModelRow* least(const std::vector<ModelRow>& rows, Of of) {
 }  // namespace
 
 std::span<const std::string_view> usual_models() {
-  static constexpr std::array<std::string_view, 11> all{
+  static constexpr std::array<std::string_view, 12> all{
       "lambert",
       "lambert+ggx/smith_ggx.correlated/schlick",
       "lambert+ggx/smith_ggx.correlated/schlick.f90",
       "lambert+beckmann/smith_beckmann.correlated/schlick",
       "lambert+gtr/smith_ggx.correlated/schlick",
+      "lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick",
       "lambert.coupled+ggx/smith_ggx.correlated/dielectric",
       "disney.coupled+ggx/smith_ggx.correlated/dielectric",
       "ggx/smith_ggx.correlated/schlick",
@@ -140,7 +141,8 @@ ModelChoice compare_models(const Table& t,
         progress("leaving out angles of " + row.model, share(2.0 * static_cast<double>(k) + 1));
       const FitOptions whole = expanded(o);
       const Problem p = pose(t, whole);
-      const Sampling by_log(t, t.bins(), Metric::log, p.offset, false, o.copies);
+      const Sampling by_log(t, t.bins(), Metric::log, p.offset, false, o.copies,
+                            p.start.model.anisotropic);
       residuals[k] = log_residuals(by_log, fitted.model, most_groups);
       row.log_rms = total(residuals[k]).rms();
       if (!blocks) blocks = incident_blocks(by_log);

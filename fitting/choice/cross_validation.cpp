@@ -33,12 +33,13 @@ LogResiduals left_out(const Table& t,
   });
   const Problem p = pose(seen, o);
   Sampling sampling(seen, t.bins(), o.metric, p.offset, is_reciprocal(p.start) && !o.robust,
-                    o.copies);
+                    o.copies, p.start.model.anisotropic);
   sampling.set_bulk(bulk_of(p, sampling));
   const Fitted start{whole, no_huber, {}, false, 0};
   const Fitted found = compared_by(sampling, p, most_groups, start);
   const Table unseen = with_only(t, is_left_out);
-  const Sampling rest(unseen, t.bins(), Metric::log, p.offset, false, o.copies);
+  const Sampling rest(unseen, t.bins(), Metric::log, p.offset, false, o.copies,
+                      p.start.model.anisotropic);
   return total(log_residuals(rest, found.model, most_groups));
 }
 

@@ -28,8 +28,9 @@ struct FittedParameter {
   std::string name;
   std::vector<double> value, std_error, ci95_low, ci95_high;
   std::vector<ParameterStatus> status;
-  std::vector<double> limit = {};        ///< one-sided 95 % bound of an upper or lower limit
-  std::vector<std::string> reason = {};  ///< why there is no value, interval or limit; else empty
+  std::vector<double> limit = {};  ///< one-sided 95 % bound of an upper or lower limit
+  std::vector<std::string> reason =
+      {};  ///< why there is no value, interval or limit, or what fixed its order; else empty
 };
 
 struct FitSolver {

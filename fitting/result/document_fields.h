@@ -27,7 +27,7 @@ struct Description<FittedParameter> {
                       field("limit", "", per_channel(&FittedParameter::limit),
                             "one-sided 95 % bound where the status is upper_limit or lower_limit"),
                       field("reason", "", per_channel(&FittedParameter::reason),
-                            "why no more is known; empty where the value has its interval")};
+                            "why no more is known, or what fixed its order; else empty")};
   }
 };
 

@@ -87,6 +87,7 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
   FitData<F>& all = levels.all;
   all.link = link_of(s.metric());
   all.offset = static_cast<F>(s.link_offset());
+  all.angle_columns = s.angle_columns();
   all.reserve(tasks.count, s.channels());
   std::vector<Part> parts(tasks.count);
   tbb::parallel_for(std::size_t{0}, tasks.count, [&](std::size_t k) {
@@ -95,15 +96,18 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
     // tasks begin at different places
     for (const std::size_t step : steps)
       part.levels.emplace_back(step, (7 * k + step - 1) % step, Tasks::blocks * in.block,
-                               5 + 2 * s.channels());
+                               s.angle_columns() + 2 * s.channels());
     std::array<std::uint32_t, BlockReader<F>::block> with_value;
     std::array<F, BlockReader<F>::block> largest;  // weight of each group over the channels
     while (in.next()) {
       const FitBlock<F>& b = all.add_block(k, in.size());
       const auto x = in.angles();
       std::size_t at = 0;
-      for (const F* angle : {x.nol, x.nov, x.noh, x.voh, x.sin2_theta_h})
-        std::copy_n(angle, b.n, b.columns + b.n * at++);
+      const auto copy = [&](const F* angle) {
+        if (angle) std::copy_n(angle, b.n, b.columns + b.n * at++);
+      };
+      for (const F* angle : {x.nol, x.nov, x.noh, x.voh, x.sin2_theta_h}) copy(angle);
+      std::ranges::for_each(x.frame, copy);
       for (std::size_t c = 0; c < s.channels(); ++c)
         part.rest += fold(in, c, s.groups().widest(), b);
       largest.fill(0);
@@ -141,8 +145,9 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
 template <class F>
 FitData<F> picked_from(const FitData<F>& all, std::size_t channels, const std::vector<F>& rows) {
   constexpr std::size_t block = BlockReader<F>::block, task = Tasks::blocks * block;
-  const std::size_t columns = 5 + 2 * channels;
+  const std::size_t columns = all.angle_columns + 2 * channels;
   FitData<F> d;
+  d.angle_columns = all.angle_columns;
   d.link = all.link;
   d.offset = all.offset;
   d.groups = rows.size() / columns;
@@ -153,7 +158,7 @@ FitData<F> picked_from(const FitData<F>& all, std::size_t channels, const std::v
     for (std::size_t k = 0; k < columns; ++k) {
       F* const to = b.columns + k * b.n;
       for (std::size_t i = 0; i < n; ++i) to[i] = rows[(at + i) * columns + k];
-      std::fill(to + n, to + b.n, k < 5 ? F(0.5) : F(0));
+      std::fill(to + n, to + b.n, k < all.angle_columns ? F(0.5) : F(0));
     }
     for (std::size_t c = 0; c < channels; ++c)
       d.counts.used += static_cast<std::size_t>(
@@ -165,12 +170,14 @@ FitData<F> picked_from(const FitData<F>& all, std::size_t channels, const std::v
 template <class F>
 Block<F> FitBlock<F>::angles() const {
   const F* const x = columns;
-  return {x, x + n, x + 2 * n, x + 3 * n, x + 4 * n, n};
+  Block<F> b{x, x + n, x + 2 * n, x + 3 * n, x + 4 * n, n};
+  for (std::size_t k = 5; k < angle_columns; ++k) b.frame[k - 5] = x + k * n;
+  return b;
 }
 
 template <class F>
 void FitData<F>::reserve(std::size_t count, std::size_t channels) {
-  columns_count_ = 5 + 2 * channels;
+  columns_count_ = angle_columns + 2 * channels;
   used_ = 0;
   tasks.resize(count);
   for (auto& t : tasks) t.reserve(Tasks::blocks);
@@ -182,8 +189,8 @@ FitBlock<F>& FitData<F>::add_block(std::size_t task, std::size_t n) {
   const std::size_t full = BlockReader<F>::block * columns_count_;
   // Side by side as they come, whatever their task: those below the horizon take no memory.
   const std::size_t at = std::atomic_ref(used_).fetch_add(1, std::memory_order_relaxed);
-  return tasks[task].emplace_back(FitBlock<F>{(n + padding - 1) / padding * padding, columns_count_,
-                                              memory.data() + at * full});
+  return tasks[task].emplace_back(FitBlock<F>{(n + padding - 1) / padding * padding, angle_columns,
+                                              columns_count_, memory.data() + at * full});
 }
 
 template <class F>
@@ -207,9 +214,10 @@ FitData<double> in_double(const FitData<F>& from) {
   to.rest = from.rest;
   to.groups = from.groups;
   to.counts = from.counts;
+  to.angle_columns = from.angle_columns;
   to.reserve(from.tasks.size(), from.tasks.empty() || from.tasks[0].empty()
                                     ? 0
-                                    : (from.tasks[0][0].columns_count - 5) / 2);
+                                    : (from.tasks[0][0].columns_count - from.angle_columns) / 2);
   for (std::size_t k = 0; k < from.tasks.size(); ++k)
     for (const auto& b : from.tasks[k])
       std::copy_n(b.columns, b.columns_count * b.n, to.add_block(k, b.n).columns);

@@ -15,11 +15,12 @@ namespace gonio {
 template <class F>
 struct FitBlock {
   std::size_t n = 0;              ///< groups; a multiple of `padding` with masked ones at the end
-  std::size_t columns_count = 0;  ///< five of angles, then target and weight of each channel
+  std::size_t angle_columns = 5;  ///< and six more of a frame
+  std::size_t columns_count = 0;  ///< those of angles, then target and weight of each channel
   F* columns = nullptr;           ///< n of each; the FitData's
 
   Block<F> angles() const;
-  F* target(std::size_t channel) const { return columns + (5 + 2 * channel) * n; }
+  F* target(std::size_t channel) const { return columns + (angle_columns + 2 * channel) * n; }
   F* weight(std::size_t channel) const { return target(channel) + n; }
 };
 
@@ -33,6 +34,8 @@ struct FitData {
   double rest = 0;  ///< Σ rest: what no model can explain
   std::size_t groups = 0;
   SampleCounts counts;
+
+  std::size_t angle_columns = 5;  ///< of a block
 
   /// Makes room for that many full tasks.
   void reserve(std::size_t tasks, std::size_t channels);

@@ -1,6 +1,7 @@
 #include "fitting/sample/sampling.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -68,13 +69,16 @@ Groups::Groups(const Table& t, const SampleAngles& at, Bins bins, bool fold)
 
 // ---- sampling -----------------------------------------------------------------------------------
 
-Sampling::Sampling(const Table& t, Bins bins, Metric metric, double offset, bool fold, bool copies)
+Sampling::Sampling(
+    const Table& t, Bins bins, Metric metric, double offset, bool fold, bool copies, bool frame)
     : table_(t),
       angles_(t, bins),
       groups_(t, angles_, bins, fold),
       metric_(metric),
       offset_(metric == Metric::l2_cosine ? 0 : offset),
+      has_frame_(frame),
       copied_(copies ? std::vector<bool>{} : copied_pairs(t)) {
+  assert(!(frame && t.grid()));
   if (t.weights.empty()) return;
   double sum = 0, samples = 0;
   for (std::size_t i = 0; i < t.size(); ++i) {
@@ -156,7 +160,8 @@ BlockReader<F>::BlockReader(const Sampling& s,
       ones_(block, F(1)) {
   for (std::size_t m = 0; m < s.groups().widest(); ++m)
     nol_.push_back(Column<F>::for_overwrite(block));
-  for (auto& a : angles_) a = Column<F>::for_overwrite(block);
+  for (std::size_t k = 0; k < s.angle_columns(); ++k)
+    angles_.push_back(Column<F>::for_overwrite(block));
   if (const BoundModel* bulk = s.metric() == Metric::relative ? s.bulk() : nullptr) {
     nothing_free_.assign(bulk->model.value_count, false);
     bulk_ = std::make_unique<ModelDerivatives<F>>(bulk->model, nothing_free_, kernels<F>());
@@ -169,8 +174,10 @@ BlockReader<F>::BlockReader(const Sampling& s,
 
 template <class F>
 Block<F> BlockReader<F>::angles() const {
-  return {angles_[0].data(), angles_[1].data(), angles_[2].data(),
-          angles_[3].data(), angles_[4].data(), padded()};
+  Block<F> b{angles_[0].data(), angles_[1].data(), angles_[2].data(),
+             angles_[3].data(), angles_[4].data(), padded()};
+  for (std::size_t k = 5; k < angles_.size(); ++k) b.frame[k - 5] = angles_[k].data();
+  return b;
 }
 
 template <class F>
@@ -226,13 +233,19 @@ template <class F>
 void BlockReader<F>::place_any(const SampleAngles::Row& at) {
   const auto& columns = sampling_.groups().columns();
   for (; column_ < columns.size() && n_ < block && left_ > 0; column_ += step_, --left_) {
-    const auto a = at(columns.part(column_, 0).at);
+    const std::size_t column = columns.part(column_, 0).at;
+    const FrameAngles<double> a = sampling_.has_frame()
+                                      ? sampling_.angles().frame(at.first() + column)
+                                      : FrameAngles<double>{at(column), 0, 0, 0, 0, 0, 0};
     if (!(a.nol > horizon_cosine && a.nov > horizon_cosine)) {
       mask_below_horizon(column_);
       continue;
     }
-    const std::array cosines{a.nol, a.nov, a.noh, a.voh, a.sin2_theta_h};
-    for (std::size_t k = 0; k < cosines.size(); ++k) angles_[k][n_] = static_cast<F>(cosines[k]);
+    const auto put = [&](std::size_t first, std::initializer_list<double> cosines) {
+      for (const double c : cosines) angles_[first++][n_] = static_cast<F>(c);
+    };
+    put(0, {a.nol, a.nov, a.noh, a.voh, a.sin2_theta_h});
+    if (sampling_.has_frame()) put(5, {a.xoh, a.yoh, a.xol, a.yol, a.xov, a.yov});
     group_column_[n_++] = column_;
   }
 }

@@ -39,7 +39,8 @@ constexpr bool usable(Metric m, double y, double offset) {
 }
 
 /// Samples at which every isotropic reciprocal model has one value: those that change places with
-/// light and viewer exchanged, or mirrored at the plane of incidence, where the layout has them.
+/// light and viewer exchanged, or mirrored at the plane of incidence, where the layout has them.  A
+/// grid has; of lists, which alone say where the tangent of an anisotropic surface is, none are folded.
 /// The members of a group are those of its row times those of its column.
 class Groups {
  public:
@@ -93,10 +94,20 @@ class Groups {
 class Sampling {
  public:
   /// \param copies  whether angles that only repeat another are looked at, too
-  Sampling(const Table&, Bins, Metric, double offset, bool fold, bool copies = false);
+  /// \param frame   whether samples have the angles of the frame, which anisotropic models read: of a list alone
+  Sampling(const Table&,
+           Bins,
+           Metric,
+           double offset,
+           bool fold,
+           bool copies = false,
+           bool frame = false);
   const Table& table() const { return table_; }
   const SampleAngles& angles() const { return angles_; }
   const Groups& groups() const { return groups_; }
+  bool has_frame() const { return has_frame_; }
+  /// Columns that the angles of a sample take.
+  std::size_t angle_columns() const { return has_frame_ ? 11 : 5; }
   Metric metric() const { return metric_; }
   /// Samples of this one, compared in another way.
   Sampling by(Metric, double offset) const;
@@ -123,7 +134,7 @@ class Sampling {
   Groups groups_;
   Metric metric_;
   double offset_, mean_weight_ = 1;
-  bool is_counted_ = false;
+  bool is_counted_ = false, has_frame_ = false;
   std::shared_ptr<const BoundModel> bulk_;
   std::vector<bool> copied_;  ///< [row]; empty: none is
 };
@@ -200,7 +211,7 @@ class BlockReader {
 
   const Sampling& sampling_;
   std::size_t row_, column_, left_, step_, n_ = 0;
-  std::array<Column<F>, 5> angles_;
+  std::vector<Column<F>> angles_;  ///< five, and six of a frame
   std::array<std::array<std::size_t, block>, Groups::most> sample_;
   std::array<std::vector<Run>, Groups::most> runs_;
   std::array<std::size_t, Groups::most> absent_{};  ///< how many are, of each member

@@ -99,8 +99,11 @@ class FusedPass {
         a.parameters[t][c] = p[t][c].data();
       }
     for (std::size_t c = 0; c < model_.channels; ++c) a.sums[c] = sums[c].lanes();
+    TurnedFrame<F> turned(model_, kernels<F>());
+    const std::vector<F> in_number(values.begin(), values.end());
+    turned.set(in_number);
     for (const auto& b : blocks) {
-      a.x = b.angles();
+      a.x = turned(b.angles());
       for (std::size_t c = 0; c < model_.channels; ++c) {
         a.target[c] = b.target(c);
         a.weight[c] = b.weight(c);
@@ -111,6 +114,7 @@ class FusedPass {
 
  private:
   std::size_t slot_of(const TermUse& t, std::size_t parameter, std::size_t channel) const {
+    if (parameter == t.parameters.size()) return model_.tangent()->first;
     return model_.parameters[t.parameters[parameter]].slot(channel);
   }
 

@@ -34,7 +34,7 @@ Problem with_shapes_held(const Problem& p) {
 }
 
 /// Origins for a descent: 0 of widths, exponents and extinctions, and of indices with an extinction; 1 of
-/// other indices.
+/// other indices; none of a tangent.
 std::vector<double> origins_of(const Problem& p) {
   std::vector<double> origins(p.free.size(), std::numeric_limits<double>::quiet_NaN());
   const auto set = [&](const ModelParameter& q, double origin) {
@@ -43,7 +43,7 @@ std::vector<double> origins_of(const Problem& p) {
   };
   const Model& m = p.start.model;
   for (const auto& q : m.parameters)
-    if (is_shape(q)) set(q, 0);
+    if (is_shape(q) && &q != m.tangent()) set(q, 0);
   for (const auto& lobe : m.lobes) {
     const bool absorbs = std::ranges::any_of(
         lobe.fresnel.parameters, [&](std::size_t i) { return base_name(m.parameters[i]) == "k"; });
@@ -74,7 +74,8 @@ Start descended_inside(const Accumulator<F>& accumulate,
 }  // namespace
 
 bool is_shape(const ModelParameter& q) {
-  return is_alpha(q.name) || base_name(q) == "gamma" || base_name(q) == "tail";
+  return is_alpha(q.name) || base_name(q) == "gamma" || base_name(q) == "tail" ||
+         base_name(q) == "tangent";
 }
 
 void keep_best(std::vector<Start>& starts, std::size_t most) {

@@ -19,9 +19,6 @@ namespace {
 
 /// The user's bounds by the names of the model's parameters.
 std::vector<Setting> resolved_bounds(const FitOptions& o, const BoundModel& b) {
-  if (b.model.anisotropic)
-    throw wrong_usage(fmt::format(
-        "model '{}' is anisotropic: fit compares isotropic models with tables", b.model.spec));
   std::vector<Setting> all = o.bounds;
   for (auto& s : all) {
     if (is_roughness(s.name) && b.model.find(alpha_name(s.name))) {
@@ -55,12 +52,39 @@ BoundModel bound(const FitOptions& o, std::optional<std::size_t> channels) {
   return bind_model(o.model, o.fixed, channels, o.grey);
 }
 
+/// True of directions of one azimuth and the opposite one, but for those along the normal: widths across them are not seen.
+bool is_in_one_plane(const DirectionList& l) {
+  constexpr double normal = 1e-6, same = 1e-3;  // [°]
+  std::optional<double> plane;
+  const auto leaves = [&](double theta, double phi) {
+    if (std::abs(theta) < normal) return false;
+    if (!plane) plane = phi;
+    return std::abs(std::remainder(phi - *plane, 180)) > same;
+  };
+  for (std::size_t i = 0; i < l.theta_i_deg.size(); ++i)
+    if (leaves(l.theta_i_deg[i], l.phi_i_deg[i]) || leaves(l.theta_o_deg[i], l.phi_o_deg[i]))
+      return false;
+  return true;
+}
+
+/// The spec with the isotropic forms of its terms, which share one width.
+std::string without_tangent(std::string spec) {
+  constexpr std::string_view ending = "_aniso";
+  for (auto at = spec.find(ending); at != std::string::npos; at = spec.find(ending))
+    spec.erase(at, ending.size());
+  return spec;
+}
+
 }  // namespace
 
 FitOptions expanded(FitOptions o) {
   const Preset* preset = find_preset(o.model);
   if (!preset) return o;
   o.model = preset->spec;
+  if (std::erase_if(o.fixed, [](const Setting& s) {
+        return s.name == "anisotropy" && s.values == std::vector{0.0};
+      }))
+    o.model = without_tangent(o.model);
   const auto defaults = preset->resolve(PresetValues(preset->parameters, {}));
   for (const auto name : preset->held)
     if (std::ranges::find(o.fixed, name, &Setting::name) == o.fixed.end())
@@ -73,8 +97,21 @@ void check(const FitOptions& given) {
   resolved_bounds(o, bound(o, {}));
 }
 
+void check_azimuths(const Table& t, const Model& m) {
+  if (m.anisotropic && t.grid())
+    throw wrong_usage(
+        fmt::format("model '{}' is anisotropic, and a table of this layout does not say how the "
+                    "surface was turned",
+                    m.spec));
+}
+
 Problem pose(const Table& t, const FitOptions& o) {
   BoundModel b = bound(o, t.channels.size());
+  check_azimuths(t, b.model);
+  if (b.model.anisotropic && is_in_one_plane(*t.list()))
+    throw wrong_usage(fmt::format(
+        "model '{}' is anisotropic, and the directions of this table all lie in one plane",
+        b.model.spec));
   const auto own = resolved_bounds(o, b);
   std::vector<bool> free(b.model.value_count, true);
   Bounds bounds;
@@ -129,9 +166,12 @@ std::vector<bool> slots_read(const Model& m) {
       std::fill_n(read.begin() + static_cast<std::ptrdiff_t>(m.parameters[k].first),
                   m.parameters[k].count, true);
   };
-  for (const auto& t : m.diffuse) mark(t);
-  for (const auto& l : m.lobes)
-    for (const auto* t : {&l.ndf, &l.masking, &l.fresnel}) mark(*t);
+  bool turned = false;
+  for (const auto* t : terms_of(m)) {
+    mark(*t);
+    turned = turned || catalogue()[t->term].anisotropic;
+  }
+  if (turned) read[m.tangent()->first] = true;
   return read;
 }
 
@@ -148,14 +188,21 @@ bool are_alike(const Lobe& a, const Lobe& b) {
 }
 
 bool is_reciprocal(const BoundModel& b) {
-  std::vector<Angles<double>> there, back;
+  std::vector<FrameAngles<double>> there, back;
   for (const double theta_h : {2.0, 15.0, 40.0})
     for (const double theta_d : {5.0, 30.0, 45.0})
       for (const double phi_d : {10.0, 70.0}) {
-        const auto a =
-            angles(SinCos(theta_h * degree), SinCos(theta_d * degree), std::cos(phi_d * degree));
+        constexpr double phi_h = 50;
+        const auto a = frame_angles(directions(
+            HalfDifference{theta_h * degree, phi_h * degree, theta_d * degree, phi_d * degree}));
         there.push_back(a);
-        back.push_back({a.nov, a.nol, a.noh, a.voh, a.sin2_theta_h});
+        back.push_back({{a.nov, a.nol, a.noh, a.voh, a.sin2_theta_h},
+                        a.xoh,
+                        a.yoh,
+                        a.xov,
+                        a.yov,
+                        a.xol,
+                        a.yol});
       }
   const auto f = evaluate(b, there), g = evaluate(b, back);
   for (std::size_t c = 0; c < f.size(); ++c)

@@ -23,8 +23,11 @@ struct Problem {
 };
 
 /// A preset's name becomes its spec, with what the preset holds held: its own parameters tie those of
-/// the spec together, and a fit leaves them free.
+/// the spec together, and a fit leaves them free.  An anisotropy held at 0 makes it the model of the isotropic terms.
 FitOptions expanded(FitOptions);
+
+/// Throws wrong usage for an anisotropic model where the table does not say how its surface was turned.
+void check_azimuths(const Table&, const Model&);
 
 /// Throws wrong usage for options that do not fit the model or the table's channels.
 /// \param expanded  outlives the problem

@@ -123,6 +123,12 @@ class Profiler {
     }
     return true;
   }
+  bool is_wider_along(const std::vector<double>& values) const {
+    if (axes_.size() < 2 || parameter(0).about->name != "alpha_x" ||
+        parameter(1).about->name != "alpha_y")
+      return false;
+    return values[parameter(0).first] > values[parameter(1).first];
+  }
   const ModelParameter& parameter(std::size_t axis) const {
     return p_.start.model.parameters[axes_[axis]];
   }
@@ -145,11 +151,17 @@ class Profiler {
       }
     return around;
   }
+  /// The values with the axes at a cell's place.  Widths along and across a tangent that change places take it a
+  /// quarter turn along: where it stood it would be the worst of all, and no descent leaves that.
   std::vector<double> moved_to(const ProfileCell& cell, std::vector<double> values) const {
+    const bool was_wider_along = is_wider_along(values);
     for (std::size_t a = 0; a < axes_.size(); ++a) {
       const auto& q = parameter(a);
       std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(q.first), q.count, cell.at[a]);
     }
+    const auto* const tangent = p_.start.model.tangent();
+    if (is_wider_along(values) != was_wider_along && is_free(p_, *tangent))
+      values[tangent->first] += values[tangent->first] > 0 ? -90 : 90;
     return values;
   }
   void take(ProfileCell& cell, Start s) const {
@@ -244,7 +256,9 @@ std::vector<std::size_t> profile_axes(const Problem& p) {
       if (axes.size() < 2 && is_free(p, all[k]) && is_one(all[k])) axes.push_back(k);
   };
   add([](const ModelParameter& q) { return is_alpha(q.name); });
-  add([](const ModelParameter& q) { return is_shape(q) && !is_alpha(q.name); });
+  add([&](const ModelParameter& q) {
+    return is_shape(q) && !is_alpha(q.name) && &q != p.start.model.tangent();
+  });
   for (const char* index : {"eta", "k"})
     add([&](const ModelParameter& q) {
       return q.about->name == index && (q.count == 1 || axes.empty());

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "base/quantile.h"
+#include "brdf/catalogue/registry.h"
 #include "brdf/model/roughness.h"
 
 #include <tbb/parallel_for.h>
@@ -51,7 +54,7 @@ std::vector<double> rungs_inside(std::span<const double> ladder, const Range& ra
   for (std::size_t k = 0; k < few; ++k) {
     const double part = (0.5 + static_cast<double>(k)) / few;
     inside.push_back(range.low > 0 ? range.low * std::pow(range.high / range.low, part)
-                                   : part * range.high);
+                                   : range.low + part * (range.high - range.low));
   }
   return inside;
 }
@@ -62,10 +65,18 @@ struct Axis {
   std::vector<double> at;
 };
 
+std::size_t cells_of(const std::vector<Axis>& axes) {
+  std::size_t cells = 1;
+  for (const auto& a : axes) cells *= a.at.size();
+  return cells;
+}
+
 /// Those of the free shapes of a lobe that no earlier one shares.
 std::vector<Axis> axes_of(const Problem& p, const Lobe& lobe, const std::vector<bool>& before) {
   static constexpr std::array widths{0.001, 0.003, 0.01, 0.03, 0.07, 0.15, 0.3, 0.5, 0.8};
   static constexpr std::array exponents{0.7, 1.3, 2.0, 3.5, 8.0}, tails{0.0, 0.2, 0.5, 1.0, 1.3};
+  static constexpr std::array tangents{0.0, 30.0, 60.0, 90.0, 120.0, 150.0};
+  const Model& m = p.start.model;
   std::vector<Axis> axes;
   std::vector<bool> seen(p.start.model.parameters.size());
   for (const auto* t : {&lobe.ndf, &lobe.masking})
@@ -79,13 +90,20 @@ std::vector<Axis> axes_of(const Problem& p, const Lobe& lobe, const std::vector<
                                                  : std::span<const double>(exponents);
       axes.push_back({k, rungs_inside(ladder, bounds_of(p, q))});
     }
+  const bool turned =
+      catalogue()[lobe.ndf.term].anisotropic || catalogue()[lobe.masking.term].anisotropic;
+  if (const auto* t = m.tangent(); turned && !before[t->first] && is_free(p, *t))
+    axes.push_back({static_cast<std::size_t>(t - m.parameters.data()),
+                    rungs_inside(tangents, bounds_of(p, *t))});
+  // Of many axes every second rung of the longest has to do.
+  constexpr std::size_t most_cells = 1000;
+  while (cells_of(axes) > most_cells) {
+    auto& rungs = std::ranges::max_element(axes, {}, [](const Axis& a) { return a.at.size(); })->at;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < rungs.size(); k += 2) rungs[kept++] = rungs[k];
+    rungs.resize(kept);
+  }
   return axes;
-}
-
-std::size_t cells_of(const std::vector<Axis>& axes) {
-  std::size_t cells = 1;
-  for (const auto& a : axes) cells *= a.at.size();
-  return cells;
 }
 
 /// Steps of a cell along each axis.
@@ -98,11 +116,25 @@ std::vector<std::size_t> steps_of(const std::vector<Axis>& axes, std::size_t cel
   return steps;
 }
 
-bool are_neighbours(const std::vector<Axis>& axes, std::size_t a, std::size_t b) {
-  const auto x = steps_of(axes, a), y = steps_of(axes, b);
+/// True of a cell that another one repeats: widths exchanged are a tangent a quarter turn further, and equal ones have none.
+bool repeats_another(const Model& m,
+                     const std::vector<Axis>& axes,
+                     std::span<const std::size_t> steps) {
+  std::optional<double> x, y;
+  std::optional<std::size_t> turn;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const auto name = base_name(m.parameters[axes[k].parameter]);
+    if (name == "alpha_x") x = axes[k].at[steps[k]];
+    if (name == "alpha_y") y = axes[k].at[steps[k]];
+    if (name == "tangent") turn = steps[k];
+  }
+  return x && y && turn && (*x < *y || (*x == *y && *turn > 0));
+}
+
+bool are_neighbours(std::span<const std::size_t> x, std::span<const std::size_t> y) {
   for (std::size_t k = 0; k < x.size(); ++k)
     if (x[k] > y[k] + 1 || y[k] > x[k] + 1) return false;
-  return a != b;
+  return true;
 }
 
 /// The cells that no neighbour is below, the best first, then the best of the rest: at most so many.
@@ -113,10 +145,14 @@ std::vector<std::size_t> best_cells(const std::vector<Axis>& axes,
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return cells[i].cost; });
   std::vector<bool> is_lowest(cells.size(), true);
+  std::vector<std::vector<std::size_t>> steps;
+  for (std::size_t i = 0; i < cells.size(); ++i) steps.push_back(steps_of(axes, i));
   for (std::size_t i = 0; i < cells.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (are_neighbours(axes, i, j)) is_lowest[cells[i].cost < cells[j].cost ? j : i] = false;
+      if (are_neighbours(steps[i], steps[j]))
+        is_lowest[cells[i].cost < cells[j].cost ? j : i] = false;
   std::ranges::stable_partition(order, [&](std::size_t i) { return is_lowest[i]; });
+  std::erase_if(order, [&](std::size_t i) { return cells[i].values.empty(); });
   order.resize(std::min(order.size(), most));
   return order;
 }
@@ -143,6 +179,10 @@ std::vector<Start> join(const Problem& p,
     tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
       auto values = base.values;
       const auto steps = steps_of(axes, i);
+      if (repeats_another(m, axes, steps)) {
+        cells[i].cost = std::numeric_limits<double>::infinity();
+        return;
+      }
       for (std::size_t k = 0; k < axes.size(); ++k)
         values[m.parameters[axes[k].parameter].first] = axes[k].at[steps[k]];
       cells[i] = colours.from_best_valley(std::move(values), lobe, {4, 1e-3});

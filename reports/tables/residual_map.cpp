@@ -28,11 +28,13 @@ ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
   const SampleAngles at(table);
   const auto copied = copied_pairs(table);
   constexpr std::size_t chunk = 1 << 15;  // samples whose angles and model values are held at once
-  std::vector<Angles<double>> x;
+  std::vector<FrameAngles<double>> x;
   for (std::size_t first = 0; first < table.size(); first += chunk) {
     const std::size_t end = std::min(first + chunk, table.size());
     x.clear();
-    for (std::size_t i = first; i < end; ++i) x.push_back(at(i));
+    for (std::size_t i = first; i < end; ++i)
+      x.push_back(fitted.model.anisotropic ? at.frame(i)
+                                           : FrameAngles<double>{at(i), 0, 0, 0, 0, 0, 0});
     const auto model = evaluate(fitted, x);
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!(x[i].nol > 0 && x[i].nov > 0)) continue;

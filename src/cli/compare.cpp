@@ -4,6 +4,7 @@
 #include "cli/terminal.h"
 #include "fitting/judge/assess.h"
 #include "fitting/result/document.h"
+#include "fitting/solve/problem.h"
 #include "table/format/formats.h"
 
 #include <fmt/format.h>
@@ -32,11 +33,9 @@ Exit run(const Options& o) {
   progress("reading " + o.file);
   const Table t = read_table(o.file, bins_from(o.bins));
   const BoundModel m = model_argument(o.model, o.set, t.channels.size()).model;
-  if (m.model.anisotropic)
-    throw wrong_usage(
-        fmt::format("model '{}' is anisotropic: compare takes isotropic models", m.model.spec));
+  check_azimuths(t, m.model);
   progress("comparing");
-  const Sampling sampling(t, t.bins(), Metric::l2_cosine, 0, false);
+  const Sampling sampling(t, t.bins(), Metric::l2_cosine, 0, false, false, m.model.anisotropic);
   const FreeSlots nothing(std::vector<bool>(m.model.value_count, false));
   const auto [sandwich, r, angles, counts] = assess(sampling, m, nothing, no_huber, false);
   progress.clear();

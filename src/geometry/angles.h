@@ -15,9 +15,10 @@ struct Angles {
 };
 
 /// Angles of a surface with a tangent x and a bitangent y, which anisotropic terms read, too.
-template <class B>
+/// \tparam C  number of the frame: it may carry a derivative by the tangent's turn
+template <class B, class C = B>
 struct FrameAngles : Angles<B> {
-  B xoh, yoh, xol, yol, xov, yov;
+  C xoh, yoh, xol, yol, xov, yov;
 };
 
 /// VoH, which for any two directions is at least (NoL + NoV)/2: 2 VoH NoH = NoL + NoV.  Angles that no

@@ -107,6 +107,7 @@ Subject subject_of_model(std::string_view spec) {
   Model m = compose(spec, 1);
   std::vector<Input> inputs;
   for (const auto& p : m.parameters) {
+    if (&p == m.tangent()) continue;  // azimuths are given from there
     inputs.push_back(input_of(*p.about));
     inputs.back().name = p.name;
   }

@@ -155,6 +155,7 @@ class SampleAngles::Row {
   bool is_level() const { return theta_h_ != nullptr; }
   double middle() const { return theta_h_->cos * theta_d_->cos; }
   double swing() const { return theta_h_->sin * theta_d_->sin; }
+  std::size_t first() const { return first_; }  ///< sample of the row
   double cos_phi_d(std::size_t column) const { return at_->axes_[2][column].cos; }
   Angles<double> operator()(std::size_t column) const {
     if (!theta_h_) return (*at_)(first_ + column);

@@ -67,7 +67,7 @@ inline double value_of(std::size_t term, const Parameters& parameters, const Ang
   return value_at(term, parameters, framed(at));
 }
 
-/// [0]: the value; [1 + k]: its derivative by the k-th parameter.
+/// [0]: the value; [1 + k]: its derivative by the k-th parameter; last, of an anisotropic term, by its turn.
 template <class F = double>
 std::vector<std::vector<F>> derivatives_of(std::size_t term,
                                            const Parameters& parameters,
@@ -77,7 +77,7 @@ std::vector<std::vector<F>> derivatives_of(std::size_t term,
   const std::vector<F> p(parameters.begin(), parameters.end());
   std::vector<Column<F>> out;
   std::vector<F*> d;
-  for (std::size_t i = 0; i <= p.size(); ++i) {
+  for (std::size_t i = 0; i <= p.size() + catalogue()[term].anisotropic; ++i) {
     out.emplace_back(x.padded());
     if (i > 0) d.push_back(out.back().data());
   }

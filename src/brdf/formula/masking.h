@@ -102,7 +102,7 @@ struct SmithAnisoRoot {
   explicit SmithAnisoRoot(std::span<const T, 2> p)
       : x2(square(p[0] * smith_scale)), y2(square(p[1] * smith_scale)) {}
 
-  T operator()(const P& x, const P& y, const P& c) const {
+  T operator()(const auto& x, const auto& y, const P& c) const {
     return sqrt(x2 * x * x + y2 * y * y + square(c * smith_scale));
   }
 };
@@ -126,7 +126,7 @@ struct SmithGgxAnisoSeparable {
 
   explicit SmithGgxAnisoSeparable(std::span<const T, 2> p) : root(p) {}
 
-  Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
+  Quotient<T> operator()(const FrameAngles<plain_t<T>, auto>& a) const {
     return smith_separable<T>(a, root(a.xol, a.yol, a.nol), root(a.xov, a.yov, a.nov));
   }
 };
@@ -151,7 +151,7 @@ struct SmithGgxAnisoCorrelated {
 
   explicit SmithGgxAnisoCorrelated(std::span<const T, 2> p) : root(p) {}
 
-  Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
+  Quotient<T> operator()(const FrameAngles<plain_t<T>, auto>& a) const {
     return smith_correlated<T>(a, root(a.xol, a.yol, a.nol), root(a.xov, a.yov, a.nov));
   }
 };
@@ -244,14 +244,14 @@ struct SmithBeckmannAnisoCorrelated {
   explicit SmithBeckmannAnisoCorrelated(std::span<const T, 2> p)
       : x2(square(p[0] * smith_scale)), y2(square(p[1] * smith_scale)) {}
 
-  Quotient<T> operator()(const FrameAngles<plain_t<T>>& a) const {
+  Quotient<T> operator()(const FrameAngles<plain_t<T>, auto>& a) const {
     return lambda_correlated<T>(a, beckmann_c_lambda<T>(a.nol, width(a.xol, a.yol)),
                                 beckmann_c_lambda<T>(a.nov, width(a.xov, a.yov)));
   }
 
  private:
   using P = plain_t<T>;
-  T width(const P& x, const P& y) const {
+  T width(const auto& x, const auto& y) const {
     const T length2 = x2 * x * x + y2 * y * y;
     const T some = min<T>(least<T>(), constant<T>(0x1p-24L));  // the root of 0 has no slope
     return sqrt(max<T>(length2, some)) * constant<P>(1.0L / smith_scale);

@@ -66,6 +66,7 @@ const std::vector<Set>& sets() {
          set::terms_of<Role::fresnel, F>(), set::terms_of<Role::diffuse, F>()},               \
         set::maskings_with_ggx<F>(), {                                                        \
       set::fused_models<FusedGroup::ggx, F>(), set::fused_models<FusedGroup::isotropic, F>(), \
+          set::fused_models<FusedGroup::anisotropic, F>(),                                    \
           set::fused_models<FusedGroup::shipped, F>()                                         \
     }                                                                                         \
   }

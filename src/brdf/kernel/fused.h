@@ -166,8 +166,9 @@ template <template <class> class D, template <class> class V, template <class> c
 struct LobeSlopes<TermList<D, V, Fr>, F> {
   using B = Lane<F>;
   static constexpr auto of_v = places_of_v<D<B>, V<B>>();
+  static constexpr bool turns = LobeShape<D, V, B>::anisotropic;
   static constexpr std::size_t of_d = D<B>::parameters.size(),
-                               of_shape = std::max(of_d, std::ranges::max(of_v) + 1);
+                               of_shape = std::max(of_d, std::ranges::max(of_v) + 1) + turns;
   using S = Dual<B, of_shape>;
   using Fresnel = TermSlopes<Fr, F>;
 
@@ -178,6 +179,7 @@ struct LobeSlopes<TermList<D, V, Fr>, F> {
     for (std::size_t k = 0; k < of_d; ++k) columns[at++] = {term, k};
     for (std::size_t k = 0; k < of_v.size(); ++k)
       if (of_v[k] >= of_d) columns[at++] = {term + 1, k};
+    if (turns) columns[at++] = {term, of_d};
     for (std::size_t k = 0; k < Fresnel::count; ++k) columns[at++] = {term + 2, k};
   }
 };
@@ -204,9 +206,11 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
       1 + (0 + ... + (LobeSlopes<Lobes, F>::of_shape + LobeSlopes<Lobes, F>::Fresnel::count)) +
       (0 + ... + TermSlopes<Diffuse, F>::count);
   static_assert(K <= max_columns);
+  static_assert((0 + ... + LobeSlopes<Lobes, F>::turns) <= 1,
+                "one column by the turn of the frame");
 
   /// Parameters by which the columns after the residual's are derivatives: of each lobe those of D, those of
-  /// V that D has not, and of F; then those of the diffuse terms.
+  /// V that D has not, the turn of its frame, and of F; then those of the diffuse terms.
   static constexpr auto columns() {
     std::array<FusedColumn, max_columns - 1> all{};
     std::size_t at = 0, term = n_diffuse;
@@ -229,7 +233,12 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
       const auto shape = LobeAt<l>::shape(p[0][0], p[1][0]);
       auto* const row = rows.data() + rows_before(l);
       for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-        const auto dv = shape(angles_with<Value::anisotropic>(x, i)).value();
+        const auto angles = angles_with<LobeAt<l>::turns>(x, i);
+        typename LobeAt<l>::S dv;
+        if constexpr (LobeAt<l>::turns)
+          dv = shape(turning<LobeAt<l>::of_shape>(angles)).value();
+        else
+          dv = shape(angles).value();
         store<B>(row[0].data() + i, dv.v);
         for (std::size_t k = 0; k < LobeAt<l>::of_shape; ++k)
           store<B>(row[1 + k].data() + i, dv.d[k]);

@@ -77,7 +77,7 @@ struct TermKernels {
   /// by the number of channels, 1 and 3; nullptr for D and V
   using Shade = void (*)(const Block<F>&, const ChannelColumns<F>&);
   std::array<Shade, max_channels + 1> shade;
-  /// value and ∂value/∂parameter, one column each
+  /// value and ∂value/∂parameter, one column each; of an anisotropic term last the one by its frame's turn [1/°]
   void (*derivatives)(const Block<F>&, const F* parameters, F* value, F* const* d);
   /// D V of GGX's D and this V in one loop, which most models have; nullptr of other terms than V
   using WithGgx = void (*)(const Block<F>&, const F* ggx, const F* parameters, F* out);
@@ -181,7 +181,7 @@ struct NormalArguments {
 /// A parameter of a fused model.
 struct FusedColumn {
   std::size_t term;       ///< in the order of FusedIds
-  std::size_t parameter;  ///< of the term
+  std::size_t parameter;  ///< of the term; one more than it has: the turn of the frame [°]
 };
 
 /// The normal equations of a whole model in one loop, for plain least squares: the same formulas and
@@ -197,7 +197,7 @@ struct NormalKernel {
 };
 
 /// Groups of fused models that are compiled together.
-enum class FusedGroup { ggx, isotropic, shipped };
+enum class FusedGroup { ggx, isotropic, anisotropic, shipped };
 template <class F>
 struct FusedModels {
   std::span<const FusedKernel<F>> values;

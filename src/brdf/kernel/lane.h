@@ -8,6 +8,7 @@
 #include "brdf/kernel/kernels.h"
 #include "brdf/term/term.h"
 #include "number/batch.h"
+#include "number/dual.h"
 #ifdef GONIO_SHAKEN
 #include "number/shaken.h"
 #endif
@@ -42,6 +43,26 @@ auto angles_with(const Block<F>& x, std::size_t i) {
 template <class Term = void, class F>
 auto angles(const Block<F>& x, std::size_t i) {
   return angles_with<is_anisotropic<Term>>(x, i);
+}
+
+/// A frame whose tangent turns [°]: unknown N − 1 of its numbers.
+///
+///   XoH' = YoH π/180,  YoH' = −XoH π/180;  so of l and v
+template <std::size_t N, class B>
+FrameAngles<B, Dual<B, N>> turning(const FrameAngles<B>& a) {
+  const B radians = pi<B>() / 180;
+  const auto along = [&](const B& value, const B& slope) {
+    Dual<B, N> x(value);
+    x.d[N - 1] = slope * radians;
+    return x;
+  };
+  return {a,
+          along(a.xoh, a.yoh),
+          along(a.yoh, -a.xoh),
+          along(a.xol, a.yol),
+          along(a.yol, -a.xol),
+          along(a.xov, a.yov),
+          along(a.yov, -a.xov)};
 }
 
 template <class Term, class T, class F>

@@ -56,11 +56,17 @@ void add_product(const Block<F>& x, const F* p, const ProductColumns<F>& j) {
 template <template <class> class Term, class F>
 void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
   using B = Lane<F>;
-  constexpr std::size_t N = Term<B>::parameters.size();
+  constexpr bool turns = is_anisotropic<Term<B>>;
+  constexpr std::size_t N = Term<B>::parameters.size() + turns;
   using T = Dual<B, N>;
   const auto term = bind<Term<T>, T>(p, [](F v, std::size_t k) { return T::variable(B(v), k); });
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-    const T t = as_value<T>(term(angles<Term<B>>(x, i)));
+    const auto a = angles<Term<B>>(x, i);
+    T t;
+    if constexpr (turns)
+      t = as_value<T>(term(turning<N>(a)));
+    else
+      t = as_value<T>(term(a));
     store<B>(value + i, t.v);
     for (std::size_t k = 0; k < N; ++k) store<B>(d[k] + i, t.d[k]);
   }

@@ -34,7 +34,7 @@ template <class F>
 ModelDerivatives<F>::ModelDerivatives(const Model& m,
                                       const std::vector<bool>& free,
                                       const Kernels<F>& k)
-    : model_(m), free_(free), k_(k), channel_steps_(m.channels) {
+    : model_(m), free_(free), k_(k), turned_(m, k), channel_steps_(m.channels) {
   std::vector<DualColumn<F>> dv;  // D·V, shared by the channels
   for (const auto& l : m.lobes) {
     const auto d = term(l.ndf, 0);
@@ -76,6 +76,7 @@ ModelDerivatives<F>::ModelDerivatives(const Model& m,
 
 template <class F>
 void ModelDerivatives<F>::set(std::span<const F> values) {
+  turned_.set(values);
   for (auto& g : parameters_)
     for (std::size_t i = 0; i < g.slots.size(); ++i) g.p[i] = values[g.slots[i]];
 }
@@ -83,7 +84,7 @@ void ModelDerivatives<F>::set(std::span<const F> values) {
 template <class F>
 DualColumn<F> ModelDerivatives<F>::term(const TermUse& t, std::size_t c) {
   Gathered& gathered = parameters_.emplace_back();
-  std::array<F*, max_parameters> d{};
+  std::array<F*, max_parameters + 1> d{};
   F* const value = fresh();
   DualColumn<F> r{value, {}};
   for (std::size_t i = 0; i < t.parameters.size(); ++i) {
@@ -91,6 +92,11 @@ DualColumn<F> ModelDerivatives<F>::term(const TermUse& t, std::size_t c) {
     gathered.slots.push_back(slot);
     d[i] = fresh();
     if (free_[slot]) r.d.emplace_back(slot, d[i]);
+  }
+  if (catalogue()[t.term].anisotropic) {
+    F*& by_turn = d[t.parameters.size()] = fresh();
+    if (const std::size_t slot = model_.tangent()->first; free_[slot])
+      r.d.emplace_back(slot, by_turn);
   }
   into_->push_back([=, p = gathered.p.data(), f = k_.terms[t.term].derivatives](const Block<F>& b) {
     f(b, p, value, d.data());

@@ -41,7 +41,8 @@ class ModelDerivatives {
 
   /// The channels share scratch columns, so each is visited before the next is made.
   template <class Visit>
-  void run(const Block<F>& b, Visit&& visit) const {
+  void run(const Block<F>& angles, Visit&& visit) {
+    const Block<F> b = turned_(angles);
     for (const auto& s : shared_steps_) s(b);
     for (std::size_t c = 0; c < channels_.size(); ++c) {
       for (const auto& s : channel_steps_[c]) s(b);
@@ -70,6 +71,7 @@ class ModelDerivatives {
   const std::vector<bool>& free_;
   const Kernels<F>& k_;
   Scratch<F> scratch_;
+  TurnedFrame<F> turned_;
   std::size_t next_ = Scratch<F>::first_free;
   std::deque<Gathered> parameters_;  ///< the steps point into it
   std::vector<Step> shared_steps_;

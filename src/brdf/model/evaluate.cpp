@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "base/error.h"
+#include "geometry/direction.h"
 
 #include <fmt/format.h>
 
@@ -60,8 +62,43 @@ std::optional<FusedIds> fused_ids(const Model& m) {
 }
 
 template <class F>
+TurnedFrame<F>::TurnedFrame(const Model& m, const Kernels<F>& k) : kernels_(k) {
+  const auto* const tangent = m.tangent();
+  has_tangent_ = tangent != nullptr;
+  if (!tangent) return;
+  slot_ = tangent->first;
+  for (auto& column : factors_) column = Column<F>(block);
+  for (auto& column : turned_) column = Column<F>(block);
+}
+
+template <class F>
+void TurnedFrame<F>::set(std::span<const F> values) {
+  turns_ = has_tangent_ && values[slot_] != 0;
+  if (!turns_) return;
+  const double t = static_cast<double>(values[slot_]) * degree;
+  const std::array by{std::cos(t), std::sin(t), -std::sin(t)};
+  for (std::size_t k = 0; k < by.size(); ++k)
+    std::fill_n(factors_[k].data(), block, static_cast<F>(by[k]));
+}
+
+template <class F>
+Block<F> TurnedFrame<F>::operator()(const Block<F>& x) {
+  if (!turns_) return x;
+  assert(x.n <= block);
+  const F *const c = factors_[0].data(), *const s = factors_[1].data(),
+                 *const minus_s = factors_[2].data();
+  Block<F> turned = x;
+  for (std::size_t k = 0; k < turned_.size(); k += 2) {  // of h, l, v
+    kernels_.product_sum(x.n, x.frame[k], c, x.frame[k + 1], s, turned_[k].data());
+    kernels_.product_sum(x.n, x.frame[k + 1], c, x.frame[k], minus_s, turned_[k + 1].data());
+  }
+  for (std::size_t k = 0; k < turned_.size(); ++k) turned.frame[k] = turned_[k].data();
+  return turned;
+}
+
+template <class F>
 Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k)
-    : channels_(m.channels), diffuse_(m.diffuse.size()) {
+    : channels_(m.channels), diffuse_(m.diffuse.size()), turned_(m, k) {
   for (const auto* use : terms_of(m)) {
     const TermUse& t = *use;
     Term term{&catalogue()[t.term], &k.terms[t.term], {}, {}};
@@ -89,6 +126,7 @@ Evaluator<F>::Evaluator(const Model& m, const Kernels<F>& k)
 
 template <class F>
 void Evaluator<F>::set(std::span<const F> values) {
+  turned_.set(values);
   for (auto& t : terms_)
     for (std::size_t c = 0; c < channels_; ++c)
       for (std::size_t i = 0; i < t.count; ++i) t.parameters[c][i] = values[t.slots[c][i]];
@@ -98,13 +136,17 @@ void Evaluator<F>::set(std::span<const F> values) {
 
 template <class F>
 void Evaluator<F>::operator()(const Block<F>& x, std::span<F* const> out) {
-  if (!fused_) {
-    for (std::size_t at = 0; at < x.n; at += Between::block)
-      compose(x.part(at, std::min(Between::block, x.n - at)), at, out);
-    return;
+  if (fused_ && !turned_) return fused(x, 0, out);
+  for (std::size_t at = 0; at < x.n; at += Between::block) {
+    const Block<F> part = turned_(x.part(at, std::min(Between::block, x.n - at)));
+    fused_ ? fused(part, at, out) : compose(part, at, out);
   }
+}
+
+template <class F>
+void Evaluator<F>::fused(const Block<F>& x, std::size_t at, std::span<F* const> out) {
   arguments_.x = x;
-  std::ranges::copy(out, arguments_.out.begin());
+  for (std::size_t c = 0; c < channels_; ++c) arguments_.out[c] = out[c] + at;
   fused_(arguments_);
 }
 
@@ -206,6 +248,7 @@ std::vector<std::vector<double>> evaluate(const BoundModel& b,
   template class Column<F>;                                                                      \
   template class AngleColumns<F>;                                                                \
   template class Scratch<F>;                                                                     \
+  template class TurnedFrame<F>;                                                                 \
   template class Evaluator<F>;                                                                   \
   template void evaluate(const Model&, std::span<const F>, const Block<F>&, std::span<F* const>, \
                          const Kernels<F>&);

@@ -87,6 +87,31 @@ class Scratch {
   std::vector<Column<F>> columns_;
 };
 
+/// Blocks of angles whose frame is turned to a model's tangent, at the azimuth t:
+///
+///   x' = x cos t + y sin t,   y' = y cos t − x sin t
+///
+/// One per thread.
+template <class F>
+class TurnedFrame {
+ public:
+  static constexpr std::size_t block = 512;  ///< samples at once, at most
+  TurnedFrame(const Model&, const Kernels<F>&);
+  /// For the blocks that follow, model.value_count of them.
+  void set(std::span<const F> values);
+  /// True where there is something to turn: not of an isotropic model, nor where t is 0.
+  explicit operator bool() const { return turns_; }
+  /// x with the turned frame, until the next; x as it is where there is nothing to turn.
+  Block<F> operator()(const Block<F>& x);
+
+ private:
+  const Kernels<F>& kernels_;
+  bool has_tangent_ = false, turns_ = false;
+  std::size_t slot_ = 0;              ///< of the tangent's value
+  std::array<Column<F>, 3> factors_;  ///< cos t, sin t, −sin t, at all samples
+  std::array<Column<F>, 6> turned_;
+};
+
 /// Terms of a model in the order of fused kernels: diffuse terms, then D, V, F of each lobe.
 std::vector<const TermUse*> terms_of(const Model&);
 /// The ids by which fused kernels know a model; no value where it has more terms than they take.
@@ -118,6 +143,7 @@ class Evaluator {
     std::size_t count = 0;
     bool is_ggx = false;
   };
+  void fused(const Block<F>& x, std::size_t at, std::span<F* const> out);
   void compose(const Block<F>& x, std::size_t at, std::span<F* const> out);
   /// A model has one diffuse term at most.
   bool has_uniform_diffuse() const {
@@ -131,6 +157,7 @@ class Evaluator {
       uniform_;  ///< of each channel: the diffuse term where it is the same at all angles
   typename FusedKernel<F>::Value fused_ = nullptr;
   FusedArguments<F> arguments_{};  ///< its parameters are those of terms_
+  TurnedFrame<F> turned_;
   std::vector<F*> dv_;
   Between scratch_;
 };

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/formula/widths.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
 #include "optics/f0.h"
@@ -145,6 +146,7 @@ Model compose(std::string_view spec, std::size_t channels, std::span<const std::
     TermUse d = term(0, Role::ndf), v = term(1, Role::masking), f = term(2, Role::fresnel);
     m.lobes.push_back({std::move(d), std::move(v), std::move(f)});
   }
+  if (m.anisotropic) m.parameters.push_back({"tangent", &tangent_parameter, m.value_count++, 1});
   for (const auto& d : m.diffuse)
     if (catalogue()[d.term].coupled && m.lobes.empty())
       throw wrong_usage(fmt::format("model '{}': {} needs a lobe to be coupled to", spec,

@@ -36,7 +36,8 @@ struct Lobe {
   TermUse ndf, masking, fresnel;
 };
 
-/// D and V of a lobe share the parameters they both name; those of the second lobe end in _2.
+/// D and V of a lobe share the parameters they both name; those of the second lobe end in _2.  Last of an
+/// anisotropic model's is `tangent`.
 struct Model {
   std::string spec;
   std::size_t channels = 3;
@@ -48,6 +49,9 @@ struct Model {
 
   /// nullptr if it has none of that name
   const ModelParameter* find(std::string_view name) const;
+  /// Azimuth of the tangent [°], which all lobes share; nullptr of an isotropic model.  Terms know of no
+  /// azimuth but that from the tangent: whoever gives them angles turns the frame (TurnedFrame).
+  const ModelParameter* tangent() const { return anisotropic ? find("tangent") : nullptr; }
 };
 
 /// \param grey  names of colour parameters that have one value for all channels

@@ -197,6 +197,7 @@ void Look::read_spectrum(const Material& m) {
 }
 
 void Look::read(const BoundModel& b, bool coated) {
+  if (const auto* tangent = b.model.tangent()) turn_ = b.values[tangent->first] * degree;
   auto lobes = b.model.lobes;
   if (coated) {
     const Lobe& lobe = lobes.back();

@@ -60,11 +60,11 @@ bool finish(Cut& cut,
   }
   std::ranges::stable_sort(points, {}, &Point::deg);
 
-  std::vector<Angles<double>> x;
+  std::vector<FrameAngles<double>> x;
   cut.data.assign(channels, {});
   for (const Point& p : points) {
     cut.deg.push_back(p.deg);
-    x.push_back(angles(place(cut, phi_d, p.deg)));
+    x.push_back(frame_angles(place(cut, phi_d, p.deg)));
     for (std::size_t c = 0; c < channels; ++c)
       cut.data[c].push_back(p.data.empty() ? none : p.data[c]);
   }
@@ -174,6 +174,10 @@ std::vector<InPlane> in_plane_samples(const Table& table) {
 
 std::vector<Cut> list_cuts(const Table& table, const BoundModel* fitted) {
   auto samples = in_plane_samples(table);
+  if (fitted && fitted->model.anisotropic)
+    std::erase_if(samples, [&](const InPlane& s) {
+      return std::abs(std::remainder(table.list()->phi_i_deg[s.sample], 180)) > near_deg;
+    });
   std::ranges::stable_sort(samples, {}, &InPlane::theta_i_deg);
   // Incident angles closer than 0.1° are one; a table with hardly two samples at each has
   // directions at random.

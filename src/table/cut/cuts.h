@@ -27,7 +27,7 @@ struct Cut {
 
 /// At most six cuts, only such that show data.  Data of grids are shown where the grid has nodes:
 /// theta_i and theta_o, or theta_h, are the grid's own, the other angles interpolated; data of lists
-/// as they are, up to 1.5° out of the plane.
+/// as they are, up to 1.5° out of the plane; beside an anisotropic model those at azimuth 0 or 180°.
 std::vector<Cut> make_cuts(const Table&, const BoundModel& fitted);
 /// Without a model.
 std::vector<Cut> make_cuts(const Table&);

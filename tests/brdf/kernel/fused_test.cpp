@@ -25,6 +25,8 @@ class FusedModel : public testing::Test {
  protected:
   FusedModel() : rows_(test::random_angles(300, 5)), x_(test::columns<double>(rows_)) {
     for (const auto& p : model_.parameters) values_.push_back(0.5 * p.about->start);
+    values_[model_.tangent()->first] = 20;
+    turned_.set(values_);
     const auto terms = terms_of(model_);
     for (std::size_t t = 0; t < terms.size(); ++t) {
       for (std::size_t k = 0; k < terms[t]->parameters.size(); ++k)
@@ -33,6 +35,7 @@ class FusedModel : public testing::Test {
     }
   }
   std::size_t slot(const FusedColumn& c) const {
+    if (c.parameter == terms_of(model_)[c.term]->parameters.size()) return model_.tangent()->first;
     return model_.parameters[terms_of(model_)[c.term]->parameters[c.parameter]].slot(0);
   }
 
@@ -40,13 +43,14 @@ class FusedModel : public testing::Test {
   std::vector<double> values_;
   std::vector<test::Row> rows_;
   AngleColumns<double> x_;
+  TurnedFrame<double> turned_{model_, kernels<double>()};
   std::array<std::array<double, max_parameters>, max_fused_terms> of_terms_{};
   FusedParameters<double> parameters_{};
 };
 
 TEST_F(FusedModel, OfTwoLobesAndAFrameHasTheValueOfItsColumns) {
   Column<double> fused(x_.padded()), composed(x_.padded());
-  Fused<double, TwoLobes>::value<1>({x_.block(), parameters_, {fused.data()}});
+  Fused<double, TwoLobes>::value<1>({turned_(x_.block()), parameters_, {fused.data()}});
   double* const out = composed.data();
   evaluate<double>(model_, values_, x_.block(), {&out, 1});
   for (std::size_t i = 0; i < rows_.size(); ++i) EXPECT_DOUBLE_EQ(fused[i], composed[i]);
@@ -59,7 +63,7 @@ TEST_F(FusedModel, OfTwoLobesAndAFrameHasTheNormalEquationsOfItsColumns) {
   for (std::size_t i = 0; i < rows_.size(); ++i) weight[i] = static_cast<double>(i % 4);
   constexpr std::size_t entries = Normal::K * (Normal::K + 1) / 2;
   Column<double> sums(entries * padding, 0), cost(padding, 0);
-  Normal::pass<Link::log>({x_.block(),
+  Normal::pass<Link::log>({turned_(x_.block()),
                            1,
                            parameters_,
                            {target.data()},

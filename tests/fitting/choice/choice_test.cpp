@@ -74,8 +74,11 @@ TEST(ModelChoice, TakesTheFewestParametersThatDoAsWell) {
 
 TEST(ModelChoice, LeavesAModelThatCannotBeFittedInItsPlaceAndSaysWhy) {
   const std::string aniso = "ggx_aniso/smith_ggx_aniso.correlated/schlick";
-  const auto choice = compare_models(table_of(metal, {"alpha=0.3", "f0=0.8"}, 1), {},
-                                     std::vector<std::string>{aniso, metal, "no_such_model"});
+  const Table t =
+      synthesize(bind_model(metal, parse_settings(std::vector<std::string>{"alpha=0.3,f0=0.8"}), 1),
+                 {.layout = Layout::in_plane, .noise = 0.02});
+  const auto choice =
+      compare_models(t, {}, std::vector<std::string>{aniso, metal, "no_such_model"});
   ASSERT_EQ(choice.rows.size(), 3U);
   EXPECT_FALSE(choice.rows[0].compared);
   EXPECT_NE(choice.rows[0].note.find("anisotropic"), std::string::npos);

@@ -175,6 +175,14 @@ TEST(Look, TakesMetalsOfGltfByTheirF0) {
   EXPECT_NEAR(s.base.values[s.base.model.find("alpha_y")->first], 0.16, 1e-12);
 }
 
+TEST(Look, IsTurnedToTheTangentOfItsModel) {
+  const Look look(test::material("ggx_aniso/smith_ggx_aniso.correlated/schlick",
+                                 {"alpha_x=0.4", "alpha_y=0.1", "tangent=30", "f0=0.5"}));
+  EXPECT_NEAR(look.turn(), 30 * degree, 1e-15);
+  const auto base = look.surface(look.structural()).base;
+  EXPECT_EQ(base.values[base.model.tangent()->first], 0);
+}
+
 TEST(Look, LeavesOutALobeOfNoWeight) {
   const Look look(test::material("disney", {"base_color=0.5", "roughness=0.4"}));
   EXPECT_EQ(look.surface(look.exact()).base.model.lobes.size(), 1U);
