@@ -90,8 +90,13 @@ TEST_P(DerivativesOf, GivesTheDerivativesOfDifferences) {
           ASSERT_EQ(results[c].d.contains(slot), p.slot(c) == slot) << p.name << ", channel " << c;
           if (!results[c].d.contains(slot)) continue;
           const double x = b.values[slot];
-          const double h =
-              &p == b.model.tangent() ? 1e-5 : 1e-3 * x;  // [°], or by the narrowest width
+          // Where a small step of the parameter is a large one of ln f, a smaller one; of a tangent
+          // [°] by the narrowest width.
+          double steep = 20;
+          for (std::size_t i = 0; i < rows.size(); ++i)
+            if (const double f = results[c].value[i]; f > 0)
+              steep = std::max(steep, std::abs(x * results[c].d.at(slot)[i] / f));
+          const double h = &p == b.model.tangent() ? 1e-5 : 1e-3 * x * 20 / steep;
           const auto at = [&](double v) {
             BoundModel moved = b;
             moved.values[slot] = v;
