@@ -22,8 +22,8 @@ struct Problem {
   double rounding = 0;  ///< of the cost of one value in float, see SolveOptions; 0: in double alone
 };
 
-/// A preset's name becomes its spec, with what the preset holds held: its own parameters tie those of
-/// the spec together, and a fit leaves them free.
+/// A preset's name becomes the spec over its own parameters; where it has none such, its spec with what the preset holds held, whose
+/// parameters a fit leaves free.
 FitOptions expanded(FitOptions);
 
 /// Throws wrong usage for options that do not fit the model or the table's channels.
