@@ -85,8 +85,13 @@ class Ends {
     const double here = best_.model.values[problem_.free.slots()[i]];
     const double found = fitted_.model.values[problem_.free.slots()[i]];
     u_.status[i] = ParameterStatus::free;
-    u_.low[i] = found + along.reach(problem_.bounds.low[i], much) - here;
-    u_.high[i] = found + along.reach(problem_.bounds.high[i], much) - here;
+    // Of the thinned samples, moved to the value of all; a bound is a bound of both.
+    const auto reached = [&](double bound) {
+      const double end = along.reach(bound, much);
+      return end == bound ? bound : found + end - here;
+    };
+    u_.low[i] = reached(problem_.bounds.low[i]);
+    u_.high[i] = reached(problem_.bounds.high[i]);
     if (std::isnan(u_.std_error[i])) u_.std_error[i] = (u_.high[i] - u_.low[i]) / (2 * t);
     u_.reason[i].clear();
   }

@@ -153,19 +153,24 @@ typename Colours<F>::Lobe Colours<F>::lobe_of(const TermUse& fresnel) const {
   static constexpr std::array extinctions{0.3, 1.0, 3.0, 8.0};
   static constexpr std::array<std::pair<double, double>, 8> metals{
       {{1.5, 0.2}, {1.3, 1}, {0.2, 3}, {1.5, 4}, {4, 3}, {0.6, 0.2}, {7, 1}, {2, 10}}};
+  static constexpr std::array<std::pair<double, double>, 6> workflows{
+      {{0.1, 0.05}, {0.5, 0.05}, {0.3, 0.5}, {0.8, 0.5}, {0.3, 0.95}, {0.9, 0.95}}};
   constexpr Range anything{-infinite, infinite};
   const auto side = [&](double eta) {
     return eta > 1 ? Range{1 + beside_one, infinite} : Range{-infinite, 1 - beside_one};
   };
   constexpr Range absorbing{beside_zero, infinite};
-  const ModelParameter *f0 = nullptr, *eta = nullptr, *k = nullptr;
-  std::size_t i_f0 = 0, i_eta = 0, i_k = 0;
+  const ModelParameter *f0 = nullptr, *eta = nullptr, *k = nullptr, *base = nullptr,
+                       *metallic = nullptr;
+  std::size_t i_f0 = 0, i_eta = 0, i_k = 0, i_base = 0, i_metallic = 0;
   for (const std::size_t i : fresnel.parameters) {
     const auto& q = held_.start.model.parameters[i];
     if (!held_.free.mask()[q.first]) continue;
     if (base_name(q) == "f0") f0 = &q, i_f0 = i;
     if (base_name(q) == "eta") eta = &q, i_eta = i;
     if (base_name(q) == "k") k = &q, i_k = i;
+    if (base_name(q) == "base_color") base = &q, i_base = i;
+    if (base_name(q) == "metallic") metallic = &q, i_metallic = i;
   }
   Lobe lobe;
   if (eta && k) {
@@ -180,6 +185,12 @@ typename Colours<F>::Lobe Colours<F>::lobe_of(const TermUse& fresnel) const {
       lobe.looks.push_back({{{i_k, extinction, absorbing}}});
   else if (f0)
     for (const double r : reflectances) lobe.looks.push_back({{{i_f0, r, anything}}});
+  else if (base && metallic)
+    for (const auto& [colour, metal] : workflows)
+      lobe.looks.push_back({{{i_base, colour, anything}, {i_metallic, metal, anything}}});
+  else if (metallic)
+    for (const double metal : {0.05, 0.5, 0.95})
+      lobe.looks.push_back({{{i_metallic, metal, anything}}});
   // Those that lie outside the bounds of some channel are none.
   std::erase_if(lobe.looks, [&](const Look& look) {
     return std::ranges::any_of(look.places, [&](const Place& at) {
@@ -193,8 +204,8 @@ typename Colours<F>::Lobe Colours<F>::lobe_of(const TermUse& fresnel) const {
     });
   });
   const std::size_t channels = held_.start.model.channels;
-  lobe.has_valleys = eta || k;
-  lobe.apart = lobe.has_valleys && channels > 1 && (!eta || eta->count == channels) &&
+  lobe.has_valleys = eta || k || metallic;
+  lobe.apart = (eta || k) && channels > 1 && (!eta || eta->count == channels) &&
                (!k || k->count == channels);
   return lobe;
 }

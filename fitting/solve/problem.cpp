@@ -45,7 +45,8 @@ BoundModel bound(const FitOptions& o, std::optional<std::size_t> channels) {
   const auto is_fixed = [&](std::string_view name) {
     return std::ranges::find(o.fixed, name, &Setting::name) != o.fixed.end();
   };
-  if (is_fixed("base_color") && !is_fixed("metallic"))
+  const bool stands_for_others = !compose(o.model, 1).find("base_color");
+  if (stands_for_others && is_fixed("base_color") && !is_fixed("metallic"))
     throw wrong_usage(
         "base_color is held at a value and metallic is not: fix metallic=0 (or 1) too, or kd and "
         "f0");
@@ -80,6 +81,10 @@ std::string without_tangent(std::string spec) {
 FitOptions expanded(FitOptions o) {
   const Preset* preset = find_preset(o.model);
   if (!preset) return o;
+  if (!preset->own_spec.empty()) {
+    o.model = preset->own_spec;
+    return o;
+  }
   o.model = preset->spec;
   if (std::erase_if(o.fixed, [](const Setting& s) {
         return s.name == "anisotropy" && s.values == std::vector{0.0};

@@ -22,8 +22,8 @@ struct Problem {
   double rounding = 0;  ///< of the cost of one value in float, see SolveOptions; 0: in double alone
 };
 
-/// A preset's name becomes its spec, with what the preset holds held: its own parameters tie those of
-/// the spec together, and a fit leaves them free.  An anisotropy held at 0 makes it the model of the isotropic terms.
+/// A preset's name becomes the spec over its own parameters; where it has none such, its spec with what the preset holds held, whose
+/// parameters a fit leaves free.  An anisotropy held at 0 makes it the model of the isotropic terms.
 FitOptions expanded(FitOptions);
 
 /// Throws wrong usage for an anisotropic model where the table does not say how its surface was turned.

@@ -237,7 +237,7 @@ std::vector<Start> find_starts(const Problem& p, const FitData<F>& thin, double 
   const Model& m = p.start.model;
   auto first = p.start.values;
   for (const auto& q : m.parameters)
-    if (base_name(q) == "kd")
+    if (base_name(q) == "kd" || base_name(q) == "base_color")
       for (std::size_t c = 0; c < q.count; ++c)
         if (p.free.mask()[q.first + c])
           first[q.first + c] = std::clamp(std::numbers::pi * dim(thin, c), 1e-3, 0.95);

@@ -14,6 +14,11 @@ struct Quotient {
 };
 
 template <Real T>
+Quotient<T> operator*(const T& factor, const Quotient<T>& q) {
+  return {factor * q.num, q.den, q.whole};
+}
+
+template <Real T>
 Quotient<T> as_quotient(const Quotient<T>& q) {
   return q;
 }

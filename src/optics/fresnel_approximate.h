@@ -104,13 +104,42 @@ struct SchlickF90 {
   }
 };
 
+/// Parameters of a layer, and how much of it there is.
+template <class Layer>
+constexpr auto with_weight() {
+  constexpr std::size_t n = Layer::parameters.size();
+  std::array<Parameter, n + 1> all{};
+  for (std::size_t i = 0; i < n; ++i) all[i] = Layer::parameters[i];
+  all[n] = Parameter{"weight", {0, 1}, {0, 1}, 0.25, false, "how much of the layer there is"};
+  return all;
+}
+
+/// Reflectance of a layer that covers part of the surface, or of one of several lobes that share it.
+///
+///   F = w F_layer
+///
+/// \param weight  w, in [0, 1]: one for all channels
+template <template <class> class Layer, Real T>
+struct WeightedLayer {
+  static constexpr auto parameters = with_weight<Layer<T>>();
+  static constexpr std::size_t count = parameters.size();
+
+  Layer<T> layer;
+  T weight;
+
+  explicit WeightedLayer(std::span<const T, count> p)
+      : layer(p.template first<count - 1>()), weight(p[count - 1]) {}
+
+  auto operator()(const Angles<plain_t<T>>& a) const { return weight * layer(a); }
+};
+
 /// Schlick's approximation of a layer that covers part of the surface.
 ///
 ///   F = w (f0 + (1 − f0)(1 − c)⁵)
 ///
 /// \param weight  w, in [0, 1]; Disney's coat has 0.25 clearcoat [Burley 2012, Appendix B]
 template <Real T>
-struct SchlickWeighted {
+struct SchlickWeighted : WeightedLayer<Schlick, T> {
   static constexpr About about{"fresnel.schlick.weighted",
                                "Schlick's approximation, of a partial layer",
                                "F = weight (f0 + (1 − f0)(1 − VoH)⁵)",
@@ -118,16 +147,100 @@ struct SchlickWeighted {
                                "001",
                                "Disney's principled BRDF, its coat",
                                "fresnel.schlick"};
+  using WeightedLayer<Schlick, T>::WeightedLayer;
+};
+
+/// Schlick's approximation with F90, of a layer that covers part of the surface.
+///
+///   F = w (f0 + (f90 − f0)(1 − c)⁵)
+///
+/// w and f90 tell a lobe's strength apart from how much of it is left at grazing angles.
+template <Real T>
+struct SchlickF90Weighted : WeightedLayer<SchlickF90, T> {
+  static constexpr About about{"fresnel.schlick.f90.weighted",
+                               "Schlick's approximation with F90, of a partial layer",
+                               "F = weight (f0 + (f90 − f0)(1 − VoH)⁵)",
+                               "fresnel.schlick.f90; the weight as of fresnel.schlick.weighted",
+                               "",
+                               "",
+                               "fresnel.schlick.f90"};
+  using WeightedLayer<SchlickF90, T>::WeightedLayer;
+};
+
+/// Exact reflectance of a dielectric layer that covers part of the surface.
+///
+///   F = w F_dielectric(eta, c)
+template <Real T>
+struct DielectricWeighted : WeightedLayer<Dielectric, T> {
+  static constexpr About about{"fresnel.dielectric.weighted",
+                               "Dielectric, of a partial layer",
+                               "F = weight F_dielectric(eta, VoH)",
+                               "fresnel.dielectric; the weight as of fresnel.schlick.weighted",
+                               "",
+                               "",
+                               "fresnel.dielectric"};
+  using WeightedLayer<Dielectric, T>::WeightedLayer;
+};
+
+/// Exact reflectance of a conductor that covers part of the surface.
+///
+///   F = w F_conductor(eta, k, c)
+template <Real T>
+struct ConductorWeighted : WeightedLayer<Conductor, T> {
+  static constexpr About about{"fresnel.conductor.weighted",
+                               "Conductor, of a partial layer",
+                               "F = weight F_conductor(eta, k, VoH)",
+                               "fresnel.conductor; the weight as of fresnel.schlick.weighted",
+                               "",
+                               "",
+                               "fresnel.conductor"};
+  using WeightedLayer<Conductor, T>::WeightedLayer;
+};
+
+/// Schlick's approximation under the metallic workflow, in its own parameters.
+///
+///   F = f0 + (1 − f0)(1 − c)⁵,   f0 = lerp(0.04, base_color, metallic)       [glTF 2.0, Appendix B]
+///
+/// Shares both with diffuse.lambert.metallic: a fit's colours stay within what the workflow can say.
+template <Real T>
+struct SchlickMetallic : Schlick<T> {
+  static constexpr About about{"fresnel.schlick.metallic",
+                               "Schlick's approximation, F0 by the metallic workflow",
+                               "F = f0 + (1 − f0)(1 − VoH)⁵, f0 = lerp(0.04, base_color, metallic)",
+                               "glTF 2.0, Appendix B",
+                               "",
+                               "glTF 2.0",
+                               "fresnel.schlick"};
+  static constexpr std::array parameters = F0Metallic<T>::parameters;
+
+  explicit SchlickMetallic(std::span<const T, 2> p)
+      : Schlick<T>(std::span<const T, 1>(F0Metallic<T>::apply(p).data(), 1)) {}
+};
+
+/// Schlick's approximation under the metallic workflow, whose dielectric has a reflectance of its own.
+///
+///   F = f0 + (1 − f0)(1 − c)⁵,   f0 = lerp(0.16 reflectance², base_color, metallic)
+///                                        [Guy & Agopian, Physically Based Rendering in Filament, 4.8.3.2]
+///
+/// Filament lowers F90 where 16.5 Σ f0 < 1; here it is 1, as it is at a reflectance of 0.36 or more.
+template <Real T>
+struct SchlickReflectance : Schlick<T> {
+  static constexpr About about{
+      "fresnel.schlick.reflectance",
+      "Schlick's approximation, F0 by Filament's parameters",
+      "F = f0 + (1 − f0)(1 − VoH)⁵, f0 = lerp(0.16 reflectance², base_color, metallic)",
+      "Guy, Agopian, Physically Based Rendering in Filament, section 4",
+      "",
+      "Filament",
+      "fresnel.schlick"};
   static constexpr std::array parameters{
-      f0_parameter,
-      Parameter{"weight", {0, 1}, {0, 1}, 0.25, false, "how much of the layer there is"}};
+      F0Metallic<T>::parameters[0], F0Metallic<T>::parameters[1],
+      Parameter{
+          "reflectance", {0, 1}, {0.36, 1}, 0.5, false, "of a dielectric: F0 = 0.16 reflectance²"}};
 
-  Schlick<T> layer;
-  T weight;
-
-  explicit SchlickWeighted(std::span<const T, 2> p) : layer(p.template first<1>()), weight(p[1]) {}
-
-  T operator()(const Angles<plain_t<T>>& a) const { return weight * layer(a); }
+  explicit SchlickReflectance(std::span<const T, 3> p)
+      : Schlick<T>(std::span<const T, 1>(
+            F0Metallic<T>::of(constant<T>(0.16L) * square(p[2]), p[0], p[1]).data(), 1)) {}
 };
 
 /// Unreal Engine's: what is darker than 2 % at normal incidence is taken for shadowed, and loses its

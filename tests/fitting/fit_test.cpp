@@ -13,6 +13,7 @@
 #include "many_fits.h"
 #include "table/format/formats.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -410,37 +411,48 @@ TEST(Fit, IsTheSameDocumentForAnyNumberOfThreads) {
   EXPECT_EQ(strip(fit(t, o).document), many);
 }
 
-Table gltf_table() {
-  SynthOptions o;
-  o.layout = Layout::random;
-  o.samples = 3000;
-  o.noise = 0.01;
-  return synthesize(
-      bind_model(
-          "gltf",
-          parse_settings(std::vector<std::string>{"base_color=0.5,0.3,0.1", "roughness=0.5"}), 3),
-      o);
+// ---- Presets
+// -------------------------------------------------------------------------------------
+
+Table table_of(const char* model, const std::string& settings, double noise) {
+  return synthesize(test::bind(model, settings, 3),
+                    {.layout = Layout::random, .samples = 3000, .noise = noise});
+}
+void expect_near(const FitDocument& d,
+                 const std::string& name,
+                 const std::vector<double>& truth,
+                 double tolerance) {
+  const auto& found = parameter(d, name).value;
+  ASSERT_EQ(found.size(), truth.size()) << name;
+  for (std::size_t c = 0; c < truth.size(); ++c) EXPECT_NEAR(found[c], truth[c], tolerance) << name;
 }
 
-TEST(FitOfAPreset, FindsTheParametersOfItsSpec) {
-  FitOptions o;
-  o.model = "gltf";
-  const auto d = fit(gltf_table(), o).document;
-  EXPECT_EQ(d.model, "lambert.coupled+ggx/smith_ggx.separable/schlick");
-  EXPECT_NEAR(parameter(d, "alpha").value.at(0), 0.25, 0.002);
-  EXPECT_NEAR(parameter(d, "kd").value.at(2), 0.1, 0.002);
+TEST(FitOfAPreset, FindsItsOwnParameters) {
+  const std::vector<double> colour{0.5, 0.3, 0.1};
+  for (const double metallic : {0.0, 0.3, 0.9, 1.0})
+    for (const auto& [model, reflectance] : {std::pair("gltf", 0.0), std::pair("filament", 0.7)}) {
+      auto settings = fmt::format("base_color=0.5,0.3,0.1,roughness=0.5,metallic={}", metallic);
+      if (reflectance > 0) settings += fmt::format(",reflectance={}", reflectance);
+      FitOptions o;
+      o.model = model;
+      const auto d = fit(table_of(model, settings, 0), o).document;
+      SCOPED_TRACE(settings);
+      expect_near(d, "base_color", colour, 1e-6);
+      expect_near(d, "metallic", {metallic}, 1e-6);
+      expect_near(d, "roughness", {0.5}, 1e-6);
+      if (reflectance > 0 && metallic < 1) expect_near(d, "reflectance", {reflectance}, 1e-5);
+    }
 }
 
 TEST(FitOfAPreset, HoldsOnlyWhatItIsAskedTo) {
   FitOptions o;
   o.model = "gltf";
-  o.fixed = parse_settings(std::vector<std::string>{"roughness=0.5"});
-  const auto d = fit(gltf_table(), o).document;
+  o.fixed = parse_settings(std::vector<std::string>{"roughness=0.5", "metallic=0"});
+  const auto d = fit(table_of("gltf", "base_color=0.5,0.3,0.1,roughness=0.5", 0.01), o).document;
   EXPECT_EQ(parameter(d, "alpha").status.at(0), ParameterStatus::fixed);
-  EXPECT_EQ(parameter(d, "f0").status.at(0), ParameterStatus::free);
-  EXPECT_NEAR(parameter(d, "f0").value.at(0), 0.04, 0.001);
-  o.fixed = parse_settings(std::vector<std::string>{"metallic=0"});
-  EXPECT_ANY_THROW(check(o));  // alone it says nothing of the spec's parameters
+  EXPECT_EQ(parameter(d, "metallic").status.at(0), ParameterStatus::fixed);
+  EXPECT_EQ(parameter(d, "base_color").status.at(0), ParameterStatus::free);
+  expect_near(d, "base_color", {0.5, 0.3, 0.1}, 0.002);
 }
 
 class MetricCoverage : public testing::TestWithParam<std::size_t> {};

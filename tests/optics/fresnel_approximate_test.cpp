@@ -50,6 +50,29 @@ TEST(SchlickWeighted, IsItsPartOfSchlick) {
     EXPECT_DOUBLE_EQ(f<SchlickWeighted>(c, 0.04, 0.25), f<Schlick>(c, 0.04) / 4);
 }
 
+TEST(WeightedLayers, AreTheirPartsOfTheLayer) {
+  for (const double c : {0.02, 0.3, 0.9, 1.0}) {
+    EXPECT_DOUBLE_EQ(f<SchlickF90Weighted>(c, 0.04, 0.6, 0.25), f<SchlickF90>(c, 0.04, 0.6) / 4);
+    EXPECT_DOUBLE_EQ(f<DielectricWeighted>(c, 1.5, 0.25), f<Dielectric>(c, 1.5) / 4);
+    EXPECT_DOUBLE_EQ(f<ConductorWeighted>(c, 0.2, 3.0, 0.25), f<Conductor>(c, 0.2, 3.0) / 4);
+  }
+}
+
+TEST(SchlickMetallic, RunsFromAFourPercentDielectricToTheColour) {
+  for (const double c : {0.02, 0.3, 0.9, 1.0}) {
+    EXPECT_DOUBLE_EQ(f<SchlickMetallic>(c, 0.7, 0.0), f<Schlick>(c, 0.04));
+    EXPECT_DOUBLE_EQ(f<SchlickMetallic>(c, 0.7, 1.0), f<Schlick>(c, 0.7));
+    EXPECT_DOUBLE_EQ(f<SchlickMetallic>(c, 0.5, 0.25), f<Schlick>(c, 0.155));
+  }
+}
+
+TEST(SchlickReflectance, HasADielectricOf16PercentOfItsSquare) {
+  for (const double c : {0.02, 0.3, 0.9, 1.0}) {
+    EXPECT_DOUBLE_EQ(f<SchlickReflectance>(c, 0.7, 0.0, 1.0), f<Schlick>(c, 0.16));
+    EXPECT_DOUBLE_EQ(f<SchlickReflectance>(c, 0.7, 0.3, 0.5), f<SchlickMetallic>(c, 0.7, 0.3));
+  }
+}
+
 TEST(SchlickUe, IsSchlickWhereGreenReflectsTwoPercentOrMore) {
   for (const double green : {0.02, 0.04, 1.0})
     for (const double f0 : parts)

@@ -9,6 +9,8 @@ namespace gonio::inline GONIO_ARCH {
 
 using DiffuseTerms = TermList<Lambert,
                               LambertCoupled,
+                              LambertMetallic,
+                              LambertMetallicCoupled,
                               DisneyDiffuse,
                               DisneyDiffuseCoupled,
                               FrostbiteDiffuse,

@@ -11,6 +11,9 @@ namespace gonio::inline GONIO_ARCH {
 using FresnelTerms = TermList<Schlick,
                               SchlickF90,
                               SchlickWeighted,
+                              SchlickF90Weighted,
+                              SchlickMetallic,
+                              SchlickReflectance,
                               SchlickUe,
                               SchlickSphericalGaussian,
                               LinearAsWritten,
@@ -19,7 +22,9 @@ using FresnelTerms = TermList<Schlick,
                               F82Tint,
                               Lazanyi,
                               Dielectric,
+                              DielectricWeighted,
                               Conductor,
+                              ConductorWeighted,
                               Gulbrandsen>;
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -35,6 +35,37 @@ struct LambertCoupled : Lambert<T> {
   using Lambert<T>::Lambert;
 };
 
+/// Lambert under the metallic workflow, in its own parameters:  base_color (1 − metallic)/π
+template <Real T>
+struct LambertMetallic : Lambert<T> {
+  static constexpr About about{"diffuse.lambert.metallic",
+                               "Lambert, kd by the metallic workflow",
+                               "f = base_color (1 − metallic)/π",
+                               "Guy, Agopian, Physically Based Rendering in Filament, section 4",
+                               "",
+                               "Filament",
+                               "diffuse.lambert"};
+  static constexpr std::array parameters = F0Metallic<T>::parameters;
+
+  explicit LambertMetallic(std::span<const T, 2> p)
+      : Lambert<T>(std::span<const T, 1>(&F0Metallic<T>::apply(p)[1], 1)) {}
+};
+
+/// Lambert under the metallic workflow and an interface:  (1 − F(VoH)) base_color (1 − metallic)/π
+template <Real T>
+struct LambertMetallicCoupled : LambertMetallic<T> {
+  static constexpr About about{
+      "diffuse.lambert.metallic.coupled",
+      "Lambert, kd by the metallic workflow, under the first lobe's interface",
+      "f = (1 − F(VoH)) base_color (1 − metallic)/π",
+      "glTF 2.0, Appendix B",
+      "",
+      "glTF 2.0",
+      "diffuse.lambert.coupled"};
+  static constexpr bool coupled = true;
+  using LambertMetallic<T>::LambertMetallic;
+};
+
 /// Disney's diffuse: darker at grazing angles where smooth, brighter where rough.
 ///
 ///   f = kd/π (1 + (F_D90 − 1)(1 − NoL)⁵)(1 + (F_D90 − 1)(1 − NoV)⁵),   F_D90 = 0.5 + 2 r VoH²

@@ -64,6 +64,7 @@ std::string resolve_base_color(std::string spec, std::vector<Setting>& settings)
   const Setting* base = find(settings, "base_color");
   const Setting* metallic = find(settings, "metallic");
   if (!base && !metallic) return spec;
+  if (compose(spec, 1).find("base_color")) return spec;  // its terms read them
   for (const char* other : {"f0", "kd", "eta", "k", "metal"})
     if (find(settings, other))
       throw wrong_usage(fmt::format("base_color and metallic set {} themselves", other));

@@ -116,7 +116,9 @@ constexpr std::array all{
          "most renderers, with their own D, F and G: compose those as DIFFUSE+NDF/MASKING/FRESNEL"},
         "lambert.coupled+ggx/smith_ggx.correlated/schlick",
         metallic_roughness,
-        cook_torrance},
+        cook_torrance,
+        {},
+        "lambert.metallic.coupled+ggx/smith_ggx.correlated/schlick.metallic"},
     Preset{{"model.disney", "Disney's principled BRDF: base, coat and diffuse",
             "f = f_disney + GTR2aniso F G((0.5 + r/2)²) + 0.25 clearcoat GTR1 F G(0.25)",
             "Burley 2012, Appendix B; disney.brdf of 2012 to 2016", "001",
@@ -160,14 +162,18 @@ constexpr std::array all{
             "glTF 2.0 specification, Appendix B", "", "glTF 2.0"},
            "lambert.coupled+ggx/smith_ggx.separable/schlick",
            metallic_roughness,
-           cook_torrance},
+           cook_torrance,
+           {},
+           "lambert.metallic.coupled+ggx/smith_ggx.separable/schlick.metallic"},
     Preset{{"model.filament", "Filament's standard model, without its energy compensation",
             "f = kd/π + D V F, F0 = lerp(0.16 reflectance², base_color, metallic), "
             "F90 = saturate(16.5 Σ F0)",
             "Guy, Agopian, Physically Based Rendering in Filament, section 4", "", "Filament"},
            "lambert+ggx/smith_ggx.correlated/schlick.f90",
            filament_parameters,
-           filament}};
+           filament,
+           {},
+           "lambert.metallic+ggx/smith_ggx.correlated/schlick.reflectance"}};
 
 }  // namespace
 

@@ -35,6 +35,9 @@ struct Preset {
   std::vector<Setting> (*resolve)(const PresetValues&);
   /// Those that no parameter of the preset moves: a fit holds them.
   std::span<const std::string_view> held = {};
+  /// Spec of the same model whose terms read the preset's own parameters, for fits: these stay within what the preset can say.  Empty:
+  /// there is none, and a fit leaves the parameters of `spec` free.
+  std::string_view own_spec = {};
 };
 
 /// Every whole model that composes of terms.

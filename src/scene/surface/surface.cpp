@@ -9,6 +9,7 @@
 #include "brdf/formula/widths.h"
 #include "brdf/in_number/number.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/reflectances.h"
 #include "integrate/rule/slopes.h"
 #include "integrate/scattering/compensation.h"
 #include "optics/f0.h"
@@ -152,7 +153,7 @@ std::vector<std::pair<std::string, std::vector<double>>> Surface::parameters() c
 
 Look::Look(const Material& m, std::shared_ptr<const ImageLight> sky) : sky_(std::move(sky)) {
   if (const auto* model = std::get_if<BoundModel>(&m.is))
-    read(*model, m.coated);
+    read(in_reflectances(*model), m.coated);
   else
     read(std::get<GltfMaterial>(m.is));
   read_spectrum(m);

@@ -74,12 +74,13 @@ TEST(Problem, RefusesTiesThatContradictOrAreHalfTold) {
     return test::refusal([&] { check(o); }, Exit::usage);
   };
   constexpr const char* coupled = "lambert.coupled+ggx/smith_ggx.correlated/schlick";
-  for (const char* model : {coupled, "gltf"}) {
-    EXPECT_EQ(refusal(model, {"base_color=0.5", "metallic=0"}, {}), "");
-    EXPECT_EQ(refusal(model, {"base_color=0.5"}, {}),
-              "base_color is held at a value and metallic is not: fix metallic=0 (or 1) too, or kd "
-              "and f0");
-  }
+  EXPECT_EQ(refusal(coupled, {"base_color=0.5", "metallic=0"}, {}), "");
+  EXPECT_EQ(refusal(coupled, {"base_color=0.5"}, {}),
+            "base_color is held at a value and metallic is not: fix metallic=0 (or 1) too, or kd "
+            "and f0");
+  EXPECT_EQ(refusal("gltf", {"base_color=0.5"}, {}), "");
+  EXPECT_EQ(refusal("gltf", {"metallic=0.5"}, {"base_color=0.2,0.9"}), "");
+  EXPECT_NE(refusal("gltf", {"f0=0.5"}, {}), "");
   EXPECT_EQ(refusal(coupled, {"metallic=0.5"}, {}), "metallic needs base_color");
   EXPECT_NE(refusal(coupled, {"base_color=0.5", "metallic=0", "kd=0.2"}, {}), "");
   EXPECT_NE(refusal(paint, {"alpha=0.2", "roughness=0.9"}, {}), "");
@@ -91,11 +92,14 @@ TEST(Problem, RefusesTiesThatContradictOrAreHalfTold) {
   EXPECT_NE(refusal("ggx/smith_ggx.correlated/conductor", {"metal=Au", "k=3"}, {}), "");
 }
 
-TEST(Problem, OfAPresetIsThatOfItsSpecWithItsTiesLeftFree) {
+TEST(Problem, OfAPresetIsInItsOwnParametersOrHoldsWhatThePresetDoes) {
   FitOptions o;
   o.model = "gltf";
-  EXPECT_EQ(expanded(o).model, "lambert.coupled+ggx/smith_ggx.separable/schlick");
+  EXPECT_EQ(expanded(o).model, "lambert.metallic.coupled+ggx/smith_ggx.separable/schlick.metallic");
   EXPECT_TRUE(expanded(o).fixed.empty());
+  o.model = "ue_mobile";
+  EXPECT_EQ(expanded(o).model, "ggx.ue_mobile/ue_joint.clamped/schlick.ue");
+  EXPECT_EQ(expanded(o).fixed.size(), 1U);
   o.model = paint;
   EXPECT_EQ(expanded(o).model, paint);
 }

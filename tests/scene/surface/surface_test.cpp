@@ -50,6 +50,15 @@ TEST(Look, LiftsWhatAModelApproximates) {
   EXPECT_NEAR(s.base.values[s.base.model.find("eta")->first], 1.5, 1e-12);
 }
 
+TEST(Look, OfAWorkflowsOwnTermsIsThatOfTheReflectancesTheyStandFor) {
+  const Look look(
+      test::material("lambert.metallic.coupled+ggx/smith_ggx.separable/schlick.metallic",
+                     {"base_color=0.5,0.4,0.1", "alpha=0.3"}));
+  const auto s = look.surface(look.structural());
+  EXPECT_EQ(s.spec(), "lambert.coupled+ggx/smith_ggx.correlated/dielectric");
+  EXPECT_NEAR(s.base.values[s.base.model.find("kd")->slot(2)], 0.1, 1e-12);
+}
+
 TEST(Look, KnowsTheSpectrumOfAMetalThatIsNamed) {
   const Look gold(test::satin_gold());
   EXPECT_EQ(gold.exact().name(Effect::spectrum), "spectral");

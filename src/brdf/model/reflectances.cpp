@@ -1,0 +1,84 @@
+#include "brdf/model/reflectances.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "brdf/catalogue/registry.h"
+#include "optics/f0.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+namespace {
+
+std::string plain_name(std::string_view name) {
+  if (name == "lambert.metallic") return "lambert";
+  if (name == "lambert.metallic.coupled") return "lambert.coupled";
+  if (name == "schlick.metallic" || name == "schlick.reflectance") return "schlick";
+  return std::string(name);
+}
+
+/// Workflow's parameters of a term.
+struct Workflow {
+  const ModelParameter *base_color = nullptr, *metallic = nullptr, *reflectance = nullptr;
+  std::string ending;  ///< of their names: that of the lobe
+
+  Workflow(const BoundModel& b, const TermUse& t) {
+    for (const std::size_t i : t.parameters) {
+      const auto& p = b.model.parameters[i];
+      const auto name = p.about->name;
+      (name == "base_color"    ? base_color
+       : name == "metallic"    ? metallic
+       : name == "reflectance" ? reflectance
+                               : unused) = &p;
+      if (name == "base_color") ending = p.name.substr(name.size());
+    }
+  }
+  explicit operator bool() const { return base_color != nullptr; }
+
+  /// f0 and kd of each channel.
+  std::pair<std::vector<double>, std::vector<double>> resolved(const BoundModel& b) const {
+    std::pair<std::vector<double>, std::vector<double>> all;
+    for (std::size_t c = 0; c < b.model.channels; ++c) {
+      const double m = b.values[metallic->slot(c)];
+      const double r = reflectance ? b.values[reflectance->slot(c)] : 0.5;
+      const auto [f0, kd] = F0Metallic<double>::of(0.16 * r * r, b.values[base_color->slot(c)], m);
+      all.first.push_back(f0);
+      all.second.push_back(kd);
+    }
+    return all;
+  }
+
+ private:
+  const ModelParameter* unused = nullptr;
+};
+
+}  // namespace
+
+BoundModel in_reflectances(const BoundModel& b) {
+  std::vector<Setting> settings;
+  for (const auto& d : b.model.diffuse)
+    if (const Workflow w(b, d); w) settings.push_back({"kd", w.resolved(b).second});
+  for (const auto& l : b.model.lobes)
+    if (const Workflow w(b, l.fresnel); w)
+      settings.push_back({"f0" + w.ending, w.resolved(b).first});
+  if (settings.empty()) return b;
+  std::vector<std::string> parts;
+  for (const auto& part : parse_spec(b.model.spec)) {
+    std::vector<std::string> names;
+    for (const auto& name : part) names.push_back(plain_name(name));
+    parts.push_back(fmt::format("{}", fmt::join(names, "/")));
+  }
+  const auto spec = fmt::format("{}", fmt::join(parts, "+"));
+  const Model plain = compose(spec, b.model.channels);
+  for (const auto& [name, values] : named_values(b))
+    if (plain.find(name)) settings.push_back({name, values});
+  return bind_model(spec, std::move(settings), b.model.channels);
+}
+
+}  // namespace gonio
