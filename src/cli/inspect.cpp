@@ -1,9 +1,11 @@
 // gonio inspect: what a table is and what it can be trusted for.
 #include <cmath>
+#include <functional>
 
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
+#include "fitting/plan/plan_next.h"
 #include "reports/tables/inspect_page.h"
 #include "table/format/formats.h"
 #include "table/health/health.h"
@@ -15,7 +17,8 @@ namespace {
 
 struct Options : Common {
   std::string file, html;
-  std::optional<std::string> bins;
+  std::optional<std::string> bins, model;
+  std::optional<std::size_t> plan_next;
 };
 
 double percent(std::size_t part, std::size_t whole) {
@@ -93,7 +96,24 @@ void print(const Table& t, const Health& h) {
   for (const auto& p : h.prospects) say("  {:<10}{:<8}{}\n", p.of, name_of(p.verdict), p.because);
 }
 
+void print(const std::vector<NextDirection>& next, const std::string& model) {
+  say("\n");
+  say_below("measure next  ",
+            fmt::format("{} for a fit of {}: each narrows what is least known by then, whose 95 % "
+                        "interval is so wide before and after",
+                        next.size() == 1 ? "this direction" : "these directions", model));
+  say("  {:>8}{:>8}{:>9}{:>8}  {:<12}{:>10}{:>10}\n", "theta_i", "phi_i", "theta_o", "phi_o",
+      "parameter", "before", "after");
+  const auto width = [](double w) {
+    return std::isnan(w) ? std::string("not known") : fmt::format("{:.2g}", w);
+  };
+  for (const auto& d : next)
+    say("  {:>8.1f}{:>8.1f}{:>9.1f}{:>8.1f}  {:<12}{:>10}{:>10}\n", d.theta_i_deg, d.phi_i_deg,
+        d.theta_o_deg, d.phi_o_deg, d.parameter, width(d.width_before), width(d.width_after));
+}
+
 Exit run(const Options& o) {
+  if (o.model && !o.plan_next) throw wrong_usage("--model goes with --plan-next");
   use_jobs(o.jobs);
   OutputFiles out({o.file}, "", o.html);
   Progress progress(o.quiet);
@@ -101,7 +121,11 @@ Exit run(const Options& o) {
   const Table t = read_table(o.file, bins_from(o.bins));
   progress("inspecting");
   const Health h = inspect(t);
-  const std::string json = to_json(t, h);
+  FitOptions fit;
+  if (o.model) fit.model = *o.model;
+  std::optional<std::vector<NextDirection>> next;
+  if (o.plan_next) next = plan_next(t, fit, *o.plan_next, std::ref(progress));
+  const std::string json = to_json(t, h, next);
   if (out.has_page()) {
     progress("making the page");
     const std::string data = to_json(make_inspect_page(t), json);
@@ -109,10 +133,12 @@ Exit run(const Options& o) {
   }
   out.commit();
   progress.clear();
-  if (o.json)
+  if (o.json) {
     fmt::print("{}\n", json);
-  else
-    print(t, h);
+    return Exit::done;
+  }
+  print(t, h);
+  if (next) print(*next, fit.model);
   return Exit::done;
 }
 
@@ -124,6 +150,11 @@ void add_inspect(CommandLine& line) {
   c.option("FILE", o->file, "A table, its format found from the bytes").required();
   c.option("--html", o->html,
            "A page of the table, NAME.html, and its data beside it, NAME.page.json");
+  c.option("--plan-next", o->plan_next,
+           "Number of directions to measure next: those that narrow most what a fit knows least")
+      .in(std::size_t{1}, most_planned);
+  c.option("--model", o->model,
+           "Model that --plan-next fits; else that of gonio fit: " + FitOptions().model);
   add_bins(c, o->bins);
   add_jobs(c, *o);
   add_output(c, *o);

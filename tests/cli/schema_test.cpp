@@ -97,6 +97,9 @@ TEST(Schemas, HoldForTheDocumentsOfTables) {
     EXPECT_EQ(mistakes(o.json(), "inspect"), "") << table;
     EXPECT_EQ(mistakes(file(f / "page.page.json"), "inspect.page"), "") << table;
   }
+  const auto planned = gonio(f, "inspect a.csv --plan-next 3 --json");
+  ASSERT_EQ(planned.code, 0) << planned.err;
+  EXPECT_EQ(mistakes(planned.json(), "inspect"), "");
 }
 
 TEST(Schemas, HoldForTheDocumentsOfFits) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/names.h"
+#include "table/health/next_direction.h"
 #include "table/health/noise.h"
 #include "table/health/peak.h"
 #include "table/table.h"
@@ -100,8 +101,10 @@ IncidentAngles incident_angles(const DirectionList&);
 /// "45 theta_i × 45 theta_o × 90 phi", "855 samples"
 std::string layout_text(const Table&);
 
-/// Document of `gonio inspect --json`.
-std::string to_json(const Table&, const Health&);
+/// Document of `gonio inspect --json`.  \param next  of --plan-next
+std::string to_json(const Table&,
+                    const Health&,
+                    std::optional<std::vector<NextDirection>> next = {});
 /// JSON Schema of that document.
 std::string health_schema();
 

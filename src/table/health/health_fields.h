@@ -2,12 +2,15 @@
 /// \file
 /// Description of a table's health.
 
+#include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/describe.h"
 #include "table/format/side_file.h"
 #include "table/health/health.h"
+#include "table/health/next_direction.h"
 
 namespace gonio {
 
@@ -15,6 +18,7 @@ namespace gonio {
 struct TableHealth {
   const Table& table;
   const Health& health;
+  std::optional<std::vector<NextDirection>> next = {};  ///< where a plan was asked for
 };
 
 /// Band over the zenith angle, where a band alone is over the value.
@@ -119,6 +123,22 @@ struct Description<Prospect> {
 };
 
 template <>
+struct Description<NextDirection> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("theta_i", "°", &NextDirection::theta_i_deg, ""),
+        field("phi_i", "°", &NextDirection::phi_i_deg, ""),
+        field("theta_o", "°", &NextDirection::theta_o_deg, ""),
+        field("phi_o", "°", &NextDirection::phi_o_deg, "that of phi_i + 180 is the mirror's"),
+        field("parameter", "", &NextDirection::parameter, "least known before"),
+        field("width_before", "", &NextDirection::width_before,
+              "of its 95 % interval; null where it has none"),
+        field("width_after", "", &NextDirection::width_after,
+              "forecast for this direction and those above it")};
+  }
+};
+
+template <>
 struct Description<TableHealth> {
   /// Member of the table, or of its health.
   template <class Get>
@@ -191,7 +211,9 @@ struct Description<TableHealth> {
               "median of their height over their base"),
         field("retro", "", health(&Health::retro), "the highlight around the retro direction"),
         field("prospects", "", health(&Health::prospects), "what a fit can hope for"),
-        field("truth", "", table(&Table::truth), "what a synthesized table was made from")};
+        field("truth", "", table(&Table::truth), "what a synthesized table was made from"),
+        field("next", "", if_there(&TableHealth::next),
+              "directions to measure, where --plan-next asks for them")};
   }
 };
 

@@ -1,0 +1,62 @@
+#include "fitting/plan/candidates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace gonio {
+namespace {
+
+double distance(const Direction& a, const Direction& b) {
+  return std::atan2(std::hypot(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x),
+                    dot(a, b)) /
+         degree;
+}
+
+/// Angle as an instrument is set to it.
+double set_to(double angle) {
+  return std::round(10 * angle / degree) / 10;
+}
+
+}  // namespace
+
+bool is_in_plane(const Table& t) {
+  const SampleAngles at(t);
+  constexpr double out_of_it = 0.02;  // sine
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto p = at.directions(i);
+    if (std::abs(p.wi.x * p.wo.y - p.wi.y * p.wo.x) > out_of_it) return false;
+  }
+  return true;
+}
+
+DirectionList candidates(bool in_plane) {
+  constexpr int tilts = 26, turns = 12;
+  DirectionList l;
+  std::set<std::array<double, 3>> seen;
+  for (int d = 5; d <= 80; d += 5)
+    for (int h = 0; h <= tilts; ++h)
+      for (int turn = 0; turn < 2 * turns; turn += in_plane ? turns : 1) {
+        const double theta_h = 80 * std::pow(h / double{tilts}, 2);
+        const auto p = directions(
+            HalfDifference{theta_h * degree, 0, d * degree, turn * std::numbers::pi / turns});
+        const double theta_i = set_to(theta_of(p.wi)), theta_o = set_to(theta_of(p.wo));
+        // What is alike under a mirror at the plane of incidence is one.
+        const double between =
+            std::abs(std::remainder(phi_of(p.wo) - phi_of(p.wi), 2 * std::numbers::pi));
+        const double phi = theta_i == 0 || theta_o == 0 ? 180 : set_to(between);
+        if (theta_i > most_grazing_deg || theta_o > most_grazing_deg) continue;
+        if (distance(direction(theta_i * degree, 0), direction(theta_o * degree, phi * degree)) <
+            least_apart_deg - 0.2)
+          continue;
+        if (!seen.insert({theta_i, theta_o, phi}).second) continue;
+        l.theta_i_deg.push_back(theta_i);
+        l.phi_i_deg.push_back(0);
+        l.theta_o_deg.push_back(theta_o);
+        l.phi_o_deg.push_back(phi);
+      }
+  return l;
+}
+
+}  // namespace gonio

@@ -1,0 +1,48 @@
+#include "cli/program.h"
+
+namespace gonio::test {
+namespace {
+
+TEST(Inspect, PlansWhatToMeasureNextWhereItIsAsked) {
+  const Folder f;
+  ASSERT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout in_plane --noise 0.02 -o p.csv").code, 0);
+  const auto plain = gonio(f, "inspect p.csv --json");
+  EXPECT_FALSE(plain.json().contains("next"));
+  const auto planned = gonio(f, "inspect p.csv --plan-next 3 --json");
+  ASSERT_EQ(planned.code, 0) << planned.err;
+  auto document = planned.json();
+  ASSERT_EQ(document["next"].size(), 3U);
+  for (const auto& row : document["next"]) {
+    EXPECT_EQ(row.size(), 7U);
+    EXPECT_EQ(row["phi_i"], 0);
+    EXPECT_TRUE(row["phi_o"] == 0 || row["phi_o"] == 180);
+    EXPECT_LE(row["width_after"].get<double>(), row["width_before"].get<double>());
+  }
+  EXPECT_EQ(planned.json(), gonio(f, "inspect p.csv --plan-next 3 --json --jobs 1").json());
+  document.erase("next");
+  EXPECT_EQ(document, plain.json()) << "all else stays";
+
+  const auto words = gonio(f, "inspect p.csv --plan-next 3 --model lambert").out;
+  const auto before = gonio(f, "inspect p.csv").out;
+  ASSERT_TRUE(words.starts_with(before));
+  EXPECT_TRUE(words.substr(before.size())
+                  .starts_with("\nmeasure next  these directions for a fit "
+                               "of lambert"))
+      << words.substr(before.size());
+}
+
+TEST(Inspect, RefusesPlansInOneLine) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout in_plane -o p.csv").code, 0);
+  f.write("few.csv", "theta_i,phi_i,theta_o,phi_o,f\n30,0,30,180,1\n30,0,40,180,0.5\n");
+  expect_one_line_each(f, 2,
+                       {{"inspect p.csv --plan-next 0", "not in range 1 to 256"},
+                        {"inspect p.csv --plan-next 257", "not in range 1 to 256"},
+                        {"inspect p.csv --plan-next 3 --model nothing", "nothing"},
+                        {"inspect p.csv --model lambert", "--plan-next"}});
+  expect_one_line(gonio(f, "inspect few.csv --plan-next 3"), 3, "free parameters");
+}
+
+}  // namespace
+}  // namespace gonio::test
