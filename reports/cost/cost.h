@@ -123,6 +123,7 @@ const CostRow* find_row(const std::vector<CostRow>&,
                         std::string_view way = {});
 
 Findings findings(const CostRows&);
+Facts facts(const CostRows&);
 /// Time against error, and what else is drawn.
 Pictures pictures(const CostRows&);
 

@@ -33,7 +33,7 @@ class Sayings {
   explicit Sayings(const CostRows& r) : r_(r), best_(r.machine.instruction_sets.back()) {}
   Findings all() && {
     schlick_to_smith();
-    ask("What does it cost me to go from Schlick's k to exact Smith?");
+    headline();
     fresnel();
     gtr();
     front("masking", "masking.smith_ggx.correlated", "masking forms held against Smith's for GGX");
@@ -46,13 +46,21 @@ class Sayings {
 
  private:
   void say(std::string sentence) { said_.say(std::move(sentence)); }
-  /// A question that the findings so far answer.
-  void ask(std::string question) {
-    std::string answer;
-    for (const auto& f : said_.sentences) answer += (answer.empty() ? "" : " ") + f;
-    if (!answer.empty() && !r_.machine.cpu.empty())
-      answer += fmt::format(" Measured on {}.", r_.machine.cpu);
-    if (!answer.empty()) said_.questions.push_back({std::move(question), answer, "switches"});
+  /// What exact Smith takes more in a whole model.
+  void headline() {
+    const auto* const from = "ggx/schlick_ggx.direct/schlick";
+    const auto* const to = "ggx/smith_ggx.correlated/schlick";
+    const auto *cache = between(from, to, best_, "cache"),
+               *streaming = between(from, to, best_, "streaming");
+    if (!cache || !streaming) return;
+    const auto text = [](const CostSwitch& s) {
+      return std::abs(s.ns) <= s.ns_spread ? std::string("nothing that can be measured")
+                                           : fmt::format("{:.2f} ns", s.ns);
+    };
+    said_.headline = fmt::format(
+        "Exact Smith in place of Schlick's k takes {} more of a GGX sample in cache, and {} where "
+        "memory is the limit.",
+        text(*cache), text(*streaming));
   }
   const CostSwitch* between(std::string_view from,
                             std::string_view to,

@@ -146,6 +146,15 @@ void summary(Findings& to, const CrossFitRows& r) {
   };
   say(dielectrics, "dielectrics");
   say(metals, "metals");
+  const auto off = [&](std::string_view form) {
+    return shifts(dielectrics(cases_of(r, {once, form})), "roughness");
+  };
+  if (const auto k = off("masking.schlick_ggx.direct"), f = off("fresnel.schlick"); k && f)
+    to.headline = fmt::format(
+        "Fitted with Schlick's k = (r+1)²/8, the roughness of dielectrics comes out wrong by "
+        "{:.2g} "
+        "(RMS, log metric); with Schlick's Fresnel by {:.2g}.",
+        k.rms(), f.rms());
 }
 
 void schlick(Findings& to, const CrossFitRows& r) {

@@ -65,6 +65,7 @@ struct EnergyMaterial {
   std::vector<At> rows;
   /// Crossings of the loss as a share of what should leave: 1 − E_single / E.
   std::vector<Crossing> crossings;
+  std::optional<double> f0{};  ///< of Schlick's Fresnel; none of another
 };
 
 /// An estimator of E by how long it takes.
@@ -206,6 +207,7 @@ ClaimRows claim_rows(const std::vector<EnergyForm>&);
 EnergyRows energy_rows(const EnergyOptions&, const ReportProgress& done = {});
 
 Findings findings(const EnergyRows&);
+Facts facts(const EnergyRows&);
 /// Pictures of the page, by family: maps loss of form; figures albedo of form, average_loss, bounces, beyond and compensation of material
 /// and angle, compensation_by_angle of material, estimators of roughness and mu, split_sum_samples, irradiance_by_samples and
 /// irradiance_by_time of light.

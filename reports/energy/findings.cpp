@@ -47,9 +47,13 @@ void measured(Findings& to, const EnergyRows& r) {
                     "{}; {}: {}; {}: {}.",
                     at_angle(1), thresholds(f->crossings, 1), at_angle(0),
                     thresholds(f->crossings, 0), at_angle(0.1), thresholds(f->crossings, 0.1)));
-    to.questions.push_back(
-        {"From which roughness on does single scattering lose too much?", to.sentences.back(), ""});
     const auto& rough = f->averages.back();
+    for (const auto& c : f->crossings)
+      if (c.mu == 0 && c.share == 0.05 && !c.ranges.empty())
+        to.headline = fmt::format(
+            "Rough metal goes dark: one bounce under GGX loses {} of white light from roughness "
+            "{:.2f} on, and {} where it is roughest.",
+            percent(c.share), c.ranges[0].from, percent(1 - rough.albedo, 2));
     const auto normal = std::ranges::find_if(
         f->rows, [](const auto& at) { return at.roughness == 1 && at.mu == 1; });
     const auto* other = find_form(r.forms, "masking.smith_ggx.separable");
@@ -131,6 +135,7 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
     if (words.size() < 3) words.push_back(text);
   to.judge("reflected energy never exceeds incoming", "seeds 000 and 001, conservation of energy",
            verdict(makers.empty(), true),
+           fmt::format("{} forms exceed it", of_all(makers.size(), r.forms.size())),
            fmt::format("at F = 1, {} forms reflect more than comes in somewhere{}{}; the "
                        "others reflect {:.4f} of it at most.",
                        of_all(makers.size(), r.forms.size()), words.empty() ? "" : ", most ",
@@ -143,6 +148,7 @@ void energy_does_not_stay(Findings& to, const EnergyRows& r) {
   const auto &smooth = f->averages.front(), &rough = f->averages.back();
   to.judge("as roughness grows the highlight widens and dims so that energy stays",
            "seed 001, conservation of energy", verdict(rough.albedo > 0.99),
+           fmt::format("{} leaves at roughness {:g}", percent(rough.albedo), rough.roughness),
            fmt::format(
                "it widens and dims more than that. With nothing absorbed (GGX, Smith "
                "correlated, F = 1, one bounce, average over the hemisphere) {} of the light "
@@ -165,6 +171,7 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
   to.judge(
       "the coat needs only a fixed 0.25 G", "seed 001, Disney's secondary lobe",
       verdict_on_small(most),
+      fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
       fmt::format("as it ships (GTR of gamma 1, alpha up to 0.1) it is, from mu = 0.1 on, "
                   "furthest from its own Smith masking at roughness {:g}, mu {:g}: before "
                   "Fresnel it reflects {} instead of {}.",
@@ -183,6 +190,7 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
                                 percent(2048 * std::pow(roughness, 4))));
   }
   to.judge("the clamp at 2048 hardly shows", "seed 004, D_GGX_R2", verdict_on_small(most),
+           fmt::format("up to {} of the highlight is lost", percent(most)),
            fmt::format("it is reached below roughness {:.3f} alone. There it takes light from the "
                        "highlight, at normal incidence {}.",
                        reached, fmt::join(words, ", ")));
@@ -191,15 +199,16 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
 void look_of_the_simple_form(Findings& to, const EnergyRows& r) {
   if (!find_form(r.forms, "model.ue_mobile_simple")) return;
   std::vector<std::string> words;
-  bool seen = false;
+  double most = 0;
   for (const auto& l : r.claims.simple_form) {
-    seen |= l.delta_e > 1;
+    most = std::max(most, l.delta_e);
     words.push_back(
         fmt::format("F0 {:g} and mu {:g} by {:.3g} (roughness {:g}: {} reflected for {})", l.f0,
                     l.mu, l.delta_e, l.roughness, percent(l.shipped), percent(l.exact)));
   }
   to.judge(
-      "the simple mobile form keeps the look", "seed 004, SpecularGGXSimple", verdict(!seen),
+      "the simple mobile form keeps the look", "seed 004, SpecularGGXSimple", verdict(most <= 1),
+      fmt::format("ΔE2000 up to {:.2g}", most),
       fmt::format("from roughness {:g} on (below, its clamp takes over) its ΔE2000 under even "
                   "light from GGX with Smith, correlated, and Schlick is at most, for {}. It has "
                   "no Fresnel, and no angles in its visibility.",
@@ -216,6 +225,7 @@ void deviation_of_slopes(Findings& to, const EnergyRows& r) {
   }
   to.judge("alpha is the standard deviation of the slopes", "seed 000, definition of alpha",
            verdict(growth < 1e-3 && std::abs(last - 1) < 1e-3),
+           fmt::format("{:.2f} α for Beckmann, none for GGX", r.claims.beckmann_deviation),
            fmt::format("along an axis it is {:.4f} α for Beckmann, α/√2. GGX has none: of its "
                        "slopes up to 10, 100 and 1000 α it is {}, and it goes on growing.",
                        r.claims.beckmann_deviation, fmt::join(words, ", ")));
@@ -225,6 +235,7 @@ void solid_angle_of_half(Findings& to, const EnergyRows& r) {
   if (!r.claims.half_angle) return;
   const auto& [pairs, step, off] = *r.claims.half_angle;
   to.judge("dω_h = dω_l/(4 VoH)", "seed 000, the factor 4 of the BRDF", verdict(off < 1e-5),
+           fmt::format("equal to {:.1g}", off),
            fmt::format("for {} pairs of directions the solid angle of the half vector, by "
                        "differences of {:g} rad in l, is that to {:.1g} of itself.",
                        pairs, step, off));

@@ -79,8 +79,10 @@ std::vector<EnergyMaterial> energy_materials(const EnergyOptions& o,
   std::size_t finished = 0;
   for (const auto& family : all) {
     const std::size_t first = out.size();
-    for (const auto& name : family.names)
-      out.push_back({name, fmt::format("fresnel.{}", family.fresnel), {}, {}});
+    for (std::size_t c = 0; c < family.names.size(); ++c) {
+      out.push_back({family.names[c], fmt::format("fresnel.{}", family.fresnel), {}, {}});
+      if (family.fresnel == schlick) out.back().f0 = family.settings[0].values[c];
+    }
     for (const double r : o.roughness) {
       const auto rows = solve(family, r, o.mu);
       for (std::size_t c = 0; c < rows.size(); ++c)

@@ -11,8 +11,10 @@ std::string sentence(const Claim& c) {
 void Findings::judge(std::string_view claim,
                      std::string_view source,
                      Claim::Judged judged,
+                     std::string figure,
                      std::string verdict) {
-  claims.push_back({std::string(claim), std::string(source), judged, std::move(verdict)});
+  claims.push_back(
+      {std::string(claim), std::string(source), judged, std::move(figure), std::move(verdict)});
   say(sentence(claims.back()));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A report as anyone sees it: its files, its findings, the claims that it judges, the questions it answers.
+/// A report as anyone sees it: its files, its findings, the claims that it judges.
 
 #include <array>
 #include <functional>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "image/environment.h"
+#include "reports/finding/facts.h"
 #include "reports/picture/figure.h"
 
 namespace gonio {
@@ -42,6 +43,7 @@ struct Claim {
   std::string claim;   ///< the sentence
   std::string source;  ///< where it stands, "seed 004, D_GGX_R2"; seeds as in the catalogue
   enum class Judged { holds, partly, fails } judged;
+  std::string figure;    ///< the one that decides, with what it is of: "36 % of F, at 55°"
   std::string verdict;   ///< a sentence with figures
   std::string anchor{};  ///< of the report's page, where it is shown; empty: its top
 };
@@ -53,21 +55,20 @@ inline constexpr std::array<std::string_view, 3> names_of<Claim::Judged>{"holds"
 /// "“claim” holds: verdict"
 std::string sentence(const Claim&);
 
-/// A question that readers come with, and where it is answered.
-struct Question {
-  std::string question, answer;  ///< a sentence each
-  std::string anchor{};          ///< as a claim's
-};
-
 /// Everything that a report says of its rows.
 struct Findings {
   std::vector<std::string> sentences{};  ///< those of the claims among them
   std::vector<Claim> claims{};
-  std::vector<Question> questions{};
+  /// What a reader takes away: a sentence of at most three numbers; empty: the first sentence.
+  std::string headline{};
 
   void say(std::string sentence) { sentences.push_back(std::move(sentence)); }
   /// Keeps a claim, and its sentence among the others.
-  void judge(std::string_view claim, std::string_view source, Claim::Judged, std::string verdict);
+  void judge(std::string_view claim,
+             std::string_view source,
+             Claim::Judged,
+             std::string figure,
+             std::string verdict);
 };
 
 /// The plain sum of a report's parts: what was measured, what is said of it, and what is shown of it.
@@ -90,6 +91,7 @@ struct ReportFiles {
   std::string json, html, csv;  ///< csv: the rows
   Findings findings;
   Pictures pictures;
+  Facts facts{};
 };
 
 }  // namespace gonio

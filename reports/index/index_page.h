@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The page that leads to all reports: questions and their answers, the findings of each, claims and their verdicts.
+/// The page that leads to all reports: what to ship, what Fresnel shows, accuracy against time, each report, and claims.
 
 #include <cstdint>
 #include <string>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reports/finding/report.h"
+#include "reports/index/decisions.h"
 
 namespace gonio {
 
@@ -17,12 +18,17 @@ struct ReportIndex {
     double ms;  ///< that it took
     Findings findings;
     std::size_t pictures;
+    Pictures first{};  ///< of them, the first alone
   };
   std::vector<Entry> reports;
   std::string version;  ///< of gonio
   bool full = false;
   std::int64_t at_ms = 0;  ///< when, since 1970
+  Facts facts{};           ///< of all reports
+  Pictures front{};        ///< masking's accuracy against its time; empty where no report has it
 };
+/// Adds a report with what the index shows of it.
+void add_report(ReportIndex&, std::string_view name, std::string_view what, double ms, ReportFiles);
 
 /// The first sentence: up to a full stop before a blank and a capital or a quote.
 std::string first_sentence(std::string_view);

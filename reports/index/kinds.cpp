@@ -17,8 +17,14 @@ template <class Rows>
 ReportFiles files(Report<Rows> report, std::string (*page)(std::string_view)) {
   std::string json = to_json(report);
   std::string html = page(json);
-  return {std::move(json), std::move(html), rows_csv(report), std::move(report.findings),
-          std::move(report.pictures)};
+  Facts known;
+  if constexpr (requires { facts(report.rows); }) known = facts(report.rows);
+  return {std::move(json),
+          std::move(html),
+          rows_csv(report),
+          std::move(report.findings),
+          std::move(report.pictures),
+          std::move(known)};
 }
 
 ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {

@@ -37,13 +37,6 @@ const RemapRow* row_at(const std::vector<const RemapRow*>& rows, double roughnes
       rows, [&](const RemapRow* r) { return std::abs(r->roughness - roughness) < 1e-9; });
   return it == rows.end() ? nullptr : *it;
 }
-/// RMS over all roughnesses.
-double overall(const std::vector<const RemapRow*>& rows) {
-  double sum = 0;
-  for (const auto* r : rows) sum += r->rms * r->rms;
-  return std::sqrt(sum / static_cast<double>(rows.size()));
-}
-
 /// Forms from the nearest to the furthest.
 void ranking(Findings& to, const RemapRows& r, std::string_view reference, std::string_view what) {
   struct Place {
@@ -52,8 +45,8 @@ void ranking(Findings& to, const RemapRows& r, std::string_view reference, std::
   };
   std::vector<Place> places;
   for (const auto& f : r.forms)
-    if (const auto rows = rows_of(r, f.form, reference); f.form != reference && !rows.empty())
-      places.push_back({f.form, overall(rows)});
+    if (const auto rms = overall_rms(r, f.form, reference); f.form != reference && rms)
+      places.push_back({f.form, *rms});
   if (places.empty()) return;
   std::ranges::sort(places, {}, &Place::rms);
   std::vector<std::string> words;
@@ -94,6 +87,10 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
   const auto one = duel(ours, others),
              two = duel(rows_of(r, direct, correlated), rows_of(r, image, correlated));
   const std::size_t nearer = one.nearer + two.nearer;
+  if (const auto* a = row_at(ours, 0.1); a && !a->by_g2.at_end)
+    to.headline = fmt::format(
+        "Schlick's k = (r+1)²/8 masks a surface of roughness 0.1 like one of roughness {:.2f}.",
+        a->by_g2.roughness);
   std::vector<std::string> behaves;
   for (const double at : {0.1, 0.3, 0.5, 0.8})
     if (const auto* a = row_at(ours, at), *b = row_at(others, at); a && b)
@@ -101,14 +98,16 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
   to.judge(
       "k = (r+1)²/8 is right for direct light, r²/2 for image-based", "seed 000, k of Schlick's G1",
       verdict(nearer >= one.all + two.all, 2 * nearer >= one.all + two.all),
+      fmt::format("G₂ off by {:.2g} against {:.2g}, RMS", *overall_rms(r, direct, separable),
+                  *overall_rms(r, image, separable)),
       fmt::format(
           "Smith's masking knows no "
           "kind of light, and (r+1)²/8 is nearer than r²/2 to separable Smith at {} of {} "
           "roughnesses "
           "({} tied), to correlated Smith at {} ({} tied); RMS of G2 from separable Smith {:.2g} "
           "against {:.2g}. Roughness masks with (r+1)²/8 like another of exact Smith: {}.",
-          one.nearer, one.all, one.tied, two.nearer, two.tied, overall(ours), overall(others),
-          fmt::join(behaves, ", ")));
+          one.nearer, one.all, one.tied, two.nearer, two.tied, *overall_rms(r, direct, separable),
+          *overall_rms(r, image, separable), fmt::join(behaves, ", ")));
 }
 
 void wrong_place(Findings& to, const RemapRows& r) {
@@ -149,7 +148,7 @@ void verdict_on_g1(Findings& to, const RemapRows& r) {
     exact.push_back(fmt::format("{:.3f} at roughness {:g}", g.smith, g.roughness));
   }
   to.judge("G1 at NoV 0.1: 0.47 (k 0.125) and 0.28 (k 0.281)", "seed 000, Disney's remapping of k",
-           verdict(holds),
+           verdict(holds), fmt::format("exact Smith: {}", fmt::join(exact, ", ")),
            fmt::format("of Schlick's form it is {}. Exact Smith "
                        "for GGX, which these k = (r+1)²/8 stand for, is {}.",
                        fmt::join(values, " and "), fmt::join(exact, " and ")));
@@ -179,6 +178,7 @@ void verdict_on_vf(Findings& to, const RemapRows& r) {
   const bool holds = (*std::ranges::max_element(mirror, {}, &RemapVf::factor))->factor < 1.1;
   to.judge(
       "F V ≈ 1/(LoH²(r+0.5))", "seed 000, mobile specular BRDF", verdict(holds),
+      fmt::format("off by a factor of {}", factors(mirror)),
       fmt::format(
           "against Smith (correlated) times the exact Fresnel term of "
           "glass it is off by a factor of {} (RMS, by roughness) in the mirror direction and of {} "

@@ -1,6 +1,7 @@
 #include "reports/remap/remap.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "brdf/catalogue/registry.h"
 #include "reports/remap/pairs.h"
@@ -30,6 +31,17 @@ std::array<std::string, 2> references_of(std::string_view ndf) {
 const RemapForm* find_form(const std::vector<RemapForm>& forms, std::string_view id) {
   const auto it = std::ranges::find(forms, id, &RemapForm::form);
   return it == forms.end() ? nullptr : &*it;
+}
+
+std::optional<double> overall_rms(const RemapRows& r,
+                                  std::string_view form,
+                                  std::string_view reference) {
+  double squares = 0;
+  std::size_t n = 0;
+  for (const auto& row : r.rows)
+    if (row.form == form && row.reference == reference) squares += row.rms * row.rms, ++n;
+  if (n == 0) return {};
+  return std::sqrt(squares / static_cast<double>(n));
 }
 
 RemapRows remap_rows(const RemapOptions& o, const ReportProgress& done) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -100,6 +101,7 @@ RemapOptions remap_options(bool full);
 
 RemapRows remap_rows(const RemapOptions&, const ReportProgress& done = {});
 Findings findings(const RemapRows&);
+Facts facts(const RemapRows&);
 /// Pictures of the page, by family: maps g2 of form, masking_error of form and reference, both in slices of roughness; figures rms
 /// of distribution and reference, behaves_like of these and by what, furnace of distribution and roughness, each_k of light and
 /// mu, in_place_of_vf of form, fresnel and over.
@@ -110,6 +112,10 @@ RemapReport remap_report(const RemapOptions&, const ReportProgress& done = {});
 
 /// "smith_ggx.separable" or "correlated", or Beckmann's, as ids.
 std::array<std::string, 2> references_of(std::string_view ndf);
+/// RMS of G2 − reference over directions and roughness; no value where they were not compared.
+std::optional<double> overall_rms(const RemapRows&,
+                                  std::string_view form,
+                                  std::string_view reference);
 /// The form of that id; nullptr if it was not looked at.
 const RemapForm* find_form(const std::vector<RemapForm>&, std::string_view id);
 

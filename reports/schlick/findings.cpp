@@ -62,11 +62,15 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
   if (!g || metals.empty()) return;
   const auto within = [](const FresnelRow& x) { return x.max_abs < 0.01; };
   const auto relative = [](const FresnelRow& x) { return x.max_rel < 0.01; };
+  to.headline = fmt::format(
+      "Schlick's F of glass is off by up to {:.2g}, towards the rim; of a metal by up to {:.2g}.",
+      g->max_abs, worst(metals)->max_abs);
   const std::size_t some = how_many(outside, within), channels = how_many(metals, within),
                     all = outside.size() + metals.size();
   to.judge(
       "Schlick's error is below 1 %", "seed 000, Schlick's approximation",
       verdict(some + channels == all, 2 * (some + channels) > all),
+      fmt::format("glass: up to {:.2g} of full light, {} of F", g->max_abs, percent(g->max_rel, 2)),
       fmt::format("for glass (IOR 1.5) F is off by up to {:.3g} at "
                   "{:.3g}°, and by {} of itself at {:.3g}°; within 0.01 it stays up to {:.3g}°; "
                   "RMS over the "
@@ -92,6 +96,7 @@ void only_near_one(Findings& to, const SchlickRows& r) {
   to.judge(
       "Schlick is accurate enough; only near IOR 1 is it poor",
       "seed 001, Disney's Fresnel term of 2015", verdict(only, near),
+      fmt::format("up to {:.2g} for {}", metal->max_abs, metal->material),
       fmt::format(
           "its greatest error "
           "is {:.3g} at IOR {:g}, {:.3g} at IOR {:g}, where it is least, and {:.3g} at IOR {:g}; "
@@ -273,6 +278,8 @@ void ranges_of_f0(Findings& to) {
       "dielectrics have F0 0.02 to 0.04, metals 0.7 to 1.0", "seed 001, Fresnel reflectance",
       verdict(d == dielectric.size() && m == metal.size(),
               2 * (d + m) > dielectric.size() + metal.size()),
+      fmt::format("{} measured materials lie there",
+                  of_all(d + m, dielectric.size() + metal.size())),
       fmt::format("of the measured materials here {} dielectrics and {} channels of metals lie "
                   "there; F0 goes {} and {}.",
                   of_all(d, dielectric.size()), of_all(m, metal.size()), span(dielectric),

@@ -79,6 +79,7 @@ RoughFresnel rough_rows(const SchlickOptions&, const std::function<void(double)>
 SchlickRows schlick_rows(const SchlickOptions&, const ReportProgress& done = {});
 
 Findings findings(const SchlickRows&);
+Facts facts(const SchlickRows&);
 /// Pictures of the page, by family: maps exact_reflectance, error_by_angle, relative_error_by_angle of form and side; figures
 /// error_by_index of the same, reflectance and reflectance_error of material, kind and channel, albedo_error,
 /// albedo_relative_error and colour_difference of material, channel and mu.

@@ -60,8 +60,7 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   if (const auto* flushed = find(r, "ndf.ggx", "cross", "half, flushed"))
     answer += fmt::format(" On a processor that drops subnormals |n × h|² needs {}.",
                           from_text(*flushed));
-  to.say(answer);
-  to.questions.push_back({"Which alpha may I clamp to in half precision?", std::move(answer), {}});
+  to.say(std::move(answer));
   struct Named {
     std::string_view name, id, form;
   };

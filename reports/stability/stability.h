@@ -107,6 +107,7 @@ std::vector<StabilityRows::ByAlpha> errors_by_alpha(bool all);
 std::vector<StabilityRows::Map> error_maps(bool all);
 
 Findings findings(const StabilityRows&);
+Facts facts(const StabilityRows&);
 /// Pictures of the page, by family: figures error_by_alpha of number and kind; maps error of form and number.
 Pictures pictures(const StabilityRows&);
 

@@ -1,4 +1,8 @@
 // gonio models: what there is.
+#include <algorithm>
+#include <cctype>
+
+#include "base/error.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
 #include "cli/command.h"
@@ -15,7 +19,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options : Common {};
+struct Options : Common {
+  std::string word;
+};
+
+/// True where a word stands in a text, whatever its case.
+bool holds(std::string_view text, std::string_view word) {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) ==
+           std::tolower(static_cast<unsigned char>(b));
+  };
+  return std::ranges::search(text, word, same).begin() != text.end() || word.empty();
+}
 
 Json describe(const About& about, std::span<const Parameter> parameters) {
   Json list = Json::array();
@@ -52,20 +67,64 @@ void print(const About& about, std::span<const Parameter> parameters) {
                p.legal.high, p.per_channel ? ", per channel" : "", p.start, p.meaning);
 }
 
+void print(const Preset& p) {
+  print(p.about, p.parameters);
+  fmt::print("{:{}}= {}\n", "", indent, p.spec);
+}
+void print(const Evaluated& e) {
+  print(*e.about, {});
+  fmt::print("{:{}}= {}\n", "", indent, e.by);
+}
+
+void print_all() {
+  for (const auto& t : catalogue()) print(*t.about, t.parameters);
+  fmt::print("\nMaps from parameters to parameters (`gonio term` evaluates them too):\n");
+  for (const auto& m : maps()) print(*m.about, m.parameters);
+  fmt::print("\nWhole models, by their id less the prefix (--model gltf):\n");
+  for (const auto& p : presets()) print(p);
+  for (const auto& e : evaluated_by_commands()) print(e);
+  fmt::print(
+      "\nOther models are [DIFFUSE+]NDF/MASKING/FRESNEL[+LOBE…], by these names less their "
+      "prefix:\n"
+      "  lambert+ggx/smith_ggx.correlated/schlick\n"
+      "Metals (metal=Au sets eta and k at 650, 550 and 450 nm):");
+  for (const auto& m : metals()) fmt::print(" {}", m.symbol);
+  fmt::print("\n");
+}
+
 Exit run(const Options& o) {
+  const auto wanted = [&](const About& a) {
+    return holds(a.id, o.word) || holds(a.title, o.word) || holds(a.source, o.word);
+  };
+  const auto wanted_metal = [&](const Material& m) {
+    return holds(m.symbol, o.word) || holds(m.name, o.word);
+  };
+  std::size_t found = 0;
+  for (const auto& t : catalogue()) found += wanted(*t.about);
+  for (const auto& m : maps()) found += wanted(*m.about);
+  for (const auto& p : presets()) found += wanted(p.about);
+  for (const auto& e : evaluated_by_commands()) found += wanted(*e.about);
+  for (const auto& m : metals()) found += wanted_metal(m);
+  if (found == 0)
+    throw wrong_usage(fmt::format("no id, title or source of the catalogue holds '{}'", o.word));
   if (o.json) {
     Json terms = Json::array(), map = Json::array(), model = Json::array(), metal = Json::array();
-    for (const auto& t : catalogue()) terms.push_back(describe(*t.about, t.parameters));
+    for (const auto& t : catalogue())
+      if (wanted(*t.about)) terms.push_back(describe(*t.about, t.parameters));
     for (const auto& m : maps()) {
+      if (!wanted(*m.about)) continue;
       map.push_back(describe(*m.about, m.parameters));
       map.back()["outputs"] = m.outputs;
     }
     for (const auto& p : presets()) {
+      if (!wanted(p.about)) continue;
       model.push_back(describe(p.about, p.parameters));
       model.back()["spec"] = p.spec;
     }
-    for (const auto& e : evaluated_by_commands()) model.push_back(describe(*e.about, {}));
+    for (const auto& e : evaluated_by_commands())
+      if (wanted(*e.about)) model.push_back(describe(*e.about, {}));
     for (const auto& m : metals()) {
+      if (!wanted_metal(m)) continue;
       Json n = Json::array(), k = Json::array();
       for (const auto& index : m.rgb()) n.push_back(index.n), k.push_back(index.k);
       metal.push_back(
@@ -74,25 +133,20 @@ Exit run(const Options& o) {
     print_document({{"terms", terms}, {"maps", map}, {"models", model}, {"metals", metal}});
     return Exit::done;
   }
-  for (const auto& t : catalogue()) print(*t.about, t.parameters);
-  fmt::print("\nMaps from parameters to parameters (`gonio term` evaluates them too):\n");
-  for (const auto& m : maps()) print(*m.about, m.parameters);
-  fmt::print("\nWhole models, by their id less the prefix (--model gltf):\n");
-  for (const auto& p : presets()) {
-    print(p.about, p.parameters);
-    fmt::print("{:{}}= {}\n", "", indent, p.spec);
+  if (o.word.empty()) {
+    print_all();
+    return Exit::done;
   }
-  for (const auto& e : evaluated_by_commands()) {
-    print(*e.about, {});
-    fmt::print("{:{}}= {}\n", "", indent, e.by);
-  }
-  fmt::print(
-      "\nOther models are [DIFFUSE+]NDF/MASKING/FRESNEL[+LOBE…], by these names less their "
-      "prefix:\n"
-      "  lambert+ggx/smith_ggx.correlated/schlick\n"
-      "Metals (metal=Au sets eta and k at 650, 550 and 450 nm):");
-  for (const auto& m : metals()) fmt::print(" {}", m.symbol);
-  fmt::print("\n");
+  for (const auto& t : catalogue())
+    if (wanted(*t.about)) print(*t.about, t.parameters);
+  for (const auto& m : maps())
+    if (wanted(*m.about)) print(*m.about, m.parameters);
+  for (const auto& p : presets())
+    if (wanted(p.about)) print(p);
+  for (const auto& e : evaluated_by_commands())
+    if (wanted(*e.about)) print(e);
+  for (const auto& m : metals())
+    if (wanted_metal(m)) fmt::print("{:<{}}{} (metal={})\n", m.symbol, indent, m.name, m.symbol);
   return Exit::done;
 }
 
@@ -109,7 +163,8 @@ std::span<const Evaluated> evaluated_by_commands() {
 void add_models(CommandLine& line) {
   auto [c, o] =
       line.command("models", "The terms that models are composed of, maps and whole models",
-                   "gonio models --json", run);
+                   "gonio models ggx --json", run);
+  c.option("WORD", o->word, "Only those that hold it in their id, title or source");
   add_output(c, *o);
 }
 

@@ -184,7 +184,7 @@ Exit run(const Options& o) {
     }
   std::optional<IndexFiles> index_files;
   if (o.name == all_reports) index_files.emplace(o.output);
-  ReportIndex index{{}, GONIO_VERSION, o.full, milliseconds_since_1970()};
+  ReportIndex index{{}, GONIO_VERSION, o.full, milliseconds_since_1970(), {}, {}};
   std::vector<std::unique_ptr<Files>>
       files;  // nobody waits for a report to learn that it has no place
   for (const auto& kind : kinds) files.push_back(std::make_unique<Files>(o.output, kind.name));
@@ -201,14 +201,16 @@ Exit run(const Options& o) {
       fmt::print("{}\n", report.json);
       continue;
     }
+    if (index_files) {
+      add_report(index, kind.name, kind.what, took.count(), std::move(report));
+      continue;
+    }
     for (const auto& sentence : report.findings.sentences) say("{}\n", sentence);
     say("{}\n", files[k]->page_path());
-    const auto pictures = report.pictures.figures.size() + report.pictures.maps.size();
-    index.reports.push_back(
-        {kind.name, kind.what, took.count(), std::move(report.findings), pictures});
   }
   if (index_files) {
     index_files->write(index);
+    fmt::print("{}", decision_table(decisions(index.facts)));
     say("{}\n", index_files->page_path());
   } else if (const auto page = fs::path(o.output) / "index.html";
              fs::exists(page, error) && !o.quiet) {

@@ -139,6 +139,21 @@ TEST(Program, ListsEveryTermWithItsFormulaAndSource) {
   EXPECT_EQ(m["metals"].size(), 13U);
 }
 
+TEST(Program, ListsOnlyWhatHoldsAWord) {
+  const Folder f;
+  const auto m = gonio(f, "models beckmann --json").json();
+  EXPECT_GT(m["terms"].size(), 4U);
+  EXPECT_LT(m["terms"].size(), 20U);
+  EXPECT_TRUE(m["metals"].empty());
+  EXPECT_EQ(gonio(f, "models GOLD --json").json()["metals"].size(), 1U);
+  const auto o = gonio(f, "models Heitz");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_NE(o.out.find("masking.smith_ggx.correlated"), std::string::npos) << "by its source";
+  EXPECT_EQ(o.out.find("ndf.blinn_phong"), std::string::npos);
+  expect_one_line(gonio(f, "models no_such_word"), 2, "no_such_word");
+  expect_one_line(gonio(f, "models no_such_word --json"), 2, "no_such_word");
+}
+
 TEST(Program, EvaluatesAModelAtTheDirectionsOfAFile) {
   const Folder f;
   f.write("in.csv", "theta_i,phi_i,theta_o,phi_o\n0,0,0,0\n30,0,30,180\n95,0,10,0\n");

@@ -313,8 +313,7 @@ TEST(CostPictures, AreWhole) {
   const auto said = findings(rows);
   ASSERT_FALSE(said.sentences.empty());
   EXPECT_NE(said.sentences[0].find("Schlick's k"), std::string::npos) << said.sentences[0];
-  ASSERT_EQ(said.questions.size(), 1U);
-  EXPECT_EQ(said.questions[0].answer.find(said.sentences[0]), 0U);
+  EXPECT_NE(said.headline.find("Exact Smith in place of Schlick's k takes"), std::string::npos);
 }
 
 TEST(CostDocument, HasTheKeysOfTheContract) {

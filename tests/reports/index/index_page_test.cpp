@@ -14,26 +14,44 @@ TEST(FirstSentence, EndsBeforeAnother) {
   EXPECT_EQ(first_sentence(""), "");
 }
 
-TEST(ReportIndex, TellsFindingsClaimsAndQuestionsWithTheirPlace) {
-  ReportIndex index{{}, "0.1.0", true, 1234};
-  index.reports.push_back(
-      {"schlick",
-       "Schlick against exact Fresnel",
-       1500,
-       {{"One. And more.", "Two.", "3", "4", "5", "6"}, {}, {{"How wrong?", "Up to 0.22.", ""}}},
-       7});
-  index.reports[0].findings.judge("error below 1 %", "seed 000, Schlick", Claim::Judged::partly,
-                                  "0.036 for glass.");  // told once, as a claim
+ReportFiles made_files() {
+  ReportFiles r;
+  r.findings = {{"One. And more.", "Two."}, {}, {}};
+  r.findings.judge("error below 1 %", "seed 000, Schlick", Claim::Judged::partly, "0.036 of light",
+                   "0.036 for glass.");
+  r.facts.setting = Facts::Setting{"a processor", 2, "avx2"};
+  r.facts.fresnel = {{"fresnel.schlick", "metal", "gold", 0.9, 0.1},
+                     {"fresnel.gulbrandsen", "metal", "gold", 0, 0}};
+  r.facts.precision = {{"ndf.ggx", "cross", "half", 0.02, 0.004}};
+  const FigureCurve points{"GGX", {1, 2}, {0.1, 0.2}, FigureCurve::Kind::points};
+  FigureCurve front{"front of GGX", {1, 2}, {0.1, 0.2}};
+  front.dashed = true;
+  r.pictures.figures = {
+      {"first", "First", "", {"x"}, {"y"}, {points}},
+      {"masking_float_avx2_cache", "Masking", "", {"x"}, {"y"}, {points, front, points}}};
+  return r;
+}
+
+TEST(ReportIndex, TellsDecisionsOneSentenceAReportAndClaimsWithTheirFigure) {
+  ReportIndex index{{}, "0.1.0", true, 1234, {}, {}};
+  add_report(index, "schlick", "Schlick against exact Fresnel", 1500, made_files());
   const auto j = nlohmann::json::parse(to_json(index));
+  EXPECT_EQ(j["decisions"][0]["take_id"], "ndf.ggx");
+  for (const char* key : {"for", "take", "take_id", "error", "cost", "unless"})
+    EXPECT_TRUE(j["decisions"][0].contains(key)) << key;
   const auto& r = j["reports"][0];
-  EXPECT_EQ(r["findings"], nlohmann::json({"One.", "Two.", "3", "4", "5"}));
-  EXPECT_TRUE(r["more"]);
+  EXPECT_EQ(r["sentence"], "One.");
+  EXPECT_EQ(r["picture"]["id"], "first");
+  EXPECT_EQ(r["pictures"], 2);
   EXPECT_EQ(r["time_ms"], 1500);
   EXPECT_EQ(j["claims"][0]["judged"], "holds in part");
-  EXPECT_EQ(j["claims"][0]["report"], "schlick");
-  EXPECT_EQ(j["claims"][0]["source"], "seed 000, Schlick");
-  EXPECT_EQ(j["questions"][0]["answer"], "Up to 0.22.");
-  EXPECT_TRUE(j["full"]);
+  EXPECT_EQ(j["claims"][0]["figure"], "0.036 of light");
+  EXPECT_EQ(j["front"][0]["curves"].size(), 2U) << "the first series and its front";
+  ASSERT_EQ(j["fresnel"].size(), 1U) << "of the forms that people ship";
+  EXPECT_EQ(j["fresnel"][0]["form"], "Schlick");
+  EXPECT_EQ(j["machine"]["isa"], "avx2");
+  index.reports[0].findings.headline = "Better said.";
+  EXPECT_EQ(nlohmann::json::parse(to_json(index))["reports"][0]["sentence"], "Better said.");
 }
 
 }  // namespace

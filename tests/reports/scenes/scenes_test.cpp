@@ -280,8 +280,6 @@ TEST(ScenesFindings, BeginWithWhatIsSavedAndWhereNothingIs) {
             "At no visible difference, plans save at least 60\u00a0% of a float shader’s time in "
             "half of the scenes, and 90\u00a0% for chalk under front light; as good as nothing can "
             "be saved for the material that needs everything under rim light.");
-  ASSERT_FALSE(f.questions.empty());
-  EXPECT_EQ(f.questions[0].answer, f.sentences[0]);
 }
 
 TEST(ScenesFindings, SayTheLeastWhereEverythingSaves) {

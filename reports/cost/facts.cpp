@@ -1,0 +1,19 @@
+// What the index decides by: times of terms in cache, and of whole models where memory bounds them.
+#include "reports/cost/cost.h"
+
+namespace gonio {
+
+Facts facts(const CostRows& r) {
+  Facts f;
+  const auto& best = r.machine.instruction_sets.back();
+  f.setting = Facts::Setting{r.machine.cpu, r.machine.threads, best};
+  for (const auto& row : r.rows) {
+    if (row.number != "float" || row.isa != best || is_mistake(row)) continue;
+    const Facts::Time time{row.id, row.time.ns, row.time.spread_ns};
+    if (row.memory == "cache" && row.way.empty()) f.in_cache.push_back(time);
+    if (row.memory == "streaming" && row.way == "fused") f.streaming.push_back(time);
+  }
+  return f;
+}
+
+}  // namespace gonio

@@ -1,0 +1,48 @@
+// What the index decides by: what is seen of lost light and of each compensation, and what they
+// take.
+#include <algorithm>
+#include <array>
+
+#include "image/display.h"
+#include "reports/energy/energy.h"
+
+namespace gonio {
+namespace {
+
+/// Cosine of the view from which on colours are compared, as in the report on Fresnel.
+constexpr double least_mu = 0.1;
+
+double delta_e_of_grey(double a, double b) {
+  return delta_e_2000(lab_of_display({a, a, a}), lab_of_display({b, b, b}));
+}
+
+void add_scattering(std::vector<Facts::Scattering>& to, const EnergyMaterial& m) {
+  for (const auto& at : m.rows) {
+    if (at.mu < least_mu) continue;  // the average, at 0, too
+    for (const auto& s : at.scattering) {
+      auto of = std::ranges::find_if(
+          to, [&](const Facts::Scattering& x) { return x.id == s.id && x.f0 == *m.f0; });
+      if (of == to.end()) of = to.insert(of, {std::string(s.id), *m.f0, {}, {}});
+      if (of->roughness.empty() || of->roughness.back() != at.roughness) {
+        of->roughness.push_back(at.roughness);
+        of->delta_e.push_back(0);
+      }
+      of->delta_e.back() = std::max(of->delta_e.back(), delta_e_of_grey(s.albedo, at.truth));
+    }
+  }
+}
+
+}  // namespace
+
+Facts facts(const EnergyRows& r) {
+  Facts f;
+  for (const auto& m : r.materials)
+    if (m.f0) add_scattering(f.scattering, m);
+  for (const auto& c : r.compensations)
+    if (c.id != "single")
+      f.compensations.push_back(
+          {std::string(c.id), c.id == "fdez_aguera", c.ns - c.without_ns, c.spread_ns, c.bytes});
+  return f;
+}
+
+}  // namespace gonio

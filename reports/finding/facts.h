@@ -1,0 +1,66 @@
+#pragma once
+/// \file
+/// Facts: figures of a report's rows by which one form is shipped before another.  A report fills in what it knows; what is
+/// decided by them stands in reports/index/decisions.h.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+struct Facts {
+  /// Machine, and the columns that times are of.
+  struct Setting {
+    std::string cpu;  ///< as it calls itself; may be empty
+    std::size_t threads;
+    std::string isa;  ///< the best instruction set that runs
+  };
+  std::optional<Setting> setting{};
+  /// Time of a sample in float [ns]: of a term in columns that stay in cache, or of a whole model, fused, in columns that do not.
+  struct Time {
+    std::string id;  ///< of the term, or the model's spec
+    double ns, spread;
+  };
+  std::vector<Time> in_cache{}, streaming{};
+  /// RMS distance of a masking form's G₂ from height-correlated Smith's for GGX, over directions and roughness.
+  struct Masking {
+    std::string form;
+    double rms;
+  };
+  std::vector<Masking> masking{};
+  /// Greatest ΔE2000 of a rough surface with a form in place of exact Fresnel: over roughness and views, and seen head on.
+  struct Fresnel {
+    std::string form, kind, material;  ///< kind: "dielectric", "metal"
+    double delta_e, head_on;
+  };
+  std::vector<Fresnel> fresnel{};
+  /// Greatest ΔE2000 over views of one way to scatter from all bounces, by roughness.
+  struct Scattering {
+    std::string id;  ///< "single", "turquin" …
+    double f0;       ///< under Schlick's Fresnel
+    std::vector<double> roughness, delta_e;
+  };
+  std::vector<Scattering> scattering{};
+  /// What a compensation takes more than single scattering, one light and view at a time in float.
+  struct Compensation {
+    std::string id;
+    bool of_image_light;  ///< else of a single light
+    double ns, spread;    ///< [ns]
+    std::size_t bytes;    ///< of tables beyond those that single scattering needs
+  };
+  std::vector<Compensation> compensations{};
+  /// Least alpha from which on a distribution keeps a relative error in few bits.
+  struct Precision {
+    std::string id, form, number;  ///< form: how its angles are given, "cross" or "cosine"
+    double tolerance;
+    std::optional<double> safe_from;
+  };
+  std::vector<Precision> precision{};
+};
+
+/// Adds what another report knows.
+void join(Facts& to, const Facts& from);
+
+}  // namespace gonio

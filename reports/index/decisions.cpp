@@ -1,0 +1,424 @@
+#include "reports/index/decisions.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "brdf/catalogue/registry.h"
+#include "reports/finding/words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+namespace {
+
+using Candidates = std::vector<Candidate>;
+
+constexpr std::string_view schlick = "fresnel.schlick", direct = "masking.schlick_ggx.direct",
+                           correlated = "masking.smith_ggx.correlated", single = "single";
+
+bool is_clearly_cheaper(const Candidate& a, const Candidate& b) {
+  return b.ns - a.ns > a.spread + b.spread;
+}
+const Candidate* find(const Candidates& all, std::string_view form) {
+  const auto at = std::ranges::find(all, form, &Candidate::form);
+  return at == all.end() ? nullptr : &*at;
+}
+/// The nearest of those that are clearly cheaper than what is taken; the first of those that are as near.
+const Candidate* nearest_cheaper(const Candidates& all, const Candidate& taken) {
+  const Candidate* best = nullptr;
+  for (const auto& c : all)
+    if (is_clearly_cheaper(c, taken) && (!best || c.error < 0.99 * best->error)) best = &c;
+  return best;
+}
+
+const Facts::Time* time_of(const std::vector<Facts::Time>& times, std::string_view id) {
+  const auto at = std::ranges::find(times, id, &Facts::Time::id);
+  return at == times.end() ? nullptr : &*at;
+}
+/// Id of the catalogue, of a form that may be a variant of it.
+std::string id_of(std::string_view form) {
+  return std::string(form.substr(0, form.find(',')));
+}
+
+// --- Words ---
+
+/// "0", "0.26", "3.2", "13"
+std::string short_number(double x) {
+  return fmt::format("{:.{}g}", x, x < 9.95 ? 2 : x < 99.5 ? 2 : 3);
+}
+std::string delta(double x) {
+  return "ΔE " + short_number(x);
+}
+/// Nothing is left by what is exact, but for what its integral is known to.
+bool is_exact(const Candidate& c) {
+  return c.error < 5e-3;
+}
+/// "a", "a and b", "a, b and c"
+std::string list_text(const std::vector<std::string>& all, std::string_view last) {
+  if (all.size() < 2) return all.empty() ? "" : all[0];
+  return fmt::format("{}{}{}", fmt::join(all.begin(), all.end() - 1, ", "), last, all.back());
+}
+std::string lower(std::string name) {
+  // Names of people and of shapes keep their capitals.
+  if (name.starts_with("Height") || name.starts_with("Separable") || name.starts_with("Exact"))
+    name[0] = static_cast<char>(name[0] + 32);
+  return name;
+}
+
+/// "+0.40 ns", or that it takes no more.
+std::string cost_text(const Candidate& taken, const Candidate& cheap) {
+  if (&taken == &cheap || taken.form == cheap.form) return "–";
+  const double more = taken.ns - cheap.ns;
+  if (std::abs(more) <= taken.spread + cheap.spread) return "none measured";
+  return fmt::format("{}{:.2f} ns", more < 0 ? "−" : "+", std::abs(more));
+}
+/// Aside on the cost, where both stand in a whole model: that it vanishes where memory is the limit.
+std::string streaming_aside(const Facts& f, std::string_view taken, std::string_view cheap) {
+  const auto *a = time_of(f.streaming, taken), *b = time_of(f.streaming, cheap);
+  if (!a || !b || a->ns - b->ns > a->spread + b->spread) return {};
+  return " (none where memory is the limit)";
+}
+
+// --- Masking ---
+
+void masking(std::vector<Decision>& to, const Facts& f) {
+  Candidates all;
+  for (const auto& m : f.masking)
+    if (const auto* t = time_of(f.in_cache, m.form))
+      all.push_back({m.form, m.rms, t->ns, t->spread});
+  const auto *cheap = find(all, direct), *taken = choose(all, direct, small_masking_error);
+  if (!cheap || !taken) return;
+  const auto rms = [](const Candidate& c) { return fmt::format("RMS {:.2g} of G₂", c.error); };
+  const auto model = [](std::string_view form) {
+    return fmt::format("ggx/{}/schlick", short_id(form));
+  };
+  const auto cost = cost_text(*taken, *cheap);
+  const auto* other = nearest_cheaper(all, *taken);
+  to.push_back(
+      {"Masking", name_of_form(taken->form), taken->form,
+       is_exact(*taken) ? fmt::format("none (Schlick's k: {})", rms(*cheap)) : rms(*taken),
+       cost.starts_with('+') ? cost + streaming_aside(f, model(taken->form), model(cheap->form))
+                             : cost,
+       other ? fmt::format("nanoseconds are short: {}, {}", name_of_form(other->form), rms(*other))
+             : ""});
+}
+
+// --- Fresnel ---
+
+/// A material and what Schlick shows of it.
+struct Shown {
+  std::string material;
+  double delta_e, head_on;
+};
+
+std::string material_text(const std::string& material) {
+  if (material == "IOR 1.33") return "water";
+  if (material == "IOR 1.5") return "glass";
+  return material;
+}
+/// "gold, silver"; indices that have no name as a range, "IOR 1.1 to 3".
+std::string materials_text(const std::vector<Shown>& all) {
+  std::vector<std::string> names, indices;
+  for (const auto& m : all) {
+    const auto name = material_text(m.material);
+    (name.starts_with("IOR ") ? indices : names).push_back(name);
+  }
+  if (indices.size() > 1)
+    names.push_back(fmt::format("{} to {}", indices.front(), indices.back().substr(4)));
+  else if (!indices.empty())
+    names.push_back(indices.front());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Every form that is known on all of these, by its greatest ΔE; the exact one among them.
+Candidates fresnel_candidates(const Facts& f,
+                              std::string_view kind,
+                              const std::vector<Shown>& materials) {
+  Candidates out;
+  const auto exact = kind == "metal" ? "fresnel.conductor" : "fresnel.dielectric";
+  if (const auto* t = time_of(f.in_cache, exact)) out.push_back({exact, 0, t->ns, t->spread});
+  for (const auto& x : f.fresnel) {
+    if (find(out, x.form)) continue;
+    const auto* t = time_of(f.in_cache, id_of(x.form));
+    if (!t) continue;
+    Candidate c{x.form, 0, t->ns, t->spread};
+    std::size_t known = 0;
+    for (const auto& m : materials)
+      for (const auto& y : f.fresnel)
+        if (y.form == x.form && y.material == m.material) {
+          c.error = std::max(c.error, y.delta_e);
+          ++known;
+        }
+    if (known == materials.size()) out.push_back(c);
+  }
+  return out;
+}
+
+/// What is left to say where Schlick is taken: that some of them show it side by side.
+std::string seen_side_by_side(const Candidates& all, const std::vector<Shown>& materials) {
+  std::vector<std::string> seen;
+  for (const auto& m : materials)
+    if (m.delta_e > just_seen) seen.push_back(material_text(m.material));
+  if (seen.empty()) return {};
+  const auto* better = choose(all, schlick, just_seen);
+  return better && better->form != schlick
+             ? fmt::format("{} beside a photograph: {}", list_text(seen, " or "),
+                           lower(name_of_form(better->form)))
+             : "";
+}
+
+void fresnel_of(std::vector<Decision>& to,
+                const Facts& f,
+                std::string_view kind,
+                const std::vector<Shown>& materials,
+                bool is_all,
+                bool is_rest) {
+  const auto all = fresnel_candidates(f, kind, materials);
+  const auto *cheap = find(all, schlick), *taken = choose(all, schlick, side_by_side);
+  if (!cheap || !taken) return;
+  const std::string kinds = kind == "metal" ? "metals" : "dielectrics";
+  const auto names = materials_text(materials);
+  Decision d;
+  d.subject = is_all    ? fmt::format("Fresnel of {} ({})", kinds, names)
+              : is_rest ? fmt::format("Fresnel of other {} ({})", kinds, names)
+                        : fmt::format("Fresnel of {}", names);
+  d.take = name_of_form(taken->form);
+  d.take_id = id_of(taken->form);
+  d.cost = cost_text(*taken, *cheap);
+  const auto worst = std::ranges::max_element(materials, {}, &Shown::delta_e);
+  const auto glass = std::ranges::find(materials, "IOR 1.5", &Shown::material);
+  const auto& told = glass == materials.end() ? *worst : *glass;
+  if (taken == cheap) {
+    d.error = fmt::format("ΔE ≤ {}", short_number(taken->error));
+    d.unless = seen_side_by_side(all, materials);
+  } else {
+    d.error = fmt::format("{} (Schlick: {} for {})",
+                          is_exact(*taken) ? "none" : "ΔE ≤ " + short_number(taken->error),
+                          delta(told.delta_e), material_text(told.material));
+    const double head_on = std::ranges::max(materials, {}, &Shown::head_on).head_on;
+    if (is_clearly_cheaper(*cheap, *taken))
+      d.unless =
+          head_on <= just_seen
+              ? fmt::format("it is seen head on alone: Schlick, ΔE ≤ {}", short_number(head_on))
+              : fmt::format("nanoseconds are short: Schlick, ΔE ≤ {}", short_number(cheap->error));
+  }
+  if (d.cost.starts_with('+'))
+    d.cost += streaming_aside(f, fmt::format("ggx/smith_ggx.correlated/{}", short_id(d.take_id)),
+                              fmt::format("ggx/smith_ggx.correlated/{}", short_id(schlick)));
+  to.push_back(std::move(d));
+}
+
+/// Materials of a kind in two groups: those on which Schlick is seen side by side at most, and the others.
+void fresnel(std::vector<Decision>& to, const Facts& f, std::string_view kind) {
+  std::vector<Shown> unseen, seen;
+  for (const auto& x : f.fresnel)
+    if (x.kind == kind && x.form == schlick)
+      (x.delta_e <= side_by_side ? unseen : seen).push_back({x.material, x.delta_e, x.head_on});
+  std::ranges::stable_sort(unseen, {}, &Shown::delta_e);
+  if (!unseen.empty()) fresnel_of(to, f, kind, unseen, seen.empty(), false);
+  if (!seen.empty()) fresnel_of(to, f, kind, seen, unseen.empty(), true);
+}
+
+// --- Multiple scattering ---
+
+/// Reflectance of bright metals, and of plastics.
+constexpr double bright = 0.9, plastic = 0.04;
+
+const Facts::Scattering* scattering_of(const Facts& f, std::string_view id, double f0) {
+  const auto at = std::ranges::find_if(
+      f.scattering, [&](const Facts::Scattering& s) { return s.id == id && s.f0 == f0; });
+  return at == f.scattering.end() ? nullptr : &*at;
+}
+double greatest(const Facts& f, std::string_view id) {
+  double most = 0;
+  for (const auto& s : f.scattering)
+    if (s.id == id) most = std::max(most, std::ranges::max(s.delta_e));
+  return most;
+}
+/// Least roughness at which one bounce is seen to lack the others.
+std::optional<double> seen_from(const Facts& f, double f0) {
+  const auto* s = scattering_of(f, single, f0);
+  if (!s) return {};
+  for (std::size_t i = 0; i < s->roughness.size(); ++i)
+    if (s->delta_e[i] > side_by_side) return s->roughness[i];
+  return {};
+}
+
+void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) {
+  const auto from = seen_from(f, bright);
+  const auto* of_plastic = scattering_of(f, single, plastic);
+  Candidates all;
+  for (const auto& c : f.compensations)
+    if (c.of_image_light == of_image_light && greatest(f, c.id) > 0)
+      all.push_back({c.id, greatest(f, c.id), c.ns, c.spread});
+  const auto* taken = choose(all, single, side_by_side);
+  if (!from || !of_plastic || !taken) return;
+  const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
+  const auto more_ns = fmt::format("+{:.2g} ns", taken->ns);
+  const auto* other = nearest_cheaper(all, *taken);
+  const auto later = seen_from(f, plastic);
+  const auto of_f0 =
+      fmt::format("F0 is {:g}: {}", plastic,
+                  later ? fmt::format("from roughness {:g} on", *later)
+                        : fmt::format("one bounce, ΔE ≤ {}",
+                                      short_number(std::ranges::max(of_plastic->delta_e))));
+  to.push_back(
+      {of_image_light ? "All bounces of image-based light" : "All bounces of a single light",
+       fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), *from),
+       "scattering." + taken->form,
+       fmt::format("ΔE ≤ {} (one bounce: {})", short_number(taken->error),
+                   short_number(greatest(f, single))),
+       of_image_light ? fmt::format("{} (beside the split sum's table)", more_ns)
+                      : fmt::format("{} (one at a time; {:.1f} kB of tables)", more_ns,
+                                    static_cast<double>(costs->bytes) / 1000),
+       other && !of_image_light ? fmt::format("nanoseconds are short: {}, ΔE ≤ {}",
+                                              name_of_form(other->form), short_number(other->error))
+                                : of_f0});
+}
+
+// --- Few bits ---
+
+const Facts::Precision* precision_of(const Facts& f,
+                                     std::string_view id,
+                                     std::string_view form,
+                                     std::string_view number) {
+  const auto at = std::ranges::find_if(f.precision, [&](const Facts::Precision& p) {
+    return p.id == id && p.form == form && p.number == number;
+  });
+  return at == f.precision.end() ? nullptr : &*at;
+}
+
+void precision(std::vector<Decision>& to, const Facts& f) {
+  const auto* half = precision_of(f, "ndf.ggx", "cross", "half");
+  if (!half || !half->safe_from) return;
+  const auto* mixed = precision_of(f, "ndf.ggx.mobile", "cosine", "mixed");
+  to.push_back(
+      {"GGX in half precision", fmt::format("|n × h|², α clamped at {:.2g}", *half->safe_from),
+       half->id, fmt::format("≤ {} of D", percent(half->tolerance, 1)),
+       fmt::format("roughness below {:.2g} (looks that rough)", std::sqrt(*half->safe_from)),
+       mixed && mixed->safe_from
+           ? fmt::format("NoH is rounded to half: α clamped at {:.2g}", *mixed->safe_from)
+           : ""});
+}
+
+}  // namespace
+
+const Candidate* choose(std::span<const Candidate> all, std::string_view cheap, double enough) {
+  const Candidate *nearest = nullptr, *cheapest = nullptr;
+  for (const auto& c : all) {
+    if (!nearest || c.error < nearest->error) nearest = &c;
+    if (c.error <= enough && (!cheapest || c.ns < cheapest->ns)) cheapest = &c;
+  }
+  if (!cheapest) return nearest;
+  const Candidate* taken = cheapest;
+  for (const auto& c : all) {
+    if (c.error > enough || is_clearly_cheaper(*cheapest, c)) continue;
+    if (c.form == cheap) return &c;
+    if (c.error < taken->error) taken = &c;
+  }
+  return taken;
+}
+
+std::vector<Decision> decisions(const Facts& f) {
+  std::vector<Decision> out;
+  masking(out, f);
+  fresnel(out, f, "dielectric");
+  fresnel(out, f, "metal");
+  scattering(out, f, false);
+  scattering(out, f, true);
+  precision(out, f);
+  return out;
+}
+
+std::string name_of_form(std::string_view form) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 15> names{
+      {{"masking.smith_ggx.correlated", "Height-correlated Smith"},
+       {"masking.smith_ggx.separable", "Separable Smith"},
+       {"masking.schlick_ggx.direct", "Schlick's k = (r+1)²/8"},
+       {"masking.schlick_ggx.half_alpha", "Schlick's k = α/2"},
+       {"masking.ue_joint", "Unreal's joint form"},
+       {"masking.hammon", "Hammon's linear form"},
+       {"fresnel.schlick", "Schlick"},
+       {"fresnel.schlick.f90", "Schlick, F90 fitted"},
+       {"fresnel.f82", "F82"},
+       {"fresnel.lazanyi, corrected", "Lazányi, corrected"},
+       {"fresnel.dielectric", "Exact dielectric"},
+       {"fresnel.conductor", "Exact conductor"},
+       {"turquin", "Turquin"},
+       {"kulla_conty", "Kulla and Conty"},
+       {"fdez_aguera", "Fdez-Agüera"}}};
+  const auto at = std::ranges::find(names, form, [](const auto& n) { return n.first; });
+  if (at != names.end()) return std::string(at->second);
+  const auto id = id_of(form);
+  const auto term = std::ranges::find(catalogue(), id, [](const auto& t) { return t.id(); });
+  return term == catalogue().end() ? id : std::string(term->about->title);
+}
+
+std::string without_aside(const std::string& cell) {
+  return cell.substr(0, cell.find(" ("));
+}
+
+namespace {
+
+/// Columns that a text takes at a terminal: its letters.
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+/// Lines of at most so many columns, broken at blanks.
+std::vector<std::string> lines_of(std::string_view text, std::size_t most) {
+  std::vector<std::string> out{""};
+  for (std::size_t from = 0; from <= text.size();) {
+    const auto to = std::min(text.find(' ', from), text.size());
+    const auto word = text.substr(from, to - from);
+    if (!out.back().empty() && width_of(out.back()) + 1 + width_of(word) > most) out.emplace_back();
+    out.back() += (out.back().empty() ? "" : " ") + std::string(word);
+    from = to + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string decision_table(std::span<const Decision> all, std::size_t width) {
+  constexpr std::size_t columns = 4, gap = 2;
+  std::vector<std::array<std::string, columns>> rows{{"for", "take", "error left", "costs"}};
+  for (const auto& d : all)
+    rows.push_back(
+        {without_aside(d.subject), d.take, without_aside(d.error), without_aside(d.cost)});
+  std::array<std::size_t, columns> widths{};
+  for (const auto& r : rows)
+    for (std::size_t k = 0; k < columns; ++k) widths[k] = std::max(widths[k], width_of(r[k]));
+  // The first two give way: they are names.
+  const std::size_t rest = widths[2] + widths[3] + (columns - 1) * gap;
+  if (widths[0] + widths[1] + rest > width) {
+    const std::size_t room = width - rest;
+    widths[0] = std::max(std::min(widths[0], room / 2), room - std::min(widths[1], room));
+    widths[1] = room - widths[0];
+  }
+  std::string out;
+  for (const auto& r : rows) {
+    std::array<std::vector<std::string>, columns> cells;
+    std::size_t lines = 0;
+    for (std::size_t k = 0; k < columns; ++k) {
+      cells[k] = lines_of(r[k], widths[k]);
+      lines = std::max(lines, cells[k].size());
+    }
+    for (std::size_t i = 0; i < lines; ++i) {
+      std::string line;
+      for (std::size_t k = 0; k < columns; ++k) {
+        const std::string text = i < cells[k].size() ? cells[k][i] : "";
+        line += text;
+        if (k + 1 < columns) line.append(widths[k] + gap - width_of(text), ' ');
+      }
+      out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+  }
+  return out;
+}
+
+}  // namespace gonio

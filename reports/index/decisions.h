@@ -1,0 +1,54 @@
+#pragma once
+/// \file
+/// Decisions: which form to ship for each part of a material, by the facts of the reports of one run.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/finding/facts.h"
+
+namespace gonio {
+
+/// ΔE2000 up to which nobody sees a difference, even side by side: the unit that CIEDE2000 is scaled to.  [CIE 142-2001]
+inline constexpr double just_seen = 1;
+/// ΔE2000 up to which a difference is seen side by side alone, taken from what observers just saw in CIELAB.
+///                                                  [Mahy, Van Eycken and Oosterlinck 1994]
+inline constexpr double side_by_side = 2.3;
+/// RMS error of G₂ up to which a masking form is as good as exact.
+inline constexpr double small_masking_error = 0.01;
+
+/// Text as shown.  What stands in brackets at the end of a cell is an aside.
+struct Decision {
+  std::string subject;  ///< "Masking", "Fresnel of gold, silver"
+  std::string take;     ///< name of the form
+  std::string take_id;  ///< of the catalogue
+  std::string error;    ///< that is left
+  std::string cost;     ///< over the cheap form
+  std::string unless;   ///< when another is to be taken, and which; may be empty
+};
+
+/// Form that may stand in for another.
+struct Candidate {
+  std::string form;
+  double error;
+  double ns, spread;  ///< time of a sample [ns]
+};
+/// The cheapest of those whose error is at most `enough`; of several that their spreads do not tell apart the cheap form, else
+/// the nearest.  If none is good enough, the nearest of all.  nullptr of none.
+/// \param cheap  form that is shipped unless it shows
+const Candidate* choose(std::span<const Candidate>, std::string_view cheap, double enough);
+
+/// Decisions that these facts support, in the order of the page; those that lack a fact are left out.
+std::vector<Decision> decisions(const Facts&);
+
+/// Name of a form as people say it: "Height-correlated Smith".  \param form  id, with what tells a variant from it
+std::string name_of_form(std::string_view form);
+/// A cell without its aside.
+std::string without_aside(const std::string& cell);
+
+/// Decisions as a table for a terminal, no line wider than `width` columns: what for, take, error left, cost.
+std::string decision_table(std::span<const Decision>, std::size_t width = 100);
+
+}  // namespace gonio

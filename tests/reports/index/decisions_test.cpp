@@ -1,0 +1,162 @@
+#include "reports/index/decisions.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "reports/index/index_page.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace gonio {
+namespace {
+
+/// Facts of every report, few of each.
+Facts made_facts() {
+  Facts f;
+  f.setting = Facts::Setting{"a processor", 2, "avx2"};
+  for (const auto& [id, ns] :
+       std::vector<std::pair<std::string, double>>{{"masking.schlick_ggx.direct", 0.2},
+                                                   {"masking.ue_joint", 0.2},
+                                                   {"masking.smith_ggx.correlated", 0.6},
+                                                   {"fresnel.schlick", 0.1},
+                                                   {"fresnel.f82", 0.4},
+                                                   {"fresnel.dielectric", 0.7},
+                                                   {"fresnel.conductor", 1.0}})
+    f.in_cache.push_back({id, ns, 0.01});
+  f.masking = {{"masking.schlick_ggx.direct", 0.28},
+               {"masking.ue_joint", 0.07},
+               {"masking.smith_ggx.correlated", 0}};
+  for (const auto& [form, material, delta_e] :
+       std::vector<std::tuple<std::string, std::string, double>>{
+           {"fresnel.schlick", "gold", 0.9},
+           {"fresnel.f82", "gold", 0.8},
+           {"fresnel.schlick", "brass", 1.6},
+           {"fresnel.f82", "brass", 1.2},
+           {"fresnel.schlick", "iron", 5.7},
+           {"fresnel.f82", "iron", 0.4},
+           {"fresnel.schlick", "IOR 1.5", 3.2},
+           {"fresnel.f82", "IOR 1.5", 4}})
+    f.fresnel.push_back(
+        {form, material.starts_with("IOR") ? "dielectric" : "metal", material, delta_e, 0.1});
+  for (const double f0 : {0.9, 0.04}) {
+    f.scattering.push_back({"single", f0, {0.2, 0.4, 1}, {0.5, f0 > 0.5 ? 2.5 : 1.7, 20 * f0}});
+    f.scattering.push_back({"turquin", f0, {0.2, 0.4, 1}, {0.1, 0.2, 1.9}});
+    f.scattering.push_back({"kulla_conty", f0, {0.2, 0.4, 1}, {0.1, 0.2, 1.5}});
+  }
+  f.compensations = {{"kulla_conty", false, 13, 0.1, 2112}, {"turquin", false, 7.7, 0.1, 2048}};
+  f.precision = {{"ndf.ggx", "cross", "half", 0.02, 0.004}};
+  return f;
+}
+const Decision& about(const std::vector<Decision>& all, std::string_view subject) {
+  static const Decision none{};
+  const auto at =
+      std::ranges::find_if(all, [&](const Decision& d) { return d.subject.starts_with(subject); });
+  return at == all.end() ? none : *at;
+}
+
+/// Numbers that a reader has to take in: none of those in a name or a formula.
+std::size_t numbers_in(std::string text) {
+  for (const std::string name : {"(r+1)²/8", "k = α/2"})
+    for (auto at = text.find(name); at != text.npos; at = text.find(name))
+      text.erase(at, name.size());
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+    const auto before = i == 0 ? ' ' : text[i - 1];
+    n += digit && std::isalnum(static_cast<unsigned char>(before)) == 0 && before != '.';
+  }
+  return n;
+}
+
+TEST(Choose, TakesAFormThatIsCheaperAndNearer) {
+  const std::vector<Candidate> all{{"cheap", 0.5, 1, 0.01}, {"better", 0.4, 0.5, 0.01}};
+  EXPECT_EQ(choose(all, "cheap", 1)->form, "better");
+}
+TEST(Choose, KeepsTheCheapFormWhereSpreadsDoNotTellThemApart) {
+  const std::vector<Candidate> all{{"as fast", 0.1, 0.95, 0.04}, {"cheap", 0.5, 1, 0.04}};
+  EXPECT_EQ(choose(all, "cheap", 1)->form, "cheap");
+  EXPECT_EQ(choose(all, "cheap", 0.3)->form, "as fast");
+}
+TEST(Choose, TakesTheNearestOfThoseThatAreAsFastAndOfAllIfNoneIsGood) {
+  const std::vector<Candidate> all{{"a", 0.5, 1, 0.1}, {"b", 0.2, 1.1, 0.1}, {"c", 0.1, 3, 0.1}};
+  EXPECT_EQ(choose(all, "cheap", 1)->form, "b");
+  EXPECT_EQ(choose(all, "cheap", 0.01)->form, "c");
+  EXPECT_EQ(choose({}, "cheap", 1), nullptr);
+}
+
+TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
+  const auto all = decisions(made_facts());
+  const auto& masking = about(all, "Masking");
+  EXPECT_EQ(masking.take, "Height-correlated Smith");
+  EXPECT_EQ(masking.take_id, "masking.smith_ggx.correlated");
+  EXPECT_EQ(masking.error, "none (Schlick's k: RMS 0.28 of G₂)");
+  EXPECT_EQ(masking.cost, "+0.40 ns");
+  EXPECT_EQ(masking.unless, "nanoseconds are short: Unreal's joint form, RMS 0.07 of G₂");
+  EXPECT_EQ(about(all, "Fresnel of gold, brass").take, "Schlick");
+  EXPECT_EQ(about(all, "Fresnel of gold, brass").unless,
+            "brass beside a photograph: exact conductor");
+  EXPECT_EQ(about(all, "Fresnel of other metals (iron)").take, "F82");
+  EXPECT_EQ(about(all, "Fresnel of dielectrics (glass)").take, "Exact dielectric");
+  EXPECT_EQ(about(all, "All bounces of a single light").take, "Turquin, from roughness 0.4 on");
+  EXPECT_EQ(about(all, "All bounces of a single light").unless, "F0 is 0.04: one bounce, ΔE ≤ 1.7");
+  EXPECT_EQ(about(all, "GGX in half").take_id, "ndf.ggx");
+}
+
+TEST(Decisions, ChangeWhereAThresholdIsCrossed) {
+  auto f = made_facts();
+  f.fresnel[2].delta_e = 2.4;  // Schlick on brass is seen by itself
+  auto all = decisions(f);
+  EXPECT_EQ(about(all, "Fresnel of gold").subject, "Fresnel of gold");
+  EXPECT_EQ(about(all, "Fresnel of other metals").subject, "Fresnel of other metals (brass, iron)");
+  f = made_facts();
+  for (auto& s : f.scattering)
+    if (s.id == "turquin") s.delta_e[2] = 2.4;
+  EXPECT_EQ(about(decisions(f), "All bounces").take, "Kulla and Conty, from roughness 0.4 on");
+  f = made_facts();
+  f.masking[1].rms = 0.009;
+  EXPECT_EQ(about(decisions(f), "Masking").take, "Unreal's joint form");
+}
+
+TEST(Decisions, AreLeftOutWhereAFactIsMissing) {
+  EXPECT_TRUE(decisions({}).empty());
+  auto f = made_facts();
+  const auto all = decisions(f).size();
+  f.precision[0].safe_from.reset();
+  EXPECT_EQ(decisions(f).size(), all - 1);
+  f.masking.clear();
+  EXPECT_EQ(decisions(f).size(), all - 2);
+  f.in_cache.clear();
+  EXPECT_EQ(about(decisions(f), "Fresnel").take, "");
+  f.scattering.clear();
+  EXPECT_TRUE(decisions(f).empty());
+}
+
+TEST(Decisions, HaveAtMostThreeNumbersACell) {
+  EXPECT_EQ(numbers_in("RMS 0.07 of G₂, F82, k = (r+1)²/8, ΔE ≤ 3"), 2U);
+  for (const auto& d : decisions(made_facts()))
+    for (const auto& cell : {d.subject, d.take, d.error, d.cost, d.unless})
+      EXPECT_LE(numbers_in(cell), 3U) << cell;
+}
+
+TEST(DecisionTable, FitsATerminalAndIsAligned) {
+  auto all = decisions(made_facts());
+  all[0].subject =
+      "Fresnel of gold, silver, copper, brass, aluminium, chromium, cobalt, iron, nickel";
+  const auto table = decision_table(all, 80);
+  EXPECT_LT(table.size(), 2500U);
+  std::size_t from = 0, lines = 0;
+  for (auto to = table.find('\n'); to != table.npos; from = to + 1, to = table.find('\n', from)) {
+    std::size_t width = 0;
+    for (const char c : table.substr(from, to - from))
+      width += (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+    EXPECT_LE(width, 80U) << table.substr(from, to - from);
+    ++lines;
+  }
+  EXPECT_GT(lines, all.size());
+  EXPECT_NE(table.find("Exact dielectric"), table.npos);
+  EXPECT_EQ(table.find("Schlick's k:"), table.npos) << "asides are the page's";
+}
+
+}  // namespace
+}  // namespace gonio
