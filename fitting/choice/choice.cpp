@@ -43,7 +43,7 @@ std::vector<std::string> at_bound(const FitDocument& d) {
   return names;
 }
 
-std::vector<double> times_of(const Table& t, std::span<const BoundModel> models) {
+std::vector<Timing> times_of(const Table& t, std::span<const BoundModel> models) {
   const std::size_t n = std::min(t.size(), timed_samples);
   const std::size_t step = t.size() / n;
   const SampleAngles at(t);
@@ -65,9 +65,7 @@ std::vector<double> times_of(const Table& t, std::span<const BoundModel> models)
   }
   TimingOptions options;
   options.of_thread = true;
-  std::vector<double> ns;
-  for (const auto& timing : time_all(all, options)) ns.push_back(timing.ns);
-  return ns;
+  return time_all(all, options);
 }
 
 /// Mean squares of a model on blocks less those of another: their mean, and the standard error of it.
@@ -180,10 +178,13 @@ ModelChoice compare_models(const Table& t,
     const auto b = behind(left_out[k], left_out[index(best)]);
     r.cv_behind = b.mean > 0 ? b.mean / b.error : 0;
   }
-  const auto ns = times_of(t, timed);
+  const auto times = times_of(t, timed);
   std::size_t next = 0;
-  for (auto& r : rows)
-    if (r.compared) r.ns = ns[next++];
+  for (auto& r : rows) {
+    if (!r.compared) continue;
+    r.ns = times[next].ns, r.ns_spread = times[next].spread_ns;
+    ++next;
+  }
   return choice;
 }
 

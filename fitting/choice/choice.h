@@ -32,6 +32,7 @@ struct ModelRow {
   double delta_e_2000 = unknown,
          delta_e_itp = unknown;  ///< of a rendered sphere; the caller's to fill in
   double ns = unknown;           ///< of one sample in all channels
+  double ns_spread = unknown;    ///< half the distance of the quartiles over repetitions
   std::vector<std::string> parameters_at_bound;
 };
 

@@ -9,10 +9,12 @@ namespace gonio {
 namespace {
 
 struct RowFile {
-  std::string model, note;
+  std::string model;
+  std::optional<std::string> note;
   bool converged = false;
   std::uint64_t parameters = 0;
-  std::optional<double> log_rms, cv_log_rms, cv_behind, aic, bic, delta_e_2000, delta_e_itp, ns;
+  std::optional<double> log_rms, cv_log_rms, cv_behind, aic, bic, delta_e_2000, delta_e_itp, ns,
+      ns_spread;
   std::vector<std::string> parameters_at_bound;
 };
 template <class Form>
@@ -34,6 +36,7 @@ void keys(Form& f, RowFile& r) {
              "of a sphere beside the table's, median pixel, mean of three lights", amounts);
   f.optional("delta_e_itp", r.delta_e_itp, "the same by ΔE_ITP, white at 203 cd/m²", amounts);
   f.optional("ns", r.ns, "of a sample in all channels, in float", amounts);
+  f.optional("ns_spread", r.ns_spread, "half the distance of the quartiles", amounts);
   f.required("parameters_at_bound", r.parameters_at_bound,
              "whose values the data push beyond their range");
 }
@@ -73,6 +76,9 @@ void keys(Form& f, ModelsFile& m) {
   f.required("disagreement", m.disagreement, "what other judges prefer, in sentences");
 }
 
+std::optional<std::string> if_any(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(text);
+}
 std::optional<double> known(double x) {
   return std::isfinite(x) ? std::optional(x) : std::nullopt;
 }
@@ -90,15 +96,15 @@ std::string to_json(const ModelChoice& choice, const Advice& advice, const Compa
                advice.as_good,
                advice.disagreement};
   for (const auto& r : choice.rows)
-    f.models.push_back({r.model, r.note, r.converged, r.parameters, known(r.log_rms),
+    f.models.push_back({r.model, if_any(r.note), r.converged, r.parameters, known(r.log_rms),
                         known(r.cv_log_rms), known(r.cv_behind), known(r.aic), known(r.bic),
                         known(r.delta_e_2000), known(r.delta_e_itp), known(r.ns),
-                        r.parameters_at_bound});
+                        known(r.ns_spread), r.parameters_at_bound});
   if (!advice.recommended.empty()) {
     f.recommended = advice.recommended;
     f.reason = advice.reason;
   }
-  return form_json(f).dump(2) + "\n";
+  return text_of(form_json(f));
 }
 
 std::string models_schema() {

@@ -7,6 +7,7 @@
 
 #include "brdf/term/term.h"
 #include "reports/cost/cost.h"
+#include "reports/picture/front.h"
 
 #include <fmt/format.h>
 
@@ -16,43 +17,19 @@ namespace {
 /// Place of what has no error on a log axis.
 constexpr double least_error = 1e-17;
 
-struct Dot {
-  std::string name;
-  Timing time;
-  double error;
-  bool front;  ///< not dominated, and no tie
-};
-
-using Series = std::vector<std::pair<std::string, std::vector<Dot>>>;
+using Series = std::vector<std::pair<std::string, std::vector<FrontDot>>>;
 
 /// The dots by series, and through those of each on its front a line.
 std::vector<FigureCurve> curves_of(const Series& series) {
   std::vector<FigureCurve> out;
   for (const auto& [name, dots] : series) {
-    FigureCurve c;
-    c.name = name;
-    c.kind = FigureCurve::Kind::points;
-    std::vector<const Dot*> front;
-    for (const auto& d : dots) {
-      c.x.push_back(d.time.ns);
-      c.y.push_back(std::max(d.error, least_error));
-      c.x_error.push_back(d.time.spread_ns);
-      c.labels.push_back(d.name);
-      if (d.front) front.push_back(&d);
-    }
-    out.push_back(std::move(c));
-    if (front.size() < 2) continue;
-    std::ranges::sort(front, {}, [](const Dot* d) { return d->time.ns; });
-    FigureCurve line;
-    line.name = "front of " + name;
-    line.dashed = true;
-    for (const auto* d : front) {
-      line.x.push_back(d->time.ns);
-      line.y.push_back(std::max(d->error, least_error));
-    }
-    out.push_back(std::move(line));
+    out.push_back(front_points(name, dots));
+    if (auto line = front_line("front of " + name, dots)) out.push_back(std::move(*line));
   }
   return out;
+}
+TimedError drawn(const Timing& time, double error) {
+  return {time, std::max(error, least_error)};
 }
 
 std::string shown(const CostRow& r) {
@@ -97,7 +74,7 @@ void add_rows_pictures(Pictures& to, const CostRows& report) {
           const auto name = against(r);
           auto at = std::ranges::find(series, name, [](const auto& s) { return s.first; });
           if (at == series.end()) at = series.insert(at, {name, {}});
-          at->second.push_back({shown(r), r.time, r.error.rms, r.pareto && !r.tie});
+          at->second.push_back({shown(r), drawn(r.time, r.error.rms), r.pareto && !r.tie});
         }
         if (series.empty()) continue;
         FigureChoices choices{
@@ -118,20 +95,17 @@ void add_rows_pictures(Pictures& to, const CostRows& report) {
 
 /// Forms for metals, which have two truths, against the exact conductor.
 void add_metals(Pictures& to, const CostRows& report) {
-  std::vector<Dot> dots;
+  std::vector<FrontDot> dots;
+  std::vector<TimedError> places;
   for (const auto& [form, rms] : report.metals) {
     const auto* r =
         find_row(report.rows, form, "float", report.machine.instruction_sets.back(), "cache");
     if (!r || is_mistake(*r)) continue;
     const bool exact = r->error.truth == r->id;  // but for what float rounds
-    dots.push_back(
-        {std::string(short_id(form)), r->time, exact ? std::max(rms, r->error.rms) : rms, false});
+    places.push_back(drawn(r->time, exact ? std::max(rms, r->error.rms) : rms));
+    dots.push_back({std::string(short_id(form)), places.back()});
   }
-  for (auto& d : dots)
-    d.front = std::ranges::none_of(dots, [&](const Dot& other) {
-      return other.error <= d.error &&
-             d.time.ns - other.time.ns > d.time.spread_ns + other.time.spread_ns;
-    });
+  for (std::size_t i = 0; i < dots.size(); ++i) dots[i].front = front_place(places, i).front;
   if (dots.empty()) return;
   to.figures.push_back(
       {"fresnel_metals",

@@ -15,6 +15,7 @@
 #include "geometry/half_difference.h"
 #include "reports/audit/entry.h"
 #include "reports/cost/models.h"
+#include "reports/picture/front.h"
 #include "reports/yardstick/by_hand.h"
 
 #include <fmt/format.h>
@@ -235,18 +236,14 @@ void mark_front(std::vector<CostRow>& rows) {
   std::map<std::string, std::vector<CostRow*>> groups;
   for (auto& r : rows)
     if (!r.error.truth.empty() && !is_mistake(r)) groups[rivals(r)].push_back(&r);
-  for (auto& [name, group] : groups)
-    for (auto* r : group) {
-      r->pareto = true;
-      for (const auto* other : group) {
-        if (other == r || other->error.rms > r->error.rms) continue;
-        const double faster = r->time.ns - other->time.ns,
-                     spreads = r->time.spread_ns + other->time.spread_ns;
-        if (faster > spreads) r->pareto = false;
-        const bool better = other->error.rms < r->error.rms || faster > 0;
-        r->tie |= better && std::abs(faster) <= spreads;
-      }
+  for (auto& [name, group] : groups) {
+    std::vector<TimedError> places;
+    for (const auto* r : group) places.push_back({r->time, r->error.rms});
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const auto place = front_place(places, i);
+      group[i]->pareto = place.front, group[i]->tie = place.tie;
     }
+  }
 }
 
 std::vector<CostRow> measure_costs(const CostOptions& o, const ReportProgress& done) {

@@ -9,9 +9,9 @@ const line_key = (style, kind) => el("svg", { width: 24, height: 10, viewBox: "0
   kind === "line" ? null : el("circle", { cx: 12, cy: 5, r: 3.2, fill: `var(--${style.color})` }));
 
 /// Links to the files of a picture: gonio report writes them into a folder of the report's name.
+const picture_folder = /^gonio\.report\.(\w+)\//.exec(page_data().schema ?? "")?.[1];
 function picture_files(picture, endings) {
-  const folder = /^gonio\.report\.(\w+)\//.exec(page_data().schema ?? "")?.[1];
-  return folder ? el("span", { class: "files" }, endings.map((e) => el("a", { href: `${folder}/${picture.id}.${e}` }, e.toUpperCase()))) : null;
+  return picture_folder ? el("span", { class: "files" }, endings.map((e) => el("a", { href: `${picture_folder}/${picture.id}.${e}` }, e.toUpperCase()))) : null;
 }
 const picture_caption = (picture, endings) => el("figcaption", {}, picture.title, picture.note ? el("small", {}, " " + picture.note) : null, " ", picture_files(picture, endings));
 
@@ -39,7 +39,8 @@ function merged_points(curves) {
 }
 
 /// \param figure  of the page's data
-/// \param o       {height, emphasis: the curve that others stand back behind, only(curve): whether it is shown, x_text(x), y_text(y)}
+/// \param o       {height, emphasis: the curve that others stand back behind, only(curve): whether it is shown, x_text(x), y_text(y),
+///                bare: without choices and keys, which stand once above several}
 /// Returns its element.
 function figure_view(figure, o = {}) {
   let x = [];
@@ -71,9 +72,10 @@ function figure_view(figure, o = {}) {
   };
 
   const plot = curve_plot([xs, ...columns], curves.map((c, k) => ({ ...styles[k], kind: c.kind, mute: single && c.dashed, labels: along(c.labels, k), x_error: along(c.x_error, k), y_error: along(c.y_error, k) })),
-    { x_label: figure.x.label, y_label: figure.y.label, x_log: figure.x.log, log: figure.y.log, x_scales: figure.x.scales, y_scales: curves.length === figure.curves.length ? figure.y.scales : null,
+    { x_label: figure.x.label, y_label: figure.y.label, x_log: figure.x.log, log: figure.y.log, x_scales: figure.x.scales, y_scales: curves.length === figure.curves.length || known(figure.y.to) ? figure.y.scales : null,
       height: o.height ?? 300, text: `${figure.title}: ${figure.y.label} by ${figure.x.label}.`, y_of: () => true, single, hover });
   hint();
+  if (o.bare) return el("figure", { id: figure.id }, picture_caption(figure, ["svg", "csv"]), plot.node, readout);
   const scales = [[false, "linear"], [true, "logarithmic"]];
   const y_choice = figure.y.scales.log && figure.y.scales.linear.low >= 0, x_choice = figure.x.scales.log;
   const controls = el("div", { class: "controls" },

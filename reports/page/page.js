@@ -73,6 +73,8 @@ function ratio(ln) {
   const text = f < 10 ? f.toFixed(f < 1.1 ? 3 : 2) : significant(f);
   return Number(text) === 1 ? "×1" : (ln < 0 ? "÷" : "×") + text;
 }
+/// Whether a log RMS is one of a model that is near its table, where nothing better tells.
+const fits_well = (log_rms) => log_rms <= 0.25;
 const degrees = (x, digits = 1) => (known(x) ? minus(String(Number(x.toFixed(digits)))) + "°" : "–");
 const milliseconds = (t) => (t >= 1000 ? significant(t / 1000) + "\u202fs" : significant(t) + "\u202fms");
 /// theta_i as θ with its index below

@@ -43,7 +43,7 @@ function label_places(points, box, lines = []) {
   for (const { x, y, label, width: w } of points) {
     const place = [[x + 5, y - 16, x + 5 + w, y - 3], [x - 5 - w, y - 16, x - 5, y - 3], [x + 5, y + 3, x + 5 + w, y + 16], [x - 5 - w, y + 3, x - 5, y + 16]].find(free);
     if (!place) continue;
-    taken.push(place);
+    taken.push([place[0] - 4, place[1], place[2] + 4, place[3]]);  // two numbers side by side are not one
     out.push([label, place[0], (place[1] + place[3]) / 2]);
   }
   return out;

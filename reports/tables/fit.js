@@ -33,7 +33,7 @@ const rows = parameter_rows();
 // A log RMS is a relative error while it is small.
 const log_rms_text = (x) => (x < 0.3 ? percent(x) : significant(x, 3));
 function verdict() {
-  const ln = fit.residuals.log_rms, fits = fit.misfit?.tested ? !fit.misfit.told : ln <= 0.25;
+  const ln = fit.residuals.log_rms, fits = fit.misfit?.tested ? !fit.misfit.told : fits_well(ln);
   return el("p", { class: "verdict" },
     el("code", {}, fit.model), ` ${fits ? "reproduces" : "misses"} the ${count(fit.input.values_used)} values used of `,
     el("code", {}, file_name), ` ${fits ? "to" : "by"} a typical factor of `,

@@ -4,20 +4,29 @@ const sphere_scale = { steps: 25, not_covered: 254, limit: 1, max: 10 };
 const share_covered = (x) => (x < 1 && x > 0.995 ? "> 99\u202f%" : percent(x));
 const delta_e = (x) => (x < 0.005 ? "0" : x < 1 ? x.toFixed(2) : significant(x, 2));
 
-/// \param name  what the page calls a model: "fit", or where there are several null, for their own names
-function spheres_section(spheres, name) {
+/// \param name     what the page calls a model: "fit", or where there are several null, for their own names, numbered
+/// \param at_once  of several, those that are shown before a reader asks for more
+function spheres_section(spheres, name, at_once = spheres.models.length) {
   const title = "The same sphere, as the table has it and as fitted";
   const shown = spheres.lights.filter((l) => l.table);
   const most = Math.max(...spheres.lights.map((l) => l.covered));
   if (!shown.length)
     return section(title, `No sphere is shown: the table covers ${most > 0 ? "at most " + percent(most) : "none"} of what each of the three lights reaches, and a third is needed.`);
+  const of_model = (model, m) => el("div", { class: "spheres" }, name ? null : el("h3", {}, `${m + 1}\u2002${model}`), shown.map((l) => spheres_under(spheres, l, m, name ?? model)));
+  const others = spheres.models.slice(at_once);
   const node = section(title, spheres_answer(shown, spheres.models, name), spheres_keys(shown),
-    ...spheres.models.map((model, m) => el("div", { class: "spheres" }, name ? null : el("h3", {}, el("code", {}, model)),
-      shown.map((l) => spheres_under(spheres, l, m, name ?? model)))),
+    ...spheres.models.slice(0, at_once).map(of_model), others.length ? more_spheres(others.length, () => others.map((model, k) => of_model(model, at_once + k))) : null,
     scroll(spheres_table(spheres, name)), el("p", { class: "small muted", style: { "margin-top": "12px" } }, spheres_how(spheres)));
   node.id = "spheres";
   if (!name) node.classList.add("long");
   return node;
+}
+
+/// Spheres that are drawn when a reader asks for them.
+function more_spheres(n, make) {
+  const more = el("details", { class: "more" }, el("summary", {}, many(n, "more model")));
+  more.addEventListener("toggle", () => more.open && more.childElementCount === 1 && more.append(...make()));
+  return more;
 }
 
 /// How far the models are from the table, in a sentence or two.
@@ -29,7 +38,7 @@ function spheres_answer(shown, models, name) {
   const w = worst_of(best, "median"), most = of(w, best), tail = of(worst_of(best, "p95"), best).p95;
   const shares = [Math.min, Math.max].map((f) => percent(f(...shown.map((l) => l.covered))));
   const part = shown.every((l) => l.covered > 0.9) ? "" : ` The table covers ${shares[0] === shares[1] ? "" : `${shares[0]} to `}${shares[1]} of what light reaches.`;
-  const first = name ? "" : `of ${many(models.length, "model")} `, closest = name ? "" : " comes closest: it";
+  const first = name || models.length === 1 ? "" : `of ${models.length} models, `, closest = name || models.length === 1 ? "" : " comes closest: it";
   if (tail <= sphere_scale.limit) return capital(`${first}${who}${closest} looks like the table ${under}: 95\u202f% of the pixels differ by less than ΔE2000 ${delta_e(Math.max(tail, 0.01))}.${part}`);
   const half = `Under ${w.light}${shown.length > 1 ? ", where it differs most," : ""} half of the pixels are within ΔE2000 ${delta_e(most.median)} and 95\u202f% within ${delta_e(most.p95)}.`;
   const by_spacing = (key) => known(most["spacing_" + key]) && most["spacing_" + key] > 0.5 * most[key];
@@ -57,12 +66,18 @@ function spheres_under(spheres, l, m, name) {
       el("small", {}, "table"), el("small", {}, name === "fit" ? name : "model"), el("small", {}, "difference")));
 }
 
+/// Of one model a row for each light, of several a row for each model.
 function spheres_table(spheres, name) {
-  const spacing = spheres.lights.some((l) => l.models.some((m) => known(m.spacing_median)));
-  const head = ["light", ...(name ? [] : ["model"]), { n: "covered" }, { n: "ΔE2000, half below" }, { n: "95\u202f% below" }, ...(spacing ? [{ n: "spacing alone, half" }, { n: "95\u202f%" }] : [])];
-  const cells = (m) => [m?.median, m?.p95, ...(spacing ? [m?.spacing_median, m?.spacing_p95] : [])].map((x) => ({ n: known(x) ? delta_e(x) : "–" }));
-  return table(head, spheres.lights.flatMap((l) => (l.table ? spheres.models.map((model, k) => [model, l.models[k]]) : [["–", null]])
-    .map(([model, m]) => [l.light, ...(name ? [] : [el("code", {}, model)]), { n: share_covered(l.covered) }, ...cells(m)])));
+  const text = (x) => ({ n: known(x) ? delta_e(x) : "–" });
+  if (!name) {
+    const shown = spheres.lights.filter((l) => l.table);
+    return table(["ΔE2000", ...shown.flatMap((l) => [{ n: `${l.light}, half below` }, { n: "95\u202f% below" }])],
+      spheres.models.map((model, m) => [`${m + 1}\u2002${model}`, ...shown.flatMap((l) => [text(l.models[m].median), text(l.models[m].p95)])]));
+  }
+  const spacing = spheres.lights.some((l) => known(l.models[0]?.spacing_median));
+  const head = ["light", { n: "covered" }, { n: "ΔE2000, half below" }, { n: "95\u202f% below" }, ...(spacing ? [{ n: "spacing alone, half" }, { n: "95\u202f%" }] : [])];
+  return table(head, spheres.lights.map((l) => [l.light, { n: share_covered(l.covered) },
+    ...["median", "p95", ...(spacing ? ["spacing_median", "spacing_p95"] : [])].map((key) => text(l.models[0]?.[key]))]));
 }
 
 function spheres_how(spheres) {

@@ -15,7 +15,7 @@
 #include "fitting/choice/document.h"
 #include "reports/tables/batch_page.h"
 #include "reports/tables/fit_page.h"
-#include "reports/tables/spheres.h"
+#include "reports/tables/models_page.h"
 #include "table/format/formats.h"
 #include "table/health/health.h"
 
@@ -197,8 +197,8 @@ void print(const ModelChoice& choice, const Advice& advice) {
   }
 }
 
-/// Differences of a rendered sphere, where the table covers enough of it.
-void add_spheres(const Table& t, ModelChoice& choice) {
+/// Spheres of the fits, and how far they are from the table's where it covers enough of one.
+Spheres add_spheres(const Table& t, ModelChoice& choice) {
   std::vector<BoundModel> models;
   std::vector<ModelRow*> rows;
   for (std::size_t k = 0; k < choice.rows.size(); ++k)
@@ -206,7 +206,7 @@ void add_spheres(const Table& t, ModelChoice& choice) {
       models.push_back(choice.fits[k]);
       rows.push_back(&choice.rows[k]);
     }
-  const Spheres spheres = make_spheres(t, models);
+  Spheres spheres = make_spheres(t, models);
   const auto covered = [](const SpheresUnderLight& l) { return !l.models.empty(); };
   const auto lights = std::ranges::count_if(spheres.lights, covered);
   for (std::size_t k = 0; k < rows.size() && lights > 0; ++k) {
@@ -217,12 +217,16 @@ void add_spheres(const Table& t, ModelChoice& choice) {
         rows[k]->delta_e_itp += l.models[k].itp_median / static_cast<double>(lights);
       }
   }
+  return spheres;
 }
 
 /// Models compared on one table.
 Exit run_models(const Options& o, const FitOptions& options) {
-  if (is_batch(o.files)) throw wrong_usage("--models compares on one table");
-  if (o.pages || !o.html.empty()) throw wrong_usage("--models has no page: -o CHOICE.json");
+  if (is_batch(o.files))
+    throw wrong_usage(
+        "--models compares on one table: run it for each, with -o and --html of its own");
+  if (o.pages)
+    throw wrong_usage("--pages is of many tables; the page of --models is --html PAGE.html");
   std::vector<std::string> models = o.models;
   if (models == std::vector<std::string>{"all"})
     models.assign(usual_models().begin(), usual_models().end());
@@ -230,7 +234,7 @@ Exit run_models(const Options& o, const FitOptions& options) {
     std::vector<Setting> none;
     compose(resolve_preset(m, none), 1);
   }
-  OutputFiles out(o.files, o.output, {});
+  OutputFiles out(o.files, o.output, o.html);
   Progress progress(o.quiet);
   progress("reading " + o.files[0]);
   TableAndDigest in(o.files[0], bins_from(o.bins));
@@ -238,7 +242,7 @@ Exit run_models(const Options& o, const FitOptions& options) {
       compare_models(in.table, options, models, [&](const std::string& what, double part) {
         progress(fmt::format("{} ({:.0f} %)", what, 100 * part));
       });
-  add_spheres(in.table, choice);
+  Spheres spheres = add_spheres(in.table, choice);
   in.finish();
   const Advice advice = advise(choice);
   if (advice.recommended.empty())
@@ -247,6 +251,12 @@ Exit run_models(const Options& o, const FitOptions& options) {
   const std::string json =
       to_json(choice, advice, {o.files[0], in.table.sha256, in.table.format, o.metric});
   out.write_document(json);
+  if (out.has_page()) {
+    progress("making the page");
+    const std::string data =
+        to_json(make_models_page(in.table, choice, advice, std::move(spheres)), json);
+    out.write_page(models_page_html("Models for " + o.files[0], data), data);
+  }
   out.commit();
   progress.clear();
   if (o.json)

@@ -6,6 +6,8 @@
 #include <map>
 
 #include "cli/program.h"
+#include "compared_models.h"
+#include "fitting/choice/document.h"
 #include "reports/cost/cost.h"
 #include "reports/cost/points.h"
 #include "reports/cross_fit/cross_fit.h"
@@ -16,6 +18,7 @@
 #include "reports/remap/remap.h"
 #include "reports/scenes/scenes.h"
 #include "reports/schlick/schlick.h"
+#include "reports/tables/models_page.h"
 
 namespace gonio::test {
 namespace {
@@ -301,6 +304,42 @@ addEventListener("load", () => when_drawn(async () => {
 )"));
 }
 
+/// Models compared, some of which lie close together; complains of a point without its number, of numbers that touch, and of a
+/// model that is drawn before it is asked for.
+void add_models(Pages& pages) {
+  const Table t = compared_table();
+  const ModelChoice c = compared_models();
+  const Advice advice = advise(c);
+  const auto page = make_models_page(t, c, advice, compared_spheres(t, c));
+  const std::string data =
+      to_json(page, to_json(c, advice, {"tables/t.csv", "0ab1", "csv", "log"}));
+  std::string html = models_page_html("Models for tables/t.csv", data);
+  html.insert(html.rfind("</body>"), R"(<script>
+const places_of = label_places;
+label_places = (points, ...others) => {
+  const places = places_of(points, ...others), width = (text) => points.find((p) => p.label === text).width;
+  for (const { label } of points) if (!places.some(([text]) => text === label)) console.warn(`no number at the point of model ${label}`);
+  places.forEach(([a, x, y], i) => places.slice(i + 1).forEach(([b, u, v]) => {
+    if (Math.abs(y - v) < 13 && x < u + width(b) + 3 && u < x + width(a) + 3) console.warn(`${a} and ${b} touch`);
+  }));
+  return places;
+};
+const keys = () => document.querySelectorAll(".panels")[0].previousElementSibling.textContent;
+const spheres = () => document.querySelectorAll(".spheres h3").length;
+addEventListener("load", () => {
+  if (keys().includes("7\u2002Lambert")) console.warn("a seventh model among the first");
+  [...document.querySelectorAll("button")].find((b) => b.textContent === "all 7").click();
+  if (!keys().includes("7\u2002Lambert")) console.warn("not all models are drawn");
+  if (spheres() !== 6) console.warn(`${spheres()} spheres at first`);
+  const more = document.querySelector("details.more");
+  more.open = true;
+  more.dispatchEvent(new Event("toggle"));
+  if (spheres() !== 7) console.warn(`${spheres()} spheres of seven models`);
+});
+</script>)");
+  pages.add("choice", std::move(html));
+}
+
 /// The pages of the other commands, as they make them.
 void add_commands(Pages& pages) {
   const Folder f;
@@ -348,6 +387,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
   add_reports(pages);
   add_gap(pages);
   add_zoom(pages);
+  add_models(pages);
   add_commands(pages);
   const auto told = pages.look(command);
   for (const auto& name : pages.names()) {
@@ -373,6 +413,19 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
   const auto first = index.find("|n × h|²");
   EXPECT_LT(first, index.find("What Fresnel's shortcuts show")) << "decisions stand first";
   EXPECT_NE(first, index.npos);
+  const std::string choice = told.contains("choice") ? told.at("choice")["text"] : "";
+  const auto at = [&](const char* words) { return choice.find(words); };
+  EXPECT_LT(at("Take Lambert + GGX (Schlick): "), at("How near, and how fast")) << choice;
+  EXPECT_LT(at("This model has the fewest parameters of the 4 that"), at("How near, and how fast"));
+  EXPECT_LT(at("The table cannot tell it from Lambert + GGX (Schlick with F90), Lambert + GTR "
+               "(Schlick) and Lambert + two GGX (Schlick)."),
+            at("How near, and how fast"));
+  EXPECT_LT(at("Not compared: Lambert + Anisotropic GGX (Schlick)."), at("How near, and how fast"));
+  EXPECT_LT(at("It is anisotropic, and the table is not."), at("Data and models"));
+  for (const auto& r : compared_models().rows)
+    EXPECT_LT(at(r.model.c_str()), at("Data and models"));
+  for (const char* nothing : {"NaN", "undefined", "null", "[object"})
+    EXPECT_EQ(at(nothing), choice.npos) << nothing;
   EXPECT_TRUE(says("limit", "≤\u202f0.000"));
   EXPECT_TRUE(says("limit", "values down to 0 do as well"));
   EXPECT_FALSE(says("limit", "What to try next"));

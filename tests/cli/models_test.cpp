@@ -1,4 +1,6 @@
 // gonio fit --models as a person at a terminal sees it.
+#include <algorithm>
+
 #include "cli/program.h"
 
 namespace gonio::test {
@@ -45,14 +47,46 @@ TEST(Models, OfAllAreTheUsualOnesAndEachStaysInTheTable) {
   for (const auto& r : rows) EXPECT_TRUE(r.contains("cv_log_rms") || r.contains("note")) << r;
 }
 
-TEST(Models, AreOfOneTableAndHaveNoPage) {
+TEST(Models, AreOfOneTable) {
   const Folder f;
   make_table(f);
-  EXPECT_EQ(gonio(f, std::string("fit t.csv t.csv --models ") + two).code, 2);
-  EXPECT_EQ(gonio(f, std::string("fit t.csv --html p.html --models ") + two).code, 2);
+  for (const char* words :
+       {"fit t.csv t.csv", "fit t.csv t.csv --html p.html", "fit t.csv --pages"}) {
+    const auto o = gonio(f, std::string(words) + " --models " + two);
+    EXPECT_EQ(o.code, 2) << words;
+    EXPECT_EQ(std::ranges::count(o.err, '\n'), 1) << o.err;
+  }
   const auto none = gonio(f, "fit t.csv --models no_such_model -o c.json");
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("no_such_model"), std::string::npos) << none.err;
+}
+
+/// A page's data without what is measured in time: keys, the scale of time, and which models lie on the front.
+nlohmann::json without_times(nlohmann::json page) {
+  for (auto& m : page["choice"]["models"]) m.erase("ns"), m.erase("ns_spread");
+  auto& picture = page["figures"][0];
+  picture.erase("x");
+  auto& curves = picture["curves"];
+  for (auto& c : curves) c.erase("x_ns"), c.erase("x_error_ns");
+  std::erase_if(curves.get_ref<nlohmann::json::array_t&>(),
+                [](const auto& c) { return c["name"] == "front"; });
+  return page;
+}
+
+TEST(Models, HaveAPageWithTheirDocumentInItsDataWhichIsTheSameOnAnyNumberOfThreads) {
+  const Folder f;
+  make_table(f);
+  const auto run = [&](const std::string& jobs) {
+    const auto o = gonio(f, std::string("fit t.csv --fix alpha=0.2 --models lambert,") + two +
+                                " -o c.json --html p.html --jobs " + jobs);
+    EXPECT_EQ(o.code, 0) << o.err;
+    return nlohmann::json::parse(read_bytes(f / "p.page.json"));
+  };
+  const auto page = run("1");
+  EXPECT_EQ(page["choice"], nlohmann::json::parse(read_bytes(f / "c.json")));
+  EXPECT_EQ(page["numbers"][0], 0) << "Lambert has no alpha";
+  EXPECT_NE(read_bytes(f / "p.html").find("<title>Models for t.csv</title>"), std::string::npos);
+  EXPECT_EQ(without_times(page), without_times(run("2")));
 }
 
 }  // namespace

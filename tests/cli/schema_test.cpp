@@ -9,6 +9,7 @@
 #include "refusal.h"
 #include "reports/tables/fit_page.h"
 #include "reports/tables/inspect_page.h"
+#include "reports/tables/models_page.h"
 #include "scene/description/scene.h"
 #include "scene/description/scene_example.h"
 #include "scene/plan/document.h"
@@ -47,6 +48,7 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
                                    {"plan", scene::plan_schema()},
                                    {"verification", scene::verification_schema()},
                                    {"models", models_schema()},
+                                   {"models.page", models_page_schema()},
                                    {"fit.page", fit_page_schema()},
                                    {"inspect.page", inspect_page_schema()}}) {
     if (write) std::ofstream(path_of(name), std::ios::binary) << text;
@@ -120,6 +122,19 @@ TEST(Schemas, HoldForTheDocumentsOfFits) {
       ASSERT_EQ(compared.code, 0) << words << compared.err;
       EXPECT_EQ(mistakes(compared.json(), "compare"), "") << words;
     }
+  }
+}
+
+TEST(Schemas, HoldForTheDocumentsOfModels) {
+  const Folder f;
+  make_tables(f);
+  for (const std::string words : {"b.mbsdf", "a.csv --fix alpha=0.2", "c.csv"}) {
+    const auto o = gonio(f, "fit " + words +
+                                " --models lambert,ggx/smith_ggx.correlated/schlick --json --html "
+                                "page.html");
+    ASSERT_EQ(o.code, 0) << words << o.err;
+    EXPECT_EQ(mistakes(o.json(), "models"), "") << words;
+    EXPECT_EQ(mistakes(file(f / "page.page.json"), "models.page"), "") << words;
   }
 }
 

@@ -1,0 +1,52 @@
+#include "reports/picture/front.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gonio {
+
+FrontPlace front_place(std::span<const TimedError> rivals, std::size_t form) {
+  const TimedError& own = rivals[form];
+  FrontPlace place;
+  for (std::size_t i = 0; i < rivals.size(); ++i) {
+    const TimedError& other = rivals[i];
+    if (i == form || other.error > own.error) continue;
+    const double faster = own.time.ns - other.time.ns,
+                 spreads = own.time.spread_ns + other.time.spread_ns;
+    if (faster > spreads) place.front = false;
+    const bool better = other.error < own.error || faster > 0;
+    place.tie |= better && std::abs(faster) <= spreads;
+  }
+  return place;
+}
+
+FigureCurve front_points(std::string name, std::span<const FrontDot> dots) {
+  FigureCurve c;
+  c.name = std::move(name);
+  c.kind = FigureCurve::Kind::points;
+  for (const auto& d : dots) {
+    c.x.push_back(d.at.time.ns);
+    c.y.push_back(d.at.error);
+    c.x_error.push_back(d.at.time.spread_ns);
+    c.labels.push_back(d.name);
+  }
+  return c;
+}
+
+std::optional<FigureCurve> front_line(std::string name, std::span<const FrontDot> dots) {
+  std::vector<TimedError> front;
+  for (const auto& d : dots)
+    if (d.front) front.push_back(d.at);
+  if (front.size() < 2) return {};
+  std::ranges::stable_sort(front, {}, [](const TimedError& e) { return e.time.ns; });
+  FigureCurve line;
+  line.name = std::move(name);
+  line.dashed = true;
+  for (const auto& e : front) {
+    line.x.push_back(e.time.ns);
+    line.y.push_back(e.error);
+  }
+  return line;
+}
+
+}  // namespace gonio

@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// Front of time and error: which of several forms are neither slower nor less exact than another, and their picture.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reports/picture/figure.h"
+#include "timing/timing.h"
+
+namespace gonio {
+
+/// Time and error of a form.
+struct TimedError {
+  Timing time;
+  double error;  ///< a number: one that is not known has no place
+};
+
+/// Place of a form among its rivals.
+struct FrontPlace {
+  /// No rival that is at least as exact is faster by more than both spreads together.
+  bool front = true;
+  /// A better rival's time differs by no more than both spreads together, and the rival is more exact, or as exact and faster.
+  bool tie = false;
+};
+/// \param rivals  the form itself among them
+FrontPlace front_place(std::span<const TimedError> rivals, std::size_t form);
+
+/// A form in a picture of time against error.
+struct FrontDot {
+  std::string name;  ///< label of its point
+  TimedError at;
+  bool front = false;  ///< the line through the front goes through it
+};
+/// Points, with the spread of their times.
+FigureCurve front_points(std::string name, std::span<const FrontDot>);
+/// Dashed line through those on the front, from the fast to the slow; none through fewer than two.
+std::optional<FigureCurve> front_line(std::string name, std::span<const FrontDot>);
+
+}  // namespace gonio
