@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "brdf/model/presets.h"
 #include "reports/cross_fit/cases.h"
 
 #include <fmt/format.h>
@@ -82,8 +83,10 @@ class Forms {
   void add_combination(const std::string& spec) { forms_.push_back({spec, "combination", spec}); }
   void add_whole(const Whole& w) {
     CrossForm f{w.name, "model", w.model, {}, w.scale};
+    // F0 is what is looked at: a preset with parameters of its own would be fitted in those.
+    if (const Preset* p = find_preset(w.model); p && !p->own_spec.empty()) f.model = p->spec;
     // F90 = saturate(16.5 Σ F0), 1 from F0 = 0.0202 on
-    if (f.model == "filament") f.fixed.push_back({"f90", {1}});
+    if (f.name == "model.filament") f.fixed.push_back({"f90", {1}});
     forms_.push_back(std::move(f));
   }
   std::vector<CrossForm> all() { return std::move(forms_); }

@@ -38,8 +38,7 @@ function verdict() {
     el("code", {}, fit.model), ` ${fits ? "reproduces" : "misses"} the ${count(fit.input.values_used)} values used of `,
     el("code", {}, file_name), ` ${fits ? "to" : "by"} a typical factor of `,
     el("b", {}, "×/÷\u202f" + ratio(ln).slice(1)), ` (log RMS ${log_rms_text(ln)}); the fit `,
-    fit.solver.termination === "converged" ? "converged" : el("b", {}, "did not converge"),
-    ` in ${many(fit.solver.iterations, "iteration")}.`);
+    fit.solver.termination === "converged" ? "converged." : el("b", {}, "did not converge."));
 }
 function warnings() {
   const out = [];

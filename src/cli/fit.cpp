@@ -114,9 +114,10 @@ void print(const FitDocument& d) {
   constexpr std::size_t most = 2;
   for (std::size_t k = 0; k < std::min(most, d.next.size()); ++k) say_below("try     ", d.next[k]);
   const bool converged = d.solver.termination == "converged";
-  say_below("", fmt::format("{} after {}{}", converged ? "converged" : "did not converge",
-                            counted(static_cast<std::size_t>(d.solver.iterations), "iteration"),
-                            converged ? "" : ": " + d.solver.message));
+  say_below("", converged ? "converged"
+                          : fmt::format("did not converge within {}",
+                                        counted(static_cast<std::size_t>(d.solver.iterations),
+                                                "iteration")));
 }
 
 /// Line of how far a batch is, and how long still.

@@ -113,12 +113,8 @@ TEST(Fit, SaysWhatIsKnownInPlainWords) {
   }
   EXPECT_NE(gonio(f, "synth " + std::string(paint) + " --layout in_plane -o p.csv").code, 2);
   for (const char* table : {"t.csv --model lambert", "p.csv"}) {
-    const int n =
-        gonio(f, std::string("fit --json ") + table).json()["solver"]["iterations"].get<int>();
     const auto said = gonio(f, std::string("fit ") + table).out;
-    const std::string line =
-        "converged after " + std::to_string(n) + (n == 1 ? " iteration\n" : " iterations\n");
-    EXPECT_TRUE(said.ends_with(line)) << said;
+    EXPECT_TRUE(said.ends_with("\nconverged\n")) << said;
   }
 }
 

@@ -119,7 +119,7 @@ std::vector<Row> wrong_models() {
                                {"uncoupled as gltf",
                                 paint,
                                 "alpha=0.2,f0=0.04,kd=0.2,0.1,0.05",
-                                "gltf",
+                                "lambert.coupled+ggx/smith_ggx.separable/schlick",
                                 {{"alpha", {0.2}}, {"f0", {0.04}}},
                                 {}},
                                {"gtr as ggx",
@@ -155,7 +155,7 @@ std::vector<Row> wrong_under_other_metrics() {
   return {{"cook_torrance",
            paint,
            narrow,
-           "cook_torrance",
+           "lambert.coupled+ggx/smith_ggx.correlated/schlick",
            {{"alpha", {0.092}}, {"f0", {0.08}}},
            random(200, 0.05),
            Disturbance::none,
@@ -347,7 +347,7 @@ bool warned(const FitDocument& d, const char* words) {
 TEST(LackOfFit, OfAGridIsToldWhereItIsSmall) {
   const Table t = synthesize(test::bind(paint, "alpha=0.2,f0=0.04,kd=0.2,0.1,0.05", 3),
                              {.layout = Layout::mbsdf, .noise = 0.02});
-  const auto d = fit_of(t, "gltf");
+  const auto d = fit_of(t, "lambert.coupled+ggx/smith_ggx.separable/schlick");
   EXPECT_LT(d.residuals.log_rms, 0.25);
   EXPECT_TRUE(warned(d, "the model misses the table by"));
   EXPECT_LT(d.misfit.p, 1e-9);

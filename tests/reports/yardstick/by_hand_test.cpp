@@ -25,6 +25,7 @@ void expect_agreement(double relative) {
         for (std::size_t c = 0; c < p.count; ++c) {
           double& v = b.values[p.first + c];
           if (p.name == "gamma") v = 1.7;
+          if (p.name == "tangent") v = 0;  // by hand nothing is turned
           if (p.name == "f0_2") v = 0.04;  // of a coat, one for all channels
         }
       const std::vector<F> values(b.values.begin(), b.values.end());
