@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cli/program.h"
+#include "many_fits.h"
 
 namespace gonio::test {
 namespace {
@@ -40,6 +41,7 @@ TEST(Models, SaysFirstWhichToTakeAndWhy) {
 }
 
 TEST(Models, OfAllAreTheUsualOnesAndEachStaysInTheTable) {
+  GONIO_MANY_FITS();
   const Folder f;
   make_table(f);
   const auto rows = gonio(f, "fit t.csv --json --models all").json()["models"];
