@@ -5,13 +5,13 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/vector.h"
+
 namespace gonio {
 namespace {
 
-double distance(const Direction& a, const Direction& b) {
-  return std::atan2(std::hypot(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x),
-                    dot(a, b)) /
-         degree;
+double distance(const Vector& a, const Vector& b) {
+  return std::atan2(length(cross(a, b)), dot(a, b)) / degree;
 }
 
 /// Angle as an instrument is set to it.
@@ -47,9 +47,9 @@ DirectionList candidates(bool in_plane) {
             std::abs(std::remainder(phi_of(p.wo) - phi_of(p.wi), 2 * std::numbers::pi));
         const double phi = theta_i == 0 || theta_o == 0 ? 180 : set_to(between);
         if (theta_i > most_grazing_deg || theta_o > most_grazing_deg) continue;
-        if (distance(direction(theta_i * degree, 0), direction(theta_o * degree, phi * degree)) <
-            least_apart_deg - 0.2)
-          continue;
+        const Direction light = direction(theta_i * degree, 0),
+                        viewer = direction(theta_o * degree, phi * degree);
+        if (distance(vector_of(light), vector_of(viewer)) < least_apart_deg - 0.2) continue;
         if (!seen.insert({theta_i, theta_o, phi}).second) continue;
         l.theta_i_deg.push_back(theta_i);
         l.phi_i_deg.push_back(0);

@@ -21,7 +21,7 @@ struct FitSoFar {
   Eigen::VectorXd std_error;       ///< as the fit tells it; NaN where it tells none
   Eigen::VectorXd width;           ///< of the fit's 95 % interval; NaN where there is none
   double freedom = 1;              ///< values less unknowns
-  /// Whether new values would err as the table's do beyond their noise: by a misfit, or together.
+  /// True where new values would err as the table's do beyond their noise: by a misfit, or together.
   bool in_proportion = false;
 };
 
@@ -33,7 +33,7 @@ struct FitSoFar {
 /// o_k is the table's share in the variance, Σ b² over its values over V_kk, b = (V j)_k; e_k² is what the fit's own variance (of a
 /// sandwich, which knows of noise that is not alike) is of that which noise alike would make, as far as ν values can tell it:
 /// (ν e² + 8)/(ν + 8).  Where there is a misfit, or incident angles share errors, all widths stay in proportion to the fit's.
-/// Of an unknown without an interval the table is taken to say nothing.
+/// The table is taken to say nothing of an unknown without an interval.
 class Forecast {
  public:
   explicit Forecast(FitSoFar);

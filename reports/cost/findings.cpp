@@ -46,7 +46,7 @@ class Sayings {
 
  private:
   void say(std::string sentence) { said_.say(std::move(sentence)); }
-  /// What exact Smith takes more in a whole model.
+  /// Sentence on the time of exact Smith over Schlick's in a whole model.
   void headline() {
     const auto* const from = "ggx/schlick_ggx.direct/schlick";
     const auto* const to = "ggx/smith_ggx.correlated/schlick";

@@ -43,7 +43,7 @@ struct Facts {
     std::vector<double> roughness, delta_e;
   };
   std::vector<Scattering> scattering{};
-  /// What a compensation takes more than single scattering, one light and view at a time in float.
+  /// Time of a compensation over that of single scattering, one light and view at a time in float.
   struct Compensation {
     std::string id;
     bool of_image_light;  ///< else of a single light

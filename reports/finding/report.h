@@ -59,7 +59,7 @@ std::string sentence(const Claim&);
 struct Findings {
   std::vector<std::string> sentences{};  ///< those of the claims among them
   std::vector<Claim> claims{};
-  /// What a reader takes away: a sentence of at most three numbers; empty: the first sentence.
+  /// Sentence that a reader takes away, of at most three numbers; empty: the first one.
   std::string headline{};
 
   void say(std::string sentence) { sentences.push_back(std::move(sentence)); }

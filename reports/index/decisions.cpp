@@ -158,7 +158,7 @@ Candidates fresnel_candidates(const Facts& f,
   return out;
 }
 
-/// What is left to say where Schlick is taken: that some of them show it side by side.
+/// Materials that show Schlick side by side where it is taken, and what to take then; empty: none.
 std::string seen_side_by_side(const Candidates& all, const std::vector<Shown>& materials) {
   std::vector<std::string> seen;
   for (const auto& m : materials)

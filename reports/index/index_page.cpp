@@ -31,7 +31,7 @@ std::vector<ClaimOf> claims_of(const ReportIndex& index) {
   return out;
 }
 
-/// What a reader takes away from a report: its own words for that, or those that it begins with.
+/// Sentence that a reader takes away from a report: its own words for that, or those that it begins with.
 std::string sentence_of(const ReportIndex::Entry& r) {
   if (!r.findings.headline.empty()) return r.findings.headline;
   return r.findings.sentences.empty() ? "" : first_sentence(r.findings.sentences[0]);
