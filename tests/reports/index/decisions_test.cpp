@@ -1,9 +1,9 @@
 #include "reports/index/decisions.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "reports/index/index_page.h"
+#include "reports/plain.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -53,20 +53,6 @@ const Decision& about(const std::vector<Decision>& all, std::string_view subject
   const auto at =
       std::ranges::find_if(all, [&](const Decision& d) { return d.subject.starts_with(subject); });
   return at == all.end() ? none : *at;
-}
-
-/// Numbers that a reader has to take in: none of those in a name or a formula.
-std::size_t numbers_in(std::string text) {
-  for (const std::string name : {"(r+1)²/8", "k = α/2"})
-    for (auto at = text.find(name); at != text.npos; at = text.find(name))
-      text.erase(at, name.size());
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool digit = std::isdigit(static_cast<unsigned char>(text[i])) != 0;
-    const auto before = i == 0 ? ' ' : text[i - 1];
-    n += digit && std::isalnum(static_cast<unsigned char>(before)) == 0 && before != '.';
-  }
-  return n;
 }
 
 TEST(Choose, TakesAFormThatIsCheaperAndNearer) {
@@ -133,10 +119,10 @@ TEST(Decisions, AreLeftOutWhereAFactIsMissing) {
 }
 
 TEST(Decisions, HaveAtMostThreeNumbersACell) {
-  EXPECT_EQ(numbers_in("RMS 0.07 of G₂, F82, k = (r+1)²/8, ΔE ≤ 3"), 2U);
+  EXPECT_EQ(test::numbers_in("RMS 0.07 of G₂, F82, k = (r+1)²/8, ΔE ≤ 3"), 2U);
   for (const auto& d : decisions(made_facts()))
     for (const auto& cell : {d.subject, d.take, d.error, d.cost, d.unless})
-      EXPECT_LE(numbers_in(cell), 3U) << cell;
+      EXPECT_LE(test::numbers_in(cell), 3U) << cell;
 }
 
 TEST(DecisionTable, FitsATerminalAndIsAligned) {
