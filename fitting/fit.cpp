@@ -97,6 +97,14 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f) {
 FitResult fit(const Table& t,
               const FitOptions& given,
               const std::function<void(const char*)>& phase) {
+  SharedColumns alone;
+  return fit(t, given, alone, phase);
+}
+
+FitResult fit(const Table& t,
+              const FitOptions& given,
+              SharedColumns& columns,
+              const std::function<void(const char*)>& phase) {
   const FitOptions o = expanded(given);
   const auto announce = [&](const char* what) {
     if (phase) phase(what);
@@ -109,13 +117,13 @@ FitResult fit(const Table& t,
   const bool folded = is_reciprocal(p.start) && !o.robust;  // a pair of values is one to the fit
   std::shared_ptr<const BoundModel> bulk;
   const auto sampling_of = [&](Bins convention, bool fold) {
-    Sampling s(t, convention, o.metric, p.offset, fold, o.copies, p.start.model.anisotropic);
+    Sampling s = sampling_for(p, t, convention, fold);
     s.set_bulk(bulk);
     return s;
   };
   bulk = bulk_of(p, sampling_of(bins, folded));
   const Sampling sampling = sampling_of(bins, folded);
-  Searched found = search(p, sampling, watch, announce);
+  Searched found = search(p, sampling, columns, watch, announce);
   const auto in_order = put_in_order(p, found.best);
   const Fitted& f = found.best;
 

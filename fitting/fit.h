@@ -6,6 +6,7 @@
 
 #include "brdf/model/model.h"
 #include "fitting/result/document.h"
+#include "fitting/sample/shared_columns.h"
 #include "fitting/solve/options.h"
 #include "table/table.h"
 
@@ -22,5 +23,10 @@ void check(const FitOptions&);
 /// Input path and hash are the caller's to fill in.  Throws wrong usage for options that do not fit
 /// the model, bad_input for a table without a usable value.
 FitResult fit(const Table&, const FitOptions&, const std::function<void(const char*)>& phase = {});
+/// The same of one of several models: what another fit has read of the table is not read again.
+FitResult fit(const Table&,
+              const FitOptions&,
+              SharedColumns&,
+              const std::function<void(const char*)>& phase = {});
 
 }  // namespace gonio

@@ -9,6 +9,7 @@
 
 #include "brdf/model/evaluate.h"
 #include "fitting/batch/preview_json.h"
+#include "geometry/half_difference.h"
 #include "image/display.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "table/cut/cuts.h"
@@ -105,8 +106,6 @@ std::string sphere(const std::vector<std::string>& channels, const BoundModel& f
 
   // In the viewer's frame: x right, y up, z to the viewer.
   const Direction light{0, std::sin(sun_deg * degree), std::cos(sun_deg * degree)};
-  const double voh = std::cos(sun_deg / 2 * degree);
-  const Direction half{0, std::sin(sun_deg / 2 * degree), voh};
   std::vector<FrameAngles<double>> x;
   std::vector<bool> inside;
   for (std::size_t row = 0; row < n; ++row)
@@ -117,18 +116,12 @@ std::string sphere(const std::vector<std::string>& channels, const BoundModel& f
       const double z2 = 1 - right * right - up * up;
       inside.push_back(z2 > 0);
       const Direction normal{right, up, std::sqrt(std::max(z2, 0.0))};
-      const double noh = std::clamp(dot(normal, half), 0.0, 1.0);
       // The tangent is where the azimuth around the vertical grows.
       const double across = std::max(std::hypot(normal.x, normal.z), 1e-9);
       const Direction tangent{normal.z / across, 0, -normal.x / across};
       const Direction bitangent{-normal.x * up / across, across, -normal.z * up / across};
-      x.push_back({{dot(normal, light), normal.z, noh, voh, (1 - noh) * (1 + noh)},
-                   dot(tangent, half),
-                   dot(bitangent, half),
-                   dot(tangent, light),
-                   dot(bitangent, light),
-                   tangent.z,
-                   bitangent.z});
+      x.push_back(frame_angles({{dot(tangent, light), dot(bitangent, light), dot(normal, light)},
+                                {tangent.z, bitangent.z, normal.z}}));
     }
   const auto f = evaluate(fitted, x);
 

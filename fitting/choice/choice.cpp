@@ -119,6 +119,7 @@ ModelChoice compare_models(const Table& t,
   std::vector<std::vector<LogResiduals>> left_out(models.size());
   std::vector<ResidualsByAngle> residuals(models.size());
   std::optional<Blocks> blocks;
+  SharedColumns columns;
   const auto share = [&](double steps) { return steps / (2 * static_cast<double>(models.size())); };
   for (std::size_t k = 0; k < models.size(); ++k) {
     ModelRow row;
@@ -128,7 +129,7 @@ ModelChoice compare_models(const Table& t,
       FitOptions o = options;
       o.model = models[k];
       if (progress) progress("fitting " + row.model, share(2.0 * static_cast<double>(k)));
-      FitResult fitted = fit(t, o);
+      FitResult fitted = fit(t, o, columns);
       const FitDocument& d = fitted.document;
       row.compared = true;
       row.converged = d.solver.termination == "converged";
@@ -139,12 +140,11 @@ ModelChoice compare_models(const Table& t,
         progress("leaving out angles of " + row.model, share(2.0 * static_cast<double>(k) + 1));
       const FitOptions whole = expanded(o);
       const Problem p = pose(t, whole);
-      const Sampling by_log(t, t.bins(), Metric::log, p.offset, false, o.copies,
-                            p.start.model.anisotropic);
+      const Sampling by_log = sampling_for(p, t, t.bins()).by(Metric::log, p.offset);
       residuals[k] = log_residuals(by_log, fitted.model, most_groups);
       row.log_rms = total(residuals[k]).rms();
       if (!blocks) blocks = incident_blocks(by_log);
-      left_out[k] = cross_validate(t, whole, *blocks, fitted.model);
+      left_out[k] = cross_validate(t, p, *blocks, fitted.model);
       if (blocks->count > 0) {
         LogResiduals unseen;
         for (const auto& b : left_out[k]) unseen.add(b);

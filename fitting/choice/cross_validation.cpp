@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "fitting/sample/incident_angles.h"
-#include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
 
 #include <tbb/parallel_for.h>
@@ -13,34 +12,25 @@ namespace {
 
 constexpr std::size_t most_groups = 65'536;
 
-/// Table of which only some samples weigh anything.
-Table with_only(const Table& t, auto&& keep) {
-  Table part = t;
-  part.weights.resize(t.size(), 1);
-  for (std::size_t i = 0; i < part.weights.size(); ++i)
-    if (!keep(i)) part.weights[i] = 0;
-  return part;
-}
-
 LogResiduals left_out(const Table& t,
-                      const FitOptions& o,
+                      const Problem& p,
                       const Blocks& blocks,
                       std::size_t block,
                       const BoundModel& whole) {
-  const auto is_left_out = [&](std::size_t i) { return blocks.of_sample[i] == block; };
-  const Table seen = with_only(t, [&](std::size_t i) {
-    return !is_left_out(i) && (blocks.of_exchanged.empty() || blocks.of_exchanged[i] != block);
-  });
-  const Problem p = pose(seen, o);
-  Sampling sampling(seen, t.bins(), o.metric, p.offset, is_reciprocal(p.start) && !o.robust,
-                    o.copies, p.start.model.anisotropic);
-  sampling.set_bulk(bulk_of(p, sampling));
+  std::vector<bool> not_fitted(t.size()), not_judged(t.size());
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const bool left = blocks.of_sample[i] == block;
+    not_judged[i] = !left;
+    not_fitted[i] = left || (!blocks.of_exchanged.empty() && blocks.of_exchanged[i] == block);
+  }
+  const bool folded = is_reciprocal(p.start) && !p.options.robust;
+  Sampling seen = sampling_for(p, t, t.bins(), folded).without(std::move(not_fitted));
+  seen.set_bulk(bulk_of(p, seen));
   const Fitted start{whole, no_huber, {}, false, 0};
-  const Fitted found = compared_by(sampling, p, most_groups, start);
-  const Table unseen = with_only(t, is_left_out);
-  const Sampling rest(unseen, t.bins(), Metric::log, p.offset, false, o.copies,
-                      p.start.model.anisotropic);
-  return total(log_residuals(rest, found.model, most_groups));
+  const Fitted found = compared_by(seen, p, most_groups, start);
+  const Sampling unseen =
+      sampling_for(p, t, t.bins()).by(Metric::log, p.offset).without(std::move(not_judged));
+  return total(log_residuals(unseen, found.model, most_groups));
 }
 
 }  // namespace
@@ -71,12 +61,12 @@ Blocks incident_blocks(const Sampling& s, std::size_t most) {
 }
 
 std::vector<LogResiduals> cross_validate(const Table& t,
-                                         const FitOptions& o,
+                                         const Problem& p,
                                          const Blocks& blocks,
                                          const BoundModel& whole) {
   std::vector<LogResiduals> all(blocks.count);
   tbb::parallel_for(std::size_t{0}, all.size(),
-                    [&](std::size_t b) { all[b] = left_out(t, o, blocks, b, whole); });
+                    [&](std::size_t b) { all[b] = left_out(t, p, blocks, b, whole); });
   return all;
 }
 

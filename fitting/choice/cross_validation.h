@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fitting/choice/log_residuals.h"
-#include "fitting/solve/options.h"
+#include "fitting/solve/problem.h"
 #include "table/table.h"
 
 namespace gonio {
@@ -25,9 +25,8 @@ Blocks incident_blocks(const Sampling&, std::size_t most = 10);
 
 /// Residuals of each block under a fit of all others, of a million values about 65 536.  What is a sample of the block with light and
 /// viewer exchanged is not fitted to either.  The fits go on from that of the whole table.
-/// \param expanded  no preset's name in its model, see expanded()
 std::vector<LogResiduals> cross_validate(const Table&,
-                                         const FitOptions& expanded,
+                                         const Problem&,
                                          const Blocks&,
                                          const BoundModel& whole);
 

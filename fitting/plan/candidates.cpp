@@ -21,7 +21,7 @@ double set_to(double angle) {
 
 }  // namespace
 
-bool is_in_plane(const Table& t) {
+bool is_in_plane_of_incidence(const Table& t) {
   const SampleAngles at(t);
   constexpr double out_of_it = 0.02;  // sine
   for (std::size_t i = 0; i < t.size(); ++i) {

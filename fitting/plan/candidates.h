@@ -14,7 +14,7 @@ inline constexpr double most_grazing_deg = 80;
 inline constexpr double least_apart_deg = 10;
 
 /// True where no direction lies more than a degree out of the plane of incidence, and none of them turns that plane.
-bool is_in_plane(const Table&);
+bool is_in_plane_of_incidence(const Table&);
 
 /// Pairs of directions, with phi_i = 0, at angles that are multiples of 0.1°, within the limits above.  They lie on a grid of half and
 /// difference angles: θ_h grows by its square, so that highlights from half a degree on are met, θ_d by 5°, φ_d by 15°.

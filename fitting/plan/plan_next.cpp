@@ -260,7 +260,7 @@ std::vector<NextDirection> plan_next(const Table& whole,
         fmt::format("model '{}' is anisotropic: plans are for isotropic ones", given.model));
   const FitResult r = fit(t, given, phase);
   if (phase) phase("planning");
-  const Sampling s(t, t.bins(), o.metric, p.offset, false, o.copies);
+  const Sampling s = sampling_for(p, t, t.bins());
   const Assessment a = assess(s, r.model, p.free, no_huber, false);
   const auto unknowns = unknowns_of(r, p);
   const double freedom = a.counts.samples - static_cast<double>(p.free.size());
@@ -309,10 +309,10 @@ std::vector<NextDirection> plan_next(const Table& whole,
   VectorXd widths = so_far.width;
   const Forecast forecast(std::move(so_far));
 
-  const DirectionList where = candidates(is_in_plane(t));
+  const DirectionList where = candidates(is_in_plane_of_incidence(t));
   const Table measured = as_measured(where, r.model, t);
-  const auto rows = rows_of(Sampling(measured, measured.bins(), o.metric, p.offset, false), p,
-                            r.model, unknowns, noise);
+  const auto rows =
+      rows_of(sampling_for(p, measured, measured.bins()), p, r.model, unknowns, noise);
   const Planner planner(forecast, rows, range);
   auto left = planner.choose(n);
 

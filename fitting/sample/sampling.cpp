@@ -72,11 +72,9 @@ Groups::Groups(const Table& t, const SampleAngles& at, Bins bins, bool fold)
 Sampling::Sampling(
     const Table& t, Bins bins, Metric metric, double offset, bool fold, bool copies, bool frame)
     : table_(t),
+      way_{bins, metric, metric == Metric::l2_cosine ? 0 : offset, fold, copies, frame},
       angles_(t, bins),
       groups_(t, angles_, bins, fold),
-      metric_(metric),
-      offset_(metric == Metric::l2_cosine ? 0 : offset),
-      has_frame_(frame),
       copied_(copies ? std::vector<bool>{} : copied_pairs(t)) {
   assert(!(frame && t.grid()));
   if (t.weights.empty()) return;
@@ -101,12 +99,24 @@ Sampling::Sampling(
 Sampling Sampling::by(Metric metric, double offset) const {
   Sampling s = *this;
   s.bulk_.reset();
-  s.metric_ = metric;
-  s.offset_ = metric == Metric::l2_cosine ? 0 : offset;
+  s.way_.metric = metric;
+  s.way_.offset = metric == Metric::l2_cosine ? 0 : offset;
   return s;
 }
 
+Sampling Sampling::without(std::vector<bool> which) const {
+  assert(which.size() == table_.size() && !left_out_);
+  Sampling s = *this;
+  s.left_out_ = std::make_shared<const std::vector<bool>>(std::move(which));
+  return s;
+}
+
+bool Sampling::reads_like(const Sampling& o) const {
+  return &table_ == &o.table_ && way_ == o.way_ && bulk_ == o.bulk_ && left_out_ == o.left_out_;
+}
+
 double Sampling::root_weight(std::size_t i) const {
+  if (left_out_ && (*left_out_)[i]) return 0;
   return table_.weights.empty() ? 1 : std::sqrt(table_.weights[i] / mean_weight_);
 }
 
@@ -124,7 +134,7 @@ std::map<std::string, std::size_t> SampleCounts::by_reason(const Sampling& s) co
   for (std::size_t m = 1; m < names_of<Mask>.size(); ++m)
     reasons[std::string(names_of<Mask>[m])] = masked[m];
   if (!usable(s.metric(), 0, s.offset())) reasons["zero"] = zero;
-  if (!s.table().weights.empty()) reasons["zero_weight"] = zero_weight;
+  if (s.has_weights()) reasons["zero_weight"] = zero_weight;
   if (s.has_copies()) reasons["copied"] = copied;
   return reasons;
 }
@@ -375,7 +385,7 @@ void BlockReader<F>::fill(std::size_t member, std::size_t channel) {
   const auto& sample = sample_[member];
   auto& v = values_[member * sampling_.channels() + channel];
   gather(member, sampling_.table().values[channel].data());
-  if (!sampling_.table().weights.empty() && channel == 0)
+  if (sampling_.has_weights() && channel == 0)
     for (std::size_t i = 0; i < n_; ++i)
       weight_[i] = sample[i] == absent ? F(1) : static_cast<F>(sampling_.root_weight(sample[i]));
   for (std::size_t i = n_; i < padded(); ++i) stored_[i] = F(-1);

@@ -105,22 +105,28 @@ class Sampling {
   const Table& table() const { return table_; }
   const SampleAngles& angles() const { return angles_; }
   const Groups& groups() const { return groups_; }
-  bool has_frame() const { return has_frame_; }
+  bool has_frame() const { return way_.frame; }
   /// Columns that the angles of a sample take.
-  std::size_t angle_columns() const { return has_frame_ ? 11 : 5; }
-  Metric metric() const { return metric_; }
+  std::size_t angle_columns() const { return way_.frame ? 11 : 5; }
+  Metric metric() const { return way_.metric; }
   /// Samples of this one, compared in another way.
   Sampling by(Metric, double offset) const;
+  /// This one, in which some samples weigh nothing.
+  /// \param which  [sample]
+  Sampling without(std::vector<bool> which) const;
+  /// True where another one reads the same columns from the same table.
+  bool reads_like(const Sampling&) const;
   /// Model of the data's bulk, for a robust fit; or null.  Under the relative metric a value below half of
   /// what it says weighs no more than that half would: else the smallest outliers outweigh all others.
   const BoundModel* bulk() const { return bulk_.get(); }
   void set_bulk(std::shared_ptr<const BoundModel> bulk) { bulk_ = std::move(bulk); }
-  double offset() const { return offset_; }  ///< of the log and relative metrics [1/sr]
+  double offset() const { return way_.offset; }  ///< of the log and relative metrics [1/sr]
   /// Offset that the link adds to f: a difference needs none.
-  double link_offset() const { return metric_ == Metric::log ? offset_ : 0; }
+  double link_offset() const { return way_.metric == Metric::log ? way_.offset : 0; }
   std::size_t channels() const { return table_.values.size(); }
   /// √weight, of weights that are all whole numbers; of others √(weight over the mean weight).
   double root_weight(std::size_t sample) const;
+  bool has_weights() const { return !table_.weights.empty() || left_out_; }
   /// Samples that one of the table counts as: its weight where all are whole numbers, else 1.
   double count_of(std::size_t sample) const { return is_counted_ ? table_.weights[sample] : 1; }
   bool is_counted() const { return is_counted_; }
@@ -129,12 +135,21 @@ class Sampling {
   bool has_copies() const { return !copied_.empty(); }
 
  private:
+  /// Way to look at a table: all but its samples.
+  struct Way {
+    Bins bins;
+    Metric metric;
+    double offset;
+    bool fold, copies, frame;
+    bool operator==(const Way&) const = default;
+  };
   const Table& table_;
+  Way way_;
   SampleAngles angles_;
   Groups groups_;
-  Metric metric_;
-  double offset_, mean_weight_ = 1;
-  bool is_counted_ = false, has_frame_ = false;
+  double mean_weight_ = 1;
+  bool is_counted_ = false;
+  std::shared_ptr<const std::vector<bool>> left_out_;  ///< [sample]; null: none is
   std::shared_ptr<const BoundModel> bulk_;
   std::vector<bool> copied_;  ///< [row]; empty: none is
 };

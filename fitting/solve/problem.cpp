@@ -147,6 +147,11 @@ Problem pose(const Table& t, const FitOptions& o) {
       o, std::move(b), std::move(slots), std::move(bounds), std::move(narrowed), noise_floor(t)};
 }
 
+Sampling sampling_for(const Problem& p, const Table& t, Bins bins, bool fold) {
+  const FitOptions& o = p.options;
+  return {t, bins, o.metric, p.offset, fold, o.copies, p.start.model.anisotropic};
+}
+
 Problem with_free(const Problem& p, Model model, const std::vector<bool>& mask) {
   Problem q = p;
   q.start.model = std::move(model);

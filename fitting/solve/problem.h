@@ -33,6 +33,10 @@ void check_azimuths(const Table&, const Model&);
 /// \param expanded  outlives the problem
 Problem pose(const Table&, const FitOptions& expanded);
 
+/// Samples of the problem's table as its fit looks at them.
+/// \param fold  whether those that a reciprocal model cannot tell apart are one
+Sampling sampling_for(const Problem&, const Table&, Bins, bool fold = false);
+
 /// The problem with fewer unknowns: those not in the mask stay where `start` has them.
 /// \param model  the problem's own, or one with fewer terms over the same values
 Problem with_free(const Problem&, Model model, const std::vector<bool>& mask);

@@ -133,11 +133,13 @@ double cost_of_fewer(const Problem& p, const FitLevels<F>& data, double middle_c
 template <class F>
 Searched search_in(const Problem& p,
                    const Sampling& sampling,
+                   SharedColumns& columns,
                    Stopwatch& watch,
                    const std::function<void(const char*)>& announce) {
   announce("reading columns");
   constexpr std::array levels{coarse_samples, scan_samples, middle_samples};
-  const auto data = fit_levels<F>(sampling, levels);
+  const auto read = columns.levels<F>(sampling, levels);
+  const FitLevels<F>& data = *read;
   if (data.all.counts.used == 0) no_values(sampling, data.all.counts);
   const auto &thin = data.thinned[0], &scan = data.thinned[1], &middle = data.thinned[2];
   FitData<double> scanned = in_double(scan);
@@ -226,13 +228,14 @@ Fitted compared_by(const Sampling& s, const Problem& p, std::size_t most, const 
 
 Searched search(Problem p,
                 const Sampling& sampling,
+                SharedColumns& columns,
                 Stopwatch& watch,
                 const std::function<void(const char*)>& announce) {
   // What has room in the caches is fitted in double at once.
   if (sampling.groups().size() > 8 * middle_samples)
     p.rounding = rounding_in_float(fit_data<double>(sampling, coarse_samples), sampling.channels());
-  if (p.rounding == 0) return search_in<double>(p, sampling, watch, announce);
-  Searched s = search_in<float>(p, sampling, watch, announce);
+  if (p.rounding == 0) return search_in<double>(p, sampling, columns, watch, announce);
+  Searched s = search_in<float>(p, sampling, columns, watch, announce);
   if (s.best.in_float) return s;
   announce("fitting all samples in double");
   const std::size_t groups = s.best.groups;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "brdf/model/model.h"
+#include "fitting/sample/shared_columns.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/solve.h"
 
@@ -72,6 +73,7 @@ struct Searched {
 /// From nothing to the best fit of all samples.  Throws bad_input for a table without a usable value.
 Searched search(Problem,
                 const Sampling&,
+                SharedColumns&,
                 Stopwatch&,
                 const std::function<void(const char*)>& announce);
 

@@ -89,7 +89,7 @@ TEST(CrossValidation, PredictsAngleByAngleWhatTheRightModelHas) {
   FitOptions o;
   o.model = paint().model.spec;
   const auto blocks = incident_blocks(by_log(t));
-  const auto right = cross_validate(t, o, blocks, paint());
+  const auto right = cross_validate(t, pose(t, o), blocks, paint());
   ASSERT_EQ(right.size(), blocks.count);
   for (const auto& b : right) {
     EXPECT_GT(b.values, 500);
@@ -103,7 +103,8 @@ TEST(CrossValidation, DoesNotFitWhatItPredicts) {
   o.model = "lambert";
   const FitResult whole = fit(t, o);
   LogResiduals unseen;
-  for (const auto& b : cross_validate(t, o, incident_blocks(by_log(t)), whole.model)) unseen.add(b);
+  const auto blocks = incident_blocks(by_log(t));
+  for (const auto& b : cross_validate(t, pose(t, o), blocks, whole.model)) unseen.add(b);
   const auto seen = total(log_residuals(by_log(t), whole.model));
   EXPECT_EQ(unseen.values, seen.values);
   EXPECT_GT(unseen.rms(), 1.01 * seen.rms());

@@ -40,15 +40,15 @@ TEST(Candidates, AreDirectionsThatAnInstrumentCanTake) {
 
 TEST(Candidates, LieInThePlaneOfIncidenceWhereTheTableDoes) {
   const BoundModel m = bind("lambert", "kd=0.3", 3);
-  EXPECT_TRUE(is_in_plane(synthesize(m, {.layout = Layout::in_plane})));
+  EXPECT_TRUE(is_in_plane_of_incidence(synthesize(m, {.layout = Layout::in_plane})));
   for (const Layout out_of_it : {Layout::hemisphere, Layout::merl, Layout::mbsdf})
-    EXPECT_FALSE(is_in_plane(synthesize(m, {.layout = out_of_it})));
+    EXPECT_FALSE(is_in_plane_of_incidence(synthesize(m, {.layout = out_of_it})));
   Table turned = synthesize(m, {.layout = Layout::in_plane});
   DirectionList l = *turned.list();
   for (auto* phi : {&l.phi_i_deg, &l.phi_o_deg})
     for (auto& x : *phi) x += 37;
   turned.where = l;
-  EXPECT_TRUE(is_in_plane(turned)) << "whichever way the plane lies";
+  EXPECT_TRUE(is_in_plane_of_incidence(turned)) << "whichever way the plane lies";
 }
 
 }  // namespace

@@ -55,6 +55,21 @@ TEST(Sampling, WeighsByTheRootOfTheWeightOverItsMean) {
   EXPECT_EQ(fit_data<double>(s).counts.samples, 2);
 }
 
+TEST(Sampling, LeavesOutWhatItIsToldToAndCountsItAsOfNoWeight) {
+  for (const bool weighted : {false, true}) {
+    Table t = test::list_of({0.1, 0.2, 0.3});
+    if (weighted) t.weights = {1, 2, 3};
+    const Sampling whole(t, Bins::centre, Metric::log, 0, false);
+    const Sampling s = whole.without({false, true, false});
+    EXPECT_EQ(s.root_weight(1), 0);
+    EXPECT_EQ(s.root_weight(2), whole.root_weight(2));
+    const auto counts = fit_data<double>(s).counts;
+    EXPECT_EQ(counts.used, 2U);
+    EXPECT_EQ(counts.by_reason(s).at("zero_weight"), 1U);
+    EXPECT_EQ(fit_data<double>(whole).counts.used, 3U);
+  }
+}
+
 TEST(Sampling, CountsAsManySamplesAsAWholeWeightSays) {
   Table t = test::list_of({0.1, 0.2, 0.3, -1});
   t.weights = {1, 3, 0, 5};

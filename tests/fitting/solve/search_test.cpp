@@ -15,7 +15,8 @@ Searched searched(const Table& t, const FitOptions& o) {
   std::vector<std::pair<std::string, double>> times;
   Stopwatch watch(times);
   const Sampling s(t, t.bins(), o.metric, 0, !o.robust);
-  return search(pose(t, o), s, watch, [](const char*) {});
+  SharedColumns columns;
+  return search(pose(t, o), s, columns, watch, [](const char*) {});
 }
 
 TEST(Search, FindsTheValuesAndTheCostThatIsLeft) {
