@@ -44,11 +44,14 @@ std::vector<std::string> at_bound(const FitDocument& d) {
 }
 
 std::vector<Timing> times_of(const Table& t, std::span<const BoundModel> models) {
-  const std::size_t n = std::min(t.size(), timed_samples);
-  const std::size_t step = t.size() / n;
   const SampleAngles at(t);
+  std::vector<std::size_t> above;  // below the horizon terms are not defined
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (const auto a = at(i); a.nol > 0 && a.nov > 0) above.push_back(i);
+  const std::size_t n = std::min(above.size(), timed_samples);
+  const std::size_t step = above.size() / n;
   auto x = std::make_shared<AngleColumns<float>>(n, true);
-  for (std::size_t i = 0; i < n; ++i) x->set(i, at.frame(i * step));
+  for (std::size_t i = 0; i < n; ++i) x->set(i, at.frame(above[i * step]));
   std::vector<Timed> all;
   for (const auto& b : models) {
     struct State {
@@ -120,6 +123,7 @@ ModelChoice compare_models(const Table& t,
   std::vector<ResidualsByAngle> residuals(models.size());
   std::optional<Blocks> blocks;
   SharedColumns columns;
+  double step = 1;  // samples of the table for one whose residual is looked at
   const auto share = [&](double steps) { return steps / (2 * static_cast<double>(models.size())); };
   for (std::size_t k = 0; k < models.size(); ++k) {
     ModelRow row;
@@ -142,6 +146,7 @@ ModelChoice compare_models(const Table& t,
       const Problem p = pose(t, whole);
       const Sampling by_log = sampling_for(p, t, t.bins()).by(Metric::log, p.offset);
       residuals[k] = log_residuals(by_log, fitted.model, most_groups);
+      step = static_cast<double>(Tasks::step_to(by_log.groups().size(), most_groups));
       row.log_rms = total(residuals[k]).rms();
       if (!blocks) blocks = incident_blocks(by_log);
       left_out[k] = cross_validate(t, p, *blocks, fitted.model);
@@ -163,7 +168,7 @@ ModelChoice compare_models(const Table& t,
   const ModelRow* nearest = least(rows, [](const auto& r) { return r.log_rms; });
   if (!nearest) return choice;
   const auto index = [&](const ModelRow* r) { return static_cast<std::size_t>(r - rows.data()); };
-  choice.effective_values = effective_values(residuals[index(nearest)]);
+  choice.effective_values = effective_values(residuals[index(nearest)], step);
   const ModelRow* best = least(rows, [](const auto& r) { return r.cv_log_rms; });
   std::vector<BoundModel> timed;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -189,9 +194,11 @@ ModelChoice compare_models(const Table& t,
 }
 
 Advice advise(const ModelChoice& choice) {
-  constexpr double errors = 2, seen = 0.05, same = 0.001;
   Advice a;
-  const auto& rows = choice.rows;
+  const bool any_converged = std::ranges::any_of(choice.rows, &ModelRow::converged);
+  std::vector<ModelRow> rows;
+  for (const auto& r : choice.rows)
+    if (r.converged || !any_converged) rows.push_back(r);
   const auto cv = [](const ModelRow& r) { return r.cv_log_rms; };
   const auto bic = [](const ModelRow& r) { return r.bic; };
   const ModelRow* best = least(rows, cv);
@@ -202,13 +209,14 @@ Advice advise(const ModelChoice& choice) {
   const auto as_good = [&](const ModelRow& r) {
     if (std::isnan(judge(r))) return false;
     if (!predicted) return r.bic <= best->bic + 2;
-    const double more = r.cv_log_rms / best->cv_log_rms - 1;
-    return more <= same || (more <= seen && r.cv_behind <= errors);
+    constexpr double rounding = 1e-6;  // of a log RMS: below it no model is better than another
+    const double least = std::max(best->cv_log_rms, rounding);
+    const double more = std::max(r.cv_log_rms, rounding) / least - 1;
+    return more <= next_to_nothing_more || (more <= most_more && r.cv_behind <= most_errors_behind);
   };
   const ModelRow* take = best;
   for (const auto& r : rows)
-    if (as_good(r) && r.converged &&
-        std::pair(r.parameters, judge(r)) < std::pair(take->parameters, judge(*take)))
+    if (as_good(r) && std::pair(r.parameters, judge(r)) < std::pair(take->parameters, judge(*take)))
       take = &r;
   a.recommended = take->model;
   for (const auto& r : rows)
@@ -229,17 +237,21 @@ Advice advise(const ModelChoice& choice) {
         "unseen incident angles is "
         "{:.3g}, and the least {:.3g}.",
         take->model, a.as_good.size() + 1, take->cv_log_rms, best->cv_log_rms);
-  const auto disagrees = [&](const char* judge_name, auto of, double by) {
+  const auto disagrees = [&](const char* judge_name, auto of, double by, auto text) {
     const ModelRow* other = least(rows, of);
     if (!other || other == take || std::isnan(of(*take)) || of(*take) <= of(*other) + by) return;
     if (std::ranges::find(a.as_good, other->model) != a.as_good.end()) return;
     a.disagreement.push_back(
-        fmt::format("{} prefers {}: {:.3g}, and {:.3g} of the one that is recommended.", judge_name,
-                    other->model, of(*other), of(*take)));
+        fmt::format("{} prefers {}{}.", judge_name, other->model, text(of(*other), of(*take))));
   };
-  if (predicted) disagrees("BIC", bic, 2);
+  if (predicted)
+    disagrees("BIC", bic, 2,
+              [](double other, double taken) { return fmt::format(", by {:.0f}", taken - other); });
   disagrees(
-      "The colour of a rendered sphere (ΔE_ITP)", [](const auto& r) { return r.delta_e_itp; }, 0.5);
+      "The colour of a rendered sphere", [](const auto& r) { return r.delta_e_itp; }, 0.5,
+      [](double other, double taken) {
+        return fmt::format(": its ΔE_ITP is {:.2g} and not {:.2g}", other, taken);
+      });
   return a;
 }
 

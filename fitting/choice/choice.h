@@ -31,11 +31,12 @@ struct ModelRow {
   double aic = unknown, bic = unknown;
   double delta_e_2000 = unknown,
          delta_e_itp = unknown;  ///< of a rendered sphere; the caller's to fill in
-  double ns = unknown;           ///< of one sample in all channels
+  double ns = unknown;           ///< of one sample in all channels [ns]
   double ns_spread = unknown;    ///< half the distance of the quartiles over repetitions
   std::vector<std::string> parameters_at_bound;
 };
 
+/// Models of one table side by side.
 struct ModelChoice {
   std::vector<ModelRow> rows;    ///< in the order asked
   std::vector<BoundModel> fits;  ///< of each row; empty models where there is none
@@ -70,8 +71,12 @@ struct Advice {
   std::vector<std::string> disagreement;  ///< sentences: what other judges prefer
 };
 
-/// The least parameters among the models that cannot be told from the one that predicts best: at most 5 % more log RMS on unseen angles
-/// and at most two standard errors over the blocks, or 0.1 % more.  Among as many parameters the one that predicts best.  Without blocks BIC decides.
+/// Models cannot be told from the one that predicts best where they leave so much more log RMS on unseen angles at most, as a part of
+/// it, and are behind by so many standard errors over the blocks at most; or leave so little more that it is nothing.
+inline constexpr double most_more = 0.05, most_errors_behind = 2, next_to_nothing_more = 0.001;
+
+/// The least parameters among the models that cannot be told from the one that predicts best.  Among as many parameters the one that
+/// predicts best.  Without blocks BIC decides.  A fit that did not converge is taken only where none did.
 Advice advise(const ModelChoice&);
 
 }  // namespace gonio

@@ -147,6 +147,10 @@ Problem pose(const Table& t, const FitOptions& o) {
       o, std::move(b), std::move(slots), std::move(bounds), std::move(narrowed), noise_floor(t)};
 }
 
+bool folds(const Problem& p) {
+  return is_reciprocal(p.start) && !p.options.robust;
+}
+
 Sampling sampling_for(const Problem& p, const Table& t, Bins bins, bool fold) {
   const FitOptions& o = p.options;
   return {t, bins, o.metric, p.offset, fold, o.copies, p.start.model.anisotropic};

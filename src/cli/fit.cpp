@@ -185,12 +185,16 @@ void print(const ModelChoice& choice, const Advice& advice) {
   const auto number = [](double x, const char* form) {
     return std::isnan(x) ? std::string("–") : fmt::format(fmt::runtime(form), x);
   };
+  const auto difference = [&](double x) {
+    return x < 0.005 ? std::string("0") : number(x, x < 10 ? "{:.2g}" : "{:.0f}");
+  };
   say("\n{:>9} {:>9} {:>8} {:>6} {:>6} {:>6}  {}\n", "unseen", "log RMS", "BIC", "ΔE2000", "ns",
       "free", "model");
   for (const auto& r : choice.rows) {
     say("{:>9} {:>9} {:>8} {:>6} {:>6} {:>6}  {}{}\n", number(r.cv_log_rms, "{:.4g}"),
-        number(r.log_rms, "{:.4g}"), number(r.bic, "{:.0f}"), number(r.delta_e_2000, "{:.2g}"),
-        number(r.ns, "{:.2g}"), r.compared ? fmt::to_string(r.parameters) : "–", r.model,
+        number(r.log_rms, "{:.4g}"), number(r.bic, "{:.0f}"), difference(r.delta_e_2000),
+        number(r.ns, r.ns < 10 ? "{:.2g}" : "{:.0f}"),
+        r.compared ? fmt::to_string(r.parameters) : "–", r.model,
         r.parameters_at_bound.empty()
             ? ""
             : fmt::format(", {} at a bound", fmt::join(r.parameters_at_bound, ", ")));
@@ -231,6 +235,10 @@ Exit run_models(const Options& o, const FitOptions& options) {
   std::vector<std::string> models = o.models;
   if (models == std::vector<std::string>{"all"})
     models.assign(usual_models().begin(), usual_models().end());
+  for (std::size_t k = 1; k < models.size(); ++k)
+    if (std::find(models.begin(), models.begin() + static_cast<std::ptrdiff_t>(k), models[k]) !=
+        models.begin() + static_cast<std::ptrdiff_t>(k))
+      throw wrong_usage(fmt::format("--models: '{}' is there twice", models[k]));
   for (const auto& m : models) {  // a word that nobody knows is wrong usage, whatever the table
     std::vector<Setting> none;
     compose(resolve_preset(m, none), 1);

@@ -58,6 +58,10 @@ TEST(Models, AreOfOneTable) {
     EXPECT_EQ(o.code, 2) << words;
     EXPECT_EQ(std::ranges::count(o.err, '\n'), 1) << o.err;
   }
+  const auto twice =
+      gonio(f, "fit t.csv --models lambert,ggx/smith_ggx.correlated/schlick,lambert");
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_NE(twice.err.find("'lambert' is there twice"), std::string::npos) << twice.err;
   const auto none = gonio(f, "fit t.csv --models no_such_model -o c.json");
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("no_such_model"), std::string::npos) << none.err;

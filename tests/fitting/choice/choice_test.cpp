@@ -137,7 +137,7 @@ TEST(Advice, TellsWhereOtherJudgesPreferAnotherModel) {
   EXPECT_EQ(a.recommended, "large");
   EXPECT_TRUE(a.as_good.empty());
   ASSERT_EQ(a.disagreement.size(), 2U);
-  EXPECT_TRUE(a.disagreement[0].starts_with("BIC prefers small")) << a.disagreement[0];
+  EXPECT_EQ(a.disagreement[0], "BIC prefers small, by 40.");
   EXPECT_NE(a.disagreement[1].find("sphere"), std::string::npos);
 }
 
@@ -156,6 +156,20 @@ TEST(Advice, DoesNotTakeAFitThatDidNotConvergeForItsFewParameters) {
   EXPECT_EQ(advise(c).recommended, "small");
   c.rows[0].converged = false;
   EXPECT_EQ(advise(c).recommended, "large");
+  EXPECT_TRUE(advise(c).as_good.empty());
+  c.rows[0].cv_log_rms = 0.1;  // the nearest of all, but for that
+  c.rows[1].cv_behind = 9;
+  EXPECT_EQ(advise(c).recommended, "large");
+  c.rows[1].converged = false;
+  EXPECT_EQ(advise(c).recommended, "small") << "of fits none of which converged";
+}
+
+TEST(Advice, TakesNoModelForBetterByItsRounding) {
+  ModelChoice c;
+  c.rows = {row("small", 3, 9e-15, 9, 100), row("large", 9, 1e-16, 0, 140)};
+  EXPECT_EQ(advise(c).recommended, "small");
+  c.rows[1].cv_log_rms = 0;
+  EXPECT_EQ(advise(c).recommended, "small");
 }
 
 TEST(Advice, IsEmptyWhereNothingCouldBeCompared) {

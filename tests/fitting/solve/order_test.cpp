@@ -56,6 +56,13 @@ TEST(Order, LeavesLobesThatAreNotAlike) {
                 {{"alpha", 0.4}, {"alpha_2", 0.05}});
 }
 
+TEST(Order, LeavesTheLobeWhoseInterfaceTheDiffuseLiesBelow) {
+  constexpr auto coupled =
+      "lambert.coupled+ggx/smith_ggx.correlated/dielectric+ggx/smith_ggx.correlated/dielectric";
+  expect_values(fitted(coupled, "alpha=0.4,eta=1.9,alpha_2=0.05,eta_2=1.3,kd=0.3"),
+                {{"alpha", 0.4}, {"eta", 1.9}, {"alpha_2", 0.05}, {"eta_2", 1.3}});
+}
+
 TEST(Order, ChangesNeitherTheCostNorItsDerivatives) {
   constexpr auto model =
       "lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick+ggx_aniso/smith_ggx_aniso.correlated/"
