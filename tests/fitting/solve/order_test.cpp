@@ -58,10 +58,10 @@ TEST(Order, LeavesLobesThatAreNotAlike) {
 
 TEST(Order, LeavesTheLobeWhoseInterfaceTheDiffuseLiesBelow) {
   for (const bool coupled : {false, true}) {
-    const auto wide_first = test::bind(
-        (coupled ? "lambert.coupled+" : "lambert+") +
-            std::string("ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick"),
-        "alpha=0.4,f0=0.2,alpha_2=0.05,f0_2=0.04,kd=0.3", 1);
+    const std::string lobe = "ggx/smith_ggx.correlated/schlick",
+                      model = (coupled ? "lambert.coupled+" : "lambert+") + lobe + "+" + lobe;
+    const auto wide_first =
+        test::bind(model.c_str(), "alpha=0.4,f0=0.2,alpha_2=0.05,f0_2=0.04,kd=0.3", 1);
     const Table t = synthesize(wide_first, {.layout = Layout::random, .samples = 100});
     FitOptions o;
     o.model = wide_first.model.spec;
