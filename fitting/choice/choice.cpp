@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <optional>
 
 #include "base/error.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
 #include "fitting/choice/cross_validation.h"
 #include "fitting/fit.h"
@@ -15,6 +17,7 @@
 #include "timing/timing.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -86,6 +89,40 @@ Behind behind(const std::vector<LogResiduals>& a, const std::vector<LogResiduals
   return {mean, std::sqrt(squares / (n * std::max(n - 1, 1.0)))};
 }
 
+/// True of a model with a parameter of that name, its own or what stands for one of its terms'.
+bool has_parameter(const std::string& model, const std::string& name) {
+  if (const Preset* preset = find_preset(model))
+    if (std::ranges::find(preset->parameters, name, &Parameter::name) != preset->parameters.end())
+      return true;
+  FitOptions o;
+  o.model = model;
+  const Model m = compose(expanded(o).model, 1);
+  const auto has = [&](const std::string& n) { return m.find(n) != nullptr; };
+  if (has(name) || (is_roughness(name) && has(alpha_name(name)))) return true;
+  if (name.starts_with("f0")) return has("eta" + name.substr(2));
+  if (name == "metal") return has("eta") && has("k");
+  return (name == "base_color" || name == "metallic") && has("kd") && has("f0");
+}
+
+/// Options for one of the models: what it has no parameter for is left out.
+FitOptions options_for(FitOptions o, const std::string& model) {
+  const auto others = [&](const std::string& name) { return !has_parameter(model, name); };
+  o.model = model;
+  for (auto* settings : {&o.fixed, &o.bounds})
+    std::erase_if(*settings, [&](const Setting& s) { return others(s.name); });
+  std::erase_if(o.grey, others);
+  return o;
+}
+void check_settings(const FitOptions& o, std::span<const std::string> models) {
+  const auto check = [&](const std::string& name) {
+    if (std::ranges::none_of(models, [&](const auto& m) { return has_parameter(m, name); }))
+      throw wrong_usage(fmt::format("none of the models has a parameter '{}'", name));
+  };
+  for (const auto* settings : {&o.fixed, &o.bounds})
+    for (const auto& s : *settings) check(s.name);
+  for (const auto& name : o.grey) check(name);
+}
+
 template <class Of>
 const ModelRow* least(const std::vector<ModelRow>& rows, Of of) {
   const ModelRow* best = nullptr;
@@ -123,6 +160,8 @@ ModelChoice compare_models(const Table& t,
   std::vector<ResidualsByAngle> residuals(models.size());
   std::optional<Blocks> blocks;
   SharedColumns columns;
+  std::exception_ptr refused;  // the first
+  check_settings(options, models);
   double step = 1;  // samples of the table for one whose residual is looked at
   const auto share = [&](double steps) { return steps / (2 * static_cast<double>(models.size())); };
   for (std::size_t k = 0; k < models.size(); ++k) {
@@ -130,8 +169,7 @@ ModelChoice compare_models(const Table& t,
     row.model = models[k];
     choice.fits.emplace_back();
     try {
-      FitOptions o = options;
-      o.model = models[k];
+      const FitOptions o = options_for(options, models[k]);
       if (progress) progress("fitting " + row.model, share(2.0 * static_cast<double>(k)));
       FitResult fitted = fit(t, o, columns);
       const FitDocument& d = fitted.document;
@@ -139,6 +177,9 @@ ModelChoice compare_models(const Table& t,
       row.converged = d.solver.termination == "converged";
       if (!row.converged) row.note = "the fit did not converge";
       row.parameters = free_values(d);
+      if (d.values_used <= row.parameters)
+        throw bad_input(t.path, "values", fmt::format("{} that a fit can use", d.values_used),
+                        fmt::format("more than the model's {} free parameters", row.parameters));
       row.parameters_at_bound = at_bound(d);
       if (progress)
         progress("leaving out angles of " + row.model, share(2.0 * static_cast<double>(k) + 1));
@@ -153,10 +194,11 @@ ModelChoice compare_models(const Table& t,
       if (blocks->count > 0) {
         LogResiduals unseen;
         for (const auto& b : left_out[k]) unseen.add(b);
-        row.cv_log_rms = unseen.rms();
+        if (!left_out[k].empty()) row.cv_log_rms = unseen.rms();
       }
       choice.fits.back() = std::move(fitted.model);
     } catch (const Error& e) {
+      if (!refused) refused = std::current_exception();
       row = {};
       row.model = models[k];
       row.note = e.what();
@@ -165,6 +207,7 @@ ModelChoice compare_models(const Table& t,
   }
   choice.blocks = blocks ? blocks->count : 0;
   auto& rows = choice.rows;
+  if (refused && std::ranges::none_of(rows, &ModelRow::compared)) std::rethrow_exception(refused);
   const ModelRow* nearest = least(rows, [](const auto& r) { return r.log_rms; });
   if (!nearest) return choice;
   const auto index = [&](const ModelRow* r) { return static_cast<std::size_t>(r - rows.data()); };
@@ -179,7 +222,7 @@ ModelChoice compare_models(const Table& t,
     const double fit_of = 2 * n * std::log(r.log_rms);
     r.aic = fit_of + 2 * p;
     r.bic = fit_of + p * std::log(n);
-    if (!best) continue;
+    if (!best || left_out[k].empty()) continue;
     const auto b = behind(left_out[k], left_out[index(best)]);
     r.cv_behind = b.mean > 0 ? b.mean / b.error : 0;
   }
@@ -212,7 +255,9 @@ Advice advise(const ModelChoice& choice) {
     constexpr double rounding = 1e-6;  // of a log RMS: below it no model is better than another
     const double least = std::max(best->cv_log_rms, rounding);
     const double more = std::max(r.cv_log_rms, rounding) / least - 1;
-    return more <= next_to_nothing_more || (more <= most_more && r.cv_behind <= most_errors_behind);
+    const bool few = choice.effective_values < few_values * static_cast<double>(best->parameters);
+    return more <= next_to_nothing_more ||
+           ((more <= most_more || few) && r.cv_behind <= most_errors_behind);
   };
   const ModelRow* take = best;
   for (const auto& r : rows)
@@ -252,6 +297,13 @@ Advice advise(const ModelChoice& choice) {
       [](double other, double taken) {
         return fmt::format(": its ΔE_ITP is {:.2g} and not {:.2g}", other, taken);
       });
+  if (take->log_rms > far_off)
+    a.beware.push_back(fmt::format("It is not near the table: typically off by a factor of {:.3g}.",
+                                   std::exp(take->log_rms)));
+  if (!take->parameters_at_bound.empty())
+    a.beware.push_back(fmt::format("{} {} at the end of what it may be: the model lacks something.",
+                                   fmt::join(take->parameters_at_bound, ", "),
+                                   take->parameters_at_bound.size() == 1 ? "is" : "are"));
   return a;
 }
 

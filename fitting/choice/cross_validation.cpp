@@ -67,6 +67,14 @@ std::vector<LogResiduals> cross_validate(const Table& t,
                                          const Problem& p,
                                          const Blocks& blocks,
                                          const BoundModel& whole) {
+  // A fit of fewer values than parameters would stay where that of the whole table is, which has
+  // seen what is left out.
+  std::vector<std::size_t> fitted(blocks.count, 0);
+  for (std::size_t i = 0; i < t.size(); ++i)
+    for (std::size_t b = 0; b < blocks.count; ++b)
+      fitted[b] +=
+          blocks.of_sample[i] != b && (blocks.of_exchanged.empty() || blocks.of_exchanged[i] != b);
+  if (blocks.count == 0 || std::ranges::min(fitted) * t.channels.size() <= p.free.size()) return {};
   std::vector<LogResiduals> all(blocks.count);
   const Looks look{sampling_for(p, t, t.bins(), folds(p)),
                    sampling_for(p, t, t.bins()).by(Metric::log, p.offset)};

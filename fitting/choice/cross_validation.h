@@ -27,6 +27,7 @@ Blocks incident_blocks(const Sampling&, std::size_t most = 10);
 
 /// Residuals of each block under a fit of all others, of a million values about 65 536.  What is a sample of the block with light and
 /// viewer exchanged is not fitted to either.  The fits go on from that of the whole table.
+/// Empty where what is left of the table has no more values than the model has parameters.
 std::vector<LogResiduals> cross_validate(const Table&,
                                          const Problem&,
                                          const Blocks&,

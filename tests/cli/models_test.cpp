@@ -90,7 +90,7 @@ TEST(Models, HaveAPageWithTheirDocumentInItsDataWhichIsTheSameOnAnyNumberOfThrea
   };
   const auto page = run("1");
   EXPECT_EQ(page["choice"], nlohmann::json::parse(read_bytes(f / "c.json")));
-  EXPECT_EQ(page["numbers"][0], 0) << "Lambert has no alpha";
+  EXPECT_GT(page["numbers"][0], 0) << "Lambert has no alpha to be held";
   EXPECT_NE(read_bytes(f / "p.html").find("<title>Models for t.csv</title>"), std::string::npos);
   EXPECT_EQ(without_times(page), without_times(run("2")));
 }
