@@ -102,7 +102,7 @@ Pictures pictures_of(const Scene& scene, const Options& o) {
   std::optional<PlannedForms> plan;
   if (!o.plan.empty()) plan = read_plan(o.plan, scene, looks);
   constexpr std::size_t steps = 100;
-  TimedProgress progress(o.quiet || o.json, "rendering", plan ? 2 * steps : steps);
+  TimedProgress progress(o.quiet, "rendering", plan ? 2 * steps : steps);
   std::size_t before = 0;
   const auto picture = [&](const auto& forms_of_material) {
     std::vector<Shown> shown;
