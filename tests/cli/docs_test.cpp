@@ -349,8 +349,8 @@ TEST_P(Page, CanBeReadAloudAndLeadsSomewhere) {
   static const std::regex code("`[^`]*`"), link(R"(\[([^\]]*)\]\([^)]*\))"), mark("\\*\\*?|^- ");
   for (const auto& paragraph : document.prose) {
     auto text = std::regex_replace(paragraph, link, "$1");
-    text = std::regex_replace(std::regex_replace(text, code, "code"), mark, "");
-    if (text.ends_with(':')) text.back() = '.';
+    text = std::regex_replace(std::regex_replace(text, code, "Code"), mark, "");
+    if (text.ends_with(':') || text.ends_with(';')) text.back() = '.';
     expect_plain(text);
   }
   for (const auto& to : document.links) {
