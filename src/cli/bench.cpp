@@ -132,8 +132,7 @@ void print_changes(const std::vector<CostChange>& all,
     say("nothing that was timed now was timed earlier\n");
   } else {
     say("{} of {} times changed by more than three times both spreads; the median of all is {:.3g} "
-        "of "
-        "what it was\n",
+        "times the earlier\n",
         differing.empty() ? "none" : fmt::to_string(differing.size()), ratios.size(),
         quantile(ratios, 0.5));
   }

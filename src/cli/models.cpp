@@ -71,6 +71,8 @@ void print(const About& about, std::span<const Parameter> parameters) {
   if (!about.reference().empty())
     fmt::print("{:{}}{} {}\n", "", indent, about.named_for.empty() ? "stands for" : "differs from",
                about.reference());
+  if (!about.source.empty()) fmt::print("{:{}}from {}\n", "", indent, about.source);
+  if (!about.ships.empty()) fmt::print("{:{}}shipped by {}\n", "", indent, about.ships);
   for (const auto& p : parameters) print(p);
 }
 

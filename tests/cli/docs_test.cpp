@@ -1,17 +1,16 @@
 // README.md and docs/: every command block is run as it stands there, one test a page, and what is
 // shown beside it is what is printed.
 //
-//   ```sh        run, in the order of the page, in one shell, in a folder of its own.  A line that
-//   ends in "# exit 1" ends so.
-//   ```text      directly below: what the block above prints, standard output and error.  A line
-//   "…" stands for lines left out;
-//                numbers may differ by one in their last digit, and those before ns, ms, s, × and
-//                "times" as they will.
-//   ```json      a document, parsed
-//   ```console   not run, below a comment that says why: <!-- not run: it builds gonio -->
+//   ```sh       run in the order of the page, in one shell, in a folder of its own.
+//               A line that ends in "# exit 1" ends so.
+//   ```text     directly below: what that block prints, standard output and error.
+//               A line "…" stands for lines left out.  Numbers may differ by one in their last
+//               digit; those before ns, ms, s, × and "times" as they will.
+//   ```json     a document, parsed
+//   ```console  not run, below a comment that says why: <!-- not run: it builds gonio -->
 //
-// <!-- long --> above a block: run where GONIO_LONG is set.  <!-- yours: sky.exr --> brings a file
-// that a reader has.
+// Above a block <!-- long --> keeps it for GONIO_LONG, <!-- long under a sanitizer --> for runs
+// without one.  <!-- yours: sky.exr --> brings a file that a reader has.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -266,6 +265,16 @@ std::map<std::size_t, int> expected_codes(const Block& b) {
   return all;
 }
 
+/// Why a block is left out here; nothing where it is run.
+std::string left_out(const Block& b) {
+  if (b.before == "<!-- long -->" && std::getenv("GONIO_LONG") == nullptr)
+    return "without GONIO_LONG";
+#ifdef __SANITIZE_ADDRESS__
+  if (b.before.starts_with("<!-- long")) return "under a sanitizer";
+#endif
+  return "";
+}
+
 class Page : public testing::TestWithParam<std::string> {};
 
 TEST_P(Page, IsRunAsWrittenAndPrintsWhatItShows) {
@@ -282,8 +291,8 @@ TEST_P(Page, IsRunAsWrittenAndPrintsWhatItShows) {
   std::vector<const Block*> ran;
   for (const auto& b : document.blocks) {
     if (b.kind != "sh") continue;
-    if (b.before == "<!-- long -->" && std::getenv("GONIO_LONG") == nullptr) {
-      std::cout << GetParam() << ":" << b.line << ": left out without GONIO_LONG\n";
+    if (const auto without = left_out(b); !without.empty()) {
+      std::cout << GetParam() << ":" << b.line << ": left out " << without << "\n";
       continue;
     }
     at_line(b.line - 1);
@@ -293,12 +302,13 @@ TEST_P(Page, IsRunAsWrittenAndPrintsWhatItShows) {
     ran.push_back(&b);
   }
   if (ran.empty()) return;
+  script += "exec >/dev/null\ntrue\n";  // what fails last is told once
   const std::string file = f.write(".page.sh", script), codes = f / ".codes";
   const std::string program = fs::path(GONIO_PROGRAM).parent_path().string();
   const std::string command = "cd '" + f / "" + "' && PATH='" + program + "':$PATH GONIO_CODES='" +
                               codes +
                               "' bash -c 'trap '\\''echo $LINENO $? >>$GONIO_CODES'\\'' ERR; "
-                              "set -E; . ./.page.sh' </dev/null >.shell 2>&1";
+                              "set -E -o pipefail; . ./.page.sh' </dev/null >.shell 2>&1";
   const int status = std::system(command.c_str());
   static_cast<void>(status);  // every command's own is looked at
   std::map<std::size_t, int> found;

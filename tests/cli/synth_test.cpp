@@ -16,7 +16,7 @@ TEST(SynthCommand, SaysInOneLineWhatItWrote) {
                   "synth lambert --layout random --samples 4000 --floor 0.1 --outliers 0.05 -o "
                   "l.csv")
                 .out,
-            "l.csv: csv, 4,000 directions, channel f, no noise, floor 0.1 1/sr, outliers 5 %, "
+            "l.csv: csv, 4,000 directions, channels r g b, no noise, floor 0.1 1/sr, outliers 5 %, "
             "seed 1\n");
 }
 
