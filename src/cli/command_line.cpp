@@ -125,7 +125,7 @@ Action CommandLine::parse(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& e) {
     const auto called = app_->get_subcommands();
     if (called.empty() && argc > 1) refuse_subcommand(*app_, argv[1]);
-    if (called.empty()) throw wrong_usage("what is it to do? see gonio --help");
+    if (called.empty()) throw wrong_usage("no subcommand; see gonio --help");
     std::string what = e.what();
     constexpr std::string_view missing = ": 1 required TEXT missing";  // as CLI11 puts it
     if (what.ends_with(missing))
