@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 
 #include "base/error.h"
+#include "base/quantile.h"
 #include "cli/terminal.h"
 #include "reports/cost/baseline.h"
 
@@ -95,28 +97,56 @@ std::string words(const CostName& n) {
                      n.memory);
 }
 
+/// "2 were not timed earlier: a, b"; no line of none.
+void print_missing(const std::vector<CostName>& names, const char* what) {
+  constexpr std::size_t shown = 5;
+  if (names.empty()) return;
+  std::string list;
+  for (std::size_t k = 0; k < std::min(shown, names.size()); ++k)
+    list += fmt::format("{}{}", k ? "; " : "", words(names[k]));
+  if (names.size() > shown) list += fmt::format("; and {} more", names.size() - shown);
+  say_below(fmt::format("{} {}: ", names.size(), what), list);
+}
+
+/// What changed, the largest change first.
 void print_changes(const std::vector<CostChange>& all,
                    const EarlierCosts& earlier,
                    const Machine& m) {
   if (earlier.cpu != m.cpu || earlier.compiler != m.compiler || earlier.flags != m.flags)
-    say("\nbeware: the earlier times are of {}, {}, {}\n", earlier.cpu, earlier.compiler,
-        earlier.flags);
-  std::size_t width = 0, differing = 0, compared = 0;
-  for (const auto& c : all) width = std::max(width, words(c.name).size());
-  say("\nnow over earlier; * differs by more than three times both spreads\n");
+    say_below("beware  ", fmt::format("the earlier times are of {}, {}, {}", earlier.cpu,
+                                      earlier.compiler, earlier.flags));
+  std::vector<const CostChange*> differing;
+  std::vector<double> ratios;
+  std::vector<CostName> new_ones, gone;
   for (const auto& c : all) {
-    if (!c.before || !c.now) continue;
-    ++compared;
-    differing += c.differs;
-    say("{:<{}} {:>9.3f} -> {:>9.3f} ns  {:.3f} ± {:.3f}{}\n", words(c.name), width, c.before->ns,
-        c.now->ns, c.ratio, c.spread, c.differs ? " *" : "");
+    if (!c.before) {
+      new_ones.push_back(c.name);
+    } else if (!c.now) {
+      gone.push_back(c.name);
+    } else {
+      ratios.push_back(c.ratio);
+      if (c.differs) differing.push_back(&c);
+    }
   }
-  say("{} of {} differ\n", differing, compared);
-  for (const auto& c : all)
-    if (!c.before)
-      say("not among the earlier times: {}\n", words(c.name));
-    else if (!c.now)
-      say("not measured now: {}\n", words(c.name));
+  if (ratios.empty()) {
+    say("nothing that was timed now was timed earlier\n");
+  } else {
+    say("{} of {} times changed by more than three times both spreads; the median of all is {:.3g} "
+        "times the earlier\n",
+        differing.empty() ? "none" : fmt::to_string(differing.size()), ratios.size(),
+        quantile(ratios, 0.5));
+  }
+  const auto size = [](const CostChange* c) { return std::abs(std::log(c->ratio)); };
+  std::ranges::stable_sort(differing, std::greater<>{}, size);
+  std::size_t width = 0;
+  for (const auto* c : differing) width = std::max(width, words(c->name).size());
+  if (!differing.empty())
+    say("{:<{}} {:>9}    {:>9}     now over earlier\n", "", width, "earlier", "now [ns]");
+  for (const auto* c : differing)
+    say("{:<{}} {:>9.3f} -> {:>9.3f}     {:.3f} ± {:.3f}\n", words(c->name), width, c->before->ns,
+        c->now->ns, c->ratio, c->spread);
+  print_missing(new_ones, "not timed earlier");
+  print_missing(gone, "not timed now");
 }
 
 Exit bench_kernels(const Options& o) {
@@ -144,8 +174,10 @@ Exit bench_kernels(const Options& o) {
   }
   say("{}, {} threads; {}; median of {} repetitions [ns a sample]\n", machine.cpu, machine.threads,
       machine.compiler, options.timing.repetitions);
-  print_rows(rows);
-  if (earlier) print_changes(found, *earlier, machine);
+  if (earlier)
+    print_changes(found, *earlier, machine);
+  else
+    print_rows(rows);
   return Exit::done;
 }
 
@@ -170,8 +202,10 @@ void add_bench(CommandLine& line) {
       .show_default();
   c.flag("--full", o->full, "Streaming in every instruction set, and more repetitions: minutes");
   c.option("--filter", o->filter, "Only forms whose id holds this: smith, fresnel., model.gltf");
-  c.option("--baseline", o->baseline,
-           "An earlier document of bench --json or report cost, to print ratios to");
+  c.option(
+      "--baseline", o->baseline,
+      "An earlier document of bench --json or report cost: what changed since is printed, in place "
+      "of all times");
   c.option("--repeats", o->repeats, "Repetitions (default: 5, 15 with --full, 11 of fit)")
       .in(1, 1000);
   c.flag("!--no-plain", o->plain, "fit: without the plain way, which takes seconds and 1 GB");

@@ -192,6 +192,7 @@ Exit run(const Options& o) {
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const auto& kind = kinds[k];
     const auto begin = std::chrono::steady_clock::now();
+    progress(kind, "beginning", 0);
     auto report =
         kind.make(options, [&](std::string_view what, double part) { progress(kind, what, part); });
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;

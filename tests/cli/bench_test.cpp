@@ -19,8 +19,38 @@ TEST(BenchCommand, PrintsADocumentThatItCompares) {
   EXPECT_EQ(again.json()["changes"].size(), j["rows"].size());
   const auto told = gonio(f, words + " --baseline old.json");
   EXPECT_EQ(told.code, 0);
-  EXPECT_NE(told.out.find("fresnel, float"), std::string::npos) << told.out;
-  EXPECT_NE(told.out.find(" ± "), std::string::npos) << told.out;
+  EXPECT_NE(told.out.find(" times changed by more than three times both spreads"),
+            std::string::npos)
+      << told.out;
+}
+
+TEST(BenchCommand, PrintsOfABaselineWhatChangedAndNothingElse) {
+  const Folder f;
+  const std::string words = "bench --filter fresnel.linear --repeats 1";
+  auto old = gonio(f, words + " --json").json();
+  auto& rows = old["rows"];
+  ASSERT_GT(rows.size(), 3U);
+  for (auto& row : rows) row["ns_spread"] = 1e3 * row["ns"].get<double>();
+  rows[0]["ns"] = 1e-6, rows[0]["ns_spread"] = 0;
+  rows[1]["memory"] = "tape";
+  f.write("old.json", old.dump());
+  const auto told = gonio(f, words + " --baseline old.json");
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_NE(told.out.find("\n1 of " + std::to_string(rows.size() - 1) + " times changed"),
+            told.out.npos)
+      << told.out;
+  const auto count = [&](const std::string& word) {
+    std::size_t n = 0;
+    for (auto at = told.out.find(word); at != told.out.npos; at = told.out.find(word, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(" -> "), 1U) << told.out;
+  EXPECT_EQ(count("1 not timed earlier: "), 1U) << told.out;
+  EXPECT_EQ(count("1 not timed now: "), 1U) << told.out;
+  EXPECT_EQ(count("\n"), 6U) << told.out;
+  rows[0]["ns_spread"] = 1e3;
+  f.write("old.json", old.dump());
+  EXPECT_NE(gonio(f, words + " --baseline old.json").out.find("\nnone of "), told.out.npos);
 }
 
 TEST(BenchCommand, RefusesABaselineThatIsNoneBeforeItMeasures) {
