@@ -83,15 +83,16 @@ function switches() {
   return node;
 }
 
-document.getElementById("page").replaceChildren(...[
-  el("p", { class: "over" }, "gonio report scenes"), el("h1", {}, "Only what the scene needs"),
-  findings_view(findings, 3),
-  plans(), pictures(), shares(), one_material(), switches(),
-  section("How it is measured", null, el("ul", { class: "findings" },
+const how = () => section("How it is measured", null, el("ul", { class: "findings" },
     el("li", {}, "Front light: three lights on the viewer’s side. Rim light: one of these, and two from behind the sphere. Sky and sun: an even sky over a darker ground, and a small bright sun."),
     el("li", {}, "The points are drawn evenly over the picture of a sphere; for every second one, the nearest to a highlight of four is likely to be taken."),
     el("li", {}, "Everything on is one surface with each effect in its exact form, in double, whether the material has it or not, as in a shader for all materials."),
     el("li", {}, "Times are of column kernels, composed on both sides: nothing is fused for the plan alone."),
-    el("li", {}, `A plan is chosen on one set of points, checked on a second, and verified here on a third of ${count(rows[0]?.samples ?? 0)}.`))),
-  left_out.length ? section("Left out of the asset", null, el("dl", { class: "pairs" }, left_out.map((m) => [el("dt", {}, m.material), el("dd", {}, m.why)]))) : null,
-  el("footer", {}, `${full ? "Full" : "Quick"} setting. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));
+    el("li", {}, `A plan is chosen on one set of points, checked on a second, and verified here on a third of ${count(rows[0]?.samples ?? 0)}.`)));
+const left_out_of_asset = () => (left_out.length ? section("Left out of the asset", null, el("dl", { class: "pairs" }, left_out.map((m) => [el("dt", {}, m.material), el("dd", {}, m.why)]))) : null);
+const first = spheres.filter((p) => p.material === spheres[0].material).slice(0, 2);
+show_report({
+  command: "report scenes", title: "Only what the scene needs", findings, first: el("div", { class: "spheres picture" }, el("h3", {}, `${capital(spheres[0].material)}: everything on, as planned, and the difference`), first.map(triple)),
+  sections: [plans(), pictures(), shares(), one_material(), switches(), how(), left_out_of_asset()],
+  setting: `${full ? "Full" : "Quick"} setting. Every figure of this page is in its data block and in the .json beside it.`,
+});
