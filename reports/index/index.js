@@ -3,7 +3,7 @@
 
 const { version, full, at_ms, machine, decisions, visible, fresnel, front, reports, claims } = page_data();
 document.head.append(el("style", {}, `
-.lead { color: var(--muted); }
+.lead { color: var(--muted); max-width: 128ch; margin-bottom: 6px; }
 .decide { margin-top: 14px; padding-top: 8px; }
 .decide table { width: 100%; font-size: 14.5px; }
 .decide :is(th, td) { padding: 5px 20px 5px 0; }
@@ -19,7 +19,10 @@ document.head.append(el("style", {}, `
 .beside { background: color-mix(in srgb, var(--high-1) 30%, transparent); }
 .shows { background: color-mix(in srgb, var(--red) 34%, transparent); font-weight: 650; }
 .unknown { color: var(--muted); }
-.key span { padding: 1px 8px; border-radius: 5px; margin-right: 8px; white-space: nowrap; }
+.key { display: flex; flex-wrap: wrap; gap: 4px 8px; }
+.key span { padding: 1px 8px; border-radius: 5px; white-space: nowrap; }
+.seen-by td { min-width: 5.2em; }
+@media print { .decide table, .seen-by { font-size: 11px; } .decide small { font-size: 9.5px; } .decide :is(th, td) { padding: 3px 12px 3px 0; } }
 .small-picture { display: block; width: 100%; height: auto; background: var(--faint); border-radius: 4px; margin-bottom: 8px; }
 .said summary { color: inherit; font-weight: 400; margin: 0; }
 .said details > p { margin: 6px 0 2px; font-size: 13.5px; color: var(--muted); }
@@ -109,14 +112,14 @@ const behind = () => anchored("about", section("What stands behind a figure", nu
   "Colours are those of a rough surface under even light, beside a perfect diffuser in D65, without a tone map. Metals are taken at 650, 550 and 450 nm.",
   "Masking is held against height-correlated Smith for GGX: RMS of G₂ over both cosines from 0.05 to 1 and over roughness.",
   "Bounces are held against transport between the facets, for F0 from 0.04 to 1 under Schlick's Fresnel, seen from cosine 0.1 on.",
-  "Times are medians of one run on this machine; a difference less than both spreads is none. Compensations are timed one light and view at a time.",
+  "Times are medians on this machine; a difference less than both spreads is none. Compensations are timed one light and view at a time.",
 ].map((text) => el("li", {}, text)))));
 
 const parts = [what_to_ship(), el("div", { class: "columns" }, grid(), time()), cards(), verdicts(), behind()].filter((p) => p && p.childNodes.length);
 const places = [["decide", "Decide"], ["fresnel", "Fresnel by material"], ["time", "Accuracy against time"], ["reports", "The reports"], ["claims", "Claims"], ["about", "What stands behind a figure"]];
 const is_there = (id) => parts.some((p) => p.id === id || p.querySelector(`#${id}`));
 document.getElementById("page").replaceChildren(
-  el("h1", {}, "Which shortcuts can you ship?"), el("p", { class: "lead" }, lead()),
+  el("h1", {}, "Which shortcuts can you ship?"), el("p", { class: "lead" }, lead(), fresnel.length ? [` ΔE is CIEDE2000: up to ${visible.just_seen} nobody sees it, up to ${visible.side_by_side} only side by side (`, el("a", { href: "#fresnel" }, "sources"), ")."] : null),
   el("nav", { class: "contents", "aria-label": "Contents" }, places.filter(([id]) => is_there(id)).map(([id, text]) => el("a", { href: `#${id}` }, text))),
   ...parts,
   el("footer", {}, `gonio ${version}, ${full ? "full" : "quick"} setting, made ${new Date(at_ms).toISOString().slice(0, 16).replace("T", " ")} UTC. All of this page is in index.json beside it.`));
