@@ -36,9 +36,9 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
       "Schlick's masking costs a bit more than the joint approximation",
       "seed 004, Vis_SmithJointApprox", verdict(more && !is_tie(schlick->time, joint->time)),
       fmt::format("{} against {}, clamped", ns(schlick->time), ns(joint->time)),
-      fmt::format("in float columns of {} in cache, Schlick's masking takes {} the joint form as "
-                  "it is printed, with its clamp, and {} the one without.",
-                  r.machine.instruction_sets.back(), words(*joint), words(*plain)));
+      fmt::format("in float columns in cache it takes {} the joint form with the clamp that it "
+                  "ships with. It takes {} the one without.",
+                  words(*joint), words(*plain)));
 }
 
 void exact_is_slow(Findings& to, const CostRows& r) {
@@ -66,13 +66,12 @@ void pow5(Findings& to, const CostRows& r) {
   if (by_pow == r.points.end() || by_hand == r.points.end()) return;
   const double ratio = by_pow->time.ns / by_hand->time.ns;
   to.judge(
-      "a Pow5 of one's own spares what pow costs a bit more", "seed 001, Schlick's approximation",
+      "a Pow5 of one's own saves what pow costs more", "seed 001, Schlick's approximation",
       verdict(ratio > 1 && !is_tie(by_pow->time, by_hand->time)),
       fmt::format("pow {}, Pow5 {}", ns(by_pow->time), ns(by_hand->time)),
-      fmt::format(
-          "in a plain loop over floats, Schlick's form with pow takes {:.1f} times as long as with "
-          "multiplications. What the two give differs by rounding alone.",
-          ratio));
+      fmt::format("in a plain loop, Schlick's form with pow takes {:.1f} times as long. What the "
+                  "two give differs by rounding alone.",
+                  ratio));
 }
 
 /// Schlick's form at each cosine, with a fifth power.

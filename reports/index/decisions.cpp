@@ -299,16 +299,15 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
 void image_light(std::vector<Decision>& to, const Facts& f) {
   if (!f.split_sum) return;
   const auto& s = *f.split_sum;
-  const auto lit = s.head_on && s.grazing
-                       ? fmt::format(" (of the mean {}, at cosine 0.1 {})", percent(*s.head_on, 2),
-                                     percent(*s.grazing, 2))
-                       : "";
-  to.push_back({"Image-based light", fmt::format("Split sum, {0} × {0} table in half", s.size),
-                "split_sum", fmt::format("RMS {:.1g} of the table", s.rms) + lit,
-                fmt::format("{:.1f} kB, one look-up", static_cast<double>(s.bytes) / 1000),
-                s.grazing && *s.grazing > 0.1
-                    ? "rims are looked at: the split takes the view for the normal"
-                    : ""});
+  const auto table = fmt::format("RMS {:.1g}", s.rms);
+  to.push_back(
+      {"Image-based light", fmt::format("Split sum, {0} × {0} table in half", s.size), "split_sum",
+       s.head_on
+           ? fmt::format("{} of the mean (the table alone: {})", percent(*s.head_on, 2), table)
+           : table + " of E",
+       fmt::format("{:.1f} kB, one look-up", static_cast<double>(s.bytes) / 1000),
+       s.grazing ? fmt::format("rims are looked at: {} of the mean there", percent(*s.grazing, 2))
+                 : ""});
 }
 
 void diffuse(std::vector<Decision>& to, const Facts& f) {
@@ -474,7 +473,8 @@ std::string decision_table(std::span<const Decision> all, std::size_t width) {
       for (std::size_t k = 0; k < columns; ++k) {
         const std::string text = i < cells[k].size() ? cells[k][i] : "";
         line += text;
-        if (k + 1 < columns) line.append(widths[k] + gap - width_of(text), ' ');
+        if (k + 1 < columns)
+          line.append(std::max(widths[k] + gap, width_of(text) + 1) - width_of(text), ' ');
       }
       out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }

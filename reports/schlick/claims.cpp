@@ -59,16 +59,15 @@ void smaller_than_others(Findings& to, const SchlickRows& r) {
   }
   if (!glass || !worst) return;
   to.judge(
-      "the error that Schlick's approximation brings is clearly smaller than that of other factors",
+      "Schlick's error is clearly smaller than that of other factors",
       "seed 001, Schlick's approximation",
       verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
       fmt::format("glass ΔE2000 {:.2g} against {:.2g} of masking's k",
                   shown_by_schlick(r, "IOR 1.5"), glass->delta_e),
-      fmt::format(
-          "beside masking by k = (r+1)²/8, it shows less than half as much on {} dielectrics "
-          "and {} metals. On {} Schlick shows ΔE2000 {:.2g}, and that masking {:.2g}.",
-          of_all(smaller[0], all[0]), of_all(smaller[1], all[1]), worst->material,
-          shown_by_schlick(r, worst->material), worst->delta_e));
+      fmt::format("masking by k = (r+1)²/8 shows more than twice as much on {} dielectrics. Of "
+                  "metals it does on {}. On {} Schlick shows ΔE2000 {:.2g}, that masking {:.2g}.",
+                  of_all(smaller[0], all[0]), of_all(smaller[1], all[1]), worst->material,
+                  shown_by_schlick(r, worst->material), worst->delta_e));
 }
 
 void means_metal(Findings& to) {
@@ -81,18 +80,19 @@ void means_metal(Findings& to) {
     if (const double f0 = f0_of_index(m.at(550)); f0 > 0.04) above.push_back({m.name, f0});
   if (above.empty()) return;
   const auto most = std::ranges::max_element(above, {}, &Value::f0);
-  to.judge("F0 above 0.04 means metal", "seed 003, what metalness is", verdict(false),
-           fmt::format("{} has F0 {:.2f}", most->name, most->f0),
-           fmt::format("{} dielectrics that were measured have more at 550 nm, up to {:.2f} of {}.",
-                       of_all(above.size(), dielectrics().size()), most->f0, most->name));
+  to.judge(
+      "F0 above 0.04 means metal", "seed 003, what metalness is", verdict(false),
+      fmt::format("{} has F0 {:.2f}", most->name, most->f0),
+      fmt::format("{} dielectrics that were measured have more. Of {} it is {:.2f}, at 550 nm.",
+                  of_all(above.size(), dielectrics().size()), most->name, most->f0));
 }
 
 void colour_beside_f(Findings& to) {
   const double glass = dielectric(1.5, "glass").f0(0), twice = glass * glass;
   to.judge("f = D F G/(4 NoL NoV) · NoL · SpecularColor", "seed 000, specular BRDF", verdict(false),
            fmt::format("glass reflects {} in place of {}", percent(twice, 2), percent(glass, 2)),
-           fmt::format("F holds the specular colour already, as its F0, so that it counts twice: "
-                       "seen head on glass reflects {} of light in place of {}.",
+           fmt::format("F holds the specular colour already. Seen head on, glass so reflects {} of "
+                       "light in place of {}.",
                        percent(twice, 2), percent(glass, 2)));
 }
 

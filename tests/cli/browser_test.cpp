@@ -281,7 +281,7 @@ void add_many(Pages& pages) {
 most_shipped = ["c7"];
 const figure = page_data().figures[0], of = (choice) => el("p", {}, `choice ${choice}`);
 const chosen = changing(() => of(1), () => [of(2), small_pictures([figure])]);
-show_report({ command: "report many", title: "Many", findings: ["One.", "Two.", "Three.", "Four."], first: figure_view(figure), sections: [null, section("Of choices, a section", "", chosen.node)], setting: "" });
+show_report({ command: "report many", title: "Many", findings: ["One.", "Two.", "Three.", "Four.", "Five."], first: figure_view(figure), sections: [null, section("Of choices, a section", "", chosen.node)], setting: "" });
 const keys = () => document.querySelector(".opening .keys").textContent;
 const complain = (of, is) => { if (!is) console.warn(of); };
 complain("a way back", document.querySelector('.over a[href="index.html"]'));

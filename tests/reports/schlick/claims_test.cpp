@@ -36,7 +36,9 @@ TEST(FresnelClaims, OtherFactorsAreWorseOnlyWhereSchlickShowsLessThanHalfOfThem)
   EXPECT_EQ(about(judged(shown(1, 4, 1, 9)), "other factors").judged, holds);
   EXPECT_EQ(about(judged(shown(3, 4, 5, 9)), "other factors").judged, fails);
   const auto c = about(judged(shown(3, 4, 1, 9)), "other factors");
-  EXPECT_NE(c.verdict.find("none of 1 dielectrics and 1 of 1 metals"), c.verdict.npos) << c.verdict;
+  EXPECT_NE(c.verdict.find("on none of 1 dielectrics. Of metals it does on 1 of 1."),
+            c.verdict.npos)
+      << c.verdict;
 }
 
 TEST(FresnelClaims, ADielectricOfMoreThanFourPercentIsNoMetal) {
@@ -57,7 +59,7 @@ TEST(FresnelClaims, MaskingIsComparedUnderTheSameFresnelTerm) {
   const auto glass = std::ranges::find(all, "IOR 1.5", &MaskingColour::material);
   ASSERT_NE(glass, all.end());
   EXPECT_GT(glass->delta_e, 0.5) << "k = (r+1)²/8 masks too much";
-  EXPECT_LT(glass->delta_e, 30);
+  EXPECT_LT(glass->delta_e, 40);
   EXPECT_GT(std::ranges::count(all, "metal", &MaskingColour::kind), 5);
   // At roughness 1 that k is separable Smith, which shows less.
   const auto rough = masked_rows({false, {1.5}, 90, {1}}, [](double) {});
