@@ -67,13 +67,12 @@ void tail_is_short(Findings& to) {
   const auto all = published_exponents.size();
   const auto longer = static_cast<std::size_t>(
       std::ranges::count_if(published_exponents, [](double c) { return c < exponent_of_ggx; }));
-  to.judge(
-      "for many materials even GGX's tail is not long enough",
-      "seed 001, the distribution of normals", verdict(10 * longer > all, longer > 0),
-      fmt::format("{} published fits have a longer one", of_all(longer, all)),
-      fmt::format("of the fits that Löw and others published for MERL's materials, with a free "
-                  "exponent, {} fall off more slowly than GGX.",
-                  of_all(longer, all)));
+  to.judge("for many materials even GGX's tail is not long enough",
+           "seed 001, the distribution of normals", verdict(10 * longer > all, longer > 0),
+           fmt::format("{} published fits have a longer one", of_all(longer, all)),
+           fmt::format("{} fits that Löw and others published for MERL's materials fall off more "
+                       "slowly.",
+                       of_all(longer, all)));
 }
 
 void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {
@@ -83,14 +82,12 @@ void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {
   };
   const auto low = of("riemann"), middle = of("riemann_midpoint"), end = r.light.irradiance.end();
   if (low == end || middle == end) return;
-  to.judge(
-      "irradiance is the Riemann sum over the hemisphere, divided by the number of samples",
-      "seed 003, indirect diffuse light", verdict_on_small(std::abs(low->bias)),
-      fmt::format("{} at {} samples", percent(low->bias, 2), low->samples),
-      fmt::format("with its factor of π², the usual sum of {} samples is off by {} under a sky "
-                  "that grows brighter towards the zenith. Taken from the middle of each step it "
-                  "is off by {}.",
-                  low->samples, percent(low->bias, 2), percent(middle->bias, 2)));
+  to.judge("irradiance is a Riemann sum, divided by its samples",
+           "seed 003, indirect diffuse light", verdict_on_small(std::abs(low->bias)),
+           fmt::format("{} at {} samples", percent(low->bias, 2), low->samples),
+           fmt::format("with its factor of π², {} samples are off by {} under a sky brighter "
+                       "towards the zenith. From the middle of each step they are off by {}.",
+                       low->samples, percent(low->bias, 2), percent(middle->bias, 2)));
 }
 
 }  // namespace
