@@ -32,13 +32,12 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
            : schlick->time.ns > other.time.ns ? "longer than"
                                               : "less than";
   };
-  to.judge(
-      "Schlick's masking costs a bit more than the joint approximation",
-      "seed 004, Vis_SmithJointApprox", verdict(more && !is_tie(schlick->time, joint->time)),
-      fmt::format("{} against {}, clamped", ns(schlick->time), ns(joint->time)),
-      fmt::format("in float columns in cache it takes {} the joint form with the clamp that it "
-                  "ships with. It takes {} the one without.",
-                  words(*joint), words(*plain)));
+  to.judge("Schlick's masking costs a bit more than the joint approximation",
+           "seed 004, Vis_SmithJointApprox", verdict(more && !is_tie(schlick->time, joint->time)),
+           fmt::format("{} against {}, clamped", ns(schlick->time), ns(joint->time)),
+           fmt::format("in float columns in cache it takes {} the joint form with its "
+                       "clamp. It takes {} the one without.",
+                       words(*joint), words(*plain)));
 }
 
 void exact_is_slow(Findings& to, const CostRows& r) {
