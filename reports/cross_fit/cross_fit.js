@@ -11,7 +11,7 @@ const kind_names = { fresnel: "Fresnel term", masking: "masking", distribution: 
 function matrices() {
   const chosen = { quantity: "roughness", roughness: "all" };
   const view = changing(() => map_view(picture_of(maps, "matrix", chosen)),
-    () => small_pictures(maps.filter((m) => m.family === "matrix" && m.choices.roughness === chosen.roughness && m.choices.quantity !== chosen.quantity), (m) => map_view(m)));
+    () => maps.filter((m) => m.family === "matrix" && m.choices.roughness === chosen.roughness && m.choices.quantity !== chosen.quantity).map((m) => map_view(m)), 1);
   const change = (key) => (v) => { chosen[key] = v; view.again(); };
   return el("div", { class: "picture" }, el("p", { class: "small muted" }, "Each row is a truth, each column the form that it is fitted with. A cell is empty where that form was not fitted, or where most of its fits end at a bound."),
     el("div", { class: "controls" },
@@ -39,7 +39,7 @@ function over_roughness() {
       el("div", { class: "columns" }, seen.map((f) => figure_view(f, { emphasis }))),
       el("h3", { style: { "margin-top": "22px" } }, "Each in a sentence"),
       el("div", { class: "columns" }, said.map((s) => el("p", { class: "small" }, el("code", {}, short(s.fitted)), el("br"), s.sentence)))];
-  }, () => small_pictures(figures.filter((f) => f.family === "shifts" && f.choices.material === chosen.material && !(f.choices.truth === chosen.truth && f.choices.kind === chosen.kind))));
+  }, () => small_pictures(figures.filter((f) => f.family === "shifts" && f.choices.material === chosen.material && f.choices.truth === chosen.truth && f.choices.kind !== chosen.kind)));
   return section("Over roughness", "The shift of each parameter that the form brings about. F0 of metals is the mean of the channels. Points at a bound are left out. Where light meets several facets bars are what the random walks leave uncertain; "
     + "dashed: the exact form of single scattering.", panels.node);
 }

@@ -10,7 +10,6 @@
 #include "brdf/catalogue/registry.h"
 #include "integrate/rule/quadrature.h"
 #include "integrate/rule/slopes.h"
-#include "reports/energy/published_tails.h"
 #include "reports/finding/words.h"
 
 #include <fmt/format.h>
@@ -52,6 +51,7 @@ double apart(std::string_view one, std::string_view other, double alpha) {
 
 void phong_is_beckmann(Findings& to, const EnergyRows& r) {
   const auto& all = r.claims.phong_from_beckmann;
+  if (all.empty()) return;
   const auto &smooth = all.front(), &rough = all.back();
   to.judge(
       "Phong and Beckmann are equivalent by the exponent 2α⁻² − 2",
@@ -61,18 +61,6 @@ void phong_is_beckmann(Findings& to, const EnergyRows& r) {
       fmt::format("at roughness {:g} the two put {} of the facets' area at different angles. It is "
                   "the more the rougher the surface.",
                   smooth.roughness, percent(smooth.share, 2)));
-}
-
-void tail_is_short(Findings& to) {
-  const auto all = published_exponents.size();
-  const auto longer = static_cast<std::size_t>(
-      std::ranges::count_if(published_exponents, [](double c) { return c < exponent_of_ggx; }));
-  to.judge("for many materials even GGX's tail is not long enough",
-           "seed 001, the distribution of normals", verdict(10 * longer > all, longer > 0),
-           fmt::format("{} published fits have a longer one", of_all(longer, all)),
-           fmt::format("{} fits that Löw and others published for MERL's materials fall off more "
-                       "slowly.",
-                       of_all(longer, all)));
 }
 
 void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {
@@ -100,10 +88,7 @@ std::vector<ClaimRows::Apart> phong_from_beckmann() {
 }
 
 void judge_distributions_and_sums(Findings& to, const EnergyRows& r) {
-  if (!r.claims.phong_from_beckmann.empty()) {
-    phong_is_beckmann(to, r);
-    tail_is_short(to);
-  }
+  phong_is_beckmann(to, r);
   irradiance_is_a_sum(to, r);
 }
 

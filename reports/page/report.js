@@ -32,9 +32,9 @@ function in_cards(t, names = [...t.tHead.rows[0].cells].map((c) => c.textContent
   return el("div", { class: "scroll in-cards" }, name_cells(t, names));
 }
 /// A place whose content is made again whenever a choice changes.
-/// \param paper  makes what of the other choices is printed beside the chosen one; made when that happens
-function changing(make, paper) {
-  const chosen = el("div", {}), node = paper ? el("div", {}, chosen, on_paper(paper)) : chosen;
+/// \param paper  makes what of the other choices is printed beside the chosen one; made when that happens   \param columns  of it
+function changing(make, paper, columns) {
+  const chosen = el("div", {}), node = paper ? el("div", {}, chosen, on_paper(paper, columns)) : chosen;
   const again = () => chosen.replaceChildren(...[make()].flat());
   again();
   return { node, again };

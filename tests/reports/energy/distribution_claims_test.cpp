@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/energy/published_tails.h"
 #include "reports/plain.h"
 
 #include <gtest/gtest.h>
@@ -47,22 +46,6 @@ TEST(DistributionClaims, AreJudgedByTheirFigures) {
   EXPECT_EQ(judged(r).claims.at(0).judged, partly);
   r.claims.phong_from_beckmann = {{0.2, 0.1}, {0.9, 0.3}};
   EXPECT_EQ(judged(r).claims.at(0).judged, fails);
-}
-
-TEST(DistributionClaims, GgxFallsOffWithTheExponentTwo) {
-  // far from the peak D ∝ (1 − cos θ)^−C: GGX of a small alpha, at two small angles
-  const double alpha = 1e-4, near = 1e-3, far = 2e-3;
-  const auto ggx = [&](double f) {
-    const double c = 1 - f, d = c * c * (alpha * alpha - 1) + 1;
-    return 1 / (d * d);
-  };
-  EXPECT_NEAR(-std::log(ggx(far) / ggx(near)) / std::log(far / near), exponent_of_ggx, 1e-2);
-  EXPECT_EQ(published_exponents.size(), 100U);
-  EnergyRows r;
-  r.claims.phong_from_beckmann = {{0.2, 0.1}};
-  const auto c = judged(r).claims.at(1);
-  EXPECT_EQ(c.judged, Claim::Judged::holds);
-  EXPECT_EQ(c.figure, "94 of 100 published fits have a longer one");
 }
 
 TEST(DistributionClaims, ARiemannSumIsOffByItsBias) {
