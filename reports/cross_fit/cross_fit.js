@@ -56,8 +56,8 @@ function compared() {
 /// Shifts as ranges: a form a row, metric and directions across.
 function ranges_by_metric() {
   if (!ranges.length) return null;
-  const metric_names = { log: "log", l2_cosine: "cosine-weighted" }, columns = unique(ranges.map((x) => `${metric_names[x.metric]}, ${x.directions}`));
-  const said = { f0: ["F0", signed_percent], roughness: ["roughness", (x) => (x > 0 ? "+" : "") + significant(x, 2)] };
+  const metric_names = { log: "log", l2_cosine: "cosine-weighted" }, columns = unique(ranges.map((x) => `${metric_names[x.metric]}, ${x.directions}`)).sort((a, b) => a.endsWith("horizon") - b.endsWith("horizon"));
+  const said = { f0: ["F0", (x) => (Math.abs(x) < 5e-4 ? "0" : signed_percent(x))], roughness: ["roughness", (x) => (Math.abs(x) < 5e-5 ? "0" : (x > 0 ? "+" : "") + significant(x, 2))] };
   let parameter = "f0", material = ranges[0].material;
   const body = changing(() => {
     const own = ranges.filter((x) => x.parameter === parameter && x.material === material), say = said[parameter][1];

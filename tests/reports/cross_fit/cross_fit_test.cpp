@@ -338,7 +338,6 @@ TEST(CrossFit, WhatIsSaidCanBeReadAloud) {
     for (const auto& s : sentences_of_forms(r)) test::expect_plain(s.sentence);
   };
   expect();
-  EXPECT_EQ(findings(r).claims.size(), 1U);
   EXPECT_GE(findings(r).sentences.size(), 15U);
   for (auto& c : r.cases) {
     c.converged = false;
@@ -379,7 +378,8 @@ TEST(CrossFit, FindingsFollowTheFigures) {
   EXPECT_TRUE(said("fitted with Schlick in place of exact Fresnel"));
   EXPECT_TRUE(said("gives its parameters back."));
   EXPECT_TRUE(said("fits converged."));
-  EXPECT_TRUE(said("even GGX's tail is too short” holds:"));
+  EXPECT_TRUE(said("17 of 20 materials measured for MERL have a longer tail than GGX"));
+  EXPECT_TRUE(said("GTR's gamma shifts by −"));
   for (auto& c : r.cases)
     if (c.fitted == "exact") c.values[0].fitted += 0.1, c.converged = false;
   EXPECT_TRUE(said("back only roughly"));
