@@ -62,7 +62,7 @@ function wrong_place() {
   return section("Each k in the other's place", "k = (r+1)²/8 is meant for single lights, k = r²/2 for image-based light. Each figure shows both, beside exact Smith.",
     el("div", { class: "controls" }, chooser("μ", mus.map((m) => [m, m]), mu, (m) => { mu = m; both.again(); })), both.node,
     el("h3", {}, "Schlick's G1 at NoV 0.1"),
-    in_cards(table([{ n: "k" }, { n: "claimed" }, { n: "G1" }, { n: "roughness of (r+1)²/8" }, { n: "exact Smith there" }],
+    in_cards(table([{ n: "k" }, { n: "claimed" }, { n: "G1" }, { n: "roughness that it is meant for" }, { n: "exact Smith there" }],
       g1.map((g) => [{ n: plain(g.k) }, { n: plain(g.claimed) }, { n: g.value.toFixed(4) }, { n: plain(g.roughness) }, { n: g.smith.toFixed(4) }]))));
 }
 

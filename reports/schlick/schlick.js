@@ -112,7 +112,7 @@ function rough() {
       choice("Angle", choices_of(figures, "albedo_error", "mu").map((m) => [m, `μ = ${m}`]), mu, (m) => { mu = m; panels.again(); })),
       el("div", { class: "panels" }, view("albedo_error", { material, channel, mu }), view("albedo_relative_error", { material, channel, mu }), view("colour_difference", { material, mu })));
   }, () => small_pictures(figures.filter((f) => f.family === "colour_difference" && f.choices.mu === mu)));
-  return section("What it does to a rough surface", "Directional albedo E(μ) of GGX under Smith masking, correlated, single scattering, with the form in place of the exact F; the linear form, and Gulbrandsen's, which is exact, are left out. "
+  return section("What it does to a rough surface", "Directional albedo E(μ) of GGX under Smith masking, correlated, single scattering, with the form in place of the exact F. Of metals the truth is the colour of the whole spectrum in linear RGB, and F0 is that colour. The linear form and Gulbrandsen's are left out. "
     + `Every E is known to ${significant(albedo_error_bound, 1)} or better.`, panels.node);
 }
 

@@ -32,10 +32,13 @@ Facts made_facts() {
        std::vector<std::tuple<std::string, std::string, double>>{
            {"fresnel.schlick", "gold", 0.9},
            {"fresnel.f82", "gold", 0.8},
+           {"fresnel.conductor, three wavelengths", "gold", 0.7},
            {"fresnel.schlick", "brass", 1.6},
            {"fresnel.f82", "brass", 1.2},
+           {"fresnel.conductor, three wavelengths", "brass", 0.9},
            {"fresnel.schlick", "iron", 5.7},
            {"fresnel.f82", "iron", 0.4},
+           {"fresnel.conductor, three wavelengths", "iron", 0.3},
            {"fresnel.schlick", "IOR 1.5", 3.2},
            {"fresnel.f82", "IOR 1.5", 4}})
     f.fresnel.push_back(
@@ -95,7 +98,7 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   EXPECT_EQ(masking.unless, "nanoseconds are short: Unreal's joint form, RMS 0.07 of G₂");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").take, "Schlick");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").unless,
-            "brass beside a photograph: exact conductor");
+            "brass beside a photograph: exact conductor at three wavelengths");
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").take, "F82");
   EXPECT_EQ(about(all, "Fresnel of dielectrics (glass)").take, "Exact dielectric");
   EXPECT_EQ(about(all, "All bounces of a single light").take, "Turquin, from roughness 0.4 on");
@@ -137,7 +140,7 @@ TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
 
 TEST(Decisions, ChangeWhereAThresholdIsCrossed) {
   auto f = made_facts();
-  f.fresnel[2].delta_e = 2.4;  // Schlick on brass is seen by itself
+  f.fresnel[3].delta_e = 2.4;  // Schlick on brass is seen by itself
   auto all = decisions(f);
   EXPECT_EQ(about(all, "Fresnel of gold").subject, "Fresnel of gold");
   EXPECT_EQ(about(all, "Fresnel of other metals").subject, "Fresnel of other metals (brass, iron)");
