@@ -246,10 +246,10 @@ TEST(SchlickReport, TheVerdictsAreMadeFromTheFigures) {
   EXPECT_TRUE(said(smooth(), "below 1 %” does not hold"));
   EXPECT_TRUE(said(smooth(), "F is off by up to 0.036 of full light"));
   EXPECT_TRUE(said(smooth(), "“most non-metals have F0 0.02 to 0.04” does not hold"));
-  EXPECT_TRUE(said(smooth(), "only near IOR 1 is it poor” holds in part"));
+  EXPECT_TRUE(said(smooth(), "near a relative IOR of 1 its error is larger” holds in part"));
   auto good = smooth();
   for (auto& r : good.smooth) r.max_abs = r.max_rel = r.eta < 1.2 && r.k == 0 ? 0.2 : 1e-3;
-  EXPECT_TRUE(said(good, "only near IOR 1 is it poor” holds:"));
+  EXPECT_TRUE(said(good, "near a relative IOR of 1 its error is larger” holds:"));
   for (auto& r : good.smooth) r.max_abs = 1e-3;
   EXPECT_TRUE(said(good, "below 1 %” holds:"));
 }
