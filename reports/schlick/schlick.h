@@ -53,8 +53,8 @@ struct RoughFresnel {
   std::vector<FresnelColour> colours;
 };
 
-/// Greatest ΔE2000, over roughness and views, of a rough surface that Schlick's k = (r+1)²/8 masks, from one that exact Smith
-/// does; both under the exact Fresnel term.
+/// Greatest ΔE2000, over roughness and views, of a rough surface under Unreal's joint masking, the nearest of the cheap ones, from
+/// one under exact Smith; both with the exact Fresnel term.
 struct MaskingColour {
   std::string material, kind;  ///< as of a FresnelSurface
   double delta_e;

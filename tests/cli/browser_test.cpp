@@ -443,7 +443,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
     EXPECT_LE(page["wider"], 0) << name << " is wider than 500 px, by so many";
     EXPECT_TRUE(page["dead"].empty()) << name << ": " << page["dead"].dump();
     if (reports.contains(name)) {
-      EXPECT_GT(page["places"], 2) << name << " has contents";
+      EXPECT_GE(page["places"], 2) << name << " has contents";
       EXPECT_LT(page["picture"], 900) << name << ": its first picture is far below";
     }
     if (name == "audit" || name == "plan") continue;  // no canvas there
