@@ -136,8 +136,9 @@ function show(which) {
 const broken = (law) => entries.filter((e) => e.violates.includes(law)).length;
 const fact = (name, value, rest = null) => el("div", {}, el("dt", {}, name), el("dd", {}, value, rest ? el("small", {}, " " + rest) : null));
 
+const sections = kinds.map(kind_section).filter(Boolean);
 document.getElementById("page").replaceChildren(
-  el("p", { class: "over" }, "gonio audit"), el("h1", {}, "The catalogue, audited"),
+  el("p", { class: "over" }, "gonio audit"), el("h1", {}, "The catalogue, audited"), contents(sections),
   el("p", { class: "verdict" }, `Of ${many(entries.length, "form")} that are shipped or published, `,
     el("b", {}, `${entries.filter((e) => e.mistake).length} are mistakes`), " (they differ from the form they are named for) and ",
     el("b", {}, `${entries.filter((e) => e.violates.length).length} break a law`), " that a BRDF should keep."),
@@ -148,5 +149,5 @@ document.getElementById("page").replaceChildren(
     el("p", {}, "Every figure is the worst over the entry's parameters, the ends of their ranges included, and over directions. ∫ D cos θ should be 1. "
       + "‘Most albedo’ is the largest share of light from one direction that leaves again, at F = 1 and white: above 1 light is made (a distribution without a masking of its own is not judged by it). "
       + "‘Off by at most’ is the distance to the form named below it. Curves: blue the entry, dashed that form.")),
-  ...kinds.map(kind_section).filter(Boolean),
+  ...sections,
   el("footer", {}, "Every figure of this page is in its data block and in the .page.json beside it."));

@@ -31,6 +31,7 @@ EnergyRows energy_rows(const EnergyOptions& o, const ReportProgress& done) {
   r.estimators = estimator_points(o, part_of(done, "error against time", 0.7, 0.8));
   r.light = image_light(o, part_of(done, "image-based light", 0.8, 1));
   r.claims = claim_rows(r.forms);
+  r.diffuse = diffuse_forms(o);
   return r;
 }
 EnergyReport energy_report(const EnergyOptions& o, const ReportProgress& done) {

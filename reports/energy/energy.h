@@ -169,6 +169,18 @@ struct ClaimRows {
     double off;
   };
   std::optional<HalfAngle> half_angle;
+  /// Share of the facets' projected area that two distributions put at different angles: ½ ∫ |D₁ − D₂| cos θ dω.
+  struct Apart {
+    double roughness, share;
+  };
+  std::vector<Apart> phong_from_beckmann{};  ///< by ascending roughness
+};
+
+/// A diffuse term alone, of a white surface.
+struct DiffuseForm {
+  std::string id;
+  double most_albedo;              ///< over roughness and angles
+  double most_roughness, most_mu;  ///< where that is
 };
 
 /// Everything that the report measures.
@@ -180,6 +192,7 @@ struct EnergyRows {
   std::vector<EstimatorPoint> estimators;
   ImageLight light;
   ClaimRows claims;
+  std::vector<DiffuseForm> diffuse{};
 };
 
 /// Places where everything is measured.
@@ -196,6 +209,7 @@ EnergyOptions energy_options(bool full);
 std::vector<EnergyForm> energy_forms(const EnergyOptions&, const std::function<void(double)>& done);
 std::vector<EnergyMaterial> energy_materials(const EnergyOptions&,
                                              const std::function<void(double)>& done);
+std::vector<DiffuseForm> diffuse_forms(const EnergyOptions&);
 /// Costs of the compensations beside their errors for these materials.
 std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMaterial>&);
 std::vector<AlbedoForm> albedo_form_errors();

@@ -19,6 +19,9 @@ void join(Facts& to, const Facts& from) {
   append(to.scattering, from.scattering);
   append(to.compensations, from.compensations);
   append(to.precision, from.precision);
+  append(to.tails, from.tails);
+  append(to.diffuse, from.diffuse);
+  if (from.split_sum) to.split_sum = from.split_sum;
 }
 
 }  // namespace gonio

@@ -58,6 +58,26 @@ struct Facts {
     std::optional<double> safe_from;
   };
   std::vector<Precision> precision{};
+  /// RMS of ln f that a fit with GGX leaves of surfaces whose slopes are distributed otherwise, over roughness and materials.
+  struct Tail {
+    std::string truth;  ///< "GTR 3"
+    double log_rms;
+  };
+  std::vector<Tail> tails{};
+  /// Greatest share of light that a white diffuse term gives back, over roughness and angles.
+  struct Diffuse {
+    std::string id;
+    double most_albedo;
+  };
+  std::vector<Diffuse> diffuse{};
+  /// Table of the split sum that people ship: RMS error of its lookup, over NoV and roughness.
+  struct SplitSum {
+    std::size_t size, bytes;
+    double rms;
+    /// Greatest RMS of the split itself under an environment, as a part of the mean, seen head on and at cosine 0.1.
+    std::optional<double> head_on{}, grazing{};
+  };
+  std::optional<SplitSum> split_sum{};
 };
 
 /// Adds what another report knows.
