@@ -19,7 +19,7 @@ std::string name_of_form(std::string_view form) {
        {"fresnel.schlick", "Schlick"},
        {"fresnel.schlick.f90", "Schlick, F90 fitted"},
        {"fresnel.f82", "F82"},
-       {"fresnel.lazanyi, corrected", "Lazányi, corrected"},
+       {"fresnel.lazanyi, corrected", "Lazányi's corrected form"},
        {"fresnel.dielectric", "Exact dielectric"},
        {"fresnel.conductor", "Exact conductor"},
        {"fresnel.conductor, three wavelengths", "Exact conductor at three wavelengths"},
