@@ -96,9 +96,8 @@ void without_a_value(Findings& to, const StabilityRows& r) {
     const auto proved = static_cast<std::size_t>(std::ranges::count_if(
         all, [](const StabilityRow* row) { return row->finite_from.has_value(); }));
     to.say(
-        fmt::format("In {}, inputs without a value were found for {} forms. For {} forms a value "
-                    "is proved for every "
-                    "input from some parameter on.",
+        fmt::format("In {}, {} forms were found to have inputs without a value. From some width "
+                    "on, a value is proved for every input of {}.",
                     number, of_all(fails, all.size()), number_or_none(proved)));
   }
 }
