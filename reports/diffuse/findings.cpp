@@ -31,7 +31,7 @@ void light_is_made(Findings& to, const DiffuseRows& r) {
       most.name, most.most_roughness, most.most_albedo);
   to.say(to.headline);
   for (const auto* f : makers)
-    if (f != &most && f->name.find("coupled") == f->name.npos)
+    if (f != &most && f->most_albedo > 1.05 && f->name.find("coupled") == f->name.npos)
       to.say(fmt::format("{}’s reflects up to {:.3g} times what it receives, at {}.", f->name,
                          f->most_albedo, place(f->most_roughness, f->most_mu)));
 }
@@ -113,9 +113,9 @@ void laws_and_times(Findings& to, const DiffuseRows& r) {
 Findings findings(const DiffuseRows& r) {
   Findings all;
   light_is_made(all, r);
+  looks(all, r);
   light_is_lost(all, r);
   below_a_lobe(all, r);
-  looks(all, r);
   laws_and_times(all, r);
   return all;
 }
