@@ -71,14 +71,14 @@ void of_materials(Findings& to, const EnergyRows& r) {
   struct Told {
     std::string_view material, words;
   };
-  static constexpr Told told[] = {{"F0 = 0.04", "Plastic of F0 = 0.04"},
-                                  {"gold, red", "Gold’s red channel"}};
+  static constexpr Told told[] = {{"F0 = 0.04", "plastic of F0 = 0.04"},
+                                  {"gold, red", "gold in its red channel"}};
   for (const auto& t : told)
     for (const auto& m : r.materials)
       if (m.name == t.material)
         to.say(
-            fmt::format("{} misses a tenth of what it should reflect {}, on average over the "
-                        "hemisphere.",
+            fmt::format("On average over the hemisphere, {} misses a tenth of what it should "
+                        "reflect {}.",
                         t.words, where_lost(m.crossings, 0, tenth)));
 }
 
