@@ -137,8 +137,9 @@ function show(which) {
 const broken = (law) => entries.filter((e) => e.violates.includes(law)).length;
 const fact = (name, value, rest = null) => el("div", {}, el("dt", {}, name), el("dd", {}, value, rest ? el("small", {}, " " + rest) : null));
 
+const sections = kinds.map(kind_section).filter(Boolean);
 document.getElementById("page").replaceChildren(
-  el("p", { class: "over" }, "gonio audit"), el("h1", {}, "The catalogue, audited"),
+  el("p", { class: "over" }, "gonio audit"), el("h1", {}, "The catalogue, audited"), contents(sections),
   el("p", { class: "verdict" }, `Of ${many(entries.length, "form")} that are shipped or published, `,
     el("b", {}, `${entries.filter((e) => e.mistake).length} are mistakes`), " (they differ from the form they are named for) and ",
     el("b", {}, `${entries.filter((e) => e.violates.length).length} break a law`), " that a BRDF should keep."),
@@ -150,5 +151,5 @@ document.getElementById("page").replaceChildren(
       + "‘Most albedo’ is the largest share of light from one direction that leaves again, at F = 1 and white: above 1 light is made (a distribution without a masking of its own is not judged by it; an uncoupled diffuse term is judged by itself). "
       + "What engines ship without 1/π, for lights that bring it along, is divided by π throughout. "
       + "‘Off by at most’ is the distance to the form named below it. Curves: blue the entry, dashed that form.")),
-  ...kinds.map(kind_section).filter(Boolean),
+  ...sections,
   el("footer", {}, "Every figure of this page is in its data block and in the .page.json beside it."));

@@ -1,5 +1,10 @@
 #include "reports/cost/cost.h"
 
+#include <algorithm>
+#include <iterator>
+
+#include "reports/cost/claims.h"
+
 namespace gonio {
 
 CostOptions cost_options(bool full) {
@@ -16,6 +21,7 @@ CostRows cost_rows(const CostOptions& o, const ReportProgress& done) {
   });
   r.switches = cost_switches(r.rows);
   r.points = cost_points(o, part_of(done, "compensation, split sum, quadrature, fits", 0.5, 1));
+  std::ranges::move(power_points(o.timing), std::back_inserter(r.points));
   r.metals = errors_on_metals();
   return r;
 }

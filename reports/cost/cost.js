@@ -13,7 +13,17 @@ function ns_text(ns, spread) {
 const error_text = (e) => (known(e) ? significant(e, 2) : "–");
 const places = unique(rows.map((r) => [r.isa, r.memory].join(" "))).map((p) => p.split(" "));
 const at_first = () => ({ number: "float", place: [best, "cache"].join(" ") });  // of each section its own
+const at_best = { number: "float", set: best, memory: "cache" };
 const place_options = places.map(([isa, memory]) => [[isa, memory].join(" "), `${isa}, ${memory_text[memory]}`]);
+
+/// What is shown of one number, for the other.
+function other_number(chosen, make) {
+  const now = chosen.number;
+  chosen.number = now === "float" ? "double" : "float";
+  const made = [el("h3", {}, `In ${chosen.number}`), make()];
+  chosen.number = now;
+  return made;
+}
 
 // --- What it costs to switch ---------------------------------------------------------------------------
 const signed = (x, text) => (x > 0 ? "+" : x < 0 ? "−" : "±") + text(Math.abs(x));
@@ -26,11 +36,12 @@ function what_it_costs() {
   const chosen = at_first();
   const of = (question, isa, memory) => switches.find((s) => s.question === question && s.isa === isa && s.memory === memory && s.number === chosen.number);
   const questions = unique(switches.map((s) => s.question));
-  const list = changing(() => scroll(table(["from, to", { n: `${best}, in cache [ns]` }, { n: "" }, { n: `${best}, streaming [ns]` }, { n: "" }, { n: "scalar, in cache [ns]" }, { n: "" }, { n: "operations" }, { n: "RMS error from" }, { n: "to" }],
+  const of_number = () => in_cards(table(["from, to", { n: `${best}, in cache [ns]` }, { n: "" }, { n: `${best}, streaming [ns]` }, { n: "" }, { n: "scalar, in cache [ns]" }, { n: "" }, { n: "operations" }, { n: "RMS error from" }, { n: "to" }],
     questions.map((q) => {
       const s = of(q, best, "cache") ?? switches.find((x) => x.question === q);
       return [el("span", { style: { display: "inline-block", "min-width": "9em", "white-space": "normal" } }, q + (s.way ? `, ${s.way}` : "")), ...switch_cells(of(q, best, "cache")), ...switch_cells(of(q, best, "streaming")), ...switch_cells(of(q, "scalar", "cache")), { n: signed(s.more_ops, plain) }, { n: error_text(s.error_from) }, { n: error_text(s.error_to) }];
-    }))));
+    })), ["", ...[`${best}, in cache [ns]`, `${best}, streaming [ns]`, "scalar, in cache [ns]"].flatMap((name) => [name, ""]), "operations", "RMS error from", "to"]);
+  const list = changing(of_number, () => other_number(chosen, of_number));
   const node = section("What does it cost to switch?", "What one sample takes more, with the spread of both, and how many times as long it takes; less than the spread is a tie. Streaming, memory hides what is computed while it waits. "
     + "Terms are timed as a model uses them: D leaves a fraction, masking divides it, Fresnel and diffuse terms are added up; operations are those of the term alone, its division included.",
     el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); })), list.node);
@@ -49,7 +60,7 @@ function pictures() {
   const all = changing(() => {
     const [set, memory] = state.place.split(" ");
     return by_twos(families.map((family) => picture_of(figures, family, { number: state.number, set, memory })).filter(Boolean));
-  });
+  }, () => small_pictures(figures.filter((f) => f.choices?.set && f.choices.number === state.number && `${f.choices.set} ${f.choices.memory}` !== state.place)));
   return section("Time against error", "Each point is a form; further left is faster, further down is more exact. The line joins those that nothing dominates: nothing is faster by more than both spreads and not less exact. "
     + "What has no error in double is drawn at 10⁻¹⁷. Masking is held against Smith of its distribution, height-correlated; Fresnel terms against the exact form that they stand for; whole models against correlated Smith "
     + "and exact Fresnel of glass and gold, of what stands for one alone of that one, under their own distribution, roughness 0.1 to 1.",
@@ -61,7 +72,7 @@ function quadrature() {
   const cases = choices_of(figures, "quadrature", "case");
   if (!cases.length) return null;
   let now = cases.find((c) => c.includes("0.5")) ?? cases[0];
-  const one = changing(() => figure_view(picture_of(figures, "quadrature", { case: now }), { height: 400 }));
+  const one = changing(() => figure_view(picture_of(figures, "quadrature", { case: now }), { height: 400 }), () => small_pictures(figures.filter((f) => f.family === "quadrature" && f.choices.case !== now)));
   return el("div", {}, el("div", { class: "controls" }, chooser("Albedo of", cases.map((c) => [c, c]), now, (c) => { now = c; one.again(); })), one.node);
 }
 
@@ -74,11 +85,12 @@ function whole_models() {
   const bounds = (memory) => rows.filter((r) => r.kind === "bound" && r.isa === best && r.memory === memory && r.number === chosen.number);
   const names = { "bound.columns": "four columns read and one written", "bound.roots_and_division": "a division and two roots" };
   const times = (a, b) => ({ n: a && b ? `×${significant(a.ns / b.ns, 3)}` : "" });
-  const list = changing(() => scroll(table(["model", { n: "channels" }, { n: "by hand [ns]" }, { n: "fused [ns]" }, { n: "over by hand" }, { n: "composed [ns]" }, { n: "over by hand" }, { n: "streaming: by hand [ns]" }, { n: "fused [ns]" }, { n: "composed [ns]" }],
+  const of_number = () => in_cards(table(["model", { n: "channels" }, { n: "by hand [ns]" }, { n: "fused [ns]" }, { n: "over by hand" }, { n: "composed [ns]" }, { n: "over by hand" }, { n: "streaming: by hand [ns]" }, { n: "fused [ns]" }, { n: "composed [ns]" }],
     ids.map((id) => {
       const [hand, fused, composed] = ["by_hand", "fused", "composed"].map((way) => of(id, way, best, "cache"));
       return [el("code", {}, short(id)), { n: String(composed.channels) }, text(hand), text(fused), times(fused, hand), text(composed), times(composed, hand), ...["by_hand", "fused", "composed"].map((way) => text(of(id, way, best, "streaming")))];
-    }).concat(bounds("cache").map((r) => [names[r.id], { n: "" }, text(r), { n: "" }, { n: "" }, { n: "" }, { n: "" }, text(bounds("streaming").find((b) => b.id === r.id)), { n: "" }, { n: "" }])))));
+    }).concat(bounds("cache").map((r) => [names[r.id], { n: "" }, text(r), { n: "" }, { n: "" }, { n: "" }, { n: "" }, text(bounds("streaming").find((b) => b.id === r.id)), { n: "" }, { n: "" }]))));
+  const list = changing(of_number, () => other_number(chosen, of_number));
   return section("Whole models, and what bounds them", `In columns of ${best}: written out by hand for that model alone, as the terms of the catalogue fused into one loop, and composed of the columns of its terms at run time; `
     + "beside them what the arithmetic and the memory allow, measured in the same run. Models that ship are evaluated in three channels.",
     el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); })), list.node);
@@ -88,10 +100,11 @@ function whole_models() {
 function every_entry() {
   const chosen = at_first();
   const in_place = (list) => list.filter((r) => r.number === chosen.number && [r.isa, r.memory].join(" ") === chosen.place);
-  const list = changing(() => scroll(table(["", "kind", { n: "channels" }, { n: "time [ns]" }, { n: "operations" }, { n: "divisions" }, { n: "roots" }, { n: "exp, log" }, { n: "table [bytes]" }, { n: "largest error" }, { n: "RMS" }, { n: "ΔE2000 of gold" }, "of", "against", "front"],
+  const of_number = () => in_cards(table(["", "kind", { n: "channels" }, { n: "time [ns]" }, { n: "operations" }, { n: "divisions" }, { n: "roots" }, { n: "exp, log" }, { n: "table [bytes]" }, { n: "largest error" }, { n: "RMS" }, { n: "ΔE2000 of gold" }, "of", "against", "front"],
     in_place(rows).filter((r) => !["bound", "by_hand"].includes(r.kind)).map((r) => [el("code", {}, short(r.id) + (r.way ? `, ${r.way}` : "")), r.kind, { n: String(r.channels) }, { n: ns_text(r.ns, r.ns_spread) }, { n: String(r.ops) }, { n: String(r.ops_div) }, { n: String(r.ops_sqrt) },
       { n: String(r.ops_exp + r.ops_log) }, { n: r.bytes ? count(r.bytes) : "" }, { n: error_text(r.error_max) }, { n: error_text(r.error_rms) }, { n: known(r.delta_e) ? significant(r.delta_e, 2) : "" },
-      el("span", { class: "because small" }, r.measure), el("span", { class: "because small" }, short(r.truth)), r.pareto ? (r.tie ? "a tie" : "yes") : ""]))));
+      el("span", { class: "because small" }, r.measure), el("span", { class: "because small" }, short(r.truth)), r.pareto ? (r.tie ? "a tie" : "yes") : ""])));
+  const list = changing(of_number, () => other_number(chosen, of_number));
   return section("Every entry", "Of one sample in all its channels. Errors are absolute: of terms over the directions and parameters that the audit looks at, D over its peak; of whole models as said above. On the front is what nothing of its kind, channels and truth dominates.",
     el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); }),
       chooser("Place", place_options, chosen.place, (p) => { chosen.place = p; list.again(); })), list.node);
@@ -107,9 +120,9 @@ function the_machine() {
       ["instruction sets", machine.instruction_sets.join(", ")], ["compiler", machine.compiler], ["flags", machine.flags]]));
 }
 
-document.getElementById("page").replaceChildren(...[
-  el("p", { class: "over" }, "gonio report cost"), el("h1", {}, "What accuracy costs in time"),
-  findings_view(findings),
-  what_it_costs(), pictures(), whole_models(), every_entry(), the_machine(),
-  el("footer", {}, full ? "Full setting." : "Quick setting; --full streams in every instruction set and repeats more often."),
-].filter(Boolean));
+const first = picture_of(figures, "masking", at_best) ?? figures[0];
+show_report({
+  command: "report cost", title: "What accuracy costs in time", findings, first: first && figure_view(first, { height: 360, copy: true }),
+  sections: [what_it_costs(), pictures(), whole_models(), every_entry(), the_machine()],
+  setting: full ? "Full setting." : "Quick setting; --full streams in every instruction set and repeats more often.",
+});

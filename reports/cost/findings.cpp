@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "brdf/term/term.h"
+#include "reports/cost/claims.h"
 #include "reports/cost/cost.h"
 
 #include <fmt/format.h>
@@ -245,7 +246,9 @@ class Sayings {
 }  // namespace
 
 Findings findings(const CostRows& rows) {
-  return Sayings(rows).all();
+  auto said = Sayings(rows).all();
+  judge_costs(said, rows);
+  return said;
 }
 
 }  // namespace gonio

@@ -118,6 +118,7 @@ CrossFitRows cross_fit_rows(const CrossFitOptions&, const ReportProgress& done =
 /// A sentence for each form and truth.
 std::vector<CrossSentence> sentences_of_forms(const CrossFitRows&);
 Findings findings(const CrossFitRows&);
+Facts facts(const CrossFitRows&);
 /// Pictures of the page, by family: maps matrix of quantity and roughness ("all": RMS), truth × form; figures shifts of truth, kind,
 /// material and quantity, compared of form, material and quantity.
 Pictures pictures(const CrossFitRows&);

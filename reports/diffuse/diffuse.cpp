@@ -168,8 +168,16 @@ std::optional<double> largest_difference(const std::vector<DiffuseColour>& colou
 Facts facts(const DiffuseRows& r) {
   Facts f;
   for (const auto& form : r.forms) {
-    Facts::Diffuse d{form.id, form.most_albedo, form.least_average, form.reciprocity, {}, {},
-                     {},      form.ns,          form.spread_ns};
+    Facts::Diffuse d{form.id,
+                     form.most_albedo,
+                     form.with_interface,
+                     form.least_average,
+                     form.reciprocity,
+                     {},
+                     {},
+                     {},
+                     form.ns,
+                     form.spread_ns};
     for (const auto& row : r.rows)
       if (row.form == form.id && (d.roughness.empty() || d.roughness.back() != row.roughness))
         d.roughness.push_back(row.roughness);

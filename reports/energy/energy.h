@@ -190,6 +190,11 @@ struct ClaimRows {
     double off;
   };
   std::optional<HalfAngle> half_angle;
+  /// Share of the facets' projected area that two distributions put at different angles: ½ ∫ |D₁ − D₂| cos θ dω.
+  struct Apart {
+    double roughness, share;
+  };
+  std::vector<Apart> phong_from_beckmann{};  ///< by ascending roughness
 };
 
 /// Everything that the report measures.

@@ -4,6 +4,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
+#include "reports/energy/distribution_claims.h"
 #include "reports/energy/energy.h"
 #include "reports/finding/words.h"
 
@@ -262,6 +263,7 @@ Findings findings(const EnergyRows& r) {
   look_of_the_simple_form(all, r);
   deviation_of_slopes(all, r);
   solid_angle_of_half(all, r);
+  judge_distributions_and_sums(all, r);
   return all;
 }
 

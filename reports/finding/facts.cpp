@@ -22,6 +22,8 @@ void join(Facts& to, const Facts& from) {
   append(to.image_light_times, from.image_light_times);
   append(to.diffuse, from.diffuse);
   append(to.precision, from.precision);
+  append(to.tails, from.tails);
+  if (from.split_sum) to.split_sum = from.split_sum;
 }
 
 }  // namespace gonio

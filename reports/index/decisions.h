@@ -16,6 +16,8 @@ inline constexpr double just_seen = 1;
 /// ΔE2000 up to which a difference is seen side by side alone, taken from what observers just saw in CIELAB.
 ///                                                  [Mahy, Van Eycken and Oosterlinck 1994]
 inline constexpr double side_by_side = 2.3;
+/// Share of light that a white diffuse term may give back at most: its own, and what an integral is known to.
+inline constexpr double no_light_made = 1.001;
 /// RMS error of G₂ up to which a masking form is as good as exact.
 inline constexpr double small_masking_error = 0.01;
 

@@ -44,8 +44,13 @@ ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
 }
 ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
   auto report = cross_fit_report(cross_fit_options(o.full), done);
-  return {to_json(report), cross_fit_page_html(report), rows_csv(report),
-          std::move(report.findings), std::move(report.pictures)};
+  auto known = facts(report.rows);
+  return {to_json(report),
+          cross_fit_page_html(report),
+          rows_csv(report),
+          std::move(report.findings),
+          std::move(report.pictures),
+          std::move(known)};
 }
 ReportFiles cost(const ReportOptions& o, const ReportProgress& done) {
   return files(cost_report(cost_options(o.full), done), cost_page_html);

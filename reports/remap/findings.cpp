@@ -5,6 +5,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "reports/finding/words.h"
+#include "reports/remap/influence.h"
 #include "reports/remap/remap.h"
 
 #include <fmt/format.h>
@@ -200,6 +201,7 @@ Findings findings(const RemapRows& r) {
   verdict_on_g1(all, r);
   verdict_on_vf(all, r);
   ranking(all, r, "masking.smith_beckmann.correlated", "exact Smith for Beckmann, correlated");
+  judge_influence_of_masking(all, r);
   return all;
 }
 

@@ -8,6 +8,7 @@
 
 #include "optics/refractive_index.h"
 #include "reports/finding/words.h"
+#include "reports/schlick/claims.h"
 #include "reports/schlick/schlick.h"
 
 #include <fmt/format.h>
@@ -298,6 +299,7 @@ Findings findings(const SchlickRows& r) {
   variants(all, r);
   rough_surfaces(all, r);
   three_wavelengths(all, r);
+  judge_what_stands_beside_f(all, r);
   return all;
 }
 

@@ -4,7 +4,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "reports/finding/words.h"
-#include "reports/stability/stability.h"
+#include "reports/stability/measure.h"
 #include "stability/prove_relative.h"
 
 #include <fmt/format.h>
@@ -159,6 +159,7 @@ Findings findings(const StabilityRows& r) {
   without_a_value(f, r);
   any_gpu(f, r);
   clamps(f, r);
+  stabilities::judge_f_and_g_in_half(f, r);
   return f;
 }
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "cli/program.h"
 #include "compared_models.h"
@@ -45,6 +46,8 @@ for (const how of ["error", "warn"]) console[how] = (...what) => problems.push(`
 constexpr const char* ask = R"(<script>
 addEventListener("load", () => setTimeout(() => {
   const seen = { problems, canvases: 0, blank: [], plots: 0, mute: [], wider: document.documentElement.scrollWidth - innerWidth,
+                 places: document.querySelectorAll(".contents a").length, picture: document.querySelector("canvas, .sphere")?.getBoundingClientRect().top ?? null,
+                 dead: [...document.querySelectorAll(".contents a")].map((a) => a.getAttribute("href").slice(1)).filter((id) => !document.getElementById(id)),
                  text: document.getElementById("page")?.innerText ?? "" };
   const name = (node) => node.closest("[aria-label]")?.getAttribute("aria-label") ?? node.className;
   for (const canvas of document.querySelectorAll("canvas")) {
@@ -272,6 +275,42 @@ addEventListener("load", () => when_drawn(() => {
 )"));
 }
 
+/// Eight curves, of which six are shown until all are asked for, and choices of which all are printed; complains of others.
+void add_many(Pages& pages) {
+  Figure figure{"many", "Many", "", {"x"}, {"y"}, {}};
+  for (int i = 0; i < 8; ++i)
+    figure.curves.push_back({"c" + std::to_string(i), {0, 1}, {1.0 * i, 2.0 * i}});
+  figure.curves.push_back({"truth", {0, 1}, {0, 1}});
+  figure.curves.back().dashed = true;
+  PageJson data{{"schema", "gonio.report.many/1"}};
+  data.update(json_of(Pictures{{figure}, {}}, Digits::six));
+  pages.add("many", beside_index(make_report_page("Many", page_text(data), R"(
+most_shipped = ["c7"];
+const figure = page_data().figures[0], of = (choice) => el("p", {}, `choice ${choice}`);
+const chosen = changing(() => of(1), () => [of(2), small_pictures([figure])]);
+show_report({ command: "report many", title: "Many", findings: ["One.", "Two.", "Three.", "Four.", "Five."], first: figure_view(figure), sections: [null, section("Of choices, a section", "", chosen.node)], setting: "" });
+const keys = () => document.querySelector(".opening .keys").textContent;
+const complain = (of, is) => { if (!is) console.warn(of); };
+complain("a way back", document.querySelector('.over a[href="index.html"]'));
+complain("six curves and the reference", keys().includes("c7") && keys().includes("c4") && keys().includes("truth") && !/c5|c6/.test(keys()));
+[...document.querySelectorAll("button")].find((b) => b.textContent === "all 8").click();
+complain("all curves", /c5.*c6.*c7/.test(keys()));
+complain("an anchor", document.getElementById("of-choices-a-section"));
+const printed = () => document.querySelector(".paper").textContent;
+complain("nothing for paper yet", printed() === "");
+dispatchEvent(new Event("beforeprint"));
+complain("the other choice on paper", printed().includes("choice 2") && document.querySelector(".paper canvas").width > 0);
+complain("all findings on paper", document.querySelector("details").open);
+dispatchEvent(new Event("afterprint"));
+complain("paper is put away", printed() === "");
+const texts = ["0.1", "0.2", "0.5", "1", "2", "5", "10"], room = () => 20;
+const kept = (step) => uncrowded(texts, texts.map((_, i) => step * i), room).filter(Boolean).join(" ");
+complain("ticks that have room", kept(30) === texts.join(" "));
+complain("decades first", kept(10) === "0.1 1 10");
+complain("no ticks that touch", kept(1) === "0.1");
+)")));
+}
+
 /// A curve on logarithmic axes of which a reader cuts out a part; complains of ticks that are not of that part.
 void add_zoom(Pages& pages) {
   FigureCurve curve{"c", {}, {}, FigureCurve::Kind::both};
@@ -393,10 +432,12 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
   Pages pages;
   add_reports(pages);
   add_gap(pages);
+  add_many(pages);
   add_zoom(pages);
   add_models(pages);
   add_commands(pages);
   const auto told = pages.look(command);
+  const std::set<std::string> reports{"energy", "schlick", "remap", "cross_fit", "cost", "scenes"};
   for (const auto& name : pages.names()) {
     if (!told.contains(name)) {
       ADD_FAILURE() << name << ": the page's scripts did not come to their end";
@@ -407,6 +448,11 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
     EXPECT_TRUE(page["blank"].empty()) << name << ": nothing drawn: " << page["blank"].dump();
     EXPECT_TRUE(page["mute"].empty()) << name << ": tells nothing: " << page["mute"].dump();
     EXPECT_LE(page["wider"], 0) << name << " is wider than 500 px, by so many";
+    EXPECT_TRUE(page["dead"].empty()) << name << ": " << page["dead"].dump();
+    if (reports.contains(name)) {
+      EXPECT_GT(page["places"], 2) << name << " has contents";
+      EXPECT_LT(page["picture"], 900) << name << ": its first picture is far below";
+    }
     if (name == "audit" || name == "plan") continue;  // no canvas there
     EXPECT_GT(page["canvases"], 0) << name;
     if (name == "summary") continue;  // thumbnails, which tell nothing

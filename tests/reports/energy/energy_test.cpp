@@ -375,7 +375,7 @@ TEST(EnergyReport, EverySentenceCanBeReadAloud) {
   const auto said = findings(r);
   test::expect_plain(said);
   EXPECT_GT(said.sentences.size(), 14U);
-  EXPECT_EQ(said.claims.size(), 7U);
+  EXPECT_GE(said.claims.size(), 7U);
 }
 
 // --- Image-based light --------------------------------------------------------------------------
