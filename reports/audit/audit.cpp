@@ -39,6 +39,9 @@ std::string verdict(const EntryAudit& e) {
   if (e.mistake) words.emplace_back("a mistake");
   if (!e.violates.empty()) words.push_back(fmt::format("breaks {}", fmt::join(e.violates, ", ")));
   if (words.empty()) words.emplace_back("keeps the laws");
+  if (e.energy_is_shared) words.emplace_back("has no masking of its own");
+  if (e.energy && e.energy_under_lobe && e.energy_under_lobe->value > 1 + near)
+    words.push_back(fmt::format("{:.2g} with a lobe on it", e.energy_under_lobe->value));
   if (e.distance) {
     const double off = e.distance->most.value;
     const auto of = e.distance->reference.substr(e.distance->reference.find('.') + 1);

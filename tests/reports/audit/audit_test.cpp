@@ -96,6 +96,8 @@ TEST(Audit, AVerdictSaysHowFarAnEntryIsFromItsForm) {
   const auto k = verdict(entry("masking.schlick_ggx.direct"));
   EXPECT_TRUE(k.starts_with("keeps the laws; far from smith_ggx.separable (up to 0.")) << k;
   EXPECT_EQ(verdict(entry("masking.none")).find("breaks energy"), 0U);
+  EXPECT_EQ(verdict(entry("ndf.blinn_phong")), "keeps the laws; has no masking of its own");
+  EXPECT_EQ(verdict(entry("diffuse.lambert")), "keeps the laws; 1.9 with a lobe on it");
 }
 
 TEST(Audit, TheIntegralOfBeckmannWithItsDivisionCancelledDiverges) {
