@@ -138,16 +138,26 @@ void any_gpu(Findings& to, const StabilityRows& r) {
   }
 }
 
+/// "0.0022", and of less "0.00000006", which is read as one number.
+std::string small_text(double x) {
+  if (x >= 1e-4) return fmt::format("{:.2g}", x);
+  return fmt::format("{:.{}f}", x, static_cast<int>(std::ceil(-std::log10(x))));
+}
+
 void clamps(Findings& to, const StabilityRows& r) {
   for (const auto& c : r.clamps) {
     if (c.number != "half") continue;
     const auto up_to = [&](const std::optional<double>& x) {
-      return x ? fmt::format("up to {} {:.2g}", c.by, *x) : std::string("nowhere");
+      return x ? fmt::format("up to {} {}", c.by, small_text(*x)) : std::string("nowhere");
     };
-    to.say(fmt::format(
-        "{} in half: without it values are missing {}, with it {}. It changes values by more than "
-        "1 % {}.",
-        c.clamp, up_to(c.no_value_without), up_to(c.no_value_with), up_to(c.changed_to)));
+    const auto without = up_to(c.no_value_without), with = up_to(c.no_value_with);
+    const auto missing =
+        with == without ? fmt::format("values are missing {}, with it or without", without)
+        : !c.no_value_with
+            ? fmt::format("without it values are missing {}, with it nowhere", without)
+            : fmt::format("values are missing {}", with);
+    to.say(fmt::format("{} in half: {}. It changes values by more than 1\u00a0% {}.", c.clamp,
+                       missing, up_to(c.changed_to)));
   }
 }
 
