@@ -85,7 +85,7 @@ struct CostOptions {
 /// Quick: streaming in the best instruction set alone; full: in all of them.
 CostOptions cost_options(bool full);
 
-/// Error of a Fresnel form against the exact conductor, RMS over the angle and all metals known.
+/// Error of a Fresnel form against the spectra of metals, seen as linear sRGB: RMS over the angle and all metals known.
 struct MetalError {
   std::string form;
   double rms;

@@ -112,32 +112,13 @@ float single(const Point& p) {
 
 std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMaterial>& materials) {
   std::vector<CompensationCost> out;
+  const auto errors = compensation_errors(materials);
   const Texture e(0.3F), b(0.01F), average(0.3F);
   const auto add = [&](std::string_view id, std::size_t count, std::size_t lookups,
                        std::size_t bytes, const Timing& without, const Timing& with) {
-    CompensationCost c{id, count, lookups, bytes, without.ns, with.ns, with.spread_ns, 0, 0, "", 0};
-    double squares = 0, gold_squares = 0;
-    std::size_t n = 0, gold = 0;
-    for (const auto& m : materials)
-      for (const auto& at : m.rows)
-        for (const auto& s : at.scattering) {
-          if (s.id != id) continue;
-          const double off = s.albedo - at.truth;
-          if (m.fresnel != "fresnel.schlick") {
-            gold_squares += off * off;
-            ++gold;
-            continue;
-          }
-          squares += off * off;
-          ++n;
-          if (std::abs(off) <= std::abs(c.worst)) continue;
-          c.worst = off;
-          c.worst_at = fmt::format("{}, roughness {:g}, {}", m.name, at.roughness,
-                                   at.mu == 0 ? "on average" : fmt::format("mu {:g}", at.mu));
-        }
-    c.rms = std::sqrt(squares / static_cast<double>(n));
-    c.gold_rms = std::sqrt(gold_squares / static_cast<double>(gold));
-    out.push_back(c);
+    const auto& error = *std::ranges::find(errors, id, &CompensationError::id);
+    out.push_back({id, count, lookups, bytes, without.ns, without.spread_ns, with.ns,
+                   with.spread_ns, error.worst, error.rms, error.worst_at, error.gold_rms});
   };
   const auto kulla_conty = [&](const Point& p) {
     return KullaContyLobe<float>::apply(std::array{

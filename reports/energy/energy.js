@@ -32,7 +32,7 @@ function crossing_table(kind, names, text) {
   t.tHead.prepend(top);
   return told;
 }
-const crossing_note = "A single number: from there on, up to roughness 1. Two: from one to the other. ≤ 0.05: at the least roughness looked at already. What each is uncertain by is under the pointer.";
+const crossing_note = "Each number is the roughness from which on that much is lost. Where a loss ends again, both ends stand there. ‘≤ 0.05’ means that it is lost on the smoothest surface looked at. The error of each stands under the pointer.";
 
 // --- Every masking ---------------------------------------------------------------------------------------
 const of_form = group_by(rows, (r) => r.form);
@@ -88,7 +88,7 @@ function compensations() {
       choice("Curves", [[false, "compensations"], [true, "and single scattering"]], without, (v) => { without = v; panels.again(); })), panels.node,
     el("h3", {}, "Error and cost"),
     in_cards(table(["", { n: "RMS error" }, { n: "worst" }, "worst at", { n: "RMS, gold" }, { n: "operations" }, { n: "lookups" }, { n: "table bytes" }, { n: "ns" }, { n: "ns without" }], cost_rows)),
-    el("p", { class: "small muted" }, "Errors over the materials of Schlick's Fresnel, F0 from 0.04 to 1, all roughnesses and angles; of gold beside them. Operations: of the formula for one channel, counted. Table bytes: 32 × 32 in half. ns: D V F of GGX for one light and view with the compensation (of fdez_aguera, which stands on the split sum: F0 A + B), "
+    el("p", { class: "small muted" }, "Errors over Schlick's Fresnel with F0 of 0.04, 0.5, 0.9 and 1, roughness and mu from 0.1 to 1, with the tables that a shader reads; of gold, by its spectrum, beside them. Operations: of the formula for one channel, counted. Table bytes: 32 × 32 in half. ns: D V F of GGX for one light and view with the compensation (of fdez_aguera, which stands on the split sum: F0 A + B), "
       + "beside the same without; one at a time, in float, on one thread, median ± half the distance of the quartiles. fdez_aguera is for Schlick's Fresnel alone."));
 }
 
@@ -118,12 +118,11 @@ function split_sum() {
   const samples = figure_view(picture_of(figures, "split_sum_samples"), { height: 280, y_text: (y) => significant(y, 2) });
   const light = [...group_by(split_sum_light, (l) => l.environment)].map(([name, list]) => in_cards(table(
     [name, ...unique(list.map((l) => l.nov)).flatMap((nov) => unique(list.map((l) => l.f0)).map((f0) => ({ n: `NoV ${plain(nov)}, F0 ${plain(f0)}` })))],
-    unique(list.map((l) => l.roughness)).map((r) => [`roughness ${plain(r)}`, ...list.filter((l) => l.roughness === r).map((l) => ({ n: el("span", { title: `relative to each view: RMS ${percent(l.rms)}, most ${percent(l.max)}, bias ${signed_percent(l.bias)}; truth to ${percent(l.truth_error)}` }, `${percent(l.of_mean)} ± ${percent(l.of_mean_spread, 1)}`) }))]))));
+    unique(list.map((l) => l.roughness)).map((r) => [`roughness ${plain(r)}`, ...list.filter((l) => l.roughness === r).map((l) => ({ n: el("span", { title: `most ΔE ${significant(l.delta_e_2000_max, 2)}; luminance of each view: RMS ${percent(l.rms)}, most ${percent(l.max)}, bias ${signed_percent(l.bias)}; RMS over the mean ${percent(l.of_mean)} ± ${percent(l.of_mean_spread, 1)}; truth to ${percent(l.truth_error)}` }, significant(l.delta_e_2000, 2)) }))]))));
   return section("The split sum", "GGX under Smith, correlated, and Schlick: E = F0 A + B of an even environment. Errors of A + B after bilinear lookup over all NoV and roughness.",
     tables, el("div", { class: "panels" }, samples),
     el("h3", {}, "Under an environment"),
-    light.length ? [el("p", { class: "small muted" }, "RMS over views of split sum − integral, over the integral's mean, in luminance; the split takes n = v = r, so at grazing angles the lobe has the wrong shape. " + `${views} views; ±: half of what one half of them says and the other. Relative to each view, and the truth's own error, under the pointer.`), ...light]
-      : el("p", { class: "small muted" }, "Not measured: no map was given (--environment FILE …)."));
+    [el("p", { class: "small muted" }, `ΔE2000 between the split sum and the integral, as a display shows them with a white ball at half of its white: the mean over ${views} views. The split takes n = v = r, so at grazing angles its lobe has the wrong shape. The greatest difference, and that of the luminance, stand under the pointer. Skies are made by formula; maps of your own come with --environment FILE.`), ...light]);
 }
 function irradiances() {
   const views_of = (family) => el("div", { class: "panels" }, figures.filter((f) => f.family === family).map((f) => figure_view(f, { height: 260, y_text: (y) => percent(y / 100) })));

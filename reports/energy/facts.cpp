@@ -32,7 +32,7 @@ void add_scattering(std::vector<Facts::Scattering>& to, const EnergyMaterial& m)
   }
 }
 
-/// The table of 32 × 32 texels in half, and what the split is off by under the environments that were given.
+/// The table of 32 × 32 texels in half, and what the split is off by under skies by formula, and under the environments given.
 void add_split_sum(Facts& to, const ImageLight& light) {
   const auto table = std::ranges::find_if(
       light.tables, [](const TableError& t) { return t.size == 32 && t.stored == "half"; });
@@ -51,13 +51,16 @@ void add_split_sum(Facts& to, const ImageLight& light) {
 Facts facts(const EnergyRows& r) {
   Facts f;
   add_split_sum(f, r.light);
-  for (const auto& d : r.diffuse) f.diffuse.push_back({d.id, d.most_albedo});
   for (const auto& m : r.materials)
     if (m.f0) add_scattering(f.scattering, m);
   for (const auto& c : r.compensations)
     if (c.id != "single")
       f.compensations.push_back(
           {std::string(c.id), c.id == "fdez_aguera", c.ns - c.without_ns, c.spread_ns, c.bytes});
+  for (const auto& l : r.light.lit)
+    f.image_light.push_back({l.environment, l.f0, l.roughness, l.nov, l.delta_e, l.delta_e_max});
+  for (const auto& c : r.light.costs)
+    f.image_light_times.push_back({std::string(c.way), c.ns, c.spread_ns});
   return f;
 }
 

@@ -317,7 +317,7 @@ void diffuse(std::vector<Decision>& to, const Facts& f) {
     if (!maker || d.most_albedo > maker->most_albedo) maker = &d;
     // of those that scatter back, the fastest that makes no light
     const auto* t = time_of(f.in_cache, d.id);
-    if (t && d.id != cheap_id && d.most_albedo <= no_light_made &&
+    if (t && d.id != cheap_id && !d.with_interface && d.most_albedo <= no_light_made &&
         (!rough_time || t->ns < rough_time->ns))
       rough = &d, rough_time = t;
   }

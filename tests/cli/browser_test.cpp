@@ -12,6 +12,7 @@
 #include "reports/cost/cost.h"
 #include "reports/cost/points.h"
 #include "reports/cross_fit/cross_fit.h"
+#include "reports/diffuse/diffuse.h"
 #include "reports/energy/energy.h"
 #include "reports/index/index_page.h"
 #include "reports/page/page.h"
@@ -160,8 +161,11 @@ EnergyReport small_energy_report() {
   for (const std::size_t n : {16U, 64U})
     r.light.irradiance.push_back({"sky", "cosine", n, 0.1, 0.3, 0.01, 50, 1});
   r.compensations.push_back(
-      {"kulla_conty", 10, 2, 2048, 4, 9, 0.5, 0.02, 0.01, "roughness 1", 0.01});
+      {"kulla_conty", 10, 2, 2048, 4, 0.1, 9, 0.5, 0.02, 0.01, "roughness 1", 0.01});
   r.light.tables.push_back({32, "half", 1e-6, 1e-4, 0.01, 0.002, 0.005});
+  LitError lit{};
+  lit.environment = "sky", lit.roughness = 0.5, lit.nov = 1, lit.f0 = 1, lit.delta_e = 0.7;
+  r.light.lit.push_back(lit);
   return report_of(false, std::move(r));
 }
 
@@ -199,6 +203,9 @@ ScenesReport small_scenes_report() {
 void add_reports(Pages& pages) {
   const auto add = [&](const char* name, const std::string& html) { pages.add(name, html); };
   add("energy", energy_page_html(to_json(small_energy_report())));
+  add("diffuse",
+      diffuse_page_html(to_json(diffuse_report(
+          {false, {0, 0.5, 1}, {0.1, 0.5, 1}, 8, {"diffuse.lambert", "diffuse.disney"}}))));
   add("schlick", schlick_page_html(to_json(schlick_report({false, {1.3, 1.5, 2}, 90, {0.5, 1}}))));
   add("remap", remap_page_html(to_json(remap_report(
                    {false,

@@ -62,18 +62,5 @@ TEST(DistributionClaims, ARiemannSumIsOffByItsBias) {
   EXPECT_EQ(judged(r).claims.at(0).judged, fails);
 }
 
-TEST(DiffuseForms, LambertGivesBackAllAndDisneysMore) {
-  const EnergyOptions few{false, {0.3, 1}, {0.1, 0.5, 1}, 1024};
-  const auto all = diffuse_forms(few);
-  const auto of = [&](std::string_view id) {
-    const auto at = std::ranges::find(all, id, &DiffuseForm::id);
-    return at == all.end() ? 0 : at->most_albedo;
-  };
-  EXPECT_NEAR(of("diffuse.lambert"), 1, 1e-4);
-  EXPECT_GT(of("diffuse.disney"), 1.2);
-  EXPECT_LT(of("diffuse.eon"), 1.001);
-  EXPECT_EQ(of("diffuse.lambert.coupled"), 0) << "needs a lobe";
-}
-
 }  // namespace
 }  // namespace gonio
