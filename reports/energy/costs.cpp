@@ -115,7 +115,8 @@ std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMateria
   const Texture e(0.3F), b(0.01F), average(0.3F);
   const auto add = [&](std::string_view id, std::size_t count, std::size_t lookups,
                        std::size_t bytes, const Timing& without, const Timing& with) {
-    CompensationCost c{id, count, lookups, bytes, without.ns, with.ns, with.spread_ns, 0, 0, "", 0};
+    CompensationCost c{id,      count,          lookups, bytes, without.ns, without.spread_ns,
+                       with.ns, with.spread_ns, 0,       0,     "",         0};
     double squares = 0, gold_squares = 0;
     std::size_t n = 0, gold = 0;
     for (const auto& m : materials)

@@ -85,9 +85,10 @@ struct CompensationCost {
   std::size_t operations;  ///< of its formula, tables aside
   std::size_t lookups;     ///< bilinear, beside those that single scattering needs
   std::size_t bytes;       ///< of its tables, 32 × 32 in half
-  double without_ns;       ///< D V F of one light and view, or the split sum's F0 A + B
-  double ns, spread_ns;    ///< the same compensated, one at a time in float
-  double worst, rms;       ///< error against the truth over the materials of Schlick's Fresnel
+  /// D V F of one light and view, or the split sum's F0 A + B
+  double without_ns, without_spread_ns;
+  double ns, spread_ns;  ///< the same compensated, one at a time in float
+  double worst, rms;     ///< error against the truth over the materials of Schlick's Fresnel
   std::string worst_at;
   double gold_rms;  ///< not a number: not for it
 };

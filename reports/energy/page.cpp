@@ -173,6 +173,8 @@ struct Description<CompensationCost> {
         field("lookups", "", &C::lookups, "bilinear, beside those that single scattering needs"),
         field("bytes", "", &C::bytes, "of its tables"),
         field("without_ns", "ns", &C::without_ns, "time of what is compensated, alone"),
+        field("without_spread_ns", "ns", &C::without_spread_ns,
+              "half the distance of the quartiles"),
         field("cost_ns", "ns", &C::ns, "time of the same compensated"),
         field("spread_ns", "ns", &C::spread_ns, "half the distance of the quartiles"),
         field("worst", "", &C::worst, "error against the truth, of Schlick's Fresnel"),

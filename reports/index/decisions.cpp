@@ -62,12 +62,6 @@ std::string list_text(const std::vector<std::string>& all, std::string_view last
   if (all.size() < 2) return all.empty() ? "" : all[0];
   return fmt::format("{}{}{}", fmt::join(all.begin(), all.end() - 1, ", "), last, all.back());
 }
-std::string lower(std::string name) {
-  // Names of people and of shapes keep their capitals.
-  if (name.starts_with("Height") || name.starts_with("Separable") || name.starts_with("Exact"))
-    name[0] = static_cast<char>(name[0] + 32);
-  return name;
-}
 
 /// "+0.40 ns", or that it takes no more.
 std::string cost_text(const Candidate& taken, const Candidate& cheap) {
@@ -167,7 +161,7 @@ std::string seen_side_by_side(const Candidates& all, const std::vector<Shown>& m
   const auto* better = choose(all, schlick, just_seen);
   return better && better->form != schlick
              ? fmt::format("{} beside a photograph: {}", list_text(seen, " or "),
-                           lower(name_of_form(better->form)))
+                           in_text(better->form))
              : "";
 }
 
@@ -332,30 +326,6 @@ std::vector<Decision> decisions(const Facts& f) {
   scattering(out, f, true);
   precision(out, f);
   return out;
-}
-
-std::string name_of_form(std::string_view form) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 15> names{
-      {{"masking.smith_ggx.correlated", "Height-correlated Smith"},
-       {"masking.smith_ggx.separable", "Separable Smith"},
-       {"masking.schlick_ggx.direct", "Schlick's k = (r+1)²/8"},
-       {"masking.schlick_ggx.half_alpha", "Schlick's k = α/2"},
-       {"masking.ue_joint", "Unreal's joint form"},
-       {"masking.hammon", "Hammon's linear form"},
-       {"fresnel.schlick", "Schlick"},
-       {"fresnel.schlick.f90", "Schlick, F90 fitted"},
-       {"fresnel.f82", "F82"},
-       {"fresnel.lazanyi, corrected", "Lazányi, corrected"},
-       {"fresnel.dielectric", "Exact dielectric"},
-       {"fresnel.conductor", "Exact conductor"},
-       {"turquin", "Turquin"},
-       {"kulla_conty", "Kulla and Conty"},
-       {"fdez_aguera", "Fdez-Agüera"}}};
-  const auto at = std::ranges::find(names, form, [](const auto& n) { return n.first; });
-  if (at != names.end()) return std::string(at->second);
-  const auto id = id_of(form);
-  const auto term = std::ranges::find(catalogue(), id, [](const auto& t) { return t.id(); });
-  return term == catalogue().end() ? id : std::string(term->about->title);
 }
 
 std::string without_aside(const std::string& cell) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reports/finding/facts.h"
+#include "reports/finding/names.h"
 
 namespace gonio {
 
@@ -43,8 +44,6 @@ const Candidate* choose(std::span<const Candidate>, std::string_view cheap, doub
 /// Decisions that these facts support, in the order of the page; those that lack a fact are left out.
 std::vector<Decision> decisions(const Facts&);
 
-/// Name of a form as people say it: "Height-correlated Smith".  \param form  id, with what tells a variant from it
-std::string name_of_form(std::string_view form);
 /// A cell without its aside.
 std::string without_aside(const std::string& cell);
 

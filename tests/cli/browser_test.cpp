@@ -157,7 +157,7 @@ EnergyReport small_energy_report() {
   for (const std::size_t n : {16U, 64U})
     r.light.irradiance.push_back({"sky", "cosine", n, 0.1, 0.3, 0.01, 50, 1});
   r.compensations.push_back(
-      {"kulla_conty", 10, 2, 2048, 4, 9, 0.5, 0.02, 0.01, "roughness 1", 0.01});
+      {"kulla_conty", 10, 2, 2048, 4, 0.1, 9, 0.5, 0.02, 0.01, "roughness 1", 0.01});
   r.light.tables.push_back({32, "half", 1e-6, 1e-4, 0.01, 0.002, 0.005});
   return report_of(false, std::move(r));
 }
@@ -169,7 +169,7 @@ CostReport small_cost_report() {
   o.filter = "fresnel.schlick";
   CostRows r;
   r.machine = this_machine();
-  r.rows = measure_costs(o);
+  r.rows = measure_costs(o).rows;
   r.points = few_cost_points();
   r.switches.push_back({"Schlick to exact", "fresnel.schlick", "fresnel.dielectric",
                         r.machine.instruction_sets.back(), "float", "cache", "", 1, 0.1, 2, 9, 0.02,
