@@ -1,5 +1,7 @@
 #include "reports/cost/cost.h"
 
+#include "reports/cost/studies.h"
+
 #include <fmt/format.h>
 
 namespace gonio {
@@ -19,7 +21,7 @@ std::string long_columns(const CostOptions& o) {
 }
 
 CostRows cost_rows(const CostOptions& o, const ReportProgress& done) {
-  CostRows r{this_machine(), o, {}, {}, {}, {}, 1, {}};
+  CostRows r{this_machine(), o, {}, {}, {}, {}, 1, {}, {}};
   auto measured = measure_costs(o, [&](std::string_view what, double x) {
     if (done) done(what, 0.5 * x);
   });
@@ -28,6 +30,8 @@ CostRows cost_rows(const CostOptions& o, const ReportProgress& done) {
   r.switches = cost_switches(r.rows);
   r.points = cost_points(o, part_of(done, "compensation, split sum, quadrature, fits", 0.5, 1));
   r.metals = errors_on_metals();
+  r.studies =
+      costing::with_times(costing::study_errors(), r.rows, r.machine.instruction_sets.back());
   return r;
 }
 CostReport cost_report(const CostOptions& o, const ReportProgress& done) {

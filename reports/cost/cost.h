@@ -31,7 +31,7 @@ struct CostError {
 /// One entry of the catalogue, or a whole model, in one number, instruction set and place.
 struct CostRow {
   std::string id;  ///< of a term or a whole model, else the model's spec
-  /// "ndf", "masking", "fresnel", "diffuse", "model"; "by_hand": a model written out by hand; "bound"
+  /// "ndf", "masking", "fresnel", "diffuse", "model"; "by_hand": a model written out by hand; "bound"; of studies "arithmetic", "arithmetic_in_f", "sampling", "split_sum"
   std::string_view kind;
   std::string_view number;  ///< "float", "double"
   std::string isa;          ///< "scalar", "sse2", …
@@ -107,6 +107,51 @@ struct MetalError {
   double rms;
 };
 
+/// Time that was not measured.
+inline constexpr Timing unknown_time{std::numeric_limits<double>::quiet_NaN(),
+                                     std::numeric_limits<double>::quiet_NaN()};
+
+/// Fast arithmetic: an operation alone, and in the model in which it stands, GGX, Beckmann or GTR under GGX's masking, over
+/// roughness 0.1 to 1 about the highlight, F0 0.04.
+struct FastRow {
+  std::string id, name;
+  std::string operation;  ///< "reciprocal root" …
+  double error;           ///< of the operation alone, relative, at most
+  double f_max, f_rms;    ///< relative error of f
+  double delta_e;  ///< at most, of a white light's highlight with its peak the display's white
+  double f_max_by_cosine, delta_e_by_cosine;  ///< the same with D written by NoH alone
+  Timing time = unknown_time, time_in_f = unknown_time;
+};
+/// A way to draw lights for GGX, at one roughness and view.
+struct SamplingRow {
+  std::string id, name;
+  double roughness, mu;
+  double deviation;  ///< standard deviation of a sample's weight at F = 1, over E
+  double below;      ///< share of the lights that lie below the horizon
+  Timing time = unknown_time;
+};
+/// A and B of the split sum by a table or a formula, over roughness from 0.05 and NoV from 1/32 on.
+struct LookupRow {
+  std::string id, name;
+  std::size_t bytes, fetched;     ///< of the table, and of a bilinear lookup
+  double a_rms, b_rms;            ///< not numbers of what gives A + B alone
+  double plastic_rms;             ///< of F0 A + B at F0 = 0.04
+  double mirror_rms, mirror_max;  ///< of A + B
+  Timing time = unknown_time;
+};
+struct Studies {
+  std::vector<FastRow> fast{};
+  std::vector<SamplingRow> sampling{};
+  std::vector<LookupRow> lookup{};
+};
+/// Time until samples leave an error of 1 % of E [µs].
+inline double us_to_percent(const SamplingRow& r) {
+  return 1e-3 * r.time.ns * (100 * r.deviation) * (100 * r.deviation);
+}
+
+/// Samples of a frame of 1920 × 1080, one each pixel.
+inline constexpr double frame_samples = 1920 * 1080;
+
 /// Terms, whole models and bounds, and how they were measured.
 struct MeasuredCosts {
   std::vector<CostRow> rows;
@@ -125,6 +170,7 @@ struct CostRows {
   std::vector<MetalError> metals;
   int processes = 1;
   std::optional<double> others{};
+  Studies studies{};
 };
 
 MeasuredCosts measure_costs(const CostOptions&, const ReportProgress& done = {});

@@ -1,7 +1,7 @@
 "use strict";
 // The cost report: what accuracy costs in time.
 
-const { rows, switches, points, figures, machine, findings, full, repetitions, processes, others_busy, cache_samples, stream_samples } = page_data();
+const { rows, switches, arithmetic, sampling, lookups, points, figures, machine, findings, full, repetitions, processes, others_busy, cache_samples, stream_samples } = page_data();
 const best = machine.instruction_sets.at(-1);
 const short = (id) => id.replace(/^(ndf|masking|fresnel|diffuse|model|bound)\./, "");
 const long_columns = `columns of ${plain(stream_samples * 4 / (1 << 20), 3)} MiB`;  // of floats: of doubles twice that
@@ -26,12 +26,12 @@ function what_it_costs() {
   const chosen = at_first();
   const of = (question, isa, memory) => switches.find((s) => s.question === question && s.isa === isa && s.memory === memory && s.number === chosen.number);
   const questions = unique(switches.map((s) => s.question));
-  const list = changing(() => scroll(table(["from, to", { n: `${best}, in cache [ns]` }, { n: "" }, { n: `${best}, ${long_columns} [ns]` }, { n: "" }, { n: "scalar, in cache [ns]" }, { n: "" }, { n: "operations" }, { n: "RMS error from" }, { n: "to" }],
+  const list = changing(() => scroll(table(["from, to", { n: `${best}, in cache [ns]` }, { n: "" }, { n: `${best}, ${long_columns} [ns]` }, { n: "" }, { n: "scalar, in cache [ns]" }, { n: "" }, { n: "a 1080p frame [ms]" }, { n: "operations" }, { n: "RMS error from" }, { n: "to" }],
     questions.map((q) => {
       const s = of(q, best, "cache") ?? switches.find((x) => x.question === q);
-      return [el("span", { style: { display: "inline-block", "min-width": "9em", "white-space": "normal" } }, q + (s.way ? `, ${s.way}` : "")), ...switch_cells(of(q, best, "cache")), ...switch_cells(of(q, best, "streaming")), ...switch_cells(of(q, "scalar", "cache")), { n: signed(s.more_ops, plain) }, { n: error_text(s.error_from) }, { n: error_text(s.error_to) }];
+      return [el("span", { style: { display: "inline-block", "min-width": "9em", "white-space": "normal" } }, q + (s.way ? `, ${s.way}` : "")), ...switch_cells(of(q, best, "cache")), ...switch_cells(of(q, best, "streaming")), ...switch_cells(of(q, "scalar", "cache")), { n: s.differs ? signed(s.frame_ms, (x) => significant(x, 2)) : "a tie" }, { n: signed(s.more_ops, plain) }, { n: error_text(s.error_from) }, { n: error_text(s.error_to) }];
     }))));
-  const node = section("What does it cost to switch?", `What one sample takes more, with the spread between processes, and how many times as long it takes; what is not there in every process is a tie. In ${long_columns}, memory hides what is computed while it waits. `
+  const node = section("What does it cost to switch?", `What one sample takes more, with the spread between processes, and how many times as long it takes; what is not there in every process is a tie. A frame is one sample each pixel in cache, on one processor. In ${long_columns}, memory hides what is computed while it waits. `
     + "Terms are timed as a model uses them: D leaves a fraction, masking divides it, Fresnel and diffuse terms are added up; operations are those of the term alone, its division included.",
     el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); })), list.node);
   node.id = "switches";  // a question of the index leads here
@@ -89,12 +89,44 @@ function every_entry() {
   const chosen = at_first();
   const in_place = (list) => list.filter((r) => r.number === chosen.number && [r.isa, r.memory].join(" ") === chosen.place);
   const list = changing(() => scroll(table(["", "kind", { n: "channels" }, { n: "time [ns]" }, { n: "operations" }, { n: "of the parameters" }, { n: "divisions" }, { n: "roots" }, { n: "exp, log" }, { n: "table [bytes]" }, { n: "largest error" }, { n: "RMS" }, { n: "ΔE2000 of gold" }, "of", "against", "front"],
-    in_place(rows).filter((r) => !["bound", "by_hand"].includes(r.kind)).map((r) => [el("code", {}, short(r.id) + (r.way ? `, ${r.way}` : "")), r.kind, { n: String(r.channels) }, { n: ns_text(r.ns, r.ns_spread) }, { n: String(r.ops) }, { n: String(r.ops_block) }, { n: String(r.ops_div) }, { n: String(r.ops_sqrt) },
+    in_place(rows).filter((r) => !["bound", "by_hand", "arithmetic", "arithmetic_in_f", "sampling", "split_sum"].includes(r.kind)).map((r) => [el("code", {}, short(r.id) + (r.way ? `, ${r.way}` : "")), r.kind, { n: String(r.channels) }, { n: ns_text(r.ns, r.ns_spread) }, { n: String(r.ops) }, { n: String(r.ops_block) }, { n: String(r.ops_div) }, { n: String(r.ops_sqrt) },
       { n: String(r.ops_exp + r.ops_log) }, { n: r.bytes ? count(r.bytes) : "" }, { n: error_text(r.error_max) }, { n: error_text(r.error_rms) }, { n: known(r.delta_e) ? significant(r.delta_e, 2) : "" },
       el("span", { class: "because small" }, r.measure), el("span", { class: "because small" }, short(r.truth)), r.pareto ? (r.tie ? "a tie" : "yes") : ""]))));
   return section("Every entry", "Of one sample in all its channels; operations of the parameters, as a root of roughness, are made once per block here and hardly in these times: a shader whose roughness varies makes them for each sample. Errors are absolute: of terms over the directions and parameters that the audit looks at, D over its peak; of whole models as said above. On the front is what nothing of its kind, channels and truth dominates.",
     el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); }),
       chooser("Place", place_options, chosen.place, (p) => { chosen.place = p; list.again(); })), list.node);
+}
+
+// --- Studies -------------------------------------------------------------------------------------------
+const timed = (r) => ({ n: known(r.ns) ? ns_text(r.ns, r.ns_spread) : "–" });
+const share = (x) => ({ n: known(x) ? `${significant(100 * x, 2)} %` : "–" });
+function fast_arithmetic() {
+  if (!arithmetic.length) return null;
+  const node = section("Fast arithmetic", `In float columns of ${best} in cache: the operation alone, and in f, h and its length among it. Roots and divisions stand in GGX, the exponential in Beckmann's D, the power in GTR's at γ = 1.5, the fifth power in Schlick's Fresnel; `
+    + "each under GGX's masking, over roughness 0.1 to 1 about the highlight, where f NoL is above a millionth of its most. ΔE2000 is of the highlight in grey, its peak the display's white.",
+    scroll(table(["operation", "by", { n: "alone [ns]" }, { n: "its error" }, { n: "in f [ns]" }, { n: "f off, at most" }, { n: "RMS" }, { n: "ΔE2000" }, { n: "D by NoH: f off" }, { n: "ΔE2000" }],
+      arithmetic.map((r) => [r.operation, r.name, timed(r), share(r.error), { n: known(r.in_f_ns) ? ns_text(r.in_f_ns, r.in_f_ns_spread) : "–" }, share(r.f_max), share(r.f_rms), { n: significant(r.delta_e, 2) }, share(r.f_max_by_cosine), { n: significant(r.delta_e_by_cosine, 2) }]))));
+  node.id = "arithmetic";
+  return node;
+}
+function light_sampling() {
+  if (!sampling.length) return null;
+  const names = unique(sampling.map((r) => r.name)), places_of = unique(sampling.map((r) => `${r.roughness} ${r.mu}`));
+  const at = (name, place) => sampling.find((r) => r.name === name && `${r.roughness} ${r.mu}` === place);
+  const node = section("Light drawn for GGX", `One light and its weight, f NoL over its density at F = 1, in float columns of ${best} in cache. A sample's standard deviation is over E; the last columns are the time until the error is 1 % of E, variance at equal time, with the share of lights below the horizon.`,
+    scroll(table(["roughness, NoV", ...names.map((n) => ({ n: `${n}: σ` })), ...names.map((n) => ({ n: `${n} [µs to 1 %]` }))],
+      places_of.map((p) => [p.replace(" ", ", "), ...names.map((n) => ({ n: significant(at(n, p).deviation, 2) })),
+        ...names.map((n) => ({ n: known(at(n, p).to_percent_ms) ? `${significant(1000 * at(n, p).to_percent_ms, 2)} (${significant(100 * at(n, p).below, 2)} % below)` : "–" }))]).concat([["time of a sample [ns]", ...names.map((n) => timed(at(n, places_of[0]))), ...names.map(() => "")]]))));
+  node.id = "sampling";
+  return node;
+}
+function tables_and_formulas() {
+  if (!lookups.length) return null;
+  const node = section("Table or formula", `A and B of the split sum against quadrature, roughness from 0.05 and NoV from 1/32 on. Times are of float columns of ${best} in cache, where a table's texels are fetched one by one: a GPU has a unit for that, which this processor has not.`,
+    scroll(table(["", { n: "size [bytes]" }, { n: "fetched [bytes]" }, { n: "time [ns]" }, { n: "RMS of A" }, { n: "of B" }, { n: "of 0.04 A + B" }, { n: "of A + B" }, { n: "most" }],
+      lookups.map((r) => [r.name, { n: r.bytes ? count(r.bytes) : "" }, { n: r.fetched ? count(r.fetched) : "" }, timed(r), ...["a_rms", "b_rms", "plastic_rms", "mirror_rms", "mirror_max"].map((k) => ({ n: error_text(r[k]) }))]))));
+  node.id = "lookups";
+  return node;
 }
 
 // --- The machine ---------------------------------------------------------------------------------------
@@ -110,6 +142,6 @@ function the_machine() {
 document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio report cost"), el("h1", {}, "What accuracy costs in time"),
   findings_view(findings),
-  what_it_costs(), pictures(), whole_models(), every_entry(), the_machine(),
+  what_it_costs(), pictures(), whole_models(), fast_arithmetic(), light_sampling(), tables_and_formulas(), every_entry(), the_machine(),
   el("footer", {}, full ? "Full setting." : "Quick setting; --full measures long columns in every instruction set, by more processes."),
 ].filter(Boolean));

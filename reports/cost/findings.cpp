@@ -53,6 +53,10 @@ class Sayings {
     compensation();
     quadrature();
     fits();
+    arithmetic();
+    sampling();
+    lookups();
+    frame();
     half();
     return std::move(said_);
   }
@@ -149,7 +153,8 @@ class Sayings {
     std::ranges::sort(on, {}, [](const CostRow* r) { return -r->error.rms; });
     constexpr std::size_t told = 4;
     std::vector<std::string> names;
-    for (const auto* r : on) names.push_back(in_text(r->id));
+    for (const auto* r : on)
+      names.push_back(r->id == "masking.unity_mobile" ? "Unity's mobile form" : in_text(r->id));
     if (names.size() > told) names = {names.front(), names[names.size() / 2], names.back()};
     say("{} from fast to exact: {}.", on.size() > told ? "Three of these" : "They are",
         list_text(names));
@@ -235,6 +240,96 @@ class Sayings {
         ms(all.front()), percent(all.front()->error, 2));
     say("From {} chosen by chance it takes {} and finds alpha to {}.", all.back()->label,
         ms(all.back()), percent(all.back()->error, 2));
+  }
+  const FastRow* fast(std::string_view id) const {
+    const auto at = std::ranges::find(r_.studies.fast, id, &FastRow::id);
+    return at == r_.studies.fast.end() || std::isnan(at->time.ns) ? nullptr : &*at;
+  }
+  /// "0.31 ns"
+  static std::string in_ns(const Timing& t) { return fmt::format("{:.2g} ns", t.ns); }
+  void arithmetic() {
+    const auto *root = fast("fast.rsqrt.estimate"), *step = fast("fast.rsqrt.estimate.1"),
+               *exact_root = fast("fast.rsqrt.exact");
+    if (root && step && exact_root) {
+      say("Roots by the processor's estimate leave up to {:.2g} % of f and ΔE2000 {:.2g}; with D "
+          "written by NoH alone they leave ΔE2000 {:.2g}.",
+          100 * root->f_max, root->delta_e, root->delta_e_by_cosine);
+      say("A Newton step takes that to {:.1g} % of f, in {} for {} with exact roots.",
+          100 * step->f_max, in_ns(step->time_in_f), in_ns(exact_root->time_in_f));
+    }
+    const auto *division = fast("fast.rcp.estimate"), *exact_division = fast("fast.rcp.exact");
+    if (division && exact_division)
+      say("Divisions by the processor's estimate leave up to {:.2g} % of f, in {} for {} with "
+          "exact "
+          "divisions.",
+          100 * division->f_max, in_ns(division->time_in_f), in_ns(exact_division->time_in_f));
+    const auto *products = fast("fast.pow5.products"), *power = fast("fast.pow5.power");
+    if (products && power)
+      say("Schlick's fifth power takes {} by three products and {} by the library's power, which "
+          "is "
+          "no more exact.",
+          in_ns(products->time), in_ns(power->time));
+    const auto* cubic = fast("fast.exp2.3");
+    if (cubic)
+      say("Beckmann's exponential by a polynomial of degree 3 leaves up to {:.2g} % of f and "
+          "ΔE2000 "
+          "{:.2g}.",
+          100 * cubic->f_max, cubic->delta_e);
+  }
+  void sampling() {
+    const auto at = [&](std::string_view id) -> const SamplingRow* {
+      const auto found = std::ranges::find_if(r_.studies.sampling, [&](const SamplingRow& r) {
+        return r.id == id && r.roughness == 0.5 && r.mu == 0.5 && !std::isnan(r.time.ns);
+      });
+      return found == r_.studies.sampling.end() ? nullptr : &*found;
+    };
+    const auto *plain = at("sampling.ggx.d"), *disk = at("sampling.ggx.vndf2018"),
+               *caps = at("sampling.ggx.caps"), *bounded = at("sampling.ggx.bounded");
+    if (!plain || !disk || !caps || !bounded) return;
+    say("Visible normals reach an error in {:.2g} of the time that normals by D alone take, at "
+        "roughness 0.5 and NoV 0.5.",
+        us_to_percent(*caps) / us_to_percent(*plain));
+    say("Spherical caps draw a light in {} and Heitz's disk of 2018 in {}, both with the same "
+        "variance.",
+        in_ns(caps->time), in_ns(disk->time));
+    say("Bounded caps draw {:.1g} % of their lights below the horizon, where unbounded ones draw "
+        "{:.1g} %.",
+        100 * bounded->below, 100 * caps->below);
+  }
+  void lookups() {
+    const auto at = [&](std::string_view id) -> const LookupRow* {
+      const auto found = std::ranges::find(r_.studies.lookup, id, &LookupRow::id);
+      return found == r_.studies.lookup.end() ? nullptr : &*found;
+    };
+    const auto *table = at("split_sum.table.32.half"), *karis = at("split_sum.karis"),
+               *lazarov = at("split_sum.lazarov"), *materialx = at("split_sum.materialx"),
+               *ours = at("split_sum.ours");
+    if (!table || !karis || !lazarov || !materialx || !ours) return;
+    say("The split sum's table of 32 × 32 texels in half leaves an RMS error of {:.1g} of a "
+        "mirror's albedo.",
+        table->mirror_rms);
+    say("In its place Karis's formula leaves {:.2g}, MaterialX's {:.2g} and Lazarov's, made for "
+        "Blinn–Phong, {:.2g}.",
+        karis->mirror_rms, materialx->mirror_rms, lazarov->mirror_rms);
+    say("Our formula of a mirror's albedo alone leaves {:.2g} in {}.", ours->mirror_rms,
+        in_ns(ours->time));
+  }
+  /// What the switches of a whole model cost of a frame.
+  void frame() {
+    const auto* whole = row("ggx/smith_ggx.correlated/schlick", "cache", "fused");
+    if (!whole) return;
+    const auto ms = [](double ns) { return 1e-6 * frame_samples * ns; };
+    say("A frame of 1080p takes {:.2g} ms of one processor for one light by GGX with "
+        "height-correlated Smith and Schlick, in cache.",
+        ms(whole->time.ns));
+    const auto* smith = between("ggx/schlick_ggx.direct/schlick",
+                                "ggx/smith_ggx.correlated/schlick", best_, "cache");
+    const auto* metal = between("ggx/smith_ggx.correlated/schlick",
+                                "ggx/smith_ggx.correlated/conductor", best_, "cache");
+    if (smith && metal)
+      say("Exact Smith in place of Schlick's k is {} of that, and a metal's exact Fresnel {} more.",
+          smith->differs ? fmt::format("{:.2g} ms", ms(smith->ns)) : "nothing that can be measured",
+          fmt::format("{:.2g} ms", ms(metal->ns)));
   }
   void half() {
     say("This processor has {}: times are of float and double.",

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "reports/cost/baseline.h"
+#include "reports/cost/studies.h"
 #include "reports/page/assets.h"
 #include "reports/picture/document.h"
 
@@ -17,10 +18,13 @@ std::optional<T> if_known(const CostRow& r, T value) {
   return r.error.truth.empty() ? std::nullopt : std::optional<T>(value);
 }
 std::optional<std::size_t> total_operations(const CostRow& r) {
-  return r.kind == "by_hand" ? std::nullopt : std::optional(r.operations.total());
+  return r.kind == "by_hand" || costing::is_study(r.kind) ? std::nullopt
+                                                          : std::optional(r.operations.total());
 }
 std::optional<std::size_t> block_operations(const CostRow& r) {
-  return r.kind == "by_hand" ? std::nullopt : std::optional(r.block_operations.total());
+  return r.kind == "by_hand" || costing::is_study(r.kind)
+             ? std::nullopt
+             : std::optional(r.block_operations.total());
 }
 constexpr std::array<std::string_view, operation_names.size()> operation_keys{
     "ops_add", "ops_mul", "ops_div", "ops_sqrt", "ops_exp", "ops_log", "ops_compare", "ops_select"};
@@ -66,7 +70,9 @@ struct Description<CostRow> {
         field("tie", "", &R::tie,
               "with a better one: no difference of their times survives from process to process"),
         field("memory", "", &R::memory, "cache, streaming"),
-        field("kind", "", &R::kind, "ndf, masking, fresnel, diffuse, model, by_hand, bound"),
+        field("kind", "", &R::kind,
+              "ndf, masking, fresnel, diffuse, model, by_hand, bound, arithmetic, arithmetic_in_f, "
+              "sampling, split_sum"),
         field("way", "", &R::way, "of a model: fused, composed, by_hand"),
         field("channels", "", &R::channels, ""),
         field("truth", "", at(&R::error, &CostError::truth), "what it is held against"),
@@ -174,10 +180,74 @@ struct Description<CostSwitch> {
         field("more_ops", "", &S::operations, "that it takes more"),
         field("error_from", "", &S::error_from, "RMS; null: of another truth"),
         field("error_to", "", &S::error_to, "RMS; null: of another truth"),
-        field("differs", "", &S::differs, "the times, in every process and above the spread")};
+        field("differs", "", &S::differs, "the times, in every process and above the spread"),
+        field(
+            "frame_ms", "ms", [](const S& w) { return 1e-6 * frame_samples * w.ns; },
+            "that a frame of 1920 × 1080 takes more, a sample each pixel, on one processor")};
   }
 };
-static_assert(describes_every_member<CostSwitch>());
+
+template <>
+struct Description<FastRow> {
+  static constexpr auto fields() {
+    using R = FastRow;
+    return std::tuple{
+        field("id", "", &R::id, ""),
+        field("name", "", &R::name, ""),
+        field("operation", "", &R::operation,
+              "reciprocal root, reciprocal, exponential, power, fifth power"),
+        field("error", "", &R::error,
+              "of the operation alone, at most: relative, of the fifth power absolute"),
+        field("f_max", "", &R::f_max, "of f, relative, at most"),
+        field("f_rms", "", &R::f_rms, "of f, relative"),
+        field("delta_e", "", &R::delta_e,
+              "CIEDE2000 of a highlight with its peak the display's white"),
+        field("f_max_by_cosine", "", &R::f_max_by_cosine, "of f with D written by NoH alone"),
+        field("delta_e_by_cosine", "", &R::delta_e_by_cosine, "of the same"),
+        field("ns", "ns", at(&R::time, &Timing::ns), "alone"),
+        field("ns_spread", "ns", at(&R::time, &Timing::spread_ns), between_processes),
+        field("in_f_ns", "ns", at(&R::time_in_f, &Timing::ns),
+              "of the whole of f, h and its length too"),
+        field("in_f_ns_spread", "ns", at(&R::time_in_f, &Timing::spread_ns), between_processes)};
+  }
+};
+template <>
+struct Description<SamplingRow> {
+  static constexpr auto fields() {
+    using R = SamplingRow;
+    return std::tuple{
+        field("id", "", &R::id, ""),
+        field("name", "", &R::name, ""),
+        field("roughness", "", &R::roughness, ""),
+        field("mu", "", &R::mu, "cosine of the view"),
+        field("deviation", "", &R::deviation, "standard deviation of a sample at F = 1, over E"),
+        field("below", "", &R::below, "share of lights below the horizon"),
+        field("ns", "ns", at(&R::time, &Timing::ns), "light and weight of a sample"),
+        field("ns_spread", "ns", at(&R::time, &Timing::spread_ns), between_processes),
+        field(
+            "to_percent_ms", "ms", [](const R& r) { return 1e-3 * us_to_percent(r); },
+            "until the error is 1 % of E")};
+  }
+};
+template <>
+struct Description<LookupRow> {
+  static constexpr auto fields() {
+    using R = LookupRow;
+    return std::tuple{
+        field("id", "", &R::id, ""),
+        field("name", "", &R::name, ""),
+        field("bytes", "", &R::bytes, "of the table"),
+        field("fetched", "", &R::fetched, "bytes of a bilinear lookup"),
+        field("a_rms", "", &R::a_rms, "null: not given apart"),
+        field("b_rms", "", &R::b_rms, "null: not given apart"),
+        field("plastic_rms", "", &R::plastic_rms, "of F0 A + B at F0 = 0.04"),
+        field("mirror_rms", "", &R::mirror_rms, "of A + B"),
+        field("mirror_max", "", &R::mirror_max, "of A + B"),
+        field("ns", "ns", at(&R::time, &Timing::ns),
+              "in float columns; a table's texels are fetched one by one"),
+        field("ns_spread", "ns", at(&R::time, &Timing::spread_ns), between_processes)};
+  }
+};
 
 template <>
 struct Description<Timing> {
@@ -237,6 +307,15 @@ struct Description<CostReport> {
         field("rows", "", at(&R::rows, &CostRows::rows), "a form in a place, each"),
         field("switches", "", at(&R::rows, &CostRows::switches), ""),
         field("points", "", at(&R::rows, &CostRows::points), "estimates and fits by their time"),
+        field(
+            "arithmetic", "", [](const R& r) -> const auto& { return r.rows.studies.fast; },
+            "fast operations, alone and in f"),
+        field(
+            "sampling", "", [](const R& r) -> const auto& { return r.rows.studies.sampling; },
+            "lights drawn for GGX"),
+        field(
+            "lookups", "", [](const R& r) -> const auto& { return r.rows.studies.lookup; },
+            "A and B of the split sum by tables and formulas"),
         inlined(&R::pictures)};
   }
 };

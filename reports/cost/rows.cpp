@@ -17,6 +17,7 @@
 #include "reports/cost/baseline.h"
 #include "reports/cost/models.h"
 #include "reports/cost/processes.h"
+#include "reports/cost/studies.h"
 #include "reports/measure/load.h"
 #include "reports/picture/front.h"
 #include "reports/yardstick/by_hand.h"
@@ -181,6 +182,9 @@ void add_subjects(std::vector<Subject>& to, const CostOptions& o, std::string_vi
         if (is_same(compose(hand.spec, hand.channels), m))
           add(w.id, "by_hand", "by_hand", m.channels, timed_by_hand<F>(hand, w.model, field));
     }
+    if (std::is_same_v<F, float> && !streaming)
+      for (auto& s : study_subjects(set, o.cache_samples))
+        if (wanted(s.id)) add(s.id, s.kind, s.way, 1, std::move(s.timed));
     if (wanted("bound.columns")) add("bound.columns", "bound", "", 1, timed_columns<F>(k, field));
     if (wanted("bound.roots_and_division"))
       add("bound.roots_and_division", "bound", "", 1, timed_roots<F>(by_hand<F>(set).bound, field));
@@ -248,9 +252,11 @@ FactsByName facts_of(const std::vector<Subject>& subjects,
                      const std::function<void(double)>& done) {
   FactsByName facts;
   std::vector<FactsByName::value_type*> all;
-  for (const auto& s : subjects)
+  for (const auto& s : subjects) {
+    if (is_study(s.row.kind)) continue;
     if (const auto [at, added] = facts.try_emplace({s.row.id, s.row.number}); added)
       all.push_back(&*at);
+  }
   const auto models = wholes();
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     const auto& [id, number] = all[i]->first;
@@ -319,10 +325,14 @@ MeasuredCosts measure_costs(const CostOptions& o, const ReportProgress& done) {
   if (!here) out.processes = o.processes;
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     auto& r = out.rows.emplace_back(std::move(subjects[i].row));
-    const auto& f = facts.at({r.id, r.number});
     if (!here) r.each = taken[i];
     r.time = spread_of(std::move(taken[i]));
     if (r.kind == "by_hand") continue;  // its operations are not the formula's; beside the front
+    if (is_study(r.kind)) {
+      if (o.errors) r.error = study_error(r);
+      continue;
+    }
+    const auto& f = facts.at({r.id, r.number});
     r.operations = f.operations, r.block_operations = f.block_operations, r.bytes = f.bytes;
     r.error = f.error;
   }

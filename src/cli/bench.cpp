@@ -65,7 +65,7 @@ void print_group(const std::vector<const CostRow*>& rows) {
     const auto is_here = [&](const CostRow* r) { return shown(*r) == name; };
     const auto& first = **std::ranges::find_if(rows, is_here);
     say("{:<{}} {:>4} {:>8}", name, width,
-        first.kind == "by_hand" ? "" : fmt::format("{}", first.operations.total()),
+        first.operations.total() == 0 ? "" : fmt::format("{}", first.operations.total()),
         first.error.truth.empty() ? "" : fmt::format("{:.1e}", first.error.rms));
     for (const auto& p : places) {
       const auto at = std::ranges::find_if(rows, [&](const CostRow* r) {
@@ -79,7 +79,8 @@ void print_group(const std::vector<const CostRow*>& rows) {
 
 void print_rows(const std::vector<CostRow>& rows) {
   for (const std::string_view kind :
-       {"ndf", "masking", "fresnel", "diffuse", "model", "by_hand", "bound"})
+       {"ndf", "masking", "fresnel", "diffuse", "model", "by_hand", "bound", "arithmetic",
+        "arithmetic_in_f", "sampling", "split_sum"})
     for (const std::string_view number : {"float", "double"}) {
       std::vector<const CostRow*> group;
       for (const auto& r : rows)

@@ -95,7 +95,10 @@ TimeDifference difference(const ComparedTime& from, const ComparedTime& to) {
   const bool one_sign = std::ranges::all_of(more, [](double x) { return x > 0; }) ||
                         std::ranges::all_of(more, [](double x) { return x < 0; });
   const auto t = spread_of(std::move(more));
-  return {t.ns, t.spread_ns, one_sign && std::abs(t.ns) > t.spread_ns};
+  // What the places of code and of columns move a time by, though it be in every process.
+  constexpr double resolved = 0.03;
+  const double least = std::max(t.spread_ns, resolved * std::max(from.time.ns, to.time.ns));
+  return {t.ns, t.spread_ns, one_sign && std::abs(t.ns) > least};
 }
 
 std::vector<std::vector<double>> repetitions_of(const std::vector<Timed>& things,

@@ -32,6 +32,7 @@ TEST(Timing, ADifferenceSurvivesWhereEveryProcessFindsIt) {
   EXPECT_NEAR(found.spread_ns, 0, 1e-12);  // though the processes themselves differ
   EXPECT_TRUE(found.survives);
   EXPECT_FALSE(difference({{3, 2}, from}, {{3.5, 2}, but_one}).survives);
+  EXPECT_FALSE(difference({{30, 2}, from}, {{30.5, 2}, to}).survives);  // 2 % are not told
 }
 
 TEST(Timing, IsOfOneSample) {

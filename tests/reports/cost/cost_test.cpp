@@ -16,6 +16,7 @@
 #include "reports/cost/models.h"
 #include "reports/cost/points.h"
 #include "reports/cost/processes.h"
+#include "reports/cost/studies.h"
 #include "reports/measure/load.h"
 #include "reports/pictures.h"
 #include "reports/plain.h"
@@ -349,6 +350,90 @@ TEST(Cost, HoldsModelsBesideThoseWrittenByHand) {
       EXPECT_TRUE(found.contains({std::string(p.about.id), way})) << p.about.id << " " << way;
 }
 
+const Studies& studies() {
+  return costing::study_errors();
+}
+const FastRow& fast_row(std::string_view id) {
+  return *std::ranges::find(studies().fast, id, &FastRow::id);
+}
+
+TEST(CostStudies, EachNewtonStepDoublesTheDigits) {
+  for (const std::string id : {"fast.rsqrt", "fast.rcp"}) {
+    const double none = fast_row(id + ".bits").error, one = fast_row(id + ".bits.1").error,
+                 two = fast_row(id + ".bits.2").error;
+    EXPECT_GT(none, 0.03) << id;
+    EXPECT_LT(none, 0.14) << id;
+    EXPECT_LT(one, 2 * none * none) << id;
+    EXPECT_LT(two, std::max(2 * one * one, 1e-6)) << id;
+    EXPECT_LT(fast_row(id + ".estimate").error, 4e-4) << id;
+    EXPECT_LT(fast_row(id + ".estimate.1").error, 1e-6) << id;
+    EXPECT_LT(fast_row(id + ".exact").error, 2e-7) << id;
+  }
+}
+
+TEST(CostStudies, PolynomialsAreAsExactAsTheySay) {
+  EXPECT_NEAR(fast_row("fast.exp2.2").error, 1.9e-3, 8e-4);
+  EXPECT_NEAR(fast_row("fast.exp2.3").error, 8.1e-5, 4e-5);
+  EXPECT_LT(fast_row("fast.exp2.4").error, 8e-6);
+  EXPECT_LT(fast_row("fast.exp2.5").error, 4e-6);  // of the argument's rounding
+  EXPECT_LT(fast_row("fast.log2.6").error, fast_row("fast.log2.2").error / 30);
+}
+
+TEST(CostStudies, ModelsWithoutFastOperationsAreOffByRoundingAlone) {
+  for (const char* id :
+       {"fast.rsqrt.exact", "fast.rcp.exact", "fast.exp2.exact", "fast.pow5.products"}) {
+    EXPECT_LT(fast_row(id).f_max, 1e-4) << id;
+    EXPECT_GT(fast_row(id).f_max, 1e-8) << id;
+    EXPECT_LT(fast_row(id).delta_e, 0.01) << id;
+  }
+}
+
+TEST(CostStudies, VisibleNormalsVaryLessAndBoundedOnesLeast) {
+  const auto row = [](std::string_view id, double roughness, double mu) -> const SamplingRow& {
+    return *std::ranges::find_if(studies().sampling, [&](const SamplingRow& r) {
+      return r.id == id && r.roughness == roughness && r.mu == mu;
+    });
+  };
+  for (const double mu : {0.1, 0.5}) {
+    const double plain = row("sampling.ggx.d", 0.8, mu).deviation,
+                 disk = row("sampling.ggx.vndf2018", 0.8, mu).deviation,
+                 caps = row("sampling.ggx.caps", 0.8, mu).deviation,
+                 bounded = row("sampling.ggx.bounded", 0.8, mu).deviation;
+    EXPECT_LT(caps, 0.7 * plain);
+    EXPECT_NEAR(disk, caps, 0.05 * caps);  // the same density
+    EXPECT_LT(bounded, caps);
+  }
+}
+
+TEST(CostStudies, ATableIsNearerTheLargerItIs) {
+  const auto row = [](std::string_view id) -> const LookupRow& {
+    return *std::ranges::find(studies().lookup, id, &LookupRow::id);
+  };
+  EXPECT_LT(row("split_sum.table.64.half").mirror_rms, row("split_sum.table.16.half").mirror_rms);
+  EXPECT_LT(row("split_sum.table.32.float").a_rms, row("split_sum.table.32.8 bits").a_rms);
+  EXPECT_EQ(row("split_sum.table.32.half").bytes, 4096U);
+  EXPECT_EQ(row("split_sum.table.32.half").fetched, 16U);
+  EXPECT_LT(row("split_sum.ours").mirror_rms, row("split_sum.materialx").mirror_rms);
+  EXPECT_GT(row("split_sum.karis").mirror_rms, row("split_sum.materialx").mirror_rms);
+  EXPECT_TRUE(std::isnan(row("split_sum.ours").a_rms));
+}
+
+TEST(CostStudies, EachIsTimedInEverySet) {
+  for (const char* filter : {"fast.pow5", "sampling.ggx", "split_sum."}) {
+    auto o = short_options(filter);
+    const auto measured = measure_costs(o);
+    for (const auto& set : instruction_sets())
+      EXPECT_TRUE(
+          std::ranges::any_of(measured.rows, [&](const CostRow& r) { return r.isa == set; }))
+          << filter << " " << set;
+    for (const auto& r : measured.rows) {
+      EXPECT_GT(r.time.ns, 0) << r.id;
+      EXPECT_NE(r.error.truth, "") << r.id;
+      EXPECT_EQ(r.number, "float");
+    }
+  }
+}
+
 /// Rows of few forms, every kind of picture in them.
 CostRows small_rows() {
   CostRows r;
@@ -358,6 +443,8 @@ CostRows small_rows() {
   r.rows = measure_costs(o).rows;
   r.points = test::few_cost_points();
   r.switches = cost_switches(r.rows);
+  r.studies =
+      costing::with_times(costing::study_errors(), r.rows, r.machine.instruction_sets.back());
   return r;
 }
 
@@ -385,11 +472,14 @@ TEST(CostFindings, CanBeReadAloud) {
   auto rows = small_rows();
   rows.others = 1.3;
   rows.points = test::told_cost_points();
+  for (auto& r : rows.studies.fast) r.time = {0.1234, 0.01}, r.time_in_f = {1.234, 0.1};
+  for (auto& r : rows.studies.sampling) r.time = {3.456, 0.1};
+  for (auto& r : rows.studies.lookup) r.time = {0.456, 0.1};
   for (const bool differs : {false, true}) {
     for (auto& s : rows.switches) s.differs = differs;
     rows.machine.native_half = differs;
     const auto said = findings(rows);
-    EXPECT_GT(said.sentences.size(), 15U);
+    EXPECT_GT(said.sentences.size(), 25U);
     test::expect_plain(said);
   }
 }
