@@ -31,7 +31,7 @@ void add_compensations(std::vector<CostPoint>& to) {
                   0,
                   c.operations,
                   c.bytes,
-                  c.without_ns});
+                  {c.without_ns, c.without_spread_ns}});
 }
 
 void add_quadrature(std::vector<CostPoint>& to, const EnergyOptions& o) {

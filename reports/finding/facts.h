@@ -16,6 +16,8 @@ struct Facts {
     std::string cpu;  ///< as it calls itself; may be empty
     std::size_t threads;
     std::string isa;  ///< the best instruction set that runs
+    /// Processors that other programs kept busy while times were taken; no value: not known
+    std::optional<double> others{};
   };
   std::optional<Setting> setting{};
   /// Time of a sample in float [ns]: of a term in columns that stay in cache, or of a whole model, fused, in columns that do not.

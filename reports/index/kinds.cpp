@@ -53,7 +53,9 @@ ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
           std::move(known)};
 }
 ReportFiles cost(const ReportOptions& o, const ReportProgress& done) {
-  return files(cost_report(cost_options(o.full), done), cost_page_html);
+  auto options = cost_options(o.full);
+  options.program = o.program;
+  return files(cost_report(options, done), cost_page_html);
 }
 
 ReportFiles stability(const ReportOptions& o, const ReportProgress& done) {

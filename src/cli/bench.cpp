@@ -9,9 +9,11 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/process.h"
 #include "base/quantile.h"
 #include "cli/terminal.h"
 #include "reports/cost/baseline.h"
+#include "reports/measure/load.h"
 
 #include <fmt/format.h>
 
@@ -20,15 +22,16 @@ namespace {
 
 struct Options : Common {
   std::string what = "kernels";
-  bool full = false, plain = true;
+  bool full = false, plain = true, times = false;
   std::optional<std::string> filter, baseline;
-  std::optional<int> repeats;
+  std::optional<int> repeats, processes;
 };
 
 /// Refuses what the other subject is told by.
 void check_options(const Options& o) {
-  if (o.what == "fit" && (o.full || o.filter || o.baseline))
-    throw wrong_usage("--full, --filter and --baseline are for bench kernels");
+  if (o.what == "fit" && (o.full || o.filter || o.baseline || o.times || o.processes))
+    throw wrong_usage(
+        "--full, --filter, --baseline, --times and --processes are for bench kernels");
   if (o.what != "fit" && (!o.plain || o.jobs != 0))
     throw wrong_usage("--no-plain and --jobs are for bench fit");
 }
@@ -64,7 +67,7 @@ void print_group(const std::vector<const CostRow*>& rows) {
     const auto is_here = [&](const CostRow* r) { return shown(*r) == name; };
     const auto& first = **std::ranges::find_if(rows, is_here);
     say("{:<{}} {:>4} {:>8}", name, width,
-        first.kind == "by_hand" ? "" : fmt::format("{}", first.operations.total()),
+        first.operations.total() == 0 ? "" : fmt::format("{}", first.operations.total()),
         first.error.truth.empty() ? "" : fmt::format("{:.1e}", first.error.rms));
     for (const auto& p : places) {
       const auto at = std::ranges::find_if(rows, [&](const CostRow* r) {
@@ -78,7 +81,8 @@ void print_group(const std::vector<const CostRow*>& rows) {
 
 void print_rows(const std::vector<CostRow>& rows) {
   for (const std::string_view kind :
-       {"ndf", "masking", "fresnel", "diffuse", "model", "by_hand", "bound"})
+       {"ndf", "masking", "fresnel", "diffuse", "model", "by_hand", "bound", "arithmetic",
+        "arithmetic_in_f", "sampling", "split_sum"})
     for (const std::string_view number : {"float", "double"}) {
       std::vector<const CostRow*> group;
       for (const auto& r : rows)
@@ -88,8 +92,9 @@ void print_rows(const std::vector<CostRow>& rows) {
   std::vector<double> spreads;
   for (const auto& r : rows) spreads.push_back(r.time.spread_ns / r.time.ns);
   std::ranges::sort(spreads);
-  say("\nspread, half the distance of the quartiles: {:.1f} % in the middle, {:.0f} % at most\n",
-      100 * spreads[spreads.size() / 2], 100 * spreads.back());
+  say("\nspread, half the distance of the quartiles{}: {:.1f} % in the middle, {:.0f} % at most\n",
+      rows[0].each.empty() ? "" : " between processes", 100 * spreads[spreads.size() / 2],
+      100 * spreads.back());
 }
 
 std::string words(const CostName& n) {
@@ -153,27 +158,34 @@ Exit bench_kernels(const Options& o) {
   std::optional<EarlierCosts> earlier;  // nobody waits to learn that it cannot be read
   if (o.baseline) earlier = read_costs(*o.baseline);
   auto options = cost_options(o.full);
-  if (!o.full) options.timing = {5, 6e-4, true};  // within 20 seconds
+  options.program = this_program();
+  options.processes = o.processes.value_or(o.full ? options.processes : 5);
+  options.errors = !o.times;
   if (o.repeats) options.timing.repetitions = *o.repeats;
   if (o.filter) options.filter = *o.filter;
   Progress progress(o.quiet);
   const auto begin = std::chrono::steady_clock::now();
-  const auto rows = measure_costs(options, [&](std::string_view what, double part) {
+  const auto measured = measure_costs(options, [&](std::string_view what, double part) {
     constexpr std::size_t all = 1000;
     const auto done = static_cast<std::size_t>(part * all);
     progress(fmt::format("{}, {} %{}", what, done / 10, time_left(begin, done, all)));
   });
   progress.clear();
+  const auto& rows = measured.rows;
   if (rows.empty()) throw wrong_usage(fmt::format("no form's id holds '{}'", options.filter));
   const auto machine = this_machine();
   std::vector<CostChange> found;
   if (earlier) found = changes(*earlier, rows, options.filter);
   if (o.json) {
-    fmt::print("{}\n", costs_json(machine, options, rows, found));
+    fmt::print("{}\n", costs_json(machine, options, measured, found));
     return Exit::done;
   }
-  say("{}, {} threads; {}; median of {} repetitions [ns a sample]\n", machine.cpu, machine.threads,
-      machine.compiler, options.timing.repetitions);
+  say("{}, {} threads; {}; median over {} [ns a sample]\n", machine.cpu, machine.threads,
+      machine.compiler,
+      measured.processes > 1 ? fmt::format("{} processes", measured.processes)
+                             : fmt::format("{} repetitions", options.timing.repetitions));
+  if (const auto text = load_text(measured.others, machine.threads); !text.empty())
+    say("{}\n", text);
   if (earlier)
     print_changes(found, *earlier, machine);
   else
@@ -206,8 +218,12 @@ void add_bench(CommandLine& line) {
       "--baseline", o->baseline,
       "An earlier document of bench --json or report cost: what changed since is printed, in place "
       "of all times");
-  c.option("--repeats", o->repeats, "Repetitions (default: 5, 15 with --full, 11 of fit)")
+  c.option("--repeats", o->repeats, "Repetitions in each process (default: 3, 11 of fit)")
       .in(1, 1000);
+  c.option("--processes", o->processes,
+           "Processes that measure everything in turn; 1: this one (default: 5, 15 with --full)")
+      .in(1, 100);
+  c.flag("--times", o->times, "Times alone, without the errors, which take seconds");
   c.flag("!--no-plain", o->plain, "fit: without the plain way, which takes seconds and 1 GB");
   add_jobs(c, *o);
   add_output(c, *o);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/process.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "reports/index/index_page.h"
@@ -165,7 +166,7 @@ Exit run(const Options& o) {
   namespace fs = std::filesystem;
   use_jobs(o.jobs);
   if (o.json && o.name == all_reports) throw wrong_usage("--json is for one report");
-  ReportOptions options{o.full, o.name == all_reports, {}, o.asset};
+  ReportOptions options{o.full, o.name == all_reports, {}, o.asset, this_program()};
   for (const auto& path : o.environments) {
     const std::string name = fs::path(path).stem().string();
     if (std::ranges::find(options.environments, name, &ReportOptions::Light::name) !=

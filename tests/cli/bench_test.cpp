@@ -53,6 +53,21 @@ TEST(BenchCommand, PrintsOfABaselineWhatChangedAndNothingElse) {
   EXPECT_NE(gonio(f, words + " --baseline old.json").out.find("\nnone of "), told.out.npos);
 }
 
+TEST(BenchCommand, MeasuresInProcessesOfItself) {
+  const Folder f;
+  const std::string words = "bench --filter fresnel.linear --repeats 1 --times --json";
+  const auto several = gonio(f, words + " --processes 2"), one = gonio(f, words + " --processes 1");
+  ASSERT_EQ(several.code, 0) << several.err;
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(several.json()["processes"], 2);
+  EXPECT_EQ(one.json()["processes"], 1);
+  EXPECT_TRUE(several.json().contains("others_busy"));
+  for (const auto& row : several.json()["rows"]) {
+    EXPECT_GT(row["ns"], 0);
+    EXPECT_TRUE(row["error_rms"].is_null());
+  }
+}
+
 TEST(BenchCommand, RefusesABaselineThatIsNoneBeforeItMeasures) {
   const Folder f;
   expect_one_line(gonio(f, "bench --baseline nothing.json"), 3, "nothing.json");
@@ -65,6 +80,7 @@ TEST(BenchCommand, RefusesOptionsWithoutEffect) {
   expect_one_line_each(f, 2,
                        {{"bench fit --full", "bench kernels"},
                         {"bench fit --baseline old.json", "bench kernels"},
+                        {"bench fit --processes 2", "bench kernels"},
                         {"bench --no-plain", "bench fit"},
                         {"bench --filter nothing.such", "nothing.such"},
                         {"bench everything", "everything"}});

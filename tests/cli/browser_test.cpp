@@ -176,7 +176,7 @@ CostReport small_cost_report() {
   o.filter = "fresnel.schlick";
   CostRows r;
   r.machine = this_machine();
-  r.rows = measure_costs(o);
+  r.rows = measure_costs(o).rows;
   r.points = few_cost_points();
   r.switches.push_back({"Schlick to exact", "fresnel.schlick", "fresnel.dielectric",
                         r.machine.instruction_sets.back(), "float", "cache", "", 1, 0.1, 2, 9, 0.02,
