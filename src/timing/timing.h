@@ -55,7 +55,7 @@ struct ComparedTime {
 };
 struct TimeDifference {
   double ns, spread_ns;
-  /// It is there in every process, and above its spread; of one process alone: above both spreads together.
+  /// It is there in every process, above its spread and 3 % of the time; of one alone: above both spreads together.
   bool survives;
 };
 /// Time that `to` takes more than `from`.  Of the same processes: the median of what they differ by in each, and its
