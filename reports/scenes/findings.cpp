@@ -70,10 +70,10 @@ void savings(Findings& to, const ScenesRows& r) {
   const double middle = all[all.size() / 2];
   to.say(fmt::format(
       "At {}, plans save at least {} of a float shader’s time in half of the scenes, and {} for "
-      "{}; {}.",
+      "{}. {}.",
       no_difference, percent(middle, 2), percent(all.back(), 2), scene_text(most),
-      none.empty() ? fmt::format("the least is saved for {}", scene_text(least))
-                   : fmt::format("as good as nothing can be saved for {}", scenes_text(none))));
+      none.empty() ? fmt::format("The least is saved for {}", scene_text(least))
+                   : fmt::format("As good as nothing can be saved for {}", scenes_text(none))));
   to.headline = fmt::format(
       "Leaving out what nobody sees saves {} or more of a shader’s time in half of {} scenes, and "
       "up to {}.",

@@ -279,14 +279,14 @@ TEST(ScenesFindings, BeginWithWhatIsSavedAndWhereNothingIs) {
   ASSERT_FALSE(f.sentences.empty());
   EXPECT_EQ(f.sentences[0],
             "At no visible difference, plans save at least 60\u00a0% of a float shader’s time in "
-            "half of the scenes, and 90\u00a0% for chalk under front light; as good as nothing can "
+            "half of the scenes, and 90\u00a0% for chalk under front light. As good as nothing can "
             "be saved for the material that needs everything under rim light.");
 }
 
 TEST(ScenesFindings, SayTheLeastWhereEverythingSaves) {
   auto r = made_rows();
   r.rows.pop_back();
-  EXPECT_NE(findings(r).sentences[0].find("the least is saved for chalk under rim light."),
+  EXPECT_NE(findings(r).sentences[0].find("The least is saved for chalk under rim light."),
             std::string::npos);
 }
 
