@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   gonio::cli::add_term(line);
   gonio::cli::add_audit(line);
   gonio::cli::add_stability(line);
+  gonio::cli::add_validate(line);
   gonio::cli::add_plan(line);
   gonio::cli::add_verify(line);
   gonio::cli::add_render(line);
