@@ -114,7 +114,7 @@ FitResult fit(const Table& t,
   Stopwatch watch(phase_ms);
 
   const Bins bins = t.bins();
-  const bool folded = is_reciprocal(p.start) && !o.robust;  // a pair of values is one to the fit
+  const bool folded = folds(p);
   std::shared_ptr<const BoundModel> bulk;
   const auto sampling_of = [&](Bins convention, bool fold) {
     Sampling s = sampling_for(p, t, convention, fold);

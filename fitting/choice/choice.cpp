@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <optional>
 
 #include "base/error.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
 #include "fitting/choice/cross_validation.h"
 #include "fitting/fit.h"
@@ -15,6 +17,7 @@
 #include "timing/timing.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -44,11 +47,14 @@ std::vector<std::string> at_bound(const FitDocument& d) {
 }
 
 std::vector<Timing> times_of(const Table& t, std::span<const BoundModel> models) {
-  const std::size_t n = std::min(t.size(), timed_samples);
-  const std::size_t step = t.size() / n;
   const SampleAngles at(t);
+  std::vector<std::size_t> above;  // below the horizon terms are not defined
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (const auto a = at(i); a.nol > 0 && a.nov > 0) above.push_back(i);
+  const std::size_t n = std::min(above.size(), timed_samples);
+  const std::size_t step = above.size() / n;
   auto x = std::make_shared<AngleColumns<float>>(n, true);
-  for (std::size_t i = 0; i < n; ++i) x->set(i, at.frame(i * step));
+  for (std::size_t i = 0; i < n; ++i) x->set(i, at.frame(above[i * step]));
   std::vector<Timed> all;
   for (const auto& b : models) {
     struct State {
@@ -81,6 +87,40 @@ Behind behind(const std::vector<LogResiduals>& a, const std::vector<LogResiduals
   for (const double x : d) mean += x / n;
   for (const double x : d) squares += (x - mean) * (x - mean);
   return {mean, std::sqrt(squares / (n * std::max(n - 1, 1.0)))};
+}
+
+/// True of a model with a parameter of that name, its own or what stands for one of its terms'.
+bool has_parameter(const std::string& model, const std::string& name) {
+  if (const Preset* preset = find_preset(model))
+    if (std::ranges::find(preset->parameters, name, &Parameter::name) != preset->parameters.end())
+      return true;
+  FitOptions o;
+  o.model = model;
+  const Model m = compose(expanded(o).model, 1);
+  const auto has = [&](const std::string& n) { return m.find(n) != nullptr; };
+  if (has(name) || (is_roughness(name) && has(alpha_name(name)))) return true;
+  if (name.starts_with("f0")) return has("eta" + name.substr(2));
+  if (name == "metal") return has("eta") && has("k");
+  return (name == "base_color" || name == "metallic") && has("kd") && has("f0");
+}
+
+/// Options for one of the models: what it has no parameter for is left out.
+FitOptions options_for(FitOptions o, const std::string& model) {
+  const auto others = [&](const std::string& name) { return !has_parameter(model, name); };
+  o.model = model;
+  for (auto* settings : {&o.fixed, &o.bounds})
+    std::erase_if(*settings, [&](const Setting& s) { return others(s.name); });
+  std::erase_if(o.grey, others);
+  return o;
+}
+void check_settings(const FitOptions& o, std::span<const std::string> models) {
+  const auto check = [&](const std::string& name) {
+    if (std::ranges::none_of(models, [&](const auto& m) { return has_parameter(m, name); }))
+      throw wrong_usage(fmt::format("none of the models has a parameter '{}'", name));
+  };
+  for (const auto* settings : {&o.fixed, &o.bounds})
+    for (const auto& s : *settings) check(s.name);
+  for (const auto& name : o.grey) check(name);
 }
 
 template <class Of>
@@ -120,14 +160,16 @@ ModelChoice compare_models(const Table& t,
   std::vector<ResidualsByAngle> residuals(models.size());
   std::optional<Blocks> blocks;
   SharedColumns columns;
+  std::exception_ptr refused;  // the first
+  check_settings(options, models);
+  double step = 1;  // samples of the table for one whose residual is looked at
   const auto share = [&](double steps) { return steps / (2 * static_cast<double>(models.size())); };
   for (std::size_t k = 0; k < models.size(); ++k) {
     ModelRow row;
     row.model = models[k];
     choice.fits.emplace_back();
     try {
-      FitOptions o = options;
-      o.model = models[k];
+      const FitOptions o = options_for(options, models[k]);
       if (progress) progress("fitting " + row.model, share(2.0 * static_cast<double>(k)));
       FitResult fitted = fit(t, o, columns);
       const FitDocument& d = fitted.document;
@@ -135,6 +177,9 @@ ModelChoice compare_models(const Table& t,
       row.converged = d.solver.termination == "converged";
       if (!row.converged) row.note = "the fit did not converge";
       row.parameters = free_values(d);
+      if (d.values_used <= row.parameters)
+        throw bad_input(t.path, "values", fmt::format("{} that a fit can use", d.values_used),
+                        fmt::format("more than the model's {} free parameters", row.parameters));
       row.parameters_at_bound = at_bound(d);
       if (progress)
         progress("leaving out angles of " + row.model, share(2.0 * static_cast<double>(k) + 1));
@@ -142,16 +187,18 @@ ModelChoice compare_models(const Table& t,
       const Problem p = pose(t, whole);
       const Sampling by_log = sampling_for(p, t, t.bins()).by(Metric::log, p.offset);
       residuals[k] = log_residuals(by_log, fitted.model, most_groups);
+      step = static_cast<double>(Tasks::step_to(by_log.groups().size(), most_groups));
       row.log_rms = total(residuals[k]).rms();
       if (!blocks) blocks = incident_blocks(by_log);
       left_out[k] = cross_validate(t, p, *blocks, fitted.model);
       if (blocks->count > 0) {
         LogResiduals unseen;
         for (const auto& b : left_out[k]) unseen.add(b);
-        row.cv_log_rms = unseen.rms();
+        if (!left_out[k].empty()) row.cv_log_rms = unseen.rms();
       }
       choice.fits.back() = std::move(fitted.model);
     } catch (const Error& e) {
+      if (!refused) refused = std::current_exception();
       row = {};
       row.model = models[k];
       row.note = e.what();
@@ -160,10 +207,11 @@ ModelChoice compare_models(const Table& t,
   }
   choice.blocks = blocks ? blocks->count : 0;
   auto& rows = choice.rows;
+  if (refused && std::ranges::none_of(rows, &ModelRow::compared)) std::rethrow_exception(refused);
   const ModelRow* nearest = least(rows, [](const auto& r) { return r.log_rms; });
   if (!nearest) return choice;
   const auto index = [&](const ModelRow* r) { return static_cast<std::size_t>(r - rows.data()); };
-  choice.effective_values = effective_values(residuals[index(nearest)]);
+  choice.effective_values = effective_values(residuals[index(nearest)], step);
   const ModelRow* best = least(rows, [](const auto& r) { return r.cv_log_rms; });
   std::vector<BoundModel> timed;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -174,7 +222,7 @@ ModelChoice compare_models(const Table& t,
     const double fit_of = 2 * n * std::log(r.log_rms);
     r.aic = fit_of + 2 * p;
     r.bic = fit_of + p * std::log(n);
-    if (!best) continue;
+    if (!best || left_out[k].empty()) continue;
     const auto b = behind(left_out[k], left_out[index(best)]);
     r.cv_behind = b.mean > 0 ? b.mean / b.error : 0;
   }
@@ -189,9 +237,11 @@ ModelChoice compare_models(const Table& t,
 }
 
 Advice advise(const ModelChoice& choice) {
-  constexpr double errors = 2, seen = 0.05, same = 0.001;
   Advice a;
-  const auto& rows = choice.rows;
+  const bool any_converged = std::ranges::any_of(choice.rows, &ModelRow::converged);
+  std::vector<ModelRow> rows;
+  for (const auto& r : choice.rows)
+    if (r.converged || !any_converged) rows.push_back(r);
   const auto cv = [](const ModelRow& r) { return r.cv_log_rms; };
   const auto bic = [](const ModelRow& r) { return r.bic; };
   const ModelRow* best = least(rows, cv);
@@ -202,13 +252,16 @@ Advice advise(const ModelChoice& choice) {
   const auto as_good = [&](const ModelRow& r) {
     if (std::isnan(judge(r))) return false;
     if (!predicted) return r.bic <= best->bic + 2;
-    const double more = r.cv_log_rms / best->cv_log_rms - 1;
-    return more <= same || (more <= seen && r.cv_behind <= errors);
+    constexpr double rounding = 1e-6;  // of a log RMS: below it no model is better than another
+    const double least = std::max(best->cv_log_rms, rounding);
+    const double more = std::max(r.cv_log_rms, rounding) / least - 1;
+    const bool few = choice.effective_values < few_values * static_cast<double>(best->parameters);
+    return more <= next_to_nothing_more ||
+           ((more <= most_more || few) && r.cv_behind <= most_errors_behind);
   };
   const ModelRow* take = best;
   for (const auto& r : rows)
-    if (as_good(r) && r.converged &&
-        std::pair(r.parameters, judge(r)) < std::pair(take->parameters, judge(*take)))
+    if (as_good(r) && std::pair(r.parameters, judge(r)) < std::pair(take->parameters, judge(*take)))
       take = &r;
   a.recommended = take->model;
   for (const auto& r : rows)
@@ -229,17 +282,28 @@ Advice advise(const ModelChoice& choice) {
         "unseen incident angles is "
         "{:.3g}, and the least {:.3g}.",
         take->model, a.as_good.size() + 1, take->cv_log_rms, best->cv_log_rms);
-  const auto disagrees = [&](const char* judge_name, auto of, double by) {
+  const auto disagrees = [&](const char* judge_name, auto of, double by, auto text) {
     const ModelRow* other = least(rows, of);
     if (!other || other == take || std::isnan(of(*take)) || of(*take) <= of(*other) + by) return;
     if (std::ranges::find(a.as_good, other->model) != a.as_good.end()) return;
     a.disagreement.push_back(
-        fmt::format("{} prefers {}: {:.3g}, and {:.3g} of the one that is recommended.", judge_name,
-                    other->model, of(*other), of(*take)));
+        fmt::format("{} prefers {}{}.", judge_name, other->model, text(of(*other), of(*take))));
   };
-  if (predicted) disagrees("BIC", bic, 2);
+  if (predicted)
+    disagrees("BIC", bic, 2,
+              [](double other, double taken) { return fmt::format(", by {:.0f}", taken - other); });
   disagrees(
-      "The colour of a rendered sphere (ΔE_ITP)", [](const auto& r) { return r.delta_e_itp; }, 0.5);
+      "The colour of a rendered sphere", [](const auto& r) { return r.delta_e_itp; }, 0.5,
+      [](double other, double taken) {
+        return fmt::format(": its ΔE_ITP is {:.2g} and not {:.2g}", other, taken);
+      });
+  if (take->log_rms > far_off)
+    a.beware.push_back(fmt::format("It is not near the table: typically off by a factor of {:.3g}.",
+                                   std::exp(take->log_rms)));
+  if (!take->parameters_at_bound.empty())
+    a.beware.push_back(fmt::format("{} {} at the end of what it may be: the model lacks something.",
+                                   fmt::join(take->parameters_at_bound, ", "),
+                                   take->parameters_at_bound.size() == 1 ? "is" : "are"));
   return a;
 }
 

@@ -31,11 +31,12 @@ struct ModelRow {
   double aic = unknown, bic = unknown;
   double delta_e_2000 = unknown,
          delta_e_itp = unknown;  ///< of a rendered sphere; the caller's to fill in
-  double ns = unknown;           ///< of one sample in all channels
+  double ns = unknown;           ///< of one sample in all channels [ns]
   double ns_spread = unknown;    ///< half the distance of the quartiles over repetitions
   std::vector<std::string> parameters_at_bound;
 };
 
+/// Models of one table side by side.
 struct ModelChoice {
   std::vector<ModelRow> rows;    ///< in the order asked
   std::vector<BoundModel> fits;  ///< of each row; empty models where there is none
@@ -55,7 +56,8 @@ std::span<const std::string_view> usual_models();
 /// n is the number of values over their design effect 1 + (m − 1) ρ, m values an incident angle, ρ the correlation of the residuals
 /// within one: of the model that leaves least.                                              [Kish 1965]
 ///
-/// A model that this table cannot be fitted with stays among the rows, with the reason.
+/// A model that this table cannot be fitted with stays among the rows, with the reason; where that is all of them, the first one's
+/// error is thrown.  A setting holds for the models that have its parameter; wrong usage where none has.
 /// \param progress  is told what is done and the share of all
 ModelChoice compare_models(const Table&,
                            const FitOptions&,
@@ -68,10 +70,19 @@ struct Advice {
   std::string reason;                     ///< one sentence
   std::vector<std::string> as_good;       ///< models that the table cannot tell from it
   std::vector<std::string> disagreement;  ///< sentences: what other judges prefer
+  std::vector<std::string> beware;        ///< sentences: what the one that is taken does not do
 };
 
-/// The least parameters among the models that cannot be told from the one that predicts best: at most 5 % more log RMS on unseen angles
-/// and at most two standard errors over the blocks, or 0.1 % more.  Among as many parameters the one that predicts best.  Without blocks BIC decides.
+/// Models cannot be told from the one that predicts best where they leave so much more log RMS on unseen angles at most, as a part of
+/// it, and are behind by so many standard errors over the blocks at most; or leave so little more that it is nothing.
+inline constexpr double most_more = 0.05, most_errors_behind = 2, next_to_nothing_more = 0.001;
+/// Independent values a parameter below which errors over the blocks decide alone: so few values make 5 % of error by chance.
+inline constexpr double few_values = 20;
+/// Log RMS from which on a model is not near its table.
+inline constexpr double far_off = 0.25;
+
+/// The least parameters among the models that cannot be told from the one that predicts best.  Among as many parameters the one that
+/// predicts best.  Without blocks BIC decides.  A fit that did not converge is taken only where none did.
 Advice advise(const ModelChoice&);
 
 }  // namespace gonio

@@ -12,25 +12,28 @@ namespace {
 
 constexpr std::size_t most_groups = 65'536;
 
-LogResiduals left_out(const Table& t,
+/// Ways to look at a table: as it is fitted, and as what is left out is judged.
+struct Looks {
+  Sampling fitted, judged;
+};
+
+LogResiduals left_out(const Looks& look,
                       const Problem& p,
                       const Blocks& blocks,
                       std::size_t block,
                       const BoundModel& whole) {
-  std::vector<bool> not_fitted(t.size()), not_judged(t.size());
-  for (std::size_t i = 0; i < t.size(); ++i) {
+  const std::size_t n = blocks.of_sample.size();
+  std::vector<bool> not_fitted(n), not_judged(n);
+  for (std::size_t i = 0; i < n; ++i) {
     const bool left = blocks.of_sample[i] == block;
     not_judged[i] = !left;
     not_fitted[i] = left || (!blocks.of_exchanged.empty() && blocks.of_exchanged[i] == block);
   }
-  const bool folded = is_reciprocal(p.start) && !p.options.robust;
-  Sampling seen = sampling_for(p, t, t.bins(), folded).without(std::move(not_fitted));
+  Sampling seen = look.fitted.without(std::move(not_fitted));
   seen.set_bulk(bulk_of(p, seen));
   const Fitted start{whole, no_huber, {}, false, 0};
   const Fitted found = compared_by(seen, p, most_groups, start);
-  const Sampling unseen =
-      sampling_for(p, t, t.bins()).by(Metric::log, p.offset).without(std::move(not_judged));
-  return total(log_residuals(unseen, found.model, most_groups));
+  return total(log_residuals(look.judged.without(std::move(not_judged)), found.model, most_groups));
 }
 
 }  // namespace
@@ -64,9 +67,19 @@ std::vector<LogResiduals> cross_validate(const Table& t,
                                          const Problem& p,
                                          const Blocks& blocks,
                                          const BoundModel& whole) {
+  // A fit of fewer values than parameters would stay where that of the whole table is, which has
+  // seen what is left out.
+  std::vector<std::size_t> fitted(blocks.count, 0);
+  for (std::size_t i = 0; i < t.size(); ++i)
+    for (std::size_t b = 0; b < blocks.count; ++b)
+      fitted[b] +=
+          blocks.of_sample[i] != b && (blocks.of_exchanged.empty() || blocks.of_exchanged[i] != b);
+  if (blocks.count == 0 || std::ranges::min(fitted) * t.channels.size() <= p.free.size()) return {};
   std::vector<LogResiduals> all(blocks.count);
+  const Looks look{sampling_for(p, t, t.bins(), folds(p)),
+                   sampling_for(p, t, t.bins()).by(Metric::log, p.offset)};
   tbb::parallel_for(std::size_t{0}, all.size(),
-                    [&](std::size_t b) { all[b] = left_out(t, p, blocks, b, whole); });
+                    [&](std::size_t b) { all[b] = left_out(look, p, blocks, b, whole); });
   return all;
 }
 

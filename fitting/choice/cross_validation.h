@@ -17,14 +17,17 @@ namespace gonio {
 struct Blocks {
   std::size_t count = 0;                 ///< none where the table has one incident angle
   std::vector<std::uint16_t> of_sample;  ///< [sample]
-  /// Block of the same with light and viewer exchanged, where the table has these samples too; else empty.
+  /// Block of the same with light and viewer exchanged, of grids of half and difference angles, which have each pair twice; else
+  /// empty.
   std::vector<std::uint16_t> of_exchanged;
 };
-/// \param most  as many, or one of each incident angle where they are fewer
+/// Blocks of a table, or one of each incident angle where they are fewer.
+/// \param most  blocks
 Blocks incident_blocks(const Sampling&, std::size_t most = 10);
 
 /// Residuals of each block under a fit of all others, of a million values about 65 536.  What is a sample of the block with light and
 /// viewer exchanged is not fitted to either.  The fits go on from that of the whole table.
+/// Empty where what is left of the table has no more values than the model has parameters.
 std::vector<LogResiduals> cross_validate(const Table&,
                                          const Problem&,
                                          const Blocks&,

@@ -58,7 +58,7 @@ struct ModelsFile {
   std::optional<double> effective_values;
   std::uint64_t blocks = 0;
   std::optional<std::string> recommended, reason;
-  std::vector<std::string> as_good, disagreement;
+  std::vector<std::string> as_good, disagreement, beware;
 };
 template <class Form>
 void keys(Form& f, ModelsFile& m) {
@@ -74,6 +74,7 @@ void keys(Form& f, ModelsFile& m) {
   f.optional("reason", m.reason, "one sentence");
   f.required("as_good", m.as_good, "models that the table cannot tell from it");
   f.required("disagreement", m.disagreement, "what other judges prefer, in sentences");
+  f.required("beware", m.beware, "what the recommended one does not do, in sentences");
 }
 
 std::optional<std::string> if_any(const std::string& text) {
@@ -94,7 +95,8 @@ std::string to_json(const ModelChoice& choice, const Advice& advice, const Compa
                {},
                {},
                advice.as_good,
-               advice.disagreement};
+               advice.disagreement,
+               advice.beware};
   for (const auto& r : choice.rows)
     f.models.push_back({r.model, if_any(r.note), r.converged, r.parameters, known(r.log_rms),
                         known(r.cv_log_rms), known(r.cv_behind), known(r.aic), known(r.bic),

@@ -33,8 +33,10 @@ ResidualsByAngle log_residuals(const Sampling& s, const BoundModel& model, std::
           const auto& data = in.values(m, c);
           for (std::size_t i = 0; i < in.size(); ++i) {
             if (!(data.weight[i] > 0)) continue;
-            const double r = std::log(out[c][i] + s.offset()) - data.target[i];
-            if (std::isfinite(r)) all[keys(in.sample(m)[i], in.nol(m)[i])].add({1, r, r * r});
+            // As the fit's own link: a model that underflows is judged where it does, too.
+            const double f = std::max(out[c][i] + s.offset(), static_cast<double>(faintest));
+            const double r = std::log(f) - data.target[i], n = s.count_of(in.sample(m)[i]);
+            all[keys(in.sample(m)[i], in.nol(m)[i])].add({n, n * r, n * r * r});
           }
         }
     }
@@ -48,7 +50,7 @@ LogResiduals total(const ResidualsByAngle& angles) {
   return all;
 }
 
-double effective_values(const ResidualsByAngle& angles) {
+double effective_values(const ResidualsByAngle& angles, double step) {
   const LogResiduals all = total(angles);
   double squared_sizes = 0, between_squares = 0;
   for (const auto& [key, a] : angles) {
@@ -56,13 +58,14 @@ double effective_values(const ResidualsByAngle& angles) {
     between_squares += a.sum * a.sum / a.values;
   }
   const auto k = static_cast<double>(angles.size());
-  if (k < 2 || all.values <= k) return all.values;
+  if (k < 2 || all.values <= k) return step * all.values;
   const double between = (between_squares - all.sum * all.sum / all.values) / (k - 1);
   const double within = (all.squares - between_squares) / (all.values - k);
   const double m = (all.values - squared_sizes / all.values) / (k - 1);
   const double variance = between + (m - 1) * within;
   const double rho = variance > 0 ? std::clamp((between - within) / variance, 0.0, 1.0) : 0;
-  return std::max(k, all.values / (1 + (m - 1) * rho));
+  const double alike = step * squared_sizes / all.values;
+  return std::max(k, step * all.values / (1 + (alike - 1) * rho));
 }
 
 }  // namespace gonio

@@ -23,8 +23,9 @@ struct LogResiduals {
   double rms() const;
 };
 
-/// By incident angle, see IncidentKeys.
+/// Sums of each incident angle, by its key (IncidentKeys).
 using ResidualsByAngle = std::map<std::size_t, LogResiduals>;
+/// Residuals of a model at the samples, f no less than `faintest`; a value that counts as several is so many.
 /// \param s     by Metric::log
 /// \param most  about how many groups of samples are looked at
 ResidualsByAngle log_residuals(const Sampling& s,
@@ -32,9 +33,10 @@ ResidualsByAngle log_residuals(const Sampling& s,
                                std::size_t most = static_cast<std::size_t>(-1));
 LogResiduals total(const ResidualsByAngle&);
 
-/// Number of independent values that these are worth: values over the design effect 1 + (m − 1) ρ, m a mean of the values of an
-/// incident angle, ρ the correlation of residuals within one, from their variances within and between.  At least the number of
-/// angles.                                                                    [Kish 1965; Donner & Koval 1980]
-double effective_values(const ResidualsByAngle&);
+/// Number of independent values that these are worth: values over the design effect 1 + (m − 1) ρ, m = Σ n²/Σ n over the n values of
+/// each incident angle, ρ the correlation of residuals within one, from their variances within and between.  At least the number
+/// of angles.                                                                 [Kish 1965; Donner & Koval 1980]
+/// \param step  values of the table for one that was looked at
+double effective_values(const ResidualsByAngle&, double step = 1);
 
 }  // namespace gonio

@@ -24,11 +24,16 @@ double set_to(double angle) {
 bool is_in_plane_of_incidence(const Table& t) {
   const SampleAngles at(t);
   constexpr double out_of_it = 0.02;  // sine
+  const double along_normal = std::sin(degree);
+  bool leaves_normal = false;
   for (std::size_t i = 0; i < t.size(); ++i) {
     const auto p = at.directions(i);
-    if (std::abs(p.wi.x * p.wo.y - p.wi.y * p.wo.x) > out_of_it) return false;
+    const double sine = std::hypot(p.wi.x, p.wi.y);
+    if (sine < along_normal) continue;  // any plane through the normal is its plane of incidence
+    leaves_normal = true;
+    if (std::abs(p.wi.x * p.wo.y - p.wi.y * p.wo.x) > out_of_it * sine) return false;
   }
-  return true;
+  return leaves_normal;
 }
 
 DirectionList candidates(bool in_plane) {

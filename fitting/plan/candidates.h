@@ -13,7 +13,8 @@ inline constexpr double most_grazing_deg = 80;
 /// Least angle between the directions [°]: closer together one arm stands in the other's light.
 inline constexpr double least_apart_deg = 10;
 
-/// True where no direction lies more than a degree out of the plane of incidence, and none of them turns that plane.
+/// True where no viewer lies more than sin⁻¹ 0.02 out of its light's plane of incidence, and some light lies a degree from the
+/// normal, so that there is such a plane.  Each pair may have its own.
 bool is_in_plane_of_incidence(const Table&);
 
 /// Pairs of directions, with phi_i = 0, at angles that are multiples of 0.1°, within the limits above.  They lie on a grid of half and

@@ -40,7 +40,8 @@ class Forecast {
 
   /// V with these samples besides.
   Eigen::MatrixXd covariance(SampleList more) const;
-  /// Widths of the intervals that the spread of the estimates asks: these never grow by a sample.
+  /// Widths of the intervals that the spread of the estimates asks.  No sample widens one with e_k² of 1 or more; of a fit that tells
+  /// less than its noise makes, one may.
   Eigen::VectorXd widths(SampleList more) const;
   /// Widths that the fit will tell.  It allows for what few values know of their own noise: HC3's Σ b²/(1 − h) in place of Σ b², and as
   /// many degrees of freedom as values that an unknown rests on, 1/Σ β⁴ with β² = b²/V_kk.  See Sandwich and uncertainty().

@@ -27,6 +27,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_channels = 4;  ///< that are looked at
 constexpr double most_followed = 2048;    ///< values of a table that are followed one by one
 constexpr double next_to_nothing = 0.01;  ///< of a range
+constexpr double least_between_deg = 2;   ///< directions of a plan, [°]
 constexpr double worth_it = 0.999;  ///< of a width: a direction that leaves more does not narrow it
 
 Index index(std::size_t i) {
@@ -134,17 +135,39 @@ Table as_measured(const DirectionList& where, const BoundModel& model, const Tab
   return t;
 }
 
+/// True of pairs that an instrument, or a reciprocal surface, hardly tells apart: they would share what is wrong there.
+bool is_near(const DirectionPair& a, const DirectionPair& b) {
+  const double apart = std::cos(least_between_deg * degree);
+  const auto alike = [&](const Direction& x, const Direction& y) { return dot(x, y) > apart; };
+  // Mirrored at the plane of incidence, too: there a surface without a tangent has one value.
+  const auto mirrored = [](const Direction& d) { return Direction{d.x, -d.y, d.z}; };
+  const auto turned = [](const DirectionPair& p) {  // the second one's azimuth as phi_i = 0 has it
+    return DirectionPair{direction(theta_of(p.wo), 0), direction(theta_of(p.wi), phi_of(p.wo))};
+  };
+  const auto same = [&](const DirectionPair& x) {
+    return alike(a.wi, x.wi) && (alike(a.wo, x.wo) || alike(a.wo, mirrored(x.wo)));
+  };
+  return same(b) || same(turned(b));
+}
+
 /// Choice among candidates by the forecast.
 class Planner {
  public:
-  /// \param range  of each unknown, in its scale
-  Planner(const Forecast& forecast, const std::vector<SampleRows>& candidates, VectorXd range)
-      : forecast_(forecast), candidates_(candidates), range_(std::move(range)) {}
+  /// \param candidates  derivatives of each, and \p where it lies
+  /// \param range       of each unknown, in its scale
+  Planner(const Forecast& forecast,
+          const std::vector<SampleRows>& candidates,
+          std::vector<DirectionPair> where,
+          VectorXd range)
+      : forecast_(forecast),
+        candidates_(candidates),
+        where_(std::move(where)),
+        range_(std::move(range)) {}
 
   std::vector<std::size_t> choose(std::size_t n) const {
     std::vector<std::size_t> chosen;
     while (chosen.size() < n) {
-      const VectorXd now = ranked(forecast_.told_widths(samples(chosen)));
+      const VectorXd now = unknown_first(forecast_.told_widths(samples(chosen)));
       std::optional<std::size_t> next;
       for (const Index k : widest_first(now)) {
         const Best best = best_with(chosen, [&](const VectorXd& w) { return w[k]; });
@@ -167,27 +190,28 @@ class Planner {
   }
   /// Unknowns by their widths; those that are as wide as their range come first.
   std::vector<Index> widest_first(const VectorXd& widths) const {
-    const VectorXd w = ranked(widths);
+    const VectorXd w = unknown_first(widths);
     std::vector<Index> all(static_cast<std::size_t>(w.size()));
     std::iota(all.begin(), all.end(), Index{0});
     std::ranges::stable_sort(all, [&](Index i, Index k) { return w[i] > w[k]; });
     return all;
   }
-  bool is_none(const VectorXd& widths, Index k) const { return !(widths[k] < range_[k]); }
+  bool tells_nothing(const VectorXd& widths, Index k) const { return !(widths[k] < range_[k]); }
 
  private:
   struct Best {
     double score = std::numeric_limits<double>::infinity();
     std::size_t which = 0;
-    double if_alike;          ///< score by the variances alone
-    std::size_t by_variance;  ///< candidate of that
+    double if_alike = std::numeric_limits<double>::infinity();  ///< score by the variances alone
+    std::size_t by_variance = 0;                                ///< candidate of that
   };
 
-  VectorXd ranked(const VectorXd& widths) const {
+  /// Widths, those that are as wide as their range beyond all others.
+  VectorXd unknown_first(const VectorXd& widths) const {
     constexpr double wider_than_all = 1e3;
     VectorXd w = widths;
     for (Index k = 0; k < w.size(); ++k)
-      if (is_none(widths, k)) w[k] = std::isnan(w[k]) ? 1e300 : wider_than_all * w[k];
+      if (tells_nothing(widths, k)) w[k] = std::isnan(w[k]) ? 1e300 : wider_than_all * w[k];
     return w;
   }
 
@@ -200,18 +224,26 @@ class Planner {
     const Eigen::MatrixXd v = forecast_.covariance(all);
     const VectorXd told = forecast_.told_widths(all).array() / v.diagonal().array().sqrt();
     std::vector<std::pair<double, std::size_t>> rough;
-    for (std::size_t c = 0; c < candidates_.size(); ++c) {
-      if (std::ranges::find(others, c) != others.end()) continue;
-      const VectorXd after = Forecast::variances_after(v, candidates_[c]);
-      rough.emplace_back(score(ranked(told.array() * after.array().sqrt())), c);
-    }
+    const auto look = [&](const auto& passed_over) {
+      for (std::size_t c = 0; c < candidates_.size(); ++c) {
+        if (passed_over(c)) continue;
+        const VectorXd after = Forecast::variances_after(v, candidates_[c]);
+        rough.emplace_back(score(unknown_first(told.array() * after.array().sqrt())), c);
+      }
+    };
+    look([&](std::size_t c) {
+      return std::ranges::any_of(others,
+                                 [&](std::size_t o) { return is_near(where_[c], where_[o]); });
+    });
+    if (rough.empty())  // so many directions that they must lie close together
+      look([&](std::size_t c) { return std::ranges::find(others, c) != others.end(); });
     const std::size_t few = std::min(promising, rough.size());
     std::partial_sort(rough.begin(), rough.begin() + static_cast<std::ptrdiff_t>(few), rough.end());
     Best best{.if_alike = rough.front().first, .by_variance = rough.front().second};
     all.push_back(nullptr);
     for (std::size_t k = 0; k < few; ++k) {
       all.back() = &candidates_[rough[k].second];
-      const double s = score(ranked(forecast_.told_widths(all)));
+      const double s = score(unknown_first(forecast_.told_widths(all)));
       if (s < best.score) best.score = s, best.which = rough[k].second;
     }
     return best;
@@ -220,7 +252,7 @@ class Planner {
   void exchange(std::vector<std::size_t>& chosen) const {
     const auto widest = [](const VectorXd& w) { return w.maxCoeff(); };
     constexpr int most_passes = 4;
-    double now = widest(ranked(forecast_.told_widths(samples(chosen))));
+    double now = widest(unknown_first(forecast_.told_widths(samples(chosen))));
     bool moved = true;
     for (int pass = 0; moved && pass < most_passes; ++pass) {
       moved = false;
@@ -239,6 +271,7 @@ class Planner {
 
   const Forecast& forecast_;
   const std::vector<SampleRows>& candidates_;
+  std::vector<DirectionPair> where_;
   VectorXd range_;
 };
 
@@ -313,14 +346,19 @@ std::vector<NextDirection> plan_next(const Table& whole,
   const Table measured = as_measured(where, r.model, t);
   const auto rows =
       rows_of(sampling_for(p, measured, measured.bins()), p, r.model, unknowns, noise);
-  const Planner planner(forecast, rows, range);
+  std::vector<DirectionPair> pairs;
+  for (std::size_t i = 0; i < where.theta_i_deg.size(); ++i)
+    pairs.push_back({direction(where.theta_i_deg[i] * degree, 0),
+                     direction(where.theta_o_deg[i] * degree, where.phi_o_deg[i] * degree)});
+  const Planner planner(forecast, rows, std::move(pairs), range);
   auto left = planner.choose(n);
 
   std::vector<NextDirection> next;
   std::vector<std::size_t> taken;
   const auto width_of = [&](Index k) {
-    return planner.is_none(widths, k) ? nan
-                                      : widths[k] * unknowns[static_cast<std::size_t>(k)].scale;
+    return planner.tells_nothing(widths, k)
+               ? nan
+               : widths[k] * unknowns[static_cast<std::size_t>(k)].scale;
   };
   while (!left.empty()) {
     const Eigen::MatrixXd v = forecast.covariance(planner.samples(taken));

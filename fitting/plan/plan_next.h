@@ -25,8 +25,9 @@ inline constexpr std::size_t most_planned = 256;
 /// end of its range is left there, and one that is known up to a limit is as wide as from there to the end.
 ///
 /// Each direction is the one that narrows what is then widest most, judged by the interval that the fit will tell; then each is exchanged for whatever
-/// narrows the widest of all in the end, until nothing does.  None comes twice: values of one direction would share what is wrong there.  Rows come in the order in which they help: the widest first.  `width_before`
-/// of the first row is that of the fit.  Of a table of more than four channels four are looked at, evenly spread.
+/// narrows the widest of all in the end, until nothing does.  No two lie within 2° of each other, mirrored or with light and viewer
+/// exchanged, while there are others: such values would share what is wrong there.  Rows come in the order in which they help: the
+/// widest first.  `width_before` of the first row is that of the fit.  Of a table of more than four channels four are looked at, evenly spread.
 ///
 /// The derivatives are those at the fit's values: where a table says nothing of a parameter they are a guess, and so is the plan for it.
 /// Throws wrong usage without a free parameter, bad_input of a table with no more values than these, not_converged of a fit

@@ -68,6 +68,18 @@ bool is_in_one_plane(const DirectionList& l) {
   return true;
 }
 
+/// True of light from one azimuth alone, but for that along the normal: nobody turned the surface, or its table says nothing of it.
+bool is_never_turned(const DirectionList& l) {
+  constexpr double normal = 1e-6, same = 1e-3;  // [°]
+  std::optional<double> azimuth;
+  for (std::size_t i = 0; i < l.theta_i_deg.size(); ++i) {
+    if (std::abs(l.theta_i_deg[i]) < normal) continue;
+    if (!azimuth) azimuth = l.phi_i_deg[i];
+    if (std::abs(std::remainder(l.phi_i_deg[i] - *azimuth, 360)) > same) return false;
+  }
+  return true;
+}
+
 /// The spec with the isotropic forms of its terms, which share one width.
 std::string without_tangent(std::string spec) {
   constexpr std::string_view ending = "_aniso";
@@ -117,6 +129,11 @@ Problem pose(const Table& t, const FitOptions& o) {
     throw wrong_usage(fmt::format(
         "model '{}' is anisotropic, and the directions of this table all lie in one plane",
         b.model.spec));
+  if (b.model.anisotropic && is_never_turned(*t.list()))
+    throw wrong_usage(fmt::format(
+        "model '{}' is anisotropic, and all light of this table comes from one azimuth: "
+        "it does not say how the surface was turned",
+        b.model.spec));
   const auto own = resolved_bounds(o, b);
   std::vector<bool> free(b.model.value_count, true);
   Bounds bounds;
@@ -145,6 +162,10 @@ Problem pose(const Table& t, const FitOptions& o) {
   FreeSlots slots(b.model, std::move(free));
   return {
       o, std::move(b), std::move(slots), std::move(bounds), std::move(narrowed), noise_floor(t)};
+}
+
+bool folds(const Problem& p) {
+  return is_reciprocal(p.start) && !p.options.robust;
 }
 
 Sampling sampling_for(const Problem& p, const Table& t, Bins bins, bool fold) {

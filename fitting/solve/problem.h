@@ -33,6 +33,8 @@ void check_azimuths(const Table&, const Model&);
 /// \param expanded  outlives the problem
 Problem pose(const Table&, const FitOptions& expanded);
 
+/// True of a problem whose fit takes samples with light and viewer exchanged for one.
+bool folds(const Problem&);
 /// Samples of the problem's table as its fit looks at them.
 /// \param fold  whether those that a reciprocal model cannot tell apart are one
 Sampling sampling_for(const Problem&, const Table&, Bins, bool fold = false);

@@ -175,9 +175,18 @@ function mask_section() {
     map.node);
 }
 
+/// Directions to measure next, where they were asked for.
+function next_section() {
+  if (!page_data().next?.length) return null;
+  const width = (w) => ({ n: known(w) ? significant(w, 2) : "not known" });
+  return section("What to measure next", "Each direction narrows the parameter that is least known by then. Before and after: the width of its 95 % interval.",
+    scroll(table([{ n: "θi [°]" }, { n: "φi [°]" }, { n: "θo [°]" }, { n: "φo [°]" }, "parameter", { n: "before" }, { n: "after" }],
+      page_data().next.map((d) => [{ n: plain(d.theta_i, 4) }, { n: plain(d.phi_i, 4) }, { n: plain(d.theta_o, 4) }, { n: plain(d.phi_o, 4) }, d.parameter, width(d.width_before), width(d.width_after)]))));
+}
+
 document.getElementById("page").replaceChildren(
   el("p", { class: "over" }, "gonio inspect"), el("h1", {}, file_name), verdict(),
-  ...[warning_list(health_warnings(false)), facts(), prospects(), picture_section(), curve_section(), albedo_section(), noise_section(),
+  ...[warning_list(health_warnings(false)), facts(), prospects(), next_section(), picture_section(), curve_section(), albedo_section(), noise_section(),
       el("div", { class: "columns" }, reciprocity_section(), mask_section()), health_section()].filter(Boolean),
   el("footer", {}, "f_r is in 1/sr, without the cosine. Every figure of this page is in its data block and in the .page.json beside it. "
     + "Curves drawn with uPlot, © Leon Sorokin, MIT licence."));

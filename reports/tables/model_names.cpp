@@ -48,12 +48,15 @@ std::string name_of_model(const std::string& model, bool masking) {
   std::vector<std::string> parts;
   for (const auto& d : m.diffuse) parts.push_back(word_of(d.term));
   std::vector<std::pair<std::string, std::size_t>> lobes;
-  for (const auto& l : m.lobes) {
-    const auto name = lobe_name(l, masking);
-    if (!lobes.empty() && lobes.back().first == name)
+  for (std::size_t i = 0; i < m.lobes.size(); ++i) {
+    const Lobe& l = m.lobes[i];
+    const bool again = i > 0 && m.lobes[i - 1].ndf.term == l.ndf.term &&
+                       m.lobes[i - 1].masking.term == l.masking.term &&
+                       m.lobes[i - 1].fresnel.term == l.fresnel.term;
+    if (again)
       ++lobes.back().second;
     else
-      lobes.emplace_back(name, 1);
+      lobes.emplace_back(lobe_name(l, masking), 1);
   }
   constexpr std::array<std::string_view, 4> counts{"", "two ", "three ", "four "};
   for (const auto& [name, n] : lobes)
@@ -70,6 +73,9 @@ std::vector<std::string> model_names(std::span<const std::string> models) {
   const auto first = names;
   for (std::size_t k = 0; k < names.size(); ++k)
     if (std::ranges::count(first, first[k]) > 1) names[k] = name_of_model(models[k], true);
+  const auto second = names;
+  for (std::size_t k = 0; k < names.size(); ++k)  // forms of one title
+    if (std::ranges::count(second, second[k]) > 1) names[k] = models[k];
   return names;
 }
 

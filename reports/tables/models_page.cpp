@@ -104,14 +104,13 @@ Figure error_and_time(const ModelChoice& choice,
   return f;
 }
 
-/// Points of a curve that have a value.
-FigureCurve valued(std::string name,
-                   FigureCurve::Kind kind,
-                   const std::vector<double>& x,
-                   const std::vector<double>& y) {
+/// Points that have a value.
+FigureCurve valued_points(std::string name,
+                          const std::vector<double>& x,
+                          const std::vector<double>& y) {
   FigureCurve c;
   c.name = std::move(name);
-  c.kind = kind;
+  c.kind = FigureCurve::Kind::points;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (std::isfinite(y[i])) {
       c.x.push_back(x[i]);
@@ -143,11 +142,14 @@ void add_curves(Pictures& to,
   std::vector<std::vector<Cut>> cuts;
   for (const std::size_t k : order) cuts.push_back(make_cuts(t, choice.fits[k]));
   if (cuts.empty()) return;
+  // Cuts of a list follow the model: an anisotropic one is shown near its own azimuths alone.
+  std::size_t frame = 0;
+  while (frame < order.size() && choice.fits[order[frame]].model.anisotropic) ++frame;
+  if (frame == order.size()) frame = 0;
   for (const auto& channel : channels) {
     const auto c =
         static_cast<std::size_t>(std::ranges::find(t.channels, channel) - t.channels.begin());
-    for (std::size_t i = 0; i < cuts[0].size(); ++i) {
-      const Cut& cut = cuts[0][i];
+    for (const Cut& cut : cuts[frame]) {
       const bool in_plane = cut.along == "theta_o";
       Figure f =
           make_figure("curves", {{"channel", channel}, {"at", fmt::format("{:.4g}", cut.at_deg)}});
@@ -156,14 +158,22 @@ void add_curves(Pictures& to,
       f.x = {in_plane ? "θ_o [°], mirror side positive" : "θ_h [°]", false, in_plane ? -90.0 : 0,
              90};
       f.y = {"f_r [1/sr]", true};
-      auto data = valued("data", FigureCurve::Kind::points, cut.deg, cut.data[c]);
+      auto data = valued_points("data", cut.deg, cut.data[c]);
       if (data.x.empty()) continue;
       data.dashed = true;  // what the models are held against
       set_ends(f.y, data);
       f.curves.push_back(std::move(data));
-      for (std::size_t m = 0; m < order.size(); ++m)
-        f.curves.push_back(valued(fmt::to_string(m + 1), FigureCurve::Kind::line, cuts[m][i].deg,
-                                  cuts[m][i].model[c]));
+      for (std::size_t m = 0; m < order.size(); ++m) {
+        const auto same = std::ranges::find_if(cuts[m], [&](const Cut& other) {
+          return other.at == cut.at && other.at_deg == cut.at_deg;
+        });
+        if (same == cuts[m].end()) continue;
+        FigureCurve line;
+        line.name = fmt::to_string(m + 1);
+        line.x = same->deg;
+        line.y = same->model[c];
+        f.curves.push_back(std::move(line));
+      }
       to.figures.push_back(std::move(f));
     }
   }

@@ -86,7 +86,7 @@ void print(const FitDocument& d) {
       if (status.empty())
         say("{:<14}{}\n", name, value);
       else
-        say_below(fmt::format("{:<14}{:<28}", name, value), status);
+        say_below(fmt::format("{:<13} {:<27} ", name, value), status);
     }
   say_below("", fmt::format("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}",
                             d.residuals.log_rms, d.residuals.rms, d.intervals));
@@ -175,22 +175,34 @@ Exit run_batch(const Options& o, const HowFitted& how) {
   return result.outcome();
 }
 
+/// A sentence that begins with a plain word, as the rest of another.
+std::string within_sentence(std::string text) {
+  for (const char* word : {"On ", "The "})
+    if (text.starts_with(word)) text[0] = static_cast<char>(text[0] - 'A' + 'a');
+  return text;
+}
+
 void print(const ModelChoice& choice, const Advice& advice) {
   if (!advice.recommended.empty()) {
     say_below("take    ", advice.recommended);
-    say_below("because ", advice.reason);
+    say_below("because ", within_sentence(advice.reason));
+    for (const auto& b : advice.beware) say_below("beware  ", b);
     for (const auto& m : advice.as_good) say_below("as good ", m);
     for (const auto& d : advice.disagreement) say_below("but     ", d);
   }
   const auto number = [](double x, const char* form) {
     return std::isnan(x) ? std::string("–") : fmt::format(fmt::runtime(form), x);
   };
+  const auto difference = [&](double x) {
+    return x < 0.005 ? std::string("0") : number(x, x < 10 ? "{:.2g}" : "{:.0f}");
+  };
   say("\n{:>9} {:>9} {:>8} {:>6} {:>6} {:>6}  {}\n", "unseen", "log RMS", "BIC", "ΔE2000", "ns",
       "free", "model");
   for (const auto& r : choice.rows) {
     say("{:>9} {:>9} {:>8} {:>6} {:>6} {:>6}  {}{}\n", number(r.cv_log_rms, "{:.4g}"),
-        number(r.log_rms, "{:.4g}"), number(r.bic, "{:.0f}"), number(r.delta_e_2000, "{:.2g}"),
-        number(r.ns, "{:.2g}"), r.compared ? fmt::to_string(r.parameters) : "–", r.model,
+        number(r.log_rms, "{:.4g}"), number(r.bic, "{:.0f}"), difference(r.delta_e_2000),
+        number(r.ns, r.ns < 10 ? "{:.2g}" : "{:.0f}"),
+        r.compared ? fmt::to_string(r.parameters) : "–", r.model,
         r.parameters_at_bound.empty()
             ? ""
             : fmt::format(", {} at a bound", fmt::join(r.parameters_at_bound, ", ")));
@@ -231,6 +243,12 @@ Exit run_models(const Options& o, const FitOptions& options) {
   std::vector<std::string> models = o.models;
   if (models == std::vector<std::string>{"all"})
     models.assign(usual_models().begin(), usual_models().end());
+  if (models.size() > 1 && std::ranges::find(models, "all") != models.end())
+    throw wrong_usage("--models: 'all' stands alone");
+  for (std::size_t k = 1; k < models.size(); ++k)
+    if (std::find(models.begin(), models.begin() + static_cast<std::ptrdiff_t>(k), models[k]) !=
+        models.begin() + static_cast<std::ptrdiff_t>(k))
+      throw wrong_usage(fmt::format("--models: '{}' is there twice", models[k]));
   for (const auto& m : models) {  // a word that nobody knows is wrong usage, whatever the table
     std::vector<Setting> none;
     compose(resolve_preset(m, none), 1);
@@ -246,9 +264,6 @@ Exit run_models(const Options& o, const FitOptions& options) {
   Spheres spheres = add_spheres(in.table, choice);
   in.finish();
   const Advice advice = advise(choice);
-  if (advice.recommended.empty())
-    throw bad_input(o.files[0], "models", choice.rows[0].note,
-                    "a table that one of them can be fitted to");
   const std::string json =
       to_json(choice, advice, {o.files[0], in.table.sha256, in.table.format, o.metric});
   out.write_document(json);
@@ -264,7 +279,7 @@ Exit run_models(const Options& o, const FitOptions& options) {
     fmt::print("{}", json);
   else
     print(choice, advice);
-  return Exit::done;
+  return std::ranges::any_of(choice.rows, &ModelRow::converged) ? Exit::done : Exit::not_converged;
 }
 
 Exit run(const Options& o) {

@@ -98,10 +98,11 @@ void print(const Table& t, const Health& h) {
 
 void print(const std::vector<NextDirection>& next, const std::string& model) {
   say("\n");
-  say_below("measure next  ",
-            fmt::format("{} for a fit of {}: each narrows what is least known by then, whose 95 % "
-                        "interval is so wide before and after",
-                        next.size() == 1 ? "this direction" : "these directions", model));
+  say_below(
+      "measure next  ",
+      fmt::format("{} for a fit of {}: each narrows the parameter that is least known by then; "
+                  "before and after: the width of its 95 % interval",
+                  next.size() == 1 ? "this direction" : "these directions", model));
   say("  {:>8}{:>8}{:>9}{:>8}  {:<12}{:>10}{:>10}\n", "theta_i", "phi_i", "theta_o", "phi_o",
       "parameter", "before", "after");
   const auto width = [](double w) {

@@ -10,7 +10,7 @@ namespace gonio {
 struct NextDirection {
   double theta_i_deg = 0, phi_i_deg = 0, theta_o_deg = 0, phi_o_deg = 0;
   std::string parameter;  ///< "alpha", "f0.r"
-  /// Of its 95 % interval, in the parameter's own unit, before and after that measurement; NaN where there is none.
+  /// Widths of its 95 % interval, in the parameter's own unit, before and after that measurement; NaN where there is none.
   double width_before = 0, width_after = 0;
 };
 

@@ -95,7 +95,9 @@ Prospect alpha(const Health& h, const Survey& s) {
                            "vector: a microfacet lobe cannot describe it",
                            h.retro->height));
   if (h.peak_profiles == 0)
-    return say(no, "no sample lies within 3° of the half vector at theta_d from 5 to 45°");
+    return say(no,
+               "no run of samples from the half vector outwards at theta_d from 5 to 45° shows a "
+               "highlight's height and foot");
   if (!h.peak && s.brightest == 0)
     return say(no,
                fmt::format("no highlight: {} the values are 0", h.largest > 0 ? "98 % of" : "all"));

@@ -9,7 +9,9 @@
 
 #include "data_synth/synth.h"
 #include "fitting/choice/document.h"
+#include "fitting/fit.h"
 #include "many_fits.h"
+#include "refusal.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -117,6 +119,59 @@ TEST(ModelChoice, LeavesAModelThatCannotBeFittedInItsPlaceAndSaysWhy) {
   EXPECT_EQ(advise(choice).recommended, metal);
 }
 
+TEST(ModelChoice, IsOfModelsWithFewerParametersThanTheTableHasValues) {
+  const BoundModel grey =
+      bind_model("lambert", parse_settings(std::vector<std::string>{"kd=0.3"}), 1);
+  const std::vector<std::string> models{"lambert", paint};
+  const auto of = [&](std::size_t samples) {
+    return compare_models(
+        synthesize(grey, {.layout = Layout::random, .samples = samples, .noise = 0.02}), {},
+        models);
+  };
+  const auto choice = of(3);
+  EXPECT_TRUE(choice.rows[0].compared);
+  EXPECT_FALSE(choice.rows[1].compared);
+  EXPECT_NE(choice.rows[1].note.find("more than the model's 3"), std::string::npos)
+      << choice.rows[1].note;
+  EXPECT_EQ(advise(choice).recommended, "lambert");
+  EXPECT_HAS(test::refusal([&] { of(1); }), "more than the model's 1");
+}
+
+TEST(ModelChoice, HoldsASettingForTheModelsThatHaveItsParameter) {
+  const Table t =
+      synthesize(bind_model(paint, parse_settings(std::vector<std::string>{"alpha=0.2,kd=0.3"}), 1),
+                 {.layout = Layout::random, .samples = 300, .noise = 0.02});
+  FitOptions o;
+  o.fixed = parse_settings(std::vector<std::string>{"anisotropy=0", "alpha=0.2"});
+  const auto choice = compare_models(t, o, std::vector<std::string>{"lambert", paint, "disney"});
+  for (const auto& r : choice.rows) EXPECT_TRUE(r.compared) << r.note;
+  EXPECT_EQ(choice.rows[1].parameters, 2U);
+  EXPECT_EQ(choice.fits[1].values[choice.fits[1].model.find("alpha")->first], 0.2);
+  o.fixed = parse_settings(std::vector<std::string>{"nonsense=3"});
+  EXPECT_HAS(test::refusal(
+                 [&] {
+                   compare_models(t, o, std::vector<std::string>{"lambert", paint});
+                 },
+                 Exit::usage),
+             "'nonsense'");
+}
+
+TEST(ModelChoice, KnowsNoTangentOfASurfaceThatWasNeverTurned) {
+  const std::string aniso = "ggx_aniso/smith_ggx_aniso.correlated/schlick";
+  const Table t =
+      synthesize(bind_model(metal, parse_settings(std::vector<std::string>{"alpha=0.3,f0=0.8"}), 1),
+                 {.layout = Layout::hemisphere, .noise = 0.02});
+  FitOptions o;
+  o.model = aniso;
+  EXPECT_HAS(test::refusal([&] { fit(t, o); }, Exit::usage), "comes from one azimuth");
+  Table turned = t;
+  DirectionList l = *turned.list();
+  for (std::size_t i = 0; i < l.phi_i_deg.size(); ++i)
+    for (auto* phi : {&l.phi_i_deg, &l.phi_o_deg}) (*phi)[i] += static_cast<double>(30 * (i % 7));
+  turned.where = l;
+  EXPECT_NO_THROW(fit(turned, o));
+}
+
 ModelRow row(const char* model, std::size_t parameters, double cv, double behind, double bic) {
   ModelRow r;
   r.model = model;
@@ -137,7 +192,7 @@ TEST(Advice, TellsWhereOtherJudgesPreferAnotherModel) {
   EXPECT_EQ(a.recommended, "large");
   EXPECT_TRUE(a.as_good.empty());
   ASSERT_EQ(a.disagreement.size(), 2U);
-  EXPECT_TRUE(a.disagreement[0].starts_with("BIC prefers small")) << a.disagreement[0];
+  EXPECT_EQ(a.disagreement[0], "BIC prefers small, by 40.");
   EXPECT_NE(a.disagreement[1].find("sphere"), std::string::npos);
 }
 
@@ -156,6 +211,43 @@ TEST(Advice, DoesNotTakeAFitThatDidNotConvergeForItsFewParameters) {
   EXPECT_EQ(advise(c).recommended, "small");
   c.rows[0].converged = false;
   EXPECT_EQ(advise(c).recommended, "large");
+  EXPECT_TRUE(advise(c).as_good.empty());
+  c.rows[0].cv_log_rms = 0.1;  // the nearest of all, but for that
+  c.rows[1].cv_behind = 9;
+  EXPECT_EQ(advise(c).recommended, "large");
+  c.rows[1].converged = false;
+  EXPECT_EQ(advise(c).recommended, "small") << "of fits none of which converged";
+}
+
+TEST(Advice, TakesNoModelForBetterByItsRounding) {
+  ModelChoice c;
+  c.rows = {row("small", 3, 9e-15, 9, 100), row("large", 9, 1e-16, 0, 140)};
+  EXPECT_EQ(advise(c).recommended, "small");
+  c.rows[1].cv_log_rms = 0;
+  EXPECT_EQ(advise(c).recommended, "small");
+}
+
+TEST(Advice, LetsNoFewValuesDecideByChance) {
+  ModelChoice c;
+  c.rows = {row("small", 3, 0.22, 1.1, 100), row("large", 9, 0.2, 0, 140)};
+  c.effective_values = 1e4;
+  EXPECT_EQ(advise(c).recommended, "large");
+  c.effective_values = 100;
+  EXPECT_EQ(advise(c).recommended, "small");
+  c.rows[0].cv_behind = 2.1;
+  EXPECT_EQ(advise(c).recommended, "large");
+}
+
+TEST(Advice, SaysWhatTheOneThatIsTakenDoesNotDo) {
+  ModelChoice c;
+  c.rows = {row("near", 3, 0.1, 0, 100)};
+  EXPECT_TRUE(advise(c).beware.empty());
+  c.rows[0].log_rms = std::log(2.5);
+  c.rows[0].parameters_at_bound = {"alpha"};
+  EXPECT_EQ(advise(c).beware,
+            (std::vector<std::string>{
+                "It is not near the table: typically off by a factor of 2.5.",
+                "alpha is at the end of what it may be: the model lacks something."}));
 }
 
 TEST(Advice, IsEmptyWhereNothingCouldBeCompared) {

@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "fitting/plan/plan_next.h"
 #include "fitting/support.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ using test::bind;
 TEST(Candidates, AreDirectionsThatAnInstrumentCanTake) {
   for (const bool in_plane : {false, true}) {
     const DirectionList l = candidates(in_plane);
-    ASSERT_GT(l.theta_i_deg.size(), in_plane ? 200U : 2000U);
+    ASSERT_GT(l.theta_i_deg.size(), in_plane ? most_planned : 2000U);
     std::set<std::tuple<double, double, double>> distinct;
     for (std::size_t i = 0; i < l.theta_i_deg.size(); ++i) {
       const double in = l.theta_i_deg[i], out = l.theta_o_deg[i], phi = l.phi_o_deg[i];
@@ -49,6 +50,10 @@ TEST(Candidates, LieInThePlaneOfIncidenceWhereTheTableDoes) {
     for (auto& x : *phi) x += 37;
   turned.where = l;
   EXPECT_TRUE(is_in_plane_of_incidence(turned)) << "whichever way the plane lies";
+  DirectionList normal{{0.5, 0.5, 0.5}, {0, 0, 0}, {30, 30, 30}, {0, 90, 200}};
+  turned.where = normal;
+  for (auto& v : turned.values) v.resize(3);
+  EXPECT_FALSE(is_in_plane_of_incidence(turned)) << "light along the normal has no plane";
 }
 
 }  // namespace

@@ -56,6 +56,25 @@ TEST(Order, LeavesLobesThatAreNotAlike) {
                 {{"alpha", 0.4}, {"alpha_2", 0.05}});
 }
 
+TEST(Order, LeavesTheLobeWhoseInterfaceTheDiffuseLiesBelow) {
+  for (const bool coupled : {false, true}) {
+    const std::string lobe = "ggx/smith_ggx.correlated/schlick",
+                      model = (coupled ? "lambert.coupled+" : "lambert+") + lobe + "+" + lobe;
+    const auto wide_first =
+        test::bind(model.c_str(), "alpha=0.4,f0=0.2,alpha_2=0.05,f0_2=0.04,kd=0.3", 1);
+    const Table t = synthesize(wide_first, {.layout = Layout::random, .samples = 100});
+    FitOptions o;
+    o.model = wide_first.model.spec;
+    Problem p = pose(t, o);
+    const auto data = fit_data<double>(sampling_for(p, t, t.bins()));
+    Fitted f{wide_first, no_huber, {}};
+    f.solution.at =
+        Accumulator<double>(p.start.model, data, p.free).normal_equations(wide_first.values);
+    put_in_order(p, f);
+    EXPECT_EQ(f.model.values == wide_first.values, coupled);
+  }
+}
+
 TEST(Order, ChangesNeitherTheCostNorItsDerivatives) {
   constexpr auto model =
       "lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick+ggx_aniso/smith_ggx_aniso.correlated/"

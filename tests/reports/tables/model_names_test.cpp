@@ -39,6 +39,19 @@ TEST(ModelNames, TellMaskingOnlyWhereItTellsThemApart) {
              "GGX (Schlick; Smith for GGX, separable)", "Lambert"}));
 }
 
+TEST(ModelNames, AreTheSpecsWhereNoTitleTellsThemApart) {
+  const std::string a = "lambert.metallic+ggx/smith_ggx.correlated/schlick.metallic",
+                    b = "lambert.metallic+ggx/smith_ggx.correlated/schlick.reflectance";
+  const auto n = names({a, b, "lambert"});
+  EXPECT_NE(n[0], n[1]);
+  EXPECT_EQ(n[2], "Lambert");
+}
+
+TEST(ModelNames, CountNoLobesOfDifferentMasking) {
+  EXPECT_EQ(names({"ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.separable/schlick"})[0],
+            "GGX (Schlick) + GGX (Schlick)");
+}
+
 TEST(ModelNames, OfPresetsAreTheirTitles) {
   const auto n = names({"gltf", "filament"});
   EXPECT_NE(n[0].find("glTF"), std::string::npos) << n[0];

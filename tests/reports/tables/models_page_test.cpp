@@ -3,9 +3,12 @@
 #include <cmath>
 
 #include "compared_models.h"
+#include "data_synth/synth.h"
 #include "fitting/choice/document.h"
 #include "reports/pictures.h"
+#include "table/cut/cuts.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <tbb/task_arena.h>
@@ -95,6 +98,48 @@ TEST(ModelsPage, DrawsEveryModelOverTheDataOfEachChannelByItsNumber) {
   // kd is 0.05 of the first row, which is the worst, and 0.35 of the last, which is the best.
   const Figure& f = page.pictures.figures[1];
   EXPECT_LT(find_curve(f, "7")->y.at(0), find_curve(f, "1")->y.at(0));
+}
+
+TEST(ModelsPage, DrawsEachModelInItsOwnCutsOfAList) {
+  const auto settings = [](const char* text) {
+    return parse_settings(std::vector<std::string>{text});
+  };
+  const std::vector<BoundModel> fits{
+      bind_model("lambert+ggx/smith_ggx.correlated/schlick", settings("alpha=0.2,kd=0.3"), 1),
+      bind_model("lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick",
+                 settings("alpha_x=0.3,alpha_y=0.1,kd=0.3"), 1)};
+  const Table t = synthesize(fits[1], {.layout = Layout::random, .samples = 3000});
+  for (const std::size_t first : {0U, 1U}) {
+    ModelChoice c;
+    for (const std::size_t k : {first, 1 - first}) {
+      ModelRow r;
+      r.model = fits[k].model.spec;
+      r.compared = r.converged = true;
+      r.log_rms = 0.1 * static_cast<double>(c.rows.size() + 1);
+      r.ns = 1;
+      c.rows.push_back(r);
+      c.fits.push_back(fits[k]);
+    }
+    Spheres spheres;
+    spheres.channels = t.channels;
+    const auto page = make_models_page(t, c, advise(c), std::move(spheres));
+    std::size_t drawn = 0;
+    for (const auto& f : page.pictures.figures) {
+      if (f.family != "curves") continue;
+      for (const std::size_t m : {0U, 1U}) {
+        const auto* curve = find_curve(f, std::to_string(m + 1));
+        if (!curve) continue;
+        const auto cuts = make_cuts(t, c.fits[m]);
+        const auto own = std::ranges::find_if(cuts, [&](const Cut& cut) {
+          return fmt::format("{:.4g}", cut.at_deg) == f.choices.back().second;
+        });
+        ASSERT_NE(own, cuts.end()) << f.id;
+        EXPECT_EQ(curve->x, own->deg) << f.id << ", " << m;
+        ++drawn;
+      }
+    }
+    EXPECT_GT(drawn, 4U);
+  }
 }
 
 TEST(ModelsPage, HoldsTheChoiceAndNamesOfAllItsModels) {
