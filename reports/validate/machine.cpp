@@ -6,6 +6,8 @@
 #include "base/random.h"
 #include "brdf/cost/model_operations.h"
 #include "brdf/model/evaluate.h"
+#include "geometry/half_difference.h"
+#include "geometry/sampling.h"
 #include "reports/energy/energy.h"
 #include "reports/validate/measure.h"
 #include "stability/answer.h"

@@ -31,6 +31,15 @@ struct BudgetCheck {
   std::string words{};      ///< what was found, as a sentence
 };
 
+/// Cheapest choice of the catalogue that keeps every budget: the same distribution and diffuse terms under another masking,
+/// Fresnel term or scattering.
+struct Suggestion {
+  std::string model, scattering;
+  std::string why;         ///< one sentence
+  std::size_t operations;  ///< of a sample, the scattering's own too
+  std::size_t tried;       ///< choices that are cheaper, each of which breaks a budget
+};
+
 struct Validation {
   std::string path;  ///< of the choice
   std::string model, scattering, reference;
@@ -46,15 +55,7 @@ struct Validation {
 /// \throws Error (bad_input of the choice's file) where a budget cannot be asked of this model
 Validation validate(const Choice&, const ReportProgress& done = {});
 
-/// Cheapest choice of the catalogue that keeps every budget: the same distribution and diffuse terms under another masking,
-/// Fresnel term or scattering.
-struct Suggestion {
-  std::string model, scattering;
-  std::string why;         ///< one sentence
-  std::size_t operations;  ///< of a sample, the scattering's own too
-  std::size_t tried;       ///< choices that are cheaper, each of which breaks a budget
-};
-/// None where none keeps them all.
+/// Cheapest choice that keeps every budget; none where none keeps them all.
 /// \throws Error (bad_input of the choice's file) of a model that has not one isotropic lobe
 std::optional<Suggestion> suggest(const Choice&, const ReportProgress& done = {});
 
