@@ -88,7 +88,7 @@ struct Description<BatchRow> {
       [](const BatchRow& r) { return static_cast<int>(r.outcome); },
       "exit code of a fit of this table alone");
   static constexpr auto message =
-      field("message", "", &BatchRow::message, "why there is no fit; else the solver's words");
+      field("message", "", &BatchRow::message, "why there is no fit; else why the search ended");
 
   static constexpr auto fields() {
     return std::tuple{

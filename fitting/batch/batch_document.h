@@ -41,7 +41,7 @@ struct BatchRow {
   std::string
       document;  ///< the name of its fit document, beside the summary; empty if there is none
   Exit outcome = Exit::bad_input;  ///< as if it had been fitted alone
-  std::string message;             ///< why there is no fit; else the solver's words
+  std::string message;             ///< why there is no fit; else why the search ended
   std::optional<BatchFit> fit;
   std::optional<Preview> preview;  ///< where there is a fit
   std::string page = {};  ///< the name of its page, beside the summary; empty if there is none

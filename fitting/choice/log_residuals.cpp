@@ -34,8 +34,8 @@ ResidualsByAngle log_residuals(const Sampling& s, const BoundModel& model, std::
           for (std::size_t i = 0; i < in.size(); ++i) {
             if (!(data.weight[i] > 0)) continue;
             // As the fit's own link: a model that underflows is judged where it does, too.
-            const double f = std::max(out[c][i] + s.offset(), static_cast<double>(faintest));
-            const double r = std::log(f) - data.target[i], n = s.count_of(in.sample(m)[i]);
+            const double shifted = std::max(out[c][i] + s.offset(), static_cast<double>(faintest));
+            const double r = std::log(shifted) - data.target[i], n = s.count_of(in.sample(m)[i]);
             all[keys(in.sample(m)[i], in.nol(m)[i])].add({n, n * r, n * r * r});
           }
         }

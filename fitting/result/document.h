@@ -35,7 +35,7 @@ struct FittedParameter {
 
 struct FitSolver {
   std::string termination;         ///< "converged" or "not_converged"
-  std::string message;             ///< in the solver's words
+  std::string message;             ///< why the search ended
   int iterations = 0, passes = 0;  ///< over the full data, the passes of trial steps included
   std::vector<double> cost_per_iteration;  ///< of the full data, ½ Σ ρ
   std::string instruction_set;

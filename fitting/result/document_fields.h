@@ -59,7 +59,7 @@ struct Description<FitSolver> {
   static constexpr auto fields() {
     return std::tuple{
         field("termination", "", &FitSolver::termination, "converged or not_converged"),
-        field("message", "", &FitSolver::message, "the solver's words"),
+        field("message", "", &FitSolver::message, "why the search ended"),
         field("iterations", "", &FitSolver::iterations, ""),
         field("passes", "", &FitSolver::passes, "passes over the full data"),
         field("cost_per_iteration", "", &FitSolver::cost_per_iteration, ""),

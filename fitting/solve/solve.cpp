@@ -259,7 +259,7 @@ bool take_last_steps(const NormalEquationsAt& evaluate,
   auto step = next_step(s.at);
   while (step && step->decrease < hidden * s.at.cost) {
     if (step->decrease <= enough * s.at.cost) {
-      s.message = fmt::format("The next step would lower the cost by {:.1g} of it",
+      s.message = fmt::format("The next step would lower the cost by {:.1g} of itself",
                               s.at.cost > 0 ? step->decrease / s.at.cost : 0);
       return true;
     }
@@ -297,6 +297,21 @@ std::vector<double> units_of(const NormalEquations& e, double scale) {
   return units;
 }
 
+/// Why Ceres ended, as a reader of the fit is told.
+std::string in_words(const ceres::Solver::Summary& summary) {
+  switch (summary.termination_type) {
+    case ceres::CONVERGENCE:
+    case ceres::USER_SUCCESS:
+      return "Further steps would hardly change anything";
+    case ceres::NO_CONVERGENCE:
+      return "The cost was still falling when the steps allowed were used up";
+    case ceres::FAILURE:
+    case ceres::USER_FAILURE:
+      break;
+  }
+  return "No further step could be computed";
+}
+
 /// One run of Ceres, all unknowns free inside their bounds, and the last steps after it.
 Solution solve_once(const NormalEquationsAt& evaluate,
                     std::vector<double>& x,
@@ -305,7 +320,7 @@ Solution solve_once(const NormalEquationsAt& evaluate,
   Solution s;
   s.at = evaluate(x);
   if (!is_finite(s.at)) {
-    s.message = "the sum of squares is not finite at the start";
+    s.message = "The sum of squares is not finite at the start";
     return s;
   }
   s.passes = 1;
@@ -346,7 +361,7 @@ Solution solve_once(const NormalEquationsAt& evaluate,
     ++s.iterations;
     s.cost_per_iteration.push_back(summary.iterations[i].cost / scale);
   }
-  s.message = summary.message;
+  s.message = in_words(summary);
   if (options.rounding > 0 && s.converged) take_last_steps(evaluate, bounds, x, s);
   return s;
 }
@@ -359,7 +374,7 @@ Solution solve(const NormalEquationsAt& evaluate,
                const SolveOptions& options) {
   const std::size_t n = x.size();
   Solution s;
-  s.message = "nothing to fit";
+  s.message = "Nothing to fit";
   s.converged = true;
   for (std::size_t i = 0; i < n; ++i) x[i] = std::clamp(x[i], bounds.low[i], bounds.high[i]);
   if (n == 0) {
@@ -416,7 +431,7 @@ Solution solve(const NormalEquationsAt& evaluate,
     };
     if (moving.empty()) {
       s.converged = true;
-      s.message = "every unknown is at a bound";
+      s.message = "Every unknown is at a bound";
     } else {
       const Solution once = solve_once(part, some, inside, options);
       x = whole(some);

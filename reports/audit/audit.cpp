@@ -7,6 +7,8 @@
 #include "integrate/light/split_sum.h"
 #include "reports/audit/entry.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 namespace gonio {
@@ -29,6 +31,25 @@ std::vector<std::string_view> auditable_ids() {
   for (const auto& p : presets()) ids.push_back(p.about.id);
   ids.push_back(split_sum_about.id);
   return ids;
+}
+
+std::string verdict(const EntryAudit& e) {
+  constexpr double far = 0.1, near = 1e-6;
+  std::vector<std::string> words;
+  if (e.mistake) words.emplace_back("a mistake");
+  if (!e.violates.empty()) words.push_back(fmt::format("breaks {}", fmt::join(e.violates, ", ")));
+  if (words.empty()) words.emplace_back("keeps the laws");
+  if (e.energy_is_shared) words.emplace_back("has no masking of its own");
+  if (e.energy && e.energy_under_lobe && e.energy_under_lobe->value > 1 + near)
+    words.push_back(fmt::format("{:.2g} with a lobe on it", e.energy_under_lobe->value));
+  if (e.distance) {
+    const double off = e.distance->most.value;
+    const auto of = e.distance->reference.substr(e.distance->reference.find('.') + 1);
+    words.push_back(off > far    ? fmt::format("far from {} (up to {:.2g})", of, off)
+                    : off > near ? fmt::format("{:.1g} from {}", off, of)
+                                 : fmt::format("equal to {}", of));
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
 }
 
 std::vector<EntryAudit> audit(const std::vector<std::string>& ids,

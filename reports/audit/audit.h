@@ -44,12 +44,14 @@ struct EntryAudit {
   std::optional<Worst> normalisation;  ///< ∫ D cos θ dω, the one furthest from 1
   std::optional<Worst> reciprocity;    ///< largest |f(l,v) − f(v,l)| over the larger of them
   std::optional<Worst> energy;         ///< largest directional albedo at F = 1 (or white)
-  std::string energy_of;               ///< the model that it was measured in
+  std::string energy_of;               ///< the model that it was measured in, its masking with it
   /// A distribution looked at with a masking that is not its own: what light the two make together
   /// is no law of it.
   bool energy_is_shared = false;
-  /// Largest directional albedo of a diffuse term under a GGX lobe with Schlick's F and f0 = 0.04.
+  /// Largest directional albedo of a diffuse term under a GGX lobe with Schlick's F and f0 = 0.04; a law of a coupled one alone.
   std::optional<Worst> energy_under_lobe;
+  /// Divisor of every figure but the times: π of what an engine ships without its 1/π.
+  double light_unit = 1;
   std::optional<Worst> lowest, highest;  ///< of the factor itself
   std::optional<Worst> grazing;          ///< the value at 90°, at default parameters
   std::optional<Distance> distance;
@@ -59,6 +61,9 @@ struct EntryAudit {
   bool mistake = false;
   std::vector<std::string_view> violates;
 };
+
+/// Verdict in a few words: what is broken, and how far an entry is from the form that it stands for.
+std::string verdict(const EntryAudit&);
 
 /// Every id that can be audited, in the order of the catalogue: terms, maps, models.
 std::vector<std::string_view> auditable_ids();

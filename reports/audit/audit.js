@@ -19,7 +19,7 @@ function near(x, to) {
   if (off < 5e-7) return `${to}`;
   return off < 0.01 ? minus(x.toFixed(off < 1e-4 ? 6 : 4)) : significant(x);
 }
-const most_energy = (e) => [e.energy, e.energy_under_lobe].filter(Boolean).sort((a, b) => b.value - a.value)[0] ?? null;
+const most_energy = (e) => e.energy ?? e.energy_under_lobe;
 const laws = {
   normalisation: (e) => (e.normalisation ? near(e.normalisation.value, 1) : null),
   reciprocity: (e) => (e.reciprocity ? (e.reciprocity.value < 1e-9 ? "yes" : percent(e.reciprocity.value)) : null),
@@ -34,7 +34,7 @@ const cell = (e, law) => {
 const verdict_of = (e) => [
   e.mistake ? el("span", { class: "tag" }, "mistake") : null,
   ...e.violates.map((v) => el("span", { class: "tag" }, v)),
-  !e.mistake && !e.violates.length ? el("span", { class: "muted" }, "keeps all") : null];
+  !e.mistake && !e.violates.length ? el("span", { class: "muted" }, e.verdict) : null];
 
 // --- Its picture -------------------------------------------------------------------------------------
 /// On a logarithmic scale where the curve spans decades.
@@ -88,6 +88,7 @@ function details(e) {
       worst("largest albedo", e.energy), e.energy ? ["in the model", el("code", {}, e.energy_of)] : ["", null],
       worst("under a lobe of f0 0.04", e.energy_under_lobe),
       worst("lowest value", e.lowest), worst("highest value", e.highest), worst("at 90°", e.grazing),
+      ["light", e.light_unit === 1 ? null : "all figures are divided by π: it is shipped for lights that come without 1/π"],
       ["without a value", e.not_finite ? many(e.not_finite, "legal input") : "none of the inputs tried, ends of all ranges included"],
       ["distance", d ? [el("b", {}, significant(d.max)), el("span", { class: "muted" }, ` at most, RMS ${significant(d.rms)}, in ${d.measure} to `), el("code", {}, d.reference),
         el("span", { class: "muted" }, `; most at ${symbol(d.where)}`)] : null],
@@ -136,17 +137,19 @@ function show(which) {
 const broken = (law) => entries.filter((e) => e.violates.includes(law)).length;
 const fact = (name, value, rest = null) => el("div", {}, el("dt", {}, name), el("dd", {}, value, rest ? el("small", {}, " " + rest) : null));
 
+const sections = kinds.map(kind_section).filter(Boolean);
 document.getElementById("page").replaceChildren(
-  el("p", { class: "over" }, "gonio audit"), el("h1", {}, "The catalogue, audited"),
+  el("p", { class: "over" }, "gonio audit"), el("h1", {}, "The catalogue, audited"), contents(sections),
   el("p", { class: "verdict" }, `Of ${many(entries.length, "form")} that are shipped or published, `,
     el("b", {}, `${entries.filter((e) => e.mistake).length} are mistakes`), " (they differ from the form they are named for) and ",
     el("b", {}, `${entries.filter((e) => e.violates.length).length} break a law`), " that a BRDF should keep."),
   el("dl", { class: "facts" }, fact("not normalised", String(broken("normalisation"))), fact("not reciprocal", String(broken("reciprocity"))),
     fact("reflect more than they get", String(broken("energy"))), fact("outside their range", String(broken("range"))), fact("without a value somewhere", String(broken("finite")))),
-  el("section", {}, el("div", { class: "controls" }, choice("Shown", [["all", "all"], ["mistakes", "mistakes"], ["violations", "break a law"], ["clean", "keep all"]], "all", show),
+  el("section", {}, el("div", { class: "controls" }, choice("Shown", [["all", "all"], ["mistakes", "mistakes"], ["violations", "break a law"], ["clean", "keep the laws"]], "all", show),
       el("span", { class: "hint" }, "An entry's name opens all that is known of it.")),
     el("p", {}, "Every figure is the worst over the entry's parameters, the ends of their ranges included, and over directions. ∫ D cos θ should be 1. "
-      + "‘Most albedo’ is the largest share of light from one direction that leaves again, at F = 1 and white: above 1 light is made (a distribution without a masking of its own is not judged by it). "
+      + "‘Most albedo’ is the largest share of light from one direction that leaves again, at F = 1 and white: above 1 light is made (a distribution without a masking of its own is not judged by it; an uncoupled diffuse term is judged by itself). "
+      + "What engines ship without 1/π, for lights that bring it along, is divided by π throughout. "
       + "‘Off by at most’ is the distance to the form named below it. Curves: blue the entry, dashed that form.")),
-  ...kinds.map(kind_section).filter(Boolean),
+  ...sections,
   el("footer", {}, "Every figure of this page is in its data block and in the .page.json beside it."));

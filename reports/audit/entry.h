@@ -70,8 +70,11 @@ class Differences {
   std::size_t n_ = 0;
 };
 
-/// Raises `most` to the largest albedo of this model.
-void largest_albedo(std::optional<Worst>& most, const BoundModel&, const std::string& where);
+/// Raises `most` to the largest albedo of this model.  \param unit  that it is divided by
+void largest_albedo(std::optional<Worst>& most,
+                    const BoundModel&,
+                    const std::string& where,
+                    double unit = 1);
 
 /// Says which laws what was found breaks.
 void judge(EntryAudit&);

@@ -5,6 +5,7 @@
 #include "geometry/half_difference.h"
 #include "integrate/light/split_sum.h"
 #include "reports/audit/entry.h"
+#include "reports/measure/light_unit.h"
 #include "reports/measure/samples.h"
 
 #include <fmt/format.h>
@@ -26,10 +27,16 @@ EntryAudit audit_model(const Preset& preset) {
   e.about = &preset.about;
   e.kind = "model";
   e.energy_of = preset.spec;
+  e.light_unit = light_unit(preset.about.id);
   const auto& own = preset.parameters;
   const auto is_color = [](const Parameter& p) { return p.per_channel; };
   const auto above = [](const Row& r) { return r.nol > 0 && r.nov > 0; };
   std::vector<Row> rows, other;
+  const auto values_of = [](const Preset& p, const BoundModel& b, std::span<const Row> at) {
+    auto v = evaluate(b, at)[0];
+    for (double& x : v) x /= light_unit(p.about.id);
+    return v;
+  };
   for (const auto& r : pairs())
     if (above(r)) rows.push_back(r), other.push_back(exchanged(r));
   const Preset* reference = find_preset(preset.about.reference());
@@ -45,7 +52,7 @@ EntryAudit audit_model(const Preset& preset) {
   });
   for (const auto& s : settings) {
     const auto b = bound(preset, s);
-    const auto v = evaluate(b, rows)[0], w = evaluate(b, other)[0];
+    const auto v = values_of(preset, b, rows), w = values_of(preset, b, other);
     const auto where = [&](std::size_t i) {
       return [&, i] { return joined(text(own, s), text(rows[i])); };
     };
@@ -53,7 +60,7 @@ EntryAudit audit_model(const Preset& preset) {
       look(e, v[i], where(i));
       look_exchanged(e, v[i], w[i], where(i));
     }
-    largest_albedo(e.energy, b, text(own, s));
+    largest_albedo(e.energy, b, text(own, s), e.light_unit);
   }
 
   // The same colours and roughness in the reference: a specular colour is that of a metal.
@@ -71,7 +78,8 @@ EntryAudit audit_model(const Preset& preset) {
   };
   if (reference) {
     for (const auto& s : settings) {
-      const auto v = evaluate(bound(preset, s), rows)[0], w = evaluate(as_reference(s), rows)[0];
+      const auto v = values_of(preset, bound(preset, s), rows),
+                 w = values_of(*reference, as_reference(s), rows);
       for (std::size_t i = 0; i < v.size(); ++i)
         if (w[i] > 0) all.add(v[i] / w[i] - 1, [&] { return joined(text(own, s), text(rows[i])); });
     }
@@ -87,8 +95,8 @@ EntryAudit audit_model(const Preset& preset) {
     line.push_back(row(30 * degree, 0, std::abs(o) * degree, o > 0 ? 180 * degree : 0));
   }
   const auto s = defaults(own);
-  pic.value = evaluate(bound(preset, s), line)[0];
-  if (reference) pic.reference = evaluate(as_reference(s), line)[0];
+  pic.value = values_of(preset, bound(preset, s), line);
+  if (reference) pic.reference = values_of(*reference, as_reference(s), line);
   judge(e);
   return e;
 }

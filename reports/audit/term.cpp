@@ -8,6 +8,7 @@
 #include "integrate/albedo/normalisation.h"
 #include "optics/refractive_index.h"
 #include "reports/audit/entry.h"
+#include "reports/measure/light_unit.h"
 #include "reports/measure/samples.h"
 
 namespace gonio::auditing {
@@ -25,6 +26,7 @@ class TermAudit {
     EntryAudit e;
     e.about = &about_;
     e.kind = name_of(role_);
+    e.light_unit = light_unit(about_.id);
     e.operations = operations_of(term_).sample;
     ranges(e);
     grazing(e);
@@ -68,6 +70,8 @@ class TermAudit {
     Values v(rows.size());
     const auto& in = catalogue_in(number).terms[term];
     (in.g2 ? in.g2 : in.values)(p, rows, v.data());
+    if (const double unit = light_unit(catalogue()[term].about->id); unit != 1)
+      for (double& x : v) x /= unit;
     return v;
   }
   const std::vector<Row>& rows() const {
@@ -101,7 +105,9 @@ class TermAudit {
 
   void normalisation_of(EntryAudit& e) const {
     for (const auto& p : combinations(parameters_)) {
-      const auto one = normalisation(term_, p);
+      auto one = normalisation(term_, p);
+      one.value /= light_unit(about_.id);
+      one.error /= light_unit(about_.id);
       const double off = std::abs(one.value - 1);
       if (!e.normalisation || !(off <= std::abs(e.normalisation->value - 1)))
         e.normalisation = Worst{one.value, one.error, text(parameters_, p)};
@@ -109,8 +115,8 @@ class TermAudit {
     }
   }
 
-  /// The lobe that this term is looked at in: with the masking of its own distribution, or the
-  /// distribution of its own masking.
+  /// The lobe that this term is looked at in: with the masking of its own distribution, of Berry's that of GTR at γ = 1, or
+  /// the distribution of its own masking.
   std::string lobe() const {
     const std::string own(short_id(about_.id)), shape(shape_of_term(own)),
         kind = catalogue()[term_].anisotropic ? "_aniso" : "";
@@ -138,15 +144,18 @@ class TermAudit {
     BoundModel b{m, Values(m.value_count), {}};
     std::vector<Parameter> varied;
     for (const auto& p : m.parameters) {
-      b.values[p.first] = p.name == "kd" ? 1 : p.name == "f0" ? f0 : p.about->start;
       const bool own =
           std::ranges::find(parameters_, p.name, &Parameter::name) != parameters_.end();
+      b.values[p.first] = p.name == "kd"              ? 1
+                          : p.name == "f0"            ? f0
+                          : p.name == "gamma" && !own ? 1
+                                                      : p.about->start;
       if ((own && p.name != "kd") || p.name == "alpha") varied.push_back(*p.about);
     }
     for (const auto& values : combinations(varied)) {
       for (std::size_t k = 0; k < varied.size(); ++k)
         b.values[m.find(varied[k].name)->first] = values[k];
-      largest_albedo(most, b, text(varied, values));
+      largest_albedo(most, b, text(varied, values), light_unit(about_.id));
     }
   }
 

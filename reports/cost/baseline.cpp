@@ -28,9 +28,10 @@ CostName name_of(const CostRow& r) {
   return {r.id, std::string(r.number), r.isa, std::string(r.memory), std::string(r.way)};
 }
 
-EarlierCosts read_costs(const std::string& path) {
-  const auto json = read_json(path);
-  const JsonReader document(path, json);
+namespace {
+
+EarlierCosts costs_in(const Json& json, const std::string& name) {
+  const JsonReader document(name, json);
   const auto schema = document.at("schema");
   if (const auto s = schema.string(); s != "gonio.bench/1" && s != "gonio.report.cost/1")
     schema.fail("gonio.bench/1 or gonio.report.cost/1");
@@ -41,6 +42,15 @@ EarlierCosts read_costs(const std::string& path) {
                    {}};
   for (const auto& row : document.at("rows").elements()) out.entries.push_back(entry(row));
   return out;
+}
+
+}  // namespace
+
+EarlierCosts read_costs(const std::string& path) {
+  return costs_in(read_json(path), path);
+}
+EarlierCosts costs_of(const std::string& text, const std::string& name) {
+  return costs_in(parse_json(name, text), name);
 }
 
 std::vector<CostChange> changes(const EarlierCosts& earlier,

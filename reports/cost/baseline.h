@@ -29,6 +29,8 @@ struct EarlierCosts {
 
 /// A document of `gonio bench --json` or cost.json of `gonio report cost`.  Anything else is bad_input.
 EarlierCosts read_costs(const std::string& path);
+/// The same of the document's text.  \param name  of where it is from
+EarlierCosts costs_of(const std::string& text, const std::string& name);
 
 struct CostChange {
   CostName name;
@@ -45,7 +47,7 @@ std::vector<CostChange> changes(const EarlierCosts&,
 /// The document of `gonio bench`: rows as of the cost report, and what changed since an earlier one.
 std::string costs_json(const Machine&,
                        const CostOptions&,
-                       const std::vector<CostRow>&,
+                       const MeasuredCosts&,
                        const std::vector<CostChange>& = {});
 /// JSON Schema of that document.
 std::string bench_schema();

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,7 @@ struct CostError {
 /// One entry of the catalogue, or a whole model, in one number, instruction set and place.
 struct CostRow {
   std::string id;  ///< of a term or a whole model, else the model's spec
-  /// "ndf", "masking", "fresnel", "diffuse", "model"; "by_hand": a model written out by hand; "bound"
+  /// "ndf", "masking", "fresnel", "diffuse", "model"; "by_hand": a model written out by hand; "bound"; of studies "arithmetic", "arithmetic_in_f", "sampling", "split_sum"
   std::string_view kind;
   std::string_view number;  ///< "float", "double"
   std::string isa;          ///< "scalar", "sse2", …
@@ -40,17 +41,24 @@ struct CostRow {
   /// Way of a model: "fused" into one loop, "composed" of columns, "by_hand"; else ""
   std::string_view way;
   std::size_t channels;
-  Timing time;            ///< of one sample
+  Timing time;            ///< of one sample: the median over processes, and the spread between them
   Operations operations;  ///< of one sample; a term's with its division, which a model makes once
   std::size_t bytes = 0;  ///< of tables
   CostError error;
   /// A place on the front of time and error: no rival (of the same kind, number, set, place and truth) that is at least
-  /// as accurate is faster by more than both spreads together.
+  /// as accurate is faster by a difference that survives (timing.h).
   bool pareto = false;
-  /// A tie with a better rival: their times differ by no more than both spreads together, and the other is more
-  /// accurate, or as accurate and faster.
+  /// A tie with a better rival: their times differ by nothing that survives, and the other is more accurate, or as
+  /// accurate and faster.
   bool tie = false;
+  /// Operations that depend on the parameters alone: made once per block here, for each sample by a shader whose
+  /// roughness varies.
+  Operations block_operations{};
+  std::vector<double> each{};  ///< time in each process, in their order; empty: one measured all
 };
+inline ComparedTime compared(const CostRow& r) {
+  return {r.time, r.each};
+}
 
 /// An estimate or a fit by how long it takes.
 struct CostPoint {
@@ -59,7 +67,7 @@ struct CostPoint {
   Timing time;
   double error, error_spread;
   std::size_t operations = 0, bytes = 0;
-  double without_ns = 0;  ///< of a compensation: what the same takes uncompensated
+  Timing without{};  ///< of a compensation: what the same takes uncompensated
 };
 
 /// Cost of going from one form to another.
@@ -72,6 +80,7 @@ struct CostSwitch {
   double ratio;                 ///< of the times
   double operations;            ///< that it takes more
   double error_from, error_to;  ///< RMS; not numbers where they are of different truths
+  bool differs = false;         ///< the times, by what survives (timing.h)
 };
 
 struct CostOptions {
@@ -81,14 +90,74 @@ struct CostOptions {
   std::size_t cache_samples = 512, stream_samples = std::size_t{1} << 21U;
   std::string filter{};  ///< ids that hold it; empty: all
   bool errors = true;    ///< else none is known, which takes seconds less
+  /// Processes that measure everything in turn, each in an order of its own: between them memory lies differently, and
+  /// other programs come and go.  One: this one measures.
+  int processes = 1;
+  std::string program{};  ///< of which they are: `gonio`; empty: this process measures
 };
-/// Quick: streaming in the best instruction set alone; full: in all of them.
+/// Quick: streaming in the best instruction set alone; full: in all of them, and more processes.
 CostOptions cost_options(bool full);
 
-/// Error of a Fresnel form against the exact conductor, RMS over the angle and all metals known.
+/// Name of those that stream: "columns of 8 MiB", of floats.
+std::string long_columns(const CostOptions&);
+
+/// Error of a Fresnel form against the spectra of metals, seen as linear sRGB: RMS over the angle and all metals known.
 struct MetalError {
   std::string form;
   double rms;
+};
+
+/// Time that was not measured.
+inline constexpr Timing unknown_time{std::numeric_limits<double>::quiet_NaN(),
+                                     std::numeric_limits<double>::quiet_NaN()};
+
+/// Fast arithmetic: an operation alone, and in the model in which it stands, GGX, Beckmann or GTR under GGX's masking, over
+/// roughness 0.1 to 1 about the highlight, F0 0.04.
+struct FastRow {
+  std::string id, name;
+  std::string operation;  ///< "reciprocal root" …
+  double error;           ///< of the operation alone, relative, at most
+  double f_max, f_rms;    ///< relative error of f
+  double delta_e;  ///< at most, of a white light's highlight with its peak the display's white
+  double f_max_by_cosine, delta_e_by_cosine;  ///< the same with D written by NoH alone
+  Timing time = unknown_time, time_in_f = unknown_time;
+};
+/// A way to draw lights for GGX, at one roughness and view.
+struct SamplingRow {
+  std::string id, name;
+  double roughness, mu;
+  double deviation;  ///< standard deviation of a sample's weight at F = 1, over E
+  double below;      ///< share of the lights that lie below the horizon
+  Timing time = unknown_time;
+};
+/// A and B of the split sum by a table or a formula, over roughness from 0.05 and NoV from 1/32 on.
+struct LookupRow {
+  std::string id, name;
+  std::size_t bytes, fetched;     ///< of the table, and of a bilinear lookup
+  double a_rms, b_rms;            ///< not numbers of what gives A + B alone
+  double plastic_rms;             ///< of F0 A + B at F0 = 0.04
+  double mirror_rms, mirror_max;  ///< of A + B
+  Timing time = unknown_time;
+};
+struct Studies {
+  std::vector<FastRow> fast{};
+  std::vector<SamplingRow> sampling{};
+  std::vector<LookupRow> lookup{};
+};
+/// Time until samples leave an error of 1 % of E [µs].
+inline double us_to_percent(const SamplingRow& r) {
+  return 1e-3 * r.time.ns * (100 * r.deviation) * (100 * r.deviation);
+}
+
+/// Samples of a frame of 1920 × 1080, one each pixel.
+inline constexpr double frame_samples = 1920 * 1080;
+
+/// Terms, whole models and bounds, and how they were measured.
+struct MeasuredCosts {
+  std::vector<CostRow> rows;
+  int processes = 1;  ///< that measured
+  /// Processors that other programs kept busy meanwhile, on average; no value where the system does not tell
+  std::optional<double> others{};
 };
 
 /// Everything that the report measures.
@@ -99,10 +168,12 @@ struct CostRows {
   std::vector<CostPoint> points;
   std::vector<CostSwitch> switches;
   std::vector<MetalError> metals;
+  int processes = 1;
+  std::optional<double> others{};
+  Studies studies{};
 };
 
-/// The terms, whole models and bounds.
-std::vector<CostRow> measure_costs(const CostOptions&, const ReportProgress& done = {});
+MeasuredCosts measure_costs(const CostOptions&, const ReportProgress& done = {});
 /// Sets `pareto` and `tie` of rows whose error is known.
 void mark_front(std::vector<CostRow>&);
 /// The pairs of forms that engineers consider, of these rows.

@@ -6,7 +6,7 @@ namespace gonio {
 Facts facts(const CostRows& r) {
   Facts f;
   const auto& best = r.machine.instruction_sets.back();
-  f.setting = Facts::Setting{r.machine.cpu, r.machine.threads, best};
+  f.setting = Facts::Setting{r.machine.cpu, r.machine.threads, best, r.others};
   for (const auto& row : r.rows) {
     if (row.number != "float" || row.isa != best || is_mistake(row)) continue;
     const Facts::Time time{row.id, row.time.ns, row.time.spread_ns};

@@ -28,8 +28,8 @@ std::vector<FigureCurve> curves_of(const Series& series) {
   }
   return out;
 }
-TimedError drawn(const Timing& time, double error) {
-  return {time, std::max(error, least_error)};
+TimedError drawn(const CostRow& r, double error) {
+  return {r.time, std::max(error, least_error), r.each};
 }
 
 std::string shown(const CostRow& r) {
@@ -74,7 +74,7 @@ void add_rows_pictures(Pictures& to, const CostRows& report) {
           const auto name = against(r);
           auto at = std::ranges::find(series, name, [](const auto& s) { return s.first; });
           if (at == series.end()) at = series.insert(at, {name, {}});
-          at->second.push_back({shown(r), drawn(r.time, r.error.rms), r.pareto && !r.tie});
+          at->second.push_back({shown(r), drawn(r, r.error.rms), r.pareto && !r.tie});
         }
         if (series.empty()) continue;
         FigureChoices choices{
@@ -83,7 +83,7 @@ void add_rows_pictures(Pictures& to, const CostRows& report) {
         f.id = picture_id(k.family, choices);
         f.title = fmt::format("{}: time against error", k.title);
         f.note = fmt::format("{}, {}, {}; {}", number, isa,
-                             memory == "cache" ? "in cache" : "streaming", k.note);
+                             memory == "cache" ? "in cache" : long_columns(report.options), k.note);
         f.x = {"time of one sample [ns]", true};
         f.y = {std::string(k.error), true};
         f.curves = curves_of(series);
@@ -102,10 +102,13 @@ void add_metals(Pictures& to, const CostRows& report) {
         find_row(report.rows, form, "float", report.machine.instruction_sets.back(), "cache");
     if (!r || is_mistake(*r)) continue;
     const bool exact = r->error.truth == r->id;  // but for what float rounds
-    places.push_back(drawn(r->time, exact ? std::max(rms, r->error.rms) : rms));
+    places.push_back(drawn(*r, exact ? std::max(rms, r->error.rms) : rms));
     dots.push_back({std::string(short_id(form)), places.back()});
   }
-  for (std::size_t i = 0; i < dots.size(); ++i) dots[i].front = front_place(places, i).front;
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    const auto place = front_place(places, i);
+    dots[i].front = place.front && !place.tie;
+  }
   if (dots.empty()) return;
   to.figures.push_back(
       {"fresnel_metals",

@@ -3,28 +3,39 @@
 #include <cmath>
 
 #include "brdf/term/term.h"
+#include "reports/cost/claims.h"
 #include "reports/cost/cost.h"
+#include "reports/finding/names.h"
+#include "reports/finding/words.h"
+#include "reports/measure/load.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
 
-/// "0.31 ± 0.02 ns": to the first digit of the spread, or to picoseconds.
-std::string ns_text(double ns, double spread) {
+/// "0.31 ± 0.02": to the first digit of the spread, or to picoseconds.
+std::string with_spread(double value, double spread) {
   const double digit = -std::floor(std::log10(std::max(spread, 1e-3)));
   const int decimals = std::clamp(static_cast<int>(digit), 0, 3);
-  auto text = fmt::format("{:.{}f}", ns, decimals);
-  if (text.find_first_of("123456789") == text.npos) std::erase(text, '-');  // no -0.0
-  return fmt::format("{} ± {:.{}f} ns", text, spread, decimals);
+  return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, spread, decimals);
 }
 std::string ns_text(const Timing& t) {
-  return ns_text(t.ns, t.spread_ns);
+  return with_spread(t.ns, t.spread_ns) + " ns";
 }
-/// "4e-8"
+/// Error in words: what rounding alone leaves has no figure.
 std::string error_text(double e) {
-  auto text = fmt::format("{:.2g}", e);
-  if (const auto at = text.find("e-0"); at != text.npos) text.erase(at + 2, 1);
+  constexpr double rounding = 1e-5;
+  return e < rounding ? "that of rounding alone" : fmt::format("{:.2g}", e);
+}
+/// "a, b and c"
+std::string list_text(const std::vector<std::string>& all) {
+  if (all.size() < 2) return all.empty() ? "" : all[0];
+  return fmt::format("{} and {}", fmt::join(all.begin(), all.end() - 1, ", "), all.back());
+}
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
   return text;
 }
 
@@ -32,20 +43,32 @@ class Sayings {
  public:
   explicit Sayings(const CostRows& r) : r_(r), best_(r.machine.instruction_sets.back()) {}
   Findings all() && {
-    schlick_to_smith();
+    if (auto text = load_text(r_.others, r_.machine.threads); !text.empty()) say(std::move(text));
     headline();
+    masking();
+    front();
     fresnel();
-    gtr();
-    front("masking", "masking.smith_ggx.correlated", "masking forms held against Smith's for GGX");
+    tail();
     whole();
+    over_by_hand();
     compensation();
     quadrature();
     fits();
+    arithmetic();
+    sampling();
+    lookups();
+    frame();
+    half();
     return std::move(said_);
   }
 
  private:
+  template <class... Values>
+  void say(fmt::format_string<Values...> text, Values&&... values) {
+    said_.say(fmt::format(text, std::forward<Values>(values)...));
+  }
   void say(std::string sentence) { said_.say(std::move(sentence)); }
+
   /// Sentence on the time of exact Smith over Schlick's in a whole model.
   void headline() {
     const auto* const from = "ggx/schlick_ggx.direct/schlick";
@@ -54,13 +77,12 @@ class Sayings {
                *streaming = between(from, to, best_, "streaming");
     if (!cache || !streaming) return;
     const auto text = [](const CostSwitch& s) {
-      return std::abs(s.ns) <= s.ns_spread ? std::string("nothing that can be measured")
-                                           : fmt::format("{:.2f} ns", s.ns);
+      return s.differs ? fmt::format("{:.2f} ns", s.ns)
+                       : std::string("nothing that can be measured");
     };
     said_.headline = fmt::format(
-        "Exact Smith in place of Schlick's k takes {} more of a GGX sample in cache, and {} where "
-        "memory is the limit.",
-        text(*cache), text(*streaming));
+        "Exact Smith in place of Schlick's k takes {} more of a GGX sample in cache, and {} in {}.",
+        text(*cache), text(*streaming), long_columns(r_.options));
   }
   const CostSwitch* between(std::string_view from,
                             std::string_view to,
@@ -72,76 +94,71 @@ class Sayings {
     });
     return at == r_.switches.end() ? nullptr : &*at;
   }
-  /// "0.28 ± 0.02 ns more (2.3 times as long)", or that there is no difference.
-  static std::string more(const CostSwitch& s) {
-    if (std::abs(s.ns) <= s.ns_spread)
-      return fmt::format("the same ({})", ns_text(s.ns, s.ns_spread));
-    return fmt::format("{} {} ({:.2g} times as long)", ns_text(std::abs(s.ns), s.ns_spread),
-                       s.ns > 0 ? "more" : "less", s.ratio);
+  /// "takes 0.28 ± 0.02 ns more of a sample than", or that nothing tells them apart.
+  static std::string takes(const CostSwitch& s) {
+    if (!s.differs) return "takes no time of a sample that can be told from that of";
+    return fmt::format("takes {} ns {} of a sample than", with_spread(std::abs(s.ns), s.ns_spread),
+                       s.ns > 0 ? "more" : "less");
   }
-
-  /// \param what  "From Schlick's k = (r+1)²/8 to exact Smith"
-  void switch_sentence(std::string_view what,
-                       std::string_view from,
-                       std::string_view to,
-                       std::string_view factor) {
-    const auto *s = between(from, to, best_, "cache"),
-               *streaming = between(from, to, best_, "streaming"),
-               *scalar = between(from, to, "scalar", "cache");
-    if (!s || !streaming || !scalar) return;
-    say(fmt::format(
-        "{}: a sample takes, in float columns of {}, {} in cache and {} streaming; one at a "
-        "time, {}. It has {:.0f} operations more{}.",
-        what, best_, more(*s), more(*streaming), more(*scalar), s->operations,
-        std::isnan(s->error_to)
-            ? ""
-            : fmt::format(", and the RMS error of {} goes from {} to {}", factor,
-                          error_text(s->error_from), error_text(s->error_to))));
+  /// Sentences on a form in place of another, in cache.
+  void in_place_of(std::string_view from,
+                   std::string_view to,
+                   std::string_view to_name,
+                   std::string_view from_name,
+                   std::string_view factor) {
+    const auto* s = between(from, to, best_, "cache");
+    if (!s) return;
+    const auto* scalar = between(from, to, "scalar", "cache");
+    say("{} {} {}, in columns of floats in cache ({}).", capital(std::string(to_name)), takes(*s),
+        from_name, best_);
+    if (scalar && scalar->differs)
+      say("One sample at a time it takes {:.2g} ns {}.", std::abs(scalar->ns),
+          scalar->ns > 0 ? "more" : "less");
+    if (!std::isnan(s->error_to) && !factor.empty())
+      say("Its RMS error of {} is {}, where {} leaves {}.", factor, error_text(s->error_to),
+          from_name, error_text(s->error_from));
   }
-  void schlick_to_smith() {
-    switch_sentence("From Schlick's k = (r+1)²/8 to exact Smith, correlated",
-                    "masking.schlick_ggx.direct", "masking.smith_ggx.correlated", "G2");
-    switch_sentence("The same in a whole model, GGX with Schlick's Fresnel",
-                    "ggx/schlick_ggx.direct/schlick", "ggx/smith_ggx.correlated/schlick", "G2 F");
+  void masking() {
+    const auto* const from = "masking.schlick_ggx.direct";
+    const auto* const to = "masking.smith_ggx.correlated";
+    in_place_of(from, to, in_text(to), in_text(from), "G₂");
+    in_place_of("ggx/schlick_ggx.direct/schlick", "ggx/smith_ggx.correlated/schlick",
+                "a whole GGX model with exact Smith", "with Schlick's k", "");
   }
   void fresnel() {
-    switch_sentence("From Schlick to the exact dielectric", "fresnel.schlick", "fresnel.dielectric",
-                    "F");
-    switch_sentence("From Schlick to the exact conductor in a whole model",
-                    "ggx/smith_ggx.correlated/schlick", "ggx/smith_ggx.correlated/conductor",
-                    "G2 F");
+    in_place_of("fresnel.schlick", "fresnel.dielectric", "exact dielectric Fresnel", "Schlick",
+                "F");
+    in_place_of("ggx/smith_ggx.correlated/schlick", "ggx/smith_ggx.correlated/conductor",
+                "a whole GGX model with a metal's exact Fresnel", "with Schlick", "");
   }
-  void gtr() {
-    const auto* s = between("ndf.ggx", "ndf.gtr", best_, "cache");
-    const auto* m =
-        between("masking.smith_ggx.correlated", "masking.smith_gtr.correlated", best_, "cache");
-    if (s && m)
-      say(fmt::format("From GGX to GTR, whose gamma is free: {} in D, {} in its own exact masking.",
-                      more(*s), more(*m)));
+  void tail() {
+    in_place_of("ndf.ggx", "ndf.gtr", "GTR, whose tail is free,", "GGX", "");
+    in_place_of("masking.smith_ggx.correlated", "masking.smith_gtr.correlated",
+                "GTR's own exact masking", "GGX's", "");
   }
-  void front(std::string_view kind, std::string_view truth, std::string_view what) {
-    std::vector<const CostRow*> on, beside;
+  void front() {
+    std::vector<const CostRow*> on;
+    std::size_t all = 0, ties = 0;
     for (const auto& r : r_.rows) {
-      if (r.kind != kind || r.error.truth != truth || r.number != "float" || r.isa != best_ ||
-          r.memory != "cache")
+      if (r.kind != "masking" || r.error.truth != "masking.smith_ggx.correlated" ||
+          r.number != "float" || r.isa != best_ || r.memory != "cache" || is_mistake(r))
         continue;
-      (r.pareto && !r.tie ? on : beside).push_back(&r);
+      ++all;
+      ties += r.pareto && r.tie;
+      if (r.pareto && !r.tie) on.push_back(&r);
     }
     if (on.empty()) return;
-    const auto ties = std::ranges::count_if(beside, [&](const CostRow* r) {
-      return std::ranges::any_of(on, [&](const CostRow* o) {
-        return std::abs(r->time.ns - o->time.ns) <= r->time.spread_ns + o->time.spread_ns;
-      });
-    });
+    say("Of {} masking forms held against height-correlated Smith, {} worth their time in cache: "
+        "no other is as exact and faster. {} more may be, but tie with a better one.",
+        all, on.size() == 1 ? "one is" : fmt::format("{} are", on.size()), number_or_none(ties));
     std::ranges::sort(on, {}, [](const CostRow* r) { return -r->error.rms; });
-    std::string names;
+    constexpr std::size_t told = 4;
+    std::vector<std::string> names;
     for (const auto* r : on)
-      names += fmt::format("{}{} ({:.2f} ns, {})", names.empty() ? "" : ", ", short_id(r->id),
-                           r->time.ns, error_text(r->error.rms));
-    say(fmt::format(
-        "Of {} {}, these are worth their time (in float columns of {} in cache, with the RMS "
-        "error of G2): {}. {} more take as long as one of them, and are off by more.",
-        on.size() + beside.size(), what, best_, names, ties));
+      names.push_back(r->id == "masking.unity_mobile" ? "Unity's mobile form" : in_text(r->id));
+    if (names.size() > told) names = {names.front(), names[names.size() / 2], names.back()};
+    say("{} from fast to exact: {}.", on.size() > told ? "Three of these" : "They are",
+        list_text(names));
   }
   const CostRow* row(std::string_view id, std::string_view memory, std::string_view way) const {
     return find_row(r_.rows, id, "float", best_, memory, way);
@@ -153,42 +170,34 @@ class Sayings {
                *roots = row("bound.roots_and_division", "cache", ""),
                *columns = row("bound.columns", "streaming", "");
     if (!fused || !composed || !by_hand || !far || !roots || !columns) return;
-    say(fmt::format(
-        "GGX with correlated Smith and Schlick, float in {} in cache: {} fused into one loop, {} "
-        "written by "
-        "hand (fused {:.2f} times as long), {} composed of its terms at run time ({:.2f} times); "
-        "its division "
-        "and two roots alone take {}. Streaming it takes {}, reading four columns and writing one "
-        "{}.",
-        best_, ns_text(fused->time), ns_text(by_hand->time), fused->time.ns / by_hand->time.ns,
-        ns_text(composed->time), composed->time.ns / by_hand->time.ns, ns_text(roots->time),
-        ns_text(far->time), ns_text(columns->time)));
-    over_by_hand();
+    say("GGX with height-correlated Smith and Schlick takes {} of a float sample in cache, fused "
+        "into one loop.",
+        ns_text(fused->time));
+    say("Written by hand it takes {:.2f} ns, composed of its terms at run time {:.2f} ns; its "
+        "division and two roots alone take {:.2f} ns.",
+        by_hand->time.ns, composed->time.ns, roots->time.ns);
+    say("In {} it takes {:.2f} ns, where reading four columns and writing one takes {:.2f} ns.",
+        long_columns(r_.options), far->time.ns, columns->time.ns);
   }
   void over_by_hand() {
-    struct Ratio {
-      double of;
-      std::string_view id;
-    };
-    std::vector<Ratio> fused, composed;
+    std::vector<double> fused, composed;
     for (const auto& hand : r_.rows) {
       if (hand.kind != "by_hand" || hand.number != "float" || hand.isa != best_ ||
           hand.memory != "cache")
         continue;
       const auto *f = row(hand.id, "cache", "fused"), *c = row(hand.id, "cache", "composed");
       if (!f || !c) continue;
-      fused.push_back({f->time.ns / hand.time.ns, f->id});
-      composed.push_back({c->time.ns / hand.time.ns, c->id});
+      fused.push_back(f->time.ns / hand.time.ns);
+      composed.push_back(c->time.ns / hand.time.ns);
     }
-    const auto text = [](std::vector<Ratio> all) {
-      std::ranges::sort(all, {}, &Ratio::of);
-      return fmt::format("{:.2f} to {:.2f} times as long ({:.2f} in the middle, the most {})",
-                         all.front().of, all.back().of, all[all.size() / 2].of, all.back().id);
+    if (fused.size() < 2) return;
+    const auto range = [](const std::vector<double>& all) {
+      const auto [least, most] = std::ranges::minmax(all);
+      return fmt::format("{:.2f} to {:.2f} times as long", least, most);
     };
-    if (!fused.empty())
-      say(fmt::format(
-          "Beside {} models that were written by hand, fused loops take {}, composed ones {}.",
-          fused.size(), text(fused), text(composed)));
+    say("Beside the same {} models written by hand, fused loops take {}.", fused.size(),
+        range(fused));
+    say("Composed of their terms at run time, they take {}.", range(composed));
   }
   std::vector<const CostPoint*> of(std::string_view picture) const {
     std::vector<const CostPoint*> out;
@@ -197,21 +206,18 @@ class Sayings {
     return out;
   }
   void compensation() {
-    std::string text;
-    double single = 0;
     for (const auto* p : of("compensation")) {
       if (p->label == "single") {
-        single = p->error;
+        say("Single scattering leaves an RMS error of {:.2g} of the albedo, over all roughnesses "
+            "and reflectances looked at.",
+            p->error);
         continue;
       }
-      text +=
-          fmt::format("{}{} for {}{}, leaving {:.2g}", text.empty() ? "" : "; ", p->label,
-                      ns_text(p->time.ns - p->without_ns, p->time.spread_ns),
-                      p->series == "a light" ? "" : " beyond the split sum's lookups", p->error);
+      const auto more = difference({p->without}, {p->time});
+      say("Compensated as by {}, {} takes {} ns more and leaves {:.2g}.", name_of_form(p->label),
+          p->series == "a light" ? "a single light" : "image-based light",
+          with_spread(more.ns, more.spread_ns), p->error);
     }
-    if (!text.empty())
-      say(fmt::format("Single scattering is off by {:.2g} (RMS of the albedo); compensated by {}.",
-                      single, text));
   }
   void quadrature() {
     const CostPoint *one = nullptr, *normals = nullptr;
@@ -220,21 +226,116 @@ class Sayings {
       if (p->series.starts_with("one integral") && p->error < 1e-6 && !one) one = p;
       if (p->series.starts_with("random visible normals")) normals = p;
     }
-    if (one && normals)
-      say(fmt::format(
-          "A directional albedo at roughness 0.5 takes {:.1f} µs by one integral to better "
-          "than 1e-6; {} random visible normals take {:.0f} µs and leave {:.1g}.",
-          one->time.ns / 1000, normals->label, normals->time.ns / 1000, normals->error));
+    if (!one || !normals) return;
+    say("A directional albedo at roughness 0.5 takes {:.1f} µs by one integral that is right to "
+        "six digits.",
+        one->time.ns / 1000);
+    say("By {} it takes {:.0f} µs and is off by {:.1g}.",
+        normals->label + " random visible normals", normals->time.ns / 1000, normals->error);
   }
   void fits() {
     const auto all = of("fit");
     if (all.size() < 2) return;
-    std::string text;
-    for (const auto* p : all)
-      text += fmt::format("{}{} in {:.1f} ± {:.1f} ms to {:.2g} %", text.empty() ? "" : ", ",
-                          p->label, p->time.ns / 1e6, p->time.spread_ns / 1e6, 100 * p->error);
-    say(fmt::format("A fit on all threads finds alpha of a MERL table with 2 % noise from {}.",
-                    text));
+    const auto ms = [](const CostPoint* p) { return fmt::format("{:.3g} ms", p->time.ns / 1e6); };
+    say("A fit of a MERL table with 2 % noise takes {} on all threads and finds alpha to {}.",
+        ms(all.front()), percent(all.front()->error, 2));
+    say("From {} chosen by chance it takes {} and finds alpha to {}.", all.back()->label,
+        ms(all.back()), percent(all.back()->error, 2));
+  }
+  const FastRow* fast(std::string_view id) const {
+    const auto at = std::ranges::find(r_.studies.fast, id, &FastRow::id);
+    return at == r_.studies.fast.end() || std::isnan(at->time.ns) ? nullptr : &*at;
+  }
+  /// "0.31 ns"
+  static std::string in_ns(const Timing& t) { return fmt::format("{:.2g} ns", t.ns); }
+  void arithmetic() {
+    const auto *root = fast("fast.rsqrt.estimate"), *step = fast("fast.rsqrt.estimate.1"),
+               *exact_root = fast("fast.rsqrt.exact");
+    if (root && step && exact_root) {
+      say("Roots by the processor's estimate leave up to {:.2g} % of f and ΔE2000 {:.2g}; with D "
+          "written by NoH alone they leave ΔE2000 {:.2g}.",
+          100 * root->f_max, root->delta_e, root->delta_e_by_cosine);
+      say("A Newton step takes that to {:.1g} % of f, in {} for {} with exact roots.",
+          100 * step->f_max, in_ns(step->time_in_f), in_ns(exact_root->time_in_f));
+    }
+    const auto *division = fast("fast.rcp.estimate"), *exact_division = fast("fast.rcp.exact");
+    if (division && exact_division)
+      say("Divisions by the processor's estimate leave up to {:.2g} % of f, in {} for {} with "
+          "exact "
+          "divisions.",
+          100 * division->f_max, in_ns(division->time_in_f), in_ns(exact_division->time_in_f));
+    const auto *products = fast("fast.pow5.products"), *power = fast("fast.pow5.power");
+    if (products && power)
+      say("Schlick's fifth power takes {} by three products and {} by the library's power, which "
+          "is "
+          "no more exact.",
+          in_ns(products->time), in_ns(power->time));
+    const auto* cubic = fast("fast.exp2.3");
+    if (cubic)
+      say("Beckmann's exponential by a polynomial of degree 3 leaves up to {:.2g} % of f and "
+          "ΔE2000 "
+          "{:.2g}.",
+          100 * cubic->f_max, cubic->delta_e);
+  }
+  void sampling() {
+    const auto at = [&](std::string_view id) -> const SamplingRow* {
+      const auto found = std::ranges::find_if(r_.studies.sampling, [&](const SamplingRow& r) {
+        return r.id == id && r.roughness == 0.5 && r.mu == 0.5 && !std::isnan(r.time.ns);
+      });
+      return found == r_.studies.sampling.end() ? nullptr : &*found;
+    };
+    const auto *plain = at("sampling.ggx.d"), *disk = at("sampling.ggx.vndf2018"),
+               *caps = at("sampling.ggx.caps"), *bounded = at("sampling.ggx.bounded");
+    if (!plain || !disk || !caps || !bounded) return;
+    say("Visible normals reach an error in {:.2g} of the time that normals by D alone take, at "
+        "roughness 0.5 and NoV 0.5.",
+        us_to_percent(*caps) / us_to_percent(*plain));
+    say("Spherical caps draw a light in {} and Heitz's disk of 2018 in {}, both with the same "
+        "variance.",
+        in_ns(caps->time), in_ns(disk->time));
+    say("Bounded caps draw {:.1g} % of their lights below the horizon, where unbounded ones draw "
+        "{:.1g} %.",
+        100 * bounded->below, 100 * caps->below);
+  }
+  void lookups() {
+    const auto at = [&](std::string_view id) -> const LookupRow* {
+      const auto found = std::ranges::find(r_.studies.lookup, id, &LookupRow::id);
+      return found == r_.studies.lookup.end() ? nullptr : &*found;
+    };
+    const auto *table = at("split_sum.table.32.half"), *karis = at("split_sum.karis"),
+               *lazarov = at("split_sum.lazarov"), *materialx = at("split_sum.materialx"),
+               *ours = at("split_sum.ours");
+    if (!table || !karis || !lazarov || !materialx || !ours) return;
+    say("The split sum's table of 32 × 32 texels in half leaves an RMS error of {:.1g} of a "
+        "mirror's albedo.",
+        table->mirror_rms);
+    say("In its place Karis's formula leaves {:.2g}, MaterialX's {:.2g} and Lazarov's, made for "
+        "Blinn–Phong, {:.2g}.",
+        karis->mirror_rms, materialx->mirror_rms, lazarov->mirror_rms);
+    say("Our formula of a mirror's albedo alone leaves {:.2g} in {}.", ours->mirror_rms,
+        in_ns(ours->time));
+  }
+  /// What the switches of a whole model cost of a frame.
+  void frame() {
+    const auto* whole = row("ggx/smith_ggx.correlated/schlick", "cache", "fused");
+    if (!whole) return;
+    const auto ms = [](double ns) { return 1e-6 * frame_samples * ns; };
+    say("A frame of 1080p takes {:.2g} ms of one processor for one light by GGX with "
+        "height-correlated Smith and Schlick, in cache.",
+        ms(whole->time.ns));
+    const auto* smith = between("ggx/schlick_ggx.direct/schlick",
+                                "ggx/smith_ggx.correlated/schlick", best_, "cache");
+    const auto* metal = between("ggx/smith_ggx.correlated/schlick",
+                                "ggx/smith_ggx.correlated/conductor", best_, "cache");
+    if (smith && metal)
+      say("Exact Smith in place of Schlick's k is {} of that, and a metal's exact Fresnel {} more.",
+          smith->differs ? fmt::format("{:.2g} ms", ms(smith->ns)) : "nothing that can be measured",
+          fmt::format("{:.2g} ms", ms(metal->ns)));
+  }
+  void half() {
+    say("This processor has {}: times are of float and double.",
+        r_.machine.native_half ? "arithmetic in half, which no kernel here uses"
+                               : "no arithmetic in half (AVX512-FP16)");
   }
 
   const CostRows& r_;
@@ -245,7 +346,9 @@ class Sayings {
 }  // namespace
 
 Findings findings(const CostRows& rows) {
-  return Sayings(rows).all();
+  auto said = Sayings(rows).all();
+  judge_costs(said, rows);
+  return said;
 }
 
 }  // namespace gonio

@@ -14,7 +14,7 @@ std::vector<MetalError> errors_on_metals() {
   };
   std::map<std::string, Sum> forms;
   for (const auto& m : metals())
-    for (const auto& r : fresnel_errors(metal(m), 90)) {
+    for (const auto& r : fresnel_errors(spectral(m), 90)) {
       auto& s = forms[r.form];
       s.squares += r.rms * r.rms;
       ++s.n;

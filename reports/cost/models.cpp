@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "brdf/catalogue/masking_shape.h"
@@ -17,6 +16,7 @@
 #include "image/display.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "reports/audit/entry.h"
+#include "reports/measure/light_unit.h"
 #include "reports/measure/samples.h"
 #include "reports/measure/surfaces.h"
 
@@ -42,11 +42,6 @@ constexpr std::string_view specs[] = {"ggx/smith_ggx.correlated/dielectric",
                                       "gtr/smith_gtr.correlated/schlick",
                                       "lambert+ggx/smith_ggx.correlated/schlick",
                                       "lambert.coupled+ggx/smith_ggx.correlated/schlick"};
-
-/// Divisor of an engine that keeps its lights without 1/π.
-double divisor_of(std::string_view id) {
-  return id == "model.ue_mobile" || id == "model.ue_mobile_simple" ? std::numbers::pi : 1;
-}
 
 std::string_view ndf_of(const Model& m) {
   return catalogue()[m.lobes[0].ndf.term].about->id;
@@ -162,7 +157,7 @@ double delta_e_of_gold(const Whole& w) {
     auto found = directional_albedo(*model, mu, 0, goal);
     const auto truth = directional_albedo(truth_for(w, gold, roughness), mu, 0, goal);
     for (std::size_t i = 0; i < mu.size(); ++i) {
-      for (auto& v : found[i].value) v /= divisor_of(w.id);
+      for (auto& v : found[i].value) v /= light_unit(w.id);
       most = std::max(most, delta_e_2000(seen(found[i]), seen(truth[i])));
     }
   }
@@ -223,7 +218,7 @@ CostError error_of_whole(const Whole& w) {
       for (std::size_t c = 0; c < f.size(); ++c)
         for (std::size_t k = 0; k < rows.size(); ++k) {
           const double off =
-              std::abs(f[c][k] / divisor_of(w.id) - g[c][k]) * 4 * rows[k].nol * rows[k].nov / d[k];
+              std::abs(f[c][k] / light_unit(w.id) - g[c][k]) * 4 * rows[k].nol * rows[k].nov / d[k];
           if (!(d[k] >= least && std::isfinite(off))) continue;
           e.max = std::max(e.max, off);
           squares += off * off;

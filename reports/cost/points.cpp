@@ -20,11 +20,9 @@ namespace {
 
 constexpr std::string_view masking = "masking.smith_ggx.correlated";
 
-/// Compensations as the energy report measures them, on fewer materials.
-void add_compensations(std::vector<CostPoint>& to, EnergyOptions o) {
-  o.roughness = {0.25, 0.5, 0.75, 1};
-  o.mu = {0.1, 0.5, 1};
-  for (const auto& c : compensation_costs(energy_materials(o, [](double) {})))
+/// Compensations as the energy report measures them.
+void add_compensations(std::vector<CostPoint>& to) {
+  for (const auto& c : compensation_costs(energy_materials(compensation_domain(), [](double) {})))
     to.push_back({"compensation",
                   c.id == "fdez_aguera" ? "image-based light" : "a light",
                   std::string(c.id),
@@ -33,7 +31,7 @@ void add_compensations(std::vector<CostPoint>& to, EnergyOptions o) {
                   0,
                   c.operations,
                   c.bytes,
-                  c.without_ns});
+                  {c.without_ns, c.without_spread_ns}});
 }
 
 void add_quadrature(std::vector<CostPoint>& to, const EnergyOptions& o) {
@@ -207,7 +205,7 @@ std::vector<CostPoint> cost_points(const CostOptions& o, const std::function<voi
   std::vector<CostPoint> out;
   auto of_energy = energy_options(false);
   of_energy.samples = o.full ? of_energy.samples : 4096;
-  add_compensations(out, of_energy);
+  add_compensations(out);
   done(0.3);
   add_quadrature(out, of_energy);
   done(0.4);

@@ -14,7 +14,11 @@
 #include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
 #include "reports/audit/entry.h"
+#include "reports/cost/baseline.h"
 #include "reports/cost/models.h"
+#include "reports/cost/processes.h"
+#include "reports/cost/studies.h"
+#include "reports/measure/load.h"
 #include "reports/picture/front.h"
 #include "reports/yardstick/by_hand.h"
 
@@ -178,35 +182,91 @@ void add_subjects(std::vector<Subject>& to, const CostOptions& o, std::string_vi
         if (is_same(compose(hand.spec, hand.channels), m))
           add(w.id, "by_hand", "by_hand", m.channels, timed_by_hand<F>(hand, w.model, field));
     }
+    if (std::is_same_v<F, float> && !streaming)
+      for (auto& s : study_subjects(set, o.cache_samples))
+        if (wanted(s.id)) add(s.id, s.kind, s.way, 1, std::move(s.timed));
     if (wanted("bound.columns")) add("bound.columns", "bound", "", 1, timed_columns<F>(k, field));
     if (wanted("bound.roots_and_division"))
       add("bound.roots_and_division", "bound", "", 1, timed_roots<F>(by_hand<F>(set).bound, field));
   }
 }
 
+std::vector<Subject> subjects_in(const CostOptions& o, std::string_view memory) {
+  std::vector<Subject> out;
+  add_subjects<float>(out, o, memory);
+  add_subjects<double>(out, o, memory);
+  return out;
+}
+std::vector<Subject> all_subjects(const CostOptions& o) {
+  auto out = subjects_in(o, "cache");
+  std::ranges::move(subjects_in(o, "streaming"), std::back_inserter(out));
+  return out;
+}
+
+/// Times that this process finds for each subject, in their order.
+std::vector<std::vector<double>> times_here(const CostOptions& o,
+                                            const std::function<void(double)>& done) {
+  auto subjects = subjects_in(o, "cache");
+  const std::size_t cached = subjects.size();
+  std::ranges::move(subjects_in(o, "streaming"), std::back_inserter(subjects));
+  // In cache it matters how columns lie to each other, and a run would know one way alone: several,
+  // of columns that are a little longer, share the repetitions.
+  constexpr int ways = 3;
+  const int each = (o.timing.repetitions + ways - 1) / ways;
+  for (int way = 1; way < ways; ++way) {
+    auto longer = o;
+    longer.cache_samples += 48 * static_cast<std::size_t>(way * way);
+    std::ranges::move(subjects_in(longer, "cache"), std::back_inserter(subjects));
+  }
+  std::vector<Timed> timed;
+  for (auto& s : subjects) {
+    s.timed.repetitions = each;
+    timed.push_back(std::move(s.timed));
+  }
+  auto taken = repetitions_of(timed, o.timing, done);
+  const std::size_t rows = taken.size() - (ways - 1) * cached;
+  for (std::size_t i = rows; i < taken.size(); ++i)
+    std::ranges::copy(taken[i], std::back_inserter(taken[(i - rows) % cached]));
+  taken.resize(rows);
+  return taken;
+}
+
 /// Facts that do not depend on where it runs: by id and number.
 struct Facts {
-  Operations operations;
+  Operations operations, block_operations;
   std::size_t bytes;
   CostError error;
 };
 using FactsByName = std::map<std::pair<std::string, std::string_view>, Facts>;
+
+Operations block_operations(const Model& m) {
+  Operations sum;
+  const auto add = [&](const TermUse& t) { sum += operations_of(t.term).parameters; };
+  for (const auto& d : m.diffuse) add(d);
+  for (const auto& l : m.lobes) add(l.ndf), add(l.masking), add(l.fresnel);
+  return sum;
+}
 
 FactsByName facts_of(const std::vector<Subject>& subjects,
                      bool errors,
                      const std::function<void(double)>& done) {
   FactsByName facts;
   std::vector<FactsByName::value_type*> all;
-  for (const auto& s : subjects)
+  for (const auto& s : subjects) {
+    if (is_study(s.row.kind)) continue;
     if (const auto [at, added] = facts.try_emplace({s.row.id, s.row.number}); added)
       all.push_back(&*at);
+  }
   const auto models = wholes();
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     const auto& [id, number] = all[i]->first;
     Facts& f = all[i]->second;
     const bool is_float = number == "float";
     if (const auto w = std::ranges::find(models, id, &Whole::id); w != models.end()) {
-      f = {operations_of(w->model.model), table_bytes(w->model.model), {}};
+      f = {operations_of(w->model.model),
+           block_operations(w->model.model),
+           table_bytes(w->model.model),
+           {}};
       if (errors) f.error = is_float ? error_of_whole<float>(*w) : error_of_whole<double>(*w);
     } else if (id == "bound.columns") {
       f.operations[Operation::mul] = 2;
@@ -216,7 +276,8 @@ FactsByName facts_of(const std::vector<Subject>& subjects,
       f.operations[Operation::add] = f.operations[Operation::div] = 1;
     } else {
       const auto term = find_term(id);
-      f = {operations_of(term).sample, table_bytes(id), {}};
+      const auto count = operations_of(term);
+      f = {count.sample, count.parameters, table_bytes(id), {}};
       if (errors) f.error = error_of_term(term, is_float ? Number::float_ : Number::double_);
     }
   });
@@ -238,7 +299,7 @@ void mark_front(std::vector<CostRow>& rows) {
     if (!r.error.truth.empty() && !is_mistake(r)) groups[rivals(r)].push_back(&r);
   for (auto& [name, group] : groups) {
     std::vector<TimedError> places;
-    for (const auto* r : group) places.push_back({r->time, r->error.rms});
+    for (const auto* r : group) places.push_back({r->time, r->error.rms, r->each});
     for (std::size_t i = 0; i < group.size(); ++i) {
       const auto place = front_place(places, i);
       group[i]->pareto = place.front, group[i]->tie = place.tie;
@@ -246,46 +307,37 @@ void mark_front(std::vector<CostRow>& rows) {
   }
 }
 
-std::vector<CostRow> measure_costs(const CostOptions& o, const ReportProgress& done) {
-  const auto in = [](const CostOptions& at, std::string_view memory) {
-    std::vector<Subject> subjects;
-    add_subjects<float>(subjects, at, memory);
-    add_subjects<double>(subjects, at, memory);
-    return subjects;
-  };
-  auto subjects = in(o, "cache");
-  const std::size_t cached = subjects.size();
-  std::ranges::move(in(o, "streaming"), std::back_inserter(subjects));
+MeasuredCosts measure_costs(const CostOptions& o, const ReportProgress& done) {
+  // Names of everything, in columns too short to be measured.
+  auto named = o;
+  named.cache_samples = named.stream_samples = padding;
+  auto subjects = all_subjects(named);
   const auto facts = facts_of(subjects, o.errors, part_of(done, "errors", 0, 0.2));
-  std::vector<Timed> timed;
-  for (const auto& s : subjects) timed.push_back(s.timed);
-  // In cache it matters how columns lie to each other, and a run would know one way alone: several,
-  // of columns that are a little longer, share the repetitions.
-  constexpr int ways = 3;
-  const int each = (o.timing.repetitions + ways - 1) / ways;
-  for (std::size_t i = 0; i < cached; ++i) timed[i].repetitions = each;
-  for (int way = 1; way < ways; ++way) {
-    auto longer = o;
-    longer.cache_samples += 48 * static_cast<std::size_t>(way * way);
-    for (auto& s : in(longer, "cache")) {
-      s.timed.repetitions = each;
-      timed.push_back(std::move(s.timed));
-    }
-  }
-  auto taken = repetitions_of(timed, o.timing, part_of(done, "times", 0.2, 1));
-  for (std::size_t i = subjects.size(); i < taken.size(); ++i)
-    std::ranges::copy(taken[i], std::back_inserter(taken[(i - subjects.size()) % cached]));
-  std::vector<CostRow> rows;
+  MeasuredCosts out;
+  std::vector<CostName> names;
+  for (const auto& s : subjects) names.push_back(name_of(s.row));
+  const OthersWork others;
+  const auto part = part_of(done, "times", 0.2, 1);
+  auto taken = times_in_processes(o, names, part);
+  const bool here = taken.empty();
+  if (here) taken = times_here(o, part);
+  out.others = others.processors();
+  if (!here) out.processes = o.processes;
   for (std::size_t i = 0; i < subjects.size(); ++i) {
-    auto& r = rows.emplace_back(std::move(subjects[i].row));
-    const auto& f = facts.at({r.id, r.number});
+    auto& r = out.rows.emplace_back(std::move(subjects[i].row));
+    if (!here) r.each = taken[i];
     r.time = spread_of(std::move(taken[i]));
     if (r.kind == "by_hand") continue;  // its operations are not the formula's; beside the front
-    r.operations = f.operations, r.bytes = f.bytes;
+    if (is_study(r.kind)) {
+      if (o.errors) r.error = study_error(r);
+      continue;
+    }
+    const auto& f = facts.at({r.id, r.number});
+    r.operations = f.operations, r.block_operations = f.block_operations, r.bytes = f.bytes;
     r.error = f.error;
   }
-  mark_front(rows);
-  return rows;
+  mark_front(out.rows);
+  return out;
 }
 
 }  // namespace gonio

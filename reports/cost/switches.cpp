@@ -83,13 +83,13 @@ std::vector<CostSwitch> cost_switches(const std::vector<CostRow>& rows) {
       if (!to) continue;
       // errors from different truths say nothing about each other
       const bool same = from.error.truth == to->error.truth;
+      const auto more = difference(compared(from), compared(*to));
       out.push_back({std::string(p.question), from.id, to->id, from.isa, from.number, from.memory,
-                     from.way, to->time.ns - from.time.ns,
-                     std::hypot(to->time.spread_ns, from.time.spread_ns),
-                     to->time.ns / from.time.ns,
+                     from.way, more.ns, more.spread_ns, to->time.ns / from.time.ns,
                      static_cast<double>(to->operations.total()) -
                          static_cast<double>(from.operations.total()),
-                     same ? from.error.rms : unknown, same ? to->error.rms : unknown});
+                     same ? from.error.rms : unknown, same ? to->error.rms : unknown,
+                     more.survives});
     }
   return out;
 }

@@ -50,6 +50,11 @@ CrossCase fit_case(const CrossTruth&,
                    const CrossSlice&,
                    Metric);
 
+/// Slice of a published model that has no counterpart here: kd/π + a F(η) G S/(π NoL NoV), S = (1 + b (1 − NoH))^−c, G of
+/// V-shaped grooves.  At small angles S is GTR's of alpha² = 2/b and gamma = c.
+Table published_slice(double kd, double a, double b, double c, double eta, std::size_t bins);
+std::vector<PublishedFit> published_fits(std::size_t bins);
+
 /// Id without its prefix; what else a form is called by as it is.
 std::string_view short_form(std::string_view name);
 

@@ -24,6 +24,7 @@ constexpr std::array compared{"exact",
                               "ndf.gtr",
                               "ndf.beckmann",
                               "ndf.blinn_phong",
+                              "gtr/schlick_ggx.direct/schlick",
                               "model.gltf"};
 constexpr std::array compared_materials{"IOR 1.5", "gold"};
 
@@ -52,7 +53,8 @@ std::vector<CrossCase> fitted(const Scene& at, const CrossFitOptions& o, double&
     const bool more = at.compared && holds(compared, form.name);
     if (other_layout && !more) continue;
     for (const Metric metric : {Metric::log, Metric::l2_cosine}) {
-      if (metric != Metric::log && (!more || other_layout)) continue;
+      // a finer slice is a check of the bins, and no other set of directions
+      if (metric != Metric::log && (!more || at.layout.finer > 1)) continue;
       auto c = fit_case(at.truth, form, at.surface, at.roughness, slice, metric);
       c.layout = at.layout.name;
       out.push_back(std::move(c));
@@ -71,6 +73,7 @@ CrossFitOptions cross_fit_options(bool full) {
                     {1.5, 3},
                     full ? 45U : 30U,
                     full ? 2048U : 1024U};
+  o.published = true;
   const int n = full ? 20 : 10;
   for (int i = full ? 2 : 1; i <= n; ++i) o.roughness.push_back(static_cast<double>(i) / n);
   if (full) {
@@ -113,6 +116,7 @@ CrossFitRows cross_fit_rows(const CrossFitOptions& o, const ReportProgress& done
   });
   for (auto& of_one : cases) std::ranges::move(of_one, std::back_inserter(r.cases));
   r.walk_error = std::ranges::max(walk_errors);
+  if (o.published) r.published = published_fits(o.bins);
   return r;
 }
 CrossFitReport cross_fit_report(const CrossFitOptions& o, const ReportProgress& done) {

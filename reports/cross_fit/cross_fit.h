@@ -69,9 +69,29 @@ struct CrossCase {
   const CrossValue* find(std::string_view parameter, std::string_view channel = {}) const;
 };
 
-/// Sentence on what a form does to a truth, over materials and roughnesses.
+/// Shifts of a parameter over the roughnesses, fitted to GGX met once by one metric over one set of directions.
+struct CrossRange {
+  std::string fitted, material, parameter;
+  Metric metric;
+  std::string_view layout;
+  double least, most;  ///< F0 as a part of the truth; no numbers where no fit could tell
+  std::size_t fits, at_bound;
+};
+
+/// Sentences on what a form does to a truth, over materials and roughnesses.
 struct CrossSentence {
   std::string truth, fitted, kind, sentence;
+};
+
+/// A published fit of a measured material, fitted anew with GGX or GTR as the distribution; all else as it was published.
+struct PublishedFit {
+  std::string material;
+  double width,
+      tail;  ///< as published: roughness of the highlight's core, and the exponent of its tail
+  double beckmann;  ///< as published, in another model: roughness of Beckmann's distribution
+  double ggx_roughness, ggx_log_rms, gtr_roughness, gamma;
+  bool gamma_determined;
+  double gtr_log_rms;
 };
 
 /// Everything that the report measures.
@@ -80,6 +100,7 @@ struct CrossFitRows {
   std::vector<double> roughness;
   std::vector<std::string> materials;
   double walk_error = 0;  ///< RMS over values of the standard error of ln f that the walks leave
+  std::vector<PublishedFit> published{};
 };
 
 /// Sampling of a truth: a layout of gonio synth, and up to which angle from the normal its values are
@@ -110,14 +131,19 @@ struct CrossFitOptions {
   /// 1/alpha times as many, up to 16 times.
   std::size_t walks;
   std::vector<std::string> forms{};  ///< names of forms, beside "exact"; empty: all
+  bool published = false;            ///< published fits too
 };
 /// Quick: by 0.1 in roughness; full: by 0.05, and more materials.
 CrossFitOptions cross_fit_options(bool full);
 
 CrossFitRows cross_fit_rows(const CrossFitOptions&, const ReportProgress& done = {});
-/// A sentence for each form and truth.
+/// Shifts of roughness and F0 of every form that was fitted by more than one metric: none of them holds for another metric,
+/// or over other directions.
+std::vector<CrossRange> ranges(const CrossFitRows&);
+/// Sentences for each form and truth.
 std::vector<CrossSentence> sentences_of_forms(const CrossFitRows&);
 Findings findings(const CrossFitRows&);
+Facts facts(const CrossFitRows&);
 /// Pictures of the page, by family: maps matrix of quantity and roughness ("all": RMS), truth × form; figures shifts of truth, kind,
 /// material and quantity, compared of form, material and quantity.
 Pictures pictures(const CrossFitRows&);

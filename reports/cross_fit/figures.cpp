@@ -135,6 +135,7 @@ Figure shifts_figure(const CrossFitRows& r,
   f.x = over_roughness();
   f.y = {fmt::format("{}{}", q.label, q.unit)};
   std::size_t left_out = 0;
+  FigureCurve noise{"noise of the random walks", {}, {}, FigureCurve::Kind::line, true};
   for (const auto& c : r.cases) {
     if (c.truth != truth || (c.kind != kind && c.kind != "exact") || c.material != material ||
         !is_main(c) || (q.parameter == "gamma" && !c.find("gamma")))
@@ -146,7 +147,12 @@ Figure shifts_figure(const CrossFitRows& r,
     curve.y.push_back(value);
     curve.y_error.push_back(error);
     left_out += !std::isfinite(value);
+    if (q.parameter.empty() && c.kind == "exact" && c.log_rms_truth > 0) {
+      noise.x.push_back(c.roughness);
+      noise.y.push_back(c.log_rms_truth);
+    }
   }
+  if (!noise.x.empty()) f.curves.push_back(std::move(noise));
   if (left_out > 0)
     f.note += fmt::format("; {} at a bound or not determined are left out", left_out);
   return f;

@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "reports/cross_fit/cases.h"
+#include "reports/finding/names.h"
 #include "reports/finding/words.h"
 
 #include <fmt/format.h>
@@ -14,7 +17,9 @@ namespace {
 
 using Cases = std::vector<const CrossCase*>;
 
-constexpr std::string_view once = "GGX", all_orders = "GGX, all orders";
+constexpr std::string_view once = "GGX", all_orders = "GGX, all orders", glass = "IOR 1.5",
+                           direct = "masking.schlick_ggx.direct", schlick = "fresnel.schlick",
+                           both = "gtr/schlick_ggx.direct/schlick";
 
 struct Where {
   std::string_view truth, fitted;
@@ -34,13 +39,15 @@ Cases dielectrics(Cases all) {
   std::erase_if(all, [](const CrossCase* c) { return !c->is_dielectric(); });
   return all;
 }
-Cases any(Cases all) {
-  return all;
-}
 Cases metals(Cases all) {
   std::erase_if(all, [](const CrossCase* c) { return c->is_dielectric(); });
   return all;
 }
+struct Group {
+  std::string_view name;
+  Cases (*of)(Cases);
+};
+constexpr std::array groups{Group{"dielectrics", dielectrics}, Group{"metals", metals}};
 
 /// A shift of a parameter: roughness and gamma absolute, F0 relative.
 struct Shift {
@@ -54,7 +61,6 @@ struct Shifts {
   explicit operator bool() const { return !found.empty(); }
   const Shift& least() const { return *std::ranges::min_element(found, {}, &Shift::by); }
   const Shift& most() const { return *std::ranges::max_element(found, {}, &Shift::by); }
-  double furthest() const { return std::max(std::abs(least().by), std::abs(most().by)); }
   double rms() const {
     double sum = 0;
     for (const auto& s : found) sum += s.by * s.by;
@@ -84,252 +90,185 @@ std::string signed_number(double x) {
 std::string signed_percent(double x) {
   return std::abs(x) < 5e-5 ? "0\u00a0%" : fmt::format("{}{}", x > 0 ? "+" : "", percent(x, 2));
 }
-std::string place(const CrossCase& c) {
-  return fmt::format("{}, roughness {:g}", c.material, c.roughness);
+/// "by −0.013 to +0.0012"
+std::string span(double least, double most, std::string (*said)(double)) {
+  const auto a = said(least), b = said(most);
+  return a == b ? fmt::format("by {}", a) : fmt::format("by {} to {}", a, b);
 }
-/// Number that bounds have cut off.
-std::string at_bounds(const Shifts& s) {
-  return s.at_bound == 0 ? "" : fmt::format(" [{} of {} at a bound]", s.at_bound, s.all);
-}
-
-/// "by −0.013 (IOR 2, roughness 1) to +0.0012 (gold, roughness 0.3)", with what bounds cut off
 std::string span(const Shifts& s, std::string (*said)(double)) {
-  if (!s) return "not at all within its bounds";
-  const auto &a = s.least(), &b = s.most();
-  std::string text = said(a.by) == said(b.by) ? fmt::format("by {}", said(a.by))
-                                              : fmt::format("by {} ({}) to {} ({})", said(a.by),
-                                                            place(*a.in), said(b.by), place(*b.in));
-  return text + at_bounds(s);
-}
-std::string residuals(const Cases& cases) {
-  const auto [a, b] = std::ranges::minmax_element(cases, {}, &CrossCase::log_rms);
-  return fmt::format("{} to {}", number((*a)->log_rms), number((*b)->log_rms));
+  return span(s.least().by, s.most().by, said);
 }
 double rms_residual(const Cases& cases) {
   double squares = 0;
   for (const auto* c : cases) squares += c->log_rms * c->log_rms;
   return std::sqrt(squares / static_cast<double>(cases.size()));
 }
-
 double most_residual(const Cases& cases) {
   return (*std::ranges::max_element(cases, {}, &CrossCase::log_rms))->log_rms;
 }
-std::string roughness_and_f0(const Cases& cases) {
-  return fmt::format("the fitted roughness {} and F0 {}",
-                     span(shifts(cases, "roughness"), signed_number),
-                     span(shifts(cases, "f0"), signed_percent));
+double rms_noise(const Cases& cases) {
+  double squares = 0;
+  for (const auto* c : cases) squares += c->log_rms_truth * c->log_rms_truth;
+  return std::sqrt(squares / static_cast<double>(cases.size()));
 }
 
-/// The causes that hurt, side by side.
-void summary(Findings& to, const CrossFitRows& r) {
-  struct Cause {
-    std::string_view truth, fitted, what;
-  };
-  const auto say = [&](Cases (*of)(Cases), std::string_view on) {
-    std::vector<std::string> words;
-    for (const auto& [truth, fitted, what] :
-         {Cause{once, "fresnel.schlick", "Schlick"},
-          Cause{once, "masking.ue_joint", "Unreal's joint masking"},
-          Cause{once, "masking.schlick_ggx.half_alpha", "k = r²/2"},
-          Cause{once, "masking.schlick_ggx.direct", "k = (r+1)²/8"},
-          Cause{all_orders, "exact", "the energy lost between facets"}}) {
-      const auto all = of(cases_of(r, {truth, fitted}));
-      const auto roughness = shifts(all, "roughness"), f0 = shifts(all, "f0");
-      if (!roughness) continue;
-      words.push_back(fmt::format(
-          "{} {:.2g}{} and {}", what, roughness.rms(), at_bounds(roughness),
-          2 * f0.at_bound > f0.all ? "mostly a bound" : percent(f0.rms(), 2) + at_bounds(f0)));
-    }
-    if (!words.empty())
-      to.say(fmt::format("RMS shifts of roughness and of F0 that fits bring about on {}: {}.", on,
-                         fmt::join(words, ", ")));
-  };
-  say(dielectrics, "dielectrics");
-  say(metals, "metals");
-  const auto off = [&](std::string_view form) {
-    return shifts(dielectrics(cases_of(r, {once, form})), "roughness");
-  };
-  if (const auto k = off("masking.schlick_ggx.direct"), f = off("fresnel.schlick"); k && f)
-    to.headline = fmt::format(
-        "Fitted with Schlick's k = (r+1)²/8, the roughness of dielectrics comes out wrong by "
-        "{:.2g} "
-        "(RMS, log metric); with Schlick's Fresnel by {:.2g}.",
-        k.rms(), f.rms());
+/// Form in a sentence, after "with": "Schlick's k = (r+1)²/8", "Schlick in place of exact Fresnel".
+std::string with(std::string_view form) {
+  return form == schlick ? "Schlick in place of exact Fresnel" : in_text(form);
 }
 
-void schlick(Findings& to, const CrossFitRows& r) {
-  const auto all = cases_of(r, {once, "fresnel.schlick"});
-  const auto glass = dielectrics(all), metal = metals(all);
-  if (glass.empty() || metal.empty()) return;
-  to.say(fmt::format(
-      "Schlick instead of exact Fresnel shifts {} for dielectrics (log-RMS residual {}); "
-      "for metals {} (residual {}).",
-      roughness_and_f0(glass), residuals(glass), roughness_and_f0(metal), residuals(metal)));
+/// Range of F0 over metrics, directions and roughnesses; no value where there is one metric alone.  Without the slice to the
+/// horizon: no instrument is trusted there, and least squares of f follow it alone.
+std::optional<std::pair<double, double>> over_all(const std::vector<CrossRange>& all,
+                                                  std::string_view form) {
+  std::optional<std::pair<double, double>> out;
+  for (const auto& x : all) {
+    if (x.fitted != form || x.material != glass || x.parameter != "f0" || !std::isfinite(x.least) ||
+        x.layout == "image_slice_whole")
+      continue;
+    if (!out) out = {x.least, x.most};
+    out = {std::min(out->first, x.least), std::max(out->second, x.most)};
+  }
+  return out;
 }
 
-/// The fit by l2_cosine follows the bright peak, that by log all directions alike.
-std::string by_the_other_metric(const CrossFitRows& r, std::string_view form) {
-  const auto all = dielectrics(cases_of(r, {once, form, Metric::l2_cosine}));
-  const auto s = shifts(all, "roughness");
-  return s ? fmt::format(
-                 ". By the metric l2_cosine, which follows the bright peak, roughness goes {}",
-                 span(s, signed_number))
-           : "";
-}
-
-void maskings(Findings& to, const CrossFitRows& r) {
-  struct Form {
-    std::string_view id, what;
-  };
-  for (const auto& [id, what] : {Form{"masking.schlick_ggx.direct", "k = (r+1)²/8"},
-                                 Form{"masking.schlick_ggx.half_alpha", "k = r²/2"},
-                                 Form{"masking.ue_joint", "Unreal's joint form"},
-                                 Form{"masking.smith_ggx.separable", "Separable Smith"}}) {
-    const auto all = dielectrics(cases_of(r, {once, id}));
-    if (all.empty()) continue;
-    const double residual = most_residual(all);
+/// F0 by metric and directions: a figure for one of them alone is none.
+void f0_of_glass(Findings& to, const CrossFitRows& r) {
+  const auto all = ranges(r);
+  for (const auto form : {direct, schlick}) {
+    const auto f0 = over_all(all, form);
+    if (!f0) continue;
     to.say(fmt::format(
-        "{} in place of Smith's correlated masking shifts {} for dielectrics by the log metric; "
-        "residual up to {:.2g}, a factor of {:.2g}{}.",
-        what, roughness_and_f0(all), residual, std::exp(residual), by_the_other_metric(r, id)));
+        "F0 of glass (IOR 1.5), fitted with {}, is off {}, depending on metric and directions.",
+        with(form), span(f0->first, f0->second, signed_percent)));
+    if (to.headline.empty()) to.headline = to.sentences.back();
   }
 }
 
-/// Words over roughness: where a material looks rougher than it is, and where smoother.
-std::string looks(const Shifts& s) {
-  if (!s) return "end at bounds";
-  const auto &up = s.most(), &down = s.least();
-  std::vector<std::string> words;
-  if (up.by > 0) words.push_back(fmt::format("rougher by up to {:.2g} ({})", up.by, place(*up.in)));
-  if (down.by < 0)
-    words.push_back(fmt::format("smoother by up to {:.2g} ({})", -down.by, place(*down.in)));
-  return fmt::format("look {}", fmt::join(words, " and "));
+void roughness_of_dielectrics(Findings& to, const CrossFitRows& r) {
+  for (const auto form : {direct, std::string_view("masking.ue_joint"), schlick})
+    if (const auto s = shifts(dielectrics(cases_of(r, {once, form})), "roughness"))
+      to.say(fmt::format(
+          "With {} the roughness of dielectrics shifts {}, by the log metric on a slice to 80°.",
+          with(form), span(s, signed_number)));
+}
+
+/// Gamma that takes up what two approximations leave.
+void gamma_of_both(Findings& to, const CrossFitRows& r) {
+  const auto s =
+      shifts(cases_of(r, {once, both, Metric::log, cross_layouts[0].name, glass}), "gamma");
+  if (!s) return;
+  constexpr double usual = 0.3;
+  const auto& near = *std::ranges::min_element(
+      s.found, {}, [](const Shift& x) { return std::abs(x.in->roughness - usual); });
+  to.say(
+      fmt::format("Schlick and k = (r+1)²/8 together bend the tail of glass (IOR 1.5): at "
+                  "roughness {:g} GTR's gamma shifts by {}.",
+                  near.in->roughness, signed_number(near.by)));
+  const auto& most =
+      *std::ranges::max_element(s.found, {}, [](const Shift& x) { return std::abs(x.by); });
+  if (most.in != near.in)
+    to.say(fmt::format("That shift grows to {} at roughness {:g}.", signed_number(most.by),
+                       most.in->roughness));
+}
+
+/// Words for where a material looks rougher than it is, or smoother.
+std::string looks(const Shift& s) {
+  return fmt::format("{} by up to {:.2g} ({})", s.by > 0 ? "rougher" : "smoother", std::abs(s.by),
+                     s.in->material);
 }
 
 void lost_energy(Findings& to, const CrossFitRows& r) {
+  for (const auto& group : groups) {
+    const auto all = group.of(cases_of(r, {all_orders, "exact"}));
+    const auto roughness = shifts(all, "roughness"), f0 = shifts(all, "f0");
+    if (!roughness || !f0) continue;
+    const auto &up = roughness.most(), &down = roughness.least();
+    const auto& most = std::abs(up.by) > std::abs(down.by) ? up : down;
+    to.say(fmt::format(
+        "Fitted with single scattering, {} whose light meets several facets look {}; their F0 "
+        "shifts {}.",
+        group.name, looks(most), span(f0, signed_percent)));
+  }
   const auto all = cases_of(r, {all_orders, "exact"});
-  const auto said = [](const Cases& cases) {
-    return fmt::format("{}, their F0 shifts {}", looks(shifts(cases, "roughness")),
-                       span(shifts(cases, "f0"), signed_percent));
-  };
-  const auto glass = dielectrics(all), metal = metals(all);
-  if (glass.empty() || metal.empty()) return;
-  to.say(fmt::format(
-      "The energy that single scattering loses: fitted with the exact forms of single scattering, "
-      "surfaces whose light meets several facets do not look as they are. Dielectrics {}; metals "
-      "{}.",
-      said(glass), said(metal)));
+  if (!all.empty())
+    to.say(fmt::format(
+        "These fits leave a log-RMS residual of {:.2g}, of which {:.1g} is noise of the random "
+        "walks that made the truth.",
+        rms_residual(all), rms_noise(all)));
 }
 
 /// Effect of a further free parameter on the lost energy.
 void takes_it_up(Findings& to,
                  const CrossFitRows& r,
                  std::string_view form,
-                 std::string_view parameter,
                  std::string_view what) {
-  bool falls = true;
-  std::vector<std::string> words;
-  const auto look_at = [&](Cases (*of)(Cases), std::string_view name) {
-    const auto alone = of(cases_of(r, {all_orders, "exact"})),
-               with = of(cases_of(r, {all_orders, form}));
-    const auto s = shifts(with, parameter), before = shifts(alone, "roughness"),
-               after = shifts(with, "roughness");
-    if (!s || !before || !after) return;
-    falls = falls && rms_residual(with) < rms_residual(alone);
-    words.push_back(
-        fmt::format("of {} it goes {}, the RMS residual from {:.2g} to {:.2g} and the RMS shift of "
-                    "roughness from "
-                    "{:.2g} to {:.2g}",
-                    name, span(s, signed_number), rms_residual(alone), rms_residual(with),
-                    before.rms(), after.rms()));
-  };
-  look_at(dielectrics, "dielectrics");
-  look_at(metals, "metals");
-  if (!words.empty())
-    to.say(fmt::format("{} takes up {} of it: {}.", what, falls ? "some" : "little or nothing",
-                       fmt::join(words, "; ")));
+  for (const auto& group : groups) {
+    const auto alone = group.of(cases_of(r, {all_orders, "exact"})),
+               with = group.of(cases_of(r, {all_orders, form}));
+    if (alone.empty() || with.empty()) continue;
+    const double before = rms_residual(alone), after = rms_residual(with);
+    // a tenth less is a change that a reader would see
+    to.say(fmt::format(
+        "{} takes up {} of the light of several facets on {}: the residual is {:.2g} "
+        "in place of {:.2g}.",
+        what, after < 0.9 * before ? "some" : "little or nothing", group.name, after, before));
+  }
 }
 
 void other_gammas(Findings& to, const CrossFitRows& r) {
-  std::vector<std::string> words;
   std::vector<std::string_view> truths;
   for (const auto& c : r.cases)
     if (c.truth.starts_with("GTR ") && std::ranges::find(truths, c.truth) == truths.end())
       truths.push_back(c.truth);
-  for (const auto truth : truths) {
-    const auto all = cases_of(r, {truth, "ggx/smith_ggx.correlated/exact"});
-    if (const auto s = shifts(all, "roughness"))
-      words.push_back(fmt::format("of {} {}, residual up to {:.2g}", truth, span(s, signed_number),
-                                  most_residual(all)));
-  }
-  if (!words.empty())
-    to.say(fmt::format(
-        "GGX with its masking, fitted to surfaces of another gamma, shifts roughness {}.",
-        fmt::join(words, "; ")));
+  for (const auto truth : truths)
+    if (const auto s = shifts(cases_of(r, {truth, "ggx/smith_ggx.correlated/exact"}), "roughness"))
+      to.say(fmt::format("GGX fitted to a surface of {} shifts roughness {}.",
+                         fmt::format("GTR with gamma {}", truth.substr(4)),
+                         span(s, signed_number)));
 }
 
-/// Forms of a kind by what they leave, from the least.
-void ranking(Findings& to,
-             const CrossFitRows& r,
-             std::string_view truth,
-             std::string_view kind,
-             std::string_view what,
-             Cases (*of)(Cases)) {
-  struct Place {
-    std::string_view form;
-    double residual, roughness;
-    std::size_t at_bound;
-  };
-  std::vector<Place> places;
-  for (const auto& c : r.cases) {
-    if (c.kind != kind || c.truth != truth ||
-        std::ranges::find(places, c.fitted, &Place::form) != places.end())
-      continue;
-    const auto all = of(cases_of(r, {truth, c.fitted}));
-    const auto s = shifts(all, "roughness");
-    if (s) places.push_back({c.fitted, rms_residual(all), s.rms(), s.at_bound});
-  }
-  if (places.size() < 2) return;
-  std::ranges::stable_sort(places, {}, &Place::residual);
-  const auto said = [](const Place& p) {
-    return fmt::format("{} {} ({}{})", short_form(p.form), number(p.residual), number(p.roughness),
-                       p.at_bound > 0 ? fmt::format(", {} at a bound", p.at_bound) : "");
-  };
-  std::vector<std::string> words;
-  for (const auto& p : places) words.push_back(said(p));
+double median(std::vector<double> all) {
+  std::ranges::sort(all);
+  return all[all.size() / 2];
+}
+std::vector<double> each(const CrossFitRows& r, double PublishedFit::*of) {
+  std::vector<double> out;
+  for (const auto& p : r.published) out.push_back(p.*of);
+  return out;
+}
+
+/// Tails and roughness of measured materials, by what others published of them.
+void published(Findings& to, const CrossFitRows& r) {
+  if (r.published.empty()) return;
+  const auto tails = each(r, &PublishedFit::tail);
+  const auto longer =
+      static_cast<std::size_t>(std::ranges::count_if(tails, [](double c) { return c < 2; }));
+  const double ggx = median(each(r, &PublishedFit::ggx_log_rms)),
+               gtr = median(each(r, &PublishedFit::gtr_log_rms));
+  to.say(
+      fmt::format("{} materials measured for MERL have a longer tail than GGX, by fits that Löw "
+                  "and others published.",
+                  of_all(longer, tails.size())));
+  to.say(fmt::format("Fitted to those, GTR finds a median gamma of {:.2g}, where GGX has 2.",
+                     median(each(r, &PublishedFit::gamma))));
+  to.say(
+      fmt::format("A free gamma takes the median log-RMS residual of these materials from {:.2g} "
+                  "to {:.2g}.",
+                  ggx, gtr));
   to.say(fmt::format(
-      "{}, by RMS residual over materials and roughnesses (RMS shift of roughness): {}.", what,
-      ranking_text(words, "; furthest ")));
+      "GGX's roughness of them is {:.2g} on the median, where Beckmann's was "
+      "published as {:.2g}.",
+      median(each(r, &PublishedFit::ggx_roughness)), median(each(r, &PublishedFit::beckmann))));
 }
 
-/// Shifts of some forms over the other layouts.
-void directions(Findings& to, const CrossFitRows& r) {
-  std::vector<std::string> words;
-  for (const std::string_view form :
-       {"fresnel.schlick", "masking.smith_ggx.separable", "masking.schlick_ggx.half_alpha",
-        "masking.schlick_ggx.direct"}) {
-    std::vector<std::string> parts;
-    for (const auto& layout : cross_layouts)
-      if (const auto s =
-              shifts(cases_of(r, {once, form, Metric::log, layout.name, "IOR 1.5"}), "roughness"))
-        parts.push_back(
-            fmt::format("{} to {}", signed_number(s.least().by), signed_number(s.most().by)));
-    if (parts.size() == cross_layouts.size())
-      words.push_back(fmt::format("{} {}", short_form(form), fmt::join(parts, ", ")));
-  }
-  std::vector<std::string_view> where;
-  for (const auto& layout : cross_layouts) where.push_back(layout.what);
-  if (!words.empty())
-    to.say(
-        fmt::format("A shift belongs to the directions too. Of roughness at IOR 1.5, over {}: {}.",
-                    fmt::join(where, ", "), fmt::join(words, "; ")));
-}
-
+/// Fits of what was made from the same forms, which ought to give everything back.
 void trust(Findings& to, const CrossFitRows& r) {
-  double roughness = 0, f0 = 0, residual = 0, error = 0;
-  std::size_t own = 0, lost = 0;
+  double roughness = 0, f0 = 0, error = 0;
+  std::size_t own = 0, lost = 0, bounds = 0, values = 0;
   for (const auto& c : r.cases) {
     lost += !c.converged;
+    for (const auto& v : c.values) ++values, bounds += !c.is_determined(v);
     if (c.kind != "exact") continue;
     if (c.truth == all_orders) {
       for (const auto& v : c.values)
@@ -337,24 +276,57 @@ void trust(Findings& to, const CrossFitRows& r) {
       continue;
     }
     ++own;
-    residual = std::max(residual, c.log_rms);
     for (const auto& v : c.values) {
       if (v.parameter == "roughness") roughness = std::max(roughness, std::abs(v.shift()));
       if (v.parameter == "f0") f0 = std::max(f0, std::abs(v.shift()));
     }
   }
   if (own == 0) return;
-  to.say(fmt::format(
-      "The ruler: fitted with the forms that it was made from a slice gives its parameters {}: "
-      "over {} fits roughness is off by {:.1g} "
-      "at most, F0 by {:.1g} of itself, residual {:.1g}. Of {} fits {} did not converge. What the "
-      "random walks of "
-      "several facets leave uncertain shifts the roughness of the exact form by {:.1g} at most.",
-      roughness < 1e-6 && f0 < 1e-5 ? "back" : "back only roughly", own, roughness, f0, residual,
-      r.cases.size(), number_or_none(lost), error));
+  to.say(roughness < 1e-6 && f0 < 1e-5
+             ? "A slice fitted with the forms that it was made from gives its parameters back."
+             : fmt::format("A slice fitted with the forms that it was made from gives its "
+                           "parameters back only roughly: roughness is off by up to {:.1g}.",
+                           roughness));
+  to.say(lost == 0 ? fmt::format("All {} fits converged.", r.cases.size())
+                   : fmt::format("Of {} fits {} did not converge.", r.cases.size(), lost));
+  if (bounds > 0)
+    to.say(
+        fmt::format("Of {} fitted parameters {} ended at a bound or were not determined: no "
+                    "shift is told of them.",
+                    values, bounds));
+  if (error > 0)
+    to.say(
+        fmt::format("The random walks' noise shifts a fitted roughness by at most {:.1g}.", error));
 }
 
 }  // namespace
+
+std::vector<CrossRange> ranges(const CrossFitRows& r) {
+  std::vector<CrossRange> out;
+  const auto by_another = [&](const CrossCase& c) {
+    return std::ranges::any_of(r.cases, [&](const CrossCase& other) {
+      return other.fitted == c.fitted && other.material == c.material && other.truth == c.truth &&
+             other.metric != Metric::log;
+    });
+  };
+  for (const auto& c : r.cases) {
+    const auto layout = std::ranges::find(cross_layouts, c.layout, &CrossLayout::name);
+    if (c.truth != once || c.kind == "exact" || layout->finer > 1 || !by_another(c)) continue;
+    for (const std::string_view parameter : {"roughness", "f0"}) {
+      const auto same = [&](const CrossRange& x) {
+        return x.fitted == c.fitted && x.material == c.material && x.parameter == parameter &&
+               x.metric == c.metric && x.layout == c.layout;
+      };
+      if (std::ranges::any_of(out, same)) continue;
+      const auto s =
+          shifts(cases_of(r, {once, c.fitted, c.metric, c.layout, c.material}), parameter);
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      out.push_back({c.fitted, c.material, std::string(parameter), c.metric, layout->name,
+                     s ? s.least().by : none, s ? s.most().by : none, s.all, s.at_bound});
+    }
+  }
+  return out;
+}
 
 std::vector<CrossSentence> sentences_of_forms(const CrossFitRows& r) {
   std::vector<CrossSentence> out;
@@ -363,17 +335,26 @@ std::vector<CrossSentence> sentences_of_forms(const CrossFitRows& r) {
       return s.truth == c.truth && s.fitted == c.fitted;
     };
     if (std::ranges::any_of(out, same)) continue;
-    const auto all = cases_of(r, {c.truth, c.fitted});
     std::vector<std::string> parts;
-    const auto add = [&](const Cases& cases, std::string_view of) {
-      if (cases.empty()) return;
-      parts.push_back(
-          fmt::format("{}: shifts {}; residual {}", of, roughness_and_f0(cases), residuals(cases)));
-      if (const auto gamma = shifts(cases, "gamma"); gamma.all > 0)
-        parts.back() += fmt::format("; gamma {}", span(gamma, signed_number));
-    };
-    add(dielectrics(all), "Dielectrics");
-    add(metals(all), "Metals");
+    for (const auto& group : groups) {
+      const auto cases = group.of(cases_of(r, {c.truth, c.fitted}));
+      if (cases.empty()) continue;
+      const auto tell = [&](std::string_view parameter, std::string_view name,
+                            std::string (*said)(double)) {
+        const auto s = shifts(cases, parameter);
+        if (s.all == 0) return;
+        parts.push_back(s ? fmt::format("{} of {} shifts {}", name, group.name, span(s, said))
+                          : fmt::format("{} of {} ends at its bounds", name, group.name));
+        if (s && s.at_bound > 0)
+          parts.push_back(fmt::format("{} of {} values ended at a bound", s.at_bound, s.all));
+      };
+      tell("roughness", "Roughness", signed_number);
+      tell("f0", "F0", signed_percent);
+      tell("gamma", "Gamma", signed_number);
+      parts.push_back(fmt::format("The residual is up to {}", number(most_residual(cases))));
+      if (const double noise = rms_noise(cases); noise > 0)
+        parts.back() += fmt::format(", with {:.1g} of the walks' noise in it", noise);
+    }
     out.push_back({c.truth, c.fitted, c.kind, fmt::format("{}.", fmt::join(parts, ". "))});
   }
   return out;
@@ -381,20 +362,14 @@ std::vector<CrossSentence> sentences_of_forms(const CrossFitRows& r) {
 
 Findings findings(const CrossFitRows& r) {
   Findings all;
-  summary(all, r);
-  schlick(all, r);
-  maskings(all, r);
+  f0_of_glass(all, r);
+  roughness_of_dielectrics(all, r);
+  gamma_of_both(all, r);
   lost_energy(all, r);
-  takes_it_up(all, r, "ndf.gtr", "gamma", "A free gamma");
-  takes_it_up(all, r, "lambert+ggx/smith_ggx.correlated/exact", "kd",
-              "A free Lambertian (kd is 0 in truth)");
+  takes_it_up(all, r, "ndf.gtr", "A free gamma");
+  takes_it_up(all, r, "lambert+ggx/smith_ggx.correlated/exact", "A free Lambertian");
   other_gammas(all, r);
-  ranking(all, r, once, "fresnel", "Fresnel terms on dielectrics", dielectrics);
-  ranking(all, r, once, "fresnel", "Fresnel terms on metals", metals);
-  ranking(all, r, once, "masking", "Masking terms", any);
-  ranking(all, r, once, "distribution", "Distributions, gamma free where there is one", any);
-  ranking(all, r, all_orders, "model", "Whole models, fitted to all orders", any);
-  directions(all, r);
+  published(all, r);
   trust(all, r);
   return all;
 }

@@ -50,6 +50,7 @@ constexpr std::array combinations{"ggx/smith_ggx.separable/schlick",
                                   "ggx/schlick_ggx.half_alpha/schlick",
                                   "ggx/ue_joint/schlick.ue",
                                   "ggx/disney_remap/schlick",
+                                  "gtr/schlick_ggx.direct/schlick",
                                   "beckmann/cook_torrance/schlick",
                                   "blinn_phong/implicit/schlick"};
 

@@ -10,6 +10,7 @@
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/rule/quadrature.h"
 #include "integrate/rule/slopes.h"
+#include "reports/energy/distribution_claims.h"
 #include "reports/energy/energy.h"
 
 namespace gonio {
@@ -129,6 +130,7 @@ ClaimRows claim_rows(const std::vector<EnergyForm>& forms) {
     out.ggx_slopes.push_back({most, deviation("ndf.ggx", 0.3, most)});
   out.beckmann_deviation = deviation("ndf.beckmann", 0.3, 100);
   out.half_angle = solid_angle_of_half();
+  out.phong_from_beckmann = phong_from_beckmann();
   return out;
 }
 

@@ -110,34 +110,26 @@ float single(const Point& p) {
 
 }  // namespace
 
+std::vector<CompensationWork> compensation_work() {
+  const auto colour = operations([] { schlick_average(Counted<double>(0.5)); });
+  return {{"single", 0, 0, 0},
+          {"kulla_conty", operations<KullaContyLobe>() + colour, 3, texture_bytes + line_bytes},
+          {"turquin", operations<Turquin>(), 1, texture_bytes},
+          // It stands on A and B, which are looked up without it too.
+          {"fdez_aguera", operations<FdezAguera>(), 0, 0}};
+}
+
 std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMaterial>& materials) {
   std::vector<CompensationCost> out;
+  const auto errors = compensation_errors(materials);
+  const auto all = compensation_work();
   const Texture e(0.3F), b(0.01F), average(0.3F);
-  const auto add = [&](std::string_view id, std::size_t count, std::size_t lookups,
-                       std::size_t bytes, const Timing& without, const Timing& with) {
-    CompensationCost c{id, count, lookups, bytes, without.ns, with.ns, with.spread_ns, 0, 0, "", 0};
-    double squares = 0, gold_squares = 0;
-    std::size_t n = 0, gold = 0;
-    for (const auto& m : materials)
-      for (const auto& at : m.rows)
-        for (const auto& s : at.scattering) {
-          if (s.id != id) continue;
-          const double off = s.albedo - at.truth;
-          if (m.fresnel != "fresnel.schlick") {
-            gold_squares += off * off;
-            ++gold;
-            continue;
-          }
-          squares += off * off;
-          ++n;
-          if (std::abs(off) <= std::abs(c.worst)) continue;
-          c.worst = off;
-          c.worst_at = fmt::format("{}, roughness {:g}, {}", m.name, at.roughness,
-                                   at.mu == 0 ? "on average" : fmt::format("mu {:g}", at.mu));
-        }
-    c.rms = std::sqrt(squares / static_cast<double>(n));
-    c.gold_rms = std::sqrt(gold_squares / static_cast<double>(gold));
-    out.push_back(c);
+  const auto add = [&](std::string_view id, const Timing& without, const Timing& with) {
+    const auto& error = *std::ranges::find(errors, id, &CompensationError::id);
+    const auto& work = *std::ranges::find(all, id, &CompensationWork::id);
+    out.push_back({id, work.operations, work.lookups, work.bytes, without.ns, without.spread_ns,
+                   with.ns, with.spread_ns, error.worst, error.rms, error.worst_at,
+                   error.gold_rms});
   };
   const auto kulla_conty = [&](const Point& p) {
     return KullaContyLobe<float>::apply(std::array{
@@ -147,15 +139,12 @@ std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMateria
     return p.f0 * e(p.alpha, p.nov) + b(p.alpha, p.nov);
   };
   const Timing direct = per_point(single), image = per_point(split_sum);
-  add("single", 0, 0, 0, direct, direct);
-  const auto colour = operations([] { schlick_average(Counted<double>(0.5)); });
-  add("kulla_conty", operations<KullaContyLobe>() + colour, 3, texture_bytes + line_bytes, direct,
-      per_point([&](const Point& p) { return single(p) + kulla_conty(p); }));
-  add("turquin", operations<Turquin>(), 1, texture_bytes, direct, per_point([&](const Point& p) {
+  add("single", direct, direct);
+  add("kulla_conty", direct, per_point([&](const Point& p) { return single(p) + kulla_conty(p); }));
+  add("turquin", direct, per_point([&](const Point& p) {
         return Turquin<float>::apply(std::array{single(p), e(p.alpha, p.nov), p.f0})[0];
       }));
-  // It stands on A and B, which are looked up without it too.
-  add("fdez_aguera", operations<FdezAguera>(), 0, 0, image, per_point([&](const Point& p) {
+  add("fdez_aguera", image, per_point([&](const Point& p) {
         return FdezAguera<float>::apply(std::array{e(p.alpha, p.nov), b(p.alpha, p.nov), p.f0})[0];
       }));
   return out;

@@ -2,43 +2,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
 
-/// Roughness between those of i and k, where the loss is on either side of the share.
-double between(std::span<const double> x,
-               std::span<const double> y,
-               std::size_t i,
-               std::size_t k,
-               double share) {
-  const bool powers = x[i] > 0 && y[i] > 0 && y[k] > 0;
-  const auto scale = [&](double v) { return powers ? std::log(v) : v; };
-  const double part = (scale(share) - scale(y[i])) / (scale(y[k]) - scale(y[i]));
-  const double at = scale(x[i]) + part * (scale(x[k]) - scale(x[i]));
-  return powers ? std::exp(at) : at;
+constexpr double width = 1e-5;  ///< of a bracket that is narrow enough
+
+/// A roughness, and the most that it is off by.
+struct Place {
+  double roughness, error;
+};
+
+/// Place between two roughnesses, whose losses lie on either side of the share.
+Place crossing(
+    double low, double high, double at_low, double at_high, double share, const LossAt& at) {
+  double most = 0;
+  const auto beyond = [&](double roughness) {
+    const auto loss = at(roughness);
+    most = std::max(most, loss.error);
+    return loss.value - share;
+  };
+  std::uintmax_t steps = 60;
+  const auto [from, to] = boost::math::tools::toms748_solve(
+      beyond, low, high, at_low - share, at_high - share,
+      [](double a, double b) { return b - a < width; }, steps);
+  const double slope = std::abs(at_high - at_low) / (high - low);
+  return {(from + to) / 2, (to - from) / 2 + most / slope};
 }
 
 }  // namespace
 
 std::vector<Crossing> crossings_at(double mu,
                                    std::span<const double> roughness,
-                                   std::span<const double> loss) {
+                                   std::span<const double> loss,
+                                   const LossAt& at) {
   std::vector<Crossing> out;
   const std::size_t n = roughness.size();
   for (const double share : crossing_shares) {
     Crossing c{share, mu, {}, 0};
     const auto above = [&](std::size_t i) { return loss[i] > share; };
     const auto end = [&](std::size_t i) {  // between i and i + 1
-      const double at = between(roughness, loss, i, i + 1, share);
-      double other = roughness[i];
-      if (i > 0 && above(i - 1) == above(i))
-        other = between(roughness, loss, i - 1, i + 1, share);
-      else if (i + 2 < n && above(i + 2) == above(i + 1))
-        other = between(roughness, loss, i, i + 2, share);
-      c.error = std::max(c.error, std::abs(at - other));
-      return at;
+      const auto found = crossing(roughness[i], roughness[i + 1], loss[i], loss[i + 1], share, at);
+      c.error = std::max(c.error, found.error);
+      return found.roughness;
     };
     for (std::size_t i = 0; i < n; ++i) {
       if (!above(i)) continue;
@@ -52,17 +63,17 @@ std::vector<Crossing> crossings_at(double mu,
 }
 
 std::vector<Crossing> gather_crossings(
-    const std::function<void(double, const std::function<void(double, double)>&)>& gather) {
-  std::vector<Crossing> out;
-  for (const double mu : {1.0, 0.5, 0.1, 0.0}) {
-    std::vector<double> roughness, loss;
-    gather(mu, [&](double r, double l) {
-      roughness.push_back(r);
-      loss.push_back(l);
-    });
+    const std::function<KnownLosses(double mu)>& known,
+    const std::function<Bounded(double mu, double roughness)>& at) {
+  constexpr std::array mus{1.0, 0.5, 0.1, 0.0};
+  std::array<std::vector<Crossing>, mus.size()> found;
+  tbb::parallel_for(std::size_t{0}, mus.size(), [&](std::size_t i) {
+    const auto [roughness, loss] = known(mus[i]);
     if (!roughness.empty())
-      std::ranges::move(crossings_at(mu, roughness, loss), std::back_inserter(out));
-  }
+      found[i] = crossings_at(mus[i], roughness, loss, [&](double r) { return at(mus[i], r); });
+  });
+  std::vector<Crossing> out;
+  for (auto& of_mu : found) std::ranges::move(of_mu, std::back_inserter(out));
   return out;
 }
 

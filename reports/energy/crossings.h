@@ -7,20 +7,31 @@
 #include <span>
 #include <vector>
 
+#include "integrate/albedo/ggx_albedo.h"
 #include "reports/energy/energy.h"
 
 namespace gonio {
 
 inline constexpr std::array crossing_shares{0.01, 0.05, 0.1};
 
-/// Places where `loss`, at ascending roughnesses, exceeds each share.  Between two of them it is taken to follow a power
-/// of the roughness; the error is what twice the step would change.
+/// Loss at a roughness, with the most that it is off by.
+using LossAt = std::function<Bounded(double roughness)>;
+
+/// Places where a loss exceeds each share.  Those between two roughnesses are solved for, by TOMS 748, to 1e-5; the
+/// error is half of what is left of the bracket, and what the loss's own error moves it by.
+/// \param loss  known at these ascending roughnesses: a share lies between two of them at most once
 std::vector<Crossing> crossings_at(double mu,
                                    std::span<const double> roughness,
-                                   std::span<const double> loss);
-/// Crossings at mu 1, 0.5, 0.1 and on average (mu 0), where there are losses.
-/// \param gather  (mu, add): calls add(roughness, loss) by ascending roughness
+                                   std::span<const double> loss,
+                                   const LossAt& at);
+
+/// Losses by ascending roughness.
+struct KnownLosses {
+  std::vector<double> roughness, loss;
+};
+/// Crossings at mu 1, 0.5, 0.1 and on average (mu 0), where losses are known; both are asked in parallel.
 std::vector<Crossing> gather_crossings(
-    const std::function<void(double mu, const std::function<void(double, double)>& add)>& gather);
+    const std::function<KnownLosses(double mu)>& known,
+    const std::function<Bounded(double mu, double roughness)>& at);
 
 }  // namespace gonio

@@ -18,6 +18,13 @@ EnergyOptions energy_options(bool full) {
   const double step = full ? 0.025 : 0.05;
   EnergyOptions o{full, steps(0.05, step), steps(step, step), full ? 262'144U : 65'536U};
   o.mu.insert(o.mu.begin(), 0.01);
+  o.views = full ? 128 : 16;
+  return o;
+}
+
+EnergyOptions compensation_domain() {
+  EnergyOptions o{false, steps(0.1, 0.1), steps(0.1, 0.1), 0};
+  o.gold = false;
   return o;
 }
 

@@ -23,7 +23,7 @@ struct Crossing {
                       ///< perhaps beyond
   };
   std::vector<Range> ranges;  ///< none: nowhere
-  double error;               ///< of each end
+  double error;               ///< of each end that is no end of what was looked at
 };
 
 /// A distribution under a masking at F = 1, or a whole model in white.
@@ -49,7 +49,8 @@ struct EnergyForm {
 
 /// Colours of one microsurface (GGX, Smith correlated), each with its truth.
 struct EnergyMaterial {
-  std::string name;     ///< "F0 = 0.04", "gold, red"
+  /// "F0 = 0.04"; "gold, red" is a channel of the linear sRGB in which gold's spectrum is seen under D65.
+  std::string name;
   std::string fresnel;  ///< id
 
   struct At {
@@ -63,8 +64,10 @@ struct EnergyMaterial {
     std::vector<Scattering> scattering;
   };
   std::vector<At> rows;
-  /// Crossings of the loss as a share of what should leave: 1 − E_single / E.
+  /// Crossings of the loss as a share of what should leave: 1 − E_single / E, E between the roughnesses of the rows
+  /// by the polynomial through the four nearest.
   std::vector<Crossing> crossings;
+  double normal = 0;           ///< reflectance at normal incidence, in [0, 1]
   std::optional<double> f0{};  ///< of Schlick's Fresnel; none of another
 };
 
@@ -79,17 +82,33 @@ struct EstimatorPoint {
   double ns, ns_spread;  ///< median, and half the distance of the quartiles
 };
 
+/// Error of the albedo that a compensation gives, against the truth, with E, E_avg, A and B as a shader looks them up: in half, 32 × 32
+/// texels and 32, bilinear.
+struct CompensationError {
+  std::string_view id;
+  double worst, rms;  ///< over the materials of Schlick's Fresnel in compensation_domain()
+  std::string worst_at;
+  double gold_rms;  ///< not a number: not for it, or not looked at
+};
+
+/// Work of a compensation in a shader, beside that of single scattering.
+struct CompensationWork {
+  std::string_view id;
+  std::size_t operations;  ///< of its formula, tables aside
+  std::size_t lookups;     ///< bilinear
+  std::size_t bytes;       ///< of its tables, 32 × 32 in half
+};
+
 /// Cost of a compensation where a shader evaluates it.
 struct CompensationCost {
   std::string_view id;
-  std::size_t operations;  ///< of its formula, tables aside
-  std::size_t lookups;     ///< bilinear, beside those that single scattering needs
-  std::size_t bytes;       ///< of its tables, 32 × 32 in half
-  double without_ns;       ///< D V F of one light and view, or the split sum's F0 A + B
-  double ns, spread_ns;    ///< the same compensated, one at a time in float
-  double worst, rms;       ///< error against the truth over the materials of Schlick's Fresnel
+  std::size_t operations, lookups, bytes;  ///< as its CompensationWork
+  /// D V F of one light and view, or the split sum's F0 A + B
+  double without_ns, without_spread_ns;
+  double ns, spread_ns;  ///< the same compensated, one at a time in float
+  double worst, rms;     ///< as its CompensationError
   std::string worst_at;
-  double gold_rms;  ///< not a number: not for it
+  double gold_rms;
 };
 
 /// E(α, NoV) at F = 1 as a shader has it, against quadrature, from roughness 0.05 on.
@@ -116,13 +135,20 @@ struct TableSamples {
 };
 /// Split sum over the integral it stands for − 1, of luminance, over views in an environment.
 struct LitError {
-  std::string environment;
+  std::string environment;  ///< a sky by formula, or the name of a map given
   double roughness, nov, f0;
   double rms, max, bias;
   double of_mean;  ///< RMS of split − exact, over the mean of exact
   double
       of_mean_spread;  ///< half of what it differs by between one half of the views and the other
   double truth;        ///< what each is off by itself, at most
+  /// ΔE2000 between both as a display shows them, a white ball in that light at half of its white: mean over views, and most.
+  double delta_e, delta_e_max;
+};
+/// Time of a pixel under image-based light, on one thread.
+struct LightCost {
+  std::string_view way;  ///< "split sum", "quadrature"
+  double ns, spread_ns;
 };
 /// Irradiance by a sum over its exact value − 1, over normals.
 struct IrradianceRow {
@@ -137,8 +163,9 @@ struct IrradianceRow {
 struct ImageLight {
   std::vector<TableError> tables;
   std::vector<TableSamples> table_samples;
-  std::vector<LitError> lit;  ///< of the environments given
+  std::vector<LitError> lit;  ///< under skies by formula, and of the environments given
   std::size_t views = 0;      ///< of each
+  std::vector<LightCost> costs;
   std::vector<IrradianceRow> irradiance;
 };
 
@@ -169,6 +196,11 @@ struct ClaimRows {
     double off;
   };
   std::optional<HalfAngle> half_angle;
+  /// Share of the facets' projected area that two distributions put at different angles: ½ ∫ |D₁ − D₂| cos θ dω.
+  struct Apart {
+    double roughness, share;
+  };
+  std::vector<Apart> phong_from_beckmann{};  ///< by ascending roughness
 };
 
 /// Everything that the report measures.
@@ -188,7 +220,9 @@ struct EnergyOptions {
   std::vector<double> roughness, mu;  ///< ascending, up to 1
   std::size_t samples;                ///< of estimators by chance, at most
   std::vector<std::string> forms{};   ///< names; empty: all
+  bool gold = true;                   ///< among the materials
   std::vector<ReportOptions::Light> environments{};
+  std::size_t views = 16;  ///< in each light
 };
 /// Quick: by 0.05 in roughness and mu; full: by 0.025.
 EnergyOptions energy_options(bool full);
@@ -196,7 +230,13 @@ EnergyOptions energy_options(bool full);
 std::vector<EnergyForm> energy_forms(const EnergyOptions&, const std::function<void(double)>& done);
 std::vector<EnergyMaterial> energy_materials(const EnergyOptions&,
                                              const std::function<void(double)>& done);
-/// Costs of the compensations beside their errors for these materials.
+/// Domain over which every report compares compensations: roughness and mu from 0.1 to 1 by 0.1, F0 of 0.04, 0.5, 0.9 and 1.
+EnergyOptions compensation_domain();
+/// Errors over those of the rows that lie in that domain.
+std::vector<CompensationError> compensation_errors(const std::vector<EnergyMaterial>&);
+/// "single", with nothing, "kulla_conty", "turquin" and "fdez_aguera".
+std::vector<CompensationWork> compensation_work();
+/// Costs of the compensations beside those errors.
 std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMaterial>&);
 std::vector<AlbedoForm> albedo_form_errors();
 std::vector<EstimatorPoint> estimator_points(const EnergyOptions&,

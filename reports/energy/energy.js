@@ -9,6 +9,8 @@ const ratio_of = (share) => `${plain(100 * share)}\u202f%`;
 const reference = "masking.smith_ggx.correlated";
 const roughnesses = unique(rows.map((r) => r.roughness)), mus = unique(rows.map((r) => r.mu));
 
+most_shipped = ["smith_ggx.correlated", "schlick_ggx.direct", "schlick_ggx.half_alpha", "ue_joint", "smith_ggx.separable", "smith_beckmann.correlated", "none"];
+
 // --- The answer ------------------------------------------------------------------------------------------
 /// Roughnesses at which the loss exceeds each share, by what and at which angle.
 function crossing_table(kind, names, text) {
@@ -26,10 +28,11 @@ function crossing_table(kind, names, text) {
   const t = table(head, names.map((name) => [el("code", {}, text(name)),
     ...angles.flatMap((mu) => shares.map((share) => ({ n: said(find(name, mu, share)) })))]));
   t.classList.add("crossings");
+  const told = in_cards(t, ["", ...angles.flatMap((mu) => shares.map((share) => `${ratio_of(share)} ${mu_text(mu)}`))]);
   t.tHead.prepend(top);
-  return scroll(t);
+  return told;
 }
-const crossing_note = "A single number: from there on, up to roughness 1. Two: from one to the other. ≤ 0.05: at the least roughness looked at already. What each is uncertain by is under the pointer.";
+const crossing_note = "Each number is the roughness from which on that much is lost. Where a loss ends again, both ends stand there. ‘≤ 0.05’ means that it is lost on the smoothest surface looked at. The error of each stands under the pointer.";
 
 // --- Every masking ---------------------------------------------------------------------------------------
 const of_form = group_by(rows, (r) => r.form);
@@ -60,7 +63,8 @@ function bounces() {
   const angles = unique(truth.map((t) => t.mu));
   const panels = changing(() => el("div", { class: "columns" },
     figure_view(picture_of(figures, "bounces", { material, angle: mu }), { height: 280, y_text: (y) => significant(y, 4) }),
-    figure_view(picture_of(figures, "beyond", { material, angle: mu }), { height: 280, y_text: (y) => percent(y / 100, 3) })));
+    figure_view(picture_of(figures, "beyond", { material, angle: mu }), { height: 280, y_text: (y) => percent(y / 100, 3) })),
+  () => small_pictures(figures.filter((f) => f.family === "bounces" && f.choices.angle === String(mu) && f.choices.material !== material)));
   return section("Bounce by bounce", "GGX's microsurface with heights and slopes as Smith's masking assumes them, light followed to the end: the deterministic solution, to " + significant(Math.max(...truth.map((t) => t.error)), 1) + ".",
     el("div", { class: "controls" }, chooser("Material", materials.map((m) => [m, m]), material, (m) => { material = m; panels.again(); }),
       chooser("Angle", angles.map((a) => [String(a), mu_text(a)]), "average", (a) => { mu = a; panels.again(); })), panels.node);
@@ -75,7 +79,7 @@ function compensations() {
     const o = { height: 280, y_text: (y) => minus(y.toFixed(5)), only: (c) => without || c.name !== "single" };
     return el("div", { class: "columns" }, figure_view(picture_of(figures, "compensation", { material, angle: mu }), o),
       figure_view(picture_of(figures, "compensation_by_angle", { material }), o));
-  });
+  }, () => small_pictures(figures.filter((f) => f.family === "compensation" && f.choices.angle === String(mu) && f.choices.material !== material)));
   const cost_rows = costs.map((c) => [el("code", {}, short(c.scattering)), { n: significant(c.rms, 2) }, { n: significant(c.worst, 2) }, c.worst_at, { n: significant(c.gold_rms, 2) },
     { n: String(c.operations) }, { n: String(c.lookups) }, { n: c.bytes ? count(c.bytes) : "0" }, { n: `${significant(c.cost_ns, 2)} ± ${significant(c.spread_ns, 1)}` }, { n: significant(c.without_ns, 2) }]);
   return section("What gives it back", "Albedo of each compensation less the truth: the deterministic solution of all bounces, exact to " + significant(Math.max(...truth.map((t) => t.error)), 1) + ". Below 0 light is still missing, above it there is too much.",
@@ -83,8 +87,8 @@ function compensations() {
       chooser("Angle", angles.map((a) => [String(a), mu_text(a)]), "0.5", (a) => { mu = a; panels.again(); }),
       choice("Curves", [[false, "compensations"], [true, "and single scattering"]], without, (v) => { without = v; panels.again(); })), panels.node,
     el("h3", {}, "Error and cost"),
-    scroll(table(["", { n: "RMS error" }, { n: "worst" }, "worst at", { n: "RMS, gold" }, { n: "operations" }, { n: "lookups" }, { n: "table bytes" }, { n: "ns" }, { n: "ns without" }], cost_rows)),
-    el("p", { class: "small muted" }, "Errors over the materials of Schlick's Fresnel, F0 from 0.04 to 1, all roughnesses and angles; of gold beside them. Operations: of the formula for one channel, counted. Table bytes: 32 × 32 in half. ns: D V F of GGX for one light and view with the compensation (of fdez_aguera, which stands on the split sum: F0 A + B), "
+    in_cards(table(["", { n: "RMS error" }, { n: "worst" }, "worst at", { n: "RMS, gold" }, { n: "operations" }, { n: "lookups" }, { n: "table bytes" }, { n: "ns" }, { n: "ns without" }], cost_rows)),
+    el("p", { class: "small muted" }, "Errors over Schlick's Fresnel with F0 of 0.04, 0.5, 0.9 and 1, roughness and mu from 0.1 to 1, with the tables that a shader reads; of gold, by its spectrum, beside them. Operations: of the formula for one channel, counted. Table bytes: 32 × 32 in half. ns: D V F of GGX for one light and view with the compensation (of fdez_aguera, which stands on the split sum: F0 A + B), "
       + "beside the same without; one at a time, in float, on one thread, median ± half the distance of the quartiles. fdez_aguera is for Schlick's Fresnel alone."));
 }
 
@@ -92,7 +96,7 @@ function compensations() {
 function albedo_formulas() {
   if (!albedo_forms.length) return null;
   return section("E as a formula", "What compensations look up, E of GGX under Smith, correlated, F = 1: without a table by a fit. Errors against quadrature over roughness 0.05 to 1 and NoV 0.005 to 1.",
-    scroll(table(["", { n: "RMS error" }, { n: "worst" }, "worst at", { n: "operations" }, { n: "table bytes" }],
+    in_cards(table(["", { n: "RMS error" }, { n: "worst" }, "worst at", { n: "operations" }, { n: "table bytes" }],
       albedo_forms.map((f) => [el("code", {}, short(f.form)), { n: significant(f.rms, 2) }, { n: significant(f.worst, 2) }, f.worst_at, { n: f.operations ? String(f.operations) : "–" }, { n: f.bytes ? count(f.bytes) : "0" }]))));
 }
 
@@ -108,18 +112,17 @@ function against_time() {
 // --- Image-based light --------------------------------------------------------------------------------------
 function split_sum() {
   if (!split_sum_tables.length) return null;
-  const tables = scroll(table(["texels", "stored as", { n: "lookup, most" }, { n: "RMS" }, { n: "between centres, most" }, { n: "storage, most" }, { n: "quadrature" }],
+  const tables = in_cards(table(["texels", "stored as", { n: "lookup, most" }, { n: "RMS" }, { n: "between centres, most" }, { n: "storage, most" }, { n: "quadrature" }],
     split_sum_tables.map((t) => [`${t.size} × ${t.size}`, t.stored, { n: significant(t.lookup_max, 2) }, { n: significant(t.lookup_rms, 2) },
       { n: significant(t.between_centres_max, 2) }, { n: significant(t.storage_max, 2) }, { n: "± " + significant(t.bound, 1) }])));
   const samples = figure_view(picture_of(figures, "split_sum_samples"), { height: 280, y_text: (y) => significant(y, 2) });
-  const light = [...group_by(split_sum_light, (l) => l.environment)].map(([name, list]) => scroll(table(
+  const light = [...group_by(split_sum_light, (l) => l.environment)].map(([name, list]) => in_cards(table(
     [name, ...unique(list.map((l) => l.nov)).flatMap((nov) => unique(list.map((l) => l.f0)).map((f0) => ({ n: `NoV ${plain(nov)}, F0 ${plain(f0)}` })))],
-    unique(list.map((l) => l.roughness)).map((r) => [`roughness ${plain(r)}`, ...list.filter((l) => l.roughness === r).map((l) => ({ n: el("span", { title: `relative to each view: RMS ${percent(l.rms)}, most ${percent(l.max)}, bias ${signed_percent(l.bias)}; truth to ${percent(l.truth_error)}` }, `${percent(l.of_mean)} ± ${percent(l.of_mean_spread, 1)}`) }))]))));
+    unique(list.map((l) => l.roughness)).map((r) => [`roughness ${plain(r)}`, ...list.filter((l) => l.roughness === r).map((l) => ({ n: el("span", { title: `most ΔE ${significant(l.delta_e_2000_max, 2)}; luminance of each view: RMS ${percent(l.rms)}, most ${percent(l.max)}, bias ${signed_percent(l.bias)}; RMS over the mean ${percent(l.of_mean)} ± ${percent(l.of_mean_spread, 1)}; truth to ${percent(l.truth_error)}` }, significant(l.delta_e_2000, 2)) }))]))));
   return section("The split sum", "GGX under Smith, correlated, and Schlick: E = F0 A + B of an even environment. Errors of A + B after bilinear lookup over all NoV and roughness.",
     tables, el("div", { class: "panels" }, samples),
     el("h3", {}, "Under an environment"),
-    light.length ? [el("p", { class: "small muted" }, "RMS over views of split sum − integral, over the integral's mean, in luminance; the split takes n = v = r, so at grazing angles the lobe has the wrong shape. " + `${views} views; ±: half of what one half of them says and the other. Relative to each view, and the truth's own error, under the pointer.`), ...light]
-      : el("p", { class: "small muted" }, "Not measured: no map was given (--environment FILE …)."));
+    [el("p", { class: "small muted" }, `ΔE2000 between the split sum and the integral, as a display shows them with a white ball at half of its white: the mean over ${views} views. The split takes n = v = r, so at grazing angles its lobe has the wrong shape. The greatest difference, and that of the luminance, stand under the pointer. Skies are made by formula; maps of your own come with --environment FILE.`), ...light]);
 }
 function irradiances() {
   const views_of = (family) => el("div", { class: "panels" }, figures.filter((f) => f.family === family).map((f) => figure_view(f, { height: 260, y_text: (y) => percent(y / 100) })));
@@ -128,10 +131,12 @@ function irradiances() {
     el("h3", {}, "Against samples"), views_of("irradiance_by_samples"), el("h3", {}, "Against time"), views_of("irradiance_by_time"));
 }
 
-document.getElementById("page").replaceChildren(...[
-  el("p", { class: "over" }, "gonio report energy"), el("h1", {}, "What single scattering loses, and what gives it back"),
-  findings_view(findings),
-  materials.length ? section("From which roughness on does it matter?", "GGX under Smith masking, correlated: the roughness from which on more than 1, 5, 10 % of what should leave is missing, by material and angle. " + crossing_note,
-    crossing_table("material", materials, (m) => m)) : null,
-  maskings(), bounces(), compensations(), albedo_formulas(), against_time(), split_sum(), irradiances(),
-  el("footer", {}, `${full ? "Full" : "Quick"} setting. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));
+const first = picture_of(figures, "average_loss") ?? figures[0];
+show_report({
+  command: "report energy", title: "What single scattering loses, and what gives it back", findings, first: first && figure_view(first, { height: 330, copy: true, y_text: (y) => percent(y / 100, 3) }),
+  sections: [
+    materials.length ? section("From which roughness on does it matter?", "GGX under Smith masking, correlated: the roughness from which on more than 1, 5, 10 % of what should leave is missing, by material and angle. " + crossing_note,
+      crossing_table("material", materials, (m) => m)) : null,
+    maskings(), bounces(), compensations(), albedo_formulas(), against_time(), split_sum(), irradiances()],
+  setting: `${full ? "Full" : "Quick"} setting. Every figure of this page is in its data block and in the .json beside it.`,
+});

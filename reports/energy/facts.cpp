@@ -32,16 +32,35 @@ void add_scattering(std::vector<Facts::Scattering>& to, const EnergyMaterial& m)
   }
 }
 
+/// The table of 32 × 32 texels in half, and what the split is off by under skies by formula, and under the environments given.
+void add_split_sum(Facts& to, const ImageLight& light) {
+  const auto table = std::ranges::find_if(
+      light.tables, [](const TableError& t) { return t.size == 32 && t.stored == "half"; });
+  if (table == light.tables.end()) return;
+  constexpr std::size_t bytes_of_texel = 2 * 2;
+  Facts::SplitSum s{table->size, table->size * table->size * bytes_of_texel, table->lookup_rms};
+  for (const auto& l : light.lit) {
+    auto* const seen = l.nov == 1 ? &s.head_on : l.nov == 0.1 ? &s.grazing : nullptr;
+    if (seen) *seen = std::max(seen->value_or(0), l.of_mean);
+  }
+  to.split_sum = s;
+}
+
 }  // namespace
 
 Facts facts(const EnergyRows& r) {
   Facts f;
+  add_split_sum(f, r.light);
   for (const auto& m : r.materials)
     if (m.f0) add_scattering(f.scattering, m);
   for (const auto& c : r.compensations)
     if (c.id != "single")
       f.compensations.push_back(
           {std::string(c.id), c.id == "fdez_aguera", c.ns - c.without_ns, c.spread_ns, c.bytes});
+  for (const auto& l : r.light.lit)
+    f.image_light.push_back({l.environment, l.f0, l.roughness, l.nov, l.delta_e, l.delta_e_max});
+  for (const auto& c : r.light.costs)
+    f.image_light_times.push_back({std::string(c.way), c.ns, c.spread_ns});
   return f;
 }
 

@@ -1,31 +1,33 @@
 // The energy report in sentences: made from its figures alone.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "brdf/catalogue/registry.h"
+#include "brdf/model/presets.h"
+#include "reports/energy/distribution_claims.h"
 #include "reports/energy/energy.h"
 #include "reports/finding/words.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
 
-/// "1 % from roughness 0.42 on, 5 % from 0.57 to 0.8, 10 % nowhere"
-std::string thresholds(const std::vector<Crossing>& all, double mu) {
-  std::vector<std::string> parts;
-  for (const auto& c : all) {
-    if (c.mu != mu) continue;
-    std::vector<std::string> ranges;
-    for (const auto& r : c.ranges)
-      ranges.push_back(
-          range_text(r.from, r.to, parts.empty() && ranges.empty() ? "roughness " : ""));
-    parts.push_back(
-        fmt::format("{:g}\u00a0% {}", 100 * c.share,
-                    ranges.empty() ? "nowhere" : fmt::format("{}", fmt::join(ranges, " and "))));
-  }
-  return fmt::format("{}", fmt::join(parts, ", "));
+/// "from roughness 0.57 on", "at no roughness": where a loss exceeds a share.
+std::string where_lost(const std::vector<Crossing>& all, double mu, double share) {
+  const auto c =
+      std::ranges::find_if(all, [&](const Crossing& x) { return x.mu == mu && x.share == share; });
+  if (c == all.end() || c->ranges.empty()) return "at no roughness";
+  return range_text(c->ranges[0].from, c->ranges[0].to, "roughness ");
+}
+constexpr double tenth = 0.1;
+
+/// Form as it stands in a sentence, by its title in the catalogue.
+std::string words_for(const EnergyForm& f) {
+  if (f.masking == "masking.none") return "GGX without masking";
+  if (f.masking == "masking.disney_coat") return "Disney’s coat";
+  if (!f.model.empty()) return std::string(find_preset(f.model)->about.title);
+  return fmt::format("“{}”", catalogue()[find_term(f.masking)].about->title);
 }
 
 /// Place where a form reflects most.
@@ -39,107 +41,130 @@ bool makes_light(const EnergyForm& f) {
   return at.albedo - at.error > 1 + 1e-6;
 }
 
-/// Findings from the rows, beside the claims.
-void measured(Findings& to, const EnergyRows& r) {
-  if (const auto* f = find_form(r.forms, "masking.smith_ggx.correlated")) {
+/// Loss of GGX by its masking alone.
+void of_white(Findings& to, const EnergyRows& r) {
+  const auto* f = find_form(r.forms, "masking.smith_ggx.correlated");
+  if (!f) return;
+  to.say(fmt::format(
+      "White GGX under height-correlated Smith loses a tenth of the light {}, seen head on. Seen "
+      "at mu = 0.1 it does {}.",
+      where_lost(f->crossings, 1, tenth), where_lost(f->crossings, 0.1, tenth)));
+  const auto& rough = f->averages.back();
+  for (const auto& c : f->crossings)
+    if (c.mu == 0 && c.share == 0.05 && !c.ranges.empty())
+      to.headline = fmt::format(
+          "Rough metal goes dark: one bounce under GGX loses {} of white light from roughness "
+          "{:.2f} on, and {} where it is roughest.",
+          percent(c.share), c.ranges[0].from, percent(1 - rough.albedo, 2));
+  const auto normal =
+      std::ranges::find_if(f->rows, [](const auto& at) { return at.roughness == 1 && at.mu == 1; });
+  const auto* other = find_form(r.forms, "masking.smith_ggx.separable");
+  if (other && normal != f->rows.end())
     to.say(
-        fmt::format("With nothing but its masking (F = 1), GGX under Smith, correlated, loses {}: "
-                    "{}; {}: {}; {}: {}.",
-                    at_angle(1), thresholds(f->crossings, 1), at_angle(0),
-                    thresholds(f->crossings, 0), at_angle(0.1), thresholds(f->crossings, 0.1)));
-    const auto& rough = f->averages.back();
-    for (const auto& c : f->crossings)
-      if (c.mu == 0 && c.share == 0.05 && !c.ranges.empty())
-        to.headline = fmt::format(
-            "Rough metal goes dark: one bounce under GGX loses {} of white light from roughness "
-            "{:.2f} on, and {} where it is roughest.",
-            percent(c.share), c.ranges[0].from, percent(1 - rough.albedo, 2));
-    const auto normal = std::ranges::find_if(
-        f->rows, [](const auto& at) { return at.roughness == 1 && at.mu == 1; });
-    const auto* other = find_form(r.forms, "masking.smith_ggx.separable");
-    if (other && normal != f->rows.end())
-      to.say(
-          fmt::format("At roughness 1 that is {} at normal incidence and {} on average; the "
-                      "separable form loses {} on "
-                      "average.",
-                      percent(1 - normal->albedo), percent(1 - rough.albedo),
-                      percent(1 - other->averages.back().albedo)));
-  }
-  for (const auto& m : r.materials)
-    if (m.name == "F0 = 0.04" || m.name == "gold, red")
-      to.say(fmt::format("Of what {} should reflect there is missing {}: {}; {}: {}.", m.name,
-                         at_angle(1), thresholds(m.crossings, 1), at_angle(0),
-                         thresholds(m.crossings, 0)));
-  if (!r.compensations.empty()) {
-    std::vector<std::string> parts;
-    for (const auto& c : r.compensations)
-      parts.push_back(
-          fmt::format("{} {:.2g} (at worst {:+.2g}: {})", c.id, c.rms, c.worst, c.worst_at));
+        fmt::format("At roughness 1 it loses {} at normal incidence and {} on average. Separable "
+                    "Smith loses {} on average.",
+                    percent(1 - normal->albedo), percent(1 - rough.albedo),
+                    percent(1 - other->averages.back().albedo)));
+}
+
+/// Loss of materials, as a share of what they should reflect.
+void of_materials(Findings& to, const EnergyRows& r) {
+  struct Told {
+    std::string_view material, words;
+  };
+  static constexpr Told told[] = {{"F0 = 0.04", "plastic of F0 = 0.04"},
+                                  {"gold, red", "gold in its red channel"}};
+  for (const auto& t : told)
+    for (const auto& m : r.materials)
+      if (m.name == t.material)
+        to.say(
+            fmt::format("On average over the hemisphere, {} misses a tenth of what it should "
+                        "reflect {}.",
+                        t.words, where_lost(m.crossings, 0, tenth)));
+}
+
+void of_compensations(Findings& to, const EnergyRows& r) {
+  const auto rms = [&](std::string_view id) {
+    const auto c = std::ranges::find(r.compensations, id, &CompensationCost::id);
+    return c == r.compensations.end() ? "–" : fmt::format("{:.2g}", c->rms);
+  };
+  if (!r.compensations.empty())
     to.say(
-        fmt::format("RMS distance of the albedo from the truth, F0 from 0.04 to 1 under Schlick's "
-                    "Fresnel together: {}.",
-                    fmt::join(parts, "; ")));
-  }
-  std::vector<std::string> gains;
-  for (const auto& f : r.forms)
-    if (const auto& at = brightest(f); makes_light(f))
-      gains.push_back(
-          fmt::format("{} (E = {:.3g} at {})", f.name, at.albedo, place(at.roughness, at.mu)));
-  if (!gains.empty()) to.say(fmt::format("Light is made by {}.", fmt::join(gains, ", ")));
+        fmt::format("With the tables that a shader reads, Kulla and Conty leave an RMS error of "
+                    "{} in the albedo, Turquin {} and Fdez-Agüera {}. This is under Schlick’s "
+                    "Fresnel with F0 from 0.04 on, and roughness and mu of 0.1 or more.",
+                    rms("kulla_conty"), rms("turquin"), rms("fdez_aguera")));
   if (r.albedo_forms.size() == 3)
     to.say(fmt::format(
-        "E as a formula: {} operations are off by {:.2g} at most (RMS {:.2g}), where MaterialX's "
-        "fit takes {} and is off "
-        "by {:.2g} ({:.2g}).",
-        r.albedo_forms[0].operations, std::abs(r.albedo_forms[0].worst), r.albedo_forms[0].rms,
-        r.albedo_forms[1].operations, std::abs(r.albedo_forms[1].worst), r.albedo_forms[1].rms));
+        "The albedo E of GGX as a formula of {} operations is off by {:.2g} at most. MaterialX’s "
+        "fit of it takes {} and is off by {:.2g}.",
+        r.albedo_forms[0].operations, std::abs(r.albedo_forms[0].worst),
+        r.albedo_forms[1].operations, std::abs(r.albedo_forms[1].worst)));
+}
+
+/// Error of the split sum, where it shows most.
+void of_split_sum(Findings& to, const EnergyRows& r) {
   for (const auto& t : r.light.tables)
     if (t.size == 32 && t.stored == "half")
       to.say(
-          fmt::format("A split-sum table of 32 × 32 texels in half reproduces A + B to {:.2g} RMS "
-                      "by bilinear lookup, {:.2g} "
-                      "at most (at grazing angles, beyond the outermost centres; between them "
-                      "{:.2g}); half takes {:.1g}.",
-                      t.lookup_rms, t.lookup, t.between, t.storage));
-  if (!r.light.lit.empty()) {
-    const auto range = [&](double nov) {
-      double high = 0, spread = 0;
-      for (const auto& l : r.light.lit)
-        if (l.nov == nov && l.of_mean > high) high = l.of_mean, spread = l.of_mean_spread;
-      return high < 0.1 ? fmt::format("{:.2g} ± {:.1g}\u00a0%", 100 * high, 100 * spread)
-                        : fmt::format("{:.0f} ± {:.0f}\u00a0%", 100 * high, 100 * spread);
-    };
+          fmt::format("A split-sum table of 32 × 32 texels in half gives A + B to {:.2g} RMS. "
+                      "Beyond the outermost centres, at grazing angles, it is off by up to "
+                      "{:.2g}.",
+                      t.lookup_rms, t.lookup));
+  const auto most = [&](double f0, double nov) {
+    const LitError* worst = nullptr;
+    for (const auto& l : r.light.lit)
+      if (l.f0 == f0 && l.nov == nov && (!worst || l.delta_e > worst->delta_e)) worst = &l;
+    return worst;
+  };
+  if (const auto* head_on = most(1, 1), *grazing = most(1, 0.1); head_on && grazing) {
+    const auto light = [](const LitError& l) { return fmt::format("the {}", l.environment); };
     to.say(
-        fmt::format("Under the environments given the split sum is off by up to {} of the mean at "
-                    "NoV = 1 and up to {} at NoV = "
-                    "0.1 (RMS over {} views; ±: what half of them say).",
-                    range(1), range(0.1), r.light.views));
+        fmt::format("The split sum changes white metal seen head on by a mean ΔE2000 of {:.2g} "
+                    "at most, under {} at roughness {:g}.",
+                    head_on->delta_e, light(*head_on), head_on->roughness));
+    to.say(
+        fmt::format("Seen at mu = 0.1, where the lobe is no longer round, it is {:.2g}, under {}.",
+                    grazing->delta_e, light(*grazing)));
   }
+  if (const auto* plastic = most(0.04, 0.1))
+    to.say(
+        fmt::format("Black plastic of F0 = 0.04, seen at mu = 0.1, changes by a mean ΔE2000 of "
+                    "{:.2g} at most.",
+                    plastic->delta_e));
+  if (r.light.costs.size() == 2)
+    to.say(
+        fmt::format("A pixel of image-based light takes {:.0f} ns by the split sum, and {:.2g} "
+                    "ms by the integral to 1\u00a0%.",
+                    r.light.costs[0].ns, r.light.costs[1].ns / 1e6));
 }
 
 void no_light_is_made(Findings& to, const EnergyRows& r) {
   if (r.forms.empty()) return;
-  std::vector<std::pair<double, std::string>> makers;
-  double largest = 0;  // of those that do not
+  const EnergyForm* most = nullptr;
+  std::size_t makers = 0;
+  double largest = 0;  // of those that make none
   for (const auto& f : r.forms) {
-    const auto& at = brightest(f);
-    if (makes_light(f))
-      makers.emplace_back(at.albedo, fmt::format("{} {:.3g} times at {}", f.name, at.albedo,
-                                                 place(at.roughness, at.mu)));
-    else
-      largest = std::max(largest, at.albedo);
+    const double albedo = brightest(f).albedo;
+    if (!makes_light(f)) {
+      largest = std::max(largest, albedo);
+      continue;
+    }
+    ++makers;
+    if (!most || albedo > brightest(*most).albedo) most = &f;
   }
-  std::ranges::sort(makers, std::greater{});
-  std::vector<std::string> words;
-  for (const auto& [value, text] : makers)
-    if (words.size() < 3) words.push_back(text);
+  std::string words;
+  if (most) {
+    const auto& at = brightest(*most);
+    words = fmt::format(" Most does {}: {:.3g} times as much at {}.", words_for(*most), at.albedo,
+                        place(at.roughness, at.mu));
+  }
   to.judge("reflected energy never exceeds incoming", "seeds 000 and 001, conservation of energy",
-           verdict(makers.empty(), true),
-           fmt::format("{} forms exceed it", of_all(makers.size(), r.forms.size())),
-           fmt::format("at F = 1, {} forms reflect more than comes in somewhere{}{}; the "
+           verdict(makers == 0, true),
+           fmt::format("{} forms exceed it", of_all(makers, r.forms.size())),
+           fmt::format("of what is shipped, {} forms reflect more than comes in somewhere.{} The "
                        "others reflect {:.4f} of it at most.",
-                       of_all(makers.size(), r.forms.size()), words.empty() ? "" : ", most ",
-                       fmt::join(words, ", "), largest));
+                       of_all(makers, r.forms.size()), words, largest));
 }
 
 void energy_does_not_stay(Findings& to, const EnergyRows& r) {
@@ -149,12 +174,10 @@ void energy_does_not_stay(Findings& to, const EnergyRows& r) {
   to.judge("as roughness grows the highlight widens and dims so that energy stays",
            "seed 001, conservation of energy", verdict(rough.albedo > 0.99),
            fmt::format("{} leaves at roughness {:g}", percent(rough.albedo), rough.roughness),
-           fmt::format(
-               "it widens and dims more than that. With nothing absorbed (GGX, Smith "
-               "correlated, F = 1, one bounce, average over the hemisphere) {} of the light "
-               "leaves at roughness {:g} and {} at roughness {:g}; what is missing met a "
-               "second facet.",
-               percent(smooth.albedo), smooth.roughness, percent(rough.albedo), rough.roughness));
+           fmt::format("it dims more than that. With nothing absorbed, one bounce under GGX "
+                       "reflects {} of the light where it is smoothest, and {} at roughness {:g}. "
+                       "What is missing met a second facet.",
+                       percent(smooth.albedo), percent(rough.albedo), rough.roughness));
 }
 
 void fixed_coat(Findings& to, const EnergyRows& r) {
@@ -168,84 +191,71 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
     if (coat->rows[i].mu >= 0.1 && off > most) most = off, at = i;
   }
   const auto& row = coat->rows[at];
-  to.judge(
-      "the coat needs only a fixed 0.25 G", "seed 001, Disney's secondary lobe",
-      verdict_on_small(most),
-      fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
-      fmt::format("as it ships (GTR of gamma 1, alpha up to 0.1) it is, from mu = 0.1 on, "
-                  "furthest from its own Smith masking at roughness {:g}, mu {:g}: before "
-                  "Fresnel it reflects {} instead of {}.",
-                  row.roughness, row.mu, percent(row.albedo), percent(smith->rows[at].albedo)));
+  to.judge("the coat needs only a fixed 0.25 G", "seed 001, Disney's secondary lobe",
+           verdict_on_small(most),
+           fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
+           fmt::format("as it ships it is furthest from its own Smith masking at {}. Before "
+                       "Fresnel the coat there reflects {} instead of {}.",
+                       place(row.roughness, row.mu), percent(row.albedo),
+                       percent(smith->rows[at].albedo)));
 }
 
 void clamped_at_2048(Findings& to, const EnergyRows& r) {
   if (r.claims.clamped.empty()) return;
   // D without 1/π is 1/α² at its peak.
   const double reached = std::pow(2048.0, -0.25);
-  std::vector<std::string> words;
-  double most = 0;
-  for (const auto& [roughness, lost] : r.claims.clamped) {
-    most = std::max(most, lost);
-    words.push_back(fmt::format("{} at {:g} (the peak to {})", percent(lost), roughness,
-                                percent(2048 * std::pow(roughness, 4))));
-  }
-  to.judge("the clamp at 2048 hardly shows", "seed 004, D_GGX_R2", verdict_on_small(most),
-           fmt::format("up to {} of the highlight is lost", percent(most)),
-           fmt::format("it is reached below roughness {:.3f} alone. There it takes light from the "
-                       "highlight, at normal incidence {}.",
-                       reached, fmt::join(words, ", ")));
+  const auto& most = *std::ranges::max_element(r.claims.clamped, {}, &ClaimRows::Clamped::lost);
+  to.judge("the clamp at 2048 hardly shows", "seed 004, D_GGX_R2", verdict_on_small(most.lost),
+           fmt::format("up to {} of the highlight is lost", percent(most.lost)),
+           fmt::format("it is reached below roughness {:.3f} alone. Seen head on, it there takes "
+                       "up to {} of the highlight’s light, at roughness {:g}.",
+                       reached, percent(most.lost), most.roughness));
 }
 
 void look_of_the_simple_form(Findings& to, const EnergyRows& r) {
-  if (!find_form(r.forms, "model.ue_mobile_simple")) return;
-  std::vector<std::string> words;
-  double most = 0;
-  for (const auto& l : r.claims.simple_form) {
-    most = std::max(most, l.delta_e);
-    words.push_back(
-        fmt::format("F0 {:g} and mu {:g} by {:.3g} (roughness {:g}: {} reflected for {})", l.f0,
-                    l.mu, l.delta_e, l.roughness, percent(l.shipped), percent(l.exact)));
-  }
-  to.judge(
-      "the simple mobile form keeps the look", "seed 004, SpecularGGXSimple", verdict(most <= 1),
-      fmt::format("ΔE2000 up to {:.2g}", most),
-      fmt::format("from roughness {:g} on (below, its clamp takes over) its ΔE2000 under even "
-                  "light from GGX with Smith, correlated, and Schlick is at most, for {}. It has "
-                  "no Fresnel, and no angles in its visibility.",
-                  unclamped_roughness, fmt::join(words, ", for ")));
+  if (!find_form(r.forms, "model.ue_mobile_simple") || r.claims.simple_form.empty()) return;
+  const auto& most = *std::ranges::max_element(r.claims.simple_form, {}, &ClaimRows::Look::delta_e);
+  to.judge("the simple mobile form keeps the look", "seed 004, SpecularGGXSimple",
+           verdict(most.delta_e <= 1), fmt::format("ΔE2000 up to {:.2g}", most.delta_e),
+           fmt::format("under even light it differs from GGX with Smith and Schlick by up to "
+                       "ΔE2000 {:.2g}. That is of F0 = {:g} at {}. It has no Fresnel, and no "
+                       "angles in its visibility.",
+                       most.delta_e, most.f0, place(most.roughness, most.mu)));
 }
 
 void deviation_of_slopes(Findings& to, const EnergyRows& r) {
-  if (r.claims.ggx_slopes.empty()) return;
-  std::vector<std::string> words;
-  double last = 0, growth = 0;
-  for (const auto& s : r.claims.ggx_slopes) {
-    growth = s.deviation - last, last = s.deviation;
-    words.push_back(fmt::format("{:.3g} α", s.deviation));
-  }
+  const auto& slopes = r.claims.ggx_slopes;
+  if (slopes.empty()) return;
+  const auto &first = slopes.front(), &last = slopes.back();
+  const double growth = last.deviation - first.deviation;
   to.judge("alpha is the standard deviation of the slopes", "seed 000, definition of alpha",
-           verdict(growth < 1e-3 && std::abs(last - 1) < 1e-3),
+           verdict(growth < 1e-3 && std::abs(last.deviation - 1) < 1e-3),
            fmt::format("{:.2f} α for Beckmann, none for GGX", r.claims.beckmann_deviation),
-           fmt::format("along an axis it is {:.4f} α for Beckmann, α/√2. GGX has none: of its "
-                       "slopes up to 10, 100 and 1000 α it is {}, and it goes on growing.",
-                       r.claims.beckmann_deviation, fmt::join(words, ", ")));
+           fmt::format("along an axis it is {:.4f} α for Beckmann. GGX has none: of its slopes up "
+                       "to {:g} α it is {:.3g} α, and grows with every steeper one. Up to {:g} α "
+                       "it is {:.3g} α.",
+                       r.claims.beckmann_deviation, first.most, first.deviation, last.most,
+                       last.deviation));
 }
 
 void solid_angle_of_half(Findings& to, const EnergyRows& r) {
   if (!r.claims.half_angle) return;
   const auto& [pairs, step, off] = *r.claims.half_angle;
-  to.judge("dω_h = dω_l/(4 VoH)", "seed 000, the factor 4 of the BRDF", verdict(off < 1e-5),
+  to.judge("dωₕ = dωₗ/(4 VoH)", "seed 000, the factor 4 of the BRDF", verdict(off < 1e-5),
            fmt::format("equal to {:.1g}", off),
-           fmt::format("for {} pairs of directions the solid angle of the half vector, by "
-                       "differences of {:g} rad in l, is that to {:.1g} of itself.",
-                       pairs, step, off));
+           fmt::format("for {} pairs of directions, by small differences, the solid angle of the "
+                       "half vector is that{}.",
+                       pairs, off < 1e-6 ? " to a millionth" : fmt::format(" to {:.6f}", off)));
 }
 
 }  // namespace
 
 Findings findings(const EnergyRows& r) {
   Findings all;
-  measured(all, r);
+  of_white(all, r);
+  of_materials(all, r);
+  of_compensations(all, r);
+  of_split_sum(all, r);
   no_light_is_made(all, r);
   energy_does_not_stay(all, r);
   fixed_coat(all, r);
@@ -253,6 +263,7 @@ Findings findings(const EnergyRows& r) {
   look_of_the_simple_form(all, r);
   deviation_of_slopes(all, r);
   solid_angle_of_half(all, r);
+  judge_distributions_and_sums(all, r);
   return all;
 }
 

@@ -1,13 +1,13 @@
 // Loss of every masking form at F = 1, by roughness and angle.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "brdf/catalogue/masking_shape.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "reports/energy/crossings.h"
+#include "reports/measure/light_unit.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -15,18 +15,15 @@
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr Goal goal{1e-5, 400'000};
+/// Goal of a direction that crossings are solved from.
+constexpr Goal fine_goal{1e-6, 400'000};
 
-/// The models in white, and by what an engine divides that keeps its lights without 1/π.
-struct WhiteModel {
-  std::string_view id;
-  double divisor;
-};
 /// Disney's coat is GTR of gamma 1 with alpha up to 0.1.
 const double most_coat_roughness = std::sqrt(0.1);
-constexpr WhiteModel white_models[] = {
-    {"model.ue_mobile", pi}, {"model.ue_mobile_simple", pi}, {"model.unity_mobile", 1}};
+/// The models that are looked at in white.
+constexpr std::string_view white_models[] = {"model.ue_mobile", "model.ue_mobile_simple",
+                                             "model.unity_mobile"};
 
 std::vector<EnergyForm> all_forms() {
   std::vector<EnergyForm> out;
@@ -49,12 +46,12 @@ std::vector<EnergyForm> all_forms() {
     else
       out.push_back({masking, ndf, masking});
   }
-  for (const auto& m : white_models) {
-    const std::string spec(find_preset(m.id)->spec);
+  for (const auto id : white_models) {
+    const std::string spec(find_preset(id)->spec);
     const auto first = spec.find('/');
-    out.push_back({std::string(m.id), "ndf." + spec.substr(0, first),
+    out.push_back({std::string(id), "ndf." + spec.substr(0, first),
                    "masking." + spec.substr(first + 1, spec.rfind('/') - first - 1),
-                   std::string(m.id), 0, 1, m.divisor});
+                   std::string(id), 0, 1, light_unit(id)});
   }
   return out;
 }
@@ -68,11 +65,23 @@ BoundModel bound(const EnergyForm& f, double roughness) {
 }
 
 std::vector<Crossing> crossings(const EnergyForm& f) {
-  return gather_crossings([&](double mu, const auto& add) {
+  const auto known = [&](double mu) {
+    KnownLosses k;
+    const auto add = [&](double roughness, double albedo) {
+      k.roughness.push_back(roughness);
+      k.loss.push_back(1 - albedo);
+    };
     if (mu == 0)
-      for (const auto& a : f.averages) add(a.roughness, 1 - a.albedo);
+      for (const auto& a : f.averages) add(a.roughness, a.albedo);
     for (const auto& row : f.rows)
-      if (row.mu == mu) add(row.roughness, 1 - row.albedo);
+      if (row.mu == mu) add(row.roughness, row.albedo);
+    return k;
+  };
+  return gather_crossings(known, [&](double mu, double roughness) {
+    const auto b = bound(f, roughness);
+    const auto albedo =
+        mu == 0 ? hemispherical_albedo(b, goal) : directional_albedo(b, {&mu, 1}, 0, fine_goal)[0];
+    return Bounded{1 - albedo.value[0] / f.divisor, albedo.error / f.divisor};
   });
 }
 

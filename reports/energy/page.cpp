@@ -173,6 +173,8 @@ struct Description<CompensationCost> {
         field("lookups", "", &C::lookups, "bilinear, beside those that single scattering needs"),
         field("bytes", "", &C::bytes, "of its tables"),
         field("without_ns", "ns", &C::without_ns, "time of what is compensated, alone"),
+        field("without_spread_ns", "ns", &C::without_spread_ns,
+              "half the distance of the quartiles"),
         field("cost_ns", "ns", &C::ns, "time of the same compensated"),
         field("spread_ns", "ns", &C::spread_ns, "half the distance of the quartiles"),
         field("worst", "", &C::worst, "error against the truth, of Schlick's Fresnel"),
@@ -252,7 +254,7 @@ struct Description<LitError> {
   static constexpr auto fields() {
     using L = LitError;
     return std::tuple{
-        field("environment", "", &L::environment, "name of its file"),
+        field("environment", "", &L::environment, "a sky by formula, or the name of a file"),
         field("roughness", "", &L::roughness, ""),
         field("nov", "", &L::nov, ""),
         field("f0", "", &L::f0, ""),
@@ -262,10 +264,25 @@ struct Description<LitError> {
         field("of_mean", "", &L::of_mean, "RMS of split sum − integral, over the integral's mean"),
         field("of_mean_spread", "", &L::of_mean_spread,
               "half of what the halves of the views differ by"),
-        field("truth_error", "", &L::truth, "most that an integral is off by itself")};
+        field("truth_error", "", &L::truth, "most that an integral is off by itself"),
+        field("delta_e_2000", "", &L::delta_e,
+              "between both as a display shows them, mean over views"),
+        field("delta_e_2000_max", "", &L::delta_e_max, "most of that")};
   }
 };
 static_assert(describes_every_member<LitError>());
+
+template <>
+struct Description<LightCost> {
+  static constexpr auto fields() {
+    using C = LightCost;
+    return std::tuple{
+        field("way", "", &C::way, "split sum, quadrature"),
+        field("cost_ns", "ns", &C::ns, "time of a pixel, median"),
+        field("spread_ns", "ns", &C::spread_ns, "half the distance of the quartiles")};
+  }
+};
+static_assert(describes_every_member<LightCost>());
 
 template <>
 struct Description<IrradianceRow> {
@@ -307,7 +324,9 @@ struct Description<EnergyReport> {
         field("split_sum_tables", "", of_light(&ImageLight::tables), ""),
         field("split_sum_samples", "", of_light(&ImageLight::table_samples), ""),
         field("views", "", of_light(&ImageLight::views), "of each environment"),
-        field("split_sum_light", "", of_light(&ImageLight::lit), "of the environments given"),
+        field("split_sum_light", "", of_light(&ImageLight::lit),
+              "under skies by formula, and the environments given"),
+        field("light_costs", "", of_light(&ImageLight::costs), "of a pixel under such light"),
         field("irradiance", "", of_light(&ImageLight::irradiance), ""),
         inlined(&R::pictures)};
   }

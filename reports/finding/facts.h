@@ -16,6 +16,8 @@ struct Facts {
     std::string cpu;  ///< as it calls itself; may be empty
     std::size_t threads;
     std::string isa;  ///< the best instruction set that runs
+    /// Processors that other programs kept busy while times were taken; no value: not known
+    std::optional<double> others{};
   };
   std::optional<Setting> setting{};
   /// Time of a sample in float [ns]: of a term in columns that stay in cache, or of a whole model, fused, in columns that do not.
@@ -51,6 +53,28 @@ struct Facts {
     std::size_t bytes;    ///< of tables beyond those that single scattering needs
   };
   std::vector<Compensation> compensations{};
+  /// ΔE2000 of the split sum against the integral that it stands for, under a sky, over views.
+  struct ImageLight {
+    std::string light;
+    double f0, roughness, nov;
+    double mean, most;
+  };
+  std::vector<ImageLight> image_light{};
+  /// Time of a pixel under image-based light [ns].  \see ImageLight
+  std::vector<Time> image_light_times{};  ///< id: "split sum", "quadrature"
+  /// One diffuse form, at kd = 1, over roughness.
+  struct Diffuse {
+    std::string id;
+    double most_albedo;           ///< of a direction
+    bool with_interface = false;  ///< it is none of a matte surface
+    double least_average = 0;     ///< over the hemisphere
+    double reciprocity = 0;       ///< most |f(l, v) − f(v, l)| over the larger of them
+    /// Greatest ΔE2000 over lights and materials: of a matte surface against EON, and of a plastic; empty where the form is none of
+    /// such a surface.
+    std::vector<double> roughness{}, matte{}, plastic{};
+    double ns = 0, spread = 0;  ///< of a sample, in float, in columns that stay in cache
+  };
+  std::vector<Diffuse> diffuse{};
   /// Least alpha from which on a distribution keeps a relative error in few bits.
   struct Precision {
     std::string id, form, number;  ///< form: how its angles are given, "cross" or "cosine"
@@ -58,6 +82,20 @@ struct Facts {
     std::optional<double> safe_from;
   };
   std::vector<Precision> precision{};
+  /// RMS of ln f that a fit with GGX leaves of surfaces whose slopes are distributed otherwise, over roughness and materials.
+  struct Tail {
+    std::string truth;  ///< "GTR 3"
+    double log_rms;
+  };
+  std::vector<Tail> tails{};
+  /// Table of the split sum that people ship: RMS error of its lookup, over NoV and roughness.
+  struct SplitSum {
+    std::size_t size, bytes;
+    double rms;
+    /// Greatest RMS of the split itself under an environment, as a part of the mean, seen head on and at cosine 0.1.
+    std::optional<double> head_on{}, grazing{};
+  };
+  std::optional<SplitSum> split_sum{};
 };
 
 /// Adds what another report knows.

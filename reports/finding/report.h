@@ -23,6 +23,8 @@ struct ReportOptions {
   };
   std::vector<Light> environments{};  ///< of the reports that light something
   std::string asset{};                ///< glTF file of the report of scenes; empty: none
+  std::string program{};  ///< `gonio`, which the report of costs starts again; empty: it measures
+                          ///< in one process
 };
 
 /// Callback that is told what is being done, and the part of the whole that is done, in [0, 1].

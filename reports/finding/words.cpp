@@ -11,7 +11,7 @@ namespace gonio {
 
 std::string percent(double share, int digits) {
   const double y = 100 * std::abs(share);
-  const bool large = y >= std::pow(10, digits);
+  const bool large = y >= std::pow(10, digits) - 0.5;
   return fmt::format("{}{}\u00a0%", share < 0 ? "−" : "",
                      large ? fmt::format("{:.0f}", y) : fmt::format("{:.{}g}", y, digits));
 }

@@ -62,12 +62,6 @@ std::string list_text(const std::vector<std::string>& all, std::string_view last
   if (all.size() < 2) return all.empty() ? "" : all[0];
   return fmt::format("{}{}{}", fmt::join(all.begin(), all.end() - 1, ", "), last, all.back());
 }
-std::string lower(std::string name) {
-  // Names of people and of shapes keep their capitals.
-  if (name.starts_with("Height") || name.starts_with("Separable") || name.starts_with("Exact"))
-    name[0] = static_cast<char>(name[0] + 32);
-  return name;
-}
 
 /// "+0.40 ns", or that it takes no more.
 std::string cost_text(const Candidate& taken, const Candidate& cheap) {
@@ -107,6 +101,20 @@ void masking(std::vector<Decision>& to, const Facts& f) {
              : ""});
 }
 
+// --- Distribution ---
+
+void distribution(std::vector<Decision>& to, const Facts& f) {
+  const auto *ggx = time_of(f.in_cache, "ndf.ggx"), *gtr = time_of(f.in_cache, "ndf.gtr");
+  const auto worst = std::ranges::max_element(f.tails, {}, &Facts::Tail::log_rms);
+  if (!ggx || !gtr || worst == f.tails.end()) return;
+  const Candidate cheap{ggx->id, 0, ggx->ns, ggx->spread}, other{gtr->id, 0, gtr->ns, gtr->spread};
+  to.push_back({"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
+                fmt::format("a factor of {:.2g} (RMS of f, on a surface of {})",
+                            std::exp(worst->log_rms), worst->truth),
+                "–",
+                fmt::format("a fit finds γ far from 2: GTR, {} for D", cost_text(other, cheap))});
+}
+
 // --- Fresnel ---
 
 /// A material and what Schlick shows of it.
@@ -134,13 +142,15 @@ std::string materials_text(const std::vector<Shown>& all) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Every form that is known on all of these, by its greatest ΔE; the exact one among them.
+/// Every form that is known on all of these, by its greatest ΔE; of dielectrics the exact one among them.  Metals have one among
+/// their forms: at three wavelengths it is off from their spectra.
 Candidates fresnel_candidates(const Facts& f,
                               std::string_view kind,
                               const std::vector<Shown>& materials) {
   Candidates out;
-  const auto exact = kind == "metal" ? "fresnel.conductor" : "fresnel.dielectric";
-  if (const auto* t = time_of(f.in_cache, exact)) out.push_back({exact, 0, t->ns, t->spread});
+  constexpr auto exact = "fresnel.dielectric";
+  if (const auto* t = time_of(f.in_cache, exact); t && kind == "dielectric")
+    out.push_back({exact, 0, t->ns, t->spread});
   for (const auto& x : f.fresnel) {
     if (find(out, x.form)) continue;
     const auto* t = time_of(f.in_cache, id_of(x.form));
@@ -167,7 +177,7 @@ std::string seen_side_by_side(const Candidates& all, const std::vector<Shown>& m
   const auto* better = choose(all, schlick, just_seen);
   return better && better->form != schlick
              ? fmt::format("{} beside a photograph: {}", list_text(seen, " or "),
-                           lower(name_of_form(better->form)))
+                           in_text(better->form))
              : "";
 }
 
@@ -280,6 +290,49 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
                                 : of_f0});
 }
 
+// --- Image-based light, and what is below the surface ---
+
+void image_light(std::vector<Decision>& to, const Facts& f) {
+  if (!f.split_sum) return;
+  const auto& s = *f.split_sum;
+  const auto table = fmt::format("RMS {:.1g}", s.rms);
+  to.push_back(
+      {"Image-based light", fmt::format("Split sum, {0} × {0} table in half", s.size), "split_sum",
+       s.head_on
+           ? fmt::format("{} of the mean (the table alone: {})", percent(*s.head_on, 2), table)
+           : table + " of E",
+       fmt::format("{:.1f} kB, one look-up", static_cast<double>(s.bytes) / 1000),
+       s.grazing ? fmt::format("rims are looked at: {} of the mean there", percent(*s.grazing, 2))
+                 : ""});
+}
+
+void diffuse(std::vector<Decision>& to, const Facts& f) {
+  constexpr std::string_view cheap_id = "diffuse.lambert";
+  const Facts::Diffuse *maker = nullptr, *rough = nullptr;
+  const auto* cheap = time_of(f.in_cache, cheap_id);
+  const auto own = std::ranges::find(f.diffuse, cheap_id, &Facts::Diffuse::id);
+  if (!cheap || own == f.diffuse.end() || own->most_albedo > no_light_made) return;
+  const Facts::Time* rough_time = nullptr;
+  for (const auto& d : f.diffuse) {
+    if (!maker || d.most_albedo > maker->most_albedo) maker = &d;
+    // of those that scatter back, the fastest that makes no light
+    const auto* t = time_of(f.in_cache, d.id);
+    if (t && d.id != cheap_id && !d.with_interface && d.most_albedo <= no_light_made &&
+        (!rough_time || t->ns < rough_time->ns))
+      rough = &d, rough_time = t;
+  }
+  const auto made = maker->most_albedo > no_light_made
+                        ? fmt::format(" ({}: {} given back)", name_of_form(maker->id),
+                                      percent(maker->most_albedo, 3))
+                        : "";
+  to.push_back(
+      {"Diffuse", name_of_form(cheap_id), std::string(cheap_id), "makes no light" + made, "–",
+       rough ? fmt::format("cloth, clay or plaster scatter back: {}, {}", name_of_form(rough->id),
+                           cost_text({rough->id, 0, rough_time->ns, rough_time->spread},
+                                     {std::string(cheap_id), 0, cheap->ns, cheap->spread}))
+             : ""});
+}
+
 // --- Few bits ---
 
 const Facts::Precision* precision_of(const Facts& f,
@@ -297,7 +350,7 @@ void precision(std::vector<Decision>& to, const Facts& f) {
   if (!half || !half->safe_from) return;
   const auto* mixed = precision_of(f, "ndf.ggx.mobile", "cosine", "mixed");
   to.push_back(
-      {"GGX in half precision", fmt::format("|n × h|², α clamped at {:.2g}", *half->safe_from),
+      {"Precision: GGX in half", fmt::format("|n × h|², α clamped at {:.2g}", *half->safe_from),
        half->id, fmt::format("≤ {} of D", percent(half->tolerance, 1)),
        fmt::format("roughness below {:.2g} (looks that rough)", std::sqrt(*half->safe_from)),
        mixed && mixed->safe_from
@@ -326,36 +379,15 @@ const Candidate* choose(std::span<const Candidate> all, std::string_view cheap, 
 std::vector<Decision> decisions(const Facts& f) {
   std::vector<Decision> out;
   masking(out, f);
+  distribution(out, f);
   fresnel(out, f, "dielectric");
   fresnel(out, f, "metal");
   scattering(out, f, false);
   scattering(out, f, true);
+  image_light(out, f);
+  diffuse(out, f);
   precision(out, f);
   return out;
-}
-
-std::string name_of_form(std::string_view form) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 15> names{
-      {{"masking.smith_ggx.correlated", "Height-correlated Smith"},
-       {"masking.smith_ggx.separable", "Separable Smith"},
-       {"masking.schlick_ggx.direct", "Schlick's k = (r+1)²/8"},
-       {"masking.schlick_ggx.half_alpha", "Schlick's k = α/2"},
-       {"masking.ue_joint", "Unreal's joint form"},
-       {"masking.hammon", "Hammon's linear form"},
-       {"fresnel.schlick", "Schlick"},
-       {"fresnel.schlick.f90", "Schlick, F90 fitted"},
-       {"fresnel.f82", "F82"},
-       {"fresnel.lazanyi, corrected", "Lazányi, corrected"},
-       {"fresnel.dielectric", "Exact dielectric"},
-       {"fresnel.conductor", "Exact conductor"},
-       {"turquin", "Turquin"},
-       {"kulla_conty", "Kulla and Conty"},
-       {"fdez_aguera", "Fdez-Agüera"}}};
-  const auto at = std::ranges::find(names, form, [](const auto& n) { return n.first; });
-  if (at != names.end()) return std::string(at->second);
-  const auto id = id_of(form);
-  const auto term = std::ranges::find(catalogue(), id, [](const auto& t) { return t.id(); });
-  return term == catalogue().end() ? id : std::string(term->about->title);
 }
 
 std::string without_aside(const std::string& cell) {
@@ -413,7 +445,8 @@ std::string decision_table(std::span<const Decision> all, std::size_t width) {
       for (std::size_t k = 0; k < columns; ++k) {
         const std::string text = i < cells[k].size() ? cells[k][i] : "";
         line += text;
-        if (k + 1 < columns) line.append(widths[k] + gap - width_of(text), ' ');
+        if (k + 1 < columns)
+          line.append(std::max(widths[k] + gap, width_of(text) + 1) - width_of(text), ' ');
       }
       out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reports/finding/facts.h"
+#include "reports/finding/names.h"
 
 namespace gonio {
 
@@ -16,6 +17,8 @@ inline constexpr double just_seen = 1;
 /// ΔE2000 up to which a difference is seen side by side alone, taken from what observers just saw in CIELAB.
 ///                                                  [Mahy, Van Eycken and Oosterlinck 1994]
 inline constexpr double side_by_side = 2.3;
+/// Share of light that a white diffuse term may give back at most: its own, and what an integral is known to.
+inline constexpr double no_light_made = 1.001;
 /// RMS error of G₂ up to which a masking form is as good as exact.
 inline constexpr double small_masking_error = 0.01;
 
@@ -43,8 +46,6 @@ const Candidate* choose(std::span<const Candidate>, std::string_view cheap, doub
 /// Decisions that these facts support, in the order of the page; those that lack a fact are left out.
 std::vector<Decision> decisions(const Facts&);
 
-/// Name of a form as people say it: "Height-correlated Smith".  \param form  id, with what tells a variant from it
-std::string name_of_form(std::string_view form);
 /// A cell without its aside.
 std::string without_aside(const std::string& cell);
 

@@ -3,8 +3,7 @@
 
 const { version, full, at_ms, machine, decisions, visible, fresnel, front, reports, claims } = page_data();
 document.head.append(el("style", {}, `
-.lead { color: var(--muted); }
-.contents { display: flex; flex-wrap: wrap; gap: 2px 20px; font-size: 14px; margin: 0 0 4px; }
+.lead { color: var(--muted); max-width: 128ch; margin-bottom: 6px; }
 .decide { margin-top: 14px; padding-top: 8px; }
 .decide table { width: 100%; font-size: 14.5px; }
 .decide :is(th, td) { padding: 5px 20px 5px 0; }
@@ -20,11 +19,14 @@ document.head.append(el("style", {}, `
 .beside { background: color-mix(in srgb, var(--high-1) 30%, transparent); }
 .shows { background: color-mix(in srgb, var(--red) 34%, transparent); font-weight: 650; }
 .unknown { color: var(--muted); }
-.key span { padding: 1px 8px; border-radius: 5px; margin-right: 8px; white-space: nowrap; }
+.key { display: flex; flex-wrap: wrap; gap: 4px 8px; }
+.key span { padding: 1px 8px; border-radius: 5px; white-space: nowrap; }
+.seen-by td { min-width: 5.2em; }
+@media print { .decide table, .seen-by { font-size: 11px; } .decide small { font-size: 9.5px; } .decide :is(th, td) { padding: 3px 12px 3px 0; } }
 .small-picture { display: block; width: 100%; height: auto; background: var(--faint); border-radius: 4px; margin-bottom: 8px; }
 .said summary { color: inherit; font-weight: 400; margin: 0; }
 .said details > p { margin: 6px 0 2px; font-size: 13.5px; color: var(--muted); }
-@media print { .contents { display: none; } }`));
+`));
 
 const page_of = (report, anchor) => `${report}.html${anchor ? "#" + anchor : ""}`;
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
@@ -42,7 +44,7 @@ function what_to_ship() {
   return anchored("decide", el("section", { class: "decide" }, told_by_cell(["for", "take", "error left", "costs", "unless"], rows)));
 }
 const lead = () => `Shipped approximations against exact Fresnel, exact Smith and all bounces of light, ${full ? "full" : "quick"} setting`
-  + (machine ? `; costs on ${machine.cpu || "this machine"}, of one float sample in ${machine.isa} columns in cache, over the cheap form.` : ".");
+  + (machine ? `; costs on ${machine.cpu || "this machine"}, of one float sample in ${machine.isa} columns in cache, over the cheap form${machine.others_busy >= 0.25 ? `, while other programs kept ${plain(machine.others_busy, 2)} of ${machine.threads} processors busy` : ""}.` : ".");
 
 // --- What Fresnel's shortcuts show -----------------------------------------------------------------------
 const shown_as = (delta_e) => (delta_e <= visible.just_seen ? "unseen" : delta_e <= visible.side_by_side ? "beside" : "shows");
@@ -60,7 +62,8 @@ function grid() {
   }));
   t.classList.add("seen-by");
   return anchored("fresnel", section("What Fresnel's shortcuts show", "Greatest ΔE2000 of the rough surface under even light, over roughness and three views.",
-    t, el("p", { class: "small key" }, el("span", { class: "unseen" }, `unseen, to ${visible.just_seen}`), el("span", { class: "beside" }, `side by side, to ${visible.side_by_side}`), el("span", { class: "shows" }, "seen"), el("span", { class: "unknown" }, "– not computed"))));
+    t, el("p", { class: "small key" }, el("span", { class: "unseen" }, `unseen, to ${visible.just_seen}`), el("span", { class: "beside" }, `side by side, to ${visible.side_by_side}`), el("span", { class: "shows" }, "seen"), el("span", { class: "unknown" }, "– not computed")),
+    el("p", { class: "small muted" }, `Up to ΔE2000 ${visible.just_seen} nobody sees a difference: its unit is scaled to that (CIE 142-2001). Up to ${visible.side_by_side} it is seen side by side alone: what observers just saw in CIELAB (Mahy, Van Eycken and Oosterlinck 1994).`)));
 }
 const time = () => (front.length ? anchored("time", section("What masking's accuracy costs", "Error of G₂ against height-correlated Smith, over the time of a sample: on the line, nothing is both faster and nearer.",
   figure_view(front[0], { height: 330 }))) : null);
@@ -95,9 +98,8 @@ function verdicts() {
   if (!claims.length) return null;
   const classes = { "holds": "yes", "holds in part": "weakly", "does not hold": "no" };
   const words = (c) => {
-    const more = el("details", {}, el("summary", {}, `“${c.claim}”`), el("p", {}, sentence(c.verdict)), el("p", {}, c.source, " · ", el("a", { href: page_of(c.report, c.anchor) }, "the report")));
-    addEventListener("beforeprint", () => { more.open = true; });
-    return more;
+    const shown_in = el("a", { href: page_of(c.report, c.anchor) }, "the report");
+    return unfolded_on_paper(el("details", {}, el("summary", {}, `“${c.claim}”`), el("p", {}, sentence(c.verdict)), el("p", {}, c.source, " · ", shown_in)));
   };
   const t = told_by_cell(["verdict", "claim", "figure"], claims.map((c) => [el("span", { class: `verdict-${classes[c.judged]}` }, c.judged), words(c), c.figure]));
   t.classList.add("said");
@@ -107,18 +109,17 @@ function verdicts() {
 // --- What stands behind a figure --------------------------------------------------------------------------
 const behind = () => anchored("about", section("What stands behind a figure", null, el("ul", { class: "findings" }, [
   "A form is taken if it is the cheapest of those whose error does not show; of forms that their spreads do not tell apart the nearest, or the cheap form itself.",
-  `ΔE2000 up to ${visible.just_seen} nobody sees, which its unit is scaled to (CIE 142-2001); up to ${visible.side_by_side} it is seen side by side alone, after what observers just saw in CIELAB (Mahy, Van Eycken, Oosterlinck 1994).`,
   "Colours are those of a rough surface under even light, beside a perfect diffuser in D65, without a tone map. Metals are taken at 650, 550 and 450 nm.",
   "Masking is held against height-correlated Smith for GGX: RMS of G₂ over both cosines from 0.05 to 1 and over roughness.",
   "Bounces are held against transport between the facets, for F0 from 0.04 to 1 under Schlick's Fresnel, seen from cosine 0.1 on.",
-  "Times are medians of one run on this machine; a difference less than both spreads is none. Compensations are timed one light and view at a time.",
+  "Times are medians on this machine; a difference less than both spreads is none. Compensations are timed one light and view at a time.",
 ].map((text) => el("li", {}, text)))));
 
 const parts = [what_to_ship(), el("div", { class: "columns" }, grid(), time()), cards(), verdicts(), behind()].filter((p) => p && p.childNodes.length);
 const places = [["decide", "Decide"], ["fresnel", "Fresnel by material"], ["time", "Accuracy against time"], ["reports", "The reports"], ["claims", "Claims"], ["about", "What stands behind a figure"]];
 const is_there = (id) => parts.some((p) => p.id === id || p.querySelector(`#${id}`));
 document.getElementById("page").replaceChildren(
-  el("h1", {}, "Which shortcuts can you ship?"), el("p", { class: "lead" }, lead()),
-  el("nav", { class: "contents" }, places.filter(([id]) => is_there(id)).map(([id, text]) => el("a", { href: `#${id}` }, text))),
+  el("h1", {}, "Which shortcuts can you ship?"), el("p", { class: "lead" }, lead(), fresnel.length ? [` ΔE is CIEDE2000: up to ${visible.just_seen} nobody sees it, up to ${visible.side_by_side} only side by side (`, el("a", { href: "#fresnel" }, "sources"), ")."] : null),
+  el("nav", { class: "contents", "aria-label": "Contents" }, places.filter(([id]) => is_there(id)).map(([id, text]) => el("a", { href: `#${id}` }, text))),
   ...parts,
   el("footer", {}, `gonio ${version}, ${full ? "full" : "quick"} setting, made ${new Date(at_ms).toISOString().slice(0, 16).replace("T", " ")} UTC. All of this page is in index.json beside it.`));

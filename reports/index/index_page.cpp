@@ -112,7 +112,9 @@ struct Description<Facts::Setting> {
     using S = Facts::Setting;
     return std::tuple{field("cpu", "", &S::cpu, "as it calls itself"),
                       field("threads", "", &S::threads, "that run at once"),
-                      field("isa", "", &S::isa, "instruction set of the costs")};
+                      field("isa", "", &S::isa, "instruction set of the costs"),
+                      field("others_busy", "", &S::others,
+                            "processors that other programs kept busy meanwhile; null: not known")};
   }
 };
 template <>

@@ -4,6 +4,7 @@
 
 #include "reports/cost/cost.h"
 #include "reports/cross_fit/cross_fit.h"
+#include "reports/diffuse/diffuse.h"
 #include "reports/energy/energy.h"
 #include "reports/remap/remap.h"
 #include "reports/scenes/scenes.h"
@@ -32,6 +33,9 @@ ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {
   options.environments = o.environments;
   return files(energy_report(options, done), energy_page_html);
 }
+ReportFiles diffuse(const ReportOptions& o, const ReportProgress& done) {
+  return files(diffuse_report(diffuse_options(o.full), done), diffuse_page_html);
+}
 ReportFiles remap(const ReportOptions& o, const ReportProgress& done) {
   return files(remap_report(remap_options(o.full), done), remap_page_html);
 }
@@ -40,11 +44,18 @@ ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
 }
 ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
   auto report = cross_fit_report(cross_fit_options(o.full), done);
-  return {to_json(report), cross_fit_page_html(report), rows_csv(report),
-          std::move(report.findings), std::move(report.pictures)};
+  auto known = facts(report.rows);
+  return {to_json(report),
+          cross_fit_page_html(report),
+          rows_csv(report),
+          std::move(report.findings),
+          std::move(report.pictures),
+          std::move(known)};
 }
 ReportFiles cost(const ReportOptions& o, const ReportProgress& done) {
-  return files(cost_report(cost_options(o.full), done), cost_page_html);
+  auto options = cost_options(o.full);
+  options.program = o.program;
+  return files(cost_report(options, done), cost_page_html);
 }
 
 ReportFiles stability(const ReportOptions& o, const ReportProgress& done) {
@@ -62,6 +73,8 @@ ReportFiles scenes(const ReportOptions& o, const ReportProgress& done) {
 constexpr std::array kinds{
     ReportKind{"energy", "what single scattering loses, and what gives it back", energy,
                energy_schema, 25},
+    ReportKind{"diffuse", "what diffuse forms give back, how they look, and what they cost",
+               diffuse, diffuse_schema, 8},
     ReportKind{"remap", "masking forms against exact Smith, and which roughness each behaves like",
                remap, remap_schema, 3},
     ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick,

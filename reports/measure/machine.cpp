@@ -10,12 +10,12 @@
 namespace gonio {
 namespace {
 
-/// "model name : AMD EPYC", of Linux
-std::string cpu_name() {
+/// What Linux says of the first processor, "model name : AMD EPYC"; empty: nothing.
+std::string cpu_says(std::string_view what) {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {
     const auto colon = line.find(": ");
-    if (line.starts_with("model name") && colon != line.npos) return line.substr(colon + 2);
+    if (line.starts_with(what) && colon != line.npos) return line.substr(colon + 2);
   }
   return "";
 }
@@ -24,7 +24,7 @@ std::string cpu_name() {
 
 Machine this_machine() {
   const auto& cpu = benchmark::CPUInfo::Get();
-  Machine m{cpu_name(),
+  Machine m{cpu_says("model name"),
             static_cast<std::size_t>(cpu.num_cpus),
             {},
             instruction_sets(),
@@ -33,7 +33,8 @@ Machine this_machine() {
 #else
             "g++ " __VERSION__,
 #endif
-            GONIO_FLAGS};
+            GONIO_FLAGS,
+            cpu_says("flags").find("avx512_fp16") != std::string::npos};
   for (const auto& c : cpu.caches)
     if (c.type != "Instruction")
       m.caches.push_back(

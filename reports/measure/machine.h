@@ -18,6 +18,7 @@ struct Machine {
   std::vector<Cache> caches;                  ///< without those of instructions
   std::vector<std::string> instruction_sets;  ///< of the kernels that run here, "scalar" first
   std::string compiler, flags;
+  bool native_half = false;  ///< arithmetic in half, AVX512-FP16, which no kernel uses
 };
 Machine this_machine();
 

@@ -89,19 +89,32 @@ FresnelForm f82_form(const Fitting& s) {
   return f;
 }
 
-FresnelForm of_index(std::string name, const Fitting& s, bool k) {
+FresnelForm of_index(std::string name, std::span<const Index> index, bool k) {
   FresnelForm f{name, find_term(name), {{"eta", {}}}};
   if (k) f.settings.push_back({"k", {}});
-  for (const auto& i : s.surface.index) {
+  for (const auto& i : index) {
     f.settings[0].values.push_back(i.n);
     if (k) f.settings[1].values.push_back(i.k);
   }
   return f;
 }
 
+/// Index of each channel with the surface's F0: of a spectrum n is that of the channel's wavelength, and k makes its colour.
+std::vector<Index> index_of_f0(const Fitting& s) {
+  auto index = s.surface.index;
+  if (!s.surface.spectrum) return index;
+  constexpr double most = 0.999;  // from there on k grows without end
+  for (std::size_t c = 0; c < index.size(); ++c) {
+    auto& [n, k] = index[c];
+    const double f0 = std::min(s.f0[c], most), k2 = f0 * (n + 1) * (n + 1) - (n - 1) * (n - 1);
+    k = std::sqrt(std::max(k2, 0.0) / (1 - f0));
+  }
+  return index;
+}
+
 /// The correction is linear in its height: by least squares, exponent by exponent.
 FresnelForm lazanyi_corrected(const Fitting& s) {
-  const auto plain = of_index("fresnel.lazanyi", s, true);
+  const auto plain = of_index("fresnel.lazanyi", index_of_f0(s), true);
   auto f = plain;
   f.name += ", corrected";
   Setting height{"correction", {}}, exponent{"correction_exponent", {}};
@@ -130,7 +143,7 @@ FresnelForm lazanyi_corrected(const Fitting& s) {
 FresnelForm gulbrandsen(const Fitting& s) {
   FresnelForm f{"fresnel.gulbrandsen", find_term("fresnel.gulbrandsen"), {{"f0", {}}, {"g", {}}}};
   const auto map = *find_map("f0.from_index");
-  for (const auto& i : s.surface.index) {
+  for (const auto& i : index_of_f0(s)) {
     const auto v = evaluate_map(map, Number::double_, {}, {{"eta", {i.n}}, {"k", {i.k}}}).values[0];
     f.settings[0].values.push_back(std::clamp(v[0], 0.0, 1.0));
     f.settings[1].values.push_back(std::clamp(v[1], 0.0, 1.0));
@@ -224,19 +237,18 @@ std::vector<FresnelForm> forms_for(const FresnelSurface& surface) {
   std::vector<FresnelForm> out{of_f0("fresnel.schlick", s),
                                f90_form(s),
                                f82_form(s),
-                               of_index("fresnel.lazanyi", s, true),
+                               of_index("fresnel.lazanyi", index_of_f0(s), true),
                                ue_form(s),
                                of_f0("fresnel.schlick.spherical_gaussian", s),
                                of_f0("fresnel.linear.as_written", s)};
   if (surface.spectrum) {
-    out.push_back(of_index("fresnel.conductor", s, true));
+    out.push_back(of_index("fresnel.conductor", surface.index, true));
     out.back().name += ", three wavelengths";
-    return out;
   }
-  if (surface.kind == "metal")
+  if (surface.spectrum || surface.kind == "metal")
     out.push_back(lazanyi_corrected(s));
   else
-    out.push_back(of_index("fresnel.disney2015", s, false));
+    out.push_back(of_index("fresnel.disney2015", surface.index, false));
   if (surface.kind != "dielectric_inside") {
     out.push_back(gulbrandsen(s));
     return out;

@@ -14,7 +14,8 @@ extern const std::string_view fit_js, models_js, inspect_js, batch_js, audit_js,
     plan_js, validate_js;                                          ///< of one page each
 extern const std::string_view report_js, figures_js;  ///< of the reports' pages
 extern const std::string_view index_js;               ///< of the page of all reports
-extern const std::string_view energy_js, remap_js, schlick_js, cross_fit_js, cost_js, stability_js,
+extern const std::string_view energy_js, diffuse_js, remap_js, schlick_js, cross_fit_js, cost_js,
+    stability_js,
     scenes_js;  ///< of one report each
 
 }  // namespace gonio::assets

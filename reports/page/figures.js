@@ -38,9 +38,23 @@ function merged_points(curves) {
   return [xs, index.map((list, c) => list.map((i) => (i === undefined ? undefined : known(curves[c].y[i]) ? curves[c].y[i] : null))), index];
 }
 
+/// Names of the curves that a report's pictures show at first where there are more than can be told apart: the most shipped first.
+let most_shipped = [];
+const told_apart = 6;
+/// Which of these are shown until the reader asks for all: references, what is emphasised, then what is most shipped.
+function shown_first(curves, emphasis) {
+  const rank = (c) => {
+    const of = most_shipped.findIndex((name) => c.name.split(" = ").includes(name));
+    return c.name === emphasis ? -1 : of < 0 ? most_shipped.length : of;
+  };
+  const own = curves.filter((c) => !c.dashed);
+  const first = new Set(own.length > told_apart ? [...own].sort((a, b) => rank(a) - rank(b)).slice(0, told_apart) : own);
+  return curves.map((c) => c.dashed || first.has(c));
+}
+
 /// \param figure  of the page's data
 /// \param o       {height, emphasis: the curve that others stand back behind, only(curve): whether it is shown, x_text(x), y_text(y),
-///                bare: without choices and keys, which stand once above several}
+///                bare: without choices and keys, which stand once above several; copy: it stands on the page a second time}
 /// Returns its element.
 function figure_view(figure, o = {}) {
   let x = [];
@@ -52,13 +66,15 @@ function figure_view(figure, o = {}) {
   const [xs, columns, index] = merged_points(curves);
   const along = (values, c) => values && index[c].map((i) => (i === undefined ? null : values[i]));
   const single = curves.some((c) => c.kind === "points") && curves.every((c) => c.dashed || c.kind === "points");
+  const first = shown_first(curves, o.emphasis), some = first.includes(false);
+  let shown = first;
   const x_text = o.x_text ?? ((v) => plain(v, 4)), y_text = o.y_text ?? ((v) => significant(v, 3));
   const with_bar = (text, e) => (known(e) && e > 0 ? `${text} ± ${significant(e, 1)}` : text);
 
   const readout = el("div", { class: "readout", "aria-live": "polite" });
   const hint = () => readout.replaceChildren(el("span", { class: "hint" }, single ? "Point at a point to read it." : "Point at a curve to read it."));
   const hover = (at) => {
-    const told = at && curves.map((c, k) => [c, styles[k], at[k + 1] ?? null]).filter(([, s, i]) => i !== null && !s.quiet)
+    const told = at && curves.map((c, k) => [c, styles[k], at[k + 1] ?? null]).filter(([, s, i], k) => i !== null && !s.quiet && shown[k])
       .map(([c, s, i]) => [c, s, i, curves.indexOf(c)]).filter(([, , i, k]) => known(columns[k][i]));
     if (!told?.length) return hint();
     const y_of = (c, k, i) => el("b", {}, with_bar(y_text(columns[k][i]), c.y_error?.[index[k][i]]));
@@ -73,17 +89,25 @@ function figure_view(figure, o = {}) {
 
   const plot = curve_plot([xs, ...columns], curves.map((c, k) => ({ ...styles[k], kind: c.kind, mute: single && c.dashed, labels: along(c.labels, k), x_error: along(c.x_error, k), y_error: along(c.y_error, k) })),
     { x_label: figure.x.label, y_label: figure.y.label, x_log: figure.x.log, log: figure.y.log, x_scales: figure.x.scales, y_scales: curves.length === figure.curves.length || known(figure.y.to) ? figure.y.scales : null,
-      height: o.height ?? 300, text: `${figure.title}: ${figure.y.label} by ${figure.x.label}.`, y_of: () => true, single, hover });
+      height: o.height ?? 300, shown, text: `${figure.title}: ${figure.y.label} by ${figure.x.label}.`, y_of: () => true, single, hover });
   hint();
-  if (o.bare) return el("figure", { id: figure.id }, picture_caption(figure, ["svg", "csv"]), plot.node, readout);
+  const id = o.copy || paper_width ? null : figure.id;
+  if (o.bare) return el("figure", { id }, picture_caption(figure, ["svg", "csv"]), plot.node, readout);
   const scales = [[false, "linear"], [true, "logarithmic"]];
   const y_choice = figure.y.scales.log && figure.y.scales.linear.low >= 0, x_choice = figure.x.scales.log;
+  const keys = el("span", { class: "keys" });
+  const show_keys = () => keys.replaceChildren(...curves.flatMap((c, k) => (styles[k].quiet || !shown[k] ? [] : [el("span", {}, line_key(styles[k], c.kind), " ", c.name)])),
+    ...(o.emphasis && styles.some((s) => s.quiet) ? [el("span", { class: "muted" }, "grey: the others")] : []));
+  show_keys();
   const controls = el("div", { class: "controls" },
     y_choice ? choice(`Scale of ${figure.y.label}`, scales.map(([v, t]) => [v, x_choice ? `y ${t}` : t]), figure.y.log, (log) => plot.set({ log })) : null,
     x_choice ? choice(`Scale of ${figure.x.label}`, scales.map(([v, t]) => [v, `x ${t}`]), figure.x.log, (x_log) => plot.set({ x_log })) : null,
-    el("span", { class: "keys" }, curves.map((c, k) => (styles[k].quiet ? null : el("span", {}, line_key(styles[k], c.kind), " ", c.name))),
-      o.emphasis && styles.some((s) => s.quiet) ? el("span", { class: "muted" }, "grey: the others") : null));
-  return el("figure", { id: figure.id }, picture_caption(figure, ["svg", "csv"]), controls, plot.node, readout);
+    some ? choice("Curves", [[false, `${first.filter((is, k) => is && !curves[k].dashed).length} curves`], [true, `all ${curves.filter((c) => !c.dashed).length}`]], false, (all) => {
+      shown = all ? curves.map(() => true) : first;
+      plot.set({ shown });
+      show_keys();
+    }) : null, keys);
+  return el("figure", { id }, picture_caption(figure, ["svg", "csv"]), controls, plot.node, readout);
 }
 
 /// \param map  of the page's data
@@ -115,7 +139,7 @@ function map_view(map, o = {}) {
   const layers = Object.fromEntries(slices.map((name, i) => [name, layer(i * cells)]));
   const view = heat_map(axis(map.x), axis(map.y), layers, say, `${map.title}: ${map.value} by ${map.x.label} and ${map.y.label}.`);
   view.set(slices[shown]);
-  return el("figure", { id: map.id }, picture_caption(map, ["svg", "csv", "exr"]),
+  return el("figure", { id: paper_width ? null : map.id }, picture_caption(map, ["svg", "csv", "exr"]),
     map.slices && !o.slice ? el("div", { class: "controls" }, chooser("At", slices.map((name) => [name, name]), slices[shown], (name) => {
       shown = slices.indexOf(name);
       view.set(name);

@@ -67,4 +67,11 @@ std::string make_report_page(std::string_view title,
                    std::string(assets::report_js).append(assets::figures_js).append(script));
 }
 
+std::string beside_index(std::string html) {
+  constexpr std::string_view root = R"(<html lang="en")";
+  if (const auto at = html.find(root); at != html.npos)
+    html.insert(at + root.size(), " data-index");
+  return html;
+}
+
 }  // namespace gonio

@@ -16,5 +16,7 @@ std::string make_page(std::string_view title, std::string_view json_data, std::s
 std::string make_report_page(std::string_view title,
                              std::string_view json_data,
                              std::string_view script);
+/// A page that leads back to index.html, which lies beside it.
+std::string beside_index(std::string html);
 
 }  // namespace gonio

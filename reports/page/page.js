@@ -17,8 +17,13 @@ function el(tag, attributes = {}, ...children) {
   return node;
 }
 
+/// Anchor of a title: its words in small letters.
+const anchor_of = (title) => title.toLowerCase().replace(/[^\p{L}\p{N}]+/gu, "-").replace(/^-|-$/g, "");
 const section = (title, lead, ...rest) =>
-  el("section", {}, el("h2", {}, title), lead ? el("p", {}, lead) : null, ...rest);
+  el("section", { id: anchor_of(title) }, el("h2", {}, title), lead ? el("p", {}, lead) : null, ...rest);
+/// Links to the sections of a page.
+const contents = (sections) => el("nav", { class: "contents", "aria-label": "Contents" },
+  sections.map((s) => [s, s.querySelector("h2")]).filter(([s, title]) => s.id && title).map(([s, title]) => el("a", { href: `#${s.id}` }, title.textContent)));
 const scroll = (node) => el("div", { class: "scroll" }, node);
 
 /// [["term", value…], …] with null values left out
@@ -101,14 +106,17 @@ const chip = (name) => el("span", { class: "chip", style: { background: `var(--$
 
 /// Calls back whenever what is drawn must be drawn in other colours: the scheme changed, or paper.
 const recolor = [];
-function when_colors_change(draw) { recolor.push(draw); }
+function when_colors_change(draw) { if (!paper_width) recolor.push(draw); }
 const redraw_all = () => recolor.forEach((draw) => draw());
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw_all);
 addEventListener("beforeprint", () => { document.documentElement.dataset.paper = ""; redraw_all(); });
 addEventListener("afterprint", () => { delete document.documentElement.dataset.paper; redraw_all(); });
 
+/// Width in pixels that pictures are drawn at while what is for paper alone is made, and is not laid out yet; else 0.
+let paper_width = 0;
 /// Draws now that it has a width, and whenever that changes.
 function when_resized(node, draw) {
+  if (paper_width) return draw(paper_width);
   let width = 0;
   const look = () => {
     const now = Math.floor(node.clientWidth);

@@ -32,6 +32,24 @@ function tick_text(x) {
   return (lead === 1 ? "" : minus(String(lead)) + "·") + "10" + superscript(power);
 }
 
+/// Texts of ticks, of which those are left out that would touch others: of a logarithmic axis first all but decades, else every second …
+/// \param places  of their middles, in pixels   \param room  that each takes
+function uncrowded(texts, places, room) {
+  const free = (keep) => {
+    let end = -Infinity;
+    return texts.every((text, i) => {
+      if (!keep(i) || !text) return true;
+      const begin = places[i] - room(text) / 2, is_free = begin >= end;
+      end = begin + room(text);
+      return is_free;
+    });
+  };
+  const decade = (i) => /^(0\.0*1|10*|10[⁻⁰¹²³⁴-⁹]+)$/.test(texts[i]);
+  const rules = [() => true, ...(texts.filter((_, i) => decade(i)).length > 2 ? [decade] : []), ...[2, 3, 4, 6, 8].map((n) => (i) => i % n === 0), (i) => i === 0];
+  const rule = rules.find(free) ?? (() => true);
+  return texts.map((text, i) => (rule(i) ? text : ""));
+}
+
 /// Where labels of points go, so that none hides another: [[text, x, y]…], as many as find a place.
 /// \param points  [{x, y, label, width}] in pixels   \param box  {left, top, right, bottom} to stay in
 /// \param lines   [[{x, y}…]…], level ones to keep off
@@ -56,11 +74,11 @@ function label_places(points, box, lines = []) {
 /// \param o       {x_label, x_ends: [from, to], x_steps, x_log, y_label, x_scales and y_scales: {linear, log: {low, high, ticks,
 ///                few}} of the whole, height, log, mark: x of a dashed line, text: the plot in words, y_of(i): whether point i sets
 ///                the range of y, single: the point next to the pointer speaks alone, of a series that
-///                is not mute, hover(indices or null)}
+///                is not mute, shown: whether each series is at first, hover(indices or null)}
 /// Returns {node, set({log, x_log, shown})}.
 function curve_plot(data, series, o) {
   const node = el("div", { class: "curve", role: "img", tabindex: 0, "aria-label": o.text });
-  const state = { log: o.log, x_log: o.x_log, shown: series.map(() => true) };
+  const state = { log: o.log, x_log: o.x_log, shown: o.shown ?? series.map(() => true) };
   let plot = null;
   const bar = (errors, i) => (errors && known(errors[i]) ? errors[i] : 0);
 
@@ -70,7 +88,7 @@ function curve_plot(data, series, o) {
     let least = Infinity, most = -Infinity;
     const [from, to] = u.series[0].idxs ?? [0, data[0].length - 1];  // what of x is seen
     const scale = told(o.y_scales, state.log);
-    if (scale && from === 0 && to === data[0].length - 1) return [scale.low, scale.high];
+    if (scale && from === 0 && to === data[0].length - 1 && state.shown.every(Boolean)) return [scale.low, scale.high];
     series.forEach((_, s) => {
       if (!state.shown[s]) return;
       data[s + 1].forEach((v, i) => {
@@ -95,6 +113,17 @@ function curve_plot(data, series, o) {
     const scale = told(scales, log), free = log ? log_ticks : even_splits;
     return !scale && !log ? {} : { filter: (u, ticks) => ticks,
       splits: (u, a, low, high) => (low !== scale?.low || high !== scale.high ? free(low, high) : a > 0 || u.width > 520 ? scale.ticks : scale.few) };
+  };
+  const line = 15;
+  const tick_texts = (u, ticks, of) => {
+    const is_log = of === "x" ? state.x_log : state.log, { min, max } = u.scales[of], at = is_log ? Math.log : (v) => v;
+    const length = of === "x" ? u.width - 80 : u.height - 70, part = (v) => (at(v) - at(min)) / (at(max) - at(min));
+    const g = u.ctx;
+    g.save();
+    g.font = plot_font;
+    const texts = uncrowded(ticks.map(tick_text), ticks.map((v) => length * part(v)), of === "x" ? (text) => g.measureText(text).width + 8 : () => line);
+    g.restore();
+    return texts;
   };
   const next_point = (u) => {  // [series, index] of the point next to the pointer, within 40 pixels
     let best = [null, null], least = 1600;
@@ -181,9 +210,9 @@ function curve_plot(data, series, o) {
       scales: { x: { time: false, range: x_range, distr: state.x_log ? 3 : 1 },
                 y: { distr: state.log ? 3 : 1, range: y_range } },
       axes: [
-        axis(o.x_label, { size: 30, space: 40, incrs: o.x_steps, values: (u, ticks) => ticks.map(tick_text),
+        axis(o.x_label, { size: 30, space: 40, incrs: o.x_steps, values: (u, ticks) => tick_texts(u, ticks, "x"),
                           ...told_ticks(o.x_scales, state.x_log) }),
-        axis(o.y_label, { size: 52, values: (u, ticks) => ticks.map(tick_text),
+        axis(o.y_label, { size: 52, values: (u, ticks) => tick_texts(u, ticks, "y"),
                           ...told_ticks(o.y_scales, state.log) }),
       ],
       // pxAlign 0: rounded to whole pixels, points would stand beside their line
@@ -374,8 +403,9 @@ function heat_map(x, y, layers, say, text) {
     g.fillStyle = color("muted");
     g.textAlign = "center";
     g.textBaseline = "top";
-    const middles = (axis) => axis.names.map((name, i) => [i + 0.5, name]);
-    for (const [t, name] of x.names ? middles(x) : (width > 520 ? x.ticks : x.few).map((t) => [t, tick_text(t)])) {
+    const middles = (axis) => axis.names.map((name, i) => [i + 0.5, name]), wide = (text) => g.measureText(text).width + 8;
+    const free_ticks = (ticks, place) => { const texts = uncrowded(ticks.map(tick_text), ticks.map(place), wide); return ticks.map((t, i) => [t, texts[i]]); };
+    for (const [t, name] of x.names ? middles(x) : free_ticks(width > 520 ? x.ticks : x.few, x_of)) {
       g.fillRect(Math.round(x_of(t)), y0, 1, 4);
       if (!turned) { g.fillText(name, x_of(t), y0 + 7); continue; }
       g.save();
@@ -411,8 +441,9 @@ function heat_map(x, y, layers, say, text) {
     }
     g.fillStyle = color("muted");
     g.textBaseline = "top";
-    const ticks = lw < 300 && layer.ticks.length > 3 ? layer.ticks.filter((_, i) => i % 2 === 0) : layer.ticks;
-    ticks.forEach(([at, name]) => {
+    const names = uncrowded(layer.ticks.map(([, name]) => name), layer.ticks.map(([at]) => lw * at), (text) => g.measureText(text).width + 8);
+    layer.ticks.forEach(([at], i) => {
+      const name = names[i];
       g.textAlign = at < 0.05 ? "left" : at > 0.95 ? "right" : "center";
       g.fillText(name, lx + lw * at, ly + 14);
     });

@@ -11,11 +11,10 @@ FrontPlace front_place(std::span<const TimedError> rivals, std::size_t form) {
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     const TimedError& other = rivals[i];
     if (i == form || other.error > own.error) continue;
-    const double faster = own.time.ns - other.time.ns,
-                 spreads = own.time.spread_ns + other.time.spread_ns;
-    if (faster > spreads) place.front = false;
-    const bool better = other.error < own.error || faster > 0;
-    place.tie |= better && std::abs(faster) <= spreads;
+    const auto faster = difference({other.time, other.each}, {own.time, own.each});
+    if (faster.survives && faster.ns > 0) place.front = false;
+    const bool better = other.error < own.error || faster.ns > 0;
+    place.tie |= better && !faster.survives;
   }
   return place;
 }

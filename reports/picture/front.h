@@ -16,13 +16,15 @@ namespace gonio {
 struct TimedError {
   Timing time;
   double error;  ///< a number: one that is not known has no place
+  std::vector<double>
+      each{};  ///< times in each of the processes that measured all rivals, in order
 };
 
 /// Place of a form among its rivals.
 struct FrontPlace {
-  /// No rival that is at least as exact is faster by more than both spreads together.
+  /// No rival that is at least as exact is faster by a difference that survives (timing.h).
   bool front = true;
-  /// A better rival's time differs by no more than both spreads together, and the rival is more exact, or as exact and faster.
+  /// A better rival's time differs by nothing that survives, and the rival is more exact, or as exact and faster.
   bool tie = false;
 };
 /// \param rivals  the form itself among them

@@ -99,13 +99,10 @@ std::vector<RemapUse> uses_of_k(const std::vector<RemapForm>& forms, std::span<c
 std::vector<RemapG1> claimed_g1() {
   std::vector<RemapG1> out;
   constexpr double nov = 0.1;
-  for (const auto& [k, claimed] : {std::pair(0.125, 0.47), {0.28125, 0.28}}) {
-    const double r = std::sqrt(8 * k) - 1;
-    // G1 depends on k alone, and alpha = 2k says it; smooth surfaces mask nothing
-    const double least = catalogue()[find_term(separable)].parameters[0].legal.low;
-    out.push_back(
-        {k, nov, claimed, g1(image, 2 * k, nov), r, g1(separable, std::max(r * r, least), nov)});
-  }
+  constexpr double r = 0.5;  // the seed's example
+  for (const auto& [k, claimed] : {std::pair(r * r / 2, 0.47), {(r + 1) * (r + 1) / 8, 0.28}})
+    // G1 depends on k alone, and alpha = 2k says it
+    out.push_back({k, nov, claimed, g1(image, 2 * k, nov), r, g1(separable, r * r, nov)});
   return out;
 }
 

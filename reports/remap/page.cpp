@@ -19,26 +19,26 @@ struct Description<RemapRow> {
         field("reference", "", &R::reference, "id of the exact one"),
         field("roughness", "", &R::roughness, ""),
         field("rms", "", &R::rms,
-              "of G2 − reference over NoL, NoV in [0.05, 1]², uniform in cosine"),
-        field("max_rel", "", &R::max_rel, "most |G2/reference − 1|"),
+              "RMS of G2 − reference over NoL, NoV in [0.05, 1]², uniform in cosine"),
+        field("max_rel", "", &R::max_rel, "greatest |G2/reference − 1|"),
         field("albedo_mu_0_5", "", &R::albedo, "E at mu = 0.5, F = 1"),
-        field("rms_error", "", &R::rms_error, "error of rms"),
+        field("rms_error", "", &R::rms_error, "numerical error of rms"),
         field("bias", "", &R::bias, "mean of G2 − reference"),
         field("max_rel_nol", "", &R::max_rel_nol, "NoL where max_rel is"),
         field("max_rel_nov", "", &R::max_rel_nov, "NoV where max_rel is"),
         field("albedo_reference", "", &R::albedo_reference, "E of the reference at mu = 0.5"),
-        field("albedo_error", "", &R::albedo_error, "error of both albedos together"),
+        field("albedo_error", "", &R::albedo_error, "numerical error of both albedos together"),
         field("like_by_g2", "", at(&R::by_g2, &Nearest::roughness),
               "roughness of exact Smith whose masking is nearest"),
         field("like_by_g2_left", "", at(&R::by_g2, &Nearest::left), "RMS that is left there"),
         field("like_by_g2_at_end", "", at(&R::by_g2, &Nearest::at_end),
-              "the nearest may lie beyond what was looked at"),
+              "true: the nearest may lie beyond the roughnesses tried"),
         field("like_by_albedo", "", at(&R::by_albedo, &Nearest::roughness),
               "roughness of exact Smith whose albedo is nearest, over all mu"),
         field("like_by_albedo_left", "", at(&R::by_albedo, &Nearest::left),
               "RMS that is left there"),
         field("like_by_albedo_at_end", "", at(&R::by_albedo, &Nearest::at_end),
-              "the nearest may lie beyond what was looked at")};
+              "true: the nearest may lie beyond the roughnesses tried")};
   }
 };
 
@@ -63,9 +63,9 @@ struct Description<RemapG1> {
     using G = RemapG1;
     return std::tuple{field("k", "", &G::k, "of Schlick's G1"),
                       field("nov", "", &G::nov, ""),
-                      field("claimed", "", &G::claimed, "G1 as it is told"),
-                      field("value", "", &G::value, "G1 as it is"),
-                      field("roughness", "", &G::roughness, "at which k = (r + 1)²/8"),
+                      field("claimed", "", &G::claimed, "G1 as the source says"),
+                      field("value", "", &G::value, "G1 as the form gives it"),
+                      field("roughness", "", &G::roughness, "that this k is meant for"),
                       field("smith", "", &G::smith, "exact G1 of that roughness")};
   }
 };
@@ -95,9 +95,10 @@ struct Description<RemapReport> {
         constant_text("schema", "gonio.report.remap/1"),
         field("full", "", &R::full, setting_meaning),
         field("findings", "", at(&R::findings, &Findings::sentences), findings_meaning),
-        field("rows", "", at(&R::rows, &RemapRows::rows), "a form against a reference, each"),
+        field("rows", "", at(&R::rows, &RemapRows::rows),
+              "one for each form, reference and roughness"),
         field("forms", "", at(&R::rows, &RemapRows::forms), ""),
-        field("albedo_error", "", albedo_error, "of every albedo"),
+        field("albedo_error", "", albedo_error, "numerical error of every albedo"),
         field("g1", "", at(&R::rows, &RemapRows::g1), ""),
         field("vf", "", at(&R::rows, &RemapRows::vf), ""),
         inlined(&R::pictures)};

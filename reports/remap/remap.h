@@ -64,7 +64,7 @@ struct RemapUse {
 /// Schlick's G1 where the seeds say what it is.
 struct RemapG1 {
   double k, nov, claimed, value;
-  double roughness;  ///< at which k = (r + 1)²/8
+  double roughness;  ///< that this k is meant for there
   double smith;      ///< exact G1 of that roughness
 };
 

@@ -49,13 +49,14 @@ function one(m) {
     m.half ? el("p", { class: "small" }, known(m.half.worst) ? `In half precision the same effects differ by up to ${unit}${significant(m.half.error_quantile, 2)} at ${percent(tolerance.quantile)} of the points.` : "In half precision some points have no value.") : null,
     el("p", { class: "small" }, "The model: ", el("code", {}, m.spec)),
     front.length > 1 ? el("details", {}, el("summary", {}, `${front.length} sets of which none is faster and errs less`),
-      scroll(table(["keeps", { n: "ns" }, { n: "operations" }, { n: `${unit_name} at ${percent(tolerance.quantile)}` }, { n: "worst" }],
+      in_cards(table(["keeps", { n: "ns" }, { n: "operations" }, { n: `${unit_name} at ${percent(tolerance.quantile)}` }, { n: "worst" }],
         front.map((c) => [Object.entries(c.forms).filter(([, form]) => !["none", "off", "schlick", "schlick_k", "ggx", "rgb", "split_sum", "float"].includes(form)).map(([e, form]) => effect_words[e] + form_words({ form })).join(", ") || "nothing",
           { n: significant(c.ns, 3) }, { n: count(Math.round(c.ops)) }, { n: significant(c.error_quantile, 2) }, { n: significant(c.worst, 2) }])))) : null);
   node.id = encodeURIComponent(m.name);
   return node;
 }
 
+const sections = [summary(), ...materials.map(one)];
 document.getElementById("page").replaceChildren(
-  el("p", { class: "over" }, "gonio plan"), el("h1", {}, "Only what the scene needs"), verdict(), summary(), ...materials.map(one),
+  el("p", { class: "over" }, "gonio plan"), el("h1", {}, "Only what the scene needs"), contents(sections), verdict(), ...sections,
   el("footer", {}, "Points are what viewers see, half of them near highlights. Every figure of this page is in the plan beside it."));

@@ -32,7 +32,6 @@ function pictures() {
   const all = materials.map((m) => el("div", { class: "spheres" }, el("h3", {}, capital(m)), spheres.filter((p) => p.material === m).map(triple)));
   const node = section("All effects, as planned, and the difference", null, el("p", { class: "small keys" },
     el("span", {}, key("zero"), "no difference"), el("span", {}, key("rms-1"), `ΔE2000 ${limit}, hardly seen`), el("span", {}, key("high-1"), `above ${limit}, seen side by side`), el("span", {}, key("high-2"), `${max}`)), ...all);
-  node.classList.add("long");
   return node;
 }
 
@@ -69,7 +68,6 @@ function one_material() {
   });
   const node = section("One material: keep, drop, and why", "Each effect dropped alone, all others exact and in double. Errors do not add, so the plan’s set is measured as a whole.", body.node);
   node.id = "effects";
-  node.classList.add("long");
   return node;
 }
 
@@ -83,15 +81,17 @@ function switches() {
   return node;
 }
 
-document.getElementById("page").replaceChildren(...[
-  el("p", { class: "over" }, "gonio report scenes"), el("h1", {}, "Only what the scene needs"),
-  findings_view(findings, 3),
-  plans(), pictures(), shares(), one_material(), switches(),
-  section("How it is measured", null, el("ul", { class: "findings" },
+const how = () => section("How it is measured", null, el("ul", { class: "findings" },
     el("li", {}, "Front light: three lights on the viewer’s side. Rim light: one of these, and two from behind the sphere. Sky and sun: an even sky over a darker ground, and a small bright sun."),
     el("li", {}, "The points are drawn evenly over the picture of a sphere; for every second one, the nearest to a highlight of four is likely to be taken."),
     el("li", {}, "Everything on is one surface with each effect in its exact form, in double, whether the material has it or not, as in a shader for all materials."),
     el("li", {}, "Times are of column kernels, composed on both sides: nothing is fused for the plan alone."),
-    el("li", {}, `A plan is chosen on one set of points, checked on a second, and verified here on a third of ${count(rows[0]?.samples ?? 0)}.`))),
-  left_out.length ? section("Left out of the asset", null, el("dl", { class: "pairs" }, left_out.map((m) => [el("dt", {}, m.material), el("dd", {}, m.why)]))) : null,
-  el("footer", {}, `${full ? "Full" : "Quick"} setting. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));
+    el("li", {}, `A plan is chosen on one set of points, checked on a second, and verified here on a third of ${count(rows[0]?.samples ?? 0)}.`)));
+const left_out_of_asset = () => (left_out.length ? section("Left out of the asset", null, el("dl", { class: "pairs" }, left_out.map((m) => [el("dt", {}, m.material), el("dd", {}, m.why)]))) : null);
+/// The material whose needs change with the light.
+const told = spheres.filter((p) => p.material === (materials.includes("red plastic") ? "red plastic" : materials[0])).slice(0, 2);
+show_report({
+  command: "report scenes", title: "Only what the scene needs", findings, first: told.length ? el("div", { class: "spheres picture" }, el("h3", {}, `${capital(told[0].material)}: everything on, as planned, and the difference`), told.map(triple)) : null,
+  sections: [plans(), pictures(), shares(), one_material(), switches(), how(), left_out_of_asset()],
+  setting: `${full ? "Full" : "Quick"} setting. Every figure of this page is in its data block and in the .json beside it.`,
+});

@@ -6,6 +6,7 @@
 #include "brdf/catalogue/registry.h"
 #include "image/display.h"
 #include "integrate/albedo/directional_albedo.h"
+#include "optics/spectrum.h"
 #include "reports/schlick/schlick.h"
 
 #include <fmt/format.h>
@@ -28,10 +29,23 @@ std::vector<Albedo> albedo(std::string_view term,
                             mus, 0, goal);
 }
 
-std::vector<Setting> exact_settings(const FresnelSurface& s) {
+/// Exact albedo [mu], by channel: of a metal that of every wavelength, seen as linear RGB.
+std::vector<Albedo> exact_albedo(const FresnelSurface& s, double roughness) {
+  if (!s.spectrum)
+    return albedo("fresnel.dielectric", {{"eta", {s.index[0].n}}}, roughness, s.channels());
   Setting eta{"eta", {}}, k{"k", {}};
-  for (const auto& i : s.index) eta.values.push_back(i.n), k.values.push_back(i.k);
-  return s.kind == "metal" ? std::vector{eta, k} : std::vector{eta};
+  for (std::size_t i = 0; i < wavelengths; ++i) {
+    const auto index = s.spectrum->at(first_nm + step_nm * static_cast<double>(i));
+    eta.values.push_back(index.n), k.values.push_back(index.k);
+  }
+  auto all = albedo("fresnel.conductor", {eta, k}, roughness, wavelengths);
+  for (auto& a : all) {
+    Spectrum seen;
+    std::ranges::copy(a.value, seen.begin());
+    const auto rgb = linear_srgb(seen);
+    a.value.assign(rgb.begin(), rgb.end());
+  }
+  return all;
 }
 
 /// Colour in the light in which a perfect diffuser is white; of one channel grey.
@@ -43,9 +57,7 @@ Lab seen(const std::vector<double>& albedo) {
 void add_surface(RoughFresnel& to, const FresnelSurface& s) {
   const std::size_t channels = s.channels();
   std::vector<std::vector<Albedo>> exact;  // [roughness][mu]
-  for (const double r : to.roughness)
-    exact.push_back(albedo(s.kind == "metal" ? "fresnel.conductor" : "fresnel.dielectric",
-                           exact_settings(s), r, channels));
+  for (const double r : to.roughness) exact.push_back(exact_albedo(s, r));
   for (const auto& f : forms_for(s)) {
     std::vector<std::vector<Albedo>> with;
     for (const double r : to.roughness)
@@ -76,7 +88,7 @@ RoughFresnel rough_rows(const SchlickOptions& o, const std::function<void(double
   std::vector<FresnelSurface> surfaces;
   for (const double ior : rough_iors)
     surfaces.push_back(dielectric(ior, fmt::format("IOR {:g}", ior)));
-  for (const auto& m : metals()) surfaces.push_back(metal(m));
+  for (const auto& m : metals()) surfaces.push_back(spectral(m));
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     add_surface(out, surfaces[i]);
     done(static_cast<double>(i + 1) / static_cast<double>(surfaces.size()));

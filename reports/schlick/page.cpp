@@ -14,7 +14,7 @@ struct Description<FresnelRow> {
   static constexpr auto fields() {
     using R = FresnelRow;
     return std::tuple{
-        field("form", "", &R::form, "id, with what tells a variant from it"),
+        field("form", "", &R::form, "id of the form, and after a comma which variant of it"),
         field("kind", "", &R::kind,
               "dielectric, dielectric_inside (light in the denser medium), metal, spectral (linear "
               "RGB)"),
@@ -23,12 +23,13 @@ struct Description<FresnelRow> {
         field("channel", "", &R::channel, "empty of a grey surface"),
         field("eta", "", &R::eta, "transmitted over incident index; null of a spectrum"),
         field("k", "", &R::k, "extinction over the incident index; null of a spectrum"),
-        field("max_abs", "", &R::max_abs, "most |F − exact|"),
-        field("max_abs_theta_deg", "°", &R::max_abs_theta_deg, "angle of that"),
-        field("max_rel", "", &R::max_rel, "most |F/exact − 1|"),
-        field("max_rel_theta_deg", "°", &R::max_rel_theta_deg, "angle of that"),
-        field("rms", "", &R::rms, "of F − exact, over the angle"),
-        field("bias", "", &R::bias, "2 ∫ (F − exact) c dc: of light from everywhere"),
+        field("max_abs", "", &R::max_abs, "greatest |F − exact|"),
+        field("max_abs_theta_deg", "°", &R::max_abs_theta_deg, "angle where max_abs is"),
+        field("max_rel", "", &R::max_rel, "greatest |F/exact − 1|"),
+        field("max_rel_theta_deg", "°", &R::max_rel_theta_deg, "angle where max_rel is"),
+        field("rms", "", &R::rms, "RMS of F − exact over the angle"),
+        field("bias", "", &R::bias,
+              "error of the light that an even sky sends back, 2 ∫ (F − exact) c dc"),
         field("within_1_percent_to_deg", "°", &R::within_deg,
               "angle up to which the error is at most 0.01")};
   }
@@ -43,8 +44,9 @@ struct Description<SchlickReport> {
         constant_text("schema", "gonio.report.schlick/1"),
         field("full", "", &R::full, setting_meaning),
         field("findings", "", at(&R::findings, &Findings::sentences), findings_meaning),
-        field("albedo_error_bound", "", albedo_error_bound, "of every albedo in the pictures"),
-        field("rows", "", at(&R::rows, &SchlickRows::smooth), "a form on a surface, each"),
+        field("albedo_error_bound", "", albedo_error_bound,
+              "numerical error of every albedo in the pictures"),
+        field("rows", "", at(&R::rows, &SchlickRows::smooth), "one for each form on each surface"),
         inlined(&R::pictures)};
   }
   static double albedo_error_bound(const SchlickReport& r) {

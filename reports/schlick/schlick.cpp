@@ -21,7 +21,8 @@ SchlickRows schlick_rows(const SchlickOptions& o, const ReportProgress& done) {
   r.smooth = smooth_rows(o, part_of(done, "every form by angle", 0, 0.3));
   r.maps = fresnel_maps();
   r.curves = fresnel_curves();
-  r.rough = rough_rows(o, part_of(done, "rough surfaces", 0.3, 1));
+  r.rough = rough_rows(o, part_of(done, "rough surfaces", 0.3, 0.9));
+  r.masked = masked_rows(o, part_of(done, "other factors", 0.9, 1));
   return r;
 }
 SchlickReport schlick_report(const SchlickOptions& o, const ReportProgress& done) {

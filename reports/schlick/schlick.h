@@ -53,12 +53,20 @@ struct RoughFresnel {
   std::vector<FresnelColour> colours;
 };
 
+/// Greatest ΔE2000, over roughness and views, of a rough surface under Unreal's joint masking, the nearest of the cheap ones, from
+/// one under exact Smith; both with the exact Fresnel term.
+struct MaskingColour {
+  std::string material, kind;  ///< as of a FresnelSurface
+  double delta_e;
+};
+
 /// Everything that the report measures.
 struct SchlickRows {
   std::vector<FresnelRow> smooth;
   FresnelMaps maps;
   FresnelCurves curves;
   RoughFresnel rough;
+  std::vector<MaskingColour> masked{};
 };
 
 /// Places where everything is measured.
@@ -75,6 +83,8 @@ std::vector<FresnelRow> smooth_rows(const SchlickOptions&, const std::function<v
 FresnelMaps fresnel_maps();
 FresnelCurves fresnel_curves();
 RoughFresnel rough_rows(const SchlickOptions&, const std::function<void(double)>& done);
+std::vector<MaskingColour> masked_rows(const SchlickOptions&,
+                                       const std::function<void(double)>& done);
 /// All of these.
 SchlickRows schlick_rows(const SchlickOptions&, const ReportProgress& done = {});
 

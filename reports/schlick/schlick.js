@@ -12,6 +12,7 @@ const points = (x) => significant(x, 2);
 const place = (r) => `${r.name}, ${degrees(r.max_abs_theta_deg)}`;
 const nothing = (x) => known(x) && Math.abs(x) < 1e-9;
 const none = { n: "–" };
+most_shipped = ["schlick", "schlick.ue", "schlick.f90", "f82", "schlick.spherical_gaussian", "lazanyi, corrected"];
 const number = (x, title) => ({ n: el("span", { title }, nothing(x) ? "0" : points(x)) });
 
 // --- Every form in a line ------------------------------------------------------------------------------------
@@ -32,7 +33,7 @@ function summary() {
   };
   return section("Every form in a line", "F of the form less the exact F. F0 is the exact one; of the forms that have more to set, F82 has its tint from the exact value at 82°, F90 and Lazányi's correction are fitted to each "
     + "surface, the index forms have the index. Where it is worst stands under the pointer.",
-    scroll(table(["form", { n: "IOR 1.5, most" }, { n: "RMS" }, { n: "relative" }, { n: "IOR 1.01–3, most" }, { n: "from inside, most" }, { n: "metals, most" }, { n: "median RMS" }, { n: "in linear RGB, most" }],
+    in_cards(table(["form", { n: "IOR 1.5, most" }, { n: "RMS" }, { n: "relative" }, { n: "IOR 1.01–3, most" }, { n: "from inside, most" }, { n: "metals, most" }, { n: "median RMS" }, { n: "in linear RGB, most" }],
       forms.map((form) => [el("code", {}, short(form)), ...cells(form)]))));
 }
 
@@ -54,7 +55,7 @@ function by_index() {
       choice("Error", [[false, "absolute"], [true, "relative"]], relative, (r) => { relative = r; panels.again(); })),
       el("div", { class: "columns map" }, error_map(form, side, relative),
         figure_view(picture_of(figures, "error_by_index", { form, side }), { height: 290, y_text: points })));
-  });
+  }, () => small_pictures(figures.filter((f) => f.family === "error_by_index")));
   return section("By angle and index", "Dielectrics, the light in air or in the denser medium. From inside all is reflected beyond the critical angle; forms that are asked at the angle within the medium know nothing of it.", panels.node);
 }
 
@@ -73,23 +74,25 @@ function materials() {
       channels.length > 1 ? choice("Channel", channels.map((c) => [c, c]), channel, (c) => { channel = c; panels.again(); }) : null),
       el("div", { class: "columns" }, figure_view(picture_of(figures, "reflectance", chosen), { height: 330, y_text: (y) => significant(y, 4) }),
         figure_view(picture_of(figures, "reflectance_error", chosen), { height: 330 })));
-  });
+  }, () => small_pictures([...group_by(figures.filter((f) => f.family === "reflectance_error"), (f) => f.choices.material)].map(([, list]) => list[0])));
   return section("One material", "Exact against every form.", panels.node);
 }
 function material_table() {
   const keys = { max_abs: "most |error|", max_rel: "relative, most", rms: "RMS" };
+  const kinds = [["metal", "metals, three wavelengths"], ["dielectric", "dielectrics at 550 nm"], ["dielectric_inside", "from inside"], ["spectral", "spectra in linear RGB"]];
   let key = "max_abs", kind = "metal";
-  const body = changing(() => {
+  const of = (kind, key) => {
     const list = of_kind.get(kind).filter((r) => !is_grid(r)), names = unique(list.map((r) => r.form));
     const text = (r) => (nothing(r[key]) ? "0" : key === "max_rel" ? percent(r[key]) : points(r[key]));
     const angle = (r) => (key === "max_rel" ? r.max_rel_theta_deg : r.max_abs_theta_deg);
-    return el("div", {}, el("div", { class: "controls" },
-      choice("What", [["metal", "metals, three wavelengths"], ["dielectric", "dielectrics at 550 nm"], ["dielectric_inside", "from inside"], ["spectral", "spectra in linear RGB"]], kind, (k) => { kind = k; body.again(); }),
-      choice("Error", Object.entries(keys), key, (k) => { key = k; body.again(); })),
-      scroll(table(["", ...names.map((n) => ({ n: short(n) }))], [...group_by(list, (r) => r.material)].map(([material, own]) =>
-        [material, ...names.map((n) => { const worst = greatest(own.filter((r) => r.form === n), (r) => r[key]);
-          return { n: el("span", { title: `${worst.name}, ${key === "rms" ? "all angles" : degrees(angle(worst))}` }, text(worst)) }; })]))));
-  });
+    return in_cards(table(["", ...names.map((n) => ({ n: short(n) }))], [...group_by(list, (r) => r.material)].map(([material, own]) =>
+      [material, ...names.map((n) => { const worst = greatest(own.filter((r) => r.form === n), (r) => r[key]);
+        return { n: el("span", { title: `${worst.name}, ${key === "rms" ? "all angles" : degrees(angle(worst))}` }, text(worst)) }; })])));
+  };
+  const body = changing(() => el("div", {}, el("div", { class: "controls" },
+    choice("What", kinds, kind, (k) => { kind = k; body.again(); }),
+    choice("Error", Object.entries(keys), key, (k) => { key = k; body.again(); })), of(kind, key)),
+  () => kinds.filter(([k]) => k !== kind).map(([k, words]) => [el("h3", {}, `${words}: ${keys[key]}`), of(k, key)]));
   return section("Named materials", "The worst channel of each; channel and angle under the pointer. In linear RGB the truth is the spectrum's colour; F0 is that colour, cut to the gamut; the form of three wavelengths is the exact equation at 650, 550 and "
     + "450 nm for red, green and blue.", body.node);
 }
@@ -108,13 +111,15 @@ function rough() {
       channels.length > 1 ? choice("Channel", channels.map((c) => [c, c]), channel, (c) => { channel = c; panels.again(); }) : null,
       choice("Angle", choices_of(figures, "albedo_error", "mu").map((m) => [m, `μ = ${m}`]), mu, (m) => { mu = m; panels.again(); })),
       el("div", { class: "panels" }, view("albedo_error", { material, channel, mu }), view("albedo_relative_error", { material, channel, mu }), view("colour_difference", { material, mu })));
-  });
-  return section("What it does to a rough surface", "Directional albedo E(μ) of GGX under Smith masking, correlated, single scattering, with the form in place of the exact F; the linear form, and Gulbrandsen's, which is exact, are left out. "
+  }, () => small_pictures(figures.filter((f) => f.family === "colour_difference" && f.choices.mu === mu)));
+  return section("What it does to a rough surface", "Directional albedo E(μ) of GGX under Smith masking, correlated, single scattering, with the form in place of the exact F. Of metals the truth is the colour of the whole spectrum in linear RGB, and F0 is that colour. The linear form and Gulbrandsen's are left out. "
     + `Every E is known to ${significant(albedo_error_bound, 1)} or better.`, panels.node);
 }
 
-document.getElementById("page").replaceChildren(...[
-  el("p", { class: "over" }, "gonio report schlick"), el("h1", {}, "Schlick’s approximation and its kin against exact Fresnel"),
-  findings_view(findings),
-  summary(), by_index(), materials(), material_table(), rough(),
-  el("footer", {}, `${full ? "Full" : "Quick"} setting. RMS over equal steps of θ from 0 to 90°. The exact F is computed in double, so that it is off by less than what is printed. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));
+// What a reader sees of it, on a metal that shows it.
+const first = ["iron", ...choices_of(figures, "colour_difference", "material")].map((material) => picture_of(figures, "colour_difference", { material, mu: "0.1" })).find(Boolean) ?? figures[0];
+show_report({
+  command: "report schlick", title: "Schlick’s approximation and its kin against exact Fresnel", findings, first: first && figure_view(first, { height: 300, copy: true }),
+  sections: [summary(), by_index(), materials(), material_table(), rough()],
+  setting: `${full ? "Full" : "Quick"} setting. RMS over equal steps of θ from 0 to 90°. The exact F is computed in double, so that it is off by less than what is printed. Every figure of this page is in its data block and in the .json beside it.`,
+});

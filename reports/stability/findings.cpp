@@ -4,7 +4,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "reports/finding/words.h"
-#include "reports/stability/stability.h"
+#include "reports/stability/measure.h"
 #include "stability/prove_relative.h"
 
 #include <fmt/format.h>
@@ -96,9 +96,8 @@ void without_a_value(Findings& to, const StabilityRows& r) {
     const auto proved = static_cast<std::size_t>(std::ranges::count_if(
         all, [](const StabilityRow* row) { return row->finite_from.has_value(); }));
     to.say(
-        fmt::format("In {}, inputs without a value were found for {} forms. For {} forms a value "
-                    "is proved for every "
-                    "input from some parameter on.",
+        fmt::format("In {}, {} forms were found to have inputs without a value. From some width "
+                    "on, a value is proved for every input of {}.",
                     number, of_all(fails, all.size()), number_or_none(proved)));
   }
 }
@@ -139,16 +138,26 @@ void any_gpu(Findings& to, const StabilityRows& r) {
   }
 }
 
+/// "0.0022", and of less "0.00000006", which is read as one number.
+std::string small_text(double x) {
+  if (x >= 1e-4) return fmt::format("{:.2g}", x);
+  return fmt::format("{:.{}f}", x, static_cast<int>(std::ceil(-std::log10(x))));
+}
+
 void clamps(Findings& to, const StabilityRows& r) {
   for (const auto& c : r.clamps) {
     if (c.number != "half") continue;
     const auto up_to = [&](const std::optional<double>& x) {
-      return x ? fmt::format("up to {} {:.2g}", c.by, *x) : std::string("nowhere");
+      return x ? fmt::format("up to {} {}", c.by, small_text(*x)) : std::string("nowhere");
     };
-    to.say(fmt::format(
-        "{} in half: without it values are missing {}, with it {}. It changes values by more than "
-        "1 % {}.",
-        c.clamp, up_to(c.no_value_without), up_to(c.no_value_with), up_to(c.changed_to)));
+    const auto without = up_to(c.no_value_without), with = up_to(c.no_value_with);
+    const auto missing =
+        with == without ? fmt::format("values are missing {}, with it or without", without)
+        : !c.no_value_with
+            ? fmt::format("without it values are missing {}, with it nowhere", without)
+            : fmt::format("values are missing {}", with);
+    to.say(fmt::format("{} in half: {}. It changes values by more than 1\u00a0% {}.", c.clamp,
+                       missing, up_to(c.changed_to)));
   }
 }
 
@@ -160,6 +169,7 @@ Findings findings(const StabilityRows& r) {
   without_a_value(f, r);
   any_gpu(f, r);
   clamps(f, r);
+  stabilities::judge_f_and_g_in_half(f, r);
   return f;
 }
 

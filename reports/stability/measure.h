@@ -23,6 +23,9 @@ constexpr double usual_width = 0.05;
 bool misses_target(const StabilityRow&, Number);
 std::string reason_of(const StabilityRow&, Number);
 
+/// Adds the verdict on half for F and G.
+void judge_f_and_g_in_half(Findings&, const StabilityRows&);
+
 /// n values from low to high, each by the same factor.
 std::vector<double> in_logarithms(double low, double high, std::size_t n);
 

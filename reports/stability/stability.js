@@ -11,19 +11,26 @@ const worst = (r) => ({ n: el("span", { title: at_title(r) }, error_text(r.worst
 const none_or = (n, title) => ({ n: n ? el("span", { title }, count(n)) : "none" });
 const from = (r) => ({ n: !r.decides ? "–" : known(r.safe_from) ? significant(r.safe_from, 2) : "nowhere" });
 
-const dense = (node) => el("div", { class: "scroll dense" }, node);
+most_shipped = ["ggx", "ggx.mobile", "beckmann", "gtr", "schlick", "smith_ggx.correlated"];
+
+function dense(t) {
+  const node = in_cards(t);
+  node.classList.add("dense");
+  return node;
+}
 
 // --- The question that people come with ----------------------------------------------------------------------------
 function clamp_question() {
   const is_width = (r) => r.decides === "alpha" && r.id.startsWith("ndf.");
   const numbers = unique(rows.filter(is_width).map((r) => r.number));
   let number = numbers.includes("half") ? "half" : numbers[0];
-  const body = changing(() => el("div", {}, el("div", { class: "controls" },
-    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })),
-  dense(table(["distribution", "given", { n: "alpha from" }, { n: "worst" }, { n: "from 0.05 on" }, { n: "without a value" }, { n: "finite: proved from" }, "take instead", { n: "operations" }, "by"],
+  const of = (number) => dense(table(["distribution", "given", { n: "alpha from" }, { n: "worst" }, { n: "from 0.05 on" }, { n: "without a value" }, { n: "finite: proved from" }, "take instead", { n: "operations" }, "by"],
     rows.filter((r) => is_width(r) && r.number === number).map((r) => [el("code", {}, short(r.id)), given[r.form], from(r), worst(r), { n: known(r.worst_rel_alpha_0_05) ? error_text(r.worst_rel_alpha_0_05) : "–" },
       none_or(r.nonfinite + r.overflow, r.nonfinite_at), { n: known(r.finite_from) ? significant(r.finite_from, 2) : "–" }, r.stable ? el("code", {}, short(r.stable)) : r.form === "cosine" ? `from ${given.cross}` : "–",
-      { n: r.stable ? `${r.operations} → ${r.stable_operations}` : r.operations }, evidence_words[r.evidence]])))));
+      { n: r.stable ? `${r.operations} → ${r.stable_operations}` : r.operations }, evidence_words[r.evidence]])));
+  const body = changing(() => el("div", {}, el("div", { class: "controls" },
+    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })), of(number)),
+  () => numbers.filter((n) => n !== number).map((n) => [el("h3", {}, `In ${n}`), of(n)]));
   return section("Which alpha is safe", "From this alpha on every input that was looked at keeps the tolerance: 2 % in half and mixed numbers, 0.0001 in float, 10⁻¹⁰ in double. "
     + "Inputs count as exact: a NoH that is rounded to half on its way brings an error of its own, as ggx.mobile shows in mixed numbers. The worst input, also in bits, stands under the pointer. From 0.05 on: the worst from that alpha on, of what does not keep 2 % there.", body.node);
 }
@@ -43,7 +50,7 @@ function by_alpha() {
       choice("Kind", choices_of(figures, "error_by_alpha", "kind", { number }).map((k) => [k, k]), kind, (k) => { kind = k; panels.again(); }),
       chooser("Form", names.map((n) => [n, n]), form, (f) => { form = f; panels.again(); })),
     figure_view(figure, { height: 380, emphasis: form === all ? undefined : form }));
-  });
+  }, () => small_pictures(figures.filter((f) => f.family === "error_by_alpha" && !(f.choices.number === number && f.choices.kind === kind))));
   return section("How errors grow as surfaces get smooth", "The worst over all angles, at each alpha.", panels.node);
 }
 function error_maps() {
@@ -72,13 +79,15 @@ function on_any_gpu() {
   if (!any_gpu.length) return null;
   const numbers = unique(any_gpu.map((r) => r.number));
   let number = numbers[0], shown = "proved";
-  const body = changing(() => el("div", {}, el("div", { class: "controls" },
-    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); }),
-    choice("Forms", [["proved", "with a bound"], ["open", "open"]], shown, (s) => { shown = s; body.again(); })),
-  dense(table(["form", "given", { n: "error at most" }, "1 %", "a value", "over", "why not"],
+  const kinds = [["proved", "with a bound"], ["open", "open"]];
+  const of = (number, shown) => dense(table(["form", "given", { n: "error at most" }, "1 %", "a value", "over", "why not"],
     any_gpu.filter((r) => r.number === number && r.evidence === shown).sort((a, b) => (a.proved_rel ?? 0) - (b.proved_rel ?? 0))
       .map((r) => [el("code", {}, short(r.id)), given[r.form], { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, r.keeps ? "kept" : "not proved",
-        r.finite ? "always" : "not proved", r.domain.replace("sin2_theta_h", "sin²θ_h"), r.why || "–"])))));
+        r.finite ? "always" : "not proved", r.domain.replace("sin2_theta_h", "sin²θ_h"), r.why || "–"])));
+  const body = changing(() => el("div", {}, el("div", { class: "controls" },
+    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); }),
+    choice("Forms", kinds, shown, (s) => { shown = s; body.again(); })), of(number, shown)),
+  () => kinds.filter(([k]) => k !== shown).map(([k, words]) => [el("h3", {}, `In ${number}, ${words}`), of(number, k)]));
   return section("On any GPU", "Proved for every GPU that keeps Vulkan 1.4, whatever it makes of what Vulkan leaves open: rounding up or down, division within 2.5 units, subnormals kept or dropped. "
     + "The shader declares no float controls, and its expressions are “precise”, so that nothing is fused or reordered. Domains are smaller than the hard one.", body.node);
 }
@@ -103,19 +112,21 @@ function missed() {
 function every_form() {
   const numbers = unique(rows.map((r) => r.number)), kinds = unique(rows.map((r) => r.id.split(".")[0]));
   let number = numbers[0], kind = kinds[0];
-  const body = changing(() => el("div", {}, el("div", { class: "controls" },
-    choice("Kind", kinds.map((k) => [k, k]), kind, (k) => { kind = k; body.again(); }),
-    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })),
-  dense(table(["form", "given", { n: "worst" }, { n: "ulp" }, { n: "condition there" }, { n: "ulp beyond it" }, "half raised", { n: "proved" }, { n: "no value" }, { n: "negative" }, { n: "overflow" }, { n: "vanished" }, { n: "wrong way" }, { n: "irreciprocal" }, "safe from", { n: "looked at" }, "by"],
+  const of = (number, kind) => dense(table(["form", "given", { n: "worst" }, { n: "ulp" }, { n: "condition there" }, { n: "ulp beyond it" }, "half raised", { n: "proved" }, { n: "no value" }, { n: "negative" }, { n: "overflow" }, { n: "vanished" }, { n: "wrong way" }, { n: "irreciprocal" }, "safe from", { n: "looked at" }, "by"],
     rows.filter((r) => r.number === number && r.id.startsWith(kind)).map((r) => [el("code", {}, short(r.id)), given[r.form], worst(r), { n: significant(r.worst_ulp, 2) }, { n: significant(r.condition, 2) }, { n: significant(r.ulp_beyond, 2) }, r.flags || "–",
       { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, none_or(r.nonfinite, r.nonfinite_at), none_or(r.negative), none_or(r.overflow), none_or(r.vanished), none_or(r.not_monotone), none_or(r.irreciprocal),
-      !r.decides ? "–" : known(r.safe_from) ? `${r.decides} ${significant(r.safe_from, 2)}` : "nowhere", { n: count(r.evaluations) }, evidence_words[r.evidence] + (r.settled ? "" : ", not settled")])))));
+      !r.decides ? "–" : known(r.safe_from) ? `${r.decides} ${significant(r.safe_from, 2)}` : "nowhere", { n: count(r.evaluations) }, evidence_words[r.evidence] + (r.settled ? "" : ", not settled")])));
+  const body = changing(() => el("div", {}, el("div", { class: "controls" },
+    choice("Kind", kinds.map((k) => [k, k]), kind, (k) => { kind = k; body.again(); }),
+    choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })), of(number, kind)),
+  () => kinds.filter((k) => k !== kind).map((k) => [el("h3", {}, `${k}, ${number}`), of(number, k)]));
   return section("Every form in every number", "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every input”: each half there is was evaluated. “Search”: the worst that seeds and climbing found from two starts; there may be worse. Results below 2⁻⁶⁴, 5·10⁻²⁰, count as black in float, double and mixed numbers, and errors below a half’s least normal number are measured against that. "
     + "Vanished: 0 where a value should be. Wrong way: neighbours between which the value rises where it should fall. Irreciprocal: another value with light and view exchanged. Half raised: flags on the way to the worst input.", body.node);
 }
 
-document.getElementById("page").replaceChildren(...[
-  el("p", { class: "over" }, "gonio report stability"), el("h1", {}, "Which formulas stay stable in few bits"),
-  findings_view(findings),
-  clamp_question(), by_alpha(), error_maps(), clamps.length ? clamp_table() : null, on_any_gpu(), missed(), every_form(),
-  el("footer", {}, `${full ? "Full" : "Quick"} setting. Truths are computed in double, the worst of them again in fifty digits. Every figure of this page is in its data block and in the .json beside it.`)].filter(Boolean));
+const first = picture_of(figures, "error_by_alpha", { number: "half" }) ?? figures[0];
+show_report({
+  command: "report stability", title: "Which formulas stay stable in few bits", findings, first: first && figure_view(first, { height: 340, copy: true }),
+  sections: [clamp_question(), by_alpha(), error_maps(), clamps.length ? clamp_table() : null, on_any_gpu(), missed(), every_form()],
+  setting: `${full ? "Full" : "Quick"} setting. Truths are computed in double, the worst of them again in fifty digits. Every figure of this page is in its data block and in the .json beside it.`,
+});

@@ -383,7 +383,6 @@ function each() {
     "The sphere shows the fitted model, lit from the upper left under a uniform sky. Beside it f_r in the plane of incidence, logarithmic with a line per decade, "
       + "at the angle nearest to 30°: points are the table's samples, lines the model, the dashed line the mirror direction. A name links to its " + (tables.some((t) => t.page) ? "page." : "document."),
     el("div", { class: "controls" }, search, kind, el("label", {}, "by ", sort_select), direction, view, shown), body);
-  out.classList.add("long");
   update();
   return out;
 }

@@ -68,7 +68,6 @@ function list_of_models() {
     told_by_cell(head, list.map(row), (i) => (list[i].recommended ? "chosen" : null)));
   node.querySelector("p").append(el("a", { href: "#words" }, "What the words mean"));
   node.id = "models";
-  node.classList.add("long");
   return node;
 }
 
@@ -92,7 +91,6 @@ function curves() {
       channels.length > 1 ? choice("Channel", channels.map((c) => [c, c]), state.channel, set("channel")) : null,
       compared.length > first_few.length ? choice("Models", [[false, `the nearest ${first_few.length}`], [true, `all ${compared.length}`]], false, set("all")) : null),
     drawn.node);
-  node.classList.add("long");
   return node;
 }
 

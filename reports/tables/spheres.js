@@ -18,7 +18,6 @@ function spheres_section(spheres, name, at_once = spheres.models.length) {
     ...spheres.models.slice(0, at_once).map(of_model), others.length ? more_spheres(others.length, () => others.map((model, k) => of_model(model, at_once + k))) : null,
     scroll(spheres_table(spheres, name)), el("p", { class: "small muted", style: { "margin-top": "12px" } }, spheres_how(spheres)));
   node.id = "spheres";
-  if (!name) node.classList.add("long");
   return node;
 }
 

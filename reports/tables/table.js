@@ -93,7 +93,6 @@ function curve_section() {
       el("div", { class: "controls" },
         choice("Scale of f_r", [[true, "logarithmic"], [false, "linear"]], state.log, (v) => { state.log = v; apply(); }), keys),
       el("div", { class: "panels" }, panels.map((p) => p.node))]);
-  out.classList.add("long");
   return out;
 }
 

@@ -24,11 +24,10 @@ BoundModel middle(const Choice& c) {
   return bound(c, c.shipped, substances(c).front(), rough[rough.size() / 2]);
 }
 
-/// Cost of the compensation in a shader; none of single scattering.
-std::optional<CompensationCost> compensation_cost(const Choice& c, const char* budget) {
-  if (c.shipped.scattering == Bounces::single) return {};
-  static const auto all = compensation_costs({});
-  const auto at = std::ranges::find(all, name_of(c.shipped.scattering), &CompensationCost::id);
+/// Work of the compensation in a shader.
+CompensationWork compensation_of(const Choice& c, const char* budget) {
+  const auto all = compensation_work();
+  const auto at = std::ranges::find(all, name_of(c.shipped.scattering), &CompensationWork::id);
   if (at == all.end())
     throw bad_input(
         c.path, fmt::format("/budgets/{}", budget),
@@ -75,15 +74,13 @@ BudgetCheck check_nonfinite(const Choice& c) {
 }
 
 BudgetCheck check_operations(const Choice& c) {
-  double n = static_cast<double>(operations_of(middle(c).model).total());
-  if (const auto more = compensation_cost(c, "operations"))
-    n += static_cast<double>(more->operations);
+  const auto n = static_cast<double>(operations_of(middle(c).model).total() +
+                                     compensation_of(c, "operations").operations);
   return {"operations", *c.budgets.operations, n, n <= *c.budgets.operations, "counted"};
 }
 
 BudgetCheck check_table_bytes(const Choice& c) {
-  const auto more = compensation_cost(c, "table_bytes");
-  const double n = more ? static_cast<double>(more->bytes) : 0;
+  const auto n = static_cast<double>(compensation_of(c, "table_bytes").bytes);
   return {"table_bytes", *c.budgets.table_bytes, n, n <= *c.budgets.table_bytes, "counted"};
 }
 

@@ -28,13 +28,20 @@ std::vector<std::string_view> nearest(std::string_view name,
                                       std::span<const std::string_view> known) {
   // Of a text that is no name at all a beginning decides: whatever is nearest to it, it is far.
   constexpr std::size_t most = 200;
-  std::vector<std::pair<std::size_t, std::string_view>> near;
+  constexpr std::size_t telling = 3;  // letters of a beginning that somebody left it at
+  struct Near {
+    bool other;
+    std::size_t changed;
+    std::string_view name;
+  };
+  std::vector<Near> near;
   for (const auto n : known)
-    near.emplace_back(distance(name.substr(0, most), n.substr(0, most)), n);
-  std::ranges::stable_sort(near, {}, [](const auto& p) { return p.first; });
+    near.push_back({name.size() < telling || !n.starts_with(name),
+                    distance(name.substr(0, most), n.substr(0, most)), n});
+  std::ranges::stable_sort(near, {}, [](const Near& n) { return std::pair(n.other, n.changed); });
   if (near.size() > 3) near.resize(3);
   std::vector<std::string_view> names;
-  for (const auto& n : near) names.push_back(n.second);
+  for (const auto& n : near) names.push_back(n.name);
   return names;
 }
 

@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -68,11 +70,16 @@ std::optional<ProcessResult> run_program(const std::string& name,
   if (result.status == 127) return {};  // as a shell says that there is no such program
   std::rewind(out.get());
   char part[4096];
-  constexpr std::size_t most = 1 << 20;
+  constexpr std::size_t most = 1 << 24;
   for (std::size_t n = 0;
        result.output.size() < most && (n = std::fread(part, 1, sizeof part, out.get())) > 0;)
     result.output.append(part, n);
   return result;
+}
+
+std::string this_program() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).string();
 }
 
 }  // namespace gonio

@@ -22,4 +22,7 @@ std::optional<ProcessResult> run_program(const std::string& name,
                                          const std::string& input,
                                          double seconds);
 
+/// Path by which the running program starts itself once more; empty where nothing says it.
+std::string this_program();
+
 }  // namespace gonio

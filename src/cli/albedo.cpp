@@ -40,6 +40,8 @@ Result by_formula(const BoundModel& model, const Options& o) {
   const Goal goal{o.error.value_or(Goal{}.error), Goal{}.evaluations};
   const double phi = o.phi_deg * degree;
   Result r;
+  Progress progress(o.quiet);
+  progress("integrating");
   if (o.scattering == "single") {
     r.at = directional_albedo(model, o.mu, phi, goal);
     if (o.average) r.average = hemispherical_albedo(model, goal);

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 
 #include "base/error.h"
+#include "base/process.h"
+#include "base/quantile.h"
 #include "cli/terminal.h"
 #include "reports/cost/baseline.h"
+#include "reports/measure/load.h"
 
 #include <fmt/format.h>
 
@@ -18,15 +22,16 @@ namespace {
 
 struct Options : Common {
   std::string what = "kernels";
-  bool full = false, plain = true;
+  bool full = false, plain = true, times = false;
   std::optional<std::string> filter, baseline;
-  std::optional<int> repeats;
+  std::optional<int> repeats, processes;
 };
 
 /// Refuses what the other subject is told by.
 void check_options(const Options& o) {
-  if (o.what == "fit" && (o.full || o.filter || o.baseline))
-    throw wrong_usage("--full, --filter and --baseline are for bench kernels");
+  if (o.what == "fit" && (o.full || o.filter || o.baseline || o.times || o.processes))
+    throw wrong_usage(
+        "--full, --filter, --baseline, --times and --processes are for bench kernels");
   if (o.what != "fit" && (!o.plain || o.jobs != 0))
     throw wrong_usage("--no-plain and --jobs are for bench fit");
 }
@@ -62,7 +67,7 @@ void print_group(const std::vector<const CostRow*>& rows) {
     const auto is_here = [&](const CostRow* r) { return shown(*r) == name; };
     const auto& first = **std::ranges::find_if(rows, is_here);
     say("{:<{}} {:>4} {:>8}", name, width,
-        first.kind == "by_hand" ? "" : fmt::format("{}", first.operations.total()),
+        first.operations.total() == 0 ? "" : fmt::format("{}", first.operations.total()),
         first.error.truth.empty() ? "" : fmt::format("{:.1e}", first.error.rms));
     for (const auto& p : places) {
       const auto at = std::ranges::find_if(rows, [&](const CostRow* r) {
@@ -76,7 +81,8 @@ void print_group(const std::vector<const CostRow*>& rows) {
 
 void print_rows(const std::vector<CostRow>& rows) {
   for (const std::string_view kind :
-       {"ndf", "masking", "fresnel", "diffuse", "model", "by_hand", "bound"})
+       {"ndf", "masking", "fresnel", "diffuse", "model", "by_hand", "bound", "arithmetic",
+        "arithmetic_in_f", "sampling", "split_sum"})
     for (const std::string_view number : {"float", "double"}) {
       std::vector<const CostRow*> group;
       for (const auto& r : rows)
@@ -86,8 +92,9 @@ void print_rows(const std::vector<CostRow>& rows) {
   std::vector<double> spreads;
   for (const auto& r : rows) spreads.push_back(r.time.spread_ns / r.time.ns);
   std::ranges::sort(spreads);
-  say("\nspread, half the distance of the quartiles: {:.1f} % in the middle, {:.0f} % at most\n",
-      100 * spreads[spreads.size() / 2], 100 * spreads.back());
+  say("\nspread, half the distance of the quartiles{}: {:.1f} % in the middle, {:.0f} % at most\n",
+      rows[0].each.empty() ? "" : " between processes", 100 * spreads[spreads.size() / 2],
+      100 * spreads.back());
 }
 
 std::string words(const CostName& n) {
@@ -95,57 +102,94 @@ std::string words(const CostName& n) {
                      n.memory);
 }
 
+/// "2 were not timed earlier: a, b"; no line of none.
+void print_missing(const std::vector<CostName>& names, const char* what) {
+  constexpr std::size_t shown = 5;
+  if (names.empty()) return;
+  std::string list;
+  for (std::size_t k = 0; k < std::min(shown, names.size()); ++k)
+    list += fmt::format("{}{}", k ? "; " : "", words(names[k]));
+  if (names.size() > shown) list += fmt::format("; and {} more", names.size() - shown);
+  say_below(fmt::format("{} {}: ", names.size(), what), list);
+}
+
+/// What changed, the largest change first.
 void print_changes(const std::vector<CostChange>& all,
                    const EarlierCosts& earlier,
                    const Machine& m) {
   if (earlier.cpu != m.cpu || earlier.compiler != m.compiler || earlier.flags != m.flags)
-    say("\nbeware: the earlier times are of {}, {}, {}\n", earlier.cpu, earlier.compiler,
-        earlier.flags);
-  std::size_t width = 0, differing = 0, compared = 0;
-  for (const auto& c : all) width = std::max(width, words(c.name).size());
-  say("\nnow over earlier; * differs by more than three times both spreads\n");
+    say_below("beware  ", fmt::format("the earlier times are of {}, {}, {}", earlier.cpu,
+                                      earlier.compiler, earlier.flags));
+  std::vector<const CostChange*> differing;
+  std::vector<double> ratios;
+  std::vector<CostName> new_ones, gone;
   for (const auto& c : all) {
-    if (!c.before || !c.now) continue;
-    ++compared;
-    differing += c.differs;
-    say("{:<{}} {:>9.3f} -> {:>9.3f} ns  {:.3f} ± {:.3f}{}\n", words(c.name), width, c.before->ns,
-        c.now->ns, c.ratio, c.spread, c.differs ? " *" : "");
+    if (!c.before) {
+      new_ones.push_back(c.name);
+    } else if (!c.now) {
+      gone.push_back(c.name);
+    } else {
+      ratios.push_back(c.ratio);
+      if (c.differs) differing.push_back(&c);
+    }
   }
-  say("{} of {} differ\n", differing, compared);
-  for (const auto& c : all)
-    if (!c.before)
-      say("not among the earlier times: {}\n", words(c.name));
-    else if (!c.now)
-      say("not measured now: {}\n", words(c.name));
+  if (ratios.empty()) {
+    say("nothing that was timed now was timed earlier\n");
+  } else {
+    say("{} of {} times changed by more than three times both spreads; the median of all is {:.3g} "
+        "times the earlier\n",
+        differing.empty() ? "none" : fmt::to_string(differing.size()), ratios.size(),
+        quantile(ratios, 0.5));
+  }
+  const auto size = [](const CostChange* c) { return std::abs(std::log(c->ratio)); };
+  std::ranges::stable_sort(differing, std::greater<>{}, size);
+  std::size_t width = 0;
+  for (const auto* c : differing) width = std::max(width, words(c->name).size());
+  if (!differing.empty())
+    say("{:<{}} {:>9}    {:>9}     now over earlier\n", "", width, "earlier", "now [ns]");
+  for (const auto* c : differing)
+    say("{:<{}} {:>9.3f} -> {:>9.3f}     {:.3f} ± {:.3f}\n", words(c->name), width, c->before->ns,
+        c->now->ns, c->ratio, c->spread);
+  print_missing(new_ones, "not timed earlier");
+  print_missing(gone, "not timed now");
 }
 
 Exit bench_kernels(const Options& o) {
   std::optional<EarlierCosts> earlier;  // nobody waits to learn that it cannot be read
   if (o.baseline) earlier = read_costs(*o.baseline);
   auto options = cost_options(o.full);
-  if (!o.full) options.timing = {5, 6e-4, true};  // within 20 seconds
+  options.program = this_program();
+  options.processes = o.processes.value_or(o.full ? options.processes : 5);
+  options.errors = !o.times;
   if (o.repeats) options.timing.repetitions = *o.repeats;
   if (o.filter) options.filter = *o.filter;
   Progress progress(o.quiet);
   const auto begin = std::chrono::steady_clock::now();
-  const auto rows = measure_costs(options, [&](std::string_view what, double part) {
+  const auto measured = measure_costs(options, [&](std::string_view what, double part) {
     constexpr std::size_t all = 1000;
     const auto done = static_cast<std::size_t>(part * all);
     progress(fmt::format("{}, {} %{}", what, done / 10, time_left(begin, done, all)));
   });
   progress.clear();
+  const auto& rows = measured.rows;
   if (rows.empty()) throw wrong_usage(fmt::format("no form's id holds '{}'", options.filter));
   const auto machine = this_machine();
   std::vector<CostChange> found;
   if (earlier) found = changes(*earlier, rows, options.filter);
   if (o.json) {
-    fmt::print("{}\n", costs_json(machine, options, rows, found));
+    fmt::print("{}\n", costs_json(machine, options, measured, found));
     return Exit::done;
   }
-  say("{}, {} threads; {}; median of {} repetitions [ns a sample]\n", machine.cpu, machine.threads,
-      machine.compiler, options.timing.repetitions);
-  print_rows(rows);
-  if (earlier) print_changes(found, *earlier, machine);
+  say("{}, {} threads; {}; median over {} [ns a sample]\n", machine.cpu, machine.threads,
+      machine.compiler,
+      measured.processes > 1 ? fmt::format("{} processes", measured.processes)
+                             : fmt::format("{} repetitions", options.timing.repetitions));
+  if (const auto text = load_text(measured.others, machine.threads); !text.empty())
+    say("{}\n", text);
+  if (earlier)
+    print_changes(found, *earlier, machine);
+  else
+    print_rows(rows);
   return Exit::done;
 }
 
@@ -170,10 +214,16 @@ void add_bench(CommandLine& line) {
       .show_default();
   c.flag("--full", o->full, "Streaming in every instruction set, and more repetitions: minutes");
   c.option("--filter", o->filter, "Only forms whose id holds this: smith, fresnel., model.gltf");
-  c.option("--baseline", o->baseline,
-           "An earlier document of bench --json or report cost, to print ratios to");
-  c.option("--repeats", o->repeats, "Repetitions (default: 5, 15 with --full, 11 of fit)")
+  c.option(
+      "--baseline", o->baseline,
+      "An earlier document of bench --json or report cost: what changed since is printed, in place "
+      "of all times");
+  c.option("--repeats", o->repeats, "Repetitions in each process (default: 3, 11 of fit)")
       .in(1, 1000);
+  c.option("--processes", o->processes,
+           "Processes that measure everything in turn; 1: this one (default: 5, 15 with --full)")
+      .in(1, 100);
+  c.flag("--times", o->times, "Times alone, without the errors, which take seconds");
   c.flag("!--no-plain", o->plain, "fit: without the plain way, which takes seconds and 1 GB");
   add_jobs(c, *o);
   add_output(c, *o);

@@ -141,12 +141,14 @@ void print(const ColumnProposal& p, const std::string& file) {
       command);
 }
 
-Json show(const Options& o, const std::string& file) {
+Json show(const Options& o, const std::string& file, Progress& progress) {
+  progress("reading " + file);
   InputFile in(file);
   expect_columns(in);
   const std::string side = side_text(file);
   const auto map = side.empty() ? std::nullopt : column_map(side_path(file), side);
   const auto columns = csv_columns(in, map ? map->skip : 0);
+  progress.clear();
   Json all = Json::array();
   if (!o.json)
     say("{}\n{:<8}{:<24}{:>10}{:>14}{:>14}\n", file, "", "name", "entries", "from", "to");
@@ -191,12 +193,17 @@ Json show(const Options& o, const std::string& file) {
 
 Exit run(const Options& o) {
   Json documents = Json::array();
+  Progress progress(o.quiet);
   if (!says_anything(o)) {
-    for (const auto& file : o.files) documents.push_back(show(o, file));
+    for (const auto& file : o.files) documents.push_back(show(o, file, progress));
   } else {
     const ColumnMap map = map_of(o);
     std::vector<std::pair<Table, std::string>> all;
-    for (const auto& file : o.files) all.push_back(read_with(file, map));
+    for (const auto& file : o.files) {
+      progress("reading " + file);
+      all.push_back(read_with(file, map));
+    }
+    progress.clear();
     for (const auto& [t, side] : all) {
       write_file(side_path(t.path), side);
       if (o.json)

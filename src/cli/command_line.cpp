@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/nearest.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -101,6 +103,19 @@ Command CommandLine::command(const std::string& name,
   return Command(c);
 }
 
+namespace {
+
+[[noreturn]] void refuse_subcommand(const CLI::App& app, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto* c : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(c->get_name());
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  throw wrong_usage(fmt::format("no subcommand '{}'; nearest: {}; see gonio --help", name,
+                                fmt::join(nearest(name, known), ", ")));
+}
+
+}  // namespace
+
 Action CommandLine::parse(int argc, const char* const* argv) {
   try {
     app_->parse(argc, argv);
@@ -108,9 +123,14 @@ Action CommandLine::parse(int argc, const char* const* argv) {
     app_->exit(e);
     return {};
   } catch (const CLI::ParseError& e) {
-    if (app_->get_subcommands().empty() && argc > 1)
-      throw wrong_usage(fmt::format("no subcommand '{}'; see gonio --help", argv[1]));
-    throw wrong_usage(e.what());
+    const auto called = app_->get_subcommands();
+    if (called.empty() && argc > 1) refuse_subcommand(*app_, argv[1]);
+    if (called.empty()) throw wrong_usage("no subcommand; see gonio --help");
+    std::string what = e.what();
+    constexpr std::string_view missing = ": 1 required TEXT missing";  // as CLI11 puts it
+    if (what.ends_with(missing))
+      what = what.substr(0, what.size() - missing.size()) + " has no value";
+    throw wrong_usage(fmt::format("{}; see gonio {} --help", what, called.front()->get_name()));
   }
   return action_;
 }

@@ -63,6 +63,8 @@ Exit run(const Options& o) {
   auto inputs = file_in(o.what);
   inputs.push_back(o.directions);
   check_outputs(inputs, {o.output});
+  Progress progress(o.quiet);
+  progress("evaluating");
   InputFile in(o.directions);
   Table t = read_directions_csv(in);
   t.values.clear(), t.weights.clear();
@@ -82,6 +84,7 @@ Exit run(const Options& o) {
     write_csv(t, out);
     out.commit();
   }
+  progress.clear();
   if (o.json) {
     auto& rows = document["rows"] = nlohmann::ordered_json::array();
     const auto& l = *t.list();

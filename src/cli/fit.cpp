@@ -160,6 +160,7 @@ Exit run_batch(const Options& o, const HowFitted& how) {
         "one of each beside it");
   check_outputs({}, {o.output});
   Progress progress(o.quiet);
+  progress("looking for tables");
   const auto begin = std::chrono::steady_clock::now();
   BatchHooks hooks{[&](const BatchCount& n) { progress(line_of(n, begin)); }, batch_page_html, {}};
   if (o.pages)

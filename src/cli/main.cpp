@@ -57,25 +57,26 @@ int main(int argc, char** argv) {
       GONIO_VERSION,
       "Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input or output, 4 the fit did "
       "not converge.");
+  // As one needs them: tables, formulas, reports, scenes.
+  gonio::cli::add_inspect(line);
+  gonio::cli::add_columns(line);
+  gonio::cli::add_fit(line);
+  gonio::cli::add_compare(line);
+  gonio::cli::add_convert(line);
+  gonio::cli::add_synth(line);
   gonio::cli::add_models(line);
   gonio::cli::add_term(line);
+  gonio::cli::add_eval(line);
+  gonio::cli::add_albedo(line);
+  gonio::cli::add_split_sum(line);
   gonio::cli::add_audit(line);
   gonio::cli::add_stability(line);
   gonio::cli::add_validate(line);
+  gonio::cli::add_report(line);
+  gonio::cli::add_bench(line);
   gonio::cli::add_plan(line);
   gonio::cli::add_verify(line);
   gonio::cli::add_render(line);
-  gonio::cli::add_eval(line);
-  gonio::cli::add_synth(line);
-  gonio::cli::add_columns(line);
-  gonio::cli::add_inspect(line);
-  gonio::cli::add_fit(line);
-  gonio::cli::add_convert(line);
-  gonio::cli::add_compare(line);
-  gonio::cli::add_bench(line);
-  gonio::cli::add_albedo(line);
-  gonio::cli::add_split_sum(line);
-  gonio::cli::add_report(line);
   try {
     const auto action = line.parse(argc, argv);
     if (!action) return finish(Exit::done);  // help, printed

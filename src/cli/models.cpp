@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/formula/widths.h"
 #include "brdf/model/presets.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -32,17 +33,20 @@ bool holds(std::string_view text, std::string_view word) {
   return std::ranges::search(text, word, same).begin() != text.end() || word.empty();
 }
 
+Json describe(const Parameter& p) {
+  return {{"name", p.name},
+          {"low", p.legal.low},
+          {"high", p.legal.high},
+          {"fit_low", p.fit.low},
+          {"fit_high", p.fit.high},
+          {"default", p.start},
+          {"per_channel", p.per_channel},
+          {"meaning", p.meaning}};
+}
+
 Json describe(const About& about, std::span<const Parameter> parameters) {
   Json list = Json::array();
-  for (const auto& p : parameters)
-    list.push_back({{"name", p.name},
-                    {"low", p.legal.low},
-                    {"high", p.legal.high},
-                    {"fit_low", p.fit.low},
-                    {"fit_high", p.fit.high},
-                    {"default", p.start},
-                    {"per_channel", p.per_channel},
-                    {"meaning", p.meaning}});
+  for (const auto& p : parameters) list.push_back(describe(p));
   return {{"id", about.id},
           {"title", about.title},
           {"formula", about.formula},
@@ -57,14 +61,25 @@ Json describe(const About& about, std::span<const Parameter> parameters) {
 /// Where the texts begin, right of the ids.
 constexpr int indent = 40;
 
+void print(const Parameter& p, std::string_view of = "") {
+  fmt::print("{:{}}{} in [{}, {}]{}, default {}: {}{}\n", "", indent, p.name, p.legal.low,
+             p.legal.high, p.per_channel ? ", per channel" : "", p.start, p.meaning, of);
+}
+
 void print(const About& about, std::span<const Parameter> parameters) {
   fmt::print("{:<{}}{}\n{:{}}{}\n", about.id, indent, about.title, "", indent, about.formula);
   if (!about.reference().empty())
     fmt::print("{:{}}{} {}\n", "", indent, about.named_for.empty() ? "stands for" : "differs from",
                about.reference());
-  for (const auto& p : parameters)
-    fmt::print("{:{}}{} in [{}, {}]{}, default {}: {}\n", "", indent, p.name, p.legal.low,
-               p.legal.high, p.per_channel ? ", per channel" : "", p.start, p.meaning);
+  if (!about.source.empty()) fmt::print("{:{}}from {}\n", "", indent, about.source);
+  if (!about.ships.empty()) fmt::print("{:{}}shipped by {}\n", "", indent, about.ships);
+  for (const auto& p : parameters) print(p);
+}
+
+/// A term, and what a model that has it gets beside the term's own parameters.
+void print(const TermEntry& t) {
+  print(*t.about, t.parameters);
+  if (t.anisotropic) print(tangent_parameter, ", of a whole model");
 }
 
 void print(const Preset& p) {
@@ -77,7 +92,7 @@ void print(const Evaluated& e) {
 }
 
 void print_all() {
-  for (const auto& t : catalogue()) print(*t.about, t.parameters);
+  for (const auto& t : catalogue()) print(t);
   fmt::print("\nMaps from parameters to parameters (`gonio term` evaluates them too):\n");
   for (const auto& m : maps()) print(*m.about, m.parameters);
   fmt::print("\nWhole models, by their id less the prefix (--model gltf):\n");
@@ -93,36 +108,46 @@ void print_all() {
 }
 
 Exit run(const Options& o) {
-  const auto wanted = [&](const About& a) {
-    return holds(a.id, o.word) || holds(a.title, o.word) || holds(a.source, o.word);
+  const auto wanted = [&](const About& a, std::span<const Parameter> parameters) {
+    return holds(a.id, o.word) || holds(a.title, o.word) || holds(a.source, o.word) ||
+           std::ranges::find(parameters, o.word, &Parameter::name) != parameters.end();
+  };
+  const auto wanted_term = [&](const TermEntry& t) {
+    return wanted(*t.about, t.parameters) || (t.anisotropic && o.word == tangent_parameter.name);
   };
   const auto wanted_metal = [&](const Material& m) {
     return holds(m.symbol, o.word) || holds(m.name, o.word);
   };
   std::size_t found = 0;
-  for (const auto& t : catalogue()) found += wanted(*t.about);
-  for (const auto& m : maps()) found += wanted(*m.about);
-  for (const auto& p : presets()) found += wanted(p.about);
-  for (const auto& e : evaluated_by_commands()) found += wanted(*e.about);
+  for (const auto& t : catalogue()) found += wanted_term(t);
+  for (const auto& m : maps()) found += wanted(*m.about, m.parameters);
+  for (const auto& p : presets()) found += wanted(p.about, p.parameters);
+  for (const auto& e : evaluated_by_commands()) found += wanted(*e.about, {});
   for (const auto& m : metals()) found += wanted_metal(m);
   if (found == 0)
-    throw wrong_usage(fmt::format("no id, title or source of the catalogue holds '{}'", o.word));
+    throw wrong_usage(fmt::format(
+        "no id, title or source of the catalogue holds '{}', and no parameter is called so",
+        o.word));
   if (o.json) {
     Json terms = Json::array(), map = Json::array(), model = Json::array(), metal = Json::array();
     for (const auto& t : catalogue())
-      if (wanted(*t.about)) terms.push_back(describe(*t.about, t.parameters));
+      if (wanted_term(t)) {
+        terms.push_back(describe(*t.about, t.parameters));
+        if (t.anisotropic)
+          terms.back()["model_parameters"] = Json::array({describe(tangent_parameter)});
+      }
     for (const auto& m : maps()) {
-      if (!wanted(*m.about)) continue;
+      if (!wanted(*m.about, m.parameters)) continue;
       map.push_back(describe(*m.about, m.parameters));
       map.back()["outputs"] = m.outputs;
     }
     for (const auto& p : presets()) {
-      if (!wanted(p.about)) continue;
+      if (!wanted(p.about, p.parameters)) continue;
       model.push_back(describe(p.about, p.parameters));
       model.back()["spec"] = p.spec;
     }
     for (const auto& e : evaluated_by_commands())
-      if (wanted(*e.about)) model.push_back(describe(*e.about, {}));
+      if (wanted(*e.about, {})) model.push_back(describe(*e.about, {}));
     for (const auto& m : metals()) {
       if (!wanted_metal(m)) continue;
       Json n = Json::array(), k = Json::array();
@@ -138,13 +163,13 @@ Exit run(const Options& o) {
     return Exit::done;
   }
   for (const auto& t : catalogue())
-    if (wanted(*t.about)) print(*t.about, t.parameters);
+    if (wanted_term(t)) print(t);
   for (const auto& m : maps())
-    if (wanted(*m.about)) print(*m.about, m.parameters);
+    if (wanted(*m.about, m.parameters)) print(*m.about, m.parameters);
   for (const auto& p : presets())
-    if (wanted(p.about)) print(p);
+    if (wanted(p.about, p.parameters)) print(p);
   for (const auto& e : evaluated_by_commands())
-    if (wanted(*e.about)) print(e);
+    if (wanted(*e.about, {})) print(e);
   for (const auto& m : metals())
     if (wanted_metal(m)) fmt::print("{:<{}}{} (metal={})\n", m.symbol, indent, m.name, m.symbol);
   return Exit::done;
@@ -164,7 +189,9 @@ void add_models(CommandLine& line) {
   auto [c, o] =
       line.command("models", "The terms that models are composed of, maps and whole models",
                    "gonio models ggx --json", run);
-  c.option("WORD", o->word, "Only those that hold it in their id, title or source");
+  c.option(
+      "WORD", o->word,
+      "Only those that hold it in their id, title or source, or have a parameter of that name");
   add_output(c, *o);
 }
 

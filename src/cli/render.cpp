@@ -102,7 +102,7 @@ Pictures pictures_of(const Scene& scene, const Options& o) {
   std::optional<PlannedForms> plan;
   if (!o.plan.empty()) plan = read_plan(o.plan, scene, looks);
   constexpr std::size_t steps = 100;
-  TimedProgress progress(o.quiet || o.json, "rendering", plan ? 2 * steps : steps);
+  TimedProgress progress(o.quiet, "rendering", plan ? 2 * steps : steps);
   std::size_t before = 0;
   const auto picture = [&](const auto& forms_of_material) {
     std::vector<Shown> shown;
@@ -186,19 +186,15 @@ Exit run(const Options& given) {
 void add_render(CommandLine& line) {
   constexpr std::size_t most = 4096;
   auto [c, o] = line.command(
-      "render",
-      "Makes a picture of a scene from the middle of its views, every effect in its exact form: "
-      "linear "
-      "radiance as OpenEXR, or as PNG what a display shows of it (exposed, clipped, sRGB).  With a "
-      "plan also what that leaves, of the same samples, and the difference CIEDE2000 of each "
-      "pixel: "
-      "in a PNG side by side, white where it is the tolerance's limit (1 where that is no ΔE2000) "
-      "and "
-      "red beyond; in an EXR as layers, planned and delta_e_2000",
+      "render", "Makes a picture of a scene, with a plan also what that leaves and the difference",
       "gonio render scene.json --plan plan.json -o both.png", run);
   c.option("SCENE", o->scene, "Scene, gonio.scene/1").required();
   c.option("--plan", o->plan, "Plan of that scene, gonio.plan/1");
-  c.option("-o,--output", o->out, "Picture: .exr or .png").required();
+  c.option("-o,--output", o->out,
+           "Picture: .exr of linear radiance, a plan's in layers; or .png of what a display shows, "
+           "a plan's "
+           "beside it and the difference CIEDE2000, white at the tolerance's limit and red beyond")
+      .required();
   c.option("--width", o->picture.width, "Pixels across").in(std::size_t{1}, most).show_default();
   c.option("--height", o->picture.height, "Pixels down").in(std::size_t{1}, most).show_default();
   c.option("--samples", o->picture.samples, "Samples of a pixel")

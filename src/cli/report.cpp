@@ -8,10 +8,12 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/process.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "reports/index/index_page.h"
 #include "reports/index/kinds.h"
+#include "reports/page/page.h"
 
 #include <fmt/format.h>
 
@@ -164,7 +166,7 @@ Exit run(const Options& o) {
   namespace fs = std::filesystem;
   use_jobs(o.jobs);
   if (o.json && o.name == all_reports) throw wrong_usage("--json is for one report");
-  ReportOptions options{o.full, o.name == all_reports, {}, o.asset};
+  ReportOptions options{o.full, o.name == all_reports, {}, o.asset, this_program()};
   for (const auto& path : o.environments) {
     const std::string name = fs::path(path).stem().string();
     if (std::ranges::find(options.environments, name, &ReportOptions::Light::name) !=
@@ -188,13 +190,17 @@ Exit run(const Options& o) {
   std::vector<std::unique_ptr<Files>>
       files;  // nobody waits for a report to learn that it has no place
   for (const auto& kind : kinds) files.push_back(std::make_unique<Files>(o.output, kind.name));
+  const auto index_page = fs::path(o.output) / "index.html";
+  const bool has_index = index_files || fs::exists(index_page, error);
   ReportsProgress progress(o.quiet, all);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const auto& kind = kinds[k];
     const auto begin = std::chrono::steady_clock::now();
+    progress(kind, "beginning", 0);
     auto report =
         kind.make(options, [&](std::string_view what, double part) { progress(kind, what, part); });
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    if (has_index) report.html = beside_index(std::move(report.html));
     files[k]->write(report);
     progress.finish(kind);
     if (o.json) {
@@ -212,10 +218,9 @@ Exit run(const Options& o) {
     index_files->write(index);
     fmt::print("{}", decision_table(decisions(index.facts)));
     say("{}\n", index_files->page_path());
-  } else if (const auto page = fs::path(o.output) / "index.html";
-             fs::exists(page, error) && !o.quiet) {
+  } else if (has_index && !o.quiet) {
     fmt::print(stderr, "{}: of an earlier run; gonio report all makes it anew\n",
-               printable(page.string()));
+               printable(index_page.string()));
   }
   return Exit::done;
 }

@@ -47,6 +47,8 @@ Exit rows(const Options& o) {
       fmt::format("{:>10} {:>10} {:>12} {:>12} {:>12}\n", "roughness", "nov", "a", "b", "diffuse");
   Json rows = Json::array();
   const Goal goal = goal_or(o, Goal{}.error);
+  Progress progress(o.quiet);
+  progress("integrating");
   std::vector<double> diffuse;
   double diffuse_error = 0;
   if (o.samples > 0) {
@@ -70,6 +72,7 @@ Exit rows(const Options& o) {
       if (o.samples == 0) rows.back()["error_bound"] = std::max(s.error, diffuse_error);
     }
   }
+  progress.clear();
   if (!o.json) {
     fmt::print("{}", table);
   } else {
@@ -100,7 +103,7 @@ Json json_of(const SplitSumDeviation& d) {
 Exit table(const Options& o) {
   const auto [width, height] = size_from(o.size);
   check_outputs({}, {o.out});
-  Progress progress(o.quiet || o.json);
+  Progress progress(o.quiet);
   progress("integrating");
   const auto exact = split_sum_table(o.masking, width, height, o.samples, goal_or(o, 1e-7));
   const std::string precision(o.precision.empty() ? name_of(Storage::single) : o.precision);
@@ -155,12 +158,17 @@ Exit under_light(const Options& o) {
     if (!(LitView::f0[0] <= f0 && f0 <= LitView::f0[1]))
       throw wrong_usage(
           fmt::format("f0 = {} is outside [{}, {}]", f0, LitView::f0[0], LitView::f0[1]));
-  TimedProgress progress(o.quiet || o.json, "gathering", o.roughness.size() * o.nov.size());
+  TimedProgress progress(o.quiet, "gathering", o.roughness.size() * o.nov.size());
   const SummedEnvironment light(read_environment(o.environment));
   const RelativeGoal goal{o.error.value_or(RelativeGoal{}.error)};
-  std::string table =
-      fmt::format("{:>9} {:>6} {:>6} {:>11} {:>11} {:>9} {:>9} {:>9} {:>9}\n", "roughness", "nov",
-                  "f0", "truth", "split sum", "rms", "max", "bias", "± truth");
+  std::string table = fmt::format(
+      "truth and split sum: light towards the viewer, as luminance in the map's unit of radiance, "
+      "mean over {} {}\n"
+      "rms, max and bias: what the split sum is off by, in % of the truth; ± truth: what these may "
+      "be off by\n"
+      "{:>9} {:>6} {:>6} {:>11} {:>11} {:>9} {:>9} {:>9} {:>9}\n",
+      view_count, view_count == 1 ? "view" : "views", "roughness", "nov", "f0", "truth",
+      "split sum", "rms [%]", "max [%]", "bias [%]", "± truth");
   Json rows = Json::array();
   std::size_t done = 0;
   for (const double r : o.roughness)
@@ -174,8 +182,9 @@ Exit under_light(const Options& o) {
       for (const double f0 : f0s) {
         const auto e = split_sum_light_error(views, f0);
         table += fmt::format(
-            "{:>9} {:>6} {:>6} {:>11.5g} {:>11.5g} {:>9.4f} {:>9.4f} {:>+9.4f} {:>9.1e}\n", r, nov,
-            f0, luminance(e.exact), luminance(e.split), e.rms, e.max, e.bias, e.truth);
+            "{:>9} {:>6} {:>6} {:>11.5g} {:>11.5g} {:>9.2f} {:>9.2f} {:>+9.2f} {:>9.2g}\n", r, nov,
+            f0, luminance(e.exact), luminance(e.split), 100 * e.rms, 100 * e.max, 100 * e.bias,
+            100 * e.truth);
         rows.push_back({{"roughness", r},
                         {"nov", nov},
                         {"f0", f0},

@@ -21,6 +21,29 @@ struct Options : Common {
   SynthOptions synth;
 };
 
+/// "1,458,000"
+std::string with_commas(std::size_t n) {
+  std::string s = std::to_string(n);
+  for (std::size_t k = s.size(); k > 3; k -= 3) s.insert(k - 3, ",");
+  return s;
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.3g} %", 100 * share);
+}
+
+void print(const Table& t, const Options& o) {
+  std::string how = o.synth.noise > 0 ? "noise " + percent(o.synth.noise) : "no noise";
+  if (o.synth.floor > 0) how += fmt::format(", floor {:g} 1/sr", o.synth.floor);
+  if (o.synth.outliers > 0) how += ", outliers " + percent(o.synth.outliers);
+  if (o.synth.noise > 0 || o.synth.outliers > 0 || o.layout == "random")
+    how += fmt::format(", seed {}", o.synth.seed);
+  say_below(o.output + ": ",
+            fmt::format("{}, {} directions, {} {}, {}", t.format, with_commas(t.size()),
+                        t.channels.size() == 1 ? "channel" : "channels",
+                        fmt::to_string(fmt::join(t.channels, " ")), how));
+}
+
 Exit run(const Options& o) {
   use_jobs(o.jobs);
   check_outputs(file_in(o.spec), {o.output});
@@ -37,6 +60,8 @@ Exit run(const Options& o) {
   if (o.json)
     print_document(
         {{"path", o.output}, {"format", t.format}, {"layout", o.layout}, {"samples", t.size()}});
+  else if (!o.quiet)
+    print(t, o);
   return Exit::done;
 }
 

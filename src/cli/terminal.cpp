@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <stop_token>
+#include <thread>
 
 #include "base/file.h"
 #include "cli/command.h"
@@ -18,15 +22,90 @@
 
 namespace gonio::cli {
 
-Progress::Progress(bool quiet) : on_(!quiet && ::isatty(STDERR_FILENO) == 1) {}
+namespace {
+
+/// Columns of the terminal that a stream is; of none, as many as there are.
+std::size_t columns(int stream) {
+  if (::isatty(stream) != 1) return std::string::npos;
+  winsize size{};
+  constexpr std::size_t usual = 80, least = 40;
+  const bool known = ::ioctl(stream, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? std::max<std::size_t>(size.ws_col, least) : usual;
+}
+
+/// True of a byte that begins a character in UTF-8, each taken for one place on a line.
+bool begins(char c) {
+  return (c & 0xC0) != 0x80;
+}
+std::size_t width(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, begins));
+}
+
+/// Beginning of a text that has room in so many places.
+std::string_view beginning(std::string_view text, std::size_t places) {
+  std::size_t seen = 0, end = 0;
+  while (end < text.size() && (!begins(text[end]) || seen++ < places)) ++end;
+  return text.substr(0, end);
+}
+
+std::string minutes(long seconds) {
+  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+}
+
+}  // namespace
+
+/// The line, and the thread that keeps its clock.
+class Progress::Line {
+ public:
+  Line() : clock_([this](const std::stop_token& stop) { keep_time(stop); }) {}
+  void show(const std::string& what) {
+    const std::lock_guard lock(mutex_);
+    what_ = printable(what);
+    since_ = std::chrono::steady_clock::now();
+    write(what_ + " …");
+  }
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    what_.clear();
+    write("");
+  }
+
+ private:
+  void keep_time(const std::stop_token& stop) {
+    using namespace std::chrono;
+    constexpr seconds long_enough{2};
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+      wake_.wait_for(lock, stop, seconds(1), [] { return false; });
+      const auto took = steady_clock::now() - since_;
+      if (!what_.empty() && took >= long_enough)
+        write(fmt::format("{} … {}", what_, minutes(duration_cast<seconds>(took).count())));
+    }
+  }
+  /// In one line: what goes on in the next stays there.
+  static void write(const std::string& text) {
+    const std::string line = "\r\033[K" + std::string(beginning(text, columns(STDERR_FILENO) - 1));
+    std::fputs(line.c_str(), stderr);
+  }
+
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::string what_;  ///< empty where there is no line
+  std::chrono::steady_clock::time_point since_;
+  std::jthread clock_;  // ends before what it reads
+};
+
+Progress::Progress(bool quiet) {
+  if (!quiet && ::isatty(STDERR_FILENO) == 1) line_ = std::make_unique<Line>();
+}
 Progress::~Progress() {
   clear();
 }
 void Progress::clear() {
-  if (on_) std::fputs("\r\033[K", stderr);
+  if (line_) line_->clear();
 }
 void Progress::operator()(const std::string& what) {
-  if (on_) fmt::print(stderr, "\r\033[K{} …", printable(what));
+  if (line_) line_->show(what);
 }
 
 void print_document(const nlohmann::ordered_json& document) {
@@ -40,34 +119,15 @@ std::string time_left(std::chrono::steady_clock::time_point begin,
   const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin;
   const auto left = static_cast<long>(
       std::ceil(so_far.count() / static_cast<double>(done) * static_cast<double>(all - done)));
-  return fmt::format(", {}:{:02} left", left / 60, left % 60);
+  return fmt::format(", {} left", minutes(left));
 }
 
 void TimedProgress::operator()(std::size_t done) {
   progress_(fmt::format("{} {} of {}{}", what_, done, all_, time_left(begin_, done, all_)));
 }
 
-namespace {
-
-/// Columns of the terminal; without one, as many as there are.
-std::size_t columns() {
-  if (::isatty(STDOUT_FILENO) != 1) return std::string::npos;
-  winsize size{};
-  constexpr std::size_t usual = 80, least = 40;
-  const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? std::max<std::size_t>(size.ws_col, least) : usual;
-}
-
-/// Places on a line that UTF-8 takes.
-std::size_t width(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-}  // namespace
-
 void say_below(const std::string& head, const std::string& text) {
-  const std::size_t most = columns();
+  const std::size_t most = columns(STDOUT_FILENO);
   std::string line = head;
   const std::size_t indent = width(head) < most / 2 ? width(head) : 8;
   bool empty = true;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -15,7 +16,8 @@
 
 namespace gonio::cli {
 
-/// One line on stderr that says what is being done, only if stderr is a terminal.
+/// One line on stderr that says what is being done, only if stderr is a terminal.  What takes longer than two
+/// seconds is told with its time, which goes on by itself: "solving … 0:12".
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -25,7 +27,8 @@ class Progress {
   void clear();
 
  private:
-  bool on_;
+  class Line;
+  std::unique_ptr<Line> line_;  ///< none where nothing is shown
 };
 
 /// Argument of say(): text, whose may be a file's, is made printable; all else stays.
@@ -58,7 +61,9 @@ std::string time_left(std::chrono::steady_clock::time_point begin,
 class TimedProgress {
  public:
   TimedProgress(bool quiet, std::string what, std::size_t all)
-      : progress_(quiet), what_(std::move(what)), all_(all) {}
+      : progress_(quiet), what_(std::move(what)), all_(all) {
+    (*this)(0);
+  }
   void operator()(std::size_t done);
   void clear() { progress_.clear(); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <ostream>
@@ -81,6 +82,23 @@ Timing spread_of(std::vector<double> ns) {
   std::ranges::sort(ns);
   const auto at = [&](std::size_t quarters) { return ns[quarters * (ns.size() - 1) / 4]; };
   return {at(2), (at(3) - at(1)) / 2};
+}
+
+TimeDifference difference(const ComparedTime& from, const ComparedTime& to) {
+  if (from.each.size() != to.each.size() || from.each.size() < 2) {
+    const double ns = to.time.ns - from.time.ns;
+    return {ns, std::hypot(from.time.spread_ns, to.time.spread_ns),
+            std::abs(ns) > from.time.spread_ns + to.time.spread_ns};
+  }
+  std::vector<double> more(from.each.size());
+  std::ranges::transform(to.each, from.each, more.begin(), std::minus<>());
+  const bool one_sign = std::ranges::all_of(more, [](double x) { return x > 0; }) ||
+                        std::ranges::all_of(more, [](double x) { return x < 0; });
+  const auto t = spread_of(std::move(more));
+  // What the places of code and of columns move a time by, though it be in every process.
+  constexpr double resolved = 0.03;
+  const double least = std::max(t.spread_ns, resolved * std::max(from.time.ns, to.time.ns));
+  return {t.ns, t.spread_ns, one_sign && std::abs(t.ns) > least};
 }
 
 std::vector<std::vector<double>> repetitions_of(const std::vector<Timed>& things,

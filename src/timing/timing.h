@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace gonio {
@@ -46,5 +47,19 @@ Timing time_of(const std::function<void()>& run);
 
 /// Median, and half the distance of the quartiles, of at least one value.
 Timing spread_of(std::vector<double> ns);
+
+/// A time, and the same in each of several processes, in their order; `each` is empty where one process measured.
+struct ComparedTime {
+  Timing time;
+  std::span<const double> each{};
+};
+struct TimeDifference {
+  double ns, spread_ns;
+  /// It is there in every process, above its spread and 3 % of the time; of one alone: above both spreads together.
+  bool survives;
+};
+/// Time that `to` takes more than `from`.  Of the same processes: the median of what they differ by in each, and its
+/// spread, so that what slows a process down as a whole does not count.
+TimeDifference difference(const ComparedTime& from, const ComparedTime& to);
 
 }  // namespace gonio

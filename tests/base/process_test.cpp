@@ -43,5 +43,12 @@ TEST(Program, ThatRunsTooLongIsEnded) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
+TEST(Program, KnowsItself) {
+  const auto found =
+      run_program(this_program(), std::vector<std::string>{"--gtest_list_tests"}, "", 30);
+  ASSERT_TRUE(found);
+  EXPECT_NE(found->output.find("KnowsItself"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gonio

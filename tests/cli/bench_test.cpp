@@ -19,8 +19,53 @@ TEST(BenchCommand, PrintsADocumentThatItCompares) {
   EXPECT_EQ(again.json()["changes"].size(), j["rows"].size());
   const auto told = gonio(f, words + " --baseline old.json");
   EXPECT_EQ(told.code, 0);
-  EXPECT_NE(told.out.find("fresnel, float"), std::string::npos) << told.out;
-  EXPECT_NE(told.out.find(" ± "), std::string::npos) << told.out;
+  EXPECT_NE(told.out.find(" times changed by more than three times both spreads"),
+            std::string::npos)
+      << told.out;
+}
+
+TEST(BenchCommand, PrintsOfABaselineWhatChangedAndNothingElse) {
+  const Folder f;
+  const std::string words = "bench --filter fresnel.linear --repeats 1";
+  auto old = gonio(f, words + " --json").json();
+  auto& rows = old["rows"];
+  ASSERT_GT(rows.size(), 3U);
+  for (auto& row : rows) row["ns_spread"] = 1e3 * row["ns"].get<double>();
+  rows[0]["ns"] = 1e-6, rows[0]["ns_spread"] = 0;
+  rows[1]["memory"] = "tape";
+  f.write("old.json", old.dump());
+  const auto told = gonio(f, words + " --baseline old.json");
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_NE(told.out.find("\n1 of " + std::to_string(rows.size() - 1) + " times changed"),
+            told.out.npos)
+      << told.out;
+  const auto count = [&](const std::string& word) {
+    std::size_t n = 0;
+    for (auto at = told.out.find(word); at != told.out.npos; at = told.out.find(word, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(" -> "), 1U) << told.out;
+  EXPECT_EQ(count("1 not timed earlier: "), 1U) << told.out;
+  EXPECT_EQ(count("1 not timed now: "), 1U) << told.out;
+  EXPECT_EQ(count("\n"), 6U) << told.out;
+  rows[0]["ns_spread"] = 1e3;
+  f.write("old.json", old.dump());
+  EXPECT_NE(gonio(f, words + " --baseline old.json").out.find("\nnone of "), told.out.npos);
+}
+
+TEST(BenchCommand, MeasuresInProcessesOfItself) {
+  const Folder f;
+  const std::string words = "bench --filter fresnel.linear --repeats 1 --times --json";
+  const auto several = gonio(f, words + " --processes 2"), one = gonio(f, words + " --processes 1");
+  ASSERT_EQ(several.code, 0) << several.err;
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(several.json()["processes"], 2);
+  EXPECT_EQ(one.json()["processes"], 1);
+  EXPECT_TRUE(several.json().contains("others_busy"));
+  for (const auto& row : several.json()["rows"]) {
+    EXPECT_GT(row["ns"], 0);
+    EXPECT_TRUE(row["error_rms"].is_null());
+  }
 }
 
 TEST(BenchCommand, RefusesABaselineThatIsNoneBeforeItMeasures) {
@@ -35,6 +80,7 @@ TEST(BenchCommand, RefusesOptionsWithoutEffect) {
   expect_one_line_each(f, 2,
                        {{"bench fit --full", "bench kernels"},
                         {"bench fit --baseline old.json", "bench kernels"},
+                        {"bench fit --processes 2", "bench kernels"},
                         {"bench --no-plain", "bench fit"},
                         {"bench --filter nothing.such", "nothing.such"},
                         {"bench everything", "everything"}});

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "cli/program.h"
 #include "compared_models.h"
@@ -11,6 +12,7 @@
 #include "reports/cost/cost.h"
 #include "reports/cost/points.h"
 #include "reports/cross_fit/cross_fit.h"
+#include "reports/diffuse/diffuse.h"
 #include "reports/energy/energy.h"
 #include "reports/index/index_page.h"
 #include "reports/page/page.h"
@@ -44,6 +46,8 @@ for (const how of ["error", "warn"]) console[how] = (...what) => problems.push(`
 constexpr const char* ask = R"(<script>
 addEventListener("load", () => setTimeout(() => {
   const seen = { problems, canvases: 0, blank: [], plots: 0, mute: [], wider: document.documentElement.scrollWidth - innerWidth,
+                 places: document.querySelectorAll(".contents a").length, picture: document.querySelector("canvas, .sphere")?.getBoundingClientRect().top ?? null,
+                 dead: [...document.querySelectorAll(".contents a")].map((a) => a.getAttribute("href").slice(1)).filter((id) => !document.getElementById(id)),
                  text: document.getElementById("page")?.innerText ?? "" };
   const name = (node) => node.closest("[aria-label]")?.getAttribute("aria-label") ?? node.className;
   for (const canvas of document.querySelectorAll("canvas")) {
@@ -157,8 +161,11 @@ EnergyReport small_energy_report() {
   for (const std::size_t n : {16U, 64U})
     r.light.irradiance.push_back({"sky", "cosine", n, 0.1, 0.3, 0.01, 50, 1});
   r.compensations.push_back(
-      {"kulla_conty", 10, 2, 2048, 4, 9, 0.5, 0.02, 0.01, "roughness 1", 0.01});
+      {"kulla_conty", 10, 2, 2048, 4, 0.1, 9, 0.5, 0.02, 0.01, "roughness 1", 0.01});
   r.light.tables.push_back({32, "half", 1e-6, 1e-4, 0.01, 0.002, 0.005});
+  LitError lit{};
+  lit.environment = "sky", lit.roughness = 0.5, lit.nov = 1, lit.f0 = 1, lit.delta_e = 0.7;
+  r.light.lit.push_back(lit);
   return report_of(false, std::move(r));
 }
 
@@ -169,7 +176,7 @@ CostReport small_cost_report() {
   o.filter = "fresnel.schlick";
   CostRows r;
   r.machine = this_machine();
-  r.rows = measure_costs(o);
+  r.rows = measure_costs(o).rows;
   r.points = few_cost_points();
   r.switches.push_back({"Schlick to exact", "fresnel.schlick", "fresnel.dielectric",
                         r.machine.instruction_sets.back(), "float", "cache", "", 1, 0.1, 2, 9, 0.02,
@@ -196,6 +203,9 @@ ScenesReport small_scenes_report() {
 void add_reports(Pages& pages) {
   const auto add = [&](const char* name, const std::string& html) { pages.add(name, html); };
   add("energy", energy_page_html(to_json(small_energy_report())));
+  add("diffuse",
+      diffuse_page_html(to_json(diffuse_report(
+          {false, {0, 0.5, 1}, {0.1, 0.5, 1}, 8, {"diffuse.lambert", "diffuse.disney"}}))));
   add("schlick", schlick_page_html(to_json(schlick_report({false, {1.3, 1.5, 2}, 90, {0.5, 1}}))));
   add("remap", remap_page_html(to_json(remap_report(
                    {false,
@@ -263,6 +273,42 @@ addEventListener("load", () => when_drawn(() => {
   for (const x of [1.5, 2, 2.5]) if (is_drawn_at(x)) console.warn(`a line at ${x}, where a point is missing`);
 }));
 )"));
+}
+
+/// Eight curves, of which six are shown until all are asked for, and choices of which all are printed; complains of others.
+void add_many(Pages& pages) {
+  Figure figure{"many", "Many", "", {"x"}, {"y"}, {}};
+  for (int i = 0; i < 8; ++i)
+    figure.curves.push_back({"c" + std::to_string(i), {0, 1}, {1.0 * i, 2.0 * i}});
+  figure.curves.push_back({"truth", {0, 1}, {0, 1}});
+  figure.curves.back().dashed = true;
+  PageJson data{{"schema", "gonio.report.many/1"}};
+  data.update(json_of(Pictures{{figure}, {}}, Digits::six));
+  pages.add("many", beside_index(make_report_page("Many", page_text(data), R"(
+most_shipped = ["c7"];
+const figure = page_data().figures[0], of = (choice) => el("p", {}, `choice ${choice}`);
+const chosen = changing(() => of(1), () => [of(2), small_pictures([figure])]);
+show_report({ command: "report many", title: "Many", findings: ["One.", "Two.", "Three.", "Four.", "Five."], first: figure_view(figure), sections: [null, section("Of choices, a section", "", chosen.node)], setting: "" });
+const keys = () => document.querySelector(".opening .keys").textContent;
+const complain = (of, is) => { if (!is) console.warn(of); };
+complain("a way back", document.querySelector('.over a[href="index.html"]'));
+complain("six curves and the reference", keys().includes("c7") && keys().includes("c4") && keys().includes("truth") && !/c5|c6/.test(keys()));
+[...document.querySelectorAll("button")].find((b) => b.textContent === "all 8").click();
+complain("all curves", /c5.*c6.*c7/.test(keys()));
+complain("an anchor", document.getElementById("of-choices-a-section"));
+const printed = () => document.querySelector(".paper").textContent;
+complain("nothing for paper yet", printed() === "");
+dispatchEvent(new Event("beforeprint"));
+complain("the other choice on paper", printed().includes("choice 2") && document.querySelector(".paper canvas").width > 0);
+complain("all findings on paper", document.querySelector("details").open);
+dispatchEvent(new Event("afterprint"));
+complain("paper is put away", printed() === "");
+const texts = ["0.1", "0.2", "0.5", "1", "2", "5", "10"], room = () => 20;
+const kept = (step) => uncrowded(texts, texts.map((_, i) => step * i), room).filter(Boolean).join(" ");
+complain("ticks that have room", kept(30) === texts.join(" "));
+complain("decades first", kept(10) === "0.1 1 10");
+complain("no ticks that touch", kept(1) === "0.1");
+)")));
 }
 
 /// A curve on logarithmic axes of which a reader cuts out a part; complains of ticks that are not of that part.
@@ -386,10 +432,12 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
   Pages pages;
   add_reports(pages);
   add_gap(pages);
+  add_many(pages);
   add_zoom(pages);
   add_models(pages);
   add_commands(pages);
   const auto told = pages.look(command);
+  const std::set<std::string> reports{"energy", "schlick", "remap", "cross_fit", "cost", "scenes"};
   for (const auto& name : pages.names()) {
     if (!told.contains(name)) {
       ADD_FAILURE() << name << ": the page's scripts did not come to their end";
@@ -400,6 +448,11 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
     EXPECT_TRUE(page["blank"].empty()) << name << ": nothing drawn: " << page["blank"].dump();
     EXPECT_TRUE(page["mute"].empty()) << name << ": tells nothing: " << page["mute"].dump();
     EXPECT_LE(page["wider"], 0) << name << " is wider than 500 px, by so many";
+    EXPECT_TRUE(page["dead"].empty()) << name << ": " << page["dead"].dump();
+    if (reports.contains(name)) {
+      EXPECT_GE(page["places"], 2) << name << " has contents";
+      EXPECT_LT(page["picture"], 900) << name << ": its first picture is far below";
+    }
     if (name == "audit" || name == "plan") continue;  // no canvas there
     EXPECT_GT(page["canvases"], 0) << name;
     if (name == "summary") continue;  // thumbnails, which tell nothing

@@ -150,6 +150,13 @@ TEST(Program, ListsOnlyWhatHoldsAWord) {
   EXPECT_EQ(o.code, 0);
   EXPECT_NE(o.out.find("masking.smith_ggx.correlated"), std::string::npos) << "by its source";
   EXPECT_EQ(o.out.find("ndf.blinn_phong"), std::string::npos);
+  const auto turned = gonio(f, "models tangent");
+  EXPECT_NE(turned.out.find("ndf.ggx_aniso "), turned.out.npos) << turned.out;
+  EXPECT_NE(turned.out.find(
+                "tangent in [-360, 360], default 0: azimuth of the tangent [°], of a whole model"),
+            turned.out.npos)
+      << turned.out;
+  EXPECT_EQ(turned.out.find("ndf.ggx "), turned.out.npos) << turned.out;
   expect_one_line(gonio(f, "models no_such_word"), 2, "no_such_word");
   expect_one_line(gonio(f, "models no_such_word --json"), 2, "no_such_word");
 }
@@ -174,7 +181,9 @@ TEST(Program, TellsWrongUsageByExitCodeTwo) {
       f, 2,
       {{"", "subcommand"},
        {"nonsense", "no subcommand 'nonsense'"},
-       {"fit", "FILE"},
+       {"model", "nearest: models"},
+       {"fit", "FILE is required; see gonio fit --help"},
+       {"fit t.csv --model", "--model has no value"},
        {"fit t.csv --metric squares", "squares"},
        {"fit t.csv --model ggx", "NDF/MASKING/FRESNEL"},
        {"fit t.csv -o -", "'-' is no file"},

@@ -1,10 +1,23 @@
 // gonio split_sum: what it prints and writes, and what it refuses.
 #include <cmath>
+#include <cstdio>
 
 #include "cli/program.h"
+#include "image/exr.h"
 
 namespace gonio::test {
 namespace {
+
+/// A sky of an even grey, in OpenEXR; below the horizon half of it.
+std::string even_sky(const std::string& path, float radiance) {
+  Image sky{16, 8, {"R", "G", "B"}, {}, {}};
+  for (int c = 0; c < 3; ++c) {
+    auto& plane = sky.planes.emplace_back();
+    for (std::size_t k = 0; k < sky.width * sky.height; ++k)
+      plane.push_back(k < sky.width * sky.height / 2 ? radiance : radiance / 2);
+  }
+  return exr_bytes(path, sky);
+}
 
 TEST(SplitSumCommand, AddsUpToTheAlbedo) {
   const Folder f;
@@ -80,6 +93,21 @@ TEST(SplitSumCommand, SaysWhatItIsOffByUnderAnEnvironment) {
   EXPECT_EQ(gonio(f, words + " --jobs 1").json(), j);
   expect_one_line(gonio(f, "split_sum --environment '" + map + "' --roughness 0.5 --nov 1e-300"), 3,
                   "nov = 1e-300");
+}
+
+TEST(SplitSumCommand, NamesTheUnitsOfWhatIsLostUnderAnEnvironment) {
+  const Folder f;
+  f.write("sky.exr", even_sky(f / "sky.exr", 0.5F));
+  const auto o = gonio(f, "split_sum --environment sky.exr --roughness 0.5 --nov 0.3 --views 2");
+  ASSERT_EQ(o.code, 0) << o.err;
+  for (const char* words : {"unit of radiance", "in % of the truth", "rms [%]", "bias [%]"})
+    EXPECT_NE(o.out.find(words), std::string::npos) << o.out;
+  const auto row =
+      gonio(f, "split_sum --environment sky.exr --roughness 0.5 --nov 0.3 --views 2 --json")
+          .json()["rows"][0];
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.2f", 100 * row["relative_error"].get<double>());
+  EXPECT_NE(o.out.find(percent), std::string::npos) << o.out;
 }
 
 TEST(SplitSumCommand, RefusesWhatItCannotDo) {

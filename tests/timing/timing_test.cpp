@@ -16,6 +16,25 @@ TEST(Timing, IsTheMedianAndHalfTheDistanceOfTheQuartiles) {
   EXPECT_EQ(spread_of({7}).spread_ns, 0);
 }
 
+TEST(Timing, ADifferenceCarriesBothSpreads) {
+  const auto one_process = difference({{2, 0.3}}, {{9, 0.4}});
+  EXPECT_DOUBLE_EQ(one_process.ns, 7);
+  EXPECT_DOUBLE_EQ(one_process.spread_ns, 0.5);
+  EXPECT_TRUE(one_process.survives);
+  EXPECT_FALSE(difference({{2, 0.3}}, {{2.6, 0.4}}).survives);
+}
+
+TEST(Timing, ADifferenceSurvivesWhereEveryProcessFindsIt) {
+  const std::vector<double> from{1, 4, 2, 8, 3}, to{1.5, 4.4, 2.6, 8.5, 3.5},
+      but_one{1.5, 3.9, 2.6, 8.5, 3.5};
+  const auto found = difference({{3, 2}, from}, {{3.5, 2}, to});
+  EXPECT_NEAR(found.ns, 0.5, 1e-12);
+  EXPECT_NEAR(found.spread_ns, 0, 1e-12);  // though the processes themselves differ
+  EXPECT_TRUE(found.survives);
+  EXPECT_FALSE(difference({{3, 2}, from}, {{3.5, 2}, but_one}).survives);
+  EXPECT_FALSE(difference({{30, 2}, from}, {{30.5, 2}, to}).survives);  // 2 % are not told
+}
+
 TEST(Timing, IsOfOneSample) {
   volatile double x = 1;
   const auto work = [&] {

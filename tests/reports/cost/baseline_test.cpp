@@ -25,7 +25,7 @@ const Machine machine{"cpu", 2, {}, {"scalar"}, "compiler", "flags"};
 /// What is read of a document that was written of these rows.
 EarlierCosts earlier(const std::vector<CostRow>& rows) {
   const test::Folder f;
-  return read_costs(f.write("old.json", costs_json(machine, {}, rows)));
+  return read_costs(f.write("old.json", costs_json(machine, {}, {rows})));
 }
 
 TEST(CostBaseline, ReadsWhatBenchWrites) {
@@ -89,7 +89,7 @@ TEST(CostBaseline, ReadsTheReportToo) {
 TEST(CostBaseline, WritesWhatChanged) {
   const std::vector<CostRow> rows{made("a", 3, 0)};
   const auto j = nlohmann::json::parse(
-      costs_json(machine, {}, rows, changes(earlier({made("a", 2, 0), made("b", 1, 0)}), rows)));
+      costs_json(machine, {}, {rows}, changes(earlier({made("a", 2, 0), made("b", 1, 0)}), rows)));
   EXPECT_EQ(j["changes"].size(), 2U);
   EXPECT_EQ(j["changes"][0]["ratio"], 1.5);
   EXPECT_EQ(j["changes"][0]["differs"], true);

@@ -1,8 +1,10 @@
 #include "reports/cost/cost.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <set>
+#include <thread>
 #include <tuple>
 
 #include "brdf/catalogue/registry.h"
@@ -13,7 +15,11 @@
 #include "reports/audit/audit.h"
 #include "reports/cost/models.h"
 #include "reports/cost/points.h"
+#include "reports/cost/processes.h"
+#include "reports/cost/studies.h"
+#include "reports/measure/load.h"
 #include "reports/pictures.h"
+#include "reports/plain.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -100,8 +106,67 @@ TEST(CostFront, LeavesOutMistakes) {
   EXPECT_TRUE(rows[1].pareto);
 }
 
+TEST(CostFront, NeedsADifferenceThatEveryProcessFinds) {
+  auto fast = made("fast", 1, 0.5, 0.5), slow = made("slow", 2, 0.5, 0.6);
+  fast.each = {1, 1.5, 0.5, 1, 3}, slow.each = {2, 2.5, 1.5, 2, 4};  // whole processes are slow
+  std::vector<CostRow> rows{fast, slow};
+  mark_front(rows);
+  EXPECT_TRUE(rows[0].pareto && !rows[0].tie);
+  EXPECT_FALSE(rows[1].pareto);
+  rows[1].each[3] = 0.9;  // one of five finds the other order
+  mark_front(rows);
+  EXPECT_TRUE(rows[1].pareto && rows[1].tie);
+}
+
+TEST(CostProcesses, MeasureTimesAloneWithTheSameOptions) {
+  CostOptions o;
+  o.full = true;
+  o.filter = "ggx";
+  o.timing.repetitions = 4;
+  const auto words = arguments_of_a_process(o);
+  const auto has = [&](std::initializer_list<std::string> list) {
+    return std::ranges::search(words, list).begin() != words.end();
+  };
+  EXPECT_EQ(words[0], "bench");
+  EXPECT_TRUE(has({"--json"}) && has({"--quiet"}) && has({"--times"}) && has({"--full"}));
+  EXPECT_TRUE(has({"--processes", "1"}) && has({"--repeats", "4"}) && has({"--filter", "ggx"}));
+}
+
+TEST(CostProcesses, ThisOneMeasuresWhereNoneCanBeStarted) {
+  auto o = short_options("fresnel.linear");
+  o.full = false, o.errors = false, o.processes = 3;
+  for (const std::string program : {"", "gonio-no-such-program", "false", "true"}) {
+    o.program = program;
+    const auto m = measure_costs(o);
+    EXPECT_EQ(m.processes, 1) << program;
+    ASSERT_FALSE(m.rows.empty());
+    for (const auto& r : m.rows) EXPECT_TRUE(r.each.empty() && r.time.ns > 0) << program;
+  }
+}
+
+TEST(Load, IsToldFromAQuarterOfAProcessorOn) {
+  EXPECT_EQ(load_text({}, 2), "");
+  EXPECT_EQ(load_text(0.2, 2), "");
+  EXPECT_NE(load_text(1.3, 2).find("1.3 of the 2 processors"), std::string::npos);
+}
+
+TEST(Load, DoesNotCountThisProgram) {
+  const OthersWork others;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+  std::vector<std::thread> busy;
+  for (int i = 0; i < 4; ++i)
+    busy.emplace_back([&] {
+      while (std::chrono::steady_clock::now() < end) continue;
+    });
+  for (auto& t : busy) t.join();
+  const auto found = others.processors();
+  if (!found) GTEST_SKIP() << "the system does not tell";
+  EXPECT_LT(*found, std::thread::hardware_concurrency());
+  EXPECT_GE(*found, 0);
+}
+
 TEST(Cost, HasEveryTermAndModelInEveryNumberSetAndPlace) {
-  const auto rows = measure_costs(short_options());
+  const auto rows = measure_costs(short_options()).rows;
   std::set<std::tuple<std::string, std::string_view, std::string, std::string_view>> found;
   for (const auto& r : rows) {
     found.emplace(r.id, r.number, r.isa, r.memory);
@@ -124,7 +189,7 @@ TEST(Cost, StreamsInTheBestSetAloneWhereItIsQuick) {
   o.full = false, o.errors = false;
   const auto best = instruction_sets().back();
   std::size_t streaming = 0;
-  for (const auto& r : measure_costs(o)) {
+  for (const auto measured = measure_costs(o); const auto& r : measured.rows) {
     EXPECT_EQ(r.id, "fresnel.schlick.ue");
     if (r.memory != "streaming") continue;
     EXPECT_EQ(r.isa, best);
@@ -136,7 +201,7 @@ TEST(Cost, StreamsInTheBestSetAloneWhereItIsQuick) {
 TEST(Cost, CountsTheOperationsOfATermAsCountedDoes) {
   auto o = short_options("masking.s");
   o.errors = false;
-  for (const auto& r : measure_costs(o))
+  for (const auto measured = measure_costs(o); const auto& r : measured.rows)
     EXPECT_EQ(r.operations, operations_of(find_term(r.id)).sample) << r.id;
 }
 
@@ -278,10 +343,95 @@ TEST(Cost, HoldsModelsBesideThoseWrittenByHand) {
   auto o = short_options("model.");
   o.errors = false;
   std::set<std::pair<std::string, std::string_view>> found;
-  for (const auto& r : measure_costs(o)) found.emplace(r.id, r.way);
+  for (const auto measured = measure_costs(o); const auto& r : measured.rows)
+    found.emplace(r.id, r.way);
   for (const auto& p : presets())
     for (const std::string_view way : {"by_hand", "fused", "composed"})
       EXPECT_TRUE(found.contains({std::string(p.about.id), way})) << p.about.id << " " << way;
+}
+
+const Studies& studies() {
+  return costing::study_errors();
+}
+const FastRow& fast_row(std::string_view id) {
+  return *std::ranges::find(studies().fast, id, &FastRow::id);
+}
+
+TEST(CostStudies, EachNewtonStepDoublesTheDigits) {
+  for (const std::string id : {"fast.rsqrt", "fast.rcp"}) {
+    const double none = fast_row(id + ".bits").error, one = fast_row(id + ".bits.1").error,
+                 two = fast_row(id + ".bits.2").error;
+    EXPECT_GT(none, 0.03) << id;
+    EXPECT_LT(none, 0.14) << id;
+    EXPECT_LT(one, 2 * none * none) << id;
+    EXPECT_LT(two, std::max(2 * one * one, 1e-6)) << id;
+    EXPECT_LT(fast_row(id + ".estimate").error, 4e-4) << id;
+    EXPECT_LT(fast_row(id + ".estimate.1").error, 1e-6) << id;
+    EXPECT_LT(fast_row(id + ".exact").error, 2e-7) << id;
+  }
+}
+
+TEST(CostStudies, PolynomialsAreAsExactAsTheySay) {
+  EXPECT_NEAR(fast_row("fast.exp2.2").error, 1.9e-3, 8e-4);
+  EXPECT_NEAR(fast_row("fast.exp2.3").error, 8.1e-5, 4e-5);
+  EXPECT_LT(fast_row("fast.exp2.4").error, 8e-6);
+  EXPECT_LT(fast_row("fast.exp2.5").error, 4e-6);  // of the argument's rounding
+  EXPECT_LT(fast_row("fast.log2.6").error, fast_row("fast.log2.2").error / 30);
+}
+
+TEST(CostStudies, ModelsWithoutFastOperationsAreOffByRoundingAlone) {
+  for (const char* id :
+       {"fast.rsqrt.exact", "fast.rcp.exact", "fast.exp2.exact", "fast.pow5.products"}) {
+    EXPECT_LT(fast_row(id).f_max, 1e-4) << id;
+    EXPECT_GT(fast_row(id).f_max, 1e-8) << id;
+    EXPECT_LT(fast_row(id).delta_e, 0.01) << id;
+  }
+}
+
+TEST(CostStudies, VisibleNormalsVaryLessAndBoundedOnesLeast) {
+  const auto row = [](std::string_view id, double roughness, double mu) -> const SamplingRow& {
+    return *std::ranges::find_if(studies().sampling, [&](const SamplingRow& r) {
+      return r.id == id && r.roughness == roughness && r.mu == mu;
+    });
+  };
+  for (const double mu : {0.1, 0.5}) {
+    const double plain = row("sampling.ggx.d", 0.8, mu).deviation,
+                 disk = row("sampling.ggx.vndf2018", 0.8, mu).deviation,
+                 caps = row("sampling.ggx.caps", 0.8, mu).deviation,
+                 bounded = row("sampling.ggx.bounded", 0.8, mu).deviation;
+    EXPECT_LT(caps, 0.7 * plain);
+    EXPECT_NEAR(disk, caps, 0.05 * caps);  // the same density
+    EXPECT_LT(bounded, caps);
+  }
+}
+
+TEST(CostStudies, ATableIsNearerTheLargerItIs) {
+  const auto row = [](std::string_view id) -> const LookupRow& {
+    return *std::ranges::find(studies().lookup, id, &LookupRow::id);
+  };
+  EXPECT_LT(row("split_sum.table.64.half").mirror_rms, row("split_sum.table.16.half").mirror_rms);
+  EXPECT_LT(row("split_sum.table.32.float").a_rms, row("split_sum.table.32.8 bits").a_rms);
+  EXPECT_EQ(row("split_sum.table.32.half").bytes, 4096U);
+  EXPECT_EQ(row("split_sum.table.32.half").fetched, 16U);
+  EXPECT_LT(row("split_sum.ours").mirror_rms, row("split_sum.materialx").mirror_rms);
+  EXPECT_GT(row("split_sum.karis").mirror_rms, row("split_sum.materialx").mirror_rms);
+  EXPECT_TRUE(std::isnan(row("split_sum.ours").a_rms));
+}
+
+TEST(CostStudies, EachIsTimedInEverySet) {
+  for (const char* filter : {"fast.pow5", "sampling.ggx", "split_sum."}) {
+    auto o = short_options(filter);
+    const auto measured = measure_costs(o);
+    for (const auto& set : instruction_sets())
+      EXPECT_TRUE(
+          std::ranges::any_of(measured.rows, [&](const CostRow& r) { return r.isa == set; }))
+          << filter << " " << set;
+    for (const auto& r : measured.rows) {
+      EXPECT_GT(r.time.ns, 0) << r.id;
+      EXPECT_NE(r.error.truth, "") << r.id;
+      EXPECT_EQ(r.number, "float");
+    }
+  }
 }
 
 /// Rows of few forms, every kind of picture in them.
@@ -290,9 +440,11 @@ CostRows small_rows() {
   r.machine = this_machine();
   auto o = short_options("ggx");
   o.full = false;
-  r.rows = measure_costs(o);
+  r.rows = measure_costs(o).rows;
   r.points = test::few_cost_points();
   r.switches = cost_switches(r.rows);
+  r.studies =
+      costing::with_times(costing::study_errors(), r.rows, r.machine.instruction_sets.back());
   return r;
 }
 
@@ -316,10 +468,26 @@ TEST(CostPictures, AreWhole) {
   EXPECT_NE(said.headline.find("Exact Smith in place of Schlick's k takes"), std::string::npos);
 }
 
+TEST(CostFindings, CanBeReadAloud) {
+  auto rows = small_rows();
+  rows.others = 1.3;
+  rows.points = test::told_cost_points();
+  for (auto& r : rows.studies.fast) r.time = {0.1234, 0.01}, r.time_in_f = {1.234, 0.1};
+  for (auto& r : rows.studies.sampling) r.time = {3.456, 0.1};
+  for (auto& r : rows.studies.lookup) r.time = {0.456, 0.1};
+  for (const bool differs : {false, true}) {
+    for (auto& s : rows.switches) s.differs = differs;
+    rows.machine.native_half = differs;
+    const auto said = findings(rows);
+    EXPECT_GT(said.sentences.size(), 25U);
+    test::expect_plain(said);
+  }
+}
+
 TEST(CostDocument, HasTheKeysOfTheContract) {
   CostRows rows;
   rows.machine = this_machine();
-  rows.rows = measure_costs(short_options("fresnel.schlick.ue"));
+  rows.rows = measure_costs(short_options("fresnel.schlick.ue")).rows;
   const auto j = nlohmann::json::parse(to_json(report_of(false, rows)));
   EXPECT_EQ(j["schema"], "gonio.report.cost/1");
   ASSERT_FALSE(j["rows"].empty());

@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "integrate/albedo/directional_albedo.h"
+#include "integrate/light/irradiance.h"
+#include "integrate/scattering/half_space.h"
+#include "optics/spectrum.h"
 #include "reports/energy/crossings.h"
+#include "reports/energy/skies.h"
 #include "reports/pictures.h"
+#include "reports/plain.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -65,41 +71,40 @@ std::vector<double> twenty() {
   for (int i = 1; i <= 20; ++i) r.push_back(0.05 * i);
   return r;
 }
-std::vector<Crossing> crossings_of(double (*loss)(double)) {
+std::vector<Crossing> crossings_of(double (*loss)(double), double error = 0) {
   const auto r = twenty();
   std::vector<double> losses;
   for (const double x : r) losses.push_back(loss(x));
-  return crossings_at(1, r, losses);
+  return crossings_at(1, r, losses, [=](double x) { return Bounded{loss(x), error}; });
+}
+/// Place where a rising loss is a share.
+double bisected(const std::function<double(double)>& loss, double share) {
+  double low = 0, high = 1;
+  while (high - low > 1e-9) (loss((low + high) / 2) > share ? high : low) = (low + high) / 2;
+  return high;
 }
 
-TEST(Crossings, OfAPowerAreExact) {
-  const auto found = crossings_of([](double r) { return r * r * r; });
-  ASSERT_EQ(found.size(), 3U);
-  for (const auto& c : found) {
-    ASSERT_EQ(c.ranges.size(), 1U);
-    EXPECT_NEAR(c.ranges[0].from, std::cbrt(c.share), 1e-12);
-    EXPECT_EQ(c.ranges[0].to, 1);
-    EXPECT_LT(c.error, 1e-12);
-  }
-}
-
-TEST(Crossings, OfAnyLossAreWithinTheErrorThatTheySay) {
+TEST(Crossings, AreSolvedForToAHundredthOfAThousandth) {
   const auto loss = [](double r) { return r * r * r / (0.3 + r) + 0.002 * std::sin(9 * r); };
   for (const auto& c : crossings_of(loss)) {
     ASSERT_EQ(c.ranges.size(), 1U);
-    double low = 0, high = 1;
-    while (high - low > 1e-9) (loss((low + high) / 2) > c.share ? high : low) = (low + high) / 2;
-    EXPECT_NEAR(c.ranges[0].from, high, c.error) << c.share;
-    EXPECT_LT(c.error, 0.02);
+    EXPECT_NEAR(c.ranges[0].from, bisected(loss, c.share), 1e-5) << c.share;
+    EXPECT_EQ(c.ranges[0].to, 1);
+    EXPECT_LE(c.error, 1e-5);
   }
+}
+
+TEST(Crossings, SayByHowMuchTheLossesErrorMovesThem) {
+  for (const auto& c : crossings_of([](double r) { return r / 6.3; }, 1e-3))
+    EXPECT_NEAR(c.error, 6.3e-3, 1e-5);
 }
 
 TEST(Crossings, EndWhereTheLossIsSmallAgain) {
   const auto found = crossings_of([](double r) { return 0.2 * (0.25 - (r - 0.5) * (r - 0.5)); });
   // at most 5 %: above 1 % between 0.5 ± √0.2, and no further
   ASSERT_EQ(found[0].ranges.size(), 1U);
-  EXPECT_NEAR(found[0].ranges[0].from, 0.5 - std::sqrt(0.2), 2e-3);
-  EXPECT_NEAR(found[0].ranges[0].to, 0.5 + std::sqrt(0.2), 2e-3);
+  EXPECT_NEAR(found[0].ranges[0].from, 0.5 - std::sqrt(0.2), 1e-5);
+  EXPECT_NEAR(found[0].ranges[0].to, 0.5 + std::sqrt(0.2), 1e-5);
   EXPECT_TRUE(found[2].ranges.empty());
 }
 
@@ -109,6 +114,50 @@ TEST(Crossings, OfALossThatIsThereFromTheStartBeginAtTheLeastRoughness) {
     EXPECT_EQ(c.ranges[0].from, 0.05);
     EXPECT_EQ(c.ranges[0].to, 1);
   }
+}
+
+TEST(EnergyReport, CrossingsOfGgxAreThoseOfItsOneIntegral) {
+  auto o = few;
+  o.roughness = {0.05, 0.2, 0.4, 0.6, 0.8, 1};
+  o.forms = {correlated};
+  const auto f = energy_forms(o, unwatched)[0];
+  std::size_t compared = 0;
+  for (const auto& c : f.crossings) {
+    const auto loss = [&](double r) {
+      return 1 - (c.mu == 0 ? ggx_average_albedo(r * r) : ggx_albedo(r * r, c.mu)).value;
+    };
+    if (c.ranges.empty() || c.ranges[0].from == 0.05) continue;
+    EXPECT_NEAR(c.ranges[0].from,
+                bisected([&](double r) { return r < 0.05 ? 0 : loss(r); }, c.share), c.error + 1e-9)
+        << c.mu << ", " << c.share;
+    EXPECT_LT(c.error, 1e-4);
+    if (c.mu == 0.1 && c.share == 0.1) {
+      EXPECT_NEAR(c.ranges[0].from, 0.243, 5e-4);
+    }
+    ++compared;
+  }
+  EXPECT_GT(compared, 8U);
+}
+
+TEST(EnergyReport, CrossingsOfMaterialsAreThoseOfTheDeterministicSolution) {
+  EnergyOptions o{false, {0.5, 0.6, 0.7, 0.8, 0.9}, {1}, 0};
+  o.gold = false;
+  const auto all = energy_materials(o, unwatched);
+  const auto& half = *std::ranges::find(all, "F0 = 0.5", &EnergyMaterial::name);
+  std::size_t compared = 0;
+  for (const auto& c : half.crossings) {
+    if (c.ranges.empty() || c.ranges[0].from == 0.5) continue;
+    const double r = c.ranges[0].from;
+    const auto truth = half_space(
+        bind_model("ggx/smith_ggx.correlated/schlick", {{"alpha", {r * r}}, {"f0", {0.5}}}, 1),
+        {{1}}, 1e-5);
+    const auto& s = c.mu == 0 ? truth.average : truth.at[0];
+    // A loss rises by less than 1 where roughness does.
+    EXPECT_NEAR(1 - s.order[0][0] / s.albedo[0], c.share, c.error + 1e-5) << c.mu;
+    EXPECT_LT(c.error, 2e-3);
+    ++compared;
+  }
+  EXPECT_GT(compared, 0U);
 }
 
 TEST(EnergyReport, ItsCrossingsAreThoseOfItsRows) {
@@ -134,6 +183,54 @@ TEST(EnergyReport, ErrorsOfCompensationsAreComparedOnTheSameMaterials) {
     EXPECT_EQ(c.worst_at.find("gold"), c.worst_at.npos) << c.id;
     EXPECT_GE(std::abs(c.worst), c.rms);
   }
+}
+
+TEST(EnergyReport, ErrorsOfCompensationsDoNotDependOnWhatElseWasLookedAt) {
+  EnergyOptions o{false, {0.5, 1}, {0.5, 1}, 0};
+  o.gold = false;
+  const auto less = compensation_errors(energy_materials(o, unwatched));
+  o.roughness = {0.45, 0.5, 0.55, 1};
+  o.mu = {0.01, 0.5, 0.55, 1};
+  const auto more = compensation_errors(energy_materials(o, unwatched));
+  for (std::size_t i = 0; i < less.size(); ++i) {
+    EXPECT_NEAR(less[i].rms, more[i].rms, 1e-5) << less[i].id;
+    EXPECT_NEAR(less[i].worst, more[i].worst, 1e-5) << less[i].id;
+  }
+}
+
+TEST(EnergyReport, ErrorsOfCompensationsAreThoseOfTheTablesThatAShaderReads) {
+  const auto errors = compensation_errors(materials());
+  const auto rms = [&](std::string_view id) {
+    return std::ranges::find(errors, id, &CompensationError::id)->rms;
+  };
+  // Errors with E itself, over the same places.
+  std::map<std::string_view, std::pair<double, double>> exact;
+  for (const auto& m : materials())
+    for (const auto& at : m.rows)
+      for (const auto& s : at.scattering)
+        if (m.f0 && at.mu > 0) {
+          exact[s.id].first += (s.albedo - at.truth) * (s.albedo - at.truth);
+          exact[s.id].second += 1;
+        }
+  for (const std::string_view id : {"single", "kulla_conty", "turquin", "fdez_aguera"}) {
+    const double without = std::sqrt(exact[id].first / exact[id].second);
+    EXPECT_NEAR(rms(id), without, id == "single" ? 1e-12 : 0.004) << id;
+    if (id != "single") {
+      EXPECT_NE(rms(id), without) << id;
+    }
+  }
+}
+
+TEST(EnergyReport, GoldIsSeenByItsSpectrum) {
+  // Smooth gold at normal incidence reflects what its spectrum does, in linear sRGB.
+  const auto seen = reflectance_rgb(*find_metal("Au"), 1);
+  EnergyOptions o{false, {0.1}, {1}, 0};
+  std::size_t c = 0;
+  for (const auto& m : energy_materials(o, unwatched))
+    if (m.name.starts_with("gold")) {
+      EXPECT_NEAR(m.rows[0].truth, seen[c++], 6e-3) << m.name;
+    }
+  EXPECT_EQ(c, 3U);
 }
 
 TEST(EnergyReport, TheFitOfEIsNearerThanMaterialX) {
@@ -199,7 +296,7 @@ TEST(EnergyReport, FindingsAreMadeFromTheFigures) {
     return std::ranges::any_of(all, [&](const std::string& f) { return f.find(words) != f.npos; });
   };
   EXPECT_TRUE(said("69.3\u00a0% at normal incidence and 59.1\u00a0% on average"));
-  EXPECT_TRUE(said("masking.none (E = 5 at roughness 1, mu 0.1)"));
+  EXPECT_TRUE(said("Most does GGX without masking: 5 times as much at roughness 1, mu 0.1."));
 }
 
 TEST(EnergyReport, PicturesShowWhatWasMeasured) {
@@ -234,7 +331,7 @@ TEST(EnergyReport, JudgesWhatIsSaidOfHighlightsByClosedForms) {
     EXPECT_NE(slopes.find(words), slopes.npos) << words << ": " << slopes;
   const auto clamp = verdict("the clamp at 2048 hardly shows");
   EXPECT_NE(clamp.find("below roughness 0.149 alone"), clamp.npos) << clamp;
-  EXPECT_NE(verdict("dω_h = dω_l/(4 VoH)").find("” holds:"), std::string::npos);
+  EXPECT_NE(verdict("dωₕ = dωₗ/(4 VoH)").find("” holds:"), std::string::npos);
 }
 
 TEST(EnergyReport, JudgesWhatIsSaidOfEnergyByItsForms) {
@@ -255,6 +352,72 @@ TEST(EnergyReport, JudgesWhatIsSaidOfEnergyByItsForms) {
   for (auto& f : r.forms)
     for (auto& at : f.rows) at.albedo = std::min(at.albedo, 1.0);
   EXPECT_EQ(judged("reflected energy never exceeds incoming"), Claim::Judged::holds);
+}
+
+LitError lit(std::string light, double roughness, double nov, double f0, double delta_e) {
+  LitError l{};
+  l.environment = std::move(light);
+  l.roughness = roughness, l.nov = nov, l.f0 = f0, l.delta_e = delta_e;
+  return l;
+}
+
+TEST(EnergyReport, EverySentenceCanBeReadAloud) {
+  auto r = of_forms({correlated, separable, none, "masking.disney_coat, gamma 1",
+                     "masking.smith_gtr.separable, gamma 1", "model.ue_mobile_simple"});
+  r.materials = materials();
+  r.compensations = compensation_costs(r.materials);
+  r.albedo_forms = albedo_form_errors();
+  r.claims = claim_rows(r.forms);
+  r.light.tables = {{32, "half", 1e-7, 2.4e-4, 0.1, 4e-3, 0.018}};
+  r.light.lit = {lit("overcast sky", 0.5, 1, 1, 0.6), lit("clear sky with sun", 0.25, 0.1, 1, 7.3),
+                 lit("clear sky with sun", 0.25, 0.1, 0.04, 2.1)};
+  r.light.costs = {{"split sum", 61.2, 1}, {"quadrature", 1.7e6, 1e4}};
+  const auto said = findings(r);
+  test::expect_plain(said);
+  EXPECT_GT(said.sentences.size(), 14U);
+  EXPECT_GE(said.claims.size(), 7U);
+}
+
+// --- Image-based light --------------------------------------------------------------------------
+
+TEST(Skies, HaveTheLightThatTheySay) {
+  const auto skies = synthetic_skies();
+  ASSERT_EQ(skies.size(), 3U);
+  const Direction up{};
+  EXPECT_NEAR(luminance(irradiance(even_light(), up)), std::numbers::pi, 1e-3);
+  EXPECT_NEAR(exposure_for(even_light()), 0.5, 1e-6);
+  EXPECT_NEAR(luminance(irradiance(skies[0].map, up)), std::numbers::pi * 7 / 9, 1e-3);
+  // The sun adds four times the sky's light to what faces it.
+  const auto sun = direction(50 * degree, 0);
+  const double facing = luminance(irradiance(skies[1].map, sun)),
+               away = luminance(irradiance(skies[1].map, {-sun.x, 0, sun.z}));
+  EXPECT_GT(facing / away, 4);
+  // The window's side of the room is brighter than the other.
+  EXPECT_GT(luminance(irradiance(skies[2].map, {1, 0, 0})),
+            5 * luminance(irradiance(skies[2].map, {-1, 0, 0})));
+}
+
+TEST(ImageLight, TheSplitSumIsExactUnderEvenLightAlone) {
+  EnergyOptions o = few;
+  o.views = 2;
+  o.environments = {{"even light", even_light()}};
+  const auto light = image_light(o, unwatched);
+  double even = 0, other = 0;
+  for (const auto& l : light.lit) {
+    EXPECT_GE(l.delta_e_max, l.delta_e);
+    (l.environment == "even light" ? even : other) =
+        std::max(l.environment == "even light" ? even : other, l.delta_e_max);
+  }
+  EXPECT_LT(even, 0.1);
+  EXPECT_GT(other, 2);
+  ASSERT_EQ(light.costs.size(), 2U);
+  EXPECT_GT(light.costs[1].ns, 100 * light.costs[0].ns);
+
+  EnergyRows r;
+  r.light = light;
+  const auto f = facts(r);
+  EXPECT_EQ(f.image_light.size(), light.lit.size());
+  EXPECT_EQ(f.image_light_times.size(), 2U);
 }
 
 }  // namespace

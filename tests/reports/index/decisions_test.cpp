@@ -1,6 +1,7 @@
 #include "reports/index/decisions.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reports/index/index_page.h"
 #include "reports/plain.h"
@@ -31,10 +32,13 @@ Facts made_facts() {
        std::vector<std::tuple<std::string, std::string, double>>{
            {"fresnel.schlick", "gold", 0.9},
            {"fresnel.f82", "gold", 0.8},
+           {"fresnel.conductor, three wavelengths", "gold", 0.7},
            {"fresnel.schlick", "brass", 1.6},
            {"fresnel.f82", "brass", 1.2},
+           {"fresnel.conductor, three wavelengths", "brass", 0.9},
            {"fresnel.schlick", "iron", 5.7},
            {"fresnel.f82", "iron", 0.4},
+           {"fresnel.conductor, three wavelengths", "iron", 0.3},
            {"fresnel.schlick", "IOR 1.5", 3.2},
            {"fresnel.f82", "IOR 1.5", 4}})
     f.fresnel.push_back(
@@ -46,6 +50,19 @@ Facts made_facts() {
   }
   f.compensations = {{"kulla_conty", false, 13, 0.1, 2112}, {"turquin", false, 7.7, 0.1, 2048}};
   f.precision = {{"ndf.ggx", "cross", "half", 0.02, 0.004}};
+  for (const auto& [id, ns] : std::vector<std::pair<std::string, double>>{{"ndf.ggx", 0.1},
+                                                                          {"ndf.gtr", 0.9},
+                                                                          {"diffuse.lambert", 0.02},
+                                                                          {"diffuse.disney", 0.2},
+                                                                          {"diffuse.eon", 0.5},
+                                                                          {"diffuse.hammon", 0.6}})
+    f.in_cache.push_back({id, ns, 0.01});
+  f.tails = {{"GTR 1.5", std::log(1.2)}, {"GTR 3", std::log(1.5)}};
+  f.diffuse = {{"diffuse.lambert", 1},
+               {"diffuse.disney", 1.52},
+               {"diffuse.eon", 1.0005},
+               {"diffuse.hammon", 0.9}};
+  f.split_sum = Facts::SplitSum{32, 4096, 0.0008, {}, {}};
   return f;
 }
 const Decision& about(const std::vector<Decision>& all, std::string_view subject) {
@@ -81,17 +98,49 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   EXPECT_EQ(masking.unless, "nanoseconds are short: Unreal's joint form, RMS 0.07 of G₂");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").take, "Schlick");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").unless,
-            "brass beside a photograph: exact conductor");
+            "brass beside a photograph: exact conductor at three wavelengths");
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").take, "F82");
   EXPECT_EQ(about(all, "Fresnel of dielectrics (glass)").take, "Exact dielectric");
   EXPECT_EQ(about(all, "All bounces of a single light").take, "Turquin, from roughness 0.4 on");
   EXPECT_EQ(about(all, "All bounces of a single light").unless, "F0 is 0.04: one bounce, ΔE ≤ 1.7");
-  EXPECT_EQ(about(all, "GGX in half").take_id, "ndf.ggx");
+  EXPECT_EQ(about(all, "Precision: GGX in half").take_id, "ndf.ggx");
+}
+
+TEST(Decisions, HaveARowForEachPartOfAMaterial) {
+  const auto all = decisions(made_facts());
+  const auto& tails = about(all, "Distribution");
+  EXPECT_EQ(tails.take_id, "ndf.ggx");
+  EXPECT_EQ(tails.error, "a factor of 1.5 (RMS of f, on a surface of GTR 3)");
+  EXPECT_EQ(tails.unless, "a fit finds γ far from 2: GTR, +0.80 ns for D");
+  const auto& below = about(all, "Diffuse");
+  EXPECT_EQ(below.take_id, "diffuse.lambert");
+  EXPECT_NE(below.error.find("152\u00a0% given back"), below.error.npos) << below.error;
+  EXPECT_NE(below.unless.find("+0.48 ns"), below.unless.npos) << "the fastest that makes no light";
+  const auto& light = about(all, "Image-based light");
+  EXPECT_EQ(light.take, "Split sum, 32 × 32 table in half");
+  EXPECT_EQ(light.error, "RMS 0.0008 of E");
+  EXPECT_EQ(light.cost, "4.1 kB, one look-up");
+  EXPECT_EQ(light.unless, "");
+  auto f = made_facts();
+  f.split_sum->head_on = 0.03, f.split_sum->grazing = 0.4;
+  const auto lit = decisions(f);
+  EXPECT_EQ(about(lit, "Image-based light").error,
+            "3\u00a0% of the mean (the table alone: RMS 0.0008)");
+  EXPECT_EQ(about(lit, "Image-based light").unless,
+            "rims are looked at: 40\u00a0% of the mean there");
+}
+
+TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
+  auto f = made_facts();
+  f.diffuse[2].most_albedo = 1.01;
+  EXPECT_NE(about(decisions(f), "Diffuse").unless.find("+0.58 ns"), std::string::npos);
+  f.diffuse[0].most_albedo = 1.01;
+  EXPECT_EQ(about(decisions(f), "Diffuse").take, "");
 }
 
 TEST(Decisions, ChangeWhereAThresholdIsCrossed) {
   auto f = made_facts();
-  f.fresnel[2].delta_e = 2.4;  // Schlick on brass is seen by itself
+  f.fresnel[3].delta_e = 2.4;  // Schlick on brass is seen by itself
   auto all = decisions(f);
   EXPECT_EQ(about(all, "Fresnel of gold").subject, "Fresnel of gold");
   EXPECT_EQ(about(all, "Fresnel of other metals").subject, "Fresnel of other metals (brass, iron)");
@@ -115,6 +164,7 @@ TEST(Decisions, AreLeftOutWhereAFactIsMissing) {
   f.in_cache.clear();
   EXPECT_EQ(about(decisions(f), "Fresnel").take, "");
   f.scattering.clear();
+  f.split_sum.reset();
   EXPECT_TRUE(decisions(f).empty());
 }
 

@@ -40,6 +40,14 @@ TEST(Page, FetchesNothing) {
       EXPECT_EQ(js.find(load), js.npos) << load;
 }
 
+TEST(Page, LeadsBackToAnIndexThatLiesBesideIt) {
+  const std::string html = make_page("t", R"({"a": "<html lang=\"en\""})", "");
+  EXPECT_EQ(html.find("data-index"), html.npos);
+  const std::string beside = beside_index(html);
+  EXPECT_NE(beside.find("<html lang=\"en\" data-index>"), beside.npos);
+  EXPECT_EQ(data_of(beside), data_of(html));
+}
+
 TEST(Page, HostileStringsStayText) {
   const std::string hostile = "</script><img src=x onerror=alert(1)><!--<script>\"'&\xe2\x80\xa8";
   const nlohmann::json data{{"path", hostile}, {hostile, 1}};

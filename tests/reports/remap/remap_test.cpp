@@ -7,6 +7,7 @@
 #include "brdf/catalogue/masking_shape.h"
 #include "brdf/catalogue/registry.h"
 #include "reports/pictures.h"
+#include "reports/plain.h"
 #include "reports/remap/pairs.h"
 
 #include <gtest/gtest.h>
@@ -155,7 +156,8 @@ TEST(RemapReport, G1IsThatOfTheSeeds) {
   ASSERT_EQ(r.g1.size(), 2U);
   EXPECT_NEAR(r.g1[0].value, 0.1 / 0.2125, 1e-12);
   EXPECT_NEAR(r.g1[1].value, 0.1 / 0.353125, 1e-12);
-  EXPECT_NEAR(r.g1[0].smith, 1, 1e-5);  // roughness 0
+  EXPECT_NEAR(r.g1[0].smith, r.g1[1].smith, 1e-12) << "one roughness, two k";
+  EXPECT_NEAR(r.g1[0].roughness, 0.5, 1e-12);
   EXPECT_NEAR(r.g1[1].smith, 0.2 / (0.1 + std::sqrt(0.0625 + 0.9375 * 0.01)), 1e-12);
   EXPECT_NEAR(r.g1[1].roughness, 0.5, 1e-12);
 }
@@ -184,20 +186,44 @@ TEST(RemapReport, RowsAreFlatAndHaveTheKeysOfTheContract) {
 }
 
 TEST(RemapReport, FindingsJudgeTheClaimsFromTheFigures) {
-  auto r = of({separable, correlated, direct, image, unity}, {0.3, 0.5});
+  auto r = of({separable, correlated, direct, image, joint, unity}, {0.1, 0.3, 0.5});
   const auto all = findings(r);
   const auto said = [&](std::string_view words) {
     return std::ranges::any_of(all.sentences,
                                [&](const std::string& f) { return f.find(words) != f.npos; });
   };
+  EXPECT_TRUE(all.headline.starts_with("Unreal's joint form is the cheap masking nearest to"));
+  EXPECT_TRUE(said("A surface of roughness 0.1 is masked by Schlick's k = (r+1)²/8 like one of"));
   EXPECT_TRUE(said("r²/2 for image-based” does not hold"));
   EXPECT_EQ(all.claims[0].judged, Claim::Judged::fails);
-  EXPECT_EQ(all.claims.size(), 3U);
-  EXPECT_TRUE(said("0.4706 (k 0.125) and 0.2832 (k 0.281)"));
-  EXPECT_TRUE(said("“F V ≈ 1/(LoH²(r+0.5))” does not hold"));
+  EXPECT_EQ(all.claims.size(), 4U);
+  // already too dark: 0.471 of what should be 0.543
+  EXPECT_TRUE(said("“k = α/2 is too bright at grazing angles” does not hold"));
+  EXPECT_EQ(all.claims[1].figure, "G1 0.471, exact 0.543 at NoV 0.1");
+  EXPECT_EQ(all.claims[2].figure, "G1 0.283, exact 0.543 at NoV 0.1");
+  EXPECT_TRUE(said("“F V ≈ 1/(LoH²(r+0.5))” does not hold: as printed it lacks a factor of ¼"));
   for (auto& row : r.rows)  // were it the other way round
     if (row.form == direct) row.rms = 0;
   EXPECT_EQ(findings(r).claims[0].judged, Claim::Judged::holds);
+}
+
+TEST(RemapReport, WhatIsSaidCanBeReadAloud) {
+  auto r = of({separable, correlated, direct, image, joint, unity}, {0.1, 0.3, 0.5});
+  test::expect_plain(findings(r));
+  for (auto& row : r.rows) row.by_g2.at_end = true, row.rms = 0.12345;
+  for (auto& use : r.uses) use.value = 2.345 * use.separable;
+  for (auto& g : r.g1) g.value = 1.2345 * g.smith;
+  for (auto& v : r.vf) v.factor = v.bias = 1.2345;
+  test::expect_plain(findings(r));
+  for (auto& row : r.rows) row.by_g2.roughness = 0.01;
+  test::expect_plain(findings(r));
+}
+
+TEST(RemapReport, WhatLacksAQuarterIsFourTimesAsMuch) {
+  // no spread: with the ¼ it is right, as printed off by four
+  auto r = of({unity}, {0.5});
+  for (auto& v : r.vf) v.factor = v.bias = 1;
+  EXPECT_EQ(findings(r).claims.back().figure, "off by a factor of 4 to 4; with a ¼ by up to 1");
 }
 
 TEST(RemapReport, PicturesShowWhatWasMeasured) {

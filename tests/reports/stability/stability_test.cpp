@@ -5,6 +5,7 @@
 
 #include "many_fits.h"
 #include "reports/pictures.h"
+#include "reports/plain.h"
 #include "reports/stability/measure.h"
 
 #include <gtest/gtest.h>
@@ -122,8 +123,9 @@ TEST(StabilityFindings, SayFromWhichAlphaOnAndThatOthersNeverDo) {
                    "values up to 3900 times too large."));
   EXPECT_TRUE(
       says(f,
-           "In half, inputs without a value were found for 1 of 3 forms. For 1 forms a value is "
-           "proved for every input from some parameter on."));
+           "In half, 1 of 3 forms were found to have inputs without a value. From some width on, a "
+           "value is proved for every input of 1."));
+  test::expect_plain(f);
 }
 
 TEST(StabilityFindings, SayWhichMobileFormsMayBeClampedAnywhere) {
@@ -142,6 +144,23 @@ TEST(StabilityFindings, SayWhichMobileFormsMayBeClampedAnywhere) {
       says(f,
            "GTR of every gamma in half does not keep 2\u00a0%: somewhere there are values more "
            "than a million times too large."));
+  test::expect_plain(f);
+}
+
+TEST(StabilityFindings, CanBeReadAloud) {
+  GONIO_MANY_FITS();
+  test::expect_plain(report().findings);
+  StabilityRows r;
+  r.clamps = clamp_rows();
+  for (const char* form : {"cross", "cosine"}) {
+    AnyGpuRow row{};
+    row.id = "ndf.ggx", row.form = form, row.number = "half";
+    row.proved_rel = 0.0123;
+    r.any_gpu.push_back(row);
+  }
+  const auto said = findings(r);
+  test::expect_plain(said);
+  EXPECT_GT(said.sentences.size(), 4U);
 }
 
 TEST(StabilityReport, OfADistributionThatMissesTellsTheWorstFromTheUsualWidthOn) {

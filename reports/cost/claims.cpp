@@ -1,0 +1,110 @@
+// Claims on what forms cost: masking forms beside each other, exact Fresnel, a fifth power.
+#include "reports/cost/claims.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/finding/words.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+const CostRow* in_cache(const CostRows& r, std::string_view id, std::string_view way = "") {
+  return find_row(r.rows, id, "float", r.machine.instruction_sets.back(), "cache", way);
+}
+bool is_tie(const Timing& a, const Timing& b) {
+  return std::abs(a.ns - b.ns) <= a.spread_ns + b.spread_ns;
+}
+std::string ns(const Timing& t) {
+  return fmt::format("{:.2f} ns", t.ns);
+}
+
+void schlick_beside_joint(Findings& to, const CostRows& r) {
+  const auto *schlick = in_cache(r, "masking.schlick_ggx.direct"),
+             *joint = in_cache(r, "masking.ue_joint.clamped"),
+             *plain = in_cache(r, "masking.ue_joint");
+  if (!schlick || !joint || !plain) return;
+  const bool more = schlick->time.ns > joint->time.ns;
+  const auto words = [&](const CostRow& other) {
+    return is_tie(schlick->time, other.time)  ? "as long as"
+           : schlick->time.ns > other.time.ns ? "longer than"
+                                              : "less than";
+  };
+  to.judge("Schlick's masking costs a bit more than the joint approximation",
+           "seed 004, Vis_SmithJointApprox", verdict(more && !is_tie(schlick->time, joint->time)),
+           fmt::format("{} against {}, clamped", ns(schlick->time), ns(joint->time)),
+           fmt::format("in float columns in cache it takes {} the joint form with its "
+                       "clamp. It takes {} the one without.",
+                       words(*joint), words(*plain)));
+}
+
+void exact_is_slow(Findings& to, const CostRows& r) {
+  const auto *schlick = in_cache(r, "fresnel.schlick"), *exact = in_cache(r, "fresnel.dielectric"),
+             *model = in_cache(r, "ggx/smith_ggx.correlated/schlick", "fused"),
+             *exact_model = in_cache(r, "ggx/smith_ggx.correlated/dielectric", "fused");
+  if (!schlick || !exact || !model || !exact_model) return;
+  const double term = exact->time.ns / schlick->time.ns,
+               whole = exact_model->time.ns / model->time.ns;
+  to.judge("the exact Fresnel equations are slow", "seed 000, exact Fresnel equations",
+           verdict(whole > 1.5, term > 1.5 && !is_tie(exact->time, schlick->time)),
+           fmt::format("{:.1f} times Schlick's time, {:.2f} in a whole model", term, whole),
+           fmt::format(
+               "for a dielectric the term alone takes {:.1f} times as long as Schlick's. A whole "
+               "GGX model with it takes {:.2f} times as long, in float columns in cache.",
+               term, whole));
+}
+
+void pow5(Findings& to, const CostRows& r) {
+  const auto of = [&](std::string_view label) {
+    return std::ranges::find_if(
+        r.points, [&](const CostPoint& p) { return p.picture == "power" && p.label == label; });
+  };
+  const auto by_pow = of("pow"), by_hand = of("Pow5");
+  if (by_pow == r.points.end() || by_hand == r.points.end()) return;
+  const double ratio = by_pow->time.ns / by_hand->time.ns;
+  to.judge(
+      "a Pow5 of one's own saves what pow costs more", "seed 001, Schlick's approximation",
+      verdict(ratio > 1 && !is_tie(by_pow->time, by_hand->time)),
+      fmt::format("pow {}, Pow5 {}", ns(by_pow->time), ns(by_hand->time)),
+      fmt::format(
+          "in a loop that the compiler makes vectors of where it can, pow takes {:.1f} times as "
+          "long. What the two give differs by rounding alone.",
+          ratio));
+}
+
+/// Schlick's form at each cosine, with a fifth power.
+template <class Fifth>
+Timed schlick(const std::vector<float>& cosine, std::vector<float>& to, Fifth fifth) {
+  return {cosine.size(), [&cosine, &to, fifth] {
+            for (std::size_t i = 0; i < cosine.size(); ++i)
+              to[i] = 0.04F + 0.96F * fifth(1 - cosine[i]);
+          }};
+}
+
+}  // namespace
+
+std::vector<CostPoint> power_points(const TimingOptions& timing) {
+  constexpr std::size_t samples = 512;
+  std::vector<float> cosine, by_pow(samples), by_hand(samples);
+  for (std::size_t i = 0; i < samples; ++i)
+    cosine.push_back((static_cast<float>(i) + 0.5F) / static_cast<float>(samples));
+  const auto times =
+      time_all({schlick(cosine, by_pow, [](float x) { return std::pow(x, 5.0F); }),
+                schlick(cosine, by_hand, [](float x) { return x * (x * x) * (x * x); })},
+               timing);
+  double most = 0;
+  for (std::size_t i = 0; i < samples; ++i)
+    most = std::max(most, static_cast<double>(std::abs(by_pow[i] - by_hand[i])));
+  return {{"power", "fifth power", "pow", times[0], 0, 0},
+          {"power", "fifth power", "Pow5", times[1], most, 0}};
+}
+
+void judge_costs(Findings& to, const CostRows& r) {
+  schlick_beside_joint(to, r);
+  exact_is_slow(to, r);
+  pow5(to, r);
+}
+
+}  // namespace gonio

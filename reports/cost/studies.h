@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// Studies of what shaders do in place of exact arithmetic, of light drawn by D alone and of tables: what is timed, and
+/// how far from the truth it is.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/cost/cost.h"
+
+namespace gonio::costing {
+
+/// A loop of a study, to be timed.
+struct StudySubject {
+  std::string id;
+  std::string_view kind;  ///< "arithmetic", "arithmetic_in_f", "sampling", "split_sum"
+  std::string_view way;   ///< "in f" of the second
+  Timed timed;
+};
+std::vector<StudySubject> study_subjects(std::string_view instruction_set, std::size_t samples);
+
+/// True of a kind of these.
+bool is_study(std::string_view kind);
+/// Error of a row of these.
+CostError study_error(const CostRow&);
+
+/// The studies without their times.
+const Studies& study_errors();
+/// The studies with the times of these rows, in the best instruction set.
+Studies with_times(Studies, const std::vector<CostRow>&, std::string_view isa);
+
+}  // namespace gonio::costing

@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// Names of forms as people say them: the one list, for tables and sentences of reports alike.
+
+#include <string>
+#include <string_view>
+
+namespace gonio {
+
+/// Name of a form that stands alone: "Height-correlated Smith"; of others the catalogue's title.
+/// \param form  id, with what tells a variant from it
+std::string name_of_form(std::string_view form);
+/// The same within a sentence: "height-correlated Smith".
+std::string in_text(std::string_view form);
+
+}  // namespace gonio

@@ -1,0 +1,128 @@
+// Claims on the Fresnel term beside its own error: what other factors get wrong, what F0 tells,
+// what F is multiplied with.
+#include "reports/schlick/claims.h"
+
+#include <algorithm>
+#include <array>
+
+#include "image/display.h"
+#include "integrate/albedo/directional_albedo.h"
+#include "reports/finding/words.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+constexpr std::array mus{0.1, 0.5, 1.0};
+constexpr Goal goal{1e-5, 200'000};
+constexpr std::string_view schlick = "fresnel.schlick", shipped_masking = "ue_joint";
+
+/// Colour of GGX under a masking and the exact Fresnel term, at each mu.
+std::vector<Lab> colours(std::string_view masking, const FresnelSurface& s, double roughness) {
+  std::vector<Setting> settings{{"alpha", {roughness * roughness}}, {"eta", {}}};
+  for (const auto& i : s.index) settings[1].values.push_back(i.n);
+  if (s.kind == "metal") {
+    Setting k{"k", {}};
+    for (const auto& i : s.index) k.values.push_back(i.k);
+    settings.push_back(std::move(k));
+  }
+  const auto model =
+      bind_model(fmt::format("ggx/{}/{}", masking, s.kind == "metal" ? "conductor" : "dielectric"),
+                 std::move(settings), s.channels());
+  std::vector<Lab> out;
+  for (const auto& a : directional_albedo(model, mus, 0, goal))
+    out.push_back(lab_of_display({a.value.front(), a.value[a.value.size() / 2], a.value.back()}));
+  return out;
+}
+
+/// Most that Schlick's form shows on a material, over roughness and views.
+double shown_by_schlick(const SchlickRows& r, const std::string& material) {
+  double most = 0;
+  for (const auto& c : r.rough.colours)
+    if (c.form == schlick && c.material == material && !c.delta_e.empty())
+      most = std::max(most, std::ranges::max(c.delta_e));
+  return most;
+}
+
+void smaller_than_others(Findings& to, const SchlickRows& r) {
+  std::array<std::size_t, 2> smaller{}, all{};
+  const MaskingColour *glass = nullptr, *worst = nullptr;
+  for (const auto& m : r.masked) {
+    const bool of_metal = m.kind == "metal";
+    smaller[of_metal] += 2 * shown_by_schlick(r, m.material) < m.delta_e;
+    ++all[of_metal];
+    if (m.material == "IOR 1.5") glass = &m;
+    if (of_metal &&
+        (!worst || shown_by_schlick(r, m.material) > shown_by_schlick(r, worst->material)))
+      worst = &m;
+  }
+  if (!glass || !worst) return;
+  to.judge(
+      "Schlick's error is clearly smaller than that of other factors",
+      "seed 001, Schlick's approximation",
+      verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
+      fmt::format("glass ΔE2000 {:.2g} against {:.2g} of masking", shown_by_schlick(r, "IOR 1.5"),
+                  glass->delta_e),
+      fmt::format("Unreal's joint masking shows more than twice as much on {} dielectrics. Of "
+                  "metals it does on {}. On {} Schlick shows ΔE2000 {:.2g}, that masking {:.2g}.",
+                  of_all(smaller[0], all[0]), of_all(smaller[1], all[1]), worst->material,
+                  shown_by_schlick(r, worst->material), worst->delta_e));
+}
+
+void means_metal(Findings& to) {
+  struct Value {
+    std::string_view name;
+    double f0;
+  };
+  std::vector<Value> above;
+  for (const auto& m : dielectrics())
+    if (const double f0 = f0_of_index(m.at(550)); f0 > 0.04) above.push_back({m.name, f0});
+  if (above.empty()) return;
+  const auto most = std::ranges::max_element(above, {}, &Value::f0);
+  to.judge(
+      "F0 above 0.04 means metal", "seed 003, what metalness is", verdict(false),
+      fmt::format("{} has F0 {:.2f}", most->name, most->f0),
+      fmt::format("{} dielectrics that were measured have more. Of {} it is {:.2f}, at 550 nm.",
+                  of_all(above.size(), dielectrics().size()), most->name, most->f0));
+}
+
+void colour_beside_f(Findings& to) {
+  const double glass = dielectric(1.5, "glass").f0(0), twice = glass * glass;
+  to.judge("f = D F G/(4 NoL NoV) · NoL · SpecularColor", "seed 000, specular BRDF", verdict(false),
+           fmt::format("glass reflects {} in place of {}", percent(twice, 2), percent(glass, 2)),
+           fmt::format("F holds the specular colour already. Seen head on, glass so reflects {} of "
+                       "light in place of {}.",
+                       percent(twice, 2), percent(glass, 2)));
+}
+
+}  // namespace
+
+std::vector<MaskingColour> masked_rows(const SchlickOptions& o,
+                                       const std::function<void(double)>& done) {
+  std::vector<FresnelSurface> surfaces;
+  for (const double ior : {1.33, 1.5, 2.0})
+    surfaces.push_back(dielectric(ior, fmt::format("IOR {:g}", ior)));
+  for (const auto& m : metals()) surfaces.push_back(metal(m));
+  std::vector<MaskingColour> out;
+  for (const auto& s : surfaces) {
+    double most = 0;
+    for (const double r : o.roughness) {
+      const auto exact = colours("smith_ggx.correlated", s, r),
+                 with = colours(shipped_masking, s, r);
+      for (std::size_t m = 0; m < mus.size(); ++m)
+        most = std::max(most, delta_e_2000(with[m], exact[m]));
+    }
+    out.push_back({s.material, s.kind, most});
+    done(static_cast<double>(out.size()) / static_cast<double>(surfaces.size()));
+  }
+  return out;
+}
+
+void judge_what_stands_beside_f(Findings& to, const SchlickRows& r) {
+  smaller_than_others(to, r);
+  means_metal(to);
+  colour_beside_f(to);
+}
+
+}  // namespace gonio
