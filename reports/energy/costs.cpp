@@ -110,15 +110,26 @@ float single(const Point& p) {
 
 }  // namespace
 
+std::vector<CompensationWork> compensation_work() {
+  const auto colour = operations([] { schlick_average(Counted<double>(0.5)); });
+  return {{"single", 0, 0, 0},
+          {"kulla_conty", operations<KullaContyLobe>() + colour, 3, texture_bytes + line_bytes},
+          {"turquin", operations<Turquin>(), 1, texture_bytes},
+          // It stands on A and B, which are looked up without it too.
+          {"fdez_aguera", operations<FdezAguera>(), 0, 0}};
+}
+
 std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMaterial>& materials) {
   std::vector<CompensationCost> out;
   const auto errors = compensation_errors(materials);
+  const auto all = compensation_work();
   const Texture e(0.3F), b(0.01F), average(0.3F);
-  const auto add = [&](std::string_view id, std::size_t count, std::size_t lookups,
-                       std::size_t bytes, const Timing& without, const Timing& with) {
+  const auto add = [&](std::string_view id, const Timing& without, const Timing& with) {
     const auto& error = *std::ranges::find(errors, id, &CompensationError::id);
-    out.push_back({id, count, lookups, bytes, without.ns, without.spread_ns, with.ns,
-                   with.spread_ns, error.worst, error.rms, error.worst_at, error.gold_rms});
+    const auto& work = *std::ranges::find(all, id, &CompensationWork::id);
+    out.push_back({id, work.operations, work.lookups, work.bytes, without.ns, without.spread_ns,
+                   with.ns, with.spread_ns, error.worst, error.rms, error.worst_at,
+                   error.gold_rms});
   };
   const auto kulla_conty = [&](const Point& p) {
     return KullaContyLobe<float>::apply(std::array{
@@ -128,15 +139,12 @@ std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMateria
     return p.f0 * e(p.alpha, p.nov) + b(p.alpha, p.nov);
   };
   const Timing direct = per_point(single), image = per_point(split_sum);
-  add("single", 0, 0, 0, direct, direct);
-  const auto colour = operations([] { schlick_average(Counted<double>(0.5)); });
-  add("kulla_conty", operations<KullaContyLobe>() + colour, 3, texture_bytes + line_bytes, direct,
-      per_point([&](const Point& p) { return single(p) + kulla_conty(p); }));
-  add("turquin", operations<Turquin>(), 1, texture_bytes, direct, per_point([&](const Point& p) {
+  add("single", direct, direct);
+  add("kulla_conty", direct, per_point([&](const Point& p) { return single(p) + kulla_conty(p); }));
+  add("turquin", direct, per_point([&](const Point& p) {
         return Turquin<float>::apply(std::array{single(p), e(p.alpha, p.nov), p.f0})[0];
       }));
-  // It stands on A and B, which are looked up without it too.
-  add("fdez_aguera", operations<FdezAguera>(), 0, 0, image, per_point([&](const Point& p) {
+  add("fdez_aguera", image, per_point([&](const Point& p) {
         return FdezAguera<float>::apply(std::array{e(p.alpha, p.nov), b(p.alpha, p.nov), p.f0})[0];
       }));
   return out;

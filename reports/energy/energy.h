@@ -91,12 +91,18 @@ struct CompensationError {
   double gold_rms;  ///< not a number: not for it, or not looked at
 };
 
+/// Work of a compensation in a shader, beside that of single scattering.
+struct CompensationWork {
+  std::string_view id;
+  std::size_t operations;  ///< of its formula, tables aside
+  std::size_t lookups;     ///< bilinear
+  std::size_t bytes;       ///< of its tables, 32 × 32 in half
+};
+
 /// Cost of a compensation where a shader evaluates it.
 struct CompensationCost {
   std::string_view id;
-  std::size_t operations;  ///< of its formula, tables aside
-  std::size_t lookups;     ///< bilinear, beside those that single scattering needs
-  std::size_t bytes;       ///< of its tables, 32 × 32 in half
+  std::size_t operations, lookups, bytes;  ///< as its CompensationWork
   /// D V F of one light and view, or the split sum's F0 A + B
   double without_ns, without_spread_ns;
   double ns, spread_ns;  ///< the same compensated, one at a time in float
@@ -228,6 +234,8 @@ std::vector<EnergyMaterial> energy_materials(const EnergyOptions&,
 EnergyOptions compensation_domain();
 /// Errors over those of the rows that lie in that domain.
 std::vector<CompensationError> compensation_errors(const std::vector<EnergyMaterial>&);
+/// "single", with nothing, "kulla_conty", "turquin" and "fdez_aguera".
+std::vector<CompensationWork> compensation_work();
 /// Costs of the compensations beside those errors.
 std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMaterial>&);
 std::vector<AlbedoForm> albedo_form_errors();

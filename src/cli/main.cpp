@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
   gonio::cli::add_split_sum(line);
   gonio::cli::add_audit(line);
   gonio::cli::add_stability(line);
+  gonio::cli::add_validate(line);
   gonio::cli::add_report(line);
   gonio::cli::add_bench(line);
   gonio::cli::add_plan(line);

@@ -10,6 +10,7 @@
 #include "reports/tables/fit_page.h"
 #include "reports/tables/inspect_page.h"
 #include "reports/tables/models_page.h"
+#include "reports/validate/validate.h"
 #include "scene/description/scene.h"
 #include "scene/description/scene_example.h"
 #include "scene/plan/document.h"
@@ -47,6 +48,8 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
                                    {"scene", scene::scene_schema()},
                                    {"plan", scene::plan_schema()},
                                    {"verification", scene::verification_schema()},
+                                   {"choice", choice_schema()},
+                                   {"validation", validation_schema()},
                                    {"models", models_schema()},
                                    {"models.page", models_page_schema()},
                                    {"fit.page", fit_page_schema()},

@@ -92,14 +92,7 @@ std::pair<std::string, bool> without_coat(const std::string& spec) {
 /// \param at  the material
 BoundModel model_of(const FromSpec& from, const JsonReader& at) {
   std::vector<Setting> settings;
-  for (const auto& [name, given] : from.parameters) {
-    const bool is_metal = name == "metal";
-    if (given.word.empty() == is_metal)
-      at.at("parameters")
-          .at(name)
-          .fail(is_metal ? "a metal's symbol" : "a number, or one per channel");
-    settings.push_back({name, given.values, given.word});
-  }
+  if (!from.parameters.empty()) settings = settings_of(from.parameters, at.at("parameters"));
   const auto bound = [&](const char* key, const char* expected, std::vector<Setting> with) {
     try {
       auto model = bind_model(without_coat(from.model).first, std::move(with), kChannels);

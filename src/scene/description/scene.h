@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/names.h"
+#include "brdf/model/given_parameter.h"
 #include "brdf/model/model.h"
 #include "geometry/direction.h"
 #include "geometry/vector.h"
@@ -25,15 +26,10 @@ namespace gonio::scene {
 
 // --- Materials ---
 
-/// Value that a file gives a parameter: numbers, or a word (metal: Au).
-struct Given {
-  std::vector<double> values;
-  std::string word;
-};
 /// Model by its spec, or a preset.  "coat:" before its last lobe puts that lobe on all others: f = below + F (D V − below).
 struct FromSpec {
   std::string model;
-  std::vector<std::pair<std::string, Given>> parameters;
+  GivenParameters parameters;
 };
 /// Model of a fit's document.
 struct FromFit {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/json_form.h"
+#include "brdf/model/settings_form.h"
 #include "scene/description/scene.h"
 
 namespace gonio::scene {
@@ -18,24 +19,6 @@ inline constexpr Numbers places{-farthest, farthest}, sizes{0, farthest, true},
     intensities{0, brightest};
 
 // --- Materials ---
-
-inline void read_own(const JsonReader& j, Given& g) {
-  constexpr Entries channels{1, 3};
-  if (j.is_number())
-    g.values = {j.number()};
-  else if (j.is_array())
-    for (const auto& v : entries_in(j, channels)) g.values.push_back(number_in(v, {}));
-  else if (j.is_string())
-    g.word = text_in(j);
-  else
-    j.fail("a number, an array of numbers, or a metal's symbol");
-}
-inline Json own_schema(const Given&) {
-  return {{"anyOf",
-           {{{"type", "number"}},
-            {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 1}, {"maxItems", 3}},
-            {{"type", "string"}, {"minLength", 1}}}}};
-}
 
 template <class Form>
 void keys(Form& f, FromSpec& m) {

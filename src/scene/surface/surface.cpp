@@ -178,7 +178,7 @@ void Look::read_spectrum(const Material& m) {
   const auto* from = std::get_if<FromSpec>(&m.from);
   if (!from || fresnel_.id != "conductor") return;
   const auto named =
-      std::ranges::find(from->parameters, "metal", &std::pair<std::string, Given>::first);
+      std::ranges::find(from->parameters, "metal", &GivenParameters::value_type::first);
   fresnel_.is_named = named != from->parameters.end();
   if (!fresnel_.is_named || !others_.empty()) return;
   fresnel_.spectrum = spectral(*find_metal(named->second.word));

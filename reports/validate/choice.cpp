@@ -1,0 +1,301 @@
+#include "reports/validate/choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_form.h"
+#include "brdf/catalogue/registry.h"
+#include "brdf/model/fitted_model.h"
+#include "brdf/model/settings_form.h"
+#include "optics/refractive_index.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+constexpr Numbers shares{0, 1}, amounts{0, Numbers::any};
+constexpr Entries few{1, 64};
+
+/// List of names, or one alone.
+struct Names {
+  std::vector<std::string> all;
+};
+void read_own(const JsonReader& j, Names& n) {
+  if (j.is_string())
+    n.all = {text_in(j)};
+  else
+    read_value(j, n.all, few.least, few.most);
+}
+Json own_schema(const Names&) {
+  const Json name = {{"type", "string"}, {"minLength", 1}};
+  return {
+      {"anyOf",
+       {name,
+        {{"type", "array"}, {"items", name}, {"minItems", few.least}, {"maxItems", few.most}}}}};
+}
+
+/// Range, or one number.
+struct Range01 {
+  Choice::Ends ends{0, 1};
+};
+void read_own(const JsonReader& j, Range01& r) {
+  if (j.is_number())
+    r.ends = {j.number(), j.number()};
+  else
+    read_value(j, r.ends);
+}
+Json own_schema(const Range01&) {
+  return {
+      {"anyOf",
+       {{{"type", "number"}},
+        {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}}}}};
+}
+
+}  // namespace
+
+template <class Form>
+void keys(Form& f, Budgets::ColourDifference& d) {
+  f.required("limit", d.limit, "CIEDE2000 under a uniform white sky", amounts);
+  f.optional("quantile", d.quantile, "of the domain that keeps it; 1: all", shares);
+}
+template <class Form>
+void keys(Form& f, Budgets::Time& t) {
+  f.required("limit", t.limit, "times the baseline's time", amounts);
+  f.required("baseline", t.baseline, "spec of a model, measured in the same run");
+}
+template <class Form>
+void keys(Form& f, Budgets& b) {
+  f.optional("albedo_error", b.albedo_error, "directional albedo, from the reference's", amounts);
+  f.optional("fresnel_error", b.fresnel_error, "F, from the exact one of the domain's substances",
+             amounts);
+  f.optional("delta_e_2000", b.delta_e_2000, "colour, from the reference's");
+  f.optional("energy_gain", b.energy_gain, "directional albedo above 1", amounts);
+  f.optional("energy_loss", b.energy_loss, "of lobes at F = 1, directional albedo below 1", shares);
+  f.optional("reciprocity", b.reciprocity,
+             "relative change of f where light and view change places", amounts);
+  f.optional("nonfinite", b.nonfinite, "inputs without a value in the number", amounts);
+  f.optional("operations", b.operations, "of one sample in all channels", amounts);
+  f.optional("ns", b.ns, "time of a sample");
+  f.optional("table_bytes", b.table_bytes, "tables that a shader reads", amounts);
+}
+
+namespace {
+
+struct DomainFile {
+  std::optional<Range01> roughness, mu, eta, f0;
+  std::optional<Names> metal, fits;
+};
+template <class Form>
+void keys(Form& f, DomainFile& d) {
+  const auto within = [&](const char* key, const std::optional<Range01>& r, double low,
+                          double high) {
+    f.expect(!r || (r->ends[0] >= low && r->ends[0] <= r->ends[1] && r->ends[1] <= high), key,
+             fmt::format("[low, high] within {:g} to {:g}", low, high));
+  };
+  f.optional("roughness", d.roughness, "as an artist sets it");
+  within("roughness", d.roughness, 1e-3, 1);
+  f.optional("mu", d.mu, "cosine of directions and the normal; else 0.05 to 1");
+  within("mu", d.mu, 1e-4, 1);
+  f.optional("eta", d.eta, "index of refraction of dielectrics");
+  within("eta", d.eta, 1.0001, 10);
+  f.optional("f0", d.f0, "reflectance at normal incidence");
+  within("f0", d.f0, 0, 1);
+  f.optional("metal", d.metal, "metals by their symbols");
+  f.optional("fits", d.fits, "documents of fits: their models and parameters");
+  const int kinds = d.eta.has_value() + d.f0.has_value() + d.metal.has_value() + d.fits.has_value();
+  f.expect(kinds <= 1, kinds > 1 && d.fits ? "fits" : "metal",
+           "one of eta, f0, metal and fits alone");
+}
+
+struct ChoiceFile {
+  Shipped shipped;
+  Number number = Number::float_;
+  std::optional<std::string> reference;
+  Shipped of_reference;
+  DomainFile domain;
+  Budgets budgets;
+};
+bool has_any(const Budgets& b) {
+  return b.albedo_error || b.fresnel_error || b.delta_e_2000 || b.energy_gain || b.energy_loss ||
+         b.reciprocity || b.nonfinite || b.operations || b.ns || b.table_bytes;
+}
+constexpr Entries parameters{0, 100};
+template <class Form>
+void keys(Form& f, ChoiceFile& c) {
+  f.constant("schema", "gonio.choice/1");
+  f.required("model", c.shipped.model, "spec of a model, or a preset");
+  f.optional("parameters", c.shipped.parameters, "a number or one per channel each", parameters);
+  f.optional("scattering", c.shipped.scattering, "what follows light after its first bounce");
+  f.optional("alpha", c.shipped.alpha, "width from roughness");
+  f.optional("number", c.number, "in which a shader computes it");
+  f.optional("reference", c.reference, "spec that the model stands for");
+  f.optional("reference_parameters", c.of_reference.parameters, "a number or one per channel each",
+             parameters);
+  f.optional("reference_scattering", c.of_reference.scattering, "");
+  f.optional("domain", c.domain, "where the budgets must be kept");
+  f.required("budgets", c.budgets, "limits");
+  f.expect(has_any(c.budgets), "budgets", "at least one budget");
+  f.expect(c.reference || !(c.budgets.albedo_error || c.budgets.delta_e_2000), "reference",
+           "a reference, which the budgets albedo_error and delta_e_2000 compare with");
+  f.expect(!c.budgets.fresnel_error || c.domain.eta || c.domain.metal, "domain",
+           "eta or metal, whose exact F the budget fresnel_error compares with");
+  f.expect(c.number != Number::wide, "number", "half, mixed, float or double");
+}
+
+std::optional<Choice::Ends> ends(const std::optional<Range01>& r) {
+  return r ? std::optional(r->ends) : std::nullopt;
+}
+std::vector<std::string> names(const std::optional<Names>& n) {
+  return n ? n->all : std::vector<std::string>{};
+}
+
+}  // namespace
+
+Choice parse_choice(const std::string& path, const std::string& bytes) {
+  const Json document = parse_json(path, bytes);
+  const JsonReader root(path, document, "", Places::pointer);
+  ChoiceFile file;
+  read_form(root, file);
+  Choice c;
+  c.path = path;
+  c.shipped = std::move(file.shipped);
+  c.reference = std::move(file.of_reference);
+  c.has_reference = file.reference.has_value();
+  if (file.reference) c.reference.model = *file.reference;
+  c.number = file.number;
+  c.domain = {ends(file.domain.roughness), ends(file.domain.mu),     ends(file.domain.eta),
+              ends(file.domain.f0),        names(file.domain.metal), names(file.domain.fits)};
+  c.budgets = std::move(file.budgets);
+  for (std::size_t i = 0; i < c.domain.metals.size(); ++i)
+    if (!find_metal(c.domain.metals[i])) {
+      const auto at = root.at("domain").at("metal");
+      (at.is_array() ? at.at(i) : at).fail("a metal that is known");
+    }
+  const auto check = [&](const Shipped& s, const char* model, const char* parameters_key) {
+    const auto given = s.parameters.empty() ? std::vector<Setting>{}
+                                            : settings_of(s.parameters, root.at(parameters_key));
+    const auto with = [&](const char* key, const std::vector<Setting>& settings) {
+      try {
+        bind_model(s.model, settings);
+      } catch (const Error& e) {  // the words are the file's, not the user's
+        root.at(key).fail(fmt::format("what the model takes ({})", e.what()));
+      }
+    };
+    with(model, {});
+    if (!given.empty()) with(parameters_key, given);
+  };
+  check(c.shipped, "model", "parameters");
+  if (c.has_reference) check(c.reference, "reference", "reference_parameters");
+  if (c.budgets.ns) {
+    try {
+      compose(c.budgets.ns->baseline, 3);
+    } catch (const Error& e) {
+      root.at("budgets").at("ns").at("baseline").fail(fmt::format("a model ({})", e.what()));
+    }
+  }
+  return c;
+}
+
+Choice read_choice(const std::string& path) {
+  return parse_choice(path, InputFile(path).read_rest(most_document_bytes));
+}
+
+std::string choice_schema() {
+  return form_schema<ChoiceFile>("Choice of a material model, and what it must keep");
+}
+
+bool has_range(const Choice& c) {
+  return c.domain.eta || c.domain.f0;
+}
+
+Substance substance_at(const Choice& c, double part) {
+  const auto at = [&](const Choice::Ends& e) { return e[0] + part * (e[1] - e[0]); };
+  if (c.domain.eta) {
+    const double ior = at(*c.domain.eta);
+    return {fmt::format("IOR {:.4g}", ior), dielectric(ior, fmt::format("IOR {:.4g}", ior))};
+  }
+  const double f0 = at(*c.domain.f0);
+  return {fmt::format("F0 {:.4g}", f0), {}, {{"f0", {f0}}}};
+}
+
+std::vector<Substance> substances(const Choice& c) {
+  std::vector<Substance> all;
+  if (has_range(c)) {
+    const auto& e = c.domain.eta ? *c.domain.eta : *c.domain.f0;
+    const int steps = e[0] == e[1] ? 0 : 4;
+    for (int i = 0; i <= steps; ++i) all.push_back(substance_at(c, steps ? i / double{steps} : 0));
+  }
+  for (const auto& name : c.domain.metals) {
+    const Material& m = *find_metal(name);
+    all.push_back({std::string(m.name), metal(m)});
+  }
+  for (const auto& file : c.domain.fits) {
+    const auto path = (std::filesystem::path(c.path).parent_path() / file).string();
+    const auto fitted = read_fitted_model(path);
+    bind_fitted(path, fitted, {});  // refuses what is not known
+    Substance s{file};
+    for (const auto& [name, values] : fitted.parameters) s.settings.push_back({name, values});
+    all.push_back(std::move(s));
+  }
+  if (all.empty()) all.push_back({});
+  return all;
+}
+
+namespace {
+
+bool has(const std::vector<Setting>& all, std::string_view name) {
+  return std::ranges::find(all, name, &Setting::name) != all.end();
+}
+/// Settings of a lobe's Fresnel term on a surface.
+std::vector<Setting> fresnel_settings(std::string_view id, const FresnelSurface& s) {
+  for (const auto& f : forms_for(s))
+    if (f.name == id) return f.settings;
+  Setting eta{"eta", {}}, k{"k", {}};
+  for (const auto& i : s.index) eta.values.push_back(i.n), k.values.push_back(i.k);
+  if (id == "fresnel.conductor") return {eta, k};
+  if (id == "fresnel.dielectric" && s.kind == "dielectric") return {eta};
+  throw wrong_usage(fmt::format("{} is not for {}", id, s.material));
+}
+
+}  // namespace
+
+BoundModel bound(const Choice& c, const Shipped& s, const Substance& of, double roughness) {
+  std::vector<Setting> settings;
+  for (const auto& [name, given] : s.parameters)
+    settings.push_back({name, given.values, given.word});
+  try {
+    const Model plain = compose(s.model, 3);
+    const auto add = [&](const Setting& setting) {
+      if (!has(settings, setting.name)) settings.push_back(setting);
+    };
+    if (of.surface && !plain.lobes.empty())
+      for (const auto& x :
+           fresnel_settings(catalogue()[plain.lobes[0].fresnel.term].about->id, *of.surface))
+        add(x);
+    for (const auto& x : of.settings)
+      if (x.name == "f0" || plain.find(x.name)) add(x);
+    const double alpha = s.alpha == AlphaMap::linear   ? roughness
+                         : s.alpha == AlphaMap::square ? roughness * roughness
+                                                       : std::pow(roughness, 4);
+    const bool has_width = has(settings, "alpha") || has(settings, "roughness") ||
+                           has(settings, "alpha_x") || has(settings, "alpha_y");
+    if (c.domain.roughness && !has_width) {
+      if (plain.find("alpha"))
+        settings.push_back({"alpha", {alpha}});
+      else if (plain.find("alpha_x"))
+        settings.push_back({"alpha_x", {alpha}}), settings.push_back({"alpha_y", {alpha}});
+      else if (plain.find("roughness"))
+        settings.push_back({"roughness", {roughness}});
+    }
+    return bind_model(s.model, std::move(settings), 3);
+  } catch (const Error& e) {
+    throw bad_input(c.path, of.name.empty() ? "/domain" : fmt::format("/domain ({})", of.name),
+                    e.what(), "what the model takes");
+  }
+}
+
+}  // namespace gonio

@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// Search of a choice's domain for the worst: a grid, then steps around the worst of it.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reports/validate/choice.h"
+
+namespace gonio::validating {
+
+/// Point of the domain: mu is a cosine of a direction and the normal.
+struct Point {
+  Substance substance;
+  double part = 0;  ///< of the substances' range, where there is one
+  double roughness = 1, mu = 1;
+};
+struct Found {
+  double value = 0;
+  Point at;
+};
+
+/// Even steps from one end to the other; one where they are the same.
+std::vector<double> steps(const Choice::Ends&, int n);
+std::vector<double> roughnesses(const Choice&);
+std::vector<double> cosines(const Choice&);
+
+/// Errors at cosines, of one substance and roughness.
+using ErrorAt = std::function<std::vector<double>(
+    const Substance&, double roughness, std::span<const double> mu)>;
+
+/// Errors on the grid, substance by substance.
+std::vector<Found> on_grid(const Choice&, const ErrorAt&, const std::function<void(double)>& done);
+/// Worst of these, and what is worse between its neighbours: by golden section, one input after the other.
+Found worst(const Choice&, const std::vector<Found>& grid, const ErrorAt&);
+
+}  // namespace gonio::validating

@@ -1,0 +1,64 @@
+// gonio validate: what it says, how it exits, what it refuses.
+#include <fstream>
+
+#include "cli/program.h"
+
+namespace gonio::test {
+namespace {
+
+void write(const Folder& f, const std::string& name, const nlohmann::json& j) {
+  std::ofstream(f / name) << j.dump(2);
+}
+nlohmann::json choice(double limit) {
+  return {{"schema", "gonio.choice/1"},
+          {"model", "ggx/schlick_ggx.direct/schlick"},
+          {"reference", "ggx/smith_ggx.correlated/schlick"},
+          {"domain", {{"roughness", {0.2, 1}}, {"f0", 0.04}}},
+          {"budgets", {{"albedo_error", limit}, {"energy_gain", 0.001}}}};
+}
+
+TEST(ValidateCommand, ExitsWith0WhereEveryBudgetIsKeptAndWith1AndTheWorstInputWhereOneIsBroken) {
+  const Folder f;
+  write(f, "kept.json", choice(0.9));
+  write(f, "broken.json", choice(1e-4));
+  const auto kept = gonio(f, "validate kept.json");
+  EXPECT_EQ(kept.code, 0) << kept.err;
+  EXPECT_NE(kept.out.find("The choice keeps every budget."), kept.out.npos) << kept.out;
+  const auto broken = gonio(f, "validate broken.json");
+  EXPECT_EQ(broken.code, 1) << broken.err;
+  EXPECT_NE(broken.out.find("at roughness "), broken.out.npos) << broken.out;
+  EXPECT_EQ(broken.err, "");
+}
+
+TEST(ValidateCommand, LeavesADocumentAPageAndWhatMachinesRead) {
+  const Folder f;
+  write(f, "c.json", choice(1e-4));
+  const auto o =
+      gonio(f, "validate c.json --json -o v.json --html v.html --junit v.xml --sarif v.sarif");
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_EQ(o.json()["schema"], "gonio.validation/1");
+  EXPECT_EQ(read_bytes(f / "v.json"), o.out.substr(0, o.out.size() - 1));
+  for (const char* name : {"v.html", "v.page.json", "v.xml", "v.sarif"})
+    EXPECT_TRUE(std::filesystem::exists(f / name)) << name;
+}
+
+TEST(ValidateCommand, RefusesWhatItCannotReadOrWrite) {
+  const Folder f;
+  write(f, "c.json", choice(1));
+  auto none = choice(1);
+  none["budgets"] = nlohmann::json::object();
+  write(f, "none.json", none);
+  std::ofstream(f / "torn.json") << "{\"schema\": ";
+  expect_one_line_each(f, 3,
+                       {{"validate none.json", "none.json: /budgets: "},
+                        {"validate torn.json", "torn.json"},
+                        {"validate missing.json", "missing.json"},
+                        {"validate c.json -o nowhere/v.json", "nowhere/v.json"}});
+  expect_one_line_each(
+      f, 2,
+      {{"validate c.json --junit c.json", "c.json"}, {"validate c.json --html page", "page"}});
+  EXPECT_FALSE(std::filesystem::exists(f / "v.json"));
+}
+
+}  // namespace
+}  // namespace gonio::test
