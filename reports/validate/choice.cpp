@@ -227,7 +227,8 @@ std::vector<Substance> substances(const Choice& c) {
   if (has_range(c)) {
     const auto& e = c.domain.eta ? *c.domain.eta : *c.domain.f0;
     const int steps = e[0] == e[1] ? 0 : 4;
-    for (int i = 0; i <= steps; ++i) all.push_back(substance_at(c, steps ? i / double{steps} : 0));
+    for (int i = 0; i <= steps; ++i)
+      all.push_back(substance_at(c, steps ? i / static_cast<double>(steps) : 0));
   }
   for (const auto& name : c.domain.metals) {
     const Material& m = *find_metal(name);

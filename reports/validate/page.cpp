@@ -21,11 +21,13 @@ struct Description<BudgetCheck> {
         field("holds", "", &B::holds, "whether the worst keeps the limit"),
         field("evidence", "", &B::evidence,
               "proved, exhaustive, searched, open, counted or measured"),
-        field("at", "", per_name(&B::at), "inputs of the worst: roughness, mu, theta [°] …"),
+        field("at", "", &B::at, "inputs of the worst: roughness, mu, theta [°] …"),
         field("substance", "", &B::substance, "of the worst; may be empty"),
         field("place", "", place_text, "the same as text; may be empty"),
         field("words", "", &B::words, "more of what was found; may be empty"),
-        field("sentence", "", sentence, "what was found, where, and what is allowed")};
+        field(
+            "sentence", "", [](const B& b) { return sentence(b); },
+            "what was found, where, and what is allowed")};
   }
 };
 static_assert(describes_every_member<BudgetCheck>());

@@ -49,7 +49,7 @@ TEST(Choice, NamesThePlaceOfWhatItDoesNotTake) {
       parsed(j);
       ADD_FAILURE() << pointer << " = " << value << " was taken";
     } catch (const Error& e) {
-      EXPECT_EQ(e.exit(), Exit::bad_input);
+      EXPECT_EQ(e.code(), Exit::bad_input);
       EXPECT_NE(std::string(e.what()).find(line), std::string::npos) << e.what();
       EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
     }
