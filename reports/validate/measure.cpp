@@ -42,9 +42,11 @@ BudgetCheck checked(const Choice& c, std::string budget, double limit, const Fou
 BudgetCheck worst_checked(const Choice& c,
                           std::string budget,
                           double limit,
+                          const Effort& effort,
                           const ErrorAt& error,
                           const std::function<void(double)>& done) {
-  return checked(c, std::move(budget), limit, worst(c, on_grid(c, error, done), error));
+  return checked(c, std::move(budget), limit,
+                 worst(c, effort, on_grid(c, effort, error, done), error));
 }
 
 ErrorAt against_reference(const Choice& c, auto difference) {
@@ -85,31 +87,38 @@ std::vector<std::vector<double>> albedos(const BoundModel& b,
   return out;
 }
 
-BudgetCheck check_albedo_error(const Choice& c, const std::function<void(double)>& done) {
+BudgetCheck check_albedo_error(const Choice& c,
+                               const Effort& effort,
+                               const std::function<void(double)>& done) {
   const auto error =
       against_reference(c, [](const std::vector<double>& a, const std::vector<double>& b) {
         double most = 0;
         for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
         return most;
       });
-  return worst_checked(c, "albedo_error", *c.budgets.albedo_error, error, done);
+  return worst_checked(c, "albedo_error", *c.budgets.albedo_error, effort, error, done);
 }
 
-BudgetCheck check_delta_e(const Choice& c, const std::function<void(double)>& done) {
+BudgetCheck check_delta_e(const Choice& c,
+                          const Effort& effort,
+                          const std::function<void(double)>& done) {
   const auto& budget = *c.budgets.delta_e_2000;
   const auto error =
       against_reference(c, [](const std::vector<double>& a, const std::vector<double>& b) {
         return delta_e_2000(seen(a), seen(b));
       });
-  auto grid = on_grid(c, error, done);
-  if (budget.quantile >= 1) return checked(c, "delta_e_2000", budget.limit, worst(c, grid, error));
+  auto grid = on_grid(c, effort, error, done);
+  if (budget.quantile >= 1)
+    return checked(c, "delta_e_2000", budget.limit, worst(c, effort, grid, error));
   std::ranges::stable_sort(grid, {}, &Found::value);
   const auto n = static_cast<double>(grid.size());
   const auto at = static_cast<std::size_t>(std::max(std::ceil(budget.quantile * n) - 1, 0.0));
   return checked(c, "delta_e_2000", budget.limit, grid[at]);
 }
 
-BudgetCheck check_energy_gain(const Choice& c, const std::function<void(double)>& done) {
+BudgetCheck check_energy_gain(const Choice& c,
+                              const Effort& effort,
+                              const std::function<void(double)>& done) {
   const auto error = [&](const Substance& s, double roughness, std::span<const double> mu) {
     const BoundModel b = bound(c, c.shipped, s, roughness);
     const auto as_it_is = albedos(b, c.shipped.scattering, mu);
@@ -120,10 +129,12 @@ BudgetCheck check_energy_gain(const Choice& c, const std::function<void(double)>
       out.push_back(std::max(std::ranges::max(as_it_is[m]), std::ranges::max(white[m])) - 1);
     return out;
   };
-  return worst_checked(c, "energy_gain", *c.budgets.energy_gain, error, done);
+  return worst_checked(c, "energy_gain", *c.budgets.energy_gain, effort, error, done);
 }
 
-BudgetCheck check_energy_loss(const Choice& c, const std::function<void(double)>& done) {
+BudgetCheck check_energy_loss(const Choice& c,
+                              const Effort& effort,
+                              const std::function<void(double)>& done) {
   const auto error = [&](const Substance& s, double roughness, std::span<const double> mu) {
     const BoundModel b = bound(c, c.shipped, s, roughness);
     std::vector<double> out;
@@ -131,7 +142,7 @@ BudgetCheck check_energy_loss(const Choice& c, const std::function<void(double)>
       out.push_back(1 - std::ranges::min(e));
     return out;
   };
-  return worst_checked(c, "energy_loss", *c.budgets.energy_loss, error, done);
+  return worst_checked(c, "energy_loss", *c.budgets.energy_loss, effort, error, done);
 }
 
 BudgetCheck check_fresnel_error(const Choice& c) {
@@ -159,7 +170,9 @@ BudgetCheck check_fresnel_error(const Choice& c) {
   return out;
 }
 
-BudgetCheck check_reciprocity(const Choice& c, const std::function<void(double)>& done) {
+BudgetCheck check_reciprocity(const Choice& c,
+                              const Effort& effort,
+                              const std::function<void(double)>& done) {
   if (c.shipped.scattering == Bounces::fdez_aguera ||
       c.shipped.scattering == Bounces::deterministic)
     throw bad_input(c.path, "/budgets/reciprocity",
@@ -169,7 +182,7 @@ BudgetCheck check_reciprocity(const Choice& c, const std::function<void(double)>
   constexpr int turns = 13;
   const auto error = [&](const Substance& s, double roughness, std::span<const double> mu) {
     const BoundModel b = bound(c, c.shipped, s, roughness);
-    std::vector<double> others = cosines(c);
+    std::vector<double> others = cosines(c, effort);
     const auto relative = [&](double light, double view) {
       std::vector<FrameAngles<double>> there, back;
       for (int k = 0; k < turns; ++k) {
@@ -208,7 +221,7 @@ BudgetCheck check_reciprocity(const Choice& c, const std::function<void(double)>
     }
     return out;
   };
-  return worst_checked(c, "reciprocity", *c.budgets.reciprocity, error, done);
+  return worst_checked(c, "reciprocity", *c.budgets.reciprocity, effort, error, done);
 }
 
 }  // namespace gonio::validating

@@ -14,12 +14,20 @@ namespace gonio::validating {
 /// Directional albedo at F as it is, by channel: [mu][channel].
 std::vector<std::vector<double>> albedos(const BoundModel&, Bounces, std::span<const double> mu);
 
-BudgetCheck check_albedo_error(const Choice&, const std::function<void(double)>& done);
-BudgetCheck check_delta_e(const Choice&, const std::function<void(double)>& done);
-BudgetCheck check_energy_gain(const Choice&, const std::function<void(double)>& done);
-BudgetCheck check_energy_loss(const Choice&, const std::function<void(double)>& done);
+BudgetCheck check_albedo_error(const Choice&,
+                               const Effort&,
+                               const std::function<void(double)>& done);
+BudgetCheck check_delta_e(const Choice&, const Effort&, const std::function<void(double)>& done);
+BudgetCheck check_energy_gain(const Choice&,
+                              const Effort&,
+                              const std::function<void(double)>& done);
+BudgetCheck check_energy_loss(const Choice&,
+                              const Effort&,
+                              const std::function<void(double)>& done);
 BudgetCheck check_fresnel_error(const Choice&);
-BudgetCheck check_reciprocity(const Choice&, const std::function<void(double)>& done);
+BudgetCheck check_reciprocity(const Choice&,
+                              const Effort&,
+                              const std::function<void(double)>& done);
 BudgetCheck check_nonfinite(const Choice&);
 BudgetCheck check_operations(const Choice&);
 BudgetCheck check_table_bytes(const Choice&);
@@ -31,6 +39,6 @@ struct NamedCheck {
   std::function<BudgetCheck(const std::function<void(double)>& done)> check;
 };
 /// Those of all, the cheapest first.  \param choice  outlives them
-std::vector<NamedCheck> checks_of(const Choice& choice);
+std::vector<NamedCheck> checks_of(const Choice& choice, const Effort& = {});
 
 }  // namespace gonio::validating

@@ -6,7 +6,6 @@
 namespace gonio::validating {
 namespace {
 
-constexpr int roughness_steps = 9, cosine_steps = 8;
 constexpr Choice::Ends all_cosines{0.05, 1};
 
 /// Value between two ends where a function is greatest, if it has one peak there.
@@ -36,19 +35,20 @@ std::vector<double> steps(const Choice::Ends& e, int n) {
   return all;
 }
 
-std::vector<double> roughnesses(const Choice& c) {
-  return c.domain.roughness ? steps(*c.domain.roughness, roughness_steps) : std::vector{1.0};
+std::vector<double> roughnesses(const Choice& c, const Effort& effort) {
+  return c.domain.roughness ? steps(*c.domain.roughness, effort.roughness_steps) : std::vector{1.0};
 }
-std::vector<double> cosines(const Choice& c) {
-  return steps(c.domain.mu.value_or(all_cosines), cosine_steps);
+std::vector<double> cosines(const Choice& c, const Effort& effort) {
+  return steps(c.domain.mu.value_or(all_cosines), effort.cosine_steps);
 }
 
 std::vector<Found> on_grid(const Choice& c,
+                           const Effort& effort,
                            const ErrorAt& error,
                            const std::function<void(double)>& done) {
   const auto all = substances(c);
-  const auto rough = roughnesses(c);
-  const auto mu = cosines(c);
+  const auto rough = roughnesses(c, effort);
+  const auto mu = cosines(c, effort);
   std::vector<Found> grid;
   for (std::size_t s = 0; s < all.size(); ++s)
     for (std::size_t r = 0; r < rough.size(); ++r) {
@@ -66,12 +66,15 @@ std::vector<Found> on_grid(const Choice& c,
   return grid;
 }
 
-Found worst(const Choice& c, const std::vector<Found>& grid, const ErrorAt& error) {
+Found worst(const Choice& c,
+            const Effort& effort,
+            const std::vector<Found>& grid,
+            const ErrorAt& error) {
   // What is no number is as bad as can be.
   const auto badness = [](double v) { return std::isnan(v) ? HUGE_VAL : v; };
   Found best =
       *std::ranges::max_element(grid, {}, [&](const Found& f) { return badness(f.value); });
-  if (!std::isfinite(badness(best.value))) return best;
+  if (!effort.refined || !std::isfinite(badness(best.value))) return best;
   const auto value_at = [&](const Point& p) {
     return badness(error(p.substance, p.roughness, std::span(&p.mu, 1))[0]);
   };
@@ -85,14 +88,14 @@ Found worst(const Choice& c, const std::vector<Found>& grid, const ErrorAt& erro
   const auto width = [](const Choice::Ends& e, int n) { return (e[1] - e[0]) / (n - 1); };
   for (int round = 0; round < 2 && std::isfinite(best.value); ++round) {
     const auto mu = c.domain.mu.value_or(all_cosines);
-    along(best.at.mu, mu, width(mu, cosine_steps), [&](double v) {
+    along(best.at.mu, mu, width(mu, effort.cosine_steps), [&](double v) {
       Point p = best.at;
       p.mu = v;
       return p;
     });
     if (c.domain.roughness)
-      along(best.at.roughness, *c.domain.roughness, width(*c.domain.roughness, roughness_steps),
-            [&](double v) {
+      along(best.at.roughness, *c.domain.roughness,
+            width(*c.domain.roughness, effort.roughness_steps), [&](double v) {
               Point p = best.at;
               p.roughness = v;
               return p;

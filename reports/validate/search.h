@@ -22,18 +22,28 @@ struct Found {
   Point at;
 };
 
+/// Effort of a search: a coarse one finds most of what is broken, and establishes nothing.
+struct Effort {
+  int roughness_steps = 9, cosine_steps = 8;
+  bool refined = true;  ///< looks around the worst of the grid
+};
+inline constexpr Effort coarse{3, 3, false};
+
 /// Even steps from one end to the other; one where they are the same.
 std::vector<double> steps(const Choice::Ends&, int n);
-std::vector<double> roughnesses(const Choice&);
-std::vector<double> cosines(const Choice&);
+std::vector<double> roughnesses(const Choice&, const Effort& = {});
+std::vector<double> cosines(const Choice&, const Effort& = {});
 
 /// Errors at cosines, of one substance and roughness.
 using ErrorAt = std::function<std::vector<double>(
     const Substance&, double roughness, std::span<const double> mu)>;
 
 /// Errors on the grid, substance by substance.
-std::vector<Found> on_grid(const Choice&, const ErrorAt&, const std::function<void(double)>& done);
+std::vector<Found> on_grid(const Choice&,
+                           const Effort&,
+                           const ErrorAt&,
+                           const std::function<void(double)>& done);
 /// Worst of these, and what is worse between its neighbours: by golden section, one input after the other.
-Found worst(const Choice&, const std::vector<Found>& grid, const ErrorAt&);
+Found worst(const Choice&, const Effort&, const std::vector<Found>& grid, const ErrorAt&);
 
 }  // namespace gonio::validating

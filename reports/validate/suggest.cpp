@@ -88,21 +88,23 @@ std::vector<Candidate> candidates(const Choice& c) {
   return all;
 }
 
+bool keeps(const Choice& c, const Effort& effort) {
+  return std::ranges::all_of(checks_of(c, effort), [](const NamedCheck& check) {
+    try {
+      return check.check({}).holds;
+    } catch (const Error&) {  // a budget that cannot be asked of it is not kept
+      return false;
+    }
+  });
+}
+
 }  // namespace
 
 std::optional<Suggestion> suggest(const Choice& c, const ReportProgress& done) {
   const auto all = candidates(c);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (done) done("cheaper choices", static_cast<double>(i) / static_cast<double>(all.size()));
-    const auto checks = checks_of(all[i].choice);
-    const bool keeps = std::ranges::all_of(checks, [](const NamedCheck& check) {
-      try {
-        return check.check({}).holds;
-      } catch (const Error&) {  // a budget that cannot be asked of it is not kept
-        return false;
-      }
-    });
-    if (!keeps) continue;
+    if (!keeps(all[i].choice, coarse) || !keeps(all[i].choice, {})) continue;
     const Shipped& s = all[i].choice.shipped;
     return Suggestion{
         s.model, std::string(name_of(s.scattering)),

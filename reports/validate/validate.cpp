@@ -41,16 +41,16 @@ void add_curves(Pictures& to, const Choice& c) {
 
 }  // namespace
 
-std::vector<validating::NamedCheck> validating::checks_of(const Choice& c) {
+std::vector<validating::NamedCheck> validating::checks_of(const Choice& c, const Effort& effort) {
   const Budgets& b = c.budgets;
   std::vector<NamedCheck> all;
   const auto add = [&](bool asked, const char* what, auto check) {
     if (!asked) return;
-    all.push_back({what, [&c, check](const std::function<void(double)>& part) {
+    all.push_back({what, [&c, effort, check](const std::function<void(double)>& part) {
                      if constexpr (std::is_invocable_v<decltype(check), const Choice&>)
                        return check(c);
                      else
-                       return check(c, part);
+                       return check(c, effort, part);
                    }});
   };
   add(b.operations.has_value(), "operations", check_operations);

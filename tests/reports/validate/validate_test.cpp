@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "integrate/albedo/directional_albedo.h"
+#include "many_fits.h"
 #include "optics/refractive_index.h"
 #include "reports/measure/fresnel_error.h"
 #include "reports/validate/words.h"
@@ -60,6 +61,7 @@ TEST(Validate, RaisesNoFalseAlarmOnWhatKeepsTheLaws) {
 }
 
 TEST(Validate, FindsTheWorstOfAMaskingThatARendererShips) {
+  GONIO_MANY_FITS();
   const auto b =
       only(of({{"albedo_error", 0.01}}, {{"model", remapped},
                                          {"reference", smith},
@@ -85,6 +87,7 @@ TEST(Validate, FindsRoughnessThatIsSquaredTwice) {
 }
 
 TEST(Validate, TellsEnergyThatOneBounceLosesAndThatCompensationGivesBack) {
+  GONIO_MANY_FITS();
   const json white = {{"domain", {{"roughness", {0.1, 1}}}}};
   const auto single = only(of({{"energy_loss", 0.3}}, white));
   EXPECT_FALSE(single.holds);
@@ -127,6 +130,7 @@ TEST(Validate, TellsFresnelsErrorAsTheReportDoes) {
 }
 
 TEST(Validate, TellsColourByTheQuantileThatIsAsked) {
+  GONIO_MANY_FITS();
   const json more = {{"model", "ggx/smith_ggx.correlated/schlick"},
                      {"reference", "ggx/smith_ggx.correlated/conductor"},
                      {"domain", {{"roughness", {0.1, 1}}, {"metal", {"Fe"}}}}};
@@ -169,6 +173,7 @@ TEST(Validate, CountsOperationsAndBytesOfACompensationToo) {
 }
 
 TEST(Suggest, NamesTheCheapestThatKeepsEveryBudget) {
+  GONIO_MANY_FITS();
   json j = {{"schema", "gonio.choice/1"},
             {"model", smith},
             {"reference", smith},
@@ -192,6 +197,7 @@ TEST(Suggest, NamesTheCheapestThatKeepsEveryBudget) {
 }
 
 TEST(Suggest, TakesACompensationWhereEnergyMustNotBeLost) {
+  GONIO_MANY_FITS();
   const json j = {{"schema", "gonio.choice/1"},
                   {"model", smith},
                   {"domain", {{"roughness", {0.5, 1}}, {"f0", 0.9}}},
