@@ -30,9 +30,20 @@ std::optional<Compensation> compensation_of(Bounces b) {
   return find_value<Compensation>(name_of(b));
 }
 
+/// Larger one of two errors; what is no number is worse than all.
+double worse(double a, double b) {
+  return std::isnan(a) || b <= a ? a : b;
+}
+double greatest(const std::vector<double>& all) {
+  double most = -HUGE_VAL;
+  for (const double x : all) most = worse(most, x);
+  return most;
+}
+
 /// A check whose worst is at a point of the domain.
 BudgetCheck checked(const Choice& c, std::string budget, double limit, const Found& w) {
   BudgetCheck out{std::move(budget), limit, w.value, w.value <= limit, std::string(searched)};
+  if (w.value == 0) return out;  // nowhere
   if (c.domain.roughness) out.at.emplace_back("roughness", w.at.roughness);
   out.at.emplace_back("mu", w.at.mu);
   out.substance = w.at.substance.name;
@@ -93,7 +104,7 @@ BudgetCheck check_albedo_error(const Choice& c,
   const auto error =
       against_reference(c, [](const std::vector<double>& a, const std::vector<double>& b) {
         double most = 0;
-        for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
+        for (std::size_t k = 0; k < a.size(); ++k) most = worse(most, std::abs(a[k] - b[k]));
         return most;
       });
   return worst_checked(c, "albedo_error", *c.budgets.albedo_error, effort, error, done);
@@ -126,7 +137,7 @@ BudgetCheck check_energy_gain(const Choice& c,
         b.model.lobes.empty() ? as_it_is : albedos(white_lobes(b), c.shipped.scattering, mu);
     std::vector<double> out;
     for (std::size_t m = 0; m < mu.size(); ++m)
-      out.push_back(std::max(std::ranges::max(as_it_is[m]), std::ranges::max(white[m])) - 1);
+      out.push_back(worse(0, worse(greatest(as_it_is[m]), greatest(white[m])) - 1));
     return out;
   };
   return worst_checked(c, "energy_gain", *c.budgets.energy_gain, effort, error, done);
@@ -138,8 +149,11 @@ BudgetCheck check_energy_loss(const Choice& c,
   const auto error = [&](const Substance& s, double roughness, std::span<const double> mu) {
     const BoundModel b = bound(c, c.shipped, s, roughness);
     std::vector<double> out;
-    for (const auto& e : albedos(white_lobes(b), c.shipped.scattering, mu))
-      out.push_back(1 - std::ranges::min(e));
+    for (const auto& albedo : albedos(white_lobes(b), c.shipped.scattering, mu)) {
+      double lost = 0;
+      for (const double e : albedo) lost = worse(lost, 1 - e);
+      out.push_back(lost);
+    }
     return out;
   };
   return worst_checked(c, "energy_loss", *c.budgets.energy_loss, effort, error, done);
@@ -158,7 +172,7 @@ BudgetCheck check_fresnel_error(const Choice& c) {
     for (std::size_t k = 0; k < exact.size(); ++k) {
       const auto f = form_values(form, *s.surface, k, at.cosine);
       for (std::size_t i = 0; i < f.size(); ++i)
-        if (const double off = std::abs(f[i] - exact[k][i]); off > out.found) {
+        if (const double off = std::abs(f[i] - exact[k][i]); !(off <= out.found)) {
           out.found = off;
           out.substance = s.name;
           theta = at.theta_deg[i];
@@ -214,7 +228,7 @@ BudgetCheck check_reciprocity(const Choice& c,
           for (std::size_t i = 0; i < f[k].size(); ++i) {
             const double there = f[k][i] * theirs[o][k], back = g[k][i] * mine[m][k];
             const double larger = std::max(std::abs(there), std::abs(back));
-            if (larger > 0) most = std::max(most, std::abs(there - back) / larger);
+            if (!(larger <= 0)) most = worse(most, std::abs(there - back) / larger);
           }
       }
       out.push_back(most);

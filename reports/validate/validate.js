@@ -13,7 +13,7 @@ function verdict() {
   return el("div", { class: "verdict" }, lines.map((l) => el("p", {}, l)));
 }
 
-document.getElementById("page").replaceChildren(
+document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio validate"), el("h1", {}, broken.length ? "Not yet" : "Ready to ship"), verdict(),
   section("Budgets", "The worst of each in the choice’s domain.",
     told_by_cell(["budget", "kept", { n: "found" }, { n: "allowed" }, "at", "evidence"],
@@ -23,4 +23,5 @@ document.getElementById("page").replaceChildren(
   told.suggestion ? section("The cheapest that keeps every budget", null, el("p", {}, el("code", {}, told.suggestion.model), told.suggestion.scattering === "single" ? "." : ` with ${words(told.suggestion.scattering)}.`, " ", told.suggestion.why)) : null,
   section("The choice", null, pairs([["model", el("code", {}, told.model)], ["scattering", words(told.scattering)], ["number", told.number],
     ["reference", told.reference ? el("code", {}, told.reference) : null], ["file", el("code", {}, told.choice)]])),
-  el("footer", {}, "Albedos and colours are of the formula in double; what the number loses is told by the budget of inputs without a value, and by gonio stability."));
+  el("footer", {}, "Albedos and colours are of the formula in double; what the number loses is told by the budget of inputs without a value, and by gonio stability."),
+].filter(Boolean));
