@@ -16,7 +16,8 @@ inline Material material(const std::string& spec,
                          bool coated = false) {
   const auto given = parse_settings(settings);
   FromSpec from{spec, {}};
-  for (const auto& s : given) from.parameters.emplace_back(s.name, GivenParameter{s.values, s.text});
+  for (const auto& s : given)
+    from.parameters.emplace_back(s.name, GivenParameter{s.values, s.text});
   return {"it", std::move(from), bind_model(spec, given, 3), coated};
 }
 
