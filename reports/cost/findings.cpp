@@ -247,23 +247,25 @@ class Sayings {
     return at == r_.studies.fast.end() || std::isnan(at->time.ns) ? nullptr : &*at;
   }
   /// "0.31 ns"
-  static std::string in_ns(const Timing& t) { return fmt::format("{:.2g} ns", t.ns); }
+  static std::string in_ns(const Timing& t) { return short_text(t.ns) + " ns"; }
   void arithmetic() {
     const auto *root = fast("fast.rsqrt.estimate"), *step = fast("fast.rsqrt.estimate.1"),
                *exact_root = fast("fast.rsqrt.exact");
     if (root && step && exact_root) {
-      say("Roots by the processor's estimate leave up to {:.2g} % of f and ΔE2000 {:.2g}; with D "
-          "written by NoH alone they leave ΔE2000 {:.2g}.",
-          100 * root->f_max, root->delta_e, root->delta_e_by_cosine);
-      say("A Newton step takes that to {:.1g} % of f, in {} for {} with exact roots.",
-          100 * step->f_max, in_ns(step->time_in_f), in_ns(exact_root->time_in_f));
+      say("Roots by the processor's estimate leave up to {} % of f and ΔE2000 {}; with D "
+          "written by NoH alone they leave ΔE2000 {}.",
+          short_text(100 * root->f_max), short_text(root->delta_e),
+          short_text(root->delta_e_by_cosine));
+      say("A Newton step takes that to {} % of f, in {} for {} with exact roots.",
+          short_text(100 * step->f_max), in_ns(step->time_in_f), in_ns(exact_root->time_in_f));
     }
     const auto *division = fast("fast.rcp.estimate"), *exact_division = fast("fast.rcp.exact");
     if (division && exact_division)
-      say("Divisions by the processor's estimate leave up to {:.2g} % of f, in {} for {} with "
+      say("Divisions by the processor's estimate leave up to {} % of f, in {} for {} with "
           "exact "
           "divisions.",
-          100 * division->f_max, in_ns(division->time_in_f), in_ns(exact_division->time_in_f));
+          short_text(100 * division->f_max), in_ns(division->time_in_f),
+          in_ns(exact_division->time_in_f));
     const auto *products = fast("fast.pow5.products"), *power = fast("fast.pow5.power");
     if (products && power)
       say("Schlick's fifth power takes {} by three products and {} by the library's power, which "
@@ -272,10 +274,10 @@ class Sayings {
           in_ns(products->time), in_ns(power->time));
     const auto* cubic = fast("fast.exp2.3");
     if (cubic)
-      say("Beckmann's exponential by a polynomial of degree 3 leaves up to {:.2g} % of f and "
+      say("Beckmann's exponential by a polynomial of degree 3 leaves up to {} % of f and "
           "ΔE2000 "
-          "{:.2g}.",
-          100 * cubic->f_max, cubic->delta_e);
+          "{}.",
+          short_text(100 * cubic->f_max), short_text(cubic->delta_e));
   }
   void sampling() {
     const auto at = [&](std::string_view id) -> const SamplingRow* {
@@ -287,15 +289,15 @@ class Sayings {
     const auto *plain = at("sampling.ggx.d"), *disk = at("sampling.ggx.vndf2018"),
                *caps = at("sampling.ggx.caps"), *bounded = at("sampling.ggx.bounded");
     if (!plain || !disk || !caps || !bounded) return;
-    say("Visible normals reach an error in {:.2g} of the time that normals by D alone take, at "
+    say("Visible normals reach an error in {} of the time that normals by D alone take, at "
         "roughness 0.5 and NoV 0.5.",
-        us_to_percent(*caps) / us_to_percent(*plain));
+        short_text(us_to_percent(*caps) / us_to_percent(*plain)));
     say("Spherical caps draw a light in {} and Heitz's disk of 2018 in {}, both with the same "
         "variance.",
         in_ns(caps->time), in_ns(disk->time));
-    say("Bounded caps draw {:.1g} % of their lights below the horizon, where unbounded ones draw "
-        "{:.1g} %.",
-        100 * bounded->below, 100 * caps->below);
+    say("Bounded caps draw {} % of their lights below the horizon, where unbounded ones draw "
+        "{} %.",
+        short_text(100 * bounded->below), short_text(100 * caps->below));
   }
   void lookups() {
     const auto at = [&](std::string_view id) -> const LookupRow* {
@@ -306,13 +308,14 @@ class Sayings {
                *lazarov = at("split_sum.lazarov"), *materialx = at("split_sum.materialx"),
                *ours = at("split_sum.ours");
     if (!table || !karis || !lazarov || !materialx || !ours) return;
-    say("The split sum's table of 32 × 32 texels in half leaves an RMS error of {:.1g} of a "
+    say("The split sum's table of 32 × 32 texels in half leaves an RMS error of {} of a "
         "mirror's albedo.",
-        table->mirror_rms);
-    say("In its place Karis's formula leaves {:.2g}, MaterialX's {:.2g} and Lazarov's, made for "
-        "Blinn–Phong, {:.2g}.",
-        karis->mirror_rms, materialx->mirror_rms, lazarov->mirror_rms);
-    say("Our formula of a mirror's albedo alone leaves {:.2g} in {}.", ours->mirror_rms,
+        short_text(table->mirror_rms));
+    say("In its place Karis's formula leaves {}, MaterialX's {} and Lazarov's, made for "
+        "Blinn–Phong, {}.",
+        short_text(karis->mirror_rms), short_text(materialx->mirror_rms),
+        short_text(lazarov->mirror_rms));
+    say("Our formula of a mirror's albedo alone leaves {} in {}.", short_text(ours->mirror_rms),
         in_ns(ours->time));
   }
   /// What the switches of a whole model cost of a frame.
@@ -320,17 +323,17 @@ class Sayings {
     const auto* whole = row("ggx/smith_ggx.correlated/schlick", "cache", "fused");
     if (!whole) return;
     const auto ms = [](double ns) { return 1e-6 * frame_samples * ns; };
-    say("A frame of 1080p takes {:.2g} ms of one processor for one light by GGX with "
+    say("A frame of 1080p takes {} ms of one processor for one light by GGX with "
         "height-correlated Smith and Schlick, in cache.",
-        ms(whole->time.ns));
+        short_text(ms(whole->time.ns)));
     const auto* smith = between("ggx/schlick_ggx.direct/schlick",
                                 "ggx/smith_ggx.correlated/schlick", best_, "cache");
     const auto* metal = between("ggx/smith_ggx.correlated/schlick",
                                 "ggx/smith_ggx.correlated/conductor", best_, "cache");
     if (smith && metal)
       say("Exact Smith in place of Schlick's k is {} of that, and a metal's exact Fresnel {} more.",
-          smith->differs ? fmt::format("{:.2g} ms", ms(smith->ns)) : "nothing that can be measured",
-          fmt::format("{:.2g} ms", ms(metal->ns)));
+          smith->differs ? short_text(ms(smith->ns)) + " ms" : "nothing that can be measured",
+          short_text(ms(metal->ns)) + " ms");
   }
   void half() {
     say("This processor has {}: times are of float and double.",

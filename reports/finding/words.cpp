@@ -16,6 +16,11 @@ std::string percent(double share, int digits) {
                      large ? fmt::format("{:.0f}", y) : fmt::format("{:.{}g}", y, digits));
 }
 
+std::string short_text(double x) {
+  constexpr double least = 1e-4;  // below it two digits would need a power
+  if (x > 0 && x < least) return "under 0.0001";
+  return x < 9.95 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x);
+}
 std::string number_or_none(std::size_t n) {
   return n == 0 ? "none" : fmt::format("{}", n);
 }

@@ -13,6 +13,8 @@ namespace gonio {
 
 /// "−59.1 %": to so many digits, of large ones to the last before the point.
 std::string percent(double share, int digits = 3);
+/// "0.031", "4.2", "120", "under 0.0001": as it is read aloud, without a power of ten.  \param x  not negative
+std::string short_text(double x);
 /// "2", "none"
 std::string number_or_none(std::size_t);
 /// "2 of 39", "none of 100"

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 
@@ -41,19 +42,27 @@ namespace fast {
 /// bits subtracted from a constant, which has no instruction of its own.
 enum class Way { exact, estimate, bits };
 
+/// a − b as registers subtract, which wrap: bits of a negative float are a negative number.
+template <class I>
+I difference_of_bits(const I& a, const I& b) {
+  if constexpr (std::integral<I>)
+    return static_cast<I>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+  else
+    return a - b;
+}
 /// 1/√x to 0.034 from the bits alone.                                     [Lomont 2003]
 template <class R>
 R rsqrt_bits(const R& x) {
   using Bits = FloatBits<R>;
   using I = typename Bits::Type;
-  return Bits::as_float(I(0x5f375a86) - (Bits::of(x) >> 1));
+  return Bits::as_float(difference_of_bits(I(0x5f375a86), Bits::of(x) >> 1));
 }
-/// 1/x of x > 0, to 0.051 from the bits alone.
+/// 1/x, to 0.051 from the bits alone; of a negative x the sign wraps with it.
 template <class R>
 R rcp_bits(const R& x) {
   using Bits = FloatBits<R>;
   using I = typename Bits::Type;
-  return Bits::as_float(I(0x7ef311c3) - Bits::of(x));
+  return Bits::as_float(difference_of_bits(I(0x7ef311c3), Bits::of(x)));
 }
 
 #if defined(__SSE2__)

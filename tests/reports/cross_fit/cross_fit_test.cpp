@@ -230,6 +230,7 @@ TEST(CrossFit, PicturesShowWhatWasFittedAndLeaveOutWhatEndsAtABound) {
 }
 
 TEST(CrossFit, IsTheSameWhateverTheThreads) {
+  GONIO_MANY_FITS();
   const auto o = few({"fresnel.schlick", "ndf.gtr"});
   std::string one;
   {
@@ -250,6 +251,7 @@ const CrossRange& range(const std::vector<CrossRange>& all,
 }
 
 TEST(CrossFit, F0BelongsToMetricAndDirections) {
+  GONIO_MANY_FITS();
   auto o = few({"fresnel.schlick", "masking.schlick_ggx.direct"});
   o.roughness = {0.1, 0.4, 0.7, 1};
   o.gamma = {};
@@ -279,6 +281,7 @@ TEST(CrossFit, F0BelongsToMetricAndDirections) {
 }
 
 TEST(CrossFit, BothApproximationsTogetherBendTheTail) {
+  GONIO_MANY_FITS();
   auto o = few({"gtr/schlick_ggx.direct/schlick"});
   o.roughness = {0.3};
   o.bins = cross_fit_options(false).bins;
@@ -308,6 +311,7 @@ TEST(CrossFit, APublishedSliceIsWhatItsAuthorsWrote) {
 }
 
 TEST(CrossFit, MeasuredTailsAreFoundAsPublished) {
+  GONIO_MANY_FITS();
   // red specular plastic: a narrow core, whose tail goes on far below GGX's
   const auto all = published_fits(20);
   ASSERT_EQ(all.size(), 20U);
@@ -332,6 +336,7 @@ const CrossFitRows& all_kinds() {
 }
 
 TEST(CrossFit, WhatIsSaidCanBeReadAloud) {
+  GONIO_MANY_FITS();
   auto r = all_kinds();
   const auto expect = [&] {
     test::expect_plain(findings(r));
@@ -352,6 +357,7 @@ TEST(CrossFit, WhatIsSaidCanBeReadAloud) {
 }
 
 TEST(CrossFit, NoiseOfTheWalksStandsBesideTheResidual) {
+  GONIO_MANY_FITS();
   const auto& r = all_kinds();
   const auto p = pictures(r);
   const auto f = std::ranges::find_if(p.figures, [](const Figure& x) {
