@@ -9,6 +9,7 @@
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/light/irradiance.h"
 #include "integrate/scattering/half_space.h"
+#include "many_fits.h"
 #include "optics/spectrum.h"
 #include "reports/energy/crossings.h"
 #include "reports/energy/skies.h"
@@ -55,6 +56,7 @@ TEST(EnergyReport, KnowsWhatWhiteGgxLosesAtRoughnessOne) {
 }
 
 TEST(EnergyReport, LightIsMadeByNoMaskingAndByTheMobileFormsAlone) {
+  GONIO_MANY_FITS();
   std::set<std::string> makers;
   const auto r = of_forms({});
   for (const auto& f : r.forms)
@@ -140,6 +142,7 @@ TEST(EnergyReport, CrossingsOfGgxAreThoseOfItsOneIntegral) {
 }
 
 TEST(EnergyReport, CrossingsOfMaterialsAreThoseOfTheDeterministicSolution) {
+  GONIO_MANY_FITS();
   EnergyOptions o{false, {0.5, 0.6, 0.7, 0.8, 0.9}, {1}, 0};
   o.gold = false;
   const auto all = energy_materials(o, unwatched);
@@ -178,6 +181,7 @@ TEST(EnergyReport, TheCoatIsMeasuredAsItShips) {
 }
 
 TEST(EnergyReport, ErrorsOfCompensationsAreComparedOnTheSameMaterials) {
+  GONIO_MANY_FITS();
   for (const auto& c : compensation_costs(materials())) {
     EXPECT_EQ(std::isnan(c.gold_rms), c.id == "fdez_aguera") << c.id;
     EXPECT_EQ(c.worst_at.find("gold"), c.worst_at.npos) << c.id;
@@ -186,6 +190,7 @@ TEST(EnergyReport, ErrorsOfCompensationsAreComparedOnTheSameMaterials) {
 }
 
 TEST(EnergyReport, ErrorsOfCompensationsDoNotDependOnWhatElseWasLookedAt) {
+  GONIO_MANY_FITS();
   EnergyOptions o{false, {0.5, 1}, {0.5, 1}, 0};
   o.gold = false;
   const auto less = compensation_errors(energy_materials(o, unwatched));
@@ -199,6 +204,7 @@ TEST(EnergyReport, ErrorsOfCompensationsDoNotDependOnWhatElseWasLookedAt) {
 }
 
 TEST(EnergyReport, ErrorsOfCompensationsAreThoseOfTheTablesThatAShaderReads) {
+  GONIO_MANY_FITS();
   const auto errors = compensation_errors(materials());
   const auto rms = [&](std::string_view id) {
     return std::ranges::find(errors, id, &CompensationError::id)->rms;
@@ -362,6 +368,7 @@ LitError lit(std::string light, double roughness, double nov, double f0, double 
 }
 
 TEST(EnergyReport, EverySentenceCanBeReadAloud) {
+  GONIO_MANY_FITS();
   auto r = of_forms({correlated, separable, none, "masking.disney_coat, gamma 1",
                      "masking.smith_gtr.separable, gamma 1", "model.ue_mobile_simple"});
   r.materials = materials();
@@ -398,6 +405,7 @@ TEST(Skies, HaveTheLightThatTheySay) {
 }
 
 TEST(ImageLight, TheSplitSumIsExactUnderEvenLightAlone) {
+  GONIO_MANY_FITS();
   EnergyOptions o = few;
   o.views = 2;
   o.environments = {{"even light", even_light()}};
