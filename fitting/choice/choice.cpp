@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "brdf/model/column_run.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
@@ -56,19 +57,7 @@ std::vector<Timing> times_of(const Table& t, std::span<const BoundModel> models)
   auto x = std::make_shared<AngleColumns<float>>(n, true);
   for (std::size_t i = 0; i < n; ++i) x->set(i, at.frame(above[i * step]));
   std::vector<Timed> all;
-  for (const auto& b : models) {
-    struct State {
-      Evaluator<float> evaluate;
-      std::vector<Column<float>> f;
-      std::vector<float*> out;
-    };
-    auto s = std::make_shared<State>(State{Evaluator<float>(b.model), {}, {}});
-    const std::vector<float> values(b.values.begin(), b.values.end());
-    s->evaluate.set(values);
-    for (std::size_t c = 0; c < b.model.channels; ++c)
-      s->out.push_back(s->f.emplace_back(Column<float>(x->padded())).data());
-    all.push_back({n, [s, x] { s->evaluate(x->block(), s->out); }});
-  }
+  for (const auto& b : models) all.push_back({n, column_run(b, x)});
   TimingOptions options;
   options.of_thread = true;
   return time_all(all, options);

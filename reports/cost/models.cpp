@@ -139,11 +139,6 @@ std::array<FresnelSurface, 2> surfaces() {
   return {dielectric(1.5, "glass"), metal(*find_metal("Au"))};
 }
 
-/// Colour in the light in which a perfect diffuser is white.
-Lab seen(const Albedo& a) {
-  return lab_of_display({a.value[0], a.value[1], a.value[2]});
-}
-
 /// The largest that gold differs by in even light, at NoV 0.1, 0.5 and 1 and roughness 0.2, 0.5 and 1; not a
 /// number where the model is not for metals.
 double delta_e_of_gold(const Whole& w) {
@@ -158,7 +153,8 @@ double delta_e_of_gold(const Whole& w) {
     const auto truth = directional_albedo(truth_for(w, gold, roughness), mu, 0, goal);
     for (std::size_t i = 0; i < mu.size(); ++i) {
       for (auto& v : found[i].value) v /= light_unit(w.id);
-      most = std::max(most, delta_e_2000(seen(found[i]), seen(truth[i])));
+      most = std::max(most,
+                      delta_e_2000(lab_of_albedo(found[i].value), lab_of_albedo(truth[i].value)));
     }
   }
   return most;

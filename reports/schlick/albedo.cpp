@@ -48,12 +48,6 @@ std::vector<Albedo> exact_albedo(const FresnelSurface& s, double roughness) {
   return all;
 }
 
-/// Colour in the light in which a perfect diffuser is white; of one channel grey.
-Lab seen(const std::vector<double>& albedo) {
-  const std::array rgb{albedo.front(), albedo[albedo.size() / 2], albedo.back()};
-  return lab_of_display(rgb);
-}
-
 void add_surface(RoughFresnel& to, const FresnelSurface& s) {
   const std::size_t channels = s.channels();
   std::vector<std::vector<Albedo>> exact;  // [roughness][mu]
@@ -75,7 +69,8 @@ void add_surface(RoughFresnel& to, const FresnelSurface& s) {
     for (std::size_t m = 0; m < mus.size(); ++m) {
       FresnelColour colour{f.name, s.material, mus[m], {}};
       for (std::size_t r = 0; r < with.size(); ++r)
-        colour.delta_e.push_back(delta_e_2000(seen(with[r][m].value), seen(exact[r][m].value)));
+        colour.delta_e.push_back(
+            delta_e_2000(lab_of_albedo(with[r][m].value), lab_of_albedo(exact[r][m].value)));
       to.colours.push_back(std::move(colour));
     }
   }

@@ -32,7 +32,7 @@ std::vector<Lab> colours(std::string_view masking, const FresnelSurface& s, doub
                  std::move(settings), s.channels());
   std::vector<Lab> out;
   for (const auto& a : directional_albedo(model, mus, 0, goal))
-    out.push_back(lab_of_display({a.value.front(), a.value[a.value.size() / 2], a.value.back()}));
+    out.push_back(lab_of_albedo(a.value));
   return out;
 }
 

@@ -155,6 +155,58 @@ std::vector<std::string> names(const std::optional<Names>& n) {
 
 }  // namespace
 
+bool has_range(const Choice& c) {
+  return c.domain.eta || c.domain.f0;
+}
+
+namespace {
+
+Substance of_surface(std::string name, FresnelSurface surface) {
+  auto forms = forms_for(surface);  // least squares, so once
+  return {std::move(name), std::move(surface), std::move(forms)};
+}
+
+}  // namespace
+
+Substance substance_at(const Choice& c, double part) {
+  const auto at = [&](const Choice::Ends& e) { return e[0] + part * (e[1] - e[0]); };
+  if (c.domain.eta) {
+    const double ior = at(*c.domain.eta);
+    return of_surface(fmt::format("IOR {:.4g}", ior),
+                      dielectric(ior, fmt::format("IOR {:.4g}", ior)));
+  }
+  const double f0 = at(*c.domain.f0);
+  return {fmt::format("F0 {:.4g}", f0), {}, {}, {{"f0", {f0}}}};
+}
+
+namespace {
+
+std::vector<Substance> substances_of(const Choice& c) {
+  std::vector<Substance> all;
+  if (has_range(c)) {
+    const auto& e = c.domain.eta ? *c.domain.eta : *c.domain.f0;
+    const int steps = e[0] == e[1] ? 0 : 4;
+    for (int i = 0; i <= steps; ++i)
+      all.push_back(substance_at(c, steps ? i / static_cast<double>(steps) : 0));
+  }
+  for (const auto& name : c.domain.metals) {
+    const Material& m = *find_metal(name);
+    all.push_back(of_surface(std::string(m.name), metal(m)));
+  }
+  for (const auto& file : c.domain.fits) {
+    const auto path = (std::filesystem::path(c.path).parent_path() / file).string();
+    const auto fitted = read_fitted_model(path);
+    bind_fitted(path, fitted, {});  // refuses what is not known
+    Substance s{file};
+    for (const auto& [name, values] : fitted.parameters) s.settings.push_back({name, values});
+    all.push_back(std::move(s));
+  }
+  if (all.empty()) all.push_back({});
+  return all;
+}
+
+}  // namespace
+
 Choice parse_choice(const std::string& path, const std::string& bytes) {
   const Json document = parse_json(path, bytes);
   const JsonReader root(path, document, "", Places::pointer);
@@ -197,6 +249,7 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
       root.at("budgets").at("ns").at("baseline").fail(fmt::format("a model ({})", e.what()));
     }
   }
+  c.substances = substances_of(c);
   return c;
 }
 
@@ -208,53 +261,16 @@ std::string choice_schema() {
   return form_schema<ChoiceFile>("Choice of a material model, and what it must keep");
 }
 
-bool has_range(const Choice& c) {
-  return c.domain.eta || c.domain.f0;
-}
-
-Substance substance_at(const Choice& c, double part) {
-  const auto at = [&](const Choice::Ends& e) { return e[0] + part * (e[1] - e[0]); };
-  if (c.domain.eta) {
-    const double ior = at(*c.domain.eta);
-    return {fmt::format("IOR {:.4g}", ior), dielectric(ior, fmt::format("IOR {:.4g}", ior))};
-  }
-  const double f0 = at(*c.domain.f0);
-  return {fmt::format("F0 {:.4g}", f0), {}, {{"f0", {f0}}}};
-}
-
-std::vector<Substance> substances(const Choice& c) {
-  std::vector<Substance> all;
-  if (has_range(c)) {
-    const auto& e = c.domain.eta ? *c.domain.eta : *c.domain.f0;
-    const int steps = e[0] == e[1] ? 0 : 4;
-    for (int i = 0; i <= steps; ++i)
-      all.push_back(substance_at(c, steps ? i / static_cast<double>(steps) : 0));
-  }
-  for (const auto& name : c.domain.metals) {
-    const Material& m = *find_metal(name);
-    all.push_back({std::string(m.name), metal(m)});
-  }
-  for (const auto& file : c.domain.fits) {
-    const auto path = (std::filesystem::path(c.path).parent_path() / file).string();
-    const auto fitted = read_fitted_model(path);
-    bind_fitted(path, fitted, {});  // refuses what is not known
-    Substance s{file};
-    for (const auto& [name, values] : fitted.parameters) s.settings.push_back({name, values});
-    all.push_back(std::move(s));
-  }
-  if (all.empty()) all.push_back({});
-  return all;
-}
-
 namespace {
 
 bool has(const std::vector<Setting>& all, std::string_view name) {
   return std::ranges::find(all, name, &Setting::name) != all.end();
 }
-/// Settings of a lobe's Fresnel term on a surface.
-std::vector<Setting> fresnel_settings(std::string_view id, const FresnelSurface& s) {
-  for (const auto& f : forms_for(s))
+/// Settings of a lobe's Fresnel term on a substance's surface.
+std::vector<Setting> fresnel_settings(std::string_view id, const Substance& of) {
+  for (const auto& f : of.forms)
     if (f.name == id) return f.settings;
+  const FresnelSurface& s = *of.surface;
   Setting eta{"eta", {}}, k{"k", {}};
   for (const auto& i : s.index) eta.values.push_back(i.n), k.values.push_back(i.k);
   if (id == "fresnel.conductor") return {eta, k};
@@ -274,8 +290,7 @@ BoundModel bound(const Choice& c, const Shipped& s, const Substance& of, double 
       if (!has(settings, setting.name)) settings.push_back(setting);
     };
     if (of.surface && !plain.lobes.empty())
-      for (const auto& x :
-           fresnel_settings(catalogue()[plain.lobes[0].fresnel.term].about->id, *of.surface))
+      for (const auto& x : fresnel_settings(catalogue()[plain.lobes[0].fresnel.term].about->id, of))
         add(x);
     for (const auto& x : of.settings)
       if (x.name == "f0" || plain.find(x.name)) add(x);

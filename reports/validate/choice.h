@@ -60,6 +60,14 @@ struct Budgets {
   std::optional<double> table_bytes{};
 };
 
+/// What a surface is made of, where the domain says so: a surface of known index, a reflectance, or a fit.
+struct Substance {
+  std::string name;  ///< "IOR 1.5", "gold", "F0 0.04", the fit's path; may be empty
+  std::optional<FresnelSurface> surface{};  ///< dielectric or metal
+  std::vector<FresnelForm> forms{};         ///< what stands in for the exact F of the surface
+  std::vector<Setting> settings{};          ///< of a reflectance, or of a fit
+};
+
 /// Choice as its file has it.
 struct Choice {
   using Ends = std::array<double, 2>;
@@ -77,6 +85,8 @@ struct Choice {
   Number number = Number::float_;
   Domain domain;
   Budgets budgets;
+  std::vector<Substance>
+      substances;  ///< of the domain: of a range both ends and what lies evenly between
 };
 
 /// \throws Error  bad_input that names file, place, what was found and expected
@@ -85,14 +95,9 @@ Choice read_choice(const std::string& path);
 Choice parse_choice(const std::string& path, const std::string& bytes);
 std::string choice_schema();
 
-/// What a surface is made of, where the domain says so: a surface of known index, a reflectance, or a fit.
-struct Substance {
-  std::string name;  ///< "IOR 1.5", "gold", "F0 0.04", the fit's path; may be empty
-  std::optional<FresnelSurface> surface{};  ///< dielectric or metal
-  std::vector<Setting> settings{};          ///< of a reflectance, or of a fit
-};
-/// Substances of the domain: of a range both ends and what lies evenly between.
-std::vector<Substance> substances(const Choice&);
+inline const std::vector<Substance>& substances(const Choice& c) {
+  return c.substances;
+}
 /// Substance in a range of indices or reflectances, at a part of it in [0, 1].
 Substance substance_at(const Choice&, double part);
 bool has_range(const Choice&);

@@ -1,11 +1,12 @@
 // Budgets of the machine: bits, operations, bytes and times.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "brdf/cost/model_operations.h"
-#include "brdf/model/evaluate.h"
+#include "brdf/model/column_run.h"
 #include "geometry/half_difference.h"
 #include "geometry/sampling.h"
 #include "reports/energy/energy.h"
@@ -87,35 +88,19 @@ BudgetCheck check_table_bytes(const Choice& c) {
 BudgetCheck check_time(const Choice& c) {
   const auto& budget = *c.budgets.ns;
   constexpr std::size_t n = 4096;
-  AngleColumns<float> x(n, true);
+  auto x = std::make_shared<AngleColumns<float>>(n, true);
   for (std::size_t i = 0; i < n; ++i) {
     Draws draw(1, i);
     const auto to = [&] { return cosine_direction({draw.uniform(), 0.99 * draw.uniform()}); };
     const auto l = to();
-    x.set(i, frame_angles({l, to()}));
+    x->set(i, frame_angles({l, to()}));
   }
   const BoundModel mine = middle(c);
-  const Model other = compose(budget.baseline, mine.model.channels);
-  struct Work {
-    Evaluator<float> evaluate;
-    std::vector<Column<float>> f;
-    std::vector<float*> out;
-    Work(const Model& m, const std::vector<double>& values, std::size_t padded) : evaluate(m) {
-      const std::vector<float> in(values.begin(), values.end());
-      evaluate.set(in);
-      for (std::size_t k = 0; k < m.channels; ++k)
-        out.push_back(f.emplace_back(Column<float>(padded)).data());
-    }
-  };
-  Work a(mine.model, mine.values, x.padded());
-  const BoundModel base = bind_model(budget.baseline, {}, mine.model.channels);
-  Work b(base.model, base.values, x.padded());
+  const BoundModel baseline = bind_model(budget.baseline, {}, mine.model.channels);
   TimingOptions options;
   options.of_thread = true;
   options.repetitions = 21;
-  const auto times = time_all(
-      {{n, [&] { a.evaluate(x.block(), a.out); }}, {n, [&] { b.evaluate(x.block(), b.out); }}},
-      options);
+  const auto times = time_all({{n, column_run(mine, x)}, {n, column_run(baseline, x)}}, options);
   const double ratio = times[0].ns / times[1].ns;
   BudgetCheck out{"ns", budget.limit, ratio, ratio <= budget.limit, "measured"};
   out.words = fmt::format("{:.3g} ns a sample, the baseline {:.3g} ns, in columns of float",

@@ -70,11 +70,6 @@ ErrorAt against_reference(const Choice& c, auto difference) {
   };
 }
 
-/// Colour in the light in which a perfect diffuser is white.
-Lab seen(const std::vector<double>& albedo) {
-  return lab_of_display({albedo.front(), albedo[albedo.size() / 2], albedo.back()});
-}
-
 /// Lobes alone, with F = 1.
 BoundModel white_lobes(const BoundModel& b) {
   BoundModel f = furnace(b);
@@ -116,7 +111,7 @@ BudgetCheck check_delta_e(const Choice& c,
   const auto& budget = *c.budgets.delta_e_2000;
   const auto error =
       against_reference(c, [](const std::vector<double>& a, const std::vector<double>& b) {
-        return delta_e_2000(seen(a), seen(b));
+        return delta_e_2000(lab_of_albedo(a), lab_of_albedo(b));
       });
   auto grid = on_grid(c, effort, error, done);
   if (budget.quantile >= 1)

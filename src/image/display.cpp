@@ -30,6 +30,9 @@ Lab lab_of_display(const Rgb& c) {
   static const Rgb white = xyz_of_srgb({1, 1, 1});
   return lab(xyz_of_srgb(c), white);
 }
+Lab lab_of_albedo(std::span<const double> albedo) {
+  return lab_of_display({albedo.front(), albedo[albedo.size() / 2], albedo.back()});
+}
 
 double displayed_difference(const Rgb& radiance, const Rgb& reference, double exposure) {
   const Rgb a = displayed(reference, exposure), b = displayed(radiance, exposure);

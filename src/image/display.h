@@ -20,6 +20,9 @@ unsigned char srgb_byte(double linear);
 std::array<unsigned char, 3> displayed_bytes(const Rgb& radiance, double exposure);
 /// Colour of linear sRGB under D65, beside the display's white, {1, 1, 1}.
 Lab lab_of_display(const Rgb&);
+/// Colour of an albedo by channel, in the light in which a perfect diffuser is white: of the first, middle and last channel; of
+/// one channel grey.
+Lab lab_of_albedo(std::span<const double> albedo);
 /// ΔE2000 between two radiances as a display shows them; infinite where either is no number.
 double displayed_difference(const Rgb& radiance, const Rgb& reference, double exposure);
 

@@ -41,6 +41,18 @@ TEST(Display, HasTheColoursOfItsPrimaries) {
   expect({0, 0, 1}, {32.30, 79.19, -107.86});
 }
 
+TEST(Display, SeesAnAlbedoByItsFirstMiddleAndLastChannel) {
+  const auto expect = [](const std::vector<double>& albedo, const Rgb& seen) {
+    const Lab a = lab_of_albedo(albedo), b = lab_of_display(seen);
+    EXPECT_EQ(a.l, b.l);
+    EXPECT_EQ(a.a, b.a);
+    EXPECT_EQ(a.b, b.b);
+  };
+  expect({0.3}, {0.3, 0.3, 0.3});
+  expect({0.9, 0.5, 0.1}, {0.9, 0.5, 0.1});
+  expect({0.9, 0.2, 0.5, 0.3, 0.1}, {0.9, 0.5, 0.1});
+}
+
 TEST(Display, SeesNoDifferenceBeyondItsWhite) {
   EXPECT_EQ(displayed_difference({7, 7, 7}, {2, 3, 4}, 1), 0);
   EXPECT_NEAR(displayed_difference({0, 0, 0}, {1, 1, 1}, 1), 100, 1e-3);
