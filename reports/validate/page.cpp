@@ -18,6 +18,12 @@ struct Description<BudgetCheck> {
             "title", "", [](const B& b) { return title_of(b.budget); }, "what it limits"),
         field("limit", "", &B::limit, "that the choice sets"),
         field("found", "", &B::found, "the worst of the domain"),
+        field(
+            "limit_text", "", [](const B& b) { return value_text(b.budget, b.limit); },
+            "the limit as people write it"),
+        field(
+            "found_text", "", [](const B& b) { return value_text(b.budget, b.found); },
+            "the same of the worst"),
         field("holds", "", &B::holds, "whether the worst keeps the limit"),
         field("evidence", "", &B::evidence,
               "proved, exhaustive, searched, open, counted or measured"),

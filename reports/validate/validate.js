@@ -3,7 +3,6 @@
 
 const told = page_data(), broken = told.budgets.filter((b) => !b.holds);
 const evidence = { proved: "proved for every input", exhaustive: "every input looked at", searched: "searched: there may be worse", open: "open", counted: "counted", measured: "measured here" };
-const value = (b, x) => (["operations", "table_bytes", "nonfinite"].includes(b.budget) ? count(Math.round(x)) : b.budget === "ns" ? `${significant(x, 3)} ×` : significant(x, 3));
 
 function verdict() {
   const lines = broken.length === 0 ? ["The choice keeps every budget."] : [`The choice breaks ${broken.length} of ${many(told.budgets.length, "budget")}.`];
@@ -17,7 +16,7 @@ document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio validate"), el("h1", {}, broken.length ? "Not yet" : "Ready to ship"), verdict(),
   section("Budgets", "The worst of each in the choice’s domain.",
     told_by_cell(["budget", "kept", { n: "found" }, { n: "allowed" }, "at", "evidence"],
-      told.budgets.map((b) => [b.title, el("span", { class: b.holds ? "verdict-yes" : "verdict-no" }, b.holds ? "yes" : "no"), { n: value(b, b.found) }, { n: value(b, b.limit) },
+      told.budgets.map((b) => [b.title, el("span", { class: b.holds ? "verdict-yes" : "verdict-no" }, b.holds ? "yes" : "no"), { n: b.found_text }, { n: b.limit_text },
         b.place || "–", el("span", { class: "muted" }, b.words || evidence[b.evidence])]))),
   told.figures.length ? section("Light that comes back", "Of a uniform white sky, by the view.", ...told.figures.map((f) => figure_view(f))) : null,
   told.suggestion ? section("The cheapest that keeps every budget", null, el("p", {}, el("code", {}, told.suggestion.model), told.suggestion.scattering === "single" ? "." : ` with ${words(told.suggestion.scattering)}.`, " ", told.suggestion.why)) : null,

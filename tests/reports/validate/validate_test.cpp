@@ -234,6 +234,9 @@ TEST(Validate, WritesWhatMachinesRead) {
   EXPECT_EQ(document["budgets"][0]["budget"], "albedo_error");
   EXPECT_TRUE(document["budgets"][0]["at"]["roughness"].is_number());
   EXPECT_EQ(document["budgets"][0]["evidence"], "searched");
+  EXPECT_EQ(document["budgets"][0]["limit_text"], "0.01");
+  EXPECT_EQ(document["budgets"][0]["found_text"],
+            value_text("albedo_error", document["budgets"][0]["found"]));
 }
 
 }  // namespace
