@@ -23,7 +23,7 @@ void check(const FitOptions&);
 /// Input path and hash are the caller's to fill in.  Throws wrong usage for options that do not fit
 /// the model, bad_input for a table without a usable value.
 FitResult fit(const Table&, const FitOptions&, const std::function<void(const char*)>& phase = {});
-/// The same of one of several models: what another fit has read of the table is not read again.
+/// Fit of one of several models: what another fit has read of the table is not read again.
 FitResult fit(const Table&,
               const FitOptions&,
               SharedColumns&,

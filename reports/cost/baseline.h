@@ -29,7 +29,7 @@ struct EarlierCosts {
 
 /// A document of `gonio bench --json` or cost.json of `gonio report cost`.  Anything else is bad_input.
 EarlierCosts read_costs(const std::string& path);
-/// The same of the document's text.  \param name  of where it is from
+/// Costs in a document's text.  \param name  of where it is from
 EarlierCosts costs_of(const std::string& text, const std::string& name);
 
 struct CostChange {

@@ -17,7 +17,7 @@ const at_first = () => ({ number: "float", place: [best, "cache"].join(" ") }); 
 const at_best = { number: "float", set: best, memory: "cache" };
 const place_options = places.map(([isa, memory]) => [[isa, memory].join(" "), `${isa}, ${memory_text[memory]}`]);
 
-/// What is shown of one number, for the other.
+/// Tables of the other number, for paper.
 function other_number(chosen, make) {
   const now = chosen.number;
   chosen.number = now === "float" ? "double" : "float";

@@ -318,7 +318,7 @@ class Sayings {
     say("Our formula of a mirror's albedo alone leaves {} in {}.", short_text(ours->mirror_rms),
         in_ns(ours->time));
   }
-  /// What the switches of a whole model cost of a frame.
+  /// Costs of a whole model's switches in a frame.
   void frame() {
     const auto* whole = row("ggx/smith_ggx.correlated/schlick", "cache", "fused");
     if (!whole) return;

@@ -81,7 +81,7 @@ Column<float> domain(const FastKernel& k, std::size_t n) {
 constexpr double f0 = 0.04;
 constexpr double fast_roughness[] = {0.1, 0.2, 0.4, 0.7, 1};
 
-/// How far f of one width is off, where f NoL is above a millionth of its most.
+/// Error of f of one width, where f NoL is above a millionth of its most.
 struct Off {
   static constexpr double faintest_seen = 1e-6;
   double max = 0, squares = 0, delta_e = 0;

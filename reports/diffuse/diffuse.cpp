@@ -87,7 +87,7 @@ void add_times(std::vector<DiffuseForm>& forms) {
   }
 }
 
-/// What the audit of the catalogue knows of the forms.
+/// Entries of the forms in the audit of the catalogue.
 void add_laws(std::vector<DiffuseForm>& forms) {
   std::vector<std::string> ids;
   for (const auto& f : forms) ids.push_back(f.id);
