@@ -33,6 +33,7 @@ void add_split_sum(CommandLine&);
 void add_report(CommandLine&);
 void add_stability(CommandLine&);
 void add_validate(CommandLine&);
+void add_export(CommandLine&);
 void add_plan(CommandLine&);
 void add_verify(CommandLine&);
 void add_render(CommandLine&);

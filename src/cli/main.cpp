@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
   gonio::cli::add_audit(line);
   gonio::cli::add_stability(line);
   gonio::cli::add_validate(line);
+  gonio::cli::add_export(line);
   gonio::cli::add_report(line);
   gonio::cli::add_bench(line);
   gonio::cli::add_plan(line);

@@ -6,6 +6,7 @@
 #include "cli/program.h"
 #include "fitting/batch/batch_document.h"
 #include "fitting/choice/document.h"
+#include "fitting/export/export.h"
 #include "refusal.h"
 #include "reports/tables/fit_page.h"
 #include "reports/tables/inspect_page.h"
@@ -50,6 +51,7 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
                                    {"verification", scene::verification_schema()},
                                    {"choice", choice_schema()},
                                    {"validation", validation_schema()},
+                                   {"export", export_schema()},
                                    {"models", models_schema()},
                                    {"models.page", models_page_schema()},
                                    {"fit.page", fit_page_schema()},

@@ -13,7 +13,9 @@ namespace gonio {
 namespace {
 
 FittedModel fitted_model(const std::string& path, const Json& document) {
-  const JsonReader root(path, document);
+  JsonReader root(path, document);
+  if (root.has("asset"))  // glTF, in which gonio export keeps the fit
+    root = root.at("materials").at(0).at("extras").at("gonio");
   constexpr const char* schema = "gonio.fit/1";
   if (root.at("schema").string() != schema) root.at("schema").fail(schema);
   FittedModel fit{root.at("model").string(), {}};

@@ -1,0 +1,53 @@
+#pragma once
+/// \file
+/// Export of a fit: the parameters of another program's material, and how far its own equations with them are from the fit.
+///
+///   d = |f_target − f_fit| / max(f_fit, mean of f_fit in that channel),   at fixed directions
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/names.h"
+#include "brdf/model/model.h"
+
+namespace gonio {
+
+enum class ExportTarget { gltf };
+template <>
+inline constexpr std::array<std::string_view, 1> names_of<ExportTarget>{"gltf"};
+
+struct ExportResidual {
+  double rms = 0, largest = 0;
+};
+
+struct Export {
+  ExportTarget target = ExportTarget::gltf;
+  std::string fit;    ///< path of the fit
+  std::string model;  ///< spec of the fit
+  /// Target's material by its own names: one value, or one per channel.
+  std::vector<std::pair<std::string, std::vector<double>>> parameters{};
+  double tolerance = 0;  ///< of the root mean square
+  ExportResidual renamed{}, written{};
+  bool refitted = false;
+  std::vector<std::string> lost{};      ///< what the target cannot express, in sentences
+  std::vector<std::string> warnings{};  ///< values that were moved into the target's range
+};
+
+inline constexpr std::size_t export_directions = 1000;
+inline constexpr double default_export_tolerance = 0.02;
+
+/// Export to glTF 2.0's metallic-roughness material (Appendix B of its specification).
+/// \throws Error  bad_input of the fit's file, of a model that has neither one nor three channels
+Export export_fit(const std::string& path, const BoundModel&, double tolerance);
+/// glTF with one material; the fit as it was read stands in materials[0].extras.gonio.
+/// \param fit  bytes of its document
+std::string gltf_of(const Export&, const std::string& fit);
+
+/// gonio.export/1
+std::string to_json(const Export&);
+std::string export_schema();
+
+}  // namespace gonio

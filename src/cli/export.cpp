@@ -1,0 +1,79 @@
+// gonio export: a fit as another program's material.
+#include "fitting/export/export.h"
+
+#include <cmath>
+#include <optional>
+
+#include "base/file.h"
+#include "brdf/model/fitted_model.h"
+#include "cli/command.h"
+#include "cli/terminal.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio::cli {
+namespace {
+
+struct Options : Common {
+  std::string fit, target, output;
+  double tolerance = default_export_tolerance;
+};
+
+void print(const Export& e) {
+  for (const auto& [name, values] : e.parameters)
+    say("{:<12}{}\n", name, fmt::format("{:.5g}", fmt::join(values, ", ")));
+  const auto line = [](const ExportResidual& r) {
+    return fmt::format("{:.3g} % off on average (RMS), {:.3g} % at most", 100 * r.rms,
+                       100 * r.largest);
+  };
+  say("{:<12}{}\n", "renamed", line(e.renamed));
+  if (e.refitted) say("{:<12}{}\n", "refitted", line(e.written));
+  for (const auto& l : e.lost) say_below("lost    ", l);
+  for (const auto& w : e.warnings) say_below("beware  ", w);
+  if (e.written.rms > e.tolerance)
+    say_below("beware  ", fmt::format("no parameters of {} come within {:.3g} %", name_of(e.target),
+                                      100 * e.tolerance));
+}
+
+Exit run(const Options& o) {
+  use_jobs(o.jobs);
+  if (!std::isfinite(o.tolerance) || o.tolerance < 0)
+    throw wrong_usage("--tolerance: expected a number from 0 on");
+  check_outputs({o.fit}, {o.output});
+  OutputFile out(o.output);
+  Progress progress(o.quiet);
+  progress("exporting");
+  const std::string bytes = InputFile(o.fit).read_rest(std::uint64_t{1} << 26);
+  const FittedModel fitted = parse_fitted_model(o.fit, bytes);
+  std::optional<std::size_t> channels;
+  if (!fitted.channels.empty()) channels = fitted.channels.size();
+  const Export e = export_fit(o.fit, bind_fitted(o.fit, fitted, channels), o.tolerance);
+  out.write(gltf_of(e, bytes));
+  out.commit();
+  progress.clear();
+  if (o.json)
+    fmt::print("{}", to_json(e));
+  else
+    print(e);
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_export(CommandLine& line) {
+  auto [c, o] = line.command("export",
+                             "Writes a fit as another program's material, says how far that is "
+                             "from the fit, and keeps the fit in the file",
+                             "gonio export fit.json --to gltf -o paint.gltf", run);
+  c.option("FIT", o->fit, "Document of a fit").required();
+  c.option("--to", o->target, "Format: gltf").one_of(names_of<ExportTarget>).required();
+  c.option("--tolerance", o->tolerance,
+           "Distance (RMS, relative) above which parameters are fitted again in the target's model")
+      .show_default();
+  c.option("-o,--output", o->output, "File to write").required();
+  add_jobs(c, *o);
+  add_output(c, *o);
+}
+
+}  // namespace gonio::cli
