@@ -59,6 +59,17 @@ install_prover() {
   echo "Without Gappa: no bound of a relative error is proved."
 }
 
+# Khronos' validator of glTF, which exported files are held against, in build/gltf; without it that test is skipped.
+install_gltf_validator() {
+  local at=build/gltf
+  [ ! -d "$at/node_modules/gltf-validator" ] || return 0
+  if mkdir -p "$at" && cp tests/cli/gltf/package.json tests/cli/gltf/package-lock.json "$at" &&
+    npm ci --prefix "$at" --silent --no-audit --no-fund >/dev/null 2>&1; then
+    return 0
+  fi
+  echo "Without gltf-validator: exported glTF is not held against its specification."
+}
+
 # Mitsuba, which pictures are compared with, in build/mitsuba; without it that is left out.
 install_mitsuba() {
   local at=build/mitsuba

@@ -37,8 +37,7 @@ struct Description<Export> {
         field("renamed", "", &Export::renamed, "residual of parameters that are only renamed"),
         field("written", "", &Export::written, "residual of the parameters that were written"),
         field("refitted", "", &Export::refitted, "whether these were fitted in the target's model"),
-        field("lost", "", &Export::lost, "what the target cannot express"),
-        field("warnings", "", &Export::warnings, "values moved into the target's range")};
+        field("lost", "", &Export::lost, "what the target cannot express")};
   }
 };
 static_assert(describes_every_member<Export>());
@@ -46,7 +45,8 @@ static_assert(describes_every_member<Export>());
 namespace {
 
 /// Directions that are the same for every export: one half anywhere, the other around the mirror's.
-Table fixed_directions(const std::vector<std::string>& channels) {
+/// \param first  of the sequence; other ones where this is further than export_directions away
+Table fixed_directions(const std::vector<std::string>& channels, std::size_t first) {
   Table t;
   t.path = "directions of the export", t.format = "csv", t.channels = channels;
   DirectionList l;
@@ -55,7 +55,7 @@ Table fixed_directions(const std::vector<std::string>& channels) {
     // Additive recurrence of the root of x⁴ = x + 1 [Roberts 2018, "The unreasonable effectiveness
     // of quasirandom sequences"].
     constexpr double g = 1.2207440846057596;
-    const double n = static_cast<double>(i) + 0.5;
+    const double n = static_cast<double>(first + i) + 0.5;
     const double u = part(n / g), v = part(n / (g * g)), w = part(n / (g * g * g));
     const double in = 80 * u;
     const bool near = i % 2 == 1;
@@ -103,7 +103,7 @@ const std::vector<double>* find(const Parameters& all, std::string_view name) {
 }
 
 /// Names of glTF in place of the fit's.
-Parameters renamed(const BoundModel& fit, Export& e) {
+Parameters renamed(const BoundModel& fit) {
   const auto own = named_values(fit), plain = named_values(in_reflectances(fit));
   const std::size_t n = fit.model.channels;
   const auto per_channel = [&](const std::vector<double>* v, std::size_t c) {
@@ -130,16 +130,7 @@ Parameters renamed(const BoundModel& fit, Export& e) {
   if (const auto* a = find(plain, "alpha")) alpha = (*a)[0];
   if (const auto* x = find(plain, "alpha_x"), *y = find(plain, "alpha_y"); x && y)
     alpha = std::sqrt((*x)[0] * (*y)[0]);
-  Parameters p{{"base_color", color}, {"metallic", {metallic}}, {"roughness", {std::sqrt(alpha)}}};
-  for (auto& [name, values] : p)
-    for (double& v : values) {
-      const double within = std::clamp(v, 0.0, 1.0);
-      if (within != v)
-        e.warnings.push_back(
-            fmt::format("{} {:.4g} is outside glTF's range and became {:.4g}", name, v, within));
-      v = within;
-    }
-  return p;
+  return {{"base_color", color}, {"metallic", {metallic}}, {"roughness", {std::sqrt(alpha)}}};
 }
 
 BoundModel bound(const Parameters& p, std::size_t channels) {
@@ -171,13 +162,14 @@ Export export_fit(const std::string& path, const BoundModel& fit, double toleran
   Export e{ExportTarget::gltf, path, fit.model.spec, {}, tolerance};
   const std::vector<std::string> channels =
       n == 3 ? std::vector<std::string>{"r", "g", "b"} : std::vector<std::string>{"f"};
-  Table t = fixed_directions(channels);
-  const auto wanted = values_of(fit, t);
+  const Table judged = fixed_directions(channels, 0);
+  const auto wanted = values_of(fit, judged);
   e.lost = lost_in_gltf(fit);
-  e.parameters = renamed(fit, e);
-  e.renamed = e.written = residual(values_of(bound(e.parameters, n), t), wanted);
+  e.parameters = renamed(fit);
+  e.renamed = e.written = residual(values_of(bound(e.parameters, n), judged), wanted);
   if (e.renamed.rms <= tolerance) return e;
-  for (const auto& f : wanted) t.values.emplace_back(f.begin(), f.end());
+  Table t = fixed_directions(channels, export_directions);  // what is fitted does not judge itself
+  for (const auto& f : values_of(fit, t)) t.values.emplace_back(f.begin(), f.end());
   FitOptions options;
   options.model = "gltf";
   options.metric = Metric::relative;
@@ -189,10 +181,9 @@ Export export_fit(const std::string& path, const BoundModel& fit, double toleran
     if (const auto* v = find(fitted, name)) values = *v;
     if (const auto* a = find(fitted, "alpha"); name == "roughness" && a)
       values = {std::sqrt((*a)[0])};
-    for (double& v : values) v = std::clamp(v, 0.0, 1.0);
   }
-  if (const auto r = residual(values_of(bound(p, n), t), wanted); r.rms < e.renamed.rms)
-    e.parameters = p, e.written = r, e.refitted = true;
+  if (const auto r = residual(values_of(bound(p, n), judged), wanted); r.rms < e.renamed.rms)
+    e.parameters = std::move(p), e.written = r, e.refitted = true;
   return e;
 }
 

@@ -32,8 +32,7 @@ struct Export {
   double tolerance = 0;  ///< of the root mean square
   ExportResidual renamed{}, written{};
   bool refitted = false;
-  std::vector<std::string> lost{};      ///< what the target cannot express, in sentences
-  std::vector<std::string> warnings{};  ///< values that were moved into the target's range
+  std::vector<std::string> lost{};  ///< what the target cannot express, in sentences
 };
 
 inline constexpr std::size_t export_directions = 1000;

@@ -43,8 +43,8 @@ class Sayings {
  public:
   explicit Sayings(const CostRows& r) : r_(r), best_(r.machine.instruction_sets.back()) {}
   Findings all() && {
-    if (auto text = load_text(r_.others, r_.machine.threads); !text.empty()) say(std::move(text));
     headline();
+    if (auto text = load_text(r_.others, r_.machine.threads); !text.empty()) say(std::move(text));
     masking();
     front();
     fresnel();

@@ -41,7 +41,7 @@ void add_split_sum(Facts& to, const ImageLight& light) {
   Facts::SplitSum s{table->size, table->size * table->size * bytes_of_texel, table->lookup_rms};
   for (const auto& l : light.lit) {
     auto* const seen = l.nov == 1 ? &s.head_on : l.nov == 0.1 ? &s.grazing : nullptr;
-    if (seen) *seen = std::max(seen->value_or(0), l.of_mean);
+    if (seen) *seen = std::max(seen->value_or(0), l.delta_e);
   }
   to.split_sum = s;
 }

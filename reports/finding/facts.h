@@ -92,7 +92,7 @@ struct Facts {
   struct SplitSum {
     std::size_t size, bytes;
     double rms;
-    /// Greatest RMS of the split itself under an environment, as a part of the mean, seen head on and at cosine 0.1.
+    /// Greatest ΔE2000 of the split itself, mean over the views of one environment, F0 and roughness: head on and at cosine 0.1.
     std::optional<double> head_on{}, grazing{};
   };
   std::optional<SplitSum> split_sum{};

@@ -299,10 +299,10 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Image-based light", fmt::format("Split sum, {0} × {0} table in half", s.size), "split_sum",
        s.head_on
-           ? fmt::format("{} of the mean (the table alone: {})", percent(*s.head_on, 2), table)
+           ? fmt::format("mean ΔE ≤ {} (the table alone: {})", short_number(*s.head_on), table)
            : table + " of E",
        fmt::format("{:.1f} kB, one look-up", static_cast<double>(s.bytes) / 1000),
-       s.grazing ? fmt::format("rims are looked at: {} of the mean there", percent(*s.grazing, 2))
+       s.grazing ? fmt::format("rims are looked at: mean ΔE ≤ {} there", short_number(*s.grazing))
                  : ""});
 }
 

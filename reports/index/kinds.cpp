@@ -72,22 +72,22 @@ ReportFiles scenes(const ReportOptions& o, const ReportProgress& done) {
 
 constexpr std::array kinds{
     ReportKind{"energy", "what single scattering loses, and what gives it back", energy,
-               energy_schema, 25},
+               energy_schema, 50},
     ReportKind{"diffuse", "what diffuse forms give back, how they look, and what they cost",
-               diffuse, diffuse_schema, 8},
+               diffuse, diffuse_schema, 2},
     ReportKind{"remap", "masking forms against exact Smith, and which roughness each behaves like",
-               remap, remap_schema, 3},
+               remap, remap_schema, 2},
     ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick,
-               schlick_schema},
+               schlick_schema, 3},
     ReportKind{"cross_fit", "what fits with shipped approximations make of roughness, F0 and gamma",
-               cross_fit, cross_fit_schema, 60},
+               cross_fit, cross_fit_schema, 90},
     ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost,
-               cost_schema, 40},
+               cost_schema, 160},
     ReportKind{"stability", "which formulas stay stable in few bits, and from which inputs on",
-               stability, stability_schema, 40},
+               stability, stability_schema, 50},
     ReportKind{"scenes",
                "which effects a material needs in a scene, and what leaving out the others saves",
-               scenes, scenes_schema, 25}};
+               scenes, scenes_schema, 40}};
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/file.h"
+#include "base/json_reader.h"
 #include "brdf/model/fitted_model.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -30,7 +31,6 @@ void print(const Export& e) {
   say("{:<12}{}\n", "renamed", line(e.renamed));
   if (e.refitted) say("{:<12}{}\n", "refitted", line(e.written));
   for (const auto& l : e.lost) say_below("lost    ", l);
-  for (const auto& w : e.warnings) say_below("beware  ", w);
   if (e.written.rms > e.tolerance)
     say_below("beware  ", fmt::format("no parameters of {} come within {:.3g} %", name_of(e.target),
                                       100 * e.tolerance));
@@ -44,7 +44,7 @@ Exit run(const Options& o) {
   OutputFile out(o.output);
   Progress progress(o.quiet);
   progress("exporting");
-  const std::string bytes = InputFile(o.fit).read_rest(std::uint64_t{1} << 26);
+  const std::string bytes = InputFile(o.fit).read_rest(most_document_bytes);
   const FittedModel fitted = parse_fitted_model(o.fit, bytes);
   std::optional<std::size_t> channels;
   if (!fitted.channels.empty()) channels = fitted.channels.size();

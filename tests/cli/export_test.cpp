@@ -44,6 +44,47 @@ TEST(ExportCommand, WritesAFileThatIsReadAsTheFit) {
   EXPECT_EQ(file.json()["rows"], fit.json()["rows"]);
 }
 
+std::string validated(const Folder& f, const std::string& file) {
+  const std::string from = GONIO_SOURCE_DIR;
+  const std::string command = "node " + from + "/tests/cli/gltf/validate.cjs " + from +
+                              "/build/gltf/node_modules " + (f / file) + " > " + (f / "said.txt") +
+                              " 2>&1";
+  const int code = std::system(command.c_str());
+  return code == 0 ? read_bytes(f / "said.txt") : "not run: " + read_bytes(f / "said.txt");
+}
+
+TEST(ExportCommand, WritesWhatKhronosValidatorFindsNoFaultWith) {
+  if (!std::filesystem::exists(GONIO_SOURCE_DIR "/build/gltf/node_modules/gltf-validator"))
+    GTEST_SKIP() << "gltf-validator is not there: run ./check, which fetches it";
+  const Folder f;
+  make_fit(f, "ggx/smith_ggx.correlated/schlick", "alpha=0.3 f0=0.95,0.64,0.54");
+  ASSERT_EQ(gonio(f, "export fit.json --to gltf -o m.gltf").code, 0);
+  EXPECT_EQ(validated(f, "m.gltf").find("error"), std::string::npos) << validated(f, "m.gltf");
+  EXPECT_EQ(validated(f, "m.gltf").find("warning"), std::string::npos);
+  auto beyond = nlohmann::json::parse(read_bytes(f / "m.gltf"));
+  beyond["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 1.5;
+  f.write("beyond.gltf", beyond.dump());
+  EXPECT_NE(validated(f, "beyond.gltf").find("VALUE_NOT_IN_RANGE"), std::string::npos);
+}
+
+TEST(ExportCommand, SaysWhatGltfHasNot) {
+  const Folder f;
+  make_fit(f, "gtr/smith_gtr.correlated/conductor", "alpha=0.4 gamma=1.5");
+  const auto o = gonio(f, "export fit.json --to gltf -o m.gltf");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("exponent of the distribution"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("Fresnel curve"), std::string::npos) << o.out;
+}
+
+TEST(ExportCommand, RefusesExportedFilesWithoutAFit) {
+  const Folder f;
+  f.write("empty.gltf", R"({"asset": {}, "materials": []})");
+  f.write("plain.gltf", R"({"asset": {}, "materials": [{"extras": {}}]})");
+  expect_one_line_each(f, 3,
+                       {{"export empty.gltf --to gltf -o m.gltf", "materials"},
+                        {"export plain.gltf --to gltf -o m.gltf", "gonio"}});
+}
+
 TEST(ExportCommand, RefusesWhatItCannotReadOrWrite) {
   const Folder f;
   make_fit(f, "lambert", "kd=0.2");

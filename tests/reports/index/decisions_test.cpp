@@ -122,12 +122,10 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   EXPECT_EQ(light.cost, "4.1 kB, one look-up");
   EXPECT_EQ(light.unless, "");
   auto f = made_facts();
-  f.split_sum->head_on = 0.03, f.split_sum->grazing = 0.4;
+  f.split_sum->head_on = 1.26, f.split_sum->grazing = 14;
   const auto lit = decisions(f);
-  EXPECT_EQ(about(lit, "Image-based light").error,
-            "3\u00a0% of the mean (the table alone: RMS 0.0008)");
-  EXPECT_EQ(about(lit, "Image-based light").unless,
-            "rims are looked at: 40\u00a0% of the mean there");
+  EXPECT_EQ(about(lit, "Image-based light").error, "mean ΔE ≤ 1.3 (the table alone: RMS 0.0008)");
+  EXPECT_EQ(about(lit, "Image-based light").unless, "rims are looked at: mean ΔE ≤ 14 there");
 }
 
 TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
