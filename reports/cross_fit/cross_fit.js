@@ -13,7 +13,7 @@ function matrices() {
   const view = changing(() => map_view(picture_of(maps, "matrix", chosen)),
     () => maps.filter((m) => m.family === "matrix" && m.choices.roughness === chosen.roughness && m.choices.quantity !== chosen.quantity).map((m) => map_view(m)), 1);
   const change = (key) => (v) => { chosen[key] = v; view.again(); };
-  return el("div", { class: "picture" }, el("p", { class: "small muted" }, "Each row is a truth, each column the form that it is fitted with. A cell is empty where that form was not fitted, or where most of its fits end at a bound."),
+  return el("div", { class: "picture" }, el("p", { class: "small muted" }, "Each row is a form that is fitted, each column the truth that it is fitted to. A cell is empty where that form was not fitted, or where most of its fits end at a bound."),
     el("div", { class: "controls" },
       choice("Quantity", choices_of(maps, "matrix", "quantity").map((q) => [q, q]), chosen.quantity, change("quantity")),
       choice("Roughness", choices_of(maps, "matrix", "roughness").map((r) => [r, r === "all" ? "RMS over all" : `at ${r}`]), chosen.roughness, change("roughness"))), view.node);
