@@ -70,14 +70,19 @@ install_gltf_validator() {
   echo "Without gltf-validator: exported glTF is not held against its specification."
 }
 
-# Mitsuba, which pictures are compared with, in build/mitsuba; without it that is left out.
-install_mitsuba() {
-  local at=build/mitsuba
+# Programs that exported materials are held against, and pictures compared with, in build/targets: Mitsuba, MaterialX with OpenGL
+# without a window, USD; without them that is left out.
+install_targets() {
+  local at=build/targets
+  if command -v apt-get >/dev/null; then
+    (gonio_tools=(python3:python3) gonio_libraries=(python3-venv libegl1 libgl1-mesa-dri); install_missing) || true
+  fi
   if { [ -x "$at/bin/pip" ] || python3 -m venv "$at" >/dev/null 2>&1; } &&
-    "$at/bin/pip" install -qq --disable-pip-version-check --require-hashes --only-binary :all: -r tests/scene/render/beside_mitsuba.txt 2>/dev/null; then
+    "$at/bin/pip" install -qq --disable-pip-version-check --retries 1 --timeout 20 --require-hashes --only-binary :all: \
+      -r tests/cli/targets/requirements.txt 2>/dev/null; then
     return 0
   fi
-  echo "Without Mitsuba: pictures are not compared with its."
+  echo "Without Mitsuba, MaterialX and USD from PyPI: exported materials and pictures are not compared with theirs."
   return 1
 }
 

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
 
 #include "base/error.h"
 #include "base/json_describe.h"
 #include "brdf/model/evaluate.h"
-#include "brdf/model/presets.h"
-#include "brdf/model/reflectances.h"
-#include "fitting/fit.h"
+#include "fitting/export/surface.h"
+#include "fitting/export/target.h"
+#include "geometry/half_difference.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 
@@ -37,7 +41,8 @@ struct Description<Export> {
         field("renamed", "", &Export::renamed, "residual of parameters that are only renamed"),
         field("written", "", &Export::written, "residual of the parameters that were written"),
         field("refitted", "", &Export::refitted, "whether these were fitted in the target's model"),
-        field("lost", "", &Export::lost, "what the target cannot express")};
+        field("lost", "", &Export::lost, "what the target cannot express"),
+        field("clamped", "", &Export::clamped, "what was outside the target's range")};
   }
 };
 static_assert(describes_every_member<Export>());
@@ -46,10 +51,8 @@ namespace {
 
 /// Directions that are the same for every export: one half anywhere, the other around the mirror's.
 /// \param first  of the sequence; other ones where this is further than export_directions away
-Table fixed_directions(const std::vector<std::string>& channels, std::size_t first) {
-  Table t;
-  t.path = "directions of the export", t.format = "csv", t.channels = channels;
-  DirectionList l;
+std::vector<DirectionPair> fixed_directions(std::size_t first) {
+  std::vector<DirectionPair> all;
   const auto part = [](double x) { return x - std::floor(x); };
   for (std::size_t i = 0; i < export_directions; ++i) {
     // Additive recurrence of the root of x⁴ = x + 1 [Roberts 2018, "The unreasonable effectiveness
@@ -60,22 +63,19 @@ Table fixed_directions(const std::vector<std::string>& channels, std::size_t fir
     const double in = 80 * u;
     const bool near = i % 2 == 1;
     const double a = 2 * v - 1, b = 2 * w - 1;
-    l.theta_i_deg.push_back(in);
-    l.phi_i_deg.push_back(0);
-    l.theta_o_deg.push_back(near ? std::clamp(in + 40 * a * a * a, 0.0, 80.0) : 80 * v);
-    l.phi_o_deg.push_back(near ? 180 + 60 * b * b * b : 360 * w);
+    const double out = near ? std::clamp(in + 40 * a * a * a, 0.0, 80.0) : 80 * v;
+    const double phi = near ? 180 + 60 * b * b * b : 360 * w;
+    const double turn = 360 * part(n * std::numbers::phi);  // of both, about the normal
+    all.push_back(
+        {direction(in * degree, turn * degree), direction(out * degree, (turn + phi) * degree)});
   }
-  t.where = std::move(l);
-  return t;
+  return all;
 }
 
-std::vector<std::vector<double>> values_of(const BoundModel& b, const Table& at) {
-  Table one = at;
-  one.values.assign(1, Values(export_directions));
-  const SampleAngles of(one);
-  std::vector<FrameAngles<double>> angles;
-  for (std::size_t i = 0; i < export_directions; ++i) angles.push_back(of.frame(i));
-  return evaluate(b, angles);
+std::vector<FrameAngles<double>> fixed_angles(std::size_t first) {
+  std::vector<FrameAngles<double>> all;
+  for (const auto& d : fixed_directions(first)) all.push_back(frame_angles(d));
+  return all;
 }
 
 ExportResidual residual(const std::vector<std::vector<double>>& target,
@@ -96,110 +96,82 @@ ExportResidual residual(const std::vector<std::vector<double>>& target,
   return r;
 }
 
-using Parameters = std::vector<std::pair<std::string, std::vector<double>>>;
-const std::vector<double>* find(const Parameters& all, std::string_view name) {
-  const auto it = std::ranges::find(all, name, &Parameters::value_type::first);
-  return it == all.end() ? nullptr : &it->second;
-}
-
-/// Names of glTF in place of the fit's.
-Parameters renamed(const BoundModel& fit) {
-  const auto own = named_values(fit), plain = named_values(in_reflectances(fit));
-  const std::size_t n = fit.model.channels;
-  const auto per_channel = [&](const std::vector<double>* v, std::size_t c) {
-    return v ? (*v)[v->size() > 1 ? c : 0] : 0;
-  };
-  const auto *kd = find(plain, "kd"), *f0 = find(plain, "f0"), *eta = find(plain, "eta"),
-             *k = find(plain, "k");
-  double diffuse = 0, specular = 0;
-  std::vector<double> color, reflected;
-  for (std::size_t c = 0; c < n; ++c) {
-    double r = per_channel(f0, c);
-    if (eta) {
-      const double m = per_channel(eta, c), x = per_channel(k, c);
-      r = ((m - 1) * (m - 1) + x * x) / ((m + 1) * (m + 1) + x * x);
-    }
-    reflected.push_back(r), color.push_back(per_channel(kd, c));
-    diffuse += color.back(), specular += r;
+/// What a distance is relative to: f, or its mean in that channel where that is larger.
+std::vector<std::vector<double>> scale_of(const std::vector<std::vector<double>>& fit) {
+  auto scale = fit;
+  for (auto& channel : scale) {
+    double mean = 0;
+    for (const double f : channel) mean += f / static_cast<double>(channel.size());
+    for (double& f : channel) f = std::max({f, mean, std::numeric_limits<double>::min()});
   }
-  double metallic = specular > diffuse ? 1 : 0;
-  if (metallic == 1) color = reflected;
-  if (const auto* b = find(own, "base_color"), *m = find(own, "metallic"); b && m)
-    color = *b, metallic = (*m)[0];
-  double alpha = 1;
-  if (const auto* a = find(plain, "alpha")) alpha = (*a)[0];
-  if (const auto* x = find(plain, "alpha_x"), *y = find(plain, "alpha_y"); x && y)
-    alpha = std::sqrt((*x)[0] * (*y)[0]);
-  return {{"base_color", color}, {"metallic", {metallic}}, {"roughness", {std::sqrt(alpha)}}};
+  return scale;
 }
 
-BoundModel bound(const Parameters& p, std::size_t channels) {
-  std::vector<Setting> settings;
-  for (const auto& [name, values] : p) settings.push_back({name, values});
-  return bind_model("gltf", settings, channels);
+/// Values within the target's ranges; a sentence of each parameter that was not.
+std::vector<std::string> clamp(TargetParameters& all) {
+  std::vector<std::string> said;
+  for (auto& p : all) {
+    const auto before = p.values;
+    for (double& v : p.values) v = std::clamp(v, p.legal.low, p.legal.high);
+    if (p.values != before)
+      said.push_back(fmt::format("{} = {:.4g} is outside [{}, {}].", p.name,
+                                 fmt::join(before, ", "), p.legal.low, p.legal.high));
+  }
+  return said;
 }
 
-std::vector<std::string> lost_in_gltf(const BoundModel& fit) {
-  std::vector<std::string> lost;
-  const auto plain = named_values(fit);
-  const auto has = [&](std::string_view name) { return find(plain, name) != nullptr; };
-  if (fit.model.lobes.size() > 1) lost.push_back("A second lobe: glTF has one.");
-  if (fit.model.lobes.empty()) lost.push_back("A surface without a highlight: glTF reflects 4 %.");
-  if (fit.model.anisotropic)
-    lost.push_back("Anisotropy: glTF's material without extensions has one roughness.");
-  if (has("gamma")) lost.push_back("The exponent of the distribution: glTF's is 2.");
-  if (has("eta") || has("f82") || has("f90"))
-    lost.push_back("The Fresnel curve: glTF has Schlick's, which ends at 1.");
-  return lost;
+const Target& target_of(ExportTarget t) {
+  switch (t) {
+    case ExportTarget::gltf:
+      return gltf_target;
+    case ExportTarget::mitsuba:
+      return mitsuba_target;
+  }
+  throw std::logic_error("a target without a name");
 }
 
 }  // namespace
 
-Export export_fit(const std::string& path, const BoundModel& fit, double tolerance) {
+std::vector<DirectionPair> judged_directions() {
+  return fixed_directions(0);
+}
+
+Export export_fit(ExportTarget to,
+                  const std::string& path,
+                  const BoundModel& fit,
+                  double tolerance) {
   const std::size_t n = fit.model.channels;
   if (n != 1 && n != 3)
     throw bad_input(path, "channels", fmt::to_string(n), "1, or 3: red, green and blue");
-  Export e{ExportTarget::gltf, path, fit.model.spec, {}, tolerance};
-  const std::vector<std::string> channels =
-      n == 3 ? std::vector<std::string>{"r", "g", "b"} : std::vector<std::string>{"f"};
-  const Table judged = fixed_directions(channels, 0);
-  const auto wanted = values_of(fit, judged);
-  e.lost = lost_in_gltf(fit);
-  e.parameters = renamed(fit);
-  e.renamed = e.written = residual(values_of(bound(e.parameters, n), judged), wanted);
-  if (e.renamed.rms <= tolerance) return e;
-  Table t = fixed_directions(channels, export_directions);  // what is fitted does not judge itself
-  for (const auto& f : values_of(fit, t)) t.values.emplace_back(f.begin(), f.end());
-  FitOptions options;
-  options.model = "gltf";
-  options.metric = Metric::relative;
-  options.intervals = Intervals::independent;
-  options.copies = true, options.bin_sensitivity = false;
-  const auto fitted = named_values(gonio::fit(t, options).model);
-  Parameters p = e.parameters;
-  for (auto& [name, values] : p) {
-    if (const auto* v = find(fitted, name)) values = *v;
-    if (const auto* a = find(fitted, "alpha"); name == "roughness" && a)
-      values = {std::sqrt((*a)[0])};
+  const Target& target = target_of(to);
+  const Surface surface = surface_of(fit);
+  const auto judged = fixed_angles(0), fitted = fixed_angles(export_directions);
+  const auto wanted = evaluate(fit, judged), learned = evaluate(fit, fitted);
+  Export best{to, path, fit.model.spec, {}, tolerance};
+  bool first = true;
+  for (auto& form : target.forms(surface)) {
+    Export e{to, path, fit.model.spec, {}, tolerance};
+    e.lost = target.lost(fit, surface);
+    e.clamped = clamp(form.parameters);
+    auto p = form.parameters;
+    e.renamed = e.written = residual(form.values(p, judged), wanted);
+    if (e.renamed.rms > tolerance) {
+      auto q = refitted(p, form.values, fitted, learned, scale_of(learned));
+      if (const auto r = residual(form.values(q, judged), wanted); r.rms < e.renamed.rms)
+        p = std::move(q), e.written = r, e.refitted = true;
+    }
+    if (first || e.written.rms < best.written.rms) {
+      for (const auto& x : p) e.parameters.emplace_back(x.name, x.values);
+      best = std::move(e);
+    }
+    first = false;
+    if (best.written.rms <= tolerance) break;
   }
-  if (const auto r = residual(values_of(bound(p, n), judged), wanted); r.rms < e.renamed.rms)
-    e.parameters = std::move(p), e.written = r, e.refitted = true;
-  return e;
+  return best;
 }
 
-std::string gltf_of(const Export& e, const std::string& fit) {
-  const auto& color = *find(e.parameters, "base_color");
-  Json factor = Json::array();
-  for (std::size_t c = 0; c < 3; ++c) factor.push_back(color[color.size() == 3 ? c : 0]);
-  factor.push_back(1.0);
-  const Json material{{"name", "fit"},
-                      {"pbrMetallicRoughness",
-                       {{"baseColorFactor", factor},
-                        {"metallicFactor", (*find(e.parameters, "metallic"))[0]},
-                        {"roughnessFactor", (*find(e.parameters, "roughness"))[0]}}},
-                      {"extras", {{"gonio", parse_json(e.fit, fit)}}}};
-  return text_of(Json{{"asset", {{"version", "2.0"}, {"generator", "gonio"}}},
-                      {"materials", Json::array({material})}});
+std::string file_of(const Export& e, const std::string& fit) {
+  return target_of(e.target).file(e, fit);
 }
 
 std::string to_json(const Export& e) {

@@ -12,12 +12,13 @@
 
 #include "base/names.h"
 #include "brdf/model/model.h"
+#include "geometry/direction.h"
 
 namespace gonio {
 
-enum class ExportTarget { gltf };
+enum class ExportTarget { gltf, mitsuba };
 template <>
-inline constexpr std::array<std::string_view, 1> names_of<ExportTarget>{"gltf"};
+inline constexpr std::array<std::string_view, 2> names_of<ExportTarget>{"gltf", "mitsuba"};
 
 struct ExportResidual {
   double rms = 0, largest = 0;
@@ -32,18 +33,23 @@ struct Export {
   double tolerance = 0;  ///< of the root mean square
   ExportResidual renamed{}, written{};
   bool refitted = false;
-  std::vector<std::string> lost{};  ///< what the target cannot express, in sentences
+  std::vector<std::string> lost{};     ///< what the target cannot express, in sentences
+  std::vector<std::string> clamped{};  ///< what was outside the target's range, in sentences
 };
 
 inline constexpr std::size_t export_directions = 1000;
 inline constexpr double default_export_tolerance = 0.02;
 
-/// Export to glTF 2.0's metallic-roughness material (Appendix B of its specification).
+/// Direction pairs at which every export is judged.
+std::vector<DirectionPair> judged_directions();
+
+/// Export to the target's equations: the fit's parameters renamed, and where that is further off than the tolerance fitted
+/// again, to directions other than those that judge.
 /// \throws Error  bad_input of the fit's file, of a model that has neither one nor three channels
-Export export_fit(const std::string& path, const BoundModel&, double tolerance);
-/// glTF with one material; the fit as it was read stands in materials[0].extras.gonio.
+Export export_fit(ExportTarget, const std::string& path, const BoundModel&, double tolerance);
+/// File of the target with one material, and the fit as it was read in it.
 /// \param fit  bytes of its document
-std::string gltf_of(const Export&, const std::string& fit);
+std::string file_of(const Export&, const std::string& fit);
 
 /// gonio.export/1
 std::string to_json(const Export&);

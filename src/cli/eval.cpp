@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/fitted_model.h"
 #include "cli/command.h"
 #include "cli/model_argument.h"
 #include "cli/terminal.h"
@@ -23,11 +24,11 @@ struct Options : Common {
   std::optional<std::string> bins;
 };
 
-/// The document of a fit or a batch begins as JSON does; a table does not.
+/// The document of a fit or a batch begins as JSON or says that it holds a fit; a table does not.
 bool is_table(const std::string& path) {
   if (path.ends_with(".json") || !std::filesystem::exists(path)) return false;
   InputFile in(path);
-  return !in.peek(1).starts_with('{');
+  return !begins_as_fit(in.peek(256));
 }
 
 /// Values of a table between its samples; NaN where it has none.

@@ -76,13 +76,32 @@ TEST(ExportCommand, SaysWhatGltfHasNot) {
   EXPECT_NE(o.out.find("Fresnel curve"), std::string::npos) << o.out;
 }
 
+TEST(ExportCommand, WritesTheEndOfARangeAndSaysSo) {
+  const Folder f;
+  f.write("fit.json", R"({"schema": "gonio.fit/1", "channels": ["f"],
+    "model": "ggx_aniso/smith_ggx_aniso.separable/conductor", "parameters": {"alpha_x": {"value": 1.5},
+    "alpha_y": {"value": 0.5}, "tangent": {"value": 0}, "eta": {"value": 1}, "k": {"value": 4}}})");
+  const auto o = gonio(f, "export fit.json --to mitsuba -o m.xml");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("alpha_u = 1.5 is outside [0.0001, 1]"), std::string::npos) << o.out;
+  const auto said = gonio(f, "export fit.json --to mitsuba -o m.xml --json").json();
+  EXPECT_EQ(said["clamped"].size(), 1U);
+  EXPECT_GT(said["renamed"]["rms"], 0.01);
+  EXPECT_LE(said["parameters"]["alpha_u"], 1);
+}
+
 TEST(ExportCommand, RefusesExportedFilesWithoutAFit) {
   const Folder f;
+  f.write("plain.xml", "<?xml version=\"1.0\"?>\n<bsdf/>\n");
+  f.write("cut.xml", "<!-- gonio: the fit as it was exported\n{\"schema\"");
   f.write("empty.gltf", R"({"asset": {}, "materials": []})");
   f.write("plain.gltf", R"({"asset": {}, "materials": [{"extras": {}}]})");
   expect_one_line_each(f, 3,
                        {{"export empty.gltf --to gltf -o m.gltf", "materials"},
-                        {"export plain.gltf --to gltf -o m.gltf", "gonio"}});
+                        {"export plain.gltf --to gltf -o m.gltf", "gonio"},
+                        {"export plain.xml --to gltf -o m.gltf", "no comment"},
+                        {"eval cut.xml --directions plain.xml --json", "plain.xml"},
+                        {"export cut.xml --to gltf -o m.gltf", "without end"}});
 }
 
 TEST(ExportCommand, RefusesWhatItCannotReadOrWrite) {

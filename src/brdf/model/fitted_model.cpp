@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/json_reader.h"
 #include "brdf/model/roughness.h"
 
@@ -11,6 +12,21 @@
 
 namespace gonio {
 namespace {
+
+/// Line before a fit in the XML that gonio export writes, in a comment.
+constexpr std::string_view comment_begin = "<!-- gonio: the fit";
+
+/// Document in a file: bytes of XML hold it in a comment, others are it.
+std::string document_in(const std::string& path, const std::string& bytes) {
+  if (!bytes.starts_with('<')) return bytes;
+  const auto begin = bytes.find(comment_begin);
+  if (begin == bytes.npos)
+    throw bad_input(path, "XML", "no comment 'gonio: the fit'", "a file of gonio export");
+  const auto first = bytes.find('\n', begin), last = bytes.find("-->", begin);
+  if (first == bytes.npos || last == bytes.npos || last < first)
+    throw bad_input(path, "XML", "a comment without end", "a file of gonio export");
+  return bytes.substr(first, last - first);
+}
 
 FittedModel fitted_model(const std::string& path, const Json& document) {
   JsonReader root(path, document);
@@ -29,12 +45,17 @@ FittedModel fitted_model(const std::string& path, const Json& document) {
 
 }  // namespace
 
+bool begins_as_fit(std::string_view head) {
+  return head.starts_with('{') || head.find(comment_begin) != head.npos;
+}
+
 FittedModel read_fitted_model(const std::string& path) {
-  return fitted_model(path, read_json(path));
+  InputFile in(path);
+  return parse_fitted_model(path, in.read_rest(most_document_bytes));
 }
 
 FittedModel parse_fitted_model(const std::string& path, const std::string& bytes) {
-  return fitted_model(path, parse_json(path, bytes));
+  return fitted_model(path, parse_json(path, document_in(path, bytes)));
 }
 
 BoundModel bind_fitted(const std::string& path,

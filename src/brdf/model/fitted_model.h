@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct FittedModel {
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
   std::vector<std::string> channels = {};  ///< empty where the file does not name them
 };
+/// Whether bytes begin as the document of a fit or as a file that gonio export put one in.
+/// \param head  first 256 bytes of a file, or all
+bool begins_as_fit(std::string_view head);
 FittedModel read_fitted_model(const std::string& path);
 /// Model in a document's bytes.  \param path  named in errors
 FittedModel parse_fitted_model(const std::string& path, const std::string& bytes);

@@ -1,0 +1,130 @@
+#include "fitting/export/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "brdf/catalogue/registry.h"
+#include "brdf/in_number/one_term.h"
+#include "brdf/model/reflectances.h"
+#include "brdf/term/map.h"
+#include "optics/f0.h"
+#include "optics/fresnel.h"
+#include "optics/fresnel_approximate.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+/// Cosine at which F82-tint tints.
+constexpr double edge_cosine = 1.0 / 7;
+
+double schlick_at_edge(double f0) {
+  return schlick<double>(f0, schlick_weight(edge_cosine));
+}
+
+double conductor_at(double cosine, double eta, double k) {
+  Angles<double> a{};
+  a.voh = cosine;
+  return as_value<double>(Conductor<double>(std::array{eta, k})(a));
+}
+
+/// Index of a conductor that reflects f0 at normal incidence and, as near as Gulbrandsen's tint can, `edge` at 82°.
+std::array<double, 2> index_of(double f0, double edge) {
+  std::array<double, 2> best{};
+  double least = 2;
+  const double r = std::clamp(f0, 1e-6, 0.9999);
+  for (int i = 0; i <= 50; ++i) {
+    const auto index = mapped<IndexFromEdgeTint, double>(r, i / 50.0);
+    if (const double d = std::abs(conductor_at(edge_cosine, index[0], index[1]) - edge); d < least)
+      least = d, best = index;
+  }
+  return best;
+}
+
+}  // namespace
+
+double SurfaceLobe::largest_f0() const {
+  return *std::ranges::max_element(f0);
+}
+bool SurfaceLobe::is_metal() const {
+  return *std::ranges::max_element(k) > 0.1 || largest_f0() > 0.25;
+}
+double Surface::largest_kd() const {
+  return *std::ranges::max_element(kd);
+}
+
+Surface surface_of(const BoundModel& fit) {
+  const BoundModel b = in_reflectances(fit);
+  Surface s;
+  s.channels = b.model.channels;
+  const auto value = [&](std::string_view name, std::size_t c, double otherwise) {
+    const auto* p = b.model.find(name);
+    return p ? b.values[p->slot(c)] : otherwise;
+  };
+  for (std::size_t c = 0; c < s.channels; ++c)
+    s.kd.push_back(b.model.diffuse.empty() ? 0 : value("kd", c, 0));
+  s.tangent_deg = value("tangent", 0, 0);
+  for (std::size_t l = 0; l < b.model.lobes.size(); ++l) {
+    const std::string ending = l == 0 ? "" : "_" + std::to_string(l + 1);
+    const auto own = [&](const char* name, std::size_t c, double otherwise) {
+      return value(name + ending, c, otherwise);
+    };
+    SurfaceLobe lobe;
+    const double alpha = own("alpha", 0, 1);
+    lobe.alpha_x = own("alpha_x", 0, alpha), lobe.alpha_y = own("alpha_y", 0, alpha);
+    lobe.weight = own("weight", 0, 1);
+    const auto& fresnel = b.model.lobes[l].fresnel;
+    for (std::size_t c = 0; c < s.channels; ++c) {
+      std::map<std::string, double> parameters;
+      for (const std::size_t i : fresnel.parameters) {
+        const auto& p = b.model.parameters[i];
+        parameters[std::string(p.about->name)] = b.values[p.slot(c)];
+      }
+      if (parameters.contains("weight")) parameters["weight"] = 1;
+      const auto f =
+          evaluate_term(fresnel.term, Number::double_, parameters, {{"cos", {1.0, edge_cosine}}})
+              .values;
+      lobe.f0.push_back(f[0]);
+      const double edge = schlick_at_edge(f[0]);
+      lobe.f82_tint.push_back(edge > 0 ? f[1] / edge : 1);
+      if (parameters.contains("eta")) {
+        lobe.eta.push_back(parameters["eta"]);
+        lobe.k.push_back(parameters.contains("k") ? parameters["k"] : 0);
+      } else if (f[0] <= 0.25) {
+        lobe.eta.push_back(mapped<IorFromF0, double>(f[0])[0]), lobe.k.push_back(0);
+      } else {
+        const auto [eta, k] = index_of(f[0], f[1]);
+        lobe.eta.push_back(eta), lobe.k.push_back(k);
+      }
+    }
+    s.lobes.push_back(std::move(lobe));
+  }
+  return s;
+}
+
+std::vector<std::string> lost_by_all(const BoundModel& fit,
+                                     const std::string& whose,
+                                     std::string_view masking) {
+  bool exponent = false, distribution = false, masked = false, diffuse = false;
+  for (const auto& l : fit.model.lobes) {
+    const auto id = short_id(catalogue()[l.ndf.term].id());
+    const bool has_exponent = id == "gtr" || id == "student_t" || id == "shape_invariant";
+    exponent |= has_exponent;
+    distribution |= !has_exponent && id != "ggx" && id != "ggx_aniso";
+    const auto g = short_id(catalogue()[l.masking.term].id());
+    masked |= !(g.starts_with("smith_ggx") && g.ends_with(masking));
+  }
+  for (const auto& d : fit.model.diffuse)
+    diffuse |= !short_id(catalogue()[d.term].id()).starts_with("lambert");
+  std::vector<std::string> lost;
+  if (exponent) lost.emplace_back("The exponent of the distribution: " + whose + " is 2.");
+  if (distribution) lost.emplace_back("The distribution: " + whose + " is GGX.");
+  if (masked)
+    lost.emplace_back(fmt::format("The masking: {} is Smith's for GGX, {}.", whose, masking));
+  if (diffuse) lost.emplace_back("The shape of the diffuse term: " + whose + " is Lambert's.");
+  return lost;
+}
+
+}  // namespace gonio

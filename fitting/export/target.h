@@ -1,0 +1,60 @@
+#pragma once
+/// \file
+/// Target of an export: the material of another program, its parameters, its equations, its file.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "brdf/model/model.h"
+#include "fitting/export/export.h"
+#include "fitting/export/surface.h"
+#include "geometry/angles.h"
+#include "number/parameter.h"
+
+namespace gonio {
+
+/// Parameter of a target: by the target's own name, one value or one per channel, where the target takes them.
+struct TargetParameter {
+  std::string name;
+  std::vector<double> values;
+  Range legal{0, 1};
+  bool free = true;  ///< whether a refit may move it
+};
+using TargetParameters = std::vector<TargetParameter>;
+
+/// f_c of the target's equations [1/sr]: [channel][sample].
+using TargetValues = std::function<std::vector<std::vector<double>>(
+    const TargetParameters&, std::span<const FrameAngles<double>>)>;
+
+/// Form of a target's material: which of its parameters are in use, with values that only rename the fit's.
+struct TargetForm {
+  TargetParameters parameters;
+  TargetValues values;
+};
+
+struct Target {
+  std::string_view name;  ///< as people write it
+  /// Forms that may stand for a surface, the likeliest first.
+  std::vector<TargetForm> (*forms)(const Surface&);
+  /// What the target cannot express, in sentences.
+  std::vector<std::string> (*lost)(const BoundModel&, const Surface&);
+  /// The file.  \param fit  bytes of the fit's document, which stands in it
+  std::string (*file)(const Export&, const std::string& fit);
+};
+extern const Target gltf_target, mitsuba_target;
+
+/// Value of a parameter by its name: of a channel, or the only one.  0 where there is none.
+double value_in(const TargetParameters&, std::string_view name, std::size_t channel = 0);
+
+/// Values of legal parameters nearest to the wanted f, from the given ones on: least squares of (f − wanted)/scale.
+/// \param wanted, scale  [channel][sample]; scale is above 0
+TargetParameters refitted(TargetParameters,
+                          const TargetValues&,
+                          std::span<const FrameAngles<double>>,
+                          const std::vector<std::vector<double>>& wanted,
+                          const std::vector<std::vector<double>>& scale);
+
+}  // namespace gonio

@@ -1,0 +1,181 @@
+// gonio export, held against the targets' own code: f of the written file is as far from the fit as
+// the exporter says.
+#include <cmath>
+#include <fstream>
+
+#include "brdf/model/evaluate.h"
+#include "brdf/model/fitted_model.h"
+#include "cli/program.h"
+#include "fitting/export/export.h"
+#include "geometry/half_difference.h"
+
+#include <fmt/format.h>
+
+namespace gonio::test {
+namespace {
+
+const std::string source = GONIO_SOURCE_DIR;
+const std::string python = source + "/build/targets/bin/python";
+
+/// Whether there is a package of the environment that ./check makes.
+bool has(const std::string& package) {
+  for (const auto& lib : std::filesystem::directory_iterator(source + "/build/targets/lib"))
+    if (std::filesystem::exists(lib.path() / "site-packages" / package)) return true;
+  return false;
+}
+#define GONIO_NEEDS(package)                                                                    \
+  if (!std::filesystem::exists(python) || !has(package))                                        \
+  GTEST_SKIP() << "the Python package " << package << " is not in build/targets: run ./check, " \
+               << "which fetches it"
+
+/// Document of a fit without all that an export does not read.
+void write_fit(const Folder& f, const std::string& model, const std::string& set) {
+  nlohmann::ordered_json parameters;
+  for (const auto& s : parse_settings(std::vector<std::string>{set}))
+    parameters[s.name]["value"] =
+        s.values.size() == 1 ? nlohmann::json(s.values[0]) : nlohmann::json(s.values);
+  f.write("fit.json", nlohmann::ordered_json{{"schema", "gonio.fit/1"},
+                                             {"model", model},
+                                             {"channels", {"r", "g", "b"}},
+                                             {"parameters", parameters}}
+                              .dump(2) +
+                          "\n");
+}
+
+using F = std::vector<std::array<double, 3>>;
+
+F values_of_fit(const Folder& f) {
+  const std::string path = f / "fit.json";
+  std::vector<FrameAngles<double>> angles;
+  for (const auto& d : judged_directions()) angles.push_back(frame_angles(d));
+  const auto channels = evaluate(bind_fitted(path, read_fitted_model(path), 3), angles);
+  F rows;
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    rows.push_back({channels[0][i], channels[1][i], channels[2][i]});
+  return rows;
+}
+
+/// What the target's own code makes of a file, by a script of tests/cli/targets.
+F values_of_target(const Folder& f, const std::string& script, const std::string& file) {
+  std::string pairs;
+  for (const auto& [i, o] : judged_directions())
+    pairs += fmt::format("{} {} {} {} {} {}\n", i.x, i.y, i.z, o.x, o.y, o.z);
+  f.write("pairs.txt", pairs);
+  const std::string command = python + " " + source + "/tests/cli/targets/" + script + " " +
+                              (f / file) + " " + (f / "pairs.txt") + " > " + (f / "f.txt") +
+                              " 2> " + (f / "said.txt");
+  const int code = std::system(command.c_str());
+  EXPECT_EQ(code, 0) << read_bytes(f / "said.txt");
+  std::ifstream in(f / "f.txt");
+  F rows;
+  for (std::array<double, 3> x; in >> x[0] >> x[1] >> x[2];) rows.push_back(x);
+  EXPECT_EQ(rows.size(), export_directions);
+  return rows;
+}
+
+ExportResidual distance(const F& target, const F& fit) {
+  ExportResidual r;
+  if (target.size() != fit.size()) return {-1, -1};
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double mean = 0;
+    for (const auto& f : fit) mean += f[c] / static_cast<double>(fit.size());
+    for (std::size_t i = 0; i < fit.size(); ++i) {
+      const double d = std::abs(target[i][c] - fit[i][c]) / std::max(fit[i][c], mean);
+      sum += d * d;
+      r.largest = std::max(r.largest, d);
+    }
+  }
+  r.rms = std::sqrt(sum / static_cast<double>(3 * fit.size()));
+  return r;
+}
+
+/// Export to a target whose own code finds the distance from the fit that the exporter found.
+struct Held {
+  const Folder& folder;
+  std::string target, file, script;
+  double slack = 1e-4;  ///< of numbers that the target computes in float
+
+  nlohmann::json operator()(const std::string& model, const std::string& set) const {
+    SCOPED_TRACE(model + " " + set);
+    write_fit(folder, model, set);
+    const auto o = gonio(folder, "export fit.json --to " + target + " -o " + file + " --json");
+    EXPECT_EQ(o.code, 0) << o.err;
+    if (o.code != 0) return {};
+    const auto said = o.json()["written"];
+    const auto seen = distance(values_of_target(folder, script, file), values_of_fit(folder));
+    EXPECT_NEAR(seen.rms, said["rms"], slack + 0.002 * said["rms"].get<double>());
+    EXPECT_NEAR(seen.largest, said["largest"], 10 * slack + 0.01 * said["largest"].get<double>());
+    return o.json();
+  }
+  /// The distance of the file with one thing in it replaced.
+  double rms_with(const std::string& found, const std::string& by) const {
+    std::string text = read_bytes(folder / file);
+    const auto at = text.find(found, text.find("-->") == text.npos ? 0 : text.find("-->"));
+    EXPECT_NE(at, text.npos) << found << " in\n" << text;
+    if (at == text.npos) return -1;
+    folder.write("fault_" + file, text.replace(at, found.size(), by));
+    return distance(values_of_target(folder, script, "fault_" + file), values_of_fit(folder)).rms;
+  }
+};
+
+TEST(ExportToMitsuba, IsInMitsubaAsFarFromTheFitAsItSays) {
+  GONIO_NEEDS("mitsuba");
+  const Folder f;
+  const Held held{f, "mitsuba", "m.xml", "mitsuba_values.py"};
+  const auto metal =
+      held("ggx/smith_ggx.separable/conductor", "alpha=0.3,eta=0.2,0.9,1.1,k=3.9,2.4,2.2");
+  EXPECT_LT(metal["written"]["largest"], 1e-6) << "Mitsuba's own model";
+  EXPECT_FALSE(metal["refitted"]);
+  const auto plastic =
+      held("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.4,f0=0.06,kd=0.3,0.2,0.1");
+  EXPECT_TRUE(plastic["refitted"]);
+  EXPECT_LT(plastic["written"]["rms"], 0.04);
+  const auto brushed = held("ggx_aniso/smith_ggx_aniso.separable/schlick",
+                            "alpha_x=0.4,alpha_y=0.1,f0=0.9,0.6,0.3,tangent=0");
+  EXPECT_LT(brushed["written"]["rms"], 0.05);
+  held(
+      "lambert+ggx/smith_ggx.correlated/schlick.weighted+ggx/smith_ggx.correlated/"
+      "schlick.weighted",
+      "alpha=0.5,f0=0.3,weight=0.4,kd=0.3,0.7,0.1,alpha_2=0.1,f0_2=0.05,weight_2=0.8");
+  held("lambert", "kd=0.3,0.7,0.1");
+}
+
+TEST(ExportToMitsuba, ShowsAWrongFactorInMitsuba) {
+  GONIO_NEEDS("mitsuba");
+  const Folder f;
+  const Held held{f, "mitsuba", "m.xml", "mitsuba_values.py"};
+  held("lambert+ggx/smith_ggx.separable/conductor.weighted",
+       "alpha=0.25,eta=0.2,0.9,1.1,k=3.9,2.4,2.2,weight=0.5,kd=0.25");
+  EXPECT_GT(held.rms_with("name=\"alpha\" value=\"0.25\"", "name=\"alpha\" value=\"0.5\""), 0.3)
+      << "roughness for alpha";
+  EXPECT_GT(held.rms_with("name=\"specular_reflectance\" value=\"1\"",
+                          "name=\"specular_reflectance\" value=\"0.5\""),
+            0.1)
+      << "a blend's share forgotten";
+  EXPECT_GT(held.rms_with("name=\"reflectance\" value=\"0.5, 0.5, 0.5\"",
+                          "name=\"reflectance\" value=\"0.1592, 0.1592, 0.1592\""),
+            0.1)
+      << "divided by pi twice";
+  EXPECT_GT(held.rms_with("value=\"ggx\"", "value=\"beckmann\""), 0.05);
+}
+
+TEST(ExportToMitsuba, WritesAFileThatIsReadAsTheFit) {
+  const Folder f;
+  write_fit(f, "lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.4,f0=0.12,kd=0.3,0.2,0.1");
+  auto named = nlohmann::ordered_json::parse(read_bytes(f / "fit.json"));
+  named["input"]["path"] = "a--b-->c<!-- \"d\".csv";
+  f.write("fit.json", named.dump(2));
+  ASSERT_EQ(gonio(f, "export fit.json --to mitsuba -o m.xml").code, 0);
+  f.write("d.csv", "theta_i,phi_i,theta_o,phi_o\n30,0,35,170\n70,0,60,190\n");
+  const auto fit = gonio(f, "eval fit.json --directions d.csv --json");
+  const auto file = gonio(f, "eval m.xml --directions d.csv --json");
+  ASSERT_EQ(file.code, 0) << file.err;
+  EXPECT_EQ(file.json()["rows"], fit.json()["rows"]);
+  const std::string xml = read_bytes(f / "m.xml");
+  const auto begin = xml.find("{"), end = xml.find("-->");
+  EXPECT_EQ(nlohmann::ordered_json::parse(xml.substr(begin, end - begin)), named);
+}
+
+}  // namespace
+}  // namespace gonio::test
