@@ -126,6 +126,12 @@ const Target& target_of(ExportTarget t) {
       return gltf_target;
     case ExportTarget::mitsuba:
       return mitsuba_target;
+    case ExportTarget::standard_surface:
+      return standard_surface_target;
+    case ExportTarget::open_pbr:
+      return open_pbr_target;
+    case ExportTarget::usd_preview:
+      return usd_preview_target;
   }
   throw std::logic_error("a target without a name");
 }

@@ -16,9 +16,10 @@
 
 namespace gonio {
 
-enum class ExportTarget { gltf, mitsuba };
+enum class ExportTarget { gltf, mitsuba, standard_surface, open_pbr, usd_preview };
 template <>
-inline constexpr std::array<std::string_view, 2> names_of<ExportTarget>{"gltf", "mitsuba"};
+inline constexpr std::array<std::string_view, 5> names_of<ExportTarget>{
+    "gltf", "mitsuba", "standard_surface", "open_pbr", "usd_preview"};
 
 struct ExportResidual {
   double rms = 0, largest = 0;

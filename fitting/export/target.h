@@ -44,7 +44,8 @@ struct Target {
   /// The file.  \param fit  bytes of the fit's document, which stands in it
   std::string (*file)(const Export&, const std::string& fit);
 };
-extern const Target gltf_target, mitsuba_target;
+extern const Target gltf_target, mitsuba_target, standard_surface_target, open_pbr_target,
+    usd_preview_target;
 
 /// Value of a parameter by its name: of a channel, or the only one.  0 where there is none.
 double value_in(const TargetParameters&, std::string_view name, std::size_t channel = 0);

@@ -16,8 +16,22 @@ namespace {
 /// Line before a fit in the XML that gonio export writes, in a comment.
 constexpr std::string_view comment_begin = "<!-- gonio: the fit";
 
-/// Document in a file: bytes of XML hold it in a comment, others are it.
+/// Line that begins a file of USD, and the key of the fit in it.
+constexpr std::string_view usd_begin = "#usda", usd_key = "string gonio = ";
+
+/// Document in a text of USD, which writes it as JSON writes a string.
+std::string document_in_usd(const std::string& path, const std::string& bytes) {
+  const auto begin = bytes.find(usd_key);
+  if (begin == bytes.npos)
+    throw bad_input(path, "USD", "no text 'gonio'", "a file of gonio export");
+  const auto first = begin + usd_key.size(), last = bytes.find('\n', first);
+  const Json text = parse_json(path, bytes.substr(first, last - first));
+  return JsonReader(path, text, "customLayerData.gonio").string();
+}
+
+/// Document in a file: bytes of XML hold it in a comment, of USD in a text, others are it.
 std::string document_in(const std::string& path, const std::string& bytes) {
+  if (bytes.starts_with(usd_begin)) return document_in_usd(path, bytes);
   if (!bytes.starts_with('<')) return bytes;
   const auto begin = bytes.find(comment_begin);
   if (begin == bytes.npos)
@@ -46,7 +60,8 @@ FittedModel fitted_model(const std::string& path, const Json& document) {
 }  // namespace
 
 bool begins_as_fit(std::string_view head) {
-  return head.starts_with('{') || head.find(comment_begin) != head.npos;
+  return head.starts_with('{') || head.starts_with(usd_begin) ||
+         head.find(comment_begin) != head.npos;
 }
 
 FittedModel read_fitted_model(const std::string& path) {
