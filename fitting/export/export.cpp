@@ -157,7 +157,7 @@ Export export_fit(ExportTarget to,
   bool first = true;
   for (auto& form : target.forms(surface)) {
     Export e{to, path, fit.model.spec, {}, tolerance};
-    e.lost = target.lost(fit, surface);
+    e.lost = target.lost(fit, surface, form.parameters);
     e.clamped = clamp(form.parameters);
     auto p = form.parameters;
     e.renamed = e.written = residual(form.values(p, judged), wanted);

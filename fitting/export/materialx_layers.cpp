@@ -8,22 +8,13 @@
 #include "brdf/formula/ndf_anisotropic.h"
 #include "brdf/formula/scattering.h"
 #include "brdf/term/product.h"
+#include "fitting/export/placement.h"
 #include "geometry/direction.h"
 #include "optics/fresnel.h"
 #include "optics/fresnel_approximate.h"
 
 namespace gonio {
 namespace {
-
-FrameAngles<double> turned(FrameAngles<double> a, double c, double s) {
-  const auto turn = [&](double& x, double& y) {
-    const double along = x * c + y * s;
-    y = y * c - x * s;
-    x = along;
-  };
-  turn(a.xoh, a.yoh), turn(a.xol, a.yol), turn(a.xov, a.yov);
-  return a;
-}
 
 /// A layer's parts that its parameters alone decide.
 class Prepared {

@@ -75,7 +75,7 @@ std::vector<TargetForm> forms(const Surface& s) {
   return {std::move(form)};
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s) {
+std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters&) {
   auto all = lost_by_all(fit, "Mitsuba's", "separable");
   for (const auto& d : fit.model.diffuse)
     if (catalogue()[d.term].coupled)

@@ -98,7 +98,7 @@ std::vector<TargetForm> forms(const Surface& s) {
   return all;
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s) {
+std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters&) {
   auto all = lost_in_layers(fit, s, "OpenPBR's");
   if (s.lobes.empty())
     all.emplace_back("A surface without a highlight: OpenPBR's is dark at grazing angles.");

@@ -84,7 +84,7 @@ std::vector<TargetForm> forms(const Surface& s) {
   return all;
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s) {
+std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters&) {
   return lost_in_layers(fit, s, "Standard Surface's");
 }
 

@@ -39,8 +39,8 @@ struct Target {
   std::string_view name;  ///< as people write it
   /// Forms that may stand for a surface, the likeliest first.
   std::vector<TargetForm> (*forms)(const Surface&);
-  /// What the target cannot express, in sentences.
-  std::vector<std::string> (*lost)(const BoundModel&, const Surface&);
+  /// What the target cannot express in that form, in sentences.
+  std::vector<std::string> (*lost)(const BoundModel&, const Surface&, const TargetParameters&);
   /// The file.  \param fit  bytes of the fit's document, which stands in it
   std::string (*file)(const Export&, const std::string& fit);
 };

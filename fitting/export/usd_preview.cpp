@@ -57,7 +57,7 @@ std::vector<TargetForm> forms(const Surface& s) {
   return all;
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s) {
+std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters&) {
   auto all = lost_in_layers(fit, s, "UsdPreviewSurface's");
   if (s.lobes.empty())
     all.emplace_back(

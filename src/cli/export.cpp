@@ -34,7 +34,9 @@ void print(const Export& e) {
   say("{:<{}}{}\n", "renamed", width, line(e.renamed));
   if (e.refitted) say("{:<{}}{}\n", "refitted", width, line(e.written));
   for (const auto& l : e.lost) say_below("lost    ", l);
-  for (const auto& l : e.clamped) say_below("beware  ", l + " It was written at the range's end.");
+  for (const auto& l : e.clamped)
+    say_below("beware  ", l + (e.refitted ? " The refit began at the range's end."
+                                          : " The range's end was written."));
   if (e.written.rms > e.tolerance)
     say_below("beware  ", fmt::format("no parameters of {} come within {:.3g} %", name_of(e.target),
                                       100 * e.tolerance));

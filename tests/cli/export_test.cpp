@@ -1,4 +1,6 @@
 // gonio export: what it writes, what it says of it, what it refuses.
+#include <cmath>
+
 #include "cli/program.h"
 
 namespace gonio::test {
@@ -65,6 +67,51 @@ TEST(ExportCommand, WritesWhatKhronosValidatorFindsNoFaultWith) {
   beyond["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 1.5;
   f.write("beyond.gltf", beyond.dump());
   EXPECT_NE(validated(f, "beyond.gltf").find("VALUE_NOT_IN_RANGE"), std::string::npos);
+}
+
+TEST(ExportCommand, WritesExtensionsOfGltfWhereTheyMakeTheFitExpressible) {
+  const Folder f;
+  const auto exported = [&](const std::string& model, const std::string& parameters) {
+    f.write("fit.json", R"({"schema": "gonio.fit/1", "channels": ["r", "g", "b"], "model": ")" +
+                            model + R"(", "parameters": {)" + parameters + "}}");
+    const auto o = gonio(f, "export fit.json --to gltf -o m.gltf --json");
+    EXPECT_EQ(o.code, 0) << o.err;
+    if (std::filesystem::exists(GONIO_SOURCE_DIR "/build/gltf/node_modules/gltf-validator")) {
+      EXPECT_EQ(validated(f, "m.gltf").find("error"), std::string::npos) << validated(f, "m.gltf");
+      EXPECT_EQ(validated(f, "m.gltf").find("warning"), std::string::npos);
+    }
+    return o.json();
+  };
+  const auto extensions = [&] {
+    return nlohmann::json::parse(read_bytes(f / "m.gltf"))["materials"][0]["extensions"];
+  };
+  auto said = exported(
+      "lambert.coupled+ggx/smith_ggx.separable/schlick",
+      R"("alpha": {"value": 0.3}, "kd": {"value": [0.3, 0.2, 0.1]}, "f0": {"value": 0.08})");
+  EXPECT_LT(said["written"]["largest"], 1e-9);
+  EXPECT_NEAR(extensions()["KHR_materials_ior"]["ior"],
+              (1 + std::sqrt(0.08)) / (1 - std::sqrt(0.08)), 1e-9);
+  EXPECT_EQ(extensions().size(), 1U);
+
+  said =
+      exported("ggx_aniso/smith_ggx_aniso.correlated/schlick",
+               R"("alpha_x": {"value": 0.15}, "alpha_y": {"value": 0.4}, "tangent": {"value": 20},
+                     "f0": {"value": [0.9, 0.6, 0.3]})");
+  EXPECT_LT(said["written"]["largest"], 1e-9);
+  const auto strength =
+      extensions()["KHR_materials_anisotropy"]["anisotropyStrength"].get<double>();
+  EXPECT_NEAR(0.15 + (1 - 0.15) * strength * strength, 0.4, 1e-9);
+  EXPECT_NEAR(extensions()["KHR_materials_anisotropy"]["anisotropyRotation"],
+              110 * std::acos(-1) / 180, 1e-9);
+
+  said = exported(
+      "lambert+ggx/smith_ggx.separable/schlick.weighted+ggx/smith_ggx.separable/schlick.weighted",
+      R"("alpha": {"value": 0.5}, "kd": {"value": [0.3, 0.7, 0.1]}, "f0": {"value": [0.06, 0.08, 0.07]},
+                     "weight": {"value": 0.9}, "alpha_2": {"value": 0.1}, "f0_2": {"value": 0.04},
+                     "weight_2": {"value": 0.5})");
+  EXPECT_LT(said["written"]["rms"], 0.06);
+  EXPECT_TRUE(extensions().contains("KHR_materials_clearcoat"));
+  EXPECT_TRUE(extensions()["KHR_materials_specular"].contains("specularFactor"));
 }
 
 TEST(ExportCommand, SaysWhatGltfHasNot) {
