@@ -70,7 +70,7 @@ install_gltf_validator() {
   echo "Without gltf-validator: exported glTF is not held against its specification."
 }
 
-# Programs that exported materials are held against, and pictures compared with, in build/targets: Mitsuba, MaterialX with OpenGL
+# Programs that exported materials and RGL files are held against, and pictures compared with, in build/targets: Mitsuba, MaterialX with OpenGL
 # without a window, USD; without them that is left out.
 install_targets() {
   local at=build/targets
@@ -82,7 +82,7 @@ install_targets() {
       -r tests/cli/targets/requirements.txt 2>/dev/null; then
     return 0
   fi
-  echo "Without Mitsuba, MaterialX and USD from PyPI: exported materials and pictures are not compared with theirs."
+  echo "Without Mitsuba, MaterialX and USD from PyPI: exported materials, RGL files and pictures are not compared with theirs."
   return 1
 }
 

@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "brdf/model/evaluate.h"
 #include "table/format/formats.h"
+#include "table/format/rgl_resample.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -82,6 +83,8 @@ void lay_out(Table& t, const SynthOptions& o) {
       t.format = "exr";
       t.where = image_slice_grid(o.slice, o.slice, 90 * degree, o.bins);
       break;
+    case Layout::rgl:
+      break;  // rgl_of() lays it out
     case Layout::in_plane:
       t.format = "csv";
       t.where = in_plane();
@@ -97,6 +100,29 @@ void lay_out(Table& t, const SynthOptions& o) {
   }
 }
 
+Table rgl_of(const BoundModel& b, const SynthOptions& o) {
+  const std::size_t channels = b.model.channels;
+  if (channels != 1 && channels != 3)
+    throw wrong_usage(
+        fmt::format("an RGL table has 1 or 3 channels, the colours given have {}", channels));
+  if (b.model.anisotropic)
+    throw wrong_usage(fmt::format("model '{}' is anisotropic: layout rgl has one azimuth of light",
+                                  b.model.spec));
+  if (o.noise > 0 || o.outliers > 0)
+    throw wrong_usage(
+        "layout rgl is what renderers draw from and takes neither noise nor outliers");
+  const auto f = [&](const DirectionPair& p, std::size_t channel) {
+    return evaluate(b, std::vector{angles(p)})[channel][0] + o.floor;
+  };
+  std::vector<std::string> names{"f"};
+  std::vector<std::vector<double>> weight{{1}, {1}, {1}};
+  if (channels == 3) {
+    names = {"r", "g", "b"};
+    weight = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  }
+  return rgl_mixed(rgl_table(f, names, {}).table, {"r", "g", "b"}, false, weight);
+}
+
 }  // namespace
 
 Table synthesize(const BoundModel& b, const SynthOptions& o) {
@@ -108,6 +134,12 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
     throw wrong_usage(
         fmt::format("an MBSDF table has 1 or 3 channels, the colours given have {}", channels));
 
+  if (o.layout == Layout::rgl) {
+    Table t = rgl_of(b, o);
+    t.truth = Truth{b.model.spec, named_values(b), 0, o.floor, 0, o.seed};
+    t.notes.emplace_back("layout", name_of(o.layout));
+    return t;
+  }
   Table t;
   lay_out(t, o);
   for (std::size_t c = 0; c < channels; ++c)

@@ -19,13 +19,14 @@ enum class Layout {
   utia,  ///< 241 × 241 directions, θ by 15° to 75° and φ by 7.5°, of anisotropic models too; UTIA
          ///< binary, three channels
   in_plane,  ///< 5 incident angles × theta_o −85° to 85° by 1° in the plane of incidence; CSV
+  rgl,       ///< at the 32 × 64 × 64 points that rgl_table() chooses; RGL tensor file, r g b
   image_slice,  ///< 90 × 90 (or `slice`) over theta_h, theta_d at phi_d = 90°; OpenEXR
   hemisphere,   ///< 6 incident angles × theta_o by 5° × phi_o by 10°; CSV
   random        ///< half uniform over both hemispheres, half with theta_h log-uniform; CSV
 };
 template <>
-inline constexpr std::array<std::string_view, 7> names_of<Layout>{
-    "merl", "mbsdf", "utia", "in_plane", "image_slice", "hemisphere", "random"};
+inline constexpr std::array<std::string_view, 8> names_of<Layout>{
+    "merl", "mbsdf", "utia", "in_plane", "rgl", "image_slice", "hemisphere", "random"};
 
 struct SynthOptions {
   Layout layout = Layout::merl;
@@ -40,6 +41,7 @@ struct SynthOptions {
 
 /// Values below the horizon are 0 in the table (a format's writer marks them its way).  The same for
 /// a seed whatever the threads: every draw is a hash of seed, sample and channel.
+/// An RGL table is what renderers draw from and takes no noise: wrong_usage.
 Table synthesize(const BoundModel&, const SynthOptions&);
 
 }  // namespace gonio

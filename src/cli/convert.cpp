@@ -29,10 +29,11 @@ std::string format_of(const Options& o) {
   const auto extension = std::filesystem::path(o.output).extension().string();
   if (extension == ".binary") return "merl";
   if (extension == ".bin") return "utia";
+  if (extension == ".bsdf") return "rgl";
   if (extension == ".mbsdf" || extension == ".csv" || extension == ".exr")
     return extension.substr(1);
-  throw wrong_usage(
-      fmt::format("what {} is to be is not clear: --to merl, mbsdf, utia, csv or exr", o.output));
+  throw wrong_usage(fmt::format(
+      "what {} is to be is not clear: --to merl, mbsdf, utia, csv, exr or rgl", o.output));
 }
 
 std::string layout(const Table& t) {
@@ -84,8 +85,14 @@ void print(const Table& from, const Conversion& c, const Options& o) {
   line("from", layout(from));
   line("to", layout(c.table));
   line("values", method(from, l, o.convert.reach_deg) + (l.rounded ? ", rounded to float" : ""));
-  line("no data", fmt::format("{} of {} {} above the horizon", percent(l.without_data, l.bins),
-                              l.bins, c.table.grid() ? "bins" : "samples"));
+  line("no data",
+       fmt::format("{} of {} {} above the horizon{}", percent(l.without_data, l.bins), l.bins,
+                   c.table.grid() || l.method == Loss::Method::gathered ? "bins" : "samples",
+                   l.filled ? ": they have the value of the nearest that has one" : ""));
+  if (l.azimuth)
+    line("azimuth",
+         fmt::format("the surface turned changes f by {} on average", percent(*l.azimuth)));
+  if (l.to_spectra) line("channels", "as spectra");
   if (l.mirror)
     line("azimuth",
          fmt::format("φ and −φ averaged: their median difference is {}", percent(*l.mirror)));
@@ -108,6 +115,7 @@ void print(const Table& from, const Conversion& c, const Options& o) {
         "and back",
         fmt::format("RMS difference {}, largest {} (theta_i {:.1f}°, theta_o {:.1f}°, phi {:.1f}°)",
                     percent(l.rms), percent(l.largest), in, out, phi));
+    if (l.most) line("and back", fmt::format("99 % of the values within {}", percent(*l.most)));
     if (l.lost)
       line("and back",
            fmt::format("nothing for {} of the values", percent(l.lost, l.compared + l.lost)));
@@ -138,16 +146,20 @@ Json to_json(const Table& from, const Conversion& c, const Options& o) {
           {"bins_left_out", l.left_out},
           {"mirror_difference", maybe(l.mirror)},
           {"reciprocity_difference", maybe(l.reciprocity)},
+          {"bins_filled", l.filled ? l.without_data : 0},
+          {"azimuth_difference", maybe(l.azimuth)},
           {"one_phi_d", l.one_phi_d},
           {"rounded_to_float", l.rounded},
           {"channels_replicated", l.replicated},
           {"channels_dropped", l.dropped},
           {"channels_renamed", l.renamed},
+          {"channels_to_spectra", l.to_spectra},
           {"weights_dropped", l.weights_dropped},
           {"there_and_back",
            {{"compared", l.compared},
             {"lost", l.lost},
             {"rms", l.rms},
+            {"within_99_percent", maybe(l.most)},
             {"largest", l.largest},
             {"largest_at", largest_at}}}};
 }
@@ -182,19 +194,24 @@ void add_convert(CommandLine& line) {
   c.option("IN", o->input, "Table").required();
   c.option("OUT", o->output, "File to write").required();
   c.option("--to", o->convert.format,
-           "merl, mbsdf, utia, csv or exr (a slice); default: by OUT's ending, .binary being merl "
-           "and .bin utia")
-      .one_of({"merl", "mbsdf", "utia", "csv", "exr"});
+           "merl, mbsdf, utia, csv, exr (a slice) or rgl; default: by OUT's ending, .binary being "
+           "merl, .bin utia and .bsdf rgl")
+      .one_of({"merl", "mbsdf", "utia", "csv", "exr", "rgl"});
   c.option("--channels", o->channels, "Which, in this order: NAME,NAME,…");
   add_bins(c, o->bins);
   c.option("--to-bins", o->to_bins, "Where a sample sits in OUT's bins (default: as in IN)")
       .one_of({"centre", "edge"});
-  c.option("--theta", o->convert.n_theta, "Bins of theta_i and theta_o (mbsdf; default 45)")
+  c.option("--theta", o->convert.n_theta,
+           "Bins of theta_i and theta_o (mbsdf; default 45), or incident angles (rgl; default 32)")
       .in(1, 180);
   c.option("--phi", o->convert.n_phi, "Samples of phi over 0 to 180° (mbsdf; default 90)")
       .in(2, 721);
   c.option("--phi-d", o->convert.phi_d_deg, "phi_d of the slice in degrees (exr; default 90)")
       .in(0.0, 180.0);
+  c.option("--grid", o->convert.n_grid,
+           "Values along each side of the unit square (rgl; default 64)")
+      .in(4, 512);
+  c.flag("--spectral", o->convert.spectral, "Spectra in place of r, g, b (rgl): what pbrt reads");
   c.option("--reach", o->convert.reach_deg,
            "How far an empty bin looks for a sample of a list, in degrees")
       .in(0.0, 30.0)

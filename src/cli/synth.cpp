@@ -75,7 +75,8 @@ void add_synth(CommandLine& line) {
       run);
   c.option("MODEL", o->spec, spec_or_fit).required();
   add_set(c, o->set);
-  c.option("--layout", o->layout, "merl, mbsdf, utia, in_plane, image_slice, hemisphere or random")
+  c.option("--layout", o->layout,
+           "merl, mbsdf, utia, rgl, in_plane, image_slice, hemisphere or random")
       .one_of(names_of<Layout>)
       .required();
   add_bins(c, o->bins);

@@ -96,6 +96,40 @@ TEST(ConvertCommand, KeepsASideFileThatSomeoneWroteByHand) {
   EXPECT_EQ(gonio(f, "convert p.mbsdf o.csv").code, 0) << "its own side file is replaced";
 }
 
+TEST(ConvertCommand, WritesForRenderersThatReadRgl) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf -o p.mbsdf").code, 0);
+  const auto said = gonio(f, "convert p.mbsdf p.bsdf --grid 24 --theta 12");
+  ASSERT_EQ(said.code, 0) << said.err;
+  EXPECT_NE(said.out.find("99 % of the values within"), std::string::npos) << said.out;
+  EXPECT_EQ(gonio(f, "inspect p.bsdf --json").json()["format"], "rgl");
+  const auto document =
+      gonio(f, "convert p.mbsdf s --to rgl --grid 24 --theta 12 --spectral --json").json();
+  EXPECT_EQ(document["output"]["channels"].size(), 16U);
+  EXPECT_EQ(document["channels_to_spectra"], true);
+  EXPECT_GT(document["there_and_back"]["largest"], document["there_and_back"]["within_99_percent"]);
+  ASSERT_EQ(gonio(f, "convert p.bsdf again.bsdf --grid 24 --theta 12").code, 0)
+      << "and from one of these";
+  ASSERT_EQ(
+      gonio(f,
+            "synth ggx_aniso/smith_ggx_aniso.correlated/schlick --set alpha_x=0.35 alpha_y=0.2 "
+            "f0=0.6,0.5,0.4 --layout utia -o a.bin")
+          .code,
+      0);
+  const auto entries = f.entries();
+  expect_one_line_each(f, 3,
+                       {{"convert a.bin o.bsdf", "as the surface is turned"},
+                        {"convert p.mbsdf no/such/o.bsdf", "writing"}});
+  expect_one_line_each(f, 2,
+                       {{"convert p.mbsdf o.bsdf --theta 180 --grid 512", "--grid"},
+                        {"convert p.mbsdf o.bsdf --theta 1", "--theta 2"},
+                        {"convert p.mbsdf o.bsdf --grid 2", "--grid"},
+                        {"convert p.mbsdf o.bsdf --channels r,g", "wavelengths"}});
+  EXPECT_EQ(f.entries(), entries) << "nothing half written";
+  EXPECT_EQ(gonio(f, "convert p.mbsdf o.bsdf", "ulimit -f 100;").code, 3);
+  EXPECT_EQ(f.entries(), entries);
+}
+
 TEST(ConvertCommand, GivesTheSameFileAndFiguresWhateverTheThreads) {
   const Folder f;
   ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf --noise 0.1 -o p.mbsdf").code,

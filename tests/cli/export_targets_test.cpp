@@ -1,4 +1,4 @@
-// gonio export, held against the targets' own code: f of the written file is as far from the fit as
+// gonio export and convert, held against the targets' own code: f of the written file is as far from the fit as
 // the exporter says.
 #include <cmath>
 #include <fstream>
@@ -267,6 +267,15 @@ TEST_P(ExportOf, AFitWritesAFileThatIsReadAsTheFit) {
   if (xml.starts_with('#')) return;
   const auto begin = xml.find("{"), end = xml.find("-->");
   EXPECT_EQ(nlohmann::ordered_json::parse(xml.substr(begin, end - begin)), named);
+}
+
+TEST(ConvertCommand, WritesRglFilesThatMitsubaEvaluatesAndDrawsFrom) {
+  GONIO_NEEDS("mitsuba");
+  const Folder f;
+  const std::string command =
+      python + " " + source + "/tests/cli/targets/rgl_in_mitsuba.py " GONIO_PROGRAM +
+      (std::getenv("GONIO_LONG") ? " --long" : "") + " > " + (f / "said.txt") + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << read_bytes(f / "said.txt");
 }
 
 }  // namespace

@@ -8,8 +8,12 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/numbers.h"
 #include "base/quantile.h"
+#include "table/convert/isotropy.h"
+#include "table/convert/rgb_spectra.h"
 #include "table/format/formats.h"
+#include "table/format/rgl_resample.h"
 #include "table/nearest_sample.h"
 
 #include <fmt/format.h>
@@ -47,13 +51,25 @@ void for_each_chunk(std::size_t n, F f) {
                     [&](std::size_t k) { f(k * kChunk, std::min(n, (k + 1) * kChunk)); });
 }
 
+/// The wavelength [nm] that a channel is named after.
+std::optional<double> wavelength(const std::string& channel) {
+  const auto nm = number_from<double>(channel);
+  return nm && *nm > 0 && std::isfinite(*nm) ? nm : std::nullopt;
+}
+bool is_spectrum(const std::vector<std::string>& channels) {
+  return channels.size() > 1 &&
+         std::ranges::all_of(channels, [](const auto& c) { return wavelength(c).has_value(); });
+}
+
 Table with_channels(const Table& t, const ConvertOptions& o, Loss& loss) {
   Table out;
   out.format = o.format;
   out.where = t.where;
   out.negative_is_noise = t.negative_is_noise;
   std::vector<std::size_t> picked;
-  const auto& wanted = o.channels.empty() ? t.channels : o.channels;
+  auto wanted = o.channels.empty() ? t.channels : o.channels;
+  const bool spectrum = o.format == "rgl" && is_spectrum(wanted);
+  if (spectrum) std::ranges::stable_sort(wanted, {}, wavelength);
   for (const auto& name : wanted) {
     const auto at = std::ranges::find(t.channels, name);
     if (at == t.channels.end())
@@ -70,12 +86,13 @@ Table with_channels(const Table& t, const ConvertOptions& o, Loss& loss) {
     };
   for (const auto& name : t.channels)
     if (std::ranges::find(out.channels, name) == out.channels.end()) loss.dropped.push_back(name);
-  if (o.format == "csv" || o.format == "exr") return out;
+  if (o.format == "csv" || o.format == "exr" || spectrum) return out;
   const std::size_t n = out.channels.size();
   if (n != 1 && n != 3)
-    throw wrong_usage(fmt::format("{} holds one channel or three: --channels takes them of {}",
-                                  o.format, fmt::join(t.channels, ", ")));
-  loss.replicated = n == 1 && (o.format == "merl" || o.format == "utia");
+    throw wrong_usage(fmt::format("{} holds one channel or three{}: --channels takes them of {}",
+                                  o.format, o.format == "rgl" ? ", or wavelengths" : "",
+                                  fmt::join(t.channels, ", ")));
+  loss.replicated = n == 1 && (o.format == "merl" || o.format == "utia" || o.format == "rgl");
   const std::vector<std::string> rgb{"r", "g", "b"};
   if (n == 3 && out.channels != rgb) loss.renamed = std::exchange(out.channels, rgb);
   if (n == 1) out.channels = {"f"};
@@ -279,13 +296,19 @@ void count_bins(const Table& t, Loss& loss) {
 
 void there_and_back(const Table& from, const Table& to, Loss& loss) {
   const Interpolator back(to);
+  const RglFunction rgl = to.format == "rgl" ? rgl_function(to) : nullptr;
   const SampleAngles at(from);
   const auto returned = [&](std::size_t i, std::size_t c) {
+    if (rgl) {
+      const auto p = at.directions(i);
+      return std::min(p.wi.z, p.wo.z) >= least_cosine ? rgl(p, c) : kNone;
+    }
     if (loss.method == Loss::Method::listed) return from.values[c][i];
     if (loss.method == Loss::Method::copied) return to.values[c][i];
     return back(at.directions(i), c);
   };
   std::vector<Loss> parts((from.size() + kChunk - 1) / kChunk);  // summed in order: the same bits
+  std::vector<std::vector<double>> differences(rgl ? parts.size() : 0);
   for_each_chunk(from.size(), [&](std::size_t first, std::size_t last) {
     Loss& here = parts[first / kChunk];
     for (std::size_t i = first; i < last; ++i)
@@ -301,6 +324,7 @@ void there_and_back(const Table& from, const Table& to, Loss& loss) {
         ++here.compared;
         here.rms += d * d;
         if (d > here.largest) here.largest = d, here.largest_at = i;
+        if (rgl) differences[first / kChunk].push_back(d);
       }
   });
   for (const Loss& part : parts) {
@@ -310,6 +334,96 @@ void there_and_back(const Table& from, const Table& to, Loss& loss) {
     if (part.largest > loss.largest) loss.largest = part.largest, loss.largest_at = part.largest_at;
   }
   if (loss.compared) loss.rms = std::sqrt(loss.rms / static_cast<double>(loss.compared));
+  std::vector<double> all;
+  for (const auto& part : differences) all.insert(all.end(), part.begin(), part.end());
+  if (!all.empty()) loss.most = quantile(all, 0.99);
+}
+
+/// Mean of the channels' function over eight turns about the normal.
+RglFunction turned_mean(const Table& from) {
+  return [&from](const DirectionPair& p, std::size_t channel) {
+    double sum = 0;
+    int count = 0;
+    for (int k = 0; k < 8; ++k) {
+      const double c = std::cos(45 * k * degree), s = std::sin(45 * k * degree);
+      const auto turned = [&](const Direction& d) {
+        return Direction{c * d.x - s * d.y, s * d.x + c * d.y, d.z};
+      };
+      const double v = from.between({turned(p.wi), turned(p.wo)}, channel);
+      if (std::isfinite(v)) sum += v, ++count;
+    }
+    return count ? sum / count : kNone;
+  };
+}
+
+/// \param from  with the channels wanted
+Conversion to_rgl(const Table& from, const ConvertOptions& o, Loss loss) {
+  loss.azimuth = change_with_azimuth(from);
+  if (loss.azimuth && *loss.azimuth > most_change)
+    throw bad_input(
+        from.path, "converting",
+        fmt::format("f that changes by {:.3g} % as the surface is turned", 100 * *loss.azimuth),
+        fmt::format("{:g} % at most: an isotropic RGL file has one azimuth of light",
+                    100 * most_change));
+  const RglSizes sizes{o.n_theta.value_or(RglSizes{}.n_theta), o.n_grid.value_or(RglSizes{}.n)};
+  if (sizes.n_theta < 2)
+    throw wrong_usage("an RGL file has two incident angles or more: --theta 2");
+  const bool spectrum = is_spectrum(from.channels), one = from.channels.size() == 1;
+  loss.to_spectra = o.spectral && !spectrum;
+  const std::size_t channels = spectrum      ? from.channels.size()
+                               : !o.spectral ? 3
+                               : one         ? 2
+                                             : rgb_bands;
+  if (const auto numbers = rgl_numbers(channels, sizes); numbers > most_values)
+    throw wrong_usage(
+        fmt::format("{} incident angles × {} × {} values × {} channels are {} numbers with their "
+                    "angles, at most {}: "
+                    "a smaller --grid or --theta, or fewer --channels",
+                    sizes.n_theta, sizes.n, sizes.n, channels, numbers, most_values));
+  RglTable made;
+  if (!from.grid() && !from.between) {
+    Table grid;
+    grid.format = "mbsdf";
+    grid.channels = from.channels;
+    grid.where = mbsdf_grid(45, 90, from.bins());
+    grid.values.assign(from.values.size(), Values(grid.grid()->size(), kNone));
+    gather(from, grid, o.reach_deg, loss);
+    count_bins(grid, loss);
+    made = rgl_table(Interpolator(grid), from.channels, sizes);
+  } else {
+    loss.method = Loss::Method::interpolated;
+    loss.one_phi_d = from.grid() && is_slice(*from.grid());
+    made = loss.azimuth.value_or(0) > 1e-6 ? rgl_table(turned_mean(from), from.channels, sizes)
+                                           : rgl_table(Interpolator(from), from.channels, sizes);
+    loss.bins = made.nodes;
+    loss.without_data = made.without_data;
+  }
+  loss.filled = loss.without_data > 0;
+  loss.rounded = true;
+  there_and_back(from, made.table, loss);
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> weight;
+  if (spectrum) {
+    for (std::size_t c = 0; c < channels; ++c) {
+      names.push_back(fmt::format("{:.6g}", *wavelength(from.channels[c])));
+      if (c > 0 && names[c] == names[c - 1])
+        throw wrong_usage(fmt::format("two channels of wavelength {} nm", names[c]));
+      weight.emplace_back(channels);
+      weight.back()[c] = 1;
+    }
+  } else if (!o.spectral) {
+    names = {"r", "g", "b"};
+    weight =
+        one ? decltype(weight){{1}, {1}, {1}} : decltype(weight){{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  } else {
+    for (std::size_t band = 0; band < rgb_bands; band += one ? rgb_bands - 1 : 1) {
+      names.push_back(fmt::format("{:g}", rgb_band_nm(band)));
+      weight.push_back(
+          one ? std::vector<double>{1}
+              : std::vector<double>(rgb_spectra[band].begin(), rgb_spectra[band].end()));
+    }
+  }
+  return {rgl_mixed(made.table, names, spectrum || o.spectral, weight), std::move(loss)};
 }
 
 /// Turns values into those that the format will hold: in float, and with its mark for "no data".
@@ -330,6 +444,10 @@ Conversion convert(const Table& source, const ConvertOptions& o) {
   Loss& loss = result.loss;
   Table from = with_channels(source, o, loss);
   from.path = source.path;
+  if (o.format == "rgl") {
+    loss.weights_dropped = !source.weights.empty();
+    return to_rgl(from, o, std::move(loss));
+  }
   loss.rounded = o.format == "mbsdf" || o.format == "exr";
   const bool to_list = o.format == "csv", to_utia = o.format == "utia";
   const std::optional<Grid> grid =

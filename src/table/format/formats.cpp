@@ -44,8 +44,10 @@ void write_by_format(const Table& t, OutputFile& out, const std::string& path) {
   if (t.format == "merl") return write_merl(t, out, path);
   if (t.format == "mbsdf") return write_mbsdf(t, out, path);
   if (t.format == "utia") return write_utia(t, out, path);
+  if (t.format == "rgl") return write_rgl(t, out, path);
   if (t.format == "csv") return write_csv(t, out);
-  throw wrong_usage("unknown table format '" + t.format + "': use csv, merl, mbsdf, utia or exr");
+  throw wrong_usage("unknown table format '" + t.format +
+                    "': use csv, merl, mbsdf, utia, exr or rgl");
 }
 
 }  // namespace

@@ -30,4 +30,8 @@ bool is_rgl(std::string_view head);
 /// [Dupuy and Jakob 2018, doi:10.1145/3272127.3275059]
 Table read_rgl(InputFile&);
 
+/// The file of a table that read_rgl() or rgl_table() made, with the `luminance` that renderers draw by: Rec. 709's of r, g, b,
+/// the mean of wavelengths.  Little is lost where a renderer's random numbers are few: it is the density of f cos θ_o itself.
+void write_rgl(const Table&, OutputFile&, const std::string& path);
+
 }  // namespace gonio

@@ -72,6 +72,7 @@ class Warp {
   Point sample(std::size_t slice, const Point&) const;
   /// Inverse of sample() for densities mixed.
   Point invert(const Mix&, const Point&) const;
+  const Image& density() const { return density_; }
 
  private:
   void sums(const float* d, double* rows, double* marginal) const;

@@ -97,4 +97,53 @@ void TensorFile::fail(std::string_view field,
   throw bad_input(in_.path(), fmt::format("field {}", field), found, expected);
 }
 
+namespace {
+
+/// Data begin at multiples of it, as in RGL's own files.
+constexpr std::uint64_t aligned = 8;
+
+template <class T>
+void append(std::string& to, T value) {
+  to.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+}  // namespace
+
+void TensorWriter::bytes(std::string name, std::string_view text) {
+  fields_.push_back({{std::move(name), Tensor::bytes, 0, {text.size()}}, text});
+}
+
+void TensorWriter::floats(std::string name,
+                          std::vector<std::uint64_t> shape,
+                          std::span<const float> values) {
+  fields_.push_back({{std::move(name), Tensor::floats, 0, std::move(shape)},
+                     {reinterpret_cast<const char*>(values.data()), values.size_bytes()}});
+}
+
+void TensorWriter::write(OutputFile& out) const {
+  const auto padded = [](std::uint64_t n) { return (n + aligned - 1) / aligned * aligned; };
+  std::uint64_t offset = tensor_magic.size() + 6;
+  for (const auto& f : fields_) offset += 13 + f.head.name.size() + 8 * f.head.shape.size();
+  std::string head(tensor_magic);
+  head += std::string_view("\1\0", 2);
+  append(head, static_cast<std::uint32_t>(fields_.size()));
+  for (const auto& f : fields_) {
+    offset = padded(offset);
+    append(head, static_cast<std::uint16_t>(f.head.name.size()));
+    head += f.head.name;
+    append(head, static_cast<std::uint16_t>(f.head.shape.size()));
+    append(head, f.head.type);
+    append(head, offset);
+    for (const auto n : f.head.shape) append(head, n);
+    offset += f.data.size();
+  }
+  out.write(head);
+  std::uint64_t at = head.size();
+  for (const auto& f : fields_) {
+    out.write(std::string_view("\0\0\0\0\0\0\0", padded(at) - at));
+    out.write(f.data);
+    at = padded(at) + f.data.size();
+  }
+}
+
 }  // namespace gonio

@@ -3,6 +3,7 @@
 /// Tensor files, the container of the RGL's measurements: named fields of bytes or floats.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,22 @@ class TensorFile {
 
   InputFile& in_;
   std::vector<Tensor> tensors_;
+};
+
+/// The fields of a file to be, written one after the other.
+class TensorWriter {
+ public:
+  void bytes(std::string name, std::string_view text);
+  void floats(std::string name, std::vector<std::uint64_t> shape, std::span<const float> values);
+  /// \pre what was handed in is still there
+  void write(OutputFile&) const;
+
+ private:
+  struct Field {
+    Tensor head;
+    std::string_view data;
+  };
+  std::vector<Field> fields_;
 };
 
 }  // namespace gonio
