@@ -24,6 +24,7 @@
 #include <sstream>
 
 #include "base/text.h"
+#include "cli/outside.h"
 #include "cli/program.h"
 #include "image/exr.h"
 #include "reports/plain.h"
@@ -335,6 +336,14 @@ TEST_P(Page, IsRunAsWrittenAndPrintsWhatItShows) {
     }
   for (const auto& [at, code] : expected)
     EXPECT_TRUE(found.contains(at)) << GetParam() << ":" << at << ": no exit " << code;
+  for (const auto& e :
+       fs::directory_iterator(f / ""))  // what was exported, by its target's own code
+    if (const auto name = e.path().filename().string();
+        name.ends_with(".gltf") || name.ends_with(".mtlx") || name.ends_with(".usda")) {
+      const auto faults = outside_faults(f, name);
+      if (!faults) std::cout << GetParam() << ": " << name << " is not looked at: run ./check\n";
+      EXPECT_EQ(faults.value_or(""), "") << name;
+    }
   for (std::size_t k = 0, r = 0; k < document.blocks.size() && r < ran.size(); ++k) {
     if (&document.blocks[k] != ran[r]) continue;
     const std::string out = printed(r++);

@@ -1,10 +1,11 @@
-// gonio export and convert, held against the targets' own code: f of the written file is as far from the fit as
-// the exporter says.
+// gonio export and convert, held against the targets' own code: f of the written file is as far
+// from the fit as the exporter says.
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 #include "brdf/model/evaluate.h"
 #include "brdf/model/fitted_model.h"
+#include "cli/outside.h"
 #include "cli/program.h"
 #include "fitting/export/export.h"
 #include "geometry/half_difference.h"
@@ -14,19 +15,8 @@
 namespace gonio::test {
 namespace {
 
-const std::string source = GONIO_SOURCE_DIR;
-const std::string python = source + "/build/targets/bin/python";
-
-/// Whether there is a package of the environment that ./check makes.
-bool has(const std::string& package) {
-  for (const auto& lib : std::filesystem::directory_iterator(source + "/build/targets/lib"))
-    if (std::filesystem::exists(lib.path() / "site-packages" / package)) return true;
-  return false;
-}
-#define GONIO_NEEDS(package)                                                                    \
-  if (!std::filesystem::exists(python) || !has(package))                                        \
-  GTEST_SKIP() << "the Python package " << package << " is not in build/targets: run ./check, " \
-               << "which fetches it"
+#define GONIO_NEEDS(there, what) \
+  if (!(there)) GTEST_SKIP() << what << " is not in build/targets: run ./check, which fetches it"
 
 /// Document of a fit without all that an export does not read.
 void write_fit(const Folder& f, const std::string& model, const std::string& set) {
@@ -61,12 +51,9 @@ F values_of_target(const Folder& f, const std::string& script, const std::string
   for (const auto& [i, o] : judged_directions())
     pairs += fmt::format("{} {} {} {} {} {}\n", i.x, i.y, i.z, o.x, o.y, o.z);
   f.write("pairs.txt", pairs);
-  const std::string command = python + " " + source + "/tests/cli/targets/" + script + " " +
-                              (f / file) + " " + (f / "pairs.txt") + " > " + (f / "f.txt") +
-                              " 2> " + (f / "said.txt");
-  const int code = std::system(command.c_str());
-  EXPECT_EQ(code, 0) << read_bytes(f / "said.txt");
-  std::ifstream in(f / "f.txt");
+  const auto o = outside(f, script, (f / file) + " " + (f / "pairs.txt"));
+  EXPECT_EQ(o.code, 0) << o.err;
+  std::istringstream in(o.out);
   F rows;
   for (std::array<double, 3> x; in >> x[0] >> x[1] >> x[2];) rows.push_back(x);
   EXPECT_EQ(rows.size(), export_directions);
@@ -120,7 +107,7 @@ struct Held {
 };
 
 TEST(ExportToMitsuba, IsInMitsubaAsFarFromTheFitAsItSays) {
-  GONIO_NEEDS("mitsuba");
+  GONIO_NEEDS(has_outside("mitsuba"), "Mitsuba");
   const Folder f;
   const Held held{f, "mitsuba", "m.xml", "mitsuba_values.py"};
   const auto metal =
@@ -142,7 +129,7 @@ TEST(ExportToMitsuba, IsInMitsubaAsFarFromTheFitAsItSays) {
 }
 
 TEST(ExportToMitsuba, ShowsAWrongFactorInMitsuba) {
-  GONIO_NEEDS("mitsuba");
+  GONIO_NEEDS(has_outside("mitsuba"), "Mitsuba");
   const Folder f;
   const Held held{f, "mitsuba", "m.xml", "mitsuba_values.py"};
   held("lambert+ggx/smith_ggx.separable/conductor.weighted",
@@ -160,17 +147,8 @@ TEST(ExportToMitsuba, ShowsAWrongFactorInMitsuba) {
   EXPECT_GT(held.rms_with("value=\"ggx\"", "value=\"beckmann\""), 0.05);
 }
 
-/// Whether OpenGL runs without a window.
-#define GONIO_NEEDS_MATERIALX()                                                                 \
-  GONIO_NEEDS("MaterialX");                                                                     \
-  GONIO_NEEDS("moderngl");                                                                      \
-  if (std::system((python + " -c 'import moderngl; "                                            \
-                            "moderngl.create_standalone_context(backend=\"egl\")' 2>/dev/null") \
-                      .c_str()) != 0)                                                           \
-  GTEST_SKIP() << "OpenGL does not run without a window here: no libegl1 with llvmpipe"
-
 TEST(ExportToMaterialX, StandardSurfaceIsAsFarFromTheFitAsItSays) {
-  GONIO_NEEDS_MATERIALX();
+  GONIO_NEEDS(has_materialx(), "MaterialX with OpenGL");
   const Folder f;
   const Held held{f, "standard_surface", "m.mtlx", "materialx_values.py", 2e-4};
   const auto metal = held("ggx_aniso/smith_ggx_aniso.correlated/conductor",
@@ -185,7 +163,7 @@ TEST(ExportToMaterialX, StandardSurfaceIsAsFarFromTheFitAsItSays) {
 }
 
 TEST(ExportToMaterialX, OpenPbrIsAsFarFromTheFitAsItSays) {
-  GONIO_NEEDS_MATERIALX();
+  GONIO_NEEDS(has_materialx(), "MaterialX with OpenGL");
   const Folder f;
   const Held held{f, "open_pbr", "m.mtlx", "materialx_values.py", 2e-4};
   const auto metal = held("ggx_aniso/smith_ggx_aniso.correlated/f82",
@@ -198,7 +176,7 @@ TEST(ExportToMaterialX, OpenPbrIsAsFarFromTheFitAsItSays) {
 }
 
 TEST(ExportToMaterialX, ShowsAWrongFactorInMaterialX) {
-  GONIO_NEEDS_MATERIALX();
+  GONIO_NEEDS(has_materialx(), "MaterialX with OpenGL");
   const Folder f;
   const Held held{f, "open_pbr", "m.mtlx", "materialx_values.py", 2e-4};
   const auto right =
@@ -216,11 +194,13 @@ TEST(ExportToMaterialX, ShowsAWrongFactorInMaterialX) {
   EXPECT_GT(held.rms_with(color, "name=\"base_color\" type=\"color3\" value=\"0.08, 0.08, 0.08\""),
             10 * rms)
       << "divided by pi twice";
+  std::string text = read_bytes(f / "m.mtlx");
+  f.write("named.mtlx", text.replace(text.find("base_color\""), 10, "base_colour"));
+  EXPECT_NE(outside_faults(f, "named.mtlx"), "") << "an input that OpenPBR has not";
 }
 
 TEST(ExportToUsd, PreviewSurfaceIsAsFarFromTheFitAsItSays) {
-  GONIO_NEEDS_MATERIALX();
-  GONIO_NEEDS("pxr");
+  GONIO_NEEDS(has_materialx() && has_outside("pxr"), "USD, or MaterialX with OpenGL,");
   const Folder f;
   const Held held{f, "usd_preview", "m.usda", "usd_values.py", 2e-4};
   held("lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/dielectric.weighted",
@@ -231,10 +211,7 @@ TEST(ExportToUsd, PreviewSurfaceIsAsFarFromTheFitAsItSays) {
     const auto at = text.find(found, text.find("def "));
     EXPECT_NE(at, text.npos) << found;
     f.write("fault.usda", text.replace(at, found.size(), by));
-    const std::string command = python + " " + source + "/tests/cli/targets/usd_values.py " +
-                                (f / "fault.usda") + " /dev/null 2> " + (f / "said.txt");
-    EXPECT_NE(std::system(command.c_str()), 0);
-    return read_bytes(f / "said.txt");
+    return outside_faults(f, "fault.usda").value_or("");
   };
   EXPECT_NE(said_of("inputs:roughness", "inputs:rougness").find("has not: rougness"),
             std::string::npos);
@@ -270,12 +247,11 @@ TEST_P(ExportOf, AFitWritesAFileThatIsReadAsTheFit) {
 }
 
 TEST(ConvertCommand, WritesRglFilesThatMitsubaEvaluatesAndDrawsFrom) {
-  GONIO_NEEDS("mitsuba");
+  GONIO_NEEDS(has_outside("mitsuba"), "Mitsuba");
   const Folder f;
-  const std::string command =
-      python + " " + source + "/tests/cli/targets/rgl_in_mitsuba.py " GONIO_PROGRAM +
-      (std::getenv("GONIO_LONG") ? " --long" : "") + " > " + (f / "said.txt") + " 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0) << read_bytes(f / "said.txt");
+  const auto o = outside(f, "rgl_in_mitsuba.py",
+                         GONIO_PROGRAM + std::string(std::getenv("GONIO_LONG") ? " --long" : ""));
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
 }
 
 }  // namespace
