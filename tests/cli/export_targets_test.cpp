@@ -199,6 +199,51 @@ TEST(ExportToMaterialX, ShowsAWrongFactorInMaterialX) {
   EXPECT_NE(outside_faults(f, "named.mtlx"), "") << "an input that OpenPBR has not";
 }
 
+// Another surface reads glTF's parameters here, whose equations are a few percent from glTF's own.
+TEST(ExportToGltf, IsNearTheFitInAnotherProgramAndFarWithAWrongFactor) {
+  GONIO_NEEDS(has_materialx(), "MaterialX with OpenGL");
+  const Folder f;
+  const auto rms_of = [&](const std::string& model, const std::string& set) {
+    write_fit(f, model, set);
+    const auto o = gonio(f, "export fit.json --to gltf -o m.gltf");
+    EXPECT_EQ(o.code, 0) << o.err;
+    return distance(values_of_target(f, "gltf_values.py", "m.gltf"), values_of_fit(f)).rms;
+  };
+  const auto rms_with = [&](auto&& change) {
+    auto document = nlohmann::json::parse(read_bytes(f / "m.gltf"));
+    change(document["materials"][0]);
+    f.write("fault.gltf", document.dump());
+    return distance(values_of_target(f, "gltf_values.py", "fault.gltf"), values_of_fit(f)).rms;
+  };
+  EXPECT_LT(rms_of("ggx_aniso/smith_ggx_aniso.correlated/schlick",
+                   "alpha_x=0.05,alpha_y=0.12,f0=0.9,0.6,0.3,tangent=20"),
+            0.1);
+  EXPECT_GT(rms_with([](auto& m) {
+              auto& a = m["extensions"]["KHR_materials_anisotropy"]["anisotropyRotation"];
+              a = -a.template get<double>();
+            }),
+            0.2)
+      << "clockwise";
+  EXPECT_LT(rms_of("lambert.coupled+ggx/smith_ggx.separable/schlick.weighted+ggx/"
+                   "smith_ggx.separable/schlick.weighted",
+                   "alpha=0.15,weight=1,kd=0.3,0.2,0.1,f0=0.02,0.04,0.08,alpha_2=0.03,f0_2=0.04,"
+                   "weight_2=0.4"),
+            0.1)
+      << "coated";
+  const double right = rms_of("lambert.coupled+ggx/smith_ggx.separable/schlick",
+                              "alpha=0.3,kd=0.3,0.2,0.1,f0=0.02,0.04,0.08");
+  EXPECT_LT(right, 0.15);
+  EXPECT_GT(rms_with([](auto& m) { m["pbrMetallicRoughness"]["roughnessFactor"] = 0.3; }),
+            2 * right)
+      << "alpha for roughness";
+  EXPECT_GT(rms_with([](auto& m) {
+              for (auto& x : m["pbrMetallicRoughness"]["baseColorFactor"])
+                x = x.template get<double>() / 3.14159;
+            }),
+            2 * right)
+      << "divided by pi twice";
+}
+
 TEST(ExportToUsd, PreviewSurfaceIsAsFarFromTheFitAsItSays) {
   GONIO_NEEDS(has_materialx() && has_outside("pxr"), "USD, or MaterialX with OpenGL,");
   const Folder f;
