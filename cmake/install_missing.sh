@@ -59,6 +59,27 @@ install_prover() {
   echo "Without Gappa: no bound of a relative error is proved."
 }
 
+# glslang, SPIRV-Tools and a software Vulkan, which emitted shaders are compiled, looked at and run with; without them those tests
+# are skipped.
+install_vulkan() {
+  if command -v apt-get >/dev/null; then
+    (gonio_tools=(glslangValidator:glslang-tools spirv-val:spirv-tools)
+      gonio_libraries=(libvulkan-dev mesa-vulkan-drivers); install_missing) && return 0
+  fi
+  echo "Without glslang, SPIRV-Tools and a driver of Vulkan: emitted shaders are not run."
+}
+
+# Compilers of WGSL and Slang, which emitted shaders are held against, in build/shading; without them that is left out.
+install_shading() {
+  local at=build/shading
+  if [ -e "$at/whole" ] || { { [ -x "$at/bin/pip" ] || python3 -m venv "$at" >/dev/null 2>&1; } &&
+    "$at/bin/pip" install -qq --disable-pip-version-check --require-hashes --only-binary :all: -r tests/shader/languages.txt 2>/dev/null &&
+    touch "$at/whole"; }; then
+    return 0
+  fi
+  echo "Without wgpu and slangpy: emitted WGSL and Slang are not compiled."
+}
+
 # Khronos' validator of glTF, which exported files are held against, in build/gltf; without it that test is skipped.
 install_gltf_validator() {
   local at=build/gltf

@@ -34,6 +34,7 @@ void add_report(CommandLine&);
 void add_stability(CommandLine&);
 void add_validate(CommandLine&);
 void add_export(CommandLine&);
+void add_shader(CommandLine&);
 void add_plan(CommandLine&);
 void add_verify(CommandLine&);
 void add_render(CommandLine&);

@@ -73,6 +73,7 @@ int main(int argc, char** argv) {
   gonio::cli::add_stability(line);
   gonio::cli::add_validate(line);
   gonio::cli::add_export(line);
+  gonio::cli::add_shader(line);
   gonio::cli::add_report(line);
   gonio::cli::add_bench(line);
   gonio::cli::add_plan(line);

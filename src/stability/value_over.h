@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A subject's value over a number of any kind: enclosures, scripts, numbers that round as they are told.
+/// A subject's value over a number of any kind: enclosures, scripts, graphs, numbers that round as they are told.
 
 #include <optional>
 #include <span>
@@ -13,31 +13,21 @@
 
 namespace gonio::stability {
 
-/// Term of a model, its parameters among the model's.
+/// One channel of a model by the product rule (brdf/term/product.h).
+///
+/// \param term  value of a term: TermUse → Quotient<T>, asked for each once, in the model's order
 template <class T>
-Quotient<T> value_over(const TermUse& use,
-                       const Model& model,
-                       std::span<const T> parameters,
-                       const FrameAngles<T>& angles) {
-  std::vector<T> own;
-  for (const auto k : use.parameters) own.push_back(parameters[model.parameters[k].first]);
-  return term_function<T>(use.term)(own, angles);
-}
-
-/// Model of one channel, by the product rule (brdf/term/product.h).
-template <class T>
-T value_over(const Model& model, std::span<const T> parameters, const FrameAngles<T>& angles) {
+T value_of_terms(const Model& model, auto&& term) {
   std::optional<T> sum, under;
   const auto add = [](std::optional<T>& to, const T& x) { to = to ? T(*to + x) : x; };
   for (const auto& use : model.diffuse) {
-    const T x = value_over(use, model, parameters, angles).value();
+    const T x = Quotient<T>(term(use)).value();
     add(sum, x);
     if (catalogue()[use.term].coupled) add(under, x);
   }
   for (const auto& lobe : model.lobes) {
-    const auto dv = value_over(lobe.ndf, model, parameters, angles) *
-                    value_over(lobe.masking, model, parameters, angles);
-    const auto fresnel = value_over(lobe.fresnel, model, parameters, angles);
+    const Quotient<T> d = term(lobe.ndf), v = term(lobe.masking), dv = d * v;
+    const Quotient<T> fresnel = term(lobe.fresnel);
     const bool coupled = under && &lobe == &model.lobes.front();
     if (coupled)
       sum = lobe_on(*sum, *under, One{}, dv.value(), fresnel.value());
@@ -45,6 +35,16 @@ T value_over(const Model& model, std::span<const T> parameters, const FrameAngle
       add(sum, lobe_on(Zero{}, Zero{}, One{}, dv, fresnel).value());
   }
   return *sum;
+}
+
+/// Model of one channel.  \param parameters  in the order of its values
+template <class T>
+T value_over(const Model& model, std::span<const T> parameters, const FrameAngles<T>& angles) {
+  return value_of_terms<T>(model, [&](const TermUse& use) {
+    std::vector<T> own;
+    for (const auto k : use.parameters) own.push_back(parameters[model.parameters[k].first]);
+    return term_function<T>(use.term)(own, angles);
+  });
 }
 
 /// Subject at inputs in its order.

@@ -16,6 +16,7 @@
 #include "scene/description/scene_example.h"
 #include "scene/plan/document.h"
 #include "scene/plan/verify.h"
+#include "shader/shader.h"
 #include "stability/answer.h"
 #include "table/format/metadata.h"
 #include "table/health/health.h"
@@ -52,6 +53,7 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
                                    {"choice", choice_schema()},
                                    {"validation", validation_schema()},
                                    {"export", export_schema()},
+                                   {"shader", shader::shader_schema()},
                                    {"models", models_schema()},
                                    {"models.page", models_page_schema()},
                                    {"fit.page", fit_page_schema()},

@@ -1,0 +1,104 @@
+// gonio shader: a term or a model as a shader's source.
+#include "shader/shader.h"
+
+#include <algorithm>
+
+#include "base/file.h"
+#include "brdf/catalogue/registry.h"
+#include "cli/command.h"
+#include "cli/model_argument.h"
+#include "cli/terminal.h"
+#include "shader/evidence.h"
+
+#include <fmt/format.h>
+
+namespace gonio::cli {
+namespace {
+
+struct Options : Common {
+  std::string subject, language, precision = "float", name = "brdf";
+  std::vector<std::string> set, inputs, derivatives;
+  std::optional<std::string> output;
+  bool without_evidence = false;
+};
+
+/// Term of that id, prefix included; a spec that is one word means the model.
+std::optional<std::size_t> term_named(const std::string& subject) {
+  const auto terms = catalogue();
+  const auto at = std::ranges::find(terms, subject, &TermEntry::id);
+  if (at == terms.end()) return {};
+  return static_cast<std::size_t>(at - terms.begin());
+}
+
+shader::TracedFormula traced(const Options& o) {
+  const auto precision = value_of<shader::Precision>(o.precision, "precision");
+  if (const auto term = term_named(o.subject)) {
+    if (!o.set.empty() || !o.inputs.empty())
+      throw wrong_usage("--set and --inputs go with a model: of a term all parameters are inputs");
+    return shader::trace_term(*term, precision, o.derivatives);
+  }
+  return shader::trace_model(model_argument(o.subject, o.set).model, precision, o.inputs,
+                             o.derivatives);
+}
+
+Exit run(const Options& o) {
+  use_jobs(o.jobs);
+  const auto file = term_named(o.subject) ? std::vector<std::string>{} : file_in(o.subject);
+  check_outputs(file, o.output ? std::vector{*o.output} : std::vector<std::string>{});
+  std::optional<OutputFile> out;
+  if (o.output) out.emplace(*o.output);
+  Progress progress(o.quiet);
+  shader::ShaderDocument d;
+  d.formula = traced(o);
+  d.writing.language = value_of<shader::Language>(o.language, "language");
+  d.writing.name = o.name;
+  if (!o.without_evidence)
+    d.writing.remarks = shader::evidence_of(
+        d.formula, d.writing.language,
+        [&](std::string_view term) { progress(fmt::format("looking at what {} loses", term)); });
+  d.source = shader::shader_source(d.formula, d.writing);
+  if (out) {
+    out->write(d.source);
+    out->commit();
+  }
+  progress.clear();
+  if (o.json)
+    fmt::print("{}", shader::to_json(d));
+  else if (!out)
+    fmt::print("{}", d.source);
+  else
+    say("wrote {}: {} operations\n", *o.output, d.formula.operations().total());
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_shader(CommandLine& line) {
+  auto [c, o] = line.command(
+      "shader", "Writes a model or a term as a shader's function, with what is known of its error",
+      "gonio shader lambert.coupled+ggx/smith_ggx.correlated/schlick --language glsl "
+      "--precision half -o brdf.glsl",
+      run);
+  c.option("SPEC", o->subject, "Model, the fit.json of a fit, or a term as `gonio models` lists it")
+      .required();
+  c.option("--language", o->language, "glsl, wgsl or slang")
+      .one_of(names_of<shader::Language>)
+      .required();
+  c.option("--precision", o->precision, "Number that it computes in: float or half")
+      .one_of(names_of<shader::Precision>)
+      .show_default();
+  add_set(c, o->set);
+  c.option("--inputs", o->inputs,
+           "Parameters that stay the function's arguments, of a fit or beside --set: NAME,…")
+      .delimiter(',');
+  c.option("--derivatives", o->derivatives, "Parameters by which the value is derived, too: NAME,…")
+      .delimiter(',');
+  c.option("--name", o->name, "Name of the function").show_default();
+  c.flag("--without-evidence", o->without_evidence,
+         "Leaves out of the header what is known of the error, which takes seconds");
+  c.option("-o,--output", o->output, "File to write  (default: the terminal)");
+  add_jobs(c, *o);
+  add_output(c, *o);
+}
+
+}  // namespace gonio::cli

@@ -1,0 +1,67 @@
+#include "cli/program.h"
+
+namespace gonio::test {
+namespace {
+
+constexpr const char* paint_shader =
+    "shader lambert.coupled+ggx/smith_ggx.correlated/schlick --without-evidence";
+
+TEST(ShaderCommand, PrintsTheSourceOrWritesIt) {
+  const Folder f;
+  const auto printed = gonio(f, std::string(paint_shader) + " --language glsl");
+  ASSERT_EQ(printed.code, 0) << printed.err;
+  EXPECT_NE(printed.out.find("vec3 brdf_of_cosines(vec3 kd, float alpha, vec3 f0, float NoL"),
+            std::string::npos)
+      << printed.out;
+  EXPECT_NE(printed.out.find("vec3 brdf(vec3 kd, float alpha, vec3 f0, vec3 n, vec3 l, vec3 v)"),
+            std::string::npos);
+  const auto written = gonio(f, std::string(paint_shader) + " --language glsl -o a.glsl");
+  ASSERT_EQ(written.code, 0) << written.err;
+  EXPECT_EQ(read_bytes(f / "a.glsl"), printed.out);
+}
+
+TEST(ShaderCommand, TellsWhatIsKnownOfTheError) {
+  const Folder f;
+  const auto o = gonio(f, "shader ndf.ggx --language glsl --precision half --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto j = o.json();
+  ASSERT_EQ(j["remarks"].size(), 1U);
+  const std::string remark = j["remarks"][0];
+  EXPECT_NE(remark.find("finite (proved)"), std::string::npos) << remark;
+  EXPECT_NE(remark.find("on any GPU"), std::string::npos) << remark;
+  EXPECT_EQ(j["of_directions"], nullptr);
+  EXPECT_EQ(j["angles"].size(), 2U);
+}
+
+TEST(ShaderCommand, FoldsAFitsParametersInButForThoseNamed) {
+  const Folder f;
+  ASSERT_EQ(gonio(f,
+                  "synth ggx/smith_ggx.correlated/schlick --set alpha=0.3 f0=0.9,0.6,0.4 "
+                  "--layout in_plane -o t.csv")
+                .code,
+            0);
+  ASSERT_EQ(gonio(f, "fit t.csv --model ggx/smith_ggx.correlated/schlick -o fit.json").code, 0);
+  const auto o =
+      gonio(f, "shader fit.json --language wgsl --inputs alpha --without-evidence --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  ASSERT_EQ(o.json()["parameters"].size(), 1U);
+  EXPECT_EQ(o.json()["parameters"][0]["name"], "alpha");
+  EXPECT_NEAR(o.json()["constants"]["f0"][0], 0.9, 1e-6);
+}
+
+TEST(ShaderCommand, RefusesWhatItCannotWriteInOneLine) {
+  const Folder f;
+  expect_one_line_each(
+      f, 2,
+      {{"shader lambert --language hlsl", "hlsl"},
+       {"shader lambart --language glsl", "lambart"},
+       {"shader lambert --language glsl --name 1st", "--name"},
+       {"shader lambert --language glsl --name gl__x", "--name"},
+       {"shader ndf.ggx --language glsl --set alpha=0.1", "--set"},
+       {"shader lambert --language glsl --derivatives alpha", "alpha"},
+       {"shader masking.smith_gtr.correlated --language glsl --precision half", "half"}});
+  expect_one_line_each(f, 3, {{"shader none.json --language glsl", "none.json"}});
+}
+
+}  // namespace
+}  // namespace gonio::test

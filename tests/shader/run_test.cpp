@@ -1,0 +1,404 @@
+// Emitted shaders, compiled by each language's own compiler and run on Vulkan.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <random>
+
+#include "base/error.h"
+#include "base/process.h"
+#include "brdf/catalogue/registry.h"
+#include "number/enclosure.h"
+#include "shader/shader.h"
+#include "shader/vulkan.h"
+#include "stability/value_over.h"
+#include "support.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace gonio::shader {
+namespace {
+
+using test::Folder;
+using test::Vulkan;
+
+constexpr const char* python = GONIO_SOURCE_DIR "/build/shading/bin/python";
+
+bool runs(const std::string& program, const char* word) {
+  const std::array<std::string, 1> words{word};
+  const auto result = run_program(program, words, "", 60);
+  return result && result->status == 0;
+}
+
+std::vector<std::uint32_t> words_of(const std::string& path) {
+  const std::string bytes = test::read_bytes(path);
+  std::vector<std::uint32_t> words(bytes.size() / 4);
+  std::memcpy(words.data(), bytes.data(), words.size() * 4);
+  return words;
+}
+
+void expect_valid(const std::string& path) {
+  const std::array<std::string, 3> words{"--target-env", "vulkan1.2", path};
+  const auto result = run_program("spirv-val", words, "", 60);
+  EXPECT_EQ(result->status, 0) << result->output;
+}
+
+std::vector<std::uint32_t> compiled_glsl(const Folder& folder, const std::string& source) {
+  folder.write("shader.comp", source);
+  const std::array<std::string, 6> words{
+      "-V", "--target-env", "vulkan1.2", folder / "shader.comp", "-o", folder / "shader.spv"};
+  const auto result = run_program("glslangValidator", words, "", 60);
+  EXPECT_EQ(result->status, 0) << result->output << source;
+  expect_valid(folder / "shader.spv");
+  return words_of(folder / "shader.spv");
+}
+
+/// A program that calls the function of cosines for every row of floats, and writes what it gives.
+std::string program(const TracedFormula& f, Language language) {
+  const Writing writing{language, "brdf", {}};
+  const Syntax syntax(language, f.precision);
+  std::string arguments;
+  std::size_t columns = 0;
+  const auto next = [&](bool colour) {
+    std::string x;
+    for (std::size_t c = 0; c < (colour ? 3U : 1U); ++c)
+      x += fmt::format("{}{}(x[i * COLUMNSu + {}u])", c > 0 ? ", " : "", syntax.type(false),
+                       columns++);
+    arguments += (arguments.empty() ? "" : ", ") + (colour ? syntax.colour(x) : x);
+  };
+  for (const auto& p : f.parameters) next(p.colour);
+  for (std::size_t k = 0; k < f.angles.size(); ++k) next(false);
+  const bool derived = f.results.size() > 1;
+  const std::string one = language == Language::wgsl ? "f32" : "float";
+  std::string results;
+  std::size_t at = 0;
+  for (const auto& r : f.results)
+    for (std::size_t c = 0; c < (f.colour ? 3U : 1U); ++c)
+      results += fmt::format("  y[i * RESULTSu + {}u] = {}(value{}{});\n", at++, one,
+                             derived ? "." + r.name : "", f.colour ? fmt::format("[{}]", c) : "");
+  const std::string type = derived ? "BrdfDerivatives" : syntax.type(f.colour);
+  std::string head, body = fmt::format("{}({});\n", function_of_cosines(f, writing), arguments);
+  switch (language) {
+    case Language::glsl:
+      head =
+          "layout(local_size_x = 64) in;\n"
+          "layout(set = 0, binding = 0) readonly buffer I { float x[]; };\n"
+          "layout(set = 0, binding = 1) writeonly buffer O { float y[]; };\n"
+          "void main() {\n  uint i = gl_GlobalInvocationID.x;\n  " +
+          type + " value = ";
+      break;
+    case Language::slang:
+      head =
+          "[[vk::binding(0, 0)]] StructuredBuffer<float> x;\n"
+          "[[vk::binding(1, 0)]] RWStructuredBuffer<float> y;\n"
+          "[shader(\"compute\")] [numthreads(64, 1, 1)]\n"
+          "void main(uint3 id : SV_DispatchThreadID) {\n  uint i = id.x;\n  " +
+          type + " value = ";
+      break;
+    case Language::wgsl:
+      head =
+          "@group(0) @binding(0) var<storage, read> x: array<f32>;\n"
+          "@group(0) @binding(1) var<storage, read_write> y: array<f32>;\n"
+          "@compute @workgroup_size(64)\n"
+          "fn main(@builtin(global_invocation_id) id: vec3<u32>) {\n  let i = id.x;\n  _ = x[0];\n"
+          "  let value = ";
+      break;
+  }
+  std::string main = head + body + results + "}\n";
+  const auto replace = [&](const std::string& what, std::size_t by) {
+    for (std::size_t k = main.find(what); k != std::string::npos; k = main.find(what))
+      main.replace(k, what.size() - 1, std::to_string(by));
+  };
+  replace("COLUMNSu", columns);
+  replace("RESULTSu", at);
+  return (language == Language::glsl ? "#version 450\n" : "") + shader_source(f, writing) + main;
+}
+
+/// Numbers of a shader's kind.
+template <class F>
+class Draw {
+ public:
+  /// Within a range, of positive ones in logarithms.
+  F operator()(const Range& r) {
+    const double u = std::ldexp(static_cast<double>(random_() >> 11), -53);
+    const double x = r.low > 0 ? r.low * std::pow(r.high / r.low, u) : r.low + (r.high - r.low) * u;
+    const auto less = [](const F& a, const F& b) { return a < b; };
+    return std::clamp(static_cast<F>(x), static_cast<F>(r.low), static_cast<F>(r.high), less);
+  }
+  /// Angles of two directions above the surface.
+  FrameAngles<F> angles() {
+    const auto direction = [&] {
+      const auto z = static_cast<double>((*this)({0.02, 1}));
+      const auto phi = static_cast<double>((*this)({0, 6.28}));
+      const double s = std::sqrt(1 - z * z);
+      return std::array{s * std::cos(phi), s * std::sin(phi), z};
+    };
+    const auto l = direction(), v = direction();
+    std::array<double, 3> h{l[0] + v[0], l[1] + v[1], l[2] + v[2]};
+    const double length = std::hypot(h[0], h[1], h[2]);
+    for (auto& x : h) x /= length;
+    const double voh = v[0] * h[0] + v[1] * h[1] + v[2] * h[2];
+    const auto f = [](double x) { return static_cast<F>(std::min(x, 1.0)); };
+    return {{f(l[2]), f(v[2]), f(h[2]), f(voh), f(h[0] * h[0] + h[1] * h[1])},
+            f(h[0]),
+            f(h[1]),
+            f(l[0]),
+            f(l[1]),
+            f(v[0]),
+            f(v[1])};
+  }
+
+ private:
+  std::mt19937_64 random_{7};
+};
+
+template <class F>
+F angle_of(const FrameAngles<F>& a, const std::string& name) {
+  const std::pair<const char*, F> all[] = {{"NoL", a.nol},
+                                           {"NoV", a.nov},
+                                           {"NoH", a.noh},
+                                           {"VoH", a.voh},
+                                           {"sin2_theta_h", a.sin2_theta_h},
+                                           {"XoH", a.xoh},
+                                           {"YoH", a.yoh},
+                                           {"XoL", a.xol},
+                                           {"YoL", a.yol},
+                                           {"XoV", a.xov},
+                                           {"YoV", a.yov}};
+  for (const auto& [n, x] : all)
+    if (name == n) return x;
+  ADD_FAILURE() << name;
+  return F(0);
+}
+
+std::size_t row_count() {
+  return std::getenv("GONIO_LONG") ? 1 << 18 : 1 << 12;
+}
+
+bool same_bits(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (a == 0 && b == 0) ||
+         (std::isnan(a) && std::isnan(b));
+}
+
+/// A term at many inputs.
+template <class F>
+struct Rows {
+  std::size_t term;
+  TracedFormula formula;
+  std::vector<std::vector<F>> parameters;
+  std::vector<FrameAngles<F>> angles;
+  std::vector<float> inputs;  ///< of the function, row by row
+
+  Rows(std::size_t index, TracedFormula traced) : term(index), formula(std::move(traced)) {
+    const auto about = catalogue()[term].parameters;
+    Draw<F> draw;
+    for (std::size_t i = 0; i < row_count(); ++i) {
+      auto& p = parameters.emplace_back();
+      for (const auto& parameter : about) p.push_back(draw(parameter.fit));
+      angles.push_back(draw.angles());
+      for (const auto& q : formula.parameters)
+        inputs.push_back(static_cast<float>(p[static_cast<std::size_t>(q.about - about.data())]));
+      for (const auto& q : formula.angles)
+        inputs.push_back(static_cast<float>(angle_of(angles.back(), q.name)));
+    }
+    if (inputs.empty()) inputs.push_back(0);
+  }
+  F expected(std::size_t i) const {
+    return term_function<F>(term)(parameters[i], angles[i]).value();
+  }
+
+  /// True of what Vulkan's rules allow a device, operation by operation.
+  bool allows(std::size_t i, float x) const {
+    const RoundingScope rules(Rounding::vulkan());
+    const auto e = [](const F& y) { return Enclosure<F>::between(y, y); };
+    std::vector<Enclosure<F>> p;
+    for (const auto& y : parameters[i]) p.push_back(e(y));
+    const auto& a = angles[i];
+    return term_function<Enclosure<F>>(term)(
+               p, {{e(a.nol), e(a.nov), e(a.noh), e(a.voh), e(a.sin2_theta_h)},
+                   e(a.xoh),
+                   e(a.yoh),
+                   e(a.xol),
+                   e(a.yol),
+                   e(a.xov),
+                   e(a.yov)})
+        .value()
+        .holds(static_cast<double>(x));
+  }
+  /// Same bits; where exp or log are in it, what Vulkan's rules allow.
+  void expect_exact(std::span<const float> out, Language language) const {
+    const auto o = formula.operations();
+    const bool is_algebraic = o[Operation::exp] + o[Operation::log] == 0;
+    expect(out, language, [&](std::size_t i) {
+      return same_bits(out[i], static_cast<float>(expected(i))) ||
+             (!is_algebraic && allows(i, out[i]));
+    });
+  }
+  void expect(std::span<const float> out, Language language, auto&& right) const {
+    ASSERT_EQ(out.size(), angles.size());
+    std::size_t wrong = 0, first = 0;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (!right(i) && wrong++ == 0) first = i;
+    if (wrong == 0) return;
+    std::string at;
+    for (const auto& x : parameters[first]) at += fmt::format(" {}", static_cast<double>(x));
+    ADD_FAILURE() << formula.id << " in " << name_of(formula.precision) << ", " << name_of(language)
+                  << ": " << wrong << " of " << out.size() << " are wrong, first " << out[first]
+                  << " for " << static_cast<double>(expected(first)) << " with" << at << "\n"
+                  << shader_source(formula, {language, "brdf", {}});
+  }
+};
+
+template <class F>
+constexpr Precision precision_of = std::same_as<F, Half> ? Precision::half : Precision::float_;
+
+/// Terms that have no shader in half: quadratures, with nodes that are none.
+bool is_refused(std::size_t term, Precision precision) {
+  return precision == Precision::half && catalogue()[term].id().starts_with("masking.smith_gtr.");
+}
+
+template <class F>
+std::vector<Rows<F>> rows_of_every_term() {
+  std::vector<Rows<F>> all;
+  for (std::size_t term = 0; term < catalogue().size(); ++term) {
+    if (is_refused(term, precision_of<F>))
+      EXPECT_THROW(trace_term(term, precision_of<F>, {}), Error) << catalogue()[term].id();
+    else
+      all.emplace_back(term, trace_term(term, precision_of<F>, {}));
+  }
+  return all;
+}
+
+std::unique_ptr<Vulkan> device(std::string& why) {
+  if (!runs("glslangValidator", "--version") || !runs("spirv-val", "--version")) {
+    why = "glslangValidator or spirv-val is not there";
+    return nullptr;
+  }
+  return Vulkan::open(why);
+}
+#define GONIO_NEEDS_VULKAN(variable) \
+  std::string why;                   \
+  const auto variable = device(why); \
+  if (!variable) GTEST_SKIP() << why << ": run ./check, which installs it"
+
+template <class F>
+void run_glsl(Vulkan& vulkan) {
+  const Folder folder;
+  for (const auto& rows : rows_of_every_term<F>()) {
+    const auto code = compiled_glsl(folder, program(rows.formula, Language::glsl));
+    if (::testing::Test::HasFailure()) return;
+    const std::size_t n = rows.angles.size();
+    rows.expect_exact(vulkan.run(code, rows.inputs, n, n), Language::glsl);
+  }
+}
+
+TEST(EmittedGlsl, OfEveryTermGivesTheSameBitsInFloat) {
+  GONIO_NEEDS_VULKAN(vulkan);
+  run_glsl<float>(*vulkan);
+}
+
+TEST(EmittedGlsl, OfEveryTermGivesTheSameBitsInHalf) {
+  GONIO_NEEDS_VULKAN(vulkan);
+  run_glsl<Half>(*vulkan);
+}
+
+/// Runs the compilers over a folder of programs and says what they did not take.
+void run_languages(const Folder& folder, const std::vector<std::string>& names) {
+  const std::array<std::string, 2> words{GONIO_SOURCE_DIR "/tests/shader/languages.py",
+                                         folder / ""};
+  const auto result = run_program(python, words, "", 580);
+  if (result && result->status == 0) return;
+  ADD_FAILURE() << (result ? result->output : "not started");
+  for (const auto& name : names) {
+    const auto said = test::read_bytes(folder / (name + ".said"));
+    if (!said.empty()) {
+      ADD_FAILURE() << name << ": " << said.substr(0, 2000);
+      return;
+    }
+  }
+}
+#define GONIO_NEEDS_SHADING       \
+  if (!runs(python, "--version")) \
+  GTEST_SKIP() << "wgpu and slangpy are not there: run ./check, which fetches them"
+
+template <class F>
+void run_slang(Vulkan& vulkan) {
+  const Folder folder;
+  const auto all = rows_of_every_term<F>();
+  std::vector<std::string> names;
+  for (const auto& rows : all) {
+    names.push_back(rows.formula.id);
+    folder.write(names.back() + ".slang", program(rows.formula, Language::slang));
+  }
+  run_languages(folder, names);
+  if (::testing::Test::HasFailure()) return;
+  for (const auto& rows : all) {
+    const auto code = compiled_glsl(folder, test::read_bytes(folder / (rows.formula.id + ".comp")));
+    if (::testing::Test::HasFailure()) return;
+    const std::size_t n = rows.angles.size();
+    rows.expect_exact(vulkan.run(code, rows.inputs, n, n), Language::slang);
+  }
+}
+
+// By way of GLSL, which keeps the word precise; the compiler's own SPIR-V drops it.
+TEST(EmittedSlang, OfEveryTermGivesTheSameBitsInFloat) {
+  GONIO_NEEDS_SHADING;
+  GONIO_NEEDS_VULKAN(vulkan);
+  run_slang<float>(*vulkan);
+}
+
+TEST(EmittedSlang, OfEveryTermGivesTheSameBitsInHalf) {
+  GONIO_NEEDS_SHADING;
+  GONIO_NEEDS_VULKAN(vulkan);
+  run_slang<Half>(*vulkan);
+}
+
+template <class F>
+void run_wgsl(double tolerance) {
+  const Folder folder;
+  const auto all = rows_of_every_term<F>();
+  std::vector<std::string> names;
+  for (const auto& rows : all) {
+    const auto& name = names.emplace_back(rows.formula.id);
+    const std::size_t n = rows.angles.size();
+    folder.write(name + ".wgsl", program(rows.formula, Language::wgsl));
+    folder.write(name + ".json", fmt::format("{{\"invocations\": {}, \"results\": {}}}", n, n));
+    folder.write(name + ".in", std::string(reinterpret_cast<const char*>(rows.inputs.data()),
+                                           rows.inputs.size() * sizeof(float)));
+  }
+  run_languages(folder, names);
+  if (::testing::Test::HasFailure()) return;
+  for (const auto& rows : all) {
+    const auto bits = words_of(folder / (rows.formula.id + ".out"));
+    std::vector<float> out;
+    for (const auto word : bits) out.push_back(std::bit_cast<float>(word));
+    rows.expect(out, Language::wgsl, [&](std::size_t i) {
+      const auto expected = static_cast<double>(rows.expected(i));
+      return same_bits(out[i], static_cast<float>(expected)) ||
+             std::abs(static_cast<double>(out[i]) - expected) <=
+                 tolerance *
+                     std::max(std::abs(expected), std::is_same_v<F, Half> ? 0x1p-14 : 0x1p-64) ||
+             rows.allows(i, out[i]);
+    });
+  }
+}
+
+// Its compilers may regroup, and so they do: what that moves is bounded here by what it moves in
+// the worst term.
+TEST(EmittedWgsl, OfEveryTermGivesNearlyTheSameInFloat) {
+  GONIO_NEEDS_SHADING;
+  std::string why;
+  if (!Vulkan::open(why)) GTEST_SKIP() << why;
+  run_wgsl<float>(1e-4);
+}
+
+TEST(EmittedWgsl, OfEveryTermGivesNearlyTheSameInHalf) {
+  GONIO_NEEDS_SHADING;
+  std::string why;
+  if (!Vulkan::open(why)) GTEST_SKIP() << why;
+  run_wgsl<Half>(0.05);
+}
+
+}  // namespace
+}  // namespace gonio::shader
