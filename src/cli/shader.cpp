@@ -17,7 +17,7 @@ namespace {
 
 struct Options : Common {
   std::string subject, language, precision = "float", name = "brdf";
-  std::vector<std::string> set, inputs, derivatives;
+  std::vector<std::string> set, grey, inputs, derivatives;
   std::optional<std::string> output;
   bool without_evidence = false;
 };
@@ -33,12 +33,17 @@ std::optional<std::size_t> term_named(const std::string& subject) {
 shader::TracedFormula traced(const Options& o) {
   const auto precision = value_of<shader::Precision>(o.precision, "precision");
   if (const auto term = term_named(o.subject)) {
-    if (!o.set.empty() || !o.inputs.empty())
-      throw wrong_usage("--set and --inputs go with a model: of a term all parameters are inputs");
+    if (!o.set.empty() || !o.inputs.empty() || !o.grey.empty())
+      throw wrong_usage(
+          "--set, --grey and --inputs go with a model: of a term all parameters are numbers and "
+          "inputs");
     return shader::trace_term(*term, precision, o.derivatives);
   }
-  return shader::trace_model(model_argument(o.subject, o.set).model, precision, o.inputs,
-                             o.derivatives);
+  if (!o.grey.empty() && !file_in(o.subject).empty())
+    throw wrong_usage("--grey goes with a model: a fit says which of its colours are grey");
+  const auto model = o.grey.empty() ? model_argument(o.subject, o.set).model
+                                    : bind_model(o.subject, parse_settings(o.set), {}, o.grey);
+  return shader::trace_model(model, precision, o.inputs, o.derivatives);
 }
 
 Exit run(const Options& o) {
@@ -88,6 +93,7 @@ void add_shader(CommandLine& line) {
       .one_of(names_of<shader::Precision>)
       .show_default();
   add_set(c, o->set);
+  c.option("--grey", o->grey, "Parameters of colours that are one number: NAME,…").delimiter(',');
   c.option("--inputs", o->inputs,
            "Parameters that stay the function's arguments, of a fit or beside --set: NAME,…")
       .delimiter(',');

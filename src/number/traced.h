@@ -185,6 +185,8 @@ class Traced {
     if (a.nothing_ || a.is(1)) return a.nothing_ ? a : b;
     if (b.nothing_ || b.is(1)) return b.nothing_ ? b : a;
     if (a.is_known() && b.is_known()) return Traced(a.value_ * b.value_);
+    if (a.is(-1)) return -b;
+    if (b.is(-1)) return -a;
     return done(Kind::multiply, a, b);
   }
   /// Quotient; by a power of two it is a product, which is the same to the bit.
