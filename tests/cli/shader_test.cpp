@@ -22,7 +22,7 @@ TEST(ShaderCommand, PrintsTheSourceOrWritesIt) {
 
 TEST(ShaderCommand, TellsWhatIsKnownOfTheError) {
   const Folder f;
-  const auto o = gonio(f, "shader ndf.ggx --language glsl --precision half --json");
+  const auto o = gonio(f, "shader ndf.ggx --language glsl --json");
   ASSERT_EQ(o.code, 0) << o.err;
   const auto j = o.json();
   ASSERT_EQ(j["remarks"].size(), 1U);
