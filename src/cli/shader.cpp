@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/model_argument.h"
 #include "cli/terminal.h"
+#include "integrate/light/split_sum_table.h"
 #include "shader/evidence.h"
 
 #include <fmt/format.h>
@@ -18,7 +19,8 @@ namespace {
 struct Options : Common {
   std::string subject, language, precision = "float", name = "brdf";
   std::vector<std::string> set, grey, inputs, derivatives;
-  std::optional<std::string> output;
+  std::optional<std::string> output, compensation, table;
+  std::string albedo = "table";
   bool without_evidence = false;
 };
 
@@ -43,15 +45,45 @@ shader::TracedFormula traced(const Options& o) {
     throw wrong_usage("--grey goes with a model: a fit says which of its colours are grey");
   const auto model = o.grey.empty() ? model_argument(o.subject, o.set).model
                                     : bind_model(o.subject, parse_settings(o.set), {}, o.grey);
-  return shader::trace_model(model, precision, o.inputs, o.derivatives);
+  std::optional<shader::Compensating> compensating;
+  if (o.compensation)
+    compensating = {value_of<shader::Compensation>(*o.compensation, "compensation"),
+                    value_of<shader::AlbedoFrom>(o.albedo, "source of the albedo")};
+  return shader::trace_model(model, precision, o.inputs, o.derivatives, compensating);
+}
+
+/// What E of the function's arguments is looked up in.
+std::string table_remark(const std::string& masking) {
+  return fmt::format(
+      "E_view and E_light are R + G of the table that gonio split_sum --masking {} --size 64x64 "
+      "writes, at (NoV, roughness) and (NoL, roughness); E_average is 2 ∫ E mu dmu at that "
+      "roughness.",
+      masking);
+}
+/// Masking of the lobe whose albedo a split-sum table has; none of another distribution than GGX.
+std::optional<std::string> tabulated_masking(const shader::TracedFormula& f) {
+  std::optional<std::string> masking;
+  bool ggx = false;
+  for (const auto& t : f.terms) {
+    const auto& entry = catalogue()[t.term];
+    if (entry.role() == Role::ndf && t.part == "D") ggx = entry.id() == "ndf.ggx";
+    if (entry.role() == Role::masking && t.part == "V") masking = entry.id();
+  }
+  return ggx ? masking : std::nullopt;
 }
 
 Exit run(const Options& o) {
   use_jobs(o.jobs);
   const auto file = term_named(o.subject) ? std::vector<std::string>{} : file_in(o.subject);
-  check_outputs(file, o.output ? std::vector{*o.output} : std::vector<std::string>{});
-  std::optional<OutputFile> out;
+  std::vector<std::string> outputs;
+  for (const auto& path : {o.output, o.table})
+    if (path) outputs.push_back(*path);
+  check_outputs(file, outputs);
+  if (o.table && (!o.compensation || o.albedo != "table"))
+    throw wrong_usage("--table goes with --compensation, where the albedo comes from a table");
+  std::optional<OutputFile> out, table;
   if (o.output) out.emplace(*o.output);
+  if (o.table) table.emplace(*o.table);
   Progress progress(o.quiet);
   shader::ShaderDocument d;
   d.formula = traced(o);
@@ -61,11 +93,19 @@ Exit run(const Options& o) {
     d.writing.remarks = shader::evidence_of(
         d.formula, d.writing.language,
         [&](std::string_view term) { progress(fmt::format("looking at what {} loses", term)); });
+  const auto masking = tabulated_masking(d.formula);
+  if (o.compensation && o.albedo == "table" && masking)
+    d.writing.remarks.push_back(table_remark(*masking));
   d.source = shader::shader_source(d.formula, d.writing);
-  if (out) {
-    out->write(d.source);
-    out->commit();
+  if (table) {
+    if (!masking) throw wrong_usage("--table: the first lobe is not of ndf.ggx");
+    progress("making the table");
+    const auto texels = stored(split_sum_table(*masking, 64, 64), Storage::half);
+    write_split_sum_table(table->temporary_path(), texels, Storage::half);
   }
+  if (out) out->write(d.source);
+  if (out) out->commit();
+  if (table) table->commit();
   progress.clear();
   if (o.json)
     fmt::print("{}", shader::to_json(d));
@@ -99,6 +139,16 @@ void add_shader(CommandLine& line) {
       .delimiter(',');
   c.option("--derivatives", o->derivatives, "Parameters by which the value is derived, too: NAME,…")
       .delimiter(',');
+  c.option("--compensation", o->compensation,
+           "What gives back the light that the first lobe loses between facets: turquin or "
+           "kulla_conty, which read albedos as arguments")
+      .one_of(names_of<shader::Compensation>);
+  c.option("--albedo", o->albedo,
+           "Where turquin has the lobe's albedo from: table, an argument; fit, the catalogue's "
+           "formula for GGX under correlated Smith")
+      .one_of(names_of<shader::AlbedoFrom>)
+      .show_default();
+  c.option("--table", o->table, "OpenEXR file for the table of that albedo: R + G of 64x64 texels");
   c.option("--name", o->name, "Name of the function").show_default();
   c.flag("--without-evidence", o->without_evidence,
          "Leaves out of the header what is known of the error, which takes seconds");

@@ -236,6 +236,8 @@ std::string header(const TracedFormula& f, const Writing& w) {
     const About& about = *catalogue()[t.term].about;
     text += comment(fmt::format("{} {}: {}.  {}", t.part, about.id, about.formula, about.source));
   }
+  for (const About* map : f.maps)
+    text += comment(fmt::format("{}: {}.  {}", map->id, map->formula, map->source));
   for (const auto& p : f.parameters)
     text += comment(fmt::format("parameter {} in [{:g}, {:g}]{}{}", p.name, p.about->legal.low,
                                 p.about->legal.high, p.about->meaning.empty() ? "" : ": ",

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "brdf/formula/scattering.h"
 #include "number/dual.h"
 #include "stability/value_over.h"
 
@@ -78,6 +79,40 @@ class Tracer {
     formula_.trace.begin("f");
     return q;
   }
+  /// The light that single scattering of a lobe loses, given back: what is added to f.
+  ///
+  /// \param f0  the lobe's Fresnel term at normal incidence; schlicks: it is Schlick's
+  T compensation(const Compensating& c, const T& lobe, const T& f0, const T& alpha, bool schlicks) {
+    formula_.trace.begin("bounces");
+    const auto argument_of = [&](const char* name, const Parameter& about) {
+      return argument(name, about, formula_.colour && about.per_channel);
+    };
+    if (c.by == Compensation::turquin) {
+      formula_.maps.push_back(&Turquin<T>::about);
+      T e;
+      if (c.albedo == AlbedoFrom::fit) {
+        formula_.maps.push_back(&AlbedoFit<T>::about);
+        e = AlbedoFit<T>::apply(std::array{alpha, angles_.nov})[0];
+      } else {
+        e = argument_of("E_view", e_parameter);
+      }
+      return Turquin<T>::apply(std::array{lobe, e, f0})[0] - lobe;
+    }
+    formula_.maps.push_back(&KullaContyLobe<T>::about);
+    using Lobe = KullaContyLobe<T>;
+    const T e_light = argument_of("E_light", Lobe::parameters[0]),
+            e_view = argument_of("E_view", Lobe::parameters[1]),
+            e_average = argument_of("E_average", Lobe::parameters[2]),
+            f_average =
+                schlicks ? schlick_average<T>(f0) : argument_of("F_average", Lobe::parameters[3]);
+    return Lobe::apply(std::array{e_light, e_view, e_average, f_average})[0];
+  }
+  /// A Fresnel term's F0.
+  T at_normal_incidence(std::size_t fresnel, std::span<const T> parameters) const {
+    auto facing = angles_;
+    facing.voh = T(1);
+    return term_function<T>(fresnel)(parameters, facing).value();
+  }
   void finish(const T& value, std::span<const std::string> derivatives) {
     formula_.results.push_back({"value", value.node()});
     call(value, "f");
@@ -136,6 +171,7 @@ template <class F>
 void trace(const BoundModel& bound,
            std::span<const std::string> arguments,
            std::span<const std::string> derivatives,
+           const std::optional<Compensating>& compensating,
            TracedFormula& formula) {
   const Model& m = bound.model;
   Tracer<F> tracer(formula);
@@ -154,11 +190,24 @@ void trace(const BoundModel& bound,
       parameters.push_back(tracer.argument(p.name, *p.about, p.count > 1));
     }
   }
-  const T value = stability::value_of_terms<T>(m, [&](const TermUse& use) {
-    std::vector<T> own;
-    for (const auto k : use.parameters) own.push_back(parameters[k]);
-    return tracer.term(use.term, own);
-  });
+  const auto own = [&](const TermUse& use) {
+    std::vector<T> values;
+    for (const auto k : use.parameters) values.push_back(parameters[k]);
+    return values;
+  };
+  std::vector<Quotient<T>> terms;
+  T value = stability::value_of_terms<T>(
+      m, [&](const TermUse& use) { return terms.emplace_back(tracer.term(use.term, own(use))); });
+  if (compensating) {
+    const auto& first = m.lobes.front();
+    const auto of_lobe = std::span(terms).subspan(m.diffuse.size(), 3);
+    const T lobe = (of_lobe[0] * of_lobe[1] * of_lobe[2]).value();
+    value = value +
+            tracer.compensation(*compensating, lobe,
+                                tracer.at_normal_incidence(first.fresnel.term, own(first.fresnel)),
+                                own(first.ndf)[0],
+                                catalogue()[first.fresnel.term].id() == "fresnel.schlick");
+  }
   tracer.finish(value, derivatives);
 }
 
@@ -248,7 +297,8 @@ Operations TracedFormula::operations() const {
 TracedFormula trace_model(const BoundModel& bound,
                           Precision precision,
                           std::span<const std::string> arguments,
-                          std::span<const std::string> derivatives) {
+                          std::span<const std::string> derivatives,
+                          const std::optional<Compensating>& compensating) {
   const Model& m = bound.model;
   if (m.channels != 1 && m.channels != 3)
     throw wrong_usage(fmt::format("{} channels: a shader's function has one or three", m.channels));
@@ -258,6 +308,17 @@ TracedFormula trace_model(const BoundModel& bound,
       for (const auto& p : m.parameters) names.push_back(p.name);
       refuse_name(name, names, "parameter");
     }
+  if (compensating) {
+    if (m.lobes.empty())
+      throw wrong_usage(fmt::format("model '{}' has no lobe to compensate", m.spec));
+    const auto& lobe = m.lobes.front();
+    const bool fitted = catalogue()[lobe.ndf.term].id() == "ndf.ggx" &&
+                        catalogue()[lobe.masking.term].id() == "masking.smith_ggx.correlated" &&
+                        compensating->by == Compensation::turquin;
+    if (compensating->albedo == AlbedoFrom::fit && !fitted)
+      throw wrong_usage(
+          "the fitted albedo is of ndf.ggx under masking.smith_ggx.correlated, for turquin alone");
+  }
   TracedFormula formula;
   formula.id = m.spec;
   formula.precision = precision;
@@ -265,9 +326,9 @@ TracedFormula trace_model(const BoundModel& bound,
   formula.colour = m.channels == 3;
   formula.anisotropic = m.anisotropic;
   if (precision == Precision::half)
-    trace<Half>(bound, arguments, derivatives, formula);
+    trace<Half>(bound, arguments, derivatives, compensating, formula);
   else
-    trace<float>(bound, arguments, derivatives, formula);
+    trace<float>(bound, arguments, derivatives, compensating, formula);
   return formula;
 }
 

@@ -18,6 +18,16 @@ namespace gonio::shader {
 
 enum class Precision { float_, half };
 
+/// What gives back the light that the first lobe's single scattering loses, a map of the catalogue: "scattering." before
+/// each name.
+enum class Compensation { turquin, kulla_conty_lobe };
+/// Where a compensation has the lobe's albedo at F = 1 from: arguments, which a shader looks up, or the catalogue's fit.
+enum class AlbedoFrom { table, fit };
+struct Compensating {
+  Compensation by;
+  AlbedoFrom albedo = AlbedoFrom::table;
+};
+
 /// A parameter or an angle that a shader's function is given.
 struct Argument {
   std::string name;  ///< as the shader calls it: f0, NoL
@@ -58,7 +68,8 @@ struct TracedFormula {
   std::vector<std::pair<std::string, std::vector<double>>>
       known;  ///< parameters that are folded in
   std::vector<UsedTerm> terms;
-  std::vector<Result> results;  ///< the first is the value [1/sr]
+  std::vector<const About*> maps;  ///< that are used beside the terms
+  std::vector<Result> results;     ///< the first is the value [1/sr]
 
   /// True of nodes that a result depends on.
   std::vector<bool> live() const;
@@ -74,22 +85,27 @@ struct TracedFormula {
 /// \param arguments    names of parameters that the function is given although they have a value; those that nobody set are
 ///                     given always
 /// \param derivatives  names of parameters among those, by which the value is derived
-/// \throws Error  wrong usage of other names, and of other numbers of channels
+/// \param compensating  adds arguments E_view, E_light, E_average, F_average as the map reads them; F₀ and F_average of
+///                      Schlick's Fresnel are made here
+/// \throws Error  wrong usage of other names, of other numbers of channels, and of a lobe that there is no fit for
 TracedFormula trace_model(const BoundModel& model,
                           Precision precision,
                           std::span<const std::string> arguments,
-                          std::span<const std::string> derivatives);
+                          std::span<const std::string> derivatives,
+                          const std::optional<Compensating>& compensating = {});
 /// A term on its own: D, V, F or a diffuse term, all its parameters arguments.
 TracedFormula trace_term(std::size_t term,
                          Precision precision,
                          std::span<const std::string> derivatives);
-
-/// The name that shaders give an angle of the terms: NoL for nol.
-std::string_view shader_angle(std::string_view angle);
 
 }  // namespace gonio::shader
 
 namespace gonio {
 template <>
 inline constexpr std::array<std::string_view, 2> names_of<shader::Precision>{"float", "half"};
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<shader::Compensation>{"turquin",
+                                                                                "kulla_conty"};
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<shader::AlbedoFrom>{"table", "fit"};
 }  // namespace gonio

@@ -1,4 +1,5 @@
 #include "cli/program.h"
+#include "integrate/light/split_sum_table.h"
 
 namespace gonio::test {
 namespace {
@@ -47,6 +48,24 @@ TEST(ShaderCommand, FoldsAFitsParametersInButForThoseNamed) {
   ASSERT_EQ(o.json()["parameters"].size(), 1U);
   EXPECT_EQ(o.json()["parameters"][0]["name"], "alpha");
   EXPECT_NEAR(o.json()["constants"]["f0"][0], 0.9, 1e-6);
+}
+
+TEST(ShaderCommand, WritesTheTableThatACompensationReads) {
+  const Folder f;
+  const auto o = gonio(f,
+                       "shader ggx/smith_ggx.correlated/schlick --language glsl --compensation "
+                       "turquin --table e.exr --without-evidence -o metal.glsl");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(read_bytes(f / "metal.glsl").find("float E_view"), std::string::npos);
+  EXPECT_NE(read_bytes(f / "metal.glsl").find("gonio split_sum"), std::string::npos);
+  EXPECT_EQ(read_split_sum_table(f / "e.exr").width, 64U);
+  expect_one_line_each(
+      f, 2,
+      {{"shader gtr/smith_gtr.correlated/schlick --language glsl --compensation turquin --table "
+        "e.exr --without-evidence",
+        "--table"},
+       {"shader ggx/smith_ggx.correlated/schlick --language glsl --table t.exr",
+        "--compensation"}});
 }
 
 TEST(ShaderCommand, RefusesWhatItCannotWriteInOneLine) {

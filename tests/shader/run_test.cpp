@@ -459,6 +459,11 @@ std::vector<TracedFormula> some_models(bool derived) {
                        {"f0_2=0.04"}, {"f82_tint", "gamma_2"}));
   all.push_back(
       traced("ggx_aniso/smith_ggx_aniso.correlated/schlick", {"tangent=30"}, {"alpha_x"}));
+  all.push_back(trace_model(bind_model("ggx/smith_ggx.correlated/schlick", {}), Precision::float_,
+                            {}, {}, Compensating{Compensation::turquin, AlbedoFrom::fit}));
+  all.push_back(trace_model(bind_model("ggx/smith_ggx.separable/dielectric", {}), Precision::float_,
+                            {}, {},
+                            Compensating{Compensation::kulla_conty_lobe, AlbedoFrom::table}));
   return all;
 }
 

@@ -1,9 +1,11 @@
 #include "shader/traced_formula.h"
 
+#include <numbers>
 #include <random>
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/formula/scattering.h"
 #include "brdf/function/functions.h"
 #include "refusal.h"
 #include "stability/value_over.h"
@@ -63,6 +65,53 @@ TEST(TracedFormula, RefusesNamesThatTheModelHasNot) {
   EXPECT_HAS(refused({}, {"alpha"}, {}), "no parameter 'alpha'");
   EXPECT_HAS(refused({}, {}, {"alpha"}), "no parameter to derive by 'alpha'");
   EXPECT_HAS(refused({"kd=0.5"}, {}, {"kd"}), "no parameter to derive by 'kd'");
+}
+
+TEST(TracedFormula, GivesBackWhatALobeLosesBetweenFacets) {
+  const auto bound = bind_model("lambert.coupled+ggx/smith_ggx.correlated/schlick", {}, 1);
+  const std::vector<std::string> all{"kd", "alpha", "f0"};
+  const auto value = [&](const std::optional<Compensating>& c,
+                         const std::vector<std::pair<std::string, double>>& more) {
+    const auto f = trace_model(bound, Precision::float_, all, {}, c);
+    std::vector<double> inputs;
+    for (const auto& n : f.trace.nodes()) {
+      if (n.kind != Trace::Kind::input) continue;
+      double x = 0.5;  // angles that no two directions have will do: what is tested is the rule
+      for (const auto& [name, v] : more)
+        if (name == n.name) x = v;
+      inputs.push_back(x);
+    }
+    return replay<double>(f.trace, inputs)[static_cast<std::size_t>(f.results[0].node)];
+  };
+  const double none = value({}, {}), black = value({}, {{"kd", 0}}),
+               fresnel = 0.5 + 0.5 / 32;  // Schlick's of f0 = 1/2 at VoH = 1/2
+  // The whole is the lobe and (1 - F) of the diffuse part.
+  const double diffuse = 0.5 / std::numbers::pi * (1 - fresnel), lobe = none - diffuse;
+  EXPECT_NEAR(black, lobe, 1e-6);
+  const Compensating turquin{Compensation::turquin, AlbedoFrom::table};
+  EXPECT_NEAR(value(turquin, {{"E_view", 0.8}}), none + lobe * 0.5 * (1 / 0.8 - 1), 1e-6);
+  EXPECT_NEAR(value(turquin, {{"E_view", 1}}), none, 1e-6) << "nothing is lost";
+  const Compensating fitted{Compensation::turquin, AlbedoFrom::fit};
+  const double e = AlbedoFit<double>::apply(std::array{0.5, 0.5})[0];
+  EXPECT_NEAR(value(fitted, {}), none + lobe * 0.5 * (1 / e - 1), 1e-5);
+  const Compensating kulla{Compensation::kulla_conty_lobe, AlbedoFrom::table};
+  const double average = 0.5 + 0.5 / 21,
+               bounces = average * average * 0.9 / (1 - average * (1 - 0.9));
+  EXPECT_NEAR(value(kulla, {{"E_light", 0.7}, {"E_view", 0.8}, {"E_average", 0.9}}),
+              none + bounces * (1 - 0.7) * (1 - 0.8) / (std::numbers::pi * (1 - 0.9)), 1e-6);
+}
+
+TEST(TracedFormula, HasNoFittedAlbedoOfOtherLobes) {
+  const auto refused = [](const char* spec, const Compensating& c) {
+    return test::refusal(
+        [&] { trace_model(bind_model(spec, {}, 1), Precision::float_, {}, {}, c); }, Exit::usage);
+  };
+  const Compensating fitted{Compensation::turquin, AlbedoFrom::fit};
+  EXPECT_HAS(refused("ggx/smith_ggx.separable/schlick", fitted), "fitted albedo");
+  EXPECT_HAS(refused("lambert", fitted), "no lobe");
+  EXPECT_HAS(refused("ggx/smith_ggx.correlated/schlick",
+                     {Compensation::kulla_conty_lobe, AlbedoFrom::fit}),
+             "turquin alone");
 }
 
 /// Slopes against differences of the same product rule in doubles; constants of the graph are floats.
