@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 namespace gonio {
 namespace {
@@ -78,6 +80,30 @@ TEST(NormalEquations, AreTheSameBitsForAnyNumberOfThreads) {
   EXPECT_TRUE(std::ranges::equal(many.h.entries(), single.h.entries()));
   EXPECT_EQ(many.g, single.g);
   EXPECT_EQ(many.cost, single.cost);
+}
+
+// A loop within one that an exception ends is told to stop, and says nothing of it.
+TEST(NormalEquations, AreWholeThoughTheLoopAroundThemIsCancelled) {
+  const Case c({.layout = Layout::random, .samples = 60000, .noise = 0.1});
+  const auto data = fit_data<float>(c.sampling(Metric::log));
+  ASSERT_GT(data.tasks.size(), 1U);
+  const Accumulator<float> a(c.model.model, data, c.free);
+  const auto alone = a.normal_equations(c.off);
+  const auto alone_costs = a.channel_costs(c.off);
+  tbb::task_group_context outer;
+  bool was_in_it = false;
+  tbb::parallel_for(
+      0, 1,
+      [&](int) {
+        was_in_it = true;
+        outer.cancel_group_execution();
+        const auto e = a.normal_equations(c.off);
+        EXPECT_EQ(e.g, alone.g);
+        EXPECT_EQ(e.cost, alone.cost);
+        EXPECT_EQ(a.channel_costs(c.off), alone_costs);
+      },
+      outer);
+  EXPECT_TRUE(was_in_it);
 }
 
 }  // namespace
