@@ -191,7 +191,7 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
     if (coat->rows[i].mu >= 0.1 && off > most) most = off, at = i;
   }
   const auto& row = coat->rows[at];
-  to.judge("the coat needs only a fixed 0.25 G", "seed 001, Disney's secondary lobe",
+  to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat", "seed 001, Disney's secondary lobe",
            verdict_on_small(most),
            fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
            fmt::format("as it ships it is furthest from its own Smith masking at {}. Before "

@@ -112,14 +112,16 @@ void wrong_place(Findings& to, const RemapRows& r) {
     return it == r.uses.end() ? nullptr : &*it;
   };
   struct Use {
-    std::string_view light, seen, form, k;
+    std::string_view light, of, form, k;
   };
-  for (const auto& [light, seen, form, k] :
-       {Use{"even", "Under an even sky", direct, "k = (r+1)²/8"},
-        Use{"single", "Of a single light in the mirror direction", image, "k = α/2"}})
+  for (const auto& [light, of, form, k] :
+       {Use{"even", "an even sky", direct, "direct light"},
+        Use{"single", "a single light in the mirror direction", image, "image-based light"}})
     if (const auto* use = find(form, light))
-      to.say(fmt::format("{}, at roughness {:g} and cosine {:g}, {} reflects {} than exact Smith.",
-                         seen, rough, mu, k, beside(use->value / use->separable)));
+      to.say(
+          fmt::format("Schlick's k for {} reflects {} of {} than exact Smith, at roughness {:g} "
+                      "and cosine {:g}.",
+                      k, beside(use->value / use->separable), of, rough, mu));
 }
 
 /// 'k = α/2 is too bright at grazing angles', and what is taken in its place.

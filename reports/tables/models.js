@@ -29,15 +29,14 @@ function verdict() {
   const alike = models.filter((m) => m.as_good).map((m) => m.name);
   return el("div", { class: "verdict" },
     el("p", {}, "Take ", el("b", {}, taken.name), ": ", spec_code(taken.model), "."), el("p", {}, in_words(advice.reason)),
-    el("p", {}, fits_well(value_of(taken)) ? `Typically model and table differ by a factor of ${factor}${where}.`
-      : `It still misses much: typically model and table differ by a factor of ${factor}${where}.`),
+    el("p", {}, `Typically model and table differ by a factor of ${factor}${where}.`),
     alike.length ? el("p", {}, `The table cannot tell it from ${in_a_row(alike)}.`) : null,
     advice.disagreement.map((d) => el("p", {}, in_words(d))));
 }
 function warnings() {
   const out = [], warn = (what, text) => out.push(el("li", {}, el("b", {}, what), " ", text));
   if (!taken.converged) warn("Not converged:", `the fit of ${taken.name}.`);
-  if (taken.parameters_at_bound.length) warn("At the end of its range:", `${in_a_row(taken.parameters_at_bound)} of ${taken.name}. The data push beyond it.`);
+  for (const text of advice.beware) warn("Beware:", in_words(text));
   if (left_out.length) warn("Not compared:", `${in_a_row(left_out.map((m) => m.name))}. The list of models says why.`);
   return out.length ? el("ul", { class: "warnings", "aria-label": "Warnings" }, out) : null;
 }

@@ -354,7 +354,7 @@ TEST(EnergyReport, JudgesWhatIsSaidOfEnergyByItsForms) {
   EXPECT_EQ(judged("as roughness grows the highlight widens and dims so that energy stays"),
             Claim::Judged::fails);
   EXPECT_EQ(judged("the simple mobile form keeps the look"), Claim::Judged::fails);
-  judged("the coat needs only a fixed 0.25 G");
+  judged("GGX's G of a fixed roughness 0.25 looks good on the coat");
   for (auto& f : r.forms)
     for (auto& at : f.rows) at.albedo = std::min(at.albedo, 1.0);
   EXPECT_EQ(judged("reflected energy never exceeds incoming"), Claim::Judged::holds);
