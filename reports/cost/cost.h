@@ -48,9 +48,9 @@ struct CostRow {
   /// A place on the front of time and error: no rival (of the same kind, number, set, place and truth) that is at least
   /// as accurate is faster by a difference that survives (timing.h).
   bool pareto = false;
-  /// A tie with a better rival: their times differ by nothing that survives, and the other is more accurate, or as
-  /// accurate and faster.
+  /// A tie with a rival that is at least as accurate: their times differ by nothing that survives.
   bool tie = false;
+  bool on_line = false;  ///< a place on the line that is drawn through the front (front.h)
   /// Operations that depend on the parameters alone: made once per block here, for each sample by a shader whose
   /// roughness varies.
   Operations block_operations{};
@@ -174,7 +174,7 @@ struct CostRows {
 };
 
 MeasuredCosts measure_costs(const CostOptions&, const ReportProgress& done = {});
-/// Sets `pareto` and `tie` of rows whose error is known.
+/// Sets `pareto`, `tie` and `on_line` of rows whose error is known.
 void mark_front(std::vector<CostRow>&);
 /// The pairs of forms that engineers consider, of these rows.
 std::vector<CostSwitch> cost_switches(const std::vector<CostRow>&);

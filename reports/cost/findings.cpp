@@ -44,6 +44,7 @@ class Sayings {
   explicit Sayings(const CostRows& r) : r_(r), best_(r.machine.instruction_sets.back()) {}
   Findings all() && {
     headline();
+    if (!said_.headline.empty()) say(said_.headline);
     if (auto text = load_text(r_.others, r_.machine.threads); !text.empty()) say(std::move(text));
     masking();
     front();
@@ -149,13 +150,12 @@ class Sayings {
     }
     if (on.empty()) return;
     say("Of {} masking forms held against height-correlated Smith, {} worth their time in cache: "
-        "no other is as exact and faster. {} more may be, but tie with a better one.",
+        "no other is as exact and faster. {} more may be, but tie with one as exact or more.",
         all, on.size() == 1 ? "one is" : fmt::format("{} are", on.size()), number_or_none(ties));
     std::ranges::sort(on, {}, [](const CostRow* r) { return -r->error.rms; });
     constexpr std::size_t told = 4;
     std::vector<std::string> names;
-    for (const auto* r : on)
-      names.push_back(r->id == "masking.unity_mobile" ? "Unity's mobile form" : in_text(r->id));
+    for (const auto* r : on) names.push_back(in_text(r->id));
     if (names.size() > told) names = {names.front(), names[names.size() / 2], names.back()};
     say("{} from fast to exact: {}.", on.size() > told ? "Three of these" : "They are",
         list_text(names));

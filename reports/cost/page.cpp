@@ -68,7 +68,8 @@ struct Description<CostRow> {
             "pareto", "", [](const R& r) { return if_known(r, r.pareto); },
             "on the front of time and error"),
         field("tie", "", &R::tie,
-              "with a better one: no difference of their times survives from process to process"),
+              "with one as exact or more: no difference of their times survives from process to "
+              "process"),
         field("memory", "", &R::memory, "cache, streaming"),
         field("kind", "", &R::kind,
               "ndf, masking, fresnel, diffuse, model, by_hand, bound, arithmetic, arithmetic_in_f, "

@@ -303,6 +303,7 @@ void mark_front(std::vector<CostRow>& rows) {
     for (std::size_t i = 0; i < group.size(); ++i) {
       const auto place = front_place(places, i);
       group[i]->pareto = place.front, group[i]->tie = place.tie;
+      group[i]->on_line = place.on_line;
     }
   }
 }

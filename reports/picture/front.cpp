@@ -13,8 +13,9 @@ FrontPlace front_place(std::span<const TimedError> rivals, std::size_t form) {
     if (i == form || other.error > own.error) continue;
     const auto faster = difference({other.time, other.each}, {own.time, own.each});
     if (faster.survives && faster.ns > 0) place.front = false;
+    place.tie |= !faster.survives;
     const bool better = other.error < own.error || faster.ns > 0;
-    place.tie |= better && !faster.survives;
+    place.on_line &= !better || (faster.survives && faster.ns < 0);
   }
   return place;
 }

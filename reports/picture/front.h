@@ -24,8 +24,10 @@ struct TimedError {
 struct FrontPlace {
   /// No rival that is at least as exact is faster by a difference that survives (timing.h).
   bool front = true;
-  /// A better rival's time differs by nothing that survives, and the rival is more exact, or as exact and faster.
+  /// The time of a rival that is at least as exact differs by nothing that survives: another run may mark the one or the other.
   bool tie = false;
+  /// The line through the front goes through it: it ties with none that is more exact, nor with one as exact that took less here.
+  bool on_line = true;
 };
 /// \param rivals  the form itself among them
 FrontPlace front_place(std::span<const TimedError> rivals, std::size_t form);

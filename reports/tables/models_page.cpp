@@ -86,7 +86,7 @@ Figure error_and_time(const ModelChoice& choice,
     const auto place = front_place(places, i);
     const auto& model = choice.rows[shown[i]].model;
     const auto number = std::ranges::find(order, shown[i]) - order.begin() + 1;
-    all.push_back({fmt::to_string(number), places[i], place.front && !place.tie});
+    all.push_back({fmt::to_string(number), places[i], place.on_line});
     const bool is_as_good = std::ranges::find(advice.as_good, model) != advice.as_good.end();
     (model == advice.recommended ? recommended
      : is_as_good                ? as_good

@@ -26,6 +26,21 @@ TEST(FrontPlace, IsATieWhereABetterRivalTakesAsLongWithinBothSpreads) {
   EXPECT_FALSE(place(form(1, 0.1, 0.5), form(1.3, 0.1, 0.4)).tie) << "the rival is slower";
 }
 
+TEST(FrontPlace, IsATieForBothOfThoseThatAreAsExactAndTakeAsLong) {
+  const auto a = form(1, 0.2, 0.5), b = form(1.1, 0.2, 0.5);
+  EXPECT_TRUE(place(a, b).tie);
+  EXPECT_TRUE(place(b, a).tie);
+  EXPECT_TRUE(place(a, b).on_line) << "it took less here";
+  EXPECT_FALSE(place(b, a).on_line);
+}
+
+TEST(FrontPlace, IsOnTheLineWhereNoneAsExactIsAsFast) {
+  EXPECT_TRUE(place(form(1, 0.1, 0.5), form(2, 0.1, 0.5)).on_line);
+  EXPECT_FALSE(place(form(2, 0.1, 0.5), form(1, 0.1, 0.5)).on_line) << "it is beaten";
+  EXPECT_FALSE(place(form(1, 0.2, 0.5), form(1.3, 0.2, 0.4)).on_line) << "a tie with a nearer one";
+  EXPECT_TRUE(place(form(1, 0.1, 0.5), form(1.3, 0.1, 0.4)).on_line);
+}
+
 const std::vector<FrontDot> dots{{"slow", form(3, 0.3, 0.01), true},
                                  {"beaten", form(2, 0.2, 0.7)},
                                  {"fast", form(1, 0.1, 0.5), true}};
