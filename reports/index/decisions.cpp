@@ -63,9 +63,12 @@ std::string list_text(const std::vector<std::string>& all, std::string_view last
   return fmt::format("{}{}{}", fmt::join(all.begin(), all.end() - 1, ", "), last, all.back());
 }
 
+/// Cost of the cheap form.
+constexpr std::string_view no_more = "none (the cheap form)";
+
 /// "+0.40 ns", or that it takes no more.
 std::string cost_text(const Candidate& taken, const Candidate& cheap) {
-  if (&taken == &cheap || taken.form == cheap.form) return "–";
+  if (&taken == &cheap || taken.form == cheap.form) return std::string(no_more);
   const double more = taken.ns - cheap.ns;
   if (std::abs(more) <= taken.spread + cheap.spread) return "none measured";
   return fmt::format("{}{:.2f} ns", more < 0 ? "−" : "+", std::abs(more));
@@ -111,7 +114,7 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   to.push_back({"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
                 fmt::format("a factor of {:.2g} (RMS of f, on a surface of {})",
                             std::exp(worst->log_rms), worst->truth),
-                "–",
+                std::string(no_more),
                 fmt::format("a fit finds γ far from 2: GTR, {} for D", cost_text(other, cheap))});
 }
 
@@ -276,18 +279,19 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
                   later ? fmt::format("from roughness {:g} on", *later)
                         : fmt::format("one bounce, ΔE ≤ {}",
                                       short_number(std::ranges::max(of_plastic->delta_e))));
-  to.push_back(
-      {of_image_light ? "All bounces of image-based light" : "All bounces of a single light",
-       fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), *from),
-       "scattering." + taken->form,
-       fmt::format("ΔE ≤ {} (one bounce: {})", short_number(taken->error),
-                   short_number(greatest(f, single))),
-       of_image_light ? fmt::format("{} (beside the split sum's table)", more_ns)
-                      : fmt::format("{} (one at a time; {:.1f} kB of tables)", more_ns,
-                                    static_cast<double>(costs->bytes) / 1000),
-       other && !of_image_light ? fmt::format("nanoseconds are short: {}, ΔE ≤ {}",
-                                              name_of_form(other->form), short_number(other->error))
-                                : of_f0});
+  to.push_back({fmt::format("All bounces of {} (of bright metal, F0 {:g})",
+                            of_image_light ? "image-based light" : "a single light", bright),
+                fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), *from),
+                "scattering." + taken->form,
+                fmt::format("ΔE ≤ {} (one bounce: {})", short_number(taken->error),
+                            short_number(greatest(f, single))),
+                of_image_light ? fmt::format("{} (beside the split sum's table)", more_ns)
+                               : fmt::format("{} (one at a time; {:.1f} kB of tables)", more_ns,
+                                             static_cast<double>(costs->bytes) / 1000),
+                other && !of_image_light
+                    ? fmt::format("{}; nanoseconds are short: {}, ΔE ≤ {}", of_f0,
+                                  name_of_form(other->form), short_number(other->error))
+                    : of_f0});
 }
 
 // --- Image-based light, and what is below the surface ---
@@ -326,7 +330,8 @@ void diffuse(std::vector<Decision>& to, const Facts& f) {
                                       percent(maker->most_albedo, 3))
                         : "";
   to.push_back(
-      {"Diffuse", name_of_form(cheap_id), std::string(cheap_id), "makes no light" + made, "–",
+      {"Diffuse", name_of_form(cheap_id), std::string(cheap_id), "makes no light" + made,
+       std::string(no_more),
        rough ? fmt::format("cloth, clay or plaster scatter back: {}, {}", name_of_form(rough->id),
                            cost_text({rough->id, 0, rough_time->ns, rough_time->spread},
                                      {std::string(cheap_id), 0, cheap->ns, cheap->spread}))

@@ -66,7 +66,7 @@ function grid() {
     el("p", { class: "small muted" }, `Up to ΔE2000 ${visible.just_seen} nobody sees a difference: its unit is scaled to that (CIE 142-2001). Up to ${visible.side_by_side} it is seen side by side alone: what observers just saw in CIELAB (Mahy, Van Eycken and Oosterlinck 1994).`)));
 }
 const time = () => (front.length ? anchored("time", section("What masking's accuracy costs", "Error of G₂ against height-correlated Smith, over the time of a sample: on the line, nothing is both faster and nearer.",
-  figure_view(front[0], { height: 330 }))) : null);
+  figure_view(front[0], { height: 440 }))) : null);
 
 // --- The reports ------------------------------------------------------------------------------------------
 /// The picture's curves alone, its look from afar.

@@ -101,8 +101,11 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
             "brass beside a photograph: exact conductor at three wavelengths");
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").take, "F82");
   EXPECT_EQ(about(all, "Fresnel of dielectrics (glass)").take, "Exact dielectric");
-  EXPECT_EQ(about(all, "All bounces of a single light").take, "Turquin, from roughness 0.4 on");
-  EXPECT_EQ(about(all, "All bounces of a single light").unless, "F0 is 0.04: one bounce, ΔE ≤ 1.7");
+  const auto& bounces = about(all, "All bounces of a single light");
+  EXPECT_EQ(bounces.subject, "All bounces of a single light (of bright metal, F0 0.9)");
+  EXPECT_EQ(bounces.take, "Turquin, from roughness 0.4 on");
+  EXPECT_EQ(bounces.unless, "F0 is 0.04: one bounce, ΔE ≤ 1.7");
+  EXPECT_EQ(about(all, "Fresnel of gold, brass").cost, "none (the cheap form)");
   EXPECT_EQ(about(all, "Precision: GGX in half").take_id, "ndf.ggx");
 }
 
@@ -145,7 +148,10 @@ TEST(Decisions, ChangeWhereAThresholdIsCrossed) {
   f = made_facts();
   for (auto& s : f.scattering)
     if (s.id == "turquin") s.delta_e[2] = 2.4;
-  EXPECT_EQ(about(decisions(f), "All bounces").take, "Kulla and Conty, from roughness 0.4 on");
+  const auto bounces = about(decisions(f), "All bounces");
+  EXPECT_EQ(bounces.take, "Kulla and Conty, from roughness 0.4 on");
+  EXPECT_EQ(bounces.unless,
+            "F0 is 0.04: one bounce, ΔE ≤ 1.7; nanoseconds are short: Turquin, ΔE ≤ 2.4");
   f = made_facts();
   f.masking[1].rms = 0.009;
   EXPECT_EQ(about(decisions(f), "Masking").take, "Unreal's joint form");
