@@ -101,9 +101,9 @@ function every_entry() {
   const chosen = at_first();
   const in_place = (list) => list.filter((r) => r.number === chosen.number && [r.isa, r.memory].join(" ") === chosen.place);
   const of_number = () => in_cards(table(["", "kind", { n: "channels" }, { n: "time [ns]" }, { n: "operations" }, { n: "of the parameters" }, { n: "divisions" }, { n: "roots" }, { n: "exp, log" }, { n: "table [bytes]" }, { n: "largest error" }, { n: "RMS" }, { n: "ΔE2000 of gold" }, "of", "against", "front"],
-    in_place(rows).filter((r) => !["bound", "by_hand", "arithmetic", "arithmetic_in_f", "sampling", "split_sum"].includes(r.kind)).map((r) => [el("code", {}, short(r.id) + (r.way ? `, ${r.way}` : "")), r.kind, { n: String(r.channels) }, { n: ns_text(r.ns, r.ns_spread) }, { n: String(r.ops) }, { n: String(r.ops_block) }, { n: String(r.ops_div) }, { n: String(r.ops_sqrt) },
+    in_place(rows).filter((r) => !["bound", "by_hand", "arithmetic", "arithmetic_in_f", "sampling", "split_sum"].includes(r.kind)).map((r) => [r.way ? el("code", {}, `${short(r.id)}, ${r.way}`) : form_cell(r.id), r.kind, { n: String(r.channels) }, { n: ns_text(r.ns, r.ns_spread) }, { n: String(r.ops) }, { n: String(r.ops_block) }, { n: String(r.ops_div) }, { n: String(r.ops_sqrt) },
       { n: String(r.ops_exp + r.ops_log) }, { n: r.bytes ? count(r.bytes) : "" }, { n: error_text(r.error_max) }, { n: error_text(r.error_rms) }, { n: known(r.delta_e) ? significant(r.delta_e, 2) : "" },
-      el("span", { class: "because small" }, r.measure), el("span", { class: "because small" }, short(r.truth)), r.pareto ? (r.tie ? "a tie" : "yes") : ""])));
+      el("span", { class: "because small" }, r.measure), el("span", { class: "because small" }, named(r.truth)), r.pareto ? (r.tie ? "a tie" : "yes") : ""])));
   const list = changing(of_number, () => other_number(chosen, of_number));
   return section("Every entry", "Of one sample in all its channels; operations of the parameters, as a root of roughness, are made once per block here and hardly in these times: a shader whose roughness varies makes them for each sample. Errors are absolute: of terms over the directions and parameters that the audit looks at, D over its peak; of whole models as said above. On the front is what nothing of its kind, channels and truth dominates.",
     el("div", { class: "controls" }, choice("Number", [["float", "float"], ["double", "double"]], chosen.number, (n) => { chosen.number = n; list.again(); }),
@@ -117,7 +117,7 @@ function fast_arithmetic() {
   if (!arithmetic.length) return null;
   const node = section("Fast arithmetic", `In float columns of ${best} in cache: the operation alone, and in f, h and its length among it. Roots and divisions stand in GGX, the exponential in Beckmann's D, the power in GTR's at γ = 1.5, the fifth power in Schlick's Fresnel; `
     + "each under GGX's masking, over roughness 0.1 to 1 about the highlight, where f NoL is above a millionth of its most. ΔE2000 is of the highlight in grey, its peak the display's white.",
-    scroll(table(["operation", "by", { n: "alone [ns]" }, { n: "its error" }, { n: "in f [ns]" }, { n: "f off, at most" }, { n: "RMS" }, { n: "ΔE2000" }, { n: "D by NoH: f off" }, { n: "ΔE2000" }],
+    in_cards(table(["operation", "by", { n: "alone [ns]" }, { n: "its error" }, { n: "in f [ns]" }, { n: "f off, at most" }, { n: "RMS" }, { n: "ΔE2000" }, { n: "D by NoH: f off" }, { n: "ΔE2000" }],
       arithmetic.map((r) => [r.operation, r.name, timed(r), share(r.error), { n: known(r.in_f_ns) ? ns_text(r.in_f_ns, r.in_f_ns_spread) : "–" }, share(r.f_max), share(r.f_rms), { n: significant(r.delta_e, 2) }, share(r.f_max_by_cosine), { n: significant(r.delta_e_by_cosine, 2) }]))));
   node.id = "arithmetic";
   return node;
@@ -127,7 +127,7 @@ function light_sampling() {
   const names = unique(sampling.map((r) => r.name)), places_of = unique(sampling.map((r) => `${r.roughness} ${r.mu}`));
   const at = (name, place) => sampling.find((r) => r.name === name && `${r.roughness} ${r.mu}` === place);
   const node = section("Light drawn for GGX", `One light and its weight, f NoL over its density at F = 1, in float columns of ${best} in cache. A sample's standard deviation is over E; the last columns are the time until the error is 1 % of E, variance at equal time, with the share of lights below the horizon.`,
-    scroll(table(["roughness, NoV", ...names.map((n) => ({ n: `${n}: σ` })), ...names.map((n) => ({ n: `${n} [µs to 1 %]` }))],
+    in_cards(table(["roughness, NoV", ...names.map((n) => ({ n: `${n}: σ` })), ...names.map((n) => ({ n: `${n} [µs to 1 %]` }))],
       places_of.map((p) => [p.replace(" ", ", "), ...names.map((n) => ({ n: significant(at(n, p).deviation, 2) })),
         ...names.map((n) => ({ n: known(at(n, p).to_percent_ms) ? `${significant(1000 * at(n, p).to_percent_ms, 2)} (${significant(100 * at(n, p).below, 2)} % below)` : "–" }))]).concat([["time of a sample [ns]", ...names.map((n) => timed(at(n, places_of[0]))), ...names.map(() => "")]]))));
   node.id = "sampling";
@@ -136,7 +136,7 @@ function light_sampling() {
 function tables_and_formulas() {
   if (!lookups.length) return null;
   const node = section("Table or formula", `A and B of the split sum against quadrature, roughness from 0.05 and NoV from 1/32 on. Times are of float columns of ${best} in cache, where a table's texels are fetched one by one: a GPU has a unit for that, which this processor has not.`,
-    scroll(table(["", { n: "size [bytes]" }, { n: "fetched [bytes]" }, { n: "time [ns]" }, { n: "RMS of A" }, { n: "of B" }, { n: "of 0.04 A + B" }, { n: "of A + B" }, { n: "most" }],
+    in_cards(table(["", { n: "size [bytes]" }, { n: "fetched [bytes]" }, { n: "time [ns]" }, { n: "RMS of A" }, { n: "of B" }, { n: "of 0.04 A + B" }, { n: "of A + B" }, { n: "most" }],
       lookups.map((r) => [r.name, { n: r.bytes ? count(r.bytes) : "" }, { n: r.fetched ? count(r.fetched) : "" }, timed(r), ...["a_rms", "b_rms", "plastic_rms", "mirror_rms", "mirror_max"].map((k) => ({ n: error_text(r[k]) }))]))));
   node.id = "lookups";
   return node;

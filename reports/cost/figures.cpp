@@ -7,6 +7,7 @@
 
 #include "brdf/term/term.h"
 #include "reports/cost/cost.h"
+#include "reports/finding/names.h"
 #include "reports/picture/front.h"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ TimedError drawn(const CostRow& r, double error) {
 }
 
 std::string shown(const CostRow& r) {
-  std::string name(r.kind == "model" ? std::string_view(r.id) : short_id(r.id));
+  auto name = r.kind == "model" ? r.id : brief_name(r.id);
   if (name.starts_with("model.")) name.erase(0, 6);
   return r.way.empty() ? name : fmt::format("{}, {}", name, r.way);
 }
@@ -51,7 +52,7 @@ constexpr Kind kinds[] = {
 /// The truth that it is against, which is what it can be compared with.
 std::string against(const CostRow& r) {
   const std::string& truth = r.error.truth;
-  if (r.kind != "model") return std::string(short_id(truth));
+  if (r.kind != "model") return brief_name(truth);
   return fmt::format("{}{}{}", truth.starts_with("beckmann") ? "Beckmann's" : "GGX's",
                      truth.find("/conductor") == truth.npos    ? ", glass"
                      : truth.find("/dielectric") == truth.npos ? ", gold"
@@ -74,7 +75,7 @@ void add_rows_pictures(Pictures& to, const CostRows& report) {
           const auto name = against(r);
           auto at = std::ranges::find(series, name, [](const auto& s) { return s.first; });
           if (at == series.end()) at = series.insert(at, {name, {}});
-          at->second.push_back({shown(r), drawn(r, r.error.rms), r.pareto && !r.tie});
+          at->second.push_back({shown(r), drawn(r, r.error.rms), r.on_line});
         }
         if (series.empty()) continue;
         FigureChoices choices{
@@ -103,11 +104,11 @@ void add_metals(Pictures& to, const CostRows& report) {
     if (!r || is_mistake(*r)) continue;
     const bool exact = r->error.truth == r->id;  // but for what float rounds
     places.push_back(drawn(*r, exact ? std::max(rms, r->error.rms) : rms));
-    dots.push_back({std::string(short_id(form)), places.back()});
+    dots.push_back({brief_name(form), places.back()});
   }
   for (std::size_t i = 0; i < dots.size(); ++i) {
     const auto place = front_place(places, i);
-    dots[i].front = place.front && !place.tie;
+    dots[i].front = place.on_line;
   }
   if (dots.empty()) return;
   to.figures.push_back(
@@ -141,7 +142,8 @@ void add_points_picture(Pictures& to,
     const auto k = std::ranges::upper_bound(at->x, p.time.ns / unit_ns) - at->x.begin();
     at->x.insert(at->x.begin() + k, p.time.ns / unit_ns);
     at->y.insert(at->y.begin() + k, std::max(p.error, known_to));
-    at->labels.insert(at->labels.begin() + k, p.label);
+    at->labels.insert(at->labels.begin() + k,
+                      picture == "compensation" ? brief_name(p.label) : p.label);
     at->x_error.insert(at->x_error.begin() + k, p.time.spread_ns / unit_ns);
     at->y_error.insert(at->y_error.begin() + k, p.error_spread);
   }

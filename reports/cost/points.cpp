@@ -110,10 +110,10 @@ void add_split_sum(std::vector<CostPoint>& to) {
              }),
              size * size * 4);
   }
-  ways.add(to, "formula", "albedo_fit", ways.each([](double r, double nov) {
+  ways.add(to, "formula", "gonio's fit", ways.each([](double r, double nov) {
     return mapped<AlbedoFit, double>(r * r, nov)[0];
   }));
-  ways.add(to, "formula", "albedo_fit.materialx", ways.each([](double r, double nov) {
+  ways.add(to, "formula", "MaterialX's fit", ways.each([](double r, double nov) {
     return mapped<AlbedoFitMaterialx, double>(r * r, nov)[0];
   }));
   const auto sums = [](const std::vector<SplitSum>& all) {

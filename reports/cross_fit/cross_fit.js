@@ -35,10 +35,10 @@ function over_roughness() {
       choice("Truth", choices_of(figures, "shifts", "truth").map((t) => [t, t]), chosen.truth, change("truth")),
       choice("What differs from the truth", kinds.map((k) => [k, kind_names[k]]), chosen.kind, change("kind")),
       choice("Material", choices_of(figures, "shifts", "material", { truth: chosen.truth }).map((m) => [m, m]), chosen.material, change("material")),
-      chooser("Form", [["", "all alike"], ...names.map((n) => [n, n])], emphasis, (v) => { emphasis = v; panels.again(); })),
+      chooser("Form", [["", "all alike"], ...said.map((s) => [short(s.fitted), named(s.fitted)])], emphasis, (v) => { emphasis = v; panels.again(); })),
       el("div", { class: "columns" }, seen.map((f) => figure_view(f, { emphasis }))),
       el("h3", { style: { "margin-top": "22px" } }, "Each in a sentence"),
-      el("div", { class: "columns" }, said.map((s) => el("p", { class: "small" }, el("code", {}, short(s.fitted)), el("br"), s.sentence)))];
+      el("div", { class: "columns" }, said.map((s) => el("p", { class: "small" }, form_cell(s.fitted), el("br"), s.sentence)))];
   }, () => small_pictures(figures.filter((f) => f.family === "shifts" && f.choices.material === chosen.material && f.choices.truth === chosen.truth && f.choices.kind !== chosen.kind)));
   return section("Over roughness", "The shift of each parameter that the form brings about. F0 of metals is the mean of the channels. Points at a bound are left out. Where light meets several facets bars are what the random walks leave uncertain; "
     + "dashed: the exact form of single scattering.", panels.node);
@@ -52,7 +52,7 @@ function compared() {
   const panels = changing(() => el("div", { class: "columns" }, choices_of(figures, "compared", "quantity").map((quantity) => picture_of(figures, "compared", { ...chosen, quantity })).filter(Boolean).map((f) => figure_view(f))));
   const change = (key) => (v) => { chosen[key] = v; panels.again(); };
   return section("Metric and directions", "The same truth, GGX met once, and the same form, fitted by another metric or over other directions. The log metric looks at all directions alike, l2_cosine at the bright peak.",
-    el("div", { class: "controls" }, chooser("Form", forms.map((f) => [f, f]), chosen.form, change("form")),
+    el("div", { class: "controls" }, chooser("Form", forms.map((f) => [f, named_short(f)]), chosen.form, change("form")),
       choice("Material", choices_of(figures, "compared", "material").map((m) => [m, m]), chosen.material, change("material"))), panels.node);
 }
 

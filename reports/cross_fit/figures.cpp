@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "reports/cross_fit/cases.h"
+#include "reports/finding/names.h"
 
 #include <fmt/format.h>
 
@@ -93,7 +94,7 @@ FigureMap matrix(const CrossFitRows& r, const Quantity& q, double roughness) {
   m.y.label = "fitted form";
   auto forms = forms_of(r, q);
   std::ranges::reverse(forms);  // the first at the top
-  for (const auto& f : forms) m.y.names.emplace_back(short_form(f));
+  for (const auto& f : forms) m.y.names.push_back(brief_name(f));
   for (const auto truth : truths_of(r))
     for (const auto& group : groups) {
       m.x.names.push_back(fmt::format("{}: {}", truth, group.name));
@@ -141,6 +142,7 @@ Figure shifts_figure(const CrossFitRows& r,
         !is_main(c) || (q.parameter == "gamma" && !c.find("gamma")))
       continue;
     auto& curve = curve_named(f, short_form(c.fitted), FigureCurve::Kind::both);
+    curve.label = name_of_form(c.fitted);
     curve.dashed = c.kind == "exact";
     const auto [value, error] = seen(c, q);
     curve.x.push_back(c.roughness);
@@ -169,7 +171,7 @@ Figure compared_figure(const CrossFitRows& r,
                                     {"material", std::string(material)},
                                     {"quantity", std::string(q.name)}});
   f.title = fmt::format("Shift of {}", q.name);
-  f.note = fmt::format("{}, {}", short_form(form), material);
+  f.note = fmt::format("{}, {}", name_of_form(form), material);
   f.x = over_roughness();
   f.y = {fmt::format("{}{}", q.label, q.unit)};
   const auto add = [&](std::string name, Metric metric, std::string_view layout) {

@@ -25,7 +25,7 @@ function crossing_table(kind, names, text) {
     : el("span", { title: `± ${significant(c.error, 1)}` }, c.ranges.map(range).join(", ")));
   const head = ["", ...angles.flatMap((mu) => shares.map((share) => ({ n: ratio_of(share) })))];
   const top = el("tr", {}, el("th", {}), angles.map((mu) => el("th", { colspan: shares.length, class: "n" }, mu_text(mu))));
-  const t = table(head, names.map((name) => [el("code", {}, text(name)),
+  const t = table(head, names.map((name) => [text(name),
     ...angles.flatMap((mu) => shares.map((share) => ({ n: said(find(name, mu, share)) })))]));
   t.classList.add("crossings");
   const told = in_cards(t, ["", ...angles.flatMap((mu) => shares.map((share) => `${ratio_of(share)} ${mu_text(mu)}`))]);
@@ -47,12 +47,12 @@ function maskings() {
   let name = reference;
   const panels = changing(() => el("div", {},
     el("div", { class: "columns map" }, loss_map(name), albedo_curves(name)), averages(name)));
-  const groups = forms.map((f) => [f.form, short(f.form) + (f.model ? " (whole model)" : "")]);
+  const groups = forms.map((f) => [f.form, named(f.form) + (f.model ? " (whole model)" : "")]);
   return section("Every masking form", "At F = 1 a form should give all back: E = 1. Beckmann's forms stand under Beckmann, Smith for GTR under GTR of that gamma, the coat's under GTR of gamma 1 "
     + "with alpha up to 0.1, as it ships, all others under GGX. Whole mobile models in white, their clamps included; those that are π times a BRDF, divided by π.",
     el("div", { class: "controls" }, chooser("Form", groups, name, (n) => { name = n; panels.again(); })), panels.node,
     el("h3", {}, "Where each loses more than 1, 5, 10 %, by roughness"), el("p", { class: "small muted" }, crossing_note),
-    crossing_table("form", forms.map((f) => f.form), short));
+    crossing_table("form", forms.map((f) => f.form), form_cell));
 }
 
 // --- Bounces ---------------------------------------------------------------------------------------------
@@ -80,7 +80,7 @@ function compensations() {
     return el("div", { class: "columns" }, figure_view(picture_of(figures, "compensation", { material, angle: mu }), o),
       figure_view(picture_of(figures, "compensation_by_angle", { material }), o));
   }, () => small_pictures(figures.filter((f) => f.family === "compensation" && f.choices.angle === String(mu) && f.choices.material !== material)));
-  const cost_rows = costs.map((c) => [el("code", {}, short(c.scattering)), { n: significant(c.rms, 2) }, { n: significant(c.worst, 2) }, c.worst_at, { n: significant(c.gold_rms, 2) },
+  const cost_rows = costs.map((c) => [form_cell(c.scattering), { n: significant(c.rms, 2) }, { n: significant(c.worst, 2) }, c.worst_at, { n: significant(c.gold_rms, 2) },
     { n: String(c.operations) }, { n: String(c.lookups) }, { n: c.bytes ? count(c.bytes) : "0" }, { n: `${significant(c.cost_ns, 2)} ± ${significant(c.spread_ns, 1)}` }, { n: significant(c.without_ns, 2) }]);
   return section("What gives it back", "Albedo of each compensation less the truth: the deterministic solution of all bounces, exact to " + significant(Math.max(...truth.map((t) => t.error)), 1) + ". Below 0 light is still missing, above it there is too much.",
     el("div", { class: "controls" }, chooser("Material", materials.map((m) => [m, m]), material, (m) => { material = m; panels.again(); }),
@@ -97,7 +97,7 @@ function albedo_formulas() {
   if (!albedo_forms.length) return null;
   return section("E as a formula", "What compensations look up, E of GGX under Smith, correlated, F = 1: without a table by a fit. Errors against quadrature over roughness 0.05 to 1 and NoV 0.005 to 1.",
     in_cards(table(["", { n: "RMS error" }, { n: "worst" }, "worst at", { n: "operations" }, { n: "table bytes" }],
-      albedo_forms.map((f) => [el("code", {}, short(f.form)), { n: significant(f.rms, 2) }, { n: significant(f.worst, 2) }, f.worst_at, { n: f.operations ? String(f.operations) : "–" }, { n: f.bytes ? count(f.bytes) : "0" }]))));
+      albedo_forms.map((f) => [form_cell(f.form), { n: significant(f.rms, 2) }, { n: significant(f.worst, 2) }, f.worst_at, { n: f.operations ? String(f.operations) : "–" }, { n: f.bytes ? count(f.bytes) : "0" }]))));
 }
 
 // --- Error against time --------------------------------------------------------------------------------------

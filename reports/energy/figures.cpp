@@ -5,6 +5,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "reports/energy/energy.h"
+#include "reports/finding/names.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +44,7 @@ auto each_once(const List& list, Get get) {
 void add_form(Pictures& p, const EnergyForm& f) {
   const auto roughness = each_once(f.rows, &EnergyForm::At::roughness);
   auto m = make_map("loss", {{"form", f.name}});
-  m.title = fmt::format("Loss 1 − E of {}", name_of(f));
+  m.title = fmt::format("Loss 1 − E of {}", in_text(f.name));
   m.note = "by roughness and angle; below 0 light is made";
   m.x = {"roughness", roughness};
   m.x.from = 0;
@@ -57,7 +58,7 @@ void add_form(Pictures& p, const EnergyForm& f) {
   p.maps.push_back(std::move(m));
 
   auto e = make_figure("albedo", {{"form", f.name}});
-  e.title = fmt::format("E(μ) of {}", name_of(f));
+  e.title = fmt::format("E(μ) of {}", in_text(f.name));
   e.note = "F = 1: what is missing to 1, masking took";
   e.x = over_mu();
   e.y = {"E"};
@@ -89,6 +90,7 @@ void add_forms(Pictures& p, const EnergyRows& r) {
   for (const auto& f : r.forms) {
     add_form(p, f);
     FigureCurve c{name_of(f), {}, {}};
+    c.label = name_of_form(f.name);
     c.dashed = f.name == reference;
     for (const auto& a : f.averages) {
       c.x.push_back(a.roughness);
@@ -156,6 +158,7 @@ void add_errors(Figure& f, const EnergyMaterial& m, Shown shown, X x) {
     if (!shown(at)) continue;
     for (const auto& s : at.scattering) {
       auto& c = curve_named(f, s.id.starts_with("scattering.") ? short_id(s.id) : s.id);
+      c.label = name_of_form(s.id);
       c.x.push_back(x(at));
       c.y.push_back(s.albedo - at.truth);
     }

@@ -4,6 +4,8 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace gonio {
 
@@ -12,5 +14,9 @@ namespace gonio {
 std::string name_of_form(std::string_view form);
 /// The same within a sentence: "height-correlated Smith".
 std::string in_text(std::string_view form);
+/// Name for a picture, where there is little room: the same where it is short, else the id without its role.
+std::string brief_name(std::string_view form);
+/// Every form of the catalogue, and each variant that has a name of its own: {id, name}.
+std::vector<std::pair<std::string, std::string>> form_names();
 
 }  // namespace gonio

@@ -38,6 +38,8 @@ function merged_points(curves) {
   return [xs, index.map((list, c) => list.map((i) => (i === undefined ? undefined : known(curves[c].y[i]) ? curves[c].y[i] : null))), index];
 }
 
+/// What a picture calls a curve.
+const called = (curve) => curve.label ?? curve.name;
 /// Names of the curves that a report's pictures show at first where there are more than can be told apart: the most shipped first.
 let most_shipped = [];
 const told_apart = 6;
@@ -81,10 +83,10 @@ function figure_view(figure, o = {}) {
     const x_of = (c, k, i) => with_bar(x_text(xs[i]), c.x_error?.[index[k][i]]);
     if (single) {
       const [[c, s, i, k]] = told, label = c.labels?.[index[k][i]];
-      return readout.replaceChildren(line_key(s, c.kind), ` ${[c.name, label].filter(Boolean).join(", ")}: ${figure.x.label} `, el("b", {}, x_of(c, k, i)), `, ${figure.y.label} `, y_of(c, k, i));
+      return readout.replaceChildren(line_key(s, c.kind), ` ${[called(c), label].filter(Boolean).join(", ")}: ${figure.x.label} `, el("b", {}, x_of(c, k, i)), `, ${figure.y.label} `, y_of(c, k, i));
     }
     readout.replaceChildren(`${figure.x.label} ${x_text(xs[told[0][2]])}: `, ...told.flatMap(([c, s, i, k], n) =>
-      [n ? ", " : "", line_key(s, c.kind), ` ${c.name} `, c.labels?.[index[k][i]] ? `${c.labels[index[k][i]]} ` : "", y_of(c, k, i)]));
+      [n ? ", " : "", line_key(s, c.kind), ` ${called(c)} `, c.labels?.[index[k][i]] ? `${c.labels[index[k][i]]} ` : "", y_of(c, k, i)]));
   };
 
   const plot = curve_plot([xs, ...columns], curves.map((c, k) => ({ ...styles[k], kind: c.kind, mute: single && c.dashed, labels: along(c.labels, k), x_error: along(c.x_error, k), y_error: along(c.y_error, k) })),
@@ -96,7 +98,7 @@ function figure_view(figure, o = {}) {
   const scales = [[false, "linear"], [true, "logarithmic"]];
   const y_choice = figure.y.scales.log && figure.y.scales.linear.low >= 0, x_choice = figure.x.scales.log;
   const keys = el("span", { class: "keys" });
-  const show_keys = () => keys.replaceChildren(...curves.flatMap((c, k) => (styles[k].quiet || !shown[k] ? [] : [el("span", {}, line_key(styles[k], c.kind), " ", c.name)])),
+  const show_keys = () => keys.replaceChildren(...curves.flatMap((c, k) => (styles[k].quiet || !shown[k] ? [] : [el("span", {}, line_key(styles[k], c.kind), " ", called(c))])),
     ...(o.emphasis && styles.some((s) => s.quiet) ? [el("span", { class: "muted" }, "grey: the others")] : []));
   show_keys();
   const controls = el("div", { class: "controls" },

@@ -1,6 +1,8 @@
 #include "reports/page/page.h"
 
+#include "reports/finding/names.h"
 #include "reports/page/assets.h"
+#include "reports/picture/json_numbers.h"
 #include "reports/picture/markup.h"
 
 #include <fmt/format.h>
@@ -20,6 +22,13 @@ std::string script_json(std::string_view json) {
       out += c;
   }
   return out;
+}
+
+/// Names of forms by their ids, as the scripts of reports know them.
+std::string names_script() {
+  auto names = PageJson::object();
+  for (auto& [form, name] : form_names()) names[std::move(form)] = std::move(name);
+  return fmt::format("const form_names = {};\n", script_json(page_text(names)));
 }
 
 }  // namespace
@@ -64,7 +73,10 @@ std::string make_report_page(std::string_view title,
                              std::string_view json_data,
                              std::string_view script) {
   return make_page(title, json_data,
-                   std::string(assets::report_js).append(assets::figures_js).append(script));
+                   std::string(assets::report_js)
+                       .append(names_script())
+                       .append(assets::figures_js)
+                       .append(script));
 }
 
 std::string beside_index(std::string html) {

@@ -1,6 +1,15 @@
 "use strict";
 // What the pages of the reports share, beside their pictures.
 
+/// Name of a form by its id, of a variant with what tells it: form_names is of reports/finding/names.cpp.
+function named(form) {
+  const [id] = form.split(",");
+  return form_names[form] ?? (id in form_names ? form_names[id] + form.slice(id.length) : form);
+}
+/// The same by an id without its role, of a term that a renderer's highlight has.
+const named_short = (id) => named(["fresnel", "masking", "ndf", "model"].map((role) => `${role}.${id}`).find((form) => form.split(",")[0] in form_names) ?? id);
+/// A form's name, and its id small.
+const form_cell = (form) => (named(form) === form ? el("code", {}, form) : el("span", { class: "form" }, named(form), " ", el("small", {}, el("code", {}, form.slice(form.indexOf(".") + 1)))));
 /// A list to choose from; changes are told.
 function chooser(label, options, chosen, change) {
   return el("label", {}, label + " ", el("select", { onchange: (e) => change(e.target.value) },

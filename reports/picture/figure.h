@@ -40,7 +40,12 @@ struct FigureCurve {
   std::vector<double> x_error{}, y_error{};  ///< half widths of each point, or none
   std::string
       look{};  ///< the name that it looks like, of several that came to the same; empty: its own
+  std::string label{};  ///< what a picture calls it, of one whose name is an id; empty: its name
 };
+/// What a picture calls it.
+inline const std::string& label_of(const FigureCurve& c) {
+  return c.label.empty() ? c.name : c.label;
+}
 
 template <>
 inline constexpr std::array<std::string_view, 3> names_of<FigureCurve::Kind>{"line", "points",

@@ -86,6 +86,7 @@ Json json(const Figure& f, std::size_t i, const CurveStyles& styles) {
            {"colour", look.colour},
            {"dash", look.dash},
            {"width", look.width}};
+  if (!c.label.empty()) out["label"] = c.label;
   if (c.dashed) out["dashed"] = true;
   if (i == 0 || f.curves[i - 1].x != c.x) out[key("x", f.x)] = page_json(c.x);
   out[key("y", f.y)] = page_json(c.y);

@@ -67,7 +67,7 @@ class Drawing {
     std::string out;
     double x = 16;
     for (std::size_t i = 0; i < f_.curves.size(); ++i) {
-      const double w = 30 + svg::text_width(f_.curves[i].name) + 14;
+      const double w = 30 + svg::text_width(label_of(f_.curves[i])) + 14;
       if (x > 16 && x + w > width_ - 8) {
         x = 16;
         top_ += 18;
@@ -77,7 +77,7 @@ class Drawing {
       if (f_.curves[i].kind != FigureCurve::Kind::points)
         out += svg::line(x, y, x + 22, y, s.colour, s.width, s.dash);
       if (f_.curves[i].kind != FigureCurve::Kind::line) out += point(x + 11, y, s.colour);
-      out += svg::text(x + 27, y + 4, f_.curves[i].name, {.fill = svg::ink});
+      out += svg::text(x + 27, y + 4, label_of(f_.curves[i]), {.fill = svg::ink});
       x += w;
     }
     top_ += f_.curves.empty() ? 6 : 28;

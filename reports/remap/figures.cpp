@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "brdf/catalogue/registry.h"
+#include "reports/finding/names.h"
 #include "reports/remap/remap.h"
 
 #include <fmt/format.h>
@@ -36,7 +37,7 @@ FigureMap map_over_cosines(const RemapRows& r, std::string family, FigureChoices
 void add_maps(Pictures& p, const RemapRows& r) {
   for (const auto& f : r.forms) {
     auto own = map_over_cosines(r, "g2", {{"form", name_of(f.form)}});
-    own.title = fmt::format("G2 of {}", name_of(f.form));
+    own.title = fmt::format("G2 of {}", in_text(f.form));
     own.note = f.reads_half ? "averaged over azimuths" : "";
     own.value = "G2";
     own.limit = 1;
@@ -51,7 +52,7 @@ void add_maps(Pictures& p, const RemapRows& r) {
       if (!smith || reference == f.form) continue;
       auto off = map_over_cosines(r, "masking_error",
                                   {{"form", name_of(f.form)}, {"reference", last_word(reference)}});
-      off.title = fmt::format("{} against {}", name_of(f.form), name_of(reference));
+      off.title = fmt::format("{} against {}", name_of_form(f.form), in_text(reference));
       off.note = "relative error of G2; below 0 it masks too much";
       off.value = "G2 / Smith − 1 [%]";
       off.diverging = true;
@@ -79,6 +80,7 @@ std::vector<FigureCurve> curves_of(const RemapRows& r,
   for (const auto& f : r.forms) {
     if (f.ndf != ndf || f.form == reference) continue;
     FigureCurve c{name_of(f.form), {}, {}};
+    c.label = name_of_form(f.form);
     for (const auto& row : r.rows)
       if (row.form == f.form && row.reference == reference) {
         c.x.push_back(row.roughness);
@@ -102,7 +104,7 @@ void add_comparisons(Pictures& p, const RemapRows& r, std::string_view ndf) {
     };
     auto rms = make_figure("rms", choices);
     rms.title = "RMS of G2 − Smith";
-    rms.note = fmt::format("over NoL, NoV in [0.05, 1]²; against {}", name_of(reference));
+    rms.note = fmt::format("over NoL, NoV in [0.05, 1]²; against {}", in_text(reference));
     rms.x = over_roughness();
     rms.y = {"RMS of G2 − Smith"};
     rms.curves = curves_of(r, ndf, reference, [](const RemapRow& x) { return x.rms; });
@@ -112,7 +114,7 @@ void add_comparisons(Pictures& p, const RemapRows& r, std::string_view ndf) {
       with_by.emplace_back("by", by);
       auto f = make_figure("behaves_like", with_by);
       f.title = "Behaves like roughness …";
-      f.note = fmt::format("of {}, by its {}", name_of(reference), by);
+      f.note = fmt::format("of {}, by its {}", in_text(reference), by);
       f.x = over_roughness();
       f.y = {"roughness that it behaves like"};
       f.curves = curves_of(r, ndf, reference, value);
@@ -140,6 +142,7 @@ void add_furnaces(Pictures& p, const RemapRows& r, std::string_view ndf) {
       if (form.ndf != ndf || form.at[k].g2.empty()) continue;
       f.curves.push_back({name_of(form.form), r.mu, form.at[k].albedo, FigureCurve::Kind::line,
                           std::ranges::find(references, form.form) != references.end()});
+      f.curves.back().label = name_of_form(form.form);
     }
     if (!f.curves.empty()) p.figures.push_back(std::move(f));
   }
@@ -195,7 +198,7 @@ void add_vf(Pictures& p, const RemapRows& r) {
         {{"form", name_of(at->form)}, {"fresnel", at->fresnel}, {"over", std::string(at->over)}});
     f.title = at->over == "all" ? "All directions" : "Mirror direction";
     f.note = fmt::format("{}; {} over V F, {}", at->over == "all" ? "azimuths even" : "h = n",
-                         name_of(at->form), at->fresnel);
+                         name_of_form(at->form), at->fresnel);
     f.x = over_roughness();
     f.y = {"ratio", true};
     FigureCurve mean{"geometric mean", {}, {}}, least{"least", {}, {}}, most{"most", {}, {}};

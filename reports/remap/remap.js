@@ -17,7 +17,7 @@ most_shipped = ["schlick_ggx.direct", "smith_ggx.correlated", "schlick_ggx.half_
 /// What is looked at in the first section.
 const chosen = { form: names.includes(direct) ? direct : names[0], kind: "separable", roughness: nearest_to(shown, 0.3), by: "G2" };
 const families = { "ndf.ggx": "GGX", "ndf.beckmann": "Beckmann" };
-const form_options = forms.map((f) => [f.form, `${short(f.form)} (${families[f.ndf]})`]);
+const form_options = forms.map((f) => [f.form, `${named(f.form)} (${families[f.ndf]})`]);
 const kinds = [["separable", "separable"], ["correlated", "correlated"]];
 
 // --- Errors ----------------------------------------------------------------------------------------------
@@ -39,7 +39,7 @@ const panels = changing(() => {
       figure_view(picture_of(figures, "behaves_like", { distribution, reference, by }), { ...emphasis, y_text: (y) => y.toFixed(3) }),
       figure_view(picture_of(figures, "rms", { distribution, reference }), emphasis)));
 }, () => [el("h3", {}, "The roughness of exact Smith that each is like, by G2"),
-  in_cards(table(["", ...shown.map((r) => ({ n: r }))], forms.map((f) => [el("code", {}, short(f.form)), ...rows_of(f.form, chosen.kind).filter((r) => shown.includes(String(r.roughness))).map((r) => ({ n: like_text(r, "g2") }))])))]);
+  in_cards(table(["", ...shown.map((r) => ({ n: r }))], forms.map((f) => [form_cell(f.form), ...rows_of(f.form, chosen.kind).filter((r) => shown.includes(String(r.roughness))).map((r) => ({ n: like_text(r, "g2") }))])))]);
 const change = (key) => (v) => { chosen[key] = v; panels.again(); };
 function each_form() {
   return section("How far off, and which roughness it behaves like", "G2 of each form against exact Smith: GGX's forms against Smith for GGX, Beckmann's against Smith for Beckmann. Forms that read the half vector (VoH, NoH) are "
@@ -75,7 +75,7 @@ function in_place_of_vf() {
     figure_view(picture_of(figures, "in_place_of_vf", { form, fresnel, over }), { y_text: (y) => "×" + significant(y, 3) }))),
   () => small_pictures(figures.filter((f) => f.family === "in_place_of_vf" && !(f.choices.form === form && f.choices.fresnel === fresnel))));
   return section("In place of V F", "F0 V of the mobile forms over V F of Smith (correlated) and an exact Fresnel term; 1 is right. V = 1/(4 LoH² (r + 0.5)): the 4 of D F G/(4 NoL NoV), which the publication leaves out, is given back. Cosines from 0.05 to 1 in steps of 0.05.",
-    el("div", { class: "controls" }, chooser("Form", of_forms.map((f) => [f, f]), form, (f) => { form = f; both.again(); }),
+    el("div", { class: "controls" }, chooser("Form", of_forms.map((f) => [f, named_short(f)]), form, (f) => { form = f; both.again(); }),
       chooser("Fresnel", fresnels.map((f) => [f, f]), fresnel, (f) => { fresnel = f; both.again(); })), both.node);
 }
 
@@ -85,7 +85,7 @@ function all_forms() {
   const of = (kind, roughness) => {
     const found = forms.map((f) => [f, rows_of(f.form, kind).find((r) => r.roughness === roughness)]).filter(([, r]) => r);
     return in_cards(table(["", { n: "RMS of G2" }, { n: "most, relative" }, "at NoL, NoV", { n: "E(0.5)" }, { n: "Smith's" }, { n: "like r, by G2" }, { n: "by E" }, { n: "operations" }, { n: "roots" }, "reads h", "ships in"],
-      found.sort(([a, x], [b, y]) => a.ndf.localeCompare(b.ndf) * -1 || x.rms - y.rms).map(([f, r]) => [el("code", {}, short(f.form)), { n: significant(r.rms, 2) }, { n: percent(r.max_rel) },
+      found.sort(([a, x], [b, y]) => a.ndf.localeCompare(b.ndf) * -1 || x.rms - y.rms).map(([f, r]) => [form_cell(f.form), { n: significant(r.rms, 2) }, { n: percent(r.max_rel) },
         r.max_rel > 1e-12 ? `${plain(r.max_rel_nol)}, ${plain(r.max_rel_nov)}` : "", { n: r.albedo_mu_0_5.toFixed(4) }, { n: r.albedo_reference.toFixed(4) }, { n: like_text(r, "g2") }, { n: like_text(r, "albedo") },
         { n: String(f.operations) }, { n: String(f.roots) }, f.reads_half ? "yes" : "", el("span", { class: "because small" }, f.ships)])));
   };

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "brdf/catalogue/registry.h"
+#include "reports/finding/names.h"
 #include "reports/schlick/schlick.h"
 
 #include <fmt/format.h>
@@ -54,7 +55,7 @@ void add_maps(Pictures& p, const SchlickRows& r) {
       continue;
     }
     const std::string name =
-        fmt::format("{} against exact Fresnel, {}", short_id(m.form), side_of(m.kind));
+        fmt::format("{} against exact Fresnel, {}", name_of_form(m.form), side_of(m.kind));
     // Small errors are seen beside great ones, and forms beside each other: the root, up to 1.
     const auto put = [&](const FresnelMap& errors, const char* family, const char* value) {
       auto& map = p.maps.emplace_back(map_of(r, errors, family));
@@ -91,7 +92,7 @@ void add_errors_by_index(Pictures& p, const SchlickRows& r) {
     auto f = make_figure("error_by_index",
                          {{"form", std::string(short_id(c.form))}, {"side", side_of(c.kind)}});
     f.title = "Error by index";
-    f.note = fmt::format("{}, {}", short_id(c.form), side_of(c.kind));
+    f.note = fmt::format("{}, {}", name_of_form(c.form), side_of(c.kind));
     f.x = {"index of refraction", false, 1, 3};
     f.y = {"error of F", true};
     const auto reference = std::ranges::find_if(
@@ -124,9 +125,11 @@ std::vector<FigureCurve> distinct(const std::vector<double>& x, const std::vecto
     if (same != out.end()) {
       if (same->look.empty()) same->look = same->name;
       same->name += " = " + name;
+      same->label += " = " + name_of_form(f.form);
       same->dashed = same->dashed || f.form == exact;
     } else {
       out.push_back({name, x, f.y, FigureCurve::Kind::line, f.form == exact});
+      out.back().label = name_of_form(f.form);
     }
   }
   return out;

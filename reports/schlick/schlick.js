@@ -34,7 +34,7 @@ function summary() {
   return section("Every form in a line", "F of the form less the exact F. F0 is the exact one; of the forms that have more to set, F82 has its tint from the exact value at 82°, F90 and Lazányi's correction are fitted to each "
     + "surface, the index forms have the index. Where it is worst stands under the pointer.",
     in_cards(table(["form", { n: "IOR 1.5, most" }, { n: "RMS" }, { n: "relative" }, { n: "IOR 1.01–3, most" }, { n: "from inside, most" }, { n: "metals, most" }, { n: "median RMS" }, { n: "in linear RGB, most" }],
-      forms.map((form) => [el("code", {}, short(form)), ...cells(form)]))));
+      forms.map((form) => [form_cell(form), ...cells(form)]))));
 }
 
 // --- Angle and index --------------------------------------------------------------------------------------------
@@ -50,7 +50,7 @@ function by_index() {
     const names = choices_of(maps, "error_by_angle", "form", { side });
     if (!names.includes(form)) form = "schlick";
     return el("div", {}, el("div", { class: "controls" },
-      chooser("Form", names.map((f) => [f, f]), form, (f) => { form = f; panels.again(); }),
+      chooser("Form", names.map((f) => [f, named_short(f)]), form, (f) => { form = f; panels.again(); }),
       choice("Side", choices_of(maps, "error_by_angle", "side").map((s) => [s, s]), side, (s) => { side = s; panels.again(); }),
       choice("Error", [[false, "absolute"], [true, "relative"]], relative, (r) => { relative = r; panels.again(); })),
       el("div", { class: "columns map" }, error_map(form, side, relative),
@@ -85,7 +85,7 @@ function material_table() {
     const list = of_kind.get(kind).filter((r) => !is_grid(r)), names = unique(list.map((r) => r.form));
     const text = (r) => (nothing(r[key]) ? "0" : key === "max_rel" ? percent(r[key]) : points(r[key]));
     const angle = (r) => (key === "max_rel" ? r.max_rel_theta_deg : r.max_abs_theta_deg);
-    return in_cards(table(["", ...names.map((n) => ({ n: short(n) }))], [...group_by(list, (r) => r.material)].map(([material, own]) =>
+    return in_cards(table(["", ...names.map((n) => ({ n: named(n) }))], [...group_by(list, (r) => r.material)].map(([material, own]) =>
       [material, ...names.map((n) => { const worst = greatest(own.filter((r) => r.form === n), (r) => r[key]);
         return { n: el("span", { title: `${worst.name}, ${key === "rms" ? "all angles" : degrees(angle(worst))}` }, text(worst)) }; })])));
   };

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "brdf/catalogue/registry.h"
+#include "reports/finding/names.h"
 #include "reports/stability/stability.h"
 
 #include <fmt/format.h>
@@ -12,12 +13,15 @@ namespace {
 /// Tolerance that half is held to: what nobody sees in a highlight's brightness.
 constexpr double tolerance = 0.02;
 
-/// "ggx from |n × h|²", "ggx from NoH"
-std::string name_of_form(const std::string& id, const std::string& form) {
-  const std::string name(short_id(id));
+/// "GGX from |n × h|²", "GGX from NoH"
+std::string with_form(const std::string& name, const std::string& form) {
   if (form == "cross") return name + " from |n × h|²";
   if (form == "cosine") return name + " from NoH";
   return name;
+}
+/// The same by the id, by which pictures are found.
+std::string key_of(const std::string& id, const std::string& form) {
+  return with_form(std::string(short_id(id)), form);
 }
 std::string kind_of(const std::string& id) {
   return role_of(id) == Role::ndf ? "distributions" : "masking";
@@ -40,15 +44,16 @@ void add_by_alpha(Pictures& p, const StabilityRows& r) {
       p.figures.push_back(std::move(made));
       at = p.figures.end() - 1;
     }
-    at->curves.push_back({name_of_form(c.id, c.form), c.alpha, c.worst});
+    at->curves.push_back({key_of(c.id, c.form), c.alpha, c.worst});
+    at->curves.back().label = with_form(name_of_form(c.id), c.form);
   }
 }
 
 void add_maps(Pictures& p, const StabilityRows& r) {
   for (const auto& m : r.maps) {
     const bool distribution = role_of(m.id) == Role::ndf;
-    auto map = make_map("error", {{"form", name_of_form(m.id, m.form)}, {"number", m.number}});
-    map.title = fmt::format("{} in {}", name_of_form(m.id, m.form), m.number);
+    auto map = make_map("error", {{"form", key_of(m.id, m.form)}, {"number", m.number}});
+    map.title = fmt::format("{} in {}", with_form(name_of_form(m.id), m.form), m.number);
     map.note = "the worst of nine inputs a cell; empty where one of them has no value";
     map.x = {"alpha", m.alpha, true};
     map.y = {distribution ? "sin²θ_h" : "NoL = NoV", m.angle, true};

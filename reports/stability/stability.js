@@ -2,7 +2,8 @@
 // The atlas of numerical stability: which alpha is safe in which number, what clamps save and cost.
 
 const { rows, clamps, any_gpu, figures, maps, findings, full } = page_data();
-const short = (id) => id.slice(id.indexOf(".") + 1);
+/// "GGX from NoH" of "ggx from NoH".
+const spoken = (key) => key.replace(/^\S+/, named_short);
 const given = { cross: "|n × h|²", cosine: "NoH alone", frame: "h in the frame", facet: "VoH", cosines: "NoL, NoV", directions: "two directions", turned: "two directions" };
 const evidence_words = { exhaustive: "every input", searched: "search", proved: "proved", open: "open" };
 const error_text = (x) => (known(x) ? (x >= 10 ? "×" + significant(x + 1, 2) : percent(x)) : "–");
@@ -25,8 +26,8 @@ function clamp_question() {
   const numbers = unique(rows.filter(is_width).map((r) => r.number));
   let number = numbers.includes("half") ? "half" : numbers[0];
   const of = (number) => dense(table(["distribution", "given", { n: "alpha from" }, { n: "worst" }, { n: "from 0.05 on" }, { n: "without a value" }, { n: "finite: proved from" }, "take instead", { n: "operations" }, "by"],
-    rows.filter((r) => is_width(r) && r.number === number).map((r) => [el("code", {}, short(r.id)), given[r.form], from(r), worst(r), { n: known(r.worst_rel_alpha_0_05) ? error_text(r.worst_rel_alpha_0_05) : "–" },
-      none_or(r.nonfinite + r.overflow, r.nonfinite_at), { n: known(r.finite_from) ? significant(r.finite_from, 2) : "–" }, r.stable ? el("code", {}, short(r.stable)) : r.form === "cosine" ? `from ${given.cross}` : "–",
+    rows.filter((r) => is_width(r) && r.number === number).map((r) => [form_cell(r.id), given[r.form], from(r), worst(r), { n: known(r.worst_rel_alpha_0_05) ? error_text(r.worst_rel_alpha_0_05) : "–" },
+      none_or(r.nonfinite + r.overflow, r.nonfinite_at), { n: known(r.finite_from) ? significant(r.finite_from, 2) : "–" }, r.stable ? named(r.stable) : r.form === "cosine" ? `from ${given.cross}` : "–",
       { n: r.stable ? `${r.operations} → ${r.stable_operations}` : r.operations }, evidence_words[r.evidence]])));
   const body = changing(() => el("div", {}, el("div", { class: "controls" },
     choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })), of(number)),
@@ -48,7 +49,7 @@ function by_alpha() {
     return el("div", {}, el("div", { class: "controls" },
       choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; panels.again(); }),
       choice("Kind", choices_of(figures, "error_by_alpha", "kind", { number }).map((k) => [k, k]), kind, (k) => { kind = k; panels.again(); }),
-      chooser("Form", names.map((n) => [n, n]), form, (f) => { form = f; panels.again(); })),
+      chooser("Form", names.map((n) => [n, n === all ? n : spoken(n)]), form, (f) => { form = f; panels.again(); })),
     figure_view(figure, { height: 380, emphasis: form === all ? undefined : form }));
   }, () => small_pictures(figures.filter((f) => f.family === "error_by_alpha" && !(f.choices.number === number && f.choices.kind === kind))));
   return section("How errors grow as surfaces get smooth", "The worst over all angles, at each alpha.", panels.node);
@@ -58,7 +59,7 @@ function error_maps() {
   if (!forms.length) return null;
   let form = forms.includes("ggx from NoH") ? "ggx from NoH" : forms[0], number = "half";
   const panels = changing(() => el("div", {}, el("div", { class: "controls" },
-    chooser("Form", forms.map((f) => [f, f]), form, (f) => { form = f; panels.again(); }),
+    chooser("Form", forms.map((f) => [f, spoken(f)]), form, (f) => { form = f; panels.again(); }),
     choice("Number", choices_of(maps, "error", "number", { form }).map((n) => [n, n]), number, (n) => { number = n; panels.again(); })),
   map_view(picture_of(maps, "error", { form, number }), { value_text: error_text })));
   return section("Where errors are", "By alpha and angle, both in logarithms.", panels.node);
@@ -82,7 +83,7 @@ function on_any_gpu() {
   const kinds = [["proved", "with a bound"], ["open", "open"]];
   const of = (number, shown) => dense(table(["form", "given", { n: "error at most" }, "1 %", "a value", "over", "why not"],
     any_gpu.filter((r) => r.number === number && r.evidence === shown).sort((a, b) => (a.proved_rel ?? 0) - (b.proved_rel ?? 0))
-      .map((r) => [el("code", {}, short(r.id)), given[r.form], { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, r.keeps ? "kept" : "not proved",
+      .map((r) => [form_cell(r.id), given[r.form], { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, r.keeps ? "kept" : "not proved",
         r.finite ? "always" : "not proved", r.domain.replace("sin2_theta_h", "sin²θ_h"), r.why || "–"])));
   const body = changing(() => el("div", {}, el("div", { class: "controls" },
     choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); }),
@@ -105,7 +106,7 @@ function missed() {
   if (!groups.size) return null;
   return section("What misses its target, and why", "Targets: in float and double 8 units of the last digit beyond what a unit of the inputs is worth there, and a value that is not negative; in half and mixed numbers 2 % from alpha 0.05 on, of other forms everywhere.",
     dense(table(["form", "in", { n: "worst" }, { n: "units beyond its inputs" }, "because"],
-      [...groups.values()].map((g) => [el("code", {}, short(g.id)), unique(g.numbers).join(", "), { n: error_text(g.worst) }, { n: significant(g.beyond, 2) }, el("span", { class: "reason" }, g.reason)]))));
+      [...groups.values()].map((g) => [form_cell(g.id), unique(g.numbers).join(", "), { n: error_text(g.worst) }, { n: significant(g.beyond, 2) }, el("span", { class: "reason" }, g.reason)]))));
 }
 
 // --- Everything -----------------------------------------------------------------------------------------------------------
@@ -113,7 +114,7 @@ function every_form() {
   const numbers = unique(rows.map((r) => r.number)), kinds = unique(rows.map((r) => r.id.split(".")[0]));
   let number = numbers[0], kind = kinds[0];
   const of = (number, kind) => dense(table(["form", "given", { n: "worst" }, { n: "ulp" }, { n: "condition there" }, { n: "ulp beyond it" }, "half raised", { n: "proved" }, { n: "no value" }, { n: "negative" }, { n: "overflow" }, { n: "vanished" }, { n: "wrong way" }, { n: "irreciprocal" }, "safe from", { n: "looked at" }, "by"],
-    rows.filter((r) => r.number === number && r.id.startsWith(kind)).map((r) => [el("code", {}, short(r.id)), given[r.form], worst(r), { n: significant(r.worst_ulp, 2) }, { n: significant(r.condition, 2) }, { n: significant(r.ulp_beyond, 2) }, r.flags || "–",
+    rows.filter((r) => r.number === number && r.id.startsWith(kind)).map((r) => [form_cell(r.id), given[r.form], worst(r), { n: significant(r.worst_ulp, 2) }, { n: significant(r.condition, 2) }, { n: significant(r.ulp_beyond, 2) }, r.flags || "–",
       { n: known(r.proved_rel) ? error_text(r.proved_rel) : "–" }, none_or(r.nonfinite, r.nonfinite_at), none_or(r.negative), none_or(r.overflow), none_or(r.vanished), none_or(r.not_monotone), none_or(r.irreciprocal),
       !r.decides ? "–" : known(r.safe_from) ? `${r.decides} ${significant(r.safe_from, 2)}` : "nowhere", { n: count(r.evaluations) }, evidence_words[r.evidence] + (r.settled ? "" : ", not settled")])));
   const body = changing(() => el("div", {}, el("div", { class: "controls" },

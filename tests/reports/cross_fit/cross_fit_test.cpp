@@ -224,8 +224,8 @@ TEST(CrossFit, PicturesShowWhatWasFittedAndLeaveOutWhatEndsAtABound) {
                y = std::ranges::find(m.y.names, form) - m.y.names.begin();
     return m.values[static_cast<std::size_t>(x) * m.y.size() + static_cast<std::size_t>(y)];
   };
-  EXPECT_GT(cell("GGX: dielectrics", "implicit"), 1);
-  EXPECT_TRUE(std::isnan(cell("GGX: metals", "implicit")));
+  EXPECT_GT(cell("GGX: dielectrics", "Implicit"), 1);
+  EXPECT_TRUE(std::isnan(cell("GGX: metals", "Implicit")));
   EXPECT_EQ(cell("GGX: metals", "exact"), 0);
 }
 

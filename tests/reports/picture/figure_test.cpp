@@ -228,6 +228,17 @@ TEST(FigureMap, HasASliceAfterTheOther) {
   EXPECT_EQ(image.planes[1][2], -5);
 }
 
+TEST(FigureCurve, IsCalledByItsLabelWhereItHasOne) {
+  auto f = times();
+  f.curves[0].label = "Exact Fresnel";
+  EXPECT_NE(drawn(f).find(">Exact Fresnel<"), std::string::npos);
+  EXPECT_EQ(drawn(f).find(">exact<"), std::string::npos);
+  const auto curves = figures_json({{f}, {}})[0]["curves"];
+  EXPECT_EQ(curves[0]["name"], "exact") << "by which it is found";
+  EXPECT_EQ(curves[0]["label"], "Exact Fresnel");
+  EXPECT_FALSE(curves[1].contains("label"));
+}
+
 TEST(FigureJson, GivesAnXOnceForTheCurvesThatShareIt) {
   auto f = times();
   f.curves.push_back(f.curves[1]);
