@@ -1,5 +1,6 @@
 // The pictures of the atlas.
 #include <algorithm>
+#include <cmath>
 
 #include "brdf/catalogue/registry.h"
 #include "reports/finding/names.h"
@@ -29,6 +30,8 @@ std::string kind_of(const std::string& id) {
 
 void add_by_alpha(Pictures& p, const StabilityRows& r) {
   for (const auto& c : r.by_alpha) {
+    // an input without a value at every alpha leaves nothing to draw
+    if (std::ranges::none_of(c.worst, [](double x) { return std::isfinite(x); })) continue;
     auto made = make_figure("error_by_alpha", {{"number", c.number}, {"kind", kind_of(c.id)}});
     auto at = std::ranges::find(p.figures, made.id, &Figure::id);
     if (at == p.figures.end()) {

@@ -44,11 +44,13 @@ function by_alpha() {
   const all = "all alike";
   let form = all;
   const panels = changing(() => {
+    const kinds = choices_of(figures, "error_by_alpha", "kind", { number });
+    if (!kinds.includes(kind)) kind = kinds[0];
     const figure = picture_of(figures, "error_by_alpha", { number, kind }), names = [all, ...figure.curves.filter((c) => !c.dashed).map((c) => c.name)];
     if (!names.includes(form)) form = all;
     return el("div", {}, el("div", { class: "controls" },
       choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; panels.again(); }),
-      choice("Kind", choices_of(figures, "error_by_alpha", "kind", { number }).map((k) => [k, k]), kind, (k) => { kind = k; panels.again(); }),
+      choice("Kind", kinds.map((k) => [k, k]), kind, (k) => { kind = k; panels.again(); }),
       chooser("Form", names.map((n) => [n, n === all ? n : spoken(n)]), form, (f) => { form = f; panels.again(); })),
     figure_view(figure, { height: 380, emphasis: form === all ? undefined : form }));
   }, () => small_pictures(figures.filter((f) => f.family === "error_by_alpha" && !(f.choices.number === number && f.choices.kind === kind))));

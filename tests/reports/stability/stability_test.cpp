@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "many_fits.h"
 #include "reports/pictures.h"
@@ -288,6 +289,17 @@ TEST(StabilityReport, ErrorsByAlphaBreakWhereAnInputHasNoValue) {
   EXPECT_TRUE(std::isnan(ggx->worst.front()));
   EXPECT_LT(ggx->worst.back(), 0.01);
   EXPECT_GT(ggx->worst.back(), 1e-4);
+}
+
+TEST(StabilityReport, DrawsNothingOfWhatHasNoValueAtAnyAlpha) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  StabilityRows r;
+  r.by_alpha = {{"masking.smith_ggx.correlated", "", "half", {0.1, 1}, {none, none}},
+                {"ndf.ggx", "cross", "half", {0.1, 1}, {none, 0.01}}};
+  const auto drawn = pictures(r).figures;
+  ASSERT_EQ(drawn.size(), 1U);
+  EXPECT_EQ(drawn[0].curves.back().name, "ggx from |n × h|²");
+  EXPECT_EQ(label_of(drawn[0].curves.back()), "GGX (Trowbridge–Reitz) from |n × h|²");
 }
 
 TEST(StabilityReport, TellsEachRowAsAFlatObject) {
