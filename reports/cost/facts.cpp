@@ -11,6 +11,8 @@ Facts facts(const CostRows& r) {
     if (row.number != "float" || row.isa != best || is_mistake(row)) continue;
     const Facts::Time time{row.id, row.time.ns, row.time.spread_ns};
     if (row.memory == "cache" && row.way.empty()) f.in_cache.push_back(time);
+    if (row.memory == "cache" && row.way == "fused" && row.id == "ggx/smith_ggx.correlated/schlick")
+      f.setting->model_ns = row.time.ns;
     if (row.memory == "streaming" && row.way == "fused") f.streaming.push_back(time);
   }
   return f;

@@ -78,11 +78,11 @@ class Sayings {
                *streaming = between(from, to, best_, "streaming");
     if (!cache || !streaming) return;
     const auto text = [](const CostSwitch& s) {
-      return s.differs ? fmt::format("{:.2f} ns", s.ns)
+      return s.differs ? fmt::format("{:.2f} ns {}", std::abs(s.ns), s.ns > 0 ? "more" : "less")
                        : std::string("nothing that can be measured");
     };
     said_.headline = fmt::format(
-        "Exact Smith in place of Schlick's k takes {} more of a GGX sample in cache, and {} in {}.",
+        "Exact Smith in place of Schlick's k costs a GGX sample {} in cache, and {} in {}.",
         text(*cache), text(*streaming), long_columns(r_.options));
   }
   const CostSwitch* between(std::string_view from,

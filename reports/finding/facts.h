@@ -18,6 +18,9 @@ struct Facts {
     std::string isa;  ///< the best instruction set that runs
     /// Processors that other programs kept busy while times were taken; no value: not known
     std::optional<double> others{};
+    /// Time of a sample of GGX under correlated Smith and Schlick, fused, in float, in columns that stay in cache [ns]; no value: not
+    /// measured
+    std::optional<double> model_ns{};
   };
   std::optional<Setting> setting{};
   /// Time of a sample in float [ns]: of a term in columns that stay in cache, or of a whole model, fused, in columns that do not.

@@ -44,7 +44,7 @@ function what_to_ship() {
   return anchored("decide", el("section", { class: "decide" }, told_by_cell(["for", "take", "error left", "costs", "unless"], rows)));
 }
 const lead = () => `Shipped approximations against exact Fresnel, exact Smith and all bounces of light, ${full ? "full" : "quick"} setting`
-  + (machine ? `; costs on ${machine.cpu || "this machine"}, of one float sample in ${machine.isa} columns in cache, over the cheap form${machine.others_busy >= 0.25 ? `, while other programs kept ${plain(machine.others_busy, 2)} of ${machine.threads} processors busy` : ""}.` : ".");
+  + (machine ? `; costs on ${machine.cpu || "this machine"}, of one float sample in ${machine.isa} columns in cache, over the cheap form${known(machine.model_ns) ? ` (a whole GGX highlight takes ${significant(machine.model_ns, 2)} ns)` : ""}${machine.others_busy >= 0.25 ? `, while other programs kept ${plain(machine.others_busy, 2)} of ${machine.threads} processors busy` : ""}.` : ".");
 
 // --- What Fresnel's shortcuts show -----------------------------------------------------------------------
 const shown_as = (delta_e) => (delta_e <= visible.just_seen ? "unseen" : delta_e <= visible.side_by_side ? "beside" : "shows");

@@ -114,7 +114,10 @@ struct Description<Facts::Setting> {
                       field("threads", "", &S::threads, "that run at once"),
                       field("isa", "", &S::isa, "instruction set of the costs"),
                       field("others_busy", "", &S::others,
-                            "processors that other programs kept busy meanwhile; null: not known")};
+                            "processors that other programs kept busy meanwhile; null: not known"),
+                      field("model_ns", "ns", &S::model_ns,
+                            "time of a sample of GGX under correlated Smith and Schlick, beside "
+                            "which costs stand; null: not known")};
   }
 };
 template <>

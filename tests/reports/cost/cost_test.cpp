@@ -119,6 +119,20 @@ TEST(CostFront, NeedsADifferenceThatEveryProcessFinds) {
   EXPECT_TRUE(rows[1].pareto && rows[1].tie);
 }
 
+TEST(CostFacts, TellTheTimeOfAWholeHighlightThatStaysInCache) {
+  CostRows r;
+  r.machine.instruction_sets = {"scalar", "avx2"};
+  EXPECT_FALSE(facts(r).setting->model_ns);
+  for (const auto& [ns, isa, memory, way] :
+       {std::tuple{9.0, "scalar", "cache", "fused"}, std::tuple{0.5, "avx2", "cache", "fused"},
+        std::tuple{0.7, "avx2", "cache", "composed"},
+        std::tuple{0.8, "avx2", "streaming", "fused"}}) {
+    auto& row = r.rows.emplace_back(made("ggx/smith_ggx.correlated/schlick", ns, 0, 0));
+    row.kind = "model", row.isa = isa, row.memory = memory, row.way = way;
+  }
+  EXPECT_EQ(facts(r).setting->model_ns, 0.5);
+}
+
 TEST(CostProcesses, MeasureTimesAloneWithTheSameOptions) {
   CostOptions o;
   o.full = true;
@@ -466,7 +480,18 @@ TEST(CostPictures, AreWhole) {
   const auto said = findings(rows);
   ASSERT_FALSE(said.sentences.empty());
   EXPECT_NE(said.sentences[0].find("Schlick's k"), std::string::npos) << said.sentences[0];
-  EXPECT_NE(said.headline.find("Exact Smith in place of Schlick's k takes"), std::string::npos);
+  EXPECT_TRUE(said.headline.starts_with("Exact Smith in place of Schlick's k costs a GGX sample"));
+}
+
+TEST(CostFindings, BeginWithWhatExactSmithCostsEvenIfThatIsLess) {
+  auto rows = small_rows();
+  rows.others = 1.3;
+  for (auto& s : rows.switches) s.differs = true, s.ns = s.memory == "cache" ? 0.234 : -0.05;
+  const auto said = findings(rows);
+  EXPECT_EQ(said.sentences[0], said.headline) << "before it tells of other programs";
+  EXPECT_NE(said.headline.find(" 0.23 ns more in cache, and 0.05 ns less in columns"),
+            std::string::npos)
+      << said.headline;
 }
 
 TEST(CostFindings, CanBeReadAloud) {

@@ -19,7 +19,7 @@ ReportFiles made_files() {
   r.findings = {{"One. And more.", "Two."}, {}, {}};
   r.findings.judge("error below 1 %", "seed 000, Schlick", Claim::Judged::partly, "0.036 of light",
                    "0.036 for glass.");
-  r.facts.setting = Facts::Setting{"a processor", 2, "avx2"};
+  r.facts.setting = Facts::Setting{"a processor", 2, "avx2", {}, 0.5};
   r.facts.fresnel = {{"fresnel.schlick", "metal", "gold", 0.9, 0.1},
                      {"fresnel.gulbrandsen", "metal", "gold", 0, 0}};
   r.facts.precision = {{"ndf.ggx", "cross", "half", 0.02, 0.004}};
@@ -50,6 +50,7 @@ TEST(ReportIndex, TellsDecisionsOneSentenceAReportAndClaimsWithTheirFigure) {
   ASSERT_EQ(j["fresnel"].size(), 1U) << "of the forms that people ship";
   EXPECT_EQ(j["fresnel"][0]["form"], "Schlick");
   EXPECT_EQ(j["machine"]["isa"], "avx2");
+  EXPECT_EQ(j["machine"]["model_ns"], 0.5);
   index.reports[0].findings.headline = "Better said.";
   EXPECT_EQ(nlohmann::json::parse(to_json(index))["reports"][0]["sentence"], "Better said.");
 }
