@@ -11,6 +11,7 @@
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
 #include "number/enclosure.h"
+#include "shader/program.h"
 #include "shader/shader.h"
 #include "shader/vulkan.h"
 #include "stability/value_over.h"
@@ -54,73 +55,6 @@ std::vector<std::uint32_t> compiled_glsl(const Folder& folder, const std::string
   EXPECT_EQ(result->status, 0) << result->output << source;
   expect_valid(folder / "shader.spv");
   return words_of(folder / "shader.spv");
-}
-
-/// A program that calls the function of cosines, or of directions, for every row of floats, and writes what it gives.
-std::string program(const TracedFormula& f, Language language, bool of_directions = false) {
-  const Writing writing{language, "brdf", {}};
-  const Syntax syntax(language, f.precision);
-  std::string arguments;
-  std::size_t columns = 0;
-  const auto next = [&](bool colour, const Syntax& number) {
-    std::string x;
-    for (std::size_t c = 0; c < (colour ? 3U : 1U); ++c)
-      x += fmt::format("{}{}(x[i * COLUMNSu + {}u])", c > 0 ? ", " : "", number.type(false),
-                       columns++);
-    arguments += (arguments.empty() ? "" : ", ") + (colour ? number.colour(x) : x);
-  };
-  for (const auto& p : f.parameters) next(p.colour, syntax);
-  if (of_directions)
-    for (int k = 0; k < (f.anisotropic ? 5 : 3); ++k)
-      next(true, Syntax(language, Precision::float_));
-  else
-    for (std::size_t k = 0; k < f.angles.size(); ++k) next(false, syntax);
-  const bool derived = f.results.size() > 1;
-  const std::string one = language == Language::wgsl ? "f32" : "float";
-  std::string results;
-  std::size_t at = 0;
-  for (const auto& r : f.results)
-    for (std::size_t c = 0; c < (f.colour ? 3U : 1U); ++c)
-      results += fmt::format("  y[i * RESULTSu + {}u] = {}(value{}{});\n", at++, one,
-                             derived ? "." + r.name : "", f.colour ? fmt::format("[{}]", c) : "");
-  const std::string type = derived ? "BrdfDerivatives" : syntax.type(f.colour);
-  std::string head,
-      body = fmt::format("{}({});\n",
-                         of_directions ? writing.name : function_of_cosines(f, writing), arguments);
-  switch (language) {
-    case Language::glsl:
-      head =
-          "layout(local_size_x = 64) in;\n"
-          "layout(set = 0, binding = 0) readonly buffer I { float x[]; };\n"
-          "layout(set = 0, binding = 1) writeonly buffer O { float y[]; };\n"
-          "void main() {\n  uint i = gl_GlobalInvocationID.x;\n  " +
-          type + " value = ";
-      break;
-    case Language::slang:
-      head =
-          "[[vk::binding(0, 0)]] StructuredBuffer<float> x;\n"
-          "[[vk::binding(1, 0)]] RWStructuredBuffer<float> y;\n"
-          "[shader(\"compute\")] [numthreads(64, 1, 1)]\n"
-          "void main(uint3 id : SV_DispatchThreadID) {\n  uint i = id.x;\n  " +
-          type + " value = ";
-      break;
-    case Language::wgsl:
-      head =
-          "@group(0) @binding(0) var<storage, read> x: array<f32>;\n"
-          "@group(0) @binding(1) var<storage, read_write> y: array<f32>;\n"
-          "@compute @workgroup_size(64)\n"
-          "fn main(@builtin(global_invocation_id) id: vec3<u32>) {\n  let i = id.x;\n  _ = x[0];\n"
-          "  let value = ";
-      break;
-  }
-  std::string main = head + body + results + "}\n";
-  const auto replace = [&](const std::string& what, std::size_t by) {
-    for (std::size_t k = main.find(what); k != std::string::npos; k = main.find(what))
-      main.replace(k, what.size() - 1, std::to_string(by));
-  };
-  replace("COLUMNSu", columns);
-  replace("RESULTSu", at);
-  return (language == Language::glsl ? "#version 450\n" : "") + shader_source(f, writing) + main;
 }
 
 /// Numbers of a shader's kind.
@@ -294,7 +228,7 @@ template <class F>
 void run_glsl(Vulkan& vulkan) {
   const Folder folder;
   for (const auto& rows : rows_of_every_term<F>()) {
-    const auto code = compiled_glsl(folder, program(rows.formula, Language::glsl));
+    const auto code = compiled_glsl(folder, compute_program(rows.formula, Language::glsl));
     if (::testing::Test::HasFailure()) return;
     const std::size_t n = rows.angles.size();
     rows.expect_exact(vulkan.run(code, rows.inputs, n, n), Language::glsl);
@@ -337,7 +271,7 @@ void run_slang(Vulkan& vulkan) {
   std::vector<std::string> names;
   for (const auto& rows : all) {
     names.push_back(rows.formula.id);
-    folder.write(names.back() + ".slang", program(rows.formula, Language::slang));
+    folder.write(names.back() + ".slang", compute_program(rows.formula, Language::slang));
   }
   run_languages(folder, names);
   if (::testing::Test::HasFailure()) return;
@@ -370,7 +304,7 @@ void run_wgsl(double tolerance) {
   for (const auto& rows : all) {
     const auto& name = names.emplace_back(rows.formula.id);
     const std::size_t n = rows.angles.size();
-    folder.write(name + ".wgsl", program(rows.formula, Language::wgsl));
+    folder.write(name + ".wgsl", compute_program(rows.formula, Language::wgsl));
     folder.write(name + ".json", fmt::format("{{\"invocations\": {}, \"results\": {}}}", n, n));
     folder.write(name + ".in", std::string(reinterpret_cast<const char*>(rows.inputs.data()),
                                            rows.inputs.size() * sizeof(float)));
@@ -510,7 +444,7 @@ TEST(EmittedModels, GiveTheGraphsValuesAndSlopesInEachLanguage) {
     std::vector<std::vector<float>> inputs;
     std::vector<std::size_t> results;
     for (const auto& f : models) {
-      programs.push_back(program(f, language));
+      programs.push_back(compute_program(f, language));
       rows.push_back(rows_of(f, n));
       inputs.push_back(rows.back().inputs);
       results.push_back(f.results.size() * 3);
@@ -590,7 +524,8 @@ TEST(EmittedModels, TakeDirections) {
                                                          "f0=0.9,0.6,0.4", "kd=0.2,0.1,0.1"})),
       std::span<const FrameAngles<double>>(angles));
   for (const auto language : {Language::glsl, Language::slang, Language::wgsl}) {
-    const auto out = run_all(*vulkan, language, {program(f, language, true)}, {inputs}, n, {3});
+    const auto out =
+        run_all(*vulkan, language, {compute_program(f, language, true)}, {inputs}, n, {3});
     if (HasFailure()) return;
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < 3; ++k)
