@@ -9,6 +9,7 @@
 #include "cli/model_argument.h"
 #include "cli/terminal.h"
 #include "integrate/light/split_sum_table.h"
+#include "scene/plan/document.h"
 #include "shader/evidence.h"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ namespace {
 struct Options : Common {
   std::string subject, language, precision = "float", name = "brdf";
   std::vector<std::string> set, grey, inputs, derivatives;
-  std::optional<std::string> output, compensation, table;
+  std::optional<std::string> output, compensation, table, material;
   std::string albedo = "table";
   bool without_evidence = false;
 };
@@ -32,23 +33,51 @@ std::optional<std::size_t> term_named(const std::string& subject) {
   return static_cast<std::size_t>(at - terms.begin());
 }
 
+/// What a plan ships of a material: the model with its parameters, and the compensation that it keeps.
+struct Planned {
+  BoundModel model;
+  std::optional<shader::Compensation> compensation;
+};
+Planned planned(const std::string& path, const std::string& name) {
+  using scene::Effect;
+  const auto material = scene::read_planned_material(path, name);
+  for (const auto& [effect, plain] : {std::pair(Effect::coat, "off"), {Effect::spectrum, "rgb"}})
+    if (const auto form = material.form(effect); !form.empty() && form != plain)
+      throw wrong_usage(fmt::format("'{}' keeps {} '{}', which no shader is written of", name,
+                                    name_of(effect), form));
+  std::vector<Setting> settings;
+  for (const auto& [parameter, values] : material.parameters)
+    settings.push_back({parameter, values});
+  Planned p{bind_model(material.spec, std::move(settings), 3), {}};
+  if (const auto form = material.form(Effect::compensation); !form.empty() && form != "none")
+    p.compensation = value_of<shader::Compensation>(form, "compensation");
+  return p;
+}
+
 shader::TracedFormula traced(const Options& o) {
   const auto precision = value_of<shader::Precision>(o.precision, "precision");
   if (const auto term = term_named(o.subject)) {
-    if (!o.set.empty() || !o.inputs.empty() || !o.grey.empty())
+    if (!o.set.empty() || !o.inputs.empty() || !o.grey.empty() || o.compensation || o.material)
       throw wrong_usage(
-          "--set, --grey and --inputs go with a model: of a term all parameters are numbers and "
-          "inputs");
+          "--set, --grey, --inputs, --compensation and --material go with a model: of a term all "
+          "parameters are numbers and inputs");
     return shader::trace_term(*term, precision, o.derivatives);
+  }
+  std::optional<shader::Compensating> compensating;
+  const auto albedo = value_of<shader::AlbedoFrom>(o.albedo, "source of the albedo");
+  if (o.compensation)
+    compensating = {value_of<shader::Compensation>(*o.compensation, "compensation"), albedo};
+  if (o.material) {
+    if (!o.set.empty() || !o.grey.empty() || o.compensation)
+      throw wrong_usage("--material: its model, parameters and compensation are the plan's");
+    const auto p = planned(o.subject, *o.material);
+    if (p.compensation) compensating = {*p.compensation, albedo};
+    return shader::trace_model(p.model, precision, o.inputs, o.derivatives, compensating);
   }
   if (!o.grey.empty() && !file_in(o.subject).empty())
     throw wrong_usage("--grey goes with a model: a fit says which of its colours are grey");
   const auto model = o.grey.empty() ? model_argument(o.subject, o.set).model
                                     : bind_model(o.subject, parse_settings(o.set), {}, o.grey);
-  std::optional<shader::Compensating> compensating;
-  if (o.compensation)
-    compensating = {value_of<shader::Compensation>(*o.compensation, "compensation"),
-                    value_of<shader::AlbedoFrom>(o.albedo, "source of the albedo")};
   return shader::trace_model(model, precision, o.inputs, o.derivatives, compensating);
 }
 
@@ -72,6 +101,10 @@ std::optional<std::string> tabulated_masking(const shader::TracedFormula& f) {
   return ggx ? masking : std::nullopt;
 }
 
+bool reads_albedo(const shader::TracedFormula& f) {
+  return std::ranges::find(f.parameters, "E_view", &shader::Argument::name) != f.parameters.end();
+}
+
 Exit run(const Options& o) {
   use_jobs(o.jobs);
   const auto file = term_named(o.subject) ? std::vector<std::string>{} : file_in(o.subject);
@@ -79,8 +112,6 @@ Exit run(const Options& o) {
   for (const auto& path : {o.output, o.table})
     if (path) outputs.push_back(*path);
   check_outputs(file, outputs);
-  if (o.table && (!o.compensation || o.albedo != "table"))
-    throw wrong_usage("--table goes with --compensation, where the albedo comes from a table");
   std::optional<OutputFile> out, table;
   if (o.output) out.emplace(*o.output);
   if (o.table) table.emplace(*o.table);
@@ -94,8 +125,10 @@ Exit run(const Options& o) {
         d.formula, d.writing.language,
         [&](std::string_view term) { progress(fmt::format("looking at what {} loses", term)); });
   const auto masking = tabulated_masking(d.formula);
-  if (o.compensation && o.albedo == "table" && masking)
-    d.writing.remarks.push_back(table_remark(*masking));
+  const bool reads = reads_albedo(d.formula);
+  if (o.table && !reads)
+    throw wrong_usage("--table goes with a --compensation that looks its albedo up");
+  if (reads && masking) d.writing.remarks.push_back(table_remark(*masking));
   d.source = shader::shader_source(d.formula, d.writing);
   if (table) {
     if (!masking) throw wrong_usage("--table: the first lobe is not of ndf.ggx");
@@ -124,7 +157,10 @@ void add_shader(CommandLine& line) {
       "gonio shader lambert.coupled+ggx/smith_ggx.correlated/schlick --language glsl "
       "--precision half -o brdf.glsl",
       run);
-  c.option("SPEC", o->subject, "Model, the fit.json of a fit, or a term as `gonio models` lists it")
+  c.option(
+       "SPEC", o->subject,
+       "Model, the fit.json of a fit, the plan.json of a plan, or a term as `gonio models` lists "
+       "it")
       .required();
   c.option("--language", o->language, "glsl, wgsl or slang")
       .one_of(names_of<shader::Language>)
@@ -132,6 +168,7 @@ void add_shader(CommandLine& line) {
   c.option("--precision", o->precision, "Number that it computes in: float or half")
       .one_of(names_of<shader::Precision>)
       .show_default();
+  c.option("--material", o->material, "Material of a plan, where that is what SPEC names");
   add_set(c, o->set);
   c.option("--grey", o->grey, "Parameters of colours that are one number: NAME,…").delimiter(',');
   c.option("--inputs", o->inputs,
@@ -140,12 +177,14 @@ void add_shader(CommandLine& line) {
   c.option("--derivatives", o->derivatives, "Parameters by which the value is derived, too: NAME,…")
       .delimiter(',');
   c.option("--compensation", o->compensation,
-           "What gives back the light that the first lobe loses between facets: turquin or "
-           "kulla_conty, which read albedos as arguments")
+           "What gives back the light that the first lobe loses between facets: turquin, "
+           "fdez_aguera or kulla_conty, which read albedos as arguments")
       .one_of(names_of<shader::Compensation>);
-  c.option("--albedo", o->albedo,
-           "Where turquin has the lobe's albedo from: table, an argument; fit, the catalogue's "
-           "formula for GGX under correlated Smith")
+  c.option(
+       "--albedo", o->albedo,
+       "Where turquin and fdez_aguera have the lobe's albedo from: table, an argument; fit, the "
+       "catalogue's "
+       "formula for GGX under correlated Smith")
       .one_of(names_of<shader::AlbedoFrom>)
       .show_default();
   c.option("--table", o->table, "OpenEXR file for the table of that albedo: R + G of 64x64 texels");

@@ -5,7 +5,8 @@
 ///
 /// What is known is folded, in F, as F rounds; what is computed twice is one node; a comparison stays one, whatever
 /// its inputs.  A literal 0 of a formula is nothing: what is added to it, or multiplied by it, is not computed.  All
-/// else is kept operation by operation, so that a compiler that does the same, and rounds as F does, gets the same bits.
+/// else is kept operation by operation, so that a compiler that does the same, and rounds as F does, gets the same bits, up to
+/// the sign of a zero.
 
 #include <array>
 #include <bit>
@@ -173,6 +174,8 @@ class Traced {
     if (a.nothing_) return b;
     if (b.nothing_) return a;
     if (a.is_known() && b.is_known()) return Traced(a.value_ + b.value_);
+    if (a.is(0)) return b;
+    if (b.is(0)) return a;
     return done(Kind::add, a, b);
   }
   friend Traced operator-(const Traced& a, const Traced& b) {

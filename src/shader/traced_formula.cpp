@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "brdf/formula/scattering.h"
 #include "number/dual.h"
+#include "scene/kernel/multiple.h"
 #include "stability/value_over.h"
 
 #include <fmt/format.h>
@@ -87,25 +88,31 @@ class Tracer {
     const auto argument_of = [&](const char* name, const Parameter& about) {
       return argument(name, about, formula_.colour && about.per_channel);
     };
+    const auto f_average = [&] {
+      return schlicks ? schlick_average<T>(f0)
+                      : argument_of("F_average", KullaContyLobe<T>::parameters[3]);
+    };
+    if (c.by == Compensation::kulla_conty) {
+      using Lobe = KullaContyLobe<T>;
+      formula_.maps.push_back(&Lobe::about);
+      const T light = argument_of("E_light", Lobe::parameters[0]),
+              view = argument_of("E_view", Lobe::parameters[1]),
+              average = argument_of("E_average", Lobe::parameters[2]);
+      return Lobe::apply(std::array{light, view, average, f_average()})[0];
+    }
+    T e;
+    if (c.albedo == AlbedoFrom::fit) {
+      formula_.maps.push_back(&AlbedoFit<T>::about);
+      e = AlbedoFit<T>::apply(std::array{alpha, angles_.nov})[0];
+    } else {
+      e = argument_of("E_view", e_parameter);
+    }
     if (c.by == Compensation::turquin) {
       formula_.maps.push_back(&Turquin<T>::about);
-      T e;
-      if (c.albedo == AlbedoFrom::fit) {
-        formula_.maps.push_back(&AlbedoFit<T>::about);
-        e = AlbedoFit<T>::apply(std::array{alpha, angles_.nov})[0];
-      } else {
-        e = argument_of("E_view", e_parameter);
-      }
-      return Turquin<T>::apply(std::array{lobe, e, f0})[0] - lobe;
+      return scene::added_by_turquin<T>(lobe, e, f0);
     }
-    formula_.maps.push_back(&KullaContyLobe<T>::about);
-    using Lobe = KullaContyLobe<T>;
-    const T e_light = argument_of("E_light", Lobe::parameters[0]),
-            e_view = argument_of("E_view", Lobe::parameters[1]),
-            e_average = argument_of("E_average", Lobe::parameters[2]),
-            f_average =
-                schlicks ? schlick_average<T>(f0) : argument_of("F_average", Lobe::parameters[3]);
-    return Lobe::apply(std::array{e_light, e_view, e_average, f_average})[0];
+    formula_.maps.push_back(&FdezAguera<T>::about);
+    return scene::added_by_fdez_aguera<T>(lobe, e, f_average());
   }
   /// A Fresnel term's F0.
   T at_normal_incidence(std::size_t fresnel, std::span<const T> parameters) const {
@@ -314,10 +321,11 @@ TracedFormula trace_model(const BoundModel& bound,
     const auto& lobe = m.lobes.front();
     const bool fitted = catalogue()[lobe.ndf.term].id() == "ndf.ggx" &&
                         catalogue()[lobe.masking.term].id() == "masking.smith_ggx.correlated" &&
-                        compensating->by == Compensation::turquin;
+                        compensating->by != Compensation::kulla_conty;
     if (compensating->albedo == AlbedoFrom::fit && !fitted)
       throw wrong_usage(
-          "the fitted albedo is of ndf.ggx under masking.smith_ggx.correlated, for turquin alone");
+          "the fitted albedo is of ndf.ggx under masking.smith_ggx.correlated, and of one "
+          "direction: not for kulla_conty");
   }
   TracedFormula formula;
   formula.id = m.spec;

@@ -20,7 +20,7 @@ enum class Precision { float_, half };
 
 /// What gives back the light that the first lobe's single scattering loses, a map of the catalogue: "scattering." before
 /// each name.
-enum class Compensation { turquin, kulla_conty_lobe };
+enum class Compensation { turquin, fdez_aguera, kulla_conty };
 /// Where a compensation has the lobe's albedo at F = 1 from: arguments, which a shader looks up, or the catalogue's fit.
 enum class AlbedoFrom { table, fit };
 struct Compensating {
@@ -104,8 +104,8 @@ namespace gonio {
 template <>
 inline constexpr std::array<std::string_view, 2> names_of<shader::Precision>{"float", "half"};
 template <>
-inline constexpr std::array<std::string_view, 2> names_of<shader::Compensation>{"turquin",
-                                                                                "kulla_conty"};
+inline constexpr std::array<std::string_view, 3> names_of<shader::Compensation>{
+    "turquin", "fdez_aguera", "kulla_conty"};
 template <>
 inline constexpr std::array<std::string_view, 2> names_of<shader::AlbedoFrom>{"table", "fit"};
 }  // namespace gonio

@@ -68,6 +68,55 @@ TEST(ShaderCommand, WritesTheTableThatACompensationReads) {
         "--compensation"}});
 }
 
+TEST(ShaderCommand, WritesWhatAPlanShips) {
+  const Folder f;
+  const auto material = [](const std::string& compensation, const std::string& coat) {
+    auto effects = nlohmann::json::array();
+    for (const std::string effect :
+         {"fresnel", "compensation", "masking", "anisotropy", "coat", "tail", "diffuse", "coupling",
+          "spectrum", "environment", "precision"}) {
+      const std::string form = effect == "compensation" ? compensation
+                               : effect == "coat"       ? coat
+                               : effect == "spectrum"   ? "rgb"
+                                                        : "any";
+      effects.push_back({{"effect", effect},
+                         {"keep", false},
+                         {"form", form},
+                         {"why", "measured"},
+                         {"error_if_dropped", 0},
+                         {"ns_saved", 0},
+                         {"ops_saved", 0}});
+    }
+    return nlohmann::json{{"effects", effects},
+                          {"spec", "ggx/smith_ggx.correlated/schlick"},
+                          {"parameters", {{"alpha", {0.2}}, {"f0", {1.0, 0.7, 0.4}}}},
+                          {"speedup", 1},
+                          {"error_quantile", 0},
+                          {"samples", 4096}};
+  };
+  f.write("plan.json", nlohmann::json{{"schema", "gonio.plan/1"},
+                                      {"scene_sha256", std::string(64, '0')},
+                                      {"materials",
+                                       {{"gold", material("turquin", "off")},
+                                        {"plain", material("none", "off")},
+                                        {"coated", material("none", "on")},
+                                        {"newer", material("walk", "off")}}}}
+                           .dump());
+  const auto of = [&](const std::string& name) {
+    return gonio(f,
+                 "shader plan.json --language glsl --json --without-evidence --material " + name);
+  };
+  const auto gold = of("gold");
+  ASSERT_EQ(gold.code, 0) << gold.err;
+  ASSERT_EQ(gold.json()["parameters"].size(), 1U);
+  EXPECT_EQ(gold.json()["parameters"][0]["name"], "E_view");
+  EXPECT_EQ(of("plain").json()["parameters"].size(), 0U);
+  EXPECT_LT(of("plain").json()["operations"]["mul"], gold.json()["operations"]["mul"]);
+  const std::string call = "shader plan.json --language glsl --without-evidence --material ";
+  expect_one_line_each(
+      f, 2, {{call + "gould", "gold"}, {call + "coated", "coat"}, {call + "newer", "walk"}});
+}
+
 TEST(ShaderCommand, RefusesWhatItCannotWriteInOneLine) {
   const Folder f;
   expect_one_line_each(

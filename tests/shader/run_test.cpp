@@ -396,8 +396,7 @@ std::vector<TracedFormula> some_models(bool derived) {
   all.push_back(trace_model(bind_model("ggx/smith_ggx.correlated/schlick", {}), Precision::float_,
                             {}, {}, Compensating{Compensation::turquin, AlbedoFrom::fit}));
   all.push_back(trace_model(bind_model("ggx/smith_ggx.separable/dielectric", {}), Precision::float_,
-                            {}, {},
-                            Compensating{Compensation::kulla_conty_lobe, AlbedoFrom::table}));
+                            {}, {}, Compensating{Compensation::kulla_conty, AlbedoFrom::table}));
   return all;
 }
 

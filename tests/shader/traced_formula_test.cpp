@@ -94,9 +94,12 @@ TEST(TracedFormula, GivesBackWhatALobeLosesBetweenFacets) {
   const Compensating fitted{Compensation::turquin, AlbedoFrom::fit};
   const double e = AlbedoFit<double>::apply(std::array{0.5, 0.5})[0];
   EXPECT_NEAR(value(fitted, {}), none + lobe * 0.5 * (1 / e - 1), 1e-5);
-  const Compensating kulla{Compensation::kulla_conty_lobe, AlbedoFrom::table};
-  const double average = 0.5 + 0.5 / 21,
-               bounces = average * average * 0.9 / (1 - average * (1 - 0.9));
+  const double average = 0.5 + 0.5 / 21;  // of Schlick's Fresnel
+  const Compensating aguera{Compensation::fdez_aguera, AlbedoFrom::table};
+  EXPECT_NEAR(value(aguera, {{"E_view", 0.8}}), none - lobe + lobe / (1 - average * (1 - 0.8)),
+              1e-6);
+  const Compensating kulla{Compensation::kulla_conty, AlbedoFrom::table};
+  const double bounces = average * average * 0.9 / (1 - average * (1 - 0.9));
   EXPECT_NEAR(value(kulla, {{"E_light", 0.7}, {"E_view", 0.8}, {"E_average", 0.9}}),
               none + bounces * (1 - 0.7) * (1 - 0.8) / (std::numbers::pi * (1 - 0.9)), 1e-6);
 }
@@ -109,9 +112,9 @@ TEST(TracedFormula, HasNoFittedAlbedoOfOtherLobes) {
   const Compensating fitted{Compensation::turquin, AlbedoFrom::fit};
   EXPECT_HAS(refused("ggx/smith_ggx.separable/schlick", fitted), "fitted albedo");
   EXPECT_HAS(refused("lambert", fitted), "no lobe");
-  EXPECT_HAS(refused("ggx/smith_ggx.correlated/schlick",
-                     {Compensation::kulla_conty_lobe, AlbedoFrom::fit}),
-             "turquin alone");
+  EXPECT_HAS(
+      refused("ggx/smith_ggx.correlated/schlick", {Compensation::kulla_conty, AlbedoFrom::fit}),
+      "not for kulla_conty");
 }
 
 /// Slopes against differences of the same product rule in doubles; constants of the graph are floats.

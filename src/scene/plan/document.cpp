@@ -242,4 +242,24 @@ PlannedForms read_plan(const std::string& path, const Scene& s, const std::vecto
   return planned;
 }
 
+std::string_view PlannedMaterial::form(Effect e) const {
+  const auto at = std::ranges::find(forms, e, &std::pair<Effect, std::string>::first);
+  return at == forms.end() ? std::string_view{} : at->second;
+}
+
+PlannedMaterial read_planned_material(const std::string& path, const std::string& name) {
+  const Json document = parse_json(path, InputFile(path).read_rest(most_document_bytes));
+  PlanFile file;
+  read_form(JsonReader(path, document, "", Places::pointer), file);
+  std::vector<std::string_view> known;
+  for (auto& [material, what] : file.materials) {
+    known.push_back(material);
+    if (material != name) continue;
+    PlannedMaterial planned{std::move(what.spec), std::move(what.parameters), {}};
+    for (auto& e : what.effects) planned.forms.emplace_back(e.effect, std::move(e.form));
+    return planned;
+  }
+  refuse_name(name, known, "material of the plan");
+}
+
 }  // namespace gonio::scene

@@ -3,6 +3,7 @@
 /// Plan as a document, gonio.plan/1.
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,5 +22,17 @@ struct PlannedForms {
 /// Forms of a plan's document.  A plan of another scene, forms that a material does not offer, and a spec that is not that of the
 /// forms are bad_input.
 PlannedForms read_plan(const std::string& path, const Scene&, const std::vector<Look>&);
+
+/// What a plan ships of a material: its model's spec and parameters, and the form of each effect.
+struct PlannedMaterial {
+  std::string spec;
+  std::vector<std::pair<std::string, std::vector<double>>> parameters;
+  std::vector<std::pair<Effect, std::string>> forms;
+
+  /// Empty where the document does not tell.
+  std::string_view form(Effect) const;
+};
+/// One material of a plan's document, without its scene.  A name that the plan has not is wrong usage.
+PlannedMaterial read_planned_material(const std::string& path, const std::string& name);
 
 }  // namespace gonio::scene
