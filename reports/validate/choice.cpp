@@ -19,6 +19,7 @@ namespace {
 
 constexpr Numbers shares{0, 1}, amounts{0, Numbers::any};
 constexpr Entries few{1, 64};
+constexpr std::string_view coat_word = "coat:";
 
 /// List of names, or one alone.
 struct Names {
@@ -131,11 +132,15 @@ void keys(Form& f, ChoiceFile& c) {
   f.optional("parameters", c.shipped.parameters, "a number or one per channel each", parameters);
   f.optional("scattering", c.shipped.scattering, "what follows light after its first bounce");
   f.optional("alpha", c.shipped.alpha, "width from roughness");
+  f.optional("coating", c.shipped.coating,
+             "what a coat leaves for all below it: by its albedo in the view's direction, or in "
+             "the light's too");
   f.optional("number", c.number, "in which a shader computes it");
   f.optional("reference", c.reference, "spec that the model stands for");
   f.optional("reference_parameters", c.of_reference.parameters, "a number or one per channel each",
              parameters);
   f.optional("reference_scattering", c.of_reference.scattering, "");
+  f.optional("reference_coating", c.of_reference.coating, "of the reference, as coating");
   f.optional("domain", c.domain, "where the budgets must be kept");
   f.required("budgets", c.budgets, "limits");
   f.expect(has_any(c.budgets), "budgets", "at least one budget");
@@ -154,6 +159,12 @@ std::vector<std::string> names(const std::optional<Names>& n) {
 }
 
 }  // namespace
+
+std::string Shipped::spec() const {
+  std::string s = model;
+  if (const auto at = s.find(coat_word); at != s.npos) s.erase(at, coat_word.size());
+  return s;
+}
 
 bool has_range(const Choice& c) {
   return c.domain.eta || c.domain.f0;
@@ -207,6 +218,32 @@ std::vector<Substance> substances_of(const Choice& c) {
 
 }  // namespace
 
+namespace {
+
+/// A coat is the only lobe, on diffuse terms that it does not couple with; what it leaves for them is said.
+void check_coat(const JsonReader& root,
+                const Shipped& s,
+                const char* model,
+                const char* coating,
+                const char* scattering) {
+  const auto at = s.model.find(coat_word);
+  if ((at != s.model.npos) != s.coating.has_value()) {
+    if (s.coating)
+      root.at(coating).fail(fmt::format("a {} with a coat, \"coat:\" before its last lobe", model));
+    root.at(model).fail(fmt::format("{}, view or both, beside a coat", coating));
+  }
+  if (!s.coating) return;
+  const Model m = compose(s.spec(), 3);
+  const bool coupled =
+      std::ranges::any_of(m.diffuse, [](const TermUse& t) { return catalogue()[t.term].coupled; });
+  if (m.lobes.size() != 1 || m.diffuse.empty() || coupled || at == 0 || s.model[at - 1] != '+' ||
+      s.model.find('+', at) != s.model.npos)
+    root.at(model).fail("DIFFUSE+coat:LOBE, the diffuse terms uncoupled");
+  if (s.scattering != Bounces::single) root.at(scattering).fail("single, where there is a coat");
+}
+
+}  // namespace
+
 Choice parse_choice(const std::string& path, const std::string& bytes) {
   const Json document = parse_json(path, bytes);
   const JsonReader root(path, document, "", Places::pointer);
@@ -232,7 +269,7 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
                                             : settings_of(s.parameters, root.at(parameters_key));
     const auto with = [&](const char* key, const std::vector<Setting>& settings) {
       try {
-        bind_model(s.model, settings);
+        bind_model(s.spec(), settings);
       } catch (const Error& e) {  // the words are the file's, not the user's
         root.at(key).fail(fmt::format("what the model takes ({})", e.what()));
       }
@@ -241,7 +278,23 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
     if (!given.empty()) with(parameters_key, given);
   };
   check(c.shipped, "model", "parameters");
-  if (c.has_reference) check(c.reference, "reference", "reference_parameters");
+  check_coat(root, c.shipped, "model", "coating", "scattering");
+  if (c.has_reference) {
+    check(c.reference, "reference", "reference_parameters");
+    check_coat(root, c.reference, "reference", "reference_coating", "reference_scattering");
+  }
+  if (c.shipped.coating) {
+    const auto& b = c.budgets;
+    for (const auto& [asked, key] :
+         {std::pair(b.energy_loss.has_value(), "energy_loss"),
+          std::pair(b.nonfinite.has_value(), "nonfinite"),
+          std::pair(b.operations.has_value(), "operations"), std::pair(b.ns.has_value(), "ns"),
+          std::pair(b.table_bytes.has_value(), "table_bytes")})
+      if (asked)
+        root.at("budgets").at(key).fail(
+            "a model without a coat, which is asked albedo_error, delta_e_2000, energy_gain, "
+            "fresnel_error and reciprocity alone");
+  }
   if (c.budgets.ns) {
     try {
       compose(c.budgets.ns->baseline, 3);
@@ -285,7 +338,7 @@ BoundModel bound(const Choice& c, const Shipped& s, const Substance& of, double 
   for (const auto& [name, given] : s.parameters)
     settings.push_back({name, given.values, given.word});
   try {
-    const Model plain = compose(s.model, 3);
+    const Model plain = compose(s.spec(), 3);
     const auto add = [&](const Setting& setting) {
       if (!has(settings, setting.name)) settings.push_back(setting);
     };
@@ -307,7 +360,7 @@ BoundModel bound(const Choice& c, const Shipped& s, const Substance& of, double 
       else if (plain.find("roughness"))
         settings.push_back({"roughness", {roughness}});
     }
-    return bind_model(s.model, std::move(settings), 3);
+    return bind_model(s.spec(), std::move(settings), 3);
   } catch (const Error& e) {
     throw bad_input(c.path, of.name.empty() ? "/domain" : fmt::format("/domain ({})", of.name),
                     e.what(), "what the model takes");

@@ -31,12 +31,22 @@ template <>
 inline constexpr std::array<std::string_view, 3> names_of<AlphaMap>{"roughness", "roughness^2",
                                                                     "roughness^4"};
 
+/// What a coat leaves of the light for all below it: validate/coat.h
+enum class Coating { view, both };
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Coating>{"view", "both"};
+
 /// Model as it is shipped, or what it stands for.
 struct Shipped {
-  std::string model;  ///< spec, or a preset
+  std::string
+      model;  ///< spec, or a preset; "coat:" before its last lobe lays that on its diffuse terms
   GivenParameters parameters{};
   Bounces scattering = Bounces::single;
   AlphaMap alpha = AlphaMap::square;
+  std::optional<Coating> coating{};  ///< of a coat
+
+  /// The model without the word "coat:".
+  std::string spec() const;
 };
 
 /// Limits, each of the worst that is found in the domain.

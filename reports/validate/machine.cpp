@@ -69,7 +69,11 @@ BudgetCheck check_nonfinite(const Choice& c) {
     out.found = std::max(out.found, 1.0);
     out.at = a.counterexample->inputs;
   }
-  if (!a.holds && !a.counterexample) out.words = fmt::format("open: {}", a.unproved_because);
+  if (a.evidence == Evidence::open && !a.counterexample) {
+    out.evidence = "searched";
+    out.holds = out.found <= out.limit;
+    out.words = fmt::format("It is not proved for every input: {}", a.unproved_because);
+  }
   if (!a.holds && a.counterexample) out.holds = out.found <= out.limit;
   return out;
 }

@@ -10,6 +10,7 @@
 #include "geometry/half_difference.h"
 #include "image/display.h"
 #include "integrate/scattering/compensation.h"
+#include "reports/validate/coat.h"
 
 #include <fmt/format.h>
 
@@ -62,8 +63,8 @@ BudgetCheck worst_checked(const Choice& c,
 
 ErrorAt against_reference(const Choice& c, auto difference) {
   return [&c, difference](const Substance& s, double roughness, std::span<const double> mu) {
-    const auto shipped = albedos(bound(c, c.shipped, s, roughness), c.shipped.scattering, mu),
-               reference = albedos(bound(c, c.reference, s, roughness), c.reference.scattering, mu);
+    const auto shipped = albedos(c.shipped, bound(c, c.shipped, s, roughness), mu),
+               reference = albedos(c.reference, bound(c, c.reference, s, roughness), mu);
     std::vector<double> out;
     for (std::size_t m = 0; m < mu.size(); ++m) out.push_back(difference(shipped[m], reference[m]));
     return out;
@@ -75,6 +76,27 @@ BoundModel white_lobes(const BoundModel& b) {
   BoundModel f = furnace(b);
   f.model.diffuse.clear();
   return f;
+}
+
+/// What of a model is known to gain energy by its formula; "" if nothing is.
+std::string why_energy_is_gained(const Choice& c) {
+  const BoundModel b = bound(c, c.shipped, substances(c).front(), roughnesses(c).front());
+  const auto id = [](const TermUse& t) { return catalogue()[t.term].about->id; };
+  for (const Lobe& lobe : b.model.lobes) {
+    if (id(lobe.ndf) != "ndf.gtr1" || !id(lobe.masking).starts_with("masking.smith_gtr.")) continue;
+    for (const std::size_t p : lobe.masking.parameters)
+      if (const auto& of = b.model.parameters[p];
+          of.name.starts_with("gamma") && b.values[of.first] != 1)
+        return fmt::format(
+            "The masking is that of gamma {:g}, the distribution has gamma 1: what one shows the "
+            "other does not hide",
+            b.values[of.first]);
+  }
+  for (const TermUse& t : b.model.diffuse)
+    if (catalogue()[t.term].coupled)
+      return "The diffuse term leaves 1 − F of the half vector, and at grazing angles the lobe "
+             "reflects more than that F";
+  return "";
 }
 
 }  // namespace
@@ -91,6 +113,12 @@ std::vector<std::vector<double>> albedos(const BoundModel& b,
   for (std::size_t m = 0; m < mu.size(); ++m)
     out.push_back(with_diffuse(lobes.at[m], diffuse[m]).value);
   return out;
+}
+
+std::vector<std::vector<double>> albedos(const Shipped& side,
+                                         const BoundModel& b,
+                                         std::span<const double> mu) {
+  return side.coating ? Coated(b, *side.coating).albedos(mu) : albedos(b, side.scattering, mu);
 }
 
 BudgetCheck check_albedo_error(const Choice& c,
@@ -127,7 +155,7 @@ BudgetCheck check_energy_gain(const Choice& c,
                               const std::function<void(double)>& done) {
   const auto error = [&](const Substance& s, double roughness, std::span<const double> mu) {
     const BoundModel b = bound(c, c.shipped, s, roughness);
-    const auto as_it_is = albedos(b, c.shipped.scattering, mu);
+    const auto as_it_is = albedos(c.shipped, b, mu);
     const auto white =
         b.model.lobes.empty() ? as_it_is : albedos(white_lobes(b), c.shipped.scattering, mu);
     std::vector<double> out;
@@ -135,7 +163,9 @@ BudgetCheck check_energy_gain(const Choice& c,
       out.push_back(worse(0, worse(greatest(as_it_is[m]), greatest(white[m])) - 1));
     return out;
   };
-  return worst_checked(c, "energy_gain", *c.budgets.energy_gain, effort, error, done);
+  BudgetCheck out = worst_checked(c, "energy_gain", *c.budgets.energy_gain, effort, error, done);
+  if (!out.holds) out.words = why_energy_is_gained(c);
+  return out;
 }
 
 BudgetCheck check_energy_loss(const Choice& c,
@@ -201,7 +231,9 @@ BudgetCheck check_reciprocity(const Choice& c,
         there.push_back(frame_angles({l, v}));
         back.push_back(frame_angles({v, l}));
       }
-      return std::pair(evaluate(b, there), evaluate(b, back));
+      if (!c.shipped.coating) return std::pair(evaluate(b, there), evaluate(b, back));
+      const Coated coated(b, *c.shipped.coating);
+      return std::pair(coated.values(there), coated.values(back));
     };
     // What Turquin's factor does: 1 + F0 (1/E − 1), E of the viewer's direction.
     const auto factor = [&](std::span<const double> at) {

@@ -14,6 +14,11 @@ namespace gonio::validating {
 /// Directional albedo at F as it is, by channel: [mu][channel].
 std::vector<std::vector<double>> albedos(const BoundModel&, Bounces, std::span<const double> mu);
 
+/// The same of a choice's side, its coat and its scattering as that says.  \param b  of its spec()
+std::vector<std::vector<double>> albedos(const Shipped&,
+                                         const BoundModel& b,
+                                         std::span<const double> mu);
+
 BudgetCheck check_albedo_error(const Choice&,
                                const Effort&,
                                const std::function<void(double)>& done);

@@ -26,10 +26,10 @@ struct OneLobe {
   std::string before, ndf, masking, fresnel;
 };
 OneLobe one_lobe(const Choice& c) {
-  const Model m = compose(c.shipped.model, 3);
-  if (m.lobes.size() != 1 || m.anisotropic)
+  const Model m = compose(c.shipped.spec(), 3);
+  if (m.lobes.size() != 1 || m.anisotropic || c.shipped.coating)
     throw bad_input(c.path, "/model", fmt::format("'{}'", c.shipped.model),
-                    "one isotropic lobe, for which a suggestion looks");
+                    "one isotropic lobe that is no coat, for which a suggestion looks");
   OneLobe o;
   for (const auto& d : m.diffuse) o.before += std::string(short_id(catalogue()[d.term].id())) + '+';
   const auto name = [](const TermUse& t) {

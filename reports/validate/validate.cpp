@@ -29,7 +29,7 @@ void add_curves(Pictures& to, const Choice& c) {
       curve.name = c.domain.roughness ? fmt::format("{}, roughness {:.2g}", name, r) : name;
       curve.dashed = dashed;
       curve.x = mu;
-      for (const auto& e : albedos(bound(c, side, s, r), side.scattering, mu))
+      for (const auto& e : albedos(side, bound(c, side, s, r), mu))
         curve.y.push_back(e[e.size() / 2]);
       f.curves.push_back(std::move(curve));
     };
@@ -83,7 +83,7 @@ Validation validate(const Choice& c, const ReportProgress& done) {
     const auto from = static_cast<double>(i);
     v.budgets.push_back(all[i].check(part_of(done, all[i].what, from / n, (from + 1) / n)));
   }
-  if (!compose(c.shipped.model, 3).lobes.empty()) add_curves(v.pictures, c);
+  if (!compose(c.shipped.spec(), 3).lobes.empty()) add_curves(v.pictures, c);
   return v;
 }
 

@@ -2,7 +2,7 @@
 // A validation: each budget, the worst that was found, and where.
 
 const told = page_data(), broken = told.budgets.filter((b) => !b.holds);
-const evidence = { proved: "proved for every input", exhaustive: "every input looked at", searched: "searched: there may be worse", open: "open", counted: "counted", measured: "measured here" };
+const evidence = { proved: "proved for every input", exhaustive: "every input looked at", searched: "searched: there may be worse", counted: "counted", measured: "measured here" };
 
 function verdict() {
   const lines = broken.length === 0 ? ["The choice keeps every budget."] : [`The choice breaks ${broken.length} of ${many(told.budgets.length, "budget")}.`];

@@ -30,6 +30,20 @@ TEST(ValidateCommand, ExitsWith0WhereEveryBudgetIsKeptAndWith1AndTheWorstInputWh
   EXPECT_EQ(broken.err, "");
 }
 
+TEST(ValidateCommand, FindsTheDefectsOfTheDocsAndTheirWorstInput) {
+  const Folder f;
+  std::size_t seen = 0;
+  for (const auto& e : std::filesystem::directory_iterator(GONIO_SOURCE_DIR "/docs/defect")) {
+    const auto o = gonio(f, "validate " + e.path().string());
+    EXPECT_EQ(o.code, 1) << e.path() << o.out << o.err;
+    EXPECT_NE(o.out.find("BROKEN"), o.out.npos) << o.out;
+    EXPECT_NE(o.out.find(" at "), o.out.npos) << "the worst input: " << o.out;
+    EXPECT_EQ(o.err, "");
+    ++seen;
+  }
+  EXPECT_EQ(seen, 6U);
+}
+
 TEST(ValidateCommand, LeavesADocumentAPageAndWhatMachinesRead) {
   const Folder f;
   write(f, "c.json", choice(1e-4));

@@ -69,9 +69,49 @@ TEST(Choice, NamesThePlaceOfWhatItDoesNotTake) {
   refused("/budgets/fresnel_error", 0.1, "eta or metal");
   refused("/budgets/ns", {{"limit", 2}, {"baseline", "gg"}},
           "c.json: /budgets/ns/baseline: found ");
+  for (const auto& [name, value] :
+       {std::pair("alpha", json(2)), std::pair("f0", json(-1)), std::pair("alpha", json(1e-9)),
+        std::pair("alpha", json("wide"))})
+    refused("/parameters", {{name, value}}, "c.json: /parameters");
+  refused("/reference_parameters", {{"f0", 1.5}}, "c.json: /reference_parameters: found ");
+  refused("/coating", "view", "c.json: /coating: found ");
+  refused("/coating", "inside", "c.json: /coating: found ");
+  refused("/model", "lambert+coat:ggx/smith_ggx.correlated/schlick", "view or both, beside a coat");
   json j = plain();
   j.erase("reference");
   EXPECT_THROW(parsed(j), Error) << "albedo_error compares with nothing";
+}
+
+TEST(Choice, LaysACoatOnDiffuseTermsAlone) {
+  const auto refused = [](const char* model, const json& more, const std::string& line) {
+    json j = plain();
+    j["model"] = model;
+    j["coating"] = "both";
+    if (more.is_object()) j.update(more);
+    try {
+      parsed(j);
+      ADD_FAILURE() << model << " was taken";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), Exit::bad_input);
+      EXPECT_NE(std::string(e.what()).find(line), std::string::npos) << e.what();
+    }
+  };
+  const char* const good = "lambert+coat:ggx/smith_ggx.correlated/schlick";
+  refused("coat:ggx/smith_ggx.correlated/schlick", {}, "DIFFUSE+coat:LOBE");
+  refused("lambert.coupled+coat:ggx/smith_ggx.correlated/schlick", {}, "uncoupled");
+  refused("lambert+ggx/smith_ggx.correlated/schlick+coat:ggx/smith_ggx.correlated/schlick", {},
+          "DIFFUSE+coat:LOBE");
+  refused("lambert+coat:ggx/smith_ggx.correlated/schlick+eon", {}, "DIFFUSE+coat:LOBE");
+  refused(good, {{"scattering", "turquin"}}, "c.json: /scattering: found ");
+  for (const char* budget : {"energy_loss", "nonfinite", "operations", "table_bytes"})
+    refused(good, {{"budgets", {{budget, 0}}}},
+            std::string("c.json: /budgets/") + budget + ": found ");
+  json j = plain();
+  j["model"] = good;
+  j["coating"] = "view";
+  const Choice c = parsed(j);
+  EXPECT_EQ(c.shipped.coating, Coating::view);
+  EXPECT_EQ(c.shipped.spec(), "lambert+ggx/smith_ggx.correlated/schlick");
 }
 
 TEST(Choice, OfARangeHasBothEndsAndWhatLiesBetween) {
