@@ -81,12 +81,8 @@ std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const Tar
     if (catalogue()[d.term].coupled)
       all.emplace_back(
           "What the highlight takes from the diffuse light: Mitsuba's blend adds both.");
-  for (const auto& l : fit.model.lobes)
-    if (!catalogue()[l.fresnel.term].id().starts_with("fresnel.conductor") &&
-        !catalogue()[l.fresnel.term].id().starts_with("fresnel.dielectric")) {
-      all.emplace_back("The Fresnel curve: Mitsuba's is exact, of an index.");
-      break;
-    }
+  if (!fresnel_is(fit, {"conductor", "dielectric"}))
+    all.emplace_back("The Fresnel curve: Mitsuba's is exact, of an index.");
   if (s.tangent_deg != 0)
     all.push_back(
         fmt::format("The tangent at {:.4g}°: Mitsuba takes it from texture coordinates, which are "

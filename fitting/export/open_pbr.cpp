@@ -98,8 +98,13 @@ std::vector<TargetForm> forms(const Surface& s) {
   return all;
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters&) {
+std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters& p) {
   auto all = lost_in_layers(fit, s, "OpenPBR's");
+  const bool metal = value_in(p, "base_metalness") > 0;
+  if (metal && !fresnel_is(fit, {"schlick", "f82"}))
+    all.emplace_back("The Fresnel curve: OpenPBR's metal has Schlick's with a tint at the edge.");
+  if (!metal && !fresnel_is(fit, {"dielectric"}))
+    all.emplace_back("The Fresnel curve: OpenPBR's is exact, of an index.");
   if (s.lobes.empty())
     all.emplace_back("A surface without a highlight: OpenPBR's is dark at grazing angles.");
   return all;

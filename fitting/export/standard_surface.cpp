@@ -85,7 +85,10 @@ std::vector<TargetForm> forms(const Surface& s) {
 }
 
 std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters&) {
-  return lost_in_layers(fit, s, "Standard Surface's");
+  auto all = lost_in_layers(fit, s, "Standard Surface's");
+  if (!fresnel_is(fit, {"conductor", "dielectric", "gulbrandsen"}))
+    all.emplace_back("The Fresnel curve: Standard Surface's is exact, of an index.");
+  return all;
 }
 
 std::string file(const Export& e, const std::string& fit) {

@@ -104,6 +104,13 @@ Surface surface_of(const BoundModel& fit) {
   return s;
 }
 
+bool fresnel_is(const BoundModel& fit, std::initializer_list<std::string_view> names) {
+  return std::ranges::all_of(fit.model.lobes, [&](const Lobe& l) {
+    const auto id = short_id(catalogue()[l.fresnel.term].id());
+    return std::ranges::any_of(names, [&](std::string_view n) { return id.starts_with(n); });
+  });
+}
+
 std::vector<std::string> lost_by_all(const BoundModel& fit,
                                      const std::string& whose,
                                      std::string_view masking) {

@@ -2,6 +2,7 @@
 /// \file
 /// Surface of a fit in words that every target knows: a diffuse colour, and lobes by their widths and reflectances.
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,9 @@ struct Surface {
   double largest_kd() const;
 };
 Surface surface_of(const BoundModel&);
+
+/// Whether every lobe's Fresnel term is one of those, by the beginnings of their names ("dielectric").
+bool fresnel_is(const BoundModel&, std::initializer_list<std::string_view> names);
 
 /// What of the fit no target has, in sentences: the exponent of the distribution, other distributions than GGX, other
 /// diffuse terms than Lambert's, other masking.
