@@ -101,7 +101,8 @@ TEST(Choice, LaysACoatOnDiffuseTermsAlone) {
   refused("lambert.coupled+coat:ggx/smith_ggx.correlated/schlick", {}, "uncoupled");
   refused("lambert+ggx/smith_ggx.correlated/schlick+coat:ggx/smith_ggx.correlated/schlick", {},
           "DIFFUSE+coat:LOBE");
-  refused("lambert+coat:ggx/smith_ggx.correlated/schlick+eon", {}, "DIFFUSE+coat:LOBE");
+  refused("lambert+coat:ggx/smith_ggx.correlated/schlick+eon", {}, "what the model takes");
+  refused("lambert+ggx/smith_ggx.correlated/coat:schlick", {}, "DIFFUSE+coat:LOBE");
   refused(good, {{"scattering", "turquin"}}, "c.json: /scattering: found ");
   for (const char* budget : {"energy_loss", "nonfinite", "operations", "table_bytes"})
     refused(good, {{"budgets", {{budget, 0}}}},
