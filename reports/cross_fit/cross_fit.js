@@ -66,7 +66,7 @@ function ranges_by_metric() {
     const own = ranges.filter((x) => x.parameter === parameter && x.material === material), say = said[parameter][1];
     const cell = (x) => !x ? "" : { n: el("span", { title: x.at_bound ? `${x.at_bound} of ${x.fits} at a bound` : null }, known(x.least) ? `${say(x.least)} to ${say(x.most)}` : "at its bounds", x.at_bound && known(x.least) ? "*" : "") };
     return in_cards(table(["form", ...columns.map((c) => ({ n: c }))], [...group_by(own, (x) => x.fitted).values()].map((list) =>
-      [el("span", {}, list[0].name, " ", el("small", {}, list[0].fitted)), ...columns.map((c) => cell(list.find((x) => `${metric_names[x.metric]}, ${x.directions}` === c)))])));
+      [form_cell(list[0].fitted), ...columns.map((c) => cell(list.find((x) => `${metric_names[x.metric]}, ${x.directions}` === c)))])));
   };
   const body = changing(() => of(material), () => unique(ranges.map((x) => x.material)).filter((m) => m !== material).map((m) => [el("h3", {}, `${m}: ${said[parameter][0]}`), of(m)]));
   return section("What a shift depends on", "Range over the roughnesses of what a fit makes of a parameter, by metric and by the directions that were measured. The log metric counts all directions alike, the cosine-weighted one follows the bright peak. *: some fits ended at a bound and are left out.",

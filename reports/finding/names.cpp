@@ -10,7 +10,7 @@ namespace gonio {
 namespace {
 
 /// Shorter than the catalogue's titles, as people say them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 58> names{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 61> names{
     {{"masking.smith_ggx.correlated", "Height-correlated Smith"},
      {"masking.smith_ggx.separable", "Separable Smith"},
      {"masking.schlick_ggx.direct", "Schlick's k = (r+1)²/8"},
@@ -26,6 +26,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 58> names{
      {"fresnel.conductor, three wavelengths", "Exact conductor at three wavelengths"},
      {"gtr/schlick_ggx.direct/schlick", "GTR with Schlick's k = (r+1)²/8 and Fresnel"},
      {"model.gltf", "glTF's model"},
+     {"model.filament", "Filament's model"},
+     {"model.disney", "Disney's model"},
+     {"model.disney2017", "Disney's model of 2017"},
      {"turquin", "Turquin"},
      {"kulla_conty", "Kulla and Conty"},
      {"fdez_aguera", "Fdez-Agüera"},
@@ -57,7 +60,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 58> names{
      {"masking.disney_remap", "Disney's remapped Smith"},
      {"masking.cook_torrance", "Cook–Torrance"},
      {"ndf.ggx.mobile", "GGX_Mobile"},
-     {"ndf.ggx.mobile.cross", "GGX_Mobile by |n × h|²"},
+     {"ndf.ggx.mobile.cross", "GGX_Mobile, its cross product"},
      {"ndf.ggx.ue_mobile", "D_GGX_R2"},
      {"ndf.gtr", "GTR"},
      {"ndf.gtr1", "GTR of γ = 1"},
