@@ -37,6 +37,7 @@ CostRows cost_rows(const CostOptions& o, const ReportProgress& done) {
   r.metals = errors_on_metals();
   r.studies =
       costing::with_times(costing::study_errors(), r.rows, r.machine.instruction_sets.back());
+  r.studies.shaders = costing::shader_rows();
   return r;
 }
 CostReport cost_report(const CostOptions& o, const ReportProgress& done) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "number/counted.h"
@@ -139,10 +140,18 @@ struct LookupRow {
   double mirror_rms, mirror_max;  ///< of A + B
   Timing time = unknown_time;
 };
+/// A whole model written as a shader, in float and three channels, all its parameters arguments.
+struct ShaderRow {
+  std::string id;         ///< as that of its times
+  Operations operations;  ///< of its graph: what is shared counts once, on a colour three times
+  /// Instructions of its optimised SPIR-V by kind, one on a colour counts once; empty where no compiler is there
+  std::vector<std::pair<std::string_view, std::size_t>> instructions{};
+};
 struct Studies {
   std::vector<FastRow> fast{};
   std::vector<SamplingRow> sampling{};
   std::vector<LookupRow> lookup{};
+  std::vector<ShaderRow> shaders{};
 };
 /// Time until samples leave an error of 1 % of E [µs].
 inline double us_to_percent(const SamplingRow& r) {

@@ -1,7 +1,7 @@
 "use strict";
 // The cost report: what accuracy costs in time.
 
-const { rows, switches, arithmetic, sampling, lookups, points, figures, machine, findings, full, repetitions, processes, others_busy, cache_samples, stream_samples } = page_data();
+const { rows, switches, arithmetic, sampling, lookups, shaders, points, figures, machine, findings, full, repetitions, processes, others_busy, cache_samples, stream_samples } = page_data();
 const best = machine.instruction_sets.at(-1);
 const short = (id) => id.replace(/^(ndf|masking|fresnel|diffuse|model|bound)\./, "");
 const long_columns = `columns of ${plain(stream_samples * 4 / (1 << 20), 3)} MiB`;  // of floats: of doubles twice that
@@ -142,6 +142,18 @@ function tables_and_formulas() {
   return node;
 }
 
+function as_shaders() {
+  if (!shaders.length) return null;
+  const compiled = shaders.some((r) => r.instructions);
+  const of = (r, ...kinds) => ({ n: r.instructions ? count(kinds.reduce((sum, k) => sum + r.instructions[k], 0)) : "–" });
+  const node = section("In a shader", "Each model as gonio shader writes it in GLSL, in float and three channels, all its parameters arguments. Operations are of the formula: what is shared counts once, what is done to a colour three times. "
+    + (compiled ? "Instructions are of its SPIR-V after spirv-opt -O, without loads and copies; one on a colour counts once. One version of these compilers gives the same on every machine." : "Where glslangValidator and spirv-opt are on PATH, the instructions of its SPIR-V stand beside them."),
+    in_cards(table(["model", { n: "operations" }, { n: "instructions" }, { n: "sums" }, { n: "products" }, { n: "divisions" }, { n: "roots" }, { n: "exp, log" }, { n: "choices" }],
+      shaders.map((r) => [named(r.id) === r.id ? el("code", {}, short(r.id)) : form_cell(r.id), { n: count(r.ops) }, of(r, "add", "mul", "fma", "div", "sqrt", "exp", "log", "min_max", "compare", "select"), of(r, "add"), of(r, "mul", "fma"), of(r, "div"), of(r, "sqrt"), of(r, "exp", "log"), of(r, "min_max", "compare", "select")]))));
+  node.id = "shaders";
+  return node;
+}
+
 // --- The machine ---------------------------------------------------------------------------------------
 function the_machine() {
   const size = (bytes) => (bytes >= 1 << 20 ? `${plain(bytes / (1 << 20))} MiB` : `${plain(bytes / 1024)} KiB`);
@@ -155,6 +167,6 @@ function the_machine() {
 const first = picture_of(figures, "masking", at_best) ?? figures[0];
 show_report({
   command: "report cost", title: "What accuracy costs in time", findings, first: first && figure_view(first, { height: 360, copy: true }),
-  sections: [what_it_costs(), pictures(), whole_models(), fast_arithmetic(), light_sampling(), tables_and_formulas(), every_entry(), the_machine()],
+  sections: [what_it_costs(), pictures(), whole_models(), fast_arithmetic(), light_sampling(), tables_and_formulas(), as_shaders(), every_entry(), the_machine()],
   setting: full ? "Full setting." : "Quick setting; --full measures long columns in every instruction set, by more processes.",
 });

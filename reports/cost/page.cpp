@@ -251,6 +251,24 @@ struct Description<LookupRow> {
 };
 
 template <>
+struct Description<ShaderRow> {
+  static constexpr auto fields() {
+    using R = ShaderRow;
+    return std::tuple{
+        field("id", "", &R::id, "of a preset, or the spec"),
+        field(
+            "ops", "", [](const R& r) { return r.operations.total(); },
+            "of its graph, on a colour three"),
+        field(
+            "instructions", "",
+            [](const R& r) {
+              return r.instructions.empty() ? std::nullopt : std::optional(r.instructions);
+            },
+            "of optimised SPIR-V by kind, on a colour one; null: no compiler was there")};
+  }
+};
+
+template <>
 struct Description<Timing> {
   static constexpr auto fields() {
     return std::tuple{field("ns", "ns", &Timing::ns, "median"),
@@ -317,6 +335,9 @@ struct Description<CostReport> {
         field(
             "lookups", "", [](const R& r) -> const auto& { return r.rows.studies.lookup; },
             "A and B of the split sum by tables and formulas"),
+        field(
+            "shaders", "", [](const R& r) -> const auto& { return r.rows.studies.shaders; },
+            "whole models as shaders, in float and three channels"),
         inlined(&R::pictures)};
   }
 };

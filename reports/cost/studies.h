@@ -30,4 +30,7 @@ const Studies& study_errors();
 /// The studies with the times of these rows, in the best instruction set.
 Studies with_times(Studies, const std::vector<CostRow>&, std::string_view isa);
 
+/// Every whole model as a shader; instructions where glslangValidator and spirv-opt are on PATH.
+std::vector<ShaderRow> shader_rows();
+
 }  // namespace gonio::costing

@@ -433,6 +433,25 @@ TEST(CostStudies, ATableIsNearerTheLargerItIs) {
   EXPECT_TRUE(std::isnan(row("split_sum.ours").a_rms));
 }
 
+TEST(CostStudies, CountWhatModelsTakeInAShader) {
+  const auto rows = costing::shader_rows();
+  const auto row = [&](std::string_view id) -> const ShaderRow& {
+    return *std::ranges::find(rows, id, &ShaderRow::id);
+  };
+  const auto &exact = row("ggx/smith_ggx.correlated/dielectric"),
+             &schlick = row("ggx/smith_ggx.correlated/schlick");
+  EXPECT_GT(exact.operations.total(), 2 * schlick.operations.total());
+  if (schlick.instructions.empty())
+    GTEST_SKIP() << "glslangValidator or spirv-opt is not there: run ./check, which installs it";
+  const auto of = [](const ShaderRow& r, std::string_view kind) {
+    return std::ranges::find(r.instructions, kind, &std::pair<std::string_view, std::size_t>::first)
+        ->second;
+  };
+  EXPECT_EQ(of(schlick, "sqrt"), 2U) << "of the masking";
+  EXPECT_GT(of(exact, "sqrt"), 2U);
+  EXPECT_LE(of(schlick, "add"), schlick.operations[Operation::add]) << "one of a colour is one";
+}
+
 TEST(CostStudies, EachIsTimedInEverySet) {
   for (const char* filter : {"fast.pow5", "sampling.ggx", "split_sum."}) {
     auto o = short_options(filter);
