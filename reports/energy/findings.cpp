@@ -191,8 +191,8 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
     if (coat->rows[i].mu >= 0.1 && off > most) most = off, at = i;
   }
   const auto& row = coat->rows[at];
-  to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat", "seed 001, Disney's secondary lobe",
-           verdict_on_small(most),
+  to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat",
+           "seed 001, Disney's secondary lobe", verdict_on_small(most),
            fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
            fmt::format("as it ships it is furthest from its own Smith masking at {}. Before "
                        "Fresnel the coat there reflects {} instead of {}.",
