@@ -31,10 +31,6 @@ std::optional<Compensation> compensation_of(Bounces b) {
   return find_value<Compensation>(name_of(b));
 }
 
-/// Larger one of two errors; what is no number is worse than all.
-double worse(double a, double b) {
-  return std::isnan(a) || b <= a ? a : b;
-}
 double greatest(const std::vector<double>& all) {
   double most = -HUGE_VAL;
   for (const double x : all) most = worse(most, x);

@@ -2,6 +2,7 @@
 /// \file
 /// Search of a choice's domain for the worst: a grid, then steps around the worst of it.
 
+#include <cmath>
 #include <functional>
 #include <span>
 #include <string>
@@ -28,6 +29,11 @@ struct Effort {
   bool refined = true;  ///< looks around the worst of the grid
 };
 inline constexpr Effort coarse{3, 3, false};
+
+/// Larger one of two errors; what is no number is worse than all.
+inline double worse(double a, double b) {
+  return std::isnan(a) || b <= a ? a : b;
+}
 
 /// Even steps from one end to the other; one where they are the same.
 std::vector<double> steps(const Choice::Ends&, int n);

@@ -75,6 +75,7 @@ TEST(Defects, TheFourthPowerOfASmallRoughnessVanishesInHalf) {  // three.js 8349
   const auto b = checked(j);
   EXPECT_FALSE(b.holds) << sentence(b);
   EXPECT_NEAR(at(b, "alpha"), 0.0016, 1e-5);
+  EXPECT_GT(b.found, 1000) << "each input that overflows is counted";
   j["number"] = "float";
   EXPECT_TRUE(checked(j).holds) << sentence(checked(j));
 }
@@ -116,6 +117,7 @@ TEST(Defects,
   const auto b = checked(j);
   EXPECT_FALSE(b.holds) << sentence(b);
   EXPECT_LT(at(b, "nol") * at(b, "nov"), 1e-4) << "both graze";
+  EXPECT_GT(at(b, "alpha"), 0.2501) << "not of the first roughness alone";
   EXPECT_NEAR(at(b, "cos_phi"), -1, 0.1) << "from opposite sides";
   j["model"] = smith;
   EXPECT_TRUE(checked(j).holds) << sentence(checked(j));

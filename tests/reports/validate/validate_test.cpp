@@ -9,7 +9,9 @@
 #include "many_fits.h"
 #include "optics/refractive_index.h"
 #include "reports/measure/fresnel_error.h"
+#include "reports/validate/measure.h"
 #include "reports/validate/words.h"
+#include "support.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -148,6 +150,92 @@ TEST(Validate, FindsWhatChangesWhereLightAndViewDo) {
   EXPECT_FALSE(b.holds);
   EXPECT_GT(b.found, 0.1);
   EXPECT_THROW(of({{"reciprocity", 0.01}}, {{"scattering", "fdez_aguera"}}), Error);
+}
+
+TEST(Validate, TellsTheChangeOverTheLargerOfTheTwo) {
+  // Turquin's f is that of one bounce times a factor of the viewer's direction.
+  const auto b = only(of({{"reciprocity", 0}},
+                         {{"scattering", "turquin"}, {"domain", {{"roughness", 1}, {"f0", 0.9}}}}));
+  const auto model = bind_model(smith, {{"alpha", {1}}, {"f0", {0.9}}}, 1);
+  std::vector<double> mu;
+  for (int i = 0; i <= 95; ++i) mu.push_back(0.05 + 0.01 * i);
+  const auto bright = validating::albedos(model, Bounces::turquin, mu),
+             plain = validating::albedos(model, Bounces::single, mu);
+  double least = HUGE_VAL, most = 0;
+  for (std::size_t m = 0; m < mu.size(); ++m) {
+    least = std::min(least, bright[m][0] / plain[m][0]);
+    most = std::max(most, bright[m][0] / plain[m][0]);
+  }
+  EXPECT_NEAR(b.found, 1 - least / most, 0.002);
+}
+
+TEST(Validate, LooksBetweenTheStepsOfItsGrid) {
+  const json j = {{"schema", "gonio.choice/1"},
+                  {"model", smith},
+                  {"alpha", "roughness^4"},
+                  {"reference", smith},
+                  {"domain", {{"roughness", {0.1, 1}}, {"f0", 0.9}}},
+                  {"budgets", {{"albedo_error", 0.01}}}};
+  const Choice c = parse_choice("choice.json", j.dump());
+  const auto found = [&](bool refined) {
+    return validating::checks_of(c, {9, 8, refined})[0].check({}).found;
+  };
+  EXPECT_GT(found(true), found(false) * 1.001);
+}
+
+TEST(Validate, HoldsWhatIsNoNumberForTheWorst) {
+  const double nan = std::nan("");
+  using validating::worse;
+  EXPECT_EQ(worse(1, 2), 2);
+  EXPECT_EQ(worse(2, 1), 2);
+  EXPECT_TRUE(std::isnan(worse(nan, 5)));
+  EXPECT_TRUE(std::isnan(worse(5, nan)));
+  const json j = {{"schema", "gonio.choice/1"},
+                  {"model", smith},
+                  {"domain", {{"roughness", {0.1, 1}}}},
+                  {"budgets", {{"energy_gain", 1}}}};
+  const Choice c = parse_choice("choice.json", j.dump());
+  const validating::ErrorAt error = [&](const Substance&, double roughness,
+                                        std::span<const double> mu) {
+    return std::vector<double>(mu.size(), roughness > 0.9 ? nan : 7);
+  };
+  const auto w = validating::worst(c, {}, validating::on_grid(c, {}, error, {}), error);
+  EXPECT_TRUE(std::isnan(w.value));
+  EXPECT_EQ(w.at.roughness, 1);
+}
+
+TEST(Validate, TellsTimeOverTheBaselines) {
+  // Several times as dear either way: no machine is so busy.
+  const auto times = [](const char* model, const char* baseline) {
+    return only(of({{"ns", {{"limit", 1}, {"baseline", baseline}}}},
+                   {{"model", model}, {"domain", json::object()}}));
+  };
+  const char* const dear = "lambert+gtr/smith_gtr.correlated/conductor";
+  EXPECT_FALSE(times(dear, "lambert").holds);
+  EXPECT_TRUE(times("lambert", dear).holds);
+}
+
+TEST(Validate, TakesTheSubstanceOfAFit) {
+  const test::Folder f;
+  f.write("fit.json",
+          json{{"schema", "gonio.fit/1"},
+               {"model", smith},
+               {"channels", {"r", "g", "b"}},
+               {"parameters", {{"alpha", {{"value", 0.3}}}, {"f0", {{"value", {0.9, 0.5, 0.2}}}}}}}
+              .dump());
+  json j = {{"schema", "gonio.choice/1"},
+            {"model", remapped},
+            {"reference", smith},
+            {"domain", {{"fits", "fit.json"}}},
+            {"budgets", {{"albedo_error", 0.01}}}};
+  const auto of_fit = validate(read_choice(f.write("choice.json", j.dump())));
+  const json set = {{"alpha", 0.3}, {"f0", {0.9, 0.5, 0.2}}};
+  j["domain"] = json::object();
+  j["parameters"] = j["reference_parameters"] = set;
+  const auto of_numbers = validate(parse_choice("choice.json", j.dump()));
+  EXPECT_EQ(only(of_fit).found, only(of_numbers).found);
+  EXPECT_GT(only(of_fit).found, 0.1);
+  EXPECT_EQ(only(of_fit).substance, "fit.json");
 }
 
 TEST(Validate, NamesTheInputThatHasNoValueInHalf) {
