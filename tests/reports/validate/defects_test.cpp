@@ -75,7 +75,7 @@ TEST(Defects, TheFourthPowerOfASmallRoughnessVanishesInHalf) {  // three.js 8349
   const auto b = checked(j);
   EXPECT_FALSE(b.holds) << sentence(b);
   EXPECT_NEAR(at(b, "alpha"), 0.0016, 1e-5);
-  EXPECT_GT(b.found, 1000) << "each input that overflows is counted";
+  EXPECT_GT(b.found, 1000) << "each of them is counted";
   j["number"] = "float";
   EXPECT_TRUE(checked(j).holds) << sentence(checked(j));
 }

@@ -11,6 +11,7 @@
 #include "reports/measure/fresnel_error.h"
 #include "reports/validate/measure.h"
 #include "reports/validate/words.h"
+#include "stability/answer.h"
 #include "support.h"
 
 #include <gtest/gtest.h>
@@ -247,6 +248,20 @@ TEST(Validate, NamesTheInputThatHasNoValueInHalf) {
   EXPECT_FALSE(b.at.empty());
   EXPECT_GT(b.found, 0);
   EXPECT_NE(place_text(b).find("alpha"), std::string::npos) << place_text(b);
+  // What overflows and what goes wrong otherwise are counted both.
+  sharp["domain"] = {{"roughness", 0.1}, {"mu", {0.05, 1}}, {"f0", 0.9}};
+  stability::Question q;
+  q.arithmetic.number = Number::half;
+  q.subject = stability::subjects_of(smith).front();
+  const double alpha = 0.1 * 0.1;
+  set_domain(q.subject, "alpha", {alpha, alpha});
+  set_domain(q.subject, "f0", {0.9, 0.9});
+  for (const char* name : {"nol", "nov"}) set_domain(q.subject, name, {0.05, 1});
+  const auto looked = answer(q).looked;
+  EXPECT_GT(looked.no_value.count, 0U);
+  EXPECT_GT(looked.overflow.count, 0U);
+  EXPECT_EQ(only(of({{"nonfinite", 0}}, sharp)).found,
+            static_cast<double>(looked.no_value.count + looked.overflow.count));
 }
 
 TEST(Validate, CountsOperationsAndBytesOfACompensationToo) {
