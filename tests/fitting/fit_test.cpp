@@ -92,7 +92,8 @@ TEST_P(Recovery, WorksFromEveryLayoutAndMetric) {
     for (std::size_t k = 0; k < names_of<Metric>.size(); ++k) {
       SynthOptions s;
       s.layout = static_cast<Layout>(l);
-      if (s.layout == Layout::merl) continue;  // above
+      if (s.layout == Layout::merl) continue;                // above
+      if (s.layout == Layout::rgl && few(2) == 1) continue;  // 127,040 samples
       if (k >= few(names_of<Metric>.size())) continue;
       FitOptions o;
       o.metric = static_cast<Metric>(k);
