@@ -9,7 +9,7 @@ Facts facts(const CostRows& r) {
   f.setting = Facts::Setting{r.machine.cpu, r.machine.threads, best, r.others};
   for (const auto& row : r.rows) {
     if (row.number != "float" || row.isa != best || is_mistake(row)) continue;
-    const Facts::Time time{row.id, row.time.ns, row.time.spread_ns};
+    const Facts::Time time{row.id, row.time.ns, row.time.spread_ns, row.each};
     if (row.memory == "cache" && row.way.empty()) f.in_cache.push_back(time);
     if (row.memory == "cache" && row.way == "fused" && row.id == "ggx/smith_ggx.correlated/schlick")
       f.setting->model_ns = row.time.ns;

@@ -27,6 +27,8 @@ struct Facts {
   struct Time {
     std::string id;  ///< of the term, or the model's spec
     double ns, spread;
+    std::vector<double>
+        each{};  ///< in each process that measured, in their order; empty: one alone
   };
   std::vector<Time> in_cache{}, streaming{};
   /// RMS distance of a masking form's G₂ from height-correlated Smith's for GGX, over directions and roughness.

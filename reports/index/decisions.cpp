@@ -8,6 +8,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "reports/finding/words.h"
+#include "timing/timing.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,8 +21,17 @@ using Candidates = std::vector<Candidate>;
 constexpr std::string_view schlick = "fresnel.schlick", direct = "masking.schlick_ggx.direct",
                            correlated = "masking.smith_ggx.correlated", single = "single";
 
+/// Time that `to` takes more than `from`, which are candidates or times.
+template <class Timed>
+TimeDifference more(const Timed& from, const Timed& to) {
+  return difference({{from.ns, from.spread}, from.each}, {{to.ns, to.spread}, to.each});
+}
+Candidate candidate(std::string form, double error, const Facts::Time& t) {
+  return {std::move(form), error, t.ns, t.spread, t.each};
+}
 bool is_clearly_cheaper(const Candidate& a, const Candidate& b) {
-  return b.ns - a.ns > a.spread + b.spread;
+  const auto d = more(a, b);
+  return d.survives && d.ns > 0;
 }
 const Candidate* find(const Candidates& all, std::string_view form) {
   const auto at = std::ranges::find(all, form, &Candidate::form);
@@ -69,14 +79,15 @@ constexpr std::string_view no_more = "none (the cheap form)";
 /// "+0.40 ns", or that it takes no more.
 std::string cost_text(const Candidate& taken, const Candidate& cheap) {
   if (&taken == &cheap || taken.form == cheap.form) return std::string(no_more);
-  const double more = taken.ns - cheap.ns;
-  if (std::abs(more) <= taken.spread + cheap.spread) return "none measured";
-  return fmt::format("{}{:.2f} ns", more < 0 ? "−" : "+", std::abs(more));
+  const auto d = more(cheap, taken);
+  if (!d.survives) return "none measured";
+  return fmt::format("{}{:.2f} ns", d.ns < 0 ? "−" : "+", std::abs(d.ns));
 }
 /// Aside on the cost, where both stand in a whole model: that it vanishes where memory is the limit.
 std::string streaming_aside(const Facts& f, std::string_view taken, std::string_view cheap) {
   const auto *a = time_of(f.streaming, taken), *b = time_of(f.streaming, cheap);
-  if (!a || !b || a->ns - b->ns > a->spread + b->spread) return {};
+  if (!a || !b) return {};
+  if (const auto d = more(*b, *a); d.survives && d.ns > 0) return {};
   return " (none where memory is the limit)";
 }
 
@@ -85,8 +96,7 @@ std::string streaming_aside(const Facts& f, std::string_view taken, std::string_
 void masking(std::vector<Decision>& to, const Facts& f) {
   Candidates all;
   for (const auto& m : f.masking)
-    if (const auto* t = time_of(f.in_cache, m.form))
-      all.push_back({m.form, m.rms, t->ns, t->spread});
+    if (const auto* t = time_of(f.in_cache, m.form)) all.push_back(candidate(m.form, m.rms, *t));
   const auto *cheap = find(all, direct), *taken = choose(all, direct, small_masking_error);
   if (!cheap || !taken) return;
   const auto rms = [](const Candidate& c) { return fmt::format("RMS {:.2g} of G₂", c.error); };
@@ -110,7 +120,7 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   const auto *ggx = time_of(f.in_cache, "ndf.ggx"), *gtr = time_of(f.in_cache, "ndf.gtr");
   const auto worst = std::ranges::max_element(f.tails, {}, &Facts::Tail::log_rms);
   if (!ggx || !gtr || worst == f.tails.end()) return;
-  const Candidate cheap{ggx->id, 0, ggx->ns, ggx->spread}, other{gtr->id, 0, gtr->ns, gtr->spread};
+  const auto cheap = candidate(ggx->id, 0, *ggx), other = candidate(gtr->id, 0, *gtr);
   to.push_back({"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
                 fmt::format("a factor of {:.2g} (RMS of f, on a surface of {})",
                             std::exp(worst->log_rms), worst->truth),
@@ -153,12 +163,12 @@ Candidates fresnel_candidates(const Facts& f,
   Candidates out;
   constexpr auto exact = "fresnel.dielectric";
   if (const auto* t = time_of(f.in_cache, exact); t && kind == "dielectric")
-    out.push_back({exact, 0, t->ns, t->spread});
+    out.push_back(candidate(exact, 0, *t));
   for (const auto& x : f.fresnel) {
     if (find(out, x.form)) continue;
     const auto* t = time_of(f.in_cache, id_of(x.form));
     if (!t) continue;
-    Candidate c{x.form, 0, t->ns, t->spread};
+    auto c = candidate(x.form, 0, *t);
     std::size_t known = 0;
     for (const auto& m : materials)
       for (const auto& y : f.fresnel)
@@ -333,8 +343,8 @@ void diffuse(std::vector<Decision>& to, const Facts& f) {
       {"Diffuse", name_of_form(cheap_id), std::string(cheap_id), "makes no light" + made,
        std::string(no_more),
        rough ? fmt::format("cloth, clay or plaster scatter back: {}, {}", name_of_form(rough->id),
-                           cost_text({rough->id, 0, rough_time->ns, rough_time->spread},
-                                     {std::string(cheap_id), 0, cheap->ns, cheap->spread}))
+                           cost_text(candidate(rough->id, 0, *rough_time),
+                                     candidate(std::string(cheap_id), 0, *cheap)))
              : ""});
 }
 

@@ -36,10 +36,11 @@ struct Decision {
 struct Candidate {
   std::string form;
   double error;
-  double ns, spread;  ///< time of a sample [ns]
+  double ns, spread;           ///< time of a sample [ns]
+  std::vector<double> each{};  ///< the same in each process that measured; empty: one alone
 };
-/// The cheapest of those whose error is at most `enough`; of several that their spreads do not tell apart the cheap form, else
-/// the nearest.  If none is good enough, the nearest of all.  nullptr of none.
+/// The cheapest of those whose error is at most `enough`; of several whose times differ by nothing that survives (timing.h) the
+/// cheap form, else the nearest.  If none is good enough, the nearest of all.  nullptr of none.
 /// \param cheap  form that is shipped unless it shows
 const Candidate* choose(std::span<const Candidate>, std::string_view cheap, double enough);
 

@@ -88,6 +88,23 @@ TEST(Choose, TakesTheNearestOfThoseThatAreAsFastAndOfAllIfNoneIsGood) {
   EXPECT_EQ(choose({}, "cheap", 1), nullptr);
 }
 
+TEST(Decisions, OfferAsCheaperOnlyWhatEveryProcessFindsCheaper) {
+  auto f = made_facts();
+  const auto time = [&](std::string_view id) -> Facts::Time& {
+    return *std::ranges::find(f.in_cache, id, &Facts::Time::id);
+  };
+  f.masking.push_back({"masking.smith_ggx.separable", 0.02});
+  f.in_cache.push_back({"masking.smith_ggx.separable", 0.57, 0.001});
+  EXPECT_NE(about(decisions(f), "Masking").unless.find("Separable Smith"), std::string::npos);
+  for (const auto* id : {"masking.schlick_ggx.direct", "masking.ue_joint",
+                         "masking.smith_ggx.correlated", "masking.smith_ggx.separable"})
+    time(id).each.assign(3, time(id).ns);
+  time("masking.smith_ggx.separable").each[1] = 0.61;  // the median is not its
+  EXPECT_NE(about(decisions(f), "Masking").unless.find("Unreal's joint form"), std::string::npos);
+  time("masking.smith_ggx.correlated").each.assign(3, 0.2);  // as fast as Schlick's k
+  EXPECT_EQ(about(decisions(f), "Masking").cost, "none measured");
+}
+
 TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   const auto all = decisions(made_facts());
   const auto& masking = about(all, "Masking");
