@@ -339,7 +339,8 @@ TEST_P(Page, IsRunAsWrittenAndPrintsWhatItShows) {
   for (const auto& e :
        fs::directory_iterator(f / ""))  // what was exported, by its target's own code
     if (const auto name = e.path().filename().string();
-        name.ends_with(".gltf") || name.ends_with(".mtlx") || name.ends_with(".usda")) {
+        name.ends_with(".gltf") || name.ends_with(".mtlx") || name.ends_with(".usda") ||
+        name.ends_with(".glsl")) {
       const auto faults = outside_faults(f, name);
       if (!faults) std::cout << GetParam() << ": " << name << " is not looked at: run ./check\n";
       EXPECT_EQ(faults.value_or(""), "") << name;

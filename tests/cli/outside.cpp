@@ -50,6 +50,14 @@ std::optional<std::string> gltf_messages(const Folder& f, const std::string& fil
 }
 
 std::optional<std::string> outside_faults(const Folder& f, const std::string& file) {
+  if (file.ends_with(".glsl")) {
+    if (std::system("glslangValidator --version >/dev/null 2>&1") != 0) return {};
+    f.write(".program.comp", "#version 450\n" + read_bytes(f / file) +
+                                 "layout(local_size_x = 1) in;\nvoid main() {}\n");
+    const auto o = call(f, "glslangValidator -V --target-env vulkan1.2 -o '" +
+                               (f / ".program.spv") + "' '" + (f / ".program.comp") + "'");
+    return o.code == 0 ? "" : o.out + o.err;
+  }
   if (file.ends_with(".gltf")) {
     const auto said = gltf_messages(f, file);
     if (!said) return {};

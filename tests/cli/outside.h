@@ -26,7 +26,7 @@ OutsideCall outside(const Folder&, const std::string& script, const std::string&
 /// Messages of Khronos' validator on a glTF file, one a line; none where it is not there.
 std::optional<std::string> gltf_messages(const Folder&, const std::string& file);
 
-/// What the code of its target finds wrong with an exported file, by its ending: .gltf, .mtlx or .usda.  Empty where that is
+/// What the code of its target finds wrong with an exported file, by its ending: .gltf, .mtlx or .usda; of .glsl glslang.  Empty where that is
 /// nothing, none where the code is not there.
 std::optional<std::string> outside_faults(const Folder&, const std::string& file);
 
