@@ -41,16 +41,30 @@ struct Planned {
 Planned planned(const std::string& path, const std::string& name) {
   using scene::Effect;
   const auto material = scene::read_planned_material(path, name);
-  for (const auto& [effect, plain] : {std::pair(Effect::coat, "off"), {Effect::spectrum, "rgb"}})
+  for (const auto& [effect, plain] :
+       {std::pair(Effect::coat, "off"), {Effect::spectrum, "rgb"}, {Effect::precision, "float"}})
     if (const auto form = material.form(effect); !form.empty() && form != plain)
       throw wrong_usage(fmt::format("'{}' keeps {} '{}', which no shader is written of", name,
                                     name_of(effect), form));
   std::vector<Setting> settings;
   for (const auto& [parameter, values] : material.parameters)
     settings.push_back({parameter, values});
-  Planned p{bind_model(material.spec, std::move(settings), 3), {}};
-  if (const auto form = material.form(Effect::compensation); !form.empty() && form != "none")
-    p.compensation = value_of<shader::Compensation>(form, "compensation");
+  const auto bad = [&](const std::string& found) {
+    return bad_input(path, "materials." + name, found, "a model with all its parameters");
+  };
+  Planned p;
+  try {
+    p.model = bind_model(material.spec, std::move(settings), 3);
+  } catch (const Error& e) {  // the words are the file's, not the user's
+    throw bad(e.what());
+  }
+  for (const auto& parameter : p.model.model.parameters)
+    if (std::ranges::find(p.model.given, parameter.name) == p.model.given.end())
+      throw bad("no " + parameter.name);
+  if (const auto form = material.form(Effect::compensation); !form.empty() && form != "none") {
+    p.compensation = find_value<shader::Compensation>(form);
+    if (!p.compensation) throw bad("compensation " + std::string(form));
+  }
   return p;
 }
 
@@ -67,7 +81,12 @@ shader::TracedFormula traced(const Options& o) {
   const auto albedo = value_of<shader::AlbedoFrom>(o.albedo, "source of the albedo");
   if (o.compensation)
     compensating = {value_of<shader::Compensation>(*o.compensation, "compensation"), albedo};
+  if (o.albedo != "table" && !o.compensation && !o.material)
+    throw wrong_usage("--albedo goes with --compensation");
   if (o.material) {
+    if (file_in(o.subject).empty())
+      throw wrong_usage(
+          fmt::format("--material goes with a plan.json: '{}' is a model", o.subject));
     if (!o.set.empty() || !o.grey.empty() || o.compensation)
       throw wrong_usage("--material: its model, parameters and compensation are the plan's");
     const auto p = planned(o.subject, *o.material);
@@ -82,12 +101,14 @@ shader::TracedFormula traced(const Options& o) {
 }
 
 /// What E of the function's arguments is looked up in.
-std::string table_remark(const std::string& masking) {
+std::string table_remark(const shader::TracedFormula& f, const std::string& masking) {
+  const bool of_both =
+      std::ranges::find(f.parameters, "E_light", &shader::Argument::name) != f.parameters.end();
   return fmt::format(
-      "E_view and E_light are R + G of the table that gonio split_sum --masking {} --size 64x64 "
-      "writes, at (NoV, roughness) and (NoL, roughness); E_average is 2 ∫ E mu dmu at that "
-      "roughness.",
-      masking);
+      "E_view is R + G at (NoV, roughness) of the table that --table writes, as does gonio "
+      "split_sum --masking {} --size 64x64 --precision half{}.",
+      masking,
+      of_both ? "; E_light is the same at NoL, and E_average 2 ∫ E mu dmu at that roughness" : "");
 }
 /// Masking of the lobe whose albedo a split-sum table has; none of another distribution than GGX.
 std::optional<std::string> tabulated_masking(const shader::TracedFormula& f) {
@@ -96,7 +117,8 @@ std::optional<std::string> tabulated_masking(const shader::TracedFormula& f) {
   for (const auto& t : f.terms) {
     const auto& entry = catalogue()[t.term];
     if (entry.role() == Role::ndf && t.part == "D") ggx = entry.id() == "ndf.ggx";
-    if (entry.role() == Role::masking && t.part == "V") masking = entry.id();
+    if (entry.role() == Role::masking && t.part == "V" && entry.parameters.size() == 1)
+      masking = entry.id();  // the table knows no other parameter than roughness
   }
   return ggx ? masking : std::nullopt;
 }
@@ -128,10 +150,11 @@ Exit run(const Options& o) {
   const bool reads = reads_albedo(d.formula);
   if (o.table && !reads)
     throw wrong_usage("--table goes with a --compensation that looks its albedo up");
-  if (reads && masking) d.writing.remarks.push_back(table_remark(*masking));
+  if (reads && masking) d.writing.remarks.push_back(table_remark(d.formula, *masking));
   d.source = shader::shader_source(d.formula, d.writing);
   if (table) {
-    if (!masking) throw wrong_usage("--table: the first lobe is not of ndf.ggx");
+    if (!masking)
+      throw wrong_usage("--table: the first lobe is not of ndf.ggx and a masking of alpha alone");
     progress("making the table");
     const auto texels = stored(split_sum_table(*masking, 64, 64), Storage::half);
     write_split_sum_table(table->temporary_path(), texels, Storage::half);

@@ -185,7 +185,11 @@ void check_outputs(const std::vector<std::string>& inputs,
   namespace fs = std::filesystem;
   const auto same = [](const std::string& a, const std::string& b) {
     std::error_code ignored;
-    return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+    const auto place = [&](const std::string& path) {
+      return fs::weakly_canonical(fs::absolute(path, ignored),
+                                  ignored);  // relative where it is new
+    };
+    return place(a) == place(b);
   };
   std::ranges::for_each(inputs, expect_there);
   for (std::size_t i = 0; i < outputs.size(); ++i) {

@@ -3,8 +3,8 @@
 /// A number that keeps what is done to it, as a graph: what a shader's source is written from (src/shader), and what
 /// a derivative is taken of.
 ///
-/// What is known is folded, in F, as F rounds; what is computed twice is one node; a comparison stays one, whatever
-/// its inputs.  A literal 0 of a formula is nothing: what is added to it, or multiplied by it, is not computed.  All
+/// What is known is folded, in F, as F rounds; what is computed twice is one node; a comparison of what is not known stays
+/// one.  A literal 0 of a formula is nothing: what is added to it, or multiplied by it, is not computed.  All
 /// else is kept operation by operation, so that a compiler that does the same, and rounds as F does, gets the same bits, up to
 /// the sign of a zero.
 

@@ -38,7 +38,31 @@ Subject subject_of(const UsedTerm& used) {
   return s;
 }
 
-std::string sentence(const Answer& a) {
+/// The same of a whole model: parameters that are folded in lie where they are, of a colour between its channels.
+Subject subject_of(const TracedFormula& f) {
+  Subject s = subjects_of(f.id).front();
+  const auto narrow = [&](const Input& input, double low, double high) {
+    set_domain(s, input.name,
+               {std::clamp(low, input.domain.low, input.domain.high),
+                std::clamp(high, input.domain.low, input.domain.high)});
+  };
+  for (std::size_t k = 0; k < s.inputs.size(); ++k) {
+    const Input input = s.inputs[k];
+    if (input.name == "nol" || input.name == "nov") narrow(input, least_cosine, 1);
+    if (k >= s.parameters) continue;
+    const auto known =
+        std::ranges::find(f.known, input.name, &std::pair<std::string, std::vector<double>>::first);
+    if (known != f.known.end()) {
+      const auto [low, high] = std::ranges::minmax(known->second);
+      narrow(input, low, high);
+    } else if (const auto* p = s.model->find(input.name)) {
+      narrow(input, p->about->fit.low, p->about->fit.high);
+    }
+  }
+  return s;
+}
+
+std::string sentence(const Subject& s, const Answer& a) {
   std::vector<std::string> domain;
   for (const auto& [name, ends] : a.domain)
     if (ends[0] == ends[1])
@@ -59,6 +83,8 @@ std::string sentence(const Answer& a) {
   if (!a.worst_at.empty())
     error += fmt::format("; largest relative error found {:.2g} ({}), at {}",
                          a.looked.relative.value, name_of(a.looked.evidence), a.worst_at);
+  if (const auto& gone = a.looked.vanished; gone.count > 0)
+    error += fmt::format("; 0 where it should not be, as at {}", text_of(s, gone.first));
   return fmt::format("{} in {}: {}{}.  For {}.", a.id, text_of(a.arithmetic), finite, error,
                      fmt::join(domain, ", "));
 }
@@ -75,7 +101,16 @@ std::vector<std::string> evidence_of(const TracedFormula& f,
     q.subject = subject_of(used);
     q.arithmetic = {f.precision == Precision::half ? Number::half : Number::float_, false,
                     language == Language::wgsl, true};
-    sentences.push_back(sentence(answer(q)));
+    sentences.push_back(sentence(q.subject, answer(q)));
+  }
+  if (f.is_model) {
+    progress(f.id);
+    Question q;
+    q.subject = subject_of(f);
+    q.arithmetic = {f.precision == Precision::half ? Number::half : Number::float_, false,
+                    language == Language::wgsl, true};
+    q.boxes = 100;  // of so many inputs nothing is proved in seconds
+    sentences.push_back("The whole, " + sentence(q.subject, answer(q)));
   }
   // A second lobe's terms may be the first's over again.
   std::set<std::string> seen;

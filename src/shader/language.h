@@ -33,7 +33,7 @@ class Syntax {
                        const std::string& name,
                        const std::string& parameters) const;
   std::string member(const std::string& type, const std::string& name) const;
-  /// "struct Name {" … its end
+  /// End of a structure.
   std::string structure_end() const { return language_ == Language::wgsl ? "}" : "};"; }
   /// A value of a structure of these members.
   std::string made(const std::string& structure,

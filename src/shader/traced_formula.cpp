@@ -53,11 +53,17 @@ class Tracer {
     return x;
   }
   T known(const std::string& name, std::span<const double> values) {
-    formula_.known.emplace_back(name, std::vector(values.begin(), values.end()));
-    if (std::ranges::adjacent_find(values, std::not_equal_to<>()) == values.end())
-      return T(static_cast<F>(values.front()));
+    std::vector<double> kept;
+    for (const double v : values) kept.push_back(static_cast<double>(static_cast<F>(v)));
+    for (const double v : kept)
+      if (!std::isfinite(v))
+        throw wrong_usage(
+            fmt::format("{} is more than {} holds", name, name_of(formula_.precision)));
+    formula_.known.emplace_back(name, kept);
+    if (std::ranges::adjacent_find(kept, std::not_equal_to<>()) == kept.end())
+      return T(static_cast<F>(kept.front()));
     const T x = T::input(name);
-    formula_.colours.push_back({name, x.node(), {values[0], values[1], values[2]}});
+    formula_.colours.push_back({name, x.node(), {kept[0], kept[1], kept[2]}});
     return x;
   }
   /// A term's fraction, its numerator and denominator named after its role, those of a second lobe with a 2.
@@ -123,7 +129,12 @@ class Tracer {
   void finish(const T& value, std::span<const std::string> derivatives) {
     formula_.results.push_back({"value", value.node()});
     call(value, "f");
-    for (const auto& name : derivatives) derive(name);
+    const Trace of_value = formula_.trace;  // without what derivatives add
+    for (const auto& name : derivatives) {
+      const auto by = "by_" + name;
+      if (std::ranges::find(formula_.results, by, &Result::name) == formula_.results.end())
+        derive(of_value, name);
+    }
     leave_what_is_read();
   }
 
@@ -131,16 +142,21 @@ class Tracer {
   void call(const T& x, const std::string& name) {
     if (!x.is_known()) formula_.trace.call(x.node(), name);
   }
-  void derive(const std::string& name) {
+  void derive(const Trace& before, const std::string& name) {
     using D = Dual<T, 1>;
     const auto parameter = std::ranges::find(formula_.parameters, name, &Argument::name);
     if (parameter == formula_.parameters.end()) {
+      if (std::ranges::find(formula_.known, name,
+                            &std::pair<std::string, std::vector<double>>::first) !=
+          formula_.known.end())
+        throw wrong_usage(fmt::format(
+            "no derivative by '{0}': it is a constant; --inputs {0} keeps it as an argument",
+            name));
       std::vector<std::string_view> names;
       for (const auto& p : formula_.parameters) names.push_back(p.name);
       refuse_name(name, names, "parameter to derive by");
     }
     formula_.trace.begin("by_" + name);
-    const Trace before = formula_.trace;
     std::vector<D> inputs;
     for (std::size_t k = 0; k < before.nodes().size(); ++k)
       if (before.nodes()[k].kind == Trace::Kind::input) {
@@ -189,7 +205,9 @@ void trace(const BoundModel& bound,
     const bool stays = std::ranges::find(arguments, p.name) != arguments.end();
     const bool given = std::ranges::find(bound.given, p.name) != bound.given.end();
     if (&p == m.tangent()) {
+      if (stays) throw wrong_usage("--inputs tangent: whoever calls the function gives the frame");
       formula.tangent = values.front();
+      if (given) formula.known.emplace_back(p.name, std::vector(values.begin(), values.end()));
       parameters.push_back(T(0));
     } else if (given && !stays) {
       parameters.push_back(tracer.known(p.name, values));

@@ -43,7 +43,7 @@ TEST(TracedFormula, FoldsWhatWasSetUnlessItShallStay) {
   const auto f = traced("ggx/smith_ggx.correlated/schlick", set);
   EXPECT_TRUE(f.parameters.empty());
   ASSERT_EQ(f.colours.size(), 1U);
-  EXPECT_EQ(f.colours[0].value, (std::array<double, 3>{0.9, 0.6, 0.5}));
+  EXPECT_EQ(f.colours[0].value, (std::array<double, 3>{0.9F, 0.6F, 0.5}));
   const auto kept = traced("ggx/smith_ggx.correlated/schlick", set, {"alpha"});
   EXPECT_EQ(names(kept.parameters), std::vector<std::string>{"alpha"});
   EXPECT_LT(f.operations().total(), kept.operations().total());
@@ -64,7 +64,7 @@ TEST(TracedFormula, RefusesNamesThatTheModelHasNot) {
   };
   EXPECT_HAS(refused({}, {"alpha"}, {}), "no parameter 'alpha'");
   EXPECT_HAS(refused({}, {}, {"alpha"}), "no parameter to derive by 'alpha'");
-  EXPECT_HAS(refused({"kd=0.5"}, {}, {"kd"}), "no parameter to derive by 'kd'");
+  EXPECT_HAS(refused({"kd=0.5"}, {}, {"kd"}), "no derivative by 'kd'");
 }
 
 TEST(TracedFormula, GivesBackWhatALobeLosesBetweenFacets) {
