@@ -60,22 +60,25 @@ Image facets(const RglFunction& f,
              const std::vector<double>& theta_d,
              double even) {
   using std::numbers::pi;
-  std::vector<double> d(facet_nodes);
-  double last = 0;
+  std::vector<double> d(facet_nodes, std::nan(""));
   for (std::size_t i = 0; i < facet_nodes; ++i) {
     double sum = 0;
     int count = 0;
     for (const double theta : theta_d) {
       const auto p = directions(HalfDifference{theta_at(i, facet_nodes), 0, theta, pi / 2});
       if (p.wi.z < least_cosine) continue;  // wo.z is the same
-      double mean = 0;
-      for (std::size_t c = 0; c < channels; ++c) mean += f(p, c) / static_cast<double>(channels);
-      if (!(mean >= 0)) continue;
-      sum += 4 * mean * p.wi.z * p.wo.z;
-      ++count;
+      for (std::size_t c = 0; c < channels; ++c)
+        if (const double v = f(p, c); v >= 0) sum += 4 * v * p.wi.z * p.wo.z, ++count;
     }
-    d[i] = last = count ? sum / count : last;
+    if (count) d[i] = sum / count;
   }
+  // Where nothing is known, as it is nearest to there: a step of D would be one of what is stored
+  // over it.
+  for (std::size_t i = 1; i < facet_nodes; ++i)
+    if (std::isnan(d[i])) d[i] = d[i - 1];
+  for (std::size_t i = facet_nodes - 1; i-- > 0;)
+    if (std::isnan(d[i])) d[i] = d[i + 1];
+  if (std::isnan(d[0])) std::ranges::fill(d, 0);
   const Image shape = of_theta(d);
   const double area = 2 * pi * integral([&](double u, double theta) {
                         return shape({u, 0.5}) * std::cos(theta);
@@ -118,7 +121,7 @@ void append_visible(const Image& d, const Direction& wi, Image& to) {
 }
 
 /// Grid points that have no value take that of the nearest that has one.  \return true if any has
-bool fill(std::vector<std::vector<double>>& f, std::vector<char>& known, std::size_t n) {
+bool fill(std::vector<double>& f, std::vector<char>& known, std::size_t n) {
   std::deque<std::size_t> next;
   for (std::size_t i = 0; i < known.size(); ++i)
     if (known[i]) next.push_back(i);
@@ -128,7 +131,7 @@ bool fill(std::vector<std::vector<double>>& f, std::vector<char>& known, std::si
     const auto take = [&](std::size_t to) {
       if (known[to]) return;
       known[to] = 1;
-      for (auto& values : f) values[to] = values[i];
+      f[to] = f[i];
       next.push_back(to);
     };
     if (x > 0) take(i - 1);
@@ -176,8 +179,9 @@ RglTable rgl_table(const RglFunction& f, std::vector<std::string> channels, cons
   // [θ_i][channel][y][x]
   std::vector<std::vector<std::vector<double>>> values(
       n_theta, std::vector(n_channels, std::vector<double>(nodes)));
-  std::vector<char> filled(n_theta);
-  std::atomic<std::size_t> above = 0, without = 0;
+  std::vector<std::vector<char>> filled(n_theta, std::vector<char>(n_channels));
+  std::atomic<std::size_t> above = 0;
+  std::vector<std::atomic<std::size_t>> without(n_channels);
   const auto place = [&](std::size_t k, std::size_t i) {
     const Point s{static_cast<double>(i % n) / static_cast<double>(n - 1),
                   static_cast<double>(i / n) / static_cast<double>(n - 1)};
@@ -185,34 +189,30 @@ RglTable rgl_table(const RglFunction& f, std::vector<std::string> channels, cons
   };
   tbb::parallel_for(std::size_t{0}, n_theta, [&](std::size_t k) {
     const Direction wi = direction(fields.theta_i[k], 0);
-    std::vector<char> known(nodes);
+    std::vector<std::vector<char>> known(n_channels, std::vector<char>(nodes));
     for (std::size_t i = 0; i < nodes; ++i) {
       const Direction wo = reflected(wi, direction_at(place(k, i)));
       const bool up = std::min(wi.z, wo.z) > horizon_cosine;
-      bool all = true;
+      above += up;
       for (std::size_t c = 0; c < n_channels; ++c) {
         double v = up ? f({wi, wo}, c) : std::nan("");
         if (!std::isfinite(v)) v = f({raised(wi), raised(wo)}, c);
-        all &= std::isfinite(v);
+        known[c][i] = std::isfinite(v);
         values[k][c][i] = std::max(v, 0.0);
+        without[c] += up && !known[c][i];
       }
-      known[i] = all;
-      above += up;
-      without += up && !all;
     }
-    filled[k] = fill(values[k], known, n);
+    for (std::size_t c = 0; c < n_channels; ++c) filled[k][c] = fill(values[k][c], known[c], n);
   });
-  for (std::size_t k = 0; k < n_theta; ++k) {
-    if (filled[k]) continue;
-    for (std::size_t away = 1; away < n_theta; ++away) {
-      const auto from = k >= away && filled[k - away]            ? k - away
-                        : k + away < n_theta && filled[k + away] ? k + away
-                                                                 : k;
-      if (from == k) continue;
-      values[k] = values[from];
-      break;
-    }
-  }
+  // An incident direction that has no value at all takes those of the nearest that has.
+  for (std::size_t c = 0; c < n_channels; ++c)
+    for (std::size_t k = 0; k < n_theta; ++k)
+      for (std::size_t away = 1; !filled[k][c] && away < n_theta; ++away) {
+        const bool before = k >= away && filled[k - away][c];
+        if (!before && !(k + away < n_theta && filled[k + away][c])) continue;
+        values[k][c] = values[before ? k - away : k + away][c];
+        break;
+      }
   tbb::parallel_for(std::size_t{0}, n_theta, [&](std::size_t k) {
     const double theta = fields.theta_i[k];
     const Direction wi = direction(theta, 0);
@@ -225,7 +225,8 @@ RglTable rgl_table(const RglFunction& f, std::vector<std::string> channels, cons
             static_cast<float>(values[k][c][i] * cos_o * 4 * area / fields.ndf({u.x, 0.5}));
     }
   });
-  return {table_of(std::make_shared<const Material>(std::move(fields))), above, without};
+  return {table_of(std::make_shared<const Material>(std::move(fields))), above,
+          *std::ranges::max_element(without)};
 }
 
 std::size_t rgl_numbers(std::size_t channels, const RglSizes& s) {

@@ -19,8 +19,8 @@ struct RglSizes {
 struct RglTable {
   Table table;
   std::size_t nodes = 0;  ///< grid points above the horizon
-  std::size_t without_data =
-      0;  ///< of these, those that took the value of the nearest that has one
+  /// Of these, those that took the value of the nearest that has one, in the channel of most.
+  std::size_t without_data = 0;
 };
 
 /// The file's facets are distributed as f says: D(θ_h) is the mean of 4 f cos θ_i cos θ_o over θ_d = 0° to 60° at φ_d = 90°,

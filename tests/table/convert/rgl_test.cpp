@@ -204,6 +204,20 @@ TEST(RglWriter, FillsWhatIsMissingFromNearby) {
     }
 }
 
+TEST(RglWriter, FillsEachChannelForItself) {
+  Table t = wide({"r", "g", "b"});
+  const SampleAngles at(t);
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (at.directions(i).wo.z > 0.5) t.values[0][i] = std::nan("");
+  const auto [file, loss] = convert(t, to_rgl());
+  EXPECT_GT(loss.without_data, loss.bins / 10) << "of the channel of most";
+  const RglFunction f = rgl_function(file),
+                    whole = rgl_function(convert(wide({"r", "g", "b"}), to_rgl()).table);
+  const DirectionPair p{direction(0.3, 0), direction(0.4, 3)};
+  EXPECT_NEAR(f(p, 1), whole(p, 1), 0.05 * whole(p, 1));
+  EXPECT_GT(std::abs(f(p, 0) / whole(p, 0) - 1), 0.1);
+}
+
 TEST(RglWriter, TakesAListByItsBins) {
   auto o = to_rgl();
   o.reach_deg = 12;
