@@ -83,6 +83,11 @@ std::string cost_text(const Candidate& taken, const Candidate& cheap) {
   if (!d.survives) return "none measured";
   return fmt::format("{}{:.2f} ns", d.ns < 0 ? "−" : "+", std::abs(d.ns));
 }
+/// What to take instead where time is what lacks, what that saves and what it leaves.
+std::string cheaper_text(const Candidate& cheaper, const Candidate& taken, std::string_view left) {
+  return fmt::format("time is short: {} saves {:.2g} ns, {}", name_of_form(cheaper.form),
+                     more(cheaper, taken).ns, left);
+}
 /// Aside on the cost, where both stand in a whole model: that it vanishes where memory is the limit.
 std::string streaming_aside(const Facts& f, std::string_view taken, std::string_view cheap) {
   const auto *a = time_of(f.streaming, taken), *b = time_of(f.streaming, cheap);
@@ -105,13 +110,12 @@ void masking(std::vector<Decision>& to, const Facts& f) {
   };
   const auto cost = cost_text(*taken, *cheap);
   const auto* other = nearest_cheaper(all, *taken);
-  to.push_back(
-      {"Masking", name_of_form(taken->form), taken->form,
-       is_exact(*taken) ? fmt::format("none (Schlick's k: {})", rms(*cheap)) : rms(*taken),
-       cost.starts_with('+') ? cost + streaming_aside(f, model(taken->form), model(cheap->form))
-                             : cost,
-       other ? fmt::format("nanoseconds are short: {}, {}", name_of_form(other->form), rms(*other))
-             : ""});
+  to.push_back({"Masking", name_of_form(taken->form), taken->form,
+                is_exact(*taken) ? fmt::format("none (Schlick's k: {})", rms(*cheap)) : rms(*taken),
+                cost.starts_with('+')
+                    ? cost + streaming_aside(f, model(taken->form), model(cheap->form))
+                    : cost,
+                other ? cheaper_text(*other, *taken, rms(*other)) : ""});
 }
 
 // --- Distribution ---
@@ -227,7 +231,7 @@ void fresnel_of(std::vector<Decision>& to,
       d.unless =
           head_on <= just_seen
               ? fmt::format("it is seen head on alone: Schlick, ΔE ≤ {}", short_number(head_on))
-              : fmt::format("nanoseconds are short: Schlick, ΔE ≤ {}", short_number(cheap->error));
+              : cheaper_text(*cheap, *taken, "ΔE ≤ " + short_number(cheap->error));
   }
   if (d.cost.starts_with('+'))
     d.cost += streaming_aside(f, fmt::format("ggx/smith_ggx.correlated/{}", short_id(d.take_id)),
@@ -293,13 +297,14 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
                             of_image_light ? "image-based light" : "a single light", bright),
                 fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), *from),
                 "scattering." + taken->form,
-                fmt::format("ΔE ≤ {} (one bounce: {})", short_number(taken->error),
-                            short_number(greatest(f, single))),
+                fmt::format("ΔE ≤ {} (one bounce: {}{})", short_number(taken->error),
+                            short_number(greatest(f, single)),
+                            taken->error > side_by_side ? "; no form leaves less" : ""),
                 of_image_light ? fmt::format("{} (beside the split sum's table)", more_ns)
-                               : fmt::format("{} (one at a time; {:.1f} kB of tables)", more_ns,
+                               : fmt::format("{} (each call alone; {:.1f} kB of tables)", more_ns,
                                              static_cast<double>(costs->bytes) / 1000),
                 other && !of_image_light
-                    ? fmt::format("{}; nanoseconds are short: {}, ΔE ≤ {}", of_f0,
+                    ? fmt::format("{}; time is short: {}, ΔE ≤ {}", of_f0,
                                   name_of_form(other->form), short_number(other->error))
                     : of_f0});
 }
@@ -335,13 +340,13 @@ void diffuse(std::vector<Decision>& to, const Facts& f) {
         (!rough_time || t->ns < rough_time->ns))
       rough = &d, rough_time = t;
   }
-  const auto made = maker->most_albedo > no_light_made
-                        ? fmt::format(" ({}: {} given back)", name_of_form(maker->id),
-                                      percent(maker->most_albedo, 3))
-                        : "";
+  const auto made =
+      maker->most_albedo > no_light_made
+          ? fmt::format(" ({}: {})", name_of_form(maker->id), percent(maker->most_albedo, 3))
+          : "";
   to.push_back(
-      {"Diffuse", name_of_form(cheap_id), std::string(cheap_id), "makes no light" + made,
-       std::string(no_more),
+      {"Diffuse", name_of_form(cheap_id), std::string(cheap_id),
+       "gives back no more than it gets" + made, std::string(no_more),
        rough ? fmt::format("cloth, clay or plaster scatter back: {}, {}", name_of_form(rough->id),
                            cost_text(candidate(rough->id, 0, *rough_time),
                                      candidate(std::string(cheap_id), 0, *cheap)))

@@ -43,8 +43,10 @@ function what_to_ship() {
   const rows = decisions.map((d) => [cell(d.for), el("span", { class: "take", title: d.take_id }, d.take), cell(d.error), cell(d.cost), d.unless || "–"]);
   return anchored("decide", el("section", { class: "decide" }, told_by_cell(["for", "take", "error left", "costs", "unless"], rows)));
 }
-const lead = () => `Shipped approximations against exact Fresnel, exact Smith and all bounces of light, ${full ? "full" : "quick"} setting`
-  + (machine ? `; costs on ${machine.cpu || "this machine"}, of one float sample in ${machine.isa} columns in cache, over the cheap form${known(machine.model_ns) ? ` (a whole GGX highlight takes ${significant(machine.model_ns, 2)} ns)` : ""}${machine.others_busy >= 0.25 ? `, while other programs kept ${plain(machine.others_busy, 2)} of ${machine.threads} processors busy` : ""}.` : ".");
+const lead = () => ["What each shortcut leaves of exact Fresnel, exact Smith masking and all bounces of light.",
+  `Its cost is what one float sample takes more than with the cheap form${machine && known(machine.model_ns) ? `; a whole GGX highlight takes ${significant(machine.model_ns, 2)} ns` : ""}.`,
+  machine ? `Measured on ${machine.cpu || "this machine"} with ${machine.isa} from cache, ${full ? "full" : "quick"} setting.` : `${full ? "Full" : "Quick"} setting.`,
+  machine && machine.others_busy >= 0.25 ? `Meanwhile other programs kept ${plain(machine.others_busy, 2)} of ${machine.threads} processors busy.` : ""].filter(Boolean).join(" ");
 
 // --- What Fresnel's shortcuts show -----------------------------------------------------------------------
 const shown_as = (delta_e) => (delta_e <= visible.just_seen ? "unseen" : delta_e <= visible.side_by_side ? "beside" : "shows");
