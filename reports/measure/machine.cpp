@@ -1,11 +1,13 @@
 #include "reports/measure/machine.h"
 
+#include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <thread>
 
 #include "brdf/kernel/kernels.h"
 
-#include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -20,26 +22,36 @@ std::string cpu_says(std::string_view what) {
   return "";
 }
 
+/// Caches of the first processor for data, as Linux lists them; their sizes read "48K".
+std::vector<Machine::Cache> data_caches() {
+  std::vector<Machine::Cache> out;
+  for (int i = 0;; ++i) {
+    const std::filesystem::path at = fmt::format("/sys/devices/system/cpu/cpu0/cache/index{}", i);
+    Machine::Cache c{};
+    std::size_t size = 0;
+    char unit = 0;
+    if (!(std::ifstream(at / "level") >> c.level)) return out;
+    if (!(std::ifstream(at / "type") >> c.type) || c.type == "Instruction") continue;
+    if (!(std::ifstream(at / "size") >> size >> unit)) continue;
+    c.bytes = size << (unit == 'M' ? 20 : unit == 'K' ? 10 : 0);
+    out.push_back(c);
+  }
+}
+
 }  // namespace
 
 Machine this_machine() {
-  const auto& cpu = benchmark::CPUInfo::Get();
-  Machine m{cpu_says("model name"),
-            static_cast<std::size_t>(cpu.num_cpus),
-            {},
-            instruction_sets(),
+  return {cpu_says("model name"),
+          std::thread::hardware_concurrency(),
+          data_caches(),
+          instruction_sets(),
 #ifdef __clang__
-            "clang " __clang_version__,
+          "clang " __clang_version__,
 #else
-            "g++ " __VERSION__,
+          "g++ " __VERSION__,
 #endif
-            GONIO_FLAGS,
-            cpu_says("flags").find("avx512_fp16") != std::string::npos};
-  for (const auto& c : cpu.caches)
-    if (c.type != "Instruction")
-      m.caches.push_back(
-          {static_cast<std::size_t>(c.level), static_cast<std::size_t>(c.size), c.type});
-  return m;
+          GONIO_FLAGS,
+          cpu_says("flags").find("avx512_fp16") != std::string::npos};
 }
 
 }  // namespace gonio

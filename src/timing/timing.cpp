@@ -6,61 +6,29 @@
 #include <functional>
 #include <limits>
 #include <mutex>
-#include <ostream>
-#include <string>
+#include <random>
 
-#include <benchmark/benchmark.h>
+#include <time.h>
 
 namespace gonio {
 namespace {
 
-/// Keeps what each repetition took, and prints nothing.
-class Keep : public benchmark::BenchmarkReporter {
- public:
-  Keep(std::size_t n, bool of_thread) : ns_(n), of_thread_(of_thread), nowhere_(nullptr) {
-    SetOutputStream(&nowhere_);
-    SetErrorStream(&nowhere_);
-  }
-  bool ReportContext(const Context&) override { return true; }
-  void ReportRuns(const std::vector<Run>& runs) override {
-    for (const auto& r : runs)
-      if (r.run_type == Run::RT_Iteration)
-        ns_[std::stoul(r.run_name.function_name)].push_back(
-            1e9 * (of_thread_ ? r.cpu_accumulated_time : r.real_accumulated_time) /
-            static_cast<double>(r.iterations));
-  }
-  const std::vector<double>& ns(std::size_t i) const { return ns_[i]; }
+using Clock = std::chrono::steady_clock;
 
- private:
-  std::vector<std::vector<double>> ns_;
-  bool of_thread_;
-  std::ostream nowhere_;
-};
-
-/// google-benchmark takes its settings from a command line alone: this one, once, never the user's.
-void set_up() {
-  static const bool once = [] {
-    std::vector<std::string> words{"gonio", "--benchmark_enable_random_interleaving=true",
-                                   "--benchmark_out=", "--benchmark_perf_counters=", "--v=0"};
-    std::vector<char*> argv;
-    for (auto& w : words) argv.push_back(w.data());
-    int argc = static_cast<int>(argv.size());
-    benchmark::Initialize(&argc, argv.data());
-    return true;
-  }();
-  static_cast<void>(once);
+/// Time that the calling thread has worked, or that has passed on the wall [ns].
+double now(bool of_thread) {
+  if (!of_thread) {
+    const auto t = Clock::now().time_since_epoch();
+    return std::chrono::duration<double, std::nano>(t).count();
+  }
+  timespec t{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
-
-/// Registration, which is the whole program's.
-struct Registered {
-  Registered() { benchmark::ClearRegisteredBenchmarks(); }
-  ~Registered() { benchmark::ClearRegisteredBenchmarks(); }
-};
 
 /// Number of runs so that it takes `seconds`.  Of a few tries the shortest decides: where
 /// another program took the processor, one alone would say that a single run is enough.
-benchmark::IterationCount runs_in(double seconds, const std::function<void()>& run) {
-  using Clock = std::chrono::steady_clock;
+std::size_t runs_in(double seconds, const std::function<void()>& run) {
   const auto shortest = [&](int runs) {
     double least = std::numeric_limits<double>::infinity();
     for (int tried = 0; tried < 3; ++tried) {
@@ -72,8 +40,7 @@ benchmark::IterationCount runs_in(double seconds, const std::function<void()>& r
   };
   double one = shortest(1);
   if (one < 1e-5) one = std::max(shortest(16), 1e-10);  // a look at the clock takes part of that
-  return std::max<benchmark::IterationCount>(
-      1, static_cast<benchmark::IterationCount>(std::ceil(seconds / one)));
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(seconds / one)));
 }
 
 }  // namespace
@@ -107,30 +74,23 @@ std::vector<std::vector<double>> repetitions_of(const std::vector<Timed>& things
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   if (things.empty()) return {};
-  set_up();
-  const Registered registered;
-  const auto repetitions = [&](const Timed& t) {
-    return t.repetitions > 0 ? t.repetitions : o.repetitions;
-  };
-  double finished = 0, all = 0;
-  for (const auto& t : things) all += repetitions(t);
+  std::vector<std::size_t> turns;  // the thing whose turn it is
+  std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < things.size(); ++i) {
-    auto* b =
-        benchmark::RegisterBenchmark(std::to_string(i).c_str(), [&, i](benchmark::State& state) {
-          for (auto _ : state) things[i].run();
-          if (done) done(++finished / all);
-        });
-    b->Repetitions(repetitions(things[i]))
-        ->ReportAggregatesOnly(false)
-        ->Iterations(runs_in(o.seconds, things[i].run));
-    if (!o.of_thread) b->UseRealTime();
+    const auto& t = things[i];
+    const int repetitions = t.repetitions > 0 ? t.repetitions : o.repetitions;
+    turns.insert(turns.end(), static_cast<std::size_t>(repetitions), i);
+    runs.push_back(runs_in(o.seconds, t.run));
   }
-  Keep keep(things.size(), o.of_thread);
-  benchmark::RunSpecifiedBenchmarks(&keep, ".");
-  std::vector<std::vector<double>> out;
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    out.push_back(keep.ns(i));
-    for (double& ns : out.back()) ns /= static_cast<double>(things[i].samples);
+  std::shuffle(turns.begin(), turns.end(), std::mt19937_64(turns.size()));
+  std::vector<std::vector<double>> out(things.size());
+  double finished = 0;
+  for (const std::size_t i : turns) {
+    const double from = now(o.of_thread);
+    for (std::size_t run = 0; run < runs[i]; ++run) things[i].run();
+    out[i].push_back((now(o.of_thread) - from) /
+                     (static_cast<double>(runs[i]) * static_cast<double>(things[i].samples)));
+    if (done) done(++finished / static_cast<double>(turns.size()));
   }
   return out;
 }

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
 /// Times of things, told with their spread: the one way in which this program measures it.
-/// google-benchmark repeats and interleaves; nothing of it is seen outside timing.cpp.
 
 #include <cstddef>
 #include <functional>
