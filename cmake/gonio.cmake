@@ -22,13 +22,15 @@ endif()
 add_library(gonio_flags INTERFACE)
 target_compile_features(gonio_flags INTERFACE cxx_std_20)
 target_compile_options(gonio_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Wold-style-cast
+  "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wdouble-promotion;-Wold-style-cast>"
   -ffp-contract=off             # the same bits for a scalar and for a lane of a batch
   -fno-math-errno               # nobody asks errno after a square root, and loops with one can be vectors
   # g++ 12 raises these for std::string code that is fine
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-array-bounds -Wno-stringop-overflow>
-  $<$<CONFIG:Release>:-O3>
-  $<$<BOOL:${GONIO_WERROR}>:-Werror>)
+  "$<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow>>"
+  $<BUILD_INTERFACE:$<$<CONFIG:Release>:-O3>>
+  $<BUILD_INTERFACE:$<$<BOOL:${GONIO_WERROR}>:-Werror>>)
+install(TARGETS gonio_flags EXPORT gonio)
+set_target_properties(gonio_flags PROPERTIES EXPORT_NAME flags)
 
 # gonio_room(ROOM USES rooms… LIBRARIES what its headers show… PRIVATE what they do not…): the folder ROOM, as
 # "brdf/formula", as a target with its own include root.  Its sources are all .cpp files in it; its headers are
@@ -70,8 +72,14 @@ function(gonio_room room)
     add_library(${name} INTERFACE)
     set(scope INTERFACE)
   endif()
-  target_include_directories(${name} ${scope} ${include_root})
+  target_include_directories(${name} ${scope} $<BUILD_INTERFACE:${include_root}> $<INSTALL_INTERFACE:include/gonio>)
   target_link_libraries(${name} ${scope} gonio_flags ${room_USES} ${room_LIBRARIES})
+  if(NOT room MATCHES "^reports/")  # pages are the program's own
+    string(REGEX REPLACE "^gonio_" "" exported ${name})
+    set_target_properties(${name} PROPERTIES EXPORT_NAME ${exported})
+    install(TARGETS ${name} EXPORT gonio ARCHIVE COMPONENT development)
+    install(FILES ${headers} DESTINATION include/gonio/${room} COMPONENT development)
+  endif()
 endfunction()
 
 # gonio_per_instruction_set(ROOM SOURCES…): the same sources, one set of objects per instruction set, which a source of the

@@ -38,6 +38,7 @@ void add_shader(CommandLine&);
 void add_plan(CommandLine&);
 void add_verify(CommandLine&);
 void add_render(CommandLine&);
+void add_manual(CommandLine&);
 
 /// Entries of the catalogue that are neither term nor map nor composed of terms, and what evaluates them.
 struct Evaluated {

@@ -1,9 +1,11 @@
 #include "cli/command_line.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "base/nearest.h"
+#include "base/text.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -114,7 +116,41 @@ namespace {
                                 fmt::join(nearest(name, known), ", ")));
 }
 
+OptionText text_of(const CLI::Option& option) {
+  OptionText out;
+  out.help = option.get_description();
+  out.by_position = option.get_positional();
+  for (const auto& name : option.get_snames()) out.names.push_back("-" + name);
+  for (const auto& name : option.get_lnames()) out.names.push_back("--" + name);
+  if (out.by_position) out.names = {option.get_name(true)};
+  if (option.get_items_expected_max() == 0) return out;
+  // CLI11 keeps what is taken nowhere but in the type that its help shows: "TEXT:{fast,exact}".
+  const std::string type = option.get_type_name();
+  out.value = type;
+  const auto open = type.find(":{"), close = type.rfind('}');
+  if (open != type.npos && close != type.npos) {
+    out.value = type.substr(0, open);
+    for (const auto choice : split(std::string_view(type).substr(open + 2, close - open - 2), ','))
+      out.choices.emplace_back(choice);
+  }
+  return out;
+}
+
+CommandText text_of(const CLI::App& app) {
+  CommandText out{app.get_name(), app.get_description(), app.get_footer(), {}};
+  for (const auto* option : app.get_options()) out.options.push_back(text_of(*option));
+  std::ranges::stable_partition(out.options, &OptionText::by_position);
+  return out;
+}
+
 }  // namespace
+
+std::vector<CommandText> CommandLine::texts() const {
+  std::vector<CommandText> out{text_of(*app_)};
+  for (const auto* command : app_->get_subcommands([](const CLI::App*) { return true; }))
+    out.push_back(text_of(*command));
+  return out;
+}
 
 Action CommandLine::parse(int argc, const char* const* argv) {
   try {

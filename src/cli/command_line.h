@@ -68,6 +68,19 @@ class Command {
   CLI::App* app_;
 };
 
+/// What is known of an option, for its manual and for a shell's completion.
+struct OptionText {
+  std::vector<std::string> names;  ///< as "-o" and "--output"; of a word by its position that alone
+  std::string value;               ///< as "TEXT" or "INT in [1 - 64]"; empty of a flag
+  std::string help;
+  std::vector<std::string> choices;  ///< where only these are taken
+  bool by_position = false;
+};
+struct CommandText {
+  std::string name, description, footer;
+  std::vector<OptionText> options;  ///< words by their position first
+};
+
 class CommandLine {
  public:
   CommandLine(const std::string& description,
@@ -87,6 +100,8 @@ class CommandLine {
   /// \return  what the subcommand does; empty if help or the version was asked for and is printed
   /// \throws  wrong_usage
   Action parse(int argc, const char* const* argv);
+  /// The whole program, then its subcommands in the order of the help.
+  std::vector<CommandText> texts() const;
 
  private:
   Command command(const std::string& name,

@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
   gonio::cli::add_plan(line);
   gonio::cli::add_verify(line);
   gonio::cli::add_render(line);
+  gonio::cli::add_manual(line);
   try {
     const auto action = line.parse(argc, argv);
     if (!action) return finish(Exit::done);  // help, printed
