@@ -52,7 +52,7 @@ std::string material_file(const std::string& node,
                   "type=\"surfaceshader\" nodename=\"fit_shader\"/>\n</surfacematerial>\n"
                   "</materialx>\n",
                   before, node, inputs),
-      fit);
+      exported_fit, fit);
 }
 
 }  // namespace gonio

@@ -135,7 +135,7 @@ std::string file(const Export& e, const std::string& fit) {
     left += share;
   }
   all.insert(5, " version=\"3.0.0\" id=\"fit\"");  // of the outermost
-  return xml_file(all, fit);
+  return xml_file(all, exported_fit, fit);
 }
 
 }  // namespace

@@ -1,11 +1,16 @@
 // gonio plan: the effects that each material of a scene needs.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <optional>
 
 #include "base/error.h"
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
+#include "fitting/export/materialx_plan.h"
+#include "geometry/direction.h"
 #include "reports/scenes/plan_page.h"
 #include "scene/plan/document.h"
 
@@ -17,7 +22,7 @@ namespace {
 using namespace scene;
 
 struct Options : Common {
-  std::string scene, output, page, cost = "time";
+  std::string scene, output, page, cost = "time", write;
   std::size_t samples = PlanOptions{}.samples;
   std::optional<std::uint64_t> seed;
 };
@@ -63,9 +68,35 @@ void print(const MaterialPlan& m, const Tolerance& t) {
         m.passed_over == 1 ? "set held" : "sets held");
 }
 
+/// Path of what is written beside the plan's document.
+std::string beside(const std::string& document, const char* ending) {
+  return std::filesystem::path(document).replace_extension(ending).string();
+}
+
+MaterialxPlan in_materialx(const Scene& s, const Plan& plan, const std::string& document) {
+  const auto looks = looks_of(s);
+  const auto model = [](Surface surface) {
+    return CoatedModel{std::move(surface.base), std::move(surface.coat)};
+  };
+  std::vector<PlannedModel> all;
+  for (const auto& m : plan.materials) {
+    const auto at = std::ranges::find(s.materials, m.name, &Material::name);
+    const Look& look = looks[static_cast<std::size_t>(at - s.materials.begin())];
+    all.push_back({m.name, model(look.surface(look.exact())), model(look.surface(m.forms)),
+                   look.turn() / degree});
+  }
+  return materialx_of(all, document);
+}
+
 Exit run(const Options& o) {
   use_jobs(o.jobs);
+  if (!o.write.empty() && o.output.empty())
+    throw wrong_usage("--write mtlx needs -o PLAN.json: the materials go beside it, as PLAN.mtlx");
+  const std::string materialx = o.write.empty() ? "" : beside(o.output, ".mtlx");
+  check_outputs({o.scene}, {o.output, o.page, materialx});
   OutputFiles files({o.scene}, o.output, o.page);
+  std::optional<OutputFile> materials;
+  if (!materialx.empty()) materials.emplace(materialx);
   Scene s = read_scene(o.scene);
   if (s.budget_ns && o.cost == "operations")
     throw wrong_usage("--cost operations: the scene's budget_ns is a time");
@@ -81,11 +112,21 @@ Exit run(const Options& o) {
   const auto document = to_json(plan);
   files.write_document(document);
   if (files.has_page()) files.write_page(plan_page_html(document), document);
+  MaterialxPlan written;
+  if (materials) {
+    written = in_materialx(s, plan, document);
+    materials->write(written.file);
+    materials->close();
+  }
   files.commit();
-  if (o.json)
+  if (materials) materials->commit();
+  if (o.json) {
     fmt::print("{}\n", document);
-  else
+  } else {
     for (const auto& m : plan.materials) print(m, plan.tolerance);
+    if (materials) say("{}: each material as planned, and as NAME_exact\n", materialx);
+    for (const auto& said : written.differs) say_below("  beware  ", said);
+  }
   if (!plan.budget) return Exit::done;
   const auto& b = *plan.budget;
   if (!o.json)
@@ -105,6 +146,9 @@ void add_plan(CommandLine& line) {
   c.option("SCENE", o->scene, "Scene, gonio.scene/1").required();
   c.option("-o,--output", o->output, "The plan as a document, gonio.plan/1");
   c.option("--html", o->page, "The plan as a page: what to keep, what to drop and why");
+  c.option("--write", o->write,
+           "The planned materials, too, beside the document: mtlx, for MaterialX, in PLAN.mtlx")
+      .one_of(std::array<std::string_view, 1>{"mtlx"});
   c.option("--samples", o->samples, "Points that sets of effects are compared on (4096)")
       .in(std::size_t{512}, std::size_t{65'536});
   c.option("--cost", o->cost,

@@ -244,6 +244,89 @@ TEST(ExportToGltf, IsNearTheFitInAnotherProgramAndFarWithAWrongFactor) {
       << "divided by pi twice";
 }
 
+/// Planned material and the same with all effects, in MaterialX: instructions and f of both.
+struct InMaterialx {
+  int planned_instructions = 0, exact_instructions = 0;
+  F planned, exact;
+};
+InMaterialx in_materialx(const Folder& f, const std::string& file, const std::string& name) {
+  std::string pairs;
+  for (const auto& [i, o] : judged_directions())
+    pairs += fmt::format("{} {} {} {} {} {}\n", i.x, i.y, i.z, o.x, o.y, o.z);
+  f.write("pairs.txt", pairs);
+  const auto o =
+      outside(f, "plan_in_materialx.py", (f / file) + " " + name + " " + (f / "pairs.txt"));
+  EXPECT_EQ(o.code, 0) << o.err;
+  std::istringstream in(o.out);
+  InMaterialx r;
+  in >> r.planned_instructions >> r.exact_instructions;
+  for (std::array<double, 3> p, e; in >> p[0] >> p[1] >> p[2] >> e[0] >> e[1] >> e[2];)
+    r.planned.push_back(p), r.exact.push_back(e);
+  EXPECT_EQ(r.planned.size(), export_directions);
+  return r;
+}
+
+TEST(PlanInMaterialX, LeavesOutWhatIsDroppedAndStaysNearBothModels) {
+  GONIO_NEEDS(has_materialx(), "MaterialX with OpenGL");
+  if (std::system("command -v spirv-opt glslangValidator >/dev/null") != 0)
+    GTEST_SKIP() << "Without glslang and SPIRV-Tools: instructions are not counted.";
+  struct Case {
+    std::string name, model, set;
+    double exact_rms, planned_rms;  ///< at most, beside gonio's own f; 0: not compared
+    std::string dropped;
+  };
+  // MaterialX's masking is of a mean width and correlated, and light between facets is given back.
+  const Case cases[] = {
+      {"plastic", "disney.coupled+ggx/smith_ggx.correlated/dielectric",
+       "alpha=0.16,eta=1.5,kd=0.5,0.03,0.02", 0.012, 0.1, "fresnel"},
+      {"brushed metal", "ggx_aniso/smith_ggx_aniso.correlated/conductor",
+       "alpha_x=0.2,alpha_y=0.17,tangent=30,eta=0.14,0.13,0.13,k=3.9,3.2,2.4", 0.055, 0.16,
+       "anisotropy"},
+      {"paint",
+       "lambert.coupled+ggx/smith_ggx.correlated/schlick+coat:ggx/smith_ggx.correlated/dielectric",
+       "alpha=0.16,f0=0.1,0.02,0.02,kd=0.2,0.01,0.01,alpha_2=0.09,eta_2=1.05", 0, 0.1, "coat"}};
+  const Folder f;
+  nlohmann::json scene = nlohmann::json::parse(R"({"schema": "gonio.scene/1",
+    "lights": [{"type": "directional", "direction": [0.1, 0.2, 0.9], "irradiance": [1, 1, 1]}],
+    "view": {"position": [0, 0, 20], "target": [0, 0, 0], "fov_deg": 20},
+    "tolerance": {"metric": "delta_e_2000", "limit": 6, "max": 40}})");
+  double x = -3;
+  for (const auto& c : cases) {
+    auto& m = scene["materials"][c.name];
+    m["model"] = c.model;
+    for (const auto& s : parse_settings(std::vector<std::string>{c.set}))
+      m["parameters"][s.name] =
+          s.values.size() == 1 ? nlohmann::json(s.values[0]) : nlohmann::json(s.values);
+    scene["objects"].push_back({{"shape", "sphere"}, {"material", c.name}, {"center", {x, 0, 0}}});
+    x += 2;
+  }
+  f.write("scene.json", scene.dump());
+  ASSERT_EQ(gonio(f, "plan scene.json --write mtlx -o plan.json --cost operations").code, 0);
+  const auto plan = nlohmann::json::parse(read_bytes(f / "plan.json"));
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.name);
+    const auto& m = plan["materials"][c.name];
+    for (const auto& e : m["effects"]) {
+      if (e["effect"] != c.dropped) continue;
+      EXPECT_EQ(e["keep"], false) << c.dropped;
+    }
+    std::string name = c.name;
+    std::ranges::replace(name, ' ', '_');
+    const auto both = in_materialx(f, "plan.mtlx", name);
+    EXPECT_LT(both.planned_instructions, 0.95 * both.exact_instructions);
+    nlohmann::ordered_json fit{
+        {"schema", "gonio.fit/1"}, {"model", m["spec"]}, {"channels", {"r", "g", "b"}}};
+    for (const auto& [of, value] : m["parameters"].items()) fit["parameters"][of]["value"] = value;
+    f.write("fit.json", fit.dump());
+    const auto planned = distance(both.planned, values_of_fit(f)).rms;
+    EXPECT_LT(planned, c.planned_rms);
+    if (c.exact_rms == 0) continue;  // a fit has no coat
+    write_fit(f, c.model, c.set);
+    const auto exact = distance(both.exact, values_of_fit(f)).rms;
+    EXPECT_LT(exact, c.exact_rms);
+  }
+}
+
 TEST(ExportToUsd, PreviewSurfaceIsAsFarFromTheFitAsItSays) {
   GONIO_NEEDS(has_materialx() && has_outside("pxr"), "USD, or MaterialX with OpenGL,");
   const Folder f;

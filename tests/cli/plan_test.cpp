@@ -57,6 +57,40 @@ TEST(PlanCommand, ShowsThePlanAsAPage) {
             json::parse(read_bytes(f / "plan.json")));
 }
 
+TEST(PlanCommand, WritesTheMaterialsForMaterialxBesideThePlan) {
+  const Folder f;
+  auto s = scene();
+  s["materials"]["2 plastic!"] = s["materials"]["plastic"];
+  s["objects"][1] = {{"shape", "sphere"}, {"material", "2 plastic!"}, {"center", {0.5, 0, 0}}};
+  f.write("scene.json", s.dump());
+  const auto o = gonio(f, "plan scene.json --write mtlx -o plan.json");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("plan.mtlx: each material as planned, and as NAME_exact\n"), o.out.npos);
+  EXPECT_NE(o.out.find("beware  Light between facets"), o.out.npos) << o.out;
+  const auto xml = read_bytes(f / "plan.mtlx");
+  for (const char* name : {"plastic", "plastic_exact", "_2_plastic_", "_2_plastic__exact"})
+    EXPECT_NE(xml.find("<surfacematerial name=\"" + std::string(name) + "\""), xml.npos) << name;
+  const auto begin = xml.find('{');  // the plan is kept in it
+  EXPECT_EQ(json::parse(xml.substr(begin, xml.find("-->") - begin)),
+            json::parse(read_bytes(f / "plan.json")));
+  const auto weight_of = [&](const std::string& shader) {
+    const auto at = xml.find("\"fresnel\"", xml.find("name=\"" + shader + "\""));
+    return xml.substr(xml.find("value=", at) + 7, 1);
+  };
+  EXPECT_EQ(weight_of("plastic_shader"), "0") << "dropped";
+  EXPECT_EQ(weight_of("plastic_exact_shader"), "1");
+}
+
+TEST(PlanCommand, WritesForMaterialxOnlyBesideAPlan) {
+  const Folder f;
+  f.write("scene.json", scene().dump());
+  expect_one_line_each(f, 2,
+                       {{"plan scene.json --write mtlx", "--write mtlx needs -o PLAN.json"},
+                        {"plan scene.json --write usd -o plan.json", "--write"},
+                        {"plan scene.json --write mtlx -o plan.mtlx", "plan.mtlx"}});
+  EXPECT_EQ(f.entries(), 1U);
+}
+
 TEST(PlanCommand, KeepsAnotherEffectUnderAnotherLight) {
   const Folder f;
   auto s = scene();

@@ -31,8 +31,9 @@ def document(path):
     return validated(doc)
 
 
-def sources(doc):
-    generator = gen_glsl.GlslShaderGenerator.create()
+def sources(doc, name=None, kind=gen_glsl.GlslShaderGenerator):
+    """GLSL of a material, the first where none is named, for a vertex and a pixel."""
+    generator = kind.create()
     context = gen_shader.GenContext(generator)
     context.registerSourceCodeSearchPath(search)
     options = context.getOptions()
@@ -40,13 +41,13 @@ def sources(doc):
     options.hwMaxActiveLightSources = 1
     options.shaderInterfaceType = gen_shader.ShaderInterfaceType.SHADER_INTERFACE_REDUCED  # half the time to compile
     gen_shader.HwShaderGenerator.bindLightShader(library.getNodeDef("ND_directional_light"), 1, context)
-    material = doc.getMaterialNodes()[0]
+    material = doc.getNode(name) if name else doc.getMaterialNodes()[0]
     shader = generator.generate("fit", material, context)
     return shader.getSourceCode(gen_shader.VERTEX_STAGE), shader.getSourceCode(gen_shader.PIXEL_STAGE)
 
 
-def print_values(doc, directions):
-    vertex, pixel = sources(doc)
+def print_values(doc, directions, name=None):
+    vertex, pixel = sources(doc, name)
     gl = moderngl.create_standalone_context(backend="egl")
     program = gl.program(vertex_shader=vertex, fragment_shader=pixel)
 
