@@ -15,8 +15,10 @@ set(gonio_flags_avx512 -mavx2 -mfma -mavx512f -mavx512dq -mavx512bw -mavx512cd -
 
 find_program(GONIO_CCACHE ccache)
 if(GONIO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Without being told so it does not keep what was compiled from a precompiled header.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${GONIO_CCACHE})
+  # Without being told so it does not keep what was compiled from a precompiled header.  Paths below the project count as
+  # relative: a second clone finds what the first compiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+    CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${GONIO_CCACHE})
 endif()
 
 add_library(gonio_flags INTERFACE)

@@ -42,9 +42,12 @@ inline std::string read_bytes(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// Folder of the project, as it was configured.
+std::string project_folder();
+
 /// A file of the data that may lie beside the project (../shared), or "" where it does not.
 inline std::string shared(const std::string& name) {
-  const auto p = std::filesystem::path(GONIO_SOURCE_DIR) / ".." / "shared" / name;
+  const auto p = std::filesystem::path(project_folder()) / ".." / "shared" / name;
   return std::filesystem::exists(p) ? p.string() : "";
 }
 #define GONIO_NEEDS_SHARED(variable, name)                \

@@ -35,7 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = GONIO_SOURCE_DIR;
+const fs::path root = project_folder();
 
 /// README.md and the pages of docs, relative to the project.
 std::vector<std::string> pages() {
@@ -315,7 +315,7 @@ TEST_P(Page, IsRunAsWrittenAndPrintsWhatItShows) {
   if (ran.empty()) return;
   script += "exec >/dev/null\ntrue\n";  // what fails last is told once
   const std::string file = f.write(".page.sh", script), codes = f / ".codes";
-  const std::string program = fs::path(GONIO_PROGRAM).parent_path().string();
+  const std::string program = fs::path(program_path()).parent_path().string();
   const std::string command = "cd '" + f / "" + "' && PATH='" + program + "':$PATH GONIO_CODES='" +
                               codes +
                               "' bash -c 'trap '\\''echo $LINENO $? >>$GONIO_CODES'\\'' ERR; "

@@ -378,7 +378,7 @@ TEST(ConvertCommand, WritesRglFilesThatMitsubaEvaluatesAndDrawsFrom) {
   GONIO_NEEDS(has_outside("mitsuba"), "Mitsuba");
   const Folder f;
   const auto o = outside(f, "rgl_in_mitsuba.py",
-                         GONIO_PROGRAM + std::string(std::getenv("GONIO_LONG") ? " --long" : ""));
+                         program_path() + std::string(std::getenv("GONIO_LONG") ? " --long" : ""));
   EXPECT_EQ(o.code, 0) << o.out << o.err;
 }
 

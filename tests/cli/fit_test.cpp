@@ -18,8 +18,8 @@ void make_misfit(const Folder& f) {
 
 /// Lines that a terminal of so many columns shows.
 std::vector<std::string> on_a_terminal(const Folder& f, const std::string& words, int columns) {
-  const std::string shown = "script -qec \"stty cols " + std::to_string(columns) +
-                            "; '" GONIO_PROGRAM "' " + words + "\" /dev/null";
+  const std::string shown = "script -qec \"stty cols " + std::to_string(columns) + "; " +
+                            program() + " " + words + "\" /dev/null";
   EXPECT_EQ(std::system(("cd '" + f / "" + "' && " + shown + " >shown </dev/null").c_str()), 0);
   std::string text = read_bytes(f / "shown");
   std::erase(text, '\r');

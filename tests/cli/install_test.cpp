@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path build = fs::path(GONIO_PROGRAM).parent_path();
+const fs::path build = fs::path(program_path()).parent_path();
 
 struct Said {
   int code;

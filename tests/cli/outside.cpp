@@ -6,7 +6,7 @@
 namespace gonio::test {
 namespace {
 
-const std::string source = GONIO_SOURCE_DIR;
+const std::string source = project_folder();
 
 OutsideCall call(const Folder& f, const std::string& command) {
   const int code = std::system(

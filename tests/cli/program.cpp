@@ -4,13 +4,20 @@
 
 namespace gonio::test {
 
+std::string program_path() {
+  return GONIO_PROGRAM;
+}
+std::string program() {
+  return "'" + program_path() + "'";
+}
+
 nlohmann::json Outcome::json() const {
   return nlohmann::json::parse(out);
 }
 
 Outcome gonio(const Folder& folder, const std::string& words, const std::string& before) {
-  const std::string command = "cd '" + folder / "" + "' && " + before + "'" GONIO_PROGRAM "' " +
-                              words + " >.out 2>.err </dev/null";
+  const std::string command = "cd '" + folder / "" + "' && " + before + program() + " " + words +
+                              " >.out 2>.err </dev/null";
   const int status = std::system(command.c_str());
   Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(folder / ".out"),
             read_bytes(folder / ".err")};

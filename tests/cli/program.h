@@ -15,6 +15,10 @@
 
 namespace gonio::test {
 
+/// Where the program lies; the same in quotes, as a shell reads it.
+std::string program_path();
+std::string program();
+
 struct Outcome {
   int code;
   std::string out, err;

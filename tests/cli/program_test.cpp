@@ -264,8 +264,8 @@ TEST(Program, LeavesNothingWhenItIsInterrupted) {
   const Folder f;
   for (int tenths = 1; tenths < 8; tenths += 2) {
     const std::string after = "0.0" + std::to_string(tenths);
-    const std::string command = "cd '" + f / "" + "' && timeout -s INT " + after +
-                                " '" GONIO_PROGRAM "' synth " + paint +
+    const std::string command = "cd '" + f / "" + "' && timeout -s INT " + after + " " + program() +
+                                " synth " + paint +
                                 " --layout hemisphere -o t.csv >/dev/null 2>&1; true";
     ASSERT_EQ(std::system(command.c_str()), 0);
     for (const auto& e : std::filesystem::directory_iterator(f / ""))
@@ -310,7 +310,7 @@ TEST(Program, InspectMakesAPageAndItsData) {
 
 TEST(Program, SaysWhenStandardOutputCannotBeWritten) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full, which is not here";
-  EXPECT_EQ(WEXITSTATUS(std::system("'" GONIO_PROGRAM "' models --json >/dev/full 2>/dev/null")),
+  EXPECT_EQ(WEXITSTATUS(std::system((program() + " models --json >/dev/full 2>/dev/null").c_str())),
             3);
 }
 

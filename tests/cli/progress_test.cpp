@@ -7,7 +7,7 @@ namespace {
 /// All that a terminal of 60 columns is told within so many seconds, in its order.
 std::string on_a_terminal(const Folder& f, const std::string& words, int seconds) {
   const std::string shown = "script -qc \"stty cols 60; timeout --foreground " +
-                            std::to_string(seconds) + " '" GONIO_PROGRAM "' " + words +
+                            std::to_string(seconds) + " " + program() + " " + words +
                             "\" /dev/null";
   EXPECT_EQ(std::system(("cd '" + f / "" + "' && " + shown + " >shown </dev/null").c_str()), 0);
   return read_bytes(f / "shown");

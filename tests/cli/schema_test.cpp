@@ -36,7 +36,7 @@ namespace {
 using nlohmann::json;
 
 std::string path_of(const std::string& schema) {
-  return GONIO_SOURCE_DIR "/schemas/" + schema + ".schema.json";
+  return project_folder() + "/schemas/" + schema + ".schema.json";
 }
 
 TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {

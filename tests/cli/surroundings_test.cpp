@@ -54,8 +54,8 @@ TEST(Surroundings, AKillLeavesWholeFilesOrNone) {
   for (const char* signal : {"TERM", "KILL"})
     for (const char* after : {"0.005", "0.01", "0.02", "0.03", "0.05"}) {
       const Folder f;
-      status_of("cd '" + f / "" + "' && timeout -s " + signal + " " + after +
-                " '" GONIO_PROGRAM "' " + words + " >/dev/null 2>&1");
+      status_of("cd '" + f / "" + "' && timeout -s " + signal + " " + after + " " + program() +
+                " " + words + " >/dev/null 2>&1");
       for (const auto& [name, bytes] : visible(f)) {
         ASSERT_TRUE(expected.contains(name)) << name;
         EXPECT_EQ(bytes, expected.at(name)) << name;
@@ -71,7 +71,7 @@ TEST(Surroundings, WhatAKillLeavesIsTakenAwayByTheNextRun) {
   const std::string here = "cd '" + f / "" + "' && ";
   // A limit of the time of computing kills in the middle of the work, while a temporary file is
   // there.
-  status_of(here + "(ulimit -t 1; exec '" GONIO_PROGRAM "' report cross_fit -o r) >/dev/null 2>&1");
+  status_of(here + "(ulimit -t 1; exec " + program() + " report cross_fit -o r) >/dev/null 2>&1");
   const auto hidden = [&] {
     std::size_t n = 0;
     for (const auto& e : std::filesystem::recursive_directory_iterator(f / ""))
@@ -125,7 +125,7 @@ TEST(Surroundings, NoLineOfAnErrorIsLong) {
 
 TEST(Surroundings, TheVersionIsThatOfTheProject) {
   const Folder f;
-  const std::string project = read_bytes(std::string(GONIO_SOURCE_DIR) + "/CMakeLists.txt");
+  const std::string project = read_bytes(project_folder() + "/CMakeLists.txt");
   const auto at = project.find("project(gonio VERSION ") + 22;
   EXPECT_EQ(gonio(f, "--version").out, project.substr(at, project.find(' ', at) - at) + "\n");
 }
@@ -185,7 +185,7 @@ TEST(Surroundings, StreamsThatAreClosedCrashNothing) {
   const Folder f;
   f.write("t.csv", small_table());
   const std::string here = "cd '" + f / "" + "' && ",
-                    fit = "'" GONIO_PROGRAM "' fit t.csv --model lambert ";
+                    fit = program() + " fit t.csv --model lambert ";
   const auto whole = gonio(f, "fit t.csv --model lambert -o whole.json");
   ASSERT_EQ(whole.code, 0);
   EXPECT_EQ(status_of(here + fit + "-o r.json --json >&- 2>/dev/null"), 3);
@@ -194,10 +194,10 @@ TEST(Surroundings, StreamsThatAreClosedCrashNothing) {
   };
   EXPECT_EQ(number("r.json"), number("whole.json")) << "the result's own file is whole";
   EXPECT_EQ(status_of(here + fit + "-o r.json <&- >/dev/null 2>&-"), 0);
-  EXPECT_EQ(status_of(here + "'" GONIO_PROGRAM "' fit nothing <&- >&- 2>&-"), 3);
-  EXPECT_EQ(status_of(here + "'" GONIO_PROGRAM "' nonsense 2>&-"), 2);
-  EXPECT_EQ(status_of(here + "{ sleep 0.3; '" GONIO_PROGRAM
-                             "' models --json 2>err; echo $? >code; } | true"),
+  EXPECT_EQ(status_of(here + program() + " fit nothing <&- >&- 2>&-"), 3);
+  EXPECT_EQ(status_of(here + program() + " nonsense 2>&-"), 2);
+  EXPECT_EQ(status_of(here + "{ sleep 0.3; " + program() +
+                      " models --json 2>err; echo $? >code; } | true"),
             0);
   EXPECT_EQ(read_bytes(f / "code"), "3\n");
   EXPECT_EQ(read_bytes(f / "err"),

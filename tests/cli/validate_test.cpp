@@ -33,7 +33,7 @@ TEST(ValidateCommand, ExitsWith0WhereEveryBudgetIsKeptAndWith1AndTheWorstInputWh
 TEST(ValidateCommand, FindsTheDefectsOfTheDocsAndTheirWorstInput) {
   const Folder f;
   std::size_t seen = 0;
-  for (const auto& e : std::filesystem::directory_iterator(GONIO_SOURCE_DIR "/docs/defect")) {
+  for (const auto& e : std::filesystem::directory_iterator(project_folder() + "/docs/defect")) {
     const auto o = gonio(f, "validate " + e.path().string());
     EXPECT_EQ(o.code, 1) << e.path() << o.out << o.err;
     EXPECT_NE(o.out.find("BROKEN"), o.out.npos) << o.out;

@@ -27,7 +27,7 @@ std::vector<std::pair<std::string, std::string>> schemas() {
 TEST(Schemas, ThatAreShippedAreWhatTheDescriptionsGive) {
   const bool write = std::getenv("GONIO_WRITE_SCHEMAS") != nullptr;
   for (const auto& [name, text] : schemas()) {
-    const std::string path = GONIO_SOURCE_DIR "/schemas/" + name + ".schema.json";
+    const std::string path = test::project_folder() + "/schemas/" + name + ".schema.json";
     if (write) std::ofstream(path, std::ios::binary) << text;
     EXPECT_EQ(test::read_bytes(path), text) << path << ": GONIO_WRITE_SCHEMAS=1 writes it anew";
   }

@@ -26,7 +26,7 @@ namespace {
 using test::Folder;
 using test::Vulkan;
 
-constexpr const char* python = GONIO_SOURCE_DIR "/build/shading/bin/python";
+const std::string python = test::project_folder() + "/build/shading/bin/python";
 
 bool runs(const std::string& program, const char* word) {
   const std::array<std::string, 1> words{word};
@@ -247,7 +247,7 @@ TEST(EmittedGlsl, OfEveryTermGivesTheSameBitsInHalf) {
 
 /// Runs the compilers over a folder of programs and says what they did not take.
 void run_languages(const Folder& folder, const std::vector<std::string>& names) {
-  const std::array<std::string, 2> words{GONIO_SOURCE_DIR "/tests/shader/languages.py",
+  const std::array<std::string, 2> words{test::project_folder() + "/tests/shader/languages.py",
                                          folder / ""};
   const auto result = run_program(python, words, "", 580);
   if (result && result->status == 0) return;

@@ -73,7 +73,7 @@ TEST(Refit, FindsParametersWithinTheirRangesAndLeavesWhatIsHeld) {
 }
 
 TEST(XmlOfAnExport, KeepsACommentACommentAndTheDocumentReadable) {
-  const std::string file = xml_file("<a>\n<b/>\n</a>\n", R"({"x": "-- ---> --"})");
+  const std::string file = xml_file("<a>\n<b/>\n</a>\n", exported_fit, R"({"x": "-- ---> --"})");
   const auto end = file.find("-->");
   EXPECT_EQ(file.substr(end), "-->\n<a>\n  <b/>\n</a>\n");
   EXPECT_EQ(file.substr(0, end).find("--", file.find("<!--") + 4), file.npos);

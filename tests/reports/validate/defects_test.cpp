@@ -21,7 +21,7 @@ using nlohmann::json;
 
 /// A choice of docs/defect.
 json shipped(const std::string& name) {
-  std::ifstream in(GONIO_SOURCE_DIR "/docs/defect/" + name + ".json");
+  std::ifstream in(test::project_folder() + "/docs/defect/" + name + ".json");
   return json::parse(in);
 }
 BudgetCheck checked(const json& choice) {
