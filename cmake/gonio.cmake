@@ -21,11 +21,15 @@ if(GONIO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${GONIO_CCACHE})
 endif()
 
+# The same objects make the program and modules that other programs load.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
 add_library(gonio_flags INTERFACE)
 target_compile_features(gonio_flags INTERFACE cxx_std_20)
 target_compile_options(gonio_flags INTERFACE
   "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wdouble-promotion;-Wold-style-cast>"
   -ffp-contract=off             # the same bits for a scalar and for a lane of a batch
+  -fno-semantic-interposition   # a function may be inlined although a library could be asked for another of its name
   -fno-math-errno               # nobody asks errno after a square root, and loops with one can be vectors
   # g++ 12 raises these for std::string code that is fine
   "$<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow>>"
