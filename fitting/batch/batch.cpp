@@ -65,6 +65,23 @@ std::vector<std::string> in_list(const std::string& list) {
   return all;
 }
 
+/// Places of paths, behind all links; of many files in one folder the folder is looked up once.
+class Places {
+ public:
+  fs::path operator()(const fs::path& path) {
+    std::error_code none;
+    const auto name = path.filename();
+    if (name.empty() || name == "." || name == ".." || fs::is_symlink(path, none))
+      return fs::weakly_canonical(path, none);
+    const auto [at, is_new] = folders_.try_emplace(path.parent_path());
+    if (is_new) at->second = fs::weakly_canonical(fs::absolute(at->first / ".", none), none);
+    return at->second / name;
+  }
+
+ private:
+  std::map<fs::path, fs::path> folders_;
+};
+
 /// Refuses results that would overwrite a table, or be taken for tables the next time.
 void expect_apart(const Batch& b,
                   const std::vector<std::string>& tables,
@@ -73,14 +90,15 @@ void expect_apart(const Batch& b,
   for (const auto& in : b.inputs)
     if (fs::is_directory(in, none) && fs::equivalent(in, b.output, none))
       throw wrong_usage(fmt::format("{} is a folder of tables; results go elsewhere", b.output));
+  Places place;
   std::set<fs::path> places;
-  for (const auto& r : results) places.insert(fs::weakly_canonical(fs::path(b.output) / r, none));
+  for (const auto& r : results) places.insert(place(fs::path(b.output) / r));
   for (const auto& t : tables)
     for (const auto& path : {t, side_path(t)})
-      if (const auto at = fs::weakly_canonical(path, none); places.contains(at))
+      if (const auto at = place(path); places.contains(at))
         throw wrong_usage(fmt::format("{} is an input; it would be overwritten", at.string()));
   for (const auto& in : b.inputs)
-    if (in.starts_with('@') && places.contains(fs::weakly_canonical(in.substr(1), none)))
+    if (in.starts_with('@') && places.contains(place(in.substr(1))))
       throw wrong_usage(fmt::format("{} is an input; it would be overwritten", in.substr(1)));
 }
 

@@ -66,14 +66,14 @@ TEST(Job, RefusesWordsThatItCannotHold) {
   for (const Engine engine : {Engine::slurm, Engine::openjd, Engine::commands}) {
     Job job = small;
     job.inputs = {"a\nrm -r b"};
-    EXPECT_HAS(test::refusal([&] { job_text(engine, job); }), "control character");
+    EXPECT_HAS(test::refusal([&] { job_text(engine, job); }, Exit::usage), "control character");
     job = small;
     job.folder = "/a\nb";
-    EXPECT_HAS(test::refusal([&] { job_text(engine, job); }), "control character");
+    EXPECT_HAS(test::refusal([&] { job_text(engine, job); }, Exit::usage), "control character");
   }
   Job job = small;
   job.results = "{{Job.Name}}";
-  EXPECT_HAS(test::refusal([&] { job_text(Engine::openjd, job); }), "replaces");
+  EXPECT_HAS(test::refusal([&] { job_text(Engine::openjd, job); }, Exit::usage), "replaces");
   EXPECT_HAS(job_text(Engine::slurm, job), "'{{Job.Name}}'");
 }
 

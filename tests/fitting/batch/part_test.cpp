@@ -1,7 +1,10 @@
 #include "fitting/batch/part.h"
 
+#include <algorithm>
+#include <limits>
 #include <map>
 
+#include "base/error.h"
 #include "refusal.h"
 
 #include <gtest/gtest.h>
@@ -53,9 +56,11 @@ TEST(Part, IsNamedByTwoNumbers) {
 TEST(Part, OfAnythingElseIsRefused) {
   for (const char* text : {"", "2", "2/", "/4", "2/4/8", "-1/4", "+1/4", "1/-4", "1/+4", "a/b",
                            " 1/4", "1/4 ", "1.5/4", "99999999999999999999/4", "Slurm", "2:4"})
-    EXPECT_HAS(test::refusal([&] { part_from(text, from(third_of_five)); }), "expected K/N");
+    EXPECT_HAS(test::refusal([&] { part_from(text, from(third_of_five)); }, Exit::usage),
+               "expected K/N");
   for (const char* text : {"0/4", "5/4", "1/0", "0/0"})
-    EXPECT_HAS(test::refusal([&] { part_from(text, from({})); }), "parts count from 1 to N");
+    EXPECT_HAS(test::refusal([&] { part_from(text, from({})); }, Exit::usage),
+               "parts count from 1 to N");
 }
 
 TEST(Part, OfAnArrayIsTheTaskCountedFromTheFirst) {
@@ -74,31 +79,35 @@ TEST(Part, OfAnArrayWithGapsIsRefused) {
                            with(third_of_five, "SLURM_ARRAY_TASK_STEP", "0"),
                            with(third_of_five, "SLURM_ARRAY_TASK_MAX", "12"),
                            with(third_of_five, "SLURM_ARRAY_TASK_MAX", "6")})
-    EXPECT_HAS(test::refusal([&] { part_from("slurm", from(gaps)); }), "the array has gaps");
+    EXPECT_HAS(test::refusal([&] { part_from("slurm", from(gaps)); }, Exit::usage),
+               "the array has gaps");
 }
 
 TEST(Part, OutsideOfAnArrayIsRefusedByTheVariableThatIsNotThere) {
   for (const auto& [name, value] : third_of_five) {
     auto less = third_of_five;
     less.erase(name);
-    EXPECT_HAS(test::refusal([&] { part_from("slurm", from(less)); }), "no " + name);
+    EXPECT_HAS(test::refusal([&] { part_from("slurm", from(less)); }, Exit::usage), "no " + name);
   }
 }
 
 TEST(Part, OfVariablesThatAreNoNumbersOrNoTaskIsRefused) {
   for (const auto& [name, value] : third_of_five)
     for (const char* text : {"", "x", "-1", "1.5"})
-      EXPECT_HAS(test::refusal([&] { part_from("slurm", from(with(third_of_five, name, text))); }),
+      EXPECT_HAS(test::refusal([&] { part_from("slurm", from(with(third_of_five, name, text))); },
+                               Exit::usage),
                  name + " is '");
   for (const char* id : {"6", "12"})
-    EXPECT_HAS(test::refusal([&] {
-                 part_from("slurm", from(with(third_of_five, "SLURM_ARRAY_TASK_ID", id)));
-               }),
-               "is none of 5 tasks");
-  EXPECT_HAS(test::refusal([&] {
-               part_from("slurm", from(with(third_of_five, "SLURM_ARRAY_TASK_COUNT", "0")));
-             }),
-             "is none of 0 tasks");
+    EXPECT_HAS(
+        test::refusal(
+            [&] { part_from("slurm", from(with(third_of_five, "SLURM_ARRAY_TASK_ID", id))); },
+            Exit::usage),
+        "is none of 5 tasks");
+  EXPECT_HAS(
+      test::refusal(
+          [&] { part_from("slurm", from(with(third_of_five, "SLURM_ARRAY_TASK_COUNT", "0"))); },
+          Exit::usage),
+      "is none of 0 tasks");
 }
 
 }  // namespace
