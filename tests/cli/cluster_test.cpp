@@ -80,9 +80,7 @@ TEST(Slurm, BeginsTheTasksOfALostNodeAgainAndNothingIsLost) {
   write_tables(f, tables);
   write_large_tables(f, tables);
   // Parts of seconds: there is a middle to lose a node in.
-  const std::string how =
-      " @list --robust huber --model "
-      "lambert+gtr/smith_ggx.correlated/schlick+gtr/smith_ggx.correlated/schlick ";
+  const std::string how = " @list --model lambert+gtr/smith_ggx.correlated/schlick ";
   ASSERT_EQ(gonio(f, "fit" + how + "-o whole").code, 0);
   ASSERT_EQ(gonio(f, "batch --write slurm" + how + "--parts 8 --results out -o job.sh").code, 0);
   const int code = run_in_cluster(f, 2, 900, R"sh(
