@@ -22,9 +22,10 @@ marked() {
 }
 
 if [ "${1-}" = lost ]; then
-  # What the node started itself inherits its name from slurmd; jobs are told it by Slurm.
-  lost=$({ marked "GONIO_CLUSTER=$GONIO_CLUSTER" "GONIO_NODE=$2"; marked "GONIO_CLUSTER=$GONIO_CLUSTER" "SLURMD_NODENAME=$2"; } | sort -u)
-  for process in $lost; do kill -9 "$process" 2>/dev/null || true; done
+  # What slurmd started inherits its mark; jobs are told their node by Slurm.  Who would report their end goes first.
+  read -rd '' -a lost < <(marked "GONIO_CLUSTER=$GONIO_CLUSTER" "GONIO_NODE=$2"
+    marked "GONIO_CLUSTER=$GONIO_CLUSTER" "SLURMD_NODENAME=$2") || true
+  kill -9 "${lost[@]}" 2>/dev/null || true
   exit
 fi
 
