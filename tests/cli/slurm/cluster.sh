@@ -21,11 +21,19 @@ marked() {
   done
 }
 
+# Numbers of the slurmstepd that these processes run under, whose environment Slurm clears.
+keepers() {
+  local process parent
+  for process in "$@"; do
+    parent=$(awk '/^PPid:/ { print $2 }' "/proc/$process/status" 2>/dev/null) || continue
+    if [[ $(cat "/proc/$parent/comm" 2>/dev/null) == slurmstepd* ]]; then echo "$parent"; fi
+  done | sort -u
+}
+
 if [ "${1-}" = lost ]; then
-  # What slurmd started inherits its mark; jobs are told their node by Slurm.  Who would report their end goes first.
-  read -rd '' -a lost < <(marked "GONIO_CLUSTER=$GONIO_CLUSTER" "GONIO_NODE=$2"
-    marked "GONIO_CLUSTER=$GONIO_CLUSTER" "SLURMD_NODENAME=$2") || true
-  kill -9 "${lost[@]}" 2>/dev/null || true
+  # Who would report the end of the jobs ends before them, as in a loss of power.
+  jobs=$(marked "GONIO_CLUSTER=$GONIO_CLUSTER" "SLURMD_NODENAME=$2")
+  kill -9 $(marked "GONIO_CLUSTER=$GONIO_CLUSTER" "GONIO_NODE=$2") $(keepers $jobs) $jobs 2>/dev/null || true
   exit
 fi
 
@@ -52,7 +60,7 @@ SlurmdUser=$user
 CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
 AuthType=auth/munge
 # A job that lost its node is begun again when its credential has expired.
-AuthInfo=socket=$at/munge/socket,cred_expire=3
+AuthInfo=socket=$at/munge/socket,cred_expire=5
 CredType=cred/munge
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
@@ -80,9 +88,10 @@ printf 'CgroupPlugin=cgroup/v1\nCgroupAutomount=no\n' >"$at/cgroup.conf"
 
 export GONIO_CLUSTER=$at SLURM_CONF=$at/slurm.conf
 stop() {
-  local round process
+  local round process all
   for round in TERM TERM KILL; do
-    for process in $(marked "GONIO_CLUSTER=$at"); do kill -s $round "$process" 2>/dev/null || true; done
+    all=$(marked "GONIO_CLUSTER=$at")
+    for process in $(keepers $all) $all; do kill -s $round "$process" 2>/dev/null || true; done
     for _ in $(seq 30); do
       [ -n "$(marked "GONIO_CLUSTER=$at")" ] || return 0
       sleep 0.1

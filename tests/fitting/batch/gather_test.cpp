@@ -100,7 +100,7 @@ TEST(Gather, OfDocumentsMadeInTwoWaysTakesThoseThatTheListAsksFor) {
   auto s = gather(t.out, read_list(t.out), {});
   EXPECT_EQ(paths_of(s), Names{t.paths[2]});
   EXPECT_EQ(s.missing, Names{t.paths[1]}) << "its document is of other options";
-  EXPECT_EQ(left_out(s, LeftOut::made_otherwise), (Names{"a.json", "b.json"}));
+  ASSERT_EQ(left_out(s, LeftOut::made_otherwise), (Names{"a.json", "b.json"}));
   EXPECT_HAS(s.left_out[0].made_with, "metric log");
   EXPECT_EQ(s.left_out[0].path, t.paths[0]);
   s = gather(t.out, {}, {});
@@ -149,7 +149,7 @@ TEST(Gather, TellsADocumentThatCannotBeReadAndLeavesOthersFilesAlone) {
   const auto s = gather(t.out, read_list(t.out), {});
   EXPECT_EQ(paths_of(s), Names{t.paths[1]});
   EXPECT_EQ(s.missing, Names{t.paths[0]});
-  EXPECT_EQ(left_out(s, LeftOut::unreadable), Names{"a.json"});
+  ASSERT_EQ(left_out(s, LeftOut::unreadable), Names{"a.json"});
   EXPECT_HAS(s.left_out[0].message, "a.json: ");
   EXPECT_EQ(test::read_bytes(t.out + "/notes.json"), R"({"by": "hand"})");
 }
