@@ -107,6 +107,23 @@ install_targets() {
   return 1
 }
 
+# Slurm and GNU parallel, which run written jobs in their tests, on loopback; without them these are skipped.
+install_farm() {
+  if command -v apt-get >/dev/null; then (gonio_tools=() gonio_libraries=(slurm-wlm munge parallel); install_missing) && return 0; fi
+  echo "Without Slurm, munge and GNU parallel: written jobs are not run by them."
+}
+
+# Open Job Description's own program, which written templates are checked with and run by, in build/openjd; without it that is left out.
+install_openjd() {
+  local at=build/openjd
+  if [ -e "$at/whole" ] || { { [ -x "$at/bin/pip" ] || python3 -m venv "$at" >/dev/null 2>&1; } &&
+    "$at/bin/pip" install -qq --disable-pip-version-check --retries 1 --timeout 20 --require-hashes --only-binary :all: \
+      -r tests/cli/openjd/requirements.txt 2>/dev/null && touch "$at/whole"; }; then
+    return 0
+  fi
+  echo "Without openjd-cli from PyPI: written templates are not held against their specification."
+}
+
 # build PRESET [OPTIONS of cmake --build]
 build() {
   cmake --preset "$1" --log-level=WARNING

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <new>
 #include <set>
+#include <unordered_set>
 
 #include "base/file.h"
 #include "base/json_describe.h"
@@ -64,6 +65,23 @@ std::vector<std::string> in_list(const std::string& list) {
   return all;
 }
 
+/// Places of paths, behind all links; of many files in one folder the folder is looked up once.
+class Places {
+ public:
+  fs::path operator()(const fs::path& path) {
+    std::error_code none;
+    const auto name = path.filename();
+    if (name.empty() || name == "." || name == ".." || fs::is_symlink(path, none))
+      return fs::weakly_canonical(path, none);
+    const auto [at, is_new] = folders_.try_emplace(path.parent_path());
+    if (is_new) at->second = fs::weakly_canonical(fs::absolute(at->first / ".", none), none);
+    return at->second / name;
+  }
+
+ private:
+  std::map<fs::path, fs::path> folders_;
+};
+
 /// Refuses results that would overwrite a table, or be taken for tables the next time.
 void expect_apart(const Batch& b,
                   const std::vector<std::string>& tables,
@@ -72,14 +90,15 @@ void expect_apart(const Batch& b,
   for (const auto& in : b.inputs)
     if (fs::is_directory(in, none) && fs::equivalent(in, b.output, none))
       throw wrong_usage(fmt::format("{} is a folder of tables; results go elsewhere", b.output));
+  Places place;
   std::set<fs::path> places;
-  for (const auto& r : results) places.insert(fs::weakly_canonical(fs::path(b.output) / r, none));
+  for (const auto& r : results) places.insert(place(fs::path(b.output) / r));
   for (const auto& t : tables)
     for (const auto& path : {t, side_path(t)})
-      if (const auto at = fs::weakly_canonical(path, none); places.contains(at))
+      if (const auto at = place(path); places.contains(at))
         throw wrong_usage(fmt::format("{} is an input; it would be overwritten", at.string()));
   for (const auto& in : b.inputs)
-    if (in.starts_with('@') && places.contains(fs::weakly_canonical(in.substr(1), none)))
+    if (in.starts_with('@') && places.contains(place(in.substr(1))))
       throw wrong_usage(fmt::format("{} is an input; it would be overwritten", in.substr(1)));
 }
 
@@ -159,29 +178,10 @@ void in_lanes(const std::vector<std::string>& tables, const One& one) {
 
 // --- One table ---
 
-/// The side file speaks for the table: a change of it is a change of the input.
-std::string with_side_file(const std::string& made_with, const std::string& table) {
-  std::error_code unknown;
-  const auto side = side_path(table);
-  return fs::exists(side, unknown) ? made_with + "; side file " + sha256_of_file(side) : made_with;
-}
-
 struct Place {
   std::string path, name;            ///< of the document
   std::string page_path, page_name;  ///< empty where no pages are made
 };
-
-/// Name of a table's page, which no document nor the summary has.
-std::string page_name(const std::string& document) {
-  return fs::path(document).replace_extension(".fit.html").string();
-}
-
-/// True where the page is there and was written after the document: what it shows is that.
-bool is_of(const std::string& page, const std::string& document) {
-  std::error_code unknown;
-  return fs::exists(page, unknown) &&
-         fs::last_write_time(page, unknown) >= fs::last_write_time(document, unknown) && !unknown;
-}
 
 /// The row of a table that was fitted before, in the same way, if it was.
 std::optional<BatchRow> kept(const std::string& table, const Place& to, const std::string& made) {
@@ -192,19 +192,25 @@ std::optional<BatchRow> kept(const std::string& table, const Place& to, const st
   row->path = table;
   row->document = to.name;
   if (!to.page_path.empty()) {
-    if (!is_of(to.page_path, to.path)) return {};
+    if (!is_page_of(to.page_path, to.path)) return {};
     row->page = to.page_name;
   }
   return row;
 }
 
-/// Why there is no fit.
-BatchRow failed(const std::string& table, const Place& to, Exit outcome, const std::string& line) {
-  if (is_batch_document(to.path)) {  // of what the table was before
-    std::remove(to.path.c_str());
+/// Why there is no fit; its document takes the place of that of what the table was before.
+BatchRow failed(const std::string& table,
+                const Place& to,
+                const std::string& made,
+                Exit outcome,
+                const std::string& line) {
+  BatchRow row{table, "", outcome, line, {}, {}};
+  std::error_code unknown;
+  if (!fs::exists(to.path, unknown) || is_batch_document(to.path)) {  // else it is somebody's own
+    write_file(to.path, failure_document(row, made));
     std::remove(page_name(to.path).c_str());
   }
-  return {table, "", outcome, line, {}, {}};
+  return row;
 }
 
 struct Fitted {
@@ -240,24 +246,6 @@ void write(const Place& to, const Fitted& f) {
   commit_all(std::array{&document, page ? &*page : nullptr});
 }
 
-// --- All of them ---
-
-void write_summary(const std::string& folder,
-                   const BatchHooks& hooks,
-                   const std::vector<BatchRow>& rows,
-                   const std::string& made) {
-  const auto place = [&](const char* name) { return (fs::path(folder) / name).string(); };
-  const std::string data = batch_json(rows, made, true);
-  OutputFile csv(place("summary.csv")), page_data(place("summary.page.json"));
-  csv.write(batch_csv(rows));
-  page_data.write(data + "\n");
-  std::optional<OutputFile> page;
-  if (hooks.page)
-    page.emplace(place("summary.html"))
-        .write(hooks.page(fs::path(folder).filename().string(), data));
-  commit_all(std::array{&csv, &page_data, page ? &*page : nullptr});
-}
-
 }  // namespace
 
 std::string made_with(const HowFitted& how) {
@@ -285,6 +273,8 @@ std::vector<std::string> tables_of(const std::vector<std::string>& inputs) {
     else
       all.push_back(in);
   }
+  std::unordered_set<std::string> seen;
+  std::erase_if(all, [&](const std::string& path) { return !seen.insert(path).second; });
   return all;
 }
 
@@ -292,7 +282,7 @@ std::vector<std::string> document_names(const std::vector<std::string>& tables) 
   constexpr std::size_t longest = 200;  // room for what goes around it while it is written
   std::map<std::string, int> sharing;
   for (const auto& t : tables) ++sharing[fs::path(t).stem().string()];
-  std::set<std::string> taken{"summary.page"};
+  std::set<std::string> taken{"summary.page", "summary.list"};
   std::vector<std::string> names;
   for (const auto& t : tables) {
     const fs::path p(t);
@@ -310,34 +300,36 @@ bool is_batch(const std::vector<std::string>& inputs) {
   return inputs.size() > 1 || inputs[0].starts_with('@') || fs::is_directory(inputs[0], none);
 }
 
-Exit BatchResult::outcome() const {
-  for (const Exit worst : {Exit::bad_input, Exit::usage, Exit::not_converged})
-    if (std::ranges::find(rows, worst, &BatchRow::outcome) != rows.end()) return worst;
-  return Exit::done;
-}
-
 BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
   if (b.output.empty()) throw wrong_usage("many tables need a folder for their results: -o DIR");
   check(b.how.options);
-  const auto tables = tables_of(b.inputs);
-  const auto names = document_names(tables);
+  const auto all = tables_of(b.inputs);
+  const auto all_names = document_names(all);
   const std::string made = made_with(b.how);
 
-  std::vector<std::string> results{"summary.csv", "summary.page.json", "summary.html"};
-  results.insert(results.end(), names.begin(), names.end());
-  if (hooks.table_page) std::ranges::transform(names, std::back_inserter(results), page_name);
-  expect_apart(b, tables, results);
+  std::vector<std::string> results{"summary.csv", "summary.page.json", "summary.html",
+                                   "summary.list.json"};
+  results.insert(results.end(), all_names.begin(), all_names.end());
+  if (hooks.table_page) std::ranges::transform(all_names, std::back_inserter(results), page_name);
+  expect_apart(b, all, results);
   const auto place = [&](const std::string& name) { return (fs::path(b.output) / name).string(); };
+  const BatchList list{made, all};
   try {
     std::error_code error;
     fs::create_directories(b.output, error);
     if (error) throw bad_input(b.output, "making the folder", error.message(), "a place to write");
     OutputFile(place("summary.csv"));  // nobody waits for a batch to learn that it has no place
   } catch (const Error&) {
-    std::ranges::for_each(tables, expect_there);  // that is the nearer mistake
+    std::ranges::for_each(all, expect_there);  // that is the nearer mistake
     throw;
   }
+  write_list(b.output, list);
 
+  std::vector<std::string> tables, names;
+  for (const std::size_t i : share_of(b.part.value_or(Part{}), all.size())) {
+    tables.push_back(all[i]);
+    names.push_back(all_names[i]);
+  }
   std::vector<BatchRow> rows(tables.size());
   BatchCount count{tables.size()};
   std::mutex counting;
@@ -367,12 +359,13 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
       }
       fresh = fitted(b, hooks, tables[i], to, how);
     } catch (const Error& e) {
-      rows[i] = failed(tables[i], to, e.code(), e.what());
+      rows[i] = failed(tables[i], to, made, e.code(), e.what());
     } catch (const std::bad_alloc&) {
-      rows[i] = failed(tables[i], to, Exit::bad_input, printable(tables[i]) + ": out of memory");
-    } catch (const std::exception& e) {
       rows[i] =
-          failed(tables[i], to, Exit::bad_input, printable(tables[i]) + ": " + printable(e.what()));
+          failed(tables[i], to, made, Exit::bad_input, printable(tables[i]) + ": out of memory");
+    } catch (const std::exception& e) {
+      rows[i] = failed(tables[i], to, made, Exit::bad_input,
+                       printable(tables[i]) + ": " + printable(e.what()));
     }
     if (!fresh) return add(rows[i], false);
     behind.begin([&, i, to = std::move(to), done = std::move(*fresh)]() mutable {
@@ -383,8 +376,13 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
   };
 
   in_lanes(tables, one);
-  write_summary(b.output, hooks, rows, made);
-  return {std::move(rows), count, made};
+  if (b.part) return {{made, std::move(rows), {}, {}, text_of(*b.part)}, count};
+  std::map<std::string, BatchRow> known;
+  for (std::size_t i = 0; i < rows.size(); ++i) known.emplace(names[i], std::move(rows[i]));
+  BatchResult result{gather(b.output, list, hooks.page, std::move(known)), count};
+  result.others = result.rows.size() - tables.size();
+  result.rows.resize(tables.size());
+  return result;
 }
 
 }  // namespace gonio

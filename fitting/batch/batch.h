@@ -13,6 +13,8 @@
 #include "base/error.h"
 #include "fitting/batch/batch_document.h"
 #include "fitting/batch/fit_file.h"
+#include "fitting/batch/gather.h"
+#include "fitting/batch/part.h"
 #include "fitting/solve/options.h"
 #include "table/table.h"
 
@@ -41,11 +43,12 @@ struct Batch {
   std::vector<std::string> inputs;  ///< files, folders, and lists of paths (@FILE)
   std::string output;               ///< a folder
   HowFitted how;
+  std::optional<Part> part = {};  ///< the tables of this part alone, and no summary
 };
 /// True where these are more than one file by their number or kind.
 bool is_batch(const std::vector<std::string>& inputs);
 
-/// Paths that inputs stand for: those of folders and lists in their place.  A folder or list that
+/// Paths that inputs stand for: those of folders and lists in their place, each once.  A folder or list that
 /// cannot be read is bad_input.
 std::vector<std::string> tables_of(const std::vector<std::string>& inputs);
 /// Names of the documents of tables, each another: the file's name less its ending; the whole name
@@ -60,27 +63,26 @@ struct BatchCount {
 struct BatchHooks {
   /// Called at the start and after each table, by one thread at a time.
   std::function<void(const BatchCount&)> progress;
-  /// Page of the summary: HTML of a title and of batch_json() with previews.
-  std::function<std::string(std::string_view title, std::string_view data)> page;
+  SummaryPage page;
   /// Page of one table, HTML; without it none is made.  \param document  fit.json as text
   std::function<std::string(const FittedFile&, std::string_view document)> table_page;
 };
-struct BatchResult {
-  std::vector<BatchRow> rows;  ///< in the order of the tables
+/// Rows in the order of the tables of the batch, or of its part.
+struct BatchResult : BatchSummary {
   BatchCount count;
-  std::string made_with;
-  /// bad_input if a table could not be read, else usage if the options do not suit one, else
-  /// not_converged if a fit did not, else done.
-  Exit outcome() const;
+  std::size_t others = 0;  ///< tables of the folder's summary that are not of this batch
 };
 
 /// Fits each table on its own, as many at a time as there are threads and memory for, and writes
-/// document_names() for each, NAME.fit.html where pages of tables are asked for, and summary.csv, .html and
-/// .page.json of all.  A table whose document is
+/// document_names() for each, of a fit or of a failure, NAME.fit.html where pages of tables are asked for, and the
+/// summary of the folder by gather().  A table whose document is
 /// there already, of the same bytes, side file and options, is not fitted again.
 ///
 /// A table that cannot be read or fitted is a row of the summary; a result that cannot be written
 /// ends the batch.
+///
+/// Of a part the documents have the names that they have of the whole, and no summary is written: it would know of
+/// one part alone.  Any number of parts may share the folder, at once or one after the other.
 BatchResult fit_batch(const Batch&, const BatchHooks& = {});
 
 }  // namespace gonio

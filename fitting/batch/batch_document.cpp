@@ -25,11 +25,10 @@ struct Document {
   std::optional<Kept> batch;
 };
 
-/// Document of a batch.
-struct Summary {
+/// Document of a table without a fit.
+struct Failure {
+  const BatchRow& row;
   std::string made_with;
-  std::vector<std::pair<std::string_view, std::size_t>> counts;
-  const std::vector<BatchRow>& tables;
 };
 
 }  // namespace
@@ -128,15 +127,67 @@ struct Description<Document> {
 };
 
 template <>
-struct Description<Summary> {
+struct Description<Failure> {
   static constexpr auto fields() {
     return std::tuple{
-        constant_text("schema", "gonio.batch/1"),
-        field("made_with", "", &Summary::made_with,
-              "all that determines a result beside the table's bytes"),
-        field("counts", "", &Summary::counts, "number of tables by status"),
+        constant_text("schema", "gonio.failure/1"),
+        group("input", "the table",
+              field(
+                  "path", "", [](const Failure& f) { return f.row.path; }, "path of the table")),
         field(
-            "tables", "", [](const Summary& s) -> const auto& { return s.tables; }, "")};
+            "status", "", [](const Failure& f) { return f.row.outcome; }, ""),
+        field(
+            "exit_code", "", [](const Failure& f) { return static_cast<int>(f.row.outcome); },
+            "exit code of a fit of this table alone"),
+        field(
+            "message", "", [](const Failure& f) { return f.row.message; }, "why there is no fit"),
+        group("batch", "of one table of a batch",
+              field("made_with", "", &Failure::made_with,
+                    "all that determines the result beside the table's bytes"))};
+  }
+};
+
+template <>
+struct Description<LeftOutDocument> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("document", "", &LeftOutDocument::document, "its name, beside the summary"),
+        field("why", "", &LeftOutDocument::why,
+              "made_otherwise: by another version or with other options"),
+        field("path", "", &LeftOutDocument::path,
+              "path of its table; empty where it cannot be read"),
+        field("made_with", "", &LeftOutDocument::made_with,
+              "what determined its result; empty where it cannot be read"),
+        field("message", "", &LeftOutDocument::message,
+              "why it cannot be read; empty where it can")};
+  }
+};
+
+template <>
+struct Description<BatchSummary> {
+  /// Number of tables by status.
+  static auto counts(const BatchSummary& s) {
+    std::vector<std::pair<std::string_view, std::size_t>> all;
+    for (const auto outcome : {Exit::done, Exit::not_converged, Exit::bad_input, Exit::usage})
+      all.emplace_back(name_of(outcome), std::ranges::count(s.rows, outcome, &BatchRow::outcome));
+    return all;
+  }
+  static constexpr auto fields() {
+    return std::tuple{constant_text("schema", "gonio.batch/1"),
+                      field("made_with", "", &BatchSummary::made_with,
+                            "all that determines a result beside the table's bytes"),
+                      field(
+                          "part", "",
+                          [](const BatchSummary& s) {
+                            return s.part.empty() ? std::nullopt : std::optional(s.part);
+                          },
+                          "K/N where these are the tables of one part alone, else null"),
+                      field("counts", "", counts, "number of tables by status"),
+                      field("missing", "", &BatchSummary::missing,
+                            "paths of the tables that nobody has tried yet in this way"),
+                      field("left_out", "", &BatchSummary::left_out,
+                            "documents that lie beside the summary and are not in it"),
+                      field("tables", "", &BatchSummary::rows, "")};
   }
 };
 
@@ -207,23 +258,41 @@ std::string batch_document(const FitDocument& d,
   return text_of(json_of(Document{d, Kept{made_with, preview}}));
 }
 
+std::string failure_document(const BatchRow& row, const std::string& made_with) {
+  return text_of(json_of(Failure{row, made_with}));
+}
+
+std::optional<ReadDocument> read_document(const std::string& path) {
+  const Json document = read_json(path);
+  const JsonReader root(path, document);
+  if (!document.is_object() || !root.has("schema") || !root.at("schema").is_string()) return {};
+  const std::string schema = root.at("schema").string();
+  if (schema == "gonio.failure/1") {
+    const auto outcome = find_value<Exit>(root.at("status").string());
+    if (outcome != Exit::bad_input && outcome != Exit::usage)
+      root.at("status").fail("the status of a failure");
+    return ReadDocument{
+        {root.at("input").at("path").string(), "", *outcome, root.at("message").string(), {}, {}},
+        root.at("batch").at("made_with").string(),
+        ""};
+  }
+  if (schema != "gonio.fit/1" || !root.has("batch")) return {};
+  const JsonReader solver = root.at("solver"), input = root.at("input"), batch = root.at("batch");
+  return ReadDocument{
+      {input.at("path").string(), "", outcome_of(solver.at("termination").string()),
+       solver.at("message").string(), read_fit(root), read_preview(batch.at("preview"))},
+      batch.at("made_with").string(),
+      input.at("sha256").string()};
+}
+
 std::optional<BatchRow> read_batch_document(const std::string& path,
                                             const std::string& sha256,
                                             const std::string& made_with) {
   try {
-    const Json document = read_json(path);
-    const JsonReader root(path, document);
-    if (root.at("schema").string() != "gonio.fit/1" ||
-        root.at("batch").at("made_with").string() != made_with ||
-        root.at("input").at("sha256").string() != sha256)
+    auto read = read_document(path);
+    if (!read || !read->row.fit || read->made_with != made_with || read->sha256 != sha256)
       return {};
-    const JsonReader solver = root.at("solver");
-    return BatchRow{"",
-                    "",
-                    outcome_of(solver.at("termination").string()),
-                    solver.at("message").string(),
-                    read_fit(root),
-                    read_preview(root.at("batch").at("preview"))};
+    return std::move(read->row);
   } catch (const Error&) {
     return {};  // not there, or not what a batch writes
   }
@@ -284,13 +353,14 @@ std::string batch_csv(const std::vector<BatchRow>& rows) {
   return csv;
 }
 
-std::string batch_json(const std::vector<BatchRow>& rows,
-                       const std::string& made_with,
-                       bool previews) {
-  Summary summary{made_with, {}, rows};
-  for (const auto outcome : {Exit::done, Exit::not_converged, Exit::bad_input, Exit::usage})
-    summary.counts.emplace_back(name_of(outcome),
-                                std::ranges::count(rows, outcome, &BatchRow::outcome));
+Exit BatchSummary::outcome() const {
+  if (!missing.empty()) return Exit::check_failed;
+  for (const Exit worst : {Exit::bad_input, Exit::usage, Exit::not_converged})
+    if (std::ranges::find(rows, worst, &BatchRow::outcome) != rows.end()) return worst;
+  return Exit::done;
+}
+
+std::string batch_json(const BatchSummary& summary, bool previews) {
   Json all = json_of(summary);
   if (previews) return all.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (Json& table : all["tables"]) table.erase("preview");
@@ -301,8 +371,12 @@ std::string fit_schema() {
   return schema_text<Document>("Fit of a model to a table");
 }
 
+std::string failure_schema() {
+  return schema_text<Failure>("Table of a batch that has no fit");
+}
+
 std::string batch_schema() {
-  return schema_text<Summary>("Fits of many tables");
+  return schema_text<BatchSummary>("Fits of many tables");
 }
 
 }  // namespace gonio

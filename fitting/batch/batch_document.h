@@ -2,12 +2,15 @@
 /// \file
 /// Fits of many tables as documents: one of each table, and of all of them a table as CSV and one JSON document.
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
+#include "base/names.h"
 #include "fitting/batch/preview.h"
 #include "fitting/result/document.h"
 
@@ -51,8 +54,19 @@ struct BatchRow {
 /// "batch": {"made_with", "preview"}.
 /// \param made_with  all that determines the result beside the table's bytes, in words
 std::string batch_document(const FitDocument&, const Preview&, const std::string& made_with);
+/// Document of schema "gonio.failure/1", which stands under the fit's name where a table has none: whoever makes a
+/// summary later knows that it was tried, and why.
+std::string failure_document(const BatchRow&, const std::string& made_with);
 
-/// Row read back from such a document, if it is there, whole, and the result for these bytes made in
+/// Document of a batch as it lies in a folder, of a fit or of a failure.
+struct ReadDocument {
+  BatchRow row;                   ///< without its document and page
+  std::string made_with, sha256;  ///< the latter of the table's bytes; empty of a failure
+};
+/// Document of a batch, read; no value of a document of anything else.  One that is not whole is bad_input.
+std::optional<ReadDocument> read_document(const std::string& path);
+
+/// Row read back from a fit's document, if it is there, whole, and the result for these bytes made in
 /// this way.
 std::optional<BatchRow> read_batch_document(const std::string& path,
                                             const std::string& sha256,
@@ -60,18 +74,51 @@ std::optional<BatchRow> read_batch_document(const std::string& path,
 /// True where a batch wrote it, of whatever table.
 bool is_batch_document(const std::string& path);
 
+/// Why a document that lies in a folder of results is not in its summary.
+enum class LeftOut {
+  made_otherwise,        ///< by another version of gonio, or with other options
+  another_of_its_table,  ///< there is a newer one, or one under the name that the list gives it
+  unreadable
+};
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<LeftOut>{
+    "made_otherwise", "another_of_its_table", "unreadable"};
+
+struct LeftOutDocument {
+  std::string document;  ///< its name in the folder
+  LeftOut why = LeftOut::unreadable;
+  std::string path;       ///< of its table; empty where it cannot be read
+  std::string made_with;  ///< of it; empty where it cannot be read
+  std::string message;    ///< why it cannot be read
+};
+
+/// What is known of many tables.
+struct BatchSummary {
+  std::string made_with;  ///< all that determines a result beside the table's bytes, in words
+  std::vector<BatchRow> rows;
+  std::vector<std::string> missing = {};       ///< tables that nobody has tried yet, in this way
+  std::vector<LeftOutDocument> left_out = {};  ///< in the order of their names
+  std::string part = {};                       ///< "2/4", where these are the tables of one part
+
+  /// check_failed if a table is missing, else bad_input if one could not be read, else usage if the options do not
+  /// suit one, else not_converged if a fit did not, else done.
+  Exit outcome() const;
+};
+
 /// One line per table, RFC 4180: path, document, status, exit_code, model, then for each parameter
 /// and channel (kd.r) its value, std_error and status, then log_rms, rms [1/sr], cost, values_used,
 /// masked, misfit, misfit_told (true or false), warnings (how many), message.  Unknown cells are empty; text is never a formula, see
 /// base/csv.h.
 std::string batch_csv(const std::vector<BatchRow>&);
 
-/// Document of schema "gonio.batch/1": made_with, counts of the tables by status, and the tables.
+/// Document of schema "gonio.batch/1": made_with, counts of the tables by status, the tables, and what is not among them.
 /// \param previews  with them, on one line: for the page
-std::string batch_json(const std::vector<BatchRow>&, const std::string& made_with, bool previews);
+std::string batch_json(const BatchSummary&, bool previews);
 
 /// JSON Schema of fit documents, whether a batch wrote them or not.
 std::string fit_schema();
+/// JSON Schema of failure_document().
+std::string failure_schema();
 /// JSON Schema of batch_json().
 std::string batch_schema();
 

@@ -156,7 +156,14 @@ function verdict() {
     known(typical) ? ["Half of the fits are within ", el("b", {}, "×/÷\u202f" + ratio(typical).slice(1)), ` of their table (log RMS ${log_rms_text(typical)}). `] : null,
     far ? `The model misses ${far === fitted.length && far > 1 ? "all" : count(far)} of them by more than noise. ` : null,
     page.counts.not_converged ? `${count(page.counts.not_converged)} did not converge. ` : null,
-    failed.length ? `${count(failed.length)} could not be fitted. ` : null);
+    failed.length ? `${count(failed.length)} could not be fitted. ` : null,
+    page.missing.length ? `${count(page.missing.length)} more ${page.missing.length === 1 ? "is" : "are"} still to be fitted. ` : null);
+}
+/// Tables that have no result yet, by their paths.
+function still_missing() {
+  if (!page.missing.length) return null;
+  return el("details", {}, el("summary", {}, `${many(page.missing.length, "table")} still to be fitted`),
+    el("ul", { class: "warnings" }, page.missing.map((path) => el("li", {}, path))));
 }
 function facts() {
   const fact = (name, value, rest = null) => el("div", {}, el("dt", {}, name), el("dd", {}, value, rest ? el("small", {}, " " + rest) : null));
@@ -165,6 +172,7 @@ function facts() {
     fact("tables", count(tables.length)), fact("fitted", count(page.counts.ok)),
     page.counts.not_converged ? fact("not converged", count(page.counts.not_converged)) : null,
     failed.length ? fact("failed", count(failed.length)) : null,
+    page.missing.length ? fact("missing", count(page.missing.length)) : null,
     fact("with flags", count(fitted.filter((t) => t.flags.length).length)),
     fact("values", count(fitted.reduce((sum, t) => sum + t.values_used, 0))),
     fact("time of all fits", milliseconds(time), "in sum"));
@@ -391,6 +399,6 @@ const models = [...new Set(fitted.map((t) => t.model))];
 document.getElementById("page").replaceChildren(
   el("p", { class: "over" }, "gonio fit, many tables"),
   el("h1", {}, `${models[0] ?? "No model"} fitted to ${many(tables.length, "table")}`),
-  verdict(), ...[facts(), failures(), fitted.length ? overview() : null, each()].filter(Boolean),
+  verdict(), ...[facts(), failures(), still_missing(), fitted.length ? overview() : null, each()].filter(Boolean),
   el("footer", {}, "Made with ", el("code", {}, page.made_with), ". f_r is in 1/sr, without the cosine. alpha is the width of the distribution, roughness = √alpha. ",
     "Every figure of this page is in its data block and, as a table, in summary.csv."));

@@ -170,14 +170,25 @@ std::string system_text(const std::string& path) {
   return text;
 }
 
+/// What the system tells of a process after its name, from its state on; nothing if it cannot be told.
+std::vector<std::string> told_of(const std::string& process) {
+  const std::string stat = system_text("/proc/" + process + "/stat");
+  const auto name_ends = stat.rfind(") ");  // a name may hold blanks and ')'
+  if (name_ends == std::string::npos) return {};
+  return split(std::string_view(stat).substr(name_ends + 2), ' ');
+}
+
 /// Time at which a process was started; "" if it cannot be told.
 std::string start_of(const std::string& process) {
-  const std::string stat = system_text("/proc/" + process + "/stat");
-  const auto name_ends = stat.rfind(')');  // a name may hold blanks and ')'
-  if (name_ends == std::string::npos) return "";
-  const auto fields = split(std::string_view(stat).substr(name_ends + 1), ' ');
-  constexpr std::size_t start = 20;  // the 22nd of all
-  return fields.size() > start ? fields[start] : "";
+  const auto told = told_of(process);
+  constexpr std::size_t start = 19;  // the 22nd of all, which the state is third of
+  return told.size() > start ? told[start] : "";
+}
+
+/// True of a process that has ended, whether or not anybody waits for it: in containers often nobody does.
+bool has_ended(const std::string& process) {
+  const auto told = told_of(process);
+  return !told.empty() && told[0] == "Z";
 }
 
 Maker this_process() {
@@ -212,7 +223,7 @@ bool is_left_over(std::string_view name) {
   if (parts.size() != 4 || maker().home.empty() || parts[0] != maker().home) return false;
   const auto process = number_from<pid_t>(parts[1]);
   if (!process || *process <= 0) return false;
-  if (::kill(*process, 0) != 0 && errno == ESRCH) return true;
+  if ((::kill(*process, 0) != 0 && errno == ESRCH) || has_ended(parts[1])) return true;
   const auto start = start_of(parts[1]);
   return !start.empty() && start != parts[2];
 }

@@ -1,6 +1,5 @@
 // gonio columns: what the columns of a CSV file are, said once.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -111,18 +110,6 @@ Json to_json(const Table& t, const std::string& side) {
   return {{"path", t.path},         {"samples", t.size()},
           {"channels", t.channels}, {"columns", columns_of(t.path, side)},
           {"warnings", t.warnings}, {"written", side_path(t.path)}};
-}
-
-/// Word of a command line: in quotes where a shell would take it apart.
-std::string shell_word(const std::string& word) {
-  const auto plain = [](unsigned char c) {
-    return std::isalnum(c) ||
-           std::string_view("_-=.,:/+%@").find(static_cast<char>(c)) != std::string_view::npos;
-  };
-  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 void print(const ColumnProposal& p, const std::string& file) {

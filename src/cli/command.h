@@ -27,6 +27,8 @@ void add_convert(CommandLine&);
 void add_inspect(CommandLine&);
 void add_compare(CommandLine&);
 void add_fit(CommandLine&);
+void add_gather(CommandLine&);
+void add_batch(CommandLine&);
 void add_bench(CommandLine&);
 void add_albedo(CommandLine&);
 void add_split_sum(CommandLine&);
@@ -55,7 +57,7 @@ void add_seed(Command& c, Seed& seed, const std::string& what) {
   c.option("--seed", seed, what).not_negative();
 }
 /// --bins centre|edge
-void add_bins(Command&, std::optional<std::string>& name);
+Option add_bins(Command&, std::optional<std::string>& name);
 inline std::optional<Bins> bins_from(const std::optional<std::string>& name) {
   return name ? std::optional(value_of<Bins>(*name, "bins")) : std::nullopt;
 }

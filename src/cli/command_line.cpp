@@ -58,6 +58,14 @@ Option& Option::show_default() {
   return *this;
 }
 
+std::vector<std::string> Option::given() const {
+  if (option_->count() == 0) return {};
+  std::vector<std::string> words{option_->get_name()};
+  if (option_->get_items_expected_max() > 0)
+    words.insert(words.end(), option_->results().begin(), option_->results().end());
+  return words;
+}
+
 template <class T>
 Option Command::option(const std::string& names, T& value, const std::string& help) {
   return Option(app_->add_option(names, value, help));
@@ -81,8 +89,8 @@ template Option Command::option(const std::string&, std::optional<double>&, cons
 template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
 template Option Command::option(const std::string&, std::vector<double>&, const std::string&);
 
-void Command::flag(const std::string& names, bool& value, const std::string& help) {
-  app_->add_flag(names, value, help);
+Option Command::flag(const std::string& names, bool& value, const std::string& help) {
+  return Option(app_->add_flag(names, value, help));
 }
 
 CommandLine::CommandLine(const std::string& description,

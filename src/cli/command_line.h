@@ -47,6 +47,8 @@ class Option {
   Option& delimiter(char);
   /// The help shows the value as it is now.
   Option& show_default();
+  /// Words that give it as this call does: its name and values; none where it is not given.
+  std::vector<std::string> given() const;
 
  private:
   CLI::Option* option_;
@@ -62,7 +64,7 @@ class Command {
   template <class T>
   Option option(const std::string& names, T& value, const std::string& help);
   /// \param names  "--full", or "!--no-plain" that makes it false
-  void flag(const std::string& names, bool& value, const std::string& help);
+  Option flag(const std::string& names, bool& value, const std::string& help);
 
  private:
   CLI::App* app_;

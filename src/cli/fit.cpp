@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <cmath>
-#include <filesystem>
+#include <cstdlib>
 
 #include "base/error.h"
 #include "brdf/model/presets.h"
+#include "cli/batch_words.h"
 #include "cli/command.h"
+#include "cli/fit_options.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "fitting/batch/batch.h"
@@ -25,12 +27,10 @@ namespace gonio::cli {
 namespace {
 
 struct Options : Common {
-  std::vector<std::string> files;
-  std::string metric = "log", intervals = "automatic", robust = "none", copies = "leave_out";
-  std::string certificate = "auto", output, html;
-  std::vector<std::string> fix, bounds, models;
-  FitOptions fit;
-  std::optional<std::string> bins;
+  std::vector<std::string> files, models;
+  FitWords how;
+  std::string output, html;
+  std::optional<std::string> part;
   bool pages = false;
 };
 
@@ -128,28 +128,22 @@ std::string line_of(const BatchCount& n, std::chrono::steady_clock::time_point b
 }
 
 void print(const std::string& folder, const BatchResult& r) {
-  const auto of = [&](Exit outcome) {
-    return std::ranges::count(r.rows, outcome, &BatchRow::outcome);
-  };
-  const auto failures = of(Exit::bad_input) + of(Exit::usage);
-  const auto converged = of(Exit::done), left = of(Exit::not_converged);
-  const auto kept = static_cast<std::ptrdiff_t>(r.count.kept);
-  std::string line = fmt::format("{}: {} fitted", r.rows.size(), converged + left - kept);
-  if (kept) line += fmt::format(", {} kept from before", kept);
-  if (failures) line += fmt::format(", {} failed", failures);
-  if (left) line += fmt::format("; {} did not converge", left);
-  say("tables   {}\n", line);
-  constexpr long shown = 5;
-  long k = 0;
-  for (const auto& row : r.rows)
-    if (row.document.empty() && k++ < shown) say("failed   {}\n", row.message);
-  if (failures > shown) say("         and {} more, see the summary\n", failures - shown);
-  say("results  {}, .csv\n", (std::filesystem::path(folder) / "summary.html").string());
+  print_rows(r, r.count.kept);
+  if (!r.part.empty())
+    return say("results  {}; when all parts have ended, gonio gather makes the summary\n", folder);
+  print_left_out(r);
+  print_summary_place(folder);
+  if (r.others) say("         with {} that lay there before\n", counted(r.others, "table"));
 }
 
 /// Content of a fit's page.
 std::string page_data(const Table& t, const BoundModel& fitted, std::string_view document) {
   return to_json(make_fit_page(t, fitted), document, to_json(t, inspect(t)));
+}
+
+std::optional<std::string> variable_of_environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? std::optional<std::string>(value) : std::nullopt;
 }
 
 Exit run_batch(const Options& o, const HowFitted& how) {
@@ -167,10 +161,12 @@ Exit run_batch(const Options& o, const HowFitted& how) {
     hooks.table_page = [](const FittedFile& f, std::string_view document) {
       return fit_page_html(f.table.path, page_data(f.table, f.result.model, document));
     };
-  const BatchResult result = fit_batch({o.files, o.output, how}, hooks);
+  std::optional<Part> part;
+  if (o.part) part = part_from(*o.part, variable_of_environment);
+  const BatchResult result = fit_batch({o.files, o.output, how, part}, hooks);
   progress.clear();
   if (o.json)
-    fmt::print("{}", batch_json(result.rows, result.made_with, false));
+    fmt::print("{}", batch_json(result, false));
   else
     print(o.output, result);
   return result.outcome();
@@ -235,12 +231,13 @@ Spheres add_spheres(const Table& t, ModelChoice& choice) {
 }
 
 /// Models compared on one table.
-Exit run_models(const Options& o, const FitOptions& options) {
+Exit run_models(const Options& o, const HowFitted& how) {
   if (is_batch(o.files))
     throw wrong_usage(
         "--models compares on one table: run it for each, with -o and --html of its own");
   if (o.pages)
     throw wrong_usage("--pages is of many tables; the page of --models is --html PAGE.html");
+  if (o.part) throw wrong_usage("--part is of the fits of many tables, not of --models");
   std::vector<std::string> models = o.models;
   if (models == std::vector<std::string>{"all"})
     models.assign(usual_models().begin(), usual_models().end());
@@ -257,16 +254,16 @@ Exit run_models(const Options& o, const FitOptions& options) {
   OutputFiles out(o.files, o.output, o.html);
   Progress progress(o.quiet);
   progress("reading " + o.files[0]);
-  TableAndDigest in(o.files[0], bins_from(o.bins));
+  TableAndDigest in(o.files[0], how.bins);
   ModelChoice choice =
-      compare_models(in.table, options, models, [&](const std::string& what, double part) {
+      compare_models(in.table, how.options, models, [&](const std::string& what, double part) {
         progress(fmt::format("{} ({:.0f} %)", what, 100 * part));
       });
   Spheres spheres = add_spheres(in.table, choice);
   in.finish();
   const Advice advice = advise(choice);
   const std::string json =
-      to_json(choice, advice, {o.files[0], in.table.sha256, in.table.format, o.metric});
+      to_json(choice, advice, {o.files[0], in.table.sha256, in.table.format, o.how.metric});
   out.write_document(json);
   if (out.has_page()) {
     progress("making the page");
@@ -285,23 +282,15 @@ Exit run_models(const Options& o, const FitOptions& options) {
 
 Exit run(const Options& o) {
   use_jobs(o.jobs);
-  FitOptions options = o.fit;
-  options.metric = value_of<Metric>(o.metric, "metric");
-  options.intervals = value_of<Intervals>(o.intervals, "intervals");
-  options.certificate = value_of<Certify>(o.certificate, "certificate");
-  options.robust = o.robust == "huber";
-  options.copies = o.copies == "keep";
-  options.fixed = parse_settings(o.fix);
-  options.bounds = parse_settings(o.bounds);
-
-  if (!o.models.empty()) return run_models(o, options);
-  const auto bins = bins_from(o.bins);
-  if (is_batch(o.files)) return run_batch(o, {options, bins});
+  const HowFitted how = how_fitted(o.how);
+  if (!o.models.empty()) return run_models(o, how);
+  if (is_batch(o.files)) return run_batch(o, how);
   if (o.pages) throw wrong_usage("--pages is of many tables; the page of one is --html PAGE.html");
+  if (o.part) throw wrong_usage("--part is of many tables: a folder, several files, or @LIST");
   const std::string& file = o.files[0];
   OutputFiles out({file}, o.output, o.html);
   Progress progress(o.quiet);
-  const auto [t, result] = fit_file(file, bins, options, std::ref(progress));
+  const auto [t, result] = fit_file(file, how.bins, how.options, std::ref(progress));
   const FitDocument& d = result.document;
 
   const std::string json = to_json(d);
@@ -328,50 +317,23 @@ void add_fit(CommandLine& line) {
                    "gonio fit paint.binary --model lambert+ggx/smith_ggx.correlated/schlick "
                    "-o paint.json --html paint.html\n  gonio fit tables/ --jobs 2 -o results/",
                    run);
-  c.option("FILE", o->files,
-           "A table, its format found from the bytes; or many: several files, a "
-           "folder, or @LIST with a path on each line")
-      .required();
-  c.option("--model", o->fit.model, "Model; all its parameters are fitted").show_default();
+  add_tables(c, o->files);
+  add_fit_words(c, o->how);
   c.option("--models", o->models,
            "Models to compare in place of one fit: A,B,C, or all for the usual ones. Says which to "
            "take, by the incident "
            "angles that each fit had not seen")
       .delimiter(',');
-  c.option("--fix", o->fix, "Parameters held at a value: NAME=VALUE …").at_most(64);
-  c.option("--bounds", o->bounds, "Where a parameter is looked for: NAME=LOW,HIGH …").at_most(64);
-  c.option("--grey", o->fit.grey, "Colour parameters with one value for all channels: NAME …")
-      .at_most(64);
-  c.option("--metric", o->metric, "log, l2_cosine or relative")
-      .one_of(names_of<Metric>)
-      .show_default();
-  c.option("--robust", o->robust, "none, or huber against outliers")
-      .one_of({"none", "huber"})
-      .show_default();
-  c.option("--intervals", o->intervals,
-           "Whether the values of one incident angle share their errors: independent, by_angle, or "
-           "automatic (by_angle for measured tables); or bootstrap, from 400 fits of tables drawn "
-           "from this one, which takes as long")
-      .one_of(names_of<Intervals>)
-      .show_default();
-  c.option("--copies", o->copies,
-           "Angles of the table that only repeat another, value for value: leave_out, or keep")
-      .one_of({"leave_out", "keep"})
-      .show_default();
-  c.option(
-       "--certificate", o->certificate,
-       "auto: after the fit its cost is looked at over the widths, for anything lower; or none, "
-       "which is faster")
-      .one_of(names_of<Certify>)
-      .show_default();
-  add_bins(c, o->bins);
   c.option("-o,--output", o->output,
            "The result as JSON; of many, the folder for theirs and for summary.csv and .html. "
            "What is there already, of the same bytes and options, is kept");
   c.option("--html", o->html,
            "A page of the result, NAME.html, and its data beside it, NAME.page.json");
-  c.flag("--pages", o->pages,
-         "Of many tables a page each, NAME.fit.html, to which summary.html links");
+  add_pages(c, o->pages);
+  c.option(
+      "--part", o->part,
+      "Of many tables one part, K/N, as 2/4: any number of them may share the folder, and gonio "
+      "gather makes the summary; slurm: that of the task of an array, sbatch --array=1-N");
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -223,8 +223,9 @@ TEST(OutputFile, MayHaveTheLongestNameThereIs) {
             std::string::npos);
 }
 
-/// A file begun by a process that was then killed.
-std::string left_by_a_kill(const Folder& folder) {
+/// A file begun by a process that was then killed.  \param flags  of waitid()
+std::string left_by_a_kill(const Folder& folder, int flags = 0) {
+  EXPECT_EQ(::setenv("GONIO_TEST_FOLDER", (folder / "").c_str(), 1), 0);
   const pid_t child = ::fork();
   if (child == 0) {
     // What the process is called and when it began is asked once: by a new program, not by a copy
@@ -233,9 +234,9 @@ std::string left_by_a_kill(const Folder& folder) {
             "--gtest_filter=OutputFile.DISABLED_IsBegunAndKilled", nullptr);
     ::_exit(1);
   }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  siginfo_t end{};
+  ::waitid(P_PID, static_cast<id_t>(child), &end, WEXITED | flags);
+  EXPECT_TRUE(end.si_code == CLD_KILLED && end.si_status == SIGKILL);
   for (const auto& e : std::filesystem::directory_iterator(folder / ""))
     if (e.path().filename().string().starts_with(".gonio.")) return e.path().filename().string();
   ADD_FAILURE() << "nothing left";
@@ -253,7 +254,6 @@ TEST(OutputFile, DISABLED_IsBegunAndKilled) {
 
 TEST(OutputFile, TakesAwayWhatKilledProcessesLeftAndNothingElse) {
   const Folder folder, other;
-  ASSERT_EQ(::setenv("GONIO_TEST_FOLDER", (folder / "").c_str(), 1), 0);
   const std::string left = left_by_a_kill(folder);
   const auto with = [&](std::size_t part, const std::string& text, const char* start = nullptr) {
     std::vector<std::string> parts = split(left, '.');
@@ -281,6 +281,16 @@ TEST(OutputFile, TakesAwayWhatKilledProcessesLeftAndNothingElse) {
   folder.write(reused, "x");
   write_file(folder / "f", "x");
   EXPECT_TRUE(std::filesystem::exists(folder / reused));
+}
+
+TEST(OutputFile, TakesAwayWhatKilledProcessesLeftForWhichNobodyWaits) {
+  const Folder folder;
+  const std::string left = left_by_a_kill(folder, WNOWAIT);
+  ASSERT_TRUE(std::filesystem::exists(folder / left));
+  write_file(folder / "f", "x");
+  EXPECT_FALSE(std::filesystem::exists(folder / left));
+  while (::waitpid(-1, nullptr, 0) > 0) {
+  }
 }
 
 TEST(BadInput, MakesControlCharactersVisibleAndCutsLongOnes) {

@@ -5,6 +5,7 @@
 
 #include "cli/program.h"
 #include "fitting/batch/batch_document.h"
+#include "fitting/batch/gather.h"
 #include "fitting/choice/document.h"
 #include "fitting/export/export.h"
 #include "refusal.h"
@@ -43,6 +44,8 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
   const bool write = std::getenv("GONIO_WRITE_SCHEMAS") != nullptr;
   for (const auto& [name, text] : {std::pair("fit", fit_schema()),
                                    {"batch", batch_schema()},
+                                   {"failure", failure_schema()},
+                                   {"list", list_schema()},
                                    {"compare", comparison_schema()},
                                    {"stability", stability::answer_schema()},
                                    {"inspect", health_schema()},
@@ -153,6 +156,14 @@ TEST(Schemas, HoldForTheDocumentsOfABatch) {
   EXPECT_EQ(mistakes(o.json(), "batch"), "");
   EXPECT_EQ(mistakes(file(f / "out/summary.page.json"), "batch"), "");
   EXPECT_EQ(mistakes(file(f / "out/b.json"), "fit"), "");
+  EXPECT_EQ(mistakes(file(f / "out/e.json"), "failure"), "");
+  EXPECT_EQ(mistakes(file(f / "out/summary.list.json"), "list"), "");
+  EXPECT_EQ(gonio(f, "fit a.csv c.csv --metric relative -o out --part 1/2").code, 0);
+  const auto gathered = gonio(f, "gather out --json");
+  EXPECT_EQ(gathered.code, 1);
+  EXPECT_EQ(mistakes(gathered.json(), "batch"), "");
+  EXPECT_FALSE(gathered.json()["missing"].empty());
+  EXPECT_FALSE(gathered.json()["left_out"].empty());
 }
 
 TEST(Schemas, HoldForTheAnswersOfStability) {

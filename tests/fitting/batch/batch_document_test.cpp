@@ -107,7 +107,7 @@ TEST(BatchDocument, ADocumentReadBackGivesTheSameRow) {
     back->path = row.path;
     back->document = row.document;
     EXPECT_EQ(batch_csv({*back}), batch_csv({row}));
-    EXPECT_EQ(batch_json({*back}, "so", true), batch_json({row}, "so", true));
+    EXPECT_EQ(batch_json({"so", {*back}}, true), batch_json({"so", {row}}, true));
     EXPECT_EQ(back->preview->sphere, row.preview->sphere);
   }
 }
@@ -157,7 +157,7 @@ TEST(BatchDocument, ADocumentWhoseListsDifferInLengthIsNotTaken) {
 }
 
 TEST(BatchDocument, DataHoldEveryTableAndTheCounts) {
-  const json all = json::parse(batch_json({a_failure(), a_row()}, "so", true));
+  const json all = json::parse(batch_json({"so", {a_failure(), a_row()}}, true));
   EXPECT_EQ(all["schema"], "gonio.batch/1");
   EXPECT_EQ(all["counts"],
             (json{{"ok", 1}, {"not_converged", 0}, {"bad_input", 1}, {"wrong_usage", 0}}));
@@ -167,7 +167,42 @@ TEST(BatchDocument, DataHoldEveryTableAndTheCounts) {
   EXPECT_EQ(fine["parameters"]["kd"]["value"], json::parse("[0.3, null, 0.1]"));
   EXPECT_EQ(fine["time_ms"], 3.5);
   EXPECT_EQ(fine["preview"]["sphere"], "AP8QIGJ5dGVz");
-  EXPECT_FALSE(json::parse(batch_json({a_row()}, "so", false))["tables"][0].contains("preview"));
+  EXPECT_FALSE(json::parse(batch_json({"so", {a_row()}}, false))["tables"][0].contains("preview"));
+}
+
+TEST(BatchDocument, OfATableWithoutAFitItSaysWhy) {
+  const test::Folder f;
+  write_file(f / "a.json", failure_document(a_failure(), "so"));
+  EXPECT_TRUE(is_batch_document(f / "a.json"));
+  EXPECT_FALSE(read_batch_document(f / "a.json", "", "so")) << "it is tried again";
+  const auto back = read_document(f / "a.json");
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->made_with, "so");
+  EXPECT_EQ(batch_csv({back->row}), batch_csv({a_failure()}));
+  write_file(f / "b.json", R"({"schema": "gonio.failure/1", "status": "ok"})");
+  EXPECT_THROW(read_document(f / "b.json"), Error);
+}
+
+TEST(BatchDocument, OfAnythingElseNothingIsRead) {
+  const test::Folder f;
+  for (const char* text : {"[]", "3", "{}", R"({"schema": 1})", R"({"schema": "gonio.table/1"})"}) {
+    write_file(f / "a.json", text);
+    EXPECT_FALSE(read_document(f / "a.json")) << text;
+  }
+  write_file(f / "alone.json", to_json(a_fit()));
+  EXPECT_FALSE(read_document(f / "alone.json")) << "no batch wrote it";
+  write_file(f / "a.json", "{");
+  EXPECT_THROW(read_document(f / "a.json"), Error);
+}
+
+TEST(BatchDocument, TellsWhatIsMissingAndWhatWasLeftOut) {
+  const json all = json::parse(batch_json(
+      {"so", {}, {"b.csv"}, {{"c.json", LeftOut::made_otherwise, "c.csv", "else", ""}}, "2/4"},
+      false));
+  EXPECT_EQ(all["part"], "2/4");
+  EXPECT_EQ(all["missing"], json{"b.csv"});
+  EXPECT_EQ(all["left_out"][0]["why"], "made_otherwise");
+  EXPECT_TRUE(json::parse(batch_json({"so", {}}, false))["part"].is_null());
 }
 
 }  // namespace

@@ -1,0 +1,264 @@
+#include "fitting/batch/gather.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "base/file.h"
+#include "base/json_describe.h"
+#include "base/sha256.h"
+#include "fitting/batch/batch.h"
+#include "table/format/metadata.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <tbb/parallel_for.h>
+#include <unistd.h>
+
+namespace gonio {
+
+template <>
+struct Description<BatchList> {
+  static constexpr auto fields() {
+    return std::tuple{constant_text("schema", "gonio.list/1"),
+                      field("made_with", "", &BatchList::made_with,
+                            "all that determines a result beside the table's bytes"),
+                      field("tables", "", &BatchList::tables,
+                            "paths of the tables of the batch that was begun last")};
+  }
+};
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view list_name = "summary.list.json", page_data_name = "summary.page.json";
+constexpr std::string_view side_part = "; side file ";
+
+std::string place(const std::string& folder, std::string_view name) {
+  return (fs::path(folder) / name).string();
+}
+
+/// Key of a kept result less what its side file adds.
+std::string without_side_file(const std::string& made_with) {
+  return made_with.substr(0, made_with.rfind(side_part));
+}
+
+/// Text as it comes back from a document: bytes that are no text are replaced there.
+std::string as_in_document(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
+}
+
+/// A folder that no other process locks meanwhile, where its file system has locks.
+class Locked {
+ public:
+  explicit Locked(const std::string& folder)
+      : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (folder_ < 0) return;
+    while (::flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~Locked() {
+    if (folder_ >= 0) ::close(folder_);
+  }
+  Locked(const Locked&) = delete;
+  Locked& operator=(const Locked&) = delete;
+
+ private:
+  int folder_;
+};
+
+// --- What lies in the folder ---
+
+/// Document that may be of a batch.
+struct Found {
+  std::string name;
+  fs::file_time_type written{};
+  std::optional<ReadDocument> read;  ///< of a batch
+  std::string fault;                 ///< why it cannot be read
+  bool listed = false;               ///< it has the name that the list gives its table
+};
+
+/// Documents in the order of their names, but the summary's and those of known rows; none is read yet.
+std::vector<Found> documents_in(const std::string& folder,
+                                const std::map<std::string, BatchRow>& known) {
+  std::vector<Found> all;
+  try {
+    for (const auto& e : fs::directory_iterator(folder)) {
+      const std::string name = e.path().filename().string();
+      std::error_code gone;
+      if (e.path().extension() != ".json" || name.starts_with('.') || name == list_name ||
+          name == page_data_name || known.contains(name) || !e.is_regular_file(gone))
+        continue;
+      all.push_back({name, e.last_write_time(gone), {}, "", false});
+    }
+  } catch (const fs::filesystem_error& e) {
+    throw bad_input(folder, "opening", e.code().message(), "a readable folder");
+  }
+  std::ranges::sort(all, {}, &Found::name);
+  return all;
+}
+
+/// What is a document of a batch, or was to be one and cannot be read; anything else is not for a summary.
+std::vector<Found> read_all(const std::string& folder, std::vector<Found> all) {
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    try {
+      all[i].read = read_document(place(folder, all[i].name));
+    } catch (const Error& e) {
+      all[i].fault = e.what();
+    }
+  });
+  std::erase_if(all, [](const Found& d) { return !d.read && d.fault.empty(); });
+  return all;
+}
+
+/// The way in which most documents were made; of equals the first by its words.
+std::string usual_way(const std::vector<Found>& all) {
+  std::map<std::string, int> count;
+  for (const auto& d : all)
+    if (d.read) ++count[without_side_file(d.read->made_with)];
+  const auto most = std::ranges::max_element(count, {}, &std::pair<const std::string, int>::second);
+  return most == count.end() ? "" : most->first;
+}
+
+/// Row of a document, with what lies beside it.
+BatchRow row_of(const std::string& folder, Found& d) {
+  BatchRow row = std::move(d.read->row);
+  if (!row.fit) return row;
+  row.document = d.name;
+  if (const auto page = page_name(d.name); is_page_of(place(folder, page), place(folder, d.name)))
+    row.page = page;
+  return row;
+}
+
+BatchSummary summary_of(const std::string& folder,
+                        const std::optional<BatchList>& list,
+                        std::map<std::string, BatchRow> known) {
+  BatchSummary s;
+  auto found = read_all(folder, documents_in(folder, known));
+  s.made_with = list ? list->made_with : usual_way(found);
+  const auto tables = list ? list->tables : std::vector<std::string>();
+  const auto names = document_names(tables);
+  const std::unordered_set<std::string> listed(names.begin(), names.end());
+
+  // The best document of each table, by the table's path.
+  std::map<std::string, Found*> best;
+  const auto leave_out = [&](const Found& d, LeftOut why) {
+    s.left_out.push_back(
+        {d.name, why, d.read ? d.read->row.path : "", d.read ? d.read->made_with : "", d.fault});
+  };
+  std::unordered_map<std::string, std::string> name_of_table;
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    name_of_table[as_in_document(tables[i])] = names[i];
+  const auto before = [](const Found& a, const Found& b) {
+    return std::tuple(a.listed, a.written) > std::tuple(b.listed, b.written);
+  };
+  for (auto& d : found) {
+    if (!d.read) {
+      leave_out(d, LeftOut::unreadable);
+    } else if (without_side_file(d.read->made_with) != s.made_with) {
+      leave_out(d, LeftOut::made_otherwise);
+    } else {
+      const auto own = name_of_table.find(d.read->row.path);
+      d.listed = own != name_of_table.end() && own->second == d.name;
+      auto& taken = best[d.read->row.path];
+      if (taken) leave_out(before(d, *taken) ? *taken : d, LeftOut::another_of_its_table);
+      if (!taken || before(d, *taken)) taken = &d;
+    }
+  }
+
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const auto at = best.find(as_in_document(tables[i]));
+    if (const auto row = known.find(names[i]); row != known.end()) {
+      if (at != best.end()) leave_out(*at->second, LeftOut::another_of_its_table);
+      s.rows.push_back(std::move(row->second));
+    } else if (at != best.end()) {
+      s.rows.push_back(row_of(folder, *at->second));
+      s.rows.back().path = tables[i];
+    } else {
+      s.missing.push_back(tables[i]);
+    }
+    if (at != best.end()) best.erase(at);
+  }
+  for (const auto& [path, d] : best) s.rows.push_back(row_of(folder, *d));
+  std::ranges::sort(s.left_out, {}, &LeftOutDocument::document);
+  return s;
+}
+
+/// Name of a folder as its page's title.
+std::string title_of(const std::string& folder) {
+  const auto path = fs::path(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+}  // namespace
+
+void write_list(const std::string& folder, const BatchList& list) {
+  const std::string path = place(folder, list_name), text = text_of(json_of(list));
+  std::error_code unknown;
+  if (fs::file_size(path, unknown) == text.size() && !unknown &&
+      InputFile(path).read_rest() == text)
+    return;
+  write_file(path, text);
+}
+
+std::optional<BatchList> read_list(const std::string& folder) {
+  const std::string path = place(folder, list_name);
+  try {
+    const Json document = read_json(path);
+    const JsonReader root(path, document);
+    if (root.at("schema").string() != "gonio.list/1") return {};
+    BatchList list{root.at("made_with").string(), {}};
+    if (const JsonReader tables = root.at("tables"); tables.is_array())
+      for (const auto& t : tables.elements()) list.tables.push_back(t.string());
+    return list;
+  } catch (const Error&) {
+    return {};  // not there, or not what a batch writes
+  }
+}
+
+std::string list_schema() {
+  return schema_text<BatchList>("Tables of a batch");
+}
+
+std::string page_name(const std::string& document) {
+  return fs::path(document).replace_extension(".fit.html").string();
+}
+
+bool is_page_of(const std::string& page, const std::string& document) {
+  std::error_code unknown;
+  return fs::exists(page, unknown) &&
+         fs::last_write_time(page, unknown) >= fs::last_write_time(document, unknown) && !unknown;
+}
+
+std::string with_side_file(const std::string& made_with, const std::string& table) {
+  std::error_code unknown;
+  const auto side = side_path(table);
+  if (!fs::exists(side, unknown)) return made_with;
+  return fmt::format("{}{}{}", made_with, side_part, sha256_of_file(side));
+}
+
+BatchSummary gather(const std::string& folder,
+                    const std::optional<BatchList>& list,
+                    const SummaryPage& page,
+                    std::map<std::string, BatchRow> known) {
+  const Locked lock(folder);
+  BatchSummary s = summary_of(folder, list, std::move(known));
+  if (!list && s.rows.empty() && s.left_out.empty())
+    throw bad_input(folder, "entries", "no result of a fit", "documents of gonio fit -o DIR");
+  const std::string data = batch_json(s, true);
+  OutputFile csv(place(folder, "summary.csv")), page_data(place(folder, page_data_name));
+  csv.write(batch_csv(s.rows));
+  page_data.write(data + "\n");
+  std::optional<OutputFile> html;
+  if (page) html.emplace(place(folder, "summary.html")).write(page(title_of(folder), data));
+  commit_all(std::array{&csv, &page_data, html ? &*html : nullptr});
+  return s;
+}
+
+}  // namespace gonio
