@@ -124,6 +124,21 @@ install_openjd() {
   echo "Without openjd-cli from PyPI: written templates are not held against their specification."
 }
 
+# nanobind, which the module for Python is built with, and NumPy, which it is tested with, in build/python; without them there is no
+# module.
+install_python() {
+  local at=build/python
+  if command -v apt-get >/dev/null; then
+    (gonio_tools=(python3:python3) gonio_libraries=(python3-dev python3-venv); install_missing) || true
+  fi
+  if { [ -x "$at/bin/pip" ] || python3 -m venv "$at" >/dev/null 2>&1; } &&
+    "$at/bin/pip" install -qq --disable-pip-version-check --retries 1 --timeout 20 --require-hashes --only-binary :all: \
+      -r tests/python/requirements.txt 2>/dev/null; then
+    return 0
+  fi
+  echo "Without nanobind and NumPy from PyPI: the module for Python is not built."
+}
+
 # build PRESET [OPTIONS of cmake --build]
 build() {
   cmake --preset "$1" --log-level=WARNING

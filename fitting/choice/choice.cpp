@@ -140,6 +140,22 @@ std::span<const std::string_view> usual_models() {
   return all;
 }
 
+std::vector<std::string> models_asked(std::vector<std::string> models) {
+  if (models == std::vector<std::string>{"all"})
+    models.assign(usual_models().begin(), usual_models().end());
+  if (models.size() > 1 && std::ranges::find(models, "all") != models.end())
+    throw wrong_usage("--models: 'all' stands alone");
+  for (std::size_t k = 1; k < models.size(); ++k)
+    if (std::find(models.begin(), models.begin() + static_cast<std::ptrdiff_t>(k), models[k]) !=
+        models.begin() + static_cast<std::ptrdiff_t>(k))
+      throw wrong_usage(fmt::format("--models: '{}' is there twice", models[k]));
+  for (const auto& m : models) {  // a word that nobody knows is wrong usage, whatever the table
+    std::vector<Setting> none;
+    compose(resolve_preset(m, none), 1);
+  }
+  return models;
+}
+
 ModelChoice compare_models(const Table& t,
                            const FitOptions& options,
                            std::span<const std::string> models,

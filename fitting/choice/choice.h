@@ -47,6 +47,9 @@ struct ModelChoice {
 
 /// Models that are compared where `all` is asked for.
 std::span<const std::string_view> usual_models();
+/// Models that `--models` names: `all` is the usual ones.
+/// \throws Error  wrong_usage of `all` beside others, of a model that is there twice, of a word that no model has
+std::vector<std::string> models_asked(std::vector<std::string> names);
 
 /// Fits of each model, judged side by side:
 ///

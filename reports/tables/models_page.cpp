@@ -185,6 +185,28 @@ double error_of(const ModelChoice& choice, const ModelRow& row) {
   return choice.blocks > 0 ? row.cv_log_rms : row.log_rms;
 }
 
+Spheres add_spheres(const Table& t, ModelChoice& choice) {
+  std::vector<BoundModel> models;
+  std::vector<ModelRow*> rows;
+  for (std::size_t k = 0; k < choice.rows.size(); ++k)
+    if (choice.rows[k].compared) {
+      models.push_back(choice.fits[k]);
+      rows.push_back(&choice.rows[k]);
+    }
+  Spheres spheres = make_spheres(t, models);
+  const auto covered = [](const SpheresUnderLight& l) { return !l.models.empty(); };
+  const auto lights = std::ranges::count_if(spheres.lights, covered);
+  for (std::size_t k = 0; k < rows.size() && lights > 0; ++k) {
+    rows[k]->delta_e_2000 = rows[k]->delta_e_itp = 0;
+    for (const auto& l : spheres.lights)
+      if (covered(l)) {
+        rows[k]->delta_e_2000 += l.models[k].median / static_cast<double>(lights);
+        rows[k]->delta_e_itp += l.models[k].itp_median / static_cast<double>(lights);
+      }
+  }
+  return spheres;
+}
+
 ModelsPage make_models_page(const Table& table,
                             const ModelChoice& choice,
                             const Advice& advice,

@@ -26,6 +26,9 @@ struct ModelsPage {
 /// Error by which models are numbered: on incident angles that the fit had not seen; without blocks over the table.
 double error_of(const ModelChoice&, const ModelRow&);
 
+/// Spheres of the fits that were compared.  Their rows are told how far they are from the table's, where it covers enough of one.
+Spheres add_spheres(const Table&, ModelChoice&);
+
 /// \param spheres  of the fits that were compared, in the order of the rows
 ModelsPage make_models_page(const Table&, const ModelChoice&, const Advice&, Spheres spheres);
 

@@ -42,12 +42,8 @@ void add_verify(CommandLine&);
 void add_render(CommandLine&);
 void add_manual(CommandLine&);
 
-/// Entries of the catalogue that are neither term nor map nor composed of terms, and what evaluates them.
-struct Evaluated {
-  const About* about;
-  std::string_view by;
-};
-std::span<const Evaluated> evaluated_by_commands();
+/// Help of an argument that takes either.
+inline constexpr const char* spec_or_fit = "Model, or the fit.json of a fit";
 
 /// --set NAME=VALUE …
 void add_set(Command&, std::vector<std::string>& words);

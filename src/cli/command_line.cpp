@@ -138,7 +138,7 @@ OptionText text_of(const CLI::Option& option) {
   const auto open = type.find(":{"), close = type.rfind('}');
   if (open != type.npos && close != type.npos) {
     out.value = type.substr(0, open);
-    for (const auto choice : split(std::string_view(type).substr(open + 2, close - open - 2), ','))
+    for (const auto& choice : split(std::string_view(type).substr(open + 2, close - open - 2), ','))
       out.choices.emplace_back(choice);
   }
   return out;

@@ -1,6 +1,6 @@
 // gonio compare: how far a model is from a table.
+#include "answer/model_argument.h"
 #include "cli/command.h"
-#include "cli/model_argument.h"
 #include "cli/terminal.h"
 #include "fitting/judge/assess.h"
 #include "fitting/result/document.h"
@@ -32,7 +32,7 @@ Exit run(const Options& o) {
   Progress progress(o.quiet);
   progress("reading " + o.file);
   const Table t = read_table(o.file, bins_from(o.bins));
-  const BoundModel m = model_argument(o.model, o.set, t.channels.size()).model;
+  const BoundModel m = model_argument(o.model, parse_settings(o.set), t.channels.size()).model;
   check_azimuths(t, m.model);
   progress("comparing");
   const Sampling sampling(t, t.bins(), Metric::l2_cosine, 0, false, false, m.model.anisotropic);

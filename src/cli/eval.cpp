@@ -1,13 +1,10 @@
 // gonio eval: a model or a table at given directions.
-#include <cmath>
 #include <filesystem>
-#include <limits>
 
+#include "answer/model_argument.h"
+#include "answer/values.h"
 #include "base/file.h"
-#include "brdf/model/evaluate.h"
-#include "brdf/model/fitted_model.h"
 #include "cli/command.h"
-#include "cli/model_argument.h"
 #include "cli/terminal.h"
 #include "table/format/csv.h"
 #include "table/format/formats.h"
@@ -31,32 +28,13 @@ bool is_table(const std::string& path) {
   return !begins_as_fit(in.peek(256));
 }
 
-/// Values of a table between its samples; NaN where it has none.
-void interpolate(const Table& table, Table& at) {
-  if (!table.grid() && !table.between)
-    throw bad_input(table.path, "format " + table.format, "samples at single directions",
-                    "a table that has values between its samples: a grid, or an RGL file; gonio "
-                    "convert makes a grid of it");
-  const Interpolator f(table);
-  const SampleAngles angles(at);
-  const std::size_t n = at.list()->theta_i_deg.size();
-  at.channels = table.channels;
-  for (std::size_t c = 0; c < table.channels.size(); ++c) {
-    auto& values = at.values.emplace_back(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double v = f(angles.directions(i), c);
-      const auto a = angles(i);
-      values[i] = mask(a, v) == Mask::valid ? v : std::numeric_limits<double>::quiet_NaN();
-    }
-  }
-}
-
-void evaluate_at(const ModelArgument& m, Table& at) {
-  const SampleAngles of(at);
-  std::vector<FrameAngles<double>> angles;
-  for (std::size_t i = 0; i < at.list()->theta_i_deg.size(); ++i) angles.push_back(of.frame(i));
-  at.channels = m.channels;
-  for (const auto& f : evaluate(m.model, angles)) at.values.emplace_back(f.begin(), f.end());
+/// Gives the table of directions the channels, whose columns are to be filled.
+std::vector<double*> columns_for(Table& at, const std::vector<std::string>& channels) {
+  std::vector<double*> columns;
+  at.channels = channels;
+  at.values.assign(channels.size(), Values(at.list()->theta_i_deg.size()));
+  for (auto& column : at.values) columns.push_back(column.data());
+  return columns;
 }
 
 Exit run(const Options& o) {
@@ -69,15 +47,17 @@ Exit run(const Options& o) {
   InputFile in(o.directions);
   Table t = read_directions_csv(in);
   t.values.clear(), t.weights.clear();
+  const DirectionColumns at = columns_of(*t.list());
   nlohmann::ordered_json document;
   if (is_table(o.what)) {
     if (!o.set.empty()) throw wrong_usage("--set goes with a model, not with a table");
-    interpolate(read_table(o.what, bins_from(o.bins)), t);
+    const Table table = read_table(o.what, bins_from(o.bins));
+    interpolate_at(table, at, columns_for(t, table.channels));
     document["table"] = o.what;
   } else {
     if (o.bins) throw wrong_usage("--bins goes with a table, not with a model");
-    const auto model = model_argument(o.what, o.set);
-    evaluate_at(model, t);
+    const auto model = model_argument(o.what, parse_settings(o.set));
+    evaluate_at(model.model, at, columns_for(t, model.channels));
     document["model"] = model.model.model.spec;
   }
   if (!o.output.empty()) {

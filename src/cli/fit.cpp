@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "base/error.h"
-#include "brdf/model/presets.h"
 #include "cli/batch_words.h"
 #include "cli/command.h"
 #include "cli/fit_options.h"
@@ -207,29 +206,6 @@ void print(const ModelChoice& choice, const Advice& advice) {
   }
 }
 
-/// Spheres of the fits, and how far they are from the table's where it covers enough of one.
-Spheres add_spheres(const Table& t, ModelChoice& choice) {
-  std::vector<BoundModel> models;
-  std::vector<ModelRow*> rows;
-  for (std::size_t k = 0; k < choice.rows.size(); ++k)
-    if (choice.rows[k].compared) {
-      models.push_back(choice.fits[k]);
-      rows.push_back(&choice.rows[k]);
-    }
-  Spheres spheres = make_spheres(t, models);
-  const auto covered = [](const SpheresUnderLight& l) { return !l.models.empty(); };
-  const auto lights = std::ranges::count_if(spheres.lights, covered);
-  for (std::size_t k = 0; k < rows.size() && lights > 0; ++k) {
-    rows[k]->delta_e_2000 = rows[k]->delta_e_itp = 0;
-    for (const auto& l : spheres.lights)
-      if (covered(l)) {
-        rows[k]->delta_e_2000 += l.models[k].median / static_cast<double>(lights);
-        rows[k]->delta_e_itp += l.models[k].itp_median / static_cast<double>(lights);
-      }
-  }
-  return spheres;
-}
-
 /// Models compared on one table.
 Exit run_models(const Options& o, const HowFitted& how) {
   if (is_batch(o.files))
@@ -238,19 +214,7 @@ Exit run_models(const Options& o, const HowFitted& how) {
   if (o.pages)
     throw wrong_usage("--pages is of many tables; the page of --models is --html PAGE.html");
   if (o.part) throw wrong_usage("--part is of the fits of many tables, not of --models");
-  std::vector<std::string> models = o.models;
-  if (models == std::vector<std::string>{"all"})
-    models.assign(usual_models().begin(), usual_models().end());
-  if (models.size() > 1 && std::ranges::find(models, "all") != models.end())
-    throw wrong_usage("--models: 'all' stands alone");
-  for (std::size_t k = 1; k < models.size(); ++k)
-    if (std::find(models.begin(), models.begin() + static_cast<std::ptrdiff_t>(k), models[k]) !=
-        models.begin() + static_cast<std::ptrdiff_t>(k))
-      throw wrong_usage(fmt::format("--models: '{}' is there twice", models[k]));
-  for (const auto& m : models) {  // a word that nobody knows is wrong usage, whatever the table
-    std::vector<Setting> none;
-    compose(resolve_preset(m, none), 1);
-  }
+  const auto models = models_asked(o.models);
   OutputFiles out(o.files, o.output, o.html);
   Progress progress(o.quiet);
   progress("reading " + o.files[0]);

@@ -135,7 +135,7 @@ Exit run(const Options& o) {
   out.commit();
   progress.clear();
   if (o.json) {
-    fmt::print("{}\n", json);
+    fmt::print("{}", json);
     return Exit::done;
   }
   print(t, h);

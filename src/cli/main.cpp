@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/file.h"
+#include "base/path_error.h"
 #include "base/text.h"
 #include "cli/command.h"
 
@@ -91,9 +92,7 @@ int main(int argc, char** argv) {
   } catch (const gonio::Error& e) {
     return fail(e.code(), e.what());
   } catch (const std::filesystem::filesystem_error& e) {
-    return fail(Exit::bad_input, gonio::bad_input(e.path1().string(), "looking it up",
-                                                  e.code().message(), "a path within reach")
-                                     .what());
+    return fail(Exit::bad_input, gonio::path_error(e).what());
   } catch (const std::system_error& e) {  // fmt::print and the like
     return fail_printing(e.code().value());
   } catch (const std::bad_alloc&) {

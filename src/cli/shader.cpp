@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "answer/model_argument.h"
 #include "base/file.h"
 #include "brdf/catalogue/registry.h"
 #include "cli/command.h"
-#include "cli/model_argument.h"
 #include "cli/terminal.h"
 #include "integrate/light/split_sum_table.h"
 #include "scene/plan/document.h"
@@ -95,7 +95,7 @@ shader::TracedFormula traced(const Options& o) {
   }
   if (!o.grey.empty() && !file_in(o.subject).empty())
     throw wrong_usage("--grey goes with a model: a fit says which of its colours are grey");
-  const auto model = o.grey.empty() ? model_argument(o.subject, o.set).model
+  const auto model = o.grey.empty() ? model_argument(o.subject, parse_settings(o.set)).model
                                     : bind_model(o.subject, parse_settings(o.set), {}, o.grey);
   return shader::trace_model(model, precision, o.inputs, o.derivatives, compensating);
 }

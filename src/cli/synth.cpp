@@ -1,8 +1,8 @@
 // gonio synth: a table sampled from a model.
 #include "data_synth/synth.h"
 
+#include "answer/model_argument.h"
 #include "cli/command.h"
-#include "cli/model_argument.h"
 #include "cli/terminal.h"
 #include "table/format/formats.h"
 
@@ -50,7 +50,7 @@ Exit run(const Options& o) {
   SynthOptions s = o.synth;
   s.layout = value_of<Layout>(o.layout, "layout");
   s.bins = bins_from(o.bins).value_or(Bins::centre);
-  const auto model = model_argument(o.spec, o.set).model;
+  const auto model = model_argument(o.spec, parse_settings(o.set)).model;
   Progress progress(o.quiet);
   progress("sampling");
   const Table t = synthesize(model, s);

@@ -6,6 +6,8 @@
 //   ```text     directly below: what that block prints, standard output and error.
 //               A line "…" stands for lines left out.  Numbers of four digits and errors may
 //               differ by one in the last; those before ns, ms, s, × and "times" as they will.
+//   ```python   the same as sh, but that each block is a program of its own, run with the module
+//               for Python; left out with a line where that is not built.
 //   ```json     a document, parsed
 //   ```console  not run, below a comment that says why: <!-- not run: it builds gonio -->
 //
@@ -24,6 +26,7 @@
 #include <sstream>
 
 #include "base/text.h"
+#include "cli/module.h"
 #include "cli/outside.h"
 #include "cli/program.h"
 #include "image/exr.h"
@@ -47,7 +50,7 @@ std::vector<std::string> pages() {
 }
 
 struct Block {
-  std::string kind;    ///< sh, text, json, console
+  std::string kind;    ///< sh, python, text, json, console
   std::string before;  ///< the comment above, or nothing
   std::size_t line;    ///< of its first line, from 1
   std::vector<std::string> lines;
@@ -280,6 +283,7 @@ std::map<std::size_t, int> expected_codes(const Block& b) {
 std::string left_out(const Block& b) {
   if (b.before == "<!-- long -->" && std::getenv("GONIO_LONG") == nullptr)
     return "without GONIO_LONG";
+  if (b.kind == "python" && python().empty()) return "without the module for Python and NumPy";
 #ifdef __SANITIZE_ADDRESS__
   if (b.before.starts_with("<!-- long")) return "under a sanitizer";
 #endif
@@ -301,14 +305,17 @@ TEST_P(Page, IsRunAsWrittenAndPrintsWhatItShows) {
   std::map<std::size_t, int> expected;
   std::vector<const Block*> ran;
   for (const auto& b : document.blocks) {
-    if (b.kind != "sh") continue;
+    if (b.kind != "sh" && b.kind != "python") continue;
     if (const auto without = left_out(b); !without.empty()) {
       std::cout << GetParam() << ":" << b.line << ": left out " << without << "\n";
       continue;
     }
     at_line(b.line - 1);
-    script += "exec >'" + f / (".out" + std::to_string(run++)) + "' 2>&1\n", ++line;
+    script += "exec >'" + f / (".out" + std::to_string(run++)) + "' 2>&1";
+    if (b.kind == "python") script += "; " + python() + " - <<'END_OF_BLOCK'";
+    script += "\n", ++line;
     for (const auto& l : b.lines) script += l + "\n", ++line;
+    if (b.kind == "python") script += "END_OF_BLOCK\n", ++line;
     expected.merge(expected_codes(b));
     ran.push_back(&b);
   }
@@ -331,7 +338,7 @@ TEST_P(Page, IsRunAsWrittenAndPrintsWhatItShows) {
     if (!expected.contains(at) || expected.at(at) != code) {
       std::string out;
       for (std::size_t k = 0; k < ran.size(); ++k)
-        if (ran[k]->line <= at && at < ran[k]->line + ran[k]->lines.size()) out = printed(k);
+        if (ran[k]->line <= at + 1 && at < ran[k]->line + ran[k]->lines.size()) out = printed(k);
       ADD_FAILURE() << GetParam() << ":" << at << ": exit " << code << "\n" << out;
     }
   for (const auto& [at, code] : expected)
@@ -366,9 +373,10 @@ TEST_P(Page, HasOnlyBlocksThatAreRunOrSayWhyNot) {
       for (const auto& l : b.lines) text += l + "\n";
       EXPECT_TRUE(nlohmann::json::accept(text));
     } else if (b.kind == "text") {
-      EXPECT_TRUE(b.follows && above && *above == "sh") << "of which block?";
+      EXPECT_TRUE(b.follows && above && (*above == "sh" || *above == "python"))
+          << "of which block?";
     } else {
-      EXPECT_EQ(b.kind, "sh");
+      EXPECT_TRUE(b.kind == "sh" || b.kind == "python") << b.kind;
     }
     above = &b.kind;
   }

@@ -79,7 +79,9 @@ TEST(Install, AsADebianPackageFitsOnABareDebian) {
       "chroot bare apt-get install -y -qq --no-install-recommends /gonio.deb\n"
       "chroot bare sh -c 'cd /tmp && gonio synth ggx/smith_ggx.correlated/schlick --set alpha=0.3 "
       "f0=0.9 --layout hemisphere -o t.csv && gonio fit t.csv --model "
-      "ggx/smith_ggx.correlated/schlick'\n");
+      "ggx/smith_ggx.correlated/schlick'\n"
+      "! chroot bare ldd /usr/bin/gonio | grep -E 'not found|gtest|gmock|benchmark|rapidcheck'\n"
+      "ls bare/usr/share/man/man1/gonio-fit.1\n");
   EXPECT_EQ(o.code, 0) << o.text;
   EXPECT_NE(o.text.find("alpha"), o.text.npos) << o.text;
 }

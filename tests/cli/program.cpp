@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cli/module.h"
+
 namespace gonio::test {
 
 std::string program_path() {
@@ -9,6 +11,19 @@ std::string program_path() {
 }
 std::string program() {
   return "'" + program_path() + "'";
+}
+
+std::string python() {
+  static const std::string call = [] {
+    const std::string interpreter = GONIO_PYTHON_INTERPRETER;
+    if (interpreter.empty()) return std::string();
+    const auto package = std::filesystem::path(program_path()).parent_path() / "python";
+    const auto finding =
+        "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH='" + package.string() + "' '" + interpreter + "'";
+    const auto looked = std::system((finding + " -c 'import gonio' >/dev/null 2>&1").c_str());
+    return looked == 0 ? finding : std::string();
+  }();
+  return call;
 }
 
 nlohmann::json Outcome::json() const {

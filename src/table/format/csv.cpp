@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/numbers.h"
 #include "table/format/delimited.h"
+#include "table/format/in_memory.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -166,7 +167,8 @@ class Reader {
       t.warnings.emplace_back(
           "no zenith angle is above 1.6°: if they are radians, gonio columns FILE --radians says "
           "so");
-    check(t);
+    if (needs_values_) expect_light_from_above(path_, *t.list());
+    warn_of_directions(t, forward_deg());
     return t;
   }
 
@@ -527,53 +529,6 @@ class Reader {
     return largest_out > 0.5;
   }
 
-  void check(Table& t) const {
-    const DirectionList& l = *t.list();
-    const auto beyond = [](const std::vector<double>& angles, double limit) {
-      return std::ranges::count_if(angles, [&](double a) { return std::abs(a) > limit; });
-    };
-    const auto n = static_cast<std::ptrdiff_t>(l.theta_i_deg.size());
-    if (const auto below = beyond(l.theta_i_deg, 90); needs_values_ && 2 * below > n)
-      throw bad_input(path_, "column theta_i", fmt::format("{} of {} above 90°", below, n),
-                      "zenith angles of the light (perhaps columns are swapped)");
-    if (beyond(l.theta_o_deg, 90) * 5 > 2 * n && beyond(l.phi_o_deg, 90) == 0 &&
-        std::ranges::any_of(l.phi_o_deg, [&](double p) { return p != l.phi_o_deg[0]; }))
-      t.warnings.emplace_back(
-          "theta_o goes far beyond 90° while phi_o never does: perhaps the two are swapped");
-    warn_of_backward_peak(t);
-  }
-
-  /// The mirror direction taken for the light's is the commonest slip, and fits nothing.
-  void warn_of_backward_peak(Table& t) const {
-    const DirectionList& l = *t.list();
-    struct Largest {
-      double forward = 0, backward = 0;
-    };
-    using Range = tbb::blocked_range<std::size_t>;
-    const auto [forward, backward] = tbb::parallel_reduce(
-        Range(0, t.size(), 1 << 14), Largest{},
-        [&](const Range& r, Largest x) {
-          for (std::size_t i = r.begin(); i < r.end(); ++i) {
-            if (std::min(l.theta_i_deg[i], l.theta_o_deg[i]) < 20 ||
-                std::max(l.theta_i_deg[i], l.theta_o_deg[i]) > 85)
-              continue;
-            const double towards = std::cos((l.phi_o_deg[i] - l.phi_i_deg[i]) * degree);
-            double& largest = towards > 0 ? x.backward : x.forward;
-            for (const auto& plane : t.values) largest = std::max(largest, plane[i]);
-          }
-          return x;
-        },
-        [](const Largest& x, const Largest& y) {
-          return Largest{std::max(x.forward, y.forward), std::max(x.backward, y.backward)};
-        });
-    if (backward > 3 * forward && backward > 0)
-      t.warnings.push_back(
-          fmt::format("values on the light's side reach {:.3g}, on the mirror's side {:.3g}: a "
-                      "retro-reflector, "
-                      "or azimuths are counted otherwise (gonio columns FILE --forward {:g})",
-                      backward, forward, std::remainder(forward_deg() + 180, 360)));
-  }
-
   double forward_deg() const { return map_ ? map_->forward_deg : ColumnMap().forward_deg; }
 
   const ColumnMap* map_;
@@ -591,23 +546,67 @@ class Reader {
   std::size_t rows_ = 0;
 };
 
+std::ptrdiff_t beyond(const std::vector<double>& angles, double limit) {
+  return std::ranges::count_if(angles, [&](double a) { return std::abs(a) > limit; });
+}
+
+/// The mirror direction taken for the light's is the commonest slip, and fits nothing.
+void warn_of_backward_peak(Table& t, double forward_deg) {
+  const DirectionList& l = *t.list();
+  struct Largest {
+    double forward = 0, backward = 0;
+  };
+  using Range = tbb::blocked_range<std::size_t>;
+  const auto [forward, backward] = tbb::parallel_reduce(
+      Range(0, t.size(), 1 << 14), Largest{},
+      [&](const Range& r, Largest x) {
+        for (std::size_t i = r.begin(); i < r.end(); ++i) {
+          if (std::min(l.theta_i_deg[i], l.theta_o_deg[i]) < 20 ||
+              std::max(l.theta_i_deg[i], l.theta_o_deg[i]) > 85)
+            continue;
+          const double towards = std::cos((l.phi_o_deg[i] - l.phi_i_deg[i]) * degree);
+          double& largest = towards > 0 ? x.backward : x.forward;
+          for (const auto& plane : t.values) largest = std::max(largest, plane[i]);
+        }
+        return x;
+      },
+      [](const Largest& x, const Largest& y) {
+        return Largest{std::max(x.forward, y.forward), std::max(x.backward, y.backward)};
+      });
+  if (backward > 3 * forward && backward > 0)
+    t.warnings.push_back(
+        fmt::format("values on the light's side reach {:.3g}, on the mirror's side {:.3g}: a "
+                    "retro-reflector, "
+                    "or azimuths are counted otherwise (gonio columns FILE --forward {:g})",
+                    backward, forward, std::remainder(forward_deg + 180, 360)));
+}
+
 void append(std::string& text, double v) {
   std::array<char, 32> digits;
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), v).ptr);
-}
-
-/// [degrees], in the order of kAngles
-std::array<double, 4> angles_of(const Table& t, const SampleAngles& at, std::size_t i) {
-  if (const auto* l = t.list())
-    return {l->theta_i_deg[i], l->phi_i_deg[i], l->theta_o_deg[i], l->phi_o_deg[i]};
-  const auto [wi, wo] = at.directions(i);
-  return {theta_of(wi) / degree, phi_of(wi) / degree, theta_of(wo) / degree, phi_of(wo) / degree};
 }
 
 }  // namespace
 
 bool is_csv(std::string_view head) {
   return looks_delimited(head) || std::ranges::any_of(first_fields(head), is_angle);
+}
+
+void expect_light_from_above(const std::string& path, const DirectionList& l) {
+  const auto n = static_cast<std::ptrdiff_t>(l.theta_i_deg.size());
+  if (const auto below = beyond(l.theta_i_deg, 90); 2 * below > n)
+    throw bad_input(path, "column theta_i", fmt::format("{} of {} above 90°", below, n),
+                    "zenith angles of the light (perhaps columns are swapped)");
+}
+
+void warn_of_directions(Table& t, double forward_deg) {
+  const DirectionList& l = *t.list();
+  const auto n = static_cast<std::ptrdiff_t>(l.theta_i_deg.size());
+  if (beyond(l.theta_o_deg, 90) * 5 > 2 * n && beyond(l.phi_o_deg, 90) == 0 &&
+      std::ranges::any_of(l.phi_o_deg, [&](double p) { return p != l.phi_o_deg[0]; }))
+    t.warnings.emplace_back(
+        "theta_o goes far beyond 90° while phi_o never does: perhaps the two are swapped");
+  warn_of_backward_peak(t, forward_deg);
 }
 
 Table read_csv(InputFile& in, const ColumnMap* map) {
@@ -646,7 +645,7 @@ void write_csv(const Table& t, OutputFile& out) {
   text += t.weights.empty() ? "\n" : ",weight\n";
   const SampleAngles at(t);
   for (std::size_t i = 0; i < t.size(); ++i) {
-    for (const double angle : angles_of(t, at, i)) {
+    for (const double angle : angles_deg(t, at, i)) {
       append(text, angle);
       text += ',';
     }

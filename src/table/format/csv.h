@@ -22,6 +22,11 @@ bool is_csv(std::string_view head);
 Table read_csv(InputFile&, const ColumnMap* = nullptr);
 /// Directions alone: value columns may be missing.
 Table read_directions_csv(InputFile&);
+/// Refuses a list in which most of the light comes from below.
+void expect_light_from_above(const std::string& path, const DirectionList&);
+/// Adds to a list's warnings what is odd about its directions but possible.
+/// \param forward_deg  azimuth at which the file has the mirror direction's side
+void warn_of_directions(Table&, double forward_deg = ColumnMap().forward_deg);
 /// A grid is written as the list of its directions; what its format marks as "no data" as nan.
 void write_csv(const Table&, OutputFile&);
 

@@ -1,18 +1,16 @@
 #pragma once
 /// \file
-/// A model as a user names it: a spec with its --set, or the fit.json of a fit.
+/// A model as a user names it: a spec with its settings, or the fit.json of a fit.
 
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "brdf/model/fitted_model.h"
 #include "brdf/model/model.h"
 
-namespace gonio::cli {
-
-/// Help of an argument that takes either.
-inline constexpr const char* spec_or_fit = "Model, or the fit.json of a fit";
+namespace gonio {
 
 /// The file that the user named, for check_outputs: what is there, or what is called like a document;
 /// none where it is a spec.
@@ -24,9 +22,14 @@ struct ModelArgument {
 };
 /// The model named.  \param channels  as many as the model must have; else as many as its colours, or three
 /// \throws Error  bad_input of a fit.json that is none, holds null values, or does not have these
-///                channels; wrong_usage of --set beside one
+///                channels; wrong_usage of settings beside one
 ModelArgument model_argument(const std::string& model,
-                             const std::vector<std::string>& set,
+                             const std::vector<Setting>& set,
+                             std::optional<std::size_t> channels = {});
+/// The model of a fit's document, which errors call `name`.
+ModelArgument model_argument(const std::string& name,
+                             const FittedModel& fitted,
+                             const std::vector<Setting>& set,
                              std::optional<std::size_t> channels = {});
 
-}  // namespace gonio::cli
+}  // namespace gonio

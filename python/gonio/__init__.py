@@ -1,0 +1,413 @@
+"""Fits analytic BRDF models to tabulated reflectance, and says how far to trust the result.
+
+The functions are the program's commands, their arguments its options, and their results its documents: what ``gonio fit FILE --json``
+prints is ``gonio.fit(FILE).text``, to the byte but for times.  Angles are in degrees, f is in 1/sr without the cosine.
+
+Arrays go in and come out without a copy where that is possible; each function says where it copies.  Calls that work let other
+threads of Python run meanwhile, and an interrupt ends them at their next step.
+
+Errors are one line each, as the program's: ``WrongUsage`` of a call that nothing can be made of, ``BadInput`` of a file or an array
+that is not what it should be.  Both are ``gonio.Error`` and ``ValueError``.  They call options by the program's names: ``--mu`` is ``mu``.
+"""
+
+from __future__ import annotations
+
+import json as _json
+import os as _os
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Union
+
+import numpy as _np
+import numpy.typing as _npt
+
+from . import _gonio
+from ._gonio import BadInput, Error, WrongUsage, __version__
+
+__all__ = [
+    "BadInput", "Document", "Error", "Table", "WrongUsage", "__version__", "albedo", "audit", "eval", "fit", "inspect", "models", "read",
+    "synth", "term",
+]
+
+Path = Union[str, "_os.PathLike[str]"]
+Values = Union[float, Sequence[float], _npt.NDArray[Any], str]
+"""One number, one for each channel, or a word, as in ``metal="Au"``."""
+
+
+class Document(dict[str, Any]):
+    """A document of gonio: a ``dict`` of what the JSON holds, and ``text``, the JSON as the program prints it.
+
+    ``write`` leaves it as a file that the program reads.
+    """
+
+    text: str
+
+    def __init__(self, text: str) -> None:
+        super().__init__(_json.loads(text))
+        self.text = text
+
+    def write(self, path: Path) -> None:
+        """Writes ``text`` to a file."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.text)
+
+
+class Table:
+    """Samples of reflectance: where each was taken, and its values.
+
+    Made by ``read``, by ``synth``, or of arrays::
+
+        Table(theta_i, phi_i, theta_o, phi_o, values, channels=["r", "g", "b"])
+
+    Args:
+        theta_i, phi_i, theta_o, phi_o: zenith angles in [0, 180] and azimuths in [-360, 360] degrees, to the light and to the detector.
+            Arrays that broadcast to one shape, of n samples in all; phi_o = phi_i + 180 is the mirror's side.
+        values: f in 1/sr, without the cosine: n numbers, or ``[..., channel]``.  NaN, negative ones and those below the horizon are
+            kept and not fitted.
+        channels: their names; "f" of one, "r", "g", "b" of three unless given.
+        weights: n numbers from 0 on, or none for all 1.
+        name: stands in documents where a file's path would.
+
+    The arrays are copied once.  Their SHA-256, columns one after the other, stands in documents for that of a file.
+
+    Raises:
+        BadInput: an angle, a weight or a channel that is none; light that comes from below in most samples.
+        WrongUsage: arrays that do not go together.
+    """
+
+    def __init__(self, theta_i: _npt.ArrayLike, phi_i: _npt.ArrayLike, theta_o: _npt.ArrayLike, phi_o: _npt.ArrayLike,
+                 values: _npt.ArrayLike, *, channels: Sequence[str] = (), weights: _npt.ArrayLike | None = None,
+                 name: str = "array") -> None:
+        columns, shape = _columns(theta_i, phi_i, theta_o, phi_o)
+        f = _numbers("values", values)
+        if f.shape == shape:
+            f = f[..., _np.newaxis]
+        if f.shape[:-1] != shape:
+            raise WrongUsage(f"values: of shape {f.shape}, where directions are of shape {shape}")
+        planes = [_np.ascontiguousarray(f[..., c]).reshape(-1) for c in range(f.shape[-1])]
+        w = None if weights is None else _numbers("weights", weights).reshape(-1)
+        self._table = _gonio.table(name, *columns, planes, list(channels), w)
+
+    @classmethod
+    def _of(cls, table: _gonio.Table) -> Table:
+        made = cls.__new__(cls)
+        made._table = table
+        return made
+
+    def __len__(self) -> int:
+        return len(self._table)
+
+    def __repr__(self) -> str:
+        return f"<gonio.Table {self.path}: {len(self)} samples, channels {' '.join(self.channels)}>"
+
+    def __getitem__(self, channel: str) -> _npt.NDArray[_np.float64]:
+        """f of a channel, by its name: n numbers in 1/sr, in place and not to be written to."""
+        try:
+            return self._table.column(self.channels.index(channel))
+        except ValueError:
+            raise KeyError(channel) from None
+
+    @property
+    def values(self) -> _npt.NDArray[_np.float64]:
+        """f in 1/sr, ``[sample, channel]``: a copy.  ``table["r"]`` is a channel in place."""
+        return _np.stack([self[c] for c in self.channels], axis=-1)
+
+    @property
+    def theta_i(self) -> _npt.NDArray[_np.float64]:
+        """Zenith angles of the light [degrees].  In place, of a grid computed at each call; so are the three others."""
+        return self._table.angle(0)
+
+    @property
+    def phi_i(self) -> _npt.NDArray[_np.float64]:
+        """Azimuths of the light [degrees]."""
+        return self._table.angle(1)
+
+    @property
+    def theta_o(self) -> _npt.NDArray[_np.float64]:
+        """Zenith angles of the detector [degrees]."""
+        return self._table.angle(2)
+
+    @property
+    def phi_o(self) -> _npt.NDArray[_np.float64]:
+        """Azimuths of the detector [degrees]."""
+        return self._table.angle(3)
+
+    @property
+    def weights(self) -> _npt.NDArray[_np.float64] | None:
+        """n numbers, in place; None where all are 1."""
+        w = self._table.weights()
+        return w if len(w) else None
+
+    @property
+    def channels(self) -> list[str]:
+        """Names of the channels."""
+        return self._table.channels
+
+    @property
+    def path(self) -> str:
+        """The file it was read from, or its name."""
+        return self._table.path
+
+    @property
+    def sha256(self) -> str:
+        """Of the file's bytes, or of the arrays."""
+        return self._table.sha256
+
+    @property
+    def format(self) -> str:
+        """"csv", "merl", "mbsdf", "exr", "rgl" …: that ``write`` writes."""
+        return self._table.format
+
+    @property
+    def bins(self) -> str | None:
+        """"centre" or "edge": where samples sit in their bins; None where there are no bins."""
+        return self._table.bins if self._table.has_bins else None
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is odd about the file or the arrays, though they could be read."""
+        return self._table.warnings
+
+    def write(self, path: Path) -> None:
+        """Writes the table in its format, and beside it what that does not hold.
+
+        Raises:
+            BadInput: a file that cannot be written.
+        """
+        _gonio.write(self._table, _os.fspath(path))
+
+
+Model = Union[str, Mapping[str, Any]]
+"""A spec or a preset as ``models`` lists them; the path of a fit.json; or a fit's document."""
+
+
+def _numbers(name: str, x: _npt.ArrayLike) -> _npt.NDArray[_np.float64]:
+    """The same array where it is one of doubles, contiguous; else a copy that is."""
+    try:
+        a = _np.asarray(x)
+        if a.dtype.kind not in "fiub":
+            raise TypeError(a.dtype)
+        return _np.ascontiguousarray(a, dtype=_np.float64).reshape(a.shape)
+    except (TypeError, ValueError) as e:
+        raise WrongUsage(f"{name}: not an array of numbers ({e})") from None
+
+
+def _columns(*angles: _npt.ArrayLike) -> tuple[list[_npt.NDArray[_np.float64]], tuple[int, ...]]:
+    """The four angles as columns of one length, and the shape that they had."""
+    names = ("theta_i", "phi_i", "theta_o", "phi_o")
+    arrays = [_numbers(n, a) for n, a in zip(names, angles)]
+    try:
+        shape = _np.broadcast_shapes(*(a.shape for a in arrays))
+    except ValueError:
+        raise WrongUsage(f"directions: shapes {', '.join(str(a.shape) for a in arrays)} do not go together") from None
+    return [_np.ascontiguousarray(_np.broadcast_to(a, shape)).reshape(-1) for a in arrays], shape
+
+
+def _settings(parameters: Mapping[str, Values]) -> list[tuple[str, list[float], str]]:
+    """Parameters as the module takes them: a name, its numbers, and its text."""
+    all_of_them = []
+    for name, value in parameters.items():
+        if isinstance(value, str):
+            if name != "metal":
+                raise WrongUsage(f"{name}: a number, or one for each channel")
+            all_of_them.append((name, [], value))
+        else:
+            all_of_them.append((name, _numbers(name, value).reshape(-1).tolist(), ""))
+    return all_of_them
+
+
+def _model(model: Model, parameters: Mapping[str, Values]) -> _gonio.Model:
+    if isinstance(model, Mapping):
+        text = model.text if isinstance(model, Document) else _json.dumps(model)
+        return _gonio.model_of_document(text, _settings(parameters))
+    return _gonio.model(_os.fspath(model), _settings(parameters))
+
+
+def read(path: Path, *, bins: str | None = None) -> Table:
+    """Table of a file, its format found from the bytes: ``gonio inspect FILE`` says what it holds.
+
+    Args:
+        bins: "centre" or "edge": where samples sit in their bins; else what the file says, or "centre".
+
+    Raises:
+        BadInput: a file that cannot be read as what it claims, with the place.
+    """
+    return Table._of(_gonio.read(_os.fspath(path), bins))
+
+
+def inspect(table: Table | Path) -> Document:
+    """What a table holds and what a fit of it can hope for: the document of ``gonio inspect --json``.
+
+    Raises:
+        BadInput: as ``read``.
+    """
+    return Document(_gonio.inspect((table if isinstance(table, Table) else read(table))._table))
+
+
+def fit(table: Table | Path, model: str = "lambert+ggx/smith_ggx.correlated/schlick", *, models: Iterable[str] | None = None,
+        fix: Mapping[str, Values] | None = None, bounds: Mapping[str, tuple[float, float]] | None = None, grey: Sequence[str] = (),
+        metric: str = "log", robust: str = "none", intervals: str = "automatic", copies: str = "leave_out", certificate: str = "auto",
+        bins: str | None = None, jobs: int = 0) -> Document:
+    """Model fitted to a table, or several compared: the document of ``gonio fit --json``.
+
+    Args:
+        table: a ``Table`` or a file.
+        model: its parameters are fitted; ``models`` lists what there is.
+        models: models to compare in place of one fit, or ``["all"]`` for the usual ones; the document says which to take.
+        fix: parameters held at a value, by name.
+        bounds: where a parameter is looked for: ``{"alpha": (0.05, 0.5)}``.
+        grey: names of colours with one value for all channels.
+        metric: how values are compared: "log", "l2_cosine" or "relative".
+        robust: "none", or "huber" against outliers.
+        intervals: which values share their errors: "automatic", "independent", "by_angle" or "bootstrap".
+        copies: angles that only repeat another: "leave_out" or "keep".
+        certificate: "auto" looks for lower costs over the widths; "none" is faster.
+        bins: of a file, as in ``read``.
+        jobs: threads, at most; 0 for all.  The result is the same for any number.
+
+    Returns:
+        ``gonio.fit/1``, or ``gonio.models/1`` of several.  A fit that did not converge says so at ``["solver"]["termination"]``: that is no
+        error here.  ``gonio.eval`` takes the document of a fit as a model.
+
+    Raises:
+        WrongUsage: an option that is none, or that does not fit the model.
+        BadInput: as ``read``; a table without a usable value.
+
+    Source: ``docs/document/fit.md`` has every key, ``docs/equations/sources.md`` the papers.
+    """
+    for name, word, words in (("robust", robust, ("none", "huber")), ("copies", copies, ("leave_out", "keep"))):
+        if word not in words:
+            raise WrongUsage(f"{name}: '{word}' is none of {', '.join(words)}")
+    options = _gonio.fit_options(model, _settings(fix or {}), _settings(bounds or {}), list(grey), metric, robust == "huber", intervals,
+                                 copies == "keep", certificate)
+    if isinstance(table, Table):
+        if bins is not None:
+            raise WrongUsage("bins: of a file; a table that was read has its own")
+        if models is None:
+            return Document(_gonio.fit_table(table._table, options, jobs))
+        return Document(_gonio.compare_table(table._table, options, list(models), jobs))
+    path = _os.fspath(table)
+    if models is None:
+        return Document(_gonio.fit_path(path, bins, options, jobs))
+    return Document(_gonio.compare_path(path, bins, options, list(models), jobs))
+
+
+def eval(model: Model | Table, theta_i: _npt.ArrayLike, phi_i: _npt.ArrayLike, theta_o: _npt.ArrayLike, phi_o: _npt.ArrayLike, *,
+         jobs: int = 0, **parameters: Values) -> _npt.NDArray[_np.float64]:
+    """f of a model at directions, or of a table between its samples: the values of ``gonio eval``.
+
+    Args:
+        model: a model, a fit, or a ``Table`` that is a grid or comes from an RGL file.
+        theta_i, phi_i, theta_o, phi_o: zenith angles in [0, 180] and azimuths in [-360, 360] degrees; arrays that broadcast to one shape.
+            Those of doubles, contiguous and of that shape are read in place; others are copied.
+        parameters: of the model: ``alpha=0.2``, ``kd=(0.2, 0.1, 0.05)``, ``metal="Au"``; those left out have their defaults.
+
+    Returns:
+        f in 1/sr without the cosine, of that shape and with the channels last, not copied.  0 below the horizon; of a table NaN where it
+        has no value.  Channels lie one after the other in memory: ``f[..., c]`` is contiguous.
+
+    Raises:
+        WrongUsage: a model or a parameter that is none.
+        BadInput: an angle that is none; a table at single directions.
+
+    Source: ``models`` names the paper of each term.
+    """
+    columns, shape = _columns(theta_i, phi_i, theta_o, phi_o)
+    if isinstance(model, Table):
+        if parameters:
+            raise WrongUsage("parameters go with a model, not with a table")
+        f = _gonio.interpolate(model._table, *columns)
+    else:
+        f = _gonio.evaluate(_model(model, parameters), *columns, jobs)
+    return _np.moveaxis(f.reshape(f.shape[:1] + shape), 0, -1)
+
+
+def albedo(model: Model, mu: float | Sequence[float] | _npt.NDArray[Any] = (), *, phi: float = 0, average: bool = False,
+           furnace: bool = False, scattering: str = "single", error: float | None = None, seed: int | None = None,
+           walks: int | None = None, jobs: int = 0, **parameters: Values) -> Document:
+    """Share of light that a model gives back, with a bound of its error: the document of ``gonio albedo --json``.
+
+    Args:
+        mu: cosines of the zenith angle, in (0, 1]; copied.
+        phi: azimuth from the tangent [degrees], of anisotropic models.
+        average: also over the hemisphere, 2 ∫ E mu dmu.
+        furnace: with F = 1; what is then lost, masking has taken away.
+        scattering: "single"; all of it by "walk" or "deterministic"; or as shaders compensate: "kulla_conty", "kulla_conty.linear",
+            "turquin", "fdez_aguera".
+        error: absolute error asked for; of a walk the standard error at which it may stop.
+        seed, walks: of random walks.
+        parameters: as in ``eval``.
+
+    Raises:
+        WrongUsage: a cosine outside (0, 1], a model that this scattering does not know, an option that is none.
+        BadInput: an integral that diverges.
+
+    Source: ``docs/equations/scattering.md``.
+    """
+    name = model if isinstance(model, str) else "document"
+    return Document(_gonio.albedo(_model(model, parameters), name, _numbers("mu", mu).reshape(-1).tolist(), phi, scattering, error, seed,
+                                  walks, average, furnace, jobs))
+
+
+def term(id: str, at: Mapping[str, _npt.ArrayLike] | None = None, *, number: str = "double",
+         **parameters: float) -> _npt.NDArray[_np.float64]:
+    """One factor of a model, or a map of parameters, on its own: the values of ``gonio term``.
+
+    Args:
+        id: as ``models`` lists it: "ndf.ggx".
+        at: columns by name, copied: cosines noh, nol, nov, voh or cos; of the tangent frame xoh, yoh, xol, yol, xov, yov; sin2_theta_h.  Of
+            a map its parameters.  A column of one value serves all rows.
+        number: "double", "float", "half" (rounded after each operation), "wide" (fifty digits) or "mixed".
+        parameters: of the term; ``roughness`` is taken for ``alpha``, too.
+
+    Returns:
+        D in 1/sr, F, or G2 (G1 where only nov is given), one for each row; of a map of several outputs ``[row, output]``.
+
+    Raises:
+        WrongUsage: a term, a parameter or an angle that is none, or that the term does not read.
+    """
+    columns = {n: _numbers(n, x).reshape(-1).tolist() for n, x in (at or {}).items()}
+    values = _gonio.term(id, number, {n: float(x) for n, x in parameters.items()}, columns)
+    return values[:, 0] if values.shape[1] == 1 else values
+
+
+def synth(model: Model, layout: str, *, samples: int = 2000, noise: float = 0, floor: float = 0, outliers: float = 0, seed: int = 1,
+          bins: str | None = None, jobs: int = 0, **parameters: Values) -> Table:
+    """Table sampled from a model, with noise if asked: what ``gonio synth`` writes.
+
+    Args:
+        layout: "merl", "mbsdf", "utia", "rgl", "in_plane", "image_slice", "hemisphere" or "random".
+        samples: of the random layout.
+        noise: each value is multiplied by exp(noise z), z standard normal.
+        floor: added to each value before the noise [1/sr].
+        outliers: share of samples thrown off by up to 100 times.
+        seed: the same table for the same seed, whatever the threads.
+        parameters: as in ``eval``.
+
+    Raises:
+        WrongUsage: a layout, a number or a parameter that is none.
+    """
+    return Table._of(_gonio.synth(_model(model, parameters), layout, bins, samples, noise, floor, outliers, seed, jobs))
+
+
+def audit(ids: str | Iterable[str] = (), *, jobs: int = 0) -> Document:
+    """What entries of the catalogue keep and break of what a BRDF must keep: the document of ``gonio audit --json``.
+
+    Args:
+        ids: terms, maps or models as ``models`` lists them; none for all, which takes a minute.
+
+    Raises:
+        WrongUsage: an id that is none; the line names the nearest.
+    """
+    return Document(_gonio.audit([ids] if isinstance(ids, str) else list(ids), jobs))
+
+
+def models(word: str = "") -> Document:
+    """Terms that models are made of, maps, whole models and metals: the document of ``gonio models --json``.
+
+    Args:
+        word: only those that hold it in their id, title or source, or have a parameter of that name.
+
+    Raises:
+        WrongUsage: a word that none holds.
+    """
+    return Document(_gonio.models(word))

@@ -1,0 +1,203 @@
+// Models: values, albedos, terms, synthesized tables, audits, the catalogue.
+#include "answer/models.h"
+
+#include <algorithm>
+
+#include "answer/albedo.h"
+#include "answer/model_argument.h"
+#include "answer/term.h"
+#include "answer/values.h"
+#include "base/error.h"
+#include "data_synth/synth.h"
+#include "module.h"
+#include "reports/audit/audit.h"
+
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+#include <tbb/task_arena.h>
+
+namespace gonio::python {
+namespace {
+
+/// Numbers that are written by several columns and then handed over, without a copy.
+class Written {
+ public:
+  /// \param rows, columns  of an array whose rows are contiguous
+  Written(std::size_t rows, std::size_t columns)
+      : rows_(rows), columns_(columns), numbers_(std::make_unique<Values>(rows * columns)) {}
+  double* row(std::size_t k) { return numbers_->data() + k * columns_; }
+  /// With the interpreter's lock held.
+  Owned hand_over() {
+    const nb::capsule owner(numbers_.get(),
+                            [](void* p) noexcept { delete static_cast<Values*>(p); });
+    auto* kept = numbers_.release();
+    return Owned(kept->data(), {rows_, columns_}, owner);
+  }
+
+ private:
+  std::size_t rows_, columns_;
+  std::unique_ptr<Values> numbers_;
+};
+
+DirectionColumns directions(const Column& theta_i,
+                            const Column& phi_i,
+                            const Column& theta_o,
+                            const Column& phi_o) {
+  for (const auto* c : {&phi_i, &theta_o, &phi_o})
+    if (c->size() != theta_i.size()) throw wrong_usage("directions: columns of one length");
+  const auto span = [](const Column& c) { return std::span(c.data(), c.size()); };
+  const DirectionColumns at{span(theta_i), span(phi_i), span(theta_o), span(phi_o)};
+  check_directions("directions", at);
+  return at;
+}
+
+/// Values of all channels, [channel][sample], by what fills them.
+template <class Fill>
+Owned filled(std::size_t channels, std::size_t samples, const Fill& fill) {
+  Written values(channels, samples);
+  {
+    const nb::gil_scoped_release others_run;
+    std::vector<double*> rows;
+    for (std::size_t c = 0; c < channels; ++c) rows.push_back(values.row(c));
+    fill(std::span<double* const>(rows));
+  }
+  return values.hand_over();
+}
+
+Owned evaluate(const ModelArgument& m,
+              const Column& theta_i,
+              const Column& phi_i,
+              const Column& theta_o,
+              const Column& phi_o,
+              int jobs) {
+  const Jobs threads(jobs);
+  const auto at = directions(theta_i, phi_i, theta_o, phi_o);
+  return filled(m.channels.size(), at.size(),
+                [&](std::span<double* const> out) { evaluate_at(m.model, at, out); });
+}
+
+Owned interpolate(const Table& t,
+                 const Column& theta_i,
+                 const Column& phi_i,
+                 const Column& theta_o,
+                 const Column& phi_o) {
+  const auto at = directions(theta_i, phi_i, theta_o, phi_o);
+  return filled(t.channels.size(), at.size(),
+                [&](std::span<double* const> out) { interpolate_at(t, at, out); });
+}
+
+std::string albedo(const ModelArgument& m,
+                   const std::string& name,
+                   const std::vector<double>& mu,
+                   double phi,
+                   const std::string& scattering,
+                   std::optional<double> error,
+                   std::optional<std::uint64_t> seed,
+                   std::optional<std::size_t> walks,
+                   bool average,
+                   bool furnace,
+                   int jobs) {
+  const Jobs threads(jobs);
+  const AlbedoQuestion q{mu, phi, scattering, error, seed, walks, average, furnace};
+  const auto step = [](const std::string&, std::size_t, std::size_t) { let_interrupt(); };
+  return to_json(albedo_of(m.model, name, q, step), q);
+}
+
+Owned term(const std::string& id,
+          const std::string& number,
+          const std::map<std::string, double>& parameters,
+          const std::map<std::string, std::vector<double>>& at) {
+  std::vector<std::vector<double>> rows;
+  {
+    const nb::gil_scoped_release others_run;
+    rows = answer(TermQuestion{id, number, parameters, at}).values;
+  }
+  Written values(rows.size(), rows.empty() ? 1 : rows[0].size());
+  for (std::size_t k = 0; k < rows.size(); ++k) std::ranges::copy(rows[k], values.row(k));
+  return values.hand_over();
+}
+
+Table synth(const ModelArgument& m,
+            const std::string& layout,
+            const std::optional<std::string>& bins,
+            std::size_t samples,
+            double noise,
+            double floor,
+            double outliers,
+            std::uint64_t seed,
+            int jobs) {
+  const Jobs threads(jobs);
+  const auto within = [](const char* name, double x, double low, double high) {
+    if (!(x >= low && x <= high))
+      throw wrong_usage(std::string(name) + ": not in [" + std::to_string(low) + ", " +
+                        std::to_string(high) + "]");
+  };
+  within("samples", static_cast<double>(samples), 1, 1e7);
+  within("noise", noise, 0, 5);
+  within("floor", floor, 0, 1e6);
+  within("outliers", outliers, 0, 1);
+  SynthOptions s;
+  s.layout = value_of<Layout>(layout, "layout");
+  s.bins = bins_named(bins).value_or(Bins::centre);
+  s.samples = samples, s.noise = noise, s.floor = floor, s.outliers = outliers, s.seed = seed;
+  Table t = synthesize(m.model, s);
+  t.path = "synth";
+  return t;
+}
+
+std::string audit_of(const std::vector<std::string>& ids, int jobs) {
+  const Jobs threads(jobs);
+  std::vector<std::string> all = ids;
+  if (all.empty())
+    for (const auto id : auditable_ids()) all.emplace_back(id);
+  // In parts, between which an interrupt ends the work.  Thrown within one it would leave others with loops that were cut short.
+  const std::size_t part = std::max(8, 4 * tbb::this_task_arena::max_concurrency());
+  std::vector<EntryAudit> entries;
+  for (std::size_t at = 0; at < all.size(); at += part) {
+    let_interrupt();
+    const auto from = all.begin() + static_cast<std::ptrdiff_t>(at);
+    auto more = audit({from, from + static_cast<std::ptrdiff_t>(std::min(part, all.size() - at))});
+    std::ranges::move(more, std::back_inserter(entries));
+  }
+  return to_json(entries) + "\n";
+}
+
+}  // namespace
+
+void bind_models(nb::module_& m) {
+  using namespace nb::literals;
+  const nb::call_guard<nb::gil_scoped_release> others_run;
+  nb::class_<ModelArgument>(m, "Model")
+      .def_ro("channels", &ModelArgument::channels)
+      .def_prop_ro("spec", [](const ModelArgument& a) { return a.model.model.spec; });
+  m.def(
+      "model",
+      [](const std::string& spec, const Settings& set) {
+        return model_argument(spec, settings_from(set));
+      },
+      "spec"_a, "settings"_a);
+  m.def(
+      "model_of_document",
+      [](const std::string& text, const Settings& set) {
+        constexpr const char* name = "document";
+        return model_argument(name, parse_fitted_model(name, text), settings_from(set));
+      },
+      "text"_a, "settings"_a);
+  m.def("evaluate", &evaluate, "model"_a, "theta_i"_a.noconvert(), "phi_i"_a.noconvert(),
+        "theta_o"_a.noconvert(), "phi_o"_a.noconvert(), "jobs"_a);
+  m.def("interpolate", &interpolate, "table"_a, "theta_i"_a.noconvert(), "phi_i"_a.noconvert(),
+        "theta_o"_a.noconvert(), "phi_o"_a.noconvert());
+  m.def("albedo", &albedo, "model"_a, "name"_a, "mu"_a, "phi"_a, "scattering"_a, "error"_a.none(),
+        "seed"_a.none(), "walks"_a.none(), "average"_a, "furnace"_a, "jobs"_a, others_run);
+  m.def("term", &term, "id"_a, "number"_a, "parameters"_a, "at"_a);
+  m.def("synth", &synth, "model"_a, "layout"_a, "bins"_a.none(), "samples"_a, "noise"_a, "floor"_a,
+        "outliers"_a, "seed"_a, "jobs"_a, others_run);
+  m.def("audit", &audit_of, "ids"_a, "jobs"_a, others_run);
+  m.def(
+      "models", [](const std::string& word) { return to_json(entries_with(word)); }, "word"_a);
+}
+
+}  // namespace gonio::python

@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// Module `gonio._gonio`: what python/gonio/__init__.py is made of.  It turns arguments into the rooms' types and calls them; results are
+/// documents, as text, and arrays.
+///
+/// Every call that works lets other threads of Python run meanwhile.
+
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "brdf/model/spec.h"
+#include "table/table.h"
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <tbb/global_control.h>
+
+namespace gonio::python {
+
+namespace nb = nanobind;
+
+/// Array that is read in place: of doubles, contiguous; anything else is refused by its type and not converted.
+using Column = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+/// Arrays that are handed over without a copy; they hold what owns their memory.  One that others look at is not to be written to.
+using View = nb::ndarray<nb::numpy, const double>;
+using Owned = nb::ndarray<nb::numpy, double>;
+
+/// A parameter's name, its numbers, and its text where it is no number.
+using Settings = std::vector<std::tuple<std::string, std::vector<double>, std::string>>;
+std::vector<Setting> settings_from(const Settings&);
+
+/// Convention of that name; of no name none.
+std::optional<Bins> bins_named(const std::optional<std::string>& name);
+
+/// Threads while it lives: at most `jobs`; 0 for all.
+class Jobs {
+ public:
+  /// \throws Error  wrong_usage of a number below 0
+  explicit Jobs(int jobs);
+
+ private:
+  std::optional<tbb::global_control> control_;
+};
+
+/// Lets the handlers of signals run that came meanwhile.  KeyboardInterrupt, or what else they raise, ends the work: never to be called
+/// within a parallel loop, whose other loops would be cut short and taken for done.
+void let_interrupt();
+
+void bind_tables(nb::module_&);
+void bind_models(nb::module_&);
+void bind_fits(nb::module_&);
+
+}  // namespace gonio::python
