@@ -144,10 +144,11 @@ B step_inside(const TexelUnknowns& u,
   const std::size_t n = u.count;
   const Rows m = scratch, free = scratch.from(entries(n)), step = free.from(n),
              per_pivot = step.from(n);
-  const B zero(0), one(1), furthest = constant<B>(1.1L);
+  const B zero(0), one(1);
   const auto bound = [&](std::size_t i, float b) {
     const B step_there = step_to(x[i], B(b), u.by_ratio[i]);
-    return u.by_ratio[i] ? min<B>(max<B>(step_there, -furthest), furthest) : step_there;
+    const B furthest(u.furthest[i]);
+    return min<B>(max<B>(step_there, -furthest), furthest);
   };
   for (std::size_t i = 0; i < n; ++i) {
     const auto outwards =
@@ -202,7 +203,7 @@ B step_inside(const TexelUnknowns& u,
 }
 
 /// Levenberg and Marquardt's steps: x is the lowest point seen.  So close to the optimum that rounding hides what a step does to the
-/// cost, steps are taken for their gradient's sake, as long as each promises less than half of the last.
+/// cost, steps are taken for their gradient's sake, as long as each promises less than the last.
 bool descend(const TexelUnknowns& u,
              const UnknownOf& of,
              const float* const* sums,
@@ -218,7 +219,10 @@ bool descend(const TexelUnknowns& u,
   const auto moving = !(zero < done[0]), begins = !(cost[0] < infinite);
   const auto finite = now < infinite;  // false of NaN
   const B old = cost[0], promised = promise[0];
-  const auto hidden = promised < constant<B>(1e-6L) * old + 16 * rounding;
+  // Rounding of the cost: residuals r are differences of values f, 2 r 6e-8 f summed.
+  const B signal = Rows(state.signal)[0], finite_old = select<B>(begins, zero, old);
+  const B noise = constant<B>(5e-7L) * sqrt(finite_old * signal);
+  const auto hidden = promised < constant<B>(1e-6L) * old + 16 * rounding + noise;
   const auto lower = now < old || (hidden && now < old * constant<B>(1 + 1e-4L) + 64 * rounding);
   const auto takes = moving && finite && (begins || lower);
   for (std::size_t i = 0; i < n; ++i) {
@@ -231,7 +235,7 @@ bool descend(const TexelUnknowns& u,
   // Damping falls where a step keeps what it promised.
   const B before = damping[0], least = constant<B>(1e-3L);
   const B kept = old - now;
-  const auto good = takes && !begins && !(kept < promised / 4);
+  const auto good = takes && !begins && !(kept < promised / 2);
   const B less = select<B>(before < least, zero, before / 10);
   const B more = max<B>(before * 10, constant<B>(1e-2L));
   const B next = select<B>(takes, select<B>(good || hidden, less, before), more);
@@ -240,15 +244,18 @@ bool descend(const TexelUnknowns& u,
   const Rows to = room, inner = room.from(n);
   const B will = step_inside(u, x, h, g, damping[0], 3, to, inner);
   const B best = cost[0];
-  const auto enough = !(constant<B>(1e-9L) * best + rounding < will);
-  const auto again_hidden = hidden && !begins && !(will < promised / 2);
+  // Where steps shorten slowly, what the next one promises is not all that is left.
+  const auto fast = will < promised / 16;
+  const B part = select<B>(fast, constant<B>(1e-11L), constant<B>(1e-13L));
+  const auto enough = !(part * best + rounding < will);
+  const auto again_hidden = hidden && !begins && !(will < promised * constant<B>(0.95L));
   const auto lost = constant<B>(1e8L) < damping[0] || (begins && !finite);
   const auto ends = takes && (enough || again_hidden);
   for (std::size_t i = 0; i < n; ++i)
     tried.put(i, select<B>(moving, select<B>(lost && !ends, x[i], to[i]), tried[i]));
   promise.put(0, select<B>(moving, will, promised));
   // Where no step leads lower, none that is worth one may be left.
-  const auto settled = will < constant<B>(1e-5L) * best + 64 * rounding;
+  const auto settled = will < constant<B>(1e-6L) * best + 64 * rounding + noise;
   const B how = select<B>(ends || (lost && !begins && settled), one, select<B>(lost, B(2), zero));
   done.put(0, select<B>(moving, how, done[0]));
   return any(select<B>(zero < done[0], zero, one));

@@ -66,6 +66,7 @@ struct TexelUnknowns {
   std::vector<std::size_t> first;  ///< of each row of the matrix, its first column that is not 0
   std::vector<float> low, high;
   std::vector<std::uint8_t> by_ratio;  ///< steps are ratios: of widths
+  std::vector<float> furthest;         ///< that a step may lead
   float rounding = 0;                  ///< see descend
 };
 /// Unknown of each of a pass's derivatives, channel by channel; count: it is held.

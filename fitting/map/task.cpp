@@ -56,7 +56,8 @@ std::vector<float> rungs(const ModelParameter& q, const Range& range, std::size_
   if (q.name == "tangent") return between({0, 45, 90, 135});
   if (q.about->name == "alpha_x" || q.about->name == "alpha_y") return between({0.04, 0.15, 0.5});
   if (is_alpha(q.name))
-    return lobes > 1 ? between({0.02, 0.08, 0.25, 0.7}) : between({0.015, 0.05, 0.12, 0.3, 0.7});
+    return lobes > 1 ? between({0.02, 0.08, 0.25, 0.7})
+                     : between({0.01, 0.03, 0.07, 0.14, 0.25, 0.45, 0.8});
   if (q.about->name == "tail") return between({0.3, 1});
   if (q.about->name == "gamma") return between({1.5, 3});
   return between({q.about->start});
@@ -132,7 +133,14 @@ TexelUnknowns unknowns_of(const Problem& p, bool tilts) {
   TexelUnknowns u;
   u.channels = m.channels;
   u.rounding = 2e-14F;
+  constexpr float anywhere = std::numeric_limits<float>::max(), by_three = 1.1F, tilted = 0.3F,
+                  turned = 20;
   const auto add = [&](std::size_t slot, std::size_t first, double low, double high, bool ratio) {
+    const bool is_tangent = m.tangent() && slot == m.tangent()->first;
+    u.furthest.push_back(ratio                   ? by_three
+                         : slot >= m.value_count ? tilted
+                         : is_tangent            ? turned
+                                                 : anywhere);
     u.slot.push_back(slot);
     u.first.push_back(first);
     u.low.push_back(inside(low, true));

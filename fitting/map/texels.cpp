@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "fitting/judge/uncertainty.h"
 #include "fitting/map/passes.h"
+#include "fitting/solve/order.h"
 #include "geometry/direction.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 /// Steps of the first round, after which texels that are not there yet wait for a register full of their kind; and of all.
-constexpr int first_steps = 8, most_steps = 80;
+constexpr int first_steps = 8, most_steps = 150;
 
 /// Texel on its way, between two rounds.
 struct Waiting {
@@ -29,7 +30,7 @@ struct Waiting {
 /// Fits texels, a register full at a time.
 class LaneFit {
  public:
-  LaneFit(const TexelTask&, const TexelSamples&, TexelFit& out);
+  LaneFit(const TexelTask&, const TexelSamples&, std::string_view instruction_set, TexelFit& out);
 
   void fit_all();
 
@@ -53,8 +54,8 @@ class LaneFit {
   const TexelTask& task_;
   const TexelSamples& in_;
   TexelFit& out_;
-  const Kernels<float>& kernels_ = kernels<float>();
-  const LaneKernels& lanes_ = lane_kernels();
+  const Kernels<float>& kernels_;
+  const LaneKernels& lanes_;
   const std::size_t width_ = lanes_.lanes;
   TexelPasses passes_;
 
@@ -79,8 +80,16 @@ class LaneFit {
   std::vector<double> t_;  ///< 97.5 % quantile of Student's t by degrees of freedom
 };
 
-LaneFit::LaneFit(const TexelTask& task, const TexelSamples& in, TexelFit& out)
-    : task_(task), in_(in), out_(out), passes_(task, kernels_, lanes_) {
+LaneFit::LaneFit(const TexelTask& task,
+                 const TexelSamples& in,
+                 std::string_view instruction_set,
+                 TexelFit& out)
+    : task_(task),
+      in_(in),
+      out_(out),
+      kernels_(kernels<float>(instruction_set)),
+      lanes_(lane_kernels(instruction_set)),
+      passes_(task, kernels_, lanes_) {
   const std::size_t unknowns = std::max<std::size_t>(n(), 1), full = in.images * width_;
   // Kernels take whole multiples of `padding`, with what follows masked.
   const std::size_t room = (full + padding - 1) / padding * padding;
@@ -408,6 +417,8 @@ void LaneFit::fit(std::span<const std::size_t> texels,
 void LaneFit::finish(std::span<const std::size_t> texels) {
   const auto& u = task_.unknowns;
   const std::size_t slots = task_.model().value_count;
+  const auto* const turned = task_.model().tangent();
+  const std::size_t tangent = turned ? turned->first : slots;
   put_values(state_.tried);
   lanes_.invert(u, state_, false, left_out_.data(), inverse_.data());
   bool again = false;
@@ -448,13 +459,21 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
     std::size_t taken = 0;
     for (std::size_t i = 0; i < n(); ++i) taken += left_out_[i * padding + l] != 1;
     const auto values = static_cast<std::size_t>(count_[l]);
+    // Lobes of like terms, and widths along and across the tangent, stand in the order of a fit of
+    // a table.
+    std::vector<std::size_t> from;
+    std::vector<double> value;
+    if (task_.turns() || task_.model().lobes.size() > 1) {
+      for (std::size_t s = 0; s < slots; ++s) value.push_back(double{values_[s * padding + l]});
+      from = put_in_order(task_.problem, value);
+    }
     std::size_t column = 0;
     for (const auto& q : task_.model().parameters)
       for (std::size_t c = 0; c < q.count; ++c, ++column) {
         auto& to = out_.columns[column];
-        const std::size_t i = task_.unknown_of[q.first + c];
+        const std::size_t s = q.first + c, i = task_.unknown_of[from.empty() ? s : from[s]];
         auto status = ParameterStatus::fixed;
-        to.value[t] = values_[(q.first + c) * padding + l];
+        to.value[t] = value.empty() ? values_[s * padding + l] : static_cast<float>(value[s]);
         if (i < n()) {
           const float left = left_out_[i * padding + l],
                       error = std::sqrt(variance_[i * padding + l]);
@@ -463,7 +482,10 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
                                      : ParameterStatus::free;
           if (status == ParameterStatus::free && values > taken) {
             const double half = t_[values - taken] * double{error};
-            if (2 * half >= double{u.high[i]} - double{u.low[i]})
+            // A tangent is the same half a turn further.
+            const double range = double{u.high[i]} - double{u.low[i]},
+                         most = s == tangent ? std::min(range, 180.0) : range;
+            if (2 * half >= most)
               status = ParameterStatus::not_identifiable;
             else
               to.std_error[t] = error;
@@ -476,7 +498,6 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
       for (std::size_t k = 0; k < 3; ++k)
         out_.normal[k * in_.texels + t] = none ? nan : frame_[(6 + k) * padding + l];
   }
-  static_cast<void>(slots);
 }
 
 /// Says which unknowns of a lane make up for each other, in double as a fit of a table does.
@@ -551,7 +572,9 @@ void check(const TexelOptions& o, std::size_t channels) {
   const TexelTask task(o, channels);
 }
 
-TexelFit fit_texels(const TexelSamples& s, const TexelOptions& o) {
+TexelFit fit_texels(const TexelSamples& s,
+                    const TexelOptions& o,
+                    std::string_view instruction_set) {
   check_sizes(s);
   const TexelTask task(o, s.channels);
   TexelFit fit;
@@ -563,7 +586,7 @@ TexelFit fit_texels(const TexelSamples& s, const TexelOptions& o) {
   fit.rms.assign(s.texels, nan);
   fit.outcome.assign(s.texels, static_cast<std::uint8_t>(TexelOutcome::no_data));
   if (o.refine_normals) fit.normal.assign(3 * s.texels, nan);
-  if (s.texels > 0) LaneFit(task, s, fit).fit_all();
+  if (s.texels > 0) LaneFit(task, s, instruction_set, fit).fit_all();
   return fit;
 }
 

@@ -55,7 +55,7 @@ enum class TexelOutcome : std::uint8_t {
   converged,
   not_converged,  ///< the steps allowed were used up, or no number came out: values are the best
                   ///< seen
-  no_data         ///< no value that can be compared, or fewer than unknowns
+  no_data         ///< no value that can be compared
 };
 template <>
 inline constexpr std::array<std::string_view, 3> names_of<TexelOutcome>{"converged",
@@ -85,7 +85,10 @@ void check(const TexelOptions&, std::size_t channels);
 
 /// Fit of each texel, on this thread: callers share blocks among threads.  What is found of a texel depends on its own
 /// samples alone: not on its neighbours, nor on how a map is cut into blocks.
+/// \param instruction_set  the best that may be taken; empty: of this machine
 /// \throws Error  wrong usage, for options or spans that do not fit
-TexelFit fit_texels(const TexelSamples&, const TexelOptions&);
+TexelFit fit_texels(const TexelSamples&,
+                    const TexelOptions&,
+                    std::string_view instruction_set = {});
 
 }  // namespace gonio
