@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   gonio::cli::add_inspect(line);
   gonio::cli::add_columns(line);
   gonio::cli::add_fit(line);
+  gonio::cli::add_fit_map(line);
   gonio::cli::add_compare(line);
   gonio::cli::add_convert(line);
   gonio::cli::add_synth(line);
