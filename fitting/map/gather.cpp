@@ -226,7 +226,7 @@ MapDocument gather_tiles(const std::string& folder, OutputFile& out, int threads
 
   MapAttributes attributes = tiles.map;
   attributes["gonio:schema"] = "gonio.map/1";
-  ExrWriter writer(out, grid.width, grid.height, channels, attributes, ExrWriter::Packing::zip,
+  ExrWriter writer(out, grid.width, grid.height, channels, attributes, ExrWriter::Packing::runs,
                    threads);
   constexpr std::size_t at_once = 64;
   std::vector<std::vector<float>> rows(names.size());

@@ -29,14 +29,15 @@ struct Options : Common {
 /// Line of how far a map is, and how long still.
 class MapProgress {
  public:
-  explicit MapProgress(bool quiet) : progress_(quiet) {}
+  MapProgress(bool quiet, const TileGrid& grid)
+      : progress_(quiet), what_(fmt::format("fitting {} × {} texels", grid.width, grid.height)) {}
   void operator()(const MapCount& n) {
     const auto now = std::chrono::steady_clock::now();
     if (n.done != n.texels && now < next_) return;  // blocks are many
     next_ = now + std::chrono::milliseconds(200);
-    std::string line =
-        fmt::format("fitting {:.1f} of {:.1f} million texels", static_cast<double>(n.done) * 1e-6,
-                    static_cast<double>(n.texels) * 1e-6);
+    std::string line = fmt::format(
+        "{}, {:.0f} %", what_,
+        n.texels == 0 ? 100.0 : 100 * static_cast<double>(n.done) / static_cast<double>(n.texels));
     if (n.kept) line += fmt::format(", {} of {} tiles kept", n.kept, n.tiles);
     progress_(line + time_left(begin_, n.done, n.texels));
   }
@@ -44,6 +45,7 @@ class MapProgress {
 
  private:
   Progress progress_;
+  std::string what_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now(), next_ = begin_;
 };
 
@@ -59,7 +61,7 @@ Exit run_tiles(const Options& o, const StackReader& stack, const TileGrid& grid)
                                     grid.rows() - 1));
     if (std::ranges::find(tiles, tile) == tiles.end()) tiles.push_back(tile);
   }
-  MapProgress progress(o.quiet);
+  MapProgress progress(o.quiet, grid);
   const MapCount n = fit_tiles(stack, o.texels, grid, tiles, o.output, std::ref(progress));
   progress.line().clear();
   std::vector<std::string> paths;
@@ -102,7 +104,7 @@ Exit run(const Options& o) {
   // Tiles stay beside it until it is whole: a run that was killed goes on from them.
   const std::string folder = o.output + ".tiles";
   const auto tiles = grid.all();
-  MapProgress line(o.quiet);
+  MapProgress line(o.quiet, grid);
   const MapCount n = fit_tiles(stack, t, grid, tiles, folder, std::ref(line));
   line.line()("writing " + o.output);
   const MapDocument d = gather_tiles(folder, out, threads_in_use());

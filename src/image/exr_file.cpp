@@ -156,7 +156,9 @@ class ExrWriter::Inside {
       : stream_(out), out_(out), width_(width), channels_(std::move(channels)) {
     writing([&] {
       Imf::Header header(static_cast<int>(width), static_cast<int>(height));
-      header.compression() = packing == Packing::zip ? Imf::ZIP_COMPRESSION : Imf::NO_COMPRESSION;
+      header.compression() = packing == Packing::zip    ? Imf::ZIP_COMPRESSION
+                             : packing == Packing::runs ? Imf::RLE_COMPRESSION
+                                                        : Imf::NO_COMPRESSION;
       for (const auto& [key, text] : attributes) header.insert(key, Imf::StringAttribute(text));
       for (const auto& c : channels_)
         header.channels().insert(c.name, Imf::Channel(type_of(c.storage)));
