@@ -37,33 +37,6 @@ DirectionList hemisphere() {
   return l;
 }
 
-DirectionList random_pairs(std::size_t n, std::uint64_t seed) {
-  DirectionList l;
-  constexpr double lowest = 0.01, grazing = 87;  // [deg]
-  for (std::uint64_t attempt = 0; l.theta_i_deg.size() < n; ++attempt) {
-    Draws draw(seed ^ 0x5851f42d4c957f2dU, attempt);
-    const auto upwards = [&] {
-      const double z = draw.uniform();
-      return direction(std::acos(z), 2 * std::numbers::pi * draw.uniform());
-    };
-    DirectionPair p;
-    if (attempt % 2 == 0) {
-      p.wi = upwards();
-      p.wo = upwards();
-    } else {
-      const double theta_h = lowest * std::pow(60 / lowest, draw.uniform()) * degree;
-      const double phi_h = 2 * std::numbers::pi * draw.uniform();
-      const double theta_d = std::acos(draw.uniform());
-      p = directions(
-          HalfDifference{theta_h, phi_h, theta_d, 2 * std::numbers::pi * draw.uniform()});
-    }
-    const double in = theta_of(p.wi) / degree, out = theta_of(p.wo) / degree;
-    if (in < grazing && out < grazing)
-      push(l, in, phi_of(p.wi) / degree, out, phi_of(p.wo) / degree);
-  }
-  return l;
-}
-
 void lay_out(Table& t, const SynthOptions& o) {
   switch (o.layout) {
     case Layout::merl:
@@ -124,6 +97,33 @@ Table rgl_of(const BoundModel& b, const SynthOptions& o) {
 }
 
 }  // namespace
+
+DirectionList random_pairs(std::size_t n, std::uint64_t seed) {
+  DirectionList l;
+  constexpr double lowest = 0.01, grazing = 87;  // [deg]
+  for (std::uint64_t attempt = 0; l.theta_i_deg.size() < n; ++attempt) {
+    Draws draw(seed ^ 0x5851f42d4c957f2dU, attempt);
+    const auto upwards = [&] {
+      const double z = draw.uniform();
+      return direction(std::acos(z), 2 * std::numbers::pi * draw.uniform());
+    };
+    DirectionPair p;
+    if (attempt % 2 == 0) {
+      p.wi = upwards();
+      p.wo = upwards();
+    } else {
+      const double theta_h = lowest * std::pow(60 / lowest, draw.uniform()) * degree;
+      const double phi_h = 2 * std::numbers::pi * draw.uniform();
+      const double theta_d = std::acos(draw.uniform());
+      p = directions(
+          HalfDifference{theta_h, phi_h, theta_d, 2 * std::numbers::pi * draw.uniform()});
+    }
+    const double in = theta_of(p.wi) / degree, out = theta_of(p.wo) / degree;
+    if (in < grazing && out < grazing)
+      push(l, in, phi_of(p.wi) / degree, out, phi_of(p.wo) / degree);
+  }
+  return l;
+}
 
 Table synthesize(const BoundModel& b, const SynthOptions& o) {
   const std::size_t channels = b.model.channels;

@@ -39,6 +39,9 @@ struct SynthOptions {
   std::uint64_t seed = 1;
 };
 
+/// Directions of the random layout, less than 87° from the normal.
+DirectionList random_pairs(std::size_t n, std::uint64_t seed);
+
 /// Values below the horizon are 0 in the table (a format's writer marks them its way).  The same for
 /// a seed whatever the threads: every draw is a hash of seed, sample and channel.
 /// An RGL table is what renderers draw from and takes no noise: wrong_usage.

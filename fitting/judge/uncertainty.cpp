@@ -18,7 +18,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double singular = 1e-11;  ///< eigenvalues of the scaled bread below it are rounding
 
 /// Unknowns of a singular direction of the bread: those that have a part of it worth mentioning.
-std::vector<bool> in_singular_directions(const ArrowRoot& root, const ArrowLayout& layout) {
+std::vector<bool> in_singular_directions(const ArrowRoot& root,
+                                         const ArrowLayout& layout,
+                                         double least) {
   std::vector<bool> lost(layout.size());
   const auto mark = [&](const std::vector<std::size_t>& unknowns, const Eigen::VectorXd& direction,
                         double largest) {
@@ -29,7 +31,7 @@ std::vector<bool> in_singular_directions(const ArrowRoot& root, const ArrowLayou
   for (std::size_t a = 0; a < root.arms().size(); ++a) {
     const auto& arm = root.arms()[a];
     for (Eigen::Index e = 0; e < arm.eigenvalues.size(); ++e)
-      if (arm.eigenvalues[e] < singular)
+      if (arm.eigenvalues[e] < least)
         mark(layout.arms()[a], arm.eigenvectors.col(e),
              arm.eigenvectors.col(e).cwiseAbs().maxCoeff());
   }
@@ -43,7 +45,7 @@ std::vector<bool> in_singular_directions(const ArrowRoot& root, const ArrowLayou
       squares += along.back().squaredNorm();
       largest = std::max(largest, along.back().cwiseAbs().maxCoeff());
     }
-    if (!(root.head().eigenvalues()[e] / squares < singular)) continue;
+    if (!(root.head().eigenvalues()[e] / squares < least)) continue;
     mark(layout.head(), w, largest);
     for (std::size_t a = 0; a < along.size(); ++a) mark(layout.arms()[a], along[a], largest);
   }
@@ -185,7 +187,8 @@ class Covariance {
         alone[k] = true;
     if (seen.empty()) return known;
     const auto part = std::make_shared<const ArrowLayout>(rest.layout().part(seen));
-    const auto lost = in_singular_directions(ArrowRoot(rest.part(part, seen), singular), *part);
+    const auto lost =
+        in_singular_directions(ArrowRoot(rest.part(part, seen), singular), *part, singular);
     for (std::size_t k = 0; k < seen.size(); ++k)
       if (lost[k])
         alone[seen[k]] = true;
@@ -216,7 +219,8 @@ double student_t_975(double nu) {
 
 Determined find_determined(const ArrowMatrix& bread,
                            std::span<const double> x,
-                           const Bounds& bounds) {
+                           const Bounds& bounds,
+                           double least) {
   const std::size_t n = x.size();
   Determined d;
   d.status.assign(n, ParameterStatus::free);
@@ -242,10 +246,10 @@ Determined find_determined(const ArrowMatrix& bread,
 
   // Directions in which nothing changes take their parameters out.
   const auto layout = std::make_shared<const ArrowLayout>(bread.layout().part(known));
-  const ArrowRoot all(bread.part(layout, known), singular);
-  const auto [least, largest] = all.extremes();
-  d.condition = largest / std::max(least, 1e-300);
-  const auto lost = in_singular_directions(all, *layout);
+  const ArrowRoot all(bread.part(layout, known), least);
+  const auto [smallest, largest] = all.extremes();
+  d.condition = largest / std::max(smallest, 1e-300);
+  const auto lost = in_singular_directions(all, *layout, least);
   for (std::size_t k = 0; k < known.size(); ++k)
     if (lost[k])
       d.status[known[k]] = ParameterStatus::not_identifiable;

@@ -19,7 +19,11 @@ struct Determined {
 };
 /// A parameter at its bound is held there for the others.  Any other is not identifiable if moving it
 /// over its whole range changes nothing, or if it belongs to a direction in which the bread is singular.
-Determined find_determined(const ArrowMatrix& bread, std::span<const double> x, const Bounds&);
+/// \param singular  eigenvalues of the scaled bread below it are rounding
+Determined find_determined(const ArrowMatrix& bread,
+                           std::span<const double> x,
+                           const Bounds&,
+                           double singular = 1e-11);
 
 /// Per free slot, in their order.
 struct Uncertainty {

@@ -141,36 +141,56 @@ Pairs widths_of(const Model& m, const Order& order) {
   return are_free && order.are_alike(pairs) ? pairs : Pairs{};
 }
 
-}  // namespace
+constexpr double quarter_turn = 90;  // [°]
 
-std::vector<std::string> put_in_order(Problem& p, Fitted& f) {
-  constexpr double lowest = -45, half_turn = 180, quarter = 90;
+/// Order of values, and the tangent afterwards; none where it stays as it is.
+std::pair<Order, std::optional<double>> order_of(const Problem& p,
+                                                 const std::vector<double>& values) {
+  constexpr double lowest = -45, half_turn = 2 * quarter_turn;
   const Model& m = p.start.model;
   Order order(p);
-  order_lobes(m, f.model.values, order);
+  order_lobes(m, values, order);
   const auto* const tangent = m.tangent();
   const bool is_free = tangent && p.free.mask()[tangent->first];
-  if (!is_free || p.narrowed[p.free.index(tangent->first)]) {
-    order.apply_to(f);
-    return order.notes();
-  }
-  const auto value = [&](std::size_t k) {
-    return f.model.values[order.from(order.parameter(k).first)];
-  };
+  if (!is_free || p.narrowed[p.free.index(tangent->first)]) return {std::move(order), {}};
+  const auto value = [&](std::size_t k) { return values[order.from(order.parameter(k).first)]; };
   const Pairs widths = widths_of(m, order);
   const bool turns = !widths.empty() && value(widths[0].first) < value(widths[0].second);
   if (turns) order.exchange(widths);
-  order.apply_to(f);
-  double& t = f.model.values[tangent->first];
-  if (turns) t += quarter;
+  double t = values[tangent->first];
+  if (turns) t += quarter_turn;
   t -= half_turn * std::floor((t - lowest) / half_turn);
-  const std::size_t i = p.free.index(tangent->first);
-  p.bounds.low[i] = t - quarter;
-  p.bounds.high[i] = t + quarter;
   order.note(static_cast<std::size_t>(tangent - m.parameters.data()),
              widths.empty() ? "the same half a turn further"
                             : "of the wider width; the same half a turn further");
+  return {std::move(order), t};
+}
+
+}  // namespace
+
+std::vector<std::string> put_in_order(Problem& p, Fitted& f) {
+  const Model& m = p.start.model;
+  const auto [order, tangent] = order_of(p, f.model.values);
+  order.apply_to(f);
+  if (tangent) {
+    const std::size_t slot = m.tangent()->first, i = p.free.index(slot);
+    f.model.values[slot] = *tangent;
+    p.bounds.low[i] = *tangent - quarter_turn;
+    p.bounds.high[i] = *tangent + quarter_turn;
+  }
   return order.notes();
+}
+
+std::vector<std::size_t> put_in_order(const Problem& p, std::vector<double>& values) {
+  const auto [order, tangent] = order_of(p, values);
+  const auto old = values;
+  std::vector<std::size_t> from;
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    from.push_back(order.from(s));
+    values[s] = old[from[s]];
+  }
+  if (tangent) values[p.start.model.tangent()->first] = *tangent;
+  return from;
 }
 
 }  // namespace gonio

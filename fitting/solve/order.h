@@ -10,6 +10,10 @@
 
 namespace gonio {
 
+/// Puts values of the problem's model in order.
+/// \return  the slot that each slot's value comes from
+std::vector<std::size_t> put_in_order(const Problem&, std::vector<double>& values);
+
 /// Puts a fit's values in order, f being the same:
 ///
 ///   lobes of the same terms   by their widths, the narrowest first

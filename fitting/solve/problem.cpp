@@ -123,17 +123,22 @@ void check_azimuths(const Table& t, const Model& m) {
 }
 
 Problem pose(const Table& t, const FitOptions& o) {
-  BoundModel b = bound(o, t.channels.size());
-  check_azimuths(t, b.model);
-  if (b.model.anisotropic && is_in_one_plane(*t.list()))
+  const Model m = bound(o, t.channels.size()).model;
+  check_azimuths(t, m);
+  if (m.anisotropic && is_in_one_plane(*t.list()))
     throw wrong_usage(fmt::format(
         "model '{}' is anisotropic, and the directions of this table all lie in one plane",
-        b.model.spec));
-  if (b.model.anisotropic && is_never_turned(*t.list()))
+        m.spec));
+  if (m.anisotropic && is_never_turned(*t.list()))
     throw wrong_usage(fmt::format(
         "model '{}' is anisotropic, and all light of this table comes from one azimuth: "
         "it does not say how the surface was turned",
-        b.model.spec));
+        m.spec));
+  return pose(t.channels.size(), noise_floor(t), o);
+}
+
+Problem pose(std::size_t channels, double offset, const FitOptions& o) {
+  BoundModel b = bound(o, channels);
   const auto own = resolved_bounds(o, b);
   std::vector<bool> free(b.model.value_count, true);
   Bounds bounds;
@@ -160,8 +165,7 @@ Problem pose(const Table& t, const FitOptions& o) {
                       max_columns - 1));
   }
   FreeSlots slots(b.model, std::move(free));
-  return {
-      o, std::move(b), std::move(slots), std::move(bounds), std::move(narrowed), noise_floor(t)};
+  return {o, std::move(b), std::move(slots), std::move(bounds), std::move(narrowed), offset};
 }
 
 bool folds(const Problem& p) {

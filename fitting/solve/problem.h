@@ -32,6 +32,9 @@ void check_azimuths(const Table&, const Model&);
 /// Throws wrong usage for options that do not fit the model or the table's channels.
 /// \param expanded  outlives the problem
 Problem pose(const Table&, const FitOptions& expanded);
+/// The same of samples that are no table.
+/// \param offset  of the log and relative metrics [1/sr]
+Problem pose(std::size_t channels, double offset, const FitOptions& expanded);
 
 /// True of a problem whose fit takes samples with light and viewer exchanged for one.
 bool folds(const Problem&);

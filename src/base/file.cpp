@@ -353,8 +353,26 @@ void OutputFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("writing");
 }
 
+void OutputFile::write_at(std::uint64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const auto n =
+        ::pwrite(::fileno(file_), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      lost_ = n < 0 ? errno : ENOSPC;
+      fail("writing");
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+    offset += static_cast<std::uint64_t>(n);
+  }
+}
+
 void OutputFile::close() {
   if (!file_) return;
+  if (lost_ != 0) {
+    errno = lost_;
+    fail("writing");
+  }
   // On the disk before it takes its name: after a loss of power there is the old file or the new
   // one.
   const bool synced =

@@ -65,9 +65,13 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
+  const std::string& path() const { return path_; }
   /// For libraries that write by name.
   const std::string& temporary_path() const { return temporary_; }
   void write(std::string_view bytes);
+  /// Writes at an offset, past what write() wrote and beside it.  One that fails keeps the file from being committed, too: for
+  /// libraries that lose errors.
+  void write_at(std::uint64_t offset, std::string_view bytes);
   /// Flushes; what is left to fail in commit() is the renaming.
   void close();
   /// Closes and renames.
@@ -78,6 +82,7 @@ class OutputFile {
   std::string path_, target_, temporary_;  ///< target_: path_ after its links
   std::FILE* file_ = nullptr;
   bool committed_ = false;
+  int lost_ = 0;  ///< why a write_at() failed; 0: none did
 };
 
 /// From now on an interrupt, hang-up or termination takes the files being made with it.

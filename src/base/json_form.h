@@ -336,6 +336,10 @@ class FormWriter {
       put(json_, key, value_json(value));
     }
   }
+  template <class... A>
+  void by_key(std::variant<A...>& value, const std::array<std::string_view, sizeof...(A)>&) {
+    std::visit([&](auto& alternative) { keys(*this, alternative); }, value);
+  }
   void expect(bool, const std::string&, const std::string&) const {}
   Json json() && { return std::move(json_); }
 

@@ -40,6 +40,7 @@ void add_shader(CommandLine&);
 void add_plan(CommandLine&);
 void add_verify(CommandLine&);
 void add_render(CommandLine&);
+void add_fit_map(CommandLine&);
 void add_manual(CommandLine&);
 
 /// Help of an argument that takes either.
@@ -57,6 +58,13 @@ Option add_bins(Command&, std::optional<std::string>& name);
 inline std::optional<Bins> bins_from(const std::optional<std::string>& name) {
   return name ? std::optional(value_of<Bins>(*name, "bins")) : std::nullopt;
 }
+/// Two whole numbers of a word: "3,4"; "5" is 5,5 where one stands for both.
+/// \throws Error  wrong usage, of a word that is none or numbers outside [low, high]
+std::array<std::size_t, 2> two_numbers(const std::string& word,
+                                       const char* option,
+                                       std::size_t low,
+                                       std::size_t high,
+                                       bool one_for_both);
 /// Options that most subcommands share.
 struct Common {
   bool json = false, quiet = false;
@@ -68,6 +76,7 @@ void add_output(Command&, Common&);
 void add_jobs(Command&, Common&);
 /// Threads from now on: at most `jobs`, 0 for all.
 void use_jobs(int jobs);
+int threads_in_use();
 /// Refuses inputs that are not there, before anything is said of the outputs; outputs that are an input, or its side file, or
 /// each other, or "-".
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);

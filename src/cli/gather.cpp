@@ -1,4 +1,4 @@
-// gonio gather: a folder of results in, its summary out.
+// gonio gather: a folder of results in, their summary out; of tiles, their map.
 #include "fitting/batch/gather.h"
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "cli/batch_words.h"
 #include "cli/command.h"
+#include "cli/map_result.h"
 #include "cli/terminal.h"
 #include "fitting/batch/batch.h"
 #include "reports/tables/batch_page.h"
@@ -16,7 +17,7 @@ namespace gonio::cli {
 namespace {
 
 struct Options : Common {
-  std::string folder;
+  std::string folder, map;
   std::vector<std::string> tables;
 };
 
@@ -33,6 +34,12 @@ std::optional<BatchList> expected(const Options& o) {
 Exit run(const Options& o) {
   use_jobs(o.jobs);
   expect_there(o.folder);
+  if (has_tiles(o.folder)) {
+    if (!o.tables.empty()) throw wrong_usage("tiles of a map are not results of tables: no FILE");
+    return gather_map(o.folder, o.map, o);
+  }
+  if (!o.map.empty())
+    throw wrong_usage("-o is of the tiles of a map; the summary of tables is written into DIR");
   Progress progress(o.quiet);
   progress("gathering " + o.folder);
   const auto list = expected(o);
@@ -58,14 +65,16 @@ Exit run(const Options& o) {
 void add_gather(CommandLine& line) {
   auto [c, o] = line.command(
       "gather",
-      "Makes the summary of a folder of results, whoever wrote them, and names what is missing",
+      "Makes the summary of a folder of results, whoever wrote them, or joins the tiles of a map; "
+      "names what is missing",
       "gonio fit @list.txt --part 1/2 -o results/; gonio fit @list.txt --part 2/2 -o results/\n"
-      "  gonio gather results/",
+      "  gonio gather results/\n  gonio gather tiles/ -o maps.exr",
       run);
-  c.option("DIR", o->folder, "Folder that fits of many tables wrote into").required();
+  c.option("DIR", o->folder, "Folder that fits of many tables, or of tiles, wrote into").required();
   c.option("FILE", o->tables,
            "Tables that should have a result: several files, a folder, or @LIST (default: those of "
            "the fit that was begun last in DIR). One without is missing: exit 1");
+  c.option("-o,--output", o->map, "OpenEXR file of the map whose tiles lie in DIR");
   add_jobs(c, *o);
   add_output(c, *o);
 }

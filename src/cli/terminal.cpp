@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/file.h"
+#include "base/numbers.h"
 #include "cli/command.h"
 #include "table/format/metadata.h"
 
@@ -173,6 +174,24 @@ Option add_bins(Command& c, std::optional<std::string>& name) {
       .one_of(names_of<Bins>);
 }
 
+std::array<std::size_t, 2> two_numbers(const std::string& word,
+                                       const char* option,
+                                       std::size_t low,
+                                       std::size_t high,
+                                       bool one_for_both) {
+  auto parts = split(word, ',');
+  if (parts.size() == 1 && one_for_both) parts.push_back(parts[0]);
+  std::array<std::size_t, 2> numbers{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto n = parts.size() == 2 ? number_from<std::size_t>(parts[k]) : std::nullopt;
+    if (!n || *n < low || *n > high)
+      throw wrong_usage(fmt::format("{} {}: two whole numbers as 3,4, each from {} to {}", option,
+                                    word, low, high));
+    numbers[k] = *n;
+  }
+  return numbers;
+}
+
 void add_output(Command& c, Common& o) {
   c.flag("--json", o.json, "One JSON document on standard output");
   c.flag("--quiet", o.quiet, "No progress");
@@ -212,6 +231,11 @@ void use_jobs(int jobs) {
   if (jobs > 0)
     control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                     static_cast<std::size_t>(jobs));
+}
+
+int threads_in_use() {
+  return static_cast<int>(
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
 }  // namespace gonio::cli

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <set>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "image/exr_parts.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -22,7 +22,6 @@
 #include <half.h>
 
 namespace gonio {
-namespace {
 
 Image without_planes(const Imf::Header& header) {
   const auto& box = header.dataWindow();
@@ -40,11 +39,8 @@ Image without_planes(const Imf::Header& header) {
   return image;
 }
 
-constexpr int kLargest = 1 << 14;  ///< width or height
-
-/// OpenEXR allocates what an attribute claims to be long, 2 GB in a file of 1 kB: each must fit in
-/// the file.
-void check_attributes(InputFile& in) {
+void expect_sound_exr(const std::string& path) {
+  InputFile in(path);  // says plainly what is no file at all
   const auto text = [&] {
     std::string s;
     for (char c = 0; in.read(&c, 1), c != '\0';) s += c;
@@ -64,27 +60,32 @@ void check_attributes(InputFile& in) {
     std::string value(static_cast<std::size_t>(size), '\0');
     in.read(value.data(), value.size());
   }
-}
-
-/// read(file); what OpenEXR throws becomes bad_input.
-template <class Read>
-Image reading(const std::string& path, Read read) {
-  InputFile in(path);  // says plainly what is no file at all
-  check_attributes(in);
   // For rows and columns, too, it allocates on opening.
   [[maybe_unused]] static const bool limited = [] {  // once: every thread that reads shares them
-    Imf::Header::setMaxImageSize(kLargest, kLargest);
-    Imf::Header::setMaxTileSize(kLargest, kLargest);
+    Imf::Header::setMaxImageSize(longest_side, longest_side);
+    Imf::Header::setMaxTileSize(longest_side, longest_side);
     return true;
   }();
-  try {
+}
+
+std::vector<half> in_half(const std::string& path, std::span<const float> values) {
+  std::vector<half> halves(values.begin(), values.end());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (std::isfinite(values[i]) && !halves[i].isFinite())
+      throw bad_input(path, "writing", fmt::format("{}", values[i]), "at most 65504 in half");
+  return halves;
+}
+
+namespace {
+
+/// read(file) of a sound one.
+template <class Read>
+Image reading(const std::string& path, Read read) {
+  expect_sound_exr(path);
+  return with_exr_errors(path, "OpenEXR", "a readable image", [&] {
     Imf::InputFile file(path.c_str(), 1);
     return read(file);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& e) {
-    throw bad_input(path, "OpenEXR", e.what(), "a readable image");
-  }
+  });
 }
 
 /// A file in memory.  OpenEXR writes the end of a file where errors are lost, on closing: a full
@@ -108,19 +109,11 @@ class Memory : public Imf::OStream {
   std::size_t at_ = 0;
 };
 
-std::vector<half> in_half(const std::string& path, const std::vector<float>& plane) {
-  std::vector<half> halves(plane.begin(), plane.end());
-  for (std::size_t i = 0; i < plane.size(); ++i)
-    if (std::isfinite(plane[i]) && !halves[i].isFinite())
-      throw bad_input(path, "writing", fmt::format("{}", plane[i]), "at most 65504 in half");
-  return halves;
-}
-
 }  // namespace
 
 std::string exr_bytes(const std::string& name, const Image& image, Storage storage) {
   Memory memory;
-  try {
+  with_exr_errors(name, "writing", "an image that OpenEXR can hold", [&] {
     Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [key, text] : image.attributes) header.insert(key, Imf::StringAttribute(text));
@@ -144,11 +137,7 @@ std::string exr_bytes(const std::string& name, const Image& image, Storage stora
     Imf::OutputFile file(memory, header);
     file.setFrameBuffer(buffer);
     file.writePixels(static_cast<int>(image.height));
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& e) {
-    throw bad_input(name, "writing", e.what(), "an image that OpenEXR can hold");
-  }
+  });
   return memory.bytes();
 }
 

@@ -6,15 +6,18 @@
 ///
 /// B is a plain number or a batch of them.  Mixing with B keeps zero derivatives out of the
 /// arithmetic: no compiler may drop 0·x.
+/// \tparam of_angles  a formula's angles are such numbers, too: some of the unknowns move them
 
 #include <array>
+#include <type_traits>
 
 #include "number/real.h"
 
 namespace gonio::inline GONIO_ARCH {
 
-template <class B, std::size_t N>
+template <class B, std::size_t N, bool of_angles = false>
 struct Dual {
+  static constexpr std::size_t count = N;
   B v{};
   std::array<B, N> d{};
 
@@ -94,13 +97,14 @@ struct Dual {
   }
 };
 
-template <class B, std::size_t N>
-struct RealTraits<Dual<B, N>> {
+template <class B, std::size_t N, bool of_angles>
+struct RealTraits<Dual<B, N, of_angles>> {
+  using T = Dual<B, N, of_angles>;
   using Base = base_t<B>;
-  using Plain = B;
+  using Plain = std::conditional_t<of_angles, T, B>;
   using Mask = mask_t<B>;
-  static Dual<B, N> select(const Mask& m, const Dual<B, N>& a, const Dual<B, N>& b) {
-    Dual<B, N> r(RealTraits<B>::select(m, a.v, b.v));
+  static T select(const Mask& m, const T& a, const T& b) {
+    T r(RealTraits<B>::select(m, a.v, b.v));
     for (std::size_t i = 0; i < N; ++i) r.d[i] = RealTraits<B>::select(m, a.d[i], b.d[i]);
     return r;
   }

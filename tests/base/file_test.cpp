@@ -13,6 +13,7 @@
 #include "support.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -212,6 +213,31 @@ TEST(OutputFile, IsOnTheDiskBeforeItTakesItsNameAndItsFolderAfter) {
   for (int k = 0; k < 20; ++k) write_file(folder / "f", "x");
   EXPECT_LT(std::ranges::count(order, 'f'), 10) << "not once for each of many";
   EXPECT_EQ(std::ranges::count(order, 'd'), 21);
+}
+
+TEST(OutputFile, WritesAtOffsetsAndTakesNoNameWhereThatFailed) {
+  const Folder folder;
+  {
+    OutputFile out(folder / "f");
+    out.write_at(3, "def");
+    out.write_at(0, "abc");
+    out.commit();
+  }
+  EXPECT_EQ(test::read_bytes(folder / "f"), "abcdef");
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit four{4, limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &four), 0);
+  {
+    OutputFile out(folder / "f");
+    EXPECT_THROW(out.write_at(0, "12345678"), Error);
+    EXPECT_THROW(out.commit(), Error) << "though whoever wrote has lost the error";
+  }
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, before);
+  EXPECT_EQ(test::read_bytes(folder / "f"), "abcdef");
+  EXPECT_EQ(folder.entries(), 1U);
 }
 
 TEST(OutputFile, MayHaveTheLongestNameThereIs) {

@@ -40,6 +40,18 @@ TEST(Progress, StaysInOneLineOfATerminal) {
   EXPECT_LE(end - begin, 59U) << shown;
 }
 
+TEST(Progress, TellsHowMuchOfAMapIsDone) {
+  if (std::system("command -v script >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "needs script, which is not here";
+  const Folder f;
+  ASSERT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout map --size 40,30 --images 12 -o s").code,
+      0);
+  const auto shown = on_a_terminal(f, "fit_map s/stack.json -o maps.exr", 60);
+  EXPECT_NE(shown.find("fitting 40 × 30 texels, 0 % …"), shown.npos) << shown;
+  EXPECT_NE(shown.find("fitting 40 × 30 texels, 100 %, 0:00 left …"), shown.npos) << shown;
+}
+
 TEST(Progress, IsNotShownInAPipe) {
   const Folder f;
   const auto o = gonio(f, "albedo lambert --set kd=0.3 --mu 0.5");

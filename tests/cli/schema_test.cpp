@@ -8,6 +8,7 @@
 #include "fitting/batch/gather.h"
 #include "fitting/choice/document.h"
 #include "fitting/export/export.h"
+#include "fitting/map/gather.h"
 #include "refusal.h"
 #include "reports/tables/fit_page.h"
 #include "reports/tables/inspect_page.h"
@@ -19,6 +20,7 @@
 #include "scene/plan/verify.h"
 #include "shader/shader.h"
 #include "stability/answer.h"
+#include "stack/stack.h"
 #include "table/format/metadata.h"
 #include "table/health/health.h"
 
@@ -51,6 +53,8 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
                                    {"inspect", health_schema()},
                                    {"table", side_file_schema()},
                                    {"scene", scene::scene_schema()},
+                                   {"stack", stack_schema()},
+                                   {"map", map_schema()},
                                    {"plan", scene::plan_schema()},
                                    {"verification", scene::verification_schema()},
                                    {"choice", choice_schema()},
@@ -166,6 +170,75 @@ TEST(Schemas, HoldForTheDocumentsOfABatch) {
   EXPECT_FALSE(gathered.json()["left_out"].empty());
 }
 
+TEST(Schemas, HoldForStacksAndMaps) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint +
+                         " --layout map --size 6 --images 9 --noise 0.01 -o s")
+                .code,
+            0);
+  EXPECT_EQ(mistakes(file(f / "s/stack.json"), "stack"), "");
+  const auto o = gonio(f, "fit_map s/stack.json --fix f0=0.05 -o maps.exr --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(mistakes(o.json(), "map"), "");
+}
+
+/// Places of all values of a document.
+void places(const json& value, const json::json_pointer& at, std::vector<json::json_pointer>& all) {
+  if (!at.empty()) all.push_back(at);
+  if (value.is_object())
+    for (const auto& [key, member] : value.items()) places(member, at / key, all);
+  if (value.is_array())
+    for (std::size_t i = 0; i < value.size(); ++i) places(value[i], at / i, all);
+}
+
+/// A stack with each value left out, replaced by others, and with a key too many: schema and reader refuse the same, but for what a
+/// schema cannot say.
+TEST(Schemas, OfStacksRefuseWhatTheReaderRefuses) {
+  const Folder f;
+  std::size_t both = 0, neither = 0;
+  const auto judge = [&](const json& document) {
+    const std::string path = f.write("s.json", document.dump());
+    const std::string line = refusal([&] { read_stack(path); });
+    const bool refused = !mistakes(document, "stack").empty();
+    both += refused && !line.empty();
+    neither += !refused && line.empty();
+    if (refused == !line.empty()) return;
+    EXPECT_NE(line.find("z above 0"), line.npos) << document << line;
+  };
+  const json whole = json::parse(
+      R"({"schema": "gonio.stack/1", "values": "f_r", "normals": "n.exr", "channels": ["R"],
+          "truth": {"model": "lambert", "parameters": "p.exr", "noise": 0.1, "seed": 3},
+          "images": [{"path": "a", "theta_i": 3, "phi_i": 4, "view": [0, 0, 1], "scale": 2},
+                     {"path": "b", "light_map": "l.exr", "theta_o": 4}]})");
+  judge(whole);
+  EXPECT_EQ(neither, 1U);
+  std::vector<json::json_pointer> all;
+  places(whole, json::json_pointer(), all);
+  for (const auto& at : all) {
+    json without = whole;
+    json& above = without[at.parent_pointer()];
+    if (above.is_array())
+      above.erase(std::stoul(at.back()));
+    else
+      above.erase(at.back());
+    judge(without);
+    for (const json& other :
+         {json(nullptr), json(true), json("words"), json(""), json(-1), json(0), json(0.5),
+          json(1e31), json::array(), json::array({1, 2, 3}), json::object()}) {
+      json with = whole;
+      with[at] = other;
+      judge(with);
+    }
+    if (whole[at].is_object()) {
+      json with = whole;
+      with[at]["further"] = 1;
+      judge(with);
+    }
+  }
+  EXPECT_GT(both, 150U);
+  EXPECT_GT(neither, 20U);
+}
+
 TEST(Schemas, HoldForTheAnswersOfStability) {
   const Folder f;
   for (const auto& [words, code] :
@@ -224,15 +297,6 @@ TEST(Schemas, OfSideFilesRefuseWhatTheReaderRefuses) {
         R"(, "columns": {"f": 4})", R"(, "columns": {"unit": "grad"})",
         R"(, "columns": {"skip": -1})", R"(, "columns": {"cosine": 1})", R"(, "truth": {})"})
     EXPECT_FALSE(judged(keys)) << keys;
-}
-
-/// Places of all values of a document.
-void places(const json& value, const json::json_pointer& at, std::vector<json::json_pointer>& all) {
-  if (!at.empty()) all.push_back(at);
-  if (value.is_object())
-    for (const auto& [key, member] : value.items()) places(member, at / key, all);
-  if (value.is_array())
-    for (std::size_t i = 0; i < value.size(); ++i) places(value[i], at / i, all);
 }
 
 /// A scene with each value left out, replaced by others, and with a key too many: schema and reader refuse the same, but for what a

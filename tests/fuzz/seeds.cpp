@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "image/exr.h"
+#include "image/npy.h"
 #include "scene/description/gltf_example.h"
 #include "scene/description/scene_example.h"
 #include "scene/plan/document.h"
@@ -88,6 +90,15 @@ int main(int argc, char** argv) {
   t.notes = {{"a", "b"}};
   save("side", "truth", metadata_text(t));
   save("side", "columns", with_columns("side", "", ColumnMap{}));
+  save("npy", "grey", npy_header({2, 3}) + bytes_of(std::array<float, 6>{0, 1, 2, 3, 4, 5}));
+  save("npy", "colours", npy_header({1, 2, 3}) + bytes_of(std::array<float, 6>{0, 1, 2, 3, 4, 5}));
+  save("stack", "whole",
+       R"({"schema": "gonio.stack/1", "values": "f_r_cosine", "normals": "n.exr", "images": [)"
+       R"({"path": "0.exr", "theta_i": 30, "phi_i": 9, "view": [0, 0, 1], "scale": 2},)"
+       R"({"path": "1.npy", "light_map": "l.exr", "view_map": "v.exr"}]})");
+  Image small{3, 2, {"R", "Y"}, {{0, 1, 2, 3, 4, 5}, {1, 1, 2, 2, 3, 3}}, {{"a", "b"}}};
+  save("parts", "lines", exr_bytes("lines", small));
+  save("parts", "half", exr_bytes("half", small, Storage::half));
   const auto square = scene::test::square_gltf();
   save("gltf", "text", square.dump());
   save("gltf", "binary", scene::test::glb(square, scene::test::square_bytes()));

@@ -142,71 +142,103 @@ constexpr std::array<std::size_t, N> in_order() {
   return at;
 }
 
-template <class Term, class T, std::size_t N, class F>
+template <class Term, class T, class Way, std::size_t N, class F>
 Term variables(const F* p, const std::array<std::size_t, N>& at) {
-  return bind<Term, T>(
-      p, [&](F x, std::size_t k) { return T::variable(typename RealTraits<T>::Plain(x), at[k]); });
+  return bind<Term, T, Way>(p, [&](const plain_t<T>& x, std::size_t k) {
+    if constexpr (T::count == 0)
+      return T(x);
+    else
+      return T::variable(x, at[k]);
+  });
 }
 
 /// A term in a number that carries its derivatives by all its parameters.
-template <template <class> class Term, class F>
+template <template <class> class Term, class F, class Way>
 struct TermSlopes {
   static constexpr std::size_t count = Term<Lane<F>>::parameters.size();
   using T = Dual<Lane<F>, count>;
   Term<T> term;
 
-  explicit TermSlopes(const F* p) : term(variables<Term<T>, T>(p, in_order<count>())) {}
+  explicit TermSlopes(const F* p) : term(variables<Term<T>, T, Way>(p, in_order<count>())) {}
   T operator()(const auto& angles) const { return as_value<T>(term(angles)); }
 };
 
 /// A lobe's D V and F with their derivatives.
-template <class List, class F>
+/// \tparam moves  whether D V has any
+template <class List, class F, class Way, bool moves>
 struct LobeSlopes;
-template <template <class> class D, template <class> class V, template <class> class Fr, class F>
-struct LobeSlopes<TermList<D, V, Fr>, F> {
+template <template <class> class D,
+          template <class>
+          class V,
+          template <class>
+          class Fr,
+          class F,
+          class Way,
+          bool moves>
+struct LobeSlopes<TermList<D, V, Fr>, F, Way, moves> {
   using B = Lane<F>;
   static constexpr auto of_v = places_of_v<D<B>, V<B>>();
   static constexpr bool turns = LobeShape<D, V, B>::anisotropic;
   static constexpr std::size_t of_d = D<B>::parameters.size(),
-                               of_shape = std::max(of_d, std::ranges::max(of_v) + 1) + turns;
+                               of_shape =
+                                   moves ? std::max(of_d, std::ranges::max(of_v) + 1) + turns : 0;
   using S = Dual<B, of_shape>;
-  using Fresnel = TermSlopes<Fr, F>;
+  using Fresnel = TermSlopes<Fr, F, Way>;
 
   static auto shape(const F* d, const F* v) {
-    return LobeShape<D, V, S>{variables<D<S>, S>(d, in_order<of_d>()), variables<V<S>, S>(v, of_v)};
+    return LobeShape<D, V, S>{variables<D<S>, S, Way>(d, in_order<of_d>()),
+                              variables<V<S>, S, Way>(v, of_v)};
   }
   static constexpr void put_columns(auto& columns, std::size_t& at, std::size_t term) {
-    for (std::size_t k = 0; k < of_d; ++k) columns[at++] = {term, k};
-    for (std::size_t k = 0; k < of_v.size(); ++k)
+    for (std::size_t k = 0; moves && k < of_d; ++k) columns[at++] = {term, k};
+    for (std::size_t k = 0; moves && k < of_v.size(); ++k)
       if (of_v[k] >= of_d) columns[at++] = {term + 1, k};
-    if (turns) columns[at++] = {term, of_d};
+    if (moves && turns) columns[at++] = {term, of_d};
     for (std::size_t k = 0; k < Fresnel::count; ++k) columns[at++] = {term + 2, k};
   }
 };
 
-template <class F, class Model>
+/// Sums of a channel's normal equations, of r and its derivatives.
+template <class F, std::size_t K>
+class NormalSums {
+ public:
+  NormalSums(const NormalArguments<F>& a, std::size_t channel) : products_(a.sums[channel]) {}
+  void add(const std::array<Lane<F>, K>& column) { products_.add(column); }
+  void store(const NormalArguments<F>& a, std::size_t channel) const {
+    products_.store_to(a.sums[channel]);
+  }
+
+ private:
+  Products<F, K> products_;
+};
+
+/// \tparam Way    what the lanes of a register are
+/// \tparam moves  whether there are derivatives by the parameters of D and V
+template <class F, class Model, class Way = SamplesAsLanes, bool moves = true>
 struct FusedNormal;
-template <class F, template <class> class... Diffuse, class... Lobes>
-struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
+template <class F, template <class> class... Diffuse, class... Lobes, class Way, bool moves>
+struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>, Way, moves> {
   using B = Lane<F>;
   using Value = Fused<F, ModelTerms<TermList<Diffuse...>, Lobes...>>;
   template <std::size_t l>
-  using LobeAt = LobeSlopes<std::tuple_element_t<l, std::tuple<Lobes...>>, F>;
+  using LobeAt = LobeSlopes<std::tuple_element_t<l, std::tuple<Lobes...>>, F, Way, moves>;
   static constexpr std::size_t n_diffuse = sizeof...(Diffuse), n_lobes = sizeof...(Lobes);
-  static constexpr std::size_t block = 256;
+  static constexpr std::size_t block = Way::block;
 
   /// Rows that D V and its derivatives take of the lobes before l.
   static constexpr std::size_t rows_before(std::size_t l) {
     std::size_t n = 0, k = 0;
-    ((n += k++ < l ? 1 + LobeSlopes<Lobes, F>::of_shape : 0), ...);
+    ((n += k++ < l ? 1 + LobeSlopes<Lobes, F, Way, moves>::of_shape : 0), ...);
     return n;
   }
   /// Columns: the residual's and one for each parameter.
-  static constexpr std::size_t K =
-      1 + (0 + ... + (LobeSlopes<Lobes, F>::of_shape + LobeSlopes<Lobes, F>::Fresnel::count)) +
-      (0 + ... + TermSlopes<Diffuse, F>::count);
+  static constexpr std::size_t K = 1 +
+                                   (0 + ... +
+                                    (LobeSlopes<Lobes, F, Way, moves>::of_shape +
+                                     LobeSlopes<Lobes, F, Way, moves>::Fresnel::count)) +
+                                   (0 + ... + TermSlopes<Diffuse, F, Way>::count);
   static_assert(K <= max_columns);
-  static_assert((0 + ... + LobeSlopes<Lobes, F>::turns) <= 1,
+  static_assert((0 + ... + LobeSlopes<Lobes, F, Way, moves>::turns) <= 1,
                 "one column by the turn of the frame");
 
   /// Parameters by which the columns after the residual's are derivatives: of each lobe those of D, those of
@@ -214,13 +246,13 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
   static constexpr auto columns() {
     std::array<FusedColumn, max_columns - 1> all{};
     std::size_t at = 0, term = n_diffuse;
-    ((LobeSlopes<Lobes, F>::put_columns(all, at, term), term += 3), ...);
+    ((LobeSlopes<Lobes, F, Way, moves>::put_columns(all, at, term), term += 3), ...);
     term = 0;
     [[maybe_unused]] const auto put = [&](std::size_t count) {
       for (std::size_t k = 0; k < count; ++k) all[at++] = {term, k};
       ++term;
     };
-    (put(TermSlopes<Diffuse, F>::count), ...);
+    (put(TermSlopes<Diffuse, F, Way>::count), ...);
     return all;
   }
 
@@ -233,9 +265,9 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
       const auto shape = LobeAt<l>::shape(p[0][0], p[1][0]);
       auto* const row = rows.data() + rows_before(l);
       for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-        const auto angles = angles_with<LobeAt<l>::turns>(x, i);
+        const auto angles = angles_with<LobeAt<l>::turns, Way>(x, i);
         typename LobeAt<l>::S dv;
-        if constexpr (LobeAt<l>::turns)
+        if constexpr (moves && LobeAt<l>::turns)
           dv = shape(turning<LobeAt<l>::of_shape>(angles)).value();
         else
           dv = shape(angles).value();
@@ -259,23 +291,25 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
       return One{};
   }
 
-  template <Link kind>
-  static void pass(const NormalArguments<F>& a) {
+  /// \tparam Sums  what becomes of a sample's residual and its derivatives
+  template <Link kind, template <class, std::size_t> class Sums = NormalSums, class Arguments>
+  static void pass(const Arguments& a) {
     [&]<std::size_t... U, std::size_t... L>(std::index_sequence<U...>, std::index_sequence<L...>) {
       alignas(64) Rows rows;
       for (std::size_t at = 0; at < a.x.n; at += block) {
-        const auto x = a.x.part(at, std::min(block, a.x.n - at));
+        const auto x = Way::part(a.x, at, std::min(block, a.x.n - at));
         fill(x, a, rows);
         for (std::size_t c = 0; c < a.channels; ++c) {
-          const std::tuple terms{TermSlopes<Diffuse, F>(a.parameters[U][c])...};
+          const std::tuple terms{TermSlopes<Diffuse, F, Way>(a.parameters[U][c])...};
           const std::tuple fresnels{
               typename LobeAt<L>::Fresnel(a.parameters[n_diffuse + 3 * L + 2][c])...};
-          const F *const target = a.target[c] + at, *const weight = a.weight[c] + at;
+          const F *const target = a.target[c] + at, *const weight =
+                                                        a.weight[c] + Way::template place<F>(at);
           const B offset(a.offset);
-          Products<F, K> products(a.sums[c]);
+          Sums<F, K> sums(a, c);
           B cost = load<B>(a.cost);
           for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-            const auto angles = angles_with<Value::anisotropic>(x, i);
+            const auto angles = angles_with<Value::anisotropic, Way>(x, i);
             const std::tuple diffuse{std::get<U>(terms)(angles)...};
             const std::tuple fresnel{std::get<L>(fresnels)(angles)...};
             std::array<B, n_lobes> by_shape, by_fresnel;
@@ -297,7 +331,7 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
 
             const auto [value, slope] = linked<kind, B>(f, offset);
             const auto compared =
-                weighted<B>(value, slope, load<B>(target + i), load<B>(weight + i));
+                weighted<B>(value, slope, load<B>(target + i), Way::of_sample(weight, i));
             const B &r = compared[0], &w = compared[1];  // names that lambdas may capture
             std::array<B, K>
                 column;  // made after the link: what lives across a logarithm is spilled
@@ -314,11 +348,11 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>> {
               for (const B& d : std::get<u>(diffuse).d)
                 column[k++] = unmasked<B>(w, B(by_diffuse<u>(first) * d));
             });
-            products.add(column);
+            sums.add(column);
             cost = cost + r * r;
           }
           store<B>(a.cost, cost);
-          products.store_to(a.sums[c]);
+          sums.store(a, c);
         }
       }
     }
@@ -350,12 +384,12 @@ constexpr auto value_table(FusedList<Models...>) {
 }
 template <class F, class... Models>
 constexpr auto normal_table(FusedList<Models...>) {
-  return std::array<NormalKernel<F>, sizeof...(Models)>{
-      NormalKernel<F>{ids_of<F>(Models{}),
-                      FusedNormal<F, Models>::columns(),
-                      FusedNormal<F, Models>::K - 1,
-                      {FusedNormal<F, Models>::template pass<Link::identity>,
-                       FusedNormal<F, Models>::template pass<Link::log>}}...};
+  return std::array<NormalKernel<F>, sizeof...(Models)>{NormalKernel<F>{
+      ids_of<F>(Models{}),
+      FusedNormal<F, Models>::columns(),
+      FusedNormal<F, Models>::K - 1,
+      {FusedNormal<F, Models>::template pass<Link::identity, NormalSums, NormalArguments<F>>,
+       FusedNormal<F, Models>::template pass<Link::log, NormalSums, NormalArguments<F>>}}...};
 }
 
 /// Defined in the file of each group of models.

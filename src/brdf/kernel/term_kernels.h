@@ -53,15 +53,16 @@ void add_product(const Block<F>& x, const F* p, const ProductColumns<F>& j) {
                                 as_value<B>(term(angles<Term<B>>(x, i)))));
 }
 
-template <template <class> class Term, class F>
+template <template <class> class Term, class F, class Way = SamplesAsLanes>
 void derivatives(const Block<F>& x, const F* p, F* value, F* const* d) {
   using B = Lane<F>;
   constexpr bool turns = is_anisotropic<Term<B>>;
   constexpr std::size_t N = Term<B>::parameters.size() + turns;
   using T = Dual<B, N>;
-  const auto term = bind<Term<T>, T>(p, [](F v, std::size_t k) { return T::variable(B(v), k); });
+  const auto term =
+      bind<Term<T>, T, Way>(p, [](const B& v, std::size_t k) { return T::variable(v, k); });
   for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-    const auto a = angles<Term<B>>(x, i);
+    const auto a = angles<Term<B>, Way>(x, i);
     T t;
     if constexpr (turns)
       t = as_value<T>(term(turning<N>(a)));

@@ -33,8 +33,14 @@ struct ModelDerivatives<F>::Written {
 template <class F>
 ModelDerivatives<F>::ModelDerivatives(const Model& m,
                                       const std::vector<bool>& free,
-                                      const Kernels<F>& k)
-    : model_(m), free_(free), k_(k), turned_(m, k), channel_steps_(m.channels) {
+                                      const Kernels<F>& k,
+                                      const TexelTerms<F>* texels)
+    : model_(m),
+      free_(free),
+      k_(k),
+      texels_(texels),
+      turned_(m, k),
+      channel_steps_(m.channels) {
   std::vector<DualColumn<F>> dv;  // D·V, shared by the channels
   for (const auto& l : m.lobes) {
     const auto d = term(l.ndf, 0);
@@ -68,6 +74,7 @@ ModelDerivatives<F>::ModelDerivatives(const Model& m,
       else
         add_lobe(written(f), Zero{});
     }
+    if (texels && texels->cosine) f = product(f, *texels->cosine);
     channels_.push_back(std::move(f));
     used = std::max(used, next_);
   }
@@ -76,15 +83,18 @@ ModelDerivatives<F>::ModelDerivatives(const Model& m,
 
 template <class F>
 void ModelDerivatives<F>::set(std::span<const F> values) {
-  turned_.set(values);
+  const std::size_t stride = texels_ ? padding : 1;
+  if (!texels_) turned_.set(values);
   for (auto& g : parameters_)
-    for (std::size_t i = 0; i < g.slots.size(); ++i) g.p[i] = values[g.slots[i]];
+    for (std::size_t i = 0; i < g.slots.size(); ++i)
+      std::copy_n(values.data() + g.slots[i] * stride, stride, g.p.data() + i * stride);
 }
 
 template <class F>
 DualColumn<F> ModelDerivatives<F>::term(const TermUse& t, std::size_t c) {
   Gathered& gathered = parameters_.emplace_back();
-  std::array<F*, max_parameters + 1> d{};
+  gathered.p = Column<F>(max_parameters * (texels_ ? padding : 1));
+  std::array<F*, max_parameters + 2> d{};
   F* const value = fresh();
   DualColumn<F> r{value, {}};
   for (std::size_t i = 0; i < t.parameters.size(); ++i) {
@@ -98,8 +108,12 @@ DualColumn<F> ModelDerivatives<F>::term(const TermUse& t, std::size_t c) {
     if (const std::size_t slot = model_.tangent()->first; free_[slot])
       r.d.emplace_back(slot, by_turn);
   }
-  into_->push_back([=, p = gathered.p.data(), f = k_.terms[t.term].derivatives](const Block<F>& b) {
-    f(b, p, value, d.data());
+  if (texels_ && texels_->cosine)
+    for (std::size_t k = 0; k < 2; ++k)
+      r.d.emplace_back(model_.value_count + k, d[t.parameters.size() + k] = fresh());
+  const auto kernel = texels_ ? texels_->derivatives[t.term] : k_.terms[t.term].derivatives;
+  into_->push_back([=, p = gathered.p.data()](const Block<F>& b) {
+    kernel(b, p, value, d.data());
   });
   return r;
 }

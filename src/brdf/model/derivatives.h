@@ -21,6 +21,16 @@ struct DualColumn {
   std::vector<std::pair<std::size_t, const F*>> d;
 };
 
+/// Terms where texels are lanes (TexelsAsLanes): each texel has its own values, [slot][padding].
+template <class F>
+struct TexelTerms {
+  using Derivatives = void (*)(const Block<F>&, const F* parameters, F* value, F* const* d);
+  std::span<const Derivatives> derivatives;  ///< [term of the catalogue]
+  /// f times this column, which has derivatives by two unknowns more, the tilt of the normal, as every term then has: those of
+  /// slots value_count and value_count + 1.
+  const DualColumn<F>* cosine = nullptr;
+};
+
 /// A model's values and derivatives by the product rule (brdf/term/product.h) over columns.  Writes down
 /// once what is to be done to every block (the scratch columns are the same each time, so a step is a
 /// kernel with the columns it reads and writes), then does it.  Not shared by threads.
@@ -28,10 +38,14 @@ template <class F>
 class ModelDerivatives {
  public:
   /// \param free  per value slot: whether its derivative is wanted; others are left out
-  ModelDerivatives(const Model&, const std::vector<bool>& free, const Kernels<F>&);
+  /// \param texels  null: one model at all samples
+  ModelDerivatives(const Model&,
+                   const std::vector<bool>& free,
+                   const Kernels<F>&,
+                   const TexelTerms<F>* texels = nullptr);
   ModelDerivatives(const ModelDerivatives&) = delete;
 
-  /// The values, model.value_count of them, of the runs that follow.
+  /// The values, model.value_count of them, of the runs that follow; of texels, whose frames are turned already, [slot][padding].
   void set(std::span<const F> values);
 
   /// The columns of channel c during visit(c) in run().
@@ -63,13 +77,14 @@ class ModelDerivatives {
 
   /// A term's parameters and the slots that they are values of.
   struct Gathered {
-    std::array<F, max_parameters> p{};
+    Column<F> p;
     std::vector<std::size_t> slots;
   };
 
   const Model& model_;
   const std::vector<bool>& free_;
   const Kernels<F>& k_;
+  const TexelTerms<F>* texels_;
   Scratch<F> scratch_;
   TurnedFrame<F> turned_;
   std::size_t next_ = Scratch<F>::first_free;

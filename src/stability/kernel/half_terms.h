@@ -16,7 +16,7 @@ void half_values(const Block<float>& x, const float* p, float* out) {
   using R = Lane<float>;
   using T = HalfOver<R, rules>;
   static_assert(TermOver<Term<T>, T>);
-  const auto term = bind<Term<T>, T>(p, [](float v, std::size_t) { return T(v); });
+  const auto term = bind<Term<T>, T>(p, [](const R& v, std::size_t) { return T(v); });
   for (std::size_t i = 0; i < x.n; i += lanes<R>) {
     const auto in = [&](const float* column) { return T(load<R>(column + i)); };
     const Angles<T> a{in(x.nol), in(x.nov), in(x.noh), in(x.voh), in(x.sin2_theta_h)};

@@ -1,0 +1,154 @@
+#include "fitting/map/fit_map.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <system_error>
+#include <vector>
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+namespace gonio {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Fit of a texel without values: which columns there are.
+TexelFit layout_of(const TexelOptions& options, std::size_t channels) {
+  const std::vector<float> values(channels, std::numeric_limits<float>::quiet_NaN());
+  const std::array<float, 3> z{0, 0, 1};
+  return fit_texels({1, 1, channels, values, true, z, z, {}}, options);
+}
+
+/// Parts of a place that are read one after the other, each of at most so many bytes where what is stored as one
+/// allows it.
+std::vector<Rectangle> parts_of(const Rectangle& place, const StackReader& stack) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 26;
+  const std::size_t most = std::max<std::size_t>(most_bytes / stack.bytes_of_texel(), 1);
+  std::size_t width = place.width, height = std::min(stack.block_height(), place.height);
+  if (width * height > most && stack.block_width() < stack.width())  // tiles: whole ones
+    width = std::clamp(most / height / stack.block_width() * stack.block_width(),
+                       std::min(stack.block_width(), place.width), place.width);
+  if (width * height > most) height = std::max<std::size_t>(most / width, 1);
+  if (width * height > most) width = std::max<std::size_t>(most / height, 1);
+  if (width == place.width)
+    height = std::min(place.height, std::max(height, most / width / height * height));
+  std::vector<Rectangle> parts;
+  for (std::size_t y = 0; y < place.height; y += height)
+    for (std::size_t x = 0; x < place.width; x += width)
+      parts.push_back({place.x + x, place.y + y, std::min(width, place.width - x),
+                       std::min(height, place.height - y)});
+  return parts;
+}
+
+/// Tiles to be fitted, by their rows; those that are there are looked at.
+std::map<std::size_t, std::vector<Tile>> missing_of(std::span<const Tile> tiles,
+                                                    const MapAttributes& map,
+                                                    const TileGrid& grid,
+                                                    const fs::path& folder,
+                                                    MapCount& count) {
+  std::map<std::size_t, std::vector<Tile>> missing;
+  for (const Tile& t : tiles) {
+    const std::string path = (folder / file_name(t)).string();
+    std::error_code unknown;
+    if (fs::exists(path, unknown)) {
+      expect_of(attributes_of(map, grid, t), read_exr_header(path), path);
+      ++count.kept;
+    } else {
+      missing[t.row].push_back(t);
+      count.texels += grid.place(t).size();
+    }
+  }
+  return missing;
+}
+
+/// Refuses a folder that holds a tile of another map, before work is put beside it.
+void expect_no_other(const MapAttributes& map, const TileGrid& grid, const fs::path& folder) {
+  std::error_code none;
+  std::vector<Tile> there;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (const auto tile = tile_of_name(entry.path().filename().string())) there.push_back(*tile);
+  if (there.empty()) return;
+  const Tile first = *std::ranges::min_element(there);
+  const std::string path = (folder / file_name(first)).string();
+  expect_of(attributes_of(map, grid, first), read_exr_header(path), path);
+}
+
+}  // namespace
+
+MapCount fit_tiles(const StackReader& stack,
+                   const TexelOptions& options,
+                   const TileGrid& grid,
+                   std::span<const Tile> tiles,
+                   const std::string& folder,
+                   const std::function<void(const MapCount&)>& progress) {
+  check(options, stack.channels().size());
+  const TexelFit layout = layout_of(options, stack.channels().size());
+  const MapAttributes map = attributes_of(stack, options);
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed && !fs::is_directory(folder))
+    throw bad_input(folder, "writing", failed.message(), "a folder that can be written");
+  expect_no_other(map, grid, folder);
+
+  MapCount count;
+  count.tiles = tiles.size();
+  const auto missing = missing_of(tiles, map, grid, folder, count);
+  if (progress) progress(count);
+  std::mutex one_at_a_time;
+  const auto fit_part = [&](const StackPart& samples, const Rectangle& part, MapPlanes& to) {
+    tbb::parallel_for(std::size_t{0}, samples.pieces(), [&](std::size_t k) {
+      const auto p = samples.piece(k);
+      to.put(fit_texels({p.texels, samples.images, samples.channels, p.values, samples.shared,
+                         p.light, p.view, p.normal},
+                        options),
+             part, p.first);
+      if (!progress) return;
+      const std::lock_guard lock(one_at_a_time);
+      count.done = std::min(count.texels, count.done + p.texels);
+      progress(count);
+    });
+  };
+
+  for (const auto& [row, of_row] : missing) {
+    Rectangle place = grid.place(of_row.front());
+    for (const Tile& t : of_row) {
+      const Rectangle p = grid.place(t);
+      const std::size_t end = std::max(place.x + place.width, p.x + p.width);
+      place.x = std::min(place.x, p.x);
+      place.width = end - place.x;
+    }
+    MapPlanes planes(place, layout, stack.channels());
+    const auto parts = parts_of(place, stack);
+    // The next part is read while this one is fitted.
+    std::array<StackPart, 2> samples;
+    stack.read(parts[0], samples[0]);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      tbb::parallel_invoke(
+          [&] {
+            if (k + 1 < parts.size()) stack.read(parts[k + 1], samples[(k + 1) % 2]);
+          },
+          [&] { fit_part(samples[k % 2], parts[k], planes); });
+    tbb::parallel_for(std::size_t{0}, of_row.size(), [&](std::size_t k) {
+      const Tile& tile = of_row[k];
+      const Rectangle p = grid.place(tile);
+      OutputFile out((fs::path(folder) / file_name(tile)).string());
+      ExrWriter writer(out, p.width, p.height, planes.channels(), attributes_of(map, grid, tile),
+                       ExrWriter::Packing::none);
+      planes.write(writer, p);
+      writer.finish();
+      out.commit();
+    });
+  }
+  return count;
+}
+
+}  // namespace gonio

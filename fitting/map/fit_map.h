@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// Fits of the tiles of a map, each into a file of its own in a folder.
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "fitting/map/texels.h"
+#include "fitting/map/tiles.h"
+#include "stack/stack_reader.h"
+
+namespace gonio {
+
+/// State of a map while it is being fitted.
+struct MapCount {
+  std::size_t tiles = 0, kept = 0;   ///< asked for; of these there from before
+  std::size_t texels = 0, done = 0;  ///< of the tiles that are not kept
+};
+
+/// Fits tiles of a stack into a folder, which is made where it is missing; one that is there already, of the same stack, options, version and
+/// grid, is kept.  A tile is the same to the bit whatever the threads, the other tiles and the runs that were killed before; so are its
+/// texels whatever the grid.  Memory: one row of tiles' results, and 128 MB of samples.
+///
+/// \param tiles     of the grid
+/// \param progress  called by one thread at a time
+/// \throws Error  bad_input for a tile in the folder that is of anything else: it is not overwritten
+MapCount fit_tiles(const StackReader&,
+                   const TexelOptions&,
+                   const TileGrid&,
+                   std::span<const Tile> tiles,
+                   const std::string& folder,
+                   const std::function<void(const MapCount&)>& progress = {});
+
+}  // namespace gonio

@@ -1,0 +1,274 @@
+#include "fitting/map/gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/json_describe.h"
+#include "image/exr_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+
+template <>
+struct Description<MapParameter> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("name", "", &MapParameter::name, "of the channel in the file"),
+        group("texels", "how many have which status",
+              field("free", "", &MapParameter::free, "found"),
+              field("fixed", "", &MapParameter::fixed, "held"),
+              field("at_bound", "", &MapParameter::at_bound, "at the end of its range"),
+              field("not_identifiable", "", &MapParameter::not_identifiable, "not known")),
+        field("mean", "", &MapParameter::mean, "of the texels that have a value"),
+        field("mean_std_error", "", &MapParameter::mean_std_error, "of the texels that have one")};
+  }
+};
+template <>
+struct Description<MapDocument> {
+  static constexpr auto fields() {
+    return std::tuple{
+        constant_text("schema", "gonio.map/1"),
+        field("path", "", &MapDocument::path, "of the map"),
+        field("model", "", &MapDocument::model, ""),
+        field(
+            "options", "", [](const MapDocument& d) { return Json::parse(d.options); },
+            "what is fitted and how values are compared"),
+        field("stack", "", &MapDocument::stack, "name of the stack: a digest of its files"),
+        field("width", "texels", &MapDocument::width, ""),
+        field("height", "texels", &MapDocument::height, ""),
+        field("tiles", "", &MapDocument::tiles, "that it was made of"),
+        group("texels", "how their fits ended", field("converged", "", &MapDocument::converged, ""),
+              field("not_converged", "", &MapDocument::not_converged, "the best seen is kept"),
+              field("no_data", "", &MapDocument::no_data, "fewer values than unknowns")),
+        field("parameters", "", &MapDocument::parameters, "by their names")};
+  }
+};
+
+std::string to_json(const MapDocument& d) {
+  return text_of(json_of(d));
+}
+std::string map_schema() {
+  return schema_text<MapDocument>("Map of a stack");
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Tiles {
+  TileGrid grid;
+  Image header;  ///< of the first
+  MapAttributes map;
+  std::vector<std::string> paths;  ///< row by row
+};
+
+std::set<Tile> tiles_in(const std::string& folder) {
+  std::error_code failed;
+  std::set<Tile> there;
+  for (const auto& entry : fs::directory_iterator(folder, failed))
+    if (const auto t = tile_of_name(entry.path().filename().string())) there.insert(*t);
+  if (failed) throw bad_input(folder, "opening", failed.message(), "a folder of tiles");
+  return there;
+}
+
+/// Tiles of a folder, all there and of one map.
+Tiles sound_tiles(const std::string& folder) {
+  const auto there = tiles_in(folder);
+  if (there.empty())
+    throw bad_input(folder, "tiles", "none", "files tile_COLUMN_ROW.exr of gonio fit_map --tile");
+  const auto path_of = [&](const Tile& t) { return (fs::path(folder) / file_name(t)).string(); };
+  Tiles all;
+  const std::string first = path_of(*there.begin());
+  all.header = read_exr_header(first);
+  all.grid = grid_of(all.header, first);
+  for (const char* name :
+       {"gonio:version", "gonio:model", "gonio:options", "gonio:stack", "gonio:channels"})
+    all.map[name] = attribute_of(all.header, name, first, "a tile of gonio fit_map");
+
+  // Without a list of the grid's tiles: a file that lies may name billions.
+  const TileGrid& grid = all.grid;
+  const std::size_t wanted = grid.columns() * grid.rows();
+  const auto of_grid = static_cast<std::size_t>(std::ranges::count_if(
+      there, [&](const Tile& t) { return t.column < grid.columns() && t.row < grid.rows(); }));
+  constexpr std::size_t named = 8;
+  std::string missing;
+  const std::size_t count = wanted - of_grid;
+  for (std::size_t k = 0, told = 0; told < std::min(count, named); ++k) {
+    const Tile t{k % grid.columns(), k / grid.columns()};
+    if (there.contains(t)) continue;
+    missing += fmt::format("{}{},{}", told == 0 ? "" : " ", t.column, t.row);
+    ++told;
+  }
+  if (count > 0)
+    throw bad_input(
+        folder, "tiles",
+        fmt::format("{} of {}, without {}{}", of_grid, wanted, missing, count > named ? " …" : ""),
+        "all of them");
+  for (const Tile& t : there) {
+    const std::string path = path_of(t);
+    const Image header = read_exr_header(path);
+    expect_of(attributes_of(all.map, grid, t), header, path);
+    if (t.column >= grid.columns() || t.row >= grid.rows())
+      throw bad_input(path, "name", "a tile beyond the map", "one of its grid");
+    const Rectangle place = grid.place(t);
+    if (header.width != place.width || header.height != place.height ||
+        header.channels != all.header.channels)
+      throw bad_input(
+          path, "header",
+          fmt::format("{} × {}, {} channels", header.width, header.height, header.channels.size()),
+          fmt::format("{} × {}, {} channels", place.width, place.height,
+                      all.header.channels.size()));
+  }
+  for (const Tile& t : grid.all()) all.paths.push_back(path_of(t));
+  return all;
+}
+
+/// Counts and sums of a parameter, rows one after the other.
+class Sums {
+ public:
+  /// Of the channel that holds a parameter's status; false of any other.
+  static bool is_status(const std::string& channel) {
+    return channel.ends_with(kStatus) || channel.find(kStatus + ".") != channel.npos;
+  }
+  Sums(const std::vector<std::string>& channels, const std::string& status) {
+    const auto at = status.rfind(kStatus);
+    const auto named = [&](const std::string& part) {
+      return status.substr(0, at) + part + status.substr(at + kStatus.size());
+    };
+    const auto index = [&](const std::string& name) {
+      return static_cast<std::size_t>(std::ranges::find(channels, name) - channels.begin());
+    };
+    sums_.name = named("");
+    status_ = index(status);
+    value_ = index(sums_.name);
+    error_ = index(named(".std_error"));
+    whole_ = std::max({status_, value_, error_}) < channels.size();
+  }
+  bool whole() const { return whole_; }
+
+  void add(const std::vector<std::vector<float>>& planes, std::size_t texels) {
+    for (std::size_t t = 0; t < texels; ++t) {
+      const float status = planes[status_][t];
+      sums_.free += is(status, ParameterStatus::free);
+      sums_.fixed += is(status, ParameterStatus::fixed);
+      sums_.at_bound += is(status, ParameterStatus::at_bound);
+      sums_.not_identifiable += is(status, ParameterStatus::not_identifiable);
+      const auto sum = [&](double& total, std::uint64_t& count, float v) {
+        if (std::isnan(v)) return;
+        total += static_cast<double>(v);
+        ++count;
+      };
+      sum(sums_.mean, values_, planes[value_][t]);
+      sum(sums_.mean_std_error, errors_, planes[error_][t]);
+    }
+  }
+  MapParameter result() const {
+    MapParameter p = sums_;
+    p.mean /= static_cast<double>(values_);  // NaN of none
+    p.mean_std_error /= static_cast<double>(errors_);
+    return p;
+  }
+
+ private:
+  static inline const std::string kStatus = ".status";
+  static bool is(float status, ParameterStatus s) {
+    return status == static_cast<float>(static_cast<int>(s));
+  }
+  MapParameter sums_;
+  std::size_t status_ = 0, value_ = 0, error_ = 0;
+  std::uint64_t values_ = 0, errors_ = 0;
+  bool whole_ = false;
+};
+
+}  // namespace
+
+bool has_tiles(const std::string& folder) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (tile_of_name(entry.path().filename().string())) return true;
+  return false;
+}
+
+MapDocument gather_tiles(const std::string& folder, OutputFile& out, int threads) {
+  const Tiles tiles = sound_tiles(folder);
+  const TileGrid& grid = tiles.grid;
+  const auto& names = tiles.header.channels;
+  MapDocument d;
+  d.path = out.path();
+  d.model = tiles.map.at("gonio:model");
+  d.options = tiles.map.at("gonio:options");
+  d.stack = tiles.map.at("gonio:stack");
+  d.width = grid.width;
+  d.height = grid.height;
+  d.tiles = tiles.paths.size();
+
+  std::vector<ExrChannel> channels;
+  std::vector<Sums> sums;
+  std::vector<std::size_t> every;
+  for (const auto& name : names) {
+    const bool is_mark = Sums::is_status(name) || name == "outcome";
+    every.push_back(channels.size());
+    channels.push_back({name, is_mark ? Storage::half : Storage::single});
+    if (Sums::is_status(name)) sums.emplace_back(names, name);
+  }
+  const auto outcome =
+      static_cast<std::size_t>(std::ranges::find(names, "outcome") - names.begin());
+  if (outcome == names.size() || !std::ranges::all_of(sums, &Sums::whole))
+    throw bad_input(tiles.paths[0], "channels", fmt::format("{}", fmt::join(names, ", ")),
+                    "those of a tile of gonio fit_map");
+
+  MapAttributes attributes = tiles.map;
+  attributes["gonio:schema"] = "gonio.map/1";
+  ExrWriter writer(out, grid.width, grid.height, channels, attributes, ExrWriter::Packing::runs,
+                   threads);
+  constexpr std::size_t at_once = 64;
+  std::vector<std::vector<float>> rows(names.size());
+  std::vector<float> part;
+  std::vector<float*> into(names.size());
+  std::vector<const float*> planes(names.size());
+  for (std::size_t row = 0; row < grid.rows(); ++row) {
+    const std::size_t height = grid.place({0, row}).height;
+    for (std::size_t y = 0; y < height; y += at_once) {
+      const std::size_t count = std::min(at_once, height - y);
+      for (std::size_t c = 0; c < names.size(); ++c) {
+        rows[c].resize(count * grid.width);
+        planes[c] = rows[c].data();
+      }
+      for (std::size_t column = 0; column < grid.columns(); ++column) {
+        const Rectangle place = grid.place({column, row});
+        part.resize(names.size() * count * place.width);
+        for (std::size_t c = 0; c < names.size(); ++c)
+          into[c] = part.data() + c * count * place.width;
+        open_exr(tiles.paths[row * grid.columns() + column])
+            ->read({0, y, place.width, count}, every, into);
+        for (std::size_t c = 0; c < names.size(); ++c)
+          for (std::size_t k = 0; k < count; ++k)
+            std::copy_n(into[c] + k * place.width, place.width,
+                        rows[c].data() + k * grid.width + place.x);
+      }
+      const std::size_t texels = count * grid.width;
+      for (auto& s : sums) s.add(rows, texels);
+      const auto ended = [&](TexelOutcome how) {
+        const auto last = rows[outcome].begin() + static_cast<std::ptrdiff_t>(texels);
+        return static_cast<std::uint64_t>(
+            std::count(rows[outcome].begin(), last, static_cast<float>(static_cast<int>(how))));
+      };
+      d.converged += ended(TexelOutcome::converged);
+      d.not_converged += ended(TexelOutcome::not_converged);
+      d.no_data += ended(TexelOutcome::no_data);
+      writer.write(count, planes);
+    }
+  }
+  writer.finish();
+  for (const auto& s : sums) d.parameters.push_back(s.result());
+  return d;
+}
+
+}  // namespace gonio

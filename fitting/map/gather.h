@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// Tiles of a folder joined into their map, and what the map says as a whole.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/describe.h"
+#include "base/file.h"
+#include "fitting/map/tiles.h"
+
+namespace gonio {
+
+/// What the texels of a map have for a parameter; of one with channels for one of them.
+struct MapParameter {
+  std::string name;  ///< of the channel in the file
+  std::uint64_t free = 0, fixed = 0, at_bound = 0, not_identifiable = 0;  ///< texels
+  double mean = 0, mean_std_error = 0;  ///< of those that have one; NaN of none
+};
+struct MapDocument {
+  std::string path, model, options, stack;  ///< stack: StackReader::digest()
+  std::size_t width = 0, height = 0, tiles = 0;
+  std::uint64_t converged = 0, not_converged = 0, no_data = 0;  ///< texels
+  std::vector<MapParameter> parameters;
+};
+/// "gonio.map/1"
+std::string to_json(const MapDocument&);
+std::string map_schema();
+
+/// True of a folder that holds the file of a tile.
+bool has_tiles(const std::string& folder);
+
+/// Writes the map of a folder's tiles: the same bytes whatever the tiles' size and whoever fitted them.  One row of tiles is
+/// read 64 rows of texels at a time.
+/// \param threads  that pack
+/// \throws Error  bad_input: tiles are missing, which are named; one is of another map, or cannot be read
+MapDocument gather_tiles(const std::string& folder, OutputFile& out, int threads);
+
+}  // namespace gonio

@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// Task of a map's fit: all that is the same for all texels.
+
+#include <utility>
+#include <vector>
+
+#include "fitting/lanes/lanes.h"
+#include "fitting/map/texels.h"
+#include "fitting/solve/problem.h"
+
+namespace gonio {
+
+struct TexelTask {
+  TexelTask(const TexelOptions&, std::size_t channels);
+  TexelTask(const TexelTask&) = delete;
+
+  TexelOptions asked;
+  FitOptions options;  ///< the problem's
+  Problem problem;
+  TexelUnknowns unknowns;
+  std::vector<std::size_t>
+      unknown_of;              ///< [slot], the two of the tilt last; unknowns.count: it is held
+  std::vector<bool> is_shape;  ///< [slot]: D or V reads it
+  /// Shapes that are tried, each some slots with their values; what else is unknown is then solved for.
+  std::vector<std::vector<std::pair<std::size_t, float>>> starts;
+  bool is_linear;  ///< f in all that is no shape: that solution is exact
+
+  const Model& model() const { return problem.start.model; }
+  bool turns() const { return model().anisotropic; }
+};
+
+}  // namespace gonio

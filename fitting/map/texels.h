@@ -1,0 +1,94 @@
+#pragma once
+/// \file
+/// Fits of many texels at once: each a small fit of its own, a register full of them side by side.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/names.h"
+#include "brdf/model/model.h"
+#include "fitting/result/document.h"
+#include "fitting/sample/sampling.h"
+
+namespace gonio {
+
+/// Samples of a block of texels as columns, texel fastest.
+///
+/// A value that is NaN, infinite or negative is masked, as in a fit of a table: that channel of that texel is not compared
+/// in that image; the other channels are.  So is every channel where light or view is not above the texel's surface
+/// (n·l ≤ 0 or n·v ≤ 0) or is no direction (NaN).
+struct TexelSamples {
+  std::size_t texels = 0, images = 0;
+  std::size_t channels = 0;       ///< 1 or 3
+  std::span<const float> values;  ///< f_r [1/sr], [image][channel][texel]
+  bool shared = true;             ///< light and view of an image are the same for all texels
+  /// Unit vectors towards the light and the viewer; z = the map's normal, x = its tangent: [image][3] or, not shared,
+  /// [image][3][texel].
+  std::span<const float> light, view;
+  /// Unit vectors, [3][texel]; empty: (0, 0, 1).  f_r is what was measured over n·l of this normal.  The tangent of an
+  /// anisotropic model is the map's x less its part along the normal.
+  std::span<const float> normal;
+};
+
+/// What is fitted to each texel, and how values are compared.  Bounds, names and statuses are those of a fit of a table.
+struct TexelOptions {
+  std::string model = "lambert+ggx/smith_ggx.correlated/schlick";
+  std::vector<Setting> fixed;     ///< parameters held at a value
+  std::vector<Setting> bounds;    ///< NAME=low,high instead of the parameter's own range
+  std::vector<std::string> grey;  ///< colour parameters with one value for all channels
+  /// (f − y) NoL by default: what a camera records of it, whose noise is about the same at all angles.  A fit of a table
+  /// compares logarithms by default, which measured maps with dark samples do not bear.
+  Metric metric = Metric::l2_cosine;
+  double offset = 0;  ///< of the log and relative metrics [1/sr]
+  /// The normal is fitted, too, by two further unknowns; of isotropic models alone.  A value is then compared as the
+  /// light that was measured, f_r times n·l of the normal that it was divided by.
+  bool refine_normals = false;
+};
+
+/// End of a texel's fit.
+enum class TexelOutcome : std::uint8_t {
+  converged,
+  not_converged,  ///< the steps allowed were used up, or no number came out: values are the best
+                  ///< seen
+  no_data         ///< no value that can be compared
+};
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<TexelOutcome>{"converged",
+                                                                        "not_converged", "no_data"};
+
+/// Parameter of every texel; of one with channels one of them.
+struct TexelColumn {
+  std::string parameter;
+  int channel = -1;          ///< −1: one value for all channels
+  std::vector<float> value;  ///< NaN where the status is not_identifiable, or there are no data
+  /// Of the sandwich B⁻¹ M B⁻¹, which holds whether or not the metric whitens the noise, as a fit with independent
+  /// intervals has it; NaN where the status is not free.
+  std::vector<float> std_error;
+  std::vector<std::uint8_t> status;  ///< ParameterStatus: free, fixed, at_bound or not_identifiable
+};
+
+struct TexelFit {
+  std::vector<TexelColumn>
+      columns;                ///< the model's parameters in order, channels of one side by side
+  std::vector<float> rms;     ///< of the metric's residuals; NaN without data
+  std::vector<float> normal;  ///< [3][texel], where refined; else empty
+  std::vector<std::uint8_t> outcome;  ///< TexelOutcome
+};
+
+/// Throws wrong usage for options that no map could be fitted with.
+void check(const TexelOptions&, std::size_t channels);
+
+/// Fit of each texel, on this thread: callers share blocks among threads.  What is found of a texel depends on its own
+/// samples alone: not on its neighbours, nor on how a map is cut into blocks.
+/// \param instruction_set  the best that may be taken; empty: of this machine
+/// \throws Error  wrong usage, for options or spans that do not fit
+TexelFit fit_texels(const TexelSamples&,
+                    const TexelOptions&,
+                    std::string_view instruction_set = {});
+
+}  // namespace gonio

@@ -1,0 +1,207 @@
+#include "fitting/map/tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/json_describe.h"
+#include "base/numbers.h"
+#include "base/text.h"
+#include "fitting/solve/options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+
+template <>
+struct Description<TexelOptions> {
+  static constexpr auto fields() {
+    return std::tuple{
+        field("model", "", &TexelOptions::model, ""),
+        field("fix", "", &TexelOptions::fixed, "parameters held at a value"),
+        field("bounds", "", &TexelOptions::bounds, "where parameters are looked for"),
+        field("grey", "", &TexelOptions::grey, "colours with one value for all channels"),
+        field("metric", "", &TexelOptions::metric, "how values are compared"),
+        field("offset", "1/sr", &TexelOptions::offset, "of the log and relative metrics"),
+        field("refine_normals", "", &TexelOptions::refine_normals, "whether normals are fitted")};
+  }
+};
+/// Tiles of other options are told by these: none may be forgotten.
+static_assert(describes_every_member<TexelOptions>());
+
+namespace {
+
+constexpr std::string_view kPrefix = "tile_", kSuffix = ".exr";
+
+std::string pair(std::size_t a, std::size_t b) {
+  return fmt::format("{},{}", a, b);
+}
+std::array<std::size_t, 2> pair_in(const Image& header,
+                                   const std::string& name,
+                                   const std::string& path) {
+  const std::string text = attribute_of(header, name, path, "a tile of gonio fit_map");
+  const auto parts = split(text, ',');
+  std::array<std::size_t, 2> numbers{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto n = parts.size() == 2 ? number_from<std::size_t>(parts[k]) : std::nullopt;
+    constexpr std::size_t most = 1 << 14;
+    if (!n || *n == 0 || *n > most) throw bad_input(path, name, text, "two sizes");
+    numbers[k] = *n;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+Rectangle TileGrid::place(const Tile& t) const {
+  const std::size_t x = t.column * tile_width, y = t.row * tile_height;
+  return {x, y, std::min(tile_width, width - x), std::min(tile_height, height - y)};
+}
+
+std::vector<Tile> TileGrid::all() const {
+  std::vector<Tile> tiles;
+  for (std::size_t row = 0; row < rows(); ++row)
+    for (std::size_t column = 0; column < columns(); ++column) tiles.push_back({column, row});
+  return tiles;
+}
+
+MapAttributes attributes_of(const StackReader& stack, const TexelOptions& options) {
+  return {{"gonio:version", GONIO_VERSION},
+          {"gonio:model", options.model},
+          {"gonio:options", json_of(options).dump()},
+          {"gonio:stack", stack.digest()},
+          {"gonio:channels", fmt::format("{}", fmt::join(stack.channels(), ","))}};
+}
+
+MapAttributes attributes_of(const MapAttributes& map, const TileGrid& grid, const Tile& tile) {
+  MapAttributes all = map;
+  all["gonio:schema"] = "gonio.map_tile/1";
+  all["gonio:size"] = pair(grid.width, grid.height);
+  all["gonio:tile_size"] = pair(grid.tile_width, grid.tile_height);
+  all["gonio:tile"] = pair(tile.column, tile.row);
+  return all;
+}
+
+std::string file_name(const Tile& t) {
+  return fmt::format("{}{}_{}{}", kPrefix, t.column, t.row, kSuffix);
+}
+
+std::optional<Tile> tile_of_name(const std::string& name) {
+  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix) ||
+      name.size() < kPrefix.size() + kSuffix.size())
+    return std::nullopt;
+  const auto parts = split(
+      std::string_view(name).substr(kPrefix.size(), name.size() - kPrefix.size() - kSuffix.size()),
+      '_');
+  if (parts.size() != 2) return std::nullopt;
+  const auto column = number_from<std::size_t>(parts[0]), row = number_from<std::size_t>(parts[1]);
+  if (!column || !row || file_name({*column, *row}) != name) return std::nullopt;
+  return Tile{*column, *row};
+}
+
+TileGrid grid_of(const Image& header, const std::string& path) {
+  const auto size = pair_in(header, "gonio:size", path);
+  const auto tile_size = pair_in(header, "gonio:tile_size", path);
+  return {size[0], size[1], tile_size[0], tile_size[1]};
+}
+
+void expect_of(const MapAttributes& tile, const Image& header, const std::string& path) {
+  for (const auto& [name, value] : tile) {
+    const auto found = header.attributes.find(name);
+    if (found == header.attributes.end() || found->second != value)
+      throw bad_input(path, name, found == header.attributes.end() ? "none" : found->second, value);
+  }
+}
+
+MapPlanes::MapPlanes(const Rectangle& part,
+                     const TexelFit& layout,
+                     const std::vector<std::string>& channels)
+    : part_(part) {
+  const auto plane = [&](std::string name, Storage storage) -> Plane& {
+    Plane& p = planes_.emplace_back();
+    p.channel.name = std::move(name);
+    p.channel.storage = storage;
+    return p;
+  };
+  const auto numbers = [&](std::string name) {
+    plane(std::move(name), Storage::single).numbers.resize(part.size());
+  };
+  const auto marks = [&](std::string name) {
+    plane(std::move(name), Storage::half).marks.resize(part.size());
+  };
+  for (const auto& c : layout.columns) {
+    const std::string colour = c.channel < 0 ? "" : channels[static_cast<std::size_t>(c.channel)];
+    const std::string end = colour.empty() ? "" : "." + colour;
+    numbers(c.parameter + end);
+    numbers(c.parameter + ".std_error" + end);
+    marks(c.parameter + ".status" + end);
+  }
+  if (!layout.normal.empty())
+    for (const char* axis : {"X", "Y", "Z"}) numbers(fmt::format("normal.{}", axis));
+  numbers("rms");
+  marks("outcome");
+}
+
+void MapPlanes::put(const TexelFit& fit, const Rectangle& of, std::size_t first) {
+  std::size_t plane = 0;
+  const std::size_t texels = fit.outcome.size();
+  // do_run(texel of the fit, texel here, number) of each run of texels in one row
+  const auto for_runs = [&](const auto& do_run) {
+    for (std::size_t t = 0; t < texels;) {
+      const std::size_t x = (first + t) % of.width, y = (first + t) / of.width;
+      const std::size_t n = std::min(texels - t, of.width - x);
+      do_run(t, (of.y + y - part_.y) * part_.width + (of.x + x - part_.x), n);
+      t += n;
+    }
+  };
+  const auto take = [&](const auto* from) {
+    Plane& to = planes_[plane++];
+    for_runs([&](std::size_t t, std::size_t at, std::size_t n) {
+      if constexpr (std::is_same_v<decltype(from), const float*>)
+        std::copy_n(from + t, n, to.numbers.data() + at);
+      else
+        std::copy_n(from + t, n, to.marks.data() + at);
+    });
+  };
+  for (const auto& c : fit.columns) {
+    take(c.value.data());
+    take(c.std_error.data());
+    take(c.status.data());
+  }
+  for (std::size_t k = 0; k * texels < fit.normal.size(); ++k) take(fit.normal.data() + k * texels);
+  take(fit.rms.data());
+  take(fit.outcome.data());
+}
+
+std::vector<ExrChannel> MapPlanes::channels() const {
+  std::vector<ExrChannel> all;
+  for (const auto& p : planes_) all.push_back(p.channel);
+  return all;
+}
+
+void MapPlanes::write(ExrWriter& to, const Rectangle& part) const {
+  constexpr std::size_t at_once = 16;
+  std::vector<std::vector<float>> rows(planes_.size());
+  std::vector<const float*> planes;
+  for (auto& r : rows) {
+    r.resize(std::min(at_once, part.height) * part.width);
+    planes.push_back(r.data());
+  }
+  for (std::size_t y = 0; y < part.height; y += at_once) {
+    const std::size_t count = std::min(at_once, part.height - y);
+    for (std::size_t k = 0; k < planes_.size(); ++k)
+      for (std::size_t row = 0; row < count; ++row) {
+        const std::size_t from = (part.y + y + row - part_.y) * part_.width + (part.x - part_.x);
+        float* const out = rows[k].data() + row * part.width;
+        if (planes_[k].marks.empty())
+          std::copy_n(planes_[k].numbers.data() + from, part.width, out);
+        else
+          std::copy_n(planes_[k].marks.data() + from, part.width, out);
+      }
+    to.write(count, planes);
+  }
+}
+
+}  // namespace gonio

@@ -1,0 +1,52 @@
+#pragma once
+/// \file
+/// Images on disk, read part by part: what is larger than memory has its parts in it alone.
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// Part of an image; row 0 is its top one.
+struct Rectangle {
+  std::size_t x = 0, y = 0, width = 0, height = 0;
+  std::size_t size() const { return width * height; }
+  bool operator==(const Rectangle&) const = default;
+};
+
+/// Open image.  Not shared by threads.
+class ImageFile {
+ public:
+  explicit ImageFile(std::string path) : path_(std::move(path)) {}
+  virtual ~ImageFile() = default;
+  ImageFile(const ImageFile&) = delete;
+  ImageFile& operator=(const ImageFile&) = delete;
+
+  const std::string& path() const { return path_; }
+  std::size_t width() const { return width_; }
+  std::size_t height() const { return height_; }
+  const std::vector<std::string>& channels() const { return channels_; }
+  /// Columns and rows that are stored as one: parts of whole ones, from a multiple of them on, read nothing twice.
+  std::size_t block_width() const { return block_width_; }
+  std::size_t block_height() const { return block_height_; }
+
+  /// Values of a part that lies within the image, rows one after the other.
+  /// \param channels  indices into channels()
+  /// \param to        for each of them room for the part
+  virtual void read(const Rectangle&,
+                    std::span<const std::size_t> channels,
+                    std::span<float* const> to) = 0;
+
+ protected:
+  std::string path_;
+  std::size_t width_ = 0, height_ = 0, block_width_ = 1, block_height_ = 1;
+  std::vector<std::string> channels_;
+};
+
+/// Image of a path: OpenEXR of one part, scan lines or tiles, or an array of NumPy's.  At most 16384 pixels wide or high.
+std::unique_ptr<ImageFile> open_image(const std::string& path);
+
+}  // namespace gonio

@@ -1,0 +1,97 @@
+#pragma once
+/// \file
+/// Stack: registered images of one surface, each under its own light and from its own side; gonio.stack/1 resolved.  The map's frame: x
+/// to the right, y upwards in the image, z towards the viewer of the flat surface.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/names.h"
+#include "geometry/direction.h"
+#include "geometry/vector.h"
+
+namespace gonio {
+
+/// Which of an image's two directions.
+enum class Side { light, view };
+
+/// Direction of all texels by its angles, as everywhere in gonio.
+template <Side>
+struct SideAngles {
+  double theta_deg = 0;  ///< from the normal, in [0, 90)
+  double phi_deg = 0;    ///< from x towards y
+};
+/// Direction of all texels as a vector of any length but 0.
+template <Side>
+struct SideVector {
+  Vector towards{0, 0, 1};
+};
+/// Direction of each texel: an image of three channels, X, Y, Z or R, G, B, the vector's components at any length but 0.
+template <Side>
+struct SideMap {
+  std::string path;
+};
+template <Side side>
+using Towards = std::variant<SideAngles<side>, SideVector<side>, SideMap<side>>;
+
+/// Direction of all texels; no value where each has its own.
+template <Side side>
+std::optional<Direction> direction_of(const Towards<side>& towards) {
+  if (const auto* angles = std::get_if<SideAngles<side>>(&towards))
+    return direction(angles->theta_deg * degree, angles->phi_deg * degree);
+  if (const auto* vector = std::get_if<SideVector<side>>(&towards))
+    return direction(vector->towards);
+  return std::nullopt;
+}
+
+struct StackImage {
+  std::string path;
+  Towards<Side::light> light;
+  Towards<Side::view> view;
+  double scale = 1;  ///< what its numbers are multiplied with
+};
+
+/// Quantity that the images hold, linear [1/sr].
+enum class StackValues {
+  f_r,        ///< the reflectance, as everywhere in gonio
+  f_r_cosine  ///< times n·l: what a camera sees of a surface under a light of irradiance 1
+};
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<StackValues>{"f_r", "f_r_cosine"};
+
+/// What a synthetic stack was made from.
+struct StackTruth {
+  std::string model;
+  std::string parameters;  ///< path of an image with a channel for each of them
+  double noise = 0;        ///< σ of the multiplicative noise exp(σ z)
+  std::uint64_t seed = 0;
+};
+
+struct Stack {
+  std::string path;  ///< of its file; others are relative to that one's folder
+  StackValues values = StackValues::f_r;
+  std::optional<std::vector<std::string>>
+      channels;  ///< of each image, one or three; none: R, G, B, or the only one
+  std::optional<std::string> normals;  ///< path of an image as that of SideMap; none: all are z
+  std::vector<StackImage> images;
+  std::optional<StackTruth> truth;
+
+  /// Path of a file that the stack names.
+  std::string path_of(const std::string& name) const;
+};
+
+/// Stack of a file; the images are not opened.  Whatever is wrong is bad_input: the file, the place as a JSON pointer [RFC 6901], what was
+/// found and what is expected there.
+Stack read_stack(const std::string& path);
+std::string to_json(const Stack&);
+/// JSON Schema of such a file.
+std::string stack_schema();
+
+}  // namespace gonio

@@ -1,0 +1,310 @@
+#include "stack/stack_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <limits>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/sha256.h"
+#include "table/table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+/// do_one(i) for each i < n on all threads.  Of several that throw the first one is told, whatever the threads.
+void for_each(std::size_t n, const std::function<void(std::size_t)>& do_one) {
+  std::vector<std::exception_ptr> errors(n);
+  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+    try {
+      do_one(i);
+    } catch (...) {
+      errors[i] = std::current_exception();
+    }
+  });
+  for (const auto& e : errors)
+    if (e) std::rethrow_exception(e);
+}
+
+std::array<float, 3> floats(const Direction& d) {
+  return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
+}
+
+/// Size of a file, and bytes at its ends and between.
+std::string digest_of(const std::string& path) {
+  const InputFile in(path);
+  constexpr std::uint64_t ends = 65536, between = 4096, places = 62;
+  std::string bytes = fmt::format("{}\n", in.size());
+  const auto add = [&](std::uint64_t from, std::uint64_t n) {
+    const auto at = bytes.size();
+    bytes.resize(at + n);
+    in.read_at(from, bytes.data() + at, n);
+  };
+  if (in.size() <= 2 * ends + places * between) {
+    add(0, in.size());
+  } else {
+    add(0, ends);
+    for (std::uint64_t k = 0; k < places; ++k)
+      add(ends + (in.size() - 2 * ends - between) / (places - 1) * k, between);
+    add(in.size() - ends, ends);
+  }
+  return sha256(bytes);
+}
+
+/// Indices of channels by their names.
+std::vector<std::size_t> channels_among(const ImageFile& file,
+                                        const std::vector<std::string>& names) {
+  std::vector<std::size_t> indices;
+  for (const auto& name : names) {
+    const auto at = std::ranges::find(file.channels(), name);
+    if (at == file.channels().end()) return {};
+    indices.push_back(static_cast<std::size_t>(at - file.channels().begin()));
+  }
+  return indices;
+}
+[[noreturn]] void refuse_channels(const ImageFile& file, const std::string& expected) {
+  throw bad_input(file.path(), "channels", fmt::format("{}", fmt::join(file.channels(), ", ")),
+                  expected);
+}
+
+const std::vector<std::string> rgb{"R", "G", "B"}, xyz{"X", "Y", "Z"};
+
+}  // namespace
+
+StackPart::Piece StackPart::piece(std::size_t k) const {
+  Piece p;
+  p.first = k * piece_texels;
+  p.texels = std::min(piece_texels, texels - p.first);
+  const auto part = [&](const Floats& all, std::size_t each) {
+    return all.empty() ? std::span<const float>()
+                       : std::span<const float>(all).subspan(p.first * each, p.texels * each);
+  };
+  p.values = part(values, images * channels);
+  p.light = shared ? std::span<const float>(light) : part(light, images * 3);
+  p.view = shared ? std::span<const float>(view) : part(view, images * 3);
+  p.normal = part(normal, 3);
+  return p;
+}
+
+std::unique_ptr<ImageFile> StackReader::open(const std::string& path) {
+  auto file = open_image(path);
+  if (width_ == 0) {
+    width_ = file->width();
+    height_ = file->height();
+  }
+  if (file->width() != width_ || file->height() != height_)
+    throw bad_input(path, "size", fmt::format("{} × {}", file->width(), file->height()),
+                    fmt::format("{} × {} as {}", width_, height_, images_[0].path));
+  // Of files in scan lines a part costs all columns.
+  block_width_ = std::max(block_width_, file->block_width());
+  block_height_ = std::max(block_height_, file->block_height());
+  return file;
+}
+
+std::size_t StackReader::vectors(const std::string& name) {
+  const std::string path = stack_.path_of(name);
+  const auto known = std::ranges::find(maps_, path, &Source::path);
+  if (known != maps_.end()) return static_cast<std::size_t>(known - maps_.begin());
+  auto file = open(path);
+  auto channels = channels_among(*file, xyz);
+  if (channels.empty()) channels = channels_among(*file, rgb);
+  if (channels.empty()) refuse_channels(*file, "X, Y and Z, or R, G and B");
+  digest_ += digest_of(path) + '\n';
+  maps_.push_back({path, channels, std::move(file)});
+  return maps_.size() - 1;
+}
+
+StackReader::StackReader(Stack stack) : stack_(std::move(stack)) {
+  digest_ = sha256_of_file(stack_.path) + '\n';
+  constexpr std::size_t kept_open = 64;
+  for (const StackImage& image : stack_.images) {
+    const std::string path = stack_.path_of(image.path);
+    images_.push_back({path, {}, nullptr});
+    auto file = open(path);
+    Source& source = images_.back();
+    if (images_.size() == 1) {
+      channels_ = stack_.channels.value_or(file->channels().size() == 1 ? file->channels() : rgb);
+    }
+    const bool only = channels_.size() == 1 && file->channels().size() == 1 && !stack_.channels;
+    source.channels = only ? std::vector<std::size_t>{0} : channels_among(*file, channels_);
+    if (source.channels.empty())
+      refuse_channels(*file, stack_.channels || images_.size() > 1
+                                 ? fmt::format("{} among them", fmt::join(channels_, ", "))
+                                 : "one, or R, G and B; or \"channels\" in the stack");
+    digest_ += digest_of(path) + '\n';
+    if (images_.size() <= kept_open) source.file = std::move(file);
+    const auto map_of = [&](const auto& towards) {
+      const auto* map = std::get_if<2>(&towards);
+      return map ? vectors(map->path) : none;
+    };
+    light_maps_.push_back(map_of(image.light));
+    view_maps_.push_back(map_of(image.view));
+    shared_ = shared_ && light_maps_.back() == none && view_maps_.back() == none;
+    if (maps_.size() > kept_open) maps_.back().file.reset();
+  }
+  if (channels_.size() == 1) channels_ = {""};
+  if (stack_.normals) normals_ = vectors(*stack_.normals);
+  digest_ = sha256(digest_);
+}
+
+std::size_t StackReader::bytes_of_texel() const {
+  const std::size_t vectors =
+      (shared_ ? 0 : 6 * images_.size()) + (has_normals() ? 3 : 0) + 3 * maps_.size();
+  return sizeof(float) * (images_.size() * channels_.size() + vectors);
+}
+
+void StackReader::read(const Source& source, const Rectangle& part, std::vector<float>& to) const {
+  to.resize(source.channels.size() * part.size());
+  std::vector<float*> planes;
+  for (std::size_t c = 0; c < source.channels.size(); ++c)
+    planes.push_back(to.data() + c * part.size());
+  const auto opened = source.file ? nullptr : open_image(source.path);
+  ImageFile& file = source.file ? *source.file : *opened;
+  if (file.width() != width_ || file.height() != height_ ||
+      file.channels().size() <= std::ranges::max(source.channels))
+    throw bad_input(source.path, "reading", "another file meanwhile", "one that stays as it is");
+  file.read(part, source.channels, planes);
+}
+
+void StackReader::read_vectors(std::size_t map,
+                               const Rectangle& part,
+                               std::vector<float>& to) const {
+  read(maps_[map], part, to);
+  const std::size_t n = part.size();
+  for (std::size_t t = 0; t < n; ++t) {
+    const double x = to[t], y = to[n + t], z = to[2 * n + t];
+    const double length = std::hypot(x, y, z);
+    const auto unit = [&](double v) { return length > 0 ? static_cast<float>(v / length) : 0.0F; };
+    if (std::isfinite(x) && std::isfinite(y) && std::isfinite(z))  // hypot forgets a NaN
+      to[t] = unit(x), to[n + t] = unit(y), to[2 * n + t] = unit(z);
+    else
+      to[t] = to[n + t] = to[2 * n + t] = nan;
+  }
+}
+
+void StackReader::refuse(const Source& source,
+                         const Rectangle& part,
+                         std::size_t texel,
+                         const char* what) const {
+  throw bad_input(
+      source.path,
+      fmt::format("column {}, row {}", part.x + texel % part.width, part.y + texel / part.width),
+      what, "a direction above the surface: z above 0");
+}
+
+void StackReader::make_reflectance(const Rectangle& part,
+                                   std::size_t i,
+                                   const std::vector<std::vector<float>>& maps,
+                                   std::vector<float>& values) const {
+  const std::size_t n = part.size();
+  const StackImage& image = stack_.images[i];
+  const auto vector_of = [&](std::size_t map, std::size_t t) {
+    const auto& m = maps[map];
+    return Direction{m[t], m[n + t], m[2 * n + t]};
+  };
+  const auto light = direction_of(image.light);
+  for (std::size_t t = 0; t < n; ++t) {
+    const Direction normal = has_normals() ? vector_of(normals_, t) : Direction{};
+    const bool has_surface = normal.z > 0;  // not of NaN
+    double factor = image.scale;
+    if (stack_.values == StackValues::f_r_cosine) {
+      const double cosine = dot(normal, light ? *light : vector_of(light_maps_[i], t));
+      factor = cosine >= least_cosine ? factor / cosine : double{nan};
+    }
+    bool has_value = false;
+    for (std::size_t k = t; k < values.size(); k += n) {
+      const bool is_number = std::isfinite(values[k]);
+      has_value = has_value || is_number;
+      values[k] = is_number && has_surface ? values[k] * static_cast<float>(factor) : nan;
+    }
+    if (!has_value || !has_surface) continue;
+    for (const std::size_t map : {light_maps_[i], view_maps_[i]})
+      if (map != none && !(maps[map][2 * n + t] > 0))
+        refuse(maps_[map], part, t,
+               std::isnan(maps[map][2 * n + t]) ? "no direction" : "one below the surface");
+  }
+}
+
+void StackReader::read(const Rectangle& part, StackPart& to) const {
+  const std::size_t n = part.size(), images = images_.size(), channels = channels_.size();
+  to.texels = n;
+  to.images = images;
+  to.channels = channels;
+  to.shared = shared_;
+  to.values.resize(images * channels * n);
+  to.light.resize(images * 3 * (shared_ ? 1 : n));
+  to.view.resize(to.light.size());
+  to.normal.resize(has_normals() ? 3 * n : 0);
+
+  std::vector<std::vector<float>> maps(maps_.size());
+  for_each(maps.size(), [&](std::size_t m) { read_vectors(m, part, maps[m]); });
+  // do_piece(first texel, texels) of each piece
+  const auto for_pieces = [&](const auto& do_piece) {
+    for (std::size_t first = 0; first < n; first += StackPart::piece_texels)
+      do_piece(first, std::min(StackPart::piece_texels, n - first));
+  };
+  if (has_normals()) {
+    const auto& normals = maps[normals_];
+    for (std::size_t t = 0; t < n; ++t)
+      if (normals[2 * n + t] < 0 ||
+          (normals[2 * n + t] == 0 && (normals[t] != 0 || normals[n + t] != 0)))
+        refuse(maps_[normals_], part, t, "a normal that points below the surface");
+    for_pieces([&](std::size_t first, std::size_t count) {
+      for (std::size_t k = 0; k < 3; ++k)
+        std::copy_n(normals.data() + k * n + first, count,
+                    to.normal.data() + first * 3 + k * count);
+    });
+  }
+
+  for_each(images, [&](std::size_t i) {
+    std::vector<float> read_values;
+    read(images_[i], part, read_values);
+    const StackImage& image = stack_.images[i];
+    const auto light = direction_of(image.light), view = direction_of(image.view);
+
+    if (light && view && !has_normals()) {  // most stacks: one factor for all
+      const double cosine = stack_.values == StackValues::f_r_cosine ? light->z : 1;
+      const auto factor =
+          static_cast<float>(cosine >= least_cosine ? image.scale / cosine : double{nan});
+      for (float& v : read_values) {
+        const bool is_number = std::abs(v) <= std::numeric_limits<float>::max();
+        v = is_number ? v * factor : nan;
+      }
+    } else {
+      make_reflectance(part, i, maps, read_values);
+    }
+
+    for_pieces([&](std::size_t first, std::size_t count) {
+      float* const values = to.values.data() + first * images * channels + i * channels * count;
+      for (std::size_t c = 0; c < channels; ++c)
+        std::copy_n(read_values.data() + c * n + first, count, values + c * count);
+      if (shared_) return;
+      const auto put = [&](StackPart::Floats& all, const std::optional<Direction>& fixed,
+                           std::size_t map) {
+        float* const directions = all.data() + first * images * 3 + i * 3 * count;
+        for (std::size_t k = 0; k < 3; ++k)
+          if (fixed)
+            std::fill_n(directions + k * count, count, floats(*fixed)[k]);
+          else
+            std::copy_n(maps[map].data() + k * n + first, count, directions + k * count);
+      };
+      put(to.light, light, light_maps_[i]);
+      put(to.view, view, view_maps_[i]);
+    });
+    if (shared_) {
+      std::ranges::copy(floats(*light), to.light.begin() + static_cast<std::ptrdiff_t>(3 * i));
+      std::ranges::copy(floats(*view), to.view.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    }
+  });
+}
+
+}  // namespace gonio

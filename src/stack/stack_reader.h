@@ -1,0 +1,97 @@
+#pragma once
+/// \file
+/// Samples of a stack, part by part: the memory is the part's, whatever the stack's size.
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/memory.h"
+#include "image/image_file.h"
+#include "stack/stack.h"
+
+namespace gonio {
+
+/// Samples of a part, cut into pieces of its texels in the order of its rows, so that what belongs to a piece lies together.
+struct StackPart {
+  static constexpr std::size_t piece_texels = 512;  ///< of all pieces but the last
+  struct Piece {
+    std::size_t first = 0, texels = 0;  ///< of the part's texels
+    std::span<const float>
+        values;  ///< f_r [1/sr], [image][channel][texel]; NaN where there is none
+    /// Unit vectors, [image][3], or [image][3][texel] where texels have their own.
+    std::span<const float> light, view;
+    std::span<const float> normal;  ///< [3][texel]; empty where all are z
+  };
+  Piece piece(std::size_t k) const;
+  std::size_t pieces() const { return (texels + piece_texels - 1) / piece_texels; }
+
+  using Floats = std::vector<float, ArrayAllocator<float>>;
+  std::size_t texels = 0, images = 0, channels = 0;
+  bool shared = true;  ///< all texels have an image's light and view
+  Floats values, light, view, normal;
+};
+
+/// Open stack.  One thread reads parts, which are read on all.
+class StackReader {
+ public:
+  /// Opens each image once: those of another size or without the channels are refused.
+  explicit StackReader(Stack stack);
+
+  const Stack& stack() const { return stack_; }
+  std::size_t width() const { return width_; }
+  std::size_t height() const { return height_; }
+  /// Of the images; the only one of an image with one is "".
+  const std::vector<std::string>& channels() const { return channels_; }
+  bool shared() const { return shared_; }
+  bool has_normals() const { return normals_ != none; }
+  /// Columns and rows that files store as one; parts of whole ones read nothing twice.
+  std::size_t block_width() const { return block_width_; }
+  std::size_t block_height() const { return block_height_; }
+  /// Bytes that a texel of a part takes.
+  std::size_t bytes_of_texel() const;
+
+  /// Samples of a part within the stack.  Refused by file, column and row: a light, view or normal that is no direction or below the
+  /// surface of a texel that has a value there.  A texel whose normal is NaN or 0 has no values.
+  void read(const Rectangle&, StackPart& to) const;
+
+  /// Name of the stack: SHA-256 of its document's bytes and, of each file it names, the size, the first and the last 64 KiB, and 4 KiB
+  /// at each of 62 places between.  Packed images have the places of all their parts at the beginning: these change where one does.  An
+  /// array of NumPy's that is changed in a few numbers may keep its name.
+  const std::string& digest() const { return digest_; }
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  struct Source {
+    std::string path;
+    std::vector<std::size_t> channels;  ///< that are read
+    mutable std::unique_ptr<ImageFile>
+        file;  ///< kept open where there are few; used by one thread at a time
+  };
+  std::unique_ptr<ImageFile> open(const std::string& path);
+  std::size_t vectors(const std::string& name);
+  void read(const Source&, const Rectangle&, std::vector<float>& to) const;
+  void read_vectors(std::size_t map, const Rectangle&, std::vector<float>& to) const;
+  /// Values of an image as f_r.  \param values  of its channels, as read
+  void make_reflectance(const Rectangle& part,
+                        std::size_t image,
+                        const std::vector<std::vector<float>>& maps,
+                        std::vector<float>& values) const;
+  [[noreturn]] void refuse(const Source&,
+                           const Rectangle&,
+                           std::size_t texel,
+                           const char* what) const;
+
+  Stack stack_;
+  std::string digest_;
+  std::size_t width_ = 0, height_ = 0, block_width_ = 1, block_height_ = 1;
+  std::vector<std::string> channels_;
+  bool shared_ = true;
+  std::vector<Source> images_, maps_;                ///< maps_: images of vectors, each once
+  std::vector<std::size_t> light_maps_, view_maps_;  ///< of each image: index into maps_, or none
+  std::size_t normals_ = none;
+};
+
+}  // namespace gonio

@@ -1,0 +1,191 @@
+// gonio fit_map: from a stack to a map, killed and begun again, and what it refuses.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/program.h"
+#include "image/exr.h"
+
+#include <sys/resource.h>
+
+namespace gonio::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string model = "--fix f0=0.05";
+
+/// A stack in the folder s.
+void make_stack(const Folder& f, const std::string& words = "") {
+  const auto o = gonio(f, std::string("synth ") + paint +
+                              " --layout map --size 20,12 --images 12 --noise 0.02 -o s " + words);
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.out, "s/stack.json: 12 images, noise 2 %, seed 1\n");
+  EXPECT_EQ(o.err, "");
+}
+std::string map_bytes(const Folder& f) {
+  return read_bytes(f / "maps.exr");
+}
+
+TEST(FitMapCommand, FitsAStackAndSaysWhatTheMapHolds) {
+  const Folder f;
+  make_stack(f);
+  const auto o = gonio(f, "fit_map s/stack.json " + model + " -o maps.exr");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.err, "") << "progress is for terminals";
+  EXPECT_NE(o.out.find("texels  20 × 12, 100 % converged\n"), o.out.npos) << o.out;
+  EXPECT_NE(o.out.find("\nalpha "), o.out.npos) << o.out;
+  EXPECT_NE(o.out.find("map     maps.exr\n"), o.out.npos) << o.out;
+  EXPECT_FALSE(fs::exists(f / "maps.exr.tiles")) << "taken away once the map is whole";
+  const Image map = read_exr(f / "maps.exr");
+  const auto alpha = std::ranges::find(map.channels, "alpha");
+  ASSERT_NE(alpha, map.channels.end());
+  for (const float v : map.planes[static_cast<std::size_t>(alpha - map.channels.begin())])
+    EXPECT_NEAR(v, 0.15F, 0.03F);
+}
+
+TEST(FitMapCommand, PrintsOneDocumentForJson) {
+  const Folder f;
+  make_stack(f);
+  const auto j = gonio(f, "fit_map s/stack.json " + model + " -o maps.exr --json").json();
+  EXPECT_EQ(j["schema"], "gonio.map/1");
+  EXPECT_EQ(j["texels"]["converged"], 240);
+  EXPECT_EQ(j["options"]["fix"][0]["name"], "f0");
+  const auto t =
+      gonio(f, "fit_map s/stack.json " + model + " --tile 1,0 --tile-size 16 -o t --json").json();
+  EXPECT_EQ(t["tiles"][0], "t/tile_1_0.exr");
+  EXPECT_EQ(t["columns"], 2);
+}
+
+TEST(FitMapCommand, IsTheSameToTheBitForAnyTilesAndJobs) {
+  const Folder f;
+  make_stack(f);
+  const std::string words = "fit_map s/stack.json " + model + " -o maps.exr";
+  ASSERT_EQ(gonio(f, words + " --jobs 1").code, 0);
+  const std::string once = map_bytes(f);
+  for (const char* how : {" --jobs 3", " --tile-size 8", " --tile-size 20,1 --jobs 2"}) {
+    ASSERT_EQ(gonio(f, words + how).code, 0);
+    EXPECT_EQ(map_bytes(f), once) << how;
+  }
+}
+
+TEST(FitMapCommand, GoesOnFromTheTilesOfARunThatWasKilled) {
+  const Folder f;
+  make_stack(f);
+  const std::string words = "fit_map s/stack.json " + model + " --tile-size 10,6 -o maps.exr";
+  ASSERT_EQ(gonio(f, words).code, 0);
+  const std::string whole = map_bytes(f);
+  fs::remove(f / "maps.exr");
+  // Killed at any time; nothing of it is there under its name but whole tiles.
+  for (const char* time : {"0.02", "0.05", "0.1"})
+    gonio(f, words, std::string("timeout -s KILL ") + time + " ");
+  const auto o = gonio(f, words);
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(map_bytes(f), whole);
+  // One tile from before, surely.
+  ASSERT_EQ(
+      gonio(f, "fit_map s/stack.json " + model + " --tile-size 10,6 --tile 0,1 -o maps.exr.tiles")
+          .code,
+      0);
+  EXPECT_NE(gonio(f, words).out.find("; 1 of 4 tiles kept from before"), std::string::npos);
+  EXPECT_EQ(map_bytes(f), whole);
+}
+
+TEST(FitMapCommand, RefusesBadInputInOneLine) {
+  const Folder f;
+  make_stack(f);
+  f.write("cut.json", R"({"schema": "gonio.stack/1", "images": [)");
+  f.write("below.json",
+          R"({"schema": "gonio.stack/1", "images": [{"path": "a", "theta_i": 95, "theta_o": 0}]})");
+  f.write("none.json", R"({"schema": "gonio.stack/1", "images": [{"path": "a", "theta_o": 0}]})");
+  f.write("gone.json",
+          R"({"schema": "gonio.stack/1", "images": [{"path": "a", "theta_i": 0, "theta_o": 0}]})");
+  Image small;
+  small.width = small.height = 3;
+  small.channels = {"B", "G", "R"};
+  small.planes.assign(3, std::vector<float>(9, 0.5F));
+  write_exr(f / "s/small.exr", small);
+  f.write("s/sizes.json", R"({"schema": "gonio.stack/1", "images": [)"
+                          R"({"path": "image_000.exr", "theta_i": 0, "theta_o": 0},)"
+                          R"({"path": "small.exr", "theta_i": 0, "theta_o": 0}]})");
+  expect_one_line_each(
+      f, 3,
+      {{"fit_map cut.json -o m.exr", "cut.json"},
+       {"fit_map below.json -o m.exr", "below.json: /images/0/theta_i: found 95"},
+       {"fit_map none.json -o m.exr", "expected one of theta_i, light or light_map"},
+       {"fit_map gone.json -o m.exr", "a: opening"},
+       {"fit_map s/sizes.json -o m.exr", "small.exr: size: found 3 × 3, expected 20 × 12"},
+       {"fit_map nothing.json -o m.exr", "nothing.json"},
+       {"fit_map s/image_000.exr -o m.exr", "image_000.exr"},
+       {"fit_map s/stack.json -o nowhere/m.exr", "nowhere/m.exr: writing"},
+       {"fit_map s/stack.json -o s", "s: writing: found a directory"},
+       {"fit_map s/stack.json --tile 0,0 -o s/stack.json/t", "s/stack.json/t"}});
+  EXPECT_FALSE(fs::exists(f / "m.exr"));
+  EXPECT_FALSE(fs::exists(f / "m.exr.tiles"));
+}
+
+TEST(FitMapCommand, RefusesWrongWordsInOneLine) {
+  const Folder f;
+  make_stack(f);
+  expect_one_line_each(f, 2,
+                       {{"fit_map s/stack.json", "--output"},
+                        {"fit_map s/stack.json --model nonsense -o m.exr", "nonsense"},
+                        {"fit_map s/stack.json --fix beta=3 -o m.exr", "beta"},
+                        {"fit_map s/stack.json --tile 1 -o t", "--tile 1"},
+                        {"fit_map s/stack.json --tile 1,0 -o t", "0,0 to 0,0"},
+                        {"fit_map s/stack.json --tile-size 0 -o m.exr", "--tile-size 0"},
+                        {"fit_map s/stack.json --tile-size 8,x -o m.exr", "--tile-size 8,x"},
+                        {"fit_map s/stack.json -o s/stack.json", "would be overwritten"},
+                        {"fit_map s/stack.json --metric vague -o m.exr", "vague"}});
+}
+
+TEST(FitMapCommand, RefusesTilesOfOtherOptionsAndKeepsThem) {
+  const Folder f;
+  make_stack(f);
+  const std::string tile = "fit_map s/stack.json --tile 0,0 -o t ";
+  ASSERT_EQ(gonio(f, tile + model).code, 0);
+  const std::string before = read_bytes(f / "t/tile_0_0.exr");
+  const auto o = gonio(f, tile + "--fix f0=0.04");
+  expect_one_line(o, 3, "t/tile_0_0.exr: gonio:options: found ");
+  EXPECT_EQ(read_bytes(f / "t/tile_0_0.exr"), before);
+  expect_one_line(gonio(f, "fit_map s/stack.json --tile 1,0 --tile-size 16 -o t"), 3, "tile_0_0");
+  EXPECT_FALSE(fs::exists(f / "t/tile_1_0.exr")) << "not beside tiles of another map";
+}
+
+TEST(FitMapCommand, LosesNothingWhereItCannotWrite) {
+  const Folder f;
+  make_stack(f);
+  const std::string words = "fit_map s/stack.json " + model + " -o maps.exr";
+  ASSERT_EQ(gonio(f, words).code, 0);
+  const std::string whole = map_bytes(f);
+  expect_one_line(gonio(f, words + " --tile-size 8", "ulimit -f 1; "), 3, "writing");
+  EXPECT_EQ(map_bytes(f), whole) << "that of before";
+}
+
+/// Of a stack of 3.2 GB, no more than a part is in memory.
+TEST(FitMapCommand, NeedsMemoryForATileAndNotForTheStack) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take the address space for themselves";
+#endif
+  const Folder f;
+  const std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (4096, 4096, 3), }";
+  std::string images;
+  for (int i = 0; i < 16; ++i) {
+    const std::string name = "image_" + std::to_string(i) + ".npy";
+    f.write(name,
+            std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(header.size()) + '\0' + header);
+    fs::resize_file(f / name, 10 + header.size() + std::uintmax_t{4096} * 4096 * 3 * 4);  // holes
+    images += std::string(i ? "," : "") + R"({"path": ")" + name + R"(", "theta_i": )" +
+              std::to_string(5 * i) + R"(, "theta_o": 10})";
+  }
+  f.write("stack.json", R"({"schema": "gonio.stack/1", "images": [)" + images + "]}");
+  const std::string limit = "ulimit -v 1000000; ";  // kB: a third of the stack
+  const auto o =
+      gonio(f, "fit_map stack.json --model lambert --tile 3,2 --tile-size 64 -o t", limit);
+  EXPECT_TRUE(o.code == 0) << o.err;
+  EXPECT_TRUE(fs::exists(f / "t/tile_3_2.exr"));
+}
+
+}  // namespace
+}  // namespace gonio::test

@@ -1,0 +1,498 @@
+#include "fitting/map/texels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+
+#include "base/error.h"
+#include "fitting/fit.h"
+#include "fitting/map/stack.h"
+#include "fitting/solve/problem.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+using test::Noise;
+using test::Stack;
+using test::StackOptions;
+
+constexpr auto converged = static_cast<std::uint8_t>(TexelOutcome::converged);
+constexpr auto no_data = static_cast<std::uint8_t>(TexelOutcome::no_data);
+constexpr auto is_free = static_cast<std::uint8_t>(ParameterStatus::free);
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+bool is_long() {
+  return std::getenv("GONIO_LONG") != nullptr;
+}
+
+TexelOptions options(const std::string& model, Metric metric = Metric::l2_cosine) {
+  TexelOptions o;
+  o.model = model;
+  o.metric = metric;
+  return o;
+}
+
+/// A texel as a table.
+Table table_of(const Stack& s, std::size_t texel) {
+  Table t;
+  t.format = "csv";
+  t.channels = s.model.model.channels == 1 ? std::vector<std::string>{"f"}
+                                           : std::vector<std::string>{"r", "g", "b"};
+  DirectionList l;
+  for (std::size_t i = 0; i < s.images; ++i) {
+    const auto d = s.directions(i);
+    l.theta_i_deg.push_back(theta_of(d.wi) / degree);
+    l.phi_i_deg.push_back(phi_of(d.wi) / degree);
+    l.theta_o_deg.push_back(theta_of(d.wo) / degree);
+    l.phi_o_deg.push_back(phi_of(d.wo) / degree);
+  }
+  t.where = std::move(l);
+  for (std::size_t c = 0; c < t.channels.size(); ++c) {
+    t.values.emplace_back(s.images);
+    for (std::size_t i = 0; i < s.images; ++i) t.values[c][i] = double{s.values[s.at(i, c, texel)]};
+  }
+  return t;
+}
+
+/// The fit of a table, its last steps taken until nothing is left to gain: Ceres stops where a step lowers the cost by less than 1e-10 of
+/// itself, which may be thousandths of a standard error away.
+FitResult fit_to_the_end(const Table& table, const FitOptions& o) {
+  FitResult f = fit(table, o);
+  const Problem p = pose(table, o);
+  const Sampling sampling = sampling_for(p, table, table.bins());
+  const auto data = fit_data<double>(sampling);
+  const Accumulator<double> accumulate(p.start.model, data, p.free);
+  auto x = p.free.of(f.model.values);
+  const auto evaluate = [&](const std::vector<double>& at) {
+    p.free.put(at, f.model.values);
+    return accumulate.normal_equations(f.model.values);
+  };
+  solve(evaluate, x, p.bounds,
+        {.max_iterations = 500, .function_tolerance = 1e-16, .parameter_tolerance = 1e-13});
+  p.free.put(x, f.model.values);
+  return f;
+}
+
+/// Holds texels against the fit of each as a table: of the parameters 99 % to 1e-5, the rest to 0.01 standard errors.
+void expect_fits_of_tables(const StackOptions& made, Metric metric) {
+  const Stack s = test::stack(made);
+  const TexelFit map = fit_texels(s.samples(), options(made.model, metric));
+  FitOptions o;
+  o.model = made.model;
+  o.metric = metric;
+  o.intervals = Intervals::independent;
+  o.bin_sensitivity = false;
+  std::size_t all = 0, close = 0, errors = 0, errors_close = 0;
+  for (std::size_t t = 0; t < s.texels; ++t) {
+    const FitResult one = fit_to_the_end(table_of(s, t), o);
+    std::size_t column = 0;
+    for (const auto& q : one.model.model.parameters)
+      for (std::size_t c = 0; c < q.count; ++c, ++column) {
+        const auto& mine = map.columns[column];
+        const auto& p = *std::ranges::find(one.document.parameters, q.name, &FittedParameter::name);
+        if (mine.status[t] != is_free || p.status[c] != ParameterStatus::free) continue;
+        const double expected = one.model.values[q.first + c], found = double{mine.value[t]};
+        ++all;
+        if (std::abs(found - expected) <= 1e-5 * std::abs(expected)) {
+          ++close;
+        } else {
+          const double error =
+              std::isnan(p.std_error[c]) ? double{mine.std_error[t]} : p.std_error[c];
+          EXPECT_LE(std::abs(found - expected), 0.01 * error)
+              << made.model << " texel " << t << " " << q.name << " " << expected;
+        }
+        if (std::isnan(p.std_error[c])) continue;
+        ++errors;
+        errors_close +=
+            std::abs(double{mine.std_error[t]} - p.std_error[c]) <= 0.02 * p.std_error[c];
+      }
+  }
+  EXPECT_GE(all, s.texels * map.columns.size() * 9 / 10) << made.model;
+  EXPECT_GE(close, all * 99 / 100) << made.model << " of " << all;
+  // What the fit of a table widens them by, where it finds the model lacking, is not part of the
+  // plain sandwich.
+  EXPECT_GE(errors_close, errors * 9 / 10) << made.model << " of " << errors;
+}
+
+TEST(Texels, AgreeWithFitsOfThemAsTables) {
+  StackOptions made;
+  made.texels = is_long() ? 10000 : 250;
+  made.noise = Noise::relative;
+  made.sigma = 0.03;
+  expect_fits_of_tables(made, Metric::l2_cosine);
+}
+
+TEST(Texels, AgreeWithFitsOfTablesInEveryMetric) {
+  StackOptions made;
+  made.texels = is_long() ? 1000 : 60;
+  made.noise = Noise::relative;
+  made.sigma = 0.03;
+  expect_fits_of_tables(made, Metric::log);
+  expect_fits_of_tables(made, Metric::relative);
+}
+
+TEST(Texels, AgreeWithFitsOfTablesWhateverTheModel) {
+  StackOptions made;
+  made.texels = is_long() ? 500 : 30;
+  made.noise = Noise::relative;
+  made.sigma = 0.01;
+  for (const char* model : {"lambert.coupled+ggx/smith_ggx.correlated/schlick",
+                            "lambert+beckmann/smith_beckmann.correlated/schlick",
+                            "lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick",
+                            "ggx/smith_ggx.separable/schlick"}) {
+    made.model = model;
+    expect_fits_of_tables(made, Metric::l2_cosine);
+  }
+  made.channels = 1;
+  made.model = "lambert+ggx/smith_ggx.correlated/dielectric";
+  expect_fits_of_tables(made, Metric::l2_cosine);
+}
+
+/// Holds the parameters of texels without noise to `most` of their values.
+void expect_truth(const Stack& s, const TexelFit& f, double most) {
+  std::size_t column = 0;
+  for (const auto& q : s.model.model.parameters)
+    for (std::size_t c = 0; c < q.count; ++c, ++column)
+      for (std::size_t t = 0; t < s.texels; ++t)
+        EXPECT_NEAR(double{f.columns[column].value[t]}, s.truth[q.first + c][t],
+                    most * std::abs(s.truth[q.first + c][t]))
+            << s.model.model.spec << " " << q.name << " of texel " << t;
+}
+
+TEST(Texels, ComeBackWithoutNoise) {
+  for (const char* model : {"lambert+ggx/smith_ggx.correlated/schlick", "lambert",
+                            "lambert+gtr/smith_ggx.correlated/schlick",
+                            "lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick"}) {
+    StackOptions made;
+    made.model = model;
+    const Stack s = test::stack(made);
+    const TexelFit f = fit_texels(s.samples(), options(model));
+    for (const auto outcome : f.outcome) EXPECT_EQ(outcome, converged) << model;
+    expect_truth(s, f, 1e-3);
+  }
+}
+
+/// Columns as bits: two results are one or they are not.
+std::vector<std::uint32_t> bits_of(const TexelFit& f, std::size_t texel) {
+  std::vector<std::uint32_t> bits{f.outcome[texel], std::bit_cast<std::uint32_t>(f.rms[texel])};
+  for (const auto& c : f.columns) {
+    bits.push_back(std::bit_cast<std::uint32_t>(c.value[texel]));
+    bits.push_back(std::bit_cast<std::uint32_t>(c.std_error[texel]));
+    bits.push_back(c.status[texel]);
+  }
+  for (std::size_t k = 0; k < 3 && !f.normal.empty(); ++k)
+    bits.push_back(std::bit_cast<std::uint32_t>(f.normal[k * f.outcome.size() + texel]));
+  return bits;
+}
+
+/// Some of a stack's texels, in the order given.
+Stack part_of(const Stack& s, const std::vector<std::size_t>& texels) {
+  Stack p = s;
+  p.texels = texels.size();
+  p.values.clear();
+  for (std::size_t row = 0; row < s.images * s.model.model.channels; ++row)
+    for (const std::size_t t : texels) p.values.push_back(s.values[row * s.texels + t]);
+  p.normal.clear();
+  for (std::size_t k = 0; k < 3 && !s.normal.empty(); ++k)
+    for (const std::size_t t : texels) p.normal.push_back(s.normal[k * s.texels + t]);
+  return p;
+}
+
+TEST(Texels, DependNeitherOnTheirNeighboursNorOnTheBlock) {
+  for (const bool refined : {false, true})
+    for (const char* model :
+         {"lambert+ggx/smith_ggx.correlated/schlick", "lambert+gtr/smith_ggx.correlated/schlick"}) {
+      StackOptions made;
+      made.model = model;
+      made.texels = 83;
+      made.noise = Noise::relative;
+      made.sigma = 0.1;
+      Stack s = test::stack(made);
+      for (std::size_t t = 0; t < s.texels; t += 7) s.values[s.at(t % s.images, t % 3, t)] = nan;
+      TexelOptions o = options(model);
+      o.refine_normals = refined;
+      const TexelFit whole = fit_texels(s.samples(), o);
+      std::vector<std::size_t> backwards;
+      for (std::size_t t = s.texels; t-- > 0;) backwards.push_back(t);
+      const TexelFit turned = fit_texels(part_of(s, backwards).samples(), o);
+      for (std::size_t t = 0; t < s.texels; ++t) {
+        EXPECT_EQ(bits_of(turned, s.texels - 1 - t), bits_of(whole, t)) << model << t;
+        if (t % 5 == 0) {
+          const TexelFit alone = fit_texels(part_of(s, {t}).samples(), o);
+          EXPECT_EQ(bits_of(alone, 0), bits_of(whole, t)) << model << t;
+        }
+      }
+    }
+}
+
+TEST(Texels, AreTheSameWithDirectionsOfTheirOwn) {
+  StackOptions made;
+  made.texels = 40;
+  made.noise = Noise::relative;
+  made.sigma = 0.05;
+  const Stack s = test::stack(made);
+  std::vector<float> light, view, normal(3 * s.texels);
+  for (std::size_t k = 0; k < 3 * s.images; ++k) {
+    light.insert(light.end(), s.texels, s.light[k]);
+    view.insert(view.end(), s.texels, s.view[k]);
+  }
+  std::fill(normal.begin() + static_cast<std::ptrdiff_t>(2 * s.texels), normal.end(), 1.0F);
+  const auto o = options(made.model);
+  const TexelFit shared = fit_texels(s.samples(), o);
+  TexelSamples own = s.samples();
+  own.shared = false;
+  own.light = light;
+  own.view = view;
+  own.normal = normal;
+  const TexelFit each = fit_texels(own, o);
+  for (std::size_t t = 0; t < s.texels; ++t) EXPECT_EQ(bits_of(each, t), bits_of(shared, t)) << t;
+}
+
+TEST(Texels, AreTheSameWithEveryInstructionSet) {
+  StackOptions made;
+  made.texels = 50;
+  made.noise = Noise::relative;
+  made.sigma = 0.05;
+  for (const char* model : {"lambert+ggx/smith_ggx.correlated/schlick",
+                            "lambert.coupled+ggx/smith_ggx.separable/schlick"}) {
+    made.model = model;
+    const Stack s = test::stack(made);
+    for (const auto metric : {Metric::l2_cosine, Metric::log}) {
+      const auto o = options(model, metric);
+      const TexelFit scalar = fit_texels(s.samples(), o, "scalar");
+      for (const auto& set : instruction_sets()) {
+        const TexelFit other = fit_texels(s.samples(), o, set);
+        for (std::size_t t = 0; t < s.texels; ++t) {
+          if (metric == Metric::l2_cosine) {  // + − × ÷ √ alone
+            EXPECT_EQ(bits_of(other, t), bits_of(scalar, t)) << set << " texel " << t;
+            continue;
+          }
+          for (std::size_t k = 0; k < scalar.columns.size();
+               ++k)  // logarithms differ by their last digits
+            EXPECT_NEAR(other.columns[k].value[t], scalar.columns[k].value[t],
+                        1e-5 * std::abs(double{scalar.columns[k].value[t]}))
+                << set << " texel " << t;
+        }
+      }
+    }
+  }
+}
+
+TEST(Texels, LieWithinTheirIntervals) {
+  StackOptions made;
+  made.texels = is_long() ? 256 * 256 : 64 * 64;
+  made.noise = Noise::of_light;
+  made.sigma = 0.002;
+  const Stack s = test::stack(made);
+  const TexelFit f = fit_texels(s.samples(), options(made.model));
+  std::size_t column = 0;
+  for (const auto& q : s.model.model.parameters)
+    for (std::size_t c = 0; c < q.count; ++c, ++column) {
+      std::size_t inside = 0, all = 0;
+      for (std::size_t t = 0; t < s.texels; ++t) {
+        const auto& k = f.columns[column];
+        if (k.status[t] != is_free || std::isnan(k.std_error[t])) continue;
+        ++all;
+        inside +=
+            std::abs(double{k.value[t]} - s.truth[q.first + c][t]) <= 1.96 * double{k.std_error[t]};
+      }
+      EXPECT_GE(all, s.texels * 95 / 100) << q.name;
+      EXPECT_NEAR(static_cast<double>(inside) / static_cast<double>(all), 0.95, 0.02) << q.name;
+    }
+}
+
+TEST(Texels, FitTheNormalThatTheirHighlightsTell) {
+  StackOptions made;
+  made.texels = 40;
+  Stack s = test::stack(made);
+  // Each surface is tilted by up to 10°; f_r is that of the true normal, divided by n·l of the
+  // map's.
+  std::vector<Direction> normals;
+  for (std::size_t t = 0; t < s.texels; ++t) {
+    const Direction z =
+        direction(10 * degree * static_cast<double>(t) / 40, static_cast<double>(t));
+    const Direction x = direction(theta_of(z) + 90 * degree, phi_of(z));
+    const Direction y{z.y * x.z - z.z * x.y, z.z * x.x - z.x * x.z, z.x * x.y - z.y * x.x};
+    normals.push_back(z);
+    for (std::size_t k = 0; k < s.truth.size(); ++k) s.model.values[k] = s.truth[k][t];
+    std::vector<Angles<double>> angles;
+    for (std::size_t i = 0; i < s.images; ++i) {
+      const auto d = s.directions(i);
+      const auto in = [&](const Direction& v) {
+        return Direction{dot(v, x), dot(v, y), dot(v, z)};
+      };
+      angles.push_back(frame_angles({in(d.wi), in(d.wo)}));
+    }
+    const auto f = evaluate(s.model, angles);
+    for (std::size_t i = 0; i < s.images; ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        s.values[s.at(i, c, t)] =
+            static_cast<float>(f[c][i] * angles[i].nol / s.directions(i).wi.z);
+  }
+  TexelOptions o = options(made.model);
+  o.refine_normals = true;
+  const TexelFit f = fit_texels(s.samples(), o);
+  std::size_t right = 0;
+  for (std::size_t t = 0; t < s.texels; ++t) {
+    const Direction n{double{f.normal[t]}, double{f.normal[s.texels + t]},
+                      double{f.normal[2 * s.texels + t]}};
+    right += std::abs(n.x - normals[t].x) < 1e-4 && std::abs(n.y - normals[t].y) < 1e-4 &&
+             std::abs(double{f.columns[3].value[t]} / s.truth[3][t] - 1) < 1e-3;
+  }
+  EXPECT_GE(right, s.texels * 19 / 20);
+  // With the map's normals they are not what they seem.
+  const TexelFit kept = fit_texels(s.samples(), options(made.model));
+  EXPECT_GT(kept.rms[39], 10 * f.rms[39]);
+}
+
+TEST(Texels, AreJudgedByNormalsThatAreGiven) {
+  StackOptions made;
+  made.texels = 20;
+  const Stack flat = test::stack(made);
+  // All turned together: what the surface sees stays the same.
+  const double c = std::cos(0.3), n = std::sin(0.3);
+  Stack s = flat;
+  for (auto* all : {&s.light, &s.view})
+    for (std::size_t i = 0; i < s.images; ++i) {
+      float *const x = all->data() + 3 * i, *const z = x + 2;
+      const double old_x = double{*x}, old_z = double{*z};
+      *x = static_cast<float>(c * old_x + n * old_z);
+      *z = static_cast<float>(c * old_z - n * old_x);
+    }
+  s.normal.assign(s.texels, static_cast<float>(n));
+  s.normal.insert(s.normal.end(), s.texels, 0.0F);
+  s.normal.insert(s.normal.end(), s.texels, static_cast<float>(c));
+  expect_truth(s, fit_texels(s.samples(), options(made.model)), 1e-3);
+}
+
+TEST(Texels, LeaveOutWhatWasNotMeasured) {
+  StackOptions made;
+  made.texels = 37;
+  Stack s = test::stack(made);
+  for (std::size_t t = 0; t < s.texels; ++t)
+    for (std::size_t i = t % 5; i < s.images; i += 5)
+      s.values[s.at(i, t % 3, t)] =
+          std::array{nan, -1.0F, std::numeric_limits<float>::infinity()}[i % 3];
+  expect_truth(s, fit_texels(s.samples(), options(made.model)), 1e-3);
+}
+
+TEST(Texels, SayNothingOfWhatHasNoData) {
+  StackOptions made;
+  made.texels = 20;
+  Stack s = test::stack(made);
+  for (std::size_t i = 0; i < s.images; ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      s.values[s.at(i, c, 3)] = nan;
+      s.values[s.at(i, c, 4)] = 0;
+    }
+  for (const auto metric : {Metric::l2_cosine, Metric::log, Metric::relative}) {
+    const TexelFit f = fit_texels(s.samples(), options(made.model, metric));
+    EXPECT_EQ(f.outcome[3], no_data);
+    EXPECT_TRUE(std::isnan(f.rms[3]));
+    for (const auto& c : f.columns) {
+      EXPECT_EQ(c.status[3], static_cast<std::uint8_t>(ParameterStatus::not_identifiable));
+      EXPECT_TRUE(std::isnan(c.value[3]) && std::isnan(c.std_error[3]));
+    }
+    if (metric != Metric::l2_cosine) {  // a black texel has no logarithm
+      EXPECT_EQ(f.outcome[4], no_data);
+      continue;
+    }
+    EXPECT_EQ(f.outcome[4], converged);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(f.columns[k].value[4], 0, 1e-6);
+    EXPECT_NE(f.columns[3].status[4], is_free);
+  }
+  expect_truth(part_of(s, {0}), fit_texels(part_of(s, {0}).samples(), options(made.model)), 1e-3);
+}
+
+TEST(Texels, SayWhatTheirDirectionsCannotTell) {
+  for (const bool one_image : {true, false}) {
+    StackOptions made;
+    made.texels = 20;
+    made.images = one_image ? 1 : 12;
+    Stack s = test::stack(made);
+    for (std::size_t i = 1; i < s.images; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        s.light[3 * i + k] = s.light[k];
+        s.view[3 * i + k] = s.view[k];
+      }
+    for (std::size_t i = 1; i < s.images; ++i)
+      for (std::size_t t = 0; t < s.texels; ++t)
+        for (std::size_t c = 0; c < 3; ++c)
+          s.values[s.at(i, c, t)] =
+              s.values[s.at(0, c, t)] * (1 + 0.01F * static_cast<float>(i % 3));
+    const TexelFit f = fit_texels(s.samples(), options(made.model));
+    for (std::size_t t = 0; t < s.texels; ++t) {
+      EXPECT_TRUE(std::isfinite(f.rms[t]));
+      std::size_t known = 0;
+      for (const auto& c : f.columns) {
+        const bool knows = std::isfinite(c.std_error[t]);
+        known += knows;
+        if (c.status[t] == static_cast<std::uint8_t>(ParameterStatus::not_identifiable)) {
+          EXPECT_TRUE(std::isnan(c.value[t]));
+        }
+      }
+      EXPECT_LE(known, one_image ? 0U : 3U) << "texel " << t;  // one number a channel
+    }
+  }
+}
+
+TEST(Texels, BearDirectionsThatAreNone) {
+  StackOptions made;
+  made.texels = 20;
+  Stack s = test::stack(made);
+  for (std::size_t k = 0; k < 3; ++k) {
+    s.light[k] = -s.light[k];  // from below
+    s.view[3 + k] = nan;       // no direction
+    s.light[6 + k] = s.view[6 + k] = 0;
+  }
+  s.view[9] = 1;
+  s.view[10] = s.view[11] = 0;  // along the surface
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t t = 0; t < s.texels; ++t)
+      for (std::size_t c = 0; c < 3; ++c) s.values[s.at(i, c, t)] = 1e6F;
+  expect_truth(s, fit_texels(s.samples(), options(made.model)), 1e-3);
+  for (auto& x : s.light) x = -1;
+  const TexelFit none = fit_texels(s.samples(), options(made.model));
+  for (const auto outcome : none.outcome) EXPECT_EQ(outcome, no_data);
+}
+
+TEST(Texels, HoldWhatIsFixedAndStayInsideBounds) {
+  StackOptions made;
+  made.texels = 30;
+  const Stack s = test::stack(made);
+  TexelOptions o = options(made.model);
+  o.fixed = {{"f0", {0.04}}};
+  o.bounds = {{"alpha", {0.1, 0.2}}};
+  const TexelFit f = fit_texels(s.samples(), o);
+  for (std::size_t t = 0; t < s.texels; ++t) {
+    EXPECT_EQ(f.columns[4].value[t], 0.04F);
+    EXPECT_EQ(f.columns[4].status[t], static_cast<std::uint8_t>(ParameterStatus::fixed));
+    const float alpha = f.columns[3].value[t];
+    EXPECT_TRUE(0.1F <= alpha && alpha <= 0.2F) << alpha;
+    if (alpha == 0.1F || alpha == 0.2F) {
+      EXPECT_EQ(f.columns[3].status[t], static_cast<std::uint8_t>(ParameterStatus::at_bound));
+    }
+  }
+}
+
+TEST(Texels, RefuseOptionsAndSizesThatDoNotFit) {
+  const Stack s = test::stack({});
+  TexelOptions aniso = options("lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick");
+  aniso.refine_normals = true;
+  EXPECT_THROW(check(aniso, 3), Error);
+  EXPECT_THROW(check(options("nothing"), 3), Error);
+  EXPECT_THROW(check(options("lambert"), 2), Error);
+  EXPECT_NO_THROW(check(options("lambert"), 1));
+  TexelSamples short_of_light = s.samples();
+  short_of_light.light = short_of_light.light.first(3);
+  EXPECT_THROW(fit_texels(short_of_light, {}), Error);
+  const TexelFit nothing = fit_texels({0, 0, 3, {}, true, {}, {}, {}}, {});
+  EXPECT_TRUE(nothing.rms.empty());
+}
+
+}  // namespace
+}  // namespace gonio
