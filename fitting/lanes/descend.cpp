@@ -393,6 +393,25 @@ void angles(const TexelDirections& d) {
   }
 }
 
+void read(const TexelRows& t) {
+  const B zero(0), far = constant<B>(1e18L),
+                   none = constant<B>(std::numeric_limits<float>::quiet_NaN());
+  std::array<B, TexelRows::registers> signal;
+  signal.fill(zero);
+  for (std::size_t r = 0; r < t.rows.size(); ++r) {
+    const float* const from = t.values + t.rows[r] * t.texels + t.first;
+    const B w(t.weight[r]);
+    for (std::size_t k = 0; k < signal.size(); ++k) {
+      float* const to = t.to + (k * t.rows.size() + r) * lanes<B>;
+      std::memcpy(to, from + k * lanes<B>, sizeof(B));
+      const B y = load<B>(to);
+      const auto good = zero <= y && y <= far;
+      signal[k] = signal[k] + select<B>(good, w * y * (w * y), none);
+    }
+  }
+  for (std::size_t k = 0; k < signal.size(); ++k) store<B>(t.signal + k * padding, signal[k]);
+}
+
 template <std::size_t K>
 void worth_of_columns(std::size_t n,
                       const float* r,
@@ -448,6 +467,7 @@ LaneKernels lane_table() {
           fused_texels(),
           worth_table(std::make_index_sequence<max_columns>{}),
           angles,
+          read,
           descend,
           compare,
           invert,

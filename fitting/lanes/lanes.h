@@ -59,6 +59,18 @@ struct TexelDirections {
   std::array<float*, 11> angles;  ///< [sample][lane], as a Block with its frame has them
 };
 
+/// Rows of values, texel fastest, of which several registers of texels are read at once: their rows lie far apart, and what is near is
+/// fetched with them.
+struct TexelRows {
+  static constexpr std::size_t registers = 4;
+  const float* values;  ///< [row][texel]
+  std::size_t texels, first;
+  std::span<const std::size_t> rows;
+  std::span<const float> weight;  ///< of each row read
+  float* to;                      ///< [register][row read][lane]
+  float* signal;  ///< [register][padding]: Σ (w y)²; NaN where a value is none or negative
+};
+
 /// Unknowns of a texel, in the order of elimination: those of one channel alone, channel by channel, then the others.
 struct TexelUnknowns {
   std::size_t count = 0, channels = 0;
@@ -94,6 +106,7 @@ struct LaneKernels {
   std::span<const FusedTexels> fused;
   std::array<WorthOfColumns, max_columns + 1> worth;  ///< [k]: k columns, r one of them
   void (*angles)(const TexelDirections&);
+  void (*read)(const TexelRows&);
   /// Sums of a pass at `tried` → the state, and the next `tried`.
   /// \return whether any texel is on its way
   bool (*descend)(const TexelUnknowns&, const UnknownOf&, const float* const* sums, TexelState&);

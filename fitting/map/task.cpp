@@ -189,7 +189,15 @@ TexelTask::TexelTask(const TexelOptions& o, std::size_t channels)
                       "fitted at once",
                       count, max_columns - 1));
   }
-  starts = starts_of(problem, is_shape);
+  for (auto& start : starts_of(problem, is_shape)) {
+    const bool alone = !turns() && model().lobes.size() < 2;
+    const auto like = [&](const auto& group) {
+      return alone || group.front().back().second == start.back().second;
+    };
+    auto group = start.empty() ? starts.begin() : std::ranges::find_if(starts, like);
+    if (group == starts.end()) group = starts.insert(group, std::vector<Start>{});
+    group->push_back(std::move(start));
+  }
   is_linear = gonio::is_linear(problem, is_shape);
 }
 

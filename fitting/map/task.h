@@ -22,8 +22,10 @@ struct TexelTask {
   std::vector<std::size_t>
       unknown_of;              ///< [slot], the two of the tilt last; unknowns.count: it is held
   std::vector<bool> is_shape;  ///< [slot]: D or V reads it
-  /// Shapes that are tried, each some slots with their values; what else is unknown is then solved for.
-  std::vector<std::vector<std::pair<std::size_t, float>>> starts;
+  /// Shape that is tried: some slots with their values; what else is unknown is then solved for.
+  using Start = std::vector<std::pair<std::size_t, float>>;
+  /// Groups of them.  The best of each is a way of its own, where the cost has several valleys: of tangents and of several lobes.
+  std::vector<std::vector<Start>> starts;
   bool is_linear;  ///< f in all that is no shape: that solution is exact
 
   const Model& model() const { return problem.start.model; }

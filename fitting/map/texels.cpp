@@ -41,10 +41,11 @@ class LaneFit {
   void gather_lanes(std::span<const std::size_t> texels);
   void put_frames(std::span<const std::size_t> texels);
   void make_angles();
-  void find_start();
+  void find_start(std::span<const TexelTask::Start> starts);
   void in_logarithms();
   bool descend(int steps);
   void fit(std::span<const std::size_t> texels, std::span<const Waiting> waiting, int steps);
+  void take_lowest(std::vector<float>& lowest);
   void finish(std::span<const std::size_t> texels);
   void judge_singular(std::size_t lane);
   void put_values(const float* unknowns);
@@ -72,6 +73,10 @@ class LaneFit {
   std::array<Column<float>, 5> shared_angles_;
   Column<float> shared_weight_;
   std::vector<std::size_t> shared_image_;  ///< [sample]: above the surface
+  std::vector<std::size_t> rows_;          ///< of the values that are read, channel by channel
+  std::vector<float> row_weight_;
+  Column<float> read_, read_signal_;                  ///< of the registers that are read at once
+  std::size_t chunk_ = static_cast<std::size_t>(-1);  ///< the first texel of those
 
   // The register on its way.
   Column<float> values_, memory_, inverse_, own_inverse_, left_out_, variance_;
@@ -153,6 +158,14 @@ void LaneFit::read_shared() {
     shared_image_.push_back(i);
   }
   is_shared_ = passes_.is_fused() && task_.asked.metric == Metric::l2_cosine;
+  if (!is_shared_) return;
+  for (std::size_t c = 0; c < in_.channels; ++c)
+    for (std::size_t i = 0; i < shared_image_.size(); ++i) {
+      rows_.push_back(shared_image_[i] * in_.channels + c);
+      row_weight_.push_back(shared_weight_[i]);
+    }
+  read_ = Column<float>(TexelRows::registers * (rows_.size() * width_ + padding));
+  read_signal_ = Column<float>(TexelRows::registers * padding);
 }
 
 /// Tangents, bitangents and normals.
@@ -195,33 +208,26 @@ void LaneFit::make_angles() {
 
 /// The same angles of all, and no value masked: false where one is.
 bool LaneFit::gather_shared(std::size_t first) {
-  const std::size_t samples = shared_image_.size();
-  std::array<float, padding> signal{};
-  bool good = true;
-  for (std::size_t c = 0; c < in_.channels; ++c)
-    for (std::size_t i = 0; i < samples; ++i) {
-      const float* const from =
-          in_.values.data() + (shared_image_[i] * in_.channels + c) * in_.texels + first;
-      float* const to = target_[c].data() + i * width_;
-      const float w = shared_weight_[i];
-      int in_range = 1;
-      for (std::size_t l = 0; l < width_; ++l) {
-        const float y = from[l];
-        in_range &= static_cast<int>(y >= 0) & static_cast<int>(y <= 1e18F);
-        to[l] = y;
-        signal[l] += w * y * (w * y);
-      }
-      good = good && in_range;
-    }
-  if (!good) return false;
-  std::copy_n(signal.begin(), width_, state_.signal);
+  const std::size_t samples = shared_image_.size(), rows = rows_.size(),
+                    at_once = TexelRows::registers * width_;
+  const std::size_t chunk = first / at_once * at_once, part = (first - chunk) / width_;
+  if (chunk + at_once > in_.texels || first % width_ != 0) return false;
+  if (chunk != chunk_) {
+    lanes_.read({in_.values.data(), in_.texels, chunk, rows_, row_weight_, read_.data(),
+                 read_signal_.data()});
+    chunk_ = chunk;
+  }
+  const float* const signal = read_signal_.data() + part * padding;
+  for (std::size_t l = 0; l < width_; ++l)
+    if (std::isnan(signal[l])) return false;
+  std::copy_n(signal, width_, state_.signal);
   std::fill_n(count_.begin(), width_, static_cast<float>(samples * in_.channels));
   samples_ = {};
   samples_.shared = true;
   samples_.x = {shared_angles_[0].data(), shared_angles_[1].data(), shared_angles_[2].data(),
                 shared_angles_[3].data(), shared_angles_[4].data(), samples * width_};
   for (std::size_t c = 0; c < in_.channels; ++c) {
-    samples_.target[c] = target_[c].data();
+    samples_.target[c] = read_.data() + (part * rows + c * samples) * width_;
     samples_.weight[c] = shared_weight_.data();
   }
   return true;
@@ -237,7 +243,7 @@ void LaneFit::gather_lanes(std::span<const std::size_t> texels) {
           light_[to] = in_.light[from];
           view_[to] = in_.view[from];
         }
-  if (!same_angles_ || is_shared_ || samples_.x.n == 0) {
+  if (!same_angles_) {
     put_frames(texels);
     make_angles();
   }
@@ -351,7 +357,7 @@ void LaneFit::put_values(const float* unknowns) {
 }
 
 /// The best of the shapes that are tried, all else solved for.
-void LaneFit::find_start() {
+void LaneFit::find_start(std::span<const TexelTask::Start> starts) {
   const auto& u = task_.unknowns;
   const float far = std::numeric_limits<float>::max();
   std::fill_n(state_.cost, padding, far);
@@ -365,7 +371,7 @@ void LaneFit::find_start() {
   };
   begin();
   std::copy_n(state_.tried, n() * padding, state_.x);
-  for (const auto& start : task_.starts) {
+  for (const auto& start : starts) {
     begin();
     for (const auto& [slot, value] : start)
       std::fill_n(state_.tried + task_.unknown_of[slot] * padding, padding, value);
@@ -398,20 +404,48 @@ void LaneFit::fit(std::span<const std::size_t> texels,
                   std::span<const Waiting> waiting,
                   int steps) {
   gather(texels);
-  if (waiting.empty()) find_start();
+  std::vector<std::vector<float>> begins;
+  if (waiting.empty())
+    for (const auto& group : task_.starts) {
+      find_start(group);
+      begins.emplace_back(state_.x, state_.x + n() * padding);
+    }
   in_logarithms();
   std::fill_n(state_.damping, padding, 0.0F);
-  for (std::size_t l = 0; l < waiting.size(); ++l) {
-    for (std::size_t i = 0; i < n(); ++i) state_.x[i * padding + l] = waiting[l].x[i];
-    state_.damping[l] = waiting[l].damping;
+  if (!waiting.empty()) {
+    auto& x = begins.emplace_back(n() * padding);
+    for (std::size_t l = 0; l < width_; ++l) {
+      const Waiting& w = waiting[l < waiting.size() ? l : 0];
+      for (std::size_t i = 0; i < n(); ++i) x[i * padding + l] = w.x[i];
+      state_.damping[l] = w.damping;
+    }
   }
-  for (std::size_t l = waiting.size(); !waiting.empty() && l < width_; ++l)
-    for (std::size_t i = 0; i < n(); ++i) state_.x[i * padding + l] = state_.x[i * padding];
-  std::copy_n(state_.x, n() * padding, state_.tried);
-  std::fill_n(state_.cost, padding, std::numeric_limits<float>::infinity());
-  std::fill_n(state_.promise, padding, 0.0F);
-  std::fill_n(state_.done, padding, 0.0F);
-  descend(steps);
+  std::vector<float> lowest;
+  for (const auto& x : begins) {
+    std::ranges::copy(x, state_.x);
+    std::ranges::copy(x, state_.tried);
+    std::fill_n(state_.cost, padding, std::numeric_limits<float>::infinity());
+    for (float* const row : {state_.promise, state_.done}) std::fill_n(row, padding, 0.0F);
+    if (begins.size() > 1) std::fill_n(state_.damping, padding, 0.0F);
+    descend(begins.size() > 1 ? most_steps : steps);
+    if (begins.size() == 1) return;
+    for (std::size_t l = 0; l < width_; ++l)
+      if (state_.done[l] == 0) state_.done[l] = 2;
+    take_lowest(lowest);
+  }
+}
+
+/// Keeps of each texel the lower of two ends: that of the state and of an earlier one, empty the first time.
+void LaneFit::take_lowest(std::vector<float>& lowest) {
+  float* const now = memory_.data();
+  const auto size = static_cast<std::size_t>(state_.scratch - now),
+             cost = static_cast<std::size_t>(state_.cost - now);
+  if (lowest.empty()) lowest.assign(now, now + size);
+  for (std::size_t l = 0; l < padding; ++l) {
+    const bool lower = now[cost + l] < lowest[cost + l];
+    for (std::size_t at = l; at < size; at += padding)
+      (lower ? lowest[at] : now[at]) = lower ? now[at] : lowest[at];
+  }
 }
 
 void LaneFit::finish(std::span<const std::size_t> texels) {

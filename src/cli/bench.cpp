@@ -29,11 +29,12 @@ struct Options : Common {
 
 /// Refuses what the other subject is told by.
 void check_options(const Options& o) {
-  if (o.what == "fit" && (o.full || o.filter || o.baseline || o.times || o.processes))
+  const bool kernels = o.what == "kernels";
+  if (!kernels && (o.full || o.filter || o.baseline || o.times || o.processes))
     throw wrong_usage(
         "--full, --filter, --baseline, --times and --processes are for bench kernels");
-  if (o.what != "fit" && (!o.plain || o.jobs != 0))
-    throw wrong_usage("--no-plain and --jobs are for bench fit");
+  if (kernels && (!o.plain || o.jobs != 0))
+    throw wrong_usage("--no-plain and --jobs are for bench fit and bench maps");
 }
 
 std::string shown(const CostRow& r) {
@@ -196,6 +197,7 @@ Exit bench_kernels(const Options& o) {
 Exit run(const Options& o) {
   check_options(o);
   if (o.what == "fit") return bench_fit({o.plain, o.repeats.value_or(11)}, o);
+  if (o.what == "maps") return bench_maps({o.plain, o.repeats.value_or(5)}, o);
   return bench_kernels(o);
 }
 
@@ -205,12 +207,12 @@ void add_bench(CommandLine& line) {
   auto [c, o] = line.command(
       "bench",
       "Times every form of the catalogue and whole models on this machine, or the fit of "
-      "a MERL table",
+      "a MERL table or of texels",
       "gonio bench --json > before.json; gonio bench --baseline before.json", run);
   c.option("WHAT", o->what,
            "kernels: every form, in each number and instruction set; fit: the fit of a MERL table "
-           "beside the plain way of doing it")
-      .one_of({"kernels", "fit"})
+           "beside the plain way of doing it; maps: texels, beside a Ceres problem for each")
+      .one_of({"kernels", "fit", "maps"})
       .show_default();
   c.flag("--full", o->full, "Streaming in every instruction set, and more repetitions: minutes");
   c.option("--filter", o->filter, "Only forms whose id holds this: smith, fresnel., model.gltf");
@@ -218,13 +220,14 @@ void add_bench(CommandLine& line) {
       "--baseline", o->baseline,
       "An earlier document of bench --json or report cost: what changed since is printed, in place "
       "of all times");
-  c.option("--repeats", o->repeats, "Repetitions in each process (default: 3, 11 of fit)")
+  c.option("--repeats", o->repeats,
+           "Repetitions in each process (default: 3, 11 of fit, 5 of maps)")
       .in(1, 1000);
   c.option("--processes", o->processes,
            "Processes that measure everything in turn; 1: this one (default: 5, 15 with --full)")
       .in(1, 100);
   c.flag("--times", o->times, "Times alone, without the errors, which take seconds");
-  c.flag("!--no-plain", o->plain, "fit: without the plain way, which takes seconds and 1 GB");
+  c.flag("!--no-plain", o->plain, "fit, maps: without the plain way, which takes seconds and 1 GB");
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -12,5 +12,7 @@ struct FitBench {
   int repeats = 11;
 };
 Exit bench_fit(const FitBench&, const Common&);
+/// Texels of maps beside one Ceres problem for each.
+Exit bench_maps(const FitBench&, const Common&);
 
 }  // namespace gonio::cli

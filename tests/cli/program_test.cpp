@@ -341,6 +341,17 @@ TEST(Program, BenchesAFitWithItsSpreads) {
   EXPECT_EQ(gonio(f, "bench render").code, 2);
 }
 
+TEST(Program, BenchesMapsInEachWay) {
+  GONIO_MANY_FITS();
+  const Folder f;
+  const auto o = gonio(f, "bench maps --repeats 1 --no-plain --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto rows = o.json()["rows"];
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_EQ(rows[0]["name"], "shared directions");
+  for (const auto& row : rows) EXPECT_GT(row["texels_per_s"]["least"], 0) << row;
+}
+
 TEST(Program, FitsTheMeasuredCarPaintAndSaysWhatItMasked) {
   GONIO_NEEDS_SHARED(file, "data/mbsdf/carpaint_blue.mbsdf");
   const Folder f;
