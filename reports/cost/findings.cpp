@@ -10,7 +10,6 @@
 #include "reports/measure/load.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -28,11 +27,6 @@ std::string ns_text(const Timing& t) {
 std::string error_text(double e) {
   constexpr double rounding = 1e-5;
   return e < rounding ? "that of rounding alone" : fmt::format("{:.2g}", e);
-}
-/// "a, b and c"
-std::string list_text(const std::vector<std::string>& all) {
-  if (all.size() < 2) return all.empty() ? "" : all[0];
-  return fmt::format("{} and {}", fmt::join(all.begin(), all.end() - 1, ", "), all.back());
 }
 std::string capital(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);

@@ -67,11 +67,6 @@ std::string delta(double x) {
 bool is_exact(const Candidate& c) {
   return c.error < 5e-3;
 }
-/// "a", "a and b", "a, b and c"
-std::string list_text(const std::vector<std::string>& all, std::string_view last) {
-  if (all.size() < 2) return all.empty() ? "" : all[0];
-  return fmt::format("{}{}{}", fmt::join(all.begin(), all.end() - 1, ", "), last, all.back());
-}
 
 /// Cost of the cheap form.
 constexpr std::string_view no_more = "none (the cheap form)";

@@ -49,6 +49,16 @@ TEST(CostClaims, SchlicksMaskingIsHeldAgainstTheJointFormAsItIsPrinted) {
   EXPECT_EQ(judged(maskings(0.23, 0.39)).figure, "0.23 ns against 0.39 ns, clamped");
 }
 
+TEST(CostClaims, ADifferenceThatOneProcessDoesNotFindIsATie) {
+  using enum Claim::Judged;
+  auto r = maskings(0.23, 0.21);
+  r.rows[0].each = {0.23, 0.23, 0.24}, r.rows[1].each = {0.21, 0.21, 0.22};
+  EXPECT_EQ(judged(r).judged, holds);
+  r.rows[0].each[2] = 0.215;
+  EXPECT_EQ(judged(r).judged, fails);
+  EXPECT_NE(judged(r).verdict.find("as long as the joint form with its clamp"), std::string::npos);
+}
+
 TEST(CostClaims, ExactFresnelIsSlowIfAWholeModelIs) {
   using enum Claim::Judged;
   EXPECT_EQ(judged(fresnels(0.7, 1.3)).judged, partly);
