@@ -13,11 +13,11 @@
 namespace gonio {
 namespace {
 
-/// "from roughness 0.57 on", "at no roughness": where a loss exceeds a share.
+/// "from roughness 0.57 on": where a loss exceeds a share; empty: nowhere.
 std::string where_lost(const std::vector<Crossing>& all, double mu, double share) {
   const auto c =
       std::ranges::find_if(all, [&](const Crossing& x) { return x.mu == mu && x.share == share; });
-  if (c == all.end() || c->ranges.empty()) return "at no roughness";
+  if (c == all.end() || c->ranges.empty()) return {};
   return range_text(c->ranges[0].from, c->ranges[0].to, "roughness ");
 }
 constexpr double tenth = 0.1;
@@ -76,11 +76,17 @@ void of_materials(Findings& to, const EnergyRows& r) {
                                   {"gold, red", "gold in its red channel"}};
   for (const auto& t : told)
     for (const auto& m : r.materials)
-      if (m.name == t.material)
+      if (m.name == t.material) {
+        const auto where = where_lost(m.crossings, 0, tenth);
         to.say(
-            fmt::format("On average over the hemisphere, {} misses a tenth of what it should "
-                        "reflect {}.",
-                        t.words, where_lost(m.crossings, 0, tenth)));
+            where.empty()
+                ? fmt::format("On average over the hemisphere, {} never misses a tenth of what it "
+                              "should reflect, however rough it is.",
+                              t.words)
+                : fmt::format("On average over the hemisphere, {} misses a tenth of what it should "
+                              "reflect {}.",
+                              t.words, where));
+      }
 }
 
 void of_compensations(Findings& to, const EnergyRows& r) {
