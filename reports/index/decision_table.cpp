@@ -36,7 +36,8 @@ std::string decision_table(std::span<const Decision> all, std::size_t width) {
   std::array<std::size_t, columns> widths{};
   for (const auto& r : rows)
     for (std::size_t k = 0; k < columns; ++k) widths[k] = std::max(widths[k], width_of(r[k]));
-  // The first two give way: they are names.
+  // None of the figures takes more than a quarter; then the first two give way: they are names.
+  for (const std::size_t k : {2U, 3U}) widths[k] = std::min(widths[k], width / columns);
   const std::size_t rest = widths[2] + widths[3] + (columns - 1) * gap;
   if (widths[0] + widths[1] + rest > width) {
     const std::size_t room = width - rest;
