@@ -46,8 +46,8 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
 
 void exact_is_slow(Findings& to, const CostRows& r) {
   const auto *schlick = in_cache(r, "fresnel.schlick"), *exact = in_cache(r, "fresnel.dielectric"),
-             *model = in_cache(r, "ggx/smith_ggx.correlated/schlick", "fused"),
-             *exact_model = in_cache(r, "ggx/smith_ggx.correlated/dielectric", "fused");
+             *model = in_cache(r, "ggx/smith_ggx.correlated/schlick", "composed"),
+             *exact_model = in_cache(r, "ggx/smith_ggx.correlated/dielectric", "composed");
   if (!schlick || !exact || !model || !exact_model) return;
   const double term = exact->time.ns / schlick->time.ns,
                whole = exact_model->time.ns / model->time.ns;
@@ -56,7 +56,7 @@ void exact_is_slow(Findings& to, const CostRows& r) {
            fmt::format("{:.1f} times Schlick's time, {:.2f} in a whole model", term, whole),
            fmt::format(
                "for a dielectric the term alone takes {:.1f} times as long as Schlick's. A whole "
-               "GGX model with it takes {:.2f} times as long, in float columns in cache.",
+               "GGX model composed with it takes {:.2f} times as long, in float columns in cache.",
                term, whole));
 }
 

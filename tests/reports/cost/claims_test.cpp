@@ -17,7 +17,7 @@ CostRows rows_of(const std::vector<std::pair<std::string, double>>& all) {
   for (const auto& [id, ns] : all) {
     CostRow row{};
     row.id = id, row.number = "float", row.isa = "avx2", row.memory = "cache";
-    row.way = id.starts_with("ggx/") ? "fused" : "";
+    row.way = id.starts_with("ggx/") ? "composed" : "";
     row.time = {ns, 0.01};
     r.rows.push_back(row);
   }
