@@ -248,7 +248,7 @@ void solid_angle_of_half(Findings& to, const EnergyRows& r) {
   if (!r.claims.half_angle) return;
   const auto& [pairs, step, off] = *r.claims.half_angle;
   to.judge("dωₕ = dωₗ/(4 VoH)", "seed 000, the factor 4 of the BRDF", verdict(off < 1e-5),
-           fmt::format("equal to {:.1g}", off),
+           fmt::format("equal to {:.0f} digits", -std::log10(std::max(off, 1e-15))),
            fmt::format("for {} pairs of directions, by small differences, the solid angle of the "
                        "half vector is that{}.",
                        pairs, off < 1e-6 ? " to a millionth" : fmt::format(" to {:.6f}", off)));

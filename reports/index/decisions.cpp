@@ -179,17 +179,28 @@ Candidates fresnel_candidates(const Facts& f,
   return out;
 }
 
-/// Materials that show Schlick side by side where it is taken, and what to take then; empty: none.
-std::string seen_side_by_side(const Candidates& all, const std::vector<Shown>& materials) {
-  std::vector<std::string> seen;
-  for (const auto& m : materials)
-    if (m.delta_e > just_seen) seen.push_back(material_text(m.material));
-  if (seen.empty()) return {};
-  const auto* better = choose(all, schlick, just_seen);
-  return better && better->form != schlick
-             ? fmt::format("{} beside a photograph: {}", list_text(seen, " or "),
-                           in_text(better->form))
-             : "";
+/// Materials that show Schlick side by side where it is taken, and what to take then, where that does not show; empty: none.
+std::string seen_side_by_side(const Facts& f,
+                              std::string_view kind,
+                              const std::vector<Shown>& materials) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_form;  // no form: nothing helps
+  for (const auto& m : materials) {
+    if (m.delta_e <= just_seen) continue;
+    const auto all = fresnel_candidates(f, kind, {m});
+    const auto* better = choose(all, schlick, just_seen);
+    const auto form = better && better->error <= just_seen ? better->form : std::string();
+    auto at = std::ranges::find(by_form, form, [](const auto& x) { return x.first; });
+    if (at == by_form.end()) at = by_form.insert(at, {form, {}});
+    at->second.push_back(material_text(m.material));
+  }
+  std::vector<std::string> parts;
+  for (const auto& [form, seen] : by_form) {
+    const auto what =
+        form.empty() ? (kind == "metal" ? "its spectrum alone" : "exact Fresnel") : in_text(form);
+    parts.push_back(fmt::format("{}{}: {}", list_text(seen, " or "),
+                                parts.empty() ? " beside a photograph" : "", what));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 void fresnel_of(std::vector<Decision>& to,
@@ -211,11 +222,12 @@ void fresnel_of(std::vector<Decision>& to,
   d.take_id = id_of(taken->form);
   d.cost = cost_text(*taken, *cheap);
   const auto worst = std::ranges::max_element(materials, {}, &Shown::delta_e);
-  const auto glass = std::ranges::find(materials, "IOR 1.5", &Shown::material);
-  const auto& told = glass == materials.end() ? *worst : *glass;
+  const auto usual =
+      std::ranges::find(materials, kind == "metal" ? "iron" : "IOR 1.5", &Shown::material);
+  const auto& told = usual == materials.end() ? *worst : *usual;
   if (taken == cheap) {
     d.error = fmt::format("ΔE ≤ {}", short_number(taken->error));
-    d.unless = seen_side_by_side(all, materials);
+    d.unless = seen_side_by_side(f, kind, materials);
   } else {
     d.error = fmt::format("{} (Schlick: {} for {})",
                           is_exact(*taken) ? "none" : "ΔE ≤ " + short_number(taken->error),
@@ -287,20 +299,20 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
                   later ? fmt::format("from roughness {:g} on", *later)
                         : fmt::format("one bounce, ΔE ≤ {}",
                                       short_number(std::ranges::max(of_plastic->delta_e))));
-  to.push_back({fmt::format("All bounces of {} (of bright metal, F0 {:g})",
-                            of_image_light ? "image-based light" : "a single light", bright),
-                fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), *from),
-                "scattering." + taken->form,
-                fmt::format("ΔE ≤ {} (one bounce: {}{})", short_number(taken->error),
-                            short_number(greatest(f, single)),
-                            taken->error > side_by_side ? "; no form leaves less" : ""),
-                of_image_light ? fmt::format("{} (beside the split sum's table)", more_ns)
-                               : fmt::format("{} (each call alone; {:.1f} kB of tables)", more_ns,
-                                             static_cast<double>(costs->bytes) / 1000),
-                other && !of_image_light
-                    ? fmt::format("{}; time is short: {}, ΔE ≤ {}", of_f0,
-                                  name_of_form(other->form), short_number(other->error))
-                    : of_f0});
+  to.push_back(
+      {fmt::format("All bounces of {} (of bright metal, F0 {:g})",
+                   of_image_light ? "image-based light" : "a single light", bright),
+       fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), *from),
+       "scattering." + taken->form,
+       fmt::format("ΔE ≤ {} (one bounce: {}{})", short_number(taken->error),
+                   short_number(greatest(f, single)),
+                   taken->error > side_by_side ? "; no form leaves less" : ""),
+       of_image_light ? fmt::format("{} (beside the split sum's table)", more_ns)
+                      : fmt::format("{} (one light at a time, not in columns; {:.1f} kB of tables)",
+                                    more_ns, static_cast<double>(costs->bytes) / 1000),
+       other && !of_image_light ? fmt::format("{}; time is short: {}, ΔE ≤ {}", of_f0,
+                                              name_of_form(other->form), short_number(other->error))
+                                : of_f0});
 }
 
 // --- Image-based light, and what is below the surface ---

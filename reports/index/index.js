@@ -105,7 +105,7 @@ function verdicts() {
   };
   const t = told_by_cell(["verdict", "claim", "figure"], claims.map((c) => [el("span", { class: `verdict-${classes[c.judged]}` }, c.judged), words(c), c.figure]));
   t.classList.add("said");
-  return anchored("claims", section("Claims in circulation", "As they stand in papers, talks and shaders. A click on one shows the figures behind its verdict, and where it stands.", t));
+  return anchored("claims", section("Claims in circulation", "As they stand in five notes on shading that this project began with, seed 000 to 004, which quote papers, talks and shaders. A click on one shows the figures behind its verdict, and where it stands.", t));
 }
 
 // --- What stands behind a figure --------------------------------------------------------------------------
