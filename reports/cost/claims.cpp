@@ -14,8 +14,12 @@ namespace {
 const CostRow* in_cache(const CostRows& r, std::string_view id, std::string_view way = "") {
   return find_row(r.rows, id, "float", r.machine.instruction_sets.back(), "cache", way);
 }
-bool is_tie(const Timing& a, const Timing& b) {
-  return std::abs(a.ns - b.ns) <= a.spread_ns + b.spread_ns;
+/// Nothing tells the times of these apart (timing.h).
+bool is_tie(const ComparedTime& a, const ComparedTime& b) {
+  return !difference(a, b).survives;
+}
+bool is_tie(const CostRow& a, const CostRow& b) {
+  return is_tie({a.time, a.each}, {b.time, b.each});
 }
 std::string ns(const Timing& t) {
   return fmt::format("{:.2f} ns", t.ns);
@@ -28,12 +32,12 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
   if (!schlick || !joint || !plain) return;
   const bool more = schlick->time.ns > joint->time.ns;
   const auto words = [&](const CostRow& other) {
-    return is_tie(schlick->time, other.time)  ? "as long as"
+    return is_tie(*schlick, other)            ? "as long as"
            : schlick->time.ns > other.time.ns ? "longer than"
                                               : "less than";
   };
   to.judge("Schlick's masking costs a bit more than the joint approximation",
-           "seed 004, Vis_SmithJointApprox", verdict(more && !is_tie(schlick->time, joint->time)),
+           "seed 004, Vis_SmithJointApprox", verdict(more && !is_tie(*schlick, *joint)),
            fmt::format("{} against {}, clamped", ns(schlick->time), ns(joint->time)),
            fmt::format("in float columns in cache it takes {} the joint form with its "
                        "clamp. It takes {} the one without.",
@@ -42,17 +46,17 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
 
 void exact_is_slow(Findings& to, const CostRows& r) {
   const auto *schlick = in_cache(r, "fresnel.schlick"), *exact = in_cache(r, "fresnel.dielectric"),
-             *model = in_cache(r, "ggx/smith_ggx.correlated/schlick", "fused"),
-             *exact_model = in_cache(r, "ggx/smith_ggx.correlated/dielectric", "fused");
+             *model = in_cache(r, "ggx/smith_ggx.correlated/schlick", "composed"),
+             *exact_model = in_cache(r, "ggx/smith_ggx.correlated/dielectric", "composed");
   if (!schlick || !exact || !model || !exact_model) return;
   const double term = exact->time.ns / schlick->time.ns,
                whole = exact_model->time.ns / model->time.ns;
   to.judge("the exact Fresnel equations are slow", "seed 000, exact Fresnel equations",
-           verdict(whole > 1.5, term > 1.5 && !is_tie(exact->time, schlick->time)),
+           verdict(whole > 1.5, term > 1.5 && !is_tie(*exact, *schlick)),
            fmt::format("{:.1f} times Schlick's time, {:.2f} in a whole model", term, whole),
            fmt::format(
                "for a dielectric the term alone takes {:.1f} times as long as Schlick's. A whole "
-               "GGX model with it takes {:.2f} times as long, in float columns in cache.",
+               "GGX model composed with it takes {:.2f} times as long, in float columns in cache.",
                term, whole));
 }
 
@@ -66,7 +70,7 @@ void pow5(Findings& to, const CostRows& r) {
   const double ratio = by_pow->time.ns / by_hand->time.ns;
   to.judge(
       "a Pow5 of one's own saves what pow costs more", "seed 001, Schlick's approximation",
-      verdict(ratio > 1 && !is_tie(by_pow->time, by_hand->time)),
+      verdict(ratio > 1 && !is_tie({by_pow->time}, {by_hand->time})),
       fmt::format("pow {}, Pow5 {}", ns(by_pow->time), ns(by_hand->time)),
       fmt::format(
           "in a loop that the compiler makes vectors of where it can, pow takes {:.1f} times as "

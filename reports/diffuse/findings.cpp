@@ -26,9 +26,8 @@ void light_is_made(Findings& to, const DiffuseRows& r) {
   const auto& most =
       **std::ranges::max_element(makers, {}, [](const DiffuseForm* f) { return f->most_albedo; });
   to.headline = fmt::format(
-      "{}’s diffuse makes light: at roughness {:g} and grazing angles a white surface reflects "
-      "{:.3g} times what it receives.",
-      most.name, most.most_roughness, most.most_albedo);
+      "{}’s diffuse makes light: a white surface reflects {:.3g} times what it receives, at {}.",
+      most.name, most.most_albedo, place(most.most_roughness, most.most_mu));
   to.say(to.headline);
   for (const auto* f : makers)
     if (f != &most && f->most_albedo > 1.05 && f->name.find("coupled") == f->name.npos)

@@ -58,8 +58,8 @@ void phong_is_beckmann(Findings& to, const EnergyRows& r) {
       "seed 002, Beckmann's distribution", verdict(rough.share < 0.01, smooth.share < 0.01),
       fmt::format("{} of the facets lie elsewhere at roughness {:g}", percent(rough.share, 2),
                   rough.roughness),
-      fmt::format("at roughness {:g} the two put {} of the facets' area at different angles. It is "
-                  "the more the rougher the surface.",
+      fmt::format("at roughness {:g} the two put {} of the facets' area at different angles. The "
+                  "rougher the surface, the more it is.",
                   smooth.roughness, percent(smooth.share, 2)));
 }
 

@@ -13,11 +13,11 @@
 namespace gonio {
 namespace {
 
-/// "from roughness 0.57 on", "at no roughness": where a loss exceeds a share.
+/// "from roughness 0.57 on": where a loss exceeds a share; empty: nowhere.
 std::string where_lost(const std::vector<Crossing>& all, double mu, double share) {
   const auto c =
       std::ranges::find_if(all, [&](const Crossing& x) { return x.mu == mu && x.share == share; });
-  if (c == all.end() || c->ranges.empty()) return "at no roughness";
+  if (c == all.end() || c->ranges.empty()) return {};
   return range_text(c->ranges[0].from, c->ranges[0].to, "roughness ");
 }
 constexpr double tenth = 0.1;
@@ -76,11 +76,17 @@ void of_materials(Findings& to, const EnergyRows& r) {
                                   {"gold, red", "gold in its red channel"}};
   for (const auto& t : told)
     for (const auto& m : r.materials)
-      if (m.name == t.material)
+      if (m.name == t.material) {
+        const auto where = where_lost(m.crossings, 0, tenth);
         to.say(
-            fmt::format("On average over the hemisphere, {} misses a tenth of what it should "
-                        "reflect {}.",
-                        t.words, where_lost(m.crossings, 0, tenth)));
+            where.empty()
+                ? fmt::format("On average over the hemisphere, {} never misses a tenth of what it "
+                              "should reflect, however rough it is.",
+                              t.words)
+                : fmt::format("On average over the hemisphere, {} misses a tenth of what it should "
+                              "reflect {}.",
+                              t.words, where));
+      }
 }
 
 void of_compensations(Findings& to, const EnergyRows& r) {
@@ -242,7 +248,7 @@ void solid_angle_of_half(Findings& to, const EnergyRows& r) {
   if (!r.claims.half_angle) return;
   const auto& [pairs, step, off] = *r.claims.half_angle;
   to.judge("dωₕ = dωₗ/(4 VoH)", "seed 000, the factor 4 of the BRDF", verdict(off < 1e-5),
-           fmt::format("equal to {:.1g}", off),
+           fmt::format("equal to {:.0f} digits", -std::log10(std::max(off, 1e-15))),
            fmt::format("for {} pairs of directions, by small differences, the solid angle of the "
                        "half vector is that{}.",
                        pairs, off < 1e-6 ? " to a millionth" : fmt::format(" to {:.6f}", off)));

@@ -10,7 +10,7 @@ namespace gonio {
 namespace {
 
 /// Shorter than the catalogue's titles, as people say them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 61> names{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 64> names{
     {{"masking.smith_ggx.correlated", "Height-correlated Smith"},
      {"masking.smith_ggx.separable", "Separable Smith"},
      {"masking.schlick_ggx.direct", "Schlick's k = (r+1)²/8"},
@@ -37,9 +37,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 61> names{
      {"masking.schlick_ggx.half_roughness", "Schlick's k = r/2"},
      {"masking.schlick_beckmann", "Schlick's k for Beckmann"},
      {"masking.smith_beckmann.correlated", "Smith for Beckmann, correlated"},
-     {"masking.ue_joint.clamped", "Unreal's joint form, a phone's clamps"},
+     {"masking.ue_joint.clamped", "Unreal's joint form with a phone's clamps"},
      {"masking.unity_mobile", "Unity's mobile form"},
-     {"masking.unity_mobile.urp", "Unity's mobile form, as shipped"},
+     {"masking.unity_mobile.urp", "Unity's mobile form as shipped"},
      {"masking.ue_mobile_simple", "Unreal's simple mobile form"},
      {"fresnel.schlick.ue", "Unreal's Schlick"},
      {"fresnel.schlick.spherical_gaussian", "Schlick by a spherical Gaussian"},
@@ -59,12 +59,15 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 61> names{
      {"masking.disney_coat", "Disney's coat"},
      {"masking.disney_remap", "Disney's remapped Smith"},
      {"masking.cook_torrance", "Cook–Torrance"},
+     {"ndf.ggx", "GGX"},
      {"ndf.ggx.mobile", "GGX_Mobile"},
      {"ndf.ggx.mobile.cross", "GGX_Mobile, its cross product"},
      {"ndf.ggx.ue_mobile", "D_GGX_R2"},
      {"ndf.gtr", "GTR"},
      {"ndf.gtr1", "GTR of γ = 1"},
      {"ndf.gtr.as_written", "GTR as if γ were 2"},
+     {"diffuse.lambert", "Lambert"},
+     {"diffuse.oren_nayar.fujii", "Fujii's Oren–Nayar"},
      {"model.ue_mobile", "Unreal's mobile model"},
      {"model.ue_mobile_simple", "Unreal's simple mobile model"},
      {"model.unity_mobile", "Unity's mobile model"},

@@ -39,6 +39,10 @@ std::string range_text(double from, double to, const std::string& word) {
   return fmt::format("from {}{:.2f} to {:.2f}", word, from, to);
 }
 
+std::string list_text(const std::vector<std::string>& all, std::string_view last) {
+  if (all.size() < 2) return all.empty() ? "" : all[0];
+  return fmt::format("{}{}{}", fmt::join(all.begin(), all.end() - 1, ", "), last, all.back());
+}
 std::string ranking_text(const std::vector<std::string>& places, std::string_view furthest) {
   constexpr std::size_t told = 4;
   const std::span all(places);

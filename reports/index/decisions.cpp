@@ -1,7 +1,6 @@
 #include "reports/index/decisions.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -66,11 +65,6 @@ std::string delta(double x) {
 /// Nothing is left by what is exact, but for what its integral is known to.
 bool is_exact(const Candidate& c) {
   return c.error < 5e-3;
-}
-/// "a", "a and b", "a, b and c"
-std::string list_text(const std::vector<std::string>& all, std::string_view last) {
-  if (all.size() < 2) return all.empty() ? "" : all[0];
-  return fmt::format("{}{}{}", fmt::join(all.begin(), all.end() - 1, ", "), last, all.back());
 }
 
 /// Cost of the cheap form.
@@ -185,17 +179,28 @@ Candidates fresnel_candidates(const Facts& f,
   return out;
 }
 
-/// Materials that show Schlick side by side where it is taken, and what to take then; empty: none.
-std::string seen_side_by_side(const Candidates& all, const std::vector<Shown>& materials) {
-  std::vector<std::string> seen;
-  for (const auto& m : materials)
-    if (m.delta_e > just_seen) seen.push_back(material_text(m.material));
-  if (seen.empty()) return {};
-  const auto* better = choose(all, schlick, just_seen);
-  return better && better->form != schlick
-             ? fmt::format("{} beside a photograph: {}", list_text(seen, " or "),
-                           in_text(better->form))
-             : "";
+/// Materials that show Schlick side by side where it is taken, and what to take then, where that does not show; empty: none.
+std::string seen_side_by_side(const Facts& f,
+                              std::string_view kind,
+                              const std::vector<Shown>& materials) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_form;  // no form: nothing helps
+  for (const auto& m : materials) {
+    if (m.delta_e <= just_seen) continue;
+    const auto all = fresnel_candidates(f, kind, {m});
+    const auto* better = choose(all, schlick, just_seen);
+    const auto form = better && better->error <= just_seen ? better->form : std::string();
+    auto at = std::ranges::find(by_form, form, [](const auto& x) { return x.first; });
+    if (at == by_form.end()) at = by_form.insert(at, {form, {}});
+    at->second.push_back(material_text(m.material));
+  }
+  std::vector<std::string> parts;
+  for (const auto& [form, seen] : by_form) {
+    const auto what =
+        form.empty() ? (kind == "metal" ? "its spectrum alone" : "exact Fresnel") : in_text(form);
+    parts.push_back(fmt::format("{}{}: {}", list_text(seen, " or "),
+                                parts.empty() ? " beside a photograph" : "", what));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 void fresnel_of(std::vector<Decision>& to,
@@ -217,11 +222,12 @@ void fresnel_of(std::vector<Decision>& to,
   d.take_id = id_of(taken->form);
   d.cost = cost_text(*taken, *cheap);
   const auto worst = std::ranges::max_element(materials, {}, &Shown::delta_e);
-  const auto glass = std::ranges::find(materials, "IOR 1.5", &Shown::material);
-  const auto& told = glass == materials.end() ? *worst : *glass;
+  const auto usual =
+      std::ranges::find(materials, kind == "metal" ? "iron" : "IOR 1.5", &Shown::material);
+  const auto& told = usual == materials.end() ? *worst : *usual;
   if (taken == cheap) {
     d.error = fmt::format("ΔE ≤ {}", short_number(taken->error));
-    d.unless = seen_side_by_side(all, materials);
+    d.unless = seen_side_by_side(f, kind, materials);
   } else {
     d.error = fmt::format("{} (Schlick: {} for {})",
                           is_exact(*taken) ? "none" : "ΔE ≤ " + short_number(taken->error),
@@ -293,20 +299,20 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
                   later ? fmt::format("from roughness {:g} on", *later)
                         : fmt::format("one bounce, ΔE ≤ {}",
                                       short_number(std::ranges::max(of_plastic->delta_e))));
-  to.push_back({fmt::format("All bounces of {} (of bright metal, F0 {:g})",
-                            of_image_light ? "image-based light" : "a single light", bright),
-                fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), *from),
-                "scattering." + taken->form,
-                fmt::format("ΔE ≤ {} (one bounce: {}{})", short_number(taken->error),
-                            short_number(greatest(f, single)),
-                            taken->error > side_by_side ? "; no form leaves less" : ""),
-                of_image_light ? fmt::format("{} (beside the split sum's table)", more_ns)
-                               : fmt::format("{} (each call alone; {:.1f} kB of tables)", more_ns,
-                                             static_cast<double>(costs->bytes) / 1000),
-                other && !of_image_light
-                    ? fmt::format("{}; time is short: {}, ΔE ≤ {}", of_f0,
-                                  name_of_form(other->form), short_number(other->error))
-                    : of_f0});
+  to.push_back(
+      {fmt::format("All bounces of {} (of bright metal, F0 {:g})",
+                   of_image_light ? "image-based light" : "a single light", bright),
+       fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), *from),
+       "scattering." + taken->form,
+       fmt::format("ΔE ≤ {} (one bounce: {}{})", short_number(taken->error),
+                   short_number(greatest(f, single)),
+                   taken->error > side_by_side ? "; no form leaves less" : ""),
+       of_image_light ? fmt::format("{} (beside the split sum's table)", more_ns)
+                      : fmt::format("{} (one light at a time, not in columns; {:.1f} kB of tables)",
+                                    more_ns, static_cast<double>(costs->bytes) / 1000),
+       other && !of_image_light ? fmt::format("{}; time is short: {}, ΔE ≤ {}", of_f0,
+                                              name_of_form(other->form), short_number(other->error))
+                                : of_f0});
 }
 
 // --- Image-based light, and what is below the surface ---
@@ -412,66 +418,6 @@ std::vector<Decision> decisions(const Facts& f) {
 
 std::string without_aside(const std::string& cell) {
   return cell.substr(0, cell.find(" ("));
-}
-
-namespace {
-
-/// Columns that a text takes at a terminal: its letters.
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-/// Lines of at most so many columns, broken at blanks.
-std::vector<std::string> lines_of(std::string_view text, std::size_t most) {
-  std::vector<std::string> out{""};
-  for (std::size_t from = 0; from <= text.size();) {
-    const auto to = std::min(text.find(' ', from), text.size());
-    const auto word = text.substr(from, to - from);
-    if (!out.back().empty() && width_of(out.back()) + 1 + width_of(word) > most) out.emplace_back();
-    out.back() += (out.back().empty() ? "" : " ") + std::string(word);
-    from = to + 1;
-  }
-  return out;
-}
-
-}  // namespace
-
-std::string decision_table(std::span<const Decision> all, std::size_t width) {
-  constexpr std::size_t columns = 4, gap = 2;
-  std::vector<std::array<std::string, columns>> rows{{"for", "take", "error left", "costs"}};
-  for (const auto& d : all)
-    rows.push_back(
-        {without_aside(d.subject), d.take, without_aside(d.error), without_aside(d.cost)});
-  std::array<std::size_t, columns> widths{};
-  for (const auto& r : rows)
-    for (std::size_t k = 0; k < columns; ++k) widths[k] = std::max(widths[k], width_of(r[k]));
-  // The first two give way: they are names.
-  const std::size_t rest = widths[2] + widths[3] + (columns - 1) * gap;
-  if (widths[0] + widths[1] + rest > width) {
-    const std::size_t room = width - rest;
-    widths[0] = std::max(std::min(widths[0], room / 2), room - std::min(widths[1], room));
-    widths[1] = room - widths[0];
-  }
-  std::string out;
-  for (const auto& r : rows) {
-    std::array<std::vector<std::string>, columns> cells;
-    std::size_t lines = 0;
-    for (std::size_t k = 0; k < columns; ++k) {
-      cells[k] = lines_of(r[k], widths[k]);
-      lines = std::max(lines, cells[k].size());
-    }
-    for (std::size_t i = 0; i < lines; ++i) {
-      std::string line;
-      for (std::size_t k = 0; k < columns; ++k) {
-        const std::string text = i < cells[k].size() ? cells[k][i] : "";
-        line += text;
-        if (k + 1 < columns)
-          line.append(std::max(widths[k] + gap, width_of(text) + 1) - width_of(text), ' ');
-      }
-      out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-  }
-  return out;
 }
 
 }  // namespace gonio

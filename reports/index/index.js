@@ -105,16 +105,17 @@ function verdicts() {
   };
   const t = told_by_cell(["verdict", "claim", "figure"], claims.map((c) => [el("span", { class: `verdict-${classes[c.judged]}` }, c.judged), words(c), c.figure]));
   t.classList.add("said");
-  return anchored("claims", section("Claims in circulation", "As they stand in papers, talks and shaders. A click on one shows the figures behind its verdict, and where it stands.", t));
+  return anchored("claims", section("Claims in circulation", "As they stand in five notes on shading that this project began with, seed 000 to 004, which quote papers, talks and shaders. A click on one shows the figures behind its verdict, and where it stands.", t));
 }
 
 // --- What stands behind a figure --------------------------------------------------------------------------
 const behind = () => anchored("about", section("What stands behind a figure", null, el("ul", { class: "findings" }, [
-  "A form is taken if it is the cheapest of those whose error does not show; of forms that their spreads do not tell apart the nearest, or the cheap form itself.",
-  "Colours are those of a rough surface under even light, beside a perfect diffuser in D65, without a tone map. Metals are taken at 650, 550 and 450 nm.",
+  "A form is taken if it is the cheapest of those whose error does not show. Of forms that no measurement tells apart in time it is the nearest, or the cheap form itself.",
+  "Colours are those of a rough surface under even light, beside a perfect diffuser in D65, without a tone map. A metal's true colour is that of its spectrum; three wavelengths are 650, 550 and 450 nm.",
   "Masking is held against height-correlated Smith for GGX: RMS of G₂ over both cosines from 0.05 to 1 and over roughness.",
   "Bounces are held against transport between the facets, for F0 from 0.04 to 1 under Schlick's Fresnel, seen from cosine 0.1 on.",
-  "Times are medians on this machine; a difference less than both spreads is none. Compensations are timed one light and view at a time.",
+  "Times are medians over several processes on this machine. A difference counts where each of them finds it, above its spread and 3 % of the time.",
+  "Compensations are timed in one process, one light and view at a time.",
 ].map((text) => el("li", {}, text)))));
 
 const parts = [what_to_ship(), el("div", { class: "columns" }, grid(), time()), cards(), verdicts(), behind()].filter((p) => p && p.childNodes.length);

@@ -186,6 +186,8 @@ void add_report(
   front.curves.resize(std::min<std::size_t>(front.curves.size(), 2));
   if (front.curves.size() == 2 && !front.curves[1].dashed) front.curves.pop_back();
   front.note.clear();
+  front.curves[0].name = "masking forms for GGX";
+  if (front.curves.size() == 2) front.curves[1].name = "the front";
   to.front.figures = {std::move(front)};
 }
 

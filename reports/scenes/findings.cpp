@@ -7,7 +7,6 @@
 #include "reports/scenes/scenes.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -36,11 +35,6 @@ std::string material_text(const std::string& material) {
 }
 std::string scene_text(const SceneRow& r) {
   return fmt::format("{} under {}", material_text(r.material), r.light);
-}
-/// "a", "a and b", "a, b and c"
-std::string list_text(const std::vector<std::string>& all) {
-  if (all.size() < 2) return all.empty() ? "" : all[0];
-  return fmt::format("{} and {}", fmt::join(all.begin(), all.end() - 1, ", "), all.back());
 }
 
 /// Scenes, those of a material together: "chalk under rim light, and under sky and sun".

@@ -89,11 +89,12 @@ void means_metal(Findings& to) {
 
 void colour_beside_f(Findings& to) {
   const double glass = dielectric(1.5, "glass").f0(0), twice = glass * glass;
-  to.judge("f = D F G/(4 NoL NoV) · NoL · SpecularColor", "seed 000, specular BRDF", verdict(false),
-           fmt::format("glass reflects {} in place of {}", percent(twice, 2), percent(glass, 2)),
-           fmt::format("F holds the specular colour already. Seen head on, glass so reflects {} of "
-                       "light in place of {}.",
-                       percent(twice, 2), percent(glass, 2)));
+  to.judge(
+      "f = D F G/(4 NoL NoV) · NoL · SpecularColor", "seed 000, specular BRDF", verdict(false),
+      fmt::format("glass reflects {} in place of {}", percent(twice, 2), percent(glass, 2)),
+      fmt::format("F holds the specular colour already. Seen head on, glass then reflects {} of "
+                  "light in place of {}.",
+                  percent(twice, 2), percent(glass, 2)));
 }
 
 }  // namespace

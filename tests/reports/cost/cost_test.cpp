@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <thread>
 #include <tuple>
@@ -13,6 +14,7 @@
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/presets.h"
 #include "reports/audit/audit.h"
+#include "reports/cost/claims.h"
 #include "reports/cost/models.h"
 #include "reports/cost/points.h"
 #include "reports/cost/processes.h"
@@ -502,15 +504,29 @@ TEST(CostPictures, AreWhole) {
   EXPECT_TRUE(said.headline.starts_with("Exact Smith in place of Schlick's k costs a GGX sample"));
 }
 
-TEST(CostFindings, BeginWithWhatExactSmithCostsEvenIfThatIsLess) {
+TEST(CostFindings, BeginWithWhatExactSmithCostsAndCallLessNoMore) {
   auto rows = small_rows();
   rows.others = 1.3;
   for (auto& s : rows.switches) s.differs = true, s.ns = s.memory == "cache" ? 0.234 : -0.05;
   const auto said = findings(rows);
   EXPECT_EQ(said.sentences[0], said.headline) << "before it tells of other programs";
-  EXPECT_NE(said.headline.find(" 0.23 ns more in cache, and 0.05 ns less in columns"),
-            std::string::npos)
+  EXPECT_NE(said.headline.find(" 0.23 ns more in cache, and no more in columns"), std::string::npos)
       << said.headline;
+}
+
+TEST(CostFindings, JudgeExactFresnelByWhatIsMeasured) {
+  CostRows r;
+  r.machine = this_machine();
+  for (const char* filter : {"schlick", "dielectric"}) {
+    auto o = short_options(filter);
+    o.errors = false;
+    std::ranges::move(measure_costs(o).rows, std::back_inserter(r.rows));
+  }
+  Findings said;
+  judge_costs(said, r);
+  EXPECT_TRUE(std::ranges::any_of(said.claims, [](const Claim& c) {
+    return c.claim == "the exact Fresnel equations are slow";
+  }));
 }
 
 TEST(CostFindings, CanBeReadAloud) {

@@ -47,6 +47,7 @@ TEST(ReportIndex, TellsDecisionsOneSentenceAReportAndClaimsWithTheirFigure) {
   EXPECT_EQ(j["claims"][0]["judged"], "holds in part");
   EXPECT_EQ(j["claims"][0]["figure"], "0.036 of light");
   EXPECT_EQ(j["front"][0]["curves"].size(), 2U) << "the first series and its front";
+  EXPECT_EQ(j["front"][0]["curves"][0]["name"], "masking forms for GGX");
   ASSERT_EQ(j["fresnel"].size(), 1U) << "of the forms that people ship";
   EXPECT_EQ(j["fresnel"][0]["form"], "Schlick");
   EXPECT_EQ(j["machine"]["isa"], "avx2");
