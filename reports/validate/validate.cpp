@@ -83,7 +83,7 @@ Validation validate(const Choice& c, const ReportProgress& done) {
     const auto from = static_cast<double>(i);
     v.budgets.push_back(all[i].check(part_of(done, all[i].what, from / n, (from + 1) / n)));
   }
-  if (!compose(c.shipped.spec(), 3).lobes.empty()) add_curves(v.pictures, c);
+  if (!c.shipped.composed().lobes.empty()) add_curves(v.pictures, c);
   return v;
 }
 

@@ -10,6 +10,7 @@
 #include "integrate/rule/quadrature.h"
 #include "reports/validate/measure.h"
 #include "reports/validate/words.h"
+#include "support.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
