@@ -302,6 +302,10 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
             "a model without a coat, which is asked albedo_error, delta_e_2000, energy_gain, "
             "fresnel_error and reciprocity alone");
   }
+  if (c.shipped.composed().lobes.empty())
+    for (const auto& [asked, key] : {std::pair(c.budgets.fresnel_error, "fresnel_error"),
+                                     std::pair(c.budgets.energy_loss, "energy_loss")})
+      if (asked) root.at("budgets").at(key).fail("a model with a lobe, of which it is asked");
   if (c.budgets.ns) {
     try {
       bind_model(c.budgets.ns->baseline, {});

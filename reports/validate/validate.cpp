@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.h"
 #include "reports/validate/measure.h"
 
 #include <fmt/format.h>
@@ -70,7 +71,7 @@ bool Validation::holds() const {
   return std::ranges::all_of(budgets, &BudgetCheck::holds);
 }
 
-Validation validate(const Choice& c, const ReportProgress& done) {
+Validation validate(const Choice& c, const ReportProgress& done) try {
   Validation v{c.path,
                c.shipped.model,
                std::string(name_of(c.shipped.scattering)),
@@ -85,6 +86,9 @@ Validation validate(const Choice& c, const ReportProgress& done) {
   }
   if (!c.shipped.composed().lobes.empty()) add_curves(v.pictures, c);
   return v;
+} catch (const Error& e) {
+  if (e.code() != Exit::usage) throw;
+  throw bad_input(c.path, "/model", e.what(), "a model that its budgets can be asked of");
 }
 
 }  // namespace gonio

@@ -77,6 +77,11 @@ TEST(Choice, NamesThePlaceOfWhatItDoesNotTake) {
   refused("/coating", "view", "c.json: /coating: found ");
   refused("/coating", "inside", "c.json: /coating: found ");
   refused("/model", "lambert+coat:ggx/smith_ggx.correlated/schlick", "view or both, beside a coat");
+  for (const char* budget : {"fresnel_error", "energy_loss"}) {
+    json j = {{"schema", "gonio.choice/1"}, {"model", "lambert"}, {"domain", {{"eta", 1.5}}}};
+    j["budgets"][budget] = 0.1;
+    EXPECT_THROW(parsed(j), Error) << budget << " of a model without a lobe";
+  }
   json j = plain();
   j.erase("reference");
   EXPECT_THROW(parsed(j), Error) << "albedo_error compares with nothing";
