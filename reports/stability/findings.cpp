@@ -156,8 +156,8 @@ void orders(Findings& to, const StabilityRows& r) {
     to.say(fmt::format("A compiler that regroups sums and products takes {}'s {} from {} forms.",
                        name_of(number), keeps, of_all(need, all)));
     if (!worst) continue;
-    to.say(worst->lost > 0 ? fmt::format("{} even loses values then.", worst->id)
-                           : fmt::format("Most that is {}: {} in place of {}.", worst->id,
+    to.say(worst->lost > 0 ? std::string("The worst of them even loses values.")
+                           : fmt::format("The worst of them errs by {} in place of {}.",
                                          percent(worst->regrouped, 2), percent(worst->written, 2)));
   }
 }

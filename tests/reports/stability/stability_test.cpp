@@ -256,7 +256,7 @@ TEST(StabilityFindings, SayWhatRegroupingTakesFromAForm) {
   const auto f = findings(r);
   EXPECT_TRUE(says(
       f, "A compiler that regroups sums and products takes half's 2\u00a0% from 1 of 3 forms."));
-  EXPECT_TRUE(says(f, "Most that is ndf.gtr: 6\u00a0% in place of 1.5\u00a0%."));
+  EXPECT_TRUE(says(f, "The worst of them errs by 6\u00a0% in place of 1.5\u00a0%."));
   test::expect_plain(f);
   r.orders[0].lost = 7;
   EXPECT_TRUE(r.orders[0].needs_precise()) << "values are lost";
