@@ -150,6 +150,7 @@ bool reads_albedo(const shader::TracedFormula& f) {
 
 Exit run(const Options& o) {
   use_jobs(o.jobs);
+  shader::check_function_name(o.name);  // before seconds are spent
   const auto file = is_of_catalogue(o.subject) ? std::vector<std::string>{} : file_in(o.subject);
   std::vector<std::string> outputs;
   for (const auto& path : {o.output, o.table})

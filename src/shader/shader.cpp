@@ -273,7 +273,9 @@ std::string title_case(const std::string& name) {
   return type;
 }
 
-void check_name(const std::string& name) {
+}  // namespace
+
+void check_function_name(const std::string& name) {
   const auto letter = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
   };
@@ -286,8 +288,6 @@ void check_name(const std::string& name) {
   if (is_kept_word(name))
     throw wrong_usage(fmt::format("--name {}: a word that a shading language keeps", name));
 }
-
-}  // namespace
 
 std::string function_of_cosines(const TracedFormula& f, const Writing& w) {
   return f.is_model ? w.name + "_of_cosines" : w.name;
@@ -423,7 +423,7 @@ std::string structure_name(const TracedFormula& f, const Writing& w) {
 }
 
 std::string shader_source(const TracedFormula& f, const Writing& w) {
-  check_name(w.name);
+  check_function_name(w.name);
   const Functions functions(f, w);
   return functions.preamble() + header(f, w) + "\n" + functions.structure() +
          functions.of_cosines() + (f.is_model ? functions.of_directions() : "");

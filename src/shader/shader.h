@@ -19,7 +19,9 @@ struct Writing {
   std::vector<std::string> remarks;  ///< lines of the header beside what the formula says of itself
 };
 
-/// \throws Error  wrong usage of a name that no language takes
+/// Refuses a name that some language does not take: wrong usage.
+void check_function_name(const std::string&);
+/// \throws Error  of such a name
 std::string shader_source(const TracedFormula&, const Writing&);
 
 /// Name of the function of cosines: what is called NAME of directions is NAME_of_cosines.
