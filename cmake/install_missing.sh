@@ -139,6 +139,21 @@ install_python() {
   echo "Without nanobind and NumPy from PyPI: the module for Python is not built."
 }
 
+# Blender as a module of Python 3.11, which exported glTF is looked at with, in build/blender: a gigabyte, so for ./check --long alone.
+install_blender() {
+  local at=build/blender
+  if [ -d "$at/lib/python3.11/site-packages/bpy" ]; then return 0; fi
+  if command -v apt-get >/dev/null; then
+    (gonio_tools=() gonio_libraries=(python3-venv libgl1 libice6 libsm6 libxfixes3 libxi6 libxkbcommon0 libxrender1); install_missing) || true
+  fi
+  if { [ -x "$at/bin/pip" ] || python3.11 -m venv "$at" >/dev/null 2>&1; } &&
+    "$at/bin/pip" install -qq --disable-pip-version-check --retries 1 --timeout 20 --require-hashes --only-binary :all: \
+      -r tests/cli/targets/blender.txt 2>/dev/null; then
+    return 0
+  fi
+  echo "Without Blender from PyPI, for Python 3.11 on x86-64: exported glTF is not looked at in it."
+}
+
 # build PRESET [OPTIONS of cmake --build]
 build() {
   cmake --preset "$1" --log-level=WARNING

@@ -12,14 +12,8 @@
 #include <tbb/parallel_for.h>
 
 namespace gonio {
-namespace {
 
-using namespace stability;
-using Depth = StabilityOptions::Setting;
-
-/// Domain in which shaders live, in one number.  In half it is small: products of angles must not become subnormal, which
-/// any GPU may flush.
-void narrow(Subject& s, Number number) {
+void stabilities::narrow_to_shaders(stability::Subject& s, Number number) {
   struct Part {
     std::string_view input;
     Range in_float, in_half;
@@ -38,6 +32,11 @@ void narrow(Subject& s, Number number) {
       input.domain = number == Number::half ? at->in_half : at->in_float;
 }
 
+namespace {
+
+using namespace stability;
+using Depth = StabilityOptions::Setting;
+
 std::string text_of_domain(const Subject& s, const std::vector<Range>& domain) {
   std::string text;
   for (std::size_t k = 0; k < domain.size(); ++k)
@@ -47,7 +46,7 @@ std::string text_of_domain(const Subject& s, const std::vector<Range>& domain) {
 }
 
 AnyGpuRow row_of(Subject s, Number number, double seconds) {
-  narrow(s, number);
+  stabilities::narrow_to_shaders(s, number);
   const Rounding rule = rounding_of({.number = number, .any_gpu = true});
   const auto relative = prove_relative(s, number, rule, seconds);
   const auto finite = prove(s, number, rule, finite_values(number), {.boxes = 500});

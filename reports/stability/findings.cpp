@@ -6,6 +6,7 @@
 #include "reports/finding/words.h"
 #include "reports/stability/measure.h"
 #include "stability/prove_relative.h"
+#include "stability/search.h"
 
 #include <fmt/format.h>
 
@@ -138,6 +139,29 @@ void any_gpu(Findings& to, const StabilityRows& r) {
   }
 }
 
+/// Sentences on forms that a compiler which regroups moves beyond the tolerance.
+void orders(Findings& to, const StabilityRows& r) {
+  for (const Number number : {Number::float_, Number::half}) {
+    std::size_t all = 0, need = 0;
+    const OrderRow* worst = nullptr;
+    for (const auto& row : r.orders) {
+      if (row.number != name_of(number)) continue;
+      ++all;
+      if (!row.needs_precise()) continue;
+      ++need;
+      if (!worst || row.regrouped > worst->regrouped) worst = &row;
+    }
+    if (all == 0) continue;
+    const auto keeps = percent(stability::usual_tolerance(number), 1);
+    to.say(fmt::format("A compiler that regroups sums and products takes {}'s {} from {} forms.",
+                       name_of(number), keeps, of_all(need, all)));
+    if (!worst) continue;
+    to.say(worst->lost > 0 ? std::string("The worst of them even loses values.")
+                           : fmt::format("The worst of them errs by {} in place of {}.",
+                                         percent(worst->regrouped, 2), percent(worst->written, 2)));
+  }
+}
+
 /// "0.0022", and of less "0.00000006", which is read as one number.
 std::string small_text(double x) {
   if (x >= 1e-4) return fmt::format("{:.2g}", x);
@@ -168,6 +192,7 @@ Findings findings(const StabilityRows& r) {
   which_alpha(f, r);
   without_a_value(f, r);
   any_gpu(f, r);
+  orders(f, r);
   clamps(f, r);
   stabilities::judge_f_and_g_in_half(f, r);
   return f;

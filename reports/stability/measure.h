@@ -15,6 +15,10 @@ using Inputs = std::vector<double>;
 /// Ids of the forms that a setting looks at.
 std::vector<std::string> forms(const StabilityOptions&);
 
+/// Narrows a subject to where shaders live, in one number.  In half that is small: products of angles must not become
+/// subnormal, which any GPU may flush.
+void narrow_to_shaders(stability::Subject&, Number);
+
 /// "overflow, underflow"; "" of neither.
 std::string text_of(const HalfFlags&);
 /// Width from which on people expect half to be good enough.

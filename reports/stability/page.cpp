@@ -107,6 +107,27 @@ struct Description<AnyGpuRow> {
 static_assert(describes_every_member<AnyGpuRow>());
 
 template <>
+struct Description<OrderRow> {
+  static constexpr auto fields() {
+    using R = OrderRow;
+    return std::tuple{
+        field("id", "", &R::id, "of the catalogue"),
+        field("form", "", &R::form, "how its angles are given"),
+        field("number", "", &R::number, "float or half"),
+        field("written", "", &R::written, "most relative error in the formula's own order"),
+        field("regrouped", "", &R::regrouped, "the same over all orders"),
+        field("inputs", "", &R::at, "where that is"),
+        field("no_value", "", &R::no_value, "inputs without a value in the formula's own order"),
+        field("lost", "", &R::lost, "further ones without a value in some order"),
+        field("evaluations", "", &R::inputs, "inputs that were looked at, each in 16 orders"),
+        field(
+            "needs_precise", "", [](const R& r) { return r.needs_precise(); },
+            "it keeps the number's tolerance as it is written, and in some order it does not")};
+  }
+};
+static_assert(describes_every_member<OrderRow>());
+
+template <>
 struct Description<StabilityReport> {
   static constexpr auto fields() {
     using R = StabilityReport;
@@ -118,6 +139,8 @@ struct Description<StabilityReport> {
         field("clamps", "", at(&R::rows, &StabilityRows::clamps), "what each saves and costs"),
         field("any_gpu", "", at(&R::rows, &StabilityRows::any_gpu),
               "what is proved under all that Vulkan allows a GPU"),
+        field("orders", "", at(&R::rows, &StabilityRows::orders),
+              "what a compiler costs that regroups sums and products"),
         inlined(&R::pictures)};
   }
 };

@@ -146,6 +146,7 @@ StabilityRows stability_rows(const StabilityOptions& o, const ReportProgress& do
   const bool all = o.setting != Depth::brief;
   if (done) done("any GPU, and pictures", 0.9);
   r.any_gpu = any_gpu_rows(o);
+  r.orders = order_rows(o);
   r.by_alpha = errors_by_alpha(all);
   r.maps = error_maps(all);
   r.clamps = clamp_rows();

@@ -74,10 +74,25 @@ struct AnyGpuRow {
 };
 constexpr double any_gpu_tolerance = 0.01;
 
+/// A form whose sums and products a compiler regroups (stability/regroup.h), over a domain that is smaller than the hard one.
+struct OrderRow {
+  std::string id, form, number;
+  double written,
+      regrouped;           ///< most relative error in the formula's own order, and over all orders
+  std::string at;          ///< inputs where the second is
+  std::uint64_t no_value;  ///< inputs without a value in the formula's own order
+  std::uint64_t lost;      ///< further ones without a value in some order
+  std::uint64_t inputs;    ///< that were looked at
+
+  /// True where the formula keeps the number's usual tolerance as it is written, and in some order it does not.
+  bool needs_precise() const;
+};
+
 struct StabilityRows {
   std::vector<StabilityRow> rows;
   std::vector<ClampRow> clamps;
   std::vector<AnyGpuRow> any_gpu;
+  std::vector<OrderRow> orders;
   /// Curves of the worst relative error over all angles by a form's alpha: NaN where an input has no value.
   struct ByAlpha {
     std::string id, form, number;
@@ -103,6 +118,7 @@ struct StabilityOptions {
 StabilityRows stability_rows(const StabilityOptions&, const ReportProgress& done = {});
 std::vector<ClampRow> clamp_rows();
 std::vector<AnyGpuRow> any_gpu_rows(const StabilityOptions&);
+std::vector<OrderRow> order_rows(const StabilityOptions&);
 std::vector<StabilityRows::ByAlpha> errors_by_alpha(bool all);
 std::vector<StabilityRows::Map> error_maps(bool all);
 

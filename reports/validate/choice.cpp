@@ -9,6 +9,7 @@
 #include "base/json_form.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/fitted_model.h"
+#include "brdf/model/presets.h"
 #include "brdf/model/settings_form.h"
 #include "optics/refractive_index.h"
 
@@ -166,6 +167,12 @@ std::string Shipped::spec() const {
   return s;
 }
 
+Model Shipped::composed() const {
+  const auto own = spec();
+  const Preset* preset = find_preset(own);
+  return compose(preset ? preset->spec : std::string_view(own), 3);
+}
+
 bool has_range(const Choice& c) {
   return c.domain.eta || c.domain.f0;
 }
@@ -233,7 +240,7 @@ void check_coat(const JsonReader& root,
     root.at(model).fail(fmt::format("{}, view or both, beside a coat", coating));
   }
   if (!s.coating) return;
-  const Model m = compose(s.spec(), 3);
+  const Model m = s.composed();
   const bool coupled =
       std::ranges::any_of(m.diffuse, [](const TermUse& t) { return catalogue()[t.term].coupled; });
   if (m.lobes.size() != 1 || m.diffuse.empty() || coupled || at == 0 || s.model[at - 1] != '+' ||
@@ -295,9 +302,13 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
             "a model without a coat, which is asked albedo_error, delta_e_2000, energy_gain, "
             "fresnel_error and reciprocity alone");
   }
+  if (c.shipped.composed().lobes.empty())
+    for (const auto& [asked, key] : {std::pair(c.budgets.fresnel_error, "fresnel_error"),
+                                     std::pair(c.budgets.energy_loss, "energy_loss")})
+      if (asked) root.at("budgets").at(key).fail("a model with a lobe, of which it is asked");
   if (c.budgets.ns) {
     try {
-      compose(c.budgets.ns->baseline, 3);
+      bind_model(c.budgets.ns->baseline, {});
     } catch (const Error& e) {
       root.at("budgets").at("ns").at("baseline").fail(fmt::format("a model ({})", e.what()));
     }
@@ -331,6 +342,26 @@ std::vector<Setting> fresnel_settings(std::string_view id, const Substance& of) 
   throw wrong_usage(fmt::format("{} is not for {}", id, s.material));
 }
 
+/// Adds the width that the domain's roughness means, where none is set: of a preset whose own parameters are set by these,
+/// of others by those of the terms.
+void add_width(std::vector<Setting>& settings, const Shipped& s, const Model& m, double roughness) {
+  for (const char* name : {"alpha", "roughness", "alpha_x", "alpha_y"})
+    if (has(settings, name)) return;
+  const double alpha = s.alpha == AlphaMap::linear   ? roughness
+                       : s.alpha == AlphaMap::square ? roughness * roughness
+                                                     : std::pow(roughness, 4);
+  const auto sets_own = [&](const Parameter& p) { return has(settings, p.name); };
+  if (const Preset* preset = find_preset(s.spec());
+      preset && std::ranges::any_of(preset->parameters, sets_own))
+    settings.push_back({"roughness", {std::sqrt(alpha)}});
+  else if (m.find("alpha"))
+    settings.push_back({"alpha", {alpha}});
+  else if (m.find("alpha_x"))
+    settings.push_back({"alpha_x", {alpha}}), settings.push_back({"alpha_y", {alpha}});
+  else if (m.find("roughness"))
+    settings.push_back({"roughness", {roughness}});
+}
+
 }  // namespace
 
 BoundModel bound(const Choice& c, const Shipped& s, const Substance& of, double roughness) {
@@ -338,7 +369,7 @@ BoundModel bound(const Choice& c, const Shipped& s, const Substance& of, double 
   for (const auto& [name, given] : s.parameters)
     settings.push_back({name, given.values, given.word});
   try {
-    const Model plain = compose(s.spec(), 3);
+    const Model plain = s.composed();
     const auto add = [&](const Setting& setting) {
       if (!has(settings, setting.name)) settings.push_back(setting);
     };
@@ -347,20 +378,13 @@ BoundModel bound(const Choice& c, const Shipped& s, const Substance& of, double 
         add(x);
     for (const auto& x : of.settings)
       if (x.name == "f0" || plain.find(x.name)) add(x);
-    const double alpha = s.alpha == AlphaMap::linear   ? roughness
-                         : s.alpha == AlphaMap::square ? roughness * roughness
-                                                       : std::pow(roughness, 4);
-    const bool has_width = has(settings, "alpha") || has(settings, "roughness") ||
-                           has(settings, "alpha_x") || has(settings, "alpha_y");
-    if (c.domain.roughness && !has_width) {
-      if (plain.find("alpha"))
-        settings.push_back({"alpha", {alpha}});
-      else if (plain.find("alpha_x"))
-        settings.push_back({"alpha_x", {alpha}}), settings.push_back({"alpha_y", {alpha}});
-      else if (plain.find("roughness"))
-        settings.push_back({"roughness", {roughness}});
-    }
-    return bind_model(s.spec(), std::move(settings), 3);
+    if (c.domain.roughness) add_width(settings, s, plain, roughness);
+    auto model = bind_model(s.spec(), std::move(settings), 3);
+    if (!c.domain.fits.empty())  // a default would be another material than the fit's
+      for (const auto& p : model.model.parameters)
+        if (std::ranges::find(model.given, p.name) == model.given.end())
+          throw wrong_usage(fmt::format("nothing for '{}'", p.name));
+    return model;
   } catch (const Error& e) {
     throw bad_input(c.path, of.name.empty() ? "/domain" : fmt::format("/domain ({})", of.name),
                     e.what(), "what the model takes");

@@ -47,6 +47,8 @@ struct Shipped {
 
   /// The model without the word "coat:".
   std::string spec() const;
+  /// The model of that spec, or of the preset's, in three channels.
+  Model composed() const;
 };
 
 /// Limits, each of the worst that is found in the domain.

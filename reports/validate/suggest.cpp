@@ -26,7 +26,7 @@ struct OneLobe {
   std::string before, ndf, masking, fresnel;
 };
 OneLobe one_lobe(const Choice& c) {
-  const Model m = compose(c.shipped.spec(), 3);
+  const Model m = c.shipped.composed();
   if (m.lobes.size() != 1 || m.anisotropic || c.shipped.coating)
     throw bad_input(c.path, "/model", fmt::format("'{}'", c.shipped.model),
                     "one isotropic lobe that is no coat, for which a suggestion looks");

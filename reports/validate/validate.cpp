@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.h"
 #include "reports/validate/measure.h"
 
 #include <fmt/format.h>
@@ -70,7 +71,7 @@ bool Validation::holds() const {
   return std::ranges::all_of(budgets, &BudgetCheck::holds);
 }
 
-Validation validate(const Choice& c, const ReportProgress& done) {
+Validation validate(const Choice& c, const ReportProgress& done) try {
   Validation v{c.path,
                c.shipped.model,
                std::string(name_of(c.shipped.scattering)),
@@ -83,8 +84,11 @@ Validation validate(const Choice& c, const ReportProgress& done) {
     const auto from = static_cast<double>(i);
     v.budgets.push_back(all[i].check(part_of(done, all[i].what, from / n, (from + 1) / n)));
   }
-  if (!compose(c.shipped.spec(), 3).lobes.empty()) add_curves(v.pictures, c);
+  if (!c.shipped.composed().lobes.empty()) add_curves(v.pictures, c);
   return v;
+} catch (const Error& e) {
+  if (e.code() != Exit::usage) throw;
+  throw bad_input(c.path, "/model", e.what(), "a model that its budgets can be asked of");
 }
 
 }  // namespace gonio

@@ -1,4 +1,4 @@
-// gonio shader: a term or a model as a shader's source.
+// gonio shader: a term, a map or a model as a shader's source.
 #include "shader/shader.h"
 
 #include <algorithm>
@@ -8,7 +8,9 @@
 #include "brdf/catalogue/registry.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "integrate/light/split_sum.h"
 #include "integrate/light/split_sum_table.h"
+#include "integrate/scattering/compensation.h"
 #include "scene/plan/document.h"
 #include "shader/evidence.h"
 
@@ -31,6 +33,22 @@ std::optional<std::size_t> term_named(const std::string& subject) {
   const auto at = std::ranges::find(terms, subject, &TermEntry::id);
   if (at == terms.end()) return {};
   return static_cast<std::size_t>(at - terms.begin());
+}
+
+/// True of what is in the catalogue by itself, under an id with a prefix.
+bool is_of_catalogue(const std::string& subject) {
+  return term_named(subject) || find_map(subject);
+}
+
+/// Refuses entries of the catalogue that are no closed forms, and says what to take.
+void refuse_integrals(const std::string& subject) {
+  const auto refuse = [&](const About& about, const char* instead) {
+    if (subject == about.id)
+      throw wrong_usage(fmt::format("{} has no closed form: {}", about.id, instead));
+  };
+  refuse(split_sum_about, "gonio split_sum writes it as a table");
+  for (const About* about : {&walk_about, &deterministic_about})
+    refuse(*about, "--compensation writes what comes near it, gonio albedo tells it");
 }
 
 /// What a plan ships of a material: the model with its parameters, and the compensation that it keeps.
@@ -69,13 +87,16 @@ Planned planned(const std::string& path, const std::string& name) {
 }
 
 shader::TracedFormula traced(const Options& o) {
+  refuse_integrals(o.subject);
   const auto precision = value_of<shader::Precision>(o.precision, "precision");
-  if (const auto term = term_named(o.subject)) {
+  if (is_of_catalogue(o.subject)) {
     if (!o.set.empty() || !o.inputs.empty() || !o.grey.empty() || o.compensation || o.material)
       throw wrong_usage(
-          "--set, --grey, --inputs, --compensation and --material go with a model: of a term all "
-          "parameters are numbers and inputs");
-    return shader::trace_term(*term, precision, o.derivatives);
+          "--set, --grey, --inputs, --compensation and --material go with a model: of a term or a "
+          "map all parameters are numbers and inputs");
+    if (const auto map = find_map(o.subject))
+      return shader::trace_map(*map, precision, o.derivatives);
+    return shader::trace_term(*term_named(o.subject), precision, o.derivatives);
   }
   std::optional<shader::Compensating> compensating;
   const auto albedo = value_of<shader::AlbedoFrom>(o.albedo, "source of the albedo");
@@ -129,7 +150,8 @@ bool reads_albedo(const shader::TracedFormula& f) {
 
 Exit run(const Options& o) {
   use_jobs(o.jobs);
-  const auto file = term_named(o.subject) ? std::vector<std::string>{} : file_in(o.subject);
+  shader::check_function_name(o.name);  // before seconds are spent
+  const auto file = is_of_catalogue(o.subject) ? std::vector<std::string>{} : file_in(o.subject);
   std::vector<std::string> outputs;
   for (const auto& path : {o.output, o.table})
     if (path) outputs.push_back(*path);
@@ -176,14 +198,14 @@ Exit run(const Options& o) {
 
 void add_shader(CommandLine& line) {
   auto [c, o] = line.command(
-      "shader", "Writes a model or a term as a shader's function, with what is known of its error",
+      "shader",
+      "Writes a model, a term or a map as a shader's function, with what is known of its error",
       "gonio shader lambert.coupled+ggx/smith_ggx.correlated/schlick --language glsl "
       "--precision half -o brdf.glsl",
       run);
-  c.option(
-       "SPEC", o->subject,
-       "Model, the fit.json of a fit, the plan.json of a plan, or a term as `gonio models` lists "
-       "it")
+  c.option("SPEC", o->subject,
+           "Model, the fit.json of a fit, the plan.json of a plan, or a term or a map as `gonio "
+           "models` lists it")
       .required();
   c.option("--language", o->language, "glsl, wgsl or slang")
       .one_of(names_of<shader::Language>)

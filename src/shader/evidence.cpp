@@ -103,6 +103,9 @@ std::vector<std::string> evidence_of(const TracedFormula& f,
                     language == Language::wgsl, true};
     sentences.push_back(sentence(q.subject, answer(q)));
   }
+  if (f.terms.empty())
+    sentences.emplace_back(
+        "What its roundings cost was not looked at: gonio stability asks of terms and models.");
   if (f.is_model) {
     progress(f.id);
     Question q;

@@ -6,6 +6,60 @@
 #include <fmt/format.h>
 
 namespace gonio::shader {
+namespace {
+
+/// Keywords, reserved words and types of GLSL, WGSL, HLSL and Slang, and functions of GLSL, each between spaces.
+constexpr std::string_view kept_words =
+    " abs abstract acos acosh active alias alignas alignof all and any"
+    " AppendStructuredBuffer array as asin asinh asm asm_fragment associatedtype async atan"
+    " atanh atomic atomic_uint attribute auto await become BlendState bool bool1 bool2"
+    " bool3 bool4 break Buffer buffer bvec2 bvec3 bvec4 ByteAddressBuffer case cast catch"
+    " cbuffer ceil centroid clamp class co_await co_return co_yield coherent column_major"
+    " common compile compile_fragment compute ComputeShader concept const const_assert"
+    " const_cast ConstantBuffer consteval constexpr constinit ConsumeStructuredBuffer"
+    " continue continuing cos cosh crate cross debugger decltype default defer degrees"
+    " delete demote demote_to_helper DepthStencilState DepthStencilView determinant"
+    " diagnostic Differential discard distance dmat2 dmat3 dmat4 do DomainShader dot double"
+    " double2 double3 double4 dvec2 dvec3 dvec4 dword dynamic_cast dynamic_uniform each"
+    " else enable enum equal exp exp2 expand explicit export extends extension extern"
+    " external f16 f16vec2 f16vec3 f16vec4 f32 faceforward fallthrough false filter final"
+    " finally fixed flat float float1 float16_t float2 float2x2 float3 float32_t float3x3"
+    " float4 float4x4 float64_t floor fma fn for fract fragment frexp friend from func"
+    " fvec2 fvec3 fvec4 fxgroup GeometryShader get globallycoherent goto greaterThan"
+    " groupshared half half1 half2 half3 half4 highp Hullshader hvec2 hvec3 hvec4 i32 if"
+    " image2D image3D imageCube impl implements import in indices init inline inout input"
+    " InputPatch instanceof int int1 int16_t int2 int3 int32_t int4 int64_t int8_t"
+    " interface invariant inverse inversesqrt is isampler2D ivec2 ivec3 ivec4 layout ldexp"
+    " length lerp lessThan let line lineadj linear LineStream log log2 long loop lowp macro"
+    " macro_rules main mat2 mat2x2 mat2x3 mat2x4 mat3 mat3x2 mat3x3 mat3x4 mat4 mat4x2"
+    " mat4x3 mat4x4 match matrix max mediump meta min min10float min12int min16float"
+    " min16int min16uint mix mod module move mut mutable namespace new nil no_diff noexcept"
+    " noinline nointerpolation non_coherent noncoherent noperspective normalize not"
+    " notEqual NULL null nullptr of operator or out outerProduct output OutputPatch"
+    " override package packoffset ParameterBlock partition pass patch payload pixelfragment"
+    " PixelShader point PointStream pow precise precision premerge primitives priv private"
+    " property protected ptr pub public radians RasterizerState readonly ref reflect"
+    " refract regardless register reinterpret_cast RenderTargetView require requires"
+    " resource restrict return round row_major RWBuffer RWByteAddressBuffer"
+    " RWStructuredBuffer RWTexture1D RWTexture2D RWTexture3D sample sampler sampler1D"
+    " sampler2D sampler3D SamplerComparisonState samplerCube SamplerState select Self self"
+    " set shared short sign sin sinh sizeof smooth smoothstep snorm sqrt stateblock"
+    " stateblock_state static static_assert static_cast std step string struct"
+    " StructuredBuffer subpassInput subroutine super superp switch tan tanh target tbuffer"
+    " technique technique10 technique11 template texture Texture1D texture1D Texture1DArray"
+    " Texture2D texture2D Texture2DArray Texture2DMS Texture3D texture3D TextureCube"
+    " textureCube This this thread_local throw throws trait transpose triangle triangleadj"
+    " TriangleStream true trunc try type typedef typeid typename typeof u32 uint uint1"
+    " uint16_t uint2 uint3 uint32_t uint4 uint64_t uint8_t uniform union unless unorm"
+    " unsafe unsigned unsized use using uvec2 uvec3 uvec4 var varying vec2 vec3 vec4 vector"
+    " vertex vertexfragment VertexShader virtual void volatile wgsl where while with"
+    " workgroup writeonly yield ";
+
+}  // namespace
+
+bool is_kept_word(std::string_view name) {
+  return name.starts_with("gl_") || kept_words.find(fmt::format(" {} ", name)) != kept_words.npos;
+}
 
 std::string Syntax::preamble() const {
   if (precision_ == Precision::float_) return {};

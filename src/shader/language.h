@@ -11,6 +11,9 @@ namespace gonio::shader {
 
 enum class Language { glsl, wgsl, slang };
 
+/// True of a word that one of the languages keeps for itself, or a function of GLSL.
+bool is_kept_word(std::string_view);
+
 /// A language with the number that a formula is computed in.
 class Syntax {
  public:

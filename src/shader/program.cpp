@@ -31,15 +31,15 @@ std::string compute_program(const TracedFormula& f, Language language, bool of_d
       next(true, Syntax(language, Precision::float_));
   else
     for (std::size_t k = 0; k < f.angles.size(); ++k) next(false, syntax);
-  const bool derived = f.results.size() > 1;
+  const bool several = f.results.size() > 1;
   const std::string one = language == Language::wgsl ? "f32" : "float";
   std::string results;
   std::size_t at = 0;
   for (const auto& r : f.results)
     for (std::size_t c = 0; c < (f.colour ? 3U : 1U); ++c)
       results += fmt::format("  y[i * RESULTSu + {}u] = {}(value{}{});\n", at++, one,
-                             derived ? "." + r.name : "", f.colour ? fmt::format("[{}]", c) : "");
-  const std::string type = derived ? "BrdfDerivatives" : syntax.type(f.colour);
+                             several ? "." + r.name : "", f.colour ? fmt::format("[{}]", c) : "");
+  const std::string type = several ? structure_name(f, writing) : syntax.type(f.colour);
   std::string head,
       body = fmt::format("{}({});\n",
                          of_directions ? writing.name : function_of_cosines(f, writing), arguments);

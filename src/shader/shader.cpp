@@ -1,6 +1,7 @@
 #include "shader/shader.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <numbers>
@@ -249,7 +250,7 @@ std::string header(const TracedFormula& f, const Writing& w) {
         "WGSL has no word that keeps a compiler from regrouping sums and products: bits may differ "
         "from machine to machine.");
   text += comment("operations: " + text_of(f.operations()));
-  if (f.results.size() > 1)
+  if (f.derivatives > 0)
     text += comment(
         "What is known of the error is of the value: that of its derivatives is not, and in half "
         "they may overflow "
@@ -272,215 +273,9 @@ std::string title_case(const std::string& name) {
   return type;
 }
 
-/// Words that a language keeps for itself, or that a body calls.
-constexpr auto kept_words = std::to_array<std::string_view>({"active",
-                                                             "alias",
-                                                             "and",
-                                                             "any",
-                                                             "all",
-                                                             "array",
-                                                             "asm",
-                                                             "atomic",
-                                                             "attribute",
-                                                             "bool",
-                                                             "bool2",
-                                                             "bool3",
-                                                             "bool4",
-                                                             "break",
-                                                             "buffer",
-                                                             "bvec2",
-                                                             "bvec3",
-                                                             "bvec4",
-                                                             "case",
-                                                             "cast",
-                                                             "cbuffer",
-                                                             "centroid",
-                                                             "clamp",
-                                                             "class",
-                                                             "coherent",
-                                                             "column_major",
-                                                             "common",
-                                                             "compute",
-                                                             "const",
-                                                             "const_assert",
-                                                             "continue",
-                                                             "continuing",
-                                                             "cross",
-                                                             "default",
-                                                             "diagnostic",
-                                                             "discard",
-                                                             "distance",
-                                                             "do",
-                                                             "dot",
-                                                             "double",
-                                                             "dvec2",
-                                                             "dvec3",
-                                                             "dvec4",
-                                                             "else",
-                                                             "enable",
-                                                             "enum",
-                                                             "exp",
-                                                             "export",
-                                                             "extension",
-                                                             "extern",
-                                                             "external",
-                                                             "f16",
-                                                             "f16vec2",
-                                                             "f16vec3",
-                                                             "f16vec4",
-                                                             "f32",
-                                                             "false",
-                                                             "filter",
-                                                             "fixed",
-                                                             "flat",
-                                                             "float",
-                                                             "float16_t",
-                                                             "float2",
-                                                             "float3",
-                                                             "float4",
-                                                             "fn",
-                                                             "for",
-                                                             "fragment",
-                                                             "fvec2",
-                                                             "fvec3",
-                                                             "fvec4",
-                                                             "goto",
-                                                             "half",
-                                                             "half2",
-                                                             "half3",
-                                                             "half4",
-                                                             "highp",
-                                                             "hvec2",
-                                                             "hvec3",
-                                                             "hvec4",
-                                                             "i32",
-                                                             "if",
-                                                             "image2D",
-                                                             "image3D",
-                                                             "imageCube",
-                                                             "import",
-                                                             "in",
-                                                             "inline",
-                                                             "inout",
-                                                             "input",
-                                                             "int",
-                                                             "int2",
-                                                             "int3",
-                                                             "int4",
-                                                             "interface",
-                                                             "invariant",
-                                                             "isampler2D",
-                                                             "ivec2",
-                                                             "ivec3",
-                                                             "ivec4",
-                                                             "layout",
-                                                             "length",
-                                                             "lerp",
-                                                             "lessThan",
-                                                             "let",
-                                                             "linear",
-                                                             "log",
-                                                             "long",
-                                                             "loop",
-                                                             "lowp",
-                                                             "main",
-                                                             "mat2",
-                                                             "mat2x2",
-                                                             "mat2x3",
-                                                             "mat2x4",
-                                                             "mat3",
-                                                             "mat3x2",
-                                                             "mat3x3",
-                                                             "mat3x4",
-                                                             "mat4",
-                                                             "mat4x2",
-                                                             "mat4x3",
-                                                             "mat4x4",
-                                                             "matrix",
-                                                             "max",
-                                                             "mediump",
-                                                             "min",
-                                                             "mix",
-                                                             "mod",
-                                                             "module",
-                                                             "namespace",
-                                                             "noinline",
-                                                             "nointerpolation",
-                                                             "noperspective",
-                                                             "normalize",
-                                                             "not",
-                                                             "null",
-                                                             "or",
-                                                             "out",
-                                                             "output",
-                                                             "override",
-                                                             "packoffset",
-                                                             "partition",
-                                                             "patch",
-                                                             "pow",
-                                                             "precise",
-                                                             "precision",
-                                                             "private",
-                                                             "ptr",
-                                                             "public",
-                                                             "readonly",
-                                                             "register",
-                                                             "require",
-                                                             "requires",
-                                                             "resource",
-                                                             "restrict",
-                                                             "return",
-                                                             "row_major",
-                                                             "sample",
-                                                             "sampler",
-                                                             "sampler1D",
-                                                             "sampler2D",
-                                                             "sampler3D",
-                                                             "samplerCube",
-                                                             "select",
-                                                             "shared",
-                                                             "short",
-                                                             "sizeof",
-                                                             "smooth",
-                                                             "sqrt",
-                                                             "static",
-                                                             "string",
-                                                             "struct",
-                                                             "subroutine",
-                                                             "superp",
-                                                             "switch",
-                                                             "template",
-                                                             "texture",
-                                                             "texture2D",
-                                                             "this",
-                                                             "true",
-                                                             "typedef",
-                                                             "u32",
-                                                             "uint",
-                                                             "uint2",
-                                                             "uint3",
-                                                             "uint4",
-                                                             "uniform",
-                                                             "union",
-                                                             "unsigned",
-                                                             "using",
-                                                             "uvec2",
-                                                             "uvec3",
-                                                             "uvec4",
-                                                             "var",
-                                                             "varying",
-                                                             "vec2",
-                                                             "vec3",
-                                                             "vec4",
-                                                             "vector",
-                                                             "vertex",
-                                                             "void",
-                                                             "volatile",
-                                                             "while",
-                                                             "workgroup",
-                                                             "writeonly"});
+}  // namespace
 
-void check_name(const std::string& name) {
+void check_function_name(const std::string& name) {
   const auto letter = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
   };
@@ -490,112 +285,148 @@ void check_name(const std::string& name) {
     throw wrong_usage(fmt::format(
         "--name {}: expected a letter, then letters, digits and single underscores between them",
         name));
-  if (std::ranges::find(kept_words, name) != kept_words.end() || name.starts_with("gl_"))
+  if (is_kept_word(name))
     throw wrong_usage(fmt::format("--name {}: a word that a shading language keeps", name));
 }
-
-}  // namespace
 
 std::string function_of_cosines(const TracedFormula& f, const Writing& w) {
   return f.is_model ? w.name + "_of_cosines" : w.name;
 }
 
-std::string shader_source(const TracedFormula& f, const Writing& w) {
-  check_name(w.name);
-  const Syntax syntax(w.language, f.precision);
-  const Body body(f, syntax);
-  const bool derived = f.results.size() > 1;
-  const std::string type = syntax.type(f.colour), structure = title_case(w.name) + "Derivatives",
-                    result = derived ? structure : type, inner = function_of_cosines(f, w);
+namespace {
 
-  std::string text = syntax.preamble() + header(f, w) + "\n";
-  if (derived) {
-    text += fmt::format("struct {} {{\n", structure);
-    for (const auto& r : f.results) text += "  " + syntax.member(type, r.name) + "\n";
-    text += syntax.structure_end() + "\n\n";
+/// Writer of a formula's functions in a language.
+class Functions {
+ public:
+  Functions(const TracedFormula& formula, const Writing& writing)
+      : f_(formula),
+        w_(writing),
+        syntax_(writing.language, formula.precision),
+        type_(syntax_.type(formula.colour)),
+        structure_(structure_name(formula, writing)) {
+    for (const auto& p : f_.parameters)
+      parameters_.push_back(syntax_.parameter(syntax_.type(p.colour), p.name));
   }
 
-  std::vector<std::string> parameters, names;
-  for (const auto& p : f.parameters) {
-    parameters.push_back(syntax.parameter(syntax.type(p.colour), p.name));
-    names.push_back(p.name);
+  std::string preamble() const { return syntax_.preamble(); }
+  /// Of the results; "" where there is one alone.
+  std::string structure() const {
+    if (!has_several()) return "";
+    std::string text = fmt::format("struct {} {{\n", structure_);
+    for (const auto& r : f_.results) text += "  " + syntax_.member(type_, r.name) + "\n";
+    return text + syntax_.structure_end() + "\n\n";
   }
-  std::vector<std::string> all = parameters;
-  for (const auto& a : f.angles) all.push_back(syntax.parameter(syntax.type(false), a.name));
-  text += syntax.function(result, inner, fmt::format("{}", fmt::join(all, ", "))) + " {\n";
-  for (const auto& c : f.colours)
-    text += "  " +
-            syntax.variable(c.name, true,
-                            syntax.colour(fmt::format("{}, {}, {}", syntax.literal(c.value[0]),
-                                                      syntax.literal(c.value[1]),
-                                                      syntax.literal(c.value[2])))) +
-            "\n";
-  text += body.statements();
-  if (derived) {
-    std::vector<std::string> elements;
-    for (const auto& r : f.results) elements.push_back(body.result(r.node));
-    text += "  " + syntax.made(structure, fmt::format("{}", fmt::join(elements, ", ")), "all") +
-            "\n  return all;\n}\n";
-  } else {
-    text += "  return " + body.result(f.results[0].node) + ";\n}\n";
+  std::string of_cosines() const {
+    const Body body(f_, syntax_);
+    auto given = parameters_;
+    for (const auto& a : f_.angles) given.push_back(syntax_.parameter(syntax_.type(false), a.name));
+    std::string text = head(function_of_cosines(f_, w_), given);
+    for (const auto& c : f_.colours) {
+      const auto channel = [&](std::size_t k) { return syntax_.literal(c.value[k]); };
+      const auto value =
+          syntax_.colour(fmt::format("{}, {}, {}", channel(0), channel(1), channel(2)));
+      text += "  " + syntax_.variable(c.name, true, value) + "\n";
+    }
+    text += body.statements();
+    std::vector<std::string> results;
+    for (const auto& r : f_.results) results.push_back(body.result(r.node));
+    return text + returned("  ", "all", results) + "}\n";
   }
-  if (!f.is_model) return text;
+  /// The same of unit vectors, of an anisotropic model with the tangent and the bitangent.
+  std::string of_directions() const {
+    std::string text = fmt::format(
+        "\n// n, l, v: unit vectors of the normal, to the light and to the viewer{}; 0 from below "
+        "the surface.\n",
+        f_.anisotropic ? "; t, b: tangent and bitangent" : "");
+    auto given = parameters_;
+    const auto vector = syntax_.type(true, Precision::float_);
+    for (const char* name : {"n", "l", "v"}) given.push_back(syntax_.parameter(vector, name));
+    if (f_.anisotropic)
+      for (const char* name : {"t", "b"}) given.push_back(syntax_.parameter(vector, name));
+    text += head(w_.name, given);
+    text += line("NoL", false, "dot(n, l)") + line("NoV", false, "dot(n, v)");
+    const auto zero = syntax_.literal(0);
+    const std::vector<std::string> none(f_.results.size(), f_.colour ? syntax_.colour(zero) : zero);
+    text += "  if (!(NoL > 0.0 && NoV > 0.0)) {\n" + returned("    ", "none", none) + "  }\n";
+    text += half_vector();
+    if (f_.anisotropic) text += frame();
+    std::vector<std::string> names;
+    for (const auto& p : f_.parameters) names.push_back(p.name);
+    for (const auto& a : f_.angles) names.push_back(syntax_.from_float(a.name));
+    return text + fmt::format("  return {}({});\n}}\n", function_of_cosines(f_, w_),
+                              fmt::join(names, ", "));
+  }
 
-  // Of directions: unit vectors, of an anisotropic model with the tangent and the bitangent.
-  const auto vector = syntax.type(true, Precision::float_);
-  std::vector<std::string> given = parameters;
-  for (const char* name : {"n", "l", "v"}) given.push_back(syntax.parameter(vector, name));
-  if (f.anisotropic)
-    for (const char* name : {"t", "b"}) given.push_back(syntax.parameter(vector, name));
-  const auto line = [&](const std::string& name, bool is_vector, const std::string& value) {
-    text += "  " + syntax.angle(name, is_vector, value) + "\n";
-  };
-  const auto uses = [&](std::string_view angle) {
-    return std::ranges::find(f.angles, angle, &Argument::name) != f.angles.end();
-  };
-  text += fmt::format(
-      "\n// n, l, v: unit vectors of the normal, to the light and to the viewer{}; 0 from below "
-      "the "
-      "surface.\n",
-      f.anisotropic ? "; t, b: tangent and bitangent" : "");
-  text += syntax.function(result, w.name, fmt::format("{}", fmt::join(given, ", "))) + " {\n";
-  line("NoL", false, "dot(n, l)");
-  line("NoV", false, "dot(n, v)");
-  const auto nothing = syntax.colour(syntax.literal(0));
-  std::string none = f.colour ? nothing : syntax.literal(0);
-  if (derived) {
-    std::vector<std::string> zeros(f.results.size(), none);
-    text += fmt::format("  if (!(NoL > 0.0 && NoV > 0.0)) {{\n    {}\n    return none;\n  }}\n",
-                        syntax.made(structure, fmt::format("{}", fmt::join(zeros, ", ")), "none"));
-  } else {
-    text += fmt::format("  if (!(NoL > 0.0 && NoV > 0.0)) {{\n    return {};\n  }}\n", none);
+ private:
+  bool has_several() const { return f_.results.size() > 1; }
+  bool reads(std::string_view angle) const {
+    return std::ranges::find(f_.angles, angle, &Argument::name) != f_.angles.end();
   }
-  if (uses("NoH") || uses("VoH") || uses("sin2_theta_h") || uses("XoH"))
-    line("h", true, "normalize(l + v)");
-  if (uses("NoH")) line("NoH", false, "min(dot(n, h), 1.0)");
-  if (uses("VoH")) line("VoH", false, "min(dot(v, h), 1.0)");
-  if (uses("sin2_theta_h")) {
-    line("n_x_h", true, "cross(n, h)");
-    line("sin2_theta_h", false, "dot(n_x_h, n_x_h)");
+  std::string head(const std::string& name, const std::vector<std::string>& given) const {
+    return syntax_.function(has_several() ? structure_ : type_, name,
+                            fmt::format("{}", fmt::join(given, ", "))) +
+           " {\n";
   }
-  if (f.anisotropic) {
-    std::string x = "t", y = "b";
-    if (f.tangent != 0) {
-      const double turn = f.tangent * std::numbers::pi / 180;
-      const Syntax floats(w.language, Precision::float_);
+  /// Statements that return results.  \param name  of the structure where there are several
+  std::string returned(const std::string& indent,
+                       const std::string& name,
+                       const std::vector<std::string>& results) const {
+    if (!has_several()) return fmt::format("{}return {};\n", indent, results[0]);
+    return fmt::format("{0}{1}\n{0}return {2};\n", indent,
+                       syntax_.made(structure_, fmt::format("{}", fmt::join(results, ", ")), name),
+                       name);
+  }
+  /// Statement that sets a float, or a vector of them.
+  std::string line(const std::string& name, bool is_vector, const std::string& value) const {
+    return "  " + syntax_.angle(name, is_vector, value) + "\n";
+  }
+  std::string half_vector() const {
+    std::string text;
+    const bool any = std::ranges::any_of(std::array{"NoH", "VoH", "sin2_theta_h", "XoH", "YoH"},
+                                         [&](auto a) { return reads(a); });
+    if (any) text += line("h", true, "normalize(l + v)");
+    if (reads("NoH")) text += line("NoH", false, "min(dot(n, h), 1.0)");
+    if (reads("VoH")) text += line("VoH", false, "min(dot(v, h), 1.0)");
+    if (reads("sin2_theta_h"))
+      text += line("n_x_h", true, "cross(n, h)") + line("sin2_theta_h", false, "dot(n_x_h, n_x_h)");
+    return text;
+  }
+  /// Cosines with the tangent, which may be turned, and the bitangent.
+  std::string frame() const {
+    std::string text, x = "t", y = "b";
+    if (f_.tangent != 0) {
+      const double turn = f_.tangent * std::numbers::pi / 180;
+      const Syntax floats(w_.language, Precision::float_);
       const auto c = floats.literal(std::cos(turn)), s = floats.literal(std::sin(turn));
-      line("x", true, fmt::format("({}) * t + ({}) * b", c, s));
-      line("y", true, fmt::format("({}) * b - ({}) * t", c, s));
+      text += line("x", true, fmt::format("({}) * t + ({}) * b", c, s)) +
+              line("y", true, fmt::format("({}) * b - ({}) * t", c, s));
       x = "x", y = "y";
     }
-    for (const char* of : {"H", "L", "V"})
+    for (const auto& [of, direction] : {std::pair{"H", "h"}, {"L", "l"}, {"V", "v"}})
       for (const auto& [letter, axis] : {std::pair{"X", x}, {"Y", y}})
-        if (uses(fmt::format("{}o{}", letter, of)))
-          line(fmt::format("{}o{}", letter, of), false,
-               fmt::format("dot({}, {})", axis, static_cast<char>(of[0] - 'A' + 'a')));
+        if (const auto name = fmt::format("{}o{}", letter, of); reads(name))
+          text += line(name, false, fmt::format("dot({}, {})", axis, direction));
+    return text;
   }
-  for (const auto& a : f.angles) names.push_back(syntax.from_float(a.name));
-  return text + fmt::format("  return {}({});\n}}\n", inner, fmt::join(names, ", "));
+
+  const TracedFormula& f_;
+  const Writing& w_;
+  Syntax syntax_;
+  std::string type_, structure_;
+  std::vector<std::string> parameters_;  ///< as both functions are given them
+};
+
+}  // namespace
+
+std::string structure_name(const TracedFormula& f, const Writing& w) {
+  return title_case(w.name) + (f.derivatives > 0 ? "Derivatives" : "Values");
+}
+
+std::string shader_source(const TracedFormula& f, const Writing& w) {
+  check_function_name(w.name);
+  const Functions functions(f, w);
+  return functions.preamble() + header(f, w) + "\n" + functions.structure() +
+         functions.of_cosines() + (f.is_model ? functions.of_directions() : "");
 }
 
 }  // namespace gonio::shader

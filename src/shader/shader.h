@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Shader source of a term or a model: its own formula, run once with numbers that write down what is done to them.
+/// Shader source of a term, a map or a model: its own formula, run once with numbers that write down what is done to them.
 ///
 /// Two functions: one of the cosines between the directions, which is the formula, and of a model one of the directions
 /// themselves, which makes the cosines in float: |n × h|² of the cross product, where 1 − NoH² would cancel.
@@ -19,11 +19,16 @@ struct Writing {
   std::vector<std::string> remarks;  ///< lines of the header beside what the formula says of itself
 };
 
-/// \throws Error  wrong usage of a name that no language takes
+/// Refuses a name that some language does not take: wrong usage.
+void check_function_name(const std::string&);
+/// \throws Error  of such a name
 std::string shader_source(const TracedFormula&, const Writing&);
 
 /// Name of the function of cosines: what is called NAME of directions is NAME_of_cosines.
 std::string function_of_cosines(const TracedFormula&, const Writing&);
+
+/// Name of the structure that both functions give where there is more than one result.
+std::string structure_name(const TracedFormula&, const Writing&);
 
 /// What was written, for programs (gonio.shader/1).
 struct ShaderDocument {

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "brdf/formula/scattering.h"
+#include "brdf/function/map_functions.h"
 #include "number/dual.h"
 #include "scene/kernel/multiple.h"
 #include "stability/value_over.h"
@@ -129,6 +130,22 @@ class Tracer {
   void finish(const T& value, std::span<const std::string> derivatives) {
     formula_.results.push_back({"value", value.node()});
     call(value, "f");
+    add(derivatives);
+  }
+  /// The same of a map's outputs.
+  void finish(std::span<const std::string_view> names,
+              const std::vector<T>& values,
+              std::span<const std::string> derivatives) {
+    if (values.size() > 1 && !derivatives.empty())
+      throw wrong_usage(fmt::format("{} has {} outputs: --derivatives goes with one", formula_.id,
+                                    values.size()));
+    for (std::size_t k = 0; k < values.size(); ++k)
+      formula_.results.push_back({std::string(names[k]), values[k].node()});
+    add(derivatives);
+  }
+
+ private:
+  void add(std::span<const std::string> derivatives) {
     const Trace of_value = formula_.trace;  // without what derivatives add
     for (const auto& name : derivatives) {
       const auto by = "by_" + name;
@@ -137,8 +154,6 @@ class Tracer {
     }
     leave_what_is_read();
   }
-
- private:
   void call(const T& x, const std::string& name) {
     if (!x.is_known()) formula_.trace.call(x.node(), name);
   }
@@ -169,6 +184,7 @@ class Tracer {
     });
     const T slope = all[static_cast<std::size_t>(formula_.results[0].node)].d[0];
     formula_.results.push_back({"by_" + name, slope.node()});
+    ++formula_.derivatives;
     call(slope, "by_" + name);
   }
   void leave_what_is_read() {
@@ -244,6 +260,20 @@ void trace(std::size_t term, std::span<const std::string> derivatives, TracedFor
   for (const auto& p : entry.parameters)
     parameters.push_back(tracer.argument(std::string(p.name), p, false));
   tracer.finish(tracer.term(term, parameters).value(), derivatives);
+}
+
+template <class F>
+void trace_of_map(std::size_t map,
+                  std::span<const std::string> derivatives,
+                  TracedFormula& formula) {
+  const auto& entry = maps()[map];
+  Tracer<F> tracer(formula);
+  formula.maps.push_back(entry.about);
+  formula.trace.begin("map");
+  std::vector<Traced<F>> parameters;
+  for (const auto& p : entry.parameters)
+    parameters.push_back(tracer.argument(std::string(p.name), p, false));
+  tracer.finish(entry.outputs, map_functions<Traced<F>>()[map](parameters), derivatives);
 }
 
 }  // namespace
@@ -370,6 +400,19 @@ TracedFormula trace_term(std::size_t term,
     trace<Half>(term, derivatives, formula);
   else
     trace<float>(term, derivatives, formula);
+  return formula;
+}
+
+TracedFormula trace_map(std::size_t map,
+                        Precision precision,
+                        std::span<const std::string> derivatives) {
+  TracedFormula formula;
+  formula.id = maps()[map].about->id;
+  formula.precision = precision;
+  if (precision == Precision::half)
+    trace_of_map<Half>(map, derivatives, formula);
+  else
+    trace_of_map<float>(map, derivatives, formula);
   return formula;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A term or a model as a graph of its operations, with what it is given and what it gives.
+/// A term, a map or a model as a graph of its operations, with what it is given and what it gives.
 
 #include <array>
 #include <optional>
@@ -56,7 +56,7 @@ struct UsedTerm {
 };
 
 struct TracedFormula {
-  std::string id;  ///< of a term, or a model's spec
+  std::string id;  ///< of a term or a map, or a model's spec
   Precision precision;
   bool is_model = false;     ///< also of directions
   bool colour = false;       ///< its results are colours
@@ -69,7 +69,8 @@ struct TracedFormula {
       known;  ///< parameters that are folded in
   std::vector<UsedTerm> terms;
   std::vector<const About*> maps;  ///< that are used beside the terms
-  std::vector<Result> results;     ///< the first is the value [1/sr]
+  std::vector<Result> results;     ///< the value [1/sr], or outputs of a map; then derivatives
+  std::size_t derivatives = 0;     ///< number of these
 
   /// True of nodes that a result depends on.
   std::vector<bool> live() const;
@@ -97,6 +98,11 @@ TracedFormula trace_model(const BoundModel& model,
 TracedFormula trace_term(std::size_t term,
                          Precision precision,
                          std::span<const std::string> derivatives);
+/// A map, by its index in maps(): all its parameters are arguments, its outputs results.
+/// \throws Error  wrong usage of derivatives where there are two outputs
+TracedFormula trace_map(std::size_t map,
+                        Precision precision,
+                        std::span<const std::string> derivatives);
 
 }  // namespace gonio::shader
 

@@ -34,15 +34,18 @@ void write_fit(const Folder& f, const std::string& model, const std::string& set
 
 using F = std::vector<std::array<double, 3>>;
 
-F values_of_fit(const Folder& f) {
+F values_of_fit(const Folder& f, const std::vector<FrameAngles<double>>& angles) {
   const std::string path = f / "fit.json";
-  std::vector<FrameAngles<double>> angles;
-  for (const auto& d : judged_directions()) angles.push_back(frame_angles(d));
   const auto channels = evaluate(bind_fitted(path, read_fitted_model(path), 3), angles);
   F rows;
   for (std::size_t i = 0; i < angles.size(); ++i)
     rows.push_back({channels[0][i], channels[1][i], channels[2][i]});
   return rows;
+}
+F values_of_fit(const Folder& f) {
+  std::vector<FrameAngles<double>> angles;
+  for (const auto& d : judged_directions()) angles.push_back(frame_angles(d));
+  return values_of_fit(f, angles);
 }
 
 /// What the target's own code makes of a file, by a script of tests/cli/targets.
@@ -199,6 +202,13 @@ TEST(ExportToMaterialX, ShowsAWrongFactorInMaterialX) {
   EXPECT_NE(outside_faults(f, "named.mtlx"), "") << "an input that OpenPBR has not";
 }
 
+/// The exported m.gltf with one thing in its material changed.
+void write_fault(const Folder& f, auto&& change) {
+  auto document = nlohmann::json::parse(read_bytes(f / "m.gltf"));
+  change(document["materials"][0]);
+  f.write("fault.gltf", document.dump());
+}
+
 // Another surface reads glTF's parameters here, whose equations are a few percent from glTF's own.
 TEST(ExportToGltf, IsNearTheFitInAnotherProgramAndFarWithAWrongFactor) {
   GONIO_NEEDS(has_materialx(), "MaterialX with OpenGL");
@@ -210,9 +220,7 @@ TEST(ExportToGltf, IsNearTheFitInAnotherProgramAndFarWithAWrongFactor) {
     return distance(values_of_target(f, "gltf_values.py", "m.gltf"), values_of_fit(f)).rms;
   };
   const auto rms_with = [&](auto&& change) {
-    auto document = nlohmann::json::parse(read_bytes(f / "m.gltf"));
-    change(document["materials"][0]);
-    f.write("fault.gltf", document.dump());
+    write_fault(f, change);
     return distance(values_of_target(f, "gltf_values.py", "fault.gltf"), values_of_fit(f)).rms;
   };
   EXPECT_LT(rms_of("ggx_aniso/smith_ggx_aniso.correlated/schlick",
@@ -241,6 +249,53 @@ TEST(ExportToGltf, IsNearTheFitInAnotherProgramAndFarWithAWrongFactor) {
                 x = x.template get<double>() / 3.14159;
             }),
             2 * right)
+      << "divided by pi twice";
+}
+
+/// Distance from the fit of what Blender makes of a glTF file, over its own 1,000 directions.
+double rms_in_blender(const Folder& f, const std::string& file) {
+  const auto o = in_blender(f, (f / file) + " " + (f / "seen.txt"));
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  std::istringstream in(read_bytes(f / "seen.txt"));
+  std::vector<FrameAngles<double>> angles;
+  F seen;
+  Direction i, d;
+  for (std::array<double, 3> x;
+       in >> i.x >> i.y >> i.z >> d.x >> d.y >> d.z >> x[0] >> x[1] >> x[2];) {
+    angles.push_back(frame_angles({i, d}));
+    seen.push_back(x);
+  }
+  EXPECT_GE(seen.size(), 1000U);
+  return distance(seen, values_of_fit(f, angles)).rms;
+}
+
+// Blender's Principled node reads glTF's parameters under equations of its own: exact Fresnel,
+// light between facets given back, layers by directional albedo.
+TEST(ExportToGltf, IsNearTheFitInBlenderAndFarWithAWrongFactor) {
+  if (!has_blender()) GTEST_SKIP() << "Blender is not in build/blender: run ./check --long";
+  const Folder f;
+  const auto rms_of = [&](const std::string& model, const std::string& set) {
+    SCOPED_TRACE(model + " " + set);
+    write_fit(f, model, set);
+    const auto o = gonio(f, "export fit.json --to gltf -o m.gltf");
+    EXPECT_EQ(o.code, 0) << o.err;
+    return rms_in_blender(f, "m.gltf");
+  };
+  const auto rms_with = [&](auto&& change) {
+    write_fault(f, change);
+    return rms_in_blender(f, "fault.gltf");
+  };
+  EXPECT_LT(rms_of("ggx/smith_ggx.separable/schlick", "alpha=0.15,f0=0.9,0.6,0.3"), 0.05);
+  EXPECT_LT(
+      rms_of("lambert.coupled+ggx/smith_ggx.separable/schlick", "alpha=0.2,kd=0.3,0.2,0.1,f0=0.04"),
+      0.1);
+  EXPECT_GT(rms_with([](auto& m) { m["pbrMetallicRoughness"]["roughnessFactor"] = 0.2; }), 0.2)
+      << "alpha for roughness";
+  EXPECT_GT(rms_with([](auto& m) {
+              for (auto& x : m["pbrMetallicRoughness"]["baseColorFactor"])
+                x = x.template get<double>() / 3.14159;
+            }),
+            0.2)
       << "divided by pi twice";
 }
 

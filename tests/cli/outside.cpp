@@ -41,6 +41,14 @@ OutsideCall outside(const Folder& f, const std::string& script, const std::strin
   return call(f, outside_python() + " " + source + "/tests/cli/targets/" + script + " " + words);
 }
 
+bool has_blender() {
+  return std::filesystem::exists(source + "/build/blender/lib/python3.11/site-packages/bpy");
+}
+OutsideCall in_blender(const Folder& f, const std::string& words) {
+  return call(f, source + "/build/blender/bin/python " + source +
+                     "/tests/cli/targets/blender_values.py " + words);
+}
+
 std::optional<std::string> gltf_messages(const Folder& f, const std::string& file) {
   const std::string modules = source + "/build/gltf/node_modules";
   if (!std::filesystem::exists(modules + "/gltf-validator")) return {};

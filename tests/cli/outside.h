@@ -23,6 +23,11 @@ struct OutsideCall {
 };
 OutsideCall outside(const Folder&, const std::string& script, const std::string& words);
 
+/// Whether Blender is there, which ./check --long fetches.
+bool has_blender();
+/// Call of blender_values.py.
+OutsideCall in_blender(const Folder&, const std::string& words);
+
 /// Messages of Khronos' validator on a glTF file, one a line; none where it is not there.
 std::optional<std::string> gltf_messages(const Folder&, const std::string& file);
 

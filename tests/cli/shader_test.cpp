@@ -45,6 +45,18 @@ TEST(ShaderCommand, TellsOfAProductThatOverflowsThoughItsTermsDoNot) {
   EXPECT_NE(whole.find("0 where it should not be"), std::string::npos) << whole;
 }
 
+TEST(ShaderCommand, WritesAMapsOutputsAsAStructure) {
+  const Folder f;
+  const auto o = gonio(f, "shader aniso.disney --language glsl --name widths --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.json()["results"], (nlohmann::json{"alpha_x", "alpha_y"}));
+  EXPECT_NE(o.json()["source"].get<std::string>().find("WidthsValues widths(float roughness"),
+            std::string::npos)
+      << o.json()["source"];
+  const auto slope = gonio(f, "shader f0.from_ior --language glsl --derivatives n1 --json").json();
+  EXPECT_EQ(slope["results"], (nlohmann::json{"f0", "by_n1"}));
+}
+
 TEST(ShaderCommand, WritesADerivativeOnce) {
   const Folder f;
   const auto o = gonio(f,
@@ -145,11 +157,17 @@ TEST(ShaderCommand, RefusesWhatItCannotWriteInOneLine) {
       f, 2,
       {{"shader lambert --language hlsl", "hlsl"},
        {"shader lambart --language glsl", "lambart"},
+       {"shader scattering.walk --language glsl", "--compensation"},
+       {"shader model.split_sum --language glsl", "gonio split_sum"},
        {"shader lambert --language glsl --name 1st", "--name"},
        {"shader lambert --language glsl --name gl__x", "--name"},
        {"shader lambert --language glsl --name main", "--name"},
        {"shader lambert --language wgsl --name fn", "--name"},
        {"shader lambert --language glsl --name a_", "--name"},
+       {"shader lambert --language wgsl --name self", "--name"},
+       {"shader lambert --language glsl --name smoothstep", "--name"},
+       {"shader f0.from_ior --language wgsl --set n1=1.5", "--set"},
+       {"shader aniso.disney --language wgsl --derivatives roughness", "2 outputs"},
        {"shader lambert --language glsl -o a.glsl --table ./a.glsl", "two outputs"},
        {"shader lambert --language glsl --albedo fit", "--albedo"},
        {"shader lambert --language glsl --material gold", "--material"},

@@ -62,9 +62,14 @@ TEST(ValidateCommand, RefusesWhatItCannotReadOrWrite) {
   auto none = choice(1);
   none["budgets"] = nlohmann::json::object();
   write(f, "none.json", none);
+  auto walks = choice(1);
+  walks["model"] = "gtr/smith_gtr.correlated/schlick";
+  walks["scattering"] = "deterministic";
+  write(f, "walks.json", walks);
   std::ofstream(f / "torn.json") << "{\"schema\": ";
   expect_one_line_each(f, 3,
                        {{"validate none.json", "none.json: /budgets: "},
+                        {"validate walks.json", "walks.json: /model: found 'gtr'"},
                         {"validate torn.json", "torn.json"},
                         {"validate missing.json", "missing.json"},
                         {"validate c.json -o nowhere/v.json", "nowhere/v.json"}});

@@ -225,6 +225,43 @@ TEST(StabilityReport, OnAnyGpuHasABoundOrAReasonForEveryForm) {
   }
 }
 
+TEST(StabilityReport, OfOrdersHasARowForEachFormThatTheNumberHolds) {
+  const auto rows = order_rows({StabilityOptions::Setting::brief,
+                                {"ndf.ggx", "fresnel.constant", "masking.smith_gtr.correlated"}});
+  std::vector<std::string> seen;
+  for (const auto& r : rows) {
+    seen.push_back(r.id + " " + r.form + " " + r.number);
+    EXPECT_GE(r.inputs, 128U);
+    if (r.id == "fresnel.constant") EXPECT_EQ(r.written, r.regrouped);
+    if (r.id == "ndf.ggx" && r.form == "cross") {
+      EXPECT_GT(r.regrouped, 0);
+      EXPECT_FALSE(r.needs_precise()) << r.number << " " << r.regrouped;
+    }
+  }
+  EXPECT_EQ(seen, (std::vector<std::string>{
+                      "ndf.ggx cross float", "ndf.ggx cosine float", "fresnel.constant facet float",
+                      "masking.smith_gtr.correlated cosines float", "ndf.ggx cross half",
+                      "ndf.ggx cosine half", "fresnel.constant facet half"}))
+      << "a half does not hold the nodes of GTR's masking";
+}
+
+TEST(StabilityFindings, SayWhatRegroupingTakesFromAForm) {
+  StabilityRows r;
+  r.orders = {{"ndf.ggx", "cross", "half", 0.004, 0.009, "", 0, 0, 4096},
+              {"ndf.gtr", "cross", "half", 0.015, 0.06, "", 0, 0, 4096},
+              {"ndf.beckmann", "cross", "half", 0.03, 0.06, "", 0, 0, 4096}};
+  EXPECT_FALSE(r.orders[0].needs_precise());
+  EXPECT_TRUE(r.orders[1].needs_precise());
+  EXPECT_FALSE(r.orders[2].needs_precise()) << "it keeps the tolerance in no order";
+  const auto f = findings(r);
+  EXPECT_TRUE(says(
+      f, "A compiler that regroups sums and products takes half's 2\u00a0% from 1 of 3 forms."));
+  EXPECT_TRUE(says(f, "The worst of them errs by 6\u00a0% in place of 1.5\u00a0%."));
+  test::expect_plain(f);
+  r.orders[0].lost = 7;
+  EXPECT_TRUE(r.orders[0].needs_precise()) << "values are lost";
+}
+
 TEST(StabilityTargets, OfFloatAreUnitsBeyondTheInputsAndOfHalfAWidth) {
   using stabilities::misses_target;
   auto r = made_row("ndf.ggx", "cross", "half");

@@ -77,6 +77,11 @@ TEST(Choice, NamesThePlaceOfWhatItDoesNotTake) {
   refused("/coating", "view", "c.json: /coating: found ");
   refused("/coating", "inside", "c.json: /coating: found ");
   refused("/model", "lambert+coat:ggx/smith_ggx.correlated/schlick", "view or both, beside a coat");
+  for (const char* budget : {"fresnel_error", "energy_loss"}) {
+    json j = {{"schema", "gonio.choice/1"}, {"model", "lambert"}, {"domain", {{"eta", 1.5}}}};
+    j["budgets"][budget] = 0.1;
+    EXPECT_THROW(parsed(j), Error) << budget << " of a model without a lobe";
+  }
   json j = plain();
   j.erase("reference");
   EXPECT_THROW(parsed(j), Error) << "albedo_error compares with nothing";
@@ -141,6 +146,27 @@ TEST(Choice, GivesEachModelTheParametersOfTheSubstance) {
   EXPECT_EQ(value(exact, "k", 1), green.k);
   EXPECT_NEAR(value(shipped, "f0", 1), f0_of_index(green), 1e-12);
   EXPECT_GT(value(shipped, "f0", 0), value(shipped, "f0", 2)) << "gold is yellow";
+}
+
+TEST(Choice, TakesPresetsByTheirOwnParametersOrByThoseOfTheirTerms) {
+  json j = plain();
+  j["model"] = "gltf";
+  j["reference"] = "disney";
+  j["budgets"]["ns"] = {{"limit", 2}, {"baseline", "ue_mobile"}};
+  const Choice by_terms = parsed(j);
+  const auto b = bound(by_terms, by_terms.shipped, substances(by_terms)[0], 0.5);
+  EXPECT_EQ(value(b, "alpha"), 0.25);
+  EXPECT_EQ(value(b, "f0"), 0.04);
+  j["domain"].erase("f0");
+  j["parameters"] = j["reference_parameters"] = {{"base_color", {0.8, 0.4, 0.2}}, {"metallic", 1}};
+  j["alpha"] = "roughness";
+  const Choice own = parsed(j);
+  const auto metal = bound(own, own.shipped, substances(own)[0], 0.25);
+  EXPECT_EQ(value(metal, "alpha"), 0.25);
+  EXPECT_EQ(value(metal, "f0", 1), 0.4);
+  EXPECT_NEAR(value(bound(own, own.reference, substances(own)[0], 0.5), "f0", 0), 0.8, 1e-12);
+  j["parameters"]["f0"] = 0.5;
+  EXPECT_THROW(parsed(j), Error) << "base_color says it already";
 }
 
 TEST(Choice, MapsRoughnessToTheWidthAsItSays) {

@@ -237,6 +237,11 @@ TEST(Validate, TakesTheSubstanceOfAFit) {
   EXPECT_EQ(only(of_fit).found, only(of_numbers).found);
   EXPECT_GT(only(of_fit).found, 0.1);
   EXPECT_EQ(only(of_fit).substance, "fit.json");
+  j["domain"] = {{"fits", "fit.json"}};
+  j["parameters"] = j["reference_parameters"] = json::object();
+  j["reference"] = "ggx/smith_ggx.correlated/conductor";
+  EXPECT_THROW(validate(read_choice(f.write("choice.json", j.dump()))), Error)
+      << "the fit has no eta, and a default is another metal";
 }
 
 TEST(Validate, NamesTheInputThatHasNoValueInHalf) {
