@@ -119,6 +119,11 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").take, "F82");
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").error,
             "ΔE ≤ 0.4 (Schlick: ΔE 5.7 for iron)");
+  auto f = made_facts();
+  f.fresnel.push_back({"fresnel.schlick", "metal", "chromium", 7, 0.1});
+  f.fresnel.push_back({"fresnel.f82", "metal", "chromium", 0.7, 0.1});
+  EXPECT_EQ(about(decisions(f), "Fresnel of other metals").error,
+            "ΔE ≤ 0.7 (Schlick: ΔE 5.7 for iron)");
   EXPECT_EQ(about(all, "Fresnel of dielectrics (glass)").take, "Exact dielectric");
   const auto& bounces = about(all, "All bounces of a single light");
   EXPECT_EQ(bounces.subject, "All bounces of a single light (of bright metal, F0 0.9)");
