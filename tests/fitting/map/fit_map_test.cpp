@@ -8,6 +8,7 @@
 #include "fitting/map/stacks.h"
 #include "refusal.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 namespace gonio {
