@@ -122,6 +122,8 @@ TEST(StackSynth, NoiseIsOfTheSizeAskedForAndTheSameWhateverTheThreads) {
   synthesize_stack(paint(), o, f / "clean");
   const auto clean = planes_of(f / "clean/image_001.exr");
   double sum = 0, squares = 0;
+  for (std::size_t t = 0; t + 16 * 40 < 1600; ++t)
+    EXPECT_NE(noisy[0][t], noisy[0][t + 16 * 40]) << "each texel draws its own";
   for (std::size_t t = 0; t < 1600; ++t) {
     const double z = std::log(static_cast<double>(noisy[0][t] / clean[0][t])) / 0.1;
     sum += z;

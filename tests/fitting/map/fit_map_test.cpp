@@ -8,6 +8,7 @@
 #include "fitting/map/stacks.h"
 #include "refusal.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 namespace gonio {
@@ -170,6 +171,13 @@ TEST(FitMap, RefusesAFolderWithTilesOfAnythingElseAndLeavesThemAsTheyAre) {
   EXPECT_HAS(line(stack, held(), 8), "gonio:version: found 0.0.1, expected");
   f.write("map.tiles/tile_0_0.exr", before);
   EXPECT_EQ(line(stack, held(), 8), "");
+  // Not the first one alone is looked at.
+  const std::string last = folder + "/tile_2_2.exr", whole = read_bytes(last);
+  older = read_exr(last);
+  older.attributes["gonio:version"] = "0.0.1";
+  write_exr(last, older);
+  EXPECT_HAS(line(stack, held(), 8), "tile_2_2.exr: gonio:version: found 0.0.1, expected");
+  f.write("map.tiles/tile_2_2.exr", whole);
   f.write("map.tiles/tile_0_0.exr", "half a til");
   EXPECT_HAS(line(stack, held(), 8), "tile_0_0.exr: ");
   EXPECT_EQ(read_bytes(tile), "half a til") << "not overwritten";
