@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# Builds the wheel for Linux, in build/wheel_made/repaired, and tries it in a fresh virtual environment.
+# Its Ceres is built here without SuiteSparse, LAPACK and glog; auditwheel brings in whatever else a bare machine lacks, and each of these
+# libraries is named below with its licence, or the wheel is refused.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source cmake/debian_source.sh
+
+# library:licence:package of Debian whose copyright file goes into the wheel
+bundled=(libfmt:MIT:libfmt9 libtbb:Apache-2.0:libtbb12 libOpenEXR:BSD-3-Clause:libopenexr-3-1-30
+  libOpenEXRCore:BSD-3-Clause:libopenexr-3-1-30 libIex:BSD-3-Clause:libopenexr-3-1-30 libIlmThread:BSD-3-Clause:libopenexr-3-1-30
+  libImath:BSD-3-Clause:libimath-3-1-29 libpugixml:MIT:libpugixml1v5 libembree3:Apache-2.0:libembree3-3 libpng16:libpng-2.0:libpng16-16
+  libnettle:LGPL-3.0-or-later:libnettle8)
+# package of Debian whose headers, or static library, are compiled in
+compiled_in=(libeigen3-dev nlohmann-json3-dev libcli11-dev libxsimd-dev libboost-dev)
+
+# Ceres as a static library, in build/ceres, from Debian's source.  Of Eigen, which is under the MPL 2.0, only what is under that.
+build_ceres() {
+  local ceres=$PWD/build/ceres
+  [ ! -e "$ceres/installed" ] || return 0
+  debian_source ceres-solver "$ceres" &&
+    cmake -S "$ceres/source" -B "$ceres/build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=-DEIGEN_MPL2_ONLY \
+      -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF -DBUILD_EXAMPLES=OFF -DBUILD_BENCHMARKS=OFF \
+      -DMINIGLOG=ON -DMINIGLOG_MAX_LOG_LEVEL=-3 -DGFLAGS=OFF -DLAPACK=OFF -DSUITESPARSE=OFF -DCXSPARSE=OFF -DEIGENSPARSE=OFF -DSCHUR_SPECIALIZATIONS=OFF &&
+    cmake --build "$ceres/build" && cmake --install "$ceres/build" --prefix "$ceres/installed" >/dev/null
+}
+
+# Licences of all that the wheel holds of others, in a folder.
+gather_licences() {
+  local to=$1 entry
+  mkdir -p "$to"
+  for entry in "${bundled[@]}"; do cp "/usr/share/doc/${entry##*:}/copyright" "$to/${entry##*:}.txt"; done
+  for entry in "${compiled_in[@]}"; do cp "/usr/share/doc/$entry/copyright" "$to/$entry.txt"; done
+  cp build/ceres/source/LICENSE "$to/ceres-solver.txt"
+  cp "$("$python" -c 'import importlib.metadata as m; print(next(p.locate() for p in m.files("nanobind") if p.name == "LICENSE"))')" \
+    "$to/nanobind.txt"
+  cp build/wheel/reports/npm/node_modules/uplot/LICENSE "$to/uplot.txt"
+}
+
+# The names of a wheel's libraries with their licences; one that is not among those above ends it.
+look_at_libraries() {
+  local wheel=$1 file name entry licence
+  for file in $("$python" -m zipfile -l "$wheel" | grep -o 'gonio\.libs/[^ ]*'); do
+    name=${file#gonio.libs/} licence=
+    for entry in "${bundled[@]}"; do
+      [[ $name =~ ^"${entry%%:*}"[-.] ]] && licence=$(cut -d: -f2 <<<"$entry")
+    done
+    [ -n "$licence" ] || { echo "$wheel: $name: found a library without a known licence, expected one of: ${bundled[*]%%:*}" >&2; return 1; }
+    echo "   $name: $licence"
+  done
+}
+
+# The wheel where there is Debian, Python and nothing else: the program's fit and the module's are the same.
+try_on_bare_debian() {
+  local wheel=$1 bare=$PWD/$2
+  command -v debootstrap >/dev/null && [ "$(id -u)" = 0 ] ||
+    { echo "Without debootstrap and the rights to use it: the wheel is not tried on a bare Debian."; return 0; }
+  debootstrap --variant=minbase --include=python3-venv "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$bare" >"$bare.txt" 2>&1 ||
+    { echo "No mirror of Debian is within reach: the wheel is not tried on a bare one."; return 0; }
+  mkdir "$bare/wheels" && cp "$wheel" tests/python/support.py tests/python/documents_test.py tests/python/run.py "$bare/wheels"
+  pip download -q --disable-pip-version-check --require-hashes --only-binary :all: -r tests/python/requirements.txt -d "$bare/wheels"
+  # With /proc, by which the loader finds the libraries beside the program.
+  unshare --mount --pid --fork --mount-proc="$bare/proc" chroot "$bare" sh -ec '
+    cd /wheels && python3 -m venv v && env -i v/bin/pip install -q --no-index --find-links . gonio
+    GONIO_PROGRAM=/wheels/v/bin/gonio v/bin/python -I run.py'
+}
+
+build_ceres || { echo "Without Debian's source of Ceres: no wheel is built."; exit 0; }
+at=build/wheel_tools
+{ [ -x $at/bin/pip ] || python3 -m venv $at; } &&
+  $at/bin/pip install -qq --disable-pip-version-check --require-hashes --only-binary :all: -r tests/python/wheel.txt ||
+  { echo "Without scikit-build-core and auditwheel from PyPI: no wheel is built."; exit 0; }
+python=$PWD/$at/bin/python
+export PATH=$PWD/$at/bin:$PATH PYTHONDONTWRITEBYTECODE=1
+
+out=build/wheel_made
+rm -rf $out && mkdir -p $out
+echo "-- building"
+CXX=${CXX:-c++} CMAKE_ARGS="-DCMAKE_PREFIX_PATH=$PWD/build/ceres/installed" \
+  pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps -w $out/linux .
+auditwheel repair -w $out/repaired $out/linux/*.whl >$out/auditwheel.txt 2>&1 || { cat $out/auditwheel.txt >&2; exit 1; }
+wheel unpack -d $out/unpacked $out/repaired/*.whl >/dev/null
+gather_licences "$(echo $out/unpacked/gonio-*/gonio-*.dist-info)/licenses/bundled"
+wheel pack -d $out/repaired $out/unpacked/gonio-* >/dev/null
+wheel=$(echo $out/repaired/*.whl)
+echo "-- $(basename "$wheel"), $(($(stat -c %s "$wheel") / 1048576)) MiB, with"
+look_at_libraries "$wheel"
+
+echo "-- trying it where there is nothing else"
+python3 -m venv $out/fresh
+$out/fresh/bin/pip install -q --disable-pip-version-check --require-hashes --only-binary :all: -r tests/python/wheel.txt  # NumPy, matplotlib
+$out/fresh/bin/pip install -q --disable-pip-version-check --no-deps "$wheel"
+GONIO_PROGRAM=$PWD/$out/fresh/bin/gonio $out/fresh/bin/python -I tests/python/run.py
+
+echo "-- trying it on a bare Debian"
+try_on_bare_debian "$wheel" $out/bare
