@@ -50,13 +50,28 @@ look_at_libraries() {
   done
 }
 
+# The wheel where there is Debian, Python and nothing else: the program's fit and the module's are the same.
+try_on_bare_debian() {
+  local wheel=$1 bare=$PWD/$2
+  command -v debootstrap >/dev/null && [ "$(id -u)" = 0 ] ||
+    { echo "Without debootstrap and the rights to use it: the wheel is not tried on a bare Debian."; return 0; }
+  debootstrap --variant=minbase --include=python3-venv "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$bare" >"$bare.txt" 2>&1 ||
+    { echo "No mirror of Debian is within reach: the wheel is not tried on a bare one."; return 0; }
+  mkdir "$bare/wheels" && cp "$wheel" tests/python/support.py tests/python/documents_test.py tests/python/run.py "$bare/wheels"
+  pip download -q --disable-pip-version-check --require-hashes --only-binary :all: -r tests/python/requirements.txt -d "$bare/wheels"
+  # With /proc, by which the loader finds the libraries beside the program.
+  unshare --mount --pid --fork --mount-proc="$bare/proc" chroot "$bare" sh -ec '
+    cd /wheels && python3 -m venv v && env -i v/bin/pip install -q --no-index --find-links . gonio
+    GONIO_PROGRAM=/wheels/v/bin/gonio v/bin/python -I run.py'
+}
+
 build_ceres || { echo "Without Debian's source of Ceres: no wheel is built."; exit 0; }
 at=build/wheel_tools
 { [ -x $at/bin/pip ] || python3 -m venv $at; } &&
   $at/bin/pip install -qq --disable-pip-version-check --require-hashes --only-binary :all: -r tests/python/wheel.txt ||
   { echo "Without scikit-build-core and auditwheel from PyPI: no wheel is built."; exit 0; }
 python=$PWD/$at/bin/python
-export PATH=$PWD/$at/bin:$PATH
+export PATH=$PWD/$at/bin:$PATH PYTHONDONTWRITEBYTECODE=1
 
 out=build/wheel_made
 rm -rf $out && mkdir -p $out
@@ -64,7 +79,7 @@ echo "-- building"
 CXX=${CXX:-c++} CMAKE_ARGS="-DCMAKE_PREFIX_PATH=$PWD/build/ceres/installed" \
   pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps -w $out/linux .
 auditwheel repair -w $out/repaired $out/linux/*.whl >$out/auditwheel.txt 2>&1 || { cat $out/auditwheel.txt >&2; exit 1; }
-wheel unpack -q -d $out/unpacked $out/repaired/*.whl 2>/dev/null || wheel unpack -d $out/unpacked $out/repaired/*.whl >/dev/null
+wheel unpack -d $out/unpacked $out/repaired/*.whl >/dev/null
 gather_licences "$(echo $out/unpacked/gonio-*/gonio-*.dist-info)/licenses/bundled"
 wheel pack -d $out/repaired $out/unpacked/gonio-* >/dev/null
 wheel=$(echo $out/repaired/*.whl)
@@ -76,3 +91,6 @@ python3 -m venv $out/fresh
 $out/fresh/bin/pip install -q --disable-pip-version-check --require-hashes --only-binary :all: -r tests/python/wheel.txt  # NumPy, matplotlib
 $out/fresh/bin/pip install -q --disable-pip-version-check --no-deps "$wheel"
 GONIO_PROGRAM=$PWD/$out/fresh/bin/gonio $out/fresh/bin/python -I tests/python/run.py
+
+echo "-- trying it on a bare Debian"
+try_on_bare_debian "$wheel" $out/bare

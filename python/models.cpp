@@ -68,11 +68,11 @@ Owned filled(std::size_t channels, std::size_t samples, const Fill& fill) {
 }
 
 Owned evaluate(const ModelArgument& m,
-              const Column& theta_i,
-              const Column& phi_i,
-              const Column& theta_o,
-              const Column& phi_o,
-              int jobs) {
+               const Column& theta_i,
+               const Column& phi_i,
+               const Column& theta_o,
+               const Column& phi_o,
+               int jobs) {
   const Jobs threads(jobs);
   const auto at = directions(theta_i, phi_i, theta_o, phi_o);
   return filled(m.channels.size(), at.size(),
@@ -80,10 +80,10 @@ Owned evaluate(const ModelArgument& m,
 }
 
 Owned interpolate(const Table& t,
-                 const Column& theta_i,
-                 const Column& phi_i,
-                 const Column& theta_o,
-                 const Column& phi_o) {
+                  const Column& theta_i,
+                  const Column& phi_i,
+                  const Column& theta_o,
+                  const Column& phi_o) {
   const auto at = directions(theta_i, phi_i, theta_o, phi_o);
   return filled(t.channels.size(), at.size(),
                 [&](std::span<double* const> out) { interpolate_at(t, at, out); });
@@ -107,9 +107,9 @@ std::string albedo(const ModelArgument& m,
 }
 
 Owned term(const std::string& id,
-          const std::string& number,
-          const std::map<std::string, double>& parameters,
-          const std::map<std::string, std::vector<double>>& at) {
+           const std::string& number,
+           const std::map<std::string, double>& parameters,
+           const std::map<std::string, std::vector<double>>& at) {
   std::vector<std::vector<double>> rows;
   {
     const nb::gil_scoped_release others_run;
@@ -153,7 +153,8 @@ std::string audit_of(const std::vector<std::string>& ids, int jobs) {
   std::vector<std::string> all = ids;
   if (all.empty())
     for (const auto id : auditable_ids()) all.emplace_back(id);
-  // In parts, between which an interrupt ends the work.  Thrown within one it would leave others with loops that were cut short.
+  // In parts, between which an interrupt ends the work.  Thrown within one it would leave others
+  // with loops that were cut short.
   const std::size_t part = std::max(8, 4 * tbb::this_task_arena::max_concurrency());
   std::vector<EntryAudit> entries;
   for (std::size_t at = 0; at < all.size(); at += part) {

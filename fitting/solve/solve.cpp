@@ -14,7 +14,8 @@
 namespace gonio {
 namespace {
 
-#ifndef CERCES_INTERNAL_MINIGLOG_GLOG_LOGGING_H_  // of Ceres' own log, whose level is set where it is built (cmake/wheel.sh)
+// Of a Ceres with its own log in place of glog the level is set where it is built (cmake/wheel.sh).
+#ifndef CERCES_INTERNAL_MINIGLOG_GLOG_LOGGING_H_
 /// True: Ceres' log goes nowhere.  What it would say of a step that failed is no one's but the solver's.
 const bool is_silent = [] {
   FLAGS_minloglevel = google::GLOG_FATAL;
