@@ -102,7 +102,7 @@ Exit run_map(const Options& o) {
     InputFile in(*o.directions);
     s.directions = *read_directions_csv(in).list();
   }
-  const auto model = model_argument(o.spec, o.set).model;
+  const auto model = model_argument(o.spec, parse_settings(o.set)).model;
   Progress progress(o.quiet);
   progress("sampling");
   const Stack stack = synthesize_stack(model, s, o.output);
