@@ -63,6 +63,7 @@ try_on_bare_debian() {
   unshare --mount --pid --fork --mount-proc="$bare/proc" chroot "$bare" sh -ec '
     cd /wheels && python3 -m venv v && env -i v/bin/pip install -q --no-index --find-links . gonio
     GONIO_PROGRAM=/wheels/v/bin/gonio v/bin/python -I run.py'
+  rm -rf "$bare"
 }
 
 build_ceres || { echo "Without Debian's source of Ceres: no wheel is built."; exit 0; }
