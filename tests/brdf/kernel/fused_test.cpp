@@ -63,14 +63,14 @@ TEST_F(FusedModel, OfTwoLobesAndAFrameHasTheNormalEquationsOfItsColumns) {
   for (std::size_t i = 0; i < rows_.size(); ++i) weight[i] = static_cast<double>(i % 4);
   constexpr std::size_t entries = Normal::K * (Normal::K + 1) / 2;
   Column<double> sums(entries * padding, 0), cost(padding, 0);
-  Normal::pass<Link::log>({turned_(x_.block()),
-                           1,
-                           parameters_,
-                           {target.data()},
-                           {weight.data()},
-                           0.01,
-                           {sums.data()},
-                           cost.data()});
+  Normal::pass<Link::log, NormalSums>(NormalArguments<double>{turned_(x_.block()),
+                                                              1,
+                                                              parameters_,
+                                                              {target.data()},
+                                                              {weight.data()},
+                                                              0.01,
+                                                              {sums.data()},
+                                                              cost.data()});
 
   const auto& k = kernels<double>();
   const std::vector<bool> free(model_.value_count, true);
