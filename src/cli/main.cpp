@@ -46,12 +46,8 @@ void make_writes_fail_in_the_open() {
     if (::fcntl(stream, F_GETFD) < 0) static_cast<void>(::open("/", O_RDONLY));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using gonio::Exit;
-  make_writes_fail_in_the_open();
-  gonio::remove_unfinished_files_on_signals();
+/// One subcommand, as the words say; or help, which was printed.
+int run(int argc, char** argv) {
   gonio::cli::CommandLine line(
       "gonio fits analytic BRDF models to tabulated reflectance and says how far to trust the "
       "result.",
@@ -84,12 +80,21 @@ int main(int argc, char** argv) {
   gonio::cli::add_verify(line);
   gonio::cli::add_render(line);
   gonio::cli::add_manual(line);
+  const auto action = line.parse(argc, argv);
+  if (!action) return finish(gonio::Exit::done);
+  const gonio::Exit code = action();
+  if (std::fflush(stdout) != 0) return fail_printing(errno);
+  return finish(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using gonio::Exit;
+  make_writes_fail_in_the_open();
+  gonio::remove_unfinished_files_on_signals();
   try {
-    const auto action = line.parse(argc, argv);
-    if (!action) return finish(Exit::done);  // help, printed
-    const Exit code = action();
-    if (std::fflush(stdout) != 0) return fail_printing(errno);
-    return finish(code);
+    return run(argc, argv);
   } catch (const gonio::Error& e) {
     return fail(e.code(), e.what());
   } catch (const std::filesystem::filesystem_error& e) {
