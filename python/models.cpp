@@ -12,6 +12,7 @@
 #include "module.h"
 #include "reports/audit/audit.h"
 
+#include <fmt/format.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -132,8 +133,8 @@ Table synth(const ModelArgument& m,
   const Jobs threads(jobs);
   const auto within = [](const char* name, double x, double low, double high) {
     if (!(x >= low && x <= high))
-      throw wrong_usage(std::string(name) + ": not in [" + std::to_string(low) + ", " +
-                        std::to_string(high) + "]");
+      throw wrong_usage(
+          fmt::format("{}: found {}, expected a number in [{}, {}]", name, x, low, high));
   };
   within("samples", static_cast<double>(samples), 1, 1e7);
   within("noise", noise, 0, 5);

@@ -104,7 +104,7 @@ class Table:
         try:
             return self._table.column(self.channels.index(channel))
         except ValueError:
-            raise KeyError(channel) from None
+            raise KeyError(f"{channel}: the channels are {', '.join(self.channels)}") from None
 
     @property
     def values(self) -> _npt.NDArray[_np.float64]:
@@ -181,11 +181,13 @@ Model = Union[str, Mapping[str, Any]]
 
 
 def _numbers(name: str, x: _npt.ArrayLike) -> _npt.NDArray[_np.float64]:
-    """The same array where it is one of doubles, contiguous; else a copy that is."""
+    """The same array where it is one of doubles, contiguous; else a copy that is.  What is masked is NaN."""
     try:
         a = _np.asarray(x)
         if a.dtype.kind not in "fiub":
             raise TypeError(a.dtype)
+        if isinstance(x, _np.ma.MaskedArray):
+            a = x.astype(_np.float64).filled(_np.nan)
         return _np.ascontiguousarray(a, dtype=_np.float64).reshape(a.shape)
     except (TypeError, ValueError) as e:
         raise WrongUsage(f"{name}: not an array of numbers ({e})") from None
@@ -200,6 +202,18 @@ def _columns(*angles: _npt.ArrayLike) -> tuple[list[_npt.NDArray[_np.float64]], 
     except ValueError:
         raise WrongUsage(f"directions: shapes {', '.join(str(a.shape) for a in arrays)} do not go together") from None
     return [_np.ascontiguousarray(_np.broadcast_to(a, shape)).reshape(-1) for a in arrays], shape
+
+
+def _by_name(option: str, x: Mapping[str, Any] | None, example: str) -> Mapping[str, Any]:
+    """The option, where its names have values."""
+    if x is None or isinstance(x, Mapping):
+        return x or {}
+    raise WrongUsage(f"{option}: found {type(x).__name__}, expected a dict, as {example}")
+
+
+def _words(x: str | Iterable[str]) -> list[str]:
+    """Words of a list, or of a text with commas, as the program takes it."""
+    return [word.strip() for word in x.split(",")] if isinstance(x, str) else list(x)
 
 
 def _settings(parameters: Mapping[str, Values]) -> list[tuple[str, list[float], str]]:
@@ -243,8 +257,8 @@ def inspect(table: Table | Path) -> Document:
     return Document(_gonio.inspect((table if isinstance(table, Table) else read(table))._table))
 
 
-def fit(table: Table | Path, model: str = "lambert+ggx/smith_ggx.correlated/schlick", *, models: Iterable[str] | None = None,
-        fix: Mapping[str, Values] | None = None, bounds: Mapping[str, tuple[float, float]] | None = None, grey: Sequence[str] = (),
+def fit(table: Table | Path, model: str = "lambert+ggx/smith_ggx.correlated/schlick", *, models: str | Iterable[str] | None = None,
+        fix: Mapping[str, Values] | None = None, bounds: Mapping[str, tuple[float, float]] | None = None, grey: str | Iterable[str] = (),
         metric: str = "log", robust: str = "none", intervals: str = "automatic", copies: str = "leave_out", certificate: str = "auto",
         bins: str | None = None, jobs: int = 0) -> Document:
     """Model fitted to a table, or several compared: the document of ``gonio fit --json``.
@@ -252,8 +266,9 @@ def fit(table: Table | Path, model: str = "lambert+ggx/smith_ggx.correlated/schl
     Args:
         table: a ``Table`` or a file.
         model: its parameters are fitted; ``models`` lists what there is.
-        models: models to compare in place of one fit, or ``["all"]`` for the usual ones; the document says which to take.
-        fix: parameters held at a value, by name.
+        models: models to compare in place of one fit, a list or a text with commas, or "all" for the usual ones; the document says which
+            to take.
+        fix: parameters held at a value: ``{"f0": 0.05}``.
         bounds: where a parameter is looked for: ``{"alpha": (0.05, 0.5)}``.
         grey: names of colours with one value for all channels.
         metric: how values are compared: "log", "l2_cosine" or "relative".
@@ -277,18 +292,22 @@ def fit(table: Table | Path, model: str = "lambert+ggx/smith_ggx.correlated/schl
     for name, word, words in (("robust", robust, ("none", "huber")), ("copies", copies, ("leave_out", "keep"))):
         if word not in words:
             raise WrongUsage(f"{name}: '{word}' is none of {', '.join(words)}")
-    options = _gonio.fit_options(model, _settings(fix or {}), _settings(bounds or {}), list(grey), metric, robust == "huber", intervals,
-                                 copies == "keep", certificate)
+    options = _gonio.fit_options(model, _settings(_by_name("fix", fix, '{"f0": 0.05}')),
+                                 _settings(_by_name("bounds", bounds, '{"alpha": (0.05, 0.5)}')), _words(grey), metric, robust == "huber",
+                                 intervals, copies == "keep", certificate)
+    compared = None if models is None else _words(models)
+    if compared == []:
+        raise WrongUsage('models: found none, expected models to compare, or "all"')
     if isinstance(table, Table):
         if bins is not None:
             raise WrongUsage("bins: of a file; a table that was read has its own")
-        if models is None:
+        if compared is None:
             return Document(_gonio.fit_table(table._table, options, jobs))
-        return Document(_gonio.compare_table(table._table, options, list(models), jobs))
+        return Document(_gonio.compare_table(table._table, options, compared, jobs))
     path = _os.fspath(table)
-    if models is None:
+    if compared is None:
         return Document(_gonio.fit_path(path, bins, options, jobs))
-    return Document(_gonio.compare_path(path, bins, options, list(models), jobs))
+    return Document(_gonio.compare_path(path, bins, options, compared, jobs))
 
 
 def eval(model: Model | Table, theta_i: _npt.ArrayLike, phi_i: _npt.ArrayLike, theta_o: _npt.ArrayLike, phi_o: _npt.ArrayLike, *,
@@ -365,7 +384,10 @@ def term(id: str, at: Mapping[str, _npt.ArrayLike] | None = None, *, number: str
     Raises:
         WrongUsage: a term, a parameter or an angle that is none, or that the term does not read.
     """
-    columns = {n: _numbers(n, x).reshape(-1).tolist() for n, x in (at or {}).items()}
+    columns = {n: _numbers(n, x).reshape(-1).tolist() for n, x in _by_name("at", at, '{"noh": [1, 0.9]}').items()}
+    for name, x in parameters.items():
+        if _numbers(name, x).ndim != 0:
+            raise WrongUsage(f"{name}: found several numbers, expected one; what a term is evaluated at goes into at={{\"{name}\": …}}")
     values = _gonio.term(id, number, {n: float(x) for n, x in parameters.items()}, columns)
     return values[:, 0] if values.shape[1] == 1 else values
 

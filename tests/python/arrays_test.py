@@ -50,6 +50,13 @@ class Arrays(InAFolder):
         self.assertFalse(every_other[0].flags.c_contiguous)
         np.testing.assert_array_equal(gonio.eval(PAINT, *every_other, **PARAMETERS), gonio.eval(PAINT, *at, **PARAMETERS))
 
+    def test_what_is_masked_is_no_number(self):
+        for values in ([0.5, 1000, 0.25], [5, 1000, 25]):
+            table = gonio.Table(30, 0, [10, 20, 30], 180, np.ma.masked_greater(values, 999))
+            np.testing.assert_array_equal(table["f"], [values[0], np.nan, values[2]])
+        with self.assertRaisesRegex(gonio.BadInput, r"theta_o\[1\]: found nan"):
+            gonio.eval("lambert", 30, 0, np.ma.masked_greater([10, 80], 70), 180)
+
     def test_the_module_itself_takes_no_copy(self):
         from gonio import _gonio
         at = directions(3)

@@ -109,6 +109,30 @@ class Calls(InAFolder):
         with self.assertRaisesRegex(gonio.BadInput, "^document: "):
             gonio.eval({"model": 3}, 0, 0, 0, 0)
 
+    def test_words_are_a_list_or_a_text_with_commas(self):
+        table = gonio.synth(PAINT, "in_plane", noise=0.02, **PARAMETERS)
+        listed = gonio.fit(table, models=["lambert", PAINT], grey=["f0"])
+        self.assertEqual(*(without_times(d.text) for d in (listed, gonio.fit(table, models=f"lambert, {PAINT}", grey="f0"))))
+        self.assertEqual([row["model"] for row in gonio.fit(table, models="lambert")["models"]], ["lambert"])
+        with self.assertRaisesRegex(gonio.WrongUsage, "^models: found none, expected models to compare"):
+            gonio.fit(table, models=[])
+
+    def test_what_is_not_by_name_is_refused_in_one_line_with_an_example(self):
+        table = gonio.synth(PAINT, "in_plane", **PARAMETERS)
+        for call, said in ((lambda: gonio.fit(table, fix="f0=0.05"), 'fix: found str, expected a dict, as {"f0": 0.05}'),
+                           (lambda: gonio.fit(table, bounds=[("alpha", 0.1, 0.3)]),
+                            'bounds: found list, expected a dict, as {"alpha": (0.05, 0.5)}'),
+                           (lambda: gonio.term("ndf.ggx", [1, 0.9], alpha=0.3), 'at: found list, expected a dict, as {"noh": [1, 0.9]}'),
+                           (lambda: gonio.term("ndf.ggx", noh=[1, 0.9], alpha=0.3),
+                            'noh: found several numbers, expected one; what a term is evaluated at goes into at={"noh": …}'),
+                           (lambda: gonio.synth("lambert", "random", samples=0), "samples: found 0, expected a number in [1, 10000000]"),
+                           (lambda: gonio.synth("lambert", "random", noise=-1), "noise: found -1, expected a number in [0, 5]")):
+            with self.assertRaises(gonio.WrongUsage) as refused:
+                call()
+            self.assertEqual(str(refused.exception), said)
+        with self.assertRaisesRegex(KeyError, "q: the channels are r, g, b"):
+            table["q"]
+
     def test_nothing_leaks(self):
         code = ("import gonio, gc\n"
                 "t = gonio.synth('lambert', 'random', samples=50, kd=0.4)\n"
