@@ -112,6 +112,12 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw_all
 addEventListener("beforeprint", () => { document.documentElement.dataset.paper = ""; redraw_all(); });
 addEventListener("afterprint", () => { delete document.documentElement.dataset.paper; redraw_all(); });
 
+/// A fold that paper opens.
+function unfolded_on_paper(details) {
+  addEventListener("beforeprint", () => { details.open = true; });
+  return details;
+}
+
 /// Width in pixels that pictures are drawn at while what is for paper alone is made, and is not laid out yet; else 0.
 let paper_width = 0;
 /// Draws now that it has a width, and whenever that changes.

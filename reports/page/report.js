@@ -21,11 +21,6 @@ function findings_view(findings, at_once = 5) {
   if (!rest.length) return el("div", { class: "verdict" }, told(findings));
   return el("div", { class: "verdict" }, told(findings.slice(0, at_once)), unfolded_on_paper(el("details", {}, el("summary", {}, many(rest.length, "more finding")), told(rest))));
 }
-/// A fold that paper opens.
-function unfolded_on_paper(details) {
-  addEventListener("beforeprint", () => { details.open = true; });
-  return details;
-}
 /// Cells that say what they are of, where a table has no room for its head.  \param names  of the columns
 function name_cells(table, names) {
   for (const row of table.tBodies[0].rows) [...row.cells].forEach((cell, k) => k && cell.setAttribute("data-of", names[k]));

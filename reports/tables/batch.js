@@ -162,8 +162,8 @@ function verdict() {
 /// Tables that have no result yet, by their paths.
 function still_missing() {
   if (!page.missing.length) return null;
-  return el("details", {}, el("summary", {}, `${many(page.missing.length, "table")} still to be fitted`),
-    el("ul", { class: "warnings" }, page.missing.map((path) => el("li", {}, path))));
+  return unfolded_on_paper(el("details", {}, el("summary", {}, `${many(page.missing.length, "table")} still to be fitted`),
+    el("ul", { class: "warnings" }, page.missing.map((path) => el("li", {}, path)))));
 }
 function facts() {
   const fact = (name, value, rest = null) => el("div", {}, el("dt", {}, name), el("dd", {}, value, rest ? el("small", {}, " " + rest) : null));
