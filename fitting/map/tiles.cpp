@@ -107,11 +107,31 @@ TileGrid grid_of(const Image& header, const std::string& path) {
   return {size[0], size[1], tile_size[0], tile_size[1]};
 }
 
+namespace {
+
+/// Of a text what tells it from another: some of it, from shortly before they part.
+std::string where_it_parts(const std::string& text, const std::string& other) {
+  constexpr std::size_t before = 24, most = 72;
+  const auto inside = [&](std::size_t at) {  // of a letter of several bytes
+    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
+  };
+  const auto same = static_cast<std::size_t>(std::ranges::mismatch(text, other).in1 - text.begin());
+  std::size_t begin = same > before ? same - before : 0;
+  while (begin > 0 && inside(begin)) --begin;
+  std::size_t end = std::min(text.size(), begin + most);
+  while (end > begin && inside(end)) --end;
+  return (begin > 0 ? "…" : "") + text.substr(begin, end - begin) + (end < text.size() ? "…" : "");
+}
+
+}  // namespace
+
 void expect_of(const MapAttributes& tile, const Image& header, const std::string& path) {
   for (const auto& [name, value] : tile) {
     const auto found = header.attributes.find(name);
-    if (found == header.attributes.end() || found->second != value)
-      throw bad_input(path, name, found == header.attributes.end() ? "none" : found->second, value);
+    if (found == header.attributes.end()) throw bad_input(path, name, "none", value);
+    if (found->second != value)
+      throw bad_input(path, name, where_it_parts(found->second, value),
+                      where_it_parts(value, found->second));
   }
 }
 
