@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "base/error.h"
 #include "base/json_describe.h"
@@ -187,6 +189,15 @@ class Sums {
   bool whole_ = false;
 };
 
+/// A parameter's name without its channel, and the channel's place among red, green and blue.
+std::pair<std::string, std::size_t> as_told(const MapParameter& p) {
+  const std::size_t end = p.name.size();
+  if (end > 2 && p.name[end - 2] == '.')
+    if (const auto place = std::string_view("RGB").find(p.name[end - 1]); place < 3)
+      return {p.name.substr(0, end - 2), place};
+  return {p.name, 0};
+}
+
 }  // namespace
 
 bool has_tiles(const std::string& folder) {
@@ -268,6 +279,7 @@ MapDocument gather_tiles(const std::string& folder, OutputFile& out, int threads
   }
   writer.finish();
   for (const auto& s : sums) d.parameters.push_back(s.result());
+  std::ranges::stable_sort(d.parameters, {}, as_told);  // a file has its channels by the alphabet
   return d;
 }
 

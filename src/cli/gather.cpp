@@ -39,7 +39,9 @@ Exit run(const Options& o) {
     return gather_map(o.folder, o.map, o);
   }
   if (!o.map.empty())
-    throw wrong_usage("-o is of the tiles of a map; the summary of tables is written into DIR");
+    throw wrong_usage(o.folder +
+                      " holds no tiles of a map, which -o is for; the summary of tables is "
+                      "written into their folder");
   Progress progress(o.quiet);
   progress("gathering " + o.folder);
   const auto list = expected(o);
