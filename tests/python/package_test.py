@@ -50,11 +50,10 @@ class Package(InAFolder):
                 self.assertEqual((p.stderr, p.returncode), ("", 0))
 
     def test_no_help_of_the_program_speaks_of_an_argument_that_the_module_lacks(self):
-        """Options of `gonio fit`, `albedo` and `synth`, apart from those of files and terminals."""
+        """Options of `gonio fit`, `albedo` and `synth`, apart from those of files, of terminals and of maps."""
         of_files = {"help", "html", "output", "json", "quiet", "pages", "set", "part", "model", "models"}
         for function in (gonio.fit, gonio.albedo, gonio.synth):
-            words = set(re.findall(r"--([a-z]+)\b", subprocess.run([PROGRAM, function.__name__, "--help"], capture_output=True,
-                                                                    text=True).stdout))
-            options = {w for w in words if re.search(rf"^ +(-\w,)?--{w}\b", subprocess.run(
-                [PROGRAM, function.__name__, "--help"], capture_output=True, text=True).stdout, re.M)}
+            text = subprocess.run([PROGRAM, function.__name__, "--help"], capture_output=True, text=True).stdout
+            options = {name for name, told in re.findall(r"^ +(?:-\w,)?--([a-z]+)\b(.*(?:\n {20}.*)?)", text, re.M) if "Map: " not in told}
+            self.assertIn("jobs", options, "the ruler")
             self.assertEqual(options - of_files - set(inspect.signature(function).parameters), set(), function.__name__)
