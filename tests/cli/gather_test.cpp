@@ -60,6 +60,7 @@ TEST(GatherCommand, RefusesWhatIsOfTablesBesideTilesAndWhatIsOfTilesBesideTables
                         {"gather t", "-o MAPS.exr"},
                         {"gather t -o t", "would be overwritten"},
                         {"gather results -o joined.exr", "results holds no tiles of a map"},
+                        {"gather a.csv -o joined.exr", "a.csv holds no tiles of a map"},
                         {"gather empty -o joined.exr", "empty holds no tiles of a map"}});
   EXPECT_FALSE(fs::exists(f / "joined.exr"));
 }
