@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
+#include "base/whole_loop.h"
 #include "fitting/sample/incident_angles.h"
 #include "fitting/solve/search.h"
-
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -78,8 +77,7 @@ std::vector<LogResiduals> cross_validate(const Table& t,
   std::vector<LogResiduals> all(blocks.count);
   const Looks look{sampling_for(p, t, t.bins(), folds(p)),
                    sampling_for(p, t, t.bins()).by(Metric::log, p.offset)};
-  tbb::parallel_for(std::size_t{0}, all.size(),
-                    [&](std::size_t b) { all[b] = left_out(look, p, blocks, b, whole); });
+  for_each_whole(all.size(), [&](std::size_t b) { all[b] = left_out(look, p, blocks, b, whole); });
   return all;
 }
 

@@ -4,11 +4,10 @@
 #include <array>
 #include <utility>
 
+#include "base/whole_loop.h"
 #include "brdf/model/derivatives.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_group.h>
 
 namespace gonio {
 namespace {
@@ -125,14 +124,6 @@ class FusedPass {
   std::vector<std::vector<std::size_t>> at_;  ///< [channel][column]
 };
 
-/// Calls one(task) for each, or throws what one of them threw.  A loop around it that ends by an exception does not stop it: what is
-/// left of it would be summed as if it were all.
-template <class One>
-void for_each_task(std::size_t tasks, const One& one) {
-  tbb::task_group_context own(tbb::task_group_context::isolated);
-  tbb::parallel_for(std::size_t{0}, tasks, one, own);
-}
-
 void add(std::vector<double>& to, const std::vector<double>& from) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
 }
@@ -211,7 +202,7 @@ template <class F>
 NormalEquations Accumulator<F>::normal_equations(std::span<const double> values) const {
   const std::size_t n = free_.size();
   std::vector<NormalEquations> parts(data_.tasks.size());
-  for_each_task(parts.size(), [&](std::size_t task) {
+  for_each_whole(parts.size(), [&](std::size_t task) {
     std::vector<GramSums<F>> sums(model_.channels);
     alignas(64) std::array<F, padding> cost{};
     auto& e = parts[task];
@@ -242,7 +233,7 @@ NormalEquations Accumulator<F>::normal_equations(std::span<const double> values)
 template <class F>
 std::vector<double> Accumulator<F>::channel_costs(std::span<const double> values) const {
   std::vector<std::vector<double>> parts(data_.tasks.size());
-  for_each_task(parts.size(), [&](std::size_t task) {
+  for_each_whole(parts.size(), [&](std::size_t task) {
     auto& costs = parts[task];
     costs.resize(model_.channels);
     Pass<F>& pass = passes_->pass.local();

@@ -2,6 +2,7 @@
 
 #include <mutex>
 
+#include "base/whole_loop.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
 #include "integrate/light/split_sum.h"
@@ -9,7 +10,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -59,7 +59,7 @@ std::vector<EntryAudit> audit(const std::vector<std::string>& ids,
   std::vector<EntryAudit> entries(ids.size());
   std::mutex mutex;
   std::size_t count = 0;
-  tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t i) {
+  for_each_whole(ids.size(), [&](std::size_t i) {
     entries[i] = audit_entry(ids[i]);
     const std::lock_guard lock(mutex);
     if (done) done(++count);

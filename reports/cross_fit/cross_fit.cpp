@@ -5,11 +5,11 @@
 #include <cmath>
 #include <mutex>
 
+#include "base/whole_loop.h"
 #include "optics/refractive_index.h"
 #include "reports/cross_fit/cases.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -107,7 +107,7 @@ CrossFitRows cross_fit_rows(const CrossFitOptions& o, const ReportProgress& done
   std::vector<double> walk_errors(scenes.size());
   std::mutex telling;
   std::size_t ready = 0;
-  tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
+  for_each_whole(scenes.size(), [&](std::size_t i) {
     cases[i] = fitted(scenes[i], o, walk_errors[i]);
     const std::lock_guard lock(telling);
     ++ready;

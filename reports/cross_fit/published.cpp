@@ -8,11 +8,11 @@
 #include <string_view>
 #include <utility>
 
+#include "base/whole_loop.h"
 #include "number/real.h"
 #include "reports/cross_fit/cases.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -116,8 +116,7 @@ Table published_slice(double kd, double a, double b, double c, double eta, std::
 
 std::vector<PublishedFit> published_fits(std::size_t bins) {
   std::vector<PublishedFit> out(materials.size());
-  tbb::parallel_for(std::size_t{0}, out.size(),
-                    [&](std::size_t i) { out[i] = fitted(materials[i], bins); });
+  for_each_whole(out.size(), [&](std::size_t i) { out[i] = fitted(materials[i], bins); });
   return out;
 }
 

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/whole_loop.h"
 #include "integrate/scattering/walk.h"
 #include "number/real.h"
 #include "reports/cross_fit/cases.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -64,7 +64,7 @@ std::vector<std::vector<double>> beyond_one_facet(const BoundModel& m,
                                                   std::size_t walks,
                                                   std::uint64_t seed) {
   std::vector<std::vector<double>> out(m.model.channels, std::vector<double>(pairs.size()));
-  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+  for_each_whole(pairs.size(), [&](std::size_t i) {
     const auto w = walk_value(m, pairs[i].wi, pairs[i].wo, {(seed << 32U) + i, walks});
     for (std::size_t c = 0; c < out.size(); ++c)
       for (std::size_t n = 1; n < w.order[c].size(); ++n) out[c][i] += w.order[c][n];

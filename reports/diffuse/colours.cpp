@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "base/whole_loop.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
@@ -12,8 +13,6 @@
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/rule/quadrature.h"
 #include "reports/diffuse/forms.h"
-
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -220,8 +219,8 @@ std::vector<DiffuseColour> diffuse_colours(const DiffuseOptions& o,
                                            const std::vector<DiffuseForm>& forms,
                                            const std::function<void(double)>& done) {
   std::vector<std::vector<DiffuseColour>> all(o.roughness.size());
-  tbb::parallel_for(std::size_t{0}, o.roughness.size(),
-                    [&](std::size_t i) { all[i] = Comparison(o, forms, o.roughness[i])(); });
+  for_each_whole(o.roughness.size(),
+                 [&](std::size_t i) { all[i] = Comparison(o, forms, o.roughness[i])(); });
   done(1);
   std::vector<DiffuseColour> out;
   for (auto& a : all) std::ranges::move(a, std::back_inserter(out));

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "base/whole_loop.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
@@ -14,8 +15,6 @@
 #include "reports/audit/audit.h"
 #include "reports/diffuse/forms.h"
 #include "timing/timing.h"
-
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -33,7 +32,7 @@ std::vector<double> steps(double from, double step) {
 /// Albedos of a form, of a coupled one as the lobe leaves it.
 std::vector<DiffuseRow> albedos(const DiffuseForm& f, const DiffuseOptions& o) {
   std::vector<DiffuseRow> out(o.roughness.size() * o.mu.size());
-  tbb::parallel_for(std::size_t{0}, o.roughness.size(), [&](std::size_t r) {
+  for_each_whole(o.roughness.size(), [&](std::size_t r) {
     const auto b = bound(f, o.roughness[r], {1}, false);
     const auto at = diffuse_albedo(b, o.mu, 0, goal);
     const double average = hemispherical_average(
@@ -100,7 +99,7 @@ void add_laws(std::vector<DiffuseForm>& forms) {
 
 /// Largest albedo of each with the lobe of its own roughness.
 void add_lobes(std::vector<DiffuseForm>& forms, const DiffuseOptions& o) {
-  tbb::parallel_for(std::size_t{0}, forms.size(), [&](std::size_t i) {
+  for_each_whole(forms.size(), [&](std::size_t i) {
     for (const double r : o.roughness)
       for (const auto& a : directional_albedo(bound(forms[i], r, {1}, true), o.mu, 0, goal))
         forms[i].most_with_lobe = std::max(forms[i].most_with_lobe, a.value[0]);

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <iterator>
 
+#include "base/whole_loop.h"
+
 #include <boost/math/tools/toms748_solve.hpp>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -67,7 +68,7 @@ std::vector<Crossing> gather_crossings(
     const std::function<Bounded(double mu, double roughness)>& at) {
   constexpr std::array mus{1.0, 0.5, 0.1, 0.0};
   std::array<std::vector<Crossing>, mus.size()> found;
-  tbb::parallel_for(std::size_t{0}, mus.size(), [&](std::size_t i) {
+  for_each_whole(mus.size(), [&](std::size_t i) {
     const auto [roughness, loss] = known(mus[i]);
     if (!roughness.empty())
       found[i] = crossings_at(mus[i], roughness, loss, [&](double r) { return at(mus[i], r); });

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/whole_loop.h"
 #include "brdf/catalogue/masking_shape.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
@@ -10,7 +11,6 @@
 #include "reports/measure/light_unit.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -101,7 +101,7 @@ std::vector<EnergyForm> energy_forms(const EnergyOptions& o,
     std::erase_if(roughness, [&](double r) { return r > f.most_roughness; });
     f.rows.resize(roughness.size() * mu.size());
     f.averages.resize(roughness.size());
-    tbb::parallel_for(std::size_t{0}, roughness.size(), [&](std::size_t r) {
+    for_each_whole(roughness.size(), [&](std::size_t r) {
       const auto b = bound(f, roughness[r]);
       const auto at = directional_albedo(b, mu, 0, goal);
       for (std::size_t m = 0; m < mu.size(); ++m)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/whole_loop.h"
 #include "brdf/catalogue/masking_shape.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/number.h"
@@ -11,7 +12,6 @@
 #include "reports/remap/pairs.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio::remapping {
 namespace {
@@ -98,8 +98,8 @@ class Reference {
  public:
   Reference(const std::string& ndf, std::string id, double step, std::span<const double> mu)
       : id_(std::move(id)), term_(find_term(id_)), grid_(grid(step)), albedo_(grid_.size()) {
-    tbb::parallel_for(std::size_t{0}, grid_.size(),
-                      [&](std::size_t i) { albedo_[i] = albedo(ndf, id_, grid_[i], mu).first; });
+    for_each_whole(grid_.size(),
+                   [&](std::size_t i) { albedo_[i] = albedo(ndf, id_, grid_[i], mu).first; });
   }
   const std::string& id() const { return id_; }
   std::size_t term() const { return term_; }
@@ -207,7 +207,7 @@ MeasuredForms measured_forms(const RemapOptions& o,
     const std::size_t n = o.roughness.size(), before = out.rows.size();
     f.at.resize(n);
     out.rows.resize(before + 2 * n);
-    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+    for_each_whole(n, [&](std::size_t i) {
       const double r = o.roughness[i];
       auto [e, error] = albedo(f.ndf, f.form, r, mu);
       f.at[i] = {r, std::move(e), error, {}};

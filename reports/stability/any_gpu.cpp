@@ -1,6 +1,7 @@
 // Forms under all that Vulkan allows a GPU: what is proved of them.
 #include <algorithm>
 
+#include "base/whole_loop.h"
 #include "brdf/catalogue/registry.h"
 #include "reports/stability/measure.h"
 #include "reports/stability/stability.h"
@@ -9,7 +10,6 @@
 #include "stability/prove_relative.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 
@@ -78,12 +78,11 @@ std::vector<AnyGpuRow> any_gpu_rows(const StabilityOptions& o) {
   std::vector<Number> numbers{Number::float_};
   if (!brief) numbers.push_back(Number::half);
   std::vector<AnyGpuRow> rows(numbers.size() * subjects.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows.size(), 1), [&](const auto& part) {
-    for (std::size_t k = part.begin(); k != part.end(); ++k)
-      rows[k] = row_of(subjects[k % subjects.size()], numbers[k / subjects.size()],
-                       brief                      ? 1.5
-                       : o.setting == Depth::full ? 10
-                                                  : 3);
+  for_each_whole(rows.size(), [&](std::size_t k) {
+    rows[k] = row_of(subjects[k % subjects.size()], numbers[k / subjects.size()],
+                     brief                      ? 1.5
+                     : o.setting == Depth::full ? 10
+                                                : 3);
   });
   return rows;
 }

@@ -4,12 +4,11 @@
 #include <limits>
 #include <numbers>
 
+#include "base/whole_loop.h"
 #include "brdf/catalogue/registry.h"
 #include "reports/stability/measure.h"
 #include "reports/stability/stability.h"
 #include "stability/places.h"
-
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace stabilities {
@@ -102,7 +101,7 @@ template <class Row, class Make>
 std::vector<Row> of_each(bool all, const Make& make) {
   const auto subjects = with_width(all);
   std::vector<Row> rows(subjects.size() * numbers.size());
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t k) {
+  for_each_whole(rows.size(), [&](std::size_t k) {
     rows[k] = make(subjects[k / numbers.size()], numbers[k % numbers.size()]);
   });
   return rows;

@@ -1,11 +1,10 @@
 // Forms whose sums and products a compiler regroups: what that costs.
+#include "base/whole_loop.h"
 #include "reports/stability/measure.h"
 #include "reports/stability/stability.h"
 #include "stability/answer.h"
 #include "stability/regroup.h"
 #include "stability/search.h"
-
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -40,10 +39,8 @@ std::vector<OrderRow> order_rows(const StabilityOptions& o) {
     for (const auto& id : stabilities::forms(o))
       for (auto& s : subjects_of(id)) jobs.emplace_back(std::move(s), number);
   std::vector<std::optional<OrderRow>> found(jobs.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, jobs.size(), 1), [&](const auto& part) {
-    for (std::size_t k = part.begin(); k != part.end(); ++k)
-      found[k] = row_of(jobs[k].first, jobs[k].second);
-  });
+  for_each_whole(jobs.size(),
+                 [&](std::size_t k) { found[k] = row_of(jobs[k].first, jobs[k].second); });
   std::vector<OrderRow> rows;
   for (auto& row : found)
     if (row) rows.push_back(std::move(*row));

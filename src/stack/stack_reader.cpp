@@ -3,37 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
-#include <functional>
 #include <limits>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/sha256.h"
+#include "base/whole_loop.h"
 #include "table/table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
-/// do_one(i) for each i < n on all threads.  Of several that throw the first one is told, whatever the threads.
-void for_each(std::size_t n, const std::function<void(std::size_t)>& do_one) {
-  std::vector<std::exception_ptr> errors(n);
-  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-    try {
-      do_one(i);
-    } catch (...) {
-      errors[i] = std::current_exception();
-    }
-  });
-  for (const auto& e : errors)
-    if (e) std::rethrow_exception(e);
-}
 
 std::array<float, 3> floats(const Direction& d) {
   return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
@@ -246,7 +230,7 @@ void StackReader::read(const Rectangle& part, StackPart& to) const {
   to.normal.resize(has_normals() ? 3 * n : 0);
 
   std::vector<std::vector<float>> maps(maps_.size());
-  for_each(maps.size(), [&](std::size_t m) { read_vectors(m, part, maps[m]); });
+  for_each_whole(maps.size(), [&](std::size_t m) { read_vectors(m, part, maps[m]); });
   // do_piece(first texel, texels) of each piece
   const auto for_pieces = [&](const auto& do_piece) {
     for (std::size_t first = 0; first < n; first += StackPart::piece_texels)
@@ -265,7 +249,7 @@ void StackReader::read(const Rectangle& part, StackPart& to) const {
     });
   }
 
-  for_each(images, [&](std::size_t i) {
+  for_each_whole(images, [&](std::size_t i) {
     std::vector<float> read_values;
     read(images_[i], part, read_values);
     const StackImage& image = stack_.images[i];

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/whole_loop.h"
 #include "brdf/catalogue/registry.h"
 #include "integrate/rule/slopes.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -322,8 +322,8 @@ std::vector<Albedo> albedos_of(const std::vector<Part>& parts,
   check_cosines(mu);
   check_azimuth(phi);
   std::vector<Albedo> all(mu.size());
-  tbb::parallel_for(std::size_t{0}, mu.size(),
-                    [&](std::size_t i) { all[i] = albedo_of(parts, channels, mu[i], phi, goal); });
+  for_each_whole(mu.size(),
+                 [&](std::size_t i) { all[i] = albedo_of(parts, channels, mu[i], phi, goal); });
   return all;
 }
 
@@ -379,8 +379,8 @@ Albedo hemispherical_average(const AlbedoAt& albedo,
     // Where albedos cannot be had to that error, as of models that diverge, there is an end to it.
     const std::size_t left = most > evaluations ? most - evaluations : 0;
     const Goal each{goal.error / 4, std::min(goal.evaluations, left / x.size())};
-    tbb::parallel_for(std::size_t{0}, x.size(),
-                      [&](std::size_t i) { at[i] = albedo(x[i] * x[i], y[i / line_nodes], each); });
+    for_each_whole(x.size(),
+                   [&](std::size_t i) { at[i] = albedo(x[i] * x[i], y[i / line_nodes], each); });
     for (std::size_t i = 0; i < x.size(); ++i) {
       const double weight = 4 * x[i] * x[i] * x[i] / (anisotropic ? std::numbers::pi / 2 : 1);
       for (std::size_t c = 0; c < channels; ++c) out[c][i] = at[i].value[c] * weight;

@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/whole_loop.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/formula/scattering.h"
 #include "integrate/albedo/ggx_albedo.h"
 #include "integrate/rule/slopes.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -189,8 +189,7 @@ std::vector<Albedo> compensated_albedo(const BoundModel& model,
   check_azimuth(phi);
   const Compensated albedo(model, how, goal);
   std::vector<Albedo> all(mu.size());
-  tbb::parallel_for(std::size_t{0}, mu.size(),
-                    [&](std::size_t i) { all[i] = albedo(mu[i], phi, goal); });
+  for_each_whole(mu.size(), [&](std::size_t i) { all[i] = albedo(mu[i], phi, goal); });
   return all;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/whole_loop.h"
 #include "brdf/catalogue/registry.h"
 #include "geometry/sampling.h"
 #include "integrate/albedo/directional_albedo.h"
@@ -15,7 +16,6 @@
 #include "integrate/scattering/visible_facets.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -364,7 +364,7 @@ void walk_chunks(const Surface& s,
   for (; first < last; first += at_once) {
     const std::size_t n = std::min(at_once, last - first);
     std::vector<Tally> chunks(n, Tally(s.fresnel.size()));
-    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+    for_each_whole(n, [&](std::size_t i) {
       const std::size_t k = first + i;
       Walkers w(s, v, Draws(goal.seed, key[0], key[1], k));
       auto count = make_count();
@@ -471,7 +471,7 @@ std::vector<Scattered> walk(const BoundModel& m,
   check_azimuth(phi);
   const auto surfaces = surfaces_of(m);
   std::vector<Scattered> all(mu.size());
-  tbb::parallel_for(std::size_t{0}, mu.size(), [&](std::size_t i) {
+  for_each_whole(mu.size(), [&](std::size_t i) {
     const double sine = std::sqrt((1 - mu[i]) * (1 + mu[i]));
     const Direction v{sine * std::cos(phi), sine * std::sin(phi), mu[i]};
     Means means(m.model.channels);
