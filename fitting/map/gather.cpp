@@ -48,7 +48,7 @@ struct Description<MapDocument> {
         field("tiles", "", &MapDocument::tiles, "that it was made of"),
         group("texels", "how their fits ended", field("converged", "", &MapDocument::converged, ""),
               field("not_converged", "", &MapDocument::not_converged, "the best seen is kept"),
-              field("no_data", "", &MapDocument::no_data, "fewer values than unknowns")),
+              field("no_data", "", &MapDocument::no_data, "no value that can be compared")),
         field("parameters", "", &MapDocument::parameters, "by their names")};
   }
 };

@@ -486,9 +486,10 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
     float squares = 0;
     for (std::size_t c = 0; c < in_.channels; ++c) squares += passes_.sums()[c][l];
     out_.rms[t] = none ? nan : std::sqrt(squares / count_[l]);
-    const auto outcome = none                  ? TexelOutcome::no_data
-                         : state_.done[l] == 1 ? TexelOutcome::converged
-                                               : TexelOutcome::not_converged;
+    const auto outcome = none ? TexelOutcome::no_data
+                         : state_.done[l] == 1 && !std::isnan(out_.rms[t])
+                             ? TexelOutcome::converged
+                             : TexelOutcome::not_converged;
     out_.outcome[t] = static_cast<std::uint8_t>(outcome);
     std::size_t taken = 0;
     for (std::size_t i = 0; i < n(); ++i) taken += left_out_[i * padding + l] != 1;
@@ -511,9 +512,9 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
         if (i < n()) {
           const float left = left_out_[i * padding + l],
                       error = std::sqrt(variance_[i * padding + l]);
-          status = none || left >= 2 ? ParameterStatus::not_identifiable
-                   : left == 1       ? ParameterStatus::at_bound
-                                     : ParameterStatus::free;
+          status = none || left >= 2 || std::isnan(to.value[t]) ? ParameterStatus::not_identifiable
+                   : left == 1                                  ? ParameterStatus::at_bound
+                                                                : ParameterStatus::free;
           if (status == ParameterStatus::free && values > taken) {
             const double half = t_[values - taken] * double{error};
             // A tangent is the same half a turn further.

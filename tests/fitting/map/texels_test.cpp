@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -378,6 +380,27 @@ TEST(Texels, LeaveOutWhatWasNotMeasured) {
       s.values[s.at(i, t % 3, t)] =
           std::array{nan, -1.0F, std::numeric_limits<float>::infinity()}[i % 3];
   expect_truth(s, fit_texels(s.samples(), options(made.model)), 1e-3);
+}
+
+TEST(Texels, SayOfWhatCannotBeComputedThatItIsNotKnown) {
+  StackOptions made;
+  made.texels = 200;
+  Stack s = test::stack(made);
+  std::uint32_t random = 1;
+  for (float& v : s.values) {  // from 1e-30 to 1e18, beyond what a float's squares hold
+    random = random * 1664525 + 1013904223;
+    v *= std::pow(10.0F, static_cast<float>(random >> 16U) / 65536 * 48 - 30);
+  }
+  for (const auto metric : {Metric::l2_cosine, Metric::log, Metric::relative}) {
+    const TexelFit f = fit_texels(s.samples(), options(made.model, metric));
+    for (std::size_t t = 0; t < s.texels; ++t) {
+      EXPECT_TRUE(f.outcome[t] != converged || !std::isnan(f.rms[t])) << name_of(metric) << t;
+      for (const auto& c : f.columns)
+        EXPECT_EQ(std::isnan(c.value[t]),
+                  c.status[t] == static_cast<std::uint8_t>(ParameterStatus::not_identifiable))
+            << name_of(metric) << " texel " << t << ": " << c.parameter;
+    }
+  }
 }
 
 TEST(Texels, SayNothingOfWhatHasNoData) {
