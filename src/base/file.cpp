@@ -302,6 +302,7 @@ void sync_folder(const std::filesystem::path& folder) {
 }  // namespace
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
+  if (path_.empty()) throw bad_input("''", "writing", "no name", "the name of a file");
   struct stat old {};
   const bool replaces = ::stat(path_.c_str(), &old) == 0;
   if (replaces) {

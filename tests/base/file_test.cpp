@@ -127,6 +127,7 @@ TEST(OutputFile, SaysWhereItCannotWrite) {
   EXPECT_NE(refusal([&] { OutputFile(folder / "none/such"); }).find("No such file"),
             std::string::npos);
   EXPECT_NE(refusal([&] { OutputFile(folder / ""); }).find("a directory"), std::string::npos);
+  EXPECT_NE(refusal([&] { OutputFile(""); }).find("no name"), std::string::npos);
   EXPECT_EQ(folder.entries(), 0U);
 }
 
