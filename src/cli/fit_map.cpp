@@ -91,6 +91,8 @@ Exit run(const Options& o) {
   Progress progress(o.quiet);
   progress("opening the stack");
   const StackReader stack(read_stack(o.stack));
+  std::error_code unknown;
+  if (fs::exists(o.output, unknown)) check_outputs(stack.paths(), {o.output});
   check(t, stack.channels().size());
   progress.clear();
   const TileGrid grid{stack.width(), stack.height(), tile_size[0], tile_size[1]};

@@ -140,6 +140,13 @@ StackReader::StackReader(Stack stack) : stack_(std::move(stack)) {
   digest_ = sha256(digest_);
 }
 
+std::vector<std::string> StackReader::paths() const {
+  std::vector<std::string> all;
+  for (const auto* sources : {&images_, &maps_})
+    for (const Source& s : *sources) all.push_back(s.path);
+  return all;
+}
+
 std::size_t StackReader::bytes_of_texel() const {
   const std::size_t vectors =
       (shared_ ? 0 : 6 * images_.size()) + (has_normals() ? 3 : 0) + 3 * maps_.size();

@@ -47,6 +47,8 @@ class StackReader {
   const std::vector<std::string>& channels() const { return channels_; }
   bool shared() const { return shared_; }
   bool has_normals() const { return normals_ != none; }
+  /// Paths of all that is read: images, maps of directions, normals.
+  std::vector<std::string> paths() const;
   /// Columns and rows that files store as one; parts of whole ones read nothing twice.
   std::size_t block_width() const { return block_width_; }
   std::size_t block_height() const { return block_height_; }

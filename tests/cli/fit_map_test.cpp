@@ -141,6 +141,20 @@ TEST(FitMapCommand, RefusesWrongWordsInOneLine) {
                         {"fit_map s/stack.json --offset 0.1 -o m.exr", "not with l2_cosine"}});
 }
 
+TEST(FitMapCommand, OverwritesNothingThatItReads) {
+  const Folder f;
+  make_stack(f);
+  const std::string image = read_bytes(f / "s/image_000.exr");
+  ASSERT_EQ(gonio(f, "fit_map s/stack.json --tile 0,0 -o t " + model).code, 0);
+  const std::string tile = read_bytes(f / "t/tile_0_0.exr");
+  expect_one_line_each(f, 2,
+                       {{"fit_map s/stack.json -o s/stack.json", "is an input"},
+                        {"fit_map s/stack.json -o ./s/../s/image_000.exr", "is an input"},
+                        {"gather t -o t/../t/tile_0_0.exr", "is an input"}});
+  EXPECT_EQ(read_bytes(f / "s/image_000.exr"), image);
+  EXPECT_EQ(read_bytes(f / "t/tile_0_0.exr"), tile);
+}
+
 TEST(FitMapCommand, RefusesTilesOfOtherOptionsAndKeepsThem) {
   const Folder f;
   make_stack(f);
