@@ -69,14 +69,17 @@ install_vulkan() {
   echo "Without glslang, SPIRV-Tools and a driver of Vulkan: emitted shaders are not run."
 }
 
+# from_pypi FOLDER LIST [PYTHON]: the packages of a list, which has their digests, in a virtual environment in that folder.
+from_pypi() {
+  local at=$1 list=$2 python=${3-python3}
+  { [ -x "$at/bin/pip" ] || "$python" -m venv "$at" >/dev/null 2>&1; } &&
+    "$at/bin/pip" install -qq --disable-pip-version-check --retries 1 --timeout 20 --require-hashes --only-binary :all: -r "$list" 2>/dev/null
+}
+
 # Compilers of WGSL and Slang, which emitted shaders are held against, in build/shading; without them that is left out.
 install_shading() {
   local at=build/shading
-  if [ -e "$at/whole" ] || { { [ -x "$at/bin/pip" ] || python3 -m venv "$at" >/dev/null 2>&1; } &&
-    "$at/bin/pip" install -qq --disable-pip-version-check --require-hashes --only-binary :all: -r tests/shader/languages.txt 2>/dev/null &&
-    touch "$at/whole"; }; then
-    return 0
-  fi
+  if [ -e "$at/whole" ] || { from_pypi $at tests/shader/languages.txt && touch "$at/whole"; }; then return 0; fi
   echo "Without wgpu and slangpy: emitted WGSL and Slang are not compiled."
 }
 
@@ -98,11 +101,7 @@ install_targets() {
   if command -v apt-get >/dev/null; then
     (gonio_tools=(python3:python3) gonio_libraries=(python3-venv libegl1 libgl1-mesa-dri); install_missing) || true
   fi
-  if { [ -x "$at/bin/pip" ] || python3 -m venv "$at" >/dev/null 2>&1; } &&
-    "$at/bin/pip" install -qq --disable-pip-version-check --retries 1 --timeout 20 --require-hashes --only-binary :all: \
-      -r tests/cli/targets/requirements.txt 2>/dev/null; then
-    return 0
-  fi
+  if from_pypi $at tests/cli/targets/requirements.txt; then return 0; fi
   echo "Without Mitsuba, MaterialX and USD from PyPI: exported materials, RGL files and pictures are not compared with theirs."
   return 1
 }
@@ -116,11 +115,7 @@ install_farm() {
 # Open Job Description's own program, which written templates are checked with and run by, in build/openjd; without it that is left out.
 install_openjd() {
   local at=build/openjd
-  if [ -e "$at/whole" ] || { { [ -x "$at/bin/pip" ] || python3 -m venv "$at" >/dev/null 2>&1; } &&
-    "$at/bin/pip" install -qq --disable-pip-version-check --retries 1 --timeout 20 --require-hashes --only-binary :all: \
-      -r tests/cli/openjd/requirements.txt 2>/dev/null && touch "$at/whole"; }; then
-    return 0
-  fi
+  if [ -e "$at/whole" ] || { from_pypi $at tests/cli/openjd/requirements.txt && touch "$at/whole"; }; then return 0; fi
   echo "Without openjd-cli from PyPI: written templates are not held against their specification."
 }
 
@@ -131,11 +126,7 @@ install_python() {
   if command -v apt-get >/dev/null; then
     (gonio_tools=(python3:python3) gonio_libraries=(python3-dev python3-venv); install_missing) || true
   fi
-  if { [ -x "$at/bin/pip" ] || python3 -m venv "$at" >/dev/null 2>&1; } &&
-    "$at/bin/pip" install -qq --disable-pip-version-check --retries 1 --timeout 20 --require-hashes --only-binary :all: \
-      -r tests/python/requirements.txt 2>/dev/null; then
-    return 0
-  fi
+  if from_pypi $at tests/python/requirements.txt; then return 0; fi
   echo "Without nanobind and NumPy from PyPI: the module for Python is not built."
 }
 
@@ -146,11 +137,7 @@ install_blender() {
   if command -v apt-get >/dev/null; then
     (gonio_tools=() gonio_libraries=(python3-venv libgl1 libice6 libsm6 libxfixes3 libxi6 libxkbcommon0 libxrender1); install_missing) || true
   fi
-  if { [ -x "$at/bin/pip" ] || python3.11 -m venv "$at" >/dev/null 2>&1; } &&
-    "$at/bin/pip" install -qq --disable-pip-version-check --retries 1 --timeout 20 --require-hashes --only-binary :all: \
-      -r tests/cli/targets/blender.txt 2>/dev/null; then
-    return 0
-  fi
+  if from_pypi $at tests/cli/targets/blender.txt python3.11; then return 0; fi
   echo "Without Blender from PyPI, for Python 3.11 on x86-64: exported glTF is not looked at in it."
 }
 
