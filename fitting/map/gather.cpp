@@ -71,18 +71,11 @@ struct Tiles {
   std::vector<std::string> paths;  ///< row by row
 };
 
-std::set<Tile> tiles_in(const std::string& folder) {
-  std::error_code failed;
-  std::set<Tile> there;
-  for (const auto& entry : fs::directory_iterator(folder, failed))
-    if (const auto t = tile_of_name(entry.path().filename().string())) there.insert(*t);
-  if (failed) throw bad_input(folder, "opening", failed.message(), "a folder of tiles");
-  return there;
-}
-
 /// Tiles of a folder, all there and of one map.
 Tiles sound_tiles(const std::string& folder) {
-  const auto there = tiles_in(folder);
+  std::error_code failed;
+  const auto there = tiles_in(folder, failed);
+  if (failed) throw bad_input(folder, "opening", failed.message(), "a folder of tiles");
   if (there.empty())
     throw bad_input(folder, "tiles", "none", "files tile_COLUMN_ROW.exr of gonio fit_map --tile");
   const auto path_of = [&](const Tile& t) { return (fs::path(folder) / file_name(t)).string(); };
@@ -90,9 +83,7 @@ Tiles sound_tiles(const std::string& folder) {
   const std::string first = path_of(*there.begin());
   all.header = read_exr_header(first);
   all.grid = grid_of(all.header, first);
-  for (const char* name :
-       {"gonio:version", "gonio:model", "gonio:options", "gonio:stack", "gonio:channels"})
-    all.map[name] = attribute_of(all.header, name, first, "a tile of gonio fit_map");
+  all.map = map_attributes(all.header, first);
 
   // Without a list of the grid's tiles: a file that lies may name billions.
   const TileGrid& grid = all.grid;
@@ -202,9 +193,7 @@ std::pair<std::string, std::size_t> as_told(const MapParameter& p) {
 
 bool has_tiles(const std::string& folder) {
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none))
-    if (tile_of_name(entry.path().filename().string())) return true;
-  return false;
+  return !tiles_in(folder, none).empty();
 }
 
 MapDocument gather_tiles(const std::string& folder, OutputFile& out, int threads) {

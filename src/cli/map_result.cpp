@@ -24,7 +24,7 @@ void print(const MapDocument& d, const std::string& beside) {
   std::string ended =
       fmt::format("{} × {}, {} converged", d.width, d.height, percent(d.converged, texels));
   if (d.not_converged) ended += fmt::format(", {} did not", percent(d.not_converged, texels));
-  if (d.no_data) ended += fmt::format(", {} without enough values", percent(d.no_data, texels));
+  if (d.no_data) ended += fmt::format(", {} without a value", percent(d.no_data, texels));
   if (!beside.empty()) ended += "; " + beside;
   say_below("texels  ", ended);
   for (const auto& p : d.parameters) {
