@@ -34,6 +34,8 @@ gather_licences() {
   cp build/ceres/source/LICENSE "$to/ceres-solver.txt"
   cp "$("$python" -c 'import importlib.metadata as m; print(next(p.locate() for p in m.files("nanobind") if p.name == "LICENSE"))')" \
     "$to/nanobind.txt"
+  # robin-map comes with nanobind, with its licence at the head of each file.
+  sed '/\*\//q' "$("$python" -m nanobind --include_dir)/../ext/robin_map/include/tsl/robin_map.h" >"$to/robin-map.txt"
   cp build/wheel/reports/npm/node_modules/uplot/LICENSE "$to/uplot.txt"
 }
 
