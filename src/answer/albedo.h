@@ -38,11 +38,12 @@ struct AlbedoAnswer {
   double error = 0;  ///< the greatest of all
 };
 
+/// Listener to the work: what is done, and how many walks of how many.
+using AlbedoStep = std::function<void(const std::string& what, std::size_t done, std::size_t all)>;
+
 /// Answer by integrals, walks or transport.
 /// \param name  of the model, in errors
-/// \param step  is told what is done, and how many walks of how many
 /// \throws Error  wrong_usage of a question that cannot be answered, bad_input of a model whose albedo is not finite
-using AlbedoStep = std::function<void(const std::string& what, std::size_t done, std::size_t all)>;
 AlbedoAnswer albedo_of(const BoundModel&,
                        const std::string& name,
                        const AlbedoQuestion&,

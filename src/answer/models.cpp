@@ -48,12 +48,12 @@ Json describe(const About& about, std::span<const Parameter> parameters) {
 
 }  // namespace
 
-Entries entries_with(const std::string& word) {
+CatalogueEntries entries_with(const std::string& word) {
   const auto wanted = [&](const About& a, std::span<const Parameter> parameters) {
     return holds(a.id, word) || holds(a.title, word) || holds(a.source, word) ||
            std::ranges::find(parameters, word, &Parameter::name) != parameters.end();
   };
-  Entries e;
+  CatalogueEntries e;
   for (const auto& t : catalogue())
     if (wanted(*t.about, t.parameters) || (t.anisotropic && word == tangent_parameter.name))
       e.terms.push_back(&t);
@@ -72,7 +72,7 @@ Entries entries_with(const std::string& word) {
   return e;
 }
 
-std::string to_json(const Entries& e) {
+std::string to_json(const CatalogueEntries& e) {
   Json terms = Json::array(), map = Json::array(), model = Json::array(), metal = Json::array();
   for (const auto* t : e.terms) {
     terms.push_back(describe(*t->about, t->parameters));

@@ -13,7 +13,7 @@
 namespace gonio {
 
 /// Entries of the catalogue, in its order.
-struct Entries {
+struct CatalogueEntries {
   std::vector<const TermEntry*> terms;
   std::vector<const MapEntry*> maps;
   std::vector<const Preset*> presets;
@@ -23,9 +23,9 @@ struct Entries {
 
 /// Entries that hold a word in their id, title or source, whatever its case, or have a parameter of that name; "" all.
 /// \throws Error  wrong_usage where there is none
-Entries entries_with(const std::string& word);
+CatalogueEntries entries_with(const std::string& word);
 
 /// {"terms", "maps", "models", "metals"}
-std::string to_json(const Entries&);
+std::string to_json(const CatalogueEntries&);
 
 }  // namespace gonio

@@ -64,7 +64,7 @@ void print_all() {
 }
 
 Exit run(const Options& o) {
-  const Entries found = entries_with(o.word);
+  const CatalogueEntries found = entries_with(o.word);
   if (o.json) {
     fmt::print("{}", to_json(found));
     return Exit::done;
