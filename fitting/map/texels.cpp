@@ -9,7 +9,7 @@
 #include "fitting/judge/uncertainty.h"
 #include "fitting/map/passes.h"
 #include "fitting/solve/order.h"
-#include "geometry/direction.h"
+#include "geometry/vector.h"
 
 #include <fmt/format.h>
 
@@ -19,6 +19,17 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 /// Steps of the first round, after which texels that are not there yet wait for a register full of their kind; and of all.
 constexpr int first_steps = 8, most_steps = 150;
+
+/// Puts a lane's frame, tangent, bitangent and normal.
+/// \return  the bitangent
+Direction put_frame(Column<float>& to, std::size_t lane, const Direction& x, const Direction& z) {
+  const Vector y = cross(vector_of(z), vector_of(x));
+  std::size_t k = 0;
+  for (const Vector& axis : {vector_of(x), y, vector_of(z)})
+    for (const double part : {axis.x, axis.y, axis.z})
+      to[k++ * padding + lane] = static_cast<float>(part);
+  return {y.x, y.y, y.z};
+}
 
 /// Texel on its way, between two rounds.
 struct Waiting {
@@ -181,11 +192,7 @@ void LaneFit::put_frames(std::span<const std::size_t> texels) {
     const double across = std::hypot(z.y, z.z);
     const Direction x = across > 1e-6 ? Direction{across, -z.x * z.y / across, -z.x * z.z / across}
                                       : Direction{0, 0, z.x > 0 ? -1.0 : 1.0};
-    const Direction y{z.y * x.z - z.z * x.y, z.z * x.x - z.x * x.z, z.x * x.y - z.y * x.x};
-    std::size_t k = 0;
-    for (const auto& axis : {x, y, z})
-      for (const double part : {axis.x, axis.y, axis.z})
-        base_[k++ * padding + l] = static_cast<float>(part);
+    put_frame(base_, l, x, z);
   }
   std::copy_n(base_.data(), 9 * padding, frame_.data());
   for (std::size_t k = 0; k < 4; ++k)
@@ -337,12 +344,8 @@ void LaneFit::put_values(const float* unknowns) {
     const double along = dot(x0, z), across = std::sqrt(1 - along * along);
     const Direction x{(x0.x - along * z.x) / across, (x0.y - along * z.y) / across,
                       (x0.z - along * z.z) / across};
-    const Direction y{z.y * x.z - z.z * x.y, z.z * x.x - z.x * x.z, z.x * x.y - z.y * x.x};
+    const Direction y = put_frame(frame_, l, x, z);
     std::size_t k = 0;
-    for (const auto& a : {x, y, z})
-      for (const double part : {a.x, a.y, a.z})
-        frame_[k++ * padding + l] = static_cast<float>(part);
-    k = 0;
     for (const auto& by : {x0, y0})  // x and y are across z: its part drops out
       for (const auto& a : {x, y})
         turn_[k++ * padding + l] = static_cast<float>(dot(by, a) / length);
