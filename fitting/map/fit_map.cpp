@@ -11,12 +11,34 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_describe.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 namespace gonio {
+
+template <>
+struct Description<TilesDocument> {
+  static constexpr auto fields() {
+    return std::tuple{
+        constant_text("schema", "gonio.map_tiles/1"),
+        field("tiles", "", &TilesDocument::tiles, "paths of the tiles that were asked for"),
+        field("kept", "", &TilesDocument::kept, "how many of them were there from before"),
+        field("columns", "", &TilesDocument::columns, "of all tiles of the map"),
+        field("rows", "", &TilesDocument::rows, "of all tiles of the map")};
+  }
+};
+static_assert(describes_every_member<TilesDocument>());
+
+std::string to_json(const TilesDocument& d) {
+  return text_of(json_of(d));
+}
+std::string map_tiles_schema() {
+  return schema_text<TilesDocument>("Tiles of a map");
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -73,11 +95,9 @@ std::map<std::size_t, std::vector<Tile>> missing_of(std::span<const Tile> tiles,
 /// Refuses a folder that holds a tile of another map, before work is put beside it.
 void expect_no_other(const MapAttributes& map, const TileGrid& grid, const fs::path& folder) {
   std::error_code none;
-  std::vector<Tile> there;
-  for (const auto& entry : fs::directory_iterator(folder, none))
-    if (const auto tile = tile_of_name(entry.path().filename().string())) there.push_back(*tile);
+  const auto there = tiles_in(folder.string(), none);
   if (there.empty()) return;
-  const Tile first = *std::ranges::min_element(there);
+  const Tile first = *there.begin();
   const std::string path = (folder / file_name(first)).string();
   expect_of(attributes_of(map, grid, first), read_exr_header(path), path);
 }

@@ -1,17 +1,28 @@
 #pragma once
 /// \file
-/// Fits of the tiles of a map, each into a file of its own in a folder.
+/// Fits of the tiles of a map, each into a file of its own in a folder, and the document that names them.
 
 #include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "fitting/map/texels.h"
 #include "fitting/map/tiles.h"
 #include "stack/stack_reader.h"
 
 namespace gonio {
+
+/// What a run that was asked for some tiles has made.
+struct TilesDocument {
+  std::vector<std::string> tiles;     ///< paths of those that were asked for
+  std::size_t kept = 0;               ///< of these there from before
+  std::size_t columns = 0, rows = 0;  ///< of all tiles of the map
+};
+/// "gonio.map_tiles/1"
+std::string to_json(const TilesDocument&);
+std::string map_tiles_schema();
 
 /// State of a map while it is being fitted.
 struct MapCount {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 
 #include "base/error.h"
@@ -46,8 +47,7 @@ std::array<std::size_t, 2> pair_in(const Image& header,
   std::array<std::size_t, 2> numbers{};
   for (std::size_t k = 0; k < 2; ++k) {
     const auto n = parts.size() == 2 ? number_from<std::size_t>(parts[k]) : std::nullopt;
-    constexpr std::size_t most = 1 << 14;
-    if (!n || *n == 0 || *n > most) throw bad_input(path, name, text, "two sizes");
+    if (!n || *n == 0 || *n > longest_side) throw bad_input(path, name, text, "two sizes");
     numbers[k] = *n;
   }
   return numbers;
@@ -75,6 +75,14 @@ MapAttributes attributes_of(const StackReader& stack, const TexelOptions& option
           {"gonio:channels", fmt::format("{}", fmt::join(stack.channels(), ","))}};
 }
 
+MapAttributes map_attributes(const Image& header, const std::string& path) {
+  MapAttributes all;
+  for (const char* name :
+       {"gonio:version", "gonio:model", "gonio:options", "gonio:stack", "gonio:channels"})
+    all[name] = attribute_of(header, name, path, "a tile of gonio fit_map");
+  return all;
+}
+
 MapAttributes attributes_of(const MapAttributes& map, const TileGrid& grid, const Tile& tile) {
   MapAttributes all = map;
   all["gonio:schema"] = "gonio.map_tile/1";
@@ -99,6 +107,13 @@ std::optional<Tile> tile_of_name(const std::string& name) {
   const auto column = number_from<std::size_t>(parts[0]), row = number_from<std::size_t>(parts[1]);
   if (!column || !row || file_name({*column, *row}) != name) return std::nullopt;
   return Tile{*column, *row};
+}
+
+std::set<Tile> tiles_in(const std::string& folder, std::error_code& failed) {
+  std::set<Tile> there;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
+    if (const auto t = tile_of_name(entry.path().filename().string())) there.insert(*t);
+  return there;
 }
 
 TileGrid grid_of(const Image& header, const std::string& path) {

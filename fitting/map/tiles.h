@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "fitting/map/texels.h"
@@ -37,12 +39,17 @@ struct TileGrid {
 /// "gonio:stack" (StackReader::digest()) and "gonio:channels".
 using MapAttributes = std::map<std::string, std::string>;
 MapAttributes attributes_of(const StackReader&, const TexelOptions&);
+/// The same of a tile's file.
+MapAttributes map_attributes(const Image& header, const std::string& path);
 
 /// Attributes of a tile's file: those of the map and the tile's place.
 MapAttributes attributes_of(const MapAttributes& map, const TileGrid&, const Tile&);
 /// "tile_COLUMN_ROW.exr", and back; no value of any other name
 std::string file_name(const Tile&);
 std::optional<Tile> tile_of_name(const std::string& file_name);
+/// Tiles whose files lie in a folder, by their names alone.
+/// \param failed  why the folder cannot be read
+std::set<Tile> tiles_in(const std::string& folder, std::error_code& failed);
 /// Grid that a tile's file says that it is of.
 TileGrid grid_of(const Image& header, const std::string& path);
 /// Refuses a tile of another stack, of other options, another version or another grid.

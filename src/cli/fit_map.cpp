@@ -8,12 +8,12 @@
 
 #include "base/file.h"
 #include "cli/command.h"
+#include "cli/fit_options.h"
 #include "cli/map_result.h"
 #include "cli/terminal.h"
 #include "fitting/map/gather.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace gonio::cli {
 namespace {
@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options : Common {
-  std::string stack, metric, output, tile_size = "256";
+  std::string stack, metric{name_of(TexelOptions{}.metric)}, output, tile_size = "256";
   std::vector<std::string> fix, bounds, tiles;
   TexelOptions texels;
 };
@@ -53,7 +53,7 @@ class MapProgress {
 Exit run_tiles(const Options& o, const StackReader& stack, const TileGrid& grid) {
   std::vector<Tile> tiles;
   for (const auto& word : o.tiles) {
-    const auto place = two_numbers(word, "--tile", 0, 16384, false);
+    const auto place = two_numbers(word, "--tile", 0, longest_side, false);
     const Tile tile{place[0], place[1]};
     if (tile.column >= grid.columns() || tile.row >= grid.rows())
       throw wrong_usage(fmt::format("--tile {}: the map of {} × {} has the tiles 0,0 to {},{}",
@@ -64,14 +64,10 @@ Exit run_tiles(const Options& o, const StackReader& stack, const TileGrid& grid)
   MapProgress progress(o.quiet, grid);
   const MapCount n = fit_tiles(stack, o.texels, grid, tiles, o.output, std::ref(progress));
   progress.line().clear();
-  std::vector<std::string> paths;
-  for (const Tile& t : tiles) paths.push_back((fs::path(o.output) / file_name(t)).string());
+  TilesDocument d{{}, n.kept, grid.columns(), grid.rows()};
+  for (const Tile& t : tiles) d.tiles.push_back((fs::path(o.output) / file_name(t)).string());
   if (o.json)
-    print_document({{"schema", "gonio.map_tiles/1"},
-                    {"tiles", paths},
-                    {"kept", n.kept},
-                    {"columns", grid.columns()},
-                    {"rows", grid.rows()}});
+    fmt::print("{}", to_json(d));
   else
     say("tiles   {} of {} × {} in {}{}\n", tiles.size(), grid.columns(), grid.rows(), o.output,
         n.kept ? fmt::format(", {} there from before", n.kept) : "");
@@ -82,10 +78,10 @@ Exit run(const Options& o) {
   use_jobs(o.jobs);
   Options with = o;
   TexelOptions& t = with.texels;
-  if (!o.metric.empty()) t.metric = value_of<Metric>(o.metric, "metric");
+  t.metric = value_of<Metric>(o.metric, "metric");
   t.fixed = parse_settings(o.fix);
   t.bounds = parse_settings(o.bounds);
-  const auto tile_size = two_numbers(o.tile_size, "--tile-size", 1, 16384, true);
+  const auto tile_size = two_numbers(o.tile_size, "--tile-size", 1, longest_side, true);
   check_outputs({o.stack}, {o.output});
 
   Progress progress(o.quiet);
@@ -128,13 +124,8 @@ void add_fit_map(CommandLine& line) {
       "maps.exr\n  gonio fit_map stack/stack.json --tile 2,0 -o tiles/",
       run);
   c.option("STACK", o->stack, "Images and their directions: a document gonio.stack/1").required();
-  c.option("--model", o->texels.model, "Model; all its parameters are fitted").show_default();
-  c.option("--fix", o->fix, "Parameters held at a value: NAME=VALUE …").at_most(64);
-  c.option("--bounds", o->bounds, "Where a parameter is looked for: NAME=LOW,HIGH …").at_most(64);
-  c.option("--grey", o->texels.grey, "Colour parameters with one value for all channels: NAME …")
-      .at_most(64);
-  c.option("--metric", o->metric, "l2_cosine, log or relative (l2_cosine)")
-      .one_of(names_of<Metric>);
+  add_model_words(c, o->texels.model, o->fix, o->bounds, o->texels.grey);
+  add_metric(c, o->metric);
   c.option("--offset", o->texels.offset, "Added to all values by log and relative [1/sr]")
       .in(0.0, 1e6);
   c.flag("--refine-normals", o->texels.refine_normals, "Fit the normals, too; of isotropic models");

@@ -20,6 +20,14 @@ struct FitWords {
 };
 /// The tables: files, folders, @LIST.
 void add_tables(Command&, std::vector<std::string>& files);
+/// --model, --fix, --bounds and --grey, which fits of tables and of texels share.
+std::vector<Option> add_model_words(Command&,
+                                    std::string& model,
+                                    std::vector<std::string>& fix,
+                                    std::vector<std::string>& bounds,
+                                    std::vector<std::string>& grey);
+/// --metric
+Option add_metric(Command&, std::string& metric);
 /// \return  the options, each of which may be asked for the words that this call gives it
 std::vector<Option> add_fit_words(Command&, FitWords&);
 /// --pages

@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "data_synth/stack_synth.h"
+#include "image/image_file.h"
 #include "table/format/csv.h"
 #include "table/format/formats.h"
 
@@ -84,7 +85,7 @@ Exit run_map(const Options& o) {
   if (o.size) {
     if (o.parameters || o.normals)
       throw wrong_usage("--size goes with constants; images have a size of their own");
-    const auto size = two_numbers(*o.size, "--size", 1, 16384, true);
+    const auto size = two_numbers(*o.size, "--size", 1, longest_side, true);
     s.width = size[0];
     s.height = size[1];
   }

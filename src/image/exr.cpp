@@ -62,8 +62,9 @@ void expect_sound_exr(const std::string& path) {
   }
   // For rows and columns, too, it allocates on opening.
   [[maybe_unused]] static const bool limited = [] {  // once: every thread that reads shares them
-    Imf::Header::setMaxImageSize(longest_side, longest_side);
-    Imf::Header::setMaxTileSize(longest_side, longest_side);
+    constexpr auto most = static_cast<int>(longest_side);
+    Imf::Header::setMaxImageSize(most, most);
+    Imf::Header::setMaxTileSize(most, most);
     return true;
   }();
 }

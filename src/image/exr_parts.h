@@ -10,14 +10,12 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "image/exr.h"
+#include "image/image_file.h"
 
 #include <OpenEXR/ImfHeader.h>
 #include <half.h>
 
 namespace gonio {
-
-/// The longest side of an image or a tile.
-inline constexpr int longest_side = 1 << 14;
 
 /// Size, channels and text attributes.
 Image without_planes(const Imf::Header&);

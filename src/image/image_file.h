@@ -10,6 +10,9 @@
 
 namespace gonio {
 
+/// Most pixels along a side of an image, or of a tile of one.
+inline constexpr std::size_t longest_side = std::size_t{1} << 14;
+
 /// Part of an image; row 0 is its top one.
 struct Rectangle {
   std::size_t x = 0, y = 0, width = 0, height = 0;
@@ -46,7 +49,7 @@ class ImageFile {
   std::vector<std::string> channels_;
 };
 
-/// Image of a path: OpenEXR of one part, scan lines or tiles, or an array of NumPy's.  At most 16384 pixels wide or high.
+/// Image of a path: OpenEXR of one part, scan lines or tiles, or an array of NumPy's.  At most `longest_side` pixels wide or high.
 std::unique_ptr<ImageFile> open_image(const std::string& path);
 
 }  // namespace gonio

@@ -159,7 +159,7 @@ class NpyFile : public ImageFile {
     const std::size_t channels = shape.size() == 3 ? shape[2] : 1;
     constexpr std::size_t most = 1024;
     for (const std::size_t n : {width_, height_})
-      if (n == 0 || n > static_cast<std::size_t>(longest_side))
+      if (n == 0 || n > longest_side)
         throw bad_input(path, "shape", words(shape), fmt::format("1 to {} pixels", longest_side));
     if (channels == 0 || channels > most)
       throw bad_input(path, "shape", words(shape), fmt::format("1 to {} channels", most));

@@ -55,6 +55,7 @@ TEST(Schemas, OfTablesAndFitsAreWhatTheDescriptionsSay) {
                                    {"scene", scene::scene_schema()},
                                    {"stack", stack_schema()},
                                    {"map", map_schema()},
+                                   {"map_tiles", map_tiles_schema()},
                                    {"plan", scene::plan_schema()},
                                    {"verification", scene::verification_schema()},
                                    {"choice", choice_schema()},
@@ -180,6 +181,9 @@ TEST(Schemas, HoldForStacksAndMaps) {
   const auto o = gonio(f, "fit_map s/stack.json --fix f0=0.05 -o maps.exr --json");
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(mistakes(o.json(), "map"), "");
+  const auto tiles = gonio(f, "fit_map s/stack.json --fix f0=0.05 --tile 0,0 -o t --json");
+  ASSERT_EQ(tiles.code, 0) << tiles.err;
+  EXPECT_EQ(mistakes(tiles.json(), "map_tiles"), "");
 }
 
 /// Places of all values of a document.
