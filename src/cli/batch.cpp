@@ -72,7 +72,8 @@ Exit run(const Options& o) {
                     {"then", then}});
     return Exit::done;
   }
-  say("written  {}: {} tables in {} parts\n", o.output, job.tables, job.parts);
+  say("written  {}: {} in {}\n", o.output, counted(job.tables, "table"),
+      counted(job.parts, "part"));
   say("begin    {}\n", begin);
   say("then     {}\n", then);
   return Exit::done;

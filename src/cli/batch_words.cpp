@@ -61,8 +61,8 @@ void print_left_out(const BatchSummary& s) {
       if (d.why == why) names.push_back(d.document);
     if (!names.empty())
       say_below("beware  ",
-                fmt::format("{} document{} there, {}, not in the summary: {}", names.size(),
-                            names.size() == 1 ? "" : "s", words(why), some_of(names)));
+                fmt::format("{} there, {}, not in the summary: {}",
+                            counted(names.size(), "document"), words(why), some_of(names)));
   }
 }
 

@@ -33,10 +33,6 @@ struct Options : Common {
   bool pages = false;
 };
 
-/// "1 iteration", "2 iterations".
-std::string counted(std::size_t n, std::string_view thing) {
-  return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
-}
 /// Name of a reason or an end as people write it.
 std::string words(std::string_view name) {
   std::string s(name);
