@@ -28,19 +28,14 @@ class Written {
  public:
   /// \param rows, columns  of an array whose rows are contiguous
   Written(std::size_t rows, std::size_t columns)
-      : rows_(rows), columns_(columns), numbers_(std::make_unique<Values>(rows * columns)) {}
-  double* row(std::size_t k) { return numbers_->data() + k * columns_; }
+      : rows_(rows), columns_(columns), numbers_(rows * columns) {}
+  double* row(std::size_t k) { return numbers_.data() + k * columns_; }
   /// With the interpreter's lock held.
-  Owned hand_over() {
-    const nb::capsule owner(numbers_.get(),
-                            [](void* p) noexcept { delete static_cast<Values*>(p); });
-    auto* kept = numbers_.release();
-    return Owned(kept->data(), {rows_, columns_}, owner);
-  }
+  Owned hand_over() { return owning<Owned>(std::move(numbers_), {rows_, columns_}); }
 
  private:
   std::size_t rows_, columns_;
-  std::unique_ptr<Values> numbers_;
+  Values numbers_;
 };
 
 DirectionColumns directions(const Column& theta_i,
@@ -49,8 +44,7 @@ DirectionColumns directions(const Column& theta_i,
                             const Column& phi_o) {
   for (const auto* c : {&phi_i, &theta_o, &phi_o})
     if (c->size() != theta_i.size()) throw wrong_usage("directions: columns of one length");
-  const auto span = [](const Column& c) { return std::span(c.data(), c.size()); };
-  const DirectionColumns at{span(theta_i), span(phi_i), span(theta_o), span(phi_o)};
+  const DirectionColumns at{span_of(theta_i), span_of(phi_i), span_of(theta_o), span_of(phi_o)};
   check_directions("directions", at);
   return at;
 }

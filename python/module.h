@@ -5,7 +5,10 @@
 ///
 /// Every call that works lets other threads of Python run meanwhile.
 
+#include <initializer_list>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -26,6 +29,19 @@ using Column = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::
 /// Arrays that are handed over without a copy; they hold what owns their memory.  One that others look at is not to be written to.
 using View = nb::ndarray<nb::numpy, const double>;
 using Owned = nb::ndarray<nb::numpy, double>;
+
+/// Numbers of an array, in place.
+inline std::span<const double> span_of(const Column& c) {
+  return {c.data(), c.size()};
+}
+/// Array that owns the numbers of a container, without a copy.  With the interpreter's lock held.
+template <class Array, class Numbers>
+Array owning(Numbers numbers, std::initializer_list<std::size_t> shape) {
+  auto held = std::make_unique<Numbers>(std::move(numbers));
+  const nb::capsule owner(held.get(), [](void* p) noexcept { delete static_cast<Numbers*>(p); });
+  auto* const kept = held.release();
+  return Array(kept->data(), shape, owner);
+}
 
 /// A parameter's name, its numbers, and its text where it is no number.
 using Settings = std::vector<std::tuple<std::string, std::vector<double>, std::string>>;

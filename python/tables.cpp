@@ -22,10 +22,6 @@ Table read(const std::string& path, const std::optional<std::string>& bins) {
   return std::move(in.table);
 }
 
-std::span<const double> span_of(const Column& c) {
-  return {c.data(), c.size()};
-}
-
 void expect_as_long(const char* name, const Column& c, std::size_t n) {
   if (c.size() != n)
     throw wrong_usage(std::string(name) + ": " + std::to_string(c.size()) + " values of " +
@@ -56,15 +52,6 @@ View view(const Self& self, const double* data, std::size_t n) {
   return View(data, {n}, self.h);
 }
 
-/// Array that owns its numbers.
-View own(std::vector<double> numbers) {
-  auto held = std::make_unique<std::vector<double>>(std::move(numbers));
-  const nb::capsule owner(held.get(),
-                          [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
-  const auto* kept = held.release();
-  return View(kept->data(), {kept->size()}, owner);
-}
-
 /// One of the four angles of all samples: in place of a list; of a grid it is computed.
 View angle(const Self& self, std::size_t which) {
   const Table& t = *self.p;
@@ -79,7 +66,8 @@ View angle(const Self& self, std::size_t which) {
     const SampleAngles at(t);
     for (std::size_t i = 0; i < angles.size(); ++i) angles[i] = angles_deg(t, at, i)[which];
   }
-  return own(std::move(angles));
+  const std::size_t n = angles.size();
+  return owning<View>(std::move(angles), {n});
 }
 
 }  // namespace
