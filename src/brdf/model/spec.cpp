@@ -9,11 +9,23 @@
 #include <fmt/format.h>
 
 namespace gonio {
+namespace {
+
+/// Parts of a model: a diffuse term and 16 lobes.  Each is read, drawn and integrated for itself, so a file's cost is bounded by
+/// them.
+constexpr std::size_t most_parts = 1 + 16;
+
+}  // namespace
 
 std::vector<std::vector<std::string>> parse_spec(std::string_view spec) {
+  const auto written = split(spec, '+');
+  if (written.size() > most_parts)
+    throw wrong_usage(
+        fmt::format("model '{}': {} parts, where {} lobes and a diffuse term are most",
+                    printable(spec, 80), written.size(), most_parts - 1));
   std::vector<std::vector<std::string>> parts;
   bool lobe_seen = false;
-  for (const auto& part : split(spec, '+')) {
+  for (const auto& part : written) {
     auto names = split(part, '/');
     if (names.size() != 1 && names.size() != 3)
       throw wrong_usage(fmt::format(

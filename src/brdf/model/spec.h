@@ -12,7 +12,7 @@
 
 namespace gonio {
 
-/// The parts of a spec as written: one name for a diffuse term, three for a lobe.
+/// The parts of a spec as written: one name for a diffuse term, three for a lobe.  More than 17 of them are wrong usage.
 std::vector<std::vector<std::string>> parse_spec(std::string_view spec);
 
 struct Setting {

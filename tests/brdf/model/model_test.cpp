@@ -56,6 +56,13 @@ TEST(Spec, IsADiffuseTermAndLobesInAnyNumber) {
   EXPECT_EQ(parse_spec("d+a/b.x/c+e/f/g"), (Parts{{"d"}, {"a", "b.x", "c"}, {"e", "f", "g"}}));
 }
 
+TEST(Spec, HasSixteenLobesAtMost) {
+  std::string most = "lambert";
+  for (int i = 0; i < 16; ++i) most += "+" + ggx;
+  EXPECT_EQ(parse_spec(most).size(), 17u);
+  expect_refused([&] { parse_spec(most + "+" + ggx); }, {"18 parts", "16 lobes"});
+}
+
 TEST(Spec, OfAnotherFormIsRefused) {
   for (const std::string bad :
        {"", "+", "lambert+", "+a/b/c", "a/b", "a/b/c/d", "a//c", "/b/c", "a/b/", "lambert+lambert",

@@ -77,6 +77,9 @@ TEST(Choice, NamesThePlaceOfWhatItDoesNotTake) {
   refused("/coating", "view", "c.json: /coating: found ");
   refused("/coating", "inside", "c.json: /coating: found ");
   refused("/model", "lambert+coat:ggx/smith_ggx.correlated/schlick", "view or both, beside a coat");
+  std::string lobes = plain()["model"];
+  for (int i = 1; i < 500; ++i) lobes += "+" + std::string(plain()["model"]);
+  refused("/model", lobes, "16 lobes");
   for (const char* budget : {"fresnel_error", "energy_loss"}) {
     json j = {{"schema", "gonio.choice/1"}, {"model", "lambert"}, {"domain", {{"eta", 1.5}}}};
     j["budgets"][budget] = 0.1;
