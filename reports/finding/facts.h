@@ -56,6 +56,7 @@ struct Facts {
     bool of_image_light;  ///< else of a single light
     double ns, spread;    ///< [ns]
     std::size_t bytes;    ///< of tables beyond those that single scattering needs
+    double without_ns;    ///< of single scattering, in the same run
   };
   std::vector<Compensation> compensations{};
   /// ΔE2000 of the split sum against the integral that it stands for, under a sky, over views.

@@ -70,17 +70,22 @@ bool is_exact(const Candidate& c) {
 /// Cost of the cheap form.
 constexpr std::string_view no_more = "none (the cheap form)";
 
+/// "0.10 ns", "7.7 ns", "13 ns": one rounding, so that times beside each other agree.
+std::string ns_text(double ns) {
+  const double size = std::abs(ns);
+  return fmt::format("{:.{}f} ns", size, size < 0.995 ? 2 : size < 9.95 ? 1 : 0);
+}
 /// "+0.40 ns", or that it takes no more.
 std::string cost_text(const Candidate& taken, const Candidate& cheap) {
   if (&taken == &cheap || taken.form == cheap.form) return std::string(no_more);
   const auto d = more(cheap, taken);
   if (!d.survives) return "none measured";
-  return fmt::format("{}{:.2f} ns", d.ns < 0 ? "−" : "+", std::abs(d.ns));
+  return (d.ns < 0 ? "−" : "+") + ns_text(d.ns);
 }
 /// What to take instead where time is what lacks, what that saves and what it leaves.
 std::string cheaper_text(const Candidate& cheaper, const Candidate& taken, std::string_view left) {
-  return fmt::format("time is short: {} saves {:.2g} ns, {}", name_of_form(cheaper.form),
-                     more(cheaper, taken).ns, left);
+  return fmt::format("time is short: {} saves {}, {}", name_of_form(cheaper.form),
+                     ns_text(more(cheaper, taken).ns), left);
 }
 /// Aside on the cost, where both stand in a whole model: that it vanishes where memory is the limit.
 std::string streaming_aside(const Facts& f, std::string_view taken, std::string_view cheap) {
@@ -291,7 +296,8 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
   const auto* taken = choose(all, single, side_by_side);
   if (!from || !of_plastic || !taken) return;
   const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
-  const auto more_ns = fmt::format("+{:.2g} ns", taken->ns);
+  const auto more_ns =
+      fmt::format("+{} on {} a call", ns_text(taken->ns), ns_text(costs->without_ns));
   const auto* other = nearest_cheaper(all, *taken);
   const auto later = seen_from(f, plastic);
   const auto of_f0 =
