@@ -50,16 +50,26 @@ function uncrowded(texts, places, room) {
   return texts.map((text, i) => (rule(i) ? text : ""));
 }
 
+/// Boxes that cover a straight line.
+function covered(from, to) {
+  const steps = Math.ceil(Math.hypot(to.x - from.x, to.y - from.y) / 4) || 1;
+  return Array.from({ length: steps + 1 }, (_, i) => {
+    const part = i / steps, x = from.x + part * (to.x - from.x), y = from.y + part * (to.y - from.y);
+    return [x - 2, y - 2, x + 2, y + 2];
+  });
+}
+
 /// Where labels of points go, so that none hides another: [[text, x, y]…], as many as find a place.
 /// \param points  [{x, y, label, width}] in pixels   \param box  {left, top, right, bottom} to stay in
-/// \param lines   [[{x, y}…]…], level ones to keep off
+/// \param lines   [[{x, y}…]…] to keep off
 function label_places(points, box, lines = []) {
   const taken = [...points.map(({ x, y }) => [x - 3, y - 3, x + 3, y + 3]),
-    ...lines.map((l) => [l[0].x, Math.min(l[0].y, l.at(-1).y) - 1, l.at(-1).x, Math.max(l[0].y, l.at(-1).y) + 1])], out = [];
+    ...lines.flatMap((l) => l.slice(1).flatMap((to, i) => covered(l[i], to)))], out = [];
   const free = ([l, t, r, b]) => l > box.left && r < box.right && t > box.top && b < box.bottom
     && !taken.some((o) => l < o[2] && o[0] < r && t < o[3] && o[1] < b);
   for (const { x, y, label, width: w } of points) {
-    const place = [[x + 5, y - 16, x + 5 + w, y - 3], [x - 5 - w, y - 16, x - 5, y - 3], [x + 5, y + 3, x + 5 + w, y + 16], [x - 5 - w, y + 3, x - 5, y + 16]].find(free);
+    const beside = [[5, -16], [-5 - w, -16], [5, 3], [-5 - w, 3], [7, -6], [-7 - w, -6], [-w / 2, -18], [-w / 2, 5]];
+    const place = beside.map(([right, down]) => [x + right, y + down, x + right + w, y + down + 13]).find(free);
     if (!place) continue;
     taken.push([place[0] - 4, place[1], place[2] + 4, place[3]]);  // two numbers side by side are not one
     out.push([label, place[0], (place[1] + place[3]) / 2]);
@@ -184,11 +194,10 @@ function curve_plot(data, series, o) {
   }
   const most_labels = 60;  // more of them would hide the points
   function draw_labels(u) {
-    const points = [], level = new Map(), g = u.ctx, ratio = devicePixelRatio, { left, top, width, height } = u.bbox;
+    const points = [], ways = new Map(), g = u.ctx, ratio = devicePixelRatio, { left, top, width, height } = u.bbox;
     g.save();
     g.font = plot_font.replace("12px", "11px");
-    drawn(u, (s, i, x, y) => s.mute && level.set(s, [...level.get(s) ?? [], { x: u.valToPos(x, "x"), y: u.valToPos(y, "y") }]));
-    const lines = [...level.values()].filter((l) => Math.abs(l[0].y - l.at(-1).y) < 2);
+    drawn(u, (s, i, x, y) => s.mute && ways.set(s, [...ways.get(s) ?? [], { x: u.valToPos(x, "x"), y: u.valToPos(y, "y") }]));
     drawn(u, (s, i, x, y) => s.labels?.[i] && points.push({ x: u.valToPos(x, "x"), y: u.valToPos(y, "y"), label: s.labels[i], width: g.measureText(s.labels[i]).width }));
     if (points.length && points.length <= most_labels) {
       g.translate(left, top);
@@ -196,7 +205,7 @@ function curve_plot(data, series, o) {
       g.fillStyle = color("ink");
       g.textBaseline = "middle";
       g.textAlign = "left";
-      for (const [label, x, y] of label_places(points, { left: 0, top: 0, right: width / ratio, bottom: height / ratio }, lines)) g.fillText(label, x, y);
+      for (const [label, x, y] of label_places(points, { left: 0, top: 0, right: width / ratio, bottom: height / ratio }, [...ways.values()])) g.fillText(label, x, y);
     }
     g.restore();
   }

@@ -150,7 +150,7 @@ class Drawing {
     return c.kind == FigureCurve::Kind::line ? out : out + points;
   }
 
-  /// Beside its point, above or below a bar of its error, where it hides no other.
+  /// Beside its point, above or below a bar of its error, where it hides no other and lies on no dashed line.
   std::string labels() const {
     std::size_t count = 0;
     for (const auto& c : f_.curves) count += c.labels.size();
@@ -165,6 +165,19 @@ class Drawing {
                return b.left < t.right && t.left < b.right && b.top < t.bottom && t.top < b.bottom;
              });
     };
+    const auto cover = [&](double x0, double y0, double x1, double y1) {
+      const int steps = std::max(1, static_cast<int>(std::hypot(x1 - x0, y1 - y0) / 4));
+      for (int i = 0; i <= steps; ++i) {
+        const double x = std::lerp(x0, x1, static_cast<double>(i) / steps),
+                     y = std::lerp(y0, y1, static_cast<double>(i) / steps);
+        taken.push_back({x - 2, y - 2, x + 2, y + 2});
+      }
+    };
+    for (const auto& c : f_.curves)
+      for (std::size_t i = 1; c.dashed && c.kind != FigureCurve::Kind::points && i < c.x.size();
+           ++i)
+        if (drawable(c, i - 1) && drawable(c, i))
+          cover(x_at(c.x[i - 1]), y_at(c.y[i - 1]), x_at(c.x[i]), y_at(c.y[i]));
     std::vector<std::pair<const FigureCurve*, std::size_t>> of;
     for (const auto& c : f_.curves)
       for (std::size_t i = 0; i < c.labels.size(); ++i)
@@ -176,14 +189,21 @@ class Drawing {
     std::string out;
     for (const auto& [c, i] : of) {
       const double x = x_at(c->x[i]), y = y_at(c->y[i]), w = svg::text_width(c->labels[i], 11);
-      for (const Box& b :
-           {Box{x + 5, y - 16, x + 5 + w, y - 3}, Box{x - 5 - w, y - 16, x - 5, y - 3},
-            Box{x + 5, y + 3, x + 5 + w, y + 16}, Box{x - 5 - w, y + 3, x - 5, y + 16}})
+      for (const auto& [right, down] : {std::pair(5.0, -16.0),
+                                        {-5 - w, -16},
+                                        {5, 3},
+                                        {-5 - w, 3},
+                                        {7, -6},
+                                        {-7 - w, -6},
+                                        {-w / 2, -18},
+                                        {-w / 2, 5}}) {
+        const Box b{x + right, y + down, x + right + w, y + down + 13};
         if (free(b)) {
           taken.push_back(b);
           out += svg::text(b.left, b.bottom - 3, c->labels[i], {.fill = svg::ink, .size = 11});
           break;
         }
+      }
     }
     return out;
   }

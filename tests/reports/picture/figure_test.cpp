@@ -88,6 +88,24 @@ TEST(FigureSvg, EscapesItsTexts) {
   EXPECT_NE(svg.find("a &lt;note&gt;"), svg.npos);
 }
 
+/// How far down the label of a point lies, from which a line goes up to the right.
+double label_height(bool dashed) {
+  Figure f = times();
+  f.curves = {{"front", {10, 100}, {0.01, 0.1}, FigureCurve::Kind::line, dashed},
+              {.name = "form",
+               .x = {10},
+               .y = {0.01},
+               .kind = FigureCurve::Kind::points,
+               .labels = {"a label"}}};
+  const std::string svg = drawn(f);
+  const auto text = svg.rfind("<text x=", svg.find(">a label</text>"));
+  return std::stod(svg.substr(svg.find(" y=\"", text) + 4));
+}
+
+TEST(FigureSvg, LaysNoLabelOnADashedLine) {
+  EXPECT_GT(label_height(true), label_height(false) + 15) << "below its point";
+}
+
 TEST(FigureSvg, DrawsEveryPointItsBarAndItsLabel) {
   const std::string svg = drawn(times());
   EXPECT_EQ(occurrences(svg, "<circle"), 4U + 2U) << "points, and those of the legend";
