@@ -97,6 +97,10 @@ void add_maps(Pictures& p, const ScenesRows& r) {
 Pictures pictures(const ScenesRows& r) {
   Pictures p;
   add_front(p, r);
+  // The index shows the first: that with most to see.
+  const auto points = [](const Figure& f) { return f.curves[1].x.size(); };
+  if (const auto most = std::ranges::max_element(p.figures, {}, points); most != p.figures.end())
+    std::rotate(p.figures.begin(), most, most + 1);
   add_maps(p, r);
   return p;
 }

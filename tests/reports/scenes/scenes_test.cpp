@@ -169,6 +169,9 @@ TEST(ScenesReport, PicturesAreWhole) {
   test::expect_whole(report().pictures);
   EXPECT_EQ(report().pictures.figures.size(), 4U);
   EXPECT_EQ(report().pictures.maps.size(), 3U) << "of red plastic";
+  const auto sets = [](const Figure& f) { return f.curves[1].x.size(); };
+  for (const auto& f : report().pictures.figures)
+    EXPECT_LE(sets(f), sets(report().pictures.figures[0])) << "the first has most to see";
   for (const auto& m : report().pictures.maps) EXPECT_EQ(m.line, 1);
 }
 
@@ -278,7 +281,7 @@ TEST(ScenesFindings, BeginWithWhatIsSavedAndWhereNothingIs) {
   const auto f = findings(made_rows());
   ASSERT_FALSE(f.sentences.empty());
   EXPECT_EQ(f.sentences[0],
-            "At no visible difference, plans save at least 60\u00a0% of a float shader’s time in "
+            "At no visible difference, plans save at least 60\u00a0% of a float shader's time in "
             "half of the scenes, and 90\u00a0% for chalk under front light. As good as nothing can "
             "be saved for the material that needs everything under rim light.");
 }
