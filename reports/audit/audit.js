@@ -148,8 +148,8 @@ document.getElementById("page").replaceChildren(
   el("section", {}, el("div", { class: "controls" }, choice("Shown", [["all", "all"], ["mistakes", "mistakes"], ["violations", "break a law"], ["clean", "keep the laws"]], "all", show),
       el("span", { class: "hint" }, "An entry's name opens all that is known of it.")),
     el("p", {}, "Every figure is the worst over the entry's parameters, the ends of their ranges included, and over directions. ∫ D cos θ should be 1. "
-      + "‘Most albedo’ is the largest share of light from one direction that leaves again, at F = 1 and white: above 1 light is made (a distribution without a masking of its own is not judged by it; an uncoupled diffuse term is judged by itself). "
+      + "“Most albedo” is the largest share of light from one direction that leaves again, at F = 1 and white: above 1 light is made (a distribution without a masking of its own is not judged by it; an uncoupled diffuse term is judged by itself). "
       + "What engines ship without 1/π, for lights that bring it along, is divided by π throughout. "
-      + "‘Off by at most’ is the distance to the form named below it. Curves: blue the entry, dashed that form.")),
+      + "“Off by at most” is the distance to the form named below it. Curves: blue the entry, dashed that form.")),
   ...sections,
   el("footer", {}, "Every figure of this page is in its data block and in the .page.json beside it."));

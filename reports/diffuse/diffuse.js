@@ -38,7 +38,7 @@ function looks() {
   let surface = "matte", material = "chalk", light = "front light";
   const panels = changing(() => figure_view(picture_of(figures, "delta_e", { surface, material, light }), { height: 340, y_text: (y) => significant(y, 2) }));
   const options = (key) => choices_of(figures, "delta_e", key).map((c) => [c, c]);
-  return section("How each looks beside the reference", "A ball under one light, from the front, from 60° and from 120° to the view, or a plane under even light; a white surface that faces the light shows as the display’s white. Matte: against EON. "
+  return section("How each looks beside the reference", "A ball under one light, from the front, from 60° and from 120° to the view, or a plane under even light; a white surface that faces the light shows as the display's white. Matte: against EON. "
     + "Plastic: a GGX lobe of F0 = 0.04 and of the same roughness on all, and in the reference EON below it, coupled by albedos as Kelemen and Szirmay-Kalos do (2001), so that nothing is lost and nothing made.",
     el("div", { class: "controls" }, choice("Surface", options("surface"), surface, (s) => { surface = s; panels.again(); }),
       chooser("Material", options("material"), material, (m) => { material = m; panels.again(); }),
@@ -46,9 +46,9 @@ function looks() {
 }
 
 const how = () => section("How it is measured", null, el("ul", { class: "findings" },
-  el("li", {}, "Roughness is what a renderer’s slider sets: α = r² for Disney’s, Frostbite’s and Hammon’s form, σ = r radians for Oren–Nayar as in MaterialX, r itself for Fujii’s and EON."),
+  el("li", {}, "Roughness is what a renderer's slider sets: α = r² for Disney's, Frostbite's and Hammon's form, σ = r radians for Oren–Nayar as in MaterialX, r itself for Fujii's and EON."),
   el("li", {}, "Albedos are integrals, exact to 10⁻⁶. Times are of column kernels, in float and in cache, on one thread."),
-  el("li", {}, "Coupled forms reflect what the interface of a lobe leaves; Hammon’s holds its interface. They are compared on plastic alone.")));
+  el("li", {}, "Coupled forms reflect what the interface of a lobe leaves; Hammon's holds its interface. They are compared on plastic alone.")));
 const first = picture_of(figures, "average") ?? figures[0];
 show_report({
   command: "report diffuse", title: "What a matte surface gives back", findings, first: first && figure_view(first, { height: 330, copy: true, y_text: (y) => significant(y, 4) }),

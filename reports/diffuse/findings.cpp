@@ -26,12 +26,12 @@ void light_is_made(Findings& to, const DiffuseRows& r) {
   const auto& most =
       **std::ranges::max_element(makers, {}, [](const DiffuseForm* f) { return f->most_albedo; });
   to.headline = fmt::format(
-      "{}’s diffuse makes light: a white surface reflects {:.3g} times what it receives, at {}.",
+      "{}'s diffuse makes light: a white surface reflects {:.3g} times what it receives, at {}.",
       most.name, most.most_albedo, place(most.most_roughness, most.most_mu));
   to.say(to.headline);
   for (const auto* f : makers)
     if (f != &most && f->most_albedo > 1.05 && f->name.find("coupled") == f->name.npos)
-      to.say(fmt::format("{}’s reflects up to {:.3g} times what it receives, at {}.", f->name,
+      to.say(fmt::format("{}'s reflects up to {:.3g} times what it receives, at {}.", f->name,
                          f->most_albedo, place(f->most_roughness, f->most_mu)));
 }
 
@@ -65,8 +65,8 @@ void looks(Findings& to, const DiffuseRows& r) {
   }
   if (const auto most = largest_difference(r.colours, disney, "matte"))
     to.say(fmt::format(
-        "Disney’s differs from EON by up to ΔE2000 {} on matte surfaces, and "
-        "Frostbite’s by {}.",
+        "Disney's differs from EON by up to ΔE2000 {} on matte surfaces, and "
+        "Frostbite's by {}.",
         delta(*most),
         delta(largest_difference(r.colours, "diffuse.frostbite", "matte").value_or(0))));
   const auto free = largest_difference(r.colours, lambert, "plastic"),
@@ -74,8 +74,8 @@ void looks(Findings& to, const DiffuseRows& r) {
              hammon = largest_difference(r.colours, "diffuse.hammon", "plastic");
   if (free && coupled && hammon)
     to.say(
-        fmt::format("Below a plastic’s lobe, Lambert is off by up to ΔE2000 {}, coupled "
-                    "Lambert by {} and Hammon’s form by {}. The reference there is EON, "
+        fmt::format("Below a plastic's lobe, Lambert is off by up to ΔE2000 {}, coupled "
+                    "Lambert by {} and Hammon's form by {}. The reference there is EON, "
                     "coupled by albedos.",
                     delta(*free), delta(*coupled), delta(*hammon)));
 }

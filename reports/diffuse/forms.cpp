@@ -27,7 +27,7 @@ constexpr std::array known{
     Known{"diffuse.frostbite", "Frostbite", Takes::alpha, false},
     Known{"diffuse.hammon", "Hammon", Takes::alpha, true},
     Known{"diffuse.oren_nayar", "Oren–Nayar", Takes::sigma, false},
-    Known{"diffuse.oren_nayar.fujii", "Fujii’s Oren–Nayar", Takes::r, false},
+    Known{"diffuse.oren_nayar.fujii", "Fujii's Oren–Nayar", Takes::r, false},
     Known{"diffuse.eon", "EON", Takes::r, false}};
 
 }  // namespace

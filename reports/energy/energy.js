@@ -32,7 +32,7 @@ function crossing_table(kind, names, text) {
   t.tHead.prepend(top);
   return told;
 }
-const crossing_note = "Each number is the roughness from which on that much is lost. Where a loss ends again, both ends stand there. ‘≤ 0.05’ means that it is lost on the smoothest surface looked at. The error of each stands under the pointer.";
+const crossing_note = "Each number is the roughness from which on that much is lost. Where a loss ends again, both ends stand there. “≤ 0.05” means that it is lost on the smoothest surface looked at. The error of each stands under the pointer.";
 
 // --- Every masking ---------------------------------------------------------------------------------------
 const of_form = group_by(rows, (r) => r.form);

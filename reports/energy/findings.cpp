@@ -25,7 +25,7 @@ constexpr double tenth = 0.1;
 /// Form as it stands in a sentence, by its title in the catalogue.
 std::string words_for(const EnergyForm& f) {
   if (f.masking == "masking.none") return "GGX without masking";
-  if (f.masking == "masking.disney_coat") return "Disney’s coat";
+  if (f.masking == "masking.disney_coat") return "Disney's coat";
   if (!f.model.empty()) return std::string(find_preset(f.model)->about.title);
   return fmt::format("“{}”", catalogue()[find_term(f.masking)].about->title);
 }
@@ -97,12 +97,12 @@ void of_compensations(Findings& to, const EnergyRows& r) {
   if (!r.compensations.empty())
     to.say(
         fmt::format("With the tables that a shader reads, Kulla and Conty leave an RMS error of "
-                    "{} in the albedo, Turquin {} and Fdez-Agüera {}. This is under Schlick’s "
+                    "{} in the albedo, Turquin {} and Fdez-Agüera {}. This is under Schlick's "
                     "Fresnel with F0 from 0.04 on, and roughness and mu of 0.1 or more.",
                     rms("kulla_conty"), rms("turquin"), rms("fdez_aguera")));
   if (r.albedo_forms.size() == 3)
     to.say(fmt::format(
-        "The albedo E of GGX as a formula of {} operations is off by {:.2g} at most. MaterialX’s "
+        "The albedo E of GGX as a formula of {} operations is off by {:.2g} at most. MaterialX's "
         "fit of it takes {} and is off by {:.2g}.",
         r.albedo_forms[0].operations, std::abs(r.albedo_forms[0].worst),
         r.albedo_forms[1].operations, std::abs(r.albedo_forms[1].worst)));
@@ -214,7 +214,7 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
   to.judge("the clamp at 2048 hardly shows", "seed 004, D_GGX_R2", verdict_on_small(most.lost),
            fmt::format("up to {} of the highlight is lost", percent(most.lost)),
            fmt::format("it is reached below roughness {:.3f} alone. Seen head on, it there takes "
-                       "up to {} of the highlight’s light, at roughness {:g}.",
+                       "up to {} of the highlight's light, at roughness {:g}.",
                        reached, percent(most.lost), most.roughness));
 }
 

@@ -63,13 +63,13 @@ void savings(Findings& to, const ScenesRows& r) {
   const auto& most = *std::ranges::max_element(r.rows, {}, saved);
   const double middle = all[all.size() / 2];
   to.say(fmt::format(
-      "At {}, plans save at least {} of a float shader’s time in half of the scenes, and {} for "
+      "At {}, plans save at least {} of a float shader's time in half of the scenes, and {} for "
       "{}. {}.",
       no_difference, percent(middle, 2), percent(all.back(), 2), scene_text(most),
       none.empty() ? fmt::format("The least is saved for {}", scene_text(least))
                    : fmt::format("As good as nothing can be saved for {}", scenes_text(none))));
   to.headline = fmt::format(
-      "Leaving out what nobody sees saves {} or more of a shader’s time in half of {} scenes, and "
+      "Leaving out what nobody sees saves {} or more of a shader's time in half of {} scenes, and "
       "up to {}.",
       percent(middle, 2), r.rows.size(), percent(all.back(), 2));
   to.say(fmt::format(
@@ -135,9 +135,9 @@ void counts(Findings& to, const ScenesRows& r) {
     std::string_view effect, name;
     std::size_t kept = 0;
   };
-  std::array asked{Asked{"fresnel", "better than Schlick’s Fresnel"},
+  std::array asked{Asked{"fresnel", "better than Schlick's Fresnel"},
                    Asked{"compensation", "multiple scattering"},
-                   Asked{"masking", "Smith’s masking"},
+                   Asked{"masking", "Smith's masking"},
                    Asked{"coupling", "diffuse coupled to Fresnel"}};
   for (const auto& e : r.effects)
     if (const auto at = std::ranges::find(asked, e.effect, &Asked::effect); at != asked.end())
@@ -156,7 +156,7 @@ void metals(Findings& to, const ScenesRows& r) {
   const auto [least, most] =
       std::ranges::minmax_element(rows, {}, &SceneEffectRow::error_if_dropped);
   to.say(
-      fmt::format("Fresnel’s equations at three wavelengths in place of a metal’s spectrum change "
+      fmt::format("Fresnel's equations at three wavelengths in place of a metal's spectrum change "
                   "{} by ΔE2000 {} under {}{}.",
                   (*most)->material, delta_text((*most)->error_if_dropped), (*most)->light,
                   (*least)->material == (*most)->material

@@ -16,14 +16,14 @@ std::string name_of_form(Effect effect, std::size_t form) {
   switch (effect) {
     case Effect::fresnel:
       return one_of(
-          {{"schlick", "Schlick’s Fresnel"}, {"f82", "F82 Fresnel"}, {"exact", "exact Fresnel"}});
+          {{"schlick", "Schlick's Fresnel"}, {"f82", "F82 Fresnel"}, {"exact", "exact Fresnel"}});
     case Effect::compensation:
       return one_of({{"none", "no multiple scattering"},
                      {"turquin", "multiple scattering by Turquin"},
                      {"fdez_aguera", "multiple scattering by Fdez-Agüera"},
                      {"kulla_conty", "multiple scattering"}});
     case Effect::masking:
-      return one_of({{"schlick_k", "Schlick’s masking"},
+      return one_of({{"schlick_k", "Schlick's masking"},
                      {"separable", "separable masking"},
                      {"correlated", "correlated masking"}});
     case Effect::anisotropy:
@@ -31,7 +31,7 @@ std::string name_of_form(Effect effect, std::size_t form) {
     case Effect::coat:
       return one_of({{"off", "no coat"}, {"on", "coat"}});
     case Effect::tail:
-      return one_of({{"ggx", "GGX’s tail"}, {"gtr", "GTR’s tail"}});
+      return one_of({{"ggx", "GGX's tail"}, {"gtr", "GTR's tail"}});
     case Effect::diffuse:
       return one_of({{"none", "no diffuse"},
                      {"lambert", "Lambert diffuse"},
@@ -39,9 +39,9 @@ std::string name_of_form(Effect effect, std::size_t form) {
     case Effect::coupling:
       return one_of({{"off", "uncoupled diffuse"}, {"on", "coupled diffuse"}});
     case Effect::spectrum:
-      return one_of({{"rgb", "three wavelengths"}, {"spectral", "the metal’s spectrum"}});
+      return one_of({{"rgb", "three wavelengths"}, {"spectral", "the metal's spectrum"}});
     case Effect::environment:
-      return one_of({{"split_sum", "split sum"}, {"quadrature", "the environment’s integral"}});
+      return one_of({{"split_sum", "split sum"}, {"quadrature", "the environment's integral"}});
     default:
       return std::string(id);
   }

@@ -29,7 +29,7 @@ function verdict() {
 }
 
 function summary() {
-  return section("What to keep, and how much faster that is", "Times of all effects in their exact form, in double, over the plan’s; both of composed column kernels on this machine.",
+  return section("What to keep, and how much faster that is", "Times of all effects in their exact form, in double, over the plan's; both of composed column kernels on this machine.",
     told_by_cell(["material", { n: "as fast" }, { n: "operations" }, "keep", "drop", { n: `${unit_name} at ${percent(tolerance.quantile)}` }, { n: "worst" }],
       materials.map((m) => [el("a", { href: `#${encodeURIComponent(m.name)}` }, m.name), { n: times(m.speedup) }, { n: m.ops_saved > 0 ? `−${percent(m.ops_saved, 2)}` : "0" },
         kept(m).length ? names(kept(m)) : "nothing", dropped(m).length ? names(dropped(m)) : "nothing", { n: m.samples ? `≤ ${significant(m.error_upper, 2)}` : "0" }, { n: m.samples ? significant(m.worst, 2) : "0" }])));

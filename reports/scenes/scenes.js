@@ -66,7 +66,7 @@ function one_material() {
     row ? el("p", { class: "small verification" }, `On ${count(row.samples)} fresh points ${many(row.exceeding, "point")} lie beyond ΔE2000 ${limit}; with a confidence of ${percent(confidence)} that is less than ${percent(row.upper_bound)} of all. The plan is `, el("code", {}, row.spec), ".") : null,
     figure ? el("div", { class: "front" }, figure_view(figure, { height: 320 })) : null);
   });
-  const node = section("One material: keep, drop, and why", "Each effect dropped alone, all others exact and in double. Errors do not add, so the plan’s set is measured as a whole.", body.node);
+  const node = section("One material: keep, drop, and why", "Each effect dropped alone, all others exact and in double. Errors do not add, so the plan's set is measured as a whole.", body.node);
   node.id = "effects";
   return node;
 }
@@ -82,7 +82,7 @@ function switches() {
 }
 
 const how = () => section("How it is measured", null, el("ul", { class: "findings" },
-    el("li", {}, "Front light: three lights on the viewer’s side. Rim light: one of these, and two from behind the sphere. Sky and sun: an even sky over a darker ground, and a small bright sun."),
+    el("li", {}, "Front light: three lights on the viewer's side. Rim light: one of these, and two from behind the sphere. Sky and sun: an even sky over a darker ground, and a small bright sun."),
     el("li", {}, "The points are drawn evenly over the picture of a sphere; for every second one, the nearest to a highlight of four is likely to be taken."),
     el("li", {}, "Everything on is one surface with each effect in its exact form, in double, whether the material has it or not, as in a shader for all materials."),
     el("li", {}, "Times are of column kernels, composed on both sides: nothing is fused for the plan alone."),

@@ -119,7 +119,7 @@ function rough() {
 // What a reader sees of it, on a metal that shows it.
 const first = ["iron", ...choices_of(figures, "colour_difference", "material")].map((material) => picture_of(figures, "colour_difference", { material, mu: "0.1" })).find(Boolean) ?? figures[0];
 show_report({
-  command: "report schlick", title: "Schlick’s approximation and its kin against exact Fresnel", findings, first: first && figure_view(first, { height: 300, copy: true }),
+  command: "report schlick", title: "Schlick's approximation and its kin against exact Fresnel", findings, first: first && figure_view(first, { height: 300, copy: true }),
   sections: [summary(), by_index(), materials(), material_table(), rough()],
   setting: `${full ? "Full" : "Quick"} setting. RMS over equal steps of θ from 0 to 90°. The exact F is computed in double, so that it is off by less than what is printed. Every figure of this page is in its data block and in the .json beside it.`,
 });

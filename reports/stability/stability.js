@@ -139,7 +139,7 @@ function every_form() {
     choice("Kind", kinds.map((k) => [k, k]), kind, (k) => { kind = k; body.again(); }),
     choice("Number", numbers.map((n) => [n, n]), number, (n) => { number = n; body.again(); })), of(number, kind)),
   () => kinds.filter((k) => k !== kind).map((k) => [el("h3", {}, `${k}, ${number}`), of(number, k)]));
-  return section("Every form in every number", "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every input”: each half there is was evaluated. “Search”: the worst that seeds and climbing found from two starts; there may be worse. Results below 2⁻⁶⁴, 5·10⁻²⁰, count as black in float, double and mixed numbers, and errors below a half’s least normal number are measured against that. "
+  return section("Every form in every number", "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every input”: each half there is was evaluated. “Search”: the worst that seeds and climbing found from two starts; there may be worse. Results below 2⁻⁶⁴, 5·10⁻²⁰, count as black in float, double and mixed numbers, and errors below a half's least normal number are measured against that. "
     + "Vanished: 0 where a value should be. Wrong way: neighbours between which the value rises where it should fall. Irreciprocal: another value with light and view exchanged. Half raised: flags on the way to the worst input.", body.node);
 }
 

@@ -18,14 +18,14 @@ namespace {
 /// Words for the terms that are fitted often; others go by their title.
 constexpr std::pair<std::string_view, std::string_view> words[] = {
     {"ndf.gtr", "GTR"},
-    {"ndf.student_t", "Student’s t"},
+    {"ndf.student_t", "Student's t"},
     {"fresnel.schlick", "Schlick"},
     {"fresnel.schlick.f90", "Schlick with F90"},
     {"fresnel.schlick.weighted", "weighted Schlick"},
     {"fresnel.dielectric", "dielectric"},
     {"fresnel.conductor", "conductor"},
     {"diffuse.lambert.coupled", "coupled Lambert"},
-    {"diffuse.disney.coupled", "coupled Disney’s diffuse"}};
+    {"diffuse.disney.coupled", "coupled Disney's diffuse"}};
 
 /// Title without what follows in brackets or after a comma.
 std::string word_of(std::size_t term) {

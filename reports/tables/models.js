@@ -84,7 +84,7 @@ function curves() {
       el("div", { class: "panels" }, list.map((f) => figure_view({ ...f, y: { ...f.y, log: state.log && Boolean(f.y.scales.log) } }, { height: 250, only: shown, bare: true })))];
   });
   const set = (key) => (value) => { state[key] = value; drawn.again(); };
-  const node = section("Data and models", "Points are the table’s samples, lines the fitted models by their numbers, without the cosine. A line that leaves the picture goes on beyond what the table has.",
+  const node = section("Data and models", "Points are the table's samples, lines the fitted models by their numbers, without the cosine. A line that leaves the picture goes on beyond what the table has.",
     el("div", { class: "controls" },
       choice("Scale of f_r", [[true, "logarithmic"], [false, "linear"]], true, set("log")),
       channels.length > 1 ? choice("Channel", channels.map((c) => [c, c]), state.channel, set("channel")) : null,

@@ -41,8 +41,8 @@ function spheres_answer(shown, models, name) {
   if (tail <= sphere_scale.limit) return capital(`${first}${who}${closest} looks like the table ${under}: 95\u202f% of the pixels differ by less than ΔE2000 ${delta_e(Math.max(tail, 0.01))}.${part}`);
   const half = `Under ${w.light}${shown.length > 1 ? ", where it differs most," : ""} half of the pixels are within ΔE2000 ${delta_e(most.median)} and 95\u202f% within ${delta_e(most.p95)}.`;
   const by_spacing = (key) => known(most["spacing_" + key]) && most["spacing_" + key] > 0.5 * most[key];
-  const spacing = by_spacing("p95") ? ` Much of that is the spacing of the table’s samples and not the ${name ?? "model"}: by it alone 95\u202f% are within ${delta_e(most.spacing_p95)}.` : "";
-  if (most.median > sphere_scale.limit && by_spacing("median")) return `The table’s samples lie too far apart to tell whether ${who} looks like it. ${half}${spacing}${part}`;
+  const spacing = by_spacing("p95") ? ` Much of that is the spacing of the table's samples and not the ${name ?? "model"}: by it alone 95\u202f% are within ${delta_e(most.spacing_p95)}.` : "";
+  if (most.median > sphere_scale.limit && by_spacing("median")) return `The table's samples lie too far apart to tell whether ${who} looks like it. ${half}${spacing}${part}`;
   const looks = most.median <= sphere_scale.limit ? "looks almost like the table" : most.median <= 3 ? "can be told from the table" : "looks different from the table";
   return `${capital(first + who)}${closest} ${looks}. ${half}${spacing}${part}`;
 }
@@ -81,8 +81,8 @@ function spheres_table(spheres, name) {
 
 function spheres_how(spheres) {
   const grey = spheres.channels.join() === "r,g,b" ? "" : ` Shown is the grey of ${spheres.channels.length > 1 ? "the mean of " : ""}${spheres.channels.join(", ")}.`;
-  return "Front light: three lights on the viewer’s side. Rim light: one of these, and two from behind the sphere. Flash: one, 10° above the viewer. "
-    + "White is the table’s 99th percentile of luminance under each light. "
+  return "Front light: three lights on the viewer's side. Rim light: one of these, and two from behind the sphere. Flash: one, 10° above the viewer. "
+    + "White is the table's 99th percentile of luminance under each light. "
     + `Covered: share of the lit pixels for which the table has values between its samples, or, where it is a list, a sample within 5° of both directions, mirrored or swapped.${grey}`
-    + " Spacing alone: the difference between the fit and the fit known at the table’s samples only.";
+    + " Spacing alone: the difference between the fit and the fit known at the table's samples only.";
 }

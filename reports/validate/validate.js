@@ -14,7 +14,7 @@ function verdict() {
 
 document.getElementById("page").replaceChildren(...[
   el("p", { class: "over" }, "gonio validate"), el("h1", {}, broken.length ? "Not yet" : "Ready to ship"), verdict(),
-  section("Budgets", "The worst of each in the choice’s domain.",
+  section("Budgets", "The worst of each in the choice's domain.",
     told_by_cell(["budget", "kept", { n: "found" }, { n: "allowed" }, "at", "evidence"],
       told.budgets.map((b) => [b.title, el("span", { class: b.holds ? "verdict-yes" : "verdict-no" }, b.holds ? "yes" : "no"), { n: b.found_text }, { n: b.limit_text },
         b.place || "–", el("span", { class: "muted" }, b.words || evidence[b.evidence])]))),

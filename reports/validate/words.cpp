@@ -13,11 +13,11 @@ struct Words {
   std::string_view budget, title, found;  ///< found: sentence with the value in place of {}
 };
 constexpr std::array all{
-    Words{"albedo_error", "Directional albedo off the reference’s",
-          "The directional albedo is off the reference’s by {}"},
+    Words{"albedo_error", "Directional albedo off the reference's",
+          "The directional albedo is off the reference's by {}"},
     Words{"fresnel_error", "F off the exact one", "F is off the exact one by {}"},
-    Words{"delta_e_2000", "Colour off the reference’s, ΔE2000",
-          "The colour is off the reference’s by ΔE2000 {}"},
+    Words{"delta_e_2000", "Colour off the reference's, ΔE2000",
+          "The colour is off the reference's by ΔE2000 {}"},
     Words{"energy_gain", "Energy gained",
           "More light leaves than comes in: the part above 1 is {}"},
     Words{"energy_loss", "Energy lost at F = 1", "White lobes lose {} of the light"},
@@ -44,7 +44,7 @@ std::string value_text(std::string_view budget, double value) {
     return fmt::format("{}{:.{}g}", value < 0 ? "−" : "", std::abs(value), digits);
   };
   if (budget == "operations") return fmt::format("{:.0f} operations", value);
-  if (budget == "ns") return number(3) + " times the baseline’s time";
+  if (budget == "ns") return number(3) + " times the baseline's time";
   if (budget == "table_bytes") return fmt::format("{:.0f} bytes", value);
   if (budget == "nonfinite") return fmt::format("{:.0f}", value);
   return number(3);

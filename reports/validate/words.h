@@ -9,7 +9,7 @@
 
 namespace gonio {
 
-/// "Directional albedo off the reference’s"
+/// "Directional albedo off the reference's"
 std::string_view title_of(std::string_view budget);
 /// Value of a budget as people write it: "0.012", "24 operations", "1.3 times the baseline".
 std::string value_text(std::string_view budget, double value);

@@ -73,6 +73,7 @@ inline void expect_plain(const std::string& text) {
     EXPECT_LE(n, most_words) << "words: " << sentence;
     for (const auto& id : ids_in(sentence)) ADD_FAILURE() << id << " is no name: " << sentence;
     EXPECT_EQ(sentence.find("(1 times"), sentence.npos) << sentence;
+    EXPECT_EQ(sentence.find("’"), sentence.npos) << "apostrophes are straight: " << sentence;
   }
 }
 /// The same of everything that a report says: its headline, its sentences, its claims' verdicts.

@@ -124,7 +124,7 @@ TEST(DiffuseReport, FactsAreThoseOfTheRows) {
 TEST(DiffuseReport, SentencesCanBeReadAloud) {
   const auto& said = report().findings;
   test::expect_plain(said);
-  EXPECT_TRUE(said.headline.starts_with("Disney’s diffuse makes light: a white surface reflects "));
+  EXPECT_TRUE(said.headline.starts_with("Disney's diffuse makes light: a white surface reflects "));
   EXPECT_GE(said.sentences.size(), 8U);
 }
 

@@ -321,7 +321,7 @@ TEST(Validate, SaysEachBrokenBudgetInOneSentenceWithItsPlace) {
   ASSERT_EQ(v.budgets.size(), 2U);
   EXPECT_FALSE(v.holds());
   const auto text = sentence(v.budgets[0]);
-  EXPECT_TRUE(text.starts_with("The directional albedo is off the reference’s by 0.")) << text;
+  EXPECT_TRUE(text.starts_with("The directional albedo is off the reference's by 0.")) << text;
   EXPECT_NE(text.find("at roughness "), text.npos) << text;
   EXPECT_TRUE(text.ends_with("the budget is 0.01.")) << text;
 }
