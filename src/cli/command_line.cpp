@@ -131,6 +131,8 @@ OptionText text_of(const CLI::Option& option) {
   for (const auto& name : option.get_snames()) out.names.push_back("-" + name);
   for (const auto& name : option.get_lnames()) out.names.push_back("--" + name);
   if (out.by_position) out.names = {option.get_name(true)};
+  out.required = option.get_required();
+  out.several = option.get_expected_max() > 1;
   if (option.get_items_expected_max() == 0) return out;
   // CLI11 keeps what is taken nowhere but in the type that its help shows: "TEXT:{fast,exact}".
   const std::string type = option.get_type_name();

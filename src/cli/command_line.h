@@ -77,6 +77,7 @@ struct OptionText {
   std::string help;
   std::vector<std::string> choices;  ///< where only these are taken
   bool by_position = false;
+  bool required = false, several = false;  ///< of a word by its position
 };
 struct CommandText {
   std::string name, description, footer;

@@ -62,7 +62,10 @@ std::string man_page(const std::vector<CommandText>& all, const CommandText& c) 
                   GONIO_VERSION, roff(name), roff(c.description));
   out += fmt::format(".B gonio{}\n", whole ? " COMMAND" : " " + roff(c.name));
   for (const auto& o : c.options)
-    if (o.by_position) out += fmt::format(".I {}\n", roff(o.names[0]));
+    if (o.by_position) {
+      const std::string word = roff(o.names[0]) + (o.several ? "..." : "");
+      out += fmt::format(".I {}\n", o.required ? word : "[" + word + "]");
+    }
   out += "[options]\n.SH OPTIONS\n";
   for (const auto& o : c.options) {
     std::vector<std::string> names;

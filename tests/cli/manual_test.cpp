@@ -46,6 +46,18 @@ TEST(Manual, HasAPageForEachCommandThatManReadsWithoutAWarning) {
     EXPECT_NE(fit.find(told), fit.npos) << told << "\n" << fit;
 }
 
+TEST(Manual, TellsWhichWordsMayBeLeftOutAndWhichMayBeSeveral) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, "manual share").code, 0);
+  const auto synopsis = [&](const std::string& name) {
+    const std::string page = read_bytes(f / ("share/man/man1/gonio-" + name + ".1"));
+    const auto at = page.find(".SH SYNOPSIS\n");
+    return page.substr(at, page.find(".SH OPTIONS") - at);
+  };
+  EXPECT_EQ(synopsis("gather"), ".SH SYNOPSIS\n.B gonio gather\n.I DIR\n.I [FILE...]\n[options]\n");
+  EXPECT_EQ(synopsis("fit"), ".SH SYNOPSIS\n.B gonio fit\n.I FILE...\n[options]\n");
+}
+
 TEST(Manual, LetsBashCompleteCommandsOptionsAndWhatTheyTake) {
   const Folder f;
   ASSERT_EQ(gonio(f, "manual share").code, 0);
