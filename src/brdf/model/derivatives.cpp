@@ -35,12 +35,7 @@ ModelDerivatives<F>::ModelDerivatives(const Model& m,
                                       const std::vector<bool>& free,
                                       const Kernels<F>& k,
                                       const TexelTerms<F>* texels)
-    : model_(m),
-      free_(free),
-      k_(k),
-      texels_(texels),
-      turned_(m, k),
-      channel_steps_(m.channels) {
+    : model_(m), free_(free), k_(k), texels_(texels), turned_(m, k), channel_steps_(m.channels) {
   std::vector<DualColumn<F>> dv;  // D·V, shared by the channels
   for (const auto& l : m.lobes) {
     const auto d = term(l.ndf, 0);
@@ -112,9 +107,8 @@ DualColumn<F> ModelDerivatives<F>::term(const TermUse& t, std::size_t c) {
     for (std::size_t k = 0; k < 2; ++k)
       r.d.emplace_back(model_.value_count + k, d[t.parameters.size() + k] = fresh());
   const auto kernel = texels_ ? texels_->derivatives[t.term] : k_.terms[t.term].derivatives;
-  into_->push_back([=, p = gathered.p.data()](const Block<F>& b) {
-    kernel(b, p, value, d.data());
-  });
+  into_->push_back(
+      [=, p = gathered.p.data()](const Block<F>& b) { kernel(b, p, value, d.data()); });
   return r;
 }
 
