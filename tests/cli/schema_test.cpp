@@ -8,6 +8,7 @@
 #include "fitting/batch/gather.h"
 #include "fitting/choice/document.h"
 #include "fitting/export/export.h"
+#include "fitting/map/fit_map.h"
 #include "fitting/map/gather.h"
 #include "refusal.h"
 #include "reports/tables/fit_page.h"
