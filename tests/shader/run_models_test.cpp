@@ -147,7 +147,8 @@ void run_maps(Vulkan& vulkan) {
         for (std::size_t r = 0; r < results[k]; ++r) {
           const float x = out[k][i * results[k] + r];
           const auto y = static_cast<float>(expected[k][i][r]);
-          wrong += !same_bits(x, y) && !(std::abs(x - y) <= tolerance * std::abs(y));
+          wrong +=
+              !same_bits(x, y) && !(double{std::abs(x - y)} <= tolerance * double{std::abs(y)});
         }
       EXPECT_EQ(wrong, 0U) << formulas[k].id << " in " << name_of(language) << "\n" << programs[k];
     }
