@@ -33,7 +33,7 @@ void check_options(const Options& o) {
   if (!kernels && (o.full || o.filter || o.baseline || o.times || o.processes))
     throw wrong_usage(
         "--full, --filter, --baseline, --times and --processes are for bench kernels");
-  if (kernels && (!o.plain || o.jobs != 0))
+  if ((kernels || o.what == "parts") && (!o.plain || o.jobs != 0))
     throw wrong_usage("--no-plain and --jobs are for bench fit and bench maps");
 }
 
@@ -198,6 +198,7 @@ Exit run(const Options& o) {
   check_options(o);
   if (o.what == "fit") return bench_fit({o.plain, o.repeats.value_or(11)}, o);
   if (o.what == "maps") return bench_maps({o.plain, o.repeats.value_or(5)}, o);
+  if (o.what == "parts") return bench_parts({false, o.repeats.value_or(5)}, o);
   return bench_kernels(o);
 }
 
@@ -207,12 +208,13 @@ void add_bench(CommandLine& line) {
   auto [c, o] = line.command(
       "bench",
       "Times every form of the catalogue and whole models on this machine, or the fit of "
-      "a MERL table or of texels",
+      "a MERL table, of texels or of many tables in parts",
       "gonio bench --json > before.json; gonio bench --baseline before.json", run);
   c.option("WHAT", o->what,
            "kernels: every form, in each number and instruction set; fit: the fit of a MERL table "
-           "beside the plain way of doing it; maps: texels, beside a Ceres problem for each")
-      .one_of({"kernels", "fit", "maps"})
+           "beside the plain way of doing it; maps: texels, beside a Ceres problem for each; "
+           "parts: parts of many tables, beside one process for all")
+      .one_of({"kernels", "fit", "maps", "parts"})
       .show_default();
   c.flag("--full", o->full, "Streaming in every instruction set, and more repetitions: minutes");
   c.option("--filter", o->filter, "Only forms whose id holds this: smith, fresnel., model.gltf");
@@ -221,7 +223,7 @@ void add_bench(CommandLine& line) {
       "An earlier document of bench --json or report cost: what changed since is printed, in place "
       "of all times");
   c.option("--repeats", o->repeats,
-           "Repetitions in each process (default: 3, 11 of fit, 5 of maps)")
+           "Repetitions in each process (default: 3, 11 of fit, 5 of maps and parts)")
       .in(1, 1000);
   c.option("--processes", o->processes,
            "Processes that measure everything in turn; 1: this one (default: 5, 15 with --full)")

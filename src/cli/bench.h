@@ -14,5 +14,7 @@ struct FitBench {
 Exit bench_fit(const FitBench&, const Common&);
 /// Texels of maps beside one Ceres problem for each.
 Exit bench_maps(const FitBench&, const Common&);
+/// Parts of many tables beside one process for all.
+Exit bench_parts(const FitBench&, const Common&);
 
 }  // namespace gonio::cli

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 
 #include "base/file.h"
 #include "cli/bench.h"
+#include "cli/bench_place.h"
 #include "cli/terminal.h"
 #include "data_synth/synth.h"
 #include "fitting/fit.h"
@@ -14,15 +14,11 @@
 #include "reports/yardstick/plain_fit.h"
 #include "table/format/formats.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spawn.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 namespace gonio::cli {
 namespace {
@@ -70,46 +66,6 @@ double peak_megabytes(int who) {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-/// A table in a folder of its own, which goes with it.
-class Place {
- public:
-  Place() {
-    std::string name = (std::filesystem::temp_directory_path() / "gonio-bench-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-      throw bad_input(name, "making a folder", "no success", "a temporary folder");
-    path_ = name;
-  }
-  ~Place() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-  std::string operator/(const char* name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// This program on a table, from start to end; returns whether it went well.
-bool run_program(const std::string& table, const std::string& result, int jobs) {
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-  std::vector<std::string> words{program, "fit", table, "-o", result, "--quiet", "--json"};
-  if (jobs > 0) words.insert(words.end(), {"--jobs", std::to_string(jobs)});
-  std::vector<char*> argv;
-  for (auto& w : words) argv.push_back(w.data());
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t silent;
-  posix_spawn_file_actions_init(&silent);
-  posix_spawn_file_actions_addopen(&silent, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  int status = 1;
-  const bool started =
-      ::posix_spawn(&child, program.c_str(), &silent, nullptr, argv.data(), environ) == 0;
-  posix_spawn_file_actions_destroy(&silent);
-  return started && ::waitpid(child, &status, 0) == child && status == 0;
-}
-
 /// The columns of a pass read once and nothing done with them: what memory allows.
 std::uint64_t read_only(const FitData<float>& d) {
   std::vector<std::uint64_t> parts(d.tasks.size());
@@ -126,11 +82,6 @@ std::vector<double> divided(const std::vector<double>& a, const std::vector<doub
   std::vector<double> ratio;
   for (std::size_t i = 0; i < a.size(); ++i) ratio.push_back(a[i] / b[i]);
   return ratio;
-}
-
-Json spread_of(std::vector<double> x) {
-  std::ranges::sort(x);
-  return {{"median", x[x.size() / 2]}, {"least", x.front()}, {"most", x.back()}};
 }
 
 /// Spectrum of a paint: one value a channel for kd and f0.
@@ -159,7 +110,7 @@ Exit bench_fit(const FitBench& o, const Common& common) {
                  parse_settings(std::vector<std::string>{"alpha=0.15,f0=0.05,kd=0.2,0.1,0.05"}), 3);
   SynthOptions synth;
   synth.noise = 0.02;
-  const Place place;
+  const BenchFolder place;
   const std::string file = place / "table.binary", result = place / "fit.json";
   write_table(synthesize(truth, synth), file);
 
@@ -215,7 +166,9 @@ Exit bench_fit(const FitBench& o, const Common& common) {
       times.add(fmt::format("fit of {} channels", spectral->channels.size()), since(begin));
     }
     begin = Clock::now();
-    if (!run_program(file, result, common.jobs))
+    std::vector<std::string> words{"fit", file, "-o", result, "--quiet", "--json"};
+    if (common.jobs > 0) words.insert(words.end(), {"--jobs", std::to_string(common.jobs)});
+    if (run_program(words) != 0)
       throw bad_input(file, "fitting in a program of its own", "a failure", "a result");
     times.add("whole program", since(begin));
   }

@@ -7,6 +7,7 @@
 
 #include "brdf/model/evaluate.h"
 #include "cli/bench.h"
+#include "cli/bench_place.h"
 #include "cli/terminal.h"
 #include "fitting/fit.h"
 #include "fitting/map/texels.h"
@@ -156,11 +157,6 @@ double time_of_plain(const Tile& tile, std::size_t texels) {
     ms += fit.build_ms + fit.solve_ms;
   }
   return ms / 1000 / static_cast<double>(texels);
-}
-
-Json spread_of(std::vector<double> x) {
-  std::ranges::sort(x);
-  return {{"median", x[x.size() / 2]}, {"least", x.front()}, {"most", x.back()}};
 }
 
 }  // namespace

@@ -352,6 +352,18 @@ TEST(Program, BenchesMapsInEachWay) {
   for (const auto& row : rows) EXPECT_GT(row["texels_per_s"]["least"], 0) << row;
 }
 
+TEST(Program, BenchesPartsBesideOneProcess) {
+  GONIO_MANY_FITS();
+  const Folder f;
+  const auto o = gonio(f, "bench parts --repeats 1 --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto d = o.json();
+  ASSERT_EQ(d["rows"].size(), 3U);
+  for (const auto& row : d["rows"])
+    EXPECT_LT(row["slowest_ms"]["median"], d["whole_ms"]["median"]) << row;
+  EXPECT_LT(d["nothing_to_do_ms"]["median"], d["rows"][2]["slowest_ms"]["median"]);
+}
+
 TEST(Program, FitsTheMeasuredCarPaintAndSaysWhatItMasked) {
   GONIO_NEEDS_SHARED(file, "data/mbsdf/carpaint_blue.mbsdf");
   const Folder f;
