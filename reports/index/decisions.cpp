@@ -200,8 +200,9 @@ std::string seen_side_by_side(const Facts& f,
   }
   std::vector<std::string> parts;
   for (const auto& [form, seen] : by_form) {
-    const auto what =
-        form.empty() ? (kind == "metal" ? "its spectrum alone" : "exact Fresnel") : in_text(form);
+    const auto what = form.empty()
+                          ? (kind == "metal" ? "nothing but its spectrum" : "exact Fresnel")
+                          : in_text(form);
     parts.push_back(fmt::format("{}{}: {}", list_text(seen, " or "),
                                 parts.empty() ? " beside a photograph" : "", what));
   }
@@ -306,16 +307,17 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
                         : fmt::format("one bounce, ΔE ≤ {}",
                                       short_number(std::ranges::max(of_plastic->delta_e))));
   to.push_back(
-      {fmt::format("All bounces of {} (of bright metal, F0 {:g})",
+      {fmt::format("Multiple scattering under {} (of bright metal, F0 {:g})",
                    of_image_light ? "image-based light" : "a single light", bright),
        fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), *from),
        "scattering." + taken->form,
        fmt::format("ΔE ≤ {} (one bounce: {}{})", short_number(taken->error),
                    short_number(greatest(f, single)),
                    taken->error > side_by_side ? "; no form leaves less" : ""),
-       of_image_light ? fmt::format("{} (beside the split sum's table)", more_ns)
-                      : fmt::format("{} (one light at a time, not in columns; {:.1f} kB of tables)",
-                                    more_ns, static_cast<double>(costs->bytes) / 1000),
+       of_image_light
+           ? fmt::format("{} (beside the split sum's table)", more_ns)
+           : fmt::format("{} (by single calls, other times are of columns; {:.1f} kB of tables)",
+                         more_ns, static_cast<double>(costs->bytes) / 1000),
        other && !of_image_light ? fmt::format("{}; time is short: {}, ΔE ≤ {}", of_f0,
                                               name_of_form(other->form), short_number(other->error))
                                 : of_f0});
@@ -333,7 +335,8 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
            ? fmt::format("mean ΔE ≤ {} (the table alone: {})", short_number(*s.head_on), table)
            : table + " of E",
        fmt::format("{:.1f} kB, one look-up", static_cast<double>(s.bytes) / 1000),
-       s.grazing ? fmt::format("rims are looked at: mean ΔE ≤ {} there", short_number(*s.grazing))
+       s.grazing ? fmt::format("rims are looked at: integrate there, where the mean ΔE is ≤ {}",
+                               short_number(*s.grazing))
                  : ""});
 }
 

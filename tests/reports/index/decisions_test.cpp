@@ -126,12 +126,13 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   EXPECT_EQ(about(decisions(f), "Fresnel of other metals").error,
             "ΔE ≤ 0.7 (Schlick: ΔE 5.7 for iron)");
   EXPECT_EQ(about(all, "Fresnel of dielectrics (glass)").take, "Exact dielectric");
-  const auto& bounces = about(all, "All bounces of a single light");
-  EXPECT_EQ(bounces.subject, "All bounces of a single light (of bright metal, F0 0.9)");
+  const auto& bounces = about(all, "Multiple scattering under a single light");
+  EXPECT_EQ(bounces.subject, "Multiple scattering under a single light (of bright metal, F0 0.9)");
   EXPECT_EQ(bounces.take, "Turquin, from roughness 0.4 on");
   EXPECT_EQ(bounces.unless, "F0 is 0.04: one bounce, ΔE ≤ 1.7");
-  EXPECT_EQ(bounces.cost,
-            "+7.7 ns on 4.1 ns a call (one light at a time, not in columns; 2.0 kB of tables)");
+  EXPECT_EQ(
+      bounces.cost,
+      "+7.7 ns on 4.1 ns a call (by single calls, other times are of columns; 2.0 kB of tables)");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").cost, "none (the cheap form)");
   EXPECT_EQ(about(all, "Precision: GGX in half").take_id, "ndf.ggx");
 }
@@ -141,7 +142,7 @@ TEST(Decisions, NameBesideAPhotographNoFormThatShowsThere) {
   for (auto& x : f.fresnel)
     if (x.material == "gold") x.delta_e = x.form == "fresnel.schlick" ? 1.4 : 1.3;
   EXPECT_EQ(about(decisions(f), "Fresnel of gold").unless,
-            "gold beside a photograph: its spectrum alone; brass: exact conductor at three "
+            "gold beside a photograph: nothing but its spectrum; brass: exact conductor at three "
             "wavelengths");
 }
 
@@ -165,7 +166,8 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   f.split_sum->head_on = 1.26, f.split_sum->grazing = 14;
   const auto lit = decisions(f);
   EXPECT_EQ(about(lit, "Image-based light").error, "mean ΔE ≤ 1.3 (the table alone: RMS 0.0008)");
-  EXPECT_EQ(about(lit, "Image-based light").unless, "rims are looked at: mean ΔE ≤ 14 there");
+  EXPECT_EQ(about(lit, "Image-based light").unless,
+            "rims are looked at: integrate there, where the mean ΔE is ≤ 14");
 }
 
 TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
@@ -185,7 +187,7 @@ TEST(Decisions, ChangeWhereAThresholdIsCrossed) {
   f = made_facts();
   for (auto& s : f.scattering)
     if (s.id == "turquin") s.delta_e[2] = 2.4;
-  const auto bounces = about(decisions(f), "All bounces");
+  const auto bounces = about(decisions(f), "Multiple scattering");
   EXPECT_EQ(bounces.take, "Kulla and Conty, from roughness 0.4 on");
   EXPECT_EQ(bounces.unless, "F0 is 0.04: one bounce, ΔE ≤ 1.7; time is short: Turquin, ΔE ≤ 2.4");
   f = made_facts();
