@@ -92,7 +92,7 @@ struct LeftOutDocument {
   std::string message;    ///< why it cannot be read
 };
 
-/// What is known of many tables.
+/// Summary of many tables.
 struct BatchSummary {
   std::string made_with;  ///< all that determines a result beside the table's bytes, in words
   std::vector<BatchRow> rows;

@@ -104,7 +104,7 @@ std::vector<Found> documents_in(const std::string& folder,
   return all;
 }
 
-/// What is a document of a batch, or was to be one and cannot be read; anything else is not for a summary.
+/// Documents of a batch: what is one, or was to be one and cannot be read; anything else is not for a summary.
 std::vector<Found> read_all(const std::string& folder, std::vector<Found> all) {
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     try {

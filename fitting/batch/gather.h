@@ -13,7 +13,7 @@
 
 namespace gonio {
 
-/// What a folder of results is to hold: the tables of the batch that was begun last, and the way in which they are fitted.
+/// Tables that a folder of results is to hold: those of the batch that was begun last; and the way in which they are fitted.
 struct BatchList {
   std::string made_with;
   std::vector<std::string> tables;
