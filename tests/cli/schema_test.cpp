@@ -1,5 +1,6 @@
 // The schemas that are shipped: they are what the descriptions say, and what the program writes
 // keeps them.
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 

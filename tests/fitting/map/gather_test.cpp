@@ -72,14 +72,18 @@ TEST(Gather, LeavesOtherFilesOfTheFolderAlone) {
   EXPECT_EQ(read_bytes(folder + "/notes.txt"), "x");
 }
 
+/// An image with another value of one attribute.
+Image changed(Image image, const std::string& name, const std::string& value) {
+  image.attributes[name] = value;
+  return image;
+}
+
 TEST(Gather, RefusesTilesOfOtherOptionsStacksGridsAndVersions) {
   const Folder f;
   const std::string folder = tiles(f), tile = folder + "/tile_1_1.exr";
   const Image whole = read_exr(tile);
   const auto with = [&](const std::string& name, const std::string& value) {
-    Image other = whole;
-    other.attributes[name] = value;
-    write_exr(tile, other);
+    write_exr(tile, changed(whole, name, value));
     return refusal([&] { gather(f, folder); });
   };
   EXPECT_EQ(with("gonio:stack", whole.attributes.at("gonio:stack")), "") << "the ruler";
@@ -107,9 +111,7 @@ TEST(Gather, RefusesFirstTilesThatLie) {
   const std::string folder = tiles(f), tile = folder + "/tile_0_0.exr";
   const Image whole = read_exr(tile);
   const auto with = [&](const std::string& name, const std::string& value) {
-    Image other = whole;
-    other.attributes[name] = value;
-    write_exr(tile, other);
+    write_exr(tile, changed(whole, name, value));
     return refusal([&] { gather(f, folder); });
   };
   for (const char* size : {"0,1", "1", "1,2,3", "99999999999999999999,1", "16385,1", "-1,2", ""})
