@@ -14,14 +14,17 @@ find_package(PNG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(nettle REQUIRED IMPORTED_TARGET nettle)
 
-# What most files read and what takes long to parse, parsed once: rooms that link fmt start from it (gonio_room), which
-# saves a fifth of their compile time. JSON is not in it: that would cost those who do not use it half a second each.
-# Every file includes what it uses all the same: clang-tidy (./check --long) reads without it.
-file(CONFIGURE OUTPUT headers.cpp CONTENT "// A target needs a source.\n")
-add_library(gonio_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/headers.cpp)
+# Headers that most files read and that take long to parse, parsed once. A room that links fmt starts from them, one that
+# links JSON from these and JSON (gonio_room). Every file includes what it uses all the same: clang-tidy reads without them.
 set(gonio_headers_libraries fmt::fmt TBB::tbb)
-target_link_libraries(gonio_headers PRIVATE gonio_flags ${gonio_headers_libraries})
 set(gonio_headers
   <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <numbers> <optional> <set> <span> <string>
-  <string_view> <vector> <fmt/format.h> <tbb/parallel_for.h>)
-target_precompile_headers(gonio_headers PRIVATE ${gonio_headers})
+  <string_view> <variant> <vector> <fmt/format.h> <fmt/ranges.h> <tbb/parallel_for.h>)
+file(CONFIGURE OUTPUT headers.cpp CONTENT "// A target needs a source.\n")
+function(gonio_precompiled name)
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/headers.cpp)
+  target_link_libraries(${name} PRIVATE gonio_flags ${gonio_headers_libraries} nlohmann_json::nlohmann_json)
+  target_precompile_headers(${name} PRIVATE ${gonio_headers} ${ARGN})
+endfunction()
+gonio_precompiled(gonio_headers)
+gonio_precompiled(gonio_json_headers <nlohmann/json.hpp>)

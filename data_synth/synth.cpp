@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "brdf/model/evaluate.h"
 #include "table/format/formats.h"
-#include "table/format/rgl_resample.h"
+#include "table/format/rgl/resample.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "base/error.h"
-#include "fitting/certificate.h"
-#include "fitting/describe.h"
+#include "fitting/judge/certificate.h"
+#include "fitting/judge/describe.h"
 #include "fitting/judge/assess.h"
 #include "fitting/judge/bin_sensitivity.h"
 #include "fitting/judge/bootstrap.h"

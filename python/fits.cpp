@@ -3,7 +3,7 @@
 #include "fitting/batch/fit_file.h"
 #include "fitting/choice/document.h"
 #include "module.h"
-#include "reports/tables/models_page.h"
+#include "reports/pages/models_page.h"
 #include "table/format/formats.h"
 
 #include <nanobind/stl/optional.h>

@@ -3,7 +3,7 @@
 /// A choice among models with made-up figures: one of everything that its page shows.
 
 #include "fitting/choice/choice.h"
-#include "reports/tables/spheres.h"
+#include "reports/pages/spheres.h"
 #include "tables.h"
 
 namespace gonio::test {

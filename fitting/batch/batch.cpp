@@ -12,7 +12,7 @@
 #include <unordered_set>
 
 #include "base/file.h"
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "base/sha256.h"
 #include "base/text.h"
 #include "table/format/metadata.h"

@@ -5,7 +5,7 @@
 #include <unordered_set>
 
 #include "base/csv_describe.h"
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "fitting/batch/preview_json.h"
 #include "fitting/result/document_fields.h"
 

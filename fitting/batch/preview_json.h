@@ -3,7 +3,7 @@
 /// Previews in a document.  Dear to compile: for .cpp files only.
 
 #include "base/base64.h"
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "fitting/batch/preview.h"
 
 namespace gonio {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "base/json_form.h"
+#include "base/json/form.h"
 
 namespace gonio {
 namespace {

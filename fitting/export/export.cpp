@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "brdf/model/evaluate.h"
 #include "fitting/export/surface.h"
 #include "fitting/export/target.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 #include "brdf/formula/masking.h"
 #include "brdf/formula/ndf_anisotropic.h"
 #include "brdf/model/evaluate.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 #include "brdf/term/map.h"
 #include "fitting/export/materialx_parts.h"
 #include "fitting/export/xml.h"

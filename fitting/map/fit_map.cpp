@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

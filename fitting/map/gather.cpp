@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "image/exr_file.h"
 
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "base/numbers.h"
 #include "base/text.h"
 #include "fitting/solve/options.h"

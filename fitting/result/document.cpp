@@ -1,6 +1,6 @@
 #include "fitting/result/document.h"
 
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "fitting/result/document_fields.h"
 
 namespace gonio {

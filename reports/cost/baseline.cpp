@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 
 namespace gonio {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/csv_describe.h"
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "reports/picture/figure.h"
 #include "reports/picture/json_numbers.h"
 

@@ -1,6 +1,6 @@
 #include "reports/picture/json_numbers.h"
 
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 
 namespace gonio {
 

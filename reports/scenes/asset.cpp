@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 #include "scene/description/gltf_file.h"
 #include "scene/description/gltf_material.h"
 

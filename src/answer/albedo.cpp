@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 #include "geometry/direction.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/one_term.h"
 #include "brdf/model/roughness.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Description of a struct that is shown: each of its members once, with name, unit and meaning.  JSON, its JSON Schema and
-/// the lines of CSV follow from it (base/json_describe.h, base/csv_describe.h).
+/// the lines of CSV follow from it (base/json/describe.h, base/csv_describe.h).
 ///
 ///   struct Width {
 ///     double alpha;

@@ -1,5 +1,5 @@
 // A shader as a document.
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "shader/shader.h"
 
 namespace gonio {

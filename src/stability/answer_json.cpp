@@ -1,5 +1,5 @@
 // An answer as a document.
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "stability/answer.h"
 
 namespace gonio {

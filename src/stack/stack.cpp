@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "base/json_form.h"
+#include "base/json/form.h"
 
 namespace gonio {
 

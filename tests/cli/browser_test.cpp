@@ -20,7 +20,7 @@
 #include "reports/remap/remap.h"
 #include "reports/scenes/scenes.h"
 #include "reports/schlick/schlick.h"
-#include "reports/tables/models_page.h"
+#include "reports/pages/models_page.h"
 
 namespace gonio::test {
 namespace {

@@ -1,5 +1,5 @@
 // Parameters as a document shows them.
-#include "fitting/describe.h"
+#include "fitting/judge/describe.h"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 #include "brdf/model/roughness.h"
 
 #include <fmt/format.h>

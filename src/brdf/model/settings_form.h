@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/json_form.h"
+#include "base/json/form.h"
 #include "brdf/model/given_parameter.h"
 #include "brdf/model/spec.h"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/file.h"
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 
 namespace gonio::scene {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "base/json_form.h"
+#include "base/json/form.h"
 #include "scene/description/gltf_file.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "base/json_form.h"
+#include "base/json/form.h"
 #include "geometry/vector.h"
 #include "scene/description/gltf_file.h"
 

@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// Keys of gonio.scene/1: what reading and the schema follow from (base/json_form.h).
+/// Keys of gonio.scene/1: what reading and the schema follow from (base/json/form.h).
 
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "base/json_form.h"
+#include "base/json/form.h"
 #include "brdf/model/settings_form.h"
 #include "scene/description/scene.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/file.h"
-#include "base/json_form.h"
+#include "base/json/form.h"
 #include "scene/description/scene_keys.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/json_form.h"
+#include "base/json/form.h"
 #include "scene/plan/reference.h"
 
 namespace gonio::scene {

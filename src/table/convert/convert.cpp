@@ -13,7 +13,7 @@
 #include "table/convert/isotropy.h"
 #include "table/convert/rgb_spectra.h"
 #include "table/format/formats.h"
-#include "table/format/rgl_resample.h"
+#include "table/format/rgl/resample.h"
 #include "table/nearest_sample.h"
 
 #include <fmt/format.h>

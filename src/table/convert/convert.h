@@ -72,7 +72,7 @@ struct Conversion {
 
 /// To RGL: the function between the samples (Interpolator; of a list that has none its MBSDF grid, gathered) at the points that
 /// rgl_table() chooses, turned eight times where the table has several azimuths of light.  There and back is by what renderers
-/// evaluate (table/format/rgl_function.h), but for least_cosine above the horizon, where the format's values say nothing.  bad_input where f changes as the surface is turned
+/// evaluate (table/format/rgl/function.h), but for least_cosine above the horizon, where the format's values say nothing.  bad_input where f changes as the surface is turned
 /// (most_change).
 ///
 /// Masked values stay without data: −1 in MERL, else NaN.  The truth stays where values do.  Wrong

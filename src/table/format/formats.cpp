@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 #include "base/sha256.h"
 #include "table/format/delimited.h"
 #include "table/format/metadata.h"

@@ -14,7 +14,7 @@
 #include "table/format/mbsdf.h"
 #include "table/format/merl.h"
 #include "table/format/ngan.h"
-#include "table/format/rgl.h"
+#include "table/format/rgl/rgl.h"
 #include "table/format/ssdd.h"
 #include "table/format/utia.h"
 #include "table/table.h"

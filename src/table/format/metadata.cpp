@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 #include "table/format/side_file.h"
 
 #include <fmt/format.h>

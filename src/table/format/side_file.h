@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/describe.h"
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "table/format/column_map.h"
 #include "table/format/utia.h"
 #include "table/table.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "integrate/rule/quadrature.h"
-#include "table/format/rgl_function.h"
+#include "table/format/rgl/function.h"
 #include "table/grid_cell.h"
 #include "table/health/key_counts.h"
 

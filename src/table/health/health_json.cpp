@@ -1,4 +1,4 @@
-#include "base/json_describe.h"
+#include "base/json/describe.h"
 #include "table/health/health_fields.h"
 
 namespace gonio {

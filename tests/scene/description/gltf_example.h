@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/base64.h"
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 
 namespace gonio::scene::test {
 

@@ -2,7 +2,7 @@
 /// \file
 /// A scene of every kind of thing that needs no other file.
 
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 
 namespace gonio::scene::test {
 

@@ -1,6 +1,6 @@
 #include "scene/plan/document.h"
 
-#include "base/json_reader.h"
+#include "base/json/reader.h"
 #include "refusal.h"
 #include "scene/plan/scenes.h"
 #include "support.h"

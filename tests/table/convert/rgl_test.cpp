@@ -13,8 +13,8 @@
 #include "table/convert/isotropy.h"
 #include "table/convert/rgb_spectra.h"
 #include "table/example.h"
-#include "table/format/rgl_function.h"
-#include "table/format/rgl_resample.h"
+#include "table/format/rgl/function.h"
+#include "table/format/rgl/resample.h"
 
 namespace gonio {
 namespace {

@@ -1,0 +1,143 @@
+// gonio fit_map: a stack of images in, a map of parameters out.
+#include "fitting/map/fit_map.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <system_error>
+
+#include "base/file.h"
+#include "cli/line/command.h"
+#include "cli/fit/fit_options.h"
+#include "cli/fit/map_result.h"
+#include "cli/line/terminal.h"
+#include "fitting/map/gather.h"
+
+#include <fmt/format.h>
+
+namespace gonio::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options : Common {
+  std::string stack, metric{name_of(TexelOptions{}.metric)}, output, tile_size = "256";
+  std::vector<std::string> fix, bounds, tiles;
+  TexelOptions texels;
+};
+
+/// Line of how far a map is, and how long still.
+class MapProgress {
+ public:
+  MapProgress(bool quiet, const TileGrid& grid)
+      : progress_(quiet), what_(fmt::format("fitting {} × {} texels", grid.width, grid.height)) {}
+  void operator()(const MapCount& n) {
+    const auto now = std::chrono::steady_clock::now();
+    if (n.done != n.texels && now < next_) return;  // blocks are many
+    next_ = now + std::chrono::milliseconds(200);
+    std::string line = fmt::format(
+        "{}, {:.0f} %", what_,
+        n.texels == 0 ? 100.0 : 100 * static_cast<double>(n.done) / static_cast<double>(n.texels));
+    if (n.kept) line += fmt::format(", {} of {} tiles kept", n.kept, n.tiles);
+    progress_(line + time_left(begin_, n.done, n.texels));
+  }
+  Progress& line() { return progress_; }
+
+ private:
+  Progress progress_;
+  std::string what_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now(), next_ = begin_;
+};
+
+/// Tiles that were asked for, into a folder.
+Exit run_tiles(const Options& o, const StackReader& stack, const TileGrid& grid) {
+  std::vector<Tile> tiles;
+  for (const auto& word : o.tiles) {
+    const auto place = two_numbers(word, "--tile", 0, longest_side, false);
+    const Tile tile{place[0], place[1]};
+    if (tile.column >= grid.columns() || tile.row >= grid.rows())
+      throw wrong_usage(fmt::format("--tile {}: the map of {} × {} has the tiles 0,0 to {},{}",
+                                    word, grid.width, grid.height, grid.columns() - 1,
+                                    grid.rows() - 1));
+    if (std::ranges::find(tiles, tile) == tiles.end()) tiles.push_back(tile);
+  }
+  MapProgress progress(o.quiet, grid);
+  const MapCount n = fit_tiles(stack, o.texels, grid, tiles, o.output, std::ref(progress));
+  progress.line().clear();
+  TilesDocument d{{}, n.kept, grid.columns(), grid.rows()};
+  for (const Tile& t : tiles) d.tiles.push_back((fs::path(o.output) / file_name(t)).string());
+  if (o.json)
+    fmt::print("{}", to_json(d));
+  else
+    say("tiles   {} of {} × {} in {}{}\n", tiles.size(), grid.columns(), grid.rows(), o.output,
+        n.kept ? fmt::format(", {} there from before", n.kept) : "");
+  return Exit::done;
+}
+
+Exit run(const Options& o) {
+  use_jobs(o.jobs);
+  Options with = o;
+  TexelOptions& t = with.texels;
+  t.metric = value_of<Metric>(o.metric, "metric");
+  t.fixed = parse_settings(o.fix);
+  t.bounds = parse_settings(o.bounds);
+  const auto tile_size = two_numbers(o.tile_size, "--tile-size", 1, longest_side, true);
+  check_outputs({o.stack}, {o.output});
+
+  Progress progress(o.quiet);
+  progress("opening the stack");
+  const StackReader stack(read_stack(o.stack));
+  std::error_code unknown;
+  if (fs::exists(o.output, unknown)) check_outputs(stack.paths(), {o.output});
+  check(t, stack.channels().size());
+  progress.clear();
+  const TileGrid grid{stack.width(), stack.height(), tile_size[0], tile_size[1]};
+  constexpr std::size_t most_tiles = std::size_t{1} << 16;
+  if (grid.columns() * grid.rows() > most_tiles)
+    throw wrong_usage(fmt::format("--tile-size {}: {} × {} tiles; at most {} in all", o.tile_size,
+                                  grid.columns(), grid.rows(), most_tiles));
+  if (!o.tiles.empty()) return run_tiles(with, stack, grid);
+
+  OutputFile out(o.output);  // before the work: nobody waits to learn that it has no place
+  // Tiles stay beside it until it is whole: a run that was killed goes on from them.
+  const std::string folder = o.output + ".tiles";
+  const auto tiles = grid.all();
+  MapProgress line(o.quiet, grid);
+  const MapCount n = fit_tiles(stack, t, grid, tiles, folder, std::ref(line));
+  line.line()("writing " + o.output);
+  const MapDocument d = gather_tiles(folder, out, threads_in_use());
+  out.commit();
+  line.line().clear();
+  print_map(d, o, n.kept ? fmt::format("{} of {} tiles kept from before", n.kept, n.tiles) : "");
+  std::error_code kept;
+  for (const Tile& tile : tiles) fs::remove(fs::path(folder) / file_name(tile), kept);
+  fs::remove(folder, kept);
+  return outcome_of(d);
+}
+
+}  // namespace
+
+void add_fit_map(CommandLine& line) {
+  auto [c, o] = line.command(
+      "fit_map", "Fits a model to each texel of a stack of images: a map of each parameter",
+      "gonio fit_map stack/stack.json --model lambert+ggx/smith_ggx.correlated/schlick -o "
+      "maps.exr\n  gonio fit_map stack/stack.json --tile 2,0 -o tiles/",
+      run);
+  c.option("STACK", o->stack, "Images and their directions: a document gonio.stack/1").required();
+  add_model_words(c, o->texels.model, o->fix, o->bounds, o->texels.grey);
+  add_metric(c, o->metric);
+  c.option("--offset", o->texels.offset, "Added to all values by log and relative [1/sr]")
+      .in(0.0, 1e6);
+  c.flag("--refine-normals", o->texels.refine_normals, "Fit the normals, too; of isotropic models");
+  c.option("--tile", o->tiles,
+           "COLUMN,ROW of a tile to fit alone, into the folder of -o, from 0,0 on top left; "
+           "several times for several. gonio gather joins them")
+      .one_each();
+  c.option("--tile-size", o->tile_size, "WIDTH,HEIGHT of tiles, or one number for both")
+      .show_default();
+  c.option("-o,--output", o->output, "OpenEXR file of the map; of --tile a folder").required();
+  add_jobs(c, *o);
+  add_output(c, *o);
+}
+
+}  // namespace gonio::cli

@@ -1,0 +1,71 @@
+#include "cli/fit/map_result.h"
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "cli/line/terminal.h"
+#include "fitting/map/tiles.h"
+
+#include <fmt/format.h>
+
+namespace gonio::cli {
+namespace {
+
+std::string percent(std::uint64_t part, std::uint64_t all) {
+  return fmt::format("{:.3g} %", 100 * static_cast<double>(part) / static_cast<double>(all));
+}
+
+void print(const MapDocument& d, const std::string& beside) {
+  const std::uint64_t texels = d.width * d.height;
+  say("model   {}\n", d.model);
+  std::string ended =
+      fmt::format("{} × {}, {} converged", d.width, d.height, percent(d.converged, texels));
+  if (d.not_converged) ended += fmt::format(", {} did not", percent(d.not_converged, texels));
+  if (d.no_data) ended += fmt::format(", {} without a value", percent(d.no_data, texels));
+  if (!beside.empty()) ended += "; " + beside;
+  say_below("texels  ", ended);
+  for (const auto& p : d.parameters) {
+    std::string text = std::isnan(p.mean) ? "–" : fmt::format("{:.4g} on average", p.mean);
+    if (!std::isnan(p.mean_std_error)) text += fmt::format(" ± {:.2g} each", p.mean_std_error);
+    if (p.fixed) text += ", held";
+    if (p.at_bound) text += fmt::format(", {} at a bound", percent(p.at_bound, texels));
+    if (p.not_identifiable)
+      text += fmt::format(", {} not known", percent(p.not_identifiable, texels));
+    say_below(fmt::format("{:<13} ", p.name), text);
+  }
+  say("map     {}\n", d.path);
+}
+
+}  // namespace
+
+void print_map(const MapDocument& d, const Common& o, const std::string& beside) {
+  if (o.json)
+    fmt::print("{}", to_json(d));
+  else
+    print(d, beside);
+}
+
+Exit outcome_of(const MapDocument& d) {
+  return d.converged > 0 ? Exit::done : Exit::not_converged;
+}
+
+Exit gather_map(const std::string& folder, const std::string& output, const Common& o) {
+  if (output.empty()) throw wrong_usage("the tiles of a map are joined into -o MAPS.exr");
+  check_outputs({folder}, {output});
+  const auto name = std::filesystem::path(output).filename();
+  if (tile_of_name(name.string()))  // of this folder it is read
+    check_outputs({(std::filesystem::path(folder) / name).string()}, {output});
+  OutputFile out(output);
+  Progress progress(o.quiet);
+  progress("joining tiles");
+  const MapDocument d = gather_tiles(folder, out, threads_in_use());
+  out.commit();
+  progress.clear();
+  print_map(d, o, "");
+  return outcome_of(d);
+}
+
+}  // namespace gonio::cli

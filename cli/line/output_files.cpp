@@ -1,0 +1,42 @@
+#include "cli/line/output_files.h"
+
+#include <array>
+#include <filesystem>
+
+#include "cli/line/command.h"
+
+#include <fmt/format.h>
+
+namespace gonio::cli {
+
+OutputFiles::OutputFiles(const std::vector<std::string>& inputs,
+                         const std::string& document,
+                         const std::string& page) {
+  const std::filesystem::path path(page);
+  const std::string data =
+      page.empty() ? "" : std::filesystem::path(path).replace_extension(".page.json").string();
+  check_outputs(inputs, {document, page, data});
+  if (!page.empty() && path.extension() != ".html")
+    throw wrong_usage(fmt::format("--html {}: a page's name ends in .html", page));
+  if (!document.empty()) document_.emplace(document);
+  if (page.empty()) return;
+  page_.emplace(page);
+  page_data_.emplace(data);
+}
+
+void OutputFiles::write_document(std::string_view text) {
+  if (document_) document_->write(text);
+}
+
+void OutputFiles::write_page(std::string_view html, std::string_view data) {
+  page_->write(html);
+  page_data_->write(data);
+  page_data_->write("\n");
+}
+
+void OutputFiles::commit() {
+  const auto made = [](std::optional<OutputFile>& f) { return f ? &*f : nullptr; };
+  commit_all(std::array{made(document_), made(page_data_), made(page_)});
+}
+
+}  // namespace gonio::cli

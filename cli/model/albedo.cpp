@@ -1,0 +1,96 @@
+// gonio albedo: how much of the light that comes in a model gives back.
+#include "answer/albedo.h"
+
+#include <memory>
+
+#include "answer/model_argument.h"
+#include "cli/line/command.h"
+#include "cli/line/terminal.h"
+
+#include <fmt/format.h>
+
+namespace gonio::cli {
+namespace {
+
+struct Options : Common {
+  std::string spec;
+  std::vector<std::string> set;
+  AlbedoQuestion question;
+};
+
+/// What is being done on the terminal; of several walks how many are left.
+class Step {
+ public:
+  explicit Step(bool quiet) : quiet_(quiet), line_(quiet) {}
+  void operator()(const std::string& what, std::size_t done, std::size_t all) {
+    if (all == 0) return line_(what);
+    if (!walks_) walks_ = std::make_unique<TimedProgress>(quiet_, what, all);
+    (*walks_)(done);
+  }
+
+ private:
+  bool quiet_;
+  Progress line_;
+  std::unique_ptr<TimedProgress> walks_;
+};
+
+void print(const AlbedoAnswer& r, const AlbedoQuestion& q) {
+  const auto line = [&](const std::string& name, const Albedo& a) {
+    fmt::print("{:>10}", name);
+    for (std::size_t c = 0; c < (r.grey ? 1 : a.value.size()); ++c)
+      fmt::print("  {:.10f}", a.value[c]);
+    fmt::print("  ± {:.1e}\n", a.error);
+  };
+  fmt::print("{:>10}  albedo{}\n", "mu", q.scattering == "walk" ? " ± standard error" : "");
+  for (std::size_t i = 0; i < r.at.size(); ++i) line(fmt::format("{}", q.mu[i]), r.at[i]);
+  if (r.average) line("average", *r.average);
+}
+
+AlbedoAnswer answer(const Options& o) {
+  const auto model = model_argument(o.spec, parse_settings(o.set)).model;
+  Step step(o.quiet);
+  return albedo_of(model, o.spec, o.question, std::ref(step));
+}
+
+Exit run(const Options& o) {
+  use_jobs(o.jobs);
+  const AlbedoAnswer r = answer(o);
+  if (o.json)
+    fmt::print("{}", to_json(r, o.question));
+  else
+    print(r, o.question);
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_albedo(CommandLine& line) {
+  auto [c, o] = line.command(
+      "albedo",
+      "Integrates how much of the light that comes in a model gives back, with a bound of the "
+      "error",
+      "gonio albedo ggx/smith_ggx.correlated/schlick --set alpha=1 f0=1 --mu 0.01,0.5,1 --average "
+      "--scattering deterministic --json",
+      run);
+  auto& q = o->question;
+  c.option("MODEL", o->spec, spec_or_fit).required();
+  add_set(c, o->set);
+  c.option("--mu", q.mu, "Cosines of the zenith angle, in (0, 1]").delimiter(',');
+  c.option("--phi", q.phi_deg, "Azimuth from the tangent, in degrees (anisotropic models)");
+  c.flag("--average", q.average, "Also the average over the hemisphere, 2 ∫ E mu dmu");
+  c.flag("--furnace", q.furnace, "With F = 1: what is then lost, masking has taken away");
+  c.option("--scattering", q.scattering,
+           "single: light that meets one facet; all of it by random walks (walk) or by quadrature "
+           "(deterministic); or as shaders compensate: kulla_conty, turquin, fdez_aguera")
+      .one_of(scatterings());
+  c.option("--error", q.error,
+           "Absolute error asked for (1e-8; deterministic 1e-5; of a walk the standard error at "
+           "which it may stop)");
+  c.option("--walks", q.walks, "Random walks at most, at each mu and lobe (1000000)")
+      .in(std::size_t{2}, std::size_t{1} << 40);
+  add_seed(c, q.seed, "Of the random walks (1)");
+  add_jobs(c, *o);
+  add_output(c, *o);
+}
+
+}  // namespace gonio::cli

@@ -1,0 +1,162 @@
+// gonio plan: the effects that each material of a scene needs.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "base/error.h"
+#include "cli/line/command.h"
+#include "cli/line/output_files.h"
+#include "cli/line/terminal.h"
+#include "fitting/export/materialx_plan.h"
+#include "geometry/direction.h"
+#include "reports/scenes/plan_page.h"
+#include "scene/plan/document.h"
+
+#include <fmt/format.h>
+
+namespace gonio::cli {
+namespace {
+
+using namespace scene;
+
+struct Options : Common {
+  std::string scene, output, page, cost = "time", write;
+  std::size_t samples = PlanOptions{}.samples;
+  std::optional<std::uint64_t> seed;
+};
+
+std::string unit_of(const Tolerance& t) {
+  return t.metric == Metric::relative ? "relative" : "ΔE2000";
+}
+
+void print(const MaterialPlan& m, const Tolerance& t) {
+  const bool looked_up = std::ranges::any_of(m.effects, [](const auto& e) {
+    return e.effect == Effect::environment && e.form == "split_sum" && e.why == Why::measured;
+  });
+  say("{}: {:.3g} × as fast, {:.0f} % fewer operations{}\n", m.name, m.speedup, 100 * m.ops_saved,
+      looked_up ? ", lookups not counted" : "");
+  say("  take    {}\n", m.spec);
+  std::string kept, dropped, none;
+  for (const auto& e : m.effects) {
+    auto& list = e.keep ? kept : e.why == Why::structural ? none : dropped;
+    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", name_of(e.effect),
+                        e.keep ? fmt::format(" ({})", e.form) : "");
+  }
+  say_below("  keep    ", kept.empty() ? "nothing" : kept);
+  if (!dropped.empty()) say_below("  drop    ", dropped);
+  if (!none.empty()) say_below("  absent  ", none);
+  if (m.checked.samples == 0) {
+    say("  check   no cheaper set keeps the tolerance: what changes nothing is dropped\n");
+    return;
+  }
+  say_below("  check   ",
+            fmt::format(
+                "{:.3g} % of {} fresh points differ by at most {} {:.2g}; the worst by {:.2g}",
+                100 * t.quantile, m.checked.samples, unit_of(t), m.checked.upper, m.checked.worst));
+  if (m.in_half.samples > 0)
+    say_below(
+        "  in half ",
+        std::isfinite(m.in_half.worst)
+            ? fmt::format(
+                  "{:.3g} % of the points would differ by at most {:.2g}; the worst by {:.2g}",
+                  100 * t.quantile, m.in_half.quantile, m.in_half.worst)
+            : std::string("some points would have no value"));
+  if (m.passed_over > 0)
+    say("          {} cheaper {} where chosen and failed on fresh points\n", m.passed_over,
+        m.passed_over == 1 ? "set held" : "sets held");
+}
+
+/// Path of what is written beside the plan's document.
+std::string beside(const std::string& document, const char* ending) {
+  return std::filesystem::path(document).replace_extension(ending).string();
+}
+
+MaterialxPlan in_materialx(const Scene& s, const Plan& plan, const std::string& document) {
+  const auto looks = looks_of(s);
+  const auto model = [](Surface surface) {
+    return CoatedModel{std::move(surface.base), std::move(surface.coat)};
+  };
+  std::vector<PlannedModel> all;
+  for (const auto& m : plan.materials) {
+    const auto at = std::ranges::find(s.materials, m.name, &Material::name);
+    const Look& look = looks[static_cast<std::size_t>(at - s.materials.begin())];
+    all.push_back({m.name, model(look.surface(look.exact())), model(look.surface(m.forms)),
+                   look.turn() / degree});
+  }
+  return materialx_of(all, document);
+}
+
+Exit run(const Options& o) {
+  use_jobs(o.jobs);
+  if (!o.write.empty() && o.output.empty())
+    throw wrong_usage("--write mtlx needs -o PLAN.json: the materials go beside it, as PLAN.mtlx");
+  const std::string materialx = o.write.empty() ? "" : beside(o.output, ".mtlx");
+  check_outputs({o.scene}, {o.output, o.page, materialx});
+  OutputFiles files({o.scene}, o.output, o.page);
+  std::optional<OutputFile> materials;
+  if (!materialx.empty()) materials.emplace(materialx);
+  Scene s = read_scene(o.scene);
+  if (s.budget_ns && o.cost == "operations")
+    throw wrong_usage("--cost operations: the scene's budget_ns is a time");
+  if (o.seed) s.seed = *o.seed;
+  PlanOptions options;
+  options.samples = o.samples;
+  options.cost = value_of<Cost>(o.cost, "cost");
+  TimedProgress progress(o.quiet, "planning", s.materials.size());
+  const Plan plan = plan_scene(s, options, [&](double done) {
+    progress(static_cast<std::size_t>(done * static_cast<double>(s.materials.size())));
+  });
+  progress.clear();
+  const auto document = to_json(plan);
+  files.write_document(document);
+  if (files.has_page()) files.write_page(plan_page_html(document), document);
+  MaterialxPlan written;
+  if (materials) {
+    written = in_materialx(s, plan, document);
+    materials->write(written.file);
+    materials->close();
+  }
+  files.commit();
+  if (materials) materials->commit();
+  if (o.json) {
+    fmt::print("{}\n", document);
+  } else {
+    for (const auto& m : plan.materials) print(m, plan.tolerance);
+    if (materials) say("{}: each material as planned, and as NAME_exact\n", materialx);
+    for (const auto& said : written.differs) say_below("  beware  ", said);
+  }
+  if (!plan.budget) return Exit::done;
+  const auto& b = *plan.budget;
+  if (!o.json)
+    say("budget: {:.4g} ns of {:.4g} a point; the worst material's error is at most {:.3g}\n", b.ns,
+        b.budget_ns, b.error);
+  return b.fits ? Exit::done : Exit::check_failed;
+}
+
+}  // namespace
+
+void add_plan(CommandLine& line) {
+  auto [c, o] = line.command("plan",
+                             "Says for each material of a scene which optical effects to simulate "
+                             "there, which to drop, and "
+                             "what that saves, within the scene's tolerance",
+                             "gonio plan scene.json -o plan.json", run);
+  c.option("SCENE", o->scene, "Scene, gonio.scene/1").required();
+  c.option("-o,--output", o->output, "The plan as a document, gonio.plan/1");
+  c.option("--html", o->page, "The plan as a page: what to keep, what to drop and why");
+  c.option("--write", o->write,
+           "The planned materials, too, beside the document: mtlx, for MaterialX, in PLAN.mtlx")
+      .one_of(std::array<std::string_view, 1>{"mtlx"});
+  c.option("--samples", o->samples, "Points that sets of effects are compared on (4096)")
+      .in(std::size_t{512}, std::size_t{65'536});
+  c.option("--cost", o->cost,
+           "What sets are compared by: time, as measured here, or operations, the same everywhere")
+      .one_of(names_of<Cost>);
+  add_seed(c, o->seed, "Seed of the points, in place of the scene's");
+  add_jobs(c, *o);
+  add_output(c, *o);
+}
+
+}  // namespace gonio::cli

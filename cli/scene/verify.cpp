@@ -1,0 +1,67 @@
+// gonio verify: a plan on fresh points of its scene.
+#include "scene/plan/verify.h"
+
+#include "cli/line/command.h"
+#include "cli/line/terminal.h"
+#include "scene/plan/confidence.h"
+
+#include <fmt/format.h>
+
+namespace gonio::cli {
+namespace {
+
+using namespace scene;
+
+struct Options : Common {
+  std::string scene, plan;
+  std::optional<std::size_t> samples;
+  std::uint64_t seed = 1;
+};
+
+void print(const VerifiedMaterial& m, const Tolerance& t) {
+  say_below(
+      fmt::format("{}: {}  ", m.name, m.holds ? "holds" : "is broken"),
+      fmt::format("{} of {} points differ by more than {:.3g}, which is less than {:.2g} % of all "
+                  "with {:.3g} % confidence; the worst by {:.3g}",
+                  m.found.exceeding, m.found.samples, t.limit, 100 * m.found.bound,
+                  100 * t.confidence, m.found.worst));
+}
+
+Exit run(const Options& o) {
+  use_jobs(o.jobs);
+  check_outputs({o.scene, o.plan}, {});
+  const Scene s = read_scene(o.scene);
+  const std::size_t needed = draws_needed(s.tolerance.quantile, s.tolerance.confidence);
+  if (o.samples && *o.samples < needed)
+    throw wrong_usage(fmt::format(
+        "--samples {}: this scene's quantile and confidence need {} at least", *o.samples, needed));
+  const auto planned = read_plan(o.plan, s, looks_of(s));
+  TimedProgress progress(o.quiet, "verifying", s.materials.size());
+  const auto v = verify(s, planned, o.seed, o.samples, [&](double done) {
+    progress(static_cast<std::size_t>(done * static_cast<double>(s.materials.size())));
+  });
+  progress.clear();
+  if (o.json)
+    fmt::print("{}\n", to_json(v));
+  else
+    for (const auto& m : v.materials) print(m, v.tolerance);
+  return v.holds() ? Exit::done : Exit::check_failed;
+}
+
+}  // namespace
+
+void add_verify(CommandLine& line) {
+  auto [c, o] = line.command(
+      "verify",
+      "Judges a plan on fresh points of its scene; exit 1 where the scene's tolerance is broken",
+      "gonio verify scene.json plan.json", run);
+  c.option("SCENE", o->scene, "Scene that the plan was made for").required();
+  c.option("PLAN", o->plan, "Plan, gonio.plan/1").required();
+  c.option("--samples", o->samples, "Fresh points (16384, more where the tolerance needs them)")
+      .in(std::size_t{512}, std::size_t{1} << 22);
+  add_seed(c, o->seed, "Seed of the fresh points (1)");
+  add_jobs(c, *o);
+  add_output(c, *o);
+}
+
+}  // namespace gonio::cli

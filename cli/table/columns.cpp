@@ -1,0 +1,238 @@
+// gonio columns: what the columns of a CSV file are, said once.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/file.h"
+#include "base/json/reader.h"
+#include "base/sha256.h"
+#include "base/text.h"
+#include "cli/line/command.h"
+#include "cli/line/terminal.h"
+#include "table/format/column_proposal.h"
+#include "table/format/formats.h"
+#include "table/format/metadata.h"
+
+#include <fmt/format.h>
+
+namespace gonio::cli {
+namespace {
+
+struct Options : Common {
+  std::vector<std::string> files, words;
+  ColumnMap map;
+};
+
+bool says_anything(const Options& o) {
+  const ColumnMap usual;
+  return !o.words.empty() || o.map.radians || o.map.cosine || o.map.skip != usual.skip ||
+         o.map.forward_deg != usual.forward_deg || o.map.scale != usual.scale;
+}
+
+ColumnMap map_of(const Options& o) {
+  ColumnMap map = o.map;
+  for (const auto& word : o.words) {
+    const auto at = word.find('=');
+    const std::string role = word.substr(0, at);
+    if (at == word.npos || at + 1 == word.size())
+      throw wrong_usage(fmt::format("--map takes NAME=COLUMN, not '{}'", word));
+    if (!is_role(role))
+      throw wrong_usage(fmt::format(
+          "'{}' is none of theta_i, phi_i, theta_o, phi_o, f, f_NAME, weight, channel", role));
+    if (std::ranges::find(map.columns, role, [](const auto& c) { return c.first; }) !=
+        map.columns.end())
+      throw wrong_usage(fmt::format("--map names {} twice", role));
+    map.columns.emplace_back(role, word.substr(at + 1));
+  }
+  return map;
+}
+
+void expect_columns(InputFile& in) {
+  const std::string head = in.peek(1 << 16);
+  if (!is_csv(head))
+    throw bad_input(in.path(), "the beginning", head.substr(0, 24),
+                    "text with a line of at least three numbers");
+}
+
+/// The table as the map makes it, and the text of its side file.
+std::pair<Table, std::string> read_with(const std::string& file, const ColumnMap& map) {
+  InputFile in(file);
+  expect_columns(in);
+  Table t = read_csv(in, &map);
+  t.path = file;
+  t.sha256 = sha256_of_file(file);
+  std::string side = with_columns(side_path(file), side_text(file), map);
+  apply_metadata(t, side_path(file), side);  // what is there already may speak of another table
+  return {std::move(t), std::move(side)};
+}
+
+struct Peak {
+  double value = 0;
+  std::size_t sample = 0;
+};
+Peak largest(const Table& t) {
+  Peak p;
+  const SampleAngles at(t);
+  for (const auto& plane : t.values)
+    for (std::size_t i = 0; i < plane.size(); ++i)
+      if (plane[i] > p.value && mask(at(i), plane[i]) == Mask::valid) p = {plane[i], i};
+  return p;
+}
+
+void print(const Table& t) {
+  const auto line = [](const char* what, const std::string& text) {
+    say("{:<14}{}\n", what, text);
+  };
+  const DirectionList& l = *t.list();
+  const std::set<double> in(l.theta_i_deg.begin(), l.theta_i_deg.end());
+  const auto [low, high] = std::ranges::minmax(l.theta_o_deg);
+  line("file", t.path);
+  line("samples", fmt::format("{}, channels {}", t.size(), fmt::join(t.channels, " ")));
+  line("theta_i", in.size() <= 12 ? fmt::format("{:.5g}°", fmt::join(in, "° "))
+                                  : fmt::format("{} angles, {:.5g}° to {:.5g}°", in.size(),
+                                                *in.begin(), *in.rbegin()));
+  line("theta_o", fmt::format("{:.5g}° to {:.5g}°", low, high));
+  if (const auto [value, i] = largest(t); value > 0)
+    line("largest", fmt::format("{:.4g} 1/sr at theta_i {:.5g}°, theta_o {:.5g}°, phi_o − phi_i "
+                                "{:.5g}° (180° is the mirror's side)",
+                                value, l.theta_i_deg[i], l.theta_o_deg[i],
+                                std::abs(std::remainder(l.phi_o_deg[i] - l.phi_i_deg[i], 360))));
+  for (const auto& w : t.warnings) line("beware", w);
+  line("written", side_path(t.path));
+}
+
+/// The "columns" of a side file, as they stand there.
+Json columns_of(const std::string& file, const std::string& side) {
+  return parse_json(side_path(file), side)["columns"];
+}
+
+Json to_json(const Table& t, const std::string& side) {
+  return {{"path", t.path},         {"samples", t.size()},
+          {"channels", t.channels}, {"columns", columns_of(t.path, side)},
+          {"warnings", t.warnings}, {"written", side_path(t.path)}};
+}
+
+void print(const ColumnProposal& p, const std::string& file) {
+  for (const auto& reason : p.said) say("{:<14}{}\n", p.map ? "beware" : "unclear", reason);
+  if (p.map && !p.needed) {
+    say("no map, and none is needed: the columns have the names that gonio reads\n");
+    return;
+  }
+  std::string command = "gonio columns " + shell_word(file) + " --map";
+  if (!p.map) command += " theta_i=… phi_i=… theta_o=… phi_o=… f=…";
+  if (p.map)
+    for (const auto& [role, column] : p.map->columns)
+      command += " " + shell_word(role + "=" + column);
+  if (p.map && p.map->radians) command += " --radians";
+  say("no map; {}\n  {}\n", p.map ? "by their names and ranges it would be" : "one is made by",
+      command);
+}
+
+Json show(const Options& o, const std::string& file, Progress& progress) {
+  progress("reading " + file);
+  InputFile in(file);
+  expect_columns(in);
+  const std::string side = side_text(file);
+  const auto map = side.empty() ? std::nullopt : column_map(side_path(file), side);
+  const auto columns = csv_columns(in, map ? map->skip : 0);
+  progress.clear();
+  Json all = Json::array();
+  if (!o.json)
+    say("{}\n{:<8}{:<24}{:>10}{:>14}{:>14}\n", file, "", "name", "entries", "from", "to");
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto& c = columns[k];
+    if (o.json) {
+      all.push_back({{"number", k + 1},
+                     {"name", c.name},
+                     {"distinct", c.distinct},
+                     {"numbers", c.numbers},
+                     {"lowest", c.numbers ? Json(c.lowest) : Json()},
+                     {"highest", c.numbers ? Json(c.highest) : Json()}});
+      continue;
+    }
+    const std::string name = printable(c.name, 40);
+    const auto entries = fmt::format("{}{}", c.distinct, c.distinct == 1000 ? "+" : "");
+    say("{:<8}{:<24}{:>10}", fmt::format("#{}", k + 1), name, entries);
+    if (c.numbers)
+      fmt::print("{:>14.6g}{:>14.6g}\n", c.lowest, c.highest);
+    else
+      fmt::print("{:>14}\n", "no numbers");
+  }
+  Json said = map ? columns_of(file, side) : Json();
+  Json proposed;
+  if (map) {
+    if (!o.json) say("{} says {}\n", side_path(file), said.dump());
+  } else {
+    const auto p = propose_columns(columns);
+    if (!o.json) print(p, file);
+    if (p.map)
+      proposed = {{"columns", columns_of(file, with_columns(side_path(file), "", *p.map))},
+                  {"needed", p.needed},
+                  {"said", p.said}};
+  }
+  Json shown = Json::object();  // piece by piece: braces would copy what may be long
+  shown["path"] = file;
+  shown["file_columns"] = std::move(all);
+  shown["columns"] = std::move(said);
+  shown["proposal"] = std::move(proposed);
+  return shown;
+}
+
+Exit run(const Options& o) {
+  Json documents = Json::array();
+  Progress progress(o.quiet);
+  if (!says_anything(o)) {
+    for (const auto& file : o.files) documents.push_back(show(o, file, progress));
+  } else {
+    const ColumnMap map = map_of(o);
+    std::vector<std::pair<Table, std::string>> all;
+    for (const auto& file : o.files) {
+      progress("reading " + file);
+      all.push_back(read_with(file, map));
+    }
+    progress.clear();
+    for (const auto& [t, side] : all) {
+      write_file(side_path(t.path), side);
+      if (o.json)
+        documents.push_back(to_json(t, side));
+      else
+        print(t);
+    }
+  }
+  const Json& shown = documents.size() == 1 ? documents[0] : documents;
+  if (o.json) print_document(shown);
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_columns(CommandLine& line) {
+  auto [c, o] = line.command(
+      "columns",
+      "Says what the columns of CSV files are, once: written beside each as FILE.gonio.json. "
+      "Without options it shows them.",
+      "gonio columns PTFE.data.csv --map theta_i=thetai phi_i=phi theta_o=thetar phi_o=phir "
+      "f=f_r11 channel=lambda",
+      run);
+  c.option("FILE", o->files, "CSV: fields between ; tabs, commas or blanks").required();
+  c.option("--map", o->words,
+           "NAME=COLUMN …: NAME is theta_i, phi_i, theta_o, phi_o, f, f_CHANNEL, weight, or "
+           "channel (each of its entries is one: a wavelength a row); COLUMN a name, #k, or a "
+           "constant such as 0. Unnamed: the column of that very name; azimuths: 0")
+      .at_most(4096);
+  c.flag("--radians", o->map.radians, "Angles are in radians");
+  c.flag("--cosine", o->map.cosine, "Values are f cos(theta_o)");
+  c.option("--forward", o->map.forward_deg,
+           "phi_o − phi_i of the mirror direction in degrees: 0 where phi is counted from where "
+           "the light goes to")
+      .in(-360.0, 360.0)
+      .show_default();
+  c.option("--scale", o->map.scale,
+           "Values times this are f in 1/sr: 0.3183099 for a radiance factor")
+      .in(1e-12, 1e12);
+  c.option("--skip", o->map.skip, "Lines at the top that are passed over")
+      .in(std::size_t{0}, std::size_t{1'000'000});
+  add_output(c, *o);
+}
+
+}  // namespace gonio::cli

@@ -1,0 +1,68 @@
+#include "fitting/judge/describe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "brdf/model/roughness.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+void describe(FitDocument& d,
+              const Problem& p,
+              std::span<const double> values,
+              const Uncertainty& u) {
+  for (const auto& q : p.start.model.parameters) {
+    FittedParameter e{q.name, {}, {}, {}, {}, {}, {}, {}};
+    for (std::size_t s = q.first; s < q.first + q.count; ++s) {
+      double value = values[s], error = nan, low = nan, high = nan, limit = nan;
+      std::string reason;
+      auto status = ParameterStatus::fixed;
+      if (p.free.mask()[s]) {
+        const std::size_t i = p.free.index(s);
+        status = u.status[i];
+        error = u.std_error[i];
+        low = std::isnan(u.low[i]) ? value - u.t[i] * error : u.low[i];
+        high = std::isnan(u.high[i]) ? value + u.t[i] * error : u.high[i];
+        limit = u.limit[i];
+        reason = u.reason[i];
+        // A width at the low end of all there are: narrower ones, or no lobe, would do as well.
+        if (status == ParameterStatus::at_bound && is_alpha(q.name) && !p.narrowed[i] &&
+            value <= p.bounds.low[i] * (1 + 1e-3))
+          status = ParameterStatus::not_identifiable, reason = "narrower than the samples can tell";
+        if (status == ParameterStatus::not_identifiable) value = error = nan;
+        if (status == ParameterStatus::upper_limit && value > limit) value = nan;
+      }
+      e.value.push_back(value);
+      e.std_error.push_back(error);
+      e.ci95_low.push_back(std::max(low, q.about->legal.low));
+      e.ci95_high.push_back(std::min(high, q.about->legal.high));
+      if (std::isnan(error)) e.ci95_low.back() = e.ci95_high.back() = nan;
+      e.status.push_back(status);
+      e.limit.push_back(limit);
+      e.reason.push_back(std::move(reason));
+    }
+    d.parameters.push_back(e);
+    if (!is_alpha(q.name)) continue;
+    FittedParameter r = e;
+    r.name = roughness_name(q.name);
+    for (auto* v : {&r.value, &r.ci95_low, &r.ci95_high, &r.limit}) (*v)[0] = roughness_of((*v)[0]);
+    r.std_error[0] = roughness_error(r.value[0], e.std_error[0]);
+    d.parameters.push_back(r);
+  }
+  for (const auto& q : p.start.model.parameters)
+    for (std::size_t c = 0; c < q.count; ++c)
+      if (p.free.mask()[q.first + c])
+        d.free_names.push_back(q.count == 1 ? q.name : fmt::format("{}.{}", q.name, d.channels[c]));
+  d.correlations = u.correlations;
+  d.condition = u.condition;
+}
+
+}  // namespace gonio

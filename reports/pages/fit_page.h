@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// The page of one fit: its parameters and how well they are known, the table and how far to trust
+/// it, data against model, and where the model is off.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fitting/result/document.h"
+#include "reports/pages/residual_map.h"
+#include "reports/pages/spheres.h"
+#include "table/cut/cuts.h"
+
+namespace gonio {
+
+/// Content of the page beyond fit.json and the table's health.
+struct FitPage {
+  std::vector<std::string> channels;
+  std::vector<Cut> curves;
+  ResidualMap residual_map;
+  Spheres spheres;
+};
+
+FitPage make_fit_page(const Table&, const BoundModel& fitted);
+
+/// {"fit": …, "health": …, "channels", "curves", "residual_map", "spheres"}: every figure of the page; what is
+/// not known is null.
+/// \param fit_json, health_json  the documents as JSON text
+std::string to_json(const FitPage&, std::string_view fit_json, std::string_view health_json);
+
+/// JSON Schema of that document.
+std::string fit_page_schema();
+
+/// The page itself, HTML.
+/// \param data  of to_json() above
+std::string fit_page_html(std::string_view title, std::string_view data);
+
+}  // namespace gonio

@@ -1,0 +1,263 @@
+#include "base/json/reader.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/file.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+constexpr int kDeepest = 64;  ///< nested brackets; the contract's documents need 5
+
+/// Byte where brackets nest deeper than that, or npos.
+std::size_t too_deep(std::string_view bytes) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const char c = bytes[i];
+    if (in_string && c == '\\')
+      ++i;
+    else if (c == '"')
+      in_string = !in_string;
+    else if (in_string)
+      continue;
+    else if (c == '[' || c == '{')
+      ++depth;
+    else if (c == ']' || c == '}')
+      --depth;
+    if (depth > kDeepest) return i;
+  }
+  return bytes.npos;
+}
+
+std::string place_of(std::string_view bytes, std::size_t at) {
+  const auto before = bytes.substr(0, at);
+  const auto column = at - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+  return fmt::format("line {}, column {}", 1 + std::ranges::count(before, '\n'), column);
+}
+
+/// A simple value as it is written, of others the kind: they may hold anything.
+std::string name_of(const Json& j) {
+  if (j.is_structured())
+    return fmt::format("{} {}", j.empty() ? "an empty" : "an", j.is_object() ? "object" : "array");
+  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Step from an object to its member, as a part of a place.
+std::string step_to(const std::string& key, Places places, bool is_first) {
+  if (places == Places::dotted) return is_first ? key : "." + key;
+  std::string escaped = "/";
+  for (const char c : key)
+    if (c == '~' || c == '/')
+      escaped += c == '~' ? "~0" : "~1";
+    else
+      escaped += c;
+  return escaped;
+}
+
+using Members = std::vector<Json::object_t::value_type>;
+
+/// The members of an object, to add to without a search for the name.
+Members& members_of(Json& object) {
+  return object.get_ref<Json::object_t&>();
+}
+
+/// Builds a document as it is read.  The library's own way looks every key up among those before it,
+/// one by one: that is quadratic in the keys of an object.
+class Builder final : public nlohmann::json_sax<Json> {
+ public:
+  Builder(const std::string& file, const std::string& bytes) : file_(file), bytes_(bytes) {}
+  Json take() { return std::move(root_); }
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool v) override { return add(v); }
+  bool number_integer(std::int64_t v) override { return add(v); }
+  bool number_unsigned(std::uint64_t v) override { return add(v); }
+  bool number_float(double v, const std::string&) override { return add(v); }
+  bool string(std::string& v) override { return add(std::move(v)); }
+  bool binary(Json::binary_t& v) override { return add(std::move(v)); }
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool key(std::string& name) override {
+    members_of(*open_.back()).emplace_back(std::move(name), nullptr);
+    return true;
+  }
+  bool end_array() override {
+    open_.pop_back();
+    return true;
+  }
+  bool end_object() override {
+    keep_last(members_of(*open_.back()));
+    return end_array();
+  }
+  bool parse_error(std::size_t byte,
+                   const std::string&,
+                   const nlohmann::detail::exception& e) override {
+    if (dynamic_cast<const Json::parse_error*>(&e) == nullptr)
+      throw bad_input(file_, "JSON", e.what(), "values that can be held");
+    const auto end = std::min(bytes_.size(), byte > 0 ? byte - 1 : 0);
+    throw bad_input(file_, place_of(bytes_, end),
+                    end < bytes_.size() ? bytes_.substr(end, 12) : "the end of the file", "JSON");
+  }
+
+ private:
+  Json& put(Json&& value) {
+    if (open_.empty()) return root_ = std::move(value);
+    Json& in = *open_.back();
+    if (in.is_array()) return in.emplace_back(std::move(value));
+    return members_of(in).back().second = std::move(value);
+  }
+  bool add(Json&& value) {
+    put(std::move(value));
+    return true;
+  }
+  /// It stays where it is while it is open: nothing is added beside it.
+  bool open(Json&& value) {
+    open_.push_back(&put(std::move(value)));
+    return true;
+  }
+  /// Keeps of members with one name the value of the last, where the first stands.
+  void keep_last(Members& all) {
+    order_.resize(all.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    const auto name = [&](std::size_t k) -> const std::string& { return all[k].first; };
+    std::ranges::sort(order_, [&](std::size_t a, std::size_t b) {
+      const int c = name(a).compare(name(b));
+      return c != 0 ? c < 0 : a < b;
+    });
+    std::vector<bool> repeats(all.size());
+    bool any = false;
+    for (std::size_t k = 0, first = 0; k < order_.size(); ++k) {
+      if (name(order_[k]) != name(order_[first])) first = k;
+      if (k == first) continue;
+      all[order_[first]].second = std::move(all[order_[k]].second);
+      repeats[order_[k]] = any = true;
+    }
+    if (!any) return;
+    Members kept;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (!repeats[k]) kept.push_back(std::move(all[k]));
+    all = std::move(kept);
+  }
+
+  const std::string &file_, &bytes_;
+  Json root_;
+  std::vector<Json*> open_;  ///< the innermost last
+  std::vector<std::size_t> order_;
+};
+
+}  // namespace
+
+std::string text_of(const Json& j) {
+  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json parse_json(const std::string& file, const std::string& bytes) {
+  if (const auto at = too_deep(bytes); at != bytes.npos)
+    throw bad_input(file, place_of(bytes, at), fmt::format("{} levels of brackets", kDeepest + 1),
+                    fmt::format("at most {}", kDeepest));
+  Builder document(file, bytes);
+  Json::sax_parse(bytes, &document);
+  return document.take();
+}
+
+Json read_json(const std::string& file) {
+  return parse_json(file, InputFile(file).read_rest(most_document_bytes));
+}
+
+void JsonReader::fail(const std::string& expected) const {
+  fail(name_of(*value_), expected);
+}
+
+void JsonReader::fail(const std::string& found, const std::string& expected) const {
+  throw bad_input(*file_, place_.empty() ? "the document" : place_, found, expected);
+}
+
+void JsonReader::expect_object() const {
+  if (!value_->is_object()) fail("an object");
+}
+
+bool JsonReader::has(const std::string& key) const {
+  return value_->is_object() && value_->contains(key);
+}
+
+JsonReader JsonReader::within(const Json& value, std::string step) const {
+  // An error cuts it before that (base/error.h), and each element of an array has its own.
+  constexpr std::size_t most = 256;
+  std::string place = place_ + std::move(step);
+  if (place.size() > most) place.resize(most);
+  return {*file_, value, std::move(place), places_};
+}
+
+JsonReader JsonReader::at(const std::string& key) const {
+  expect_object();
+  const auto found = value_->find(key);
+  static const Json nothing;
+  if (found == value_->end())
+    within(nothing, step_to(key, places_, place_.empty())).fail("nothing", "a value");
+  return within(*found, step_to(key, places_, place_.empty()));
+}
+
+JsonReader JsonReader::at(std::size_t index) const {
+  if (!is_array()) fail("an array");
+  static const Json nothing;
+  const std::string step =
+      places_ == Places::dotted ? fmt::format("[{}]", index) : fmt::format("/{}", index);
+  if (index >= size()) within(nothing, step).fail("nothing", "a value");
+  return within((*value_)[index], step);
+}
+
+void JsonReader::visit_members(
+    const std::function<void(const std::string&, const JsonReader&)>& visit) const {
+  expect_object();
+  for (const auto& [key, value] : value_->get_ref<const Json::object_t&>())
+    visit(key, within(value, step_to(key, places_, place_.empty())));
+}
+
+std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
+  std::vector<std::pair<std::string, JsonReader>> out;
+  visit_members([&](const auto& key, const auto& value) { out.emplace_back(key, value); });
+  return out;
+}
+
+std::vector<JsonReader> JsonReader::elements() const {
+  if (!is_array()) return {*this};
+  std::vector<JsonReader> out;
+  for (std::size_t i = 0; i < size(); ++i) out.push_back(at(i));
+  return out;
+}
+
+std::string JsonReader::string() const {
+  if (!value_->is_string()) fail("a string");
+  return value_->get<std::string>();
+}
+
+bool JsonReader::boolean() const {
+  if (!value_->is_boolean()) fail("true or false");
+  return value_->get<bool>();
+}
+
+double JsonReader::number() const {
+  if (value_->is_null()) return std::numeric_limits<double>::quiet_NaN();
+  if (!value_->is_number()) fail("a number or null");
+  return value_->get<double>();
+}
+
+std::uint64_t JsonReader::whole_number() const {
+  if (!value_->is_number_unsigned()) fail("a whole number");
+  return value_->get<std::uint64_t>();
+}
+
+std::vector<double> JsonReader::numbers() const {
+  std::vector<double> out;
+  for (const auto& e : elements()) out.push_back(e.number());
+  if (out.empty()) fail("at least one number");
+  return out;
+}
+
+}  // namespace gonio

@@ -1,0 +1,190 @@
+// Choice of a model, as its file says it.
+#include "validate/choice.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "optics/refractive_index.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace gonio {
+namespace {
+
+using nlohmann::json;
+
+json plain() {
+  return {{"schema", "gonio.choice/1"},
+          {"model", "ggx/schlick_ggx.half_alpha/schlick"},
+          {"reference", "ggx/smith_ggx.correlated/schlick"},
+          {"domain", {{"roughness", {0.1, 1}}, {"f0", 0.04}}},
+          {"budgets", {{"albedo_error", 0.1}}}};
+}
+Choice parsed(const json& j) {
+  return parse_choice("c.json", j.dump());
+}
+double value(const BoundModel& b, const std::string& name, std::size_t channel = 0) {
+  return b.values[b.model.find(name)->slot(channel)];
+}
+
+TEST(Choice, IsReadWithWhatItLeavesOutAsTheDesignSays) {
+  const Choice c = parsed(plain());
+  EXPECT_EQ(c.shipped.model, "ggx/schlick_ggx.half_alpha/schlick");
+  EXPECT_EQ(c.shipped.scattering, Bounces::single);
+  EXPECT_EQ(c.number, Number::float_);
+  EXPECT_TRUE(c.has_reference);
+  EXPECT_EQ((*c.domain.f0)[0], 0.04);
+  EXPECT_EQ((*c.domain.f0)[1], 0.04);
+  EXPECT_FALSE(c.domain.mu);
+  EXPECT_EQ(*c.budgets.albedo_error, 0.1);
+  EXPECT_FALSE(c.budgets.ns);
+}
+
+TEST(Choice, NamesThePlaceOfWhatItDoesNotTake) {
+  const auto refused = [](const std::string& pointer, const json& value, const std::string& line) {
+    json j = plain();
+    j[json::json_pointer(pointer)] = value;
+    try {
+      parsed(j);
+      ADD_FAILURE() << pointer << " = " << value << " was taken";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), Exit::bad_input);
+      EXPECT_NE(std::string(e.what()).find(line), std::string::npos) << e.what();
+      EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
+    }
+  };
+  refused("/budgets", json::object(), "c.json: /budgets: found ");
+  refused("/budgets/albedo_error", -1, "c.json: /budgets/albedo_error: found -1");
+  refused("/budgets/speed", 1, "speed");
+  refused("/model", "ggx/smith_gx/schlick", "c.json: /model: found ");
+  refused("/parameters", {{"gamma", 2}}, "c.json: /parameters: found ");
+  refused("/domain/roughness", {0.5, 0.2}, "c.json: /domain/roughness: found ");
+  refused("/domain/mu", {0, 1}, "c.json: /domain/mu: found ");
+  refused("/domain/metal", "unobtainium", "c.json: /domain/metal: found ");
+  refused("/domain/eta", {1.3, 2}, "one of eta, f0, metal and fits alone");
+  refused("/number", "wide", "c.json: /number: found ");
+  refused("/scattering", "walks", "c.json: /scattering: found ");
+  refused("/schema", "gonio.choice/2", "c.json: /schema: found ");
+  refused("/budgets/fresnel_error", 0.1, "eta or metal");
+  refused("/budgets/ns", {{"limit", 2}, {"baseline", "gg"}},
+          "c.json: /budgets/ns/baseline: found ");
+  for (const auto& [name, value] :
+       {std::pair("alpha", json(2)), std::pair("f0", json(-1)), std::pair("alpha", json(1e-9)),
+        std::pair("alpha", json("wide"))})
+    refused("/parameters", {{name, value}}, "c.json: /parameters");
+  refused("/reference_parameters", {{"f0", 1.5}}, "c.json: /reference_parameters: found ");
+  refused("/coating", "view", "c.json: /coating: found ");
+  refused("/coating", "inside", "c.json: /coating: found ");
+  refused("/model", "lambert+coat:ggx/smith_ggx.correlated/schlick", "view or both, beside a coat");
+  std::string lobes = plain()["model"];
+  for (int i = 1; i < 500; ++i) lobes += "+" + std::string(plain()["model"]);
+  refused("/model", lobes, "16 lobes");
+  for (const char* budget : {"fresnel_error", "energy_loss"}) {
+    json j = {{"schema", "gonio.choice/1"}, {"model", "lambert"}, {"domain", {{"eta", 1.5}}}};
+    j["budgets"][budget] = 0.1;
+    EXPECT_THROW(parsed(j), Error) << budget << " of a model without a lobe";
+  }
+  json j = plain();
+  j.erase("reference");
+  EXPECT_THROW(parsed(j), Error) << "albedo_error compares with nothing";
+}
+
+TEST(Choice, LaysACoatOnDiffuseTermsAlone) {
+  const auto refused = [](const char* model, const json& more, const std::string& line) {
+    json j = plain();
+    j["model"] = model;
+    j["coating"] = "both";
+    if (more.is_object()) j.update(more);
+    try {
+      parsed(j);
+      ADD_FAILURE() << model << " was taken";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), Exit::bad_input);
+      EXPECT_NE(std::string(e.what()).find(line), std::string::npos) << e.what();
+    }
+  };
+  const char* const good = "lambert+coat:ggx/smith_ggx.correlated/schlick";
+  refused("coat:ggx/smith_ggx.correlated/schlick", {}, "DIFFUSE+coat:LOBE");
+  refused("lambert.coupled+coat:ggx/smith_ggx.correlated/schlick", {}, "uncoupled");
+  refused("lambert+ggx/smith_ggx.correlated/schlick+coat:ggx/smith_ggx.correlated/schlick", {},
+          "DIFFUSE+coat:LOBE");
+  refused("lambert+coat:ggx/smith_ggx.correlated/schlick+eon", {}, "what the model takes");
+  refused("lambert+ggx/smith_ggx.correlated/coat:schlick", {}, "DIFFUSE+coat:LOBE");
+  refused(good, {{"scattering", "turquin"}}, "c.json: /scattering: found ");
+  for (const char* budget : {"energy_loss", "nonfinite", "operations", "table_bytes"})
+    refused(good, {{"budgets", {{budget, 0}}}},
+            std::string("c.json: /budgets/") + budget + ": found ");
+  json j = plain();
+  j["model"] = good;
+  j["coating"] = "view";
+  const Choice c = parsed(j);
+  EXPECT_EQ(c.shipped.coating, Coating::view);
+  EXPECT_EQ(c.shipped.spec(), "lambert+ggx/smith_ggx.correlated/schlick");
+}
+
+TEST(Choice, OfARangeHasBothEndsAndWhatLiesBetween) {
+  json j = plain();
+  j["domain"] = {{"eta", {1.3, 1.7}}};
+  const auto all = substances(parsed(j));
+  ASSERT_EQ(all.size(), 5U);
+  EXPECT_EQ(all.front().name, "IOR 1.3");
+  EXPECT_EQ(all[2].name, "IOR 1.5");
+  EXPECT_EQ(all.back().name, "IOR 1.7");
+  EXPECT_EQ(substances(parsed(plain())).size(), 1U);
+}
+
+TEST(Choice, GivesEachModelTheParametersOfTheSubstance) {
+  json j = plain();
+  j["domain"] = {{"roughness", {0.5, 1}}, {"metal", {"Au", "Fe"}}};
+  j["reference"] = "ggx/smith_ggx.correlated/conductor";
+  const Choice c = parsed(j);
+  const auto all = substances(c);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].name, "gold");
+  const auto shipped = bound(c, c.shipped, all[0], 0.5), exact = bound(c, c.reference, all[0], 0.5);
+  EXPECT_EQ(value(shipped, "alpha"), 0.25);
+  const Index green = find_metal("Au")->rgb()[1];
+  EXPECT_EQ(value(exact, "eta", 1), green.n);
+  EXPECT_EQ(value(exact, "k", 1), green.k);
+  EXPECT_NEAR(value(shipped, "f0", 1), f0_of_index(green), 1e-12);
+  EXPECT_GT(value(shipped, "f0", 0), value(shipped, "f0", 2)) << "gold is yellow";
+}
+
+TEST(Choice, TakesPresetsByTheirOwnParametersOrByThoseOfTheirTerms) {
+  json j = plain();
+  j["model"] = "gltf";
+  j["reference"] = "disney";
+  j["budgets"]["ns"] = {{"limit", 2}, {"baseline", "ue_mobile"}};
+  const Choice by_terms = parsed(j);
+  const auto b = bound(by_terms, by_terms.shipped, substances(by_terms)[0], 0.5);
+  EXPECT_EQ(value(b, "alpha"), 0.25);
+  EXPECT_EQ(value(b, "f0"), 0.04);
+  j["domain"].erase("f0");
+  j["parameters"] = j["reference_parameters"] = {{"base_color", {0.8, 0.4, 0.2}}, {"metallic", 1}};
+  j["alpha"] = "roughness";
+  const Choice own = parsed(j);
+  const auto metal = bound(own, own.shipped, substances(own)[0], 0.25);
+  EXPECT_EQ(value(metal, "alpha"), 0.25);
+  EXPECT_EQ(value(metal, "f0", 1), 0.4);
+  EXPECT_NEAR(value(bound(own, own.reference, substances(own)[0], 0.5), "f0", 0), 0.8, 1e-12);
+  j["parameters"]["f0"] = 0.5;
+  EXPECT_THROW(parsed(j), Error) << "base_color says it already";
+}
+
+TEST(Choice, MapsRoughnessToTheWidthAsItSays) {
+  json j = plain();
+  const auto alpha = [&](const char* map) {
+    j["alpha"] = map;
+    const Choice c = parsed(j);
+    return value(bound(c, c.shipped, substances(c)[0], 0.5), "alpha");
+  };
+  EXPECT_EQ(alpha("roughness"), 0.5);
+  EXPECT_EQ(alpha("roughness^2"), 0.25);
+  EXPECT_EQ(alpha("roughness^4"), 0.0625);
+  j["parameters"] = {{"alpha", 0.3}};
+  EXPECT_EQ(alpha("roughness^2"), 0.3) << "what the choice sets is not the domain's";
+}
+
+}  // namespace
+}  // namespace gonio

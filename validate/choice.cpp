@@ -1,0 +1,394 @@
+#include "validate/choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json/form.h"
+#include "brdf/catalogue/registry.h"
+#include "brdf/model/fitted_model.h"
+#include "brdf/model/presets.h"
+#include "brdf/model/settings_form.h"
+#include "optics/refractive_index.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+constexpr Numbers shares{0, 1}, amounts{0, Numbers::any};
+constexpr Entries few{1, 64};
+constexpr std::string_view coat_word = "coat:";
+
+/// List of names, or one alone.
+struct Names {
+  std::vector<std::string> all;
+};
+void read_own(const JsonReader& j, Names& n) {
+  if (j.is_string())
+    n.all = {text_in(j)};
+  else
+    read_value(j, n.all, few.least, few.most);
+}
+Json own_schema(const Names&) {
+  const Json name = {{"type", "string"}, {"minLength", 1}};
+  return {
+      {"anyOf",
+       {name,
+        {{"type", "array"}, {"items", name}, {"minItems", few.least}, {"maxItems", few.most}}}}};
+}
+
+/// Range, or one number.
+struct Range01 {
+  Choice::Ends ends{0, 1};
+};
+void read_own(const JsonReader& j, Range01& r) {
+  if (j.is_number())
+    r.ends = {j.number(), j.number()};
+  else
+    read_value(j, r.ends);
+}
+Json own_schema(const Range01&) {
+  return {
+      {"anyOf",
+       {{{"type", "number"}},
+        {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}}}}};
+}
+
+}  // namespace
+
+template <class Form>
+void keys(Form& f, Budgets::ColourDifference& d) {
+  f.required("limit", d.limit, "CIEDE2000 under a uniform white sky", amounts);
+  f.optional("quantile", d.quantile, "of the domain that keeps it; 1: all", shares);
+}
+template <class Form>
+void keys(Form& f, Budgets::Time& t) {
+  f.required("limit", t.limit, "times the baseline's time", amounts);
+  f.required("baseline", t.baseline, "spec of a model, measured in the same run");
+}
+template <class Form>
+void keys(Form& f, Budgets& b) {
+  f.optional("albedo_error", b.albedo_error, "directional albedo, from the reference's", amounts);
+  f.optional("fresnel_error", b.fresnel_error, "F, from the exact one of the domain's substances",
+             amounts);
+  f.optional("delta_e_2000", b.delta_e_2000, "colour, from the reference's");
+  f.optional("energy_gain", b.energy_gain, "directional albedo above 1", amounts);
+  f.optional("energy_loss", b.energy_loss, "of lobes at F = 1, directional albedo below 1", shares);
+  f.optional("reciprocity", b.reciprocity,
+             "relative change of f where light and view change places", amounts);
+  f.optional("nonfinite", b.nonfinite, "inputs without a value in the number", amounts);
+  f.optional("operations", b.operations, "of one sample in all channels", amounts);
+  f.optional("ns", b.ns, "time of a sample");
+  f.optional("table_bytes", b.table_bytes, "tables that a shader reads", amounts);
+}
+
+namespace {
+
+struct DomainFile {
+  std::optional<Range01> roughness, mu, eta, f0;
+  std::optional<Names> metal, fits;
+};
+template <class Form>
+void keys(Form& f, DomainFile& d) {
+  const auto within = [&](const char* key, const std::optional<Range01>& r, double low,
+                          double high) {
+    f.expect(!r || (r->ends[0] >= low && r->ends[0] <= r->ends[1] && r->ends[1] <= high), key,
+             fmt::format("[low, high] within {:g} to {:g}", low, high));
+  };
+  f.optional("roughness", d.roughness, "as an artist sets it");
+  within("roughness", d.roughness, 1e-3, 1);
+  f.optional("mu", d.mu, "cosine of directions and the normal; else 0.05 to 1");
+  within("mu", d.mu, 1e-4, 1);
+  f.optional("eta", d.eta, "index of refraction of dielectrics");
+  within("eta", d.eta, 1.0001, 10);
+  f.optional("f0", d.f0, "reflectance at normal incidence");
+  within("f0", d.f0, 0, 1);
+  f.optional("metal", d.metal, "metals by their symbols");
+  f.optional("fits", d.fits, "documents of fits: their models and parameters");
+  const int kinds = d.eta.has_value() + d.f0.has_value() + d.metal.has_value() + d.fits.has_value();
+  f.expect(kinds <= 1, kinds > 1 && d.fits ? "fits" : "metal",
+           "one of eta, f0, metal and fits alone");
+}
+
+struct ChoiceFile {
+  Shipped shipped;
+  Number number = Number::float_;
+  std::optional<std::string> reference;
+  Shipped of_reference;
+  DomainFile domain;
+  Budgets budgets;
+};
+bool has_any(const Budgets& b) {
+  return b.albedo_error || b.fresnel_error || b.delta_e_2000 || b.energy_gain || b.energy_loss ||
+         b.reciprocity || b.nonfinite || b.operations || b.ns || b.table_bytes;
+}
+constexpr Entries parameters{0, 100};
+template <class Form>
+void keys(Form& f, ChoiceFile& c) {
+  f.constant("schema", "gonio.choice/1");
+  f.required("model", c.shipped.model, "spec of a model, or a preset");
+  f.optional("parameters", c.shipped.parameters, "a number or one per channel each", parameters);
+  f.optional("scattering", c.shipped.scattering, "what follows light after its first bounce");
+  f.optional("alpha", c.shipped.alpha, "width from roughness");
+  f.optional("coating", c.shipped.coating,
+             "what a coat leaves for all below it: by its albedo in the view's direction, or in "
+             "the light's too");
+  f.optional("number", c.number, "in which a shader computes it");
+  f.optional("reference", c.reference, "spec that the model stands for");
+  f.optional("reference_parameters", c.of_reference.parameters, "a number or one per channel each",
+             parameters);
+  f.optional("reference_scattering", c.of_reference.scattering, "");
+  f.optional("reference_coating", c.of_reference.coating, "of the reference, as coating");
+  f.optional("domain", c.domain, "where the budgets must be kept");
+  f.required("budgets", c.budgets, "limits");
+  f.expect(has_any(c.budgets), "budgets", "at least one budget");
+  f.expect(c.reference || !(c.budgets.albedo_error || c.budgets.delta_e_2000), "reference",
+           "a reference, which the budgets albedo_error and delta_e_2000 compare with");
+  f.expect(!c.budgets.fresnel_error || c.domain.eta || c.domain.metal, "domain",
+           "eta or metal, whose exact F the budget fresnel_error compares with");
+  f.expect(c.number != Number::wide, "number", "half, mixed, float or double");
+}
+
+std::optional<Choice::Ends> ends(const std::optional<Range01>& r) {
+  return r ? std::optional(r->ends) : std::nullopt;
+}
+std::vector<std::string> names(const std::optional<Names>& n) {
+  return n ? n->all : std::vector<std::string>{};
+}
+
+}  // namespace
+
+std::string Shipped::spec() const {
+  std::string s = model;
+  if (const auto at = s.find(coat_word); at != s.npos) s.erase(at, coat_word.size());
+  return s;
+}
+
+Model Shipped::composed() const {
+  const auto own = spec();
+  const Preset* preset = find_preset(own);
+  return compose(preset ? preset->spec : std::string_view(own), 3);
+}
+
+bool has_range(const Choice& c) {
+  return c.domain.eta || c.domain.f0;
+}
+
+namespace {
+
+Substance of_surface(std::string name, FresnelSurface surface) {
+  auto forms = forms_for(surface);  // least squares, so once
+  return {std::move(name), std::move(surface), std::move(forms)};
+}
+
+}  // namespace
+
+Substance substance_at(const Choice& c, double part) {
+  const auto at = [&](const Choice::Ends& e) { return e[0] + part * (e[1] - e[0]); };
+  if (c.domain.eta) {
+    const double ior = at(*c.domain.eta);
+    return of_surface(fmt::format("IOR {:.4g}", ior),
+                      dielectric(ior, fmt::format("IOR {:.4g}", ior)));
+  }
+  const double f0 = at(*c.domain.f0);
+  return {fmt::format("F0 {:.4g}", f0), {}, {}, {{"f0", {f0}}}};
+}
+
+namespace {
+
+std::vector<Substance> substances_of(const Choice& c) {
+  std::vector<Substance> all;
+  if (has_range(c)) {
+    const auto& e = c.domain.eta ? *c.domain.eta : *c.domain.f0;
+    const int steps = e[0] == e[1] ? 0 : 4;
+    for (int i = 0; i <= steps; ++i)
+      all.push_back(substance_at(c, steps ? i / static_cast<double>(steps) : 0));
+  }
+  for (const auto& name : c.domain.metals) {
+    const Material& m = *find_metal(name);
+    all.push_back(of_surface(std::string(m.name), metal(m)));
+  }
+  for (const auto& file : c.domain.fits) {
+    const auto path = (std::filesystem::path(c.path).parent_path() / file).string();
+    const auto fitted = read_fitted_model(path);
+    bind_fitted(path, fitted, {});  // refuses what is not known
+    Substance s{file};
+    for (const auto& [name, values] : fitted.parameters) s.settings.push_back({name, values});
+    all.push_back(std::move(s));
+  }
+  if (all.empty()) all.push_back({});
+  return all;
+}
+
+}  // namespace
+
+namespace {
+
+/// A coat is the only lobe, on diffuse terms that it does not couple with; what it leaves for them is said.
+void check_coat(const JsonReader& root,
+                const Shipped& s,
+                const char* model,
+                const char* coating,
+                const char* scattering) {
+  const auto at = s.model.find(coat_word);
+  if ((at != s.model.npos) != s.coating.has_value()) {
+    if (s.coating)
+      root.at(coating).fail(fmt::format("a {} with a coat, \"coat:\" before its last lobe", model));
+    root.at(model).fail(fmt::format("{}, view or both, beside a coat", coating));
+  }
+  if (!s.coating) return;
+  const Model m = s.composed();
+  const bool coupled =
+      std::ranges::any_of(m.diffuse, [](const TermUse& t) { return catalogue()[t.term].coupled; });
+  if (m.lobes.size() != 1 || m.diffuse.empty() || coupled || at == 0 || s.model[at - 1] != '+' ||
+      s.model.find('+', at) != s.model.npos)
+    root.at(model).fail("DIFFUSE+coat:LOBE, the diffuse terms uncoupled");
+  if (s.scattering != Bounces::single) root.at(scattering).fail("single, where there is a coat");
+}
+
+}  // namespace
+
+Choice parse_choice(const std::string& path, const std::string& bytes) {
+  const Json document = parse_json(path, bytes);
+  const JsonReader root(path, document, "", Places::pointer);
+  ChoiceFile file;
+  read_form(root, file);
+  Choice c;
+  c.path = path;
+  c.shipped = std::move(file.shipped);
+  c.reference = std::move(file.of_reference);
+  c.has_reference = file.reference.has_value();
+  if (file.reference) c.reference.model = *file.reference;
+  c.number = file.number;
+  c.domain = {ends(file.domain.roughness), ends(file.domain.mu),     ends(file.domain.eta),
+              ends(file.domain.f0),        names(file.domain.metal), names(file.domain.fits)};
+  c.budgets = std::move(file.budgets);
+  for (std::size_t i = 0; i < c.domain.metals.size(); ++i)
+    if (!find_metal(c.domain.metals[i])) {
+      const auto at = root.at("domain").at("metal");
+      (at.is_array() ? at.at(i) : at).fail("a metal that is known");
+    }
+  const auto check = [&](const Shipped& s, const char* model, const char* parameters_key) {
+    const auto given = s.parameters.empty() ? std::vector<Setting>{}
+                                            : settings_of(s.parameters, root.at(parameters_key));
+    const auto with = [&](const char* key, const std::vector<Setting>& settings) {
+      try {
+        bind_model(s.spec(), settings);
+      } catch (const Error& e) {  // the words are the file's, not the user's
+        root.at(key).fail(fmt::format("what the model takes ({})", e.what()));
+      }
+    };
+    with(model, {});
+    if (!given.empty()) with(parameters_key, given);
+  };
+  check(c.shipped, "model", "parameters");
+  check_coat(root, c.shipped, "model", "coating", "scattering");
+  if (c.has_reference) {
+    check(c.reference, "reference", "reference_parameters");
+    check_coat(root, c.reference, "reference", "reference_coating", "reference_scattering");
+  }
+  if (c.shipped.coating) {
+    const auto& b = c.budgets;
+    for (const auto& [asked, key] :
+         {std::pair(b.energy_loss.has_value(), "energy_loss"),
+          std::pair(b.nonfinite.has_value(), "nonfinite"),
+          std::pair(b.operations.has_value(), "operations"), std::pair(b.ns.has_value(), "ns"),
+          std::pair(b.table_bytes.has_value(), "table_bytes")})
+      if (asked)
+        root.at("budgets").at(key).fail(
+            "a model without a coat, which is asked albedo_error, delta_e_2000, energy_gain, "
+            "fresnel_error and reciprocity alone");
+  }
+  if (c.shipped.composed().lobes.empty())
+    for (const auto& [asked, key] : {std::pair(c.budgets.fresnel_error, "fresnel_error"),
+                                     std::pair(c.budgets.energy_loss, "energy_loss")})
+      if (asked) root.at("budgets").at(key).fail("a model with a lobe, of which it is asked");
+  if (c.budgets.ns) {
+    try {
+      bind_model(c.budgets.ns->baseline, {});
+    } catch (const Error& e) {
+      root.at("budgets").at("ns").at("baseline").fail(fmt::format("a model ({})", e.what()));
+    }
+  }
+  c.substances = substances_of(c);
+  return c;
+}
+
+Choice read_choice(const std::string& path) {
+  return parse_choice(path, InputFile(path).read_rest(most_document_bytes));
+}
+
+std::string choice_schema() {
+  return form_schema<ChoiceFile>("Choice of a material model, and what it must keep");
+}
+
+namespace {
+
+bool has(const std::vector<Setting>& all, std::string_view name) {
+  return std::ranges::find(all, name, &Setting::name) != all.end();
+}
+/// Settings of a lobe's Fresnel term on a substance's surface.
+std::vector<Setting> fresnel_settings(std::string_view id, const Substance& of) {
+  for (const auto& f : of.forms)
+    if (f.name == id) return f.settings;
+  const FresnelSurface& s = *of.surface;
+  Setting eta{"eta", {}}, k{"k", {}};
+  for (const auto& i : s.index) eta.values.push_back(i.n), k.values.push_back(i.k);
+  if (id == "fresnel.conductor") return {eta, k};
+  if (id == "fresnel.dielectric" && s.kind == "dielectric") return {eta};
+  throw wrong_usage(fmt::format("{} is not for {}", id, s.material));
+}
+
+/// Adds the width that the domain's roughness means, where none is set: of a preset whose own parameters are set by these,
+/// of others by those of the terms.
+void add_width(std::vector<Setting>& settings, const Shipped& s, const Model& m, double roughness) {
+  for (const char* name : {"alpha", "roughness", "alpha_x", "alpha_y"})
+    if (has(settings, name)) return;
+  const double alpha = s.alpha == AlphaMap::linear   ? roughness
+                       : s.alpha == AlphaMap::square ? roughness * roughness
+                                                     : std::pow(roughness, 4);
+  const auto sets_own = [&](const Parameter& p) { return has(settings, p.name); };
+  if (const Preset* preset = find_preset(s.spec());
+      preset && std::ranges::any_of(preset->parameters, sets_own))
+    settings.push_back({"roughness", {std::sqrt(alpha)}});
+  else if (m.find("alpha"))
+    settings.push_back({"alpha", {alpha}});
+  else if (m.find("alpha_x"))
+    settings.push_back({"alpha_x", {alpha}}), settings.push_back({"alpha_y", {alpha}});
+  else if (m.find("roughness"))
+    settings.push_back({"roughness", {roughness}});
+}
+
+}  // namespace
+
+BoundModel bound(const Choice& c, const Shipped& s, const Substance& of, double roughness) {
+  std::vector<Setting> settings;
+  for (const auto& [name, given] : s.parameters)
+    settings.push_back({name, given.values, given.word});
+  try {
+    const Model plain = s.composed();
+    const auto add = [&](const Setting& setting) {
+      if (!has(settings, setting.name)) settings.push_back(setting);
+    };
+    if (of.surface && !plain.lobes.empty())
+      for (const auto& x : fresnel_settings(catalogue()[plain.lobes[0].fresnel.term].about->id, of))
+        add(x);
+    for (const auto& x : of.settings)
+      if (x.name == "f0" || plain.find(x.name)) add(x);
+    if (c.domain.roughness) add_width(settings, s, plain, roughness);
+    auto model = bind_model(s.spec(), std::move(settings), 3);
+    if (!c.domain.fits.empty())  // a default would be another material than the fit's
+      for (const auto& p : model.model.parameters)
+        if (std::ranges::find(model.given, p.name) == model.given.end())
+          throw wrong_usage(fmt::format("nothing for '{}'", p.name));
+    return model;
+  } catch (const Error& e) {
+    throw bad_input(c.path, of.name.empty() ? "/domain" : fmt::format("/domain ({})", of.name),
+                    e.what(), "what the model takes");
+  }
+}
+
+}  // namespace gonio
