@@ -46,10 +46,9 @@ function(gonio_room room)
   string(REPLACE / _ name gonio_${room})
   list(TRANSFORM room_USES REPLACE / _)
   list(TRANSFORM room_USES PREPEND gonio_)
-  get_filename_component(folder ${room} NAME)
-  set(here ${CMAKE_CURRENT_SOURCE_DIR})
-  if(NOT here MATCHES "/${room}$")
-    string(APPEND here /${folder})
+  set(here ${PROJECT_SOURCE_DIR}/${room})
+  if(NOT IS_DIRECTORY ${here})
+    set(here ${PROJECT_SOURCE_DIR}/src/${room})
   endif()
 
   # A link for each header, not one for the folder: through that, the rooms within would be found, too.
