@@ -1,7 +1,6 @@
 // gonio plan: the effects that each material of a scene needs.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -55,14 +54,6 @@ void print(const MaterialPlan& m, const Tolerance& t) {
             fmt::format(
                 "{:.3g} % of {} fresh points differ by at most {} {:.2g}; the worst by {:.2g}",
                 100 * t.quantile, m.checked.samples, unit_of(t), m.checked.upper, m.checked.worst));
-  if (m.in_half.samples > 0)
-    say_below(
-        "  in half ",
-        std::isfinite(m.in_half.worst)
-            ? fmt::format(
-                  "{:.3g} % of the points would differ by at most {:.2g}; the worst by {:.2g}",
-                  100 * t.quantile, m.in_half.quantile, m.in_half.worst)
-            : std::string("some points would have no value"));
   if (m.passed_over > 0)
     say("          {} cheaper {} where chosen and failed on fresh points\n", m.passed_over,
         m.passed_over == 1 ? "set held" : "sets held");

@@ -46,7 +46,6 @@ function one(m) {
         el("span", { class: "muted" }, e.why === "structural" ? e.reason : why_words[e.why])])),
     m.samples ? el("p", { class: "small" }, `Checked on ${count(m.samples)} fresh points: less than ${percent(m.exceeding_bound)} of all lie beyond the limit, with a confidence of ${percent(tolerance.confidence)}.`, m.passed_over ? ` ${capital(many(m.passed_over, "cheaper set"))} failed there.` : "")
       : el("p", { class: "small" }, "No cheaper set keeps the tolerance: only what changes nothing is dropped."),
-    m.half ? el("p", { class: "small" }, known(m.half.worst) ? `In half precision the same effects differ by up to ${unit}${significant(m.half.error_quantile, 2)} at ${percent(tolerance.quantile)} of the points.` : "In half precision some points have no value.") : null,
     el("p", { class: "small" }, "The model: ", el("code", {}, m.spec)),
     front.length > 1 ? el("details", {}, el("summary", {}, `${front.length} sets of which none is faster and errs less`),
       in_cards(table(["keeps", { n: "ns" }, { n: "operations" }, { n: `${unit_name} at ${percent(tolerance.quantile)}` }, { n: "worst" }],

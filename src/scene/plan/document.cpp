@@ -66,19 +66,6 @@ void keys(Form& f, EffectFile& e) {
   f.optional("reason", e.reason, "in words");
 }
 
-/// Differences of the plan's effects in half precision.
-struct HalfFile {
-  std::optional<double> error_quantile, worst;
-  std::uint64_t exceeding = 0, samples = 0;
-};
-template <class Form>
-void keys(Form& f, HalfFile& h) {
-  f.optional("error_quantile", h.error_quantile, "of the differences; absent: infinite", amounts);
-  f.optional("worst", h.worst, "greatest difference; absent: infinite", amounts);
-  f.required("exceeding", h.exceeding, "points beyond the limit");
-  f.required("samples", h.samples, "points");
-}
-
 struct MaterialFile {
   std::vector<EffectFile> effects;
   std::string spec;
@@ -88,7 +75,6 @@ struct MaterialFile {
   std::optional<double> error_upper;
   double worst = 0, exceeding_bound = 1, coverage = 0, directions = 0;
   std::uint64_t samples = 0, passed_over = 0;
-  std::optional<HalfFile> half;
   std::vector<FrontFile> front;
 };
 template <class Form>
@@ -111,7 +97,6 @@ void keys(Form& f, MaterialFile& m) {
   f.optional("passed_over", m.passed_over, "cheaper sets that failed on the fresh points");
   f.optional("coverage", m.coverage, "share of the picture that shows the material", shares);
   f.optional("directions", m.directions, "of light that come to a point, on average", amounts);
-  f.optional("half", m.half, "the same effects in half precision");
   f.optional("front", m.front, "sets of forms of which none is cheaper and errs less");
 }
 
@@ -153,8 +138,6 @@ MaterialFile file_of(const MaterialPlan& m) {
   f.directions = m.directions;
   f.samples = m.checked.samples;
   f.passed_over = m.passed_over;
-  if (const auto& h = m.in_half; h.samples > 0)
-    f.half = HalfFile{finite(h.quantile), finite(h.worst), h.exceeding, h.samples};
   for (const auto& c : m.front) {
     FrontFile row{
         {}, c.ns, c.ns_spread, c.ops, c.error.quantile, c.error.worst, finite(c.error.upper)};

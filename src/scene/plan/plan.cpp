@@ -13,7 +13,6 @@
 #include "scene/plan/combinations.h"
 #include "scene/plan/confidence.h"
 #include "scene/plan/cost.h"
-#include "scene/plan/half.h"
 #include "scene/plan/reference.h"
 
 #include <fmt/format.h>
@@ -56,11 +55,6 @@ void take(MaterialPlan& p, const Look& look, const Forms& forms, double ns, doub
 /// Points of a check: fewer where each has the many directions that a lookup is compared with.
 std::size_t fresh_points(const Scene& scene, const PlanOptions& o, const Surface& s) {
   return s.image_lit ? std::min(o.fresh, samples_of_verification(scene)) : o.fresh;
-}
-Judgement judged_in_half(const Scene& scene, const Reference& r, const Surface& s) {
-  auto d =
-      differences(scene.tolerance.metric, scene.exposure, r.exact, radiance_in_half(s, r.points));
-  return judge(d, scene.tolerance);
 }
 
 class MaterialPlanner {
@@ -281,7 +275,6 @@ class MaterialPlanner {
       p.checked = checked(surface);
       if (passes(p.checked)) {
         take(p, look_, c->forms, c->ns, c->ops);
-        p.in_half = judged_in_half(scene_, compared_with(surface), surface);
         return p;
       }
       ++p.passed_over;
@@ -292,7 +285,6 @@ class MaterialPlanner {
     const std::array surface{look_.surface(same)};
     take(p, look_, same, times_of(surface, reference_.points)[0].ns,
          operations_of(surface[0], reference_.points));
-    p.in_half = judged_in_half(scene_, compared_with(surface[0]), surface[0]);
     return p;
   }
   std::string reason(const PlannedEffect& e) const {
@@ -361,11 +353,6 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
     const auto drawer = lit.drawer(index, options.directions);
     const Surface exact = look.surface(look.exact()), surface = look.surface(c.forms);
     m.checked = judge_fresh(s, drawer, checking, fresh_points(s, options, surface), exact, surface);
-    m.in_half = judged_in_half(
-        s,
-        surface.image_lit ? Reference::under_sky(drawer, choosing, 0, options.samples, exact)
-                          : Reference(drawer.draw(choosing, 0, options.samples), exact),
-        surface);
   }
 }
 

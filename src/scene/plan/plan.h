@@ -55,11 +55,8 @@ struct MaterialPlan {
   Judgement checked;  ///< on fresh points
   std::size_t passed_over =
       0;  ///< cheaper sets that kept the tolerance where they were chosen, but not on fresh points
-  double coverage = 0;    ///< of the picture
-  double directions = 0;  ///< of light that come to a point, on average
-  /// Differences of the plan's effects in half precision, on the points that sets were compared on: no plan chooses half, whose time
-  /// only a processor that has it tells.
-  Judgement in_half;
+  double coverage = 0;           ///< of the picture
+  double directions = 0;         ///< of light that come to a point, on average
   std::vector<Candidate> front;  ///< none of the others is cheaper and errs less
   Forms forms;
 };
