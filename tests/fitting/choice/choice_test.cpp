@@ -8,6 +8,7 @@
 #include <span>
 
 #include "data_synth/synth.h"
+#include "fitting/choice/cross_validation.h"
 #include "fitting/choice/document.h"
 #include "fitting/fit.h"
 #include "many_fits.h"
@@ -102,6 +103,55 @@ TEST(ModelChoice, TakesTheFewestParametersThatDoAsWell) {
   EXPECT_NEAR(choice.rows[1].cv_log_rms, 0.02, 0.002);
   EXPECT_GE(choice.rows[1].cv_log_rms, choice.rows[1].log_rms);
   EXPECT_GT(choice.rows[1].ns, 0);
+}
+
+TEST(ModelChoice, GivesAParameterToAicOnlyWhereItGainsMoreThanByChance) {
+  // A table of paint: the parameter that gtr has more gains 1.1 of −2 ln L, and one without effect
+  // gains 1 on average.
+  const std::vector<std::string> models{paint, gtr};
+  const auto gain = [&](const ModelChoice& c) {
+    return 2 * c.effective_values * std::log(c.rows[0].log_rms / c.rows[1].log_rms);
+  };
+  const auto chance =
+      compare_models(table_of(paint, {"alpha=0.2", "f0=0.05", "kd=0.3"}, 9), {}, models);
+  ASSERT_GT(gain(chance), 1);
+  ASSERT_LT(gain(chance), 2);
+  EXPECT_LT(chance.rows[0].aic, chance.rows[1].aic);
+  const auto tail = compare_models(
+      table_of(gtr, {"alpha=0.2", "gamma=2.1", "f0=0.05", "kd=0.3"}, 9, 0.1), {}, models);
+  ASSERT_GT(gain(tail), 2);
+  EXPECT_GT(tail.rows[0].aic, tail.rows[1].aic);
+}
+
+TEST(ModelChoice, CountsHowFarAModelIsBehindInJackknifedErrorsOverBlocks) {
+  const Table t = table_of(paint, {"alpha=0.2", "f0=0.05", "kd=0.3"}, 2);
+  const std::vector<std::string> models{paint, gtr, "lambert"};
+  const auto choice = compare_models(t, {}, models);
+  const auto blocks = incident_blocks(Sampling(t, t.bins(), Metric::log, 0, false));
+  const auto left_by = [&](std::size_t k) {
+    FitOptions o;
+    o.model = models[k];
+    return cross_validate(t, pose(t, o), blocks, choice.fits[k]);
+  };
+  const auto best = left_by(0);
+  EXPECT_EQ(choice.rows[0].cv_behind, 0);
+  for (const std::size_t k : {1U, 2U}) {
+    const auto left = left_by(k);
+    // Means of the differences without each block.
+    const auto mean_without = [&](std::size_t block) {
+      double sum = 0, n = 0;
+      for (std::size_t b = 0; b < blocks.count; ++b)
+        if (b != block) sum += (left[b].squares - best[b].squares) / left[b].values, ++n;
+      return sum / n;
+    };
+    const double mean = mean_without(blocks.count), n = static_cast<double>(blocks.count);
+    double squares = 0;
+    for (std::size_t b = 0; b < blocks.count; ++b) squares += std::pow(mean_without(b) - mean, 2);
+    EXPECT_NEAR(choice.rows[k].cv_behind, mean / std::sqrt(squares * (n - 1) / n),
+                1e-6 * choice.rows[k].cv_behind)
+        << models[k];
+    EXPECT_GT(choice.rows[k].cv_behind, 0);
+  }
 }
 
 TEST(ModelChoice, LeavesAModelThatCannotBeFittedInItsPlaceAndSaysWhy) {

@@ -57,6 +57,7 @@ Table disturbed(const Row& r, std::uint64_t seed) {
 struct Tally {
   unsigned fits = 0, told = 0;
   unsigned stated = 0, silent_and_wrong = 0;  ///< intervals
+  unsigned inside = 0, inside_of_half = 0;  ///< that hold the truth, and would at half their width
 };
 
 Tally tally(const Row& r, unsigned seeds) {
@@ -79,7 +80,13 @@ Tally tally(const Row& r, unsigned seeds) {
         if (std::isnan(p.ci95_low[c])) continue;
         ++sum.stated;
         const double value = truth[truth.size() > 1 ? c : 0];
-        sum.silent_and_wrong += !told && !(p.ci95_low[c] <= value && value <= p.ci95_high[c]);
+        const auto holds = [&](double part) {
+          return p.value[c] + part * (p.ci95_low[c] - p.value[c]) <= value &&
+                 value <= p.value[c] + part * (p.ci95_high[c] - p.value[c]);
+        };
+        sum.inside += holds(1);
+        sum.inside_of_half += holds(0.5);
+        sum.silent_and_wrong += !told && !holds(1);
       }
     }
   }
@@ -289,18 +296,22 @@ std::string line(const Row& r, const Tally& t) {
       t.fits, t.silent_and_wrong, t.stated);
 }
 
-TEST(LackOfFit, OfAWrongModelIsNotSilentAndWrong) {
+TEST(LackOfFit, OfAWrongModelMakesIntervalsAsWideAsTheTruthIsFar) {
   GONIO_MANY_FITS();
   std::string table;
-  unsigned wrong = 0, stated = 0;
+  Tally all;
   for (const auto& r : wrong_models()) {
     const Tally t = tally(r, seeds());
-    wrong += t.silent_and_wrong;
-    stated += t.stated;
+    all.silent_and_wrong += t.silent_and_wrong;
+    all.stated += t.stated;
+    all.inside += t.inside;
+    all.inside_of_half += t.inside_of_half;
     table += line(r, t);
   }
   RecordProperty("table", table);
-  EXPECT_LE(20 * wrong, stated) << table;
+  EXPECT_LE(20 * all.silent_and_wrong, all.stated) << table;
+  EXPECT_GE(100 * all.inside, 92 * all.stated) << "too narrow: " << all.inside;
+  EXPECT_LE(100 * all.inside_of_half, 85 * all.stated) << "too wide: " << all.inside_of_half;
   if (std::getenv("GONIO_LONG")) fmt::print("{}", table);
 }
 
