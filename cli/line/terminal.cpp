@@ -123,10 +123,6 @@ void TimedProgress::operator()(std::size_t done) {
   progress_(fmt::format("{} {} of {}{}", what_, done, all_, time_left(begin_, done, all_)));
 }
 
-std::string counted(std::size_t n, std::string_view thing) {
-  return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
-}
-
 void say_below(const std::string& head, const std::string& text) {
   const std::size_t most = columns(STDOUT_FILENO);
   std::string line = head;
