@@ -41,23 +41,6 @@ bool begins_with_the_misfit(const FitDocument& d) {
          std::ranges::equal(words, std::span(d.warnings).first(words.size()));
 }
 
-TEST(Warnings, SaysThatWhatIsLeftIsMoreThanNoise) {
-  const auto warned = [](const char* model) {
-    const auto table = synthesize(
-        bind_model("lambert+gtr/smith_ggx.correlated/schlick",
-                   parse_settings(std::vector<std::string>{"alpha=0.3,gamma=1.3,f0=0.05,kd=0.2"}),
-                   1),
-        {.layout = Layout::in_plane, .noise = 0.005});
-    FitOptions o;
-    o.model = model;
-    const auto d = fit(table, o).document;
-    EXPECT_TRUE(begins_with_the_misfit(d));
-    return d.misfit.told;
-  };
-  EXPECT_TRUE(warned("lambert+ggx/smith_ggx.correlated/schlick"));
-  EXPECT_FALSE(warned("lambert+gtr/smith_ggx.correlated/schlick"));
-}
-
 TEST(Warnings, SaysWhenTheModelDoesNotDescribeTheTable) {
   const char *metal = "ggx/smith_ggx.correlated/schlick", *settings = "alpha=0.3,f0=0.95,0.64,0.54";
   const Table t = synthesize(test::bind(metal, settings, 3), {.layout = Layout::random});
