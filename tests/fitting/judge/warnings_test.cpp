@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <span>
 
 #include "fitting/fit.h"
 #include "fitting/support.h"
@@ -34,13 +33,6 @@ TEST(Warnings, SaysThatThePeakIsNotResolved) {
   EXPECT_FALSE(unresolved("alpha=0.3"));
 }
 
-/// True where all that the misfit has to say comes first.
-bool begins_with_the_misfit(const FitDocument& d) {
-  const auto words = misfit_in_words(d.misfit);
-  return words.size() <= d.warnings.size() &&
-         std::ranges::equal(words, std::span(d.warnings).first(words.size()));
-}
-
 TEST(Warnings, SaysWhenTheModelDoesNotDescribeTheTable) {
   const char *metal = "ggx/smith_ggx.correlated/schlick", *settings = "alpha=0.3,f0=0.95,0.64,0.54";
   const Table t = synthesize(test::bind(metal, settings, 3), {.layout = Layout::random});
@@ -48,8 +40,9 @@ TEST(Warnings, SaysWhenTheModelDoesNotDescribeTheTable) {
   o.model = "lambert";
   const auto d = fit(t, o).document;
   EXPECT_GT(d.misfit.size, 0.5);
-  EXPECT_FALSE(d.warnings.empty());
-  EXPECT_TRUE(begins_with_the_misfit(d));
+  const auto words = misfit_in_words(d.misfit);
+  EXPECT_FALSE(words.empty());
+  EXPECT_TRUE(std::ranges::mismatch(words, d.warnings).in1 == words.end()) << "they come first";
   EXPECT_TRUE(fit_synthetic(metal, settings, {.layout = Layout::random}).document.warnings.empty());
 }
 

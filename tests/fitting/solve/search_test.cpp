@@ -13,7 +13,7 @@ namespace {
 
 Searched searched(const Table& t, const FitOptions& o) {
   std::vector<std::pair<std::string, double>> times;
-  Stopwatch watch(times);
+  PhaseTimes watch(times);
   const Sampling s(t, t.bins(), o.metric, 0, !o.robust);
   SharedColumns columns;
   return search(pose(t, o), s, columns, watch, [](const char*) {});
