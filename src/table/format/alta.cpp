@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "table/format/blanks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -68,7 +69,7 @@ constexpr std::array kParametrizations{
 
 constexpr std::array<std::string_view, 3> kEnds{"ALTA END HEADER", "ALTA HEADER END",
                                                 "ALTA_END_HEADER"};
-constexpr std::string_view kBlank = " \t\r", kCosine = "INV_STERADIAN_COSINE_FACTOR";
+constexpr std::string_view kCosine = "INV_STERADIAN_COSINE_FACTOR";
 
 constexpr std::array<std::string_view, 3> kOutputs{"INV_STERADIAN", kCosine, "RGB_COLOR"};
 
@@ -81,14 +82,6 @@ std::string known_inputs() {
   std::array<std::string_view, kParametrizations.size()> names;
   std::ranges::transform(kParametrizations, names.begin(), &Parametrization::name);
   return one_of(names);
-}
-
-/// Next word of a line, which is taken from it; "" at its end.
-std::string_view word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
-  const auto found = line.substr(0, line.find_first_of(kBlank));
-  line.remove_prefix(found.size());
-  return found;
 }
 
 double byte_swapped(double x) {
@@ -152,11 +145,11 @@ class Reader {
     // The end is known by its name: the first byte of a binary stream may be a '#'.
     while (rest_.starts_with('#') && next_line(line)) {
       line.remove_prefix(1);
-      line = line.substr(0, line.find_last_not_of(kBlank) + 1);
+      line = line.substr(0, line.find_last_not_of(blanks) + 1);
       if (std::ranges::find(kEnds, line) != kEnds.end()) break;
       if (line.starts_with("ALTA FUNC")) fail("a function of ALTA", "a table of ALTA");
       if (line.starts_with(' ')) continue;  // a comment
-      const auto key = word(line);
+      const auto key = next_word(line);
       if (key == "BEGIN_STREAM") break;
       read_key(key, line);
     }
@@ -169,28 +162,28 @@ class Reader {
 
   void read_key(std::string_view key, std::string_view value) {
     if (key == "DIM") {
-      n_in_ = number_in(word(value), 1, 6);
-      n_out_ = number_in(word(value), 1, most_channels);
+      n_in_ = number_in(next_word(value), 1, 6);
+      n_out_ = number_in(next_word(value), 1, most_channels);
     } else if (key == "PARAM_IN") {
-      const auto name = word(value);
+      const auto name = next_word(value);
       in_ = std::ranges::find(kParametrizations, name, &Parametrization::name);
       if (in_ == kParametrizations.end())
         fail(fmt::format("#PARAM_IN {}", name),
              "a parametrization of two directions: " + known_inputs());
     } else if (key == "PARAM_OUT") {
-      const auto name = word(value);
+      const auto name = next_word(value);
       out_ = std::ranges::find(kOutputs, name) != kOutputs.end();
       cosine_ = name == kCosine;
       if (!out_) fail(fmt::format("#PARAM_OUT {}", name), one_of(kOutputs));
     } else if (key == "VS") {
-      intervals_ = number_in(word(value), 0, 2);
+      intervals_ = number_in(next_word(value), 0, 2);
     } else if (key == "FORMAT") {
-      binary_ = word(value) == "binary";
+      binary_ = next_word(value) == "binary";
     } else if (key == "SAMPLE_COUNT") {
-      count_ = number_in(word(value), 1, most_values);
+      count_ = number_in(next_word(value), 1, most_values);
     } else if (key == "ENDIAN") {
-      swapped_ = (word(value) == "big") == (std::endian::native == std::endian::little);
-    } else if (key == "PRECISION" && word(value) != "ieee754-double") {
+      swapped_ = (next_word(value) == "big") == (std::endian::native == std::endian::little);
+    } else if (key == "PRECISION" && next_word(value) != "ieee754-double") {
       fail("another #PRECISION", "ieee754-double");
     }
   }
@@ -200,7 +193,7 @@ class Reader {
     std::string_view line;
     while (next_line(line)) {
       row.clear();
-      for (auto text = word(line); !text.empty() && text[0] != '#'; text = word(line)) {
+      for (auto text = next_word(line); !text.empty() && text[0] != '#'; text = next_word(line)) {
         const auto v = number_from<double>(text);
         if (row.size() > 3 * n_out_ + n_in_ || !v)
           fail(fmt::format("'{}'", text), fmt::format("{} numbers", n_in_ + n_out_));

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "table/format/blanks.h"
 #include "table/format/delimited.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 namespace gonio {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r", kNames = "VARS", kCount = "NUM_POINTS";
+constexpr std::string_view kNames = "VARS", kCount = "NUM_POINTS";
 constexpr std::array<std::string_view, 4> kAngles{"theta_i", "phi_i", "theta_s", "phi_s"};
 
 /// Line that begins there, without its end.
@@ -22,11 +23,7 @@ std::string_view line_at(std::string_view text, std::size_t at) {
 }
 bool has_key(std::string_view line, std::string_view key) {
   return line.starts_with(key) && line.size() > key.size() &&
-         kBlank.find(line[key.size()]) != kBlank.npos;
-}
-std::string_view trimmed(std::string_view s) {
-  s.remove_prefix(std::min(s.find_first_not_of(kBlank), s.size()));
-  return s.substr(0, s.find_last_not_of(kBlank) + 1);
+         blanks.find(line[key.size()]) != blanks.npos;
 }
 
 struct Header {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "table/format/blanks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +17,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the numbers are little-endian");
 
-constexpr std::string_view kBlank = " \t\r", kFirst = "VERSION", kType = "DATA_TYPE";
+constexpr std::string_view kFirst = "VERSION", kType = "DATA_TYPE";
 constexpr std::array<std::string_view, 5> kLists{"PARAM0_LIST", "PARAM1_LIST", "PARAM2_LIST",
                                                  "PARAM3_LIST", "PARAM4_LIST"};
 constexpr std::array<std::string_view, 5> kNotes{"NAME", "SOURCE_TYPE", "DEVICE", "CREATION_DATE",
@@ -72,13 +73,13 @@ class Reader {
 
   Table table() {
     for (std::string_view line; next_line(line);) {
-      const auto key = word(line);
+      const auto key = next_word(line);
       if (first_) {
         if (key != kFirst || !line_has_version(line)) fail(key, "VERSION 0 and a minor one");
         first_ = false;
       } else if (key == kType) {
         block_ = Block{};
-        block_.type = word(line);
+        block_.type = next_word(line);
         in_block_ = true;
       } else if (in_block_) {
         read_key(key, line);
@@ -94,18 +95,8 @@ class Reader {
   [[noreturn]] void fail(std::string_view found, const std::string& expected) const {
     throw bad_input(path_, fmt::format("line {}", line_), std::string(found), expected);
   }
-  static std::string_view word(std::string_view& line) {
-    line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
-    const auto found = line.substr(0, line.find_first_of(kBlank));
-    line.remove_prefix(found.size());
-    return found;
-  }
-  static std::string_view trimmed(std::string_view s) {
-    s.remove_prefix(std::min(s.find_first_not_of(kBlank), s.size()));
-    return s.substr(0, s.find_last_not_of(kBlank) + 1);
-  }
   static bool line_has_version(std::string_view line) {
-    const auto version = word(line);
+    const auto version = next_word(line);
     return version == "0" || version.starts_with("0.");
   }
   /// Next line that says something.
@@ -124,9 +115,9 @@ class Reader {
   }
 
   void read_key(std::string_view key, std::string_view value) {
-    if (key == "DATA") return read_data(word(value));
+    if (key == "DATA") return read_data(next_word(value));
     if (key == "COLOR_MODEL") {
-      block_.colour = word(value);
+      block_.colour = next_word(value);
       constexpr std::array<std::string_view, 4> known{"monochrome", "rgb", "xyz", "spectrum"};
       if (std::ranges::find(known, block_.colour) == known.end())
         fail(block_.colour, fmt::format("{}", fmt::join(known, ", ")));
@@ -140,7 +131,7 @@ class Reader {
         fail(fmt::format("{} wavelengths", sorted.size()),
              fmt::format("at most {}, each once", most_channels));
     } else if (key == "PARAM_TYPE") {
-      block_.parametrization = word(value);
+      block_.parametrization = next_word(value);
     } else if (key == "REDUCTION_TYPE") {
       block_.notes.emplace_back("reduction", trimmed(value));
     } else if (const auto list = std::ranges::find(kLists, key); list != kLists.end()) {
@@ -158,7 +149,7 @@ class Reader {
   std::vector<double> numbers(std::string_view value, double least, double most) const {
     std::vector<double> all;
     value = without_comment(value);
-    for (auto field = word(value); !field.empty(); field = word(value)) {
+    for (auto field = next_word(value); !field.empty(); field = next_word(value)) {
       const auto v = number_from<double>(field);
       if (!v || !(*v >= least && *v <= most))
         fail(fmt::format("'{}'", field), fmt::format("a number from {} to {}", least, most));
@@ -263,7 +254,7 @@ class Reader {
         fail(fmt::format("{} colours", i), fmt::format("{}, one a line", count));
       line = without_comment(line);
       std::size_t c = 0;
-      for (auto field = word(line); !field.empty(); field = word(line)) {
+      for (auto field = next_word(line); !field.empty(); field = next_word(line)) {
         const auto v = number_from<double>(field);
         if (!v || c == channels)
           fail(fmt::format("'{}'", field), fmt::format("{} numbers", channels));
