@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Description of a struct that is shown: each of its members once, with name, unit and meaning.  JSON, its JSON Schema and
-/// the lines of CSV follow from it (base/json/describe.h, base/csv_describe.h).
+/// Description of a struct that is shown or read: each of its members once, with name, unit, meaning and the values that it takes.
+/// JSON in both directions, its JSON Schema and the lines of CSV follow from it (base/json/describe.h, base/csv_describe.h).
 ///
 ///   struct Width {
 ///     double alpha;
@@ -15,9 +15,15 @@
 ///     }
 ///   };
 ///
+/// A struct that is read needs a member, not a computed value, for each key; what a key takes stands behind its meaning:
+///
+///   field("alpha", "", &Width::alpha, "width of the distribution", Numbers{0, 1}, or_default)
+///
 /// Light to include: descriptions stand in headers, beside their structs or in the .cpp that shows them.
 
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -25,14 +31,54 @@
 
 namespace gonio {
 
-/// Specialised for each struct that is shown: `static constexpr auto fields()`, a tuple of field(), group() and constant_text(),
-/// in the order in which they are shown.
+/// Specialised for each struct that is shown or read: `static constexpr auto fields()`, a tuple of field(), group(), by_key(),
+/// by_name() and constant_text(), in the order in which they are shown.  Beside it there may be
+///
+///   static void check(T&, Demand)               further demands on what was read; it may also put that in order
+///   static constexpr bool has_others = true     keys that are not described are passed over, not refused
 template <class T>
 struct Description;
 
 template <class T>
 concept Described = requires {
   Description<T>::fields();
+};
+
+/// Numbers that a key takes.  Without them it takes any number, and null for NaN.
+struct Numbers {
+  static constexpr double any = std::numeric_limits<double>::max();
+  double low = -any, high = any;
+  bool above_low = false, below_high = false;  ///< the end itself is not taken
+
+  constexpr bool holds(double v) const {
+    return (above_low ? v > low : v >= low) && (below_high ? v < high : v <= high);
+  }
+};
+/// Number of a list's entries.
+struct Entries {
+  std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();
+};
+/// Key that a document may leave out: it keeps the value that it has in the struct.
+inline constexpr struct OrDefault {
+} or_default;
+/// Text that is not empty, as names and paths.
+inline constexpr struct NotEmpty {
+} not_empty;
+
+/// What a key takes; numbers and text in lists and lists of lists are held to the same.
+struct Rules {
+  Numbers numbers{};
+  bool has_numbers = false;
+  Entries entries{};
+  bool or_default = false, not_empty = false;
+
+  constexpr void add(const Numbers& n) {
+    numbers = n;
+    has_numbers = true;
+  }
+  constexpr void add(const Entries& e) { entries = e; }
+  constexpr void add(OrDefault) { or_default = true; }
+  constexpr void add(NotEmpty) { not_empty = true; }
 };
 
 /// One key: where its value comes from, and what it is.
@@ -42,14 +88,19 @@ struct Field {
   std::string_view name, unit;
   Get get;
   std::string_view meaning;
+  Rules rules{};
 };
 /// \param unit  "" for pure numbers and words
-template <class Get>
+/// \param rule  Numbers, Entries, or_default, not_empty
+template <class Get, class... Rule>
 constexpr Field<Get> field(std::string_view name,
                            std::string_view unit,
                            Get get,
-                           std::string_view meaning) {
-  return {name, unit, get, meaning};
+                           std::string_view meaning,
+                           const Rule&... rule) {
+  Rules rules;
+  (rules.add(rule), ...);
+  return {name, unit, get, meaning, rules};
 }
 
 /// Object of fields of the same struct.
@@ -71,6 +122,22 @@ struct ConstantText {
 };
 constexpr ConstantText constant_text(std::string_view name, std::string_view value) {
   return {name, value};
+}
+
+/// Alternatives of a std::variant; the keys of the one that is there stand among those of the struct around it.
+template <class Get, std::size_t n>
+struct Alternatives {
+  std::string_view key;  ///< that names the one that is there; "": its first key does
+  Get get;
+  std::array<std::string_view, n> names;
+};
+template <class Get, class... Name>
+constexpr Alternatives<Get, sizeof...(Name)> by_name(std::string_view key, Get get, Name... name) {
+  return {key, get, {name...}};
+}
+template <class Get>
+constexpr Alternatives<Get, 0> by_key(Get get) {
+  return {"", get, {}};
 }
 
 /// Digits of the numbers of a document: all that tell a double from its neighbours, or the six that a page shows, a third
@@ -113,11 +180,23 @@ template <class V>
 struct IfThere {
   V value;
 };
+/// Pairs of a key and a value that stand among the fields of the struct around them.
+template <class V>
+struct Keyed {
+  V entries;
+};
 /// Document of a described T that is text already.
 template <class T>
 struct Embedded {
   std::string_view text;
 };
+/// The struct itself: what a description of a variant gets.
+inline constexpr struct Itself {
+  template <class T>
+  constexpr T& operator()(T& of) const {
+    return of;
+  }
+} itself;
 
 /// Function that shows what another gets in one of these forms.
 template <template <class> class Form, class Get>
@@ -144,6 +223,11 @@ template <class Get>
 constexpr As<IfThere, Get> if_there(Get get) {
   return {get};
 }
+/// \param pattern  regular expression of their keys
+template <class Get>
+constexpr Field<As<Keyed, Get>> keyed(std::string_view pattern, Get get, std::string_view meaning) {
+  return {pattern, "", {get}, meaning};
+}
 /// Field without a name of its own.
 template <class Get>
 constexpr Field<As<Inlined, Get>> inlined(Get get) {
@@ -162,6 +246,24 @@ struct At {
 template <class Outer, class Inner>
 constexpr At<Outer, Inner> at(Outer outer, Inner inner) {
   return {outer, inner};
+}
+
+/// Member that a field's `get` names, to be written to; void where it computes.
+template <class T, class Get>
+constexpr decltype(auto) place_in(const Get& get, T& of) {
+  if constexpr (std::is_member_object_pointer_v<Get>)
+    return (of.*get);
+  else if constexpr (std::is_same_v<Get, Itself>)
+    return (of);
+}
+template <class T, template <class> class Form, class Get>
+constexpr decltype(auto) place_in(const As<Form, Get>& as, T& of) {
+  return place_in(as.get, of);
+}
+template <class T, class Outer, class Inner>
+constexpr decltype(auto) place_in(const At<Outer, Inner>& at, T& of) {
+  if constexpr (!std::is_void_v<decltype(place_in(at.outer, of))>)
+    return place_in(at.inner, place_in(at.outer, of));
 }
 
 // --- Whether a description is whole ---
@@ -191,6 +293,10 @@ constexpr std::size_t members_shown(const Field<Get>&) {
 }
 constexpr std::size_t members_shown(const ConstantText&) {
   return 0;
+}
+template <class Get, std::size_t n>
+constexpr std::size_t members_shown(const Alternatives<Get, n>&) {
+  return IsMember<Get>::value;
 }
 template <class... Fields>
 constexpr std::size_t members_shown(const Group<Fields...>& g) {

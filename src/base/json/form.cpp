@@ -6,62 +6,24 @@
 #include <fmt/ranges.h>
 
 namespace gonio {
-namespace {
 
-/// "at least 1", "3", "1 to 1000"
-std::string words_of(const Entries& n) {
-  if (n.most == Entries{}.most) return fmt::format("at least {}", n.least);
-  return n.least == n.most ? std::to_string(n.least) : fmt::format("{} to {}", n.least, n.most);
+void put_meaning(Json& schema, std::string_view meaning, std::string_view unit) {
+  std::string text(meaning);
+  if (!unit.empty()) text += fmt::format("{}[{}]", text.empty() ? "" : " ", unit);
+  if (!text.empty()) put(schema, "description", text);
 }
 
-std::string words_of(const Numbers& n) {
-  if (n.low == -Numbers::any && n.high == Numbers::any) return "a number";
-  if (n.high == Numbers::any)
-    return n.above_low ? fmt::format("a number above {:g}", n.low)
-                       : fmt::format("a number from {:g} on", n.low);
-  return fmt::format("a number in {}{:g}, {:g}{}", n.above_low ? '(' : '[', n.low, n.high,
-                     n.below_high ? ')' : ']');
+Json object_schema() {
+  return {{"type", "object"},
+          {"properties", Json::object()},
+          {"required", Json::array()},
+          {"additionalProperties", false}};
 }
 
-/// \param of  "an array of", "an object of"
-void expect_entries(const JsonReader& j, const Entries& n, const char* of) {
-  if (j.size() < n.least || j.size() > n.most)
-    j.fail(fmt::format("{} {}", of, j.size()), fmt::format("{} {}", of, words_of(n)));
-}
-
-}  // namespace
-
-std::string either(const std::vector<std::string_view>& names) {
-  std::string all;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    all.append(i == 0 ? "" : i + 1 < names.size() ? ", " : " or ").append(names[i]);
-  return all;
-}
-
-double number_in(const JsonReader& j, const Numbers& n) {
-  if (!j.is_number() || !n.holds(j.number())) j.fail(words_of(n));
-  return j.number();
-}
-
-std::vector<JsonReader> entries_in(const JsonReader& j, const Entries& n) {
-  if (!j.is_array()) j.fail("an array of " + words_of(n));
-  expect_entries(j, n, "an array of");
-  return j.elements();
-}
-
-std::vector<std::pair<std::string, JsonReader>> members_in(const JsonReader& j, const Entries& n) {
-  j.expect_object();
-  expect_entries(j, n, "an object of");
-  auto all = j.members();
-  for (const auto& [name, value] : all)
-    if (name.empty()) value.fail("a key without a name", "a name");
-  return all;
-}
-
-std::string text_in(const JsonReader& j) {
-  std::string text = j.string();
-  if (text.empty() || text.find('\0') != text.npos) j.fail("a string that is not empty");
-  return text;
+std::string schema_file_text(Json schema, std::string_view title) {
+  Json out{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", std::string(title)}};
+  out.update(schema);
+  return text_of(out);
 }
 
 Json numbers_schema(const Numbers& n) {

@@ -35,31 +35,18 @@
 #include "base/json/reader.h"
 #include "base/names.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gonio {
 
-/// Numbers that a key takes.
-struct Numbers {
-  static constexpr double any = std::numeric_limits<double>::max();
-  double low = -any, high = any;
-  bool above_low = false, below_high = false;  ///< the end itself is not taken
-
-  bool holds(double v) const {
-    return (above_low ? v > low : v >= low) && (below_high ? v < high : v <= high);
-  }
-};
-/// Number of a list's entries.
-struct Entries {
-  std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();
-};
-
-/// "a, b or c"
-std::string either(const std::vector<std::string_view>& names);
-/// Number that is taken; null is none.
-double number_in(const JsonReader&, const Numbers&);
-/// Entries of an array, or members of an object, as many as are taken: refused before they are made.
-std::vector<JsonReader> entries_in(const JsonReader&, const Entries&);
-std::vector<std::pair<std::string, JsonReader>> members_in(const JsonReader&, const Entries&);
-std::string text_in(const JsonReader&);  ///< not empty, without zero bytes, which end a path
+/// Adds a key without looking whether it is there.
+inline void put(Json& object, std::string_view name, Json value) {
+  object.get_ref<Json::object_t&>().emplace_back(std::string(name), std::move(value));
+}
+void put_meaning(Json& schema, std::string_view meaning, std::string_view unit);
+/// Object of exactly those keys; `properties` and `required` are filled in.
+Json object_schema();
+std::string schema_file_text(Json schema, std::string_view title);
 Json numbers_schema(const Numbers&);
 
 namespace form_detail {
@@ -134,7 +121,7 @@ void read_value(const JsonReader& j, V& value, const Rule&... rule) {
     value.clear();
     for (const auto& entry : entries_in(j, Entries{rule...}))
       read_value(entry, value.emplace_back());
-  } else if constexpr (form::is<V, std::optional>) {
+  } else if constexpr (record_detail::is<V, std::optional>) {
     read_value(j, value.emplace(), rule...);
   } else if constexpr (Own<V>) {
     read_own(j, value);
@@ -184,7 +171,7 @@ Json value_schema(const V& value, bool with_default, const Rule&... rule) {
            {"items", value_schema(typename V::value_type{}, false)},
            {"minItems", n.least}};
     if (n.most < Entries{}.most) put(out, "maxItems", n.most);
-  } else if constexpr (form::is<V, std::optional>) {
+  } else if constexpr (record_detail::is<V, std::optional>) {
     out = value_schema(typename V::value_type{}, false, rule...);
   } else if constexpr (Own<V>) {
     out = own_schema(value);
@@ -330,7 +317,7 @@ class FormWriter {
   }
   template <class V, class... Rule>
   void optional(const std::string& key, const V& value, std::string_view, const Rule&...) {
-    if constexpr (form::is<V, std::optional>) {
+    if constexpr (record_detail::is<V, std::optional>) {
       if (value) put(json_, key, value_json(*value));
     } else {
       put(json_, key, value_json(value));
