@@ -252,8 +252,8 @@ void check_coat(const JsonReader& root,
 }  // namespace
 
 Choice parse_choice(const std::string& path, const std::string& bytes) {
-  const Json document = parse_json(path, bytes);
-  const JsonReader root(path, document, "", Places::pointer);
+  const JsonDocument document(path, bytes, Places::pointer);
+  const JsonReader& root = document.root();
   ChoiceFile file;
   read_form(root, file);
   Choice c;

@@ -10,6 +10,7 @@
 #include "fitting/result/document_fields.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {
@@ -255,11 +256,11 @@ BatchFit in_brief(const FitDocument& d) {
 std::string batch_document(const FitDocument& d,
                            const Preview& preview,
                            const std::string& made_with) {
-  return text_of(json_of(Document{d, Kept{made_with, preview}}));
+  return json_text(Document{d, Kept{made_with, preview}});
 }
 
 std::string failure_document(const BatchRow& row, const std::string& made_with) {
-  return text_of(json_of(Failure{row, made_with}));
+  return json_text(Failure{row, made_with});
 }
 
 std::optional<ReadDocument> read_document(const std::string& path) {

@@ -15,6 +15,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>
@@ -199,7 +200,7 @@ std::string title_of(const std::string& folder) {
 }  // namespace
 
 void write_list(const std::string& folder, const BatchList& list) {
-  const std::string path = place(folder, list_name), text = text_of(json_of(list));
+  const std::string path = place(folder, list_name), text = json_text(list);
   std::error_code unknown;
   if (fs::file_size(path, unknown) == text.size() && !unknown &&
       InputFile(path).read_rest() == text)

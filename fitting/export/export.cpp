@@ -181,7 +181,7 @@ std::string file_of(const Export& e, const std::string& fit) {
 }
 
 std::string to_json(const Export& e) {
-  return text_of(json_of(e));
+  return json_text(e);
 }
 std::string export_schema() {
   return schema_text<Export>("Export of a fit");

@@ -33,7 +33,7 @@ struct Description<TilesDocument> {
 static_assert(describes_every_member<TilesDocument>());
 
 std::string to_json(const TilesDocument& d) {
-  return text_of(json_of(d));
+  return json_text(d);
 }
 std::string map_tiles_schema() {
   return schema_text<TilesDocument>("Tiles of a map");

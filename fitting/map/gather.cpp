@@ -14,6 +14,7 @@
 #include "image/exr_file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <fmt/ranges.h>
 
 namespace gonio {
@@ -54,7 +55,7 @@ struct Description<MapDocument> {
 };
 
 std::string to_json(const MapDocument& d) {
-  return text_of(json_of(d));
+  return json_text(d);
 }
 std::string map_schema() {
   return schema_text<MapDocument>("Map of a stack");

@@ -70,7 +70,7 @@ std::vector<Tile> TileGrid::all() const {
 MapAttributes attributes_of(const StackReader& stack, const TexelOptions& options) {
   return {{"gonio:version", GONIO_VERSION},
           {"gonio:model", options.model},
-          {"gonio:options", json_of(options).dump()},
+          {"gonio:options", json_line(options)},
           {"gonio:stack", stack.digest()},
           {"gonio:channels", fmt::format("{}", fmt::join(stack.channels(), ","))}};
 }

@@ -14,6 +14,7 @@
 #include "table/cut/cuts.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 

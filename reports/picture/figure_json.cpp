@@ -9,6 +9,7 @@
 #include "reports/picture/figure_style.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {

@@ -175,7 +175,8 @@ template <class V>
 struct Inlined {
   V value;
 };
-/// Key that is left out where the optional has no value; an optional alone is null there.
+/// Key that is left out where its value says nothing: an optional without value, a number that is not finite, an empty text or
+/// list.  These alone are null or empty there.
 template <class V>
 struct IfThere {
   V value;

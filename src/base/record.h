@@ -272,6 +272,9 @@ constexpr ValueType make_type() {
   ValueType t;
   if constexpr (json_form<V> != nullptr) {
     t = {.kind = ValueKind::own, .own = json_form<V>};
+  } else if constexpr (is<V, PerChannel> && is<Bare<V>, std::optional>) {
+    t = type_of<Bare<V>>;
+    t.of = &type_of<PerChannel<typename Bare<V>::value_type>>;
   } else if constexpr (is<V, PerChannel>) {
     t = {.kind = ValueKind::channels, .of = &type_of<Bare<V>>};
   } else if constexpr (is<V, PerName>) {
@@ -281,8 +284,10 @@ constexpr ValueType make_type() {
   } else if constexpr (is<V, ByName>) {
     t = {.kind = ValueKind::named, .of = &type_of<Entry<Bare<V>>>};
     add_own_names<Bare<V>>(t);
-  } else if constexpr (Form<V> || is<V, Inlined> || is<V, IfThere>) {
-    t = type_of<Bare<V>>;
+  } else if constexpr (is<V, Keyed>) {
+    t = type_of<std::remove_cvref_t<decltype(V::entries)>>;
+  } else if constexpr (is<V, Inlined> || is<V, IfThere>) {
+    t = type_of<std::remove_cvref_t<decltype(V::value)>>;
   } else if constexpr (is<V, Embedded>) {
     []<class T>(std::type_identity<Embedded<T>>, ValueType& e) {
       e = {.kind = ValueKind::embedded, .of = &type_of<T>};

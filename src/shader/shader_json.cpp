@@ -67,7 +67,7 @@ struct Description<shader::ShaderDocument> {
 namespace shader {
 
 std::string to_json(const ShaderDocument& d) {
-  return json_of(d).dump(2) + "\n";
+  return json_text(d);
 }
 std::string shader_schema() {
   return schema_text<ShaderDocument>("gonio shader");

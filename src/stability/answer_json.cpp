@@ -73,7 +73,7 @@ struct Description<stability::Answer> {
 namespace stability {
 
 std::string to_json(const Answer& a) {
-  return json_of(a).dump(2);
+  return json_text(a);
 }
 std::string answer_schema() {
   return schema_text<Answer>("gonio stability");

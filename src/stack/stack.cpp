@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "base/file.h"
 #include "base/json/form.h"
 
 namespace gonio {
@@ -65,10 +66,9 @@ std::string Stack::path_of(const std::string& name) const {
 }
 
 Stack read_stack(const std::string& path) {
-  const Json document = read_json(path);
   Stack s;
   s.path = path;
-  read_form(JsonReader(path, document, "", Places::pointer), s);
+  read_form(JsonDocument(path, InputFile(path).read_rest(most_document_bytes), Places::pointer).root(), s);
   return s;
 }
 

@@ -78,6 +78,15 @@ Json json_at(const ValueType& t, const void* v, Digits digits) {
   return out;
 }
 
+bool says_something(const ValueType& t, const void* v) {
+  if (t.kind == Kind::channels) return says_something(*t.of, v);
+  if (t.kind == Kind::number) return std::isfinite(t.number(v));
+  if (t.kind == Kind::text) return !t.text(v).empty();
+  bool any = t.each == nullptr;
+  if (!any) t.each(v, [&](std::string_view, const void*) { any = true; });
+  return any;
+}
+
 void put_field(Json& object, const RecordField& f, const void* record, Digits digits) {
   switch (f.role) {
     case FieldRole::constant:
@@ -98,7 +107,10 @@ void put_field(Json& object, const RecordField& f, const void* record, Digits di
       case FieldRole::keyed:
         return f.type->each(v, put_all);
       case FieldRole::if_there:
-        return f.type->each(v, [&](std::string_view, const void* e) { put_all(f.name, e); });
+        if (f.type->kind == Kind::optional)
+          return f.type->each(v, [&](std::string_view, const void* e) { put_all(f.name, e); });
+        if (says_something(*f.type, v)) put(object, f.name, json_at(*f.type, v, digits));
+        return;
       case FieldRole::inlined:
         if (f.type->kind == Kind::record)
           return put_fields(object, f.type->record->fields, v, digits);
@@ -281,7 +293,7 @@ void ObjectReader::read(const RecordField& f, void* record) {
     const bool may_miss = f.rules.or_default || f.role == FieldRole::if_there;
     if (may_miss && !at_.has(key)) return;
     const JsonReader j = at_.at(key);
-    if (f.role == FieldRole::if_there)
+    if (f.role == FieldRole::if_there && f.type->kind == Kind::optional)
       read_at(j, *f.type->of, f.type->append(f.place(record), {}), f.rules);
     else
       read_at(j, *f.type, f.place(record), f.rules);
@@ -446,8 +458,8 @@ void ObjectSchema::add(const RecordField& f, bool required, const void* example)
       break;
   }
   const bool if_there = f.role == FieldRole::if_there;
-  Json schema = f.role == FieldRole::keyed ? schema_at(*f.type->of, f.rules)
-                                           : schema_at(if_there ? *f.type->of : *f.type, f.rules);
+  const bool of_entries = f.role == FieldRole::keyed || (if_there && is_optional);
+  Json schema = schema_at(of_entries ? *f.type->of : *f.type, f.rules);
   if (f.rules.or_default && example != nullptr && f.place != nullptr) {
     const Json value = json_at(*f.type, f.place(const_cast<void*>(example)), Digits::all);
     if (value.is_primitive() ? !value.is_null() : f.type->kind == Kind::list && f.type->size > 0)
@@ -494,8 +506,8 @@ std::string json_line(const ValueRef& value, Digits digits) {
   return json_of(value, digits).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void read_value(const JsonReader& j, const ValueType& type, void* value) {
-  read_at(j, type, value, {});
+void read_value(const JsonReader& j, const ValueType& type, void* value, const Rules& rules) {
+  read_at(j, type, value, rules);
 }
 
 Json schema_of(const ValueType& type) {

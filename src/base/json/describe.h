@@ -18,12 +18,21 @@ Json json_of(const ValueRef&, Digits digits = Digits::all);
 std::string json_text(const ValueRef&, Digits digits = Digits::all);
 std::string json_line(const ValueRef&, Digits digits = Digits::all);
 
-/// Reads a value.  What is not as described is bad_input with its place; what a document leaves out, where it may, keeps the
+/// Reads a value, of a key with such rules.  What is not as described is bad_input with its place; what a document leaves out, where it may, keeps the
 /// value that it has.
-void read_value(const JsonReader&, const ValueType&, void* value);
+void read_value(const JsonReader&, const ValueType&, void* value, const Rules& = {});
 template <class T>
 void read_record(const JsonReader& j, T& value) {
   read_value(j, type_of<T>, &value);
+}
+
+/// Reads the value of a key of an object, if it is there, where nothing else of that object is described.
+template <class V, class... Rule>
+void read_key(const JsonReader& object, const std::string& key, V& value, const Rule&... rule) {
+  object.expect_object();
+  Rules rules;
+  (rules.add(rule), ...);
+  if (object.has(key)) read_value(object.at(key), type_of<V>, &value, rules);
 }
 
 /// JSON Schema of the same.

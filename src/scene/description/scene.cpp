@@ -191,8 +191,8 @@ Rgb EnvironmentLight::radiance(const Direction& d) const {
 
 Scene read_scene(const std::string& path) {
   const std::string bytes = InputFile(path).read_rest(most_document_bytes);
-  const Json document = parse_json(path, bytes);
-  const JsonReader root(path, document, "", Places::pointer);
+  const JsonDocument document(path, bytes, Places::pointer);
+  const JsonReader& root = document.root();
   SceneFile file;
   read_form(root, file);
   Files files(path, sha256(bytes));

@@ -201,8 +201,9 @@ std::string plan_schema() {
 }
 
 PlannedForms read_plan(const std::string& path, const Scene& s, const std::vector<Look>& looks) {
-  const Json document = parse_json(path, InputFile(path).read_rest(most_document_bytes));
-  const JsonReader root(path, document, "", Places::pointer);
+  const JsonDocument document(path, InputFile(path).read_rest(most_document_bytes),
+                              Places::pointer);
+  const JsonReader& root = document.root();
   PlanFile file;
   read_form(root, file);
   if (file.scene_sha256 != s.sha256)
@@ -231,9 +232,10 @@ std::string_view PlannedMaterial::form(Effect e) const {
 }
 
 PlannedMaterial read_planned_material(const std::string& path, const std::string& name) {
-  const Json document = parse_json(path, InputFile(path).read_rest(most_document_bytes));
+  const JsonDocument document(path, InputFile(path).read_rest(most_document_bytes),
+                              Places::pointer);
   PlanFile file;
-  read_form(JsonReader(path, document, "", Places::pointer), file);
+  read_form(document.root(), file);
   std::vector<std::string_view> known;
   for (auto& [material, what] : file.materials) {
     known.push_back(material);
