@@ -5,12 +5,12 @@
 #include <unordered_set>
 
 #include "base/csv_describe.h"
+#include "base/file.h"
 #include "base/json/describe.h"
 #include "fitting/batch/preview_json.h"
 #include "fitting/result/document_fields.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {
@@ -28,9 +28,24 @@ struct Document {
 
 /// Document of a table without a fit.
 struct Failure {
-  const BatchRow& row;
+  BatchRow row;
   std::string made_with;
 };
+
+/// Fit document of a batch, as much as its summary shows.
+struct KeptFit {
+  BatchFit fit;
+  Preview preview;
+  std::string path, sha256, termination, message, made_with;
+};
+
+/// Sum of what is given by name.
+template <auto member>
+auto sum(const BatchFit& f) {
+  auto all = std::remove_cvref_t<decltype((f.*member).begin()->second)>{};
+  for (const auto& [name, part] : f.*member) all += part;
+  return all;
+}
 
 }  // namespace
 
@@ -55,7 +70,7 @@ struct Description<BatchFit> {
   static constexpr auto cost = field("cost", "", &BatchFit::cost, "half the sum of the losses");
   static constexpr auto values_used =
       field("values_used", "", &BatchFit::values_used, "values of the table that were fitted");
-  static constexpr auto masked = field("masked", "", &BatchFit::masked, "values left out");
+  static constexpr auto masked = field("masked", "", sum<&BatchFit::masked>, "values left out");
   static constexpr auto misfit =
       field("misfit", "", &BatchFit::misfit, "RMS of what follows the angles, of f");
   static constexpr auto misfit_told =
@@ -74,7 +89,7 @@ struct Description<BatchFit> {
         misfit,
         misfit_told,
         field("warnings", "", &BatchFit::warnings, "sentences to know before believing the values"),
-        field("time_ms", "ms", &BatchFit::time_ms, "time from reading to the result")};
+        field("time_ms", "ms", sum<&BatchFit::time_ms>, "time from reading to the result")};
   }
 };
 
@@ -128,23 +143,67 @@ struct Description<Document> {
 };
 
 template <>
+struct Description<KeptFit> {
+  static constexpr bool has_others = true;
+  template <class Member>
+  static constexpr auto of_fit(Member member) {
+    return at(&KeptFit::fit, member);
+  }
+  static constexpr auto fields() {
+    using F = BatchFit;
+    return std::tuple{constant_text("schema", "gonio.fit/1"),
+                      field("model", "", of_fit(&F::model), ""),
+                      field("channels", "", of_fit(&F::channels), ""),
+                      field("parameters", "", by_name(of_fit(&F::parameters)), ""),
+                      field("cost", "", of_fit(&F::cost), ""),
+                      field("warnings", "", of_fit(&F::warnings), ""),
+                      group("residuals", "", field("rms", "", of_fit(&F::rms), ""),
+                            field("log_rms", "", of_fit(&F::log_rms), "")),
+                      group("misfit", "", field("size", "", of_fit(&F::misfit), ""),
+                            field("told", "", of_fit(&F::misfit_told), "")),
+                      group("solver", "", field("termination", "", &KeptFit::termination, ""),
+                            field("message", "", &KeptFit::message, ""),
+                            field("time_ms", "", of_fit(&F::time_ms), "")),
+                      group("input", "", field("path", "", &KeptFit::path, ""),
+                            field("sha256", "", &KeptFit::sha256, ""),
+                            field("values_used", "", of_fit(&F::values_used), ""),
+                            field("masked", "", of_fit(&F::masked), "")),
+                      group("batch", "", field("made_with", "", &KeptFit::made_with, ""),
+                            field("preview", "", &KeptFit::preview, ""))};
+  }
+  static void check(KeptFit& k, Demand expect) {
+    for (const auto& p : k.fit.parameters) {
+      const std::size_t n = p.value.size();
+      expect((n == 1 || n == k.fit.channels.size()) && p.std_error.size() == n &&
+                 p.status.size() == n && p.limit.size() == n,
+             "parameters", "a value, an error, a status and a limit for all channels or for each");
+    }
+  }
+};
+
+template <>
 struct Description<Failure> {
+  template <class Member>
+  static constexpr auto of_row(Member member) {
+    return at(&Failure::row, member);
+  }
   static constexpr auto fields() {
     return std::tuple{
         constant_text("schema", "gonio.failure/1"),
         group("input", "the table",
-              field(
-                  "path", "", [](const Failure& f) { return f.row.path; }, "path of the table")),
-        field(
-            "status", "", [](const Failure& f) { return f.row.outcome; }, ""),
+              field("path", "", of_row(&BatchRow::path), "path of the table")),
+        field("status", "", of_row(&BatchRow::outcome), ""),
         field(
             "exit_code", "", [](const Failure& f) { return static_cast<int>(f.row.outcome); },
             "exit code of a fit of this table alone"),
-        field(
-            "message", "", [](const Failure& f) { return f.row.message; }, "why there is no fit"),
+        field("message", "", of_row(&BatchRow::message), "why there is no fit"),
         group("batch", "of one table of a batch",
               field("made_with", "", &Failure::made_with,
                     "all that determines the result beside the table's bytes"))};
+  }
+  static void check(Failure& f, Demand expect) {
+    expect(f.row.outcome == Exit::bad_input || f.row.outcome == Exit::usage, "status",
+           "the status of a failure");
   }
 };
 
@@ -194,64 +253,12 @@ struct Description<BatchSummary> {
 
 namespace {
 
-BatchFit read_fit(const JsonReader& j) {
-  BatchFit d;
-  d.model = j.at("model").string();
-  for (const auto& c : j.at("channels").elements()) d.channels.push_back(c.string());
-  for (const auto& w : j.at("warnings").elements()) d.warnings.push_back(w.string());
-  for (const auto& [name, q] : j.at("parameters").members()) {
-    BatchParameter p{
-        name, q.at("value").numbers(), q.at("std_error").numbers(), {}, q.at("limit").numbers()};
-    for (const auto& s : q.at("status").elements()) {
-      const auto known = find_value<ParameterStatus>(s.string());
-      if (!known) s.fail("a status");
-      p.status.push_back(*known);
-    }
-    const std::size_t n = p.value.size();
-    if ((n != 1 && n != d.channels.size()) || p.std_error.size() != n || p.status.size() != n ||
-        p.limit.size() != n)
-      q.fail("a value, an error, a status and a limit for all channels or for each");
-    d.parameters.push_back(std::move(p));
-  }
-  d.cost = j.at("cost").number();
-  d.rms = j.at("residuals").at("rms").number();
-  d.log_rms = j.at("residuals").at("log_rms").number();
-  d.misfit = j.at("misfit").at("size").number();
-  d.misfit_told = j.at("misfit").at("told").boolean();
-  for (const auto& [phase, ms] : j.at("solver").at("time_ms").members()) d.time_ms += ms.number();
-  d.values_used = j.at("input").at("values_used").whole_number();
-  for (const auto& [reason, n] : j.at("input").at("masked").members()) d.masked += n.whole_number();
-  return d;
-}
-
-Exit outcome_of(std::string_view termination) {
-  return termination == "converged" ? Exit::done : Exit::not_converged;
-}
-
 /// Column of a parameter's channel: "alpha", "kd.r".
 std::string column(const BatchFit& d, const BatchParameter& p, std::size_t channel) {
   return p.value.size() == 1 ? p.name : p.name + "." + d.channels[channel];
 }
 
 }  // namespace
-
-BatchFit in_brief(const FitDocument& d) {
-  BatchFit b;
-  b.model = d.model;
-  b.channels = d.channels;
-  b.log_rms = d.residuals.log_rms;
-  b.rms = d.residuals.rms;
-  b.cost = d.cost;
-  b.misfit = d.misfit.size;
-  b.misfit_told = d.misfit.told;
-  b.values_used = d.values_used;
-  b.warnings = d.warnings;
-  for (const auto& p : d.parameters)
-    b.parameters.push_back({p.name, p.value, p.std_error, p.status, p.limit});
-  for (const auto& [reason, n] : d.masked) b.masked += n;
-  for (const auto& [phase, ms] : d.solver.phase_ms) b.time_ms += ms;
-  return b;
-}
 
 std::string batch_document(const FitDocument& d,
                            const Preview& preview,
@@ -263,27 +270,28 @@ std::string failure_document(const BatchRow& row, const std::string& made_with) 
   return json_text(Failure{row, made_with});
 }
 
-std::optional<ReadDocument> read_document(const std::string& path) {
-  const Json document = read_json(path);
-  const JsonReader root(path, document);
-  if (!document.is_object() || !root.has("schema") || !root.at("schema").is_string()) return {};
+std::optional<ReadDocument> parse_document(const std::string& path, const std::string& bytes) {
+  const JsonDocument document(path, bytes);
+  const JsonReader& root = document.root();
+  if (!root.has("schema") || !root.at("schema").is_string()) return {};
   const std::string schema = root.at("schema").string();
   if (schema == "gonio.failure/1") {
-    const auto outcome = find_value<Exit>(root.at("status").string());
-    if (outcome != Exit::bad_input && outcome != Exit::usage)
-      root.at("status").fail("the status of a failure");
-    return ReadDocument{
-        {root.at("input").at("path").string(), "", *outcome, root.at("message").string(), {}, {}},
-        root.at("batch").at("made_with").string(),
-        ""};
+    Failure failure;
+    read_record(root, failure);
+    return ReadDocument{std::move(failure.row), std::move(failure.made_with), ""};
   }
   if (schema != "gonio.fit/1" || !root.has("batch")) return {};
-  const JsonReader solver = root.at("solver"), input = root.at("input"), batch = root.at("batch");
-  return ReadDocument{
-      {input.at("path").string(), "", outcome_of(solver.at("termination").string()),
-       solver.at("message").string(), read_fit(root), read_preview(batch.at("preview"))},
-      batch.at("made_with").string(),
-      input.at("sha256").string()};
+  KeptFit k;
+  read_record(root, k);
+  const Exit outcome = k.termination == "converged" ? Exit::done : Exit::not_converged;
+  return ReadDocument{{std::move(k.path), "", outcome, std::move(k.message), std::move(k.fit),
+                       std::move(k.preview)},
+                      std::move(k.made_with),
+                      std::move(k.sha256)};
+}
+
+std::optional<ReadDocument> read_document(const std::string& path) {
+  return parse_document(path, InputFile(path).read_rest(most_document_bytes));
 }
 
 std::optional<BatchRow> read_batch_document(const std::string& path,
@@ -301,8 +309,7 @@ std::optional<BatchRow> read_batch_document(const std::string& path,
 
 bool is_batch_document(const std::string& path) {
   try {
-    const Json document = read_json(path);
-    return JsonReader(path, document).at("batch").has("made_with");
+    return JsonDocument(path).root().at("batch").has("made_with");
   } catch (const Error&) {
     return false;
   }
@@ -362,10 +369,10 @@ Exit BatchSummary::outcome() const {
 }
 
 std::string batch_json(const BatchSummary& summary, bool previews) {
-  Json all = json_of(summary);
-  if (previews) return all.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (Json& table : all["tables"]) table.erase("preview");
-  return text_of(all);
+  if (previews) return json_line(summary);
+  BatchSummary without = summary;
+  for (auto& row : without.rows) row.preview.reset();
+  return json_text(without);
 }
 
 std::string fit_schema() {

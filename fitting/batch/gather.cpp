@@ -15,7 +15,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>
@@ -51,8 +50,7 @@ std::string without_side_file(const std::string& made_with) {
 
 /// Text as it comes back from a document: bytes that are no text are replaced there.
 std::string as_in_document(const std::string& text) {
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
-      .get<std::string>();
+  return JsonDocument("", json_line(text)).root().string();
 }
 
 /// A folder that no other process locks meanwhile, where its file system has locks.
@@ -211,12 +209,8 @@ void write_list(const std::string& folder, const BatchList& list) {
 std::optional<BatchList> read_list(const std::string& folder) {
   const std::string path = place(folder, list_name);
   try {
-    const Json document = read_json(path);
-    const JsonReader root(path, document);
-    if (root.at("schema").string() != "gonio.list/1") return {};
-    BatchList list{root.at("made_with").string(), {}};
-    if (const JsonReader tables = root.at("tables"); tables.is_array())
-      for (const auto& t : tables.elements()) list.tables.push_back(t.string());
+    BatchList list;
+    read_record(JsonDocument(path).root(), list);
     return list;
   } catch (const Error&) {
     return {};  // not there, or not what a batch writes

@@ -1,9 +1,8 @@
 #pragma once
 /// \file
-/// Previews in a document.  Dear to compile: for .cpp files only.
+/// Previews in a document.
 
-#include "base/base64.h"
-#include "base/json/describe.h"
+#include "base/describe.h"
 #include "fitting/batch/preview.h"
 
 namespace gonio {
@@ -30,12 +29,10 @@ struct Description<Preview> {
         field("curve", "", &Preview::curve, "null where no cut shows data"),
         field("albedo", "", &Preview::albedo, "albedo of the model at 30°, by channel"),
         field(
-            "sphere", "", [](const Preview& p) { return base64(p.sphere); },
+            "sphere", "", &Preview::sphere,
             "right half of a sphere of the model, 36 rows of 18 pixels of sRGB, three bytes each, "
             "in base64")};
   }
 };
-
-Preview read_preview(const JsonReader&);
 
 }  // namespace gonio

@@ -7,6 +7,7 @@
 #include "reports/picture/document.h"
 #include "reports/picture/figure_scale.h"
 #include "reports/picture/figure_style.h"
+#include "reports/picture/json_numbers.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -35,7 +35,7 @@ namespace gonio {
 /// by_name() and constant_text(), in the order in which they are shown.  Beside it there may be
 ///
 ///   static void check(T&, Demand)               further demands on what was read; it may also put that in order
-///   static constexpr bool has_others = true     keys that are not described are passed over, not refused
+///   static constexpr bool has_others = true     keys that are not described, here or below, are passed over, not refused
 template <class T>
 struct Description;
 

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "base/file.h"
 #include "base/json/describe.h"
 
 namespace gonio {
@@ -94,9 +93,7 @@ std::string Stack::path_of(const std::string& name) const {
 Stack read_stack(const std::string& path) {
   Stack s;
   s.path = path;
-  read_record(
-      JsonDocument(path, InputFile(path).read_rest(most_document_bytes), Places::pointer).root(),
-      s);
+  read_record(JsonDocument(path, Places::pointer).root(), s);
   return s;
 }
 

@@ -158,11 +158,14 @@ void expect_entries(const JsonReader& j, const Entries& n, const char* of) {
 /// Object whose keys are read one after the other.
 class ObjectReader {
  public:
-  explicit ObjectReader(const JsonReader& object) : at_(object) { at_.expect_object(); }
+  /// \param others  keys that are not described are passed over
+  ObjectReader(const JsonReader& object, bool others) : at_(object), others_(others) {
+    at_.expect_object();
+  }
 
   void read(const RecordType& type, void* record) {
-    read(type.fields, record);
     others_ |= type.has_others;
+    read(type.fields, record);
     if (type.check != nullptr)
       type.check(record, [&](bool holds, std::string_view key, std::string_view expected) {
         if (holds) return;
@@ -189,10 +192,23 @@ class ObjectReader {
 
   JsonReader at_;
   std::vector<std::string_view> known_;
-  bool others_ = false;
+  bool others_;
 };
 
-void read_list(const JsonReader& j, const ValueType& t, void* v, const Rules& rules);
+/// What holds for a value and all that is in it.
+struct Within {
+  Rules rules;
+  bool others = false;  ///< keys that are not described are passed over
+
+  /// The same for entries.
+  Within entries() const {
+    Within inner = *this;
+    inner.rules.entries = {};
+    return inner;
+  }
+};
+
+void read_list(const JsonReader& j, const ValueType& t, void* v, const Within& in);
 
 /// Whole number that a type can hold.
 std::int64_t whole_in(const JsonReader& j, const ValueType& t) {
@@ -208,17 +224,15 @@ std::int64_t whole_in(const JsonReader& j, const ValueType& t) {
   return static_cast<std::int64_t>(x);
 }
 
-/// \param rules  of the key, or of what it is in
-void read_at(const JsonReader& j, const ValueType& t, void* v, const Rules& rules) {
-  Rules inner = rules;
-  inner.entries = {};
+void read_at(const JsonReader& j, const ValueType& t, void* v, const Within& in) {
+  const Within inner = in.entries();
   switch (t.kind) {
     case Kind::truth:
       return t.set_whole(v, j.boolean());
     case Kind::number:
-      return t.set_number(v, rules.has_numbers ? number_in(j, rules.numbers) : j.number());
+      return t.set_number(v, in.rules.has_numbers ? number_in(j, in.rules.numbers) : j.number());
     case Kind::whole: {
-      if (rules.has_numbers) number_in(j, rules.numbers);
+      if (in.rules.has_numbers) number_in(j, in.rules.numbers);
       return t.set_whole(v, whole_in(j, t));
     }
     case Kind::name: {
@@ -227,17 +241,17 @@ void read_at(const JsonReader& j, const ValueType& t, void* v, const Rules& rule
       return t.set_whole(v, found - t.names.begin());
     }
     case Kind::text:
-      return t.set_text(v, rules.not_empty ? text_in(j) : j.string());
+      return t.set_text(v, in.rules.not_empty ? text_in(j) : j.string());
     case Kind::own:
       return t.own->read(j, v);
     case Kind::optional:
       t.clear(v);
-      if (!j.is_null()) read_at(j, *t.of, t.append(v, {}), rules);
+      if (!j.is_null()) read_at(j, *t.of, t.append(v, {}), in);
       return;
     case Kind::list:
-      return read_list(j, t, v, rules);
+      return read_list(j, t, v, in);
     case Kind::channels:
-      if (j.is_array()) return read_list(j, *t.of, v, rules);
+      if (j.is_array()) return read_list(j, *t.of, v, in);
       if (t.of->size == 0) {
         t.of->clear(v);
         return read_at(j, *t.of->of, t.of->append(v, {}), inner);
@@ -247,11 +261,11 @@ void read_at(const JsonReader& j, const ValueType& t, void* v, const Rules& rule
       });
     case Kind::named:
       t.clear(v);
-      for (auto& [name, member] : members_in(j, rules.entries))
+      for (auto& [name, member] : members_in(j, in.rules.entries))
         read_at(member, *t.of, t.append(v, std::move(name)), inner);
       return;
     case Kind::record: {
-      ObjectReader object(j);
+      ObjectReader object(j, in.others);
       object.read(*t.record, v);
       return object.done();
     }
@@ -261,9 +275,8 @@ void read_at(const JsonReader& j, const ValueType& t, void* v, const Rules& rule
   j.fail("a value that can be read");
 }
 
-void read_list(const JsonReader& j, const ValueType& t, void* v, const Rules& rules) {
-  Rules inner = rules;
-  inner.entries = {};
+void read_list(const JsonReader& j, const ValueType& t, void* v, const Within& in) {
+  const Within inner = in.entries();
   if (t.size > 0) {
     const auto entries = entries_in(j, {t.size, t.size});
     auto next = entries.begin();
@@ -272,7 +285,7 @@ void read_list(const JsonReader& j, const ValueType& t, void* v, const Rules& ru
     });
   }
   t.clear(v);
-  for (const auto& entry : entries_in(j, rules.entries))
+  for (const auto& entry : entries_in(j, in.rules.entries))
     read_at(entry, *t.of, t.append(v, {}), inner);
 }
 
@@ -285,18 +298,17 @@ void ObjectReader::read(const RecordField& f, void* record) {
     const JsonReader j = at_.at(key);
     if (j.string() != f.constant) j.fail(std::string(f.constant));
   } else if (f.role == FieldRole::group) {
-    ObjectReader within(at_.at(key));
+    ObjectReader within(at_.at(key), others_);
     within.read(f.fields, record);
-    within.others_ = others_;
     within.done();
   } else if (f.place != nullptr) {
     const bool may_miss = f.rules.or_default || f.role == FieldRole::if_there;
     if (may_miss && !at_.has(key)) return;
     const JsonReader j = at_.at(key);
     if (f.role == FieldRole::if_there && f.type->kind == Kind::optional)
-      read_at(j, *f.type->of, f.type->append(f.place(record), {}), f.rules);
+      read_at(j, *f.type->of, f.type->append(f.place(record), {}), {f.rules, others_});
     else
-      read_at(j, *f.type, f.place(record), f.rules);
+      read_at(j, *f.type, f.place(record), {f.rules, others_});
   }
 }
 
@@ -507,7 +519,7 @@ std::string json_line(const ValueRef& value, Digits digits) {
 }
 
 void read_value(const JsonReader& j, const ValueType& type, void* value, const Rules& rules) {
-  read_at(j, type, value, rules);
+  read_at(j, type, value, {rules});
 }
 
 Json schema_of(const ValueType& type) {

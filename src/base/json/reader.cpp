@@ -295,6 +295,11 @@ JsonDocument::JsonDocument(std::string file, const std::string& bytes, Places pl
       document_(std::make_unique<Json>(parse_json(file_, bytes))),
       root_(file_, *document_, "", places) {}
 
+JsonDocument::JsonDocument(std::string file, Places places)
+    : file_(std::move(file)),
+      document_(std::make_unique<Json>(read_json(file_))),
+      root_(file_, *document_, "", places) {}
+
 JsonDocument::~JsonDocument() = default;
 
 }  // namespace gonio

@@ -80,6 +80,7 @@ class JsonDocument {
  public:
   /// \throws Error  as parse_json
   JsonDocument(std::string file, const std::string& bytes, Places places = Places::dotted);
+  explicit JsonDocument(std::string file, Places places = Places::dotted);  ///< of a file
   ~JsonDocument();
   JsonDocument(const JsonDocument&) = delete;
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/file.h"
 #include "base/json/describe.h"
 #include "scene/description/scene_keys.h"
 
@@ -211,8 +210,7 @@ std::string plan_schema() {
 }
 
 PlannedForms read_plan(const std::string& path, const Scene& s, const std::vector<Look>& looks) {
-  const JsonDocument document(path, InputFile(path).read_rest(most_document_bytes),
-                              Places::pointer);
+  const JsonDocument document(path, Places::pointer);
   const JsonReader& root = document.root();
   Plan file;
   file.tolerance = s.tolerance;
@@ -242,8 +240,7 @@ std::string_view PlannedMaterial::form(Effect e) const {
 }
 
 PlannedMaterial read_planned_material(const std::string& path, const std::string& name) {
-  const JsonDocument document(path, InputFile(path).read_rest(most_document_bytes),
-                              Places::pointer);
+  const JsonDocument document(path, Places::pointer);
   Plan file;
   read_record(document.root(), file);
   std::vector<std::string_view> known;
