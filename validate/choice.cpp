@@ -28,18 +28,17 @@ template <>
 struct Description<Budgets::ColourDifference> {
   static constexpr auto fields() {
     using D = Budgets::ColourDifference;
-    return std::tuple{field("limit", "", &D::limit, "CIEDE2000 under a uniform white sky", amounts),
-                      field("quantile", "", &D::quantile, "of the domain that keeps it; 1: all",
-                            shares, or_default)};
+    return std::tuple{
+        field("limit", &D::limit, "CIEDE2000 under a uniform white sky", amounts),
+        field("quantile", &D::quantile, "of the domain that keeps it; 1: all", shares, or_default)};
   }
 };
 template <>
 struct Description<Budgets::Time> {
   static constexpr auto fields() {
-    return std::tuple{
-        field("limit", "", &Budgets::Time::limit, "times the baseline's time", amounts),
-        field("baseline", "", &Budgets::Time::baseline, "spec of a model, measured in the same run",
-              not_empty)};
+    return std::tuple{field("limit", &Budgets::Time::limit, "times the baseline's time", amounts),
+                      field("baseline", &Budgets::Time::baseline,
+                            "spec of a model, measured in the same run", not_empty)};
   }
 };
 template <>
@@ -47,21 +46,21 @@ struct Description<Budgets> {
   static constexpr auto fields() {
     using B = Budgets;
     return std::tuple{
-        field("albedo_error", "", if_there(&B::albedo_error),
+        field("albedo_error", if_there(&B::albedo_error),
               "directional albedo, from the reference's", amounts),
-        field("fresnel_error", "", if_there(&B::fresnel_error),
+        field("fresnel_error", if_there(&B::fresnel_error),
               "F, from the exact one of the domain's substances", amounts),
-        field("delta_e_2000", "", if_there(&B::delta_e_2000), "colour, from the reference's"),
-        field("energy_gain", "", if_there(&B::energy_gain), "directional albedo above 1", amounts),
-        field("energy_loss", "", if_there(&B::energy_loss),
+        field("delta_e_2000", if_there(&B::delta_e_2000), "colour, from the reference's"),
+        field("energy_gain", if_there(&B::energy_gain), "directional albedo above 1", amounts),
+        field("energy_loss", if_there(&B::energy_loss),
               "of lobes at F = 1, directional albedo below 1", shares),
-        field("reciprocity", "", if_there(&B::reciprocity),
+        field("reciprocity", if_there(&B::reciprocity),
               "relative change of f where light and view change places", amounts),
-        field("nonfinite", "", if_there(&B::nonfinite), "inputs without a value in the number",
+        field("nonfinite", if_there(&B::nonfinite), "inputs without a value in the number",
               amounts),
-        field("operations", "", if_there(&B::operations), "of one sample in all channels", amounts),
-        field("ns", "", if_there(&B::ns), "time of a sample"),
-        field("table_bytes", "", if_there(&B::table_bytes), "tables that a shader reads", amounts)};
+        field("operations", if_there(&B::operations), "of one sample in all channels", amounts),
+        field("ns", if_there(&B::ns), "time of a sample"),
+        field("table_bytes", if_there(&B::table_bytes), "tables that a shader reads", amounts)};
   }
 };
 
@@ -71,14 +70,14 @@ struct Description<Choice::Domain> {
     using D = Choice::Domain;
     constexpr Numbers any{};
     return std::tuple{
-        field("roughness", "", if_there(per_channel(&D::roughness)), "as an artist sets it", any),
-        field("mu", "", if_there(per_channel(&D::mu)),
+        field("roughness", if_there(per_channel(&D::roughness)), "as an artist sets it", any),
+        field("mu", if_there(per_channel(&D::mu)),
               "cosine of directions and the normal; else 0.05 to 1", any),
-        field("eta", "", if_there(per_channel(&D::eta)), "index of refraction of dielectrics", any),
-        field("f0", "", if_there(per_channel(&D::f0)), "reflectance at normal incidence", any),
-        field("metal", "", if_there(per_channel(&D::metals)), "metals by their symbols", few,
+        field("eta", if_there(per_channel(&D::eta)), "index of refraction of dielectrics", any),
+        field("f0", if_there(per_channel(&D::f0)), "reflectance at normal incidence", any),
+        field("metal", if_there(per_channel(&D::metals)), "metals by their symbols", few,
               not_empty),
-        field("fits", "", if_there(per_channel(&D::fits)),
+        field("fits", if_there(per_channel(&D::fits)),
               "documents of fits: their models and parameters", few, not_empty)};
   }
   static void check(Choice::Domain& d, Demand expect) {
@@ -112,25 +111,25 @@ struct Description<Choice> {
     using S = Shipped;
     return std::tuple{
         constant_text("schema", "gonio.choice/1"),
-        field("model", "", shipped(&S::model), "spec of a model, or a preset", not_empty),
-        field("parameters", "", shipped(&S::parameters), "a number or one per channel each",
-              parameters, or_default),
-        field("scattering", "", shipped(&S::scattering),
-              "what follows light after its first bounce", or_default),
-        field("alpha", "", shipped(&S::alpha), "width from roughness", or_default),
-        field("coating", "", if_there(shipped(&S::coating)),
+        field("model", shipped(&S::model), "spec of a model, or a preset", not_empty),
+        field("parameters", shipped(&S::parameters), "a number or one per channel each", parameters,
+              or_default),
+        field("scattering", shipped(&S::scattering), "what follows light after its first bounce",
+              or_default),
+        field("alpha", shipped(&S::alpha), "width from roughness", or_default),
+        field("coating", if_there(shipped(&S::coating)),
               "what a coat leaves for all below it: by its albedo in the view's direction, or in "
               "the light's too"),
-        field("number", "", &Choice::number, "in which a shader computes it", or_default),
-        field("reference", "", if_there(reference(&S::model)), "spec that the model stands for",
+        field("number", &Choice::number, "in which a shader computes it", or_default),
+        field("reference", if_there(reference(&S::model)), "spec that the model stands for",
               not_empty),
-        field("reference_parameters", "", reference(&S::parameters),
-              "a number or one per channel each", parameters, or_default),
-        field("reference_scattering", "", reference(&S::scattering), "", or_default),
-        field("reference_coating", "", if_there(reference(&S::coating)),
+        field("reference_parameters", reference(&S::parameters), "a number or one per channel each",
+              parameters, or_default),
+        field("reference_scattering", reference(&S::scattering), "", or_default),
+        field("reference_coating", if_there(reference(&S::coating)),
               "of the reference, as coating"),
-        field("domain", "", &Choice::domain, "where the budgets must be kept", or_default),
-        field("budgets", "", &Choice::budgets, "limits")};
+        field("domain", &Choice::domain, "where the budgets must be kept", or_default),
+        field("budgets", &Choice::budgets, "limits")};
   }
   static void check(Choice& c, Demand expect) {
     const auto& b = c.budgets;

@@ -29,7 +29,7 @@ template <>
 struct Description<HowFitted> {
   static constexpr auto fields() {
     return std::tuple{inlined(&HowFitted::options),
-                      field("bins", "", &HowFitted::bins,
+                      field("bins", &HowFitted::bins,
                             "where samples sit in their bins, if not as each table says")};
   }
 };

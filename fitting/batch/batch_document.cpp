@@ -52,35 +52,35 @@ auto sum(const BatchFit& f) {
 template <>
 struct Description<BatchParameter> {
   static constexpr auto fields() {
-    return std::tuple{field("value", "", per_channel(&BatchParameter::value), "fitted value"),
-                      field("std_error", "", per_channel(&BatchParameter::std_error),
+    return std::tuple{field("value", per_channel(&BatchParameter::value), "fitted value"),
+                      field("std_error", per_channel(&BatchParameter::std_error),
                             "standard error; null where it is not known"),
-                      field("status", "", per_channel(&BatchParameter::status), ""),
-                      field("limit", "", per_channel(&BatchParameter::limit),
+                      field("status", per_channel(&BatchParameter::status), ""),
+                      field("limit", per_channel(&BatchParameter::limit),
                             "one-sided 95 % bound where the status is upper_limit or lower_limit")};
   }
 };
 
 template <>
 struct Description<BatchFit> {
-  static constexpr auto model = field("model", "", &BatchFit::model, "the model fitted");
+  static constexpr auto model = field("model", &BatchFit::model, "the model fitted");
   static constexpr auto log_rms =
-      field("log_rms", "", &BatchFit::log_rms, "RMS of ln f_model − ln f_data");
+      field("log_rms", &BatchFit::log_rms, "RMS of ln f_model − ln f_data");
   static constexpr auto rms = field("rms", "1/sr", &BatchFit::rms, "RMS of f_model − f_data");
-  static constexpr auto cost = field("cost", "", &BatchFit::cost, "half the sum of the losses");
+  static constexpr auto cost = field("cost", &BatchFit::cost, "half the sum of the losses");
   static constexpr auto values_used =
-      field("values_used", "", &BatchFit::values_used, "values of the table that were fitted");
-  static constexpr auto masked = field("masked", "", sum<&BatchFit::masked>, "values left out");
+      field("values_used", &BatchFit::values_used, "values of the table that were fitted");
+  static constexpr auto masked = field("masked", sum<&BatchFit::masked>, "values left out");
   static constexpr auto misfit =
-      field("misfit", "", &BatchFit::misfit, "RMS of what follows the angles, of f");
+      field("misfit", &BatchFit::misfit, "RMS of what follows the angles, of f");
   static constexpr auto misfit_told =
-      field("misfit_told", "", &BatchFit::misfit_told, "whether that is more than luck");
+      field("misfit_told", &BatchFit::misfit_told, "whether that is more than luck");
 
   static constexpr auto fields() {
     return std::tuple{
         model,
-        field("channels", "", &BatchFit::channels, "names of the table's channels"),
-        field("parameters", "", by_name(&BatchFit::parameters), "parameters by name"),
+        field("channels", &BatchFit::channels, "names of the table's channels"),
+        field("parameters", by_name(&BatchFit::parameters), "parameters by name"),
         log_rms,
         rms,
         cost,
@@ -88,57 +88,56 @@ struct Description<BatchFit> {
         masked,
         misfit,
         misfit_told,
-        field("warnings", "", &BatchFit::warnings, "sentences to know before believing the values"),
+        field("warnings", &BatchFit::warnings, "sentences to know before believing the values"),
         field("time_ms", "ms", sum<&BatchFit::time_ms>, "time from reading to the result")};
   }
 };
 
 template <>
 struct Description<BatchRow> {
-  static constexpr auto path = field("path", "", &BatchRow::path, "path of the table");
-  static constexpr auto status = field("status", "", &BatchRow::outcome, "");
+  static constexpr auto path = field("path", &BatchRow::path, "path of the table");
+  static constexpr auto status = field("status", &BatchRow::outcome, "");
   static constexpr auto exit_code = field(
       "exit_code",
-      "",
       [](const BatchRow& r) { return static_cast<int>(r.outcome); },
       "exit code of a fit of this table alone");
   static constexpr auto message =
-      field("message", "", &BatchRow::message, "why there is no fit; else why the search ended");
+      field("message", &BatchRow::message, "why there is no fit; else why the search ended");
 
   static constexpr auto fields() {
     return std::tuple{
         path,
         field(
-            "document", "",
+            "document",
             [](const BatchRow& r) {
               return r.document.empty() ? std::nullopt : std::optional(r.document);
             },
             "name of the fit document, beside the summary; null where there is none"),
         field(
-            "page", "",
+            "page",
             [](const BatchRow& r) { return r.page.empty() ? std::nullopt : std::optional(r.page); },
             "name of the table's page, beside the summary; null where none was asked for"),
         status,
         exit_code,
         message,
         inlined(&BatchRow::fit),
-        field("preview", "", if_there(&BatchRow::preview), "small pictures, for the page alone")};
+        field("preview", if_there(&BatchRow::preview), "small pictures, for the page alone")};
   }
 };
 
 template <>
 struct Description<Kept> {
   static constexpr auto fields() {
-    return std::tuple{field("made_with", "", &Kept::made_with,
+    return std::tuple{field("made_with", &Kept::made_with,
                             "all that determines the result beside the table's bytes"),
-                      field("preview", "", &Kept::preview, "small pictures, for the summary")};
+                      field("preview", &Kept::preview, "small pictures, for the summary")};
   }
 };
 template <>
 struct Description<Document> {
   static constexpr auto fields() {
     return std::tuple{inlined(&Document::fit),
-                      field("batch", "", if_there(&Document::batch), "of one table of a batch")};
+                      field("batch", if_there(&Document::batch), "of one table of a batch")};
   }
 };
 
@@ -151,25 +150,24 @@ struct Description<KeptFit> {
   }
   static constexpr auto fields() {
     using F = BatchFit;
-    return std::tuple{constant_text("schema", "gonio.fit/1"),
-                      field("model", "", of_fit(&F::model), ""),
-                      field("channels", "", of_fit(&F::channels), ""),
-                      field("parameters", "", by_name(of_fit(&F::parameters)), ""),
-                      field("cost", "", of_fit(&F::cost), ""),
-                      field("warnings", "", of_fit(&F::warnings), ""),
-                      group("residuals", "", field("rms", "", of_fit(&F::rms), ""),
-                            field("log_rms", "", of_fit(&F::log_rms), "")),
-                      group("misfit", "", field("size", "", of_fit(&F::misfit), ""),
-                            field("told", "", of_fit(&F::misfit_told), "")),
-                      group("solver", "", field("termination", "", &KeptFit::termination, ""),
-                            field("message", "", &KeptFit::message, ""),
-                            field("time_ms", "", of_fit(&F::time_ms), "")),
-                      group("input", "", field("path", "", &KeptFit::path, ""),
-                            field("sha256", "", &KeptFit::sha256, ""),
-                            field("values_used", "", of_fit(&F::values_used), ""),
-                            field("masked", "", of_fit(&F::masked), "")),
-                      group("batch", "", field("made_with", "", &KeptFit::made_with, ""),
-                            field("preview", "", &KeptFit::preview, ""))};
+    return std::tuple{
+        constant_text("schema", "gonio.fit/1"),
+        field("model", of_fit(&F::model), ""),
+        field("channels", of_fit(&F::channels), ""),
+        field("parameters", by_name(of_fit(&F::parameters)), ""),
+        field("cost", of_fit(&F::cost), ""),
+        field("warnings", of_fit(&F::warnings), ""),
+        group("residuals", "", field("rms", of_fit(&F::rms), ""),
+              field("log_rms", of_fit(&F::log_rms), "")),
+        group("misfit", "", field("size", of_fit(&F::misfit), ""),
+              field("told", of_fit(&F::misfit_told), "")),
+        group("solver", "", field("termination", &KeptFit::termination, ""),
+              field("message", &KeptFit::message, ""), field("time_ms", of_fit(&F::time_ms), "")),
+        group("input", "", field("path", &KeptFit::path, ""), field("sha256", &KeptFit::sha256, ""),
+              field("values_used", of_fit(&F::values_used), ""),
+              field("masked", of_fit(&F::masked), "")),
+        group("batch", "", field("made_with", &KeptFit::made_with, ""),
+              field("preview", &KeptFit::preview, ""))};
   }
   static void check(KeptFit& k, Demand expect) {
     for (const auto& p : k.fit.parameters) {
@@ -190,15 +188,14 @@ struct Description<Failure> {
   static constexpr auto fields() {
     return std::tuple{
         constant_text("schema", "gonio.failure/1"),
-        group("input", "the table",
-              field("path", "", of_row(&BatchRow::path), "path of the table")),
-        field("status", "", of_row(&BatchRow::outcome), ""),
+        group("input", "the table", field("path", of_row(&BatchRow::path), "path of the table")),
+        field("status", of_row(&BatchRow::outcome), ""),
         field(
-            "exit_code", "", [](const Failure& f) { return static_cast<int>(f.row.outcome); },
+            "exit_code", [](const Failure& f) { return static_cast<int>(f.row.outcome); },
             "exit code of a fit of this table alone"),
-        field("message", "", of_row(&BatchRow::message), "why there is no fit"),
+        field("message", of_row(&BatchRow::message), "why there is no fit"),
         group("batch", "of one table of a batch",
-              field("made_with", "", &Failure::made_with,
+              field("made_with", &Failure::made_with,
                     "all that determines the result beside the table's bytes"))};
   }
   static void check(Failure& f, Demand expect) {
@@ -211,15 +208,13 @@ template <>
 struct Description<LeftOutDocument> {
   static constexpr auto fields() {
     return std::tuple{
-        field("document", "", &LeftOutDocument::document, "its name, beside the summary"),
-        field("why", "", &LeftOutDocument::why,
+        field("document", &LeftOutDocument::document, "its name, beside the summary"),
+        field("why", &LeftOutDocument::why,
               "made_otherwise: by another version or with other options"),
-        field("path", "", &LeftOutDocument::path,
-              "path of its table; empty where it cannot be read"),
-        field("made_with", "", &LeftOutDocument::made_with,
+        field("path", &LeftOutDocument::path, "path of its table; empty where it cannot be read"),
+        field("made_with", &LeftOutDocument::made_with,
               "what determined its result; empty where it cannot be read"),
-        field("message", "", &LeftOutDocument::message,
-              "why it cannot be read; empty where it can")};
+        field("message", &LeftOutDocument::message, "why it cannot be read; empty where it can")};
   }
 };
 
@@ -234,20 +229,20 @@ struct Description<BatchSummary> {
   }
   static constexpr auto fields() {
     return std::tuple{constant_text("schema", "gonio.batch/1"),
-                      field("made_with", "", &BatchSummary::made_with,
+                      field("made_with", &BatchSummary::made_with,
                             "all that determines a result beside the table's bytes"),
                       field(
-                          "part", "",
+                          "part",
                           [](const BatchSummary& s) {
                             return s.part.empty() ? std::nullopt : std::optional(s.part);
                           },
                           "K/N where these are the tables of one part alone, else null"),
-                      field("counts", "", counts, "number of tables by status"),
-                      field("missing", "", &BatchSummary::missing,
+                      field("counts", counts, "number of tables by status"),
+                      field("missing", &BatchSummary::missing,
                             "paths of the tables that nobody has tried yet in this way"),
-                      field("left_out", "", &BatchSummary::left_out,
+                      field("left_out", &BatchSummary::left_out,
                             "documents that lie beside the summary and are not in it"),
-                      field("tables", "", &BatchSummary::rows, "")};
+                      field("tables", &BatchSummary::rows, "")};
   }
 };
 
@@ -318,7 +313,7 @@ bool is_batch_document(const std::string& path) {
 std::string batch_csv(const std::vector<BatchRow>& rows) {
   using Row = Description<BatchRow>;
   using Fit = Description<BatchFit>;
-  constexpr std::tuple first{Row::path, field("document", "", &BatchRow::document, ""), Row::status,
+  constexpr std::tuple first{Row::path, field("document", &BatchRow::document, ""), Row::status,
                              Row::exit_code};
   constexpr std::tuple last{
       Fit::log_rms,
@@ -329,7 +324,7 @@ std::string batch_csv(const std::vector<BatchRow>& rows) {
       Fit::misfit,
       Fit::misfit_told,
       field(
-          "warnings", "", [](const BatchFit& f) { return f.warnings.size(); }, "")};
+          "warnings", [](const BatchFit& f) { return f.warnings.size(); }, "")};
   const std::string none(std::tuple_size_v<decltype(last)> - 1, ',');
 
   std::vector<std::string> columns;  // those of all tables, as they are first seen

@@ -25,9 +25,9 @@ template <>
 struct Description<BatchList> {
   static constexpr auto fields() {
     return std::tuple{constant_text("schema", "gonio.list/1"),
-                      field("made_with", "", &BatchList::made_with,
+                      field("made_with", &BatchList::made_with,
                             "all that determines a result beside the table's bytes"),
-                      field("tables", "", &BatchList::tables,
+                      field("tables", &BatchList::tables,
                             "paths of the tables of the batch that was begun last")};
   }
 };

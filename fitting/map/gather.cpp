@@ -14,8 +14,8 @@
 #include "image/exr_file.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 
@@ -23,14 +23,13 @@ template <>
 struct Description<MapParameter> {
   static constexpr auto fields() {
     return std::tuple{
-        field("name", "", &MapParameter::name, "of the channel in the file"),
-        group("texels", "how many have which status",
-              field("free", "", &MapParameter::free, "found"),
-              field("fixed", "", &MapParameter::fixed, "held"),
-              field("at_bound", "", &MapParameter::at_bound, "at the end of its range"),
-              field("not_identifiable", "", &MapParameter::not_identifiable, "not known")),
-        field("mean", "", &MapParameter::mean, "of the texels that have a value"),
-        field("mean_std_error", "", &MapParameter::mean_std_error, "of the texels that have one")};
+        field("name", &MapParameter::name, "of the channel in the file"),
+        group("texels", "how many have which status", field("free", &MapParameter::free, "found"),
+              field("fixed", &MapParameter::fixed, "held"),
+              field("at_bound", &MapParameter::at_bound, "at the end of its range"),
+              field("not_identifiable", &MapParameter::not_identifiable, "not known")),
+        field("mean", &MapParameter::mean, "of the texels that have a value"),
+        field("mean_std_error", &MapParameter::mean_std_error, "of the texels that have one")};
   }
 };
 template <>
@@ -38,19 +37,19 @@ struct Description<MapDocument> {
   static constexpr auto fields() {
     return std::tuple{
         constant_text("schema", "gonio.map/1"),
-        field("path", "", &MapDocument::path, "of the map"),
-        field("model", "", &MapDocument::model, ""),
+        field("path", &MapDocument::path, "of the map"),
+        field("model", &MapDocument::model, ""),
         field(
-            "options", "", [](const MapDocument& d) { return Json::parse(d.options); },
+            "options", [](const MapDocument& d) { return Json::parse(d.options); },
             "what is fitted and how values are compared"),
-        field("stack", "", &MapDocument::stack, "name of the stack: a digest of its files"),
+        field("stack", &MapDocument::stack, "name of the stack: a digest of its files"),
         field("width", "texels", &MapDocument::width, ""),
         field("height", "texels", &MapDocument::height, ""),
-        field("tiles", "", &MapDocument::tiles, "that it was made of"),
-        group("texels", "how their fits ended", field("converged", "", &MapDocument::converged, ""),
-              field("not_converged", "", &MapDocument::not_converged, "the best seen is kept"),
-              field("no_data", "", &MapDocument::no_data, "no value that can be compared")),
-        field("parameters", "", &MapDocument::parameters, "by their names")};
+        field("tiles", &MapDocument::tiles, "that it was made of"),
+        group("texels", "how their fits ended", field("converged", &MapDocument::converged, ""),
+              field("not_converged", &MapDocument::not_converged, "the best seen is kept"),
+              field("no_data", &MapDocument::no_data, "no value that can be compared")),
+        field("parameters", &MapDocument::parameters, "by their names")};
   }
 };
 

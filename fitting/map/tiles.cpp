@@ -20,13 +20,13 @@ template <>
 struct Description<TexelOptions> {
   static constexpr auto fields() {
     return std::tuple{
-        field("model", "", &TexelOptions::model, ""),
-        field("fix", "", &TexelOptions::fixed, "parameters held at a value"),
-        field("bounds", "", &TexelOptions::bounds, "where parameters are looked for"),
-        field("grey", "", &TexelOptions::grey, "colours with one value for all channels"),
-        field("metric", "", &TexelOptions::metric, "how values are compared"),
+        field("model", &TexelOptions::model, ""),
+        field("fix", &TexelOptions::fixed, "parameters held at a value"),
+        field("bounds", &TexelOptions::bounds, "where parameters are looked for"),
+        field("grey", &TexelOptions::grey, "colours with one value for all channels"),
+        field("metric", &TexelOptions::metric, "how values are compared"),
         field("offset", "1/sr", &TexelOptions::offset, "of the log and relative metrics"),
-        field("refine_normals", "", &TexelOptions::refine_normals, "whether normals are fitted")};
+        field("refine_normals", &TexelOptions::refine_normals, "whether normals are fitted")};
   }
 };
 /// Tiles of other options are told by these: none may be forgotten.

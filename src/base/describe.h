@@ -10,14 +10,14 @@
 ///   template <>
 ///   struct Description<Width> {
 ///     static constexpr auto fields() {
-///       return std::tuple{field("alpha", "", &Width::alpha, "width of the distribution"),
-///                         field("channels", "", per_channel(&Width::of_channels), "that of each channel")};
+///       return std::tuple{field("alpha", &Width::alpha, "width of the distribution"),
+///                         field("channels", per_channel(&Width::of_channels), "that of each channel")};
 ///     }
 ///   };
 ///
 /// A struct that is read needs a member, not a computed value, for each key; what a key takes stands behind its meaning:
 ///
-///   field("alpha", "", &Width::alpha, "width of the distribution", Numbers{0, 1}, or_default)
+///   field("alpha", &Width::alpha, "width of the distribution", Numbers{0, 1}, or_default)
 ///
 /// Light to include: descriptions stand in headers, beside their structs or in the .cpp that shows them.
 
@@ -90,7 +90,7 @@ struct Field {
   std::string_view meaning;
   Rules rules{};
 };
-/// \param unit  "" for pure numbers and words
+/// \param unit  left out for pure numbers and words
 /// \param rule  Numbers, Entries, or_default, not_empty
 template <class Get, class... Rule>
 constexpr Field<Get> field(std::string_view name,
@@ -101,6 +101,11 @@ constexpr Field<Get> field(std::string_view name,
   Rules rules;
   (rules.add(rule), ...);
   return {name, unit, get, meaning, rules};
+}
+template <class Get, class... Rule>
+requires(!std::is_convertible_v<Get, std::string_view>) constexpr Field<Get> field(
+    std::string_view name, Get get, std::string_view meaning, const Rule&... rule) {
+  return field(name, "", get, meaning, rule...);
 }
 
 /// Object of fields of the same struct.

@@ -211,59 +211,50 @@ namespace record_detail {
 
 using Each = FunctionRef<void(std::string_view, const void*)>;
 
-template <class List>
-constexpr void add_list(ValueType& t) {
-  using E = Entry<List>;
-  t.each = [](const void* list, Each take) {
-    for (const auto& e : *static_cast<const List*>(list)) {
-      const E& entry = e;  // so that vector<bool> has bools
-      take({}, address(entry));
-    }
-  };
-  if constexpr (requires(List & l) {
-                  { l.emplace_back() } -> std::same_as<E&>;
-                }) {
-    t.append = [](void* list, std::string&&) -> void* {
-      return std::addressof(static_cast<List*>(list)->emplace_back());
-    };
-    t.clear = [](void* list) { static_cast<List*>(list)->clear(); };
+/// Ways to hand an entry of a container, and to add one.
+struct Listed {
+  static void hand(const auto& e, Each take) { take({}, address(e)); }
+  static void* add(auto& c, std::string&&) requires requires { &c.emplace_back(); }
+  { return &c.emplace_back(); }
+};
+/// Pairs of a name and a value.
+struct Paired {
+  static void hand(const auto& e, Each take) { take(e.first, address(e.second)); }
+  static void* add(auto& c, std::string&& name) requires requires {
+    c.emplace_back().first = std::move(name);
   }
-}
-
-template <class List>
-constexpr void add_names(ValueType& t) {
-  t.each = [](const void* list, Each take) {
-    for (const auto& [name, value] : *static_cast<const List*>(list)) take(name, address(value));
-  };
-  t.clear = nullptr;
-  if constexpr (requires(List & l) { l.emplace_back().first = std::string(); }) {
-    t.append = [](void* list, std::string&& name) -> void* {
-      auto& entry = static_cast<List*>(list)->emplace_back();
-      entry.first = std::move(name);
-      return std::addressof(entry.second);
-    };
-    t.clear = [](void* list) { static_cast<List*>(list)->clear(); };
-  } else if constexpr (requires(List & l) { l[std::string()] = {}; }) {
-    t.append = [](void* list, std::string&& name) -> void* {
-      return std::addressof((*static_cast<List*>(list))[std::move(name)]);
-    };
-    t.clear = [](void* list) { static_cast<List*>(list)->clear(); };
+  {
+    auto& e = c.emplace_back();
+    e.first = std::move(name);
+    return &e.second;
   }
-}
-
+  static void* add(auto& map, std::string&& name) requires requires {
+    map[std::move(name)] = {};
+  }
+  { return &map[std::move(name)]; }
+};
 /// Entries by their member `name`.
-template <class List>
-constexpr void add_own_names(ValueType& t) {
-  t.each = [](const void* list, Each take) {
-    for (const auto& e : *static_cast<const List*>(list)) take(e.name, address(e));
+struct OwnNamed {
+  static void hand(const auto& e, Each take) { take(e.name, address(e)); }
+  static void* add(auto& c, std::string&& name) requires requires {
+    c.emplace_back().name = std::move(name);
+  }
+  {
+    auto& e = c.emplace_back();
+    e.name = std::move(name);
+    return &e;
+  }
+};
+template <class C, class Way>
+constexpr void add_entries(ValueType& t) {
+  t.each = [](const void* c, Each take) {
+    for (const Entry<C>& e : *static_cast<const C*>(c)) Way::hand(e, take);
   };
-  if constexpr (requires(List & l) { l.emplace_back().name = std::string(); }) {
-    t.append = [](void* list, std::string&& name) -> void* {
-      auto& entry = static_cast<List*>(list)->emplace_back();
-      entry.name = std::move(name);
-      return std::addressof(entry);
+  if constexpr (requires(C & c) { Way::add(c, {}); }) {
+    t.append = [](void* c, std::string&& name) -> void* {
+      return Way::add(*static_cast<C*>(c), std::move(name));
     };
-    t.clear = [](void* list) { static_cast<List*>(list)->clear(); };
+    t.clear = [](void* c) { static_cast<C*>(c)->clear(); };
   }
 }
 
@@ -280,10 +271,10 @@ constexpr ValueType make_type() {
   } else if constexpr (is<V, PerName>) {
     using Values = std::remove_cvref_t<decltype(std::declval<Entry<Bare<V>>>().second)>;
     t = {.kind = ValueKind::named, .of = &type_of<PerChannel<Values>>};
-    add_names<Bare<V>>(t);
+    add_entries<Bare<V>, Paired>(t);
   } else if constexpr (is<V, ByName>) {
     t = {.kind = ValueKind::named, .of = &type_of<Entry<Bare<V>>>};
-    add_own_names<Bare<V>>(t);
+    add_entries<Bare<V>, OwnNamed>(t);
   } else if constexpr (is<V, Keyed>) {
     t = type_of<std::remove_cvref_t<decltype(V::entries)>>;
   } else if constexpr (is<V, Inlined> || is<V, IfThere>) {
@@ -311,8 +302,7 @@ constexpr ValueType make_type() {
     t.each = [](const void* v, Each take) {
       if (const auto& value = *static_cast<const V*>(v)) take({}, address(*value));
     };
-    if constexpr (std::default_initializable<typename V::value_type> &&
-                  std::movable<typename V::value_type>) {
+    if constexpr (std::default_initializable<typename V::value_type>) {
       t.append = [](void* v, std::string&&) -> void* {
         return std::addressof(static_cast<V*>(v)->emplace());
       };
@@ -329,11 +319,11 @@ constexpr ValueType make_type() {
   } else if constexpr (Names<V>) {
     using Value = std::remove_cvref_t<decltype(std::declval<Entry<V>>().second)>;
     t = {.kind = ValueKind::named, .of = &type_of<Value>};
-    add_names<V>(t);
+    add_entries<V, Paired>(t);
   } else {
     static_assert(std::ranges::input_range<const V>, "a value of no known form: describe its type");
     t = {.kind = ValueKind::list, .size = array_size<V>, .of = &type_of<Entry<V>>};
-    add_list<V>(t);
+    add_entries<V, Listed>(t);
   }
   return t;
 }

@@ -29,7 +29,7 @@ template <Side side>
 struct Description<SideVector<side>> {
   static constexpr auto fields() {
     constexpr double far = 1e9;
-    return std::tuple{field(SideKeys<side>::vector, "", &SideVector<side>::towards,
+    return std::tuple{field(SideKeys<side>::vector, &SideVector<side>::towards,
                             "vector of all texels, of any length but 0, z above 0",
                             Numbers{-far, far})};
   }
@@ -40,30 +40,30 @@ struct Description<SideVector<side>> {
 template <Side side>
 struct Description<SideMap<side>> {
   static constexpr auto fields() {
-    return std::tuple{field(SideKeys<side>::map, "", &SideMap<side>::path,
+    return std::tuple{field(SideKeys<side>::map, &SideMap<side>::path,
                             "path of an image with a vector for each texel", not_empty)};
   }
 };
 template <>
 struct Description<StackImage> {
   static constexpr auto fields() {
-    return std::tuple{field("path", "", &StackImage::path,
+    return std::tuple{field("path", &StackImage::path,
                             "of an OpenEXR file or an array of NumPy's, linear", not_empty),
                       by_key(&StackImage::light), by_key(&StackImage::view),
-                      field("scale", "", &StackImage::scale, "what its numbers are multiplied with",
+                      field("scale", &StackImage::scale, "what its numbers are multiplied with",
                             Numbers{0, 1e30, true}, or_default)};
   }
 };
 template <>
 struct Description<StackTruth> {
   static constexpr auto fields() {
-    return std::tuple{field("model", "", &StackTruth::model, "that was evaluated", not_empty),
-                      field("parameters", "", &StackTruth::parameters,
+    return std::tuple{field("model", &StackTruth::model, "that was evaluated", not_empty),
+                      field("parameters", &StackTruth::parameters,
                             "path of an image with a channel for each parameter", not_empty),
-                      field("noise", "", &StackTruth::noise,
+                      field("noise", &StackTruth::noise,
                             "values were multiplied by exp(noise · z), z standard normal",
                             Numbers{0, 5}, or_default),
-                      field("seed", "", &StackTruth::seed, "of the noise", or_default)};
+                      field("seed", &StackTruth::seed, "of the noise", or_default)};
   }
 };
 template <>
@@ -72,14 +72,13 @@ struct Description<Stack> {
     return std::tuple{
         constant_text("schema", "gonio.stack/1"),
         field("values", "1/sr", &Stack::values, "what the images hold", or_default),
-        field("channels", "", if_there(&Stack::channels),
+        field("channels", if_there(&Stack::channels),
               "of each image, one or three; else R, G and B, or the only one it has", Entries{1, 3},
               not_empty),
-        field("normals", "", if_there(&Stack::normals),
+        field("normals", if_there(&Stack::normals),
               "path of an image with the normal of each texel, linear in [-1, 1]", not_empty),
-        field("images", "", &Stack::images, "one for each pair of light and view",
-              Entries{1, 10'000}),
-        field("truth", "", if_there(&Stack::truth), "what gonio made the stack from")};
+        field("images", &Stack::images, "one for each pair of light and view", Entries{1, 10'000}),
+        field("truth", if_there(&Stack::truth), "what gonio made the stack from")};
   }
   static void check(Stack& s, Demand expect) {
     expect(!s.channels || s.channels->size() != 2, "channels", "an array of 1 or 3");

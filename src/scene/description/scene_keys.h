@@ -40,8 +40,8 @@ template <>
 struct Description<scene::FromSpec> {
   static constexpr auto fields() {
     return std::tuple{
-        field("model", "", &scene::FromSpec::model, "spec of a model, or a preset", not_empty),
-        field("parameters", "", &scene::FromSpec::parameters,
+        field("model", &scene::FromSpec::model, "spec of a model, or a preset", not_empty),
+        field("parameters", &scene::FromSpec::parameters,
               "a number or one per channel each; metal: a symbol such as Au; else their defaults",
               Entries{0, 100}, or_default)};
   }
@@ -49,17 +49,15 @@ struct Description<scene::FromSpec> {
 template <>
 struct Description<scene::FromFit> {
   static constexpr auto fields() {
-    return std::tuple{
-        field("fit", "", &scene::FromFit::path, "path of a fit's document", not_empty)};
+    return std::tuple{field("fit", &scene::FromFit::path, "path of a fit's document", not_empty)};
   }
 };
 template <>
 struct Description<scene::FromGltf> {
   static constexpr auto fields() {
-    return std::tuple{
-        field("gltf", "", &scene::FromGltf::path, "path of a glTF 2.0 file", not_empty),
-        field("material", "", &scene::FromGltf::material,
-              "name of its material: factors without textures", not_empty)};
+    return std::tuple{field("gltf", &scene::FromGltf::path, "path of a glTF 2.0 file", not_empty),
+                      field("material", &scene::FromGltf::material,
+                            "name of its material: factors without textures", not_empty)};
   }
 };
 template <>
@@ -79,29 +77,28 @@ struct Description<scene::Sphere> {
 template <>
 struct Description<scene::MeshShape::Node> {
   static constexpr auto fields() {
-    return std::tuple{field("node", "", &scene::MeshShape::Node::name,
+    return std::tuple{field("node", &scene::MeshShape::Node::name,
                             "name of a node: its mesh where it stands", not_empty)};
   }
 };
 template <>
 struct Description<scene::MeshShape::OfName> {
   static constexpr auto fields() {
-    return std::tuple{field("mesh", "", &scene::MeshShape::OfName::name,
+    return std::tuple{field("mesh", &scene::MeshShape::OfName::name,
                             "name of a mesh, in its own coordinates", not_empty)};
   }
 };
 template <>
 struct Description<scene::MeshShape> {
   static constexpr auto fields() {
-    return std::tuple{
-        field("gltf", "", &scene::MeshShape::path, "path of a glTF 2.0 file", not_empty),
-        by_key(&scene::MeshShape::part)};
+    return std::tuple{field("gltf", &scene::MeshShape::path, "path of a glTF 2.0 file", not_empty),
+                      by_key(&scene::MeshShape::part)};
   }
 };
 template <>
 struct Description<scene::NamedObject> {
   static constexpr auto fields() {
-    return std::tuple{field("material", "", &scene::NamedObject::material,
+    return std::tuple{field("material", &scene::NamedObject::material,
                             "name of one of the scene's materials", not_empty),
                       by_name("shape", &scene::NamedObject::shape, "sphere", "mesh")};
   }
@@ -126,7 +123,7 @@ struct Description<scene::AngleRange> {
 template <>
 struct Description<scene::DirectionalLight::Fixed> {
   static constexpr auto fields() {
-    return std::tuple{field("direction", "", &scene::DirectionalLight::Fixed::direction,
+    return std::tuple{field("direction", &scene::DirectionalLight::Fixed::direction,
                             "towards the light, of any length but 0", scene::places)};
   }
   static void check(scene::DirectionalLight::Fixed& l, Demand expect) {
@@ -138,7 +135,7 @@ struct Description<scene::DirectionalLight::Fixed> {
 template <>
 struct Description<scene::DirectionalLight::Ranging> {
   static constexpr auto fields() {
-    return std::tuple{field("direction_range", "", &scene::DirectionalLight::Ranging::range,
+    return std::tuple{field("direction_range", &scene::DirectionalLight::Ranging::range,
                             "directions towards the light")};
   }
 };
@@ -146,7 +143,7 @@ template <>
 struct Description<scene::DirectionalLight> {
   static constexpr auto fields() {
     return std::tuple{by_key(&scene::DirectionalLight::from),
-                      field("irradiance", "", &scene::DirectionalLight::irradiance,
+                      field("irradiance", &scene::DirectionalLight::irradiance,
                             "of a surface that faces the light", scene::intensities)};
   }
 };
@@ -159,7 +156,7 @@ struct Description<scene::RectangleLight> {
         field("u", "m", &L::u, "from the centre to the middle of an edge", scene::places),
         field("v", "m", &L::v, "the same to the next edge; u × v points to where it shines",
               scene::places),
-        field("radiance", "", &L::radiance, "", scene::intensities)};
+        field("radiance", &L::radiance, "", scene::intensities)};
   }
   static void check(scene::RectangleLight& l, Demand expect) {
     expect(length(l.u) > 0, "u", "a vector that is not 0");
@@ -171,10 +168,10 @@ template <>
 struct Description<scene::EnvironmentLight> {
   static constexpr auto fields() {
     return std::tuple{
-        field("path", "", &scene::EnvironmentLight::path,
+        field("path", &scene::EnvironmentLight::path,
               "OpenEXR file, a map over longitude and latitude, +y its top row, +z its middle",
               not_empty),
-        field("scale", "", &scene::EnvironmentLight::scale, "factor of its radiance",
+        field("scale", &scene::EnvironmentLight::scale, "factor of its radiance",
               scene::intensities, or_default)};
   }
 };
@@ -194,7 +191,7 @@ struct Description<scene::Camera> {
     return std::tuple{
         field("position", "m", &C::position, "", scene::places),
         field("target", "m", &C::target, "", scene::places),
-        field("up", "", &C::up, "direction that is up in the picture", scene::places, or_default),
+        field("up", &C::up, "direction that is up in the picture", scene::places, or_default),
         field("fov_deg", "°", &C::fov_deg, "angle of the picture's height",
               Numbers{0, 180, true, true}, or_default)};
   }
@@ -224,13 +221,11 @@ struct Description<scene::Tolerance> {
     using T = scene::Tolerance;
     constexpr Numbers amounts{0, scene::brightest};
     return std::tuple{
-        field("metric", "", &T::metric, "difference of a sample from the reference"),
-        field("limit", "", &T::limit, "kept by the upper confidence bound of the quantile",
-              amounts),
-        field("max", "", &T::max, "passed by no sample", amounts),
-        field("quantile", "", &T::quantile, "of the samples' differences", scene::parts,
-              or_default),
-        field("confidence", "", &T::confidence, "of the bound", scene::parts, or_default)};
+        field("metric", &T::metric, "difference of a sample from the reference"),
+        field("limit", &T::limit, "kept by the upper confidence bound of the quantile", amounts),
+        field("max", &T::max, "passed by no sample", amounts),
+        field("quantile", &T::quantile, "of the samples' differences", scene::parts, or_default),
+        field("confidence", &T::confidence, "of the bound", scene::parts, or_default)};
   }
   static void check(scene::Tolerance& t, Demand expect) {
     expect(t.max >= t.limit, "max", "a number from limit on");
@@ -247,17 +242,16 @@ struct Description<scene::SceneFile> {
     using S = scene::Scene;
     return std::tuple{
         constant_text("schema", "gonio.scene/1"),
-        field("materials", "", by_name(of_scene(&S::materials)), "by their names",
-              Entries{1, 1000}),
-        field("objects", "", &scene::SceneFile::objects, "what is seen", Entries{1, 10'000}),
-        field("lights", "", of_scene(&S::lights), "one environment at most", Entries{1, 1000}),
-        field("view", "", of_scene(&S::view), "a camera, or a range of them"),
-        field("exposure", "", of_scene(&S::exposure), "factor of radiance, 1 being white then",
+        field("materials", by_name(of_scene(&S::materials)), "by their names", Entries{1, 1000}),
+        field("objects", &scene::SceneFile::objects, "what is seen", Entries{1, 10'000}),
+        field("lights", of_scene(&S::lights), "one environment at most", Entries{1, 1000}),
+        field("view", of_scene(&S::view), "a camera, or a range of them"),
+        field("exposure", of_scene(&S::exposure), "factor of radiance, 1 being white then",
               Numbers{0, scene::brightest, true}, or_default),
-        field("tolerance", "", of_scene(&S::tolerance), "what a plan has to keep", or_default),
+        field("tolerance", of_scene(&S::tolerance), "what a plan has to keep", or_default),
         field("budget_ns", "ns", if_there(of_scene(&S::budget_ns)),
               "mean time of a visible sample that a plan has to keep", Numbers{0, 1e12, true}),
-        field("seed", "", of_scene(&S::seed), "of everything random", or_default)};
+        field("seed", of_scene(&S::seed), "of everything random", or_default)};
   }
 };
 

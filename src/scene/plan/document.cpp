@@ -54,10 +54,10 @@ struct Description<scene::Budget> {
   static constexpr auto fields() {
     using B = scene::Budget;
     return std::tuple{
-        field("budget_ns", "", &B::budget_ns, "mean time of a visible point", amounts),
-        field("ns", "", &B::ns, "of the plan", amounts),
-        field("error", "", &B::error, "upper bound of the worst material's quantile", amounts),
-        field("fits", "", &B::fits, "false: even the cheapest forms take longer")};
+        field("budget_ns", &B::budget_ns, "mean time of a visible point", amounts),
+        field("ns", &B::ns, "of the plan", amounts),
+        field("error", &B::error, "upper bound of the worst material's quantile", amounts),
+        field("fits", &B::fits, "false: even the cheapest forms take longer")};
   }
 };
 
@@ -67,15 +67,15 @@ struct Description<scene::Candidate> {
     using C = scene::Candidate;
     using scene::Judgement;
     return std::tuple{
-        field("forms", "", &C::forms, "by effect"),
-        field("ns", "", &C::ns, "of f of one direction of light", Numbers{}),
-        field("ns_spread", "", &C::ns_spread, "half the distance of the quartiles", Numbers{}),
-        field("ops", "", &C::ops, "operations of the same", amounts),
-        field("error_quantile", "", at(&C::error, &Judgement::quantile),
-              "quantile of the differences", amounts),
-        field("error_upper", "", if_there(at(&C::error, &Judgement::upper)),
+        field("forms", &C::forms, "by effect"),
+        field("ns", &C::ns, "of f of one direction of light", Numbers{}),
+        field("ns_spread", &C::ns_spread, "half the distance of the quartiles", Numbers{}),
+        field("ops", &C::ops, "operations of the same", amounts),
+        field("error_quantile", at(&C::error, &Judgement::quantile), "quantile of the differences",
+              amounts),
+        field("error_upper", if_there(at(&C::error, &Judgement::upper)),
               "its upper confidence bound", amounts),
-        field("worst", "", at(&C::error, &Judgement::worst), "greatest difference", amounts)};
+        field("worst", at(&C::error, &Judgement::worst), "greatest difference", amounts)};
   }
 };
 
@@ -84,17 +84,17 @@ struct Description<scene::PlannedEffect> {
   static constexpr auto fields() {
     using E = scene::PlannedEffect;
     return std::tuple{
-        field("effect", "", &E::effect, ""),
-        field("keep", "", &E::keep, "false: its form is the cheapest"),
-        field("form", "", &E::form, "in which it is computed", not_empty),
-        field("why", "", &E::why, "ground of the choice"),
-        field("error_if_dropped", "", &E::error_if_dropped,
+        field("effect", &E::effect, ""),
+        field("keep", &E::keep, "false: its form is the cheapest"),
+        field("form", &E::form, "in which it is computed", not_empty),
+        field("why", &E::why, "ground of the choice"),
+        field("error_if_dropped", &E::error_if_dropped,
               "quantile of the differences where it alone takes its cheapest form; a bound of all "
               "of them where it is proved",
               amounts),
-        field("ns_saved", "", &E::ns_saved, "by that, of f of one direction of light", Numbers{}),
-        field("ops_saved", "", &E::ops_saved, "operations, of the same", Numbers{}),
-        field("reason", "", &E::reason, "in words", not_empty, or_default)};
+        field("ns_saved", &E::ns_saved, "by that, of f of one direction of light", Numbers{}),
+        field("ops_saved", &E::ops_saved, "operations, of the same", Numbers{}),
+        field("reason", &E::reason, "in words", not_empty, or_default)};
   }
 };
 
@@ -108,33 +108,33 @@ struct Description<scene::MaterialPlan> {
     using M = scene::MaterialPlan;
     using scene::Judgement;
     return std::tuple{
-        field("effects", "", &M::effects, "each effect once",
+        field("effects", &M::effects, "each effect once",
               Entries{scene::effect_count, scene::effect_count}),
-        field("spec", "", &M::spec,
+        field("spec", &M::spec,
               "model of these forms; compensation, spectrum, environment and precision are not in "
               "it",
               not_empty),
-        field("parameters", "", &M::parameters, "of the spec", Numbers{}, or_default),
-        field("speedup", "", &M::speedup, "time of all effects exact, over the plan's", amounts),
-        field("ops_saved", "", &M::ops_saved, "share of the operations", Numbers{}, or_default),
-        field("ns", "", &M::ns, "of f of one direction of light", amounts, or_default),
-        field("ns_exact", "", &M::ns_exact, "of the same, all effects exact", amounts, or_default),
-        field("error_quantile", "", checked(&Judgement::quantile),
-              "of the differences on fresh points", amounts),
-        field("error_upper", "", if_there(checked(&Judgement::upper)), "its upper confidence bound",
+        field("parameters", &M::parameters, "of the spec", Numbers{}, or_default),
+        field("speedup", &M::speedup, "time of all effects exact, over the plan's", amounts),
+        field("ops_saved", &M::ops_saved, "share of the operations", Numbers{}, or_default),
+        field("ns", &M::ns, "of f of one direction of light", amounts, or_default),
+        field("ns_exact", &M::ns_exact, "of the same, all effects exact", amounts, or_default),
+        field("error_quantile", checked(&Judgement::quantile), "of the differences on fresh points",
               amounts),
-        field("worst", "", checked(&Judgement::worst), "greatest difference of these", amounts,
+        field("error_upper", if_there(checked(&Judgement::upper)), "its upper confidence bound",
+              amounts),
+        field("worst", checked(&Judgement::worst), "greatest difference of these", amounts,
               or_default),
-        field("exceeding_bound", "", checked(&Judgement::bound),
+        field("exceeding_bound", checked(&Judgement::bound),
               "upper bound of the share beyond the limit", shares, or_default),
-        field("samples", "", checked(&Judgement::samples), "fresh points"),
-        field("passed_over", "", &M::passed_over, "cheaper sets that failed on the fresh points",
+        field("samples", checked(&Judgement::samples), "fresh points"),
+        field("passed_over", &M::passed_over, "cheaper sets that failed on the fresh points",
               or_default),
-        field("coverage", "", &M::coverage, "share of the picture that shows the material", shares,
+        field("coverage", &M::coverage, "share of the picture that shows the material", shares,
               or_default),
-        field("directions", "", &M::directions, "of light that come to a point, on average",
-              amounts, or_default),
-        field("front", "", &M::front, "sets of forms of which none is cheaper and errs less",
+        field("directions", &M::directions, "of light that come to a point, on average", amounts,
+              or_default),
+        field("front", &M::front, "sets of forms of which none is cheaper and errs less",
               or_default)};
   }
 };
@@ -145,11 +145,10 @@ struct Description<scene::Plan> {
     using P = scene::Plan;
     return std::tuple{
         constant_text("schema", "gonio.plan/1"),
-        field("scene_sha256", "", &P::scene_sha256, "of the scene and all that it names",
-              not_empty),
-        field("tolerance", "", &P::tolerance, "that the plan was made for", or_default),
-        field("materials", "", by_name(&P::materials), "by name", Entries{0, 10'000}),
-        field("budget", "", if_there(&P::budget), "where the scene has one")};
+        field("scene_sha256", &P::scene_sha256, "of the scene and all that it names", not_empty),
+        field("tolerance", &P::tolerance, "that the plan was made for", or_default),
+        field("materials", by_name(&P::materials), "by name", Entries{0, 10'000}),
+        field("budget", if_there(&P::budget), "where the scene has one")};
   }
 };
 

@@ -37,15 +37,14 @@ struct Description<VerifiedRow> {
   static constexpr auto fields() {
     constexpr Numbers share{0, 1}, amount{0, Numbers::any};
     return std::tuple{
-        field("holds", "", at(&VerifiedRow::material, &VerifiedMaterial::holds), "the tolerance"),
-        field("exceeding", "", found(&Judgement::exceeding),
+        field("holds", at(&VerifiedRow::material, &VerifiedMaterial::holds), "the tolerance"),
+        field("exceeding", found(&Judgement::exceeding),
               "points that differ by more than the limit"),
-        field("samples", "", found(&Judgement::samples), "points"),
-        field("upper_bound", "", found(&Judgement::bound), "of the share of all points that do",
-              share),
-        field("confidence", "", &VerifiedRow::confidence, "of the bound", share),
-        field("worst", "", found(&Judgement::worst), "greatest difference", amount),
-        field("error_quantile", "", found(&Judgement::quantile), "quantile of the differences",
+        field("samples", found(&Judgement::samples), "points"),
+        field("upper_bound", found(&Judgement::bound), "of the share of all points that do", share),
+        field("confidence", &VerifiedRow::confidence, "of the bound", share),
+        field("worst", found(&Judgement::worst), "greatest difference", amount),
+        field("error_quantile", found(&Judgement::quantile), "quantile of the differences",
               amount)};
   }
 };
@@ -55,8 +54,8 @@ struct Description<Verification> {
     return std::tuple{
         constant_text("schema", "gonio.verification/1"),
         field(
-            "holds", "", [](const Verification& v) { return v.holds(); }, "for every material"),
-        field("materials", "", rows_of, "by name")};
+            "holds", [](const Verification& v) { return v.holds(); }, "for every material"),
+        field("materials", rows_of, "by name")};
   }
 };
 
