@@ -25,44 +25,33 @@ constexpr std::string_view coat_word = "coat:";
 }  // namespace
 
 template <>
-struct Description<Budgets::ColourDifference> {
-  static constexpr auto fields() {
-    using D = Budgets::ColourDifference;
-    return std::tuple{
-        field("limit", &D::limit, "CIEDE2000 under a uniform white sky", amounts),
-        field("quantile", &D::quantile, "of the domain that keeps it; 1: all", shares, or_default)};
-  }
-};
+inline constexpr auto description<Budgets::ColourDifference> =
+    std::tuple{Field{"limit", &Budgets::ColourDifference::limit,
+                     "CIEDE2000 under a uniform white sky", amounts},
+               Field{"quantile", &Budgets::ColourDifference::quantile,
+                     "of the domain that keeps it; 1: all", shares, or_default}};
 template <>
-struct Description<Budgets::Time> {
-  static constexpr auto fields() {
-    return std::tuple{field("limit", &Budgets::Time::limit, "times the baseline's time", amounts),
-                      field("baseline", &Budgets::Time::baseline,
-                            "spec of a model, measured in the same run", not_empty)};
-  }
-};
+inline constexpr auto description<Budgets::Time> =
+    std::tuple{Field{"limit", &Budgets::Time::limit, "times the baseline's time", amounts},
+               Field{"baseline", &Budgets::Time::baseline,
+                     "spec of a model, measured in the same run", not_empty}};
 template <>
-struct Description<Budgets> {
-  static constexpr auto fields() {
-    using B = Budgets;
-    return std::tuple{
-        field("albedo_error", if_there(&B::albedo_error),
-              "directional albedo, from the reference's", amounts),
-        field("fresnel_error", if_there(&B::fresnel_error),
-              "F, from the exact one of the domain's substances", amounts),
-        field("delta_e_2000", if_there(&B::delta_e_2000), "colour, from the reference's"),
-        field("energy_gain", if_there(&B::energy_gain), "directional albedo above 1", amounts),
-        field("energy_loss", if_there(&B::energy_loss),
-              "of lobes at F = 1, directional albedo below 1", shares),
-        field("reciprocity", if_there(&B::reciprocity),
-              "relative change of f where light and view change places", amounts),
-        field("nonfinite", if_there(&B::nonfinite), "inputs without a value in the number",
-              amounts),
-        field("operations", if_there(&B::operations), "of one sample in all channels", amounts),
-        field("ns", if_there(&B::ns), "time of a sample"),
-        field("table_bytes", if_there(&B::table_bytes), "tables that a shader reads", amounts)};
-  }
-};
+inline constexpr auto description<Budgets> = std::tuple{
+    Field{"albedo_error", if_there(&Budgets::albedo_error),
+          "directional albedo, from the reference's", amounts},
+    Field{"fresnel_error", if_there(&Budgets::fresnel_error),
+          "F, from the exact one of the domain's substances", amounts},
+    Field{"delta_e_2000", if_there(&Budgets::delta_e_2000), "colour, from the reference's"},
+    Field{"energy_gain", if_there(&Budgets::energy_gain), "directional albedo above 1", amounts},
+    Field{"energy_loss", if_there(&Budgets::energy_loss),
+          "of lobes at F = 1, directional albedo below 1", shares},
+    Field{"reciprocity", if_there(&Budgets::reciprocity),
+          "relative change of f where light and view change places", amounts},
+    Field{"nonfinite", if_there(&Budgets::nonfinite), "inputs without a value in the number",
+          amounts},
+    Field{"operations", if_there(&Budgets::operations), "of one sample in all channels", amounts},
+    Field{"ns", if_there(&Budgets::ns), "time of a sample"},
+    Field{"table_bytes", if_there(&Budgets::table_bytes), "tables that a shader reads", amounts}};
 
 template <>
 struct Description<Choice::Domain> {

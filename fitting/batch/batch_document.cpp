@@ -50,16 +50,13 @@ auto sum(const BatchFit& f) {
 }  // namespace
 
 template <>
-struct Description<BatchParameter> {
-  static constexpr auto fields() {
-    return std::tuple{field("value", per_channel(&BatchParameter::value), "fitted value"),
-                      field("std_error", per_channel(&BatchParameter::std_error),
-                            "standard error; null where it is not known"),
-                      field("status", per_channel(&BatchParameter::status), ""),
-                      field("limit", per_channel(&BatchParameter::limit),
-                            "one-sided 95 % bound where the status is upper_limit or lower_limit")};
-  }
-};
+inline constexpr auto description<BatchParameter> =
+    std::tuple{Field{"value", per_channel(&BatchParameter::value), "fitted value"},
+               Field{"std_error", per_channel(&BatchParameter::std_error),
+                     "standard error; null where it is not known"},
+               Field{"status", per_channel(&BatchParameter::status), ""},
+               Field{"limit", per_channel(&BatchParameter::limit),
+                     "one-sided 95 % bound where the status is upper_limit or lower_limit"}};
 
 template <>
 struct Description<BatchFit> {
@@ -126,20 +123,12 @@ struct Description<BatchRow> {
 };
 
 template <>
-struct Description<Kept> {
-  static constexpr auto fields() {
-    return std::tuple{field("made_with", &Kept::made_with,
-                            "all that determines the result beside the table's bytes"),
-                      field("preview", &Kept::preview, "small pictures, for the summary")};
-  }
-};
+inline constexpr auto description<Kept> = std::tuple{
+    Field{"made_with", &Kept::made_with, "all that determines the result beside the table's bytes"},
+    Field{"preview", &Kept::preview, "small pictures, for the summary"}};
 template <>
-struct Description<Document> {
-  static constexpr auto fields() {
-    return std::tuple{inlined(&Document::fit),
-                      field("batch", if_there(&Document::batch), "of one table of a batch")};
-  }
-};
+inline constexpr auto description<Document> = std::tuple{
+    inlined(&Document::fit), Field{"batch", if_there(&Document::batch), "of one table of a batch"}};
 
 template <>
 struct Description<KeptFit> {
@@ -205,18 +194,13 @@ struct Description<Failure> {
 };
 
 template <>
-struct Description<LeftOutDocument> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("document", &LeftOutDocument::document, "its name, beside the summary"),
-        field("why", &LeftOutDocument::why,
-              "made_otherwise: by another version or with other options"),
-        field("path", &LeftOutDocument::path, "path of its table; empty where it cannot be read"),
-        field("made_with", &LeftOutDocument::made_with,
-              "what determined its result; empty where it cannot be read"),
-        field("message", &LeftOutDocument::message, "why it cannot be read; empty where it can")};
-  }
-};
+inline constexpr auto description<LeftOutDocument> = std::tuple{
+    Field{"document", &LeftOutDocument::document, "its name, beside the summary"},
+    Field{"why", &LeftOutDocument::why, "made_otherwise: by another version or with other options"},
+    Field{"path", &LeftOutDocument::path, "path of its table; empty where it cannot be read"},
+    Field{"made_with", &LeftOutDocument::made_with,
+          "what determined its result; empty where it cannot be read"},
+    Field{"message", &LeftOutDocument::message, "why it cannot be read; empty where it can"}};
 
 template <>
 struct Description<BatchSummary> {

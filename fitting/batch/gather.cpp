@@ -22,15 +22,11 @@
 namespace gonio {
 
 template <>
-struct Description<BatchList> {
-  static constexpr auto fields() {
-    return std::tuple{constant_text("schema", "gonio.list/1"),
-                      field("made_with", &BatchList::made_with,
-                            "all that determines a result beside the table's bytes"),
-                      field("tables", &BatchList::tables,
-                            "paths of the tables of the batch that was begun last")};
-  }
-};
+inline constexpr auto description<BatchList> = std::tuple{
+    constant_text("schema", "gonio.list/1"),
+    Field{"made_with", &BatchList::made_with,
+          "all that determines a result beside the table's bytes"},
+    Field{"tables", &BatchList::tables, "paths of the tables of the batch that was begun last"}};
 
 namespace {
 

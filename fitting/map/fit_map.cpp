@@ -20,16 +20,12 @@
 namespace gonio {
 
 template <>
-struct Description<TilesDocument> {
-  static constexpr auto fields() {
-    return std::tuple{
-        constant_text("schema", "gonio.map_tiles/1"),
-        field("tiles", &TilesDocument::tiles, "paths of the tiles that were asked for"),
-        field("kept", &TilesDocument::kept, "how many of them were there from before"),
-        field("columns", &TilesDocument::columns, "of all tiles of the map"),
-        field("rows", &TilesDocument::rows, "of all tiles of the map")};
-  }
-};
+inline constexpr auto description<TilesDocument> =
+    std::tuple{constant_text("schema", "gonio.map_tiles/1"),
+               Field{"tiles", &TilesDocument::tiles, "paths of the tiles that were asked for"},
+               Field{"kept", &TilesDocument::kept, "how many of them were there from before"},
+               Field{"columns", &TilesDocument::columns, "of all tiles of the map"},
+               Field{"rows", &TilesDocument::rows, "of all tiles of the map"}};
 static_assert(describes_every_member<TilesDocument>());
 
 std::string to_json(const TilesDocument& d) {

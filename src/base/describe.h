@@ -8,16 +8,13 @@
 ///     std::vector<double> of_channels;
 ///   };
 ///   template <>
-///   struct Description<Width> {
-///     static constexpr auto fields() {
-///       return std::tuple{field("alpha", &Width::alpha, "width of the distribution"),
-///                         field("channels", per_channel(&Width::of_channels), "that of each channel")};
-///     }
-///   };
+///   inline constexpr auto description<Width> = std::tuple{
+///       Field{"alpha", &Width::alpha, "width of the distribution"},
+///       Field{"channels", per_channel(&Width::of_channels), "that of each channel"}};
 ///
 /// A struct that is read needs a member, not a computed value, for each key; what a key takes stands behind its meaning:
 ///
-///   field("alpha", &Width::alpha, "width of the distribution", Numbers{0, 1}, or_default)
+///   Field{"alpha", &Width::alpha, "width of the distribution", Numbers{0, 1}, or_default}
 ///
 /// Light to include: descriptions stand in headers, beside their structs or in the .cpp that shows them.
 
@@ -31,8 +28,12 @@
 
 namespace gonio {
 
-/// Specialised for each struct that is shown or read: `static constexpr auto fields()`, a tuple of field(), group(), by_key(),
-/// by_name() and constant_text(), in the order in which they are shown.  Beside it there may be
+struct NotDescribed {};
+/// Specialised for each struct that is shown or read: a tuple of field(), group(), by_key(), by_name() and constant_text(), in the
+/// order in which they are shown.
+template <class T>
+inline constexpr NotDescribed description;
+/// The same for a struct of which more is to be said: `static constexpr auto fields()`, that tuple, and beside it
 ///
 ///   static void check(T&, Demand)               further demands on what was read; it may also put that in order
 ///   static constexpr bool has_others = true     keys that are not described, here or below, are passed over, not refused
@@ -40,9 +41,17 @@ template <class T>
 struct Description;
 
 template <class T>
-concept Described = requires {
+concept Described = !std::is_same_v<decltype(description<T>), const NotDescribed> || requires {
   Description<T>::fields();
 };
+/// The tuple, wherever it stands.
+template <Described T>
+constexpr auto described_fields() {
+  if constexpr (requires { Description<T>::fields(); })
+    return Description<T>::fields();
+  else
+    return description<T>;
+}
 
 /// Numbers that a key takes.  Without them it takes any number, and null for NaN.
 struct Numbers {
@@ -89,23 +98,25 @@ struct Field {
   Get get;
   std::string_view meaning;
   Rules rules{};
+
+  /// \param unit  left out for pure numbers and words
+  /// \param rule  Numbers, Entries, or_default, not_empty
+  template <class... Rule>
+  constexpr Field(std::string_view name_,
+                  std::string_view unit_,
+                  Get get_,
+                  std::string_view meaning_,
+                  const Rule&... rule)
+      : name(name_), unit(unit_), get(get_), meaning(meaning_) {
+    (rules.add(rule), ...);
+  }
+  template <class... Rule>
+  constexpr Field(std::string_view name_, Get get_, std::string_view meaning_, const Rule&... rule)
+      : Field(name_, "", get_, meaning_, rule...) {}
 };
-/// \param unit  left out for pure numbers and words
-/// \param rule  Numbers, Entries, or_default, not_empty
-template <class Get, class... Rule>
-constexpr Field<Get> field(std::string_view name,
-                           std::string_view unit,
-                           Get get,
-                           std::string_view meaning,
-                           const Rule&... rule) {
-  Rules rules;
-  (rules.add(rule), ...);
-  return {name, unit, get, meaning, rules};
-}
-template <class Get, class... Rule>
-requires(!std::is_convertible_v<Get, std::string_view>) constexpr Field<Get> field(
-    std::string_view name, Get get, std::string_view meaning, const Rule&... rule) {
-  return field(name, "", get, meaning, rule...);
+template <class... Args>
+constexpr auto field(const Args&... args) {
+  return Field(args...);
 }
 
 /// Object of fields of the same struct.
@@ -113,12 +124,15 @@ template <class... Fields>
 struct Group {
   std::string_view name, meaning;
   std::tuple<Fields...> fields;
+
+  constexpr Group(std::string_view name_, std::string_view meaning_, Fields... all)
+      : name(name_), meaning(meaning_), fields{all...} {}
 };
 template <class... Fields>
 constexpr Group<Fields...> group(std::string_view name,
                                  std::string_view meaning,
                                  Fields... fields) {
-  return {name, meaning, std::tuple{fields...}};
+  return {name, meaning, fields...};
 }
 
 /// Key that is the same in every document, as its schema's name.
@@ -232,12 +246,12 @@ constexpr As<IfThere, Get> if_there(Get get) {
 /// \param pattern  regular expression of their keys
 template <class Get>
 constexpr Field<As<Keyed, Get>> keyed(std::string_view pattern, Get get, std::string_view meaning) {
-  return {pattern, "", {get}, meaning};
+  return {pattern, "", As<Keyed, Get>{get}, meaning};
 }
 /// Field without a name of its own.
 template <class Get>
 constexpr Field<As<Inlined, Get>> inlined(Get get) {
-  return {"", "", {get}, ""};
+  return {"", "", As<Inlined, Get>{get}, ""};
 }
 /// Member of a member: at(&CostRow::time, &Timing::ns).
 template <class Outer, class Inner>
@@ -313,7 +327,7 @@ constexpr std::size_t members_shown(const Group<Fields...>& g) {
 template <Described T>
 consteval bool describes_every_member() {
   return std::apply([](const auto&... f) { return (members_shown(f) + ... + 0); },
-                    Description<T>::fields()) == member_count<T>();
+                    described_fields<T>()) == member_count<T>();
 }
 
 }  // namespace gonio

@@ -329,7 +329,7 @@ constexpr ValueType make_type() {
 }
 
 template <class T>
-inline constexpr auto fields_of = Description<T>::fields();
+inline constexpr auto fields_of = described_fields<T>();
 
 /// Field of a description, by its number and those of the groups around it.
 template <class T, std::size_t i, std::size_t... within>

@@ -5,15 +5,11 @@
 namespace gonio {
 
 template <>
-struct Description<stability::NamedInput> {
-  static constexpr auto fields() {
-    using C = stability::NamedInput;
-    return std::tuple{field("inputs", &C::inputs, "by name"),
-                      field("inputs_hex", &C::inputs_hex, "the number's bits"),
-                      field("value", &C::value, "null: no number, or infinite"),
-                      field("exact", &C::exact, "in fifty digits, rounded")};
-  }
-};
+inline constexpr auto description<stability::NamedInput> =
+    std::tuple{Field{"inputs", &stability::NamedInput::inputs, "by name"},
+               Field{"inputs_hex", &stability::NamedInput::inputs_hex, "the number's bits"},
+               Field{"value", &stability::NamedInput::value, "null: no number, or infinite"},
+               Field{"exact", &stability::NamedInput::exact, "in fifty digits, rounded"}};
 
 template <>
 struct Description<stability::Answer> {

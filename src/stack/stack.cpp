@@ -45,27 +45,20 @@ struct Description<SideMap<side>> {
   }
 };
 template <>
-struct Description<StackImage> {
-  static constexpr auto fields() {
-    return std::tuple{field("path", &StackImage::path,
-                            "of an OpenEXR file or an array of NumPy's, linear", not_empty),
-                      by_key(&StackImage::light), by_key(&StackImage::view),
-                      field("scale", &StackImage::scale, "what its numbers are multiplied with",
-                            Numbers{0, 1e30, true}, or_default)};
-  }
-};
+inline constexpr auto description<StackImage> =
+    std::tuple{Field{"path", &StackImage::path, "of an OpenEXR file or an array of NumPy's, linear",
+                     not_empty},
+               by_key(&StackImage::light), by_key(&StackImage::view),
+               Field{"scale", &StackImage::scale, "what its numbers are multiplied with",
+                     Numbers{0, 1e30, true}, or_default}};
 template <>
-struct Description<StackTruth> {
-  static constexpr auto fields() {
-    return std::tuple{field("model", &StackTruth::model, "that was evaluated", not_empty),
-                      field("parameters", &StackTruth::parameters,
-                            "path of an image with a channel for each parameter", not_empty),
-                      field("noise", &StackTruth::noise,
-                            "values were multiplied by exp(noise · z), z standard normal",
-                            Numbers{0, 5}, or_default),
-                      field("seed", &StackTruth::seed, "of the noise", or_default)};
-  }
-};
+inline constexpr auto description<StackTruth> = std::tuple{
+    Field{"model", &StackTruth::model, "that was evaluated", not_empty},
+    Field{"parameters", &StackTruth::parameters,
+          "path of an image with a channel for each parameter", not_empty},
+    Field{"noise", &StackTruth::noise,
+          "values were multiplied by exp(noise · z), z standard normal", Numbers{0, 5}, or_default},
+    Field{"seed", &StackTruth::seed, "of the noise", or_default}};
 template <>
 struct Description<Stack> {
   static constexpr auto fields() {

@@ -37,72 +37,43 @@ namespace gonio {
 // --- Materials ---
 
 template <>
-struct Description<scene::FromSpec> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("model", &scene::FromSpec::model, "spec of a model, or a preset", not_empty),
-        field("parameters", &scene::FromSpec::parameters,
-              "a number or one per channel each; metal: a symbol such as Au; else their defaults",
-              Entries{0, 100}, or_default)};
-  }
-};
+inline constexpr auto description<scene::FromSpec> = std::tuple{
+    Field{"model", &scene::FromSpec::model, "spec of a model, or a preset", not_empty},
+    Field{"parameters", &scene::FromSpec::parameters,
+          "a number or one per channel each; metal: a symbol such as Au; else their defaults",
+          Entries{0, 100}, or_default}};
 template <>
-struct Description<scene::FromFit> {
-  static constexpr auto fields() {
-    return std::tuple{field("fit", &scene::FromFit::path, "path of a fit's document", not_empty)};
-  }
-};
+inline constexpr auto description<scene::FromFit> =
+    std::tuple{Field{"fit", &scene::FromFit::path, "path of a fit's document", not_empty}};
 template <>
-struct Description<scene::FromGltf> {
-  static constexpr auto fields() {
-    return std::tuple{field("gltf", &scene::FromGltf::path, "path of a glTF 2.0 file", not_empty),
-                      field("material", &scene::FromGltf::material,
-                            "name of its material: factors without textures", not_empty)};
-  }
-};
+inline constexpr auto description<scene::FromGltf> =
+    std::tuple{Field{"gltf", &scene::FromGltf::path, "path of a glTF 2.0 file", not_empty},
+               Field{"material", &scene::FromGltf::material,
+                     "name of its material: factors without textures", not_empty}};
 template <>
-struct Description<scene::Material> {
-  static constexpr auto fields() { return std::tuple{by_key(&scene::Material::from)}; }
-};
+inline constexpr auto description<scene::Material> = std::tuple{by_key(&scene::Material::from)};
 
 // --- Objects ---
 
 template <>
-struct Description<scene::Sphere> {
-  static constexpr auto fields() {
-    return std::tuple{field("center", "m", &scene::Sphere::center, "", scene::places, or_default),
-                      field("radius", "m", &scene::Sphere::radius, "", scene::sizes, or_default)};
-  }
-};
+inline constexpr auto description<scene::Sphere> =
+    std::tuple{Field{"center", "m", &scene::Sphere::center, "", scene::places, or_default},
+               Field{"radius", "m", &scene::Sphere::radius, "", scene::sizes, or_default}};
 template <>
-struct Description<scene::MeshShape::Node> {
-  static constexpr auto fields() {
-    return std::tuple{field("node", &scene::MeshShape::Node::name,
-                            "name of a node: its mesh where it stands", not_empty)};
-  }
-};
+inline constexpr auto description<scene::MeshShape::Node> = std::tuple{Field{
+    "node", &scene::MeshShape::Node::name, "name of a node: its mesh where it stands", not_empty}};
 template <>
-struct Description<scene::MeshShape::OfName> {
-  static constexpr auto fields() {
-    return std::tuple{field("mesh", &scene::MeshShape::OfName::name,
-                            "name of a mesh, in its own coordinates", not_empty)};
-  }
-};
+inline constexpr auto description<scene::MeshShape::OfName> = std::tuple{Field{
+    "mesh", &scene::MeshShape::OfName::name, "name of a mesh, in its own coordinates", not_empty}};
 template <>
-struct Description<scene::MeshShape> {
-  static constexpr auto fields() {
-    return std::tuple{field("gltf", &scene::MeshShape::path, "path of a glTF 2.0 file", not_empty),
-                      by_key(&scene::MeshShape::part)};
-  }
-};
+inline constexpr auto description<scene::MeshShape> =
+    std::tuple{Field{"gltf", &scene::MeshShape::path, "path of a glTF 2.0 file", not_empty},
+               by_key(&scene::MeshShape::part)};
 template <>
-struct Description<scene::NamedObject> {
-  static constexpr auto fields() {
-    return std::tuple{field("material", &scene::NamedObject::material,
-                            "name of one of the scene's materials", not_empty),
-                      by_name("shape", &scene::NamedObject::shape, "sphere", "mesh")};
-  }
-};
+inline constexpr auto description<scene::NamedObject> =
+    std::tuple{Field{"material", &scene::NamedObject::material,
+                     "name of one of the scene's materials", not_empty},
+               by_name("shape", &scene::NamedObject::shape, "sphere", "mesh")};
 
 // --- Lights ---
 
@@ -140,13 +111,10 @@ struct Description<scene::DirectionalLight::Ranging> {
   }
 };
 template <>
-struct Description<scene::DirectionalLight> {
-  static constexpr auto fields() {
-    return std::tuple{by_key(&scene::DirectionalLight::from),
-                      field("irradiance", &scene::DirectionalLight::irradiance,
-                            "of a surface that faces the light", scene::intensities)};
-  }
-};
+inline constexpr auto description<scene::DirectionalLight> =
+    std::tuple{by_key(&scene::DirectionalLight::from),
+               Field{"irradiance", &scene::DirectionalLight::irradiance,
+                     "of a surface that faces the light", scene::intensities}};
 template <>
 struct Description<scene::RectangleLight> {
   static constexpr auto fields() {
@@ -165,22 +133,15 @@ struct Description<scene::RectangleLight> {
   }
 };
 template <>
-struct Description<scene::EnvironmentLight> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("path", &scene::EnvironmentLight::path,
-              "OpenEXR file, a map over longitude and latitude, +y its top row, +z its middle",
-              not_empty),
-        field("scale", &scene::EnvironmentLight::scale, "factor of its radiance",
-              scene::intensities, or_default)};
-  }
-};
+inline constexpr auto description<scene::EnvironmentLight> = std::tuple{
+    Field{"path", &scene::EnvironmentLight::path,
+          "OpenEXR file, a map over longitude and latitude, +y its top row, +z its middle",
+          not_empty},
+    Field{"scale", &scene::EnvironmentLight::scale, "factor of its radiance", scene::intensities,
+          or_default}};
 template <>
-struct Description<scene::Light> {
-  static constexpr auto fields() {
-    return std::tuple{by_name("type", itself, "directional", "rectangle", "environment")};
-  }
-};
+inline constexpr auto description<scene::Light> =
+    std::tuple{by_name("type", itself, "directional", "rectangle", "environment")};
 
 // --- View, tolerance ---
 
@@ -203,18 +164,13 @@ struct Description<scene::Camera> {
   }
 };
 template <>
-struct Description<scene::Orbit> {
-  static constexpr auto fields() {
-    return std::tuple{group("orbit", "cameras around a target, y up",
-                            field("target", "m", &scene::Orbit::target, "", scene::places),
-                            field("distance", "m", &scene::Orbit::distance, "", scene::sizes),
-                            inlined(&scene::Orbit::from))};
-  }
-};
+inline constexpr auto description<scene::Orbit> =
+    std::tuple{Group{"orbit", "cameras around a target, y up",
+                     Field{"target", "m", &scene::Orbit::target, "", scene::places},
+                     Field{"distance", "m", &scene::Orbit::distance, "", scene::sizes},
+                     inlined(&scene::Orbit::from)}};
 template <>
-struct Description<scene::View> {
-  static constexpr auto fields() { return std::tuple{by_key(itself)}; }
-};
+inline constexpr auto description<scene::View> = std::tuple{by_key(itself)};
 template <>
 struct Description<scene::Tolerance> {
   static constexpr auto fields() {

@@ -50,16 +50,11 @@ template <>
 inline constexpr const JsonForm* json_form<scene::Forms> = &forms_json;
 
 template <>
-struct Description<scene::Budget> {
-  static constexpr auto fields() {
-    using B = scene::Budget;
-    return std::tuple{
-        field("budget_ns", &B::budget_ns, "mean time of a visible point", amounts),
-        field("ns", &B::ns, "of the plan", amounts),
-        field("error", &B::error, "upper bound of the worst material's quantile", amounts),
-        field("fits", &B::fits, "false: even the cheapest forms take longer")};
-  }
-};
+inline constexpr auto description<scene::Budget> = std::tuple{
+    Field{"budget_ns", &scene::Budget::budget_ns, "mean time of a visible point", amounts},
+    Field{"ns", &scene::Budget::ns, "of the plan", amounts},
+    Field{"error", &scene::Budget::error, "upper bound of the worst material's quantile", amounts},
+    Field{"fits", &scene::Budget::fits, "false: even the cheapest forms take longer"}};
 
 template <>
 struct Description<scene::Candidate> {
@@ -80,23 +75,19 @@ struct Description<scene::Candidate> {
 };
 
 template <>
-struct Description<scene::PlannedEffect> {
-  static constexpr auto fields() {
-    using E = scene::PlannedEffect;
-    return std::tuple{
-        field("effect", &E::effect, ""),
-        field("keep", &E::keep, "false: its form is the cheapest"),
-        field("form", &E::form, "in which it is computed", not_empty),
-        field("why", &E::why, "ground of the choice"),
-        field("error_if_dropped", &E::error_if_dropped,
-              "quantile of the differences where it alone takes its cheapest form; a bound of all "
-              "of them where it is proved",
-              amounts),
-        field("ns_saved", &E::ns_saved, "by that, of f of one direction of light", Numbers{}),
-        field("ops_saved", &E::ops_saved, "operations, of the same", Numbers{}),
-        field("reason", &E::reason, "in words", not_empty, or_default)};
-  }
-};
+inline constexpr auto description<scene::PlannedEffect> = std::tuple{
+    Field{"effect", &scene::PlannedEffect::effect, ""},
+    Field{"keep", &scene::PlannedEffect::keep, "false: its form is the cheapest"},
+    Field{"form", &scene::PlannedEffect::form, "in which it is computed", not_empty},
+    Field{"why", &scene::PlannedEffect::why, "ground of the choice"},
+    Field{"error_if_dropped", &scene::PlannedEffect::error_if_dropped,
+          "quantile of the differences where it alone takes its cheapest form; a bound of all "
+          "of them where it is proved",
+          amounts},
+    Field{"ns_saved", &scene::PlannedEffect::ns_saved, "by that, of f of one direction of light",
+          Numbers{}},
+    Field{"ops_saved", &scene::PlannedEffect::ops_saved, "operations, of the same", Numbers{}},
+    Field{"reason", &scene::PlannedEffect::reason, "in words", not_empty, or_default}};
 
 template <>
 struct Description<scene::MaterialPlan> {
@@ -140,17 +131,13 @@ struct Description<scene::MaterialPlan> {
 };
 
 template <>
-struct Description<scene::Plan> {
-  static constexpr auto fields() {
-    using P = scene::Plan;
-    return std::tuple{
-        constant_text("schema", "gonio.plan/1"),
-        field("scene_sha256", &P::scene_sha256, "of the scene and all that it names", not_empty),
-        field("tolerance", &P::tolerance, "that the plan was made for", or_default),
-        field("materials", by_name(&P::materials), "by name", Entries{0, 10'000}),
-        field("budget", if_there(&P::budget), "where the scene has one")};
-  }
-};
+inline constexpr auto description<scene::Plan> = std::tuple{
+    constant_text("schema", "gonio.plan/1"),
+    Field{"scene_sha256", &scene::Plan::scene_sha256, "of the scene and all that it names",
+          not_empty},
+    Field{"tolerance", &scene::Plan::tolerance, "that the plan was made for", or_default},
+    Field{"materials", by_name(&scene::Plan::materials), "by name", Entries{0, 10'000}},
+    Field{"budget", if_there(&scene::Plan::budget), "where the scene has one"}};
 
 }  // namespace gonio
 

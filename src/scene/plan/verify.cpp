@@ -49,15 +49,10 @@ struct Description<VerifiedRow> {
   }
 };
 template <>
-struct Description<Verification> {
-  static constexpr auto fields() {
-    return std::tuple{
-        constant_text("schema", "gonio.verification/1"),
-        field(
-            "holds", [](const Verification& v) { return v.holds(); }, "for every material"),
-        field("materials", rows_of, "by name")};
-  }
-};
+inline constexpr auto description<Verification> = std::tuple{
+    constant_text("schema", "gonio.verification/1"),
+    Field{"holds", [](const Verification& v) { return v.holds(); }, "for every material"},
+    Field{"materials", rows_of, "by name"}};
 
 }  // namespace gonio
 
