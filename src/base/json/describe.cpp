@@ -433,6 +433,7 @@ Json schema_at(const ValueType& t, const Rules& rules) {
     case Kind::named: {
       Json out{{"type", "object"}, {"additionalProperties", schema_at(*t.of, inner)}};
       put_entries(out, rules.entries, "minProperties", "maxProperties");
+      if (out.size() > 2) put(out, "propertyNames", {{"minLength", 1}});
       return out;
     }
     case Kind::record:
@@ -474,7 +475,7 @@ void ObjectSchema::add(const RecordField& f, bool required, const void* example)
   Json schema = schema_at(of_entries ? *f.type->of : *f.type, f.rules);
   if (f.rules.or_default && example != nullptr && f.place != nullptr) {
     const Json value = json_at(*f.type, f.place(const_cast<void*>(example)), Digits::all);
-    if (value.is_primitive() ? !value.is_null() : f.type->kind == Kind::list && f.type->size > 0)
+    if (value.is_primitive() ? !value.is_null() && value != "" : f.type->size > 0)
       put(schema, "default", value);
   }
   put_meaning(schema, f);
