@@ -213,7 +213,13 @@ TEST(ReadRecord, GivesBackWhatIsWritten) {
   t.steps = -4;
   const std::string text = json_text(t);
   EXPECT_HAS(text, "\"known\": null");
-  EXPECT_EQ(json_text(thing(text)), text);
+  const Thing back = thing(text);
+  EXPECT_EQ(json_text(back), text);
+  EXPECT_EQ(back.widths.size(), 2U);
+  EXPECT_EQ(back.balls.size(), 2U);
+  EXPECT_EQ(back.named.back().second.radius, 2);
+  EXPECT_EQ(std::get<Box>(back.shape).size.y, 5);
+  EXPECT_EQ(back.steps, -4);
 }
 
 TEST(ReadRecord, RefusesAKeyThatIsNotWhatItSays) {
