@@ -1,4 +1,6 @@
 // gonio bench fit: what a fit costs, beside the plain way of doing the same, in one run.
+#include "fitting/fit.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,7 +11,6 @@
 #include "cli/bench/place.h"
 #include "cli/line/terminal.h"
 #include "data_synth/synth.h"
-#include "fitting/fit.h"
 #include "fitting/solve/accumulate.h"
 #include "reports/yardstick/plain_fit.h"
 #include "table/format/formats.h"

@@ -15,7 +15,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct InspectCall : Common {
   std::string file, html;
   std::optional<std::string> bins, model;
   std::optional<std::size_t> plan_next;
@@ -113,7 +113,7 @@ void print(const std::vector<NextDirection>& next, const std::string& model) {
         d.theta_o_deg, d.phi_o_deg, d.parameter, width(d.width_before), width(d.width_after));
 }
 
-Exit run(const Options& o) {
+Exit run(const InspectCall& o) {
   if (o.model && !o.plan_next) throw wrong_usage("--model goes with --plan-next");
   use_jobs(o.jobs);
   OutputFiles out({o.file}, "", o.html);
@@ -146,8 +146,9 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_inspect(CommandLine& line) {
-  auto [c, o] = line.command("inspect", "What a table holds and what it can be trusted for",
-                             "gonio inspect paint.binary --html paint.html", run);
+  auto [c, o] =
+      line.command<InspectCall>("inspect", "What a table holds and what it can be trusted for",
+                                "gonio inspect paint.binary --html paint.html", run);
   c.option("FILE", o->file, "A table, its format found from the bytes").required();
   c.option("--html", o->html,
            "A page of the table, NAME.html, and its data beside it, NAME.page.json");

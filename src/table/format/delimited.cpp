@@ -7,23 +7,18 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/numbers.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
 namespace gonio {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r", kSeparators = ";,\t", kBetween = ";, \t\r";
+constexpr std::string_view kSeparators = ";,\t", kBetween = ";, \t\r";
 constexpr char kAnyBlank = ' ';  ///< as a separator: any number of blanks
 
 constexpr bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r';
-}
-
-std::string_view trimmed(std::string_view s) {
-  while (!s.empty() && is_blank(s.front())) s.remove_prefix(1);
-  while (!s.empty() && is_blank(s.back())) s.remove_suffix(1);
-  return s;
 }
 
 /// One past the quote that closes the field which s begins with; npos where none does.
@@ -44,9 +39,9 @@ std::size_t end_of_field(std::string_view line, char separator) {
   while (from < line.size() && is_blank(line[from]) && line[from] != separator) ++from;
   if (line.substr(from).starts_with('"'))
     if (const auto quoted = after_quotes(line.substr(from)); quoted != line.npos)
-      return separator == kAnyBlank ? line.find_first_of(kBlank, from + quoted)
+      return separator == kAnyBlank ? line.find_first_of(blanks, from + quoted)
                                     : line.find(separator, from + quoted);
-  return separator == kAnyBlank ? line.find_first_of(kBlank) : line.find(separator);
+  return separator == kAnyBlank ? line.find_first_of(blanks) : line.find(separator);
 }
 
 /// Text of a field, out of its quotes.  \param unescaped  keeps what does not stand in the line as it is
@@ -233,7 +228,7 @@ std::size_t Delimited::end_of_record() const {
 bool Delimited::next_line() {
   while (!rest_.empty()) {
     line_number_ += std::exchange(lines_, 1);
-    const auto first = rest_.find_first_not_of(kBlank);
+    const auto first = rest_.find_first_not_of(blanks);
     if (first != rest_.npos && rest_[first] == '#') {
       comment_ = trimmed(next_of(rest_, line_end_).substr(1));
       continue;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +17,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the numbers are little-endian");
 
-constexpr std::string_view kBlank = " \t\r", kFirst = "VERSION", kType = "DATA_TYPE";
+constexpr std::string_view kFirst = "VERSION", kType = "DATA_TYPE";
 constexpr std::array<std::string_view, 5> kLists{"PARAM0_LIST", "PARAM1_LIST", "PARAM2_LIST",
                                                  "PARAM3_LIST", "PARAM4_LIST"};
 constexpr std::array<std::string_view, 5> kNotes{"NAME", "SOURCE_TYPE", "DEVICE", "CREATION_DATE",
@@ -39,16 +40,16 @@ DirectionPair by_half_vector(const Angles4& a, double) {
   return directions(HalfDifference{a[0], a[1], a[2], a[3]});
 }
 
-struct Parametrization {
+struct SsddParametrization {
   std::string_view name;
   double most_2;          ///< of PARAM2_LIST [degrees]
   bool first_has_a_pole;  ///< PARAM1 is no matter where PARAM0 is 0
   DirectionPair (*pair)(const Angles4&, double offset);
 };
-constexpr std::array kParametrizations{
-    Parametrization{"spherical_coordinate_system", 90, true, spherical},
-    Parametrization{"specular_coordinate_system", 180, false, specular},
-    Parametrization{"half_difference_coordinate_system", 90, false, by_half_vector}};
+constexpr std::array kSsddParametrizations{
+    SsddParametrization{"spherical_coordinate_system", 90, true, spherical},
+    SsddParametrization{"specular_coordinate_system", 180, false, specular},
+    SsddParametrization{"half_difference_coordinate_system", 90, false, by_half_vector}};
 
 /// What stands between DATA_TYPE and DATA.
 struct Block {
@@ -65,9 +66,9 @@ struct Block {
   }
 };
 
-class Reader {
+class SsddReader {
  public:
-  explicit Reader(InputFile& in)
+  explicit SsddReader(InputFile& in)
       : path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 29)), rest_(text_) {}
 
   Table table() {
@@ -95,14 +96,10 @@ class Reader {
     throw bad_input(path_, fmt::format("line {}", line_), std::string(found), expected);
   }
   static std::string_view word(std::string_view& line) {
-    line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
-    const auto found = line.substr(0, line.find_first_of(kBlank));
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    const auto found = line.substr(0, line.find_first_of(blanks));
     line.remove_prefix(found.size());
     return found;
-  }
-  static std::string_view trimmed(std::string_view s) {
-    s.remove_prefix(std::min(s.find_first_not_of(kBlank), s.size()));
-    return s.substr(0, s.find_last_not_of(kBlank) + 1);
   }
   static bool line_has_version(std::string_view line) {
     const auto version = word(line);
@@ -215,11 +212,11 @@ class Reader {
 
   /// Directions of the block's samples, those of a direction's first name.  \return which these are
   std::vector<bool> directions(std::size_t count) {
-    const auto p =
-        std::ranges::find(kParametrizations, block_.parametrization, &Parametrization::name);
-    if (p == kParametrizations.end()) {
-      std::array<std::string_view, kParametrizations.size()> names;
-      std::ranges::transform(kParametrizations, names.begin(), &Parametrization::name);
+    const auto p = std::ranges::find(kSsddParametrizations, block_.parametrization,
+                                     &SsddParametrization::name);
+    if (p == kSsddParametrizations.end()) {
+      std::array<std::string_view, kSsddParametrizations.size()> names;
+      std::ranges::transform(kSsddParametrizations, names.begin(), &SsddParametrization::name);
       fail(fmt::format("PARAM_TYPE {}", block_.parametrization),
            fmt::format("{}", fmt::join(names, ", ")));
     }
@@ -301,7 +298,7 @@ bool is_ssdd(std::string_view head) {
 }
 
 Table read_ssdd(InputFile& in) {
-  return Reader(in).table();
+  return SsddReader(in).table();
 }
 
 }  // namespace gonio
