@@ -53,7 +53,6 @@ target_compile_options(gonio_flags INTERFACE
   -fno-math-errno               # nobody asks errno after a square root, and loops with one can be vectors
   # g++ 12 raises these for std::string code that is fine
   "$<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow>>"
-  $<BUILD_INTERFACE:$<$<CONFIG:Release>:-O3>>
   $<BUILD_INTERFACE:$<$<BOOL:${GONIO_WERROR}>:-Werror>>)
 install(TARGETS gonio_flags EXPORT gonio)
 set_target_properties(gonio_flags PROPERTIES EXPORT_NAME flags)
@@ -89,6 +88,9 @@ function(gonio_room room)
     add_library(${name} STATIC ${sources})
     set(scope PUBLIC)
     target_link_libraries(${name} PRIVATE ${room_PRIVATE})
+    if(room MATCHES "^cli|^reports/(picture|page|pages|finding|index)$")  # they show what others compute
+      target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
     if(NOT room_APART)
       set_target_properties(${name} PROPERTIES UNITY_BUILD ${GONIO_UNITY} UNITY_BUILD_BATCH_SIZE 8)
     endif()

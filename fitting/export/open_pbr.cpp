@@ -18,8 +18,8 @@ namespace {
 ///
 /// of which what lies below loses light at grazing angles even where s is 0.  Under a coat of weight w, roughness c and index η_c:  r⁴ ← min(1, r⁴ + 2 c⁴),  η ← η/η_c or its inverse, whichever is
 /// above 1, each mixed by w with what it was.
-std::vector<std::vector<double>> values(const TargetParameters& p,
-                                        std::span<const FrameAngles<double>> angles) {
+std::vector<std::vector<double>> open_pbr_values(const TargetParameters& p,
+                                                 std::span<const FrameAngles<double>> angles) {
   const std::size_t n = p.front().values.size();  // base_color
   MaterialxSurface s;
   double r = value_in(p, "specular_roughness"), eta = value_in(p, "specular_ior");
@@ -50,7 +50,7 @@ std::vector<std::vector<double>> values(const TargetParameters& p,
   return evaluate(s, angles);
 }
 
-std::vector<TargetForm> forms(const Surface& s) {
+std::vector<TargetForm> open_pbr_forms(const Surface& s) {
   std::vector<TargetForm> all;
   for (const auto& [base, coat, metal] : placements(s)) {
     TargetParameters p;
@@ -93,12 +93,14 @@ std::vector<TargetForm> forms(const Surface& s) {
       p.push_back({"coat_roughness", {one_roughness(*coat)}, roughness_range});
       p.push_back({"coat_ior", {grey_dielectric(*coat).eta}, index_range});
     }
-    all.push_back({std::move(p), values});
+    all.push_back({std::move(p), open_pbr_values});
   }
   return all;
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters& p) {
+std::vector<std::string> open_pbr_lost(const BoundModel& fit,
+                                       const Surface& s,
+                                       const TargetParameters& p) {
   auto all = lost_in_layers(fit, s, "OpenPBR's");
   const bool metal = value_in(p, "base_metalness") > 0;
   if (metal && !fresnel_is(fit, {"schlick", "f82"}))
@@ -124,7 +126,7 @@ std::string turned_tangent(double angle_deg) {
          "<input name=\"axis\" type=\"vector3\" nodename=\"fit_normal\"/>\n</rotate3d>\n";
 }
 
-std::string file(const Export& e, const std::string& fit) {
+std::string open_pbr_file(const Export& e, const std::string& fit) {
   std::string inputs = input("base_weight", "float", {1}), before;
   for (const auto& [name, v] : e.parameters)
     if (name == "geometry_tangent") {
@@ -139,6 +141,6 @@ std::string file(const Export& e, const std::string& fit) {
 
 }  // namespace
 
-const Target open_pbr_target{"OpenPBR", forms, lost, file};
+const Target open_pbr_target{"OpenPBR", open_pbr_forms, open_pbr_lost, open_pbr_file};
 
 }  // namespace gonio

@@ -14,8 +14,8 @@
 namespace gonio {
 namespace {
 
-std::vector<std::vector<double>> values(const TargetParameters& p,
-                                        std::span<const FrameAngles<double>> angles) {
+std::vector<std::vector<double>> usd_values(const TargetParameters& p,
+                                            std::span<const FrameAngles<double>> angles) {
   const std::size_t n = p.front().values.size();  // diffuseColor
   MaterialxSurface s;
   const auto schlick_layer = [&](double roughness, double weight, const std::vector<double>& f0) {
@@ -36,7 +36,7 @@ std::vector<std::vector<double>> values(const TargetParameters& p,
   return evaluate(s, angles);
 }
 
-std::vector<TargetForm> forms(const Surface& s) {
+std::vector<TargetForm> usd_forms(const Surface& s) {
   std::vector<TargetForm> all;
   const SurfaceLobe* last = nullptr;
   for (const auto& [base, coat, metal] : placements(s)) {
@@ -52,12 +52,14 @@ std::vector<TargetForm> forms(const Surface& s) {
       p.push_back({"clearcoatRoughness", {one_roughness(*coat)}, roughness_range});
       p.push_back({"ior", {grey_dielectric(*coat).eta}, index_range});
     }
-    all.push_back({std::move(p), values});
+    all.push_back({std::move(p), usd_values});
   }
   return all;
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters&) {
+std::vector<std::string> usd_lost(const BoundModel& fit,
+                                  const Surface& s,
+                                  const TargetParameters&) {
   auto all = lost_in_layers(fit, s, "UsdPreviewSurface's");
   if (s.lobes.empty())
     all.emplace_back(
@@ -68,7 +70,7 @@ std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const Tar
   return all;
 }
 
-std::string file(const Export& e, const std::string& fit) {
+std::string usd_file(const Export& e, const std::string& fit) {
   std::string inputs;
   for (auto [name, v] : e.parameters) {
     const bool color = name.ends_with("Color");
@@ -106,6 +108,6 @@ def Scope "fit"
 
 }  // namespace
 
-const Target usd_preview_target{"UsdPreviewSurface", forms, lost, file};
+const Target usd_preview_target{"UsdPreviewSurface", usd_forms, usd_lost, usd_file};
 
 }  // namespace gonio

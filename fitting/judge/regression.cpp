@@ -19,10 +19,6 @@ constexpr std::size_t most_gains = 64;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-Eigen::Index index(std::size_t n) {
-  return static_cast<Eigen::Index>(n);
-}
-
 /// Unknowns of their own for the scale of each channel under each incident angle, where there is room.
 std::size_t add_gains(Left& left) {
   const std::size_t channels = left.unknowns.size(), gains = left.angles * channels;
