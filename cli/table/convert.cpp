@@ -48,13 +48,6 @@ std::string layout(const Table& t) {
   return s + (t.has_bins() ? fmt::format(", bins {}", name_of(g->bins)) : "");
 }
 
-std::string percent(double share) {
-  return fmt::format("{:.3g} %", 100 * share);
-}
-std::string percent(std::size_t part, std::size_t whole) {
-  return percent(whole ? static_cast<double>(part) / static_cast<double>(whole) : 0);
-}
-
 /// Way that the values were converted, in words.
 std::string method(const Table& from, const Loss& l, double reach_deg) {
   switch (l.method) {

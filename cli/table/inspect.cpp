@@ -21,10 +21,6 @@ struct InspectCall : Common {
   std::optional<std::size_t> plan_next;
 };
 
-double percent(std::size_t part, std::size_t whole) {
-  return whole ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0;
-}
-
 std::string noise_text(const Noise& n) {
   if (!n.sigma) return "cannot be told: no nine samples lie on a line along one angle";
   const std::string from =
@@ -40,11 +36,10 @@ void print(const Table& t, const Health& h) {
   line("file", t.path);
   line("layout",
        fmt::format("{}, {}, channels {}", t.format, layout_text(t), fmt::join(t.channels, " ")));
-  line("values",
-       fmt::format("{} of {} valid ({:.1f} %)", h.valid, h.values, percent(h.valid, h.values)));
+  line("values", fmt::format("{} of {} valid ({})", h.valid, h.values, percent(h.valid, h.values)));
   for (std::size_t m = 1; m < names_of<Mask>.size(); ++m)
     if (h.masked[m])
-      line("masked", fmt::format("{} {} ({:.1f} %)", h.masked[m], names_of<Mask>[m],
+      line("masked", fmt::format("{} {} ({})", h.masked[m], names_of<Mask>[m],
                                  percent(h.masked[m], h.values)));
   line("range", fmt::format("{:.4g} to {:.4g} 1/sr", h.smallest_positive, h.largest));
   if (h.noise_floor > 0)

@@ -38,10 +38,6 @@ std::string with_commas(std::size_t n) {
   return s;
 }
 
-std::string percent(double share) {
-  return fmt::format("{:.3g} %", 100 * share);
-}
-
 void print(const Table& t, const SynthCall& o) {
   std::string how = o.synth.noise > 0 ? "noise " + percent(o.synth.noise) : "no noise";
   if (o.synth.floor > 0) how += fmt::format(", floor {:g} 1/sr", o.synth.floor);

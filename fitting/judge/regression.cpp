@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/quantile.h"
+#include "fitting/solve/matrix.h"
 
 #include <Eigen/Eigenvalues>
 #include <boost/math/distributions/fisher_f.hpp>
