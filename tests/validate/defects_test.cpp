@@ -9,6 +9,7 @@
 #include "geometry/half_difference.h"
 #include "integrate/rule/quadrature.h"
 #include "support.h"
+#include "validate/checks.h"
 #include "validate/measure.h"
 #include "validate/words.h"
 
