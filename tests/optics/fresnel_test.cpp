@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "constants.h"
 #include "number/dual.h"
 #include "optics/fresnel_approximate.h"
 #include "optics/reflectance.h"
@@ -13,7 +14,7 @@
 namespace gonio {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 double schlick(double f0, double c) {
   return reflectance<Schlick>(c, f0);

@@ -1,14 +1,14 @@
 // Masking alone, and with the distribution that it belongs to.
-#include <numbers>
 
 #include "brdf/terms.h"
+#include "constants.h"
 #include "integrate/rule/quadrature.h"
 
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+using test::pi;
 
 /// The same width along both axes, where a term has two.
 test::Parameters of_alpha(std::size_t masking, double alpha) {

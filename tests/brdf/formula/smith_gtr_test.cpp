@@ -4,9 +4,9 @@
 
 #include <complex>
 #include <cstdio>
-#include <numbers>
 
 #include "brdf/terms.h"
+#include "constants.h"
 #include "number/batch.h"
 #include "number/dual.h"
 
@@ -15,8 +15,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double pi = std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+using test::pi;
 
 double expm1_of(double z) {
   return std::abs(z) < 1e-9 ? 1 + z / 2 : std::expm1(z) / z;

@@ -2,9 +2,9 @@
 #include "brdf/formula/smith_student.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "brdf/terms.h"
+#include "constants.h"
 #include "integrate/rule/quadrature.h"
 #include "number/wide.h"
 
@@ -14,8 +14,8 @@
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+using test::pi;
 
 constexpr double cosines[] = {1e-8, 1e-3, 0.05, 0.2, 0.5, 0.8, 0.99, 1 - 1e-9, 1};
 constexpr double alphas[] = {1e-4, 0.01, 0.2, 0.6, 1};

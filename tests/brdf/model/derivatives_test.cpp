@@ -3,11 +3,12 @@
 #include <map>
 
 #include "brdf/terms.h"
+#include "constants.h"
 
 namespace gonio {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 class DerivativesOf : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "brdf/model/evaluate.h"
 #include "brdf/model/model.h"
+#include "constants.h"
 #include "geometry/half_difference.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 constexpr double m5 = 0.4 * 0.4 * 0.4 * 0.4 * 0.4;      // (1 − VoH)⁵
 constexpr double schlick = 0.04 + 0.96 * m5;            // F at f0 = 0.04
 constexpr double d = 16 / pi;                           // GGX at its peak

@@ -6,6 +6,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
+#include "constants.h"
 #include "geometry/half_difference.h"
 #include "geometry/sampling.h"
 #include "integrate/lights.h"
@@ -16,7 +17,7 @@
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 const double ln2 = std::log(2.0);
 constexpr const char* correlated = "smith_ggx.correlated";
 

@@ -1,11 +1,11 @@
 #include "integrate/scattering/walk.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
+#include "constants.h"
 #include "geometry/half_difference.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/rule/quadrature.h"
@@ -16,7 +16,7 @@
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 constexpr double cosines[] = {0.02, 0.3, 1};
 const std::string lobes[] = {"ggx", "beckmann"};
 

@@ -1,11 +1,13 @@
 #include "scene/trace/camera.h"
 
+#include "constants.h"
+
 #include <gtest/gtest.h>
 
 namespace gonio::scene {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 
 double off(const Direction& a, const Direction& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
