@@ -14,8 +14,8 @@
 namespace gonio {
 namespace {
 
+using test::ln2;
 using test::pi;
-const double ln2 = std::log(2.0);
 constexpr double cosines[] = {0.001, 0.01, 0.05, 0.2, 0.5, 0.8, 1};
 
 BoundModel white(const std::string& masking, double alpha) {

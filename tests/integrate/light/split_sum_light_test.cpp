@@ -17,8 +17,8 @@
 namespace gonio {
 namespace {
 
+using test::ln2;
 using test::pi;
-const double ln2 = std::log(2.0);
 constexpr const char* correlated = "smith_ggx.correlated";
 
 /// As lit_views() has the i-th of them.
