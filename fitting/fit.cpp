@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "base/error.h"
-#include "fitting/judge/certificate.h"
-#include "fitting/judge/describe.h"
 #include "fitting/judge/assess.h"
 #include "fitting/judge/bin_sensitivity.h"
 #include "fitting/judge/bootstrap.h"
+#include "fitting/judge/certificate.h"
+#include "fitting/judge/describe.h"
 #include "fitting/judge/lack_of_fit.h"
 #include "fitting/judge/next_steps.h"
 #include "fitting/judge/physics.h"
@@ -111,7 +111,7 @@ FitResult fit(const Table& t,
   };
   Problem p = pose(t, o);
   std::vector<std::pair<std::string, double>> phase_ms;
-  Stopwatch watch(phase_ms);
+  PhaseTimes watch(phase_ms);
 
   const Bins bins = t.bins();
   const bool folded = folds(p);

@@ -2,7 +2,6 @@
 #include "cli/bench/bench.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -165,7 +164,7 @@ Exit bench_kernels(const BenchCall& o) {
   if (o.repeats) options.timing.repetitions = *o.repeats;
   if (o.filter) options.filter = *o.filter;
   Progress progress(o.quiet);
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch begin;
   const auto measured = measure_costs(options, [&](std::string_view what, double part) {
     constexpr std::size_t all = 1000;
     const auto done = static_cast<std::size_t>(part * all);

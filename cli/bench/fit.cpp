@@ -2,7 +2,6 @@
 #include "fitting/fit.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -25,11 +24,6 @@ namespace gonio::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point t) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - t).count();
-}
 
 /// Times by name, in the order in which the names come.
 class Times {
@@ -126,14 +120,14 @@ Exit bench_fit(const FitBench& o, const Common& common) {
   std::vector<double> solving, to_parameters, memory_bound;
   for (int i = 0; i < o.repeats; ++i) {
     progress(fmt::format("round {} of {}", i + 1, o.repeats));
-    auto begin = Clock::now();
+    Stopwatch begin;
     TableAndDigest in(file);
     in.finish();
     const Table& t = in.table;
-    times.add("read and SHA-256", since(begin));
-    begin = Clock::now();
+    times.add("read and SHA-256", begin.ms());
+    begin = {};
     last = fit(t, options);
-    times.add("fit with errors", since(begin));
+    times.add("fit with errors", begin.ms());
     double columns = 0, solve = 0;
     for (const auto& [phase, ms] : last.document.solver.phase_ms) {
       times.add("  " + phase, ms);
@@ -154,24 +148,24 @@ Exit bench_fit(const FitBench& o, const Common& common) {
       const FreeSlots free(std::vector<bool>(last.model.model.value_count, true));
       const Accumulator<float> accumulate(last.model.model, data, free);
       accumulate.normal_equations(last.model.values);
-      begin = Clock::now();
+      begin = {};
       accumulate.normal_equations(last.model.values);
-      times.add("one pass", since(begin));
-      begin = Clock::now();
+      times.add("one pass", begin.ms());
+      begin = {};
       if (read_only(data) == 0) progress("all columns are zero");  // the sum must be made
-      times.add("its columns read", since(begin));
+      times.add("its columns read", begin.ms());
     }
     for (const Table* spectral : {&spectrum, &twice}) {
-      begin = Clock::now();
+      begin = {};
       fit(*spectral, options);
-      times.add(fmt::format("fit of {} channels", spectral->channels.size()), since(begin));
+      times.add(fmt::format("fit of {} channels", spectral->channels.size()), begin.ms());
     }
-    begin = Clock::now();
+    begin = {};
     std::vector<std::string> words{"fit", file, "-o", result, "--quiet", "--json"};
     if (common.jobs > 0) words.insert(words.end(), {"--jobs", std::to_string(common.jobs)});
     if (run_program(words) != 0)
       throw bad_input(file, "fitting in a program of its own", "a failure", "a result");
-    times.add("whole program", since(begin));
+    times.add("whole program", begin.ms());
   }
   const double megabytes = peak_megabytes(RUSAGE_CHILDREN);
 

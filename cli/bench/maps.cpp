@@ -1,6 +1,5 @@
 // gonio bench maps: texels a second, beside one Ceres problem for each, in one run.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -23,13 +22,8 @@ namespace gonio::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t images = 64, channels = 3, tile_texels = 4096;
-
-double seconds_since(Clock::time_point t) {
-  return std::chrono::duration<double>(Clock::now() - t).count();
-}
 
 /// A tile of a map that was made up, 2 % of noise in it.
 struct Tile {
@@ -115,7 +109,7 @@ double time_of(const Case& which, const Tile& tile, std::size_t tiles) {
       light.insert(light.end(), tile_texels, tile.light[k]);
       view.insert(view.end(), tile_texels, tile.view[k]);
     }
-  const auto begin = Clock::now();
+  const Stopwatch begin;
   tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t k) {
     TexelSamples s{tile_texels, images, channels, values[k], true, tile.light, tile.view, {}};
     if (which.own_directions) {
@@ -125,7 +119,7 @@ double time_of(const Case& which, const Tile& tile, std::size_t tiles) {
     }
     fit_texels(s, which.options);
   });
-  return seconds_since(begin);
+  return begin.seconds();
 }
 
 /// A texel as a table.

@@ -1,6 +1,5 @@
 // gonio bench parts: what a part of many tables takes beside one process for all, in one run.
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 
 #include "base/error.h"
@@ -17,7 +16,6 @@ namespace gonio::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t tables = 256;
 constexpr int counts[] = {2, 4, 8};
@@ -48,10 +46,10 @@ std::string make_list(const BenchFolder& place) {
 double time_of(const std::string& list, const std::string& results, const std::string& part) {
   std::vector<std::string> words{"fit", "@" + list, "-o", results, "--quiet", "--jobs", "1"};
   if (!part.empty()) words.insert(words.end(), {"--part", part});
-  const auto begin = Clock::now();
+  const Stopwatch begin;
   if (run_program(words) != 0)
     throw bad_input(list, "fitting its tables", "another exit code", "0, as of any such list");
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  return begin.ms();
 }
 
 }  // namespace

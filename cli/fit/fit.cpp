@@ -1,7 +1,6 @@
 // gonio fit: a table in, parameters and a page out.
 #include "fitting/fit.h"
 
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 
@@ -116,7 +115,7 @@ void print(const FitDocument& d) {
 }
 
 /// Line of how far a batch is, and how long still.
-std::string line_of(const BatchCount& n, std::chrono::steady_clock::time_point begin) {
+std::string line_of(const BatchCount& n, const Stopwatch& begin) {
   std::string line = fmt::format("{} of {} tables", n.done, n.all);
   if (n.failed) line += fmt::format(", {} failed", n.failed);
   return line + time_left(begin, n.done - n.kept, n.all - n.kept);
@@ -150,7 +149,7 @@ Exit run_batch(const FitCall& o, const HowFitted& how) {
   check_outputs({}, {o.output});
   Progress progress(o.quiet);
   progress("looking for tables");
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch begin;
   BatchHooks hooks{[&](const BatchCount& n) { progress(line_of(n, begin)); }, batch_page_html, {}};
   if (o.pages)
     hooks.table_page = [](const FittedFile& f, std::string_view document) {

@@ -2,7 +2,6 @@
 #include "fitting/map/fit_map.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <system_error>
 
@@ -32,9 +31,8 @@ class MapProgress {
   MapProgress(bool quiet, const TileGrid& grid)
       : progress_(quiet), what_(fmt::format("fitting {} × {} texels", grid.width, grid.height)) {}
   void operator()(const MapCount& n) {
-    const auto now = std::chrono::steady_clock::now();
-    if (n.done != n.texels && now < next_) return;  // blocks are many
-    next_ = now + std::chrono::milliseconds(200);
+    if (n.done != n.texels && since_last_ && since_last_->ms() < 200) return;  // blocks are many
+    since_last_ = Stopwatch();
     std::string line = fmt::format(
         "{}, {:.0f} %", what_,
         n.texels == 0 ? 100.0 : 100 * static_cast<double>(n.done) / static_cast<double>(n.texels));
@@ -46,7 +44,8 @@ class MapProgress {
  private:
   Progress progress_;
   std::string what_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now(), next_ = begin_;
+  Stopwatch begin_;
+  std::optional<Stopwatch> since_last_;
 };
 
 /// Tiles that were asked for, into a folder.

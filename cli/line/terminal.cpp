@@ -62,7 +62,7 @@ class Progress::Line {
   void show(const std::string& what) {
     const std::lock_guard lock(mutex_);
     what_ = printable(what);
-    since_ = std::chrono::steady_clock::now();
+    since_ = {};
     write(what_ + " …");
   }
   void clear() {
@@ -73,14 +73,13 @@ class Progress::Line {
 
  private:
   void keep_time(const std::stop_token& stop) {
-    using namespace std::chrono;
-    constexpr seconds long_enough{2};
+    constexpr double long_enough = 2;
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
-      wake_.wait_for(lock, stop, seconds(1), [] { return false; });
-      const auto took = steady_clock::now() - since_;
+      wake_.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; });
+      const double took = since_.seconds();
       if (!what_.empty() && took >= long_enough)
-        write(fmt::format("{} … {}", what_, minutes(duration_cast<seconds>(took).count())));
+        write(fmt::format("{} … {}", what_, minutes(static_cast<long>(took))));
     }
   }
   /// In one line: what goes on in the next stays there.
@@ -92,7 +91,7 @@ class Progress::Line {
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::string what_;  ///< empty where there is no line
-  std::chrono::steady_clock::time_point since_;
+  Stopwatch since_;
   std::jthread clock_;  // ends before what it reads
 };
 
@@ -113,22 +112,15 @@ void print_document(const nlohmann::ordered_json& document) {
   fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-std::string time_left(std::chrono::steady_clock::time_point begin,
-                      std::size_t done,
-                      std::size_t all) {
+std::string time_left(const Stopwatch& begin, std::size_t done, std::size_t all) {
   if (done == 0) return "";
-  const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin;
   const auto left = static_cast<long>(
-      std::ceil(so_far.count() / static_cast<double>(done) * static_cast<double>(all - done)));
+      std::ceil(begin.seconds() / static_cast<double>(done) * static_cast<double>(all - done)));
   return fmt::format(", {} left", minutes(left));
 }
 
 void TimedProgress::operator()(std::size_t done) {
   progress_(fmt::format("{} {} of {}{}", what_, done, all_, time_left(begin_, done, all_)));
-}
-
-std::string counted(std::size_t n, std::string_view thing) {
-  return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
 }
 
 void say_below(const std::string& head, const std::string& text) {

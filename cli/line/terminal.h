@@ -2,13 +2,13 @@
 /// \file
 /// Output as a person at a terminal sees it.
 
-#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
+#include "base/stopwatch.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -53,9 +53,7 @@ void print_document(const nlohmann::ordered_json&);
 
 /// Time still needed if the rest goes as what was done: ", 1:05 left"; empty before the
 /// first is done.
-std::string time_left(std::chrono::steady_clock::time_point begin,
-                      std::size_t done,
-                      std::size_t all);
+std::string time_left(const Stopwatch& begin, std::size_t done, std::size_t all);
 
 /// "auditing 12 of 70, 0:08 left"
 class TimedProgress {
@@ -71,14 +69,11 @@ class TimedProgress {
   Progress progress_;
   std::string what_;
   std::size_t all_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  Stopwatch begin_;
 };
 
 /// Line that begins with `head`; at a terminal that is too narrow for it `text` goes on below itself.
 void say_below(const std::string& head, const std::string& text);
-
-/// "1 iteration", "2 iterations".
-std::string counted(std::size_t n, std::string_view thing);
 
 /// "12.5 %"
 std::string percent(double share);

@@ -163,12 +163,12 @@ Exit under_light(const SplitSumCall& o) {
   const RelativeGoal goal{o.error.value_or(RelativeGoal{}.error)};
   std::string table = fmt::format(
       "truth and split sum: light towards the viewer, as luminance in the map's unit of radiance, "
-      "mean over {} {}\n"
+      "mean over {}\n"
       "rms, max and bias: what the split sum is off by, in % of the truth; ± truth: what these may "
       "be off by\n"
       "{:>9} {:>6} {:>6} {:>11} {:>11} {:>9} {:>9} {:>9} {:>9}\n",
-      view_count, view_count == 1 ? "view" : "views", "roughness", "nov", "f0", "truth",
-      "split sum", "rms [%]", "max [%]", "bias [%]", "± truth");
+      counted(view_count, "view"), "roughness", "nov", "f0", "truth", "split sum", "rms [%]",
+      "max [%]", "bias [%]", "± truth");
   Json rows = Json::array();
   std::size_t done = 0;
   for (const double r : o.roughness)

@@ -134,7 +134,7 @@ class ReportsProgress {
  private:
   Progress progress_;
   double all_, before_ = 0;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  Stopwatch begin_;
 };
 
 std::int64_t milliseconds_since_1970() {
@@ -195,11 +195,11 @@ Exit run(const ReportCall& o) {
   ReportsProgress progress(o.quiet, all);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const auto& kind = kinds[k];
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch begin;
     progress(kind, "beginning", 0);
     auto report =
         kind.make(options, [&](std::string_view what, double part) { progress(kind, what, part); });
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    const double took_ms = begin.ms();
     if (has_index) report.html = beside_index(std::move(report.html));
     files[k]->write(report);
     progress.finish(kind);
@@ -208,7 +208,7 @@ Exit run(const ReportCall& o) {
       continue;
     }
     if (index_files) {
-      add_report(index, kind.name, kind.what, took.count(), std::move(report));
+      add_report(index, kind.name, kind.what, took_ms, std::move(report));
       continue;
     }
     for (const auto& sentence : report.findings.sentences) say("{}\n", sentence);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
@@ -138,7 +137,7 @@ Exit run(const RenderCall& given) {
   if (!o.plan.empty()) inputs.push_back(o.plan);
   check_outputs(inputs, {o.out});
   OutputFile out(o.out);
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch begin;
   const Scene scene = read_scene(o.scene);
   o.picture.seed = o.seed.value_or(scene.seed);
   const Pictures p = pictures_of(scene, o);
@@ -149,8 +148,7 @@ Exit run(const RenderCall& given) {
   if (p.planned) notes.emplace_back("plan_sha256", sha256_of_file(o.plan));
   out.write(kind == ".exr" ? exr_of(o.out, p, notes) : png_of(p, scene.exposure, notes));
   out.commit();
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double seconds = begin.seconds();
 
   auto differences = p.difference;
   const double high = p.planned ? quantile(differences, 0.99) : 0;

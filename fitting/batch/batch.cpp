@@ -104,32 +104,13 @@ void expect_apart(const Batch& b,
 
 // --- How many at a time ---
 
-/// Number of tables at a time: one for each thread, but no more than half of the memory holds, for a table and its
-/// columns take several times the bytes of its file.
-std::size_t tables_at_a_time(const std::vector<std::string>& tables) {
-  constexpr double times_the_file = 8, most = 64;
-  double memory =
+/// Memory that the process may take [bytes].
+double memory_allowed() {
+  const double memory =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  if (rlimit r{}; ::getrlimit(RLIMIT_AS, &r) == 0 && r.rlim_cur != RLIM_INFINITY)
-    memory = std::min(memory, static_cast<double>(r.rlim_cur));
-  std::vector<double> sizes;
-  for (const auto& t : tables) {
-    std::error_code unknown;
-    const auto size = fs::file_size(t, unknown);
-    sizes.push_back(unknown ? 0 : static_cast<double>(size));
-  }
-  std::ranges::sort(sizes, std::greater());
-  const auto threads = std::min<double>(static_cast<double>(tbb::global_control::active_value(
-                                            tbb::global_control::max_allowed_parallelism)),
-                                        most);
-  std::size_t n = 0;
-  double needed = 0;
-  while (n < sizes.size() && static_cast<double>(n) < threads) {
-    needed += times_the_file * sizes[n];
-    if (n > 0 && needed > memory / 2) break;
-    ++n;
-  }
-  return n;
+  rlimit r{};
+  const bool limited = ::getrlimit(RLIMIT_AS, &r) == 0 && r.rlim_cur != RLIM_INFINITY;
+  return limited ? std::min(memory, static_cast<double>(r.rlim_cur)) : memory;
 }
 
 /// Work that goes on behind a lane's next table, one piece at a time, on a thread of its own: it waits for the disk.
@@ -161,7 +142,7 @@ void in_lanes(const std::vector<std::string>& tables, const One& one) {
   std::atomic<bool> stop = false;
   std::exception_ptr fatal;
   tbb::parallel_for(
-      std::size_t{0}, tables_at_a_time(tables),
+      std::size_t{0}, tables_at_a_time(tables, memory_allowed()),
       [&](std::size_t) {
         Behind behind;
         try {
@@ -293,6 +274,28 @@ std::vector<std::string> document_names(const std::vector<std::string>& tables) 
     names.push_back(name + ".json");
   }
   return names;
+}
+
+std::size_t tables_at_a_time(const std::vector<std::string>& tables, double memory) {
+  constexpr double times_the_file = 8, most = 64;
+  std::vector<double> sizes;
+  for (const auto& t : tables) {
+    std::error_code unknown;
+    const auto size = fs::file_size(t, unknown);
+    sizes.push_back(unknown ? 0 : static_cast<double>(size));
+  }
+  std::ranges::sort(sizes, std::greater());
+  const auto threads = std::min<double>(static_cast<double>(tbb::global_control::active_value(
+                                            tbb::global_control::max_allowed_parallelism)),
+                                        most);
+  std::size_t n = 0;
+  double needed = 0;
+  while (n < sizes.size() && static_cast<double>(n) < threads) {
+    needed += times_the_file * sizes[n];
+    if (n > 0 && needed > memory / 2) break;
+    ++n;
+  }
+  return n;
 }
 
 bool is_batch(const std::vector<std::string>& inputs) {

@@ -56,6 +56,10 @@ std::vector<std::string> tables_of(const std::vector<std::string>& inputs);
 /// even this.
 std::vector<std::string> document_names(const std::vector<std::string>& tables);
 
+/// Number of tables that are fitted at a time: one for each thread, but no more than half of the memory [bytes]
+/// holds, for a table and its columns take several times the bytes of its file.
+std::size_t tables_at_a_time(const std::vector<std::string>& tables, double memory);
+
 /// State of a batch while it is running.
 struct BatchCount {
   std::size_t all = 0, done = 0, kept = 0, failed = 0;

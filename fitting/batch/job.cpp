@@ -37,8 +37,7 @@ std::string in_folder(const Job& j, const std::vector<std::string>& words) {
 }
 
 std::string what(const Job& j) {
-  return fmt::format("gonio fit of {} table{} in {} part{}", j.tables, j.tables == 1 ? "" : "s",
-                     j.parts, j.parts == 1 ? "" : "s");
+  return fmt::format("gonio fit of {} in {}", counted(j.tables, "table"), counted(j.parts, "part"));
 }
 
 /// A task that a node takes with it is run again, and its part keeps what is there.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text.h"
 #include "brdf/model/roughness.h"
 #include "table/health/health.h"
 #include "table/health/peak.h"
@@ -31,7 +32,7 @@ std::string copies_in_words(const Table& t) {
   std::string s;
   for (const auto& [axis, name] : {std::pair{std::size_t{0}, "incident"}, {1, "outgoing"}})
     if (const std::size_t n = copied_rows(t, axis))
-      s += fmt::format("{}{} {} angle{}", s.empty() ? "" : " and ", n, name, n == 1 ? "" : "s");
+      s += (s.empty() ? "" : " and ") + counted(n, std::string(name) + " angle");
   return s.empty() ? s : s + " only repeat another value for value";
 }
 
@@ -73,8 +74,8 @@ std::vector<std::string> warnings(const FitOptions& o,
   for (auto& w : misfit_in_words(d.misfit)) all.push_back(std::move(w));
   for (auto& w : physics_in_words(d.physics)) all.push_back(std::move(w));
   if (d.values_used <= f.free)
-    all.push_back(fmt::format("{} value{} cannot tell the errors of {} unknown{}", d.values_used,
-                              d.values_used == 1 ? "" : "s", f.free, f.free == 1 ? "" : "s"));
+    all.push_back(fmt::format("{} cannot tell the errors of {}", counted(d.values_used, "value"),
+                              counted(f.free, "unknown")));
   else if (!d.misfit.tested && d.misfit.note.find("too few") != std::string::npos)
     all.push_back("whether the model is right is not known: " + d.misfit.note);
   if (f.few_angles)

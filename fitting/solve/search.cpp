@@ -134,7 +134,7 @@ template <class F>
 Searched search_in(const Problem& p,
                    const Sampling& sampling,
                    SharedColumns& columns,
-                   Stopwatch& watch,
+                   PhaseTimes& watch,
                    const std::function<void(const char*)>& announce) {
   announce("reading columns");
   constexpr std::array levels{coarse_samples, scan_samples, middle_samples};
@@ -229,7 +229,7 @@ Fitted compared_by(const Sampling& s, const Problem& p, std::size_t most, const 
 Searched search(Problem p,
                 const Sampling& sampling,
                 SharedColumns& columns,
-                Stopwatch& watch,
+                PhaseTimes& watch,
                 const std::function<void(const char*)>& announce) {
   // What has room in the caches is fitted in double at once.
   if (sampling.groups().size() > 8 * middle_samples)

@@ -2,7 +2,6 @@
 /// \file
 /// Search for the best fit of all samples, from nothing: coarse levels first, float where it is enough.
 
-#include <chrono>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "brdf/model/model.h"
 #include "fitting/sample/shared_columns.h"
 #include "fitting/solve/problem.h"
@@ -32,19 +32,17 @@ template <class F>
 Fitted minimise(const Problem&, const FitData<F>& data, BoundModel from, double huber);
 
 /// Milliseconds since the last call, under a name.
-class Stopwatch {
+class PhaseTimes {
  public:
-  explicit Stopwatch(std::vector<std::pair<std::string, double>>& into) : into_(into) {}
+  explicit PhaseTimes(std::vector<std::pair<std::string, double>>& into) : into_(into) {}
   void lap(std::string name) {
-    const auto now = std::chrono::steady_clock::now();
-    into_.emplace_back(std::move(name),
-                       std::chrono::duration<double, std::milli>(now - last_).count());
-    last_ = now;
+    into_.emplace_back(std::move(name), since_last_.ms());
+    since_last_ = {};
   }
 
  private:
   std::vector<std::pair<std::string, double>>& into_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  Stopwatch since_last_;
 };
 
 /// Values of the thinned table that the judges look at, of a table's million.
@@ -74,7 +72,7 @@ struct Searched {
 Searched search(Problem,
                 const Sampling&,
                 SharedColumns&,
-                Stopwatch&,
+                PhaseTimes&,
                 const std::function<void(const char*)>& announce);
 
 }  // namespace gonio

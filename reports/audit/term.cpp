@@ -67,9 +67,7 @@ class TermAudit {
                        const Values& p,
                        std::span<const Row> rows,
                        Number number = Number::double_) {
-    Values v(rows.size());
-    const auto& in = catalogue_in(number).terms[term];
-    (in.g2 ? in.g2 : in.values)(p, rows, v.data());
+    auto v = shown_in(number, term, p, rows);
     if (const double unit = light_unit(catalogue()[term].about->id); unit != 1)
       for (double& x : v) x /= unit;
     return v;

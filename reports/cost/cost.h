@@ -32,7 +32,7 @@ struct CostError {
 /// One entry of the catalogue, or a whole model, in one number, instruction set and place.
 struct CostRow {
   std::string id;  ///< of a term or a whole model, else the model's spec
-  /// "ndf", "masking", "fresnel", "diffuse", "model"; "by_hand": a model written out by hand; "bound"; of studies "arithmetic", "arithmetic_in_f", "sampling", "split_sum"
+  /// "ndf", "masking", "fresnel", "diffuse", "model"; "by_hand": a model written out by hand; "bound"; of studies "sampling", "split_sum"
   std::string_view kind;
   std::string_view number;  ///< "float", "double"
   std::string isa;          ///< "sse2", "avx2", …
@@ -112,17 +112,6 @@ struct MetalError {
 inline constexpr Timing unknown_time{std::numeric_limits<double>::quiet_NaN(),
                                      std::numeric_limits<double>::quiet_NaN()};
 
-/// Fast arithmetic: an operation alone, and in the model in which it stands, GGX, Beckmann or GTR under GGX's masking, over
-/// roughness 0.1 to 1 about the highlight, F0 0.04.
-struct FastRow {
-  std::string id, name;
-  std::string operation;  ///< "reciprocal root" …
-  double error;           ///< of the operation alone, relative, at most
-  double f_max, f_rms;    ///< relative error of f
-  double delta_e;  ///< at most, of a white light's highlight with its peak the display's white
-  double f_max_by_cosine, delta_e_by_cosine;  ///< the same with D written by NoH alone
-  Timing time = unknown_time, time_in_f = unknown_time;
-};
 /// A way to draw lights for GGX, at one roughness and view.
 struct SamplingRow {
   std::string id, name;
@@ -148,7 +137,6 @@ struct ShaderRow {
   std::vector<std::pair<std::string_view, std::size_t>> instructions{};
 };
 struct Studies {
-  std::vector<FastRow> fast{};
   std::vector<SamplingRow> sampling{};
   std::vector<LookupRow> lookup{};
   std::vector<ShaderRow> shaders{};

@@ -1,7 +1,7 @@
 "use strict";
 // The cost report: what accuracy costs in time.
 
-const { rows, switches, arithmetic, sampling, lookups, shaders, points, figures, machine, findings, full, repetitions, processes, others_busy, cache_samples, stream_samples } = page_data();
+const { rows, switches, sampling, lookups, shaders, points, figures, machine, findings, full, repetitions, processes, others_busy, cache_samples, stream_samples } = page_data();
 const best = machine.instruction_sets.at(-1);
 const short = (id) => id.replace(/^(ndf|masking|fresnel|diffuse|model|bound)\./, "");
 const long_columns = `columns of ${plain(stream_samples * 4 / (1 << 20), 3)} MiB`;  // of floats: of doubles twice that
@@ -101,7 +101,7 @@ function every_entry() {
   const chosen = at_first();
   const in_place = (list) => list.filter((r) => r.number === chosen.number && [r.isa, r.memory].join(" ") === chosen.place);
   const of_number = () => in_cards(table(["", "kind", { n: "channels" }, { n: "time [ns]" }, { n: "operations" }, { n: "of the parameters" }, { n: "divisions" }, { n: "roots" }, { n: "exp, log" }, { n: "table [bytes]" }, { n: "largest error" }, { n: "RMS" }, { n: "ΔE2000 of gold" }, "of", "against", "front"],
-    in_place(rows).filter((r) => !["bound", "by_hand", "arithmetic", "arithmetic_in_f", "sampling", "split_sum"].includes(r.kind)).map((r) => [r.way ? el("code", {}, `${short(r.id)}, ${r.way}`) : form_cell(r.id), r.kind, { n: String(r.channels) }, { n: ns_text(r.ns, r.ns_spread) }, { n: String(r.ops) }, { n: String(r.ops_block) }, { n: String(r.ops_div) }, { n: String(r.ops_sqrt) },
+    in_place(rows).filter((r) => !["bound", "by_hand", "sampling", "split_sum"].includes(r.kind)).map((r) => [r.way ? el("code", {}, `${short(r.id)}, ${r.way}`) : form_cell(r.id), r.kind, { n: String(r.channels) }, { n: ns_text(r.ns, r.ns_spread) }, { n: String(r.ops) }, { n: String(r.ops_block) }, { n: String(r.ops_div) }, { n: String(r.ops_sqrt) },
       { n: String(r.ops_exp + r.ops_log) }, { n: r.bytes ? count(r.bytes) : "" }, { n: error_text(r.error_max) }, { n: error_text(r.error_rms) }, { n: known(r.delta_e) ? significant(r.delta_e, 2) : "" },
       el("span", { class: "because small" }, r.measure), el("span", { class: "because small" }, named(r.truth)), r.pareto ? (r.tie ? "a tie" : "yes") : ""])));
   const list = changing(of_number, () => other_number(chosen, of_number));
@@ -112,16 +112,6 @@ function every_entry() {
 
 // --- Studies -------------------------------------------------------------------------------------------
 const timed = (r) => ({ n: known(r.ns) ? ns_text(r.ns, r.ns_spread) : "–" });
-const share = (x) => ({ n: known(x) ? `${significant(100 * x, 2)} %` : "–" });
-function fast_arithmetic() {
-  if (!arithmetic.length) return null;
-  const node = section("Fast arithmetic", `In float columns of ${best} in cache: the operation alone, and in f, h and its length among it. Roots and divisions stand in GGX, the exponential in Beckmann's D, the power in GTR's at γ = 1.5, the fifth power in Schlick's Fresnel; `
-    + "each under GGX's masking, over roughness 0.1 to 1 about the highlight, where f NoL is above a millionth of its most. ΔE2000 is of the highlight in grey, its peak the display's white.",
-    in_cards(table(["operation", "by", { n: "alone [ns]" }, { n: "its error" }, { n: "in f [ns]" }, { n: "f off, at most" }, { n: "RMS" }, { n: "ΔE2000" }, { n: "D by NoH: f off" }, { n: "ΔE2000" }],
-      arithmetic.map((r) => [r.operation, r.name, timed(r), share(r.error), { n: known(r.in_f_ns) ? ns_text(r.in_f_ns, r.in_f_ns_spread) : "–" }, share(r.f_max), share(r.f_rms), { n: significant(r.delta_e, 2) }, share(r.f_max_by_cosine), { n: significant(r.delta_e_by_cosine, 2) }]))));
-  node.id = "arithmetic";
-  return node;
-}
 function light_sampling() {
   if (!sampling.length) return null;
   const names = unique(sampling.map((r) => r.name)), places_of = unique(sampling.map((r) => `${r.roughness} ${r.mu}`));
@@ -167,6 +157,6 @@ function the_machine() {
 const first = picture_of(figures, "masking", at_best) ?? figures[0];
 show_report({
   command: "report cost", title: "What accuracy costs in time", findings, first: first && figure_view(first, { height: 360, copy: true }),
-  sections: [what_it_costs(), pictures(), whole_models(), fast_arithmetic(), light_sampling(), tables_and_formulas(), as_shaders(), every_entry(), the_machine()],
+  sections: [what_it_costs(), pictures(), whole_models(), light_sampling(), tables_and_formulas(), as_shaders(), every_entry(), the_machine()],
   setting: full ? "Full setting." : "Quick setting; --full measures long columns in every instruction set, by more processes.",
 });

@@ -49,7 +49,6 @@ class Sayings {
     compensation();
     quadrature();
     fits();
-    arithmetic();
     sampling();
     lookups();
     frame();
@@ -233,43 +232,8 @@ class Sayings {
     say("From {} chosen by chance it takes {} and finds alpha to {}.", all.back()->label,
         ms(all.back()), percent(all.back()->error, 2));
   }
-  const FastRow* fast(std::string_view id) const {
-    const auto at = std::ranges::find(r_.studies.fast, id, &FastRow::id);
-    return at == r_.studies.fast.end() || std::isnan(at->time.ns) ? nullptr : &*at;
-  }
   /// "0.31 ns"
   static std::string in_ns(const Timing& t) { return short_text(t.ns) + " ns"; }
-  void arithmetic() {
-    const auto *root = fast("fast.rsqrt.estimate"), *step = fast("fast.rsqrt.estimate.1"),
-               *exact_root = fast("fast.rsqrt.exact");
-    if (root && step && exact_root) {
-      say("Roots by the processor's estimate leave up to {} % of f and ΔE2000 {}; with D "
-          "written by NoH alone they leave ΔE2000 {}.",
-          short_text(100 * root->f_max), short_text(root->delta_e),
-          short_text(root->delta_e_by_cosine));
-      say("A Newton step takes that to {} % of f, in {} for {} with exact roots.",
-          short_text(100 * step->f_max), in_ns(step->time_in_f), in_ns(exact_root->time_in_f));
-    }
-    const auto *division = fast("fast.rcp.estimate"), *exact_division = fast("fast.rcp.exact");
-    if (division && exact_division)
-      say("Divisions by the processor's estimate leave up to {} % of f, in {} for {} with "
-          "exact "
-          "divisions.",
-          short_text(100 * division->f_max), in_ns(division->time_in_f),
-          in_ns(exact_division->time_in_f));
-    const auto *products = fast("fast.pow5.products"), *power = fast("fast.pow5.power");
-    if (products && power)
-      say("Schlick's fifth power takes {} by three products and {} by the library's power, which "
-          "is "
-          "no more exact.",
-          in_ns(products->time), in_ns(power->time));
-    const auto* cubic = fast("fast.exp2.3");
-    if (cubic)
-      say("Beckmann's exponential by a polynomial of degree 3 leaves up to {} % of f and "
-          "ΔE2000 "
-          "{}.",
-          short_text(100 * cubic->f_max), short_text(cubic->delta_e));
-  }
   void sampling() {
     const auto at = [&](std::string_view id) -> const SamplingRow* {
       const auto found = std::ranges::find_if(r_.studies.sampling, [&](const SamplingRow& r) {

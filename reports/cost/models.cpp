@@ -102,9 +102,7 @@ BoundModel truth_for(const Whole& w, const FresnelSurface& s, double roughness) 
 }
 
 std::vector<double> values_of(std::string_view term, double alpha, std::span<const Row> rows) {
-  std::vector<double> v(rows.size());
-  catalogue_in(Number::double_).terms[find_term(term)].values(std::array{alpha}, rows, v.data());
-  return v;
+  return values_in(Number::double_, find_term(term), std::array{alpha}, rows);
 }
 
 const std::vector<Row>& above_horizon() {

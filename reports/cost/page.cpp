@@ -72,8 +72,7 @@ struct Description<CostRow> {
               "process"),
         field("memory", "", &R::memory, "cache, streaming"),
         field("kind", "", &R::kind,
-              "ndf, masking, fresnel, diffuse, model, by_hand, bound, arithmetic, arithmetic_in_f, "
-              "sampling, split_sum"),
+              "ndf, masking, fresnel, diffuse, model, by_hand, bound, sampling, split_sum"),
         field("way", "", &R::way, "of a model: fused, composed, by_hand"),
         field("channels", "", &R::channels, ""),
         field("truth", "", at(&R::error, &CostError::truth), "what it is held against"),
@@ -189,30 +188,6 @@ struct Description<CostSwitch> {
 };
 
 template <>
-struct Description<FastRow> {
-  static constexpr auto fields() {
-    using R = FastRow;
-    return std::tuple{
-        field("id", "", &R::id, ""),
-        field("name", "", &R::name, ""),
-        field("operation", "", &R::operation,
-              "reciprocal root, reciprocal, exponential, power, fifth power"),
-        field("error", "", &R::error,
-              "of the operation alone, at most: relative, of the fifth power absolute"),
-        field("f_max", "", &R::f_max, "of f, relative, at most"),
-        field("f_rms", "", &R::f_rms, "of f, relative"),
-        field("delta_e", "", &R::delta_e,
-              "CIEDE2000 of a highlight with its peak the display's white"),
-        field("f_max_by_cosine", "", &R::f_max_by_cosine, "of f with D written by NoH alone"),
-        field("delta_e_by_cosine", "", &R::delta_e_by_cosine, "of the same"),
-        field("ns", "ns", at(&R::time, &Timing::ns), "alone"),
-        field("ns_spread", "ns", at(&R::time, &Timing::spread_ns), between_processes),
-        field("in_f_ns", "ns", at(&R::time_in_f, &Timing::ns),
-              "of the whole of f, h and its length too"),
-        field("in_f_ns_spread", "ns", at(&R::time_in_f, &Timing::spread_ns), between_processes)};
-  }
-};
-template <>
 struct Description<SamplingRow> {
   static constexpr auto fields() {
     using R = SamplingRow;
@@ -326,9 +301,6 @@ struct Description<CostReport> {
         field("rows", "", at(&R::rows, &CostRows::rows), "a form in a place, each"),
         field("switches", "", at(&R::rows, &CostRows::switches), ""),
         field("points", "", at(&R::rows, &CostRows::points), "estimates and fits by their time"),
-        field(
-            "arithmetic", "", [](const R& r) -> const auto& { return r.rows.studies.fast; },
-            "fast operations, alone and in f"),
         field(
             "sampling", "", [](const R& r) -> const auto& { return r.rows.studies.sampling; },
             "lights drawn for GGX"),

@@ -184,7 +184,7 @@ void add_subjects(std::vector<Subject>& to, const CostOptions& o, std::string_vi
     }
     if (std::is_same_v<F, float> && !streaming)
       for (auto& s : study_subjects(set, o.cache_samples))
-        if (wanted(s.id)) add(s.id, s.kind, s.way, 1, std::move(s.timed));
+        if (wanted(s.id)) add(s.id, s.kind, "", 1, std::move(s.timed));
     if (wanted("bound.columns")) add("bound.columns", "bound", "", 1, timed_columns<F>(k, field));
     if (wanted("bound.roots_and_division"))
       add("bound.roots_and_division", "bound", "", 1, timed_roots<F>(by_hand<F>(set).bound, field));

@@ -1,5 +1,4 @@
-// Studies of fast arithmetic, of sampling and of the split sum's table: what is timed, and what is
-// off.
+// Studies of sampling and of the split sum's table: what is timed, and what is off.
 #include "reports/cost/studies.h"
 
 #include <algorithm>
@@ -11,7 +10,6 @@
 #include "base/random.h"
 #include "brdf/model/evaluate.h"
 #include "geometry/ggx_sampling.h"
-#include "image/display.h"
 #include "integrate/albedo/ggx_albedo.h"
 #include "integrate/light/split_sum_table.h"
 #include "reports/study/kernels.h"
@@ -22,120 +20,17 @@
 namespace gonio::costing {
 namespace {
 
-constexpr std::string_view arithmetic = "arithmetic", in_f = "arithmetic_in_f",
-                           sampled = "sampling", looked_up = "split_sum";
+constexpr std::string_view sampled = "sampling", looked_up = "split_sum";
 constexpr std::string_view masking = "masking.smith_ggx.correlated";
 constexpr std::size_t table_sizes[] = {16, 32, 64};
 constexpr double pi = std::numbers::pi;
-
-/// Light and view of many samples.
-struct Vectors {
-  std::array<Column<float>, 3> light, view;
-  explicit Vectors(std::size_t n) {
-    for (auto* of : {&light, &view})
-      for (auto& c : *of) c = Column<float>(n);
-  }
-  void set(std::size_t i, const Vector3<double>& l, const Vector3<double>& v) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      light[k].data()[i] = static_cast<float>(l[k]);
-      view[k].data()[i] = static_cast<float>(v[k]);
-    }
-  }
-  VectorColumns columns(std::size_t n) const {
-    return {{light[0].data(), light[1].data(), light[2].data()},
-            {view[0].data(), view[1].data(), view[2].data()},
-            n};
-  }
-};
 
 Vector3<double> direction(double mu, double phi) {
   const double sine = std::sqrt((1 - mu) * (1 + mu));
   return {sine * std::cos(phi), sine * std::sin(phi), mu};
 }
 
-/// Pairs about highlights: the half vector is drawn from D of that width, neither direction is below 0.02.
-Vectors highlights(double alpha, std::size_t n) {
-  Vectors out(n);
-  constexpr double least = 0.02;
-  std::size_t i = 0;
-  for (std::size_t tried = 0; i < n; ++tried) {
-    Draws draw(11, tried);
-    const double mu = least + (1 - least) * draw.uniform();
-    const auto v = direction(mu, 2 * pi * draw.uniform());
-    const double u = draw.uniform();
-    const auto l = GgxNormals<double>::light(v, alpha, u, draw.uniform());
-    if (l[2] > least) out.set(i++, l, v);
-  }
-  return out;
-}
-
-/// Values of an operation's domain, from its end to its beginning, evenly.
-Column<float> domain(const FastKernel& k, std::size_t n) {
-  Column<float> x(n);
-  for (std::size_t i = 0; i < n; ++i)
-    x.data()[i] = static_cast<float>(k.from + (k.to - k.from) * (static_cast<double>(i) + 0.5) /
-                                                  static_cast<double>(n));
-  return x;
-}
-
 constexpr double f0 = 0.04;
-constexpr double fast_roughness[] = {0.1, 0.2, 0.4, 0.7, 1};
-
-/// Error of f of one width, where f NoL is above a millionth of its most.
-struct Off {
-  static constexpr double faintest_seen = 1e-6;
-  double max = 0, squares = 0, delta_e = 0;
-  std::size_t n = 0;
-  void add(std::span<const double> truth, const float* found, const float* nol) {
-    double peak = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i) peak = std::max(peak, truth[i] * double{nol[i]});
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      if (truth[i] * double{nol[i]} >= faintest_seen * peak) {
-        const double off = double{found[i]} / truth[i] - 1;
-        max = std::max(max, std::abs(off));
-        squares += off * off;
-        ++n;
-      }
-      const auto grey = [&](double f) {
-        const double seen = std::clamp(f * double{nol[i]} / peak, 0.0, 1.0);
-        return lab_of_display({seen, seen, seen});
-      };
-      delta_e = std::max(delta_e, delta_e_2000(grey(double{found[i]}), grey(truth[i])));
-    }
-  }
-};
-
-FastRow fast_row(const FastKernel& k) {
-  FastRow r{std::string(k.id), std::string(k.name), std::string(k.operation), 0, 0, 0, 0, 0, 0, {}};
-  constexpr std::size_t n = 1 << 16;
-  const auto x = domain(k, n);
-  Column<float> found(n);
-  k.alone(x.data(), n, found.data());
-  for (std::size_t i = 0; i < n; ++i) {
-    const double exact = exact_operation(k.operation, double{x.data()[i]});
-    // The fifth power is added to F0: where it is small it does not matter.
-    const double whole = k.operation == "fifth power" ? 1 : exact;
-    r.error = std::max(r.error, std::abs((double{found.data()[i]} - exact) / whole));
-  }
-  constexpr std::size_t pairs = 4096;
-  Off by_cross, by_cosine;
-  std::vector<double> truth(pairs);
-  for (const double roughness : fast_roughness) {
-    const double alpha = roughness * roughness;
-    const std::array p{static_cast<float>(alpha), static_cast<float>(f0)};
-    const auto vectors = highlights(alpha, pairs);
-    const auto columns = vectors.columns(pairs);
-    exact_shaded(k.operation, columns, p.data(), truth);
-    for (const bool cosine : {false, true}) {
-      k.shaded(columns, p.data(), cosine, found.data());
-      (cosine ? by_cosine : by_cross).add(truth, found.data(), columns.light[2]);
-    }
-  }
-  r.f_max = by_cross.max, r.f_rms = std::sqrt(by_cross.squares / static_cast<double>(by_cross.n));
-  r.delta_e = by_cross.delta_e;
-  r.f_max_by_cosine = by_cosine.max, r.delta_e_by_cosine = by_cosine.delta_e;
-  return r;
-}
 
 template <class Sampling>
 void add_sampling(std::vector<SamplingRow>& to) {
@@ -249,7 +144,7 @@ std::string timed_as(const LookupRow& r) {
 }  // namespace
 
 bool is_study(std::string_view kind) {
-  return kind == arithmetic || kind == in_f || kind == sampled || kind == looked_up;
+  return kind == sampled || kind == looked_up;
 }
 
 std::vector<StudySubject> study_subjects(std::string_view set, std::size_t samples) {
@@ -258,19 +153,13 @@ std::vector<StudySubject> study_subjects(std::string_view set, std::size_t sampl
   const std::size_t n = (samples + padding - 1) / padding * padding;
   const auto result = std::make_shared<std::array<Column<float>, 4>>();
   for (auto& c : *result) c = Column<float>(n);
-  const auto vectors = std::make_shared<Vectors>(highlights(0.25, n));
-  for (const auto& k : kernels.fast) {
-    const auto x = std::make_shared<Column<float>>(domain(k, n));
-    out.push_back({std::string(k.id), arithmetic, "", {n, [=, alone = k.alone] {
-                                                         alone(x->data(), n, (*result)[0].data());
-                                                       }}});
-    out.push_back({std::string(k.id),
-                   in_f,
-                   "in f",
-                   {n, [=, shaded = k.shaded] {
-                      static constexpr std::array p{0.25F, static_cast<float>(f0)};
-                      shaded(vectors->columns(n), p.data(), false, (*result)[0].data());
-                    }}});
+  const auto views = std::make_shared<std::array<Column<float>, 3>>();
+  for (auto& c : *views) c = Column<float>(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    Draws draw(11, i);
+    const double mu = 0.02 + 0.98 * draw.uniform();
+    const auto v = direction(mu, 2 * pi * draw.uniform());
+    for (std::size_t k = 0; k < 3; ++k) (*views)[k].data()[i] = static_cast<float>(v[k]);
   }
   const auto points = std::make_shared<std::array<Column<float>, 2>>();
   for (std::size_t k = 0; k < 2; ++k) {
@@ -279,20 +168,21 @@ std::vector<StudySubject> study_subjects(std::string_view set, std::size_t sampl
       (*points)[k].data()[i] = static_cast<float>(0.01 + 0.98 * Draws(17 + k, i).uniform());
   }
   for (const auto& k : kernels.sampling)
-    out.push_back({std::string(k.id), sampled, "", {n, [=, draw = k.draw] {
-                                                      auto& r = *result;
-                                                      draw(vectors->columns(n), (*points)[0].data(),
-                                                           (*points)[1].data(), 0.25F,
-                                                           {r[0].data(), r[1].data(), r[2].data(),
-                                                            r[3].data()});
-                                                    }}});
+    out.push_back({std::string(k.id),
+                   sampled,
+                   {n, [=, draw = k.draw] {
+                      auto& r = *result;
+                      draw({{(*views)[0].data(), (*views)[1].data(), (*views)[2].data()}, n},
+                           (*points)[0].data(), (*points)[1].data(), 0.25F,
+                           {r[0].data(), r[1].data(), r[2].data(), r[3].data()});
+                    }}});
   const auto add_lookup = [&](std::string id, const LookupKernel& k, std::size_t size) {
     const auto texels = std::make_shared<std::vector<float>>(2 * size * size, 0.3F);
-    out.push_back({std::move(id), looked_up, "", {n, [=, value = k.value] {
-                                                    value((*points)[0].data(), (*points)[1].data(),
-                                                          n, {texels->data(), size},
-                                                          (*result)[0].data(), (*result)[1].data());
-                                                  }}});
+    out.push_back({std::move(id), looked_up, {n, [=, value = k.value] {
+                                                value((*points)[0].data(), (*points)[1].data(), n,
+                                                      {texels->data(), size}, (*result)[0].data(),
+                                                      (*result)[1].data());
+                                              }}});
   };
   for (const auto& k : kernels.lookup)
     if (k.reads_table)
@@ -305,7 +195,6 @@ std::vector<StudySubject> study_subjects(std::string_view set, std::size_t sampl
 const Studies& study_errors() {
   static const Studies all = [] {
     Studies s;
-    for (const auto& k : study_kernels().fast) s.fast.push_back(fast_row(k));
     add_sampling<GgxNormals<double>>(s.sampling);
     add_sampling<GgxVisible2018<double>>(s.sampling);
     add_sampling<GgxCaps<double>>(s.sampling);
@@ -318,12 +207,6 @@ const Studies& study_errors() {
 
 CostError study_error(const CostRow& row) {
   const auto& all = study_errors();
-  if (row.kind == arithmetic || row.kind == in_f)
-    for (const auto& r : all.fast)
-      if (r.id == row.id)
-        return row.kind == arithmetic ? CostError{r.operation, "error, at most", r.error, r.error}
-                                      : CostError{"f with an exact " + r.operation,
-                                                  "relative error of f", r.f_max, r.f_rms};
   CostError e;
   if (row.kind == sampled) {
     e.truth = "E", e.measure = "standard deviation of a sample over E";
@@ -344,11 +227,10 @@ CostError study_error(const CostRow& row) {
 }
 
 Studies with_times(Studies s, const std::vector<CostRow>& rows, std::string_view isa) {
-  const auto time = [&](std::string_view id, std::string_view way = "") {
-    const auto* r = find_row(rows, id, "float", isa, "cache", way);
+  const auto time = [&](std::string_view id) {
+    const auto* r = find_row(rows, id, "float", isa, "cache");
     return r ? r->time : unknown_time;
   };
-  for (auto& r : s.fast) r.time = time(r.id), r.time_in_f = time(r.id, "in f");
   for (auto& r : s.sampling) r.time = time(r.id);
   for (auto& r : s.lookup) r.time = time(timed_as(r));
   return s;

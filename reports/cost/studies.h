@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Studies of what shaders do in place of exact arithmetic, of light drawn by D alone and of tables: what is timed, and
-/// how far from the truth it is.
+/// Studies of light drawn for GGX and of the split sum's table: what is timed, and how far from the truth it is.
 
 #include <string>
 #include <string_view>
@@ -14,8 +13,7 @@ namespace gonio::costing {
 /// A loop of a study, to be timed.
 struct StudySubject {
   std::string id;
-  std::string_view kind;  ///< "arithmetic", "arithmetic_in_f", "sampling", "split_sum"
-  std::string_view way;   ///< "in f" of the second
+  std::string_view kind;  ///< "sampling", "split_sum"
   Timed timed;
 };
 std::vector<StudySubject> study_subjects(std::string_view instruction_set, std::size_t samples);

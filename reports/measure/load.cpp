@@ -37,14 +37,14 @@ std::optional<OthersWork::Seconds> OthersWork::worked() {
                  seconds_of(RUSAGE_SELF) + seconds_of(RUSAGE_CHILDREN)};
 }
 
-OthersWork::OthersWork() : before_(worked()), begin_(std::chrono::steady_clock::now()) {}
+OthersWork::OthersWork() : before_(worked()) {}
 
 std::optional<double> OthersWork::processors() const {
   const auto now = worked();
-  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin_;
-  if (!before_ || !now || passed.count() <= 0) return {};
+  const double passed = begin_.seconds();
+  if (!before_ || !now || passed <= 0) return {};
   const double others = (now->all - before_->all) - (now->own - before_->own);
-  return std::max(0.0, others / passed.count());
+  return std::max(0.0, others / passed);
 }
 
 std::string load_text(std::optional<double> others, std::size_t threads) {

@@ -2,10 +2,11 @@
 /// \file
 /// Work of other programs while something is timed, which makes it take longer.
 
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
+
+#include "base/stopwatch.h"
 
 namespace gonio {
 
@@ -23,7 +24,7 @@ class OthersWork {
   static std::optional<Seconds> worked();
 
   std::optional<Seconds> before_;
-  std::chrono::steady_clock::time_point begin_;
+  Stopwatch begin_;
 };
 
 /// Sentence that says that others worked meanwhile; empty where they kept less than a quarter of a processor busy, or

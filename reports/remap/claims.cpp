@@ -47,10 +47,8 @@ RemapVf ratios(const RemapForm& f,
                std::span<const Row> rows) {
   const auto shipped = g2_at(find_term(f.form), roughness, rows),
              smith = g2_at(find_term(correlated), roughness, rows);
-  std::vector<double> reflected(rows.size());
-  catalogue_in(Number::double_)
-      .terms[find_term(fresnel.id)]
-      .values(fresnel.parameters, rows, reflected.data());
+  const auto reflected =
+      values_in(Number::double_, find_term(fresnel.id), fresnel.parameters, rows);
   RemapVf out{f.form,
               std::string(fresnel.name),
               over,

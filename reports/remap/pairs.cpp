@@ -31,11 +31,10 @@ std::vector<Pairs::Cosines> all_pairs(std::span<const double> cosines) {
 }
 
 std::vector<double> g2_at(std::size_t term, double roughness, std::span<const Row> rows) {
-  std::vector<double> parameters, out(rows.size());
+  std::vector<double> parameters;
   for (const auto& p : catalogue()[term].parameters)
     parameters.push_back(p.name == "alpha" ? roughness * roughness : p.start);
-  catalogue_in(Number::double_).terms[term].g2(parameters, rows, out.data());
-  return out;
+  return shown_in(Number::double_, term, parameters, rows);
 }
 
 bool reads_half(std::size_t term) {

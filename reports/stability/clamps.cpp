@@ -43,7 +43,7 @@ std::vector<Inputs> direction_pairs() {
 
 double mapped(const char* map, Number number, double x) {
   const std::array in{x};
-  return catalogue_in(number).maps[*find_map(map)](in)[0];
+  return map_in(number, *find_map(map), in)[0];
 }
 
 std::vector<Clamp> clamps() {

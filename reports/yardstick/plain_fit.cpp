@@ -1,8 +1,8 @@
 #include "reports/yardstick/plain_fit.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "base/stopwatch.h"
 #include "brdf/catalogue/catalogue.h"
 #include "number/dual.h"
 
@@ -46,12 +46,8 @@ class Bin : public ceres::SizedCostFunction<3, parameters> {
 }  // namespace
 
 PlainFit fit_plainly(const Table& t, std::vector<double> start, int threads) {
-  using Clock = std::chrono::steady_clock;
-  const auto ms = [](Clock::time_point from) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
-  };
   PlainFit f{std::move(start), 0, 0, 0};
-  auto begin = Clock::now();
+  Stopwatch begin;
   const SampleAngles at(t);
   ceres::Problem problem;
   for (std::size_t i = 0; i < t.size(); ++i) {
@@ -66,8 +62,8 @@ PlainFit fit_plainly(const Table& t, std::vector<double> start, int threads) {
     problem.SetParameterLowerBound(f.values.data(), i, i == 0 ? alpha_parameter.fit.low : 0);
     problem.SetParameterUpperBound(f.values.data(), i, 1);
   }
-  f.build_ms = ms(begin);
-  begin = Clock::now();
+  f.build_ms = begin.ms();
+  begin = {};
   ceres::Solver::Options o;
   o.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   o.num_threads = threads;
@@ -75,7 +71,7 @@ PlainFit fit_plainly(const Table& t, std::vector<double> start, int threads) {
   o.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(o, &problem, &summary);
-  f.solve_ms = ms(begin);
+  f.solve_ms = begin.ms();
   f.iterations = static_cast<int>(summary.iterations.size());
   return f;
 }

@@ -20,6 +20,9 @@ std::string_view trimmed(std::string_view);
 /// UTF-8 become \xNN; what is longer than `most` bytes is cut and ends in "…".
 std::string printable(std::string_view, std::size_t most = std::string_view::npos);
 
+/// "1 iteration", "2 iterations".
+std::string counted(std::size_t n, std::string_view thing);
+
 /// Word of a command line: in quotes where a shell would take it apart.
 std::string shell_word(const std::string&);
 

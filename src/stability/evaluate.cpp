@@ -6,7 +6,8 @@
 #include <cstdint>
 
 #include "base/error.h"
-#include "brdf/in_number/terms_in.h"
+#include "brdf/in_number/conversion.h"
+#include "brdf/in_number/number.h"
 #include "stability/places.h"
 #include "stability/value_over.h"
 

@@ -1,11 +1,11 @@
 #include "stability/prove.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/stopwatch.h"
 #include "stability/evaluate.h"
 #include "stability/places.h"
 #include "stability/value_over.h"
@@ -209,8 +209,7 @@ Proof prove(const Provable<F>& formula,
             const Range& required,
             const ProofBudget& budget) {
   const Prover<F> prover(formula, rule, required);
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+  const Stopwatch spent;
   Sides all;
   for (const auto& side : domain)
     all.push_back({Measure<F>::rounded(side.low), Measure<F>::rounded(side.high)});
@@ -237,10 +236,9 @@ Proof prove(const Provable<F>& formula,
   for (; !wave.empty(); std::swap(wave, next)) {
     next.clear();
     for (std::size_t first = 0, count = 0; first < wave.size(); first += count) {
-      const std::chrono::duration<double> spent = Clock::now() - start;
       const std::size_t allowed = budget.boxes - std::min(budget.boxes, proof.boxes);
       count = std::min({part, wave.size() - first, allowed});
-      if (proof.counterexample || count == 0 || spent.count() > budget.seconds) {
+      if (proof.counterexample || count == 0 || spent.seconds() > budget.seconds) {
         proof.out_of_budget = !proof.counterexample;
         left.insert(left.end(), wave.begin() + static_cast<std::ptrdiff_t>(first), wave.end());
         break;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/process.h"
+#include "base/stopwatch.h"
 #include "number/scripted.h"
 #include "stability/evaluate.h"
 #include "stability/value_over.h"
@@ -125,8 +125,7 @@ RelativeProof prove_relative(const Subject& s,
     if (low == 0 && least < high) low = least;
   }
 
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+  const Stopwatch spent;
   RelativeProof proof;
   const auto same = [](const Range& a, const Range& b) {
     return a.low == b.low && a.high == b.high;
@@ -136,12 +135,11 @@ RelativeProof prove_relative(const Subject& s,
     for (const bool split : {false, true}) {
       if (split && proof.bound && all.size() > 2) continue;  // pieces of three sides are many
       const auto& domain = narrower ? part : all;
-      const std::chrono::duration<double> spent = Clock::now() - start;
       std::string why;
       const auto text = gappa_script(s, number, rule, domain, split, why);
       std::optional<double> bound;
       if (!text.empty()) {
-        const auto run = run_program("gappa", {}, text, std::max(0.0, seconds - spent.count()));
+        const auto run = run_program("gappa", {}, text, std::max(0.0, seconds - spent.seconds()));
         if (!run) return {{}, all, false, std::string(without_gappa)};
         if (run->status == 0) bound = gappa_bound(run->output);
         why = run->out_of_time ? "Gappa was out of time" : "Gappa found no bound";

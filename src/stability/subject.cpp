@@ -33,8 +33,7 @@ bool reads(std::size_t term, double Row::*angle) {
   return std::ranges::any_of(places, [&](const Row& place) {
     std::array rows{place, place};
     rows[1].*angle *= 0.97;
-    std::array<double, 2> value{};
-    catalogue_in(Number::double_).terms[term].values(p, rows, value.data());
+    const auto value = values_in(Number::double_, term, p, rows);
     return value[0] < value[1] || value[1] < value[0];
   });
 }

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 
 #include "base/error.h"
@@ -10,6 +11,7 @@
 #include "fitting/solve/problem.h"
 #include "fitting/support.h"
 #include "many_fits.h"
+#include "refusal.h"
 
 #include <boost/math/distributions/binomial.hpp>
 #include <fmt/format.h>
@@ -152,19 +154,12 @@ TEST(AnisotropicFit, LeavesWhatIsHeldOrBoundedWhereItIs) {
 TEST(AnisotropicFit, IsRefusedWhereTheTableSaysNothingOfTheTangent) {
   const auto b =
       test::bind("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.3,kd=0.2", 3);
-  const auto words = [&](Layout layout) -> std::string {
-    try {
-      fit(synthesize(b, {.layout = layout}), options(ggx));
-    } catch (const Error& e) {
-      EXPECT_EQ(e.code(), Exit::usage);
-      return e.what();
-    }
-    return "";
-  };
-  EXPECT_NE(words(Layout::mbsdf).find("how the surface was turned"), std::string::npos);
-  EXPECT_NE(words(Layout::in_plane).find("in one plane"), std::string::npos);
-  EXPECT_NE(words(Layout::hemisphere).find("one azimuth"), std::string::npos);
-  EXPECT_EQ(words(Layout::random), "");
+  std::set<std::string> reasons;
+  for (const auto layout : {Layout::mbsdf, Layout::in_plane, Layout::hemisphere, Layout::random})
+    reasons.insert(
+        test::refusal([&] { fit(synthesize(b, {.layout = layout}), options(ggx)); }, Exit::usage));
+  EXPECT_EQ(reasons.size(), 4U) << "each has its own, random none";
+  EXPECT_TRUE(reasons.contains(""));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fitting/fit.h"
+#include "fitting/judge/warnings.h"
 #include "fitting/sample/data.h"
 #include "fitting/solve/search.h"
 #include "fitting/support.h"
@@ -20,15 +21,14 @@ constexpr const char* metal = "ggx/smith_ggx.correlated/schlick";
 constexpr Metric metrics[] = {Metric::log, Metric::relative, Metric::l2_cosine};
 constexpr Layout lists[] = {Layout::in_plane, Layout::hemisphere, Layout::random};
 
-/// Words by which a document says that values may lie outside their intervals.
-constexpr std::string_view reservations[] = {"more than intervals allow for",
-                                             "the model misses the table by", "more than there is",
-                                             "not dark where a channel of the table is 0"};
-
+/// True where a document says that values may lie outside their intervals: of a misfit, of more light than there is, of a
+/// dark channel, of errors that shift values.
 bool has_reservations(const FitDocument& d) {
-  return std::ranges::any_of(d.warnings, [](const std::string& w) {
-    return std::ranges::any_of(reservations, [&](auto words) { return w.find(words) != w.npos; });
-  });
+  return d.misfit.told || returns_too_much(d.physics) ||
+         std::ranges::any_of(d.physics.peak_ratio, [](double r) { return std::isinf(r); }) ||
+         std::ranges::any_of(d.warnings, [](const std::string& w) {
+           return w.find("more than intervals allow for") != w.npos;
+         });
 }
 
 /// True where a value and its interval, its limit or its reason say nothing false of the truth: 95 % intervals

@@ -111,7 +111,7 @@ TEST(EmittedModels, GiveTheGraphsValuesAndSlopesInEachLanguage) {
 template <class F>
 void run_maps(Vulkan& vulkan) {
   constexpr std::size_t n = 1024;
-  const auto in_number = catalogue_in(std::same_as<F, Half> ? Number::half : Number::float_).maps;
+  constexpr Number number = std::same_as<F, Half> ? Number::half : Number::float_;
   std::vector<TracedFormula> formulas;
   std::vector<std::vector<float>> inputs;
   std::vector<std::vector<std::vector<double>>> expected;
@@ -127,7 +127,7 @@ void run_maps(Vulkan& vulkan) {
       for (const auto& parameter : about) p.push_back(static_cast<double>(draw(parameter.fit)));
       for (const auto& q : f.parameters)
         in.push_back(static_cast<float>(p[static_cast<std::size_t>(q.about - about.data())]));
-      out.push_back(in_number[map](p));
+      out.push_back(map_in(number, map, p));
     }
     results.push_back(f.results.size());
     EXPECT_EQ(f.results.size(), maps()[map].outputs.size()) << f.id;

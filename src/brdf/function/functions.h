@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Terms as functions over a number T of any kind: what is not evaluated row by row but looked into, an
-/// enclosure or a script.  Each role's are compiled by one file for each kind of number (enclosure_*.cpp).
+/// Terms as functions over a number T of any kind: values in a number, operations, enclosures, scripts and graphs.  Each role's are
+/// compiled by one file for each kind of number (enclosure_*.cpp, ../in_number/ndf.cpp …).
 
 #include <array>
 #include <cstddef>
@@ -15,7 +15,16 @@
 namespace gonio {
 
 template <class T>
-using TermFunction = Quotient<T> (*)(std::span<const T> parameters, const FrameAngles<T>& angles);
+struct TermFunction {
+  /// The term at each row; what depends on parameters alone is computed once.
+  void (*rows)(std::span<const T> parameters, std::span<const FrameAngles<T>>, Quotient<T>* out);
+
+  Quotient<T> operator()(std::span<const T> parameters, const FrameAngles<T>& angles) const {
+    Quotient<T> q;
+    rows(parameters, {&angles, 1}, &q);
+    return q;
+  }
+};
 
 /// Halves with the liberties that drivers take.
 using FlushedHalf = HalfOver<float, HalfRules{.flush = true}>;
@@ -34,21 +43,22 @@ TermFunction<T> term_function(std::size_t term) {
     if (term < role.size()) return role[term];
     term -= role.size();
   }
-  return nullptr;
+  return {};
 }
 
 inline namespace GONIO_ARCH {
 
-/// A term, made anew for every sample.
 template <template <class> class Term, class T>
-Quotient<T> as_function(std::span<const T> parameters, const FrameAngles<T>& angles) {
+void term_at(std::span<const T> parameters,
+             std::span<const FrameAngles<T>> rows,
+             Quotient<T>* out) {
   static_assert(TermOver<Term<T>, T>);
-  constexpr std::size_t n = Term<T>::parameters.size();
-  return as_quotient<T>(Term<T>{parameters.template first<n>()}(angles));
+  const Term<T> term{parameters.template first<Term<T>::parameters.size()>()};
+  for (const auto& row : rows) *out++ = as_quotient<T>(term(row));
 }
 template <class T, template <class> class... Terms>
 constexpr auto functions_of(TermList<Terms...>) {
-  return std::array{&as_function<Terms, T>...};
+  return std::array{TermFunction<T>{&term_at<Terms, T>}...};
 }
 
 }  // namespace GONIO_ARCH

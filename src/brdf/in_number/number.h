@@ -23,24 +23,19 @@ template <>
 inline constexpr std::array<std::string_view, 5> names_of<Number>{"double", "float", "half", "wide",
                                                                   "mixed"};
 
-struct TermIn {
-  /// out[i] = the term at rows[i].  Parameters and angles are rounded to the number on their way in,
-  /// results to double on their way out; all between is computed in the number.
-  using Values = void (*)(std::span<const double> parameters,
-                          std::span<const FrameAngles<double>> rows,
-                          double* out);
-  Values values;
-  Values g2;  ///< of a masking term: 4 NoL NoV V, 0 where a cosine is; else null
-};
+/// The term at each row.  Parameters and angles are rounded to the number on their way in, results to double on their way out;
+/// all between is computed in the number.
+std::vector<double> values_in(Number,
+                              std::size_t term,
+                              std::span<const double> parameters,
+                              std::span<const FrameAngles<double>> rows);
+/// The same, of a masking term G2 = 4 NoL NoV V, which is 0 where a cosine is.
+std::vector<double> shown_in(Number,
+                             std::size_t term,
+                             std::span<const double> parameters,
+                             std::span<const FrameAngles<double>> rows);
 /// A map's outputs, rounded in and out as a term's.
-using MapIn = std::vector<double> (*)(std::span<const double> parameters);
-
-/// Every term and every map, computed in one number.
-struct CatalogueIn {
-  std::span<const TermIn> terms;
-  std::span<const MapIn> maps;
-};
-CatalogueIn catalogue_in(Number number);
+std::vector<double> map_in(Number, std::size_t map, std::span<const double> parameters);
 
 /// A term in fifty digits.
 struct WideValue {

@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
-#include "brdf/in_number/tables.h"
 
 #include <fmt/format.h>
 
@@ -53,29 +52,6 @@ double in_row(const std::vector<double>& column, std::size_t row) {
 }
 
 }  // namespace
-
-CatalogueIn catalogue_in(Number number) {
-  static const auto all = [] {
-    std::array<std::vector<TermIn>, names_of<Number>.size()> terms;
-    for (std::size_t k = 0; k < terms.size(); ++k) {
-      const auto of = static_cast<Number>(k);
-      for (const auto role : {terms_in<Role::ndf>(of), terms_in<Role::masking>(of),
-                              terms_in<Role::fresnel>(of), terms_in<Role::diffuse>(of)})
-        terms[k].insert(terms[k].end(), role.begin(), role.end());
-    }
-    return terms;
-  }();
-  return {all[static_cast<std::size_t>(number)], maps_in(number)};
-}
-
-TermOperations operations_of(std::size_t term) {
-  for (const auto role : {operations_in<Role::ndf>(), operations_in<Role::masking>(),
-                          operations_in<Role::fresnel>(), operations_in<Role::diffuse>()}) {
-    if (term < role.size()) return role[term]();
-    term -= role.size();
-  }
-  return {};
-}
 
 TermValues evaluate_term(std::size_t term,
                          Number number,
@@ -125,9 +101,7 @@ TermValues evaluate_term(std::size_t term,
     if (!given("xol", "yol")) a.xol = sine(a.nol);
     if (!given("xov", "yov")) a.xov = sine(a.nov);
   }
-  result.values.resize(rows);
-  const auto in = catalogue_in(number).terms[term];
-  (in.g2 ? in.g2 : in.values)(p, angles, result.values.data());
+  result.values = shown_in(number, term, p, angles);
   return result;
 }
 
@@ -151,7 +125,7 @@ MapValues evaluate_map(std::size_t map,
     for (std::size_t k = 0; k < q.size(); ++k)
       if (const auto it = at.find(std::string(m.parameters[k].name)); it != at.end())
         q[k] = in_row(it->second, row);
-    result.values.push_back(catalogue_in(number).maps[map](q));
+    result.values.push_back(map_in(number, map, q));
   }
   return result;
 }

@@ -1,11 +1,10 @@
 // Every masking in fifty digits.
 #include "brdf/catalogue/masking_terms.h"
 #include "brdf/function/functions.h"
-#include "brdf/in_number/wide.h"
+#include "number/wide.h"
 
 namespace gonio {
 
-GONIO_TERMS_IN_WIDE(Role::masking, MaskingTerms)
 GONIO_TERMS_AS_FUNCTIONS(Role::masking, MaskingTerms, Wide)
 
 }  // namespace gonio

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json/reader.h"
+#include "base/text.h"
 #include "brdf/model/roughness.h"
 
 #include <fmt/format.h>
@@ -94,8 +95,7 @@ BoundModel bind_fitted(const std::string& path,
   } catch (const Error& e) {  // the words are the file's, not the user's
     throw bad_input(
         path, "model and parameters", e.what(),
-        channels ? fmt::format("a model of {} channel{}", *channels, *channels == 1 ? "" : "s")
-                 : "a model that can be evaluated");
+        channels ? "a model of " + counted(*channels, "channel") : "a model that can be evaluated");
   }
 }
 

@@ -78,11 +78,7 @@ std::vector<double> reflectance(const BoundModel& b, const TermUse& fresnel, dou
   std::vector<double> f;
   const std::array row{FrameAngles<double>{{cosine, cosine, cosine, cosine, 0}, 0, 0, 0, 0, 0, 0}};
   for (std::size_t c = 0; c < channels; ++c) {
-    double value = 0;
-    catalogue_in(Number::double_)
-        .terms[fresnel.term]
-        .values(term_parameters(b, fresnel, c), row, &value);
-    f.push_back(value);
+    f.push_back(values_in(Number::double_, fresnel.term, term_parameters(b, fresnel, c), row)[0]);
   }
   return f;
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/quantile.h"
+#include "base/text.h"
 #include "brdf/model/evaluate.h"
 #include "table/health/computed.h"
 
@@ -201,10 +202,9 @@ Prospect intervals(const Table& t) {
           n >= 8   ? yes
           : n >= 2 ? weakly
                    : no,
-          fmt::format(
-              "{} incident angle{}; errors that the values of one angle share can be told from 8 "
-              "angles on, and from two per unknown",
-              n, n == 1 ? "" : "s")};
+          fmt::format("{}; errors that the values of one angle share can be told from 8 "
+                      "angles on, and from two per unknown",
+                      counted(n, "incident angle"))};
 }
 
 }  // namespace

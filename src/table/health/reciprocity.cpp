@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/quantile.h"
+#include "base/text.h"
 #include "table/health/key_counts.h"
 
 #include <fmt/format.h>
@@ -114,9 +115,8 @@ Reciprocity reciprocity(const Table& t) {
         half ? "the layout holds each reciprocal pair once" : "no sample has a reciprocal partner"};
   }
   if (errors.empty()) return {{}, "no valid value has a valid partner"};
-  const auto note =
-      fmt::format("median over {} value{}{}", errors.size(), errors.size() == 1 ? "" : "s",
-                  partners == Partners::between ? " against f between samples" : "");
+  const auto note = fmt::format("median over {}{}", counted(errors.size(), "value"),
+                                partners == Partners::between ? " against f between samples" : "");
   return {median(errors), note};
 }
 

@@ -49,9 +49,8 @@ void compare(Number number) {
         const auto* at = x.data() + entry.parameters.size();
         const Row row{
             {at[0], at[1], at[2], at[3], at[4]}, at[5], at[6], at[7], at[8], at[9], at[10]};
-        double y = 0;
-        catalogue_in(number).terms[term].values(std::span(x).first(entry.parameters.size()),
-                                                {&row, 1}, &y);
+        const double y =
+            values_in(number, term, std::span(x).first(entry.parameters.size()), {&row, 1})[0];
         ASSERT_TRUE(value.holds(y)) << entry.id() << ": " << y << " is not in [" << value.low()
                                     << ", " << value.high() << "]";
       }

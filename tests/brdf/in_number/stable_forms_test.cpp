@@ -39,9 +39,7 @@ Sample draw(HardDraws& draws, const TermEntry& term) {
   return s;
 }
 double value_in(Number number, std::size_t term, const Sample& s) {
-  double value = 0;
-  catalogue_in(number).terms[term].values(s.p, {&s.x, 1}, &value);
-  return value;
+  return values_in(number, term, s.p, {&s.x, 1})[0];
 }
 
 bool is_dear(std::string_view id) {

@@ -7,7 +7,9 @@
 #include "refusal.h"
 #include "support.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 namespace gonio {
 namespace {
@@ -129,6 +131,29 @@ TEST(Batch, TakesTheTablesOfFoldersAndListsInTheirPlace) {
   const auto list = f.write("list", "p.csv\r\n\nq.csv\n");
   EXPECT_EQ(tables_of({"z.csv", f / "in", "@" + list}),
             (std::vector<std::string>{"z.csv", f / "in/a.csv", f / "in/b.csv", "p.csv", "q.csv"}));
+}
+
+TEST(Batch, FitsNoMoreTablesAtATimeThanItsMemoryHolds) {
+  constexpr double gigabyte = 1e9;
+  const test::Folder f;
+  std::vector<std::string> ten, mixed;
+  for (int i = 0; i < 10; ++i) {
+    ten.push_back(f.write(std::to_string(i), ""));
+    fs::resize_file(ten.back(), std::uintmax_t{1'000'000'000});
+    for (int k = 0; k < 4; ++k) mixed.push_back(f.write(fmt::format("{}.{}", i, k), "x"));
+    mixed.push_back(ten.back());
+  }
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 16);
+  // A table and its columns take several times the bytes of its file: ten such fit into 400 GB, but
+  // not into 40.
+  EXPECT_EQ(tables_at_a_time(ten, 400 * gigabyte), 10U);
+  EXPECT_GE(tables_at_a_time(ten, 40 * gigabyte), 2U);
+  EXPECT_LE(tables_at_a_time(ten, 40 * gigabyte), 5U);
+  EXPECT_EQ(tables_at_a_time(mixed, 40 * gigabyte), tables_at_a_time(ten, 40 * gigabyte))
+      << "the largest may meet";
+  EXPECT_EQ(tables_at_a_time(ten, gigabyte), 1U) << "one is tried, whatever it takes";
+  const tbb::global_control few(tbb::global_control::max_allowed_parallelism, 4);
+  EXPECT_EQ(tables_at_a_time(ten, 400 * gigabyte), 4U);
 }
 
 TEST(Batch, TellsItsProgressAndKeepsWhatItHas) {

@@ -94,5 +94,45 @@ TEST(Bootstrap, OfOneValueIsNone) {
   EXPECT_TRUE(std::isnan(d.parameters[0].std_error[0]));
 }
 
+/// Bootstrap of a Lambertian with as many values as that, which scatter by 2 %.
+FittedParameter drawn_kd(const Table& t) {
+  return fitted(t, Intervals::bootstrap, "lambert").parameters[0];
+}
+Table scattered(std::size_t samples, std::uint64_t seed) {
+  return synthesize(test::bind("lambert", "kd=0.2", 1),
+                    {.layout = Layout::random, .samples = samples, .noise = 0.02, .seed = seed});
+}
+
+TEST(Bootstrap, LeavesOutOneIn40AtEachEnd) {
+  // The mean of many logarithms is normal, whose tails are known.
+  constexpr int tables = 20;
+  double below = 0, above = 0;
+  for (std::uint64_t seed = 1; seed <= tables; ++seed) {
+    const auto kd = drawn_kd(scattered(400, seed));
+    const auto tail = [&](double end) {
+      return std::erfc(std::abs(end - kd.value[0]) / kd.std_error[0] / std::sqrt(2.0)) / 2;
+    };
+    below += tail(kd.ci95_low[0]) / tables;
+    above += tail(kd.ci95_high[0]) / tables;
+  }
+  EXPECT_NEAR(below, 1 / 40.0, 0.01);
+  EXPECT_NEAR(above, 1 / 40.0, 0.01);
+}
+
+TEST(Bootstrap, OfFewValuesHasTheErrorOfTheirMean) {
+  constexpr std::size_t n = 4;
+  constexpr int tables = 20;
+  double ratio = 0;  // to s/√n, whose s is that of n − 1 degrees of freedom
+  for (std::uint64_t seed = 1; seed <= tables; ++seed) {
+    const Table t = scattered(n, seed);
+    double mean = 0, squares = 0;
+    for (std::size_t i = 0; i < n; ++i) mean += std::log(t.values[0][i]) / n;
+    for (std::size_t i = 0; i < n; ++i) squares += std::pow(std::log(t.values[0][i]) - mean, 2);
+    const auto kd = drawn_kd(t);
+    ratio += kd.std_error[0] / kd.value[0] / std::sqrt(squares / (n - 1) / n) / tables;
+  }
+  EXPECT_NEAR(ratio, 1, 0.06);
+}
+
 }  // namespace
 }  // namespace gonio

@@ -517,5 +517,27 @@ TEST(Texels, RefuseOptionsAndSizesThatDoNotFit) {
   EXPECT_TRUE(nothing.rms.empty());
 }
 
+TEST(Texels, KnowNoTangentThatNoiseMayTurnByAQuarter) {
+  StackOptions made;
+  made.model = "ggx_aniso/smith_ggx_aniso.correlated/schlick";
+  made.texels = 200;
+  made.images = 8;
+  made.noise = Noise::relative;
+  made.sigma = 0.5;
+  const TexelFit f = fit_texels(test::stack(made).samples(), options(made.model));
+  const auto& tangent = *std::ranges::find(f.columns, "tangent", &TexelColumn::parameter);
+  std::size_t known = 0, unknown = 0;
+  for (std::size_t t = 0; t < made.texels; ++t)
+    if (tangent.status[t] == is_free) {
+      ++known;
+      EXPECT_FALSE(1.96 * double{tangent.std_error[t]} > 90) << t;
+    } else {
+      ++unknown;
+      EXPECT_TRUE(std::isnan(tangent.value[t])) << t;
+    }
+  EXPECT_GT(known, 50U);
+  EXPECT_GT(unknown, 50U);
+}
+
 }  // namespace
 }  // namespace gonio

@@ -6,7 +6,9 @@
 #include <span>
 
 #include "brdf/model/roughness.h"
+#include "fitting/choice/choice.h"
 #include "fitting/fit.h"
+#include "fitting/materials.h"
 #include "fitting/solve/descend.h"
 #include "fitting/solve/search.h"
 #include "fitting/support.h"
@@ -202,13 +204,14 @@ void expect_no_more_than_truth(const char* model,
                                const std::string& settings,
                                SynthOptions how,
                                Metric metric,
-                               const std::vector<std::uint64_t>& seeds) {
+                               const std::vector<std::uint64_t>& seeds,
+                               Certify certificate = Certify::automatic) {
   const auto truth = test::bind(model, settings, 3);
   FitOptions o;
   o.model = model;
   o.metric = metric;
   o.bin_sensitivity = false;
-  o.certificate = Certify::automatic;
+  o.certificate = certificate;
   for (const std::uint64_t seed : seeds) {
     how.seed = seed;
     const Table t = synthesize(truth, how);
@@ -233,15 +236,17 @@ TEST(LostOptimum, OfValuesOfManyDecadesIsNotLostWithoutADiffusePart) {
   GONIO_MANY_FITS();
   const SynthOptions few{.layout = Layout::random, .samples = 150, .noise = 0.02};
   expect_no_more_than_truth("lambert+blinn_phong/smith_ggx.separable/conductor",
-                            "alpha=0.15,eta=0.44,k=2.19,kd=0", few, Metric::relative, {2, 8});
+                            "alpha=0.15,eta=0.44,k=2.19,kd=0", few, Metric::relative, {2, 8},
+                            Certify::none);
   expect_no_more_than_truth(
       "lambert+beckmann/smith_beckmann.correlated/schlick+beckmann/smith_beckmann.correlated/"
       "schlick",
-      "alpha=0.1,f0=0.04,kd=0,alpha_2=0.5,f0_2=0.1", few, Metric::log, {1, 5, 9});
+      "alpha=0.1,f0=0.04,kd=0,alpha_2=0.5,f0_2=0.1", few, Metric::log, {1, 5, 9}, Certify::none);
   expect_no_more_than_truth(
       "lambert+beckmann/cook_torrance/schlick+blinn_phong/smith_ggx.correlated/dielectric",
       "alpha=0.7307,f0=0.04,kd=0,alpha_2=0.2361,eta_2=1.5628",
-      {.layout = Layout::random, .samples = 150, .noise = 0.005}, Metric::log, {482142, 1});
+      {.layout = Layout::random, .samples = 150, .noise = 0.005}, Metric::log, {482142, 1},
+      Certify::none);
 }
 
 TEST(LostOptimum, OfATableThatFadesBelowAllNumbersIsFound) {
@@ -328,6 +333,86 @@ TEST(LostOptimum, OfARetroreflectorIsNotTheFirstValley) {
       o.model = std::string("lambert+") + ndf + "/smith_ggx.correlated/" + fresnel;
       expect_nothing_lower(t, o, 1);
     }
+}
+
+/// Holds the fit of a table without a certificate against that with one, which may have nothing to repair, and against
+/// the truth.
+void expect_nothing_to_repair(const std::string& model,
+                              const std::vector<std::string>& settings,
+                              std::size_t channels,
+                              Metric metric,
+                              const SynthOptions& how) {
+  const auto truth = bind_model(model, parse_settings(settings), channels);
+  const Table t = synthesize(truth, how);
+  FitOptions o;
+  o.model = model;
+  o.metric = metric;
+  o.bin_sensitivity = false;
+  const Problem p = pose(t, o);
+  const auto data = fit_data<double>(sampling_for(p, t, t.bins()));
+  const double there = minimise(p, data, truth, no_huber).solution.at.cost;
+  o.certificate = Certify::none;
+  const auto alone = fit(t, o);
+  o.certificate = Certify::automatic;
+  const auto certified = fit(t, o);
+  EXPECT_LE(alone.document.cost, std::min(there, certified.document.cost) * (1 + 1e-6))
+      << model << text_of(truth) << " " << name_of(metric) << " " << name_of(how.layout) << " "
+      << how.samples << " " << how.noise << " " << how.seed << "\n  alone" << text_of(alone.model)
+      << "\n  certified" << text_of(certified.model);
+}
+
+TEST(SearchAlone, LeavesTheCertificateNothingToRepairOfUsualModels) {
+  for (std::uint64_t seed = 1; seed <= test::few(2); ++seed)
+    for (const auto usual : usual_models()) {
+      const std::string model(usual);
+      std::mt19937_64 random(seed);
+      const auto any = [&](auto... of) { return std::array{of...}[random() % sizeof...(of)]; };
+      const auto settings = test::material_of(model, random);
+      // One azimuth tells no tangent.
+      const Layout layout = model.find("aniso") != model.npos
+                                ? Layout::random
+                                : any(Layout::random, Layout::in_plane, Layout::hemisphere);
+      expect_nothing_to_repair(model, settings, any(std::size_t{1}, std::size_t{3}),
+                               any(Metric::log, Metric::l2_cosine, Metric::relative),
+                               {.layout = layout,
+                                .samples = any(std::size_t{60}, std::size_t{300}),
+                                .noise = any(0.02, 0.1),
+                                .seed = seed});
+    }
+}
+
+TEST(SearchAlone, LooksIntoTheOtherValleysOfAMetalOnceItsWidthIsFound) {
+  GONIO_MANY_FITS();
+  expect_nothing_to_repair("ggx/smith_ggx.correlated/conductor",
+                           {"alpha=0.08157,eta=0.08911,0.03688,0.2262,k=1.411,0.0204,2.662"}, 3,
+                           Metric::relative,
+                           {.layout = Layout::random, .samples = 60, .noise = 0.1, .seed = 1881});
+  const char* const gtr = "gtr/smith_ggx.correlated/conductor";
+  expect_nothing_to_repair(gtr, {"alpha=0.002216,gamma=7.705,eta=0.5164,k=4.423"}, 1,
+                           Metric::relative,
+                           {.layout = Layout::random, .samples = 300, .noise = 0.02, .seed = 1778});
+  expect_nothing_to_repair(gtr, {"alpha=0.3372,gamma=9.004,eta=0.06706,k=0.06468"}, 1,
+                           Metric::l2_cosine,
+                           {.layout = Layout::hemisphere, .noise = 0.02, .seed = 500});
+  expect_nothing_to_repair("blinn_phong/cook_torrance/conductor",
+                           {"alpha=0.005974,eta=6.124,k=7.928"}, 1, Metric::log,
+                           {.layout = Layout::in_plane, .noise = 0.02, .seed = 1828});
+  // With longer steps it leaves the valley of one channel.
+  expect_nothing_to_repair(
+      "lambert+ggx/smith_ggx.correlated/conductor",
+      {"alpha=0.2291,kd=0.5493,0.2268,0.02762,eta=0.02615,4.519,0.01752,k=2.012,14.69,3.615"}, 3,
+      Metric::relative, {.layout = Layout::random, .samples = 60, .noise = 0.02, .seed = 214});
+}
+
+TEST(SearchAlone, FollowsStartsThatAreNotTheBestYet) {
+  expect_nothing_to_repair("blinn_phong/cook_torrance/conductor",
+                           {"alpha=0.9376,eta=0.0231,k=0.04189"}, 1, Metric::relative,
+                           {.layout = Layout::random, .samples = 60, .noise = 0.02, .seed = 192});
+  expect_nothing_to_repair(
+      "lambert+ggx/smith_ggx.correlated/schlick.f90",
+      {"alpha=0.006009,kd=0.1696,0.8131,0.3776,f0=0.4501,0.1862,0.05222,f90=0.1569"}, 3,
+      Metric::l2_cosine,
+      {.layout = Layout::hemisphere, .samples = 300, .noise = 0.02, .seed = 1241});
 }
 
 /// Chassis of a satellite, whose columns are named the other way round.

@@ -370,41 +370,6 @@ TEST(Cost, HoldsModelsBesideThoseWrittenByHand) {
 const Studies& studies() {
   return costing::study_errors();
 }
-const FastRow& fast_row(std::string_view id) {
-  return *std::ranges::find(studies().fast, id, &FastRow::id);
-}
-
-TEST(CostStudies, EachNewtonStepDoublesTheDigits) {
-  for (const std::string id : {"fast.rsqrt", "fast.rcp"}) {
-    const double none = fast_row(id + ".bits").error, one = fast_row(id + ".bits.1").error,
-                 two = fast_row(id + ".bits.2").error;
-    EXPECT_GT(none, 0.03) << id;
-    EXPECT_LT(none, 0.14) << id;
-    EXPECT_LT(one, 2 * none * none) << id;
-    EXPECT_LT(two, std::max(2 * one * one, 1e-6)) << id;
-    EXPECT_LT(fast_row(id + ".estimate").error, 4e-4) << id;
-    EXPECT_LT(fast_row(id + ".estimate.1").error, 1e-6) << id;
-    EXPECT_LT(fast_row(id + ".exact").error, 2e-7) << id;
-  }
-}
-
-TEST(CostStudies, PolynomialsAreAsExactAsTheySay) {
-  EXPECT_NEAR(fast_row("fast.exp2.2").error, 1.9e-3, 8e-4);
-  EXPECT_NEAR(fast_row("fast.exp2.3").error, 8.1e-5, 4e-5);
-  EXPECT_LT(fast_row("fast.exp2.4").error, 8e-6);
-  EXPECT_LT(fast_row("fast.exp2.5").error, 4e-6);  // of the argument's rounding
-  EXPECT_LT(fast_row("fast.log2.6").error, fast_row("fast.log2.2").error / 30);
-}
-
-TEST(CostStudies, ModelsWithoutFastOperationsAreOffByRoundingAlone) {
-  for (const char* id :
-       {"fast.rsqrt.exact", "fast.rcp.exact", "fast.exp2.exact", "fast.pow5.products"}) {
-    EXPECT_LT(fast_row(id).f_max, 1e-4) << id;
-    EXPECT_GT(fast_row(id).f_max, 1e-8) << id;
-    EXPECT_LT(fast_row(id).delta_e, 0.01) << id;
-  }
-}
-
 TEST(CostStudies, VisibleNormalsVaryLessAndBoundedOnesLeast) {
   const auto row = [](std::string_view id, double roughness, double mu) -> const SamplingRow& {
     return *std::ranges::find_if(studies().sampling, [&](const SamplingRow& r) {
@@ -455,7 +420,7 @@ TEST(CostStudies, CountWhatModelsTakeInAShader) {
 }
 
 TEST(CostStudies, EachIsTimedInEverySet) {
-  for (const char* filter : {"fast.pow5", "sampling.ggx", "split_sum."}) {
+  for (const char* filter : {"sampling.ggx", "split_sum."}) {
     auto o = short_options(filter);
     const auto measured = measure_costs(o);
     for (const auto& set : instruction_sets())
@@ -533,7 +498,6 @@ TEST(CostFindings, CanBeReadAloud) {
   auto rows = small_rows();
   rows.others = 1.3;
   rows.points = test::told_cost_points();
-  for (auto& r : rows.studies.fast) r.time = {0.1234, 0.01}, r.time_in_f = {1.234, 0.1};
   for (auto& r : rows.studies.sampling) r.time = {3.456, 0.1};
   for (auto& r : rows.studies.lookup) r.time = {0.456, 0.1};
   for (const bool differs : {false, true}) {

@@ -76,8 +76,7 @@ TEST(HalfColumns, EqualTheTermsOfSingleHalvesBitForBit) {
       const auto at = [&](std::size_t k) { return static_cast<double>(columns.angle[k].at[i]); };
       const FrameAngles<double> a{
           {at(0), at(1), at(2), at(3), at(4)}, at(5), at(6), at(7), at(8), at(9), at(10)};
-      double one = 0;
-      catalogue_in(Number::half).terms[t].values(parameters, {&a, 1}, &one);
+      const double one = values_in(Number::half, t, parameters, {&a, 1})[0];
       ASSERT_TRUE(same(out[i], static_cast<float>(one)))
           << catalogue()[t].id() << " " << i << ": " << out[i] << " " << one;
     }
