@@ -79,6 +79,7 @@ int run(int argc, char** argv) {
   gonio::cli::add_plan(line);
   gonio::cli::add_verify(line);
   gonio::cli::add_render(line);
+  gonio::cli::add_schema(line);
   gonio::cli::add_manual(line);
   const auto action = line.parse(argc, argv);
   if (!action) return finish(gonio::Exit::done);

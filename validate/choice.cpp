@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/json/form.h"
+#include "base/json/describe.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/fitted_model.h"
 #include "brdf/model/presets.h"
@@ -19,147 +19,120 @@ namespace gonio {
 namespace {
 
 constexpr Numbers shares{0, 1}, amounts{0, Numbers::any};
-constexpr Entries few{1, 64};
+constexpr Entries few{1, 64}, parameters{0, 100};
 constexpr std::string_view coat_word = "coat:";
 
-/// List of names, or one alone.
-struct Names {
-  std::vector<std::string> all;
-};
-void read_own(const JsonReader& j, Names& n) {
-  if (j.is_string())
-    n.all = {text_in(j)};
-  else
-    read_value(j, n.all, few.least, few.most);
-}
-Json own_schema(const Names&) {
-  const Json name = {{"type", "string"}, {"minLength", 1}};
-  return {
-      {"anyOf",
-       {name,
-        {{"type", "array"}, {"items", name}, {"minItems", few.least}, {"maxItems", few.most}}}}};
-}
-
-/// Range, or one number.
-struct Range01 {
-  Choice::Ends ends{0, 1};
-};
-void read_own(const JsonReader& j, Range01& r) {
-  if (j.is_number())
-    r.ends = {j.number(), j.number()};
-  else
-    read_value(j, r.ends);
-}
-Json own_schema(const Range01&) {
-  return {
-      {"anyOf",
-       {{{"type", "number"}},
-        {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}}}}};
-}
-
 }  // namespace
 
-template <class Form>
-void keys(Form& f, Budgets::ColourDifference& d) {
-  f.required("limit", d.limit, "CIEDE2000 under a uniform white sky", amounts);
-  f.optional("quantile", d.quantile, "of the domain that keeps it; 1: all", shares);
-}
-template <class Form>
-void keys(Form& f, Budgets::Time& t) {
-  f.required("limit", t.limit, "times the baseline's time", amounts);
-  f.required("baseline", t.baseline, "spec of a model, measured in the same run");
-}
-template <class Form>
-void keys(Form& f, Budgets& b) {
-  f.optional("albedo_error", b.albedo_error, "directional albedo, from the reference's", amounts);
-  f.optional("fresnel_error", b.fresnel_error, "F, from the exact one of the domain's substances",
-             amounts);
-  f.optional("delta_e_2000", b.delta_e_2000, "colour, from the reference's");
-  f.optional("energy_gain", b.energy_gain, "directional albedo above 1", amounts);
-  f.optional("energy_loss", b.energy_loss, "of lobes at F = 1, directional albedo below 1", shares);
-  f.optional("reciprocity", b.reciprocity,
-             "relative change of f where light and view change places", amounts);
-  f.optional("nonfinite", b.nonfinite, "inputs without a value in the number", amounts);
-  f.optional("operations", b.operations, "of one sample in all channels", amounts);
-  f.optional("ns", b.ns, "time of a sample");
-  f.optional("table_bytes", b.table_bytes, "tables that a shader reads", amounts);
-}
+template <>
+inline constexpr auto description<Budgets::ColourDifference> =
+    std::tuple{Field{"limit", &Budgets::ColourDifference::limit,
+                     "CIEDE2000 under a uniform white sky", amounts},
+               Field{"quantile", &Budgets::ColourDifference::quantile,
+                     "of the domain that keeps it; 1: all", shares, or_default}};
+template <>
+inline constexpr auto description<Budgets::Time> =
+    std::tuple{Field{"limit", &Budgets::Time::limit, "times the baseline's time", amounts},
+               Field{"baseline", &Budgets::Time::baseline,
+                     "spec of a model, measured in the same run", not_empty}};
+template <>
+inline constexpr auto description<Budgets> = std::tuple{
+    Field{"albedo_error", if_there(&Budgets::albedo_error),
+          "directional albedo, from the reference's", amounts},
+    Field{"fresnel_error", if_there(&Budgets::fresnel_error),
+          "F, from the exact one of the domain's substances", amounts},
+    Field{"delta_e_2000", if_there(&Budgets::delta_e_2000), "colour, from the reference's"},
+    Field{"energy_gain", if_there(&Budgets::energy_gain), "directional albedo above 1", amounts},
+    Field{"energy_loss", if_there(&Budgets::energy_loss),
+          "of lobes at F = 1, directional albedo below 1", shares},
+    Field{"reciprocity", if_there(&Budgets::reciprocity),
+          "relative change of f where light and view change places", amounts},
+    Field{"nonfinite", if_there(&Budgets::nonfinite), "inputs without a value in the number",
+          amounts},
+    Field{"operations", if_there(&Budgets::operations), "of one sample in all channels", amounts},
+    Field{"ns", if_there(&Budgets::ns), "time of a sample"},
+    Field{"table_bytes", if_there(&Budgets::table_bytes), "tables that a shader reads", amounts}};
 
-namespace {
-
-struct DomainFile {
-  std::optional<Range01> roughness, mu, eta, f0;
-  std::optional<Names> metal, fits;
-};
-template <class Form>
-void keys(Form& f, DomainFile& d) {
-  const auto within = [&](const char* key, const std::optional<Range01>& r, double low,
-                          double high) {
-    f.expect(!r || (r->ends[0] >= low && r->ends[0] <= r->ends[1] && r->ends[1] <= high), key,
+template <>
+struct Description<Choice::Domain> {
+  static constexpr auto fields() {
+    using D = Choice::Domain;
+    constexpr Numbers any{};
+    return std::tuple{
+        field("roughness", if_there(per_channel(&D::roughness)), "as an artist sets it", any),
+        field("mu", if_there(per_channel(&D::mu)),
+              "cosine of directions and the normal; else 0.05 to 1", any),
+        field("eta", if_there(per_channel(&D::eta)), "index of refraction of dielectrics", any),
+        field("f0", if_there(per_channel(&D::f0)), "reflectance at normal incidence", any),
+        field("metal", if_there(per_channel(&D::metals)), "metals by their symbols", few,
+              not_empty),
+        field("fits", if_there(per_channel(&D::fits)),
+              "documents of fits: their models and parameters", few, not_empty)};
+  }
+  static void check(Choice::Domain& d, Demand expect) {
+    const auto within = [&](const char* key, const std::optional<Choice::Ends>& r, double low,
+                            double high) {
+      expect(!r || ((*r)[0] >= low && (*r)[0] <= (*r)[1] && (*r)[1] <= high), key,
              fmt::format("[low, high] within {:g} to {:g}", low, high));
-  };
-  f.optional("roughness", d.roughness, "as an artist sets it");
-  within("roughness", d.roughness, 1e-3, 1);
-  f.optional("mu", d.mu, "cosine of directions and the normal; else 0.05 to 1");
-  within("mu", d.mu, 1e-4, 1);
-  f.optional("eta", d.eta, "index of refraction of dielectrics");
-  within("eta", d.eta, 1.0001, 10);
-  f.optional("f0", d.f0, "reflectance at normal incidence");
-  within("f0", d.f0, 0, 1);
-  f.optional("metal", d.metal, "metals by their symbols");
-  f.optional("fits", d.fits, "documents of fits: their models and parameters");
-  const int kinds = d.eta.has_value() + d.f0.has_value() + d.metal.has_value() + d.fits.has_value();
-  f.expect(kinds <= 1, kinds > 1 && d.fits ? "fits" : "metal",
+    };
+    within("roughness", d.roughness, 1e-3, 1);
+    within("mu", d.mu, 1e-4, 1);
+    within("eta", d.eta, 1.0001, 10);
+    within("f0", d.f0, 0, 1);
+    const bool fits = !d.fits.empty();
+    const int kinds = d.eta.has_value() + d.f0.has_value() + !d.metals.empty() + fits;
+    expect(kinds <= 1, kinds > 1 && fits ? "fits" : "metal",
            "one of eta, f0, metal and fits alone");
-}
-
-struct ChoiceFile {
-  Shipped shipped;
-  Number number = Number::float_;
-  std::optional<std::string> reference;
-  Shipped of_reference;
-  DomainFile domain;
-  Budgets budgets;
+  }
 };
-bool has_any(const Budgets& b) {
-  return b.albedo_error || b.fresnel_error || b.delta_e_2000 || b.energy_gain || b.energy_loss ||
-         b.reciprocity || b.nonfinite || b.operations || b.ns || b.table_bytes;
-}
-constexpr Entries parameters{0, 100};
-template <class Form>
-void keys(Form& f, ChoiceFile& c) {
-  f.constant("schema", "gonio.choice/1");
-  f.required("model", c.shipped.model, "spec of a model, or a preset");
-  f.optional("parameters", c.shipped.parameters, "a number or one per channel each", parameters);
-  f.optional("scattering", c.shipped.scattering, "what follows light after its first bounce");
-  f.optional("alpha", c.shipped.alpha, "width from roughness");
-  f.optional("coating", c.shipped.coating,
-             "what a coat leaves for all below it: by its albedo in the view's direction, or in "
-             "the light's too");
-  f.optional("number", c.number, "in which a shader computes it");
-  f.optional("reference", c.reference, "spec that the model stands for");
-  f.optional("reference_parameters", c.of_reference.parameters, "a number or one per channel each",
-             parameters);
-  f.optional("reference_scattering", c.of_reference.scattering, "");
-  f.optional("reference_coating", c.of_reference.coating, "of the reference, as coating");
-  f.optional("domain", c.domain, "where the budgets must be kept");
-  f.required("budgets", c.budgets, "limits");
-  f.expect(has_any(c.budgets), "budgets", "at least one budget");
-  f.expect(c.reference || !(c.budgets.albedo_error || c.budgets.delta_e_2000), "reference",
+
+template <>
+struct Description<Choice> {
+  template <class Member>
+  static constexpr auto shipped(Member member) {
+    return at(&Choice::shipped, member);
+  }
+  template <class Member>
+  static constexpr auto reference(Member member) {
+    return at(&Choice::reference, member);
+  }
+  static constexpr auto fields() {
+    using S = Shipped;
+    return std::tuple{
+        constant_text("schema", "gonio.choice/1"),
+        field("model", shipped(&S::model), "spec of a model, or a preset", not_empty),
+        field("parameters", shipped(&S::parameters), "a number or one per channel each", parameters,
+              or_default),
+        field("scattering", shipped(&S::scattering), "what follows light after its first bounce",
+              or_default),
+        field("alpha", shipped(&S::alpha), "width from roughness", or_default),
+        field("coating", if_there(shipped(&S::coating)),
+              "what a coat leaves for all below it: by its albedo in the view's direction, or in "
+              "the light's too"),
+        field("number", &Choice::number, "in which a shader computes it", or_default),
+        field("reference", if_there(reference(&S::model)), "spec that the model stands for",
+              not_empty),
+        field("reference_parameters", reference(&S::parameters), "a number or one per channel each",
+              parameters, or_default),
+        field("reference_scattering", reference(&S::scattering), "", or_default),
+        field("reference_coating", if_there(reference(&S::coating)),
+              "of the reference, as coating"),
+        field("domain", &Choice::domain, "where the budgets must be kept", or_default),
+        field("budgets", &Choice::budgets, "limits")};
+  }
+  static void check(Choice& c, Demand expect) {
+    const auto& b = c.budgets;
+    c.has_reference = !c.reference.model.empty();
+    expect(b.albedo_error || b.fresnel_error || b.delta_e_2000 || b.energy_gain || b.energy_loss ||
+               b.reciprocity || b.nonfinite || b.operations || b.ns || b.table_bytes,
+           "budgets", "at least one budget");
+    expect(c.has_reference || !(b.albedo_error || b.delta_e_2000), "reference",
            "a reference, which the budgets albedo_error and delta_e_2000 compare with");
-  f.expect(!c.budgets.fresnel_error || c.domain.eta || c.domain.metal, "domain",
+    expect(!b.fresnel_error || c.domain.eta || !c.domain.metals.empty(), "domain",
            "eta or metal, whose exact F the budget fresnel_error compares with");
-  f.expect(c.number != Number::wide, "number", "half, mixed, float or double");
-}
-
-std::optional<Choice::Ends> ends(const std::optional<Range01>& r) {
-  return r ? std::optional(r->ends) : std::nullopt;
-}
-std::vector<std::string> names(const std::optional<Names>& n) {
-  return n ? n->all : std::vector<std::string>{};
-}
-
-}  // namespace
+    expect(c.number != Number::wide, "number", "half, mixed, float or double");
+  }
+};
 
 std::string Shipped::spec() const {
   std::string s = model;
@@ -252,20 +225,11 @@ void check_coat(const JsonReader& root,
 }  // namespace
 
 Choice parse_choice(const std::string& path, const std::string& bytes) {
-  const Json document = parse_json(path, bytes);
-  const JsonReader root(path, document, "", Places::pointer);
-  ChoiceFile file;
-  read_form(root, file);
+  const JsonDocument document(path, bytes, Places::pointer);
+  const JsonReader& root = document.root();
   Choice c;
   c.path = path;
-  c.shipped = std::move(file.shipped);
-  c.reference = std::move(file.of_reference);
-  c.has_reference = file.reference.has_value();
-  if (file.reference) c.reference.model = *file.reference;
-  c.number = file.number;
-  c.domain = {ends(file.domain.roughness), ends(file.domain.mu),     ends(file.domain.eta),
-              ends(file.domain.f0),        names(file.domain.metal), names(file.domain.fits)};
-  c.budgets = std::move(file.budgets);
+  read_record(root, c);
   for (std::size_t i = 0; i < c.domain.metals.size(); ++i)
     if (!find_metal(c.domain.metals[i])) {
       const auto at = root.at("domain").at("metal");
@@ -322,7 +286,7 @@ Choice read_choice(const std::string& path) {
 }
 
 std::string choice_schema() {
-  return form_schema<ChoiceFile>("Choice of a material model, and what it must keep");
+  return schema_text<Choice>("Choice of a material model, and what it must keep");
 }
 
 namespace {

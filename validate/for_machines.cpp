@@ -7,6 +7,7 @@
 #include "validate/words.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 

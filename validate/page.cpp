@@ -9,66 +9,46 @@
 namespace gonio {
 
 template <>
-struct Description<BudgetCheck> {
-  static constexpr auto fields() {
-    using B = BudgetCheck;
-    return std::tuple{
-        field("budget", "", &B::budget, "its key in the choice"),
-        field(
-            "title", "", [](const B& b) { return title_of(b.budget); }, "what it limits"),
-        field("limit", "", &B::limit, "that the choice sets"),
-        field("found", "", &B::found, "the worst of the domain"),
-        field(
-            "limit_text", "", [](const B& b) { return value_text(b.budget, b.limit); },
-            "the limit as people write it"),
-        field(
-            "found_text", "", [](const B& b) { return value_text(b.budget, b.found); },
-            "the same of the worst"),
-        field("holds", "", &B::holds, "whether the worst keeps the limit"),
-        field("evidence", "", &B::evidence, "proved, exhaustive, searched, counted or measured"),
-        field("at", "", &B::at, "inputs of the worst: roughness, mu, theta [°] …"),
-        field("substance", "", &B::substance, "of the worst; may be empty"),
-        field("place", "", place_text, "the same as text; may be empty"),
-        field("words", "", &B::words, "more of what was found; may be empty"),
-        field(
-            "sentence", "", [](const B& b) { return sentence(b); },
-            "what was found, where, and what is allowed")};
-  }
-};
+inline constexpr auto description<BudgetCheck> = std::tuple{
+    Field{"budget", &BudgetCheck::budget, "its key in the choice"},
+    Field{"title", [](const BudgetCheck& b) { return title_of(b.budget); }, "what it limits"},
+    Field{"limit", &BudgetCheck::limit, "that the choice sets"},
+    Field{"found", &BudgetCheck::found, "the worst of the domain"},
+    Field{"limit_text", [](const BudgetCheck& b) { return value_text(b.budget, b.limit); },
+          "the limit as people write it"},
+    Field{"found_text", [](const BudgetCheck& b) { return value_text(b.budget, b.found); },
+          "the same of the worst"},
+    Field{"holds", &BudgetCheck::holds, "whether the worst keeps the limit"},
+    Field{"evidence", &BudgetCheck::evidence, "proved, exhaustive, searched, counted or measured"},
+    Field{"at", &BudgetCheck::at, "inputs of the worst: roughness, mu, theta [°] …"},
+    Field{"substance", &BudgetCheck::substance, "of the worst; may be empty"},
+    Field{"place", place_text, "the same as text; may be empty"},
+    Field{"words", &BudgetCheck::words, "more of what was found; may be empty"},
+    Field{"sentence", [](const BudgetCheck& b) { return sentence(b); },
+          "what was found, where, and what is allowed"}};
 static_assert(describes_every_member<BudgetCheck>());
 
 template <>
-struct Description<Suggestion> {
-  static constexpr auto fields() {
-    using S = Suggestion;
-    return std::tuple{
-        field("model", "", &S::model, "the cheapest that keeps every budget"),
-        field("scattering", "", &S::scattering, "beside it"), field("why", "", &S::why, ""),
-        field("cost", "", &S::operations, "operations of a sample"),
-        field("tried", "", &S::tried, "cheaper choices, each of which breaks a budget")};
-  }
-};
+inline constexpr auto description<Suggestion> = std::tuple{
+    Field{"model", &Suggestion::model, "the cheapest that keeps every budget"},
+    Field{"scattering", &Suggestion::scattering, "beside it"}, Field{"why", &Suggestion::why, ""},
+    Field{"cost", &Suggestion::operations, "operations of a sample"},
+    Field{"tried", &Suggestion::tried, "cheaper choices, each of which breaks a budget"}};
 static_assert(describes_every_member<Suggestion>());
 
 template <>
-struct Description<Validation> {
-  static constexpr auto fields() {
-    using V = Validation;
-    return std::tuple{
-        constant_text("schema", "gonio.validation/1"),
-        field("choice", "", &V::path, "path of the choice"),
-        field("model", "", &V::model, "that is to be shipped"),
-        field("scattering", "", &V::scattering, "what follows light after its first bounce"),
-        field("reference", "", &V::reference, "what the model stands for; may be empty"),
-        field("number", "", &V::number, "in which a shader computes it"),
-        field(
-            "holds", "", [](const V& v) { return v.holds(); }, "whether every budget is kept"),
-        field("budgets", "", &V::budgets, "the cheapest to check first"),
-        field("suggestion", "", if_there(&V::suggestion),
-              "where one was asked for and there is one"),
-        inlined(&V::pictures)};
-  }
-};
+inline constexpr auto description<Validation> = std::tuple{
+    constant_text("schema", "gonio.validation/1"),
+    Field{"choice", &Validation::path, "path of the choice"},
+    Field{"model", &Validation::model, "that is to be shipped"},
+    Field{"scattering", &Validation::scattering, "what follows light after its first bounce"},
+    Field{"reference", &Validation::reference, "what the model stands for; may be empty"},
+    Field{"number", &Validation::number, "in which a shader computes it"},
+    Field{"holds", [](const Validation& v) { return v.holds(); }, "whether every budget is kept"},
+    Field{"budgets", &Validation::budgets, "the cheapest to check first"},
+    Field{"suggestion", if_there(&Validation::suggestion),
+          "where one was asked for and there is one"},
+    inlined(&Validation::pictures)};
 
 std::string to_json(const Validation& v) {
   return page_document(v);

@@ -41,6 +41,7 @@ void add_plan(CommandLine&);
 void add_verify(CommandLine&);
 void add_render(CommandLine&);
 void add_fit_map(CommandLine&);
+void add_schema(CommandLine&);
 void add_manual(CommandLine&);
 
 /// Help of an argument that takes either.

@@ -112,7 +112,7 @@ Exit run(const StabilityCall& o) {
   const auto a = answer(q);
   progress.clear();
   if (o.json)
-    fmt::print("{}\n", to_json(a));
+    fmt::print("{}", to_json(a));
   else
     print(a);
   return a.holds ? Exit::done : Exit::check_failed;

@@ -42,7 +42,7 @@ Exit run(const VerifyCall& o) {
   });
   progress.clear();
   if (o.json)
-    fmt::print("{}\n", to_json(v));
+    fmt::print("{}", to_json(v));
   else
     for (const auto& m : v.materials) print(m, v.tolerance);
   return v.holds() ? Exit::done : Exit::check_failed;

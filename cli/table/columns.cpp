@@ -14,6 +14,7 @@
 #include "table/format/metadata.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio::cli {
 namespace {

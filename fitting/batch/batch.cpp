@@ -18,6 +18,7 @@
 #include "table/format/metadata.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -205,15 +206,11 @@ Fitted fitted(const Batch& b,
               const std::string& made) {
   const FittedFile f = fit_file(table, b.how.bins, b.how.options);
   const FitDocument& d = f.result.document;
-  const bool converged = d.solver.termination == "converged";
-  BatchRow row{table,
-               to.name,
-               converged ? Exit::done : Exit::not_converged,
-               d.solver.message,
-               in_brief(d),
-               make_preview(f.table, f.result.model),
-               to.page_name};
-  std::string document = batch_document(d, *row.preview, made);
+  std::string document = batch_document(d, make_preview(f.table, f.result.model), made);
+  BatchRow row = parse_document(to.path, document)->row;
+  row.path = table;
+  row.document = to.name;
+  row.page = to.page_name;
   std::string page = hooks.table_page ? hooks.table_page(f, document) : "";
   return {std::move(row), std::move(document), std::move(page)};
 }

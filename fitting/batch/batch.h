@@ -26,13 +26,9 @@ struct HowFitted {
   std::optional<Bins> bins;  ///< in place of what each table says
 };
 template <>
-struct Description<HowFitted> {
-  static constexpr auto fields() {
-    return std::tuple{inlined(&HowFitted::options),
-                      field("bins", "", &HowFitted::bins,
-                            "where samples sit in their bins, if not as each table says")};
-  }
-};
+inline constexpr auto description<HowFitted> = std::tuple{
+    inlined(&HowFitted::options),
+    Field{"bins", &HowFitted::bins, "where samples sit in their bins, if not as each table says"}};
 static_assert(describes_every_member<HowFitted>());
 
 /// Key under which a kept result is found: program, version, and all that the description of HowFitted names but what

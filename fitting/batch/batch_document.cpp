@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "base/csv_describe.h"
+#include "base/file.h"
 #include "base/json/describe.h"
 #include "fitting/batch/preview_json.h"
 #include "fitting/result/document_fields.h"
@@ -27,44 +28,56 @@ struct Document {
 
 /// Document of a table without a fit.
 struct Failure {
-  const BatchRow& row;
+  BatchRow row;
   std::string made_with;
 };
+
+/// Fit document of a batch, as much as its summary shows.
+struct KeptFit {
+  BatchFit fit;
+  Preview preview;
+  std::string path, sha256, termination, message, made_with;
+};
+
+/// Sum of what is given by name.
+template <auto member>
+auto sum(const BatchFit& f) {
+  auto all = std::remove_cvref_t<decltype((f.*member).begin()->second)>{};
+  for (const auto& [name, part] : f.*member) all += part;
+  return all;
+}
 
 }  // namespace
 
 template <>
-struct Description<BatchParameter> {
-  static constexpr auto fields() {
-    return std::tuple{field("value", "", per_channel(&BatchParameter::value), "fitted value"),
-                      field("std_error", "", per_channel(&BatchParameter::std_error),
-                            "standard error; null where it is not known"),
-                      field("status", "", per_channel(&BatchParameter::status), ""),
-                      field("limit", "", per_channel(&BatchParameter::limit),
-                            "one-sided 95 % bound where the status is upper_limit or lower_limit")};
-  }
-};
+inline constexpr auto description<BatchParameter> =
+    std::tuple{Field{"value", per_channel(&BatchParameter::value), "fitted value"},
+               Field{"std_error", per_channel(&BatchParameter::std_error),
+                     "standard error; null where it is not known"},
+               Field{"status", per_channel(&BatchParameter::status), ""},
+               Field{"limit", per_channel(&BatchParameter::limit),
+                     "one-sided 95 % bound where the status is upper_limit or lower_limit"}};
 
 template <>
 struct Description<BatchFit> {
-  static constexpr auto model = field("model", "", &BatchFit::model, "the model fitted");
+  static constexpr auto model = field("model", &BatchFit::model, "the model fitted");
   static constexpr auto log_rms =
-      field("log_rms", "", &BatchFit::log_rms, "RMS of ln f_model − ln f_data");
+      field("log_rms", &BatchFit::log_rms, "RMS of ln f_model − ln f_data");
   static constexpr auto rms = field("rms", "1/sr", &BatchFit::rms, "RMS of f_model − f_data");
-  static constexpr auto cost = field("cost", "", &BatchFit::cost, "half the sum of the losses");
+  static constexpr auto cost = field("cost", &BatchFit::cost, "half the sum of the losses");
   static constexpr auto values_used =
-      field("values_used", "", &BatchFit::values_used, "values of the table that were fitted");
-  static constexpr auto masked = field("masked", "", &BatchFit::masked, "values left out");
+      field("values_used", &BatchFit::values_used, "values of the table that were fitted");
+  static constexpr auto masked = field("masked", sum<&BatchFit::masked>, "values left out");
   static constexpr auto misfit =
-      field("misfit", "", &BatchFit::misfit, "RMS of what follows the angles, of f");
+      field("misfit", &BatchFit::misfit, "RMS of what follows the angles, of f");
   static constexpr auto misfit_told =
-      field("misfit_told", "", &BatchFit::misfit_told, "whether that is more than luck");
+      field("misfit_told", &BatchFit::misfit_told, "whether that is more than luck");
 
   static constexpr auto fields() {
     return std::tuple{
         model,
-        field("channels", "", &BatchFit::channels, "names of the table's channels"),
-        field("parameters", "", by_name(&BatchFit::parameters), "parameters by name"),
+        field("channels", &BatchFit::channels, "names of the table's channels"),
+        field("parameters", by_name(&BatchFit::parameters), "parameters by name"),
         log_rms,
         rms,
         cost,
@@ -72,96 +85,122 @@ struct Description<BatchFit> {
         masked,
         misfit,
         misfit_told,
-        field("warnings", "", &BatchFit::warnings, "sentences to know before believing the values"),
-        field("time_ms", "ms", &BatchFit::time_ms, "time from reading to the result")};
+        field("warnings", &BatchFit::warnings, "sentences to know before believing the values"),
+        field("time_ms", "ms", sum<&BatchFit::time_ms>, "time from reading to the result")};
   }
 };
 
 template <>
 struct Description<BatchRow> {
-  static constexpr auto path = field("path", "", &BatchRow::path, "path of the table");
-  static constexpr auto status = field("status", "", &BatchRow::outcome, "");
+  static constexpr auto path = field("path", &BatchRow::path, "path of the table");
+  static constexpr auto status = field("status", &BatchRow::outcome, "");
   static constexpr auto exit_code = field(
       "exit_code",
-      "",
       [](const BatchRow& r) { return static_cast<int>(r.outcome); },
       "exit code of a fit of this table alone");
   static constexpr auto message =
-      field("message", "", &BatchRow::message, "why there is no fit; else why the search ended");
+      field("message", &BatchRow::message, "why there is no fit; else why the search ended");
 
   static constexpr auto fields() {
     return std::tuple{
         path,
         field(
-            "document", "",
+            "document",
             [](const BatchRow& r) {
               return r.document.empty() ? std::nullopt : std::optional(r.document);
             },
             "name of the fit document, beside the summary; null where there is none"),
         field(
-            "page", "",
+            "page",
             [](const BatchRow& r) { return r.page.empty() ? std::nullopt : std::optional(r.page); },
             "name of the table's page, beside the summary; null where none was asked for"),
         status,
         exit_code,
         message,
         inlined(&BatchRow::fit),
-        field("preview", "", if_there(&BatchRow::preview), "small pictures, for the page alone")};
+        field("preview", if_there(&BatchRow::preview), "small pictures, for the page alone")};
   }
 };
 
 template <>
-struct Description<Kept> {
-  static constexpr auto fields() {
-    return std::tuple{field("made_with", "", &Kept::made_with,
-                            "all that determines the result beside the table's bytes"),
-                      field("preview", "", &Kept::preview, "small pictures, for the summary")};
-  }
-};
+inline constexpr auto description<Kept> = std::tuple{
+    Field{"made_with", &Kept::made_with, "all that determines the result beside the table's bytes"},
+    Field{"preview", &Kept::preview, "small pictures, for the summary"}};
 template <>
-struct Description<Document> {
+inline constexpr auto description<Document> = std::tuple{
+    inlined(&Document::fit), Field{"batch", if_there(&Document::batch), "of one table of a batch"}};
+
+template <>
+struct Description<KeptFit> {
+  static constexpr bool has_others = true;
+  template <class Member>
+  static constexpr auto of_fit(Member member) {
+    return at(&KeptFit::fit, member);
+  }
   static constexpr auto fields() {
-    return std::tuple{inlined(&Document::fit),
-                      field("batch", "", if_there(&Document::batch), "of one table of a batch")};
+    using F = BatchFit;
+    return std::tuple{
+        constant_text("schema", "gonio.fit/1"),
+        field("model", of_fit(&F::model), ""),
+        field("channels", of_fit(&F::channels), ""),
+        field("parameters", by_name(of_fit(&F::parameters)), ""),
+        field("cost", of_fit(&F::cost), ""),
+        field("warnings", of_fit(&F::warnings), ""),
+        group("residuals", "", field("rms", of_fit(&F::rms), ""),
+              field("log_rms", of_fit(&F::log_rms), "")),
+        group("misfit", "", field("size", of_fit(&F::misfit), ""),
+              field("told", of_fit(&F::misfit_told), "")),
+        group("solver", "", field("termination", &KeptFit::termination, ""),
+              field("message", &KeptFit::message, ""), field("time_ms", of_fit(&F::time_ms), "")),
+        group("input", "", field("path", &KeptFit::path, ""), field("sha256", &KeptFit::sha256, ""),
+              field("values_used", of_fit(&F::values_used), ""),
+              field("masked", of_fit(&F::masked), "")),
+        group("batch", "", field("made_with", &KeptFit::made_with, ""),
+              field("preview", &KeptFit::preview, ""))};
+  }
+  static void check(KeptFit& k, Demand expect) {
+    for (const auto& p : k.fit.parameters) {
+      const std::size_t n = p.value.size();
+      expect((n == 1 || n == k.fit.channels.size()) && p.std_error.size() == n &&
+                 p.status.size() == n && p.limit.size() == n,
+             "parameters", "a value, an error, a status and a limit for all channels or for each");
+    }
   }
 };
 
 template <>
 struct Description<Failure> {
+  template <class Member>
+  static constexpr auto of_row(Member member) {
+    return at(&Failure::row, member);
+  }
   static constexpr auto fields() {
     return std::tuple{
         constant_text("schema", "gonio.failure/1"),
-        group("input", "the table",
-              field(
-                  "path", "", [](const Failure& f) { return f.row.path; }, "path of the table")),
+        group("input", "the table", field("path", of_row(&BatchRow::path), "path of the table")),
+        field("status", of_row(&BatchRow::outcome), ""),
         field(
-            "status", "", [](const Failure& f) { return f.row.outcome; }, ""),
-        field(
-            "exit_code", "", [](const Failure& f) { return static_cast<int>(f.row.outcome); },
+            "exit_code", [](const Failure& f) { return static_cast<int>(f.row.outcome); },
             "exit code of a fit of this table alone"),
-        field(
-            "message", "", [](const Failure& f) { return f.row.message; }, "why there is no fit"),
+        field("message", of_row(&BatchRow::message), "why there is no fit"),
         group("batch", "of one table of a batch",
-              field("made_with", "", &Failure::made_with,
+              field("made_with", &Failure::made_with,
                     "all that determines the result beside the table's bytes"))};
+  }
+  static void check(Failure& f, Demand expect) {
+    expect(f.row.outcome == Exit::bad_input || f.row.outcome == Exit::usage, "status",
+           "the status of a failure");
   }
 };
 
 template <>
-struct Description<LeftOutDocument> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("document", "", &LeftOutDocument::document, "its name, beside the summary"),
-        field("why", "", &LeftOutDocument::why,
-              "made_otherwise: by another version or with other options"),
-        field("path", "", &LeftOutDocument::path,
-              "path of its table; empty where it cannot be read"),
-        field("made_with", "", &LeftOutDocument::made_with,
-              "what determined its result; empty where it cannot be read"),
-        field("message", "", &LeftOutDocument::message,
-              "why it cannot be read; empty where it can")};
-  }
-};
+inline constexpr auto description<LeftOutDocument> = std::tuple{
+    Field{"document", &LeftOutDocument::document, "its name, beside the summary"},
+    Field{"why", &LeftOutDocument::why, "made_otherwise: by another version or with other options"},
+    Field{"path", &LeftOutDocument::path, "path of its table; empty where it cannot be read"},
+    Field{"made_with", &LeftOutDocument::made_with,
+          "what determined its result; empty where it cannot be read"},
+    Field{"message", &LeftOutDocument::message, "why it cannot be read; empty where it can"}};
 
 template <>
 struct Description<BatchSummary> {
@@ -174,58 +213,24 @@ struct Description<BatchSummary> {
   }
   static constexpr auto fields() {
     return std::tuple{constant_text("schema", "gonio.batch/1"),
-                      field("made_with", "", &BatchSummary::made_with,
+                      field("made_with", &BatchSummary::made_with,
                             "all that determines a result beside the table's bytes"),
                       field(
-                          "part", "",
+                          "part",
                           [](const BatchSummary& s) {
                             return s.part.empty() ? std::nullopt : std::optional(s.part);
                           },
                           "K/N where these are the tables of one part alone, else null"),
-                      field("counts", "", counts, "number of tables by status"),
-                      field("missing", "", &BatchSummary::missing,
+                      field("counts", counts, "number of tables by status"),
+                      field("missing", &BatchSummary::missing,
                             "paths of the tables that nobody has tried yet in this way"),
-                      field("left_out", "", &BatchSummary::left_out,
+                      field("left_out", &BatchSummary::left_out,
                             "documents that lie beside the summary and are not in it"),
-                      field("tables", "", &BatchSummary::rows, "")};
+                      field("tables", &BatchSummary::rows, "")};
   }
 };
 
 namespace {
-
-BatchFit read_fit(const JsonReader& j) {
-  BatchFit d;
-  d.model = j.at("model").string();
-  for (const auto& c : j.at("channels").elements()) d.channels.push_back(c.string());
-  for (const auto& w : j.at("warnings").elements()) d.warnings.push_back(w.string());
-  for (const auto& [name, q] : j.at("parameters").members()) {
-    BatchParameter p{
-        name, q.at("value").numbers(), q.at("std_error").numbers(), {}, q.at("limit").numbers()};
-    for (const auto& s : q.at("status").elements()) {
-      const auto known = find_value<ParameterStatus>(s.string());
-      if (!known) s.fail("a status");
-      p.status.push_back(*known);
-    }
-    const std::size_t n = p.value.size();
-    if ((n != 1 && n != d.channels.size()) || p.std_error.size() != n || p.status.size() != n ||
-        p.limit.size() != n)
-      q.fail("a value, an error, a status and a limit for all channels or for each");
-    d.parameters.push_back(std::move(p));
-  }
-  d.cost = j.at("cost").number();
-  d.rms = j.at("residuals").at("rms").number();
-  d.log_rms = j.at("residuals").at("log_rms").number();
-  d.misfit = j.at("misfit").at("size").number();
-  d.misfit_told = j.at("misfit").at("told").boolean();
-  for (const auto& [phase, ms] : j.at("solver").at("time_ms").members()) d.time_ms += ms.number();
-  d.values_used = j.at("input").at("values_used").whole_number();
-  for (const auto& [reason, n] : j.at("input").at("masked").members()) d.masked += n.whole_number();
-  return d;
-}
-
-Exit outcome_of(std::string_view termination) {
-  return termination == "converged" ? Exit::done : Exit::not_converged;
-}
 
 /// Column of a parameter's channel: "alpha", "kd.r".
 std::string column(const BatchFit& d, const BatchParameter& p, std::size_t channel) {
@@ -234,55 +239,38 @@ std::string column(const BatchFit& d, const BatchParameter& p, std::size_t chann
 
 }  // namespace
 
-BatchFit in_brief(const FitDocument& d) {
-  BatchFit b;
-  b.model = d.model;
-  b.channels = d.channels;
-  b.log_rms = d.residuals.log_rms;
-  b.rms = d.residuals.rms;
-  b.cost = d.cost;
-  b.misfit = d.misfit.size;
-  b.misfit_told = d.misfit.told;
-  b.values_used = d.values_used;
-  b.warnings = d.warnings;
-  for (const auto& p : d.parameters)
-    b.parameters.push_back({p.name, p.value, p.std_error, p.status, p.limit});
-  for (const auto& [reason, n] : d.masked) b.masked += n;
-  for (const auto& [phase, ms] : d.solver.phase_ms) b.time_ms += ms;
-  return b;
-}
-
 std::string batch_document(const FitDocument& d,
                            const Preview& preview,
                            const std::string& made_with) {
-  return text_of(json_of(Document{d, Kept{made_with, preview}}));
+  return json_text(Document{d, Kept{made_with, preview}});
 }
 
 std::string failure_document(const BatchRow& row, const std::string& made_with) {
-  return text_of(json_of(Failure{row, made_with}));
+  return json_text(Failure{row, made_with});
+}
+
+std::optional<ReadDocument> parse_document(const std::string& path, const std::string& bytes) {
+  const JsonDocument document(path, bytes);
+  const JsonReader& root = document.root();
+  if (!root.has("schema") || !root.at("schema").is_string()) return {};
+  const std::string schema = root.at("schema").string();
+  if (schema == "gonio.failure/1") {
+    Failure failure;
+    read_record(root, failure);
+    return ReadDocument{std::move(failure.row), std::move(failure.made_with), ""};
+  }
+  if (schema != "gonio.fit/1" || !root.has("batch")) return {};
+  KeptFit k;
+  read_record(root, k);
+  const Exit outcome = k.termination == "converged" ? Exit::done : Exit::not_converged;
+  return ReadDocument{{std::move(k.path), "", outcome, std::move(k.message), std::move(k.fit),
+                       std::move(k.preview)},
+                      std::move(k.made_with),
+                      std::move(k.sha256)};
 }
 
 std::optional<ReadDocument> read_document(const std::string& path) {
-  const Json document = read_json(path);
-  const JsonReader root(path, document);
-  if (!document.is_object() || !root.has("schema") || !root.at("schema").is_string()) return {};
-  const std::string schema = root.at("schema").string();
-  if (schema == "gonio.failure/1") {
-    const auto outcome = find_value<Exit>(root.at("status").string());
-    if (outcome != Exit::bad_input && outcome != Exit::usage)
-      root.at("status").fail("the status of a failure");
-    return ReadDocument{
-        {root.at("input").at("path").string(), "", *outcome, root.at("message").string(), {}, {}},
-        root.at("batch").at("made_with").string(),
-        ""};
-  }
-  if (schema != "gonio.fit/1" || !root.has("batch")) return {};
-  const JsonReader solver = root.at("solver"), input = root.at("input"), batch = root.at("batch");
-  return ReadDocument{
-      {input.at("path").string(), "", outcome_of(solver.at("termination").string()),
-       solver.at("message").string(), read_fit(root), read_preview(batch.at("preview"))},
-      batch.at("made_with").string(),
-      input.at("sha256").string()};
+  return parse_document(path, InputFile(path).read_rest(most_document_bytes));
 }
 
 std::optional<BatchRow> read_batch_document(const std::string& path,
@@ -300,8 +288,7 @@ std::optional<BatchRow> read_batch_document(const std::string& path,
 
 bool is_batch_document(const std::string& path) {
   try {
-    const Json document = read_json(path);
-    return JsonReader(path, document).at("batch").has("made_with");
+    return JsonDocument(path).root().at("batch").has("made_with");
   } catch (const Error&) {
     return false;
   }
@@ -310,7 +297,7 @@ bool is_batch_document(const std::string& path) {
 std::string batch_csv(const std::vector<BatchRow>& rows) {
   using Row = Description<BatchRow>;
   using Fit = Description<BatchFit>;
-  constexpr std::tuple first{Row::path, field("document", "", &BatchRow::document, ""), Row::status,
+  constexpr std::tuple first{Row::path, field("document", &BatchRow::document, ""), Row::status,
                              Row::exit_code};
   constexpr std::tuple last{
       Fit::log_rms,
@@ -321,7 +308,7 @@ std::string batch_csv(const std::vector<BatchRow>& rows) {
       Fit::misfit,
       Fit::misfit_told,
       field(
-          "warnings", "", [](const BatchFit& f) { return f.warnings.size(); }, "")};
+          "warnings", [](const BatchFit& f) { return f.warnings.size(); }, "")};
   const std::string none(std::tuple_size_v<decltype(last)> - 1, ',');
 
   std::vector<std::string> columns;  // those of all tables, as they are first seen
@@ -361,10 +348,10 @@ Exit BatchSummary::outcome() const {
 }
 
 std::string batch_json(const BatchSummary& summary, bool previews) {
-  Json all = json_of(summary);
-  if (previews) return all.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (Json& table : all["tables"]) table.erase("preview");
-  return text_of(all);
+  if (previews) return json_line(summary);
+  BatchSummary without = summary;
+  for (auto& row : without.rows) row.preview.reset();
+  return json_text(without);
 }
 
 std::string fit_schema() {

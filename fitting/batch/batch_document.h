@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,7 +17,7 @@
 
 namespace gonio {
 
-/// Fitted parameter, as in FittedParameter.
+/// Fitted parameter, less what only its document shows of it.
 struct BatchParameter {
   std::string name;
   std::vector<double> value, std_error;
@@ -32,11 +33,11 @@ struct BatchFit {
   double log_rms = 0, rms = 0, cost = 0;
   double misfit = std::numeric_limits<double>::quiet_NaN();  ///< Misfit::size, where it was tested
   bool misfit_told = false;
-  std::size_t values_used = 0, masked = 0;
+  std::size_t values_used = 0;
+  std::map<std::string, std::size_t> masked;  ///< values left out, by reason
   std::vector<std::string> warnings;
-  double time_ms = 0;  ///< of all phases
+  std::vector<std::pair<std::string, double>> time_ms;  ///< by phase
 };
-BatchFit in_brief(const FitDocument&);
 
 /// One table of a batch.
 struct BatchRow {
@@ -65,6 +66,8 @@ struct ReadDocument {
 };
 /// Document of a batch, read; no value of a document of anything else.  One that is not whole is bad_input.
 std::optional<ReadDocument> read_document(const std::string& path);
+/// \param bytes  of the document
+std::optional<ReadDocument> parse_document(const std::string& path, const std::string& bytes);
 
 /// Row read back from a fit's document, if it is there, whole, and the result for these bytes made in
 /// this way.

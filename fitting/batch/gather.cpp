@@ -22,15 +22,11 @@
 namespace gonio {
 
 template <>
-struct Description<BatchList> {
-  static constexpr auto fields() {
-    return std::tuple{constant_text("schema", "gonio.list/1"),
-                      field("made_with", "", &BatchList::made_with,
-                            "all that determines a result beside the table's bytes"),
-                      field("tables", "", &BatchList::tables,
-                            "paths of the tables of the batch that was begun last")};
-  }
-};
+inline constexpr auto description<BatchList> = std::tuple{
+    constant_text("schema", "gonio.list/1"),
+    Field{"made_with", &BatchList::made_with,
+          "all that determines a result beside the table's bytes"},
+    Field{"tables", &BatchList::tables, "paths of the tables of the batch that was begun last"}};
 
 namespace {
 
@@ -50,8 +46,7 @@ std::string without_side_file(const std::string& made_with) {
 
 /// Text as it comes back from a document: bytes that are no text are replaced there.
 std::string as_in_document(const std::string& text) {
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
-      .get<std::string>();
+  return JsonDocument("", json_line(text)).root().string();
 }
 
 /// A folder that no other process locks meanwhile, where its file system has locks.
@@ -199,7 +194,7 @@ std::string title_of(const std::string& folder) {
 }  // namespace
 
 void write_list(const std::string& folder, const BatchList& list) {
-  const std::string path = place(folder, list_name), text = text_of(json_of(list));
+  const std::string path = place(folder, list_name), text = json_text(list);
   std::error_code unknown;
   if (fs::file_size(path, unknown) == text.size() && !unknown &&
       InputFile(path).read_rest() == text)
@@ -210,12 +205,8 @@ void write_list(const std::string& folder, const BatchList& list) {
 std::optional<BatchList> read_list(const std::string& folder) {
   const std::string path = place(folder, list_name);
   try {
-    const Json document = read_json(path);
-    const JsonReader root(path, document);
-    if (root.at("schema").string() != "gonio.list/1") return {};
-    BatchList list{root.at("made_with").string(), {}};
-    if (const JsonReader tables = root.at("tables"); tables.is_array())
-      for (const auto& t : tables.elements()) list.tables.push_back(t.string());
+    BatchList list;
+    read_record(JsonDocument(path).root(), list);
     return list;
   } catch (const Error&) {
     return {};  // not there, or not what a batch writes

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <span>
 
+#include "base/base64.h"
 #include "brdf/model/evaluate.h"
-#include "fitting/batch/preview_json.h"
 #include "geometry/half_difference.h"
 #include "image/display.h"
 #include "integrate/albedo/directional_albedo.h"
@@ -134,28 +134,10 @@ std::string sphere(const std::vector<std::string>& channels, const BoundModel& f
     for (const double v : colour_of_channels(channels, shown))
       bytes += inside[i] ? static_cast<char>(srgb_byte(v)) : '\0';
   }
-  return bytes;
-}
-
-std::vector<std::vector<double>> rows_of(const JsonReader& j) {
-  std::vector<std::vector<double>> out;
-  for (const auto& row : j.elements()) out.push_back(row.numbers());
-  return out;
+  return base64(bytes);
 }
 
 }  // namespace
-
-Preview read_preview(const JsonReader& j) {
-  Preview p{{}, j.at("albedo").numbers(), from_base64(j.at("sphere").string())};
-  const JsonReader c = j.at("curve");
-  if (c.is_null()) return p;
-  p.curve = Thumbnail{c.at("at").string(),        c.at("at_deg").number(),
-                      c.at("along").string(),     {},
-                      c.at("data_deg").numbers(), c.at("model_deg").numbers(),
-                      rows_of(c.at("data")),      rows_of(c.at("model"))};
-  for (const auto& k : c.at("channels").elements()) p.curve->channels.push_back(k.whole_number());
-  return p;
-}
 
 Preview make_preview(const Table& table, const BoundModel& fitted) {
   Preview p{thumbnail(table, fitted), {}, sphere(table.channels, fitted)};

@@ -29,7 +29,7 @@ struct Preview {
   /// A sphere of the model, `size` pixels high: its right half, row by row, three bytes of sRGB per
   /// pixel; 0 outside the disc.  The left half mirrors it: the light stands above the viewer, 40° from
   /// them, over a uniform sky; together they make a white Lambertian that faces the light white.
-  /// Channels other than r, g, b show as the grey of their mean.
+  /// Channels other than r, g, b show as the grey of their mean.  In base64.
   std::string sphere;
   static constexpr std::size_t size = 36;
 };

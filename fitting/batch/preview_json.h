@@ -1,41 +1,29 @@
 #pragma once
 /// \file
-/// Previews in a document.  Dear to compile: for .cpp files only.
+/// Previews in a document.
 
-#include "base/base64.h"
-#include "base/json/describe.h"
+#include "base/describe.h"
 #include "fitting/batch/preview.h"
 
 namespace gonio {
 
 template <>
-struct Description<Thumbnail> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("at", "", &Thumbnail::at, "angle that the curve is at"),
-        field("at_deg", "°", &Thumbnail::at_deg, ""),
-        field("along", "", &Thumbnail::along, "angle that varies along the curve"),
-        field("channels", "", &Thumbnail::channels, "channels shown: all, or four of more"),
-        field("data_deg", "°", &Thumbnail::data_deg, "places of the data, ascending"),
-        field("data", "1/sr", &Thumbnail::data, "data by channel and place"),
-        field("model_deg", "°", &Thumbnail::model_deg, "places of the model, ascending"),
-        field("model", "1/sr", &Thumbnail::model, "model by channel and place")};
-  }
-};
+inline constexpr auto description<Thumbnail> =
+    std::tuple{Field{"at", &Thumbnail::at, "angle that the curve is at"},
+               Field{"at_deg", "°", &Thumbnail::at_deg, ""},
+               Field{"along", &Thumbnail::along, "angle that varies along the curve"},
+               Field{"channels", &Thumbnail::channels, "channels shown: all, or four of more"},
+               Field{"data_deg", "°", &Thumbnail::data_deg, "places of the data, ascending"},
+               Field{"data", "1/sr", &Thumbnail::data, "data by channel and place"},
+               Field{"model_deg", "°", &Thumbnail::model_deg, "places of the model, ascending"},
+               Field{"model", "1/sr", &Thumbnail::model, "model by channel and place"}};
 
 template <>
-struct Description<Preview> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("curve", "", &Preview::curve, "null where no cut shows data"),
-        field("albedo", "", &Preview::albedo, "albedo of the model at 30°, by channel"),
-        field(
-            "sphere", "", [](const Preview& p) { return base64(p.sphere); },
-            "right half of a sphere of the model, 36 rows of 18 pixels of sRGB, three bytes each, "
-            "in base64")};
-  }
-};
-
-Preview read_preview(const JsonReader&);
+inline constexpr auto description<Preview> = std::tuple{
+    Field{"curve", &Preview::curve, "null where no cut shows data"},
+    Field{"albedo", &Preview::albedo, "albedo of the model at 30°, by channel"},
+    Field{"sphere", &Preview::sphere,
+          "right half of a sphere of the model, 36 rows of 18 pixels of sRGB, three bytes each, "
+          "in base64"}};
 
 }  // namespace gonio

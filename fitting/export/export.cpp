@@ -19,32 +19,24 @@
 namespace gonio {
 
 template <>
-struct Description<ExportResidual> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("rms", "", &ExportResidual::rms, "root mean square of the relative distance"),
-        field("largest", "", &ExportResidual::largest, "largest relative distance")};
-  }
-};
+inline constexpr auto description<ExportResidual> =
+    std::tuple{Field{"rms", &ExportResidual::rms, "root mean square of the relative distance"},
+               Field{"largest", &ExportResidual::largest, "largest relative distance"}};
 static_assert(describes_every_member<ExportResidual>());
 
 template <>
-struct Description<Export> {
-  static constexpr auto fields() {
-    return std::tuple{
-        constant_text("schema", "gonio.export/1"),
-        field("target", "", &Export::target, "format that was written"),
-        field("fit", "", &Export::fit, "path of the fit"),
-        field("model", "", &Export::model, "spec of the fit"),
-        field("parameters", "", per_name(&Export::parameters), "of the target, by its names"),
-        field("tolerance", "", &Export::tolerance, "of the root mean square"),
-        field("renamed", "", &Export::renamed, "residual of parameters that are only renamed"),
-        field("written", "", &Export::written, "residual of the parameters that were written"),
-        field("refitted", "", &Export::refitted, "whether these were fitted in the target's model"),
-        field("lost", "", &Export::lost, "what the target cannot express"),
-        field("clamped", "", &Export::clamped, "what was outside the target's range")};
-  }
-};
+inline constexpr auto description<Export> = std::tuple{
+    constant_text("schema", "gonio.export/1"),
+    Field{"target", &Export::target, "format that was written"},
+    Field{"fit", &Export::fit, "path of the fit"},
+    Field{"model", &Export::model, "spec of the fit"},
+    Field{"parameters", per_name(&Export::parameters), "of the target, by its names"},
+    Field{"tolerance", &Export::tolerance, "of the root mean square"},
+    Field{"renamed", &Export::renamed, "residual of parameters that are only renamed"},
+    Field{"written", &Export::written, "residual of the parameters that were written"},
+    Field{"refitted", &Export::refitted, "whether these were fitted in the target's model"},
+    Field{"lost", &Export::lost, "what the target cannot express"},
+    Field{"clamped", &Export::clamped, "what was outside the target's range"}};
 static_assert(describes_every_member<Export>());
 
 namespace {
@@ -181,7 +173,7 @@ std::string file_of(const Export& e, const std::string& fit) {
 }
 
 std::string to_json(const Export& e) {
-  return text_of(json_of(e));
+  return json_text(e);
 }
 std::string export_schema() {
   return schema_text<Export>("Export of a fit");

@@ -15,6 +15,8 @@
 #include "optics/f0.h"
 #include "optics/fresnel_approximate.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gonio {
 namespace {
 

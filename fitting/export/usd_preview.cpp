@@ -10,6 +10,7 @@
 #include "optics/f0.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {

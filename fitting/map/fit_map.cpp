@@ -20,20 +20,16 @@
 namespace gonio {
 
 template <>
-struct Description<TilesDocument> {
-  static constexpr auto fields() {
-    return std::tuple{
-        constant_text("schema", "gonio.map_tiles/1"),
-        field("tiles", "", &TilesDocument::tiles, "paths of the tiles that were asked for"),
-        field("kept", "", &TilesDocument::kept, "how many of them were there from before"),
-        field("columns", "", &TilesDocument::columns, "of all tiles of the map"),
-        field("rows", "", &TilesDocument::rows, "of all tiles of the map")};
-  }
-};
+inline constexpr auto description<TilesDocument> =
+    std::tuple{constant_text("schema", "gonio.map_tiles/1"),
+               Field{"tiles", &TilesDocument::tiles, "paths of the tiles that were asked for"},
+               Field{"kept", &TilesDocument::kept, "how many of them were there from before"},
+               Field{"columns", &TilesDocument::columns, "of all tiles of the map"},
+               Field{"rows", &TilesDocument::rows, "of all tiles of the map"}};
 static_assert(describes_every_member<TilesDocument>());
 
 std::string to_json(const TilesDocument& d) {
-  return text_of(json_of(d));
+  return json_text(d);
 }
 std::string map_tiles_schema() {
   return schema_text<TilesDocument>("Tiles of a map");

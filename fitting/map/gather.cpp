@@ -15,46 +15,37 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 
 template <>
-struct Description<MapParameter> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("name", "", &MapParameter::name, "of the channel in the file"),
-        group("texels", "how many have which status",
-              field("free", "", &MapParameter::free, "found"),
-              field("fixed", "", &MapParameter::fixed, "held"),
-              field("at_bound", "", &MapParameter::at_bound, "at the end of its range"),
-              field("not_identifiable", "", &MapParameter::not_identifiable, "not known")),
-        field("mean", "", &MapParameter::mean, "of the texels that have a value"),
-        field("mean_std_error", "", &MapParameter::mean_std_error, "of the texels that have one")};
-  }
-};
+inline constexpr auto description<MapParameter> = std::tuple{
+    Field{"name", &MapParameter::name, "of the channel in the file"},
+    Group{"texels", "how many have which status", Field{"free", &MapParameter::free, "found"},
+          Field{"fixed", &MapParameter::fixed, "held"},
+          Field{"at_bound", &MapParameter::at_bound, "at the end of its range"},
+          Field{"not_identifiable", &MapParameter::not_identifiable, "not known"}},
+    Field{"mean", &MapParameter::mean, "of the texels that have a value"},
+    Field{"mean_std_error", &MapParameter::mean_std_error, "of the texels that have one"}};
 template <>
-struct Description<MapDocument> {
-  static constexpr auto fields() {
-    return std::tuple{
-        constant_text("schema", "gonio.map/1"),
-        field("path", "", &MapDocument::path, "of the map"),
-        field("model", "", &MapDocument::model, ""),
-        field(
-            "options", "", [](const MapDocument& d) { return Json::parse(d.options); },
-            "what is fitted and how values are compared"),
-        field("stack", "", &MapDocument::stack, "name of the stack: a digest of its files"),
-        field("width", "texels", &MapDocument::width, ""),
-        field("height", "texels", &MapDocument::height, ""),
-        field("tiles", "", &MapDocument::tiles, "that it was made of"),
-        group("texels", "how their fits ended", field("converged", "", &MapDocument::converged, ""),
-              field("not_converged", "", &MapDocument::not_converged, "the best seen is kept"),
-              field("no_data", "", &MapDocument::no_data, "no value that can be compared")),
-        field("parameters", "", &MapDocument::parameters, "by their names")};
-  }
-};
+inline constexpr auto description<MapDocument> = std::tuple{
+    constant_text("schema", "gonio.map/1"),
+    Field{"path", &MapDocument::path, "of the map"},
+    Field{"model", &MapDocument::model, ""},
+    Field{"options", [](const MapDocument& d) { return Json::parse(d.options); },
+          "what is fitted and how values are compared"},
+    Field{"stack", &MapDocument::stack, "name of the stack: a digest of its files"},
+    Field{"width", "texels", &MapDocument::width, ""},
+    Field{"height", "texels", &MapDocument::height, ""},
+    Field{"tiles", &MapDocument::tiles, "that it was made of"},
+    Group{"texels", "how their fits ended", Field{"converged", &MapDocument::converged, ""},
+          Field{"not_converged", &MapDocument::not_converged, "the best seen is kept"},
+          Field{"no_data", &MapDocument::no_data, "no value that can be compared"}},
+    Field{"parameters", &MapDocument::parameters, "by their names"}};
 
 std::string to_json(const MapDocument& d) {
-  return text_of(json_of(d));
+  return json_text(d);
 }
 std::string map_schema() {
   return schema_text<MapDocument>("Map of a stack");

@@ -17,18 +17,14 @@
 namespace gonio {
 
 template <>
-struct Description<TexelOptions> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("model", "", &TexelOptions::model, ""),
-        field("fix", "", &TexelOptions::fixed, "parameters held at a value"),
-        field("bounds", "", &TexelOptions::bounds, "where parameters are looked for"),
-        field("grey", "", &TexelOptions::grey, "colours with one value for all channels"),
-        field("metric", "", &TexelOptions::metric, "how values are compared"),
-        field("offset", "1/sr", &TexelOptions::offset, "of the log and relative metrics"),
-        field("refine_normals", "", &TexelOptions::refine_normals, "whether normals are fitted")};
-  }
-};
+inline constexpr auto description<TexelOptions> = std::tuple{
+    Field{"model", &TexelOptions::model, ""},
+    Field{"fix", &TexelOptions::fixed, "parameters held at a value"},
+    Field{"bounds", &TexelOptions::bounds, "where parameters are looked for"},
+    Field{"grey", &TexelOptions::grey, "colours with one value for all channels"},
+    Field{"metric", &TexelOptions::metric, "how values are compared"},
+    Field{"offset", "1/sr", &TexelOptions::offset, "of the log and relative metrics"},
+    Field{"refine_normals", &TexelOptions::refine_normals, "whether normals are fitted"}};
 /// Tiles of other options are told by these: none may be forgotten.
 static_assert(describes_every_member<TexelOptions>());
 
@@ -70,7 +66,7 @@ std::vector<Tile> TileGrid::all() const {
 MapAttributes attributes_of(const StackReader& stack, const TexelOptions& options) {
   return {{"gonio:version", GONIO_VERSION},
           {"gonio:model", options.model},
-          {"gonio:options", json_of(options).dump()},
+          {"gonio:options", json_line(options)},
           {"gonio:stack", stack.digest()},
           {"gonio:channels", fmt::format("{}", fmt::join(stack.channels(), ","))}};
 }

@@ -6,11 +6,11 @@
 namespace gonio {
 
 std::string to_json(const FitDocument& d) {
-  return text_of(json_of(d));
+  return json_text(d);
 }
 
 std::string to_json(const Comparison& c) {
-  return text_of(json_of(c));
+  return json_text(c);
 }
 
 std::string comparison_schema() {

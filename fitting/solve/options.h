@@ -44,35 +44,27 @@ struct FitOptions {
 };
 
 template <>
-struct Description<Setting> {
-  static constexpr auto fields() {
-    return std::tuple{field("name", "", &Setting::name, ""),
-                      field("values", "", per_channel(&Setting::values), "one, or one per channel"),
-                      field("text", "", &Setting::text, "what was written, where it is no number"),
-                      field("implied", "", &Setting::implied, "whether it follows from a preset")};
-  }
-};
+inline constexpr auto description<Setting> =
+    std::tuple{Field{"name", &Setting::name, ""},
+               Field{"values", per_channel(&Setting::values), "one, or one per channel"},
+               Field{"text", &Setting::text, "what was written, where it is no number"},
+               Field{"implied", &Setting::implied, "whether it follows from a preset"}};
 static_assert(describes_every_member<Setting>());
 
 template <>
-struct Description<FitOptions> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("model", "", &FitOptions::model, ""),
-        field("fix", "", &FitOptions::fixed, "parameters held at a value"),
-        field("bounds", "", &FitOptions::bounds, "where parameters are looked for"),
-        field("grey", "", &FitOptions::grey, "colours with one value for all channels"),
-        field("metric", "", &FitOptions::metric, "how values are compared"),
-        field("robust", "", &FitOptions::robust, "whether outliers count less"),
-        field("intervals", "", &FitOptions::intervals, "which values share their errors"),
-        field("copies", "", &FitOptions::copies,
-              "whether angles that only repeat another are fitted, too"),
-        field("bin_sensitivity", "", &FitOptions::bin_sensitivity,
-              "whether there is a fit under the other bin convention, too"),
-        field("certificate", "", &FitOptions::certificate,
-              "whether other valleys of the cost are looked for")};
-  }
-};
+inline constexpr auto description<FitOptions> = std::tuple{
+    Field{"model", &FitOptions::model, ""},
+    Field{"fix", &FitOptions::fixed, "parameters held at a value"},
+    Field{"bounds", &FitOptions::bounds, "where parameters are looked for"},
+    Field{"grey", &FitOptions::grey, "colours with one value for all channels"},
+    Field{"metric", &FitOptions::metric, "how values are compared"},
+    Field{"robust", &FitOptions::robust, "whether outliers count less"},
+    Field{"intervals", &FitOptions::intervals, "which values share their errors"},
+    Field{"copies", &FitOptions::copies, "whether angles that only repeat another are fitted, too"},
+    Field{"bin_sensitivity", &FitOptions::bin_sensitivity,
+          "whether there is a fit under the other bin convention, too"},
+    Field{"certificate", &FitOptions::certificate,
+          "whether other valleys of the cost are looked for"}};
 /// A kept result is found by these: none may be forgotten.
 static_assert(describes_every_member<FitOptions>());
 

@@ -6,6 +6,8 @@
 
 #include "base/json/reader.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gonio {
 namespace {
 

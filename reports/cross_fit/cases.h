@@ -36,11 +36,13 @@ struct CrossSlice {
   std::optional<Table> half{};
   double log_error = 0;  ///< RMS over values of the standard error of ln f
 };
-CrossSlice slice_of(const CrossTruth&,
-                    const FresnelSurface&,
-                    double roughness,
-                    const CrossLayout&,
-                    const CrossFitOptions&);
+/// One for each surface.  A walk does not depend on what facets reflect: all of one kind share theirs.
+/// \param surfaces  of one kind
+std::vector<CrossSlice> slices_of(const CrossTruth&,
+                                  std::span<const FresnelSurface> surfaces,
+                                  double roughness,
+                                  const CrossLayout&,
+                                  const CrossFitOptions&);
 
 /// One form fitted to one truth.
 CrossCase fit_case(const CrossTruth&,

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <mutex>
+#include <tuple>
 
 #include "base/whole_loop.h"
 #include "optics/refractive_index.h"
@@ -41,10 +43,8 @@ bool holds(auto&& list, std::string_view name) {
   return std::ranges::find(list, name) != std::end(list);
 }
 
-/// A slice and its fits.
-std::vector<CrossCase> fitted(const Scene& at, const CrossFitOptions& o, double& walk_error) {
-  const auto slice = slice_of(at.truth, at.surface, at.roughness, at.layout, o);
-  walk_error = slice.log_error;
+/// What is fitted to a slice.
+std::vector<CrossCase> fitted(const Scene& at, const CrossSlice& slice, const CrossFitOptions& o) {
   const bool other_layout = &at.layout != &cross_layouts[0];
   std::vector<CrossCase> out;
   for (const auto& form : cross_forms(at.truth)) {
@@ -103,14 +103,32 @@ CrossFitRows cross_fit_rows(const CrossFitOptions& o, const ReportProgress& done
             scenes.push_back({t, s, roughness, layout, more});
         }
 
+  std::map<std::tuple<const CrossTruth*, std::string_view, double, const CrossLayout*>,
+           std::vector<std::size_t>>
+      alike;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto& at = scenes[i];
+    alike[{&at.truth, at.surface.kind, at.roughness, &at.layout}].push_back(i);
+  }
+  std::vector<std::vector<std::size_t>> groups;  // of scenes that share their walks
+  for (auto& [key, group] : alike) groups.push_back(std::move(group));
+
   std::vector<std::vector<CrossCase>> cases(scenes.size());
   std::vector<double> walk_errors(scenes.size());
   std::mutex telling;
   std::size_t ready = 0;
-  for_each_whole(scenes.size(), [&](std::size_t i) {
-    cases[i] = fitted(scenes[i], o, walk_errors[i]);
+  for_each_whole(groups.size(), [&](std::size_t g) {
+    const auto& at = scenes[groups[g].front()];
+    std::vector<FresnelSurface> of_group;
+    for (const auto i : groups[g]) of_group.push_back(scenes[i].surface);
+    const auto slices = slices_of(at.truth, of_group, at.roughness, at.layout, o);
+    for_each_whole(slices.size(), [&](std::size_t k) {
+      const auto i = groups[g][k];
+      cases[i] = fitted(scenes[i], slices[k], o);
+      walk_errors[i] = slices[k].log_error;
+    });
     const std::lock_guard lock(telling);
-    ++ready;
+    ready += slices.size();
     if (done)
       done("slices fitted", static_cast<double>(ready) / static_cast<double>(scenes.size()));
   });

@@ -72,37 +72,54 @@ std::vector<std::vector<double>> beyond_one_facet(const BoundModel& m,
   return out;
 }
 
-CrossSlice slice_of(const CrossTruth& t,
-                    const FresnelSurface& s,
-                    double roughness,
-                    const CrossLayout& layout,
-                    const CrossFitOptions& o) {
-  const auto model = bound_truth(t, s, roughness);
+std::vector<CrossSlice> slices_of(const CrossTruth& t,
+                                  std::span<const FresnelSurface> surfaces,
+                                  double roughness,
+                                  const CrossLayout& layout,
+                                  const CrossFitOptions& o) {
   SynthOptions synth;
   synth.layout = layout.layout;
   synth.slice = layout.finer * o.bins;
-  const Table once = synthesize(model, synth);
-  const auto kept = within_reach(once, layout.reach_deg);
-  const std::size_t channels = s.channels();
-  std::vector<std::vector<double>> more(channels, std::vector<double>(kept.size()));
-  if (!t.multiple) return {with(once, kept, more)};
+  FresnelSurface all = surfaces.front();
+  all.index.clear();
+  std::vector<Table> once;
+  for (const auto& s : surfaces) {
+    once.push_back(synthesize(bound_truth(t, s, roughness), synth));
+    all.index.insert(all.index.end(), s.index.begin(), s.index.end());
+  }
+  const auto kept = within_reach(once.front(), layout.reach_deg);
+  std::vector<std::vector<double>> first, second;
+  if (t.multiple) {
+    const SampleAngles at(once.front());
+    std::vector<DirectionPair> pairs;
+    for (const std::size_t i : kept) pairs.push_back(at.directions(i));
+    const auto model = bound_truth(t, all, roughness);
+    const double more_walks = 1 / std::max(square(roughness), 1.0 / 16);
+    const auto half = static_cast<std::size_t>(static_cast<double>(o.walks) * more_walks / 2);
+    first = beyond_one_facet(model, pairs, half, 1);
+    second = beyond_one_facet(model, pairs, half, 2);
+  }
 
-  const SampleAngles at(once);
-  std::vector<DirectionPair> pairs;
-  for (const std::size_t i : kept) pairs.push_back(at.directions(i));
-  const double more_walks = 1 / std::max(square(roughness), 1.0 / 16);
-  const auto half = static_cast<std::size_t>(static_cast<double>(o.walks) * more_walks / 2);
-  const auto first = beyond_one_facet(model, pairs, half, 1),
-             second = beyond_one_facet(model, pairs, half, 2);
-  double sum = 0;
-  for (std::size_t c = 0; c < channels; ++c)
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      more[c][i] = (first[c][i] + second[c][i]) / 2;
-      const double error = (first[c][i] - second[c][i]) / 2;
-      sum += square(error / (once.values[c][kept[i]] + more[c][i]));
+  std::vector<CrossSlice> out;
+  std::size_t channel = 0;  // of all surfaces
+  for (const auto& table : once) {
+    const std::size_t channels = table.values.size();
+    std::vector<std::vector<double>> more(channels, std::vector<double>(kept.size())), from_first;
+    double sum = 0;
+    for (std::size_t c = 0; t.multiple && c < channels; ++c, ++channel) {
+      from_first.push_back(first[channel]);
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        more[c][i] = (first[channel][i] + second[channel][i]) / 2;
+        const double error = (first[channel][i] - second[channel][i]) / 2;
+        sum += square(error / (table.values[c][kept[i]] + more[c][i]));
+      }
     }
-  return {with(once, kept, more), with(once, kept, first),
-          std::sqrt(sum / static_cast<double>(channels * kept.size()))};
+    out.push_back({with(table, kept, more)});
+    if (!t.multiple) continue;
+    out.back().half = with(table, kept, from_first);
+    out.back().log_error = std::sqrt(sum / static_cast<double>(channels * kept.size()));
+  }
+  return out;
 }
 
 }  // namespace gonio

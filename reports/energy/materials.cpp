@@ -149,12 +149,13 @@ std::vector<std::vector<EnergyMaterial::At>> solve(const Family& family,
     for (std::size_t i = 0; i < mu.size(); ++i) put(mu[i], all.at[i]);
     put(0, all.average);
   }
+  LobeAlbedos lobes;
   for (std::size_t m = 0; m < names_of<Compensation>.size(); ++m) {
     const auto how = static_cast<Compensation>(m);
     // A and B, by which it works, are of Schlick's Fresnel.
     if (how == Compensation::fdez_aguera && family.fresnel != schlick) continue;
-    const auto at = compensated_albedo(model, how, mu, 0, goal);
-    const auto average = compensated_average(model, how, goal);
+    const auto at = compensated_albedo(model, how, mu, 0, goal, &lobes);
+    const auto average = compensated_average(model, how, goal, &lobes);
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto& weight = family.members[k].weight;
       for (std::size_t i = 0; i < mu.size(); ++i)

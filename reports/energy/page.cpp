@@ -8,6 +8,8 @@
 #include "reports/page/assets.h"
 #include "reports/picture/document.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gonio {
 namespace {
 

@@ -7,6 +7,8 @@
 #include "reports/page/page.h"
 #include "reports/picture/document.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gonio {
 
 std::string first_sentence(std::string_view text) {

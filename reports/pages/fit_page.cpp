@@ -14,7 +14,7 @@ FitPage make_fit_page(const Table& table, const BoundModel& fitted) {
 }
 
 std::string to_json(const FitPage& page, std::string_view fit_json, std::string_view health_json) {
-  return page_text(json_of(FitPageDocument{{fit_json}, {health_json}, page}, Digits::six));
+  return json_line(FitPageDocument{{fit_json}, {health_json}, page}, Digits::six);
 }
 
 std::string fit_page_schema() {

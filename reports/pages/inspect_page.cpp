@@ -109,7 +109,7 @@ InspectPage make_inspect_page(const Table& t) {
 }
 
 std::string to_json(const InspectPage& page, std::string_view health_json) {
-  return page_text(json_of(InspectPageDocument{{health_json}, page}, Digits::six));
+  return json_line(InspectPageDocument{{health_json}, page}, Digits::six);
 }
 
 std::string inspect_page_schema() {

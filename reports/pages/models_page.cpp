@@ -7,24 +7,34 @@
 #include "fitting/choice/document.h"
 #include "reports/page/assets.h"
 #include "reports/page/page.h"
-#include "reports/picture/document.h"
-#include "reports/picture/front.h"
 #include "reports/pages/fields.h"
 #include "reports/pages/model_names.h"
+#include "reports/picture/document.h"
+#include "reports/picture/front.h"
 #include "table/cut/cuts.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 
-/// The document of a choice is described by its form.
+namespace {
+
+/// The document of a choice has its description where it is made.
+constexpr JsonForm choice_json{
+    [](const void* v) { return Json::parse(static_cast<const Embedded<ModelChoice>*>(v)->text); },
+    nullptr,
+    [] {
+      Json schema = Json::parse(models_schema());
+      schema.erase("$schema");
+      schema.erase("title");
+      return schema;
+    }};
+
+}  // namespace
+
 template <>
-Json schema_of<Embedded<ModelChoice>>() {
-  Json schema = Json::parse(models_schema());
-  schema.erase("$schema");
-  schema.erase("title");
-  return schema;
-}
+inline constexpr const JsonForm* json_form<Embedded<ModelChoice>> = &choice_json;
 
 namespace {
 

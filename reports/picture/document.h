@@ -8,7 +8,6 @@
 #include "base/csv_describe.h"
 #include "base/json/describe.h"
 #include "reports/picture/figure.h"
-#include "reports/picture/json_numbers.h"
 
 namespace gonio {
 
@@ -28,7 +27,7 @@ struct Description<Pictures> {
 /// Text of what is described.  Six digits: more than a page shows, a third of the bytes.
 template <class T>
 std::string page_document(const T& of) {
-  return page_text(json_of(of, Digits::six));
+  return json_line(of, Digits::six);
 }
 
 }  // namespace gonio

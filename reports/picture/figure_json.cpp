@@ -7,8 +7,10 @@
 #include "reports/picture/document.h"
 #include "reports/picture/figure_scale.h"
 #include "reports/picture/figure_style.h"
+#include "reports/picture/json_numbers.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {

@@ -2,6 +2,8 @@
 
 #include "base/json/describe.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gonio {
 
 PageJson page_json(double v) {

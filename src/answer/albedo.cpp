@@ -8,6 +8,7 @@
 #include "geometry/direction.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {

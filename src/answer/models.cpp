@@ -8,6 +8,7 @@
 #include "brdf/formula/widths.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {

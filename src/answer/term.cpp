@@ -11,6 +11,7 @@
 #include "integrate/scattering/compensation.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {

@@ -2,46 +2,31 @@
 /// \file
 /// Lines of CSV from fields (base/describe.h): what is one number, one text or one name of an enum has a column.
 
-#include <cmath>
-#include <concepts>
 #include <string>
 #include <tuple>
-#include <type_traits>
 #include <vector>
 
 #include "base/csv.h"
-#include "base/describe.h"
-#include "base/names.h"
-
-#include <fmt/format.h>
+#include "base/record.h"
 
 namespace gonio {
 
-template <class V>
-std::string csv_cell(const V& value, Digits digits = Digits::all) {
-  if constexpr (requires { value.has_value(); }) {
-    return value ? csv_cell(*value, digits) : "";
-  } else if constexpr (std::floating_point<V>) {
-    if (digits == Digits::all) return csv_number(value);
-    return std::isfinite(value) ? fmt::format("{:.6g}", value) : "";
-  } else if constexpr (std::integral<V>) {
-    return fmt::format("{}", value);
-  } else if constexpr (std::is_enum_v<V>) {
-    return csv_text(name_of(value));
-  } else {
-    return csv_text(value);
-  }
-}
-
+/// One value; an optional without one is empty.
+std::string csv_cell(const ValueRef&, Digits digits = Digits::all);
 /// "path,model,log_rms"
+std::string csv_columns(std::span<const RecordField>);
+/// Cells of a record under those columns.
+std::string csv_cells(std::span<const RecordField>,
+                      const void* record,
+                      Digits digits = Digits::all);
+
+/// The same of fields that stand in a tuple of their own.
 template <class... Fields>
 std::string csv_columns(const std::tuple<Fields...>& fields) {
   std::string line;
   std::apply([&](const auto&... f) { ((line += "," + csv_text(f.name)), ...); }, fields);
   return line.substr(1);
 }
-
-/// Cells of a struct under those columns.
 template <class T, class... Fields>
 std::string csv_cells(const std::tuple<Fields...>& fields,
                       const T& of,
@@ -56,9 +41,9 @@ std::string csv_cells(const std::tuple<Fields...>& fields,
 /// Lines of structs under the columns of their description.
 template <Described T>
 std::string csv_of(const std::vector<T>& rows, Digits digits = Digits::all) {
-  const auto fields = Description<T>::fields();
+  const auto fields = record_of<T>.fields;
   std::string lines = csv_columns(fields) + "\n";
-  for (const auto& row : rows) lines += csv_cells(fields, row, digits) + "\n";
+  for (const auto& row : rows) lines += csv_cells(fields, &row, digits) + "\n";
   return lines;
 }
 

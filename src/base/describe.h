@@ -1,23 +1,26 @@
 #pragma once
 /// \file
-/// Description of a struct that is shown: each of its members once, with name, unit and meaning.  JSON, its JSON Schema and
-/// the lines of CSV follow from it (base/json/describe.h, base/csv_describe.h).
+/// Description of a struct that is shown or read: each of its members once, with name, unit, meaning and the values that it takes.
+/// JSON in both directions, its JSON Schema and the lines of CSV follow from it (base/json/describe.h, base/csv_describe.h).
 ///
 ///   struct Width {
 ///     double alpha;
 ///     std::vector<double> of_channels;
 ///   };
 ///   template <>
-///   struct Description<Width> {
-///     static constexpr auto fields() {
-///       return std::tuple{field("alpha", "", &Width::alpha, "width of the distribution"),
-///                         field("channels", "", per_channel(&Width::of_channels), "that of each channel")};
-///     }
-///   };
+///   inline constexpr auto description<Width> = std::tuple{
+///       Field{"alpha", &Width::alpha, "width of the distribution"},
+///       Field{"channels", per_channel(&Width::of_channels), "that of each channel"}};
+///
+/// A struct that is read needs a member, not a computed value, for each key; what a key takes stands behind its meaning:
+///
+///   Field{"alpha", &Width::alpha, "width of the distribution", Numbers{0, 1}, or_default}
 ///
 /// Light to include: descriptions stand in headers, beside their structs or in the .cpp that shows them.
 
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -25,14 +28,66 @@
 
 namespace gonio {
 
-/// Specialised for each struct that is shown: `static constexpr auto fields()`, a tuple of field(), group() and constant_text(),
-/// in the order in which they are shown.
+struct NotDescribed {};
+/// Specialised for each struct that is shown or read: a tuple of field(), group(), by_key(), by_name() and constant_text(), in the
+/// order in which they are shown.
+template <class T>
+inline constexpr NotDescribed description;
+/// The same for a struct of which more is to be said: `static constexpr auto fields()`, that tuple, and beside it
+///
+///   static void check(T&, Demand)               further demands on what was read; it may also put that in order
+///   static constexpr bool has_others = true     keys that are not described, here or below, are passed over, not refused
 template <class T>
 struct Description;
 
 template <class T>
-concept Described = requires {
+concept Described = !std::is_same_v<decltype(description<T>), const NotDescribed> || requires {
   Description<T>::fields();
+};
+/// The tuple, wherever it stands.
+template <Described T>
+constexpr auto described_fields() {
+  if constexpr (requires { Description<T>::fields(); })
+    return Description<T>::fields();
+  else
+    return description<T>;
+}
+
+/// Numbers that a key takes.  Without them it takes any number, and null for NaN.
+struct Numbers {
+  static constexpr double any = std::numeric_limits<double>::max();
+  double low = -any, high = any;
+  bool above_low = false, below_high = false;  ///< the end itself is not taken
+
+  constexpr bool holds(double v) const {
+    return (above_low ? v > low : v >= low) && (below_high ? v < high : v <= high);
+  }
+};
+/// Number of a list's entries.
+struct Entries {
+  std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();
+};
+/// Key that a document may leave out: it keeps the value that it has in the struct.
+inline constexpr struct OrDefault {
+} or_default;
+/// Text that is not empty, as names and paths.
+inline constexpr struct NotEmpty {
+} not_empty;
+
+/// What a key takes; numbers and text in lists and lists of lists are held to the same.
+struct Rules {
+  Numbers numbers{};
+  bool has_numbers = false;
+  Entries entries{};
+  bool or_default = false, not_empty = false;
+
+  constexpr void add(const Numbers& n) {
+    numbers = n;
+    has_numbers = true;
+  }
+  constexpr void add(const Entries& e) { entries = e; }
+  constexpr void add(OrDefault) { or_default = true; }
+  constexpr void add(NotEmpty) { not_empty = true; }
 };
 
 /// One key: where its value comes from, and what it is.
@@ -42,14 +97,26 @@ struct Field {
   std::string_view name, unit;
   Get get;
   std::string_view meaning;
+  Rules rules{};
+
+  /// \param unit  left out for pure numbers and words
+  /// \param rule  Numbers, Entries, or_default, not_empty
+  template <class... Rule>
+  constexpr Field(std::string_view name_,
+                  std::string_view unit_,
+                  Get get_,
+                  std::string_view meaning_,
+                  const Rule&... rule)
+      : name(name_), unit(unit_), get(get_), meaning(meaning_) {
+    (rules.add(rule), ...);
+  }
+  template <class... Rule>
+  constexpr Field(std::string_view name_, Get get_, std::string_view meaning_, const Rule&... rule)
+      : Field(name_, "", get_, meaning_, rule...) {}
 };
-/// \param unit  "" for pure numbers and words
-template <class Get>
-constexpr Field<Get> field(std::string_view name,
-                           std::string_view unit,
-                           Get get,
-                           std::string_view meaning) {
-  return {name, unit, get, meaning};
+template <class... Args>
+constexpr auto field(const Args&... args) {
+  return Field(args...);
 }
 
 /// Object of fields of the same struct.
@@ -57,12 +124,15 @@ template <class... Fields>
 struct Group {
   std::string_view name, meaning;
   std::tuple<Fields...> fields;
+
+  constexpr Group(std::string_view name_, std::string_view meaning_, Fields... all)
+      : name(name_), meaning(meaning_), fields{all...} {}
 };
 template <class... Fields>
 constexpr Group<Fields...> group(std::string_view name,
                                  std::string_view meaning,
                                  Fields... fields) {
-  return {name, meaning, std::tuple{fields...}};
+  return {name, meaning, fields...};
 }
 
 /// Key that is the same in every document, as its schema's name.
@@ -71,6 +141,22 @@ struct ConstantText {
 };
 constexpr ConstantText constant_text(std::string_view name, std::string_view value) {
   return {name, value};
+}
+
+/// Alternatives of a std::variant; the keys of the one that is there stand among those of the struct around it.
+template <class Get, std::size_t n>
+struct Alternatives {
+  std::string_view key;  ///< that names the one that is there; "": its first key does
+  Get get;
+  std::array<std::string_view, n> names;
+};
+template <class Get, class... Name>
+constexpr Alternatives<Get, sizeof...(Name)> by_name(std::string_view key, Get get, Name... name) {
+  return {key, get, {name...}};
+}
+template <class Get>
+constexpr Alternatives<Get, 0> by_key(Get get) {
+  return {"", get, {}};
 }
 
 /// Digits of the numbers of a document: all that tell a double from its neighbours, or the six that a page shows, a third
@@ -108,16 +194,29 @@ template <class V>
 struct Inlined {
   V value;
 };
-/// Key that is left out where the optional has no value; an optional alone is null there.
+/// Key that is left out where its value says nothing: an optional without value, a number that is not finite, an empty text or
+/// list.  These alone are null or empty there.
 template <class V>
 struct IfThere {
   V value;
+};
+/// Pairs of a key and a value that stand among the fields of the struct around them.
+template <class V>
+struct Keyed {
+  V entries;
 };
 /// Document of a described T that is text already.
 template <class T>
 struct Embedded {
   std::string_view text;
 };
+/// The struct itself: what a description of a variant gets.
+inline constexpr struct Itself {
+  template <class T>
+  constexpr T& operator()(T& of) const {
+    return of;
+  }
+} itself;
 
 /// Function that shows what another gets in one of these forms.
 template <template <class> class Form, class Get>
@@ -144,10 +243,15 @@ template <class Get>
 constexpr As<IfThere, Get> if_there(Get get) {
   return {get};
 }
+/// \param pattern  regular expression of their keys
+template <class Get>
+constexpr Field<As<Keyed, Get>> keyed(std::string_view pattern, Get get, std::string_view meaning) {
+  return {pattern, "", As<Keyed, Get>{get}, meaning};
+}
 /// Field without a name of its own.
 template <class Get>
 constexpr Field<As<Inlined, Get>> inlined(Get get) {
-  return {"", "", {get}, ""};
+  return {"", "", As<Inlined, Get>{get}, ""};
 }
 /// Member of a member: at(&CostRow::time, &Timing::ns).
 template <class Outer, class Inner>
@@ -162,6 +266,24 @@ struct At {
 template <class Outer, class Inner>
 constexpr At<Outer, Inner> at(Outer outer, Inner inner) {
   return {outer, inner};
+}
+
+/// Member that a field's `get` names, to be written to; void where it computes.
+template <class T, class Get>
+constexpr decltype(auto) place_in(const Get& get, T& of) {
+  if constexpr (std::is_member_object_pointer_v<Get>)
+    return (of.*get);
+  else if constexpr (std::is_same_v<Get, Itself>)
+    return (of);
+}
+template <class T, template <class> class Form, class Get>
+constexpr decltype(auto) place_in(const As<Form, Get>& as, T& of) {
+  return place_in(as.get, of);
+}
+template <class T, class Outer, class Inner>
+constexpr decltype(auto) place_in(const At<Outer, Inner>& at, T& of) {
+  if constexpr (!std::is_void_v<decltype(place_in(at.outer, of))>)
+    return place_in(at.inner, place_in(at.outer, of));
 }
 
 // --- Whether a description is whole ---
@@ -192,6 +314,10 @@ constexpr std::size_t members_shown(const Field<Get>&) {
 constexpr std::size_t members_shown(const ConstantText&) {
   return 0;
 }
+template <class Get, std::size_t n>
+constexpr std::size_t members_shown(const Alternatives<Get, n>&) {
+  return IsMember<Get>::value;
+}
 template <class... Fields>
 constexpr std::size_t members_shown(const Group<Fields...>& g) {
   return std::apply([](const auto&... f) { return (members_shown(f) + ... + 0); }, g.fields);
@@ -201,7 +327,7 @@ constexpr std::size_t members_shown(const Group<Fields...>& g) {
 template <Described T>
 consteval bool describes_every_member() {
   return std::apply([](const auto&... f) { return (members_shown(f) + ... + 0); },
-                    Description<T>::fields()) == member_count<T>();
+                    described_fields<T>()) == member_count<T>();
 }
 
 }  // namespace gonio

@@ -48,11 +48,6 @@ std::vector<std::string> split(std::string_view s, char at) {
   }
 }
 
-std::string_view trimmed(std::string_view s) {
-  s.remove_prefix(std::min(s.find_first_not_of(blanks), s.size()));
-  return s.substr(0, s.find_last_not_of(blanks) + 1);
-}
-
 std::string printable(std::string_view s, std::size_t most) {
   std::string out;
   while (!s.empty()) {

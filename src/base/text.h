@@ -11,11 +11,6 @@ namespace gonio {
 /// The parts between separators: at least one, empty ones included.
 std::vector<std::string> split(std::string_view, char at);
 
-/// Blanks within a line, the carriage return that ends some lines among them.
-inline constexpr std::string_view blanks = " \t\r";
-/// Returns the text without blanks at its ends.
-std::string_view trimmed(std::string_view);
-
 /// Text as one line of UTF-8 that leaves a terminal alone: control characters and bytes that are not
 /// UTF-8 become \xNN; what is longer than `most` bytes is cut and ends in "…".
 std::string printable(std::string_view, std::size_t most = std::string_view::npos);

@@ -8,9 +8,9 @@ template <>
 struct Description<shader::Argument> {
   static constexpr auto fields() {
     using A = shader::Argument;
-    return std::tuple{field("name", "", &A::name, "in the source"),
-                      field("colour", "", &A::colour, "one value a channel"),
-                      field("legal", "", legal, "ends of its range; null of an angle")};
+    return std::tuple{field("name", &A::name, "in the source"),
+                      field("colour", &A::colour, "one value a channel"),
+                      field("legal", legal, "ends of its range; null of an angle")};
   }
   static std::optional<std::array<double, 2>> legal(const shader::Argument& a) {
     if (!a.about) return {};
@@ -26,22 +26,21 @@ struct Description<shader::ShaderDocument> {
     using W = shader::Writing;
     return std::tuple{
         constant_text("schema", "gonio.shader/1"),
-        field("id", "", at(&D::formula, &F::id), "term or map of the catalogue, or a model's spec"),
-        field("language", "", at(&D::writing, &W::language), "glsl, wgsl or slang"),
-        field("precision", "", at(&D::formula, &F::precision), "float or half"),
-        field("function", "", function, "name of the function of cosines"),
-        field("of_directions", "", of_directions,
+        field("id", at(&D::formula, &F::id), "term or map of the catalogue, or a model's spec"),
+        field("language", at(&D::writing, &W::language), "glsl, wgsl or slang"),
+        field("precision", at(&D::formula, &F::precision), "float or half"),
+        field("function", function, "name of the function of cosines"),
+        field("of_directions", of_directions,
               "name of the one of directions; null of a term or a map"),
-        field("parameters", "", at(&D::formula, &F::parameters), "arguments, in their order"),
-        field("angles", "", at(&D::formula, &F::angles),
+        field("parameters", at(&D::formula, &F::parameters), "arguments, in their order"),
+        field("angles", at(&D::formula, &F::angles),
               "arguments of the function of cosines after these"),
-        field("constants", "", at(&D::formula, &F::known), "parameters that are folded in"),
-        field("results", "", results,
+        field("constants", at(&D::formula, &F::known), "parameters that are folded in"),
+        field("results", results,
               "what the function gives: the value, or a map's outputs, and derivatives"),
-        field("operations", "", operations, "of the function of cosines, by kind"),
-        field("remarks", "", at(&D::writing, &W::remarks),
-              "of the header: the error and its evidence"),
-        field("source", "", &D::source, "")};
+        field("operations", operations, "of the function of cosines, by kind"),
+        field("remarks", at(&D::writing, &W::remarks), "of the header: the error and its evidence"),
+        field("source", &D::source, "")};
   }
   static std::string function(const shader::ShaderDocument& d) {
     return function_of_cosines(d.formula, d.writing);
@@ -67,7 +66,7 @@ struct Description<shader::ShaderDocument> {
 namespace shader {
 
 std::string to_json(const ShaderDocument& d) {
-  return json_of(d).dump(2) + "\n";
+  return json_text(d);
 }
 std::string shader_schema() {
   return schema_text<ShaderDocument>("gonio shader");

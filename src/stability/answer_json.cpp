@@ -5,15 +5,11 @@
 namespace gonio {
 
 template <>
-struct Description<stability::NamedInput> {
-  static constexpr auto fields() {
-    using C = stability::NamedInput;
-    return std::tuple{field("inputs", "", &C::inputs, "by name"),
-                      field("inputs_hex", "", &C::inputs_hex, "the number's bits"),
-                      field("value", "", &C::value, "null: no number, or infinite"),
-                      field("exact", "", &C::exact, "in fifty digits, rounded")};
-  }
-};
+inline constexpr auto description<stability::NamedInput> =
+    std::tuple{Field{"inputs", &stability::NamedInput::inputs, "by name"},
+               Field{"inputs_hex", &stability::NamedInput::inputs_hex, "the number's bits"},
+               Field{"value", &stability::NamedInput::value, "null: no number, or infinite"},
+               Field{"exact", &stability::NamedInput::exact, "in fifty digits, rounded"}};
 
 template <>
 struct Description<stability::Answer> {
@@ -22,46 +18,46 @@ struct Description<stability::Answer> {
     using L = stability::Looked;
     return std::tuple{
         constant_text("schema", "gonio.stability/1"),
-        field("id", "", &A::id, "term of the catalogue, or a model's spec"),
-        field("form", "", &A::form, "how the angles are given"),
-        field("number", "", at(&A::arithmetic, &stability::Arithmetic::number), ""),
-        field("flush", "", at(&A::arithmetic, &stability::Arithmetic::flush),
+        field("id", &A::id, "term of the catalogue, or a model's spec"),
+        field("form", &A::form, "how the angles are given"),
+        field("number", at(&A::arithmetic, &stability::Arithmetic::number), ""),
+        field("flush", at(&A::arithmetic, &stability::Arithmetic::flush),
               "results below the least normal number become 0"),
-        field("contract", "", at(&A::arithmetic, &stability::Arithmetic::contract),
+        field("contract", at(&A::arithmetic, &stability::Arithmetic::contract),
               "a b + c is rounded once"),
         field(
-            "any_gpu", "", at(&A::arithmetic, &stability::Arithmetic::any_gpu),
+            "any_gpu", at(&A::arithmetic, &stability::Arithmetic::any_gpu),
             "all that Vulkan allows a GPU: proofs alone establish, and what was looked at is IEEE "
             "arithmetic, which is one of those allowed"),
-        field("domain", "", &A::domain, "ends of each input"),
-        field("requirement", "", &A::requirement, "finite, nonnegative or relative=X"),
-        field("evidence", "", &A::evidence,
+        field("domain", &A::domain, "ends of each input"),
+        field("requirement", &A::requirement, "finite, nonnegative or relative=X"),
+        field("evidence", &A::evidence,
               "exhaustive, searched, proved; open: it is neither proved nor refuted"),
-        field("holds", "", &A::holds, "for every input of the domain"),
-        field("counterexample", "", &A::counterexample, "an input for which it does not"),
-        field("worst_rel", "", at(&A::looked, at(&L::relative, &stability::Worst::value)),
+        field("holds", &A::holds, "for every input of the domain"),
+        field("counterexample", &A::counterexample, "an input for which it does not"),
+        field("worst_rel", at(&A::looked, at(&L::relative, &stability::Worst::value)),
               "most relative error that was found"),
-        field("worst_ulp", "", at(&A::looked, at(&L::ulp, &stability::Worst::value)),
+        field("worst_ulp", at(&A::looked, at(&L::ulp, &stability::Worst::value)),
               "most error in units of the last digit"),
-        field("condition", "", at(&A::looked, &L::condition),
+        field("condition", at(&A::looked, &L::condition),
               "units that a unit of the inputs is worth, where worst_ulp is"),
-        field("worst_at", "", &A::worst_at, "where worst_rel is"),
-        field("worst_hex", "", &A::worst_hex, "the same in bits"),
-        field("proved_rel", "", &A::proved_rel, "bound of the relative error, where one is proved"),
-        field("unproved_because", "", &A::unproved_because,
+        field("worst_at", &A::worst_at, "where worst_rel is"),
+        field("worst_hex", &A::worst_hex, "the same in bits"),
+        field("proved_rel", &A::proved_rel, "bound of the relative error, where one is proved"),
+        field("unproved_because", &A::unproved_because,
               "why what is required is open, or the bound that is proved no proof of it; empty: it "
               "is "
               "neither, or nothing can be proved in this number"),
-        field("range", "", range, "that the value is proved to lie in"),
-        field("evaluations", "", at(&A::looked, &L::evaluations), ""),
-        field("boxes", "", &A::boxes, "of the proof"),
-        field("open_share", "", &A::open_share,
+        field("range", range, "that the value is proved to lie in"),
+        field("evaluations", at(&A::looked, &L::evaluations), ""),
+        field("boxes", &A::boxes, "of the proof"),
+        field("open_share", &A::open_share,
               "part of the domain that the proof leaves open, in logarithms"),
-        field("safe_from", "", at(&A::looked, &L::safe_from),
+        field("safe_from", at(&A::looked, &L::safe_from),
               "of alpha, or what else decides: from there on every input looked at keeps the "
               "tolerance"),
-        field("tolerance", "", at(&A::looked, &L::tolerance), "relative"),
-        field("settled", "", at(&A::looked, &L::settled),
+        field("tolerance", at(&A::looked, &L::tolerance), "relative"),
+        field("settled", at(&A::looked, &L::settled),
               "searches from two seeds agree within a factor of two")};
   }
   static std::optional<std::array<double, 2>> range(const stability::Answer& a) {
@@ -73,7 +69,7 @@ struct Description<stability::Answer> {
 namespace stability {
 
 std::string to_json(const Answer& a) {
-  return json_of(a).dump(2);
+  return json_text(a);
 }
 std::string answer_schema() {
   return schema_text<Answer>("gonio stability");

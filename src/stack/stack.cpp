@@ -2,82 +2,99 @@
 
 #include <filesystem>
 
-#include "base/json/form.h"
+#include "base/json/describe.h"
 
 namespace gonio {
 
+/// Keys of a side: "theta_i" of the incident light, "theta_o" of the view.
 template <Side side>
-constexpr std::string_view name_of_side = side == Side::light ? "light" : "view";
-/// "i" of incident, "o" of outgoing
-template <Side side>
-constexpr std::string_view letter = side == Side::light ? "i" : "o";
+struct SideKeys {
+  static constexpr bool light = side == Side::light;
+  static constexpr std::string_view theta = light ? "theta_i" : "theta_o",
+                                    phi = light ? "phi_i" : "phi_o",
+                                    vector = light ? "light" : "view",
+                                    map = light ? "light_map" : "view_map";
+};
 
-template <class Form, Side side>
-void keys(Form& f, SideAngles<side>& a) {
-  const std::string of(letter<side>);
-  f.required("theta_" + of, a.theta_deg, "angle of all texels from the normal [°]",
-             Numbers{0, 90, false, true});
-  f.optional("phi_" + of, a.phi_deg, "azimuth from x towards y [°]", Numbers{-360, 360});
-}
-template <class Form, Side side>
-void keys(Form& f, SideVector<side>& v) {
-  constexpr double far = 1e9;
-  const std::string key(name_of_side<side>);
-  f.required(key, v.towards, "vector of all texels, of any length but 0, z above 0",
-             Numbers{-far, far});
-  f.expect(v.towards.z > 0, key, "a direction above the surface: z above 0");
-}
-template <class Form, Side side>
-void keys(Form& f, SideMap<side>& m) {
-  f.required(std::string(name_of_side<side>) + "_map", m.path,
-             "path of an image with a vector for each texel");
-}
-template <class Form>
-void keys(Form& f, StackImage& i) {
-  f.required("path", i.path, "of an OpenEXR file or an array of NumPy's, linear");
-  f.by_key(i.light, {"theta_i", "light", "light_map"});
-  f.by_key(i.view, {"theta_o", "view", "view_map"});
-  f.optional("scale", i.scale, "what its numbers are multiplied with", Numbers{0, 1e30, true});
-}
-template <class Form>
-void keys(Form& f, StackTruth& t) {
-  f.required("model", t.model, "that was evaluated");
-  f.required("parameters", t.parameters, "path of an image with a channel for each parameter");
-  f.optional("noise", t.noise, "values were multiplied by exp(noise · z), z standard normal",
-             Numbers{0, 5});
-  f.optional("seed", t.seed, "of the noise");
-}
-template <class Form>
-void keys(Form& f, Stack& s) {
-  f.constant("schema", "gonio.stack/1");
-  f.optional("values", s.values, "what the images hold [1/sr]");
-  f.optional("channels", s.channels,
-             "of each image, one or three; else R, G and B, or the only one it has", Entries{1, 3});
-  f.expect(!s.channels || s.channels->size() != 2, "channels", "an array of 1 or 3");
-  f.optional("normals", s.normals,
-             "path of an image with the normal of each texel, linear in [-1, 1]");
-  f.required("images", s.images, "one for each pair of light and view", Entries{1, 10'000});
-  f.optional("truth", s.truth, "what gonio made the stack from");
-}
+template <Side side>
+struct Description<SideAngles<side>> {
+  static constexpr auto fields() {
+    return std::tuple{field(SideKeys<side>::theta, "°", &SideAngles<side>::theta_deg,
+                            "angle of all texels from the normal", Numbers{0, 90, false, true}),
+                      field(SideKeys<side>::phi, "°", &SideAngles<side>::phi_deg,
+                            "azimuth from x towards y", Numbers{-360, 360}, or_default)};
+  }
+};
+template <Side side>
+struct Description<SideVector<side>> {
+  static constexpr auto fields() {
+    constexpr double far = 1e9;
+    return std::tuple{field(SideKeys<side>::vector, &SideVector<side>::towards,
+                            "vector of all texels, of any length but 0, z above 0",
+                            Numbers{-far, far})};
+  }
+  static void check(SideVector<side>& v, Demand expect) {
+    expect(v.towards.z > 0, SideKeys<side>::vector, "a direction above the surface: z above 0");
+  }
+};
+template <Side side>
+struct Description<SideMap<side>> {
+  static constexpr auto fields() {
+    return std::tuple{field(SideKeys<side>::map, &SideMap<side>::path,
+                            "path of an image with a vector for each texel", not_empty)};
+  }
+};
+template <>
+inline constexpr auto description<StackImage> =
+    std::tuple{Field{"path", &StackImage::path, "of an OpenEXR file or an array of NumPy's, linear",
+                     not_empty},
+               by_key(&StackImage::light), by_key(&StackImage::view),
+               Field{"scale", &StackImage::scale, "what its numbers are multiplied with",
+                     Numbers{0, 1e30, true}, or_default}};
+template <>
+inline constexpr auto description<StackTruth> = std::tuple{
+    Field{"model", &StackTruth::model, "that was evaluated", not_empty},
+    Field{"parameters", &StackTruth::parameters,
+          "path of an image with a channel for each parameter", not_empty},
+    Field{"noise", &StackTruth::noise,
+          "values were multiplied by exp(noise · z), z standard normal", Numbers{0, 5}, or_default},
+    Field{"seed", &StackTruth::seed, "of the noise", or_default}};
+template <>
+struct Description<Stack> {
+  static constexpr auto fields() {
+    return std::tuple{
+        constant_text("schema", "gonio.stack/1"),
+        field("values", "1/sr", &Stack::values, "what the images hold", or_default),
+        field("channels", if_there(&Stack::channels),
+              "of each image, one or three; else R, G and B, or the only one it has", Entries{1, 3},
+              not_empty),
+        field("normals", if_there(&Stack::normals),
+              "path of an image with the normal of each texel, linear in [-1, 1]", not_empty),
+        field("images", &Stack::images, "one for each pair of light and view", Entries{1, 10'000}),
+        field("truth", if_there(&Stack::truth), "what gonio made the stack from")};
+  }
+  static void check(Stack& s, Demand expect) {
+    expect(!s.channels || s.channels->size() != 2, "channels", "an array of 1 or 3");
+  }
+};
 
 std::string Stack::path_of(const std::string& name) const {
   return (std::filesystem::path(path).parent_path() / name).string();
 }
 
 Stack read_stack(const std::string& path) {
-  const Json document = read_json(path);
   Stack s;
   s.path = path;
-  read_form(JsonReader(path, document, "", Places::pointer), s);
+  read_record(JsonDocument(path, Places::pointer).root(), s);
   return s;
 }
 
 std::string to_json(const Stack& s) {
-  return text_of(form_json(s));
+  return json_text(s);
 }
 
 std::string stack_schema() {
-  return form_schema<Stack>("Stack of images");
+  return schema_text<Stack>("Stack of images");
 }
 
 }  // namespace gonio

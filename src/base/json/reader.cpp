@@ -8,6 +8,7 @@
 #include "base/file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {
@@ -178,6 +179,30 @@ void JsonReader::fail(const std::string& found, const std::string& expected) con
   throw bad_input(*file_, place_.empty() ? "the document" : place_, found, expected);
 }
 
+bool JsonReader::is_array() const {
+  return value_->is_array();
+}
+
+bool JsonReader::is_number() const {
+  return value_->is_number();
+}
+
+bool JsonReader::is_negative() const {
+  return value_->is_number_integer() && !value_->is_number_unsigned();
+}
+
+bool JsonReader::is_string() const {
+  return value_->is_string();
+}
+
+bool JsonReader::is_null() const {
+  return value_->is_null();
+}
+
+std::size_t JsonReader::size() const {
+  return value_->size();
+}
+
 void JsonReader::expect_object() const {
   if (!value_->is_object()) fail("an object");
 }
@@ -253,11 +278,28 @@ std::uint64_t JsonReader::whole_number() const {
   return value_->get<std::uint64_t>();
 }
 
+std::int64_t JsonReader::negative_number() const {
+  if (!is_negative()) fail("a negative whole number");
+  return value_->get<std::int64_t>();
+}
+
 std::vector<double> JsonReader::numbers() const {
   std::vector<double> out;
   for (const auto& e : elements()) out.push_back(e.number());
   if (out.empty()) fail("at least one number");
   return out;
 }
+
+JsonDocument::JsonDocument(std::string file, const std::string& bytes, Places places)
+    : file_(std::move(file)),
+      document_(std::make_unique<Json>(parse_json(file_, bytes))),
+      root_(file_, *document_, "", places) {}
+
+JsonDocument::JsonDocument(std::string file, Places places)
+    : file_(std::move(file)),
+      document_(std::make_unique<Json>(read_json(file_))),
+      root_(file_, *document_, "", places) {}
+
+JsonDocument::~JsonDocument() = default;
 
 }  // namespace gonio

@@ -2,16 +2,17 @@
 /// \file
 /// JSON out in the contract's form, and in from others: every value read knows its place, so an
 /// error can name it.
-/// Dear to compile: for .cpp files only.
+/// Light to include; who makes or takes apart a Json itself includes <nlohmann/json.hpp>.
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace gonio {
 
@@ -43,19 +44,22 @@ class JsonReader {
   JsonReader at(const std::string& key) const;  ///< of an object; must be there
   JsonReader at(std::size_t index) const;       ///< of an array; must be there
   bool has(const std::string& key) const;
-  bool is_array() const { return value_->is_array(); }
-  bool is_number() const { return value_->is_number(); }
-  bool is_string() const { return value_->is_string(); }
-  std::size_t size() const { return value_->size(); }  ///< of an array or an object
+  bool is_array() const;
+  bool is_number() const;
+  bool is_negative() const;  ///< and a whole number
+  bool is_string() const;
+  std::size_t size() const;  ///< of an array or an object
   std::vector<std::pair<std::string, JsonReader>> members() const;
   /// Each member of an object, one after the other: of any number without memory for all.
   void visit_members(const std::function<void(const std::string&, const JsonReader&)>&) const;
   std::vector<JsonReader> elements() const;  ///< of an array, which may be empty; else it alone
-  bool is_null() const { return value_->is_null(); }
+  bool is_null() const;
+  const Json& json() const { return *value_; }
   std::string string() const;
   bool boolean() const;
   double number() const;  ///< NaN where null
   std::uint64_t whole_number() const;
+  std::int64_t negative_number() const;
   std::vector<double> numbers() const;  ///< one number or an array of at least one
 
   void expect_object() const;
@@ -69,6 +73,23 @@ class JsonReader {
   const Json* value_;
   std::string place_;
   Places places_;
+};
+
+/// A document and what it is read by.
+class JsonDocument {
+ public:
+  /// \throws Error  as parse_json
+  JsonDocument(std::string file, const std::string& bytes, Places places = Places::dotted);
+  explicit JsonDocument(std::string file, Places places = Places::dotted);  ///< of a file
+  ~JsonDocument();
+  JsonDocument(const JsonDocument&) = delete;
+
+  const JsonReader& root() const { return root_; }
+
+ private:
+  const std::string file_;
+  const std::unique_ptr<const Json> document_;
+  const JsonReader root_;
 };
 
 }  // namespace gonio

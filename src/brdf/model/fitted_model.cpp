@@ -26,8 +26,8 @@ std::string document_in_usd(const std::string& path, const std::string& bytes) {
   if (begin == bytes.npos)
     throw bad_input(path, "USD", "no text 'gonio'", "a file of gonio export");
   const auto first = begin + usd_key.size(), last = bytes.find('\n', first);
-  const Json text = parse_json(path, bytes.substr(first, last - first));
-  return JsonReader(path, text, "customLayerData.gonio").string();
+  const JsonDocument text(path, bytes.substr(first, last - first));
+  return JsonReader(path, text.root().json(), "customLayerData.gonio").string();
 }
 
 /// Document in a file: bytes of XML hold it in a comment, of USD in a text, others are it.
@@ -43,8 +43,8 @@ std::string document_in(const std::string& path, const std::string& bytes) {
   return bytes.substr(first, last - first);
 }
 
-FittedModel fitted_model(const std::string& path, const Json& document) {
-  JsonReader root(path, document);
+FittedModel fitted_model(const JsonDocument& document) {
+  JsonReader root = document.root();
   if (root.has("asset"))  // glTF, in which gonio export keeps the fit
     root = root.at("materials").at(0).at("extras").at("gonio");
   constexpr const char* schema = "gonio.fit/1";
@@ -71,7 +71,7 @@ FittedModel read_fitted_model(const std::string& path) {
 }
 
 FittedModel parse_fitted_model(const std::string& path, const std::string& bytes) {
-  return fitted_model(path, parse_json(path, document_in(path, bytes)));
+  return fitted_model({path, document_in(path, bytes)});
 }
 
 BoundModel bind_fitted(const std::string& path,

@@ -79,16 +79,20 @@ class CompensatedLobe {
     }
   }
 
+  Albedo without(double mu, double phi, const Goal& goal) const {
+    return directional_albedo(single_, {{mu}}, phi, goal)[0];
+  }
   /// Adds its albedo.
-  void add(double mu, double phi, const Goal& goal, Albedo& to) const {
+  /// \param single  without compensation
+  void add(double mu, double phi, const Goal& goal, const Albedo& single, Albedo& to) const {
     const auto at = [&](const BoundModel& m) {
       auto a = directional_albedo(m, {{mu}}, phi, goal)[0];
       to.evaluations += a.evaluations;
-      return a;
+      return bound_of(a);
     };
-    const Albedo single = at(single_);
-    const Bounded e = ggx_ ? ggx_albedo(alpha_, mu, *ggx_, goal.error) : bound_of(at(white_));
-    const Bounded b = how_ == Compensation::fdez_aguera ? bound_of(at(dark_)) : Bounded{};
+    to.evaluations += single.evaluations;
+    const Bounded e = ggx_ ? ggx_albedo(alpha_, mu, *ggx_, goal.error) : at(white_);
+    const Bounded b = how_ == Compensation::fdez_aguera ? at(dark_) : Bounded{};
     double worst = 0;
     for (std::size_t c = 0; c < f0_.size(); ++c) {
       const Bounded all = compensated(c, {single.value[c], single.error}, e, b);
@@ -141,12 +145,17 @@ class CompensatedLobe {
 /// A model's lobes under a compensation, and its diffuse terms.
 class Compensated {
  public:
-  Compensated(const BoundModel& model, Compensation how, const Goal& goal) : model_(model) {
+  Compensated(const BoundModel& model, Compensation how, const Goal& goal, LobeAlbedos* known)
+      : model_(model), known_(known) {
     for (const auto& lobe : model.model.lobes) lobes_.emplace_back(model, lobe, how, shared(goal));
   }
   Albedo operator()(double mu, double phi, const Goal& goal) const {
     Albedo sum{std::vector<double>(model_.model.channels), 0, 0};
-    for (const auto& lobe : lobes_) lobe.add(mu, phi, shared(goal), sum);
+    for (std::size_t k = 0; k < lobes_.size(); ++k) {
+      const auto without = [&] { return lobes_[k].without(mu, phi, shared(goal)); };
+      const auto single = known_ ? known_->at(k, mu, phi, shared(goal), without) : without();
+      lobes_[k].add(mu, phi, shared(goal), single, sum);
+    }
     if (model_.model.diffuse.empty()) return sum;
     const auto diffuse = diffuse_albedo(model_, {{mu}}, phi, shared(goal))[0];
     for (std::size_t c = 0; c < sum.value.size(); ++c) sum.value[c] += diffuse.value[c];
@@ -163,10 +172,26 @@ class Compensated {
     return {goal.error / (16.0 * static_cast<double>(parts)), goal.evaluations / (3 * parts)};
   }
   const BoundModel& model_;
+  LobeAlbedos* known_;
   std::vector<CompensatedLobe> lobes_;
 };
 
 }  // namespace
+
+Albedo LobeAlbedos::at(std::size_t lobe,
+                       double mu,
+                       double phi,
+                       const Goal& goal,
+                       const std::function<Albedo()>& compute) {
+  const std::tuple key(lobe, mu, phi, goal.error, goal.evaluations);
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = known_.find(key); found != known_.end()) return found->second;
+  }
+  auto albedo = compute();
+  const std::lock_guard lock(mutex_);
+  return known_.emplace(key, std::move(albedo)).first->second;
+}
 
 Albedo fresnel_average(const BoundModel& model, const TermUse& fresnel, const Goal& goal) {
   const auto f = [&](std::span<const double> x, std::span<const double>,
@@ -184,17 +209,21 @@ std::vector<Albedo> compensated_albedo(const BoundModel& model,
                                        Compensation how,
                                        std::span<const double> mu,
                                        double phi,
-                                       const Goal& goal) {
+                                       const Goal& goal,
+                                       LobeAlbedos* lobes) {
   check_cosines(mu);
   check_azimuth(phi);
-  const Compensated albedo(model, how, goal);
+  const Compensated albedo(model, how, goal, lobes);
   std::vector<Albedo> all(mu.size());
   for_each_whole(mu.size(), [&](std::size_t i) { all[i] = albedo(mu[i], phi, goal); });
   return all;
 }
 
-Albedo compensated_average(const BoundModel& model, Compensation how, const Goal& goal) {
-  const Compensated albedo(model, how, goal);
+Albedo compensated_average(const BoundModel& model,
+                           Compensation how,
+                           const Goal& goal,
+                           LobeAlbedos* lobes) {
+  const Compensated albedo(model, how, goal, lobes);
   return hemispherical_average(
       [&](double mu, double phi, const Goal& each) { return albedo(mu, phi, each); },
       model.model.channels, model.model.anisotropic, goal);

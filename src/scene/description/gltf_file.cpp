@@ -132,16 +132,15 @@ GltfFile::GltfFile(const std::string& path) : path_(path) {
     digest_ = sha256(text);
     binary_.reset();
   }
-  document_ = parse_json(path_, text);
-  root_.emplace(path_, document_, "", Places::pointer);
-  root_->expect_object();
+  document_.emplace(path_, text, Places::pointer);
+  root().expect_object();
 
-  const JsonReader asset = root_->at("asset");
+  const JsonReader asset = root().at("asset");
   if (!asset.at("version").string().starts_with("2.")) asset.at("version").fail("2.0");
   if (asset.has("minVersion") && asset.at("minVersion").string() != "2.0")
     asset.at("minVersion").fail("2.0");
-  if (root_->has("extensionsRequired")) {
-    const JsonReader required = root_->at("extensionsRequired");
+  if (root().has("extensionsRequired")) {
+    const JsonReader required = root().at("extensionsRequired");
     if (!required.is_array()) required.fail("an array");
     for (std::size_t i = 0; i < required.size(); ++i)
       if (std::ranges::find(kKnown, required.at(i).string()) == kKnown.end())
@@ -149,8 +148,8 @@ GltfFile::GltfFile(const std::string& path) : path_(path) {
   }
   for (const char* name : kLists) {
     auto& of_that_name = lists_[name];
-    if (!root_->has(name)) continue;
-    of_that_name = root_->at(name);
+    if (!root().has(name)) continue;
+    of_that_name = root().at(name);
     if (!of_that_name->is_array()) of_that_name->fail("an array");
   }
 }
@@ -182,7 +181,7 @@ const GltfFile::Names& GltfFile::names(const char* name) const {
 
 std::size_t GltfFile::named(const char* name, const char* what, const std::string& wanted) const {
   const auto& all = list(name);
-  const JsonReader there = all ? *all : root_->at(name);
+  const JsonReader there = all ? *all : root().at(name);
   const Names& known = names(name);
   if (const auto found = known.find(wanted); found != known.end()) {
     if (found->second.count > 1)

@@ -27,7 +27,7 @@ class GltfFile {
   ~GltfFile();
 
   const std::string& path() const { return path_; }
-  const JsonReader& root() const { return *root_; }
+  const JsonReader& root() const { return document_->root(); }
   /// One of the lists of the root, such as "nodes"; nothing where the file has none.
   const std::optional<JsonReader>& list(const char* name) const;
   /// Entry of such a list that a value of the document has the number of.
@@ -64,8 +64,7 @@ class GltfFile {
   std::string packed(const Layout&) const;
 
   std::string path_, digest_;
-  Json document_;
-  std::optional<JsonReader> root_;
+  std::optional<JsonDocument> document_;
   std::map<std::string, std::optional<JsonReader>, std::less<>> lists_;
   std::unique_ptr<InputFile> binary_;  ///< of a binary file, for its buffer
   std::uint64_t binary_first_ = 0, binary_size_ = 0;

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "base/json/form.h"
+#include "base/json/describe.h"
 #include "scene/description/gltf_file.h"
 
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ bool has_no_effect(std::string_view name, const JsonReader& extension) {
 void expect_opaque(const JsonReader& material, double alpha) {
   const std::string mode = material.has("alphaMode") ? material.at("alphaMode").string() : "OPAQUE";
   double cutoff = 0.5;
-  FormReader(material).optional("alphaCutoff", cutoff, "", Numbers{0, 1e6});
+  read_key(material, "alphaCutoff", cutoff, Numbers{0, 1e6});
   if (mode == "OPAQUE" || (mode == "BLEND" && alpha == 1) || (mode == "MASK" && alpha >= cutoff))
     return;
   material.at("alphaMode")
@@ -62,17 +62,18 @@ class Reader {
 
   GltfMaterial material(const JsonReader& material) {
     std::array<double, 4> rgba{1, 1, 1, 1};
-    FormReader f = factors_of(material);
+    refuse_textures(material);
     if (material.has("pbrMetallicRoughness")) {
-      FormReader pbr = factors_of(material.at("pbrMetallicRoughness"));
-      pbr.optional("baseColorFactor", rgba, "", kUnit);
-      pbr.optional("metallicFactor", m_.metallic, "", kUnit);
-      pbr.optional("roughnessFactor", m_.roughness, "", kUnit);
+      const JsonReader pbr = material.at("pbrMetallicRoughness");
+      refuse_textures(pbr);
+      read_key(pbr, "baseColorFactor", rgba, kUnit);
+      read_key(pbr, "metallicFactor", m_.metallic, kUnit);
+      read_key(pbr, "roughnessFactor", m_.roughness, kUnit);
     }
     std::ranges::copy_n(rgba.begin(), 3, m_.base_color.begin());
     Rgb emissive{};
-    f.optional("emissiveFactor", emissive, "", kUnit);
-    f.expect(emissive == Rgb{}, "emissiveFactor", "0, a material that emits no light");
+    read_key(material, "emissiveFactor", emissive, kUnit);
+    if (emissive != Rgb{}) material.at("emissiveFactor").fail("0, a material that emits no light");
     expect_opaque(material, rgba[3]);
     if (material.has("extensions"))
       material.at("extensions").visit_members([&](const auto& name, const auto& extension) {
@@ -83,33 +84,32 @@ class Reader {
 
  private:
   void read_extension(const std::string& name, const JsonReader& extension) {
-    FormReader f(extension);
+    extension.expect_object();
     if (name == "KHR_materials_ior") {
-      f.optional("ior", m_.ior, "", Numbers{1, 1e6});
+      read_key(extension, "ior", m_.ior, Numbers{1, 1e6});
     } else if (name == "KHR_materials_specular") {
-      factors_of(extension);
-      f.optional("specularFactor", m_.specular, "", kUnit);
-      f.optional("specularColorFactor", m_.specular_color, "", Numbers{0, 1e6});
+      refuse_textures(extension);
+      read_key(extension, "specularFactor", m_.specular, kUnit);
+      read_key(extension, "specularColorFactor", m_.specular_color, Numbers{0, 1e6});
     } else if (name == "KHR_materials_clearcoat") {
-      f.optional("clearcoatFactor", m_.clearcoat, "", kUnit);
-      f.optional("clearcoatRoughnessFactor", m_.clearcoat_roughness, "", kUnit);
-      if (m_.clearcoat > 0) factors_of(extension);  // else it is off, whatever its textures
+      read_key(extension, "clearcoatFactor", m_.clearcoat, kUnit);
+      read_key(extension, "clearcoatRoughnessFactor", m_.clearcoat_roughness, kUnit);
+      if (m_.clearcoat > 0) refuse_textures(extension);  // else it is off, whatever its textures
     } else if (name == "KHR_materials_anisotropy") {
-      f.optional("anisotropyStrength", m_.anisotropy, "", kUnit);
-      f.optional("anisotropyRotation", m_.anisotropy_rotation, "", Numbers{-1e6, 1e6});
-      if (m_.anisotropy > 0) factors_of(extension);
+      read_key(extension, "anisotropyStrength", m_.anisotropy, kUnit);
+      read_key(extension, "anisotropyRotation", m_.anisotropy_rotation, Numbers{-1e6, 1e6});
+      if (m_.anisotropy > 0) refuse_textures(extension);
     } else if (!has_no_effect(name, extension)) {
       extension.fail(fmt::format("{} of '{}'", name, name_),
                      "KHR_materials_ior, _specular, _clearcoat or _anisotropy alone");
     }
   }
   /// Refuses textures among an object's keys.
-  FormReader factors_of(const JsonReader& object) const {
+  void refuse_textures(const JsonReader& object) const {
     object.visit_members([&](const std::string& key, const JsonReader& value) {
       if (key.ends_with("Texture"))
         value.fail(fmt::format("a texture of '{}'", name_), "a material of factors alone");
     });
-    return FormReader(object);
   }
 
   const std::string& name_;

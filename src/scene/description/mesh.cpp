@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "base/json/form.h"
+#include "base/json/describe.h"
 #include "geometry/vector.h"
 #include "scene/description/gltf_file.h"
 
@@ -57,22 +57,22 @@ Affine operator*(const Affine& a, const Affine& b) {
 
 Affine transform_of(const JsonReader& node) {
   constexpr Numbers any{-kFarthest, kFarthest};
-  FormReader f(node);
+  node.expect_object();
   if (node.has("matrix")) {
     std::array<double, 16> m{};  // by columns
-    f.optional("matrix", m, "", any);
-    f.expect(m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1, "matrix",
-             "one whose last row is 0, 0, 0, 1");
+    read_key(node, "matrix", m, any);
+    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+      node.at("matrix").fail("one whose last row is 0, 0, 0, 1");
     return {{Vector{m[0], m[4], m[8]}, Vector{m[1], m[5], m[9]}, Vector{m[2], m[6], m[10]}},
             {m[12], m[13], m[14]}};
   }
   Vector shift, scale{1, 1, 1};
   std::array<double, 4> q{0, 0, 0, 1};
-  f.optional("translation", shift, "", any);
-  f.optional("scale", scale, "", any);
-  f.optional("rotation", q, "", Numbers{-2, 2});
+  read_key(node, "translation", shift, any);
+  read_key(node, "scale", scale, any);
+  read_key(node, "rotation", q, Numbers{-2, 2});
   const double l = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-  f.expect(std::abs(l - 1) < 0.01, "rotation", "a quaternion of length 1");
+  if (!(std::abs(l - 1) < 0.01)) node.at("rotation").fail("a quaternion of length 1");
   const auto [x, y, z, w] = std::array{q[0] / l, q[1] / l, q[2] / l, q[3] / l};
   return {{Vector{scale.x * (1 - 2 * (y * y + z * z)), scale.y * 2 * (x * y - z * w),
                   scale.z * 2 * (x * z + y * w)},

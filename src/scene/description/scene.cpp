@@ -116,26 +116,22 @@ std::variant<BoundModel, GltfMaterial> resolved(const Material& m,
   return read_material(files.gltf(gltf.path), gltf.material);
 }
 
-std::vector<Material> materials_of(SceneFile& file, const JsonReader& at, Files& files) {
-  std::vector<Material> all;
-  for (auto& [name, material] : file.materials) {
-    material.is = resolved(material, at.at(name), files);
-    if (const auto* spec = std::get_if<FromSpec>(&material.from))
-      material.coated = without_coat(spec->model).second;
-    material.name = name;
-    all.push_back(std::move(material));
+void resolve(std::vector<Material>& materials, const JsonReader& at, Files& files) {
+  for (auto& m : materials) {
+    m.is = resolved(m, at.at(m.name), files);
+    if (const auto* spec = std::get_if<FromSpec>(&m.from))
+      m.coated = without_coat(spec->model).second;
   }
-  return all;
 }
 
-std::vector<Object> objects_of(SceneFile& file,
+std::vector<Object> objects_of(std::vector<NamedObject>& named,
                                const std::vector<Material>& materials,
                                const JsonReader& at,
                                Files& files) {
   std::unordered_map<std::string_view, std::size_t> number;
   for (std::size_t i = 0; i < materials.size(); ++i) number[materials[i].name] = i;
   std::vector<Object> all;
-  for (auto& [material, shape] : file.objects) {
+  for (auto& [material, shape] : named) {
     const auto found = number.find(material);
     if (found == number.end()) {
       std::vector<std::string_view> names;
@@ -161,19 +157,15 @@ bool shines(const Light& light) {
   return l.scale > 0 && std::ranges::any_of(l.map.radiance, is_bright);
 }
 
-std::vector<Light> lights_of(SceneFile& file, const JsonReader& at, Files& files) {
-  std::vector<Light> all;
+void resolve(std::vector<Light>& lights, const JsonReader& at, Files& files) {
   bool has_environment = false;
-  for (auto& [light] : file.lights) {
-    if (auto* e = std::get_if<EnvironmentLight>(&light)) {
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (auto* e = std::get_if<EnvironmentLight>(&lights[i])) {
       if (std::exchange(has_environment, true))
-        at.at(all.size()).fail("a second environment", "one at most");
+        at.at(i).fail("a second environment", "one at most");
       e->map = files.environment(e->path);
     }
-    all.push_back(std::move(light));
-  }
-  if (std::ranges::none_of(all, shines)) at.fail("black lights alone", "one that shines");
-  return all;
+  if (std::ranges::none_of(lights, shines)) at.fail("black lights alone", "one that shines");
 }
 
 }  // namespace
@@ -191,28 +183,23 @@ Rgb EnvironmentLight::radiance(const Direction& d) const {
 
 Scene read_scene(const std::string& path) {
   const std::string bytes = InputFile(path).read_rest(most_document_bytes);
-  const Json document = parse_json(path, bytes);
-  const JsonReader root(path, document, "", Places::pointer);
+  const JsonDocument document(path, bytes, Places::pointer);
+  const JsonReader& root = document.root();
   SceneFile file;
-  read_form(root, file);
+  read_record(root, file);
   Files files(path, sha256(bytes));
 
-  Scene s;
+  Scene s = std::move(file.scene);
   s.path = path;
-  s.materials = materials_of(file, root.at("materials"), files);
-  s.objects = objects_of(file, s.materials, root.at("objects"), files);
-  s.lights = lights_of(file, root.at("lights"), files);
-  s.view = file.view.view;
-  s.exposure = file.exposure;
-  s.tolerance = file.tolerance;
-  s.budget_ns = file.budget_ns;
-  s.seed = file.seed;
+  resolve(s.materials, root.at("materials"), files);
+  s.objects = objects_of(file.objects, s.materials, root.at("objects"), files);
+  resolve(s.lights, root.at("lights"), files);
   s.sha256 = files.digest();
   return s;
 }
 
 std::string scene_schema() {
-  return form_schema<SceneFile>("Scene");
+  return schema_text<SceneFile>("Scene");
 }
 
 }  // namespace gonio::scene

@@ -1,155 +1,152 @@
 #include "scene/plan/document.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
-#include "base/file.h"
-#include "base/json/form.h"
+#include "base/json/describe.h"
 #include "scene/description/scene_keys.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
-namespace gonio::scene {
-
-constexpr Numbers amounts{0, Numbers::any};
-
-template <class Form>
-void keys(Form& f, Budget& b) {
-  f.required("budget_ns", b.budget_ns, "mean time of a visible point", amounts);
-  f.required("ns", b.ns, "of the plan", amounts);
-  f.required("error", b.error, "upper bound of the worst material's quantile", amounts);
-  f.required("fits", b.fits, "false: even the cheapest forms take longer");
-}
+namespace gonio {
 
 namespace {
 
-constexpr Numbers shares{0, 1};
-
-struct FrontFile {
-  std::vector<std::pair<std::string, std::string>> forms;
-  double ns = 0, ns_spread = 0, ops = 0, error_quantile = 0, worst = 0;
-  std::optional<double> error_upper;
-};
-template <class Form>
-void keys(Form& f, FrontFile& c) {
-  f.required("forms", c.forms, "by effect", Entries{0, effect_count});
-  f.required("ns", c.ns, "of f of one direction of light", Numbers{});
-  f.required("ns_spread", c.ns_spread, "half the distance of the quartiles", Numbers{});
-  f.required("ops", c.ops, "operations of the same", amounts);
-  f.required("error_quantile", c.error_quantile, "quantile of the differences", amounts);
-  f.optional("error_upper", c.error_upper, "its upper confidence bound", amounts);
-  f.required("worst", c.worst, "greatest difference", amounts);
+/// Forms by their effects, as a plan's sets have them.
+Json write_forms(const void* value) {
+  const auto& forms = *static_cast<const scene::Forms*>(value);
+  Json out = Json::object();
+  for (const auto name : names_of<scene::Effect>)
+    out[std::string(name)] = std::string(forms.name(*find_value<scene::Effect>(name)));
+  return out;
 }
-
-struct EffectFile {
-  Effect effect{};
-  bool keep = false;
-  std::string form;
-  Why why{};
-  double error_if_dropped = 0, ns_saved = 0, ops_saved = 0;
-  std::string reason;
-};
-template <class Form>
-void keys(Form& f, EffectFile& e) {
-  f.required("effect", e.effect, "");
-  f.required("keep", e.keep, "false: its form is the cheapest");
-  f.required("form", e.form, "in which it is computed");
-  f.required("why", e.why, "ground of the choice");
-  f.required(
-      "error_if_dropped", e.error_if_dropped,
-      "quantile of the differences where it alone takes its cheapest form; a bound of all of "
-      "them where it is proved",
-      amounts);
-  f.required("ns_saved", e.ns_saved, "by that, of f of one direction of light", Numbers{});
-  f.required("ops_saved", e.ops_saved, "operations, of the same", Numbers{});
-  f.optional("reason", e.reason, "in words");
-}
-
-struct MaterialFile {
-  std::vector<EffectFile> effects;
-  std::string spec;
-  std::vector<std::pair<std::string, std::vector<double>>> parameters;
-  double speedup = 1, ops_saved = 0, ns = 0, ns_exact = 0;
-  double error_quantile = 0;
-  std::optional<double> error_upper;
-  double worst = 0, exceeding_bound = 1, coverage = 0, directions = 0;
-  std::uint64_t samples = 0, passed_over = 0;
-  std::vector<FrontFile> front;
-};
-template <class Form>
-void keys(Form& f, MaterialFile& m) {
-  f.required("effects", m.effects, "each effect once", Entries{effect_count, effect_count});
-  f.required(
-      "spec", m.spec,
-      "model of these forms; compensation, spectrum, environment and precision are not in it");
-  f.optional("parameters", m.parameters, "of the spec");
-  f.required("speedup", m.speedup, "time of all effects exact, over the plan's", amounts);
-  f.optional("ops_saved", m.ops_saved, "share of the operations", Numbers{});
-  f.optional("ns", m.ns, "of f of one direction of light", amounts);
-  f.optional("ns_exact", m.ns_exact, "of the same, all effects exact", amounts);
-  f.required("error_quantile", m.error_quantile, "of the differences on fresh points", amounts);
-  f.optional("error_upper", m.error_upper, "its upper confidence bound", amounts);
-  f.optional("worst", m.worst, "greatest difference of these", amounts);
-  f.optional("exceeding_bound", m.exceeding_bound, "upper bound of the share beyond the limit",
-             shares);
-  f.required("samples", m.samples, "fresh points");
-  f.optional("passed_over", m.passed_over, "cheaper sets that failed on the fresh points");
-  f.optional("coverage", m.coverage, "share of the picture that shows the material", shares);
-  f.optional("directions", m.directions, "of light that come to a point, on average", amounts);
-  f.optional("front", m.front, "sets of forms of which none is cheaper and errs less");
-}
-
-struct PlanFile {
-  std::string scene_sha256;
-  std::optional<Tolerance> tolerance;
-  std::vector<std::pair<std::string, MaterialFile>> materials;
-  std::optional<Budget> budget;
-};
-template <class Form>
-void keys(Form& f, PlanFile& p) {
-  f.constant("schema", "gonio.plan/1");
-  f.required("scene_sha256", p.scene_sha256, "of the scene and all that it names");
-  f.optional("tolerance", p.tolerance, "that the plan was made for");
-  f.required("materials", p.materials, "by name", Entries{0, 10'000});
-  f.optional("budget", p.budget, "where the scene has one");
-}
-
-std::optional<double> finite(double x) {
-  return std::isfinite(x) ? std::optional(x) : std::nullopt;
-}
-
-MaterialFile file_of(const MaterialPlan& m) {
-  MaterialFile f;
-  f.spec = m.spec;
-  f.parameters = m.parameters;
-  f.speedup = m.speedup;
-  f.ops_saved = m.ops_saved;
-  f.ns = m.ns;
-  f.ns_exact = m.ns_exact;
-  for (const auto& e : m.effects)
-    f.effects.push_back(
-        {e.effect, e.keep, e.form, e.why, e.error_if_dropped, e.ns_saved, e.ops_saved, e.reason});
-  f.error_quantile = m.checked.quantile;
-  f.error_upper = finite(m.checked.upper);
-  f.worst = m.checked.worst;
-  f.exceeding_bound = m.checked.bound;
-  f.coverage = m.coverage;
-  f.directions = m.directions;
-  f.samples = m.checked.samples;
-  f.passed_over = m.passed_over;
-  for (const auto& c : m.front) {
-    FrontFile row{
-        {}, c.ns, c.ns_spread, c.ops, c.error.quantile, c.error.worst, finite(c.error.upper)};
-    for (const auto& e : m.effects)
-      row.forms.emplace_back(name_of(e.effect), c.forms.name(e.effect));
-    f.front.push_back(std::move(row));
+void read_forms(const JsonReader& j, void* value) {
+  auto& forms = *static_cast<scene::Forms*>(value);
+  for (const auto& [name, form] : members_in(j, {0, scene::effect_count})) {
+    const auto effect = find_value<scene::Effect>(name);
+    if (!effect) form.fail(fmt::format("'{}'", name), "an effect");
+    const auto known = scene::forms_of(*effect);
+    const auto found = std::ranges::find(known, form.string());
+    if (found == known.end()) form.fail(either({known.begin(), known.end()}));
+    forms[*effect] = static_cast<std::size_t>(found - known.begin());
   }
-  return f;
 }
+Json forms_schema() {
+  Json of = Json::object();
+  for (const auto name : names_of<scene::Effect>) {
+    const auto forms = scene::forms_of(*find_value<scene::Effect>(name));
+    of[std::string(name)] = {{"enum", std::vector<std::string>(forms.begin(), forms.end())}};
+  }
+  return {{"type", "object"}, {"properties", of}, {"additionalProperties", false}};
+}
+constexpr JsonForm forms_json{write_forms, read_forms, forms_schema};
+constexpr Numbers amounts{0, Numbers::any}, shares{0, 1};
+
+}  // namespace
+
+template <>
+inline constexpr const JsonForm* json_form<scene::Forms> = &forms_json;
+
+template <>
+inline constexpr auto description<scene::Budget> = std::tuple{
+    Field{"budget_ns", &scene::Budget::budget_ns, "mean time of a visible point", amounts},
+    Field{"ns", &scene::Budget::ns, "of the plan", amounts},
+    Field{"error", &scene::Budget::error, "upper bound of the worst material's quantile", amounts},
+    Field{"fits", &scene::Budget::fits, "false: even the cheapest forms take longer"}};
+
+template <>
+struct Description<scene::Candidate> {
+  static constexpr auto fields() {
+    using C = scene::Candidate;
+    using scene::Judgement;
+    return std::tuple{
+        field("forms", &C::forms, "by effect"),
+        field("ns", &C::ns, "of f of one direction of light", Numbers{}),
+        field("ns_spread", &C::ns_spread, "half the distance of the quartiles", Numbers{}),
+        field("ops", &C::ops, "operations of the same", amounts),
+        field("error_quantile", at(&C::error, &Judgement::quantile), "quantile of the differences",
+              amounts),
+        field("error_upper", if_there(at(&C::error, &Judgement::upper)),
+              "its upper confidence bound", amounts),
+        field("worst", at(&C::error, &Judgement::worst), "greatest difference", amounts)};
+  }
+};
+
+template <>
+inline constexpr auto description<scene::PlannedEffect> = std::tuple{
+    Field{"effect", &scene::PlannedEffect::effect, ""},
+    Field{"keep", &scene::PlannedEffect::keep, "false: its form is the cheapest"},
+    Field{"form", &scene::PlannedEffect::form, "in which it is computed", not_empty},
+    Field{"why", &scene::PlannedEffect::why, "ground of the choice"},
+    Field{"error_if_dropped", &scene::PlannedEffect::error_if_dropped,
+          "quantile of the differences where it alone takes its cheapest form; a bound of all "
+          "of them where it is proved",
+          amounts},
+    Field{"ns_saved", &scene::PlannedEffect::ns_saved, "by that, of f of one direction of light",
+          Numbers{}},
+    Field{"ops_saved", &scene::PlannedEffect::ops_saved, "operations, of the same", Numbers{}},
+    Field{"reason", &scene::PlannedEffect::reason, "in words", not_empty, or_default}};
+
+template <>
+struct Description<scene::MaterialPlan> {
+  template <class Member>
+  static constexpr auto checked(Member member) {
+    return at(&scene::MaterialPlan::checked, member);
+  }
+  static constexpr auto fields() {
+    using M = scene::MaterialPlan;
+    using scene::Judgement;
+    return std::tuple{
+        field("effects", &M::effects, "each effect once",
+              Entries{scene::effect_count, scene::effect_count}),
+        field("spec", &M::spec,
+              "model of these forms; compensation, spectrum, environment and precision are not in "
+              "it",
+              not_empty),
+        field("parameters", &M::parameters, "of the spec", Numbers{}, or_default),
+        field("speedup", &M::speedup, "time of all effects exact, over the plan's", amounts),
+        field("ops_saved", &M::ops_saved, "share of the operations", Numbers{}, or_default),
+        field("ns", &M::ns, "of f of one direction of light", amounts, or_default),
+        field("ns_exact", &M::ns_exact, "of the same, all effects exact", amounts, or_default),
+        field("error_quantile", checked(&Judgement::quantile), "of the differences on fresh points",
+              amounts),
+        field("error_upper", if_there(checked(&Judgement::upper)), "its upper confidence bound",
+              amounts),
+        field("worst", checked(&Judgement::worst), "greatest difference of these", amounts,
+              or_default),
+        field("exceeding_bound", checked(&Judgement::bound),
+              "upper bound of the share beyond the limit", shares, or_default),
+        field("samples", checked(&Judgement::samples), "fresh points"),
+        field("passed_over", &M::passed_over, "cheaper sets that failed on the fresh points",
+              or_default),
+        field("coverage", &M::coverage, "share of the picture that shows the material", shares,
+              or_default),
+        field("directions", &M::directions, "of light that come to a point, on average", amounts,
+              or_default),
+        field("front", &M::front, "sets of forms of which none is cheaper and errs less",
+              or_default)};
+  }
+};
+
+template <>
+inline constexpr auto description<scene::Plan> = std::tuple{
+    constant_text("schema", "gonio.plan/1"),
+    Field{"scene_sha256", &scene::Plan::scene_sha256, "of the scene and all that it names",
+          not_empty},
+    Field{"tolerance", &scene::Plan::tolerance, "that the plan was made for", or_default},
+    Field{"materials", by_name(&scene::Plan::materials), "by name", Entries{0, 10'000}},
+    Field{"budget", if_there(&scene::Plan::budget), "where the scene has one"}};
+
+}  // namespace gonio
+
+namespace gonio::scene {
+
+namespace {
 
 /// Forms of a material's effects, each offered.
-Forms forms_in(const MaterialFile& m, const Look& look, const JsonReader& at) {
+Forms forms_in(const MaterialPlan& m, const Look& look, const JsonReader& at) {
   Forms forms = look.exact();
   std::array<bool, effect_count> told{};
   for (std::size_t i = 0; i < m.effects.size(); ++i) {
@@ -191,28 +188,26 @@ Forms forms_in(const MaterialFile& m, const Look& look, const JsonReader& at) {
 }  // namespace
 
 std::string to_json(const Plan& p) {
-  PlanFile f{p.scene_sha256, p.tolerance, {}, p.budget};
-  for (const auto& m : p.materials) f.materials.emplace_back(m.name, file_of(m));
-  return form_json(f).dump(2);
+  return json_of(p).dump(2);
 }
 
 std::string plan_schema() {
-  return form_schema<PlanFile>("Plan");
+  return schema_text<Plan>("Plan");
 }
 
 PlannedForms read_plan(const std::string& path, const Scene& s, const std::vector<Look>& looks) {
-  const Json document = parse_json(path, InputFile(path).read_rest(most_document_bytes));
-  const JsonReader root(path, document, "", Places::pointer);
-  PlanFile file;
-  read_form(root, file);
+  const JsonDocument document(path, Places::pointer);
+  const JsonReader& root = document.root();
+  Plan file;
+  file.tolerance = s.tolerance;
+  read_record(root, file);
   if (file.scene_sha256 != s.sha256)
     root.at("scene_sha256").fail(fmt::format("'{}', which is that of {}", s.sha256, s.path));
-  if (file.tolerance && *file.tolerance != s.tolerance)
-    root.at("tolerance").fail("that of the scene");
+  if (file.tolerance != s.tolerance) root.at("tolerance").fail("that of the scene");
   PlannedForms planned{std::vector<std::optional<Forms>>(s.materials.size())};
-  for (const auto& [name, material] : file.materials) {
-    const auto found = std::ranges::find(s.materials, name, &Material::name);
-    const auto at = root.at("materials").at(name);
+  for (const auto& material : file.materials) {
+    const auto found = std::ranges::find(s.materials, material.name, &Material::name);
+    const auto at = root.at("materials").at(material.name);
     if (found == s.materials.end()) at.fail("a material of the scene");
     const auto index = static_cast<std::size_t>(found - s.materials.begin());
     planned.by_material[index] = forms_in(material, looks[index], at);
@@ -231,15 +226,15 @@ std::string_view PlannedMaterial::form(Effect e) const {
 }
 
 PlannedMaterial read_planned_material(const std::string& path, const std::string& name) {
-  const Json document = parse_json(path, InputFile(path).read_rest(most_document_bytes));
-  PlanFile file;
-  read_form(JsonReader(path, document, "", Places::pointer), file);
+  const JsonDocument document(path, Places::pointer);
+  Plan file;
+  read_record(document.root(), file);
   std::vector<std::string_view> known;
-  for (auto& [material, what] : file.materials) {
-    known.push_back(material);
-    if (material != name) continue;
-    PlannedMaterial planned{std::move(what.spec), std::move(what.parameters), {}};
-    for (auto& e : what.effects) planned.forms.emplace_back(e.effect, std::move(e.form));
+  for (auto& m : file.materials) {
+    known.push_back(m.name);
+    if (m.name != name) continue;
+    PlannedMaterial planned{std::move(m.spec), std::move(m.parameters), {}};
+    for (auto& e : m.effects) planned.forms.emplace_back(e.effect, std::move(e.form));
     return planned;
   }
   refuse_name(name, known, "material of the plan");

@@ -2,41 +2,61 @@
 
 #include <algorithm>
 
-#include "base/json/form.h"
+#include "base/json/describe.h"
 #include "scene/plan/reference.h"
 
-namespace gonio::scene {
+namespace gonio {
+
+using scene::Judgement;
+using scene::Verification;
+using scene::VerifiedMaterial;
+
 namespace {
 
-struct VerifiedFile {
-  bool holds = false;
-  std::uint64_t exceeding = 0, samples = 0;
-  double upper_bound = 1, confidence = 0, worst = 0, quantile = 0;
+/// Material as the document has it.
+struct VerifiedRow {
+  VerifiedMaterial material;
+  double confidence;
 };
-template <class Form>
-void keys(Form& f, VerifiedFile& m) {
-  constexpr Numbers share{0, 1}, amount{0, Numbers::any};
-  f.required("holds", m.holds, "the tolerance");
-  f.required("exceeding", m.exceeding, "points that differ by more than the limit");
-  f.required("samples", m.samples, "points");
-  f.required("upper_bound", m.upper_bound, "of the share of all points that do", share);
-  f.required("confidence", m.confidence, "of the bound", share);
-  f.required("worst", m.worst, "greatest difference", amount);
-  f.required("error_quantile", m.quantile, "quantile of the differences", amount);
-}
 
-struct VerificationFile {
-  bool holds = false;
-  std::vector<std::pair<std::string, VerifiedFile>> materials;
-};
-template <class Form>
-void keys(Form& f, VerificationFile& v) {
-  f.constant("schema", "gonio.verification/1");
-  f.required("holds", v.holds, "for every material");
-  f.required("materials", v.materials, "by name");
+std::vector<std::pair<std::string, VerifiedRow>> rows_of(const Verification& v) {
+  std::vector<std::pair<std::string, VerifiedRow>> rows;
+  for (const auto& m : v.materials)
+    rows.emplace_back(m.name, VerifiedRow{m, v.tolerance.confidence});
+  return rows;
 }
 
 }  // namespace
+
+template <>
+struct Description<VerifiedRow> {
+  template <class Member>
+  static constexpr auto found(Member member) {
+    return at(at(&VerifiedRow::material, &VerifiedMaterial::found), member);
+  }
+  static constexpr auto fields() {
+    constexpr Numbers share{0, 1}, amount{0, Numbers::any};
+    return std::tuple{
+        field("holds", at(&VerifiedRow::material, &VerifiedMaterial::holds), "the tolerance"),
+        field("exceeding", found(&Judgement::exceeding),
+              "points that differ by more than the limit"),
+        field("samples", found(&Judgement::samples), "points"),
+        field("upper_bound", found(&Judgement::bound), "of the share of all points that do", share),
+        field("confidence", &VerifiedRow::confidence, "of the bound", share),
+        field("worst", found(&Judgement::worst), "greatest difference", amount),
+        field("error_quantile", found(&Judgement::quantile), "quantile of the differences",
+              amount)};
+  }
+};
+template <>
+inline constexpr auto description<Verification> = std::tuple{
+    constant_text("schema", "gonio.verification/1"),
+    Field{"holds", [](const Verification& v) { return v.holds(); }, "for every material"},
+    Field{"materials", rows_of, "by name"}};
+
+}  // namespace gonio
+
+namespace gonio::scene {
 
 bool Verification::holds() const {
   return std::ranges::all_of(materials, &VerifiedMaterial::holds);
@@ -65,16 +85,11 @@ Verification verify(const Scene& s,
 }
 
 std::string to_json(const Verification& v) {
-  VerificationFile f{v.holds(), {}};
-  for (const auto& m : v.materials)
-    f.materials.emplace_back(
-        m.name, VerifiedFile{m.holds, m.found.exceeding, m.found.samples, m.found.bound,
-                             v.tolerance.confidence, m.found.worst, m.found.quantile});
-  return form_json(f).dump(2);
+  return json_text(v);
 }
 
 std::string verification_schema() {
-  return form_schema<VerificationFile>("Verification of a plan");
+  return schema_text<Verification>("Verification of a plan");
 }
 
 }  // namespace gonio::scene

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
-#include "base/text.h"
+#include "table/format/blanks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -86,14 +86,6 @@ std::string known_inputs() {
   return one_of(names);
 }
 
-/// Next word of a line, which is taken from it; "" at its end.
-std::string_view word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-  const auto found = line.substr(0, line.find_first_of(blanks));
-  line.remove_prefix(found.size());
-  return found;
-}
-
 double byte_swapped(double x) {
   auto bytes = std::bit_cast<std::array<char, sizeof x>>(x);
   std::ranges::reverse(bytes);
@@ -159,7 +151,7 @@ class AltaReader {
       if (std::ranges::find(kEnds, line) != kEnds.end()) break;
       if (line.starts_with("ALTA FUNC")) fail("a function of ALTA", "a table of ALTA");
       if (line.starts_with(' ')) continue;  // a comment
-      const auto key = word(line);
+      const auto key = next_word(line);
       if (key == "BEGIN_STREAM") break;
       read_key(key, line);
     }
@@ -172,28 +164,28 @@ class AltaReader {
 
   void read_key(std::string_view key, std::string_view value) {
     if (key == "DIM") {
-      n_in_ = number_in(word(value), 1, 6);
-      n_out_ = number_in(word(value), 1, most_channels);
+      n_in_ = number_in(next_word(value), 1, 6);
+      n_out_ = number_in(next_word(value), 1, most_channels);
     } else if (key == "PARAM_IN") {
-      const auto name = word(value);
+      const auto name = next_word(value);
       in_ = std::ranges::find(kAltaParametrizations, name, &AltaParametrization::name);
       if (in_ == kAltaParametrizations.end())
         fail(fmt::format("#PARAM_IN {}", name),
              "a parametrization of two directions: " + known_inputs());
     } else if (key == "PARAM_OUT") {
-      const auto name = word(value);
+      const auto name = next_word(value);
       out_ = std::ranges::find(kOutputs, name) != kOutputs.end();
       cosine_ = name == kCosine;
       if (!out_) fail(fmt::format("#PARAM_OUT {}", name), one_of(kOutputs));
     } else if (key == "VS") {
-      intervals_ = number_in(word(value), 0, 2);
+      intervals_ = number_in(next_word(value), 0, 2);
     } else if (key == "FORMAT") {
-      binary_ = word(value) == "binary";
+      binary_ = next_word(value) == "binary";
     } else if (key == "SAMPLE_COUNT") {
-      count_ = number_in(word(value), 1, most_values);
+      count_ = number_in(next_word(value), 1, most_values);
     } else if (key == "ENDIAN") {
-      swapped_ = (word(value) == "big") == (std::endian::native == std::endian::little);
-    } else if (key == "PRECISION" && word(value) != "ieee754-double") {
+      swapped_ = (next_word(value) == "big") == (std::endian::native == std::endian::little);
+    } else if (key == "PRECISION" && next_word(value) != "ieee754-double") {
       fail("another #PRECISION", "ieee754-double");
     }
   }
@@ -203,7 +195,7 @@ class AltaReader {
     std::string_view line;
     while (next_line(line)) {
       row.clear();
-      for (auto text = word(line); !text.empty() && text[0] != '#'; text = word(line)) {
+      for (auto text = next_word(line); !text.empty() && text[0] != '#'; text = next_word(line)) {
         const auto v = number_from<double>(text);
         if (row.size() > 3 * n_out_ + n_in_ || !v)
           fail(fmt::format("'{}'", text), fmt::format("{} numbers", n_in_ + n_out_));

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
-#include "base/text.h"
+#include "table/format/blanks.h"
 #include "table/format/delimited.h"
 
 #include <fmt/format.h>
@@ -25,6 +25,7 @@ bool has_key(std::string_view line, std::string_view key) {
   return line.starts_with(key) && line.size() > key.size() &&
          blanks.find(line[key.size()]) != blanks.npos;
 }
+
 struct AstmHeader {
   std::size_t lines = 0;       ///< above VARS
   std::size_t names = 0;       ///< where VARS begins

@@ -7,7 +7,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/numbers.h"
-#include "base/text.h"
+#include "table/format/blanks.h"
 
 #include <fmt/format.h>
 

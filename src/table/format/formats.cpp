@@ -161,9 +161,9 @@ void expect_own_side(const std::string& path) {
   std::error_code why;
   if (!std::filesystem::exists(std::filesystem::symlink_status(side, why))) return;
   try {
-    const Json document = parse_json(side, side_text(path));
-    if (JsonReader(side, document).has("sha256")) return;  // so far only gonio names its table
-  } catch (const Error&) {                                 // nothing that gonio wrote
+    if (JsonDocument(side, side_text(path)).root().has("sha256"))
+      return;               // so far only gonio names its table
+  } catch (const Error&) {  // nothing that gonio wrote
   }
   throw bad_input(side, "writing the table beside it", "a side file that was written by hand",
                   "none, or one that gonio wrote (move it, or name another output)");

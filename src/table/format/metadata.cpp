@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {
@@ -22,8 +23,8 @@ template <Described T>
 const std::vector<std::string>& keys_of() {
   static const auto keys = [] {
     std::vector<std::string> names;
-    const Json schema = schema_of<T>();
-    for (const auto& [name, of] : schema["properties"].items()) names.push_back(name);
+    for (const auto& f : record_of<T>.fields)
+      if (f.role != FieldRole::keyed) names.emplace_back(f.name);
     return names;
   }();
   return keys;

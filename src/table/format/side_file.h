@@ -40,56 +40,44 @@ auto unusual(const ColumnMap& map) {
 }
 
 template <>
-struct Description<ColumnMap> {
-  static constexpr auto fields() {
-    return std::tuple{
-        keyed(role_pattern, &ColumnMap::columns,
-              "column: its name, its number (#1 is the first), or a constant"),
-        field("unit", "", if_there([](const ColumnMap& map) {
-                return map.radians ? std::optional(AngleUnit::radians) : std::nullopt;
-              }),
-              "of all angles, else degrees"),
-        field("forward", "°", if_there(unusual<&ColumnMap::forward_deg>),
-              "phi_o − phi_i of the mirror direction, else 180"),
-        field("cosine", "", if_there(unusual<&ColumnMap::cosine>), "values are f cos θ_o"),
-        field("scale", "", if_there(unusual<&ColumnMap::scale>),
-              "values times this are f in 1/sr, else 1"),
-        field("skip", "", if_there(unusual<&ColumnMap::skip>),
-              "lines at the top that are passed over")};
-  }
-};
+inline constexpr auto description<ColumnMap> = std::tuple{
+    keyed(role_pattern,
+          &ColumnMap::columns,
+          "column: its name, its number (#1 is the first), or a constant"),
+    Field{"unit", if_there([](const ColumnMap& map) {
+            return map.radians ? std::optional(AngleUnit::radians) : std::nullopt;
+          }),
+          "of all angles, else degrees"},
+    Field{"forward", "°", if_there(unusual<&ColumnMap::forward_deg>),
+          "phi_o − phi_i of the mirror direction, else 180"},
+    Field{"cosine", if_there(unusual<&ColumnMap::cosine>), "values are f cos θ_o"},
+    Field{"scale", if_there(unusual<&ColumnMap::scale>), "values times this are f in 1/sr, else 1"},
+    Field{"skip", if_there(unusual<&ColumnMap::skip>), "lines at the top that are passed over"}};
 
 template <>
-struct Description<Truth> {
-  static constexpr auto fields() {
-    return std::tuple{field("model", "", &Truth::model, ""),
-                      field("parameters", "", per_name(&Truth::parameters), ""),
-                      field("noise", "", &Truth::noise, "σ of the multiplicative noise exp(σ z)"),
-                      field("floor", "1/sr", &Truth::floor, "added to every value"),
-                      field("outliers", "", &Truth::outliers, "share of samples replaced"),
-                      field("seed", "", &Truth::seed, "")};
-  }
-};
+inline constexpr auto description<Truth> =
+    std::tuple{Field{"model", &Truth::model, ""},
+               Field{"parameters", per_name(&Truth::parameters), ""},
+               Field{"noise", &Truth::noise, "σ of the multiplicative noise exp(σ z)"},
+               Field{"floor", "1/sr", &Truth::floor, "added to every value"},
+               Field{"outliers", &Truth::outliers, "share of samples replaced"},
+               Field{"seed", &Truth::seed, ""}};
 static_assert(describes_every_member<Truth>());
 
 template <>
-struct Description<SideFile> {
-  static constexpr auto fields() {
-    return std::tuple{
-        constant_text("schema", side_file_id),
-        field("sha256", "", if_there([](const SideFile& f) {
-                return f.sha256.empty() ? std::nullopt : std::optional(f.sha256);
-              }),
-              "of the table's file; in a side file that gonio wrote"),
-        field("bins", "", if_there(&SideFile::bins), "where a sample sits in its bin"),
-        field("values", "", if_there(&SideFile::values), "what the numbers of a UTIA file are"),
-        field("columns", "", if_there(&SideFile::columns), "how to read those of a CSV file"),
-        field("truth", "", if_there(&SideFile::truth), "what the table was made from"),
-        field("notes", "", if_there([](const SideFile& f) {
-                return f.notes.empty() ? std::nullopt : std::optional(f.notes);
-              }),
-              "texts by their names")};
-  }
-};
+inline constexpr auto description<SideFile> =
+    std::tuple{constant_text("schema", side_file_id),
+               Field{"sha256", if_there([](const SideFile& f) {
+                       return f.sha256.empty() ? std::nullopt : std::optional(f.sha256);
+                     }),
+                     "of the table's file; in a side file that gonio wrote"},
+               Field{"bins", if_there(&SideFile::bins), "where a sample sits in its bin"},
+               Field{"values", if_there(&SideFile::values), "what the numbers of a UTIA file are"},
+               Field{"columns", if_there(&SideFile::columns), "how to read those of a CSV file"},
+               Field{"truth", if_there(&SideFile::truth), "what the table was made from"},
+               Field{"notes", if_there([](const SideFile& f) {
+                       return f.notes.empty() ? std::nullopt : std::optional(f.notes);
+                     }),
+                     "texts by their names"}};
 
 }  // namespace gonio

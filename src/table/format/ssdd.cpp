@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
-#include "base/text.h"
+#include "table/format/blanks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -73,13 +73,13 @@ class SsddReader {
 
   Table table() {
     for (std::string_view line; next_line(line);) {
-      const auto key = word(line);
+      const auto key = next_word(line);
       if (first_) {
         if (key != kFirst || !line_has_version(line)) fail(key, "VERSION 0 and a minor one");
         first_ = false;
       } else if (key == kType) {
         block_ = Block{};
-        block_.type = word(line);
+        block_.type = next_word(line);
         in_block_ = true;
       } else if (in_block_) {
         read_key(key, line);
@@ -95,14 +95,8 @@ class SsddReader {
   [[noreturn]] void fail(std::string_view found, const std::string& expected) const {
     throw bad_input(path_, fmt::format("line {}", line_), std::string(found), expected);
   }
-  static std::string_view word(std::string_view& line) {
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-    const auto found = line.substr(0, line.find_first_of(blanks));
-    line.remove_prefix(found.size());
-    return found;
-  }
   static bool line_has_version(std::string_view line) {
-    const auto version = word(line);
+    const auto version = next_word(line);
     return version == "0" || version.starts_with("0.");
   }
   /// Next line that says something.
@@ -121,9 +115,9 @@ class SsddReader {
   }
 
   void read_key(std::string_view key, std::string_view value) {
-    if (key == "DATA") return read_data(word(value));
+    if (key == "DATA") return read_data(next_word(value));
     if (key == "COLOR_MODEL") {
-      block_.colour = word(value);
+      block_.colour = next_word(value);
       constexpr std::array<std::string_view, 4> known{"monochrome", "rgb", "xyz", "spectrum"};
       if (std::ranges::find(known, block_.colour) == known.end())
         fail(block_.colour, fmt::format("{}", fmt::join(known, ", ")));
@@ -137,7 +131,7 @@ class SsddReader {
         fail(fmt::format("{} wavelengths", sorted.size()),
              fmt::format("at most {}, each once", most_channels));
     } else if (key == "PARAM_TYPE") {
-      block_.parametrization = word(value);
+      block_.parametrization = next_word(value);
     } else if (key == "REDUCTION_TYPE") {
       block_.notes.emplace_back("reduction", trimmed(value));
     } else if (const auto list = std::ranges::find(kLists, key); list != kLists.end()) {
@@ -155,7 +149,7 @@ class SsddReader {
   std::vector<double> numbers(std::string_view value, double least, double most) const {
     std::vector<double> all;
     value = without_comment(value);
-    for (auto field = word(value); !field.empty(); field = word(value)) {
+    for (auto field = next_word(value); !field.empty(); field = next_word(value)) {
       const auto v = number_from<double>(field);
       if (!v || !(*v >= least && *v <= most))
         fail(fmt::format("'{}'", field), fmt::format("a number from {} to {}", least, most));
@@ -260,7 +254,7 @@ class SsddReader {
         fail(fmt::format("{} colours", i), fmt::format("{}, one a line", count));
       line = without_comment(line);
       std::size_t c = 0;
-      for (auto field = word(line); !field.empty(); field = word(line)) {
+      for (auto field = next_word(line); !field.empty(); field = next_word(line)) {
         const auto v = number_from<double>(field);
         if (!v || c == channels)
           fail(fmt::format("'{}'", field), fmt::format("{} numbers", channels));

@@ -36,107 +36,73 @@ std::vector<std::pair<std::string_view, Entry>> by_mask(
 }
 
 template <>
-struct Description<AlbedoSample> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("theta_i_deg", "°", &AlbedoSample::theta_i_deg, "angle of incidence"),
-        field("albedo", "", per_channel(&AlbedoSample::albedo), "∫ f cos θ_o dω_o"),
-        field("coverage", "", &AlbedoSample::coverage,
-              "share of the cosine-weighted hemisphere that valid samples speak for")};
-  }
-};
+inline constexpr auto description<AlbedoSample> =
+    std::tuple{Field{"theta_i_deg", "°", &AlbedoSample::theta_i_deg, "angle of incidence"},
+               Field{"albedo", per_channel(&AlbedoSample::albedo), "∫ f cos θ_o dω_o"},
+               Field{"coverage", &AlbedoSample::coverage,
+                     "share of the cosine-weighted hemisphere that valid samples speak for"}};
 
 template <>
-struct Description<Peak> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("half_width_deg", "°", &Peak::half_width_deg, "angle at which the value has halved"),
-        field("height", "1/sr", &Peak::height, ""),
-        field("base", "1/sr", &Peak::base, "value beside the highlight")};
-  }
-};
+inline constexpr auto description<Peak> = std::tuple{
+    Field{"half_width_deg", "°", &Peak::half_width_deg, "angle at which the value has halved"},
+    Field{"height", "1/sr", &Peak::height, ""},
+    Field{"base", "1/sr", &Peak::base, "value beside the highlight"}};
 
 template <>
-struct Description<Highlight> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("half_width_deg", "°", &Highlight::half_width_deg,
-              "angle at which the value has halved"),
-        field("alpha", "", &Highlight::alpha, "of the GGX lobe of that width"),
-        field("samples_within", "", &Highlight::samples_within,
-              "distinct angles within the half width"),
-        field("resolved", "", &Highlight::resolved, "whether these are enough"),
-        field("height", "1/sr", &Highlight::height, ""),
-        field("base", "1/sr", &Highlight::base, "value beside the highlight"),
-        field("limit", "", &Highlight::limit, "why the width is not the surface's alone"),
-        field("in_words", "", peak_in_words, "")};
-  }
-};
+inline constexpr auto description<Highlight> = std::tuple{
+    Field{"half_width_deg", "°", &Highlight::half_width_deg, "angle at which the value has halved"},
+    Field{"alpha", &Highlight::alpha, "of the GGX lobe of that width"},
+    Field{"samples_within", &Highlight::samples_within, "distinct angles within the half width"},
+    Field{"resolved", &Highlight::resolved, "whether these are enough"},
+    Field{"height", "1/sr", &Highlight::height, ""},
+    Field{"base", "1/sr", &Highlight::base, "value beside the highlight"},
+    Field{"limit", &Highlight::limit, "why the width is not the surface's alone"},
+    Field{"in_words", peak_in_words, ""}};
 
 template <>
-struct Description<NoiseBand> {
-  static constexpr auto fields() {
-    return std::tuple{field("from", "1/sr", &NoiseBand::from, ""),
-                      field("to", "1/sr", &NoiseBand::to, ""),
-                      field("values", "", &NoiseBand::values, "number of values"),
-                      field("sigma", "", &NoiseBand::sigma, "σ of ln f")};
-  }
-};
+inline constexpr auto description<NoiseBand> =
+    std::tuple{Field{"from", "1/sr", &NoiseBand::from, ""}, Field{"to", "1/sr", &NoiseBand::to, ""},
+               Field{"values", &NoiseBand::values, "number of values"},
+               Field{"sigma", &NoiseBand::sigma, "σ of ln f"}};
 template <>
-struct Description<ZenithBand> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("from_deg", "°", at(&ZenithBand::band, &NoiseBand::from), ""),
-        field("to_deg", "°", at(&ZenithBand::band, &NoiseBand::to), ""),
-        field("values", "", at(&ZenithBand::band, &NoiseBand::values), "number of values"),
-        field("sigma", "", at(&ZenithBand::band, &NoiseBand::sigma), "σ of ln f")};
-  }
-};
+inline constexpr auto description<ZenithBand> =
+    std::tuple{Field{"from_deg", "°", at(&ZenithBand::band, &NoiseBand::from), ""},
+               Field{"to_deg", "°", at(&ZenithBand::band, &NoiseBand::to), ""},
+               Field{"values", at(&ZenithBand::band, &NoiseBand::values), "number of values"},
+               Field{"sigma", at(&ZenithBand::band, &NoiseBand::sigma), "σ of ln f"}};
 
 template <>
-struct Description<Noise> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("sigma", "", &Noise::sigma, "σ of ln f; null where no line of samples tells it"),
-        field("bound", "", &Noise::bound, "whether σ is at most that"),
-        field("along", "", &Noise::along, "angle that varies along the lines, or repeats"),
-        field("channels", "", per_channel(&Noise::channels), "σ of each channel"),
-        field(
-            "over_zenith", "",
-            [](const Noise& n) {
-              std::vector<ZenithBand> bands;
-              for (const auto& b : n.over_angle) bands.push_back({b});
-              return bands;
-            },
-            "σ by the larger of the two zenith angles"),
-        field("over_value", "", &Noise::over_value, "σ by the value")};
-  }
-};
+inline constexpr auto description<Noise> =
+    std::tuple{Field{"sigma", &Noise::sigma, "σ of ln f; null where no line of samples tells it"},
+               Field{"bound", &Noise::bound, "whether σ is at most that"},
+               Field{"along", &Noise::along, "angle that varies along the lines, or repeats"},
+               Field{"channels", per_channel(&Noise::channels), "σ of each channel"},
+               Field{"over_zenith",
+                     [](const Noise& n) {
+                       std::vector<ZenithBand> bands;
+                       for (const auto& b : n.over_angle) bands.push_back({b});
+                       return bands;
+                     },
+                     "σ by the larger of the two zenith angles"},
+               Field{"over_value", &Noise::over_value, "σ by the value"}};
 
 template <>
-struct Description<Prospect> {
-  static constexpr auto fields() {
-    return std::tuple{field("of", "", &Prospect::of, "what the table may determine"),
-                      field("verdict", "", &Prospect::verdict, ""),
-                      field("because", "", &Prospect::because, "the figure that says so")};
-  }
-};
+inline constexpr auto description<Prospect> =
+    std::tuple{Field{"of", &Prospect::of, "what the table may determine"},
+               Field{"verdict", &Prospect::verdict, ""},
+               Field{"because", &Prospect::because, "the figure that says so"}};
 
 template <>
-struct Description<NextDirection> {
-  static constexpr auto fields() {
-    return std::tuple{
-        field("theta_i", "°", &NextDirection::theta_i_deg, ""),
-        field("phi_i", "°", &NextDirection::phi_i_deg, ""),
-        field("theta_o", "°", &NextDirection::theta_o_deg, ""),
-        field("phi_o", "°", &NextDirection::phi_o_deg, "that of phi_i + 180 is the mirror's"),
-        field("parameter", "", &NextDirection::parameter, "least known before"),
-        field("width_before", "", &NextDirection::width_before,
-              "of its 95 % interval; null where it has none"),
-        field("width_after", "", &NextDirection::width_after,
-              "forecast for this direction and those above it")};
-  }
-};
+inline constexpr auto description<NextDirection> = std::tuple{
+    Field{"theta_i", "°", &NextDirection::theta_i_deg, ""},
+    Field{"phi_i", "°", &NextDirection::phi_i_deg, ""},
+    Field{"theta_o", "°", &NextDirection::theta_o_deg, ""},
+    Field{"phi_o", "°", &NextDirection::phi_o_deg, "that of phi_i + 180 is the mirror's"},
+    Field{"parameter", &NextDirection::parameter, "least known before"},
+    Field{"width_before", &NextDirection::width_before,
+          "of its 95 % interval; null where it has none"},
+    Field{"width_after", &NextDirection::width_after,
+          "forecast for this direction and those above it"}};
 
 template <>
 struct Description<TableHealth> {
@@ -166,53 +132,53 @@ struct Description<TableHealth> {
 
   static constexpr auto fields() {
     return std::tuple{
-        field("path", "", table(&Table::path), ""),
-        field("format", "", table(&Table::format), ""),
-        field("layout", "", table(layout_text), ""),
-        field("channels", "", table(&Table::channels), ""),
-        field("samples", "", health(&Health::samples), "pairs of directions"),
-        field("values", "", health(&Health::values), "samples times channels"),
-        field("valid", "", health(&Health::valid), "values that are not masked"),
-        field("masked", "", health([](const Health& h) { return by_mask(h.masked); }),
+        field("path", table(&Table::path), ""),
+        field("format", table(&Table::format), ""),
+        field("layout", table(layout_text), ""),
+        field("channels", table(&Table::channels), ""),
+        field("samples", health(&Health::samples), "pairs of directions"),
+        field("values", health(&Health::values), "samples times channels"),
+        field("valid", health(&Health::valid), "values that are not masked"),
+        field("masked", health([](const Health& h) { return by_mask(h.masked); }),
               "values left out, by reason"),
-        field("bins", "", table([](const Table& t) {
+        field("bins", table([](const Table& t) {
                 return t.has_bins() ? name_of(t.grid()->bins) : std::string_view("none");
               }),
               "centre, edge or none"),
-        field("bin_sensitivity", "", health([](const Health& h) {
+        field("bin_sensitivity", health([](const Health& h) {
                 return h.peak ? h.peak->bin_sensitivity : std::nullopt;
               }),
               "relative change of the highlight's alpha under the other bin convention"),
         field("noise_floor", "1/sr", health(&Health::noise_floor),
               "noise that negative values betray"),
-        field("copied_rows", "", health(&Health::copied_rows),
+        field("copied_rows", health(&Health::copied_rows),
               "incident angles that only repeat another"),
-        field("copied_columns", "", health(&Health::copied_columns),
+        field("copied_columns", health(&Health::copied_columns),
               "outgoing angles that only repeat another"),
         field("largest", "1/sr", health(&Health::largest), "largest value"),
         field("smallest_positive", "1/sr", health(&Health::smallest_positive), ""),
-        field("albedo", "", health(&Health::albedo), "at some angles of incidence"),
-        field("reciprocity_error", "", health(&Health::reciprocity_error),
+        field("albedo", health(&Health::albedo), "at some angles of incidence"),
+        field("reciprocity_error", health(&Health::reciprocity_error),
               "median |f(wi,wo) − f(wo,wi)| over their mean; null where the layout cannot tell"),
-        field("reciprocity_note", "", health(&Health::reciprocity_note), ""),
-        field("noise", "", health(&Health::noise), ""),
-        field("peak", "", health(&Health::peak), "the specular highlight"),
+        field("reciprocity_note", health(&Health::reciprocity_note), ""),
+        field("noise", health(&Health::noise), ""),
+        field("peak", health(&Health::peak), "the specular highlight"),
         field(
-            "warnings", "",
+            "warnings",
             [](const TableHealth& t) {
               auto all = t.table.warnings;
               all.insert(all.end(), t.health.warnings.begin(), t.health.warnings.end());
               return all;
             },
             "sentences to know before believing the values"),
-        field("peak_profiles", "", health(&Health::peak_profiles),
+        field("peak_profiles", health(&Health::peak_profiles),
               "profiles that reach the place where the highlight would be"),
-        field("peak_contrast", "", health(&Health::peak_contrast),
+        field("peak_contrast", health(&Health::peak_contrast),
               "median of their height over their base"),
-        field("retro", "", health(&Health::retro), "the highlight around the retro direction"),
-        field("prospects", "", health(&Health::prospects), "what a fit can hope for"),
-        field("truth", "", table(&Table::truth), "what a synthesized table was made from"),
-        field("next", "", if_there(&TableHealth::next),
+        field("retro", health(&Health::retro), "the highlight around the retro direction"),
+        field("prospects", health(&Health::prospects), "what a fit can hope for"),
+        field("truth", table(&Table::truth), "what a synthesized table was made from"),
+        field("next", if_there(&TableHealth::next),
               "directions to measure, where --plan-next asks for them")};
   }
 };

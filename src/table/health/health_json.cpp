@@ -6,7 +6,7 @@ namespace gonio {
 std::string to_json(const Table& t,
                     const Health& h,
                     std::optional<std::vector<NextDirection>> next) {
-  return text_of(json_of(TableHealth{t, h, std::move(next)}));
+  return json_text(TableHealth{t, h, std::move(next)});
 }
 
 std::string health_schema() {

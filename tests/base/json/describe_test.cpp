@@ -6,6 +6,7 @@
 #include "base/csv_describe.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio {
 

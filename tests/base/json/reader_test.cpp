@@ -6,6 +6,8 @@
 #include "refusal.h"
 #include "support.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gonio {
 namespace {
 

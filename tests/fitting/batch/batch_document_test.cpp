@@ -44,7 +44,12 @@ FitDocument a_fit() {
 }
 
 BatchRow a_row() {
-  BatchRow r{"in/a, \"b\".csv", "a.json", Exit::done, "fine", in_brief(a_fit()), Preview{}};
+  BatchRow r{"in/a, \"b\".csv",
+             "a.json",
+             Exit::done,
+             "fine",
+             parse_document("a.json", batch_document(a_fit(), Preview{}, "made"))->row.fit,
+             Preview{}};
   r.preview->curve = Thumbnail{"theta_i",
                                30,
                                "theta_o",
@@ -54,7 +59,7 @@ BatchRow a_row() {
                                {{1, nan}, {1, 2}, {1, 2}},
                                {{3, 4}, {3, 4}, {3, 4}}};
   r.preview->albedo = {0.3, 0.2, 0.1};
-  r.preview->sphere = std::string("\0\xff\x10 bytes", 9);
+  r.preview->sphere = "AP8QIGJ5dGVz";
   return r;
 }
 

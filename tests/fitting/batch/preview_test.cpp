@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/base64.h"
 #include "table/cut/cuts.h"
 #include "tables.h"
 
@@ -52,9 +53,10 @@ TEST(Preview, SphereOfAWhiteLambertianIsWhiteToTheLightAndNothingOutside) {
   const Table t = test::filled(test::in_out_grid(), test::glossy());
   const Preview p = make_preview(t, bind_model("lambert", {{"kd", {1, 1, 1}}}));
   constexpr std::size_t n = Preview::size;
-  ASSERT_EQ(p.sphere.size(), n * n / 2 * 3);
+  const std::string pixels = from_base64(p.sphere);
+  ASSERT_EQ(pixels.size(), n * n / 2 * 3);
   const auto red = [&](std::size_t row, std::size_t column) {
-    return static_cast<unsigned char>(p.sphere[3 * (row * n / 2 + column)]);
+    return static_cast<unsigned char>(pixels[3 * (row * n / 2 + column)]);
   };
   EXPECT_EQ(red(0, n / 2 - 1), 0) << "a corner";
   EXPECT_GE(red(static_cast<std::size_t>(n / 2 * (1 - std::sin(40 * degree))), 0), 252);

@@ -138,11 +138,37 @@ TEST(CrossFit, TheTruthOfAllOrdersReflectsWhatTheHalfSpaceDoes) {
   }
 }
 
+/// A slice of glass.
+CrossSlice slice_of(const CrossTruth& t,
+                    double roughness,
+                    const CrossLayout& layout,
+                    const CrossFitOptions& o) {
+  return slices_of(t, {&glass, 1}, roughness, layout, o)[0];
+}
+
+TEST(CrossFit, SlicesThatShareTheirWalksAreThoseThatEachHasAlone) {
+  const auto o = few({});
+  const CrossTruth all{"", "ggx", "smith_ggx.correlated", {}, true};
+  const std::array metals{gold, metal(*find_metal("Al"))};
+  const auto together = slices_of(all, metals, 0.8, cross_layouts[0], o);
+  ASSERT_EQ(together.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto alone = slices_of(all, {&metals[k], 1}, 0.8, cross_layouts[0], o)[0];
+    EXPECT_EQ(together[k].log_error, alone.log_error);
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < alone.table.size(); ++i)
+        if (std::isfinite(alone.table.values[c][i])) {
+          ASSERT_EQ(together[k].table.values[c][i], alone.table.values[c][i]);
+          ASSERT_EQ(together[k].half->values[c][i], alone.half->values[c][i]);
+        }
+  }
+}
+
 TEST(CrossFit, ASliceOfAllOrdersIsBrighterAndSaysWhatItsWalksLeaveOpen) {
   const auto o = few({});
   const CrossTruth all{"", "ggx", "smith_ggx.correlated", {}, true};
-  const auto once = slice_of(ggx, glass, 0.8, cross_layouts[0], o),
-             more = slice_of(all, glass, 0.8, cross_layouts[0], o);
+  const auto once = slice_of(ggx, 0.8, cross_layouts[0], o),
+             more = slice_of(all, 0.8, cross_layouts[0], o);
   EXPECT_FALSE(once.half);
   ASSERT_TRUE(more.half);
   EXPECT_EQ(once.log_error, 0);
@@ -165,7 +191,7 @@ TEST(CrossFit, ThreeTimesTheBinsGiveMuchTheSame) {
     const auto& form = *std::ranges::find(forms, name, &CrossForm::name);
     for (const double roughness : {0.1, 0.6}) {
       const auto over = [&](const CrossLayout& layout) {
-        const auto slice = slice_of(ggx, glass, roughness, layout, o);
+        const auto slice = slice_of(ggx, roughness, layout, o);
         return fit_case(ggx, form, glass, roughness, slice, Metric::log);
       };
       const auto quick = over(cross_layouts[0]), fine = over(cross_layouts[1]);

@@ -10,6 +10,8 @@
 #include "base/base64.h"
 #include "base/json/reader.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gonio::scene::test {
 
 template <class T>

@@ -4,6 +4,8 @@
 
 #include "base/json/reader.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gonio::scene::test {
 
 inline Json example() {

@@ -6,6 +6,7 @@
 #include "support.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace gonio::scene {
 namespace {
@@ -87,6 +88,16 @@ TEST(PlanDocument, IsRefusedWithAFormThatTheMaterialHasNot) {
   EXPECT_HAS(
       refusal([] { read_forms(changed([](Json& d) { effect(d, "tail")["form"] = "gtr"; })); }),
       "a form that this material offers: ggx");
+}
+
+TEST(PlanDocument, IsRefusedWithASetOfFormsThatNoEffectHas) {
+  const auto with = [](const char* name, const char* form) {
+    return refusal([&] {
+      read(changed([&](Json& d) { d["materials"]["it"]["front"][0]["forms"][name] = form; }));
+    });
+  };
+  EXPECT_HAS(with("tail", "ggx2"), "/materials/it/front/0/forms/tail");
+  EXPECT_HAS(with("tails", "ggx"), "/materials/it/front/0/forms/tails");
 }
 
 TEST(PlanDocument, IsRefusedWithAnEffectTwice) {
