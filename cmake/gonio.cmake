@@ -91,7 +91,7 @@ function(gonio_room room)
     if(room MATCHES "^cli|^reports/(picture|page|pages|finding|index)$")  # they show what others compute
       target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
     endif()
-    if(NOT room_APART)
+    if(NOT room_APART AND NOT room MATCHES "^reports/")
       set_target_properties(${name} PROPERTIES UNITY_BUILD ${GONIO_UNITY} UNITY_BUILD_BATCH_SIZE 8)
     endif()
     if(fmt::fmt IN_LIST room_LIBRARIES)

@@ -82,19 +82,19 @@ class Highlight {
 std::vector<std::vector<double>> gltf_values(const TargetParameters& p,
                                              std::span<const FrameAngles<double>> angles) {
   const std::size_t n = p.front().values.size();  // base_color
-  const bool metal = value_in(p, "metallic") > 0;
-  const double strength = value_in(p, "specular");
-  const Highlight highlight(value_in(p, "roughness"), value_in(p, "anisotropy"),
-                            value_in(p, "anisotropy_rotation"));
-  const double weight = value_in(p, "clearcoat"), r = value_in(p, "clearcoat_roughness");
+  const bool metal = parameter_in(p, "metallic") > 0;
+  const double strength = parameter_in(p, "specular");
+  const Highlight highlight(parameter_in(p, "roughness"), parameter_in(p, "anisotropy"),
+                            parameter_in(p, "anisotropy_rotation"));
+  const double weight = parameter_in(p, "clearcoat"), r = parameter_in(p, "clearcoat_roughness");
   const Highlight coat(r, 0, 0);
   const auto color = per_channel(p, "base_color", n);
   auto f0 = color;
   if (!metal)
     for (std::size_t c = 0; c < n; ++c)
-      f0[c] = std::min(
-          mapped<F0FromIor, double>(value_in(p, "ior"), 1.0)[0] * value_in(p, "specular_color", c),
-          1.0);
+      f0[c] = std::min(mapped<F0FromIor, double>(parameter_in(p, "ior"), 1.0)[0] *
+                           parameter_in(p, "specular_color", c),
+                       1.0);
   const double most = *std::ranges::max_element(f0);
   std::vector<std::vector<double>> f(n, std::vector<double>(angles.size()));
   for (std::size_t i = 0; i < angles.size(); ++i) {

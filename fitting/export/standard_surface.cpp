@@ -17,23 +17,24 @@ std::vector<std::vector<double>> standard_values(const TargetParameters& p,
                                                  std::span<const FrameAngles<double>> angles) {
   const std::size_t n = p.front().values.size();  // base_color
   MaterialxSurface s;
-  if (const double w = value_in(p, "coat"); w > 0) {
-    const double r = value_in(p, "coat_roughness");
-    s.layers.push_back(dielectric(layer_of(r * r, r * r, 0, w), value_in(p, "coat_IOR"),
+  if (const double w = parameter_in(p, "coat"); w > 0) {
+    const double r = parameter_in(p, "coat_roughness");
+    s.layers.push_back(dielectric(layer_of(r * r, r * r, 0, w), parameter_in(p, "coat_IOR"),
                                   std::vector<double>(n, 1.0)));
   }
-  const double r = value_in(p, "specular_roughness"), alpha = r * r;
-  const double aspect = std::sqrt(1 - value_in(p, "specular_anisotropy"));
-  auto base = layer_of(alpha / aspect, alpha * aspect, -360 * value_in(p, "specular_rotation"), 1);
+  const double r = parameter_in(p, "specular_roughness"), alpha = r * r;
+  const double aspect = std::sqrt(1 - parameter_in(p, "specular_anisotropy"));
+  auto base =
+      layer_of(alpha / aspect, alpha * aspect, -360 * parameter_in(p, "specular_rotation"), 1);
   const auto color = per_channel(p, "base_color", n), edge = per_channel(p, "specular_color", n);
   s.kd.assign(n, 0.0);
-  if (value_in(p, "metalness") > 0) {
+  if (parameter_in(p, "metalness") > 0) {
     for (std::size_t c = 0; c < n; ++c)
       base.channels.push_back({artistic_layer(color[c], edge[c]), 0, 1, 1});
   } else {
     s.kd = color;
-    base.weight = value_in(p, "specular");
-    if (base.weight > 0) base = dielectric(std::move(base), value_in(p, "specular_IOR"), edge);
+    base.weight = parameter_in(p, "specular");
+    if (base.weight > 0) base = dielectric(std::move(base), parameter_in(p, "specular_IOR"), edge);
   }
   s.layers.push_back(std::move(base));
   return evaluate(s, angles);

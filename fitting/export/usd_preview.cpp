@@ -26,13 +26,13 @@ std::vector<std::vector<double>> usd_values(const TargetParameters& p,
     for (const double r : f0) layer.channels.push_back({f82_layer(r, 1), r, 1, 1});
     return layer;
   };
-  if (const double w = value_in(p, "clearcoat"); w > 0) {
-    const double f0 = mapped<F0FromIor, double>(value_in(p, "ior"), 1.0)[0];
+  if (const double w = parameter_in(p, "clearcoat"); w > 0) {
+    const double f0 = mapped<F0FromIor, double>(parameter_in(p, "ior"), 1.0)[0];
     s.layers.push_back(
-        schlick_layer(value_in(p, "clearcoatRoughness"), w, std::vector<double>(n, f0)));
+        schlick_layer(parameter_in(p, "clearcoatRoughness"), w, std::vector<double>(n, f0)));
   }
   s.layers.push_back(
-      schlick_layer(value_in(p, "roughness"), 1, per_channel(p, "specularColor", n)));
+      schlick_layer(parameter_in(p, "roughness"), 1, per_channel(p, "specularColor", n)));
   s.kd = per_channel(p, "diffuseColor", n);
   return evaluate(s, angles);
 }
