@@ -2,13 +2,29 @@
 
 option(GONIO_WERROR "Treat warnings as errors (the test presets do; a newer compiler must not stop a user)" OFF)
 
+# The kernels are compiled for each of these; the best one that the machine has runs. "all" is what packages have. By default they
+# are the plainest one and this machine's best, which is all that it can run and half of the work.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64")
   set(gonio_known_sets sse2 avx2 avx512)
 else()
   set(gonio_known_sets native)
 endif()
-set(GONIO_INSTRUCTION_SETS "${gonio_known_sets}" CACHE STRING
-  "Vector units to compile the column kernels for; the best one present is chosen at run time")
+if(NOT DEFINED CACHE{GONIO_INSTRUCTION_SETS} AND NOT DEFINED GONIO_INSTRUCTION_SETS)
+  set(gonio_sets_here ${gonio_known_sets})
+  if("avx2" IN_LIST gonio_known_sets AND NOT CMAKE_CROSSCOMPILING)
+    try_run(gonio_best gonio_asked ${CMAKE_BINARY_DIR}/best_set ${CMAKE_CURRENT_LIST_DIR}/best_set.cpp)
+    if(gonio_asked AND gonio_best MATCHES "^[0-2]$")
+      list(GET gonio_known_sets ${gonio_best} gonio_sets_here)
+      list(PREPEND gonio_sets_here sse2)
+      list(REMOVE_DUPLICATES gonio_sets_here)
+    endif()
+  endif()
+endif()
+set(GONIO_INSTRUCTION_SETS "${gonio_sets_here}" CACHE STRING
+  "Vector units to compile the column kernels for, or all; the best one present is chosen at run time")
+if(GONIO_INSTRUCTION_SETS STREQUAL "all")
+  set(GONIO_INSTRUCTION_SETS ${gonio_known_sets})
+endif()
 set(gonio_flags_avx2 -mavx2 -mfma)
 set(gonio_flags_avx512 -mavx2 -mfma -mavx512f -mavx512dq -mavx512bw -mavx512cd -mavx512vl
   -Wno-uninitialized -Wno-maybe-uninitialized)  # g++ 12 warns inside its own AVX-512 headers
@@ -20,6 +36,10 @@ if(GONIO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
     CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${GONIO_CCACHE})
 endif()
+
+# What costs is reading headers: the files of a room are compiled together, eight at a time, so names in their anonymous
+# namespaces are the room's.
+option(GONIO_UNITY "Compile the files of a room together" ON)
 
 # The same objects make the program and modules that other programs load.
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
@@ -33,16 +53,15 @@ target_compile_options(gonio_flags INTERFACE
   -fno-math-errno               # nobody asks errno after a square root, and loops with one can be vectors
   # g++ 12 raises these for std::string code that is fine
   "$<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow>>"
-  $<BUILD_INTERFACE:$<$<CONFIG:Release>:-O3>>
   $<BUILD_INTERFACE:$<$<BOOL:${GONIO_WERROR}>:-Werror>>)
 install(TARGETS gonio_flags EXPORT gonio)
 set_target_properties(gonio_flags PROPERTIES EXPORT_NAME flags)
 
-# gonio_room(ROOM USES rooms… LIBRARIES what its headers show… PRIVATE what they do not…): the folder ROOM, as
+# gonio_room(ROOM [APART] USES rooms… LIBRARIES what its headers show… PRIVATE what they do not…): the folder ROOM, as
 # "brdf/formula", as a target with its own include root.  Its sources are all .cpp files in it; its headers are
-# included as "brdf/formula/ndf.h"; those of a room that is not in USES, nor used by one that is, are not found.
+# included as "brdf/formula/ndf.h"; those of a room that is not in USES, nor used by one that is, are not found.  APART: its files are compiled one by one, because formulas cost more than headers.
 function(gonio_room room)
-  cmake_parse_arguments(room "" "" "SOURCES;USES;LIBRARIES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(room "APART" "" "SOURCES;USES;LIBRARIES;PRIVATE" ${ARGN})
   string(REPLACE / _ name gonio_${room})
   list(TRANSFORM room_USES REPLACE / _)
   list(TRANSFORM room_USES PREPEND gonio_)
@@ -69,6 +88,12 @@ function(gonio_room room)
     add_library(${name} STATIC ${sources})
     set(scope PUBLIC)
     target_link_libraries(${name} PRIVATE ${room_PRIVATE})
+    if(room MATCHES "^cli|^reports/(picture|page|pages|finding|index)$")  # they show what others compute
+      target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
+    if(NOT room_APART AND NOT room MATCHES "^reports/")
+      set_target_properties(${name} PROPERTIES UNITY_BUILD ${GONIO_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+    endif()
     if(fmt::fmt IN_LIST room_LIBRARIES)
       set(headers_of gonio_headers)
       if(nlohmann_json::nlohmann_json IN_LIST room_LIBRARIES)
@@ -91,13 +116,14 @@ function(gonio_room room)
   endif()
 endfunction()
 
-# gonio_per_instruction_set(ROOM SOURCES…): the same sources, one set of objects per instruction set, which a source of the
-# room finds by instruction_sets.inc.  "scalar" is the plain reference that the lanes of every other set must equal bit
-# for bit, and what runs where no other set does.
+# gonio_per_instruction_set(ROOM SOURCES…): the same sources, one set of objects per instruction set, which the room's own
+# sources find by instruction_sets.inc.  Beside the room stands ROOM_reference, the same with the set "scalar": one number at
+# a time, which the lanes of every other set must equal bit for bit. It is compiled for tests only, which link it first.
 function(gonio_per_instruction_set room)
   string(REPLACE / _ name gonio_${room})
-  foreach(set scalar ${GONIO_INSTRUCTION_SETS})
-    add_library(${name}_${set} OBJECT ${ARGN})
+  get_target_property(finders ${name} SOURCES)
+  foreach(set ${GONIO_INSTRUCTION_SETS} scalar)
+    add_library(${name}_${set} OBJECT EXCLUDE_FROM_ALL ${ARGN})
     target_include_directories(${name}_${set} PRIVATE $<TARGET_PROPERTY:${name},INCLUDE_DIRECTORIES>)
     target_link_libraries(${name}_${set} PRIVATE gonio_flags)
     target_compile_definitions(${name}_${set} PRIVATE GONIO_ARCH=${set})
@@ -106,9 +132,16 @@ function(gonio_per_instruction_set room)
       target_compile_definitions(${name}_${set} PRIVATE GONIO_SCALAR)
       target_compile_options(${name}_${set} PRIVATE -fno-tree-vectorize)
     endif()
-    target_sources(${name} PRIVATE $<TARGET_OBJECTS:${name}_${set}>)
-    string(APPEND sets "GONIO_SET(${set})\n")
+    if(NOT set STREQUAL "scalar")
+      target_sources(${name} PRIVATE $<TARGET_OBJECTS:${name}_${set}>)
+      string(APPEND sets "GONIO_SET(${set})\n")
+    endif()
   endforeach()
-  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}/instruction_sets.inc CONTENT "${sets}")
-  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${name})
+  set(at ${CMAKE_CURRENT_BINARY_DIR}/${name})
+  file(GENERATE OUTPUT ${at}/instruction_sets.inc CONTENT "${sets}")
+  target_include_directories(${name} PRIVATE ${at})
+  file(GENERATE OUTPUT ${at}/reference/instruction_sets.inc CONTENT "GONIO_SET(scalar)\n${sets}")
+  add_library(${name}_reference OBJECT EXCLUDE_FROM_ALL ${finders})
+  target_include_directories(${name}_reference BEFORE PRIVATE ${at}/reference)
+  target_link_libraries(${name}_reference PRIVATE ${name})
 endfunction()

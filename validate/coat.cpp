@@ -10,11 +10,11 @@
 namespace gonio::validating {
 namespace {
 
-constexpr Goal goal{1e-5, 200'000};
+constexpr Goal coat_goal{1e-5, 200'000};
 
 std::vector<std::vector<double>> albedos_of(const BoundModel& b, std::span<const double> mu) {
   std::vector<std::vector<double>> out;
-  for (const auto& a : directional_albedo(b, mu, 0, goal)) out.push_back(a.value);
+  for (const auto& a : directional_albedo(b, mu, 0, coat_goal)) out.push_back(a.value);
   return out;
 }
 

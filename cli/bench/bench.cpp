@@ -19,7 +19,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct BenchCall : Common {
   std::string what = "kernels";
   bool full = false, plain = true, times = false;
   std::optional<std::string> filter, baseline;
@@ -27,7 +27,7 @@ struct Options : Common {
 };
 
 /// Refuses what the other subject is told by.
-void check_options(const Options& o) {
+void check_options(const BenchCall& o) {
   const bool kernels = o.what == "kernels";
   if (!kernels && (o.full || o.filter || o.baseline || o.times || o.processes))
     throw wrong_usage(
@@ -154,7 +154,7 @@ void print_changes(const std::vector<CostChange>& all,
   print_missing(gone, "not timed now");
 }
 
-Exit bench_kernels(const Options& o) {
+Exit bench_kernels(const BenchCall& o) {
   std::optional<EarlierCosts> earlier;  // nobody waits to learn that it cannot be read
   if (o.baseline) earlier = read_costs(*o.baseline);
   auto options = cost_options(o.full);
@@ -193,7 +193,7 @@ Exit bench_kernels(const Options& o) {
   return Exit::done;
 }
 
-Exit run(const Options& o) {
+Exit run(const BenchCall& o) {
   check_options(o);
   if (o.what == "fit") return bench_fit({o.plain, o.repeats.value_or(11)}, o);
   if (o.what == "maps") return bench_maps({o.plain, o.repeats.value_or(5)}, o);
@@ -204,7 +204,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_bench(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<BenchCall>(
       "bench",
       "Times every form of the catalogue and whole models on this machine, or the fit of "
       "a MERL table, of texels or of many tables in parts",

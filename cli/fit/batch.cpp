@@ -4,8 +4,8 @@
 
 #include "base/file.h"
 #include "base/process.h"
-#include "cli/line/command.h"
 #include "cli/fit/fit_options.h"
+#include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "fitting/batch/job.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options : Common {
+struct BatchCall : Common {
   std::string engine, output, results = "results";
   std::vector<std::string> files;
   FitWords how;
@@ -40,7 +40,7 @@ std::string begun_by(Engine engine, const std::string& file) {
   return "";
 }
 
-Exit run(const Options& o) {
+Exit run(const BatchCall& o) {
   constexpr std::size_t usual_parts = 8;
   const Engine engine = value_of<Engine>(o.engine, "engine");
   if (!is_batch(o.files))
@@ -82,7 +82,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_batch(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<BatchCall>(
       "batch",
       "Writes the fit of many tables in parts for Slurm, Open Job Description, or as commands",
       "gonio batch --write slurm @list.txt --parts 8 --results results/ -o job.sh; sbatch job.sh\n"

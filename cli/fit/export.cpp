@@ -17,7 +17,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct ExportCall : Common {
   std::string fit, target, output;
   double tolerance = default_export_tolerance;
 };
@@ -42,7 +42,7 @@ void print(const Export& e) {
                                       100 * e.tolerance));
 }
 
-Exit run(const Options& o) {
+Exit run(const ExportCall& o) {
   use_jobs(o.jobs);
   if (!std::isfinite(o.tolerance) || o.tolerance < 0)
     throw wrong_usage("--tolerance: expected a number from 0 on");
@@ -69,10 +69,11 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_export(CommandLine& line) {
-  auto [c, o] = line.command("export",
-                             "Writes a fit as another program's material, says how far that is "
-                             "from the fit, and keeps the fit in the file",
-                             "gonio export fit.json --to gltf -o paint.gltf", run);
+  auto [c, o] =
+      line.command<ExportCall>("export",
+                               "Writes a fit as another program's material, says how far that is "
+                               "from the fit, and keeps the fit in the file",
+                               "gonio export fit.json --to gltf -o paint.gltf", run);
   c.option("FIT", o->fit, "Document of a fit").required();
   c.option("--to", o->target, "Format of the file").one_of(names_of<ExportTarget>).required();
   c.option("--tolerance", o->tolerance,

@@ -24,7 +24,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct FitCall : Common {
   std::vector<std::string> files, models;
   FitWords how;
   std::string output, html;
@@ -140,7 +140,7 @@ std::optional<std::string> variable_of_environment(const char* name) {
   return value ? std::optional<std::string>(value) : std::nullopt;
 }
 
-Exit run_batch(const Options& o, const HowFitted& how) {
+Exit run_batch(const FitCall& o, const HowFitted& how) {
   if (!o.html.empty())
     throw wrong_usage(
         "--html is of one table; the page of many is summary.html in their folder, and --pages "
@@ -202,7 +202,7 @@ void print(const ModelChoice& choice, const Advice& advice) {
 }
 
 /// Models compared on one table.
-Exit run_models(const Options& o, const HowFitted& how) {
+Exit run_models(const FitCall& o, const HowFitted& how) {
   if (is_batch(o.files))
     throw wrong_usage(
         "--models compares on one table: run it for each, with -o and --html of its own");
@@ -239,7 +239,7 @@ Exit run_models(const Options& o, const HowFitted& how) {
   return std::ranges::any_of(choice.rows, &ModelRow::converged) ? Exit::done : Exit::not_converged;
 }
 
-Exit run(const Options& o) {
+Exit run(const FitCall& o) {
   use_jobs(o.jobs);
   const HowFitted how = how_fitted(o.how);
   if (!o.models.empty()) return run_models(o, how);
@@ -271,11 +271,11 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_fit(CommandLine& line) {
-  auto [c, o] =
-      line.command("fit", "Fits a model to a table, or to each of many",
-                   "gonio fit paint.binary --model lambert+ggx/smith_ggx.correlated/schlick "
-                   "-o paint.json --html paint.html\n  gonio fit tables/ --jobs 2 -o results/",
-                   run);
+  auto [c, o] = line.command<FitCall>(
+      "fit", "Fits a model to a table, or to each of many",
+      "gonio fit paint.binary --model lambert+ggx/smith_ggx.correlated/schlick "
+      "-o paint.json --html paint.html\n  gonio fit tables/ --jobs 2 -o results/",
+      run);
   add_tables(c, o->files);
   add_fit_words(c, o->how);
   c.option("--models", o->models,

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options : Common {
+struct FitMapCall : Common {
   std::string stack, metric{name_of(TexelOptions{}.metric)}, output, tile_size = "256";
   std::vector<std::string> fix, bounds, tiles;
   TexelOptions texels;
@@ -49,7 +49,7 @@ class MapProgress {
 };
 
 /// Tiles that were asked for, into a folder.
-Exit run_tiles(const Options& o, const StackReader& stack, const TileGrid& grid) {
+Exit run_tiles(const FitMapCall& o, const StackReader& stack, const TileGrid& grid) {
   std::vector<Tile> tiles;
   for (const auto& word : o.tiles) {
     const auto place = two_numbers(word, "--tile", 0, longest_side, false);
@@ -73,9 +73,9 @@ Exit run_tiles(const Options& o, const StackReader& stack, const TileGrid& grid)
   return Exit::done;
 }
 
-Exit run(const Options& o) {
+Exit run(const FitMapCall& o) {
   use_jobs(o.jobs);
-  Options with = o;
+  FitMapCall with = o;
   TexelOptions& t = with.texels;
   t.metric = value_of<Metric>(o.metric, "metric");
   t.fixed = parse_settings(o.fix);
@@ -117,7 +117,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_fit_map(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<FitMapCall>(
       "fit_map", "Fits a model to each texel of a stack of images: a map of each parameter",
       "gonio fit_map stack/stack.json --model lambert+ggx/smith_ggx.correlated/schlick -o "
       "maps.exr\n  gonio fit_map stack/stack.json --tile 2,0 -o tiles/",

@@ -5,8 +5,8 @@
 
 #include "base/file.h"
 #include "cli/fit/batch_words.h"
-#include "cli/line/command.h"
 #include "cli/fit/map_result.h"
+#include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "fitting/batch/batch.h"
 #include "reports/pages/batch_page.h"
@@ -16,14 +16,14 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct GatherCall : Common {
   std::string folder, map;
   std::vector<std::string> tables;
 };
 
 /// Tables that should have a result: those that were named, else those of the batch that was begun last; and the way in which
 /// they are fitted, as that batch says.
-std::optional<BatchList> expected(const Options& o) {
+std::optional<BatchList> expected(const GatherCall& o) {
   auto list = read_list(o.folder);
   if (o.tables.empty()) return list;
   if (!list) list.emplace();
@@ -31,7 +31,7 @@ std::optional<BatchList> expected(const Options& o) {
   return list;
 }
 
-Exit run(const Options& o) {
+Exit run(const GatherCall& o) {
   use_jobs(o.jobs);
   expect_there(o.folder);
   if (has_tiles(o.folder)) {
@@ -65,7 +65,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_gather(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<GatherCall>(
       "gather",
       "Makes the summary of a folder of results, whoever wrote them, or joins the tiles of a map; "
       "names what is missing",

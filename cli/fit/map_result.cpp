@@ -14,10 +14,6 @@
 namespace gonio::cli {
 namespace {
 
-std::string percent(std::uint64_t part, std::uint64_t all) {
-  return fmt::format("{:.3g} %", 100 * static_cast<double>(part) / static_cast<double>(all));
-}
-
 void print(const MapDocument& d, const std::string& beside) {
   const std::uint64_t texels = d.width * d.height;
   say("model   {}\n", d.model);

@@ -141,6 +141,13 @@ void say_below(const std::string& head, const std::string& text) {
   say("{}\n", line);
 }
 
+std::string percent(double share) {
+  return fmt::format("{:.3g} %", 100 * share);
+}
+std::string percent(std::size_t part, std::size_t whole) {
+  return percent(whole ? static_cast<double>(part) / static_cast<double>(whole) : 0);
+}
+
 std::string with_error(double value, double error, double low, double high) {
   if (std::isnan(value)) return "–";
   if (std::isnan(error)) return fmt::format("{:.6g}", value);

@@ -75,6 +75,10 @@ class TimedProgress {
 /// Line that begins with `head`; at a terminal that is too narrow for it `text` goes on below itself.
 void say_below(const std::string& head, const std::string& text);
 
+/// "12.5 %"
+std::string percent(double share);
+std::string percent(std::size_t part, std::size_t whole);
+
 /// "0.15003 ± 0.00012": as many digits as the error leaves; "0.15" if the error is unknown;
 /// "0.12 (95 %: 0 to 0.38)" where the interval is not that of the error.
 std::string with_error(double value, double error, double low, double high);

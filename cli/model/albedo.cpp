@@ -12,7 +12,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct AlbedoCall : Common {
   std::string spec;
   std::vector<std::string> set;
   AlbedoQuestion question;
@@ -46,13 +46,13 @@ void print(const AlbedoAnswer& r, const AlbedoQuestion& q) {
   if (r.average) line("average", *r.average);
 }
 
-AlbedoAnswer answer(const Options& o) {
+AlbedoAnswer answer(const AlbedoCall& o) {
   const auto model = model_argument(o.spec, parse_settings(o.set)).model;
   Step step(o.quiet);
   return albedo_of(model, o.spec, o.question, std::ref(step));
 }
 
-Exit run(const Options& o) {
+Exit run(const AlbedoCall& o) {
   use_jobs(o.jobs);
   const AlbedoAnswer r = answer(o);
   if (o.json)
@@ -65,7 +65,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_albedo(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<AlbedoCall>(
       "albedo",
       "Integrates how much of the light that comes in a model gives back, with a bound of the "
       "error",

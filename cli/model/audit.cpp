@@ -14,7 +14,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct AuditCall : Common {
   std::vector<std::string> ids;
   bool all = false;
   std::string html;
@@ -82,7 +82,7 @@ void print_one(const EntryAudit& e) {
   line("verdict", verdict(e));
 }
 
-Exit run(const Options& o) {
+Exit run(const AuditCall& o) {
   use_jobs(o.jobs);
   if (o.all == !o.ids.empty()) throw wrong_usage("audit takes ids, or --all");
   std::vector<std::string> ids = o.ids;
@@ -107,7 +107,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_audit(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<AuditCall>(
       "audit",
       "Measures what entries of the catalogue keep and break: normalisation, "
       "reciprocity, energy, range, and the distance to the form they stand for",

@@ -15,7 +15,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct EvalCall : Common {
   std::string what, directions, output;
   std::vector<std::string> set;
   std::optional<std::string> bins;
@@ -37,7 +37,7 @@ std::vector<double*> columns_for(Table& at, const std::vector<std::string>& chan
   return columns;
 }
 
-Exit run(const Options& o) {
+Exit run(const EvalCall& o) {
   if (o.output.empty() && !o.json) throw wrong_usage("eval needs -o FILE or --json");
   auto inputs = file_in(o.what);
   inputs.push_back(o.directions);
@@ -86,13 +86,13 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_eval(CommandLine& line) {
-  auto [c, o] =
-      line.command("eval",
-                   "Evaluates a model, or a table between its samples, at the directions of a "
-                   "CSV file: f_r, f_g, f_b in 1/sr, no cosine",
-                   "gonio eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
-                   "--directions in.csv -o out.csv",
-                   run);
+  auto [c, o] = line.command<EvalCall>(
+      "eval",
+      "Evaluates a model, or a table between its samples, at the directions of a "
+      "CSV file: f_r, f_g, f_b in 1/sr, no cosine",
+      "gonio eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
+      "--directions in.csv -o out.csv",
+      run);
   c.option("MODEL", o->what, "Model, the fit.json of a fit, or a table").required();
   add_set(c, o->set);
   add_bins(c, o->bins);

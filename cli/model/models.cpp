@@ -10,7 +10,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct ModelsCall : Common {
   std::string word;
 };
 
@@ -63,7 +63,7 @@ void print_all() {
   fmt::print("\n");
 }
 
-Exit run(const Options& o) {
+Exit run(const ModelsCall& o) {
   const CatalogueEntries found = entries_with(o.word);
   if (o.json) {
     fmt::print("{}", to_json(found));
@@ -85,9 +85,9 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_models(CommandLine& line) {
-  auto [c, o] =
-      line.command("models", "The terms that models are composed of, maps and whole models",
-                   "gonio models ggx --json", run);
+  auto [c, o] = line.command<ModelsCall>(
+      "models", "The terms that models are composed of, maps and whole models",
+      "gonio models ggx --json", run);
   c.option(
       "WORD", o->word,
       "Only those that hold it in their id, title or source, or have a parameter of that name");

@@ -19,7 +19,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct ShaderCall : Common {
   std::string subject, language, precision = "float", name = "brdf";
   std::vector<std::string> set, grey, inputs, derivatives;
   std::optional<std::string> output, compensation, table, material;
@@ -86,7 +86,7 @@ Planned planned(const std::string& path, const std::string& name) {
   return p;
 }
 
-shader::TracedFormula traced(const Options& o) {
+shader::TracedFormula traced(const ShaderCall& o) {
   refuse_integrals(o.subject);
   const auto precision = value_of<shader::Precision>(o.precision, "precision");
   if (is_of_catalogue(o.subject)) {
@@ -148,7 +148,7 @@ bool reads_albedo(const shader::TracedFormula& f) {
   return std::ranges::find(f.parameters, "E_view", &shader::Argument::name) != f.parameters.end();
 }
 
-Exit run(const Options& o) {
+Exit run(const ShaderCall& o) {
   use_jobs(o.jobs);
   shader::check_function_name(o.name);  // before seconds are spent
   const auto file = is_of_catalogue(o.subject) ? std::vector<std::string>{} : file_in(o.subject);
@@ -197,7 +197,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_shader(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<ShaderCall>(
       "shader",
       "Writes a model, a term or a map as a shader's function, with what is known of its error",
       "gonio shader lambert.coupled+ggx/smith_ggx.correlated/schlick --language glsl "

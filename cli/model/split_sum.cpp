@@ -21,19 +21,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options : Common {
+struct SplitSumCall : Common {
   std::vector<double> roughness, nov, f0;
   std::string masking = "smith_ggx.correlated", size, precision, out, environment;
   std::size_t samples = 0, views = 0;
   std::optional<double> error;
 };
 
-Goal goal_or(const Options& o, double error) {
+Goal goal_or(const SplitSumCall& o, double error) {
   return {o.error.value_or(error)};
 }
 
 /// Refuses values that are no numbers, as where NoV is so small that its square is 0.
-void expect_finite(const Options& o,
+void expect_finite(const SplitSumCall& o,
                    double roughness,
                    double nov,
                    std::initializer_list<double> values) {
@@ -42,7 +42,7 @@ void expect_finite(const Options& o,
                     "values that are no numbers", "finite ones");
 }
 
-Exit rows(const Options& o) {
+Exit rows(const SplitSumCall& o) {
   std::string table =
       fmt::format("{:>10} {:>10} {:>12} {:>12} {:>12}\n", "roughness", "nov", "a", "b", "diffuse");
   Json rows = Json::array();
@@ -100,7 +100,7 @@ Json json_of(const SplitSumDeviation& d) {
   return {{"a", one(d.a)}, {"b", one(d.b)}, {"e", one(d.e)}};
 }
 
-Exit table(const Options& o) {
+Exit table(const SplitSumCall& o) {
   const auto [width, height] = size_from(o.size);
   check_outputs({}, {o.out});
   Progress progress(o.quiet);
@@ -151,7 +151,7 @@ Exit table(const Options& o) {
   return Exit::done;
 }
 
-Exit under_light(const Options& o) {
+Exit under_light(const SplitSumCall& o) {
   const auto f0s = o.f0.empty() ? std::vector{0.04} : o.f0;
   const std::size_t view_count = o.views > 0 ? o.views : 16;
   for (const double f0 : f0s)
@@ -214,7 +214,7 @@ Exit under_light(const Options& o) {
   return Exit::done;
 }
 
-Exit run(const Options& o) {
+Exit run(const SplitSumCall& o) {
   if (o.error && !(*o.error > 0))
     throw wrong_usage(fmt::format("--error {} is not above 0", *o.error));
   if (o.error && o.samples > 0) throw wrong_usage("--error is of quadrature, not of --samples");
@@ -239,7 +239,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_split_sum(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<SplitSumCall>(
       "split_sum",
       "A and B of the split sum: GGX under Schlick's Fresnel reflects F0 A + B of an even "
       "environment",

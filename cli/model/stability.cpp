@@ -13,7 +13,7 @@ namespace {
 
 using namespace stability;
 
-struct Options : Common {
+struct StabilityCall : Common {
   std::string subject, number = "half", require = "finite";
   std::optional<std::string> form;
   std::vector<std::string> domain;
@@ -23,7 +23,7 @@ struct Options : Common {
 };
 
 /// The subject in the form that was asked for, or in the one that has the inputs of the domain, or in the first.
-Subject chosen(const Options& o, const std::vector<Setting>& domain) {
+Subject chosen(const StabilityCall& o, const std::vector<Setting>& domain) {
   if (o.form) return subject_of(o.subject, *o.form);
   const auto all = subjects_of(o.subject);
   const auto has_all = [&](const Subject& s) {
@@ -93,7 +93,7 @@ void print(const Answer& a) {
   if (!a.looked.settled) line("not settled", "searches from two seeds differ: there may be worse");
 }
 
-Exit run(const Options& o) {
+Exit run(const StabilityCall& o) {
   use_jobs(o.jobs);
   std::vector<Setting> domain = parse_settings(o.domain);
   Question q;
@@ -121,7 +121,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_stability(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<StabilityCall>(
       "stability",
       "Says whether a formula keeps what is required of it in few bits, for every input of a "
       "domain; exit 1 with a "

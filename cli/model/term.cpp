@@ -10,12 +10,12 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct TermCall : Common {
   std::string id, number = "double";
   std::vector<std::string> set, at;
 };
 
-Exit run(const Options& o) {
+Exit run(const TermCall& o) {
   TermQuestion question{o.id, o.number, {}, {}};
   for (auto& s : parse_settings(o.set)) {
     if (s.values.size() != 1)
@@ -34,7 +34,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_term(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<TermCall>(
       "term", "Evaluates one term or map; a masking term gives G2, or G1 when only nov is given",
       "gonio term ndf.ggx --set alpha=0.25 --at noh=1,0.9 --json", run);
   c.option("ID", o->id, "Term or map, as `gonio models` lists it").required();

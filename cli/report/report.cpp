@@ -20,7 +20,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct ReportCall : Common {
   std::string name, output, asset;
   std::vector<std::string> environments;
   bool full = false;
@@ -162,7 +162,7 @@ class IndexFiles {
   OutputFile page_, data_;
 };
 
-Exit run(const Options& o) {
+Exit run(const ReportCall& o) {
   namespace fs = std::filesystem;
   use_jobs(o.jobs);
   if (o.json && o.name == all_reports) throw wrong_usage("--json is for one report");
@@ -228,12 +228,12 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_report(CommandLine& line) {
-  auto [c, o] =
-      line.command("report",
-                   "Studies what shipped approximations cost and lose: a page DIR/NAME.html, "
-                   "its data DIR/NAME.json "
-                   "and .csv, its pictures in DIR/NAME/; of all, DIR/index.html leads to them",
-                   "gonio report energy -o reports", run);
+  auto [c, o] = line.command<ReportCall>(
+      "report",
+      "Studies what shipped approximations cost and lose: a page DIR/NAME.html, "
+      "its data DIR/NAME.json "
+      "and .csv, its pictures in DIR/NAME/; of all, DIR/index.html leads to them",
+      "gonio report energy -o reports", run);
   std::vector<std::string> names;
   std::string what;
   for (const auto& kind : report_kinds()) {

@@ -15,7 +15,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct ValidateCall : Common {
   std::string choice, output, page, junit, sarif;
   bool suggest = false;
 };
@@ -38,7 +38,7 @@ void print(const Validation& v, bool suggested) {
     fmt::print("No choice of the catalogue with this distribution keeps every budget.\n");
 }
 
-Exit run(const Options& o) {
+Exit run(const ValidateCall& o) {
   use_jobs(o.jobs);
   OutputFiles files({o.choice}, o.output, o.page);
   check_outputs({o.choice}, {o.output, o.page, o.junit, o.sarif});
@@ -71,11 +71,12 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_validate(CommandLine& line) {
-  auto [c, o] = line.command("validate",
-                             "Checks a choice of a material model against its budgets, and names "
-                             "the worst input where one "
-                             "is broken (exit 1)",
-                             "gonio validate choice.json --junit gonio.xml", run);
+  auto [c, o] = line.command<ValidateCall>(
+      "validate",
+      "Checks a choice of a material model against its budgets, and names "
+      "the worst input where one "
+      "is broken (exit 1)",
+      "gonio validate choice.json --junit gonio.xml", run);
   c.option("CHOICE", o->choice, "Choice, gonio.choice/1").required();
   c.option("-o,--output", o->output, "The validation as a document, gonio.validation/1");
   c.option("--html", o->page, "The validation as a page");

@@ -20,7 +20,7 @@ namespace {
 
 using namespace scene;
 
-struct Options : Common {
+struct PlanCall : Common {
   std::string scene, output, page, cost = "time", write;
   std::size_t samples = PlanOptions{}.samples;
   std::optional<std::uint64_t> seed;
@@ -79,7 +79,7 @@ MaterialxPlan in_materialx(const Scene& s, const Plan& plan, const std::string& 
   return materialx_of(all, document);
 }
 
-Exit run(const Options& o) {
+Exit run(const PlanCall& o) {
   use_jobs(o.jobs);
   if (!o.write.empty() && o.output.empty())
     throw wrong_usage("--write mtlx needs -o PLAN.json: the materials go beside it, as PLAN.mtlx");
@@ -129,7 +129,8 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_plan(CommandLine& line) {
-  auto [c, o] = line.command("plan",
+  auto [c, o] =
+      line.command<PlanCall>("plan",
                              "Says for each material of a scene which optical effects to simulate "
                              "there, which to drop, and "
                              "what that saves, within the scene's tolerance",

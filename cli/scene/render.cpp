@@ -26,7 +26,7 @@ namespace {
 using namespace scene;
 using Json = nlohmann::ordered_json;
 
-struct Options : Common {
+struct RenderCall : Common {
   std::string scene, plan, out;
   RenderOptions picture;
   std::optional<std::uint64_t> seed;
@@ -96,7 +96,7 @@ std::string png_of(const Pictures& p, double exposure, Notes notes) {
   return png_bytes(image);
 }
 
-Pictures pictures_of(const Scene& scene, const Options& o) {
+Pictures pictures_of(const Scene& scene, const RenderCall& o) {
   const auto looks = looks_of(scene);
   std::optional<PlannedForms> plan;
   if (!o.plan.empty()) plan = read_plan(o.plan, scene, looks);
@@ -127,8 +127,8 @@ Pictures pictures_of(const Scene& scene, const Options& o) {
   return p;
 }
 
-Exit run(const Options& given) {
-  Options o = given;
+Exit run(const RenderCall& given) {
+  RenderCall o = given;
   const auto kind = std::filesystem::path(o.out).extension();
   if (kind != ".exr" && kind != ".png")
     throw wrong_usage(fmt::format("-o {}: a picture's name ends in .exr or .png", o.out));
@@ -183,7 +183,7 @@ Exit run(const Options& given) {
 
 void add_render(CommandLine& line) {
   constexpr std::size_t most = 4096;
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<RenderCall>(
       "render", "Makes a picture of a scene, with a plan also what that leaves and the difference",
       "gonio render scene.json --plan plan.json -o both.png", run);
   c.option("SCENE", o->scene, "Scene, gonio.scene/1").required();

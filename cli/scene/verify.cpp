@@ -12,7 +12,7 @@ namespace {
 
 using namespace scene;
 
-struct Options : Common {
+struct VerifyCall : Common {
   std::string scene, plan;
   std::optional<std::size_t> samples;
   std::uint64_t seed = 1;
@@ -27,7 +27,7 @@ void print(const VerifiedMaterial& m, const Tolerance& t) {
                   100 * t.confidence, m.found.worst));
 }
 
-Exit run(const Options& o) {
+Exit run(const VerifyCall& o) {
   use_jobs(o.jobs);
   check_outputs({o.scene, o.plan}, {});
   const Scene s = read_scene(o.scene);
@@ -51,7 +51,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_verify(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<VerifyCall>(
       "verify",
       "Judges a plan on fresh points of its scene; exit 1 where the scene's tolerance is broken",
       "gonio verify scene.json plan.json", run);

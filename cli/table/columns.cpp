@@ -19,18 +19,18 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct ColumnsCall : Common {
   std::vector<std::string> files, words;
   ColumnMap map;
 };
 
-bool says_anything(const Options& o) {
+bool says_anything(const ColumnsCall& o) {
   const ColumnMap usual;
   return !o.words.empty() || o.map.radians || o.map.cosine || o.map.skip != usual.skip ||
          o.map.forward_deg != usual.forward_deg || o.map.scale != usual.scale;
 }
 
-ColumnMap map_of(const Options& o) {
+ColumnMap map_of(const ColumnsCall& o) {
   ColumnMap map = o.map;
   for (const auto& word : o.words) {
     const auto at = word.find('=');
@@ -129,7 +129,7 @@ void print(const ColumnProposal& p, const std::string& file) {
       command);
 }
 
-Json show(const Options& o, const std::string& file, Progress& progress) {
+Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   progress("reading " + file);
   InputFile in(file);
   expect_columns(in);
@@ -179,7 +179,7 @@ Json show(const Options& o, const std::string& file, Progress& progress) {
   return shown;
 }
 
-Exit run(const Options& o) {
+Exit run(const ColumnsCall& o) {
   Json documents = Json::array();
   Progress progress(o.quiet);
   if (!says_anything(o)) {
@@ -208,7 +208,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_columns(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<ColumnsCall>(
       "columns",
       "Says what the columns of CSV files are, once: written beside each as FILE.gonio.json. "
       "Without options it shows them.",

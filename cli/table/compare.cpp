@@ -12,7 +12,7 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct CompareCall : Common {
   std::string file, model;
   std::vector<std::string> set;
   std::optional<std::string> bins;
@@ -27,7 +27,7 @@ void print(std::size_t values, const FitResiduals& r) {
           fmt::format("{} {}° to {}°", b.angle, b.from_deg, b.to_deg), b.values, b.rms, b.log_rms);
 }
 
-Exit run(const Options& o) {
+Exit run(const CompareCall& o) {
   use_jobs(o.jobs);
   Progress progress(o.quiet);
   progress("reading " + o.file);
@@ -49,8 +49,9 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_compare(CommandLine& line) {
-  auto [c, o] = line.command("compare", "How far a fitted or given model is from a table",
-                             "gonio compare paint.binary paint.json", run);
+  auto [c, o] =
+      line.command<CompareCall>("compare", "How far a fitted or given model is from a table",
+                                "gonio compare paint.binary paint.json", run);
   c.option("FILE", o->file, "Table").required();
   c.option("MODEL", o->model, spec_or_fit).required();
   add_set(c, o->set);

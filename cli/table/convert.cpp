@@ -18,13 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options : Common {
+struct ConvertCall : Common {
   std::string input, output, channels;
   std::optional<std::string> bins, to_bins;
   ConvertOptions convert;
 };
 
-std::string format_of(const Options& o) {
+std::string format_of(const ConvertCall& o) {
   if (!o.convert.format.empty()) return o.convert.format;
   const auto extension = std::filesystem::path(o.output).extension().string();
   if (extension == ".binary") return "merl";
@@ -46,13 +46,6 @@ std::string layout(const Table& t) {
     else
       s += fmt::format("{}{} {}", s.back() == ',' ? " " : " × ", a.size, a.name);
   return s + (t.has_bins() ? fmt::format(", bins {}", name_of(g->bins)) : "");
-}
-
-std::string percent(double share) {
-  return fmt::format("{:.3g} %", 100 * share);
-}
-std::string percent(std::size_t part, std::size_t whole) {
-  return percent(whole ? static_cast<double>(part) / static_cast<double>(whole) : 0);
 }
 
 /// Way that the values were converted, in words.
@@ -77,7 +70,7 @@ std::array<double, 3> angles_deg(const Table& t, std::size_t sample) {
           std::abs(std::remainder(phi_of(p.wo) - phi_of(p.wi), 2 * std::numbers::pi)) / degree};
 }
 
-void print(const Table& from, const Conversion& c, const Options& o) {
+void print(const Table& from, const Conversion& c, const ConvertCall& o) {
   const auto line = [](const char* what, const std::string& text) {
     say("{:<14}{}\n", what, text);
   };
@@ -122,7 +115,7 @@ void print(const Table& from, const Conversion& c, const Options& o) {
   }
 }
 
-Json to_json(const Table& from, const Conversion& c, const Options& o) {
+Json to_json(const Table& from, const Conversion& c, const ConvertCall& o) {
   const auto side = [](const Table& t, const std::string& path) {
     return Json{{"path", path},
                 {"format", t.format},
@@ -164,7 +157,7 @@ Json to_json(const Table& from, const Conversion& c, const Options& o) {
             {"largest_at", largest_at}}}};
 }
 
-Exit run(const Options& o) {
+Exit run(const ConvertCall& o) {
   use_jobs(o.jobs);
   ConvertOptions options = o.convert;
   options.format = format_of(o);
@@ -189,8 +182,9 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_convert(CommandLine& line) {
-  auto [c, o] = line.command("convert", "Writes a table in another format and says what that loses",
-                             "gonio convert paint.binary paint.mbsdf", run);
+  auto [c, o] = line.command<ConvertCall>(
+      "convert", "Writes a table in another format and says what that loses",
+      "gonio convert paint.binary paint.mbsdf", run);
   c.option("IN", o->input, "Table").required();
   c.option("OUT", o->output, "File to write").required();
   c.option("--to", o->convert.format,

@@ -15,15 +15,11 @@
 namespace gonio::cli {
 namespace {
 
-struct Options : Common {
+struct InspectCall : Common {
   std::string file, html;
   std::optional<std::string> bins, model;
   std::optional<std::size_t> plan_next;
 };
-
-double percent(std::size_t part, std::size_t whole) {
-  return whole ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0;
-}
 
 std::string noise_text(const Noise& n) {
   if (!n.sigma) return "cannot be told: no nine samples lie on a line along one angle";
@@ -40,11 +36,10 @@ void print(const Table& t, const Health& h) {
   line("file", t.path);
   line("layout",
        fmt::format("{}, {}, channels {}", t.format, layout_text(t), fmt::join(t.channels, " ")));
-  line("values",
-       fmt::format("{} of {} valid ({:.1f} %)", h.valid, h.values, percent(h.valid, h.values)));
+  line("values", fmt::format("{} of {} valid ({})", h.valid, h.values, percent(h.valid, h.values)));
   for (std::size_t m = 1; m < names_of<Mask>.size(); ++m)
     if (h.masked[m])
-      line("masked", fmt::format("{} {} ({:.1f} %)", h.masked[m], names_of<Mask>[m],
+      line("masked", fmt::format("{} {} ({})", h.masked[m], names_of<Mask>[m],
                                  percent(h.masked[m], h.values)));
   line("range", fmt::format("{:.4g} to {:.4g} 1/sr", h.smallest_positive, h.largest));
   if (h.noise_floor > 0)
@@ -113,7 +108,7 @@ void print(const std::vector<NextDirection>& next, const std::string& model) {
         d.theta_o_deg, d.phi_o_deg, d.parameter, width(d.width_before), width(d.width_after));
 }
 
-Exit run(const Options& o) {
+Exit run(const InspectCall& o) {
   if (o.model && !o.plan_next) throw wrong_usage("--model goes with --plan-next");
   use_jobs(o.jobs);
   OutputFiles out({o.file}, "", o.html);
@@ -146,8 +141,9 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_inspect(CommandLine& line) {
-  auto [c, o] = line.command("inspect", "What a table holds and what it can be trusted for",
-                             "gonio inspect paint.binary --html paint.html", run);
+  auto [c, o] =
+      line.command<InspectCall>("inspect", "What a table holds and what it can be trusted for",
+                                "gonio inspect paint.binary --html paint.html", run);
   c.option("FILE", o->file, "A table, its format found from the bytes").required();
   c.option("--html", o->html,
            "A page of the table, NAME.html, and its data beside it, NAME.page.json");

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options : Common {
+struct SynthCall : Common {
   std::string spec, layout, output;
   std::vector<std::string> set;
   std::optional<std::string> bins;
@@ -38,11 +38,7 @@ std::string with_commas(std::size_t n) {
   return s;
 }
 
-std::string percent(double share) {
-  return fmt::format("{:.3g} %", 100 * share);
-}
-
-void print(const Table& t, const Options& o) {
+void print(const Table& t, const SynthCall& o) {
   std::string how = o.synth.noise > 0 ? "noise " + percent(o.synth.noise) : "no noise";
   if (o.synth.floor > 0) how += fmt::format(", floor {:g} 1/sr", o.synth.floor);
   if (o.synth.outliers > 0) how += ", outliers " + percent(o.synth.outliers);
@@ -54,8 +50,8 @@ void print(const Table& t, const Options& o) {
                         fmt::to_string(fmt::join(t.channels, " ")), how));
 }
 
-/// Options that a layout does not read are refused: what was asked for would not be done.
-void expect_options_of(const Options& o) {
+/// SynthCall that a layout does not read are refused: what was asked for would not be done.
+void expect_options_of(const SynthCall& o) {
   const bool map = o.layout == map_layout;
   for (const auto& [given, option] : {std::pair(o.parameters.has_value(), "--parameters"),
                                       {o.normals.has_value(), "--normals"},
@@ -75,7 +71,7 @@ void expect_options_of(const Options& o) {
     throw wrong_usage("--images draws directions at random; --directions has them");
 }
 
-Exit run_map(const Options& o) {
+Exit run_map(const SynthCall& o) {
   StackSynthOptions s;
   s.parameters = o.parameters;
   s.normals = o.normals;
@@ -118,7 +114,7 @@ Exit run_map(const Options& o) {
   return Exit::done;
 }
 
-Exit run(const Options& o) {
+Exit run(const SynthCall& o) {
   use_jobs(o.jobs);
   expect_options_of(o);
   if (o.layout == map_layout) return run_map(o);
@@ -144,7 +140,7 @@ Exit run(const Options& o) {
 }  // namespace
 
 void add_synth(CommandLine& line) {
-  auto [c, o] = line.command(
+  auto [c, o] = line.command<SynthCall>(
       "synth", "Samples a table, or a stack of images, from a model, with noise if asked",
       "gonio synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.15 kd=0.2,0.1,0.05 "
       "--layout merl --noise 0.02 -o paint.binary\n  gonio synth "

@@ -9,7 +9,7 @@
 namespace gonio {
 namespace {
 
-constexpr std::size_t most_groups = 65'536;
+constexpr std::size_t most_fold_groups = 65'536;
 
 /// Ways to look at a table: as it is fitted, and as what is left out is judged.
 struct Looks {
@@ -31,8 +31,9 @@ LogResiduals left_out(const Looks& look,
   Sampling seen = look.fitted.without(std::move(not_fitted));
   seen.set_bulk(bulk_of(p, seen));
   const Fitted start{whole, no_huber, {}, false, 0};
-  const Fitted found = compared_by(seen, p, most_groups, start);
-  return total(log_residuals(look.judged.without(std::move(not_judged)), found.model, most_groups));
+  const Fitted found = compared_by(seen, p, most_fold_groups, start);
+  return total(
+      log_residuals(look.judged.without(std::move(not_judged)), found.model, most_fold_groups));
 }
 
 }  // namespace

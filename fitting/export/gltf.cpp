@@ -79,22 +79,22 @@ class Highlight {
 /// F(base_color) D V, or of a dielectric,
 ///
 ///   (1 − s max F) base_color/π + s F D V,   F0 = min(((n − 1)/(n + 1))² specular_color, 1)
-std::vector<std::vector<double>> values(const TargetParameters& p,
-                                        std::span<const FrameAngles<double>> angles) {
+std::vector<std::vector<double>> gltf_values(const TargetParameters& p,
+                                             std::span<const FrameAngles<double>> angles) {
   const std::size_t n = p.front().values.size();  // base_color
-  const bool metal = value_in(p, "metallic") > 0;
-  const double strength = value_in(p, "specular");
-  const Highlight highlight(value_in(p, "roughness"), value_in(p, "anisotropy"),
-                            value_in(p, "anisotropy_rotation"));
-  const double weight = value_in(p, "clearcoat"), r = value_in(p, "clearcoat_roughness");
+  const bool metal = parameter_in(p, "metallic") > 0;
+  const double strength = parameter_in(p, "specular");
+  const Highlight highlight(parameter_in(p, "roughness"), parameter_in(p, "anisotropy"),
+                            parameter_in(p, "anisotropy_rotation"));
+  const double weight = parameter_in(p, "clearcoat"), r = parameter_in(p, "clearcoat_roughness");
   const Highlight coat(r, 0, 0);
   const auto color = per_channel(p, "base_color", n);
   auto f0 = color;
   if (!metal)
     for (std::size_t c = 0; c < n; ++c)
-      f0[c] = std::min(
-          mapped<F0FromIor, double>(value_in(p, "ior"), 1.0)[0] * value_in(p, "specular_color", c),
-          1.0);
+      f0[c] = std::min(mapped<F0FromIor, double>(parameter_in(p, "ior"), 1.0)[0] *
+                           parameter_in(p, "specular_color", c),
+                       1.0);
   const double most = *std::ranges::max_element(f0);
   std::vector<std::vector<double>> f(n, std::vector<double>(angles.size()));
   for (std::size_t i = 0; i < angles.size(); ++i) {
@@ -113,7 +113,7 @@ std::vector<std::vector<double>> values(const TargetParameters& p,
   return f;
 }
 
-std::vector<TargetForm> forms(const Surface& s) {
+std::vector<TargetForm> gltf_forms(const Surface& s) {
   std::vector<TargetForm> all{core_form(s)};
   for (const auto& [base, coat, metal] : placements(s)) {
     if (!base) continue;
@@ -140,12 +140,14 @@ std::vector<TargetForm> forms(const Surface& s) {
       p.push_back({"clearcoat", {coat->weight * coat->largest_f0() / 0.04}});
       p.push_back({"clearcoat_roughness", {one_roughness(*coat)}, roughness_range});
     }
-    all.push_back({std::move(p), values});
+    all.push_back({std::move(p), gltf_values});
   }
   return all;
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters& p) {
+std::vector<std::string> gltf_lost(const BoundModel& fit,
+                                   const Surface& s,
+                                   const TargetParameters& p) {
   const auto has = [&](std::string_view name) {
     return std::ranges::find(p, name, &TargetParameter::name) != p.end();
   };
@@ -183,7 +185,7 @@ bool is_default(std::string_view parameter, const std::vector<double>& values) {
          std::ranges::all_of(values, [](double v) { return v == 1; });
 }
 
-std::string file(const Export& e, const std::string& fit) {
+std::string gltf_file(const Export& e, const std::string& fit) {
   const auto find = [&](std::string_view name) -> const std::vector<double>* {
     const auto at = std::ranges::find(e.parameters, name, [](const auto& p) { return p.first; });
     return at == e.parameters.end() ? nullptr : &at->second;
@@ -215,6 +217,6 @@ std::string file(const Export& e, const std::string& fit) {
 
 }  // namespace
 
-const Target gltf_target{"glTF", forms, lost, file};
+const Target gltf_target{"glTF", gltf_forms, gltf_lost, gltf_file};
 
 }  // namespace gonio

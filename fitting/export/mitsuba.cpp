@@ -37,7 +37,7 @@ std::string catalogue_name(const std::string& name) {
   return stem + ending;
 }
 
-std::vector<TargetForm> forms(const Surface& s) {
+std::vector<TargetForm> mitsuba_forms(const Surface& s) {
   std::string spec;
   TargetForm form;
   auto& p = form.parameters;
@@ -75,7 +75,9 @@ std::vector<TargetForm> forms(const Surface& s) {
   return {std::move(form)};
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters&) {
+std::vector<std::string> mitsuba_lost(const BoundModel& fit,
+                                      const Surface& s,
+                                      const TargetParameters&) {
   auto all = lost_by_all(fit, "Mitsuba's", "separable");
   for (const auto& d : fit.model.diffuse)
     if (catalogue()[d.term].coupled)
@@ -91,7 +93,7 @@ std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const Tar
   return all;
 }
 
-std::string file(const Export& e, const std::string& fit) {
+std::string mitsuba_file(const Export& e, const std::string& fit) {
   const auto find = [&](const std::string& name) -> const std::vector<double>* {
     const auto it = std::ranges::find(
         e.parameters, name, [](const auto& p) -> auto& { return p.first; });
@@ -140,6 +142,6 @@ std::string file(const Export& e, const std::string& fit) {
 
 }  // namespace
 
-const Target mitsuba_target{"Mitsuba", forms, lost, file};
+const Target mitsuba_target{"Mitsuba", mitsuba_forms, mitsuba_lost, mitsuba_file};
 
 }  // namespace gonio

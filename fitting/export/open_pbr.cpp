@@ -18,25 +18,25 @@ namespace {
 ///
 /// of which what lies below loses light at grazing angles even where s is 0.  Under a coat of weight w, roughness c and index η_c:  r⁴ ← min(1, r⁴ + 2 c⁴),  η ← η/η_c or its inverse, whichever is
 /// above 1, each mixed by w with what it was.
-std::vector<std::vector<double>> values(const TargetParameters& p,
-                                        std::span<const FrameAngles<double>> angles) {
+std::vector<std::vector<double>> open_pbr_values(const TargetParameters& p,
+                                                 std::span<const FrameAngles<double>> angles) {
   const std::size_t n = p.front().values.size();  // base_color
   MaterialxSurface s;
-  double r = value_in(p, "specular_roughness"), eta = value_in(p, "specular_ior");
-  if (const double w = value_in(p, "coat_weight"); w > 0) {
-    const double c = value_in(p, "coat_roughness"), index = value_in(p, "coat_ior");
+  double r = parameter_in(p, "specular_roughness"), eta = parameter_in(p, "specular_ior");
+  if (const double w = parameter_in(p, "coat_weight"); w > 0) {
+    const double c = parameter_in(p, "coat_roughness"), index = parameter_in(p, "coat_ior");
     s.layers.push_back(
         dielectric(layer_of(c * c, c * c, 0, w), index, std::vector<double>(n, 1.0)));
     r += w * (fourth_root(std::min(1.0, std::pow(r, 4) + 2 * std::pow(c, 4))) - r);
     eta += w * (std::max(eta / index, index / std::max(eta, 1.0)) - eta);
   }
-  const double across = 1 - value_in(p, "specular_roughness_anisotropy");
+  const double across = 1 - parameter_in(p, "specular_roughness_anisotropy");
   const double wide = r * r * std::sqrt(2 / (1 + across * across));
-  auto base = layer_of(wide, across * wide, value_in(p, "geometry_tangent"), 1);
-  const double strength = value_in(p, "specular_weight");
+  auto base = layer_of(wide, across * wide, parameter_in(p, "geometry_tangent"), 1);
+  const double strength = parameter_in(p, "specular_weight");
   const auto color = per_channel(p, "base_color", n), tint = per_channel(p, "specular_color", n);
   s.kd.assign(n, 0.0);
-  if (value_in(p, "base_metalness") > 0) {
+  if (parameter_in(p, "base_metalness") > 0) {
     base.weight = strength;
     for (std::size_t c = 0; c < n; ++c)
       base.channels.push_back({f82_layer(color[c], tint[c]), 0, 1, 1});
@@ -50,7 +50,7 @@ std::vector<std::vector<double>> values(const TargetParameters& p,
   return evaluate(s, angles);
 }
 
-std::vector<TargetForm> forms(const Surface& s) {
+std::vector<TargetForm> open_pbr_forms(const Surface& s) {
   std::vector<TargetForm> all;
   for (const auto& [base, coat, metal] : placements(s)) {
     TargetParameters p;
@@ -93,14 +93,16 @@ std::vector<TargetForm> forms(const Surface& s) {
       p.push_back({"coat_roughness", {one_roughness(*coat)}, roughness_range});
       p.push_back({"coat_ior", {grey_dielectric(*coat).eta}, index_range});
     }
-    all.push_back({std::move(p), values});
+    all.push_back({std::move(p), open_pbr_values});
   }
   return all;
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters& p) {
+std::vector<std::string> open_pbr_lost(const BoundModel& fit,
+                                       const Surface& s,
+                                       const TargetParameters& p) {
   auto all = lost_in_layers(fit, s, "OpenPBR's");
-  const bool metal = value_in(p, "base_metalness") > 0;
+  const bool metal = parameter_in(p, "base_metalness") > 0;
   if (metal && !fresnel_is(fit, {"schlick", "f82"}))
     all.emplace_back("The Fresnel curve: OpenPBR's metal has Schlick's with a tint at the edge.");
   if (!metal && !fresnel_is(fit, {"dielectric"}))
@@ -124,7 +126,7 @@ std::string turned_tangent(double angle_deg) {
          "<input name=\"axis\" type=\"vector3\" nodename=\"fit_normal\"/>\n</rotate3d>\n";
 }
 
-std::string file(const Export& e, const std::string& fit) {
+std::string open_pbr_file(const Export& e, const std::string& fit) {
   std::string inputs = input("base_weight", "float", {1}), before;
   for (const auto& [name, v] : e.parameters)
     if (name == "geometry_tangent") {
@@ -139,6 +141,6 @@ std::string file(const Export& e, const std::string& fit) {
 
 }  // namespace
 
-const Target open_pbr_target{"OpenPBR", forms, lost, file};
+const Target open_pbr_target{"OpenPBR", open_pbr_forms, open_pbr_lost, open_pbr_file};
 
 }  // namespace gonio

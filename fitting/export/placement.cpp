@@ -58,7 +58,7 @@ double one_roughness(const SurfaceLobe& l) {
 
 std::vector<double> per_channel(const TargetParameters& p, std::string_view name, std::size_t n) {
   std::vector<double> v;
-  for (std::size_t c = 0; c < n; ++c) v.push_back(value_in(p, name, c));
+  for (std::size_t c = 0; c < n; ++c) v.push_back(parameter_in(p, name, c));
   return v;
 }
 

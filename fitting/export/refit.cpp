@@ -72,7 +72,7 @@ class Distance : public ceres::CostFunction {
 
 }  // namespace
 
-double value_in(const TargetParameters& all, std::string_view name, std::size_t channel) {
+double parameter_in(const TargetParameters& all, std::string_view name, std::size_t channel) {
   const auto it = std::ranges::find(all, name, &TargetParameter::name);
   return it == all.end() ? 0 : it->values[it->values.size() > 1 ? channel : 0];
 }

@@ -13,33 +13,34 @@ namespace {
 /// aspect = √(1 − A),  α_x = min(r²/aspect, 1),  α_y = r² aspect          (mx_roughness_anisotropy)
 ///
 /// The rotation turns the tangent clockwise, seen from above (mx_rotate_vector3).
-std::vector<std::vector<double>> values(const TargetParameters& p,
-                                        std::span<const FrameAngles<double>> angles) {
+std::vector<std::vector<double>> standard_values(const TargetParameters& p,
+                                                 std::span<const FrameAngles<double>> angles) {
   const std::size_t n = p.front().values.size();  // base_color
   MaterialxSurface s;
-  if (const double w = value_in(p, "coat"); w > 0) {
-    const double r = value_in(p, "coat_roughness");
-    s.layers.push_back(dielectric(layer_of(r * r, r * r, 0, w), value_in(p, "coat_IOR"),
+  if (const double w = parameter_in(p, "coat"); w > 0) {
+    const double r = parameter_in(p, "coat_roughness");
+    s.layers.push_back(dielectric(layer_of(r * r, r * r, 0, w), parameter_in(p, "coat_IOR"),
                                   std::vector<double>(n, 1.0)));
   }
-  const double r = value_in(p, "specular_roughness"), alpha = r * r;
-  const double aspect = std::sqrt(1 - value_in(p, "specular_anisotropy"));
-  auto base = layer_of(alpha / aspect, alpha * aspect, -360 * value_in(p, "specular_rotation"), 1);
+  const double r = parameter_in(p, "specular_roughness"), alpha = r * r;
+  const double aspect = std::sqrt(1 - parameter_in(p, "specular_anisotropy"));
+  auto base =
+      layer_of(alpha / aspect, alpha * aspect, -360 * parameter_in(p, "specular_rotation"), 1);
   const auto color = per_channel(p, "base_color", n), edge = per_channel(p, "specular_color", n);
   s.kd.assign(n, 0.0);
-  if (value_in(p, "metalness") > 0) {
+  if (parameter_in(p, "metalness") > 0) {
     for (std::size_t c = 0; c < n; ++c)
       base.channels.push_back({artistic_layer(color[c], edge[c]), 0, 1, 1});
   } else {
     s.kd = color;
-    base.weight = value_in(p, "specular");
-    if (base.weight > 0) base = dielectric(std::move(base), value_in(p, "specular_IOR"), edge);
+    base.weight = parameter_in(p, "specular");
+    if (base.weight > 0) base = dielectric(std::move(base), parameter_in(p, "specular_IOR"), edge);
   }
   s.layers.push_back(std::move(base));
   return evaluate(s, angles);
 }
 
-std::vector<TargetForm> forms(const Surface& s) {
+std::vector<TargetForm> standard_forms(const Surface& s) {
   std::vector<TargetForm> all;
   for (const auto& [base, coat, metal] : placements(s)) {
     TargetParameters p;
@@ -79,19 +80,21 @@ std::vector<TargetForm> forms(const Surface& s) {
       p.push_back({"coat_roughness", {one_roughness(*coat)}, roughness_range});
       p.push_back({"coat_IOR", {grey_dielectric(*coat).eta}, index_range});
     }
-    all.push_back({std::move(p), values});
+    all.push_back({std::move(p), standard_values});
   }
   return all;
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters&) {
+std::vector<std::string> standard_lost(const BoundModel& fit,
+                                       const Surface& s,
+                                       const TargetParameters&) {
   auto all = lost_in_layers(fit, s, "Standard Surface's");
   if (!fresnel_is(fit, {"conductor", "dielectric", "gulbrandsen"}))
     all.emplace_back("The Fresnel curve: Standard Surface's is exact, of an index.");
   return all;
 }
 
-std::string file(const Export& e, const std::string& fit) {
+std::string standard_file(const Export& e, const std::string& fit) {
   std::string inputs = input("base", "float", {1});
   for (const auto& [name, v] : e.parameters)
     inputs += input(name, name.ends_with("_color") ? "color3" : "float", v);
@@ -100,6 +103,7 @@ std::string file(const Export& e, const std::string& fit) {
 
 }  // namespace
 
-const Target standard_surface_target{"Standard Surface", forms, lost, file};
+const Target standard_surface_target{"Standard Surface", standard_forms, standard_lost,
+                                     standard_file};
 
 }  // namespace gonio

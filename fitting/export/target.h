@@ -48,7 +48,7 @@ extern const Target gltf_target, mitsuba_target, standard_surface_target, open_p
     usd_preview_target;
 
 /// Value of a parameter by its name: of a channel, or the only one.  0 where there is none.
-double value_in(const TargetParameters&, std::string_view name, std::size_t channel = 0);
+double parameter_in(const TargetParameters&, std::string_view name, std::size_t channel = 0);
 
 /// Values of legal parameters nearest to the wanted f, from the given ones on: least squares of (f − wanted)/scale.
 /// \param wanted, scale  [channel][sample]; scale is above 0

@@ -15,8 +15,8 @@
 namespace gonio {
 namespace {
 
-std::vector<std::vector<double>> values(const TargetParameters& p,
-                                        std::span<const FrameAngles<double>> angles) {
+std::vector<std::vector<double>> usd_values(const TargetParameters& p,
+                                            std::span<const FrameAngles<double>> angles) {
   const std::size_t n = p.front().values.size();  // diffuseColor
   MaterialxSurface s;
   const auto schlick_layer = [&](double roughness, double weight, const std::vector<double>& f0) {
@@ -26,18 +26,18 @@ std::vector<std::vector<double>> values(const TargetParameters& p,
     for (const double r : f0) layer.channels.push_back({f82_layer(r, 1), r, 1, 1});
     return layer;
   };
-  if (const double w = value_in(p, "clearcoat"); w > 0) {
-    const double f0 = mapped<F0FromIor, double>(value_in(p, "ior"), 1.0)[0];
+  if (const double w = parameter_in(p, "clearcoat"); w > 0) {
+    const double f0 = mapped<F0FromIor, double>(parameter_in(p, "ior"), 1.0)[0];
     s.layers.push_back(
-        schlick_layer(value_in(p, "clearcoatRoughness"), w, std::vector<double>(n, f0)));
+        schlick_layer(parameter_in(p, "clearcoatRoughness"), w, std::vector<double>(n, f0)));
   }
   s.layers.push_back(
-      schlick_layer(value_in(p, "roughness"), 1, per_channel(p, "specularColor", n)));
+      schlick_layer(parameter_in(p, "roughness"), 1, per_channel(p, "specularColor", n)));
   s.kd = per_channel(p, "diffuseColor", n);
   return evaluate(s, angles);
 }
 
-std::vector<TargetForm> forms(const Surface& s) {
+std::vector<TargetForm> usd_forms(const Surface& s) {
   std::vector<TargetForm> all;
   const SurfaceLobe* last = nullptr;
   for (const auto& [base, coat, metal] : placements(s)) {
@@ -53,12 +53,14 @@ std::vector<TargetForm> forms(const Surface& s) {
       p.push_back({"clearcoatRoughness", {one_roughness(*coat)}, roughness_range});
       p.push_back({"ior", {grey_dielectric(*coat).eta}, index_range});
     }
-    all.push_back({std::move(p), values});
+    all.push_back({std::move(p), usd_values});
   }
   return all;
 }
 
-std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const TargetParameters&) {
+std::vector<std::string> usd_lost(const BoundModel& fit,
+                                  const Surface& s,
+                                  const TargetParameters&) {
   auto all = lost_in_layers(fit, s, "UsdPreviewSurface's");
   if (s.lobes.empty())
     all.emplace_back(
@@ -69,7 +71,7 @@ std::vector<std::string> lost(const BoundModel& fit, const Surface& s, const Tar
   return all;
 }
 
-std::string file(const Export& e, const std::string& fit) {
+std::string usd_file(const Export& e, const std::string& fit) {
   std::string inputs;
   for (auto [name, v] : e.parameters) {
     const bool color = name.ends_with("Color");
@@ -107,6 +109,6 @@ def Scope "fit"
 
 }  // namespace
 
-const Target usd_preview_target{"UsdPreviewSurface", forms, lost, file};
+const Target usd_preview_target{"UsdPreviewSurface", usd_forms, usd_lost, usd_file};
 
 }  // namespace gonio

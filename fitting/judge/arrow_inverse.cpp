@@ -3,12 +3,6 @@
 namespace gonio {
 namespace {
 
-using RowMajor = ArrowInverse::RowMajor;
-
-Eigen::Index index(std::size_t n) {
-  return static_cast<Eigen::Index>(n);
-}
-
 void put(const std::vector<std::size_t>& rows, const Eigen::MatrixXd& from, RowMajor& to) {
   for (std::size_t k = 0; k < rows.size(); ++k) to.row(index(rows[k])) = from.row(index(k));
 }

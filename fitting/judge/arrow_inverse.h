@@ -16,8 +16,6 @@ namespace gonio {
 ///   B⁻¹ = E + U K Uᵀ,   E = diag(0, D_c⁻¹),   U = (1, −D_c⁻¹ B_c),   K the head's Schur complement⁻¹
 class ArrowInverse {
  public:
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
   explicit ArrowInverse(const ArrowMatrix&);
   double operator()(std::size_t i, std::size_t j) const;
   /// B⁻¹ v

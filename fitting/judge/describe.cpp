@@ -9,11 +9,7 @@
 #include <fmt/format.h>
 
 namespace gonio {
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 void describe(FitDocument& d,
               const Problem& p,
@@ -22,7 +18,8 @@ void describe(FitDocument& d,
   for (const auto& q : p.start.model.parameters) {
     FittedParameter e{q.name, {}, {}, {}, {}, {}, {}, {}};
     for (std::size_t s = q.first; s < q.first + q.count; ++s) {
-      double value = values[s], error = nan, low = nan, high = nan, limit = nan;
+      double value = values[s], error = not_known, low = not_known, high = not_known,
+             limit = not_known;
       std::string reason;
       auto status = ParameterStatus::fixed;
       if (p.free.mask()[s]) {
@@ -37,14 +34,14 @@ void describe(FitDocument& d,
         if (status == ParameterStatus::at_bound && is_alpha(q.name) && !p.narrowed[i] &&
             value <= p.bounds.low[i] * (1 + 1e-3))
           status = ParameterStatus::not_identifiable, reason = "narrower than the samples can tell";
-        if (status == ParameterStatus::not_identifiable) value = error = nan;
-        if (status == ParameterStatus::upper_limit && value > limit) value = nan;
+        if (status == ParameterStatus::not_identifiable) value = error = not_known;
+        if (status == ParameterStatus::upper_limit && value > limit) value = not_known;
       }
       e.value.push_back(value);
       e.std_error.push_back(error);
       e.ci95_low.push_back(std::max(low, q.about->legal.low));
       e.ci95_high.push_back(std::min(high, q.about->legal.high));
-      if (std::isnan(error)) e.ci95_low.back() = e.ci95_high.back() = nan;
+      if (std::isnan(error)) e.ci95_low.back() = e.ci95_high.back() = not_known;
       e.status.push_back(status);
       e.limit.push_back(limit);
       e.reason.push_back(std::move(reason));

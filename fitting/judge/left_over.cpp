@@ -15,7 +15,7 @@ namespace {
 
 constexpr double arithmetic = 1e-7;           ///< of f: below it is rounding of our own
 constexpr std::size_t most_values = 1 << 15;  ///< looked at
-constexpr std::size_t none = static_cast<std::size_t>(-1);
+constexpr std::size_t no_unit = static_cast<std::size_t>(-1);
 constexpr std::size_t most_channels = 16;
 
 /// Values of the smooth functions.  θ_h counts by its logarithm above 2°: highlights are narrow.
@@ -89,7 +89,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
     BlockReader<double> in(s, tasks.first(k), tasks.last(k), tasks.step);
     while (in.next()) {
       const auto x = in.angles();
-      unit_of.assign(members * in.size(), none);
+      unit_of.assign(members * in.size(), no_unit);
       model.run(x, [&](std::size_t c) {
         if (c % stride != 0) return;
         const double* const value = model.channel(c).value;
@@ -110,7 +110,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
                          slope_seen = faint ? 1 / least : slope[i];
             if (!std::isfinite(r) || !std::isfinite(slope_seen) || (faint && r == 0)) continue;
             auto& unit = unit_of[m * in.size() + i];
-            if (unit == none) {
+            if (unit == no_unit) {
               unit = all.units.size();
               const Angles<double> a{x.nol[i], x.nov[i], x.noh[i], x.voh[i], x.sin2_theta_h[i]};
               const std::size_t key = keys(in.sample(m)[i], in.nol(m)[i]);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/quantile.h"
+#include "fitting/solve/matrix.h"
 
 #include <Eigen/Eigenvalues>
 #include <boost/math/distributions/fisher_f.hpp>
@@ -18,10 +19,6 @@ constexpr std::size_t most_gains = 64;
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
-
-Eigen::Index index(std::size_t n) {
-  return static_cast<Eigen::Index>(n);
-}
 
 /// Unknowns of their own for the scale of each channel under each incident angle, where there is room.
 std::size_t add_gains(Left& left) {

@@ -14,7 +14,6 @@
 namespace gonio {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double singular = 1e-11;  ///< eigenvalues of the scaled bread below it are rounding
 
 /// Unknowns of a singular direction of the bread: those that have a part of it worth mentioning.
@@ -105,7 +104,7 @@ class Covariance {
     for (const std::size_t i : unknowns) {
       constexpr double some = 0.01;  // of the variance
       const bool alone = !s.alone.empty() && s.alone[i] > some;
-      freedom_.push_back(alone || left < 1 ? nan : left);
+      freedom_.push_back(alone || left < 1 ? not_known : left);
     }
     sandwich_.emplace(bread, s.meat.part(std::move(layout), unknowns));
     for (std::size_t k = 0; k < s.fourth.size() && k < unknowns.size(); ++k) {
@@ -155,7 +154,7 @@ class Covariance {
     }
     const double left = static_cast<double>(s.clusters.size()) - 1;
     for (std::size_t k = 0; k < n; ++k) {
-      freedom_.push_back(alone[k] || left < 1 ? nan : left);
+      freedom_.push_back(alone[k] || left < 1 ? not_known : left);
       double squares = 0, fourth = 0;
       for (const auto& move : moves_) {
         squares += move[k] * move[k];
@@ -209,8 +208,11 @@ double student_t_950(double nu) {
 }
 
 Uncertainty::Uncertainty(std::size_t n)
-    : status(n, ParameterStatus::free), reason(n), correlations(n, std::vector<double>(n, nan)) {
-  for (auto* x : {&std_error, &t, &low, &high, &limit, &freedom, &variance}) x->assign(n, nan);
+    : status(n, ParameterStatus::free),
+      reason(n),
+      correlations(n, std::vector<double>(n, not_known)) {
+  for (auto* x : {&std_error, &t, &low, &high, &limit, &freedom, &variance})
+    x->assign(n, not_known);
 }
 
 double student_t_975(double nu) {

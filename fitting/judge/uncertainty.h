@@ -2,6 +2,7 @@
 /// \file
 /// Uncertainty of the parameters: how well the data determine them.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "fitting/solve/solve.h"
 
 namespace gonio {
+
+/// Value, error or end of an interval that the data do not give.
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// Unknowns that the bread tells apart.
 struct Determined {

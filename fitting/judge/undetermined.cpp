@@ -14,8 +14,6 @@
 namespace gonio {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Sum of squares of the residuals if the model were 0, or off by a factor e under logs.
 double signal(const FitData<double>& d, std::size_t channels) {
   double squares = 0;
@@ -61,7 +59,7 @@ class Ends {
     const double low = problem_.bounds.low[i], high = problem_.bounds.high[i];
     const auto forget = [&] {
       u_.status[i] = ParameterStatus::not_identifiable;
-      u_.std_error[i] = u_.low[i] = u_.high[i] = u_.limit[i] = nan;
+      u_.std_error[i] = u_.low[i] = u_.high[i] = u_.limit[i] = not_known;
       u_.reason[i] = fmt::format("any value from {:.3g} to {:.3g} does as well", low, high);
     };
     const double t = student_t_950(freedom(i)), much = t * t * variance(i) * share_;
@@ -73,7 +71,7 @@ class Ends {
     u_.limit[i] = along.reach(end, much);
     if (u_.limit[i] == end) return forget();
     u_.status[i] = below ? ParameterStatus::upper_limit : ParameterStatus::lower_limit;
-    u_.std_error[i] = u_.low[i] = u_.high[i] = nan;
+    u_.std_error[i] = u_.low[i] = u_.high[i] = not_known;
     u_.reason[i] =
         fmt::format("values {} to {:.3g} do as well", below ? "down" : "up", below ? low : high);
   }
@@ -194,7 +192,7 @@ void forget_lobes(const Problem& p, Uncertainty& u, Lobes part, const std::strin
           if (!p.free.mask()[s]) continue;
           const std::size_t i = p.free.index(s);
           u.status[i] = ParameterStatus::not_identifiable;
-          u.std_error[i] = u.low[i] = u.high[i] = u.limit[i] = nan;
+          u.std_error[i] = u.low[i] = u.high[i] = u.limit[i] = not_known;
           u.reason[i] = why;
         }
       }
@@ -224,7 +222,7 @@ bool find_undetermined(const Problem& p,
     had_range[i] = u.status[i] == ParameterStatus::not_identifiable && !std::isnan(u.freedom[i]);
   const auto forget = [&](std::size_t i, std::string why) {
     u.status[i] = ParameterStatus::not_identifiable;
-    u.std_error[i] = nan;
+    u.std_error[i] = not_known;
     u.reason[i] = std::move(why);
   };
   for (const auto& q : p.start.model.parameters) {
@@ -290,7 +288,7 @@ bool find_undetermined(const Problem& p,
       continue;
     }
     forget(i, "its interval is as wide as its range");
-    u.low[i] = u.high[i] = nan;
+    u.low[i] = u.high[i] = not_known;
   }
   return false;
 }

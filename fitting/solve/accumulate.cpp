@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/whole_loop.h"
@@ -129,6 +130,12 @@ void add(std::vector<double>& to, const std::vector<double>& from) {
 }
 
 }  // namespace
+
+bool is_finite(const NormalEquations& e, double scale) {
+  const auto finite = [&](double x) { return std::isfinite(scale * x); };
+  return finite(e.cost) && std::ranges::all_of(e.h.entries(), finite) &&
+         std::ranges::all_of(e.g, finite);
+}
 
 FreeSlots::FreeSlots(std::vector<bool> free) : mask_(std::move(free)), index_(mask_.size()) {
   for (std::size_t i = 0; i < mask_.size(); ++i)

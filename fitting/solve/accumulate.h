@@ -44,6 +44,8 @@ struct NormalEquations {
   std::vector<double> g;  ///< Σ ρ' r j
   double cost = 0;        ///< ½ Σ ρ(r²)
 };
+/// True where the cost, times the scale, and all sums times it are finite.
+bool is_finite(const NormalEquations&, double scale = 1);
 
 /// Residuals beyond it count linearly.
 inline constexpr double no_huber = std::numeric_limits<double>::max();

@@ -6,12 +6,6 @@
 namespace gonio {
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-Eigen::Index index(std::size_t n) {
-  return static_cast<Eigen::Index>(n);
-}
-
 /// 1/√diagonal, 1 where nothing is known.
 Eigen::VectorXd scale_of(const Eigen::Map<const RowMajor>& m) {
   Eigen::VectorXd s = m.diagonal().cwiseSqrt();

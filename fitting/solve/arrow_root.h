@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fitting/solve/arrow.h"
+#include "fitting/solve/matrix.h"
 
 #include <Eigen/Eigenvalues>
 

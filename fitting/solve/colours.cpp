@@ -16,10 +16,6 @@ namespace {
 constexpr double beside_one = 1e-3, beside_zero = 1e-2;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-std::string_view base_name(const ModelParameter& p) {
-  return p.about->name;
-}
-
 /// A cost that can be compared: infinite where it is none.
 double finite(double cost) {
   return std::isfinite(cost) ? cost : infinite;
@@ -46,9 +42,9 @@ std::vector<double> origins_of(const Problem& p) {
     if (is_shape(q) && &q != m.tangent()) set(q, 0);
   for (const auto& lobe : m.lobes) {
     const bool absorbs = std::ranges::any_of(
-        lobe.fresnel.parameters, [&](std::size_t i) { return base_name(m.parameters[i]) == "k"; });
+        lobe.fresnel.parameters, [&](std::size_t i) { return m.parameters[i].about->name == "k"; });
     for (const std::size_t i : lobe.fresnel.parameters)
-      if (const auto& q = m.parameters[i]; base_name(q) == "k" || base_name(q) == "eta")
+      if (const auto& q = m.parameters[i]; q.about->name == "k" || q.about->name == "eta")
         set(q, absorbs ? 0 : 1);
   }
   return origins;
@@ -74,8 +70,8 @@ Start descended_inside(const Accumulator<F>& accumulate,
 }  // namespace
 
 bool is_shape(const ModelParameter& q) {
-  return is_alpha(q.name) || base_name(q) == "gamma" || base_name(q) == "tail" ||
-         base_name(q) == "tangent";
+  return is_alpha(q.name) || q.about->name == "gamma" || q.about->name == "tail" ||
+         q.about->name == "tangent";
 }
 
 void keep_best(std::vector<Start>& starts, std::size_t most) {
@@ -115,8 +111,8 @@ Bounds bounds_of_valley(const Problem& p, const std::vector<double>& values) {
     const ModelParameter *eta = nullptr, *k = nullptr;
     for (const std::size_t i : lobe.fresnel.parameters) {
       const auto& q = m.parameters[i];
-      if (base_name(q) == "eta") eta = &q;
-      if (base_name(q) == "k") k = &q;
+      if (q.about->name == "eta") eta = &q;
+      if (q.about->name == "k") k = &q;
     }
     if (k)
       narrow(
@@ -166,11 +162,11 @@ typename Colours<F>::Lobe Colours<F>::lobe_of(const TermUse& fresnel) const {
   for (const std::size_t i : fresnel.parameters) {
     const auto& q = held_.start.model.parameters[i];
     if (!held_.free.mask()[q.first]) continue;
-    if (base_name(q) == "f0") f0 = &q, i_f0 = i;
-    if (base_name(q) == "eta") eta = &q, i_eta = i;
-    if (base_name(q) == "k") k = &q, i_k = i;
-    if (base_name(q) == "base_color") base = &q, i_base = i;
-    if (base_name(q) == "metallic") metallic = &q, i_metallic = i;
+    if (q.about->name == "f0") f0 = &q, i_f0 = i;
+    if (q.about->name == "eta") eta = &q, i_eta = i;
+    if (q.about->name == "k") k = &q, i_k = i;
+    if (q.about->name == "base_color") base = &q, i_base = i;
+    if (q.about->name == "metallic") metallic = &q, i_metallic = i;
   }
   Lobe lobe;
   if (eta && k) {

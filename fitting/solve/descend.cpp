@@ -11,18 +11,6 @@
 namespace gonio {
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-Eigen::Index index(std::size_t n) {
-  return static_cast<Eigen::Index>(n);
-}
-
-bool is_finite(const NormalEquations& e) {
-  return std::isfinite(e.cost) &&
-         std::ranges::all_of(e.h.entries(), [](double x) { return std::isfinite(x); }) &&
-         std::ranges::all_of(e.g, [](double x) { return std::isfinite(x); });
-}
-
 /// A x of an arrow matrix.
 std::vector<double> times(const ArrowMatrix& m, const std::vector<double>& x) {
   const auto& layout = m.layout();

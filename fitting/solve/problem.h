@@ -52,6 +52,11 @@ std::vector<bool> slots_read(const Model&);
 /// The model with some of its lobes, in that order.
 Model with_lobes(const Model&, std::span<const std::size_t> lobes);
 
+/// True where the fit looks for the parameter.
+inline bool is_free(const Problem& p, const ModelParameter& q) {
+  return p.free.mask()[q.first];
+}
+
 /// True of lobes of the same terms: then one is as good as the other.
 bool are_alike(const Lobe&, const Lobe&);
 

@@ -13,13 +13,8 @@
 namespace gonio {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Part of the cost by which another valley must be lower for the fit to go there.
 constexpr double lower_by = 1e-6;
-
-bool is_free(const Problem& p, const ModelParameter& q) {
-  return p.free.mask()[q.first];
-}
 
 /// Problem with the axes held.
 Problem with_axes_held(const Problem& p, const std::vector<std::size_t>& axes) {
@@ -177,7 +172,7 @@ class Profiler {
   /// From the optimum's other values and, where it is looked into, from the best of all colours.
   void solve(ProfileCell& cell, const std::vector<double>& optimum, bool is_looked_into) const {
     constexpr DescentOptions loosely{4, 1e-2}, closely{12, 1e-5};
-    cell.cost = infinite;
+    cell.cost = std::numeric_limits<double>::infinity();
     cell.values = moved_to(cell, optimum);
     take(cell, descended(rest_, held_, cell.values, closely));
     if (!colours_.has_valleys() || !is_looked_into) return;

@@ -23,26 +23,14 @@ const bool is_silent = [] {
 }();
 #endif
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-Eigen::Index index(std::size_t n) {
-  return static_cast<Eigen::Index>(n);
-}
-
 /// \param scale  of the cost
-bool is_finite(const NormalEquations& e, double scale = 1) {
-  const auto finite = [&](double x) { return std::isfinite(scale * x); };
-  return finite(e.cost) && std::ranges::all_of(e.h.entries(), finite) &&
-         std::ranges::all_of(e.g, finite);
-}
-
 /// Next Gauss–Newton step and what it promises.
-struct Step {
+struct NewtonStep {
   std::vector<double> by;
   double decrease = 0;  ///< of the cost: ½ gᵀ H⁻¹ g
 };
 /// None where some direction is so badly determined that rounding would decide where it leads.
-std::optional<Step> next_step(const NormalEquations& e) {
+std::optional<NewtonStep> next_step(const NormalEquations& e) {
   constexpr double least = 1e-6;
   if (!is_finite(e)) return {};
   for (std::size_t i = 0; i < e.h.size(); ++i)
@@ -54,7 +42,7 @@ std::optional<Step> next_step(const NormalEquations& e) {
   for (const auto& arm : g.arms) decrease += arm.squaredNorm() / 2;
   auto by = root.solution(g);
   for (double& x : by) x = -x;
-  return Step{std::move(by), decrease};
+  return NewtonStep{std::move(by), decrease};
 }
 /// So small a part of the cost that rounding may hide it.
 constexpr double hidden = 1e-6;
@@ -284,7 +272,7 @@ bool take_last_steps(const NormalEquationsAt& evaluate,
   return false;
 }
 
-double scale_of(double cost) {
+double scale_of_cost(double cost) {
   constexpr double least = 1e-200;
   return cost > least ? 1 / cost : 1;
 }
@@ -334,7 +322,7 @@ Solution solve_once(const NormalEquationsAt& evaluate,
   }
   // Near 1 are the cost and, for Ceres' limits on its own scaling and damping, each unknown's
   // effect: one of them may be 10⁶⁰ of another where data reach over as many decades.
-  const double scale = scale_of(s.at.cost);
+  const double scale = scale_of_cost(s.at.cost);
   Reduced cost(evaluate, scale, units_of(s.at, scale), x, s.at);
   ceres::Problem::Options with;
   with.evaluation_callback = &cost;

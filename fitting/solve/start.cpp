@@ -30,14 +30,6 @@ double dim(const FitData<F>& d, std::size_t channel) {
   return d.link == Link::log ? std::exp(t) - static_cast<double>(d.offset) : t;
 }
 
-std::string_view base_name(const ModelParameter& p) {
-  return p.about->name;
-}
-
-bool is_free(const Problem& p, const ModelParameter& q) {
-  return p.free.mask()[q.first];
-}
-
 Range bounds_of(const Problem& p, const ModelParameter& q) {
   const std::size_t i = p.free.index(q.first);
   return {p.bounds.low[i], p.bounds.high[i]};
@@ -85,7 +77,7 @@ std::vector<Axis> axes_of(const Problem& p, const Lobe& lobe, const std::vector<
       if (seen[k] || before[q.first] || !is_free(p, q)) continue;
       seen[k] = true;
       const std::span<const double> ladder = is_alpha(q.name) ? std::span<const double>(widths)
-                                             : base_name(q) == "tail"
+                                             : q.about->name == "tail"
                                                  ? std::span<const double>(tails)
                                                  : std::span<const double>(exponents);
       axes.push_back({k, rungs_inside(ladder, bounds_of(p, q))});
@@ -123,7 +115,7 @@ bool repeats_another(const Model& m,
   std::optional<double> x, y;
   std::optional<std::size_t> turn;
   for (std::size_t k = 0; k < axes.size(); ++k) {
-    const auto name = base_name(m.parameters[axes[k].parameter]);
+    const auto name = m.parameters[axes[k].parameter].about->name;
     if (name == "alpha_x") x = axes[k].at[steps[k]];
     if (name == "alpha_y") y = axes[k].at[steps[k]];
     if (name == "tangent") turn = steps[k];
@@ -237,7 +229,7 @@ std::vector<Start> find_starts(const Problem& p, const FitData<F>& thin, double 
   const Model& m = p.start.model;
   auto first = p.start.values;
   for (const auto& q : m.parameters)
-    if (base_name(q) == "kd" || base_name(q) == "base_color")
+    if (q.about->name == "kd" || q.about->name == "base_color")
       for (std::size_t c = 0; c < q.count; ++c)
         if (p.free.mask()[q.first + c])
           first[q.first + c] = std::clamp(std::numbers::pi * dim(thin, c), 1e-3, 0.95);

@@ -35,7 +35,7 @@ struct CostRow {
   /// "ndf", "masking", "fresnel", "diffuse", "model"; "by_hand": a model written out by hand; "bound"; of studies "sampling", "split_sum"
   std::string_view kind;
   std::string_view number;  ///< "float", "double"
-  std::string isa;          ///< "scalar", "sse2", …
+  std::string isa;          ///< "sse2", "avx2", …
   /// "cache": columns of few samples; "streaming": columns that no cache of a core holds; those of a
   /// term may stay in one that all cores share
   std::string_view memory;

@@ -36,11 +36,11 @@ function what_it_costs() {
   const chosen = at_first();
   const of = (question, isa, memory) => switches.find((s) => s.question === question && s.isa === isa && s.memory === memory && s.number === chosen.number);
   const questions = unique(switches.map((s) => s.question));
-  const of_number = () => in_cards(table(["from, to", { n: `${best}, in cache [ns]` }, { n: "" }, { n: `${best}, ${long_columns} [ns]` }, { n: "" }, { n: "scalar, in cache [ns]" }, { n: "" }, { n: "a 1080p frame [ms]" }, { n: "operations" }, { n: "RMS error from" }, { n: "to" }],
+  const of_number = () => in_cards(table(["from, to", { n: `${best}, in cache [ns]` }, { n: "" }, { n: `${best}, ${long_columns} [ns]` }, { n: "" }, { n: "a 1080p frame [ms]" }, { n: "operations" }, { n: "RMS error from" }, { n: "to" }],
     questions.map((q) => {
       const s = of(q, best, "cache") ?? switches.find((x) => x.question === q);
-      return [el("span", { style: { display: "inline-block", "min-width": "9em", "white-space": "normal" } }, q + (s.way ? `, ${s.way}` : "")), ...switch_cells(of(q, best, "cache")), ...switch_cells(of(q, best, "streaming")), ...switch_cells(of(q, "scalar", "cache")), { n: s.differs ? signed(s.frame_ms, (x) => significant(x, 2)) : "a tie" }, { n: signed(s.more_ops, plain) }, { n: error_text(s.error_from) }, { n: error_text(s.error_to) }];
-    })), ["", ...[`${best}, in cache [ns]`, `${best}, ${long_columns} [ns]`, "scalar, in cache [ns]"].flatMap((name) => [name, ""]), "a 1080p frame [ms]", "operations", "RMS error from", "to"]);
+      return [el("span", { style: { display: "inline-block", "min-width": "9em", "white-space": "normal" } }, q + (s.way ? `, ${s.way}` : "")), ...switch_cells(of(q, best, "cache")), ...switch_cells(of(q, best, "streaming")), { n: s.differs ? signed(s.frame_ms, (x) => significant(x, 2)) : "a tie" }, { n: signed(s.more_ops, plain) }, { n: error_text(s.error_from) }, { n: error_text(s.error_to) }];
+    })), ["", ...[`${best}, in cache [ns]`, `${best}, ${long_columns} [ns]`].flatMap((name) => [name, ""]), "a 1080p frame [ms]", "operations", "RMS error from", "to"]);
   const list = changing(of_number, () => other_number(chosen, of_number));
   const node = section("What does it cost to switch?", `What one sample takes more, with the spread between processes, and how many times as long it takes; what is not there in every process is a tie. A frame is one sample each pixel in cache, on one processor. In ${long_columns}, memory hides what is computed while it waits. `
     + "Terms are timed as a model uses them: D leaves a fraction, masking divides it, Fresnel and diffuse terms are added up; operations are those of the term alone, its division included.",

@@ -65,8 +65,7 @@ void add_rows_pictures(Pictures& to, const CostRows& report) {
   for (const auto& k : kinds)
     for (const std::string_view number : {"float", "double"})
       for (const auto& [isa, memory] : {std::pair<std::string, std::string_view>{best, "cache"},
-                                        {best, "streaming"},
-                                        {"scalar", "cache"}}) {
+                                        {best, "streaming"}}) {
         Series series;
         for (const auto& r : report.rows) {
           if (r.kind != k.kind || r.number != number || r.isa != isa || r.memory != memory ||

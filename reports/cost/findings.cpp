@@ -103,12 +103,8 @@ class Sayings {
                    std::string_view factor) {
     const auto* s = between(from, to, best_, "cache");
     if (!s) return;
-    const auto* scalar = between(from, to, "scalar", "cache");
     say("{} {} {}, in columns of floats in cache ({}).", capital(std::string(to_name)), takes(*s),
         from_name, best_);
-    if (scalar && scalar->differs)
-      say("One sample at a time it takes {:.2g} ns {}.", std::abs(scalar->ns),
-          scalar->ns > 0 ? "more" : "less");
     if (!std::isnan(s->error_to) && !factor.empty())
       say("Over the directions that the audit looks at, its RMS error of {} is {}; {} leaves {}.",
           factor, error_text(s->error_to), from_name, error_text(s->error_from));

@@ -13,11 +13,12 @@ namespace {
 constexpr double one_percent = 0.01;
 
 /// Steps of θ, and where total reflection begins: there F has a corner, between any steps.
-struct Angles {
+struct SteppedAngles {
   AngleSteps at;
   std::size_t even;  ///< so many are steps
 
-  Angles(const FresnelSurface& s, std::size_t steps) : at(angle_steps(steps)), even(steps + 1) {
+  SteppedAngles(const FresnelSurface& s, std::size_t steps)
+      : at(angle_steps(steps)), even(steps + 1) {
     const double eta = s.index[0].n;
     if (s.kind != "dielectric_inside") return;
     at.theta_deg.push_back(std::asin(eta) / degree);
@@ -28,7 +29,7 @@ struct Angles {
 FresnelRow row_of(const std::string& form,
                   const FresnelSurface& s,
                   std::size_t channel,
-                  const Angles& angles,
+                  const SteppedAngles& angles,
                   const std::vector<double>& exact,
                   const std::vector<double>& value) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -68,7 +69,7 @@ FresnelRow row_of(const std::string& form,
 }  // namespace
 
 std::vector<FresnelRow> fresnel_errors(const FresnelSurface& s, std::size_t steps) {
-  const Angles angles(s, steps);
+  const SteppedAngles angles(s, steps);
   const auto forms = forms_for(s);
   const auto exact = exact_values(s, angles.at.cosine);
   std::vector<FresnelRow> out;

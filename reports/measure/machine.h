@@ -16,7 +16,7 @@ struct Machine {
     std::string type;  ///< "Data", "Unified"
   };
   std::vector<Cache> caches;                  ///< without those of instructions
-  std::vector<std::string> instruction_sets;  ///< of the kernels that run here, "scalar" first
+  std::vector<std::string> instruction_sets;  ///< of the kernels that run here, the plainest first
   std::string compiler, flags;
   bool native_half = false;  ///< arithmetic in half, AVX512-FP16, which no kernel uses
 };

@@ -27,9 +27,9 @@ std::vector<CurveLook> looks(const Figure& f, const CurveStyles& styles) {
   return out;
 }
 
-class Drawing {
+class CurveDrawing {
  public:
-  Drawing(const Figure& f, const CurveStyles& styles)
+  CurveDrawing(const Figure& f, const CurveStyles& styles)
       : f_(f), styles_(looks(f, styles)), x_(x_scale(f)), y_(y_scale(f)) {}
 
   std::string document() {
@@ -217,7 +217,7 @@ class Drawing {
 }  // namespace
 
 std::string to_svg(const Figure& f, const CurveStyles& styles) {
-  return Drawing(f, styles).document();
+  return CurveDrawing(f, styles).document();
 }
 
 }  // namespace gonio

@@ -15,29 +15,30 @@ struct Said {
   std::string text;
 };
 
-Said run(const Folder& f, const std::string& command) {
+Said said_by(const Folder& f, const std::string& command) {
   f.write("script", command);
   const int code = std::system(("cd '" + (f / "") + "' && bash script > said 2>&1").c_str());
   return {code, read_bytes(f / "said")};
 }
 
 void install(const Folder& f, const std::string& component) {
-  const auto o = run(f, "cmake --install '" + build.string() + "' --component " + component +
-                            " --prefix \"$PWD/there\"");
+  const auto o = said_by(f, "cmake --install '" + build.string() + "' --component " + component +
+                                " --prefix \"$PWD/there\"");
   ASSERT_EQ(o.code, 0) << o.text;
 }
 
 TEST(Install, LeavesAProgramThatFitsWithoutTheProjectAndWithoutItsTests) {
   const Folder f;
   install(f, "program");
-  const auto o = run(f,
-                     "set -e\ncd there\nexport PATH=\"$PWD/bin:/usr/bin:/bin\"\n"
-                     "gonio synth ggx/smith_ggx.correlated/schlick --set alpha=0.3 f0=0.9 --layout "
-                     "hemisphere -o t.csv\n"
-                     "gonio fit t.csv --model ggx/smith_ggx.correlated/schlick\n"
-                     "! ldd bin/gonio | grep -E 'gtest|gmock|benchmark|rapidcheck'\n"
-                     "ls share/man/man1/gonio-fit.1 share/doc/gonio/LICENSE "
-                     "share/bash-completion/completions/gonio\n");
+  const auto o =
+      said_by(f,
+              "set -e\ncd there\nexport PATH=\"$PWD/bin:/usr/bin:/bin\"\n"
+              "gonio synth ggx/smith_ggx.correlated/schlick --set alpha=0.3 f0=0.9 --layout "
+              "hemisphere -o t.csv\n"
+              "gonio fit t.csv --model ggx/smith_ggx.correlated/schlick\n"
+              "! ldd bin/gonio | grep -E 'gtest|gmock|benchmark|rapidcheck'\n"
+              "ls share/man/man1/gonio-fit.1 share/doc/gonio/LICENSE "
+              "share/bash-completion/completions/gonio\n");
   EXPECT_EQ(o.code, 0) << o.text;
   EXPECT_NE(o.text.find("alpha"), o.text.npos) << o.text;
 }
@@ -56,9 +57,9 @@ TEST(Install, LetsACppProgramFindTheRoomsAndFit) {
           "int main() {\n"
           "  const auto model = gonio::compose(\"ggx/smith_ggx.correlated/schlick\", 3);\n"
           "  std::printf(\"%zu\\n\", model.parameters.size());\n}\n");
-  const auto o = run(f,
-                     "set -e\ncmake -S . -B b -G Ninja -DCMAKE_PREFIX_PATH=\"$PWD/there\" "
-                     "--log-level=ERROR >/dev/null\nninja -C b >/dev/null\nb/user\n");
+  const auto o = said_by(f,
+                         "set -e\ncmake -S . -B b -G Ninja -DCMAKE_PREFIX_PATH=\"$PWD/there\" "
+                         "--log-level=ERROR >/dev/null\nninja -C b >/dev/null\nb/user\n");
   ASSERT_EQ(o.code, 0) << o.text;
   EXPECT_EQ(o.text, "2\n") << "alpha and f0";
 }
@@ -69,11 +70,11 @@ TEST(Install, AsADebianPackageFitsOnABareDebian) {
   if (std::system("command -v debootstrap dpkg-shlibdeps >/dev/null && [ $(id -u) = 0 ]") != 0)
     GTEST_SKIP() << "Without debootstrap and the rights to use it: no bare Debian.";
   const Folder f;
-  const auto packed = run(f, "cd '" + build.string() + "' && cpack -B \"$OLDPWD/packed\"");
+  const auto packed = said_by(f, "cd '" + build.string() + "' && cpack -B \"$OLDPWD/packed\"");
   ASSERT_EQ(packed.code, 0) << packed.text;
-  if (run(f, "debootstrap --variant=minbase bookworm bare").code != 0)
+  if (said_by(f, "debootstrap --variant=minbase bookworm bare").code != 0)
     GTEST_SKIP() << "No mirror of Debian is within reach.";
-  const auto o = run(
+  const auto o = said_by(
       f,
       "set -e\ncp packed/gonio_*.deb bare/gonio.deb\ncp /etc/resolv.conf bare/etc/ || true\n"
       "chroot bare apt-get install -y -qq --no-install-recommends /gonio.deb\n"

@@ -5,7 +5,7 @@ namespace gonio::test {
 namespace {
 
 /// All that a terminal of 60 columns is told within so many seconds, in its order.
-std::string on_a_terminal(const Folder& f, const std::string& words, int seconds) {
+std::string seen_on_a_terminal(const Folder& f, const std::string& words, int seconds) {
   const std::string shown = "script -qc \"stty cols 60; timeout --foreground " +
                             std::to_string(seconds) + " " + program() + " " + words +
                             "\" /dev/null";
@@ -20,10 +20,10 @@ TEST(Progress, TellsTheTimeOfAStepThatTakesLong) {
   const std::string hours =
       "albedo ggx/smith_ggx.correlated/schlick --set alpha=1 f0=0.5 --mu 0.5 --scattering walk "
       "--walks 1000000000000 --error 1e-12";
-  const auto shown = on_a_terminal(f, hours, 6);
+  const auto shown = seen_on_a_terminal(f, hours, 6);
   EXPECT_NE(shown.find("walking 0 of 1 …\r"), shown.npos) << shown;
   EXPECT_NE(shown.find("walking 0 of 1 … 0:02"), shown.npos) << shown;
-  const auto quiet = on_a_terminal(f, hours + " --quiet", 2);
+  const auto quiet = seen_on_a_terminal(f, hours + " --quiet", 2);
   EXPECT_EQ(quiet.find("walking"), quiet.npos) << quiet;
 }
 
@@ -33,7 +33,7 @@ TEST(Progress, StaysInOneLineOfATerminal) {
   const Folder f;
   const std::string name(100, 'n');
   f.write(name + ".csv", "theta_i,theta_o,f\n10,20,0.1\n20,30,0.1\n30,40,0.1\n");
-  const auto shown = on_a_terminal(f, "compare " + name + ".csv lambert --set kd=0.3", 60);
+  const auto shown = seen_on_a_terminal(f, "compare " + name + ".csv lambert --set kd=0.3", 60);
   const auto begin = shown.find("reading ");
   ASSERT_NE(begin, shown.npos) << shown;
   const auto end = shown.find('\r', begin);
@@ -47,7 +47,7 @@ TEST(Progress, TellsHowMuchOfAMapIsDone) {
   ASSERT_EQ(
       gonio(f, std::string("synth ") + paint + " --layout map --size 40,30 --images 12 -o s").code,
       0);
-  const auto shown = on_a_terminal(f, "fit_map s/stack.json -o maps.exr", 60);
+  const auto shown = seen_on_a_terminal(f, "fit_map s/stack.json -o maps.exr", 60);
   EXPECT_NE(shown.find("fitting 40 × 30 texels, 0 % …"), shown.npos) << shown;
   EXPECT_NE(shown.find("fitting 40 × 30 texels, 100 %, 0:00 left …"), shown.npos) << shown;
 }

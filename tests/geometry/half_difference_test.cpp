@@ -1,14 +1,14 @@
 #include "geometry/half_difference.h"
 
-#include <limits>
-#include <numbers>
 #include <random>
+
+#include "constants.h"
 
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+using test::pi;
 
 double distance(const Direction& a, const Direction& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);

@@ -1,10 +1,10 @@
 // Dual against an independent implementation (ceres::Jet), against differences, and lane by lane.
 #include "number/dual.h"
 
-#include <limits>
 #include <random>
 #include <string>
 
+#include "constants.h"
 #include "number/batch.h"
 
 #include <ceres/jet.h>
@@ -15,7 +15,7 @@ namespace {
 using D = Dual<double, 2>;
 using Jet = ceres::Jet<double, 2>;
 using DB = Dual<Batch<double>, 2>;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 /// One function of (a, b), as the sum over the list below sees it.
 template <class Check>

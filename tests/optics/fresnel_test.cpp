@@ -6,20 +6,16 @@
 #include <limits>
 #include <string>
 
+#include "constants.h"
 #include "number/dual.h"
 #include "optics/fresnel_approximate.h"
+#include "optics/reflectance.h"
 
 namespace gonio {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
-template <template <class> class Term, class T>
-T reflectance(plain_t<T> c, const T& first, const std::same_as<T> auto&... others) {
-  const std::array p{first, others...};
-  const Term<T> term{std::span<const T, 1 + sizeof...(others)>(p)};
-  return as_value<T>(term(Angles<plain_t<T>>{c, c, 1, c, 0}));
-}
 double schlick(double f0, double c) {
   return reflectance<Schlick>(c, f0);
 }

@@ -8,9 +8,10 @@
 #include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
 #include "integrate/rule/quadrature.h"
+#include "support.h"
+#include "validate/checks.h"
 #include "validate/measure.h"
 #include "validate/words.h"
-#include "support.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -32,13 +33,6 @@ BudgetCheck checked(const json& choice) {
   EXPECT_GE(v.budgets.size(), 1U);
   return v.budgets.at(0);
 }
-double at(const BudgetCheck& b, const std::string& name) {
-  const auto x = std::ranges::find(b.at, name, &std::pair<std::string, double>::first);
-  if (x == b.at.end()) throw std::out_of_range(name);
-  return x->second;
-}
-
-const std::string smith = "ggx/smith_ggx.correlated/schlick";
 
 TEST(Defects, RoughnessSquaredTwiceIsFound) {  // MaterialX 2642
   json j = shipped("roughness_squared_twice");

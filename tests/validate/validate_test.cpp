@@ -9,10 +9,11 @@
 #include "many_fits.h"
 #include "optics/refractive_index.h"
 #include "reports/measure/fresnel_error.h"
-#include "validate/measure.h"
-#include "validate/words.h"
 #include "stability/answer.h"
 #include "support.h"
+#include "validate/checks.h"
+#include "validate/measure.h"
+#include "validate/words.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -34,16 +35,12 @@ const BudgetCheck& only(const Validation& v) {
   EXPECT_EQ(v.budgets.size(), 1U);
   return v.budgets[0];
 }
-double at(const BudgetCheck& b, const std::string& name) {
-  return std::ranges::find(b.at, name, &std::pair<std::string, double>::first)->second;
-}
 double white_albedo(const std::string& model, double roughness, double mu) {
   const auto b = furnace(bind_model(model, {{"alpha", {roughness * roughness}}}, 3));
   return directional_albedo(b, {&mu, 1})[0].value[0];
 }
 
-const std::string smith = "ggx/smith_ggx.correlated/schlick",
-                  remapped = "ggx/schlick_ggx.direct/schlick";
+const std::string remapped = "ggx/schlick_ggx.direct/schlick";
 
 TEST(Validate, FindsAReferenceToBeItself) {
   for (const char* model :

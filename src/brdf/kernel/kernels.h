@@ -248,7 +248,7 @@ struct Kernels {
 /// \throws Error (wrong usage) if either name is none of this build's
 template <class F>
 const Kernels<F>& kernels(std::string_view instruction_set = {});
-/// Sets that may be taken here, "scalar" first, best last.
+/// Sets that may be taken here, the plainest first, the best last.
 std::vector<std::string> instruction_sets();
 
 }  // namespace gonio

@@ -9,7 +9,7 @@
 namespace gonio {
 namespace {
 
-using Rectangle = SummedEnvironment::Rectangle;
+using Pixels = SummedEnvironment::Rectangle;
 
 /// No part of a texel is smaller.
 constexpr double kSmallest = 0x1p-20;
@@ -19,7 +19,7 @@ struct Shape {
   double theta, phi, sin_theta, cos_theta;
   double x, y;  ///< along the parallel through the middle, along the meridian
 
-  Shape(const Environment& map, const Rectangle& r)
+  Shape(const Environment& map, const Pixels& r)
       : theta(map.theta((r.y0 + r.y1) / 2)),
         phi(map.phi((r.x0 + r.x1) / 2)),
         sin_theta(std::sin(theta)),
@@ -45,7 +45,7 @@ std::array<double, 6> even_light(const Shape& s, const Rgb& l) {
 
 /// Light of it that comes from above the horizon of n, as if the rectangle were flat.
 SummedEnvironment::Light above(const Environment& map,
-                               const Rectangle& r,
+                               const Pixels& r,
                                SummedEnvironment::Light light,
                                const Direction& n) {
   const Shape s(map, r);
@@ -67,14 +67,14 @@ SummedEnvironment::Light above(const Environment& map,
 
 /// Two or four.
 struct Parts {
-  std::array<Rectangle, 4> of;
+  std::array<Pixels, 4> of;
   std::size_t n = 0;
-  const Rectangle* begin() const { return of.data(); }
-  const Rectangle* end() const { return of.data() + n; }
+  const Pixels* begin() const { return of.data(); }
+  const Pixels* end() const { return of.data() + n; }
 };
 
 /// Cut along the longer side, or both; between texels while there are several.
-Parts parts(const Environment& map, const Rectangle& r) {
+Parts parts(const Environment& map, const Pixels& r) {
   const Shape s(map, r);
   const bool cut_x = 2 * s.x > s.y, cut_y = 2 * s.y > s.x;
   const auto middle_of = [](double low, double high, bool cut) {
@@ -105,7 +105,7 @@ double hidden_spread(std::span<const SummedEnvironment::Light> parts, double who
 
 /// A rectangle, as what its parts give.
 struct Leaf {
-  Rectangle r;
+  Pixels r;
   bool blind;  ///< it is too large to see the functions
 };
 
@@ -126,14 +126,14 @@ SummedEnvironment::SummedEnvironment(Environment map)
   }
 }
 
-SummedEnvironment::Light SummedEnvironment::light(const Rectangle& r) const {
+SummedEnvironment::Light SummedEnvironment::light(const Pixels& r) const {
   const auto index = [](double v) { return static_cast<std::size_t>(v); };
   std::array<double, 6> sum{};
   double rows = 0;
   const auto last = index(std::ceil(r.y1));
   for (std::size_t j = index(r.y0); j < last; ++j) {
     const double y = static_cast<double>(j);
-    const Rectangle part{r.x0, r.x1, std::max(r.y0, y), std::min(r.y1, y + 1)};
+    const Pixels part{r.x0, r.x1, std::max(r.y0, y), std::min(r.y1, y + 1)};
     const bool whole = part.y1 - part.y0 == 1;
     if (r.x1 - r.x0 <= 1) {  // within one texel
       const auto adds = even_light(Shape(map_, part), map_.texel(index(r.x0), j));
@@ -188,13 +188,13 @@ Gathered gather(const SummedEnvironment& light,
   std::vector<Direction> at;
   std::vector<double> columns;
   std::vector<double*> out;
-  const auto add = [&](const std::vector<Rectangle>& rectangles) {
+  const auto add = [&](const std::vector<Pixels>& rectangles) {
     std::vector<SummedEnvironment::Light> lights;
     std::vector<std::size_t> first{0};
     std::vector<double> unseen;  // relative error by what parts hide
     at.clear();
     for (const auto& r : rectangles) {
-      const auto push = [&](const Rectangle& part) {
+      const auto push = [&](const Pixels& part) {
         lights.push_back(above(map, part, light.light(part), focus.normal));
       };
       push(r);
@@ -245,7 +245,7 @@ Gathered gather(const SummedEnvironment& light,
     for (std::size_t i = 0; i < leaves.size(); ++i) {
       for (std::size_t k = 0; k < numbers; ++k)
         if (scale[k] > 0) share[i] = std::max(share[i], error[i * numbers + k] / scale[k]);
-      const Rectangle& r = leaves[i].r;
+      const Pixels& r = leaves[i].r;
       if (r.x1 - r.x0 < kSmallest && r.y1 - r.y0 < kSmallest) continue;
       if (leaves[i].blind) share[i] = std::numeric_limits<double>::infinity();
       if (share[i] > 0) order.push_back(i);
@@ -265,7 +265,7 @@ Gathered gather(const SummedEnvironment& light,
     }
     order.resize(chosen);
     std::ranges::sort(order);
-    std::vector<Rectangle> halves;
+    std::vector<Pixels> halves;
     std::size_t next = 0, to = 0;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
       if (next < order.size() && order[next] == i) {

@@ -61,7 +61,7 @@ void term_values(std::size_t term,
   Scratch<double> scratch;
   std::array<double, max_parameters> p{};
   std::ranges::copy(parameters, p.begin());
-  const auto& t = kernels<double>("scalar").terms[term];
+  const auto& t = kernels<double>(instruction_sets().front()).terms[term];
   for (std::size_t at = 0; at < x.n; at += scratch.block)
     t.add_product(x.part(at, std::min(scratch.block, x.n - at)), p.data(),
                   {scratch.ones(), nullptr, scratch.zeros(), out + at, nullptr});

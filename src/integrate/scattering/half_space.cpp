@@ -25,7 +25,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 /// One lobe, by itself, and those of its channels that differ.
-struct Surface {
+struct LitSurface {
   BoundModel model;
   Facets facets;                      ///< by distinct channel
   std::size_t masking;                ///< a term of catalogue()
@@ -33,8 +33,8 @@ struct Surface {
   std::vector<std::size_t> distinct;  ///< by channel of the model
 };
 
-std::vector<Surface> surfaces_of(const BoundModel& whole) {
-  std::vector<Surface> surfaces;
+std::vector<LitSurface> lit_surfaces(const BoundModel& whole) {
+  std::vector<LitSurface> surfaces;
   const auto micro = microsurfaces(whole);
   for (std::size_t l = 0; l < micro.size(); ++l) {
     const auto& m = micro[l];
@@ -46,7 +46,7 @@ std::vector<Surface> surfaces_of(const BoundModel& whole) {
     const std::size_t masking =
         find_term(m.slopes == Microsurface::Slopes::ggx ? "masking.smith_ggx.correlated"
                                                         : "masking.smith_beckmann.correlated");
-    Surface s{whole, {m.slopes, m.alpha_x, m.fresnel.term, {}}, masking, {}, {}};
+    LitSurface s{whole, {m.slopes, m.alpha_x, m.fresnel.term, {}}, masking, {}, {}};
     s.model.model.diffuse.clear();
     s.model.model.lobes = {whole.model.lobes[l]};
     auto& parameters = s.facets.parameters;
@@ -136,7 +136,7 @@ struct Discrete {
 /// Writes the rows, one after the other.
 class RowWriter {
  public:
-  RowWriter(const Surface& s, const Grid& grid, int azimuths, Discrete& d)
+  RowWriter(const LitSurface& s, const Grid& grid, int azimuths, Discrete& d)
       : s_(s), grid_(grid), integral_(s.facets, azimuths), d_(d) {}
 
   void operator()(std::size_t row) {
@@ -190,7 +190,7 @@ class RowWriter {
     }
   }
 
-  const Surface& s_;
+  const LitSurface& s_;
   const Grid& grid_;
   AzimuthIntegral integral_;
   Discrete& d_;
@@ -269,7 +269,7 @@ struct Fineness {
 };
 constexpr Fineness finenesses[] = {{6, 16}, {8, 24}, {12, 32}, {16, 48}};
 
-Solution solve(const Surface& s,
+Solution solve(const LitSurface& s,
                std::span<const double> mu,
                const std::vector<double>& ends,
                const Fineness& fineness,
@@ -333,7 +333,7 @@ void add(const std::vector<Vector>& orders, Index i, double error, std::size_t c
   to.error[c] += error + rest;
 }
 
-void add(const Surface& s, std::span<const double> mu, double error, HalfSpace& to) {
+void add(const LitSurface& s, std::span<const double> mu, double error, HalfSpace& to) {
   const auto ends = panels(s.facets.alpha, mu);
   Solution finer = solve(s, mu, ends, finenesses[0], error);
   std::vector<double> change(s.facets.parameters.size());
@@ -359,7 +359,7 @@ void add(const Surface& s, std::span<const double> mu, double error, HalfSpace& 
 }  // namespace
 
 HalfSpace half_space(const BoundModel& model, std::span<const double> mu, double error) {
-  const auto surfaces = surfaces_of(model);
+  const auto surfaces = lit_surfaces(model);
   const std::size_t n = model.model.channels;
   const std::vector<double> zero(n);
   const Scattered none{zero, zero, std::vector<std::vector<double>>(n), zero, {}, 0};

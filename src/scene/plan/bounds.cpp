@@ -15,8 +15,6 @@
 namespace gonio::scene {
 namespace {
 
-constexpr std::size_t channels = 3;
-
 /// Directions within an angle of one.
 struct Cone {
   Direction axis;
@@ -66,17 +64,17 @@ Cone light_from(const Light& light, const BoundingSphere& object) {
 }
 
 using Interval = Enclosure<double>;
-using Reflectance = std::function<std::array<Interval, channels>(const Interval& voh)>;
+using Reflectance = std::function<std::array<Interval, max_channels>(const Interval& voh)>;
 Reflectance fresnel_of(const Surface& s) {
   if (s.spectrum) return SpectralReflectance<Interval>(s.spectrum->in<Interval>());
   const TermUse& term = s.base.model.lobes[0].fresnel;
-  std::array<std::vector<Interval>, channels> parameters;
-  for (std::size_t k = 0; k < channels; ++k)
+  std::array<std::vector<Interval>, max_channels> parameters;
+  for (std::size_t k = 0; k < max_channels; ++k)
     for (const double p : term_parameters(s.base, term, k)) parameters[k].emplace_back(p);
   return [parameters, f = term_function<Interval>(term.term)](const Interval& c) {
     const FrameAngles<Interval> all{{c, c, c, c, c}, c, c, c, c, c, c};  // it reads VoH alone
-    std::array<Interval, channels> values;
-    for (std::size_t k = 0; k < channels; ++k) values[k] = f(parameters[k], all).value();
+    std::array<Interval, max_channels> values;
+    for (std::size_t k = 0; k < max_channels; ++k) values[k] = f(parameters[k], all).value();
     return values;
   };
 }
@@ -93,7 +91,7 @@ double fresnel_change(const Surface& exact, const Surface& form, const Range& vo
     const double low = voh.low + i * step, high = std::min(low + 1.000001 * step, voh.high);
     const auto c = Interval::between(std::min(low, high), high);
     const auto of_form = form_at(c), of_exact = exact_at(c);
-    for (std::size_t k = 0; k < channels; ++k) {
+    for (std::size_t k = 0; k < max_channels; ++k) {
       const auto &a = of_form[k], &b = of_exact[k];
       if (!a.is_finite() || !b.is_finite() || !(b.low() > 0)) return unbounded;
       const double size = std::max(a.high() - b.low(), b.high() - a.low());

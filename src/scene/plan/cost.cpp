@@ -13,7 +13,6 @@ namespace gonio::scene {
 namespace {
 
 using C = Counted<double>;
-constexpr std::size_t channels = 3;
 constexpr std::size_t most_rows = 2048;  ///< that stay in a core's cache
 
 Operations of_multiple(const MultipleScattering& m) {
@@ -24,12 +23,12 @@ Operations of_multiple(const MultipleScattering& m) {
     if (how == "none") return;
     if (how == "kulla_conty") {
       const C lost = lost_to_bounces(curve, nol, nov);
-      for (std::size_t c = 0; c < channels; ++c)
+      for (std::size_t c = 0; c < max_channels; ++c)
         static_cast<void>(one + added_by_kulla_conty(half, lost));
       return;
     }
     const C e = value_at(curve, nov);
-    for (std::size_t c = 0; c < channels; ++c)
+    for (std::size_t c = 0; c < max_channels; ++c)
       static_cast<void>(one + (how == "turquin" ? added_by_turquin(one, e, half)
                                                 : added_by_fdez_aguera(one, e, half)));
   });
@@ -45,7 +44,7 @@ Operations of_channels() {
   const Conductor<C> f(p);
   const C c(0.5);
   return count_operations([&] {
-    for (std::size_t i = 0; i < channels; ++i) static_cast<void>(f({c, c, c, c, c}).value());
+    for (std::size_t i = 0; i < max_channels; ++i) static_cast<void>(f({c, c, c, c, c}).value());
   });
 }
 
@@ -85,12 +84,12 @@ std::function<void()> work(const Surface& s,
   struct State {
     SurfaceEvaluator<F> evaluate;
     std::vector<Column<F>> f;
-    std::array<F*, channels> out{};
+    std::array<F*, max_channels> out{};
     std::vector<Rgb> looked_up;
   };
   auto state = std::make_shared<State>(
       State{SurfaceEvaluator<F>(s, SurfaceKernels<F>::composed()), {}, {}, {}});
-  for (std::size_t c = 0; c < channels; ++c)
+  for (std::size_t c = 0; c < max_channels; ++c)
     state->out[c] = state->f.emplace_back(Column<F>(std::max(x.n, padding))).data();
   const auto seen = views.first(looking.points);
   state->looked_up.resize(seen.size());
@@ -112,7 +111,7 @@ double operations_of_row(const Surface& s) {
   }
   if (s.coat) {
     sum += gonio::operations_of(s.coat->model);
-    sum[Operation::add] += 2 * channels;  // on all that is below
+    sum[Operation::add] += 2 * max_channels;  // on all that is below
   }
   auto total = static_cast<double>(sum.total());
   if (s.spectrum)

@@ -17,7 +17,7 @@ namespace {
 
 enum class Input { angles, cosines, vectors };
 
-struct Parametrization {
+struct AltaParametrization {
   std::string_view name;
   std::size_t size;
   Input input;
@@ -30,42 +30,44 @@ DirectionPair from_half_difference(double theta_h, double phi_h, double theta_d,
   return {light, view};
 }
 
-constexpr std::array kParametrizations{
-    Parametrization{"SPHERICAL_TL_PL_TV_PV", 4, Input::angles,
-                    [](const double* x) -> DirectionPair {
-                      return {direction(x[0], x[1]), direction(x[2], x[3])};
-                    }},
-    Parametrization{"CARTESIAN", 6, Input::vectors,
-                    [](const double* x) -> DirectionPair {
-                      return {{x[3], x[4], x[5]}, {x[0], x[1], x[2]}};
-                    }},
-    Parametrization{
+constexpr std::array kAltaParametrizations{
+    AltaParametrization{"SPHERICAL_TL_PL_TV_PV", 4, Input::angles,
+                        [](const double* x) -> DirectionPair {
+                          return {direction(x[0], x[1]), direction(x[2], x[3])};
+                        }},
+    AltaParametrization{"CARTESIAN", 6, Input::vectors,
+                        [](const double* x) -> DirectionPair {
+                          return {{x[3], x[4], x[5]}, {x[0], x[1], x[2]}};
+                        }},
+    AltaParametrization{
         "ISOTROPIC_TL_TV_PROJ_DPHI", 3, Input::angles,
         [](const double* x) -> DirectionPair {
           return {direction(x[0], 0), direction(std::hypot(x[1], x[2]), std::atan2(x[2], x[1]))};
         }},
-    Parametrization{"ISOTROPIC_TV_PROJ_DPHI", 2, Input::angles,
-                    [](const double* x) -> DirectionPair {
-                      return {{0, 0, 1}, direction(std::hypot(x[0], x[1]), std::atan2(x[1], x[0]))};
-                    }},
-    Parametrization{"ISOTROPIC_TV_TL", 2, Input::angles,
-                    [](const double* x) -> DirectionPair {
-                      return {direction(x[1], 0), direction(x[0], 0)};
-                    }},
-    Parametrization{"ISOTROPIC_TV_TL_DPHI", 3, Input::angles,
-                    [](const double* x) -> DirectionPair {
-                      return {direction(x[1], 0), direction(x[0], x[2])};
-                    }},
-    Parametrization{"RUSIN_TH_PH_TD_PD", 4, Input::angles,
-                    [](const double* x) { return from_half_difference(x[0], x[1], x[2], x[3]); }},
-    Parametrization{"RUSIN_TH_TD_PD", 3, Input::angles,
-                    [](const double* x) { return from_half_difference(x[0], 0, x[1], x[2]); }},
-    Parametrization{
+    AltaParametrization{
+        "ISOTROPIC_TV_PROJ_DPHI", 2, Input::angles,
+        [](const double* x) -> DirectionPair {
+          return {{0, 0, 1}, direction(std::hypot(x[0], x[1]), std::atan2(x[1], x[0]))};
+        }},
+    AltaParametrization{"ISOTROPIC_TV_TL", 2, Input::angles,
+                        [](const double* x) -> DirectionPair {
+                          return {direction(x[1], 0), direction(x[0], 0)};
+                        }},
+    AltaParametrization{"ISOTROPIC_TV_TL_DPHI", 3, Input::angles,
+                        [](const double* x) -> DirectionPair {
+                          return {direction(x[1], 0), direction(x[0], x[2])};
+                        }},
+    AltaParametrization{
+        "RUSIN_TH_PH_TD_PD", 4, Input::angles,
+        [](const double* x) { return from_half_difference(x[0], x[1], x[2], x[3]); }},
+    AltaParametrization{"RUSIN_TH_TD_PD", 3, Input::angles,
+                        [](const double* x) { return from_half_difference(x[0], 0, x[1], x[2]); }},
+    AltaParametrization{
         "RUSIN_TH_TD", 2, Input::angles,
         [](const double* x) { return from_half_difference(x[0], 0, x[1], std::numbers::pi / 2); }},
-    Parametrization{"COS_TH_TD", 2, Input::cosines, [](const double* x) {
-                      return from_half_difference(std::acos(x[0]), 0, std::acos(x[1]), 0);
-                    }}};
+    AltaParametrization{"COS_TH_TD", 2, Input::cosines, [](const double* x) {
+                          return from_half_difference(std::acos(x[0]), 0, std::acos(x[1]), 0);
+                        }}};
 
 constexpr std::array<std::string_view, 3> kEnds{"ALTA END HEADER", "ALTA HEADER END",
                                                 "ALTA_END_HEADER"};
@@ -79,8 +81,8 @@ std::string one_of(const Names& names) {
   return fmt::format("{} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 std::string known_inputs() {
-  std::array<std::string_view, kParametrizations.size()> names;
-  std::ranges::transform(kParametrizations, names.begin(), &Parametrization::name);
+  std::array<std::string_view, kAltaParametrizations.size()> names;
+  std::ranges::transform(kAltaParametrizations, names.begin(), &AltaParametrization::name);
   return one_of(names);
 }
 
@@ -90,9 +92,9 @@ double byte_swapped(double x) {
   return std::bit_cast<double>(bytes);
 }
 
-class Reader {
+class AltaReader {
  public:
-  explicit Reader(InputFile& in)
+  explicit AltaReader(InputFile& in)
       : path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 29)), rest_(text_) {}
 
   Table table() {
@@ -166,8 +168,8 @@ class Reader {
       n_out_ = number_in(next_word(value), 1, most_channels);
     } else if (key == "PARAM_IN") {
       const auto name = next_word(value);
-      in_ = std::ranges::find(kParametrizations, name, &Parametrization::name);
-      if (in_ == kParametrizations.end())
+      in_ = std::ranges::find(kAltaParametrizations, name, &AltaParametrization::name);
+      if (in_ == kAltaParametrizations.end())
         fail(fmt::format("#PARAM_IN {}", name),
              "a parametrization of two directions: " + known_inputs());
     } else if (key == "PARAM_OUT") {
@@ -255,7 +257,7 @@ class Reader {
   std::string path_, text_;
   std::string_view rest_;
   std::size_t line_ = 0, n_in_ = 0, n_out_ = 0, intervals_ = 0, count_ = 0, grazing_ = 0;
-  const Parametrization* in_ = nullptr;
+  const AltaParametrization* in_ = nullptr;
   bool out_ = false, cosine_ = false, binary_ = false, swapped_ = false;
   DirectionList list_;
   Table t_;
@@ -273,7 +275,7 @@ bool is_alta(std::string_view head) {
 }
 
 Table read_alta(InputFile& in) {
-  return Reader(in).table();
+  return AltaReader(in).table();
 }
 
 }  // namespace gonio

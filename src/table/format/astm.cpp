@@ -15,7 +15,7 @@ namespace gonio {
 namespace {
 
 constexpr std::string_view kNames = "VARS", kCount = "NUM_POINTS";
-constexpr std::array<std::string_view, 4> kAngles{"theta_i", "phi_i", "theta_s", "phi_s"};
+constexpr std::array<std::string_view, 4> kAstmAngles{"theta_i", "phi_i", "theta_s", "phi_s"};
 
 /// Line that begins there, without its end.
 std::string_view line_at(std::string_view text, std::size_t at) {
@@ -26,15 +26,15 @@ bool has_key(std::string_view line, std::string_view key) {
          blanks.find(line[key.size()]) != blanks.npos;
 }
 
-struct Header {
+struct AstmHeader {
   std::size_t lines = 0;       ///< above VARS
   std::size_t names = 0;       ///< where VARS begins
   std::string_view count{};    ///< value of NUM_POINTS
   std::size_t count_line = 0;  ///< 0: there is none
 };
 
-std::optional<Header> header_of(std::string_view text) {
-  Header h;
+std::optional<AstmHeader> header_of(std::string_view text) {
+  AstmHeader h;
   for (std::size_t at = 0; at < text.size(); ++h.lines) {
     const auto line = line_at(text, at);
     if (has_key(line, kNames)) {
@@ -60,7 +60,7 @@ std::string channel_name(const std::string& name, std::size_t channels) {
 
 bool is_astm(std::string_view head) {
   const auto h = header_of(head);
-  return h && line_at(head, h->names).find(kAngles[0]) != head.npos;
+  return h && line_at(head, h->names).find(kAstmAngles[0]) != head.npos;
 }
 
 Table read_astm(InputFile& in) {
@@ -71,13 +71,13 @@ Table read_astm(InputFile& in) {
   text.replace(header->names, kNames.size(), kNames.size(), ' ');
   Delimited rows(in.path(), text, header->lines);
 
-  std::array<std::size_t, kAngles.size()> angle{};
+  std::array<std::size_t, kAstmAngles.size()> angle{};
   std::vector<std::size_t> values;
   const auto& names = rows.names();
-  for (std::size_t k = 0; k < kAngles.size(); ++k) {
-    const auto at = std::ranges::find(names, kAngles[k]);
+  for (std::size_t k = 0; k < kAstmAngles.size(); ++k) {
+    const auto at = std::ranges::find(names, kAstmAngles[k]);
     if (at == names.end())
-      rows.fail("", fmt::format("no {} in VARS", kAngles[k]), "theta_i, phi_i, theta_s, phi_s");
+      rows.fail("", fmt::format("no {} in VARS", kAstmAngles[k]), "theta_i, phi_i, theta_s, phi_s");
     angle[k] = static_cast<std::size_t>(at - names.begin());
   }
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -94,12 +94,12 @@ Table read_astm(InputFile& in) {
   t.format = "astm";
   for (const auto k : values) t.channels.push_back(channel_name(names[k], values.size()));
   t.values.resize(values.size());
-  std::array<std::vector<double>, kAngles.size()> columns;
+  std::array<std::vector<double>, kAstmAngles.size()> columns;
   double largest = 0;
   while (rows.next()) {
-    if ((columns[0].size() + 1) * (kAngles.size() + values.size()) > most_values)
+    if ((columns[0].size() + 1) * (kAstmAngles.size() + values.size()) > most_values)
       rows.fail("", "more samples", fmt::format("at most {} numbers", most_values));
-    for (std::size_t k = 0; k < kAngles.size(); ++k) {
+    for (std::size_t k = 0; k < kAstmAngles.size(); ++k) {
       const double x = rows.number(angle[k]);
       // Degrees at most; whether they are radians is known at the end.
       if (!(std::abs(x) <= (k % 2 == 0 ? 90 : 360)))
@@ -117,12 +117,12 @@ Table read_astm(InputFile& in) {
                     fmt::format("{}, as there are rows", n));
 
   const bool radians = largest <= 2 * std::numbers::pi * (1 + 1e-6);
-  for (std::size_t k = 0; k < kAngles.size(); k += 2)
+  for (std::size_t k = 0; k < kAstmAngles.size(); k += 2)
     for (std::size_t i = 0; i < n; ++i) {
       double &theta = columns[k][i], &phi = columns[k + 1][i];
       if (radians && std::abs(theta) > std::numbers::pi / 2 * (1 + 1e-6))
         throw bad_input(in.path(), fmt::format("row {}", i + 1),
-                        fmt::format("{} {}", kAngles[k], theta),
+                        fmt::format("{} {}", kAstmAngles[k], theta),
                         "at most π/2, as no angle in the file is beyond 2π");
       if (radians) theta /= degree, phi /= degree;
       if (theta < 0) theta = -theta, phi += 180;

@@ -141,9 +141,9 @@ class Samples {
   std::size_t size_ = 0;
 };
 
-class Reader {
+class CsvReader {
  public:
-  Reader(InputFile& in, const ColumnMap* map, bool needs_values)
+  CsvReader(InputFile& in, const ColumnMap* map, bool needs_values)
       : map_(map),
         needs_values_(needs_values),
         path_(in.path()),
@@ -610,11 +610,11 @@ void warn_of_directions(Table& t, double forward_deg) {
 }
 
 Table read_csv(InputFile& in, const ColumnMap* map) {
-  return Reader(in, map, true).table();
+  return CsvReader(in, map, true).table();
 }
 
 Table read_directions_csv(InputFile& in) {
-  return Reader(in, nullptr, false).table();
+  return CsvReader(in, nullptr, false).table();
 }
 
 std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {

@@ -11,6 +11,8 @@
 #include "table/format/delimited.h"
 #include "table/format/metadata.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/task_arena.h>
 
 namespace gonio {
@@ -20,34 +22,65 @@ bool is_exr(std::string_view head) {
   return head.starts_with(std::string_view("\x76\x2f\x31\x01", 4));
 }
 
+/// Format of a table's file.
+struct Format {
+  std::string_view name;   ///< as Table::format
+  std::string_view title;  ///< as its users call it
+  bool (*is)(std::string_view head, std::uint64_t size);
+  Table (*read)(InputFile&);
+  void (*write)(const Table&, OutputFile&, const std::string& path) = nullptr;  ///< null: read only
+  bool in_columns = false;  ///< lines of text, which a column map reads as CSV
+};
+
+template <bool (*is)(std::string_view)>
+bool by_head(std::string_view head, std::uint64_t) {
+  return is(head);
+}
+
+/// A file is of the first format whose `is` says so.
+constexpr Format formats[]{
+    {"exr", "OpenEXR image slice", by_head<is_exr>,
+     [](InputFile& in) { return read_exr_slice(in.path()); }},  // written by write_table
+    {"mbsdf", "MBSDF", by_head<is_mbsdf>, read_mbsdf, write_mbsdf},
+    {"rgl", "RGL", by_head<is_rgl>, read_rgl, write_rgl},
+    {"klems", "Klems XML", by_head<is_klems>, read_klems},
+    {"alta", "ALTA", by_head<is_alta>, read_alta, nullptr, true},
+    {"astm", "ASTM E1392", by_head<is_astm>, read_astm, nullptr, true},
+    {"ssdd", "SSDD", by_head<is_ssdd>, read_ssdd, nullptr, true},
+    {"merl", "MERL", is_merl, read_merl, write_merl},
+    {"ngan", "MIT CSAIL", by_head<is_ngan>, read_ngan},
+    {"csv", "CSV", by_head<is_csv>, [](InputFile& in) { return read_csv(in); },
+     [](const Table& t, OutputFile& out, const std::string&) { write_csv(t, out); }, true},
+    {"utia", "UTIA", [](std::string_view, std::uint64_t size) { return is_utia(size); }, read_utia,
+     write_utia}};  // known by its size alone: the last
+
+/// "CSV, MERL or RGL"
+std::string one_of(std::string_view Format::*name, bool (*those)(const Format&)) {
+  std::vector<std::string_view> names;
+  for (const auto& f : formats)
+    if (those(f)) names.push_back(f.*name);
+  const auto last = names.back();
+  names.pop_back();
+  return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
 Table read_by_format(InputFile& in, const ColumnMap* map) {
   const std::string head = in.peek(1 << 16);
-  if (is_exr(head)) return read_exr_slice(in.path());
-  if (is_mbsdf(head)) return read_mbsdf(in);
-  if (is_rgl(head)) return read_rgl(in);
-  if (is_klems(head)) return read_klems(in);
-  if (!map && is_alta(head)) return read_alta(in);
-  if (!map && is_astm(head)) return read_astm(in);
-  if (!map && is_ssdd(head)) return read_ssdd(in);
-  if (is_merl(head, in.size())) return read_merl(in);
-  if (is_ngan(head)) return read_ngan(in);
-  if (map || is_csv(head)) return read_csv(in, map);
-  if (is_utia(in.size())) return read_utia(in);  // known by its size alone
+  for (const auto& f : formats) {
+    if (map && f.name == "csv") return read_csv(in, map);
+    if (!(map && f.in_columns) && f.is(head, in.size())) return f.read(in);
+  }
   expect_no_utf16(in.path(), head);
   throw bad_input(in.path(), "byte 0", "an unknown format: " + head.substr(0, 24),
-                  "a MERL, MBSDF, RGL, Klems XML, ALTA, ASTM E1392, SSDD, UTIA or MIT CSAIL file, "
-                  "an image slice in "
-                  "OpenEXR, or CSV");
+                  "a table as " + one_of(&Format::title, [](const Format&) { return true; }));
 }
 
 void write_by_format(const Table& t, OutputFile& out, const std::string& path) {
-  if (t.format == "merl") return write_merl(t, out, path);
-  if (t.format == "mbsdf") return write_mbsdf(t, out, path);
-  if (t.format == "utia") return write_utia(t, out, path);
-  if (t.format == "rgl") return write_rgl(t, out, path);
-  if (t.format == "csv") return write_csv(t, out);
-  throw wrong_usage("unknown table format '" + t.format +
-                    "': use csv, merl, mbsdf, utia, exr or rgl");
+  for (const auto& f : formats)
+    if (f.write && f.name == t.format) return f.write(t, out, path);
+  throw wrong_usage(
+      fmt::format("unknown table format '{}': use exr, {}", t.format,
+                  one_of(&Format::name, [](const Format& f) { return f.write != nullptr; })));
 }
 
 }  // namespace
@@ -128,8 +161,9 @@ void expect_own_side(const std::string& path) {
   std::error_code why;
   if (!std::filesystem::exists(std::filesystem::symlink_status(side, why))) return;
   try {
-    if (JsonDocument(side, side_text(path)).root().has("sha256")) return;  // so far only gonio names its table
-  } catch (const Error&) {                                 // nothing that gonio wrote
+    if (JsonDocument(side, side_text(path)).root().has("sha256"))
+      return;               // so far only gonio names its table
+  } catch (const Error&) {  // nothing that gonio wrote
   }
   throw bad_input(side, "writing the table beside it", "a side file that was written by hand",
                   "none, or one that gonio wrote (move it, or name another output)");

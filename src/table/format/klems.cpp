@@ -57,9 +57,9 @@ class Basis {
 constexpr std::size_t kMostPatches = 2048;
 
 /// The document with the words for errors in it.
-class Reader {
+class KlemsReader {
  public:
-  explicit Reader(InputFile& in) : path_(in.path()) {
+  explicit KlemsReader(InputFile& in) : path_(in.path()) {
     // What pugixml makes of a file takes up to 30 times its size.
     const std::string text = in.read_rest(std::uint64_t{1} << 25);
     const auto parsed = document_.load_buffer(text.data(), text.size());
@@ -220,7 +220,7 @@ bool is_klems(std::string_view head) {
 }
 
 Table read_klems(InputFile& in) {
-  return Reader(in).table();
+  return KlemsReader(in).table();
 }
 
 }  // namespace gonio

@@ -9,14 +9,15 @@
 namespace gonio {
 namespace {
 
-using Header = std::array<std::int32_t, 16>;
-constexpr std::size_t kChannels = 3, kPerSample = 4 + kChannels;  ///< numbers, directions included
+using NganHeader = std::array<std::int32_t, 16>;
+constexpr std::size_t kNganChannels = 3,
+                      kPerSample = 4 + kNganChannels;  ///< numbers, directions included
 constexpr std::int32_t kMostBins = 1 << 16;
 
-bool known(const Header& h) {
+bool known(const NganHeader& h) {
   for (std::size_t k = 0; k < 4; ++k)
     if (h[k] < 1 || h[k] > kMostBins) return false;
-  return h[6] == 1 && h[7] == 0 && (h[9] == 0 || h[9] == 1) && h[10] == kChannels;
+  return h[6] == 1 && h[7] == 0 && (h[9] == 0 || h[9] == 1) && h[10] == kNganChannels;
 }
 
 /// Most φ_i of `all`, evenly spaced, of which a table can hold `rows` each; 0 where it cannot hold one.
@@ -29,14 +30,14 @@ std::size_t azimuths(std::size_t all, std::size_t rows) {
 }  // namespace
 
 bool is_ngan(std::string_view head) {
-  Header h{};
+  NganHeader h{};
   if (head.size() < sizeof h) return false;
   std::memcpy(h.data(), head.data(), sizeof h);
   return known(h);
 }
 
 Table read_ngan(InputFile& in) {
-  Header h{};
+  NganHeader h{};
   in.read(h.data(), sizeof h);
   if (!known(h))
     throw bad_input(in.path(), "byte 0", "another header",
@@ -44,8 +45,8 @@ Table read_ngan(InputFile& in) {
   std::array<std::uint64_t, 4> bins{};
   // Divided, not multiplied: the product of four may not fit.
   std::uint64_t left = in.size() - sizeof h;
-  bool fits = left % (kChannels * sizeof(float)) == 0;
-  left /= kChannels * sizeof(float);
+  bool fits = left % (kNganChannels * sizeof(float)) == 0;
+  left /= kNganChannels * sizeof(float);
   for (std::size_t k = 0; k < bins.size(); ++k) {
     bins[k] = static_cast<std::uint64_t>(h[k]);
     fits = fits && left % bins[k] == 0;
@@ -87,7 +88,7 @@ Table read_ngan(InputFile& in) {
       l.phi_o_deg.push_back(phi_i + turned < 360 ? phi_i + turned : phi_i + turned - 360);
     }
   std::vector<float> line(n_phi);
-  for (std::size_t c = 0; c < kChannels; ++c) {
+  for (std::size_t c = 0; c < kNganChannels; ++c) {
     auto& plane = t.values.emplace_back();
     plane.reserve(rows * kept);
     for (std::size_t row = 0; row < rows; ++row) {

@@ -40,16 +40,16 @@ DirectionPair by_half_vector(const Angles4& a, double) {
   return directions(HalfDifference{a[0], a[1], a[2], a[3]});
 }
 
-struct Parametrization {
+struct SsddParametrization {
   std::string_view name;
   double most_2;          ///< of PARAM2_LIST [degrees]
   bool first_has_a_pole;  ///< PARAM1 is no matter where PARAM0 is 0
   DirectionPair (*pair)(const Angles4&, double offset);
 };
-constexpr std::array kParametrizations{
-    Parametrization{"spherical_coordinate_system", 90, true, spherical},
-    Parametrization{"specular_coordinate_system", 180, false, specular},
-    Parametrization{"half_difference_coordinate_system", 90, false, by_half_vector}};
+constexpr std::array kSsddParametrizations{
+    SsddParametrization{"spherical_coordinate_system", 90, true, spherical},
+    SsddParametrization{"specular_coordinate_system", 180, false, specular},
+    SsddParametrization{"half_difference_coordinate_system", 90, false, by_half_vector}};
 
 /// What stands between DATA_TYPE and DATA.
 struct Block {
@@ -66,9 +66,9 @@ struct Block {
   }
 };
 
-class Reader {
+class SsddReader {
  public:
-  explicit Reader(InputFile& in)
+  explicit SsddReader(InputFile& in)
       : path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 29)), rest_(text_) {}
 
   Table table() {
@@ -206,11 +206,11 @@ class Reader {
 
   /// Directions of the block's samples, those of a direction's first name.  \return which these are
   std::vector<bool> directions(std::size_t count) {
-    const auto p =
-        std::ranges::find(kParametrizations, block_.parametrization, &Parametrization::name);
-    if (p == kParametrizations.end()) {
-      std::array<std::string_view, kParametrizations.size()> names;
-      std::ranges::transform(kParametrizations, names.begin(), &Parametrization::name);
+    const auto p = std::ranges::find(kSsddParametrizations, block_.parametrization,
+                                     &SsddParametrization::name);
+    if (p == kSsddParametrizations.end()) {
+      std::array<std::string_view, kSsddParametrizations.size()> names;
+      std::ranges::transform(kSsddParametrizations, names.begin(), &SsddParametrization::name);
       fail(fmt::format("PARAM_TYPE {}", block_.parametrization),
            fmt::format("{}", fmt::join(names, ", ")));
     }
@@ -292,7 +292,7 @@ bool is_ssdd(std::string_view head) {
 }
 
 Table read_ssdd(InputFile& in) {
-  return Reader(in).table();
+  return SsddReader(in).table();
 }
 
 }  // namespace gonio

@@ -13,7 +13,7 @@
 namespace gonio {
 namespace {
 
-constexpr std::size_t kThetas = 6, kPhis = 48, kRow = kThetas * kPhis, kChannels = 3;
+constexpr std::size_t kThetas = 6, kPhis = 48, kRow = kThetas * kPhis, kUtiaChannels = 3;
 constexpr std::size_t kDirections = 1 + (kThetas - 1) * kPhis;  ///< the pole is one
 constexpr double kThetaStep = 15, kPhiStep = 7.5;               ///< [degrees]
 
@@ -98,19 +98,19 @@ bool has_utia_directions(const Table& t) {
 }
 
 bool is_utia(std::uint64_t size) {
-  return size == kChannels * kRow * kRow * sizeof(double);
+  return size == kUtiaChannels * kRow * kRow * sizeof(double);
 }
 
 Table read_utia(InputFile& in) {
   if (!is_utia(in.size()))
     throw bad_input(in.path(), "size", fmt::format("{} bytes", in.size()),
-                    fmt::format("{} bytes", kChannels * kRow * kRow * sizeof(double)));
+                    fmt::format("{} bytes", kUtiaChannels * kRow * kRow * sizeof(double)));
   Table t;
   t.format = "utia";
   t.channels = {"r", "g", "b"};
   t.where = utia_directions();
   std::vector<double> plane(kRow * kRow);
-  for (std::size_t c = 0; c < kChannels; ++c) {
+  for (std::size_t c = 0; c < kUtiaChannels; ++c) {
     in.read(plane.data(), plane.size() * sizeof(double));
     // Of values that are all the same the mean is that value, to the last digit.
     Values first(kDirections * kDirections);
@@ -155,11 +155,11 @@ void interpolate_utia(Table& t) {
 }
 
 void write_utia(const Table& t, OutputFile& out, const std::string& path) {
-  if (!has_utia_directions(t) || (t.values.size() != 1 && t.values.size() != kChannels))
+  if (!has_utia_directions(t) || (t.values.size() != 1 && t.values.size() != kUtiaChannels))
     throw bad_input(path, "writing", "a table of another shape",
                     "one or three channels on UTIA's 241 × 241 directions");
   std::vector<double> row(kRow);
-  for (std::size_t c = 0; c < kChannels; ++c) {
+  for (std::size_t c = 0; c < kUtiaChannels; ++c) {
     const auto& values = t.values[t.values.size() == 1 ? 0 : c];
     for (std::size_t in = 0; in < kRow; ++in) {
       for (std::size_t k = 0; k < kRow; ++k)

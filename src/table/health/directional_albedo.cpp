@@ -66,7 +66,7 @@ std::vector<AlbedoSample> of_function(const Table& t, double step_deg) {
   return all;
 }
 
-std::vector<AlbedoSample> of_list(const Table& t) {
+std::vector<AlbedoSample> samples_of_list(const Table& t) {
   constexpr double reach_deg = 12;
   const double reach = std::cos(reach_deg * degree);
   const auto fewest =
@@ -144,7 +144,7 @@ AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
 
 std::vector<AlbedoSample> albedo_curve(const Table& t, double step_deg) {
   if (t.between) return of_function(t, step_deg);
-  if (t.list()) return of_list(t);
+  if (t.list()) return samples_of_list(t);
   const bool slice = std::ranges::any_of(
       t.grid()->axes, [](const Axis& a) { return a.spacing == Axis::Spacing::constant; });
   return slice ? std::vector<AlbedoSample>{} : of_function(t, step_deg);

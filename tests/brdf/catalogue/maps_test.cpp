@@ -20,7 +20,7 @@ std::vector<double> apply(std::string_view id, const Given& p, Number number = N
 }
 
 template <template <class> class Map>
-constexpr bool takes_every_number() {
+constexpr bool map_takes_every_number() {
   constexpr std::size_t n = Map<double>::parameters.size();
   return MapOver<Map<double>, double> && MapOver<Map<float>, float> &&
          MapOver<Map<Archetype>, Archetype> && MapOver<Map<Batch<float>>, Batch<float>> &&
@@ -28,7 +28,7 @@ constexpr bool takes_every_number() {
 }
 template <template <class> class... M>
 constexpr bool all_take_every_number(MapList<M...>) {
-  return (takes_every_number<M>() && ...);
+  return (map_takes_every_number<M>() && ...);
 }
 static_assert(all_take_every_number(Maps{}));
 

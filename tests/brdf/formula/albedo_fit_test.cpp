@@ -12,11 +12,11 @@ namespace gonio {
 namespace {
 
 /// E over roughness in [0.05, 1] and √NoV in [0, 1].
-struct Sample {
+struct AlbedoAt {
   double alpha, nov, e;
 };
-std::vector<Sample> samples(int roughnesses, int cosines) {
-  std::vector<Sample> all;
+std::vector<AlbedoAt> samples(int roughnesses, int cosines) {
+  std::vector<AlbedoAt> all;
   for (int i = 0; i <= roughnesses; ++i)
     for (int j = 0; j <= cosines; ++j) {
       const double alpha = square(0.05 + 0.95 * i / roughnesses), nov = square(1.0 * j / cosines);
@@ -30,7 +30,7 @@ struct Errors {
   double worst = 0, rms = 0;
 };
 template <class Fit>
-Errors errors_of(const std::vector<Sample>& at, const Fit& fit) {
+Errors errors_of(const std::vector<AlbedoAt>& at, const Fit& fit) {
   Errors e;
   for (const auto& s : at) {
     const double off = std::abs(fit(s.alpha, s.nov) - s.e);

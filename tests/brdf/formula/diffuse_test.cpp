@@ -1,17 +1,17 @@
 // Diffuse terms as published, and what a white one reflects.
 #include <cmath>
-#include <numbers>
 
 #include "brdf/model/evaluate.h"
 #include "brdf/model/model.h"
 #include "brdf/terms.h"
+#include "constants.h"
 #include "integrate/rule/quadrature.h"
 
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+using test::pi;
 
 Direction direction(double cosine, double azimuth) {
   const double s = std::sqrt((1 - cosine) * (1 + cosine));

@@ -1,14 +1,14 @@
 // Masking alone, and with the distribution that it belongs to.
-#include <numbers>
 
 #include "brdf/terms.h"
+#include "constants.h"
 #include "integrate/rule/quadrature.h"
 
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+using test::pi;
 
 /// The same width along both axes, where a term has two.
 test::Parameters of_alpha(std::size_t masking, double alpha) {
@@ -36,8 +36,8 @@ double g1(std::size_t masking, double alpha, double nov) {
 const auto separable = [] { return find_term("masking.smith_ggx.separable"); };
 const auto correlated = [] { return find_term("masking.smith_ggx.correlated"); };
 
-constexpr double cosines[] = {1e-8, 1e-3, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1};
-constexpr double alphas[] = {1e-4, 1e-2, 0.1, 0.25, 0.5, 0.9, 1};
+constexpr double masking_cosines[] = {1e-8, 1e-3, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1};
+constexpr double masking_alphas[] = {1e-4, 1e-2, 0.1, 0.25, 0.5, 0.9, 1};
 
 /// Smith's and what stands for it with the same monotony: G₁ from 0 at the horizon to 1 at the normal.
 constexpr std::string_view smithlike[] = {"masking.smith_ggx.separable",
@@ -63,9 +63,9 @@ constexpr std::string_view smithlike[] = {"masking.smith_ggx.separable",
 TEST(Masking, IsReciprocalButForTheMobilePortsClamp) {
   for (const auto m : test::terms_of(Role::masking)) {
     bool reciprocal = true;
-    for (const double alpha : alphas)
-      for (const double l : cosines)
-        for (const double v : cosines) {
+    for (const double alpha : masking_alphas)
+      for (const double l : masking_cosines)
+        for (const double v : masking_cosines) {
           const auto [wi, wo] = directions(l, v, 1.9);
           const auto p = of_alpha(m, alpha);
           reciprocal = reciprocal && test::value_at(m, p, frame_angles({wi, wo})) ==
@@ -78,9 +78,9 @@ TEST(Masking, IsReciprocalButForTheMobilePortsClamp) {
 
 TEST(Masking, OfBothDirectionsIsNoMoreThanOfEither) {
   for (const auto id : smithlike)
-    for (const double alpha : alphas)
-      for (const double l : cosines)
-        for (const double v : cosines) {
+    for (const double alpha : masking_alphas)
+      for (const double l : masking_cosines)
+        for (const double v : masking_cosines) {
           const auto m = find_term(id);
           const double both = g2(m, alpha, l, v);
           const double least = std::min(g1(m, alpha, l), g1(m, alpha, v));
@@ -92,26 +92,27 @@ TEST(Masking, OfBothDirectionsIsNoMoreThanOfEither) {
 
 TEST(Masking, GrowsTowardsGrazingAndWithRoughness) {
   for (const auto id : smithlike)
-    for (std::size_t a = 0; a < std::size(alphas); ++a)
-      for (std::size_t c = 0; c < std::size(cosines); ++c) {
+    for (std::size_t a = 0; a < std::size(masking_alphas); ++a)
+      for (std::size_t c = 0; c < std::size(masking_cosines); ++c) {
         const auto m = find_term(id);
-        const double g = g1(m, alphas[a], cosines[c]);
+        const double g = g1(m, masking_alphas[a], masking_cosines[c]);
         if (c > 0) {
-          EXPECT_GE(g * (1 + 4 * eps), g1(m, alphas[a], cosines[c - 1])) << id;
+          EXPECT_GE(g * (1 + 4 * eps), g1(m, masking_alphas[a], masking_cosines[c - 1])) << id;
         }
         if (a > 0) {
-          EXPECT_LE(g, g1(m, alphas[a - 1], cosines[c]) * (1 + 4 * eps)) << id;
+          EXPECT_LE(g, g1(m, masking_alphas[a - 1], masking_cosines[c]) * (1 + 4 * eps)) << id;
         }
       }
 }
 
 TEST(Masking, VanishesAtNormalIncidence) {
   for (const auto id : smithlike)
-    for (const double alpha : alphas) EXPECT_NEAR(g2(find_term(id), alpha, 1, 1), 1, 4 * eps) << id;
+    for (const double alpha : masking_alphas)
+      EXPECT_NEAR(g2(find_term(id), alpha, 1, 1), 1, 4 * eps) << id;
 }
 
 TEST(Masking, HasAFiniteVisibilityWhereOneDirectionGrazes) {
-  for (const double alpha : alphas) {
+  for (const double alpha : masking_alphas) {
     EXPECT_NEAR(visibility(correlated(), alpha, 0.5, 0) * alpha, 1, 8 * eps);  // 1 / (2 NoL α)
     const double root = std::sqrt(alpha * alpha + (1 - alpha * alpha) / 4);
     EXPECT_NEAR(visibility(separable(), alpha, 0.5, 0) * alpha * (0.5 + root), 1, 8 * eps);
@@ -123,23 +124,24 @@ TEST(SmithGgx, HasItsClosedValues) {
     EXPECT_NEAR(g1(m, 0.25, 0.1), 0.543, 5e-4);
     // tan²θ = 99, α² = 1/16:  2 / (1 + √(1 + 99/16))
     EXPECT_NEAR(g1(m, 0.25, 0.1), 2 / (1 + std::sqrt(1 + 99.0 / 16)), 4 * eps);
-    for (const double c : cosines) EXPECT_NEAR(g1(m, 1, c), 2 * c / (1 + c), 4 * eps);  // α = 1
+    for (const double c : masking_cosines)
+      EXPECT_NEAR(g1(m, 1, c), 2 * c / (1 + c), 4 * eps);  // α = 1
   }
 }
 
 TEST(SmithGgx, SeparableIsTheProductOfItsParts) {
-  for (const double alpha : alphas)
-    for (const double l : cosines)
-      for (const double v : cosines) {
+  for (const double alpha : masking_alphas)
+    for (const double l : masking_cosines)
+      for (const double v : masking_cosines) {
         const double product = g1(separable(), alpha, l) * g1(separable(), alpha, v);
         EXPECT_NEAR(g2(separable(), alpha, l, v), product, 16 * eps * product);
       }
 }
 
 TEST(SmithGgx, CorrelatedIsHeitzsEquation99) {
-  for (const double alpha : alphas)
-    for (const double l : cosines)
-      for (const double v : cosines) {
+  for (const double alpha : masking_alphas)
+    for (const double l : masking_cosines)
+      for (const double v : masking_cosines) {
         const auto lambda = [&](double c) { return 1 / g1(separable(), alpha, c) - 1; };
         const double g = 1 / (1 + lambda(l) + lambda(v));
         EXPECT_NEAR(g2(correlated(), alpha, l, v), g, 32 * eps * g);
@@ -212,14 +214,15 @@ TEST(Schlick, HasTheFiguresOfItsSeveralK) {  // roughness 0.5, NoV 0.1
 
 TEST(Schlick, WithHalfAlphaIsSmithWhereAlphaIsOne) {
   const auto schlick = find_term("masking.schlick_ggx.half_alpha");
-  for (const double c : cosines) EXPECT_NEAR(g1(schlick, 1, c), g1(separable(), 1, c), 4 * eps);
+  for (const double c : masking_cosines)
+    EXPECT_NEAR(g1(schlick, 1, c), g1(separable(), 1, c), 4 * eps);
 }
 
 TEST(UeJoint, IsHammonsFormAndExactWhereAlphaIsOne) {
   const auto ue = find_term("masking.ue_joint"), hammon = find_term("masking.hammon");
-  for (const double l : cosines)
-    for (const double v : cosines) {
-      for (const double alpha : alphas) {
+  for (const double l : masking_cosines)
+    for (const double v : masking_cosines) {
+      for (const double alpha : masking_alphas) {
         const double x = visibility(ue, alpha, l, v);
         EXPECT_NEAR(visibility(hammon, alpha, l, v), x, 8 * eps * x);
       }
@@ -241,8 +244,8 @@ TEST(UeJoint, OfTheMobilePortIsClampedAndLosesReciprocity) {
 
 TEST(Disney, MasksAsGgxOfARemappedOrFixedWidth) {
   const auto remap = find_term("masking.disney_remap"), coat = find_term("masking.disney_coat");
-  for (const double l : cosines)
-    for (const double v : cosines) {
+  for (const double l : masking_cosines)
+    for (const double v : masking_cosines) {
       const double a = visibility(separable(), 0.5625, l, v);  // r = 0.5: (0.5 + 0.25)²
       EXPECT_NEAR(visibility(remap, 0.25, l, v), a, 8 * eps * a);
       const double b = visibility(separable(), 0.25, l, v);
@@ -339,7 +342,7 @@ TEST(SmithBeckmann, LeavesAsMuchFacetAreaAsTheSurfaceShows) {
 
 TEST(SmithGgx, LeavesAsMuchFacetAreaAsTheSurfaceShows) {  // [Heitz 2014, Eq. 23]: G₁ ∫ = cos θ_v
   for (const auto m : {separable(), correlated()})
-    for (const double alpha : alphas)
+    for (const double alpha : masking_alphas)
       for (const double nov : {0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0})
         EXPECT_NEAR(g1(m, alpha, nov) * visible_area(find_term("ndf.ggx"), {alpha}, nov) / nov, 1,
                     1e-9)
@@ -458,7 +461,7 @@ TEST(SmithGgx, BelongsToGtrOfGammaTwoAndToNoOther) {
 }
 
 /// Albedo of a lobe with F = 1, by the hemisphere of light directions.
-double albedo(const std::string& spec, double alpha, double mu) {
+double masked_albedo(const std::string& spec, double alpha, double mu) {
   const auto model = bind_model(spec, {{"alpha", {alpha}}, {"f0", {1}}}, 1);
   const Direction v{std::sqrt(1 - mu * mu), 0, mu};
   const auto nodes = cosine_hemisphere(256, 64);
@@ -472,10 +475,10 @@ double albedo(const std::string& spec, double alpha, double mu) {
 
 TEST(SmithGgx, HasTheAlbedoOfAlphaOneInClosedForm) {  // D = 1/π
   for (const double mu : {0.1, 0.3, 0.5, 0.8, 1.0}) {
-    EXPECT_NEAR(albedo("ggx/smith_ggx.correlated/schlick", 1, mu), 1 - mu * std::log(1 + 1 / mu),
-                1e-6);
-    EXPECT_NEAR(albedo("ggx/smith_ggx.separable/schlick", 1, mu), 2 * (1 - std::log(2)) / (1 + mu),
-                1e-6);
+    EXPECT_NEAR(masked_albedo("ggx/smith_ggx.correlated/schlick", 1, mu),
+                1 - mu * std::log(1 + 1 / mu), 1e-6);
+    EXPECT_NEAR(masked_albedo("ggx/smith_ggx.separable/schlick", 1, mu),
+                2 * (1 - std::log(2)) / (1 + mu), 1e-6);
   }
 }
 
@@ -484,7 +487,7 @@ TEST(SmithGgx, ReflectsNoMoreThanArrivesAndLessTheRougher) {
     for (const double mu : {0.3, 0.7, 1.0}) {
       double smoother = 1 + 1e-4;
       for (const double alpha : {0.2, 0.4, 0.7, 1.0}) {
-        const double a = albedo("ggx/smith_ggx." + m + "/schlick", alpha, mu);
+        const double a = masked_albedo("ggx/smith_ggx." + m + "/schlick", alpha, mu);
         EXPECT_LT(a, smoother) << m << " " << alpha << " " << mu;
         EXPECT_GT(a, 0.3);
         smoother = a;

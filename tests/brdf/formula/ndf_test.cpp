@@ -1,7 +1,7 @@
-#include <numbers>
 
 #include "brdf/formula/ndf_anisotropic.h"
 #include "brdf/terms.h"
+#include "constants.h"
 #include "integrate/rule/quadrature.h"
 
 namespace gonio {
@@ -10,8 +10,8 @@ namespace {
 using test::Parameters;
 using test::text;
 
-constexpr double pi = std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+using test::pi;
 
 /// Distributions that stand for no other: normalised ones.  Isotropic, unless told otherwise.
 std::vector<std::size_t> exact(bool anisotropic = false) {

@@ -4,9 +4,9 @@
 
 #include <complex>
 #include <cstdio>
-#include <numbers>
 
 #include "brdf/terms.h"
+#include "constants.h"
 #include "number/batch.h"
 #include "number/dual.h"
 
@@ -15,8 +15,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double pi = std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+using test::pi;
 
 double expm1_of(double z) {
   return std::abs(z) < 1e-9 ? 1 + z / 2 : std::expm1(z) / z;
@@ -57,7 +57,7 @@ class Loop {
     const auto p = [&](double x) { return scale * integral(x / (alpha_ * alpha_)); };
     return std::sqrt(q) * (1 - p(1)) + p(q);
   }
-  double g1(double c) const { return 2 * c / (c + r(c)); }
+  double gtr_g1(double c) const { return 2 * c / (c + r(c)); }
 
  private:
   double alpha_, gamma_;
@@ -70,14 +70,14 @@ double r(double alpha, double gamma, double c) {
   return static_cast<double>(SmithGtrRoot<F>(p)(static_cast<F>(c))) / smith_scale;
 }
 template <class F = double>
-double g1(double alpha, double gamma, double c) {
+double gtr_g1(double alpha, double gamma, double c) {
   return 2 * c / (c + r<F>(alpha, gamma, c));
 }
 
-constexpr double cosines[] = {1e-6, 1e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 3e-3,
-                              0.01, 0.02, 0.04, 0.07, 0.1,  0.15, 0.2,  0.3,
-                              0.4,  0.5,  0.6,  0.7,  0.8,  0.9,  0.98, 1};
-const test::Parameters alphas = test::spread({1e-4, 1}, 18);
+constexpr double gtr_cosines[] = {1e-6, 1e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 3e-3,
+                                  0.01, 0.02, 0.04, 0.07, 0.1,  0.15, 0.2,  0.3,
+                                  0.4,  0.5,  0.6,  0.7,  0.8,  0.9,  0.98, 1};
+const test::Parameters gtr_alphas = test::spread({1e-4, 1}, 18);
 /// Dense where the coefficients change hands.
 constexpr double gammas[] = {0.5, 0.6, 0.75, 0.9, 1.1,      1.3, 1.45, 1.5, 1.7, 1.9, 2,
                              2.2, 2.5, 2.7,  2.9, 3 - 1e-9, 3,   3.01, 3.2, 3.5, 4,   4.6,
@@ -87,7 +87,7 @@ constexpr double gammas[] = {0.5, 0.6, 0.75, 0.9, 1.1,      1.3, 1.45, 1.5, 1.7,
 
 TEST(SmithGtrRuler, IsTheClosedFormOfGgxAndOfThree) {
   for (const double alpha : {1e-4, 0.03, 0.5, 0.9})
-    for (const double c : cosines) {
+    for (const double c : gtr_cosines) {
       const double q = alpha * alpha + (1 - alpha) * (1 + alpha) * c * c, a2 = alpha * alpha;
       EXPECT_NEAR(Loop(alpha, 2).r(c) / std::sqrt(q), 1, 1e-13);
       const double three = std::sqrt(q) * (2 + 3 * a2 - a2 / q) / (2 + 2 * a2);
@@ -98,10 +98,10 @@ TEST(SmithGtrRuler, IsTheClosedFormOfGgxAndOfThree) {
 TEST(SmithGtr, IsItsIntegralWithinHalfAMillionth) {
   double below = 0, above = 0;
   for (const double gamma : gammas)
-    for (const double alpha : alphas) {
+    for (const double alpha : gtr_alphas) {
       const Loop truth(alpha, gamma);
-      for (const double c : cosines) {
-        const double error = std::abs(g1(alpha, gamma, c) - truth.g1(c));
+      for (const double c : gtr_cosines) {
+        const double error = std::abs(gtr_g1(alpha, gamma, c) - truth.g1(c));
         EXPECT_LT(error, gamma < 3 ? 5e-8 : 5e-7) << alpha << " " << gamma << " " << c;
         (gamma < 3 ? below : above) = std::max(gamma < 3 ? below : above, error);
       }
@@ -114,19 +114,19 @@ TEST(SmithGtr, OfGammaOneIsTheClosedFormOfBerry) {
   // r = (1 − √q + c ln((c + √q)/(α (1 + c)))) / ln 1/α: Euler's integral, where the root is the
   // variable
   for (const double alpha : {1e-4, 1e-3, 0.01, 0.1, 0.3, 0.6, 0.9})
-    for (const double c : cosines) {
+    for (const double c : gtr_cosines) {
       const double root = std::sqrt(alpha * alpha + (1 - alpha) * (1 + alpha) * c * c);
       const double berry =
           (1 - root + c * std::log((c + root) / (alpha * (1 + c)))) / -std::log(alpha);
-      EXPECT_NEAR(g1(alpha, 1, c), 2 * c / (c + berry), 5e-8) << alpha << " " << c;
+      EXPECT_NEAR(gtr_g1(alpha, 1, c), 2 * c / (c + berry), 5e-8) << alpha << " " << c;
     }
 }
 
 TEST(SmithGtr, OfGammaTwoIsGgxToTheLastDigits) {
   for (const auto* form : {"separable", "correlated"})
-    for (const double alpha : alphas)
-      for (const double l : cosines)
-        for (const double v : cosines) {
+    for (const double alpha : gtr_alphas)
+      for (const double l : gtr_cosines)
+        for (const double v : gtr_cosines) {
           const Angles<double> x{l, v, 0.5, 0.5, 0.75};
           const auto id = [&](const char* of) { return std::string("masking.smith_") + of + form; };
           const double ggx = test::value_of(find_term(id("ggx.")), {alpha}, x);
@@ -136,15 +136,16 @@ TEST(SmithGtr, OfGammaTwoIsGgxToTheLastDigits) {
 
 TEST(SmithGtr, OfAlphaOneIsTheUniformDistributions) {
   for (const double gamma : gammas)
-    for (const double c : cosines) EXPECT_NEAR(g1(1, gamma, c), 2 * c / (1 + c), 5e-8) << gamma;
+    for (const double c : gtr_cosines)
+      EXPECT_NEAR(gtr_g1(1, gamma, c), 2 * c / (1 + c), 5e-8) << gamma;
 }
 
 TEST(SmithGtr, StaysBetweenZeroAndOneAndGrowsWithTheCosine) {
   for (const double gamma : gammas)
-    for (const double alpha : alphas) {
+    for (const double alpha : gtr_alphas) {
       double before = 0;
       for (double c = 1e-4; c <= 1; c += 1.0 / 512) {
-        const double g = g1(alpha, gamma, c);
+        const double g = gtr_g1(alpha, gamma, c);
         EXPECT_GT(g, 0);
         EXPECT_LE(g, 1);
         EXPECT_GE(g, before - 3e-9) << alpha << " " << gamma << " " << c;
@@ -158,11 +159,12 @@ TEST(SmithGtr, OfBothDirectionsIsNoMoreThanOfEither) {
   for (const auto* id : {"masking.smith_gtr.separable", "masking.smith_gtr.correlated"})
     for (const double gamma : {0.5, 1.0, 2.5, 3.0, 6.0, 10.0})
       for (const double alpha : {1e-4, 0.01, 0.3, 1.0})
-        for (const double l : cosines)
-          for (const double v : cosines) {
+        for (const double l : gtr_cosines)
+          for (const double v : gtr_cosines) {
             const double g =
                 4 * l * v * test::value_of(find_term(id), {alpha, gamma}, {l, v, 0.5, 0.5, 0.75});
-            EXPECT_LE(g, std::min(g1(alpha, gamma, l), g1(alpha, gamma, v)) * (1 + 8 * eps)) << id;
+            EXPECT_LE(g, std::min(gtr_g1(alpha, gamma, l), gtr_g1(alpha, gamma, v)) * (1 + 8 * eps))
+                << id;
             EXPECT_GT(g, 0);
           }
 }
@@ -179,7 +181,7 @@ TEST(SmithGtr, HasTheDerivativesOfItsIntegral) {
       constexpr double h = 1e-4;
       const Loop wider(alpha * (1 + h), gamma), narrower(alpha * (1 - h), gamma);
       const Loop steeper(alpha, gamma * (1 + h)), flatter(alpha, gamma * (1 - h));
-      for (const double c : cosines) {
+      for (const double c : gtr_cosines) {
         const T g = 2 * c / (c + root(c) / smith_scale);
         for (const double error : {alpha * g.d[0] - (wider.g1(c) - narrower.g1(c)) / (2 * h),
                                    gamma * g.d[1] - (steeper.g1(c) - flatter.g1(c)) / (2 * h)}) {
@@ -196,11 +198,11 @@ TEST(SmithGtr, HasTheDerivativesOfItsIntegral) {
 TEST(SmithGtr, KeepsTheDigitsOfFloat) {
   double worst = 0;
   for (const double gamma : gammas)
-    for (const double alpha : alphas)
-      for (const double c : cosines) {
+    for (const double alpha : gtr_alphas)
+      for (const double c : gtr_cosines) {
         const double a = static_cast<float>(alpha), g = static_cast<float>(gamma);
         const double error = std::abs(g1<float>(a, g, static_cast<float>(c)) -
-                                      g1(a, std::max(g, gamma), static_cast<float>(c)));
+                                      gtr_g1(a, std::max(g, gamma), static_cast<float>(c)));
         EXPECT_LT(error, 2e-6) << alpha << " " << gamma << " " << c;
         worst = std::max(worst, error);
       }
@@ -213,7 +215,7 @@ TEST(SmithGtr, MayHaveAnotherGammaInEveryLane) {  // both ways of finding coeffi
   for (std::size_t k = 0; k < gamma.size(); ++k) gamma[k] = k % 2 ? 6.5 : 1.5;
   const std::array p{B(0.2), load<B>(gamma.data())};
   const SmithGtrRoot<B> root(p);
-  for (const double c : cosines) {
+  for (const double c : gtr_cosines) {
     store<B>(out.data(), root(B(c)));
     for (std::size_t k = 0; k < out.size(); ++k)
       EXPECT_NEAR(out[k] / smith_scale, r<double>(0.2, gamma[k], c), 64 * eps) << gamma[k];
@@ -274,7 +276,7 @@ struct Fit {
 };
 
 /// smith_gtr_table.inc
-std::string text(Fit& fit) {
+std::string text_of(Fit& fit) {
   std::size_t v = 0, alpha = 0, gamma = 0;
   for (std::size_t n = 0; n < Fit::in_v; ++n)
     for (std::size_t j = 0; j < Fit::in_gamma; ++j)
@@ -324,7 +326,7 @@ TEST(SmithGtrTable, IsItsFit) {
         same = same && std::abs(table::table[at] - fit.at(n, i, j)) <
                            1e-12 + 1e-9 * std::abs(fit.at(n, i, j));
     }
-  EXPECT_TRUE(same && at == std::size(table::table)) << text(fit);
+  EXPECT_TRUE(same && at == std::size(table::table)) << text_of(fit);
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 #include "brdf/formula/smith_student.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "brdf/terms.h"
+#include "constants.h"
 #include "integrate/rule/quadrature.h"
 #include "number/wide.h"
 
@@ -14,24 +14,24 @@
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
+using test::pi;
 
-constexpr double cosines[] = {1e-8, 1e-3, 0.05, 0.2, 0.5, 0.8, 0.99, 1 - 1e-9, 1};
-constexpr double alphas[] = {1e-4, 0.01, 0.2, 0.6, 1};
+constexpr double student_cosines[] = {1e-8, 1e-3, 0.05, 0.2, 0.5, 0.8, 0.99, 1 - 1e-9, 1};
+constexpr double student_alphas[] = {1e-4, 0.01, 0.2, 0.6, 1};
 
-/// V where light and view have these cosines.
-double visibility(std::string_view id, const test::Parameters& p, double nol, double nov) {
+/// V where light and view have these student_cosines.
+double student_visibility(std::string_view id, const test::Parameters& p, double nol, double nov) {
   return test::value_of(find_term(id), p, {nol, nov, 0.5, 0.5, 0.75});
 }
 
 TEST(SmithStudent, IsThatOfGgxAndOfBeckmannAtItsEnds) {
   for (const std::string how : {".separable", ".correlated"})
-    for (const double alpha : alphas)
-      for (const double l : cosines)
-        for (const double v : cosines) {
+    for (const double alpha : student_alphas)
+      for (const double l : student_cosines)
+        for (const double v : student_cosines) {
           const auto of = [&](std::string_view shape, const test::Parameters& p) {
-            return visibility(std::string("masking.smith_").append(shape) + how, p, l, v);
+            return student_visibility(std::string("masking.smith_").append(shape) + how, p, l, v);
           };
           const double ggx = of("ggx", {alpha}), beckmann = of("beckmann", {alpha});
           EXPECT_NEAR(of("student_t", {alpha, 1}), ggx, 2e-11 * ggx)
@@ -82,8 +82,9 @@ TEST(SmithStudent, HasSlopesByItsTailThroughBothEnds) {
 TEST(SmithStudent, MasksMoreTheLongerTheTailAtGrazingAngles) {
   for (const double alpha : {0.1, 0.5})
     for (double tail = 0.1; tail < 1.55; tail += 0.1)
-      EXPECT_LT(visibility("masking.smith_student_t.separable", {alpha, tail}, 1, 0.05),
-                visibility("masking.smith_student_t.separable", {alpha, tail - 0.1}, 1, 0.05));
+      EXPECT_LT(
+          student_visibility("masking.smith_student_t.separable", {alpha, tail}, 1, 0.05),
+          student_visibility("masking.smith_student_t.separable", {alpha, tail - 0.1}, 1, 0.05));
 }
 
 }  // namespace

@@ -51,11 +51,11 @@ constexpr Type types[] = {
     {Number::mixed, epsilon<Half>, least_exact<Half>, as_half, as_float},
 };
 
-struct Sample {
+struct NumberSample {
   Parameters p;
   Row x;
 };
-std::ostream& operator<<(std::ostream& out, const Sample& s) {
+std::ostream& operator<<(std::ostream& out, const NumberSample& s) {
   const auto& x = s.x;
   return out << "parameters " << text(s.p) << " at " << text(x) << " in the frame "
              << text(Parameters{x.xoh, x.yoh, x.xol, x.yol, x.xov, x.yov});
@@ -110,8 +110,8 @@ Row corner() {
 }
 
 /// Rounded to the type, so that its value and the truth are of the same arguments.
-Sample sample(std::span<const Parameter> parameters, const Type& type, Row (*row)() = pair) {
-  Sample s;
+NumberSample sample(std::span<const Parameter> parameters, const Type& type, Row (*row)() = pair) {
+  NumberSample s;
   for (const auto& q : parameters) s.p.push_back(type.parameter(legal(q.legal)));
   s.x = row();
   constexpr double Row::*all[] = {&Row::nol,          &Row::nov, &Row::noh, &Row::voh,
@@ -121,7 +121,7 @@ Sample sample(std::span<const Parameter> parameters, const Type& type, Row (*row
   return s;
 }
 
-double value_in(Number number, std::size_t term, const Sample& s) {
+double value_in_number(Number number, std::size_t term, const NumberSample& s) {
   return values_in(number, term, s.p, {&s.x, 1})[0];
 }
 
@@ -168,10 +168,10 @@ TEST(NumberTypes, EveryTermIsAsExactAsItsInputsLastDigitsAllow) {
     int compared = 0;
     const double bound = catalogue()[t].as_shipped ? 1000 : 16;  // a shader's arithmetic may cancel
     check(what, [&] {
-      const Sample s = sample(catalogue()[t].parameters, type);
+      const NumberSample s = sample(catalogue()[t].parameters, type);
       RC_LOG() << s;
       half_flags = {};
-      const double value = value_in(type.number, t, s);
+      const double value = value_in_number(type.number, t, s);
       RC_ASSERT(!(value < 0));
       if (!is_held_to(type, t)) return;
       const bool anything = left_the_range_of_half();
@@ -197,9 +197,9 @@ TEST(NumberTypes, EveryTermIsAsExactAsItsInputsLastDigitsAllow) {
 
 TEST(NumberTypes, WideIsTheTruthRounded) {
   for (std::size_t t = 0; t < catalogue().size(); ++t) {
-    Sample s{{}, test::random_angles(2, t)[1]};
+    NumberSample s{{}, test::random_angles(2, t)[1]};
     for (const auto& q : catalogue()[t].parameters) s.p.push_back(q.start);
-    EXPECT_EQ(value_in(Number::wide, t, s), wide_value(t, s.p, s.x).value)
+    EXPECT_EQ(value_in_number(Number::wide, t, s), wide_value(t, s.p, s.x).value)
         << catalogue()[t].about->id;
   }
 }
@@ -208,10 +208,10 @@ TEST(NumberTypes, EveryTermIsFiniteAndNotNegativeAtTheEndsOfItsRange) {
   for_every_term_and_type([](std::size_t t, const Type& type, const std::string& what) {
     if (!is_held_to(type, t)) return;
     check(what, [&] {
-      const Sample s = sample(catalogue()[t].parameters, type, corner);
+      const NumberSample s = sample(catalogue()[t].parameters, type, corner);
       RC_LOG() << s;
       half_flags = {};
-      const double value = value_in(type.number, t, s);
+      const double value = value_in_number(type.number, t, s);
       RC_ASSERT(left_the_range_of_half() || (std::isfinite(value) && value >= 0));
     });
   });
@@ -219,13 +219,14 @@ TEST(NumberTypes, EveryTermIsFiniteAndNotNegativeAtTheEndsOfItsRange) {
 
 TEST(NumberTypes, WhatIsReciprocalIsSoToTheLastBit) {
   const auto differs = [](const Type& type, std::size_t t) {
-    const Sample s = sample(catalogue()[t].parameters, type);
+    const NumberSample s = sample(catalogue()[t].parameters, type);
     RC_LOG() << s;
-    Sample swapped = s;
+    NumberSample swapped = s;
     std::swap(swapped.x.nol, swapped.x.nov);
     std::swap(swapped.x.xol, swapped.x.xov);
     std::swap(swapped.x.yol, swapped.x.yov);
-    const double a = value_in(type.number, t, s), b = value_in(type.number, t, swapped);
+    const double a = value_in_number(type.number, t, s),
+                 b = value_in_number(type.number, t, swapped);
     return std::bit_cast<std::uint64_t>(a) != std::bit_cast<std::uint64_t>(b);
   };
   std::vector<bool> reciprocal(catalogue().size(), true);
@@ -248,9 +249,9 @@ TEST(NumberTypes, DoubleAndFloatAreWhatTheKernelsCompute) {
       const auto d = test::values_of<double>(t, p, rows);
       const auto f = test::values_of<float>(t, p, rows);
       for (std::size_t i = 0; i < rows.size(); ++i) {
-        const Sample s{p, rows[i]};
-        ASSERT_EQ(value_in(Number::double_, t, s), d[i]) << catalogue()[t].about->id << s;
-        ASSERT_EQ(value_in(Number::float_, t, s), static_cast<double>(f[i]))
+        const NumberSample s{p, rows[i]};
+        ASSERT_EQ(value_in_number(Number::double_, t, s), d[i]) << catalogue()[t].about->id << s;
+        ASSERT_EQ(value_in_number(Number::float_, t, s), static_cast<double>(f[i]))
             << catalogue()[t].about->id << s;
       }
     }
@@ -263,8 +264,8 @@ TEST(NumberTypes, MixedIsWhatAShadersDeclarationsCompute) {
       const Half a(alpha);
       const auto c = static_cast<float>(noh), a2 = static_cast<float>(a * a);
       const float d = (c * a2 - c) * c + 1.0F;
-      const Sample s{{alpha}, test::framed({0.5, 0.5, noh, 0.5, (1 - noh) * (1 + noh)})};
-      EXPECT_EQ(value_in(Number::mixed, term, s),
+      const NumberSample s{{alpha}, test::framed({0.5, 0.5, noh, 0.5, (1 - noh) * (1 + noh)})};
+      EXPECT_EQ(value_in_number(Number::mixed, term, s),
                 static_cast<double>(std::min(a2 / (d * d), 2048.0F)))
           << s;
     }
@@ -278,16 +279,16 @@ TEST(NumberTypes, MixedRoundsNoHToHalfWhereAShaderDeclaresItSo) {
     const Half c(noh);
     const auto rest = static_cast<float>(1 - c * c), a = static_cast<float>(Half(0.03)),
                n = static_cast<float>(c) * a, p = a / (rest + n * n);
-    const Sample s{{0.03}, test::framed({0.5, 0.5, noh, 0.5, (1 - noh) * (1 + noh)})};
-    EXPECT_EQ(value_in(Number::mixed, term, s), as_half(std::min(p * p, 2048.0F))) << s;
+    const NumberSample s{{0.03}, test::framed({0.5, 0.5, noh, 0.5, (1 - noh) * (1 + noh)})};
+    EXPECT_EQ(value_in_number(Number::mixed, term, s), as_half(std::min(p * p, 2048.0F))) << s;
   }
 }
 
 TEST(NumberTypes, HalfIsTheFormulaRoundedAfterEveryOperation) {
-  const Sample s{{0.3}, test::framed({0.5, 0.5, 0.9, 0.5, 0.19})};
+  const NumberSample s{{0.3}, test::framed({0.5, 0.5, 0.9, 0.5, 0.19})};
   const Half a(0.3), pi_(3.14159265358979);
   const Half u = a * (Half(0.9) * Half(0.9)) + 1 / a * Half(0.19);
-  EXPECT_EQ(value_in(Number::half, find_term("ndf.ggx"), s),
+  EXPECT_EQ(value_in_number(Number::half, find_term("ndf.ggx"), s),
             static_cast<double>(1 / pi_ / (u * u)));
 }
 
@@ -296,7 +297,7 @@ void expect_right_in_half(const char* id, double first, double second, double vo
   const auto term = find_term(id);
   const Parameters p{as_half(first), as_half(second)};
   const Row x = test::framed({0.5, 0.5, 0.5, as_half(voh), 0.75});
-  EXPECT_NEAR(value_in(Number::half, term, {p, x}), wide_value(term, p, x).value,
+  EXPECT_NEAR(value_in_number(Number::half, term, {p, x}), wide_value(term, p, x).value,
               16 * epsilon<Half>)
       << id << text(p) << " at " << voh;
 }
@@ -319,18 +320,18 @@ TEST(NumberTypes, AConductorOfAnIndexNearOneIsRightInHalf) {
         expect_right_in_half("fresnel.conductor", eta, k, voh);
   for (const double voh : {0.17, 0.175, 0.177, 0.178, 0.179, 0.18, 0.185}) {  // about the critical
     const double f =
-        value_in(Number::half, find_term("fresnel.conductor"),
-                 {{as_half(0.984), 0}, test::framed({0.5, 0.5, 0.5, as_half(voh), 0.75})});
+        value_in_number(Number::half, find_term("fresnel.conductor"),
+                        {{as_half(0.984), 0}, test::framed({0.5, 0.5, 0.5, as_half(voh), 0.75})});
     EXPECT_TRUE(f > 0.1 && f <= 1 + 24 * epsilon<Half>) << voh << ": " << f;
   }
 }
 
 TEST(NumberTypes, MaskingInANumberGivesG2InThatNumber) {
   const auto term = find_term("masking.smith_ggx.correlated");
-  const Sample s{{0.3}, test::framed({0.7, 0.4, 1, 1, 0})};
+  const NumberSample s{{0.3}, test::framed({0.7, 0.4, 1, 1, 0})};
   const double g2 = shown_in(Number::half, term, s.p, {&s.x, 1})[0];
   const Half cosines = 4 * Half(0.7) * Half(0.4);
-  EXPECT_EQ(g2, static_cast<double>(cosines * Half(value_in(Number::half, term, s))));
+  EXPECT_EQ(g2, static_cast<double>(cosines * Half(value_in_number(Number::half, term, s))));
   const auto ndf = find_term("ndf.ggx");
   EXPECT_EQ(shown_in(Number::half, ndf, s.p, {&s.x, 1}),
             values_in(Number::half, ndf, s.p, {&s.x, 1}));

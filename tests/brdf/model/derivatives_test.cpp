@@ -3,11 +3,12 @@
 #include <map>
 
 #include "brdf/terms.h"
+#include "constants.h"
 
 namespace gonio {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 class DerivativesOf : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(
@@ -28,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(
         "smith_ggx_aniso.separable/schlick"));
 
 /// Values away from the ends of where a fit may look, so that differences can be taken.
-std::vector<double> draw(const Model& m, std::mt19937_64& random) {
+std::vector<double> drawn_parameters(const Model& m, std::mt19937_64& random) {
   std::vector<double> values;
   for (const auto& p : m.parameters)
     for (std::size_t c = 0; c < p.count; ++c) {
@@ -68,7 +69,7 @@ TEST_P(DerivativesOf, GivesTheValuesOfEvaluate) {
   const auto rows = test::random_angles(200, 22);
   for (const std::size_t channels : {1U, 3U}) {
     BoundModel b{compose(GetParam(), channels), {}, {}};
-    b.values = draw(b.model, random);
+    b.values = drawn_parameters(b.model, random);
     const auto expected = evaluate(b, rows);
     const auto results = run(b.model, b.values, std::vector<bool>(b.model.value_count, true), rows);
     for (std::size_t c = 0; c < channels; ++c)
@@ -82,7 +83,7 @@ TEST_P(DerivativesOf, GivesTheDerivativesOfDifferences) {
   const auto rows = test::random_angles(64, 24);
   for (int trial = 0; trial < 4; ++trial) {
     BoundModel b{compose(GetParam(), 3), {}, {}};
-    b.values = draw(b.model, random);
+    b.values = drawn_parameters(b.model, random);
     const auto results = run(b.model, b.values, std::vector<bool>(b.model.value_count, true), rows);
     for (const auto& p : b.model.parameters)
       for (std::size_t slot = p.first; slot < p.first + p.count; ++slot)
@@ -117,7 +118,7 @@ TEST_P(DerivativesOf, LeavesOutTheDerivativesOfFixedSlotsAndChangesNoOther) {
   std::mt19937_64 random(25);
   const auto rows = test::random_angles(48, 26);
   const Model m = compose(GetParam(), 3);
-  const auto values = draw(m, random);
+  const auto values = drawn_parameters(m, random);
   const auto all = run(m, values, std::vector<bool>(m.value_count, true), rows);
   for (int trial = 0; trial < 8; ++trial) {
     std::vector<bool> free(m.value_count);
@@ -140,7 +141,7 @@ TEST_P(DerivativesOf, GivesTheSameInEveryInstructionSet) {
   std::mt19937_64 random(27);
   const auto rows = test::random_angles(256, 28);
   const Model m = compose(GetParam(), 2);
-  const auto values = draw(m, random);
+  const auto values = drawn_parameters(m, random);
   const std::vector<bool> free(m.value_count, true);
   const auto scalar = run(m, values, free, rows, kernels<double>("scalar"));
   for (const auto& set : instruction_sets()) {
@@ -164,7 +165,8 @@ TEST(ModelDerivatives, SharesAGreyParameterBetweenItsChannels) {
   ASSERT_EQ(m.find("f0")->count, 3U);
   std::mt19937_64 random(29);
   const auto rows = test::random_angles(16, 30);
-  const auto results = run(m, draw(m, random), std::vector<bool>(m.value_count, true), rows);
+  const auto results =
+      run(m, drawn_parameters(m, random), std::vector<bool>(m.value_count, true), rows);
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_TRUE(results[c].d.contains(m.find("kd")->first));
     EXPECT_EQ(results[c].d.size(), 3U);  // kd, alpha, f0 of the channel
@@ -174,7 +176,7 @@ TEST(ModelDerivatives, SharesAGreyParameterBetweenItsChannels) {
 TEST(ModelDerivatives, LendsScratchColumnsThatItDoesNotWriteItself) {
   const Model m = compose("lambert.coupled+ggx/smith_ggx.correlated/schlick", 3);
   std::mt19937_64 random(31);
-  const auto values = draw(m, random);
+  const auto values = drawn_parameters(m, random);
   const auto rows = test::random_angles(32, 32);
   const auto x = test::columns<double>(rows);
   const std::vector<bool> free(m.value_count, true);

@@ -1,18 +1,17 @@
 #include "brdf/model/evaluate.h"
 
-#include <numbers>
-
 #include "brdf/model/model.h"
 #include "brdf/model/presets.h"
 #include "brdf/terms.h"
+#include "constants.h"
 
 #include <fmt/format.h>
 
 namespace gonio {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double pi = std::numbers::pi;
+using test::eps;
+using test::pi;
 
 /// One term of a bound model for one channel, by the scalar kernel on its own.
 double term(const BoundModel& b, const TermUse& t, std::size_t channel, const test::Row& x) {

@@ -6,12 +6,13 @@
 #include "base/error.h"
 #include "brdf/in_number/one_term.h"
 #include "brdf/terms.h"
+#include "constants.h"
 #include "refusal.h"
 
 namespace gonio {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 /// Wrong usage, answered by one line that names each of `parts`.
 void expect_refused(auto&& call,

@@ -15,7 +15,7 @@ namespace {
 const std::vector<FrameAngles<double>> at{frame_angles({{0.8, 0, 0.6}, {-0.6, 0, 0.8}}),
                                           frame_angles({{0, 0.6, 0.8}, {0.96, 0, 0.28}})};
 
-BoundModel bound(const std::string& model, const std::vector<std::string>& settings) {
+BoundModel bound_by_words(const std::string& model, const std::vector<std::string>& settings) {
   return bind_model(model, parse_settings(settings), 3);
 }
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
@@ -29,8 +29,8 @@ TEST(Reflectances, OfAPresetsOwnTermsAreThoseThatThePresetResolvesTo) {
     if (p.own_spec.empty()) continue;
     const bool reflects = p.about.id == "model.filament";
     const auto own = reflects ? joined(workflow, {"reflectance=0.6"}) : workflow;
-    const auto a = bound(std::string(p.about.id), joined(own, {"roughness=0.5"}));
-    const auto b = bound(std::string(p.own_spec), joined(own, {"alpha=0.25"}));
+    const auto a = bound_by_words(std::string(p.about.id), joined(own, {"roughness=0.5"}));
+    const auto b = bound_by_words(std::string(p.own_spec), joined(own, {"alpha=0.25"}));
     const auto c = in_reflectances(b);
     if (!reflects) {
       EXPECT_EQ(c.model.spec, p.spec);
@@ -46,7 +46,7 @@ TEST(Reflectances, OfAPresetsOwnTermsAreThoseThatThePresetResolvesTo) {
 }
 
 TEST(Reflectances, OfALaterLobeAreItsOwn) {
-  const auto b = bound(
+  const auto b = bound_by_words(
       "lambert.metallic+ggx/smith_ggx.correlated/schlick.metallic+ggx/smith_ggx.correlated/"
       "schlick.reflectance",
       {"base_color=0.7,0.4,0.1", "metallic=0.3", "alpha=0.2", "alpha_2=0.5", "base_color_2=0.5",
@@ -61,7 +61,8 @@ TEST(Reflectances, OfALaterLobeAreItsOwn) {
 }
 
 TEST(Reflectances, OfAModelThatHasThemAreItself) {
-  const auto b = bound("lambert+ggx/smith_ggx.correlated/schlick.f90", {"alpha=0.2", "f90=0.5"});
+  const auto b =
+      bound_by_words("lambert+ggx/smith_ggx.correlated/schlick.f90", {"alpha=0.2", "f90=0.5"});
   const auto c = in_reflectances(b);
   EXPECT_EQ(c.model.spec, b.model.spec);
   EXPECT_EQ(c.values, b.values);

@@ -53,7 +53,7 @@ TEST(Refit, FindsParametersWithinTheirRangesAndLeavesWhatIsHeld) {
   const TargetValues line = [](const TargetParameters& p, std::span<const FrameAngles<double>> at) {
     std::vector<double> f;
     for (const auto& a : at)
-      f.push_back(value_in(p, "a") * a.nol + value_in(p, "b") + value_in(p, "c"));
+      f.push_back(parameter_in(p, "a") * a.nol + parameter_in(p, "b") + parameter_in(p, "c"));
     return std::vector<std::vector<double>>{f};
   };
   std::vector<FrameAngles<double>> angles;
@@ -64,12 +64,12 @@ TEST(Refit, FindsParametersWithinTheirRangesAndLeavesWhatIsHeld) {
   auto begin = truth;
   begin[0].values[0] = 0.1, begin[1].values[0] = 0.9;
   auto found = refitted(begin, line, angles, wanted, scale);
-  EXPECT_NEAR(value_in(found, "a"), 0.7, 1e-5);
-  EXPECT_NEAR(value_in(found, "b"), 0.2, 1e-5);
-  EXPECT_EQ(value_in(found, "c"), 0.1);
+  EXPECT_NEAR(parameter_in(found, "a"), 0.7, 1e-5);
+  EXPECT_NEAR(parameter_in(found, "b"), 0.2, 1e-5);
+  EXPECT_EQ(parameter_in(found, "c"), 0.1);
   begin[0].legal = {0, 0.5};
   found = refitted(begin, line, angles, wanted, scale);
-  EXPECT_NEAR(value_in(found, "a"), 0.5, 1e-6);
+  EXPECT_NEAR(parameter_in(found, "a"), 0.5, 1e-6);
 }
 
 TEST(XmlOfAnExport, KeepsACommentACommentAndTheDocumentReadable) {

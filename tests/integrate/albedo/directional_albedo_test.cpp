@@ -2,20 +2,20 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/roughness.h"
+#include "constants.h"
 #include "geometry/half_difference.h"
 #include "integrate/rule/quadrature.h"
 
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-const double ln2 = std::log(2.0);
+using test::ln2;
+using test::pi;
 constexpr double cosines[] = {0.001, 0.01, 0.05, 0.2, 0.5, 0.8, 1};
 
 BoundModel white(const std::string& masking, double alpha) {

@@ -5,12 +5,13 @@
 
 #include "base/error.h"
 #include "brdf/model/model.h"
+#include "constants.h"
 #include "integrate/albedo/directional_albedo.h"
 
 namespace gonio {
 namespace {
 
-const double ln2 = std::log(2.0);
+using test::ln2;
 constexpr SmithGgx maskings[] = {SmithGgx::correlated, SmithGgx::separable};
 
 BoundModel white(SmithGgx masking, double alpha) {

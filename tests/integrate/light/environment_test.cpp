@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "constants.h"
 #include "geometry/sampling.h"
 #include "integrate/light/irradiance.h"
 #include "integrate/lights.h"
@@ -11,7 +11,7 @@
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 
 /// A cone of cosines to the power p about a direction, and a constant.
 Gather cone(const Direction& n, double p) {

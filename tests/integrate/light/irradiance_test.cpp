@@ -1,15 +1,15 @@
 #include "integrate/light/irradiance.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "constants.h"
 #include "geometry/sampling.h"
 #include "integrate/lights.h"
 
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 
 /// L = 1 + z:  E(n) = π + 2π/3 n_z
 const Radiance sky = [](const Direction& d) { return Rgb{1 + d.z, 1 + d.z, 1 + d.z}; };

@@ -6,6 +6,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
+#include "constants.h"
 #include "geometry/half_difference.h"
 #include "geometry/sampling.h"
 #include "integrate/lights.h"
@@ -16,8 +17,8 @@
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-const double ln2 = std::log(2.0);
+using test::ln2;
+using test::pi;
 constexpr const char* correlated = "smith_ggx.correlated";
 
 /// As lit_views() has the i-th of them.

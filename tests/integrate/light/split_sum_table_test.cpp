@@ -11,17 +11,17 @@ namespace gonio {
 namespace {
 
 using test::Folder;
-constexpr const char* correlated = "smith_ggx.correlated";
+constexpr const char* correlated_smith = "smith_ggx.correlated";
 
 TEST(SplitSumTable, HoldsAAndBAtTexelCentres) {
-  const auto t = split_sum_table(correlated, 5, 4);
+  const auto t = split_sum_table(correlated_smith, 5, 4);
   EXPECT_EQ(t.masking, "masking.smith_ggx.correlated");
   EXPECT_LE(t.error, 1e-7);
   for (std::size_t j = 0; j < 4; ++j)
     for (std::size_t i = 0; i < 5; ++i) {
       const double nov = (static_cast<double>(i) + 0.5) / 5,
                    roughness = (static_cast<double>(j) + 0.5) / 4;
-      const auto s = split_sum(correlated, roughness, {{nov}})[0];
+      const auto s = split_sum(correlated_smith, roughness, {{nov}})[0];
       EXPECT_NEAR(t.a[j * 5 + i], s.a, t.error + s.error);
       EXPECT_NEAR(t.b[j * 5 + i], s.b, t.error + s.error);
       const auto [a, b] = t(nov, roughness);
@@ -44,7 +44,7 @@ TEST(SplitSumTable, IsLookedUpBilinearAndClamped) {
 /// As the file's own text says: R = A, G = B, bilinear at (NoV, roughness), E = F0 A + B.
 TEST(SplitSumTable, ReadBackItGivesTheAlbedoToItsStatedError) {
   const Folder folder;
-  const auto exact = split_sum_table(correlated, 32, 32);
+  const auto exact = split_sum_table(correlated_smith, 32, 32);
   for (const Storage storage : {Storage::single, Storage::half}) {
     write_split_sum_table(folder / "t.exr", exact, storage);
     const auto back = read_split_sum_table(folder / "t.exr");
@@ -79,7 +79,7 @@ TEST(SplitSumTable, ReadBackItGivesTheAlbedoToItsStatedError) {
 TEST(SplitSumTable, LookupsComeNearerTheFinerItIs) {
   double before = 1;
   for (const std::size_t n : {8U, 16U, 32U}) {
-    const auto e = lookup_error(split_sum_table(correlated, n, n), 40);
+    const auto e = lookup_error(split_sum_table(correlated_smith, n, n), 40);
     EXPECT_LT(e.between.e.rms, before / 1.7);  // A changes within NoV of alpha: not as its square
     EXPECT_LT(e.between.e.max, e.all.e.max);
     before = e.between.e.rms;
@@ -87,11 +87,11 @@ TEST(SplitSumTable, LookupsComeNearerTheFinerItIs) {
 }
 
 TEST(SplitSumTable, BySamplesComesNearerToQuadrature) {
-  const auto truth = split_sum_table(correlated, 12, 12);
+  const auto truth = split_sum_table(correlated_smith, 12, 12);
   EXPECT_EQ(difference(truth, truth).e.max, 0);
   double before = 1;
   for (const std::size_t n : {16U, 256U, 4096U}) {
-    const auto sampled = split_sum_table(correlated, 12, 12, n);
+    const auto sampled = split_sum_table(correlated_smith, 12, 12, n);
     EXPECT_TRUE(std::isnan(sampled.error));
     const auto off = difference(sampled, truth);
     EXPECT_LT(off.e.rms, before / 4);
@@ -102,8 +102,8 @@ TEST(SplitSumTable, BySamplesComesNearerToQuadrature) {
 
 TEST(SplitSumTable, RefusesWhatItCannotReadOrMake) {
   const Folder folder;
-  EXPECT_THROW(split_sum_table(correlated, 0, 4), Error);
-  EXPECT_THROW(split_sum_table(correlated, 4, 4097), Error);
+  EXPECT_THROW(split_sum_table(correlated_smith, 0, 4), Error);
+  EXPECT_THROW(split_sum_table(correlated_smith, 4, 4097), Error);
   Image image;
   image.width = image.height = 1;
   image.channels = {"R", "G"};

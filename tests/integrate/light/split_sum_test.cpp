@@ -9,15 +9,15 @@
 namespace gonio {
 namespace {
 
-constexpr double cosines[] = {0.05, 0.3, 0.8, 1};
+constexpr double split_cosines[] = {0.05, 0.3, 0.8, 1};
 
 TEST(SplitSum, IsLinearInF0AsTheAlbedoIs) {
   for (const double roughness : {0.05, 0.4, 1.0}) {
-    const auto sums = split_sum("smith_ggx.correlated", roughness, cosines);
+    const auto sums = split_sum("smith_ggx.correlated", roughness, split_cosines);
     for (const double f0 : {0.04, 0.6, 1.0}) {
       const auto model = bind_model("ggx/smith_ggx.correlated/schlick",
                                     {{"roughness", {roughness}}, {"f0", {f0}}}, 1);
-      const auto albedo = directional_albedo(model, cosines);
+      const auto albedo = directional_albedo(model, split_cosines);
       for (std::size_t i = 0; i < sums.size(); ++i) {
         EXPECT_NEAR(f0 * sums[i].a + sums[i].b, albedo[i].value[0],
                     2 * sums[i].error + albedo[i].error);
@@ -28,10 +28,10 @@ TEST(SplitSum, IsLinearInF0AsTheAlbedoIs) {
 }
 
 TEST(SplitSum, AtRoughnessOneAddsUpToTheClosedForms) {
-  const auto correlated = split_sum("masking.smith_ggx.correlated", 1, cosines);
-  const auto separable = split_sum("smith_ggx.separable", 1, cosines);
-  for (std::size_t i = 0; i < std::size(cosines); ++i) {
-    const double mu = cosines[i];
+  const auto correlated = split_sum("masking.smith_ggx.correlated", 1, split_cosines);
+  const auto separable = split_sum("smith_ggx.separable", 1, split_cosines);
+  for (std::size_t i = 0; i < std::size(split_cosines); ++i) {
+    const double mu = split_cosines[i];
     EXPECT_NEAR(correlated[i].a + correlated[i].b, 1 - mu * std::log(1 + 1 / mu), 2e-8);
     EXPECT_NEAR(separable[i].a + separable[i].b, 2 * (1 - std::log(2.0)) / (1 + mu), 2e-8);
   }
@@ -40,10 +40,10 @@ TEST(SplitSum, AtRoughnessOneAddsUpToTheClosedForms) {
 TEST(SplitSum, BySamplesComesNearerTheMoreThereAre) {
   for (const char* masking : {"smith_ggx.correlated", "smith_ggx.separable"})
     for (const double roughness : {0.1, 0.5, 1.0}) {
-      const auto truth = split_sum(masking, roughness, cosines);
+      const auto truth = split_sum(masking, roughness, split_cosines);
       double before = 1;
       for (const std::size_t n : {64U, 4096U, 262144U}) {
-        const auto sampled = sampled_split_sum(masking, roughness, cosines, n);
+        const auto sampled = sampled_split_sum(masking, roughness, split_cosines, n);
         double worst = 0;
         for (std::size_t i = 0; i < truth.size(); ++i)
           worst = std::max(
@@ -56,10 +56,10 @@ TEST(SplitSum, BySamplesComesNearerTheMoreThereAre) {
 }
 
 TEST(SplitSum, DiffuseBySamplesComesNearerTheMoreThereAre) {
-  const auto truth = split_sum_diffuse(cosines);
+  const auto truth = split_sum_diffuse(split_cosines);
   double before = 1;
   for (const std::size_t n : {16U, 256U, 4096U, 65536U}) {
-    const auto sampled = sampled_split_sum_diffuse(cosines, n);
+    const auto sampled = sampled_split_sum_diffuse(split_cosines, n);
     double worst = 0;
     for (std::size_t i = 0; i < truth.size(); ++i)
       worst = std::max(worst, std::abs(sampled[i] - truth[i].value[0]));

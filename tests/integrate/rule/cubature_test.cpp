@@ -2,12 +2,13 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "constants.h"
 
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 constexpr Rectangle unit_line{{0, 0}, {1, 0}}, unit_square{{0, 0}, {1, 1}};
 
 /// f(x, y) as an integrand.

@@ -1,13 +1,13 @@
 #include "integrate/rule/quadrature.h"
 
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "constants.h"
 
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 
 class GaussLegendre : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Orders,

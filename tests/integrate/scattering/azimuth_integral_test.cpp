@@ -1,14 +1,14 @@
 #include "integrate/scattering/azimuth_integral.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "brdf/catalogue/registry.h"
+#include "constants.h"
 
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 
 Zenith zenith(double cosine) {
   return {cosine, std::sqrt((1 - cosine) * (1 + cosine))};

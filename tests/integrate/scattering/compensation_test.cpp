@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "brdf/formula/scattering.h"
+#include "constants.h"
 #include "integrate/rule/quadrature.h"
 
 namespace gonio {
@@ -12,8 +13,8 @@ namespace {
 
 constexpr Compensation all[] = {Compensation::kulla_conty, Compensation::kulla_conty_linear,
                                 Compensation::turquin, Compensation::fdez_aguera};
-const std::vector<double> cosines{0.05, 0.4, 1};
-const double ln2 = std::log(2.0);
+const std::vector<double> three_cosines{0.05, 0.4, 1};
+using test::ln2;
 
 BoundModel schlick(double alpha, std::vector<double> f0, const std::string& lobe = "") {
   return bind_model((lobe.empty() ? "ggx/smith_ggx.correlated" : lobe) + "/schlick",
@@ -25,8 +26,8 @@ TEST(Compensation, GivesBackAllThatComesInAtFOne) {
     for (const std::string lobe : {"ggx/smith_ggx.correlated", "ggx/smith_ggx.separable",
                                    "beckmann/smith_beckmann.correlated"})
       for (const double alpha : {0.1, 1.0})
-        for (const auto& a :
-             compensated_albedo(schlick(alpha, {1}, lobe), how, cosines, 0, {1e-6, 1'000'000})) {
+        for (const auto& a : compensated_albedo(schlick(alpha, {1}, lobe), how, three_cosines, 0,
+                                                {1e-6, 1'000'000})) {
           EXPECT_NEAR(a.value[0], 1, a.error) << lobe << " " << alpha;
           EXPECT_LE(a.error, 1e-6);
         }
@@ -37,11 +38,11 @@ TEST(Compensation, AtAlphaOneIsMadeOfTheClosedForms) {
   const double f = 0.3, average = 4 / 3.0 * (1 - ln2);
   const auto model =
       bind_model("ggx/smith_ggx.correlated/constant", {{"alpha", {1}}, {"f0", {f}}}, 1);
-  const auto kulla_conty = compensated_albedo(model, Compensation::kulla_conty, cosines);
-  const auto linear = compensated_albedo(model, Compensation::kulla_conty_linear, cosines);
-  const auto turquin = compensated_albedo(model, Compensation::turquin, cosines);
-  for (std::size_t i = 0; i < cosines.size(); ++i) {
-    const double mu = cosines[i], e = 1 - mu * std::log(1 + 1 / mu);
+  const auto kulla_conty = compensated_albedo(model, Compensation::kulla_conty, three_cosines);
+  const auto linear = compensated_albedo(model, Compensation::kulla_conty_linear, three_cosines);
+  const auto turquin = compensated_albedo(model, Compensation::turquin, three_cosines);
+  for (std::size_t i = 0; i < three_cosines.size(); ++i) {
+    const double mu = three_cosines[i], e = 1 - mu * std::log(1 + 1 / mu);
     const double more = f * average / (1 - f * (1 - average)) * (1 - e);
     EXPECT_NEAR(kulla_conty[i].value[0], f * e + f * more, kulla_conty[i].error + 1e-15);
     EXPECT_NEAR(linear[i].value[0], f * e + more, linear[i].error + 1e-15);
@@ -51,11 +52,12 @@ TEST(Compensation, AtAlphaOneIsMadeOfTheClosedForms) {
 
 TEST(Compensation, ItsBoundIsTrue) {
   for (const auto how : all) {
-    const auto fine = compensated_albedo(schlick(0.6, {0.5}), how, cosines, 0, {1e-11, 4'000'000});
+    const auto fine =
+        compensated_albedo(schlick(0.6, {0.5}), how, three_cosines, 0, {1e-11, 4'000'000});
     for (const double goal : {1e-3, 1e-5, 1e-7}) {
       const auto rough =
-          compensated_albedo(schlick(0.6, {0.5}), how, cosines, 0, {goal, 4'000'000});
-      for (std::size_t i = 0; i < cosines.size(); ++i) {
+          compensated_albedo(schlick(0.6, {0.5}), how, three_cosines, 0, {goal, 4'000'000});
+      for (std::size_t i = 0; i < three_cosines.size(); ++i) {
         EXPECT_NEAR(rough[i].value[0], fine[i].value[0], rough[i].error + fine[i].error);
         EXPECT_LE(rough[i].error, goal);
       }
@@ -82,10 +84,10 @@ TEST(Compensation, IsOfEachLobeByItselfAndLeavesDiffuseTermsAsTheyAre) {
   const auto first = bound("ggx/smith_ggx.correlated/schlick", {{"alpha", {0.8}}, {"f0", {0.04}}});
   const auto second = bound("ggx/smith_ggx.separable/schlick", {{"alpha", {0.4}}, {"f0", gold}});
   for (const auto how : all) {
-    const auto sum = compensated_albedo(whole, how, cosines);
-    const auto a = compensated_albedo(first, how, cosines);
-    const auto b = compensated_albedo(second, how, cosines);
-    for (std::size_t i = 0; i < cosines.size(); ++i)
+    const auto sum = compensated_albedo(whole, how, three_cosines);
+    const auto a = compensated_albedo(first, how, three_cosines);
+    const auto b = compensated_albedo(second, how, three_cosines);
+    for (std::size_t i = 0; i < three_cosines.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c)
         EXPECT_NEAR(sum[i].value[c], a[i].value[c] + b[i].value[c] + kd[c], 3e-8);
   }
@@ -107,11 +109,11 @@ TEST(Compensation, RefusesWhatItCannotDo) {
 
 TEST(Compensation, ColourIsNearerTheTruthWithTheSquareOfFAverage) {
   const auto model = schlick(1, {0.5});
-  const auto truth = half_space(model, cosines).at;
+  const auto truth = half_space(model, three_cosines).at;
   const auto with = [&](Compensation how) {
     double worst = 0;
-    const auto a = compensated_albedo(model, how, cosines);
-    for (std::size_t i = 0; i < cosines.size(); ++i)
+    const auto a = compensated_albedo(model, how, three_cosines);
+    for (std::size_t i = 0; i < three_cosines.size(); ++i)
       worst = std::max(worst, std::abs(a[i].value[0] - truth[i].albedo[0]));
     return worst;
   };

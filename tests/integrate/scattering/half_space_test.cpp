@@ -13,7 +13,7 @@
 namespace gonio {
 namespace {
 
-constexpr double cosines[] = {0.001, 0.01, 0.05, 0.2, 0.5, 0.8, 1};
+constexpr double half_space_cosines[] = {0.001, 0.01, 0.05, 0.2, 0.5, 0.8, 1};
 
 BoundModel lobe(const std::string& ndf, double alpha, double f0) {
   return bind_model(ndf + "/smith_" + ndf + ".correlated/schlick",
@@ -25,9 +25,10 @@ BoundModel conductor(double alpha) {
 }
 
 void expect_furnace(const std::string& ndf, double alpha) {
-  const auto h = half_space(lobe(ndf, alpha, 1), cosines);
-  for (std::size_t i = 0; i < std::size(cosines); ++i) {
-    EXPECT_NEAR(h.at[i].albedo[0], 1, h.at[i].error[0]) << ndf << alpha << " " << cosines[i];
+  const auto h = half_space(lobe(ndf, alpha, 1), half_space_cosines);
+  for (std::size_t i = 0; i < std::size(half_space_cosines); ++i) {
+    EXPECT_NEAR(h.at[i].albedo[0], 1, h.at[i].error[0])
+        << ndf << alpha << " " << half_space_cosines[i];
     EXPECT_LE(h.at[i].error[0], 1e-5);
   }
   EXPECT_NEAR(h.average.albedo[0], 1, h.average.error[0]);
@@ -44,9 +45,9 @@ TEST(HalfSpace, OfBeckmannGivesBackAllThatComesInWhereFIsOne) {
 
 /// D = 1/π and Λ = (1/μ − 1)/2, so that f₁ = 1/(o + i) and the next order under its integrals are logarithms.
 TEST(HalfSpace, OfWhiteGgxAtAlphaOneHasTheTwoOrdersThatCanBeHadByHand) {
-  const auto h = half_space(lobe("ggx", 1, 1), cosines, 1e-8);
-  for (std::size_t i = 0; i < std::size(cosines); ++i) {
-    const double mu = cosines[i];
+  const auto h = half_space(lobe("ggx", 1, 1), half_space_cosines, 1e-8);
+  for (std::size_t i = 0; i < std::size(half_space_cosines); ++i) {
+    const double mu = half_space_cosines[i];
     double second = 0;
     for (const auto& q : gauss_legendre(60)) {  // o = q⁴
       const double o = q.x * q.x * q.x * q.x;
@@ -60,9 +61,9 @@ TEST(HalfSpace, OfWhiteGgxAtAlphaOneHasTheTwoOrdersThatCanBeHadByHand) {
 
 TEST(HalfSpace, ItsFirstOrderIsDirectionalAlbedo) {
   for (const auto& m : {lobe("beckmann", 0.4, 0.04), conductor(0.7)}) {
-    const auto single = directional_albedo(m, cosines, 0, {1e-7, 1'000'000});
-    const auto h = half_space(m, cosines);
-    for (std::size_t i = 0; i < std::size(cosines); ++i)
+    const auto single = directional_albedo(m, half_space_cosines, 0, {1e-7, 1'000'000});
+    const auto h = half_space(m, half_space_cosines);
+    for (std::size_t i = 0; i < std::size(half_space_cosines); ++i)
       EXPECT_NEAR(h.at[i].order[0][0], single[i].value[0], 1.1e-6);
     EXPECT_NEAR(h.average.order[0][0], hemispherical_albedo(m, {1e-6, 1'000'000}).value[0], 2e-6);
   }
@@ -70,7 +71,7 @@ TEST(HalfSpace, ItsFirstOrderIsDirectionalAlbedo) {
 
 TEST(HalfSpace, ItsBoundIsTrueHoweverLittleIsAskedFor) {
   for (const double goal : {0.03, 1.0, 200.0}) {
-    const auto h = half_space(lobe("ggx", 1, 1), cosines, goal);
+    const auto h = half_space(lobe("ggx", 1, 1), half_space_cosines, goal);
     for (const auto& s : h.at) EXPECT_NEAR(s.albedo[0], 1, s.error[0]) << goal;
     EXPECT_NEAR(h.average.albedo[0], 1, h.average.error[0]) << goal;
   }
@@ -80,7 +81,7 @@ TEST(HalfSpace, ItsBoundIsTrueHoweverLittleIsAskedFor) {
 TEST(HalfSpace, KnowsASecondOrderOfWhatIsNearlyBlack) {
   const auto m =
       bind_model("ggx/smith_ggx.correlated/constant", {{"alpha", {1}}, {"f0", {1e-4}}}, 1);
-  const auto h = half_space(m, cosines, 0.1);
+  const auto h = half_space(m, half_space_cosines, 0.1);
   for (const auto& s : h.at) {
     ASSERT_GE(s.order[0].size(), 2U);
     EXPECT_GT(s.order[0][1], 0);
@@ -89,11 +90,11 @@ TEST(HalfSpace, KnowsASecondOrderOfWhatIsNearlyBlack) {
 
 TEST(HalfSpace, ItsBoundIsTrueAndWhatWasAskedFor) {
   for (const auto& m : {lobe("ggx", 0.05, 0.5), conductor(0.5)}) {
-    const auto truth = half_space(m, cosines, 3e-7);
+    const auto truth = half_space(m, half_space_cosines, 3e-7);
     ASSERT_LE(truth.average.error[0], 3e-7);
     for (const double goal : {1e-3, 1e-5}) {
-      const auto h = half_space(m, cosines, goal);
-      for (std::size_t i = 0; i < std::size(cosines); ++i) {
+      const auto h = half_space(m, half_space_cosines, goal);
+      for (std::size_t i = 0; i < std::size(half_space_cosines); ++i) {
         EXPECT_LE(std::abs(h.at[i].albedo[0] - truth.at[i].albedo[0]), h.at[i].error[0]);
         EXPECT_LE(h.at[i].error[0], goal);
       }
@@ -103,7 +104,7 @@ TEST(HalfSpace, ItsBoundIsTrueAndWhatWasAskedFor) {
 }
 
 TEST(HalfSpace, ItsOrdersAddUpAndFallFasterAndFaster) {
-  const auto h = half_space(conductor(1), cosines);
+  const auto h = half_space(conductor(1), half_space_cosines);
   for (const auto& s : h.at) {
     double sum = 0, ratio = 2;
     for (std::size_t n = 0; n < s.order[0].size(); ++n) {
@@ -147,9 +148,9 @@ TEST(HalfSpace, AveragesWhatItSaysOfEachCosine) {
 
 TEST(HalfSpace, OfAnyMuIsTheSameWhateverElseIsAsked) {
   const auto m = conductor(0.2);
-  const auto all = half_space(m, cosines);
+  const auto all = half_space(m, half_space_cosines);
   for (const std::size_t i : {0, 3}) {
-    const auto one = half_space(m, {&cosines[i], 1});
+    const auto one = half_space(m, {&half_space_cosines[i], 1});
     EXPECT_NEAR(one.at[0].albedo[0], all.at[i].albedo[0], one.at[0].error[0] + all.at[i].error[0]);
   }
 }
@@ -159,10 +160,10 @@ TEST(HalfSpace, HasAChannelForEachColour) {
   const auto m =
       bind_model("lambert+ggx/smith_ggx.correlated/schlick",
                  {{"alpha", {0.5}}, {"f0", {f0[0], f0[1], f0[2]}}, {"kd", {0.1, 0.2, 0.3}}});
-  const auto h = half_space(m, cosines);
+  const auto h = half_space(m, half_space_cosines);
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto grey = half_space(lobe("ggx", 0.5, f0[c]), cosines);
-    for (std::size_t i = 0; i < std::size(cosines); ++i)
+    const auto grey = half_space(lobe("ggx", 0.5, f0[c]), half_space_cosines);
+    for (std::size_t i = 0; i < std::size(half_space_cosines); ++i)
       EXPECT_NEAR(h.at[i].albedo[c], grey.at[i].albedo[0], h.at[i].error[c] + grey.at[i].error[0]);
     EXPECT_NEAR(h.average.albedo[c], grey.average.albedo[0], 1e-6);
   }
@@ -172,10 +173,10 @@ TEST(HalfSpace, AddsLobes) {
   const auto m =
       bind_model("ggx/smith_ggx.correlated/schlick+beckmann/smith_beckmann.correlated/schlick",
                  {{"alpha", {0.5}}, {"f0", {0.04}}, {"alpha_2", {0.2}}, {"f0_2", {0.9}}}, 1);
-  const auto h = half_space(m, cosines);
-  const auto a = half_space(lobe("ggx", 0.5, 0.04), cosines);
-  const auto b = half_space(lobe("beckmann", 0.2, 0.9), cosines);
-  for (std::size_t i = 0; i < std::size(cosines); ++i) {
+  const auto h = half_space(m, half_space_cosines);
+  const auto a = half_space(lobe("ggx", 0.5, 0.04), half_space_cosines);
+  const auto b = half_space(lobe("beckmann", 0.2, 0.9), half_space_cosines);
+  for (std::size_t i = 0; i < std::size(half_space_cosines); ++i) {
     EXPECT_NEAR(h.at[i].albedo[0], a.at[i].albedo[0] + b.at[i].albedo[0], 1e-6);
     EXPECT_NEAR(h.at[i].order[0][1], a.at[i].order[0][1] + b.at[i].order[0][1], 1e-6);
     EXPECT_LE(h.at[i].error[0], 1e-5);
@@ -184,10 +185,10 @@ TEST(HalfSpace, AddsLobes) {
 
 TEST(HalfSpace, IsTheSameOnOneThread) {
   const auto m = conductor(0.4);
-  const auto all = half_space(m, cosines);
+  const auto all = half_space(m, half_space_cosines);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const auto alone = half_space(m, cosines);
-  for (std::size_t i = 0; i < std::size(cosines); ++i) {
+  const auto alone = half_space(m, half_space_cosines);
+  for (std::size_t i = 0; i < std::size(half_space_cosines); ++i) {
     EXPECT_EQ(all.at[i].albedo, alone.at[i].albedo);
     EXPECT_EQ(all.at[i].error, alone.at[i].error);
   }
@@ -197,10 +198,10 @@ TEST(HalfSpace, TakesTwoWidthsWhereTheyAreOne) {
   const auto of = [](double alpha_y) {
     return half_space(bind_model("ggx_aniso/smith_ggx_aniso.correlated/schlick",
                                  {{"alpha_x", {0.3}}, {"alpha_y", {alpha_y}}, {"f0", {0.5}}}, 1),
-                      cosines);
+                      half_space_cosines);
   };
-  const auto one = half_space(lobe("ggx", 0.3, 0.5), cosines), two = of(0.3);
-  for (std::size_t i = 0; i < std::size(cosines); ++i)
+  const auto one = half_space(lobe("ggx", 0.3, 0.5), half_space_cosines), two = of(0.3);
+  for (std::size_t i = 0; i < std::size(half_space_cosines); ++i)
     EXPECT_NEAR(one.at[i].albedo[0], two.at[i].albedo[0], 1e-6);
   EXPECT_HAS(test::refusal([&] { of(0.4); }, Exit::usage), "isotropic");
 }
@@ -213,7 +214,7 @@ TEST(HalfSpace, RefusesCosinesOutsideItsRange) {
 TEST(HalfSpace, RefusesWhatIsNoMicrosurface) {
   for (const char* spec : {"lambert", "ggx/smith_ggx.separable/schlick",
                            "gtr/smith_ggx.correlated/schlick", "ggx/kelemen/schlick"})
-    EXPECT_THROW(half_space(bind_model(spec, {}, 1), cosines), Error) << spec;
+    EXPECT_THROW(half_space(bind_model(spec, {}, 1), half_space_cosines), Error) << spec;
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 
 #include <array>
 
+#include "constants.h"
+
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 constexpr double alpha_x = 0.7, alpha_y = 0.3;
 
 /// Moments of the facets that light along w meets: of the normal m, its x, z and (w·m)².

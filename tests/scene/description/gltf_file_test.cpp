@@ -14,7 +14,7 @@ using gonio::test::refusal;
 using namespace test;
 
 /// The line without the folder's name.
-std::string complaint(const std::string& bytes) {
+std::string complaint_of_file(const std::string& bytes) {
   const Folder folder;
   const std::string path = folder.write("a.gltf", bytes);
   const std::string line = refusal([&] {
@@ -28,11 +28,11 @@ std::string complaint(const std::string& bytes) {
   const auto name = line.find("a.gltf");
   return name == line.npos ? line : line.substr(name);
 }
-std::string complaint(const Json& document) {
-  return complaint(document.dump());
+std::string complaint_of_file(const Json& document) {
+  return complaint_of_file(document.dump());
 }
-std::string complaint(const std::string& pointer, const Json& value) {
-  return complaint(with(square_gltf(), pointer, value));
+std::string complaint_of_file(const std::string& pointer, const Json& value) {
+  return complaint_of_file(with(square_gltf(), pointer, value));
 }
 
 TEST(GltfFile, GivesTheElementsOfItsBuffersWhereverTheseLie) {
@@ -90,72 +90,72 @@ TEST(GltfFile, ReadsIndicesOfEveryWidth) {
 }
 
 TEST(GltfFile, RefusesOtherVersionsAndExtensionsThatItNeeds) {
-  EXPECT_EQ(complaint("/asset/version", "1.0"),
+  EXPECT_EQ(complaint_of_file("/asset/version", "1.0"),
             "a.gltf: /asset/version: found \"1.0\", expected 2.0");
-  EXPECT_EQ(complaint("/asset/minVersion", "2.1"),
+  EXPECT_EQ(complaint_of_file("/asset/minVersion", "2.1"),
             "a.gltf: /asset/minVersion: found \"2.1\", expected 2.0");
-  EXPECT_EQ(complaint(Json{{"scenes", Json::array()}}),
+  EXPECT_EQ(complaint_of_file(Json{{"scenes", Json::array()}}),
             "a.gltf: /asset: found nothing, expected a value");
-  EXPECT_EQ(complaint("/extensionsRequired", {"KHR_materials_ior", "KHR_materials_sheen"}),
+  EXPECT_EQ(complaint_of_file("/extensionsRequired", {"KHR_materials_ior", "KHR_materials_sheen"}),
             "a.gltf: /extensionsRequired/1: found \"KHR_materials_sheen\", expected an extension "
             "that is read: "
             "KHR_materials_ior, KHR_materials_specular, KHR_materials_clearcoat, "
             "KHR_materials_anisotropy");
-  EXPECT_EQ(complaint("/extensionsRequired", {"KHR_materials_ior"}), "");
+  EXPECT_EQ(complaint_of_file("/extensionsRequired", {"KHR_materials_ior"}), "");
 }
 
 TEST(GltfFile, RefusesBytesOutsideItsBuffers) {
   EXPECT_EQ(
-      complaint("/buffers/0/byteLength", 173),
+      complaint_of_file("/buffers/0/byteLength", 173),
       "a.gltf: /buffers/0/byteLength: found 173, expected at most the 172 bytes that there are");
-  EXPECT_EQ(complaint("/buffers/0/byteLength", 47),
+  EXPECT_EQ(complaint_of_file("/buffers/0/byteLength", 47),
             "a.gltf: /bufferViews/0: found 48 bytes from byte 0 on, expected bytes of the buffer, "
             "which has 47");
-  EXPECT_EQ(complaint("/bufferViews/0/byteOffset", 18446744073709551615U),
+  EXPECT_EQ(complaint_of_file("/bufferViews/0/byteOffset", 18446744073709551615U),
             "a.gltf: /bufferViews/0: found 48 bytes from byte 18446744073709551615 on, expected "
             "bytes of the buffer, "
             "which has 172");
-  EXPECT_EQ(complaint("/bufferViews/3/byteLength", 11),
+  EXPECT_EQ(complaint_of_file("/bufferViews/3/byteLength", 11),
             "a.gltf: /accessors/3: found 12 bytes from byte 0 on, expected bytes of its view, "
             "which has 11");
-  EXPECT_EQ(complaint("/accessors/0/byteOffset", 18446744073709551615U),
+  EXPECT_EQ(complaint_of_file("/accessors/0/byteOffset", 18446744073709551615U),
             "a.gltf: /accessors/0: found 48 bytes from byte 18446744073709551615 on, expected "
             "bytes of its view, which "
             "has 48");
-  EXPECT_EQ(complaint("/bufferViews/0/byteStride", 16),
+  EXPECT_EQ(complaint_of_file("/bufferViews/0/byteStride", 16),
             "a.gltf: /accessors/0: found 60 bytes from byte 0 on, expected bytes of its view, "
             "which has 48");
-  EXPECT_EQ(complaint("/bufferViews/0/byteStride", 8),
+  EXPECT_EQ(complaint_of_file("/bufferViews/0/byteStride", 8),
             "a.gltf: /bufferViews/0/byteStride: found 8, expected a number in [12, 252]");
-  EXPECT_EQ(complaint("/bufferViews/0/byteStride", 18446744073709551615U),
+  EXPECT_EQ(complaint_of_file("/bufferViews/0/byteStride", 18446744073709551615U),
             "a.gltf: /bufferViews/0/byteStride: found 18446744073709551615, expected a number in "
             "[12, 252]");
-  EXPECT_EQ(complaint("/accessors/0/count", 101),
+  EXPECT_EQ(complaint_of_file("/accessors/0/count", 101),
             "a.gltf: /accessors/0/count: found 101, expected a number in [1, 100]");
-  EXPECT_EQ(complaint("/accessors/0/count", 0),
+  EXPECT_EQ(complaint_of_file("/accessors/0/count", 0),
             "a.gltf: /accessors/0/count: found 0, expected a number in [1, 100]");
 }
 
 TEST(GltfFile, RefusesNumbersOfEntriesThatThereAreNot) {
   EXPECT_EQ(
-      complaint("/accessors/0/bufferView", 4),
+      complaint_of_file("/accessors/0/bufferView", 4),
       "a.gltf: /accessors/0/bufferView: found 4, expected a number below 4, that of bufferViews");
-  EXPECT_EQ(complaint("/bufferViews/0/buffer", -1),
+  EXPECT_EQ(complaint_of_file("/bufferViews/0/buffer", -1),
             "a.gltf: /bufferViews/0/buffer: found -1, expected a whole number");
-  EXPECT_EQ(complaint(without(square_gltf(), "/buffers")),
+  EXPECT_EQ(complaint_of_file(without(square_gltf(), "/buffers")),
             "a.gltf: /bufferViews/0/buffer: found 0, expected a number below 0, that of buffers");
-  EXPECT_EQ(complaint("/nodes", 7), "a.gltf: /nodes: found 7, expected an array");
+  EXPECT_EQ(complaint_of_file("/nodes", 7), "a.gltf: /nodes: found 7, expected an array");
 }
 
 TEST(GltfFile, RefusesWhatItDoesNotReadOfAnAccessor) {
-  EXPECT_EQ(complaint("/accessors/0/componentType", 5123),
+  EXPECT_EQ(complaint_of_file("/accessors/0/componentType", 5123),
             "a.gltf: /accessors/0/componentType: found 5123, expected 5126, 32-bit floats");
-  EXPECT_EQ(complaint("/accessors/0/type", "VEC2"),
+  EXPECT_EQ(complaint_of_file("/accessors/0/type", "VEC2"),
             "a.gltf: /accessors/0/type: found \"VEC2\", expected VEC3");
-  EXPECT_EQ(complaint("/accessors/3/componentType", 5126),
+  EXPECT_EQ(complaint_of_file("/accessors/3/componentType", 5126),
             "a.gltf: /accessors/3/componentType: found 5126, expected 5121, 5123 or 5125, whole "
             "numbers without sign");
-  EXPECT_EQ(complaint("/accessors/0/sparse", Json::object()),
+  EXPECT_EQ(complaint_of_file("/accessors/0/sparse", Json::object()),
             "a.gltf: /accessors/0/sparse: found an empty object, expected an accessor that is not "
             "sparse");
 }
@@ -164,7 +164,7 @@ TEST(GltfFile, RefusesNumbersThatAreNone) {
   std::string bytes = square_bytes();
   const float bad = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(&bytes[28], &bad, 4);
-  EXPECT_EQ(complaint("/buffers/0/uri", "data:;base64," + base64(bytes)),
+  EXPECT_EQ(complaint_of_file("/buffers/0/uri", "data:;base64," + base64(bytes)),
             "a.gltf: /accessors/0: found nan in element 2, expected finite numbers");
 }
 
@@ -172,22 +172,23 @@ TEST(GltfFile, RefusesBuffersThatAreElsewhere) {
   const std::string expected = ", expected a path relative to the file, or data:…;base64,…";
   for (const char* uri :
        {"https://a.org/b.bin", "/etc/passwd", "%2Fetc/passwd", "", "data:,abc", "a%00b"})
-    EXPECT_EQ(complaint("/buffers/0/uri", uri),
+    EXPECT_EQ(complaint_of_file("/buffers/0/uri", uri),
               "a.gltf: /buffers/0/uri: found \"" + std::string(uri) + "\"" + expected);
-  EXPECT_HAS(complaint("/buffers/0/uri", "none.bin"),
+  EXPECT_HAS(complaint_of_file("/buffers/0/uri", "none.bin"),
              "none.bin: opening: found No such file or directory");
-  EXPECT_HAS(complaint("/buffers/0/uri", "."), "opening: found a directory, expected a file");
-  EXPECT_EQ(complaint(without(square_gltf(), "/buffers/0/uri")),
+  EXPECT_HAS(complaint_of_file("/buffers/0/uri", "."),
+             "opening: found a directory, expected a file");
+  EXPECT_EQ(complaint_of_file(without(square_gltf(), "/buffers/0/uri")),
             "a.gltf: /buffers/0: found a buffer without a uri, expected one with it: the file has "
             "no chunk for it");
 }
 
 TEST(GltfFile, RefusesNodesThatAreNoTree) {
-  EXPECT_EQ(complaint("/nodes/1/children", {0}),
+  EXPECT_EQ(complaint_of_file("/nodes/1/children", {0}),
             "a.gltf: /nodes/0: found a node below itself, expected nodes that are a tree");
-  EXPECT_EQ(complaint("/nodes/1/children", {1}),
+  EXPECT_EQ(complaint_of_file("/nodes/1/children", {1}),
             "a.gltf: /nodes/1/children/0: found 1, expected a node that is no child of node 0");
-  EXPECT_EQ(complaint("/nodes/0/children", {2}),
+  EXPECT_EQ(complaint_of_file("/nodes/0/children", {2}),
             "a.gltf: /nodes/0/children/0: found 2, expected a number below 2, that of nodes");
 }
 
@@ -216,11 +217,11 @@ TEST(GltfFile, FindsEntriesByTheirNames) {
 
 TEST(GltfFile, RefusesADamagedBinaryFile) {
   const std::string whole = glb(square_gltf(), square_bytes());
-  EXPECT_EQ(complaint(whole), "");
+  EXPECT_EQ(complaint_of_file(whole), "");
   const auto changed = [&](std::size_t at, std::uint32_t value) {
     std::string bytes = whole;
     std::memcpy(&bytes[at], &value, 4);
-    return complaint(bytes);
+    return complaint_of_file(bytes);
   };
   EXPECT_EQ(changed(4, 1), "a.gltf: byte 4: found version 1, expected version 2");
   EXPECT_EQ(changed(8, 9),
@@ -230,7 +231,8 @@ TEST(GltfFile, RefusesADamagedBinaryFile) {
             "a.gltf: byte 12: found a chunk of 4294967280 bytes, expected at most the " +
                 std::to_string(whole.size() - 20) + " that are left");
   EXPECT_EQ(changed(16, 0x41414141), "a.gltf: byte 16: found AAAA, expected JSON");
-  for (std::size_t n = 1; n < whole.size(); ++n) EXPECT_NE(complaint(whole.substr(0, n)), "") << n;
+  for (std::size_t n = 1; n < whole.size(); ++n)
+    EXPECT_NE(complaint_of_file(whole.substr(0, n)), "") << n;
 }
 
 }  // namespace

@@ -12,26 +12,26 @@ using gonio::test::Folder;
 using gonio::test::refusal;
 using namespace test;
 
-GltfMaterial read(const Json& material) {
+GltfMaterial read_material(const Json& material) {
   const Folder folder;
   const GltfFile file(folder.write("a.gltf", with(square_gltf(), "/materials/0", material).dump()));
   return read_material(file, "m");
 }
 GltfMaterial with_extension(const std::string& name, const Json& factors) {
-  return read({{"name", "m"}, {"extensions", {{name, factors}}}});
+  return read_material({{"name", "m"}, {"extensions", {{name, factors}}}});
 }
-std::string complaint(const Json& keys) {
+std::string complaint_of_material(const Json& keys) {
   Json material{{"name", "m"}};
   material.update(keys);
-  const std::string line = refusal([&] { read(material); });
+  const std::string line = refusal([&] { read_material(material); });
   return line.substr(std::min(line.size(), line.find("a.gltf")));
 }
-std::string complaint(const std::string& extension, const Json& factors) {
-  return complaint(Json{{"extensions", {{extension, factors}}}});
+std::string complaint_of_material(const std::string& extension, const Json& factors) {
+  return complaint_of_material(Json{{"extensions", {{extension, factors}}}});
 }
 
 TEST(GltfMaterial, OfNoFactorsIsThatOfTheSpecification) {
-  const GltfMaterial m = read({{"name", "m"}});
+  const GltfMaterial m = read_material({{"name", "m"}});
   EXPECT_EQ(m.base_color, (Rgb{1, 1, 1}));
   EXPECT_EQ(m.metallic, 1);
   EXPECT_EQ(m.roughness, 1);
@@ -44,7 +44,7 @@ TEST(GltfMaterial, OfNoFactorsIsThatOfTheSpecification) {
 }
 
 TEST(GltfMaterial, ReadsEachFactor) {
-  const GltfMaterial m = read(
+  const GltfMaterial m = read_material(
       Json::parse(R"({"name": "m", "alphaMode": "BLEND", "doubleSided": true, "extras": {"x": []},
     "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0.125, 1], "metallicFactor": 0.75, "roughnessFactor": 0.375},
     "extensions": {
@@ -68,15 +68,16 @@ TEST(GltfMaterial, RefusesTexturesByTheirPlace) {
   const Json texture{{"index", 0}};
   const std::string is = ": found a texture of 'm', expected a material of factors alone";
   for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"})
-    EXPECT_EQ(complaint(Json{{key, texture}}), "a.gltf: /materials/0/" + std::string(key) + is);
+    EXPECT_EQ(complaint_of_material(Json{{key, texture}}),
+              "a.gltf: /materials/0/" + std::string(key) + is);
   for (const char* key : {"baseColorTexture", "metallicRoughnessTexture"})
-    EXPECT_EQ(complaint(Json{{"pbrMetallicRoughness", {{key, texture}}}}),
+    EXPECT_EQ(complaint_of_material(Json{{"pbrMetallicRoughness", {{key, texture}}}}),
               "a.gltf: /materials/0/pbrMetallicRoughness/" + std::string(key) + is);
   for (const auto& [extension, key, on] :
        {std::tuple("KHR_materials_specular", "specularColorTexture", "specularFactor"),
         {"KHR_materials_clearcoat", "clearcoatNormalTexture", "clearcoatFactor"},
         {"KHR_materials_anisotropy", "anisotropyTexture", "anisotropyStrength"}})
-    EXPECT_EQ(complaint(extension, {{on, 1}, {key, texture}}),
+    EXPECT_EQ(complaint_of_material(extension, {{on, 1}, {key, texture}}),
               "a.gltf: /materials/0/extensions/" + std::string(extension) + "/" + key + is);
 }
 
@@ -97,42 +98,44 @@ TEST(GltfMaterial, RefusesExtensionsByNameWhereTheyChangeTheLook) {
         {"KHR_materials_transmission", "transmissionFactor", Json(1)},
         {"KHR_materials_diffuse_transmission", "diffuseTransmissionFactor", Json(1)}}) {
     EXPECT_EQ(
-        complaint(name, {{factor, value}}),
+        complaint_of_material(name, {{factor, value}}),
         "a.gltf: /materials/0/extensions/" + std::string(name) + ": found " + name + expected);
-    EXPECT_EQ(complaint(name, Json::object()), "") << "it has no effect then";
-    EXPECT_EQ(complaint(name, {{factor, value.is_array() ? Json{0, 0, 0} : Json(0)}}), "");
+    EXPECT_EQ(complaint_of_material(name, Json::object()), "") << "it has no effect then";
+    EXPECT_EQ(complaint_of_material(name, {{factor, value.is_array() ? Json{0, 0, 0} : Json(0)}}),
+              "");
   }
   for (const char* name :
        {"KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "VENDOR_glow"})
     EXPECT_EQ(
-        complaint(name, Json::object()),
+        complaint_of_material(name, Json::object()),
         "a.gltf: /materials/0/extensions/" + std::string(name) + ": found " + name + expected);
   for (const char* name :
        {"KHR_materials_volume", "KHR_materials_dispersion", "KHR_materials_emissive_strength"})
-    EXPECT_EQ(complaint(name, Json::object()), "") << "alone it has no effect";
+    EXPECT_EQ(complaint_of_material(name, Json::object()), "") << "alone it has no effect";
 }
 
 TEST(GltfMaterial, RefusesFactorsOutOfTheirRanges) {
-  EXPECT_EQ(complaint(Json{{"pbrMetallicRoughness", {{"metallicFactor", 1.5}}}}),
+  EXPECT_EQ(complaint_of_material(Json{{"pbrMetallicRoughness", {{"metallicFactor", 1.5}}}}),
             "a.gltf: /materials/0/pbrMetallicRoughness/metallicFactor: found 1.5, expected a "
             "number in [0, 1]");
-  EXPECT_EQ(complaint(Json{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, -1, 1}}}}}),
-            "a.gltf: /materials/0/pbrMetallicRoughness/baseColorFactor/2: found -1, expected a "
-            "number in [0, 1]");
-  EXPECT_EQ(complaint("KHR_materials_ior", {{"ior", 0}}),
+  EXPECT_EQ(
+      complaint_of_material(Json{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, -1, 1}}}}}),
+      "a.gltf: /materials/0/pbrMetallicRoughness/baseColorFactor/2: found -1, expected a "
+      "number in [0, 1]");
+  EXPECT_EQ(complaint_of_material("KHR_materials_ior", {{"ior", 0}}),
             "a.gltf: /materials/0/extensions/KHR_materials_ior/ior: found 0, expected a number in "
             "[1, 1e+06]");
-  EXPECT_EQ(complaint("KHR_materials_clearcoat", 3),
+  EXPECT_EQ(complaint_of_material("KHR_materials_clearcoat", 3),
             "a.gltf: /materials/0/extensions/KHR_materials_clearcoat: found 3, expected an object");
-  EXPECT_EQ(complaint(Json{{"emissiveFactor", {0, 0, 1}}}),
+  EXPECT_EQ(complaint_of_material(Json{{"emissiveFactor", {0, 0, 1}}}),
             "a.gltf: /materials/0/emissiveFactor: found an array, expected 0, a material that "
             "emits no light");
 }
 
 TEST(GltfMaterial, RefusesWhatIsNotOpaque) {
   const auto of = [](const char* mode, double alpha) {
-    return complaint(Json{{"alphaMode", mode},
-                          {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, alpha}}}}});
+    return complaint_of_material(Json{
+        {"alphaMode", mode}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, alpha}}}}});
   };
   EXPECT_EQ(of("OPAQUE", 0), "");
   EXPECT_EQ(of("MASK", 0.5), "");

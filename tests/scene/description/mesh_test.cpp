@@ -15,19 +15,21 @@ using gonio::test::refusal;
 using namespace test;
 
 /// Mesh "square" where a node is named, else in its own coordinates.
-Mesh read(const Json& document, const std::string& node = "", MeshBudget budget = {}) {
+Mesh read_mesh_of(const Json& document, const std::string& node = "", MeshBudget budget = {}) {
   const Folder folder;
   const GltfFile file(folder.write("a.gltf", document.dump()));
   return node.empty() ? read_mesh(file, "square", budget) : read_mesh_of_node(file, node, budget);
 }
-std::string complaint(const Json& document, const std::string& node = "", MeshBudget budget = {}) {
-  const std::string line = refusal([&] { read(document, node, budget); });
+std::string complaint_of_mesh(const Json& document,
+                              const std::string& node = "",
+                              MeshBudget budget = {}) {
+  const std::string line = refusal([&] { read_mesh_of(document, node, budget); });
   return line.substr(std::min(line.size(), line.find("a.gltf")));
 }
 std::string complaint_at(const std::string& pointer,
                          const Json& value,
                          const std::string& node = "") {
-  return complaint(with(square_gltf(), pointer, value), node);
+  return complaint_of_mesh(with(square_gltf(), pointer, value), node);
 }
 
 template <std::size_t n>
@@ -36,7 +38,7 @@ void expect_near(const std::array<float, n>& a, const std::array<float, n>& b) {
 }
 
 TEST(Mesh, HasPositionsUnitNormalsTangentsAndTriangles) {
-  const Mesh m = read(square_gltf());
+  const Mesh m = read_mesh_of(square_gltf());
   ASSERT_EQ(m.positions.size(), 4U);
   ASSERT_EQ(m.normals.size(), 4U);
   ASSERT_EQ(m.tangents.size(), 4U);
@@ -48,15 +50,15 @@ TEST(Mesh, HasPositionsUnitNormalsTangentsAndTriangles) {
 }
 
 TEST(Mesh, OfANodeIsMovedByItAndThoseAboveIt) {
-  const Mesh m = read(square_gltf(), "placed");
+  const Mesh m = read_mesh_of(square_gltf(), "placed");
   expect_near(m.positions[1], {10, 2, 0});  // turned, then scaled, then shifted
   expect_near(m.positions[3], {8, 0, 0});
   expect_near(m.normals[0], {0, 0, 1});
   expect_near(m.tangents[0], {0, 1, 0, 1});
   const Mesh same =
-      read(with(without(without(square_gltf(), "/nodes/0/scale"), "/nodes/0/translation"),
-                "/nodes/0/matrix", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1}),
-           "placed");
+      read_mesh_of(with(without(without(square_gltf(), "/nodes/0/scale"), "/nodes/0/translation"),
+                        "/nodes/0/matrix", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1}),
+                   "placed");
   EXPECT_EQ(same.positions, m.positions);
 }
 
@@ -75,7 +77,7 @@ TEST(Mesh, HasNormalsThatStayPerpendicularUnderAnyScale) {
   g["nodes"] = {{{"name", "n"}, {"mesh", 0}, {"scale", {3, 1, 1}}}};
   for (const int sign : {1, -1}) {
     g["nodes"][0]["scale"][0] = 3 * sign;
-    const Mesh m = read(g, "n");
+    const Mesh m = read_mesh_of(g, "n");
     const auto side = static_cast<float>(sign);
     expect_near(m.normals[0], {side / std::sqrt(10.0F), 0, 3 / std::sqrt(10.0F)});
     // Seen from where the normals point to, the corners go round counter-clockwise, mirrored or
@@ -90,14 +92,14 @@ TEST(Mesh, HasNormalsThatStayPerpendicularUnderAnyScale) {
 
 TEST(Mesh, WithoutNormalsIsFlatAndLosesTrianglesWithoutArea) {
   Json g = without(square_gltf(), "/meshes/0/primitives/0/attributes/NORMAL");
-  Mesh m = read(g);
+  Mesh m = read_mesh_of(g);
   ASSERT_EQ(m.triangles.size(), 2U);
   ASSERT_EQ(m.positions.size(), 6U);
   EXPECT_TRUE(m.tangents.empty());
   for (const auto& n : m.normals) EXPECT_EQ(n, (std::array{0.0F, 0.0F, 1.0F}));
   std::string bytes = square_bytes();
   bytes[160 + 2] = 0;  // the first triangle is 0, 0, 2
-  m = read(with(g, "/buffers/0/uri", "data:;base64," + base64(bytes)));
+  m = read_mesh_of(with(g, "/buffers/0/uri", "data:;base64," + base64(bytes)));
   ASSERT_EQ(m.triangles.size(), 1U);
   EXPECT_EQ(m.positions[2], (std::array{0.0F, 1.0F, 0.0F}));
 }
@@ -105,14 +107,14 @@ TEST(Mesh, WithoutNormalsIsFlatAndLosesTrianglesWithoutArea) {
 TEST(Mesh, OfSeveralPrimitivesHasAllOfThem) {
   Json g = square_gltf();
   g["meshes"][0]["primitives"].push_back(g["meshes"][0]["primitives"][0]);
-  Mesh m = read(g);
+  Mesh m = read_mesh_of(g);
   EXPECT_EQ(m.tangents.size(), 8U);
   ASSERT_EQ(m.triangles.size(), 4U);
   EXPECT_EQ(m.triangles[3], (std::array{4U, 6U, 7U}));
   for (const std::size_t lacks : {0U, 1U}) {
     Json one = g;
     one["meshes"][0]["primitives"][lacks]["attributes"].erase("TANGENT");
-    EXPECT_TRUE(read(one).tangents.empty()) << "all have them, or none";
+    EXPECT_TRUE(read_mesh_of(one).tangents.empty()) << "all have them, or none";
   }
 }
 
@@ -128,13 +130,13 @@ TEST(Mesh, RefusesWhatIsNoTriangles) {
             "a.gltf: /meshes/0/primitives/0/mode: found 1, expected 4, triangles");
   EXPECT_EQ(complaint_at("/accessors/3/count", 5),
             "a.gltf: /accessors/3: found 5 indices, expected three for each triangle");
-  EXPECT_EQ(complaint(without(square_gltf(), "/meshes/0/primitives/0/indices")),
+  EXPECT_EQ(complaint_of_mesh(without(square_gltf(), "/meshes/0/primitives/0/indices")),
             "a.gltf: /meshes/0/primitives/0: found 4 vertices, expected three for each triangle");
   EXPECT_EQ(complaint_at("/accessors/1/count", 3),
             "a.gltf: /accessors/1/count: found 3, expected that of the positions, 4");
   EXPECT_EQ(complaint_at("/meshes/0/primitives", Json::array()),
             "a.gltf: /meshes/0: found no triangle that has an area, expected one at least");
-  EXPECT_EQ(complaint(without(square_gltf(), "/meshes/0/primitives/0/attributes/POSITION")),
+  EXPECT_EQ(complaint_of_mesh(without(square_gltf(), "/meshes/0/primitives/0/attributes/POSITION")),
             "a.gltf: /meshes/0/primitives/0/attributes/POSITION: found nothing, expected a value");
 }
 
@@ -156,7 +158,7 @@ TEST(Mesh, RefusesNodesThatFlattenOrLeadOutOfTheWorld) {
   EXPECT_EQ(
       complaint_at("/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, "placed"),
       "a.gltf: /nodes/0/matrix: found an array, expected one whose last row is 0, 0, 0, 1");
-  EXPECT_EQ(complaint(square_gltf(), "top"),
+  EXPECT_EQ(complaint_of_mesh(square_gltf(), "top"),
             "a.gltf: /nodes/0/mesh: found nothing, expected a value");
   EXPECT_EQ(complaint_at("/nodes/1/children", {0}, "placed"),
             "a.gltf: /nodes/0: found a node below itself, expected nodes that are a tree");
@@ -167,27 +169,27 @@ TEST(Mesh, RefusesNodesThatNestTooDeep) {
   g["nodes"] = Json::array();
   for (int i = 0; i < 1000; ++i) g["nodes"].push_back({{"children", {i + 1}}});
   g["nodes"].push_back({{"name", "n"}, {"mesh", 0}});
-  EXPECT_EQ(complaint(g, "n"),
+  EXPECT_EQ(complaint_of_mesh(g, "n"),
             "a.gltf: /nodes/1000: found more than 1000 levels of nodes, expected fewer");
   g["nodes"][0].erase("children");
-  EXPECT_EQ(complaint(g, "n"), "");
+  EXPECT_EQ(complaint_of_mesh(g, "n"), "");
 }
 
 TEST(Mesh, KeepsToTheBudgetOfAScene) {
   const std::string at_most =
       ", expected at most 4194304 vertices and 8388608 triangles in a scene";
-  EXPECT_EQ(complaint(square_gltf(), "", {4, 2}), "");
-  EXPECT_EQ(complaint(square_gltf(), "", {3, 2}),
+  EXPECT_EQ(complaint_of_mesh(square_gltf(), "", {4, 2}), "");
+  EXPECT_EQ(complaint_of_mesh(square_gltf(), "", {3, 2}),
             "a.gltf: /accessors/0/count: found 4, expected a number in [1, 3]");
-  EXPECT_EQ(complaint(square_gltf(), "", {4, 1}),
+  EXPECT_EQ(complaint_of_mesh(square_gltf(), "", {4, 1}),
             "a.gltf: /accessors/3/count: found 6, expected a number in [1, 3]");
-  EXPECT_EQ(complaint(square_gltf(), "", {2, 2}),
+  EXPECT_EQ(complaint_of_mesh(square_gltf(), "", {2, 2}),
             "a.gltf: /meshes/0/primitives/0: found more triangles" + at_most);
   // What has no area is read, too.
   Json flat = without(square_gltf(), "/meshes/0/primitives/0/attributes/NORMAL");
   const auto primitive = flat["meshes"][0]["primitives"][0];
   for (int i = 0; i < 3; ++i) flat["meshes"][0]["primitives"].push_back(primitive);
-  EXPECT_EQ(complaint(flat, "", {18, 100}),
+  EXPECT_EQ(complaint_of_mesh(flat, "", {18, 100}),
             "a.gltf: /meshes/0/primitives/3: found more triangles" + at_most);
 }
 

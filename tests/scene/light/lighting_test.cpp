@@ -1,7 +1,6 @@
 #include "scene/light/lighting.h"
 
-#include <numbers>
-
+#include "constants.h"
 #include "geometry/half_difference.h"
 #include "integrate/light/irradiance.h"
 #include "integrate/lights.h"
@@ -16,7 +15,7 @@ namespace {
 using test::scene_of;
 using test::sphere;
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 const Direction up{0, 1, 0};
 
 DirectionalLight from(const Direction& d, const Rgb& irradiance) {

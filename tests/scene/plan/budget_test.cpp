@@ -10,7 +10,7 @@
 namespace gonio::scene {
 namespace {
 
-std::vector<Sharer> some(std::uint64_t seed, std::size_t materials, std::size_t choices) {
+std::vector<Sharer> some_sharers(std::uint64_t seed, std::size_t materials, std::size_t choices) {
   Draws draw(seed, 1);
   std::vector<Sharer> all;
   for (std::size_t m = 0; m < materials; ++m) {
@@ -33,7 +33,7 @@ double mean_ns(const std::vector<Sharer>& all, const std::vector<std::size_t>& c
 
 TEST(Budget, HasTheLeastWorstErrorOfAllWaysToShare) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    const auto all = some(seed, 4, 5);
+    const auto all = some_sharers(seed, 4, 5);
     const double budget = 25;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 625; ++i) {
@@ -53,7 +53,7 @@ TEST(Budget, HasTheLeastWorstErrorOfAllWaysToShare) {
 }
 
 TEST(Budget, TakesTheCheapestWhereNothingFits) {
-  const auto all = some(3, 3, 4);
+  const auto all = some_sharers(3, 3, 4);
   const auto s = share_out(all, 0.5);
   EXPECT_FALSE(s.fits);
   for (std::size_t m = 0; m < all.size(); ++m)
@@ -62,7 +62,7 @@ TEST(Budget, TakesTheCheapestWhereNothingFits) {
 
 TEST(Budget, IsNeverWorseThanTheSameTimeForEachMaterial) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    const auto all = some(seed, 20, 30);
+    const auto all = some_sharers(seed, 20, 30);
     constexpr double budget = 12;
     double each = 0;  // the worst error, each by itself within the budget
     bool possible = true;

@@ -22,7 +22,7 @@ const Plan& plan() {
       scene(), {.samples = 512, .fresh = 1024, .directions = 1, .cost = Cost::operations});
   return p;
 }
-PlannedForms read(const std::string& text, const Scene& s = scene()) {
+PlannedForms read_forms(const std::string& text, const Scene& s = scene()) {
   const Folder folder;
   return read_plan(folder.write("plan.json", text), s, {s.materials.begin(), s.materials.end()});
 }
@@ -39,7 +39,7 @@ Json& effect(Json& document, const std::string& name) {
 }
 
 TEST(PlanDocument, GivesItsFormsBack) {
-  const auto forms = read(to_json(plan()));
+  const auto forms = read_forms(to_json(plan()));
   ASSERT_EQ(forms.by_material.size(), 1U);
   EXPECT_EQ(forms.by_material[0], plan().materials[0].forms);
 }
@@ -60,31 +60,34 @@ TEST(PlanDocument, HasTheKeysOfTheContract) {
 TEST(PlanDocument, IsRefusedForAnotherScene) {
   Scene other = scene();
   other.sha256 = "of another";
-  EXPECT_HAS(refusal([&] { read(to_json(plan()), other); }), "/scene_sha256");
+  EXPECT_HAS(refusal([&] { read_forms(to_json(plan()), other); }), "/scene_sha256");
 }
 
 TEST(PlanDocument, IsRefusedWhereSpecAndFormsDisagree) {
   EXPECT_HAS(refusal([] {
-               read(changed([](Json& d) {
+               read_forms(changed([](Json& d) {
                  auto& e = effect(d, "fresnel");
                  e["keep"] = e["form"] != "exact";
                  e["form"] = e["keep"] ? "exact" : "schlick";
                }));
              }),
              "/materials/it/spec");
-  EXPECT_HAS(
-      refusal([] { read(changed([](Json& d) { d["materials"]["it"]["spec"] = "lambert"; })); }),
-      "/materials/it/spec");
+  EXPECT_HAS(refusal([] {
+               read_forms(changed([](Json& d) { d["materials"]["it"]["spec"] = "lambert"; }));
+             }),
+             "/materials/it/spec");
 }
 
 TEST(PlanDocument, IsRefusedWhereKeepAndFormDisagree) {
-  EXPECT_HAS(refusal([] { read(changed([](Json& d) { effect(d, "diffuse")["keep"] = false; })); }),
-             "/keep");
+  EXPECT_HAS(
+      refusal([] { read_forms(changed([](Json& d) { effect(d, "diffuse")["keep"] = false; })); }),
+      "/keep");
 }
 
 TEST(PlanDocument, IsRefusedWithAFormThatTheMaterialHasNot) {
-  EXPECT_HAS(refusal([] { read(changed([](Json& d) { effect(d, "tail")["form"] = "gtr"; })); }),
-             "a form that this material offers: ggx");
+  EXPECT_HAS(
+      refusal([] { read_forms(changed([](Json& d) { effect(d, "tail")["form"] = "gtr"; })); }),
+      "a form that this material offers: ggx");
 }
 
 TEST(PlanDocument, IsRefusedWithASetOfFormsThatNoEffectHas) {
@@ -99,7 +102,7 @@ TEST(PlanDocument, IsRefusedWithASetOfFormsThatNoEffectHas) {
 
 TEST(PlanDocument, IsRefusedWithAnEffectTwice) {
   EXPECT_HAS(refusal([] {
-               read(changed([](Json& d) {
+               read_forms(changed([](Json& d) {
                  auto& e = d["materials"]["it"]["effects"];
                  e[1] = e[0];
                }));
@@ -108,16 +111,16 @@ TEST(PlanDocument, IsRefusedWithAnEffectTwice) {
 }
 
 TEST(PlanDocument, IsRefusedWithoutAMaterialOrWithOneTooMany) {
-  EXPECT_HAS(refusal([] { read(changed([](Json& d) { d["materials"] = Json::object(); })); }),
+  EXPECT_HAS(refusal([] { read_forms(changed([](Json& d) { d["materials"] = Json::object(); })); }),
              "no 'it'");
   EXPECT_HAS(refusal([] {
-               read(changed([](Json& d) { d["materials"]["other"] = d["materials"]["it"]; }));
+               read_forms(changed([](Json& d) { d["materials"]["other"] = d["materials"]["it"]; }));
              }),
              "a material of the scene");
 }
 
 TEST(PlanDocument, IsRefusedOfALaterVersion) {
-  EXPECT_HAS(refusal([] { read(changed([](Json& d) { d["schema"] = "gonio.plan/2"; })); }),
+  EXPECT_HAS(refusal([] { read_forms(changed([](Json& d) { d["schema"] = "gonio.plan/2"; })); }),
              "gonio.plan/1");
 }
 

@@ -1,8 +1,7 @@
 #include "scene/render/render.h"
 
-#include <numbers>
-
 #include "brdf/model/evaluate.h"
+#include "constants.h"
 #include "geometry/half_difference.h"
 #include "scene/objects.h"
 #include "scene/trace/camera.h"
@@ -16,7 +15,7 @@ namespace {
 using test::scene_of;
 using test::sphere;
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 
 Material material(const std::string& spec, const std::vector<Setting>& settings) {
   return {spec, {}, bind_model(spec, settings, 3), false};

@@ -11,7 +11,7 @@
 namespace gonio::scene {
 namespace {
 
-EnvironmentLight even(double scale) {
+EnvironmentLight even_sky(double scale) {
   return {"", scale, {2, 1, {{1, 1, 1}, {1, 1, 1}}, 0}};
 }
 
@@ -23,7 +23,7 @@ Surface looked_up(const Material& m, const std::shared_ptr<const ImageLight>& sk
 }
 
 TEST(ImageLit, LosesNothingOfAWhiteLobeThatIsCompensated) {
-  const auto light = even(3);
+  const auto light = even_sky(3);
   const auto sky = std::make_shared<const ImageLight>(light);
   ImageLitParts parts;
   parts.lobe = {"smith_ggx.correlated", 0.64, {1, 1, 1}};
@@ -34,7 +34,7 @@ TEST(ImageLit, LosesNothingOfAWhiteLobeThatIsCompensated) {
 }
 
 TEST(ImageLit, LetsADiffuseKeepWhatTheInterfaceLetsThrough) {
-  const auto light = even(1);
+  const auto light = even_sky(1);
   const auto sky = std::make_shared<const ImageLight>(light);
   const SkyView view{{0, 0, 1}, {0, 0, 1}, 1};
   ImageLitParts parts;
@@ -51,7 +51,7 @@ TEST(ImageLit, LetsADiffuseKeepWhatTheInterfaceLetsThrough) {
 }
 
 TEST(ImageLit, LaysTheCoatOnAllElse) {
-  const auto light = even(1);
+  const auto light = even_sky(1);
   const auto sky = std::make_shared<const ImageLight>(light);
   const SkyView view{{0, 0, 1}, {0.6, 0, 0.8}, 0.8};
   ImageLitParts parts;
@@ -63,7 +63,7 @@ TEST(ImageLit, LaysTheCoatOnAllElse) {
 }
 
 TEST(Look, LooksUpAnEnvironmentWhereThereIsOne) {
-  const auto light = even(1);
+  const auto light = even_sky(1);
   const auto sky = std::make_shared<const ImageLight>(light);
   const Look gold(test::satin_gold(), sky), alone(test::satin_gold());
   EXPECT_EQ(gold.exact().name(Effect::environment), "quadrature");

@@ -1,24 +1,26 @@
 #include "scene/trace/camera.h"
 
+#include "constants.h"
+
 #include <gtest/gtest.h>
 
 namespace gonio::scene {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 
-double off(const Direction& a, const Direction& b) {
+double camera_off(const Direction& a, const Direction& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
 TEST(Camera, LooksAtItsTargetInTheMiddleAndByHalfItsAngleToTheEdges) {
   const Camera c{{0, 2, 5}, {0, 2, 1}, {0, 3, 0}, 60};
-  EXPECT_LT(off(ray(c, 0.5, 0.5, 2).direction, {0, 0, -1}), 1e-15);
+  EXPECT_LT(camera_off(ray(c, 0.5, 0.5, 2).direction, {0, 0, -1}), 1e-15);
   EXPECT_EQ(ray(c, 0.5, 0.5, 2).origin.y, 2);
   const double half = std::tan(pi / 6);  // top left first
-  EXPECT_LT(off(ray(c, 0.5, 0, 2).direction, direction(Vector{0, half, -1})), 1e-15);
-  EXPECT_LT(off(ray(c, 0, 0.5, 2).direction, direction(Vector{-2 * half, 0, -1})), 1e-15);
-  EXPECT_LT(off(ray(c, 1, 1, 2).direction, direction(Vector{2 * half, -half, -1})), 1e-15);
+  EXPECT_LT(camera_off(ray(c, 0.5, 0, 2).direction, direction(Vector{0, half, -1})), 1e-15);
+  EXPECT_LT(camera_off(ray(c, 0, 0.5, 2).direction, direction(Vector{-2 * half, 0, -1})), 1e-15);
+  EXPECT_LT(camera_off(ray(c, 1, 1, 2).direction, direction(Vector{2 * half, -half, -1})), 1e-15);
 }
 
 TEST(Camera, GoesAroundItsTargetAndOverIt) {
@@ -31,7 +33,7 @@ TEST(Camera, GoesAroundItsTargetAndOverIt) {
     EXPECT_NEAR(from.z, 0, 1e-12);
     EXPECT_NEAR(dot(c.up, from), 0, 1e-12);
     EXPECT_GE(c.up.y, -1e-12);
-    EXPECT_LT(off(ray(c, 0.5, 0.5, 1).direction, direction(-1 * from)), 1e-12);
+    EXPECT_LT(camera_off(ray(c, 0.5, 0.5, 1).direction, direction(-1 * from)), 1e-12);
   }
 }
 

@@ -30,7 +30,7 @@ ConvertOptions to_rgl() {
   return o;
 }
 
-Table wide(std::vector<std::string> channels = {"f"}) {
+Table wide_table(std::vector<std::string> channels = {"f"}) {
   return on_grid(
       mbsdf_grid(45, 90, Bins::centre), "mbsdf", std::move(channels),
       [](const auto& a, std::size_t c) { return lobe(a, 0.4, 0.3) * static_cast<double>(c + 1); });
@@ -104,7 +104,7 @@ TEST(RglWriter, KeepsTheFunctionBetweenTheSamples) {
 }
 
 TEST(RglWriter, SaysTrulyHowFarTheValuesAreFromTheTable) {
-  const Table t = wide();
+  const Table t = wide_table();
   const auto [file, loss] = convert(t, to_rgl());
   EXPECT_EQ(loss.method, Loss::Method::interpolated);
   EXPECT_TRUE(loss.replicated);
@@ -136,7 +136,7 @@ TEST(RglWriter, WritesWhatItsReaderReads) {
   for (const bool spectral : {false, true}) {
     auto o = to_rgl();
     o.spectral = spectral;
-    const Table file = convert(wide({"r", "g", "b"}), o).table;
+    const Table file = convert(wide_table({"r", "g", "b"}), o).table;
     write_table(file, folder / "a.bsdf");
     const Table back = read_table(folder / "a.bsdf");
     EXPECT_EQ(back.format, "rgl");
@@ -157,7 +157,7 @@ TEST(RglWriter, WritesWhatItsReaderReads) {
 
 TEST(RglWriter, HasADensityForEveryAngleOfLight) {
   const Folder folder;
-  write_table(convert(wide(), to_rgl()).table, folder / "a.bsdf");
+  write_table(convert(wide_table(), to_rgl()).table, folder / "a.bsdf");
   const std::string bytes = read_bytes(folder / "a.bsdf");
   // followed f.
   const auto luminance = field(bytes, "luminance", 4);
@@ -174,7 +174,7 @@ TEST(RglWriter, HasADensityForEveryAngleOfLight) {
 
 TEST(RglWriter, OfWhatReflectsNothingCanBeDrawnFrom) {
   const Folder folder;
-  Table t = wide();
+  Table t = wide_table();
   std::ranges::fill(t.values[0], 0);
   write_table(convert(t, to_rgl()).table, folder / "a.bsdf");
   const std::string bytes = read_bytes(folder / "a.bsdf");
@@ -184,7 +184,7 @@ TEST(RglWriter, OfWhatReflectsNothingCanBeDrawnFrom) {
 }
 
 TEST(RglWriter, FillsWhatIsMissingFromNearby) {
-  Table t = wide();
+  Table t = wide_table();
   const SampleAngles at(t);
   for (std::size_t i = 0; i < t.size(); ++i) {
     const auto p = at.directions(i);
@@ -205,14 +205,14 @@ TEST(RglWriter, FillsWhatIsMissingFromNearby) {
 }
 
 TEST(RglWriter, FillsEachChannelForItself) {
-  Table t = wide({"r", "g", "b"});
+  Table t = wide_table({"r", "g", "b"});
   const SampleAngles at(t);
   for (std::size_t i = 0; i < t.size(); ++i)
     if (at.directions(i).wo.z > 0.5) t.values[0][i] = std::nan("");
   const auto [file, loss] = convert(t, to_rgl());
   EXPECT_GT(loss.without_data, loss.bins / 10) << "of the channel of most";
   const RglFunction f = rgl_function(file),
-                    whole = rgl_function(convert(wide({"r", "g", "b"}), to_rgl()).table);
+                    whole = rgl_function(convert(wide_table({"r", "g", "b"}), to_rgl()).table);
   const DirectionPair p{direction(0.3, 0), direction(0.4, 3)};
   EXPECT_NEAR(f(p, 1), whole(p, 1), 0.05 * whole(p, 1));
   EXPECT_GT(std::abs(f(p, 0) / whole(p, 0) - 1), 0.1);
@@ -248,20 +248,30 @@ TEST(RglWriter, RefusesWhatChangesAsItIsTurned) {
   const RglFunction f = rgl_function(little.table);
   const double mean = (1 + std::sqrt(2.0)) / 4;  // of |cos φ| over eight turns from 0°
   EXPECT_NEAR(f({direction(1, 0), direction(0.5, 2)}, 0), 1 + 0.2 * std::sin(1) * mean, 0.008);
-  EXPECT_FALSE(change_with_azimuth(wide()));
+  EXPECT_FALSE(change_with_azimuth(wide_table()));
 }
 
 TEST(RglWriter, HoldsWavelengthsInTheirOrder) {
-  const Table t = wide({"650", "450.5", "550"});
+  const Table t = wide_table({"650", "450.5", "550"});
   const Table file = convert(t, to_rgl()).table;
   EXPECT_EQ(file.channels, (std::vector<std::string>{"450.5", "550", "650"}));
   const RglFunction f = rgl_function(file);
   const DirectionPair p{direction(0.4, 0), direction(0.7, 1)};
   EXPECT_NEAR(f(p, 0) / f(p, 2), 2, 1e-5);
   EXPECT_NEAR(f(p, 1) / f(p, 2), 3, 1e-5);
-  EXPECT_HAS(refusal([] { convert(wide({"550", "550.00001"}), to_rgl()); }, Exit::usage), "550");
-  EXPECT_HAS(refusal([] { convert(wide({"a", "b"}), to_rgl()); }, Exit::usage), "wavelengths");
-  const auto named = convert(wide({"x", "y", "z"}), to_rgl());
+  EXPECT_HAS(refusal(
+                 [] {
+                   convert(wide_table({"550", "550.00001"}), to_rgl());
+                 },
+                 Exit::usage),
+             "550");
+  EXPECT_HAS(refusal(
+                 [] {
+                   convert(wide_table({"a", "b"}), to_rgl());
+                 },
+                 Exit::usage),
+             "wavelengths");
+  const auto named = convert(wide_table({"x", "y", "z"}), to_rgl());
   EXPECT_EQ(named.loss.renamed.size(), 3U);
 }
 
@@ -269,12 +279,12 @@ TEST(RglWriter, RefusesMoreThanItsReaderReads) {
   auto o = to_rgl();
   o.n_theta = 180;
   o.n_grid = 512;
-  EXPECT_HAS(refusal([&] { convert(wide(), o); }, Exit::usage), "--grid");
+  EXPECT_HAS(refusal([&] { convert(wide_table(), o); }, Exit::usage), "--grid");
   o.n_grid = 24;
   o.n_theta = 1;
-  EXPECT_HAS(refusal([&] { convert(wide(), o); }, Exit::usage), "two incident angles");
+  EXPECT_HAS(refusal([&] { convert(wide_table(), o); }, Exit::usage), "two incident angles");
   const Folder folder;
-  Table other = wide();
+  Table other = wide_table();
   other.format = "rgl";
   EXPECT_HAS(refusal([&] { write_table(other, folder / "a"); }), "was not resampled");
   EXPECT_EQ(folder.entries(), 0U);

@@ -14,16 +14,16 @@ namespace {
 using namespace test;
 using std::numbers::pi;
 
-Table read(const std::string& bytes) {
+Table table_of_alta(const std::string& bytes) {
   const Folder folder;
   return read_table(folder.write("a.dat", bytes));
 }
 
 /// wi and wo of one sample, as "(x y z) (x y z)".
-std::string directions_of(const std::string& in, const std::vector<double>& x) {
+std::string alta_directions(const std::string& in, const std::vector<double>& x) {
   std::vector<double> row = x;
   row.push_back(0.5);
-  const Table t = read(alta_file(in, "INV_STERADIAN", x.size(), 1, {row}));
+  const Table t = table_of_alta(alta_file(in, "INV_STERADIAN", x.size(), 1, {row}));
   EXPECT_EQ(t.values[0][0], 0.5);
   const auto [wi, wo] = SampleAngles(t).directions(0);
   const auto text = [](const Direction& d) {
@@ -33,34 +33,35 @@ std::string directions_of(const std::string& in, const std::vector<double>& x) {
 }
 
 TEST(AltaFile, KnowsParametrizationsOfTwoDirections) {
-  EXPECT_EQ(directions_of("SPHERICAL_TL_PL_TV_PV", {pi / 6, 0, pi / 3, pi / 2}),
+  EXPECT_EQ(alta_directions("SPHERICAL_TL_PL_TV_PV", {pi / 6, 0, pi / 3, pi / 2}),
             "(0.500 0.000 0.866) (0.000 0.866 0.500)");
-  EXPECT_EQ(directions_of("CARTESIAN", {0.6, 0, 0.8, 0, -0.8, 0.6}),
+  EXPECT_EQ(alta_directions("CARTESIAN", {0.6, 0, 0.8, 0, -0.8, 0.6}),
             "(0.000 -0.800 0.600) (0.600 0.000 0.800)");
-  EXPECT_EQ(directions_of("ISOTROPIC_TL_TV_PROJ_DPHI", {pi / 6, -pi / 6, 0}),
+  EXPECT_EQ(alta_directions("ISOTROPIC_TL_TV_PROJ_DPHI", {pi / 6, -pi / 6, 0}),
             "(0.500 0.000 0.866) (-0.500 0.000 0.866)");
-  EXPECT_EQ(directions_of("ISOTROPIC_TL_TV_PROJ_DPHI", {pi / 6, 0, pi / 3}),
+  EXPECT_EQ(alta_directions("ISOTROPIC_TL_TV_PROJ_DPHI", {pi / 6, 0, pi / 3}),
             "(0.500 0.000 0.866) (0.000 0.866 0.500)");
-  EXPECT_EQ(directions_of("ISOTROPIC_TV_PROJ_DPHI", {0, -pi / 3}),
+  EXPECT_EQ(alta_directions("ISOTROPIC_TV_PROJ_DPHI", {0, -pi / 3}),
             "(0.000 0.000 1.000) (0.000 -0.866 0.500)");
-  EXPECT_EQ(directions_of("ISOTROPIC_TV_TL", {pi / 6, -pi / 3}),
+  EXPECT_EQ(alta_directions("ISOTROPIC_TV_TL", {pi / 6, -pi / 3}),
             "(-0.866 0.000 0.500) (0.500 0.000 0.866)");
-  EXPECT_EQ(directions_of("ISOTROPIC_TV_TL_DPHI", {pi / 6, pi / 3, pi}),
+  EXPECT_EQ(alta_directions("ISOTROPIC_TV_TL_DPHI", {pi / 6, pi / 3, pi}),
             "(0.866 0.000 0.500) (-0.500 0.000 0.866)");
-  EXPECT_EQ(directions_of("RUSIN_TH_TD_PD", {0, pi / 6, 0}),
+  EXPECT_EQ(alta_directions("RUSIN_TH_TD_PD", {0, pi / 6, 0}),
             "(-0.500 0.000 0.866) (0.500 0.000 0.866)")
       << "the difference direction is the view's";
-  EXPECT_EQ(directions_of("RUSIN_TH_PH_TD_PD", {pi / 6, pi / 2, 0, 0}),
+  EXPECT_EQ(alta_directions("RUSIN_TH_PH_TD_PD", {pi / 6, pi / 2, 0, 0}),
             "(0.000 0.500 0.866) (0.000 0.500 0.866)");
-  EXPECT_EQ(directions_of("RUSIN_TH_TD", {0, pi / 6}), "(0.000 -0.500 0.866) (0.000 0.500 0.866)");
-  EXPECT_EQ(directions_of("COS_TH_TD", {1, std::cos(pi / 6)}),
+  EXPECT_EQ(alta_directions("RUSIN_TH_TD", {0, pi / 6}),
+            "(0.000 -0.500 0.866) (0.000 0.500 0.866)");
+  EXPECT_EQ(alta_directions("COS_TH_TD", {1, std::cos(pi / 6)}),
             "(-0.500 0.000 0.866) (0.500 0.000 0.866)");
 }
 
 TEST(AltaFile, DividesTheCosineOfTheViewOut) {
   const Table t =
-      read(alta_file("ISOTROPIC_TV_TL", "INV_STERADIAN_COSINE_FACTOR", 2, 1,
-                     {{pi / 3, pi / 6, 0.2}, {pi / 2 - 0.005, pi / 6, 0.2}, {0, 0, -1}}));
+      table_of_alta(alta_file("ISOTROPIC_TV_TL", "INV_STERADIAN_COSINE_FACTOR", 2, 1,
+                              {{pi / 3, pi / 6, 0.2}, {pi / 2 - 0.005, pi / 6, 0.2}, {0, 0, -1}}));
   EXPECT_NEAR(t.values[0][0], 0.4, 1e-12);
   EXPECT_TRUE(std::isnan(t.values[0][1])) << "too near the horizon";
   EXPECT_EQ(t.values[0][2], -1);
@@ -71,7 +72,7 @@ TEST(AltaFile, DividesTheCosineOfTheViewOut) {
 TEST(AltaFile, NamesChannels) {
   const auto channels = [](const std::string& out, std::size_t n) {
     std::vector<double> row(2 + n, 0.1);
-    return read(alta_file("ISOTROPIC_TV_TL", out, 2, n, {row})).channels;
+    return table_of_alta(alta_file("ISOTROPIC_TV_TL", out, 2, n, {row})).channels;
   };
   EXPECT_EQ(channels("INV_STERADIAN", 1), std::vector<std::string>{"f"});
   EXPECT_EQ(channels("RGB_COLOR", 3), (std::vector<std::string>{"r", "g", "b"}));
@@ -81,12 +82,12 @@ TEST(AltaFile, NamesChannels) {
 TEST(AltaFile, ReadsOverIntervals) {
   const std::string head =
       "#DIM 2 2\n#VS 2\n#PARAM_IN ISOTROPIC_TV_TL\n#PARAM_OUT INV_STERADIAN\n# DIM 7 7\n";
-  const Table t = read(head +
-                       "0 0 1 2\n"
-                       "0 0 3 4 0 9\r\n"
-                       "\n"
-                       "# between\n"
-                       "0 0 5 6 0 9 0 9");
+  const Table t = table_of_alta(head +
+                                "0 0 1 2\n"
+                                "0 0 3 4 0 9\r\n"
+                                "\n"
+                                "# between\n"
+                                "0 0 5 6 0 9 0 9");
   EXPECT_EQ(t.values[0], (Values{1, 3, 5}));
   EXPECT_EQ(t.values[1], (Values{2, 4, 6}));
 }
@@ -112,7 +113,7 @@ TEST(AltaFile, MayBeBinaryInEitherByteOrder) {
       if (big) std::ranges::reverse(b);
       bytes += b;
     }
-    const Table t = read(bytes + "\n#END_STREAM\n");
+    const Table t = table_of_alta(bytes + "\n#END_STREAM\n");
     EXPECT_EQ(t.values[0], (Values{7, 8}));
     EXPECT_NEAR(t.list()->theta_i_deg[0], 0.25 / degree, 1e-12);
     EXPECT_NEAR(t.list()->theta_o_deg[1], 0.5 / degree, 1e-12);

@@ -15,18 +15,18 @@ constexpr const char* small =
     "theta_i,phi_i,theta_s,phi_s,R,G,B\r\n"
     "0.5,3.14159265358979,0.25,0,1,2,3\r\n0.5,0,-0.25,0.125,4,5,-6\r\n";
 
-Table read(const std::string& bytes) {
+Table table_of_astm(const std::string& bytes) {
   const Folder folder;
   return read_table(folder.write("m.astm", bytes));
 }
-std::string changed(std::string text, const std::string& from, const std::string& to) {
+std::string text_with(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, text.npos) << from;
   return text.replace(at, from.size(), to);
 }
 
 TEST(AstmFile, HasRadiansAndChannelsByTheirNames) {
-  const Table t = read(small);
+  const Table t = table_of_astm(small);
   EXPECT_EQ(t.format, "astm");
   EXPECT_EQ(t.channels, (std::vector<std::string>{"r", "g", "b"}));
   ASSERT_EQ(t.size(), 2U);
@@ -42,7 +42,8 @@ TEST(AstmFile, HasRadiansAndChannelsByTheirNames) {
 }
 
 TEST(AstmFile, MayHaveItsColumnsInAnyOrderAndAnglesInDegrees) {
-  const Table t = read("VARS Brdf,phi_s,theta_s,phi_i,theta_i\n0.25,180,30,0,5\n0.5,90,2,0,5\n");
+  const Table t =
+      table_of_astm("VARS Brdf,phi_s,theta_s,phi_i,theta_i\n0.25,180,30,0,5\n0.5,90,2,0,5\n");
   EXPECT_EQ(t.channels, std::vector<std::string>{"f"});
   EXPECT_EQ(t.values[0], (Values{0.25, 0.5}));
   const DirectionList& l = *t.list();
@@ -50,13 +51,13 @@ TEST(AstmFile, MayHaveItsColumnsInAnyOrderAndAnglesInDegrees) {
   EXPECT_EQ(l.theta_o_deg, (std::vector<double>{30, 2}));
   EXPECT_EQ(l.phi_o_deg, (std::vector<double>{180, 90}));
   EXPECT_EQ(t.notes.back().second, "degrees");
-  EXPECT_EQ(read(changed(small, "R,G,B", "450nm,550nm,650nm")).channels[1], "550nm");
+  EXPECT_EQ(table_of_astm(text_with(small, "R,G,B", "450nm,550nm,650nm")).channels[1], "550nm");
 }
 
 TEST(AstmFile, ThatDoesNotAddUpIsRefusedByItsLine) {
   const Folder folder;
   const auto with = [&](const std::string& from, const std::string& to) {
-    return folder.write("m", changed(small, from, to));
+    return folder.write("m", text_with(small, from, to));
   };
   EXPECT_COMPLAINT(with("POINTS 2", "POINTS 3"),
                    "line 3: found NUM_POINTS 3, expected 2, as there are rows");

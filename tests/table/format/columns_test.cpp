@@ -28,15 +28,15 @@ Table read(const std::string& text, const std::string& columns = "") {
   return read_table(folder / "t.csv");
 }
 /// Complaint of the reader, after the folder's name.
-std::string complaint(const std::string& text, const std::string& columns = "") {
+std::string complaint_of_columns(const std::string& text, const std::string& columns = "") {
   const std::string line = refusal([&] { read(text, columns); });
   return line.empty() ? line : line.substr(line.find("t.csv"));
 }
 void expect_complaint(const std::string& text,
                       const std::string& columns,
                       const std::string& holding) {
-  EXPECT_NE(complaint(text, columns).find(holding), std::string::npos)
-      << "instead: " << complaint(text, columns);
+  EXPECT_NE(complaint_of_columns(text, columns).find(holding), std::string::npos)
+      << "instead: " << complaint_of_columns(text, columns);
 }
 
 /// The samples as "theta_i phi_i theta_o phi_o: values".
@@ -152,7 +152,7 @@ TEST(ColumnMap, MustFitTheFile) {
   expect_complaint(file, angles + R"("f":"d")",
                    "line 1: found no column 'd' for f, expected one of a, b, c, c");
   expect_complaint(file, angles + R"("f":"c")", "column c: found a second column of that name");
-  EXPECT_EQ(complaint(file, angles + R"("f":"#4")"), "");
+  EXPECT_EQ(complaint_of_columns(file, angles + R"("f":"#4")"), "");
   expect_complaint(file, angles + R"("f":"#5")", "no column '#5'");
   expect_complaint(file, angles + R"("f":"#0")", "no column '#0'");
   expect_complaint(file, R"("theta_i":"a","f":"#3")", "no column 'theta_o' for theta_o");
@@ -324,13 +324,14 @@ TEST(CsvFile, OfManyLinesNamesTheFirstThatIsWrongWhateverTheThreads) {
   const std::string place = "t.csv: line " + std::to_string(next);
   for (const std::size_t threads : {1, 2, 3}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    EXPECT_EQ(complaint(text + "30,0,20,180\n" + text.substr(std::strlen(kPlain)) + "x\n"),
-              place + ": found 4 fields, expected 5");
-    EXPECT_EQ(complaint(text + "270,0,20,180,1\n" + good + "1,2,3,4,y\n"),
+    EXPECT_EQ(
+        complaint_of_columns(text + "30,0,20,180\n" + text.substr(std::strlen(kPlain)) + "x\n"),
+        place + ": found 4 fields, expected 5");
+    EXPECT_EQ(complaint_of_columns(text + "270,0,20,180,1\n" + good + "1,2,3,4,y\n"),
               place +
                   ", column theta_i: found 270, expected a number in [0, 180] degrees (a "
                   "zenith angle; perhaps columns are swapped)");
-    EXPECT_EQ(complaint(text + "30,0,20,180,1e\n"),
+    EXPECT_EQ(complaint_of_columns(text + "30,0,20,180,1e\n"),
               place + ", column f: found '1e', expected a number");
   }
 }
@@ -367,8 +368,8 @@ TEST(CsvFile, MixesNoPointsAndCommasHoweverFarApart) {
   const std::string neither = "30;0;20;180;1\n";
   std::string commas = "theta_i;phi_i;theta_o;phi_o;f\n" + neither + "30;0;20;180;0,25\n";
   for (std::size_t i = 0; i < 2 * many; ++i) commas += neither;
-  EXPECT_EQ(complaint(commas), "");
-  EXPECT_EQ(complaint(commas + "30;0;20;180;0.25\n"),
+  EXPECT_EQ(complaint_of_columns(commas), "");
+  EXPECT_EQ(complaint_of_columns(commas + "30;0;20;180;0.25\n"),
             "t.csv: line 240004, column f: found 0.25, expected decimal points or decimal commas, "
             "not both");
 }
@@ -382,7 +383,7 @@ TEST(CsvFile, NamesDecimalCommasThatCannotBeTold) {
 }
 
 TEST(CsvFile, OfUnknownColumnsNamesThemAndTheCommand) {
-  const std::string said = complaint("lambda,thetai,phir\n1,2,3\n");
+  const std::string said = complaint_of_columns("lambda,thetai,phir\n1,2,3\n");
   EXPECT_NE(said.find("line 1: found columns lambda, thetai, phir, expected theta_i"), said.npos)
       << said;
   EXPECT_NE(said.find("gonio columns FILE --map"), said.npos) << said;
@@ -401,7 +402,7 @@ TEST(CsvFile, RefusesAnglesThatCannotBe) {
                    "column theta_i: found 30, expected a number in [-3.142, 3.142] radians");
   expect_complaint(std::string(kPlain) + "30,10,20,0,1\n120,10,20,0,1\n150,10,20,0,1\n", "",
                    "column theta_i: found 2 of 3 above 90°");
-  EXPECT_EQ(complaint(std::string(kPlain) + "30,10,20,0,1\n120,10,20,0,1\n"), "");
+  EXPECT_EQ(complaint_of_columns(std::string(kPlain) + "30,10,20,0,1\n120,10,20,0,1\n"), "");
 }
 
 std::string warnings_of(const Table& t) {

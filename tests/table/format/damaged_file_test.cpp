@@ -31,7 +31,7 @@ struct Sample {
 };
 
 /// A small file of each format.
-std::vector<Sample> samples() {
+std::vector<Sample> damaged_samples() {
   const Folder folder;
   const auto written = [&](const Table& t) {
     write_table(t, folder / "t");
@@ -67,7 +67,7 @@ std::vector<Sample> samples() {
 }
 
 TEST(DamagedFile, CutAnywhereIsRefused) {
-  for (const auto& [format, bytes, header, needs_all] : samples()) {
+  for (const auto& [format, bytes, header, needs_all] : damaged_samples()) {
     EXPECT_EQ(complaint_about(bytes).empty(), format != "merl") << format;
     for (std::size_t n = 0; n < bytes.size(); ++n) {
       const std::string said = complaint_about(bytes.substr(0, n));
@@ -78,7 +78,7 @@ TEST(DamagedFile, CutAnywhereIsRefused) {
 
 TEST(DamagedFile, WithAnyNumberInItsHeaderIsReadOrRefused) {
   std::mt19937_64 random(5);
-  for (const auto& [format, bytes, header, needs_all] : samples()) {
+  for (const auto& [format, bytes, header, needs_all] : damaged_samples()) {
     if (format == "klems" || format == "csv" || format == "astm") continue;  // text: see below
     for (std::size_t at = 0; at < std::min(header, bytes.size()); ++at)
       for (const std::uint64_t number :
@@ -93,7 +93,7 @@ TEST(DamagedFile, WithAnyNumberInItsHeaderIsReadOrRefused) {
 }
 
 TEST(DamagedFile, WithAnyWordForANumberIsReadOrRefused) {
-  for (const auto& [format, bytes, header, needs_all] : samples()) {
+  for (const auto& [format, bytes, header, needs_all] : damaged_samples()) {
     if (format != "klems" && format != "csv" && format != "alta text" && format != "astm" &&
         format != "ssdd")
       continue;
@@ -107,7 +107,7 @@ TEST(DamagedFile, WithAnyWordForANumberIsReadOrRefused) {
 
 TEST(DamagedFile, WithChangedBytesIsReadOrRefused) {
   std::mt19937_64 random(11);
-  for (const auto& [format, bytes, header, needs_all] : samples())
+  for (const auto& [format, bytes, header, needs_all] : damaged_samples())
     for (int round = 0; round < 300; ++round) {
       std::string changed = bytes;
       for (auto flips = 1 + random() % 4; flips > 0; --flips)

@@ -25,7 +25,7 @@ double uneven(const DirectionPair& p, std::size_t) {
   return 0.5 + 0.2 * p.wi.x + 0.1 * p.wi.y + 0.05 * p.wo.x - 0.03 * p.wo.y + 0.02 * p.wo.z;
 }
 
-void expect_values(const Table& t, const Brdf& f) {
+void expect_klems_values(const Table& t, const Brdf& f) {
   const SampleAngles at(t);
   for (std::size_t i = 0; i < t.size(); ++i)
     ASSERT_NEAR(t.values[0][i], f(at.directions(i), 0), 1e-7) << i;
@@ -38,7 +38,7 @@ TEST(KlemsFile, GivesBackTheFunctionAtItsPatches) {
     EXPECT_EQ(t.channels, std::vector<std::string>{"f"});
     EXPECT_EQ(t.size(), 73U * 73U);
     EXPECT_TRUE(t.weights.empty());
-    expect_values(t, uneven);
+    expect_klems_values(t, uneven);
   }
 }
 
@@ -75,7 +75,7 @@ TEST(KlemsFile, TakesVisibleReflectionFromTheFrontWhereItCan) {
 
 TEST(KlemsFile, SeenFromTheBackIsTurnedAboutX) {
   const Table t = read({.directions = {"Reflection Back"}, .f = uneven});
-  expect_values(t, [](DirectionPair p, std::size_t) {
+  expect_klems_values(t, [](DirectionPair p, std::size_t) {
     p.wi.y = -p.wi.y;
     p.wo.y = -p.wo.y;
     return uneven(p, 0);

@@ -11,14 +11,14 @@ namespace {
 
 using namespace test;
 
-Table read(const std::string& bytes) {
+Table table_of_ngan(const std::string& bytes) {
   const Folder folder;
   return read_table(folder.write("m.dat", bytes));
 }
 
 TEST(NganFile, HasItsAzimuthsFastestAndItsPlanesAsColours) {
   // 2 × 3 × 4 × 5 bins, each its number in the file.
-  const Table t = read(ngan_file({2, 3, 4, 5}, false, [](std::size_t k) { return k; }));
+  const Table t = table_of_ngan(ngan_file({2, 3, 4, 5}, false, [](std::size_t k) { return k; }));
   EXPECT_EQ(t.format, "ngan");
   EXPECT_EQ(t.channels, (std::vector<std::string>{"r", "g", "b"}));
   ASSERT_EQ(t.size(), 120U);
@@ -43,14 +43,14 @@ TEST(NganFile, HasItsAzimuthsFastestAndItsPlanesAsColours) {
 }
 
 TEST(NganFile, MayHoldHalfOfTheTurnBetweenLightAndViewer) {
-  const Table t = read(ngan_file({1, 1, 4, 1}, true, [](std::size_t) { return 1; }));
+  const Table t = table_of_ngan(ngan_file({1, 1, 4, 1}, true, [](std::size_t) { return 1; }));
   EXPECT_DOUBLE_EQ(t.list()->phi_i_deg[3], 180);
   EXPECT_DOUBLE_EQ(t.list()->phi_o_deg[3], 180 + 157.5);
 }
 
 TEST(NganFile, HasNegativesWhereNothingWasMeasured) {
   const Table t =
-      read(ngan_file({1, 1, 2, 1}, false, [](std::size_t k) { return k == 1 ? -1 : 2; }));
+      table_of_ngan(ngan_file({1, 1, 2, 1}, false, [](std::size_t k) { return k == 1 ? -1 : 2; }));
   EXPECT_FALSE(t.negative_is_noise);
   EXPECT_EQ(mask(SampleAngles(t)(1), t.values[0][1]), Mask::negative);
   EXPECT_EQ(mask(SampleAngles(t)(0), t.values[0][0]), Mask::valid);

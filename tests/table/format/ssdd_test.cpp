@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-Table read(const std::string& bytes) {
+Table table_of_ssdd(const std::string& bytes) {
   const Folder folder;
   return read_table(folder.write("m.ssdd", bytes));
 }
@@ -28,7 +28,7 @@ std::string one(const std::string& type,
 }
 /// wi and wo of that sample.
 std::string directions_of(const std::string& text) {
-  const Table t = read(text);
+  const Table t = table_of_ssdd(text);
   EXPECT_EQ(t.size(), 1U);
   const auto [wi, wo] = SampleAngles(t).directions(0);
   const auto shown = [](const Direction& d) {
@@ -72,7 +72,7 @@ constexpr const char* two_blocks =
     "5 -5\r\n6 -6\r\n7 -7 # seventh\r\n8 -8\r\n9 -9\r\n10 -10\r\n11 -11\r\n12 -12";
 
 TEST(SsddFile, HasItsFirstAngleFastestAndEachDirectionOnce) {
-  const Table t = read(two_blocks);
+  const Table t = table_of_ssdd(two_blocks);
   EXPECT_EQ(t.format, "ssdd");
   EXPECT_EQ(t.channels, (std::vector<std::string>{"450", "650.5"}));
   // θ_o = 0 has three names, of which the first counts: colours 5, 6, 9 and 10 fall out.
@@ -90,7 +90,7 @@ TEST(SsddFile, HasItsFirstAngleFastestAndEachDirectionOnce) {
 }
 
 TEST(SsddFile, TakesAnAzimuthOfAWholeTurnForNone) {
-  const Table t = read(
+  const Table t = table_of_ssdd(
       "VERSION 0.2\nDATA_TYPE brdf\nCOLOR_MODEL rgb\nPARAM_TYPE "
       "spherical_coordinate_system\nPARAM0_LIST 0 50\n"
       "PARAM1_LIST 0 180 360\nPARAM2_LIST 40\nPARAM3_LIST 0 360\nDATA ascii\n1 2 3\n4 5 6\n7 8 "
@@ -102,7 +102,7 @@ TEST(SsddFile, TakesAnAzimuthOfAWholeTurnForNone) {
 TEST(SsddFile, MayHaveItsNumbersInBinary) {
   std::string text = one("spherical", {30, 0, 60, 180});
   text.replace(text.find("ascii\n0.5\n"), 10, "binary\n" + bytes_of(0.25F) + "\n");
-  const Table t = read(text);
+  const Table t = table_of_ssdd(text);
   EXPECT_EQ(t.values[0], Values{0.25});
   const Folder folder;
   EXPECT_COMPLAINT(folder.write("m", text.substr(0, text.size() - 2)),
@@ -113,7 +113,8 @@ TEST(SsddFile, GoesOnRightAfterTheNumbersOfABlockInBinary) {
   std::string text = ssdd_file("specular", "binary", bytes_of(std::array{1.5F, 2.5F}));
   text.replace(text.find("brdf"), 4, "btdf");
   const std::string second = ssdd_file("spherical", "ascii", "3\n4\n");
-  EXPECT_EQ(read(text + second.substr(second.find("DATA_TYPE"))).values[0], (Values{3, 4}));
+  EXPECT_EQ(table_of_ssdd(text + second.substr(second.find("DATA_TYPE"))).values[0],
+            (Values{3, 4}));
 }
 
 TEST(SsddFile, NamesTheLineThatIsWrong) {

@@ -42,7 +42,7 @@ Table in_out(double alpha, double kd) {
   return filled(std::move(t), alpha, kd);
 }
 /// Five incident angles in the plane of incidence.
-Table in_plane(double alpha, double kd, double most_theta_i = 75) {
+Table in_plane_of(double alpha, double kd, double most_theta_i = 75) {
   DirectionList l;
   for (int k = 0; k < 5; ++k)
     for (double out = -85; out <= 85; out += 1) {
@@ -55,20 +55,20 @@ Table in_plane(double alpha, double kd, double most_theta_i = 75) {
   t.where = l;
   return filled(std::move(t), alpha, kd);
 }
-Table lambertian() {
+Table plain_lambertian() {
   return on_grid(mbsdf_grid(20, 20, Bins::centre), "mbsdf", {"f"},
                  [](const auto&, std::size_t) { return 0.2; });
 }
 
 TEST(Prospects, OfALambertianTableAreItsAlbedoAlone) {
   for (const char* of : {"alpha", "f0", "fresnel"})
-    EXPECT_EQ(verdict(lambertian(), of), Verdict::no);
-  EXPECT_EQ(verdict(lambertian(), "kd"), Verdict::yes);
-  EXPECT_EQ(verdict(lambertian(), "precision"), Verdict::yes);
+    EXPECT_EQ(verdict(plain_lambertian(), of), Verdict::no);
+  EXPECT_EQ(verdict(plain_lambertian(), "kd"), Verdict::yes);
+  EXPECT_EQ(verdict(plain_lambertian(), "precision"), Verdict::yes);
 }
 
 TEST(Prospects, OfATableOfZerosSayThatItIs) {
-  Table t = lambertian();
+  Table t = plain_lambertian();
   std::ranges::fill(t.values[0], 0);
   for (const auto& p : inspect(t).prospects) {
     EXPECT_EQ(p.because.find("nan"), std::string::npos) << p.of << ": " << p.because;
@@ -84,9 +84,9 @@ TEST(Prospects, OfAGlossyTableAreAllOfThem) {
 }
 
 TEST(Prospects, OfALobeNarrowerThanTheSamplesAreABound) {
-  EXPECT_EQ(verdict(in_plane(0.001, 0.2), "alpha"), Verdict::weakly);
-  EXPECT_EQ(verdict(in_plane(0.001, 0.2), "f0"), Verdict::weakly);
-  EXPECT_EQ(verdict(in_plane(0.1, 0.2), "alpha"), Verdict::yes);
+  EXPECT_EQ(verdict(in_plane_of(0.001, 0.2), "alpha"), Verdict::weakly);
+  EXPECT_EQ(verdict(in_plane_of(0.001, 0.2), "f0"), Verdict::weakly);
+  EXPECT_EQ(verdict(in_plane_of(0.1, 0.2), "alpha"), Verdict::yes);
 }
 
 TEST(Prospects, OfAVeryRoughLobeAreNoAlphaBySight) {
@@ -95,18 +95,18 @@ TEST(Prospects, OfAVeryRoughLobeAreNoAlphaBySight) {
 }
 
 TEST(Prospects, OfABaseThatIsTheLobesTailAreNoAlbedo) {
-  EXPECT_EQ(verdict(in_plane(0.3, 0), "kd"), Verdict::no);
-  EXPECT_EQ(verdict(in_plane(0.15, 0.5), "kd"), Verdict::yes);
+  EXPECT_EQ(verdict(in_plane_of(0.3, 0), "kd"), Verdict::no);
+  EXPECT_EQ(verdict(in_plane_of(0.15, 0.5), "kd"), Verdict::yes);
 }
 
 TEST(Prospects, OfFresnelNeedGrazingAngles) {
-  EXPECT_EQ(verdict(in_plane(0.1, 0.2, 80), "fresnel"), Verdict::yes);
-  EXPECT_EQ(verdict(in_plane(0.1, 0.2, 60), "fresnel"), Verdict::weakly);
-  EXPECT_EQ(verdict(in_plane(0.1, 0.2, 45), "fresnel"), Verdict::no);
+  EXPECT_EQ(verdict(in_plane_of(0.1, 0.2, 80), "fresnel"), Verdict::yes);
+  EXPECT_EQ(verdict(in_plane_of(0.1, 0.2, 60), "fresnel"), Verdict::weakly);
+  EXPECT_EQ(verdict(in_plane_of(0.1, 0.2, 45), "fresnel"), Verdict::no);
 }
 
 TEST(Prospects, OfIntervalsNeedIncidentAngles) {
-  EXPECT_EQ(verdict(in_plane(0.1, 0.2), "intervals"), Verdict::weakly);
+  EXPECT_EQ(verdict(in_plane_of(0.1, 0.2), "intervals"), Verdict::weakly);
   EXPECT_EQ(verdict(mbsdf_example(), "intervals"), Verdict::yes);
 }
 
@@ -121,7 +121,7 @@ TEST(Prospects, AreDimWhereTheNoiseFloorIsHigherThanTheBase) {
 }
 
 TEST(Prospects, OfATableWithoutAValidValueAreNone) {
-  Table t = lambertian();
+  Table t = plain_lambertian();
   for (double& v : t.values[0]) v = -1;
   const auto h = inspect(t);
   ASSERT_EQ(h.prospects.size(), 1U);
