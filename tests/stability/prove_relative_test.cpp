@@ -36,9 +36,10 @@ double worst_found(const Subject& s, const std::vector<Range>& domain, const Rou
   double worst = 0;
   const auto value = [&]<class T>(const std::vector<T>& in) {
     const auto all = std::span<const T>(in);
-    return as_function<Term, T>(all.first(s.parameters),
-                                angles_of<T>(s.given, all.subspan(s.parameters)))
-        .value();
+    const auto row = angles_of<T>(s.given, all.subspan(s.parameters));
+    Quotient<T> q;
+    term_at<Term, T>(all.first(s.parameters), {&row, 1}, &q);
+    return q.value();
   };
   for (std::size_t k = 0; k < test::few(300'000, 3'000); ++k) {
     std::vector<AnyMachine<F>> in;

@@ -33,8 +33,10 @@ struct Of {
 
   template <class T>
   static T value(std::span<const T> in) {
-    return as_function<Term, T>(in.first(parameters), angles_of<T>(given, in.subspan(parameters)))
-        .value();
+    const auto row = angles_of<T>(given, in.subspan(parameters));
+    Quotient<T> q;
+    term_at<Term, T>(in.first(parameters), {&row, 1}, &q);
+    return q.value();
   }
 };
 
