@@ -13,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/record.h"
 #include "brdf/model/spec.h"
 #include "table/table.h"
 
@@ -46,6 +47,23 @@ Array owning(Numbers numbers, std::initializer_list<std::size_t> shape) {
 /// A parameter's name, its numbers, and its text where it is no number.
 using Settings = std::vector<std::tuple<std::string, std::vector<double>, std::string>>;
 std::vector<Setting> settings_from(const Settings&);
+
+/// What a struct of options declares: (name, annotation, meaning, default) of each.
+nb::list declared(const RecordType&);
+/// Sets those that a call gives.
+void take(const RecordType&, void* to, const nb::dict& given);
+/// Class of a struct of options, made of a call's keywords.
+template <class Options>
+void bind_options(nb::module_& m, const char* name) {
+  nb::class_<Options>(m, name)
+      .def("__init__",
+           [](Options* at, const nb::dict& given) {
+             Options made;
+             take(record_of<Options>, &made, given);
+             new (at) Options(std::move(made));
+           })
+      .def_static("declared", [] { return declared(record_of<Options>); });
+}
 
 /// Convention of that name; of no name none.
 std::optional<Bins> bins_named(const std::optional<std::string>& name);
