@@ -41,12 +41,12 @@ struct StackSynthOptions {
 template <>
 inline constexpr auto description<StackSynthOptions> = std::tuple{
     Field{"parameters", &StackSynthOptions::parameters,
-          "map: image with a channel for each parameter that varies, as alpha or kd.R"},
-    Field{"normals", &StackSynthOptions::normals, "map: image of normals, linear in [-1, 1]"},
-    Field{"images", &StackSynthOptions::images, "map: number of images, of directions at random",
+          "Map: image with a channel for each parameter that varies, as alpha or kd.R"},
+    Field{"normals", &StackSynthOptions::normals, "Map: image of normals, linear in [-1, 1]"},
+    Field{"images", &StackSynthOptions::images, "Map: number of images, of directions at random",
           Numbers{1, 512}},
-    Field{"values", &StackSynthOptions::values, "map: f_r, or f_r_cosine: what a camera sees"},
-    Field{"images_as", &StackSynthOptions::format, "map: format of the images"}};
+    Field{"values", &StackSynthOptions::values, "Map: f_r, or f_r_cosine: what a camera sees"},
+    Field{"images_as", &StackSynthOptions::format, "Map: format of the images"}};
 
 /// Writes a stack into a folder: stack.json, an image for each pair of directions, parameters.exr with the model's parameters, and normals.exr where there
 /// are any.  Nothing is left there where it fails.  Values are 0 below the horizon, and NaN where a parameter is or the normal is none.

@@ -6,9 +6,6 @@
 #include "reports/pages/models_page.h"
 #include "table/format/formats.h"
 
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/vector.h>
-
 namespace gonio::python {
 namespace {
 

@@ -13,10 +13,6 @@
 #include "reports/audit/audit.h"
 
 #include <fmt/format.h>
-#include <nanobind/stl/map.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
-#include <nanobind/stl/vector.h>
 #include <tbb/task_arena.h>
 
 namespace gonio::python {

@@ -1,12 +1,11 @@
 #include "cli/line/command_line.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "base/nearest.h"
+#include "base/numbers.h"
 #include "base/options.h"
 #include "base/text.h"
 
@@ -62,75 +61,6 @@ std::vector<std::string> Option::given() const {
   return words;
 }
 
-namespace {
-
-template <class N>
-std::optional<N> number_in(const std::string& word) {
-  N n{};
-  return CLI::detail::lexical_cast(word, n) ? std::optional(n) : std::nullopt;
-}
-
-bool set_whole(const ValueType& t, void* value, std::optional<std::int64_t> n) {
-  if (n) t.set_whole(value, *n);
-  return n && t.whole(value) == *n;
-}
-
-/// Sets a value to what words say.  \return  false where they say none
-bool set_from(const ValueType& t,
-              const Rules& rules,
-              void* value,
-              std::span<const std::string> words) {
-  const std::string& word = words[0];
-  if (t.read_words) return t.read_words(value, words), true;
-  if (const auto names = choices_of(t, rules); !names.empty()) {
-    const auto at = std::ranges::find(names, word);
-    if (at != names.end()) t.set_whole(value, at - names.begin());
-    return at != names.end();
-  }
-  switch (t.kind) {
-    case ValueKind::text:
-      return t.set_text(value, std::string(word)), true;
-    case ValueKind::number:
-      if (const auto x = number_in<double>(word)) return t.set_number(value, *x), true;
-      return false;
-    case ValueKind::whole:
-      if (t.is_signed) return set_whole(t, value, number_in<std::int64_t>(word));
-      return set_whole(t, value, number_in<std::uint64_t>(word));
-    default:  // an optional, or a list
-      t.clear(value);
-      return std::ranges::all_of(words, [&](const std::string& entry) {
-        return set_from(*t.of, rules, t.append(value, {}), {&entry, 1});
-      });
-  }
-}
-
-/// Value as a call would give it; empty where it is none, or a list.
-std::string text_of(const ValueType& t, const Rules& rules, const void* value) {
-  if (const auto names = choices_of(t, rules); !names.empty())
-    return std::string(names[static_cast<std::size_t>(t.whole(value))]);
-  std::string text;
-  switch (t.kind) {
-    case ValueKind::text:
-      return std::string(t.text(value));
-    case ValueKind::number:
-      return fmt::format("{:g}", t.number(value));
-    case ValueKind::whole:
-      return std::to_string(t.whole(value));
-    case ValueKind::optional:
-      t.each(value,
-             [&](std::string_view, const void* held) { text = text_of(*t.of, rules, held); });
-      return text;
-    default:
-      return text;
-  }
-}
-
-std::string not_below_0(const std::string& word) {
-  return word.starts_with('-') ? "'" + word + "' is below 0" : "";
-}
-
-}  // namespace
-
 Option Command::option(const std::string& names,
                        const ValueType& t,
                        void* value,
@@ -138,8 +68,10 @@ Option Command::option(const std::string& names,
                        const Rules& rules) {
   auto* const o = app_->add_option(
       names,
-      [&t, value, rules](const CLI::results_t& words) { return set_from(t, rules, value, words); },
-      help, false, [&t, value, rules] { return text_of(t, rules, value); });
+      [&t, value, rules](const CLI::results_t& words) {
+        return set_from_words(t, rules, value, words);
+      },
+      help, false, [&t, value, rules] { return word_of(t, rules, value); });
   const bool list = t.kind == ValueKind::list;
   const ValueType& of = list || t.kind == ValueKind::optional ? *t.of : t;
   const bool number = of.kind == ValueKind::number, whole = of.kind == ValueKind::whole;
@@ -147,7 +79,10 @@ Option Command::option(const std::string& names,
   if (list) o->expected(CLI::detail::expected_max_vector_size);
   if (const auto all = choices_of(of, rules); !all.empty())
     o->check(CLI::IsMember(std::vector<std::string>(all.begin(), all.end())));
-  if (whole && !of.is_signed) o->check(not_below_0);
+  if (whole && !of.is_signed)
+    o->check([](const std::string& word) {
+      return word.starts_with('-') ? "'" + word + "' is below 0" : std::string();
+    });
   if (rules.has_numbers) {
     const auto end = [&](double x) {
       return fmt::format(fmt::runtime(whole ? "{:.0f}" : "{:g}"), x);
@@ -155,7 +90,7 @@ Option Command::option(const std::string& names,
     const auto [low, high] = std::pair(end(rules.numbers.low), end(rules.numbers.high));
     o->check(CLI::Validator(
         [numbers = rules.numbers, low = low, high = high](const std::string& word) {
-          const auto x = number_in<double>(word);
+          const auto x = number_from<double>(word);
           if (x && numbers.holds(*x)) return std::string();
           return fmt::format("Value {} not in range {} to {}", word, low, high);
         },
@@ -173,8 +108,10 @@ std::vector<Option> Command::options(const RecordType& record, void* at) {
   for_each_option(record, at, [&](const RecordField& f, void* value) {
     std::string name = "--" + std::string(f.name), help = help_of(f);
     std::ranges::replace(name, '_', '-');
-    help[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(help[0])));
-    if (f.type->kind == ValueKind::truth && choices_of(*f.type, f.rules).empty()) {
+    // As a sentence; "auto: …" begins with a value's name.
+    if (help.find(':') > help.find(' ') && help[0] >= 'a')
+      help[0] = static_cast<char>(help[0] - 'a' + 'A');
+    if (is_flag(f)) {
       all.push_back(flag(name, *static_cast<bool*>(value), help));
       return;
     }

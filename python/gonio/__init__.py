@@ -245,9 +245,9 @@ _examples = {"fix": '{"f0": 0.05}', "bounds": '{"alpha": (0.05, 0.5)}'}
 def _with_options(options: type[Any], rest: str = "") -> Callable[[_Function], _Function]:
     """Function whose keywords are those that a struct of the program declares, with their defaults, and their meanings in its doc.
 
-    It is called with ``options`` made of them, and with all others as ``rest``.
+    It is called with ``options`` made of them; others go to ``rest``.
     """
-    declared = {name: (annotation, about, default) for name, annotation, about, default in options.declared()}
+    declared = {name: (annotation, about, _default(annotation, word)) for name, annotation, about, word in options.declared()}
 
     def declare(function: _Function) -> _Function:
         own = _inspect.signature(function)
@@ -258,11 +258,12 @@ def _with_options(options: type[Any], rest: str = "") -> Callable[[_Function], _
         signature = own.replace(parameters=kept + last)
 
         @_functools.wraps(function)
-        def call(*words: Any, **named: Any) -> Any:
-            given = signature.bind(*words, **named).arguments
-            taken = {name: _value(name, declared[name][0], given.pop(name)) for name in declared if name in given}
-            others = given.pop(rest, {}) if rest else {}
-            return function(**given, options=options(taken), **others)
+        def call(*positions: Any, **named: Any) -> Any:
+            given = signature.bind(*positions, **named).arguments
+            taken = {name: given.pop(name) for name in declared if name in given}
+            others = given.pop(rest, {})
+            words = {name: _in_words(name, declared[name][0], value) for name, value in taken.items() if value is not None}
+            return function(**others, options=options(words), **given)
 
         call.__signature__ = signature  # type: ignore[attr-defined]
         meanings = [f"{name}: {about}{', as ' + _examples[name] if name in _examples else ''}." for name, (_, about, _) in declared.items()]
@@ -271,15 +272,23 @@ def _with_options(options: type[Any], rest: str = "") -> Callable[[_Function], _
     return declare
 
 
-def _value(name: str, annotation: str, given: Any) -> Any:
-    """An option as the module takes it."""
-    if given is None:
-        return None
+def _default(annotation: str, word: str) -> Any:
+    """A declared default; None where there is no word for it."""
+    if annotation.startswith("Iterable"):
+        return ()
+    read = {"int": int, "float": float, "bool": "true".__eq__}.get(annotation, str)
+    return read(word) if word else None
+
+
+def _in_words(name: str, annotation: str, value: Any) -> list[str]:
+    """An option's value as the program's words."""
     if annotation.startswith("Mapping"):
-        return _settings(_by_name(name, given, _examples[name]))
+        return [f"{key}={text or ','.join(map(repr, numbers))}" for key, numbers, text in _settings(_by_name(name, value, _examples[name]))]
     if annotation == "Iterable[str]":
-        return _words(given)
-    return _numbers(name, given).reshape(-1).tolist() if annotation == "Iterable[float]" else given
+        return _words(value)
+    if annotation == "Iterable[float]":
+        return [repr(x) for x in _numbers(name, value).reshape(-1).tolist()]
+    return [str(value).lower() if isinstance(value, (bool, _np.bool_)) else str(value)]
 
 
 def read(path: Path, *, bins: str | None = None) -> Table:
