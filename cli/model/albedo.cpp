@@ -41,7 +41,8 @@ void print(const AlbedoAnswer& r, const AlbedoQuestion& q) {
       fmt::print("  {:.10f}", a.value[c]);
     fmt::print("  ± {:.1e}\n", a.error);
   };
-  fmt::print("{:>10}  albedo{}\n", "mu", q.scattering == Scattering::walk ? " ± standard error" : "");
+  fmt::print("{:>10}  albedo{}\n", "mu",
+             q.scattering == Scattering::walk ? " ± standard error" : "");
   for (std::size_t i = 0; i < r.at.size(); ++i) line(fmt::format("{}", q.mu[i]), r.at[i]);
   if (r.average) line("average", *r.average);
 }

@@ -50,7 +50,7 @@ void print(const Table& t, const SynthCall& o) {
                         fmt::to_string(fmt::join(t.channels, " ")), how));
 }
 
-/// SynthCall that a layout does not read are refused: what was asked for would not be done.
+/// Options that a layout does not read are refused: what was asked for would not be done.
 void expect_options_of(const SynthCall& o) {
   const bool map = o.layout == map_layout;
   const auto given = [](const std::vector<Option>& options, auto... names) {
