@@ -8,7 +8,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 
+#include "base/describe.h"
 #include "base/names.h"
 #include "brdf/model/model.h"
 #include "image/exr.h"
@@ -35,6 +37,16 @@ struct StackSynthOptions {
   double noise = 0;  ///< values are multiplied by exp(noise · z), z standard normal
   std::uint64_t seed = 1;
 };
+/// What `gonio synth` takes for stacks alone.
+template <>
+inline constexpr auto description<StackSynthOptions> = std::tuple{
+    Field{"parameters", &StackSynthOptions::parameters,
+          "Map: image with a channel for each parameter that varies, as alpha or kd.R"},
+    Field{"normals", &StackSynthOptions::normals, "Map: image of normals, linear in [-1, 1]"},
+    Field{"images", &StackSynthOptions::images, "Map: number of images, of directions at random",
+          Numbers{1, 512}},
+    Field{"values", &StackSynthOptions::values, "Map: f_r, or f_r_cosine: what a camera sees"},
+    Field{"images_as", &StackSynthOptions::format, "Map: format of the images"}};
 
 /// Writes a stack into a folder: stack.json, an image for each pair of directions, parameters.exr with the model's parameters, and normals.exr where there
 /// are any.  Nothing is left there where it fails.  Values are 0 below the horizon, and NaN where a parameter is or the normal is none.

@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 
+#include "base/describe.h"
 #include "base/names.h"
 #include "brdf/model/model.h"
 #include "table/table.h"
@@ -28,16 +30,29 @@ template <>
 inline constexpr std::array<std::string_view, 8> names_of<Layout>{
     "merl", "mbsdf", "utia", "in_plane", "rgl", "image_slice", "hemisphere", "random"};
 
+/// From its description follow options of `gonio synth` and keywords of Python's `synth`.
 struct SynthOptions {
   Layout layout = Layout::merl;
-  Bins bins = Bins::centre;    ///< of grids with bins
-  std::size_t samples = 2000;  ///< of the random layout
-  std::size_t slice = 90;      ///< bins of an image slice along each axis
-  double noise = 0;            ///< values are multiplied by exp(noise · z), z standard normal
-  double floor = 0;            ///< added to every value before the noise [1/sr]
-  double outliers = 0;         ///< share of samples multiplied by 10^u, u uniform in [−2, 2]
+  Bins bins = Bins::centre;
+  std::size_t samples = 2000;
+  std::size_t slice = 90;  ///< bins of an image slice along each axis
+  double noise = 0;
+  double floor = 0;
+  double outliers = 0;  ///< share of samples multiplied by 10^u, u uniform in [−2, 2]
   std::uint64_t seed = 1;
 };
+template <>
+inline constexpr auto description<SynthOptions> = std::tuple{
+    Field{"bins", &SynthOptions::bins, "where samples sit in their bins, of layouts with bins"},
+    Field{"samples", &SynthOptions::samples, "number of samples of the random layout",
+          Numbers{1, 1e7}},
+    Field{"noise", &SynthOptions::noise,
+          "multiplies each value by exp(NOISE · z), z standard normal", Numbers{0, 5}},
+    Field{"floor", "1/sr", &SynthOptions::floor, "added to every value before the noise",
+          Numbers{0, 1e6}},
+    Field{"outliers", &SynthOptions::outliers, "share of samples thrown off by up to 100 times",
+          Numbers{0, 1}},
+    Field{"seed", &SynthOptions::seed, "the same table for the same seed, whatever the threads"}};
 
 /// Directions of the random layout, less than 87° from the normal.
 DirectionList random_pairs(std::size_t n, std::uint64_t seed);

@@ -1,15 +1,10 @@
 // Fits: of a file or of a table in memory, one model or several beside each other.
 #include "base/error.h"
-#include "fitting/batch/fit_file.h"
+#include "fitting/batch/batch.h"
 #include "fitting/choice/document.h"
 #include "module.h"
 #include "reports/pages/models_page.h"
 #include "table/format/formats.h"
-
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
-#include <nanobind/stl/vector.h>
 
 namespace gonio::python {
 namespace {
@@ -18,39 +13,20 @@ void let_interrupt_at(const std::string&) {
   let_interrupt();
 }
 
-FitOptions options(const std::string& model,
-                   const Settings& fix,
-                   const Settings& bounds,
-                   const std::vector<std::string>& grey,
-                   const std::string& metric,
-                   bool robust,
-                   const std::string& intervals,
-                   bool copies,
-                   const std::string& certificate) {
-  FitOptions o;
-  o.model = model;
-  o.fixed = settings_from(fix);
-  o.bounds = settings_from(bounds);
-  o.grey = grey;
-  o.metric = value_of<Metric>(metric, "metric");
-  o.robust = robust;
-  o.intervals = value_of<Intervals>(intervals, "intervals");
-  o.copies = copies;
-  o.certificate = value_of<Certify>(certificate, "certificate");
-  return o;
+/// How a table in memory is fitted.
+const FitOptions& of_table(const HowFitted& how) {
+  if (how.bins) throw wrong_usage("bins: of a file; a table that was read has its own");
+  return how.options;
 }
 
-std::string fit_path(const std::string& path,
-                     const std::optional<std::string>& bins,
-                     const FitOptions& o,
-                     int jobs) {
+std::string fit_path(const std::string& path, const HowFitted& how, int jobs) {
   const Jobs threads(jobs);
-  return to_json(fit_file(path, bins_named(bins), o, let_interrupt_at).result.document);
+  return to_json(fit_file(path, how.bins, how.options, let_interrupt_at).result.document);
 }
 
-std::string fit_table(const Table& t, const FitOptions& o, int jobs) {
+std::string fit_table(const Table& t, const HowFitted& how, int jobs) {
   const Jobs threads(jobs);
-  FitDocument d = fit(t, o, [](const char*) { let_interrupt(); }).document;
+  FitDocument d = fit(t, of_table(how), [](const char*) { let_interrupt(); }).document;
   d.input_path = t.path;
   d.input_sha256 = t.sha256;
   return to_json(d);
@@ -70,22 +46,21 @@ std::string compare(const Table& t,
 }
 
 std::string compare_path(const std::string& path,
-                         const std::optional<std::string>& bins,
-                         const FitOptions& o,
+                         const HowFitted& how,
                          const std::vector<std::string>& models,
                          int jobs) {
   const Jobs threads(jobs);
-  TableAndDigest in(path, bins_named(bins));
+  TableAndDigest in(path, how.bins);
   in.table.path = path;
-  return compare(in.table, o, models, [&] { in.finish(); });
+  return compare(in.table, how.options, models, [&] { in.finish(); });
 }
 
 std::string compare_table(const Table& t,
-                          const FitOptions& o,
+                          const HowFitted& how,
                           const std::vector<std::string>& models,
                           int jobs) {
   const Jobs threads(jobs);
-  return compare(t, o, models, [] {});
+  return compare(t, of_table(how), models, [] {});
 }
 
 }  // namespace
@@ -93,14 +68,11 @@ std::string compare_table(const Table& t,
 void bind_fits(nb::module_& m) {
   using namespace nb::literals;
   const nb::call_guard<nb::gil_scoped_release> others_run;
-  nb::class_<FitOptions>(m, "FitOptions");
-  m.def("fit_options", &options, "model"_a, "fix"_a, "bounds"_a, "grey"_a, "metric"_a, "robust"_a,
-        "intervals"_a, "copies"_a, "certificate"_a);
-  m.def("fit_path", &fit_path, "path"_a, "bins"_a.none(), "options"_a, "jobs"_a, others_run);
-  m.def("fit_table", &fit_table, "table"_a, "options"_a, "jobs"_a, others_run);
-  m.def("compare_path", &compare_path, "path"_a, "bins"_a.none(), "options"_a, "models"_a, "jobs"_a,
-        others_run);
-  m.def("compare_table", &compare_table, "table"_a, "options"_a, "models"_a, "jobs"_a, others_run);
+  bind_options<HowFitted>(m, "HowFitted");
+  m.def("fit_path", &fit_path, "path"_a, "how"_a, "jobs"_a, others_run);
+  m.def("fit_table", &fit_table, "table"_a, "how"_a, "jobs"_a, others_run);
+  m.def("compare_path", &compare_path, "path"_a, "how"_a, "models"_a, "jobs"_a, others_run);
+  m.def("compare_table", &compare_table, "table"_a, "how"_a, "models"_a, "jobs"_a, others_run);
 }
 
 }  // namespace gonio::python

@@ -13,11 +13,6 @@
 #include "reports/audit/audit.h"
 
 #include <fmt/format.h>
-#include <nanobind/stl/map.h>
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
-#include <nanobind/stl/vector.h>
 #include <tbb/task_arena.h>
 
 namespace gonio::python {
@@ -86,17 +81,9 @@ Owned interpolate(const Table& t,
 
 std::string albedo(const ModelArgument& m,
                    const std::string& name,
-                   const std::vector<double>& mu,
-                   double phi,
-                   const std::string& scattering,
-                   std::optional<double> error,
-                   std::optional<std::uint64_t> seed,
-                   std::optional<std::size_t> walks,
-                   bool average,
-                   bool furnace,
+                   const AlbedoQuestion& q,
                    int jobs) {
   const Jobs threads(jobs);
-  const AlbedoQuestion q{mu, phi, scattering, error, seed, walks, average, furnace};
   const auto step = [](const std::string&, std::size_t, std::size_t) { let_interrupt(); };
   return to_json(albedo_of(m.model, name, q, step), q);
 }
@@ -117,27 +104,11 @@ Owned term(const std::string& id,
 
 Table synth(const ModelArgument& m,
             const std::string& layout,
-            const std::optional<std::string>& bins,
-            std::size_t samples,
-            double noise,
-            double floor,
-            double outliers,
-            std::uint64_t seed,
+            const SynthOptions& options,
             int jobs) {
   const Jobs threads(jobs);
-  const auto within = [](const char* name, double x, double low, double high) {
-    if (!(x >= low && x <= high))
-      throw wrong_usage(
-          fmt::format("{}: found {}, expected a number in [{}, {}]", name, x, low, high));
-  };
-  within("samples", static_cast<double>(samples), 1, 1e7);
-  within("noise", noise, 0, 5);
-  within("floor", floor, 0, 1e6);
-  within("outliers", outliers, 0, 1);
-  SynthOptions s;
+  SynthOptions s = options;
   s.layout = value_of<Layout>(layout, "layout");
-  s.bins = bins_named(bins).value_or(Bins::centre);
-  s.samples = samples, s.noise = noise, s.floor = floor, s.outliers = outliers, s.seed = seed;
   Table t = synthesize(m.model, s);
   t.path = "synth";
   return t;
@@ -186,11 +157,11 @@ void bind_models(nb::module_& m) {
         "theta_o"_a.noconvert(), "phi_o"_a.noconvert(), "jobs"_a);
   m.def("interpolate", &interpolate, "table"_a, "theta_i"_a.noconvert(), "phi_i"_a.noconvert(),
         "theta_o"_a.noconvert(), "phi_o"_a.noconvert());
-  m.def("albedo", &albedo, "model"_a, "name"_a, "mu"_a, "phi"_a, "scattering"_a, "error"_a.none(),
-        "seed"_a.none(), "walks"_a.none(), "average"_a, "furnace"_a, "jobs"_a, others_run);
+  bind_options<AlbedoQuestion>(m, "AlbedoQuestion");
+  m.def("albedo", &albedo, "model"_a, "name"_a, "question"_a, "jobs"_a, others_run);
   m.def("term", &term, "id"_a, "number"_a, "parameters"_a, "at"_a);
-  m.def("synth", &synth, "model"_a, "layout"_a, "bins"_a.none(), "samples"_a, "noise"_a, "floor"_a,
-        "outliers"_a, "seed"_a, "jobs"_a, others_run);
+  bind_options<SynthOptions>(m, "SynthOptions");
+  m.def("synth", &synth, "model"_a, "layout"_a, "options"_a, "jobs"_a, others_run);
   m.def("audit", &audit_of, "ids"_a, "jobs"_a, others_run);
   m.def(
       "models", [](const std::string& word) { return to_json(entries_with(word)); }, "word"_a);

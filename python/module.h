@@ -6,6 +6,7 @@
 /// Every call that works lets other threads of Python run meanwhile.
 
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,11 +14,16 @@
 #include <tuple>
 #include <vector>
 
+#include "base/record.h"
 #include "brdf/model/spec.h"
 #include "table/table.h"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 #include <tbb/global_control.h>
 
 namespace gonio::python {
@@ -46,6 +52,25 @@ Array owning(Numbers numbers, std::initializer_list<std::size_t> shape) {
 /// A parameter's name, its numbers, and its text where it is no number.
 using Settings = std::vector<std::tuple<std::string, std::vector<double>, std::string>>;
 std::vector<Setting> settings_from(const Settings&);
+
+/// What a struct of options declares: name, annotation, meaning and default of each.
+using Declared = std::vector<std::tuple<std::string, std::string, std::string, std::string>>;
+Declared declared(const RecordType&);
+/// Words of options, by their names.
+using Words = std::map<std::string, std::vector<std::string>>;
+void take(const RecordType&, void* to, const Words& given);
+/// Class of a struct of options, made of a call's words.
+template <class Options>
+void bind_options(nb::module_& m, const char* name) {
+  nb::class_<Options>(m, name)
+      .def("__init__",
+           [](Options* at, const Words& given) {
+             Options made;
+             take(record_of<Options>, &made, given);
+             new (at) Options(std::move(made));
+           })
+      .def_static("declared", [] { return declared(record_of<Options>); });
+}
 
 /// Convention of that name; of no name none.
 std::optional<Bins> bins_named(const std::optional<std::string>& name);

@@ -8,8 +8,6 @@
 #include "table/health/health.h"
 
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/vector.h>
 
 namespace gonio::python {
 namespace {

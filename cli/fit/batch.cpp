@@ -1,4 +1,6 @@
 // gonio batch: a batch in parts, written for the programs that share work among machines.
+#include "fitting/batch/batch.h"
+
 #include <algorithm>
 #include <filesystem>
 
@@ -18,9 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct BatchCall : Common {
-  std::string engine, output, results = "results";
+  Engine engine{};
+  std::string output, results = "results";
   std::vector<std::string> files;
-  FitWords how;
+  HowFitted how;
   bool pages = false;
   std::optional<std::size_t> parts;
   std::vector<Option> for_fit;  ///< those that the parts are given
@@ -42,16 +45,15 @@ std::string begun_by(Engine engine, const std::string& file) {
 
 Exit run(const BatchCall& o) {
   constexpr std::size_t usual_parts = 8;
-  const Engine engine = value_of<Engine>(o.engine, "engine");
   if (!is_batch(o.files))
     throw wrong_usage("parts are of many tables: a folder, several files, or @LIST");
-  check(how_fitted(o.how).options);
+  check(o.how.options);
   Job job{this_program(), fs::current_path().string(), o.files, {}, o.results, 0, 1, o.jobs};
   for (const auto& option : o.for_fit)
     std::ranges::copy(option.given(), std::back_inserter(job.options));
   job.tables = tables_of(o.files).size();
   job.parts = o.parts.value_or(std::min(usual_parts, job.tables));
-  const std::string text = job_text(engine, job), then = gather_command(job);
+  const std::string text = job_text(o.engine, job), then = gather_command(job);
   if (o.output.empty() && o.json)
     throw wrong_usage("--json prints a document: the job goes to -o FILE");
   if (o.output.empty()) {
@@ -62,9 +64,9 @@ Exit run(const BatchCall& o) {
   for (const auto& f : o.files) read.push_back(f.starts_with('@') ? f.substr(1) : f);
   check_outputs(read, {o.output});
   write_file(o.output, text);
-  const std::string begin = begun_by(engine, o.output);
+  const std::string begin = begun_by(o.engine, o.output);
   if (o.json) {
-    print_document({{"engine", o.engine},
+    print_document({{"engine", name_of(o.engine)},
                     {"output", o.output},
                     {"tables", job.tables},
                     {"parts", job.parts},
@@ -93,13 +95,12 @@ void add_batch(CommandLine& line) {
   c.option("--write", o->engine,
            "slurm: an array of sbatch, whose tasks are begun again when a node is lost; openjd: a "
            "template of Open Job Description; commands: one a line, for GNU parallel or cuecmd")
-      .one_of(names_of<Engine>)
       .required();
   c.option("--parts", o->parts, "How many parts (default: 8, or one for each table)")
       .in(std::size_t{1}, std::size_t{1'000'000});
   c.option("--results", o->results, "The folder for the results").show_default();
   c.option("-o,--output", o->output, "The job (default: it is printed)");
-  o->for_fit = add_fit_words(c, o->how);
+  o->for_fit = c.options(o->how);
   o->for_fit.push_back(add_pages(c, o->pages));
   c.option("--jobs", o->jobs, "Threads of each part").in(1, 1024).show_default();
   add_output(c, *o);

@@ -18,7 +18,8 @@ namespace gonio::cli {
 namespace {
 
 struct ExportCall : Common {
-  std::string fit, target, output;
+  std::string fit, output;
+  ExportTarget target{};
   double tolerance = default_export_tolerance;
 };
 
@@ -47,7 +48,6 @@ Exit run(const ExportCall& o) {
   if (!std::isfinite(o.tolerance) || o.tolerance < 0)
     throw wrong_usage("--tolerance: expected a number from 0 on");
   check_outputs({o.fit}, {o.output});
-  const auto target = *find_value<ExportTarget>(o.target);
   OutputFile out(o.output);
   Progress progress(o.quiet);
   progress("exporting");
@@ -55,7 +55,7 @@ Exit run(const ExportCall& o) {
   const FittedModel fitted = parse_fitted_model(o.fit, bytes);
   std::optional<std::size_t> channels;
   if (!fitted.channels.empty()) channels = fitted.channels.size();
-  const Export e = export_fit(target, o.fit, bind_fitted(o.fit, fitted, channels), o.tolerance);
+  const Export e = export_fit(o.target, o.fit, bind_fitted(o.fit, fitted, channels), o.tolerance);
   out.write(file_of(e, bytes));
   out.commit();
   progress.clear();
@@ -75,7 +75,7 @@ void add_export(CommandLine& line) {
                                "from the fit, and keeps the fit in the file",
                                "gonio export fit.json --to gltf -o paint.gltf", run);
   c.option("FIT", o->fit, "Document of a fit").required();
-  c.option("--to", o->target, "Format of the file").one_of(names_of<ExportTarget>).required();
+  c.option("--to", o->target, "Format of the file").required();
   c.option("--tolerance", o->tolerance,
            "Distance (RMS, relative) above which parameters are fitted again in the target's model")
       .show_default();

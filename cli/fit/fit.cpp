@@ -26,7 +26,7 @@ namespace {
 
 struct FitCall : Common {
   std::vector<std::string> files, models;
-  FitWords how;
+  HowFitted how;
   std::string output, html;
   std::optional<std::string> part;
   bool pages = false;
@@ -140,7 +140,7 @@ std::optional<std::string> variable_of_environment(const char* name) {
   return value ? std::optional<std::string>(value) : std::nullopt;
 }
 
-Exit run_batch(const FitCall& o, const HowFitted& how) {
+Exit run_batch(const FitCall& o) {
   if (!o.html.empty())
     throw wrong_usage(
         "--html is of one table; the page of many is summary.html in their folder, and --pages "
@@ -157,7 +157,7 @@ Exit run_batch(const FitCall& o, const HowFitted& how) {
     };
   std::optional<Part> part;
   if (o.part) part = part_from(*o.part, variable_of_environment);
-  const BatchResult result = fit_batch({o.files, o.output, how, part}, hooks);
+  const BatchResult result = fit_batch({o.files, o.output, o.how, part}, hooks);
   progress.clear();
   if (o.json)
     fmt::print("{}", batch_json(result, false));
@@ -202,7 +202,7 @@ void print(const ModelChoice& choice, const Advice& advice) {
 }
 
 /// Models compared on one table.
-Exit run_models(const FitCall& o, const HowFitted& how) {
+Exit run_models(const FitCall& o) {
   if (is_batch(o.files))
     throw wrong_usage(
         "--models compares on one table: run it for each, with -o and --html of its own");
@@ -213,16 +213,17 @@ Exit run_models(const FitCall& o, const HowFitted& how) {
   OutputFiles out(o.files, o.output, o.html);
   Progress progress(o.quiet);
   progress("reading " + o.files[0]);
-  TableAndDigest in(o.files[0], how.bins);
+  TableAndDigest in(o.files[0], o.how.bins);
   ModelChoice choice =
-      compare_models(in.table, how.options, models, [&](const std::string& what, double part) {
+      compare_models(in.table, o.how.options, models, [&](const std::string& what, double part) {
         progress(fmt::format("{} ({:.0f} %)", what, 100 * part));
       });
   Spheres spheres = add_spheres(in.table, choice);
   in.finish();
   const Advice advice = advise(choice);
-  const std::string json =
-      to_json(choice, advice, {o.files[0], in.table.sha256, in.table.format, o.how.metric});
+  const std::string json = to_json(
+      choice, advice,
+      {o.files[0], in.table.sha256, in.table.format, std::string(name_of(o.how.options.metric))});
   out.write_document(json);
   if (out.has_page()) {
     progress("making the page");
@@ -241,15 +242,14 @@ Exit run_models(const FitCall& o, const HowFitted& how) {
 
 Exit run(const FitCall& o) {
   use_jobs(o.jobs);
-  const HowFitted how = how_fitted(o.how);
-  if (!o.models.empty()) return run_models(o, how);
-  if (is_batch(o.files)) return run_batch(o, how);
+  if (!o.models.empty()) return run_models(o);
+  if (is_batch(o.files)) return run_batch(o);
   if (o.pages) throw wrong_usage("--pages is of many tables; the page of one is --html PAGE.html");
   if (o.part) throw wrong_usage("--part is of many tables: a folder, several files, or @LIST");
   const std::string& file = o.files[0];
   OutputFiles out({file}, o.output, o.html);
   Progress progress(o.quiet);
-  const auto [t, result] = fit_file(file, how.bins, how.options, std::ref(progress));
+  const auto [t, result] = fit_file(file, o.how.bins, o.how.options, std::ref(progress));
   const FitDocument& d = result.document;
 
   const std::string json = to_json(d);
@@ -277,7 +277,7 @@ void add_fit(CommandLine& line) {
       "-o paint.json --html paint.html\n  gonio fit tables/ --jobs 2 -o results/",
       run);
   add_tables(c, o->files);
-  add_fit_words(c, o->how);
+  c.options(o->how);
   c.option("--models", o->models,
            "Models to compare in place of one fit: A,B,C, or all for the usual ones. Says which to "
            "take, by the incident "

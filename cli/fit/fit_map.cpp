@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "base/file.h"
-#include "cli/fit/fit_options.h"
 #include "cli/fit/map_result.h"
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
@@ -20,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FitMapCall : Common {
-  std::string stack, metric{name_of(TexelOptions{}.metric)}, output, tile_size = "256";
-  std::vector<std::string> fix, bounds, tiles;
+  std::string stack, output, tile_size = "256";
+  std::vector<std::string> tiles;
   TexelOptions texels;
 };
 
@@ -75,11 +74,7 @@ Exit run_tiles(const FitMapCall& o, const StackReader& stack, const TileGrid& gr
 
 Exit run(const FitMapCall& o) {
   use_jobs(o.jobs);
-  FitMapCall with = o;
-  TexelOptions& t = with.texels;
-  t.metric = value_of<Metric>(o.metric, "metric");
-  t.fixed = parse_settings(o.fix);
-  t.bounds = parse_settings(o.bounds);
+  const TexelOptions& t = o.texels;
   const auto tile_size = two_numbers(o.tile_size, "--tile-size", 1, longest_side, true);
   check_outputs({o.stack}, {o.output});
 
@@ -95,7 +90,7 @@ Exit run(const FitMapCall& o) {
   if (grid.columns() * grid.rows() > most_tiles)
     throw wrong_usage(fmt::format("--tile-size {}: {} × {} tiles; at most {} in all", o.tile_size,
                                   grid.columns(), grid.rows(), most_tiles));
-  if (!o.tiles.empty()) return run_tiles(with, stack, grid);
+  if (!o.tiles.empty()) return run_tiles(o, stack, grid);
 
   OutputFile out(o.output);  // before the work: nobody waits to learn that it has no place
   // Tiles stay beside it until it is whole: a run that was killed goes on from them.
@@ -123,11 +118,7 @@ void add_fit_map(CommandLine& line) {
       "maps.exr\n  gonio fit_map stack/stack.json --tile 2,0 -o tiles/",
       run);
   c.option("STACK", o->stack, "Images and their directions: a document gonio.stack/1").required();
-  add_model_words(c, o->texels.model, o->fix, o->bounds, o->texels.grey);
-  add_metric(c, o->metric);
-  c.option("--offset", o->texels.offset, "Added to all values by log and relative [1/sr]")
-      .in(0.0, 1e6);
-  c.flag("--refine-normals", o->texels.refine_normals, "Fit the normals, too; of isotropic models");
+  c.options(o->texels);
   c.option("--tile", o->tiles,
            "COLUMN,ROW of a tile to fit alone, into the folder of -o, from 0,0 on top left; "
            "several times for several. gonio gather joins them")

@@ -49,16 +49,8 @@ inline constexpr const char* spec_or_fit = "Model, or the fit.json of a fit";
 
 /// --set NAME=VALUE …
 void add_set(Command&, std::vector<std::string>& words);
-/// --seed N
-template <class Seed>
-void add_seed(Command& c, Seed& seed, const std::string& what) {
-  c.option("--seed", seed, what).not_negative();
-}
 /// --bins centre|edge
-Option add_bins(Command&, std::optional<std::string>& name);
-inline std::optional<Bins> bins_from(const std::optional<std::string>& name) {
-  return name ? std::optional(value_of<Bins>(*name, "bins")) : std::nullopt;
-}
+void add_bins(Command&, std::optional<Bins>&);
 /// Two whole numbers of a word: "3,4"; "5" is 5,5 where one stands for both.
 /// \throws Error  wrong usage, of a word that is none or numbers outside [low, high]
 std::array<std::size_t, 2> two_numbers(const std::string& word,

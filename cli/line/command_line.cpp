@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/nearest.h"
+#include "base/numbers.h"
+#include "base/options.h"
 #include "base/text.h"
 
 #include <CLI/CLI.hpp>
@@ -28,13 +30,6 @@ template Option& Option::in(double, double);
 
 Option& Option::one_of(const std::vector<std::string>& names) {
   option_->check(CLI::IsMember(names));
-  return *this;
-}
-
-Option& Option::not_negative() {
-  option_->check([](const std::string& word) -> std::string {
-    return word.starts_with('-') ? "'" + word + "' is below 0" : "";
-  });
   return *this;
 }
 
@@ -66,31 +61,68 @@ std::vector<std::string> Option::given() const {
   return words;
 }
 
-template <class T>
-Option Command::option(const std::string& names, T& value, const std::string& help) {
-  return Option(app_->add_option(names, value, help));
+Option Command::option(const std::string& names,
+                       const ValueType& t,
+                       void* value,
+                       const std::string& help,
+                       const Rules& rules) {
+  auto* const o = app_->add_option(
+      names,
+      [&t, value, rules](const CLI::results_t& words) {
+        return set_from_words(t, rules, value, words);
+      },
+      help, false, [&t, value, rules] { return word_of(t, rules, value); });
+  const bool list = t.kind == ValueKind::list;
+  const ValueType& of = list || t.kind == ValueKind::optional ? *t.of : t;
+  const bool number = of.kind == ValueKind::number, whole = of.kind == ValueKind::whole;
+  o->type_name(number ? "FLOAT" : !whole ? "TEXT" : of.is_signed ? "INT" : "UINT");
+  if (list) o->expected(CLI::detail::expected_max_vector_size);
+  if (const auto all = choices_of(of, rules); !all.empty())
+    o->check(CLI::IsMember(std::vector<std::string>(all.begin(), all.end())));
+  if (whole && !of.is_signed)
+    o->check([](const std::string& word) {
+      return word.starts_with('-') ? "'" + word + "' is below 0" : std::string();
+    });
+  if (rules.has_numbers) {
+    const auto end = [&](double x) {
+      return fmt::format(fmt::runtime(whole ? "{:.0f}" : "{:g}"), x);
+    };
+    const auto [low, high] = std::pair(end(rules.numbers.low), end(rules.numbers.high));
+    o->check(CLI::Validator(
+        [numbers = rules.numbers, low = low, high = high](const std::string& word) {
+          const auto x = number_from<double>(word);
+          if (x && numbers.holds(*x)) return std::string();
+          return fmt::format("Value {} not in range {} to {}", word, low, high);
+        },
+        fmt::format("{} in [{} - {}]", o->get_type_name(), low, high)));
+  }
+  return Option(o);
 }
-template Option Command::option(const std::string&, std::string&, const std::string&);
-template Option Command::option(const std::string&, int&, const std::string&);
-template Option Command::option(const std::string&, unsigned long&, const std::string&);
-template Option Command::option(const std::string&, unsigned long long&, const std::string&);
-template Option Command::option(const std::string&, double&, const std::string&);
-template Option Command::option(const std::string&,
-                                std::optional<std::string>&,
-                                const std::string&);
-template Option Command::option(const std::string&, std::optional<int>&, const std::string&);
-template Option Command::option(const std::string&,
-                                std::optional<unsigned long>&,
-                                const std::string&);
-template Option Command::option(const std::string&,
-                                std::optional<unsigned long long>&,
-                                const std::string&);
-template Option Command::option(const std::string&, std::optional<double>&, const std::string&);
-template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
-template Option Command::option(const std::string&, std::vector<double>&, const std::string&);
 
 Option Command::flag(const std::string& names, bool& value, const std::string& help) {
   return Option(app_->add_flag(names, value, help));
+}
+
+std::vector<Option> Command::options(const RecordType& record, void* at) {
+  std::vector<Option> all;
+  for_each_option(record, at, [&](const RecordField& f, void* value) {
+    std::string name = "--" + std::string(f.name), help = help_of(f);
+    std::ranges::replace(name, '_', '-');
+    // As a sentence; "auto: …" begins with a value's name.
+    if (help.find(':') > help.find(' ') && help[0] >= 'a')
+      help[0] = static_cast<char>(help[0] - 'a' + 'A');
+    if (is_flag(f)) {
+      all.push_back(flag(name, *static_cast<bool*>(value), help));
+      return;
+    }
+    Option o = option(name, *f.type, value, help, f.rules).show_default();
+    if (f.type->kind == ValueKind::list && f.rules.entries.most != Entries{}.most)
+      o.at_most(static_cast<int>(f.rules.entries.most));
+    else if (f.type->kind == ValueKind::list)
+      o.delimiter(',');
+    all.push_back(o);
+  });
+  return all;
 }
 
 CommandLine::CommandLine(const std::string& description,

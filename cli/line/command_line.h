@@ -2,6 +2,9 @@
 /// \file
 /// The words of a call: subcommands and their options.  CLI11 reads them; only command_line.cpp
 /// includes it, for each file that does compiles its inline functions again.
+///
+/// Options of what the program does are declared beside the struct that holds them (base/describe.h): a field's name, meaning, unit,
+/// range, choices and default become those of an option.
 
 #include <array>
 #include <cstddef>
@@ -12,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/record.h"
 
 namespace CLI {
 class App;
@@ -37,8 +41,6 @@ class Option {
   Option& one_of(const std::array<Name, N>& names) {
     return one_of(std::vector<std::string>(names.begin(), names.end()));
   }
-  /// Numbers from 0 on, for an unsigned value: one below 0 would wrap around.
-  Option& not_negative();
   /// From one to so many words each time that it is given.
   Option& at_most(int words);
   /// One word each time that it is given.
@@ -59,14 +61,28 @@ class Command {
  public:
   explicit Command(CLI::App* app) : app_(app) {}
   /// \param names  "-o,--output", or without dashes a word by its position
-  /// \tparam T     std::string, double, or std::vector of these; int or std::size_t; std::optional
-  ///               of all but the vectors
+  /// \tparam T     text, a number, an enumeration with names; std::optional or std::vector of these; a type with from_words
   template <class T>
-  Option option(const std::string& names, T& value, const std::string& help);
+  Option option(const std::string& names, T& value, const std::string& help) {
+    return option(names, type_of<T>, &value, help, {});
+  }
   /// \param names  "--full", or "!--no-plain" that makes it false
   Option flag(const std::string& names, bool& value, const std::string& help);
+  /// An option for each field that the description of a struct has, "--refine-normals" for refine_normals; its value as it is now is the
+  /// default.  A list takes several words, or where its rules have no Entries one with commas.
+  template <Described T>
+  std::vector<Option> options(T& value) {
+    return options(record_of<T>, &value);
+  }
 
  private:
+  Option option(const std::string& names,
+                const ValueType&,
+                void* value,
+                const std::string& help,
+                const Rules&);
+  std::vector<Option> options(const RecordType&, void* value);
+
   CLI::App* app_;
 };
 

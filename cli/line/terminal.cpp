@@ -169,12 +169,9 @@ void add_set(Command& c, std::vector<std::string>& words) {
   c.option("--set", words, "Parameters: NAME=VALUE …; a colour is one number or r,g,b").at_most(64);
 }
 
-Option add_bins(Command& c, std::optional<std::string>& name) {
-  return c
-      .option(
-          "--bins", name,
-          "Where a sample sits in its bin: centre or edge (default: as the file says, or centre)")
-      .one_of(names_of<Bins>);
+void add_bins(Command& c, std::optional<Bins>& bins) {
+  c.option("--bins", bins,
+           "Where a sample sits in its bin: centre or edge (default: as the file says, or centre)");
 }
 
 std::array<std::size_t, 2> two_numbers(const std::string& word,

@@ -41,7 +41,8 @@ void print(const AlbedoAnswer& r, const AlbedoQuestion& q) {
       fmt::print("  {:.10f}", a.value[c]);
     fmt::print("  ± {:.1e}\n", a.error);
   };
-  fmt::print("{:>10}  albedo{}\n", "mu", q.scattering == "walk" ? " ± standard error" : "");
+  fmt::print("{:>10}  albedo{}\n", "mu",
+             q.scattering == Scattering::walk ? " ± standard error" : "");
   for (std::size_t i = 0; i < r.at.size(); ++i) line(fmt::format("{}", q.mu[i]), r.at[i]);
   if (r.average) line("average", *r.average);
 }
@@ -72,23 +73,9 @@ void add_albedo(CommandLine& line) {
       "gonio albedo ggx/smith_ggx.correlated/schlick --set alpha=1 f0=1 --mu 0.01,0.5,1 --average "
       "--scattering deterministic --json",
       run);
-  auto& q = o->question;
   c.option("MODEL", o->spec, spec_or_fit).required();
   add_set(c, o->set);
-  c.option("--mu", q.mu, "Cosines of the zenith angle, in (0, 1]").delimiter(',');
-  c.option("--phi", q.phi_deg, "Azimuth from the tangent, in degrees (anisotropic models)");
-  c.flag("--average", q.average, "Also the average over the hemisphere, 2 ∫ E mu dmu");
-  c.flag("--furnace", q.furnace, "With F = 1: what is then lost, masking has taken away");
-  c.option("--scattering", q.scattering,
-           "single: light that meets one facet; all of it by random walks (walk) or by quadrature "
-           "(deterministic); or as shaders compensate: kulla_conty, turquin, fdez_aguera")
-      .one_of(scatterings());
-  c.option("--error", q.error,
-           "Absolute error asked for (1e-8; deterministic 1e-5; of a walk the standard error at "
-           "which it may stop)");
-  c.option("--walks", q.walks, "Random walks at most, at each mu and lobe (1000000)")
-      .in(std::size_t{2}, std::size_t{1} << 40);
-  add_seed(c, q.seed, "Of the random walks (1)");
+  c.options(o->question);
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -18,7 +18,7 @@ namespace {
 struct EvalCall : Common {
   std::string what, directions, output;
   std::vector<std::string> set;
-  std::optional<std::string> bins;
+  std::optional<Bins> bins;
 };
 
 /// The document of a fit or a batch begins as JSON or says that it holds a fit; a table does not.
@@ -51,7 +51,7 @@ Exit run(const EvalCall& o) {
   nlohmann::ordered_json document;
   if (is_table(o.what)) {
     if (!o.set.empty()) throw wrong_usage("--set goes with a model, not with a table");
-    const Table table = read_table(o.what, bins_from(o.bins));
+    const Table table = read_table(o.what, o.bins);
     interpolate_at(table, at, columns_for(t, table.channels));
     document["table"] = o.what;
   } else {

@@ -20,10 +20,13 @@ namespace gonio::cli {
 namespace {
 
 struct ShaderCall : Common {
-  std::string subject, language, precision = "float", name = "brdf";
+  std::string subject, name = "brdf";
+  shader::Language language{};
+  shader::Precision precision = shader::Precision::float_;
   std::vector<std::string> set, grey, inputs, derivatives;
-  std::optional<std::string> output, compensation, table, material;
-  std::string albedo = "table";
+  std::optional<std::string> output, table, material;
+  std::optional<shader::Compensation> compensation;
+  shader::AlbedoFrom albedo = shader::AlbedoFrom::table;
   bool without_evidence = false;
 };
 
@@ -88,7 +91,7 @@ Planned planned(const std::string& path, const std::string& name) {
 
 shader::TracedFormula traced(const ShaderCall& o) {
   refuse_integrals(o.subject);
-  const auto precision = value_of<shader::Precision>(o.precision, "precision");
+  const auto precision = o.precision;
   if (is_of_catalogue(o.subject)) {
     if (!o.set.empty() || !o.inputs.empty() || !o.grey.empty() || o.compensation || o.material)
       throw wrong_usage(
@@ -99,10 +102,8 @@ shader::TracedFormula traced(const ShaderCall& o) {
     return shader::trace_term(*term_named(o.subject), precision, o.derivatives);
   }
   std::optional<shader::Compensating> compensating;
-  const auto albedo = value_of<shader::AlbedoFrom>(o.albedo, "source of the albedo");
-  if (o.compensation)
-    compensating = {value_of<shader::Compensation>(*o.compensation, "compensation"), albedo};
-  if (o.albedo != "table" && !o.compensation && !o.material)
+  if (o.compensation) compensating = {*o.compensation, o.albedo};
+  if (o.albedo != shader::AlbedoFrom::table && !o.compensation && !o.material)
     throw wrong_usage("--albedo goes with --compensation");
   if (o.material) {
     if (file_in(o.subject).empty())
@@ -111,7 +112,7 @@ shader::TracedFormula traced(const ShaderCall& o) {
     if (!o.set.empty() || !o.grey.empty() || o.compensation)
       throw wrong_usage("--material: its model, parameters and compensation are the plan's");
     const auto p = planned(o.subject, *o.material);
-    if (p.compensation) compensating = {*p.compensation, albedo};
+    if (p.compensation) compensating = {*p.compensation, o.albedo};
     return shader::trace_model(p.model, precision, o.inputs, o.derivatives, compensating);
   }
   if (!o.grey.empty() && !file_in(o.subject).empty())
@@ -162,7 +163,7 @@ Exit run(const ShaderCall& o) {
   Progress progress(o.quiet);
   shader::ShaderDocument d;
   d.formula = traced(o);
-  d.writing.language = value_of<shader::Language>(o.language, "language");
+  d.writing.language = o.language;
   d.writing.name = o.name;
   if (!o.without_evidence)
     d.writing.remarks = shader::evidence_of(
@@ -207,12 +208,8 @@ void add_shader(CommandLine& line) {
            "Model, the fit.json of a fit, the plan.json of a plan, or a term or a map as `gonio "
            "models` lists it")
       .required();
-  c.option("--language", o->language, "glsl, wgsl or slang")
-      .one_of(names_of<shader::Language>)
-      .required();
-  c.option("--precision", o->precision, "Number that it computes in: float or half")
-      .one_of(names_of<shader::Precision>)
-      .show_default();
+  c.option("--language", o->language, "glsl, wgsl or slang").required();
+  c.option("--precision", o->precision, "Number that it computes in: float or half").show_default();
   c.option("--material", o->material, "Material of a plan, where that is what SPEC names");
   add_set(c, o->set);
   c.option("--grey", o->grey, "Parameters of colours that are one number: NAME,…").delimiter(',');
@@ -223,14 +220,12 @@ void add_shader(CommandLine& line) {
       .delimiter(',');
   c.option("--compensation", o->compensation,
            "What gives back the light that the first lobe loses between facets: turquin, "
-           "fdez_aguera or kulla_conty, which read albedos as arguments")
-      .one_of(names_of<shader::Compensation>);
+           "fdez_aguera or kulla_conty, which read albedos as arguments");
   c.option(
        "--albedo", o->albedo,
        "Where turquin and fdez_aguera have the lobe's albedo from: table, an argument; fit, the "
        "catalogue's "
        "formula for GGX under correlated Smith")
-      .one_of(names_of<shader::AlbedoFrom>)
       .show_default();
   c.option("--table", o->table, "OpenEXR file for the table of that albedo: R + G of 64x64 texels");
   c.option("--name", o->name, "Name of the function").show_default();

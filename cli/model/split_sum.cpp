@@ -23,7 +23,8 @@ using Json = nlohmann::ordered_json;
 
 struct SplitSumCall : Common {
   std::vector<double> roughness, nov, f0;
-  std::string masking = "smith_ggx.correlated", size, precision, out, environment;
+  std::string masking = "smith_ggx.correlated", size, out, environment;
+  std::optional<Storage> precision;
   std::size_t samples = 0, views = 0;
   std::optional<double> error;
 };
@@ -106,8 +107,8 @@ Exit table(const SplitSumCall& o) {
   Progress progress(o.quiet);
   progress("integrating");
   const auto exact = split_sum_table(o.masking, width, height, o.samples, goal_or(o, 1e-7));
-  const std::string precision(o.precision.empty() ? name_of(Storage::single) : o.precision);
-  const auto storage = value_of<Storage>(precision, "precision");
+  const auto storage = o.precision.value_or(Storage::single);
+  const std::string_view precision = name_of(storage);
   const auto written = stored(exact, storage);
   write_split_sum_table(o.out, exact, storage);
   progress("looking up");
@@ -224,8 +225,7 @@ Exit run(const SplitSumCall& o) {
     throw wrong_usage("split_sum needs --roughness and --nov, or --size and -o");
   if (!o.size.empty() && !o.environment.empty())
     throw wrong_usage("--environment needs --roughness and --nov, not --size");
-  if (o.size.empty() && !o.precision.empty())
-    throw wrong_usage("--precision is of a table, --size");
+  if (o.size.empty() && o.precision) throw wrong_usage("--precision is of a table, --size");
   if (o.environment.empty() && !o.f0.empty()) throw wrong_usage("--f0 is for --environment");
   if (o.environment.empty() && o.views > 0) throw wrong_usage("--views is for --environment");
   if (!o.size.empty()) return table(o);
@@ -258,8 +258,7 @@ void add_split_sum(CommandLine& line) {
       "--error", o->error,
       "Error asked for: absolute (1e-8, of a table 1e-7), under an environment relative (1e-3)");
   c.option("--size", o->size, "A table of WIDTHxHEIGHT texels: NoV along, roughness down");
-  c.option("--precision", o->precision, "What the table's numbers are stored as (float)")
-      .one_of(names_of<Storage>);
+  c.option("--precision", o->precision, "What the table's numbers are stored as (float)");
   c.option("-o,--output", o->out, "OpenEXR file that the table is written to");
   c.option("--environment", o->environment,
            "OpenEXR map over longitude and latitude: what the split sum is off by under its light");

@@ -151,7 +151,7 @@ void add_stability(CommandLine& line) {
            "Boxes of a proof, after which what is unproved is open  (default: 20 000, fewer where "
            "they take longer)")
       .in(std::uint64_t{1}, std::uint64_t{1'000'000});
-  add_seed(c, o->seed, "Seed of the search (1)");
+  c.option("--seed", o->seed, "Seed of the search (1)");
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -21,8 +21,8 @@ namespace {
 using namespace scene;
 
 struct PlanCall : Common {
-  std::string scene, output, page, cost = "time", write;
-  std::size_t samples = PlanOptions{}.samples;
+  std::string scene, output, page, write;
+  PlanOptions options;
   std::optional<std::uint64_t> seed;
 };
 
@@ -89,14 +89,11 @@ Exit run(const PlanCall& o) {
   std::optional<OutputFile> materials;
   if (!materialx.empty()) materials.emplace(materialx);
   Scene s = read_scene(o.scene);
-  if (s.budget_ns && o.cost == "operations")
+  if (s.budget_ns && o.options.cost == Cost::operations)
     throw wrong_usage("--cost operations: the scene's budget_ns is a time");
   if (o.seed) s.seed = *o.seed;
-  PlanOptions options;
-  options.samples = o.samples;
-  options.cost = value_of<Cost>(o.cost, "cost");
   TimedProgress progress(o.quiet, "planning", s.materials.size());
-  const Plan plan = plan_scene(s, options, [&](double done) {
+  const Plan plan = plan_scene(s, o.options, [&](double done) {
     progress(static_cast<std::size_t>(done * static_cast<double>(s.materials.size())));
   });
   progress.clear();
@@ -141,12 +138,11 @@ void add_plan(CommandLine& line) {
   c.option("--write", o->write,
            "The planned materials, too, beside the document: mtlx, for MaterialX, in PLAN.mtlx")
       .one_of(std::array<std::string_view, 1>{"mtlx"});
-  c.option("--samples", o->samples, "Points that sets of effects are compared on (4096)")
+  c.option("--samples", o->options.samples, "Points that sets of effects are compared on (4096)")
       .in(std::size_t{512}, std::size_t{65'536});
-  c.option("--cost", o->cost,
-           "What sets are compared by: time, as measured here, or operations, the same everywhere")
-      .one_of(names_of<Cost>);
-  add_seed(c, o->seed, "Seed of the points, in place of the scene's");
+  c.option("--cost", o->options.cost,
+           "What sets are compared by: time, as measured here, or operations, the same everywhere");
+  c.option("--seed", o->seed, "Seed of the points, in place of the scene's");
   add_jobs(c, *o);
   add_output(c, *o);
 }

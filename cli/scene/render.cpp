@@ -198,7 +198,7 @@ void add_render(CommandLine& line) {
   c.option("--samples", o->picture.samples, "Samples of a pixel")
       .in(std::size_t{1}, std::size_t{1} << 20)
       .show_default();
-  add_seed(c, o->seed, "Seed of the samples (the scene's)");
+  c.option("--seed", o->seed, "Seed of the samples (the scene's)");
   add_jobs(c, *o);
   add_output(c, *o);
 }

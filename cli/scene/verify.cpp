@@ -59,7 +59,7 @@ void add_verify(CommandLine& line) {
   c.option("PLAN", o->plan, "Plan, gonio.plan/1").required();
   c.option("--samples", o->samples, "Fresh points (16384, more where the tolerance needs them)")
       .in(std::size_t{512}, std::size_t{1} << 22);
-  add_seed(c, o->seed, "Seed of the fresh points (1)");
+  c.option("--seed", o->seed, "Seed of the fresh points (1)");
   add_jobs(c, *o);
   add_output(c, *o);
 }

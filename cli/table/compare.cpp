@@ -15,7 +15,7 @@ namespace {
 struct CompareCall : Common {
   std::string file, model;
   std::vector<std::string> set;
-  std::optional<std::string> bins;
+  std::optional<Bins> bins;
 };
 
 void print(std::size_t values, const FitResiduals& r) {
@@ -31,7 +31,7 @@ Exit run(const CompareCall& o) {
   use_jobs(o.jobs);
   Progress progress(o.quiet);
   progress("reading " + o.file);
-  const Table t = read_table(o.file, bins_from(o.bins));
+  const Table t = read_table(o.file, o.bins);
   const BoundModel m = model_argument(o.model, parse_settings(o.set), t.channels.size()).model;
   check_azimuths(t, m.model);
   progress("comparing");

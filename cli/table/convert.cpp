@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 struct ConvertCall : Common {
   std::string input, output, channels;
-  std::optional<std::string> bins, to_bins;
+  std::optional<Bins> bins;
   ConvertOptions convert;
 };
 
@@ -161,12 +161,11 @@ Exit run(const ConvertCall& o) {
   use_jobs(o.jobs);
   ConvertOptions options = o.convert;
   options.format = format_of(o);
-  options.bins = bins_from(o.to_bins);
   if (!o.channels.empty()) options.channels = split(o.channels, ',');
   check_outputs({o.input}, {o.output, side_path(o.output)});
   Progress progress(o.quiet);
   progress("reading " + o.input);
-  const Table from = read_table(o.input, bins_from(o.bins));
+  const Table from = read_table(o.input, o.bins);
   progress("converting");
   const Conversion c = convert(from, options);
   progress("writing " + o.output);
@@ -193,8 +192,7 @@ void add_convert(CommandLine& line) {
       .one_of({"merl", "mbsdf", "utia", "csv", "exr", "rgl"});
   c.option("--channels", o->channels, "Which, in this order: NAME,NAME,…");
   add_bins(c, o->bins);
-  c.option("--to-bins", o->to_bins, "Where a sample sits in OUT's bins (default: as in IN)")
-      .one_of({"centre", "edge"});
+  c.option("--to-bins", o->convert.bins, "Where a sample sits in OUT's bins (default: as in IN)");
   c.option("--theta", o->convert.n_theta,
            "Bins of theta_i and theta_o (mbsdf; default 45), or incident angles (rgl; default 32)")
       .in(1, 180);

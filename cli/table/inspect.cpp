@@ -17,7 +17,8 @@ namespace {
 
 struct InspectCall : Common {
   std::string file, html;
-  std::optional<std::string> bins, model;
+  std::optional<Bins> bins;
+  std::optional<std::string> model;
   std::optional<std::size_t> plan_next;
 };
 
@@ -114,7 +115,7 @@ Exit run(const InspectCall& o) {
   OutputFiles out({o.file}, "", o.html);
   Progress progress(o.quiet);
   progress("reading " + o.file);
-  const Table t = read_table(o.file, bins_from(o.bins));
+  const Table t = read_table(o.file, o.bins);
   progress("inspecting");
   const Health h = inspect(t);
   FitOptions fit;

@@ -22,12 +22,12 @@ using Json = nlohmann::ordered_json;
 struct SynthCall : Common {
   std::string spec, layout, output;
   std::vector<std::string> set;
-  std::optional<std::string> bins;
   SynthOptions synth;
   // Of the layout map alone:
-  std::optional<std::string> parameters, normals, directions, size, values, images_as;
-  std::optional<std::size_t> images;
+  StackSynthOptions map;
+  std::optional<std::string> directions, size;
   bool half = false;
+  std::vector<Option> sampled, of_map;
 };
 constexpr const char* map_layout = "map";
 
@@ -50,49 +50,41 @@ void print(const Table& t, const SynthCall& o) {
                         fmt::to_string(fmt::join(t.channels, " ")), how));
 }
 
-/// SynthCall that a layout does not read are refused: what was asked for would not be done.
+/// Options that a layout does not read are refused: what was asked for would not be done.
 void expect_options_of(const SynthCall& o) {
   const bool map = o.layout == map_layout;
-  for (const auto& [given, option] : {std::pair(o.parameters.has_value(), "--parameters"),
-                                      {o.normals.has_value(), "--normals"},
-                                      {o.directions.has_value(), "--directions"},
-                                      {o.size.has_value(), "--size"},
-                                      {o.values.has_value(), "--values"},
-                                      {o.images_as.has_value(), "--images-as"},
-                                      {o.images.has_value(), "--images"},
-                                      {o.half, "--half"}})
-    if (given && !map)
-      throw wrong_usage(fmt::format("{} goes with --layout map, not {}", option, o.layout));
-  for (const auto& [given, option] : {std::pair(o.bins.has_value(), "--bins"),
-                                      {o.synth.floor > 0, "--floor"},
-                                      {o.synth.outliers > 0, "--outliers"}})
-    if (given && map) throw wrong_usage(fmt::format("{} goes with a table, not a stack", option));
-  if (o.images && o.directions)
+  const auto given = [](const std::vector<Option>& options, auto... names) {
+    std::string first;
+    for (const Option& option : options)
+      if (const auto words = option.given(); !words.empty() && first.empty())
+        if (sizeof...(names) == 0 || ((words[0] == names) || ...)) first = words[0];
+    return first;
+  };
+  if (const auto name = given(o.of_map); !map && !name.empty())
+    throw wrong_usage(fmt::format("{} goes with --layout map, not {}", name, o.layout));
+  if (const auto name = given(o.sampled, "--bins", "--floor", "--outliers"); map && !name.empty())
+    throw wrong_usage(fmt::format("{} goes with a table, not a stack", name));
+  if (o.directions && !given(o.of_map, "--images").empty())
     throw wrong_usage("--images draws directions at random; --directions has them");
 }
 
 Exit run_map(const SynthCall& o) {
-  StackSynthOptions s;
-  s.parameters = o.parameters;
-  s.normals = o.normals;
+  StackSynthOptions s = o.map;
   s.noise = o.synth.noise;
   s.seed = o.synth.seed;
-  if (o.images) s.images = *o.images;
   if (o.size) {
-    if (o.parameters || o.normals)
+    if (s.parameters || s.normals)
       throw wrong_usage("--size goes with constants; images have a size of their own");
     const auto size = two_numbers(*o.size, "--size", 1, longest_side, true);
     s.width = size[0];
     s.height = size[1];
   }
-  if (o.values) s.values = value_of<StackValues>(*o.values, "values");
-  if (o.images_as) s.format = value_of<ImageFormat>(*o.images_as, "images-as");
   if (o.half) {
     if (s.format == ImageFormat::npy) throw wrong_usage("--half goes with --images-as exr");
     s.storage = Storage::half;
   }
   auto inputs = file_in(o.spec);
-  for (const auto& path : {o.parameters, o.normals, o.directions})
+  for (const auto& path : {s.parameters, s.normals, o.directions})
     if (path) inputs.push_back(*path);
   check_outputs(inputs, {o.output});
   if (o.directions) {
@@ -121,7 +113,6 @@ Exit run(const SynthCall& o) {
   check_outputs(file_in(o.spec), {o.output});
   SynthOptions s = o.synth;
   s.layout = value_of<Layout>(o.layout, "layout");
-  s.bins = bins_from(o.bins).value_or(Bins::centre);
   const auto model = model_argument(o.spec, parse_settings(o.set)).model;
   Progress progress(o.quiet);
   progress("sampling");
@@ -155,28 +146,14 @@ void add_synth(CommandLine& line) {
            "images in a folder")
       .one_of(layouts)
       .required();
-  add_bins(c, o->bins);
-  c.option("--samples", o->synth.samples, "Number of samples of the random layout")
-      .in(1, 10'000'000)
-      .show_default();
-  c.option("--noise", o->synth.noise, "Multiplies each value by exp(NOISE · z), z standard normal")
-      .in(0.0, 5.0);
-  c.option("--floor", o->synth.floor, "Added to every value before the noise [1/sr]").in(0.0, 1e6);
-  c.option("--outliers", o->synth.outliers, "Share of samples thrown off by up to 100 times")
-      .in(0.0, 1.0);
-  add_seed(c, o->synth.seed, "Seed of all that is random (1)");
-  c.option("--parameters", o->parameters,
-           "Map: image with a channel for each parameter that varies, as alpha or kd.R");
-  c.option("--normals", o->normals, "Map: image of normals, linear in [-1, 1]");
-  c.option("--size", o->size, "Map: WIDTH,HEIGHT where no image says it (64,64)");
-  c.option("--images", o->images, "Map: number of images, of directions at random (16)")
-      .in<std::size_t>(1, 512);
-  c.option("--directions", o->directions,
-           "Map: CSV with theta_i,phi_i,theta_o,phi_o in degrees, an image for each line");
-  c.option("--values", o->values, "Map: f_r, or f_r_cosine: what a camera sees (f_r)")
-      .one_of(names_of<StackValues>);
-  c.option("--images-as", o->images_as, "Map: exr or npy (exr)").one_of(names_of<ImageFormat>);
-  c.flag("--half", o->half, "Map: images in half precision");
+  o->sampled = c.options(o->synth);
+  o->of_map = c.options(o->map);
+  for (const Option& option :
+       {c.option("--size", o->size, "Map: WIDTH,HEIGHT where no image says it (64,64)"),
+        c.option("--directions", o->directions,
+                 "Map: CSV with theta_i,phi_i,theta_o,phi_o in degrees, an image for each line"),
+        c.flag("--half", o->half, "Map: images in half precision")})
+    o->of_map.push_back(option);
   c.option("-o,--output", o->output, "File to write; of a map a folder").required();
   add_jobs(c, *o);
   add_output(c, *o);

@@ -22,13 +22,14 @@ namespace gonio {
 
 /// All that determines a result beside the bytes of its table.
 struct HowFitted {
-  FitOptions options;
-  std::optional<Bins> bins;  ///< in place of what each table says
+  FitOptions options{.certificate = Certify::automatic};
+  std::optional<Bins> bins = {};
 };
 template <>
 inline constexpr auto description<HowFitted> = std::tuple{
     inlined(&HowFitted::options),
-    Field{"bins", &HowFitted::bins, "where samples sit in their bins, if not as each table says"}};
+    Field{"bins", &HowFitted::bins,
+          "where a sample sits in its bin: centre or edge (default: as the file says, or centre)"}};
 static_assert(describes_every_member<HowFitted>());
 
 /// Key under which a kept result is found: program, version, and all that the description of HowFitted names but what

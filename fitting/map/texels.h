@@ -14,6 +14,7 @@
 #include "brdf/model/model.h"
 #include "fitting/result/document.h"
 #include "fitting/sample/sampling.h"
+#include "fitting/solve/options.h"
 
 namespace gonio {
 
@@ -38,17 +39,26 @@ struct TexelSamples {
 /// What is fitted to each texel, and how values are compared.  Bounds, names and statuses are those of a fit of a table.
 struct TexelOptions {
   std::string model = "lambert+ggx/smith_ggx.correlated/schlick";
-  std::vector<Setting> fixed;     ///< parameters held at a value
-  std::vector<Setting> bounds;    ///< NAME=low,high instead of the parameter's own range
-  std::vector<std::string> grey;  ///< colour parameters with one value for all channels
+  std::vector<Setting> fixed;
+  std::vector<Setting> bounds;
+  std::vector<std::string> grey;
   /// (f − y) NoL by default: what a camera records of it, whose noise is about the same at all angles.  A fit of a table
   /// compares logarithms by default, which measured maps with dark samples do not bear.
   Metric metric = Metric::l2_cosine;
-  double offset = 0;  ///< of the log and relative metrics [1/sr]
+  double offset = 0;
   /// The normal is fitted, too, by two further unknowns; of isotropic models alone.  A value is then compared as the
   /// light that was measured, f_r times n·l of the normal that it was divided by.
   bool refine_normals = false;
 };
+template <>
+inline constexpr auto description<TexelOptions> =
+    std::tuple_cat(model_fields<TexelOptions>,
+                   std::tuple{Field{"offset", "1/sr", &TexelOptions::offset,
+                                    "added to all values by log and relative", Numbers{0, 1e6}},
+                              Field{"refine_normals", &TexelOptions::refine_normals,
+                                    "fit the normals, too; of isotropic models"}});
+/// Tiles of other options are told by these: none may be forgotten.
+static_assert(describes_every_member<TexelOptions>());
 
 /// End of a texel's fit.
 enum class TexelOutcome : std::uint8_t {

@@ -9,24 +9,11 @@
 #include "base/json/describe.h"
 #include "base/numbers.h"
 #include "base/text.h"
-#include "fitting/solve/options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace gonio {
-
-template <>
-inline constexpr auto description<TexelOptions> = std::tuple{
-    Field{"model", &TexelOptions::model, ""},
-    Field{"fix", &TexelOptions::fixed, "parameters held at a value"},
-    Field{"bounds", &TexelOptions::bounds, "where parameters are looked for"},
-    Field{"grey", &TexelOptions::grey, "colours with one value for all channels"},
-    Field{"metric", &TexelOptions::metric, "how values are compared"},
-    Field{"offset", "1/sr", &TexelOptions::offset, "of the log and relative metrics"},
-    Field{"refine_normals", &TexelOptions::refine_normals, "whether normals are fitted"}};
-/// Tiles of other options are told by these: none may be forgotten.
-static_assert(describes_every_member<TexelOptions>());
 
 namespace {
 

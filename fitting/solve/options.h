@@ -29,12 +29,23 @@ enum class Certify { none, automatic };
 template <>
 inline constexpr std::array<std::string_view, 2> names_of<Certify>{"none", "auto"};
 
+template <>
+inline constexpr auto description<Setting> =
+    std::tuple{Field{"name", &Setting::name, ""},
+               Field{"values", per_channel(&Setting::values), "one, or one per channel"},
+               Field{"text", &Setting::text, "what was written, where it is no number"},
+               Field{"implied", &Setting::implied, "whether it follows from a preset"}};
+static_assert(describes_every_member<Setting>());
+template <>
+inline constexpr auto from_words<std::vector<Setting>> = &parse_settings;
+
+/// Options of a fit.  From its description follow the options of `gonio fit` and `gonio batch`, the keywords of Python's `fit`, and
+/// the key of a kept result.
 struct FitOptions {
   std::string model = "lambert+ggx/smith_ggx.correlated/schlick";
-  std::vector<Setting> fixed;  ///< parameters held at a value
-  std::vector<Setting>
-      bounds;  ///< NAME=low,high instead of the parameter's own range; roughness too
-  std::vector<std::string> grey;  ///< colour parameters with one value for all channels
+  std::vector<Setting> fixed = {};
+  std::vector<Setting> bounds = {};  ///< NAME=low,high instead of the parameter's own range
+  std::vector<std::string> grey = {};
   Metric metric = Metric::log;
   bool robust = false;  ///< Huber's loss beyond 1.345 robust standard deviations
   Intervals intervals = Intervals::automatic;
@@ -43,28 +54,34 @@ struct FitOptions {
   Certify certificate = Certify::none;
 };
 
-template <>
-inline constexpr auto description<Setting> =
-    std::tuple{Field{"name", &Setting::name, ""},
-               Field{"values", per_channel(&Setting::values), "one, or one per channel"},
-               Field{"text", &Setting::text, "what was written, where it is no number"},
-               Field{"implied", &Setting::implied, "whether it follows from a preset"}};
-static_assert(describes_every_member<Setting>());
+/// Fields of what is fitted and how values are compared, which fits of tables and of texels share.
+template <class Options>
+inline constexpr auto model_fields = std::tuple{
+    Field{"model", &Options::model, "model; all its parameters are fitted"},
+    Field{"fix", &Options::fixed, "parameters held at a value: NAME=VALUE …", Entries{0, 64}},
+    Field{"bounds", &Options::bounds, "where a parameter is looked for: NAME=LOW,HIGH …",
+          Entries{0, 64}},
+    Field{"grey", &Options::grey, "colour parameters with one value for all channels: NAME …",
+          Entries{0, 64}},
+    Field{"metric", &Options::metric, "how values are compared"}};
 
 template <>
-inline constexpr auto description<FitOptions> = std::tuple{
-    Field{"model", &FitOptions::model, ""},
-    Field{"fix", &FitOptions::fixed, "parameters held at a value"},
-    Field{"bounds", &FitOptions::bounds, "where parameters are looked for"},
-    Field{"grey", &FitOptions::grey, "colours with one value for all channels"},
-    Field{"metric", &FitOptions::metric, "how values are compared"},
-    Field{"robust", &FitOptions::robust, "whether outliers count less"},
-    Field{"intervals", &FitOptions::intervals, "which values share their errors"},
-    Field{"copies", &FitOptions::copies, "whether angles that only repeat another are fitted, too"},
-    Field{"bin_sensitivity", &FitOptions::bin_sensitivity,
-          "whether there is a fit under the other bin convention, too"},
-    Field{"certificate", &FitOptions::certificate,
-          "whether other valleys of the cost are looked for"}};
+inline constexpr auto description<FitOptions> = std::tuple_cat(
+    model_fields<FitOptions>,
+    std::tuple{
+        Field{"robust", &FitOptions::robust, "huber: outliers count less", Either{"none", "huber"}},
+        Field{"intervals", &FitOptions::intervals,
+              "whether the values of one incident angle share their errors: independent, by_angle, "
+              "or automatic (by_angle for measured tables); or bootstrap, from 400 fits of tables "
+              "drawn from this one, which takes as long"},
+        Field{"copies", &FitOptions::copies,
+              "angles of the table that only repeat another, value for value: leave_out, or keep",
+              Either{"leave_out", "keep"}},
+        Field{"bin_sensitivity", &FitOptions::bin_sensitivity,
+              "whether there is a fit under the other bin convention, too", not_asked},
+        Field{"certificate", &FitOptions::certificate,
+              "auto: after the fit its cost is looked at over the widths, for anything lower; or "
+              "none, which is faster"}});
 /// A kept result is found by these: none may be forgotten.
 static_assert(describes_every_member<FitOptions>());
 

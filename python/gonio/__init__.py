@@ -12,10 +12,12 @@ that is not what it should be.  Both are ``gonio.Error`` and ``ValueError``.  Th
 
 from __future__ import annotations
 
+import functools as _functools
+import inspect as _inspect
 import json as _json
 import os as _os
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Union
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, TypeVar, Union
 
 import numpy as _np
 import numpy.typing as _npt
@@ -236,6 +238,59 @@ def _model(model: Model, parameters: Mapping[str, Values]) -> _gonio.Model:
     return _gonio.model(_os.fspath(model), _settings(parameters))
 
 
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_examples = {"fix": '{"f0": 0.05}', "bounds": '{"alpha": (0.05, 0.5)}'}
+
+
+def _with_options(options: type[Any], rest: str = "") -> Callable[[_Function], _Function]:
+    """Function whose keywords are those that a struct of the program declares, with their defaults, and their meanings in its doc.
+
+    It is called with ``options`` made of them; others go to ``rest``.
+    """
+    declared = {name: (annotation, about, _default(annotation, word)) for name, annotation, about, word in options.declared()}
+
+    def declare(function: _Function) -> _Function:
+        own = _inspect.signature(function)
+        kept = [p.replace(default=declared[p.name][2]) if p.name in declared else p for p in own.parameters.values() if p.name != "options"]
+        last = [kept.pop()] if rest else []
+        kept += [_inspect.Parameter(name, _inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+                 for name, (annotation, _, default) in declared.items() if name not in own.parameters]
+        signature = own.replace(parameters=kept + last)
+
+        @_functools.wraps(function)
+        def call(*positions: Any, **named: Any) -> Any:
+            given = signature.bind(*positions, **named).arguments
+            taken = {name: given.pop(name) for name in declared if name in given}
+            others = given.pop(rest, {})
+            words = {name: _in_words(name, declared[name][0], value) for name, value in taken.items() if value is not None}
+            return function(**others, options=options(words), **given)
+
+        call.__signature__ = signature  # type: ignore[attr-defined]
+        meanings = [f"{name}: {about}{', as ' + _examples[name] if name in _examples else ''}." for name, (_, about, _) in declared.items()]
+        call.__doc__ = (function.__doc__ or "").replace("{options}", "\n        ".join(meanings))
+        return call  # type: ignore[return-value]
+    return declare
+
+
+def _default(annotation: str, word: str) -> Any:
+    """A declared default; None where there is no word for it."""
+    if annotation.startswith("Iterable"):
+        return ()
+    read = {"int": int, "float": float, "bool": "true".__eq__}.get(annotation, str)
+    return read(word) if word else None
+
+
+def _in_words(name: str, annotation: str, value: Any) -> list[str]:
+    """An option's value as the program's words."""
+    if annotation.startswith("Mapping"):
+        return [f"{key}={text or ','.join(map(repr, numbers))}" for key, numbers, text in _settings(_by_name(name, value, _examples[name]))]
+    if annotation == "Iterable[str]":
+        return _words(value)
+    if annotation == "Iterable[float]":
+        return [repr(x) for x in _numbers(name, value).reshape(-1).tolist()]
+    return [str(value).lower() if isinstance(value, (bool, _np.bool_)) else str(value)]
+
+
 def read(path: Path, *, bins: str | None = None) -> Table:
     """Table of a file, its format found from the bytes: ``gonio inspect FILE`` says what it holds.
 
@@ -257,27 +312,17 @@ def inspect(table: Table | Path) -> Document:
     return Document(_gonio.inspect((table if isinstance(table, Table) else read(table))._table))
 
 
-def fit(table: Table | Path, model: str = "lambert+ggx/smith_ggx.correlated/schlick", *, models: str | Iterable[str] | None = None,
-        fix: Mapping[str, Values] | None = None, bounds: Mapping[str, tuple[float, float]] | None = None, grey: str | Iterable[str] = (),
-        metric: str = "log", robust: str = "none", intervals: str = "automatic", copies: str = "leave_out", certificate: str = "auto",
-        bins: str | None = None, jobs: int = 0) -> Document:
+@_with_options(_gonio.HowFitted)
+def fit(table: Table | Path, model: str = "", *, models: str | Iterable[str] | None = None, jobs: int = 0,
+        options: _gonio.HowFitted) -> Document:
     """Model fitted to a table, or several compared: the document of ``gonio fit --json``.
 
     Args:
         table: a ``Table`` or a file.
-        model: its parameters are fitted; ``models`` lists what there is.
         models: models to compare in place of one fit, a list or a text with commas, or "all" for the usual ones; the document says which
-            to take.
-        fix: parameters held at a value: ``{"f0": 0.05}``.
-        bounds: where a parameter is looked for: ``{"alpha": (0.05, 0.5)}``.
-        grey: names of colours with one value for all channels.
-        metric: how values are compared: "log", "l2_cosine" or "relative".
-        robust: "none", or "huber" against outliers.
-        intervals: which values share their errors: "automatic", "independent", "by_angle" or "bootstrap".
-        copies: angles that only repeat another: "leave_out" or "keep".
-        certificate: "auto" looks for lower costs over the widths; "none" is faster.
-        bins: of a file, as in ``read``.
+            to take.  ``gonio.models`` lists what there is.
         jobs: threads, at most; 0 for all.  The result is the same for any number.
+        {options}
 
     Returns:
         ``gonio.fit/1``, or ``gonio.models/1`` of several.  A fit that did not converge says so at ``["solver"]["termination"]``: that is no
@@ -289,25 +334,17 @@ def fit(table: Table | Path, model: str = "lambert+ggx/smith_ggx.correlated/schl
 
     Source: ``docs/document/fit.md`` has every key, ``docs/equations/sources.md`` the papers.
     """
-    for name, word, words in (("robust", robust, ("none", "huber")), ("copies", copies, ("leave_out", "keep"))):
-        if word not in words:
-            raise WrongUsage(f"{name}: '{word}' is none of {', '.join(words)}")
-    options = _gonio.fit_options(model, _settings(_by_name("fix", fix, '{"f0": 0.05}')),
-                                 _settings(_by_name("bounds", bounds, '{"alpha": (0.05, 0.5)}')), _words(grey), metric, robust == "huber",
-                                 intervals, copies == "keep", certificate)
     compared = None if models is None else _words(models)
     if compared == []:
         raise WrongUsage('models: found none, expected models to compare, or "all"')
     if isinstance(table, Table):
-        if bins is not None:
-            raise WrongUsage("bins: of a file; a table that was read has its own")
         if compared is None:
             return Document(_gonio.fit_table(table._table, options, jobs))
         return Document(_gonio.compare_table(table._table, options, compared, jobs))
     path = _os.fspath(table)
     if compared is None:
-        return Document(_gonio.fit_path(path, bins, options, jobs))
-    return Document(_gonio.compare_path(path, bins, options, compared, jobs))
+        return Document(_gonio.fit_path(path, options, jobs))
+    return Document(_gonio.compare_path(path, options, compared, jobs))
 
 
 def eval(model: Model | Table, theta_i: _npt.ArrayLike, phi_i: _npt.ArrayLike, theta_o: _npt.ArrayLike, phi_o: _npt.ArrayLike, *,
@@ -340,20 +377,12 @@ def eval(model: Model | Table, theta_i: _npt.ArrayLike, phi_i: _npt.ArrayLike, t
     return _np.moveaxis(f.reshape(f.shape[:1] + shape), 0, -1)
 
 
-def albedo(model: Model, mu: float | Sequence[float] | _npt.NDArray[Any] = (), *, phi: float = 0, average: bool = False,
-           furnace: bool = False, scattering: str = "single", error: float | None = None, seed: int | None = None,
-           walks: int | None = None, jobs: int = 0, **parameters: Values) -> Document:
+@_with_options(_gonio.AlbedoQuestion, rest="parameters")
+def albedo(model: Model, mu: float | Iterable[float] = (), *, jobs: int = 0, options: _gonio.AlbedoQuestion, **parameters: Values) -> Document:
     """Share of light that a model gives back, with a bound of its error: the document of ``gonio albedo --json``.
 
     Args:
-        mu: cosines of the zenith angle, in (0, 1]; copied.
-        phi: azimuth from the tangent [degrees], of anisotropic models.
-        average: also over the hemisphere, 2 ∫ E mu dmu.
-        furnace: with F = 1; what is then lost, masking has taken away.
-        scattering: "single"; all of it by "walk" or "deterministic"; or as shaders compensate: "kulla_conty", "kulla_conty.linear",
-            "turquin", "fdez_aguera".
-        error: absolute error asked for; of a walk the standard error at which it may stop.
-        seed, walks: of random walks.
+        {options}
         parameters: as in ``eval``.
 
     Raises:
@@ -363,8 +392,7 @@ def albedo(model: Model, mu: float | Sequence[float] | _npt.NDArray[Any] = (), *
     Source: ``docs/equations/scattering.md``.
     """
     name = model if isinstance(model, str) else "document"
-    return Document(_gonio.albedo(_model(model, parameters), name, _numbers("mu", mu).reshape(-1).tolist(), phi, scattering, error, seed,
-                                  walks, average, furnace, jobs))
+    return Document(_gonio.albedo(_model(model, parameters), name, options, jobs))
 
 
 def term(id: str, at: Mapping[str, _npt.ArrayLike] | None = None, *, number: str = "double",
@@ -392,23 +420,19 @@ def term(id: str, at: Mapping[str, _npt.ArrayLike] | None = None, *, number: str
     return values[:, 0] if values.shape[1] == 1 else values
 
 
-def synth(model: Model, layout: str, *, samples: int = 2000, noise: float = 0, floor: float = 0, outliers: float = 0, seed: int = 1,
-          bins: str | None = None, jobs: int = 0, **parameters: Values) -> Table:
+@_with_options(_gonio.SynthOptions, rest="parameters")
+def synth(model: Model, layout: str, *, jobs: int = 0, options: _gonio.SynthOptions, **parameters: Values) -> Table:
     """Table sampled from a model, with noise if asked: what ``gonio synth`` writes.
 
     Args:
         layout: "merl", "mbsdf", "utia", "rgl", "in_plane", "image_slice", "hemisphere" or "random".
-        samples: of the random layout.
-        noise: each value is multiplied by exp(noise z), z standard normal.
-        floor: added to each value before the noise [1/sr].
-        outliers: share of samples thrown off by up to 100 times.
-        seed: the same table for the same seed, whatever the threads.
+        {options}
         parameters: as in ``eval``.
 
     Raises:
         WrongUsage: a layout, a number or a parameter that is none.
     """
-    return Table._of(_gonio.synth(_model(model, parameters), layout, bins, samples, noise, floor, outliers, seed, jobs))
+    return Table._of(_gonio.synth(_model(model, parameters), layout, options, jobs))
 
 
 def audit(ids: str | Iterable[str] = (), *, jobs: int = 0) -> Document:

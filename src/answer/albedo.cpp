@@ -14,20 +14,20 @@ namespace gonio {
 namespace {
 
 bool is_walked(const AlbedoQuestion& q) {
-  return q.scattering == "walk";
+  return q.scattering == Scattering::walk;
 }
 bool is_solved(const AlbedoQuestion& q) {
-  return is_walked(q) || q.scattering == "deterministic";
+  return is_walked(q) || q.scattering == Scattering::deterministic;
 }
 
 void by_formula(const BoundModel& model, const AlbedoQuestion& q, AlbedoAnswer& r) {
   const Goal goal{q.error.value_or(Goal{}.error), Goal{}.evaluations};
   const double phi = q.phi_deg * degree;
-  if (q.scattering == "single") {
+  if (q.scattering == Scattering::single) {
     r.at = directional_albedo(model, q.mu, phi, goal);
     if (q.average) r.average = hemispherical_albedo(model, goal);
   } else {
-    const auto how = value_of<Compensation>(q.scattering, "compensation");
+    const auto how = *find_value<Compensation>(name_of(q.scattering));
     r.at = compensated_albedo(model, how, q.mu, phi, goal);
     if (q.average) r.average = compensated_average(model, how, goal);
   }
@@ -115,12 +115,6 @@ void add_scattered(Json& document, const AlbedoAnswer& r, const AlbedoQuestion& 
 
 }  // namespace
 
-std::vector<std::string> scatterings() {
-  std::vector<std::string> all{"single", "walk", "deterministic"};
-  all.insert(all.end(), names_of<Compensation>.begin(), names_of<Compensation>.end());
-  return all;
-}
-
 AlbedoAnswer albedo_of(const BoundModel& asked,
                        const std::string& name,
                        const AlbedoQuestion& q,
@@ -160,7 +154,7 @@ AlbedoAnswer albedo_of(const BoundModel& asked,
 std::string to_json(const AlbedoAnswer& r, const AlbedoQuestion& q) {
   Json albedo = Json::array();
   for (const auto& a : r.at) albedo.push_back(r.grey ? Json(a.value[0]) : Json(a.value));
-  Json document{{"model", r.model}, {"scattering", q.scattering}};
+  Json document{{"model", r.model}, {"scattering", name_of(q.scattering)}};
   document["mu"] = q.mu;
   document["albedo"] = albedo;
   if (r.average)

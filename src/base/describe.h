@@ -74,18 +74,33 @@ inline constexpr struct OrDefault {
 inline constexpr struct NotEmpty {
 } not_empty;
 
+/// Words that say a truth in a call: of false, and of true.  Without them true is a flag.
+struct Either {
+  std::string_view no{}, yes{};
+};
+/// Field that no call may give: an option of the library only.
+inline constexpr struct NotAsked {
+} not_asked;
+
+/// Way of a type to be read from the words of a call, where it has one of its own: Value (*)(std::span<const std::string>).
+template <class Value>
+inline constexpr std::nullptr_t from_words = nullptr;
+
 /// What a key takes; numbers and text in lists and lists of lists are held to the same.
 struct Rules {
   Numbers numbers{};
   bool has_numbers = false;
   Entries entries{};
-  bool or_default = false, not_empty = false;
+  Either either{};
+  bool or_default = false, not_empty = false, not_asked = false;
 
   constexpr void add(const Numbers& n) {
     numbers = n;
     has_numbers = true;
   }
   constexpr void add(const Entries& e) { entries = e; }
+  constexpr void add(const Either& e) { either = e; }
+  constexpr void add(NotAsked) { not_asked = true; }
   constexpr void add(OrDefault) { or_default = true; }
   constexpr void add(NotEmpty) { not_empty = true; }
 };
@@ -100,7 +115,7 @@ struct Field {
   Rules rules{};
 
   /// \param unit  left out for pure numbers and words
-  /// \param rule  Numbers, Entries, or_default, not_empty
+  /// \param rule  Numbers, Entries, or_default, not_empty; of an option Either, not_asked
   template <class... Rule>
   constexpr Field(std::string_view name_,
                   std::string_view unit_,

@@ -4,10 +4,9 @@
 /// its schema (base/json/describe.h), CSV (base/csv_describe.h).  One table is made of each type, by templates that hold no code but
 /// the way to a value.
 ///
-/// What else a struct's fields say follows from the same table, without a template of its own.  Words of the command line: a walk
-/// over `fields_of<Options>()` has each field's name, meaning, unit and rules, the choices of an enum in `type->names`, and its
-/// default in `example()`; `type->set_text`, `number` and the enum's index set it through `place`.  Keywords of Python are the same
-/// walk.  The key of a kept result is the text of the struct's JSON.
+/// Options are declared by the same tables: a field's name, unit, meaning and rules, the choices of an enum and the default are those
+/// of the command line (cli/line/command_line.h) and of Python's keywords (python/options.cpp).  The key of a kept result is the
+/// struct's JSON.
 ///
 /// Light to include.
 
@@ -90,6 +89,8 @@ struct ValueType {
   void (*clear)(void*) = nullptr;
   const RecordType* record = nullptr;
   const JsonForm* own = nullptr;
+  /// From the words of a call, where that is a way of its own.
+  void (*read_words)(void*, std::span<const std::string>) = nullptr;
 
   double number(const void*) const;       ///< of a number
   std::int64_t whole(const void*) const;  ///< of a whole number, of truth, and of an enum's value
@@ -325,6 +326,10 @@ constexpr ValueType make_type() {
     t = {.kind = ValueKind::list, .size = array_size<V>, .of = &type_of<Entry<V>>};
     add_entries<V, Listed>(t);
   }
+  if constexpr (!std::is_null_pointer_v<std::remove_cv_t<decltype(from_words<V>)>>)
+    t.read_words = [](void* v, std::span<const std::string> words) {
+      *static_cast<V*>(v) = from_words<V>(words);
+    };
   return t;
 }
 

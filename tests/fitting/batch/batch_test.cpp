@@ -110,7 +110,7 @@ TEST(MadeWith, ReadsAsOneLine) {
   EXPECT_TRUE(key.ends_with(
       "; model lambert+ggx/smith_ggx.correlated/schlick; "
       "fix [{\"name\":\"gamma\",\"values\":2.0,\"text\":\"\",\"implied\":false}]; "
-      "metric log; intervals automatic; bin_sensitivity true; certificate none; bins edge"))
+      "metric log; intervals automatic; bin_sensitivity true; certificate auto; bins edge"))
       << key;
 }
 
