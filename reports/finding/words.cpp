@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,12 +41,6 @@ std::string range_text(double from, double to, const std::string& word) {
 std::string list_text(const std::vector<std::string>& all, std::string_view last) {
   if (all.size() < 2) return all.empty() ? "" : all[0];
   return fmt::format("{}{}{}", fmt::join(all.begin(), all.end() - 1, ", "), last, all.back());
-}
-std::string ranking_text(const std::vector<std::string>& places, std::string_view furthest) {
-  constexpr std::size_t told = 4;
-  const std::span all(places);
-  return fmt::format("{}{}{}", fmt::join(all.first(std::min(told, all.size())), ", "),
-                     all.size() > told ? furthest : "", all.size() > told ? places.back() : "");
 }
 
 }  // namespace gonio

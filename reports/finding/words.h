@@ -27,9 +27,6 @@ std::string at_angle(double mu);
 std::string range_text(double from, double to, const std::string& word = {});
 /// "a", "a and b", "a, b and c".  \param last  what stands before the last
 std::string list_text(const std::vector<std::string>& all, std::string_view last = " and ");
-/// The first four of a ranking, and the last: "a 1, b 2, c 3, d 4; furthest: z 9".
-/// \param furthest  what stands before the last
-std::string ranking_text(const std::vector<std::string>& places, std::string_view furthest);
 
 /// The verdict on a claim that holds, or else partly does, or fails.
 constexpr Claim::Judged verdict(bool holds, bool partly = false) {
