@@ -57,7 +57,7 @@ class Loop {
     const auto p = [&](double x) { return scale * integral(x / (alpha_ * alpha_)); };
     return std::sqrt(q) * (1 - p(1)) + p(q);
   }
-  double gtr_g1(double c) const { return 2 * c / (c + r(c)); }
+  double g1(double c) const { return 2 * c / (c + r(c)); }
 
  private:
   double alpha_, gamma_;
@@ -70,7 +70,7 @@ double r(double alpha, double gamma, double c) {
   return static_cast<double>(SmithGtrRoot<F>(p)(static_cast<F>(c))) / smith_scale;
 }
 template <class F = double>
-double gtr_g1(double alpha, double gamma, double c) {
+double g1(double alpha, double gamma, double c) {
   return 2 * c / (c + r<F>(alpha, gamma, c));
 }
 
@@ -101,7 +101,7 @@ TEST(SmithGtr, IsItsIntegralWithinHalfAMillionth) {
     for (const double alpha : gtr_alphas) {
       const Loop truth(alpha, gamma);
       for (const double c : gtr_cosines) {
-        const double error = std::abs(gtr_g1(alpha, gamma, c) - truth.g1(c));
+        const double error = std::abs(g1(alpha, gamma, c) - truth.g1(c));
         EXPECT_LT(error, gamma < 3 ? 5e-8 : 5e-7) << alpha << " " << gamma << " " << c;
         (gamma < 3 ? below : above) = std::max(gamma < 3 ? below : above, error);
       }
@@ -118,7 +118,7 @@ TEST(SmithGtr, OfGammaOneIsTheClosedFormOfBerry) {
       const double root = std::sqrt(alpha * alpha + (1 - alpha) * (1 + alpha) * c * c);
       const double berry =
           (1 - root + c * std::log((c + root) / (alpha * (1 + c)))) / -std::log(alpha);
-      EXPECT_NEAR(gtr_g1(alpha, 1, c), 2 * c / (c + berry), 5e-8) << alpha << " " << c;
+      EXPECT_NEAR(g1(alpha, 1, c), 2 * c / (c + berry), 5e-8) << alpha << " " << c;
     }
 }
 
@@ -136,8 +136,7 @@ TEST(SmithGtr, OfGammaTwoIsGgxToTheLastDigits) {
 
 TEST(SmithGtr, OfAlphaOneIsTheUniformDistributions) {
   for (const double gamma : gammas)
-    for (const double c : gtr_cosines)
-      EXPECT_NEAR(gtr_g1(1, gamma, c), 2 * c / (1 + c), 5e-8) << gamma;
+    for (const double c : gtr_cosines) EXPECT_NEAR(g1(1, gamma, c), 2 * c / (1 + c), 5e-8) << gamma;
 }
 
 TEST(SmithGtr, StaysBetweenZeroAndOneAndGrowsWithTheCosine) {
@@ -145,7 +144,7 @@ TEST(SmithGtr, StaysBetweenZeroAndOneAndGrowsWithTheCosine) {
     for (const double alpha : gtr_alphas) {
       double before = 0;
       for (double c = 1e-4; c <= 1; c += 1.0 / 512) {
-        const double g = gtr_g1(alpha, gamma, c);
+        const double g = g1(alpha, gamma, c);
         EXPECT_GT(g, 0);
         EXPECT_LE(g, 1);
         EXPECT_GE(g, before - 3e-9) << alpha << " " << gamma << " " << c;
@@ -163,8 +162,7 @@ TEST(SmithGtr, OfBothDirectionsIsNoMoreThanOfEither) {
           for (const double v : gtr_cosines) {
             const double g =
                 4 * l * v * test::value_of(find_term(id), {alpha, gamma}, {l, v, 0.5, 0.5, 0.75});
-            EXPECT_LE(g, std::min(gtr_g1(alpha, gamma, l), gtr_g1(alpha, gamma, v)) * (1 + 8 * eps))
-                << id;
+            EXPECT_LE(g, std::min(g1(alpha, gamma, l), g1(alpha, gamma, v)) * (1 + 8 * eps)) << id;
             EXPECT_GT(g, 0);
           }
 }
@@ -202,7 +200,7 @@ TEST(SmithGtr, KeepsTheDigitsOfFloat) {
       for (const double c : gtr_cosines) {
         const double a = static_cast<float>(alpha), g = static_cast<float>(gamma);
         const double error = std::abs(g1<float>(a, g, static_cast<float>(c)) -
-                                      gtr_g1(a, std::max(g, gamma), static_cast<float>(c)));
+                                      g1(a, std::max(g, gamma), static_cast<float>(c)));
         EXPECT_LT(error, 2e-6) << alpha << " " << gamma << " " << c;
         worst = std::max(worst, error);
       }

@@ -23,7 +23,7 @@ Table read(const RglFile& file) {
   return read_table(folder.write("a.bsdf", file.bytes()));
 }
 
-double lobe(const DirectionPair& p, std::size_t channel) {
+double lobe_of_pair(const DirectionPair& p, std::size_t channel) {
   const auto a = angles(p);
   const double q = a.noh * a.noh * 0.25 + a.sin2_theta_h;
   return 0.05 * static_cast<double>(channel + 1) + 0.25 / (pi * q * q) / 4;
@@ -206,7 +206,7 @@ TEST(RglFile, DefinesTheFunctionBetweenItsSamples) {
       for (const double phi : {0.1, 1.5, 3.0, 3.14159}) {
         const DirectionPair p{direction(theta_i, 0.7), direction(theta_o, 0.7 + phi)};
         for (std::size_t c = 0; c < 3; ++c)
-          worst = std::max(worst, std::abs(t.between(p, c) / lobe(p, c) - 1));
+          worst = std::max(worst, std::abs(t.between(p, c) / lobe_of_pair(p, c) - 1));
       }
   EXPECT_LT(worst, 0.02);
   EXPECT_TRUE(std::isnan(t.between({direction(0.3, 0), direction(1.6, 0)}, 0)));
@@ -273,7 +273,8 @@ TEST(RglFile, IsReciprocalWhereItsFunctionIs) {
     return inspect(t).reciprocity_error.value_or(9);
   };
   EXPECT_LT(error(lobe), 0.05);
-  EXPECT_GT(error([](const DirectionPair& p, std::size_t c) { return lobe(p, c) * p.wo.z; }), 0.2)
+  EXPECT_GT(
+      error([](const DirectionPair& p, std::size_t c) { return lobe_of_pair(p, c) * p.wo.z; }), 0.2)
       << "a forgotten cosine";
 }
 
