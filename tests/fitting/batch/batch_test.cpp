@@ -59,7 +59,7 @@ void for_each_member(T& of, const F& f) {
     else
       f(m);
   };
-  std::apply([&](const auto&... all) { (one(all), ...); }, Description<T>::fields());
+  std::apply([&](const auto&... all) { (one(all), ...); }, description<T>);
 }
 
 /// Key with the k-th member changed.

@@ -15,7 +15,7 @@ namespace {
 using test::scene_of;
 using test::sphere;
 
-using test::pi;
+using gonio::test::pi;
 const Direction up{0, 1, 0};
 
 DirectionalLight from(const Direction& d, const Rgb& irradiance) {

@@ -93,7 +93,9 @@ TEST(PlanDocument, IsRefusedWithAFormThatTheMaterialHasNot) {
 TEST(PlanDocument, IsRefusedWithASetOfFormsThatNoEffectHas) {
   const auto with = [](const char* name, const char* form) {
     return refusal([&] {
-      read(changed([&](Json& d) { d["materials"]["it"]["front"][0]["forms"] = {{name, form}}; }));
+      read_forms(changed([&](Json& d) {
+        d["materials"]["it"]["front"][0]["forms"] = {{name, form}};
+      }));
     });
   };
   EXPECT_HAS(with("tail", "ggx2"), "/materials/it/front/0/forms/tail");

@@ -15,7 +15,7 @@ namespace {
 using test::scene_of;
 using test::sphere;
 
-using test::pi;
+using gonio::test::pi;
 
 Material material(const std::string& spec, const std::vector<Setting>& settings) {
   return {spec, {}, bind_model(spec, settings, 3), false};

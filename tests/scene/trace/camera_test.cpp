@@ -7,7 +7,7 @@
 namespace gonio::scene {
 namespace {
 
-using test::pi;
+using gonio::test::pi;
 
 double camera_off(const Direction& a, const Direction& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
