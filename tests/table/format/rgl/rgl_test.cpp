@@ -180,23 +180,23 @@ void expect_values(const Table& t, const Brdf& f) {
 TEST(RglFile, GivesBackTheFunctionAtItsOwnDirections) {
   for (const bool jacobian : {true, false})
     for (const bool even : {true, false}) {
-      RglFile file{.jacobian = jacobian, .even = even, .f = lobe};
+      RglFile file{.jacobian = jacobian, .even = even, .f = lobe_of_pair};
       const Table t = read(file);
       EXPECT_EQ(t.format, "rgl");
       EXPECT_EQ(t.channels, (std::vector<std::string>{"r", "g", "b"}));
       EXPECT_EQ(t.size(), 4 * (7 * 7 + 1)) << "each direction once";
-      expect_values(t, lobe);
+      expect_values(t, lobe_of_pair);
     }
 }
 
 TEST(RglFile, HoldsWavelengthsAsChannels) {
-  const Table t = read({.wavelengths = {400, 550.5F, 700, 1000}, .f = lobe});
+  const Table t = read({.wavelengths = {400, 550.5F, 700, 1000}, .f = lobe_of_pair});
   EXPECT_EQ(t.channels, (std::vector<std::string>{"400", "550.5", "700", "1000"}));
-  expect_values(t, lobe);
+  expect_values(t, lobe_of_pair);
 }
 
 TEST(RglFile, DefinesTheFunctionBetweenItsSamples) {
-  RglFile file{.size = 64, .f = lobe};
+  RglFile file{.size = 64, .f = lobe_of_pair};
   file.theta_i.clear();
   for (int k = 0; k < 16; ++k) file.theta_i.push_back(0.1F * static_cast<float>(k));
   const Table t = read(file);
@@ -213,7 +213,7 @@ TEST(RglFile, DefinesTheFunctionBetweenItsSamples) {
 }
 
 TEST(RglFile, IsBetweenItsSamplesWhatTheFormatDefines) {
-  RglFile file{.size = 12, .f = lobe};
+  RglFile file{.size = 12, .f = lobe_of_pair};
   file.theta_i = {0, 0.3F, 0.7F, 1.1F, 1.5F};
   for (const bool anisotropic : {false, true}) {
     if (anisotropic) {
@@ -272,7 +272,7 @@ TEST(RglFile, IsReciprocalWhereItsFunctionIs) {
     const Table t = read({.size = 32, .f = f});
     return inspect(t).reciprocity_error.value_or(9);
   };
-  EXPECT_LT(error(lobe), 0.05);
+  EXPECT_LT(error(lobe_of_pair), 0.05);
   EXPECT_GT(
       error([](const DirectionPair& p, std::size_t c) { return lobe_of_pair(p, c) * p.wo.z; }), 0.2)
       << "a forgotten cosine";
