@@ -17,6 +17,7 @@
 #include "reports/index/index_page.h"
 #include "reports/page/page.h"
 #include "reports/picture/document.h"
+#include "reports/picture/json_numbers.h"
 #include "reports/remap/remap.h"
 #include "reports/scenes/scenes.h"
 #include "reports/schlick/schlick.h"
