@@ -19,7 +19,7 @@ Parsed parsed(const std::string& text) {
   while (d.next()) p.rows.emplace_back(d.fields().begin(), d.fields().end());
   return p;
 }
-std::string complaint(const std::string& text) {
+std::string complaint_of_text(const std::string& text) {
   return test::refusal([&] { parsed(text); });
 }
 
@@ -40,13 +40,15 @@ TEST(Delimited, TakesAQuoteForItselfWhereNoFieldBegins) {
 }
 
 TEST(Delimited, CountsTheLinesWithinQuotes) {
-  EXPECT_EQ(complaint("a,\"b\n\n\"\n\n1,2\n1.0,2,3\n"), "file: line 6: found 3 fields, expected 2");
+  EXPECT_EQ(complaint_of_text("a,\"b\n\n\"\n\n1,2\n1.0,2,3\n"),
+            "file: line 6: found 3 fields, expected 2");
 }
 
 TEST(Delimited, NamesTheLineOfAQuoteThatDoesNotEnd) {
   const std::string found = "found a quote that does not end";
-  EXPECT_NE(complaint("a,b\n1,\"2\n3,4\n").find("file: line 2: " + found), std::string::npos);
-  EXPECT_NE(complaint("\n\"a,b\n1,2\n").find("file: line 2: " + found), std::string::npos);
+  EXPECT_NE(complaint_of_text("a,b\n1,\"2\n3,4\n").find("file: line 2: " + found),
+            std::string::npos);
+  EXPECT_NE(complaint_of_text("\n\"a,b\n1,2\n").find("file: line 2: " + found), std::string::npos);
 }
 
 /// Were every quote looked for again from each field on, it would take minutes.
@@ -54,15 +56,15 @@ TEST(Delimited, OfManyQuotesTakesLinearTime) {
   std::string text = "a";
   for (int i = 0; i < 500'000; ++i) text += ",\"b\"";
   EXPECT_EQ(parsed(text).names.size(), 500'001U);
-  EXPECT_NE(complaint(text + "\n\"" + std::string(2'000'000, ',')), "");
-  EXPECT_NE(complaint(text + "\n" + text.substr(0, text.size() - 1)), "");
+  EXPECT_NE(complaint_of_text(text + "\n\"" + std::string(2'000'000, ',')), "");
+  EXPECT_NE(complaint_of_text(text + "\n" + text.substr(0, text.size() - 1)), "");
 }
 
 TEST(Delimited, TakesTheLineEndsOfOldMacs) {
   const auto p = parsed("# x\ra,b\r\r1,2\r3,4");
   EXPECT_EQ(p.names, (Lines{"a", "b"}));
   EXPECT_EQ(p.rows, (std::vector<Lines>{{"1", "2"}, {"3", "4"}}));
-  EXPECT_EQ(complaint("a,b\r1,2\r3\r"), "file: line 3: found 1 fields, expected 2");
+  EXPECT_EQ(complaint_of_text("a,b\r1,2\r3\r"), "file: line 3: found 1 fields, expected 2");
   EXPECT_TRUE(looks_delimited("a,b,c\r1,2,3\r"));
   EXPECT_EQ(first_fields("# x\ra,b\r1,2"), (Lines{"a", "b"}));
 }
@@ -76,11 +78,11 @@ std::string utf16(const std::string& text, bool big) {
 TEST(Delimited, RefusesUtf16ByName) {
   const std::string text = "theta_i,theta_o,f\n10,20,0.5\n",
                     said = "file: byte 0: found text in UTF-16, expected UTF-8";
-  EXPECT_EQ(complaint("\xff\xfe" + utf16(text, false)), said);
-  EXPECT_EQ(complaint("\xfe\xff" + utf16(text, true)), said);
-  EXPECT_EQ(complaint(utf16(text, false)), said);
-  EXPECT_EQ(complaint(utf16(text, true)), said);
-  EXPECT_EQ(complaint(text), "");
+  EXPECT_EQ(complaint_of_text("\xff\xfe" + utf16(text, false)), said);
+  EXPECT_EQ(complaint_of_text("\xfe\xff" + utf16(text, true)), said);
+  EXPECT_EQ(complaint_of_text(utf16(text, false)), said);
+  EXPECT_EQ(complaint_of_text(utf16(text, true)), said);
+  EXPECT_EQ(complaint_of_text(text), "");
 }
 
 TEST(CommaField, IsQuotedWhereItMustBeAndReadsBack) {
