@@ -43,15 +43,15 @@ struct Workflow {
 
   /// f0 and kd of each channel.
   std::pair<std::vector<double>, std::vector<double>> resolved(const BoundModel& b) const {
-    std::pair<std::vector<double>, std::vector<double>> all;
+    std::pair<std::vector<double>, std::vector<double>> channels;
     for (std::size_t c = 0; c < b.model.channels; ++c) {
       const double m = b.values[metallic->slot(c)];
       const double r = reflectance ? b.values[reflectance->slot(c)] : 0.5;
       const auto [f0, kd] = F0Metallic<double>::of(0.16 * r * r, b.values[base_color->slot(c)], m);
-      all.first.push_back(f0);
-      all.second.push_back(kd);
+      channels.first.push_back(f0);
+      channels.second.push_back(kd);
     }
-    return all;
+    return channels;
   }
 
  private:
