@@ -142,9 +142,9 @@ struct RecordType {
 
 // --- How tables are made ---
 
-/// Way of a type of its own kind to be JSON.
+/// Way of a type of its own kind to be JSON: a pointer, whose type tells, for under sanitizers its value is no constant.
 template <class V>
-inline constexpr const JsonForm* json_form = nullptr;
+inline constexpr std::nullptr_t json_form = nullptr;
 
 namespace record_detail {
 
@@ -262,7 +262,7 @@ constexpr void add_entries(ValueType& t) {
 template <class V>
 constexpr ValueType make_type() {
   ValueType t;
-  if constexpr (json_form<V> != nullptr) {
+  if constexpr (!std::same_as<decltype(json_form<V>), const std::nullptr_t>) {
     t = {.kind = ValueKind::own, .own = json_form<V>};
   } else if constexpr (is<V, PerChannel> && is<Bare<V>, std::optional>) {
     t = type_of<Bare<V>>;
