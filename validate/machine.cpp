@@ -10,9 +10,9 @@
 #include "geometry/half_difference.h"
 #include "geometry/sampling.h"
 #include "reports/energy/energy.h"
-#include "validate/measure.h"
 #include "stability/answer.h"
 #include "timing/timing.h"
+#include "validate/measure.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 
 #include "base/file.h"
 #include "cli/fit/batch_words.h"
-#include "cli/line/command.h"
 #include "cli/fit/map_result.h"
+#include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "fitting/batch/batch.h"
 #include "reports/pages/batch_page.h"

@@ -64,8 +64,8 @@ void add_rows_pictures(Pictures& to, const CostRows& report) {
   const auto best = report.machine.instruction_sets.back();
   for (const auto& k : kinds)
     for (const std::string_view number : {"float", "double"})
-      for (const auto& [isa, memory] : {std::pair<std::string, std::string_view>{best, "cache"},
-                                        {best, "streaming"}}) {
+      for (const auto& [isa, memory] :
+           {std::pair<std::string, std::string_view>{best, "cache"}, {best, "streaming"}}) {
         Series series;
         for (const auto& r : report.rows) {
           if (r.kind != k.kind || r.number != number || r.isa != isa || r.memory != memory ||

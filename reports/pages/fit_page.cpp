@@ -3,8 +3,8 @@
 #include "base/json/describe.h"
 #include "reports/page/assets.h"
 #include "reports/page/page.h"
-#include "reports/picture/json_numbers.h"
 #include "reports/pages/fields.h"
+#include "reports/picture/json_numbers.h"
 
 namespace gonio {
 

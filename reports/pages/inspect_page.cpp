@@ -7,9 +7,9 @@
 #include "base/json/describe.h"
 #include "reports/page/assets.h"
 #include "reports/page/page.h"
-#include "reports/picture/json_numbers.h"
 #include "reports/pages/angle_bins.h"
 #include "reports/pages/fields.h"
+#include "reports/picture/json_numbers.h"
 #include "table/health/directional_albedo.h"
 #include "table/health/reciprocity.h"
 

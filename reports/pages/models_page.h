@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fitting/choice/choice.h"
-#include "reports/picture/figure.h"
 #include "reports/pages/spheres.h"
+#include "reports/picture/figure.h"
 
 namespace gonio {
 

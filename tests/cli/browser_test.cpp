@@ -16,12 +16,12 @@
 #include "reports/energy/energy.h"
 #include "reports/index/index_page.h"
 #include "reports/page/page.h"
+#include "reports/pages/models_page.h"
 #include "reports/picture/document.h"
 #include "reports/picture/json_numbers.h"
 #include "reports/remap/remap.h"
 #include "reports/scenes/scenes.h"
 #include "reports/schlick/schlick.h"
-#include "reports/pages/models_page.h"
 
 namespace gonio::test {
 namespace {
