@@ -37,9 +37,32 @@ if(GONIO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${GONIO_CCACHE})
 endif()
 
-# What costs is reading headers: the files of a room are compiled together, eight at a time, so names in their anonymous
-# namespaces are the room's.
+# What costs is reading headers: the files of a room are compiled together, so names in their anonymous namespaces are the
+# room's.
 option(GONIO_UNITY "Compile the files of a room together" ON)
+
+# gonio_together(NAME COUNT FILES): replaces the files in the variable FILES by files that include COUNT of them each. CMake's own
+# UNITY_BUILD writes absolute paths, which keep a second clone from finding in the compiler's cache what the first compiled.
+function(gonio_together name count files)
+  list(LENGTH ${files} all)
+  if(NOT GONIO_UNITY OR all LESS 2)
+    return()
+  endif()
+  set(at ${PROJECT_BINARY_DIR}/together/${name})
+  set(together)
+  math(EXPR last "${all} - 1")
+  foreach(begin RANGE 0 ${last} ${count})
+    list(SUBLIST ${files} ${begin} ${count} part)
+    set(content)
+    foreach(source ${part})
+      file(RELATIVE_PATH path ${at} ${source})
+      string(APPEND content "#include \"${path}\"\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${at}/${begin}.cpp CONTENT "${content}")
+    list(APPEND together ${at}/${begin}.cpp)
+  endforeach()
+  set(${files} ${together} PARENT_SCOPE)
+endfunction()
 
 # The same objects make the program and modules that other programs load.
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
@@ -85,14 +108,14 @@ function(gonio_room room)
     set(sources ${room_SOURCES})
   endif()
   if(sources)
+    if(NOT room_APART AND NOT room_SOURCES AND NOT room MATCHES "^reports/")
+      gonio_together(${name} 8 sources)
+    endif()
     add_library(${name} STATIC ${sources})
     set(scope PUBLIC)
     target_link_libraries(${name} PRIVATE ${room_PRIVATE})
     if(room MATCHES "^cli|^reports/(picture|page|pages|finding|index)$")  # they show what others compute
       target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-    endif()
-    if(NOT room_APART AND NOT room MATCHES "^reports/")
-      set_target_properties(${name} PROPERTIES UNITY_BUILD ${GONIO_UNITY} UNITY_BUILD_BATCH_SIZE 8)
     endif()
     if(fmt::fmt IN_LIST room_LIBRARIES)
       set(headers_of gonio_headers)
