@@ -114,7 +114,7 @@ function(gonio_room room)
     add_library(${name} STATIC ${sources})
     set(scope PUBLIC)
     target_link_libraries(${name} PRIVATE ${room_PRIVATE})
-    if(room MATCHES "^cli|^reports/(picture|page|pages|finding|index)$")  # they show what others compute
+    if(room MATCHES "^cli|^reports/(picture|page|pages|finding|index)$|^(answer|shader|fitting/export)$")  # they show what others compute
       target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
     endif()
     if(fmt::fmt IN_LIST room_LIBRARIES)

@@ -7,9 +7,9 @@
 
 #include "base/quantile.h"
 #include "fitting/solve/matrix.h"
+#include "number/distributions.h"
 
 #include <Eigen/Eigenvalues>
-#include <boost/math/distributions/fisher_f.hpp>
 
 namespace gonio::misfit {
 namespace {
@@ -50,7 +50,7 @@ struct Inverse {
 /// Probability of so large an F by luck.
 double luck(double f, double of, double freedom) {
   if (!(f > 0)) return 1;
-  return boost::math::cdf(boost::math::complement(boost::math::fisher_f(of, freedom), f));
+  return fisher_f_tail(f, of, freedom);
 }
 /// That of W = Uᵀ(Σ z zᵀ)⁻¹U over `units` independent scores z with the sum U (Hotelling), which is at
 /// most their number.

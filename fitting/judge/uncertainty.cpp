@@ -8,8 +8,7 @@
 #include <string>
 
 #include "fitting/judge/arrow_inverse.h"
-
-#include <boost/math/distributions/students_t.hpp>
+#include "number/distributions.h"
 
 namespace gonio {
 namespace {
@@ -204,7 +203,7 @@ class Covariance {
 }  // namespace
 
 double student_t_950(double nu) {
-  return boost::math::quantile(boost::math::students_t(nu), 0.95);
+  return students_t_quantile(0.95, nu);
 }
 
 Uncertainty::Uncertainty(std::size_t n)
@@ -216,7 +215,7 @@ Uncertainty::Uncertainty(std::size_t n)
 }
 
 double student_t_975(double nu) {
-  return boost::math::quantile(boost::math::students_t(nu), 0.975);
+  return students_t_quantile(0.975, nu);
 }
 
 Determined find_determined(const ArrowMatrix& bread,

@@ -4,23 +4,22 @@
 #include <cmath>
 #include <limits>
 
-#include <boost/math/distributions/binomial.hpp>
-#include <boost/math/special_functions/beta.hpp>
+#include "number/distributions.h"
 
 namespace gonio::scene {
 namespace {
 
 /// Probability of at most k among n.
 double at_most(std::size_t k, std::size_t n, double p) {
-  return boost::math::cdf(boost::math::binomial(static_cast<double>(n), p), static_cast<double>(k));
+  return binomial_at_most(static_cast<double>(k), static_cast<double>(n), p);
 }
 
 }  // namespace
 
 double exceedance_bound(std::size_t exceeding, std::size_t n, double confidence) {
   if (exceeding >= n) return 1;
-  return boost::math::ibeta_inv(static_cast<double>(exceeding) + 1,
-                                static_cast<double>(n - exceeding), confidence);
+  return beta_quantile(confidence, static_cast<double>(exceeding) + 1,
+                       static_cast<double>(n - exceeding));
 }
 
 std::size_t draws_needed(double quantile, double confidence) {
