@@ -1,10 +1,13 @@
 // The validation as JSON and as a page.
-#include "reports/page/page.h"
+#include <algorithm>
 
-#include "reports/page/assets.h"
+#include "reports/page/numbers.h"
+#include "reports/page/render.h"
 #include "reports/picture/document.h"
 #include "validate/validate.h"
 #include "validate/words.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 
@@ -56,8 +59,74 @@ std::string to_json(const Validation& v) {
 std::string validation_schema() {
   return schema_text<Validation>("Validation of a choice");
 }
-std::string validation_page_html(std::string_view data) {
-  return make_report_page("Before you ship", data, assets::validate_js);
+
+// --- The page ------------------------------------------------------------------------------------
+namespace {
+
+std::string spaced(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+std::string evidence_text(std::string_view evidence) {
+  if (evidence == "proved") return "proved for every input";
+  if (evidence == "exhaustive") return "every input looked at";
+  if (evidence == "searched") return "searched: there may be worse";
+  return evidence == "counted" ? "counted" : "measured here";
+}
+
+}  // namespace
+
+std::string validation_page_html(const Validation& v) {
+  using namespace page;
+  const auto broken = std::ranges::count_if(v.budgets, [](const auto& b) { return !b.holds; });
+  const auto limits = [&](std::string_view budget) {
+    return std::ranges::find(v.budgets, budget, &BudgetCheck::budget) != v.budgets.end();
+  };
+  Page out{"", "validate", "Before you ship", broken ? "Not yet" : "Ready to ship"};
+  out.findings = {
+      broken ? fmt::format("The choice breaks {} of {}.", broken, many(v.budgets.size(), "budget"))
+             : "The choice keeps every budget."};
+  for (const auto& b : v.budgets)
+    if (!b.holds && out.findings.size() < 4) out.findings.push_back(sentence(b));
+  if (limits("reciprocity") && limits("energy_loss"))
+    out.findings.emplace_back(
+        "A compensation that gives back all light for each view may change where light and view "
+        "change places: the two budgets can conflict.");
+  Table t{columns("budget|kept|>found|>allowed|at|evidence"), {}, "told-by-cell"};
+  for (const auto& b : v.budgets) {
+    const auto place = place_text(b);
+    t.rows.push_back({{std::string(title_of(b.budget))},
+                      {b.holds ? "yes" : "no", {}, {}, b.holds ? "verdict-yes" : "verdict-no"},
+                      value_text(b.budget, b.found),
+                      value_text(b.budget, b.limit),
+                      {place.empty() ? "–" : place},
+                      {b.words.empty() ? evidence_text(b.evidence) : b.words, {}, {}, "muted"}});
+  }
+  out.sections = {{"Budgets", "The worst of each in the choice's domain.", {t}}};
+  Section light{"Light that comes back", "Of a uniform white sky, by the view.", {}};
+  for (const auto& f : v.pictures.figures) light.parts.emplace_back(Shown{f.family, f.choices});
+  if (!light.parts.empty()) out.sections.push_back(light);
+  if (v.suggestion)
+    out.sections.push_back(
+        {"The cheapest that keeps every budget",
+         "",
+         {Prose{fmt::format("`{}`{} {}", v.suggestion->model,
+                            v.suggestion->scattering == "single"
+                                ? "."
+                                : fmt::format(" with {}.", spaced(v.suggestion->scattering)),
+                            v.suggestion->why)}}});
+  const auto code = [](const std::string& text) { return text.empty() ? text : "`" + text + "`"; };
+  out.sections.push_back({"The choice",
+                          "",
+                          {Pairs{{{"model", code(v.model)},
+                                  {"scattering", spaced(v.scattering)},
+                                  {"number", std::string(name_of(v.number))},
+                                  {"reference", code(v.reference)},
+                                  {"file", code(v.path)}}}}});
+  out.setting =
+      "Albedos and colours are of the formula in double. What the number loses is in the budget of "
+      "inputs without a value, and in `gonio stability`.";
+  return page_html(out, v.pictures);
 }
 
 }  // namespace gonio

@@ -66,7 +66,6 @@ std::string validation_schema();
 std::string junit_of(const Validation&);
 /// SARIF 2.1.0: a result for each budget that is broken.
 std::string sarif_of(const Validation&);
-/// \param data  of to_json()
-std::string validation_page_html(std::string_view data);
+std::string validation_page_html(const Validation&);
 
 }  // namespace gonio

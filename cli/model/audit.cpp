@@ -93,7 +93,7 @@ Exit run(const AuditCall& o) {
   const auto entries = audit(ids, [&](std::size_t done) { progress(done); });
   progress.clear();
   const std::string json = to_json(entries);
-  if (out.has_page()) out.write_page(audit_page_html(json), json);
+  if (out.has_page()) out.write_page(audit_page_html(entries), json);
   out.commit();
   if (o.json)
     fmt::print("{}\n", json);

@@ -152,7 +152,7 @@ class IndexFiles {
   void write(const ReportIndex& index) {
     const std::string json = to_json(index);
     data_.write(json + "\n");
-    page_.write(index_page_html(json));
+    page_.write(index_page_html(index));
     commit_all(std::array{&data_, &page_});
   }
   const std::string& page_path() const { return page_path_; }

@@ -55,7 +55,7 @@ Exit run(const ValidateCall& o) {
   progress.clear();
   const auto document = to_json(v);
   files.write_document(document);
-  if (files.has_page()) files.write_page(validation_page_html(document), document);
+  if (files.has_page()) files.write_page(validation_page_html(v), document);
   if (reports[0]) reports[0]->write(junit_of(v));
   if (reports[1]) reports[1]->write(sarif_of(v));
   files.commit();

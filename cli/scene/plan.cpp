@@ -99,7 +99,7 @@ Exit run(const PlanCall& o) {
   progress.clear();
   const auto document = to_json(plan);
   files.write_document(document);
-  if (files.has_page()) files.write_page(plan_page_html(document), document);
+  if (files.has_page()) files.write_page(plan_page_html(plan), document);
   MaterialxPlan written;
   if (materials) {
     written = in_materialx(s, plan, document);

@@ -77,7 +77,6 @@ std::vector<EntryAudit> audit(const std::vector<std::string>& ids,
 std::string to_json(const std::vector<EntryAudit>&);
 /// JSON Schema of that document.
 std::string audit_schema();
-/// \param data  of to_json() above
-std::string audit_page_html(std::string_view data);
+std::string audit_page_html(const std::vector<EntryAudit>&);
 
 }  // namespace gonio

@@ -1,10 +1,7 @@
-// The audit as JSON and as a page.
-#include "reports/page/page.h"
-
+// The audit as JSON.
 #include <utility>
 
 #include "reports/audit/audit.h"
-#include "reports/page/assets.h"
 #include "reports/picture/document.h"
 
 namespace gonio {
@@ -107,9 +104,6 @@ std::string to_json(const std::vector<EntryAudit>& entries) {
 }
 std::string audit_schema() {
   return schema_text<AuditDocument>("gonio audit --json");
-}
-std::string audit_page_html(std::string_view data) {
-  return make_page("The catalogue, audited", data, assets::audit_js);
 }
 
 }  // namespace gonio

@@ -20,6 +20,10 @@
 
 namespace gonio {
 
+namespace page {
+struct Page;
+}
+
 /// Distance of a form from the truth that it stands for.
 struct CostError {
   std::string truth;        ///< what it is held against; empty: nothing
@@ -204,7 +208,7 @@ std::string to_json(const CostReport&);
 std::string rows_csv(const CostReport&);
 /// JSON Schema of the document.
 std::string cost_schema();
-/// \param data  of to_json() above
-std::string cost_page_html(std::string_view data);
+/// Its page.
+page::Page report_page(const CostReport&);
 
 }  // namespace gonio

@@ -1,12 +1,9 @@
-// The cost report as JSON and as a page.
-#include "reports/page/page.h"
-
+// The cost report as JSON.
 #include <optional>
 #include <utility>
 
 #include "reports/cost/baseline.h"
 #include "reports/cost/studies.h"
-#include "reports/page/assets.h"
 #include "reports/picture/document.h"
 
 namespace gonio {
@@ -334,9 +331,6 @@ std::string rows_csv(const CostReport& r) {
 }
 std::string cost_schema() {
   return schema_text<CostReport>("gonio report cost");
-}
-std::string cost_page_html(std::string_view data) {
-  return make_report_page("What accuracy costs in time", data, assets::cost_js);
 }
 
 }  // namespace gonio

@@ -16,6 +16,10 @@
 
 namespace gonio {
 
+namespace page {
+struct Page;
+}
+
 /// A surface that is synthesized.
 struct CrossTruth {
   std::string name;              ///< "GGX", "GGX, all orders", "GTR 1.5"
@@ -157,7 +161,7 @@ std::string to_json(const CrossFitReport&);
 std::string rows_csv(const CrossFitReport&);
 /// JSON Schema of the document.
 std::string cross_fit_schema();
-/// Page whose data are those of the document but for the rows, which are many: pictures and sentences show them.
-std::string cross_fit_page_html(const CrossFitReport&);
+/// Its page.
+page::Page report_page(const CrossFitReport&);
 
 }  // namespace gonio

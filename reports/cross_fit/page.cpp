@@ -1,11 +1,8 @@
-// The cross fit report as JSON and as a page.
-#include "reports/page/page.h"
-
+// The cross fit report as JSON.
 #include <algorithm>
 
 #include "reports/cross_fit/cross_fit.h"
 #include "reports/finding/names.h"
-#include "reports/page/assets.h"
 #include "reports/picture/document.h"
 
 namespace gonio {
@@ -185,10 +182,6 @@ std::string rows_csv(const CrossFitReport& r) {
 }
 std::string cross_fit_schema() {
   return schema_text<CrossFitReport>("gonio report cross_fit");
-}
-std::string cross_fit_page_html(const CrossFitReport& r) {
-  return make_report_page("Cross fits: what the other parameters absorb",
-                          page_document(WithoutRows{&r}), assets::cross_fit_js);
 }
 
 }  // namespace gonio

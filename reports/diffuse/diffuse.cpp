@@ -166,27 +166,8 @@ std::optional<double> largest_difference(const std::vector<DiffuseColour>& colou
 
 Facts facts(const DiffuseRows& r) {
   Facts f;
-  for (const auto& form : r.forms) {
-    Facts::Diffuse d{form.id,
-                     form.most_albedo,
-                     form.with_interface,
-                     form.least_average,
-                     form.reciprocity,
-                     {},
-                     {},
-                     {},
-                     form.ns,
-                     form.spread_ns};
-    for (const auto& row : r.rows)
-      if (row.form == form.id && (d.roughness.empty() || d.roughness.back() != row.roughness))
-        d.roughness.push_back(row.roughness);
-    for (const double x : d.roughness) {
-      if (const auto m = largest_difference(r.colours, form.id, "matte", x)) d.matte.push_back(*m);
-      if (const auto p = largest_difference(r.colours, form.id, "plastic", x))
-        d.plastic.push_back(*p);
-    }
-    f.diffuse.push_back(std::move(d));
-  }
+  for (const auto& form : r.forms)
+    f.diffuse.push_back({form.id, form.most_albedo, form.with_interface});
   return f;
 }
 

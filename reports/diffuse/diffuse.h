@@ -12,6 +12,10 @@
 
 namespace gonio {
 
+namespace page {
+struct Page;
+}
+
 /// A form, and what it is over all that it is looked at in, at kd = 1.
 struct DiffuseForm {
   std::string id, name;   ///< name: "Disney"
@@ -95,7 +99,7 @@ std::string to_json(const DiffuseReport&);
 std::string rows_csv(const DiffuseReport&);
 /// JSON Schema of the document.
 std::string diffuse_schema();
-/// \param data  of to_json() above
-std::string diffuse_page_html(std::string_view data);
+/// Its page.
+page::Page report_page(const DiffuseReport&);
 
 }  // namespace gonio

@@ -1,8 +1,5 @@
-// The report on diffuse forms as JSON and as a page.
-#include "reports/page/page.h"
-
+// The report on diffuse forms as JSON.
 #include "reports/diffuse/diffuse.h"
-#include "reports/page/assets.h"
 #include "reports/picture/document.h"
 
 namespace gonio {
@@ -86,9 +83,6 @@ std::string rows_csv(const DiffuseReport& r) {
 }
 std::string diffuse_schema() {
   return schema_text<DiffuseReport>("gonio report diffuse");
-}
-std::string diffuse_page_html(std::string_view data) {
-  return make_report_page("Diffuse: what a matte surface gives back", data, assets::diffuse_js);
 }
 
 }  // namespace gonio

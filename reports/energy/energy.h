@@ -14,6 +14,10 @@
 
 namespace gonio {
 
+namespace page {
+struct Page;
+}
+
 /// Roughnesses at which the loss exceeds a share.
 struct Crossing {
   double share;  ///< 0.01, 0.05, 0.1
@@ -265,7 +269,7 @@ std::string to_json(const EnergyReport&);
 std::string rows_csv(const EnergyReport&);
 /// JSON Schema of the document.
 std::string energy_schema();
-/// \param data  of to_json() above
-std::string energy_page_html(std::string_view data);
+/// Its page.
+page::Page report_page(const EnergyReport&);
 
 }  // namespace gonio

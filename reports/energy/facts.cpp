@@ -59,10 +59,6 @@ Facts facts(const EnergyRows& r) {
       f.compensations.push_back({std::string(c.id), c.id == "fdez_aguera", c.ns - c.without_ns,
                                  std::hypot(c.spread_ns, c.without_spread_ns), c.bytes,
                                  c.without_ns});
-  for (const auto& l : r.light.lit)
-    f.image_light.push_back({l.environment, l.f0, l.roughness, l.nov, l.delta_e, l.delta_e_max});
-  for (const auto& c : r.light.costs)
-    f.image_light_times.push_back({std::string(c.way), c.ns, c.spread_ns});
   return f;
 }
 

@@ -1,11 +1,8 @@
-// The energy report as JSON and as a page.
-#include "reports/page/page.h"
-
+// The energy report as JSON.
 #include <array>
 #include <optional>
 
 #include "reports/energy/energy.h"
-#include "reports/page/assets.h"
 #include "reports/picture/document.h"
 
 #include <nlohmann/json.hpp>
@@ -342,9 +339,6 @@ std::string rows_csv(const EnergyReport& r) {
 }
 std::string energy_schema() {
   return schema_text<EnergyReport>("gonio report energy");
-}
-std::string energy_page_html(std::string_view data) {
-  return make_report_page("Energy: what single scattering loses", data, assets::energy_js);
 }
 
 }  // namespace gonio

@@ -18,8 +18,6 @@ void join(Facts& to, const Facts& from) {
   append(to.fresnel, from.fresnel);
   append(to.scattering, from.scattering);
   append(to.compensations, from.compensations);
-  append(to.image_light, from.image_light);
-  append(to.image_light_times, from.image_light_times);
   append(to.diffuse, from.diffuse);
   append(to.precision, from.precision);
   append(to.tails, from.tails);

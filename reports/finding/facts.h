@@ -59,26 +59,10 @@ struct Facts {
     double without_ns;    ///< of single scattering, in the same run
   };
   std::vector<Compensation> compensations{};
-  /// ΔE2000 of the split sum against the integral that it stands for, under a sky, over views.
-  struct ImageLight {
-    std::string light;
-    double f0, roughness, nov;
-    double mean, most;
-  };
-  std::vector<ImageLight> image_light{};
-  /// Time of a pixel under image-based light [ns].  \see ImageLight
-  std::vector<Time> image_light_times{};  ///< id: "split sum", "quadrature"
-  /// One diffuse form, at kd = 1, over roughness.
   struct Diffuse {
     std::string id;
-    double most_albedo;           ///< of a direction
+    double most_albedo;           ///< of a direction, at kd = 1, over roughness
     bool with_interface = false;  ///< it is none of a matte surface
-    double least_average = 0;     ///< over the hemisphere
-    double reciprocity = 0;       ///< most |f(l, v) − f(v, l)| over the larger of them
-    /// Greatest ΔE2000 over lights and materials: of a matte surface against EON, and of a plastic; empty where the form is none of
-    /// such a surface.
-    std::vector<double> roughness{}, matte{}, plastic{};
-    double ns = 0, spread = 0;  ///< of a sample, in float, in columns that stay in cache
   };
   std::vector<Diffuse> diffuse{};
   /// Least alpha from which on a distribution keeps a relative error in few bits.

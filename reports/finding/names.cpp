@@ -107,11 +107,4 @@ std::string brief_name(std::string_view form) {
   return name.size() <= brief ? name : std::string(short_id(form));
 }
 
-std::vector<std::pair<std::string, std::string>> form_names() {
-  std::vector<std::pair<std::string, std::string>> out(names.begin(), names.end());
-  for (const auto& term : catalogue())
-    if (!name_in_list(term.id())) out.emplace_back(term.id(), term.about->title);
-  return out;
-}
-
 }  // namespace gonio

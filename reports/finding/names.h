@@ -4,8 +4,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace gonio {
 
@@ -16,7 +14,5 @@ std::string name_of_form(std::string_view form);
 std::string in_text(std::string_view form);
 /// Name for a picture, where there is little room: the same where it is short, else the id without its role.
 std::string brief_name(std::string_view form);
-/// Every form of the catalogue, and each variant that has a name of its own: {id, name}.
-std::vector<std::pair<std::string, std::string>> form_names();
 
 }  // namespace gonio

@@ -1,12 +1,16 @@
 #include "reports/index/index_page.h"
 
 #include <algorithm>
+#include <ctime>
 #include <utility>
 
-#include "reports/page/assets.h"
-#include "reports/page/page.h"
+#include "reports/page/numbers.h"
+#include "reports/page/render.h"
 #include "reports/picture/document.h"
+#include "reports/picture/markup.h"
 
+#include <fmt/chrono.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace gonio {
@@ -44,6 +48,7 @@ Json picture_of(const ReportIndex::Entry& r) {
   return all.empty() ? Json() : all[0];
 }
 
+constexpr const char* fresnel_title = "What Fresnel's shortcuts show";
 /// Forms of Fresnel that the grid shows.
 constexpr std::string_view shown_forms[] = {"fresnel.schlick", "fresnel.schlick.f90", "fresnel.f82",
                                             "fresnel.lazanyi, corrected"};
@@ -200,8 +205,175 @@ std::string index_schema() {
   return schema_text<ReportIndex>("gonio report all: index.json");
 }
 
-std::string index_page_html(std::string_view data) {
-  return make_report_page("Which shortcuts can you ship?", data, assets::index_js);
+// --- The page
+// --------------------------------------------------------------------------------------
+namespace {
+
+using namespace page;
+using page::Group;
+using page::Table;
+
+std::string page_of(std::string_view report, std::string_view anchor = "") {
+  return fmt::format("{}.html{}{}", report, anchor.empty() ? "" : "#", anchor);
+}
+/// A cell whose aside stands small below it.
+Cell with_aside(const std::string& text, std::string look = {}, std::string title = {}) {
+  const auto main = without_aside(text);
+  return {
+      main, std::move(title),
+      main.size() == text.size() ? "" : text.substr(main.size() + 2, text.size() - main.size() - 3),
+      std::move(look)};
+}
+
+Part lead(const ReportIndex& i) {
+  const auto& m = i.facts.setting;
+  std::string text =
+      "What each shortcut leaves of exact Fresnel, exact Smith masking and all bounces of light. "
+      "Its cost is what one float sample takes more than with the cheap form";
+  if (m && m->model_ns)
+    text += fmt::format("; a whole GGX highlight takes {} ns", significant(*m->model_ns, 2));
+  text +=
+      m ? fmt::format(". Measured on {} with {} from cache, {} setting.",
+                      m->cpu.empty() ? "this machine" : m->cpu, m->isa, i.full ? "full" : "quick")
+        : fmt::format(". {} setting.", i.full ? "Full" : "Quick");
+  if (m && m->others && *m->others >= 0.25)
+    text += fmt::format(" Meanwhile other programs kept {} of {} processors busy.",
+                        plain(*m->others, 2), m->threads);
+  if (!i.facts.fresnel.empty())
+    text += fmt::format(
+        " ΔE is CIEDE2000: up to {} nobody sees it, up to {} only side by side; “{}” has the "
+        "sources.",
+        plain(just_seen), plain(side_by_side), fresnel_title);
+  return Prose{text, "lead"};
+}
+
+Section what_to_ship(const ReportIndex& i) {
+  Table t{columns("for|take|error left|costs|unless"), {}, "told-by-cell decide"};
+  for (const auto& d : decisions(i.facts))
+    t.rows.push_back({with_aside(d.subject),
+                      {d.take, d.take_id, "", "take"},
+                      with_aside(d.error),
+                      with_aside(d.cost),
+                      {d.unless.empty() ? "–" : d.unless}});
+  if (t.rows.empty()) return {};
+  return {"Decide", "", {t}};
+}
+
+/// What Fresnel's shortcuts show, by material.
+Section fresnel(const ReportIndex& i) {
+  const auto grid = fresnel_grid(i);
+  if (grid.empty()) return {};
+  Table t{columns(""), {}, "seen-by"};
+  for (const auto& name : unique(grid, [](const auto& f) { return name_of_form(f.form); }))
+    t.head.push_back({name});
+  for (const auto& m : unique(grid, &Facts::Fresnel::material)) {
+    auto& row = t.rows.emplace_back(std::vector{Cell{m == "IOR 1.33"  ? "water"
+                                                     : m == "IOR 1.5" ? "glass, plastic"
+                                                                      : m}});
+    for (std::size_t k = 1; k < t.head.size(); ++k) {
+      const auto at = std::ranges::find_if(grid, [&](const auto& f) {
+        return f.material == m && name_of_form(f.form) == t.head[k].name;
+      });
+      row.push_back(at == grid.end() ? Cell{"–", {}, {}, "unknown"}
+                                     : Cell{fmt::format("{:.1f}", at->delta_e),
+                                            {},
+                                            {},
+                                            at->delta_e <= just_seen      ? "unseen"
+                                            : at->delta_e <= side_by_side ? "beside"
+                                                                          : "shows"});
+    }
+  }
+  return {
+      fresnel_title,
+      "Greatest ΔE2000 of the rough surface under even light, over roughness and three views.",
+      {t,
+       Markup{fmt::format(
+           R"(<p class="small key-of"><span class="unseen">unseen, to {0}</span><span class="beside">side by side, to {1}</span><span class="shows">seen</span><span class="unknown">– not computed</span></p>)",
+           plain(just_seen), plain(side_by_side))},
+       Prose{fmt::format("Up to ΔE2000 {0} nobody sees a difference: its unit is scaled to that "
+                         "(CIE 142-2001). Up to {1} it is seen only side by side: observers could "
+                         "just see that in CIELAB (Mahy, Van Eycken and Oosterlinck 1994).",
+                         plain(just_seen), plain(side_by_side)),
+             "small muted"}},
+      "fresnel"};
+}
+
+Section cards(const ReportIndex& i) {
+  std::string html = R"(<div class="cards">)";
+  for (const auto& r : i.reports) {
+    const auto href = page_of(r.name);
+    html += fmt::format(
+        R"(<article class="card"><a href="{0}">{1}</a><h3><a href="{0}">{2}</a></h3><p>{3}</p><p class="small muted"><a href="{4}.json">JSON</a> · <a href="{4}.csv">CSV</a> · <a href="{4}/">{5}</a> · {6}</p></article>)",
+        href, r.first.figures.empty() ? "" : page_small(r.first.figures[0], 260, 96),
+        escaped_markup(capital(std::string(r.what))), escaped_markup(sentence_of(r)), r.name,
+        many(r.pictures, "picture"),
+        r.ms >= 1000 ? significant(r.ms / 1000) + "\u202fs" : significant(r.ms) + "\u202fms");
+  }
+  if (i.reports.empty()) return {};
+  return {"The reports", "", {Markup{html + "</div>"}}, "reports"};
+}
+
+Section claims(const ReportIndex& i) {
+  std::string rows;
+  for (const auto& [report, c] : claims_of(i)) {
+    using enum Claim::Judged;
+    rows += fmt::format(
+        R"(<tr><th scope="row"><span class="verdict-{}">{}</span></th><td><details><summary>“{}”</summary><p>{}</p><p>{} · <a href="{}">the report</a></p></details></td><td>{}</td></tr>)",
+        c->judged == holds    ? "yes"
+        : c->judged == partly ? "weakly"
+                              : "no",
+        name_of(c->judged), escaped_markup(c->claim), escaped_markup(capital(c->verdict)),
+        escaped_markup(c->source), escaped_markup(page_of(report, c->anchor)),
+        escaped_markup(c->figure));
+  }
+  if (rows.empty()) return {};
+  return {
+      "Claims",
+      "Claims in circulation, as they stand in five notes on shading that this project began with, "
+      "seed 000 to 004, which quote papers, talks and shaders. A click on one shows the figures "
+      "behind its verdict, and where it stands.",
+      {Markup{
+          R"(<div class="told-by-cell said"><table><thead><tr><th>verdict</th><th>claim</th><th>figure</th></tr></thead><tbody>)" +
+          rows + "</tbody></table></div>"}}};
+}
+
+}  // namespace
+
+std::string index_page_html(const ReportIndex& i) {
+  Page out{"", "", "Which shortcuts can you ship?", "Which shortcuts can you ship?"};
+  out.first = {lead(i)};
+  out.sections = {what_to_ship(i), fresnel(i)};
+  if (!i.front.figures.empty())
+    out.sections.push_back({"What masking's accuracy costs",
+                            "Error of G₂ against height-correlated Smith, over the time of a "
+                            "sample: on the line, nothing is both faster and nearer.",
+                            {Shown{i.front.figures[0].family, {}, 440}},
+                            "time"});
+  out.sections.push_back(cards(i));
+  out.sections.push_back(claims(i));
+  out.sections.push_back(
+      {"What stands behind a figure",
+       "",
+       {Points{{"A form is taken if it is the cheapest of those whose error does not show. Among "
+                "forms that no measurement tells apart in time, the nearest is taken, or the cheap "
+                "form itself.",
+                "Colours are those of a rough surface under even light, beside a perfect diffuser "
+                "in D65, without a tone map. A metal's true colour is that of its spectrum; three "
+                "wavelengths are 650, 550 and 450 nm.",
+                "Masking is compared with height-correlated Smith for GGX: RMS of G₂ over both "
+                "cosines from 0.05 to 1 and over roughness.",
+                "Bounces are compared with transport between the facets, for F0 from 0.04 to 1 "
+                "under Schlick's Fresnel, seen from cosine 0.1 on.",
+                "Times are medians over several processes on this machine. A difference counts "
+                "where each of them finds it, above its spread and 3 % of the time.",
+                "Compensations are timed in one process, one light and view at a time."}}},
+       "about"});
+  const std::time_t at = i.at_ms / 1000;
+  out.setting = fmt::format(
+      "gonio {}, {} setting, made {:%Y-%m-%d %H:%M} UTC. All of this page is in index.json beside "
+      "it.",
+      i.version, i.full ? "full" : "quick", fmt::gmtime(at));
+  return page_html(out, i.front);
 }
 
 }  // namespace gonio

@@ -36,7 +36,6 @@ std::string first_sentence(std::string_view);
 std::string to_json(const ReportIndex&);
 /// JSON Schema of that document.
 std::string index_schema();
-/// \param data  of to_json() above
-std::string index_page_html(std::string_view data);
+std::string index_page_html(const ReportIndex&);
 
 }  // namespace gonio

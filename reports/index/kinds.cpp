@@ -6,6 +6,7 @@
 #include "reports/cross_fit/cross_fit.h"
 #include "reports/diffuse/diffuse.h"
 #include "reports/energy/energy.h"
+#include "reports/page/render.h"
 #include "reports/remap/remap.h"
 #include "reports/scenes/scenes.h"
 #include "reports/schlick/schlick.h"
@@ -15,11 +16,11 @@ namespace gonio {
 namespace {
 
 template <class Rows>
-ReportFiles files(Report<Rows> report, std::string (*page)(std::string_view)) {
-  std::string json = to_json(report);
-  std::string html = page(json);
+ReportFiles files(Report<Rows> report) {
   Facts known;
   if constexpr (requires { facts(report.rows); }) known = facts(report.rows);
+  std::string json = to_json(report);
+  std::string html = page::page_html(report_page(report), report.pictures);
   return {std::move(json),
           std::move(html),
           rows_csv(report),
@@ -31,43 +32,36 @@ ReportFiles files(Report<Rows> report, std::string (*page)(std::string_view)) {
 ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {
   auto options = energy_options(o.full);
   options.environments = o.environments;
-  return files(energy_report(options, done), energy_page_html);
+  return files(energy_report(options, done));
 }
 ReportFiles diffuse(const ReportOptions& o, const ReportProgress& done) {
-  return files(diffuse_report(diffuse_options(o.full), done), diffuse_page_html);
+  return files(diffuse_report(diffuse_options(o.full), done));
 }
 ReportFiles remap(const ReportOptions& o, const ReportProgress& done) {
-  return files(remap_report(remap_options(o.full), done), remap_page_html);
+  return files(remap_report(remap_options(o.full), done));
 }
 ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
-  return files(schlick_report(schlick_options(o.full), done), schlick_page_html);
+  return files(schlick_report(schlick_options(o.full), done));
 }
 ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
-  auto report = cross_fit_report(cross_fit_options(o.full), done);
-  auto known = facts(report.rows);
-  return {to_json(report),
-          cross_fit_page_html(report),
-          rows_csv(report),
-          std::move(report.findings),
-          std::move(report.pictures),
-          std::move(known)};
+  return files(cross_fit_report(cross_fit_options(o.full), done));
 }
 ReportFiles cost(const ReportOptions& o, const ReportProgress& done) {
   auto options = cost_options(o.full);
   options.program = o.program;
-  return files(cost_report(options, done), cost_page_html);
+  return files(cost_report(options, done));
 }
 
 ReportFiles stability(const ReportOptions& o, const ReportProgress& done) {
   using Setting = StabilityOptions::Setting;
   const auto setting = o.full ? Setting::full : o.one_of_all ? Setting::brief : Setting::quick;
-  return files(stability_report({setting}, done), stability_page_html);
+  return files(stability_report({setting}, done));
 }
 
 ReportFiles scenes(const ReportOptions& o, const ReportProgress& done) {
   auto options = scenes_options(o.full);
   options.asset = o.asset;
-  return files(scenes_report(options, done), scenes_page_html);
+  return files(scenes_report(options, done));
 }
 
 constexpr std::array kinds{

@@ -112,38 +112,3 @@ function figure_view(figure, o = {}) {
   return el("figure", { id }, picture_caption(figure, ["svg", "csv"]), controls, plot.node, readout);
 }
 
-/// \param map  of the page's data
-/// \param o    {slice: the name of the only one shown; else the reader chooses, say(k, value): what else is told of the cell at values[k],
-///             value_text(value)}
-/// Returns its element.
-function map_view(map, o = {}) {
-  const cells = (map.x.edges.length - 1) * (map.y.edges.length - 1);
-  const axis = (a) => {
-    const ends = [a.edges[0], a.edges.at(-1)], to = a.log ? Math.log : (v) => v, from = a.log ? Math.exp : (v) => v;
-    const [low, high] = ends.map(to);
-    return { ...a, name: a.label, unit: "", ends, part: (v) => (to(v) - low) / (high - low), value: (part) => from(low + part * (high - low)) };
-  };
-  const at = (v) => {  // as colour_part() in figure_scale.cpp
-    if (map.scale === "log") return v > 0 ? Math.min(1, Math.max(0, Math.log(v / map.low) / Math.log(map.high / map.low))) : 0;
-    const part = Math.min(1, Math.max(map.diverging ? -1 : 0, v / map.high)), grown = map.scale === "root" ? Math.sign(part) * Math.sqrt(Math.abs(part)) : part;
-    return map.diverging ? (grown + 1) / 2 : grown;
-  };
-  const value_text = o.value_text ?? ((v) => significant(v, 3));
-  const slices = map.slices ?? [map.value];
-  let shown = Math.max(0, slices.indexOf(o.slice));
-  const layer = (first) => ({ at: (k) => (known(map.values[first + k]) ? at(map.values[first + k]) : null), colors: () => map.colours.map(color),
-    above: known(map.line) ? (k) => map.values[first + k] > map.line : undefined, label: map.value, ticks: map.ticks.map((v) => [at(v), tick_text(v)]),
-    text: map.x.names && map.y.names ? (k) => (known(map.values[first + k]) ? significant(map.values[first + k], 2) : null) : undefined });
-  const say = (cell) => {
-    const k = shown * cells + cell, v = map.values[k];
-    return known(v) ? [`${map.value} `, el("b", {}, value_text(v)), ...[o.say?.(k, v) ?? []].flat()] : ["no value"];
-  };
-  const layers = Object.fromEntries(slices.map((name, i) => [name, layer(i * cells)]));
-  const view = heat_map(axis(map.x), axis(map.y), layers, say, `${map.title}: ${map.value} by ${map.x.label} and ${map.y.label}.`);
-  view.set(slices[shown]);
-  return el("figure", { id: paper_width ? null : map.id }, picture_caption(map, ["svg", "csv", "exr"]),
-    map.slices && !o.slice ? el("div", { class: "controls" }, chooser("At", slices.map((name) => [name, name]), slices[shown], (name) => {
-      shown = slices.indexOf(name);
-      view.set(name);
-    })) : null, view.node);
-}

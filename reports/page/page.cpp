@@ -1,8 +1,6 @@
 #include "reports/page/page.h"
 
-#include "reports/finding/names.h"
 #include "reports/page/assets.h"
-#include "reports/picture/json_numbers.h"
 #include "reports/picture/markup.h"
 
 #include <fmt/format.h>
@@ -22,13 +20,6 @@ std::string script_json(std::string_view json) {
       out += c;
   }
   return out;
-}
-
-/// Names of forms by their ids, as the scripts of reports know them.
-std::string names_script() {
-  auto names = PageJson::object();
-  for (auto& [form, name] : form_names()) names[std::move(form)] = std::move(name);
-  return fmt::format("const form_names = {};\n", script_json(page_text(names)));
 }
 
 }  // namespace
@@ -69,14 +60,35 @@ std::string make_page(std::string_view title, std::string_view json_data, std::s
       fmt::arg("script", script));
 }
 
+std::string drawn_page(std::string_view title, std::string_view body, std::string_view looks) {
+  return fmt::format(
+      R"(<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta name="generator" content="gonio">
+<link rel="icon" href="data:,">
+<title>{}</title>
+<style>{}{}</style>
+</head>
+<body>
+<main id="page">
+{}</main>
+<script>{}</script>
+</body>
+</html>
+)",
+      escaped_markup(title), assets::page_css, looks, body, assets::pictures_js);
+}
+
 std::string make_report_page(std::string_view title,
                              std::string_view json_data,
                              std::string_view script) {
   return make_page(title, json_data,
-                   std::string(assets::report_js)
-                       .append(names_script())
-                       .append(assets::figures_js)
-                       .append(script));
+                   std::string(assets::report_js).append(assets::figures_js).append(script));
 }
 
 std::string beside_index(std::string html) {

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Pictures as data: made once, by a report, then drawn on its page (page/figures.js) and written beside it
-/// as SVG, CSV and OpenEXR.
+/// Pictures as data: made once, by a report, then drawn on its page and written beside it as SVG, CSV and OpenEXR.
 
 #include <array>
 #include <limits>
@@ -139,6 +138,27 @@ std::string to_csv(const FigureMap&);
 /// \param styles  of the report's figures
 std::string to_svg(const Figure&, const CurveStyles& styles);
 std::string to_svg(const FigureMap&);
+
+/// What draws the same pictures on a page: as wide as there is room, in the page's colours, with what its script
+/// (page/pictures.js) needs to read and to zoom it.
+/// \param height  of the box that curves are drawn in [px]   \param first  whether each curve is shown at first
+std::string page_svg(const Figure&,
+                     const CurveStyles& styles,
+                     double height,
+                     const std::vector<bool>& first);
+/// Its curves without axes, in a box of that size: how it looks from afar.
+std::string page_small(const Figure&, double width, double height);
+/// \param slice  the one of them that is drawn   \param cells  false: the page's script fills them in when it is chosen, a third of the
+/// bytes
+std::string page_svg(const FigureMap&, std::size_t slice, bool cells);
+/// What its colours mean, below it.
+std::string page_scale(const FigureMap&);
+/// Style sheet of the looks of these curves on a page.
+std::string page_looks(const CurveStyles& styles, std::span<const Figure>);
+/// The same for the cells of these maps; empty where there are none.
+std::string page_shades(std::span<const FigureMap>);
+/// A curve's look beside its name, on a page.
+std::string page_key(const FigureCurve&, const CurveStyles& styles);
 
 /// The file of an image with one channel of floats, named after the value, or one a slice, named after it: x to the
 /// right, y upwards; where there is no cell, NaN.  String attributes say what the axes and the value are.

@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 
+#include "base/base64.h"
 #include "image/exr.h"
 #include "reports/picture/figure.h"
 #include "reports/picture/figure_scale.h"
@@ -20,7 +21,6 @@ namespace {
 using svg::number;
 
 using Colour = std::array<double, 3>;
-constexpr int shades = 128;  ///< more of them nobody sees, and files grow
 
 Colour channels(std::string_view hex) {
   Colour c{};
@@ -42,78 +42,117 @@ std::string hex(const Colour& c) {
                      std::lround(c[2]));
 }
 
-class Drawing {
+constexpr double file_width = 760, page_width = 560, scale_length = 300;
+constexpr int shades = 64;  ///< more of them nobody sees, and pages grow
+
+char kind_of(const FigureMap& m) {
+  return m.diverging ? 'd' : 'q';
+}
+
+class MapDrawing {
  public:
-  explicit Drawing(const FigureMap& m)
-      : m_(m), colours_(colour_scale(m)), x_edges_(cell_edges(m.x)), y_edges_(cell_edges(m.y)) {
+  MapDrawing(const FigureMap& m, svg::Box box)
+      : m_(m),
+        box_(box),
+        colours_(colour_scale(m)),
+        x_edges_(cell_edges(m.x)),
+        y_edges_(cell_edges(m.y)),
+        x_{x_edges_.front(), x_edges_.back(), m.x.log && m.x.names.empty()},
+        y_{y_edges_.front(), y_edges_.back(), m.y.log && m.y.names.empty()},
+        turned_(!m.x.names.empty() &&
+                widest(m.x, x_) > box.width / static_cast<double>(m.x.size()) - 6) {
     for (const auto name : colours_of(m)) list_.push_back(channels(paper_colour(name)));
-    x_ = {x_edges_.front(), x_edges_.back(), m.x.log && m.x.names.empty()};
-    y_ = {y_edges_.front(), y_edges_.back(), m.y.log && m.y.names.empty()};
   }
 
-  std::string document() {
-    const auto head = svg::heading(m_.title, m_.note, width_);
-    const double edge = 16 + 18 + widest(m_.y, y_) + 8;
-    top_ = head.height + 4;
-    std::string marks = head.marks;
-    const double middle = (edge + width_ - 22) / 2, begin = top_;
-    if (m_.slices.empty()) {
-      left_ = edge;
-      right_ = width_ - 22;
-      bottom_ = top_ + (m_.y.names.empty()
-                            ? 360
-                            : std::clamp(26 * static_cast<double>(m_.y.size()), 120.0, 1200.0));
-      turned_ = !m_.x.names.empty() &&
-                widest(m_.x, x_) > (right_ - left_) / static_cast<double>(m_.x.size()) - 6;
-      marks += panel(0, map_ticks_most, true, true);
-    } else {
-      marks += panels(edge);
+  /// Room that the texts of y need, and those below the box up to the name of x.
+  double left() const { return 34 + widest(m_.y, y_) + (m_.y.names.empty() ? 0 : 4); }
+  double below() const { return turned_ ? 0.75 * widest(m_.x, x_) + 26 : 36; }
+
+  /// \param x_texts, y_texts  whether they stand at this one of several
+  std::string marks(std::size_t slice,
+                    std::size_t most,
+                    bool x_texts,
+                    bool y_texts,
+                    bool with_cells = true) const {
+    const auto ticks = [&](const FigureMap::Axis& axis, const FigureScale& scale, auto place) {
+      svg::Ticks out;
+      for (std::size_t i = 0; i < axis.names.size(); ++i)
+        out.emplace_back(place(static_cast<double>(i) + 0.5), axis.names[i]);
+      if (axis.names.empty())
+        for (const double t : scale_ticks(scale, most)) out.emplace_back(place(t), tick_text(t));
+      return out;
+    };
+    svg::Ticks x, y;
+    if (x_texts) x = ticks(m_.x, x_, [&](double v) { return x_at(v); });
+    if (y_texts) y = ticks(m_.y, y_, [&](double v) { return y_at(v); });
+    return box_.inside((with_cells ? cells(slice) : R"(<g class="cells"/>)") + line(slice) +
+                       fmt::format(R"(<path class="ax" d="M0 0H{0}V{1}H0z"/>)", number(box_.width),
+                                   number(box_.height))) +
+           cell_texts(slice) + svg::axis_texts(box_, x, y, turned_);
+  }
+  std::string names(double left) const {
+    return svg::axis_names(box_, m_.x.label, m_.y.label, left, below());
+  }
+
+  std::string on_page(std::size_t slice, bool with_cells) const {
+    const auto axis = [](const FigureScale& s) {
+      return fmt::format("{:.6g} {:.6g}{}", s.low, s.high, s.log ? " log" : "");
+    };
+    const auto edges = [&](std::span<const double> of, auto place) {
+      std::string out;
+      for (const double e : of) out += (out.empty() ? "" : " ") + number(place(e));
+      return out;
+    };
+    const auto named = [](const char* key, const FigureMap::Axis& of) {
+      return of.names.empty()
+                 ? std::string()
+                 : fmt::format(R"( {}="{}")", key,
+                               svg::escaped(fmt::format("{}", fmt::join(of.names, "|"))));
+    };
+    return fmt::format(
+        R"(<svg class="plot" role="img" tabindex="0" aria-label="{}" data-x="{}" data-y="{}" data-xs="{}" data-ys="{}"{}{} data-scale="{} {:.6g} {:.6g}{}" data-cells="{}" style="--left:{}px;--below:{}px;height:{}px">{}{}</svg>)",
+        svg::escaped(
+            fmt::format("{}: {} by {} and {}.", m_.title, m_.value, m_.x.label, m_.y.label)),
+        axis(x_), axis(y_), edges(x_edges_, [&](double v) { return x_at(v); }),
+        edges(y_edges_, [&](double v) { return y_at(v); }), named("data-nx", m_.x),
+        named("data-ny", m_.y), name_of(m_.scale), colours_.low, colours_.high,
+        m_.diverging ? " diverging" : "", values(slice), number(left()), number(below()),
+        number(box_.height), marks(slice, map_ticks_most, true, true, with_cells), names(left()));
+  }
+
+  std::string legend(double left, double top) const {
+    std::string out;
+    constexpr double step = scale_length / shades;
+    out += fmt::format(R"x(<g class="cells" transform="translate({} {})">)x", number(left),
+                       number(top));
+    for (int s = 0; s < shades; ++s)
+      out += fmt::format("<path d=\"M{} 0h{}v10h-{}z\"{}/>", s * step, step, step, shade(s));
+    out += "</g>";
+    for (const double t : colours_.ticks) {
+      const double part = colour_part(m_, colours_, t);
+      const char* anchor = part < 0.02 ? "start" : part > 0.98 ? "end" : "middle";
+      out +=
+          fmt::format(R"(<text x="{}" y="{}" text-anchor="{}">{}</text>)",
+                      number(left + part * scale_length), number(top + 24), anchor, tick_text(t));
     }
-    const double below = bottom_ + (turned_ ? 0.75 * widest(m_.x, x_) + 14 : 22);
-    marks += svg::text(middle, below + 16, m_.x.label, {.anchor = svg::Anchor::middle});
-    marks += svg::text(22, (begin + bottom_) / 2, m_.y.label,
-                       {.anchor = svg::Anchor::middle, .turned = -90});
-    left_ = edge;
-    marks += legend(below + 34);
-    return svg::document(width_, below + 34 + 56, m_.title, marks);
+    return out + fmt::format(R"(<text class="in" x="{}" y="{}">{}</text>)", number(left),
+                             number(top + 44), svg::escaped(m_.value));
   }
 
  private:
-  double x_at(double v) const { return left_ + (right_ - left_) * x_.part(v); }
-  double y_at(double v) const { return bottom_ - (bottom_ - top_) * y_.part(v); }
+  double x_at(double v) const { return box_.width * x_.part(v); }
+  double y_at(double v) const { return box_.height * (1 - y_.part(v)); }
   double value(std::size_t slice, std::size_t i, std::size_t j) const {
     return m_.values[(slice * m_.x.size() + i) * m_.y.size() + j];
   }
-  Colour shade(int of) const { return between(list_, static_cast<double>(of) / shades); }
   int shade_of(double v) const {
     return static_cast<int>(std::lround(shades * colour_part(m_, colours_, v)));
   }
-
-  /// Slices beside each other, in rows; the axes stand at the outer ones.
-  std::string panels(double edge) {
-    const std::size_t n = m_.slices.size(), columns = std::min<std::size_t>(n, 4);
-    constexpr double gap = 14, title = 18;
-    const double w = (width_ - 22 - edge + gap) / static_cast<double>(columns) - gap, h = 0.85 * w;
-    const double begin = top_;
-    std::string out;
-    for (std::size_t k = 0; k < n; ++k) {
-      left_ = edge + static_cast<double>(k % columns) * (w + gap);
-      right_ = left_ + w;
-      top_ = begin + title + static_cast<double>(k / columns) * (h + title + gap);
-      bottom_ = top_ + h;
-      out += svg::text(left_, top_ - 5, m_.slices[k], {.fill = svg::ink});
-      out += panel(k, map_ticks_few, k + columns >= n, k % columns == 0);
-    }
-    return out;
-  }
-
-  /// A map in its frame.  \param ticks  at most about
-  std::string panel(std::size_t slice, std::size_t ticks, bool x_ticks, bool y_ticks) const {
-    std::string out = cells(slice) + line(slice) + cell_texts(slice);
-    out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" stroke=\"{}\"/>\n",
-                       number(left_), number(top_), number(right_ - left_), number(bottom_ - top_),
-                       svg::rule);
-    return out + axes(ticks, x_ticks, y_ticks);
+  Colour colour(int of) const { return between(list_, static_cast<double>(of) / shades); }
+  /// Attribute of a shade: a class of the page, or the colour.
+  std::string shade(int of) const {
+    return box_.page ? fmt::format(R"( class="{}{}")", kind_of(m_), of)
+                     : fmt::format(R"( color="{}")", hex(colour(of)));
   }
 
   static double widest(const FigureMap::Axis& axis, const FigureScale& scale) {
@@ -125,9 +164,14 @@ class Drawing {
     return w;
   }
 
-  /// Cells of a shade are one path; those above each other one rectangle of it.
+  /// Cells of a shade are one path; those above each other one rectangle of it, or one stroke where all columns are as wide.
   std::string cells(std::size_t slice) const {
-    std::map<int, std::string> paths;
+    const double column = box_.width / static_cast<double>(m_.x.size());
+    bool even = true;
+    for (std::size_t i = 0; i < m_.x.size(); ++i)
+      even = even && std::abs(x_at(x_edges_[i]) - column * static_cast<double>(i)) < 0.05;
+    std::map<int, svg::Path> paths;
+    std::map<int, std::string> rectangles;
     for (std::size_t i = 0; i < m_.x.size(); ++i)
       for (std::size_t j = 0, end = 0; j < m_.y.size(); j = end) {
         end = j + 1;
@@ -136,15 +180,43 @@ class Drawing {
         while (end < m_.y.size() && std::isfinite(value(slice, i, end)) &&
                shade_of(value(slice, i, end)) == s)
           ++end;
-        const double l = x_at(x_edges_[i]), r = x_at(x_edges_[i + 1]), b = y_at(y_edges_[j]),
-                     t = y_at(y_edges_[end]);
-        paths[s] += "M" + number(l) + " " + number(t) + "H" + number(r) + "V" + number(b) + "H" +
-                    number(l) + "z";
+        const double b = y_at(y_edges_[j]), t = y_at(y_edges_[end]);
+        if (even) {
+          paths[s].move(static_cast<double>(i), b);
+          paths[s].up(t);
+          continue;
+        }
+        const double l = x_at(x_edges_[i]), r = x_at(x_edges_[i + 1]);
+        rectangles[s] += "M" + number(l) + " " + number(t) + "H" + number(r) + "V" + number(b) +
+                         "H" + number(l) + "z";
       }
-    std::string out = "<g shape-rendering=\"crispEdges\">\n";
+    std::string out =
+        even
+            ? fmt::format(
+                  R"x(<g class="cells columns" shape-rendering="crispEdges" transform="scale({:.6g} 1) translate(.5)">)x",
+                  column)
+            : R"(<g class="cells" shape-rendering="crispEdges">)";
     for (const auto& [s, path] : paths)
-      out += fmt::format("<path d=\"{}\" fill=\"{}\"/>\n", path, hex(shade(s)));
-    return out + "</g>\n";
+      out += fmt::format(R"(<path{} d="{}"/>)", shade(s), path.text());
+    for (const auto& [s, path] : rectangles)
+      out += fmt::format(R"(<path{} d="{}"/>)", shade(s), path);
+    return out + "</g>";
+  }
+
+  /// What a pointer reads: places on the scale of colours, two bytes a cell, the least first; 65535 where there is no value.
+  std::string values(std::size_t slice) const {
+    std::string bytes;
+    for (std::size_t i = 0; i < m_.x.size(); ++i)
+      for (std::size_t j = 0; j < m_.y.size(); ++j) {
+        const double v = value(slice, i, j);
+        const auto part =
+            std::isfinite(v)
+                ? static_cast<unsigned>(std::lround(65534 * colour_part(m_, colours_, v)))
+                : 65535U;
+        bytes += static_cast<char>(part & 255U);
+        bytes += static_cast<char>(part >> 8U);
+      }
+    return base64(bytes);
   }
 
   /// Edges between cells above the map's line and others.
@@ -161,13 +233,13 @@ class Drawing {
         if (j + 1 < m_.y.size() && above(i, j) != above(i, j + 1))
           path += "M" + number(x_at(x_edges_[i])) + " " + top + "H" + right;
       }
-    return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, svg::ink);
+    return fmt::format("<path class=\"edge\" d=\"{}\"/>", path);
   }
 
   /// The numbers in the cells of a small matrix.
   std::string cell_texts(std::size_t slice) const {
     if (m_.x.names.empty() || m_.y.names.empty()) return "";
-    std::string out;
+    std::string out = R"(<g font-size="11" text-anchor="middle">)";
     for (std::size_t i = 0; i < m_.x.size(); ++i)
       for (std::size_t j = 0; j < m_.y.size(); ++j) {
         const double v = value(slice, i, j);
@@ -175,66 +247,27 @@ class Drawing {
         const std::string what = tick_text(std::strtod(fmt::format("{:.2g}", v).c_str(), nullptr));
         const double l = x_at(x_edges_[i]), r = x_at(x_edges_[i + 1]);
         if (svg::text_width(what, 11) > r - l - 2) continue;
-        const Colour c = shade(shade_of(v));
+        const Colour c = colour(shade_of(v));
         const bool dark = 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2] < 130;
-        out += svg::text(
-            (l + r) / 2, (y_at(y_edges_[j]) + y_at(y_edges_[j + 1])) / 2 + 4, what,
-            {.anchor = svg::Anchor::middle, .fill = dark ? svg::ground : svg::ink, .size = 11});
+        out += box_.text((l + r) / 2, (y_at(y_edges_[j]) + y_at(y_edges_[j + 1])) / 2 + 4, what,
+                         dark ? R"( class="on")" : R"( class="in")");
       }
-    return out;
-  }
-
-  std::string axes(std::size_t most, bool x_ticks, bool y_ticks) const {
-    std::string out;
-    const auto x_mark = [&](double at, const std::string& name) {
-      const double x = x_at(at);
-      if (turned_) {
-        out += svg::text(x + 4, bottom_ + 14, name, {.anchor = svg::Anchor::end, .turned = -40});
-      } else {
-        out += svg::line(x, bottom_, x, bottom_ + 4, svg::muted);
-        out += svg::text(x, bottom_ + 17, name, {.anchor = svg::Anchor::middle});
-      }
-    };
-    const auto y_mark = [&](double at, const std::string& name) {
-      out += svg::line(left_ - 4, y_at(at), left_, y_at(at), svg::muted);
-      out += svg::text(left_ - 8, y_at(at) + 4, name, {.anchor = svg::Anchor::end});
-    };
-    const auto each = [&](const FigureMap::Axis& axis, const FigureScale& scale, const auto& mark) {
-      for (std::size_t i = 0; i < axis.names.size(); ++i)
-        mark(static_cast<double>(i) + 0.5, axis.names[i]);
-      if (axis.names.empty())
-        for (const double t : scale_ticks(scale, most)) mark(t, tick_text(t));
-    };
-    if (x_ticks) each(m_.x, x_, x_mark);
-    if (y_ticks) each(m_.y, y_, y_mark);
-    return out;
-  }
-
-  std::string legend(double top) const {
-    constexpr double length = 300, step = length / shades;
-    std::string out = "<g shape-rendering=\"crispEdges\">\n";
-    for (int s = 0; s < shades; ++s)
-      out += fmt::format("<path d=\"M{} {}h{}v10h-{}z\" fill=\"{}\"/>\n", number(left_ + s * step),
-                         number(top), number(step), number(step), hex(shade(s)));
-    out += "</g>\n";
-    for (const double t : colours_.ticks) {
-      const double part = colour_part(m_, colours_, t);
-      const auto anchor = part < 0.02   ? svg::Anchor::start
-                          : part > 0.98 ? svg::Anchor::end
-                                        : svg::Anchor::middle;
-      out += svg::text(left_ + part * length, top + 24, tick_text(t), {.anchor = anchor});
-    }
-    return out + svg::text(left_, top + 44, m_.value, {.fill = svg::ink});
+    return out + "</g>";
   }
 
   const FigureMap& m_;
+  svg::Box box_;
   ColourScale colours_;
   std::vector<double> x_edges_, y_edges_;
+  FigureScale x_, y_;
+  bool turned_;  ///< names of x, which are longer than their cells are wide
   std::vector<Colour> list_;
-  FigureScale x_{}, y_{};
-  double width_ = 760, left_ = 0, right_ = width_ - 22, top_ = 0, bottom_ = 0;
-  bool turned_ = false;  ///< names of x, which are longer than their cells are wide
 };
+
+/// Height of the box of a map that stands alone.
+double height_of(const FigureMap& m) {
+  return m.y.names.empty() ? 340 : std::clamp(26 * static_cast<double>(m.y.size()), 120.0, 1200.0);
+}
 
 /// A channel's name without what readers take for layers or choke on.
 std::string channel_name(const std::string& value) {
@@ -258,7 +291,69 @@ std::string places(const FigureMap::Axis& axis) {
 }  // namespace
 
 std::string to_svg(const FigureMap& m) {
-  return Drawing(m).document();
+  const auto head = svg::heading(m.title, m.note, file_width);
+  const double top = head.height + 4, right = 22;
+  std::string marks = head.marks;
+  svg::Box box{false, file_width, height_of(m)};
+  const double left = MapDrawing(m, box).left() + 8, all = file_width - right - left;
+  box.width = all;
+  double bottom = top + box.height;
+  if (m.slices.empty()) {
+    const MapDrawing d(m, box);
+    marks += svg::placed(left, top, box, d.marks(0, map_ticks_most, true, true));
+  } else {  // beside each other, in rows; texts stand at the outer ones
+    const std::size_t n = m.slices.size(), columns = std::min<std::size_t>(n, 4);
+    constexpr double gap = 14, title = 18;
+    box.width = (all + gap) / static_cast<double>(columns) - gap;
+    box.height = 0.85 * box.width;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double x = left + static_cast<double>(k % columns) * (box.width + gap),
+                   y = top + title + static_cast<double>(k / columns) * (box.height + title + gap);
+      marks += fmt::format(R"(<text class="in" x="{}" y="{}">{}</text>)", number(x), number(y - 5),
+                           svg::escaped(m.slices[k]));
+      marks += svg::placed(
+          x, y, box,
+          MapDrawing(m, box).marks(k, map_ticks_few, k + columns >= n, k % columns == 0));
+      bottom = y + box.height;
+    }
+  }
+  const svg::Box whole{false, all, bottom - top};
+  const MapDrawing d(m, whole);
+  marks += svg::placed(left, top, whole, d.names(left - 8));
+  const double below = bottom + d.below() + 20;
+  marks += d.legend(left, below);
+  return svg::document(file_width, below + 56, m.title, "", marks);
+}
+
+std::string page_svg(const FigureMap& m, std::size_t slice, bool cells) {
+  return MapDrawing(m, {true, page_width, height_of(m)}).on_page(slice, cells);
+}
+
+std::string page_scale(const FigureMap& m) {
+  const auto colours = colour_scale(m);
+  std::string out = fmt::format(R"(<div class="scale {}"><i></i><b>)", kind_of(m));
+  for (const double t : colours.ticks)
+    out += fmt::format(R"(<span style="left:{:.3g}%">{}</span>)", 100 * colour_part(m, colours, t),
+                       tick_text(t));
+  return out + "</b>" + svg::escaped(m.value) + "</div>";
+}
+
+std::string page_shades(std::span<const FigureMap> maps) {
+  std::map<char, std::span<const std::string_view>> kinds;
+  for (const auto& m : maps) kinds.emplace(kind_of(m), colours_of(m));
+  std::string out;
+  for (const auto& [kind, colours] : kinds) {
+    const auto last = static_cast<double>(colours.size() - 1);
+    for (int s = 0; s <= shades; ++s) {
+      const double at = last * s / shades;
+      const auto i = std::min(colours.size() - 2, static_cast<std::size_t>(at));
+      out += fmt::format(".{}{}{{color:color-mix(in srgb,var(--{}) {:.3g}%,var(--{}))}}", kind, s,
+                         colours[i + 1], 100 * (at - static_cast<double>(i)), colours[i]);
+    }
+    out += fmt::format(".scale.{} i{{background:linear-gradient(90deg,var(--{}))}}", kind,
+                       fmt::join(colours, "),var(--"));
+  }
+  return out;
 }
 
 std::string to_exr(const FigureMap& m) {

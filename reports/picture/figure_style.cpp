@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace gonio {
 namespace {
 
@@ -78,6 +80,36 @@ CurveLook look_of(const FigureCurve& c, const CurveStyles& styles) {
   if (c.dashed) return {"ink", reference_dashes[i % reference_dashes.size()], 1.4};
   return {line_colours[i % line_colours.size()], rounds[i / line_colours.size() % rounds.size()],
           1.8};
+}
+
+std::string look_class(const FigureCurve& c, const CurveStyles& styles) {
+  return fmt::format("{}{}", c.dashed ? 'r' : 'k', styles.of(c));
+}
+
+namespace {
+std::string look_rule(std::string_view name, const CurveLook& look, std::string_view colour) {
+  const auto dash =
+      look.dash.empty() ? std::string() : fmt::format(";stroke-dasharray:{}", look.dash);
+  return fmt::format(".{0}{{stroke:{1};stroke-width:{2}{3}}}", name, colour, look.width, dash);
+}
+}  // namespace
+
+std::string paper_look(const FigureCurve& c, const CurveStyles& styles) {
+  const auto look = look_of(c, styles);
+  return look_rule(look_class(c, styles), look, paper_colour(look.colour));
+}
+
+std::string page_looks(const CurveStyles& styles, std::span<const Figure> figures) {
+  std::map<std::string, std::string> rules;
+  for (const auto& f : figures)
+    for (const auto& c : f.curves) {
+      const auto look = look_of(c, styles);
+      const auto name = look_class(c, styles);
+      rules.emplace(name, look_rule(name, look, fmt::format("var(--{})", look.colour)));
+    }
+  std::string out;
+  for (const auto& [name, rule] : rules) out += rule;
+  return out;
 }
 
 std::span<const std::string_view> colours_of(const FigureMap& m) {

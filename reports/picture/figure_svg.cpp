@@ -16,99 +16,95 @@ namespace {
 using svg::number;
 
 constexpr std::size_t most_labels = 60;  ///< more of them would hide the points
+constexpr double file_width = 760, file_height = 320, page_width = 600;
 
-/// Looks of the curves of a figure, in the colours of paper.
-std::vector<CurveLook> looks(const Figure& f, const CurveStyles& styles) {
-  std::vector<CurveLook> out;
-  for (const auto& c : f.curves) {
-    out.push_back(look_of(c, styles));
-    out.back().colour = paper_colour(out.back().colour);
+struct Point {
+  double x, y;
+};
+
+/// Which points of a line are kept so that it moves by no more than can be seen.
+std::vector<bool> kept(const std::vector<Point>& line) {
+  constexpr double unseen = 0.06;  // [px]
+  std::vector<bool> keep(line.size(), false);
+  keep.front() = keep.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> parts{{0, line.size() - 1}};
+  while (!parts.empty()) {
+    const auto [from, to] = parts.back();
+    parts.pop_back();
+    double most = unseen;
+    std::size_t at = from;
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const double part = (line[i].x - line[from].x) / (line[to].x - line[from].x);
+      const double off = std::abs(line[i].y - std::lerp(line[from].y, line[to].y, part));
+      if (!(off <= most)) most = off, at = i;
+    }
+    if (at == from) continue;
+    keep[at] = true;
+    parts.emplace_back(from, at);
+    parts.emplace_back(at, to);
   }
-  return out;
+  return keep;
 }
 
 class CurveDrawing {
  public:
-  CurveDrawing(const Figure& f, const CurveStyles& styles)
-      : f_(f), styles_(looks(f, styles)), x_(x_scale(f)), y_(y_scale(f)) {}
+  /// \param first  curves that the axes are made for
+  CurveDrawing(const Figure& f, const CurveStyles& styles, svg::Box box, std::vector<bool> first)
+      : f_(f), styles_(styles), box_(box), first_(std::move(first)) {
+    Figure seen = f;
+    std::size_t i = 0;
+    std::erase_if(seen.curves, [&](const auto&) { return !first_[i++]; });
+    x_ = x_scale(seen);
+    y_ = y_scale(seen);
+    for (const double t : scale_ticks(x_, x_ticks_most))
+      x_ticks_.emplace_back(x_at(t), tick_text(t));
+    for (const double t : scale_ticks(y_, y_ticks_most))
+      y_ticks_.emplace_back(y_at(t), tick_text(t));
+    for (const auto& [at, text] : y_ticks_) left_ = std::max(left_, 34 + svg::text_width(text));
+  }
 
-  std::string document() {
-    const auto head = svg::heading(f_.title, f_.note, width_);
-    top_ = head.height;
-    const std::string keys = legend();
-    bottom_ = top_ + 320;
-    const auto y_ticks = scale_ticks(y_, y_ticks_most);
-    double widest = 0;
-    for (const double t : y_ticks) widest = std::max(widest, svg::text_width(tick_text(t)));
-    left_ = 16 + 18 + widest + 8;
-    std::string marks = head.marks + keys + axes(y_ticks);
-    marks += fmt::format(
-        "<clipPath id=\"plot\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n"
-        "<g clip-path=\"url(#plot)\">\n",
-        number(left_), number(top_ - 4), number(right_ - left_ + 4), number(bottom_ - top_ + 8));
-    for (std::size_t i = 0; i < f_.curves.size(); ++i) marks += curve(i);
-    marks += "</g>\n" + labels();
-    return svg::document(width_, bottom_ + 52, f_.title, marks);
+  /// All but what stands above it.
+  std::string marks() const {
+    svg::Path grid;
+    for (const auto& [at, text] : x_ticks_) grid.move(at, 0), grid.line(at, box_.height);
+    for (const auto& [at, text] : y_ticks_) grid.move(0, at), grid.line(box_.width, at);
+    std::string inside = fmt::format(R"(<path class="g" d="{}"/>)", grid.text());
+    if (!y_.log && y_.low < 0 && y_.high > 0)
+      inside +=
+          fmt::format(R"(<path class="zero" d="M0 {}h{}"/>)", number(y_at(0)), number(box_.width));
+    inside += fmt::format(R"(<path class="ax" d="M0 0V{}H{}"/>)", number(box_.height),
+                          number(box_.width));
+    for (std::size_t i = 0; i < f_.curves.size(); ++i) inside += curve(i);
+    return box_.inside(inside) + svg::axis_texts(box_, x_ticks_, y_ticks_) + labels() +
+           svg::axis_names(box_, f_.x.label, f_.y.label, left_, 38);
+  }
+  std::string curves() const {
+    std::string out;
+    for (std::size_t i = 0; i < f_.curves.size(); ++i)
+      if (first_[i]) out += curve(i);
+    return out;
+  }
+  double left() const { return left_; }
+
+  std::string on_page() const {
+    const auto scale = [](const FigureScale& s) {
+      return fmt::format("{:.6g} {:.6g}{}", s.low, s.high, s.log ? " log" : "");
+    };
+    return fmt::format(
+        R"(<svg class="plot" role="img" tabindex="0" aria-label="{}" data-x="{}" data-y="{}" style="--left:{}px;height:{}px">{}</svg>)",
+        svg::escaped(fmt::format("{}: {} by {}.", f_.title, f_.y.label, f_.x.label)), scale(x_),
+        scale(y_), number(left_), number(box_.height), marks());
   }
 
  private:
-  struct Place {
-    double x, y;
-    std::size_t index;
-  };
-
-  double x_at(double v) const { return left_ + (right_ - left_) * x_.part(v); }
-  double y_at(double v) const { return bottom_ - (bottom_ - top_) * y_.part(v); }
+  double x_at(double v) const { return box_.width * x_.part(v); }
+  /// Far beyond the frame nothing is seen.
+  double y_at(double v) const {
+    return std::clamp(box_.height * (1 - y_.part(v)), -20 * box_.height, 20 * box_.height);
+  }
   /// A value's place, or one beyond the frame: a bar's end may have no logarithm.
-  double y_or_bottom(double v) const { return y_.log && v <= 0 ? bottom_ + 10 : y_at(v); }
-  double x_or_left(double v) const { return x_.log && v <= 0 ? left_ - 10 : x_at(v); }
-
-  std::string legend() {
-    std::string out;
-    double x = 16;
-    for (std::size_t i = 0; i < f_.curves.size(); ++i) {
-      const double w = 30 + svg::text_width(label_of(f_.curves[i])) + 14;
-      if (x > 16 && x + w > width_ - 8) {
-        x = 16;
-        top_ += 18;
-      }
-      const auto& s = styles_[i];
-      const double y = top_ + 8;
-      if (f_.curves[i].kind != FigureCurve::Kind::points)
-        out += svg::line(x, y, x + 22, y, s.colour, s.width, s.dash);
-      if (f_.curves[i].kind != FigureCurve::Kind::line) out += point(x + 11, y, s.colour);
-      out += svg::text(x + 27, y + 4, label_of(f_.curves[i]), {.fill = svg::ink});
-      x += w;
-    }
-    top_ += f_.curves.empty() ? 6 : 28;
-    return out;
-  }
-
-  std::string axes(const std::vector<double>& y_ticks) const {
-    std::string out;
-    for (const double t : y_ticks) {
-      out += svg::line(left_, y_at(t), right_, y_at(t), svg::faint);
-      out += svg::text(left_ - 8, y_at(t) + 4, tick_text(t), {.anchor = svg::Anchor::end});
-    }
-    for (const double t : scale_ticks(x_, x_ticks_most)) {
-      out += svg::line(x_at(t), top_, x_at(t), bottom_, svg::faint);
-      out += svg::text(x_at(t), bottom_ + 18, tick_text(t), {.anchor = svg::Anchor::middle});
-    }
-    if (!y_.log && y_.low < 0 && y_.high > 0)
-      out += svg::line(left_, y_at(0), right_, y_at(0), svg::muted);
-    out += svg::line(left_, top_, left_, bottom_, svg::rule);
-    out += svg::line(left_, bottom_, right_, bottom_, svg::rule);
-    out +=
-        svg::text((left_ + right_) / 2, bottom_ + 40, f_.x.label, {.anchor = svg::Anchor::middle});
-    out += svg::text(22, (top_ + bottom_) / 2, f_.y.label,
-                     {.anchor = svg::Anchor::middle, .turned = -90});
-    return out;
-  }
-
-  std::string point(double x, double y, std::string_view colour) const {
-    return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"3.2\" fill=\"{}\"/>\n", number(x),
-                       number(y), colour);
-  }
+  double y_or_bottom(double v) const { return y_.log && v <= 0 ? box_.height + 10 : y_at(v); }
+  double x_or_left(double v) const { return x_.log && v <= 0 ? -10 : x_at(v); }
 
   bool drawable(const FigureCurve& c, std::size_t i) const {
     return std::isfinite(c.x[i]) && std::isfinite(c.y[i]) && (!x_.log || c.x[i] > 0) &&
@@ -117,51 +113,65 @@ class CurveDrawing {
 
   std::string curve(std::size_t k) const {
     const auto& c = f_.curves[k];
-    const auto& s = styles_[k];
     std::vector<std::size_t> order(c.x.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return c.x[i]; });
-    std::string path, points, bars;
-    bool pen_down = false;
+    svg::Path line, points, bars;
+    std::vector<Point> run;  // up to a gap, as on the page: what is not known is not drawn
+    const auto put_down = [&] {
+      if (run.empty()) return;
+      const auto keep = kept(run);
+      line.move(run[0].x, run[0].y);
+      for (std::size_t i = 1; i < run.size(); ++i)
+        if (keep[i]) line.line(run[i].x, run[i].y);
+      run.clear();
+    };
+    std::string said;
     for (const std::size_t i : order) {
       if (!drawable(c, i)) {
-        pen_down = false;  // a gap, as on the page: what is not known is not drawn
+        put_down();
         continue;
       }
       const double x = x_at(c.x[i]), y = y_at(c.y[i]);
-      path += (pen_down ? "L" : "M") + number(x) + " " + number(y);
-      pen_down = true;
-      points += point(x, y, s.colour);
+      run.push_back({x, y});
+      points.dot(x, y);
+      if (i < c.labels.size()) said += (said.empty() ? "" : "|") + c.labels[i];
+      const auto bar = [&](double x0, double y0, double x1, double y1) {
+        bars.move(x0, y0);
+        bars.line(x1, y1);
+      };
       if (i < c.y_error.size() && c.y_error[i] > 0)
-        bars += svg::line(x, y_or_bottom(c.y[i] - c.y_error[i]), x,
-                          y_or_bottom(c.y[i] + c.y_error[i]), s.colour);
+        bar(x, y_or_bottom(c.y[i] - c.y_error[i]), x, y_or_bottom(c.y[i] + c.y_error[i]));
       if (i < c.x_error.size() && c.x_error[i] > 0)
-        bars += svg::line(x_or_left(c.x[i] - c.x_error[i]), y, x_at(c.x[i] + c.x_error[i]), y,
-                          s.colour);
+        bar(x_or_left(c.x[i] - c.x_error[i]), y, x_at(c.x[i] + c.x_error[i]), y);
     }
-    std::string out = bars;
-    if (c.kind != FigureCurve::Kind::points && !path.empty()) {
-      out +=
-          fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"",
-                      path, s.colour, number(s.width));
-      if (!s.dash.empty()) out += fmt::format(" stroke-dasharray=\"{}\"", s.dash);
-      out += "/>\n";
-    }
-    return c.kind == FigureCurve::Kind::line ? out : out + points;
+    put_down();
+    std::string out =
+        fmt::format(R"(<g class="{}{}")", look_class(c, styles_), first_[k] ? "" : " more");
+    if (box_.page && !said.empty()) out += fmt::format(R"( data-labels="{}")", svg::escaped(said));
+    const auto put = [&](std::string_view look, const svg::Path& path) {
+      if (!path.text().empty()) out += fmt::format(R"(<path{} d="{}"/>)", look, path.text());
+    };
+    out += '>';
+    put(R"( class="bar")", bars);
+    if (c.kind != FigureCurve::Kind::points) put("", line);
+    if (c.kind != FigureCurve::Kind::line)
+      put(c.x.size() > most_labels ? R"( class="dot small")" : R"( class="dot")", points);
+    return out + "</g>";
   }
 
   /// Beside its point, above or below a bar of its error, where it hides no other and lies on no dashed line.
   std::string labels() const {
     std::size_t count = 0;
     for (const auto& c : f_.curves) count += c.labels.size();
-    if (count > most_labels) return "";
-    struct Box {
+    if (count == 0 || count > most_labels) return "";
+    struct Area {
       double left, top, right, bottom;
     };
-    std::vector<Box> taken;
-    const auto free = [&](const Box& b) {
-      return b.left > left_ && b.right < right_ && b.top > top_ - 6 && b.bottom < bottom_ &&
-             std::ranges::none_of(taken, [&](const Box& t) {
+    std::vector<Area> taken;
+    const auto free = [&](const Area& b) {
+      return b.left > 0 && b.right < box_.width && b.top > -6 && b.bottom < box_.height &&
+             std::ranges::none_of(taken, [&](const Area& t) {
                return b.left < t.right && t.left < b.right && b.top < t.bottom && t.top < b.bottom;
              });
     };
@@ -186,7 +196,7 @@ class CurveDrawing {
           const double x = x_at(c.x[i]), y = y_at(c.y[i]);
           taken.push_back({x - 3, y - 3, x + 3, y + 3});
         }
-    std::string out;
+    std::string out = R"(<g class="in labels" font-size="11">)";
     for (const auto& [c, i] : of) {
       const double x = x_at(c->x[i]), y = y_at(c->y[i]), w = svg::text_width(c->labels[i], 11);
       for (const auto& [right, down] : {std::pair(5.0, -16.0),
@@ -197,27 +207,82 @@ class CurveDrawing {
                                         {-7 - w, -6},
                                         {-w / 2, -18},
                                         {-w / 2, 5}}) {
-        const Box b{x + right, y + down, x + right + w, y + down + 13};
-        if (free(b)) {
-          taken.push_back(b);
-          out += svg::text(b.left, b.bottom - 3, c->labels[i], {.fill = svg::ink, .size = 11});
-          break;
-        }
+        const Area b{x + right, y + down, x + right + w, y + down + 13};
+        if (!free(b)) continue;
+        taken.push_back(b);
+        out += box_.text(x, b.bottom - 3, c->labels[i], fmt::format(R"( dx="{}")", number(right)));
+        break;
       }
     }
-    return out;
+    return out + "</g>";
   }
 
   const Figure& f_;
-  std::vector<CurveLook> styles_;
-  FigureScale x_, y_;
-  double width_ = 760, left_ = 0, right_ = width_ - 22, top_ = 0, bottom_ = 0;
+  const CurveStyles& styles_;
+  svg::Box box_;
+  std::vector<bool> first_;
+  FigureScale x_{}, y_{};
+  svg::Ticks x_ticks_, y_ticks_;
+  double left_ = 0;
 };
+
+/// Look of a curve beside its name.
+std::string key_marks(const FigureCurve& c) {
+  std::string out;
+  if (c.kind != FigureCurve::Kind::points) out += R"(<path d="M1 5h22"/>)";
+  if (c.kind != FigureCurve::Kind::line) out += R"(<path class="dot" d="M12 5h0"/>)";
+  return out;
+}
 
 }  // namespace
 
 std::string to_svg(const Figure& f, const CurveStyles& styles) {
-  return CurveDrawing(f, styles).document();
+  auto head = svg::heading(f.title, f.note, file_width);
+  std::string looks =
+      ".bar{stroke-width:1;stroke-dasharray:none}.dot{stroke-width:6.4;stroke-linecap:round;"
+      "stroke-dasharray:none}.small{stroke-width:4.5}";
+  double x = 16;
+  for (const auto& c : f.curves) {
+    looks += paper_look(c, styles);
+    const double w = 30 + svg::text_width(label_of(c)) + 14;
+    if (x > 16 && x + w > file_width - 8) {
+      x = 16;
+      head.height += 18;
+    }
+    head.marks += fmt::format(
+        R"x(<g class="{}" transform="translate({} {})">{}</g><text class="in" x="{}" y="{}">{}</text>)x",
+        look_class(c, styles), number(x - 1), number(head.height + 3), key_marks(c), number(x + 27),
+        number(head.height + 12), svg::escaped(label_of(c)));
+    x += w;
+  }
+  head.height += f.curves.empty() ? 6 : 28;
+  const std::vector<bool> all(f.curves.size(), true);
+  const double left = CurveDrawing(f, styles, {false, file_width, file_height}, all).left() + 8;
+  const svg::Box box{false, file_width - 22 - left, file_height};
+  return svg::document(
+      file_width, head.height + file_height + 52, f.title, looks,
+      head.marks + svg::placed(left, head.height, box, CurveDrawing(f, styles, box, all).marks()));
+}
+
+std::string page_svg(const Figure& f,
+                     const CurveStyles& styles,
+                     double height,
+                     const std::vector<bool>& first) {
+  return CurveDrawing(f, styles, {true, page_width, height}, first).on_page();
+}
+
+std::string page_small(const Figure& f, double width, double height) {
+  const CurveStyles styles({&f, 1});
+  std::vector<bool> first(f.curves.size(), true);
+  if (first.size() > 6) std::fill(first.begin() + 6, first.end(), false);
+  return fmt::format(R"(<svg class="plot small" viewBox="0 0 {} {}" aria-hidden="true">{}</svg>)",
+                     number(width), number(height),
+                     CurveDrawing(f, styles, {true, width, height}, first).curves());
+}
+
+std::string page_key(const FigureCurve& c, const CurveStyles& styles) {
+  return fmt::format(R"(<svg class="key {}">{}</svg>{})", look_class(c, styles), key_marks(c),
+                     svg::escaped(label_of(c)));
 }
 
 }  // namespace gonio

@@ -1,6 +1,7 @@
 #include "reports/picture/svg.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "reports/picture/markup.h"
@@ -8,6 +9,18 @@
 #include <fmt/format.h>
 
 namespace gonio::svg {
+namespace {
+
+/// A number of tenths: "12.5", "-.3".
+std::string tenths(long n) {
+  std::string s = n < 0 ? "-" : "";
+  n = std::abs(n);
+  if (n >= 10 || n == 0) s += std::to_string(n / 10);
+  if (n % 10 != 0) s += "." + std::to_string(n % 10);
+  return s;
+}
+
+}  // namespace
 
 std::string escaped(std::string_view text) {
   std::string out = escaped_markup(text);
@@ -34,61 +47,118 @@ std::vector<std::string> wrapped(std::string_view text, double width, double siz
 }
 
 std::string number(double v) {
-  std::string s = fmt::format("{:.2f}", v);
-  s.erase(s.find_last_not_of('0') + 1);
-  if (s.back() == '.') s.pop_back();
-  return s == "-0" ? "0" : s;
+  return tenths(std::lround(10 * v));
 }
 
-std::string text(double x, double y, std::string_view what, const TextStyle& o) {
-  constexpr std::string_view anchors[]{"start", "middle", "end"};
-  std::string out = fmt::format(R"(<text x="{}" y="{}" fill="{}")", number(x), number(y), o.fill);
-  if (o.anchor != Anchor::start)
-    out += fmt::format(R"( text-anchor="{}")", anchors[static_cast<std::size_t>(o.anchor)]);
-  if (o.size != text_size) out += fmt::format(R"( font-size="{}")", number(o.size));
-  if (o.bold) out += R"( font-weight="600")";
-  if (o.turned != 0)
-    out += fmt::format(" transform=\"rotate({} {} {})\"", number(o.turned), number(x), number(y));
-  return out + ">" + escaped(what) + "</text>\n";
+void Path::move(double x, double y) {
+  x_ = std::lround(10 * x), y_ = std::lround(10 * y);
+  const auto down = tenths(y_);
+  text_ += "M" + tenths(x_) + (down[0] == '-' ? "" : " ") + down;
+  last_ = 'M';
+}
+void Path::line(double x, double y) {
+  const long to_x = std::lround(10 * x), to_y = std::lround(10 * y);
+  const auto right = tenths(to_x - x_), down = tenths(to_y - y_);
+  if (last_ != 'l')
+    text_ += 'l';
+  else if (right[0] != '-')
+    text_ += ' ';
+  text_ += right + (down[0] == '-' ? "" : " ") + down;
+  x_ = to_x, y_ = to_y, last_ = 'l';
+}
+void Path::up(double y) {
+  const long to = std::lround(10 * y);
+  text_ += 'v' + tenths(to - y_);
+  y_ = to, last_ = 'v';
+}
+void Path::dot(double x, double y) {
+  move(x, y);
+  text_ += "h0";
 }
 
-std::string line(double x1,
-                 double y1,
-                 double x2,
-                 double y2,
-                 std::string_view stroke,
-                 double width,
-                 std::string_view dash) {
-  std::string out = fmt::format(R"(<path d="M{} {}L{} {}" stroke="{}")", number(x1), number(y1),
-                                number(x2), number(y2), stroke);
-  if (width != 1) out += fmt::format(R"( stroke-width="{}")", number(width));
-  if (!dash.empty()) out += fmt::format(R"( stroke-dasharray="{}")", dash);
-  return out + "/>\n";
+std::string Box::x(double x, std::string_view attribute) const {
+  if (!page) return fmt::format(R"( {}="{}")", attribute, number(x));
+  return fmt::format(R"( {}="{:.4g}%")", attribute, 100 * x / width);
+}
+std::string Box::text(double x, double y, std::string_view what, std::string_view more) const {
+  return fmt::format(R"(<text{} y="{}"{}>{}</text>)", this->x(x), number(y), more, escaped(what));
+}
+std::string Box::inside(std::string_view marks, std::string_view more) const {
+  return fmt::format(
+      R"(<svg width="{}" height="{}" viewBox="0 0 {} {}" preserveAspectRatio="none"{}>{}</svg>)",
+      page ? "100%" : number(width), number(height), number(width), number(height), more, marks);
+}
+
+std::string axis_texts(const Box& box, const Ticks& x, const Ticks& y, bool turned) {
+  std::string out =
+      turned ? R"(<g class="xt" text-anchor="end">)" : R"(<g class="xt" text-anchor="middle">)";
+  double end = -1;
+  bool crowded = false;  // where the picture is half as wide
+  for (const auto& [at, text] : x) {
+    crowded |= at / 2 - text_width(text) / 2 < end;
+    end = at / 2 + text_width(text) / 2 + 4;
+    if (turned)
+      out += fmt::format(
+          R"(<svg{} y="{}" overflow="visible">{}</svg>)", box.x(at), number(box.height + 12),
+          fmt::format(R"x(<text transform="rotate(-40)">{}</text>)x", escaped(text)));
+    else
+      out += box.text(at, box.height + 17, text);
+  }
+  if (crowded && !turned) out.replace(0, 13, R"(<g class="xt crowded")");
+  out += R"(</g><g class="yt" text-anchor="end">)";
+  for (const auto& [at, text] : y)
+    out += fmt::format(R"(<text x="-7" y="{}">{}</text>)", number(at + 4), escaped(text));
+  return out + "</g>";
+}
+
+std::string axis_names(
+    const Box& box, std::string_view x, std::string_view y, double left, double below) {
+  std::string out;
+  double at = 12 - left;
+  for (const auto& line : wrapped(y, std::max(120.0, box.height + 20))) {
+    out += fmt::format(
+        R"x(<text text-anchor="middle" transform="translate({} {}) rotate(-90)">{}</text>)x",
+        number(at), number(box.height / 2), escaped(line));
+    at += 13;
+  }
+  if (!box.page) out += box.text(box.width / 2, box.height + below, x, R"( text-anchor="middle")");
+  return out;
 }
 
 Heading heading(std::string_view title, std::string_view note, double width) {
   Heading h{{}, 16};
-  const auto put = [&](std::string_view what, const TextStyle& o, double step) {
-    for (const auto& l : wrapped(what, width - 32, o.size)) {
+  const auto put = [&](std::string_view what, std::string_view look, double size, double step) {
+    for (const auto& l : wrapped(what, width - 32, size)) {
       h.height += step;
-      h.marks += text(16, h.height - 4, l, o);
+      h.marks +=
+          fmt::format(R"(<text x="16" y="{}"{}>{}</text>)", number(h.height - 4), look, escaped(l));
     }
   };
-  put(title, {.fill = ink, .size = 15, .bold = true}, 19);
-  put(note, {}, 16);
+  put(title, R"( class="in" font-size="15" font-weight="600")", 15, 19);
+  put(note, "", text_size, 16);
   h.height += 6;
   return h;
 }
 
-std::string document(double width, double height, std::string_view title, std::string_view marks) {
+std::string placed(double left, double top, const Box& box, std::string_view marks) {
+  return fmt::format(R"(<svg x="{}" y="{}" width="{}" height="{}" overflow="visible">{}</svg>)",
+                     number(left), number(top), number(box.width), number(box.height), marks);
+}
+
+std::string document(double width,
+                     double height,
+                     std::string_view title,
+                     std::string_view looks,
+                     std::string_view marks) {
   return fmt::format(
       R"(<?xml version="1.0" encoding="UTF-8"?>
-<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif" font-size="{2}" fill="none" role="img">
+<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif" font-size="{2}" fill="#5d646b" role="img">
 <title>{3}</title>
+<style>path{{fill:none;stroke-linejoin:round}}.in{{fill:#1c1f23}}.on{{fill:{4}}}.g{{stroke:#efeee9}}.ax{{stroke:#dddcd5}}.zero,.tick{{stroke:#5d646b}}.edge{{stroke:#1c1f23;stroke-width:2}}.cells path{{stroke:none;fill:currentColor}}.cells.columns path{{stroke:currentColor;fill:none}}{5}</style>
 <rect width="{0}" height="{1}" fill="{4}"/>
-{5}</svg>
+{6}</svg>
 )",
-      number(width), number(height), number(text_size), escaped(title), ground, marks);
+      number(width), number(height), number(text_size), escaped(title), ground, looks, marks);
 }
 
 }  // namespace gonio::svg

@@ -1,9 +1,6 @@
-// The remap report as JSON and as a page.
-#include "reports/page/page.h"
-
+// The remap report as JSON.
 #include <algorithm>
 
-#include "reports/page/assets.h"
 #include "reports/picture/document.h"
 #include "reports/remap/remap.h"
 
@@ -119,9 +116,6 @@ std::string rows_csv(const RemapReport& r) {
 }
 std::string remap_schema() {
   return schema_text<RemapReport>("gonio report remap");
-}
-std::string remap_page_html(std::string_view data) {
-  return make_report_page("Masking: what the remaps do", data, assets::remap_js);
 }
 
 }  // namespace gonio

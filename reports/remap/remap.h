@@ -14,6 +14,10 @@
 
 namespace gonio {
 
+namespace page {
+struct Page;
+}
+
 /// Cosines at which E is computed, and where directions are compared, are at least this.
 inline constexpr double remap_least_cosine = 0.05;
 
@@ -125,7 +129,7 @@ std::string to_json(const RemapReport&);
 std::string rows_csv(const RemapReport&);
 /// JSON Schema of the document.
 std::string remap_schema();
-/// \param data  of to_json() above
-std::string remap_page_html(std::string_view data);
+/// Its page.
+page::Page report_page(const RemapReport&);
 
 }  // namespace gonio

@@ -1,7 +1,4 @@
-// The scenes as JSON and as a page.
-#include "reports/page/page.h"
-
-#include "reports/page/assets.h"
+// The scenes as JSON.
 #include "reports/picture/document.h"
 #include "reports/scenes/scenes.h"
 
@@ -149,9 +146,6 @@ std::string rows_csv(const ScenesReport& r) {
 }
 std::string scenes_schema() {
   return schema_text<ScenesReport>("gonio report scenes");
-}
-std::string scenes_page_html(std::string_view data) {
-  return make_report_page("Only what the scene needs", data, assets::scenes_js);
 }
 
 }  // namespace gonio

@@ -13,6 +13,10 @@
 
 namespace gonio {
 
+namespace page {
+struct Page;
+}
+
 struct ScenesOptions {
   bool full = false;
   std::vector<std::string> materials, lights;  ///< names of reports/scenes/cases.h
@@ -103,7 +107,7 @@ std::string to_json(const ScenesReport&);
 std::string rows_csv(const ScenesReport&);
 /// JSON Schema of the document.
 std::string scenes_schema();
-/// \param data  of to_json() above
-std::string scenes_page_html(std::string_view data);
+/// Its page.
+page::Page report_page(const ScenesReport&);
 
 }  // namespace gonio

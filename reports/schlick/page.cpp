@@ -1,9 +1,6 @@
-// The report on Schlick's approximation as JSON and as a page.
-#include "reports/page/page.h"
-
+// The report on Schlick's approximation as JSON.
 #include <algorithm>
 
-#include "reports/page/assets.h"
 #include "reports/picture/document.h"
 #include "reports/schlick/schlick.h"
 
@@ -64,9 +61,6 @@ std::string rows_csv(const SchlickReport& r) {
 }
 std::string schlick_schema() {
   return schema_text<SchlickReport>("gonio report schlick");
-}
-std::string schlick_page_html(std::string_view data) {
-  return make_report_page("Schlick's approximation and its kin", data, assets::schlick_js);
 }
 
 }  // namespace gonio

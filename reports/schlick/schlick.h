@@ -13,6 +13,10 @@
 
 namespace gonio {
 
+namespace page {
+struct Page;
+}
+
 /// F − exact of a form by index and angle: [index][angle].
 struct FresnelMap {
   std::string form, kind;
@@ -104,7 +108,7 @@ std::string to_json(const SchlickReport&);
 std::string rows_csv(const SchlickReport&);
 /// JSON Schema of the document.
 std::string schlick_schema();
-/// \param data  of to_json() above
-std::string schlick_page_html(std::string_view data);
+/// Its page.
+page::Page report_page(const SchlickReport&);
 
 }  // namespace gonio

@@ -1,7 +1,4 @@
-// The atlas as JSON and as a page.
-#include "reports/page/page.h"
-
-#include "reports/page/assets.h"
+// The atlas as JSON.
 #include "reports/picture/document.h"
 #include "reports/stability/stability.h"
 
@@ -153,9 +150,6 @@ std::string rows_csv(const StabilityReport& r) {
 }
 std::string stability_schema() {
   return schema_text<StabilityReport>("gonio report stability");
-}
-std::string stability_page_html(std::string_view data) {
-  return make_report_page("Numerical stability", data, assets::stability_js);
 }
 
 }  // namespace gonio

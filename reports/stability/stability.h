@@ -14,6 +14,10 @@
 
 namespace gonio {
 
+namespace page {
+struct Page;
+}
+
 /// A form in a number over the hard domain.
 struct StabilityRow {
   std::string id, form;  ///< form: how its angles are given, stability::Given
@@ -136,7 +140,7 @@ std::string to_json(const StabilityReport&);
 std::string rows_csv(const StabilityReport&);
 /// JSON Schema of the document.
 std::string stability_schema();
-/// \param data  of to_json() above
-std::string stability_page_html(std::string_view data);
+/// Its page.
+page::Page report_page(const StabilityReport&);
 
 }  // namespace gonio

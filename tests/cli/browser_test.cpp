@@ -16,6 +16,7 @@
 #include "reports/energy/energy.h"
 #include "reports/index/index_page.h"
 #include "reports/page/page.h"
+#include "reports/page/render.h"
 #include "reports/pages/models_page.h"
 #include "reports/picture/document.h"
 #include "reports/picture/json_numbers.h"
@@ -47,7 +48,7 @@ for (const how of ["error", "warn"]) console[how] = (...what) => problems.push(`
 constexpr const char* ask = R"(<script>
 addEventListener("load", () => setTimeout(() => {
   const seen = { problems, canvases: 0, blank: [], plots: 0, mute: [], wider: document.documentElement.scrollWidth - innerWidth,
-                 places: document.querySelectorAll(".contents a").length, picture: document.querySelector("canvas, .sphere")?.getBoundingClientRect().top ?? null,
+                 places: document.querySelectorAll(".contents a").length, picture: document.querySelector("canvas, .plot, .sphere")?.getBoundingClientRect().top ?? null,
                  dead: [...document.querySelectorAll(".contents a")].map((a) => a.getAttribute("href").slice(1)).filter((id) => !document.getElementById(id)),
                  text: document.getElementById("page")?.innerText ?? "" };
   const name = (node) => node.closest("[aria-label]")?.getAttribute("aria-label") ?? node.className;
@@ -64,7 +65,7 @@ addEventListener("load", () => setTimeout(() => {
     }
     return null;
   };
-  const told = (readout) => !readout.querySelector(".hint") && /\d/.test(readout.textContent);
+  const told = (readout) => !readout.querySelector(".hint") && readout.childNodes.length && /\d/.test(readout.textContent);
   const speaks = (node, move) => {
     const readout = readout_of(node), box = node.getBoundingClientRect();
     if (!readout || !box.width) return;
@@ -79,6 +80,12 @@ addEventListener("load", () => setTimeout(() => {
   for (const over of document.querySelectorAll(".u-over")) {
     over.dispatchEvent(new MouseEvent("mouseenter"));
     speaks(over, (at) => over.dispatchEvent(new MouseEvent("mousemove", at)));
+  }
+  for (const plot of document.querySelectorAll(".plot[tabindex]")) {
+    if (!plot.clientWidth) continue;
+    ++seen.canvases;
+    if (!plot.querySelector("g[class] path")) seen.blank.push(name(plot));
+    speaks(plot, (at) => plot.dispatchEvent(new PointerEvent("pointermove", at)));
   }
   for (const map of document.querySelectorAll("canvas.map")) speaks(map, (at) => map.dispatchEvent(new PointerEvent("pointermove", at)));
   parent.postMessage([location.pathname.split("/").at(-1), encodeURIComponent(JSON.stringify(seen))], "*");
@@ -201,25 +208,31 @@ ScenesReport small_scenes_report() {
   return scenes_report(o);
 }
 
+template <class Report>
+std::string html_of(const Report& r) {
+  return page::page_html(report_page(r), r.pictures);
+}
+
 void add_reports(Pages& pages) {
-  const auto add = [&](const char* name, const std::string& html) { pages.add(name, html); };
-  add("energy", energy_page_html(to_json(small_energy_report())));
-  add("diffuse",
-      diffuse_page_html(to_json(diffuse_report(
-          {false, {0, 0.5, 1}, {0.1, 0.5, 1}, 8, {"diffuse.lambert", "diffuse.disney"}}))));
-  add("schlick", schlick_page_html(to_json(schlick_report({false, {1.3, 1.5, 2}, 90, {0.5, 1}}))));
-  add("remap", remap_page_html(to_json(remap_report(
-                   {false,
-                    {0.5, 1},
-                    {0.5},
-                    4,
-                    0.1,
-                    {"masking.smith_ggx.separable", "masking.smith_ggx.correlated",
-                     "masking.schlick_ggx.direct", "masking.schlick_ggx.half_alpha"}}))));
-  add("cross_fit", cross_fit_page_html(cross_fit_report(
-                       {false, {0.5}, {1.5}, {"Au"}, {3}, 12, 64, {"fresnel.schlick"}})));
-  add("cost", cost_page_html(to_json(small_cost_report())));
-  add("scenes", scenes_page_html(to_json(small_scenes_report())));
+  pages.add("energy", html_of(small_energy_report()));
+  pages.add("diffuse",
+            html_of(diffuse_report(
+                {false, {0, 0.5, 1}, {0.1, 0.5, 1}, 8, {"diffuse.lambert", "diffuse.disney"}})));
+  pages.add("schlick", html_of(schlick_report({false, {1.3, 1.5, 2}, 90, {0.5, 1}})));
+  pages.add(
+      "remap",
+      html_of(remap_report({false,
+                            {0.5, 1},
+                            {0.5},
+                            4,
+                            0.1,
+                            {"masking.smith_ggx.separable", "masking.smith_ggx.correlated",
+                             "masking.schlick_ggx.direct", "masking.schlick_ggx.half_alpha"}})));
+  pages.add(
+      "cross_fit",
+      html_of(cross_fit_report({false, {0.5}, {1.5}, {"Au"}, {3}, 12, 64, {"fresnel.schlick"}})));
+  pages.add("cost", html_of(small_cost_report()));
+  pages.add("scenes", html_of(small_scenes_report()));
   ReportIndex index{{}, "0.1.0", false, 0, {}, {}};
   const auto schlick = schlick_rows({false, {1.5}, 90, {0.1, 1}});
   ReportFiles files;
@@ -235,81 +248,69 @@ void add_reports(Pages& pages) {
                              {"RMS", true},
                              {{"GGX", {0.2, 0.6}, {0.1, 0.01}, FigureCurve::Kind::points}}}};
   add_report(index, "schlick", "Schlick against exact Fresnel", 1500, std::move(files));
-  add("index", index_page_html(to_json(index)));
+  pages.add("index", index_page_html(index));
 }
 
-/// Script of when_drawn(then): calls it once the page's plot is there, however late that is.
-constexpr const char* when_drawn = R"(
-const when_drawn = (then) => {
-  const is_there = () => document.querySelector(".u-over") !== null;
-  if (is_there()) return setTimeout(then, 50);
-  const watch = new MutationObserver(() => {
-    if (!is_there()) return;
-    watch.disconnect();
-    setTimeout(then, 50);
-  });
-  watch.observe(document.body, { childList: true, subtree: true });
-};
-)";
-
-/// A curve of five points without the middle one; complains where its line is not what it should be.
-void add_gap(Pages& pages) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const FigureCurve curve{"c", {0, 1, 2, 3, 4}, {1, 1, none, 1, 1}, FigureCurve::Kind::both};
-  PageJson data{{"schema", "gonio.report.gap/1"}};
-  data.update(
-      json_of(Pictures{{{"gap", "Gap", "", {"x", false, 0, 4}, {"y"}, {curve}}}, {}}, Digits::six));
-  pages.add("gap", make_report_page("Gap", page_text(data), std::string(when_drawn) + R"(
-document.getElementById("page").replaceChildren(figure_view(page_data().figures[0]));
-addEventListener("load", () => when_drawn(() => {
-  const canvas = document.querySelector("canvas"), frame = canvas.getBoundingClientRect();
-  const plot = document.querySelector(".u-over").getBoundingClientRect();
-  const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
-  const line = channels(color("accent")), scale = canvas.width / frame.width;
-  const is_drawn_at = (x) => {
-    const column = canvas.getContext("2d").getImageData(Math.round(scale * (plot.left - frame.left + plot.width * x / 4)), 0, 1, canvas.height).data;
-    return Array.from({ length: canvas.height }, (_, i) => 4 * i).some((at) => line.every((c, k) => Math.abs(c - column[at + k]) < 50));
-  };
-  for (const x of [0.5, 3.5]) if (!is_drawn_at(x)) console.warn(`no line at ${x}`);
-  for (const x of [1.5, 2, 2.5]) if (is_drawn_at(x)) console.warn(`a line at ${x}, where a point is missing`);
-}));
-)"));
+/// A page with a script that complains of what is not as it should be.
+void add_checked(Pages& pages,
+                 const std::string& name,
+                 const page::Page& page,
+                 const Pictures& pictures,
+                 const std::string& script) {
+  std::string html = page::page_html(page, pictures);
+  html.insert(html.rfind("</body>"),
+              "<script>const complain = (of, is) => { if (!is) console.warn(of); };\n" + script +
+                  "</script>");
+  pages.add(name, beside_index(std::move(html)));
 }
 
-/// Eight curves, of which six are shown until all are asked for, and choices of which all are printed; complains of others.
+/// Eight curves, of which six are shown until all are asked for, and choices of which all are printed.
 void add_many(Pages& pages) {
-  Figure figure{"many", "Many", "", {"x"}, {"y"}, {}};
+  Figure figure = make_figure("many");
+  figure.title = "Many";
+  figure.x = {"x"}, figure.y = {"y"};
   for (int i = 0; i < 8; ++i)
     figure.curves.push_back({"c" + std::to_string(i), {0, 1}, {1.0 * i, 2.0 * i}});
   figure.curves.push_back({"truth", {0, 1}, {0, 1}});
   figure.curves.back().dashed = true;
-  PageJson data{{"schema", "gonio.report.many/1"}};
-  data.update(json_of(Pictures{{figure}, {}}, Digits::six));
-  pages.add("many", beside_index(make_report_page("Many", page_text(data), R"(
-most_shipped = ["c7"];
-const figure = page_data().figures[0], of = (choice) => el("p", {}, `choice ${choice}`);
-const chosen = changing(() => of(1), () => [of(2), small_pictures([figure])]);
-show_report({ command: "report many", title: "Many", findings: ["One.", "Two.", "Three.", "Four.", "Five."], first: figure_view(figure), sections: [null, section("Of choices, a section", "", chosen.node)], setting: "" });
-const keys = () => document.querySelector(".opening .keys").textContent;
-const complain = (of, is) => { if (!is) console.warn(of); };
-complain("a way back", document.querySelector('.over a[href="index.html"]'));
-complain("six curves and the reference", keys().includes("c7") && keys().includes("c4") && keys().includes("truth") && !/c5|c6/.test(keys()));
-[...document.querySelectorAll("button")].find((b) => b.textContent === "all 8").click();
-complain("all curves", /c5.*c6.*c7/.test(keys()));
+  page::Choice choice;
+  choice.controls = {{"a", "A", "1"}, {"b", "B", "x"}};
+  page::Slot slot;
+  for (const auto& [a, b] : {std::pair("1", "x"), {"1", "y"}, {"2", "y"}, {"3", "z"}})
+    slot.each.push_back({{a, b}, {page::Prose{std::string("choice ") + a + b}}});
+  choice.slots = {slot};
+  page::Page page{"", "report many", "Many", "Many", {"One.", "Two.", "Three.", "Four.", "Five."}};
+  page.first = {page::Shown{"many"}};
+  page.sections = {{}, {"Of choices, a section", "", {choice}}};
+  page.most_shipped = {"c7"};
+  add_checked(pages, "many", page, {{figure}, {}}, R"js(
+const keys = () => [...document.querySelectorAll(".keys button:not(.all)")].filter((k) => k.checkVisibility()).map((k) => k.textContent).join(" ");
+complain("a way back", document.querySelector('.over a[href="index.html"]').checkVisibility());
+complain("six curves and the reference", keys() === "c0 c1 c2 c3 c4 c7 truth");
+document.querySelector(".keys .all").click();
+complain("all curves", keys() === "c0 c1 c2 c3 c4 c5 c6 c7 truth");
+const curve = document.querySelectorAll(".plot g.k0")[0];
+complain("a curve that is shown", curve.checkVisibility());
+document.querySelector(".keys button").click();
+complain("a curve that its name has hidden", !curve.checkVisibility());
 complain("an anchor", document.getElementById("of-choices-a-section"));
-const printed = () => document.querySelector(".paper").textContent;
+const shown = () => document.querySelector(".slot").firstElementChild.textContent.trim(), set = (name, value) => { const c = [...document.querySelectorAll(`input[name="${name}"]`)].find((i) => i.value === value); c.checked = true; c.dispatchEvent(new Event("change", { bubbles: true })); };
+complain("what is chosen at first", shown() === "choice 1x");
+set("c1", "y");
+complain("what is chosen then", shown() === "choice 1y");
+set("c0", "2");
+complain("the other choice stays where it can", shown() === "choice 2y");
+set("c0", "3");
+complain("and gives way where it cannot", shown() === "choice 3z");
+complain("only what there is can be chosen", document.querySelector('input[value="x"]').closest("label").hidden);
+const printed = () => [...document.querySelectorAll(".paper")].map((p) => p.textContent).join("");
 complain("nothing for paper yet", printed() === "");
 dispatchEvent(new Event("beforeprint"));
-complain("the other choice on paper", printed().includes("choice 2") && document.querySelector(".paper canvas").width > 0);
+complain("the other choices on paper", printed().includes("choice 2y") && printed().includes("choice 1"));
 complain("all findings on paper", document.querySelector("details").open);
 dispatchEvent(new Event("afterprint"));
 complain("paper is put away", printed() === "");
-const texts = ["0.1", "0.2", "0.5", "1", "2", "5", "10"], room = () => 20;
-const kept = (step) => uncrowded(texts, texts.map((_, i) => step * i), room).filter(Boolean).join(" ");
-complain("ticks that have room", kept(30) === texts.join(" "));
-complain("decades first", kept(10) === "0.1 1 10");
-complain("no ticks that touch", kept(1) === "0.1");
-)")));
+)js");
 }
 
 /// A curve on logarithmic axes of which a reader cuts out a part; complains of ticks that are not of that part.
@@ -319,36 +320,31 @@ void add_zoom(Pages& pages) {
     curve.x.push_back(std::pow(10, i / 20.0 - 3));
     curve.y.push_back(curve.x.back() * curve.x.back());
   }
-  PageJson data{{"schema", "gonio.report.zoom/1"}};
-  data.update(json_of(Pictures{{{"zoom", "Zoom", "", {"x", true}, {"y", true}, {curve}}}, {}},
-                      Digits::six));
-  pages.add("zoom", make_report_page("Zoom", page_text(data), std::string(when_drawn) + R"(
-document.getElementById("page").replaceChildren(figure_view(page_data().figures[0]));
-const ticks = [], text_of_tick = tick_text;
-tick_text = (x) => { ticks.push(x); return text_of_tick(x); };
-const drawn = async () => { await null; await null; await null; };  // a frame out of sight may wait long for a timer
-const cut_out = async (from, to) => {
-  const over = document.querySelector(".u-over"), box = over.getBoundingClientRect();
-  for (const [on, what, part] of [[over, "mouseenter", from], [over, "mousemove", from], [over, "mousedown", from], [over, "mousemove", (from + to) / 2], [over, "mousemove", to], [document, "mouseup", to]]) {
-    on.dispatchEvent(new MouseEvent(what, { bubbles: true, view: window, clientX: box.left + part * box.width, clientY: box.top + 50, movementX: 3 }));
-    await drawn();
-    if (what === "mousemove") ticks.length = 0;
-  }
-};
-const { low, high } = page_data().figures[0].x.scales.log, x_at = (part) => low * (high / low) ** part;
-addEventListener("load", () => when_drawn(async () => {
+  Figure figure = make_figure("zoom");
+  figure.title = "Zoom";
+  figure.x = {"x", true, 1e-3, 100}, figure.y = {"y", true};
+  figure.curves = {curve};
+  page::Page page{"", "report zoom", "Zoom", "Zoom", {"One."}};
+  page.first = {page::Shown{"zoom"}};
+  add_checked(pages, "zoom", page, {{figure}, {}}, R"js(
+addEventListener("load", () => {
+  const plot = document.querySelector(".plot"), box = plot.getBoundingClientRect();
+  const number = (text) => { const [lead, power] = text.replace("−", "-").split("10"); return power ? (lead ? Number(lead.replace("·", "")) : 1) * 10 ** Number([...power].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c) < 0 ? "-" : "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("")) : Number(text.replace("−", "-")); };
+  const ticks = (g) => [...plot.querySelectorAll(g + " text")].map((t) => number(t.textContent === "10" ? "10.0" : t.textContent.replace(/^1?00?0?$/, (s) => s + ".0")));
+  const drag = (from, to) => { for (const [what, part] of [["pointerdown", from], ["pointermove", to], ["pointerup", to]])
+    plot.dispatchEvent(new PointerEvent(what, { bubbles: true, pointerType: "mouse", clientX: box.left + part * box.width, clientY: box.top + 50 })); };
+  const at_first = plot.innerHTML;
   for (const [from, to] of [[0.2, 0.6], [0.5, 0.52]]) {
-    await cut_out(from, to);
-    const [x0, x1] = [x_at(from), x_at(to)], of_x = ticks.findIndex((t, i) => i > 0 && t < ticks[i - 1]);
-    const xs = ticks.slice(0, of_x), ys = ticks.slice(of_x);
-    const within = (list, a, b) => list.length > 2 && list.length < 12 && list.every((t) => t > a / 1.05 && t < b * 1.05);
-    if (!within(xs, x0, x1)) console.warn(`of ${x0} to ${x1} the ticks are ${xs}`);
-    if (!within(ys, x0 * x0 / 2, x1 * x1 * 2)) console.warn(`beside ${x0} to ${x1} the ticks are ${ys}`);
-    document.querySelector(".u-over").dispatchEvent(new MouseEvent("dblclick", { bubbles: true }));
-    await drawn();
+    drag(from, to);
+    const x_at = (part) => 1e-3 * 1e5 ** part, [x0, x1] = [x_at(from), x_at(to)];
+    const within = (list, a, b) => list.length > 1 && list.length < 12 && list.every((t) => t > a / 1.05 && t < b * 1.05);
+    if (!within(ticks(".xt"), x0, x1)) console.warn(`of ${x0} to ${x1} the ticks are ${ticks(".xt")}`);
+    if (!within(ticks(".yt"), x0 * x0 / 2, x1 * x1 * 2)) console.warn(`beside ${x0} to ${x1} the ticks are ${ticks(".yt")}`);
+    plot.dispatchEvent(new MouseEvent("dblclick", { bubbles: true }));
+    complain("the whole again", plot.firstElementChild.getAttribute("viewBox").startsWith("0 0 "));
   }
-}));
-)"));
+});
+)js");
 }
 
 /// Models compared, some of which lie close together; complains of a point without its number, of numbers that touch, and of a
@@ -432,7 +428,6 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
   if (command.empty()) GTEST_SKIP() << "needs chromium or Chrome, which is not here";
   Pages pages;
   add_reports(pages);
-  add_gap(pages);
   add_many(pages);
   add_zoom(pages);
   add_models(pages);

@@ -420,12 +420,6 @@ TEST(ImageLight, TheSplitSumIsExactUnderEvenLightAlone) {
   EXPECT_GT(other, 2);
   ASSERT_EQ(light.costs.size(), 2U);
   EXPECT_GT(light.costs[1].ns, 100 * light.costs[0].ns);
-
-  EnergyRows r;
-  r.light = light;
-  const auto f = facts(r);
-  EXPECT_EQ(f.image_light.size(), light.lit.size());
-  EXPECT_EQ(f.image_light_times.size(), 2U);
 }
 
 }  // namespace

@@ -31,10 +31,9 @@ TEST(Page, FetchesNothing) {
   EXPECT_NE(head.find("default-src 'none'"), std::string::npos);
   for (const auto css : {assets::page_css, assets::uplot_css})
     for (const char* load : {"@import", "url("}) EXPECT_EQ(css.find(load), css.npos) << load;
-  for (const auto js : {assets::page_js, assets::plots_js, assets::fit_js, assets::batch_js,
-                        assets::report_js, assets::figures_js, assets::index_js, assets::energy_js,
-                        assets::remap_js, assets::schlick_js, assets::cross_fit_js, assets::cost_js,
-                        assets::models_js, assets::spheres_js})
+  for (const auto js :
+       {assets::page_js, assets::plots_js, assets::fit_js, assets::batch_js, assets::report_js,
+        assets::figures_js, assets::pictures_js, assets::models_js, assets::spheres_js})
     for (const char* load :
          {"fetch(", "XMLHttpRequest", "import(", "WebSocket", "sendBeacon", "new Image"})
       EXPECT_EQ(js.find(load), js.npos) << load;
@@ -59,11 +58,9 @@ TEST(Page, HostileStringsStayText) {
 }
 
 TEST(Page, EmbeddedFilesEndNoElement) {
-  for (const auto js :
-       {assets::uplot_js, assets::page_js, assets::plots_js, assets::fit_js, assets::batch_js,
-        assets::report_js, assets::figures_js, assets::index_js, assets::energy_js,
-        assets::remap_js, assets::schlick_js, assets::cross_fit_js, assets::cost_js,
-        assets::models_js, assets::spheres_js}) {
+  for (const auto js : {assets::uplot_js, assets::page_js, assets::plots_js, assets::fit_js,
+                        assets::batch_js, assets::report_js, assets::figures_js,
+                        assets::pictures_js, assets::models_js, assets::spheres_js}) {
     EXPECT_FALSE(js.empty());
     EXPECT_EQ(js.find("</script"), js.npos);
     EXPECT_EQ(js.find("<!--"), js.npos);

@@ -7,11 +7,14 @@
 #include <tuple>
 #include <vector>
 
+#include "base/base64.h"
+#include "base/text.h"
 #include "image/exr.h"
 #include "reports/picture/document.h"
 #include "reports/picture/figure_scale.h"
 #include "support.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace gonio {
@@ -82,7 +85,7 @@ TEST(FigureSvg, EscapesItsTexts) {
   f.curves[0].name = "</svg><script>\x01";
   const std::string svg = drawn(f);
   EXPECT_EQ(occurrences(svg, "<script"), 0U);
-  EXPECT_EQ(occurrences(svg, "</svg>"), 1U);
+  EXPECT_EQ(occurrences(svg, "</svg>"), occurrences(drawn(times()), "</svg>"));
   EXPECT_EQ(svg.find('\x01'), svg.npos);
   EXPECT_NE(svg.find("Time &amp; error"), svg.npos);
   EXPECT_NE(svg.find("a &lt;note&gt;"), svg.npos);
@@ -108,9 +111,11 @@ TEST(FigureSvg, LaysNoLabelOnADashedLine) {
 
 TEST(FigureSvg, DrawsEveryPointItsBarAndItsLabel) {
   const std::string svg = drawn(times());
-  EXPECT_EQ(occurrences(svg, "<circle"), 4U + 2U) << "points, and those of the legend";
+  EXPECT_EQ(occurrences(svg, "h0"), 4U + 2U) << "points, and those of the legend";
   EXPECT_NE(svg.find(">a, b</text>"), svg.npos);
-  EXPECT_EQ(occurrences(svg, "stroke=\"#c4500a\""), 2U) << "the bars of the second curve";
+  const auto bars = svg.substr(svg.find(R"(<path class="bar")"));
+  EXPECT_EQ(occurrences(bars.substr(0, bars.find("/>")), "M"), 2U) << "of the second curve";
+  EXPECT_EQ(occurrences(svg, R"(class="bar")"), 1U);
   EXPECT_NE(svg.find(">10⁻⁵</text>"), svg.npos);
   EXPECT_EQ(svg.find("nan"), svg.npos);
   EXPECT_EQ(svg.find("inf"), svg.npos);
@@ -157,11 +162,68 @@ TEST(FigureSvg, ALineBreaksWhereAPointIsMissing) {
     const Figure f{"gap", "Gap", "",
                    {"x"}, {"y"}, {{"c", {0, 1, 2, 3, 4}, {1, 2, none, 2, 1}, kind}}};
     const std::string svg = drawn(f);
-    const auto begin = svg.find("<path d=\"", svg.find("clip-path=")) + 9;
+    const auto begin = svg.find("<path d=\"", svg.find(R"(<g class="k0">)")) + 9;
     const std::string path = svg.substr(begin, svg.find('"', begin) - begin);
     EXPECT_EQ(occurrences(path, "M"), 2U) << path;
-    EXPECT_EQ(occurrences(path, "L"), 2U) << path;
+    EXPECT_EQ(occurrences(path, "l"), 2U) << path;
   }
+}
+
+TEST(FigureSvg, LeavesOutPointsThatLieOnTheLine) {
+  Figure f{"line", "Line", "", {"x"}, {"y"}, {{"c", {}, {}}}};
+  for (int i = 0; i <= 90; ++i) {
+    f.curves[0].x.push_back(i);
+    f.curves[0].y.push_back(i < 45 ? 0 : i - 45);
+  }
+  const std::string svg = drawn(f), curve = svg.substr(svg.find(R"(<g class="k0">)"));
+  const auto path = curve.substr(0, curve.find("/>"));
+  EXPECT_EQ(occurrences(path, " ") + occurrences(path, "-"), 3U + 3U) << path;
+}
+
+/// Numbers of a list in an attribute.
+std::vector<double> numbers_of(const std::string& svg, const std::string& attribute) {
+  const auto at = svg.find(attribute + "=\"") + attribute.size() + 2;
+  std::vector<double> out;
+  for (const auto& n : split(svg.substr(at, svg.find('"', at) - at), ' '))
+    out.push_back(std::stod(n));
+  return out;
+}
+
+TEST(PageSvg, SaysWhatItsScriptReads) {
+  const auto f = times();
+  const std::string svg = page_svg(f, CurveStyles({&f, 1}), 300, {true, true});
+  const auto x = x_scale(f);
+  EXPECT_NE(svg.find(fmt::format("data-x=\"{:.6g} {:.6g} log\"", x.low, x.high)), svg.npos) << svg;
+  EXPECT_NE(svg.find("data-labels=\"a, b|c\""), svg.npos);
+  EXPECT_EQ(svg.find('#'), svg.npos) << "a colour that would be the same in the dark";
+}
+
+TEST(PageSvg, IsMadeForTheCurvesThatAreShownAtFirst) {
+  Figure f{"two", "Two", "", {"x"}, {"y"}, {{"a", {0, 1}, {0, 1}}, {"b", {0, 1}, {0, 100}}}};
+  const CurveStyles styles({&f, 1});
+  const std::string all = page_svg(f, styles, 300, {true, true}),
+                    one = page_svg(f, styles, 300, {true, false});
+  EXPECT_NE(all.find("data-y=\"0 106\""), all.npos);
+  EXPECT_NE(one.find("data-y=\"0 1.06\""), one.npos);
+  EXPECT_EQ(occurrences(one, " more\""), 1U);
+}
+
+TEST(PageSvg, KeepsTheValuesOfItsCells) {
+  const auto m = cells();
+  const std::string svg = page_svg(m, 0, true);
+  const auto at = svg.find("data-cells=\"") + 12;
+  const auto bytes = from_base64(svg.substr(at));
+  ASSERT_EQ(bytes.size(), 12U);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const unsigned q = static_cast<unsigned char>(bytes[2 * k]) +
+                       256U * static_cast<unsigned char>(bytes[2 * k + 1]);
+    if (std::isnan(m.values[k]))
+      EXPECT_EQ(q, 65535U);
+    else
+      EXPECT_NEAR(5 * (q / 32767.0 - 1), m.values[k], 2e-4);
+  }
+  EXPECT_EQ(numbers_of(svg, "data-xs").size(), 4U);
+  EXPECT_LT(page_svg(m, 0, false).size(), svg.size()) << "its script fills them in";
 }
 
 TEST(FigureSvg, IsWholeWithoutAnyPoint) {
@@ -183,10 +245,9 @@ TEST(FigureSvg, ANumberOnALogarithmicAxisIsAboveZero) {
 
 TEST(FigureMapSvg, LeavesOutACellWithoutValue) {
   const std::string svg = to_svg(cells());
-  const auto begin = svg.find("<g shape-rendering");
-  const std::string drawn = svg.substr(begin, svg.find("</g>") - begin);
-  EXPECT_EQ(occurrences(drawn, "z\"") + occurrences(drawn, "zM"), 5U)
-      << "a rectangle for each value";
+  const auto begin = svg.find(R"(<g class="cells)");
+  const std::string drawn = svg.substr(begin, svg.find("</g>", begin) - begin);
+  EXPECT_EQ(occurrences(drawn, "M"), 5U) << "a stroke for each value";
   EXPECT_NE(svg.find(">−5</text>"), svg.npos) << "the scale of colours";
 }
 
@@ -202,10 +263,9 @@ TEST(FigureMapSvg, WritesNumbersIntoASmallMatrix) {
 TEST(FigureMapSvg, DrawsItsLineBetweenCellsOnEitherSideOfIt) {
   auto m = cells();
   const auto lines = [](const std::string& svg) {
-    const auto at = svg.find("stroke-width=\"2\"");
+    const auto at = svg.find(R"(class="edge" d=")");
     if (at == svg.npos) return std::ptrdiff_t{0};
-    const auto begin = svg.rfind("<path", at);
-    return std::ranges::count(svg.substr(begin, at - begin), 'M');
+    return std::ranges::count(svg.substr(at, svg.find("/>", at) - at), 'M');
   };
   EXPECT_EQ(lines(to_svg(m)), 0) << "without a line";
   EXPECT_FALSE(maps_json({{}, {m}})[0].contains("line"));
@@ -239,7 +299,7 @@ TEST(FigureMap, HasASliceAfterTheOther) {
   EXPECT_NE(to_csv(m).find("r = 0.1,3,20,-5\nr = 1,1,10,10\n"), std::string::npos);
   const std::string svg = to_svg(m);
   EXPECT_NE(svg.find(">r = 0.1</text>"), svg.npos);
-  EXPECT_EQ(occurrences(svg, "<rect"), 1U + 2U) << "the ground, and a frame for each";
+  EXPECT_EQ(occurrences(svg, R"(class="ax")"), 2U) << "a frame for each";
   const test::Folder folder;
   const auto image = read_exr(folder.write("cells.exr", to_exr(m)), 1 << 20, {"r_1", "r_0_1"});
   EXPECT_EQ(image.planes[0], (std::vector<float>{11, 13, 15, 10, 12, 14}));

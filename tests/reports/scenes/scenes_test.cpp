@@ -8,6 +8,7 @@
 
 #include "base/base64.h"
 #include "many_fits.h"
+#include "reports/page/render.h"
 #include "reports/pictures.h"
 #include "reports/plain.h"
 #include "reports/scenes/cases.h"
@@ -352,7 +353,7 @@ TEST(ScenesReport, TellsEachRowAsAFlatObject) {
   }
   const auto lines = rows_csv(report());
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(lines, '\n')), j["rows"].size() + 1);
-  const auto page = scenes_page_html(to_json(report()));
+  const auto page = page::page_html(report_page(report()), report().pictures);
   EXPECT_NE(page.find("Only what the scene needs"), std::string::npos);
 }
 

@@ -1,0 +1,101 @@
+// The page of the report on diffuse forms.
+#include <algorithm>
+
+#include "reports/diffuse/diffuse.h"
+#include "reports/page/numbers.h"
+#include "reports/page/section.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+
+using namespace page;
+
+namespace {
+
+Section summary(const DiffuseRows& all) {
+  Table t;
+  t.head = columns(
+      "form|its parameter|>most albedo|>least average|>with a lobe|reciprocal|>ΔE, matte|>ΔE, "
+      "plastic|>operations|>ns");
+  const auto delta = [&](const DiffuseForm& f, std::string_view surface) {
+    const DiffuseColour* most = nullptr;
+    for (const auto& c : all.colours)
+      if (c.form == f.id && c.surface == surface && (!most || c.delta_e > most->delta_e)) most = &c;
+    if (!most) return Cell("–");
+    return Cell(significant(most->delta_e, 2), fmt::format("{}, {}, roughness {}", most->material,
+                                                           most->light, plain(most->roughness)));
+  };
+  const auto share = [](double x, std::string at) {
+    return Cell(significant(x, 3), std::move(at), {}, x > 1.0001 ? "breaks" : "");
+  };
+  for (const auto& f : all.forms)
+    t.rows.push_back({{f.name, {}, fmt::format("`{}`", f.id.substr(f.id.find('.') + 1)), ""},
+                      {f.parameter.empty() ? "–" : f.parameter},
+                      share(f.most_albedo, fmt::format("roughness {}, μ = {}",
+                                                       plain(f.most_roughness), plain(f.most_mu))),
+                      significant(f.least_average, 3),
+                      share(f.most_with_lobe, ""),
+                      {f.reciprocity < 1e-9 ? "yes" : percent(f.reciprocity)},
+                      delta(f, "matte"),
+                      delta(f, "plastic"),
+                      fmt::format("{}", f.operations),
+                      fmt::format("{} ± {}", significant(f.ns, 2), significant(f.spread_ns, 1))});
+  return {"Every form in a line",
+          "All at kd = 1, over roughness 0 to 1. An albedo above 1 makes light. “With a lobe” puts "
+          "a GGX lobe of F0 = 0.04 on top. ΔE2000 is the largest over materials and lights; the "
+          "pointer shows where.",
+          {t}};
+}
+
+Section albedos(const Pictures& p) {
+  Choice c;
+  c.controls = {{"form", "Form", "Disney", true}};
+  c.slots = {slot_of(p, "loss", c.controls), slot_of(p, "albedo", c.controls, 290)};
+  c.slots[1].on_paper = false;
+  c.look = "columns map";
+  return {"What each gives back",
+          "Share of the light that leaves a white surface again, by roughness and by the angle it "
+          "is seen from.",
+          {Shown{"average"}, c}};
+}
+
+Section looks(const Pictures& p) {
+  Choice c;
+  c.controls = {{"surface", "Surface", "matte"},
+                {"material", "Material", "chalk", true},
+                {"light", "Light", "front light", true}};
+  c.slots = {slot_of(p, "delta_e", c.controls, 340)};
+  return {"How each looks beside the reference",
+          "A ball under one light from the front, from 60° and from 120° to the view, or a plane "
+          "under even light. A white surface that faces the light shows as the display's white. "
+          "Matte surfaces are compared with EON. Plastic has a GGX lobe of F0 = 0.04 and of the "
+          "same roughness on every form; its reference is EON below that lobe, coupled by albedos "
+          "as in Kelemen and Szirmay-Kalos (2001), which loses and makes no light.",
+          {c}};
+}
+
+}  // namespace
+
+Page report_page(const DiffuseReport& r) {
+  Page out{"diffuse", "report diffuse", "Diffuse forms", "What a matte surface gives back",
+           r.findings.sentences};
+  out.full = r.full;
+  out.first = opening(r.pictures, "average");
+  out.sections = {summary(r.rows),
+                  albedos(r.pictures),
+                  looks(r.pictures),
+                  {"How it is measured",
+                   "",
+                   {Points{{"Roughness is what a renderer's slider sets: α = r² for Disney's, "
+                            "Frostbite's and Hammon's form, σ = r radians for Oren–Nayar as in "
+                            "MaterialX, r itself for Fujii's and EON.",
+                            "Albedos are integrals, exact to 10⁻⁶. Times are of column kernels, in "
+                            "float and in cache, on one thread.",
+                            "Coupled forms reflect what the interface of a lobe leaves; Hammon's "
+                            "contains its interface. They are compared on plastic only."}}}}};
+  out.most_shipped = {"Lambert", "Lambert, coupled", "Disney", "Frostbite", "Oren–Nayar", "EON"};
+  return out;
+}
+
+}  // namespace gonio

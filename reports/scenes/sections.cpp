@@ -1,0 +1,276 @@
+// The page of the report on scenes: which effects a material needs under a light, and what leaving
+// out the others saves.
+#include <algorithm>
+#include <cmath>
+
+#include "base/base64.h"
+#include "image/png.h"
+#include "reports/page/numbers.h"
+#include "reports/page/section.h"
+#include "reports/picture/markup.h"
+#include "reports/scenes/scenes.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+
+using namespace page;
+
+namespace {
+
+using page::Group;
+using page::Table;
+
+std::string delta(double x) {
+  return x < 0.005 ? "0" : significant(x, 2);
+}
+const SceneRow* found(const ScenesRows& all, std::string_view material, std::string_view light) {
+  const auto at = std::ranges::find_if(
+      all.rows, [&](const auto& r) { return r.material == material && r.light == light; });
+  return at == all.rows.end() ? nullptr : &*at;
+}
+
+Section plans(const ScenesRows& all) {
+  Table t{columns(""), {}, "told-by-cell"};
+  const auto lights = unique(all.rows, &SceneRow::light);
+  for (const auto& l : lights) t.head.push_back({capital(l)});
+  for (const auto& m : unique(all.rows, &SceneRow::material)) {
+    auto& row = t.rows.emplace_back(std::vector{Cell{capital(m)}});
+    for (const auto& l : lights) {
+      const auto* r = found(all, m, l);
+      row.push_back(r ? Cell{times(r->speedup_float),
+                             {},
+                             fmt::format("{} from double. {}", times(r->speedup),
+                                         r->kept.empty() ? "Keeps nothing" : "Keeps " + r->kept),
+                             "big"}
+                      : Cell{"–"});
+    }
+  }
+  return {
+      "What to keep, and how much faster that is",
+      fmt::format(
+          "The large number compares the plan with everything on, both in float; the small one "
+          "compares it with everything on in double. All effects that are not kept are off, and "
+          "nobody sees it: ΔE2000 is at most {} at {} of the points, and at most {} anywhere.",
+          plain(all.tolerance.limit), percent(all.tolerance.quantile), plain(all.tolerance.max)),
+      {t},
+      "plans"};
+}
+
+// --- Pictures
+// --------------------------------------------------------------------------------------
+using Rgb = std::array<unsigned char, 3>;
+constexpr Rgb no_difference{0xe9, 0xe7, 0xe0}, hardly_seen{0xa9, 0x8f, 0xc4},
+    seen{0xf0, 0xa8, 0x68}, most_seen{0xb3, 0x47, 0x0b};
+
+/// Colour of a difference: one course below what is hardly seen, another from there to the largest.
+Rgb difference_colour(double x, const scene::Tolerance& t) {
+  const bool low = x <= t.limit;
+  const auto &a = low ? no_difference : seen, &b = low ? hardly_seen : most_seen;
+  const double part = std::clamp(low ? x / t.limit : (x - t.limit) / (t.max - t.limit), 0.0, 1.0);
+  Rgb c{};
+  for (std::size_t k = 0; k < 3; ++k)
+    c[k] = static_cast<unsigned char>(std::lround(std::lerp(double(a[k]), double(b[k]), part)));
+  return c;
+}
+std::string difference_png(const ScenePicture& p, const scene::Tolerance& t) {
+  constexpr double steps = 50;  // to 1
+  PngImage image{p.pixels, p.pixels, {}, {}};
+  for (const char c : from_base64(p.difference))
+    image.pixels.push_back(difference_colour(static_cast<unsigned char>(c) / steps, t));
+  return base64(png_bytes(image));
+}
+std::string triple(const ScenePicture& p, const scene::Tolerance& t) {
+  const auto image = [&](const std::string& png, const char* how) {
+    return fmt::format(
+        R"(<img class="sphere" width="{0}" height="{0}" src="data:image/png;base64,{1}" alt="{2}">)",
+        p.pixels, png, escaped_markup(fmt::format("{} under {}, {}", p.material, p.light, how)));
+  };
+  return fmt::format(
+      R"(<figure><figcaption>{}, ΔE up to {}</figcaption><div class="sphere-row">{}{}{}</div></figure>)",
+      escaped_markup(capital(p.light)), delta(p.worst), image(p.everything, "everything on"),
+      image(p.planned, "as planned"), image(difference_png(p, t), "difference"));
+}
+std::string step(const Rgb& c, std::string_view text) {
+  return fmt::format(
+      R"(<span><span class="step" style="background:#{:02x}{:02x}{:02x}"></span>{}</span>)", c[0],
+      c[1], c[2], text);
+}
+Section spheres(const ScenesRows& all) {
+  const auto& t = all.tolerance;
+  std::string html =
+      fmt::format(R"(<p class="small keys">{}{}{}{}</p>)", step(no_difference, "no difference"),
+                  step(hardly_seen, fmt::format("ΔE2000 {}, hardly seen", plain(t.limit))),
+                  step(seen, fmt::format("above {}, seen side by side", plain(t.limit))),
+                  step(most_seen, plain(t.max)));
+  for (const auto& m : unique(all.rows, &SceneRow::material)) {
+    html += fmt::format(R"(<div class="spheres"><h3>{}</h3>)", escaped_markup(capital(m)));
+    for (const auto& p : all.pictures)
+      if (p.material == m) html += triple(p, t);
+    html += "</div>\n";
+  }
+  return {"All effects, as planned, and the difference", "", {Markup{html}}};
+}
+
+// --- Where the time goes
+// ---------------------------------------------------------------------------
+Section shares(const ScenesRows& all) {
+  if (all.rows.empty()) return {};
+  struct PartOfTime {
+    const char *colour, *text;
+    double (*of)(const SceneRow&);
+  };
+  const PartOfTime parts[]{{"accent", "stays", [](const SceneRow& r) { return r.ns_float; }},
+                           {"rms-1", "nobody sees it under this light",
+                            [](const SceneRow& r) { return r.ns_present_float - r.ns_float; }},
+                           {"rule", "the material does not have it", [](const SceneRow& r) {
+                              return r.ns_exact_float - r.ns_present_float;
+                            }}};
+  std::string html = R"(<p class="small keys">)";
+  for (const auto& p : parts)
+    html +=
+        fmt::format(R"x(<span><span class="step" style="background:var(--{})"></span>{}</span>)x",
+                    p.colour, p.text);
+  html += R"(</p><div class="shares">)";
+  std::vector<double> of_double;
+  double least = all.rows[0].speedup, most = least;
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    const auto& r = all.rows[i];
+    of_double.push_back(r.ns_exact / r.ns_exact_float);
+    least = std::min(least, r.speedup), most = std::max(most, r.speedup);
+    html += fmt::format(R"(<div{}><span>{}, {}</span><span class="of">)",
+                        i && r.material != all.rows[i - 1].material ? R"( class="first")" : "",
+                        escaped_markup(capital(r.material)), escaped_markup(r.light));
+    for (const auto& p : parts)
+      html +=
+          fmt::format(R"x(<span title="{}" style="background:var(--{});width:{:.4g}%"></span>)x",
+                      p.text, p.colour, 100 * std::max(0.0, p.of(r)) / r.ns_exact_float);
+    html += fmt::format(R"(</span><span class="small muted">{} → {} ns</span></div>)",
+                        significant(r.ns_exact_float, 2), significant(r.ns_float, 2));
+  }
+  std::ranges::sort(of_double);
+  return {"Where the saving comes from",
+          fmt::format("Time of one direction of light in float, as parts of that of everything on. "
+                      "Double takes {} that time; against it the plans are {} to {} as fast.",
+                      times(of_double[of_double.size() / 2]), times(least), times(most)),
+          {Markup{html + "</div>"}}};
+}
+
+// --- One material
+// ----------------------------------------------------------------------------------
+Section one_material(const ScenesReport& report) {
+  const auto& all = report.rows;
+  Choice c;
+  c.controls = {{"material", "Material", "red plastic", true}, {"light", "Light"}};
+  Slot tables{{}, false};
+  for (const auto& r : all.rows) {
+    std::vector<SceneEffectRow> list;
+    for (const auto& e : all.effects)
+      if (e.material == r.material && e.light == r.light) list.push_back(e);
+    std::ranges::stable_sort(list, {}, [](const auto& e) {
+      return e.keep ? 0 : e.why == "structural" ? 2 : 1;
+    });
+    Table t{columns("effect|here|>ΔE2000 if dropped|>ns saved|>operations saved|why"),
+            {},
+            "told-by-cell"};
+    for (const auto& e : list) {
+      const bool absent = e.why == "structural";
+      t.rows.push_back(
+          {{capital(e.name)},
+           e.keep   ? Cell{e.keeps == e.name ? "keep" : "keep " + e.keeps, {}, {}, "verdict-yes"}
+           : absent ? Cell{"absent", {}, {}, "muted"}
+                    : Cell{"drop"},
+           absent ? "0" : (e.why == "proved" ? "≤ " : "") + delta(e.error_if_dropped),
+           significant(e.ns_saved, 2),
+           count_text(static_cast<std::size_t>(std::max(0.0, std::round(e.ops_saved)))),
+           {absent              ? e.reason
+            : e.why == "proved" ? "by proof"
+                                : "measured",
+            {},
+            {},
+            "muted"}});
+    }
+    tables.each.push_back(
+        {{r.material, r.light},
+         {std::move(t),
+          Prose{fmt::format("On {} fresh points {} exceed ΔE2000 {}; with a confidence of {} that "
+                            "is less than {} of all. The plan is `{}`.",
+                            count_text(r.samples), many(r.exceeding, "point"),
+                            plain(all.tolerance.limit), percent(all.tolerance.confidence),
+                            percent(r.upper_bound), r.spec),
+                "small verification"}}});
+  }
+  c.slots = {std::move(tables), slot_of(report.pictures, "front", c.controls, 320)};
+  c.slots[1].on_paper = false;
+  c.look = "";
+  return {"One material: keep, drop, and why",
+          "Each effect dropped by itself, all others exact and in double. Errors do not add, so "
+          "the plan's set is measured as a whole.",
+          {c},
+          "effects"};
+}
+
+Section switches(const ScenesReport& r) {
+  page::Group all{"panels", {}};
+  for (const auto& m : r.pictures.maps)
+    if (m.family == "switches_on") all.parts.emplace_back(Shown{m.family, m.choices});
+  if (all.parts.empty()) return {};
+  return {
+      "Where an effect switches on",
+      fmt::format("One light, from beside the viewer (0°) round to the back, and every roughness. "
+                  "The line is ΔE2000 {} at {} of the points: beyond it the effect is seen.",
+                  plain(r.rows.tolerance.limit), percent(r.rows.tolerance.quantile)),
+      {all},
+      "switches"};
+}
+
+}  // namespace
+
+Page report_page(const ScenesReport& r) {
+  const auto& all = r.rows;
+  Page out{"scenes", "report scenes", "Only what the scene needs", "Only what the scene needs",
+           r.findings.sentences};
+  out.full = r.full;
+  const auto materials = unique(all.rows, &SceneRow::material);
+  if (!materials.empty()) {  // the material whose needs change with the light
+    const auto told = std::ranges::find(materials, "red plastic") == materials.end()
+                          ? materials[0]
+                          : "red plastic";
+    std::string html;
+    std::size_t n = 0;
+    for (const auto& p : all.pictures)
+      if (p.material == told && n++ < 2) html += triple(p, all.tolerance);
+    if (n > 0)
+      out.first = {Markup{fmt::format(
+          R"(<div class="spheres picture"><h3>{}: everything on, as planned, and the difference</h3>{}</div>)",
+          escaped_markup(capital(told)), html)}};
+  }
+  out.sections = {
+      plans(all),
+      spheres(all),
+      shares(all),
+      one_material(r),
+      switches(r),
+      {"How it is measured",
+       "",
+       {Points{{"Front light: three lights on the viewer's side. Rim light: one of these, and two "
+                "from behind the sphere. Sky and sun: an even sky over a darker ground, and a "
+                "small bright sun.",
+                "The points are drawn evenly over the picture of a sphere. For every second one, "
+                "four are drawn and the nearest to a highlight is likely to be taken.",
+                "Everything on is one surface with each effect in its exact form, in double, "
+                "whether the material has it or not, as in a shader for all materials.",
+                "Times are of column kernels, composed on both sides: nothing is fused for the "
+                "plan only.",
+                fmt::format("A plan is chosen on one set of points, checked on a second, and "
+                            "verified here on a third of {}.",
+                            count_text(all.rows.empty() ? 0 : all.rows[0].samples))}}}}};
+  if (!all.left_out.empty()) {
+    Pairs list;
+    for (const auto& m : all.left_out) list.each.emplace_back(m.material, m.why);
+    out.sections.push_back({"Left out of the asset", "", {list}});
+  }
+  return out;
+}
+
+}  // namespace gonio
