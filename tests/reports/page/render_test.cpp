@@ -53,7 +53,7 @@ TEST(PageHtml, HostileTextStaysText) {
   p.figures[0].title = p.figures[0].note = p.figures[0].curves[0].name = p.figures[0].x.label =
       hostile;
   auto page = page_of(
-      {Table{{{hostile}, {hostile}}, {{{hostile}, {hostile, false, hostile, hostile, hostile}}}},
+      {Table{{{hostile}, {hostile}}, {{{hostile}, {hostile, hostile, hostile, hostile}}}},
        Prose{hostile}, Subtitle{hostile}, Points{{hostile}}, Pairs{{{hostile, hostile}}},
        Choice{{{"material", hostile, hostile}, {"channel", hostile}},
               {slot_of(p, "error", {{"material", ""}, {"channel", ""}})}}});
