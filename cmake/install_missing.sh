@@ -1,7 +1,7 @@
 # Sourced by ./quickstart and ./check: installs what the build needs and this machine lacks.
 # On Debian and its relatives by apt, with sudo when not root, asking nothing; elsewhere it names it.
 
-gonio_tools=(g++:g++ cmake:cmake ninja:ninja-build ccache:ccache npm:npm
+gonio_tools=(g++:g++ cmake:cmake ninja:ninja-build ccache:ccache
   pkg-config:pkg-config)  # command:package
 gonio_libraries=(libceres-dev libeigen3-dev libopenexr-dev libtbb-dev libfmt-dev
   nlohmann-json3-dev libcli11-dev libxsimd-dev libgtest-dev
@@ -87,6 +87,7 @@ install_shading() {
 install_gltf_validator() {
   local at=build/gltf
   [ ! -d "$at/node_modules/gltf-validator" ] || return 0
+  if command -v apt-get >/dev/null; then (gonio_tools=(npm:npm) gonio_libraries=(); install_missing) || true; fi
   if mkdir -p "$at" && cp tests/cli/gltf/package.json tests/cli/gltf/package-lock.json "$at" &&
     npm ci --prefix "$at" --silent --no-audit --no-fund >/dev/null 2>&1; then
     return 0

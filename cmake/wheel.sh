@@ -36,7 +36,6 @@ gather_licences() {
     "$to/nanobind.txt"
   # robin-map comes with nanobind, with its licence at the head of each file.
   sed '/\*\//q' "$("$python" -m nanobind --include_dir)/../ext/robin_map/include/tsl/robin_map.h" >"$to/robin-map.txt"
-  cp build/wheel/reports/npm/node_modules/uplot/LICENSE "$to/uplot.txt"
 }
 
 # The names of a wheel's libraries with their licences; one that is not among those above ends it.

@@ -95,12 +95,10 @@ std::string validation_page_html(const Validation& v) {
   Table t{columns("budget|kept|>found|>allowed|at|evidence"), {}, "told-by-cell"};
   for (const auto& b : v.budgets) {
     const auto place = place_text(b);
-    t.rows.push_back({{std::string(title_of(b.budget))},
-                      {b.holds ? "yes" : "no", {}, {}, b.holds ? "verdict-yes" : "verdict-no"},
-                      value_text(b.budget, b.found),
-                      value_text(b.budget, b.limit),
-                      {place.empty() ? "–" : place},
-                      {b.words.empty() ? evidence_text(b.evidence) : b.words, {}, {}, "muted"}});
+    t.add(std::string(title_of(b.budget)),
+          Cell{b.holds ? "yes" : "no", {}, {}, b.holds ? "verdict-yes" : "verdict-no"},
+          value_text(b.budget, b.found), value_text(b.budget, b.limit), place.empty() ? "–" : place,
+          Cell{b.words.empty() ? evidence_text(b.evidence) : b.words, {}, {}, "muted"});
   }
   out.sections = {{"Budgets", "The worst of each in the choice's domain.", {t}}};
   Section light{"Light that comes back", "Of a uniform white sky, by the view.", {}};

@@ -130,11 +130,6 @@ void print(const std::string& folder, const BatchResult& r) {
   if (r.others) say("         with {} that lay there before\n", counted(r.others, "table"));
 }
 
-/// Content of a fit's page.
-std::string page_data(const Table& t, const BoundModel& fitted, std::string_view document) {
-  return to_json(make_fit_page(t, fitted), document, to_json(t, inspect(t)));
-}
-
 std::optional<std::string> variable_of_environment(const char* name) {
   const char* value = std::getenv(name);
   return value ? std::optional<std::string>(value) : std::nullopt;
@@ -152,8 +147,9 @@ Exit run_batch(const FitCall& o) {
   const Stopwatch begin;
   BatchHooks hooks{[&](const BatchCount& n) { progress(line_of(n, begin)); }, batch_page_html, {}};
   if (o.pages)
-    hooks.table_page = [](const FittedFile& f, std::string_view document) {
-      return fit_page_html(f.table.path, page_data(f.table, f.result.model, document));
+    hooks.table_page = [](const FittedFile& f) {
+      return fit_page_html(f.result.document, f.table, inspect(f.table),
+                           make_fit_page(f.table, f.result.model));
     };
   std::optional<Part> part;
   if (o.part) part = part_from(*o.part, variable_of_environment);
@@ -221,15 +217,14 @@ Exit run_models(const FitCall& o) {
   Spheres spheres = add_spheres(in.table, choice);
   in.finish();
   const Advice advice = advise(choice);
-  const std::string json = to_json(
-      choice, advice,
-      {o.files[0], in.table.sha256, in.table.format, std::string(name_of(o.how.options.metric))});
+  const ComparedTable compared{o.files[0], in.table.sha256, in.table.format,
+                               std::string(name_of(o.how.options.metric))};
+  const std::string json = to_json(choice, advice, compared);
   out.write_document(json);
   if (out.has_page()) {
     progress("making the page");
-    const std::string data =
-        to_json(make_models_page(in.table, choice, advice, std::move(spheres)), json);
-    out.write_page(models_page_html("Models for " + o.files[0], data), data);
+    const auto page = make_models_page(in.table, choice, advice, std::move(spheres));
+    out.write_page(models_page_html(choice, advice, compared, page), to_json(page, json));
   }
   out.commit();
   progress.clear();
@@ -256,8 +251,9 @@ Exit run(const FitCall& o) {
   out.write_document(json);
   if (out.has_page()) {
     progress("making the page");
-    const std::string data = page_data(t, result.model, json);
-    out.write_page(fit_page_html(file, data), data);
+    const Health health = inspect(t);
+    const FitPage page = make_fit_page(t, result.model);
+    out.write_page(fit_page_html(d, t, health, page), to_json(page, json, to_json(t, health)));
   }
   out.commit();
   progress.clear();

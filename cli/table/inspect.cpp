@@ -125,8 +125,9 @@ Exit run(const InspectCall& o) {
   const std::string json = to_json(t, h, next);
   if (out.has_page()) {
     progress("making the page");
-    const std::string data = to_json(make_inspect_page(t), json);
-    out.write_page(inspect_page_html(o.file, data), data);
+    const InspectPage page = make_inspect_page(t);
+    out.write_page(inspect_page_html(t, h, page, next.value_or(std::vector<NextDirection>{})),
+                   to_json(page, json));
   }
   out.commit();
   progress.clear();

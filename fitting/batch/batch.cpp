@@ -211,7 +211,7 @@ Fitted fitted(const Batch& b,
   row.path = table;
   row.document = to.name;
   row.page = to.page_name;
-  std::string page = hooks.table_page ? hooks.table_page(f, document) : "";
+  std::string page = hooks.table_page ? hooks.table_page(f) : "";
   return {std::move(row), std::move(document), std::move(page)};
 }
 

@@ -65,8 +65,8 @@ struct BatchHooks {
   /// Called at the start and after each table, by one thread at a time.
   std::function<void(const BatchCount&)> progress;
   SummaryPage page;
-  /// Page of one table, HTML; without it none is made.  \param document  fit.json as text
-  std::function<std::string(const FittedFile&, std::string_view document)> table_page;
+  /// Page of one table, HTML; without it none is made.
+  std::function<std::string(const FittedFile&)> table_page;
 };
 /// Rows in the order of the tables of the batch, or of its part.
 struct BatchResult : BatchSummary {

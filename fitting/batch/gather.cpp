@@ -247,7 +247,7 @@ BatchSummary gather(const std::string& folder,
   csv.write(batch_csv(s.rows));
   page_data.write(data + "\n");
   std::optional<OutputFile> html;
-  if (page) html.emplace(place(folder, "summary.html")).write(page(title_of(folder), data));
+  if (page) html.emplace(place(folder, "summary.html")).write(page(s, title_of(folder)));
   commit_all(std::array{&csv, &page_data, html ? &*html : nullptr});
   return s;
 }

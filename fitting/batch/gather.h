@@ -33,8 +33,8 @@ bool is_page_of(const std::string& page, const std::string& document);
 /// Key of a kept result as a table's own is made of it: a change of its side file is a change of the input.
 std::string with_side_file(const std::string& made_with, const std::string& table);
 
-/// Page of a summary: HTML of a title and of batch_json() with previews.
-using SummaryPage = std::function<std::string(std::string_view title, std::string_view data)>;
+/// Page of a summary, HTML.
+using SummaryPage = std::function<std::string(const BatchSummary&, const std::string& title)>;
 
 /// Makes the summary of a folder, as summary.csv, .html and .page.json: the tables of the list in its order, then all others
 /// of which a document of the same version and options lies there, by their paths.  Of two documents of one table the one under the name that

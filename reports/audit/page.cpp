@@ -24,36 +24,24 @@ std::optional<NamedOperations> operations_of_entry(const EntryAudit& e) {
 }  // namespace
 
 template <>
-struct Description<Worst> {
-  static constexpr auto fields() {
-    return std::tuple{field("value", "", &Worst::value, ""),
-                      field("error", "", &Worst::error, "bound of the value's own; 0: of rounding"),
-                      field("where", "", &Worst::where, "")};
-  }
-};
+inline constexpr auto description<Worst> =
+    std::tuple{Field{"value", &Worst::value, ""},
+               Field{"error", &Worst::error, "bound of the value's own; 0: of rounding"},
+               Field{"where", &Worst::where, ""}};
 static_assert(describes_every_member<Worst>());
 
 template <>
-struct Description<Distance> {
-  static constexpr auto fields() {
-    using D = Distance;
-    return std::tuple{field("reference", "", &D::reference, "id"),
-                      field("measure", "", &D::measure, "what is compared"),
-                      field("max", "", at(&D::most, &Worst::value), ""),
-                      field("where", "", at(&D::most, &Worst::where), ""),
-                      field("rms", "", &D::rms, "")};
-  }
-};
+inline constexpr auto description<Distance> = std::tuple{
+    Field{"reference", &Distance::reference, "id"},
+    Field{"measure", &Distance::measure, "what is compared"},
+    Field{"max", at(&Distance::most, &Worst::value), ""},
+    Field{"where", at(&Distance::most, &Worst::where), ""}, Field{"rms", &Distance::rms, ""}};
 
 template <>
-struct Description<EntryPicture> {
-  static constexpr auto fields() {
-    using P = EntryPicture;
-    return std::tuple{field("x", "", &P::x, "label"), field("y", "", &P::y, "label"),
-                      field("at", "", &P::at, ""), field("value", "", &P::value, ""),
-                      field("reference", "", &P::reference, "empty: there is none")};
-  }
-};
+inline constexpr auto description<EntryPicture> =
+    std::tuple{Field{"x", &EntryPicture::x, "label"}, Field{"y", &EntryPicture::y, "label"},
+               Field{"at", &EntryPicture::at, ""}, Field{"value", &EntryPicture::value, ""},
+               Field{"reference", &EntryPicture::reference, "empty: there is none"}};
 static_assert(describes_every_member<EntryPicture>());
 
 template <>
@@ -92,12 +80,13 @@ struct Description<EntryAudit> {
 };
 
 template <>
-struct Description<AuditDocument> {
-  static constexpr auto fields() {
-    return std::tuple{field(
-        "entries", "", [](const AuditDocument& d) -> const auto& { return *d.entries; }, "")};
-  }
-};
+inline constexpr auto description<AuditDocument> =
+    std::tuple{Field{"entries", [](const AuditDocument& d) -> const auto& {return *d.entries;
+}
+, ""
+}
+}
+;
 
 std::string to_json(const std::vector<EntryAudit>& entries) {
   return page_document(AuditDocument{&entries});

@@ -93,160 +93,111 @@ struct Description<CostRow> {
 };
 
 template <>
-struct Description<Machine::Cache> {
-  static constexpr auto fields() {
-    using C = Machine::Cache;
-    return std::tuple{field("level", "", &C::level, ""), field("bytes", "", &C::bytes, ""),
-                      field("type", "", &C::type, "Data, Unified")};
-  }
-};
+inline constexpr auto description<Machine::Cache> = std::tuple{
+    Field{"level", &Machine::Cache::level, ""}, Field{"bytes", &Machine::Cache::bytes, ""},
+    Field{"type", &Machine::Cache::type, "Data, Unified"}};
 template <>
-struct Description<Machine> {
-  static constexpr auto fields() {
-    using M = Machine;
-    return std::tuple{field("cpu", "", &M::cpu, "as it calls itself"),
-                      field("threads", "", &M::threads, "that run at once"),
-                      field("caches", "", &M::caches, "without those of instructions"),
-                      field("instruction_sets", "", &M::instruction_sets, "that run here"),
-                      field("compiler", "", &M::compiler, ""),
-                      field("flags", "", &M::flags, ""),
-                      field("native_half", "", &M::native_half, "arithmetic in half, AVX512-FP16")};
-  }
-};
+inline constexpr auto description<Machine> =
+    std::tuple{Field{"cpu", &Machine::cpu, "as it calls itself"},
+               Field{"threads", &Machine::threads, "that run at once"},
+               Field{"caches", &Machine::caches, "without those of instructions"},
+               Field{"instruction_sets", &Machine::instruction_sets, "that run here"},
+               Field{"compiler", &Machine::compiler, ""},
+               Field{"flags", &Machine::flags, ""},
+               Field{"native_half", &Machine::native_half, "arithmetic in half, AVX512-FP16"}};
 static_assert(describes_every_member<Machine>());
 
 template <>
-struct Description<CostSetting> {
-  static constexpr auto fields() {
-    using S = CostSetting;
-    return std::tuple{
-        field(
-            "full", "", [](const S& s) { return s.options->full; }, setting_meaning),
-        field(
-            "machine", "", [](const S& s) -> const Machine& { return *s.machine; }, ""),
-        field(
-            "repetitions", "", [](const S& s) { return s.options->timing.repetitions; },
-            "of each time, in each process"),
-        field("processes", "", &S::processes, "that measured everything in turn"),
-        field("others_busy", "", &S::others,
-              "processors that other programs kept busy meanwhile, on average; null: not known"),
-        field(
-            "cache_samples", "", [](const S& s) { return s.options->cache_samples; },
-            "of a column"),
-        field(
-            "stream_samples", "", [](const S& s) { return s.options->stream_samples; },
-            "of a column")};
-  }
-};
+inline constexpr auto description<CostSetting> = std::tuple{
+    Field{"full", [](const CostSetting& s) { return s.options->full; }, setting_meaning},
+    Field{"machine", [](const CostSetting& s) -> const Machine& { return *s.machine; }, ""},
+    Field{"repetitions", [](const CostSetting& s) { return s.options->timing.repetitions; },
+          "of each time, in each process"},
+    Field{"processes", &CostSetting::processes, "that measured everything in turn"},
+    Field{"others_busy", &CostSetting::others,
+          "processors that other programs kept busy meanwhile, on average; null: not known"},
+    Field{"cache_samples", [](const CostSetting& s) { return s.options->cache_samples; },
+          "of a column"},
+    Field{"stream_samples", [](const CostSetting& s) { return s.options->stream_samples; },
+          "of a column"}};
 
 template <>
-struct Description<CostPoint> {
-  static constexpr auto fields() {
-    using P = CostPoint;
-    return std::tuple{
-        field("picture", "", &P::picture, "compensation, split_sum, quadrature, fit"),
-        field("series", "", &P::series, ""),
-        field("label", "", &P::label, ""),
-        field("ns", "ns", at(&P::time, &Timing::ns), "time, median"),
-        field("ns_spread", "ns", at(&P::time, &Timing::spread_ns), spread_meaning),
-        field("error_rms", "", &P::error, ""),
-        field("error_spread", "", &P::error_spread, "of error_rms"),
-        field("ops", "", &P::operations, ""),
-        field("bytes", "", &P::bytes, "of tables"),
-        field("without_ns", "ns", at(&P::without, &Timing::ns),
-              "of a compensation: time of the same uncompensated"),
-        field("without_ns_spread", "ns", at(&P::without, &Timing::spread_ns), spread_meaning)};
-  }
-};
+inline constexpr auto description<CostPoint> = std::tuple{
+    Field{"picture", &CostPoint::picture, "compensation, split_sum, quadrature, fit"},
+    Field{"series", &CostPoint::series, ""},
+    Field{"label", &CostPoint::label, ""},
+    Field{"ns", "ns", at(&CostPoint::time, &Timing::ns), "time, median"},
+    Field{"ns_spread", "ns", at(&CostPoint::time, &Timing::spread_ns), spread_meaning},
+    Field{"error_rms", &CostPoint::error, ""},
+    Field{"error_spread", &CostPoint::error_spread, "of error_rms"},
+    Field{"ops", &CostPoint::operations, ""},
+    Field{"bytes", &CostPoint::bytes, "of tables"},
+    Field{"without_ns", "ns", at(&CostPoint::without, &Timing::ns),
+          "of a compensation: time of the same uncompensated"},
+    Field{"without_ns_spread", "ns", at(&CostPoint::without, &Timing::spread_ns), spread_meaning}};
 
 template <>
-struct Description<CostSwitch> {
-  static constexpr auto fields() {
-    using S = CostSwitch;
-    return std::tuple{
-        field("question", "", &S::question, ""),
-        field("from", "", &S::from, "id"),
-        field("to", "", &S::to, "id"),
-        field("number", "", &S::number, "float, double"),
-        field("isa", "", &S::isa, "instruction set"),
-        field("memory", "", &S::memory, "cache, streaming"),
-        field("way", "", &S::way, "of a model: fused, composed"),
-        field("more_ns", "ns", &S::ns, "that it takes more"),
-        field("more_spread_ns", "ns", &S::ns_spread, "of what they differ by, between processes"),
-        field("ratio_ns", "", &S::ratio, "of the times"),
-        field("more_ops", "", &S::operations, "that it takes more"),
-        field("error_from", "", &S::error_from, "RMS; null: of another truth"),
-        field("error_to", "", &S::error_to, "RMS; null: of another truth"),
-        field("differs", "", &S::differs, "the times, in every process and above the spread"),
-        field(
-            "frame_ms", "ms", [](const S& w) { return 1e-6 * frame_samples * w.ns; },
-            "that a frame of 1920 × 1080 takes more, a sample each pixel, on one processor")};
-  }
-};
+inline constexpr auto description<CostSwitch> = std::tuple{
+    Field{"question", &CostSwitch::question, ""},
+    Field{"from", &CostSwitch::from, "id"},
+    Field{"to", &CostSwitch::to, "id"},
+    Field{"number", &CostSwitch::number, "float, double"},
+    Field{"isa", &CostSwitch::isa, "instruction set"},
+    Field{"memory", &CostSwitch::memory, "cache, streaming"},
+    Field{"way", &CostSwitch::way, "of a model: fused, composed"},
+    Field{"more_ns", "ns", &CostSwitch::ns, "that it takes more"},
+    Field{"more_spread_ns", "ns", &CostSwitch::ns_spread,
+          "of what they differ by, between processes"},
+    Field{"ratio_ns", &CostSwitch::ratio, "of the times"},
+    Field{"more_ops", &CostSwitch::operations, "that it takes more"},
+    Field{"error_from", &CostSwitch::error_from, "RMS; null: of another truth"},
+    Field{"error_to", &CostSwitch::error_to, "RMS; null: of another truth"},
+    Field{"differs", &CostSwitch::differs, "the times, in every process and above the spread"},
+    Field{"frame_ms", "ms", [](const CostSwitch& w) { return 1e-6 * frame_samples * w.ns; },
+          "that a frame of 1920 × 1080 takes more, a sample each pixel, on one processor"}};
 
 template <>
-struct Description<SamplingRow> {
-  static constexpr auto fields() {
-    using R = SamplingRow;
-    return std::tuple{
-        field("id", "", &R::id, ""),
-        field("name", "", &R::name, ""),
-        field("roughness", "", &R::roughness, ""),
-        field("mu", "", &R::mu, "cosine of the view"),
-        field("deviation", "", &R::deviation, "standard deviation of a sample at F = 1, over E"),
-        field("below", "", &R::below, "share of lights below the horizon"),
-        field("ns", "ns", at(&R::time, &Timing::ns), "light and weight of a sample"),
-        field("ns_spread", "ns", at(&R::time, &Timing::spread_ns), between_processes),
-        field(
-            "to_percent_ms", "ms", [](const R& r) { return 1e-3 * us_to_percent(r); },
-            "until the error is 1 % of E")};
-  }
-};
+inline constexpr auto description<SamplingRow> = std::tuple{
+    Field{"id", &SamplingRow::id, ""},
+    Field{"name", &SamplingRow::name, ""},
+    Field{"roughness", &SamplingRow::roughness, ""},
+    Field{"mu", &SamplingRow::mu, "cosine of the view"},
+    Field{"deviation", &SamplingRow::deviation, "standard deviation of a sample at F = 1, over E"},
+    Field{"below", &SamplingRow::below, "share of lights below the horizon"},
+    Field{"ns", "ns", at(&SamplingRow::time, &Timing::ns), "light and weight of a sample"},
+    Field{"ns_spread", "ns", at(&SamplingRow::time, &Timing::spread_ns), between_processes},
+    Field{"to_percent_ms", "ms", [](const SamplingRow& r) { return 1e-3 * us_to_percent(r); },
+          "until the error is 1 % of E"}};
 template <>
-struct Description<LookupRow> {
-  static constexpr auto fields() {
-    using R = LookupRow;
-    return std::tuple{
-        field("id", "", &R::id, ""),
-        field("name", "", &R::name, ""),
-        field("bytes", "", &R::bytes, "of the table"),
-        field("fetched", "", &R::fetched, "bytes of a bilinear lookup"),
-        field("a_rms", "", &R::a_rms, "null: not given apart"),
-        field("b_rms", "", &R::b_rms, "null: not given apart"),
-        field("plastic_rms", "", &R::plastic_rms, "of F0 A + B at F0 = 0.04"),
-        field("mirror_rms", "", &R::mirror_rms, "of A + B"),
-        field("mirror_max", "", &R::mirror_max, "of A + B"),
-        field("ns", "ns", at(&R::time, &Timing::ns),
-              "in float columns; a table's texels are fetched one by one"),
-        field("ns_spread", "ns", at(&R::time, &Timing::spread_ns), between_processes)};
-  }
-};
+inline constexpr auto description<LookupRow> = std::tuple{
+    Field{"id", &LookupRow::id, ""},
+    Field{"name", &LookupRow::name, ""},
+    Field{"bytes", &LookupRow::bytes, "of the table"},
+    Field{"fetched", &LookupRow::fetched, "bytes of a bilinear lookup"},
+    Field{"a_rms", &LookupRow::a_rms, "null: not given apart"},
+    Field{"b_rms", &LookupRow::b_rms, "null: not given apart"},
+    Field{"plastic_rms", &LookupRow::plastic_rms, "of F0 A + B at F0 = 0.04"},
+    Field{"mirror_rms", &LookupRow::mirror_rms, "of A + B"},
+    Field{"mirror_max", &LookupRow::mirror_max, "of A + B"},
+    Field{"ns", "ns", at(&LookupRow::time, &Timing::ns),
+          "in float columns; a table's texels are fetched one by one"},
+    Field{"ns_spread", "ns", at(&LookupRow::time, &Timing::spread_ns), between_processes}};
 
 template <>
-struct Description<ShaderRow> {
-  static constexpr auto fields() {
-    using R = ShaderRow;
-    return std::tuple{
-        field("id", "", &R::id, "of a preset, or the spec"),
-        field(
-            "ops", "", [](const R& r) { return r.operations.total(); },
-            "of its graph, on a colour three"),
-        field(
-            "instructions", "",
-            [](const R& r) {
-              return r.instructions.empty() ? std::nullopt : std::optional(r.instructions);
-            },
-            "of optimised SPIR-V by kind, on a colour one; null: no compiler was there")};
-  }
-};
+inline constexpr auto description<ShaderRow> =
+    std::tuple{Field{"id", &ShaderRow::id, "of a preset, or the spec"},
+               Field{"ops", [](const ShaderRow& r) { return r.operations.total(); },
+                     "of its graph, on a colour three"},
+               Field{"instructions",
+                     [](const ShaderRow& r) {
+                       return r.instructions.empty() ? std::nullopt : std::optional(r.instructions);
+                     },
+                     "of optimised SPIR-V by kind, on a colour one; null: no compiler was there"}};
 
 template <>
-struct Description<Timing> {
-  static constexpr auto fields() {
-    return std::tuple{field("ns", "ns", &Timing::ns, "median"),
-                      field("ns_spread", "ns", &Timing::spread_ns, spread_meaning)};
-  }
-};
+inline constexpr auto description<Timing> =
+    std::tuple{Field{"ns", "ns", &Timing::ns, "median"},
+               Field{"ns_spread", "ns", &Timing::spread_ns, spread_meaning}};
 
 template <>
 struct Description<CostChange> {
@@ -274,42 +225,42 @@ struct Description<CostChange> {
 };
 
 template <>
-struct Description<BenchDocument> {
-  static constexpr auto fields() {
-    using B = BenchDocument;
-    return std::tuple{constant_text("schema", "gonio.bench/1"), inlined(&B::setting),
-                      field(
-                          "rows", "", [](const B& b) -> const auto& { return *b.rows; },
-                          "a form in a place, each"),
-                      field("changes", "", if_there(&B::changes), "since an earlier document")};
-  }
-};
+inline constexpr auto description<BenchDocument> =
+    std::tuple{constant_text("schema", "gonio.bench/1"), inlined(&BenchDocument::setting),
+               Field{"rows", [](const BenchDocument& b) -> const auto& {return *b.rows;
+}
+, "a form in a place, each"
+}
+, Field {
+  "changes", if_there(&BenchDocument::changes), "since an earlier document"
+}
+}
+;
 
 template <>
-struct Description<CostReport> {
-  static constexpr auto fields() {
-    using R = CostReport;
-    return std::tuple{
-        constant_text("schema", "gonio.report.cost/1"),
-        inlined([](const R& r) {
-          return CostSetting{&r.rows.options, &r.rows.machine, r.rows.processes, r.rows.others};
-        }),
-        field("findings", "", at(&R::findings, &Findings::sentences), findings_meaning),
-        field("rows", "", at(&R::rows, &CostRows::rows), "a form in a place, each"),
-        field("switches", "", at(&R::rows, &CostRows::switches), ""),
-        field("points", "", at(&R::rows, &CostRows::points), "estimates and fits by their time"),
-        field(
-            "sampling", "", [](const R& r) -> const auto& { return r.rows.studies.sampling; },
-            "lights drawn for GGX"),
-        field(
-            "lookups", "", [](const R& r) -> const auto& { return r.rows.studies.lookup; },
-            "A and B of the split sum by tables and formulas"),
-        field(
-            "shaders", "", [](const R& r) -> const auto& { return r.rows.studies.shaders; },
-            "whole models as shaders, in float and three channels"),
-        inlined(&R::pictures)};
-  }
-};
+inline constexpr auto description<CostReport> = std::tuple{
+    constant_text("schema", "gonio.report.cost/1"), inlined([](const CostReport& r) {
+      return CostSetting{&r.rows.options, &r.rows.machine, r.rows.processes, r.rows.others};
+    }),
+    Field{"findings", at(&CostReport::findings, &Findings::sentences), findings_meaning},
+    Field{"rows", at(&CostReport::rows, &CostRows::rows), "a form in a place, each"},
+    Field{"switches", at(&CostReport::rows, &CostRows::switches), ""},
+    Field{"points", at(&CostReport::rows, &CostRows::points), "estimates and fits by their time"},
+    Field{"sampling", [](const CostReport& r) -> const auto& {return r.rows.studies.sampling;
+}
+, "lights drawn for GGX"
+}
+, Field{"lookups", [](const CostReport& r) -> const auto& {return r.rows.studies.lookup;
+}
+, "A and B of the split sum by tables and formulas"
+}
+, Field{"shaders", [](const CostReport& r) -> const auto& {return r.rows.studies.shaders;
+}
+, "whole models as shaders, in float and three channels"
+}
+, inlined(&CostReport::pictures)
+}
+;
 
 std::string costs_json(const Machine& m,
                        const CostOptions& o,

@@ -61,7 +61,6 @@ std::string place_of(const CostRows& all, const std::string& isa, std::string_vi
 }
 
 // --- What it costs to switch
-// -----------------------------------------------------------------------
 std::string with_sign(double x, int digits) {
   return (x > 0 ? "+" : x < 0 ? "−" : "±") + significant(std::abs(x), digits);
 }
@@ -113,7 +112,6 @@ Section what_it_costs(const CostRows& all) {
 }
 
 // --- Time against error
-// ----------------------------------------------------------------------------
 bool has_choice(const Figure& f, std::string_view key) {
   return std::ranges::any_of(f.choices, [&](const auto& c) { return c.first == key; });
 }
@@ -159,7 +157,6 @@ Section against_time(const CostReport& r) {
 }
 
 // --- Whole models
-// ----------------------------------------------------------------------------------
 Table model_table(const CostRows& all, std::string_view number) {
   const auto best = best_set(all);
   Table t{
@@ -179,25 +176,18 @@ Table model_table(const CostRows& all, std::string_view number) {
     };
     const auto *hand = of("by_hand", "cache"), *fused = of("fused", "cache"),
                *composed = of("composed", "cache");
-    t.rows.push_back({model_cell(id), composed ? fmt::format("{}", composed->channels) : "",
-                      text(hand), text(fused), over(fused, hand), text(composed),
-                      over(composed, hand), text(of("by_hand", "streaming")),
-                      text(of("fused", "streaming")), text(of("composed", "streaming"))});
+    t.add(model_cell(id), composed ? fmt::format("{}", composed->channels) : "", text(hand),
+          text(fused), over(fused, hand), text(composed), over(composed, hand),
+          text(of("by_hand", "streaming")), text(of("fused", "streaming")),
+          text(of("composed", "streaming")));
   }
   for (const auto& r : all.rows) {
     if (r.kind != "bound" || r.isa != best || r.memory != "cache" || r.number != number) continue;
     const Cell none;
-    t.rows.push_back({{r.id == "bound.columns" ? "four columns read and one written"
-                                               : "a division and two roots"},
-                      none,
-                      text(&r),
-                      none,
-                      none,
-                      none,
-                      none,
-                      text(find_row(all.rows, r.id, number, best, "streaming")),
-                      none,
-                      none});
+    t.add(
+        r.id == "bound.columns" ? "four columns read and one written" : "a division and two roots",
+        none, text(&r), none, none, none, none,
+        text(find_row(all.rows, r.id, number, best, "streaming")), none, none);
   }
   return t;
 }
@@ -212,7 +202,6 @@ Section whole_models(const CostRows& all) {
 }
 
 // --- Every entry
-// -----------------------------------------------------------------------------------
 Section every_entry(const CostRows& all) {
   Choice c;
   c.controls = {by_number, {"place", "Place", place_of(all, best_set(all), "cache"), true}};
@@ -232,23 +221,18 @@ Section every_entry(const CostRows& all) {
     const bool known = !r.error.truth.empty();
     const auto& ops = r.operations.by_kind;
     std::get<Table>(at->parts[0].is)
-        .rows.push_back({r.way.empty() ? form_cell(r.id)
-                                       : Cell{fmt::format("{}, {}", model_cell(r.id).text, r.way)},
-                         {std::string(r.kind)},
-                         count_cell(r.channels),
-                         time_cell(r.time),
-                         count_cell(r.operations.total()),
-                         count_cell(r.block_operations.total()),
-                         count_cell(ops[2]),
-                         count_cell(ops[3]),
-                         count_cell(ops[4] + ops[5]),
-                         bytes_cell(r.bytes),
-                         error_cell(known ? r.error.max : std::numeric_limits<double>::quiet_NaN()),
-                         error_cell(known ? r.error.rms : std::numeric_limits<double>::quiet_NaN()),
-                         std::isfinite(r.error.delta_e) ? significant(r.error.delta_e, 2) : "",
-                         {r.error.measure, {}, {}, "because small"},
-                         {form_cell(r.error.truth).text, {}, {}, "because small"},
-                         {known && r.pareto ? (r.tie ? "a tie" : "yes") : ""}});
+        .add(r.way.empty() ? form_cell(r.id)
+                           : Cell{fmt::format("{}, {}", model_cell(r.id).text, r.way)},
+             std::string(r.kind), count_cell(r.channels), time_cell(r.time),
+             count_cell(r.operations.total()), count_cell(r.block_operations.total()),
+             count_cell(ops[2]), count_cell(ops[3]), count_cell(ops[4] + ops[5]),
+             bytes_cell(r.bytes),
+             error_cell(known ? r.error.max : std::numeric_limits<double>::quiet_NaN()),
+             error_cell(known ? r.error.rms : std::numeric_limits<double>::quiet_NaN()),
+             std::isfinite(r.error.delta_e) ? significant(r.error.delta_e, 2) : "",
+             Cell{r.error.measure, {}, {}, "because small"},
+             Cell{form_cell(r.error.truth).text, {}, {}, "because small"},
+             known && r.pareto ? (r.tie ? "a tie" : "yes") : "");
   }
   c.slots = {std::move(slot)};
   c.look = "";
@@ -263,7 +247,6 @@ Section every_entry(const CostRows& all) {
 }
 
 // --- Studies
-// ---------------------------------------------------------------------------------------
 Section light_sampling(const CostRows& all) {
   const auto& rows = all.studies.sampling;
   if (rows.empty()) return {};
@@ -312,15 +295,9 @@ Section tables_and_formulas(const CostRows& all) {
   Table t{columns(
       "|>size [bytes]|>fetched [bytes]|>time [ns]|>RMS of A|>of B|>of 0.04 A + B|>of A + B|>most")};
   for (const auto& r : all.studies.lookup)
-    t.rows.push_back({{r.name},
-                      bytes_cell(r.bytes),
-                      bytes_cell(r.fetched),
-                      time_cell(r.time),
-                      error_cell(r.a_rms),
-                      error_cell(r.b_rms),
-                      error_cell(r.plastic_rms),
-                      error_cell(r.mirror_rms),
-                      error_cell(r.mirror_max)});
+    t.add(r.name, bytes_cell(r.bytes), bytes_cell(r.fetched), time_cell(r.time),
+          error_cell(r.a_rms), error_cell(r.b_rms), error_cell(r.plastic_rms),
+          error_cell(r.mirror_rms), error_cell(r.mirror_max));
   return {
       "Table or formula",
       fmt::format("A and B of the split sum against quadrature, roughness from 0.05 and NoV from "
@@ -343,11 +320,10 @@ Section as_shaders(const CostRows& all) {
         if (std::ranges::find(kinds, kind) != kinds.end()) n += count;
       return Cell(r.instructions.empty() ? "–" : count_text(n));
     };
-    t.rows.push_back(
-        {model_cell(r.id), count_text(r.operations.total()),
-         of({"add", "mul", "fma", "div", "sqrt", "exp", "log", "min_max", "compare", "select"}),
-         of({"add"}), of({"mul", "fma"}), of({"div"}), of({"sqrt"}), of({"exp", "log"}),
-         of({"min_max", "compare", "select"})});
+    t.add(model_cell(r.id), count_text(r.operations.total()),
+          of({"add", "mul", "fma", "div", "sqrt", "exp", "log", "min_max", "compare", "select"}),
+          of({"add"}), of({"mul", "fma"}), of({"div"}), of({"sqrt"}), of({"exp", "log"}),
+          of({"min_max", "compare", "select"}));
   }
   return {"In a shader",
           std::string("Each model as `gonio shader` writes it in GLSL, in float and three "
@@ -363,7 +339,6 @@ Section as_shaders(const CostRows& all) {
 }
 
 // --- The machine
-// -----------------------------------------------------------------------------------
 Section the_machine(const CostRows& all) {
   const auto& o = all.options;
   const auto& m = all.machine;
@@ -410,8 +385,10 @@ Page report_page(const CostReport& r) {
   Page out{"cost", "report cost", "What accuracy costs in time", "What accuracy costs in time",
            r.findings.sentences};
   out.full = r.full;
-  out.first = opening(r.pictures, "masking",
-                      {{"number", "float"}, {"set", best_set(all)}, {"memory", "cache"}}, 360);
+  for (const char* family : {"masking", "fresnel"})
+    if (out.first.empty())
+      out.first = opening(r.pictures, family,
+                          {{"number", "float"}, {"set", best_set(all)}, {"memory", "cache"}}, 360);
   out.sections = {what_it_costs(all),       against_time(r), whole_models(all), light_sampling(all),
                   tables_and_formulas(all), as_shaders(all), every_entry(all),  the_machine(all)};
   if (!r.full)

@@ -61,7 +61,7 @@ Section over_roughness_of(const CrossFitReport& r) {
     auto at = std::ranges::find(said.each, of, &Alternative::chosen);
     if (at == said.each.end())
       at = said.each.insert(at, {of, {Table{columns("form|what it does"), {}, "told-by-cell"}}});
-    std::get<Table>(at->parts[0].is).rows.push_back({form_cell(s.fitted), {s.sentence}});
+    std::get<Table>(at->parts[0].is).add(form_cell(s.fitted), s.sentence);
   }
   Choice sentences = c;
   sentences.controls.pop_back();
@@ -157,15 +157,9 @@ Section published_fits_of(const CrossFitRows& all) {
               "roughness|>residual|>GTR roughness|>gamma|>residual")};
   const auto two = [](double x) { return Cell(significant(x, 2)); };
   for (const auto& f : all.published)
-    t.rows.push_back({{f.material},
-                      two(f.width),
-                      two(f.tail),
-                      two(f.beckmann),
-                      two(f.ggx_roughness),
-                      two(f.ggx_log_rms),
-                      two(f.gtr_roughness),
-                      significant(f.gamma, 2) + (f.gamma_determined ? "" : "*"),
-                      two(f.gtr_log_rms)});
+    t.add(f.material, two(f.width), two(f.tail), two(f.beckmann), two(f.ggx_roughness),
+          two(f.ggx_log_rms), two(f.gtr_roughness),
+          significant(f.gamma, 2) + (f.gamma_determined ? "" : "*"), two(f.gtr_log_rms));
   return {"Measured materials",
           "Every fifth material of the MERL database. Löw, Kronander, Ynnerman and Unger published "
           "its highlight in 2012 (green, metric E2; doi:10.1145/2077341.2077350); here GGX and GTR "

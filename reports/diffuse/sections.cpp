@@ -30,17 +30,14 @@ Section summary(const DiffuseRows& all) {
     return Cell(significant(x, 3), std::move(at), {}, x > 1.0001 ? "breaks" : "");
   };
   for (const auto& f : all.forms)
-    t.rows.push_back({{f.name, {}, fmt::format("`{}`", f.id.substr(f.id.find('.') + 1)), ""},
-                      {f.parameter.empty() ? "–" : f.parameter},
-                      share(f.most_albedo, fmt::format("roughness {}, μ = {}",
-                                                       plain(f.most_roughness), plain(f.most_mu))),
-                      significant(f.least_average, 3),
-                      share(f.most_with_lobe, ""),
-                      {f.reciprocity < 1e-9 ? "yes" : percent(f.reciprocity)},
-                      delta(f, "matte"),
-                      delta(f, "plastic"),
-                      fmt::format("{}", f.operations),
-                      fmt::format("{} ± {}", significant(f.ns, 2), significant(f.spread_ns, 1))});
+    t.add(Cell{f.name, {}, fmt::format("`{}`", f.id.substr(f.id.find('.') + 1)), ""},
+          f.parameter.empty() ? "–" : f.parameter,
+          share(f.most_albedo,
+                fmt::format("roughness {}, μ = {}", plain(f.most_roughness), plain(f.most_mu))),
+          significant(f.least_average, 3), share(f.most_with_lobe, ""),
+          f.reciprocity < 1e-9 ? "yes" : percent(f.reciprocity), delta(f, "matte"),
+          delta(f, "plastic"), fmt::format("{}", f.operations),
+          fmt::format("{} ± {}", significant(f.ns, 2), significant(f.spread_ns, 1)));
   return {"Every form in a line",
           "All at kd = 1, over roughness 0 to 1. An albedo above 1 makes light. “With a lobe” puts "
           "a GGX lobe of F0 = 0.04 on top. ΔE2000 is the largest over materials and lights; the "

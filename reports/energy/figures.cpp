@@ -103,7 +103,6 @@ void add_forms(Pictures& p, const EnergyRows& r) {
 }
 
 // --- Bounces and compensations
-// --------------------------------------------------------------------
 
 using At = EnergyMaterial::At;
 
@@ -193,7 +192,6 @@ void add_materials(Pictures& p, const EnergyRows& r) {
 }
 
 // --- Error against time
-// ---------------------------------------------------------------------------
 
 void add_estimators(Pictures& p, const EnergyRows& r) {
   const auto place = [](const EstimatorPoint& e) { return std::pair{e.roughness, e.mu}; };
@@ -216,7 +214,6 @@ void add_estimators(Pictures& p, const EnergyRows& r) {
 }
 
 // --- Image-based light
-// ------------------------------------------------------------------------------
 
 void add_split_sum(Pictures& p, const EnergyRows& r) {
   if (r.light.table_samples.empty()) return;

@@ -62,51 +62,31 @@ constexpr std::string_view mu_meaning = "cosine of the angle to the normal, or \
 }  // namespace
 
 template <>
-struct Description<EnergyRow> {
-  static constexpr auto fields() {
-    using R = EnergyRow;
-    return std::tuple{
-        field(
-            "form", "", [](const R& r) { return r.form->name; },
-            "name that tells it from the others"),
-        field(
-            "ndf", "", [](const R& r) { return r.form->ndf; }, "id"),
-        field(
-            "masking", "", [](const R& r) { return r.form->masking; }, "id"),
-        field(
-            "roughness", "", [](const R& r) { return r.at->roughness; }, ""),
-        field(
-            "mu", "", [](const R& r) { return r.at->mu; }, "cosine of the angle to the normal"),
-        field(
-            "albedo", "", [](const R& r) { return r.at->albedo; }, "directional, at F = 1"),
-        field(
-            "loss", "", [](const R& r) { return 1 - r.at->albedo; }, "1 − albedo"),
-        field(
-            "error", "", [](const R& r) { return r.at->error; }, "bound of the albedo's own"),
-        field(
-            "average", "", [](const R& r) { return r.average->albedo; },
-            "2 ∫ E μ dμ at this roughness"),
-        field(
-            "average_error", "", [](const R& r) { return r.average->error; }, "bound of its own")};
-  }
-};
+inline constexpr auto description<EnergyRow> = std::tuple{
+    Field{"form", [](const EnergyRow& r) { return r.form->name; },
+          "name that tells it from the others"},
+    Field{"ndf", [](const EnergyRow& r) { return r.form->ndf; }, "id"},
+    Field{"masking", [](const EnergyRow& r) { return r.form->masking; }, "id"},
+    Field{"roughness", [](const EnergyRow& r) { return r.at->roughness; }, ""},
+    Field{"mu", [](const EnergyRow& r) { return r.at->mu; }, "cosine of the angle to the normal"},
+    Field{"albedo", [](const EnergyRow& r) { return r.at->albedo; }, "directional, at F = 1"},
+    Field{"loss", [](const EnergyRow& r) { return 1 - r.at->albedo; }, "1 − albedo"},
+    Field{"error", [](const EnergyRow& r) { return r.at->error; }, "bound of the albedo's own"},
+    Field{"average", [](const EnergyRow& r) { return r.average->albedo; },
+          "2 ∫ E μ dμ at this roughness"},
+    Field{"average_error", [](const EnergyRow& r) { return r.average->error; },
+          "bound of its own"}};
 
 template <>
-struct Description<EnergyForm> {
-  static constexpr auto fields() {
-    using F = EnergyForm;
-    return std::tuple{
-        field("form", "", &F::name, "name that tells it from the others"),
-        field("ndf", "", &F::ndf, "id"),
-        field("masking", "", &F::masking, "id"),
-        field("model", "", &F::model, "id of a whole model, else empty"),
-        field(
-            "gamma", "",
-            [](const F& f) { return f.gamma > 0 ? std::optional(f.gamma) : std::nullopt; },
-            "of GTR"),
-        field("divisor", "", &F::divisor, "of an engine that keeps its lights without 1/π")};
-  }
-};
+inline constexpr auto description<EnergyForm> = std::tuple{
+    Field{"form", &EnergyForm::name, "name that tells it from the others"},
+    Field{"ndf", &EnergyForm::ndf, "id"},
+    Field{"masking", &EnergyForm::masking, "id"},
+    Field{"model", &EnergyForm::model, "id of a whole model, else empty"},
+    Field{"gamma",
+          [](const EnergyForm& f) { return f.gamma > 0 ? std::optional(f.gamma) : std::nullopt; },
+          "of GTR"},
+    Field{"divisor", &EnergyForm::divisor, "of an engine that keeps its lights without 1/π"}};
 
 template <>
 struct Description<NamedCrossing> {
@@ -135,169 +115,118 @@ struct Description<NamedCrossing> {
 };
 
 template <>
-struct Description<EnergyMaterial> {
-  static constexpr auto fields() {
-    using M = EnergyMaterial;
-    return std::tuple{field("material", "", &M::name, ""), field("fresnel", "", &M::fresnel, "id")};
-  }
-};
+inline constexpr auto description<EnergyMaterial> = std::tuple{
+    Field{"material", &EnergyMaterial::name, ""}, Field{"fresnel", &EnergyMaterial::fresnel, "id"}};
 
 template <>
-struct Description<TruthRow> {
-  static constexpr auto fields() {
-    using R = TruthRow;
-    return std::tuple{field(
-                          "material", "", [](const R& r) { return r.material->name; }, ""),
-                      field(
-                          "roughness", "", [](const R& r) { return r.at->roughness; }, ""),
-                      field(
-                          "mu", "", [](const R& r) { return mu_json(r.at->mu); }, mu_meaning),
-                      field(
-                          "albedo", "", [](const R& r) { return r.at->truth; }, "of all bounces"),
-                      field(
-                          "error", "", [](const R& r) { return r.at->error; }, "bound of its own"),
-                      field(
-                          "orders", "", [](const R& r) { return r.at->orders; },
-                          "albedo by the number of facets met")};
-  }
-};
+inline constexpr auto description<TruthRow> =
+    std::tuple{Field{"material", [](const TruthRow& r) { return r.material->name; }, ""},
+               Field{"roughness", [](const TruthRow& r) { return r.at->roughness; }, ""},
+               Field{"mu", [](const TruthRow& r) { return mu_json(r.at->mu); }, mu_meaning},
+               Field{"albedo", [](const TruthRow& r) { return r.at->truth; }, "of all bounces"},
+               Field{"error", [](const TruthRow& r) { return r.at->error; }, "bound of its own"},
+               Field{"orders", [](const TruthRow& r) { return r.at->orders; },
+                     "albedo by the number of facets met"}};
 
 template <>
-struct Description<CompensationCost> {
-  static constexpr auto fields() {
-    using C = CompensationCost;
-    return std::tuple{
-        field("scattering", "", &C::id, "id"),
-        field("operations", "", &C::operations, "of its formula, tables aside"),
-        field("lookups", "", &C::lookups, "bilinear, beside those that single scattering needs"),
-        field("bytes", "", &C::bytes, "of its tables"),
-        field("without_ns", "ns", &C::without_ns, "time of what is compensated, alone"),
-        field("without_spread_ns", "ns", &C::without_spread_ns,
-              "half the distance of the quartiles"),
-        field("cost_ns", "ns", &C::ns, "time of the same compensated"),
-        field("spread_ns", "ns", &C::spread_ns, "half the distance of the quartiles"),
-        field("worst", "", &C::worst, "error against the truth, of Schlick's Fresnel"),
-        field("rms", "", &C::rms, "error against the truth, of Schlick's Fresnel"),
-        field("worst_at", "", &C::worst_at, ""),
-        field("gold_rms", "", &C::gold_rms, "error on gold; null: not for it")};
-  }
-};
+inline constexpr auto description<CompensationCost> = std::tuple{
+    Field{"scattering", &CompensationCost::id, "id"},
+    Field{"operations", &CompensationCost::operations, "of its formula, tables aside"},
+    Field{"lookups", &CompensationCost::lookups,
+          "bilinear, beside those that single scattering needs"},
+    Field{"bytes", &CompensationCost::bytes, "of its tables"},
+    Field{"without_ns", "ns", &CompensationCost::without_ns, "time of what is compensated, alone"},
+    Field{"without_spread_ns", "ns", &CompensationCost::without_spread_ns,
+          "half the distance of the quartiles"},
+    Field{"cost_ns", "ns", &CompensationCost::ns, "time of the same compensated"},
+    Field{"spread_ns", "ns", &CompensationCost::spread_ns, "half the distance of the quartiles"},
+    Field{"worst", &CompensationCost::worst, "error against the truth, of Schlick's Fresnel"},
+    Field{"rms", &CompensationCost::rms, "error against the truth, of Schlick's Fresnel"},
+    Field{"worst_at", &CompensationCost::worst_at, ""},
+    Field{"gold_rms", &CompensationCost::gold_rms, "error on gold; null: not for it"}};
 static_assert(describes_every_member<CompensationCost>());
 
 template <>
-struct Description<AlbedoForm> {
-  static constexpr auto fields() {
-    using A = AlbedoForm;
-    return std::tuple{field("form", "", &A::id, "id"),
-                      field("worst", "", &A::worst, "error against quadrature"),
-                      field("rms", "", &A::rms, "error against quadrature"),
-                      field("worst_at", "", &A::worst_at, ""),
-                      field("operations", "", &A::operations, "of one value"),
-                      field("bytes", "", &A::bytes, "of its table")};
-  }
-};
+inline constexpr auto description<AlbedoForm> =
+    std::tuple{Field{"form", &AlbedoForm::id, "id"},
+               Field{"worst", &AlbedoForm::worst, "error against quadrature"},
+               Field{"rms", &AlbedoForm::rms, "error against quadrature"},
+               Field{"worst_at", &AlbedoForm::worst_at, ""},
+               Field{"operations", &AlbedoForm::operations, "of one value"},
+               Field{"bytes", &AlbedoForm::bytes, "of its table"}};
 static_assert(describes_every_member<AlbedoForm>());
 
 template <>
-struct Description<EstimatorPoint> {
-  static constexpr auto fields() {
-    using E = EstimatorPoint;
-    return std::tuple{
-        field("estimator", "", &E::estimator, ""),
-        field("roughness", "", &E::roughness, ""),
-        field("mu", "", &E::mu, "cosine of the angle to the normal"),
-        field("goal", "", &E::goal, "error asked for, or samples"),
-        field("error", "", &E::error, "of the value, RMS over repeats"),
-        field(
-            "bound", "",
-            [](const E& e) { return e.bound > 0 ? std::optional(e.bound) : std::nullopt; },
-            "that it says itself; null: none"),
-        field("evaluations", "", &E::evaluations,
-              "of the model; null: it is not the model that is evaluated"),
-        field("cost_ns", "ns", &E::ns, "time, median"),
-        field("spread_ns", "ns", &E::ns_spread, "half the distance of the quartiles")};
-  }
-};
+inline constexpr auto description<EstimatorPoint> = std::tuple{
+    Field{"estimator", &EstimatorPoint::estimator, ""},
+    Field{"roughness", &EstimatorPoint::roughness, ""},
+    Field{"mu", &EstimatorPoint::mu, "cosine of the angle to the normal"},
+    Field{"goal", &EstimatorPoint::goal, "error asked for, or samples"},
+    Field{"error", &EstimatorPoint::error, "of the value, RMS over repeats"},
+    Field{
+        "bound",
+        [](const EstimatorPoint& e) { return e.bound > 0 ? std::optional(e.bound) : std::nullopt; },
+        "that it says itself; null: none"},
+    Field{"evaluations", &EstimatorPoint::evaluations,
+          "of the model; null: it is not the model that is evaluated"},
+    Field{"cost_ns", "ns", &EstimatorPoint::ns, "time, median"},
+    Field{"spread_ns", "ns", &EstimatorPoint::ns_spread, "half the distance of the quartiles"}};
 
 template <>
-struct Description<TableError> {
-  static constexpr auto fields() {
-    using T = TableError;
-    return std::tuple{
-        field("size", "", &T::size, "by size texels"),
-        field("stored", "", &T::stored, "float, half"),
-        field("bound", "", &T::bound, "of the quadrature in any texel"),
-        field("storage_max", "", &T::storage, "most that a texel loses when it is stored"),
-        field("lookup_max", "", &T::lookup, "most error of a bilinear lookup"),
-        field("lookup_rms", "", &T::lookup_rms, "RMS error of a bilinear lookup"),
-        field("between_centres_max", "", &T::between,
-              "most between the outermost texels' centres")};
-  }
-};
+inline constexpr auto description<TableError> = std::tuple{
+    Field{"size", &TableError::size, "by size texels"},
+    Field{"stored", &TableError::stored, "float, half"},
+    Field{"bound", &TableError::bound, "of the quadrature in any texel"},
+    Field{"storage_max", &TableError::storage, "most that a texel loses when it is stored"},
+    Field{"lookup_max", &TableError::lookup, "most error of a bilinear lookup"},
+    Field{"lookup_rms", &TableError::lookup_rms, "RMS error of a bilinear lookup"},
+    Field{"between_centres_max", &TableError::between,
+          "most between the outermost texels' centres"}};
 static_assert(describes_every_member<TableError>());
 
 template <>
-struct Description<TableSamples> {
-  static constexpr auto fields() {
-    using T = TableSamples;
-    return std::tuple{
-        field("samples", "", &T::samples, ""), field("a_max", "", &T::a, "error of A"),
-        field("a_rms", "", &T::a_rms, "error of A"), field("b_max", "", &T::b, "error of B"),
-        field("b_rms", "", &T::b_rms, "error of B")};
-  }
-};
+inline constexpr auto description<TableSamples> = std::tuple{
+    Field{"samples", &TableSamples::samples, ""}, Field{"a_max", &TableSamples::a, "error of A"},
+    Field{"a_rms", &TableSamples::a_rms, "error of A"},
+    Field{"b_max", &TableSamples::b, "error of B"},
+    Field{"b_rms", &TableSamples::b_rms, "error of B"}};
 static_assert(describes_every_member<TableSamples>());
 
 template <>
-struct Description<LitError> {
-  static constexpr auto fields() {
-    using L = LitError;
-    return std::tuple{
-        field("environment", "", &L::environment, "a sky by formula, or the name of a file"),
-        field("roughness", "", &L::roughness, ""),
-        field("nov", "", &L::nov, ""),
-        field("f0", "", &L::f0, ""),
-        field("rms", "", &L::rms, "of split sum / integral − 1, over views"),
-        field("max", "", &L::max, "most of that"),
-        field("bias", "", &L::bias, "mean of that"),
-        field("of_mean", "", &L::of_mean, "RMS of split sum − integral, over the integral's mean"),
-        field("of_mean_spread", "", &L::of_mean_spread,
-              "half of what the halves of the views differ by"),
-        field("truth_error", "", &L::truth, "most that an integral is off by itself"),
-        field("delta_e_2000", "", &L::delta_e,
-              "between both as a display shows them, mean over views"),
-        field("delta_e_2000_max", "", &L::delta_e_max, "most of that")};
-  }
-};
+inline constexpr auto description<LitError> = std::tuple{
+    Field{"environment", &LitError::environment, "a sky by formula, or the name of a file"},
+    Field{"roughness", &LitError::roughness, ""},
+    Field{"nov", &LitError::nov, ""},
+    Field{"f0", &LitError::f0, ""},
+    Field{"rms", &LitError::rms, "of split sum / integral − 1, over views"},
+    Field{"max", &LitError::max, "most of that"},
+    Field{"bias", &LitError::bias, "mean of that"},
+    Field{"of_mean", &LitError::of_mean, "RMS of split sum − integral, over the integral's mean"},
+    Field{"of_mean_spread", &LitError::of_mean_spread,
+          "half of what the halves of the views differ by"},
+    Field{"truth_error", &LitError::truth, "most that an integral is off by itself"},
+    Field{"delta_e_2000", &LitError::delta_e,
+          "between both as a display shows them, mean over views"},
+    Field{"delta_e_2000_max", &LitError::delta_e_max, "most of that"}};
 static_assert(describes_every_member<LitError>());
 
 template <>
-struct Description<LightCost> {
-  static constexpr auto fields() {
-    using C = LightCost;
-    return std::tuple{
-        field("way", "", &C::way, "split sum, quadrature"),
-        field("cost_ns", "ns", &C::ns, "time of a pixel, median"),
-        field("spread_ns", "ns", &C::spread_ns, "half the distance of the quartiles")};
-  }
-};
+inline constexpr auto description<LightCost> = std::tuple{
+    Field{"way", &LightCost::way, "split sum, quadrature"},
+    Field{"cost_ns", "ns", &LightCost::ns, "time of a pixel, median"},
+    Field{"spread_ns", "ns", &LightCost::spread_ns, "half the distance of the quartiles"}};
 static_assert(describes_every_member<LightCost>());
 
 template <>
-struct Description<IrradianceRow> {
-  static constexpr auto fields() {
-    using I = IrradianceRow;
-    return std::tuple{
-        field("light", "", &I::light, ""),
-        field("rule", "", &I::rule, ""),
-        field("samples", "", &I::samples, ""),
-        field("rms", "", &I::rms, "of sum / exact − 1, over normals"),
-        field("max", "", &I::max, "most of that"),
-        field("bias", "", &I::bias, "mean of that"),
-        field("cost_ns", "ns", &I::ns, "time of one normal, median"),
-        field("spread_ns", "ns", &I::spread_ns, "half the distance of the quartiles")};
-  }
-};
+inline constexpr auto description<IrradianceRow> = std::tuple{
+    Field{"light", &IrradianceRow::light, ""},
+    Field{"rule", &IrradianceRow::rule, ""},
+    Field{"samples", &IrradianceRow::samples, ""},
+    Field{"rms", &IrradianceRow::rms, "of sum / exact − 1, over normals"},
+    Field{"max", &IrradianceRow::max, "most of that"},
+    Field{"bias", &IrradianceRow::bias, "mean of that"},
+    Field{"cost_ns", "ns", &IrradianceRow::ns, "time of one normal, median"},
+    Field{"spread_ns", "ns", &IrradianceRow::spread_ns, "half the distance of the quartiles"}};
 static_assert(describes_every_member<IrradianceRow>());
 
 template <>

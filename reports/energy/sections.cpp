@@ -149,16 +149,11 @@ Section compensations(const EnergyRows& all, const Pictures& p) {
   Table t{columns(
       "|>RMS error|>worst|worst at|>RMS, gold|>operations|>lookups|>table bytes|>ns|>ns without")};
   for (const auto& x : all.compensations)
-    t.rows.push_back({form_cell(x.id),
-                      significant(x.rms, 2),
-                      significant(x.worst, 2),
-                      {x.worst_at},
-                      significant(x.gold_rms, 2),
-                      fmt::format("{}", x.operations),
-                      fmt::format("{}", x.lookups),
-                      count_text(x.bytes),
-                      fmt::format("{} ± {}", significant(x.ns, 2), significant(x.spread_ns, 1)),
-                      significant(x.without_ns, 2)});
+    t.add(form_cell(x.id), significant(x.rms, 2), significant(x.worst, 2), x.worst_at,
+          significant(x.gold_rms, 2), fmt::format("{}", x.operations), fmt::format("{}", x.lookups),
+          count_text(x.bytes),
+          fmt::format("{} ± {}", significant(x.ns, 2), significant(x.spread_ns, 1)),
+          significant(x.without_ns, 2));
   return {
       "What gives it back",
       fmt::format("Albedo of each compensation less that of all bounces, which is exact to {}. "
@@ -179,12 +174,8 @@ Section albedo_formulas(const EnergyRows& all) {
   if (all.albedo_forms.empty()) return {};
   Table t{columns("|>RMS error|>worst|worst at|>operations|>table bytes")};
   for (const auto& f : all.albedo_forms)
-    t.rows.push_back({form_cell(f.id),
-                      significant(f.rms, 2),
-                      significant(f.worst, 2),
-                      {f.worst_at},
-                      f.operations ? fmt::format("{}", f.operations) : "–",
-                      count_text(f.bytes)});
+    t.add(form_cell(f.id), significant(f.rms, 2), significant(f.worst, 2), f.worst_at,
+          f.operations ? fmt::format("{}", f.operations) : "–", count_text(f.bytes));
   return {"E as a formula",
           "Compensations look up E of GGX under Smith, correlated, at F = 1. A fit needs no table. "
           "Errors are against quadrature over roughness 0.05 to 1 and NoV 0.005 to 1.",
@@ -213,13 +204,9 @@ Section split_sum(const EnergyRows& all) {
   Table t{columns(
       "texels|stored as|>lookup, most|>RMS|>between centres, most|>storage, most|>quadrature")};
   for (const auto& x : all.light.tables)
-    t.rows.push_back({{fmt::format("{0} × {0}", x.size)},
-                      {std::string(x.stored)},
-                      significant(x.lookup, 2),
-                      significant(x.lookup_rms, 2),
-                      significant(x.between, 2),
-                      significant(x.storage, 2),
-                      "± " + significant(x.bound, 1)});
+    t.add(fmt::format("{0} × {0}", x.size), std::string(x.stored), significant(x.lookup, 2),
+          significant(x.lookup_rms, 2), significant(x.between, 2), significant(x.storage, 2),
+          "± " + significant(x.bound, 1));
   Section s{
       "The split sum",
       "GGX under Smith, correlated, and Schlick: E = F0 A + B of an even environment. Errors of A "

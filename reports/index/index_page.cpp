@@ -68,112 +68,71 @@ struct Visibility {
 }  // namespace
 
 template <>
-struct Description<ReportIndex::Entry> {
-  static constexpr auto fields() {
-    using E = ReportIndex::Entry;
-    return std::tuple{
-        field("name", "", &E::name, ""),
-        field("what", "", &E::what, ""),
-        field("sentence", "", sentence_of, "what a reader takes away"),
-        field("picture", "", picture_of, "the first, as in the report's document; null: none"),
-        field("pictures", "", &E::pictures, "how many"),
-        field("time_ms", "ms", &E::ms, "that it took")};
-  }
-};
+inline constexpr auto description<ReportIndex::Entry> =
+    std::tuple{Field{"name", &ReportIndex::Entry::name, ""},
+               Field{"what", &ReportIndex::Entry::what, ""},
+               Field{"sentence", sentence_of, "what a reader takes away"},
+               Field{"picture", picture_of, "the first, as in the report's document; null: none"},
+               Field{"pictures", &ReportIndex::Entry::pictures, "how many"},
+               Field{"time_ms", "ms", &ReportIndex::Entry::ms, "that it took"}};
 template <>
-struct Description<ClaimOf> {
-  static constexpr auto fields() {
-    using C = ClaimOf;
-    return std::tuple{
-        field("report", "", &C::report, ""),
-        field(
-            "claim", "", [](const C& c) { return c.claim->claim; }, "sentence in circulation"),
-        field(
-            "source", "", [](const C& c) { return c.claim->source; }, "where it stands"),
-        field(
-            "judged", "", [](const C& c) { return name_of(c.claim->judged); },
-            "holds, holds in part, does not hold"),
-        field(
-            "figure", "", [](const C& c) { return c.claim->figure; }, "the one that decides"),
-        field(
-            "verdict", "", [](const C& c) { return c.claim->verdict; }, "sentence with figures"),
-        field(
-            "anchor", "", [](const C& c) { return c.claim->anchor; }, "of the report's page")};
-  }
-};
+inline constexpr auto description<ClaimOf> = std::tuple{
+    Field{"report", &ClaimOf::report, ""},
+    Field{"claim", [](const ClaimOf& c) { return c.claim->claim; }, "sentence in circulation"},
+    Field{"source", [](const ClaimOf& c) { return c.claim->source; }, "where it stands"},
+    Field{"judged", [](const ClaimOf& c) { return name_of(c.claim->judged); },
+          "holds, holds in part, does not hold"},
+    Field{"figure", [](const ClaimOf& c) { return c.claim->figure; }, "the one that decides"},
+    Field{"verdict", [](const ClaimOf& c) { return c.claim->verdict; }, "sentence with figures"},
+    Field{"anchor", [](const ClaimOf& c) { return c.claim->anchor; }, "of the report's page"}};
 template <>
-struct Description<Decision> {
-  static constexpr auto fields() {
-    using D = Decision;
-    return std::tuple{field("for", "", &D::subject, "what is decided"),
-                      field("take", "", &D::take, "name of the form"),
-                      field("take_id", "", &D::take_id, "of the catalogue"),
-                      field("error", "", &D::error, "that is left; in brackets an aside"),
-                      field("cost", "", &D::cost, "over the cheap form; in brackets an aside"),
-                      field("unless", "", &D::unless, "when another is to be taken, and which")};
-  }
-};
+inline constexpr auto description<Decision> =
+    std::tuple{Field{"for", &Decision::subject, "what is decided"},
+               Field{"take", &Decision::take, "name of the form"},
+               Field{"take_id", &Decision::take_id, "of the catalogue"},
+               Field{"error", &Decision::error, "that is left; in brackets an aside"},
+               Field{"cost", &Decision::cost, "over the cheap form; in brackets an aside"},
+               Field{"unless", &Decision::unless, "when another is to be taken, and which"}};
 template <>
-struct Description<Facts::Setting> {
-  static constexpr auto fields() {
-    using S = Facts::Setting;
-    return std::tuple{field("cpu", "", &S::cpu, "as it calls itself"),
-                      field("threads", "", &S::threads, "that run at once"),
-                      field("isa", "", &S::isa, "instruction set of the costs"),
-                      field("others_busy", "", &S::others,
-                            "processors that other programs kept busy meanwhile; null: not known"),
-                      field("model_ns", "ns", &S::model_ns,
-                            "time of a sample of GGX under correlated Smith and Schlick, beside "
-                            "which costs stand; null: not known")};
-  }
-};
+inline constexpr auto description<Facts::Setting> =
+    std::tuple{Field{"cpu", &Facts::Setting::cpu, "as it calls itself"},
+               Field{"threads", &Facts::Setting::threads, "that run at once"},
+               Field{"isa", &Facts::Setting::isa, "instruction set of the costs"},
+               Field{"others_busy", &Facts::Setting::others,
+                     "processors that other programs kept busy meanwhile; null: not known"},
+               Field{"model_ns", "ns", &Facts::Setting::model_ns,
+                     "time of a sample of GGX under correlated Smith and Schlick, beside "
+                     "which costs stand; null: not known"}};
 template <>
-struct Description<Facts::Fresnel> {
-  static constexpr auto fields() {
-    using F = Facts::Fresnel;
-    return std::tuple{field("kind", "", &F::kind, "dielectric, metal"),
-                      field("material", "", &F::material, ""),
-                      field(
-                          "form", "", [](const F& f) { return name_of_form(f.form); }, "its name"),
-                      field("form_id", "", &F::form, "id, with what tells a variant from it"),
-                      field("delta_e", "", &F::delta_e, "greatest CIEDE2000 of the rough surface"),
-                      field("head_on", "", &F::head_on, "the same seen head on")};
-  }
-};
+inline constexpr auto description<Facts::Fresnel> = std::tuple{
+    Field{"kind", &Facts::Fresnel::kind, "dielectric, metal"},
+    Field{"material", &Facts::Fresnel::material, ""},
+    Field{"form", [](const Facts::Fresnel& f) { return name_of_form(f.form); }, "its name"},
+    Field{"form_id", &Facts::Fresnel::form, "id, with what tells a variant from it"},
+    Field{"delta_e", &Facts::Fresnel::delta_e, "greatest CIEDE2000 of the rough surface"},
+    Field{"head_on", &Facts::Fresnel::head_on, "the same seen head on"}};
 template <>
-struct Description<Visibility> {
-  static constexpr auto fields() {
-    using V = Visibility;
-    return std::tuple{field("just_seen", "", &V::just_seen, "CIEDE2000; below, nobody sees it"),
-                      field("side_by_side", "", &V::side_by_side, "below, it is seen so alone")};
-  }
-};
+inline constexpr auto description<Visibility> =
+    std::tuple{Field{"just_seen", &Visibility::just_seen, "CIEDE2000; below, nobody sees it"},
+               Field{"side_by_side", &Visibility::side_by_side, "below, it is seen so alone"}};
 template <>
-struct Description<ReportIndex> {
-  static constexpr auto fields() {
-    using I = ReportIndex;
-    return std::tuple{constant_text("schema", "gonio.report.index/1"),
-                      field("version", "", &I::version, "of gonio"),
-                      field("full", "", &I::full, setting_meaning),
-                      field("at_ms", "ms", &I::at_ms, "since 1970"),
-                      field(
-                          "machine", "", [](const I& i) { return i.facts.setting; }, ""),
-                      field(
-                          "decisions", "", [](const I& i) { return decisions(i.facts); }, ""),
-                      field(
-                          "visible", "",
-                          [](const I&) {
-                            return Visibility{just_seen, side_by_side};
-                          },
-                          "thresholds"),
-                      field("fresnel", "", fresnel_grid, "forms by material"),
-                      field(
-                          "front", "", [](const I& i) { return figures_json(i.front); },
-                          "masking's accuracy against time"),
-                      field("reports", "", &I::reports, ""),
-                      field("claims", "", claims_of, "")};
-  }
-};
+inline constexpr auto description<ReportIndex> =
+    std::tuple{constant_text("schema", "gonio.report.index/1"),
+               Field{"version", &ReportIndex::version, "of gonio"},
+               Field{"full", &ReportIndex::full, setting_meaning},
+               Field{"at_ms", "ms", &ReportIndex::at_ms, "since 1970"},
+               Field{"machine", [](const ReportIndex& i) { return i.facts.setting; }, ""},
+               Field{"decisions", [](const ReportIndex& i) { return decisions(i.facts); }, ""},
+               Field{"visible",
+                     [](const ReportIndex&) {
+                       return Visibility{just_seen, side_by_side};
+                     },
+                     "thresholds"},
+               Field{"fresnel", fresnel_grid, "forms by material"},
+               Field{"front", [](const ReportIndex& i) { return figures_json(i.front); },
+                     "masking's accuracy against time"},
+               Field{"reports", &ReportIndex::reports, ""},
+               Field{"claims", claims_of, ""}};
 
 void add_report(
     ReportIndex& to, std::string_view name, std::string_view what, double ms, ReportFiles r) {
@@ -206,7 +165,6 @@ std::string index_schema() {
 }
 
 // --- The page
-// --------------------------------------------------------------------------------------
 namespace {
 
 using namespace page;
@@ -250,11 +208,8 @@ Part lead(const ReportIndex& i) {
 Section what_to_ship(const ReportIndex& i) {
   Table t{columns("for|take|error left|costs|unless"), {}, "told-by-cell decide"};
   for (const auto& d : decisions(i.facts))
-    t.rows.push_back({with_aside(d.subject),
-                      {d.take, d.take_id, "", "take"},
-                      with_aside(d.error),
-                      with_aside(d.cost),
-                      {d.unless.empty() ? "–" : d.unless}});
+    t.add(with_aside(d.subject), Cell{d.take, d.take_id, "", "take"}, with_aside(d.error),
+          with_aside(d.cost), d.unless.empty() ? "–" : d.unless);
   if (t.rows.empty()) return {};
   return {"Decide", "", {t}};
 }

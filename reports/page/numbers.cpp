@@ -58,6 +58,30 @@ std::string signed_percent(double share) {
 std::string times(double x) {
   return fmt::format("{:.{}f}\u202f×", x, x < 9.95 ? 1 : 0);
 }
+std::string ratio_text(double ln) {
+  if (!std::isfinite(ln)) return "–";
+  const double f = std::exp(std::abs(ln));
+  const auto text = f < 10 ? fmt::format("{:.{}f}", f, f < 1.1 ? 3 : 2) : significant(f);
+  if (text == "1.000") return "×1";
+  return (ln < 0 ? "÷" : "×") + text;
+}
+std::string factor_text(double log_rms) {
+  return "×/÷\u202f" + ratio_text(std::abs(log_rms)).substr(std::string_view("×").size());
+}
+std::string milliseconds_text(double ms) {
+  return ms >= 1000 ? significant(ms / 1000) + "\u202fs" : significant(ms) + "\u202fms";
+}
+std::string with_error(double x, double error) {
+  if (!(error > 0) || !std::isfinite(error) || !std::isfinite(x)) return plain(x);
+  const auto rounded = fmt::format("{:.1e}", error);
+  const int power = std::stoi(rounded.substr(rounded.find('e') + 1));
+  return with_minus(fmt::format("{:.{}f}", x, std::clamp(1 - power, 0, 12)));
+}
+std::string words(std::string_view name) {
+  std::string out(name);
+  std::ranges::replace(out, '_', ' ');
+  return out;
+}
 std::string capital(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;

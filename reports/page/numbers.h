@@ -21,6 +21,16 @@ std::string percent(double share, int digits = 2);
 std::string signed_percent(double share);
 /// "3.2 ×"
 std::string times(double);
+/// ln of a ratio as people say it: "×1.05", "÷1.05" where it is below one.
+std::string ratio_text(double ln);
+/// The typical factor of a log RMS: "×/÷ 1.83".
+std::string factor_text(double log_rms);
+/// "12.3 ms", "1.23 s"
+std::string milliseconds_text(double ms);
+/// To the digit that the second of its error stands at.
+std::string with_error(double, double error);
+/// A name's words: "log rms" of log_rms.
+std::string words(std::string_view name);
 /// With a capital.
 std::string capital(std::string text);
 /// "55.3°"

@@ -3,9 +3,9 @@
 
 const all = (of, what) => [...of.querySelectorAll(what)];
 const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
-/// Ends of an axis as they stand in data-x, data-y: "0.1 10 log".
-const scale_of = (text) => { const [low, high, log] = text.split(" "); return { low: +low, high: +high, log }; };
-const value_at = ({ low, high, log }, part) => (log ? low * (high / low) ** part : low + (high - low) * part);
+/// Ends of an axis as they stand in data-x, data-y: "0.1 10 log", "0 90 root".
+const scale_of = (text) => { const [low, high, kind] = text.split(" "); return { low: +low, high: +high, log: kind === "log", root: kind === "root" }; };
+const value_at = ({ low, high, log, root }, part) => (log ? low * (high / low) ** part : root ? (low ** 0.5 + (high ** 0.5 - low ** 0.5) * part) ** 2 : low + (high - low) * part);
 const part_at = ({ low, high, log }, v) => (log ? Math.log(v / low) / Math.log(high / low) : (v - low) / (high - low));
 
 // --- Numbers -------------------------------------------------------------------------------------
@@ -32,7 +32,7 @@ function ticks_between(low, high, log, most) {
   }
   const rough = (high - low) / most, decade = 10 ** Math.floor(Math.log10(rough)), step = decade * [1, 2, 5, 10].find((d) => d * decade >= rough * (1 - 1e-9));
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) out.push(Number((k * step).toPrecision(12)));
-  return out;
+  return out.length > 1 || most > 30 ? out : ticks_between(low, high, log, 2 * most);
 }
 
 // --- A picture ------------------------------------------------------------------------------------
@@ -51,8 +51,10 @@ const drawing_of = (plot) => plot.drawing ??= (() => {
     curves: all(inside, "g[class]:not(.cells)"), keys: all(figure, ".keys button:not(.all)"), at_first: [".xt", ".yt"].map((g) => plot.querySelector(g).innerHTML), readout: figure.querySelector(".readout") };
 })();
 const is_shown = (d, k) => !d.keys[k].classList.contains("off") && (!d.curves[k].classList.contains("more") || d.figure.classList.contains("everything"));
-const dots_of = (curve) => curve.querySelector(".dot");
+const dots_of = (curve) => all(curve, ".dot").flatMap(runs_of).map(([at]) => at);
 const line_of = (curve) => curve.querySelector("path:not([class])");
+/// The dot of a curve that is nearest to a place across, where it is near.
+const dot_at = (curve, x, reach) => dots_of(curve).reduce((a, b) => (Math.abs(b[0] - x) < Math.abs((a?.[0] ?? Infinity) - x) && Math.abs(b[0] - x) < reach ? b : a), null);
 
 /// The part of the drawing between two places across; up and down as the curves that are shown ask for.
 function show_part(plot, from, to) {
@@ -100,7 +102,7 @@ function read(plot, [x, y]) {
   if (plot.dataset.cells) return read_cell(plot, d, x, y);
   const y_text = (at) => `<b>${read_text(d.y, 1 - at / d.height, 0.1 / d.height)}</b>`, x_text = (at) => `<b>${read_text(d.x, at / d.width, 0.1 / d.width)}</b>`;
   const shown = d.curves.map((c, k) => [c, d.keys[k].innerHTML]).filter(([, ], k) => is_shown(d, k));
-  const dots = shown.flatMap(([c, name]) => (dots_of(c) ? runs_of(dots_of(c)).map(([at], i) => ({ at, name, label: c.dataset.labels?.split("|")[i] })) : []));
+  const dots = shown.flatMap(([c, name]) => dots_of(c).map((at, i) => ({ at, name, label: c.dataset.labels?.split("|")[i] })));
   const lines = shown.filter(([c]) => line_of(c)), near = (p) => Math.hypot(p.at[0] - x, p.at[1] - y);
   if (dots.length && lines.every(([c]) => /^r/.test(c.getAttribute("class")))) {  // each point speaks for itself
     const p = dots.reduce((a, b) => (near(b) < near(a) ? b : a));
@@ -110,7 +112,7 @@ function read(plot, [x, y]) {
     return;
   }
   if (dots.length) { const p = dots.reduce((a, b) => (Math.abs(b.at[0] - x) < Math.abs(a.at[0] - x) ? b : a)); if (Math.abs(p.at[0] - x) < 12) [x] = p.at; }
-  const told = lines.map(([c, name]) => [name, height_at(runs_of(line_of(c)), x)]).filter(([, at]) => at !== null);
+  const told = shown.map(([c, name]) => [name, line_of(c) ? height_at(runs_of(line_of(c)), x) : dot_at(c, x, 3)?.[1] ?? null]).filter(([, at]) => at !== null);
   if (!told.length) return stop_reading(plot);
   mark(d, `<path d="M${x} ${d.top ?? 0}V${d.bottom ?? d.height}"/>` + told.map(([, at]) => `<path class="dot" d="M${x} ${at}h0"/>`).join(""));
   d.readout.innerHTML = `${d.x_name} ${x_text(x)}: ` + told.map(([name, at]) => `${name} ${y_text(at)}`).join(", ");
@@ -133,7 +135,7 @@ function fill_cells(plot) {
 function read_cell(plot, d, x, y) {
   const m = map_of(plot);
   const i = clamp(m.x.findLastIndex((e) => e <= x), 0, m.x.length - 2), j = clamp(m.y.findLastIndex((e) => e >= y), 0, m.y.length - 2);
-  const q = m.cells[i * (m.y.length - 1) + j], [kind, low, high, diverging] = m.scale, part = diverging ? q / 32767 - 1 : q / 65534;
+  const q = m.cells[i * (m.y.length - 1) + j], [kind, low, high, diverging] = m.scale, part = diverging && kind !== "log" ? q / 32767 - 1 : q / 65534;
   const value = kind === "log" ? low * (high / low) ** part : high * (kind === "root" ? Math.sign(part) * part * part : part);
   const range = (axis, length, names, k, edges) => names ? names[k] : [edges[k], edges[k + 1]].map((e) => read_text(axis, length === d.height ? 1 - e / length : e / length, 0.5 / length)).join("–");
   mark(d, `<path d="M${m.x[i]} ${m.y[j]}H${m.x[i + 1]}V${m.y[j + 1]}H${m.x[i]}z"/>`);
@@ -160,7 +162,7 @@ addEventListener("pointerup", (e) => {
   const { plot, from } = cut, to = place_of(plot, e)[0], d = drawing_of(plot), now = d.inside.viewBox.baseVal;
   cut = null;
   mark(d);
-  if (Math.abs(to - from) > 0.02 * now.width) show_part(plot, Math.max(now.x, Math.min(from, to)), Math.min(now.x + now.width, Math.max(from, to)));
+  if (Math.abs(to - from) > 0.01 * now.width) show_part(plot, Math.max(now.x, Math.min(from, to)), Math.min(now.x + now.width, Math.max(from, to)));
 });
 on("dblclick", show_whole);
 on("keydown", (plot, e) => {
@@ -173,11 +175,14 @@ on("keydown", (plot, e) => {
 document.addEventListener("click", (e) => {
   const key = e.target.closest(".keys button");
   if (!key) return;
-  if (key.classList.contains("all")) key.closest("figure").classList.toggle("everything");
-  else key.classList.toggle("off");
-  const plot = key.closest("figure").querySelector(".plot"), d = drawing_of(plot);
-  d.curves.forEach((c, k) => c.classList.toggle("off", d.keys[k].classList.contains("off")));
-  show_whole(plot);
+  const text = key.textContent, off = !key.classList.contains("off"), whole = key.classList.contains("all"), everything = !key.closest("figure").classList.contains("everything");
+  for (const figure of key.closest(".alike") ? all(key.closest(".alike"), "figure:has(.keys)") : [key.closest("figure")]) {
+    const plot = figure.querySelector(".plot"), d = drawing_of(plot);
+    if (whole) figure.classList.toggle("everything", everything);
+    else d.keys.filter((k) => k.textContent === text).forEach((k) => k.classList.toggle("off", off));
+    d.curves.forEach((c, k) => c.classList.toggle("off", d.keys[k].classList.contains("off")));
+    show_whole(plot);
+  }
 });
 // A key that is pointed at puts its curve before the others.
 for (const [what, is] of [["pointerover", true], ["pointerout", false]])
@@ -241,6 +246,33 @@ for (const form of all(document, "form.controls")) {
   emphasise_chosen(form, [...new FormData(form).values()]);
   form.addEventListener("submit", (e) => e.preventDefault());
 }
+
+// --- Things to look through -------------------------------------------------------------------------
+function browse(box) {
+  const form = box.querySelector("form"), { words, kind, key, falling, view } = form.elements, [cards, rows] = [".cards", ".rows"].map((c) => box.querySelector(c));
+  const list = [...cards.children].map((card, i) => ({ card, row: all(rows, "tbody > tr")[i], keys: card.dataset.keys.split("|"), words: card.dataset.words.toLowerCase(), i }));
+  const update = () => {
+    const k = key.selectedIndex - 1, sign = falling.checked ? -1 : 1, wanted = words.value.toLowerCase().split(/\s+/), value = ({ keys: { [k]: v } }) => (isNaN(v) ? v.toLowerCase() : +v);
+    const before = (a, b) => (k < 0 ? sign * (a.i - b.i) : (a.keys[k] === "") - (b.keys[k] === "") || sign * ((value(a) > value(b)) - (value(a) < value(b))) || a.i - b.i);
+    let shown = 0;
+    for (const one of [...list].sort(before)) {
+      const is = (kind.value === "" || kind.value === one.card.dataset.kind) && wanted.every((w) => one.words.includes(w));
+      shown += is;
+      for (const node of [one.card, one.row]) { node.hidden = !is; node.parentElement.append(node); }
+    }
+    [cards.hidden, rows.hidden] = [view.value === "rows", view.value === "cards"];
+    form.querySelector(".shown").textContent = `${shown} of ${list.length}`;
+  };
+  form.addEventListener("input", update);
+  rows.querySelector("thead").addEventListener("click", (e) => {
+    const at = [...key.options].findIndex((o) => o.text === (e.target.cellIndex === 0 ? "name" : e.target.textContent));
+    falling.checked = key.selectedIndex === at && !falling.checked;
+    if (at > 0) key.selectedIndex = at;
+    update();
+  });
+  update();
+}
+all(document, ".browse").forEach(browse);
 
 // --- Paper ----------------------------------------------------------------------------------------
 addEventListener("beforeprint", () => {

@@ -9,6 +9,7 @@
 #include "reports/picture/markup.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio::page {
 namespace {
@@ -16,14 +17,18 @@ namespace {
 /// Text with its code set as such.
 std::string prose(std::string_view text) {
   std::string out;
-  bool code = false;
-  for (const char c : escaped_markup(text)) {
-    if (c == '`')
+  bool code = false, bold = false;
+  const auto escaped = escaped_markup(text);
+  for (std::size_t i = 0; i < escaped.size(); ++i)
+    if (escaped[i] == '`') {
       out += (code = !code) ? "<code>" : "</code>";
-    else
-      out += c;
-  }
-  return out;
+    } else if (!code && escaped.compare(i, 2, "**") == 0) {
+      out += (bold = !bold) ? "<b>" : "</b>";
+      ++i;
+    } else {
+      out += escaped[i];
+    }
+  return out + (code ? "</code>" : "") + (bold ? "</b>" : "");
 }
 std::string attribute(std::string_view name, std::string_view value) {
   return value.empty() ? std::string() : fmt::format(R"( {}="{}")", name, escaped_markup(value));
@@ -96,13 +101,43 @@ class Renderer {
   std::string html_of(const Points& list) {
     std::string out;
     for (const auto& text : list.each) out += element("li", "", prose(text));
-    return element("ul", "findings", out);
+    return element("ul", list.look, out);
   }
   std::string html_of(const Pairs& list) {
     std::string out;
-    for (const auto& [term, text] : list.each)
-      if (!text.empty()) out += element("dt", "", prose(term)) + element("dd", "", prose(text));
-    return element("dl", "pairs", out);
+    for (const auto& [term, what] : list.each) {
+      if (what.text.empty()) continue;
+      const auto pair = element("dt", "", prose(term)) + element("dd", "", inside(what));
+      out += list.look == "facts" ? element("div", "", pair) : pair;
+    }
+    return element("dl", list.look, out);
+  }
+  std::string html_of(const Fold& f) {
+    return fmt::format(R"(<details class="more"><summary>{}</summary>{}</details>)", prose(f.title),
+                       parts(f.parts));
+  }
+  /// What a reader chooses one of.
+  static std::string option(std::string_view name,
+                            std::string_view value,
+                            bool chosen,
+                            std::string_view text) {
+    return fmt::format(
+        R"(<label><input type="radio" name="{}" value="{}"{}><span>{}</span></label>)", name,
+        escaped_markup(value), chosen ? " checked" : "", text);
+  }
+  std::string html_of(const Browse& b) {
+    std::string kinds = option("kind", "", true, "all"), keys = "<option>as given</option>", cards;
+    for (const auto& k : b.kinds) kinds += option("kind", k, false, prose(k));
+    for (const auto& k : b.keys) keys += element("option", "", prose(k));
+    for (const auto& item : b.items)
+      cards += fmt::format(
+          R"(<article class="card" data-words="{}" data-kind="{}" data-keys="{}">{}</article>)",
+          escaped_markup(item.words), escaped_markup(item.kind),
+          escaped_markup(fmt::format("{}", fmt::join(item.keys, "|"))), item.html);
+    return fmt::format(
+        R"(<div class="browse"><form class="controls"><input type="search" name="words" placeholder="part of a name" aria-label="Filter by name or flag"><span class="switch" role="group" aria-label="Which ones">{}</span><label>by <select name="key">{}</select></label><label><input type="checkbox" name="falling"> falling</label><span class="switch" role="group" aria-label="View">{}{}</span><span class="muted shown"></span></form><div class="cards">{}</div><div class="rows" hidden>{}</div></div>)",
+        kinds, keys, option("view", "cards", true, "cards"), option("view", "rows", false, "rows"),
+        cards, html_of(b.rows));
   }
 
   std::string html_of(const Table& t) {
@@ -136,27 +171,31 @@ class Renderer {
         t.look.starts_with("in-cards") ? "scroll " : "", t.look, attribute("style", cards), above,
         head, body);
   }
-  static std::string cell(const Cell& c, bool first, bool number) {
-    std::string text = prose(c.text);
+  static std::string inside(const Cell& c) {
+    std::string text = c.mark + prose(c.text);
     if (!c.aside.empty()) text += fmt::format(" <small>{}</small>", prose(c.aside));
     if (!c.look.empty() || !c.title.empty())
       text = fmt::format("<span{}{}>{}</span>", attribute("class", c.look),
                          attribute("title", c.title), text);
+    return text;
+  }
+  static std::string cell(const Cell& c, bool first, bool number) {
     return fmt::format("<{0}{1}{2}>{3}</{0}>", first ? "th" : "td", number ? " class=n" : "",
-                       first ? " scope=row" : "", text);
+                       first ? " scope=row" : "", inside(c));
   }
 
   // --- Pictures ----------------------------------------------------------------------------------
-  static bool has(const FigureChoices& own, const FigureChoices& asked) {
+  /// \param slices  whether "at" is one of them and no choice
+  static bool has(const FigureChoices& own, const FigureChoices& asked, bool slices) {
     return std::ranges::all_of(asked, [&](const auto& c) {
-      return c.first == "at" || std::ranges::find(own, c) != own.end();
+      return (slices && c.first == "at") || std::ranges::find(own, c) != own.end();
     });
   }
   std::string html_of(const Shown& s) {
     for (const auto& f : pictures_.figures)
-      if (f.family == s.family && has(f.choices, s.choices)) return figure(f, s);
+      if (f.family == s.family && has(f.choices, s.choices, false)) return figure(f, s);
     for (const auto& m : pictures_.maps)
-      if (m.family == s.family && has(m.choices, s.choices)) return map(m, s);
+      if (m.family == s.family && has(m.choices, s.choices, !m.slices.empty())) return map(m, s);
     return "";
   }
   /// Title, note and links to the files beside the page.
@@ -236,7 +275,6 @@ class Renderer {
   }
 
   // --- Choices
-  // -------------------------------------------------------------------------------------
   static bool fits(const std::vector<std::string>& of, const std::vector<std::string>& now) {
     for (std::size_t k = 0; k < of.size(); ++k)
       if (!of[k].empty() && of[k] != now[k]) return false;
@@ -304,13 +342,9 @@ class Renderer {
       const auto called =
           std::ranges::find(control.called, v, [](const auto& one) { return one.first; });
       const auto text = prose(called == control.called.end() ? v : called->second);
-      options +=
-          control.list
-              ? fmt::format(R"(<option value="{}"{}>{}</option>)", escaped_markup(v),
-                            v == now ? " selected" : "", text)
-              : fmt::format(
-                    R"(<label><input type="radio" name="c{}" value="{}"{}><span>{}</span></label>)",
-                    k, escaped_markup(v), v == now ? " checked" : "", text);
+      options += control.list ? fmt::format(R"(<option value="{}"{}>{}</option>)",
+                                            escaped_markup(v), v == now ? " selected" : "", text)
+                              : option(fmt::format("c{}", k), v, v == now, text);
     }
     const char* hidden = values.size() < 2 ? " hidden" : "";
     return control.list
@@ -321,7 +355,6 @@ class Renderer {
   }
 
   // --- The first sentences
-  // --------------------------------------------------------------------------
   std::string findings() {
     constexpr std::size_t at_once = 3;
     if (page_.findings.empty()) return parts(page_.first);

@@ -51,6 +51,10 @@ Cell form_cell(std::string_view form) {
   return {name, {}, fmt::format("`{}`", form.substr(form.find('.') + 1)), "form"};
 }
 
+std::string bar(double part) {
+  return fmt::format(R"(<span class="bar" style="width:{:.0f}px"></span>)", 80 * part);
+}
+
 Slot slot_of(const Pictures& p,
              std::string_view family,
              const std::vector<Control>& controls,

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// A page as data: sections of prose, tables and pictures, which one renderer shows (render.h).  Text in `backticks` is code.
+/// A page as data: sections of prose, tables and pictures, which one renderer shows (render.h).  Text in `backticks` is code, in
+/// **asterisks** bold.
 
 #include <algorithm>
 #include <functional>
@@ -16,9 +17,10 @@ namespace gonio::page {
 
 struct Cell {
   std::string text;
-  std::string title;  ///< what a pointer reads
-  std::string aside;  ///< small, after the text
-  std::string look;   ///< a class of page.css
+  std::string title;   ///< what a pointer reads
+  std::string aside;   ///< small, after the text
+  std::string look;    ///< a class of page.css
+  std::string mark{};  ///< HTML before the text: a bar, a small drawing
   Cell() = default;
   Cell(std::string what, std::string read = {}, std::string beside = {}, std::string as = {})
       : text(std::move(what)),
@@ -44,6 +46,12 @@ struct Table {
   /// Heads above columns beside each other, with how many; what a card then says of a cell is both.
   std::vector<std::pair<std::string, std::size_t>> above{};
   std::vector<std::string> row_looks{};
+
+  /// A row of these.
+  template <class... C>
+  void add(const C&... cells) {
+    rows.push_back({Cell(cells)...});
+  }
 };
 
 struct Prose {
@@ -53,11 +61,13 @@ struct Prose {
 struct Subtitle {
   std::string text;
 };
-struct Points {  ///< a list
-  std::vector<std::string> each;
+struct Points {  ///< a list.  look: "findings", "warnings"
+  std::vector<std::string> each{};
+  std::string look = "findings";
 };
 struct Pairs {  ///< a term and what it is; one without a text is left out
-  std::vector<std::pair<std::string, std::string>> each;
+  std::vector<std::pair<std::string, Cell>> each;
+  std::string look = "pairs";  ///< "facts": large, beside each other
 };
 /// The picture of a family that has these choices; of a map with slices one more: {"at", the slice}.
 struct Shown {
@@ -70,7 +80,25 @@ struct Shown {
 struct Markup {  ///< HTML of what nothing else on a page looks like
   std::string html;
 };
+/// Things that a reader looks through by words, by kind and in the order of a value: as cards and as rows of a table.
+struct Browse {
+  struct Item {
+    std::string html;   ///< of its card
+    std::string words;  ///< that find it
+    std::string kind;
+    std::vector<std::string> keys;  ///< as many as Browse has; empty: not known
+  };
+  std::vector<std::string> keys{};   ///< what items are put in order by
+  std::vector<std::string> kinds{};  ///< beside "all"
+  std::vector<Item> items{};
+  Table rows{};  ///< a row of each, heads called as the keys
+};
 struct Part;
+/// What is shown when a reader asks for it.
+struct Fold {
+  std::string title;
+  std::vector<Part> parts;
+};
 /// Parts beside each other.  look: "columns", "columns map", "panels".
 struct Group {
   std::string look;
@@ -104,7 +132,8 @@ struct Choice {
 };
 
 struct Part {
-  std::variant<Prose, Subtitle, Points, Pairs, Table, Shown, Markup, Group, Choice> is;
+  std::variant<Prose, Subtitle, Points, Pairs, Table, Shown, Markup, Browse, Fold, Group, Choice>
+      is;
   template <class T>
   Part(T of) : is(std::move(of)) {}
 };
@@ -140,6 +169,9 @@ std::vector<std::string> unique(const Rows& rows, Of of) {
       out.push_back(std::move(value));
   return out;
 }
+
+/// Bar of a part of the longest one, for a cell.
+std::string bar(double part);
 
 /// All pictures of a family as one slot.
 /// \param controls  whose keys tell them apart   \param fixed  what all of them have

@@ -3,11 +3,11 @@
 /// Page of the fits of many tables in one look.
 
 #include <string>
-#include <string_view>
+
+#include "fitting/batch/batch_document.h"
 
 namespace gonio {
 
-/// Page as HTML.  \param data  batch_json() with previews
-std::string batch_page_html(std::string_view title, std::string_view data);
+std::string batch_page_html(const BatchSummary&, const std::string& title);
 
 }  // namespace gonio

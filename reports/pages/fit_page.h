@@ -33,7 +33,6 @@ std::string to_json(const FitPage&, std::string_view fit_json, std::string_view 
 std::string fit_page_schema();
 
 /// The page itself, HTML.
-/// \param data  of to_json() above
-std::string fit_page_html(std::string_view title, std::string_view data);
+std::string fit_page_html(const FitDocument&, const Table&, const Health&, const FitPage&);
 
 }  // namespace gonio

@@ -56,7 +56,10 @@ std::string to_json(const InspectPage&, std::string_view health_json);
 std::string inspect_page_schema();
 
 /// The page itself, HTML.
-/// \param data  of to_json() above
-std::string inspect_page_html(std::string_view title, std::string_view data);
+/// \param next  directions to measure, where they were asked for
+std::string inspect_page_html(const Table&,
+                              const Health&,
+                              const InspectPage&,
+                              const std::vector<NextDirection>& next = {});
 
 }  // namespace gonio

@@ -2,23 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 
 #include "fitting/choice/document.h"
-#include "reports/page/assets.h"
-#include "reports/page/page.h"
+#include "reports/page/numbers.h"
+#include "reports/page/render.h"
 #include "reports/pages/fields.h"
 #include "reports/pages/model_names.h"
+#include "reports/pages/spheres_section.h"
+#include "reports/pages/table_sections.h"
 #include "reports/picture/document.h"
 #include "reports/picture/front.h"
 #include "table/cut/cuts.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace gonio {
 
+using namespace page;
+
 namespace {
+
+using page::Group;
 
 /// The document of a choice has its description where it is made.
 constexpr JsonForm choice_json{
@@ -47,22 +56,24 @@ struct ModelsPageDocument {
 }  // namespace
 
 template <>
-struct Description<ModelsPageDocument> {
-  static constexpr auto fields() {
-    using D = ModelsPageDocument;
-    return std::tuple{field("choice", "", &D::choice, "the document of the choice, gonio.models/1"),
-                      field(
-                          "names", "", [](const D& d) -> const auto& { return d.page->names; },
-                          "of each model, as people say them"),
-                      field(
-                          "numbers", "", [](const D& d) -> const auto& { return d.page->numbers; },
-                          "of each model, from 1 by its error; 0: not compared"),
-                      inlined([](const D& d) { return d.page->pictures; }),
-                      field(
-                          "spheres", "", [](const D& d) -> const auto& { return d.page->spheres; },
-                          "the same sphere, table and each model that was compared")};
+inline constexpr auto description<ModelsPageDocument> = std::tuple{
+    Field{"choice", &ModelsPageDocument::choice, "the document of the choice, gonio.models/1"},
+    Field{"names", [](const ModelsPageDocument& d) -> const auto& {return d.page->names;
+}
+, "of each model, as people say them"
+}
+, Field{"numbers", [](const ModelsPageDocument& d) -> const auto& {return d.page->numbers;
+}
+, "of each model, from 1 by its error; 0: not compared"
+}
+, inlined([](const ModelsPageDocument& d) { return d.page->pictures; }), Field {
+  "spheres", [](const ModelsPageDocument& d) -> const auto& {
+    return d.page->spheres;
   }
-};
+  , "the same sphere, table and each model that was compared"
+}
+}
+;
 
 namespace {
 
@@ -145,7 +156,7 @@ void set_ends(FigureAxis& y, const FigureCurve& data) {
 
 /// A picture for each cut and channel: the data, and each model by its number.
 void add_curves(Pictures& to,
-                const Table& t,
+                const gonio::Table& t,
                 const ModelChoice& choice,
                 const std::vector<std::size_t>& order,
                 const std::vector<std::string>& channels) {
@@ -195,7 +206,7 @@ double error_of(const ModelChoice& choice, const ModelRow& row) {
   return choice.blocks > 0 ? row.cv_log_rms : row.log_rms;
 }
 
-Spheres add_spheres(const Table& t, ModelChoice& choice) {
+Spheres add_spheres(const gonio::Table& t, ModelChoice& choice) {
   std::vector<BoundModel> models;
   std::vector<ModelRow*> rows;
   for (std::size_t k = 0; k < choice.rows.size(); ++k)
@@ -217,7 +228,7 @@ Spheres add_spheres(const Table& t, ModelChoice& choice) {
   return spheres;
 }
 
-ModelsPage make_models_page(const Table& table,
+ModelsPage make_models_page(const gonio::Table& table,
                             const ModelChoice& choice,
                             const Advice& advice,
                             Spheres spheres) {
@@ -242,8 +253,288 @@ std::string models_page_schema() {
   return schema_text<ModelsPageDocument>("Page of models compared on a table");
 }
 
-std::string models_page_html(std::string_view title, std::string_view data) {
-  return make_report_page(title, data, std::string(assets::spheres_js).append(assets::models_js));
+namespace {
+
+constexpr std::size_t at_once = 6;  ///< models that are drawn before a reader asks for more
+
+/// A row beside what a page calls it.
+struct NamedModel {
+  const ModelRow& row;
+  const std::string& name;
+  std::size_t number;
+};
+
+class ModelsSections {
+ public:
+  ModelsSections(const ModelChoice& c, const Advice& a, const ComparedTable& t, const ModelsPage& p)
+      : choice_(c), advice_(a), table_(t), page_(p), predicted_(c.blocks > 0) {
+    for (std::size_t n = 1; n <= c.rows.size(); ++n)
+      for (std::size_t k = 0; k < c.rows.size(); ++k)
+        if (p.numbers[k] == n) compared_.push_back({c.rows[k], p.names[k], n});
+    for (std::size_t k = 0; k < c.rows.size(); ++k)
+      if (p.numbers[k] == 0) left_out_.push_back({c.rows[k], p.names[k], 0});
+  }
+  std::string html();
+
+ private:
+  const NamedModel& taken() const {
+    return *std::ranges::find(
+        compared_, advice_.recommended,
+        [](const NamedModel& m) -> const auto& { return m.row.model; });
+  }
+  bool as_good(const NamedModel& m) const {
+    return std::ranges::find(advice_.as_good, m.row.model) != advice_.as_good.end();
+  }
+  /// A sentence of the document, its specs as names; of the recommended one, which has just been named, "this model".
+  std::string in_words(std::string text) const {
+    std::vector<const NamedModel*> longest;
+    for (const auto* list : {&compared_, &left_out_})
+      for (const auto& m : *list) longest.push_back(&m);
+    std::ranges::sort(longest, std::greater{},
+                      [](const NamedModel* m) { return m->row.model.size(); });
+    std::string out;
+    while (!text.empty()) {
+      const auto begins = [&](const NamedModel* m) { return text.starts_with(m->row.model); };
+      const bool inside =
+          !out.empty() && std::string_view(" ,;:(").find(out.back()) == std::string_view::npos;
+      const auto at = inside ? longest.end() : std::ranges::find_if(longest, begins);
+      if (at == longest.end()) {
+        out += text.front();
+        text.erase(0, 1);
+      } else {
+        out += (*at)->row.model == advice_.recommended ? "this model" : (*at)->name;
+        text.erase(0, (*at)->row.model.size());
+      }
+    }
+    return capital(std::move(out));
+  }
+  std::vector<Part> verdict() const;
+  Section models() const;
+  Section curves(Pictures&) const;
+  Spheres spheres() const;
+
+  const ModelChoice& choice_;
+  const Advice& advice_;
+  const ComparedTable& table_;
+  const ModelsPage& page_;
+  bool predicted_;  ///< whether incident angles were left out
+  std::vector<NamedModel> compared_, left_out_;
+};
+
+std::string in_a_row(const std::vector<std::string>& list) {
+  if (list.size() < 2) return list.empty() ? "" : list[0];
+  return fmt::format("{} and {}", fmt::join(list.begin(), list.end() - 1, ", "), list.back());
+}
+
+std::vector<Part> ModelsSections::verdict() const {
+  std::vector<Part> out;
+  const auto say = [&](std::string text) { out.emplace_back(Prose{std::move(text), "verdict"}); };
+  if (compared_.empty()) return out;
+  const auto& m = taken();
+  say(fmt::format("Take **{}**: `{}`.", m.name, m.row.model));
+  say(in_words(advice_.reason));
+  say(fmt::format("Typically model and table differ by a factor of {}{}.",
+                  factor_text(error_of(choice_, m.row)), predicted_ ? " there" : ""));
+  std::vector<std::string> alike, not_compared;
+  for (const auto& other : compared_)
+    if (as_good(other)) alike.push_back(other.name);
+  if (!alike.empty()) say(fmt::format("The table cannot tell it from {}.", in_a_row(alike)));
+  for (const auto& d : advice_.disagreement) say(in_words(d));
+  Points warnings{{}, "warnings"};
+  if (!m.row.converged)
+    warnings.each.push_back(fmt::format("**Not converged:** the fit of {}.", m.name));
+  for (const auto& b : advice_.beware) warnings.each.push_back("**Beware:** " + in_words(b));
+  for (const auto& l : left_out_) not_compared.push_back(l.name);
+  if (!not_compared.empty())
+    warnings.each.push_back(
+        fmt::format("**Not compared:** {}. The list of models says why.", in_a_row(not_compared)));
+  if (!warnings.each.empty()) out.emplace_back(std::move(warnings));
+  return out;
+}
+
+Section ModelsSections::models() const {
+  const bool sphere = std::ranges::any_of(
+      compared_, [](const NamedModel& m) { return std::isfinite(m.row.delta_e_2000); });
+  page::Table t{
+      columns(fmt::format("model{}|>log RMS|>BIC{}|>time [ns]|>free|at the end of its range",
+                          predicted_ ? "|>unseen" : "", sphere ? "|>ΔE2000" : "")),
+      {},
+      "told-by-cell"};
+  for (const auto* list : {&compared_, &left_out_})
+    for (const auto& m : *list) {
+      const auto& r = m.row;
+      auto& row = t.rows.emplace_back();
+      const bool recommended = r.model == advice_.recommended;
+      t.row_looks.emplace_back(recommended ? "chosen" : "");
+      row.emplace_back(
+          fmt::format("{}{}{}", m.number ? fmt::format("{}\u2002", m.number) : "", m.name,
+                      recommended  ? "\u2002**recommended**"
+                      : as_good(m) ? "\u2002as good"
+                                   : ""),
+          "", fmt::format("`{}`{}", r.model, r.note.empty() ? "" : " " + capital(r.note) + "."));
+      const auto number = [&](double x, const std::string& text) {
+        row.emplace_back(std::isfinite(x) ? text : "–");
+      };
+      if (predicted_) number(r.cv_log_rms, significant(r.cv_log_rms));
+      number(r.log_rms, significant(r.log_rms));
+      number(r.bic, (r.bic < 0 ? "−" : "") +
+                        count_text(static_cast<std::size_t>(
+                            std::isfinite(r.bic) ? std::lround(std::abs(r.bic)) : 0)));
+      if (sphere) number(r.delta_e_2000, delta_e_text(r.delta_e_2000));
+      number(r.ns, significant(r.ns, 2));
+      row.emplace_back(m.number ? fmt::to_string(r.parameters) : "–");
+      row.emplace_back(r.parameters_at_bound.empty()
+                           ? "none"
+                           : fmt::to_string(fmt::join(r.parameters_at_bound, ", ")));
+    }
+  return {"The models",
+          fmt::format("The nearest first, {}.", predicted_ ? "on angles that the fit had not seen"
+                                                           : "over the angles fitted"),
+          {std::move(t)},
+          "models"};
+}
+
+Section ModelsSections::curves(Pictures& pictures) const {
+  auto channels = values_of(pictures, "curves", "channel");
+  Section out{"Data and models", {}, {}};
+  if (channels.empty()) {
+    out.text = "No valid sample lies in the plane of incidence: there is no curve to draw.";
+    return out;
+  }
+  out.text =
+      "Points are the table's samples, lines the fitted models by their numbers, without the "
+      "cosine. A "
+      "line that leaves the picture goes on beyond what the table has.";
+  Choice c;
+  c.controls = {{"scale", "Scale of f_r", "logarithmic"}, {"channel", "Channel", channels[0]}};
+  c.look = "";
+  Slot slot;
+  slot.on_paper = false;
+  std::vector<Figure> drawn;
+  for (const bool log : {true, false})
+    for (const auto& channel : channels) {
+      Group panels{"panels alike", {}};
+      for (Figure f : pictures.figures) {
+        if (f.family != "curves" || f.choices[0].second != channel) continue;
+        f.family = log ? "logarithmic" : "linear";
+        f.y.log = log;
+        if (!log) f.y.from = 0;
+        for (auto& curve : f.curves) {
+          if (curve.name == "data") {
+            curve.label = "table";
+            continue;
+          }
+          curve.label =
+              fmt::format("{}\u2002{}", curve.name, compared_[std::stoul(curve.name) - 1].name);
+        }
+        panels.parts.emplace_back(Shown{f.family, f.choices, 250});
+        drawn.push_back(std::move(f));
+      }
+      slot.each.push_back({{log ? "logarithmic" : "linear", channel}, {std::move(panels)}});
+    }
+  std::erase_if(pictures.figures, [](const Figure& f) { return f.family == "curves"; });
+  std::ranges::move(drawn, std::back_inserter(pictures.figures));
+  c.slots.push_back(std::move(slot));
+  out.parts.emplace_back(std::move(c));
+  return out;
+}
+
+/// The spheres with names for specs, nearest model first.
+Spheres ModelsSections::spheres() const {
+  Spheres out = page_.spheres;
+  std::vector<std::size_t> place;  // of each compared row among the compared ones
+  for (std::size_t k = 0; k < page_.numbers.size(); ++k)
+    if (page_.numbers[k] > 0) place.push_back(page_.numbers[k] - 1);
+  for (std::size_t k = 0; k < place.size(); ++k) out.models[place[k]] = compared_[place[k]].name;
+  for (std::size_t l = 0; l < out.lights.size(); ++l)
+    for (std::size_t k = 0; k < out.lights[l].models.size(); ++k)
+      out.lights[l].models[place[k]] = page_.spheres.lights[l].models[k];
+  return out;
+}
+
+std::string ModelsSections::html() {
+  const auto file = file_name(table_.path);
+  Pictures pictures = page_.pictures;
+  Page out{"", "fit --models", "Models for " + table_.path, "Which model for " + file};
+  out.first = verdict();
+  for (const auto& c : compared_) {
+    if (c.number > at_once) break;
+    out.most_shipped.push_back(fmt::to_string(c.number));
+  }
+  auto front = Section{
+      "How near, and how fast",
+      fmt::format(
+          "Each point is a model, with its number in the list below. Further down is nearer to the "
+          "table, further left is faster. The dashed line is the front: no model is faster, by "
+          "more "
+          "than both times vary, and as near. {}",
+          predicted_ ? "Nearness is judged on incident angles that the fit had not seen."
+                     : "The table has too few incident angles to leave some out: nearness is that "
+                       "over the "
+                       "angles fitted."),
+      {Shown{"error_and_time", {}, 380}}};
+  auto drawn = curves(pictures);
+  Section input{
+      "Input, and how it was judged",
+      "",
+      {Pairs{
+          {{"file", "`" + table_.path + "`"},
+           {"SHA-256", "`" + table_.sha256 + "`"},
+           {"format", table_.format},
+           {"metric of the fits", words(table_.metric)},
+           {"left out in turn",
+            predicted_ ? many(choice_.blocks, "block") + " of neighbouring incident angles"
+                       : "nothing: the table has too few incident angles"},
+           {"values", std::isfinite(choice_.effective_values)
+                          ? fmt::format("worth {} independent ones, which AIC and BIC count",
+                                        count_text(static_cast<std::size_t>(
+                                            std::lround(choice_.effective_values))))
+                          : ""},
+           {"one fit of it",
+            compared_.empty() ? ""
+                              : fmt::format("`gonio fit {} --model {} -o fit.json --html fit.html`",
+                                            file, taken().row.model)}}}}};
+  Section meanings{
+      "What the words mean",
+      "",
+      {Pairs{
+          {{"log RMS", "typical size of ln f − ln y, model over table: 0.1 is a factor of 1.1"},
+           {"unseen",
+            "log RMS on incident angles that were left out of the fit. It grows where a model has "
+            "more parameters than the table can determine"},
+           {"cannot be told apart",
+            "at most 5 % more of it than the best model and within two standard errors "
+            "over the blocks, or 0.1 % more"},
+           {"BIC",
+            "a judge of the fit to the whole table that asks a price for each free value; less is "
+            "better, and only differences count"},
+           {"ΔE2000",
+            "difference of colour between a sphere of the table and one of the model: half of the "
+            "pixels are within it, as a mean of three lights. Above 1 it is seen side by side"},
+           {"time", "of one sample in all channels, in float, on this machine"},
+           {"free", "values that were fitted, those of each channel counted"},
+           {"at the end of its range",
+            "a parameter that the data push beyond what it may be: the model lacks something"},
+           {"front",
+            "models that no other beats: none is faster, by more than both times vary, and as "
+            "near"}}}},
+      "words"};
+  out.sections = {std::move(front), models(),
+                  std::move(drawn), spheres_section(spheres(), "", at_once),
+                  std::move(input), std::move(meanings)};
+  out.setting =
+      "f_r is in 1/sr, without the cosine. Every figure of this page is in the .page.json beside "
+      "it.";
+  return page_html(out, pictures);
+}
+
+}  // namespace
+
+std::string models_page_html(const ModelChoice& c,
+                             const Advice& a,
+                             const ComparedTable& t,
+                             const ModelsPage& p) {
+  return ModelsSections(c, a, t, p).html();
 }
 
 }  // namespace gonio

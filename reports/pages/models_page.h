@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fitting/choice/choice.h"
+#include "fitting/choice/document.h"
 #include "reports/pages/spheres.h"
 #include "reports/picture/figure.h"
 
@@ -40,7 +41,9 @@ std::string to_json(const ModelsPage&, std::string_view choice_json);
 std::string models_page_schema();
 
 /// The page itself, HTML.
-/// \param data  of to_json() above
-std::string models_page_html(std::string_view title, std::string_view data);
+std::string models_page_html(const ModelChoice&,
+                             const Advice&,
+                             const ComparedTable&,
+                             const ModelsPage&);
 
 }  // namespace gonio

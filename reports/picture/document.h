@@ -17,12 +17,9 @@ inline constexpr std::string_view setting_meaning = "finer in roughness and angl
 Json figures_json(const Pictures&);
 Json maps_json(const Pictures&);
 template <>
-struct Description<Pictures> {
-  static constexpr auto fields() {
-    return std::tuple{field("figures", "", figures_json, "curves that the page draws"),
-                      field("maps", "", maps_json, "maps that the page draws")};
-  }
-};
+inline constexpr auto description<Pictures> =
+    std::tuple{Field{"figures", figures_json, "curves that the page draws"},
+               Field{"maps", maps_json, "maps that the page draws"}};
 
 /// Text of what is described.  Six digits: more than a page shows, a third of the bytes.
 template <class T>

@@ -40,6 +40,8 @@ struct FigureCurve {
   std::string
       look{};  ///< the name that it looks like, of several that came to the same; empty: its own
   std::string label{};  ///< what a picture calls it, of one whose name is an id; empty: its name
+  /// On a page, the colour of each point, "#a0522d", or none; the curve's own is its rim.
+  std::vector<std::string> colours{};
 };
 /// What a picture calls it.
 inline const std::string& label_of(const FigureCurve& c) {
@@ -68,13 +70,15 @@ struct FigureMap {
     std::string label;
     std::vector<double> at;  ///< ascending; cells reach half way to the next
     bool log = false;
+    bool root = false;  ///< grows as the square root
     /// Names of places that have no numbers; `at` is then not looked at.
     std::vector<std::string> names{};
     double from = std::numeric_limits<double>::quiet_NaN(),
            to = std::numeric_limits<double>::quiet_NaN();  ///< ends, where they are not the cells'
     std::size_t size() const { return names.empty() ? at.size() : names.size(); }
   };
-  /// Course of colours over values: of a root, small errors are seen beside great ones; log: decades, of values above 0.
+  /// Course of colours over values: of a root, small errors are seen beside great ones; log: decades, of values above 0, diverging
+  /// about 1.
   enum class Scale { linear, root, log };
 
   std::string id;  ///< as a figure's
@@ -86,6 +90,10 @@ struct FigureMap {
   Scale scale = Scale::linear;
   /// The value at the end of the colours, so that maps can be compared; else as the values ask for.
   double limit = std::numeric_limits<double>::quiet_NaN();
+  /// Of logarithmic colours, the value at their beginning; else a round one below all values.
+  double begin = std::numeric_limits<double>::quiet_NaN();
+  /// Colours of the cells, where they show more than the value; none otherwise.
+  std::vector<std::array<unsigned char, 3>> colours{};
   /// Value that a line is drawn at, between cells above it and the others; not finite: no line.
   double line = std::numeric_limits<double>::quiet_NaN();
   std::string family{};  ///< as a figure's

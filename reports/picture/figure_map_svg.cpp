@@ -7,6 +7,7 @@
 
 #include "base/base64.h"
 #include "image/exr.h"
+#include "image/png.h"
 #include "reports/picture/figure.h"
 #include "reports/picture/figure_scale.h"
 #include "reports/picture/figure_style.h"
@@ -57,8 +58,8 @@ class MapDrawing {
         colours_(colour_scale(m)),
         x_edges_(cell_edges(m.x)),
         y_edges_(cell_edges(m.y)),
-        x_{x_edges_.front(), x_edges_.back(), m.x.log && m.x.names.empty()},
-        y_{y_edges_.front(), y_edges_.back(), m.y.log && m.y.names.empty()},
+        x_{x_edges_.front(), x_edges_.back(), m.x.log && m.x.names.empty(), m.x.root},
+        y_{y_edges_.front(), y_edges_.back(), m.y.log && m.y.names.empty(), m.y.root},
         turned_(!m.x.names.empty() &&
                 widest(m.x, x_) > box.width / static_cast<double>(m.x.size()) - 6) {
     for (const auto name : colours_of(m)) list_.push_back(channels(paper_colour(name)));
@@ -85,7 +86,10 @@ class MapDrawing {
     svg::Ticks x, y;
     if (x_texts) x = ticks(m_.x, x_, [&](double v) { return x_at(v); });
     if (y_texts) y = ticks(m_.y, y_, [&](double v) { return y_at(v); });
-    return box_.inside((with_cells ? cells(slice) : R"(<g class="cells"/>)") + line(slice) +
+    return box_.inside((!m_.colours.empty() ? coloured_cells()
+                        : with_cells        ? cells(slice)
+                                            : R"(<g class="cells"/>)") +
+                       line(slice) +
                        fmt::format(R"(<path class="ax" d="M0 0H{0}V{1}H0z"/>)", number(box_.width),
                                    number(box_.height))) +
            cell_texts(slice) + svg::axis_texts(box_, x, y, turned_);
@@ -96,7 +100,7 @@ class MapDrawing {
 
   std::string on_page(std::size_t slice, bool with_cells) const {
     const auto axis = [](const FigureScale& s) {
-      return fmt::format("{:.6g} {:.6g}{}", s.low, s.high, s.log ? " log" : "");
+      return fmt::format("{:.6g} {:.6g}{}", s.low, s.high, s.log ? " log" : s.root ? " root" : "");
     };
     const auto edges = [&](std::span<const double> of, auto place) {
       std::string out;
@@ -201,6 +205,17 @@ class MapDrawing {
     for (const auto& [s, path] : rectangles)
       out += fmt::format(R"(<path{} d="{}"/>)", shade(s), path);
     return out + "</g>";
+  }
+
+  /// Cells in their own colours, whose columns and rows are each as wide, as one image.
+  std::string coloured_cells() const {
+    PngImage image{m_.x.size(), m_.y.size(), {}, {}};
+    for (std::size_t j = m_.y.size(); j-- > 0;)
+      for (std::size_t i = 0; i < m_.x.size(); ++i)
+        image.pixels.push_back(m_.colours[i * m_.y.size() + j]);
+    return fmt::format(
+        R"(<image width="{}" height="{}" preserveAspectRatio="none" style="image-rendering:pixelated" href="data:image/png;base64,{}"/>)",
+        number(box_.width), number(box_.height), base64(png_bytes(image)));
   }
 
   /// What a pointer reads: places on the scale of colours, two bytes a cell, the least first; 65535 where there is no value.
@@ -330,6 +345,7 @@ std::string page_svg(const FigureMap& m, std::size_t slice, bool cells) {
 }
 
 std::string page_scale(const FigureMap& m) {
+  if (!m.colours.empty()) return "";
   const auto colours = colour_scale(m);
   std::string out = fmt::format(R"(<div class="scale {}"><i></i><b>)", kind_of(m));
   for (const double t : colours.ticks)

@@ -66,10 +66,17 @@ std::array<double, 3> with_bar(double v,
 }  // namespace
 
 double FigureScale::part(double value) const {
+  if (root) return FigureScale{std::sqrt(low), std::sqrt(high), false}.part(std::sqrt(value));
   return log ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
 }
 
 std::vector<double> scale_ticks(const FigureScale& s, std::size_t most) {
+  if (s.root) {
+    std::vector<double> out;
+    for (const double part : {0.0, 0.5, 2.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 90.0})
+      if (const double x = part * s.high / 90; x >= s.low) out.push_back(x);
+    return out;
+  }
   if (!s.log) return linear_ticks(s.low, s.high, most);
   const double span = std::log10(s.high / s.low);
   const std::vector<double> digits = span > 3     ? std::vector<double>{1}
@@ -155,8 +162,8 @@ std::vector<double> cell_edges(const FigureMap::Axis& a) {
     for (std::size_t i = 0; i <= n; ++i) edges[i] = static_cast<double>(i);
     return edges;
   }
-  const auto to = [&](double v) { return a.log ? std::log(v) : v; };
-  const auto from = [&](double v) { return a.log ? std::exp(v) : v; };
+  const auto to = [&](double v) { return a.log ? std::log(v) : a.root ? std::sqrt(v) : v; };
+  const auto from = [&](double v) { return a.log ? std::exp(v) : a.root ? v * v : v; };
   for (std::size_t i = 1; i < n; ++i) edges[i] = from((to(a.at[i - 1]) + to(a.at[i])) / 2);
   if (n == 1) {
     edges[0] = a.log ? a.at[0] / 2 : a.at[0] - 0.5;
@@ -184,6 +191,9 @@ ColourScale colour_scale(const FigureMap& m) {
     return 10 * decade;
   };
   const double end = std::isfinite(m.limit) ? m.limit : most > 0 ? round_up(most) : 1;
+  if (m.scale == FigureMap::Scale::log && m.diverging) return {1 / end, end, {1 / end, 1, end}};
+  if (m.scale == FigureMap::Scale::log && std::isfinite(m.begin))
+    return {m.begin, end, scale_ticks({m.begin, end, true}, 6)};
   if (m.scale == FigureMap::Scale::log) {
     const double begin =
         std::min(most > 0 ? std::pow(10, std::floor(std::log10(least))) : end / 10, end / 10);

@@ -14,6 +14,7 @@ namespace gonio {
 struct FigureScale {
   double low, high;
   bool log;
+  bool root = false;
   double part(double value) const;
 };
 

@@ -59,7 +59,10 @@ CurveStyles::Numbers numbered(std::span<const Figure> figures, bool dashed, std:
     while (taken.contains(i)) ++i;
     return i;
   };
+  if (!dashed && of_picture.contains("r") && of_picture.contains("g") && of_picture.contains("b"))
+    out = {{"b", 0}, {"r", 1}, {"g", 2}};  // channels have their own colours
   for (const auto& name : names) {
+    if (out.contains(name)) continue;
     const std::size_t i = least_free(of_family[name]);
     out[name] = i < most ? i : least_free(of_picture[name]);
   }

@@ -117,6 +117,7 @@ class CurveDrawing {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return c.x[i]; });
     svg::Path line, points, bars;
+    std::string coloured;
     std::vector<Point> run;  // up to a gap, as on the page: what is not known is not drawn
     const auto put_down = [&] {
       if (run.empty()) return;
@@ -135,6 +136,12 @@ class CurveDrawing {
       const double x = x_at(c.x[i]), y = y_at(c.y[i]);
       run.push_back({x, y});
       points.dot(x, y);
+      if (box_.page && i < c.colours.size()) {
+        svg::Path one;
+        one.dot(x, y);
+        coloured += fmt::format(R"(<path class="dot" style="stroke:{}" d="{}"/>)", c.colours[i],
+                                one.text());
+      }
       if (i < c.labels.size()) said += (said.empty() ? "" : "|") + c.labels[i];
       const auto bar = [&](double x0, double y0, double x1, double y1) {
         bars.move(x0, y0);
@@ -155,7 +162,10 @@ class CurveDrawing {
     out += '>';
     put(R"( class="bar")", bars);
     if (c.kind != FigureCurve::Kind::points) put("", line);
-    if (c.kind != FigureCurve::Kind::line)
+    if (!coloured.empty()) {
+      put(R"( class="rim")", points);
+      out += coloured;
+    } else if (c.kind != FigureCurve::Kind::line)
       put(c.x.size() > most_labels ? R"( class="dot small")" : R"( class="dot")", points);
     return out + "</g>";
   }

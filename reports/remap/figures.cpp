@@ -68,7 +68,6 @@ void add_maps(Pictures& p, const RemapRows& r) {
 }
 
 // --- Forms beside each other
-// ----------------------------------------------------------------------
 
 /// Curves of a value of the rows, one for each form of a distribution.
 template <class Value>
@@ -149,7 +148,6 @@ void add_furnaces(Pictures& p, const RemapRows& r, std::string_view ndf) {
 }
 
 // --- In the wrong place, and in place of V F
-// ------------------------------------------------------
 
 void add_uses(Pictures& p, const RemapRows& r) {
   for (const std::string_view light : {"even", "single"})

@@ -40,48 +40,36 @@ struct Description<RemapRow> {
 };
 
 template <>
-struct Description<RemapForm> {
-  static constexpr auto fields() {
-    using F = RemapForm;
-    return std::tuple{field("form", "", &F::form, "id"),
-                      field("ndf", "", &F::ndf, "id of the distribution that it is for"),
-                      field("formula", "", &F::formula, ""),
-                      field("ships", "", &F::ships, "where"),
-                      field("operations", "", &F::operations, "of one sample"),
-                      field("roots", "", &F::roots, "square roots among them"),
-                      field("reads_half", "", &F::reads_half,
-                            "reads VoH or NoH; its G2 is averaged over azimuths")};
-  }
-};
+inline constexpr auto description<RemapForm> =
+    std::tuple{Field{"form", &RemapForm::form, "id"},
+               Field{"ndf", &RemapForm::ndf, "id of the distribution that it is for"},
+               Field{"formula", &RemapForm::formula, ""},
+               Field{"ships", &RemapForm::ships, "where"},
+               Field{"operations", &RemapForm::operations, "of one sample"},
+               Field{"roots", &RemapForm::roots, "square roots among them"},
+               Field{"reads_half", &RemapForm::reads_half,
+                     "reads VoH or NoH; its G2 is averaged over azimuths"}};
 
 template <>
-struct Description<RemapG1> {
-  static constexpr auto fields() {
-    using G = RemapG1;
-    return std::tuple{field("k", "", &G::k, "of Schlick's G1"),
-                      field("nov", "", &G::nov, ""),
-                      field("claimed", "", &G::claimed, "G1 as the source says"),
-                      field("value", "", &G::value, "G1 as the form gives it"),
-                      field("roughness", "", &G::roughness, "that this k is meant for"),
-                      field("smith", "", &G::smith, "exact G1 of that roughness")};
-  }
-};
+inline constexpr auto description<RemapG1> =
+    std::tuple{Field{"k", &RemapG1::k, "of Schlick's G1"},
+               Field{"nov", &RemapG1::nov, ""},
+               Field{"claimed", &RemapG1::claimed, "G1 as the source says"},
+               Field{"value", &RemapG1::value, "G1 as the form gives it"},
+               Field{"roughness", &RemapG1::roughness, "that this k is meant for"},
+               Field{"smith", &RemapG1::smith, "exact G1 of that roughness"}};
 static_assert(describes_every_member<RemapG1>());
 
 template <>
-struct Description<RemapVf> {
-  static constexpr auto fields() {
-    using V = RemapVf;
-    return std::tuple{field("form", "", &V::form, "id of what stands in place of V F"),
-                      field("fresnel", "", &V::fresnel, "interface"),
-                      field("over", "", &V::over, "all: directions evenly; mirror: h = n"),
-                      field("roughness", "", &V::roughness, ""),
-                      field("bias", "", &V::bias, "geometric mean of the ratio to exact V F"),
-                      field("factor", "", &V::factor, "exp of the RMS of the ratio's logarithm"),
-                      field("least", "", &V::least, "ratio"),
-                      field("most", "", &V::most, "ratio")};
-  }
-};
+inline constexpr auto description<RemapVf> =
+    std::tuple{Field{"form", &RemapVf::form, "id of what stands in place of V F"},
+               Field{"fresnel", &RemapVf::fresnel, "interface"},
+               Field{"over", &RemapVf::over, "all: directions evenly; mirror: h = n"},
+               Field{"roughness", &RemapVf::roughness, ""},
+               Field{"bias", &RemapVf::bias, "geometric mean of the ratio to exact V F"},
+               Field{"factor", &RemapVf::factor, "exp of the RMS of the ratio's logarithm"},
+               Field{"least", &RemapVf::least, "ratio"},
+               Field{"most", &RemapVf::most, "ratio"}};
 static_assert(describes_every_member<RemapVf>());
 
 template <>

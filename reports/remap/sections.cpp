@@ -118,8 +118,8 @@ Section wrong_place(const RemapRows& all, const Pictures& p) {
   c.slots[1].on_paper = false;
   Table t{columns(">k|>claimed|>G1|>roughness it is meant for|>exact Smith there")};
   for (const auto& g : all.g1)
-    t.rows.push_back({plain(g.k), plain(g.claimed), fmt::format("{:.4f}", g.value),
-                      plain(g.roughness), fmt::format("{:.4f}", g.smith)});
+    t.add(plain(g.k), plain(g.claimed), fmt::format("{:.4f}", g.value), plain(g.roughness),
+          fmt::format("{:.4f}", g.smith));
   return {"Each k in the other's place",
           "k = (r+1)²/8 is meant for single lights, k = r²/2 for image-based light. Each figure "
           "shows both, beside exact Smith.",
@@ -156,19 +156,12 @@ Table all_forms(const RemapRows& all, std::string_view reference, double roughne
                                         : a.second->rms < b.second->rms;
   });
   for (const auto& [f, r] : found)
-    t.rows.push_back(
-        {form_cell(f->form),
-         significant(r->rms, 2),
-         percent(r->max_rel),
-         {r->max_rel > 1e-12 ? plain(r->max_rel_nol) + ", " + plain(r->max_rel_nov) : ""},
-         fmt::format("{:.4f}", r->albedo),
-         fmt::format("{:.4f}", r->albedo_reference),
-         like_text(r->by_g2),
-         like_text(r->by_albedo),
-         fmt::format("{}", f->operations),
-         fmt::format("{}", f->roots),
-         {f->reads_half ? "yes" : ""},
-         {f->ships, {}, {}, "because small"}});
+    t.add(form_cell(f->form), significant(r->rms, 2), percent(r->max_rel),
+          r->max_rel > 1e-12 ? plain(r->max_rel_nol) + ", " + plain(r->max_rel_nov) : "",
+          fmt::format("{:.4f}", r->albedo), fmt::format("{:.4f}", r->albedo_reference),
+          like_text(r->by_g2), like_text(r->by_albedo), fmt::format("{}", f->operations),
+          fmt::format("{}", f->roots), f->reads_half ? "yes" : "",
+          Cell{f->ships, {}, {}, "because small"});
   return t;
 }
 Section every_form(const RemapRows& all) {

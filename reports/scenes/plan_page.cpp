@@ -95,19 +95,18 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
   });
   for (const auto& e : effects) {
     const bool absent = e.why == scene::Why::structural, proved = e.why == scene::Why::proved;
-    t.rows.push_back({{capital(words_of(e.effect))},
-                      e.keep   ? Cell{"keep" + form_words(e.form), {}, {}, "verdict-yes"}
-                      : absent ? Cell{"absent", {}, {}, "muted"}
-                               : Cell{"drop"},
-                      absent ? "0" : (proved ? "≤ " : "") + significant(e.error_if_dropped, 2),
-                      absent && e.ops_saved == 0 ? "0" : significant(e.ns_saved, 2),
-                      rounded(e.ops_saved),
-                      {absent   ? e.reason
-                       : proved ? "by proof"
-                                : "measured",
-                       {},
-                       {},
-                       "muted"}});
+    t.add(capital(words_of(e.effect)),
+          e.keep   ? Cell{"keep" + form_words(e.form), {}, {}, "verdict-yes"}
+          : absent ? Cell{"absent", {}, {}, "muted"}
+                   : Cell{"drop"},
+          absent ? "0" : (proved ? "≤ " : "") + significant(e.error_if_dropped, 2),
+          absent && e.ops_saved == 0 ? "0" : significant(e.ns_saved, 2), rounded(e.ops_saved),
+          Cell{absent   ? e.reason
+               : proved ? "by proof"
+                        : "measured",
+               {},
+               {},
+               "muted"});
   }
   const auto& c = m.checked;
   Section s{m.name, "", {t}};
@@ -130,11 +129,8 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
                  {"worst", true}},
                 {}};
     for (const auto& f : m.front)
-      front.rows.push_back({{kept_words(f.forms)},
-                            significant(f.ns),
-                            rounded(f.ops),
-                            significant(f.error.quantile, 2),
-                            significant(f.error.worst, 2)});
+      front.add(kept_words(f.forms), significant(f.ns), rounded(f.ops),
+                significant(f.error.quantile, 2), significant(f.error.worst, 2));
     s.parts.emplace_back(
         Subtitle{fmt::format("{} sets of which none is faster and errs less", m.front.size())});
     s.parts.emplace_back(front);
@@ -158,14 +154,11 @@ std::string plan_page_html(const scene::Plan& p) {
           {},
           "told-by-cell"};
   for (const auto& m : p.materials)
-    t.rows.push_back(
-        {{m.name},
-         times(m.speedup),
-         m.ops_saved > 0 ? "−" + percent(m.ops_saved) : "0",
-         {names(m, [](const auto& e) { return e.keep; })},
-         {names(m, [](const auto& e) { return !e.keep && e.why != scene::Why::structural; })},
-         m.checked.samples ? "≤ " + significant(m.checked.upper, 2) : "0",
-         m.checked.samples ? significant(m.checked.worst, 2) : "0"});
+    t.add(m.name, times(m.speedup), m.ops_saved > 0 ? "−" + percent(m.ops_saved) : "0",
+          names(m, [](const auto& e) { return e.keep; }),
+          names(m, [](const auto& e) { return !e.keep && e.why != scene::Why::structural; }),
+          m.checked.samples ? "≤ " + significant(m.checked.upper, 2) : "0",
+          m.checked.samples ? significant(m.checked.worst, 2) : "0");
   out.sections = {{"What to keep, and how much faster that is",
                    "Times of all effects in their exact form, in double, over the plan's; both of "
                    "composed column kernels on this machine.",

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/base64.h"
-#include "image/png.h"
 #include "reports/page/numbers.h"
 #include "reports/page/section.h"
+#include "reports/page/spheres.h"
 #include "reports/picture/markup.h"
 #include "reports/scenes/scenes.h"
 
@@ -58,51 +57,21 @@ Section plans(const ScenesRows& all) {
 }
 
 // --- Pictures
-// --------------------------------------------------------------------------------------
-using Rgb = std::array<unsigned char, 3>;
-constexpr Rgb no_difference{0xe9, 0xe7, 0xe0}, hardly_seen{0xa9, 0x8f, 0xc4},
-    seen{0xf0, 0xa8, 0x68}, most_seen{0xb3, 0x47, 0x0b};
-
-/// Colour of a difference: one course below what is hardly seen, another from there to the largest.
-Rgb difference_colour(double x, const scene::Tolerance& t) {
-  const bool low = x <= t.limit;
-  const auto &a = low ? no_difference : seen, &b = low ? hardly_seen : most_seen;
-  const double part = std::clamp(low ? x / t.limit : (x - t.limit) / (t.max - t.limit), 0.0, 1.0);
-  Rgb c{};
-  for (std::size_t k = 0; k < 3; ++k)
-    c[k] = static_cast<unsigned char>(std::lround(std::lerp(double(a[k]), double(b[k]), part)));
-  return c;
-}
-std::string difference_png(const ScenePicture& p, const scene::Tolerance& t) {
-  constexpr double steps = 50;  // to 1
-  PngImage image{p.pixels, p.pixels, {}, {}};
-  for (const char c : from_base64(p.difference))
-    image.pixels.push_back(difference_colour(static_cast<unsigned char>(c) / steps, t));
-  return base64(png_bytes(image));
+DifferenceScale scale_of(const scene::Tolerance& t) {
+  return {50, t.limit, t.max, false};
 }
 std::string triple(const ScenePicture& p, const scene::Tolerance& t) {
-  const auto image = [&](const std::string& png, const char* how) {
-    return fmt::format(
-        R"(<img class="sphere" width="{0}" height="{0}" src="data:image/png;base64,{1}" alt="{2}">)",
-        p.pixels, png, escaped_markup(fmt::format("{} under {}, {}", p.material, p.light, how)));
+  const auto of = [&](const char* how) {
+    return fmt::format("{} under {}, {}", p.material, p.light, how);
   };
-  return fmt::format(
-      R"(<figure><figcaption>{}, ΔE up to {}</figcaption><div class="sphere-row">{}{}{}</div></figure>)",
-      escaped_markup(capital(p.light)), delta(p.worst), image(p.everything, "everything on"),
-      image(p.planned, "as planned"), image(difference_png(p, t), "difference"));
-}
-std::string step(const Rgb& c, std::string_view text) {
-  return fmt::format(
-      R"(<span><span class="step" style="background:#{:02x}{:02x}{:02x}"></span>{}</span>)", c[0],
-      c[1], c[2], text);
+  return sphere_figure(fmt::format("{}, ΔE up to {}", capital(p.light), delta(p.worst)), p.pixels,
+                       {{p.everything, of("everything on")},
+                        {p.planned, of("as planned")},
+                        {difference_png(p.difference, p.pixels, scale_of(t)), of("difference")}});
 }
 Section spheres(const ScenesRows& all) {
   const auto& t = all.tolerance;
-  std::string html =
-      fmt::format(R"(<p class="small keys">{}{}{}{}</p>)", step(no_difference, "no difference"),
-                  step(hardly_seen, fmt::format("ΔE2000 {}, hardly seen", plain(t.limit))),
-                  step(seen, fmt::format("above {}, seen side by side", plain(t.limit))),
-                  step(most_seen, plain(t.max)));
+  std::string html = sphere_keys(scale_of(t));
   for (const auto& m : unique(all.rows, &SceneRow::material)) {
     html += fmt::format(R"(<div class="spheres"><h3>{}</h3>)", escaped_markup(capital(m)));
     for (const auto& p : all.pictures)
@@ -113,7 +82,6 @@ Section spheres(const ScenesRows& all) {
 }
 
 // --- Where the time goes
-// ---------------------------------------------------------------------------
 Section shares(const ScenesRows& all) {
   if (all.rows.empty()) return {};
   struct PartOfTime {
@@ -157,7 +125,6 @@ Section shares(const ScenesRows& all) {
 }
 
 // --- One material
-// ----------------------------------------------------------------------------------
 Section one_material(const ScenesReport& report) {
   const auto& all = report.rows;
   Choice c;
@@ -175,20 +142,19 @@ Section one_material(const ScenesReport& report) {
             "told-by-cell"};
     for (const auto& e : list) {
       const bool absent = e.why == "structural";
-      t.rows.push_back(
-          {{capital(e.name)},
-           e.keep   ? Cell{e.keeps == e.name ? "keep" : "keep " + e.keeps, {}, {}, "verdict-yes"}
-           : absent ? Cell{"absent", {}, {}, "muted"}
-                    : Cell{"drop"},
-           absent ? "0" : (e.why == "proved" ? "≤ " : "") + delta(e.error_if_dropped),
-           significant(e.ns_saved, 2),
-           count_text(static_cast<std::size_t>(std::max(0.0, std::round(e.ops_saved)))),
-           {absent              ? e.reason
-            : e.why == "proved" ? "by proof"
-                                : "measured",
-            {},
-            {},
-            "muted"}});
+      t.add(capital(e.name),
+            e.keep   ? Cell{e.keeps == e.name ? "keep" : "keep " + e.keeps, {}, {}, "verdict-yes"}
+            : absent ? Cell{"absent", {}, {}, "muted"}
+                     : Cell{"drop"},
+            absent ? "0" : (e.why == "proved" ? "≤ " : "") + delta(e.error_if_dropped),
+            significant(e.ns_saved, 2),
+            count_text(static_cast<std::size_t>(std::max(0.0, std::round(e.ops_saved)))),
+            Cell{absent              ? e.reason
+                 : e.why == "proved" ? "by proof"
+                                     : "measured",
+                 {},
+                 {},
+                 "muted"});
     }
     tables.each.push_back(
         {{r.material, r.light},

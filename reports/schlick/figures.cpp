@@ -107,7 +107,6 @@ void add_errors_by_index(Pictures& p, const SchlickRows& r) {
 }
 
 // --- Forms beside each other
-// ----------------------------------------------------------------------
 
 struct Named {
   std::string form;

@@ -7,30 +7,25 @@
 namespace gonio {
 
 template <>
-struct Description<FresnelRow> {
-  static constexpr auto fields() {
-    using R = FresnelRow;
-    return std::tuple{
-        field("form", "", &R::form, "id of the form, and after a comma which variant of it"),
-        field("kind", "", &R::kind,
-              "dielectric, dielectric_inside (light in the denser medium), metal, spectral (linear "
-              "RGB)"),
-        field("name", "", &R::name, "material and channel"),
-        field("material", "", &R::material, ""),
-        field("channel", "", &R::channel, "empty of a grey surface"),
-        field("eta", "", &R::eta, "transmitted over incident index; null of a spectrum"),
-        field("k", "", &R::k, "extinction over the incident index; null of a spectrum"),
-        field("max_abs", "", &R::max_abs, "greatest |F − exact|"),
-        field("max_abs_theta_deg", "°", &R::max_abs_theta_deg, "angle where max_abs is"),
-        field("max_rel", "", &R::max_rel, "greatest |F/exact − 1|"),
-        field("max_rel_theta_deg", "°", &R::max_rel_theta_deg, "angle where max_rel is"),
-        field("rms", "", &R::rms, "RMS of F − exact over the angle"),
-        field("bias", "", &R::bias,
-              "error of the light that an even sky sends back, 2 ∫ (F − exact) c dc"),
-        field("within_1_percent_to_deg", "°", &R::within_deg,
-              "angle up to which the error is at most 0.01")};
-  }
-};
+inline constexpr auto description<FresnelRow> = std::tuple{
+    Field{"form", &FresnelRow::form, "id of the form, and after a comma which variant of it"},
+    Field{"kind", &FresnelRow::kind,
+          "dielectric, dielectric_inside (light in the denser medium), metal, spectral (linear "
+          "RGB)"},
+    Field{"name", &FresnelRow::name, "material and channel"},
+    Field{"material", &FresnelRow::material, ""},
+    Field{"channel", &FresnelRow::channel, "empty of a grey surface"},
+    Field{"eta", &FresnelRow::eta, "transmitted over incident index; null of a spectrum"},
+    Field{"k", &FresnelRow::k, "extinction over the incident index; null of a spectrum"},
+    Field{"max_abs", &FresnelRow::max_abs, "greatest |F − exact|"},
+    Field{"max_abs_theta_deg", "°", &FresnelRow::max_abs_theta_deg, "angle where max_abs is"},
+    Field{"max_rel", &FresnelRow::max_rel, "greatest |F/exact − 1|"},
+    Field{"max_rel_theta_deg", "°", &FresnelRow::max_rel_theta_deg, "angle where max_rel is"},
+    Field{"rms", &FresnelRow::rms, "RMS of F − exact over the angle"},
+    Field{"bias", &FresnelRow::bias,
+          "error of the light that an even sky sends back, 2 ∫ (F − exact) c dc"},
+    Field{"within_1_percent_to_deg", "°", &FresnelRow::within_deg,
+          "angle up to which the error is at most 0.01"}};
 static_assert(describes_every_member<FresnelRow>());
 
 template <>

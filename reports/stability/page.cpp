@@ -5,142 +5,119 @@
 namespace gonio {
 
 template <>
-struct Description<StabilityRow> {
-  static constexpr auto fields() {
-    using R = StabilityRow;
-    return std::tuple{
-        field("id", "", &R::id, "of the catalogue"),
-        field("form", "", &R::form,
-              "how its angles are given: cross, |n × h|²; cosine, NoH alone; frame, facet (VoH), "
-              "cosines (NoL, NoV), directions"),
-        field("number", "", &R::number,
-              "half, mixed, float, double; flushed: results below the least normal number become "
-              "0; contracted: a b + c is rounded once"),
-        field("evidence", "", &R::evidence,
-              "exhaustive: every input was looked at; searched: there may be worse"),
-        field("worst_ulp", "", &R::worst_ulp, "most error in units of the last digit"),
-        field("ulp_beyond", "", &R::ulp_beyond,
-              "most units over what a unit of the inputs is worth there, where that is above one"),
-        field("worst_rel", "", &R::worst_rel, "most relative error"),
-        field("proved_rel", "", &R::proved_rel, "bound of it, where one is proved"),
-        field("condition", "", &R::condition,
-              "units of the last digit that a unit of the inputs is worth, where worst_ulp is"),
-        field("inputs", "", &R::at, "where worst_rel is"),
-        field("inputs_hex", "", &R::inputs_hex, "the same in the number's bits"),
-        field("flags", "", &R::flags, "that a half raises on the way there: overflow, underflow"),
-        field("nonfinite", "", &R::nonfinite, "inputs without a value, of those looked at"),
-        field("nonfinite_at", "", &R::nonfinite_at, "the first of them"),
-        field("negative", "", &R::negative, "inputs whose value is below 0"),
-        field("overflow", "", &R::overflow, "inputs whose value is larger than the number holds"),
-        field("vanished", "", &R::vanished, "inputs whose value is 0 and should not be"),
-        field("irreciprocal", "", &R::irreciprocal,
-              "inputs with another value where light and view are exchanged"),
-        field("not_monotone", "", &R::not_monotone,
-              "neighbours between which the value rises where it should fall, or falls where it "
-              "should rise"),
-        field("decides", "", &R::decides, "parameter that people clamp"),
-        field("safe_from", "", &R::safe_from,
-              "of it: from there on every input looked at keeps the tolerance; null: nowhere"),
-        field("tolerance", "", &R::tolerance, "relative"),
-        field("finite_from", "", &R::finite_from,
-              "of it: from there on a value is proved for every input; null: not proved"),
-        field("evaluations", "", &R::evaluations, ""),
-        field("settled", "", &R::settled, "searches from two seeds agree within a factor of two"),
-        field("stable", "", &R::stable,
-              "id of the form that stands for the same without the fault"),
-        field("operations", "", &R::operations, "of one sample"),
-        field("stable_operations", "", &R::stable_operations, "of that form"),
-        field(
-            "misses", "", &R::misses,
-            "float and double: more than 8 units beyond what the inputs are worth, or no value; "
-            "half and mixed: the tolerance is not kept from alpha 0.05 on, or of another parameter "
-            "everywhere"),
-        field("reason", "", &R::reason, "why it misses"),
-        field("worst_rel_alpha_0_05", "", &R::worst_from_usual,
-              "most relative error from alpha 0.05 on, of a distribution in half or mixed that "
-              "misses")};
-  }
-};
+inline constexpr auto description<StabilityRow> = std::tuple{
+    Field{"id", &StabilityRow::id, "of the catalogue"},
+    Field{"form", &StabilityRow::form,
+          "how its angles are given: cross, |n × h|²; cosine, NoH alone; frame, facet (VoH), "
+          "cosines (NoL, NoV), directions"},
+    Field{"number", &StabilityRow::number,
+          "half, mixed, float, double; flushed: results below the least normal number become "
+          "0; contracted: a b + c is rounded once"},
+    Field{"evidence", &StabilityRow::evidence,
+          "exhaustive: every input was looked at; searched: there may be worse"},
+    Field{"worst_ulp", &StabilityRow::worst_ulp, "most error in units of the last digit"},
+    Field{"ulp_beyond", &StabilityRow::ulp_beyond,
+          "most units over what a unit of the inputs is worth there, where that is above one"},
+    Field{"worst_rel", &StabilityRow::worst_rel, "most relative error"},
+    Field{"proved_rel", &StabilityRow::proved_rel, "bound of it, where one is proved"},
+    Field{"condition", &StabilityRow::condition,
+          "units of the last digit that a unit of the inputs is worth, where worst_ulp is"},
+    Field{"inputs", &StabilityRow::at, "where worst_rel is"},
+    Field{"inputs_hex", &StabilityRow::inputs_hex, "the same in the number's bits"},
+    Field{"flags", &StabilityRow::flags,
+          "that a half raises on the way there: overflow, underflow"},
+    Field{"nonfinite", &StabilityRow::nonfinite, "inputs without a value, of those looked at"},
+    Field{"nonfinite_at", &StabilityRow::nonfinite_at, "the first of them"},
+    Field{"negative", &StabilityRow::negative, "inputs whose value is below 0"},
+    Field{"overflow", &StabilityRow::overflow,
+          "inputs whose value is larger than the number holds"},
+    Field{"vanished", &StabilityRow::vanished, "inputs whose value is 0 and should not be"},
+    Field{"irreciprocal", &StabilityRow::irreciprocal,
+          "inputs with another value where light and view are exchanged"},
+    Field{"not_monotone", &StabilityRow::not_monotone,
+          "neighbours between which the value rises where it should fall, or falls where it "
+          "should rise"},
+    Field{"decides", &StabilityRow::decides, "parameter that people clamp"},
+    Field{"safe_from", &StabilityRow::safe_from,
+          "of it: from there on every input looked at keeps the tolerance; null: nowhere"},
+    Field{"tolerance", &StabilityRow::tolerance, "relative"},
+    Field{"finite_from", &StabilityRow::finite_from,
+          "of it: from there on a value is proved for every input; null: not proved"},
+    Field{"evaluations", &StabilityRow::evaluations, ""},
+    Field{"settled", &StabilityRow::settled,
+          "searches from two seeds agree within a factor of two"},
+    Field{"stable", &StabilityRow::stable,
+          "id of the form that stands for the same without the fault"},
+    Field{"operations", &StabilityRow::operations, "of one sample"},
+    Field{"stable_operations", &StabilityRow::stable_operations, "of that form"},
+    Field{"misses", &StabilityRow::misses,
+          "float and double: more than 8 units beyond what the inputs are worth, or no value; "
+          "half and mixed: the tolerance is not kept from alpha 0.05 on, or of another parameter "
+          "everywhere"},
+    Field{"reason", &StabilityRow::reason, "why it misses"},
+    Field{"worst_rel_alpha_0_05", &StabilityRow::worst_from_usual,
+          "most relative error from alpha 0.05 on, of a distribution in half or mixed that "
+          "misses"}};
 static_assert(describes_every_member<StabilityRow>());
 
 template <>
-struct Description<ClampRow> {
-  static constexpr auto fields() {
-    using C = ClampRow;
-    return std::tuple{
-        field("clamp", "", &C::clamp, "as shaders write it"),
-        field("where", "", &C::where, "id of the form that it was measured in"),
-        field("by", "", &C::by, "alpha, or cosine: the smaller of NoL and NoV"),
-        field("number", "", &C::number, ""),
-        field("no_value_without", "", &C::no_value_without,
-              "largest of these at which an input has no value without it; null: all have one"),
-        field("no_value_with", "", &C::no_value_with, "the same with it"),
-        field("worst_without", "", &C::worst_without,
-              "most relative error of the others, against the form without it in double"),
-        field("worst_with", "", &C::worst_with, "the same with it"),
-        field("changed_to", "", &C::changed_to,
-              "largest of these at which it changes a value by more than 1 %, in double"),
-        field("changed_most", "", &C::changed_most, "most |with/without − 1|, in double")};
-  }
-};
+inline constexpr auto description<ClampRow> = std::tuple{
+    Field{"clamp", &ClampRow::clamp, "as shaders write it"},
+    Field{"where", &ClampRow::where, "id of the form that it was measured in"},
+    Field{"by", &ClampRow::by, "alpha, or cosine: the smaller of NoL and NoV"},
+    Field{"number", &ClampRow::number, ""},
+    Field{"no_value_without", &ClampRow::no_value_without,
+          "largest of these at which an input has no value without it; null: all have one"},
+    Field{"no_value_with", &ClampRow::no_value_with, "the same with it"},
+    Field{"worst_without", &ClampRow::worst_without,
+          "most relative error of the others, against the form without it in double"},
+    Field{"worst_with", &ClampRow::worst_with, "the same with it"},
+    Field{"changed_to", &ClampRow::changed_to,
+          "largest of these at which it changes a value by more than 1 %, in double"},
+    Field{"changed_most", &ClampRow::changed_most, "most |with/without − 1|, in double"}};
 static_assert(describes_every_member<ClampRow>());
 
 template <>
-struct Description<AnyGpuRow> {
-  static constexpr auto fields() {
-    using R = AnyGpuRow;
-    return std::tuple{
-        field("id", "", &R::id, "of the catalogue"),
-        field("form", "", &R::form, "how its angles are given"),
-        field("number", "", &R::number, "float or half"),
-        field("domain", "", &R::domain, "for which the bound is proved, or was looked for"),
-        field("evidence", "", &R::evidence, "proved; open: there is no bound"),
-        field("proved_rel", "", &R::proved_rel, "bound of the relative error"),
-        field("keeps", "", &R::keeps, "it is at most 1 %"),
-        field("finite", "", &R::finite, "a value is proved for every input of the domain"),
-        field("why", "", &R::why, "where 1 % is not proved")};
-  }
-};
+inline constexpr auto description<AnyGpuRow> = std::tuple{
+    Field{"id", &AnyGpuRow::id, "of the catalogue"},
+    Field{"form", &AnyGpuRow::form, "how its angles are given"},
+    Field{"number", &AnyGpuRow::number, "float or half"},
+    Field{"domain", &AnyGpuRow::domain, "for which the bound is proved, or was looked for"},
+    Field{"evidence", &AnyGpuRow::evidence, "proved; open: there is no bound"},
+    Field{"proved_rel", &AnyGpuRow::proved_rel, "bound of the relative error"},
+    Field{"keeps", &AnyGpuRow::keeps, "it is at most 1 %"},
+    Field{"finite", &AnyGpuRow::finite, "a value is proved for every input of the domain"},
+    Field{"why", &AnyGpuRow::why, "where 1 % is not proved"}};
 static_assert(describes_every_member<AnyGpuRow>());
 
 template <>
-struct Description<OrderRow> {
-  static constexpr auto fields() {
-    using R = OrderRow;
-    return std::tuple{
-        field("id", "", &R::id, "of the catalogue"),
-        field("form", "", &R::form, "how its angles are given"),
-        field("number", "", &R::number, "float or half"),
-        field("written", "", &R::written, "most relative error in the formula's own order"),
-        field("regrouped", "", &R::regrouped, "the same over all orders"),
-        field("inputs", "", &R::at, "where that is"),
-        field("no_value", "", &R::no_value, "inputs without a value in the formula's own order"),
-        field("lost", "", &R::lost, "further ones without a value in some order"),
-        field("evaluations", "", &R::inputs, "inputs that were looked at, each in 16 orders"),
-        field(
-            "needs_precise", "", [](const R& r) { return r.needs_precise(); },
-            "it keeps the number's tolerance as it is written, and in some order it does not")};
-  }
-};
+inline constexpr auto description<OrderRow> = std::tuple{
+    Field{"id", &OrderRow::id, "of the catalogue"},
+    Field{"form", &OrderRow::form, "how its angles are given"},
+    Field{"number", &OrderRow::number, "float or half"},
+    Field{"written", &OrderRow::written, "most relative error in the formula's own order"},
+    Field{"regrouped", &OrderRow::regrouped, "the same over all orders"},
+    Field{"inputs", &OrderRow::at, "where that is"},
+    Field{"no_value", &OrderRow::no_value, "inputs without a value in the formula's own order"},
+    Field{"lost", &OrderRow::lost, "further ones without a value in some order"},
+    Field{"evaluations", &OrderRow::inputs, "inputs that were looked at, each in 16 orders"},
+    Field{"needs_precise", [](const OrderRow& r) { return r.needs_precise(); },
+          "it keeps the number's tolerance as it is written, and in some order it does not"}};
 static_assert(describes_every_member<OrderRow>());
 
 template <>
-struct Description<StabilityReport> {
-  static constexpr auto fields() {
-    using R = StabilityReport;
-    return std::tuple{
-        constant_text("schema", "gonio.report.stability/1"),
-        field("full", "", &R::full, setting_meaning),
-        field("findings", "", at(&R::findings, &Findings::sentences), findings_meaning),
-        field("rows", "", at(&R::rows, &StabilityRows::rows), "a form in a number, each"),
-        field("clamps", "", at(&R::rows, &StabilityRows::clamps), "what each saves and costs"),
-        field("any_gpu", "", at(&R::rows, &StabilityRows::any_gpu),
-              "what is proved under all that Vulkan allows a GPU"),
-        field("orders", "", at(&R::rows, &StabilityRows::orders),
-              "what a compiler costs that regroups sums and products"),
-        inlined(&R::pictures)};
-  }
-};
+inline constexpr auto description<StabilityReport> = std::tuple{
+    constant_text("schema", "gonio.report.stability/1"),
+    Field{"full", &StabilityReport::full, setting_meaning},
+    Field{"findings", at(&StabilityReport::findings, &Findings::sentences), findings_meaning},
+    Field{"rows", at(&StabilityReport::rows, &StabilityRows::rows), "a form in a number, each"},
+    Field{"clamps", at(&StabilityReport::rows, &StabilityRows::clamps),
+          "what each saves and costs"},
+    Field{"any_gpu", at(&StabilityReport::rows, &StabilityRows::any_gpu),
+          "what is proved under all that Vulkan allows a GPU"},
+    Field{"orders", at(&StabilityReport::rows, &StabilityRows::orders),
+          "what a compiler costs that regroups sums and products"},
+    inlined(&StabilityReport::pictures)};
 
 std::string to_json(const StabilityReport& r) {
   return page_document(r);

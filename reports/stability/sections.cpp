@@ -74,20 +74,17 @@ Section clamp_question(const StabilityRows& all) {
             dense};
     for (const auto& r : widths)
       if (r.number == number)
-        t.rows.push_back({form_cell(r.id),
-                          {given(r.form)},
-                          r.safe_from ? significant(*r.safe_from, 2) : "nowhere",
-                          error_cell(r.worst_rel, place(r)),
-                          error_cell(r.worst_from_usual),
-                          count_cell(r.nonfinite + r.overflow, r.nonfinite_at),
-                          r.finite_from ? significant(*r.finite_from, 2) : "–",
-                          {!r.stable.empty()    ? form_text(r.stable)
-                           : r.form == "cosine" ? "from |n × h|²"
-                                                : "–"},
-                          r.stable.empty()
-                              ? fmt::format("{}", r.operations)
-                              : fmt::format("{} → {}", r.operations, r.stable_operations),
-                          {evidence_text(r.evidence)}});
+        t.add(form_cell(r.id), given(r.form),
+              r.safe_from ? significant(*r.safe_from, 2) : "nowhere",
+              error_cell(r.worst_rel, place(r)), error_cell(r.worst_from_usual),
+              count_cell(r.nonfinite + r.overflow, r.nonfinite_at),
+              r.finite_from ? significant(*r.finite_from, 2) : "–",
+              !r.stable.empty()    ? form_text(r.stable)
+              : r.form == "cosine" ? "from |n × h|²"
+                                   : "–",
+              r.stable.empty() ? fmt::format("{}", r.operations)
+                               : fmt::format("{} → {}", r.operations, r.stable_operations),
+              evidence_text(r.evidence));
     slot.each.push_back({{number}, {std::move(t)}});
   }
   return {"Which alpha is safe",
@@ -100,7 +97,6 @@ Section clamp_question(const StabilityRows& all) {
 }
 
 // --- Pictures
-// --------------------------------------------------------------------------------------
 Section by_alpha(const Pictures& p) {
   if (!has_family(p, "error_by_alpha")) return {};
   Choice c;
@@ -129,7 +125,6 @@ Section where(const Pictures& p) {
 }
 
 // --- Clamps
-// ----------------------------------------------------------------------------------------
 Section clamps(const StabilityRows& all) {
   if (all.clamps.empty()) return {};
   Table t{columns("clamp|in|number|>no value up to, without|>with|>worst, without|>with|>changes "
@@ -141,15 +136,9 @@ Section clamps(const StabilityRows& all) {
       return Cell(x ? c.by + " " + significant(*x, 2) : "nowhere");
     };
     t.row_looks.emplace_back(!t.rows.empty() && t.rows.back()[0].text != c.clamp ? "first" : "");
-    t.rows.push_back({{c.clamp},
-                      {"`" + c.where + "`"},
-                      {c.number},
-                      up_to(c.no_value_without),
-                      up_to(c.no_value_with),
-                      error_cell(c.worst_without),
-                      error_cell(c.worst_with),
-                      up_to(c.changed_to),
-                      error_cell(c.changed_most)});
+    t.add(c.clamp, "`" + c.where + "`", c.number, up_to(c.no_value_without), up_to(c.no_value_with),
+          error_cell(c.worst_without), error_cell(c.worst_with), up_to(c.changed_to),
+          error_cell(c.changed_most));
   }
   return {"What shipped clamps save and cost",
           "The same inputs with the clamp and without it. It saves inputs without a value, and the "
@@ -159,7 +148,6 @@ Section clamps(const StabilityRows& all) {
 }
 
 // --- On any GPU
-// ------------------------------------------------------------------------------------
 Section on_any_gpu(const StabilityRows& all) {
   if (all.any_gpu.empty()) return {};
   Slot slot;
@@ -174,13 +162,9 @@ Section on_any_gpu(const StabilityRows& all) {
         auto domain = r.domain;
         if (const auto at = domain.find("sin2_theta_h"); at != domain.npos)
           domain.replace(at, 12, "sin²θ_h");
-        t.rows.push_back({form_cell(r.id),
-                          {given(r.form)},
-                          error_cell(r.proved_rel),
-                          {r.keeps ? "kept" : "not proved"},
-                          {r.finite ? "always" : "not proved"},
-                          {domain},
-                          {r.why.empty() ? "–" : r.why}});
+        t.add(form_cell(r.id), given(r.form), error_cell(r.proved_rel),
+              r.keeps ? "kept" : "not proved", r.finite ? "always" : "not proved", domain,
+              r.why.empty() ? "–" : r.why);
       }
       if (!t.rows.empty())
         slot.each.push_back(
@@ -196,7 +180,6 @@ Section on_any_gpu(const StabilityRows& all) {
 }
 
 // --- Without precise
-// -------------------------------------------------------------------------------
 Section in_other_orders(const StabilityRows& all) {
   if (all.orders.empty()) return {};
   Slot slot;
@@ -210,14 +193,9 @@ Section in_other_orders(const StabilityRows& all) {
         {},
         dense};
     for (const auto& r : rows)
-      t.rows.push_back({form_cell(r.id),
-                        {given(r.form)},
-                        error_cell(r.written),
-                        error_cell(r.regrouped, r.at),
-                        r.written > 0 ? significant(r.regrouped / r.written, 2) : "–",
-                        count_cell(r.no_value),
-                        count_cell(r.lost),
-                        {r.needs_precise() ? "yes" : "no"}});
+      t.add(form_cell(r.id), given(r.form), error_cell(r.written), error_cell(r.regrouped, r.at),
+            r.written > 0 ? significant(r.regrouped / r.written, 2) : "–", count_cell(r.no_value),
+            count_cell(r.lost), r.needs_precise() ? "yes" : "no");
     slot.each.push_back({{number}, {std::move(t)}});
   }
   return {"What a compiler costs that regroups",
@@ -230,7 +208,6 @@ Section in_other_orders(const StabilityRows& all) {
 }
 
 // --- Targets
-// ---------------------------------------------------------------------------------------
 Section missed(const StabilityRows& all) {
   struct Group {
     std::string id, reason;
@@ -251,11 +228,8 @@ Section missed(const StabilityRows& all) {
   if (groups.empty()) return {};
   Table t{columns("form|in|>worst|>units beyond its inputs|because"), {}, dense};
   for (const auto& g : groups)
-    t.rows.push_back({form_cell(g.id),
-                      {fmt::format("{}", fmt::join(g.numbers, ", "))},
-                      error_cell(g.worst),
-                      significant(g.beyond, 2),
-                      {g.reason, {}, {}, "reason"}});
+    t.add(form_cell(g.id), fmt::format("{}", fmt::join(g.numbers, ", ")), error_cell(g.worst),
+          significant(g.beyond, 2), Cell{g.reason, {}, {}, "reason"});
   return {"What misses its target, and why",
           "Targets: in float and double 8 units of the last digit beyond what a unit of the inputs "
           "is worth there, and a value that is not negative; in half and mixed numbers 2 % from "
@@ -264,7 +238,6 @@ Section missed(const StabilityRows& all) {
 }
 
 // --- Everything
-// ------------------------------------------------------------------------------------
 Section every_form(const StabilityRows& all) {
   Slot slot;
   const auto kind_of = [](const StabilityRow& r) { return r.id.substr(0, r.id.find('.')); };
@@ -277,25 +250,17 @@ Section every_form(const StabilityRows& all) {
               dense};
       for (const auto& r : all.rows)
         if (r.number == number && kind_of(r) == kind)
-          t.rows.push_back({form_cell(r.id),
-                            {given(r.form)},
-                            error_cell(r.worst_rel, place(r)),
-                            significant(r.worst_ulp, 2),
-                            significant(r.condition, 2),
-                            significant(r.ulp_beyond, 2),
-                            {r.flags.empty() ? "–" : r.flags},
-                            error_cell(r.proved_rel),
-                            count_cell(r.nonfinite, r.nonfinite_at),
-                            count_cell(r.negative),
-                            count_cell(r.overflow),
-                            count_cell(r.vanished),
-                            count_cell(r.not_monotone),
-                            count_cell(r.irreciprocal),
-                            {r.decides.empty() ? "–"
-                             : r.safe_from     ? r.decides + " " + significant(*r.safe_from, 2)
-                                               : "nowhere"},
-                            count_text(r.evaluations),
-                            {evidence_text(r.evidence) + (r.settled ? "" : ", not settled")}});
+          t.add(form_cell(r.id), given(r.form), error_cell(r.worst_rel, place(r)),
+                significant(r.worst_ulp, 2), significant(r.condition, 2),
+                significant(r.ulp_beyond, 2), r.flags.empty() ? "–" : r.flags,
+                error_cell(r.proved_rel), count_cell(r.nonfinite, r.nonfinite_at),
+                count_cell(r.negative), count_cell(r.overflow), count_cell(r.vanished),
+                count_cell(r.not_monotone), count_cell(r.irreciprocal),
+                r.decides.empty() ? "–"
+                : r.safe_from     ? r.decides + " " + significant(*r.safe_from, 2)
+                                  : "nowhere",
+                count_text(r.evaluations),
+                evidence_text(r.evidence) + (r.settled ? "" : ", not settled"));
       if (!t.rows.empty()) slot.each.push_back({{kind, number}, {std::move(t)}});
     }
   return {"Every form in every number",

@@ -177,7 +177,7 @@ TEST(Gather, LinksThePagesOfTables) {
   Batch b{{t.paths[0], t.paths[1]}, t.out, {}, Part{1, 1}};
   b.how.options.model = "lambert";
   BatchHooks hooks;
-  hooks.table_page = [](const FittedFile&, std::string_view) { return std::string("page"); };
+  hooks.table_page = [](const FittedFile&) { return std::string("page"); };
   fit_batch(b, hooks);
   fs::last_write_time(t.out + "/b.fit.html",
                       fs::last_write_time(t.out + "/b.json") - std::chrono::seconds(1));
@@ -209,9 +209,7 @@ TEST(Gather, RefusesAFolderWithNothingOfABatch) {
 TEST(Gather, NamesItsPageAfterTheFolder) {
   const Tables t;
   t.fit({t.paths[0]});
-  const SummaryPage title = [](std::string_view name, std::string_view) {
-    return std::string(name);
-  };
+  const SummaryPage title = [](const BatchSummary&, const std::string& name) { return name; };
   for (const char* ending : {"", "/", "/."}) {
     gather(t.out + ending, {}, title);
     EXPECT_EQ(test::read_bytes(t.out + "/summary.html"), "out") << ending;

@@ -30,5 +30,18 @@ TEST(PageNumbers, ArePlainWhereTheyAreRound) {
   EXPECT_EQ(percent(-0.0312, 3), "−3.12\u202f%");
 }
 
+TEST(PageNumbers, SayRatiosAsFactors) {
+  EXPECT_EQ(ratio_text(0.5), "×1.65");
+  EXPECT_EQ(ratio_text(-0.05), "÷1.051");
+  EXPECT_EQ(ratio_text(1e-5), "×1");
+  EXPECT_EQ(factor_text(0.6), "×/÷\u202f1.82");
+}
+
+TEST(PageNumbers, EndAtTheSecondDigitOfTheirError) {
+  EXPECT_EQ(with_error(0.31234, 0.012), "0.312");
+  EXPECT_EQ(with_error(-31.2, 9.96), "−31");
+  EXPECT_EQ(with_error(0.5, std::numeric_limits<double>::quiet_NaN()), "0.5");
+}
+
 }  // namespace
 }  // namespace gonio::page

@@ -39,8 +39,8 @@ Page page_of(std::vector<Part> parts) {
 }
 
 TEST(PageHtml, IsWholeWithoutItsScript) {
-  const auto html = page_html(
-      page_of({Table{columns("form|>error"), {{{"GGX"}, Cell("0.1", "at 5°")}}}}), {});
+  const auto html =
+      page_html(page_of({Table{columns("form|>error"), {{{"GGX"}, Cell("0.1", "at 5°")}}}}), {});
   EXPECT_EQ(between(html, "<nav", "</nav>").find("#first-foremost") != std::string::npos, true);
   EXPECT_NE(html.find("<section id=\"first-foremost\"><h2>First &amp; foremost</h2>"), html.npos);
   EXPECT_NE(html.find("<td class=n><span title=\"at 5°\">0.1</span></td>"), html.npos);
@@ -52,11 +52,11 @@ TEST(PageHtml, HostileTextStaysText) {
   auto p = two_pictures();
   p.figures[0].title = p.figures[0].note = p.figures[0].curves[0].name = p.figures[0].x.label =
       hostile;
-  auto page = page_of(
-      {Table{{{hostile}, {hostile}}, {{{hostile}, {hostile, hostile, hostile, hostile}}}},
-       Prose{hostile}, Subtitle{hostile}, Points{{hostile}}, Pairs{{{hostile, hostile}}},
-       Choice{{{"material", hostile, hostile}, {"channel", hostile}},
-              {slot_of(p, "error", {{"material", ""}, {"channel", ""}})}}});
+  auto page =
+      page_of({Table{{{hostile}, {hostile}}, {{{hostile}, {hostile, hostile, hostile, hostile}}}},
+               Prose{hostile}, Subtitle{hostile}, Points{{hostile}}, Pairs{{{hostile, hostile}}},
+               Choice{{{"material", hostile, hostile}, {"channel", hostile}},
+                      {slot_of(p, "error", {{"material", ""}, {"channel", ""}})}}});
   page.title = page.heading = page.setting = hostile;
   page.findings = {hostile, hostile};
   page.sections[0].title = page.sections[0].text = hostile;
@@ -77,6 +77,27 @@ TEST(PageHtml, ShowsWhatIsChosenAndKeepsTheRest) {
   EXPECT_NE(html.find("value=\"iron\" selected"), html.npos);
   EXPECT_NE(html.find("value=\"red\" checked"), html.npos);
   EXPECT_EQ(occurrences(html, "id=\"error_gold_red\""), 1U);
+}
+
+TEST(PageHtml, SetsCodeAndBoldWordsAndEndsWhatIsOpen) {
+  const auto html = body(page_html(page_of({Prose{"Take **GGX**: `a**b`. **open"}}), {}));
+  EXPECT_NE(html.find("<p>Take <b>GGX</b>: <code>a**b</code>. <b>open</b></p>"), html.npos);
+}
+
+TEST(PageHtml, GivesEachThingToLookThroughItsWordsAndKeys) {
+  Browse b;
+  b.keys = {"name", "alpha"};
+  b.kinds = {"failed"};
+  b.items = {{"<h3>a</h3>", "a \"b\"", "failed", {"a", "0.5"}}, {"<h3>c</h3>", "c", "", {"c", ""}}};
+  b.rows.head = columns("name|>alpha");
+  b.rows.add("a", "0.5");
+  b.rows.add("c", "–");
+  const auto html = body(page_html(page_of({Fold{"more", {b}}}), {}));
+  EXPECT_NE(html.find("data-words=\"a &quot;b&quot;\" data-kind=\"failed\" data-keys=\"a|0.5\">"),
+            html.npos);
+  EXPECT_NE(html.find("data-keys=\"c|\""), html.npos);
+  EXPECT_EQ(occurrences(html, "<tr>"), 3U);
+  EXPECT_NE(html.find("<details class=\"more\"><summary>more</summary>"), html.npos);
 }
 
 TEST(PageHtml, LeavesOutWhatThereIsNot) {

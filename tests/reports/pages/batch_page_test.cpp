@@ -5,10 +5,28 @@
 namespace gonio {
 namespace {
 
+BatchRow row_of(const std::string& path, double alpha) {
+  BatchRow r;
+  r.path = path, r.document = "a b.json", r.outcome = Exit::done;
+  r.fit = BatchFit{"lambert", {"f"}, {{"alpha", {alpha}, {0.1}, {ParameterStatus::free}}}};
+  r.preview = Preview{{}, {0.5}, ""};
+  return r;
+}
+
 TEST(BatchPage, AHostileNameStaysText) {
-  const std::string name = "</script><img src=x onerror=alert(1)>.csv";
-  const std::string html = batch_page_html(name, "{\"path\": \"" + name + "\"}");
-  EXPECT_EQ(html.find("<img"), html.npos);
+  BatchSummary s;
+  s.rows.push_back(row_of("</script><img src=x onerror=alert(1)>.csv", 0.2));
+  s.rows.push_back({"<img>.csv", "", Exit::bad_input, "<img>"});
+  EXPECT_EQ(batch_page_html(s, "<img>").find("<img"), std::string::npos);
+}
+
+TEST(BatchPage, GivesEachTableItsKeysAndLink) {
+  BatchSummary s;
+  for (const double alpha : {0.25, 0.5}) s.rows.push_back(row_of("t/x.csv", alpha));
+  const auto html = batch_page_html(s, "t");
+  EXPECT_NE(html.find("data-keys=\"x.csv|0|0.25|"), html.npos);
+  EXPECT_NE(html.find("data-keys=\"x.csv|0|0.5|"), html.npos);
+  EXPECT_NE(html.find("<a href=\"./a%20b.json\">x.csv</a>"), html.npos);
 }
 
 }  // namespace

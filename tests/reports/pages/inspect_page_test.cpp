@@ -128,24 +128,13 @@ TEST(InspectPage, DataHoldTheHealthAndTheFigures) {
   EXPECT_EQ(data.at("albedo")[1].at("theta_i_deg"), 5);
 }
 
-TEST(InspectPage, WhatTheScriptReadsIsInTheHealth) {
-  const Table t = test::filled(test::in_out_grid(), glossy());
-  const json health = json::parse(to_json(t, inspect(t)));
-  for (const char* at :
-       {"/path", "/layout", "/warnings", "/noise/sigma", "/noise/bound", "/noise/along",
-        "/noise/channels", "/noise/over_zenith", "/noise/over_value", "/peak/limit",
-        "/peak/in_words", "/peak_profiles", "/peak_contrast", "/retro", "/prospects/0/of",
-        "/prospects/0/verdict", "/prospects/0/because", "/copied_rows", "/copied_columns"})
-    EXPECT_TRUE(health.contains(json::json_pointer(at))) << at;
-}
-
 TEST(InspectPage, OfANastyFileNameOrAnEmptyTableIsWhole) {
   Table t = test::filled(test::in_out_grid(), glossy());
   t.path = "</script><img src=x onerror=alert(1)>\xff.csv";
   for (auto& plane : t.values) std::ranges::fill(plane, -1);
   const std::string data = to_json(make_inspect_page(t), to_json(t, inspect(t)));
   EXPECT_TRUE(json::parse(data).at("curves").empty());
-  const std::string html = inspect_page_html(t.path, data);
+  const std::string html = inspect_page_html(t, inspect(t), make_inspect_page(t));
   EXPECT_EQ(html.find("<img"), html.npos);
 }
 

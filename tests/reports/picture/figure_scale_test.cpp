@@ -114,6 +114,25 @@ FigureMap map_of(std::vector<double> values, bool diverging, FigureMap::Scale sc
   return m;
 }
 
+TEST(FigureScale, OfARootGivesSmallValuesRoom) {
+  const FigureScale s{0, 90, false, true};
+  EXPECT_DOUBLE_EQ(s.part(22.5), 0.5);
+  FigureMap::Axis a;
+  a.root = true, a.at = {2.5, 22.5, 62.5}, a.from = 0, a.to = 90;  // thirds of the root, squared
+  EXPECT_NEAR(cell_edges(a)[1], 10, 1e-9);
+  EXPECT_NEAR(cell_edges(a)[2], 40, 1e-9);
+  for (const double t : scale_ticks(s, 7)) EXPECT_LE(t, 90);
+}
+
+TEST(ColourScale, OfRatiosIsEvenAboutOne) {
+  FigureMap m;
+  m.scale = FigureMap::Scale::log, m.diverging = true, m.limit = 2, m.values = {1, 1.5};
+  const auto s = colour_scale(m);
+  EXPECT_DOUBLE_EQ(colour_part(m, s, 1), 0.5);
+  EXPECT_DOUBLE_EQ(colour_part(m, s, 0.5), 0);
+  EXPECT_DOUBLE_EQ(colour_part(m, s, 4), 1);
+}
+
 TEST(ColourScale, EndsAtRoundNumbersThatHoldTheValues) {
   using enum FigureMap::Scale;
   const auto even = colour_scale(map_of({0.3, none, 0.03}, false, linear));

@@ -12,6 +12,7 @@
 #include "image/exr.h"
 #include "reports/picture/document.h"
 #include "reports/picture/figure_scale.h"
+#include "reports/picture/figure_style.h"
 #include "support.h"
 
 #include <fmt/format.h>
@@ -224,6 +225,35 @@ TEST(PageSvg, KeepsTheValuesOfItsCells) {
   }
   EXPECT_EQ(numbers_of(svg, "data-xs").size(), 4U);
   EXPECT_LT(page_svg(m, 0, false).size(), svg.size()) << "its script fills them in";
+}
+
+TEST(PageSvg, DrawsPointsInTheirOwnColoursWithTheirCurvesRim) {
+  Figure f = times();
+  f.curves[1].colours = {"#123456", "#abcdef"};
+  const std::string svg = page_svg(f, CurveStyles({&f, 1}), 300, {true, true});
+  EXPECT_EQ(occurrences(svg, "class=\"rim\""), 1U);
+  EXPECT_EQ(occurrences(svg, "style=\"stroke:#123456\""), 1U);
+  EXPECT_EQ(drawn(f).find("#123456"), std::string::npos) << "a file has the curve's colour";
+}
+
+TEST(PageSvg, DrawsCellsInTheirOwnColoursAsOneImage) {
+  FigureMap m = cells();
+  m.colours.resize(6);
+  for (const bool with_cells : {true, false}) {
+    const auto svg = page_svg(m, 0, with_cells);
+    EXPECT_EQ(occurrences(svg, "<image "), 1U);
+    EXPECT_NE(svg.find("data-cells=\""), svg.npos) << "a pointer reads the values";
+  }
+  EXPECT_EQ(page_scale(m), "");
+}
+
+TEST(CurveStyles, ChannelsHaveTheirColours) {
+  Figure f = make_figure("f");
+  for (const char* name : {"x", "g", "r", "b"}) f.curves.push_back({name, {0, 1}, {0, 1}});
+  const CurveStyles styles({&f, 1});
+  EXPECT_EQ(look_of(f.curves[1], styles).colour, "green");
+  EXPECT_EQ(look_of(f.curves[2], styles).colour, "red");
+  EXPECT_GT(styles.of(f.curves[0]), 2U) << "another has none of theirs";
 }
 
 TEST(FigureSvg, IsWholeWithoutAnyPoint) {

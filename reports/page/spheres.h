@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// Spheres beside each other on a page, and the difference of their colours.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::page {
+
+/// Course of colours over ΔE2000: one to what is hardly seen, another from there to the largest.
+struct DifferenceScale {
+  double steps;       ///< that a byte of the differences has to ΔE2000 1
+  double limit, max;  ///< hardly seen; the largest that is told apart
+  bool hatched;       ///< 254 is a pixel that is not known
+};
+/// PNG in base64 of differences.  \param bytes  one a pixel, in base64
+std::string difference_png(std::string_view bytes, std::size_t pixels, const DifferenceScale&);
+
+struct SpherePicture {
+  std::string png;          ///< in base64
+  std::string of;           ///< what a reader hears who does not see it
+  std::string_view word{};  ///< below it
+};
+/// Figure of pictures beside each other.
+std::string sphere_figure(std::string_view caption,
+                          std::size_t pixels,
+                          const std::vector<SpherePicture>&);
+/// What the colours of differences mean.
+std::string sphere_keys(const DifferenceScale&);
+
+}  // namespace gonio::page
