@@ -1,9 +1,9 @@
 #include "reports/page/page.h"
 
+#include "base/text.h"
 #include "reports/finding/names.h"
 #include "reports/page/assets.h"
 #include "reports/picture/json_numbers.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/format.h>
 
@@ -62,7 +62,7 @@ std::string make_page(std::string_view title, std::string_view json_data, std::s
 </body>
 </html>
 )",
-      fmt::arg("title", escaped_markup(title)), fmt::arg("uplot_css", assets::uplot_css),
+      fmt::arg("title", markup_text(title)), fmt::arg("uplot_css", assets::uplot_css),
       fmt::arg("page_css", assets::page_css), fmt::arg("json", script_json(json_data)),
       fmt::arg("license", assets::uplot_license), fmt::arg("uplot_js", assets::uplot_js),
       fmt::arg("page_js", assets::page_js), fmt::arg("plots_js", assets::plots_js),

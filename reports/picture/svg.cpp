@@ -3,17 +3,10 @@
 #include <algorithm>
 
 #include "base/text.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/format.h>
 
 namespace gonio::svg {
-
-std::string escaped(std::string_view text) {
-  std::string out = escaped_markup(text);
-  std::erase_if(out, [](char c) { return static_cast<unsigned char>(c) < 0x20; });  // XML has none
-  return out;
-}
 
 double text_width(std::string_view text, double size) {
   const auto characters = std::ranges::count_if(
@@ -49,7 +42,7 @@ std::string text(double x, double y, std::string_view what, const TextStyle& o) 
   if (o.bold) out += R"( font-weight="600")";
   if (o.turned != 0)
     out += fmt::format(" transform=\"rotate({} {} {})\"", number(o.turned), number(x), number(y));
-  return out + ">" + escaped(what) + "</text>\n";
+  return out + ">" + markup_text(what) + "</text>\n";
 }
 
 std::string line(double x1,
@@ -88,7 +81,7 @@ std::string document(double width, double height, std::string_view title, std::s
 <rect width="{0}" height="{1}" fill="{4}"/>
 {5}</svg>
 )",
-      number(width), number(height), number(text_size), escaped(title), ground, marks);
+      number(width), number(height), number(text_size), markup_text(title), ground, marks);
 }
 
 }  // namespace gonio::svg
