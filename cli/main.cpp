@@ -83,7 +83,9 @@ int run(int argc, char** argv) {
   gonio::cli::add_manual(line);
   const auto action = line.parse(argc, argv);
   const gonio::Exit code = action ? action() : gonio::Exit::done;
-  if (std::fflush(stdout) != 0) return fail_printing(errno);
+  // A stream above it may have lost the error.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return fail_printing(errno != 0 ? errno : EIO);
   return finish(code);
 }
 
