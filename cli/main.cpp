@@ -82,9 +82,10 @@ int run(int argc, char** argv) {
   gonio::cli::add_schema(line);
   gonio::cli::add_manual(line);
   const auto action = line.parse(argc, argv);
-  if (!action) return finish(gonio::Exit::done);
-  const gonio::Exit code = action();
-  if (std::fflush(stdout) != 0) return fail_printing(errno);
+  const gonio::Exit code = action ? action() : gonio::Exit::done;
+  // A stream above it may have lost the error.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return fail_printing(errno != 0 ? errno : EIO);
   return finish(code);
 }
 
@@ -94,6 +95,7 @@ int main(int argc, char** argv) {
   using gonio::Exit;
   make_writes_fail_in_the_open();
   gonio::remove_unfinished_files_on_signals();
+  const gonio::FileGuard guard;
   try {
     return run(argc, argv);
   } catch (const gonio::Error& e) {

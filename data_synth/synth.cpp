@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/text.h"
 #include "brdf/model/evaluate.h"
 #include "table/format/formats.h"
 #include "table/format/rgl/resample.h"
@@ -133,6 +134,12 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
   if (o.layout == Layout::mbsdf && channels != 3 && channels != 1)
     throw wrong_usage(
         fmt::format("an MBSDF table has 1 or 3 channels, the colours given have {}", channels));
+
+  if (o.layout == Layout::random && o.samples > most_values / (channels + 4))
+    throw wrong_usage(
+        fmt::format("{} samples of {}; a table has {} numbers at most, directions "
+                    "included",
+                    o.samples, counted(channels, "channel"), most_values));
 
   if (o.layout == Layout::rgl) {
     Table t = rgl_of(b, o);

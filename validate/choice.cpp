@@ -185,7 +185,7 @@ std::vector<Substance> substances_of(const Choice& c) {
     all.push_back(of_surface(std::string(m.name), metal(m)));
   }
   for (const auto& file : c.domain.fits) {
-    const auto path = (std::filesystem::path(c.path).parent_path() / file).string();
+    const auto path = path_beside(c.path, file);
     const auto fitted = read_fitted_model(path);
     bind_fitted(path, fitted, {});  // refuses what is not known
     Substance s{file};

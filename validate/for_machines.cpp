@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "base/json/describe.h"
-#include "reports/picture/markup.h"
+#include "base/text.h"
 #include "validate/validate.h"
 #include "validate/words.h"
 
@@ -17,12 +17,12 @@ std::string junit_of(const Validation& v) {
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<testsuites>\n"
       "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
-      escaped_markup(v.path), v.budgets.size(), broken);
+      markup_text(v.path), v.budgets.size(), broken);
   for (const auto& b : v.budgets) {
     out += fmt::format("    <testcase classname=\"gonio validate\" name=\"{}\"", b.budget);
     out += b.holds ? "/>\n"
                    : fmt::format(">\n      <failure message=\"{}\"/>\n    </testcase>\n",
-                                 escaped_markup(sentence(b)));
+                                 markup_text(sentence(b)));
   }
   return out + "  </testsuite>\n</testsuites>\n";
 }
@@ -38,7 +38,7 @@ std::string sarif_of(const Validation& v) {
          {"level", "error"},
          {"message", {{"text", sentence(b)}}},
          {"locations",
-          Json::array({{{"physicalLocation", {{"artifactLocation", {{"uri", v.path}}}}},
+          Json::array({{{"physicalLocation", {{"artifactLocation", {{"uri", uri_of(v.path)}}}}},
                         {"logicalLocations",
                          Json::array({{{"fullyQualifiedName", "/budgets/" + b.budget}}})}}})}});
   }

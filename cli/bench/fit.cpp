@@ -94,7 +94,7 @@ Table spectral_table(const std::string& model, std::size_t channels) {
 }  // namespace
 
 Exit bench_fit(const FitBench& o, const Common& common) {
-  use_jobs(common.jobs);
+  use(common);
   Progress progress(common.quiet);
   const int threads = tbb::this_task_arena::max_concurrency();
   progress("synthesizing a MERL table");

@@ -156,7 +156,7 @@ double time_of_plain(const Tile& tile, std::size_t texels) {
 }  // namespace
 
 Exit bench_maps(const FitBench& o, const Common& common) {
-  use_jobs(common.jobs);
+  use(common);
   Progress progress(common.quiet);
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   const auto all = cases();

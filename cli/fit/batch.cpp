@@ -31,7 +31,7 @@ struct BatchCall : Common {
 
 /// How the job is begun.
 std::string begun_by(Engine engine, const std::string& file) {
-  const std::string word = shell_word(file);
+  const std::string word = path_word(file);
   switch (engine) {
     case Engine::slurm:
       return "sbatch " + word;
@@ -60,9 +60,7 @@ Exit run(const BatchCall& o) {
     fmt::print("{}", text);
     return Exit::done;
   }
-  std::vector<std::string> read;
-  for (const auto& f : o.files) read.push_back(f.starts_with('@') ? f.substr(1) : f);
-  check_outputs(read, {o.output});
+  check_outputs({}, {o.output});
   write_file(o.output, text);
   const std::string begin = begun_by(o.engine, o.output);
   if (o.json) {

@@ -44,7 +44,7 @@ void print(const Export& e) {
 }
 
 Exit run(const ExportCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   if (!std::isfinite(o.tolerance) || o.tolerance < 0)
     throw wrong_usage("--tolerance: expected a number from 0 on");
   check_outputs({o.fit}, {o.output});

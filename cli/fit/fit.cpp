@@ -236,7 +236,7 @@ Exit run_models(const FitCall& o) {
 }
 
 Exit run(const FitCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   if (!o.models.empty()) return run_models(o);
   if (is_batch(o.files)) return run_batch(o);
   if (o.pages) throw wrong_usage("--pages is of many tables; the page of one is --html PAGE.html");

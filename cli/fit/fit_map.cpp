@@ -47,6 +47,21 @@ class MapProgress {
   std::optional<Stopwatch> since_last_;
 };
 
+/// A folder that is gone at the end if nothing is left in it.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
+  ~ScratchFolder() {
+    std::error_code not_empty;
+    fs::remove(path_, not_empty);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+ private:
+  fs::path path_;
+};
+
 /// Tiles that were asked for, into a folder.
 Exit run_tiles(const FitMapCall& o, const StackReader& stack, const TileGrid& grid) {
   std::vector<Tile> tiles;
@@ -73,7 +88,7 @@ Exit run_tiles(const FitMapCall& o, const StackReader& stack, const TileGrid& gr
 }
 
 Exit run(const FitMapCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   const TexelOptions& t = o.texels;
   const auto tile_size = two_numbers(o.tile_size, "--tile-size", 1, longest_side, true);
   check_outputs({o.stack}, {o.output});
@@ -81,8 +96,7 @@ Exit run(const FitMapCall& o) {
   Progress progress(o.quiet);
   progress("opening the stack");
   const StackReader stack(read_stack(o.stack));
-  std::error_code unknown;
-  if (fs::exists(o.output, unknown)) check_outputs(stack.paths(), {o.output});
+  expect_no_input(o.output);
   check(t, stack.channels().size());
   progress.clear();
   const TileGrid grid{stack.width(), stack.height(), tile_size[0], tile_size[1]};
@@ -95,6 +109,9 @@ Exit run(const FitMapCall& o) {
   OutputFile out(o.output);  // before the work: nobody waits to learn that it has no place
   // Tiles stay beside it until it is whole: a run that was killed goes on from them.
   const std::string folder = o.output + ".tiles";
+  const FolderLock lock(folder, FolderLock::Taken::is_refused);
+  const ScratchFolder scratch(folder);  // taken away while the lock is held
+  remove_other_tiles(stack, t, grid, folder);
   const auto tiles = grid.all();
   MapProgress line(o.quiet, grid);
   const MapCount n = fit_tiles(stack, t, grid, tiles, folder, std::ref(line));
@@ -105,7 +122,6 @@ Exit run(const FitMapCall& o) {
   print_map(d, o, n.kept ? fmt::format("{} of {} tiles kept from before", n.kept, n.tiles) : "");
   std::error_code kept;
   for (const Tile& tile : tiles) fs::remove(fs::path(folder) / file_name(tile), kept);
-  fs::remove(folder, kept);
   return outcome_of(d);
 }
 
@@ -126,6 +142,7 @@ void add_fit_map(CommandLine& line) {
   c.option("--tile-size", o->tile_size, "WIDTH,HEIGHT of tiles, or one number for both")
       .show_default();
   c.option("-o,--output", o->output, "OpenEXR file of the map; of --tile a folder").required();
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

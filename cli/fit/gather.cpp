@@ -32,7 +32,7 @@ std::optional<BatchList> expected(const GatherCall& o) {
 }
 
 Exit run(const GatherCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   expect_there(o.folder);
   if (has_tiles(o.folder)) {
     if (!o.tables.empty()) throw wrong_usage("tiles of a map are not results of tables: no FILE");

@@ -51,9 +51,6 @@ Exit outcome_of(const MapDocument& d) {
 Exit gather_map(const std::string& folder, const std::string& output, const Common& o) {
   if (output.empty()) throw wrong_usage("the tiles of a map are joined into -o MAPS.exr");
   check_outputs({folder}, {output});
-  const auto name = std::filesystem::path(output).filename();
-  if (tile_of_name(name.string()))  // of this folder it is read
-    check_outputs({(std::filesystem::path(folder) / name).string()}, {output});
   OutputFile out(output);
   Progress progress(o.quiet);
   progress("joining tiles");

@@ -60,18 +60,20 @@ std::array<std::size_t, 2> two_numbers(const std::string& word,
                                        bool one_for_both);
 /// Options that most subcommands share.
 struct Common {
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, follow_paths = false;
   int jobs = 0;
 };
 /// --json, --quiet
 void add_output(Command&, Common&);
+/// --follow-paths, of commands whose documents name files
+void add_follow_paths(Command&, Common&);
 /// --jobs N
 void add_jobs(Command&, Common&);
-/// Threads from now on: at most `jobs`, 0 for all.
-void use_jobs(int jobs);
+/// From now on at most `jobs` threads, 0 for all, and documents that may name files elsewhere.
+void use(const Common&);
 int threads_in_use();
 /// Refuses inputs that are not there, before anything is said of the outputs; outputs that are an input, or its side file, or
-/// each other, or "-".
+/// each other, or "-".  What the inputs name is held against the outputs when it is read (FileGuard).
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 }  // namespace gonio::cli

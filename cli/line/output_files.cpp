@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 
+#include "base/json/reader.h"
 #include "cli/line/command.h"
 
 #include <fmt/format.h>
@@ -25,7 +26,11 @@ OutputFiles::OutputFiles(const std::vector<std::string>& inputs,
 }
 
 void OutputFiles::write_document(std::string_view text) {
-  if (document_) document_->write(text);
+  if (!document_) return;
+  if (text.size() > most_document_bytes)
+    throw bad_input(document_->path(), "writing", fmt::format("{} bytes", text.size()),
+                    fmt::format("at most {}, which are read", most_document_bytes));
+  document_->write(text);
 }
 
 void OutputFiles::write_page(std::string_view html, std::string_view data) {

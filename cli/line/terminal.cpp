@@ -4,13 +4,13 @@
 #include <cmath>
 #include <condition_variable>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <stop_token>
 #include <thread>
 
 #include "base/file.h"
+#include "base/json/reader.h"
 #include "base/numbers.h"
 #include "cli/line/command.h"
 #include "table/format/metadata.h"
@@ -109,7 +109,7 @@ void Progress::operator()(const std::string& what) {
 }
 
 void print_document(const nlohmann::ordered_json& document) {
-  fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  fmt::print("{}", gonio::text_of(document));
 }
 
 std::string time_left(const Stopwatch& begin, std::size_t done, std::size_t all) {
@@ -197,40 +197,39 @@ void add_output(Command& c, Common& o) {
   c.flag("--quiet", o.quiet, "No progress");
 }
 
+void add_follow_paths(Command& c, Common& o) {
+  c.flag("--follow-paths", o.follow_paths,
+         "Documents may name files outside their folder: of those whom you trust");
+}
+
 void add_jobs(Command& c, Common& o) {
   c.option("--jobs,-j", o.jobs, "Threads (default: all)").in(1, 4096);
 }
 
 void check_outputs(const std::vector<std::string>& inputs,
                    const std::vector<std::string>& outputs) {
-  namespace fs = std::filesystem;
-  const auto same = [](const std::string& a, const std::string& b) {
-    std::error_code ignored;
-    const auto place = [&](const std::string& path) {
-      return fs::weakly_canonical(fs::absolute(path, ignored),
-                                  ignored);  // relative where it is new
-    };
-    return place(a) == place(b);
-  };
-  std::ranges::for_each(inputs, expect_there);
+  for (const auto& in : inputs) {
+    expect_there(in);
+    will_read(in);
+    will_read(side_path(in));
+  }
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].empty()) continue;
     if (outputs[i] == "-")
       throw wrong_usage("'-' is no file to write; on standard output is what --json prints");
-    for (const auto& in : inputs)
-      if (same(outputs[i], in) || same(outputs[i], side_path(in)))
-        throw wrong_usage(fmt::format("{} is an input; it would be overwritten", outputs[i]));
+    expect_no_input(outputs[i]);
     for (std::size_t k = 0; k < i; ++k)
-      if (!outputs[k].empty() && same(outputs[i], outputs[k]))
+      if (!outputs[k].empty() && same_place(outputs[i], outputs[k]))
         throw wrong_usage(fmt::format("{} is named for two outputs", outputs[i]));
   }
 }
 
-void use_jobs(int jobs) {
+void use(const Common& o) {
   static std::unique_ptr<tbb::global_control> control;
-  if (jobs > 0)
+  if (o.jobs > 0)
     control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                    static_cast<std::size_t>(jobs));
+                                                    static_cast<std::size_t>(o.jobs));
+  if (o.follow_paths) follow_paths();
 }
 
 int threads_in_use() {

@@ -54,7 +54,7 @@ AlbedoAnswer answer(const AlbedoCall& o) {
 }
 
 Exit run(const AlbedoCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   const AlbedoAnswer r = answer(o);
   if (o.json)
     fmt::print("{}", to_json(r, o.question));

@@ -83,7 +83,7 @@ void print_one(const EntryAudit& e) {
 }
 
 Exit run(const AuditCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   if (o.all == !o.ids.empty()) throw wrong_usage("audit takes ids, or --all");
   std::vector<std::string> ids = o.ids;
   if (o.all)

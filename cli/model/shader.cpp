@@ -150,7 +150,7 @@ bool reads_albedo(const shader::TracedFormula& f) {
 }
 
 Exit run(const ShaderCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   shader::check_function_name(o.name);  // before seconds are spent
   const auto file = is_of_catalogue(o.subject) ? std::vector<std::string>{} : file_in(o.subject);
   std::vector<std::string> outputs;

@@ -219,7 +219,7 @@ Exit run(const SplitSumCall& o) {
   if (o.error && !(*o.error > 0))
     throw wrong_usage(fmt::format("--error {} is not above 0", *o.error));
   if (o.error && o.samples > 0) throw wrong_usage("--error is of quadrature, not of --samples");
-  use_jobs(o.jobs);
+  use(o);
   const bool some_points = !o.roughness.empty() || !o.nov.empty();
   if (o.size.empty() != o.out.empty() || o.size.empty() != some_points)
     throw wrong_usage("split_sum needs --roughness and --nov, or --size and -o");

@@ -94,7 +94,7 @@ void print(const Answer& a) {
 }
 
 Exit run(const StabilityCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   std::vector<Setting> domain = parse_settings(o.domain);
   Question q;
   q.subject = chosen(o, domain);

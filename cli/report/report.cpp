@@ -93,6 +93,7 @@ class Files {
   std::vector<std::string> earlier_pictures() const {
     constexpr std::uint64_t most = std::uint64_t{1} << 28;
     try {
+      may_replace(path_ + ".json");
       return picture_files(InputFile(path_ + ".json").read_rest(most), name_);
     } catch (const Error&) {
       return {};  // there is none, or none of ours
@@ -164,7 +165,7 @@ class IndexFiles {
 
 Exit run(const ReportCall& o) {
   namespace fs = std::filesystem;
-  use_jobs(o.jobs);
+  use(o);
   if (o.json && o.name == all_reports) throw wrong_usage("--json is for one report");
   ReportOptions options{o.full, o.name == all_reports, {}, o.asset, this_program()};
   for (const auto& path : o.environments) {
@@ -250,6 +251,7 @@ void add_report(CommandLine& line) {
   c.option("--asset", o->asset,
            "A glTF file: its materials without textures are among the scenes, others are named");
   c.flag("--full", o->full, "Finer in roughness and angle, some minutes");
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -22,24 +22,24 @@ struct ValidateCall : Common {
 
 void print(const Validation& v, bool suggested) {
   for (const auto& b : v.budgets) {
-    fmt::print("{}  {:<18}{:>12.6g} of {:<12.6g}{}\n", b.holds ? "kept  " : "BROKEN", b.budget,
-               b.found, b.limit, b.evidence);
-    if (!b.holds) fmt::print("        {}\n", sentence(b));
+    say("{}  {:<18}{:>12.6g} of {:<12.6g}{}\n", b.holds ? "kept  " : "BROKEN", b.budget, b.found,
+        b.limit, b.evidence);
+    if (!b.holds) say("        {}\n", sentence(b));
   }
   const auto broken = std::ranges::count(v.budgets, false, &BudgetCheck::holds);
   if (broken == 0)
-    fmt::print("The choice keeps every budget.\n");
+    say("The choice keeps every budget.\n");
   else
-    fmt::print("The choice breaks {} of {} budgets.\n", broken, v.budgets.size());
+    say("The choice breaks {} of {} budgets.\n", broken, v.budgets.size());
   if (const auto& s = v.suggestion)
-    fmt::print("Take {}{}. {}\n", s->model,
-               s->scattering == "single" ? "" : ", scattering " + s->scattering, s->why);
+    say("Take {}{}. {}\n", s->model,
+        s->scattering == "single" ? "" : ", scattering " + s->scattering, s->why);
   else if (suggested)
-    fmt::print("No choice of the catalogue with this distribution keeps every budget.\n");
+    say("No choice of the catalogue with this distribution keeps every budget.\n");
 }
 
 Exit run(const ValidateCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   OutputFiles files({o.choice}, o.output, o.page);
   check_outputs({o.choice}, {o.output, o.page, o.junit, o.sarif});
   std::array<std::optional<OutputFile>, 2> reports;
@@ -84,6 +84,7 @@ void add_validate(CommandLine& line) {
   c.option("--sarif", o->sarif, "Budgets that are broken as SARIF 2.1.0");
   c.flag("--suggest", o->suggest,
          "Names the cheapest masking, Fresnel term and scattering that keep every budget");
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

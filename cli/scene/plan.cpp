@@ -80,7 +80,7 @@ MaterialxPlan in_materialx(const Scene& s, const Plan& plan, const std::string& 
 }
 
 Exit run(const PlanCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   if (!o.write.empty() && o.output.empty())
     throw wrong_usage("--write mtlx needs -o PLAN.json: the materials go beside it, as PLAN.mtlx");
   const std::string materialx = o.write.empty() ? "" : beside(o.output, ".mtlx");
@@ -109,7 +109,7 @@ Exit run(const PlanCall& o) {
   files.commit();
   if (materials) materials->commit();
   if (o.json) {
-    fmt::print("{}\n", document);
+    fmt::print("{}", document);
   } else {
     for (const auto& m : plan.materials) print(m, plan.tolerance);
     if (materials) say("{}: each material as planned, and as NAME_exact\n", materialx);
@@ -143,6 +143,7 @@ void add_plan(CommandLine& line) {
   c.option("--cost", o->options.cost,
            "What sets are compared by: time, as measured here, or operations, the same everywhere");
   c.option("--seed", o->seed, "Seed of the points, in place of the scene's");
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -132,7 +132,7 @@ Exit run(const RenderCall& given) {
   const auto kind = std::filesystem::path(o.out).extension();
   if (kind != ".exr" && kind != ".png")
     throw wrong_usage(fmt::format("-o {}: a picture's name ends in .exr or .png", o.out));
-  use_jobs(o.jobs);
+  use(o);
   std::vector<std::string> inputs{o.scene};
   if (!o.plan.empty()) inputs.push_back(o.plan);
   check_outputs(inputs, {o.out});
@@ -199,6 +199,7 @@ void add_render(CommandLine& line) {
       .in(std::size_t{1}, std::size_t{1} << 20)
       .show_default();
   c.option("--seed", o->seed, "Seed of the samples (the scene's)");
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

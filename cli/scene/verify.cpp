@@ -28,7 +28,7 @@ void print(const VerifiedMaterial& m, const Tolerance& t) {
 }
 
 Exit run(const VerifyCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   check_outputs({o.scene, o.plan}, {});
   const Scene s = read_scene(o.scene);
   const std::size_t needed = draws_needed(s.tolerance.quantile, s.tolerance.confidence);
@@ -60,6 +60,7 @@ void add_verify(CommandLine& line) {
   c.option("--samples", o->samples, "Fresh points (16384, more where the tolerance needs them)")
       .in(std::size_t{512}, std::size_t{1} << 22);
   c.option("--seed", o->seed, "Seed of the fresh points (1)");
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -57,6 +57,7 @@ void expect_columns(InputFile& in) {
 
 /// The table as the map makes it, and the text of its side file.
 std::pair<Table, std::string> read_with(const std::string& file, const ColumnMap& map) {
+  may_replace(side_path(file));
   InputFile in(file);
   expect_columns(in);
   Table t = read_csv(in, &map);
@@ -119,7 +120,7 @@ void print(const ColumnProposal& p, const std::string& file) {
     say("no map, and none is needed: the columns have the names that gonio reads\n");
     return;
   }
-  std::string command = "gonio columns " + shell_word(file) + " --map";
+  std::string command = "gonio columns " + path_word(file) + " --map";
   if (!p.map) command += " theta_i=… phi_i=… theta_o=… phi_o=… f=…";
   if (p.map)
     for (const auto& [role, column] : p.map->columns)
@@ -162,7 +163,7 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   Json said = map ? columns_of(file, side) : Json();
   Json proposed;
   if (map) {
-    if (!o.json) say("{} says {}\n", side_path(file), said.dump());
+    if (!o.json) say("{} says {}\n", side_path(file), line_of(said));
   } else {
     const auto p = propose_columns(columns);
     if (!o.json) print(p, file);

@@ -28,7 +28,7 @@ void print(std::size_t values, const FitResiduals& r) {
 }
 
 Exit run(const CompareCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   Progress progress(o.quiet);
   progress("reading " + o.file);
   const Table t = read_table(o.file, o.bins);

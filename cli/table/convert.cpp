@@ -158,7 +158,7 @@ Json to_json(const Table& from, const Conversion& c, const ConvertCall& o) {
 }
 
 Exit run(const ConvertCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   ConvertOptions options = o.convert;
   options.format = format_of(o);
   if (!o.channels.empty()) options.channels = split(o.channels, ',');

@@ -111,7 +111,7 @@ void print(const std::vector<NextDirection>& next, const std::string& model) {
 
 Exit run(const InspectCall& o) {
   if (o.model && !o.plan_next) throw wrong_usage("--model goes with --plan-next");
-  use_jobs(o.jobs);
+  use(o);
   OutputFiles out({o.file}, "", o.html);
   Progress progress(o.quiet);
   progress("reading " + o.file);

@@ -107,7 +107,7 @@ Exit run_map(const SynthCall& o) {
 }
 
 Exit run(const SynthCall& o) {
-  use_jobs(o.jobs);
+  use(o);
   expect_options_of(o);
   if (o.layout == map_layout) return run_map(o);
   check_outputs(file_in(o.spec), {o.output});

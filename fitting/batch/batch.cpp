@@ -8,22 +8,22 @@
 #include <map>
 #include <mutex>
 #include <new>
-#include <set>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "base/file.h"
 #include "base/json/describe.h"
+#include "base/memory_budget.h"
 #include "base/sha256.h"
 #include "base/text.h"
+#include "table/format/formats.h"
 #include "table/format/metadata.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 namespace gonio {
 namespace {
@@ -66,53 +66,16 @@ std::vector<std::string> in_list(const std::string& list) {
   return all;
 }
 
-/// Places of paths, behind all links; of many files in one folder the folder is looked up once.
-class Places {
- public:
-  fs::path operator()(const fs::path& path) {
-    std::error_code none;
-    const auto name = path.filename();
-    if (name.empty() || name == "." || name == ".." || fs::is_symlink(path, none))
-      return fs::weakly_canonical(path, none);
-    const auto [at, is_new] = folders_.try_emplace(path.parent_path());
-    if (is_new) at->second = fs::weakly_canonical(fs::absolute(at->first / ".", none), none);
-    return at->second / name;
-  }
-
- private:
-  std::map<fs::path, fs::path> folders_;
-};
-
 /// Refuses results that would overwrite a table, or be taken for tables the next time.
-void expect_apart(const Batch& b,
-                  const std::vector<std::string>& tables,
-                  const std::vector<std::string>& results) {
+void expect_apart(const Batch& b, const std::vector<std::string>& results) {
   std::error_code none;
   for (const auto& in : b.inputs)
     if (fs::is_directory(in, none) && fs::equivalent(in, b.output, none))
       throw wrong_usage(fmt::format("{} is a folder of tables; results go elsewhere", b.output));
-  Places place;
-  std::set<fs::path> places;
-  for (const auto& r : results) places.insert(place(fs::path(b.output) / r));
-  for (const auto& t : tables)
-    for (const auto& path : {t, side_path(t)})
-      if (const auto at = place(path); places.contains(at))
-        throw wrong_usage(fmt::format("{} is an input; it would be overwritten", at.string()));
-  for (const auto& in : b.inputs)
-    if (in.starts_with('@') && places.contains(place(in.substr(1))))
-      throw wrong_usage(fmt::format("{} is an input; it would be overwritten", in.substr(1)));
+  for (const auto& r : results) expect_no_input((fs::path(b.output) / r).string());
 }
 
 // --- How many at a time ---
-
-/// Memory that the process may take [bytes].
-double memory_allowed() {
-  const double memory =
-      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  rlimit r{};
-  const bool limited = ::getrlimit(RLIMIT_AS, &r) == 0 && r.rlim_cur != RLIM_INFINITY;
-  return limited ? std::min(memory, static_cast<double>(r.rlim_cur)) : memory;
-}
 
 /// Work that goes on behind a lane's next table, one piece at a time, on a thread of its own: it waits for the disk.
 class Behind {
@@ -133,8 +96,8 @@ class Behind {
 
 /// Calls one(i, behind) for each table; what was begun behind has ended at the end.
 ///
-/// A thread that waits for its table's loops takes none of another table meanwhile (isolate): no more
-/// tables are in memory than there are lanes.  Threads without a lane help those that have one.  No
+/// There is a lane for each thread; a table waits while those of the others have the memory that it needs.  A thread that waits for
+/// its table's loops takes none of another table meanwhile (isolate): no more tables are in memory than there are lanes.  Threads without a lane help those that have one.  No
 /// exception leaves a lane: it would cancel the loops of the others halfway, and their results would be
 /// wrong, not missing.
 template <class One>
@@ -142,13 +105,18 @@ void in_lanes(const std::vector<std::string>& tables, const One& one) {
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> stop = false;
   std::exception_ptr fatal;
+  constexpr std::size_t most = 64;
+  MemoryBudget memory(memory_allowed() / 2);
   tbb::parallel_for(
-      std::size_t{0}, tables_at_a_time(tables, memory_allowed()),
+      std::size_t{0},
+      std::min({tables.size(), most,
+                tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)}),
       [&](std::size_t) {
         Behind behind;
         try {
           for (std::size_t i; !stop && (i = next++) < tables.size();)
-            tbb::this_task_arena::isolate([&] { one(i, behind); });
+            memory.with(memory_needed(tables[i]),
+                        [&] { tbb::this_task_arena::isolate([&] { one(i, behind); }); });
           behind.wait();
         } catch (...) {
           if (!stop.exchange(true)) fatal = std::current_exception();
@@ -253,46 +221,28 @@ std::vector<std::string> tables_of(const std::vector<std::string>& inputs) {
   }
   std::unordered_set<std::string> seen;
   std::erase_if(all, [&](const std::string& path) { return !seen.insert(path).second; });
+  for (const auto& table : all)
+    for (const auto& path : {table, side_path(table)}) will_read(path);
   return all;
 }
 
 std::vector<std::string> document_names(const std::vector<std::string>& tables) {
   constexpr std::size_t longest = 200;  // room for what goes around it while it is written
-  std::map<std::string, int> sharing;
+  std::unordered_map<std::string, int> sharing, next;
   for (const auto& t : tables) ++sharing[fs::path(t).stem().string()];
-  std::set<std::string> taken{"summary.page", "summary.list"};
+  std::unordered_set<std::string> taken{"summary.page", "summary.list"};
   std::vector<std::string> names;
   for (const auto& t : tables) {
     const fs::path p(t);
     const bool alone = sharing[p.stem().string()] == 1;
-    const std::string wanted = (alone ? p.stem() : p.filename()).string().substr(0, longest);
+    const std::string whole = (alone ? p.stem() : p.filename()).string();
+    const std::string wanted(beginning(whole, longest));
     std::string name = wanted;
-    for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}-{}", wanted, k);
+    int& k = next.try_emplace(wanted, 2).first->second;
+    while (!taken.insert(name).second) name = fmt::format("{}-{}", wanted, k++);
     names.push_back(name + ".json");
   }
   return names;
-}
-
-std::size_t tables_at_a_time(const std::vector<std::string>& tables, double memory) {
-  constexpr double times_the_file = 8, most = 64;
-  std::vector<double> sizes;
-  for (const auto& t : tables) {
-    std::error_code unknown;
-    const auto size = fs::file_size(t, unknown);
-    sizes.push_back(unknown ? 0 : static_cast<double>(size));
-  }
-  std::ranges::sort(sizes, std::greater());
-  const auto threads = std::min<double>(static_cast<double>(tbb::global_control::active_value(
-                                            tbb::global_control::max_allowed_parallelism)),
-                                        most);
-  std::size_t n = 0;
-  double needed = 0;
-  while (n < sizes.size() && static_cast<double>(n) < threads) {
-    needed += times_the_file * sizes[n];
-    if (n > 0 && needed > memory / 2) break;
-    ++n;
-  }
-  return n;
 }
 
 bool is_batch(const std::vector<std::string>& inputs) {
@@ -311,7 +261,7 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
                                    "summary.list.json"};
   results.insert(results.end(), all_names.begin(), all_names.end());
   if (hooks.table_page) std::ranges::transform(all_names, std::back_inserter(results), page_name);
-  expect_apart(b, all, results);
+  expect_apart(b, results);
   const auto place = [&](const std::string& name) { return (fs::path(b.output) / name).string(); };
   const BatchList list{made, all};
   try {

@@ -46,16 +46,12 @@ struct Batch {
 bool is_batch(const std::vector<std::string>& inputs);
 
 /// Paths that inputs stand for: those of folders and lists in their place, each once.  A folder or list that
-/// cannot be read is bad_input.
+/// cannot be read is bad_input.  They and their side files are inputs of the run (FileGuard).
 std::vector<std::string> tables_of(const std::vector<std::string>& inputs);
 /// Names of the documents of tables, each another: the file's name less its ending; the whole name
 /// where several tables would share that; with -2, -3 … in the order of the tables where they share
 /// even this.
 std::vector<std::string> document_names(const std::vector<std::string>& tables);
-
-/// Number of tables that are fitted at a time: one for each thread, but no more than half of the memory [bytes]
-/// holds, for a table and its columns take several times the bytes of its file.
-std::size_t tables_at_a_time(const std::vector<std::string>& tables, double memory);
 
 /// State of a batch while it is running.
 struct BatchCount {

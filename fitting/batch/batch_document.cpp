@@ -270,6 +270,7 @@ std::optional<ReadDocument> parse_document(const std::string& path, const std::s
 }
 
 std::optional<ReadDocument> read_document(const std::string& path) {
+  may_replace(path);
   return parse_document(path, InputFile(path).read_rest(most_document_bytes));
 }
 
@@ -287,6 +288,7 @@ std::optional<BatchRow> read_batch_document(const std::string& path,
 }
 
 bool is_batch_document(const std::string& path) {
+  may_replace(path);
   try {
     return JsonDocument(path).root().at("batch").has("made_with");
   } catch (const Error&) {

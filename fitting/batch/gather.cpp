@@ -9,15 +9,13 @@
 
 #include "base/file.h"
 #include "base/json/describe.h"
+#include "base/memory_budget.h"
 #include "base/sha256.h"
 #include "fitting/batch/batch.h"
 #include "table/format/metadata.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
 namespace gonio {
 
@@ -48,25 +46,6 @@ std::string without_side_file(const std::string& made_with) {
 std::string as_in_document(const std::string& text) {
   return JsonDocument("", json_line(text)).root().string();
 }
-
-/// A folder that no other process locks meanwhile, where its file system has locks.
-class Locked {
- public:
-  explicit Locked(const std::string& folder)
-      : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (folder_ < 0) return;
-    while (::flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
-    }
-  }
-  ~Locked() {
-    if (folder_ >= 0) ::close(folder_);
-  }
-  Locked(const Locked&) = delete;
-  Locked& operator=(const Locked&) = delete;
-
- private:
-  int folder_;
-};
 
 // --- What lies in the folder ---
 
@@ -101,12 +80,18 @@ std::vector<Found> documents_in(const std::string& folder,
 
 /// Documents of a batch: what is one, or was to be one and cannot be read; anything else is not for a summary.
 std::vector<Found> read_all(const std::string& folder, std::vector<Found> all) {
+  MemoryBudget memory(memory_allowed() / 2);
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    try {
-      all[i].read = read_document(place(folder, all[i].name));
-    } catch (const Error& e) {
-      all[i].fault = e.what();
-    }
+    const std::string path = place(folder, all[i].name);
+    std::error_code unknown;
+    constexpr double times_the_file = 33;  // of brackets within brackets
+    memory.with(times_the_file * static_cast<double>(fs::file_size(path, unknown)), [&] {
+      try {
+        all[i].read = read_document(path);
+      } catch (const Error& e) {
+        all[i].fault = e.what();
+      }
+    });
   });
   std::erase_if(all, [](const Found& d) { return !d.read && d.fault.empty(); });
   return all;
@@ -195,7 +180,11 @@ std::string title_of(const std::string& folder) {
 
 void write_list(const std::string& folder, const BatchList& list) {
   const std::string path = place(folder, list_name), text = json_text(list);
+  if (text.size() > most_document_bytes)
+    throw bad_input(path, "writing", fmt::format("{} tables", list.tables.size()),
+                    fmt::format("names in at most {} bytes, which are read", most_document_bytes));
   std::error_code unknown;
+  may_replace(path);
   if (fs::file_size(path, unknown) == text.size() && !unknown &&
       InputFile(path).read_rest() == text)
     return;
@@ -238,7 +227,7 @@ BatchSummary gather(const std::string& folder,
                     const std::optional<BatchList>& list,
                     const SummaryPage& page,
                     std::map<std::string, BatchRow> known) {
-  const Locked lock(folder);
+  const FolderLock lock(folder, FolderLock::Taken::waits);
   BatchSummary s = summary_of(folder, list, std::move(known));
   if (!list && s.rows.empty() && s.left_out.empty())
     throw bad_input(folder, "entries", "no result of a fit", "documents of gonio fit -o DIR");

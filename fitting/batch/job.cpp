@@ -21,15 +21,15 @@ std::string in_words(const std::vector<std::string>& words) {
 /// Words of a part's fit.  \param part  "2/8", or "slurm"
 std::vector<std::string> fit_words(const Job& j, const std::string& part) {
   std::vector<std::string> words{j.program, "fit"};
-  words.insert(words.end(), j.inputs.begin(), j.inputs.end());
+  std::ranges::transform(j.inputs, std::back_inserter(words), as_path);
   words.insert(words.end(), j.options.begin(), j.options.end());
-  words.insert(words.end(),
-               {"--part", part, "--jobs", std::to_string(j.threads), "--quiet", "-o", j.results});
+  words.insert(words.end(), {"--part", part, "--jobs", std::to_string(j.threads), "--quiet", "-o",
+                             as_path(j.results)});
   return words;
 }
 std::vector<std::string> gather_words(const Job& j) {
-  std::vector<std::string> words{j.program, "gather", j.results};
-  words.insert(words.end(), j.inputs.begin(), j.inputs.end());
+  std::vector<std::string> words{j.program, "gather", as_path(j.results)};
+  std::ranges::transform(j.inputs, std::back_inserter(words), as_path);
   return words;
 }
 
@@ -58,6 +58,12 @@ exec {}
 }
 
 std::string commands(const Job& j) {
+  constexpr std::size_t most = std::size_t{1} << 28;
+  if (const std::size_t line = in_folder(j, fit_words(j, "")).size(); line > most / j.parts)
+    throw wrong_usage(
+        fmt::format("--parts {}: {} bytes in each of as many lines, at most {} in all; name the "
+                    "tables in @LIST",
+                    j.parts, line, most));
   std::string lines;
   for (std::size_t k = 1; k <= j.parts; ++k)
     lines += in_folder(j, fit_words(j, fmt::format("{}/{}", k, j.parts))) + "\n";

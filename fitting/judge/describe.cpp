@@ -9,7 +9,12 @@
 #include <fmt/format.h>
 
 namespace gonio {
-namespace {}  // namespace
+
+std::string name_of(const ModelParameter& p,
+                    std::size_t channel,
+                    const std::vector<std::string>& channels) {
+  return p.count == 1 ? p.name : fmt::format("{}.{}", p.name, channels[channel]);
+}
 
 void describe(FitDocument& d,
               const Problem& p,
@@ -54,10 +59,11 @@ void describe(FitDocument& d,
     r.std_error[0] = roughness_error(r.value[0], e.std_error[0]);
     d.parameters.push_back(r);
   }
+  std::vector<std::string> names;
   for (const auto& q : p.start.model.parameters)
     for (std::size_t c = 0; c < q.count; ++c)
-      if (p.free.mask()[q.first + c])
-        d.free_names.push_back(q.count == 1 ? q.name : fmt::format("{}.{}", q.name, d.channels[c]));
+      if (p.free.mask()[q.first + c]) names.push_back(name_of(q, c, d.channels));
+  for (const std::size_t i : u.correlated) d.free_names.push_back(names[i]);
   d.correlations = u.correlations;
   d.condition = u.condition;
 }

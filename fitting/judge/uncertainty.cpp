@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -206,10 +207,11 @@ double student_t_950(double nu) {
   return students_t_quantile(0.95, nu);
 }
 
-Uncertainty::Uncertainty(std::size_t n)
-    : status(n, ParameterStatus::free),
-      reason(n),
-      correlations(n, std::vector<double>(n, not_known)) {
+Uncertainty::Uncertainty(std::size_t n) : status(n, ParameterStatus::free), reason(n) {
+  constexpr std::size_t most = 128;
+  correlated.resize(n <= most ? n : 0);
+  std::iota(correlated.begin(), correlated.end(), std::size_t{0});
+  correlations.assign(correlated.size(), std::vector<double>(correlated.size(), not_known));
   for (auto* x : {&std_error, &t, &low, &high, &limit, &freedom, &variance})
     x->assign(n, not_known);
 }
@@ -304,8 +306,36 @@ Uncertainty uncertainty(const Sandwich& s,
     }
     u.std_error[i] = error;
     u.t[i] = t;
-    for (std::size_t b = 0; b < determined.size(); ++b)
-      u.correlations[i][determined[b]] = covariance(a, b) / std::sqrt(variance[a] * variance[b]);
+  }
+  const auto correlation = [&](std::size_t a, std::size_t b) {
+    if (std::isnan(u.std_error[determined[a]])) return not_known;
+    return covariance(a, b) / std::sqrt(variance[a] * variance[b]);
+  };
+  if (!u.correlated.empty()) {
+    for (std::size_t a = 0; a < determined.size(); ++a)
+      for (std::size_t b = 0; b < determined.size(); ++b)
+        u.correlations[determined[a]][determined[b]] = correlation(a, b);
+    return u;
+  }
+  double strongest = -1;
+  for (std::size_t arm = 0; arm == 0 || arm < layout->arms().size(); ++arm) {
+    auto block = layout->head();
+    if (arm < layout->arms().size())
+      block.insert(block.end(), layout->arms()[arm].begin(), layout->arms()[arm].end());
+    std::vector<std::vector<double>> of_block;
+    double largest = 0;
+    for (const std::size_t a : block) {
+      auto& row = of_block.emplace_back();
+      for (const std::size_t b : block) {
+        row.push_back(correlation(a, b));
+        if (a != b && std::abs(row.back()) > largest) largest = std::abs(row.back());
+      }
+    }
+    if (largest <= strongest) continue;
+    strongest = largest;
+    u.correlations = std::move(of_block);
+    u.correlated.clear();
+    for (const std::size_t a : block) u.correlated.push_back(determined[a]);
   }
   return u;
 }

@@ -44,8 +44,11 @@ struct Uncertainty {
   /// Degrees of freedom, and the variance of one value's residual for which the bread alone would give
   /// that error; NaN where not known.
   std::vector<double> freedom, variance;
-  std::vector<std::vector<double>> correlations;  ///< NaN for what has no error
-  double condition = 1;                           ///< see Determined
+  /// Correlations of some of the unknowns, NaN for what has no error.  Of many unknowns they are those that all channels share and
+  /// those of one channel, in which two are hardest to tell apart: others take place with the square of the channels.
+  std::vector<std::size_t> correlated;
+  std::vector<std::vector<double>> correlations;
+  double condition = 1;  ///< see Determined
 };
 
 /// Standard errors by the sandwich B⁻¹ M B⁻¹, which holds whether or not the metric whitens the noise,

@@ -100,6 +100,23 @@ void expect_no_other(const MapAttributes& map, const TileGrid& grid, const fs::p
 
 }  // namespace
 
+void remove_other_tiles(const StackReader& stack,
+                        const TexelOptions& options,
+                        const TileGrid& grid,
+                        const std::string& folder) {
+  const MapAttributes map = attributes_of(stack, options);
+  std::error_code none;
+  for (const Tile& t : tiles_in(folder, none)) {
+    const fs::path path = fs::path(folder) / file_name(t);
+    may_replace(path.string());
+    try {
+      expect_of(attributes_of(map, grid, t), read_exr_header(path.string()), path.string());
+    } catch (const Error&) {
+      fs::remove(path, none);
+    }
+  }
+}
+
 MapCount fit_tiles(const StackReader& stack,
                    const TexelOptions& options,
                    const TileGrid& grid,

@@ -30,6 +30,12 @@ struct MapCount {
   std::size_t texels = 0, done = 0;  ///< of the tiles that are not kept
 };
 
+/// Removes tiles of any other map from a folder: those that a run left which ended early.
+void remove_other_tiles(const StackReader&,
+                        const TexelOptions&,
+                        const TileGrid&,
+                        const std::string& folder);
+
 /// Fits tiles of a stack into a folder, which is made where it is missing; one that is there already, of the same stack, options, version and
 /// grid, is kept.  A tile is the same to the bit whatever the threads, the other tiles and the runs that were killed before; so are its
 /// texels whatever the grid.  Memory: one row of tiles' results, and 128 MB of samples.

@@ -110,15 +110,11 @@ namespace {
 /// Of a text what tells it from another: some of it, from shortly before they part.
 std::string where_it_parts(const std::string& text, const std::string& other) {
   constexpr std::size_t before = 24, most = 72;
-  const auto inside = [&](std::size_t at) {  // of a letter of several bytes
-    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
-  };
   const auto same = static_cast<std::size_t>(std::ranges::mismatch(text, other).in1 - text.begin());
-  std::size_t begin = same > before ? same - before : 0;
-  while (begin > 0 && inside(begin)) --begin;
-  std::size_t end = std::min(text.size(), begin + most);
-  while (end > begin && inside(end)) --end;
-  return (begin > 0 ? "…" : "") + text.substr(begin, end - begin) + (end < text.size() ? "…" : "");
+  const std::size_t begin = beginning(text, same > before ? same - before : 0).size();
+  const auto shown = beginning(std::string_view(text).substr(begin), most);
+  return (begin > 0 ? "…" : "") + std::string(shown) +
+         (begin + shown.size() < text.size() ? "…" : "");
 }
 
 }  // namespace

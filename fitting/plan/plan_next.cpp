@@ -11,6 +11,7 @@
 #include "brdf/model/derivatives.h"
 #include "fitting/fit.h"
 #include "fitting/judge/assess.h"
+#include "fitting/judge/describe.h"
 #include "fitting/plan/candidates.h"
 #include "fitting/plan/forecast.h"
 #include "fitting/solve/problem.h"
@@ -68,7 +69,7 @@ std::vector<Unknown> unknowns_of(const FitResult& r, const Problem& p) {
       const std::size_t i = p.free.index(q.first + c);
       const double low = p.bounds.low[i], high = p.bounds.high[i],
                    value = r.model.values[q.first + c];
-      Unknown u{i, r.document.free_names[i],
+      Unknown u{i, name_of(q, c, r.document.channels),
                 std::max(std::abs(value), next_to_nothing * (high - low)), known.std_error[c],
                 known.ci95_high[c] - known.ci95_low[c]};
       if (status == ParameterStatus::upper_limit) u.width = known.limit[c] - low;

@@ -121,7 +121,8 @@ struct FitDocument {
   FitResiduals residuals;
   Misfit misfit;
   Physics physics;
-  std::vector<std::string> free_names;            ///< "alpha", "f0.r" …, rows of the matrix below
+  std::vector<std::string>
+      free_names;  ///< "alpha", "f0.r" …, rows of the matrix below; see Uncertainty
   std::vector<std::vector<double>> correlations;  ///< of the free parameters' estimates
   double condition = 0;                           ///< of the scaled normal matrix
   FitSolver solver;

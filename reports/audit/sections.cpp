@@ -4,10 +4,10 @@
 #include <limits>
 #include <numbers>
 
+#include "base/text.h"
 #include "reports/audit/audit.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/format.h>
 

@@ -4,10 +4,10 @@
 #include <ctime>
 #include <utility>
 
+#include "base/text.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/picture/document.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -260,7 +260,7 @@ Section cards(const ReportIndex& i) {
     html += fmt::format(
         R"(<article class="card"><a href="{0}">{1}</a><h3><a href="{0}">{2}</a></h3><p>{3}</p><p class="small muted"><a href="{4}.json">JSON</a> · <a href="{4}.csv">CSV</a> · <a href="{4}/">{5}</a> · {6}</p></article>)",
         href, r.first.figures.empty() ? "" : page_small(r.first.figures[0], 260, 96),
-        escaped_markup(capital(std::string(r.what))), escaped_markup(sentence_of(r)), r.name,
+        markup_text(capital(std::string(r.what))), markup_text(sentence_of(r)), r.name,
         many(r.pictures, "picture"),
         r.ms >= 1000 ? significant(r.ms / 1000) + "\u202fs" : significant(r.ms) + "\u202fms");
   }
@@ -277,9 +277,8 @@ Section claims(const ReportIndex& i) {
         c->judged == holds    ? "yes"
         : c->judged == partly ? "weakly"
                               : "no",
-        name_of(c->judged), escaped_markup(c->claim), escaped_markup(capital(c->verdict)),
-        escaped_markup(c->source), escaped_markup(page_of(report, c->anchor)),
-        escaped_markup(c->figure));
+        name_of(c->judged), markup_text(c->claim), markup_text(capital(c->verdict)),
+        markup_text(c->source), markup_text(page_of(report, c->anchor)), markup_text(c->figure));
   }
   if (rows.empty()) return {};
   return {

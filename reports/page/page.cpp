@@ -1,7 +1,7 @@
 #include "reports/page/page.h"
 
+#include "base/text.h"
 #include "reports/page/assets.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ std::string drawn_page(std::string_view title, std::string_view body, std::strin
 </body>
 </html>
 )",
-      escaped_markup(title), assets::page_css, looks, body, assets::pictures_js);
+      markup_text(title), assets::page_css, looks, body, assets::pictures_js);
 }
 
 std::string beside_index(std::string html) {

@@ -4,9 +4,9 @@
 #include <cctype>
 #include <set>
 
+#include "base/text.h"
 #include "reports/page/assets.h"
 #include "reports/page/page.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,7 +18,7 @@ namespace {
 std::string prose(std::string_view text) {
   std::string out;
   bool code = false, bold = false;
-  const auto escaped = escaped_markup(text);
+  const auto escaped = markup_text(text);
   for (std::size_t i = 0; i < escaped.size(); ++i)
     if (escaped[i] == '`') {
       out += (code = !code) ? "<code>" : "</code>";
@@ -31,7 +31,7 @@ std::string prose(std::string_view text) {
   return out + (code ? "</code>" : "") + (bold ? "</b>" : "");
 }
 std::string attribute(std::string_view name, std::string_view value) {
-  return value.empty() ? std::string() : fmt::format(R"( {}="{}")", name, escaped_markup(value));
+  return value.empty() ? std::string() : fmt::format(R"( {}="{}")", name, markup_text(value));
 }
 std::string element(std::string_view tag, std::string_view look, std::string_view inside) {
   return fmt::format("<{0}{1}>{2}</{0}>", tag, attribute("class", look), inside);
@@ -60,10 +60,10 @@ class Renderer {
     for (const auto& s : page_.sections) {
       if (s.parts.empty() && s.text.empty()) continue;
       const auto anchor = s.anchor.empty() ? anchor_of(s.title) : s.anchor;
-      contents += fmt::format("<a href=\"#{}\">{}</a>", escaped_markup(anchor), prose(s.title));
-      sections += fmt::format(
-          "<section id=\"{}\"><h2>{}</h2>{}{}</section>\n", escaped_markup(anchor), prose(s.title),
-          s.text.empty() ? "" : element("p", "", prose(s.text)), parts(s.parts));
+      contents += fmt::format("<a href=\"#{}\">{}</a>", markup_text(anchor), prose(s.title));
+      sections += fmt::format("<section id=\"{}\"><h2>{}</h2>{}{}</section>\n", markup_text(anchor),
+                              prose(s.title), s.text.empty() ? "" : element("p", "", prose(s.text)),
+                              parts(s.parts));
     }
     const std::string opening = findings();
     return drawn_page(
@@ -123,7 +123,7 @@ class Renderer {
                             std::string_view text) {
     return fmt::format(
         R"(<label><input type="radio" name="{}" value="{}"{}><span>{}</span></label>)", name,
-        escaped_markup(value), chosen ? " checked" : "", text);
+        markup_text(value), chosen ? " checked" : "", text);
   }
   std::string html_of(const Browse& b) {
     std::string kinds = option("kind", "", true, "all"), keys = "<option>as given</option>", cards;
@@ -132,8 +132,8 @@ class Renderer {
     for (const auto& item : b.items)
       cards += fmt::format(
           R"(<article class="card" data-words="{}" data-kind="{}" data-keys="{}">{}</article>)",
-          escaped_markup(item.words), escaped_markup(item.kind),
-          escaped_markup(fmt::format("{}", fmt::join(item.keys, "|"))), item.html);
+          markup_text(item.words), markup_text(item.kind),
+          markup_text(fmt::format("{}", fmt::join(item.keys, "|"))), item.html);
     return fmt::format(
         R"(<div class="browse"><form class="controls"><input type="search" name="words" placeholder="part of a name" aria-label="Filter by name or flag"><span class="switch" role="group" aria-label="Which ones">{}</span><label>by <select name="key">{}</select></label><label><input type="checkbox" name="falling"> falling</label><span class="switch" role="group" aria-label="View">{}{}</span><span class="muted shown"></span></form><div class="cards">{}</div><div class="rows" hidden>{}</div></div>)",
         kinds, keys, option("view", "cards", true, "cards"), option("view", "rows", false, "rows"),
@@ -311,7 +311,7 @@ class Renderer {
         std::string of;
         for (const auto& value : a.chosen) of += (&value == a.chosen.data() ? "" : "|") + value;
         inside +=
-            fmt::format(R"(<{0} data-of="{1}">{2}</{0}>)", tag, escaped_markup(of), parts(a.parts));
+            fmt::format(R"(<{0} data-of="{1}">{2}</{0}>)", tag, markup_text(of), parts(a.parts));
       };
       if (chosen)
         put("div", *chosen);
@@ -342,8 +342,8 @@ class Renderer {
       const auto called =
           std::ranges::find(control.called, v, [](const auto& one) { return one.first; });
       const auto text = prose(called == control.called.end() ? v : called->second);
-      options += control.list ? fmt::format(R"(<option value="{}"{}>{}</option>)",
-                                            escaped_markup(v), v == now ? " selected" : "", text)
+      options += control.list ? fmt::format(R"(<option value="{}"{}>{}</option>)", markup_text(v),
+                                            v == now ? " selected" : "", text)
                               : option(fmt::format("c{}", k), v, v == now, text);
     }
     const char* hidden = values.size() < 2 ? " hidden" : "";
@@ -351,7 +351,7 @@ class Renderer {
                ? fmt::format(R"(<label{}>{} <select name="c{}">{}</select></label>)", hidden,
                              prose(control.name), k, options)
                : fmt::format(R"(<span class="switch" role="group" aria-label="{}"{}>{}</span>)",
-                             escaped_markup(control.name), hidden, options);
+                             markup_text(control.name), hidden, options);
   }
 
   // --- The first sentences

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "base/base64.h"
+#include "base/text.h"
 #include "image/png.h"
 #include "reports/page/numbers.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/format.h>
 
@@ -55,12 +55,12 @@ std::string sphere_figure(std::string_view caption,
   for (const auto& p : pictures) {
     images += fmt::format(
         R"(<img class="sphere" width="{0}" height="{0}" src="data:image/png;base64,{1}" alt="{2}">)",
-        pixels, p.png, escaped_markup(p.of));
+        pixels, p.png, markup_text(p.of));
     if (!p.word.empty()) below += fmt::format("<small>{}</small>", p.word);
   }
   return fmt::format(
       R"(<figure><figcaption>{}</figcaption><div class="sphere-row">{}{}</div></figure>)",
-      escaped_markup(caption), images, below);
+      markup_text(caption), images, below);
 }
 
 std::string sphere_keys(const DifferenceScale& s) {

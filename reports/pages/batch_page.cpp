@@ -8,12 +8,12 @@
 
 #include "base/base64.h"
 #include "base/quantile.h"
+#include "base/text.h"
 #include "image/display.h"
 #include "image/png.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/pages/table_sections.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -119,7 +119,7 @@ Flags flags_of(const BatchRow& r) {
 std::string flag_marks(const Flags& flags) {
   std::string out;
   for (const auto& [text, full] : flags)
-    out += fmt::format(R"(<span title="{}">{}</span>)", escaped_markup(full), escaped_markup(text));
+    out += fmt::format(R"(<span title="{}">{}</span>)", markup_text(full), markup_text(text));
   return out.empty() ? "" : R"(<span class="flags">)" + out + "</span>";
 }
 
@@ -149,7 +149,7 @@ std::string sphere_of(const BatchRow& r, std::string_view name) {
           image.pixels[row * n + x][k] = static_cast<unsigned char>(bytes[at + k]);
   return fmt::format(
       R"(<img class="sphere" width="76" height="76" src="data:image/png;base64,{}" alt="sphere of {}">)",
-      base64(png_bytes(image)), escaped_markup(name));
+      base64(png_bytes(image)), markup_text(name));
 }
 /// Data and model in the plane of incidence.
 Figure curve_of(const BatchRow& r) {
@@ -292,20 +292,20 @@ std::string encoded(std::string_view name) {
 }
 std::string link(const BatchRow& r) {
   const auto& to = r.page.empty() ? r.document : r.page;
-  const auto name = escaped_markup(file_name(r.path));
+  const auto name = markup_text(file_name(r.path));
   return to.empty() ? name : fmt::format(R"(<a href="./{}">{}</a>)", encoded(to), name);
 }
 std::string card(const BatchRow& r, const std::vector<std::string>& parameters) {
   if (!r.fit)
     return fmt::format(R"(<h3>{}</h3><p class="small"><b>{}</b> {}</p>)", link(r),
-                       words(name_of(r.outcome)), escaped_markup(r.message));
+                       words(name_of(r.outcome)), markup_text(r.message));
   std::string pictures, facts;
   if (r.preview) {
     pictures = sphere_of(r, file_name(r.path));
     if (r.preview->curve) pictures += page_small(curve_of(r), 190, 76);
   }
   const auto fact = [&](const std::string& name, const std::string& text) {
-    facts += fmt::format("<dt>{}</dt><dd>{}</dd>", escaped_markup(name), text);
+    facts += fmt::format("<dt>{}</dt><dd>{}</dd>", markup_text(name), text);
   };
   for (const auto& name : parameters)
     if (const auto* p = parameter_of(r, name); p && !name.starts_with("roughness"))

@@ -8,13 +8,13 @@
 
 #include "base/json/describe.h"
 #include "base/quantile.h"
+#include "base/text.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/pages/fields.h"
 #include "reports/pages/spheres_section.h"
 #include "reports/pages/table_sections.h"
 #include "reports/picture/json_numbers.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -181,7 +181,7 @@ std::string interval_drawing(
     marks += std::abs(truth) <= reach ? line(x(truth), x(truth), 1, h - 1, "red", 2)
                                       : arrow(truth > 0, "red");
   return fmt::format(R"(<svg width="{0}" height="{1}" role="img" aria-label="{2}">{3}</svg>)", w, h,
-                     escaped_markup(text), marks);
+                     markup_text(text), marks);
 }
 
 Section parameters(const FitDocument& d, const std::vector<Row>& rows) {

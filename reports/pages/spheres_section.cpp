@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "reports/page/numbers.h"
 #include "reports/page/spheres.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -82,7 +82,7 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
 /// Table, model and difference under each light.
 Markup row_of(const Lights& shown, const Spheres& s, std::size_t m, std::string_view name) {
   std::string html = R"(<div class="spheres">)";
-  if (name.empty()) html += fmt::format("<h3>{}\u2002{}</h3>", m + 1, escaped_markup(s.models[m]));
+  if (name.empty()) html += fmt::format("<h3>{}\u2002{}</h3>", m + 1, markup_text(s.models[m]));
   const auto scale = scale_of(shown);
   for (const auto* l : shown) {
     const auto& model = l->models[m];

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/base64.h"
+#include "base/text.h"
 #include "image/exr.h"
 #include "image/png.h"
 #include "reports/picture/figure.h"
@@ -111,11 +112,11 @@ class MapDrawing {
       return of.names.empty()
                  ? std::string()
                  : fmt::format(R"( {}="{}")", key,
-                               svg::escaped(fmt::format("{}", fmt::join(of.names, "|"))));
+                               markup_text(fmt::format("{}", fmt::join(of.names, "|"))));
     };
     return fmt::format(
         R"(<svg class="plot" role="img" tabindex="0" aria-label="{}" data-x="{}" data-y="{}" data-xs="{}" data-ys="{}"{}{} data-scale="{} {:.6g} {:.6g}{}" data-cells="{}" style="--left:{}px;--below:{}px;height:{}px">{}{}</svg>)",
-        svg::escaped(
+        markup_text(
             fmt::format("{}: {} by {} and {}.", m_.title, m_.value, m_.x.label, m_.y.label)),
         axis(x_), axis(y_), edges(x_edges_, [&](double v) { return x_at(v); }),
         edges(y_edges_, [&](double v) { return y_at(v); }), named("data-nx", m_.x),
@@ -140,7 +141,7 @@ class MapDrawing {
                       number(left + part * scale_length), number(top + 24), anchor, tick_text(t));
     }
     return out + fmt::format(R"(<text class="in" x="{}" y="{}">{}</text>)", number(left),
-                             number(top + 44), svg::escaped(m_.value));
+                             number(top + 44), markup_text(m_.value));
   }
 
  private:
@@ -325,7 +326,7 @@ std::string to_svg(const FigureMap& m) {
       const double x = left + static_cast<double>(k % columns) * (box.width + gap),
                    y = top + title + static_cast<double>(k / columns) * (box.height + title + gap);
       marks += fmt::format(R"(<text class="in" x="{}" y="{}">{}</text>)", number(x), number(y - 5),
-                           svg::escaped(m.slices[k]));
+                           markup_text(m.slices[k]));
       marks += svg::placed(
           x, y, box,
           MapDrawing(m, box).marks(k, map_ticks_few, k + columns >= n, k % columns == 0));
@@ -351,7 +352,7 @@ std::string page_scale(const FigureMap& m) {
   for (const double t : colours.ticks)
     out += fmt::format(R"(<span style="left:{:.3g}%">{}</span>)", 100 * colour_part(m, colours, t),
                        tick_text(t));
-  return out + "</b>" + svg::escaped(m.value) + "</div>";
+  return out + "</b>" + markup_text(m.value) + "</div>";
 }
 
 std::string page_shades(std::span<const FigureMap> maps) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/text.h"
 #include "reports/picture/figure.h"
 #include "reports/picture/figure_scale.h"
 #include "reports/picture/figure_style.h"
@@ -92,7 +93,7 @@ class CurveDrawing {
     };
     return fmt::format(
         R"(<svg class="plot" role="img" tabindex="0" aria-label="{}" data-x="{}" data-y="{}" style="--left:{}px;height:{}px">{}</svg>)",
-        svg::escaped(fmt::format("{}: {} by {}.", f_.title, f_.y.label, f_.x.label)), scale(x_),
+        markup_text(fmt::format("{}: {} by {}.", f_.title, f_.y.label, f_.x.label)), scale(x_),
         scale(y_), number(left_), number(box_.height), marks());
   }
 
@@ -155,7 +156,7 @@ class CurveDrawing {
     put_down();
     std::string out =
         fmt::format(R"(<g class="{}{}")", look_class(c, styles_), first_[k] ? "" : " more");
-    if (box_.page && !said.empty()) out += fmt::format(R"( data-labels="{}")", svg::escaped(said));
+    if (box_.page && !said.empty()) out += fmt::format(R"( data-labels="{}")", markup_text(said));
     const auto put = [&](std::string_view look, const svg::Path& path) {
       if (!path.text().empty()) out += fmt::format(R"(<path{} d="{}"/>)", look, path.text());
     };
@@ -262,7 +263,7 @@ std::string to_svg(const Figure& f, const CurveStyles& styles) {
     head.marks += fmt::format(
         R"x(<g class="{}" transform="translate({} {})">{}</g><text class="in" x="{}" y="{}">{}</text>)x",
         look_class(c, styles), number(x - 1), number(head.height + 3), key_marks(c), number(x + 27),
-        number(head.height + 12), svg::escaped(label_of(c)));
+        number(head.height + 12), markup_text(label_of(c)));
     x += w;
   }
   head.height += f.curves.empty() ? 6 : 28;
@@ -292,7 +293,7 @@ std::string page_small(const Figure& f, double width, double height) {
 
 std::string page_key(const FigureCurve& c, const CurveStyles& styles) {
   return fmt::format(R"(<svg class="key {}">{}</svg>{})", look_class(c, styles), key_marks(c),
-                     svg::escaped(label_of(c)));
+                     markup_text(label_of(c)));
 }
 
 }  // namespace gonio

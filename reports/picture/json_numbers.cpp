@@ -1,6 +1,7 @@
 #include "reports/picture/json_numbers.h"
 
 #include "base/json/describe.h"
+#include "base/text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +12,7 @@ PageJson page_json(double v) {
 }
 
 std::string page_text(const PageJson& j) {
-  return j.dump(-1, ' ', false, PageJson::error_handler_t::replace);
+  return printable_json(j.dump(-1, ' ', false, PageJson::error_handler_t::replace));
 }
 
 }  // namespace gonio

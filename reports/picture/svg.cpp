@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "reports/picture/markup.h"
 
 #include <fmt/format.h>
 
@@ -21,12 +20,6 @@ std::string tenths(long n) {
 }
 
 }  // namespace
-
-std::string escaped(std::string_view text) {
-  std::string out = escaped_markup(text);
-  std::erase_if(out, [](char c) { return static_cast<unsigned char>(c) < 0x20; });  // XML has none
-  return out;
-}
 
 double text_width(std::string_view text, double size) {
   const auto characters = std::ranges::count_if(
@@ -81,7 +74,8 @@ std::string Box::x(double x, std::string_view attribute) const {
   return fmt::format(R"( {}="{:.4g}%")", attribute, 100 * x / width);
 }
 std::string Box::text(double x, double y, std::string_view what, std::string_view more) const {
-  return fmt::format(R"(<text{} y="{}"{}>{}</text>)", this->x(x), number(y), more, escaped(what));
+  return fmt::format(R"(<text{} y="{}"{}>{}</text>)", this->x(x), number(y), more,
+                     markup_text(what));
 }
 std::string Box::inside(std::string_view marks, std::string_view more) const {
   return fmt::format(
@@ -100,14 +94,14 @@ std::string axis_texts(const Box& box, const Ticks& x, const Ticks& y, bool turn
     if (turned)
       out += fmt::format(
           R"(<svg{} y="{}" overflow="visible">{}</svg>)", box.x(at), number(box.height + 12),
-          fmt::format(R"x(<text transform="rotate(-40)">{}</text>)x", escaped(text)));
+          fmt::format(R"x(<text transform="rotate(-40)">{}</text>)x", markup_text(text)));
     else
       out += box.text(at, box.height + 17, text);
   }
   if (crowded && !turned) out.replace(0, 13, R"(<g class="xt crowded")");
   out += R"(</g><g class="yt" text-anchor="end">)";
   for (const auto& [at, text] : y)
-    out += fmt::format(R"(<text x="-7" y="{}">{}</text>)", number(at + 4), escaped(text));
+    out += fmt::format(R"(<text x="-7" y="{}">{}</text>)", number(at + 4), markup_text(text));
   return out + "</g>";
 }
 
@@ -118,7 +112,7 @@ std::string axis_names(
   for (const auto& line : wrapped(y, std::max(120.0, box.height + 20))) {
     out += fmt::format(
         R"x(<text text-anchor="middle" transform="translate({} {}) rotate(-90)">{}</text>)x",
-        number(at), number(box.height / 2), escaped(line));
+        number(at), number(box.height / 2), markup_text(line));
     at += 13;
   }
   if (!box.page) out += box.text(box.width / 2, box.height + below, x, R"( text-anchor="middle")");
@@ -130,8 +124,8 @@ Heading heading(std::string_view title, std::string_view note, double width) {
   const auto put = [&](std::string_view what, std::string_view look, double size, double step) {
     for (const auto& l : wrapped(what, width - 32, size)) {
       h.height += step;
-      h.marks +=
-          fmt::format(R"(<text x="16" y="{}"{}>{}</text>)", number(h.height - 4), look, escaped(l));
+      h.marks += fmt::format(R"(<text x="16" y="{}"{}>{}</text>)", number(h.height - 4), look,
+                             markup_text(l));
     }
   };
   put(title, R"( class="in" font-size="15" font-weight="600")", 15, 19);
@@ -158,7 +152,7 @@ std::string document(double width,
 <rect width="{0}" height="{1}" fill="{4}"/>
 {6}</svg>
 )",
-      number(width), number(height), number(text_size), escaped(title), ground, looks, marks);
+      number(width), number(height), number(text_size), markup_text(title), ground, looks, marks);
 }
 
 }  // namespace gonio::svg

@@ -13,8 +13,6 @@ namespace gonio::svg {
 inline constexpr std::string_view ground = "#fcfcfa";
 inline constexpr double text_size = 12;  ///< [px]
 
-/// Text in which nothing is markup; control characters are left out, which XML has no place for.
-std::string escaped(std::string_view);
 /// [px], about: fonts differ.
 double text_width(std::string_view, double size = text_size);
 /// Text in lines that are about so wide.

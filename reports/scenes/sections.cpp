@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "reports/page/numbers.h"
 #include "reports/page/section.h"
 #include "reports/page/spheres.h"
-#include "reports/picture/markup.h"
 #include "reports/scenes/scenes.h"
 
 #include <fmt/format.h>
@@ -73,7 +73,7 @@ Section spheres(const ScenesRows& all) {
   const auto& t = all.tolerance;
   std::string html = sphere_keys(scale_of(t));
   for (const auto& m : unique(all.rows, &SceneRow::material)) {
-    html += fmt::format(R"(<div class="spheres"><h3>{}</h3>)", escaped_markup(capital(m)));
+    html += fmt::format(R"(<div class="spheres"><h3>{}</h3>)", markup_text(capital(m)));
     for (const auto& p : all.pictures)
       if (p.material == m) html += triple(p, t);
     html += "</div>\n";
@@ -108,7 +108,7 @@ Section shares(const ScenesRows& all) {
     least = std::min(least, r.speedup), most = std::max(most, r.speedup);
     html += fmt::format(R"(<div{}><span>{}, {}</span><span class="of">)",
                         i && r.material != all.rows[i - 1].material ? R"( class="first")" : "",
-                        escaped_markup(capital(r.material)), escaped_markup(r.light));
+                        markup_text(capital(r.material)), markup_text(r.light));
     for (const auto& p : parts)
       html +=
           fmt::format(R"x(<span title="{}" style="background:var(--{});width:{:.4g}%"></span>)x",
@@ -209,7 +209,7 @@ Page report_page(const ScenesReport& r) {
     if (n > 0)
       out.first = {Markup{fmt::format(
           R"(<div class="spheres picture"><h3>{}: everything on, as planned, and the difference</h3>{}</div>)",
-          escaped_markup(capital(told)), html)}};
+          markup_text(capital(told)), html)}};
   }
   out.sections = {
       plans(all),

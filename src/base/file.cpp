@@ -13,6 +13,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/numbers.h"
@@ -21,21 +22,110 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 namespace gonio {
 namespace {
 
-/// Path behind the links that a path leads through; nothing need be there yet.  \param path  not a circle of links
+/// Path behind the links that a path leads through; nothing need be there yet.  Of a circle of links one of them.
 std::filesystem::path behind_links(std::filesystem::path path) {
   std::error_code none_there;
-  while (std::filesystem::is_symlink(path, none_there))
-    path = path.parent_path() / std::filesystem::read_symlink(path);
+  constexpr int most = 40;  // as the system follows
+  for (int k = 0; k < most && std::filesystem::is_symlink(path, none_there); ++k)
+    path = path.parent_path() / std::filesystem::read_symlink(path, none_there);
   return path;
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  const auto folder = file.parent_path();
+  return folder.empty() ? "." : folder;
+}
+
+/// Name in a folder, which is known by its numbers; of a folder that is not there yet by its path.
+struct Entry {
+  dev_t device = 0;
+  ino_t folder = 0;
+  std::string name;
+  auto operator<=>(const Entry&) const = default;
+};
+Entry entry_of(const std::string& path) {
+  const auto at = behind_links(path);
+  std::error_code none;
+  if (struct stat s{}; ::stat(folder_of(at).c_str(), &s) == 0)
+    return {s.st_dev, s.st_ino, at.filename().string()};
+  return {0, 0,
+          std::filesystem::weakly_canonical(std::filesystem::absolute(at, none), none).string()};
+}
+
+/// Files that the run reads and those that it is writing, while a FileGuard lives.
+struct Guarded {
+  std::set<Entry> inputs, outputs, replaceable;
+};
+std::mutex guarding;
+std::optional<Guarded> guarded;
+
+/// act(files, entry of the path), where a FileGuard lives.
+template <class Act>
+void with_guarded(const std::string& path, const Act& act) {
+  const std::lock_guard lock(guarding);
+  if (guarded) act(*guarded, entry_of(path));
+}
+Error overwritten(const std::string& path) {
+  return wrong_usage(fmt::format("{} is an input; it would be overwritten", path));
+}
+
+bool follows_paths = false;
+
 }  // namespace
+
+FileGuard::FileGuard() {
+  const std::lock_guard lock(guarding);
+  guards_ = !guarded;
+  if (guards_) guarded.emplace();
+}
+FileGuard::~FileGuard() {
+  const std::lock_guard lock(guarding);
+  if (guards_) guarded.reset();
+}
+
+void will_read(const std::string& path) {
+  with_guarded(path, [&](Guarded& g, const Entry& e) {
+    if (g.replaceable.contains(e)) return;
+    if (g.outputs.contains(e)) throw overwritten(path);
+    g.inputs.insert(e);
+  });
+}
+void may_replace(const std::string& path) {
+  with_guarded(path, [](Guarded& g, const Entry& e) { g.replaceable.insert(e); });
+}
+void expect_no_input(const std::string& path) {
+  with_guarded(path, [&](Guarded& g, const Entry& e) {
+    if (g.inputs.contains(e)) throw overwritten(path);
+  });
+}
+bool same_place(const std::string& a, const std::string& b) {
+  return entry_of(a) == entry_of(b);
+}
+
+void follow_paths() {
+  follows_paths = true;
+}
+std::string path_beside(const std::string& document, const std::string& name) {
+  namespace fs = std::filesystem;
+  const fs::path folder = folder_of(document), path = fs::path(document).parent_path() / name;
+  if (follows_paths) return path.string();
+  std::error_code unknown;  // what cannot be looked up cannot be opened either
+  const auto place = [&](const fs::path& p) {
+    return fs::weakly_canonical(fs::absolute(p, unknown), unknown);
+  };
+  const auto below = place(path).lexically_relative(place(folder));
+  if (!unknown && (below.empty() || *below.begin() == ".."))
+    throw bad_input(document, "a path", name,
+                    "a file below the document's folder, or --follow-paths");
+  return path.string();
+}
 
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
   // The kind is asked before opening: opening a pipe would wait for its writer.
@@ -49,6 +139,7 @@ InputFile::InputFile(std::string path) : path_(std::move(path)) {
   if (!file_) throw bad_input(path_, "opening", std::strerror(errno), "a readable file");
   opened_ = stamp();
   size_ = opened_.size;
+  will_read(path_);
 }
 
 void expect_there(const std::string& path) {
@@ -61,7 +152,8 @@ InputFile::Stamp InputFile::stamp() const {
   if (::fstat(::fileno(file_.get()), &s) != 0)
     throw bad_input(path_, "reading", std::strerror(errno), "a readable file");
   return {static_cast<std::uint64_t>(s.st_size),
-          static_cast<std::int64_t>(s.st_mtim.tv_sec) * 1'000'000'000 + s.st_mtim.tv_nsec};
+          static_cast<std::int64_t>(s.st_mtim.tv_sec) * 1'000'000'000 + s.st_mtim.tv_nsec,
+          s.st_ino};
 }
 
 void InputFile::expect_unchanged() const {
@@ -99,6 +191,11 @@ std::string InputFile::peek(std::size_t n) {
   if (std::fseek(file_.get(), static_cast<long>(position_), SEEK_SET) != 0)
     throw bad_input(path_, fmt::format("byte {}", position_), std::strerror(errno), "a seek");
   return bytes;
+}
+
+void InputFile::expect_at_most(std::uint64_t most) const {
+  if (size_ > most)
+    throw bad_input(path_, "size", fmt::format("{} bytes", size_), fmt::format("at most {}", most));
 }
 
 std::size_t InputFile::left(std::uint64_t most) const {
@@ -148,7 +245,8 @@ void remove_unfinished(int signal) {
 }  // namespace
 
 void remove_unfinished_files_on_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, remove_unfinished);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(signal, remove_unfinished) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 namespace {
@@ -243,11 +341,6 @@ void remove_left_over(const std::filesystem::path& folder) {
   ::closedir(open);
 }
 
-std::filesystem::path folder_of(const std::string& file) {
-  const auto folder = std::filesystem::path(file).parent_path();
-  return folder.empty() ? "." : folder;
-}
-
 /// Gives a file the owner and the rights of the one that it is to replace.  Where the group cannot be kept, the
 /// new one may do what all others may.
 void make_like(const struct stat& old, int file) {
@@ -313,6 +406,10 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   } else if (errno != ENOENT) {
     fail("writing");
   }
+  with_guarded(path_, [&](Guarded& g, const Entry& e) {
+    if (g.inputs.contains(e)) throw overwritten(path_);
+    if (g.outputs.contains(e)) throw wrong_usage(fmt::format("{} is named for two outputs", path_));
+  });
   target_ = behind_links(path_).string();
   const auto folder = folder_of(target_);
   remove_left_over(folder);
@@ -338,12 +435,19 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     leave(temporary_.c_str());
     fail("writing");
   }
+  with_guarded(path_, [&](Guarded& g, const Entry& e) { claimed_ = g.outputs.insert(e).second; });
 }
 
 OutputFile::~OutputFile() {
   if (file_) std::fclose(file_);
   if (!committed_) std::remove(temporary_.c_str());
+  release();
   leave(temporary_.c_str());
+}
+
+void OutputFile::release() {
+  if (std::exchange(claimed_, false))
+    with_guarded(path_, [](Guarded& g, const Entry& e) { g.outputs.erase(e); });
 }
 
 void OutputFile::fail(const std::string& doing) const {
@@ -389,7 +493,35 @@ void OutputFile::commit() {
   close();
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail("renaming");
   committed_ = true;
+  release();
   sync_folder(folder_of(target_));
+}
+
+FolderLock::FolderLock(const std::string& folder, Taken taken) {
+  for (;;) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder_ < 0)
+      throw bad_input(folder, "writing", failed ? failed.message() : std::strerror(errno),
+                      "a folder that can be written");
+    const int how = LOCK_EX | (taken == Taken::is_refused ? LOCK_NB : 0);
+    int locked = 0;
+    while ((locked = ::flock(folder_, how)) != 0 && errno == EINTR) {
+    }
+    const bool others = locked != 0 && errno == EWOULDBLOCK;
+    struct stat mine {
+    }, there{};
+    if (!others && ::fstat(folder_, &mine) == 0 && ::stat(folder.c_str(), &there) == 0 &&
+        mine.st_ino == there.st_ino)
+      return;
+    ::close(folder_);  // who had it may have taken it away
+    if (others)
+      throw bad_input(folder, "writing", "another run of gonio at work there", "one at a time");
+  }
+}
+FolderLock::~FolderLock() {
+  ::close(folder_);
 }
 
 void commit_all(std::span<OutputFile* const> files) {

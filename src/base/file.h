@@ -15,7 +15,16 @@ namespace gonio {
 /// A regular file opened for reading.  Every failure is Error(bad_input) with the place.
 class InputFile {
  public:
+  /// What changes when a file is written to, or becomes another: size, time [ns] and number.
+  struct Stamp {
+    std::uint64_t size = 0;
+    std::int64_t written = 0;
+    std::uint64_t number = 0;
+    bool operator==(const Stamp&) const = default;
+  };
+
   explicit InputFile(std::string path);
+  Stamp stamp() const;
   const std::string& path() const { return path_; }
   std::uint64_t size() const { return size_; }
   std::uint64_t position() const { return position_; }
@@ -29,6 +38,8 @@ class InputFile {
   /// Fails if the file was written to, or became another, since it was opened: what was read of it may
   /// be a mixture.
   void expect_unchanged() const;
+  /// Refuses a file of more bytes.
+  void expect_at_most(std::uint64_t most) const;
   /// Number of bytes left; refuses more than `most`.
   std::size_t left(std::uint64_t most) const;
   /// The rest of the file; refuses more than `most` bytes.
@@ -38,14 +49,6 @@ class InputFile {
   struct Close {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };
-  /// Size and time [ns] of a file, which change when it is written to.
-  struct Stamp {
-    std::uint64_t size = 0;
-    std::int64_t written = 0;
-    bool operator==(const Stamp&) const = default;
-  };
-  Stamp stamp() const;
-
   std::string path_;
   std::unique_ptr<std::FILE, Close> file_;
   std::uint64_t size_ = 0, position_ = 0;
@@ -54,6 +57,34 @@ class InputFile {
 
 /// Fails as reading would where there is no file, nor folder, of that path.
 void expect_there(const std::string& path);
+
+/// While one of these lives, no file that is read is replaced by one that is written, and no two that are written have one name,
+/// whatever links lead to it: an InputFile of a name that an OutputFile has, or the other way round, is wrong usage.  The program
+/// has one for its whole run; of two at a time the later does nothing.
+class FileGuard {
+ public:
+  FileGuard();
+  ~FileGuard();
+  FileGuard(const FileGuard&) = delete;
+  FileGuard& operator=(const FileGuard&) = delete;
+
+ private:
+  bool guards_;
+};
+/// Names a file that is not read yet as one that is.
+void will_read(const std::string& path);
+/// Names an earlier result: the run may read it and then replace it.
+void may_replace(const std::string& path);
+/// Refuses, as wrong usage, a name to write that a file has that is read.
+void expect_no_input(const std::string& path);
+/// True where both are one name in one folder, behind their links.
+bool same_place(const std::string& a, const std::string& b);
+
+/// Path of a file that a document names, which lies below the document's folder, behind all links, too.  One that does not is refused
+/// unless follow_paths() was called: a document of a stranger shall not have other files read.
+std::string path_beside(const std::string& document, const std::string& name);
+/// Allows documents to name any file.
+void follow_paths();
 
 /// A file being made under a temporary name beside its own; it appears under its own name when
 /// commit() has succeeded and leaves nothing behind otherwise.  A link is followed, not replaced;
@@ -79,13 +110,28 @@ class OutputFile {
 
  private:
   [[noreturn]] void fail(const std::string& doing) const;
+  void release();
   std::string path_, target_, temporary_;  ///< target_: path_ after its links
   std::FILE* file_ = nullptr;
-  bool committed_ = false;
-  int lost_ = 0;  ///< why a write_at() failed; 0: none did
+  bool committed_ = false, claimed_ = false;  ///< claimed_: the name is this file's (FileGuard)
+  int lost_ = 0;                              ///< why a write_at() failed; 0: none did
 };
 
-/// From now on an interrupt, hang-up or termination takes the files being made with it.
+/// A folder, made where it is not there, that no other process locks meanwhile, where its file system has locks.
+class FolderLock {
+ public:
+  enum class Taken { waits, is_refused };
+  /// \param taken  what happens where another process has it
+  FolderLock(const std::string& folder, Taken taken);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int folder_ = -1;
+};
+
+/// From now on an interrupt, hang-up or termination takes the files being made with it.  One that is ignored, as nohup does, stays so.
 void remove_unfinished_files_on_signals();
 
 /// All are whole before the first takes its name.

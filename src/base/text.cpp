@@ -1,6 +1,7 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include <fmt/format.h>
@@ -62,6 +63,12 @@ std::string printable(std::string_view s, std::size_t most) {
   return out;
 }
 
+std::string_view beginning(std::string_view s, std::size_t most) {
+  if (s.size() <= most) return s;
+  while (most > 0 && (static_cast<unsigned char>(s[most]) & 0xc0U) == 0x80U) --most;
+  return s.substr(0, most);
+}
+
 std::string counted(std::size_t n, std::string_view thing) {
   return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
 }
@@ -75,6 +82,59 @@ std::string shell_word(const std::string& word) {
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+std::string as_path(const std::string& path) {
+  return path.starts_with('-') ? "./" + path : path;
+}
+
+std::string path_word(const std::string& path) {
+  return shell_word(as_path(path));
+}
+
+std::string markup_text(std::string_view text) {
+  std::string out;
+  for (const char c : printable(text)) {
+    constexpr std::string_view special = "&<>\"";
+    constexpr std::array entities{"&amp;", "&lt;", "&gt;", "&quot;"};
+    const auto k = special.find(c);
+    out += k == special.npos ? std::string(1, c) : entities[k];
+  }
+  return out;
+}
+
+std::string uri_of(std::string_view path) {
+  std::string out = path.find(':') < path.find('/') ? "./" : "";  // else a scheme
+  for (const char c : path)
+    if (std::isalnum(static_cast<unsigned char>(c)) || std::string_view("-._~/:@").find(c) < 7)
+      out += c;
+    else
+      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return out;
+}
+
+std::string printable_json(std::string json) {
+  std::string out;
+  std::size_t copied = 0;  // most documents have nothing to change, and are not copied
+  for (std::size_t i = 0; i < json.size();) {
+    const auto byte = [&](std::size_t k) -> unsigned {
+      return i + k < json.size() ? static_cast<unsigned char>(json[i + k]) : 0;
+    };
+    const std::size_t n = byte(0) < 0x7f    ? 1
+                          : byte(0) >= 0xf0 ? 4
+                                            : length_if_printable(std::string_view(json).substr(i));
+    if (n == 0) {
+      const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) < 0xe0 ? 2 : 3;
+      const unsigned c = length == 1 ? byte(0)
+                         : length == 2
+                             ? (byte(0) & 0x1fU) << 6 | (byte(1) & 0x3fU)
+                             : (byte(0) & 0xfU) << 12 | (byte(1) & 0x3fU) << 6 | (byte(2) & 0x3fU);
+      out.append(json, copied, i - copied).append(fmt::format("\\u{:04x}", c));
+      i = copied = std::min(i + length, json.size());
+    }
+    i += n;
+  }
+  return copied == 0 ? json : out.append(json, copied);
 }
 
 }  // namespace gonio

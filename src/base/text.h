@@ -18,7 +18,22 @@ std::string printable(std::string_view, std::size_t most = std::string_view::npo
 /// "1 iteration", "2 iterations".
 std::string counted(std::size_t n, std::string_view thing);
 
+/// Beginning of a text of at most so many bytes, which ends between characters.
+std::string_view beginning(std::string_view, std::size_t most);
+
+// A name written where others read it: each place has one of these, and a terminal printable().
+
 /// Word of a command line: in quotes where a shell would take it apart.
 std::string shell_word(const std::string&);
+/// Word of a path, which no command takes for one of its options.
+std::string path_word(const std::string& path);
+/// The same for a job, whose words become text later.
+std::string as_path(const std::string& path);
+/// Text of an element or of an attribute in double quotes, of XML and of HTML: printable, with entities.
+std::string markup_text(std::string_view);
+/// Path as a reference of a URI [RFC 3986].
+std::string uri_of(std::string_view path);
+/// Text of a JSON document whose strings leave a terminal alone: what printable() would change is \uNNNN, which says the same.
+std::string printable_json(std::string json);
 
 }  // namespace gonio

@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -39,32 +42,119 @@ Image without_planes(const Imf::Header& header) {
   return image;
 }
 
+namespace {
+
+/// Bytes of an attribute of a type that has always as many.
+constexpr std::array<std::pair<std::string_view, std::size_t>, 24> sizes{
+    {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+     {"compression", 1}, {"double", 8},   {"envmap", 1},
+     {"float", 4},       {"int", 4},      {"keycode", 28},
+     {"m33d", 72},       {"m33f", 36},    {"m44d", 128},
+     {"lineOrder", 1},   {"m44f", 64},    {"rational", 8},
+     {"tiledesc", 9},    {"timecode", 8}, {"v2d", 16},
+     {"v2f", 8},         {"v2i", 8},      {"v3d", 24},
+     {"v3f", 12},        {"v3i", 12},     {"deepImageState", 1}}};
+
+std::uint32_t number_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t n = 0;
+  if (at + sizeof n <= bytes.size()) std::memcpy(&n, bytes.data() + at, sizeof n);
+  return n;
+}
+
+/// True where a value of that type fills as many bytes as it has: OpenEXR reads on where it claims more, and takes what comes
+/// there for what it is not.
+bool fills(std::string_view type, std::string_view value) {
+  if (const auto fixed = std::ranges::find(sizes, type, &decltype(sizes)::value_type::first);
+      fixed != sizes.end())
+    return value.size() == fixed->second;
+  if (type == "preview")
+    return value.size() == 8 + std::uint64_t{4} * number_at(value, 0) * number_at(value, 4);
+  if (type == "stringvector") {
+    std::size_t at = 0;
+    while (at + 4 <= value.size()) at += 4 + std::size_t{number_at(value, at)};
+    return at == value.size();
+  }
+  if (type != "chlist") return true;
+  std::size_t at = 0;
+  while (at < value.size() && value[at] != '\0')
+    at = std::min(value.find('\0', at), value.size()) + 1 + 16;
+  return at + 1 == value.size();
+}
+
+}  // namespace
+
+std::size_t packed_rows(Imf::Compression c) {
+  switch (c) {
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+      return 16;
+    case Imf::PIZ_COMPRESSION:
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+    case Imf::DWAA_COMPRESSION:
+      return 32;
+    case Imf::DWAB_COMPRESSION:
+      return 256;
+    default:
+      return 1;
+  }
+}
+
 void expect_sound_exr(const std::string& path) {
   InputFile in(path);  // says plainly what is no file at all
+  const auto refuse = [&](const std::string& name, const std::string& found,
+                          const std::string& expected) {
+    return bad_input(in.path(), "attribute " + name, found, expected);
+  };
   const auto text = [&] {
     std::string s;
-    for (char c = 0; in.read(&c, 1), c != '\0';) s += c;
+    for (char c = 0; in.read(&c, 1), c != '\0';) {
+      if (s.size() == 255) throw refuse(s, "a longer name", "at most 255 bytes");
+      s += c;
+    }
     return s;
   };
   std::array<std::uint32_t, 2> magic_and_version{};
   in.read(magic_and_version.data(), sizeof magic_and_version);
   if (magic_and_version[1] & 0x1000U)
     throw bad_input(in.path(), "byte 4", "an image of several parts", "one part");
+  std::array<std::uint64_t, 2> image{}, tile{};
+  std::size_t channels = 0, rows = 1;
   for (std::string name = text(); !name.empty(); name = text()) {
-    text();  // its type
+    const std::string type = text();
     std::int32_t size = 0;
     in.read(&size, sizeof size);
     if (size < 0 || static_cast<std::uint64_t>(size) > in.size() - in.position())
-      throw bad_input(in.path(), "attribute " + name, fmt::format("{} bytes", size),
-                      "as many as the file has");
+      throw refuse(name, fmt::format("{} bytes", size), "as many as the file has");
     std::string value(static_cast<std::size_t>(size), '\0');
     in.read(value.data(), value.size());
+    if (!fills(type, value))
+      throw refuse(name, fmt::format("{} of {} bytes", type, size), "a value of its size");
+    if (type == "chlist") channels = std::max(channels, value.size() / 18);
+    if (type == "compression") rows = packed_rows(static_cast<Imf::Compression>(value[0]));
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (name == "dataWindow")
+        image[k] = std::uint64_t{number_at(value, 8 + 4 * k) - number_at(value, 4 * k)} + 1;
+      if (type == "tiledesc") tile[k] = std::max(number_at(value, 4 * k), 1U);
+    }
   }
+  // On opening, it allocates for each tile's place in the file, and for the lines that are packed
+  // as one.
+  if (tile[0] > 0)
+    if (const auto n = ((image[0] - 1) / tile[0] + 1) * ((image[1] - 1) / tile[1] + 1);
+        n > in.left(in.size()) / sizeof(std::uint64_t))
+      throw bad_input(in.path(), "tiles", fmt::format("{} of them", n), "places for all of them");
+  constexpr std::uint64_t most = std::uint64_t{1} << 29;
+  const auto bytes = std::min<std::uint64_t>(image[0], longest_side) * channels * sizeof(float) *
+                     std::min<std::uint64_t>(image[1], rows);
+  if (tile[0] == 0 && bytes > most)
+    throw bad_input(in.path(), "header", fmt::format("{} bytes packed as one", bytes),
+                    fmt::format("at most {}", most));
   // For rows and columns, too, it allocates on opening.
   [[maybe_unused]] static const bool limited = [] {  // once: every thread that reads shares them
-    constexpr auto most = static_cast<int>(longest_side);
-    Imf::Header::setMaxImageSize(most, most);
-    Imf::Header::setMaxTileSize(most, most);
+    constexpr auto longest = static_cast<int>(longest_side);
+    Imf::Header::setMaxImageSize(longest, longest);
+    Imf::Header::setMaxTileSize(longest, longest);
     return true;
   }();
 }

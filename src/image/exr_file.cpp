@@ -21,24 +21,6 @@
 namespace gonio {
 namespace {
 
-/// Rows that a file in scan lines packs as one.
-std::size_t packed_rows(Imf::Compression c) {
-  switch (c) {
-    case Imf::ZIP_COMPRESSION:
-    case Imf::PXR24_COMPRESSION:
-      return 16;
-    case Imf::PIZ_COMPRESSION:
-    case Imf::B44_COMPRESSION:
-    case Imf::B44A_COMPRESSION:
-    case Imf::DWAA_COMPRESSION:
-      return 32;
-    case Imf::DWAB_COMPRESSION:
-      return 256;
-    default:
-      return 1;
-  }
-}
-
 class ExrFile : public ImageFile {
  public:
   explicit ExrFile(const std::string& path) : ImageFile(path) {

@@ -12,6 +12,7 @@
 #include "image/exr.h"
 #include "image/image_file.h"
 
+#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfHeader.h>
 #include <half.h>
 
@@ -20,8 +21,11 @@ namespace gonio {
 /// Size, channels and text attributes.
 Image without_planes(const Imf::Header&);
 /// Refuses what is no file, and what OpenEXR would believe: it allocates what an attribute claims to be long, 2 GB in a file of
-/// 1 kB, so that each must fit in the file; and sides beyond `longest_side`, which it then refuses itself.
+/// 1 kB, so that each must fit in the file, and what is in it fill it; the same of tiles and lines; and sides beyond `longest_side`,
+/// which it then refuses itself.
 void expect_sound_exr(const std::string& path);
+/// Rows that a file in scan lines packs as one.
+std::size_t packed_rows(Imf::Compression);
 /// The nearest halves; a finite number that becomes infinite is refused.  \param path  told in errors
 std::vector<half> in_half(const std::string& path, std::span<const float>);
 

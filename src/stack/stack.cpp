@@ -1,7 +1,6 @@
 #include "stack/stack.h"
 
-#include <filesystem>
-
+#include "base/file.h"
 #include "base/json/describe.h"
 
 namespace gonio {
@@ -79,7 +78,7 @@ struct Description<Stack> {
 };
 
 std::string Stack::path_of(const std::string& name) const {
-  return (std::filesystem::path(path).parent_path() / name).string();
+  return path_beside(path, name);
 }
 
 Stack read_stack(const std::string& path) {

@@ -23,27 +23,6 @@ std::array<float, 3> floats(const Direction& d) {
   return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
 }
 
-/// Size of a file, and bytes at its ends and between.
-std::string digest_of(const std::string& path) {
-  const InputFile in(path);
-  constexpr std::uint64_t ends = 65536, between = 4096, places = 62;
-  std::string bytes = fmt::format("{}\n", in.size());
-  const auto add = [&](std::uint64_t from, std::uint64_t n) {
-    const auto at = bytes.size();
-    bytes.resize(at + n);
-    in.read_at(from, bytes.data() + at, n);
-  };
-  if (in.size() <= 2 * ends + places * between) {
-    add(0, in.size());
-  } else {
-    add(0, ends);
-    for (std::uint64_t k = 0; k < places; ++k)
-      add(ends + (in.size() - 2 * ends - between) / (places - 1) * k, between);
-    add(in.size() - ends, ends);
-  }
-  return sha256(bytes);
-}
-
 /// Indices of channels by their names.
 std::vector<std::size_t> channels_among(const ImageFile& file,
                                         const std::vector<std::string>& names) {
@@ -98,23 +77,24 @@ std::size_t StackReader::vectors(const std::string& name) {
   const std::string path = stack_.path_of(name);
   const auto known = std::ranges::find(maps_, path, &Source::path);
   if (known != maps_.end()) return static_cast<std::size_t>(known - maps_.begin());
+  const auto stamp = InputFile(path).stamp();
   auto file = open(path);
   auto channels = channels_among(*file, xyz);
   if (channels.empty()) channels = channels_among(*file, rgb);
   if (channels.empty()) refuse_channels(*file, "X, Y and Z, or R, G and B");
-  digest_ += digest_of(path) + '\n';
-  maps_.push_back({path, channels, std::move(file)});
+  const std::size_t numbers = file->channels().size();
+  maps_.push_back({path, channels, std::move(file), stamp, numbers});
   return maps_.size() - 1;
 }
 
 StackReader::StackReader(Stack stack) : stack_(std::move(stack)) {
-  digest_ = sha256_of_file(stack_.path) + '\n';
   constexpr std::size_t kept_open = 64;
   for (const StackImage& image : stack_.images) {
     const std::string path = stack_.path_of(image.path);
-    images_.push_back({path, {}, nullptr});
+    images_.push_back({path, {}, nullptr, InputFile(path).stamp()});
     auto file = open(path);
     Source& source = images_.back();
+    source.numbers = file->channels().size();
     if (images_.size() == 1) {
       channels_ = stack_.channels.value_or(file->channels().size() == 1 ? file->channels() : rgb);
     }
@@ -124,7 +104,6 @@ StackReader::StackReader(Stack stack) : stack_(std::move(stack)) {
       refuse_channels(*file, stack_.channels || images_.size() > 1
                                  ? fmt::format("{} among them", fmt::join(channels_, ", "))
                                  : "one, or R, G and B; or \"channels\" in the stack");
-    digest_ += digest_of(path) + '\n';
     if (images_.size() <= kept_open) source.file = std::move(file);
     const auto map_of = [&](const auto& towards) {
       const auto* map = std::get_if<2>(&towards);
@@ -137,14 +116,30 @@ StackReader::StackReader(Stack stack) : stack_(std::move(stack)) {
   }
   if (channels_.size() == 1) channels_ = {""};
   if (stack_.normals) normals_ = vectors(*stack_.normals);
-  digest_ = sha256(digest_);
+  make_digest();
 }
 
-std::vector<std::string> StackReader::paths() const {
-  std::vector<std::string> all;
+void StackReader::make_digest() {
+  std::vector<const Source*> all;
   for (const auto* sources : {&images_, &maps_})
-    for (const Source& s : *sources) all.push_back(s.path);
-  return all;
+    for (const Source& s : *sources) all.push_back(&s);
+  std::vector<std::string> digests(all.size());
+  for_each_whole(all.size(), [&](std::size_t k) {
+    const InputFile in(all[k]->path);
+    expect_unchanged(*all[k], in);
+    // Numbers have eight bytes at most: a file that is longer holds something else.
+    constexpr std::uint64_t besides = std::uint64_t{1} << 24;
+    digests[k] = sha256_of_file(in, besides + 8 * width_ * height_ * all[k]->numbers);
+  });
+  std::string list = sha256_of_file(stack_.path) + '\n';
+  for (const auto& digest : digests) list += digest + '\n';
+  digest_ = sha256(list);
+}
+
+void StackReader::expect_unchanged(const Source& source, const InputFile& now) {
+  if (now.stamp() != source.opened)
+    throw bad_input(source.path, "reading", "the file changed meanwhile",
+                    "one that stays as it is");
 }
 
 std::size_t StackReader::bytes_of_texel() const {
@@ -160,10 +155,9 @@ void StackReader::read(const Source& source, const Rectangle& part, std::vector<
     planes.push_back(to.data() + c * part.size());
   const auto opened = source.file ? nullptr : open_image(source.path);
   ImageFile& file = source.file ? *source.file : *opened;
-  if (file.width() != width_ || file.height() != height_ ||
-      file.channels().size() <= std::ranges::max(source.channels))
-    throw bad_input(source.path, "reading", "another file meanwhile", "one that stays as it is");
+  expect_unchanged(source, InputFile(source.path));
   file.read(part, source.channels, planes);
+  expect_unchanged(source, InputFile(source.path));
 }
 
 void StackReader::read_vectors(std::size_t map,

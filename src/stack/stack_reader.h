@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "image/image_file.h"
 #include "stack/stack.h"
@@ -47,8 +48,6 @@ class StackReader {
   const std::vector<std::string>& channels() const { return channels_; }
   bool shared() const { return shared_; }
   bool has_normals() const { return normals_ != none; }
-  /// Paths of all that is read: images, maps of directions, normals.
-  std::vector<std::string> paths() const;
   /// Columns and rows that files store as one; parts of whole ones read nothing twice.
   std::size_t block_width() const { return block_width_; }
   std::size_t block_height() const { return block_height_; }
@@ -59,9 +58,8 @@ class StackReader {
   /// surface of a texel that has a value there.  A texel whose normal is NaN or 0 has no values.
   void read(const Rectangle&, StackPart& to) const;
 
-  /// Name of the stack: SHA-256 of its document's bytes and, of each file it names, the size, the first and the last 64 KiB, and 4 KiB
-  /// at each of 62 places between.  Packed images have the places of all their parts at the beginning: these change where one does.  An
-  /// array of NumPy's that is changed in a few numbers may keep its name.
+  /// Name of the stack: SHA-256 of the list of those of its document and of each file that it names.  A file that changes later is
+  /// refused when it is read.
   const std::string& digest() const { return digest_; }
 
  private:
@@ -71,7 +69,11 @@ class StackReader {
     std::vector<std::size_t> channels;  ///< that are read
     mutable std::unique_ptr<ImageFile>
         file;  ///< kept open where there are few; used by one thread at a time
+    InputFile::Stamp opened{};
+    std::size_t numbers = 0;  ///< of a texel, channels that are not read included
   };
+  void make_digest();
+  static void expect_unchanged(const Source&, const InputFile& now);
   std::unique_ptr<ImageFile> open(const std::string& path);
   std::size_t vectors(const std::string& name);
   void read(const Source&, const Rectangle&, std::vector<float>& to) const;

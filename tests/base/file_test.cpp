@@ -353,5 +353,75 @@ TEST(WrongUsage, IsOneHarmlessLineThatIsShort) {
   EXPECT_STREQ(wrong_usage("two  blanks, ω").what(), "two  blanks, ω");
 }
 
+TEST(FileGuard, KeepsWhatIsReadFromBeingWritten) {
+  const Folder folder;
+  const std::string path = folder.write("in", "x");
+  std::filesystem::create_symlink("in", folder / "link");
+  {
+    const FileGuard guard;
+    InputFile in(path);
+    EXPECT_HAS(refusal([&] { OutputFile out(folder / "link"); }, Exit::usage),
+               "would be overwritten");
+    EXPECT_HAS(refusal([&] { OutputFile out(folder / "./in"); }, Exit::usage),
+               "would be overwritten");
+    will_read(folder / "later");
+    EXPECT_HAS(refusal([&] { OutputFile out(folder / "later"); }, Exit::usage),
+               "would be overwritten");
+    OutputFile out(folder / "out");
+    folder.write("out", "y");
+    EXPECT_HAS(refusal([&] { InputFile again(folder / "out"); }, Exit::usage),
+               "would be overwritten");
+  }
+  write_file(path, "without a guard");
+  EXPECT_EQ(test::read_bytes(path), "without a guard");
+}
+
+TEST(FileGuard, KeepsTwoFilesFromHavingOneName) {
+  const Folder folder;
+  const FileGuard guard;
+  OutputFile one(folder / "new");
+  EXPECT_HAS(refusal([&] { OutputFile two(folder / "./new"); }, Exit::usage), "two outputs");
+  one.commit();
+  EXPECT_EQ(refusal([&] { InputFile in(folder.write("new", "made here")); }), "");
+}
+
+TEST(FileGuard, LetsAnEarlierResultBeReplaced) {
+  const Folder folder;
+  const FileGuard guard;
+  const std::string path = folder.write("result", "x");
+  may_replace(path);
+  InputFile in(path);
+  write_file(path, "new");
+  EXPECT_EQ(test::read_bytes(path), "new");
+}
+
+TEST(PathBeside, LiesBelowTheDocumentsFolder) {
+  const Folder folder;
+  std::filesystem::create_directories(folder / "a/b");
+  folder.write("outside", "x");
+  std::filesystem::create_symlink("../outside", folder / "a/link");
+  std::filesystem::create_symlink("b", folder / "a/near");
+  const std::string document = folder.write("a/d.json", "{}");
+  const auto refused = [&](const std::string& name) {
+    return refusal([&] { path_beside(document, name); });
+  };
+  for (const char* name : {"x", "b/x", "./b/../x", "near/x", "..x"}) EXPECT_EQ(refused(name), "");
+  EXPECT_EQ(path_beside(document, "b/x"), folder / "a/b/x");
+  for (const std::string& name :
+       {std::string("../outside"), std::string("b/../../outside"), std::string("link"),
+        folder / "outside", std::string("/etc/passwd"), std::string("missing/../../x")})
+    EXPECT_HAS(refused(name), "--follow-paths");
+}
+
+TEST(FolderLock, IsOfOneAtATime) {
+  const Folder folder;
+  {
+    const FolderLock mine(folder / "made", FolderLock::Taken::is_refused);
+    EXPECT_HAS(refusal([&] { FolderLock other(folder / "made", FolderLock::Taken::is_refused); }),
+               "another run");
+  }
+  const FolderLock again(folder / "made", FolderLock::Taken::waits);
+}
+
 }  // namespace
 }  // namespace gonio

@@ -39,5 +39,37 @@ TEST(Printable, CutsBetweenCharacters) {
   EXPECT_EQ(printable("aωωω", 4), "aωω…");
 }
 
+TEST(Beginning, EndsBetweenCharacters) {
+  EXPECT_EQ(beginning("aωω", 4), "aω");
+  EXPECT_EQ(beginning("aωω", 5), "aωω");
+  EXPECT_EQ(beginning("ω", 1), "");
+}
+
+/// A name that does harm in each of these places.
+const std::string name_of_harm = "--a <&\"'\x1b\x7f\u202e%";
+
+TEST(NamesElsewhere, AreWordsOfAShell) {
+  EXPECT_EQ(path_word("--help"), "./--help");
+  EXPECT_EQ(path_word("-a b"), "'./-a b'");
+  EXPECT_EQ(path_word("a-b"), "a-b");
+}
+
+TEST(NamesElsewhere, AreTextInXmlAndHtml) {
+  EXPECT_EQ(markup_text(name_of_harm), "--a &lt;&amp;&quot;'\\x1b\\x7f\\xe2\\x80\\xae%");
+}
+
+TEST(NamesElsewhere, AreReferencesOfUris) {
+  EXPECT_EQ(uri_of(name_of_harm), "--a%20%3C%26%22%27%1B%7F%E2%80%AE%25");
+  EXPECT_EQ(uri_of("a/b_c~1.json"), "a/b_c~1.json");
+  EXPECT_EQ(uri_of("c:d"), "./c:d") << "no scheme";
+  EXPECT_EQ(uri_of("/c:d"), "/c:d");
+}
+
+TEST(NamesElsewhere, StayTheSameInJsonAndLeaveATerminalAlone) {
+  EXPECT_EQ(printable_json("[\"ω\x7f\u202e🙂\xc2\x9bz\"]"),
+            "[\"ω\\u007f\\u202e🙂\\u009bz\"]");
+  EXPECT_EQ(printable_json("\n[\"漢\"]"), "\n[\"漢\"]");
+}
+
 }  // namespace
 }  // namespace gonio

@@ -205,5 +205,40 @@ TEST(FitMapCommand, NeedsMemoryForATileAndNotForTheStack) {
   EXPECT_TRUE(fs::exists(f / "t/tile_3_2.exr"));
 }
 
+TEST(FitMapCommand, BeginsAnewWhereARefusedOrOtherRunLeftTiles) {
+  const Folder f;
+  make_stack(f);
+  ASSERT_EQ(gonio(f, "fit_map s/stack.json " + model + " -o whole.exr").code, 0);
+  ASSERT_EQ(gonio(f,
+                  "fit_map s/stack.json --model lambert --tile-size 4 --tile 0,0 --tile 1,0 "
+                  "-o m.exr.tiles")
+                .code,
+            0);
+  const auto o = gonio(f, "fit_map s/stack.json " + model + " -o m.exr");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(read_bytes(f / "m.exr"), read_bytes(f / "whole.exr"));
+  EXPECT_FALSE(fs::exists(f / "m.exr.tiles"));
+}
+
+TEST(FitMapCommand, OfTwoRunsOnOneMapBothSucceedOrOneSaysSoBeforeItWorks) {
+  const Folder f;
+  make_stack(f);
+  f.write("two", "a() { " + program() + " fit_map s/stack.json " + model +
+                     " --tile-size 1 -o m.exr >o$1 2>e$1; echo $? >c$1; }\na 1 & a 2 & wait\n");
+  for (int round = 0; round < 4; ++round) {
+    ASSERT_EQ(std::system(("cd '" + f / "" + "' && bash two").c_str()), 0);
+    int done = 0;
+    for (const char* k : {"1", "2"}) {
+      const std::string code = read_bytes(f / (std::string("c") + k)),
+                        said = read_bytes(f / (std::string("e") + k));
+      done += code == "0\n";
+      EXPECT_TRUE(code == "0\n" || said.find("another run") != said.npos) << said;
+    }
+    EXPECT_GE(done, 1);
+    EXPECT_FALSE(fs::exists(f / "m.exr.tiles"));
+    fs::remove(f / "m.exr");
+  }
+}
+
 }  // namespace
 }  // namespace gonio::test

@@ -229,5 +229,119 @@ TEST(Surroundings, AnInputNeedNotBeWritableNorItsFolder) {
   ASSERT_EQ(::chmod((f / "in").c_str(), 0755), 0);
 }
 
+TEST(Surroundings, ASignalThatIsIgnoredStaysSo) {
+  const Folder f;
+  const std::string words = "synth " + std::string(paint) + " --layout merl -o t >/dev/null 2>&1";
+  EXPECT_EQ(status_of("cd '" + f / "" + "' && trap '' HUP INT && (" + program() + " " + words +
+                      " & p=$!; sleep 0.05; kill -HUP $p; kill -INT $p; wait $p)"),
+            0);
+}
+
+TEST(Surroundings, HelpThatCannotBePrintedIsAnError) {
+  const Folder f;
+  for (const char* words : {"--help", "fit --help", "--version", "models"})
+    EXPECT_EQ(status_of(program() + " " + words + " >/dev/full 2>/dev/null"), 3) << words;
+}
+
+/// Documents that name files, each with the command that reads it.
+TEST(Surroundings, ADocumentNamesNoFilesOutsideItsFolder) {
+  const Folder f;
+  std::filesystem::create_directory(f / "in");
+  f.write("secret", "words that nobody shall see");
+  f.write("in/scene.json",
+          R"({"schema": "gonio.scene/1", "materials": {"a": {"fit": "../secret"}},
+          "objects": [{"shape": "sphere", "material": "a"}],
+          "lights": [{"type": "directional", "direction": [0, 1, 0], "irradiance": [1, 1, 1]}],
+          "view": {"position": [0, 0, 10], "target": [0, 0, 0], "fov_deg": 20},
+          "tolerance": {"metric": "delta_e_2000", "quantile": 0.9, "limit": 1, "max": 4}})");
+  f.write(
+      "in/stack.json",
+      R"({"schema": "gonio.stack/1", "images": [{"path": "../secret", "theta_i": 0, "theta_o": 0}]})");
+  f.write("in/choice.json",
+          R"({"schema": "gonio.choice/1", "model": "ggx/smith_ggx.correlated/schlick",
+          "domain": {"roughness": [0.4, 1], "fits": ["../secret"]}, "budgets": {"operations": 500}})");
+  for (const char* words : {"plan in/scene.json", "render in/scene.json -o p.png",
+                            "fit_map in/stack.json -o m.exr", "validate in/choice.json"}) {
+    const auto o = gonio(f, words);
+    expect_one_line(o, 3, "--follow-paths");
+    EXPECT_EQ(o.err.find("words"), o.err.npos) << o.err;
+    const auto followed = gonio(f, std::string(words) + " --follow-paths");
+    EXPECT_EQ(followed.err.find("--follow-paths"), followed.err.npos) << followed.err;
+    EXPECT_EQ(followed.code, 3) << "it is read, and no fit";
+  }
+}
+
+TEST(Surroundings, NothingThatADocumentNamesIsOverwritten) {
+  const Folder f;
+  f.write("t.csv", small_table());
+  ASSERT_EQ(gonio(f, "fit t.csv --model ggx/smith_ggx.correlated/schlick -o fit.json").code, 0);
+  const std::string fit = read_bytes(f / "fit.json");
+  f.write("scene.json",
+          R"({"schema": "gonio.scene/1", "materials": {"a": {"fit": "fit.json"}},
+          "objects": [{"shape": "sphere", "material": "a"}],
+          "lights": [{"type": "directional", "direction": [0, 1, 0], "irradiance": [1, 1, 1]}],
+          "view": {"position": [0, 0, 10], "target": [0, 0, 0], "fov_deg": 20},
+          "tolerance": {"metric": "delta_e_2000", "quantile": 0.9, "limit": 1, "max": 4}})");
+  f.write("choice.json",
+          R"({"schema": "gonio.choice/1", "model": "ggx/smith_ggx.correlated/schlick",
+          "domain": {"roughness": [0.4, 1], "fits": ["fit.json"]}, "budgets": {"operations": 500}})");
+  f.write("list", "t.csv\n");
+  std::filesystem::create_symlink("fit.json", f / "fit.png");
+  for (const char* words :
+       {"plan scene.json -o fit.json", "plan scene.json --html p.html -o ./p.page.json",
+        "render scene.json -o fit.png", "validate choice.json -o fit.json",
+        "validate choice.json --junit fit.json", "validate choice.json --sarif v --junit v",
+        "batch --write slurm @list -o t.csv", "batch --write slurm @list t.csv -o list",
+        "gather fit.json @list -o t.csv"}) {
+    const auto o = gonio(f, words);
+    EXPECT_TRUE(o.code == 2 || o.code == 3) << words << o.err;
+    EXPECT_EQ(read_bytes(f / "fit.json"), fit) << words;
+    EXPECT_EQ(read_bytes(f / "t.csv"), small_table()) << words;
+    EXPECT_EQ(read_bytes(f / "list"), "t.csv\n") << words;
+  }
+}
+
+/// Numbers of two documents of one shape: the largest difference, relative, and of correlations.
+void compare(const nlohmann::json& a,
+             const nlohmann::json& b,
+             double& values,
+             double& correlations,
+             bool of_correlations = false) {
+  ASSERT_EQ(a.type(), b.type());
+  if (a.is_structured()) {
+    ASSERT_EQ(a.size(), b.size());
+    const auto& x = a.items();
+    auto y = b.begin();
+    for (const auto& [key, value] : x)
+      compare(value, *y++, values, correlations, of_correlations || key == "correlations");
+  } else if (a.is_number()) {
+    const double p = a, q = b, scale = of_correlations ? 1 : std::max(std::abs(p), 1e-12);
+    double& largest = of_correlations ? correlations : values;
+    largest = std::max(largest, std::abs(p - q) / scale);
+  }
+}
+
+TEST(Surroundings, VectorUnitsMoveNumbersByNoMoreThanTheDocsSay) {
+  const Folder f;
+  for (const char* seed : {"1", "2", "3"}) {
+    ASSERT_EQ(gonio(f, std::string("synth ") + paint +
+                           " --layout random --samples 300 --noise 0.05 -o t.csv --seed " + seed)
+                  .code,
+              0);
+    const auto fit = [&](const std::string& set) {
+      return gonio(f, "fit t.csv --json", "GONIO_INSTRUCTION_SET=" + set + " ").json();
+    };
+    const auto plainest = fit("sse2"), best = fit("");
+    double values = 0, correlations = 0;
+    for (const char* part : {"parameters", "identifiability"}) {
+      auto a = plainest[part], b = best[part];
+      a.erase("condition"), b.erase("condition");
+      compare(a, b, values, correlations);
+    }
+    EXPECT_LE(values, 2.5e-8);
+    EXPECT_LE(correlations, 1.3e-4);
+  }
+}
+
 }  // namespace
 }  // namespace gonio::test

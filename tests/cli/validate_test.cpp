@@ -79,5 +79,28 @@ TEST(ValidateCommand, RefusesWhatItCannotReadOrWrite) {
   EXPECT_FALSE(std::filesystem::exists(f / "v.json"));
 }
 
+TEST(ValidateCommand, WritesANameSoThatNoReaderTakesItForMore) {
+  const Folder f;
+  const std::string name = "e\x1b[31m\u202e&.json";
+  std::string table = "theta_i,phi_i,theta_o,phi_o,f\n";
+  for (int i = 0; i < 80; ++i) table += std::to_string(i) + ",0,30,180,0.2\n";
+  f.write("t.csv", table);
+  ASSERT_EQ(gonio(f, "fit t.csv --model ggx/smith_ggx.correlated/schlick -o fit.json").code, 0);
+  std::filesystem::rename(f / "fit.json", f / name);
+  auto c = choice(1e-9);
+  c["domain"] = {{"roughness", {0.4, 1}}, {"fits", {name}}};
+  write(f, "c\x1b é.json", c);
+  const auto o = gonio(f, "validate c*.json --junit v.xml --sarif v.sarif");
+  EXPECT_EQ(o.code, 1) << o.err;
+  const auto json = gonio(f, "validate c*.json --json");
+  for (const std::string& text :
+       {o.out, json.out, read_bytes(f / "v.xml"), read_bytes(f / "v.sarif")}) {
+    EXPECT_EQ(text.find('\x1b'), text.npos) << text;
+    EXPECT_EQ(text.find("\u202e"), text.npos) << text;
+  }
+  EXPECT_NE(read_bytes(f / "v.xml").find("&amp;"), std::string::npos);
+  EXPECT_NE(read_bytes(f / "v.sarif").find("\"c%1B%20%C3%A9.json\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gonio::test

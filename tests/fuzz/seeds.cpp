@@ -103,6 +103,22 @@ int main(int argc, char** argv) {
   save("gltf", "text", square.dump());
   save("gltf", "binary", scene::test::glb(square, scene::test::square_bytes()));
   save("scene", "whole", scene::test::example().dump());
+  save("batch", "failure",
+       R"({"schema": "gonio.failure/1", "input": {"path": "a path of more than sixteen bytes"},)"
+       R"( "status": "bad_input", "exit_code": 3, "message": "m", "batch": {"made_with": "w"}})");
+  save(
+      "batch", "fit",
+      R"({"schema": "gonio.fit/1", "model": "lambert", "channels": ["f"], "warnings": [],)"
+      R"( "parameters": {"kd": {"value": 1, "std_error": null, "status": "free", "limit": null}},)"
+      R"( "cost": 1, "residuals": {"rms": 1, "log_rms": 1}, "misfit": {"size": 1, "told": false},)"
+      R"( "solver": {"termination": "converged", "message": "m", "time_ms": {}},)"
+      R"( "input": {"path": "p", "sha256": "s", "values_used": 1, "masked": {}},)"
+      R"( "batch": {"made_with": "w", "preview": {"thumbnail": null, "albedo": [1], "sphere": ""}}})");
+  save(
+      "choice", "whole",
+      R"({"schema": "gonio.choice/1", "model": "lambert+coat:ggx/smith_ggx.correlated/schlick",)"
+      R"( "coating": "view", "reference": "lambert", "domain": {"roughness": [0.1, 1], "metal": "Au",)"
+      R"( "fits": ["f"]}, "budgets": {"albedo_error": 0.1, "delta_e_2000": {"limit": 1}}})");
   const auto lit = scene::test::sphere(scene::test::car_paint(), scene::test::front());
   save(
       "plan", "whole",

@@ -1,5 +1,7 @@
 #include "image/exr.h"
 
+#include <cstdint>
+#include <optional>
 #include <random>
 
 #include "base/error.h"
@@ -158,6 +160,81 @@ TEST(Exr, ReadsEnvironmentMapsMadeElsewhere) {
     ++maps;
   }
   EXPECT_GT(maps, 0U);
+}
+
+/// Header of an image of one pixel with other attributes, which have the size that is given where there is one.
+class ExrHeader {
+ public:
+  ExrHeader& add(const std::string& name,
+                 const std::string& type,
+                 const std::string& value,
+                 std::optional<std::int32_t> size = {}) {
+    const auto n = size.value_or(static_cast<std::int32_t>(value.size()));
+    bytes_ += name + '\0' + type + '\0' + words({n}) + value;
+    return *this;
+  }
+  static std::string words(const std::vector<std::int32_t>& all) {
+    return {reinterpret_cast<const char*>(all.data()), 4 * all.size()};
+  }
+  ExrHeader& add_rest(std::int32_t columns = 1, std::int32_t lines = 1) {
+    const std::string box = words({0, 0, columns - 1, lines - 1}), zero(1, '\0');
+    return add("compression", "compression", zero)
+        .add("dataWindow", "box2i", box)
+        .add("displayWindow", "box2i", box)
+        .add("lineOrder", "lineOrder", zero)
+        .add("pixelAspectRatio", "float", std::string("\0\0\x80\x3f", 4))
+        .add("screenWindowCenter", "v2f", std::string(8, '\0'))
+        .add("screenWindowWidth", "float", std::string("\0\0\x80\x3f", 4));
+  }
+  std::string text() const { return bytes_ + std::string(65, '\0'); }
+
+ private:
+  std::string bytes_{"\x76\x2f\x31\x01\2\0\0\0", 8};
+};
+const std::string one_channel = std::string("Y\0", 2) + ExrHeader::words({2, 0, 1, 1}) + '\0';
+
+TEST(Exr, RefusesAttributesThatDoNotFillTheirSize) {
+  const Folder folder;
+  const std::string hidden = std::string("x\0string\0\xff\xff\xff\x7f", 13);
+  const auto line = [&](const ExrHeader& h) {
+    return test::refusal([&] { read_exr_header(folder.write("h.exr", h.text())); });
+  };
+  EXPECT_EQ(line(ExrHeader().add("channels", "chlist", one_channel).add_rest()), "");
+  // OpenEXR goes on behind the channels' end, which comes before that of the attribute.
+  EXPECT_HAS(line(ExrHeader().add("channels", "chlist", '\0' + hidden + "yyyy").add_rest()),
+             "attribute channels: found chlist of 18 bytes");
+  const auto with = [&](const char* type, const std::string& value) {
+    return line(
+        ExrHeader().add("channels", "chlist", one_channel).add("a", type, value).add_rest());
+  };
+  EXPECT_HAS(with("box2i", hidden), "attribute a: found box2i of 13 bytes");
+  EXPECT_HAS(with("int", "12345"), "int of 5 bytes");
+  EXPECT_HAS(with("preview", ExrHeader::words({30'000, 17'000})), "preview of 8 bytes");
+  EXPECT_HAS(with("stringvector", ExrHeader::words({0x7fffffff})), "stringvector of 4 bytes");
+  EXPECT_EQ(with("stringvector", ExrHeader::words({2}) + "ab"), "");
+  EXPECT_HAS(with(std::string(256, 't').c_str(), ""), "a longer name");
+}
+
+TEST(Exr, RefusesMoreTilesThanAFileHasPlacesFor) {
+  const Folder folder;
+  const ExrHeader h = ExrHeader()
+                          .add("channels", "chlist", one_channel)
+                          .add("tiles", "tiledesc", ExrHeader::words({1, 1}) + '\0')
+                          .add_rest(16'384, 16'384);
+  std::string text = h.text();
+  text[5] = 2;  // tiled
+  EXPECT_HAS(test::refusal([&] { read_exr_header(folder.write("t.exr", text)); }),
+             "tiles: found 268435456 of them");
+}
+
+TEST(Exr, RefusesChannelsOfWhichTheLinesPackedAsOneFillTheMemory) {
+  const Folder folder;
+  std::string channels;
+  for (int c = 0; c < 40'000; ++c)
+    channels += std::to_string(c) + '\0' + ExrHeader::words({2, 0, 1, 1});
+  const ExrHeader h = ExrHeader().add("channels", "chlist", channels + '\0').add_rest(16'384, 1);
+  EXPECT_HAS(test::refusal([&] { read_exr_header(folder.write("c.exr", h.text())); }),
+             "bytes packed as one");
 }
 
 }  // namespace

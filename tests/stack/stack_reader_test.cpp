@@ -229,5 +229,38 @@ TEST(StackReader, TellsTheFirstOfSeveralErrorsWhateverTheThreads) {
   }
 }
 
+TEST(StackReader, IsNamedByEveryByteOfItsImages) {
+  const Folder f;
+  constexpr std::size_t side = 512;  // 3 MB, of which the byte lies in the middle
+  std::string bytes = npy_header({side, side, 3}) + std::string(side * side * 3 * 4, '\0');
+  f.write("a.npy", bytes);
+  const auto path = write_stack(f, R"([{"path": "a.npy", "theta_i": 0, "theta_o": 10}])");
+  const auto before = StackReader(read_stack(path)).digest();
+  for (std::size_t at = bytes.size() / 2; at < bytes.size(); at += 400'003) {
+    std::string other = bytes;
+    other[at] = '\1';
+    f.write("a.npy", other);
+    EXPECT_NE(StackReader(read_stack(path)).digest(), before) << at;
+  }
+}
+
+TEST(StackReader, RefusesAnImageThatChangesWhileItIsRead) {
+  const Folder f;
+  const StackReader reader(read_stack(example_stack(f)));
+  StackPart s;
+  reader.read(whole, s);
+  Image other = stack_image(1);
+  other.planes[0][11] += 1;
+  write_exr(f / "1.exr", other);
+  EXPECT_HAS(refusal([&] { reader.read(whole, s); }), "1.exr: reading: found the file changed");
+}
+
+TEST(StackReader, RefusesAFileThatIsMuchLongerThanItsImage) {
+  const Folder f;
+  const auto path = example_stack(f);
+  std::filesystem::resize_file(f / "1.exr", std::uintmax_t{1} << 40U);
+  EXPECT_HAS(refusal([&] { StackReader reader(read_stack(path)); }), "1.exr: size");
+}
+
 }  // namespace
 }  // namespace gonio

@@ -516,7 +516,7 @@ std::string json_text(const ValueRef& value, Digits digits) {
 }
 
 std::string json_line(const ValueRef& value, Digits digits) {
-  return json_of(value, digits).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return line_of(json_of(value, digits));
 }
 
 void read_value(const JsonReader& j, const ValueType& type, void* value, const Rules& rules) {

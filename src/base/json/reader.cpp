@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,8 @@ namespace gonio {
 namespace {
 
 constexpr int kDeepest = 64;  ///< nested brackets; the contract's documents need 5
+/// Bytes that the values of a document take: brackets alone take 33 times their text.
+constexpr std::size_t most_memory = std::size_t{1} << 29;
 
 /// Byte where brackets nest deeper than that, or npos.
 std::size_t too_deep(std::string_view bytes) {
@@ -46,7 +49,7 @@ std::string place_of(std::string_view bytes, std::size_t at) {
 std::string name_of(const Json& j) {
   if (j.is_structured())
     return fmt::format("{} {}", j.empty() ? "an empty" : "an", j.is_object() ? "object" : "array");
-  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return line_of(j);
 }
 
 /// Step from an object to its member, as a part of a place.
@@ -80,11 +83,15 @@ class Builder final : public nlohmann::json_sax<Json> {
   bool number_integer(std::int64_t v) override { return add(v); }
   bool number_unsigned(std::uint64_t v) override { return add(v); }
   bool number_float(double v, const std::string&) override { return add(v); }
-  bool string(std::string& v) override { return add(std::move(v)); }
+  bool string(std::string& v) override {
+    charge(v);
+    return add(std::move(v));
+  }
   bool binary(Json::binary_t& v) override { return add(std::move(v)); }
   bool start_object(std::size_t) override { return open(Json::object()); }
   bool start_array(std::size_t) override { return open(Json::array()); }
   bool key(std::string& name) override {
+    charge(name);
     members_of(*open_.back()).emplace_back(std::move(name), nullptr);
     return true;
   }
@@ -113,12 +120,21 @@ class Builder final : public nlohmann::json_sax<Json> {
     if (in.is_array()) return in.emplace_back(std::move(value));
     return members_of(in).back().second = std::move(value);
   }
+  void charge(std::size_t bytes) {
+    if ((memory_ += bytes) > most_memory)
+      throw bad_input(file_, "JSON", fmt::format("more values than {} bytes hold", most_memory),
+                      "fewer");
+  }
+  /// A text on its own, and what is allocated for its characters.
+  void charge(const std::string& text) { charge(2 * sizeof text + text.size()); }
   bool add(Json&& value) {
+    charge(2 * sizeof value);  // a list that grows has room for twice as many
     put(std::move(value));
     return true;
   }
   /// It stays where it is while it is open: nothing is added beside it.
   bool open(Json&& value) {
+    charge(2 * sizeof value + 3 * sizeof(Json::array_t));
     open_.push_back(&put(std::move(value)));
     return true;
   }
@@ -150,12 +166,16 @@ class Builder final : public nlohmann::json_sax<Json> {
   Json root_;
   std::vector<Json*> open_;  ///< the innermost last
   std::vector<std::size_t> order_;
+  std::size_t memory_ = 0;
 };
 
 }  // namespace
 
 std::string text_of(const Json& j) {
-  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return printable_json(j.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
+std::string line_of(const Json& j) {
+  return printable_json(j.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 Json parse_json(const std::string& file, const std::string& bytes) {

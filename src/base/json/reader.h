@@ -18,8 +18,11 @@ namespace gonio {
 
 using Json = nlohmann::ordered_json;
 
-/// The text of a document for people and programs alike: indented, ends with a new line.
+/// The text of a document for people and programs alike: indented, ends with a new line.  Bytes that are no text are replaced, and
+/// its strings leave a terminal alone.
 std::string text_of(const Json&);
+/// The same in one line, without its end.
+std::string line_of(const Json&);
 /// The bytes as a document; bytes that are not JSON, or nest deeper than 64 levels, are bad_input
 /// with line and column.
 Json parse_json(const std::string& file, const std::string& bytes);

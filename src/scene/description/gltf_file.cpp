@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 
 #include "base/base64.h"
 #include "base/error.h"
@@ -125,8 +124,8 @@ GltfFile::GltfFile(const std::string& path) : path_(path) {
   binary_ = std::make_unique<InputFile>(path);
   std::string text;
   if (is_binary(binary_->peek(4))) {
-    digest_ = sha256_of_file(*binary_);
     text = text_of_binary(*binary_, binary_first_, binary_size_);
+    digest_ = sha256_of_file(*binary_);
   } else {
     text = binary_->read_rest(most_document_bytes);
     digest_ = sha256(text);
@@ -249,8 +248,7 @@ GltfFile::Buffer& GltfFile::buffer(const JsonReader& number) const {
     b->bytes = from_base64(std::string_view(uri).substr(begin + base.size()));
     b->size = b->bytes.size();
   } else {
-    const auto path = std::filesystem::path(path_).parent_path() / path_of(json.at("uri"));
-    b->own = std::make_unique<InputFile>(path.string());
+    b->own = std::make_unique<InputFile>(path_beside(path_, path_of(json.at("uri"))));
     b->file = b->own.get();
     b->size = b->own->size();
     buffer_digests_.push_back(sha256_of_file(*b->own));

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "base/json/describe.h"
 #include "geometry/vector.h"
@@ -171,6 +173,24 @@ void append(Mesh& all, Mesh&& more) {
     all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
+/// Refuses many triangles on the same three points: a ray that meets one meets them all.
+void expect_apart(const Mesh& m, const JsonReader& mesh) {
+  constexpr std::size_t most = 64;
+  std::vector<std::size_t> places;  // of the three points in any order
+  for (const auto& t : m.triangles) {
+    std::size_t place = 0;
+    for (const auto corner : t) {
+      const auto& p = m.positions[corner];
+      place += std::hash<std::string_view>()({reinterpret_cast<const char*>(p.data()), sizeof p});
+    }
+    places.push_back(place);
+  }
+  std::ranges::sort(places);
+  for (std::size_t i = most; i < places.size(); ++i)
+    if (places[i] == places[i - most])
+      mesh.fail(fmt::format("more than {} triangles on the same points", most), "fewer");
+}
+
 Mesh read(const GltfFile& file, const JsonReader& mesh, MeshBudget& budget) {
   const JsonReader primitives = mesh.at("primitives");
   if (!primitives.is_array()) primitives.fail("an array");
@@ -183,6 +203,7 @@ Mesh read(const GltfFile& file, const JsonReader& mesh, MeshBudget& budget) {
     append(all, read_primitive(file, primitives.at(i), budget));
   }
   if (all.triangles.empty()) mesh.fail("no triangle that has an area", "one at least");
+  expect_apart(all, mesh);
   return all;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -26,8 +25,7 @@ constexpr std::size_t kChannels = 3;
 /// Files that a scene names, and what was read of them.
 class Files {
  public:
-  Files(const std::string& scene, const std::string& digest)
-      : folder_(std::filesystem::path(scene).parent_path()), digests_{digest} {}
+  Files(const std::string& scene, const std::string& digest) : scene_(scene), digests_{digest} {}
 
   BoundModel fit(const std::string& name) {
     const std::string path = path_of(name);
@@ -70,9 +68,9 @@ class Files {
   }
 
  private:
-  std::string path_of(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path_of(const std::string& name) const { return path_beside(scene_, name); }
 
-  std::filesystem::path folder_;
+  std::string scene_;
   std::vector<std::string> digests_;
   std::map<std::string, std::unique_ptr<GltfFile>> gltf_;
   std::vector<const GltfFile*> gltf_order_;

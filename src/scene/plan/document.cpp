@@ -188,7 +188,7 @@ Forms forms_in(const MaterialPlan& m, const Look& look, const JsonReader& at) {
 }  // namespace
 
 std::string to_json(const Plan& p) {
-  return json_of(p).dump(2);
+  return json_text(p);
 }
 
 std::string plan_schema() {

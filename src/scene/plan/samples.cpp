@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/error.h"
 #include "geometry/half_difference.h"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ namespace {
 constexpr std::size_t most_looks =
     20'000;  ///< for one point: what fills less of the picture is not seen
 constexpr int candidates = 4;
+constexpr double wide = 1.001;  ///< times a bounding sphere's radius: a mesh's points are floats
 
 FrameAngles<double> angles_of(const Frame& frame, const Direction& light, const Direction& viewer) {
   return frame_angles({frame.inside(light), frame.inside(viewer)});
@@ -24,8 +26,8 @@ bool passes_through(const Ray& ray, const BoundingSphere& sphere) {
   const Vector way = sphere.center - ray.origin;
   const Vector d = vector_of(ray.direction);
   const Vector beside = way - dot(way, d) * d;
-  const double wide = 1.001 * sphere.radius;  // a mesh's points are floats
-  return dot(beside, beside) <= wide * wide;
+  const double radius = wide * sphere.radius;
+  return dot(beside, beside) <= radius * radius;
 }
 
 template <class F>
@@ -52,11 +54,34 @@ std::vector<double> turns_of(const std::vector<Look>& looks) {
 
 }  // namespace
 
+namespace {
+
+/// Rows of a point's light are kept: of more lights each has fewer.
+constexpr std::size_t most_directions = 512, least_directions = 4;
+
+std::size_t with_extent(const Scene& s) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      s.lights, [](const Light& l) { return !std::holds_alternative<DirectionalLight>(l); }));
+}
+const Scene& with_few_lights(const Scene& s) {
+  constexpr std::size_t most = most_directions / least_directions;
+  if (const auto n = with_extent(s); n > most)
+    throw bad_input(s.path, "/lights", fmt::format("{} that have an extent", n),
+                    fmt::format("at most {} in a plan", most));
+  return s;
+}
+
+}  // namespace
+
 Lit::Lit(const Scene& s)
-    : scene(s), looks(looks_of(s)), tracer(s, turns_of(looks)), lighting(s, &tracer) {}
+    : scene(with_few_lights(s)),
+      looks(looks_of(s)),
+      tracer(s, turns_of(looks)),
+      lighting(s, &tracer) {}
 
 PointDrawer Lit::drawer(std::size_t material, std::size_t directions) const {
-  return {scene, material, looks[material].widths(), tracer, lighting, directions};
+  const std::size_t each = most_directions / std::max<std::size_t>(with_extent(scene), 1);
+  return {scene, material, looks[material].widths(), tracer, lighting, std::min(directions, each)};
 }
 
 LitColumns::LitColumns(std::span<const FrameAngles<double>> rows)
@@ -86,18 +111,43 @@ PointDrawer::PointDrawer(const Scene& s,
       lighting_(lighting) {
   for (const auto& object : s.objects)
     if (object.material == material) bounds_.push_back(bounding_sphere(object));
+  double area = 0;
+  if (const auto* camera = std::get_if<Camera>(&s.view))
+    for (const auto& b : bounds_) {
+      const auto part = part_around(*camera, 1, b.center, wide * b.radius);
+      if (!(part.area() > 0)) continue;
+      parts_.push_back(part);
+      area_before_.push_back(area += part.area());
+    }
+  constexpr double worth = 0.25;
+  if (!(area < worth)) parts_.clear();
   constexpr std::size_t looks = 16'384;
   std::size_t seen = 0;
   for (std::size_t i = 0; i < looks; ++i) {
     Draws draw(s.seed, 0, material, i);
     seen += look_once(draw).has_value();
   }
-  coverage_ = static_cast<double>(seen) / looks;
+  coverage_ = static_cast<double>(seen) / looks * (parts_.empty() ? 1 : area);
+}
+
+/// Moves a place of the picture into the parts, evenly; false where it is to be passed over: where parts overlap, others are there
+/// as often.
+bool PointDrawer::moved_into_parts(double& x, double& y, Draws& draw) const {
+  const double at = x * area_before_.back();
+  const auto k = std::min<std::size_t>(
+      static_cast<std::size_t>(std::ranges::upper_bound(area_before_, at) - area_before_.begin()),
+      parts_.size() - 1);
+  const PicturePart& p = parts_[k];
+  x = p.x + p.width * (at - (k > 0 ? area_before_[k - 1] : 0)) / p.area();
+  y = p.y + p.height * y;
+  const auto there = std::ranges::count_if(parts_, [&](const auto& o) { return o.holds(x, y); });
+  return there <= 1 || draw.uniform() * static_cast<double>(there) < 1;
 }
 
 std::optional<PointDrawer::Seen> PointDrawer::look_once(Draws& draw) const {
   const Camera camera = draw_camera(scene_.view, draw);
-  const double x = draw.uniform(), y = draw.uniform();
+  double x = draw.uniform(), y = draw.uniform();
+  if (!parts_.empty() && !moved_into_parts(x, y, draw)) return {};
   const Ray seen = ray(camera, x, y, 1);
   if (std::ranges::none_of(bounds_, [&](const auto& b) { return passes_through(seen, b); }))
     return {};

@@ -74,6 +74,7 @@ class PointDrawer {
   };
   std::optional<Seen> look_once(Draws&) const;
   std::optional<Seen> look(Draws&) const;
+  bool moved_into_parts(double& x, double& y, Draws&) const;
   double near_peak(const Seen&) const;
 
   const Scene& scene_;
@@ -81,6 +82,9 @@ class PointDrawer {
   std::vector<double> widths_;
   std::vector<BoundingSphere>
       bounds_;  ///< of the material's objects: rays past all of them are not traced
+  /// Parts of the picture that hold these, of a camera that stands still and where they are small: places are drawn there.
+  std::vector<PicturePart> parts_;
+  std::vector<double> area_before_;  ///< up to the end of each part
   double coverage_ = 0;
   const Tracer& tracer_;
   const Lighting& lighting_;
@@ -94,6 +98,7 @@ struct Lit {
   Lighting lighting;
 
   explicit Lit(const Scene&);
+  /// \param directions  of each light that has an extent; fewer where these are many
   PointDrawer drawer(std::size_t material, std::size_t directions) const;
 };
 

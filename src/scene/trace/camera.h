@@ -29,6 +29,18 @@ inline Ray ray(const Camera& c, double x, double y, double aspect) {
   return Rays(c, aspect)(x, y);
 }
 
+/// Part of a picture, x and y in [0, 1].
+struct PicturePart {
+  double x = 0, y = 0, width = 1, height = 1;
+
+  double area() const { return width * height; }
+  bool holds(double at_x, double at_y) const {
+    return at_x >= x && at_x <= x + width && at_y >= y && at_y <= y + height;
+  }
+};
+/// Rectangle of a camera's picture that a sphere is seen in.
+PicturePart part_around(const Camera&, double aspect, const Vector& center, double radius);
+
 /// Camera of an orbit.  Above and below the target up is what it becomes on the way there.
 Camera camera_of(const Orbit&, double elevation_deg, double azimuth_deg);
 /// Camera in the middle of the view's ranges.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <unordered_set>
 
 #include "base/error.h"
 #include "base/numbers.h"
@@ -80,8 +81,9 @@ Table read_astm(InputFile& in) {
       rows.fail("", fmt::format("no {} in VARS", kAstmAngles[k]), "theta_i, phi_i, theta_s, phi_s");
     angle[k] = static_cast<std::size_t>(at - names.begin());
   }
+  std::unordered_set<std::string_view> known;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (std::ranges::count(names, names[k]) > 1)
+    if (!known.insert(names[k]).second)
       rows.fail("", fmt::format("'{}' twice in VARS", names[k]), "each once");
     if (std::ranges::find(angle, k) == angle.end()) values.push_back(k);
   }

@@ -24,7 +24,8 @@ namespace gonio {
 namespace {
 
 constexpr std::array<std::string_view, 4> kAngles{"theta_i", "phi_i", "theta_o", "phi_o"};
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMostBytes =
+    std::uint64_t{25} * most_values;  ///< as a table's numbers are written
 constexpr const char* kHint =
     "where names or angles differ: gonio columns FILE --map … (--skip N: lines above the names)";
 
@@ -623,11 +624,12 @@ std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {
   std::vector<ColumnSummary> all;
   for (const auto& name : lines.names()) all.push_back({name});
   std::vector<std::set<std::string, std::less<>>> entries(all.size());
+  const std::size_t most = std::clamp<std::size_t>((1 << 22) / (all.size() + 1), 1, 1000);
   while (lines.next())
     for (std::size_t k = 0; k < all.size(); ++k) {
       auto& c = all[k];
       const auto field = lines.fields()[k];
-      if (entries[k].size() < 1000 && !entries[k].contains(field)) entries[k].emplace(field);
+      if (entries[k].size() < most && !entries[k].contains(field)) entries[k].emplace(field);
       const auto v = number_in(field);
       if (!v || std::isnan(*v)) continue;
       c.lowest = c.numbers ? std::min(c.lowest, *v) : *v;
@@ -639,6 +641,11 @@ std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {
 }
 
 void write_csv(const Table& t, OutputFile& out) {
+  const std::size_t columns = kAngles.size() + t.channels.size() + (t.weights.empty() ? 0 : 1);
+  if (t.channels.size() > most_channels || t.size() > most_values / columns)
+    throw bad_input(out.path(), "writing", fmt::format("{} rows of {} columns", t.size(), columns),
+                    fmt::format("at most {} channels and {} numbers, which is read", most_channels,
+                                most_values));
   std::string text = "theta_i,phi_i,theta_o,phi_o";
   for (const auto& channel : t.channels)
     text += "," + (channel == "f" ? channel : comma_field("f_" + channel));

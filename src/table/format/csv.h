@@ -27,7 +27,7 @@ void expect_light_from_above(const std::string& path, const DirectionList&);
 /// Adds to a list's warnings what is odd about its directions but possible.
 /// \param forward_deg  azimuth at which the file has the mirror direction's side
 void warn_of_directions(Table&, double forward_deg = ColumnMap().forward_deg);
-/// A grid is written as the list of its directions; what its format marks as "no data" as nan.
+/// A grid is written as the list of its directions; what its format marks as "no data" as nan.  More than is read again is refused.
 void write_csv(const Table&, OutputFile&);
 
 /// A column as it stands in the file.
@@ -35,7 +35,8 @@ struct ColumnSummary {
   std::string name;                ///< "" if it has none
   std::size_t numbers = 0;         ///< rows in which it holds a number
   double lowest = 0, highest = 0;  ///< of these
-  std::size_t distinct = 0;        ///< different entries; counted up to 1,000
+  std::size_t distinct = 0;  ///< different entries; counted up to 1,000, and fewer where there are
+                             ///< thousands of columns
 };
 std::vector<ColumnSummary> csv_columns(InputFile&, std::size_t skip = 0);
 

@@ -54,6 +54,8 @@ constexpr Format formats[]{
     {"utia", "UTIA", [](std::string_view, std::uint64_t size) { return is_utia(size); }, read_utia,
      write_utia}};  // known by its size alone: the last
 
+constexpr std::uint64_t most_table_bytes = std::uint64_t{1} << 31;
+
 /// "CSV, MERL or RGL"
 std::string one_of(std::string_view Format::*name, bool (*those)(const Format&)) {
   std::vector<std::string_view> names;
@@ -103,7 +105,9 @@ std::string side_text(const std::string& path) {
 /// TBB's it may.
 class TableAndDigest::Digest {
  public:
-  explicit Digest(const std::string& path) : file_(path) {}
+  explicit Digest(const std::string& path) : file_(path) {
+    file_.expect_at_most(most_table_bytes);  // before all of it is read for its name
+  }
   ~Digest() {
     if (work_.joinable()) work_.join();
   }
@@ -160,6 +164,7 @@ void expect_own_side(const std::string& path) {
   const std::string side = side_path(path);
   std::error_code why;
   if (!std::filesystem::exists(std::filesystem::symlink_status(side, why))) return;
+  may_replace(side);
   try {
     if (JsonDocument(side, side_text(path)).root().has("sha256"))
       return;               // so far only gonio names its table
@@ -175,6 +180,16 @@ std::string side_text_of(InputFile& in) {
 }
 
 }  // namespace
+
+double memory_needed(const std::string& path) {
+  try {
+    InputFile in(path);
+    constexpr double times_the_file = 8, of_image = 3e8;  // an image may be packed to nothing
+    return times_the_file * static_cast<double>(in.size()) + (is_exr(in.peek(4)) ? of_image : 0);
+  } catch (const Error&) {
+    return 0;  // it will not be read either
+  }
+}
 
 Table read_table(const std::string& path, std::optional<Bins> bins) {
   TableAndDigest::Digest file(path);

@@ -44,6 +44,9 @@ class TableAndDigest {
   std::string side_;  ///< text of the side file
 };
 
+/// Memory that the fit of a table takes, about, by its file [bytes].
+double memory_needed(const std::string& path);
+
 /// Text of the side file of a table; "" if there is none.
 std::string side_text(const std::string& path);
 

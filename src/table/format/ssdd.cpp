@@ -81,6 +81,7 @@ class SsddReader {
         block_ = Block{};
         block_.type = next_word(line);
         in_block_ = true;
+        expect_few(others_.size(), "blocks");
       } else if (in_block_) {
         read_key(key, line);
       }
@@ -133,7 +134,7 @@ class SsddReader {
     } else if (key == "PARAM_TYPE") {
       block_.parametrization = next_word(value);
     } else if (key == "REDUCTION_TYPE") {
-      block_.notes.emplace_back("reduction", trimmed(value));
+      add_note("reduction", value);
     } else if (const auto list = std::ranges::find(kLists, key); list != kLists.end()) {
       const auto k = static_cast<std::size_t>(list - kLists.begin());
       constexpr std::array<double, kLists.size()> least{0, 0, 0, 0, -90},
@@ -142,8 +143,17 @@ class SsddReader {
       if (k < 4 && !std::ranges::is_sorted(block_.lists[k], std::less_equal<>{}))
         fail("angles out of order", "ascending ones");
     } else if (std::ranges::find(kNotes, key) != kNotes.end()) {
-      block_.notes.emplace_back(key, trimmed(value));
+      add_note(key, value);
     }
+  }
+  /// A line may be short, and what is kept of it is not.
+  void expect_few(std::size_t n, const char* what) const {
+    constexpr std::size_t most = 1000;
+    if (n >= most) fail(fmt::format("more {}", what), fmt::format("at most {}", most));
+  }
+  void add_note(std::string_view key, std::string_view value) {
+    expect_few(block_.notes.size(), "notes");
+    block_.notes.emplace_back(key, trimmed(value));
   }
 
   std::vector<double> numbers(std::string_view value, double least, double most) const {

@@ -89,5 +89,18 @@ TEST(JsonReader, OfManyValuesUnderALongNameTakesLinearMemory) {
   EXPECT_EQ(members[0].second.elements().size(), 100'001U);
 }
 
+TEST(ParseJson, RefusesValuesThatTakeManyTimesTheirText) {
+  const auto many = [](const std::string& one, std::size_t n) {
+    std::string text = "[";
+    text.reserve(n * (one.size() + 1) + 2);
+    for (std::size_t i = 0; i < n; ++i) text += one + ",";
+    return text + one + "]";
+  };
+  for (const char* one : {"[]", "0", "\"\"", "{\"\":0}"})
+    EXPECT_HAS(complaint(many(one, (most_document_bytes - 8) / (std::string(one).size() + 1))),
+               "more values than");
+  EXPECT_EQ(complaint(many("0.12345678901234567", most_document_bytes / 20)), "");
+}
+
 }  // namespace
 }  // namespace gonio

@@ -209,5 +209,15 @@ TEST(Mesh, OfTheClearCoatTestStandsWhereItsNodesPutIt) {
   }
 }
 
+TEST(Mesh, IsRefusedWhereManyTrianglesLieOnOneAnother) {
+  Json document = square_gltf();
+  auto& primitives = document["meshes"][0]["primitives"];
+  const Json one = primitives[0];
+  while (primitives.size() < 64) primitives.push_back(one);
+  EXPECT_EQ(complaint_of_mesh(document), "");
+  primitives.push_back(one);
+  EXPECT_HAS(complaint_of_mesh(document), "more than 64 triangles on the same points");
+}
+
 }  // namespace
 }  // namespace gonio::scene

@@ -6,6 +6,7 @@
 #include "many_fits.h"
 #include "refusal.h"
 #include "scene/plan/document.h"
+#include "scene/plan/samples.h"
 #include "scene/plan/scenes.h"
 #include "scene/plan/verify.h"
 
@@ -281,6 +282,41 @@ TEST(Verify, FindsALookupThatAPlanDoesNotAllow) {
   EXPECT_TRUE(verify(s, forms, 1, 512).holds());
   (*forms.by_material[0])[Effect::environment] = 0;
   EXPECT_FALSE(verify(s, forms, 1, 512).holds());
+}
+
+/// Points are seen where the picture shows them: drawing where the objects are changes neither their share nor what is seen.
+TEST(PointDrawer, SeesSmallSpheresAsItWouldOverTheWholePicture) {
+  Scene s = test::sphere(test::chalk(), test::front());
+  s.objects = {{Sphere{{0.3, 0, 0}, 0.2}, 0}, {Sphere{{0.45, 0.1, 0}, 0.2}, 0}};  // they overlap
+  const Lit lit(s);
+  const auto small = lit.drawer(0, 1).coverage();
+  s.objects.push_back({Sphere{{0, 0, -40}, 0.01}, 0});  // seen in no pixel
+  s.objects.push_back({Sphere{{0, 0, 40}, 8}, 0});      // behind the camera
+  EXPECT_NEAR(Lit(s).drawer(0, 1).coverage(), small, 0.02 * small);
+  s.view =
+      Orbit{{0, 0, 0}, 10, {{0, 0}, {0, 0}}};  // draws over the whole picture, of another angle
+  const double wider = std::tan(20 * degree) / std::tan(7 * degree);
+  EXPECT_NEAR(Lit(s).drawer(0, 1).coverage() * wider * wider, small, 0.12 * small);
+}
+
+TEST(PointDrawer, TakesFewLooksForAPointOfASmallSphere) {
+  Scene s = test::sphere(test::chalk(), test::front());
+  s.objects = {{Sphere{{0.3, 0.2, 0}, 0.002}, 0}};
+  // Over the whole picture one look in 400 000 would meet it, and none of a point's 20 000 might.
+  EXPECT_EQ(Lit(s).drawer(0, 1).draw(1, 0, 512).count, 512U);
+}
+
+TEST(Plan, GivesManyLightsFewerDirectionsAndRefusesMore) {
+  const RectangleLight lamp{{0, 5, 0}, {0.1, 0, 0}, {0, 0, -0.1}, {1, 1, 1}};
+  Scene s = test::sphere(test::chalk(), {});
+  const auto directions = [&](std::size_t lights) {
+    s.lights.assign(lights, Light{lamp});
+    return Lit(s).drawer(0, 64).directions();
+  };
+  EXPECT_EQ(directions(1), 64U);
+  EXPECT_EQ(directions(8), 64U);
+  EXPECT_EQ(directions(128), 4U);
+  EXPECT_HAS(gonio::test::refusal([&] { directions(129); }), "at most 128 in a plan");
 }
 
 }  // namespace

@@ -64,5 +64,33 @@ TEST(Camera, IsDrawnFromTheWholeRangeAndStandsInItsMiddle) {
   EXPECT_EQ(middle_camera(fixed).position.y, 2);
 }
 
+TEST(PicturePart, HoldsWhatIsSeenOfASphereAndLittleElse) {
+  const Camera camera{{1, 2, 9}, {0.5, 0, 0}, {0, 1, 0}, 30};
+  Draws draw(3);
+  for (const double radius : {0.01, 0.3, 2.0, 20.0})
+    for (const Vector& center : {Vector{0, 0, 0}, Vector{2, 1, 3}, Vector{-3, -2, 8.8},
+                                 Vector{1, 2, 30}, Vector{1.3, 2, 9}}) {
+      const auto part = part_around(camera, 1.5, center, radius);
+      double x0 = 1, x1 = 0, y0 = 1, y1 = 0;
+      for (int i = 0; i < 4000; ++i) {
+        const double x = part.x - 0.02 + (part.width + 0.04) * draw.uniform();
+        const double y = part.y - 0.02 + (part.height + 0.04) * draw.uniform();
+        if (x < 0 || x > 1 || y < 0 || y > 1) continue;
+        const Ray r = ray(camera, x, y, 1.5);
+        const Vector to = center - r.origin;
+        const double along = dot(to, vector_of(r.direction));
+        const Vector beside = to - along * vector_of(r.direction);
+        if (!(along > 0 || dot(to, to) < radius * radius) || dot(beside, beside) > radius * radius)
+          continue;
+        EXPECT_TRUE(part.holds(x, y)) << radius << ": " << x << " " << y;
+        x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
+      }
+      if (radius == 0.3 && center.x == 0) {
+        EXPECT_NEAR(x1 - x0, part.width, 0.1 * part.width);
+        EXPECT_NEAR(y1 - y0, part.height, 0.1 * part.height);
+      }
+    }
+}
+
 }  // namespace
 }  // namespace gonio::scene

@@ -165,5 +165,16 @@ TEST(SsddFile, IsNotBelievedMoreSamplesThanItHasBytes) {
   EXPECT_COMPLAINT(many(4), "at most 67108864 numbers, directions included");
 }
 
+TEST(SsddFile, KeepsNoMoreNotesAndBlocksThanAFileNeeds) {
+  const Folder folder;
+  std::string notes = "VERSION 0.3\nDATA_TYPE brdf\n", blocks = "VERSION 0.3\n";
+  for (int i = 0; i < 1001; ++i) {
+    notes += "NAME\n";
+    blocks += "DATA_TYPE x\nCOLOR_MODEL monochrome\nPARAM0_LIST 0\nDATA ascii\n1\n";
+  }
+  EXPECT_COMPLAINT(folder.write("n", notes), "line 1003: found more notes, expected at most 1000");
+  EXPECT_COMPLAINT(folder.write("b", blocks), "found more blocks, expected at most 1000");
+}
+
 }  // namespace
 }  // namespace gonio
