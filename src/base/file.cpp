@@ -500,10 +500,11 @@ void OutputFile::commit() {
 FolderLock::FolderLock(const std::string& folder, Taken taken) {
   for (;;) {
     std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
+    if (taken == Taken::is_refused) std::filesystem::create_directories(folder, failed);
     folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder_ < 0)
-      throw bad_input(folder, "writing", failed ? failed.message() : std::strerror(errno),
+      throw bad_input(folder, taken == Taken::waits ? "opening" : "writing",
+                      failed ? failed.message() : std::strerror(errno),
                       "a folder that can be written");
     const int how = LOCK_EX | (taken == Taken::is_refused ? LOCK_NB : 0);
     int locked = 0;

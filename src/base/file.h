@@ -117,7 +117,7 @@ class OutputFile {
   int lost_ = 0;                              ///< why a write_at() failed; 0: none did
 };
 
-/// A folder, made where it is not there, that no other process locks meanwhile, where its file system has locks.
+/// A folder that no other process locks meanwhile, where its file system has locks.  Who does not wait makes it where it lacks.
 class FolderLock {
  public:
   enum class Taken { waits, is_refused };

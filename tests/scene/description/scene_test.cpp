@@ -369,14 +369,18 @@ TEST(SceneErrors, RefuseWhatIsNoJsonOrNestsTooDeep) {
 }
 
 TEST(Scene, OfTheClearCoatTestHasItsSpheres) {
-  GONIO_NEEDS_SHARED(path, "data/gltf/ClearCoatTest/ClearCoatTest.gltf");
+  GONIO_NEEDS_SHARED(shared, "data/gltf/ClearCoatTest/ClearCoatTest.gltf");
+  const Folder folder;
+  for (const char* name : {"ClearCoatTest.gltf", "ClearCoatTest.bin"})
+    std::filesystem::copy(std::filesystem::path(shared).parent_path() / name, folder / name);
+  const std::string path = "ClearCoatTest.gltf";
   Json d = example();
   d["materials"] = {{"base", {{"gltf", path}, {"material", "Simple_Base"}}},
                     {"coated", {{"gltf", path}, {"material", "Simple_Coated"}}}};
   d["objects"] = {
       {{"shape", "mesh"}, {"gltf", path}, {"node", "BaseLayerSample"}, {"material", "base"}},
       {{"shape", "mesh"}, {"gltf", path}, {"node", "ClearCoatSample"}, {"material", "coated"}}};
-  const Scene s = read(d);
+  const Scene s = read_scene(folder.write("s.json", d.dump()));
   EXPECT_EQ(std::get<GltfMaterial>(s.materials[1].is).clearcoat, 1);
   EXPECT_EQ(std::get<MeshShape>(s.objects[1].shape).mesh->triangles.size(), 2060U);
 }
