@@ -345,8 +345,9 @@ Section the_machine(const CostRows& all) {
   std::vector<std::string> caches;
   for (const auto& c : m.caches)
     caches.push_back(fmt::format("L{} {}", c.level,
-                                 c.bytes >= 1U << 20U ? plain(c.bytes / 1048576.0) + " MiB"
-                                                      : plain(c.bytes / 1024.0) + " KiB"));
+                                 c.bytes >= 1U << 20U
+                                     ? plain(static_cast<double>(c.bytes) / 1048576) + " MiB"
+                                     : plain(static_cast<double>(c.bytes) / 1024) + " KiB"));
   return {
       "How it was measured",
       fmt::format(

@@ -56,9 +56,9 @@ struct Row {
 /// What a synthesized table was made with; alpha and roughness from each other, alpha = roughness².
 double truth_of(const gonio::Table& t, const std::string& name, std::size_t c) {
   if (!t.truth) return none;
-  const auto of = [&](const std::string& of) {
+  const auto of = [&](const std::string& parameter) {
     const auto at =
-        std::ranges::find(t.truth->parameters, of, [](const auto& p) { return p.first; });
+        std::ranges::find(t.truth->parameters, parameter, [](const auto& p) { return p.first; });
     return at == t.truth->parameters.end() || at->second.empty()
                ? none
                : at->second[std::min(c, at->second.size() - 1)];

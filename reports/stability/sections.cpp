@@ -209,16 +209,16 @@ Section in_other_orders(const StabilityRows& all) {
 
 // --- Targets
 Section missed(const StabilityRows& all) {
-  struct Group {
+  struct Missed {
     std::string id, reason;
     std::vector<std::string> numbers;
     double worst, beyond;
   };
-  std::vector<Group> groups;
+  std::vector<Missed> groups;
   for (const auto& r : all.rows) {
     if (!r.misses) continue;
     auto at = std::ranges::find_if(
-        groups, [&](const Group& g) { return g.id == r.id && g.reason == r.reason; });
+        groups, [&](const Missed& g) { return g.id == r.id && g.reason == r.reason; });
     if (at == groups.end()) at = groups.insert(at, {r.id, r.reason, {}, 0, 0});
     if (std::ranges::find(at->numbers, r.number) == at->numbers.end())
       at->numbers.push_back(r.number);

@@ -45,7 +45,7 @@ Image without_planes(const Imf::Header& header) {
 namespace {
 
 /// Bytes of an attribute of a type that has always as many.
-constexpr std::array<std::pair<std::string_view, std::size_t>, 24> sizes{
+constexpr std::array<std::pair<std::string_view, std::size_t>, 24> attribute_sizes{
     {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
      {"compression", 1}, {"double", 8},   {"envmap", 1},
      {"float", 4},       {"int", 4},      {"keycode", 28},
@@ -64,8 +64,9 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
 /// True where a value of that type fills as many bytes as it has: OpenEXR reads on where it claims more, and takes what comes
 /// there for what it is not.
 bool fills(std::string_view type, std::string_view value) {
-  if (const auto fixed = std::ranges::find(sizes, type, &decltype(sizes)::value_type::first);
-      fixed != sizes.end())
+  if (const auto fixed =
+          std::ranges::find(attribute_sizes, type, &decltype(attribute_sizes)::value_type::first);
+      fixed != attribute_sizes.end())
     return value.size() == fixed->second;
   if (type == "preview")
     return value.size() == 8 + std::uint64_t{4} * number_at(value, 0) * number_at(value, 4);
