@@ -2,6 +2,7 @@
 #include "fitting/judge/uncertainty.h"
 
 #include <cmath>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -293,6 +294,29 @@ TEST(Uncertainty, KnowsNothingWithoutADegreeOfFreedom) {
   EXPECT_FALSE(std::isnan(uncertainty(h.s, h.x, h.bounds, 3).std_error[0]));
   h.s.clusters = {{h.s.bread, {0, 0}}};
   EXPECT_TRUE(std::isnan(uncertainty(h.s, h.x, h.bounds, 100).std_error[0]));
+}
+
+/// Every channel's matrix would take place with their square.
+TEST(Uncertainty, OfManyUnknownsKnowsTheCorrelationsOfOneChannelAlone) {
+  for (const std::size_t channels : {63U, 64U, 2000U}) {
+    std::vector<std::vector<std::size_t>> arms;
+    for (std::size_t c = 0; c < channels; ++c) arms.push_back({1 + 2 * c, 2 + 2 * c});
+    ArrowMatrix bread(std::make_shared<const ArrowLayout>(std::vector<std::size_t>{0}, arms));
+    const std::size_t n = 1 + 2 * channels;
+    for (std::size_t i = 0; i < n; ++i) bread.add(i, i, 4);
+    for (std::size_t c = 0; c < channels; ++c) bread.add(1 + 2 * c, 2 + 2 * c, c == 5 ? -3.5 : 0.5);
+    Bounds bounds;
+    bounds.low.assign(n, -100);
+    bounds.high.assign(n, 100);
+    const std::vector<double> x(n, 0.5);
+    const auto u = uncertainty({bread, bread, {}, {}, {}, {}}, x, bounds, 1e6);
+    const bool all = n <= 128;
+    ASSERT_EQ(u.correlated.size(), all ? n : 3U);
+    EXPECT_EQ(u.correlations.size(), u.correlated.size());
+    const std::size_t a = all ? 11 : 1;
+    EXPECT_EQ(u.correlated[a], 11U) << "of the channel that is told apart least";
+    EXPECT_NEAR(u.correlations[a][a + 1], 3.5 / 4, 1e-9);
+  }
 }
 
 }  // namespace
