@@ -203,10 +203,6 @@ class Covariance {
 
 }  // namespace
 
-double student_t_950(double nu) {
-  return students_t_quantile(0.95, nu);
-}
-
 Uncertainty::Uncertainty(std::size_t n) : status(n, ParameterStatus::free), reason(n) {
   constexpr std::size_t most = 128;
   correlated.resize(n <= most ? n : 0);
@@ -214,10 +210,6 @@ Uncertainty::Uncertainty(std::size_t n) : status(n, ParameterStatus::free), reas
   correlations.assign(correlated.size(), std::vector<double>(correlated.size(), not_known));
   for (auto* x : {&std_error, &t, &low, &high, &limit, &freedom, &variance})
     x->assign(n, not_known);
-}
-
-double student_t_975(double nu) {
-  return students_t_quantile(0.975, nu);
 }
 
 Determined find_determined(const ArrowMatrix& bread,
@@ -298,7 +290,8 @@ Uncertainty uncertainty(const Sandwich& s,
     }
     u.freedom[i] = covariance.freedom(a);
     u.variance[i] = variance[a] / bread(a, a);
-    const double error = std::sqrt(variance[a]), t = student_t_975(covariance.freedom(a));
+    const double error = std::sqrt(variance[a]),
+                 t = students_t_quantile(0.975, covariance.freedom(a));
     if (2 * t * error >= bounds.high[i] - bounds.low[i]) {
       u.status[i] = ParameterStatus::not_identifiable;
       u.reason[i] = "its interval is as wide as its range";

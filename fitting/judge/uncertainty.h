@@ -67,9 +67,4 @@ Uncertainty uncertainty(const Sandwich&,
 /// The one of two that has the wider interval, parameter by parameter; none where one has none.
 Uncertainty wider(Uncertainty, const Uncertainty&);
 
-/// 97.5 % quantile of Student's t for ν > 0 degrees of freedom.
-double student_t_975(double degrees_of_freedom);
-/// 95 % quantile of the same.
-double student_t_950(double degrees_of_freedom);
-
 }  // namespace gonio

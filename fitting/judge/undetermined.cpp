@@ -8,6 +8,7 @@
 
 #include "fitting/judge/arrow_inverse.h"
 #include "fitting/judge/cost_along.h"
+#include "number/distributions.h"
 
 #include <fmt/format.h>
 
@@ -62,7 +63,7 @@ class Ends {
       u_.std_error[i] = u_.low[i] = u_.high[i] = u_.limit[i] = not_known;
       u_.reason[i] = fmt::format("any value from {:.3g} to {:.3g} does as well", low, high);
     };
-    const double t = student_t_950(freedom(i)), much = t * t * variance(i) * share_;
+    const double t = students_t_quantile(0.95, freedom(i)), much = t * t * variance(i) * share_;
     CostAlong along(problem_, thin_, best_, i);
     const bool below = along.rise(low, luck) < luck, above = along.rise(high, luck) < luck;
     if (below && above) return forget();
@@ -78,7 +79,7 @@ class Ends {
 
   /// Two ends.
   void find_ends(std::size_t i) const {
-    const double t = student_t_975(freedom(i)), much = t * t * variance(i) * share_;
+    const double t = students_t_quantile(0.975, freedom(i)), much = t * t * variance(i) * share_;
     CostAlong along(problem_, thin_, best_, i);
     const double here = best_.model.values[problem_.free.slots()[i]];
     const double found = fitted_.model.values[problem_.free.slots()[i]];

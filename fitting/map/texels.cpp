@@ -10,6 +10,7 @@
 #include "fitting/map/passes.h"
 #include "fitting/solve/order.h"
 #include "geometry/vector.h"
+#include "number/distributions.h"
 
 #include <fmt/format.h>
 
@@ -142,7 +143,7 @@ LaneFit::LaneFit(const TexelTask& task,
 
   t_.push_back(std::numeric_limits<double>::infinity());
   for (std::size_t nu = 1; nu <= in.images * in.channels; ++nu)
-    t_.push_back(nu < 400 ? student_t_975(static_cast<double>(nu)) : t_.back());
+    t_.push_back(nu < 400 ? students_t_quantile(0.975, static_cast<double>(nu)) : t_.back());
   same_angles_ = in.shared && in.normal.empty() && !task.asked.refine_normals && !task.turns();
   read_shared();
 }

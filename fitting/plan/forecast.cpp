@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fitting/judge/uncertainty.h"
+#include "number/distributions.h"
 
 #include <Eigen/Cholesky>
 
@@ -48,7 +49,7 @@ Forecast::Forecast(FitSoFar f) : fit_(std::move(f)) {
   const Sums now = sums({});
   for (Index k = 0; k < excess_.size(); ++k) {
     if (fit_.in_proportion && !std::isnan(fit_.width[k])) {
-      const double alike = 2 * student_t_975(now.freedom) * std::sqrt(now.variance[k]);
+      const double alike = 2 * students_t_quantile(0.975, now.freedom) * std::sqrt(now.variance[k]);
       excess_[k] = std::pow(fit_.width[k] / alike, 2);
     } else if (!std::isnan(fit_.std_error[k]) && !std::isnan(fit_.width[k])) {
       constexpr double as_if = 8;  // values that say that noise is alike
@@ -96,13 +97,13 @@ Eigen::VectorXd Forecast::factor(const Sums& s) const {
 
 Eigen::VectorXd Forecast::widths(SampleList more) const {
   const Sums s = sums(more);
-  return 2 * student_t_975(s.freedom) * s.variance.sqrt() * factor(s).array();
+  return 2 * students_t_quantile(0.975, s.freedom) * s.variance.sqrt() * factor(s).array();
 }
 
 Eigen::VectorXd Forecast::told_widths(SampleList more) const {
   const Sums s = sums(more);
   Eigen::ArrayXd t(s.variance.size());
-  for (Index k = 0; k < t.size(); ++k) t[k] = student_t_975(s.nu(k));
+  for (Index k = 0; k < t.size(); ++k) t[k] = students_t_quantile(0.975, s.nu(k));
   return 2 * t * s.leveraged.sqrt() * factor(s).array();
 }
 

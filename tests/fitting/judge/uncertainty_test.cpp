@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 
+#include "number/distributions.h"
+
 #include <gtest/gtest.h>
 
 namespace gonio {
@@ -28,11 +30,11 @@ TEST(Uncertainty, TellsSingularDirectionsFromKnownParameters) {
 
 TEST(Uncertainty, TakesStudentsQuantileFromTheTables) {
   // NIST/SEMATECH e-Handbook, table 1.3.6.7.2
-  EXPECT_NEAR(student_t_975(1), 12.706, 0.0005);
-  EXPECT_NEAR(student_t_975(4), 2.776, 0.0005);
-  EXPECT_NEAR(student_t_975(10), 2.228, 0.0005);
-  EXPECT_NEAR(student_t_975(30), 2.042, 0.0005);
-  EXPECT_NEAR(student_t_975(89), 1.987, 0.0005);
+  EXPECT_NEAR(students_t_quantile(0.975, 1), 12.706, 0.0005);
+  EXPECT_NEAR(students_t_quantile(0.975, 4), 2.776, 0.0005);
+  EXPECT_NEAR(students_t_quantile(0.975, 10), 2.228, 0.0005);
+  EXPECT_NEAR(students_t_quantile(0.975, 30), 2.042, 0.0005);
+  EXPECT_NEAR(students_t_quantile(0.975, 89), 1.987, 0.0005);
 }
 
 /// Two unknowns of which all can be worked out by hand: B = 100 (4 1; 1 3), M = 100 (2 ½; ½ 1), so that
@@ -48,7 +50,7 @@ TEST(Uncertainty, OfIndependentValuesIsTheSandwich) {
   const auto u = uncertainty(h.s, h.x, h.bounds, 102);
   EXPECT_NEAR(u.std_error[0], std::sqrt(16.0 / 12100), 1e-12);
   EXPECT_NEAR(u.std_error[1], std::sqrt(14.0 / 12100), 1e-12);
-  EXPECT_NEAR(u.t[0], student_t_975(100), 1e-12);
+  EXPECT_NEAR(u.t[0], students_t_quantile(0.975, 100), 1e-12);
   EXPECT_NEAR(u.correlations[0][1], -3.5 / std::sqrt(16 * 14.0), 1e-12);
   EXPECT_NEAR(u.correlations[1][1], 1, 1e-12);
   // Scaled to a unit diagonal the bread has 1/√12 beside it.
@@ -60,11 +62,11 @@ TEST(Uncertainty, CountsTheValuesThatAParameterRestsOn) {
   h.s.fourth = {1.0 / 7, 1e-9};  // seven alike; all
   h.s.alone = h.s.moves = {0, 0};
   auto u = uncertainty(h.s, h.x, h.bounds, 102);
-  EXPECT_NEAR(u.t[0], student_t_975(7), 1e-9);
-  EXPECT_NEAR(u.t[1], student_t_975(100), 1e-9);
+  EXPECT_NEAR(u.t[0], students_t_quantile(0.975, 7), 1e-9);
+  EXPECT_NEAR(u.t[1], students_t_quantile(0.975, 100), 1e-9);
   // Four of them make the variance: 3 V²/Σ v², V = (16/12100)/(3/1100) of the first.
   h.s.moves = {std::pow(16.0 / 12100 * 1100 / 3, 2) * 3 / 4.5, 0};
-  EXPECT_NEAR(uncertainty(h.s, h.x, h.bounds, 102).t[0], student_t_975(4.5), 1e-9);
+  EXPECT_NEAR(uncertainty(h.s, h.x, h.bounds, 102).t[0], students_t_quantile(0.975, 4.5), 1e-9);
   h.s.alone = {0.02, 0.001};  // of its variance, from values of leverage 1
   u = uncertainty(h.s, h.x, h.bounds, 102);
   EXPECT_EQ(u.status[0], ParameterStatus::free);
@@ -140,7 +142,8 @@ TEST(Uncertainty, OfClustersIsTheMovesWhenEachIsLeftOut) {
   for (std::size_t k = 0; k < 2; ++k)
     EXPECT_NEAR(u.std_error[k], std::sqrt(squares[k]), 1e-12) << k;
   EXPECT_NEAR(u.t[0],
-              student_t_975(std::min({1 / fourth, 4.0, 3 * squares[0] * squares[0] / quartic})),
+              students_t_quantile(
+                  0.975, std::min({1 / fourth, 4.0, 3 * squares[0] * squares[0] / quartic})),
               1e-9);
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "fitting/judge/uncertainty.h"
+#include "number/distributions.h"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -50,7 +51,7 @@ TEST(Forecast, OfOneUnknownFallsByTheRootOfTheNumberOfValues) {
   const SampleRows one = SampleRows::Ones(1, 1);
   std::vector<const SampleRows*> more;
   for (int n = 25; n < 40; ++n) {
-    EXPECT_NEAR(f.widths(more)[0], 2 * student_t_975(n - 1) / std::sqrt(n), 1e-9);
+    EXPECT_NEAR(f.widths(more)[0], 2 * students_t_quantile(0.975, n - 1) / std::sqrt(n), 1e-9);
     more.push_back(&one);
   }
 }
@@ -80,7 +81,8 @@ TEST(Forecast, OfWhatTheFitTellsAllowsForLeverageAndFewValues) {
   FitSoFar f = alike(5);
   f.values.assign(5, SampleRows::Ones(1, 1));
   const double variance = 1.0 / 5 / (1 - 1.0 / 5);  // HC3
-  EXPECT_NEAR(Forecast(f).told_widths({})[0], 2 * student_t_975(4) * std::sqrt(variance), 1e-6);
+  EXPECT_NEAR(Forecast(f).told_widths({})[0],
+              2 * students_t_quantile(0.975, 4) * std::sqrt(variance), 1e-6);
 
   // A value that tells ten times as much as each of the others: in truth there is one.
   const Forecast before(f);
