@@ -52,10 +52,6 @@ std::vector<double> turns_of(const std::vector<Look>& looks) {
   return turns;
 }
 
-}  // namespace
-
-namespace {
-
 /// Rows of a point's light are kept: of more lights each has fewer.
 constexpr std::size_t most_directions = 512, least_directions = 4;
 
