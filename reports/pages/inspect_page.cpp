@@ -14,7 +14,6 @@
 #include "reports/pages/angle_bins.h"
 #include "reports/pages/fields.h"
 #include "reports/pages/table_sections.h"
-#include "reports/picture/json_numbers.h"
 #include "table/health/directional_albedo.h"
 #include "table/health/reciprocity.h"
 

@@ -7,13 +7,22 @@
 #include "reports/picture/document.h"
 #include "reports/picture/figure_scale.h"
 #include "reports/picture/figure_style.h"
-#include "reports/picture/json_numbers.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace gonio {
 namespace {
+
+/// Six digits: more than a picture shows, a third of the bytes.  What is not known is null.
+Json page_json(double v) {
+  return number_json(v, Digits::six);
+}
+Json page_json(const std::vector<double>& v) {
+  Json out = Json::array();
+  for (const double x : v) out.push_back(page_json(x));
+  return out;
+}
 
 Json json(const FigureScale& s, std::size_t most) {
   return {{"low", page_json(s.low)},

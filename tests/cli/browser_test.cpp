@@ -19,7 +19,6 @@
 #include "reports/page/render.h"
 #include "reports/pages/models_page.h"
 #include "reports/picture/document.h"
-#include "reports/picture/json_numbers.h"
 #include "reports/remap/remap.h"
 #include "reports/scenes/scenes.h"
 #include "reports/schlick/schlick.h"
