@@ -63,7 +63,7 @@ const std::optional<Worst>& most_energy(const EntryAudit& e) {
   return e.energy ? e.energy : e.energy_under_lobe;
 }
 
-/// What a column says of an entry; empty: nothing.
+/// A column of the table: its title, and its text for an entry, which may be empty.
 struct Law {
   std::string_view name;
   const char* title;

@@ -114,7 +114,8 @@ inline constexpr auto description<Facts::Fresnel> = std::tuple{
 template <>
 inline constexpr auto description<Visibility> =
     std::tuple{Field{"just_seen", &Visibility::just_seen, "CIEDE2000; below, nobody sees it"},
-               Field{"side_by_side", &Visibility::side_by_side, "below, it is seen so alone"}};
+               Field{"side_by_side", &Visibility::side_by_side,
+                     "CIEDE2000; below, a difference shows only side by side"}};
 template <>
 inline constexpr auto description<ReportIndex> =
     std::tuple{constant_text("schema", "gonio.report.index/1"),
@@ -214,7 +215,7 @@ Section what_to_ship(const ReportIndex& i) {
   return {"Decide", "", {t}};
 }
 
-/// What Fresnel's shortcuts show, by material.
+/// Returns the colour errors of Fresnel forms, by material.
 Section fresnel(const ReportIndex& i) {
   const auto grid = fresnel_grid(i);
   if (grid.empty()) return {};

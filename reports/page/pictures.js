@@ -1,5 +1,5 @@
 "use strict";
-// What a page with drawn pictures can do beside being read: tell what is under the pointer, zoom, hide curves, choose.
+// Makes the drawn pictures of a page interactive: values under the pointer, zoom, hidden curves, choices.
 
 const all = (of, what) => [...of.querySelectorAll(what)];
 const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
@@ -44,7 +44,7 @@ function runs_of(path) {
     return out;
   });
 }
-/// What a picture is made of, looked up once.
+/// Returns the parts of a picture, which are looked up once.
 const drawing_of = (plot) => plot.drawing ??= (() => {
   const inside = plot.firstElementChild, { width, height } = inside.viewBox.baseVal, figure = plot.closest("figure");
   return { inside, width, height, figure, x: scale_of(plot.dataset.x), y: scale_of(plot.dataset.y), x_name: figure.querySelector(".xl").textContent,

@@ -116,7 +116,7 @@ class Renderer {
     return fmt::format(R"(<details class="more"><summary>{}</summary>{}</details>)", prose(f.title),
                        parts(f.parts));
   }
-  /// What a reader chooses one of.
+  /// Returns one of several choices, as a radio button.
   static std::string option(std::string_view name,
                             std::string_view value,
                             bool chosen,
