@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "base/error.h"
+#include "brdf/catalogue/registry.h"
+#include "brdf/model/spec.h"
 #include "fitting/judge/assess.h"
 #include "fitting/judge/bin_sensitivity.h"
 #include "fitting/judge/bootstrap.h"
@@ -22,6 +24,7 @@
 #include "fitting/solve/order.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
+#include "table/health/value_warnings.h"
 
 #include <tbb/task_group.h>
 
@@ -44,6 +47,26 @@ void forget_unknown(BinSensitivity& s, const FitDocument& d) {
     const auto& known = std::ranges::find(d.parameters, name, &FittedParameter::name)->value;
     for (std::size_t c = 0; c < change.size(); ++c)
       if (std::isnan(known[c])) change[c] = known[c];
+  }
+}
+
+/// Takes the diffuse terms' values from a fit of these alone: beside lobes of which nothing is known they are
+/// what these left over.
+void take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColumns& columns) {
+  const auto diffuse = parse_spec(d.model)[0];
+  if (diffuse.size() != 1 || catalogue()[find_term("diffuse." + diffuse[0])].coupled) return;
+  o.model = diffuse[0];
+  o.bin_sensitivity = false;
+  o.certificate = Certify::none;
+  const Model model = compose(o.model, d.channels.size());
+  const auto others = [&](const auto& s) { return !model.find(s.name); };
+  std::erase_if(o.fixed, others);
+  std::erase_if(o.bounds, others);
+  std::erase_if(o.grey, [&](const std::string& name) { return !model.find(name); });
+  for (auto& p : fit(t, o, columns).document.parameters) {
+    for (auto& reason : p.reason)
+      if (reason.empty()) reason = "of a fit without the lobe";
+    *std::ranges::find(d.parameters, p.name, &FittedParameter::name) = std::move(p);
   }
 }
 
@@ -141,14 +164,14 @@ FitResult fit(const Table& t,
   const Assessment& a = judged.assessment;
   Uncertainty u = judged.uncertainty;
   watch.lap("errors_ms");
-  // Of few angles only the scale of each is left open: all else would be.
   const bool shared =
       judged.clusters > 0 && (o.intervals == Intervals::by_angle || enough_angles(judged.clusters));
-  const LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.samples, shared);
+  TableFacts& table = columns.facts(t);
+  const LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.samples, table);
   widen(u, lack, judged.seen_against);
   watch.lap("misfit_ms");
   const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u);
-  keep_to_what_is_seen(t, p, f.model.values, u);
+  keep_to_what_is_seen(table, p, f.model.values, !lack.misfit.reproduces(), u);
   watch.lap("limits_ms");
   for (std::size_t i = 0; i < in_order.size(); ++i)
     if (u.reason[i].empty()) u.reason[i] = in_order[i];
@@ -164,6 +187,7 @@ FitResult fit(const Table& t,
   d.model = p.start.model.spec;
   d.channels = t.channels;
   describe(d, p, f.model.values, u);
+  if (needless) take_diffuse_alone(d, t, o, columns);
   d.metric = name_of(o.metric);
   d.log_offset = sampling.offset();
   d.robust = o.robust ? "huber" : "none";
@@ -172,7 +196,7 @@ FitResult fit(const Table& t,
   d.clusters = judged.clusters;
   d.residuals = a.residuals;
   d.misfit = lack.misfit;
-  d.physics = check_physics(f.model, t, found.scanned);
+  d.physics = check_physics(f.model, table, found.scanned);
   watch.lap("physics_ms");
   d.values_used = a.counts.used;
   d.masked = a.counts.by_reason(sampling);
@@ -188,9 +212,14 @@ FitResult fit(const Table& t,
   }
   if (found.profile) d.certificate = certificate_of(p, *found.profile);
   d.solver = solver_of(f.solution, std::move(phase_ms));
-  d.warnings = t.warnings;
-  const FitFacts facts = with_table(
-      {judged.angles, p.free.size(), found.cost_of_fewer, needless, false, false, {}, {}}, o, t, d);
+  for (const auto& w : t.warnings)
+    if (!(d.misfit.reproduces() && is_answered_by_a_fit(w))) d.warnings.push_back(w);
+  FitFacts facts{judged.angles, p.free.size(), found.cost_of_fewer, needless};
+  for (auto& w : value_warnings(table)) {
+    facts.no_f = facts.no_f || w.of_unit;
+    d.warnings.push_back(std::move(w.text));
+  }
+  facts = with_table(std::move(facts), o, table, d);
   for (auto& w : warnings(o, t, d, facts)) d.warnings.push_back(std::move(w));
   d.next = next_steps(o, d, facts);
   return {std::move(d), std::move(found.best.model)};

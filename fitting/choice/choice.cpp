@@ -14,7 +14,9 @@
 #include "brdf/model/roughness.h"
 #include "fitting/choice/cross_validation.h"
 #include "fitting/fit.h"
+#include "fitting/judge/uncertainty.h"
 #include "fitting/solve/problem.h"
+#include "table/health/value_warnings.h"
 #include "timing/timing.h"
 
 #include <fmt/format.h>
@@ -123,8 +125,10 @@ const ModelRow* least(const std::vector<ModelRow>& rows, Of of) {
 }  // namespace
 
 std::span<const std::string_view> usual_models() {
-  static constexpr std::array<std::string_view, 12> all{
+  static constexpr std::array<std::string_view, 15> all{
       "lambert",
+      "oren_nayar",
+      "eon",
       "lambert+ggx/smith_ggx.correlated/schlick",
       "lambert+ggx/smith_ggx.correlated/schlick.f90",
       "lambert+beckmann/smith_beckmann.correlated/schlick",
@@ -132,6 +136,7 @@ std::span<const std::string_view> usual_models() {
       "lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick",
       "lambert.coupled+ggx/smith_ggx.correlated/dielectric",
       "disney.coupled+ggx/smith_ggx.correlated/dielectric",
+      "lambert+charlie/smith_charlie.correlated/schlick",
       "ggx/smith_ggx.correlated/schlick",
       "ggx/smith_ggx.correlated/conductor",
       "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick",
@@ -186,6 +191,7 @@ ModelChoice compare_models(const Table& t,
         throw bad_input(t.path, "values", fmt::format("{} that a fit can use", d.values_used),
                         fmt::format("more than the model's {} free parameters", row.parameters));
       row.parameters_at_bound = at_bound(d);
+      row.misses = d.misfit.told;
       if (progress)
         progress("leaving out angles of " + row.model, share(2.0 * static_cast<double>(k) + 1));
       const FitOptions whole = expanded(o);
@@ -211,6 +217,11 @@ ModelChoice compare_models(const Table& t,
     choice.rows.push_back(std::move(row));
   }
   choice.blocks = blocks ? blocks->count : 0;
+  for (const auto& w : t.warnings)
+    if (!(is_answered_by_a_fit(w) &&
+          std::ranges::any_of(choice.rows, [](const auto& r) { return r.compared && !r.misses; })))
+      choice.warnings.push_back(w);
+  for (auto& w : value_warnings(columns.facts(t))) choice.warnings.push_back(std::move(w.text));
   auto& rows = choice.rows;
   if (refused && std::ranges::none_of(rows, &ModelRow::compared)) std::rethrow_exception(refused);
   const ModelRow* nearest = least(rows, [](const auto& r) { return r.log_rms; });
@@ -253,6 +264,12 @@ Advice advise(const ModelChoice& choice) {
   const bool predicted = best != nullptr;
   if (!predicted) best = least(rows, bic);
   if (!best) return a;
+  const double errors_behind =
+      choice.blocks < 2 ? 2 : student_t_975(static_cast<double>(choice.blocks - 1));
+  const double by_chance =
+      choice.effective_values > 0
+          ? std::min(most_more_by_chance, errors_behind / std::sqrt(2 * choice.effective_values))
+          : 0;
   const auto judge = [&](const ModelRow& r) { return predicted ? cv(r) : bic(r); };
   const auto as_good = [&](const ModelRow& r) {
     if (std::isnan(judge(r))) return false;
@@ -260,15 +277,17 @@ Advice advise(const ModelChoice& choice) {
     constexpr double rounding = 1e-6;  // of a log RMS: below it no model is better than another
     const double least = std::max(best->cv_log_rms, rounding);
     const double more = std::max(r.cv_log_rms, rounding) / least - 1;
-    const bool few = choice.effective_values < few_values * static_cast<double>(best->parameters);
+    if (more == 0) return true;
+    if (r.bic > best->bic + decisive_bic) return false;
     return more <= next_to_nothing_more ||
-           ((more <= most_more || few) && r.cv_behind <= most_errors_behind);
+           (more <= std::max(most_more, by_chance) && r.cv_behind <= errors_behind);
   };
   const ModelRow* take = best;
   for (const auto& r : rows)
     if (as_good(r) && std::pair(r.parameters, judge(r)) < std::pair(take->parameters, judge(*take)))
       take = &r;
   a.recommended = take->model;
+  a.none_fits = std::ranges::all_of(rows, &ModelRow::misses);
   for (const auto& r : rows)
     if (&r != take && as_good(r)) a.as_good.push_back(r.model);
   if (!predicted)
@@ -287,6 +306,7 @@ Advice advise(const ModelChoice& choice) {
         "unseen incident angles is "
         "{:.3g}, and the least {:.3g}.",
         take->model, a.as_good.size() + 1, take->cv_log_rms, best->cv_log_rms);
+  if (a.none_fits) a.reason = "Every model misses the table by more than its noise. " + a.reason;
   const auto disagrees = [&](const char* judge_name, auto of, double by, auto text) {
     const ModelRow* other = least(rows, of);
     if (!other || other == take || std::isnan(of(*take)) || of(*take) <= of(*other) + by) return;

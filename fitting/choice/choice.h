@@ -23,6 +23,7 @@ struct ModelRow {
   std::string note;       ///< why it cannot be compared, or what to beware of; else empty
   bool compared = false;  ///< false: all figures are unknown
   bool converged = false;
+  bool misses = false;         ///< whether it misses the table by more than noise, see Misfit
   std::size_t parameters = 0;  ///< free ones, each channel's counted
   double log_rms = unknown;
   double cv_log_rms = unknown;  ///< of incident angles that the fit had not seen
@@ -42,7 +43,8 @@ struct ModelChoice {
   std::vector<BoundModel> fits;  ///< of each row; empty models where there is none
   /// Values that would say as much if each were independent: what AIC and BIC count.
   double effective_values = ModelRow::unknown;
-  std::size_t blocks = 0;  ///< of incident angles
+  std::size_t blocks = 0;             ///< of incident angles
+  std::vector<std::string> warnings;  ///< of the table's values, whatever the model
 };
 
 /// Models that are compared where `all` is asked for.
@@ -69,6 +71,7 @@ ModelChoice compare_models(const Table&,
 
 /// Recommendation, and why.
 struct Advice {
+  bool none_fits = false;                 ///< whether all miss the table by more than noise
   std::string recommended;                ///< model; empty where none could be compared
   std::string reason;                     ///< one sentence
   std::vector<std::string> as_good;       ///< models that the table cannot tell from it
@@ -77,15 +80,17 @@ struct Advice {
 };
 
 /// Models cannot be told from the one that predicts best where they leave so much more log RMS on unseen angles at most, as a part of
-/// it, and are behind by so many standard errors over the blocks at most; or leave so little more that it is nothing.
-inline constexpr double most_more = 0.05, most_errors_behind = 2, next_to_nothing_more = 0.001;
-/// Independent values a parameter below which errors over the blocks decide alone: so few values make 5 % of error by chance.
-inline constexpr double few_values = 20;
+/// it, or as much as chance makes of few values; and are behind by Student's t standard errors over the blocks at most.  Or they
+/// leave so little more that it is nothing.
+inline constexpr double most_more = 0.05, next_to_nothing_more = 0.001;
+/// What BIC prefers by more is better, and so is what leaves half the log RMS on unseen angles.
+inline constexpr double decisive_bic = 10, most_more_by_chance = 1;
 /// Log RMS from which on a model is not near its table.
 inline constexpr double far_off = 0.25;
 
 /// The least parameters among the models that cannot be told from the one that predicts best.  Among as many parameters the one that
-/// predicts best.  Without blocks BIC decides.  A fit that did not converge is taken only where none did.
+/// predicts best.  Without blocks BIC decides.  A fit that did not converge is taken only where none did.  Where none fits, the nearest
+/// is still named.
 Advice advise(const ModelChoice&);
 
 }  // namespace gonio

@@ -10,6 +10,7 @@
 #include "fitting/result/document.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
+#include "table/health/facts.h"
 
 namespace gonio {
 
@@ -26,18 +27,19 @@ struct LackOfFit {
 ///
 /// Of many samples only that their errors are independent is assumed [Hotelling's T² of the scores, as
 /// the intervals' sandwich], of few that they are of one size in f or in proportion to it [an F test].
-/// Of a measured table with too few incident angles for clusters the scale of each angle is taken to be
-/// unknown; a robust fit then clips beside that scale.  Where noise is in proportion to f, and the metric is
-/// another than log, a refit by logarithms is judged: size and cell are that refit's.
+/// Where the incident angles of a measured table scatter more than the values within them, the scale of each
+/// angle is left open, and from 8 angles on their sums are judged, too.  A robust fit then clips beside
+/// that scale.  Where noise is in proportion to f, and the metric is another than log, a refit by
+/// logarithms is judged: size and cell are that refit's.
 ///
-/// It is told where it is significant at 1 % and exceeds 1 % of f, or what noise does to a parameter.
+/// A misfit is significant at 1 % and exceeds 1 % of f, or what noise does to a parameter.  What is left
+/// is also compared with what neighbouring values differ by, and the scales of incident angles with what
+/// an instrument may do.
 /// Misfit that follows a parameter cannot be seen in what is left; it is taken to be up to four times as
-/// large as what can be seen along one function.  Then 97 % of the intervals that are told to be a
-/// misfit's hold the truth, of 3,000 of wrong models; with once 75 %.
-///
-/// \param shared  whether the values of one incident angle share their errors
+/// large as what can be seen along one function.  Then 97 % of the intervals that allow for a misfit
+/// hold the truth, of 3,000 of wrong models; with once 75 %.
 LackOfFit lack_of_fit(
-    const Sampling&, const Problem&, const Fitted&, double samples_used, bool shared);
+    const Sampling&, const Problem&, const Fitted&, double samples_used, TableFacts&);
 
 /// Error as wide as a misfit asks.
 /// \param widening      LackOfFit's

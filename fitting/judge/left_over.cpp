@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <utility>
 
 #include "base/quantile.h"
 #include "brdf/model/derivatives.h"
@@ -17,6 +18,26 @@ constexpr double arithmetic = 1e-7;           ///< of f: below it is rounding of
 constexpr std::size_t most_values = 1 << 15;  ///< looked at
 constexpr std::size_t no_unit = static_cast<std::size_t>(-1);
 constexpr std::size_t most_channels = 16;
+constexpr std::size_t most_neighbours =
+    1 << 17;  ///< values of a table whose neighbours are looked at
+
+/// True of a slot whose value stands at the end of what it may be.
+bool is_at_bound(const Problem& p, std::span<const double> values, std::size_t slot) {
+  const std::size_t i = p.free.index(slot);
+  const double low = p.bounds.low[i], high = p.bounds.high[i], near = 1e-7 * (high - low);
+  return values[slot] <= low + near || values[slot] >= high - near;
+}
+
+/// Fills in what the table itself shows of the noise of its values.
+void find_noise(TableFacts& facts, std::size_t stride, std::vector<Value>& values) {
+  const Table& t = facts.table();
+  if (t.size() * t.values.size() > most_neighbours) return;
+  std::map<std::pair<std::size_t, std::size_t>, double> of;
+  for (const auto& d : facts.noise_samples().all) of[{d.sample, d.channel}] = d.more;
+  for (auto& v : values)
+    if (const auto found = of.find({v.sample, v.channel * stride}); found != of.end())
+      v.noise = found->second;
+}
 
 /// Values of the smooth functions.  θ_h counts by its logarithm above 2°: highlights are narrow.
 std::array<double, fine> functions(const Angles<double>& a) {
@@ -57,7 +78,7 @@ double column_edge(std::size_t k) {
   return 90.0 * static_cast<double>(k) / columns;
 }
 
-Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
+Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts& facts) {
   const std::size_t stride = (s.channels() + most_channels - 1) / most_channels;
   const std::size_t looked_at = (s.channels() + stride - 1) / stride;
   Left all;
@@ -71,6 +92,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
     auto& unknowns = all.unknowns.emplace_back();
     auto& of = derivatives.emplace_back();
     for (const auto& [slot, column] : model.channel(c).d) {
+      if (is_at_bound(p, f.model.values, slot)) continue;
       unknowns.push_back(numbers.emplace(slot, numbers.size()).first->second);
       of.push_back(column);
     }
@@ -117,10 +139,12 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
               all.units.push_back({functions(a), cell_of(a),
                                    angles.emplace(key, angles.size()).first->second,
                                    s.count_of(in.sample(m)[i])});
+              all.directions += all.units.back().count;
             }
             auto& v = all.values.emplace_back();
             v.unit = unit;
             v.channel = c / stride;
+            v.sample = in.sample(m)[i];
             v.whole = r;
             v.root_count = std::sqrt(all.units[unit].count);
             all.samples += all.units[unit].count;
@@ -143,6 +167,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f) {
       });
     }
   }
+  find_noise(facts, stride, all.values);
   all.angles = angles.size();
   all.robust = p.options.robust;
   return all;
@@ -173,6 +198,44 @@ bool find_variances(Left& left) {
   const bool relative = !(badness(0) < badness(1));
   for (auto& v : left.values) v.variance = sigma(v, relative) * sigma(v, relative);
   return relative;
+}
+
+std::optional<MisfitCell> worst_cell(const Left& left) {
+  std::optional<MisfitCell> worst;
+  struct Cell {
+    double sum = 0, squares = 0;
+    std::size_t values = 0;
+  };
+  std::array<Cell, rows * columns> all;
+  double within = 0, freedom = 0;
+  for (const auto& v : left.values) {
+    Cell& c = all[left.units[v.unit].cell];
+    const double off = v.change > 0 ? v.r / v.change : 0;
+    c.sum += off;
+    c.squares += off * off;
+    ++c.values;
+  }
+  for (const auto& c : all)
+    if (c.values > 1) {
+      const auto n = static_cast<double>(c.values);
+      within += std::max(0.0, c.squares - c.sum * c.sum / n);
+      freedom += n - 1;
+    }
+  const double error = freedom > 0 ? std::sqrt(within / freedom) : 0;
+  double furthest = 0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto n = static_cast<double>(all[k].values);
+    const double mean = all[k].sum / n, distance = std::abs(mean) - 2 * error / std::sqrt(n);
+    if (!(distance > furthest)) continue;
+    furthest = distance;
+    worst = {row_edge(k / columns),
+             row_edge(k / columns + 1),
+             column_edge(k % columns),
+             column_edge(k % columns + 1),
+             all[k].values,
+             mean};
+  }
+  return worst;
 }
 
 bool only_rounded(const std::vector<Value>& values) {

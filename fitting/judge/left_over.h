@@ -4,11 +4,15 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "fitting/result/document.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
+#include "table/health/facts.h"
 
 namespace gonio::misfit {
 
@@ -32,6 +36,7 @@ double column_edge(std::size_t column);
 /// One value of a thinned table, as a fit compares it.
 struct Value {
   std::size_t unit, channel;
+  std::size_t sample;   ///< of the table
   double r;             ///< residual, clipped as the robust loss does
   double whole;         ///< before that
   double root_count;    ///< √ of the samples that it counts as, a factor of the residual
@@ -41,6 +46,7 @@ struct Value {
   double rounding;      ///< of the residual, by what the datum's digits leave out
   double f;             ///< [1/sr]
   double variance = 0;  ///< of the residual, up to a factor
+  double noise = std::numeric_limits<double>::quiet_NaN();  ///< of ln f, as its neighbours show it
   std::array<double, max_columns> j{};  ///< derivatives by the unknowns of its channel
   std::size_t gain = 0;  ///< unknown of its incident angle's own scale, where there are such
 };
@@ -60,15 +66,20 @@ struct Left {
   std::size_t angles = 0;
   std::size_t without_logarithm = 0;  ///< values of 0 where f is not
   double samples = 0;                 ///< that the values count as
+  double directions = 0;              ///< that the units count as
   bool robust = false;
 };
 
-Left left_over(const Sampling&, const Problem&, const Fitted&);
+/// A parameter at a bound can take nothing up: it is no unknown here.
+Left left_over(const Sampling&, const Problem&, const Fitted&, TableFacts&);
 
 /// Noise is taken as the likelier of two: of one size in f, or in proportion to f; normal, or Cauchy's
 /// for a robust fit, before anything is clipped.
 /// \return  whether in proportion
 bool find_variances(Left&);
+
+/// Cell that is furthest off for certain: by its mean less two standard errors.
+std::optional<MisfitCell> worst_cell(const Left&);
 
 /// True where little else is left than rounding: of all values together, and of each by its own, lest one
 /// whose digits say little hides what others miss by far.

@@ -149,6 +149,11 @@ void add_models(Steps& steps, const Spec& spec, const FitDocument& d) {
   using Models = std::vector<std::pair<std::string, const char*>>;
   if (spec.lobes() == 0) return steps.add_model(spec.with_another_lobe(), "may follow a highlight");
   const std::string diffuse = spec.diffuse(), fresnel = spec.fresnel(), ndf = spec.ndf();
+  const auto f0 = std::ranges::find(d.parameters, "f0", &FittedParameter::name);
+  if (fresnel == "schlick" && f0 != d.parameters.end() &&
+      std::ranges::all_of(f0->ci95_low, [](double low) { return !(low > 0); }))
+    steps.add_model(spec.with_fresnel("schlick.weighted"),
+                    "may help: values of a relative scale need a weight");
 
   Models highlight, index, grazing;
   if (ndf != "gtr")
@@ -205,16 +210,21 @@ std::vector<std::string> next_steps(const FitOptions& o, const FitDocument& d, c
   const auto unknown = unknown_lobe(d);
   if (f.cost_of_fewer < d.cost && spec.lobes_alike())
     steps.add_model(spec.without_lobe(0), "meets the table better");
-  else if (unknown)
+  else if (unknown) {
+    constexpr double far = 0.1;
+    if (d.misfit.told && d.misfit.size > far && spec.fresnel() == "schlick")
+      steps.add_model(spec.with_fresnel("schlick.weighted"),
+                      "may follow the lobe: values of a relative scale need a weight");
     steps.add_model(spec.without_lobe(*unknown),
                     f.needless ? "does as well: nothing is known of the lobe"
                                : "says all that is known: of the lobe nothing is");
+  }
   if (f.unresolved)
     steps.add(
         fmt::format("outgoing angles {:.1g}° apart or less around the mirror direction may resolve "
                     "the highlight",
                     2 * f.unresolved->half_width_deg / 3));
-  if (returns_too_much(d.physics) && spec.diffuse() == "lambert" && spec.lobes() > 0)
+  if (returns_too_much(d.physics) && spec.diffuse() == "lambert" && spec.lobes() > 0 && !f.no_f)
     steps.add_model(spec.with_diffuse("lambert.coupled"),
                     "may return less light: its diffuse is what the lobe lets through");
 
@@ -222,7 +232,7 @@ std::vector<std::string> next_steps(const FitOptions& o, const FitDocument& d, c
     if (s.log_rms < 0.95 * d.residuals.log_rms)
       steps.add(fmt::format("--bins {} meets the table better: log RMS {:.3g} for {:.3g}", s.other,
                             s.log_rms, d.residuals.log_rms));
-  if (d.misfit.told && !f.retro && !unknown) add_models(steps, spec, d);
+  if (d.misfit.told && !f.retro && !unknown && !f.no_f) add_models(steps, spec, d);
 
   for (const auto& b : o.bounds) {
     const auto p = std::ranges::find(d.parameters, b.name, &FittedParameter::name);

@@ -5,7 +5,6 @@
 
 #include "brdf/model/derivatives.h"
 #include "integrate/albedo/directional_albedo.h"
-#include "table/health/directional_albedo.h"
 
 namespace gonio {
 namespace {
@@ -14,9 +13,10 @@ namespace {
 constexpr std::size_t most_of_a_list = 50'000;
 
 /// Albedos of the table, as far as they take less than a fit.
-std::vector<AlbedoSample> albedo_of(const Table& t) {
+std::vector<AlbedoSample> albedo_of(TableFacts& facts) {
+  const Table& t = facts.table();
   if (t.list() && (t.between || t.size() > most_of_a_list)) return {};
-  return directional_albedo(t);
+  return facts.albedo();
 }
 
 /// Greatest values of the model over those of the data, by channel, of the values that are compared.
@@ -42,16 +42,16 @@ std::vector<double> peak_ratio(const BoundModel& b, const FitData<double>& thin)
 
 }  // namespace
 
-Physics check_physics(const BoundModel& b, const Table& t, const FitData<double>& thin) {
+Physics check_physics(const BoundModel& b, TableFacts& facts, const FitData<double>& thin) {
   Physics p;
-  for (const auto& a : albedo_of(t)) {
+  for (const auto& a : albedo_of(facts)) {
     p.theta_i_deg.push_back(a.theta_i_deg);
     p.data_albedo.push_back(a.albedo);
   }
   if (p.theta_i_deg.empty())
     for (int theta = 0; theta < 90; theta += 15) {
       p.theta_i_deg.push_back(theta);
-      p.data_albedo.emplace_back(t.values.size(), std::nan(""));
+      p.data_albedo.emplace_back(facts.table().values.size(), std::nan(""));
     }
   std::vector<double> mu;
   for (const double theta : p.theta_i_deg) mu.push_back(std::cos(theta * degree));

@@ -15,7 +15,7 @@ namespace gonio::misfit {
 namespace {
 
 constexpr double many = 50;  ///< samples for each function
-constexpr std::size_t most_gains = 64;
+constexpr std::size_t most_gains = 128;
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
@@ -23,7 +23,8 @@ using Vector = Eigen::VectorXd;
 /// Unknowns of their own for the scale of each channel under each incident angle, where there is room.
 std::size_t add_gains(Left& left) {
   const std::size_t channels = left.unknowns.size(), gains = left.angles * channels;
-  if (left.angles < 2 || 4 * left.angles > left.units.size() || left.count + gains > most_gains)
+  if (left.angles < 2 || 4 * static_cast<double>(left.angles) > left.directions ||
+      left.count + gains > most_gains)
     return 0;
   for (auto& v : left.values) v.gain = left.count + left.units[v.unit].angle * channels + v.channel;
   left.count += gains;
@@ -151,20 +152,17 @@ class Projected {
   Vector step_;
 };
 
-/// Cells, each one function of its own: 1 in it and 0 elsewhere, projected as the smooth ones are.  The
-/// worst is the one that is furthest off for what noise does to it.
-void find_worst_cell(const Left& left,
-                     const Projected& projected,
-                     const std::vector<double>& r,
-                     bool shared,
-                     double variance,
-                     Regression& out) {
+/// Cells, each one function of its own: 1 in it and 0 elsewhere, projected as the smooth ones are.
+void judge_cells(const Left& left,
+                 const Projected& projected,
+                 const std::vector<double>& r,
+                 bool shared,
+                 Regression& out) {
   constexpr std::size_t cells = rows * columns;
   const auto n = index(left.count);
   struct Cell {
     double sum = 0, weight = 0, squares = 0;
     Vector with_function, with_change, with_score;  ///< products with the derivatives
-    std::size_t values = 0;
     double scores = 0;
   };
   std::array<Cell, cells> all;
@@ -179,7 +177,6 @@ void find_worst_cell(const Left& left,
     const double function = v.change / v.variance;
     cell.sum += function * r[i];
     cell.weight += v.active * function * v.change;
-    ++cell.values;
     const std::size_t of = shared ? unit.angle : v.unit;
     auto& [count, score] = scores[shared ? of * cells + unit.cell : of];
     count = shared ? 1 : unit.count;
@@ -202,7 +199,7 @@ void find_worst_cell(const Left& left,
   }
   const Matrix move_squares = moves.squares();
   constexpr double few = 3, enough = 20;
-  double tested = 0, least = 1, furthest = 0, squares = 0, weights = 0;
+  double tested = 0, least = 1, squares = 0, weights = 0;
   for (std::size_t k = 0; k < cells; ++k) {
     const Cell& c = all[k];
     const Vector taken_up = projected.inverse() * c.with_function;
@@ -217,18 +214,38 @@ void find_worst_cell(const Left& left,
     }
     squares += std::max(0.0, (square - noise) / weight);
     weights += weight;
-    const double distance = square / std::max(noise, weight * variance);
-    if (distance <= furthest) continue;
-    furthest = distance;
-    out.worst = {row_edge(k / columns),
-                 row_edge(k / columns + 1),
-                 column_edge(k % columns),
-                 column_edge(k % columns + 1),
-                 c.values,
-                 c.sum / weight};
   }
   if (tested > 0) out.p = std::min(1.0, 2 * std::min(out.p, least * tested));
   if (weights > 0) out.size = std::max(out.size, std::sqrt(squares / weights));
+}
+
+/// Compares what is left with what neighbours differ by, at the same values: by their squares, and by
+/// their medians, which no sharp highlight between neighbours moves.
+void compare_with_noise(const Left& left, const std::vector<double>& r, Regression& out) {
+  std::vector<double> residuals, noises;
+  double squares = 0, noise = 0;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const auto& v = left.values[i];
+    if (std::isnan(v.noise) || !(v.change > 0)) continue;
+    const double rounded = v.rounding / v.change, off = r[i] / v.change;
+    residuals.push_back(std::abs(off));
+    noises.push_back(std::hypot(v.noise, rounded));
+    squares += off * off;
+    noise += v.noise * v.noise + rounded * rounded;
+  }
+  constexpr std::size_t few = 20;
+  if (residuals.size() < few) return;
+  // Each difference is of nine values, and those of neighbours say half the same.
+  const double n = static_cast<double>(residuals.size()), freedom = n * out.freedom / left.samples;
+  const auto compare = [&](double ratio, double efficiency) {
+    const double alike = efficiency / out.common;
+    const double p = luck(ratio, std::max(alike * freedom, 1.0), alike * n / 4);
+    if (p < out.p_beside_noise) out.p_beside_noise = p;
+    out.beside_noise = std::max(out.beside_noise, ratio);
+  };
+  if (!left.robust) compare(squares / noise * n / std::max(freedom, 1.0), 1);
+  const double ratio = median(residuals) / median(noises);
+  compare(ratio * ratio * n / std::max(freedom, 1.0), 0.37);  // of the median, beside the RMS
 }
 
 /// Takes each angle's own scale out of what a robust fit leaves, which then clips other values: else one
@@ -252,11 +269,23 @@ void settle(Left& left) {
 
 }  // namespace
 
-Regression regress(Left& left, bool shared, bool gains) {
+double luck_of_scales(const Regression& r, const Regression& open) {
+  const double of = r.freedom - open.freedom;
+  if (!(of > 0) || !(open.freedom > 0)) return 1;
+  return luck((r.squares - open.squares) / of / (open.squares / open.freedom), of / open.common,
+              open.freedom / open.common);
+}
+
+Regression regress(Left left, Errors errors) {
   Regression out;
+  const bool shared = errors == Errors::any;
   find_variances(left);
-  if (gains) gains = add_gains(left) > 0;
-  if (gains && left.robust) settle(left);
+  if (errors == Errors::scale) {
+    out.scales = add_gains(left);
+    if (out.scales == 0) return out;
+    if (left.robust) settle(left);
+  }
+  const bool gains = out.scales > 0;
   const std::size_t units = left.units.size();
   const double n = left.samples;
   double rounded = 0, changes = 0;
@@ -268,9 +297,7 @@ Regression regress(Left& left, bool shared, bool gains) {
   out.rounded = only_rounded(left.values);
   if (out.rounded) return out;
 
-  double samples = 0;
-  for (const auto& unit : left.units) samples += unit.count;
-  const std::size_t width = samples >= 500 ? fine : smooth;
+  const std::size_t width = left.directions >= 500 ? fine : smooth;
   const Projected projected(left, width, gains);
   const auto q = index(width);
   Scores scores(shared ? left.angles : units, width);
@@ -301,7 +328,21 @@ Regression regress(Left& left, bool shared, bool gains) {
   const double freedom = n / common - static_cast<double>(projected.rank());
   const double independent = scores.count();
   const double most = shared ? (independent - 2) / 3 : freedom / 4;
+  out.squares = chi;
+  out.freedom = n - static_cast<double>(projected.rank());
+  out.common = common;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    auto& v = left.values[i];
+    v.r = r[i];
+    if (v.change > 0)
+      out.left += r[i] * r[i] / (v.change * v.change) / static_cast<double>(r.size());
+  }
   if (!(most >= 1)) return out;
+  compare_with_noise(left, r, out);
+  if (gains && only_rounded(left.values)) {  // all that was left is scales of angles
+    out.tested = true;
+    return out;
+  }
   const double variance = chi / (n - static_cast<double>(projected.rank()));
 
   // Functions of unit variance, the best visible ones first.
@@ -313,13 +354,13 @@ Regression regress(Left& left, bool shared, bool gains) {
          eigen.eigenvalues()[q - 1 - kept] > 1e-6)
     ++kept;
   if (kept == 0) return out;
+  out.limited = kept < q && eigen.eigenvalues()[q - 1 - kept] > 1e-6;
   const Matrix t = scale.asDiagonal() * eigen.eigenvectors().rightCols(kept) *
                    eigen.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
   const Vector sum = scores.sum(), u = t.transpose() * sum;
   const double of = static_cast<double>(kept);
   const Matrix meat = t.transpose() * scores.squares() * t;
   out.tested = true;
-  out.functions = of;
   if (shared || independent >= many * of) {
     out.p = luck_of_scores(u.dot(Inverse(meat).inverse * u), of, independent);
     out.noise = meat.trace();
@@ -336,7 +377,7 @@ Regression regress(Left& left, bool shared, bool gains) {
       if (static_cast<std::size_t>(belongs[k]) == g) own.push_back(index(k));
     out.follows[g] = sum(own).dot(Inverse(noise(own, own)).inverse * Vector(sum(own)));
   }
-  find_worst_cell(left, projected, r, shared, variance, out);
+  judge_cells(left, projected, r, shared, out);
   return out;
 }
 

@@ -5,8 +5,6 @@
 
 #include "brdf/model/roughness.h"
 #include "fitting/judge/undetermined.h"
-#include "table/health/computed.h"
-#include "table/health/health.h"
 
 #include <fmt/format.h>
 
@@ -32,17 +30,19 @@ void forget_empty_channels(const Table& t, const Problem& p, Uncertainty& u) {
 
 }  // namespace
 
-void keep_to_what_is_seen(const Table& t,
+void keep_to_what_is_seen(TableFacts& facts,
                           const Problem& p,
                           std::span<const double> values,
+                          bool misses,
                           Uncertainty& u) {
+  const Table& t = facts.table();
   forget_empty_channels(t, p, u);
   if (p.start.model.lobes.empty()) return;
-  if (one_value_per_angle(t)) {
+  if (facts.computed()) {
     forget_lobes(p, u, Lobes::whole, "each incident angle holds one constant: a computed table");
     return;
   }
-  if (const auto retro = retro_peak(t)) {
+  if (const auto retro = misses ? facts.retro() : std::nullopt) {
     forget_lobes(p, u, Lobes::fresnel,
                  fmt::format("the larger highlight ({:.3g} 1/sr) is at wo = wi, and none of it is "
                              "this lobe's",
@@ -54,10 +54,10 @@ void keep_to_what_is_seen(const Table& t,
     if (!is_alpha(q.name) || !p.free.mask()[q.first]) continue;
     const std::size_t i = p.free.index(q.first);
     const double low = std::isnan(u.low[i]) ? values[q.first] - u.t[i] * u.std_error[i] : u.low[i];
-    // Looking for the peak takes as long as a fit.
     if (values[q.first] >= 0.1 && !(low < 0.1)) continue;
-    if (u.status[i] != ParameterStatus::free && u.status[i] != ParameterStatus::at_bound) continue;
-    const auto peak = find_peak(t, t.bins()).peak;
+    using enum ParameterStatus;
+    if (u.status[i] != free && u.status[i] != at_bound && u.status[i] != unbounded) continue;
+    const auto peak = facts.peak().peak;
     if (!peak || peak->resolved) return;
     u.status[i] = ParameterStatus::upper_limit;
     u.limit[i] = peak->alpha;

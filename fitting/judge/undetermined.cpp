@@ -285,7 +285,8 @@ bool find_undetermined(const Problem& p,
     const double some = 0.01 * (p.bounds.high[i] - p.bounds.low[i]);
     if (!(low <= p.bounds.low[i] + some && high >= p.bounds.high[i] - some)) continue;
     if (widened) {  // by what the model cannot describe: of this model it is still the best value
-      u.reason[i] = "the misfit leaves its whole range open";
+      u.status[i] = ParameterStatus::unbounded;
+      u.reason[i] = "best value for this model; the model is too wrong to bound it";
       continue;
     }
     forget(i, "its interval is as wide as its range");

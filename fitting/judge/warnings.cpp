@@ -7,7 +7,6 @@
 #include "base/text.h"
 #include "brdf/model/roughness.h"
 #include "table/health/health.h"
-#include "table/health/peak.h"
 
 #include <fmt/format.h>
 
@@ -25,6 +24,17 @@ std::string factor(double x) {
 }
 std::string percent(double share) {
   return factor(100 * share) + " %";
+}
+
+/// Factor that a log RMS stands for, with two digits of what it is above 1.
+std::string typical_factor(double log_rms) {
+  const double x = std::exp(log_rms), above = x - 1;
+  return fmt::format("{:.{}f}", x,
+                     x > 9.95        ? 0
+                     : above >= 1    ? 1
+                     : above >= 0.1  ? 2
+                     : above >= 0.01 ? 3
+                                     : 4);
 }
 
 /// Angles that only repeat another; "" of none.
@@ -50,17 +60,18 @@ double telling_bias(const FitOptions& o, const FitDocument& d) {
 
 }  // namespace
 
-FitFacts with_table(FitFacts f, const FitOptions& o, const Table& t, const FitDocument& d) {
+FitFacts with_table(FitFacts f, const FitOptions& o, TableFacts& table, const FitDocument& d) {
+  const Table& t = table.table();
   f.few_angles = !t.truth && o.intervals != Intervals::independent && !enough_angles(f.angles);
   f.copies = !copies_in_words(t).empty();
-  f.retro = retro_peak(t);
+  if (!d.misfit.reproduces()) f.retro = table.retro();
   // Asked of narrow lobes alone: looking for the peak takes as long as a fit.
   const auto narrow = [](const FittedParameter& p) {
     return is_alpha(p.name) && p.status[0] != ParameterStatus::fixed &&
            (p.value[0] < 0.1 || p.limit[0] < 0.1);
   };
   if (std::ranges::any_of(d.parameters, narrow)) {
-    f.unresolved = find_peak(t, t.bins()).peak;
+    f.unresolved = table.peak().peak;
     if (f.unresolved && f.unresolved->resolved) f.unresolved.reset();
   }
   return f;
@@ -76,7 +87,7 @@ std::vector<std::string> warnings(const FitOptions& o,
   if (d.values_used <= f.free)
     all.push_back(fmt::format("{} cannot tell the errors of {}", counted(d.values_used, "value"),
                               counted(f.free, "unknown")));
-  else if (!d.misfit.tested && d.misfit.note.find("too few") != std::string::npos)
+  else if (d.misfit.too_few)
     all.push_back("whether the model is right is not known: " + d.misfit.note);
   if (f.few_angles)
     all.push_back(fmt::format(
@@ -160,19 +171,20 @@ std::vector<std::string> physics_in_words(const Physics& p) {
 
 std::vector<std::string> misfit_in_words(const Misfit& m) {
   if (!m.told) return {};
-  std::string size =
-      m.size > 0.5 ? std::string("more than half") : percent(m.size) + " beyond noise";
+  std::string size = typical_factor(m.size);
   for (std::size_t k = 0; k < m.follows.size(); ++k)
     size += (k == 0 ? ", along " : k + 1 < m.follows.size() ? ", " : " and ") + m.follows[k];
-  std::vector<std::string> all{"the model misses the table by " + size +
-                               "; the intervals allow for it"};
+  std::vector<std::string> all{"the model misses the table by a factor of " + size +
+                               "; intervals allow for it"};
   if (const auto& c = m.worst_cell)
-    all.push_back(fmt::format("it shows most near theta_h {:.2g}°, theta_d {:.2g}°: {}",
+    all.push_back(fmt::format("the largest deviation is near theta_h {:.2g}°, theta_d {:.2g}°: {}",
                               (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
                               (c->theta_d_from_deg + c->theta_d_to_deg) / 2,
                               c->difference > 1   ? factor(1 + c->difference) + " times as bright"
                               : c->difference > 0 ? percent(c->difference) + " too bright"
-                                                  : percent(-c->difference) + " too dark"));
+                              : c->difference > -0.5
+                                  ? percent(-c->difference) + " too dark"
+                                  : factor(1 / (1 + c->difference)) + " times too dark"));
   return all;
 }
 

@@ -10,7 +10,7 @@
 
 #include "fitting/result/document.h"
 #include "fitting/solve/options.h"
-#include "table/health/peak.h"
+#include "table/health/facts.h"
 
 namespace gonio {
 
@@ -23,13 +23,14 @@ struct FitFacts {
   std::size_t free = 0;    ///< unknowns
   double cost_of_fewer = std::numeric_limits<double>::infinity();  ///< of the model less one lobe
   bool needless = false;      ///< whether the diffuse terms alone do as well
+  bool no_f = false;          ///< whether values are of another unit, or have a cosine left in
   bool few_angles = false;    ///< whether they are too few for errors that an angle's values share
   bool copies = false;        ///< whether angles of the table only repeat another
   std::optional<Peak> retro;  ///< the highlight, where it is at wo = wi
   std::optional<Peak> unresolved;  ///< that of a narrow lobe, where the samples do not resolve it
 };
 /// Fills in what follows from the table and the document.
-FitFacts with_table(FitFacts, const FitOptions&, const Table&, const FitDocument&);
+FitFacts with_table(FitFacts, const FitOptions&, TableFacts&, const FitDocument&);
 
 std::vector<std::string> warnings(const FitOptions&,
                                   const Table&,

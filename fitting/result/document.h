@@ -17,10 +17,18 @@
 
 namespace gonio {
 
-enum class ParameterStatus { free, fixed, at_bound, not_identifiable, upper_limit, lower_limit };
+enum class ParameterStatus {
+  free,
+  fixed,
+  at_bound,
+  not_identifiable,
+  upper_limit,
+  lower_limit,
+  unbounded  ///< the best value of this model, which misses the table by too much to bound it
+};
 template <>
-inline constexpr std::array<std::string_view, 6> names_of<ParameterStatus>{
-    "free", "fixed", "at_bound", "not_identifiable", "upper_limit", "lower_limit"};
+inline constexpr std::array<std::string_view, 7> names_of<ParameterStatus>{
+    "free", "fixed", "at_bound", "not_identifiable", "upper_limit", "lower_limit", "unbounded"};
 
 /// One parameter, one entry per channel where it has channels.  NaN stands for "not known": the
 /// value and error of a parameter that is not identifiable, the error of a fixed one.
@@ -91,11 +99,14 @@ struct MisfitCell {
 struct Misfit {
   bool tested = false;
   double p = std::numeric_limits<double>::quiet_NaN();     ///< probability by luck alone
-  double size = std::numeric_limits<double>::quiet_NaN();  ///< RMS beyond noise, of f
+  double size = std::numeric_limits<double>::quiet_NaN();  ///< beyond noise, as the log RMS counts
   bool told = false;                 ///< whether it is significant and large enough to matter
   std::vector<std::string> follows;  ///< "theta_h", "theta_d", "grazing angles": the most of it
   std::optional<MisfitCell> worst_cell;
-  std::string note;  ///< why it was not tested
+  std::string note;      ///< why it was not tested
+  bool too_few = false;  ///< whether values or angles are too few to tell
+  /// True where nothing is left but noise, or the values' own rounding.
+  bool reproduces() const { return !told && !too_few; }
 };
 
 /// Model beside the table as physics sees them.

@@ -96,11 +96,12 @@ template <>
 inline constexpr auto description<Misfit> = std::tuple{
     Field{"tested", &Misfit::tested, "whether the residuals could be tested"},
     Field{"p", &Misfit::p, "probability that luck alone has them follow the angles so"},
-    Field{"size", &Misfit::size, "RMS of what follows the angles, of f"},
+    Field{"size", &Misfit::size, "log RMS beyond noise"},
     Field{"told", &Misfit::told, "whether it is significant and large enough to matter"},
     Field{"follows", &Misfit::follows, "angles that most of it follows"},
     Field{"worst_cell", &Misfit::worst_cell, "cell of the residual map that is furthest off"},
-    Field{"note", &Misfit::note, "why it was not tested"}};
+    Field{"note", &Misfit::note, "why it was not tested"},
+    Field{"too_few", &Misfit::too_few, "whether values or angles are too few to tell"}};
 
 template <>
 inline constexpr auto description<Physics> = std::tuple{

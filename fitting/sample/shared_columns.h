@@ -1,12 +1,13 @@
 #pragma once
 /// \file
-/// Columns of a table that several fits read, made once.
+/// Columns and facts of a table that several fits read, made once.
 
 #include <memory>
 #include <optional>
 #include <span>
 
 #include "fitting/sample/data.h"
+#include "table/health/facts.h"
 
 namespace gonio {
 
@@ -16,6 +17,11 @@ class SharedColumns {
   /// fit_levels() of this sampling.
   template <class F>
   std::shared_ptr<const FitLevels<F>> levels(const Sampling&, std::span<const std::size_t> levels);
+  /// Facts of that table.
+  TableFacts& facts(const Table& t) {
+    if (!facts_ || &facts_->table() != &t) facts_.emplace(t);
+    return *facts_;
+  }
 
  private:
   template <class F>
@@ -25,6 +31,7 @@ class SharedColumns {
     std::shared_ptr<const FitLevels<F>> columns;
   };
   std::tuple<Kept<float>, Kept<double>> kept_;
+  std::optional<TableFacts> facts_;
 };
 
 }  // namespace gonio

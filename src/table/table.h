@@ -111,6 +111,8 @@ struct Table {
   std::function<double(const DirectionPair&, std::size_t channel)> between;
   /// The angle that each value of a list is an average over, for wi and wo alike; 0: points.
   double patch_deg = 0;
+  std::vector<double> patches;  ///< ∫ cos θ_o dω_o of the patch that each sample's value is the
+                                ///< mean of; empty: points
 
   std::size_t size() const { return values.empty() ? 0 : values[0].size(); }
   const Grid* grid() const { return std::get_if<Grid>(&where); }

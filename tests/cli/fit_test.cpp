@@ -40,7 +40,7 @@ TEST(Fit, LinesAreWrappedBelowTheirTextOnATerminalAndWholeInAPipe) {
   for (const auto& l : lines) EXPECT_LE(l.size(), 64U) << l;  // bytes, of which ° and ± have two
   const std::string piped = gonio(f, "fit t.csv").out;
   EXPECT_NE(piped.find("beware  the model misses"), piped.npos);
-  EXPECT_NE(piped.find("; the intervals allow for it\nbeware  it shows most near theta_h "),
+  EXPECT_NE(piped.find("; intervals allow for it\nbeware  the largest deviation is near theta_h "),
             piped.npos)
       << piped;
 }

@@ -161,8 +161,8 @@ class CsvReader {
     t.format = "csv";
     const bool small = angles_are_small();
     gather_columns(t);
-    if (map_) to_conventions(std::get<DirectionList>(t.where));
-    if (map_) to_f(t);
+    to_conventions(std::get<DirectionList>(t.where));
+    to_f(t);
     if (channel_) gather_channels(t);
     if (small)
       t.warnings.emplace_back(
@@ -177,12 +177,12 @@ class CsvReader {
   void add(const std::string& role, std::optional<std::size_t> index, double constant = 0) {
     roles_.insert(role);
     Column c{.role = role, .index = index, .constant = constant};
-    const double turn = map_ && map_->radians ? degree * 180 : 180;
-    if (role.starts_with("theta_")) c.low = map_ ? -turn : 0, c.high = turn;
+    const double turn = map_->radians ? degree * 180 : 180;
+    if (role.starts_with("theta_")) c.low = -turn, c.high = turn;
     if (role.starts_with("phi_")) c.low = -2 * turn, c.high = 2 * turn;
-    if (map_ && map_->radians && is_angle(role)) c.low *= 1 + 1e-6, c.high *= 1 + 1e-6;
+    if (map_->radians && is_angle(role)) c.low *= 1 + 1e-6, c.high *= 1 + 1e-6;
     if (!c.allows(constant) && !index)
-      out_of_range(lines_, c, constant, fmt::format("{:.6g}", constant), role);
+      out_of_range(lines_, c, fmt::format("{:.6g}", constant), role);
     columns_.push_back(std::move(c));
   }
 
@@ -195,10 +195,10 @@ class CsvReader {
     const auto named = [&](const char* name) {
       return std::ranges::find(roles, name) != roles.end();
     };
-    // In plane: azimuths 0, and a sign may say the side.
+    // In plane: azimuths 0.  A negative zenith angle is the other side.
     const bool in_plane =
         named("theta_i") && named("theta_o") && !named("phi_i") && !named("phi_o");
-    if (in_plane) map_ = &in_plane_;
+    map_ = &usual_;
     expect_few_channels(roles);
     std::set<std::string> channels;
     for (std::size_t k = 0; k < roles.size(); ++k) {
@@ -357,7 +357,7 @@ class CsvReader {
     const auto field = lines.fields()[*c.index];
     if (c.is_value && is_gap(field)) return std::numeric_limits<double>::quiet_NaN();
     const double v = lines.number(*c.index);
-    if (!c.allows(v)) out_of_range(lines, c, v, field, lines.label(*c.index));
+    if (!c.allows(v)) out_of_range(lines, c, field, lines.label(*c.index));
     return v;
   }
 
@@ -427,14 +427,11 @@ class CsvReader {
 
   [[noreturn]] void out_of_range(const Delimited& lines,
                                  const Column& c,
-                                 double v,
                                  std::string_view field,
                                  const std::string& label) const {
     std::string expected = bracketed(c.low, c.high);
-    if (is_angle(c.role)) expected += map_ && map_->radians ? " radians" : " degrees";
-    if (c.role.starts_with("theta_"))
-      expected += !map_ && v < 0 ? fmt::format(" ({})", kHint)
-                                 : " (a zenith angle; perhaps columns are swapped)";
+    if (is_angle(c.role)) expected += map_->radians ? " radians" : " degrees";
+    if (c.role.starts_with("theta_")) expected += " (a zenith angle; perhaps columns are swapped)";
     lines.fail(label, field, expected);
   }
 
@@ -514,7 +511,7 @@ class CsvReader {
   /// True where angles said to be degrees look like radians in the file itself: what a sign or --forward adds to an
   /// azimuth would hide it.
   bool angles_are_small() const {
-    if (map_ && map_->radians) return false;
+    if (map_->radians) return false;
     constexpr double quarter = 1.6, whole = 6.3;  // [rad], a little more than π/2 and 2π
     double largest_out = 0;
     for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -530,10 +527,10 @@ class CsvReader {
     return largest_out > 0.5;
   }
 
-  double forward_deg() const { return map_ ? map_->forward_deg : ColumnMap().forward_deg; }
+  double forward_deg() const { return map_->forward_deg; }
 
   const ColumnMap* map_;
-  const ColumnMap in_plane_{};
+  const ColumnMap usual_{};
   bool needs_values_;
   std::string path_;
   Text text_;

@@ -66,9 +66,38 @@ std::string one_of(std::string_view Format::*name, bool (*those)(const Format&))
   return fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
+/// Kinds of file that are no table for gonio and that their first bytes, or a word of theirs, name.
+constexpr std::pair<std::string_view, std::string_view> foreign_beginnings[]{
+    {"{", "JSON"},
+    {"[", "JSON"},
+    {"PK\x03\x04", "a spreadsheet, or another ZIP archive"},
+    {"\xd0\xcf\x11\xe0", "a spreadsheet of old Excel"},
+    {"<", "XML that is no Klems matrix"},
+    {"OPTIS -", "a BSDF of Speos"},
+    {"Source Measured", "a BSDF of Zemax"},
+    {"DataType:", "a BSDF file that begins with DataType:"}};
+
+void expect_no_foreign_format(const std::string& path, std::string_view head) {
+  std::string begin;  // with one blank for many
+  for (const char c : head.substr(0, 4096)) {
+    const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+    if (!blank || (!begin.empty() && begin.back() != ' ')) begin += blank ? ' ' : c;
+  }
+  // A binary table may begin with any byte.
+  const bool text =
+      std::ranges::none_of(begin, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  for (const auto& [first, kind] : foreign_beginnings)
+    if (((text || first.size() == 4) && begin.starts_with(first)) ||
+        (text && first.size() > 6 &&
+         begin.find(std::string(" ") + std::string(first)) != begin.npos))
+      throw bad_input(path, "the beginning", std::string(kind),
+                      "a table: save it as CSV with theta_i, phi_i, theta_o, phi_o and f");
+}
+
 Table read_by_format(InputFile& in, const ColumnMap* map) {
   const std::string head = in.peek(1 << 16);
   for (const auto& f : formats) {
+    if (f.name == "csv") expect_no_foreign_format(in.path(), head);
     if (map && f.name == "csv") return read_csv(in, map);
     if (!(map && f.in_columns) && f.is(head, in.size())) return f.read(in);
   }

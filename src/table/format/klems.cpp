@@ -43,6 +43,16 @@ class Basis {
                        360.0 * static_cast<double>(k) / static_cast<double>(r.patches)});
     return all;
   }
+  /// ∫ cos θ dω of each patch.
+  std::vector<double> projected() const {
+    std::vector<double> all;
+    for (const Ring& r : rings)
+      all.insert(
+          all.end(), r.patches,
+          pi * (std::pow(std::sin(r.high * degree), 2) - std::pow(std::sin(r.low * degree), 2)) /
+              static_cast<double>(r.patches));
+    return all;
+  }
   /// The patch of a direction; size() beyond the last ring.  \param phi  [rad]
   std::size_t patch(double theta, double phi) const {
     const auto r =
@@ -92,6 +102,8 @@ class KlemsReader {
     std::size_t i = 0;
     for (const auto& wi : in.centres()) {
       std::size_t o = 0;
+      const auto patches = out.projected();
+      t.patches.insert(t.patches.end(), patches.begin(), patches.end());
       for (const auto& wo : out.centres()) {
         l.theta_i_deg.push_back(wi.theta_deg);
         l.phi_i_deg.push_back(around(turn * (wi.phi_deg + 180)));

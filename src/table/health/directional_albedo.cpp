@@ -1,9 +1,12 @@
 #include "table/health/directional_albedo.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "integrate/rule/quadrature.h"
 #include "table/format/rgl/function.h"
@@ -15,21 +18,78 @@
 namespace gonio {
 namespace {
 
-/// Mean over the nodes where there is a value, times π; `value(node, channel)` is NaN elsewhere.
+/// f of each channel at a pair of directions, and as the geometric mean of samples there; NaN where the table does not say.
+using Between =
+    std::function<void(const DirectionPair&, std::span<double> f, std::span<double> geometric)>;
+
+/// Mean over half vectors in polar coordinates, densest at the highlight, times π.
 /// Less than half of the hemisphere says nothing about its mean: noisy dark channels keep their peak.
-template <class Value>
-AlbedoSample integrate(double theta_i_deg,
-                       const std::vector<HemisphereNode>& nodes,
-                       std::size_t channels,
-                       Value value) {
-  AlbedoSample a{theta_i_deg, {}, 1};
-  for (std::size_t c = 0; c < channels; ++c) {
+///
+///   ∫ f cos θ_o dω_o = ∫ dψ ∫₀^end dθ_h 4 VoH f NoL sin θ_h,   θ_h = end x³
+///
+/// The error is what two rules of every other node differ by, and what it changes to interpolate logarithms: between samples
+/// on the flank of a highlight the surface lies between the two.
+AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& f) {
+  constexpr std::size_t radii = 128, rays = 96;
+  constexpr double pi = std::numbers::pi;
+  const Direction wi = direction(theta_i_deg * degree, 0);
+  const double slope = wi.x / wi.z;
+  struct Sums {
+    std::array<double, 2> value{}, weight{};  // of every other node
+    double geometric = 0;
+  };
+  std::vector<Sums> sums(channels);
+  std::vector<double> value(channels), geometric(channels);
+  double whole = 0;
+  for (std::size_t j = 0; j < rays; ++j) {
+    const double psi = 2 * pi * (static_cast<double>(j) + 0.5) / rays, k = slope * std::cos(psi),
+                 root = std::hypot(k, 1.0), end = std::atan(k > 0 ? k + root : 1 / (root - k));
+    for (std::size_t i = 0; i < radii; ++i) {
+      const double x = (static_cast<double>(i) + 0.5) / radii, theta = end * x * x * x;
+      const Direction h = direction(theta, psi);
+      const double voh = dot(wi, h);
+      const Direction wo{2 * voh * h.x - wi.x, 2 * voh * h.y - wi.y, 2 * voh * h.z - wi.z};
+      const double weight = 12 * voh * std::max(wo.z, 0.0) * std::sin(theta) * end * x * x;
+      if (!(weight > 0)) continue;
+      whole += weight;
+      f({wi, wo}, value, geometric);
+      for (std::size_t c = 0; c < channels; ++c) {
+        if (!std::isfinite(value[c])) continue;
+        sums[c].value[(i + j) % 2] += weight * value[c];
+        sums[c].weight[(i + j) % 2] += weight;
+        sums[c].geometric += weight * geometric[c];
+      }
+    }
+  }
+  AlbedoSample a{theta_i_deg, 0, {}, 1, 0};
+  for (const auto& [v, w, other] : sums) {
+    const double all = w[0] + w[1], mean = pi * (v[0] + v[1]) / all;
+    a.albedo.push_back(all > whole / 2 ? mean : std::nan(""));
+    a.coverage = std::min(a.coverage, all / whole);
+    if (!(all > whole / 2)) continue;
+    const double halves = pi * std::abs(v[0] / w[0] - v[1] / w[1]);
+    a.error = std::max(a.error, halves + std::abs(pi * other / all - mean));
+  }
+  return a;
+}
+
+/// Sum over the patches that a list's values are means of, exact, from the incident patch nearest to θ_i.
+AlbedoSample sum_of_patches(const Table& t, double theta_i_deg) {
+  const DirectionList& l = *t.list();
+  const SampleAngles at(t);
+  const Direction wanted = direction(theta_i_deg * degree, 0);
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < t.size(); ++i)
+    if (dot(at.directions(i).wi, wanted) > dot(at.directions(nearest).wi, wanted)) nearest = i;
+  AlbedoSample a{theta_i_deg, l.phi_i_deg[nearest], {}, 1, 0};
+  for (const auto& plane : t.values) {
     double sum = 0, weight = 0;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const double v = value(k, c);
-      if (!std::isfinite(v)) continue;
-      sum += nodes[k].weight * v;
-      weight += nodes[k].weight;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      if (l.theta_i_deg[i] != l.theta_i_deg[nearest] || l.phi_i_deg[i] != l.phi_i_deg[nearest] ||
+          mask(at(i), plane[i]) != Mask::valid)
+        continue;
+      sum += t.patches[i] * plane[i];
+      weight += t.patches[i];
     }
     a.albedo.push_back(weight > std::numbers::pi / 2 ? sum / weight * std::numbers::pi
                                                      : std::nan(""));
@@ -38,32 +98,22 @@ AlbedoSample integrate(double theta_i_deg,
   return a;
 }
 
-/// The part of the sum that one sample makes, in the channel where that is most.
-template <class Value>
-double largest_share(const std::vector<HemisphereNode>& nodes,
-                     const std::vector<std::size_t>& nearest,
-                     std::size_t channels,
-                     Value value) {
-  double share = 0;
-  for (std::size_t c = 0; c < channels; ++c) {
-    std::map<std::size_t, double> parts;
-    double sum = 0;
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (const double v = value(k, c); std::isfinite(v)) {
-        parts[nearest[k]] += nodes[k].weight * v;
-        sum += nodes[k].weight * v;
-      }
-    for (const auto& [sample, part] : parts) share = std::max(share, sum > 0 ? part / sum : 0);
-  }
-  return share;
-}
-
 std::vector<AlbedoSample> of_function(const Table& t, double step_deg) {
   std::vector<AlbedoSample> all(static_cast<std::size_t>(std::ceil(90 / step_deg)));
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
     all[k] = directional_albedo(t, step_deg * static_cast<double>(k));
   });
   return all;
+}
+
+/// True where all azimuths between the two directions are from 0 to 180°, as goniometers write them.
+bool one_half_turn(const DirectionList& l, const std::vector<std::size_t>& samples) {
+  const double phi_i = l.phi_i_deg[samples[0]];
+  return std::ranges::all_of(l.phi_i_deg, [&](double phi) { return phi == phi_i; }) &&
+         std::ranges::all_of(samples, [&](std::size_t i) {
+           const double phi = l.phi_o_deg[i] - phi_i;
+           return phi >= 0 && phi <= 180;
+         });
 }
 
 std::vector<AlbedoSample> samples_of_list(const Table& t) {
@@ -88,34 +138,66 @@ std::vector<AlbedoSample> samples_of_list(const Table& t) {
     // In the order of their cosines: a node looks at those no farther from it in zenith angle than
     // it may be at all.
     std::vector<std::pair<Direction, std::size_t>> by_height;
-    for (const auto i : samples) by_height.emplace_back(at.directions(i).wo, i);
+    const bool half = one_half_turn(l, samples);  // the other half is its mirror image
+    for (const auto i : samples) {
+      const auto p = at.directions(i);
+      by_height.emplace_back(p.wo, i);
+      const double phi = 2 * phi_of(p.wi) - phi_of(p.wo);
+      if (half) by_height.emplace_back(direction(theta_of(p.wo), phi), i);
+    }
     const auto height = [](const auto& s) { return s.first.z; };
     std::ranges::stable_sort(by_height, {}, height);
-    std::vector<std::size_t> nearest(nodes.size());
-    std::vector<double> closeness(nodes.size(), -1);
+    struct Near {
+      std::array<std::size_t, 2> sample{};  ///< the nearest, and the next
+      std::array<double, 2> closeness{-1, -1};
+    };
+    std::vector<Near> near(nodes.size());
     tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t k) {
       const double zenith = theta_of(nodes[k].direction), margin = reach_deg * degree + 1e-6;
       const double highest = zenith < margin ? 1.0 : std::cos(zenith - margin);
       auto s = std::ranges::lower_bound(by_height, std::cos(zenith + margin), {}, height);
-      for (; s != by_height.end() && s->first.z <= highest; ++s)
-        if (const double c = dot(s->first, nodes[k].direction);
-            c > closeness[k] || (c == closeness[k] && s->second < nearest[k])) {
-          closeness[k] = c;
-          nearest[k] = s->second;
+      auto& [sample, closeness] = near[k];
+      for (; s != by_height.end() && s->first.z <= highest; ++s) {
+        const double c = dot(s->first, nodes[k].direction);
+        if (c > closeness[0] || (c == closeness[0] && s->second < sample[0])) {
+          if (s->second != sample[0]) sample[1] = sample[0], closeness[1] = closeness[0];
+          sample[0] = s->second, closeness[0] = c;
+        } else if (c > closeness[1] && s->second != sample[0]) {
+          sample[1] = s->second, closeness[1] = c;
         }
+      }
     });
     double within = 0;
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (closeness[k] >= reach) within += nodes[k].weight;
+      if (near[k].closeness[0] >= reach) within += nodes[k].weight;
     if (within < 0.95 * std::numbers::pi) continue;
-    const auto value = [&](std::size_t k, std::size_t c) {
-      if (closeness[k] < reach) return std::nan("");
-      const std::size_t i = nearest[k];
-      const double v = t.values[c][i];
+    const auto value = [&](std::size_t k, std::size_t c, std::size_t rank) {
+      const std::size_t i = near[k].sample[rank];
+      const double v = near[k].closeness[rank] < reach ? std::nan("") : t.values[c][i];
       return mask(at(i), v) == Mask::valid ? v : std::nan("");
     };
-    if (largest_share(nodes, nearest, t.channels.size(), value) <= 0.1)
-      all.push_back(integrate(incident.first, nodes, t.channels.size(), value));
+    AlbedoSample a{incident.first, incident.second, {}, 1, 0};
+    double largest = 0;  // part of a sum that one sample makes
+    for (std::size_t c = 0; c < t.channels.size(); ++c) {
+      std::map<std::size_t, double> parts;
+      double sum = 0, weight = 0, apart = 0;
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const double v = value(k, c, 0), other = value(k, c, 1), w = nodes[k].weight;
+        if (std::isnan(v)) continue;
+        parts[near[k].sample[0]] += w * v;
+        sum += w * v;
+        weight += w;
+        // f lies between the two, or about as far from the first.
+        if (!std::isnan(other)) apart += w * std::abs(v - other) / 2;
+      }
+      for (const auto& [sample, part] : parts)
+        largest = std::max(largest, sum > 0 ? part / sum : 0);
+      const bool enough = weight > std::numbers::pi / 2;
+      a.albedo.push_back(enough ? sum / weight * std::numbers::pi : std::nan(""));
+      if (enough) a.error = std::max(a.error, apart / weight * std::numbers::pi);
+      a.coverage = std::min(a.coverage, weight / std::numbers::pi);
+    }
+    if (largest <= 0.1) all.push_back(std::move(a));
   }
   return all;
 }
@@ -123,23 +205,32 @@ std::vector<AlbedoSample> samples_of_list(const Table& t) {
 }  // namespace
 
 AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
-  const auto nodes = cosine_hemisphere(48, 96);
-  const Direction wi = direction(theta_i_deg * degree, 0);
+  const std::size_t channels = t.channels.size();
+  if (!t.patches.empty()) return sum_of_patches(t, theta_i_deg);
   if (t.grid()) {
     const SampleAngles at(t);
-    std::vector<GridCell> cells;
-    for (const auto& node : nodes) cells.push_back(cell_around(t, at, {wi, node.direction}));
-    return integrate(theta_i_deg, nodes, t.channels.size(), [&](std::size_t node, std::size_t c) {
-      return cells[node].mean_of(t.values[c]);
-    });
+    return integrate(theta_i_deg, channels,
+                     [&](const DirectionPair& p, std::span<double> f, std::span<double> geometric) {
+                       const GridCell cell = cell_around(t, at, p);
+                       for (std::size_t c = 0; c < channels; ++c) {
+                         f[c] = cell.mean_of(t.values[c]);
+                         double logs = 0, parts = 0;
+                         for (std::size_t k = 0; k < cell.count; ++k)
+                           if (const double v = t.values[c][cell.sample[k]];
+                               std::isfinite(v) && v >= 0)
+                             logs += cell.part[k] * std::log(v), parts += cell.part[k];
+                         geometric[c] = std::exp(logs / parts);
+                       }
+                     });
   }
   const Interpolator between(t);
   // The cosine of the integral takes back what RGL divides by.
   const RglFunction rgl = rgl_function(t);
-  return integrate(theta_i_deg, nodes, t.channels.size(), [&](std::size_t node, std::size_t c) {
-    const DirectionPair p{wi, nodes[node].direction};
-    return rgl ? rgl(p, c) : between(p, c);
-  });
+  return integrate(theta_i_deg, channels,
+                   [&](const DirectionPair& p, std::span<double> f, std::span<double> geometric) {
+                     for (std::size_t c = 0; c < channels; ++c)
+                       f[c] = geometric[c] = rgl ? rgl(p, c) : between(p, c);
+                   });
 }
 
 std::vector<AlbedoSample> albedo_curve(const Table& t, double step_deg) {

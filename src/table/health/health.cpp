@@ -6,9 +6,10 @@
 #include <utility>
 
 #include "base/quantile.h"
-#include "table/health/directional_albedo.h"
+#include "table/health/facts.h"
 #include "table/health/prospects.h"
 #include "table/health/reciprocity.h"
+#include "table/health/value_warnings.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -49,45 +50,6 @@ Tally tally(const Table& t) {
       });
 }
 
-/// More light than arrives, even if none went where samples lack.
-void warn_of_light(const Table& t, Health& h) {
-  const AlbedoSample* at = nullptr;
-  double most = 1.05;
-  for (const auto& a : h.albedo)
-    for (const double v : a.albedo)
-      if (v * a.coverage > most) {
-        most = v * a.coverage;
-        at = &a;
-      }
-  if (!at) return;
-  h.warnings.push_back(fmt::format(
-      "the table returns {:.3g} times the light that arrives at theta_i {:.3g}°{}", most,
-      at->theta_i_deg,
-      t.format == "csv" ? ": a radiance factor? (gonio columns FILE --scale 0.3183099)" : ""));
-}
-
-/// Values that are f cos θ_o break reciprocity by cos θ_o/cos θ_i, and keep it without the cosine.
-void warn_of_cosine(const Table& t, Health& h) {
-  if (!h.reciprocity_error) return;
-  const SampleAngles at(t);
-  std::vector<double> with, without;
-  for_each_reciprocal(t, [&](std::size_t i, std::size_t, double a, double b) {
-    const auto x = at(i);
-    const double low = std::min(x.nol, x.nov), high = std::max(x.nol, x.nov);
-    // Elsewhere the two cannot be told apart.
-    if (!(low >= least_cosine && high > 1.2 * low && a + b > 0)) return;
-    with.push_back(reciprocity_error(a, b));
-    without.push_back(reciprocity_error(a / x.nov, b / x.nol));
-  });
-  if (with.size() < 8) return;
-  const double raw = median(with), rest = median(without);
-  if (raw > 0.1 && 3 * rest < raw && rest < 0.05 + 2 * h.noise.sigma.value_or(0))
-    h.warnings.push_back(fmt::format(
-        "exchanging the directions changes values by {:.2g} %, after division by cos(theta_o) by "
-        "{:.2g} %: values look like f cos(theta_o){}",
-        100 * raw, 100 * rest, t.format == "csv" ? " (gonio columns FILE --cosine)" : ""));
-}
-
 }  // namespace
 
 double noise_floor(const Table& t) {
@@ -106,7 +68,7 @@ double noise_floor(const Table& t) {
       if (m == Mask::negative) sizes.push_back(-plane[i]);
     }
   }
-  if (sizes.empty() || sizes.size() * 1000 < above_horizon) return 0;
+  if (sizes.empty() || sizes.size() * 1000 < above_horizon || negative_channel(t)) return 0;
   const double middle = median(sizes);
   // More than half of them one number: a mark for missing data, as a format would have one.
   const auto same = static_cast<std::size_t>(std::ranges::count(sizes, middle));
@@ -205,6 +167,7 @@ std::string peak_in_words(const Highlight& p) {
 }
 
 Health inspect(const Table& t) {
+  TableFacts facts(t);
   Health h;
   const Tally counts = tally(t);
   h.samples = t.size();
@@ -216,13 +179,12 @@ Health inspect(const Table& t) {
   h.noise_floor = noise_floor(t);
   h.copied_rows = copied_rows(t, 0);
   h.copied_columns = copied_rows(t, 1);
-  h.albedo = directional_albedo(t);
-  auto [error, note] = reciprocity(t);
-  h.reciprocity_error = error;
-  h.reciprocity_note = note;
-  h.noise = estimate_noise(t);
+  h.albedo = facts.albedo();
+  h.reciprocity_error = facts.reciprocity().error;
+  h.reciprocity_note = facts.reciprocity().note;
+  h.noise = facts.noise();
   const Bins bins = t.bins();
-  const PeakSearch search = find_peak(t, bins);
+  const PeakSearch& search = facts.peak();
   h.peak_profiles = search.profiles;
   h.peak_contrast = search.contrast;
   if (search.peak) {
@@ -235,10 +197,9 @@ Health inspect(const Table& t) {
     else if (std::abs(p.bin_sensitivity.value_or(0)) > 0.1)
       p.limit = PeakLimit::bins;
   }
-  h.retro = retro_peak(t);
+  h.retro = facts.retro();
   h.prospects = prospects(t, h);
-  warn_of_light(t, h);
-  warn_of_cosine(t, h);
+  for (auto& w : value_warnings(facts)) h.warnings.push_back(std::move(w.text));
   return h;
 }
 

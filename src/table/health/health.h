@@ -19,9 +19,10 @@ namespace gonio {
 /// cosine-weighted hemisphere that valid samples speak for in the channel that has the fewest; what
 /// lacks counts as their mean.  NaN for a channel where more than half lacks.
 struct AlbedoSample {
-  double theta_i_deg;
+  double theta_i_deg, phi_i_deg;
   std::vector<double> albedo;
   double coverage;
+  double error;  ///< no channel's integral over what is between samples is further off
 };
 
 /// Why a highlight's width is not the surface's alone.

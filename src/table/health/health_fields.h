@@ -38,9 +38,12 @@ std::vector<std::pair<std::string_view, Entry>> by_mask(
 template <>
 inline constexpr auto description<AlbedoSample> =
     std::tuple{Field{"theta_i_deg", "°", &AlbedoSample::theta_i_deg, "angle of incidence"},
+               Field{"phi_i_deg", "°", &AlbedoSample::phi_i_deg, "its azimuth"},
                Field{"albedo", per_channel(&AlbedoSample::albedo), "∫ f cos θ_o dω_o"},
                Field{"coverage", &AlbedoSample::coverage,
-                     "share of the cosine-weighted hemisphere that valid samples speak for"}};
+                     "share of the cosine-weighted hemisphere that valid samples speak for"},
+               Field{"error", &AlbedoSample::error,
+                     "bound of the integral's error, of what is between samples"}};
 
 template <>
 inline constexpr auto description<Peak> = std::tuple{

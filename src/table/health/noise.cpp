@@ -32,12 +32,6 @@ struct Family {
   std::vector<Line> lines;
 };
 
-/// Difference of one value from its neighbours, scaled to the spread of one value.
-struct Difference {
-  std::size_t sample, channel;
-  double fewer, more;  ///< by 3 and by 4 neighbours on either side
-};
-
 /// Weights of the neighbours x[0 … 2k] (the middle one excepted) in the polynomial's value at x[k].
 std::vector<double> lagrange(const double* x, std::size_t k) {
   std::vector<double> w(2 * k + 1, 1);
@@ -194,8 +188,8 @@ bool usable(const Table& t, const SampleAngles& at, std::size_t i, std::size_t c
   return v > 0 && mask(at(i), v) == Mask::valid;
 }
 
-std::vector<Difference> differences(const Table& t, const SampleAngles& at, const Family& f) {
-  std::vector<Difference> all;
+std::vector<NoiseSample> differences(const Table& t, const SampleAngles& at, const Family& f) {
+  std::vector<NoiseSample> all;
   std::vector<double> x, y;
   std::vector<std::size_t> sample;
   for (const Line& line : f.lines)
@@ -217,8 +211,8 @@ std::vector<Difference> differences(const Table& t, const SampleAngles& at, cons
 }
 
 /// Pairs of values at the same four angles.
-std::vector<Difference> repeats(const Table& t, const SampleAngles& at) {
-  std::vector<Difference> all;
+std::vector<NoiseSample> repeats(const Table& t, const SampleAngles& at) {
+  std::vector<NoiseSample> all;
   const auto* l = t.list();
   if (!l) return all;
   const auto key = [&](std::size_t i) -> AngleKey<4> {
@@ -247,20 +241,20 @@ double spread(std::vector<double> differences) {
   return 1.4826 * median(differences);
 }
 template <class Which>
-double spread(const std::vector<Difference>& all, Which which) {
+double spread(const std::vector<NoiseSample>& all, Which which) {
   std::vector<double> chosen;
-  for (const Difference& d : all)
+  for (const NoiseSample& d : all)
     if (const auto v = which(d); !std::isnan(v)) chosen.push_back(v);
   return spread(std::move(chosen));
 }
 
 /// The spread of the differences in each of the bands between edges.
 template <class Coordinate>
-std::vector<NoiseBand> bands(const std::vector<Difference>& all,
+std::vector<NoiseBand> bands(const std::vector<NoiseSample>& all,
                              const std::vector<double>& edges,
                              Coordinate coordinate) {
   std::vector<std::vector<double>> in(edges.size() - 1);
-  for (const Difference& d : all) {
+  for (const NoiseSample& d : all) {
     const auto above = std::ranges::upper_bound(edges, coordinate(d));
     if (above != edges.begin() && above != edges.end())
       in[static_cast<std::size_t>(above - edges.begin() - 1)].push_back(d.more);
@@ -274,27 +268,32 @@ std::vector<NoiseBand> bands(const std::vector<Difference>& all,
 
 }  // namespace
 
-Noise estimate_noise(const Table& t) {
+NoiseSamples noise_samples(const Table& t) {
   const SampleAngles at(t);
-  Noise noise;
-  std::vector<Difference> best = repeats(t, at);
-  if (best.size() >= few) {
-    noise.along = "repeats";
-  } else {
-    best.clear();
-    double least = std::numeric_limits<double>::infinity();
-    for (const Family& f : t.grid() ? of_grid(t) : of_list(t)) {
-      auto here = differences(t, at, f);
-      if (here.empty()) continue;
-      // What does not change along an angle at all was filled in, unless nothing changes anywhere.
-      double sigma = spread(here, [](const auto& d) { return d.more; });
-      if (sigma == 0) sigma = std::numeric_limits<double>::max();
-      if (sigma >= least) continue;
-      least = sigma;
-      noise.along = f.along;
-      best = std::move(here);
-    }
+  NoiseSamples best{"repeats", repeats(t, at)};
+  // What repeats to the last bit is written twice, and not measured.
+  const auto alike = std::ranges::count(best.all, 0.0, &NoiseSample::more);
+  if (best.all.size() >= few && 2 * static_cast<std::size_t>(alike) < best.all.size()) return best;
+  best = {};
+  double least = std::numeric_limits<double>::infinity();
+  for (const Family& f : t.grid() ? of_grid(t) : of_list(t)) {
+    auto here = differences(t, at, f);
+    if (here.empty()) continue;
+    // What does not change along an angle at all was filled in, unless nothing changes anywhere.
+    double sigma = spread(here, [](const auto& d) { return d.more; });
+    if (sigma == 0) sigma = std::numeric_limits<double>::max();
+    if (sigma >= least) continue;
+    least = sigma;
+    best = {f.along, std::move(here)};
   }
+  return best;
+}
+
+Noise estimate_noise(const Table& t, const NoiseSamples& samples) {
+  const SampleAngles at(t);
+  const auto& best = samples.all;
+  Noise noise;
+  noise.along = samples.along;
   if (best.empty()) return noise;
   noise.sigma = spread(best, [](const auto& d) { return d.more; });
   const double fewer = spread(best, [](const auto& d) { return d.fewer; });
@@ -303,14 +302,14 @@ Noise estimate_noise(const Table& t) {
     noise.channels.push_back(
         spread(best, [&](const auto& d) { return d.channel == c ? d.more : nan; }));
   if (noise.bound) return noise;
-  noise.over_angle = bands(best, {0, 15, 30, 45, 60, 75, 90}, [&](const Difference& d) {
+  noise.over_angle = bands(best, {0, 15, 30, 45, 60, 75, 90}, [&](const NoiseSample& d) {
     const auto a = at(d.sample);
     return std::acos(std::clamp(std::min(a.nol, a.nov), 0.0, 1.0)) / degree;
   });
   std::vector<double> decades;
   for (int power = -12; power <= 12; ++power) decades.push_back(std::pow(10.0, power));
   noise.over_value =
-      bands(best, decades, [&](const Difference& d) { return t.values[d.channel][d.sample]; });
+      bands(best, decades, [&](const NoiseSample& d) { return t.values[d.channel][d.sample]; });
   return noise;
 }
 

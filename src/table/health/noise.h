@@ -36,7 +36,22 @@ struct Noise {
   std::vector<NoiseBand> over_angle, over_value;
 };
 
+/// Noise of one value: its difference from the polynomial through its neighbours, in ln f, scaled to the spread of one value.
+struct NoiseSample {
+  std::size_t sample, channel;
+  double fewer, more;  ///< by 3 and by 4 neighbours on either side
+};
+/// Samples along the angle whose lines have the smallest spread, or pairs of repeated ones.
+struct NoiseSamples {
+  std::string along;
+  std::vector<NoiseSample> all;
+};
+NoiseSamples noise_samples(const Table&);
+
 /// Samples measured more than once tell most directly: where a list has 50 such pairs, they speak.
-Noise estimate_noise(const Table&);
+Noise estimate_noise(const Table&, const NoiseSamples&);
+inline Noise estimate_noise(const Table& t) {
+  return estimate_noise(t, noise_samples(t));
+}
 
 }  // namespace gonio

@@ -180,11 +180,10 @@ PeakSearch find_peak(const Table& t, Bins bins, Around around) {
   return search;
 }
 
-std::optional<Peak> retro_peak(const Table& t) {
+std::optional<Peak> retro_peak(const Table& t, const std::optional<Peak>& half_vector) {
   const auto retro = find_peak(t, t.bins(), Around::retro).peak;
   const auto above = [](const Peak& p) { return p.height - std::max(p.base, 0.0); };
   if (!retro || retro->height < 2 * retro->base) return {};
-  const auto half_vector = find_peak(t, t.bins()).peak;
   if (half_vector && above(*retro) <= above(*half_vector)) return {};
   return retro;
 }

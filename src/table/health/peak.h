@@ -43,6 +43,6 @@ PeakSearch find_peak(const Table&, Bins bins, Around = Around::half_vector);
 
 /// The highlight around the retro direction, where it is the table's highlight: at least twice its
 /// base, and higher above it than the one around the half vector.  A microfacet lobe cannot describe it.
-std::optional<Peak> retro_peak(const Table&);
+std::optional<Peak> retro_peak(const Table&, const std::optional<Peak>& half_vector);
 
 }  // namespace gonio

@@ -96,7 +96,7 @@ Prospect alpha(const Health& h, const Survey& s) {
                            "vector: a microfacet lobe cannot describe it",
                            h.retro->height));
   if (h.peak_profiles == 0)
-    return say(no,
+    return say(weakly,
                "no run of samples from the half vector outwards at theta_d from 5 to 45° shows a "
                "highlight's height and foot");
   if (!h.peak && s.brightest == 0)

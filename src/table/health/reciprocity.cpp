@@ -47,10 +47,11 @@ Pairs of_list(const DirectionList& l) {
   const auto key = [&](std::size_t i, bool swapped) -> Key {
     const long ti = part(l.theta_i_deg[i]), to = part(l.theta_o_deg[i]);
     if (one_azimuth) {
-      const double turn = l.phi_o_deg[i] - phi_i[i];
+      // At the normal an azimuth means nothing.
+      const double turn = ti == 0 || to == 0 ? 0 : l.phi_o_deg[i] - phi_i[i];
       return swapped ? Key{to, 0, ti, around(-turn)} : Key{ti, 0, to, around(turn)};
     }
-    const long pi = around(phi_i[i]), po = around(l.phi_o_deg[i]);
+    const long pi = ti == 0 ? 0 : around(phi_i[i]), po = to == 0 ? 0 : around(l.phi_o_deg[i]);
     return swapped ? Key{to, po, ti, pi} : Key{ti, pi, to, po};
   };
   const auto hashes = [&](bool swapped) {

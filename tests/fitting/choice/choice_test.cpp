@@ -12,6 +12,7 @@
 #include "fitting/choice/document.h"
 #include "fitting/fit.h"
 #include "fitting/materials.h"
+#include "fitting/support.h"
 #include "many_fits.h"
 #include "refusal.h"
 
@@ -260,6 +261,57 @@ TEST(Advice, LetsNoFewValuesDecideByChance) {
   EXPECT_EQ(advise(c).recommended, "small");
   c.rows[0].cv_behind = 2.1;
   EXPECT_EQ(advise(c).recommended, "large");
+}
+
+TEST(Advice, TakesNothingForAsGoodThatBicPutsFarBehindOrThatLeavesTwiceTheError) {
+  ModelChoice c;
+  c.blocks = 4;
+  c.effective_values = 10;
+  c.rows = {row("small", 3, 0.22, 2.5, 100), row("large", 9, 0.2, 0, 100)};
+  EXPECT_EQ(advise(c).recommended, "small") << "Student's t of three degrees of freedom is 3.2";
+  c.rows[0].bic = 111;
+  EXPECT_EQ(advise(c).recommended, "large");
+  c.rows[0] = row("small", 3, 0.41, 1, 100);
+  EXPECT_EQ(advise(c).recommended, "large");
+  EXPECT_TRUE(advise(c).as_good.empty());
+}
+
+TEST(Advice, SaysThatNoneFitsWhereAllMissTheTable) {
+  ModelChoice c;
+  c.rows = {row("small", 3, 0.3, 9, 100), row("large", 9, 0.2, 0, 100)};
+  c.rows[0].misses = true;
+  EXPECT_FALSE(advise(c).none_fits);
+  c.rows[1].misses = true;
+  EXPECT_TRUE(advise(c).none_fits);
+  EXPECT_EQ(advise(c).recommended, "large") << "the nearest";
+}
+
+TEST(ModelChoice, OfTwoLobesAtFourAnglesDoesNotTakeADiffuseTermAlone) {
+  const std::string lobe = "ggx/smith_ggx.correlated/schlick.weighted";
+  const std::string two = "lambert+" + lobe + "+" + lobe;
+  Table t = test::list_of(std::vector<double>(4 * 29));
+  DirectionList l;
+  for (int in = 10; in <= 70; in += 20)
+    for (int out = -84; out <= 84; out += 6) {
+      l.theta_i_deg.push_back(in);
+      l.phi_i_deg.push_back(0);
+      l.theta_o_deg.push_back(std::abs(out));
+      l.phi_o_deg.push_back(out < 0 ? 0 : 180);
+    }
+  t.where = l;
+  const SampleAngles at(t);
+  std::vector<Angles<double>> angles;
+  for (std::size_t i = 0; i < t.size(); ++i) angles.push_back(at(i));
+  const auto truth = test::bind(
+      two.c_str(), "kd=0.05,alpha=0.08,f0=0.04,weight=0.5,alpha_2=0.5,f0_2=0.2,weight_2=0.5", 1);
+  std::ranges::copy(evaluate(truth, angles)[0], t.values[0].begin());
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  for (double& v : t.values[0]) v *= std::exp(0.01 * normal(random));
+  const auto choice = compare_models(t, {}, std::vector{std::string("lambert"), paint, two});
+  const Advice a = advise(choice);
+  EXPECT_EQ(a.recommended, two);
+  EXPECT_FALSE(a.none_fits);
 }
 
 TEST(Advice, SaysWhatTheOneThatIsTakenDoesNotDo) {

@@ -103,7 +103,7 @@ TEST(Seen, OutliersAreNoHighlightAtTheRetroDirection) {
     const Table t =
         synthesize(test::bind(paint, "alpha=0.2,f0=0.05,kd=0.2", 3),
                    {.layout = Layout::in_plane, .noise = 0.02, .outliers = 0.2, .seed = seed});
-    EXPECT_FALSE(retro_peak(t)) << seed;
+    EXPECT_FALSE(TableFacts(t).retro()) << seed;
     FitOptions o;
     o.model = paint;
     o.robust = true;

@@ -25,7 +25,8 @@ TEST(Warnings, SaysThatThePeakIsNotResolved) {
     const Table t = synthesize(test::bind(o.model.c_str(), alpha + ",kd=0.1", 3),
                                {.layout = Layout::mbsdf, .noise = 0.02});
     const auto d = fit(t, o).document;
-    const bool is = with_table({}, o, t, d).unresolved.has_value();
+    TableFacts facts(t);
+    const bool is = with_table({}, o, facts, d).unresolved.has_value();
     EXPECT_EQ(d.warnings.size(), is ? 1U : 0U);
     return is;
   };
@@ -49,12 +50,13 @@ TEST(Warnings, SaysWhenTheModelDoesNotDescribeTheTable) {
 TEST(Warnings, LookForThePeakOfALobeWhoseWidthHasALimitAlone) {
   const Table t = synthesize(test::bind("ggx/smith_ggx.correlated/schlick", "alpha=0.01", 1),
                              {.layout = Layout::mbsdf});
+  TableFacts facts(t);
   FitDocument d;
   const double none = std::nan("");
   const auto unresolved = [&](double limit) {
     d.parameters = {
         {"alpha", {none}, {none}, {none}, {none}, {ParameterStatus::upper_limit}, {limit}, {""}}};
-    return with_table({}, {}, t, d).unresolved.has_value();
+    return with_table({}, {}, facts, d).unresolved.has_value();
   };
   EXPECT_TRUE(unresolved(0.02));
   EXPECT_FALSE(unresolved(0.5)) << "looking for it takes as long as a fit";
@@ -67,13 +69,15 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
   m.follows = {"theta_h", "theta_d", "grazing angles"};
   m.worst_cell = {10, 22.5, 60, 75, 40, -0.3};
   EXPECT_EQ(misfit_in_words(m),
-            (std::vector<std::string>{"the model misses the table by 8.4 % beyond noise, along "
-                                      "theta_h, theta_d and grazing angles; the intervals allow "
-                                      "for it",
-                                      "it shows most near theta_h 16°, theta_d 68°: 30 % too "
-                                      "dark"}));
+            (std::vector<std::string>{"the model misses the table by a factor of 1.088, "
+                                      "along theta_h, theta_d and grazing angles; "
+                                      "intervals allow for it",
+                                      "the largest deviation is near theta_h 16°, theta_d 68°: "
+                                      "30 % too dark"}));
   m.worst_cell->difference = 2.4;
   EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": 3.4 times as bright"));
+  m.worst_cell->difference = 1.0 / 150 - 1;
+  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": 150 times too dark"));
   m.told = false;
   EXPECT_TRUE(misfit_in_words(m).empty());
 }

@@ -79,8 +79,8 @@ TEST(CsvFile, NamesLineAndColumn) {
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,1.5x,1\n"), "line 2, column f: found '1.5x'");
   EXPECT_COMPLAINT(csv(head + "1,2,3,4,1e999,1\n"), "column f");
   EXPECT_COMPLAINT(csv(head + "1,2,nan,4,5,1\n"),
-                   "line 2, column theta_o: found nan, expected a number in [0, 180]");
-  EXPECT_COMPLAINT(csv(head + "-1,2,3,4,5,1\n"), "column theta_i: found -1");
+                   "line 2, column theta_o: found nan, expected a number in [-180, 180]");
+  EXPECT_COMPLAINT(csv(head + "-181,2,3,4,5,1\n"), "column theta_i: found -181");
   EXPECT_COMPLAINT(csv(head + "181,2,3,4,5,1\n"), "column theta_i");
   EXPECT_COMPLAINT(csv(head + "1,361,3,4,5,1\n"),
                    "column phi_i: found 361, expected a number in [-360, 360]");

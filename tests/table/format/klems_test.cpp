@@ -1,5 +1,6 @@
 // Klems' patches: which way round the matrix and the azimuths go, and what patches can resolve.
 #include <algorithm>
+#include <numeric>
 
 #include "base/error.h"
 #include "integrate/rule/quadrature.h"
@@ -55,6 +56,18 @@ TEST(KlemsFile, IsConstantOverAPatch) {
   }
   for (const auto& a : directional_albedo(read({.f = [](const auto&, auto) { return 1 / pi; }})))
     EXPECT_NEAR(a.albedo[0], 1, 1e-6) << a.theta_i_deg;
+}
+
+TEST(KlemsFile, HasTheAlbedoOfItsPatchesHoweverNarrowTheHighlight) {
+  // All light goes out at less than 6° from the mirror direction, of which 0.08 is left.
+  const auto lobe = [](const DirectionPair& p, std::size_t) {
+    return dot({-p.wi.x, -p.wi.y, p.wi.z}, p.wo) > std::cos(6 * degree) ? 1.0 : 0.0;
+  };
+  Table t = read({.f = lobe});
+  ASSERT_EQ(t.patches.size(), t.size());
+  EXPECT_NEAR(std::accumulate(t.patches.begin(), t.patches.begin() + 73, 0.0), pi, 1e-3);
+  for (std::size_t i = 0; i < t.size(); ++i) t.values[0][i] *= 0.08 / t.patches[i];
+  for (const auto& a : directional_albedo(t)) EXPECT_NEAR(a.albedo[0], 0.08, 1e-3) << a.theta_i_deg;
 }
 
 TEST(KlemsFile, TakesVisibleReflectionFromTheFrontWhereItCan) {

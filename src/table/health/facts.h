@@ -1,0 +1,62 @@
+#pragma once
+/// \file
+/// What a table's values show without a model: each found once, when it is first asked for.
+
+#include <optional>
+#include <vector>
+
+#include "table/health/computed.h"
+#include "table/health/directional_albedo.h"
+#include "table/health/health.h"
+#include "table/health/noise.h"
+#include "table/health/peak.h"
+#include "table/health/reciprocity.h"
+
+namespace gonio {
+
+/// Facts of one table for all who judge it.  For one thread; keeps a reference.
+class TableFacts {
+ public:
+  explicit TableFacts(const Table& t) : table_(t) {}
+  const Table& table() const { return table_; }
+
+  const PeakSearch& peak() {
+    return once(peak_, [&] { return find_peak(table_, table_.bins()); });
+  }
+  const std::optional<Peak>& retro() {
+    return once(retro_, [&] { return retro_peak(table_, peak().peak); });
+  }
+  const NoiseSamples& noise_samples() {
+    return once(noise_samples_, [&] { return gonio::noise_samples(table_); });
+  }
+  const Noise& noise() {
+    return once(noise_, [&] { return estimate_noise(table_, noise_samples()); });
+  }
+  const std::vector<AlbedoSample>& albedo() {
+    return once(albedo_, [&] { return directional_albedo(table_); });
+  }
+  const Reciprocity& reciprocity() {
+    return once(reciprocity_, [&] { return gonio::reciprocity(table_); });
+  }
+  /// See one_value_per_angle().
+  bool computed() {
+    return once(computed_, [&] { return one_value_per_angle(table_); });
+  }
+
+ private:
+  template <class T, class Find>
+  static const T& once(std::optional<T>& kept, Find&& find) {
+    if (!kept) kept.emplace(find());
+    return *kept;
+  }
+  const Table& table_;
+  std::optional<PeakSearch> peak_;
+  std::optional<std::optional<Peak>> retro_;
+  std::optional<NoiseSamples> noise_samples_;
+  std::optional<Noise> noise_;
+  std::optional<std::vector<AlbedoSample>> albedo_;
+  std::optional<Reciprocity> reciprocity_;
+  std::optional<bool> computed_;
+};
+
+}  // namespace gonio

@@ -1,0 +1,254 @@
+#include "table/health/value_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "base/quantile.h"
+#include "base/text.h"
+#include "table/health/rounding.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+using std::numbers::pi;
+constexpr double too_much = 1.05;  ///< light that goes out, over what comes in
+
+/// Command that scales a CSV file; other formats have a unit of their own.
+std::string scaled_by(const Table& t, const char* what, double scale) {
+  return t.format == "csv" ? fmt::format(": {}? (gonio columns FILE --scale {:.7g})", what, scale)
+                           : "";
+}
+/// What values may be that return so many times the light.
+std::string unit_of(const Table& t, double light) {
+  constexpr double slack = 1.1;
+  if (light < slack * pi) return scaled_by(t, "a radiance factor", 1 / pi);
+  if (light < slack * 100 * pi) return scaled_by(t, "a radiance factor in percent", 0.01 / pi);
+  return t.format == "csv" ? ": counts? (gonio columns FILE --scale of a white standard)" : "";
+}
+
+/// Least value of each incident direction whose samples all are above 1/π, as a share of the light: no
+/// proof, since the samples may lie in one plane.
+std::optional<std::pair<double, double>> bright_everywhere(const Table& t) {
+  const DirectionList* l = t.list();
+  if (!l) return {};
+  constexpr std::size_t few = 8, large = 100'000;
+  if (t.size() > large) return {};
+  const SampleAngles at(t);
+  std::map<std::pair<double, double>, std::vector<double>> of;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    for (const auto& plane : t.values)
+      if (mask(at(i), plane[i]) == Mask::valid)
+        of[{l->theta_i_deg[i], l->phi_i_deg[i]}].push_back(plane[i]);
+  std::optional<std::pair<double, double>> most;  // light, θ_i
+  for (auto& [direction, values] : of) {
+    if (values.size() < few) continue;
+    const double light = pi * quantile(values, 0.05);
+    if (light > too_much && (!most || light > most->first)) most = {light, direction.first};
+  }
+  return most;
+}
+
+void warn_of_light(TableFacts& facts, std::vector<std::string>& all) {
+  const Table& t = facts.table();
+  double most = 0, at = 0, whole = 0, shown = 0;
+  for (const auto& a : facts.albedo())
+    for (const double v : a.albedo) {
+      if (std::isnan(v)) continue;
+      whole = std::max(whole, v);
+      const double sure = (v - a.error) * a.coverage;
+      if (sure > most) most = sure, at = a.theta_i_deg, shown = v;
+    }
+  if (most > too_much) {
+    all.push_back(fmt::format("the table returns {:.3g} times the light at theta_i {:.3g}°{}",
+                              shown, at, unit_of(t, shown)));
+    return;
+  }
+  constexpr double next_to_nothing = 5e-4;
+  if (whole > 0 && whole < next_to_nothing)
+    all.push_back(fmt::format(
+        "the table returns {:.2g} of the light: a relative scale? (gonio columns FILE --scale, "
+        "or a model with schlick.weighted)",
+        whole));
+  if (const auto bright = bright_everywhere(t))
+    all.push_back(fmt::format(
+        "values at theta_i {:.3g}° are above 1/pi: probably {:.3g} times the light or more{}",
+        bright->second, bright->first, unit_of(t, bright->first)));
+}
+
+/// Cosines that values may be multiplied by: of θ_i and of θ_o, to these powers.
+struct Cosines {
+  int incident, outgoing;
+  const char* in_words;
+  const char* cure;
+};
+constexpr std::array one_cosine{Cosines{0, 1, "f cos(theta_o)", " (gonio columns FILE --cosine)"},
+                                Cosines{-1, 0, "f/cos(theta_i)", ""},
+                                Cosines{1, 0, "f cos(theta_i)", ""},
+                                Cosines{0, -1, "f/cos(theta_o)", ""}};
+constexpr std::array two_cosines{Cosines{1, 1, "f cos(theta_i) cos(theta_o)", ""},
+                                 Cosines{-1, -1, "f/(cos(theta_i) cos(theta_o))", ""}};
+
+/// Slope of ln f over the logarithm of both cosines, away from the highlight, and the spread of ln f before and
+/// after that line is taken out.
+struct Trend {
+  double slope = 0, before = 0, after = 0;
+};
+std::optional<Trend> trend_of(const Table& t, const Cosines& c) {
+  const SampleAngles at(t);
+  const double off_specular = std::sin(25 * degree);
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+  const std::size_t step = t.size() / 100'000 + 1;
+  for (std::size_t i = 0; i < t.size(); i += step) {
+    const auto a = at(i);
+    if (!(std::min(a.nol, a.nov) > 0.17) || a.sin2_theta_h < off_specular * off_specular) continue;
+    const double x = std::log(a.nol * a.nov);
+    for (const auto& plane : t.values) {
+      if (!(plane[i] > 0) || mask(a, plane[i]) != Mask::valid) continue;
+      const double y =
+          std::log(plane[i]) - c.incident * std::log(a.nol) - c.outgoing * std::log(a.nov);
+      ++n, sx += x, sy += y, sxx += x * x, sxy += x * y, syy += y * y;
+    }
+  }
+  const double vx = sxx - sx * sx / n, vxy = sxy - sx * sy / n, vy = syy - sy * sy / n;
+  if (n < 30 || !(vx / n > 0.05)) return {};
+  return Trend{vxy / vx, std::sqrt(std::max(vy, 0.0) / n),
+               std::sqrt(std::max(vy - vxy * vxy / vx, 0.0) / n)};
+}
+
+/// A cosine breaks reciprocity, and what is reciprocal without it had it; of the two that do so the one whose
+/// values are flatter away from the highlight.  Both cosines keep it: only that they fall by them tells.
+void warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) {
+  const Table& t = facts.table();
+  const auto sigma = [&] { return facts.noise().sigma.value_or(0); };
+  std::vector<double> raw;
+  std::array<std::vector<double>, 2> without;  // of f cos θ_o or f/cos θ_i; of the others
+  if (facts.reciprocity().error) {
+    const SampleAngles at(t);
+    for_each_reciprocal(t, [&](std::size_t i, std::size_t, double a, double b) {
+      const auto x = at(i);
+      const double low = std::min(x.nol, x.nov), high = std::max(x.nol, x.nov);
+      // Elsewhere the two cannot be told apart.
+      if (!(low >= least_cosine && high > 1.2 * low && a + b > 0)) return;
+      raw.push_back(reciprocity_error(a, b));
+      without[0].push_back(reciprocity_error(a / x.nov, b / x.nol));
+      without[1].push_back(reciprocity_error(a / x.nol, b / x.nov));
+    });
+  }
+  const auto cure = [&](const Cosines& c) { return t.format == "csv" ? c.cure : ""; };
+  constexpr std::size_t few = 8;
+  if (raw.size() >= few) {
+    const double with = median(raw);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double rest = median(without[k]);
+      if (!(with > 0.1 && 3 * rest < with && rest < 0.05 + 2 * sigma())) continue;
+      const Cosines *first = &one_cosine[2 * k], *second = &one_cosine[2 * k + 1];
+      const auto a = trend_of(t, *first), b = trend_of(t, *second);
+      if (a && b && std::abs(b->slope) < std::abs(a->slope)) first = second;
+      all.push_back(fmt::format(
+          "exchanging the directions changes values by {:.2g} %, without a cosine by {:.2g} %: "
+          "they look like {}{}",
+          100 * with, 100 * rest, first->in_words, cure(*first)));
+      return;
+    }
+    if (with > std::max(0.1, 5 * sigma())) {
+      all.push_back(fmt::format(
+          "exchanging the directions changes values by {:.2g} %: they are no f, or the directions "
+          "are not what they seem",
+          100 * with));
+      return;
+    }
+  }
+  const auto trend = trend_of(t, {0, 0, "", ""});
+  if (!trend || !(3 * trend->after < trend->before && trend->after < 0.1 + 2 * sigma())) return;
+  for (const auto& c : two_cosines)
+    if (std::abs(trend->slope - c.incident) < 0.15)
+      all.push_back(fmt::format(
+          "away from the highlight values follow both cosines: probably they are {}", c.in_words));
+}
+
+void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
+  const Table& t = facts.table();
+  const SampleAngles at(t);
+  const FileRounding rounding = rounding_of(t);
+  const double one_digit = 20 * rounding.absolute;  // six steps
+  std::size_t zeros = 0, coarse = 0, values = 0, negative = 0;
+  const std::size_t step = t.size() / 200'000 + 1;
+  for (const auto& plane : t.values) {
+    std::size_t none = 0, some = 0;
+    for (std::size_t i = 0; i < t.size(); i += step) {
+      const Mask m = plane[i] <= 0 ? mask(at(i), plane[i]) : Mask::valid;
+      none += m == Mask::valid && plane[i] == 0;
+      negative += m == Mask::negative;
+      some += plane[i] > 0;
+      coarse += plane[i] > 0 && plane[i] < one_digit;
+    }
+    if (some == 0) continue;  // of a channel of zeros something else is said
+    zeros += none;
+    values += none + some;
+  }
+  const auto many = [&](std::size_t n, double part) {
+    return static_cast<double>(n) > part * static_cast<double>(values);
+  };
+  // A table all of whose values are short numbers may have been written so.
+  if (rounding.absolute > 0 && many(zeros + coarse, 0.05) && !many(zeros + coarse, 0.95))
+    all.push_back(
+        fmt::format("{} of {} values are rounded to one digit or to 0, which shifts logarithms: "
+                    "--metric l2_cosine minds it less",
+                    zeros + coarse, values));
+  else if (negative == 0 && many(zeros, 0.005))
+    all.push_back(
+        fmt::format("{} of {} values are 0, clipped noise or shadow: logarithms leave them out "
+                    "(--metric l2_cosine counts them)",
+                    zeros, values));
+}
+
+void warn_of_negative_channel(const Table& t, std::vector<std::string>& all) {
+  if (const auto c = negative_channel(t))
+    all.push_back(fmt::format(
+        "all negative values are of channel {}: a colour outside the gamut, or an offset; noise "
+        "would show in all channels",
+        t.channels[*c]));
+}
+
+}  // namespace
+
+std::optional<std::size_t> negative_channel(const Table& t) {
+  if (!t.negative_is_noise || t.values.size() < 2) return {};
+  std::optional<std::size_t> of;
+  std::vector<double> sizes;
+  const SampleAngles at(t);
+  for (std::size_t c = 0; c < t.values.size(); ++c)
+    for (std::size_t i = 0; i < t.size(); ++i)
+      if (t.values[c][i] < 0 && mask(at(i), t.values[c][i]) == Mask::negative) {
+        if (of && *of != c) return {};
+        of = c;
+        sizes.push_back(-t.values[c][i]);
+      }
+  constexpr std::size_t few = 8;
+  if (sizes.size() < few) return {};
+  // What neighbours differ by, in the other channels: far less than such a floor.
+  std::vector<double> noise;
+  for (const auto& d : noise_samples(t).all)
+    if (d.channel != *of) noise.push_back(std::abs(d.more) * t.values[d.channel][d.sample]);
+  if (noise.empty() || 3 * median(noise) > median(sizes)) return {};
+  return of;
+}
+
+std::vector<ValueWarning> value_warnings(TableFacts& facts) {
+  std::vector<std::string> texts;
+  warn_of_light(facts, texts);
+  warn_of_cosine(facts, texts);
+  const std::size_t of_unit = texts.size();
+  warn_of_zeros(facts, texts);
+  warn_of_negative_channel(facts.table(), texts);
+  std::vector<ValueWarning> all;
+  for (auto& text : texts) all.push_back({std::move(text), all.size() < of_unit});
+  return all;
+}
+
+}  // namespace gonio

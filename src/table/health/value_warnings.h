@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// What a table's values may be other than f in 1/sr.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "table/health/facts.h"
+
+namespace gonio {
+
+/// Sentences, each with what to do: more light than arrives, or next to none; a cosine left in; directions
+/// whose exchange changes values; zeros that noise or digits made; one channel below 0.
+struct ValueWarning {
+  std::string text;
+  bool of_unit;  ///< light or a cosine: no model is to blame for what it misses then
+};
+std::vector<ValueWarning> value_warnings(TableFacts&);
+
+/// True of a reader's warning that a model answers which reproduces the table: of light that comes back the way it came.
+inline bool is_answered_by_a_fit(const std::string& warning) {
+  return warning.starts_with("values on the light's side reach ");
+}
+
+/// The channel that holds all the negative values, where a noise floor would show in the others, too.
+std::optional<std::size_t> negative_channel(const Table&);
+
+}  // namespace gonio

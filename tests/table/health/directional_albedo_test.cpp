@@ -1,0 +1,43 @@
+// The albedo of a table is that of the surface it was taken from, within the error that is said.
+#include "table/health/directional_albedo.h"
+
+#include <cmath>
+
+#include "brdf/model/evaluate.h"
+#include "table/example.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+/// A metal that reflects all light but what masking takes, on MERL's grid.
+Table white_metal(double alpha) {
+  const auto metal =
+      bind_model("ggx/smith_ggx.correlated/schlick", {{"alpha", {alpha}}, {"f0", {1}}}, 1);
+  Table t;
+  t.format = "merl";
+  t.channels = {"f"};
+  t.where = merl_grid(Bins::centre);
+  const SampleAngles at(t);
+  std::vector<Angles<double>> x;
+  const std::size_t n = t.grid()->size();
+  for (std::size_t i = 0; i < n; ++i) x.push_back(at(i));
+  const auto f = evaluate(metal, x)[0];
+  t.values.emplace_back(f.begin(), f.end());
+  return t;
+}
+
+TEST(AlbedoOfATable, IsThatOfTheSurfaceHoweverNarrowItsHighlight) {
+  for (const double alpha : {0.05, 0.02}) {
+    const Table t = white_metal(alpha);
+    for (const double theta_i : {0.0, 30.0, 60.0}) {
+      const auto a = directional_albedo(t, theta_i);
+      EXPECT_NEAR(a.albedo[0], 1, 0.02) << alpha << " " << theta_i;
+      EXPECT_LT(a.error, 0.02) << alpha << " " << theta_i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gonio

@@ -1,0 +1,157 @@
+// Values that are no f in 1/sr are said to be what they are, and those that are f are left alone.
+#include "table/health/value_warnings.h"
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "brdf/model/evaluate.h"
+#include "table/example.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+/// Paint on ten incident angles × ten zenith angles × azimuths to `turn`, or in the plane of incidence.
+Table painted(double turn, double kd = 0.3, double alpha = 0.3) {
+  DirectionList l;
+  const auto add = [&](double in, double out, double phi) {
+    l.theta_i_deg.push_back(in);
+    l.phi_i_deg.push_back(0);
+    l.theta_o_deg.push_back(out);
+    l.phi_o_deg.push_back(phi);
+  };
+  for (double in = 0; in < 80; in += 8)
+    for (double out = 0; out < 88; out += 8)
+      for (double phi = 0; phi <= turn; phi += turn < 360 ? 180 / 12 : 15)
+        if ((out > 0 || phi == 0) && (turn > 0 ? phi < 360 : true)) add(in, out, phi);
+  if (turn == 0)
+    for (std::size_t i = 0, n = l.theta_i_deg.size(); i < n; ++i)
+      if (l.theta_o_deg[i] > 0) add(l.theta_i_deg[i], l.theta_o_deg[i], 180);
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  t.where = std::move(l);
+  const auto model = bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                                {{"alpha", {alpha}}, {"f0", {0.05}}, {"kd", {kd}}}, 1);
+  const std::size_t n = t.list()->theta_i_deg.size();
+  t.values.emplace_back(n);
+  const SampleAngles at(t);
+  std::vector<Angles<double>> x;
+  for (std::size_t i = 0; i < n; ++i) x.push_back(at(i));
+  std::ranges::copy(evaluate(model, x)[0], t.values[0].begin());
+  return t;
+}
+
+/// The sentences after the values were changed.
+std::vector<std::string> said_of(
+    Table t, const std::function<double(const Angles<double>&, double)>& change) {
+  const SampleAngles at(t);
+  for (auto& plane : t.values)
+    for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = change(at(i), plane[i]);
+  TableFacts facts(t);
+  std::vector<std::string> all;
+  for (auto& w : value_warnings(facts)) all.push_back(std::move(w.text));
+  return all;
+}
+bool says(const std::vector<std::string>& all, std::string_view words) {
+  return std::ranges::any_of(all, [&](const auto& s) { return s.find(words) != s.npos; });
+}
+double as_it_is(const Angles<double>&, double f) {
+  return f;
+}
+
+TEST(ValueWarnings, SayNothingOfAPaint) {
+  for (const double turn : {0.0, 180.0, 360.0})
+    EXPECT_TRUE(said_of(painted(turn), as_it_is).empty())
+        << turn << " " << said_of(painted(turn), as_it_is)[0];
+  EXPECT_TRUE(said_of(painted(180, 0.01, 0.15), as_it_is).empty());
+}
+
+TEST(ValueWarnings, SayThatMoreLightLeavesThanArrivesHoweverFarRoundTheSamplesGo) {
+  for (const double turn : {180.0, 360.0})
+    EXPECT_TRUE(says(said_of(painted(turn), [](const auto&, double f) { return 3 * M_PI * f; }),
+                     "times the light at theta_i"))
+        << turn;
+  EXPECT_TRUE(
+      says(said_of(painted(0, 0.6), [](const auto&, double f) { return M_PI * f; }), "probably"));
+  EXPECT_TRUE(says(said_of(painted(180, 0.6), [](const auto&, double f) { return M_PI * f; }),
+                   "a radiance factor? (gonio columns FILE --scale 0.3183099)"));
+  EXPECT_TRUE(says(said_of(painted(180), [](const auto&, double f) { return 100 * M_PI * f; }),
+                   "in percent? (gonio columns FILE --scale 0.003183099)"));
+  EXPECT_TRUE(
+      says(said_of(painted(180), [](const auto&, double f) { return 1e5 * f; }), "counts?"));
+  EXPECT_TRUE(says(said_of(painted(180), [](const auto&, double f) { return 1e-4 * f; }),
+                   "relative scale?"));
+}
+
+TEST(ValueWarnings, SayWhichCosineIsLeftIn) {
+  const auto said = [](double incident, double outgoing) {
+    return said_of(painted(180), [=](const auto& a, double f) {
+      return f * std::pow(a.nol, incident) * std::pow(a.nov, outgoing);
+    });
+  };
+  EXPECT_TRUE(says(said(0, 1), "they look like f cos(theta_o) (gonio columns FILE --cosine)"));
+  EXPECT_TRUE(says(said(1, 0), "they look like f cos(theta_i)"));
+  EXPECT_TRUE(says(said(-1, 0), "they look like f/cos(theta_i)"));
+  EXPECT_TRUE(says(said(0, -1), "they look like f/cos(theta_o)"));
+  EXPECT_TRUE(says(said(1, 1), "probably they are f cos(theta_i) cos(theta_o)"));
+}
+
+TEST(ValueWarnings, SayThatExchangedDirectionsChangeValuesByFarMoreThanNoise) {
+  EXPECT_TRUE(says(
+      said_of(painted(180), [](const auto& a, double f) { return a.nol > a.nov ? 1.5 * f : f; }),
+      "exchanging the directions"));
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  EXPECT_FALSE(
+      says(said_of(painted(180),
+                   [&](const auto&, double f) { return f * std::exp(0.1 * normal(random)); }),
+           "exchanging the directions"));
+}
+
+TEST(ValueWarnings, SayThatZerosAreLeftOut) {
+  const auto clipped =
+      said_of(painted(180, 0.05), [](const auto& a, double f) { return a.nov < 0.3 ? 0 : f; });
+  EXPECT_TRUE(says(clipped, "values are 0, clipped noise"));
+  const auto rounded = said_of(painted(180, 0.01),
+                               [](const auto&, double f) { return std::round(f * 1000) / 1000; });
+  EXPECT_TRUE(says(rounded, "values are rounded to one digit or to 0"));
+}
+
+TEST(ValueWarnings, TellAChannelThatIsNegativeByItselfFromANoiseFloor) {
+  const auto table = [](bool one, double noise) {
+    Table t = painted(180, 0.01, 0.1);
+    t.channels = {"r", "g", "b"};
+    t.values.resize(3, t.values[0]);
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    for (std::size_t c = 0; c < 3; ++c)
+      for (double& v : t.values[c])
+        v = v * std::exp(0.01 * normal(random)) + noise * normal(random) -
+            (one && c == 0 ? 0.005
+             : c > 0       ? -0.01
+                           : 0);
+    return t;
+  };
+  EXPECT_EQ(negative_channel(table(true, 0)), std::size_t{0});
+  EXPECT_EQ(noise_floor(table(true, 0)), 0);
+  EXPECT_FALSE(negative_channel(table(false, 0.004)));
+  EXPECT_GT(noise_floor(table(false, 0.004)), 0);
+}
+
+TEST(Reciprocity, KnowsNoAzimuthAtTheNormal) {
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  t.where = DirectionList{{0, 45}, {0, 0}, {45, 0}, {180, 0}};
+  t.values.emplace_back(2);
+  t.values[0][0] = 0.3182;
+  t.values[0][1] = 0.3208;
+  ASSERT_TRUE(reciprocity(t).error);
+  EXPECT_NEAR(*reciprocity(t).error, 0.0026 / 0.3195, 1e-4);
+}
+
+}  // namespace
+}  // namespace gonio
