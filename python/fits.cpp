@@ -13,20 +13,22 @@ void let_interrupt_at(const std::string&) {
   let_interrupt();
 }
 
-/// How a table in memory is fitted.
-const FitOptions& of_table(const HowFitted& how) {
+/// A table in memory as it is fitted.
+Table masked(Table t, const HowFitted& how) {
   if (how.bins) throw wrong_usage("bins: of a file; a table that was read has its own");
-  return how.options;
+  if (how.mask) leave_out(t, *how.mask);
+  return t;
 }
 
 std::string fit_path(const std::string& path, const HowFitted& how, int jobs) {
   const Jobs threads(jobs);
-  return to_json(fit_file(path, how.bins, how.options, let_interrupt_at).result.document);
+  return to_json(fit_file(path, how, let_interrupt_at).result.document);
 }
 
-std::string fit_table(const Table& t, const HowFitted& how, int jobs) {
+std::string fit_table(const Table& given, const HowFitted& how, int jobs) {
   const Jobs threads(jobs);
-  FitDocument d = fit(t, of_table(how), [](const char*) { let_interrupt(); }).document;
+  const Table t = masked(given, how);
+  FitDocument d = fit(t, how.options, [](const char*) { let_interrupt(); }).document;
   d.input_path = t.path;
   d.input_sha256 = t.sha256;
   return to_json(d);
@@ -51,6 +53,7 @@ std::string compare_path(const std::string& path,
                          int jobs) {
   const Jobs threads(jobs);
   TableAndDigest in(path, how.bins);
+  if (how.mask) leave_out(in.table, *how.mask);
   in.table.path = path;
   return compare(in.table, how.options, models, [&] { in.finish(); });
 }
@@ -60,7 +63,7 @@ std::string compare_table(const Table& t,
                           const std::vector<std::string>& models,
                           int jobs) {
   const Jobs threads(jobs);
-  return compare(t, of_table(how), models, [] {});
+  return compare(masked(t, how), how.options, models, [] {});
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ std::string status_in_words(const FittedParameter& p, std::size_t c) {
   const std::string reason = p.reason[c].empty() ? "" : "; " + p.reason[c];
   switch (p.status[c]) {
     case ParameterStatus::free:
+    case ParameterStatus::unbounded:
       return p.reason[c];
     case ParameterStatus::fixed:
       return "held";
@@ -170,8 +171,10 @@ std::string within_sentence(std::string text) {
 }
 
 void print(const ModelChoice& choice, const Advice& advice) {
+  for (const auto& w : choice.warnings) say_below("beware  ", w);
   if (!advice.recommended.empty()) {
-    say_below("take    ", advice.recommended);
+    if (advice.none_fits) say_below("take    ", "none fits; the nearest of them is");
+    say_below(advice.none_fits ? "        " : "take    ", advice.recommended);
     say_below("because ", within_sentence(advice.reason));
     for (const auto& b : advice.beware) say_below("beware  ", b);
     for (const auto& m : advice.as_good) say_below("as good ", m);
@@ -210,6 +213,7 @@ Exit run_models(const FitCall& o) {
   Progress progress(o.quiet);
   progress("reading " + o.files[0]);
   TableAndDigest in(o.files[0], o.how.bins);
+  if (o.how.mask) leave_out(in.table, *o.how.mask);
   ModelChoice choice =
       compare_models(in.table, o.how.options, models, [&](const std::string& what, double part) {
         progress(fmt::format("{} ({:.0f} %)", what, 100 * part));
@@ -244,7 +248,7 @@ Exit run(const FitCall& o) {
   const std::string& file = o.files[0];
   OutputFiles out({file}, o.output, o.html);
   Progress progress(o.quiet);
-  const auto [t, result] = fit_file(file, o.how.bins, o.how.options, std::ref(progress));
+  const auto [t, result] = fit_file(file, o.how, std::ref(progress));
   const FitDocument& d = result.document;
 
   const std::string json = to_json(d);

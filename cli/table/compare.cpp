@@ -6,6 +6,7 @@
 #include "fitting/result/document.h"
 #include "fitting/solve/problem.h"
 #include "table/format/formats.h"
+#include "table/sample_mask.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@ struct CompareCall : Common {
   std::string file, model;
   std::vector<std::string> set;
   std::optional<Bins> bins;
+  std::optional<std::string> mask;
 };
 
 void print(std::size_t values, const FitResiduals& r) {
@@ -31,7 +33,8 @@ Exit run(const CompareCall& o) {
   use(o);
   Progress progress(o.quiet);
   progress("reading " + o.file);
-  const Table t = read_table(o.file, o.bins);
+  Table t = read_table(o.file, o.bins);
+  if (o.mask) leave_out(t, *o.mask);
   const BoundModel m = model_argument(o.model, parse_settings(o.set), t.channels.size()).model;
   check_azimuths(t, m.model);
   progress("comparing");
@@ -56,6 +59,7 @@ void add_compare(CommandLine& line) {
   c.option("MODEL", o->model, spec_or_fit).required();
   add_set(c, o->set);
   add_bins(c, o->bins);
+  add_mask(c, o->mask);
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -9,6 +9,7 @@
 #include "cli/line/terminal.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
+#include "table/sample_mask.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,7 @@ using Json = nlohmann::ordered_json;
 struct ConvertCall : Common {
   std::string input, output, channels;
   std::optional<Bins> bins;
+  std::optional<std::string> mask;
   ConvertOptions convert;
 };
 
@@ -165,7 +167,8 @@ Exit run(const ConvertCall& o) {
   check_outputs({o.input}, {o.output, side_path(o.output)});
   Progress progress(o.quiet);
   progress("reading " + o.input);
-  const Table from = read_table(o.input, o.bins);
+  Table from = read_table(o.input, o.bins);
+  if (o.mask) leave_out(from, *o.mask);
   progress("converting");
   const Conversion c = convert(from, options);
   progress("writing " + o.output);
@@ -192,6 +195,7 @@ void add_convert(CommandLine& line) {
       .one_of({"merl", "mbsdf", "utia", "csv", "exr", "rgl"});
   c.option("--channels", o->channels, "Which, in this order: NAME,NAME,…");
   add_bins(c, o->bins);
+  add_mask(c, o->mask);
   c.option("--to-bins", o->convert.bins, "Where a sample sits in OUT's bins (default: as in IN)");
   c.option("--theta", o->convert.n_theta,
            "Bins of theta_i and theta_o (mbsdf; default 45), or incident angles (rgl; default 32)")

@@ -9,6 +9,7 @@
 #include "reports/pages/inspect_page.h"
 #include "table/format/formats.h"
 #include "table/health/health.h"
+#include "table/sample_mask.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +19,7 @@ namespace {
 struct InspectCall : Common {
   std::string file, html;
   std::optional<Bins> bins;
+  std::optional<std::string> mask;
   std::optional<std::string> model;
   std::optional<std::size_t> plan_next;
 };
@@ -42,6 +44,8 @@ void print(const Table& t, const Health& h) {
     if (h.masked[m])
       line("masked", fmt::format("{} {} ({})", h.masked[m], names_of<Mask>[m],
                                  percent(h.masked[m], h.values)));
+  for (const auto& [key, text] : t.notes)
+    if (key == "mask") line("left out", text);
   line("range", fmt::format("{:.4g} to {:.4g} 1/sr", h.smallest_positive, h.largest));
   if (h.noise_floor > 0)
     line("noise floor", fmt::format("{:.3g} 1/sr, from the negative values", h.noise_floor));
@@ -54,8 +58,10 @@ void print(const Table& t, const Health& h) {
     std::string channels;
     for (const double v : a.albedo)
       channels += std::isnan(v) ? std::string("      –") : fmt::format(" {:.4f}", v);
-    line("albedo", fmt::format("{:>4.1f}°:{}  (samples cover {:.0f} %)", a.theta_i_deg, channels,
-                               100 * a.coverage));
+    line("albedo",
+         fmt::format("{:>4.1f}°:{} ± {:.1g}{}  (samples cover {:.0f} %)", a.theta_i_deg, channels,
+                     a.error, a.phi_i_deg == 0 ? "" : fmt::format(", phi_i {:.3g}°", a.phi_i_deg),
+                     100 * a.coverage));
   }
   line("reciprocity", h.reciprocity_error
                           ? fmt::format("median error {:.1f} %", 100 * *h.reciprocity_error)
@@ -115,7 +121,8 @@ Exit run(const InspectCall& o) {
   OutputFiles out({o.file}, "", o.html);
   Progress progress(o.quiet);
   progress("reading " + o.file);
-  const Table t = read_table(o.file, o.bins);
+  Table t = read_table(o.file, o.bins);
+  if (o.mask) leave_out(t, *o.mask);
   progress("inspecting");
   const Health h = inspect(t);
   FitOptions fit;
@@ -155,6 +162,7 @@ void add_inspect(CommandLine& line) {
   c.option("--model", o->model,
            "Model that --plan-next fits; else that of gonio fit: " + FitOptions().model);
   add_bins(c, o->bins);
+  add_mask(c, o->mask);
   add_jobs(c, *o);
   add_output(c, *o);
 }

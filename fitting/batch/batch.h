@@ -9,28 +9,14 @@
 #include <string_view>
 #include <vector>
 
-#include "base/describe.h"
 #include "base/error.h"
 #include "fitting/batch/batch_document.h"
 #include "fitting/batch/fit_file.h"
 #include "fitting/batch/gather.h"
 #include "fitting/batch/part.h"
-#include "fitting/solve/options.h"
 #include "table/table.h"
 
 namespace gonio {
-
-/// All that determines a result beside the bytes of its table.
-struct HowFitted {
-  FitOptions options{.certificate = Certify::automatic};
-  std::optional<Bins> bins = {};
-};
-template <>
-inline constexpr auto description<HowFitted> = std::tuple{
-    inlined(&HowFitted::options),
-    Field{"bins", &HowFitted::bins,
-          "where a sample sits in its bin: centre or edge (default: as the file says, or centre)"}};
-static_assert(describes_every_member<HowFitted>());
 
 /// Key under which a kept result is found: program, version, and all that the description of HowFitted names but what
 /// is empty, null or false.

@@ -6,17 +6,17 @@
 namespace gonio {
 
 FittedFile fit_file(const std::string& path,
-                    std::optional<Bins> bins,
-                    const FitOptions& options,
+                    const HowFitted& how,
                     const std::function<void(const std::string&)>& phase) {
   const auto say = [&](const std::string& what) {
     if (phase) phase(what);
   };
   say("reading " + path);
   const Stopwatch begin;
-  TableAndDigest in(path, bins);
+  TableAndDigest in(path, how.bins);
+  if (how.mask) leave_out(in.table, *how.mask);
   const double load_ms = begin.ms();
-  FitResult result = fit(in.table, options, say);
+  FitResult result = fit(in.table, how.options, say);
   const Stopwatch since_fitted;
   in.finish();
   FitDocument& d = result.document;

@@ -6,10 +6,27 @@
 #include <optional>
 #include <string>
 
+#include "base/describe.h"
 #include "fitting/fit.h"
+#include "fitting/solve/options.h"
+#include "table/sample_mask.h"
 #include "table/table.h"
 
 namespace gonio {
+
+/// All that determines a result beside the bytes of its table.
+struct HowFitted {
+  FitOptions options{.certificate = Certify::automatic};
+  std::optional<Bins> bins = {};
+  std::optional<std::string> mask = {};
+};
+template <>
+inline constexpr auto description<HowFitted> = std::tuple{
+    inlined(&HowFitted::options),
+    Field{"bins", &HowFitted::bins,
+          "where a sample sits in its bin: centre or edge (default: as the file says, or centre)"},
+    Field{"mask", &HowFitted::mask, mask_in_words}};
+static_assert(describes_every_member<HowFitted>());
 
 struct FittedFile {
   Table table;
@@ -17,8 +34,7 @@ struct FittedFile {
 };
 /// Reads and fits; the document is whole.
 FittedFile fit_file(const std::string& path,
-                    std::optional<Bins> bins,
-                    const FitOptions& options,
+                    const HowFitted&,
                     const std::function<void(const std::string&)>& phase = {});
 
 }  // namespace gonio
