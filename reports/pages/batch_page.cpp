@@ -68,7 +68,7 @@ std::vector<Quantity> quantities_of(const std::vector<std::string>& parameters) 
 }
 
 std::string misfit_text(const BatchFit& f) {
-  return !std::isfinite(f.misfit) ? "–" : f.misfit > 0.5 ? "above half" : percent(f.misfit);
+  return !std::isfinite(f.misfit) ? "–" : percent(std::expm1(f.misfit));
 }
 std::string values_text(const BatchParameter& p) {
   std::vector<std::string> each;

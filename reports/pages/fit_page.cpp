@@ -246,15 +246,16 @@ std::string fit_page_html(const FitDocument& d,
   const auto file = file_name(d.input_path);
   const auto rows = rows_of(d, t);
   const double log_rms = d.residuals.log_rms;
-  constexpr double near = 0.25;  // where nothing better tells
-  const bool fits = d.misfit.tested ? !d.misfit.told : log_rms <= near;
+  const char* const does = d.misfit.told      ? "misses"
+                           : d.misfit.too_few ? "may fit (too few to tell)"
+                                              : "reproduces";
   Pictures pictures;
   Page out{"", "fit", d.input_path, fmt::format("{} fitted to {}", d.model, file)};
   out.first.emplace_back(
       Prose{fmt::format("`{}` {} the {} values used of `{}` {} a typical factor of **{}** (log RMS "
                         "{}); the fit {}.",
-                        d.model, fits ? "reproduces" : "misses", count_text(d.values_used), file,
-                        fits ? "to" : "by", factor_text(log_rms), log_rms_text(log_rms),
+                        d.model, does, count_text(d.values_used), file, d.misfit.told ? "by" : "to",
+                        factor_text(log_rms), log_rms_text(log_rms),
                         d.solver.termination == "converged" ? "converged" : "**did not converge**"),
             "verdict"});
   if (auto all = warnings(d, t, h, rows); !all.each.empty()) out.first.emplace_back(std::move(all));

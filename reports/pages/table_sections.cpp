@@ -99,6 +99,7 @@ std::string_view status_words(std::string_view status) {
       {"at_bound", "at the end of its range"},
       {"not_identifiable", "not known"},
       {"upper_limit", "upper limit"},
+      {"unbounded", "not bounded"},
       {"lower_limit", "lower limit"}};
   const auto at = std::ranges::find(words, status, [](const auto& w) { return w.first; });
   return at == std::end(words) ? status : at->second;

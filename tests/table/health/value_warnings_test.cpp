@@ -115,7 +115,7 @@ TEST(ValueWarnings, SayThatZerosAreLeftOut) {
   const auto clipped =
       said_of(painted(180, 0.05), [](const auto& a, double f) { return a.nov < 0.3 ? 0 : f; });
   EXPECT_TRUE(says(clipped, "values are 0, clipped noise"));
-  const auto rounded = said_of(painted(180, 0.01),
+  const auto rounded = said_of(painted(180, 0.005, 0.15),
                                [](const auto&, double f) { return std::round(f * 1000) / 1000; });
   EXPECT_TRUE(says(rounded, "values are rounded to one digit or to 0"));
 }
