@@ -204,6 +204,39 @@ TEST(RglWriter, FillsWhatIsMissingFromNearby) {
     }
 }
 
+TEST(RglWriter, MarksWhatItMadeUpAndReadersMaskIt) {
+  const Folder folder;
+  Table t = wide_table();
+  write_table(convert(t, to_rgl()).table, folder / "whole.bsdf");
+  EXPECT_FALSE(read_bytes(folder / "whole.bsdf").find("gonio_invented") != std::string::npos);
+  const SampleAngles at(t);
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (at.directions(i).wi.z < 0.6) t.values[0][i] = std::nan("");
+  const auto [file, loss] = convert(t, to_rgl());
+  write_table(file, folder / "part.bsdf");
+  const Table back = read_table(folder / "part.bsdf"), whole = read_table(folder / "whole.bsdf");
+  EXPECT_TRUE(read_bytes(folder / "part.bsdf").find("gonio_invented") != std::string::npos);
+  const SampleAngles there(back);
+  std::size_t masked = 0, kept = 0;
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    const auto p = there.directions(i);
+    if (std::min(p.wi.z, p.wo.z) < least_cosine) continue;
+    const bool known = mask(there(i), back.values[0][i]) == Mask::valid;
+    if (p.wi.z < 0.5) {
+      ++masked;
+      ASSERT_FALSE(known) << i;
+      EXPECT_TRUE(std::isnan(back.between(p, 0))) << i;
+    } else if (p.wi.z > 0.65) {
+      ++kept;
+      ASSERT_TRUE(known) << i;
+    }
+  }
+  EXPECT_GT(masked, 1000U);
+  EXPECT_GT(kept, 1000U);
+  EXPECT_GE(loss.without_data, masked);
+  EXPECT_EQ(back.size(), whole.size()) << "renderers find a value everywhere";
+}
+
 TEST(RglWriter, FillsEachChannelForItself) {
   Table t = wide_table({"r", "g", "b"});
   const SampleAngles at(t);

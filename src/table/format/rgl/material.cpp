@@ -41,6 +41,7 @@ Material::Material(Fields f, int parts)
       ndf(std::move(f.ndf)),
       sigma(std::move(f.sigma)),
       data(std::move(f.data)),
+      invented(std::move(f.invented)),
       warp_(std::move(f.vndf), phi_i.size() * theta_i.size()) {
   scale_ = {width(), height(), {}};
   scale_.nodes.reserve(phi_i.size() * theta_i.size() * width() * height());
@@ -48,7 +49,8 @@ Material::Material(Fields f, int parts)
     for (std::size_t t = 0; t < theta_i.size(); ++t)
       for (std::size_t y = 0; y < height(); ++y)
         for (std::size_t x = 0; x < width(); ++x)
-          scale_.nodes.push_back(static_cast<float>(scale_at(sample(p, t, x, y), theta_i[t])));
+          scale_.nodes.push_back(
+              static_cast<float>(scale_at(sample(p, t, x, y), theta_i[t], scale_.nodes.size())));
 }
 
 Material::Sample Material::sample(std::size_t p,
@@ -68,11 +70,12 @@ void Material::values(std::size_t p,
                       std::size_t y,
                       const Sample& s,
                       std::vector<Values>& to) const {
-  const double scale = scale_at(s, theta_i[t]);
+  const std::size_t slice = p * theta_i.size() + t;
+  const double scale = scale_at(s, theta_i[t], (slice * height() + y) * width() + x);
   // The pole of the facets is a grid point in every row: the sample is their mean.
   const std::size_t rows = x == 0 ? height() - 1 : 1;
   for (std::size_t c = 0; c < to.size(); ++c) {
-    const float* const nodes = data.slice((p * theta_i.size() + t) * to.size() + c);
+    const float* const nodes = data.slice(slice * to.size() + c);
     double sum = 0;
     for (std::size_t k = y; k < y + rows; ++k) sum += static_cast<double>(nodes[k * width() + x]);
     to[c].push_back(sum / static_cast<double>(rows) * scale);
@@ -103,8 +106,9 @@ double Material::jacobian(const Point& u, double theta, double phi) const {
   return ndf(u) / (4 * sigma({std::sqrt(2 / pi * theta), phi / (2 * pi) + 0.5}));
 }
 
-/// f_r over the value stored, at a grid point; NaN where that says nothing.
-double Material::scale_at(const Sample& s, double theta) const {
+/// f_r over the value stored, at a grid point; NaN where that says nothing, or was made up.
+double Material::scale_at(const Sample& s, double theta, std::size_t node) const {
+  if (!invented.empty() && invented[node] != 0) return std::nan("");
   return s.pair.wi.z > horizon_cosine && s.pair.wo.z >= least_cosine
              ? jacobian(s.u, theta, phi_of(s.pair.wi)) / s.pair.wo.z
              : std::nan("");

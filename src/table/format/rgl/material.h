@@ -21,6 +21,7 @@ struct Fields {
   Image ndf, sigma;  ///< D over a facet's u, and the area that facets show over a direction's
   Image vndf;        ///< [φ_i, θ_i], over a facet's u
   Image data;        ///< [φ_i, θ_i, channel], over the unit square that `vndf` makes even
+  std::vector<char> invented;  ///< [φ_i, θ_i][y][x]: 1 where nothing was known; empty: nowhere
 };
 
 class Material {
@@ -54,11 +55,12 @@ class Material {
   std::vector<std::string> channels;
   bool spectral, has_jacobian;
   Image ndf, sigma, data;
+  std::vector<char> invented;  ///< see Fields
   const Image& vndf() const { return warp_.density(); }
 
  private:
   double jacobian(const Point& u, double theta, double phi) const;
-  double scale_at(const Sample& s, double theta) const;
+  double scale_at(const Sample& s, double theta, std::size_t node) const;
   double guarded(double f, const Mix& mix, const Point& s, double cos_o, std::size_t channel) const;
   void fold(DirectionPair& p) const;
   Mix mixed(double phi, double theta) const;

@@ -174,6 +174,7 @@ RglTable rgl_table(const RglFunction& f, std::vector<std::string> channels, cons
     append_visible(facets(f, n_channels, {std::min(theta, 85 * degree)}, even_points),
                    direction(theta, 0), fields.vndf);
   fields.data = {n, n, std::vector<float>(n_theta * n_channels * nodes)};
+  fields.invented.resize(n_theta * nodes);
 
   const Warp warp(fields.vndf, n_theta);
   // [θ_i][channel][y][x]
@@ -202,7 +203,11 @@ RglTable rgl_table(const RglFunction& f, std::vector<std::string> channels, cons
         without[c] += up && !known[c][i];
       }
     }
-    for (std::size_t c = 0; c < n_channels; ++c) filled[k][c] = fill(values[k][c], known[c], n);
+    for (std::size_t c = 0; c < n_channels; ++c) {
+      for (std::size_t i = 0; i < nodes; ++i)
+        if (!known[c][i]) fields.invented[k * nodes + i] = 1;
+      filled[k][c] = fill(values[k][c], known[c], n);
+    }
   });
   // An incident direction that has no value at all takes those of the nearest that has.
   for (std::size_t c = 0; c < n_channels; ++c)
@@ -225,8 +230,9 @@ RglTable rgl_table(const RglFunction& f, std::vector<std::string> channels, cons
             static_cast<float>(values[k][c][i] * cos_o * 4 * area / fields.ndf({u.x, 0.5}));
     }
   });
-  return {table_of(std::make_shared<const Material>(std::move(fields))), above,
-          *std::ranges::max_element(without)};
+  const std::size_t most = *std::ranges::max_element(without);
+  if (most == 0) fields.invented.clear();  // what lies below the horizon is nobody's
+  return {table_of(std::make_shared<const Material>(std::move(fields))), above, most};
 }
 
 std::size_t rgl_numbers(std::size_t channels, const RglSizes& s) {
@@ -240,7 +246,8 @@ Table rgl_mixed(const Table& t,
   const auto from = material_of(t);
   Fields f{from->theta_i, from->phi_i,        std::move(channels),
            spectral,      from->has_jacobian, from->ndf,
-           from->sigma,   from->vndf(),       {from->width(), from->height(), {}}};
+           from->sigma,   from->vndf(),       {from->width(), from->height(), {}},
+           from->invented};
   const std::size_t nodes = f.data.width * f.data.height, n = from->channels.size();
   for (std::size_t slice = 0; slice < f.phi_i.size() * f.theta_i.size(); ++slice)
     for (const auto& parts : weight)

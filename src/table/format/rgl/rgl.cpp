@@ -18,6 +18,9 @@ namespace {
 using std::numbers::pi;
 using namespace rgl;
 
+/// The field in which gonio marks grid points whose value it made up; renderers pass over it.
+constexpr const char* invented = "gonio_invented";
+
 std::vector<double> axis(const TensorFile& file, const char* name, double least, double most) {
   const auto stored = file.floats(file.tensor(name, Tensor::floats, 1));
   std::vector<double> angles(stored.begin(), stored.end());
@@ -95,6 +98,8 @@ Material read_material(InputFile& in) {
   if (samples * (f.channels.size() + 4) > most_values)
     file.fail(name, fmt::format("{} samples × {} channels", samples, f.channels.size()),
               fmt::format("at most {} numbers", most_values));
+  if (file.has(invented))
+    f.invented = file.bytes(invented, {n_phi, n_theta, data.shape[3], data.shape[4]});
   return Material(std::move(f), symmetry);
 }
 
@@ -163,6 +168,8 @@ void write_rgl(const Table& t, OutputFile& out, const std::string& path) {
   file.floats(m.spectral ? "spectra" : "rgb", {n_phi, n_theta, n, m.height(), m.width()},
               m.data.nodes);
   if (m.spectral) file.floats("wavelengths", {n}, wavelengths);
+  if (!m.invented.empty())
+    file.bytes(invented, {n_phi, n_theta, m.height(), m.width()}, m.invented);
   file.bytes("jacobian", m.has_jacobian ? std::string_view("\1", 1) : std::string_view("\0", 1));
   file.write(out);
 }

@@ -67,8 +67,9 @@ const Tensor& TensorFile::tensor(std::string_view name,
 }
 
 const Tensor& TensorFile::shaped(std::string_view name,
-                                 const std::vector<std::uint64_t>& shape) const {
-  const Tensor& t = tensor(name, Tensor::floats, shape.size());
+                                 const std::vector<std::uint64_t>& shape,
+                                 Tensor::Type type) const {
+  const Tensor& t = tensor(name, type, shape.size());
   if (t.shape != shape)
     fail(name, fmt::format("shape {}", fmt::join(t.shape, " × ")),
          fmt::format("{}", fmt::join(shape, " × ")));
@@ -81,6 +82,16 @@ std::vector<float> TensorFile::floats(const Tensor& t, std::uint64_t most) const
   if (count > most) fail(t.name, fmt::format("{} values", count), fmt::format("at most {}", most));
   std::vector<float> values(count);
   in_.read_at(t.offset, values.data(), count * sizeof(float));
+  return values;
+}
+
+std::vector<char> TensorFile::bytes(std::string_view name,
+                                    const std::vector<std::uint64_t>& shape) const {
+  const Tensor& t = shaped(name, shape, Tensor::bytes);
+  std::uint64_t count = 1;
+  for (const auto n : shape) count *= n;
+  std::vector<char> values(count);
+  in_.read_at(t.offset, values.data(), count);
   return values;
 }
 
@@ -110,7 +121,14 @@ void append(std::string& to, T value) {
 }  // namespace
 
 void TensorWriter::bytes(std::string name, std::string_view text) {
-  fields_.push_back({{std::move(name), Tensor::bytes, 0, {text.size()}}, text});
+  bytes(std::move(name), {text.size()}, text);
+}
+
+void TensorWriter::bytes(std::string name,
+                         std::vector<std::uint64_t> shape,
+                         std::span<const char> values) {
+  fields_.push_back(
+      {{std::move(name), Tensor::bytes, 0, std::move(shape)}, {values.data(), values.size()}});
 }
 
 void TensorWriter::floats(std::string name,

@@ -33,11 +33,15 @@ class TensorFile {
   bool has(std::string_view name) const;
   /// The shape of a field, which must have so many dimensions, none of them empty, and lie in the file.
   const Tensor& tensor(std::string_view name, Tensor::Type type, std::size_t dimensions) const;
-  /// A field of floats, which must have this shape and lie in the file.
-  const Tensor& shaped(std::string_view name, const std::vector<std::uint64_t>& shape) const;
+  /// A field that must have this shape and lie in the file.
+  const Tensor& shaped(std::string_view name,
+                       const std::vector<std::uint64_t>& shape,
+                       Tensor::Type type = Tensor::floats) const;
   /// \param most  refuses more values than that
   std::vector<float> floats(const Tensor&, std::uint64_t most = most_values) const;
   bool flag(std::string_view name) const;
+  /// A field of bytes, which must have this shape and lie in the file.
+  std::vector<char> bytes(std::string_view name, const std::vector<std::uint64_t>& shape) const;
   [[noreturn]] void fail(std::string_view field,
                          const std::string& found,
                          const std::string& expected) const;
@@ -54,6 +58,7 @@ class TensorFile {
 class TensorWriter {
  public:
   void bytes(std::string name, std::string_view text);
+  void bytes(std::string name, std::vector<std::uint64_t> shape, std::span<const char> values);
   void floats(std::string name, std::vector<std::uint64_t> shape, std::span<const float> values);
   /// \pre what was handed in is still there
   void write(OutputFile&) const;
