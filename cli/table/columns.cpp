@@ -126,6 +126,7 @@ void print(const ColumnProposal& p, const std::string& file) {
     for (const auto& [role, column] : p.map->columns)
       command += " " + shell_word(role + "=" + column);
   if (p.map && p.map->radians) command += " --radians";
+  if (p.map && p.map->cosine) command += " --cosine";
   say("no map; {}\n  {}\n", p.map ? "by their names and ranges it would be" : "one is made by",
       command);
 }
@@ -220,7 +221,8 @@ void add_columns(CommandLine& line) {
   c.option("--map", o->words,
            "NAME=COLUMN …: NAME is theta_i, phi_i, theta_o, phi_o, f, f_CHANNEL, weight, or "
            "channel (each of its entries is one: a wavelength a row); COLUMN a name, #k, or a "
-           "constant such as 0. Unnamed: the column of that very name; azimuths: 0")
+           "constant such as 0; f_*=*nm takes every column of that pattern. Unnamed: the column of "
+           "that very name; azimuths: 0")
       .at_most(4096);
   c.flag("--radians", o->map.radians, "Angles are in radians");
   c.flag("--cosine", o->map.cosine, "Values are f cos(theta_o)");
@@ -232,7 +234,8 @@ void add_columns(CommandLine& line) {
   c.option("--scale", o->map.scale,
            "Values times this are f in 1/sr: 0.3183099 for a radiance factor")
       .in(1e-12, 1e12);
-  c.option("--skip", o->map.skip, "Lines at the top that are passed over")
+  c.option("--skip", o->map.skip,
+           "Lines at the top that are passed over (default: lines of words above the table)")
       .in(std::size_t{0}, std::size_t{1'000'000});
   add_output(c, *o);
 }

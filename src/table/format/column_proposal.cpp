@@ -36,30 +36,38 @@ bool is_any(std::string_view s, std::span<const std::string_view> words) {
 }
 
 using Words = std::string_view;
-constexpr std::array units{Words("degrees"), Words("degree"), Words("deg"),
-                           Words("radians"), Words("radian"), Words("rad")};
+/// What says nothing of the direction.
+constexpr std::array units{Words("angle"), Words("winkel"),  Words("degrees"), Words("degree"),
+                           Words("deg"),   Words("radians"), Words("radian"),  Words("rad")};
 constexpr std::array zeniths{Words("theta"), Words("zenith"), Words("polar")};
-constexpr std::array azimuths{Words("phi"), Words("azimuth"), Words("azi")};
-constexpr std::array light{Words("i"),        Words("in"),     Words("inc"),   Words("incident"),
-                           Words("incoming"), Words("source"), Words("light"), Words("l")};
-constexpr std::array viewer{Words("o"),       Words("out"),       Words("outgoing"),  Words("r"),
-                            Words("refl"),    Words("ref"),       Words("reflected"), Words("s"),
-                            Words("scatter"), Words("scattered"), Words("v"),         Words("view"),
-                            Words("viewing"), Words("detector"),  Words("det"),       Words("e")};
+constexpr std::array azimuths{Words("phi"), Words("azimuth"), Words("azimut"), Words("azi")};
+constexpr std::array light{Words("i"),        Words("in"),      Words("inc"),   Words("incident"),
+                           Words("incoming"), Words("source"),  Words("light"), Words("l"),
+                           Words("illum"),    Words("einfalls")};
+constexpr std::array viewer{
+    Words("o"),       Words("out"),         Words("outgoing"),  Words("r"),
+    Words("refl"),    Words("ref"),         Words("reflected"), Words("s"),
+    Words("scatter"), Words("scattered"),   Words("v"),         Words("view"),
+    Words("viewing"), Words("detector"),    Words("det"),       Words("e"),
+    Words("measure"), Words("measurement"), Words("observer"),  Words("ausfalls"),
+    Words("streu"),   Words("beobachtungs")};
 constexpr std::array incidence{Words("aoi"), Words("incidence"), Words("incidenceangle"),
                                Words("angleofincidence")};
-constexpr std::array values{Words("f"),         Words("brdf"),  Words("bsdf"),
-                            Words("fr"),        Words("fr11"),  Words("f11"),
-                            Words("brdfvalue"), Words("value"), Words("measured")};
-constexpr std::array wavelengths{Words("lambda"),   Words("wavelength"),   Words("wl"),
-                                 Words("lambdanm"), Words("wavelengthnm"), Words("nm")};
+constexpr std::array values{Words("f"),        Words("brdf"),  Words("bsdf"),      Words("fr"),
+                            Words("fr11"),     Words("f11"),   Words("brdfvalue"), Words("value"),
+                            Words("measured"), Words("ccbrdf")};
+constexpr std::array wavelengths{Words("lambda"),      Words("wavelength"),   Words("wl"),
+                                 Words("lambdanm"),    Words("wavelengthnm"), Words("nm"),
+                                 Words("wellenlaenge")};
+
+constexpr std::array per_solid_angle{Words("1sr"), Words("sr1"), Words("persr")};
 
 enum Angle { theta_i, phi_i, theta_o, phi_o };
 constexpr std::array<std::string_view, 4> angle_names{"theta_i", "phi_i", "theta_o", "phi_o"};
 
 struct Found {
   std::array<std::optional<std::size_t>, 4> angle;
-  std::optional<std::size_t> azimuth_of_neither, value, channel;
+  std::optional<std::size_t> zenith_of_neither, azimuth_of_neither, value, channel;
 };
 
 void keep_first(std::optional<std::size_t>& slot, std::size_t column) {
@@ -72,8 +80,9 @@ Found by_name(std::span<const ColumnSummary> columns) {
   std::size_t best = values.size();
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const std::string name = plain(columns[k].name);
-    std::string rest = name;
-    if (const auto v = std::ranges::find(values, name); v < values.begin() + best) {
+    std::string rest = name, bare = name;
+    take_any(bare, per_solid_angle);
+    if (const auto v = std::ranges::find(values, bare); v < values.begin() + best) {
       best = static_cast<std::size_t>(v - values.begin());
       found.value = k;
     } else if (is_any(name, wavelengths)) {
@@ -81,7 +90,7 @@ Found by_name(std::span<const ColumnSummary> columns) {
     } else if (is_any(name, incidence)) {
       keep_first(found.angle[theta_i], k);
     } else {
-      take_any(rest, units);
+      for (const auto unit : units) take(rest, unit);
       const bool zenith = take_any(rest, zeniths), azimuth = !zenith && take_any(rest, azimuths);
       if (!zenith && !azimuth) {  // "in" and "out" are enough, "i" and "r" are not
         if (rest.size() > 1 && is_any(rest, light)) keep_first(beside[theta_i], k);
@@ -94,15 +103,35 @@ Found by_name(std::span<const ColumnSummary> columns) {
         keep_first(found.angle[zenith ? theta_o : phi_o], k);
       else if (azimuth)
         keep_first(found.azimuth_of_neither, k);
+      else if (rest.empty())
+        keep_first(found.zenith_of_neither, k);
     }
   }
   for (const auto a : {theta_i, theta_o})
     if (beside[a]) keep_first(found.angle[a], *beside[a]);
+  if (const auto k = found.zenith_of_neither) keep_first(found.angle[theta_o], *k);
   // The one azimuth of a file is that between the two directions; beside the viewer's it is the
   // light's.
   if (const auto k = found.azimuth_of_neither)
     keep_first(found.angle[found.angle[phi_o] ? phi_i : phi_o], *k);
   return found;
+}
+
+/// Pattern of the columns that are named after a wavelength, as "*nm"; where fewer than two are, none.
+std::optional<std::string> wavelength_pattern(std::span<const ColumnSummary> columns) {
+  std::optional<std::string> pattern;
+  std::size_t count = 0;
+  for (const auto& c : columns) {
+    const auto digit = c.name.find_first_of("0123456789");
+    const auto end = c.name.find_first_not_of("0123456789.", digit);
+    if (digit == c.name.npos || end == c.name.npos) continue;
+    const std::string unit = c.name.substr(end), of = c.name.substr(0, digit) + "*" + unit;
+    if (!unit.starts_with("nm") && !unit.starts_with(" nm")) continue;
+    if (pattern && *pattern != of) return {};
+    pattern = of;
+    ++count;
+  }
+  return count >= 2 ? pattern : std::nullopt;
 }
 
 double largest(const ColumnSummary& c) {
@@ -146,16 +175,25 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns) {
       map.columns.emplace_back(columns[k].name, reference(columns, k));
   const bool by_channel =
       std::ranges::any_of(map.columns, [](const auto& c) { return c.first.starts_with("f_"); });
+  const auto bands = by_channel || found.channel ? std::nullopt : wavelength_pattern(columns);
+  if (bands) {
+    map.columns.emplace_back("f_*", *bands);
+    found.value.reset();
+  }
   if (found.value && !by_channel) map.columns.emplace_back("f", reference(columns, *found.value));
   if (found.channel) map.columns.emplace_back("channel", reference(columns, *found.channel));
 
   for (const auto a : {theta_i, theta_o})
     if (!found.angle[a])
       p.said.push_back(fmt::format("no column is called like {}", angle_names[a]));
-  if (!found.value && !by_channel)
+  if (!found.value && !by_channel && !bands)
     p.said.emplace_back("no column is called like a value, f or brdf");
   if (!p.said.empty() && (!found.angle[theta_i] || !found.angle[theta_o])) return p;
-  if (!found.value && !by_channel) return p;
+  if (!found.value && !by_channel && !bands) return p;
+  if (found.value && plain(columns[*found.value].name).starts_with("cc")) {
+    map.cosine = true;
+    p.said.push_back(columns[*found.value].name + " is f cos(theta_o)");
+  }
 
   const double zenith = std::max(range(theta_i), range(theta_o));
   const double any = std::max({zenith, range(phi_i), range(phi_o)});
@@ -163,7 +201,7 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns) {
   map.radians =
       zenith <= std::numbers::pi / 2 + slack && any <= 2 * std::numbers::pi + slack && any > 0;
   if (map.radians) p.said.push_back(fmt::format("no angle is above {:.4g}: radians", any));
-  p.needed = map.radians ||
+  p.needed = map.radians || map.cosine ||
              std::ranges::any_of(map.columns, [](const auto& c) { return c.first != c.second; });
   p.map = std::move(map);
   return p;

@@ -26,8 +26,7 @@ namespace {
 constexpr std::array<std::string_view, 4> kAngles{"theta_i", "phi_i", "theta_o", "phi_o"};
 constexpr std::uint64_t kMostBytes =
     std::uint64_t{25} * most_values;  ///< as a table's numbers are written
-constexpr const char* kHint =
-    "where names or angles differ: gonio columns FILE --map … (--skip N: lines above the names)";
+constexpr const char* kHint = "where names or angles differ: gonio columns FILE --map …";
 
 /// Channel of a column with values; of other names none.
 std::optional<std::string> channel_of(std::string_view name) {
@@ -233,7 +232,7 @@ class CsvReader {
     const Names names(lines_.names());
     std::set<std::size_t> used;
     const auto take = [&](std::size_t index) { return used.insert(index).second; };
-    for (const auto& [role, column] : map_->columns) {
+    for (const auto& [role, column] : expanded()) {
       const auto index = find(names, role, column);
       if (index && !take(*index))
         lines_.fail(column, "a column that is two things", "one of them for " + role);
@@ -264,6 +263,36 @@ class CsvReader {
         throw bad_input(path_, "columns", "two channels named " + *channel_of(c.role), "one");
     if (channel_ && std::ranges::count_if(columns_, &Column::is_value) > 1)
       throw bad_input(path_, "columns", "channel beside several f_NAME", "channel beside one f");
+  }
+
+  /// The map's words, with a column for each that a pattern such as f_*=*nm matches.
+  std::vector<std::pair<std::string, std::string>> expanded() const {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const auto& [role, word] : map_->columns) {
+      const auto star = word.find('*');
+      if (role != "f_*" || star == word.npos) {
+        all.emplace_back(role, word);
+        continue;
+      }
+      const std::string_view before = std::string_view(word).substr(0, star),
+                             after = std::string_view(word).substr(star + 1);
+      const std::size_t size = all.size();
+      for (const auto& whole : lines_.names()) {
+        const auto name = without_blanks(whole);
+        if (name.size() > before.size() + after.size() && name.starts_with(before) &&
+            name.ends_with(after))
+          all.emplace_back("f_" + std::string(without_blanks(name.substr(
+                                      star, name.size() - before.size() - after.size()))),
+                           std::string(name));
+      }
+      if (all.size() == size)
+        lines_.fail("", fmt::format("no column like '{}'", word),
+                    fmt::format("one of {}", listed()));
+      if (all.size() - size > most_channels)
+        lines_.fail("", fmt::format("{} channels", all.size() - size),
+                    fmt::format("at most {}", most_channels));
+    }
+    return all;
   }
 
   /// The column that a map's word means; none if it is a constant.

@@ -117,6 +117,62 @@ std::string_view without_mark(std::string_view text) {
   return text;
 }
 
+/// Fields of a line by one separator.
+std::vector<std::string> fields_of(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  std::deque<std::string> unescaped;
+  split_into(fields, unescaped, line, separator);
+  return {fields.begin(), fields.end()};
+}
+
+bool is_unit(const std::string& name) {
+  constexpr std::array<std::string_view, 8> units{"deg", "°",    "degrees", "rad",
+                                                  "sr",  "1/sr", "sr-1",    "sr^-1"};
+  return std::ranges::find(units, name) != units.end();
+}
+
+/// Lines of words above the table: what is there before the first line of as many names, or numbers, as the two lines
+/// of numbers below it have.  0 where the text begins with its table, or where none begins soon.
+std::size_t lines_above(std::string_view text) {
+  constexpr std::size_t most = 200, least = 3;
+  const char line_end = line_end_of(text);
+  struct Line {
+    std::size_t number;
+    std::string_view text;
+  };
+  std::vector<Line> said;  // what is neither blank nor a comment
+  for (std::size_t k = 0; k < most && !text.empty(); ++k)
+    if (const auto line = next_of(text, line_end); !line.empty() && line[0] != '#') {
+      constexpr std::size_t long_line = 1 << 20;
+      if (line.size() > long_line || line.find('"') != line.npos) break;  // quotes hold line ends
+      said.push_back({k, line});
+    }
+  const auto are_numbers = [](const std::vector<std::string>& fields) {
+    const auto numbers = std::ranges::count_if(fields, [](const auto& f) { return is_number(f); });
+    return numbers >= static_cast<std::ptrdiff_t>(least) &&
+           std::ranges::all_of(fields,
+                               [](const auto& f) { return is_number(f) || is_gap(trimmed(f)); });
+  };
+  for (std::size_t k = 0; k + 2 < said.size(); ++k) {
+    const char separator = separator_of(said[k].text);
+    const auto names = fields_of(said[k].text, separator);
+    const std::size_t columns = names.size();
+    const auto follows = [&](std::size_t row) {
+      const auto fields = fields_of(said[row].text, separator);
+      return fields.size() == columns && are_numbers(fields);
+    };
+    if (columns < least || !follows(k + 1) || !follows(k + 2)) continue;
+    if (k == 0) return 0;
+    // A line above that looks like names of other columns is a mistake to be reported, and one of
+    // units has them above.
+    const std::size_t above = fields_of(said[k - 1].text, separator).size();
+    const bool names_it =
+        !are_numbers(names) && !(above == columns && std::ranges::any_of(names, is_unit));
+    return names_it || above < least ? said[k].number : 0;
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::optional<double> number_in(std::string_view field) {
@@ -194,6 +250,7 @@ void expect_no_utf16(const std::string& file, std::string_view head) {
 Delimited::Delimited(std::string path, std::string_view text, std::size_t skip)
     : path_(std::move(path)), rest_(without_mark(text)), line_end_(line_end_of(text)) {
   expect_no_utf16(path_, text);
+  if (skip == 0) skip = lines_above(rest_);
   for (; skip > 0 && !rest_.empty(); --skip) {
     ++line_number_;
     next_of(rest_, line_end_);

@@ -39,8 +39,8 @@ void expect_no_utf16(const std::string& file, std::string_view head);
 /// Line by line.  The text must outlive it.
 class Delimited {
  public:
-  /// Passes over `skip` lines, then reads the names.  \param path  named in errors.  UTF-16 and a quote
-  /// that does not end are errors.
+  /// Passes over `skip` lines, then reads the names; where skip is 0, over the lines of words above them.
+  /// \param path  named in errors.  UTF-16 and a quote that does not end are errors.
   Delimited(std::string path, std::string_view text, std::size_t skip = 0);
 
   /// One a column, with the blanks that it has in quotes; all "" where there is no line of names.

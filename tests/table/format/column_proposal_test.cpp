@@ -93,6 +93,39 @@ TEST(ColumnProposal, OfWhatCannotBeToldNothingIsProposed) {
   EXPECT_FALSE(propose_columns(no_value).map);
 }
 
+TEST(ColumnProposal, NamesOfOtherLabsAreRecognised) {
+  using Names = std::vector<const char*>;
+  for (const Names& names :
+       {Names{"Incident_angle", "Measure_angle", "azimuth", "bsdf"},
+        Names{"incident", "polar", "azimuth", "BRDF [1/sr]"},
+        Names{"Einfallswinkel (deg)", "Streuwinkel (deg)", "Azimut", "BRDF"}}) {
+    const std::vector<ColumnSummary> columns{column(names[0], 0, 75), column(names[1], 0, 80),
+                                             column(names[2], 0, 180), column(names[3], 0, 9)};
+    const auto p = propose_columns(columns);
+    ASSERT_TRUE(p.map) << names[0];
+    EXPECT_EQ(
+        p.map->columns,
+        (Map{{"theta_i", names[0]}, {"theta_o", names[1]}, {"phi_o", names[2]}, {"f", names[3]}}))
+        << names[0];
+  }
+}
+
+TEST(ColumnProposal, CosineCorrectedValuesAndColumnsOfWavelengthsAreRecognised) {
+  const std::vector<ColumnSummary> corrected{column("aoi", 0, 75), column("theta_s", 0, 80),
+                                             column("ccBRDF", 0, 1)};
+  const auto p = propose_columns(corrected);
+  ASSERT_TRUE(p.map);
+  EXPECT_TRUE(p.map->cosine);
+  EXPECT_TRUE(p.needed);
+  const std::vector<ColumnSummary> bands{column("aoi", 0, 75), column("theta_s", 0, 80),
+                                         column("390nm", 0, 1), column("400.5nm", 0, 1),
+                                         column("f", 0, 1)};
+  const auto q = propose_columns(bands);
+  ASSERT_TRUE(q.map);
+  EXPECT_EQ(q.map->columns, (Map{{"theta_i", "aoi"}, {"theta_o", "theta_s"}, {"f_*", "*nm"}}));
+  EXPECT_FALSE(q.map->cosine);
+}
+
 TEST(ColumnProposal, ColumnsOfOneNameGoByTheirNumber) {
   const std::vector<ColumnSummary> columns{column("aoi", 0, 75), column("theta_s", 0, 80),
                                            column("brdf", 0, 1), column("brdf", 0, 2)};

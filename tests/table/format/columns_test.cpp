@@ -460,14 +460,38 @@ TEST(CsvFile, MasksValuesThatAreNotThere) {
   expect_complaint(std::string(kPlain) + "30,0,20,0,none\n", "", "'none'");
 }
 
-TEST(CsvFile, UnderLinesOfWordsNamesTheWayOut) {
-  const std::string text = "Instrument 7\nin,out,f\n30,20,1\n30,40,1\n30,50,1\n";
-  expect_complaint(text, "", "--skip N");
-  expect_complaint(text, R"("theta_i":"in")", "--skip N");
+TEST(CsvFile, FindsItsTableUnderLinesOfWords) {
+  const std::string words = "Instrument 7\nWavelength: 633 nm, room 3, by night\n\n# at noon\n",
+                    rows = "30,0,20,0,1\n30,0,40,0,1\n30,0,50,0,1\n";
+  EXPECT_EQ(complaint_of_columns(words + kPlain + rows), "");
+  EXPECT_EQ(
+      read(words + "in,out,f\n30,20,1\n30,40,1\n", R"("theta_i":"in","theta_o":"out")").size(), 2U);
+  EXPECT_EQ(read("Instrument 7\n" + rows, R"("theta_i":"#1","theta_o":"#3","f":"#5")").size(), 3U)
+      << "without names";
   const Folder folder;
-  folder.write("t.csv", text);
+  folder.write("t.csv", words + "in,out,f\n30,20,1\n30,40,1\n30,50,1\n");
   InputFile in(folder / "t.csv");
-  EXPECT_HAS(refusal([&] { csv_columns(in); }), "--skip N");
+  const auto columns = csv_columns(in);
+  ASSERT_EQ(columns.size(), 3U);
+  EXPECT_EQ(columns[1].name, "out");
+  EXPECT_EQ(columns[1].highest, 50);
+}
+
+TEST(CsvFile, WhoseNamesAreMoreOrFewerThanItsNumbersIsNoTableUnderWords) {
+  expect_complaint("theta_i,phi_i,theta_o,phi_o,f,weight\n30,0,20,0,1\n30,0,40,0,1\n30,0,50,0,1\n",
+                   "", "line 2: found 5 fields");
+  expect_complaint(std::string(kPlain) + "deg,deg,deg,deg,1/sr\n30,0,20,0,1\n30,0,40,0,1\n", "",
+                   "line 2");
+}
+
+TEST(ColumnMap, OfAPatternTakesEveryColumnThatIsLikeIt) {
+  const std::string text = "in,out,500 nm,450 nm,note\n30,20,1,2,7\n30,40,3,4,7\n";
+  const Table t = read(text, R"("theta_i":"in","theta_o":"out","f_*":"* nm")");
+  EXPECT_EQ(t.channels, (std::vector<std::string>{"500", "450"}));
+  EXPECT_EQ(t.values[1][1], 4);
+  expect_complaint(text, R"("theta_i":"in","theta_o":"out","f_*":"*um")", "no column like '*um'");
+  expect_complaint("in,out,1nm,1 nm\n30,20,1,2\n", R"("theta_i":"in","theta_o":"out","f_*":"*nm")",
+                   "two channels named 1");
 }
 
 TEST(CsvFile, WarnsOfSwappedColumns) {
