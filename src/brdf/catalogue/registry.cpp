@@ -1,6 +1,8 @@
 #include "brdf/catalogue/registry.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "base/error.h"
@@ -83,9 +85,14 @@ std::optional<std::size_t> find_map(std::string_view id) {
 }
 
 void check_range(const Parameter& p, std::string_view name, double value) {
-  if (!p.legal.holds(value))
-    throw wrong_usage(
-        fmt::format("{} = {} is outside [{}, {}]", name, value, p.legal.low, p.legal.high));
+  if (p.legal.holds(value)) return;
+  std::string unit;
+  if (const auto at = p.meaning.rfind('['); at != p.meaning.npos)
+    unit = fmt::format(" {}", p.meaning.substr(at + 1, p.meaning.rfind(']') - at - 1));
+  if (unit == " rad" && std::abs(value) > p.legal.high && std::abs(value) <= 360)
+    unit += fmt::format(" ({:g}° would be {:.3g})", value, value * std::numbers::pi / 180);
+  throw wrong_usage(
+      fmt::format("{} = {} is outside [{}, {}]{}", name, value, p.legal.low, p.legal.high, unit));
 }
 
 }  // namespace gonio

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/maps.h"
+#include "brdf/catalogue/registry.h"
 #include "brdf/formula/widths.h"
 #include "brdf/model/roughness.h"
 #include "brdf/term/term.h"
@@ -189,10 +190,7 @@ PresetValues::PresetValues(std::span<const Parameter> parameters, std::span<cons
             fmt::format("{}: {} values where one or r,g,b fit", p.name, values.size()));
       channels_ = values.size();
     }
-    for (const double v : values)
-      if (!p.legal.holds(v))
-        throw wrong_usage(
-            fmt::format("{} = {} is outside [{}, {}]", p.name, v, p.legal.low, p.legal.high));
+    for (const double v : values) check_range(p, p.name, v);
     values_.push_back(values);
   }
 }

@@ -199,6 +199,8 @@ TEST(Binding, SquaresRoughness) {
   expect_refused([&] { bound(ggx, "alpha=0.25,roughness=0.5"); }, {"roughness", "alpha"});
   expect_refused([&] { bound(ggx, "roughness=-0.5"); }, {"outside"});
   expect_refused([&] { bound(ggx, "roughness=1.01"); }, {"outside"});
+  expect_refused([&] { bound("oren_nayar", "sigma=20"); },
+                 {"outside [0, 1.57", " rad ", "20° would be 0.349"});
   expect_refused([&] { bound(ggx, "roughness_2=0.5"); }, {"no parameter 'roughness_2'"});
 }
 
