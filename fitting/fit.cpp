@@ -221,7 +221,18 @@ FitResult fit(const Table& t,
   }
   facts = with_table(std::move(facts), o, table, d);
   for (auto& w : warnings(o, t, d, facts)) d.warnings.push_back(std::move(w));
-  d.next = next_steps(o, d, facts);
+  announce("trying other models");
+  d.next = next_steps(o, d, facts, [&](const std::string& spec) {
+    try {
+      const FitOptions other = options_for(o, spec);
+      const Problem q = pose(t, other);
+      const Sampling s = sampling_for(q, t, bins);
+      const auto coarse = coarse_fit(q, s);
+      return coarse ? residual_statistics(coarse->model, s, coarse_samples).log_rms : std::nan("");
+    } catch (const Error&) {  // not of this table
+      return std::nan("");
+    }
+  });
   return {std::move(d), std::move(found.best.model)};
 }
 

@@ -58,10 +58,10 @@ void print(const Table& t, const Health& h) {
     std::string channels;
     for (const double v : a.albedo)
       channels += std::isnan(v) ? std::string("      –") : fmt::format(" {:.4f}", v);
-    line("albedo",
-         fmt::format("{:>4.1f}°:{} ± {:.1g}{}  (samples cover {:.0f} %)", a.theta_i_deg, channels,
-                     a.error, a.phi_i_deg == 0 ? "" : fmt::format(", phi_i {:.3g}°", a.phi_i_deg),
-                     100 * a.coverage));
+    line("albedo", fmt::format("{:>4.1f}°:{}{}{}  (samples cover {:.0f} %)", a.theta_i_deg,
+                               channels, a.error < 5e-5 ? "" : fmt::format(" ± {:.1g}", a.error),
+                               a.phi_i_deg == 0 ? "" : fmt::format(", phi_i {:.3g}°", a.phi_i_deg),
+                               100 * a.coverage));
   }
   line("reciprocity", h.reciprocity_error
                           ? fmt::format("median error {:.1f} %", 100 * *h.reciprocity_error)
@@ -103,16 +103,14 @@ void print(const std::vector<NextDirection>& next, const std::string& model) {
   say_below(
       "measure next  ",
       fmt::format("{} for a fit of {}: each narrows the parameter that is least known by then; "
-                  "before and after: the width of its 95 % interval",
+                  "before and after: the width of its 95 % interval, and that over its value",
                   next.size() == 1 ? "this direction" : "these directions", model));
-  say("  {:>8}{:>8}{:>9}{:>8}  {:<12}{:>10}{:>10}\n", "theta_i", "phi_i", "theta_o", "phi_o",
+  say("  {:>8}{:>8}{:>9}{:>8}  {:<12}{:>18}{:>18}\n", "theta_i", "phi_i", "theta_o", "phi_o",
       "parameter", "before", "after");
-  const auto width = [](double w) {
-    return std::isnan(w) ? std::string("not known") : fmt::format("{:.2g}", w);
-  };
   for (const auto& d : next)
-    say("  {:>8.1f}{:>8.1f}{:>9.1f}{:>8.1f}  {:<12}{:>10}{:>10}\n", d.theta_i_deg, d.phi_i_deg,
-        d.theta_o_deg, d.phi_o_deg, d.parameter, width(d.width_before), width(d.width_after));
+    say("  {:>7.1f}°{:>7.1f}°{:>8.1f}°{:>7.1f}°  {:<12}{:>18}{:>18}\n", d.theta_i_deg, d.phi_i_deg,
+        d.theta_o_deg, d.phi_o_deg, d.parameter, width_in_words(d, d.width_before),
+        width_in_words(d, d.width_after));
 }
 
 Exit run(const InspectCall& o) {

@@ -16,6 +16,7 @@
 #include "fitting/fit.h"
 #include "fitting/judge/uncertainty.h"
 #include "fitting/solve/problem.h"
+#include "number/distributions.h"
 #include "table/health/value_warnings.h"
 #include "timing/timing.h"
 
@@ -80,30 +81,6 @@ Behind behind(const std::vector<LogResiduals>& a, const std::vector<LogResiduals
   return {mean, std::sqrt(squares / (n * std::max(n - 1, 1.0)))};
 }
 
-/// True of a model with a parameter of that name, its own or what stands for one of its terms'.
-bool has_parameter(const std::string& model, const std::string& name) {
-  if (const Preset* preset = find_preset(model))
-    if (std::ranges::find(preset->parameters, name, &Parameter::name) != preset->parameters.end())
-      return true;
-  FitOptions o;
-  o.model = model;
-  const Model m = compose(expanded(o).model, 1);
-  const auto has = [&](const std::string& n) { return m.find(n) != nullptr; };
-  if (has(name) || (is_roughness(name) && has(alpha_name(name)))) return true;
-  if (name.starts_with("f0")) return has("eta" + name.substr(2));
-  if (name == "metal") return has("eta") && has("k");
-  return (name == "base_color" || name == "metallic") && has("kd") && has("f0");
-}
-
-/// Options for one of the models: what it has no parameter for is left out.
-FitOptions options_for(FitOptions o, const std::string& model) {
-  const auto others = [&](const std::string& name) { return !has_parameter(model, name); };
-  o.model = model;
-  for (auto* settings : {&o.fixed, &o.bounds})
-    std::erase_if(*settings, [&](const Setting& s) { return others(s.name); });
-  std::erase_if(o.grey, others);
-  return o;
-}
 void check_settings(const FitOptions& o, std::span<const std::string> models) {
   const auto check = [&](const std::string& name) {
     if (std::ranges::none_of(models, [&](const auto& m) { return has_parameter(m, name); }))
@@ -265,7 +242,7 @@ Advice advise(const ModelChoice& choice) {
   if (!predicted) best = least(rows, bic);
   if (!best) return a;
   const double errors_behind =
-      choice.blocks < 2 ? 2 : student_t_975(static_cast<double>(choice.blocks - 1));
+      choice.blocks < 2 ? 2 : students_t_quantile(0.975, static_cast<double>(choice.blocks - 1));
   const double by_chance =
       choice.effective_values > 0
           ? std::min(most_more_by_chance, errors_behind / std::sqrt(2 * choice.effective_values))

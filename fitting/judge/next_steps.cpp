@@ -11,6 +11,7 @@
 #include "brdf/model/spec.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
@@ -36,7 +37,12 @@ class Spec {
       s.parts_[0][0] = name;
     return s.text();
   }
-  std::string with_ndf(const std::string& name) const { return with(0, name); }
+  std::string with_ndf(const std::string& name, const std::string& masking = "") const {
+    Spec s = *this;
+    s.parts_[first()][0] = name;
+    if (!masking.empty()) s.parts_[first()][1] = masking;
+    return s.text();
+  }
   std::string with_masking(const std::string& name) const { return with(1, name); }
   std::string with_fresnel(const std::string& name) const { return with(2, name); }
   std::string with_another_lobe() const {
@@ -144,53 +150,60 @@ class Steps {
   std::vector<std::string> all_, models_;
 };
 
-/// Models that usually follow what this one leaves over: the best of each angle first.
-void add_models(Steps& steps, const Spec& spec, const FitDocument& d) {
-  using Models = std::vector<std::pair<std::string, const char*>>;
-  if (spec.lobes() == 0) return steps.add_model(spec.with_another_lobe(), "may follow a highlight");
-  const std::string diffuse = spec.diffuse(), fresnel = spec.fresnel(), ndf = spec.ndf();
-  const auto f0 = std::ranges::find(d.parameters, "f0", &FittedParameter::name);
-  if (fresnel == "schlick" && f0 != d.parameters.end() &&
-      std::ranges::all_of(f0->ci95_low, [](double low) { return !(low > 0); }))
-    steps.add_model(spec.with_fresnel("schlick.weighted"),
-                    "may help: values of a relative scale need a weight");
-
-  Models highlight, index, grazing;
-  if (ndf != "gtr")
-    highlight.emplace_back(spec.with_ndf("gtr"), "may follow the highlight: its tail is free");
-  if (spec.lobes() == 1)
-    highlight.emplace_back(spec.with_another_lobe(), "may follow the highlight with a second lobe");
-  // What holds the fitted model within itself comes first.
-  if (fresnel == "schlick")
-    for (auto* models : {&index, &grazing})
-      models->emplace_back(spec.with_fresnel("schlick.f90"),
-                           "may help: its reflectance at grazing angles is free");
-  if (fresnel != "dielectric" && fresnel != "conductor")
-    index.emplace_back(spec.with_fresnel(diffuse.empty() ? "conductor" : "dielectric"),
-                       "may help: its Fresnel is exact");
-  if (diffuse == "lambert")
-    index.emplace_back(spec.with_diffuse("lambert.coupled"),
-                       "may help: its diffuse is what the lobe lets through");
+/// Models that may follow what this one leaves over.
+std::vector<std::string> others_of(const Spec& spec) {
+  const std::string diffuse = spec.diffuse();
+  std::vector<std::string> all;
   if (diffuse == "lambert" || diffuse == "lambert.coupled")
-    grazing.emplace_back(spec.with_diffuse("disney"),
-                         "may help: its diffuse changes at grazing angles");
-  const std::string smith = ndf == "beckmann" ? "smith_beckmann" : "smith_ggx";
-  grazing.emplace_back(
-      spec.with_masking(smith +
-                        (spec.masking() == smith + ".correlated" ? ".separable" : ".correlated")),
-      "may help: its masking is another");
+    for (const char* other : {"eon", "disney", "lambert.coupled"})
+      if (diffuse != other && (spec.lobes() > 0 || other != std::string_view("lambert.coupled")))
+        all.push_back(spec.with_diffuse(other));
+  if (spec.lobes() < 2) all.push_back(spec.with_another_lobe());
+  if (spec.lobes() == 0) return all;
+  const std::string ndf = spec.ndf(), fresnel = spec.fresnel(), masking = spec.masking();
+  if (ndf != "gtr") all.push_back(spec.with_ndf("gtr"));
+  if (ndf == "beckmann" && masking.starts_with("smith_beckmann."))
+    all.push_back(spec.with_ndf("ggx", "smith_ggx" + masking.substr(masking.find('.'))));
+  if (ndf == "ggx" && masking.starts_with("smith_ggx."))
+    all.push_back(spec.with_ndf("beckmann", "smith_beckmann" + masking.substr(masking.find('.'))));
+  if (fresnel == "schlick")
+    for (const char* other : {"schlick.f90", "schlick.weighted"})
+      all.push_back(spec.with_fresnel(other));
+  if (fresnel != "dielectric" && fresnel != "conductor")
+    all.push_back(spec.with_fresnel(diffuse.empty() ? "conductor" : "dielectric"));
+  const auto dot = masking.find('.');
+  if (masking.starts_with("smith_") && dot != masking.npos)
+    all.push_back(
+        spec.with_masking(masking.substr(0, dot) +
+                          (masking.substr(dot) == ".correlated" ? ".separable" : ".correlated")));
+  return all;
+}
 
-  std::vector<const Models*> asked;
-  for (const auto& angle : d.misfit.follows)
-    asked.push_back(angle == "theta_h" ? &highlight : angle == "theta_d" ? &index : &grazing);
-  for (std::size_t k = 0; k < 3; ++k)
-    for (const auto* models : asked)
-      if (k < models->size()) steps.add_model((*models)[k].first, (*models)[k].second);
+/// Tries them, and names those that take up most of a misfit.
+void add_models(Steps& steps, const Spec& spec, const FitDocument& d, const TryModel& attempt) {
+  constexpr double worth = 1 / 3.0;  // of the misfit's square
+  constexpr std::size_t few = 3;
+  const double here = attempt(d.model), misfit = d.misfit.size * d.misfit.size;
+  const auto others = others_of(spec);
+  std::vector<double> left(others.size());
+  tbb::parallel_for(std::size_t{0}, left.size(),
+                    [&](std::size_t k) { left[k] = attempt(others[k]); });
+  std::vector<std::pair<double, std::string>> found;
+  for (std::size_t k = 0; k < left.size(); ++k)
+    if (here * here - left[k] * left[k] > worth * misfit) found.emplace_back(left[k], others[k]);
+  std::ranges::stable_sort(found, {}, [](const auto& f) { return f.first; });
+  for (std::size_t k = 0; k < std::min(few, found.size()); ++k)
+    steps.add_model(found[k].second,
+                    fmt::format("is typically off by a factor of {} instead of {}",
+                                typical_factor(found[k].first), typical_factor(here)));
 }
 
 }  // namespace
 
-std::vector<std::string> next_steps(const FitOptions& o, const FitDocument& d, const FitFacts& f) {
+std::vector<std::string> next_steps(const FitOptions& o,
+                                    const FitDocument& d,
+                                    const FitFacts& f,
+                                    const TryModel& attempt) {
   Steps steps;
   const Spec spec(d.model);
 
@@ -211,10 +224,7 @@ std::vector<std::string> next_steps(const FitOptions& o, const FitDocument& d, c
   if (f.cost_of_fewer < d.cost && spec.lobes_alike())
     steps.add_model(spec.without_lobe(0), "meets the table better");
   else if (unknown) {
-    constexpr double far = 0.1;
-    if (d.misfit.told && d.misfit.size > far && spec.fresnel() == "schlick")
-      steps.add_model(spec.with_fresnel("schlick.weighted"),
-                      "may follow the lobe: values of a relative scale need a weight");
+    if (d.misfit.told && !f.no_f) add_models(steps, spec, d, attempt);
     steps.add_model(spec.without_lobe(*unknown),
                     f.needless ? "does as well: nothing is known of the lobe"
                                : "says all that is known: of the lobe nothing is");
@@ -232,7 +242,7 @@ std::vector<std::string> next_steps(const FitOptions& o, const FitDocument& d, c
     if (s.log_rms < 0.95 * d.residuals.log_rms)
       steps.add(fmt::format("--bins {} meets the table better: log RMS {:.3g} for {:.3g}", s.other,
                             s.log_rms, d.residuals.log_rms));
-  if (d.misfit.told && !f.retro && !unknown && !f.no_f) add_models(steps, spec, d);
+  if (d.misfit.told && !f.retro && !unknown && !f.no_f) add_models(steps, spec, d, attempt);
 
   for (const auto& b : o.bounds) {
     const auto p = std::ranges::find(d.parameters, b.name, &FittedParameter::name);

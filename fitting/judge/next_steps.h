@@ -2,6 +2,7 @@
 /// \file
 /// Next steps: what may help where a model misses its table, or where little is known.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,15 @@
 
 namespace gonio {
 
+/// Log RMS that a model leaves on a coarse sample of the table; NaN of one that cannot be fitted to it.
+using TryModel = std::function<double(const std::string& spec)>;
+
 /// Sentences, the most promising first and five at most; none of a fit of which there is nothing to
-/// beware.  Models are named as --model takes them.  What is said without a "may" is known from this fit.
-std::vector<std::string> next_steps(const FitOptions&, const FitDocument&, const FitFacts&);
+/// beware.  Models are named as --model takes them.  Those for a
+/// misfit were tried, and take up a third of it at least, in squares.
+std::vector<std::string> next_steps(const FitOptions&,
+                                    const FitDocument&,
+                                    const FitFacts&,
+                                    const TryModel&);
 
 }  // namespace gonio

@@ -12,6 +12,16 @@
 
 namespace gonio {
 
+std::string typical_factor(double log_rms) {
+  const double x = std::exp(log_rms), above = x - 1;
+  return fmt::format("{:.{}f}", x,
+                     x > 9.95        ? 0
+                     : above >= 1    ? 1
+                     : above >= 0.1  ? 2
+                     : above >= 0.01 ? 3
+                                     : 4);
+}
+
 bool enough_angles(std::size_t clusters) {
   return clusters >= 8;
 }
@@ -24,17 +34,6 @@ std::string factor(double x) {
 }
 std::string percent(double share) {
   return factor(100 * share) + " %";
-}
-
-/// Factor that a log RMS stands for, with two digits of what it is above 1.
-std::string typical_factor(double log_rms) {
-  const double x = std::exp(log_rms), above = x - 1;
-  return fmt::format("{:.{}f}", x,
-                     x > 9.95        ? 0
-                     : above >= 1    ? 1
-                     : above >= 0.1  ? 2
-                     : above >= 0.01 ? 3
-                                     : 4);
 }
 
 /// Angles that only repeat another; "" of none.

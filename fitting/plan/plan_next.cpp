@@ -12,6 +12,7 @@
 #include "fitting/fit.h"
 #include "fitting/judge/assess.h"
 #include "fitting/judge/describe.h"
+#include "fitting/judge/warnings.h"
 #include "fitting/plan/candidates.h"
 #include "fitting/plan/forecast.h"
 #include "fitting/solve/problem.h"
@@ -307,6 +308,13 @@ std::vector<NextDirection> plan_next(const Table& whole,
     throw Error(Exit::not_converged,
                 fmt::format("{}: the fit of '{}' did not converge: nothing can be planned by it",
                             t.path, given.model));
+  if (r.document.misfit.told) {  // its intervals hold what no further direction narrows
+    const std::string said = misfit_in_words(r.document.misfit).front();
+    const auto& next = r.document.next;
+    throw bad_input(t.path, "fit", said.substr(0, said.find(';')),
+                    "a model that describes it: no further direction mends that" +
+                        (next.empty() ? "" : " (try " + next.front() + ")"));
+  }
   if (unknowns.empty())
     throw bad_input(
         t.path, "fit",
@@ -380,6 +388,7 @@ std::vector<NextDirection> plan_next(const Table& whole,
     d.theta_o_deg = where.theta_o_deg[*best];
     d.phi_o_deg = where.phi_o_deg[*best];
     d.parameter = unknowns[static_cast<std::size_t>(*widest)].name;
+    d.over = unknowns[static_cast<std::size_t>(*widest)].scale;
     d.width_before = width_of(*widest);
     taken.push_back(*best);
     left.erase(best);

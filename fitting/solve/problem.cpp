@@ -109,6 +109,29 @@ FitOptions expanded(FitOptions o) {
   return o;
 }
 
+bool has_parameter(const std::string& model, const std::string& name) {
+  if (const Preset* preset = find_preset(model))
+    if (std::ranges::find(preset->parameters, name, &Parameter::name) != preset->parameters.end())
+      return true;
+  FitOptions o;
+  o.model = model;
+  const Model m = compose(expanded(o).model, 1);
+  const auto has = [&](const std::string& n) { return m.find(n) != nullptr; };
+  if (has(name) || (is_roughness(name) && has(alpha_name(name)))) return true;
+  if (name.starts_with("f0")) return has("eta" + name.substr(2));
+  if (name == "metal") return has("eta") && has("k");
+  return (name == "base_color" || name == "metallic") && has("kd") && has("f0");
+}
+
+FitOptions options_for(FitOptions o, const std::string& model) {
+  const auto others = [&](const std::string& name) { return !has_parameter(model, name); };
+  o.model = model;
+  for (auto* settings : {&o.fixed, &o.bounds})
+    std::erase_if(*settings, [&](const Setting& s) { return others(s.name); });
+  std::erase_if(o.grey, others);
+  return o;
+}
+
 void check(const FitOptions& given) {
   const FitOptions o = expanded(given);
   resolved_bounds(o, bound(o, {}));

@@ -17,7 +17,7 @@
 namespace gonio {
 namespace {
 
-constexpr std::size_t coarse_samples = 2048, middle_samples = 32768;
+constexpr std::size_t middle_samples = 32768;
 
 template <class F>
 double huber_threshold(const Problem& p, const FitData<F>& data, const Fitted& f) {
@@ -206,15 +206,21 @@ Fitted minimise(const Problem& p, const FitData<F>& data, BoundModel from, doubl
 template Fitted minimise(const Problem&, const FitData<float>&, BoundModel, double);
 template Fitted minimise(const Problem&, const FitData<double>&, BoundModel, double);
 
+std::optional<Fitted> coarse_fit(const Problem& p, const Sampling& sampling) {
+  const auto thin = fit_data<double>(sampling, coarse_samples);
+  if (thin.counts.used == 0) return {};
+  const auto starts = find_starts(p, thin, no_huber);
+  Fitted f = minimise(p, thin, {p.start.model, starts[0].values, {}}, no_huber);
+  if (p.options.robust) f = robustly(p, thin, std::move(f));
+  return f;
+}
+
 std::shared_ptr<const BoundModel> bulk_of(const Problem& p, const Sampling& sampling) {
   if (!p.options.robust || sampling.metric() == Metric::log) return nullptr;
   // An outlier of a factor of a hundred is as far off as 4.6 among logarithms, but as 10⁴ squares
   // among relative errors, whose minimum is then near f = 0.
-  const auto thin = fit_data<double>(sampling.by(Metric::log, p.offset), coarse_samples);
-  if (thin.counts.used == 0) return nullptr;
-  const auto starts = find_starts(p, thin, no_huber);
-  Fitted f = minimise(p, thin, {p.start.model, starts[0].values, {}}, no_huber);
-  return std::make_shared<const BoundModel>(robustly(p, thin, std::move(f)).model);
+  auto f = coarse_fit(p, sampling.by(Metric::log, p.offset));
+  return f ? std::make_shared<const BoundModel>(std::move(f->model)) : nullptr;
 }
 
 double huber_of(std::vector<double> sizes) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,6 +62,11 @@ double huber_of(std::vector<double> sizes);
 /// Optimum of about `most` groups of a table that are compared in another way, from one already found; a
 /// robust fit's with outliers of that way.
 Fitted compared_by(const Sampling&, const Problem&, std::size_t most, const Fitted& from);
+
+/// Samples of a coarse table.
+inline constexpr std::size_t coarse_samples = 2048;
+/// Best fit of a coarse table, in a few milliseconds; none without a usable value.
+std::optional<Fitted> coarse_fit(const Problem&, const Sampling&);
 
 struct Searched {
   Fitted best;

@@ -154,14 +154,14 @@ Section prospects(const Health& h) {
 
 Section next_directions(const std::vector<NextDirection>& next) {
   page::Table t{columns(">θ_i [°]|>φ_i [°]|>θ_o [°]|>φ_o [°]|parameter|>before|>after")};
-  const auto width = [](double w) { return std::isfinite(w) ? significant(w, 2) : "not known"; };
   for (const auto& d : next)
     t.add(plain(d.theta_i_deg, 4), plain(d.phi_i_deg, 4), plain(d.theta_o_deg, 4),
-          plain(d.phi_o_deg, 4), d.parameter, width(d.width_before), width(d.width_after));
+          plain(d.phi_o_deg, 4), d.parameter, width_in_words(d, d.width_before),
+          width_in_words(d, d.width_after));
   if (next.empty()) return {};
   return {"What to measure next",
           "Each direction narrows the parameter that is least known by then. Before and after: the "
-          "width of its 95 % interval.",
+          "width of its 95 % interval, and that over its value.",
           {std::move(t)}};
 }
 

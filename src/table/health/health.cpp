@@ -147,6 +147,11 @@ std::string layout_text(const Table& t) {
   return s;
 }
 
+std::string width_in_words(const NextDirection& d, double width) {
+  return std::isnan(width) ? "not known"
+                           : fmt::format("{:.2g} ({:.2g} %)", width, 100 * width / d.over);
+}
+
 std::string peak_in_words(const Highlight& p) {
   std::string s = fmt::format(
       "half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} sample{} within: ", p.half_width_deg,

@@ -105,7 +105,9 @@ inline constexpr auto description<NextDirection> = std::tuple{
     Field{"width_before", &NextDirection::width_before,
           "of its 95 % interval; null where it has none"},
     Field{"width_after", &NextDirection::width_after,
-          "forecast for this direction and those above it"}};
+          "forecast for this direction and those above it"},
+    Field{"over", &NextDirection::over,
+          "what widths are compared over: the value, or a hundredth of its range if that is more"}};
 
 template <>
 struct Description<TableHealth> {

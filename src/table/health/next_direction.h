@@ -12,6 +12,11 @@ struct NextDirection {
   std::string parameter;  ///< "alpha", "f0.r"
   /// Widths of its 95 % interval, in the parameter's own unit, before and after that measurement; NaN where there is none.
   double width_before = 0, width_after = 0;
+  double over = 0;  ///< what widths are compared over: the parameter's value, or a hundredth of its
+                    ///< range where that is more
 };
+
+/// "0.02 (10 %)": a width, and that over the value; "not known" of NaN.
+std::string width_in_words(const NextDirection&, double width);
 
 }  // namespace gonio

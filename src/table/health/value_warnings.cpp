@@ -27,7 +27,9 @@ std::string scaled_by(const Table& t, const char* what, double scale) {
 std::string unit_of(const Table& t, double light) {
   constexpr double slack = 1.1;
   if (light < slack * pi) return scaled_by(t, "a radiance factor", 1 / pi);
-  if (light < slack * 100 * pi) return scaled_by(t, "a radiance factor in percent", 0.01 / pi);
+  constexpr double dark = 0.03;  // albedo of what is hardly ever measured in percent
+  if (light > dark * 100 * pi && light < slack * 100 * pi)
+    return scaled_by(t, "a radiance factor in percent", 0.01 / pi);
   return t.format == "csv" ? ": counts? (gonio columns FILE --scale of a white standard)" : "";
 }
 
