@@ -179,23 +179,34 @@ std::vector<std::string> others_of(const Spec& spec) {
   return all;
 }
 
-/// Tries them, and names those that take up most of a misfit.
-void add_models(Steps& steps, const Spec& spec, const FitDocument& d, const TryModel& attempt) {
+/// Tries them, and names those that take up most of a misfit.  False where none does.
+/// \param less  the model without a lobe of which nothing is known; if that does as well as the best, no other is named
+bool add_models(Steps& steps,
+                const Spec& spec,
+                const FitDocument& d,
+                const TryModel& attempt,
+                const std::string& less) {
   constexpr double worth = 1 / 3.0;  // of the misfit's square
+  constexpr double as_well = 1.02;   // log RMS, of the least
   constexpr std::size_t few = 3;
   const double here = attempt(d.model), misfit = d.misfit.size * d.misfit.size;
-  const auto others = others_of(spec);
+  auto others = others_of(spec);
+  if (!less.empty()) others.push_back(less);
   std::vector<double> left(others.size());
   tbb::parallel_for(std::size_t{0}, left.size(),
                     [&](std::size_t k) { left[k] = attempt(others[k]); });
   std::vector<std::pair<double, std::string>> found;
   for (std::size_t k = 0; k < left.size(); ++k)
     if (here * here - left[k] * left[k] > worth * misfit) found.emplace_back(left[k], others[k]);
+  if (found.empty()) return false;
   std::ranges::stable_sort(found, {}, [](const auto& f) { return f.first; });
+  const auto simplest = std::ranges::find(found, less, [](const auto& f) { return f.second; });
+  if (simplest != found.end() && simplest->first <= as_well * found[0].first) found = {*simplest};
   for (std::size_t k = 0; k < std::min(few, found.size()); ++k)
     steps.add_model(found[k].second,
                     fmt::format("is typically off by a factor of {} instead of {}",
                                 typical_factor(found[k].first), typical_factor(here)));
+  return true;
 }
 
 }  // namespace
@@ -214,21 +225,16 @@ std::vector<std::string> next_steps(const FitOptions& o,
                               std::max(p.value[0] / 4, 1e-4), std::min(4 * p.value[0], 1.0)));
   if (o.copies && f.copies)
     steps.add("fit without --copies keep: angles that only repeat another are no measurements");
-  if (f.retro)
-    steps.add(
-        "no microfacet model has a highlight at wo = wi: fit without samples near it (weight 0 in "
-        "a "
-        "CSV file)");
-
   const auto unknown = unknown_lobe(d);
+  const std::string less = unknown ? spec.without_lobe(*unknown) : "";
+  const bool mended = d.misfit.told && !f.no_f && add_models(steps, spec, d, attempt, less);
+  if (f.retro && !mended)
+    steps.add("--mask 'retro < 10': no microfacet model has a highlight at wo = wi");
   if (f.cost_of_fewer < d.cost && spec.lobes_alike())
     steps.add_model(spec.without_lobe(0), "meets the table better");
-  else if (unknown) {
-    if (d.misfit.told && !f.no_f) add_models(steps, spec, d, attempt);
-    steps.add_model(spec.without_lobe(*unknown),
-                    f.needless ? "does as well: nothing is known of the lobe"
-                               : "says all that is known: of the lobe nothing is");
-  }
+  else if (unknown && !mended)
+    steps.add_model(less, f.needless ? "does as well: nothing is known of the lobe"
+                                     : "says all that is known: of the lobe nothing is");
   if (f.unresolved)
     steps.add(
         fmt::format("outgoing angles {:.1g}° apart or less around the mirror direction may resolve "
@@ -242,7 +248,6 @@ std::vector<std::string> next_steps(const FitOptions& o,
     if (s.log_rms < 0.95 * d.residuals.log_rms)
       steps.add(fmt::format("--bins {} meets the table better: log RMS {:.3g} for {:.3g}", s.other,
                             s.log_rms, d.residuals.log_rms));
-  if (d.misfit.told && !f.retro && !unknown && !f.no_f) add_models(steps, spec, d, attempt);
 
   for (const auto& b : o.bounds) {
     const auto p = std::ranges::find(d.parameters, b.name, &FittedParameter::name);

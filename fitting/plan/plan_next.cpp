@@ -308,7 +308,9 @@ std::vector<NextDirection> plan_next(const Table& whole,
     throw Error(Exit::not_converged,
                 fmt::format("{}: the fit of '{}' did not converge: nothing can be planned by it",
                             t.path, given.model));
-  if (r.document.misfit.told) {  // its intervals hold what no further direction narrows
+  const double misfit = r.document.misfit.told ? r.document.misfit.size : 0;
+  if (2 * misfit * misfit >
+      std::pow(r.document.residuals.log_rms, 2)) {  // more than there is noise
     const std::string said = misfit_in_words(r.document.misfit).front();
     const auto& next = r.document.next;
     throw bad_input(t.path, "fit", said.substr(0, said.find(';')),

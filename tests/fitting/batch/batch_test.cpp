@@ -33,6 +33,9 @@ void change(std::vector<double>& all) {
 void change(std::vector<Setting>& all) {
   all.push_back({"f0", {0.5}});
 }
+void change(std::optional<std::string>& text) {
+  text = "theta_o > 80";
+}
 void change(std::optional<Bins>& bins) {
   bins = Bins::edge;
 }

@@ -27,8 +27,9 @@ std::vector<double> of_right_models(std::size_t tables, std::size_t samples) {
     const Problem problem = pose(t, o);
     const Sampling s(t, t.bins(), Metric::log, problem.offset, true);
     const Fitted f = minimise(problem, fit_data<double>(s), truth, no_huber);
-    auto left = misfit::left_over(s, problem, f);
-    const auto found = misfit::regress(left, false, false);
+    TableFacts facts(t);
+    const auto found =
+        misfit::regress(misfit::left_over(s, problem, f, facts), misfit::Errors::none);
     p[k] = found.tested ? found.p : 1;
   });
   return p;
