@@ -50,21 +50,24 @@ void keep_to_what_is_seen(TableFacts& facts,
     return;
   }
   if (t.truth) return;
-  for (const auto& q : p.start.model.parameters) {
-    if (!is_alpha(q.name) || !p.free.mask()[q.first]) continue;
-    const std::size_t i = p.free.index(q.first);
-    const double low = std::isnan(u.low[i]) ? values[q.first] - u.t[i] * u.std_error[i] : u.low[i];
-    if (values[q.first] >= 0.1 && !(low < 0.1)) continue;
-    using enum ParameterStatus;
-    if (u.status[i] != free && u.status[i] != at_bound && u.status[i] != unbounded) continue;
-    const auto peak = facts.peak().peak;
-    if (!peak || peak->resolved) return;
-    u.status[i] = ParameterStatus::upper_limit;
-    u.limit[i] = peak->alpha;
-    u.std_error[i] = std::nan("");
-    u.reason[i] = "the samples do not resolve the highlight";
-    return;  // it is the narrowest lobe's
-  }
+  // The peak is the narrowest lobe's.
+  const ModelParameter* narrowest = nullptr;
+  for (const auto& q : p.start.model.parameters)
+    if (is_alpha(q.name) && (!narrowest || values[q.first] < values[narrowest->first]))
+      narrowest = &q;
+  if (!narrowest || !p.free.mask()[narrowest->first]) return;
+  const std::size_t i = p.free.index(narrowest->first);
+  const double value = values[narrowest->first];
+  const double low = std::isnan(u.low[i]) ? value - u.t[i] * u.std_error[i] : u.low[i];
+  if (value >= 0.1 && !(low < 0.1)) return;
+  using enum ParameterStatus;
+  if (u.status[i] != free && u.status[i] != at_bound && u.status[i] != unbounded) return;
+  const auto peak = facts.peak().peak;
+  if (!peak || peak->resolved) return;
+  u.status[i] = ParameterStatus::upper_limit;
+  u.limit[i] = peak->alpha;
+  u.std_error[i] = std::nan("");
+  u.reason[i] = "the samples do not resolve the highlight";
 }
 
 }  // namespace gonio

@@ -156,6 +156,23 @@ TEST(Seen, AMeasuredHighlightThatIsNotResolvedHasAWidthAtMost) {
   EXPECT_EQ(parameter(fit(t, o).document, "alpha").status[0], ParameterStatus::free);
 }
 
+TEST(Seen, OfUnlikeLobesTheNarrowestIsTheOneThatIsNotResolved) {
+  const char* two = "lambert+gtr/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick";
+  const auto truth = test::bind(two, "alpha=0.08,gamma=2,f0=0.05,alpha_2=0.01,f0_2=0.3,kd=0.1", 1);
+  Table t = in_plane({10, 25, 40, 55, 70}, 2, [](double, double) { return 0.0; });
+  const SampleAngles at(t);
+  std::vector<Angles<double>> angles;
+  for (std::size_t i = 0; i < t.size(); ++i) angles.push_back(at(i));
+  std::ranges::copy(evaluate(truth, angles)[0], t.values[0].begin());
+  ASSERT_TRUE(inspect(t).peak && !inspect(t).peak->resolved);
+  FitOptions o;
+  o.model = two;
+  o.fixed = parse_settings(std::vector<std::string>{"gamma=2"});
+  const auto d = fit(t, o).document;
+  EXPECT_NE(parameter(d, "alpha").status[0], ParameterStatus::upper_limit);
+  EXPECT_EQ(parameter(d, "alpha_2").status[0], ParameterStatus::upper_limit);
+}
+
 TEST(Klems2011SA1, IsAComputedTable) {
   GONIO_NEEDS_SHARED(file, "data/klems/2011-SA1.xml");
   const Table t = read_table(file);
