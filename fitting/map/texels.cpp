@@ -261,6 +261,9 @@ void LaneFit::gather_lanes(std::span<const std::size_t> texels) {
   count_.fill(0);
   const bool l2 = task_.asked.metric == Metric::l2_cosine, log = task_.asked.metric == Metric::log;
   const auto offset = static_cast<float>(task_.asked.offset);
+  // A 0 may be light from below the surface, which says no more than that: where normals are
+  // unknown it is left out.
+  const float least = task_.asked.refine_normals ? std::numeric_limits<float>::min() : 0;
   for (std::size_t c = 0; c < in_.channels; ++c)
     for (std::size_t i = 0; i < in_.images; ++i) {
       const float* const from = in_.values.data() + (i * in_.channels + c) * in_.texels;
@@ -268,7 +271,7 @@ void LaneFit::gather_lanes(std::span<const std::size_t> texels) {
         const float y = from[texels[l]], sum = y + offset;
         const std::size_t at = i * width_ + l;
         const bool use =
-            usable_[at] && y >= 0 && y <= 1e18F && (l2 || sum > static_cast<float>(faintest));
+            usable_[at] && y >= least && y <= 1e18F && (l2 || sum > static_cast<float>(faintest));
         const float w = use ? (l2 ? angles_[0][at] : 1 / sum) : 0;
         target_[c][at] = use ? y : 0;
         weight_[c][at] = w;

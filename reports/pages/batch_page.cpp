@@ -101,7 +101,8 @@ Flags flags_of(const BatchRow& r) {
       {ParameterStatus::not_identifiable, "the data do not determine it"},
       {ParameterStatus::upper_limit, "the data give only the upper end"},
       {ParameterStatus::lower_limit, "the data give only the lower end"},
-      {ParameterStatus::at_bound, "the best value may lie beyond"}};
+      {ParameterStatus::at_bound, "the best value may lie beyond"},
+      {ParameterStatus::unbounded, "the model is too wrong to bound it"}};
   for (const auto& [status, full] : states) {
     std::vector<std::string> which;
     for (const auto& p : f.parameters)

@@ -484,7 +484,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
   EXPECT_TRUE(says("limit", "≤\u202f0.000"));
   EXPECT_TRUE(says("limit", "values down to 0 do as well"));
   EXPECT_FALSE(says("limit", "What to try next"));
-  EXPECT_TRUE(says("bright", "What to try next"));
+  EXPECT_TRUE(says("bright", "a radiance factor?"));
   EXPECT_TRUE(says("scenes", "Keeps exact Fresnel, "))
       << "what red plastic needs under a rim light";
   EXPECT_TRUE(says("bright", ", above 1")) << "light that the model returns";

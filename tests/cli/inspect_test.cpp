@@ -14,7 +14,7 @@ TEST(Inspect, PlansWhatToMeasureNextWhereItIsAsked) {
   auto document = planned.json();
   ASSERT_EQ(document["next"].size(), 3U);
   for (const auto& row : document["next"]) {
-    EXPECT_EQ(row.size(), 7U);
+    EXPECT_EQ(row.size(), 8U);
     EXPECT_EQ(row["phi_i"], 0);
     EXPECT_TRUE(row["phi_o"] == 0 || row["phi_o"] == 180);
     EXPECT_LE(row["width_after"].get<double>(), row["width_before"].get<double>());
@@ -23,12 +23,12 @@ TEST(Inspect, PlansWhatToMeasureNextWhereItIsAsked) {
   document.erase("next");
   EXPECT_EQ(document, plain.json()) << "all else stays";
 
-  const auto words = gonio(f, "inspect p.csv --plan-next 3 --model lambert").out;
+  const auto words = gonio(f, "inspect p.csv --plan-next 3").out;
   const auto before = gonio(f, "inspect p.csv").out;
   ASSERT_TRUE(words.starts_with(before));
   EXPECT_TRUE(words.substr(before.size())
                   .starts_with("\nmeasure next  these directions for a fit "
-                               "of lambert"))
+                               "of lambert+ggx"))
       << words.substr(before.size());
 }
 
@@ -42,6 +42,8 @@ TEST(Inspect, RefusesPlansInOneLine) {
                         {"inspect p.csv --plan-next 3 --model nothing", "nothing"},
                         {"inspect p.csv --model lambert", "--plan-next"}});
   expect_one_line(gonio(f, "inspect few.csv --plan-next 3"), 3, "free parameters");
+  expect_one_line(gonio(f, "inspect p.csv --plan-next 3 --model lambert"), 3,
+                  "no further direction mends that (try --model lambert+ggx");
 }
 
 }  // namespace

@@ -351,6 +351,50 @@ TEST(Texels, FitTheNormalThatTheirHighlightsTell) {
   EXPECT_GT(kept.rms[39], 10 * f.rms[39]);
 }
 
+TEST(Texels, OfNormalsThatAreFittedLeaveOutWhatMayBeAttachedShadow) {
+  StackOptions made;
+  made.model = "lambert";
+  made.texels = 24;
+  made.channels = 1;
+  Stack s = test::stack(made);
+  // Six lamps 40° from the map's normal; surfaces tilted by 52° to 75° turn from one to three of
+  // them.
+  s.images = 6;
+  s.light.resize(18);
+  s.view.resize(18);
+  s.values.assign(6 * s.texels, 0);
+  std::vector<Direction> normals;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Direction l = direction(40 * degree, 60 * degree * static_cast<double>(i));
+    const std::array xyz{l.x, l.y, l.z};
+    for (std::size_t k = 0; k < 3; ++k) {
+      s.light[3 * i + k] = static_cast<float>(xyz[k]);
+      s.view[3 * i + k] = k == 2;
+    }
+  }
+  std::size_t shadows = 0;
+  for (std::size_t t = 0; t < s.texels; ++t) {
+    const auto part = static_cast<double>(t) / static_cast<double>(s.texels);
+    const Direction z = normals.emplace_back(direction((50 + 14 * part) * degree, 7 * part));
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Direction l = direction(40 * degree, 60 * degree * static_cast<double>(i));
+      shadows += dot(l, z) <= 0;
+      s.values[i * s.texels + t] =
+          static_cast<float>(0.5 / M_PI * std::max(dot(l, z), 0.0) / std::cos(40 * degree));
+    }
+  }
+  EXPECT_GT(shadows, s.texels);
+  TexelOptions o = options("lambert");
+  o.refine_normals = true;
+  const TexelFit f = fit_texels(s.samples(), o);
+  for (std::size_t t = 0; t < s.texels; ++t) {
+    const Direction n{double{f.normal[t]}, double{f.normal[s.texels + t]},
+                      double{f.normal[2 * s.texels + t]}};
+    EXPECT_LT(std::acos(std::min(dot(n, normals[t]), 1.0)), 0.1 * degree) << t;
+    EXPECT_NEAR(double{f.columns[0].value[t]}, 0.5, 1e-3) << t;
+  }
+}
+
 TEST(Texels, AreJudgedByNormalsThatAreGiven) {
   StackOptions made;
   made.texels = 20;
