@@ -20,10 +20,7 @@ void forget_empty_channels(const Table& t, const Problem& p, Uncertainty& u) {
       continue;
     for (const auto& q : p.start.model.parameters) {
       if (q.count == 1 || !p.free.mask()[q.slot(c)]) continue;
-      const std::size_t i = p.free.index(q.slot(c));
-      u.status[i] = ParameterStatus::not_identifiable;
-      u.std_error[i] = std::nan("");
-      u.reason[i] = "no value of its channel can be used";
+      u.forget(p.free.index(q.slot(c)), "no value of its channel can be used");
     }
   }
 }
@@ -64,10 +61,7 @@ void keep_to_what_is_seen(TableFacts& facts,
   if (u.status[i] != free && u.status[i] != at_bound && u.status[i] != unbounded) return;
   const auto peak = facts.peak().peak;
   if (!peak || peak->resolved) return;
-  u.status[i] = ParameterStatus::upper_limit;
-  u.limit[i] = peak->alpha;
-  u.std_error[i] = std::nan("");
-  u.reason[i] = "the samples do not resolve the highlight";
+  u.keep_limit(i, upper_limit, peak->alpha, "the samples do not resolve the highlight");
 }
 
 }  // namespace gonio

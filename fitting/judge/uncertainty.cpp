@@ -293,8 +293,7 @@ Uncertainty uncertainty(const Sandwich& s,
     const double error = std::sqrt(variance[a]),
                  t = students_t_quantile(0.975, covariance.freedom(a));
     if (2 * t * error >= bounds.high[i] - bounds.low[i]) {
-      u.status[i] = ParameterStatus::not_identifiable;
-      u.reason[i] = "its interval is as wide as its range";
+      u.forget(i, "its interval is as wide as its range");
       continue;
     }
     u.std_error[i] = error;
@@ -331,6 +330,17 @@ Uncertainty uncertainty(const Sandwich& s,
     for (const std::size_t a : block) u.correlated.push_back(determined[a]);
   }
   return u;
+}
+
+void Uncertainty::forget(std::size_t i, std::string why) {
+  keep_limit(i, ParameterStatus::not_identifiable, not_known, std::move(why));
+}
+
+void Uncertainty::keep_limit(std::size_t i, ParameterStatus side, double bound, std::string why) {
+  status[i] = side;
+  std_error[i] = low[i] = high[i] = not_known;
+  limit[i] = bound;
+  reason[i] = std::move(why);
 }
 
 Uncertainty wider(Uncertainty a, const Uncertainty& b) {

@@ -34,6 +34,10 @@ struct Uncertainty {
   Uncertainty() = default;
   /// Nothing is known of that many.
   explicit Uncertainty(std::size_t unknowns);
+  /// Takes an unknown's value away: the data do not give it.
+  void forget(std::size_t i, std::string why);
+  /// Leaves it a one-sided 95 % bound.  \param side  upper_limit or lower_limit
+  void keep_limit(std::size_t i, ParameterStatus side, double bound, std::string why);
 
   std::vector<ParameterStatus> status;
   std::vector<double> std_error;  ///< NaN where not known

@@ -59,9 +59,7 @@ class Ends {
   void find_limit(std::size_t i, double luck) const {
     const double low = problem_.bounds.low[i], high = problem_.bounds.high[i];
     const auto forget = [&] {
-      u_.status[i] = ParameterStatus::not_identifiable;
-      u_.std_error[i] = u_.low[i] = u_.high[i] = u_.limit[i] = not_known;
-      u_.reason[i] = fmt::format("any value from {:.3g} to {:.3g} does as well", low, high);
+      u_.forget(i, fmt::format("any value from {:.3g} to {:.3g} does as well", low, high));
     };
     const double t = students_t_quantile(0.95, freedom(i)), much = t * t * variance(i) * share_;
     CostAlong along(problem_, thin_, best_, i);
@@ -69,12 +67,11 @@ class Ends {
     if (below && above) return forget();
     if (!below && !above) return find_ends(i);
     const double end = below ? high : low;
-    u_.limit[i] = along.reach(end, much);
-    if (u_.limit[i] == end) return forget();
-    u_.status[i] = below ? ParameterStatus::upper_limit : ParameterStatus::lower_limit;
-    u_.std_error[i] = u_.low[i] = u_.high[i] = not_known;
-    u_.reason[i] =
-        fmt::format("values {} to {:.3g} do as well", below ? "down" : "up", below ? low : high);
+    const double limit = along.reach(end, much);
+    if (limit == end) return forget();
+    u_.keep_limit(
+        i, below ? ParameterStatus::upper_limit : ParameterStatus::lower_limit, limit,
+        fmt::format("values {} to {:.3g} do as well", below ? "down" : "up", below ? low : high));
   }
 
   /// Two ends.
@@ -190,11 +187,7 @@ void forget_lobes(const Problem& p, Uncertainty& u, Lobes part, const std::strin
       for (const std::size_t k : t->parameters) {
         const auto& q = p.start.model.parameters[k];
         for (std::size_t s = q.first; s < q.first + q.count; ++s) {
-          if (!p.free.mask()[s]) continue;
-          const std::size_t i = p.free.index(s);
-          u.status[i] = ParameterStatus::not_identifiable;
-          u.std_error[i] = u.low[i] = u.high[i] = u.limit[i] = not_known;
-          u.reason[i] = why;
+          if (p.free.mask()[s]) u.forget(p.free.index(s), why);
         }
       }
     }
@@ -221,11 +214,6 @@ bool find_undetermined(const Problem& p,
   std::vector<bool> had_range(n);  // in which it is known no better: a limit may be
   for (std::size_t i = 0; i < n; ++i)
     had_range[i] = u.status[i] == ParameterStatus::not_identifiable && !std::isnan(u.freedom[i]);
-  const auto forget = [&](std::size_t i, std::string why) {
-    u.status[i] = ParameterStatus::not_identifiable;
-    u.std_error[i] = not_known;
-    u.reason[i] = std::move(why);
-  };
   for (const auto& q : p.start.model.parameters) {
     std::vector<std::size_t> asked;
     for (std::size_t s = q.first; s < q.first + q.count; ++s)
@@ -249,7 +237,7 @@ bool find_undetermined(const Problem& p,
     }
     for (const std::size_t s : asked)
       if (2 * most[s - q.first] < luck * variance)
-        forget(p.free.index(s), "moved over its whole range it changes no more than luck does");
+        u.forget(p.free.index(s), "moved over its whole range it changes no more than luck does");
   }
 
   if (forget_needless_lobes(p, thin, f, here.cost, luck * variance, u)) return true;
@@ -289,8 +277,7 @@ bool find_undetermined(const Problem& p,
       u.reason[i] = "best value for this model; the model is too wrong to bound it";
       continue;
     }
-    forget(i, "its interval is as wide as its range");
-    u.low[i] = u.high[i] = not_known;
+    u.forget(i, "its interval is as wide as its range");
   }
   return false;
 }
