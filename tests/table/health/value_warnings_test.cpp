@@ -135,6 +135,11 @@ TEST(ValueWarnings, TellAChannelThatIsNegativeByItselfFromANoiseFloor) {
                            : 0);
     return t;
   };
+  const Table gamut = table(true, 0);
+  TableFacts facts(gamut);
+  EXPECT_TRUE(std::ranges::any_of(value_warnings(facts), [](const ValueWarning& w) {
+    return w.text.starts_with("all negative values are of channel r");
+  }));
   EXPECT_EQ(negative_channel(table(true, 0)), std::size_t{0});
   EXPECT_EQ(noise_floor(table(true, 0)), 0);
   EXPECT_FALSE(negative_channel(table(false, 0.004)));
