@@ -11,10 +11,7 @@
 
 #include <fmt/format.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 /// Angles and parameters by their signs.
@@ -222,8 +219,12 @@ Section section_of(std::string_view kind, const char* title, const std::vector<E
 }
 
 }  // namespace
+}  // namespace gonio::page
+
+namespace gonio {
 
 std::string audit_page_html(const std::vector<EntryAudit>& all) {
+  using namespace page;
   const auto count_of = [&](auto is) {
     return static_cast<std::size_t>(std::ranges::count_if(all, is));
   };

@@ -10,6 +10,7 @@
 #include "integrate/light/split_sum_table.h"
 #include "reports/cost/cost.h"
 #include "reports/energy/energy.h"
+#include "reports/finding/names.h"
 #include "reports/finding/words.h"
 
 #include <fmt/format.h>
@@ -17,8 +18,6 @@
 
 namespace gonio {
 namespace {
-
-constexpr std::string_view masking = "masking.smith_ggx.correlated";
 
 /// Compensations as the energy report measures them.
 void add_compensations(std::vector<CostPoint>& to) {
@@ -50,7 +49,7 @@ class SplitSumWays {
   SplitSumWays() {
     for (int i = 1; i <= steps; ++i) at_.push_back(static_cast<double>(i) / steps);
     for (const double r : at_)
-      for (const auto& s : split_sum(masking, r, at_, {1e-9, 4'000'000}))
+      for (const auto& s : split_sum(form_id::smith, r, at_, {1e-9, 4'000'000}))
         truth_.push_back(s.a + s.b);
   }
   /// \param values  of a roughness, at every NoV
@@ -102,7 +101,8 @@ class SplitSumWays {
 void add_split_sum(std::vector<CostPoint>& to) {
   SplitSumWays ways;
   for (const std::size_t size : {8, 16, 32, 64}) {
-    const auto table = stored(split_sum_table(masking, size, size, 0, {1e-5}), Storage::half);
+    const auto table =
+        stored(split_sum_table(form_id::smith, size, size, 0, {1e-5}), Storage::half);
     ways.add(to, "bilinear table in half", fmt::format("{0} × {0}", size),
              ways.each([&](double r, double nov) {
                const auto [a, b] = table(nov, r);
@@ -123,10 +123,11 @@ void add_split_sum(std::vector<CostPoint>& to) {
   };
   for (std::size_t n = 16; n <= 4096; n *= 4)
     ways.add(to, "importance sampling", fmt::format("{} samples", n),
-             [&](double r) { return sums(sampled_split_sum(masking, r, ways.nov(), n)); });
+             [&](double r) { return sums(sampled_split_sum(form_id::smith, r, ways.nov(), n)); });
   for (int digits = 2; digits <= 7; ++digits)
     ways.add(to, "quadrature", fmt::format("goal 1e-{}", digits), [&](double r) {
-      return sums(split_sum(masking, r, ways.nov(), {std::pow(10, -digits), Goal{}.evaluations}));
+      return sums(
+          split_sum(form_id::smith, r, ways.nov(), {std::pow(10, -digits), Goal{}.evaluations}));
     });
 }
 

@@ -12,10 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 using page::Group;
@@ -380,8 +377,12 @@ Section the_machine(const CostRows& all) {
 }
 
 }  // namespace
+}  // namespace gonio::page
 
-Page report_page(const CostReport& r) {
+namespace gonio {
+
+page::Page report_page(const CostReport& r) {
+  using namespace page;
   const auto& all = r.rows;
   Page out{"cost", "report cost", "What accuracy costs in time", "What accuracy costs in time",
            r.findings.sentences};

@@ -12,6 +12,7 @@
 #include "geometry/ggx_sampling.h"
 #include "integrate/albedo/ggx_albedo.h"
 #include "integrate/light/split_sum_table.h"
+#include "reports/finding/names.h"
 #include "reports/study/kernels.h"
 #include "reports/study/sampling_weight.h"
 
@@ -21,9 +22,8 @@ namespace gonio::costing {
 namespace {
 
 constexpr std::string_view sampled = "sampling", looked_up = "split_sum";
-constexpr std::string_view masking = "masking.smith_ggx.correlated";
 constexpr std::size_t table_sizes[] = {16, 32, 64};
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Vector3<double> direction(double mu, double phi) {
   const double sine = std::sqrt((1 - mu) * (1 + mu));
@@ -68,7 +68,7 @@ class SplitSumTruth {
     for (int i = 1; i <= 32; ++i) nov_.push_back(i / 32.0);
     for (int i = 1; i <= 20; ++i) {
       roughness_.push_back(i / 20.0);
-      for (const auto& s : split_sum(masking, roughness_.back(), nov_, {1e-7, 4'000'000}))
+      for (const auto& s : split_sum(form_id::smith, roughness_.back(), nov_, {1e-7, 4'000'000}))
         values_.push_back({s.a, s.b});
     }
   }
@@ -116,7 +116,7 @@ std::vector<LookupRow> lookup_rows() {
   const SplitSumTruth truth;
   std::vector<LookupRow> out;
   for (const std::size_t size : table_sizes) {
-    const auto exact = split_sum_table(masking, size, size, 0, {1e-5});
+    const auto exact = split_sum_table(form_id::smith, size, size, 0, {1e-5});
     const auto add = [&](const SplitSumTable& t, std::string_view format, std::size_t bytes) {
       auto r = truth.row(fmt::format("{}.{}", table_id(size), format),
                          fmt::format("{0} × {0} texels in {1}", size, format), false,

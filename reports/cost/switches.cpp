@@ -68,7 +68,6 @@ const CostRow* find_row(const std::vector<CostRow>& rows,
 
 std::vector<CostSwitch> cost_switches(const std::vector<CostRow>& rows) {
   std::vector<CostSwitch> out;
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   for (const auto& p : pairs)
     for (const auto& from : rows) {
       if (from.id != p.from) continue;
@@ -88,7 +87,7 @@ std::vector<CostSwitch> cost_switches(const std::vector<CostRow>& rows) {
                      from.way, more.ns, more.spread_ns, to->time.ns / from.time.ns,
                      static_cast<double>(to->operations.total()) -
                          static_cast<double>(from.operations.total()),
-                     same ? from.error.rms : unknown, same ? to->error.rms : unknown,
+                     same ? from.error.rms : no_value, same ? to->error.rms : no_value,
                      more.survives});
     }
   return out;

@@ -12,8 +12,6 @@
 namespace gonio {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// A number that is shown of a case.
 struct Quantity {
   std::string_view name, label, unit;
@@ -27,7 +25,7 @@ constexpr std::array quantities{
     Quantity{"residual", "RMS of ln f − ln truth", "", "", 1}};
 
 struct Seen {
-  double value = nan, error = 0;
+  double value = no_value, error = 0;
 };
 /// The mean over channels that are neither at a bound nor undetermined.
 Seen seen(const CrossCase& c, const Quantity& q) {
@@ -59,11 +57,11 @@ std::vector<std::string_view> truths_of(const CrossFitRows& r) {
 // ---- Truth × form -------------------------------------------------------------------------------
 
 constexpr std::array kinds{"exact", "fresnel", "masking", "distribution", "combination", "model"};
-struct Group {
+struct Surfaces {
   std::string_view name;
   bool dielectric;
 };
-constexpr std::array groups{Group{"dielectrics", true}, Group{"metals", false}};
+constexpr std::array groups{Surfaces{"dielectrics", true}, Surfaces{"metals", false}};
 
 /// Forms by kind, in the order in which they were fitted.
 std::vector<std::string> forms_of(const CrossFitRows& r, const Quantity& q) {
@@ -114,7 +112,9 @@ FigureMap matrix(const CrossFitRows& r, const Quantity& q, double roughness) {
         // of what ends at its bound for the most part a mean of the rest says nothing
         const double count = static_cast<double>(n);
         const double value = all ? std::sqrt(squares / count) : sum / count;
-        m.values.push_back(n == 0 || missing > n ? nan : std::abs(value) < nothing ? 0 : value);
+        m.values.push_back(n == 0 || missing > n       ? no_value
+                           : std::abs(value) < nothing ? 0
+                                                       : value);
       }
     }
   return m;

@@ -18,7 +18,6 @@ namespace {
 using Cases = std::vector<const CrossCase*>;
 
 constexpr std::string_view once = "GGX", all_orders = "GGX, all orders", glass = "IOR 1.5",
-                           direct = "masking.schlick_ggx.direct", schlick = "fresnel.schlick",
                            both = "gtr/schlick_ggx.direct/schlick";
 
 struct Where {
@@ -43,11 +42,12 @@ Cases metals(Cases all) {
   std::erase_if(all, [](const CrossCase* c) { return c->is_dielectric(); });
   return all;
 }
-struct Group {
+struct Interfaces {
   std::string_view name;
   Cases (*of)(Cases);
 };
-constexpr std::array groups{Group{"dielectrics", dielectrics}, Group{"metals", metals}};
+constexpr std::array interfaces{Interfaces{"dielectrics", dielectrics},
+                                Interfaces{"metals", metals}};
 
 /// A shift of a parameter: roughness and gamma absolute, F0 relative.
 struct Shift {
@@ -114,7 +114,7 @@ double rms_noise(const Cases& cases) {
 
 /// Form in a sentence, after "with": "Schlick's k = (r+1)²/8", "Schlick in place of exact Fresnel".
 std::string with(std::string_view form) {
-  return form == schlick ? "Schlick in place of exact Fresnel" : in_text(form);
+  return form == form_id::schlick ? "Schlick in place of exact Fresnel" : in_text(form);
 }
 
 /// Range of F0 over metrics, directions and roughnesses; no value where there is one metric alone.
@@ -136,7 +136,7 @@ std::optional<std::pair<double, double>> over_all(const std::vector<CrossRange>&
 /// F0 by metric and directions: a figure for one of them alone is none.
 void f0_of_glass(Findings& to, const CrossFitRows& r) {
   const auto all = ranges(r);
-  for (const auto form : {direct, schlick}) {
+  for (const auto form : {form_id::direct_k, form_id::schlick}) {
     const auto f0 = over_all(all, form, false), whole = over_all(all, form, true);
     if (!f0) continue;
     to.say(fmt::format(
@@ -151,7 +151,8 @@ void f0_of_glass(Findings& to, const CrossFitRows& r) {
 }
 
 void roughness_of_dielectrics(Findings& to, const CrossFitRows& r) {
-  for (const auto form : {direct, std::string_view("masking.ue_joint"), schlick})
+  for (const auto form :
+       {form_id::direct_k, std::string_view("masking.ue_joint"), form_id::schlick})
     if (const auto s = shifts(dielectrics(cases_of(r, {once, form})), "roughness"))
       to.say(fmt::format(
           "With {} the roughness of dielectrics shifts {}, by the log metric on a slice to 80°.",
@@ -184,7 +185,7 @@ std::string looks(const Shift& s) {
 }
 
 void lost_energy(Findings& to, const CrossFitRows& r) {
-  for (const auto& group : groups) {
+  for (const auto& group : interfaces) {
     const auto all = group.of(cases_of(r, {all_orders, "exact"}));
     const auto roughness = shifts(all, "roughness"), f0 = shifts(all, "f0");
     if (!roughness || !f0) continue;
@@ -208,7 +209,7 @@ void takes_it_up(Findings& to,
                  const CrossFitRows& r,
                  std::string_view form,
                  std::string_view what) {
-  for (const auto& group : groups) {
+  for (const auto& group : interfaces) {
     const auto alone = group.of(cases_of(r, {all_orders, "exact"})),
                with = group.of(cases_of(r, {all_orders, form}));
     if (alone.empty() || with.empty()) continue;
@@ -327,9 +328,8 @@ std::vector<CrossRange> ranges(const CrossFitRows& r) {
       if (std::ranges::any_of(out, same)) continue;
       const auto s =
           shifts(cases_of(r, {once, c.fitted, c.metric, c.layout, c.material}), parameter);
-      constexpr double none = std::numeric_limits<double>::quiet_NaN();
       out.push_back({c.fitted, c.material, std::string(parameter), c.metric, layout->name,
-                     s ? s.least().by : none, s ? s.most().by : none, s.all, s.at_bound});
+                     s ? s.least().by : no_value, s ? s.most().by : no_value, s.all, s.at_bound});
     }
   }
   return out;
@@ -343,7 +343,7 @@ std::vector<CrossSentence> sentences_of_forms(const CrossFitRows& r) {
     };
     if (std::ranges::any_of(out, same)) continue;
     std::vector<std::string> parts;
-    for (const auto& group : groups) {
+    for (const auto& group : interfaces) {
       const auto cases = group.of(cases_of(r, {c.truth, c.fitted}));
       if (cases.empty()) continue;
       const auto tell = [&](std::string_view parameter, std::string_view name,

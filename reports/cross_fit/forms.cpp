@@ -13,7 +13,6 @@
 namespace gonio {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view exact_word = "exact";
 
 /// Terms by their names without prefix.
@@ -131,7 +130,7 @@ const FittedParameter* find(const FitDocument& d, std::string_view name) {
 
 /// F0 of a fit in a channel, whatever its Fresnel term calls it.
 CrossValue f0_value(const FitDocument& d, const FresnelSurface& s, std::size_t channel) {
-  CrossValue v{"f0", s.channel(channel), s.f0(channel), nan, 0, ParameterStatus::fixed};
+  CrossValue v{"f0", s.channel(channel), s.f0(channel), no_value, 0, ParameterStatus::fixed};
   if (const auto* f0 = find(d, "f0")) {
     const std::size_t c = f0->value.size() > 1 ? channel : 0;
     v.fitted = f0->value[c];

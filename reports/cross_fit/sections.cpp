@@ -12,10 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 using page::Group;
@@ -75,7 +72,7 @@ Section over_roughness_of(const CrossFitReport& r) {
           {c, Subtitle{"Each in a sentence"}, sentences}};
 }
 
-Section compared(const Pictures& p) {
+Section by_surface(const Pictures& p) {
   if (!has_family(p, "compared")) return {};
   Choice c;
   c.controls = {{"form", "Form", "schlick_ggx.direct", true}, {"material", "Material"}};
@@ -194,15 +191,19 @@ Section how(const CrossFitRows& all) {
 }
 
 }  // namespace
+}  // namespace gonio::page
 
-Page report_page(const CrossFitReport& r) {
+namespace gonio {
+
+page::Page report_page(const CrossFitReport& r) {
+  using namespace page;
   Page out{"cross_fit", "report cross_fit", "Cross fits: what the other parameters absorb",
            "What fits with shipped approximations make of roughness, F0 and gamma",
            r.findings.sentences};
   out.full = r.full;
   out.first = matrices(r.pictures);
   out.wide = true;
-  out.sections = {ranges_by_metric(r.rows), over_roughness_of(r), compared(r.pictures),
+  out.sections = {ranges_by_metric(r.rows), over_roughness_of(r), by_surface(r.pictures),
                   published_fits_of(r.rows), how(r.rows)};
   out.setting = "Every fit and its status are in the rows of the CSV and JSON files.";
   out.most_shipped = {"schlick", "schlick_ggx.direct", "ggx",       "schlick_ggx.half_alpha",

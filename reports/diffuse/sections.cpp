@@ -7,10 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 Section summary(const DiffuseRows& all) {
@@ -73,8 +70,12 @@ Section looks(const Pictures& p) {
 }
 
 }  // namespace
+}  // namespace gonio::page
 
-Page report_page(const DiffuseReport& r) {
+namespace gonio {
+
+page::Page report_page(const DiffuseReport& r) {
+  using namespace page;
   Page out{"diffuse", "report diffuse", "Diffuse forms", "What a matte surface gives back",
            r.findings.sentences};
   out.full = r.full;

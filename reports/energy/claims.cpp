@@ -16,7 +16,7 @@
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// E of a model at a cosine, to 1e-6.
 double reflected(std::string_view spec, double roughness, double f0, double mu) {

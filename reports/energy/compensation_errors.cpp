@@ -9,19 +9,20 @@
 #include "integrate/rule/quadrature.h"
 #include "number/half.h"
 #include "reports/energy/energy.h"
+#include "reports/finding/names.h"
 
 #include <fmt/format.h>
 
 namespace gonio {
 namespace {
 
-constexpr std::string_view masking = "masking.smith_ggx.correlated";
 constexpr std::size_t texels = 32;
 
 /// Tables of a shader, by roughness and NoV: A and B, whose sum is E, and E_avg.
 class Tables {
  public:
-  Tables() : split_(stored(split_sum_table(masking, texels, texels, 0, {1e-6}), Storage::half)) {
+  Tables()
+      : split_(stored(split_sum_table(form_id::smith, texels, texels, 0, {1e-6}), Storage::half)) {
     for (std::size_t i = 0; i < texels; ++i) {
       const double r = (static_cast<double>(i) + 0.5) / texels;
       average_[i] = static_cast<double>(
@@ -99,9 +100,8 @@ std::vector<CompensationError> compensation_errors(const std::vector<EnergyMater
         c.worst_at = fmt::format("{}, roughness {:g}, mu {:g}", m.name, at.roughness, at.mu);
       }
     }
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    c.rms = n ? std::sqrt(squares / static_cast<double>(n)) : unknown;
-    c.gold_rms = gold ? std::sqrt(gold_squares / static_cast<double>(gold)) : unknown;
+    c.rms = n ? std::sqrt(squares / static_cast<double>(n)) : no_value;
+    c.gold_rms = gold ? std::sqrt(gold_squares / static_cast<double>(gold)) : no_value;
     out.push_back(std::move(c));
   }
   return out;

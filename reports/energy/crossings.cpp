@@ -12,7 +12,7 @@
 namespace gonio {
 namespace {
 
-constexpr double width = 1e-5;  ///< of a bracket that is narrow enough
+constexpr double narrow = 1e-5;  ///< of a bracket that is narrow enough
 
 /// A roughness, and the most that it is off by.
 struct Place {
@@ -31,7 +31,7 @@ Place crossing(
   std::uintmax_t steps = 60;
   const auto [from, to] = boost::math::tools::toms748_solve(
       beyond, low, high, at_low - share, at_high - share,
-      [](double a, double b) { return b - a < width; }, steps);
+      [](double a, double b) { return b - a < narrow; }, steps);
   const double slope = std::abs(at_high - at_low) / (high - low);
   return {(from + to) / 2, (to - from) / 2 + most / slope};
 }

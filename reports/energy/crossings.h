@@ -12,6 +12,9 @@
 
 namespace gonio {
 
+/// Goal of an albedo that crossings are solved from.
+inline constexpr Goal fine_goal{1e-6, 400'000};
+
 inline constexpr std::array crossing_shares{0.01, 0.05, 0.1};
 
 /// Loss at a roughness, with the most that it is off by.

@@ -16,7 +16,7 @@
 namespace gonio {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Case {
   double roughness, mu;

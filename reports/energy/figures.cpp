@@ -12,8 +12,6 @@
 namespace gonio {
 namespace {
 
-constexpr std::string_view reference = "masking.smith_ggx.correlated";
-
 FigureAxis over_mu() {
   return {"μ = cos θ", false, 0, 1};
 }
@@ -91,7 +89,7 @@ void add_forms(Pictures& p, const EnergyRows& r) {
     add_form(p, f);
     FigureCurve c{name_of(f), {}, {}};
     c.label = name_of_form(f.name);
-    c.dashed = f.name == reference;
+    c.dashed = f.name == form_id::smith;
     for (const auto& a : f.averages) {
       c.x.push_back(a.roughness);
       c.y.push_back(100 * (1 - a.albedo));
@@ -104,12 +102,13 @@ void add_forms(Pictures& p, const EnergyRows& r) {
 
 // --- Bounces and compensations
 
-using At = EnergyMaterial::At;
+using MaterialAt = EnergyMaterial::At;
 
 void add_bounces(Pictures& p, const EnergyMaterial& m, double mu) {
   const FigureChoices choices{{"material", m.name}, {"angle", mu_name(mu)}};
-  std::vector<At> list;
-  std::ranges::copy_if(m.rows, std::back_inserter(list), [&](const At& a) { return a.mu == mu; });
+  std::vector<MaterialAt> list;
+  std::ranges::copy_if(m.rows, std::back_inserter(list),
+                       [&](const MaterialAt& a) { return a.mu == mu; });
   const auto curve = [&](std::string name, auto value) {
     FigureCurve c{std::move(name), {}, {}};
     for (const auto& at : list) {
@@ -127,9 +126,10 @@ void add_bounces(Pictures& p, const EnergyMaterial& m, double mu) {
   f.x = over_roughness();
   f.y = {"albedo"};
   for (std::size_t n = 0; n < std::min<std::size_t>(5, most); ++n)
-    f.curves.push_back(curve(n == 0 ? "after one bounce" : fmt::format("after {}", n + 1),
-                             [n](const At& a) { return n < a.orders.size() ? a.orders[n] : 0; }));
-  f.curves.push_back(curve("all", [](const At& a) { return a.truth; }));
+    f.curves.push_back(
+        curve(n == 0 ? "after one bounce" : fmt::format("after {}", n + 1),
+              [n](const MaterialAt& a) { return n < a.orders.size() ? a.orders[n] : 0; }));
+  f.curves.push_back(curve("all", [](const MaterialAt& a) { return a.truth; }));
   f.curves.back().dashed = true;
   for (const auto& at : list) f.curves.back().y_error.push_back(at.error);
   const std::string note = f.note;
@@ -141,8 +141,8 @@ void add_bounces(Pictures& p, const EnergyMaterial& m, double mu) {
   g.x = over_roughness();
   g.y = {"share of what leaves [%]"};
   for (const std::size_t n : {1U, 2U, 3U, 5U})
-    g.curves.push_back(
-        curve(n == 1 ? "after more than one" : fmt::format("more than {}", n), [n](const At& a) {
+    g.curves.push_back(curve(
+        n == 1 ? "after more than one" : fmt::format("more than {}", n), [n](const MaterialAt& a) {
           const auto end =
               a.orders.begin() + static_cast<std::ptrdiff_t>(std::min(n, a.orders.size()));
           return 100 * (a.truth - std::accumulate(a.orders.begin(), end, 0.0)) / a.truth;
@@ -167,7 +167,7 @@ void add_errors(Figure& f, const EnergyMaterial& m, Shown shown, X x) {
 void add_materials(Pictures& p, const EnergyRows& r) {
   for (const auto& m : r.materials) {
     const FigureAxis error{"E − truth"};
-    for (const double mu : each_once(m.rows, &At::mu)) {
+    for (const double mu : each_once(m.rows, &MaterialAt::mu)) {
       add_bounces(p, m, mu);
       auto f = make_figure("compensation", {{"material", m.name}, {"angle", mu_name(mu)}});
       f.title = "Error over roughness";
@@ -175,18 +175,19 @@ void add_materials(Pictures& p, const EnergyRows& r) {
       f.x = over_roughness();
       f.y = error;
       add_errors(
-          f, m, [&](const At& a) { return a.mu == mu; }, [](const At& a) { return a.roughness; });
+          f, m, [&](const MaterialAt& a) { return a.mu == mu; },
+          [](const MaterialAt& a) { return a.roughness; });
       p.figures.push_back(std::move(f));
     }
-    const double rough = std::ranges::max(m.rows, {}, &At::roughness).roughness;
+    const double rough = std::ranges::max(m.rows, {}, &MaterialAt::roughness).roughness;
     auto f = make_figure("compensation_by_angle", {{"material", m.name}});
     f.title = "Error over the angle";
     f.note = fmt::format("{}, roughness {:g}", m.name, rough);
     f.x = over_mu();
     f.y = error;
     add_errors(
-        f, m, [&](const At& a) { return a.mu > 0 && a.roughness == rough; },
-        [](const At& a) { return a.mu; });
+        f, m, [&](const MaterialAt& a) { return a.mu > 0 && a.roughness == rough; },
+        [](const MaterialAt& a) { return a.mu; });
     p.figures.push_back(std::move(f));
   }
 }

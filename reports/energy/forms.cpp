@@ -15,9 +15,7 @@
 namespace gonio {
 namespace {
 
-constexpr Goal goal{1e-5, 400'000};
-/// Goal of a direction that crossings are solved from.
-constexpr Goal fine_goal{1e-6, 400'000};
+constexpr Goal row_goal{1e-5, 400'000};
 
 /// Disney's coat is GTR of gamma 1 with alpha up to 0.1.
 const double most_coat_roughness = std::sqrt(0.1);
@@ -79,8 +77,8 @@ std::vector<Crossing> crossings(const EnergyForm& f) {
   };
   return gather_crossings(known, [&](double mu, double roughness) {
     const auto b = bound(f, roughness);
-    const auto albedo =
-        mu == 0 ? hemispherical_albedo(b, goal) : directional_albedo(b, {&mu, 1}, 0, fine_goal)[0];
+    const auto albedo = mu == 0 ? hemispherical_albedo(b, row_goal)
+                                : directional_albedo(b, {&mu, 1}, 0, fine_goal)[0];
     return Bounded{1 - albedo.value[0] / f.divisor, albedo.error / f.divisor};
   });
 }
@@ -103,11 +101,11 @@ std::vector<EnergyForm> energy_forms(const EnergyOptions& o,
     f.averages.resize(roughness.size());
     for_each_whole(roughness.size(), [&](std::size_t r) {
       const auto b = bound(f, roughness[r]);
-      const auto at = directional_albedo(b, mu, 0, goal);
+      const auto at = directional_albedo(b, mu, 0, row_goal);
       for (std::size_t m = 0; m < mu.size(); ++m)
         f.rows[r * mu.size() + m] = {roughness[r], mu[m], at[m].value[0] / f.divisor,
                                      at[m].error / f.divisor};
-      const auto average = hemispherical_albedo(b, goal);
+      const auto average = hemispherical_albedo(b, row_goal);
       f.averages[r] = {roughness[r], average.value[0] / f.divisor, average.error / f.divisor};
     });
     f.crossings = crossings(f);

@@ -13,6 +13,7 @@
 #include "integrate/light/split_sum_table.h"
 #include "reports/energy/energy.h"
 #include "reports/energy/skies.h"
+#include "reports/finding/names.h"
 #include "timing/timing.h"
 
 #include <tbb/task_arena.h>
@@ -20,11 +21,9 @@
 namespace gonio {
 namespace {
 
-constexpr std::string_view masking = "masking.smith_ggx.correlated";
-
 void add_tables(ImageLight& to) {
   for (const std::size_t size : {16, 32, 64, 128}) {
-    const auto exact = split_sum_table(masking, size, size);
+    const auto exact = split_sum_table(form_id::smith, size, size);
     for (const auto& [storage, name] :
          {std::pair{Storage::single, "float"}, {Storage::half, "half"}}) {
       const auto written = stored(exact, storage);
@@ -37,9 +36,9 @@ void add_tables(ImageLight& to) {
 
 void add_samples(ImageLight& to) {
   constexpr std::size_t size = 16;
-  const auto exact = split_sum_table(masking, size, size);
+  const auto exact = split_sum_table(form_id::smith, size, size);
   for (std::size_t n = 16; n <= 16384; n *= 4) {
-    const auto off = difference(split_sum_table(masking, size, size, n), exact);
+    const auto off = difference(split_sum_table(form_id::smith, size, size, n), exact);
     to.table_samples.push_back({n, off.a.max, off.a.rms, off.b.max, off.b.rms});
   }
 }
@@ -65,7 +64,7 @@ void add_lit(ImageLight& to, const ReportOptions::Light& light, double error) {
   const double exposure = exposure_for(light.map);
   for (const double roughness : roughnesses)
     for (const double nov : cosines) {
-      const auto views = lit_views(summed, masking, roughness, nov, to.views, {error});
+      const auto views = lit_views(summed, form_id::smith, roughness, nov, to.views, {error});
       for (const double f0 : {0.04, 1.0}) {
         const auto e = split_sum_light_error(views, f0);
         const std::span all(views);
@@ -89,7 +88,7 @@ void add_lit(ImageLight& to, const ReportOptions::Light& light, double error) {
 std::vector<LightCost> light_costs(const Environment& map) {
   constexpr double roughness = 0.5, nov = 0.5;
   constexpr std::size_t pixels = 256;
-  const auto table = split_sum_table(masking, 32, 32, 0, {1e-5});
+  const auto table = split_sum_table(form_id::smith, 32, 32, 0, {1e-5});
   const auto light = prefiltered(LightPyramid(map), roughness * roughness);
   volatile double kept = 0;
   const auto looked_up = time_of([&] {
@@ -103,8 +102,9 @@ std::vector<LightCost> light_costs(const Environment& map) {
   const SummedEnvironment summed(map);
   tbb::task_arena one_thread(1);
   const auto integrated = time_of([&] {
-    one_thread.execute(
-        [&] { kept = lit_views(summed, masking, roughness, nov, 1, {1e-2})[0].exact_at[0][1]; });
+    one_thread.execute([&] {
+      kept = lit_views(summed, form_id::smith, roughness, nov, 1, {1e-2})[0].exact_at[0][1];
+    });
   });
   constexpr auto n = static_cast<double>(pixels);
   return {{"split sum", looked_up.ns / n, looked_up.spread_ns / n},

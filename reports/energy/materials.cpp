@@ -16,8 +16,6 @@
 namespace gonio {
 namespace {
 
-constexpr Goal goal{1e-6, 400'000};
-
 /// Materials that are sums over the channels of one model.
 struct Family {
   std::string_view fresnel;
@@ -119,8 +117,8 @@ std::vector<Crossing> crossings(const EnergyMaterial& m,
       if (at.mu == mu) x.push_back(at.roughness), truth.push_back({at.truth, at.error});
     const auto all = between(x, truth, roughness);
     const auto b = bound(family, roughness);
-    const auto single =
-        mu == 0 ? hemispherical_albedo(b, goal) : directional_albedo(b, {&mu, 1}, 0, goal)[0];
+    const auto single = mu == 0 ? hemispherical_albedo(b, fine_goal)
+                                : directional_albedo(b, {&mu, 1}, 0, fine_goal)[0];
     const double part = weighted(member.weight, single.value) / all.value;
     return Bounded{1 - part, (single.error + part * all.error) / all.value};
   });
@@ -154,8 +152,8 @@ std::vector<std::vector<EnergyMaterial::At>> solve(const Family& family,
     const auto how = static_cast<Compensation>(m);
     // A and B, by which it works, are of Schlick's Fresnel.
     if (how == Compensation::fdez_aguera && family.fresnel != schlick) continue;
-    const auto at = compensated_albedo(model, how, mu, 0, goal, &lobes);
-    const auto average = compensated_average(model, how, goal, &lobes);
+    const auto at = compensated_albedo(model, how, mu, 0, fine_goal, &lobes);
+    const auto average = compensated_average(model, how, fine_goal, &lobes);
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto& weight = family.members[k].weight;
       for (std::size_t i = 0; i < mu.size(); ++i)

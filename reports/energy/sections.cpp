@@ -11,10 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 std::string mu_words(double mu) {
@@ -259,8 +256,12 @@ Section irradiances(const EnergyRows& all, const Pictures& p) {
 }
 
 }  // namespace
+}  // namespace gonio::page
 
-Page report_page(const EnergyReport& r) {
+namespace gonio {
+
+page::Page report_page(const EnergyReport& r) {
+  using namespace page;
   Page out{"energy", "report energy", "Energy: what single scattering loses",
            "What single scattering loses, and what gives it back", r.findings.sentences};
   out.full = r.full;

@@ -7,6 +7,15 @@
 
 namespace gonio {
 
+/// Ids of forms that reports look at by name.
+namespace form_id {
+inline constexpr std::string_view schlick = "fresnel.schlick",
+                                  smith = "masking.smith_ggx.correlated",
+                                  separable_smith = "masking.smith_ggx.separable",
+                                  direct_k = "masking.schlick_ggx.direct",
+                                  image_k = "masking.schlick_ggx.half_alpha";
+}  // namespace form_id
+
 /// Name of a form that stands alone: "Height-correlated Smith"; of others the catalogue's title.
 /// \param form  id, with what tells a variant from it
 std::string name_of_form(std::string_view form);

@@ -166,11 +166,10 @@ std::string index_schema() {
 }
 
 // --- The page
-namespace {
+}  // namespace gonio
 
-using namespace page;
-using page::Group;
-using page::Table;
+namespace gonio::page {
+namespace {
 
 std::string page_of(std::string_view report, std::string_view anchor = "") {
   return fmt::format("{}.html{}{}", report, anchor.empty() ? "" : "#", anchor);
@@ -293,8 +292,12 @@ Section claims(const ReportIndex& i) {
 }
 
 }  // namespace
+}  // namespace gonio::page
+
+namespace gonio {
 
 std::string index_page_html(const ReportIndex& i) {
+  using namespace page;
   Page out{"", "", "Which shortcuts can you ship?", "Which shortcuts can you ship?"};
   out.first = {lead(i)};
   out.sections = {what_to_ship(i), fresnel(i)};
@@ -302,7 +305,7 @@ std::string index_page_html(const ReportIndex& i) {
     out.sections.push_back({"What masking's accuracy costs",
                             "Error of G₂ against height-correlated Smith, over the time of a "
                             "sample: on the line, nothing is both faster and nearer.",
-                            {Shown{i.front.figures[0].family, {}, 440}},
+                            {page::Shown{i.front.figures[0].family, {}, 440}},
                             "time"});
   out.sections.push_back(cards(i));
   out.sections.push_back(claims(i));

@@ -29,59 +29,52 @@ ReportFiles files(Report<Rows> report) {
           std::move(known)};
 }
 
-ReportFiles energy(const ReportOptions& o, const ReportProgress& done) {
+/// Of a report that is told nothing but how fine it is.
+template <auto options, auto report>
+ReportFiles made(const ReportOptions& o, const ReportProgress& done) {
+  return files(report(options(o.full), done));
+}
+ReportFiles energy_files(const ReportOptions& o, const ReportProgress& done) {
   auto options = energy_options(o.full);
   options.environments = o.environments;
   return files(energy_report(options, done));
 }
-ReportFiles diffuse(const ReportOptions& o, const ReportProgress& done) {
-  return files(diffuse_report(diffuse_options(o.full), done));
-}
-ReportFiles remap(const ReportOptions& o, const ReportProgress& done) {
-  return files(remap_report(remap_options(o.full), done));
-}
-ReportFiles schlick(const ReportOptions& o, const ReportProgress& done) {
-  return files(schlick_report(schlick_options(o.full), done));
-}
-ReportFiles cross_fit(const ReportOptions& o, const ReportProgress& done) {
-  return files(cross_fit_report(cross_fit_options(o.full), done));
-}
-ReportFiles cost(const ReportOptions& o, const ReportProgress& done) {
+ReportFiles cost_files(const ReportOptions& o, const ReportProgress& done) {
   auto options = cost_options(o.full);
   options.program = o.program;
   return files(cost_report(options, done));
 }
 
-ReportFiles stability(const ReportOptions& o, const ReportProgress& done) {
+ReportFiles stability_files(const ReportOptions& o, const ReportProgress& done) {
   using Setting = StabilityOptions::Setting;
   const auto setting = o.full ? Setting::full : o.one_of_all ? Setting::brief : Setting::quick;
   return files(stability_report({setting}, done));
 }
 
-ReportFiles scenes(const ReportOptions& o, const ReportProgress& done) {
+ReportFiles scenes_files(const ReportOptions& o, const ReportProgress& done) {
   auto options = scenes_options(o.full);
   options.asset = o.asset;
   return files(scenes_report(options, done));
 }
 
 constexpr std::array kinds{
-    ReportKind{"energy", "what single scattering loses, and what gives it back", energy,
+    ReportKind{"energy", "what single scattering loses, and what gives it back", energy_files,
                energy_schema, 50},
     ReportKind{"diffuse", "what diffuse forms give back, how they look, and what they cost",
-               diffuse, diffuse_schema, 2},
+               made<diffuse_options, diffuse_report>, diffuse_schema, 2},
     ReportKind{"remap", "masking forms against exact Smith, and which roughness each behaves like",
-               remap, remap_schema, 2},
-    ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel", schlick,
-               schlick_schema, 3},
+               made<remap_options, remap_report>, remap_schema, 2},
+    ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel",
+               made<schlick_options, schlick_report>, schlick_schema, 3},
     ReportKind{"cross_fit", "what fits with shipped approximations make of roughness, F0 and gamma",
-               cross_fit, cross_fit_schema, 90},
-    ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost,
+               made<cross_fit_options, cross_fit_report>, cross_fit_schema, 90},
+    ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost_files,
                cost_schema, 160},
     ReportKind{"stability", "which formulas stay stable in few bits, and from which inputs on",
-               stability, stability_schema, 50},
+               stability_files, stability_schema, 50},
     ReportKind{"scenes",
                "which effects a material needs in a scene, and what leaving out the others saves",
-               scenes, scenes_schema, 40}};
+               scenes_files, scenes_schema, 40}};
 
 }  // namespace
 

@@ -18,13 +18,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double mean_of(const std::vector<double>& values) {
   double sum = 0, n = 0;
@@ -53,15 +48,16 @@ std::vector<Quantity> quantities_of(const std::vector<std::string>& parameters) 
   for (const auto& name : parameters)
     out.push_back({name, [name](const BatchRow& r) {
                      const auto* p = parameter_of(r, name);
-                     return p ? mean_of(p->value) : none;
+                     return p ? mean_of(p->value) : no_value;
                    }});
   const auto of_fit = [](auto get) {
-    return [get](const BatchRow& r) { return r.fit ? static_cast<double>(get(*r.fit)) : none; };
+    return [get](const BatchRow& r) { return r.fit ? static_cast<double>(get(*r.fit)) : no_value; };
   };
   out.push_back({"log RMS", of_fit([](const BatchFit& f) { return f.log_rms; })});
   out.push_back({"misfit beyond noise", of_fit([](const BatchFit& f) { return f.misfit; })});
-  out.push_back({"albedo at 30°",
-                 [](const BatchRow& r) { return r.preview ? mean_of(r.preview->albedo) : none; }});
+  out.push_back({"albedo at 30°", [](const BatchRow& r) {
+                   return r.preview ? mean_of(r.preview->albedo) : no_value;
+                 }});
   out.push_back({"values used", of_fit([](const BatchFit& f) { return f.values_used; })});
   out.push_back({"masked", of_fit(masked_of)});
   return out;
@@ -369,8 +365,12 @@ Section each(const BatchSummary& s,
 }
 
 }  // namespace
+}  // namespace gonio::page
+
+namespace gonio {
 
 std::string batch_page_html(const BatchSummary& s, const std::string& title) {
+  using namespace page;
   std::vector<const BatchRow*> fitted;
   std::vector<std::string> parameters;
   std::vector<double> errors;

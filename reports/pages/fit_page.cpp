@@ -21,8 +21,6 @@
 
 namespace gonio {
 
-using namespace page;
-
 FitPage make_fit_page(const gonio::Table& table, const BoundModel& fitted) {
   return {table.channels, make_cuts(table, fitted), make_residual_map(table, fitted),
           make_spheres(table, {&fitted, 1})};
@@ -36,10 +34,12 @@ std::string fit_page_schema() {
   return schema_text<FitPageDocument>("Page of a fit");
 }
 
+}  // namespace gonio
+
+namespace gonio::page {
 namespace {
 
 using namespace fit_sections;
-using page::Group;
 
 /// A parameter of one channel.
 struct Row {
@@ -51,19 +51,19 @@ struct Row {
 };
 /// What a synthesized table was made with; alpha and roughness from each other, alpha = roughness².
 double truth_of(const gonio::Table& t, const std::string& name, std::size_t c) {
-  if (!t.truth) return none;
+  if (!t.truth) return no_value;
   const auto of = [&](const std::string& parameter) {
     const auto at =
         std::ranges::find(t.truth->parameters, parameter, [](const auto& p) { return p.first; });
     return at == t.truth->parameters.end() || at->second.empty()
-               ? none
+               ? no_value
                : at->second[std::min(c, at->second.size() - 1)];
   };
   const double own = of(name);
   if (known(own)) return own;
   if (name.starts_with("roughness")) return std::sqrt(of("alpha" + name.substr(9)));
   if (name.starts_with("alpha")) return std::pow(of("roughness" + name.substr(5)), 2);
-  return none;
+  return no_value;
 }
 std::vector<Row> rows_of(const FitDocument& d, const gonio::Table& t) {
   std::vector<Row> out;
@@ -72,8 +72,8 @@ std::vector<Row> rows_of(const FitDocument& d, const gonio::Table& t) {
       const bool several = p.value.size() > 1;
       out.push_back({p.name, several ? p.name + "." + d.channels[c] : p.name, c == 0, p.value[c],
                      p.std_error[c], p.ci95_low[c], p.ci95_high[c],
-                     c < p.limit.size() ? p.limit[c] : none, truth_of(t, p.name, c), p.status[c],
-                     c < p.reason.size() ? p.reason[c] : ""});
+                     c < p.limit.size() ? p.limit[c] : no_value, truth_of(t, p.name, c),
+                     p.status[c], c < p.reason.size() ? p.reason[c] : ""});
     }
   return out;
 }
@@ -238,11 +238,15 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
 }
 
 }  // namespace
+}  // namespace gonio::page
+
+namespace gonio {
 
 std::string fit_page_html(const FitDocument& d,
                           const gonio::Table& t,
                           const Health& h,
                           const FitPage& p) {
+  using namespace page;
   const auto file = file_name(d.input_path);
   const auto rows = rows_of(d, t);
   const double log_rms = d.residuals.log_rms;

@@ -226,7 +226,7 @@ Section search(const FitDocument& d, Pictures& pictures) {
   for (const auto& cell : c.cells)
     if (known(cell.cost)) least = std::min(least, cell.cost);
   const auto above = [&](const CertificateCell& cell) {
-    return known(cell.cost) && least > 0 ? std::max(1.0, cell.cost / least) : none;
+    return known(cell.cost) && least > 0 ? std::max(1.0, cell.cost / least) : no_value;
   };
   if (!(least > 0)) return {title, std::move(words), {}};  // nothing to draw beside it
   std::vector<std::vector<double>> places(c.parameters.size());
@@ -236,7 +236,7 @@ Section search(const FitDocument& d, Pictures& pictures) {
     places[a].erase(std::ranges::unique(places[a]).begin(), places[a].end());
   }
   std::vector<std::string> fitted;
-  double first = none;
+  double first = no_value;
   for (const auto& name : c.parameters) {
     const auto p = std::ranges::find(d.parameters, name, &FittedParameter::name);
     if (p == d.parameters.end() || p->value.empty() || !known(p->value[0])) continue;
@@ -277,7 +277,7 @@ Section search(const FitDocument& d, Pictures& pictures) {
     axis->at = places[a];
   }
   std::vector<double> sizes;
-  m.values.assign(m.x.size() * m.y.size(), none);
+  m.values.assign(m.x.size() * m.y.size(), no_value);
   for (const auto& cell : c.cells) {
     const auto place = [&](std::size_t a) {
       return static_cast<std::size_t>(std::ranges::find(places[a], cell.at[a]) - places[a].begin());
@@ -307,7 +307,7 @@ Section confidence(const FitDocument& d, Pictures& pictures) {
     const std::size_t n = d.free_names.size();
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = n; j-- > 0;)
-        m.values.push_back(j < i ? none : i == j ? 1 : d.correlations[j][i]);
+        m.values.push_back(j < i ? no_value : i == j ? 1 : d.correlations[j][i]);
     beside.parts.emplace_back(Shown{m.family});
     pictures.maps.push_back(std::move(m));
   }

@@ -14,7 +14,6 @@
 
 namespace gonio::fit_sections {
 
-inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 inline bool known(double x) {
   return std::isfinite(x);
 }

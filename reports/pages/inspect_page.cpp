@@ -20,14 +20,7 @@
 #include <fmt/format.h>
 
 namespace gonio {
-
-using namespace page;
-
 namespace {
-
-using page::Group;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 AngleBins picture_bins(const gonio::Table& t) {
   const Grid* g = t.grid();
@@ -50,12 +43,12 @@ AngleBins trust_bins(const gonio::Table& t) {
 SlicePicture make_slice_picture(const gonio::Table& t) {
   const AngleBins bins = picture_bins(t);
   const std::size_t cells = bins.x * bins.y;
-  SlicePicture p{none, bins.x_deg(), bins.y_deg(), {}};
+  SlicePicture p{no_value, bins.x_deg(), bins.y_deg(), {}};
   if (const Grid* g = t.grid(); g || t.between) {
     const bool one = g && g->kind == Grid::Kind::half_difference && g->axes[2].size == 1;
     const double phi_d = one ? g->axes[2].angle(0, g->bins) : std::numbers::pi / 2;
     p.phi_d_deg = phi_d / degree;
-    p.value.assign(t.values.size(), std::vector<double>(cells, none));
+    p.value.assign(t.values.size(), std::vector<double>(cells, no_value));
     const Interpolator between(t);
     for (std::size_t h = 0; h < bins.x; ++h)
       for (std::size_t d = 0; d < bins.y; ++d) {
@@ -79,7 +72,7 @@ SlicePicture make_slice_picture(const gonio::Table& t) {
       sum[bins.cell(a)] += plane[i];
       ++count[bins.cell(a)];
     }
-    for (std::size_t k = 0; k < cells; ++k) sum[k] = count[k] > 0 ? sum[k] / count[k] : none;
+    for (std::size_t k = 0; k < cells; ++k) sum[k] = count[k] > 0 ? sum[k] / count[k] : no_value;
     p.value.push_back(std::move(sum));
   }
   return p;
@@ -111,7 +104,7 @@ TrustMap make_trust_map(const gonio::Table& t) {
   });
   for (std::size_t k = 0; k < cells; ++k)
     map.reciprocity[k] =
-        map.pairs[k] ? map.reciprocity[k] / static_cast<double>(map.pairs[k]) : none;
+        map.pairs[k] ? map.reciprocity[k] / static_cast<double>(map.pairs[k]) : no_value;
   return map;
 }
 
@@ -127,6 +120,9 @@ std::string inspect_page_schema() {
   return schema_text<InspectPageDocument>("Page of a table");
 }
 
+}  // namespace gonio
+
+namespace gonio::page {
 namespace {
 
 std::string prospect_name(const std::string& of) {
@@ -346,7 +342,7 @@ Part masks(const InspectPage& page, const Health& h, Pictures& pictures) {
                         why_text[why]);
     std::vector<double> shares;
     for (std::size_t k = 0; k < page.trust.values.size(); ++k)
-      shares.push_back(page.trust.values[k] == 0 ? none
+      shares.push_back(page.trust.values[k] == 0 ? no_value
                                                  : static_cast<double>(page.trust.masked[why][k]) /
                                                        static_cast<double>(page.trust.values[k]));
     auto m = share_map(page.trust, "masked", {{"mask", name}}, std::move(shares));
@@ -396,11 +392,15 @@ Pairs facts(const Health& h) {
 }
 
 }  // namespace
+}  // namespace gonio::page
+
+namespace gonio {
 
 std::string inspect_page_html(const gonio::Table& t,
                               const Health& h,
                               const InspectPage& p,
                               const std::vector<NextDirection>& next) {
+  using namespace page;
   const auto file = file_name(t.path);
   Pictures pictures;
   Page out{"", "inspect", t.path, file};

@@ -22,12 +22,7 @@
 #include <nlohmann/json.hpp>
 
 namespace gonio {
-
-using namespace page;
-
 namespace {
-
-using page::Group;
 
 /// The document of a choice has its description where it is made.
 constexpr JsonForm choice_json{
@@ -52,32 +47,23 @@ struct ModelsPageDocument {
   Embedded<ModelChoice> choice;
   const ModelsPage* page;
 };
+constexpr auto in_page(auto member) {
+  return at([](const ModelsPageDocument& d) -> const ModelsPage& { return *d.page; }, member);
+}
 
 }  // namespace
 
 template <>
 inline constexpr auto description<ModelsPageDocument> = std::tuple{
     Field{"choice", &ModelsPageDocument::choice, "the document of the choice, gonio.models/1"},
-    Field{"names", [](const ModelsPageDocument& d) -> const auto& {return d.page->names;
-}
-, "of each model, as people say them"
-}
-, Field{"numbers", [](const ModelsPageDocument& d) -> const auto& {return d.page->numbers;
-}
-, "of each model, from 1 by its error; 0: not compared"
-}
-, inlined([](const ModelsPageDocument& d) { return d.page->pictures; }), Field {
-  "spheres", [](const ModelsPageDocument& d) -> const auto& {
-    return d.page->spheres;
-  }
-  , "the same sphere, table and each model that was compared"
-}
-}
-;
+    Field{"names", in_page(&ModelsPage::names), "of each model, as people say them"},
+    Field{"numbers", in_page(&ModelsPage::numbers),
+          "of each model, from 1 by its error; 0: not compared"},
+    inlined(in_page(&ModelsPage::pictures)),
+    Field{"spheres", in_page(&ModelsPage::spheres),
+          "the same sphere, table and each model that was compared"}};
 
 namespace {
-
-constexpr double grazing_deg = 85;  ///< values beyond would set the scale for all others
 
 /// Rows that were compared, by their numbers.
 std::vector<std::size_t> by_error(const ModelChoice& choice) {
@@ -144,7 +130,7 @@ FigureCurve valued_points(std::string name,
 void set_ends(FigureAxis& y, const FigureCurve& data) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (std::size_t i = 0; i < data.x.size(); ++i)
-    if (std::abs(data.x[i]) <= grazing_deg && data.y[i] > 0) {
+    if (std::abs(data.x[i]) <= scale_to_deg && data.y[i] > 0) {
       least = std::min(least, data.y[i]);
       most = std::max(most, data.y[i]);
     }
@@ -253,6 +239,9 @@ std::string models_page_schema() {
   return schema_text<ModelsPageDocument>("Page of models compared on a table");
 }
 
+}  // namespace gonio
+
+namespace gonio::page {
 namespace {
 
 constexpr std::size_t at_once = 6;  ///< models that are drawn before a reader asks for more
@@ -529,12 +518,15 @@ std::string ModelsSections::html() {
 }
 
 }  // namespace
+}  // namespace gonio::page
+
+namespace gonio {
 
 std::string models_page_html(const ModelChoice& c,
                              const Advice& a,
                              const ComparedTable& t,
                              const ModelsPage& p) {
-  return ModelsSections(c, a, t, p).html();
+  return page::ModelsSections(c, a, t, p).html();
 }
 
 }  // namespace gonio

@@ -12,14 +12,13 @@
 #include "image/display.h"
 #include "image/lit_sphere.h"
 #include "image/png.h"
+#include "reports/picture/figure.h"
 #include "table/lookup.h"
 
 #include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Which channels are shown: of many a few show the grey as well, in a fraction of the time.
 std::vector<std::size_t> shown_channels(const Table& t) {
@@ -78,7 +77,7 @@ std::vector<Rgb> Comparison::of_table(const LitSphere& sphere,
   return colours(sphere.points.size(), [&](std::size_t i, std::size_t c) {
     if (lookup_) return cells[i].mean_of(table_.values[c]);
     const double f = table_.between(sphere.points[i].at, c);
-    return f >= 0 ? f : none;
+    return f >= 0 ? f : no_value;
   });
 }
 
@@ -192,7 +191,7 @@ SpheresUnderLight Comparison::under(const SphereLight& light) const {
   SpheresUnderLight s;
   s.light = light.name;
   s.covered = static_cast<double>(covered.pixels.size()) / static_cast<double>(covered.lit);
-  s.exposure = none;
+  s.exposure = no_value;
   if (s.covered < Spheres::least_share) return s;
   s.exposure = exposure_of(table, covered.pixels);
   s.table = picture(table, s.exposure, pixels_, covered.hatched);
@@ -204,8 +203,8 @@ SpheresUnderLight Comparison::under(const SphereLight& light) const {
                   0,
                   0,
                   0,
-                  none,
-                  none};
+                  no_value,
+                  no_value};
     m.median = median(apart);
     auto in_light = differences(table, radiance, s.exposure, covered.pixels, difference_in_light);
     m.itp_median = median(in_light);

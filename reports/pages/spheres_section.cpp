@@ -10,10 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 using Lights = std::vector<const SpheresUnderLight*>;
@@ -158,12 +155,17 @@ std::string how(const Spheres& s) {
 }
 
 }  // namespace
+}  // namespace gonio::page
+
+namespace gonio {
 
 std::string delta_e_text(double x) {
+  using namespace page;
   return x < 0.005 ? "0" : x < 1 ? fmt::format("{:.2f}", x) : significant(x, 2);
 }
 
-Section spheres_section(const Spheres& s, std::string_view name, std::size_t at_once) {
+page::Section spheres_section(const Spheres& s, std::string_view name, std::size_t at_once) {
+  using namespace page;
   Section out{"The same sphere, as the table has it and as fitted", {}, {}, "spheres"};
   Lights shown;
   double most = 0;

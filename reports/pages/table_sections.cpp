@@ -11,15 +11,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 using page::Group;
 
-constexpr double grazing_deg = 85;    ///< values beyond would set the scale for all others
 constexpr double noise_alone = 0.95;  ///< median difference of exchanged directions over σ
 
 std::string noise_share(const Noise& n) {
@@ -54,7 +50,7 @@ Figure cut_figure(const gonio::Table& t, const Cut& cut, bool log) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const auto& data : cut.data)
     for (std::size_t i = 0; i < data.size(); ++i)
-      if (std::abs(cut.deg[i]) <= grazing_deg && std::isfinite(data[i]) && (!log || data[i] > 0)) {
+      if (std::abs(cut.deg[i]) <= scale_to_deg && std::isfinite(data[i]) && (!log || data[i] > 0)) {
         least = std::min(least, data[i]);
         most = std::max(most, data[i]);
       }
@@ -78,12 +74,17 @@ Figure cut_figure(const gonio::Table& t, const Cut& cut, bool log) {
 }
 
 }  // namespace
+}  // namespace gonio::page
+
+namespace gonio {
 
 std::string file_name(std::string_view path) {
+  using namespace page;
   return std::string(path.substr(path.rfind('/') + 1));
 }
 
 std::string with_signs(std::string text) {
+  using namespace page;
   constexpr std::pair<std::string_view, std::string_view> signs[] = {
       {"theta_", "θ_"}, {"phi_", "φ_"}, {"phi", "φ"}};
   for (const auto& [name, sign] : signs)
@@ -93,6 +94,7 @@ std::string with_signs(std::string text) {
 }
 
 std::string_view status_words(std::string_view status) {
+  using namespace page;
   constexpr std::pair<std::string_view, std::string_view> words[] = {
       {"free", "fitted"},
       {"fixed", "held"},
@@ -111,6 +113,7 @@ FigureMap angle_map(std::string family,
                     const std::vector<double>& x_deg,
                     std::string_view y,
                     const std::vector<double>& y_deg) {
+  using namespace page;
   const auto axis = [](std::string_view name, const std::vector<double>& edges) {
     constexpr std::pair<std::string_view, std::string_view> labels[] = {
         {"theta_h", "θ_h [°], half-vector angle"},
@@ -134,6 +137,7 @@ FigureMap angle_map(std::string family,
 }
 
 double limit_of(std::vector<double> sizes) {
+  using namespace page;
   std::erase_if(sizes, [](double s) { return !std::isfinite(s); });
   for (auto& s : sizes) s = std::abs(s);
   const double most = sizes.empty() ? 0 : quantile(sizes, 0.95);
@@ -146,6 +150,7 @@ double limit_of(std::vector<double> sizes) {
 std::vector<std::string> table_warnings(const gonio::Table& t,
                                         const Health& h,
                                         const std::vector<std::string>* fitted) {
+  using namespace page;
   std::vector<std::string> out;
   const auto warn = [&](std::string_view what, std::string_view text) {
     out.push_back(fmt::format("**{}** {}", what, text));
@@ -194,7 +199,10 @@ std::vector<std::string> table_warnings(const gonio::Table& t,
   return out;
 }
 
-Section curves_section(const gonio::Table& t, const std::vector<Cut>& cuts, Pictures& pictures) {
+page::Section curves_section(const gonio::Table& t,
+                             const std::vector<Cut>& cuts,
+                             Pictures& pictures) {
+  using namespace page;
   const bool with_model = !cuts.empty() && !cuts[0].model.empty();
   const auto has = [&](std::string Cut::*of, std::string_view angle) {
     return std::ranges::any_of(cuts, [&](const Cut& c) { return c.*of == angle; });
@@ -229,13 +237,15 @@ Section curves_section(const gonio::Table& t, const std::vector<Cut>& cuts, Pict
 }
 
 std::string noise_words(const Noise& n) {
+  using namespace page;
   if (!n.sigma) return "cannot be estimated: no nine samples lie on a line along one angle";
   return fmt::format(
       "{} {} of each value, from {}", n.bound ? "below" : "about", noise_share(n),
       n.along == "repeats" ? "repeated samples" : "neighbours along " + with_signs(n.along));
 }
 
-Section trust_section(const gonio::Table& t, const Health& h) {
+page::Section trust_section(const gonio::Table& t, const Health& h) {
+  using namespace page;
   const bool several = t.channels.size() > 1;
   const auto of = [&](std::size_t n) {
     return fmt::format("{} ({})", count_text(n),

@@ -12,6 +12,9 @@
 
 namespace gonio {
 
+/// Angle up to which values set a scale: those beyond would set it for all others.
+inline constexpr double scale_to_deg = 85;
+
 /// Last part of a path.
 std::string file_name(std::string_view path);
 /// Text whose names of angles are their signs: "θ_h" for theta_h.

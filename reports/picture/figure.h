@@ -15,12 +15,14 @@
 
 namespace gonio {
 
+/// A value that is not known: no point, no cell, null.
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
 struct FigureAxis {
   std::string label;  ///< with its unit at the end: "time of one evaluation [ns]"
   bool log = false;   ///< at first; a page lets the reader choose
   /// Ends, where they are not the data's.
-  double from = std::numeric_limits<double>::quiet_NaN(),
-         to = std::numeric_limits<double>::quiet_NaN();
+  double from = no_value, to = no_value;
 };
 
 /// Axis from 0 to 1.

@@ -49,15 +49,14 @@ std::string to_csv(const Figure& f) {
     if (x_errors) head << std::string_view("± " + f.x.label);
     if (y_errors) head << std::string_view("± " + f.y.label);
   }
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   for (const auto& c : f.curves)
     for (std::size_t i = 0; i < c.x.size(); ++i) {
       if (!std::isfinite(c.x[i]) || !std::isfinite(c.y[i])) continue;
       Line line(out);
       line << std::string_view(c.name) << c.x[i] << c.y[i];
       if (labels) line << std::string_view(at_or(c.labels, i, std::string()));
-      if (x_errors) line << at_or(c.x_error, i, unknown);
-      if (y_errors) line << at_or(c.y_error, i, unknown);
+      if (x_errors) line << at_or(c.x_error, i, no_value);
+      if (y_errors) line << at_or(c.y_error, i, no_value);
     }
   return out;
 }

@@ -44,7 +44,7 @@ std::string hex(const Colour& c) {
                      std::lround(c[2]));
 }
 
-constexpr double file_width = 760, page_width = 560, scale_length = 300;
+constexpr double map_page_width = 560, scale_length = 300;
 constexpr int shades = 64;  ///< more of them nobody sees, and pages grow
 
 char kind_of(const FigureMap& m) {
@@ -307,11 +307,11 @@ std::string places(const FigureMap::Axis& axis) {
 }  // namespace
 
 std::string to_svg(const FigureMap& m) {
-  const auto head = svg::heading(m.title, m.note, file_width);
+  const auto head = svg::heading(m.title, m.note, svg::file_width);
   const double top = head.height + 4, right = 22;
   std::string marks = head.marks;
-  svg::Box box{false, file_width, height_of(m)};
-  const double left = MapDrawing(m, box).left() + 8, all = file_width - right - left;
+  svg::Box box{false, svg::file_width, height_of(m)};
+  const double left = MapDrawing(m, box).left() + 8, all = svg::file_width - right - left;
   box.width = all;
   double bottom = top + box.height;
   if (m.slices.empty()) {
@@ -338,11 +338,11 @@ std::string to_svg(const FigureMap& m) {
   marks += svg::placed(left, top, whole, d.names(left - 8));
   const double below = bottom + d.below() + 20;
   marks += d.legend(left, below);
-  return svg::document(file_width, below + 56, m.title, "", marks);
+  return svg::document(svg::file_width, below + 56, m.title, "", marks);
 }
 
 std::string page_svg(const FigureMap& m, std::size_t slice, bool cells) {
-  return MapDrawing(m, {true, page_width, height_of(m)}).on_page(slice, cells);
+  return MapDrawing(m, {true, map_page_width, height_of(m)}).on_page(slice, cells);
 }
 
 std::string page_scale(const FigureMap& m) {

@@ -17,7 +17,7 @@ namespace {
 using svg::number;
 
 constexpr std::size_t most_labels = 60;  ///< more of them would hide the points
-constexpr double file_width = 760, file_height = 320, page_width = 600;
+constexpr double file_height = 320, curve_page_width = 600;
 
 struct Point {
   double x, y;
@@ -248,7 +248,7 @@ std::string key_marks(const FigureCurve& c) {
 }  // namespace
 
 std::string to_svg(const Figure& f, const CurveStyles& styles) {
-  auto head = svg::heading(f.title, f.note, file_width);
+  auto head = svg::heading(f.title, f.note, svg::file_width);
   std::string looks =
       ".bar{stroke-width:1;stroke-dasharray:none}.dot{stroke-width:6.4;stroke-linecap:round;"
       "stroke-dasharray:none}.small{stroke-width:4.5}";
@@ -256,7 +256,7 @@ std::string to_svg(const Figure& f, const CurveStyles& styles) {
   for (const auto& c : f.curves) {
     looks += paper_look(c, styles);
     const double w = 30 + svg::text_width(label_of(c)) + 14;
-    if (x > 16 && x + w > file_width - 8) {
+    if (x > 16 && x + w > svg::file_width - 8) {
       x = 16;
       head.height += 18;
     }
@@ -268,10 +268,11 @@ std::string to_svg(const Figure& f, const CurveStyles& styles) {
   }
   head.height += f.curves.empty() ? 6 : 28;
   const std::vector<bool> all(f.curves.size(), true);
-  const double left = CurveDrawing(f, styles, {false, file_width, file_height}, all).left() + 8;
-  const svg::Box box{false, file_width - 22 - left, file_height};
+  const double left =
+      CurveDrawing(f, styles, {false, svg::file_width, file_height}, all).left() + 8;
+  const svg::Box box{false, svg::file_width - 22 - left, file_height};
   return svg::document(
-      file_width, head.height + file_height + 52, f.title, looks,
+      svg::file_width, head.height + file_height + 52, f.title, looks,
       head.marks + svg::placed(left, head.height, box, CurveDrawing(f, styles, box, all).marks()));
 }
 
@@ -279,7 +280,7 @@ std::string page_svg(const Figure& f,
                      const CurveStyles& styles,
                      double height,
                      const std::vector<bool>& first) {
-  return CurveDrawing(f, styles, {true, page_width, height}, first).on_page();
+  return CurveDrawing(f, styles, {true, curve_page_width, height}, first).on_page();
 }
 
 std::string page_small(const Figure& f, double width, double height) {

@@ -11,7 +11,7 @@
 namespace gonio::svg {
 
 inline constexpr std::string_view ground = "#fcfcfa";
-inline constexpr double text_size = 12;  ///< [px]
+inline constexpr double text_size = 12, file_width = 760;  ///< [px]
 
 /// [px], about: fonts differ.
 double text_width(std::string_view, double size = text_size);

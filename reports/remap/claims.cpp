@@ -7,27 +7,24 @@
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/one_term.h"
 #include "geometry/half_difference.h"
+#include "reports/finding/names.h"
 #include "reports/remap/pairs.h"
 
 namespace gonio::remapping {
 namespace {
-
-const std::string separable = "masking.smith_ggx.separable",
-                  correlated = "masking.smith_ggx.correlated",
-                  direct = "masking.schlick_ggx.direct", image = "masking.schlick_ggx.half_alpha";
 
 /// The mirror direction, h = n.
 Row mirror(double mu) {
   const double theta = std::acos(mu);
   return frame_angles({direction(theta, 0), direction(theta, std::numbers::pi)});
 }
-double mirrored(const std::string& id, double roughness, double mu) {
+double mirrored(std::string_view id, double roughness, double mu) {
   const Row row = mirror(mu);
   return g2_at(find_term(id), roughness, {&row, 1})[0];
 }
 
 /// G1 of the viewer: NoL = 1, where G1(l) = 1.
-double g1(const std::string& id, double alpha, double nov) {
+double g1(std::string_view id, double alpha, double nov) {
   return evaluate_term(find_term(id), Number::double_, {{"alpha", alpha}},
                        {{"nol", {1}}, {"nov", {nov}}})
       .values[0];
@@ -46,7 +43,7 @@ RemapVf ratios(const RemapForm& f,
                double roughness,
                std::span<const Row> rows) {
   const auto shipped = g2_at(find_term(f.form), roughness, rows),
-             smith = g2_at(find_term(correlated), roughness, rows);
+             smith = g2_at(find_term(form_id::smith), roughness, rows);
   const auto reflected =
       values_in(Number::double_, find_term(fresnel.id), fresnel.parameters, rows);
   RemapVf out{f.form,
@@ -74,20 +71,20 @@ RemapVf ratios(const RemapForm& f,
 
 std::vector<RemapUse> uses_of_k(const std::vector<RemapForm>& forms, std::span<const double> mus) {
   std::vector<RemapUse> out;
-  const auto *of_separable = find_form(forms, separable),
-             *of_correlated = find_form(forms, correlated);
+  const auto *of_separable = find_form(forms, form_id::separable_smith),
+             *of_correlated = find_form(forms, form_id::smith);
   if (!of_separable || !of_correlated) return out;
-  for (const auto& id : {direct, image}) {
+  for (const auto id : {form_id::direct_k, form_id::image_k}) {
     const auto* f = find_form(forms, id);
     if (!f) continue;
     for (std::size_t i = 0; i < f->at.size(); ++i) {
       const double r = f->at[i].roughness;
       for (std::size_t m = 0; m < mus.size(); ++m) {
         const double mu = mus[m];
-        out.push_back({id, "even", mu, r, f->at[i].albedo[m], of_separable->at[i].albedo[m],
-                       of_correlated->at[i].albedo[m]});
-        out.push_back({id, "single", mu, r, mirrored(id, r, mu), mirrored(separable, r, mu),
-                       mirrored(correlated, r, mu)});
+        out.push_back({std::string(id), "even", mu, r, f->at[i].albedo[m],
+                       of_separable->at[i].albedo[m], of_correlated->at[i].albedo[m]});
+        out.push_back({std::string(id), "single", mu, r, mirrored(id, r, mu),
+                       mirrored(form_id::separable_smith, r, mu), mirrored(form_id::smith, r, mu)});
       }
     }
   }
@@ -100,7 +97,8 @@ std::vector<RemapG1> claimed_g1() {
   constexpr double r = 0.5;  // the seed's example
   for (const auto& [k, claimed] : {std::pair(r * r / 2, 0.47), {(r + 1) * (r + 1) / 8, 0.28}})
     // G1 depends on k alone, and alpha = 2k says it
-    out.push_back({k, nov, claimed, g1(image, 2 * k, nov), r, g1(separable, r * r, nov)});
+    out.push_back({k, nov, claimed, g1(form_id::image_k, 2 * k, nov), r,
+                   g1(form_id::separable_smith, r * r, nov)});
   return out;
 }
 

@@ -13,9 +13,6 @@ namespace {
 std::string distribution(std::string_view ndf) {
   return ndf == "ndf.beckmann" ? "Beckmann" : "GGX";
 }
-std::string last_word(std::string_view id) {
-  return std::string(id.substr(id.rfind('.') + 1));
-}
 std::string name_of(std::string_view form) {
   return std::string(short_id(form));
 }
@@ -214,6 +211,10 @@ void add_vf(Pictures& p, const RemapRows& r) {
 }
 
 }  // namespace
+
+std::string last_word(std::string_view id) {
+  return std::string(id.substr(id.rfind('.') + 1));
+}
 
 Pictures pictures(const RemapRows& r) {
   Pictures p;

@@ -13,11 +13,6 @@
 namespace gonio {
 namespace {
 
-constexpr std::string_view separable = "masking.smith_ggx.separable",
-                           correlated = "masking.smith_ggx.correlated",
-                           direct = "masking.schlick_ggx.direct",
-                           image = "masking.schlick_ggx.half_alpha";
-
 std::vector<const RemapRow*> rows_of(const RemapRows& r,
                                      std::string_view form,
                                      std::string_view reference) {
@@ -35,16 +30,17 @@ const RemapRow* row_at(const std::vector<const RemapRow*>& rows, double roughnes
 void nearest_form(Findings& to, const RemapRows& r) {
   const RemapForm* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  const auto* smith = find_form(r.forms, correlated);
+  const auto* smith = find_form(r.forms, form_id::smith);
   for (const auto& f : r.forms) {
     // what is exact, or needs as much, spares nothing
-    if (f.form == correlated || f.form == separable || (smith && f.operations >= smith->operations))
+    if (f.form == form_id::smith || f.form == form_id::separable_smith ||
+        (smith && f.operations >= smith->operations))
       continue;
-    if (const auto rms = overall_rms(r, f.form, correlated); rms && *rms < least)
+    if (const auto rms = overall_rms(r, f.form, form_id::smith); rms && *rms < least)
       nearest = &f, least = *rms;
   }
   if (!nearest) return;
-  const auto off = overall_rms(r, direct, correlated);
+  const auto off = overall_rms(r, form_id::direct_k, form_id::smith);
   to.headline = fmt::format(
       "{} is the cheap masking nearest to height-correlated Smith: its G2 is "
       "off by {:.2g}, RMS over directions and roughness{}.",
@@ -74,16 +70,18 @@ Duel duel(const std::vector<const RemapRow*>& ours, const std::vector<const Rema
 
 /// 'k = (r+1)²/8 is right for direct light, r²/2 for image-based'
 void verdict_on_k(Findings& to, const RemapRows& r) {
-  const auto ours = rows_of(r, direct, separable), others = rows_of(r, image, separable);
+  const auto ours = rows_of(r, form_id::direct_k, form_id::separable_smith),
+             others = rows_of(r, form_id::image_k, form_id::separable_smith);
   if (ours.empty() || others.empty()) return;
-  const auto one = duel(ours, others),
-             two = duel(rows_of(r, direct, correlated), rows_of(r, image, correlated));
+  const auto one = duel(ours, others), two = duel(rows_of(r, form_id::direct_k, form_id::smith),
+                                                  rows_of(r, form_id::image_k, form_id::smith));
   const std::size_t nearer = one.nearer + two.nearer;
   to.judge("k = (r+1)²/8 is right for direct light, r²/2 for image-based",
            "seed 000, k of Schlick's G1",
            verdict(nearer >= one.all + two.all, 2 * nearer >= one.all + two.all),
-           fmt::format("G₂ off by {:.2g} against {:.2g}, RMS", *overall_rms(r, direct, separable),
-                       *overall_rms(r, image, separable)),
+           fmt::format("G₂ off by {:.2g} against {:.2g}, RMS",
+                       *overall_rms(r, form_id::direct_k, form_id::separable_smith),
+                       *overall_rms(r, form_id::image_k, form_id::separable_smith)),
            fmt::format(
                "Smith's masking knows no kind of light; the first k is nearer at {} roughnesses.",
                of_all(one.nearer, one.all)));
@@ -115,8 +113,9 @@ void wrong_place(Findings& to, const RemapRows& r) {
     std::string_view light, of, form, k;
   };
   for (const auto& [light, of, form, k] :
-       {Use{"even", "an even sky", direct, "direct light"},
-        Use{"single", "a single light in the mirror direction", image, "image-based light"}})
+       {Use{"even", "an even sky", form_id::direct_k, "direct light"},
+        Use{"single", "a single light in the mirror direction", form_id::image_k,
+            "image-based light"}})
     if (const auto* use = find(form, light))
       to.say(
           fmt::format("Schlick's k for {} reflects {} of {} than exact Smith, at roughness {:g} "

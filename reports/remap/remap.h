@@ -116,6 +116,8 @@ RemapReport remap_report(const RemapOptions&, const ReportProgress& done = {});
 
 /// "smith_ggx.separable" or "correlated", or Beckmann's, as ids.
 std::array<std::string, 2> references_of(std::string_view ndf);
+/// Last part of an id: "correlated".
+std::string last_word(std::string_view id);
 /// RMS of G2 − reference over directions and roughness; no value where they were not compared.
 std::optional<double> overall_rms(const RemapRows&,
                                   std::string_view form,

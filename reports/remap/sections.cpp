@@ -9,15 +9,9 @@
 
 #include <fmt/format.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
-std::string last_word(std::string_view id) {
-  return std::string(id.substr(id.rfind('.') + 1));
-}
 std::string like_text(const NearestRoughness& n) {
   return fmt::format("{}{:.2f}", !n.at_end ? "" : n.roughness < 0.5 ? "≤ " : "≥ ", n.roughness);
 }
@@ -192,8 +186,12 @@ Section every_form(const RemapRows& all) {
 }
 
 }  // namespace
+}  // namespace gonio::page
 
-Page report_page(const RemapReport& r) {
+namespace gonio {
+
+page::Page report_page(const RemapReport& r) {
+  using namespace page;
   Page out{"remap", "report remap", "Masking: what the remaps do",
            "Masking forms against exact Smith, and which roughness each behaves like",
            r.findings.sentences};

@@ -99,7 +99,7 @@ struct NamedLight {
   std::string_view name;
   std::vector<Light> (*make)();
 };
-const std::array lights{
+const std::array named_lights{
     NamedLight{sphere_lights()[0].name, [] { return directional(sphere_lights()[0]); }},
     NamedLight{sphere_lights()[1].name, [] { return directional(sphere_lights()[1]); }},
     NamedLight{"sky and sun", [] {
@@ -119,7 +119,7 @@ std::vector<std::string> material_names() {
   return names_in(cases());
 }
 std::vector<std::string> light_names() {
-  return names_in(lights);
+  return names_in(named_lights);
 }
 
 Material material_of(std::string_view name) {
@@ -131,7 +131,7 @@ Scene scene_of(Material material, std::string_view light) {
   s.path = s.sha256 = fmt::format("{}, {}", material.name, light);
   s.materials = {std::move(material)};
   s.objects = {{Sphere{}, 0}};
-  s.lights = std::ranges::find(lights, light, &NamedLight::name)->make();
+  s.lights = std::ranges::find(named_lights, light, &NamedLight::name)->make();
   s.view = Camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 12};
   return s;
 }

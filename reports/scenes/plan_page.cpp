@@ -9,10 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 using page::Table;
@@ -139,8 +136,12 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
 }
 
 }  // namespace
+}  // namespace gonio::page
+
+namespace gonio {
 
 std::string plan_page_html(const scene::Plan& p) {
+  using namespace page;
   const bool relative = p.tolerance.metric == scene::Metric::relative;
   const std::string unit = relative ? "" : "ΔE2000 ", unit_name = relative ? "change" : "ΔE2000";
   Page out{"", "plan", "Plan of a scene", "Only what the scene needs", verdict(p, unit)};
@@ -149,12 +150,12 @@ std::string plan_page_html(const scene::Plan& p) {
            {"operations", true},
            {"keep"},
            {"drop"},
-           {fmt::format("{} at {}", unit_name, percent(p.tolerance.quantile)), true},
+           {fmt::format("{} at {}", unit_name, page::percent(p.tolerance.quantile)), true},
            {"worst", true}},
           {},
           "told-by-cell"};
   for (const auto& m : p.materials)
-    t.add(m.name, times(m.speedup), m.ops_saved > 0 ? "−" + percent(m.ops_saved) : "0",
+    t.add(m.name, times(m.speedup), m.ops_saved > 0 ? "−" + page::percent(m.ops_saved) : "0",
           names(m, [](const auto& e) { return e.keep; }),
           names(m, [](const auto& e) { return !e.keep && e.why != scene::Why::structural; }),
           m.checked.samples ? "≤ " + significant(m.checked.upper, 2) : "0",

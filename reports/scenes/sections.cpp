@@ -11,10 +11,7 @@
 
 #include <fmt/format.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 using page::Group;
@@ -191,8 +188,12 @@ Section switches(const ScenesReport& r) {
 }
 
 }  // namespace
+}  // namespace gonio::page
 
-Page report_page(const ScenesReport& r) {
+namespace gonio {
+
+page::Page report_page(const ScenesReport& r) {
+  using namespace page;
   const auto& all = r.rows;
   Page out{"scenes", "report scenes", "Only what the scene needs", "Only what the scene needs",
            r.findings.sentences};

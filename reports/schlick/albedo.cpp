@@ -14,7 +14,6 @@
 namespace gonio {
 namespace {
 
-constexpr std::array mus{0.1, 0.5, 1.0};
 constexpr Goal goal{1e-6, 400'000};
 constexpr double rough_iors[] = {1.1, 1.33, 1.5, 2, 3};
 
@@ -26,7 +25,7 @@ std::vector<Albedo> albedo(std::string_view term,
   settings.push_back({"alpha", {roughness * roughness}});
   return directional_albedo(bind_model(fmt::format("ggx/smith_ggx.correlated/{}", short_id(term)),
                                        std::move(settings), channels),
-                            mus, 0, goal);
+                            albedo_mus, 0, goal);
 }
 
 /// Exact albedo [mu], by channel: of a metal that of every wavelength, seen as linear RGB.
@@ -57,8 +56,8 @@ void add_surface(RoughFresnel& to, const FresnelSurface& s) {
     for (const double r : to.roughness)
       with.push_back(albedo(catalogue()[f.term].about->id, f.settings, r, channels));
     for (std::size_t c = 0; c < channels; ++c)
-      for (std::size_t m = 0; m < mus.size(); ++m) {
-        FresnelAlbedo a{f.name, s.material, s.channel(c), mus[m], {}, {}, 0};
+      for (std::size_t m = 0; m < albedo_mus.size(); ++m) {
+        FresnelAlbedo a{f.name, s.material, s.channel(c), albedo_mus[m], {}, {}, 0};
         for (std::size_t r = 0; r < with.size(); ++r) {
           a.albedo.push_back(with[r][m].value[c]);
           a.exact.push_back(exact[r][m].value[c]);
@@ -66,8 +65,8 @@ void add_surface(RoughFresnel& to, const FresnelSurface& s) {
         }
         to.albedos.push_back(std::move(a));
       }
-    for (std::size_t m = 0; m < mus.size(); ++m) {
-      FresnelColour colour{f.name, s.material, mus[m], {}};
+    for (std::size_t m = 0; m < albedo_mus.size(); ++m) {
+      FresnelColour colour{f.name, s.material, albedo_mus[m], {}};
       for (std::size_t r = 0; r < with.size(); ++r)
         colour.delta_e.push_back(
             delta_e_2000(lab_of_albedo(with[r][m].value), lab_of_albedo(exact[r][m].value)));

@@ -7,6 +7,7 @@
 
 #include "image/display.h"
 #include "integrate/albedo/directional_albedo.h"
+#include "reports/finding/names.h"
 #include "reports/finding/words.h"
 
 #include <fmt/format.h>
@@ -14,9 +15,8 @@
 namespace gonio {
 namespace {
 
-constexpr std::array mus{0.1, 0.5, 1.0};
-constexpr Goal goal{1e-5, 200'000};
-constexpr std::string_view schlick = "fresnel.schlick", shipped_masking = "ue_joint";
+constexpr Goal shown_goal{1e-5, 200'000};  ///< of what is seen
+constexpr std::string_view shipped_masking = "ue_joint";
 
 /// Colour of GGX under a masking and the exact Fresnel term, at each mu.
 std::vector<Lab> colours(std::string_view masking, const FresnelSurface& s, double roughness) {
@@ -31,7 +31,7 @@ std::vector<Lab> colours(std::string_view masking, const FresnelSurface& s, doub
       bind_model(fmt::format("ggx/{}/{}", masking, s.kind == "metal" ? "conductor" : "dielectric"),
                  std::move(settings), s.channels());
   std::vector<Lab> out;
-  for (const auto& a : directional_albedo(model, mus, 0, goal))
+  for (const auto& a : directional_albedo(model, albedo_mus, 0, shown_goal))
     out.push_back(lab_of_albedo(a.value));
   return out;
 }
@@ -40,7 +40,7 @@ std::vector<Lab> colours(std::string_view masking, const FresnelSurface& s, doub
 double shown_by_schlick(const SchlickRows& r, const std::string& material) {
   double most = 0;
   for (const auto& c : r.rough.colours)
-    if (c.form == schlick && c.material == material && !c.delta_e.empty())
+    if (c.form == form_id::schlick && c.material == material && !c.delta_e.empty())
       most = std::max(most, std::ranges::max(c.delta_e));
   return most;
 }
@@ -111,7 +111,7 @@ std::vector<MaskingColour> masked_rows(const SchlickOptions& o,
     for (const double r : o.roughness) {
       const auto exact = colours("smith_ggx.correlated", s, r),
                  with = colours(shipped_masking, s, r);
-      for (std::size_t m = 0; m < mus.size(); ++m)
+      for (std::size_t m = 0; m < albedo_mus.size(); ++m)
         most = std::max(most, delta_e_2000(with[m], exact[m]));
     }
     out.push_back({s.material, s.kind, most});

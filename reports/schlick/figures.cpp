@@ -12,7 +12,7 @@
 namespace gonio {
 namespace {
 
-constexpr std::string_view exact = "exact", schlick = "fresnel.schlick";
+constexpr std::string_view exact = "exact";
 
 std::string side_of(std::string_view kind) {
   return kind == "dielectric" ? "from outside" : "from inside";
@@ -96,8 +96,8 @@ void add_errors_by_index(Pictures& p, const SchlickRows& r) {
     f.x = {"index of refraction", false, 1, 3};
     f.y = {"error of F", true};
     const auto reference = std::ranges::find_if(
-        all, [&](const Curves& o) { return o.form == schlick && o.kind == c.kind; });
-    if (c.form != schlick && reference != all.end())
+        all, [&](const Curves& o) { return o.form == form_id::schlick && o.kind == c.kind; });
+    if (c.form != form_id::schlick && reference != all.end())
       f.curves.push_back(
           {"schlick, most", reference->ior, reference->most, FigureCurve::Kind::line, true});
     f.curves.push_back({"most |error|", c.ior, c.most});

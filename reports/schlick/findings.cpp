@@ -18,7 +18,7 @@
 namespace gonio {
 namespace {
 
-constexpr std::string_view schlick = "fresnel.schlick", ue = "fresnel.schlick.ue",
+constexpr std::string_view ue = "fresnel.schlick.ue",
                            gaussian = "fresnel.schlick.spherical_gaussian",
                            outer = "fresnel.schlick, outer angle";
 
@@ -55,7 +55,8 @@ std::size_t how_many(const Rows& rows, const std::function<bool(const FresnelRow
 }
 
 void below_one_percent(Findings& to, const SchlickRows& r) {
-  const auto outside = by_index(r, "dielectric", schlick), metals = rows_with(r, "metal", schlick);
+  const auto outside = by_index(r, "dielectric", form_id::schlick),
+             metals = rows_with(r, "metal", form_id::schlick);
   const auto* g = glass(outside);
   if (!g || metals.empty()) return;
   const auto within = [](const FresnelRow& x) { return x.max_abs < 0.01; };
@@ -72,7 +73,8 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
 }
 
 void only_near_one(Findings& to, const SchlickRows& r) {
-  const auto outside = by_index(r, "dielectric", schlick), metals = rows_with(r, "metal", schlick);
+  const auto outside = by_index(r, "dielectric", form_id::schlick),
+             metals = rows_with(r, "metal", form_id::schlick);
   const auto *best = least(outside), *metal = worst(metals);
   if (!glass(outside) || !metal) return;
   constexpr double poor = 0.05;
@@ -88,7 +90,7 @@ void only_near_one(Findings& to, const SchlickRows& r) {
 }
 
 void from_inside(Findings& to, const SchlickRows& r) {
-  const auto *inside = glass(by_index(r, "dielectric_inside", schlick)),
+  const auto *inside = glass(by_index(r, "dielectric_inside", form_id::schlick)),
              *there = glass(by_index(r, "dielectric_inside", outer));
   if (!inside || !there) return;
   to.say(fmt::format(
@@ -110,11 +112,11 @@ void metal_forms(Findings& to, const SchlickRows& r) {
   for (auto& [form, rms] : by_form) {
     std::ranges::sort(rms);
     const Form f{form, rms[rms.size() / 2]};
-    if (form == schlick) plain = f;
+    if (form == form_id::schlick) plain = f;
     if (rms.back() < 1e-9) continue;  // exact, in other words
     if (!best || f.median < best->median) best = f;
   }
-  if (!best || !plain || best->form == schlick) return;
+  if (!best || !plain || best->form == form_id::schlick) return;
   to.say(
       fmt::format("Of the forms for smooth metals {} is nearest: its RMS over the angle is {:.2g} "
                   "for the median channel, Schlick's {:.2g}.",
@@ -122,7 +124,7 @@ void metal_forms(Findings& to, const SchlickRows& r) {
 }
 
 void variants(Findings& to, const SchlickRows& r) {
-  const auto a = by_index(r, "dielectric", schlick), b = by_index(r, "dielectric", ue),
+  const auto a = by_index(r, "dielectric", form_id::schlick), b = by_index(r, "dielectric", ue),
              c = by_index(r, "dielectric", gaussian);
   if (a.empty() || a.size() != b.size() || a.size() != c.size()) return;
   std::size_t differs = a.size();  // the last index where Unreal's is another
@@ -169,7 +171,8 @@ Seen most_seen(const SchlickRows& r,
 
 /// What is seen of it: the answer to whether it is enough.
 void rough_surfaces(Findings& to, const SchlickRows& r) {
-  const auto of_glass = most_seen(r, schlick, false), of_metal = most_seen(r, schlick, true);
+  const auto of_glass = most_seen(r, form_id::schlick, false),
+             of_metal = most_seen(r, form_id::schlick, true);
   if (of_glass.delta_e == 0 || of_metal.delta_e == 0) return;
   to.headline = fmt::format(
       "Schlick in place of exact Fresnel changes rough glass (IOR 1.5) by up to ΔE2000 {:.2g}, "
@@ -184,9 +187,10 @@ void rough_surfaces(Findings& to, const SchlickRows& r) {
           fmt::format("{} changes the colour of rough {} most, by up to ΔE2000 {:.2g}, where "
                       "Schlick with the colour as F0 changes it by {:.2g}.",
                       words, other.material, other.delta_e,
-                      most_seen(r, schlick, true, other.material).delta_e));
+                      most_seen(r, form_id::schlick, true, other.material).delta_e));
   for (const auto& c : r.rough.colours)
-    if (c.form == schlick && c.mu == 1 && !c.material.starts_with("IOR ") && !c.delta_e.empty())
+    if (c.form == form_id::schlick && c.mu == 1 && !c.material.starts_with("IOR ") &&
+        !c.delta_e.empty())
       // F0 is exact there, but for what lies beyond the gamut
       if (const double cut = *std::ranges::min_element(c.delta_e); cut > 0.5)
         to.say(
@@ -195,7 +199,7 @@ void rough_surfaces(Findings& to, const SchlickRows& r) {
                         c.material, cut));
   double most = 0;
   for (const auto& a : r.rough.albedos)
-    if (a.form == schlick && a.material == "IOR 1.5")
+    if (a.form == form_id::schlick && a.material == "IOR 1.5")
       for (std::size_t i = 0; i < a.albedo.size(); ++i)
         most = std::max(most, std::abs(a.albedo[i] / a.exact[i] - 1));
   to.say(fmt::format("With Schlick the albedo of rough glass (IOR 1.5) is off by up to {}.",
@@ -214,7 +218,8 @@ void three_wavelengths(Findings& to, const SchlickRows& r) {
       std::erase_if(rows, [&](const FresnelRow* x) { return x->material != m; });
       return worst(rows);
     };
-    const auto *short_cut = of("fresnel.conductor, three wavelengths"), *approximate = of(schlick);
+    const auto *short_cut = of("fresnel.conductor, three wavelengths"),
+               *approximate = of(form_id::schlick);
     if (!short_cut || !approximate) return;
     most = std::max(most, short_cut->max_abs);
     dearer += short_cut->max_abs > approximate->max_abs;

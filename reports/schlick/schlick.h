@@ -3,6 +3,7 @@
 /// Errors of every approximate Fresnel term of the catalogue: dielectrics from both
 /// sides, measured metals, spectra; and what that does to the albedo of a rough surface.
 
+#include <array>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -37,6 +38,9 @@ struct FresnelCurves {
   std::vector<double> theta_deg;
   std::vector<FresnelCurve> curves;
 };
+
+/// Cosines of the view at which albedos are looked at.
+inline constexpr std::array albedo_mus{0.1, 0.5, 1.0};
 
 /// Albedo of GGX under Smith masking, correlated, with a form as F, by roughness.
 struct FresnelAlbedo {

@@ -9,10 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 using Rows = std::vector<const FresnelRow*>;
@@ -193,8 +190,12 @@ Section rough(const SchlickReport& r) {
 }
 
 }  // namespace
+}  // namespace gonio::page
 
-Page report_page(const SchlickReport& r) {
+namespace gonio {
+
+page::Page report_page(const SchlickReport& r) {
+  using namespace page;
   Page out{"schlick", "report schlick", "Schlick's approximation and its kin",
            "Schlick's approximation and its kin against exact Fresnel", r.findings.sentences};
   // What a reader sees of it, on a metal that shows it.

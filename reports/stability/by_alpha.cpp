@@ -26,8 +26,6 @@ namespace {
 using stability::Given;
 using stability::Subject;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Half vectors from the peak to the horizon as sin²θ_h, or directions by their cosine.
 std::vector<double> angles(const Subject& s, std::size_t n) {
   const bool distribution = s.given == Given::cross || s.given == Given::cosine;
@@ -63,7 +61,7 @@ double error_at(const Subject& s, Number number, const Inputs& at) {
   const auto in = stability::rounded(s, number, at);
   const double exact = stability::value_of(s, Number::double_, in),
                value = stability::value_of(s, number, in);
-  if (!std::isfinite(value)) return nan;
+  if (!std::isfinite(value)) return no_value;
   if (!std::isfinite(exact)) return 0;
   const double least = std::ldexp(1, stability::least_exponent(number));
   if (std::abs(exact) < least || std::abs(exact) > stability::largest(number)) return 0;

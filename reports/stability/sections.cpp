@@ -12,10 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace gonio {
-
-using namespace page;
-
+namespace gonio::page {
 namespace {
 
 using page::Group;
@@ -275,8 +272,12 @@ Section every_form(const StabilityRows& all) {
 }
 
 }  // namespace
+}  // namespace gonio::page
 
-Page report_page(const StabilityReport& r) {
+namespace gonio {
+
+page::Page report_page(const StabilityReport& r) {
+  using namespace page;
   Page out{"stability", "report stability", "Numerical stability",
            "Which formulas stay stable in few bits", r.findings.sentences};
   out.full = r.full;
