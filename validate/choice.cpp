@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -14,6 +15,7 @@
 #include "optics/refractive_index.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -101,8 +103,10 @@ struct Description<Choice> {
     return std::tuple{
         constant_text("schema", "gonio.choice/1"),
         field("model", shipped(&S::model), "spec of a model, or a preset", not_empty),
-        field("parameters", shipped(&S::parameters), "a number or one per channel each", parameters,
-              or_default),
+        field("parameters", shipped(&S::parameters),
+              "a number or one per channel each; of the model, and of the reference where that "
+              "takes the name and reference_parameters and the domain do not set it",
+              parameters, or_default),
         field("scattering", shipped(&S::scattering), "what follows light after its first bounce",
               or_default),
         field("alpha", shipped(&S::alpha), "width from roughness", or_default),
@@ -112,8 +116,8 @@ struct Description<Choice> {
         field("number", &Choice::number, "in which a shader computes it", or_default),
         field("reference", if_there(reference(&S::model)), "spec that the model stands for",
               not_empty),
-        field("reference_parameters", reference(&S::parameters), "a number or one per channel each",
-              parameters, or_default),
+        field("reference_parameters", reference(&S::parameters),
+              "of the reference only, a number or one per channel each", parameters, or_default),
         field("reference_scattering", reference(&S::scattering), "", or_default),
         field("reference_coating", if_there(reference(&S::coating)),
               "of the reference, as coating"),
@@ -128,6 +132,8 @@ struct Description<Choice> {
            "budgets", "at least one budget");
     expect(c.has_reference || !(b.albedo_error || b.delta_e_2000), "reference",
            "a reference, which the budgets albedo_error and delta_e_2000 compare with");
+    expect(c.has_reference || c.reference.parameters.empty(), "reference_parameters",
+           "a reference beside them");
     expect(!b.fresnel_error || c.domain.eta || !c.domain.metals.empty(), "domain",
            "eta or metal, whose exact F the budget fresnel_error compares with");
     expect(c.number != Number::wide, "number", "half, mixed, float or double");
@@ -224,6 +230,118 @@ void check_coat(const JsonReader& root,
 
 }  // namespace
 
+namespace {
+
+bool has(const std::vector<Setting>& all, std::string_view name) {
+  return std::ranges::find(all, name, &Setting::name) != all.end();
+}
+
+/// True where the domain gives each substance, or each roughness, what the name sets.
+bool is_of_domain(const Choice::Domain& d, std::string_view name) {
+  if (std::ranges::find(width_names, name) != std::end(width_names)) return d.roughness.has_value();
+  const bool of_surface = d.eta || d.f0 || !d.metals.empty();
+  return of_surface && (name == "f0" || name == "eta" || name == "k" || name == "metal");
+}
+
+/// Parameters reach the model and the reference, whichever takes them.  Names that neither takes, and values that one does not
+/// take, are refused.
+void share_parameters(const JsonReader& root, Choice& c) {
+  const auto try_binding = [](const Shipped& s, const std::vector<Setting>& settings) {
+    try {
+      bind_model(s.spec(), settings);
+      return std::string();
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+  };
+  const auto demand = [&](const char* key, const Shipped& s, const std::vector<Setting>& settings) {
+    if (const auto why = try_binding(s, settings); !why.empty())  // the words are the file's
+      root.at(key).fail(fmt::format("what the model takes ({})", why));
+  };
+  const auto settings_at = [&](const char* key, const GivenParameters& given) {
+    return given.empty() ? std::vector<Setting>{} : settings_of(given, root.at(key));
+  };
+  demand("model", c.shipped, {});
+  if (c.has_reference) demand("reference", c.reference, {});
+  const auto given = settings_at("parameters", c.shipped.parameters);
+  auto others = settings_at("reference_parameters", c.reference.parameters);
+  const auto refuse_unknown = [&](const char* key, const std::vector<Setting>& settings,
+                                  const std::vector<const Shipped*>& sides) {
+    for (const auto& s : settings) {
+      if (std::ranges::any_of(
+              sides, [&](const Shipped* side) { return takes_parameter(side->spec(), s.name); }))
+        continue;
+      std::vector<std::string> of;
+      for (const Shipped* side : sides) {
+        const auto model = side->composed();
+        std::vector<std::string> names;
+        for (const auto& p : model.parameters) names.push_back(p.name);
+        of.push_back(fmt::format("{} ({})", side->model, fmt::join(names, ", ")));
+      }
+      root.at(key).at(s.name).fail(fmt::format("a parameter of {}", fmt::join(of, " or of ")));
+    }
+  };
+  std::vector<const Shipped*> sides{&c.shipped};
+  if (c.has_reference) sides.push_back(&c.reference);
+  refuse_unknown("parameters", given, sides);
+  sides.erase(sides.begin());
+  refuse_unknown("reference_parameters", others, sides);
+  const auto taken_by = [&](const Shipped& side) {
+    std::vector<Setting> own;
+    for (const auto& s : given)
+      if (takes_parameter(side.spec(), s.name)) own.push_back(s);
+    return own;
+  };
+  const auto own = taken_by(c.shipped);
+  demand("parameters", c.shipped, own);
+  const auto all_given = std::exchange(c.shipped.parameters, {});
+  for (const auto& p : all_given)
+    if (has(own, p.first)) c.shipped.parameters.push_back(p);
+  if (!c.has_reference) return;
+  demand("reference_parameters", c.reference, others);
+  const auto shared = taken_by(c.reference);
+  demand("parameters", c.reference, shared);
+  for (const auto& s : shared) {
+    if (has(others, s.name) || (is_of_domain(c.domain, s.name) && has(own, s.name))) continue;
+    others.push_back(s);
+    if (try_binding(c.reference, others).empty())
+      c.reference.parameters.emplace_back(s.name, GivenParameter{s.values, s.text});
+    else  // the reference sets the same by another name
+      others.pop_back();
+  }
+}
+
+/// Refuses ends of a domain that change neither side, because their own parameters win.
+void check_reach(const JsonReader& root, const Choice& c) {
+  const auto reaches = [&](const Substance& a, double roughness_a, const Substance& b,
+                           double roughness_b) {
+    const auto moves = [&](const Shipped& s) {
+      return bound(c, s, a, roughness_a).values != bound(c, s, b, roughness_b).values;
+    };
+    return moves(c.shipped) || (c.has_reference && moves(c.reference));
+  };
+  const auto refuse = [&](const char* key, std::string_view name, const std::string& who) {
+    root.at("domain").at(key).fail(fmt::format("no {}, because {} sets {}", key, who, name));
+  };
+  const auto sets = [](const auto& all, std::string_view name) {
+    return std::ranges::any_of(all, [&](const auto& p) { return p.first == name; });
+  };
+  if (c.domain.roughness)
+    for (const auto& s : c.substances) {
+      if (reaches(s, 0.3, s, 0.6)) continue;
+      for (const auto name : width_names) {
+        if (sets(c.shipped.parameters, name)) refuse("roughness", name, "parameters");
+        if (has(s.settings, name)) refuse("roughness", name, s.name);
+      }
+    }
+  const auto &first = c.substances.front(), &last = c.substances.back();
+  if (has_range(c) && first.name != last.name && !reaches(first, 0.5, last, 0.5))
+    for (const char* name : {"f0", "eta", "metal"})
+      if (sets(c.shipped.parameters, name)) refuse(c.domain.eta ? "eta" : "f0", name, "parameters");
+}
+
+}  // namespace
+
 Choice parse_choice(const std::string& path, const std::string& bytes) {
   const JsonDocument document(path, bytes, Places::pointer);
   const JsonReader& root = document.root();
@@ -235,25 +353,10 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
       const auto at = root.at("domain").at("metal");
       (at.is_array() ? at.at(i) : at).fail("a metal that is known");
     }
-  const auto check = [&](const Shipped& s, const char* model, const char* parameters_key) {
-    const auto given = s.parameters.empty() ? std::vector<Setting>{}
-                                            : settings_of(s.parameters, root.at(parameters_key));
-    const auto with = [&](const char* key, const std::vector<Setting>& settings) {
-      try {
-        bind_model(s.spec(), settings);
-      } catch (const Error& e) {  // the words are the file's, not the user's
-        root.at(key).fail(fmt::format("what the model takes ({})", e.what()));
-      }
-    };
-    with(model, {});
-    if (!given.empty()) with(parameters_key, given);
-  };
-  check(c.shipped, "model", "parameters");
+  share_parameters(root, c);
   check_coat(root, c.shipped, "model", "coating", "scattering");
-  if (c.has_reference) {
-    check(c.reference, "reference", "reference_parameters");
+  if (c.has_reference)
     check_coat(root, c.reference, "reference", "reference_coating", "reference_scattering");
-  }
   if (c.shipped.coating) {
     const auto& b = c.budgets;
     for (const auto& [asked, key] :
@@ -278,6 +381,7 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
     }
   }
   c.substances = substances_of(c);
+  check_reach(root, c);
   return c;
 }
 
@@ -291,9 +395,6 @@ std::string choice_schema() {
 
 namespace {
 
-bool has(const std::vector<Setting>& all, std::string_view name) {
-  return std::ranges::find(all, name, &Setting::name) != all.end();
-}
 /// Settings of a lobe's Fresnel term on a substance's surface.
 std::vector<Setting> fresnel_settings(std::string_view id, const Substance& of) {
   for (const auto& f : of.forms)
@@ -309,7 +410,7 @@ std::vector<Setting> fresnel_settings(std::string_view id, const Substance& of) 
 /// Adds the width that the domain's roughness means, where none is set: of a preset whose own parameters are set by these,
 /// of others by those of the terms.
 void add_width(std::vector<Setting>& settings, const Shipped& s, const Model& m, double roughness) {
-  for (const char* name : {"alpha", "roughness", "alpha_x", "alpha_y"})
+  for (const auto name : width_names)
     if (has(settings, name)) return;
   const double alpha = s.alpha == AlphaMap::linear   ? roughness
                        : s.alpha == AlphaMap::square ? roughness * roughness
@@ -353,6 +454,33 @@ BoundModel bound(const Choice& c, const Shipped& s, const Substance& of, double 
     throw bad_input(c.path, of.name.empty() ? "/domain" : fmt::format("/domain ({})", of.name),
                     e.what(), "what the model takes");
   }
+}
+
+std::vector<UsedParameter> used_parameters(const Choice& c, const Shipped& side) {
+  std::vector<Setting> own;
+  for (const auto& [name, given] : side.parameters) own.push_back({name, given.values, given.word});
+  const auto by_choice = bind_model(side.spec(), std::move(own), 3).given;
+  const auto ends = c.domain.roughness.value_or(Choice::Ends{1, 1});
+  const BoundModel first = bound(c, side, c.substances.front(), ends[0]);
+  auto values = named_values(first);
+  for (const auto& s : c.substances)
+    for (const double r : ends) {
+      const auto here = named_values(bound(c, side, s, r));
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (here[i].second != values[i].second) values[i].second.clear();
+    }
+  std::vector<UsedParameter> all;
+  for (auto& [name, v] : values) {
+    const auto among = [&, &n = name](const std::vector<std::string>& names) {
+      return std::ranges::find(names, n) != names.end();
+    };
+    using enum UsedParameter::From;
+    all.push_back({name, std::move(v),
+                   among(by_choice)     ? choice
+                   : among(first.given) ? domain
+                                        : default_value});
+  }
+  return all;
 }
 
 }  // namespace gonio

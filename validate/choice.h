@@ -36,7 +36,7 @@ enum class Coating { view, both };
 template <>
 inline constexpr std::array<std::string_view, 2> names_of<Coating>{"view", "both"};
 
-/// Model as it is shipped, or what it stands for.
+/// Model as it is shipped, or what it stands for.  Parameters of the reference are its own and those that it shares with the model.
 struct Shipped {
   std::string
       model;  ///< spec, or a preset; "coat:" before its last lobe lays that on its diffuse terms
@@ -113,6 +113,22 @@ inline const std::vector<Substance>& substances(const Choice& c) {
 /// Substance in a range of indices or reflectances, at a part of it in [0, 1].
 Substance substance_at(const Choice&, double part);
 bool has_range(const Choice&);
+
+/// Names of parameters that set the width of a model's first lobe.
+inline constexpr std::string_view width_names[]{"alpha", "roughness", "alpha_x", "alpha_y"};
+
+/// Parameter of one side of a choice, with who sets it.
+struct UsedParameter {
+  enum class From { choice, domain, default_value };
+  std::string name;
+  std::vector<double> values;  ///< one, or one per channel; empty where the domain varies them
+  From from;
+};
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<UsedParameter::From>{"choice", "domain",
+                                                                               "default"};
+/// Every parameter of a side, in the model's order.
+std::vector<UsedParameter> used_parameters(const Choice&, const Shipped&);
 
 /// Model at one roughness, of one substance.
 /// \throws Error  bad_input of the choice's file where the model cannot be so

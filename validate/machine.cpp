@@ -43,6 +43,7 @@ BudgetCheck check_nonfinite(const Choice& c) {
   using namespace stability;
   Question q;
   q.arithmetic.number = c.number;
+  q.safe_from = false;
   q.subject = subjects_of(middle(c).model.spec).front();
   const auto narrow = [&](const std::string& name, double low, double high) {
     const auto at = std::ranges::find(q.subject.inputs, name, &Input::name);

@@ -13,11 +13,11 @@
 #include "validate/coat.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio::validating {
 namespace {
 
-constexpr Goal goal{1e-5, 200'000};
 constexpr std::string_view searched = "searched";
 
 std::vector<std::vector<double>> values_of(const std::vector<Albedo>& all) {
@@ -57,14 +57,38 @@ BudgetCheck worst_checked(const Choice& c,
                  worst(c, effort, on_grid(c, effort, error, done), error));
 }
 
-ErrorAt against_reference(const Choice& c, auto difference) {
-  return [&c, difference](const Substance& s, double roughness, std::span<const double> mu) {
-    const auto shipped = albedos(c.shipped, bound(c, c.shipped, s, roughness), mu),
-               reference = albedos(c.reference, bound(c, c.reference, s, roughness), mu);
-    std::vector<double> out;
-    for (std::size_t m = 0; m < mu.size(); ++m) out.push_back(difference(shipped[m], reference[m]));
-    return out;
-  };
+/// Albedos that a search may have found before, by a text that says all that they depend on.
+template <class Compute>
+std::vector<std::vector<double>> known_or(const Effort& effort,
+                                          const std::string& key,
+                                          const Compute& compute) {
+  if (!effort.known) return compute();
+  const auto at = effort.known->find(key);
+  return at != effort.known->end() ? at->second : (*effort.known)[key] = compute();
+}
+std::string key_of(std::string_view of,
+                   const Shipped& side,
+                   std::span<const double> values,
+                   std::span<const double> mu) {
+  return fmt::format("{} {} {} {}", of, name_of(side.scattering), fmt::join(values, ","),
+                     fmt::join(mu, ","));
+}
+
+ErrorAt against_reference(const Choice& c, const Effort& effort, auto difference) {
+  return
+      [&c, &effort, difference](const Substance& s, double roughness, std::span<const double> mu) {
+        const auto of = [&](const Shipped& side) {
+          const BoundModel b = bound(c, side, s, roughness);
+          const auto compute = [&] { return albedos(side, b, mu, effort); };
+          return side.coating ? compute()
+                              : known_or(effort, key_of(b.model.spec, side, b.values, mu), compute);
+        };
+        const auto shipped = of(c.shipped), reference = of(c.reference);
+        std::vector<double> out;
+        for (std::size_t m = 0; m < mu.size(); ++m)
+          out.push_back(difference(shipped[m], reference[m]));
+        return out;
+      };
 }
 
 /// Lobes alone, with F = 1.
@@ -72,6 +96,23 @@ BoundModel white_lobes(const BoundModel& b) {
   BoundModel f = furnace(b);
   f.model.diffuse.clear();
   return f;
+}
+
+/// Albedos of the white lobes, which do not depend on the Fresnel term.
+std::vector<std::vector<double>> white_albedos(const Shipped& side,
+                                               const BoundModel& b,
+                                               std::span<const double> mu,
+                                               const Effort& effort) {
+  std::string of = "white";
+  std::vector<double> values;
+  for (const Lobe& lobe : b.model.lobes)
+    for (const TermUse* t : {&lobe.ndf, &lobe.masking}) {
+      of += fmt::format(" {}", t->term);
+      for (const std::size_t p : t->parameters)
+        values.push_back(b.values[b.model.parameters[p].first]);
+    }
+  return known_or(effort, key_of(of, side, values, mu),
+                  [&] { return albedos(white_lobes(b), side.scattering, mu, effort); });
 }
 
 /// What of a model is known to gain energy by its formula; "" if nothing is.
@@ -99,7 +140,9 @@ std::string why_energy_is_gained(const Choice& c) {
 
 std::vector<std::vector<double>> albedos(const BoundModel& b,
                                          Bounces bounces,
-                                         std::span<const double> mu) {
+                                         std::span<const double> mu,
+                                         const Effort& effort) {
+  const Goal& goal = effort.goal;
   if (const auto how = compensation_of(bounces))
     return values_of(compensated_albedo(b, *how, mu, 0, goal));
   if (bounces == Bounces::single) return values_of(directional_albedo(b, mu, 0, goal));
@@ -113,15 +156,17 @@ std::vector<std::vector<double>> albedos(const BoundModel& b,
 
 std::vector<std::vector<double>> albedos(const Shipped& side,
                                          const BoundModel& b,
-                                         std::span<const double> mu) {
-  return side.coating ? Coated(b, *side.coating).albedos(mu) : albedos(b, side.scattering, mu);
+                                         std::span<const double> mu,
+                                         const Effort& effort) {
+  return side.coating ? Coated(b, *side.coating).albedos(mu)
+                      : albedos(b, side.scattering, mu, effort);
 }
 
 BudgetCheck check_albedo_error(const Choice& c,
                                const Effort& effort,
                                const std::function<void(double)>& done) {
   const auto error =
-      against_reference(c, [](const std::vector<double>& a, const std::vector<double>& b) {
+      against_reference(c, effort, [](const std::vector<double>& a, const std::vector<double>& b) {
         double most = 0;
         for (std::size_t k = 0; k < a.size(); ++k) most = worse(most, std::abs(a[k] - b[k]));
         return most;
@@ -134,7 +179,7 @@ BudgetCheck check_delta_e(const Choice& c,
                           const std::function<void(double)>& done) {
   const auto& budget = *c.budgets.delta_e_2000;
   const auto error =
-      against_reference(c, [](const std::vector<double>& a, const std::vector<double>& b) {
+      against_reference(c, effort, [](const std::vector<double>& a, const std::vector<double>& b) {
         return delta_e_2000(lab_of_albedo(a), lab_of_albedo(b));
       });
   auto grid = on_grid(c, effort, error, done);
@@ -151,9 +196,8 @@ BudgetCheck check_energy_gain(const Choice& c,
                               const std::function<void(double)>& done) {
   const auto error = [&](const Substance& s, double roughness, std::span<const double> mu) {
     const BoundModel b = bound(c, c.shipped, s, roughness);
-    const auto as_it_is = albedos(c.shipped, b, mu);
-    const auto white =
-        b.model.lobes.empty() ? as_it_is : albedos(white_lobes(b), c.shipped.scattering, mu);
+    const auto as_it_is = albedos(c.shipped, b, mu, effort);
+    const auto white = b.model.lobes.empty() ? as_it_is : white_albedos(c.shipped, b, mu, effort);
     std::vector<double> out;
     for (std::size_t m = 0; m < mu.size(); ++m)
       out.push_back(worse(0, worse(greatest(as_it_is[m]), greatest(white[m])) - 1));
@@ -170,7 +214,7 @@ BudgetCheck check_energy_loss(const Choice& c,
   const auto error = [&](const Substance& s, double roughness, std::span<const double> mu) {
     const BoundModel b = bound(c, c.shipped, s, roughness);
     std::vector<double> out;
-    for (const auto& albedo : albedos(white_lobes(b), c.shipped.scattering, mu)) {
+    for (const auto& albedo : white_albedos(c.shipped, b, mu, effort)) {
       double lost = 0;
       for (const double e : albedo) lost = worse(lost, 1 - e);
       out.push_back(lost);
@@ -235,7 +279,8 @@ BudgetCheck check_reciprocity(const Choice& c,
     const auto factor = [&](std::span<const double> at) {
       std::vector<std::vector<double>> out(at.size(), std::vector<double>(b.model.channels, 1.0));
       if (c.shipped.scattering != Bounces::turquin || b.model.lobes.empty()) return out;
-      const auto bright = albedos(b, Bounces::turquin, at), plain = albedos(b, Bounces::single, at);
+      const auto bright = albedos(b, Bounces::turquin, at, effort),
+                 plain = albedos(b, Bounces::single, at, effort);
       for (std::size_t m = 0; m < at.size(); ++m)
         for (std::size_t k = 0; k < out[m].size(); ++k)
           if (plain[m][k] > 0) out[m][k] = bright[m][k] / plain[m][k];

@@ -12,12 +12,16 @@
 namespace gonio::validating {
 
 /// Directional albedo at F as it is, by channel: [mu][channel].
-std::vector<std::vector<double>> albedos(const BoundModel&, Bounces, std::span<const double> mu);
+std::vector<std::vector<double>> albedos(const BoundModel&,
+                                         Bounces,
+                                         std::span<const double> mu,
+                                         const Effort& = {});
 
 /// The same of a choice's side, its coat and its scattering as that says.  \param b  of its spec()
 std::vector<std::vector<double>> albedos(const Shipped&,
                                          const BoundModel& b,
-                                         std::span<const double> mu);
+                                         std::span<const double> mu,
+                                         const Effort& = {});
 
 BudgetCheck check_albedo_error(const Choice&,
                                const Effort&,

@@ -32,11 +32,21 @@ inline constexpr auto description<BudgetCheck> = std::tuple{
 static_assert(describes_every_member<BudgetCheck>());
 
 template <>
+inline constexpr auto description<UsedParameter> =
+    std::tuple{Field{"name", &UsedParameter::name, "as gonio models lists it"},
+               Field{"values", &UsedParameter::values,
+                     "one, or one per channel; empty where the domain varies them"},
+               Field{"from", &UsedParameter::from, "who sets it"}};
+
+template <>
 inline constexpr auto description<Suggestion> = std::tuple{
-    Field{"model", &Suggestion::model, "the cheapest that keeps every budget"},
-    Field{"scattering", &Suggestion::scattering, "beside it"}, Field{"why", &Suggestion::why, ""},
+    Field{"model", &Suggestion::model, "the cheapest that keeps every budget, or the nearest"},
+    Field{"scattering", &Suggestion::scattering, "beside it"},
+    Field{"holds", &Suggestion::holds, "whether it keeps every budget"},
+    Field{"why", &Suggestion::why, ""},
     Field{"cost", &Suggestion::operations, "operations of a sample"},
-    Field{"tried", &Suggestion::tried, "cheaper choices, each of which breaks a budget"}};
+    Field{"tried", &Suggestion::tried, "choices that were compared, each of which breaks a budget"},
+    Field{"stopped_by", &Suggestion::stopped_by, "budgets that a nearest one breaks"}};
 static_assert(describes_every_member<Suggestion>());
 
 template <>
@@ -46,6 +56,8 @@ inline constexpr auto description<Validation> = std::tuple{
     Field{"model", &Validation::model, "that is to be shipped"},
     Field{"scattering", &Validation::scattering, "what follows light after its first bounce"},
     Field{"reference", &Validation::reference, "what the model stands for; may be empty"},
+    Field{"parameters", &Validation::parameters, "of the model"},
+    Field{"reference_parameters", &Validation::reference_parameters, "of the reference"},
     Field{"number", &Validation::number, "in which a shader computes it"},
     Field{"holds", [](const Validation& v) { return v.holds(); }, "whether every budget is kept"},
     Field{"budgets", &Validation::budgets, "the cheapest to check first"},
@@ -106,13 +118,31 @@ std::string validation_page_html(const Validation& v) {
   if (!light.parts.empty()) out.sections.push_back(light);
   if (v.suggestion)
     out.sections.push_back(
-        {"The cheapest that keeps every budget",
+        {v.suggestion->holds ? "The cheapest that keeps every budget"
+                             : "The nearest: none keeps every budget",
          "",
          {Prose{fmt::format("`{}`{} {}", v.suggestion->model,
                             v.suggestion->scattering == "single"
                                 ? "."
                                 : fmt::format(" with {}.", spaced(v.suggestion->scattering)),
                             v.suggestion->why)}}});
+  std::vector<std::string> names;
+  for (const auto* side : {&v.parameters, &v.reference_parameters})
+    for (const auto& p : *side)
+      if (std::ranges::find(names, p.name) == names.end()) names.push_back(p.name);
+  Table parameters{columns("parameter|model|reference"), {}};
+  const auto used = [](const std::vector<UsedParameter>& all, const std::string& name) {
+    const auto p = std::ranges::find(all, name, &UsedParameter::name);
+    return p == all.end() ? std::string("–") : value_text(*p);
+  };
+  for (const auto& name : names)
+    parameters.add("`" + name + "`", used(v.parameters, name), used(v.reference_parameters, name));
+  if (!names.empty())
+    out.sections.push_back(
+        {"Parameters",
+         "What the choice sets reaches model and reference, unless `reference_parameters` or the "
+         "domain set it.",
+         {parameters}});
   const auto code = [](const std::string& text) { return text.empty() ? text : "`" + text + "`"; };
   out.sections.push_back({"The choice",
                           "",

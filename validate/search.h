@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "integrate/rule/cubature.h"
 #include "validate/choice.h"
 
 namespace gonio::validating {
@@ -23,12 +25,20 @@ struct Found {
   Point at;
 };
 
+/// Albedos that choices of one search share, by what they are of.
+using KnownAlbedos = std::map<std::string, std::vector<std::vector<double>>>;
+
 /// Effort of a search: a coarse one finds most of what is broken, and establishes nothing.
 struct Effort {
   int roughness_steps = 9, cosine_steps = 8;
-  bool refined = true;  ///< looks around the worst of the grid
+  bool refined = true;       ///< looks around the worst of the grid
+  Goal goal{1e-5, 200'000};  ///< of albedos
+  KnownAlbedos* known = nullptr;
 };
-inline constexpr Effort coarse{3, 3, false};
+/// \param known  of the same search only
+inline Effort coarse(KnownAlbedos* known = nullptr) {
+  return {3, 3, false, {1e-3, 20'000}, known};
+}
 
 /// Larger one of two errors; what is no number is worse than all.
 inline double worse(double a, double b) {

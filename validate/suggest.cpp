@@ -1,5 +1,8 @@
 // The cheapest choice that keeps every budget.
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "base/error.h"
 #include "brdf/catalogue/masking_shape.h"
@@ -88,32 +91,87 @@ std::vector<Candidate> candidates(const Choice& c) {
   return all;
 }
 
-bool keeps(const Choice& c, const Effort& effort) {
-  return std::ranges::all_of(checks_of(c, effort), [](const NamedCheck& check) {
+/// Budgets that a choice breaks, the found over the limit where that is largest, and what was found.
+struct Verdict {
+  std::vector<BudgetCheck> broken;
+  std::size_t lacking = 0;  ///< budgets that cannot be asked of it
+  double excess = 0;
+
+  std::size_t count() const { return broken.size() + lacking; }
+  bool is_nearer(const Verdict& other) const {
+    return std::pair(count(), excess) < std::pair(other.count(), other.excess);
+  }
+};
+
+/// Part by which a coarse search may take a budget for broken that is kept, of limits of albedos and colours.
+double slack_of(const Effort& effort, std::string_view budget) {
+  if (effort.refined) return 0;
+  if (budget == "delta_e_2000") return 0.3;
+  return budget == "albedo_error" || budget.starts_with("energy_") ? 2 * effort.goal.error : 0;
+}
+
+/// \param best  no nearer one is sought than that: what is known not to be is not looked at further; nullptr: all is
+Verdict judged(const Choice& c, const Effort& effort, const Verdict* best) {
+  Verdict v;
+  for (const auto& check : checks_of(c, effort)) {
     try {
-      return check.check({}).holds;
+      auto b = check.check({});
+      if (b.holds || b.found <= b.limit + slack_of(effort, b.budget)) continue;
+      v.excess = std::max(v.excess, b.limit > 0 ? b.found / b.limit : HUGE_VAL);
+      v.broken.push_back(std::move(b));
     } catch (const Error&) {  // a budget that cannot be asked of it is not kept
-      return false;
+      v.excess = HUGE_VAL;
+      ++v.lacking;
     }
-  });
+    if (best && !v.is_nearer(*best)) break;
+  }
+  return v;
 }
 
 }  // namespace
 
 std::optional<Suggestion> suggest(const Choice& c, const ReportProgress& done) {
   const auto all = candidates(c);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (done) done("cheaper choices", static_cast<double>(i) / static_cast<double>(all.size()));
-    if (!keeps(all[i].choice, coarse) || !keeps(all[i].choice, {})) continue;
-    const Shipped& s = all[i].choice.shipped;
+  KnownAlbedos coarsely, finely;
+  const Effort quick = coarse(&coarsely);
+  Effort whole;
+  whole.known = &finely;
+  const Candidate* nearest = nullptr;
+  Verdict least;
+  const auto suggestion = [&](const Candidate& x, std::string why) {
+    const Shipped& s = x.choice.shipped;
     return Suggestion{
-        s.model, std::string(name_of(s.scattering)),
-        fmt::format("It keeps every budget with {} operations a sample, and none of {} cheaper "
-                    "choices does.",
-                    all[i].operations, i),
-        all[i].operations, i};
+        s.model,
+        std::string(name_of(s.scattering)),
+        least.count() == 0,
+        std::move(why),
+        x.operations,
+        static_cast<std::size_t>(least.count() == 0 ? &x - all.data() : std::ssize(all))};
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (done) done("choices", static_cast<double>(i) / static_cast<double>(all.size()));
+    auto v = judged(all[i].choice, quick, nearest ? &least : nullptr);
+    if (v.count() == 0) v = judged(all[i].choice, whole, nearest ? &least : nullptr);
+    if (nearest && !v.is_nearer(least)) continue;
+    nearest = &all[i];
+    least = std::move(v);
+    if (least.count() == 0)
+      return suggestion(
+          *nearest, fmt::format("It keeps every budget with {} operations a sample, and none of {} "
+                                "cheaper choices does.",
+                                nearest->operations, i));
   }
-  return {};
+  if (!nearest) return {};
+  least = judged(nearest->choice, whole, nullptr);
+  std::string why = fmt::format("None of {} choices keeps every budget.", all.size());
+  std::vector<std::string> stopped_by;
+  for (const auto& b : least.broken) {
+    why += " This one stops at " + b.budget + ". " + sentence(b);
+    stopped_by.push_back(b.budget);
+  }
+  auto s = suggestion(*nearest, std::move(why));
+  s.stopped_by = std::move(stopped_by);
+  return s;
 }
 
 }  // namespace gonio

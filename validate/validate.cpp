@@ -24,10 +24,15 @@ void add_curves(Pictures& to, const Choice& c) {
   f.y = {"directional albedo", false};
   std::vector<double> shown{rough.front()};
   if (rough.size() > 1) shown = {rough.front(), rough[rough.size() / 2], rough.back()};
+  // A side whose parameters set its width has one curve, whatever the domain's roughness.
+  const auto varies = [&](const Shipped& side) {
+    return bound(c, side, s, rough.front()).values != bound(c, side, s, rough.back()).values;
+  };
   for (const double r : shown) {
     const auto add = [&](const char* name, const Shipped& side, bool dashed) {
+      if (r != shown.front() && !varies(side)) return;
       FigureCurve curve;
-      curve.name = c.domain.roughness ? fmt::format("{}, roughness {:.2g}", name, r) : name;
+      curve.name = varies(side) ? fmt::format("{}, roughness {:.2g}", name, r) : name;
       curve.dashed = dashed;
       curve.x = mu;
       for (const auto& e : albedos(side, bound(c, side, s, r), mu))
@@ -76,6 +81,8 @@ Validation validate(const Choice& c, const ReportProgress& done) try {
                c.shipped.model,
                std::string(name_of(c.shipped.scattering)),
                c.has_reference ? c.reference.model : "",
+               used_parameters(c, c.shipped),
+               c.has_reference ? used_parameters(c, c.reference) : std::vector<UsedParameter>{},
                c.number,
                {}};
   const auto all = checks_of(c);

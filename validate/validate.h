@@ -32,17 +32,20 @@ struct BudgetCheck {
 };
 
 /// Cheapest choice of the catalogue that keeps every budget: the same distribution and diffuse terms under another masking,
-/// Fresnel term or scattering.
+/// Fresnel term or scattering.  Where none keeps them all, the nearest: the fewest are broken, and by the smallest factor.
 struct Suggestion {
   std::string model, scattering;
-  std::string why;         ///< one sentence
+  bool holds;
+  std::string why;         ///< one sentence; of a nearest one it names what stops it
   std::size_t operations;  ///< of a sample, the scattering's own too
-  std::size_t tried;       ///< choices that are cheaper, each of which breaks a budget
+  std::size_t tried;       ///< choices that were compared, each of which breaks a budget
+  std::vector<std::string> stopped_by{};  ///< budgets that a nearest one breaks
 };
 
 struct Validation {
   std::string path;  ///< of the choice
   std::string model, scattering, reference;
+  std::vector<UsedParameter> parameters, reference_parameters;
   Number number;
   std::vector<BudgetCheck> budgets;
   Pictures pictures{};
@@ -55,7 +58,7 @@ struct Validation {
 /// \throws Error (bad_input of the choice's file) where a budget cannot be asked of this model
 Validation validate(const Choice&, const ReportProgress& done = {});
 
-/// Cheapest choice that keeps every budget; none where none keeps them all.
+/// Cheapest choice that keeps every budget, or the nearest; none where no masking or Fresnel term fits the domain.
 /// \throws Error (bad_input of the choice's file) of a model that has not one isotropic lobe
 std::optional<Suggestion> suggest(const Choice&, const ReportProgress& done = {});
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -18,15 +19,26 @@ constexpr std::array all{
     Words{"fresnel_error", "F off the exact one", "F is off the exact one by {}"},
     Words{"delta_e_2000", "Colour off the reference's, ΔE2000",
           "The colour is off the reference's by ΔE2000 {}"},
-    Words{"energy_gain", "Energy gained",
-          "More light leaves than comes in: the part above 1 is {}"},
-    Words{"energy_loss", "Energy lost at F = 1", "White lobes lose {} of the light"},
-    Words{"reciprocity", "Change of f where light and view change places",
+    Words{"energy_gain", "Energy gained", "The energy gain is {}"},
+    Words{"energy_loss", "Energy lost at F = 1", "The energy loss of white lobes is {}"},
+    Words{"reciprocity", "Factor by which f changes where light and view change places",
           "f changes by {} where light and view change places"},
     Words{"nonfinite", "Inputs without a value", "Inputs without a value: {}"},
     Words{"operations", "Operations of a sample", "A sample takes {}"},
     Words{"ns", "Time against the baseline", "A sample takes {}"},
     Words{"table_bytes", "Bytes of tables", "Tables take {}"}};
+
+/// Factor between two values that differ by a part of the larger: "2.7 ×", "1.000001 ×"; rounding is "none".
+std::string factor_text(double part) {
+  if (part < 1e-12) return "none";
+  if (part >= 1) return "any factor";
+  const double above = part / (1 - part);
+  const int digits = above >= 1 ? 1 : 1 - static_cast<int>(std::floor(std::log10(above)));
+  auto text = fmt::format("{:.{}f}", 1 + above, above >= 99 ? 0 : digits);
+  if (text.find('.') != text.npos) text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text + " ×";
+}
 
 const Words& words_of(std::string_view budget) {
   return *std::ranges::find(all, budget, &Words::budget);
@@ -43,6 +55,9 @@ std::string value_text(std::string_view budget, double value) {
     if (!std::isfinite(value)) return std::string("no number");
     return fmt::format("{}{:.{}g}", value < 0 ? "−" : "", std::abs(value), digits);
   };
+  const bool energy = budget == "energy_gain" || budget == "energy_loss";
+  if (value == 0 && (energy || budget == "reciprocity")) return "none";
+  if (budget == "reciprocity" && std::isfinite(value)) return factor_text(value);
   if (budget == "operations") return fmt::format("{:.0f} operations", value);
   if (budget == "ns") return number(3) + " times the baseline's time";
   if (budget == "table_bytes") return fmt::format("{:.0f} bytes", value);
@@ -58,6 +73,18 @@ std::string place_text(const BudgetCheck& b) {
                         : fmt::format("{} {:.4g}", name, value));
   if (!b.substance.empty()) add(b.substance);
   return text;
+}
+
+std::string value_text(const UsedParameter& p) {
+  const auto numbers = fmt::format("{:.4g}", fmt::join(p.values, ", "));
+  switch (p.from) {
+    case UsedParameter::From::choice:
+      return numbers;
+    case UsedParameter::From::domain:
+      return numbers.empty() ? "from the domain" : numbers + ", from the domain";
+    default:
+      return numbers + ", default";
+  }
 }
 
 std::string sentence(const BudgetCheck& b) {

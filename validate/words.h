@@ -17,5 +17,7 @@ std::string value_text(std::string_view budget, double value);
 std::string place_text(const BudgetCheck&);
 /// "The directional albedo is off by 0.12 at roughness 1, mu 0.05; the budget is 0.05."
 std::string sentence(const BudgetCheck&);
+/// "0.5", "0.8, 0.4, 0.2, default", "from the domain"
+std::string value_text(const UsedParameter&);
 
 }  // namespace gonio

@@ -22,20 +22,28 @@ struct ValidateCall : Common {
 
 void print(const Validation& v, bool suggested) {
   for (const auto& b : v.budgets) {
-    say("{}  {:<18}{:>12.6g} of {:<12.6g}{}\n", b.holds ? "kept  " : "BROKEN", b.budget, b.found,
-        b.limit, b.evidence);
+    say("{}  {:<14}{:>20} of {:<20}{}\n", b.holds ? "kept  " : "BROKEN", b.budget,
+        value_text(b.budget, b.found), value_text(b.budget, b.limit), b.evidence);
     if (!b.holds) say("        {}\n", sentence(b));
   }
+  const auto parameters = [](std::string_view side, const std::vector<UsedParameter>& all) {
+    std::string text;
+    for (const auto& p : all)
+      text += fmt::format("{}{} {}", text.empty() ? "" : "; ", p.name, value_text(p));
+    if (!text.empty()) say("{:<11}{}\n", side, text);
+  };
+  parameters("model", v.parameters);
+  parameters("reference", v.reference_parameters);
   const auto broken = std::ranges::count(v.budgets, false, &BudgetCheck::holds);
   if (broken == 0)
     say("The choice keeps every budget.\n");
   else
     say("The choice breaks {} of {} budgets.\n", broken, v.budgets.size());
   if (const auto& s = v.suggestion)
-    say("Take {}{}. {}\n", s->model,
+    say("{} {}{}. {}\n", s->holds ? "Take" : "The nearest is", s->model,
         s->scattering == "single" ? "" : ", scattering " + s->scattering, s->why);
   else if (suggested)
-    say("No choice of the catalogue with this distribution keeps every budget.\n");
+    say("No masking and Fresnel term of the catalogue fit this distribution and domain.\n");
 }
 
 Exit run(const ValidateCall& o) {
@@ -83,7 +91,8 @@ void add_validate(CommandLine& line) {
   c.option("--junit", o->junit, "The validation as JUnit's XML: a test case a budget");
   c.option("--sarif", o->sarif, "Budgets that are broken as SARIF 2.1.0");
   c.flag("--suggest", o->suggest,
-         "Names the cheapest masking, Fresnel term and scattering that keep every budget");
+         "Names the cheapest masking, Fresnel term and scattering that keep every budget, or the "
+         "nearest and what stops it");
   add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);

@@ -259,7 +259,7 @@ TEST(Surroundings, ADocumentNamesNoFilesOutsideItsFolder) {
       R"({"schema": "gonio.stack/1", "images": [{"path": "../secret", "theta_i": 0, "theta_o": 0}]})");
   f.write("in/choice.json",
           R"({"schema": "gonio.choice/1", "model": "ggx/smith_ggx.correlated/schlick",
-          "domain": {"roughness": [0.4, 1], "fits": ["../secret"]}, "budgets": {"operations": 500}})");
+          "domain": {"fits": ["../secret"]}, "budgets": {"operations": 500}})");
   for (const char* words : {"plan in/scene.json", "render in/scene.json -o p.png",
                             "fit_map in/stack.json -o m.exr", "validate in/choice.json"}) {
     const auto o = gonio(f, words);
@@ -284,7 +284,7 @@ TEST(Surroundings, NothingThatADocumentNamesIsOverwritten) {
           "tolerance": {"metric": "delta_e_2000", "quantile": 0.9, "limit": 1, "max": 4}})");
   f.write("choice.json",
           R"({"schema": "gonio.choice/1", "model": "ggx/smith_ggx.correlated/schlick",
-          "domain": {"roughness": [0.4, 1], "fits": ["fit.json"]}, "budgets": {"operations": 500}})");
+          "domain": {"fits": ["fit.json"]}, "budgets": {"operations": 500}})");
   f.write("list", "t.csv\n");
   std::filesystem::create_symlink("fit.json", f / "fit.png");
   for (const char* words :

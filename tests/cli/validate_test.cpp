@@ -24,6 +24,8 @@ TEST(ValidateCommand, ExitsWith0WhereEveryBudgetIsKeptAndWith1AndTheWorstInputWh
   const auto kept = gonio(f, "validate kept.json");
   EXPECT_EQ(kept.code, 0) << kept.err;
   EXPECT_NE(kept.out.find("The choice keeps every budget."), kept.out.npos) << kept.out;
+  EXPECT_NE(kept.out.find("reference  "), kept.out.npos) << kept.out;
+  EXPECT_NE(kept.out.find("f0 0.04, from the domain"), kept.out.npos) << kept.out;
   const auto broken = gonio(f, "validate broken.json");
   EXPECT_EQ(broken.code, 1) << broken.err;
   EXPECT_NE(broken.out.find("at roughness "), broken.out.npos) << broken.out;
@@ -66,11 +68,15 @@ TEST(ValidateCommand, RefusesWhatItCannotReadOrWrite) {
   walks["model"] = "gtr/smith_gtr.correlated/schlick";
   walks["scattering"] = "deterministic";
   write(f, "walks.json", walks);
+  auto unknown = choice(1);
+  unknown["parameters"] = {{"sheen", 1}};
+  write(f, "unknown.json", unknown);
   std::ofstream(f / "torn.json") << "{\"schema\": ";
   expect_one_line_each(f, 3,
                        {{"validate none.json", "none.json: /budgets: "},
                         {"validate walks.json", "walks.json: /model: found 'gtr'"},
                         {"validate torn.json", "torn.json"},
+                        {"validate unknown.json", "unknown.json: /parameters/sheen: found 1"},
                         {"validate missing.json", "missing.json"},
                         {"validate c.json -o nowhere/v.json", "nowhere/v.json"}});
   expect_one_line_each(
@@ -89,6 +95,9 @@ TEST(ValidateCommand, WritesANameSoThatNoReaderTakesItForMore) {
   std::filesystem::rename(f / "fit.json", f / name);
   auto c = choice(1e-9);
   c["domain"] = {{"roughness", {0.4, 1}}, {"fits", {name}}};
+  write(f, "both.json", c);
+  expect_one_line(gonio(f, "validate both.json"), 3, "/domain/roughness");
+  c["domain"] = {{"fits", {name}}};
   write(f, "c\x1b é.json", c);
   const auto o = gonio(f, "validate c*.json --junit v.xml --sarif v.sarif");
   EXPECT_EQ(o.code, 1) << o.err;

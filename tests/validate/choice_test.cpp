@@ -58,7 +58,10 @@ TEST(Choice, NamesThePlaceOfWhatItDoesNotTake) {
   refused("/budgets/albedo_error", -1, "c.json: /budgets/albedo_error: found -1");
   refused("/budgets/speed", 1, "speed");
   refused("/model", "ggx/smith_gx/schlick", "c.json: /model: found ");
-  refused("/parameters", {{"gamma", 2}}, "c.json: /parameters: found ");
+  refused("/parameters", {{"gamma", 2}},
+          "c.json: /parameters/gamma: found 2, expected a parameter of "
+          "ggx/schlick_ggx.half_alpha/schlick (");
+  refused("/reference_parameters", {{"gamma", 2}}, "c.json: /reference_parameters/gamma: found 2");
   refused("/domain/roughness", {0.5, 0.2}, "c.json: /domain/roughness: found ");
   refused("/domain/mu", {0, 1}, "c.json: /domain/mu: found ");
   refused("/domain/metal", "unobtainium", "c.json: /domain/metal: found ");
@@ -184,6 +187,87 @@ TEST(Choice, MapsRoughnessToTheWidthAsItSays) {
   EXPECT_EQ(alpha("roughness^4"), 0.0625);
   j["parameters"] = {{"alpha", 0.3}};
   EXPECT_EQ(alpha("roughness^2"), 0.3) << "what the choice sets is not the domain's";
+}
+
+/// Values of a parameter that each side has at a roughness of 0.5.
+std::pair<double, double> both(const json& j, const std::string& name) {
+  const Choice c = parsed(j);
+  const auto of = [&](const Shipped& s) { return value(bound(c, s, substances(c)[0], 0.5), name); };
+  return {of(c.shipped), of(c.reference)};
+}
+using Pair = std::pair<double, double>;
+
+TEST(Choice, GivesWhatModelAndReferenceShareToBoth) {
+  json j = plain();
+  j["model"] = "lambert+" + std::string(plain()["model"]);
+  j["reference"] = "lambert+" + std::string(plain()["reference"]);
+  j["parameters"] = {{"kd", 0.5}};
+  EXPECT_EQ(both(j, "kd"), Pair(0.5, 0.5));
+  j["reference_parameters"] = {{"kd", 0.3}};
+  EXPECT_EQ(both(j, "kd"), Pair(0.5, 0.3)) << "the reference's own";
+  j["reference_parameters"] = json::object();
+  j["parameters"]["alpha"] = 0.09;
+  EXPECT_EQ(both(j, "alpha"), Pair(0.09, 0.25)) << "the domain says the reference's roughness";
+  j["domain"].erase("roughness");
+  EXPECT_EQ(both(j, "alpha"), Pair(0.09, 0.09));
+  j["parameters"] = {{"roughness", 0.5}};
+  EXPECT_EQ(both(j, "alpha"), Pair(0.25, 0.25)) << "by another name";
+  j["reference_parameters"] = {{"alpha", 0.04}};
+  EXPECT_EQ(both(j, "alpha"), Pair(0.25, 0.04)) << "the reference sets the same by another name";
+}
+
+TEST(Choice, GivesAParameterToTheOnlySideThatKnowsIt) {
+  json j = plain();
+  j["reference"] = "gtr/smith_gtr.correlated/schlick";
+  j["parameters"] = {{"gamma", 1.5}};
+  const Choice c = parsed(j);
+  EXPECT_EQ(value(bound(c, c.reference, substances(c)[0], 0.5), "gamma"), 1.5);
+  EXPECT_TRUE(c.shipped.parameters.empty());
+  j["parameters"]["gamma"] = 1e9;
+  EXPECT_THROW(parsed(j), Error);
+}
+
+TEST(Choice, RefusesADomainThatNothingReads) {
+  const auto refused = [](const json& j) -> std::string {
+    try {
+      parsed(j);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), Exit::bad_input);
+      return e.what();
+    }
+    return "";
+  };
+  json j = plain();
+  j["parameters"] = j["reference_parameters"] = {{"alpha", 0.3}};
+  EXPECT_NE(refused(j).find("c.json: /domain/roughness: found "), std::string::npos) << refused(j);
+  EXPECT_NE(refused(j).find("parameters sets alpha"), std::string::npos) << refused(j);
+  j = plain();
+  j["domain"]["f0"] = {0.04, 0.9};
+  j["parameters"] = j["reference_parameters"] = {{"f0", 0.5}};
+  EXPECT_NE(refused(j).find("c.json: /domain/f0: found "), std::string::npos) << refused(j);
+  j["reference_parameters"] = json::object();
+  EXPECT_EQ(refused(j), "") << "the reference has the domain's";
+}
+
+TEST(Choice, SaysWhoSetsEachParameterOfASide) {
+  json j = plain();
+  j["model"] = "lambert+" + std::string(plain()["model"]);
+  j["domain"]["f0"] = {0.04, 0.9};
+  j["parameters"] = {{"kd", 0.5}};
+  const Choice c = parsed(j);
+  const auto used = used_parameters(c, c.shipped);
+  using From = UsedParameter::From;
+  const auto of = [&](const std::string& name) {
+    return *std::ranges::find(used, name, &UsedParameter::name);
+  };
+  EXPECT_EQ(of("kd").from, From::choice);
+  EXPECT_EQ(of("kd").values[0], 0.5);
+  EXPECT_EQ(of("f0").from, From::domain);
+  EXPECT_TRUE(of("f0").values.empty());
+  EXPECT_EQ(of("alpha").from, From::domain);
+  j["domain"] = json::object();
+  const Choice bare = parsed(j);
+  EXPECT_EQ(used_parameters(bare, bare.shipped)[1].from, From::default_value);
 }
 
 }  // namespace

@@ -177,7 +177,7 @@ TEST(Defects, NoReferenceOfTheCatalogueRaisesAnAlarm) {
     if (std::string_view(substance) == "metal") j["domain"]["metal"] = {"Au", "Fe"};
     if (std::string_view(substance) == "f0") j["domain"]["f0"] = {0.04, 0.9};
     const Choice c = parse_choice("choice.json", j.dump());
-    for (const auto& check : validating::checks_of(c, validating::coarse)) {
+    for (const auto& check : validating::checks_of(c, validating::coarse())) {
       const auto b = check.check({});
       EXPECT_TRUE(b.holds) << model << ": " << sentence(b);
     }

@@ -167,6 +167,51 @@ TEST(Validate, TellsTheChangeOverTheLargerOfTheTwo) {
   EXPECT_NEAR(b.found, 1 - least / most, 0.002);
 }
 
+TEST(Validate, ComparesAtTheParametersThatBothSidesShare) {
+  json more = {{"model", "lambert+" + remapped},
+               {"reference", "lambert+" + smith},
+               {"parameters", {{"kd", 0.5}}},
+               {"domain", {{"roughness", {0.4, 1}}, {"f0", 0.04}}}};
+  const json budget = {{"delta_e_2000", {{"limit", 1}}}};
+  const auto shared = of(budget, more);
+  more["reference_parameters"] = {{"kd", 0.5}};
+  EXPECT_EQ(only(shared).found, only(of(budget, more)).found);
+  more["reference_parameters"] = {{"kd", 0.2}};
+  EXPECT_GT(only(of(budget, more)).found, 1.5 * only(shared).found) << "another material";
+  const auto document = json::parse(to_json(shared));
+  for (const char* side : {"parameters", "reference_parameters"})
+    EXPECT_EQ(document[side][0],
+              (json{{"name", "kd"}, {"values", {0.5, 0.5, 0.5}}, {"from", "choice"}}))
+        << side;
+}
+
+TEST(Validate, DrawsOneCurveOfASideThatSetsItsWidth) {
+  const auto curves = [](const json& more) {
+    std::vector<std::string> names;
+    for (const auto& curve : of({{"energy_gain", 1}}, more).pictures.figures.at(0).curves)
+      names.push_back(curve.name);
+    return names;
+  };
+  json more = {{"reference", smith}, {"domain", {{"roughness", {0.4, 1}}, {"f0", 0.04}}}};
+  EXPECT_EQ(curves(more).size(), 6U);
+  more["parameters"] = {{"alpha", 0.3}};
+  EXPECT_EQ(curves(more),
+            (std::vector<std::string>{"choice", "reference, roughness 0.4",
+                                      "reference, roughness 0.7", "reference, roughness 1"}));
+}
+
+TEST(Validate, SaysEnergyThatIsKeptAndChangesAsFactors) {
+  EXPECT_EQ(value_text("energy_gain", 0), "none");
+  EXPECT_EQ(value_text("energy_loss", 0), "none");
+  EXPECT_EQ(value_text("reciprocity", 1 - 1 / 2.7), "2.7 ×");
+  EXPECT_EQ(value_text("reciprocity", 0.5), "2 ×");
+  EXPECT_EQ(value_text("reciprocity", 1e-6), "1.000001 ×");
+  EXPECT_EQ(value_text("reciprocity", 0.2), "1.25 ×");
+  EXPECT_EQ(value_text("reciprocity", 1e-15), "none");
+  EXPECT_EQ(value_text("reciprocity", 1), "any factor");
+  EXPECT_EQ(value_text("albedo_error", 0), "0");
+}
+
 TEST(Validate, LooksBetweenTheStepsOfItsGrid) {
   const json j = {{"schema", "gonio.choice/1"},
                   {"model", smith},
@@ -296,9 +341,38 @@ TEST(Suggest, NamesTheCheapestThatKeepsEveryBudget) {
   EXPECT_EQ(exact->model, smith);
   EXPECT_EQ(exact->scattering, "single");
   j["budgets"] = {{"operations", 2}};
-  EXPECT_FALSE(suggest(parse_choice("choice.json", j.dump())));
+  const auto none = suggest(parse_choice("choice.json", j.dump()));
+  ASSERT_TRUE(none);
+  EXPECT_FALSE(none->holds);
+  EXPECT_EQ(none->operations, any->operations) << "the cheapest of all is the nearest";
+  EXPECT_EQ(none->stopped_by, std::vector<std::string>{"operations"});
   j["model"] = "lambert";
   EXPECT_THROW(suggest(parse_choice("choice.json", j.dump())), Error);
+}
+
+TEST(Suggest, NamesTheNearestAndTheBudgetThatStopsIt) {
+  GONIO_MANY_FITS();
+  const json j = {{"schema", "gonio.choice/1"},
+                  {"model", remapped},
+                  {"reference", smith},
+                  {"domain", {{"roughness", {0.4, 1}}, {"f0", 0.04}}},
+                  {"budgets", {{"albedo_error", 1e-3}, {"operations", 25}}}};
+  const Choice c = parse_choice("choice.json", j.dump());
+  const auto s = suggest(c);
+  ASSERT_TRUE(s);
+  EXPECT_FALSE(s->holds);
+  ASSERT_EQ(s->stopped_by.size(), 1U) << "others break both";
+  Choice nearest = c;
+  nearest.shipped.model = s->model;
+  nearest.shipped.scattering = *find_value<Bounces>(s->scattering);
+  std::size_t broken = 0;
+  for (const auto& b : validate(nearest).budgets)
+    if (!b.holds) {
+      ++broken;
+      EXPECT_EQ(b.budget, s->stopped_by[0]);
+      EXPECT_NE(s->why.find(sentence(b)), s->why.npos) << s->why;
+    }
+  EXPECT_EQ(broken, 1U);
 }
 
 TEST(Suggest, TakesACompensationWhereEnergyMustNotBeLost) {

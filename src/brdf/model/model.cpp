@@ -8,6 +8,7 @@
 #include "brdf/formula/widths.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
+#include "brdf/model/settings_form.h"
 #include "optics/f0.h"
 #include "optics/refractive_index.h"
 
@@ -86,21 +87,29 @@ std::string resolve_base_color(std::string spec, std::vector<Setting>& settings)
   return spec;
 }
 
+/// Parameter that a name sets by another measure: alpha by roughness, eta of a dielectric by f0; empty: none.
+std::string aliased(const Model& m, const std::string& name) {
+  if (is_roughness(name) && m.find(alpha_name(name))) return alpha_name(name);
+  const auto [stem, ending] = split_ending(name);
+  const bool dielectric = !m.find(name) && m.find("eta" + ending) && !m.find("k" + ending);
+  return stem == "f0" && dielectric ? "eta" + ending : "";
+}
+
 /// Names that stand for others: roughness, f0 of a dielectric, metal.
 void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
   for (auto& s : settings) {
-    const auto parts = split_ending(s.name);
-    const auto &name = parts.first, &ending = parts.second;
+    const auto of = aliased(m, s.name);
     const auto replace = [&](const std::string& by, auto&& map) {
       if (find(settings, by))
         throw wrong_usage(fmt::format("{} and {} are the same parameter", s.name, by));
       s.name = by;
       for (auto& v : s.values) v = map(v);
     };
-    if (is_roughness(s.name) && m.find(alpha_name(s.name)))
-      replace(alpha_name(s.name), alpha_of);
-    else if (name == "f0" && !m.find(s.name) && m.find("eta" + ending) && !m.find("k" + ending))
-      replace("eta" + ending, [](double f0) {
+    if (of.empty()) continue;
+    if (is_roughness(s.name))
+      replace(of, alpha_of);
+    else
+      replace(of, [](double f0) {
         if (!(0 <= f0 && f0 < 1)) throw wrong_usage(fmt::format("f0 = {} is outside [0, 1)", f0));
         return IorFromF0<double>::apply(std::array{f0})[0];
       });
@@ -197,6 +206,17 @@ BoundModel bind_model(std::string_view spec,
     }
   }
   return b;
+}
+
+bool takes_parameter(std::string_view spec, const std::string& name) {
+  const Preset* preset = find_preset(spec);
+  if (preset &&
+      std::ranges::find(preset->parameters, name, &Parameter::name) != preset->parameters.end())
+    return true;
+  const Model m = compose(preset ? preset->spec : spec, 1);
+  const auto has = [&](const std::string& p) { return m.find(p) || !aliased(m, p).empty(); };
+  if (name == "metal") return m.find("eta") && m.find("k");
+  return has(name) || ((name == "base_color" || name == "metallic") && has("f0") && m.find("kd"));
 }
 
 std::vector<std::pair<std::string, std::vector<double>>> named_values(const BoundModel& b) {
