@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brdf/model/roughness.h"
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "stability/answer.h"
@@ -17,7 +18,7 @@ struct StabilityCall : Common {
   std::string subject, number = "half", require = "finite";
   std::optional<std::string> form;
   std::vector<std::string> domain;
-  bool flush = false, contract = false, any_gpu = false;
+  bool flush = false, contract = false, any_gpu = false, least = false;
   std::optional<std::uint64_t> boxes;
   std::uint64_t seed = Question{}.seed;
 };
@@ -61,7 +62,20 @@ std::string evidence_text(const Answer& a) {
                      100 * a.open_share, looking, a.unproved_because);
 }
 
-void print(const Answer& a) {
+/// "alpha 0.0042 (roughness 0.065)", "nowhere"
+std::string least_text(const Least& l, const std::string& decides) {
+  if (!l.value) return "nowhere";
+  return is_alpha(decides) ? fmt::format("{} {:.4g} ({} {:.3g})", decides, *l.value,
+                                         roughness_name(decides), roughness_of(*l.value))
+                           : fmt::format("{} {:.4g}", decides, *l.value);
+}
+std::string evidence_of_least(const Least& l) {
+  if (l.evidence == Evidence::exhaustive) return "every input looked at";
+  return l.evidence == Evidence::proved ? "proved" : "searched: there may be worse";
+}
+
+/// \param decides  name of the parameter from which a requirement holds
+void print(const Answer& a, const std::string& decides) {
   const auto line = [](const char* name, const std::string& text) {
     fmt::print("  {:<16}{}\n", name, text);
   };
@@ -86,10 +100,19 @@ void print(const Answer& a) {
                                     a.arithmetic.any_gpu ? " in IEEE arithmetic" : "", a.worst_at));
   if (a.proved_rel) line("proved", fmt::format("{:.2g} relative at most", *a.proved_rel));
   if (a.range) line("within", fmt::format("{:.6g} to {:.6g}, proved", a.range->low, a.range->high));
-  if (a.looked.safe_from)
-    line("safe from",
-         fmt::format("{:.4g}: from there on within {:.2g}{}", *a.looked.safe_from,
-                     a.looked.tolerance, a.arithmetic.any_gpu ? " in IEEE arithmetic" : ""));
+  if (const auto& from = a.safe_from)
+    line("safe from", fmt::format("{}{}: {} from there on, {}", least_text(*from, decides),
+                                  from->evidence == Evidence::searched && a.arithmetic.any_gpu
+                                      ? " in IEEE arithmetic"
+                                      : "",
+                                  from->requirement, evidence_of_least(*from)));
+  for (const auto& l : a.least)
+    line(&l == &a.least[0] ? "least" : "",
+         fmt::format("{:<16}{:<14}{:<30}{}", l.requirement,
+                     a.arithmetic.number != Number::half ? ""
+                     : l.flush                           ? "flushed"
+                                                         : "kept",
+                     least_text(l, decides), evidence_of_least(l)));
   if (!a.looked.settled) line("not settled", "searches from two seeds differ: there may be worse");
 }
 
@@ -109,12 +132,13 @@ Exit run(const StabilityCall& o) {
   }
   Progress progress(o.quiet);
   progress("looking");
-  const auto a = answer(q);
+  auto a = answer(q);
+  if (o.least) a.least = least_values(q);
   progress.clear();
   if (o.json)
     fmt::print("{}", to_json(a));
   else
-    print(a);
+    print(a, q.subject.decides ? q.subject.inputs[*q.subject.decides].name : "");
   return a.holds ? Exit::done : Exit::check_failed;
 }
 
@@ -136,7 +160,11 @@ void add_stability(CommandLine& line) {
            "How a distribution's half vector is given: cross, |n × h|²; cosine, NoH alone");
   c.option("--domain", o->domain, "Ends of an input: NAME=LOW,HIGH …  (default: the hard domain)")
       .at_most(64);
-  c.option("--require", o->require, "finite, nonnegative, or relative=X: most |x/f − 1|");
+  c.option("--require", o->require,
+           "finite; nonnegative; relative=X: most |x/f − 1|; absolute=X: most |x − f|");
+  c.flag("--least", o->least,
+         "Also names, for every requirement, the least alpha (or what else decides) from which it "
+         "holds; in half for results below the least normal number kept, and flushed");
   c.flag("--flush", o->flush, "Results below the least normal number become 0");
   c.flag("--contract", o->contract, "A product and a sum are rounded once");
   c.flag("--any-gpu", o->any_gpu,

@@ -22,7 +22,7 @@ void expect_read(std::string_view id, const std::map<std::string, std::vector<do
       {Role::ndf, {"noh", "sin2_theta_h", "xoh", "yoh"}},
       {Role::masking, {"nol", "nov", "noh", "voh", "xol", "yol", "xov", "yov"}},
       {Role::fresnel, {"cos", "voh"}},
-      {Role::diffuse, {"nol", "nov", "cos", "voh"}}};
+      {Role::diffuse, {"nol", "nov", "noh", "cos", "voh"}}};
   const auto& names = read.at(role_of(id));
   for (const auto& [name, values] : at)
     if (std::ranges::find(names, name) == names.end())

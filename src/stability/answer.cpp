@@ -1,6 +1,8 @@
 #include "stability/answer.h"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "brdf/model/spec.h"
@@ -15,7 +17,7 @@
 namespace gonio::stability {
 namespace {
 
-constexpr std::string_view relative_prefix = "relative=";
+constexpr std::string_view relative_prefix = "relative=", absolute_prefix = "absolute=";
 
 NamedInput named(const Subject& s, const Arithmetic& a, std::span<const double> inputs) {
   const Number number = a.number;
@@ -44,16 +46,48 @@ std::vector<double> broken_at(const Looked& looked, const Requirement& required)
   if (!none.empty() || required.kind == Requirement::Kind::finite) return none;
   if (required.kind == Requirement::Kind::nonnegative)
     return first({&looked.negative, &looked.negative_too});
-  return looked.relative.value > required.limit ? looked.relative.at : first({&looked.lost});
+  if (required.kind == Requirement::Kind::relative && looked.relative.value > required.limit)
+    return looked.relative.at;
+  return first({&looked.lost});
+}
+
+bool is_of_error(const Requirement& r) {
+  return r.kind == Requirement::Kind::relative || r.kind == Requirement::Kind::absolute;
+}
+Tolerance tolerance_of(const Requirement& r, Number number) {
+  if (r.kind == Requirement::Kind::absolute) return {0, r.limit};
+  return r.kind == Requirement::Kind::relative ? r.limit : usual_tolerance(number);
+}
+Range required_values(Requirement::Kind kind, Number number) {
+  return kind == Requirement::Kind::finite ? finite_values(number)
+                                           : finite_and_not_negative(number);
+}
+
+/// Least value from which a requirement holds.  \param looked  of its tolerance
+std::optional<Least> least_of(const Question& q,
+                              const Requirement& required,
+                              const Looked& looked) {
+  if (!q.subject.decides || !q.safe_from) return {};
+  const auto& a = q.arithmetic;
+  Least least{required.text(), a.flush, looked.from(required.kind), looked.evidence};
+  if (looked.evidence == Evidence::exhaustive && !a.any_gpu) return least;
+  least.evidence = Evidence::searched;
+  if (is_of_error(required) || a.number == Number::mixed || !least.value) return least;
+  // Below what looking finds broken nothing is proved.
+  Subject above = q.subject;
+  above.inputs[*above.decides].domain.low = *least.value;
+  if (const auto from =
+          proved_from(above, a.number, rounding_of(a), required_values(required.kind, a.number)))
+    least = {least.requirement, a.flush, from, Evidence::proved};
+  return least;
 }
 
 void prove_into(Answer& a, const Question& q) {
   const auto number = q.arithmetic.number;
-  const bool finite = q.requirement.kind == Requirement::Kind::finite;
   const auto usual_boxes = static_cast<std::uint64_t>(20'000 * share_of_cheap(q.subject));
-  const auto proof = prove(q.subject, number, rounding_of(q.arithmetic),
-                           finite ? finite_values(number) : finite_and_not_negative(number),
-                           {.boxes = q.boxes.value_or(usual_boxes)});
+  const auto proof =
+      prove(q.subject, number, rounding_of(q.arithmetic),
+            required_values(q.requirement.kind, number), {.boxes = q.boxes.value_or(usual_boxes)});
   a.evidence = proof.evidence;
   a.boxes = proof.boxes;
   a.open_share = proof.open_share;
@@ -88,18 +122,22 @@ void prove_relative_into(Answer& a, const Question& q) {
 std::string Requirement::text() const {
   if (kind == Kind::finite) return "finite";
   if (kind == Kind::nonnegative) return "nonnegative";
-  return fmt::format("{}{:g}", relative_prefix, limit);
+  return fmt::format("{}{:g}", kind == Kind::relative ? relative_prefix : absolute_prefix, limit);
 }
 Requirement parse_requirement(std::string_view text) {
   if (text == "finite") return {};
   if (text == "nonnegative") return {Requirement::Kind::nonnegative, 0};
-  if (!text.starts_with(relative_prefix))
-    throw wrong_usage(
-        fmt::format("required: found '{}', expected finite, nonnegative or relative=X", text));
-  const double x = parse_number(text.substr(relative_prefix.size()), "required relative");
-  if (!(x > 0) || std::isinf(x))
-    throw wrong_usage(fmt::format("required relative: found {}, expected a number above 0", x));
-  return {Requirement::Kind::relative, x};
+  for (const auto& [prefix, kind] : {std::pair(relative_prefix, Requirement::Kind::relative),
+                                     std::pair(absolute_prefix, Requirement::Kind::absolute)}) {
+    if (!text.starts_with(prefix)) continue;
+    const auto what = fmt::format("required {}", prefix.substr(0, prefix.size() - 1));
+    const double x = parse_number(text.substr(prefix.size()), what);
+    if (!(x > 0) || std::isinf(x))
+      throw wrong_usage(fmt::format("{}: found {}, expected a number above 0", what, x));
+    return {kind, x};
+  }
+  throw wrong_usage(fmt::format(
+      "required: found '{}', expected finite, nonnegative, relative=X or absolute=X", text));
 }
 
 std::string text_of(const Arithmetic& a) {
@@ -120,7 +158,7 @@ std::string hex_of(const Subject& s, Number number, std::span<const double> inpu
   return text;
 }
 
-Looked look(const Subject& s, const Arithmetic& a, double tolerance, std::uint64_t seed) {
+Looked look(const Subject& s, const Arithmetic& a, const Tolerance& tolerance, std::uint64_t seed) {
   if (a.number == Number::half && can_be_exhausted(s))
     return exhaustive(s, {a.flush, a.contract}, tolerance);
   return search(s, a, {.tolerance = tolerance, .seed = seed});
@@ -142,23 +180,56 @@ Answer answer(const Question& q) {
     a.domain.emplace_back(i.name, std::vector{i.domain.low, i.domain.high});
 
   const bool relative = q.requirement.kind == Requirement::Kind::relative;
-  a.looked = look(q.subject, looked_at(q.arithmetic),
-                  relative ? q.requirement.limit : usual_tolerance(number), q.seed);
+  a.looked = look(q.subject, looked_at(q.arithmetic), tolerance_of(q.requirement, number), q.seed);
   a.worst_at = text_of(q.subject, a.looked.relative.at);
   a.worst_hex = hex_of(q.subject, number, a.looked.relative.at);
   if (const auto at = broken_at(a.looked, q.requirement); !at.empty()) {
     a.evidence = a.looked.evidence;
     a.counterexample = named(q.subject, looked_at(q.arithmetic), at);
+    a.safe_from = least_of(q, q.requirement, a.looked);
     return a;
   }
   if (a.looked.evidence == Evidence::exhaustive && !any_gpu)
     a.evidence = Evidence::exhaustive;
   else if (relative && number != Number::mixed)
     prove_relative_into(a, q);
+  else if (q.requirement.kind == Requirement::Kind::absolute)
+    a.unproved_because = "no proof of an absolute error is known";
   else if (number != Number::mixed)
     prove_into(a, q);
   a.holds = !a.counterexample && a.evidence != Evidence::open;
+  if (a.holds && q.subject.decides)
+    a.safe_from =
+        Least{a.requirement, q.arithmetic.flush, a.looked.from(q.requirement.kind), a.evidence};
+  else
+    a.safe_from = least_of(q, q.requirement, a.looked);
   return a;
+}
+
+std::vector<Least> least_values(const Question& q) {
+  using Kind = Requirement::Kind;
+  const auto number = q.arithmetic.number;
+  const auto limit = [&](Kind kind, double usual) {
+    return Requirement{kind, q.requirement.kind == kind ? q.requirement.limit : usual};
+  };
+  const std::array errors{limit(Kind::relative, usual_tolerance(number)),
+                          limit(Kind::absolute, usual_absolute)};
+  std::vector<Least> all;
+  Question one = q;
+  for (const bool flush : {false, true}) {
+    if (flush && (number != Number::half || q.arithmetic.any_gpu)) continue;
+    one.arithmetic.flush = flush;
+    for (const auto& error : errors) {
+      const Looked looked =
+          look(q.subject, looked_at(one.arithmetic), tolerance_of(error, number), q.seed);
+      const auto add = [&](const Requirement& r) {
+        if (auto least = least_of(one, r, looked)) all.push_back(std::move(*least));
+      };
+      if (&error == &errors[0]) add({Kind::finite, 0}), add({Kind::nonnegative, 0});
+      add(error);
+    }
+  }
+  return all;
 }
 
 }  // namespace gonio::stability

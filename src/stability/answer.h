@@ -15,14 +15,7 @@
 
 namespace gonio::stability {
 
-/// Requirement that every input of the domain must keep; a value, not infinite, is part of each.
-struct Requirement {
-  enum class Kind { finite, nonnegative, relative } kind = Kind::finite;
-  double limit = 0;  ///< of relative: most |x / f − 1|
-
-  std::string text() const;
-};
-/// "finite", "nonnegative" or "relative=0.02"; wrong usage for all else.
+/// "finite", "nonnegative", "relative=0.02" or "absolute=0.002"; wrong usage for all else.
 Requirement parse_requirement(std::string_view text);
 
 struct Question {
@@ -32,6 +25,7 @@ struct Question {
   std::uint64_t seed = 1;
   /// Boxes of a proof, after which what is unproved is open; none: 20 000, and of what is dear as many as take seconds.
   std::optional<std::uint64_t> boxes{};
+  bool safe_from = true;  ///< whether the least value from which it holds is looked for, too
 };
 
 /// An input for which a requirement does not hold.
@@ -39,6 +33,15 @@ struct NamedInput {
   std::vector<std::pair<std::string, double>> inputs;
   std::vector<std::pair<std::string, std::string>> inputs_hex;  ///< the same as the number's bits
   double value, exact;
+};
+
+/// Least value of the parameter that decides from which on a requirement holds; none: of no value of the domain.
+struct Least {
+  std::string requirement;
+  bool flush;
+  std::optional<double> value;
+  /// exhaustive and proved: it holds from there on for every input; searched: a search finds no input above that breaks it.
+  Evidence evidence;
 };
 
 struct Answer {
@@ -57,6 +60,8 @@ struct Answer {
   std::optional<Range> range;        ///< that the value is proved to lie in
   std::uint64_t boxes = 0;           ///< of the proof
   double open_share = 0;             ///< part of the domain that is neither proved nor refuted
+  std::optional<Least> safe_from{};  ///< of what is required; none: no parameter decides
+  std::vector<Least> least{};        ///< of all requirements, where that was asked
 };
 
 /// Answer by whatever evidence is the strongest: of one or two halves every input, else a proof; a search refutes, and
@@ -68,7 +73,14 @@ struct Answer {
 /// \throws Error (wrong usage) of any GPU in mixed numbers, for which nothing is proved
 Answer answer(const Question&);
 /// Everything that looking finds: every input where they are halves and few, else a search.
-Looked look(const Subject&, const Arithmetic&, double tolerance, std::uint64_t seed);
+Looked look(const Subject&, const Arithmetic&, const Tolerance&, std::uint64_t seed);
+
+/// Least values of `subject.decides` from which each requirement holds: finite, nonnegative, and an error, relative and absolute,
+/// the question's own limit or the usual one; in half subnormal results kept, and flushed.  Where there is a proof, they are found
+/// to 3.5 % by halving.
+std::vector<Least> least_values(const Question&);
+/// Absolute error that is usual to ask of values up to 1: half a step of eight bits.
+inline constexpr double usual_absolute = 0.002;
 
 /// "half, flushed", "float, on any GPU"
 std::string text_of(const Arithmetic&);

@@ -12,6 +12,16 @@ inline constexpr auto description<stability::NamedInput> =
                Field{"exact", &stability::NamedInput::exact, "in fifty digits, rounded"}};
 
 template <>
+inline constexpr auto description<stability::Least> = std::tuple{
+    Field{"requirement", &stability::Least::requirement, ""},
+    Field{"flush", &stability::Least::flush, "results below the least normal number become 0"},
+    Field{"value", &stability::Least::value,
+          "of alpha, or what else decides: the least from which it holds; null: it holds "
+          "nowhere"},
+    Field{"evidence", &stability::Least::evidence,
+          "exhaustive, proved; searched: nothing above breaks it that a search finds"}};
+
+template <>
 struct Description<stability::Answer> {
   static constexpr auto fields() {
     using A = stability::Answer;
@@ -30,7 +40,7 @@ struct Description<stability::Answer> {
             "all that Vulkan allows a GPU: proofs alone establish, and what was looked at is IEEE "
             "arithmetic, which is one of those allowed"),
         field("domain", &A::domain, "ends of each input"),
-        field("requirement", &A::requirement, "finite, nonnegative or relative=X"),
+        field("requirement", &A::requirement, "finite, nonnegative, relative=X or absolute=X"),
         field("evidence", &A::evidence,
               "exhaustive, searched, proved; open: it is neither proved nor refuted"),
         field("holds", &A::holds, "for every input of the domain"),
@@ -53,12 +63,22 @@ struct Description<stability::Answer> {
         field("boxes", &A::boxes, "of the proof"),
         field("open_share", &A::open_share,
               "part of the domain that the proof leaves open, in logarithms"),
-        field("safe_from", at(&A::looked, &L::safe_from),
-              "of alpha, or what else decides: from there on every input looked at keeps the "
-              "tolerance"),
-        field("tolerance", at(&A::looked, &L::tolerance), "relative"),
+        field("safe_from", safe_from,
+              "of alpha, or what else decides: the least value from which the requirement holds"),
+        field("safe_from_evidence", safe_from_evidence,
+              "exhaustive, proved; searched: nothing above breaks it that a search finds"),
+        field("least", &A::least, "where --least asks: the same of every requirement"),
+        field("tolerance", at(&A::looked, at(&L::tolerance, &stability::Tolerance::relative)),
+              "relative, that was looked for"),
         field("settled", at(&A::looked, &L::settled),
               "searches from two seeds agree within a factor of two")};
+  }
+  static std::optional<double> safe_from(const stability::Answer& a) {
+    return a.safe_from ? a.safe_from->value : std::nullopt;
+  }
+  static std::optional<stability::Evidence> safe_from_evidence(const stability::Answer& a) {
+    if (!a.safe_from) return {};
+    return a.safe_from->evidence;
   }
   static std::optional<std::array<double, 2>> range(const stability::Answer& a) {
     if (!a.range) return {};

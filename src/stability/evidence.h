@@ -12,6 +12,7 @@
 #include "base/names.h"
 #include "brdf/in_number/number.h"
 #include "number/half.h"
+#include "stability/kernel/tolerance.h"
 
 namespace gonio::stability {
 
@@ -31,6 +32,14 @@ struct Arithmetic {
   bool any_gpu = false;
 
   friend bool operator==(const Arithmetic&, const Arithmetic&) = default;
+};
+
+/// Requirement that every input of a domain must keep; a value, not infinite, is part of each.
+struct Requirement {
+  enum class Kind { finite, nonnegative, relative, absolute } kind = Kind::finite;
+  double limit = 0;  ///< of relative: most |x / f − 1|; of absolute: most |x − f|
+
+  std::string text() const;
 };
 
 /// Something's largest value, and the inputs where it is; empty: nowhere.
@@ -58,18 +67,25 @@ struct Looked {
   Count overflow;   ///< infinite because f is larger than the largest number
   Count undefined;  ///< NaN or infinite where f is no number, either
   Count negative_too;  ///< below 0, as f is
-  /// Off by more than the tolerance of f, or of the least number that is asked for where f is less: 2⁻¹⁴ in half and
-  /// mixed, 2⁻⁶⁴ in float and double, below which a result is black in whatever light; or no value.
+  /// Off by more than the tolerance; the least number that is asked for is 2⁻¹⁴ in half and mixed, 2⁻⁶⁴ in float and double,
+  /// below which a result is black in whatever light; or no value.
   Count lost;
   Count vanished;      ///< 0 where f is a normal number
   Count irreciprocal;  ///< another value with light and view exchanged
   Count not_monotone;  ///< at the next value of the last input it rises where f falls, or falls
                        ///< where f rises
   HalfFlags flags;     ///< raised on the way to the worst relative error, of half
-  std::optional<double> safe_from;  ///< of the parameter that decides: from there on every input
-                                    ///< looked at keeps the tolerance
-  double tolerance = 0;             ///< relative: 0.02 in half
-  bool settled = true;              ///< searches from two seeds agree within a factor of two
+  /// Of the parameter that decides: from there on every input looked at keeps the tolerance, has a value, and is not negative.
+  std::optional<double> safe_from, finite_from, nonnegative_from;
+  Tolerance tolerance{0};  ///< relative 0.02 in half
+  bool settled = true;     ///< searches from two seeds agree within a factor of two
+
+  /// The least value of the parameter that decides from which the requirement is kept; its tolerance is that of the looking.
+  const std::optional<double>& from(Requirement::Kind kind) const {
+    return kind == Requirement::Kind::finite        ? finite_from
+           : kind == Requirement::Kind::nonnegative ? nonnegative_from
+                                                    : safe_from;
+  }
 };
 
 }  // namespace gonio::stability

@@ -174,7 +174,7 @@ class Rows {
 };
 
 /// A result compared on its own.
-Compared compared(double got, double want, double tolerance) {
+Compared compared(double got, double want, const Tolerance& tolerance) {
   alignas(64) std::array<float, padding> x{};
   alignas(64) std::array<double, padding> f;
   f.fill(std::numeric_limits<double>::quiet_NaN());
@@ -207,7 +207,7 @@ bool can_be_exhausted(const Subject& s) {
 
 Looked exhaustive(const Subject& s,
                   const HalfRules& rules,
-                  double tolerance,
+                  const Tolerance& tolerance,
                   const Formula* formula) {
   const auto walk = walk_of(s);
   if (!walk)
@@ -315,9 +315,19 @@ Looked exhaustive(const Subject& s,
   }
 
   if (s.decides && walk->row == *s.decides) {
-    std::size_t safe = rows;
-    while (safe > 0 && by_row[safe - 1].beyond_tolerance == 0) --safe;
-    if (safe < rows) found.safe_from = walk->values[walk->row][safe];
+    const auto from = [&](auto&& is_broken) -> std::optional<double> {
+      std::size_t safe = rows;
+      while (safe > 0 && !is_broken(by_row[safe - 1])) --safe;
+      return safe < rows ? std::optional(walk->values[walk->row][safe]) : std::nullopt;
+    };
+    const auto has_none = [](const Compared& c) {
+      return c.no_value + c.overflow + c.undefined > 0;
+    };
+    found.finite_from = from(has_none);
+    found.nonnegative_from =
+        from([&](const Compared& c) { return has_none(c) || c.negative + c.negative_too > 0; });
+    found.safe_from =
+        from([&](const Compared& c) { return has_none(c) || c.beyond_tolerance > 0; });
   }
   return found;
 }

@@ -29,12 +29,12 @@ bool can_be_exhausted(const Subject&);
 /// of 256 rows, each of which is one value of the parameter.  The angles are rounded before the formula takes them up,
 /// also where what follows may be contracted.
 ///
-/// \param tolerance  relative, of a result above 2⁻¹⁴; below it of 2⁻¹⁴
+/// \param tolerance  relative of a result above 2⁻¹⁴; below it of 2⁻¹⁴
 /// \param formula    in place of the subject's own, and then against its double alone, without condition
 /// \throws Error (wrong usage) where can_be_exhausted is false
 Looked exhaustive(const Subject&,
                   const HalfRules&,
-                  double tolerance = 0.02,
+                  const Tolerance& tolerance = 0.02,
                   const Formula* formula = nullptr);
 
 }  // namespace gonio::stability

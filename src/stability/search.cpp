@@ -48,11 +48,21 @@ struct Judged {
   bool no_value = false, negative = false, overflow = false, undefined = false,
        negative_too = false, vanished = false, irreciprocal = false, not_monotone = false;
   bool lost = false;  ///< beyond the tolerance, or no value
+
+  bool has_none() const { return no_value || overflow || undefined; }
+  bool breaks(Requirement::Kind kind) const {
+    return has_none() ||
+           (kind == Requirement::Kind::nonnegative ? negative || negative_too
+                                                   : kind != Requirement::Kind::finite && lost);
+  }
 };
+/// Requirements whose largest broken parameter is looked for; the error's stands for relative and absolute.
+constexpr std::array kinds{Requirement::Kind::relative, Requirement::Kind::finite,
+                           Requirement::Kind::nonnegative};
 
 class Judge {
  public:
-  Judge(const Subject& s, const Arithmetic& a, double tolerance)
+  Judge(const Subject& s, const Arithmetic& a, const Tolerance& tolerance)
       : s_(s), a_(a), format_(format_of(a.number)), tolerance_(tolerance) {}
 
   bool wide() const { return a_.number == Number::double_; }
@@ -109,7 +119,7 @@ class Judge {
     j.negative = x < 0 && f.value >= 0;
     j.negative_too = x < 0 && f.value < 0;
     j.vanished = x == 0 && least <= size;
-    j.lost = tolerance_ * std::max(size, least) < error;
+    j.lost = std::max(tolerance_.relative * std::max(size, least), tolerance_.absolute) < error;
     return j;
   }
 
@@ -129,7 +139,7 @@ class Judge {
   const Subject& s_;
   Arithmetic a_;
   Format format_;
-  double tolerance_;
+  Tolerance tolerance_;
 };
 
 /// Domain of a subject in a number: inputs near its edges, and steps within.
@@ -250,7 +260,8 @@ struct Met {
                                      {&Looked::not_monotone, &Judged::not_monotone}};
   Looked looked;  ///< its counts
   std::uint64_t evaluations = 0;
-  std::optional<Inputs> lost;  ///< beyond the tolerance, with the largest deciding parameter
+  std::array<std::optional<double>, kinds.size()>
+      broken{};  ///< largest deciding parameter where each is
 
   void look(const Subject& s, const Inputs& in, const Judged& j) {
     ++evaluations;
@@ -259,9 +270,11 @@ struct Met {
       Count& c = looked.*e.count;
       if (c.count++ == 0) c.first = in;
     }
-    if (j.lost && s.decides && (!lost || (*lost)[*s.decides] < in[*s.decides])) lost = in;
+    if (!s.decides) return;
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+      if (j.breaks(kinds[k])) raise(broken[k], in[*s.decides]);
   }
-  void add(const Subject& s, const Met& other) {
+  void add(const Met& other) {
     for (const auto& e : events) {
       Count& c = looked.*e.count;
       const Count& d = other.looked.*e.count;
@@ -269,14 +282,19 @@ struct Met {
       c.count += d.count;
     }
     evaluations += other.evaluations;
-    if (other.lost && (!lost || (*lost)[*s.decides] < (*other.lost)[*s.decides])) lost = other.lost;
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+      if (other.broken[k]) raise(broken[k], *other.broken[k]);
   }
+
+ private:
+  static void raise(std::optional<double>& to, double x) { to = std::max(to.value_or(x), x); }
 };
 
 /// Aims of a climb: a larger error, relative or in units of the last digit, or than the condition explains; a larger
-/// parameter at which the tolerance is not kept.
-enum class Aim { relative, ulp, beyond, parameter };
-constexpr std::array aims{Aim::relative, Aim::ulp, Aim::beyond, Aim::parameter};
+/// parameter at which the tolerance is not kept, or no value, or a negative one.
+enum class Aim { relative, ulp, beyond, parameter, no_value, negative };
+constexpr std::array aims{Aim::relative,  Aim::ulp,      Aim::beyond,
+                          Aim::parameter, Aim::no_value, Aim::negative};
 
 double reached(Aim aim, const Subject& s, const Looking& l) {
   switch (aim) {
@@ -287,9 +305,12 @@ double reached(Aim aim, const Subject& s, const Looking& l) {
     case Aim::beyond:
       return l.judged.beyond;
     case Aim::parameter:
+    case Aim::no_value:
+    case Aim::negative:
       break;
   }
-  return l.judged.lost && s.decides ? l.in[*s.decides] : 0;
+  const auto kind = kinds[static_cast<std::size_t>(aim) - static_cast<std::size_t>(Aim::parameter)];
+  return s.decides && l.judged.breaks(kind) ? l.in[*s.decides] : 0;
 }
 
 /// Findings from one seed.
@@ -346,7 +367,7 @@ Found from_one_seed(
     }
   });
   for (const auto& climb : climbs) {
-    found.met.add(s, climb.met);
+    found.met.add(climb.met);
     const auto j = judge.confirmed(climb.at.in);
     const auto keep = [&](Worst& w, double value) {
       if (value > w.value) w = {value, climb.at.in};
@@ -377,7 +398,8 @@ double usual_tolerance(Number number) {
 Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& options) {
   Looked looked;
   looked.evidence = Evidence::searched;
-  looked.tolerance = options.tolerance > 0 ? options.tolerance : usual_tolerance(a.number);
+  const bool is_usual = options.tolerance.relative == 0 && options.tolerance.absolute == 0;
+  looked.tolerance = is_usual ? Tolerance(usual_tolerance(a.number)) : options.tolerance;
   const Judge judge(s, a, looked.tolerance);
   const Domain domain(s, a.number);
   const double effort = options.effort * share_of_cheap(s);
@@ -390,7 +412,7 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   };
   looked.settled = agree(one.relative.value, two.relative.value, few) &&
                    agree(one.beyond.value, two.beyond.value, 8);
-  one.met.add(s, two.met);
+  one.met.add(two.met);
   const auto worse = [](const Worst& x, const Worst& y) { return x.value < y.value ? y : x; };
   looked.relative = worse(one.relative, two.relative);
   looked.ulp = worse(one.ulp, two.ulp);
@@ -403,9 +425,10 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   if (!looked.ulp.at.empty()) looked.condition = truth_of(s, looked.ulp.at).condition;
   looked.evaluations = one.met.evaluations;
   for (const auto& e : Met::events) looked.*e.count = one.met.looked.*e.count;
-  if (s.decides)
-    looked.safe_from = one.met.lost ? domain.above(*s.decides, (*one.met.lost)[*s.decides])
-                                    : domain.lowest(*s.decides);
+  const std::array from{&looked.safe_from, &looked.finite_from, &looked.nonnegative_from};
+  for (std::size_t k = 0; s.decides && k < kinds.size(); ++k)
+    *from[k] = one.met.broken[k] ? domain.above(*s.decides, *one.met.broken[k])
+                                 : domain.lowest(*s.decides);
   return looked;
 }
 

@@ -17,7 +17,7 @@ namespace gonio::stability {
 double usual_tolerance(Number);
 
 struct SearchOptions {
-  double tolerance = 0;  ///< relative, as Looked::lost has it; 0: the usual one
+  Tolerance tolerance = 0;  ///< as Looked::lost has it; none of both: the usual one
   std::uint64_t seed = 1;
   double effort = 1;  ///< times as many seeds and steps
 };

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/nearest_names.h"
 #include "brdf/catalogue/registry.h"
-#include "brdf/in_number/number.h"
+#include "brdf/in_number/one_term.h"
 #include "brdf/model/presets.h"
 
 #include <fmt/format.h>
@@ -20,31 +20,13 @@ using Row = FrameAngles<double>;
 /// Least width and least cosine that are looked at, whatever a fit or a scene may have.
 constexpr double least_width = 1e-6, least_cosine = 1e-8;
 
-/// True where a term's value depends on an angle: by values on both sides of it, at angles like no others; at several, for a
-/// minimum or a clamp may hide one.
-bool reads(std::size_t term, double Row::*angle) {
-  static const std::array<Row, 3> places{{
-      {{0.61, 0.53, 0.83, 0.71, 0.3111}, 0.41, 0.37, 0.57, -0.44, 0.31, 0.66},
-      {{0.11, 0.93, 0.27, 0.79, 0.9271}, 0.81, 0.51, 0.87, -0.48, 0.33, 0.16},
-      {{0.89, 0.07, 0.35, 0.97, 0.8775}, 0.77, 0.53, 0.31, 0.33, 0.61, -0.79},
-  }};
-  std::vector<double> p;
-  for (const auto& q : catalogue()[term].parameters) p.push_back(q.start);
-  return std::ranges::any_of(places, [&](const Row& place) {
-    std::array rows{place, place};
-    rows[1].*angle *= 0.97;
-    const auto value = values_in(Number::double_, term, p, rows);
-    return value[0] < value[1] || value[1] < value[0];
-  });
-}
-
 std::vector<Given> given_to(std::size_t term) {
   const auto& entry = catalogue()[term];
-  const bool half = reads(term, &Row::noh) || reads(term, &Row::voh);
+  const bool half = reads_angle(term, &Row::noh) || reads_angle(term, &Row::voh);
   switch (entry.role()) {
     case Role::ndf:
       if (entry.anisotropic) return {Given::frame};
-      if (reads(term, &Row::sin2_theta_h)) return {Given::cross, Given::cosine};
+      if (reads_angle(term, &Row::sin2_theta_h)) return {Given::cross, Given::cosine};
       return {Given::cosine};
     case Role::fresnel:
       return {Given::facet};

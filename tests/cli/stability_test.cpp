@@ -20,6 +20,19 @@ TEST(StabilityCommand, AnswersForOnesOwnDomain) {
   EXPECT_EQ(j["domain"]["alpha"][1], 0.11);
 }
 
+TEST(StabilityCommand, NamesTheLeastOfEveryRequirementInOneCall) {
+  const Folder f;
+  const auto o = gonio(f, "stability ndf.ggx --domain alpha=0.001,0.1 --least --json");
+  const auto least = o.json()["least"];
+  ASSERT_EQ(least.size(), 8U);
+  EXPECT_EQ(least[0]["requirement"], "finite");
+  EXPECT_EQ(least[0]["value"], o.json()["safe_from"]);
+  EXPECT_EQ(least[7]["requirement"], "absolute=0.002");
+  EXPECT_EQ(least[7]["flush"], true);
+  const auto text = gonio(f, "stability ndf.ggx --domain alpha=0.001,0.1 --least").out;
+  EXPECT_NE(text.find("(roughness 0.0"), text.npos) << text;
+}
+
 TEST(StabilityCommand, ExitsWith1AndAnInputWhereWhatIsRequiredDoesNotHold) {
   const Folder f;
   const std::string words = "stability ndf.ggx --domain alpha=0.001,0.0012 ";

@@ -5,6 +5,7 @@
 #include "refusal.h"
 #include "stability/evaluate.h"
 #include "stability/exhaustive.h"
+#include "stability/places.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,141 @@ TEST(StabilityAnswer, OfEveryHalfEstablishesWhatItLookedAt) {
   EXPECT_FALSE(a.counterexample);
   EXPECT_GT(a.looked.relative.value, 1e-4);
   EXPECT_LT(a.looked.relative.value, 0.02);
+}
+
+/// Least of the halves of the first input from which, up to its end, no half of the last breaks the requirement: by halving, each
+/// time over all inputs from there on.
+std::optional<double> bisected(const Question& q) {
+  const auto& s = q.subject;
+  const auto halves = [&](std::size_t k) {
+    std::vector<double> all;
+    const auto places = places_within(Number::half, s.inputs[k].domain, true);
+    for (auto p = places.first; p <= places.last; ++p)
+      all.push_back(at_place(Number::half, p, true));
+    return all;
+  };
+  std::vector<double> in;
+  for (const auto& i : s.inputs) in.push_back(rounded(Number::half, i.domain.low, true));
+  const auto deciding = halves(*s.decides), others = halves(in.size() - 1);
+  const auto breaks = [&] {
+    const double x = value_of(s, q.arithmetic, in), f = value_of(s, Number::double_, in);
+    if (!std::isfinite(x)) return true;
+    if (q.requirement.kind == Requirement::Kind::finite) return false;
+    if (q.requirement.kind == Requirement::Kind::nonnegative) return x < 0;
+    const double size =
+        q.requirement.kind == Requirement::Kind::absolute ? 1 : std::max(std::abs(f), 0x1p-14);
+    return std::abs(x - f) > q.requirement.limit * size;
+  };
+  const auto holds = [&](std::size_t from) {
+    for (std::size_t d = from; d < deciding.size(); ++d)
+      for (const double other : others) {
+        in[*s.decides] = deciding[d];
+        in.back() = other;
+        if (breaks()) return false;
+      }
+    return true;
+  };
+  if (!holds(deciding.size() - 1)) return {};
+  std::size_t fails = 0, kept = deciding.size() - 1;
+  if (holds(0)) return deciding[0];
+  while (kept - fails > 1) {
+    const auto middle = (fails + kept) / 2;
+    (holds(middle) ? kept : fails) = middle;
+  }
+  return deciding[kept];
+}
+
+TEST(StabilityAnswer, IsSafeFromWhereBruteForceFindsItInHalf) {
+  struct Case {
+    const char *id, *form, *required;
+    std::vector<std::pair<const char*, Range>> domain;
+  };
+  std::size_t between = 0;
+  for (const auto& [id, form, required, domain] :
+       std::vector<Case>{{"ndf.ggx",
+                          "cross",
+                          "finite",
+                          {{"alpha", {0.0021, 0.0023}}, {"sin2_theta_h", {0, 1e-5}}}},
+                         {"ndf.ggx",
+                          "cross",
+                          "relative=0.02",
+                          {{"alpha", {0.0037, 0.004}}, {"sin2_theta_h", {0, 4e-5}}}},
+                         {"ndf.beckmann",
+                          "cross",
+                          "relative=0.03",
+                          {{"alpha", {0.01, 0.02}}, {"sin2_theta_h", {0, 2e-5}}}},
+                         {"ndf.ggx.mobile",
+                          "cosine",
+                          "relative=0.05",
+                          {{"alpha", {0.05, 0.3}}, {"noh", {0.95, 1}}}},
+                         {"fresnel.schlick",
+                          "facet",
+                          "absolute=0.0003",
+                          {{"f0", {0.2, 0.5}}, {"voh", {0.5, 0.6}}}},
+                         {"fresnel.f82",
+                          "facet",
+                          "nonnegative",
+                          {{"f0", {0, 0.02}}, {"f82", {0, 0}}, {"voh", {0.1, 0.2}}}},
+                         {"masking.smith_ggx.correlated",
+                          "cosines",
+                          "relative=0.003",
+                          {{"alpha", {0.1, 0.2}}, {"nol", {0.125, 0.125}}, {"nov", {0.1, 0.12}}}}})
+    for (const bool flush : {false, true}) {
+      Question q;
+      q.subject = subject_of(id, form);
+      q.arithmetic = {Number::half, flush, false};
+      q.requirement = parse_requirement(required);
+      for (const auto& [name, ends] : domain) set_domain(q.subject, name, ends);
+      const auto a = answer(q);
+      ASSERT_TRUE(a.safe_from) << id;
+      EXPECT_EQ(a.safe_from->evidence, Evidence::exhaustive) << id;
+      const auto brute = bisected(q);
+      EXPECT_EQ(a.safe_from->value, brute) << id << ' ' << required << (flush ? ", flushed" : "");
+      if (brute && *brute > domain[0].second.low * 1.01) ++between;
+    }
+  EXPECT_GE(between, 6U) << "the cases decide nothing";
+}
+
+TEST(StabilityAnswer, NamesTheLeastOfEveryRequirementInOneCall) {
+  auto q = about("ndf.ggx", Number::half, "relative=0.05");
+  set_domain(q.subject, "alpha", {0.001, 0.0625});
+  const auto all = least_values(q);
+  ASSERT_EQ(all.size(), 8U);
+  for (const auto& l : all) {
+    Question one = q;
+    one.requirement = parse_requirement(l.requirement);
+    one.arithmetic.flush = l.flush;
+    const auto alone = answer(one).safe_from;
+    ASSERT_TRUE(alone);
+    EXPECT_EQ(alone->value, l.value) << l.requirement;
+  }
+  EXPECT_EQ(all[2].requirement, "relative=0.05");
+  EXPECT_LT(*all[0].value, *all[2].value) << "a value comes before its digits";
+  EXPECT_NE(all[2].value, all[6].value) << "flushing costs some";
+}
+
+TEST(StabilityAnswer, ProvesFromWhereAWholeModelHasAValue) {
+  auto q = about("ggx/smith_ggx.correlated/schlick", Number::half, "finite");
+  for (const char* name : {"nol", "nov"}) set_domain(q.subject, name, {0.1, 1});
+  const auto a = answer(q);
+  EXPECT_FALSE(a.holds);
+  ASSERT_TRUE(a.safe_from && a.safe_from->value);
+  EXPECT_EQ(a.safe_from->evidence, Evidence::proved);
+  EXPECT_GE(*a.safe_from->value, *a.looked.finite_from);
+  set_domain(q.subject, "alpha", {*a.safe_from->value, 1});
+  EXPECT_TRUE(answer(q).holds);
+  set_domain(q.subject, "alpha", {1e-6, 0.001});
+  EXPECT_FALSE(answer(q).safe_from->value) << "nowhere";
+}
+
+TEST(StabilityAnswer, AsksForAnAbsoluteErrorWhereAValueIsNextToNothing) {
+  for (const auto& [required, holds] :
+       {std::pair("absolute=0.002", true), {"relative=0.02", false}}) {
+    auto q = about("fresnel.f82", Number::half, required);
+    set_domain(q.subject, "f0", {0.001, 0.001});
+    EXPECT_EQ(answer(q).holds, holds) << required;
+  }
+  EXPECT_NE(refusal([] { parse_requirement("absolute=0"); }, Exit::usage), "");
 }
 
 TEST(StabilityAnswer, HasTheInputThatBreaksARequirement) {

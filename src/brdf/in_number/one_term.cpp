@@ -53,6 +53,23 @@ double in_row(const std::vector<double>& column, std::size_t row) {
 
 }  // namespace
 
+bool reads_angle(std::size_t term, double FrameAngles<double>::*angle) {
+  using Row = FrameAngles<double>;
+  static const std::array<Row, 3> places{{
+      {{0.61, 0.53, 0.83, 0.71, 0.3111}, 0.41, 0.37, 0.57, -0.44, 0.31, 0.66},
+      {{0.11, 0.93, 0.27, 0.79, 0.9271}, 0.81, 0.51, 0.87, -0.48, 0.33, 0.16},
+      {{0.89, 0.07, 0.35, 0.97, 0.8775}, 0.77, 0.53, 0.31, 0.33, 0.61, -0.79},
+  }};
+  std::vector<double> p;
+  for (const auto& q : catalogue()[term].parameters) p.push_back(q.start);
+  return std::ranges::any_of(places, [&](const Row& place) {
+    std::array rows{place, place};
+    rows[1].*angle *= 0.97;
+    const auto value = values_in(Number::double_, term, p, rows);
+    return value[0] < value[1] || value[1] < value[0];
+  });
+}
+
 TermValues evaluate_term(std::size_t term,
                          Number number,
                          const std::map<std::string, double>& parameters,
@@ -87,6 +104,25 @@ TermValues evaluate_term(std::size_t term,
     const auto member =
         std::ranges::find(known, name, [](const auto& k) { return k.first; })->second;
     for (std::size_t i = 0; i < rows; ++i) angles[i].*member = in_row(column, i);
+  }
+  // NoH and VoH of two directions; of those that are not given.
+  const bool has_half = at.contains("noh"), has_facing = at.contains("voh") || at.contains("cos");
+  const bool of_directions = at.contains("nol") || at.contains("nov");
+  if (of_directions && !(has_half && has_facing) &&
+      (reads_angle(term, &Row::noh) || reads_angle(term, &Row::voh))) {
+    if (!has_half && !has_facing && at.contains("nol") && at.contains("nov"))
+      throw wrong_usage(fmt::format(
+          "{} reads the half vector: expected voh or noh beside nol and nov", t.about->id));
+    for (auto& a : angles) {
+      const double sum = a.nol + a.nov;
+      if (!has_half && !has_facing) a.voh = std::sqrt(sum / 2);  // the other along the normal
+      (has_half ? a.voh : a.noh) = sum / (2 * (has_half ? a.noh : a.voh));
+      if (!((has_half ? a.voh : a.noh) <= 1 + 1e-12))
+        throw wrong_usage(fmt::format("no two directions have nol = {}, nov = {} and {} = {}",
+                                      a.nol, a.nov, has_half ? "noh" : "voh",
+                                      has_half ? a.noh : a.voh));
+      a.noh = std::min(a.noh, 1.0), a.voh = std::min(a.voh, 1.0);
+    }
   }
   const auto given = [&](const char* x, const char* y) { return at.contains(x) || at.contains(y); };
   const auto sine = [](double c) { return std::sqrt((1 - c) * (1 + c)); };

@@ -18,10 +18,16 @@ namespace gonio {
 /// yov) is a column; columns of one value serve all rows.  Of h, what is given decides: sin2_theta_h
 /// is xoh² + yoh² or else (1 − noh)(1 + noh), noh is √(1 − sin²θ_h).  A direction of whose frame
 /// nothing is given lies above the tangent.
+///
+/// One of noh and voh gives the other by 2 VoH NoH = NoL + NoV; of one direction only, the other stands along the normal.
+/// A term of two directions that reads what does not follow so is wrong usage.
 struct TermValues {
   std::vector<std::pair<std::string, double>> parameters;  ///< all of them, defaults included
   std::vector<double> values;
 };
+/// True where a term's value depends on an angle: by values on both sides of it, at angles like no others; at several, for a
+/// minimum or a clamp may hide one.
+bool reads_angle(std::size_t term, double FrameAngles<double>::*angle);
 TermValues evaluate_term(std::size_t term,
                          Number number,
                          const std::map<std::string, double>& parameters,

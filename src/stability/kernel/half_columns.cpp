@@ -76,10 +76,12 @@ std::uint64_t total(const B& counts) {
   return static_cast<std::uint64_t>(sum);
 }
 
-void compare(std::size_t n, const float* x, const double* f, double tolerance, Compared& found) {
+void compare(
+    std::size_t n, const float* x, const double* f, const Tolerance& tolerance, Compared& found) {
   using B = Lane<double>;
   constexpr std::size_t width = lanes<B>;
-  const B zero(0.0), most(65504.0), infinite(65520.0), normal(0x1p-14), keeps(tolerance);
+  const B zero(0.0), most(65504.0), infinite(65520.0), normal(0x1p-14), keeps(tolerance.relative),
+      allowed(tolerance.absolute);
   const B one(1.0);
   B relative(0.0), ulp(0.0);
   B nothing(0.0), over(0.0), undefined(0.0), negative(0.0), negative_too(0.0), vanished(0.0),
@@ -106,7 +108,8 @@ void compare(std::size_t n, const float* x, const double* f, double tolerance, C
     add(negative, compared && got < zero && zero <= want);
     add(negative_too, compared && got < zero && want < zero);
     add(vanished, compared && is_normal && size_got <= zero);
-    add(lost, no_value || too_large || (compared && keeps * max<B>(size, normal) < error));
+    add(lost, no_value || too_large ||
+                  (compared && max<B>(keeps * max<B>(size, normal), allowed) < error));
   }
   found.no_value += total(nothing);
   found.overflow += total(over);

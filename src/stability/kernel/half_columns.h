@@ -13,6 +13,7 @@
 #include "brdf/kernel/kernels.h"
 #include "number/half.h"
 #include "stability/kernel/given.h"
+#include "stability/kernel/tolerance.h"
 
 namespace gonio::stability {
 
@@ -35,7 +36,7 @@ using HalfByRules = std::array<HalfColumn, all_rules.size()>;
 struct Compared {
   std::uint64_t no_value = 0, negative = 0, overflow = 0, vanished = 0;  ///< as in Looked
   std::uint64_t beyond_tolerance =
-      0;  ///< more than that of f, or of 2⁻¹⁴ where f is less; or no value
+      0;  ///< more than the tolerance allows, f at least 2⁻¹⁴; or no value
   double relative = 0, ulp = 0;                   ///< the largest, as in Looked
   std::uint64_t undefined = 0, negative_too = 0;  ///< as in Looked
 
@@ -56,7 +57,8 @@ struct HalfKernels {
                         std::span<const double* const> in,
                         const AngleColumns<double>& out);
   /// Adds to what was found.
-  void (*compare)(std::size_t n, const float* x, const double* f, double tolerance, Compared&);
+  void (*compare)(
+      std::size_t n, const float* x, const double* f, const Tolerance& tolerance, Compared&);
   std::span<const std::array<HalfColumn, all_rules.size()>>
       terms;  ///< in the order of the catalogue
 };

@@ -5,8 +5,10 @@
 
 #include "base/error.h"
 #include "brdf/in_number/one_term.h"
+#include "brdf/model/evaluate.h"
 #include "brdf/terms.h"
 #include "constants.h"
+#include "geometry/half_difference.h"
 #include "refusal.h"
 
 namespace gonio {
@@ -343,7 +345,7 @@ TEST(Term, AloneGivesMaskingAsG2OrG1) {
 }
 
 TEST(Term, AloneIsFiniteAtGrazing) {
-  const At grazing{{"nol", {0, 0, 0.5}}, {"nov", {0, 0.5, 0}}};
+  const At grazing{{"nol", {0, 0, 0.5}}, {"nov", {0, 0.5, 0}}, {"voh", {0.7}}};
   for (const auto m : test::terms_of(Role::masking))
     for (const auto number : {Number::double_, Number::float_})
       for (const double g : evaluate_term(m, number, {}, grazing).values) EXPECT_EQ(g, 0);
@@ -392,6 +394,94 @@ TEST(Term, AloneInFloatIsTheFloatFormula) {
     EXPECT_NEAR(f, d, 3e-6 * d) << catalogue()[t].about->id;
     EXPECT_EQ(f, static_cast<double>(static_cast<float>(f))) << "a float";
   }
+}
+
+/// Every term beside others that are told, and what the model's value says of it.
+TEST(Term, AloneIsWhatAModelHasOfItOverTheCatalogue) {
+  const auto near = [](double got, double want, const About& about) {
+    EXPECT_NEAR(got, want, 1e-7 * std::abs(want) + 1e-12) << about.id;
+  };
+  for (const auto& [l, v] : {std::pair(direction(0.9, 0.3), direction(0.5, 2.1)),
+                             {direction(0.2, 1), direction(1.1, 5)}}) {
+    const auto x = frame_angles({l, v});
+    const At directions{{"nol", {x.nol}}, {"nov", {x.nov}}}, facing{{"voh", {x.voh}}};
+    At half{{"noh", {x.noh}}, {"sin2_theta_h", {x.sin2_theta_h}}}, two = directions,
+                                                                   frame = directions;
+    two.merge(At(facing));
+    frame.merge(At{{"xol", {x.xol}}, {"yol", {x.yol}}, {"xov", {x.xov}}, {"yov", {x.yov}}});
+    for (std::size_t t = 0; t < catalogue().size(); ++t) {
+      const auto& about = *catalogue()[t].about;
+      const std::string own(short_id(about.id));
+      const auto model = [&](const std::string& spec, std::vector<Setting> set) {
+        return bind_model(spec, std::move(set), 1);
+      };
+      const auto value = [&](const BoundModel& b) { return evaluate(b, std::vector{x})[0][0]; };
+      const auto alone = [&](std::string_view id, const BoundModel& b, const At& at) {
+        const auto term = find_term(id);
+        std::map<std::string, double> p;
+        for (const auto& q : catalogue()[term].parameters)
+          p[std::string(q.name)] = b.values[b.model.find(q.name)->first];
+        return evaluate_term(term, Number::double_, p, at).values[0];
+      };
+      const double uncompensated = 4 * x.nol * x.nov;
+      switch (catalogue()[t].role()) {
+        case Role::ndf: {
+          At at = half;
+          if (catalogue()[t].anisotropic) at.merge(At{{"xoh", {x.xoh}}, {"yoh", {x.yoh}}});
+          const auto b = model(own + "/none/schlick", {{"f0", {1}}});
+          near(alone(about.id, b, at), value(b) * uncompensated, about);
+          break;
+        }
+        case Role::masking: {
+          const auto b = model("ggx/" + own + "/schlick", {{"f0", {1}}});
+          const auto& at = catalogue()[t].anisotropic ? frame : two;
+          near(alone(about.id, b, at), value(b) * uncompensated / alone("ndf.ggx", b, half), about);
+          break;
+        }
+        case Role::fresnel: {
+          const auto b = model("ggx/none/" + own, {});
+          near(alone(about.id, b, facing), value(b) * uncompensated / alone("ndf.ggx", b, half),
+               about);
+          break;
+        }
+        case Role::diffuse: {
+          if (!catalogue()[t].coupled) {
+            const auto b = model(own, {});
+            near(alone(about.id, b, two), value(b), about);
+            break;
+          }
+          const auto b = model(own + "+ggx/none/schlick", {});
+          auto lobe = b;
+          lobe.model.diffuse.clear();
+          near(alone(about.id, b, two) * (1 - alone("fresnel.schlick", b, facing)),
+               value(b) - value(lobe), about);
+        }
+      }
+    }
+  }
+}
+
+TEST(Term, AloneAsksForTheHalfVectorWhereItDoesNotFollow) {
+  const auto hammon = find_term("diffuse.hammon");
+  const auto with = [&](const At& at) {
+    return evaluate_term(hammon, Number::double_, {{"alpha", 0.5}, {"kd", 0.6}}, at).values[0];
+  };
+  expect_refused([&] { with({{"nol", {0.4}}, {"nov", {0.7}}}); }, {"voh or noh"});
+  expect_refused(
+      [&] {
+        with({{"nol", {0.9}}, {"nov", {0.9}}, {"voh", {0.1}}});
+      },
+      {"no two directions"});
+  // Light along the normal: both cosines of the half vector are that of half the angle.
+  const double middle = std::sqrt(0.85);
+  EXPECT_NEAR(with({{"nov", {0.7}}}), with({{"nol", {1}}, {"nov", {0.7}}, {"noh", {middle}}}),
+              1e-15);
+  // 2 VoH NoH = NoL + NoV
+  EXPECT_NEAR(with({{"nol", {0.4}}, {"nov", {0.7}}, {"voh", {0.8}}}),
+              with({{"nol", {0.4}}, {"nov", {0.7}}, {"noh", {1.1 / 1.6}}}), 1e-15);
+  EXPECT_GT(std::abs(with({{"nol", {0.4}}, {"nov", {0.7}}, {"voh", {0.8}}}) -
+                     with({{"nol", {0.4}}, {"nov", {0.7}}, {"voh", {0.8}}, {"noh", {1}}})),
+            1e-3);
 }
 
 TEST(Term, AloneRefusesParametersThatItHasNotOrNotThere) {
