@@ -21,19 +21,26 @@ struct ExportCall : Common {
   std::string fit, output;
   ExportTarget target{};
   double tolerance = default_export_tolerance;
+  bool preview = false;
 };
 
 void print(const Export& e) {
-  std::size_t width = 12;
+  std::size_t width = 17;
   for (const auto& p : e.parameters) width = std::max(width, p.first.size() + 2);
   for (const auto& [name, values] : e.parameters)
     say("{:<{}}{}\n", name, width, fmt::format("{:.5g}", fmt::join(values, ", ")));
   const auto line = [](const ExportResidual& r) {
-    return fmt::format("{:.3g} % off on average (RMS), {:.3g} % at most", 100 * r.rms,
-                       100 * r.largest);
+    const auto& at = r.largest_at;
+    return fmt::format(
+        "{:.3g} % off on average (RMS), {:.3g} % at most: light at {:.0f}°, view at {:.0f}°, "
+        "azimuths {:.0f}° and {:.0f}°",
+        100 * r.rms, 100 * r.largest, at.theta_i, at.theta_o, at.phi_i, at.phi_o);
   };
+  if (e.misfit)
+    say("{:<{}}×/÷ {:.3g} off its table typically, before any export\n", "fit", width, *e.misfit);
   say("{:<{}}{}\n", "renamed", width, line(e.renamed));
   if (e.refitted) say("{:<{}}{}\n", "refitted", width, line(e.written));
+  for (const auto& v : e.variants) say("{:<{}}{}\n", v.variant, width, line(v.residual));
   for (const auto& l : e.lost) say_below("lost    ", l);
   for (const auto& l : e.clamped)
     say_below("beware  ", l + (e.refitted ? " The refit began at the range's end."
@@ -47,6 +54,8 @@ Exit run(const ExportCall& o) {
   use(o);
   if (!std::isfinite(o.tolerance) || o.tolerance < 0)
     throw wrong_usage("--tolerance: expected a number from 0 on");
+  if (o.preview && !can_preview(o.target))
+    throw wrong_usage(fmt::format("--preview: found target {}, expected gltf", name_of(o.target)));
   check_outputs({o.fit}, {o.output});
   OutputFile out(o.output);
   Progress progress(o.quiet);
@@ -55,7 +64,9 @@ Exit run(const ExportCall& o) {
   const FittedModel fitted = parse_fitted_model(o.fit, bytes);
   std::optional<std::size_t> channels;
   if (!fitted.channels.empty()) channels = fitted.channels.size();
-  const Export e = export_fit(o.target, o.fit, bind_fitted(o.fit, fitted, channels), o.tolerance);
+  Export e = export_fit(o.target, o.fit, bind_fitted(o.fit, fitted, channels), o.tolerance);
+  e.preview = o.preview;
+  if (fitted.log_rms) e.misfit = std::exp(*fitted.log_rms);
   out.write(file_of(e, bytes));
   out.commit();
   progress.clear();
@@ -79,6 +90,8 @@ void add_export(CommandLine& line) {
   c.option("--tolerance", o->tolerance,
            "Distance (RMS, relative) above which parameters are fitted again in the target's model")
       .show_default();
+  c.flag("--preview", o->preview,
+         "A sphere in the file, on which viewers show the material (gltf)");
   c.option("-o,--output", o->output, "File to write").required();
   add_jobs(c, *o);
   add_output(c, *o);

@@ -2,6 +2,7 @@
 #include "shader/shader.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "answer/model_argument.h"
 #include "base/file.h"
@@ -89,7 +90,7 @@ Planned planned(const std::string& path, const std::string& name) {
   return p;
 }
 
-shader::TracedFormula traced(const ShaderCall& o) {
+shader::TracedFormula traced(const ShaderCall& o, std::vector<std::string>& remarks) {
   refuse_integrals(o.subject);
   const auto precision = o.precision;
   if (is_of_catalogue(o.subject)) {
@@ -117,9 +118,13 @@ shader::TracedFormula traced(const ShaderCall& o) {
   }
   if (!o.grey.empty() && !file_in(o.subject).empty())
     throw wrong_usage("--grey goes with a model: a fit says which of its colours are grey");
-  const auto model = o.grey.empty() ? model_argument(o.subject, parse_settings(o.set)).model
-                                    : bind_model(o.subject, parse_settings(o.set), {}, o.grey);
-  return shader::trace_model(model, precision, o.inputs, o.derivatives, compensating);
+  const auto argument =
+      o.grey.empty() ? model_argument(o.subject, parse_settings(o.set))
+                     : ModelArgument{bind_model(o.subject, parse_settings(o.set), {}, o.grey), {}};
+  if (argument.log_rms)
+    remarks.push_back(fmt::format("The fit is off its table by a factor of {:.3g} typically.",
+                                  std::exp(*argument.log_rms)));
+  return shader::trace_model(argument.model, precision, o.inputs, o.derivatives, compensating);
 }
 
 /// What E of the function's arguments is looked up in.
@@ -162,13 +167,16 @@ Exit run(const ShaderCall& o) {
   if (o.table) table.emplace(*o.table);
   Progress progress(o.quiet);
   shader::ShaderDocument d;
-  d.formula = traced(o);
+  std::vector<std::string>
+      of_fit;  // which come first: no shader is nearer to the table than its fit
+  d.formula = traced(o, of_fit);
   d.writing.language = o.language;
   d.writing.name = o.name;
   if (!o.without_evidence)
     d.writing.remarks = shader::evidence_of(
         d.formula, d.writing.language,
         [&](std::string_view term) { progress(fmt::format("looking at what {} loses", term)); });
+  d.writing.remarks.insert(d.writing.remarks.begin(), of_fit.begin(), of_fit.end());
   const auto masking = tabulated_masking(d.formula);
   const bool reads = reads_albedo(d.formula);
   if (o.table && !reads)

@@ -19,10 +19,21 @@
 namespace gonio {
 
 template <>
+inline constexpr auto description<ExportPlace> =
+    std::tuple{Field{"theta_i", "°", &ExportPlace::theta_i, "of the light"},
+               Field{"phi_i", "°", &ExportPlace::phi_i, "in (−180, 180]"},
+               Field{"theta_o", "°", &ExportPlace::theta_o, "of the view"},
+               Field{"phi_o", "°", &ExportPlace::phi_o, "in (−180, 180]"}};
+template <>
 inline constexpr auto description<ExportResidual> =
     std::tuple{Field{"rms", &ExportResidual::rms, "root mean square of the relative distance"},
-               Field{"largest", &ExportResidual::largest, "largest relative distance"}};
+               Field{"largest", &ExportResidual::largest, "largest relative distance"},
+               Field{"largest_at", &ExportResidual::largest_at, "where that is"}};
 static_assert(describes_every_member<ExportResidual>());
+template <>
+inline constexpr auto description<ExportVariant> =
+    std::tuple{Field{"variant", &ExportVariant::variant, "as the target names it"},
+               Field{"residual", &ExportVariant::residual, "of what was written, computed so"}};
 
 template <>
 inline constexpr auto description<Export> = std::tuple{
@@ -31,15 +42,22 @@ inline constexpr auto description<Export> = std::tuple{
     Field{"fit", &Export::fit, "path of the fit"},
     Field{"model", &Export::model, "spec of the fit"},
     Field{"parameters", per_name(&Export::parameters), "of the target, by its names"},
+    Field{"misfit", &Export::misfit,
+          "typical factor of the fit from its table; null: its document has none"},
     Field{"tolerance", &Export::tolerance, "of the root mean square"},
     Field{"renamed", &Export::renamed, "residual of parameters that are only renamed"},
     Field{"written", &Export::written, "residual of the parameters that were written"},
+    Field{"variants", &Export::variants, "ways in which the target computes what was written"},
+    Field{"preview", &Export::preview, "whether the file has a sphere to show the material on"},
     Field{"refitted", &Export::refitted, "whether these were fitted in the target's model"},
     Field{"lost", &Export::lost, "what the target cannot express"},
     Field{"clamped", &Export::clamped, "what was outside the target's range"}};
 static_assert(describes_every_member<Export>());
 
 namespace {
+
+/// Most zenith angle of light and view, and that up to which a mean of f is taken [°].
+constexpr double most_zenith = 88, usual_zenith = 80;
 
 /// Directions that are the same for every export: one half anywhere, the other around the mirror's.
 /// \param first  of the sequence; other ones where this is further than export_directions away
@@ -52,10 +70,10 @@ std::vector<DirectionPair> fixed_directions(std::size_t first) {
     constexpr double g = 1.2207440846057596;
     const double n = static_cast<double>(first + i) + 0.5;
     const double u = part(n / g), v = part(n / (g * g)), w = part(n / (g * g * g));
-    const double in = 80 * u;
+    const double in = most_zenith * u;
     const bool near = i % 2 == 1;
     const double a = 2 * v - 1, b = 2 * w - 1;
-    const double out = near ? std::clamp(in + 40 * a * a * a, 0.0, 80.0) : 80 * v;
+    const double out = near ? std::clamp(in + 40 * a * a * a, 0.0, most_zenith) : most_zenith * v;
     const double phi = near ? 180 + 60 * b * b * b : 360 * w;
     const double turn = 360 * part(n * std::numbers::phi);  // of both, about the normal
     all.push_back(
@@ -70,33 +88,41 @@ std::vector<FrameAngles<double>> fixed_angles(std::size_t first) {
   return all;
 }
 
-ExportResidual residual(const std::vector<std::vector<double>>& target,
-                        const std::vector<std::vector<double>>& fit) {
-  ExportResidual r;
-  double sum = 0;
-  for (std::size_t c = 0; c < fit.size(); ++c) {
-    double mean = 0;
-    for (const double f : fit[c]) mean += f / static_cast<double>(export_directions);
-    for (std::size_t i = 0; i < export_directions; ++i) {
-      const double scale = std::max(fit[c][i], mean);
-      const double d = scale > 0 ? std::abs(target[c][i] - fit[c][i]) / scale : target[c][i];
-      sum += d * d;
-      r.largest = std::max(r.largest, d);
-    }
-  }
-  r.rms = std::sqrt(sum / static_cast<double>(export_directions * fit.size()));
-  return r;
-}
-
 /// What a distance is relative to: f, or its mean in that channel where that is larger.
-std::vector<std::vector<double>> scale_of(const std::vector<std::vector<double>>& fit) {
+std::vector<std::vector<double>> scale_of(const std::vector<std::vector<double>>& fit,
+                                          std::span<const FrameAngles<double>> at) {
+  const double least_cosine = std::cos(usual_zenith * degree);
   auto scale = fit;
   for (auto& channel : scale) {
-    double mean = 0;
-    for (const double f : channel) mean += f / static_cast<double>(channel.size());
-    for (double& f : channel) f = std::max({f, mean, std::numeric_limits<double>::min()});
+    double sum = 0, n = 0;
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (std::min(at[i].nol, at[i].nov) >= least_cosine) sum += channel[i], ++n;
+    for (double& f : channel) f = std::max({f, sum / n, std::numeric_limits<double>::min()});
   }
   return scale;
+}
+
+ExportPlace place_of(const DirectionPair& d) {
+  const auto zenith = [](const Direction& w) { return std::acos(std::min(w.z, 1.0)) / degree; };
+  const auto azimuth = [](const Direction& w) { return std::atan2(w.y, w.x) / degree; };
+  return {zenith(d.wi), azimuth(d.wi), zenith(d.wo), azimuth(d.wo)};
+}
+
+ExportResidual residual(const std::vector<std::vector<double>>& target,
+                        const std::vector<std::vector<double>>& fit,
+                        const std::vector<std::vector<double>>& scale) {
+  ExportResidual r;
+  double sum = 0;
+  std::size_t worst = 0;
+  for (std::size_t c = 0; c < fit.size(); ++c)
+    for (std::size_t i = 0; i < export_directions; ++i) {
+      const double d = std::abs(target[c][i] - fit[c][i]) / scale[c][i];
+      sum += d * d;
+      if (d > r.largest) r.largest = d, worst = i;
+    }
+  r.rms = std::sqrt(sum / static_cast<double>(export_directions * fit.size()));
+  r.largest_at = place_of(judged_directions()[worst]);
+  return r;
 }
 
 /// Values within the target's ranges; a sentence of each parameter that was not.
@@ -145,21 +171,24 @@ Export export_fit(ExportTarget to,
   const Surface surface = surface_of(fit);
   const auto judged = fixed_angles(0), fitted = fixed_angles(export_directions);
   const auto wanted = evaluate(fit, judged), learned = evaluate(fit, fitted);
-  Export best{to, path, fit.model.spec, {}, tolerance};
+  const auto scale = scale_of(wanted, judged), learned_scale = scale_of(learned, fitted);
+  Export best{to, path, fit.model.spec, {}, {}, tolerance};
   bool first = true;
   for (auto& form : target.forms(surface)) {
-    Export e{to, path, fit.model.spec, {}, tolerance};
+    Export e{to, path, fit.model.spec, {}, {}, tolerance};
     e.lost = target.lost(fit, surface, form.parameters);
     e.clamped = clamp(form.parameters);
     auto p = form.parameters;
-    e.renamed = e.written = residual(form.values(p, judged), wanted);
+    e.renamed = e.written = residual(form.values(p, judged), wanted, scale);
     if (e.renamed.rms > tolerance) {
-      auto q = refitted(p, form.values, fitted, learned, scale_of(learned));
-      if (const auto r = residual(form.values(q, judged), wanted); r.rms < e.renamed.rms)
+      auto q = refitted(p, form.values, fitted, learned, learned_scale);
+      if (const auto r = residual(form.values(q, judged), wanted, scale); r.rms < e.renamed.rms)
         p = std::move(q), e.written = r, e.refitted = true;
     }
     if (first || e.written.rms < best.written.rms) {
       for (const auto& x : p) e.parameters.emplace_back(x.name, x.values);
+      for (const auto& [name, values] : form.variants)
+        e.variants.push_back({name, residual(values(p, judged), wanted, scale)});
       best = std::move(e);
     }
     first = false;
@@ -168,6 +197,9 @@ Export export_fit(ExportTarget to,
   return best;
 }
 
+bool can_preview(ExportTarget t) {
+  return t == ExportTarget::gltf;
+}
 std::string file_of(const Export& e, const std::string& fit) {
   return target_of(e.target).file(e, fit);
 }

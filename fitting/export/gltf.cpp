@@ -1,9 +1,12 @@
 // glTF 2.0's metallic-roughness material, Appendix B of its specification, and the extensions that
 // say more: KHR_materials_ior, _specular, _anisotropy and _clearcoat.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
+#include "base/base64.h"
 #include "base/json/reader.h"
 #include "brdf/formula/masking.h"
 #include "brdf/formula/ndf_anisotropic.h"
@@ -12,6 +15,7 @@
 #include "brdf/term/product.h"
 #include "fitting/export/placement.h"
 #include "fitting/export/target.h"
+#include "geometry/direction.h"
 #include "optics/f0.h"
 #include "optics/fresnel_approximate.h"
 
@@ -132,8 +136,8 @@ std::vector<TargetForm> gltf_forms(const Surface& s) {
     if (wide != narrow && narrow < 1) {
       p.push_back({"anisotropy", {std::sqrt((wide - narrow) / (1 - narrow))}});
       p.push_back({"anisotropy_rotation",
-                   {2 * std::numbers::pi * turns_of(tangent)},
-                   {0, 2 * std::numbers::pi}});
+                   {half_turn_of(tangent) * degree},
+                   {-std::numbers::pi, std::numbers::pi}});
     }
     if (coat) {
       // Its index is fixed: what reflects more or less at normal incidence is more or less of it.
@@ -185,6 +189,74 @@ bool is_default(std::string_view parameter, const std::vector<double>& values) {
          std::ranges::all_of(values, [](double v) { return v == 1; });
 }
 
+/// Adds a sphere of radius 1 with the material: positions, which are its normals, too, tangents along its circles of latitude, and
+/// triangles.
+void add_sphere(Json& all) {
+  constexpr std::uint32_t around = 64, down = 32;
+  std::string bytes;
+  const auto put = [&](auto x) {
+    static_assert(std::endian::native == std::endian::little);  // as glTF has it
+    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+  };
+  const auto each_vertex = [&](auto&& at) {
+    for (std::uint32_t j = 0; j <= down; ++j)
+      for (std::uint32_t i = 0; i <= around; ++i)
+        at(std::numbers::pi * j / down, 2 * std::numbers::pi * i / around);
+  };
+  each_vertex([&](double theta, double phi) {
+    put(static_cast<float>(std::sin(theta) * std::sin(phi)));
+    put(static_cast<float>(std::cos(theta)));
+    put(static_cast<float>(std::sin(theta) * std::cos(phi)));
+  });
+  const std::size_t tangents = bytes.size();
+  each_vertex([&](double, double phi) {
+    put(static_cast<float>(std::cos(phi)));
+    put(0.0F);
+    put(static_cast<float>(-std::sin(phi)));
+    put(1.0F);
+  });
+  const std::size_t triangles = bytes.size();
+  for (std::uint32_t j = 0; j < down; ++j)
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const std::uint32_t a = j * (around + 1) + i, b = a + around + 1;
+      if (j > 0)  // one triangle at each pole
+        for (const std::uint32_t k : {a, b, a + 1}) put(k);
+      if (j + 1 < down)
+        for (const std::uint32_t k : {a + 1, b, b + 1}) put(k);
+    }
+  constexpr int float32 = 5126, uint32 = 5125, vertex_data = 34962, index_data = 34963;
+  const std::size_t vertices = (around + 1) * (down + 1);
+  const auto view = [](std::size_t from, std::size_t to, int target) {
+    return Json{{"buffer", 0}, {"byteOffset", from}, {"byteLength", to - from}, {"target", target}};
+  };
+  all["scene"] = 0;
+  all["scenes"] = Json::array({{{"nodes", {0}}}});
+  all["nodes"] = Json::array({{{"name", "preview"}, {"mesh", 0}}});
+  all["meshes"] =
+      Json::array({{{"primitives",
+                     Json::array({{{"attributes", {{"POSITION", 0}, {"NORMAL", 0}, {"TANGENT", 1}}},
+                                   {"indices", 2},
+                                   {"material", 0}}})}}});
+  all["accessors"] = Json::array(
+      {{{"bufferView", 0},
+        {"componentType", float32},
+        {"count", vertices},
+        {"type", "VEC3"},
+        {"min", {-1, -1, -1}},
+        {"max", {1, 1, 1}}},
+       {{"bufferView", 1}, {"componentType", float32}, {"count", vertices}, {"type", "VEC4"}},
+       {{"bufferView", 2},
+        {"componentType", uint32},
+        {"count", (bytes.size() - triangles) / sizeof(std::uint32_t)},
+        {"type", "SCALAR"}}});
+  all["bufferViews"] =
+      Json::array({view(0, tangents, vertex_data), view(tangents, triangles, vertex_data),
+                   view(triangles, bytes.size(), index_data)});
+  all["buffers"] =
+      Json::array({{{"byteLength", bytes.size()},
+                    {"uri", "data:application/octet-stream;base64," + base64(bytes)}}});
+}
+
 std::string gltf_file(const Export& e, const std::string& fit) {
   const auto find = [&](std::string_view name) -> const std::vector<double>* {
     const auto at = std::ranges::find(e.parameters, name, [](const auto& p) { return p.first; });
@@ -212,6 +284,7 @@ std::string gltf_file(const Export& e, const std::string& fit) {
   if (!used.empty()) all["extensionsUsed"] = used, material["extensions"] = extensions;
   material["extras"] = {{"gonio", parse_json(e.fit, fit)}};
   all["materials"] = Json::array({material});
+  if (e.preview) add_sphere(all);
   return text_of(all);
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "brdf/formula/diffuse.h"
 #include "brdf/formula/masking.h"
 #include "brdf/formula/ndf_anisotropic.h"
 #include "brdf/formula/scattering.h"
@@ -62,6 +62,12 @@ std::vector<std::vector<double>> evaluate(const MaterialxSurface& s,
   std::vector<Prepared> layers;
   for (const auto& l : s.layers)
     if (l.weight > 0) layers.emplace_back(l);
+  std::vector<Eon<double>> eon;
+  std::vector<OrenNayar<double>> plain;
+  for (const double kd : s.kd) {
+    eon.emplace_back(std::array{kd, s.diffuse_roughness});
+    plain.emplace_back(std::array{kd, s.diffuse_roughness});
+  }
   std::vector<std::vector<double>> f(n, std::vector<double>(angles.size()));
   std::vector<double> own(n), through(n), left(n);
   for (std::size_t i = 0; i < angles.size(); ++i) {
@@ -70,7 +76,8 @@ std::vector<std::vector<double>> evaluate(const MaterialxSurface& s,
       layer(angles[i], own, through);
       for (std::size_t c = 0; c < n; ++c) f[c][i] += left[c] * own[c], left[c] *= through[c];
     }
-    for (std::size_t c = 0; c < n; ++c) f[c][i] += left[c] * s.kd[c] / std::numbers::pi;
+    for (std::size_t c = 0; c < n; ++c)
+      f[c][i] += left[c] * (s.compensated ? eon[c](angles[i]) : plain[c](angles[i]));
   }
   return f;
 }

@@ -37,6 +37,8 @@ struct MaterialxLayer {
 struct MaterialxSurface {
   std::vector<MaterialxLayer> layers;  ///< from the top
   std::vector<double> kd;              ///< below all layers; 0 below a metal
+  double diffuse_roughness = 0;        ///< of oren_nayar_diffuse_bsdf
+  bool compensated = false;  ///< that gives back what it loses: EON, else Oren–Nayar's own form
 };
 
 /// f_c [1/sr]: [channel][sample].

@@ -23,8 +23,10 @@ MaterialxLayer dielectric(MaterialxLayer l, double eta, const std::vector<double
 
 std::vector<std::string> lost_in_layers(const BoundModel& fit,
                                         const Surface& s,
-                                        const std::string& whose) {
-  auto all = lost_by_all(fit, whose, "correlated");
+                                        const std::string& whose,
+                                        std::string_view diffuse,
+                                        std::string_view diffuse_name) {
+  auto all = lost_by_all(fit, whose, "correlated", {"lambert", diffuse}, diffuse_name);
   if (s.lobes.size() > 2)
     all.emplace_back("A third lobe: " + whose + " are a highlight and a coat.");
   if (s.lobes.size() == 2)

@@ -18,10 +18,12 @@ MaterialxLayer layer_of(double alpha_x, double alpha_y, double tangent_deg, doub
 /// \param tint  colours what it reflects, not what it lets through
 MaterialxLayer dielectric(MaterialxLayer, double eta, const std::vector<double>& tint);
 
-/// \param whose  "OpenPBR's"
+/// \param whose  "OpenPBR's"   \param diffuse  its term beside Lambert's: "eon"
 std::vector<std::string> lost_in_layers(const BoundModel&,
                                         const Surface&,
-                                        const std::string& whose);
+                                        const std::string& whose,
+                                        std::string_view diffuse,
+                                        std::string_view diffuse_name);
 
 /// <input name="…" type="color3" value="…"/>
 std::string input(std::string_view name, std::string_view type, std::vector<double> values);

@@ -42,6 +42,8 @@ std::vector<std::vector<double>> open_pbr_values(const TargetParameters& p,
       base.channels.push_back({f82_layer(color[c], tint[c]), 0, 1, 1});
   } else {
     s.kd = color;
+    s.diffuse_roughness = parameter_in(p, "base_diffuse_roughness");
+    s.compensated = true;
     const double f0 = mapped<F0FromIor, double>(eta, 1.0)[0];
     base = dielectric(std::move(base),
                       strength == 1 ? eta : mapped<IorFromF0, double>(strength * f0)[0], tint);
@@ -57,8 +59,13 @@ std::vector<TargetForm> open_pbr_forms(const Surface& s) {
     const auto fixed = [&](const char* name, double value) {
       p.push_back({name, {value}, {0, 1}, false});
     };
-    if (!base) {
+    const auto diffuse = [&, &is_metal = metal] {
       p.push_back({"base_color", s.kd});
+      if (s.diffuse_roughness > 0 && !is_metal)
+        p.push_back({"base_diffuse_roughness", {s.diffuse_roughness}});
+    };
+    if (!base) {
+      diffuse();
       fixed("base_metalness", 0), fixed("specular_weight", 0);
       p.push_back({"specular_color", std::vector<double>(s.channels, 0.0), {0, 1}, false});
       p.push_back({"specular_ior", {1.5}, index_range, false});
@@ -72,7 +79,7 @@ std::vector<TargetForm> open_pbr_forms(const Surface& s) {
       // The weight of a dielectric would change its index; a tint lowers the whole curve.
       auto like = grey_dielectric(*base);
       for (double& t : like.tint) t *= base->weight;
-      p.push_back({"base_color", s.kd});
+      diffuse();
       fixed("base_metalness", 0), fixed("specular_weight", 1);
       p.push_back({"specular_color", like.tint, {0, 1}, !like.is_grey()});
       p.push_back({"specular_ior", {like.eta}, index_range});
@@ -85,7 +92,7 @@ std::vector<TargetForm> open_pbr_forms(const Surface& s) {
       p.push_back({"specular_roughness", {fourth_root(std::max(r4, 1e-8))}, roughness_range});
       if (wide != narrow) {
         p.push_back({"specular_roughness_anisotropy", {1 - narrow / wide}});
-        p.push_back({"geometry_tangent", {360 * turns_of(tangent)}, {0, 360}});
+        p.push_back({"geometry_tangent", {half_turn_of(tangent)}, {-180, 180}});
       }
     }
     if (coat) {
@@ -101,7 +108,7 @@ std::vector<TargetForm> open_pbr_forms(const Surface& s) {
 std::vector<std::string> open_pbr_lost(const BoundModel& fit,
                                        const Surface& s,
                                        const TargetParameters& p) {
-  auto all = lost_in_layers(fit, s, "OpenPBR's");
+  auto all = lost_in_layers(fit, s, "OpenPBR's", "eon", "Lambert's or EON");
   const bool metal = parameter_in(p, "base_metalness") > 0;
   if (metal && !fresnel_is(fit, {"schlick", "f82"}))
     all.emplace_back("The Fresnel curve: OpenPBR's metal has Schlick's with a tint at the edge.");

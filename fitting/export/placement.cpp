@@ -44,6 +44,9 @@ Stretch stretch_of(const SurfaceLobe& l, double tangent_deg) {
   return l.alpha_x < l.alpha_y ? Stretch{l.alpha_y, l.alpha_x, tangent_deg + 90}
                                : Stretch{l.alpha_x, l.alpha_y, tangent_deg};
 }
+double half_turn_of(double tangent_deg) {
+  return std::remainder(tangent_deg, 180);
+}
 double turns_of(double tangent_deg) {
   const double turns = tangent_deg / 360, half = turns - 0.5 * std::floor(turns / 0.5);
   return half < 0.25 ? half + 0.5 : half;

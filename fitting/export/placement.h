@@ -32,7 +32,9 @@ struct Stretch {
   double wide, narrow, tangent_deg;
 };
 Stretch stretch_of(const SurfaceLobe&, double tangent_deg);
-/// Azimuth in turns, which half a turn does not change: in [0.25, 0.75), away from both ends of [0, 1].
+/// Azimuth [°], which half a turn does not change: in [−90, 90].
+double half_turn_of(double tangent_deg);
+/// The same in turns: in [0.25, 0.75), away from both ends of [0, 1].
 double turns_of(double tangent_deg);
 
 double fourth_root(double);

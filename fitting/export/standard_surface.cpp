@@ -33,6 +33,7 @@ std::vector<std::vector<double>> standard_values(const TargetParameters& p,
       base.channels.push_back({artistic_layer(color[c], edge[c]), 0, 1, 1});
   } else {
     s.kd = color;
+    s.diffuse_roughness = parameter_in(p, "diffuse_roughness");
     base.weight = parameter_in(p, "specular");
     if (base.weight > 0) base = dielectric(std::move(base), parameter_in(p, "specular_IOR"), edge);
   }
@@ -47,8 +48,12 @@ std::vector<TargetForm> standard_forms(const Surface& s) {
     const auto fixed = [&](const char* name, double value) {
       p.push_back({name, {value}, {0, 1}, false});
     };
-    if (!base) {
+    const auto diffuse = [&] {
       p.push_back({"base_color", s.kd});
+      if (s.diffuse_roughness > 0) p.push_back({"diffuse_roughness", {s.diffuse_roughness}});
+    };
+    if (!base) {
+      diffuse();
       fixed("metalness", 0), fixed("specular", 0);
     } else if (metal) {
       auto f0 = base->f0;
@@ -61,7 +66,7 @@ std::vector<TargetForm> standard_forms(const Surface& s) {
       p.push_back({"specular_color", edge});
     } else {
       const auto like = grey_dielectric(*base);
-      p.push_back({"base_color", s.kd});
+      diffuse();
       fixed("metalness", 0);
       p.push_back({"specular", {base->weight}});
       p.push_back({"specular_color", like.tint, {0, 1}, !like.is_grey()});
@@ -88,7 +93,8 @@ std::vector<TargetForm> standard_forms(const Surface& s) {
 std::vector<std::string> standard_lost(const BoundModel& fit,
                                        const Surface& s,
                                        const TargetParameters&) {
-  auto all = lost_in_layers(fit, s, "Standard Surface's");
+  auto all =
+      lost_in_layers(fit, s, "Standard Surface's", "oren_nayar", "Lambert's or Oren and Nayar's");
   if (!fresnel_is(fit, {"conductor", "dielectric", "gulbrandsen"}))
     all.emplace_back("The Fresnel curve: Standard Surface's is exact, of an index.");
   return all;

@@ -66,6 +66,7 @@ Surface surface_of(const BoundModel& fit) {
   for (std::size_t c = 0; c < s.channels; ++c)
     s.kd.push_back(b.model.diffuse.empty() ? 0 : value("kd", c, 0));
   s.tangent_deg = value("tangent", 0, 0);
+  s.diffuse_roughness = value("r", 0, value("sigma", 0, 0));
   for (std::size_t l = 0; l < b.model.lobes.size(); ++l) {
     const std::string ending = l == 0 ? "" : "_" + std::to_string(l + 1);
     const auto own = [&](const char* name, std::size_t c, double otherwise) {
@@ -113,8 +114,10 @@ bool fresnel_is(const BoundModel& fit, std::initializer_list<std::string_view> n
 
 std::vector<std::string> lost_by_all(const BoundModel& fit,
                                      const std::string& whose,
-                                     std::string_view masking) {
-  bool exponent = false, distribution = false, masked = false, diffuse = false;
+                                     std::string_view masking,
+                                     std::initializer_list<std::string_view> diffuse,
+                                     std::string_view diffuse_name) {
+  bool exponent = false, distribution = false, masked = false, shape = false;
   for (const auto& l : fit.model.lobes) {
     const auto id = short_id(catalogue()[l.ndf.term].id());
     const bool has_exponent = id == "gtr" || id == "student_t" || id == "shape_invariant";
@@ -124,13 +127,17 @@ std::vector<std::string> lost_by_all(const BoundModel& fit,
     masked |= !(g.starts_with("smith_ggx") && g.ends_with(masking));
   }
   for (const auto& d : fit.model.diffuse)
-    diffuse |= !short_id(catalogue()[d.term].id()).starts_with("lambert");
+    shape |= std::ranges::none_of(diffuse, [&](std::string_view name) {
+      const auto id = short_id(catalogue()[d.term].id());
+      return id == name || id == std::string(name) + ".coupled";
+    });
   std::vector<std::string> lost;
   if (exponent) lost.emplace_back("The exponent of the distribution: " + whose + " is 2.");
   if (distribution) lost.emplace_back("The distribution: " + whose + " is GGX.");
   if (masked)
     lost.emplace_back(fmt::format("The masking: {} is Smith's for GGX, {}.", whose, masking));
-  if (diffuse) lost.emplace_back("The shape of the diffuse term: " + whose + " is Lambert's.");
+  if (shape)
+    lost.emplace_back(fmt::format("The shape of the diffuse term: {} is {}.", whose, diffuse_name));
   return lost;
 }
 

@@ -27,6 +27,8 @@ struct SurfaceLobe {
 struct Surface {
   std::size_t channels = 1;
   std::vector<double> kd;  ///< per channel; 0 where there is no diffuse term
+  /// Of a diffuse term of Oren and Nayar's kind, as MaterialX takes it: σ [rad] of their own form, r of EON and Fujii's; else 0.
+  double diffuse_roughness = 0;
   std::vector<SurfaceLobe> lobes;
   double tangent_deg = 0;  ///< azimuth of the tangent
   double largest_kd() const;
@@ -39,8 +41,11 @@ bool fresnel_is(const BoundModel&, std::initializer_list<std::string_view> names
 /// What of the fit no target has, in sentences: the exponent of the distribution, other distributions than GGX, other
 /// diffuse terms than Lambert's, other masking.
 /// \param whose  "glTF's"   \param masking  of the target, as ids end: "separable"
+/// \param diffuse  terms of the target, coupled or not, and what they are called
 std::vector<std::string> lost_by_all(const BoundModel&,
                                      const std::string& whose,
-                                     std::string_view masking);
+                                     std::string_view masking,
+                                     std::initializer_list<std::string_view> diffuse = {"lambert"},
+                                     std::string_view diffuse_name = "Lambert's");
 
 }  // namespace gonio

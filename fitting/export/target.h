@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "brdf/model/model.h"
@@ -33,6 +34,8 @@ using TargetValues = std::function<std::vector<std::vector<double>>(
 struct TargetForm {
   TargetParameters parameters;
   TargetValues values;
+  /// The same material as variants of the target compute it, by their names.
+  std::vector<std::pair<std::string, TargetValues>> variants{};
 };
 
 struct Target {

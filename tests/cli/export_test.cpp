@@ -47,6 +47,40 @@ TEST(ExportCommand, WritesAFileThatIsReadAsTheFit) {
   EXPECT_EQ(file.json()["rows"], fit.json()["rows"]);
 }
 
+TEST(ExportCommand, SaysTheFitsOwnMisfitFirst) {
+  const Folder f;
+  make_fit(f, "lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.4 f0=0.12 kd=0.3,0.2,0.1");
+  ASSERT_EQ(gonio(f, "fit t.csv --model lambert -o fit.json").code, 0);
+  const double log_rms = nlohmann::json::parse(read_bytes(f / "fit.json"))["residuals"]["log_rms"];
+  const auto o = gonio(f, "export fit.json --to gltf -o m.gltf --json");
+  EXPECT_NEAR(o.json()["misfit"], std::exp(log_rms), 1e-12);
+  const auto text = gonio(f, "export fit.json --to gltf -o m.gltf").out;
+  EXPECT_LT(text.find("off its table"), text.find("renamed")) << text;
+  const auto shader = gonio(f, "shader fit.json --language glsl").out;
+  EXPECT_NE(shader.find("off its table by a factor of "), shader.npos) << shader;
+}
+
+TEST(ExportCommand, BringsASphereForViewers) {
+  const Folder f;
+  make_fit(f, "ggx/smith_ggx.correlated/schlick", "alpha=0.3 f0=0.95,0.64,0.54");
+  ASSERT_EQ(gonio(f, "export fit.json --to gltf --preview -o m.gltf").code, 0);
+  EXPECT_EQ(outside_faults(f, "m.gltf").value_or(""), "");
+  const auto file = nlohmann::json::parse(read_bytes(f / "m.gltf"));
+  EXPECT_EQ(file["scenes"][0]["nodes"][0], 0);
+  const auto& primitive = file["meshes"][0]["primitives"][0];
+  EXPECT_EQ(primitive["material"], 0);
+  EXPECT_EQ(file["accessors"][2]["count"], 3 * 2 * 64 * (32 - 1))
+      << "one triangle a place at the poles";
+  f.write("scene.json", R"({"schema": "gonio.scene/1",
+      "materials": {"m": {"gltf": "m.gltf", "material": "fit"}},
+      "objects": [{"shape": "mesh", "gltf": "m.gltf", "node": "preview", "material": "m"}],
+      "lights": [{"type": "directional", "direction": [0, 1, 1], "irradiance": [3, 3, 3]}],
+      "view": {"position": [0, 0, 10], "target": [0, 0, 0], "fov_deg": 20}})");
+  const auto seen = gonio(f, "render scene.json -o m.png --width 16 --height 16 --samples 1");
+  EXPECT_EQ(seen.code, 0) << seen.err;
+  expect_one_line(gonio(f, "export fit.json --to mitsuba --preview -o m.xml"), 2, "--preview");
+}
+
 TEST(ExportCommand, WritesWhatKhronosValidatorFindsNoFaultWith) {
   const Folder f;
   if (!gltf_messages(f, "none.gltf"))

@@ -53,6 +53,8 @@ FittedModel fitted_model(const JsonDocument& document) {
   if (root.has("channels"))
     for (const auto& channel : root.at("channels").elements())
       fit.channels.push_back(channel.string());
+  if (root.has("residuals") && root.at("residuals").has("log_rms"))
+    if (const auto r = root.at("residuals").at("log_rms"); r.is_number()) fit.log_rms = r.number();
   for (const auto& [name, parameter] : root.at("parameters").members())
     fit.parameters.emplace_back(name, parameter.at("value").numbers());
   return fit;

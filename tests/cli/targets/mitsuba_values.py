@@ -1,18 +1,37 @@
-"""f of a Mitsuba material [1/sr] at the direction pairs of a file: mitsuba_values.py MATERIAL.xml DIRECTIONS.txt
+"""f of a Mitsuba material [1/sr] at the direction pairs of a file: mitsuba_values.py MATERIAL.xml DIRECTIONS.txt [VARIANT]
 
-A line of DIRECTIONS is wi and wo, x y z each; a line of the answer is r g b."""
+A line of DIRECTIONS is wi and wo, x y z each; a line of the answer is r g b.  Of spectral variants f by wavelength becomes linear sRGB under
+D65, white being 1, 1, 1."""
 import sys
 
 import mitsuba as mi
+import numpy as np
 
-mi.set_variant("scalar_rgb")
+mi.set_variant(sys.argv[3] if len(sys.argv) > 3 else "scalar_rgb")
 bsdf = mi.load_file(sys.argv[1])
 context = mi.BSDFContext()
 at = mi.SurfaceInteraction3f()
 at.n = [0, 0, 1]
 at.sh_frame = mi.Frame3f([0, 0, 1])
+spectral = "spectral" in mi.variant()
+if spectral:
+    nm = np.linspace(362, 828, 120).reshape(-1, 4)
+    to_srgb = np.array([[3.240479, -1.537150, -0.498535], [-0.969256, 1.875991, 0.041556], [0.055648, -0.204043, 1.057311]])
+    weight = np.array([np.array(mi.cie1931_xyz(float(x))).ravel() * float(mi.cie_d65(float(x))) for x in nm.ravel()]) @ to_srgb.T
+    weight /= weight.sum(0)
+
+
+def value(wo):
+    if not spectral:
+        return list(bsdf.eval(context, at, wo))
+    f = []
+    for four in nm:
+        at.wavelengths = [float(x) for x in four]
+        f += list(bsdf.eval(context, at, wo))
+    return np.array(f, dtype=float) @ weight
+
+
 for line in open(sys.argv[2]):
     x = [float(v) for v in line.split()]
     at.wi = mi.ScalarVector3f(x[3:])  # Mitsuba's is the viewer's
-    f = bsdf.eval(context, at, mi.ScalarVector3f(x[:3]))
-    print(*(float(v) / x[2] for v in f))
+    print(*(float(v) / x[2] for v in value(mi.ScalarVector3f(x[:3]))))

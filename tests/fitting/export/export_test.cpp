@@ -1,6 +1,11 @@
 #include "fitting/export/export.h"
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
 #include "base/error.h"
+#include "brdf/model/evaluate.h"
 #include "fitting/export/target.h"
 #include "fitting/export/xml.h"
 #include "geometry/half_difference.h"
@@ -40,6 +45,67 @@ TEST(ExportedFit, IsNearerAfterARefitInEveryTarget) {
     EXPECT_LT(e.written.rms, 0.8 * e.renamed.rms) << name_of(to);
     EXPECT_LT(e.written.rms, 0.05) << name_of(to);
   }
+}
+
+TEST(ExportedFit, NamesWhereItIsWorstUpToNearTheHorizon) {
+  // Gold under correlated masking, which Mitsuba's separable one darkens most where both graze.
+  const auto gold = bound("ggx/smith_ggx.correlated/conductor", "alpha=0.3,metal=Au");
+  const auto e = export_fit(ExportTarget::mitsuba, "fit.json", gold, 1e9);
+  EXPECT_GT(e.renamed.largest, 0.15);
+  const auto& at = e.renamed.largest_at;
+  EXPECT_GT(std::min(at.theta_i, at.theta_o), 80);
+  EXPECT_LE(std::max(at.theta_i, at.theta_o), 88);
+  double most_zenith = 0, most_azimuth = 0;
+  for (const auto& [i, o] : judged_directions()) {
+    most_zenith = std::max({most_zenith, std::acos(i.z) / degree, std::acos(o.z) / degree});
+    most_azimuth = std::max(most_azimuth, std::abs(std::atan2(i.y, i.x) / degree));
+  }
+  EXPECT_NEAR(most_zenith, 88, 0.1);
+  EXPECT_LE(std::abs(at.phi_i), 180);
+  // The place gives the distance.
+  const auto there = [&](const BoundModel& b) {
+    return evaluate(b,
+                    std::vector{frame_angles({direction(at.theta_i * degree, at.phi_i * degree),
+                                              direction(at.theta_o * degree, at.phi_o * degree)})});
+  };
+  const auto wanted = there(gold),
+             found = there(bound("ggx/smith_ggx.separable/conductor", "alpha=0.3,metal=Au"));
+  double most = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    most = std::max(most, std::abs(found[c][0] / wanted[c][0] - 1));
+  EXPECT_NEAR(most, e.renamed.largest, 1e-3);
+}
+
+TEST(ExportedFit, HasTheDiffuseRoughnessOfTargetsThatKnowIt) {
+  for (const auto& [to, spec, settings, name] :
+       {std::tuple{ExportTarget::open_pbr, "eon+ggx/smith_ggx.correlated/dielectric",
+                   "kd=0.5,0.2,0.1,r=0.8,alpha=0.2,eta=1.5", "base_diffuse_roughness"},
+        {ExportTarget::standard_surface, "oren_nayar+ggx/smith_ggx.correlated/dielectric",
+         "kd=0.5,0.2,0.1,sigma=0.8,alpha=0.2,eta=1.5", "diffuse_roughness"}}) {
+    const auto e = export_fit(to, "fit.json", bound(spec, settings), 1e9);
+    const auto at = std::ranges::find(e.parameters, name, [](const auto& p) { return p.first; });
+    ASSERT_NE(at, e.parameters.end()) << name;
+    EXPECT_EQ(at->second[0], 0.8);
+    for (const auto& lost : e.lost) EXPECT_EQ(lost.find("diffuse term"), lost.npos) << lost;
+    const auto flat = export_fit(
+        to, "fit.json",
+        bound("lambert+ggx/smith_ggx.correlated/dielectric", "kd=0.5,0.2,0.1,alpha=0.2,eta=1.5"),
+        1e9);
+    EXPECT_LT(e.written.rms, flat.written.rms + 0.02)
+        << "as near as Lambert's, whose layers are the same";
+  }
+}
+
+TEST(ExportedFit, WritesSpectraForMitsubaWhoseColourIsTheIndexs) {
+  const auto e = export_fit(ExportTarget::mitsuba, "fit.json",
+                            bound("ggx/smith_ggx.separable/conductor", "alpha=0.3,metal=Au"), 0.02);
+  ASSERT_EQ(e.variants.size(), 2U);
+  EXPECT_LT(e.variants[0].residual.largest, 1e-9) << "scalar_rgb";
+  EXPECT_GT(e.variants[1].residual.largest, 1e-5) << "F of a spectrum is not that of r, g, b";
+  EXPECT_LT(e.variants[1].residual.largest, 0.02);
+  const auto file = file_of(e, R"({"schema": "gonio.fit/1"})");
+  EXPECT_EQ(file.find("<rgb"), file.npos) << "an index is no reflectance";
+  EXPECT_NE(file.find("<spectrum name=\"eta\" value=\"360:"), file.npos) << file;
 }
 
 TEST(ExportedFit, IsRefusedWithTwoChannels) {
