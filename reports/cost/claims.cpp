@@ -36,8 +36,8 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
            : schlick->time.ns > other.time.ns ? "longer than"
                                               : "less than";
   };
-  to.judge("Schlick's masking costs a bit more than the joint approximation",
-           "seed 004, Vis_SmithJointApprox", verdict(more && !is_tie(*schlick, *joint)),
+  to.judge("Schlick's masking costs a bit more than the joint approximation", "",
+           verdict(more && !is_tie(*schlick, *joint)),
            fmt::format("{} against {}, clamped", ns(schlick->time), ns(joint->time)),
            fmt::format("in float columns in cache it takes {} the joint form with its "
                        "clamp. It takes {} the one without.",
@@ -51,7 +51,7 @@ void exact_is_slow(Findings& to, const CostRows& r) {
   if (!schlick || !exact || !model || !exact_model) return;
   const double term = exact->time.ns / schlick->time.ns,
                whole = exact_model->time.ns / model->time.ns;
-  to.judge("the exact Fresnel equations are slow", "seed 000, exact Fresnel equations",
+  to.judge("the exact Fresnel equations are slow", "",
            verdict(whole > 1.5, term > 1.5 && !is_tie(*exact, *schlick)),
            fmt::format("{:.1f} times Schlick's time, {:.2f} in a whole model", term, whole),
            fmt::format(
@@ -69,7 +69,7 @@ void pow5(Findings& to, const CostRows& r) {
   if (by_pow == r.points.end() || by_hand == r.points.end()) return;
   const double ratio = by_pow->time.ns / by_hand->time.ns;
   to.judge(
-      "a Pow5 of one's own saves what pow costs more", "seed 001, Schlick's approximation",
+      "a Pow5 of one's own saves what pow costs more", "",
       verdict(ratio > 1 && !is_tie({by_pow->time}, {by_hand->time})),
       fmt::format("pow {}, Pow5 {}", ns(by_pow->time), ns(by_hand->time)),
       fmt::format(

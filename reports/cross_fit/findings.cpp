@@ -252,7 +252,8 @@ void published(Findings& to, const CrossFitRows& r) {
       static_cast<std::size_t>(std::ranges::count_if(tails, [](double c) { return c < 2; }));
   const double ggx = median(each(r, &PublishedFit::ggx_log_rms)),
                gtr = median(each(r, &PublishedFit::gtr_log_rms));
-  to.judge("for many materials even GGX's tail is not long enough", "seed 001, GGX's tail",
+  to.judge("for many materials even GGX's tail is not long enough",
+           "Burley 2012, Physically Based Shading at Disney",
            verdict(2 * longer > tails.size(), longer > 0),
            fmt::format("{} measured materials", of_all(longer, tails.size())),
            fmt::format("{} materials measured for MERL have a longer tail. Löw and others "

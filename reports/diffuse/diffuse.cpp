@@ -167,7 +167,9 @@ std::optional<double> largest_difference(const std::vector<DiffuseColour>& colou
 Facts facts(const DiffuseRows& r) {
   Facts f;
   for (const auto& form : r.forms)
-    f.diffuse.push_back({form.id, form.most_albedo, form.with_interface});
+    f.diffuse.push_back({form.id, form.most_albedo, form.with_interface, form.most_with_lobe,
+                         largest_difference(r.colours, form.id, "matte"),
+                         largest_difference(r.colours, form.id, "plastic")});
   return f;
 }
 

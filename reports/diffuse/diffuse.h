@@ -22,7 +22,7 @@ struct DiffuseForm {
   std::string parameter;  ///< its own, by the roughness r that a renderer's slider sets: "α = r²";
                           ///< empty: it has none
   bool coupled;  ///< it reflects what a lobe's interface leaves: looked at below one of F0 = 0.04
-  bool with_interface;  ///< an interface of F0 = 0.04 is in it, or above it
+  bool with_interface;  ///< an interface is in it, or above it: it is no matte surface
   double most_albedo, most_roughness,
       most_mu;                   ///< largest share that a direction's light leaves by
   double least_average;          ///< least share on average over the hemisphere
@@ -40,14 +40,15 @@ struct DiffuseRow {
   double average;  ///< 2 ∫ E μ dμ at this roughness
 };
 
-/// ΔE2000 of a ball, or of a plane under even light, to the reference in the same light.
+/// ΔE2000 of a ball, or of a plane under even light, to the reference in the same light.  What a form gives back on average over
+/// the hemisphere is the reference's: its kd is so chosen, up to 1.
 struct DiffuseColour {
   std::string form;      ///< id
   std::string surface;   ///< "matte", "plastic"
   std::string material;  ///< "chalk", "grey", "terracotta"
   std::string light;     ///< "front light", "side light", "rim light", "even light"
   double roughness;
-  double delta_e;       ///< that a twentieth of the points lit exceeds
+  double delta_e;       ///< most over the points lit
   double delta_e_mean;  ///< over the points lit
 };
 

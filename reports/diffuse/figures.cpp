@@ -68,7 +68,7 @@ void add_colours(Pictures& p, const DiffuseRows& r) {
       made.title = fmt::format("{}, {}, {}", c.material, c.surface, c.light);
       made.note = c.surface == "matte" ? "to EON" : "to EON below the lobe, coupled by albedos";
       made.x = over_roughness();
-      made.y = {"ΔE2000 that a twentieth of the points exceeds"};
+      made.y = {"most ΔE2000 of the points"};
       p.figures.push_back(std::move(made));
       at = p.figures.end() - 1;
     }

@@ -63,21 +63,22 @@ void looks(Findings& to, const DiffuseRows& r) {
         "On matte surfaces Lambert differs from EON by up to ΔE2000 {}{}.", delta(*most),
         from ? fmt::format(", and by more than 1 from roughness {:g} on", *from) : std::string()));
   }
-  if (const auto most = largest_difference(r.colours, disney, "matte"))
-    to.say(fmt::format(
-        "Disney's differs from EON by up to ΔE2000 {} on matte surfaces, and "
-        "Frostbite's by {}.",
-        delta(*most),
-        delta(largest_difference(r.colours, "diffuse.frostbite", "matte").value_or(0))));
   const auto free = largest_difference(r.colours, lambert, "plastic"),
              coupled = largest_difference(r.colours, "diffuse.lambert.coupled", "plastic"),
              hammon = largest_difference(r.colours, "diffuse.hammon", "plastic");
   if (free && coupled && hammon)
-    to.say(
-        fmt::format("Below a plastic's lobe, Lambert is off by up to ΔE2000 {}, coupled "
-                    "Lambert by {} and Hammon's form by {}. The reference there is EON, "
-                    "coupled by albedos.",
-                    delta(*free), delta(*coupled), delta(*hammon)));
+    to.say(fmt::format(
+        "Below a plastic's lobe and at equal albedo, Lambert is off by up to ΔE2000 {}, "
+        "coupled Lambert by {} and Hammon's form by {}. The reference there is EON, "
+        "coupled by albedos.",
+        delta(*free), delta(*coupled), delta(*hammon)));
+  if (const auto most = largest_difference(r.colours, disney, "plastic"))
+    to.say(fmt::format(
+        "Disney's form holds the interface and is no matte surface: below a lobe it is off by up "
+        "to "
+        "ΔE2000 {}, and Frostbite's by {}.",
+        delta(*most),
+        delta(largest_difference(r.colours, "diffuse.frostbite", "plastic").value_or(0))));
 }
 
 void below_a_lobe(Findings& to, const DiffuseRows& r) {

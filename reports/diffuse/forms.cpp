@@ -22,9 +22,9 @@ struct Known {
 constexpr std::array known{
     Known{"diffuse.lambert", "Lambert", Takes::nothing, false},
     Known{"diffuse.lambert.coupled", "Lambert, coupled", Takes::nothing, true},
-    Known{"diffuse.disney", "Disney", Takes::alpha, false},
+    Known{"diffuse.disney", "Disney", Takes::alpha, true},
     Known{"diffuse.disney.coupled", "Disney, coupled", Takes::alpha, true},
-    Known{"diffuse.frostbite", "Frostbite", Takes::alpha, false},
+    Known{"diffuse.frostbite", "Frostbite", Takes::alpha, true},
     Known{"diffuse.hammon", "Hammon", Takes::alpha, true},
     Known{"diffuse.oren_nayar", "Oren–Nayar", Takes::sigma, false},
     Known{"diffuse.oren_nayar.fujii", "Fujii's Oren–Nayar", Takes::r, false},

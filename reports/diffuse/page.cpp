@@ -37,16 +37,16 @@ inline constexpr auto description<DiffuseForm> = std::tuple{
 static_assert(describes_every_member<DiffuseForm>());
 
 template <>
-inline constexpr auto description<DiffuseColour> = std::tuple{
-    Field{"form", &DiffuseColour::form, "id"},
-    Field{"surface", &DiffuseColour::surface,
-          "matte: against EON; plastic: against EON below a lobe"},
-    Field{"material", &DiffuseColour::material, "chalk, grey, terracotta"},
-    Field{"light", &DiffuseColour::light,
-          "front, side, rim: of a ball; even: of a plane, by angle"},
-    Field{"roughness", &DiffuseColour::roughness, ""},
-    Field{"delta_e_2000", &DiffuseColour::delta_e, "that a twentieth of the points exceeds"},
-    Field{"delta_e_2000_mean", &DiffuseColour::delta_e_mean, "over the points"}};
+inline constexpr auto description<DiffuseColour> =
+    std::tuple{Field{"form", &DiffuseColour::form, "id"},
+               Field{"surface", &DiffuseColour::surface,
+                     "matte: against EON; plastic: against EON below a lobe"},
+               Field{"material", &DiffuseColour::material, "chalk, grey, terracotta"},
+               Field{"light", &DiffuseColour::light,
+                     "front, side, rim: of a ball; even: of a plane, by angle"},
+               Field{"roughness", &DiffuseColour::roughness, ""},
+               Field{"delta_e_2000", &DiffuseColour::delta_e, "most over the points lit"},
+               Field{"delta_e_2000_mean", &DiffuseColour::delta_e_mean, "over the points"}};
 static_assert(describes_every_member<DiffuseColour>());
 
 template <>

@@ -60,13 +60,15 @@ Section looks(const Pictures& p) {
                 {"material", "Material", "chalk", true},
                 {"light", "Light", "front light", true}};
   c.slots = {slot_of(p, "delta_e", c.controls, 340)};
-  return {"How each looks beside the reference",
-          "A ball under one light from the front, from 60° and from 120° to the view, or a plane "
-          "under even light. A white surface that faces the light shows as the display's white. "
-          "Matte surfaces are compared with EON. Plastic has a GGX lobe of F0 = 0.04 and of the "
-          "same roughness on every form; its reference is EON below that lobe, coupled by albedos "
-          "as in Kelemen and Szirmay-Kalos (2001), which loses and makes no light.",
-          {c}};
+  return {
+      "How each looks beside the reference",
+      "A ball under one light from the front, from 60° and from 120° to the view, or a plane "
+      "under even light. A white surface that faces the light shows as the display's white. "
+      "Matte surfaces are compared with EON. Plastic has a GGX lobe of F0 = 0.04 and of the "
+      "same roughness on every form; its reference is EON below that lobe, coupled by albedos "
+      "as in Kelemen and Szirmay-Kalos (2001), which loses and makes no light. Every form gives "
+      "back as much on average as the reference: its kd is so chosen.",
+      {c}};
 }
 
 }  // namespace
@@ -90,8 +92,9 @@ page::Page report_page(const DiffuseReport& r) {
                             "MaterialX, r itself for Fujii's and EON.",
                             "Albedos are integrals, exact to 10⁻⁶. Times are of column kernels, in "
                             "float and in cache, on one thread.",
-                            "Coupled forms reflect what the interface of a lobe leaves; Hammon's "
-                            "contains its interface. They are compared on plastic only."}}}}};
+                            "Coupled forms reflect what the interface of a lobe leaves. Hammon's, "
+                            "Disney's and Frostbite's contain an interface. None of them is a "
+                            "matte surface: they are compared on plastic only."}}}}};
   out.most_shipped = {"Lambert", "Lambert, coupled", "Disney", "Frostbite", "Oren–Nayar", "EON"};
   return out;
 }

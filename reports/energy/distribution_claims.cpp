@@ -55,7 +55,8 @@ void phong_is_beckmann(Findings& to, const EnergyRows& r) {
   const auto &smooth = all.front(), &rough = all.back();
   to.judge(
       "Phong and Beckmann are equivalent by the exponent 2α⁻² − 2",
-      "seed 002, Beckmann's distribution", verdict(rough.share < 0.01, smooth.share < 0.01),
+      "Walter et al. 2007, Microfacet Models for Refraction",
+      verdict(rough.share < 0.01, smooth.share < 0.01),
       fmt::format("{} of the facets lie elsewhere at roughness {:g}", percent(rough.share, 2),
                   rough.roughness),
       fmt::format("at roughness {:g} the two put {} of the facets' area at different angles. The "
@@ -70,8 +71,8 @@ void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {
   };
   const auto low = of("riemann"), middle = of("riemann_midpoint"), end = r.light.irradiance.end();
   if (low == end || middle == end) return;
-  to.judge("irradiance is a Riemann sum, divided by its samples",
-           "seed 003, indirect diffuse light", verdict_on_small(std::abs(low->bias)),
+  to.judge("irradiance is a Riemann sum, divided by its samples", "",
+           verdict_on_small(std::abs(low->bias)),
            fmt::format("{} at {} samples", percent(low->bias, 2), low->samples),
            fmt::format("with its factor of π², {} samples are off by {} under a sky brighter "
                        "towards the zenith. From the middle of each step they are off by {}.",

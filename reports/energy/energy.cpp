@@ -19,6 +19,7 @@ EnergyOptions energy_options(bool full) {
   EnergyOptions o{full, steps(0.05, step), steps(step, step), full ? 262'144U : 65'536U};
   o.mu.insert(o.mu.begin(), 0.01);
   o.views = full ? 128 : 16;
+  if (full) o.lit_points = 96, o.lit_walks = 200'000;
   return o;
 }
 
@@ -34,8 +35,9 @@ EnergyRows energy_rows(const EnergyOptions& o, const ReportProgress& done) {
   r.forms = energy_forms(o, part_of(done, "every masking form", 0, 0.4));
   r.materials = energy_materials(o, part_of(done, "all bounces", 0.4, 0.7));
   r.compensations = compensation_costs(r.materials);
+  r.single_lights = single_lights(o, part_of(done, "balls under a light", 0.7, 0.72));
   r.albedo_forms = albedo_form_errors();
-  r.estimators = estimator_points(o, part_of(done, "error against time", 0.7, 0.8));
+  r.estimators = estimator_points(o, part_of(done, "error against time", 0.72, 0.8));
   r.light = image_light(o, part_of(done, "image-based light", 0.8, 1));
   r.claims = claim_rows(r.forms);
   return r;

@@ -115,6 +115,16 @@ struct CompensationCost {
   double gold_rms;
 };
 
+/// Picture of a ball under one light: how far a compensation is from all bounces, by random walks at each point.
+struct SingleLight {
+  std::string_view id;  ///< "single", with nothing, "turquin", "kulla_conty"; their tables exact
+  std::string light;    ///< "front light", "rim light"
+  double f0, roughness;
+  /// ΔE2000 over points with NoL and NoV of 0.1 or more, a white diffuser that faces the light being white: most, and mean
+  double delta_e, delta_e_mean;
+  double error;  ///< most ΔE2000 that the walks' standard error is worth
+};
+
 /// E(α, NoV) at F = 1 as a shader has it, against quadrature, from roughness 0.05 on.
 struct AlbedoForm {
   std::string_view id;
@@ -212,6 +222,7 @@ struct EnergyRows {
   std::vector<EnergyForm> forms;
   std::vector<EnergyMaterial> materials;
   std::vector<CompensationCost> compensations;
+  std::vector<SingleLight> single_lights;
   std::vector<AlbedoForm> albedo_forms;
   std::vector<EstimatorPoint> estimators;
   ImageLight light;
@@ -227,6 +238,8 @@ struct EnergyOptions {
   bool gold = true;                   ///< among the materials
   std::vector<ReportOptions::Light> environments{};
   std::size_t views = 16;  ///< in each light
+  std::size_t lit_points = 24,
+              lit_walks = 20'000;  ///< of a ball under a single light, and of each point
 };
 /// Quick: by 0.05 in roughness and mu; full: by 0.025.
 EnergyOptions energy_options(bool full);
@@ -242,6 +255,8 @@ std::vector<CompensationError> compensation_errors(const std::vector<EnergyMater
 std::vector<CompensationWork> compensation_work();
 /// Costs of the compensations beside those errors.
 std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMaterial>&);
+std::vector<SingleLight> single_lights(const EnergyOptions&,
+                                       const std::function<void(double)>& done);
 std::vector<AlbedoForm> albedo_form_errors();
 std::vector<EstimatorPoint> estimator_points(const EnergyOptions&,
                                              const std::function<void(double)>& done);

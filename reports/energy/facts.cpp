@@ -17,18 +17,29 @@ double delta_e_of_grey(double a, double b) {
   return delta_e_2000(lab_of_display({a, a, a}), lab_of_display({b, b, b}));
 }
 
+/// The way's entry, with a place for a roughness at its end.
+Facts::Scattering& entry_of(std::vector<Facts::Scattering>& to,
+                            std::string_view id,
+                            double f0,
+                            bool of_image_light,
+                            double roughness) {
+  auto of = std::ranges::find_if(to, [&](const Facts::Scattering& x) {
+    return x.id == id && x.f0 == f0 && x.of_image_light == of_image_light;
+  });
+  if (of == to.end()) of = to.insert(of, {std::string(id), f0, of_image_light, {}, {}});
+  if (of->roughness.empty() || of->roughness.back() != roughness) {
+    of->roughness.push_back(roughness);
+    of->delta_e.push_back(0);
+  }
+  return *of;
+}
+
 void add_scattering(std::vector<Facts::Scattering>& to, const EnergyMaterial& m) {
   for (const auto& at : m.rows) {
     if (at.mu < least_mu) continue;  // the average, at 0, too
     for (const auto& s : at.scattering) {
-      auto of = std::ranges::find_if(
-          to, [&](const Facts::Scattering& x) { return x.id == s.id && x.f0 == *m.f0; });
-      if (of == to.end()) of = to.insert(of, {std::string(s.id), *m.f0, {}, {}});
-      if (of->roughness.empty() || of->roughness.back() != at.roughness) {
-        of->roughness.push_back(at.roughness);
-        of->delta_e.push_back(0);
-      }
-      of->delta_e.back() = std::max(of->delta_e.back(), delta_e_of_grey(s.albedo, at.truth));
+      double& most = entry_of(to, s.id, *m.f0, true, at.roughness).delta_e.back();
+      most = std::max(most, delta_e_of_grey(s.albedo, at.truth));
     }
   }
 }
@@ -44,6 +55,7 @@ void add_split_sum(Facts& to, const ImageLight& light) {
     auto* const seen = l.nov == 1 ? &s.head_on : l.nov == 0.1 ? &s.grazing : nullptr;
     if (seen) *seen = std::max(seen->value_or(0), l.delta_e);
   }
+  if (!light.costs.empty()) s.ns = light.costs[0].ns;  // the split sum's
   to.split_sum = s;
 }
 
@@ -54,6 +66,10 @@ Facts facts(const EnergyRows& r) {
   add_split_sum(f, r.light);
   for (const auto& m : r.materials)
     if (m.f0) add_scattering(f.scattering, m);
+  for (const auto& s : r.single_lights) {  // the lights of a roughness stand side by side
+    double& most = entry_of(f.scattering, s.id, s.f0, false, s.roughness).delta_e.back();
+    most = std::max(most, s.delta_e);
+  }
   for (const auto& c : r.compensations)
     if (c.id != "single")
       f.compensations.push_back({std::string(c.id), c.id == "fdez_aguera", c.ns - c.without_ns,

@@ -108,6 +108,39 @@ void of_compensations(Findings& to, const EnergyRows& r) {
         r.albedo_forms[1].operations, std::abs(r.albedo_forms[1].worst)));
 }
 
+/// Under a single light the order is that of pictures, not of albedos.
+void of_single_lights(Findings& to, const EnergyRows& r) {
+  constexpr double metal = 0.9;
+  const auto all = facts(r).scattering;
+  const auto of = [&](std::string_view id) {
+    return std::ranges::find_if(all, [&](const Facts::Scattering& s) {
+      return s.id == id && s.f0 == metal && !s.of_image_light;
+    });
+  };
+  const auto nothing = of("single");
+  if (nothing == all.end()) return;
+  for (const auto& [id, name] :
+       {std::pair("kulla_conty", "Kulla and Conty"), {"turquin", "Turquin"}}) {
+    const auto way = of(id);
+    if (way == all.end()) continue;
+    const auto from = nearer_from(*way, *nothing);
+    to.say(
+        from
+            ? fmt::format("Under a single light, white metal of F0 = {:g} with {} is nearer to all "
+                          "bounces than with nothing from roughness {:g} on.",
+                          metal, name, *from)
+            : fmt::format("Under a single light, white metal of F0 = {:g} with {} is no nearer to "
+                          "all bounces than with nothing.",
+                          metal, name));
+    to.say(fmt::format("The most that it leaves there is ΔE2000 {:.2g}, over all roughnesses.",
+                       std::ranges::max(way->delta_e)));
+  }
+  to.say(
+      "Albedos rank the compensations otherwise: they are light from all sides, and one light "
+      "shows "
+      "the lobe's shape.");
+}
+
 /// Error of the split sum, where it shows most.
 void of_split_sum(Findings& to, const EnergyRows& r) {
   for (const auto& t : r.light.tables)
@@ -165,8 +198,7 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
     words = fmt::format(" Most does {}: {:.3g} times as much at {}.", words_for(*most), at.albedo,
                         place(at.roughness, at.mu));
   }
-  to.judge("reflected energy never exceeds incoming", "seeds 000 and 001, conservation of energy",
-           verdict(makers == 0, true),
+  to.judge("reflected energy never exceeds incoming", "", verdict(makers == 0, true),
            fmt::format("{} forms exceed it", of_all(makers, r.forms.size())),
            fmt::format("of what is shipped, {} forms reflect more than comes in somewhere.{} The "
                        "others reflect {:.4f} of it at most.",
@@ -177,8 +209,8 @@ void energy_does_not_stay(Findings& to, const EnergyRows& r) {
   const auto* f = find_form(r.forms, "masking.smith_ggx.correlated");
   if (!f || f->averages.empty()) return;
   const auto &smooth = f->averages.front(), &rough = f->averages.back();
-  to.judge("as roughness grows the highlight widens and dims so that energy stays",
-           "seed 001, conservation of energy", verdict(rough.albedo > 0.99),
+  to.judge("as roughness grows the highlight widens and dims so that energy stays", "",
+           verdict(rough.albedo > 0.99),
            fmt::format("{} leaves at roughness {:g}", percent(rough.albedo), rough.roughness),
            fmt::format("it dims more than that. With nothing absorbed, one bounce under GGX "
                        "reflects {} of the light where it is smoothest, and {} at roughness {:g}. "
@@ -198,7 +230,7 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
   }
   const auto& row = coat->rows[at];
   to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat",
-           "seed 001, Disney's secondary lobe", verdict_on_small(most),
+           "Burley 2012, Physically Based Shading at Disney", verdict_on_small(most),
            fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
            fmt::format("as it ships it is furthest from its own Smith masking at {}. Before "
                        "Fresnel the coat there reflects {} instead of {}.",
@@ -211,7 +243,7 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
   // D without 1/π is 1/α² at its peak.
   const double reached = std::pow(2048.0, -0.25);
   const auto& most = *std::ranges::max_element(r.claims.clamped, {}, &ClaimRows::Clamped::lost);
-  to.judge("the clamp at 2048 hardly shows", "seed 004, D_GGX_R2", verdict_on_small(most.lost),
+  to.judge("the clamp at 2048 hardly shows", "", verdict_on_small(most.lost),
            fmt::format("up to {} of the highlight is lost", percent(most.lost)),
            fmt::format("it is reached below roughness {:.3f} alone. Seen head on, it there takes "
                        "up to {} of the highlight's light, at roughness {:g}.",
@@ -221,8 +253,8 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
 void look_of_the_simple_form(Findings& to, const EnergyRows& r) {
   if (!find_form(r.forms, "model.ue_mobile_simple") || r.claims.simple_form.empty()) return;
   const auto& most = *std::ranges::max_element(r.claims.simple_form, {}, &ClaimRows::Look::delta_e);
-  to.judge("the simple mobile form keeps the look", "seed 004, SpecularGGXSimple",
-           verdict(most.delta_e <= 1), fmt::format("ΔE2000 up to {:.2g}", most.delta_e),
+  to.judge("the simple mobile form keeps the look", "", verdict(most.delta_e <= 1),
+           fmt::format("ΔE2000 up to {:.2g}", most.delta_e),
            fmt::format("under even light it differs from GGX with Smith and Schlick by up to "
                        "ΔE2000 {:.2g}. That is of F0 = {:g} at {}. It has no Fresnel, and no "
                        "angles in its visibility.",
@@ -234,7 +266,7 @@ void deviation_of_slopes(Findings& to, const EnergyRows& r) {
   if (slopes.empty()) return;
   const auto &first = slopes.front(), &last = slopes.back();
   const double growth = last.deviation - first.deviation;
-  to.judge("alpha is the standard deviation of the slopes", "seed 000, definition of alpha",
+  to.judge("alpha is the standard deviation of the slopes", "",
            verdict(growth < 1e-3 && std::abs(last.deviation - 1) < 1e-3),
            fmt::format("{:.2f} α for Beckmann, none for GGX", r.claims.beckmann_deviation),
            fmt::format("along an axis it is {:.4f} α for Beckmann. GGX has none: of its slopes up "
@@ -247,7 +279,8 @@ void deviation_of_slopes(Findings& to, const EnergyRows& r) {
 void solid_angle_of_half(Findings& to, const EnergyRows& r) {
   if (!r.claims.half_angle) return;
   const auto& [pairs, step, off] = *r.claims.half_angle;
-  to.judge("dωₕ = dωₗ/(4 VoH)", "seed 000, the factor 4 of the BRDF", verdict(off < 1e-5),
+  to.judge("dωₕ = dωₗ/(4 VoH)", "Walter et al. 2007, Microfacet Models for Refraction",
+           verdict(off < 1e-5),
            fmt::format("equal to {:.0f} digits", -std::log10(std::max(off, 1e-15))),
            fmt::format("for {} pairs of directions, by small differences, the solid angle of the "
                        "half vector is that{}.",
@@ -261,6 +294,7 @@ Findings findings(const EnergyRows& r) {
   of_white(all, r);
   of_materials(all, r);
   of_compensations(all, r);
+  of_single_lights(all, r);
   of_split_sum(all, r);
   no_light_is_made(all, r);
   energy_does_not_stay(all, r);

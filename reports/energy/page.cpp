@@ -147,6 +147,18 @@ inline constexpr auto description<CompensationCost> = std::tuple{
 static_assert(describes_every_member<CompensationCost>());
 
 template <>
+inline constexpr auto description<SingleLight> = std::tuple{
+    Field{"scattering", &SingleLight::id, "id"},
+    Field{"light", &SingleLight::light, "30° or 120° from the view"},
+    Field{"f0", &SingleLight::f0, "of Schlick's Fresnel"},
+    Field{"roughness", &SingleLight::roughness, ""},
+    Field{"delta_e_2000", &SingleLight::delta_e,
+          "from all bounces, by random walks: most over the ball"},
+    Field{"delta_e_2000_mean", &SingleLight::delta_e_mean, "mean over the ball"},
+    Field{"error", &SingleLight::error, "most ΔE2000 that the walks' standard error is worth"}};
+static_assert(describes_every_member<SingleLight>());
+
+template <>
 inline constexpr auto description<AlbedoForm> =
     std::tuple{Field{"form", &AlbedoForm::id, "id"},
                Field{"worst", &AlbedoForm::worst, "error against quadrature"},
@@ -247,6 +259,8 @@ struct Description<EnergyReport> {
         field("materials", "", of(&EnergyRows::materials), ""),
         field("truth", "", truth_of, "what leaves after all bounces"),
         field("costs", "", of(&EnergyRows::compensations), "of compensations"),
+        field("single_lights", "", of(&EnergyRows::single_lights),
+              "pictures of a ball under one light"),
         field("albedo_forms", "", of(&EnergyRows::albedo_forms), "E as a shader has it"),
         field("estimators", "", of(&EnergyRows::estimators), "of one E, by time"),
         field("split_sum_tables", "", of_light(&ImageLight::tables), ""),

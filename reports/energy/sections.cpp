@@ -167,6 +167,35 @@ Section compensations(const EnergyRows& all, const Pictures& p) {
              "small muted"}}};
 }
 
+/// Most ΔE2000 of each compensation under each light, by roughness.
+Section single_lights(const EnergyRows& all) {
+  if (all.single_lights.empty()) return {};
+  Slot slot;
+  for (const double f0 : {0.04, 0.5, 0.9})
+    for (const std::string_view light : {"front light", "rim light"}) {
+      Table t{columns("roughness|>one bounce|>Turquin|>Kulla and Conty|>± of the walks"),
+              {},
+              "in-cards"};
+      for (const auto& none : all.single_lights) {
+        if (none.f0 != f0 || none.light != light || none.id != "single") continue;
+        const auto of = [&](std::string_view id) {
+          const auto at = std::ranges::find_if(all.single_lights, [&](const SingleLight& s) {
+            return s.id == id && s.f0 == f0 && s.light == light && s.roughness == none.roughness;
+          });
+          return significant(at->delta_e, 2);
+        };
+        t.add(significant(none.roughness, 2), of("single"), of("turquin"), of("kulla_conty"),
+              significant(none.error, 1));
+      }
+      slot.each.push_back({{fmt::format("{:g}", f0), std::string(light)}, {std::move(t)}});
+    }
+  return {"Under a single light",
+          "Most ΔE2000 over a ball from afar, against random walks on Smith's microsurface. The "
+          "light stands 30° or 120° from the view, and a white diffuser that faces it is white. "
+          "The albedo above is that under even light: it says little of pictures under one light.",
+          {Choice{{{"f0", "F0", "0.9"}, {"light", "Light"}}, {std::move(slot)}, ""}}};
+}
+
 Section albedo_formulas(const EnergyRows& all) {
   if (all.albedo_forms.empty()) return {};
   Table t{columns("|>RMS error|>worst|worst at|>operations|>table bytes")};
@@ -266,10 +295,15 @@ page::Page report_page(const EnergyReport& r) {
            "What single scattering loses, and what gives it back", r.findings.sentences};
   out.full = r.full;
   out.first = opening(r.pictures, "average_loss");
-  out.sections = {from_where(r.rows),          maskings(r.rows, r.pictures),
-                  bounces(r.rows, r.pictures), compensations(r.rows, r.pictures),
-                  albedo_formulas(r.rows),     against_time(r.pictures),
-                  split_sum(r.rows),           irradiances(r.rows, r.pictures)};
+  out.sections = {from_where(r.rows),
+                  maskings(r.rows, r.pictures),
+                  bounces(r.rows, r.pictures),
+                  compensations(r.rows, r.pictures),
+                  single_lights(r.rows),
+                  albedo_formulas(r.rows),
+                  against_time(r.pictures),
+                  split_sum(r.rows),
+                  irradiances(r.rows, r.pictures)};
   out.most_shipped = {"smith_ggx.correlated",
                       "schlick_ggx.direct",
                       "schlick_ggx.half_alpha",

@@ -10,6 +10,13 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 }  // namespace
 
+std::optional<double> nearer_from(const Facts::Scattering& way, const Facts::Scattering& other) {
+  std::optional<double> from;
+  for (std::size_t i = way.roughness.size(); i-- > 0 && way.delta_e[i] < other.delta_e[i];)
+    from = way.roughness[i];
+  return from;
+}
+
 void join(Facts& to, const Facts& from) {
   if (from.setting) to.setting = from.setting;
   append(to.in_cache, from.in_cache);
@@ -20,7 +27,7 @@ void join(Facts& to, const Facts& from) {
   append(to.compensations, from.compensations);
   append(to.diffuse, from.diffuse);
   append(to.precision, from.precision);
-  append(to.tails, from.tails);
+  if (from.tails) to.tails = from.tails;
   if (from.split_sum) to.split_sum = from.split_sum;
 }
 

@@ -43,10 +43,12 @@ struct Facts {
     double delta_e, head_on;
   };
   std::vector<Fresnel> fresnel{};
-  /// Greatest ΔE2000 over views of one way to scatter from all bounces, by roughness.
+  /// Greatest ΔE2000 of one way to scatter from all bounces, by roughness: over views under even light, or over the pictures of a ball
+  /// under single lights.
   struct Scattering {
     std::string id;  ///< "single", "turquin" …
     double f0;       ///< under Schlick's Fresnel
+    bool of_image_light;
     std::vector<double> roughness, delta_e;
   };
   std::vector<Scattering> scattering{};
@@ -61,32 +63,42 @@ struct Facts {
   std::vector<Compensation> compensations{};
   struct Diffuse {
     std::string id;
-    double most_albedo;           ///< of a direction, at kd = 1, over roughness
-    bool with_interface = false;  ///< it is none of a matte surface
+    double most_albedo;     ///< of a direction, at kd = 1, over roughness
+    bool with_interface;    ///< it is none of a matte surface
+    double most_with_lobe;  ///< as most_albedo, with a lobe of F0 = 0.04 on top
+    /// Greatest ΔE2000 at equal albedo: of matte surfaces to EON, and below a lobe to EON coupled by albedos.
+    std::optional<double> matte{}, below_lobe{};
   };
   std::vector<Diffuse> diffuse{};
-  /// Least alpha from which on a distribution keeps a relative error in few bits.
+  /// Least alpha from which on a distribution, or a lobe times NoL, keeps a relative error in few bits.
   struct Precision {
     std::string id, form, number;  ///< form: how its angles are given, "cross" or "cosine"
     double tolerance;
     std::optional<double> safe_from;
+    double zenith_deg = 0;  ///< of a lobe: up to which of light and view
   };
   std::vector<Precision> precision{};
-  /// RMS of ln f that a fit with GGX leaves of surfaces whose slopes are distributed otherwise, over roughness and materials.
-  struct Tail {
-    std::string truth;  ///< "GTR 3"
-    double log_rms;
+  /// Measured materials by the tail of their highlight, (1 + …)^−γ, as others published it, each fitted with GGX and with GTR.
+  struct Tails {
+    std::size_t materials, longer;    ///< longer: γ below 2, which is GGX's
+    double gamma;                     ///< that GTR finds, median
+    double ggx_log_rms, gtr_log_rms;  ///< RMS of ln f that the fits leave, medians
   };
-  std::vector<Tail> tails{};
+  std::optional<Tails> tails{};
   /// Table of the split sum that people ship: RMS error of its lookup, over NoV and roughness.
   struct SplitSum {
     std::size_t size, bytes;
     double rms;
     /// Greatest ΔE2000 of the split itself, mean over the views of one environment, F0 and roughness: head on and at cosine 0.1.
     std::optional<double> head_on{}, grazing{};
+    std::optional<double> ns{};  ///< of a pixel
   };
   std::optional<SplitSum> split_sum{};
 };
+
+/// Least roughness from which on a way to scatter is nearer than another, at every one looked at; none: not even at the largest.
+/// \param other  under the same light, of the same F0 and at the same roughnesses
+std::optional<double> nearer_from(const Facts::Scattering& way, const Facts::Scattering& other);
 
 /// Adds what another report knows.
 void join(Facts& to, const Facts& from);

@@ -43,7 +43,7 @@ inline std::function<void(double)> part_of(const ReportProgress& done,
 /// A statement in circulation, judged.
 struct Claim {
   std::string claim;   ///< the sentence
-  std::string source;  ///< where it stands, "seed 004, D_GGX_R2"; seeds as in the catalogue
+  std::string source;  ///< public, where it stands: "Burley 2012, …"; empty: it is common talk
   enum class Judged { holds, partly, fails } judged;
   std::string figure;    ///< the one that decides, with what it is of: "36 % of F, at 55°"
   std::string verdict;   ///< a sentence with figures

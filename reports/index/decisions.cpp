@@ -18,7 +18,8 @@ namespace {
 using Candidates = std::vector<Candidate>;
 
 constexpr std::string_view schlick = "fresnel.schlick", direct = "masking.schlick_ggx.direct",
-                           correlated = "masking.smith_ggx.correlated", single = "single";
+                           correlated = "masking.smith_ggx.correlated", single = "single",
+                           precision_model = "ggx/smith_ggx.correlated/schlick";
 
 /// Time that `to` takes more than `from`, which are candidates or times.
 template <class Timed>
@@ -119,16 +120,19 @@ void masking(std::vector<Decision>& to, const Facts& f) {
 
 // --- Distribution ---
 
+/// Materials that were measured, not made: what a tail other than GGX's costs, and gains.
 void distribution(std::vector<Decision>& to, const Facts& f) {
   const auto *ggx = time_of(f.in_cache, "ndf.ggx"), *gtr = time_of(f.in_cache, "ndf.gtr");
-  const auto worst = std::ranges::max_element(f.tails, {}, &Facts::Tail::log_rms);
-  if (!ggx || !gtr || worst == f.tails.end()) return;
+  if (!ggx || !gtr || !f.tails) return;
+  const auto& t = *f.tails;
   const auto cheap = candidate(ggx->id, 0, *ggx), other = candidate(gtr->id, 0, *gtr);
+  const auto factor = [](double log_rms) { return fmt::format("×/÷ {:.3g}", std::exp(log_rms)); };
   to.push_back({"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
-                fmt::format("a factor of {:.2g} (RMS of f, on a surface of {})",
-                            std::exp(worst->log_rms), worst->truth),
+                fmt::format("typical factor of f {}: {} measured materials have a longer tail",
+                            factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
                 std::string(no_more),
-                fmt::format("a fit finds γ far from 2: GTR, {} for D", cost_text(other, cheap))});
+                fmt::format("γ is fitted (median {:.2g}): GTR, {}, {} for D", t.gamma,
+                            factor(t.gtr_log_rms), cost_text(other, cheap))});
 }
 
 // --- Fresnel ---
@@ -267,60 +271,77 @@ void fresnel(std::vector<Decision>& to, const Facts& f, std::string_view kind) {
 /// Reflectance of bright metals, and of plastics.
 constexpr double bright = 0.9, plastic = 0.04;
 
-const Facts::Scattering* scattering_of(const Facts& f, std::string_view id, double f0) {
-  const auto at = std::ranges::find_if(
-      f.scattering, [&](const Facts::Scattering& s) { return s.id == id && s.f0 == f0; });
+const Facts::Scattering* scattering_of(const Facts& f,
+                                       std::string_view id,
+                                       double f0,
+                                       bool of_image_light) {
+  const auto at = std::ranges::find_if(f.scattering, [&](const Facts::Scattering& s) {
+    return s.id == id && s.f0 == f0 && s.of_image_light == of_image_light;
+  });
   return at == f.scattering.end() ? nullptr : &*at;
 }
-double greatest(const Facts& f, std::string_view id) {
-  double most = 0;
-  for (const auto& s : f.scattering)
-    if (s.id == id) most = std::max(most, std::ranges::max(s.delta_e));
-  return most;
-}
 /// Least roughness at which one bounce is seen to lack the others.
-std::optional<double> seen_from(const Facts& f, double f0) {
-  const auto* s = scattering_of(f, single, f0);
-  if (!s) return {};
-  for (std::size_t i = 0; i < s->roughness.size(); ++i)
-    if (s->delta_e[i] > side_by_side) return s->roughness[i];
+std::optional<double> seen_from(const Facts::Scattering& s) {
+  for (std::size_t i = 0; i < s.roughness.size(); ++i)
+    if (s.delta_e[i] > side_by_side) return s.roughness[i];
   return {};
 }
 
+/// Compensation from a roughness on, below which nothing is done: where it shows and is nearer than nothing.
+struct Compensated {
+  double from;
+  double error;  ///< greatest ΔE2000 of both parts
+};
+std::optional<Compensated> compensated(const Facts::Scattering& way,
+                                       const Facts::Scattering& nothing) {
+  const auto nearer = nearer_from(way, nothing), seen = seen_from(nothing);
+  if (!nearer || !seen) return {};
+  Compensated c{std::max(*nearer, *seen), 0};
+  for (std::size_t i = 0; i < way.roughness.size(); ++i)
+    c.error = std::max(c.error, (way.roughness[i] < c.from ? nothing : way).delta_e[i]);
+  return c;
+}
+
 void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) {
-  const auto from = seen_from(f, bright);
-  const auto* of_plastic = scattering_of(f, single, plastic);
-  Candidates all;
+  const auto* nothing = scattering_of(f, single, bright, of_image_light);
+  const auto* of_plastic = scattering_of(f, single, plastic, of_image_light);
+  if (!nothing || !of_plastic) return;
+  const double without = std::ranges::max(nothing->delta_e);
+  Candidates all{{std::string(single), without, 0, 0}};
   for (const auto& c : f.compensations)
-    if (c.of_image_light == of_image_light && greatest(f, c.id) > 0)
-      all.push_back({c.id, greatest(f, c.id), c.ns, c.spread});
+    if (const auto* way = scattering_of(f, c.id, bright, of_image_light);
+        way && c.of_image_light == of_image_light)
+      if (const auto pays = compensated(*way, *nothing))
+        all.push_back({c.id, pays->error, c.ns, c.spread});
   const auto* taken = choose(all, single, side_by_side);
-  if (!from || !of_plastic || !taken) return;
-  const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
-  const auto more_ns =
-      fmt::format("+{} on {} a call", ns_text(taken->ns), ns_text(costs->without_ns));
+  const auto from = [&](const Candidate& c) {
+    return compensated(*scattering_of(f, c.form, bright, of_image_light), *nothing)->from;
+  };
   const auto* other = nearest_cheaper(all, *taken);
-  const auto later = seen_from(f, plastic);
-  const auto of_f0 =
-      fmt::format("F0 is {:g}: {}", plastic,
-                  later ? fmt::format("from roughness {:g} on", *later)
-                        : fmt::format("one bounce, ΔE ≤ {}",
-                                      short_number(std::ranges::max(of_plastic->delta_e))));
-  to.push_back(
-      {fmt::format("Multiple scattering under {} (of bright metal, F0 {:g})",
-                   of_image_light ? "image-based light" : "a single light", bright),
-       fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), *from),
-       "scattering." + taken->form,
-       fmt::format("ΔE ≤ {} (one bounce: {}{})", short_number(taken->error),
-                   short_number(greatest(f, single)),
-                   taken->error > side_by_side ? "; no form leaves less" : ""),
-       of_image_light
-           ? fmt::format("{} (beside the split sum's table)", more_ns)
-           : fmt::format("{} (by single calls, other times are of columns; {:.1f} kB of tables)",
-                         more_ns, static_cast<double>(costs->bytes) / 1000),
-       other && !of_image_light ? fmt::format("{}; time is short: {}, ΔE ≤ {}", of_f0,
-                                              name_of_form(other->form), short_number(other->error))
-                                : of_f0});
+  auto unless = fmt::format("F0 is {:g}: one bounce, ΔE ≤ {}", plastic,
+                            short_number(std::ranges::max(of_plastic->delta_e)));
+  if (const auto* way = scattering_of(f, taken->form, plastic, of_image_light))
+    if (const auto pays = compensated(*way, *of_plastic))
+      unless = fmt::format("F0 is {:g}: from roughness {:g} on", plastic, pays->from);
+  if (other && other->form != single)
+    unless += fmt::format("; time is short: {}, ΔE ≤ {}", name_of_form(other->form),
+                          short_number(other->error));
+  Decision d{fmt::format("Multiple scattering under {} (of bright metal, F0 {:g})",
+                         of_image_light ? "image-based light" : "single lights", bright),
+             "None",
+             "scattering." + taken->form,
+             fmt::format("ΔE ≤ {}", short_number(taken->error)),
+             std::string(no_more),
+             std::move(unless)};
+  if (taken->form != single) {
+    const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
+    d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), from(*taken));
+    d.error += fmt::format(" (one bounce: {}{})", short_number(without),
+                           taken->error > side_by_side ? "; no form leaves less" : "");
+    d.cost = fmt::format("+{} on {} a call (other times are of columns)", ns_text(taken->ns),
+                         ns_text(costs->without_ns));
+  }
+  to.push_back(std::move(d));
 }
 
 // --- Image-based light, and what is below the surface ---
@@ -334,38 +355,55 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
        s.head_on
            ? fmt::format("mean ΔE ≤ {} (the table alone: {})", short_number(*s.head_on), table)
            : table + " of E",
-       fmt::format("{:.1f} kB, one look-up", static_cast<double>(s.bytes) / 1000),
+       s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
        s.grazing ? fmt::format("rims are looked at: integrate there, where the mean ΔE is ≤ {}",
                                short_number(*s.grazing))
                  : ""});
 }
 
-void diffuse(std::vector<Decision>& to, const Facts& f) {
+/// Diffuse terms by how they look at equal albedo: matte surfaces beside EON, and what lies below a lobe beside EON coupled by albedos.
+void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   constexpr std::string_view cheap_id = "diffuse.lambert";
-  const Facts::Diffuse *maker = nullptr, *rough = nullptr;
-  const auto* cheap = time_of(f.in_cache, cheap_id);
-  const auto own = std::ranges::find(f.diffuse, cheap_id, &Facts::Diffuse::id);
-  if (!cheap || own == f.diffuse.end() || own->most_albedo > no_light_made) return;
-  const Facts::Time* rough_time = nullptr;
+  Candidates all;
+  const auto form_of = [&](std::string_view id) {
+    return std::ranges::find(f.diffuse, id, &Facts::Diffuse::id);
+  };
+  const auto most_light = [&](const Facts::Diffuse& d) {
+    return below_lobe ? d.most_with_lobe : d.most_albedo;
+  };
+  double least =
+      HUGE_VAL;  // that the forms give back at most; none may keep it within what comes in
+  for (const auto& d : f.diffuse)
+    if (below_lobe || !d.with_interface) least = std::min(least, most_light(d));
   for (const auto& d : f.diffuse) {
-    if (!maker || d.most_albedo > maker->most_albedo) maker = &d;
-    // of those that scatter back, the fastest that makes no light
     const auto* t = time_of(f.in_cache, d.id);
-    if (t && d.id != cheap_id && !d.with_interface && d.most_albedo <= no_light_made &&
-        (!rough_time || t->ns < rough_time->ns))
-      rough = &d, rough_time = t;
+    const bool is_reference = !below_lobe && d.id == "diffuse.eon";
+    const auto& off = below_lobe ? d.below_lobe : d.matte;
+    if (t && (off || is_reference) && most_light(d) <= std::max(no_light_made, least))
+      all.push_back(candidate(d.id, is_reference ? 0 : *off, *t));
   }
-  const auto made =
-      maker->most_albedo > no_light_made
-          ? fmt::format(" ({}: {})", name_of_form(maker->id), percent(maker->most_albedo, 3))
-          : "";
-  to.push_back(
-      {"Diffuse", name_of_form(cheap_id), std::string(cheap_id),
-       "gives back no more than it gets" + made, std::string(no_more),
-       rough ? fmt::format("cloth, clay or plaster scatter back: {}, {}", name_of_form(rough->id),
-                           cost_text(candidate(rough->id, 0, *rough_time),
-                                     candidate(std::string(cheap_id), 0, *cheap)))
-             : ""});
+  const auto* taken = choose(all, cheap_id, side_by_side);
+  const auto lambert = form_of(cheap_id);
+  const auto* time = time_of(f.in_cache, cheap_id);
+  if (!taken || lambert == f.diffuse.end() || !time) return;
+  const auto cheap = candidate(std::string(cheap_id), 0, *time);
+  const auto& own = below_lobe ? lambert->below_lobe : lambert->matte;
+  const auto made = [&](const Facts::Diffuse& d) { return percent(most_light(d), 3); };
+  Decision d{below_lobe ? "Diffuse below a lobe (F0 0.04)" : "Diffuse of matte surfaces",
+             name_of_form(taken->form),
+             taken->form,
+             is_exact(*taken) ? "none" : "ΔE ≤ " + short_number(taken->error),
+             cost_text(*taken, cheap),
+             ""};
+  if (taken->form != cheap_id && own)
+    d.error += below_lobe ? fmt::format("; gives back {} at most (Lambert: {})",
+                                        made(*form_of(taken->form)), made(*lambert))
+                          : fmt::format(" (Lambert: ΔE {})", short_number(*own));
+  if (below_lobe && own)
+    d.unless = fmt::format("light may be made: Lambert, ΔE ≤ {}", short_number(*own));
+  else if (taken->form != cheap_id)
+    d.unless = "the surface is smooth: Lambert";
+  to.push_back(std::move(d));
 }
 
 // --- Few bits ---
@@ -380,17 +418,22 @@ const Facts::Precision* precision_of(const Facts& f,
   return at == f.precision.end() ? nullptr : &*at;
 }
 
+/// A whole highlight: D in itself keeps its digits where D V F is already infinite.
 void precision(std::vector<Decision>& to, const Facts& f) {
-  const auto* half = precision_of(f, "ndf.ggx", "cross", "half");
-  if (!half || !half->safe_from) return;
-  const auto* mixed = precision_of(f, "ndf.ggx.mobile", "cosine", "mixed");
+  const auto *half = precision_of(f, precision_model, "directions", "half"),
+             *own = precision_of(f, "ndf.ggx", "cross", "half");
+  if (!half || !own || !own->safe_from) return;
+  if (!half->safe_from) {
+    to.push_back({"Precision: D V F NoL of GGX in half", "float instead", "ndf.ggx",
+                  "none (half keeps its digits from no α on)", "", ""});
+    return;
+  }
   to.push_back(
-      {"Precision: GGX in half", fmt::format("|n × h|², α clamped at {:.2g}", *half->safe_from),
-       half->id, fmt::format("≤ {} of D", percent(half->tolerance, 1)),
+      {"Precision: D V F NoL of GGX in half",
+       fmt::format("|n × h|², α clamped at {:.2g}", *half->safe_from), "ndf.ggx",
+       fmt::format("≤ {}, up to {:.0f}° of both", percent(half->tolerance, 1), half->zenith_deg),
        fmt::format("roughness below {:.2g} (looks that rough)", std::sqrt(*half->safe_from)),
-       mixed && mixed->safe_from
-           ? fmt::format("NoH is rounded to half: α clamped at {:.2g}", *mixed->safe_from)
-           : ""});
+       fmt::format("only D is in half: α clamped at {:.2g}", *own->safe_from)});
 }
 
 }  // namespace
@@ -420,7 +463,8 @@ std::vector<Decision> decisions(const Facts& f) {
   scattering(out, f, false);
   scattering(out, f, true);
   image_light(out, f);
-  diffuse(out, f);
+  diffuse(out, f, false);
+  diffuse(out, f, true);
   precision(out, f);
   return out;
 }

@@ -79,7 +79,8 @@ template <>
 inline constexpr auto description<ClaimOf> = std::tuple{
     Field{"report", &ClaimOf::report, ""},
     Field{"claim", [](const ClaimOf& c) { return c.claim->claim; }, "sentence in circulation"},
-    Field{"source", [](const ClaimOf& c) { return c.claim->source; }, "where it stands"},
+    Field{"source", [](const ClaimOf& c) { return c.claim->source; },
+          "where it was published; may be empty"},
     Field{"judged", [](const ClaimOf& c) { return name_of(c.claim->judged); },
           "holds, holds in part, does not hold"},
     Field{"figure", [](const ClaimOf& c) { return c.claim->figure; }, "the one that decides"},
@@ -258,10 +259,12 @@ Section cards(const ReportIndex& i) {
   for (const auto& r : i.reports) {
     const auto href = page_of(r.name);
     html += fmt::format(
-        R"(<article class="card"><a href="{0}">{1}</a><h3><a href="{0}">{2}</a></h3><p>{3}</p><p class="small muted"><a href="{4}.json">JSON</a> · <a href="{4}.csv">CSV</a> · <a href="{4}/">{5}</a> · {6}</p></article>)",
+        R"(<article class="card"><a href="{0}">{1}</a><h3><a href="{0}">{2}</a></h3><p>{3}</p><p class="small muted"><a href="{4}.json">JSON</a> · <a href="{4}.csv">CSV</a> · {5} · {6}</p></article>)",
         href, r.first.figures.empty() ? "" : page_small(r.first.figures[0], 260, 96),
         markup_text(capital(std::string(r.what))), markup_text(sentence_of(r)), r.name,
-        many(r.pictures, "picture"),
+        r.first.figures.empty() ? many(r.pictures, "picture")
+                                : fmt::format(R"(<a href="{}/{}.svg">the first of {}</a>)", r.name,
+                                              r.first.figures[0].id, many(r.pictures, "picture")),
         r.ms >= 1000 ? significant(r.ms / 1000) + "\u202fs" : significant(r.ms) + "\u202fms");
   }
   if (i.reports.empty()) return {};
@@ -273,19 +276,19 @@ Section claims(const ReportIndex& i) {
   for (const auto& [report, c] : claims_of(i)) {
     using enum Claim::Judged;
     rows += fmt::format(
-        R"(<tr><th scope="row"><span class="verdict-{}">{}</span></th><td><details><summary>“{}”</summary><p>{}</p><p>{} · <a href="{}">the report</a></p></details></td><td>{}</td></tr>)",
+        R"(<tr><th scope="row"><span class="verdict-{}">{}</span></th><td><details><summary>“{}”</summary><p>{}</p><p>{}<a href="{}">the report</a></p></details></td><td>{}</td></tr>)",
         c->judged == holds    ? "yes"
         : c->judged == partly ? "weakly"
                               : "no",
         name_of(c->judged), markup_text(c->claim), markup_text(capital(c->verdict)),
-        markup_text(c->source), markup_text(page_of(report, c->anchor)), markup_text(c->figure));
+        c->source.empty() ? "" : markup_text(c->source) + " · ",
+        markup_text(page_of(report, c->anchor)), markup_text(c->figure));
   }
   if (rows.empty()) return {};
   return {
       "Claims",
-      "Claims in circulation, as they stand in five notes on shading that this project began with, "
-      "seed 000 to 004, which quote papers, talks and shaders. A click on one shows the figures "
-      "behind its verdict, and where it stands.",
+      "Claims in circulation among people who write shaders, in their own words. A click on one "
+      "shows the figures behind its verdict, and where it was published, if it was.",
       {Markup{
           R"(<div class="told-by-cell said"><table><thead><tr><th>verdict</th><th>claim</th><th>figure</th></tr></thead><tbody>)" +
           rows + "</tbody></table></div>"}}};

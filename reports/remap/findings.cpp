@@ -76,8 +76,7 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
   const auto one = duel(ours, others), two = duel(rows_of(r, form_id::direct_k, form_id::smith),
                                                   rows_of(r, form_id::image_k, form_id::smith));
   const std::size_t nearer = one.nearer + two.nearer;
-  to.judge("k = (r+1)²/8 is right for direct light, r²/2 for image-based",
-           "seed 000, k of Schlick's G1",
+  to.judge("k = (r+1)²/8 is right for direct light, r²/2 for image-based", "",
            verdict(nearer >= one.all + two.all, 2 * nearer >= one.all + two.all),
            fmt::format("G₂ off by {:.2g} against {:.2g}, RMS",
                        *overall_rms(r, form_id::direct_k, form_id::separable_smith),
@@ -127,13 +126,11 @@ void wrong_place(Findings& to, const RemapRows& r) {
 void verdict_on_g1(Findings& to, const RemapRows& r) {
   if (r.g1.size() < 2) return;
   const auto &half = r.g1[0], &remapped = r.g1[1];
-  to.judge("k = α/2 is too bright at grazing angles", "seed 000, k of Schlick's G1",
-           verdict(half.value > half.smith),
+  to.judge("k = α/2 is too bright at grazing angles", "", verdict(half.value > half.smith),
            fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", half.value, half.smith, half.nov),
            fmt::format("at NoV {:g} and roughness {:g} it lets through {} than exact Smith.",
                        half.nov, half.roughness, beside(half.value / half.smith)));
-  to.judge("with k = (r+1)²/8 the edge is 72 % darker, as of a medium roughness",
-           "seed 000, Disney's remapping of k",
+  to.judge("with k = (r+1)²/8 the edge is 72 % darker, as of a medium roughness", "",
            verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith),
            fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", remapped.value, remapped.smith,
                        remapped.nov),
@@ -161,7 +158,7 @@ void verdict_on_vf(Findings& to, const RemapRows& r) {
   }
   if (most == 0) return;
   to.judge(
-      "F V ≈ 1/(LoH²(r+0.5))", "seed 000, mobile specular BRDF", verdict(most < 1.1),
+      "F V ≈ 1/(LoH²(r+0.5))", "Zioma 2015, Optimizing PBR for Mobile", verdict(most < 1.1),
       fmt::format("off by a factor of {:.2g} to {:.2g}; with a ¼ by up to {:.2g}", least, most,
                   with_it),
       fmt::format("as printed it lacks a factor of ¼, and on glass it is off by a factor of up "

@@ -30,8 +30,8 @@ void judge_influence_of_masking(Findings& to, const RemapRows& r) {
         beyond = more, roughness = none->at[i].roughness, mu = r.mu[m];
     }
   to.judge(
-      "but for grazing angles and very rough surfaces, G matters little",
-      "seed 001, the geometry term", verdict_on_small(within),
+      "but for grazing angles and very rough surfaces, G matters little", "",
+      verdict_on_small(within),
       fmt::format("up to {} more light without it there", percent(within, 2)),
       fmt::format("at cosines from {:g} on and roughness up to {:g}, GGX without masking reflects "
                   "up to {} more. At cosine {:g} and roughness {:g} it is {}.",

@@ -59,8 +59,7 @@ void smaller_than_others(Findings& to, const SchlickRows& r) {
   }
   if (!glass || !worst) return;
   to.judge(
-      "Schlick's error is clearly smaller than that of other factors",
-      "seed 001, Schlick's approximation",
+      "Schlick's error is clearly smaller than that of other factors", "",
       verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
       fmt::format("glass ΔE2000 {:.2g} against {:.2g} of masking", shown_by_schlick(r, "IOR 1.5"),
                   glass->delta_e),
@@ -81,7 +80,7 @@ void means_metal(Findings& to) {
   if (above.empty()) return;
   const auto most = std::ranges::max_element(above, {}, &Value::f0);
   to.judge(
-      "F0 above 0.04 means metal", "seed 003, what metalness is", verdict(false),
+      "F0 above 0.04 means metal", "", verdict(false),
       fmt::format("{} has F0 {:.2f}", most->name, most->f0),
       fmt::format("{} dielectrics that were measured have more. Of {} it is {:.2f}, at 550 nm.",
                   of_all(above.size(), dielectrics().size()), most->name, most->f0));
@@ -90,7 +89,7 @@ void means_metal(Findings& to) {
 void colour_beside_f(Findings& to) {
   const double glass = dielectric(1.5, "glass").f0(0), twice = glass * glass;
   to.judge(
-      "f = D F G/(4 NoL NoV) · NoL · SpecularColor", "seed 000, specular BRDF", verdict(false),
+      "f = D F G/(4 NoL NoV) · NoL · SpecularColor", "", verdict(false),
       fmt::format("glass reflects {} in place of {}", percent(twice, 2), percent(glass, 2)),
       fmt::format("F holds the specular colour already. Seen head on, glass then reflects {} of "
                   "light in place of {}.",

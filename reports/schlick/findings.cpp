@@ -63,7 +63,7 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
   const std::size_t some = how_many(outside, within) + how_many(metals, within),
                     all = outside.size() + metals.size();
   to.judge(
-      "Schlick's error is below 1 %", "seed 000, Schlick's approximation",
+      "Schlick's error is below 1 %", "Schlick 1994, An Inexpensive BRDF Model",
       verdict(some == all, 2 * some > all),
       fmt::format("glass: up to {:.2g} of full light, {} of F", g->max_abs, percent(g->max_rel, 2)),
       fmt::format("of glass (IOR 1.5) F is off by up to {:.2g} of full light, towards grazing "
@@ -81,7 +81,7 @@ void only_near_one(Findings& to, const SchlickRows& r) {
   const auto &low = *outside.front(), &high = *outside.back();
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
   to.judge("Schlick is accurate enough; near a relative IOR of 1 its error is larger",
-           "seed 001, Disney's Fresnel term of 2015", verdict(only, near),
+           "Burley 2015, Extending the Disney BRDF to a BSDF", verdict(only, near),
            fmt::format("up to {:.2g} for {}", metal->max_abs, metal->material),
            fmt::format("its greatest error is least at IOR {:g}, {:.2g}. It grows to {:.2g} at IOR "
                        "{:g}, and for {} to {:.2g}.",
@@ -238,7 +238,7 @@ void ranges_of_f0(Findings& to) {
     const auto within = static_cast<std::size_t>(
         std::ranges::count_if(all, [&](double f0) { return low <= f0 && f0 <= high; }));
     const auto [least, most] = std::ranges::minmax_element(all);
-    to.judge(claim, "seed 001, Fresnel reflectance", verdict(2 * within > all.size()),
+    to.judge(claim, "", verdict(2 * within > all.size()),
              fmt::format("{} {}", of_all(within, all.size()), what),
              fmt::format("{} of the {} measured here lie there. They go from {:.2g} to {:.2g}.",
                          percent(static_cast<double>(within) / static_cast<double>(all.size()), 2),

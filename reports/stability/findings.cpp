@@ -62,6 +62,12 @@ void which_alpha(Findings& to, const StabilityRows& r) {
     answer += fmt::format(" On a processor that drops subnormals |n × h|² needs {}.",
                           from_text(*flushed));
   to.say(std::move(answer));
+  for (const auto& h : r.highlights)
+    if (h.number == "half" && h.safe_from && cross->safe_from)
+      to.say(fmt::format(
+          "The whole highlight on metal, D V F and then NoL, needs alpha {:.2g} in half "
+          "for light and view up to {:.0f}°: below, the product is too large.",
+          *h.safe_from, h.zenith_deg));
   struct Named {
     std::string_view name, id, form;
   };

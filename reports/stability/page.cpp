@@ -40,7 +40,10 @@ inline constexpr auto description<StabilityRow> = std::tuple{
     Field{"decides", &StabilityRow::decides, "parameter that people clamp"},
     Field{"safe_from", &StabilityRow::safe_from,
           "of it: from there on every input looked at keeps the tolerance; null: nowhere"},
-    Field{"tolerance", &StabilityRow::tolerance, "relative"},
+    Field{"tolerance", &StabilityRow::tolerance, "relative, or absolute"},
+    Field{"is_absolute", &StabilityRow::is_absolute,
+          "of a Fresnel term in few bits, which may be next to 0"},
+    Field{"lost", &StabilityRow::lost, "inputs that do not keep the tolerance"},
     Field{"finite_from", &StabilityRow::finite_from,
           "of it: from there on a value is proved for every input; null: not proved"},
     Field{"evaluations", &StabilityRow::evaluations, ""},
@@ -78,6 +81,19 @@ inline constexpr auto description<ClampRow> = std::tuple{
 static_assert(describes_every_member<ClampRow>());
 
 template <>
+inline constexpr auto description<HighlightRow> = std::tuple{
+    Field{"id", &HighlightRow::id, "spec of the model"},
+    Field{"number", &HighlightRow::number, ""},
+    Field{"zenith_deg", "°", &HighlightRow::zenith_deg, "most of light and view"},
+    Field{"tolerance", &HighlightRow::tolerance, "relative"},
+    Field{"safe_from", &HighlightRow::safe_from,
+          "alpha from which a search finds nothing that breaks it, and a value is proved; null: "
+          "nowhere"},
+    Field{"finite_from", &HighlightRow::finite_from,
+          "alpha from which a value is proved for every input; null: nowhere"}};
+static_assert(describes_every_member<HighlightRow>());
+
+template <>
 inline constexpr auto description<AnyGpuRow> = std::tuple{
     Field{"id", &AnyGpuRow::id, "of the catalogue"},
     Field{"form", &AnyGpuRow::form, "how its angles are given"},
@@ -113,6 +129,8 @@ inline constexpr auto description<StabilityReport> = std::tuple{
     Field{"rows", at(&StabilityReport::rows, &StabilityRows::rows), "a form in a number, each"},
     Field{"clamps", at(&StabilityReport::rows, &StabilityRows::clamps),
           "what each saves and costs"},
+    Field{"highlights", at(&StabilityReport::rows, &StabilityRows::highlights),
+          "D V F of a metal's highlight, and then NoL"},
     Field{"any_gpu", at(&StabilityReport::rows, &StabilityRows::any_gpu),
           "what is proved under all that Vulkan allows a GPU"},
     Field{"orders", at(&StabilityReport::rows, &StabilityRows::orders),

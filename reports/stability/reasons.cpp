@@ -69,6 +69,7 @@ std::string text_of(const HalfFlags& flags) {
 bool misses_target(const StabilityRow& r, Number number) {
   constexpr double units = 8;
   if (!has_few_bits(number)) return r.ulp_beyond > units || r.nonfinite > 0 || r.negative > 0;
+  if (r.is_absolute) return r.lost > 0;
   if (r.decides.empty()) return r.worst_rel > r.tolerance || r.nonfinite > 0;
   return !r.safe_from ||
          (r.decides.starts_with("alpha") ? *r.safe_from > usual_width

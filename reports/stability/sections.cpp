@@ -260,15 +260,17 @@ Section every_form(const StabilityRows& all) {
                 evidence_text(r.evidence) + (r.settled ? "" : ", not settled"));
       if (!t.rows.empty()) slot.each.push_back({{kind, number}, {std::move(t)}});
     }
-  return {"Every form in every number",
-          "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every "
-          "input”: each half there is was evaluated. “Search”: the worst that seeds and climbing "
-          "found from two starts; there may be worse. Results below 2⁻⁶⁴, 5·10⁻²⁰, count as black "
-          "in float, double and mixed numbers, and errors below a half's least normal number are "
-          "measured against that. Vanished: 0 where a value should be. Wrong way: neighbours "
-          "between which the value rises where it should fall. Irreciprocal: another value with "
-          "light and view exchanged. Half raised: flags on the way to the worst input.",
-          {tables({{"kind", "Kind"}, {"number", "Number"}}, std::move(slot))}};
+  return {
+      "Every form in every number",
+      "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every "
+      "input”: each half there is was evaluated. “Search”: the worst that seeds and climbing "
+      "found from two starts; there may be worse. Results below 2⁻⁶⁴, 5·10⁻²⁰, count as black "
+      "in float, double and mixed numbers, and errors below a half's least normal number are "
+      "measured against that. A Fresnel term in half or mixed numbers keeps 0.002 absolute, since "
+      "it may be next to 0. Vanished: 0 where a value should be. Wrong way: neighbours "
+      "between which the value rises where it should fall. Irreciprocal: another value with "
+      "light and view exchanged. Half raised: flags on the way to the worst input.",
+      {tables({{"kind", "Kind"}, {"number", "Number"}}, std::move(slot))}};
 }
 
 }  // namespace

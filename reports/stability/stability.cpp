@@ -80,7 +80,10 @@ std::optional<double> proved_rel(const Subject& s, const Arithmetic& a, Depth se
 
 StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
   const auto& entry = catalogue()[*s.term];
-  const double tolerance = usual_tolerance(a.number);
+  const bool few_bits = a.number == Number::half || a.number == Number::mixed,
+             is_absolute = few_bits && entry.role() == Role::fresnel;
+  const Tolerance tolerance =
+      is_absolute ? Tolerance(0, usual_absolute) : usual_tolerance(a.number);
   const Looked l = look(s, a, tolerance, seed);
   StabilityRow r{s.id,
                  std::string(s.form()),
@@ -103,7 +106,9 @@ StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
                  l.not_monotone.count,
                  s.decides ? s.inputs[*s.decides].name : "",
                  l.safe_from,
-                 tolerance,
+                 is_absolute ? tolerance.absolute : tolerance.relative,
+                 is_absolute,
+                 l.lost.count,
                  finite_from(s, a, setting),
                  l.evaluations,
                  l.settled,
@@ -115,7 +120,6 @@ StabilityRow row_of(const Subject& s, const Arithmetic& a, Depth setting) {
                  {}};
   r.misses = stabilities::misses_target(r, a.number);
   if (r.misses) r.reason = stabilities::reason_of(r, a.number);
-  const bool few_bits = a.number == Number::half || a.number == Number::mixed;
   if (r.misses && few_bits && entry.role() == Role::ndf && r.decides == "alpha") {
     Subject usual = s;
     set_domain(usual, r.decides, {stabilities::usual_width, 1});
@@ -150,6 +154,7 @@ StabilityRows stability_rows(const StabilityOptions& o, const ReportProgress& do
   r.by_alpha = errors_by_alpha(all);
   r.maps = error_maps(all);
   r.clamps = clamp_rows();
+  r.highlights = highlight_rows();
   return r;
 }
 

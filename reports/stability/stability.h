@@ -37,7 +37,9 @@ struct StabilityRow {
   std::string decides;  ///< the parameter that people clamp; empty: there is none
   std::optional<double>
       safe_from;     ///< of it: from there on the tolerance is kept by every input looked at
-  double tolerance;  ///< relative
+  double tolerance;  ///< relative; of a Fresnel term in few bits, which may be next to 0, absolute
+  bool is_absolute;
+  std::uint64_t lost;                 ///< inputs that do not keep it
   std::optional<double> finite_from;  ///< of it: from there on a value is proved for every input
   std::uint64_t evaluations;
   bool settled;  ///< searches from two seeds agree within a factor of two
@@ -92,8 +94,19 @@ struct OrderRow {
   bool needs_precise() const;
 };
 
+/// GGX under correlated Smith and Schlick on metal, as D V F and then NoL, for light and view up to a zenith angle.
+struct HighlightRow {
+  std::string id, number;
+  double zenith_deg;
+  double tolerance;  ///< relative
+  std::optional<double>
+      safe_from;  ///< alpha from which a search finds none that breaks it, and a value is proved
+  std::optional<double> finite_from;  ///< alpha from which a value is proved for every input
+};
+
 struct StabilityRows {
   std::vector<StabilityRow> rows;
+  std::vector<HighlightRow> highlights;
   std::vector<ClampRow> clamps;
   std::vector<AnyGpuRow> any_gpu;
   std::vector<OrderRow> orders;
@@ -120,6 +133,7 @@ struct StabilityOptions {
 };
 
 StabilityRows stability_rows(const StabilityOptions&, const ReportProgress& done = {});
+std::vector<HighlightRow> highlight_rows();
 std::vector<ClampRow> clamp_rows();
 std::vector<AnyGpuRow> any_gpu_rows(const StabilityOptions&);
 std::vector<OrderRow> order_rows(const StabilityOptions&);

@@ -17,12 +17,13 @@ TEST(FirstSentence, EndsBeforeAnother) {
 ReportFiles made_files() {
   ReportFiles r;
   r.findings = {{"One. And more.", "Two."}, {}, {}};
-  r.findings.judge("error below 1 %", "seed 000, Schlick", Claim::Judged::partly, "0.036 of light",
+  r.findings.judge("error below 1 %", "Schlick 1994", Claim::Judged::partly, "0.036 of light",
                    "0.036 for glass.");
   r.facts.setting = Facts::Setting{"a processor", 2, "avx2", {}, 0.5};
   r.facts.fresnel = {{"fresnel.schlick", "metal", "gold", 0.9, 0.1},
                      {"fresnel.gulbrandsen", "metal", "gold", 0, 0}};
-  r.facts.precision = {{"ndf.ggx", "cross", "half", 0.02, 0.004}};
+  r.facts.precision = {{"ndf.ggx", "cross", "half", 0.02, 0.004},
+                       {"ggx/smith_ggx.correlated/schlick", "directions", "half", 0.02, 0.04, 88}};
   const FigureCurve points{"GGX", {1, 2}, {0.1, 0.2}, FigureCurve::Kind::points};
   FigureCurve front{"front of GGX", {1, 2}, {0.1, 0.2}};
   front.dashed = true;
@@ -52,6 +53,9 @@ TEST(ReportIndex, TellsDecisionsOneSentenceAReportAndClaimsWithTheirFigure) {
   EXPECT_EQ(j["fresnel"][0]["form"], "Schlick");
   EXPECT_EQ(j["machine"]["isa"], "avx2");
   EXPECT_EQ(j["machine"]["model_ns"], 0.5);
+  const auto page = index_page_html(index);
+  EXPECT_NE(page.find("<a href=\"schlick/first.svg\">"), page.npos);
+  EXPECT_EQ(page.find("href=\"schlick/\""), page.npos) << "a bare folder";
   index.reports[0].findings.headline = "Better said.";
   EXPECT_EQ(nlohmann::json::parse(to_json(index))["reports"][0]["sentence"], "Better said.");
 }
