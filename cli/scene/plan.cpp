@@ -30,12 +30,15 @@ std::string unit_of(const Tolerance& t) {
   return t.metric == Metric::relative ? "relative" : "ΔE2000";
 }
 
-void print(const MaterialPlan& m, const Tolerance& t) {
+void print(const MaterialPlan& m, const Tolerance& t, Cost cost) {
   const bool looked_up = std::ranges::any_of(m.effects, [](const auto& e) {
     return e.effect == Effect::environment && e.form == "split_sum" && e.why == Why::measured;
   });
-  say("{}: {:.3g} × as fast, {:.0f} % fewer operations{}\n", m.name, m.speedup, 100 * m.ops_saved,
-      looked_up ? ", lookups not counted" : "");
+  const auto operations = fmt::format("{:.0f} % fewer operations{}", 100 * m.ops_saved,
+                                      looked_up ? ", lookups not counted" : "");
+  const auto time = fmt::format("{:.3g} × as fast", m.speedup);
+  const bool by_time = cost == Cost::time;
+  say("{}: {}, {}\n", m.name, by_time ? time : operations, by_time ? operations : time);
   say("  take    {}\n", m.spec);
   std::string kept, dropped, none;
   for (const auto& e : m.effects) {
@@ -111,7 +114,7 @@ Exit run(const PlanCall& o) {
   if (o.json) {
     fmt::print("{}", document);
   } else {
-    for (const auto& m : plan.materials) print(m, plan.tolerance);
+    for (const auto& m : plan.materials) print(m, plan.tolerance, o.options.cost);
     if (materials) say("{}: each material as planned, and as NAME_exact\n", materialx);
     for (const auto& said : written.differs) say_below("  beware  ", said);
   }

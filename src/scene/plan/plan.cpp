@@ -65,6 +65,7 @@ class MaterialPlanner {
         look_(lit.looks[material]),
         drawer_(lit.drawer(material, o.directions)),
         exact_(look_.surface(look_.exact())),
+        shipped_(look_.surface(in_float(look_.structural()))),
         reference_(seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_) {
     for (const auto& object : scene_.objects)
       if (object.material == material) join(reached_angles(scene_, object));
@@ -84,6 +85,10 @@ class MaterialPlanner {
                       "none of 16384 looks from its views meets it",
                       "an object of it that is larger in the picture");
     return p;
+  }
+  Forms in_float(Forms f) const {
+    f[Effect::precision] = look_.offer(Effect::precision).forms.front();
+    return f;
   }
   void join(const ReachedAngles& r) {
     reached_.voh.low = std::min(reached_.voh.low, r.voh.low);
@@ -208,7 +213,7 @@ class MaterialPlanner {
       candidates_[i].ops = operations_of(surfaces_[i], reference_.points);
     });
     auto timed = surfaces_;
-    timed.push_back(exact_);
+    timed.push_back(shipped_);
     const auto times = times_of(timed, reference_.points);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       candidates_[i].ns = times[i].ns;
@@ -264,7 +269,7 @@ class MaterialPlanner {
     for (auto& e : p.effects)
       if (e.reason.empty()) e.reason = reason(e);
     p.ns_exact = ns_exact_;
-    p.ops_exact = operations_of(exact_, reference_.points);
+    p.ops_exact = operations_of(shipped_, reference_.points);
     p.coverage = drawer_.coverage();
     p.directions = static_cast<double>(reference_.points.point.size()) /
                    static_cast<double>(reference_.points.count);
@@ -312,6 +317,8 @@ class MaterialPlanner {
   const Look& look_;
   PointDrawer drawer_;
   Surface exact_;
+  /// All effects that the material has, exact, in float: what a plan's speed is compared with.
+  Surface shipped_;
   Reference reference_;
   /// What surfaces that look the environment up are compared with, and its fresh points.
   std::optional<Reference> under_sky_, fresh_under_sky_;

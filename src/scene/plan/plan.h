@@ -49,8 +49,8 @@ struct MaterialPlan {
   std::vector<PlannedEffect> effects;
   std::string spec;
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
-  double speedup = 1, ops_saved = 0;  ///< all effects exact against the plan: ratio of times, and
-                                      ///< the share of operations
+  double speedup = 1, ops_saved = 0;  ///< the material's effects, exact in float, against the plan:
+                                      ///< ratio of times, and the share of operations
   double ns = 0, ns_exact = 0, ops_exact = 0;
   Judgement checked;  ///< on fresh points
   std::size_t passed_over =
