@@ -38,6 +38,7 @@ bool is_true(const FittedParameter& p, std::size_t c, double truth) {
     case ParameterStatus::fixed:
       return p.value[c] == truth;
     case ParameterStatus::free:
+    case ParameterStatus::unbounded:
       if (std::isnan(p.std_error[c])) return !p.reason[c].empty();
       return std::abs(p.value[c] - truth) <= p.ci95_high[c] - p.ci95_low[c] + 1e-9;
     case ParameterStatus::at_bound:
