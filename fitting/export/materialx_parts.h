@@ -22,8 +22,8 @@ MaterialxLayer dielectric(MaterialxLayer, double eta, const std::vector<double>&
 std::vector<std::string> lost_in_layers(const BoundModel&,
                                         const Surface&,
                                         const std::string& whose,
-                                        std::string_view diffuse,
-                                        std::string_view diffuse_name);
+                                        std::string_view diffuse = "lambert",
+                                        std::string_view diffuse_name = "Lambert's");
 
 /// <input name="…" type="color3" value="…"/>
 std::string input(std::string_view name, std::string_view type, std::vector<double> values);

@@ -126,9 +126,9 @@ std::vector<std::string> fields_of(std::string_view line, char separator) {
 }
 
 bool is_unit(const std::string& name) {
-  constexpr std::array<std::string_view, 8> units{"deg", "°",    "degrees", "rad",
-                                                  "sr",  "1/sr", "sr-1",    "sr^-1"};
-  return std::ranges::find(units, name) != units.end();
+  constexpr std::array<std::string_view, 8> all{"deg", "°",    "degrees", "rad",
+                                                "sr",  "1/sr", "sr-1",    "sr^-1"};
+  return std::ranges::find(all, name) != all.end();
 }
 
 /// Lines of words above the table: what is there before the first line of as many names, or numbers, as the two lines
