@@ -115,19 +115,12 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f) {
           angles,           "the wider of clustered by incident angle and independent values"};
 }
 
-}  // namespace
-
-FitResult fit(const Table& t,
-              const FitOptions& given,
-              const std::function<void(const char*)>& phase) {
-  SharedColumns alone;
-  return fit(t, given, alone, phase);
-}
-
-FitResult fit(const Table& t,
-              const FitOptions& given,
-              SharedColumns& columns,
-              const std::function<void(const char*)>& phase) {
+/// \param tries  whether other models are tried, for `next`
+FitResult fit_and_judge(const Table& t,
+                        const FitOptions& given,
+                        SharedColumns& columns,
+                        const std::function<void(const char*)>& phase,
+                        bool tries) {
   const FitOptions o = expanded(given);
   const auto announce = [&](const char* what) {
     if (phase) phase(what);
@@ -221,8 +214,9 @@ FitResult fit(const Table& t,
   }
   facts = with_table(std::move(facts), o, table, d);
   for (auto& w : warnings(o, t, d, facts)) d.warnings.push_back(std::move(w));
-  announce("trying other models");
+  if (tries) announce("trying other models");
   d.next = next_steps(o, d, facts, [&](const std::string& spec) {
+    if (!tries) return std::nan("");
     try {
       const FitOptions other = options_for(o, spec);
       const Problem q = pose(t, other);
@@ -234,6 +228,20 @@ FitResult fit(const Table& t,
     }
   });
   return {std::move(d), std::move(found.best.model)};
+}
+
+}  // namespace
+
+FitResult fit(const Table& t, const FitOptions& o, const std::function<void(const char*)>& phase) {
+  SharedColumns alone;
+  return fit_and_judge(t, o, alone, phase, o.certificate != Certify::none);
+}
+
+FitResult fit(const Table& t,
+              const FitOptions& o,
+              SharedColumns& columns,
+              const std::function<void(const char*)>& phase) {
+  return fit_and_judge(t, o, columns, phase, false);
 }
 
 }  // namespace gonio

@@ -20,7 +20,7 @@ struct FitResult {
 /// Throws wrong usage for options that no table could be fitted with.
 void check(const FitOptions&);
 
-/// Input path and hash are the caller's to fill in.  Throws wrong usage for options that do not fit
+/// Other models are tried for `next` where a certificate is asked for.  Input path and hash are the caller's to fill in.  Throws wrong usage for options that do not fit
 /// the model, bad_input for a table without a usable value.
 FitResult fit(const Table&, const FitOptions&, const std::function<void(const char*)>& phase = {});
 /// Fit of one of several models: what another fit has read of the table is not read again.

@@ -312,7 +312,9 @@ std::vector<NextDirection> plan_next(const Table& whole,
   if (2 * misfit * misfit >
       std::pow(r.document.residuals.log_rms, 2)) {  // more than there is noise
     const std::string said = misfit_in_words(r.document.misfit).front();
-    const auto& next = r.document.next;
+    FitOptions again = given;
+    again.certificate = Certify::automatic;
+    const auto next = fit(t, again, phase).document.next;
     throw bad_input(t.path, "fit", said.substr(0, said.find(';')),
                     "a model that describes it: no further direction mends that" +
                         (next.empty() ? "" : " (try " + next.front() + ")"));
