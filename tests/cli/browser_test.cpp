@@ -463,7 +463,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
            told.at(name)["text"].get<std::string>().find(words) != std::string::npos;
   };
   const std::string index = told.contains("index") ? told.at("index")["text"] : "";
-  const auto first = index.find("|n × h|²");
+  const auto first = index.find("Precision: D V F NoL");
   EXPECT_LT(first, index.rfind("What Fresnel's shortcuts show")) << "decisions stand first";
   EXPECT_NE(first, index.npos);
   const std::string choice = told.contains("choice") ? told.at("choice")["text"] : "";
