@@ -228,6 +228,8 @@ void add_reports(Pages& pages) {
   files.facts = facts(schlick);
   const auto stability = Facts::Precision{"ndf.ggx", "cross", "half", 0.02, 0.004};
   files.facts.precision.push_back(stability);
+  files.facts.precision.push_back(
+      {"ggx/smith_ggx.correlated/schlick", "directions", "half", 0.02, 0.2});
   files.facts.setting = Facts::Setting{"a processor", 2, "avx2"};
   files.pictures.figures = {{"masking_float_avx2_cache",
                              "Masking",
@@ -463,7 +465,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
            told.at(name)["text"].get<std::string>().find(words) != std::string::npos;
   };
   const std::string index = told.contains("index") ? told.at("index")["text"] : "";
-  const auto first = index.find("Precision: D V F NoL");
+  const auto first = index.find("|n × h|²");
   EXPECT_LT(first, index.rfind("What Fresnel's shortcuts show")) << "decisions stand first";
   EXPECT_NE(first, index.npos);
   const std::string choice = told.contains("choice") ? told.at("choice")["text"] : "";
