@@ -10,7 +10,7 @@ namespace {
 
 ModelArgument named(BoundModel b, std::vector<std::string> names) {
   if (names.size() != b.model.channels) names = usual_channels(b.model.channels);
-  return {std::move(b), std::move(names), {}};
+  return {std::move(b), std::move(names)};
 }
 
 void expect_no_settings(const std::vector<Setting>& set) {
@@ -40,9 +40,7 @@ ModelArgument model_argument(const std::string& name,
                              std::optional<std::size_t> channels) {
   expect_no_settings(set);
   if (!channels && !fitted.channels.empty()) channels = fitted.channels.size();
-  auto all = named(bind_fitted(name, fitted, channels), fitted.channels);
-  all.log_rms = fitted.log_rms;
-  return all;
+  return named(bind_fitted(name, fitted, channels), fitted.channels);
 }
 
 }  // namespace gonio

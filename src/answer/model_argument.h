@@ -19,7 +19,6 @@ std::vector<std::string> file_in(const std::string& model);
 struct ModelArgument {
   BoundModel model;
   std::vector<std::string> channels;  ///< the fit's names; else "r", "g", "b", or "f" of one
-  std::optional<double> log_rms{};    ///< of ln f, that a fit leaves of its table
 };
 /// The model named.  \param channels  as many as the model must have; else as many as its colours, or three
 /// \throws Error  bad_input of a fit.json that is none, holds null values, or does not have these

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "base/nearest.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -181,7 +183,9 @@ class ObjectReader {
     if (!others_)
       at_.visit_members([&](const std::string& key, const JsonReader& value) {
         if (std::ranges::find(known_, key) == known_.end())
-          value.fail("no such key; " + either(known_));
+          value.fail(known_.size() < 2 ? "no such key; " + either(known_)
+                                       : fmt::format("no such key; nearest: {}, of {}",
+                                                     nearest(key, known_).front(), either(known_)));
       });
   }
 

@@ -18,8 +18,6 @@ struct FittedModel {
   std::string model;
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
   std::vector<std::string> channels = {};  ///< empty where the file does not name them
-  std::optional<double> log_rms =
-      {};  ///< of ln f, that the fit leaves of its table, where the file says it
 };
 /// Whether bytes begin as the document of a fit or as a file that gonio export put one in.
 /// \param head  first 256 bytes of a file, or all

@@ -2,8 +2,6 @@
 /// \file
 /// Parameters of a model as a document gives them: numbers, or a metal's symbol.
 
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/json/describe.h"
@@ -19,8 +17,5 @@ inline constexpr const JsonForm* json_form<GivenParameter> = &given_parameter_js
 /// Settings of a model; a word stands for a metal alone.
 /// \param at  the object of the parameters
 std::vector<Setting> settings_of(const GivenParameters&, const JsonReader& at);
-
-/// True where bind_model takes a setting of that name, whatever its value.  \param spec  a model's, or a preset
-bool takes_parameter(std::string_view spec, const std::string& name);
 
 }  // namespace gonio

@@ -168,7 +168,7 @@ TEST(ReadRecord, RefusesWithPlaceFoundAndExpected) {
   EXPECT_EQ(complaint("group", "{\"outer\":1}"),
             "file: /group/outer: found 1, expected no such key; inner");
   EXPECT_HAS(complaint("size", "[1,1,1]"),
-             "file: /size: found an array, expected no such key; schema, name");
+             "file: /size: found an array, expected no such key; nearest: name, of schema, name");
 }
 
 TEST(ReadRecord, RefusesALongListBeforeItIsTakenApart) {

@@ -222,7 +222,8 @@ TEST(SceneErrors, NameThePlaceOfValuesThatAreWrong) {
   EXPECT_EQ(complaint("/schema", "gonio.scene/2"),
             "s.json: /schema: found \"gonio.scene/2\", expected gonio.scene/1");
   EXPECT_EQ(complaint("/exposre", 1),
-            "s.json: /exposre: found 1, expected no such key; schema, materials, objects, lights, "
+            "s.json: /exposre: found 1, expected no such key; nearest: exposure, of schema, "
+            "materials, objects, lights, "
             "view, exposure, tolerance, "
             "budget_ns or seed");
   EXPECT_EQ(complaint("/exposure", 0),
