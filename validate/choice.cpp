@@ -12,6 +12,7 @@
 #include "brdf/model/fitted_model.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/settings_form.h"
+#include "brdf/model/takes_parameter.h"
 #include "optics/refractive_index.h"
 
 #include <fmt/format.h>

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/json/reader.h"
+#include "brdf/model/fit_misfit.h"
 #include "brdf/model/fitted_model.h"
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
@@ -66,7 +67,7 @@ Exit run(const ExportCall& o) {
   if (!fitted.channels.empty()) channels = fitted.channels.size();
   Export e = export_fit(o.target, o.fit, bind_fitted(o.fit, fitted, channels), o.tolerance);
   e.preview = o.preview;
-  if (fitted.log_rms) e.misfit = std::exp(*fitted.log_rms);
+  e.misfit = typical_misfit(o.fit, bytes);
   out.write(file_of(e, bytes));
   out.commit();
   progress.clear();

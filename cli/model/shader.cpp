@@ -2,11 +2,12 @@
 #include "shader/shader.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "answer/model_argument.h"
 #include "base/file.h"
+#include "base/json/reader.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/fit_misfit.h"
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "integrate/light/split_sum.h"
@@ -118,13 +119,14 @@ shader::TracedFormula traced(const ShaderCall& o, std::vector<std::string>& rema
   }
   if (!o.grey.empty() && !file_in(o.subject).empty())
     throw wrong_usage("--grey goes with a model: a fit says which of its colours are grey");
-  const auto argument =
-      o.grey.empty() ? model_argument(o.subject, parse_settings(o.set))
-                     : ModelArgument{bind_model(o.subject, parse_settings(o.set), {}, o.grey), {}};
-  if (argument.log_rms)
-    remarks.push_back(fmt::format("The fit is off its table by a factor of {:.3g} typically.",
-                                  std::exp(*argument.log_rms)));
-  return shader::trace_model(argument.model, precision, o.inputs, o.derivatives, compensating);
+  if (!file_in(o.subject).empty())
+    if (const auto factor =
+            typical_misfit(o.subject, InputFile(o.subject).read_rest(most_document_bytes)))
+      remarks.push_back(
+          fmt::format("The fit is off its table by a factor of {:.3g} typically.", *factor));
+  const auto model = o.grey.empty() ? model_argument(o.subject, parse_settings(o.set)).model
+                                    : bind_model(o.subject, parse_settings(o.set), {}, o.grey);
+  return shader::trace_model(model, precision, o.inputs, o.derivatives, compensating);
 }
 
 /// What E of the function's arguments is looked up in.

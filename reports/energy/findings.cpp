@@ -135,10 +135,10 @@ void of_single_lights(Findings& to, const EnergyRows& r) {
     to.say(fmt::format("The most that it leaves there is ΔE2000 {:.2g}, over all roughnesses.",
                        std::ranges::max(way->delta_e)));
   }
-  to.say(
-      "Albedos rank the compensations otherwise: they are light from all sides, and one light "
-      "shows "
-      "the lobe's shape.");
+  to.say(fmt::format(
+      "Albedos rank them otherwise, of F0 = {:g} too: they are light from all sides, and one "
+      "light shows the lobe's shape.",
+      metal));
 }
 
 /// Error of the split sum, where it shows most.

@@ -74,8 +74,8 @@ Section from_where(const EnergyRows& all) {
   for (const auto& m : all.materials) rows.emplace_back(Cell{m.name}, &m.crossings);
   const auto [least, most] = ends(all);
   return {"From which roughness does it matter?",
-          fmt::format("GGX under Smith masking, correlated: the roughness from which more than 1, "
-                      "5, 10 % of what should leave is missing, by material and angle. {}",
+          fmt::format("GGX under Smith masking, correlated: the roughness from which each share of "
+                      "what should leave is missing, by material and angle. {}",
                       crossing_note),
           {crossings(rows, least, most)}};
 }
@@ -157,9 +157,10 @@ Section compensations(const EnergyRows& all, const Pictures& p) {
                   "Below 0 light is still missing; above it there is too much.",
                   significant(truth_error(all), 1)),
       {c, Subtitle{"Error and cost"}, t,
-       Prose{"Errors are over Schlick's Fresnel with F0 of 0.04, 0.5, 0.9 and 1, roughness and mu "
-             "from 0.1 to 1, with the tables that a shader reads; the errors on gold use its "
-             "spectrum. Operations are those of the formula for one channel, counted. Table bytes "
+       Prose{"Errors are over Schlick's Fresnel with four F0 from 0.04 to 1, and roughness and mu "
+             "from "
+             "0.1 on, with the tables that a shader reads. The errors on gold use its spectrum. "
+             "Operations are those of the formula for one channel, counted. Table bytes "
              "are of 32 × 32 texels in half. ns is the time of D V F of GGX for one light and view "
              "with the compensation (for fdez_aguera, which extends the split sum, of F0 A + B), "
              "beside the same without it: one at a time, in float, on one thread, median ± half "
@@ -204,7 +205,7 @@ Section albedo_formulas(const EnergyRows& all) {
           f.operations ? fmt::format("{}", f.operations) : "–", count_text(f.bytes));
   return {"E as a formula",
           "Compensations look up E of GGX under Smith, correlated, at F = 1. A fit needs no table. "
-          "Errors are against quadrature over roughness 0.05 to 1 and NoV 0.005 to 1.",
+          "Errors are against quadrature, over roughness from 0.05 on and NoV from 0.005 on.",
           {t}};
 }
 

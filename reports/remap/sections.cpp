@@ -93,8 +93,8 @@ Section each_form(const RemapRows& all, const Pictures& p) {
       "between light and view, evenly. The mobile forms stand for V F; here they are taken for "
       "masking. E is under the form's own distribution, at F = 1. “Behaves like” is the roughness "
       "of exact Smith that is nearest by least squares, from 0.01 to 1; at an end it may lie "
-      "beyond. “By G2” compares masking only, over NoL, NoV in [0.05, 1]²; “by E” compares "
-      "distribution and masking together, over μ = 0.1 to 1. On smooth surfaces E hardly depends "
+      "beyond. “By G2” compares masking only, over NoL and NoV from 0.05 on. “By E” compares "
+      "distribution and masking together, over μ from 0.1 on. On smooth surfaces E hardly depends "
       "on roughness.",
       {maps, curves, Subtitle{"The roughness of separable Smith that each is like, by G2"}, like}};
 }
@@ -178,11 +178,13 @@ Section every_form(const RemapRows& all) {
       "From the nearest to the furthest, GGX's first. Operations are those of one sample, counted, "
       "all kinds alike, roots and divisions among them.",
       {c,
-       Prose{fmt::format(
-                 "RMS and bias are by Gauss's rule with 24 × 24 nodes, with an error of at most {} "
-                 "(16 × 16 beside it). The largest error is over steps of 0.025. E is exact to {}.",
-                 significant(rms_error, 1), significant(albedo_error, 1)),
-             "small muted"}}};
+       Prose{
+           fmt::format(
+               "RMS and bias are by Gauss's rule with 24 nodes along each cosine. Beside 16 nodes "
+               "their error is at most {}. The largest error is over steps of 0.025. E is exact to "
+               "{}.",
+               significant(rms_error, 1), significant(albedo_error, 1)),
+           "small muted"}}};
 }
 
 }  // namespace

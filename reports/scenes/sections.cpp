@@ -156,7 +156,7 @@ Section one_material(const ScenesReport& report) {
     tables.each.push_back(
         {{r.material, r.light},
          {std::move(t),
-          Prose{fmt::format("On {} fresh points {} exceed ΔE2000 {}; with a confidence of {} that "
+          Prose{fmt::format("On {} fresh points {} exceed ΔE2000 {}. With a confidence of {} that "
                             "is less than {} of all. The plan is `{}`.",
                             count_text(r.samples), many(r.exceeding, "point"),
                             plain(all.tolerance.limit), percent(all.tolerance.confidence),

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/json/reader.h"
 #include "base/text.h"
+#include "brdf/model/fit_misfit.h"
 #include "brdf/model/roughness.h"
 
 #include <fmt/format.h>
@@ -43,18 +44,20 @@ std::string document_in(const std::string& path, const std::string& bytes) {
   return bytes.substr(first, last - first);
 }
 
+/// Fit in a document: glTF, in which gonio export keeps the fit, or itself.
+JsonReader fit_in(const JsonDocument& document) {
+  const JsonReader root = document.root();
+  return root.has("asset") ? root.at("materials").at(0).at("extras").at("gonio") : root;
+}
+
 FittedModel fitted_model(const JsonDocument& document) {
-  JsonReader root = document.root();
-  if (root.has("asset"))  // glTF, in which gonio export keeps the fit
-    root = root.at("materials").at(0).at("extras").at("gonio");
+  const JsonReader root = fit_in(document);
   constexpr const char* schema = "gonio.fit/1";
   if (root.at("schema").string() != schema) root.at("schema").fail(schema);
   FittedModel fit{root.at("model").string(), {}};
   if (root.has("channels"))
     for (const auto& channel : root.at("channels").elements())
       fit.channels.push_back(channel.string());
-  if (root.has("residuals") && root.at("residuals").has("log_rms"))
-    if (const auto r = root.at("residuals").at("log_rms"); r.is_number()) fit.log_rms = r.number();
   for (const auto& [name, parameter] : root.at("parameters").members())
     fit.parameters.emplace_back(name, parameter.at("value").numbers());
   return fit;
@@ -74,6 +77,15 @@ FittedModel read_fitted_model(const std::string& path) {
 
 FittedModel parse_fitted_model(const std::string& path, const std::string& bytes) {
   return fitted_model({path, document_in(path, bytes)});
+}
+
+std::optional<double> typical_misfit(const std::string& path, const std::string& bytes) {
+  const JsonDocument document(path, document_in(path, bytes));
+  const JsonReader root = fit_in(document);
+  if (!root.has("residuals") || !root.at("residuals").has("log_rms")) return {};
+  const auto log_rms = root.at("residuals").at("log_rms");
+  if (!log_rms.is_number()) return {};
+  return std::exp(log_rms.number());
 }
 
 BoundModel bind_fitted(const std::string& path,

@@ -8,7 +8,7 @@
 #include "brdf/formula/widths.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
-#include "brdf/model/settings_form.h"
+#include "brdf/model/takes_parameter.h"
 #include "optics/f0.h"
 #include "optics/refractive_index.h"
 
