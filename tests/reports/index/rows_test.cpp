@@ -69,7 +69,7 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
     c.ns = id == std::string("turquin") ? 8 : 17;
     r.compensations.push_back(c);
   }
-  const auto& row = of(decisions(facts(r)), "Multiple scattering under single lights");
+  const auto row = of(decisions(facts(r)), "Multiple scattering under single lights");
   // Each way from where it is nearer under both lights, and nothing below: the least of the maxima.
   double nothing = 0, kulla = 0;
   for (const auto& s : r.single_lights) {
@@ -103,7 +103,7 @@ TEST(IndexRow, OfImageBasedLightIsThatOfAlbedos) {
   c.ns = 4, c.without_ns = 3;
   r.compensations = {c};
   const auto all = facts(r);
-  const auto& row = of(decisions(all), "Multiple scattering under image-based light");
+  const auto row = of(decisions(all), "Multiple scattering under image-based light");
   double most = 0;
   for (const auto& s : all.scattering)
     if (s.id == "fdez_aguera" && s.f0 == 0.9) most = std::ranges::max(s.delta_e);
@@ -159,7 +159,7 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   }
   auto all = facts(r);
   join(all, facts(timed({"ndf.ggx", "ndf.gtr"})));
-  const auto& row = of(decisions(all), "Distribution");
+  const auto row = of(decisions(all), "Distribution");
   EXPECT_EQ(
       row.error,
       fmt::format("typical factor of f ×/÷ {:.3g}: 17 of 20 measured materials have a longer tail",
@@ -176,7 +176,7 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   d.safe_from = 0.0039;
   r.rows = {d};
   r.highlights = {{"ggx/smith_ggx.correlated/schlick", "half", 88, 0.02, 0.0371, 0.0315}};
-  const auto& row = of(decisions(facts(r)), "Precision");
+  const auto row = of(decisions(facts(r)), "Precision");
   EXPECT_EQ(row.take, "|n × h|², α clamped at 0.037");
   EXPECT_EQ(row.error, "≤ 2\u00a0%, up to 88° of both");
   EXPECT_NE(row.cost.find(fmt::format("{:.2g}", std::sqrt(0.0371))), row.cost.npos) << row.cost;
