@@ -76,7 +76,10 @@ std::string place_text(const BudgetCheck& b) {
 }
 
 std::string value_text(const UsedParameter& p) {
-  const auto numbers = fmt::format("{:.4g}", fmt::join(p.values, ", "));
+  const bool grey =
+      !p.values.empty() && std::ranges::count(p.values, p.values[0]) == std::ssize(p.values);
+  const auto numbers =
+      grey ? fmt::format("{:.4g}", p.values[0]) : fmt::format("{:.4g}", fmt::join(p.values, ", "));
   switch (p.from) {
     case UsedParameter::From::choice:
       return numbers;
