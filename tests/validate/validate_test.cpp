@@ -188,8 +188,8 @@ TEST(Validate, ComparesAtTheParametersThatBothSidesShare) {
 TEST(Validate, DrawsOneCurveOfASideThatSetsItsWidth) {
   const auto curves = [](const json& more) {
     std::vector<std::string> names;
-    for (const auto& curve : of({{"energy_gain", 1}}, more).pictures.figures.at(0).curves)
-      names.push_back(curve.name);
+    const auto v = of({{"energy_gain", 1}}, more);
+    for (const auto& curve : v.pictures.figures.at(0).curves) names.push_back(curve.name);
     return names;
   };
   json more = {{"reference", smith}, {"domain", {{"roughness", {0.4, 1}}, {"f0", 0.04}}}};
