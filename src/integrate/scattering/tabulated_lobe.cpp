@@ -182,7 +182,9 @@ TabulatedLobe::TabulatedLobe(const BoundModel& m,
     smooth(view, views_);
     smooth(v, zeniths);
   }
-  const double between = error_between_nodes(m, colour, goal);
+  const bool known = round && s.slopes == Microsurface::Slopes::ggx;
+  const double between = known ? std::min(0.01 + 0.0015 / (layer_ * layer_), 0.4)
+                               : error_between_nodes(m, colour, goal);
   for (std::size_t i = 0; i < f_.size(); ++i)
     error_[i] = static_cast<float>(std::hypot(double{error_[i]}, between * double{f_[i]}));
 }
@@ -262,11 +264,8 @@ void TabulatedLobe::fill(const BoundModel& m,
 double TabulatedLobe::error_between_nodes(const BoundModel& m,
                                           std::span<const ColourOfChannel> colour,
                                           const TabulationGoal& goal) const {
-  struct Pair {
-    double excess, lobe;  ///< squares, over those of what is seen
-  };
-  std::array<Pair, 64> pairs;
-  for_each_whole(pairs.size(), [&](std::size_t i) {
+  std::array<double, 64> off, noise;  // over the lobe
+  for_each_whole(off.size(), [&](std::size_t i) {
     Draws draw(goal.seed, i);
     const auto any = [&] {
       const auto d = cosine_direction({draw.uniform(), 1 - draw.uniform()});
@@ -280,30 +279,28 @@ double TabulatedLobe::error_between_nodes(const BoundModel& m,
                    y = -v.y + near * (draw.uniform() - 0.5);
       if (x * x + y * y < 1) l = {x, y, std::sqrt(1 - x * x - y * y)};
     }
-    const auto walked = walk_value(m, l, v, {goal.seed + 1, std::size_t{1} << 14});
-    double all = 0, lobe = 0, error = 0;
+    const auto walked = walk_value(m, l, v, {goal.seed + 1, std::size_t{1} << 15});
+    double lobe = 0, error = 0;
     for (std::size_t c = 0; c < colour.size(); ++c) {
       const double share = (colour[c][0] + colour[c][1] + colour[c][2]) / 3;
       double square = 0;
       for (std::size_t n = 1; n < walked.order[c].size(); ++n)
         square += walked.order_error[c][n] * walked.order_error[c][n];
-      all += share * walked.value[c];
       lobe += share * (walked.value[c] - walked.order[c][0]);
       error += share * std::sqrt(square);
     }
     const auto [f, own] = at(angles_between<double>({l.x, l.y, l.z}, {v.x, v.y, v.z}));
-    const double off = (f[0] + f[1] + f[2]) / 3 - lobe,
-                 noise = std::hypot(error, (own[0] + own[1] + own[2]) / 3);
-    const double seen = std::cbrt(all * all);  // lightness changes by what light does over this
-    pairs[i] = {(off * off - noise * noise) / (seen * seen), lobe * lobe / (seen * seen)};
+    off[i] = std::abs((f[0] + f[1] + f[2]) / 3 - lobe) / lobe;
+    noise[i] = std::hypot(error, (own[0] + own[1] + own[2]) / 3) / lobe;
   });
-  double excess = 0, spread = 0, lobe = 0;
-  for (const auto& p : pairs) {
-    excess += p.excess;
-    spread += p.excess * p.excess;
-    lobe += p.lobe;
-  }
-  return std::sqrt(std::max(0.0, excess + std::sqrt(spread)) / lobe);
+  const auto median = [](std::array<double, 64>& x) {
+    std::ranges::nth_element(x, x.begin() + x.size() / 2);
+    return x[x.size() / 2];
+  };
+  // The median of a normal distribution's sizes is 0.674 of its width; a quarter of the square is
+  // its own standard error of 64.
+  const double width = median(off) / 0.674, known = median(noise), square = width * width;
+  return std::sqrt(std::max(0.0, square - known * known) + 0.25 * square);
 }
 
 /// f is the same with l and v in each other's place: two walks for one.
