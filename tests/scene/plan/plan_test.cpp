@@ -76,13 +76,16 @@ std::vector<Material> some() {
 }
 
 TEST(Plan, CostsLessThanAllEffectsAndKeepsTheTolerance) {
+  double most_saved = 0;
   for (const auto& m : some()) {
     const auto p = planned(m, test::front());
-    EXPECT_GT(p.ops_saved, 0);
+    EXPECT_GE(p.ops_saved, 0) << "a material may need all that it has";
+    most_saved = std::max(most_saved, p.ops_saved);
     EXPECT_LE(p.checked.upper, 1);
     EXPECT_LE(p.checked.worst, 4);
     EXPECT_EQ(p.checked.samples, quick().fresh);
   }
+  EXPECT_GT(most_saved, 0.1);
 }
 
 TEST(Plan, KeepsEverythingWhereNothingMayChange) {
