@@ -26,11 +26,15 @@ double none_fits(const std::string&) {
   return std::nan("");
 }
 
-FitDocument fit_of(const Table& t, const std::string& model, FitOptions o = {}) {
+/// Fit that tries no other models.
+FitDocument quick_fit(const Table& t, const std::string& model, FitOptions o = {}) {
   o.model = model;
   o.bin_sensitivity = false;
-  o.certificate = Certify::automatic;  // then other models are tried
   return fit(t, o).document;
+}
+FitDocument fit_of(const Table& t, const std::string& model, FitOptions o = {}) {
+  o.certificate = Certify::automatic;  // then other models are tried
+  return quick_fit(t, model, std::move(o));
 }
 
 /// Word after each `option` of the suggestions.
@@ -53,7 +57,7 @@ void expect_it_can_be_done(const Table& t, const FitDocument& d, const FitOption
   EXPECT_LE(d.next.size(), 5U);
   for (const auto& model : given(d, "--model")) {
     EXPECT_NE(model, d.model);
-    const auto other = fit_of(t, model, o);
+    const auto other = quick_fit(t, model, o);
     EXPECT_TRUE(std::isfinite(other.cost)) << model;
     if (names(d, model + " meets the table better")) {
       EXPECT_LT(other.cost, d.cost) << model;
@@ -64,13 +68,13 @@ void expect_it_can_be_done(const Table& t, const FitDocument& d, const FitOption
     const auto known = find_value<Metric>(metric);
     ASSERT_TRUE(known) << metric;
     with.metric = *known;
-    EXPECT_TRUE(std::isfinite(fit_of(t, d.model, with).cost));
+    EXPECT_TRUE(std::isfinite(quick_fit(t, d.model, with).cost));
   }
   for (const auto& range : given(d, "--bounds")) {
     if (range.find('=') == range.npos) continue;
     FitOptions with = o;
     with.bounds = parse_settings(std::vector{range});
-    EXPECT_TRUE(std::isfinite(fit_of(t, d.model, with).cost)) << range;
+    EXPECT_TRUE(std::isfinite(quick_fit(t, d.model, with).cost)) << range;
   }
 }
 
@@ -155,9 +159,9 @@ TEST(NextSteps, OfAMisfitWereTriedAndMendIt) {
     ASSERT_TRUE(d.misfit.told) << truth;
     const auto tries = given(d, "--model");
     ASSERT_FALSE(tries.empty()) << truth;
-    EXPECT_LT(fit_of(t, tries[0]).residuals.log_rms, 0.02) << truth << ", " << tries[0];
+    EXPECT_LT(quick_fit(t, tries[0]).residuals.log_rms, 0.02) << truth << ", " << tries[0];
     for (const auto& model : tries) {
-      const double here = d.residuals.log_rms, there = fit_of(t, model).residuals.log_rms;
+      const double here = d.residuals.log_rms, there = quick_fit(t, model).residuals.log_rms;
       EXPECT_GT(here * here - there * there, 0.3 * d.misfit.size * d.misfit.size) << model;
     }
   }
