@@ -124,7 +124,7 @@ TEST(ExportCommand, WritesExtensionsOfGltfWhereTheyMakeTheFitExpressible) {
       extensions()["KHR_materials_anisotropy"]["anisotropyStrength"].get<double>();
   EXPECT_NEAR(0.15 + (1 - 0.15) * strength * strength, 0.4, 1e-9);
   EXPECT_NEAR(extensions()["KHR_materials_anisotropy"]["anisotropyRotation"],
-              110 * std::acos(-1) / 180, 1e-9);
+              -70 * std::acos(-1) / 180, 1e-9);
 
   said = exported(
       "lambert+ggx/smith_ggx.separable/schlick.weighted+ggx/smith_ggx.separable/schlick.weighted",

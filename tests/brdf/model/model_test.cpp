@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "brdf/in_number/one_term.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/presets.h"
 #include "brdf/terms.h"
 #include "constants.h"
 #include "geometry/half_difference.h"
@@ -412,6 +413,7 @@ TEST(Term, AloneIsWhatAModelHasOfItOverTheCatalogue) {
     for (std::size_t t = 0; t < catalogue().size(); ++t) {
       const auto& about = *catalogue()[t].about;
       const std::string own(short_id(about.id));
+      if (find_preset(own)) continue;  // as "disney", which is a whole model there
       const auto model = [&](const std::string& spec, std::vector<Setting> set) {
         return bind_model(spec, std::move(set), 1);
       };
