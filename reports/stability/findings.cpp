@@ -63,11 +63,13 @@ void which_alpha(Findings& to, const StabilityRows& r) {
                           from_text(*flushed));
   to.say(std::move(answer));
   for (const auto& h : r.highlights)
-    if (h.number == "half" && h.safe_from && cross->safe_from)
+    if (h.number == "half" && h.safe_from && h.finite_from && cross->safe_from) {
       to.say(fmt::format(
-          "The whole highlight on metal, D V F and then NoL, needs alpha {:.2g} in half "
-          "for light and view up to {:.0f}°: below, the product is too large.",
-          *h.safe_from, h.zenith_deg));
+          "The whole highlight on metal, D V F and then NoL, keeps {} in half from alpha {:.2g} "
+          "on, for light and view up to {:.0f}°.",
+          percent(h.tolerance, 1), *h.safe_from, h.zenith_deg));
+      to.say(fmt::format("Below alpha {:.2g} the product is too large for half.", *h.finite_from));
+    }
   struct Named {
     std::string_view name, id, form;
   };

@@ -26,8 +26,7 @@ std::vector<HighlightRow> highlight_rows() {
     HighlightRow row{q.subject.id, text_of(q.arithmetic), zenith_deg, tolerance, {}, {}};
     const auto searched = answer(q).safe_from;
     q.requirement = {};
-    const auto finite = answer(q).safe_from;
-    if (finite && finite->evidence == Evidence::proved) row.finite_from = finite->value;
+    row.finite_from = answer(q).looked.finite_from;
     if (searched && searched->value && row.finite_from)
       row.safe_from = std::max(*searched->value, *row.finite_from);
     rows.push_back(std::move(row));

@@ -81,16 +81,15 @@ inline constexpr auto description<ClampRow> = std::tuple{
 static_assert(describes_every_member<ClampRow>());
 
 template <>
-inline constexpr auto description<HighlightRow> = std::tuple{
-    Field{"id", &HighlightRow::id, "spec of the model"},
-    Field{"number", &HighlightRow::number, ""},
-    Field{"zenith_deg", "°", &HighlightRow::zenith_deg, "most of light and view"},
-    Field{"tolerance", &HighlightRow::tolerance, "relative"},
-    Field{"safe_from", &HighlightRow::safe_from,
-          "alpha from which a search finds nothing that breaks it, and a value is proved; null: "
-          "nowhere"},
-    Field{"finite_from", &HighlightRow::finite_from,
-          "alpha from which a value is proved for every input; null: nowhere"}};
+inline constexpr auto description<HighlightRow> =
+    std::tuple{Field{"id", &HighlightRow::id, "spec of the model"},
+               Field{"number", &HighlightRow::number, ""},
+               Field{"zenith_deg", "°", &HighlightRow::zenith_deg, "most of light and view"},
+               Field{"tolerance", &HighlightRow::tolerance, "relative"},
+               Field{"safe_from", &HighlightRow::safe_from,
+                     "alpha from which a search finds nothing that breaks it; null: nowhere"},
+               Field{"finite_from", &HighlightRow::finite_from,
+                     "alpha from which a search finds a value for every input; null: nowhere"}};
 static_assert(describes_every_member<HighlightRow>());
 
 template <>

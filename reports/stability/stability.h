@@ -98,10 +98,9 @@ struct OrderRow {
 struct HighlightRow {
   std::string id, number;
   double zenith_deg;
-  double tolerance;  ///< relative
-  std::optional<double>
-      safe_from;  ///< alpha from which a search finds none that breaks it, and a value is proved
-  std::optional<double> finite_from;  ///< alpha from which a value is proved for every input
+  double tolerance;                   ///< relative
+  std::optional<double> safe_from;    ///< alpha from which a search finds none that breaks it
+  std::optional<double> finite_from;  ///< alpha from which it finds a value for every input
 };
 
 struct StabilityRows {
