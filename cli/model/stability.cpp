@@ -108,7 +108,7 @@ void print(const Answer& a, const std::string& decides) {
                                   from->requirement, evidence_of_least(*from)));
   for (const auto& l : a.least)
     line(&l == &a.least[0] ? "least" : "",
-         fmt::format("{:<16}{:<14}{:<30}{}", l.requirement,
+         fmt::format("{:<16}{:<14}{:<34}{}", l.requirement,
                      a.arithmetic.number != Number::half ? ""
                      : l.flush                           ? "flushed"
                                                          : "kept",
