@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/presets.h"
 #include "brdf/model/spec.h"
 #include "fitting/judge/assess.h"
 #include "fitting/judge/bin_sensitivity.h"
@@ -54,15 +55,12 @@ void forget_unknown(BinSensitivity& s, const FitDocument& d) {
 /// what these left over.
 void take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColumns& columns) {
   const auto diffuse = parse_spec(d.model)[0];
-  if (diffuse.size() != 1 || catalogue()[find_term("diffuse." + diffuse[0])].coupled) return;
-  o.model = diffuse[0];
+  if (diffuse.size() != 1 || catalogue()[find_term("diffuse." + diffuse[0])].coupled ||
+      find_preset(diffuse[0]))  // as "disney", which alone is the name of a whole model
+    return;
+  o = options_for(std::move(o), diffuse[0]);
   o.bin_sensitivity = false;
   o.certificate = Certify::none;
-  const Model model = compose(o.model, d.channels.size());
-  const auto others = [&](const auto& s) { return !model.find(s.name); };
-  std::erase_if(o.fixed, others);
-  std::erase_if(o.bounds, others);
-  std::erase_if(o.grey, [&](const std::string& name) { return !model.find(name); });
   for (auto& p : fit(t, o, columns).document.parameters) {
     for (auto& reason : p.reason)
       if (reason.empty()) reason = "of a fit without the lobe";

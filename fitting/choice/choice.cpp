@@ -14,7 +14,6 @@
 #include "brdf/model/roughness.h"
 #include "fitting/choice/cross_validation.h"
 #include "fitting/fit.h"
-#include "fitting/judge/uncertainty.h"
 #include "fitting/solve/problem.h"
 #include "number/distributions.h"
 #include "table/health/value_warnings.h"

@@ -162,20 +162,20 @@ std::vector<std::string> others_of(const Spec& spec) {
   if (spec.lobes() == 0) return all;
   const std::string ndf = spec.ndf(), fresnel = spec.fresnel(), masking = spec.masking();
   if (ndf != "gtr") all.push_back(spec.with_ndf("gtr"));
-  if (ndf == "beckmann" && masking.starts_with("smith_beckmann."))
-    all.push_back(spec.with_ndf("ggx", "smith_ggx" + masking.substr(masking.find('.'))));
-  if (ndf == "ggx" && masking.starts_with("smith_ggx."))
-    all.push_back(spec.with_ndf("beckmann", "smith_beckmann" + masking.substr(masking.find('.'))));
+  const auto dot = std::min(masking.find('.'), masking.size());
+  const std::string shape = masking.substr(0, dot), form = masking.substr(dot);
+  if (ndf == "beckmann" && shape == "smith_beckmann")
+    all.push_back(spec.with_ndf("ggx", "smith_ggx" + form));
+  if (ndf == "ggx" && shape == "smith_ggx")
+    all.push_back(spec.with_ndf("beckmann", "smith_beckmann" + form));
   if (fresnel == "schlick")
     for (const char* other : {"schlick.f90", "schlick.weighted"})
       all.push_back(spec.with_fresnel(other));
   if (fresnel != "dielectric" && fresnel != "conductor")
     all.push_back(spec.with_fresnel(diffuse.empty() ? "conductor" : "dielectric"));
-  const auto dot = masking.find('.');
-  if (masking.starts_with("smith_") && dot != masking.npos)
+  if (shape.starts_with("smith_") && !form.empty())
     all.push_back(
-        spec.with_masking(masking.substr(0, dot) +
-                          (masking.substr(dot) == ".correlated" ? ".separable" : ".correlated")));
+        spec.with_masking(shape + (form == ".correlated" ? ".separable" : ".correlated")));
   return all;
 }
 

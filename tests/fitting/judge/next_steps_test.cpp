@@ -200,6 +200,14 @@ TEST(NextSteps, OfModelsThatTakeUpLittleOfAMisfitAreNotNamed) {
       << named[0];
 }
 
+TEST(NextSteps, TakeADiffuseTermForNoPresetOfItsName) {
+  const Table t =
+      synthesize(test::bind("lambert", "kd=0.3", 1), {.layout = Layout::hemisphere, .noise = 0.02});
+  const auto d = quick_fit(t, "disney+ggx/smith_ggx.correlated/schlick");
+  EXPECT_EQ(d.parameters.front().name, "kd");
+  EXPECT_FALSE(std::isnan(d.parameters.front().value[0]));
+}
+
 TEST(NextSteps, KnowWhatFewerLobesDo) {
   FitDocument d;
   d.model = "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick";
