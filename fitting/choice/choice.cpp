@@ -12,6 +12,7 @@
 #include "brdf/model/evaluate.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
+#include "brdf/model/takes_parameter.h"
 #include "fitting/choice/cross_validation.h"
 #include "fitting/fit.h"
 #include "fitting/solve/problem.h"
@@ -82,7 +83,7 @@ Behind behind(const std::vector<LogResiduals>& a, const std::vector<LogResiduals
 
 void check_settings(const FitOptions& o, std::span<const std::string> models) {
   const auto check = [&](const std::string& name) {
-    if (std::ranges::none_of(models, [&](const auto& m) { return has_parameter(m, name); }))
+    if (std::ranges::none_of(models, [&](const auto& m) { return takes_parameter(m, name); }))
       throw wrong_usage(fmt::format("none of the models has a parameter '{}'", name));
   };
   for (const auto* settings : {&o.fixed, &o.bounds})

@@ -10,6 +10,7 @@
 #include "brdf/model/evaluate.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
+#include "brdf/model/takes_parameter.h"
 #include "table/health/health.h"
 
 #include <fmt/format.h>
@@ -109,22 +110,8 @@ FitOptions expanded(FitOptions o) {
   return o;
 }
 
-bool has_parameter(const std::string& model, const std::string& name) {
-  if (const Preset* preset = find_preset(model))
-    if (std::ranges::find(preset->parameters, name, &Parameter::name) != preset->parameters.end())
-      return true;
-  FitOptions o;
-  o.model = model;
-  const Model m = compose(expanded(o).model, 1);
-  const auto has = [&](const std::string& n) { return m.find(n) != nullptr; };
-  if (has(name) || (is_roughness(name) && has(alpha_name(name)))) return true;
-  if (name.starts_with("f0")) return has("eta" + name.substr(2));
-  if (name == "metal") return has("eta") && has("k");
-  return (name == "base_color" || name == "metallic") && has("kd") && has("f0");
-}
-
 FitOptions options_for(FitOptions o, const std::string& model) {
-  const auto others = [&](const std::string& name) { return !has_parameter(model, name); };
+  const auto others = [&](const std::string& name) { return !takes_parameter(model, name); };
   o.model = model;
   for (auto* settings : {&o.fixed, &o.bounds})
     std::erase_if(*settings, [&](const Setting& s) { return others(s.name); });

@@ -26,8 +26,6 @@ struct Problem {
 /// parameters a fit leaves free.  An anisotropy held at 0 makes it the model of the isotropic terms.
 FitOptions expanded(FitOptions);
 
-/// True of a model with a parameter of that name, its own or what stands for one of its terms'.
-bool has_parameter(const std::string& model, const std::string& name);
 /// Options for another model: what it has no parameter for is left out.
 FitOptions options_for(FitOptions, const std::string& model);
 
