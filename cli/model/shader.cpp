@@ -85,6 +85,11 @@ Planned planned(const std::string& path, const std::string& name) {
     if (std::ranges::find(p.model.given, parameter.name) == p.model.given.end())
       throw bad("no " + parameter.name);
   if (const auto form = material.form(Effect::compensation); !form.empty() && form != "none") {
+    if (form == "tabulated")
+      throw wrong_usage(
+          fmt::format("'{}' keeps compensation 'tabulated', a table of random walks that no shader "
+                      "is written of",
+                      name));
     p.compensation = find_value<shader::Compensation>(form);
     if (!p.compensation) throw bad("compensation " + std::string(form));
   }

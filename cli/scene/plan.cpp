@@ -49,14 +49,31 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost) {
   say_below("  keep    ", kept.empty() ? "nothing" : kept);
   if (!dropped.empty()) say_below("  drop    ", dropped);
   if (!none.empty()) say_below("  absent  ", none);
-  if (m.checked.samples == 0) {
-    say("  check   no cheaper set keeps the tolerance: what changes nothing is dropped\n");
-    return;
-  }
-  say_below("  check   ",
-            fmt::format(
-                "{:.3g} % of {} fresh points differ by at most {} {:.2g}; the worst by {:.2g}",
-                100 * t.quantile, m.checked.samples, unit_of(t), m.checked.upper, m.checked.worst));
+  if (m.bounded)
+    say_below(
+        "  check   ",
+        fmt::format("{:.3g} % of {} fresh points differ by at most {} {:.2g}; the worst by {:.2g}",
+                    100 * t.quantile, m.checked.samples, unit_of(t), m.checked.upper,
+                    m.checked.worst));
+  else
+    say_below(
+        "  check   ",
+        fmt::format("{:.3g} % of {} fresh points differ from {} by {} {:.2g}; no walk is known of "
+                    "this lobe, so that is no bound",
+                    100 * t.quantile, m.checked.samples,
+                    m.reference == "none" ? "single scattering" : m.reference, unit_of(t),
+                    m.checked.quantile));
+  if (!m.holds)
+    say_below(
+        "  beware  ",
+        fmt::format("the tolerance is not kept: this is the nearest plan; the reference itself is "
+                    "known to {} {:.2g}",
+                    unit_of(t), m.reference_error));
+  if (std::ranges::any_of(m.effects, [](const auto& e) { return e.form == "tabulated"; }))
+    say_below(
+        "  beware  ",
+        fmt::format("no shader has this table: what shaders have differs by {} {:.2g} at best",
+                    unit_of(t), m.shipped_upper));
   if (m.passed_over > 0)
     say("          {} cheaper {} where chosen and failed on fresh points\n", m.passed_over,
         m.passed_over == 1 ? "set held" : "sets held");
@@ -118,25 +135,26 @@ Exit run(const PlanCall& o) {
     if (materials) say("{}: each material as planned, and as NAME_exact\n", materialx);
     for (const auto& said : written.differs) say_below("  beware  ", said);
   }
-  if (!plan.budget) return Exit::done;
+  const Exit held = plan.holds ? Exit::done : Exit::check_failed;
+  if (!plan.budget) return held;
   const auto& b = *plan.budget;
   if (!o.json)
     say("budget: {:.4g} ns of {:.4g} a point; the worst material's error is at most {:.3g}\n", b.ns,
         b.budget_ns, b.error);
-  return b.fits ? Exit::done : Exit::check_failed;
+  return b.fits ? held : Exit::check_failed;
 }
 
 }  // namespace
 
 void add_plan(CommandLine& line) {
-  auto [c, o] =
-      line.command<PlanCall>("plan",
-                             "Says for each material of a scene which optical effects to simulate "
-                             "there, which to drop, and "
-                             "what that saves, within the scene's tolerance",
-                             "gonio plan scene.json -o plan.json", run);
+  auto [c, o] = line.command<PlanCall>(
+      "plan",
+      "Says for each material of a scene which optical effects to simulate "
+      "there, which to drop, and "
+      "what that saves, within the scene's tolerance; exit 1 where no set of forms keeps it",
+      "gonio plan scene.json -o plan.json", run);
   c.option("SCENE", o->scene, "Scene, gonio.scene/1").required();
-  c.option("-o,--output", o->output, "The plan as a document, gonio.plan/1");
+  c.option("-o,--output", o->output, "The plan as a document, gonio.plan/2");
   c.option("--html", o->page, "The plan as a page: what to keep, what to drop and why");
   c.option("--write", o->write,
            "The planned materials, too, beside the document: mtlx, for MaterialX, in PLAN.mtlx")

@@ -187,7 +187,7 @@ void add_render(CommandLine& line) {
       "render", "Makes a picture of a scene, with a plan also what that leaves and the difference",
       "gonio render scene.json --plan plan.json -o both.png", run);
   c.option("SCENE", o->scene, "Scene, gonio.scene/1").required();
-  c.option("--plan", o->plan, "Plan of that scene, gonio.plan/1");
+  c.option("--plan", o->plan, "Plan of that scene, gonio.plan/2");
   c.option("-o,--output", o->out,
            "Picture: .exr of linear radiance, a plan's in layers; or .png of what a display shows, "
            "a plan's "

@@ -56,7 +56,7 @@ void add_verify(CommandLine& line) {
       "Judges a plan on fresh points of its scene; exit 1 where the scene's tolerance is broken",
       "gonio verify scene.json plan.json", run);
   c.option("SCENE", o->scene, "Scene that the plan was made for").required();
-  c.option("PLAN", o->plan, "Plan, gonio.plan/1").required();
+  c.option("PLAN", o->plan, "Plan, gonio.plan/2").required();
   c.option("--samples", o->samples, "Fresh points (16384, more where the tolerance needs them)")
       .in(std::size_t{512}, std::size_t{1} << 22);
   c.option("--seed", o->seed, "Seed of the fresh points (1)");

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "reports/finding/words.h"
 #include "reports/scenes/scenes.h"
@@ -54,13 +55,16 @@ std::string scenes_text(const std::vector<const SceneRow*>& rows) {
 void savings(Findings& to, const ScenesRows& r) {
   std::vector<double> all;
   std::vector<const SceneRow*> none;
-  for (const auto& row : r.rows) {
+  std::vector<SceneRow> held;  // a plan that does not hold saves what is seen
+  std::ranges::copy_if(r.rows, std::back_inserter(held), &SceneRow::holds);
+  if (held.empty()) return;
+  for (const auto& row : held) {
     all.push_back(saved(row));
     if (saved(row) < little) none.push_back(&row);
   }
   std::ranges::sort(all);
-  const auto& least = *std::ranges::min_element(r.rows, {}, saved);
-  const auto& most = *std::ranges::max_element(r.rows, {}, saved);
+  const auto& least = *std::ranges::min_element(held, {}, saved);
+  const auto& most = *std::ranges::max_element(held, {}, saved);
   const double middle = all[all.size() / 2];
   to.say(fmt::format(
       "At {}, plans save at least {} of a float shader's time in half of the scenes, and {} for "
@@ -71,9 +75,9 @@ void savings(Findings& to, const ScenesRows& r) {
   to.headline = fmt::format(
       "Leaving out what nobody sees saves {} or more of a shader's time in half of {} scenes, and "
       "up to {}.",
-      percent(middle, 2), r.rows.size(), percent(all.back(), 2));
+      percent(middle, 2), held.size(), percent(all.back(), 2));
   to.say(fmt::format(
-      "{} means that ΔE2000 to everything on, in double, is at most {:g} at {} of the "
+      "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",
       capital(std::string(no_difference)), r.tolerance.limit, percent(r.tolerance.quantile, 2)));
 }

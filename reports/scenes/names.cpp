@@ -21,7 +21,8 @@ std::string name_of_form(Effect effect, std::size_t form) {
       return one_of({{"none", "no multiple scattering"},
                      {"turquin", "multiple scattering by Turquin"},
                      {"fdez_aguera", "multiple scattering by Fdez-Agüera"},
-                     {"kulla_conty", "multiple scattering"}});
+                     {"kulla_conty", "multiple scattering by Kulla and Conty"},
+                     {"tabulated", "multiple scattering"}});
     case Effect::masking:
       return one_of({{"schlick_k", "Schlick's masking"},
                      {"separable", "separable masking"},

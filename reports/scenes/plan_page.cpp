@@ -62,9 +62,13 @@ std::vector<std::string> verdict(const scene::Plan& p, std::string_view unit) {
                                   "{}, which needs the most, {}.",
                                   fast->name, times(fast->speedup), slow->name,
                                   times(slow->speedup)));
-  out.push_back(fmt::format(
-      "At {} of the points nobody sees more than {}{}, and nowhere more than {}.",
-      percent(p.tolerance.quantile), unit, plain(p.tolerance.limit), plain(p.tolerance.max)));
+  if (!p.holds)
+    out.push_back(
+        "Some material keeps the tolerance in no form that is offered: its plan is the nearest.");
+  else
+    out.push_back(fmt::format(
+        "At {} of the points nobody sees more than {}{}, and nowhere more than {}.",
+        percent(p.tolerance.quantile), unit, plain(p.tolerance.limit), plain(p.tolerance.max)));
   if (p.budget)
     out.push_back(p.budget->fits
                       ? fmt::format("A visible point takes {} ns of the {} ns that the scene "
@@ -107,15 +111,21 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
   }
   const auto& c = m.checked;
   Section s{m.name, "", {t}};
+  if (!m.holds)
+    s.parts.emplace_back(
+        Prose{"No set of forms keeps the tolerance here. This one is the nearest."});
+  const std::string failed =
+      m.passed_over ? fmt::format(" {} failed there.", many(m.passed_over, "cheaper set")) : "";
   s.parts.emplace_back(Prose{
-      c.samples
+      m.bounded
           ? fmt::format("Checked on {} fresh points: less than {} of all exceed the limit, with a "
-                        "confidence of {}.{}",
+                        "confidence of {}. The error of the reference is in it.{}",
                         count_text(c.samples), percent(c.bound), percent(p.tolerance.confidence),
-                        m.passed_over
-                            ? fmt::format(" {} failed there.", many(m.passed_over, "cheaper set"))
-                            : "")
-          : "No cheaper set keeps the tolerance: only what changes nothing is dropped.",
+                        failed)
+          : fmt::format("Checked on {} fresh points beside {}. No walk is known of this lobe, so "
+                        "nothing is claimed beyond these points.{}",
+                        count_text(c.samples),
+                        m.reference == "none" ? "single scattering" : spaced(m.reference), failed),
       "small"});
   s.parts.emplace_back(Prose{fmt::format("The model: `{}`", m.spec), "small"});
   if (m.front.size() > 1) {
@@ -158,11 +168,11 @@ std::string plan_page_html(const scene::Plan& p) {
     t.add(m.name, times(m.speedup), m.ops_saved > 0 ? "−" + page::percent(m.ops_saved) : "0",
           names(m, [](const auto& e) { return e.keep; }),
           names(m, [](const auto& e) { return !e.keep && e.why != scene::Why::structural; }),
-          m.checked.samples ? "≤ " + significant(m.checked.upper, 2) : "0",
-          m.checked.samples ? significant(m.checked.worst, 2) : "0");
+          m.bounded ? "≤ " + significant(m.checked.upper, 2) : significant(m.checked.quantile, 2),
+          significant(m.checked.worst, 2));
   out.sections = {{"What to keep, and how much faster that is",
-                   "Times of all effects in their exact form, in double, over the plan's; both of "
-                   "composed column kernels on this machine.",
+                   "Times of all effects in double, with Kulla and Conty's compensation, over the "
+                   "plan's; both of composed column kernels on this machine.",
                    {t}}};
   for (const auto& m : p.materials) out.sections.push_back(one(m, p, unit_name));
   out.setting =

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Page of a plan, gonio.plan/1.
+/// Page of a plan, gonio.plan/2.
 
 #include <string>
 

@@ -34,7 +34,7 @@ TEST(PlanCommand, MakesAPlanThatHolds) {
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_NE(o.out.find("× as fast"), o.out.npos) << o.out;
   const auto plan = json::parse(read_bytes(f / "plan.json"));
-  EXPECT_EQ(plan["schema"], "gonio.plan/1");
+  EXPECT_EQ(plan["schema"], "gonio.plan/2");
   EXPECT_EQ(effect(plan, "fresnel")["keep"], false);
   EXPECT_EQ(effect(plan, "coat")["why"], "structural");
   EXPECT_GT(plan["materials"]["plastic"]["speedup"], 1);
@@ -208,7 +208,7 @@ TEST(PlanCommand, RefusesWithOneLine) {
                        {{"plan none.json", "none.json"},
                         {"plan unseen.json -o p.json", "material 'plastic'"},
                         {"verify scene.json none.json", "none.json"},
-                        {"verify scene.json scene.json", "gonio.plan/1"}});
+                        {"verify scene.json scene.json", "gonio.plan/2"}});
   expect_one_line_each(f, 2,
                        {{"plan scene.json -o scene.json", "scene.json"},
                         {"plan scene.json --cost money", "time"},

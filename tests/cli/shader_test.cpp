@@ -125,10 +125,12 @@ TEST(ShaderCommand, WritesWhatAPlanShips) {
                           {"spec", "ggx/smith_ggx.correlated/schlick"},
                           {"parameters", {{"alpha", {0.2}}, {"f0", {1.0, 0.7, 0.4}}}},
                           {"speedup", 1},
+                          {"holds", true},
                           {"error_quantile", 0},
                           {"samples", 4096}};
   };
-  f.write("plan.json", nlohmann::json{{"schema", "gonio.plan/1"},
+  f.write("plan.json", nlohmann::json{{"schema", "gonio.plan/2"},
+                                      {"holds", true},
                                       {"scene_sha256", std::string(64, '0')},
                                       {"materials",
                                        {{"gold", material("turquin", "off")},

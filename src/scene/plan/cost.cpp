@@ -21,6 +21,19 @@ Operations of_multiple(const MultipleScattering& m) {
   const C nol(0.5), nov(0.6), one(1.0), half(0.5);
   return count_operations([&] {
     if (how == "none") return;
+    if (how == "tabulated") {
+      // Three coordinates or four, two of them by logarithms, and what lies between their nodes;
+      // the table itself counts nothing.
+      const bool turned = m.lobe->anisotropic();
+      for (int k = 0; k < 2; ++k) {
+        static_cast<void>(log(half + sqrt(half * half + one)) / one);
+        static_cast<void>(sqrt(nol * half / (nov + half)));
+        static_cast<void>(sqrt((one - nol * nol) * (one - nov * nov)) / one);
+      }
+      for (std::size_t k = 0; k < max_channels * (turned ? 16 : 8); ++k)
+        static_cast<void>(one + half * half);
+      return;
+    }
     if (how == "kulla_conty") {
       const C lost = lost_to_bounces(curve, nol, nov);
       for (std::size_t c = 0; c < max_channels; ++c)
@@ -32,6 +45,12 @@ Operations of_multiple(const MultipleScattering& m) {
       static_cast<void>(one + (how == "turquin" ? added_by_turquin(one, e, half)
                                                 : added_by_fdez_aguera(one, e, half)));
   });
+}
+
+/// True of a compensation that needs the first lobe by itself.
+bool is_brightened(const MultipleScattering& m) {
+  const auto how = forms_of(Effect::compensation)[m.form];
+  return how == "turquin" || how == "fdez_aguera";
 }
 
 /// What Fresnel's equations of every band cost more than those of three channels.
@@ -102,7 +121,7 @@ std::function<void()> work(const Surface& s,
 double operations_of_row(const Surface& s) {
   Operations sum = gonio::operations_of(s.base.model);
   sum += of_multiple(s.multiple);
-  if (s.multiple.form != 0 && forms_of(Effect::compensation)[s.multiple.form] != "kulla_conty" &&
+  if (is_brightened(s.multiple) &&
       (!s.base.model.diffuse.empty() || s.base.model.lobes.size() > 1)) {
     Model lobe = s.base.model;  // evaluated once more, alone
     lobe.diffuse.clear();

@@ -43,6 +43,7 @@ Json forms_schema() {
 }
 constexpr JsonForm forms_json{write_forms, read_forms, forms_schema};
 constexpr Numbers amounts{0, Numbers::any}, shares{0, 1};
+constexpr const char* plan_version = "gonio.plan/2";
 
 }  // namespace
 
@@ -116,12 +117,24 @@ struct Description<scene::MaterialPlan> {
               or_default),
         field("error_quantile", checked(&Judgement::quantile), "of the differences on fresh points",
               amounts),
-        field("error_upper", if_there(checked(&Judgement::upper)), "its upper confidence bound",
-              amounts),
+        field("reference", &M::reference,
+              "form of the light between facets that differences are of: tabulated from walks; "
+              "where no walk is known "
+              "another, without bound",
+              or_default),
+        field("shipped_error_upper", &M::shipped_upper,
+              "least error_upper of a compensation that shaders have, all else exact", amounts,
+              or_default),
+        field("reference_error", &M::reference_error,
+              "quantile of what the reference itself may be off by: in the differences", amounts,
+              or_default),
+        field("holds", &M::holds, "the tolerance; else this is the nearest plan"),
+        field("error_upper", if_there(checked(&Judgement::upper)),
+              "its upper confidence bound, the reference's own error in it", amounts),
         field("worst", checked(&Judgement::worst), "greatest difference of these", amounts,
               or_default),
-        field("exceeding_bound", checked(&Judgement::bound),
-              "upper bound of the share beyond the limit", shares, or_default),
+        field("exceeding_bound", if_there(checked(&Judgement::bound)),
+              "upper bound of the share beyond the limit", shares),
         field("samples", checked(&Judgement::samples), "fresh points"),
         field("passed_over", &M::passed_over, "cheaper sets that failed on the fresh points",
               or_default),
@@ -136,7 +149,8 @@ struct Description<scene::MaterialPlan> {
 
 template <>
 inline constexpr auto description<scene::Plan> = std::tuple{
-    constant_text("schema", "gonio.plan/1"),
+    constant_text("schema", plan_version),
+    Field{"holds", &scene::Plan::holds, "for every material"},
     Field{"scene_sha256", &scene::Plan::scene_sha256, "of the scene and all that it names",
           not_empty},
     Field{"tolerance", &scene::Plan::tolerance, "that the plan was made for", or_default},
@@ -199,12 +213,27 @@ std::string plan_schema() {
   return schema_text<Plan>("Plan");
 }
 
+namespace {
+
+/// Plans before the second version called a compensation exact.
+void read_document(const JsonReader& root, Plan& file) {
+  constexpr std::string_view before = "gonio.plan/1";
+  root.expect_object();
+  if (root.has("schema") && root.at("schema").string() == before)
+    root.at("schema").fail(
+        fmt::format("'{}', compared with a compensation", before),
+        fmt::format("'{}', which `gonio plan SCENE -o PLAN` makes anew", plan_version));
+  read_record(root, file);
+}
+
+}  // namespace
+
 PlannedForms read_plan(const std::string& path, const Scene& s, const std::vector<Look>& looks) {
   const JsonDocument document(path, Places::pointer);
   const JsonReader& root = document.root();
   Plan file;
   file.tolerance = s.tolerance;
-  read_record(root, file);
+  read_document(root, file);
   if (file.scene_sha256 != s.sha256)
     root.at("scene_sha256").fail(fmt::format("'{}', which is that of {}", s.sha256, s.path));
   if (file.tolerance != s.tolerance) root.at("tolerance").fail("that of the scene");
@@ -232,7 +261,7 @@ std::string_view PlannedMaterial::form(Effect e) const {
 PlannedMaterial read_planned_material(const std::string& path, const std::string& name) {
   const JsonDocument document(path, Places::pointer);
   Plan file;
-  read_record(document.root(), file);
+  read_document(document.root(), file);
   std::vector<std::string_view> known;
   for (auto& m : file.materials) {
     known.push_back(m.name);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Plan as a document, gonio.plan/1.
+/// Plan as a document, gonio.plan/2.
 
 #include <string>
 #include <string_view>

@@ -63,7 +63,7 @@ EffectMap effect_map(const Scene& s,
       const Lit lit(one);
       const Look& look = lit.looks[0];
       const auto drawer = lit.drawer(0, 1);
-      const Reference reference(drawer.draw(stream, 0, samples), look.surface(look.exact()));
+      const Reference reference(one, drawer.draw(stream, 0, samples), look.surface(look.exact()));
       for (std::size_t e = 0; e < effect_count; ++e) {
         const auto effect = static_cast<Effect>(e);
         const auto& offer = look.offer(effect);

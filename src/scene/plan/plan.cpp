@@ -57,6 +57,14 @@ std::size_t fresh_points(const Scene& scene, const PlanOptions& o, const Surface
   return s.image_lit ? std::min(o.fresh, samples_of_verification(scene)) : o.fresh;
 }
 
+/// Forms of the effects that a material has, with the compensation that shaders ship in place of the reference's table.
+Forms as_shipped(const Look& look) {
+  Forms f = look.structural();
+  f[Effect::compensation] =
+      std::min(f[Effect::compensation], look.everything()[Effect::compensation]);
+  return f;
+}
+
 class MaterialPlanner {
  public:
   MaterialPlanner(const Lit& lit, std::size_t material, const PlanOptions& o)
@@ -65,8 +73,9 @@ class MaterialPlanner {
         look_(lit.looks[material]),
         drawer_(lit.drawer(material, o.directions)),
         exact_(look_.surface(look_.exact())),
-        shipped_(look_.surface(in_float(look_.structural()))),
-        reference_(seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_) {
+        everything_(look_.surface(look_.everything())),
+        shipped_(look_.surface(in_float(as_shipped(look_)))),
+        reference_(scene_, seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_) {
     for (const auto& object : scene_.objects)
       if (object.material == material) join(reached_angles(scene_, object));
   }
@@ -98,7 +107,7 @@ class MaterialPlanner {
     return s.image_lit ? *under_sky_ : reference_;
   }
   Judgement judged(const Surface& s) const {
-    auto d = compared_with(s).differences_of(scene_, s);
+    auto d = compared_with(s).bounds_of(scene_, s);
     return judge(d, scene_.tolerance);
   }
   /// All exact but one.
@@ -133,7 +142,7 @@ class MaterialPlanner {
     constexpr std::size_t few = 1024;
     const Surface looked_up = with(Effect::environment, offer.forms.front());
     const auto keeps_at = [&](std::size_t n) {
-      under_sky_.emplace(Reference::under_sky(drawer_, choosing, 0, n, exact_));
+      under_sky_.emplace(Reference::under_sky(scene_, drawer_, choosing, 0, n, exact_));
       return scene_.budget_ns || judged(looked_up).keeps(scene_.tolerance);
     };
     // A few points tell most that it may not be.
@@ -145,11 +154,14 @@ class MaterialPlanner {
   void screen() {
     const bool looks_up = may_look_up();
     const std::size_t lookup = look_.offer(Effect::environment).forms.front();
-    std::vector<Surface> dropped;
+    std::vector<Surface> timed;
     for (std::size_t i = 0; i < effect_count; ++i) {
       const auto e = static_cast<Effect>(i);
       const auto& offer = look_.offer(e);
-      dropped.push_back(with(e, offer.forms.front()));
+      const Surface dropped = with(e, offer.forms.front());
+      Forms lean = look_.everything();
+      lean[e] = offer.forms.front();
+      timed.push_back(look_.surface(lean));
       PlannedEffect planned;
       planned.effect = e;
       auto& left = left_[i];
@@ -163,7 +175,8 @@ class MaterialPlanner {
         planned.error_if_dropped = *bound;
         left = {offer.forms.front()};
       } else {
-        planned.error_if_dropped = judged(dropped.back()).quantile;
+        auto changes = compared_with(dropped).differences_of(scene_, dropped);
+        planned.error_if_dropped = judge(changes, scene_.tolerance).quantile;
         const auto may_be = [&](std::size_t form) {
           if (form == offer.forms.back() || scene_.budget_ns) return true;
           if (e == Effect::environment) return looks_up;
@@ -176,12 +189,12 @@ class MaterialPlanner {
       }
       effects_.push_back(planned);
     }
-    dropped.push_back(exact_);
-    const auto times = times_of(dropped, reference_.points);
-    const double ns = times.back().ns, ops = operations_of(exact_, reference_.points);
+    timed.push_back(everything_);
+    const auto times = times_of(timed, reference_.points);
+    const double ns = times.back().ns, ops = operations_of(everything_, reference_.points);
     for (std::size_t i = 0; i < effects_.size(); ++i) {
       effects_[i].ns_saved = ns - times[i].ns;
-      effects_[i].ops_saved = ops - operations_of(dropped[i], reference_.points);
+      effects_[i].ops_saved = ops - operations_of(timed[i], reference_.points);
     }
   }
   std::optional<double> proved(Effect e, std::size_t form) const {
@@ -251,9 +264,9 @@ class MaterialPlanner {
   Judgement checked(const Surface& s) {
     if (!s.image_lit) return judge_fresh(scene_, drawer_, checking, options_.fresh, exact_, s);
     if (!fresh_under_sky_)
-      fresh_under_sky_.emplace(
-          Reference::under_sky(drawer_, checking, 0, fresh_points(scene_, options_, s), exact_));
-    auto d = fresh_under_sky_->differences_of(scene_, s);
+      fresh_under_sky_.emplace(Reference::under_sky(scene_, drawer_, checking, 0,
+                                                    fresh_points(scene_, options_, s), exact_));
+    auto d = fresh_under_sky_->bounds_of(scene_, s);
     return judge(d, scene_.tolerance);
   }
   bool passes(const Judgement& j) const {
@@ -263,6 +276,14 @@ class MaterialPlanner {
            j.worst <= reserve * t.max;
   }
 
+  double shipped_upper() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto form : look_.offer(Effect::compensation).forms)
+      if (forms_of(Effect::compensation)[form] != "tabulated")
+        least = std::min(least, judged(with(Effect::compensation, form)).upper);
+    return least;
+  }
+
   MaterialPlan chosen() {
     MaterialPlan p;
     p.effects = std::move(effects_);
@@ -270,24 +291,31 @@ class MaterialPlanner {
       if (e.reason.empty()) e.reason = reason(e);
     p.ns_exact = ns_exact_;
     p.ops_exact = operations_of(shipped_, reference_.points);
+    p.reference = look_.exact().name(Effect::compensation);
+    p.bounded = look_.is_bounded();
+    auto own = reference_.own_error;
+    p.reference_error = judge(own, scene_.tolerance).quantile;
     p.coverage = drawer_.coverage();
     p.directions = static_cast<double>(reference_.points.point.size()) /
                    static_cast<double>(reference_.points.count);
     front(p);
+    p.shipped_upper = shipped_upper();
     if (scene_.budget_ns) return p;
     for (const auto* c : in_order()) {
       const auto& surface = surfaces_[static_cast<std::size_t>(c - candidates_.data())];
       p.checked = checked(surface);
       if (passes(p.checked)) {
+        p.holds = true;
         take(p, look_, c->forms, c->ns, c->ops);
         return p;
       }
       ++p.passed_over;
     }
-    // What changes nothing needs no check.
-    p.checked = {};
+    // Nearest is what changes nothing: it errs by what the reference does.
     const auto same = look_.structural();
     const std::array surface{look_.surface(same)};
+    p.checked = checked(surface[0]);
+    p.holds = passes(p.checked);
     take(p, look_, same, times_of(surface, reference_.points)[0].ns,
          operations_of(surface[0], reference_.points));
     return p;
@@ -316,8 +344,9 @@ class MaterialPlanner {
   const PlanOptions& options_;
   const Look& look_;
   PointDrawer drawer_;
-  Surface exact_;
-  /// All effects that the material has, exact, in float: what a plan's speed is compared with.
+  Surface exact_, everything_;  ///< the latter as shaders have it: what dropping an effect saves is
+                                ///< measured on it
+  /// All effects that the material has, in float: what a plan's speed is compared with.
   Surface shipped_;
   Reference reference_;
   /// What surfaces that look the environment up are compared with, and its fresh points.
@@ -360,7 +389,15 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
     const auto drawer = lit.drawer(index, options.directions);
     const Surface exact = look.surface(look.exact()), surface = look.surface(c.forms);
     m.checked = judge_fresh(s, drawer, checking, fresh_points(s, options, surface), exact, surface);
+    m.holds = m.checked.bound <= 1 - s.tolerance.quantile && m.checked.worst <= s.tolerance.max;
   }
+}
+
+/// Nothing is claimed beyond what was compared: nobody knows how far that is off.
+void claim_no_bound(MaterialPlan& m) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  m.checked.upper = m.checked.bound = none;
+  for (auto& c : m.front) c.error.upper = none;
 }
 
 }  // namespace
@@ -384,7 +421,7 @@ Plan plan_scene(const Scene& s, const PlanOptions& asked, const std::function<vo
     options.fresh = std::max(asked.fresh, 4 * verified);
   }
   const Lit lit(s);
-  Plan plan{s.sha256, s.tolerance, {}, {}};
+  Plan plan{s.sha256, s.tolerance, {}, {}, false};
   for (std::size_t m = 0; m < s.materials.size(); ++m) {
     if (std::ranges::find(s.objects, m, &Object::material) == s.objects.end()) continue;
     plan.materials.push_back(MaterialPlanner(lit, m, options).plan());
@@ -392,6 +429,9 @@ Plan plan_scene(const Scene& s, const PlanOptions& asked, const std::function<vo
     if (done) done(static_cast<double>(m + 1) / static_cast<double>(s.materials.size()));
   }
   if (s.budget_ns) share(plan, lit, options);
+  for (auto& m : plan.materials)
+    if (!m.bounded) claim_no_bound(m);
+  plan.holds = std::ranges::all_of(plan.materials, &MaterialPlan::holds);
   return plan;
 }
 

@@ -52,6 +52,13 @@ struct MaterialPlan {
   double speedup = 1, ops_saved = 0;  ///< the material's effects, exact in float, against the plan:
                                       ///< ratio of times, and the share of operations
   double ns = 0, ns_exact = 0, ops_exact = 0;
+  std::string reference;       ///< form of the light between facets that is compared with
+  bool bounded = false;        ///< its error is known, and in what is claimed
+  double reference_error = 0;  ///< quantile of that error
+  /// Least upper bound of what light between facets in a form that shaders have leaves, all else exact.
+  double shipped_upper = 0;
+  bool holds =
+      false;          ///< the tolerance; else no form that is offered does, and this is the nearest
   Judgement checked;  ///< on fresh points
   std::size_t passed_over =
       0;  ///< cheaper sets that kept the tolerance where they were chosen, but not on fresh points
@@ -74,6 +81,7 @@ struct Plan {
   Tolerance tolerance;
   std::vector<MaterialPlan> materials;
   std::optional<Budget> budget;
+  bool holds = false;  ///< of every material
 };
 
 /// Cost by which sets are compared: time as it was measured, or operations, which are the same everywhere.
@@ -98,9 +106,10 @@ std::size_t samples_of_verification(const Scene&);
 ///   3  of the others, every form that keeps the tolerance while all else is exact is a candidate's; candidates are their
 ///      combinations, at most 512.  Those that look an environment up are compared with 1024 directions a point
 ///   4  the cheapest that keeps the tolerance, ties within the spread of times going to fewer effects, is checked on fresh
-///      points, strictly enough that fresh ones of a verification are likely to agree; if it fails the next is taken
+///      points, strictly enough that fresh ones of a verification are likely to agree; if it fails the next is taken; if all
+///      do, what changes nothing
 ///
-/// Where the scene has a budget, all forms are candidates', and in place of 4 those are taken whose worst error is the least that
+/// Each point's difference counts with what the reference itself may be off by there.  Where the scene has a budget, all forms are candidates', and in place of 4 those are taken whose worst error is the least that
 /// the budget leaves; the tolerance may be broken then, which a verification tells.
 ///
 /// \param done  part that is done, in [0, 1]

@@ -1,10 +1,29 @@
 #include "scene/plan/reference.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace gonio::scene {
 
-Reference Reference::under_sky(const PointDrawer& drawer,
+Reference::Reference(const Scene& s, LitPoints p, const Surface& surface)
+    : points(std::move(p)),
+      columns(points.angles),
+      exact(radiance(surface, points, columns)),
+      own_error(exact.size()) {
+  if (!surface.multiple.lobe) return;
+  Surface off = surface;
+  off.multiple.errors = 2;
+  own_error = differences_of(s, off);
+}
+
+std::vector<double> Reference::bounds_of(const Scene& s, const Surface& surface) const {
+  auto d = differences_of(s, surface);
+  std::ranges::transform(d, own_error, d.begin(), std::plus{});
+  return d;
+}
+
+Reference Reference::under_sky(const Scene& s,
+                               const PointDrawer& drawer,
                                std::uint64_t stream,
                                std::size_t first,
                                std::size_t count,
@@ -13,8 +32,9 @@ Reference Reference::under_sky(const PointDrawer& drawer,
   const PointDrawer finer = drawer.with_directions(times * drawer.directions());
   LitPoints all;
   std::vector<Rgb> light;
+  std::vector<double> error;
   for (std::size_t at = 0; at < count; at += part) {
-    const Reference r(finer.draw(stream, first + at, std::min(part, count - at)), exact);
+    const Reference r(s, finer.draw(stream, first + at, std::min(part, count - at)), exact);
     const auto& p = r.points;
     const auto rows = static_cast<std::ptrdiff_t>(p.sky);
     all.angles.insert(all.angles.end(), p.angles.begin(), p.angles.begin() + rows);
@@ -23,10 +43,11 @@ Reference Reference::under_sky(const PointDrawer& drawer,
       all.point.push_back(p.point[i] + static_cast<std::uint32_t>(all.count));
     all.view.insert(all.view.end(), p.view.begin(), p.view.end());
     light.insert(light.end(), r.exact.begin(), r.exact.end());
+    error.insert(error.end(), r.own_error.begin(), r.own_error.end());
     all.count += p.count;
   }
   all.sky = all.point.size();
-  return {std::move(all), std::move(light)};
+  return {std::move(all), std::move(light), std::move(error)};
 }
 
 Judgement judge_fresh(const Scene& s,
@@ -39,9 +60,10 @@ Judgement judge_fresh(const Scene& s,
   std::vector<double> all;
   for (std::size_t at = 0; at < samples; at += part) {
     const std::size_t n = std::min(part, samples - at);
-    const Reference fresh = surface.image_lit ? Reference::under_sky(drawer, stream, at, n, exact)
-                                              : Reference(drawer.draw(stream, at, n), exact);
-    const auto d = fresh.differences_of(s, surface);
+    const Reference fresh = surface.image_lit
+                                ? Reference::under_sky(s, drawer, stream, at, n, exact)
+                                : Reference(s, drawer.draw(stream, at, n), exact);
+    const auto d = fresh.bounds_of(s, surface);
     all.insert(all.end(), d.begin(), d.end());
   }
   return judge(all, s.tolerance);

@@ -38,6 +38,8 @@ struct Description<VerifiedRow> {
     constexpr Numbers share{0, 1}, amount{0, Numbers::any};
     return std::tuple{
         field("holds", at(&VerifiedRow::material, &VerifiedMaterial::holds), "the tolerance"),
+        field("reference", at(&VerifiedRow::material, &VerifiedMaterial::reference),
+              "form of the light between facets that the plan is compared with"),
         field("exceeding", found(&Judgement::exceeding),
               "points that differ by more than the limit"),
         field("samples", found(&Judgement::samples), "points"),
@@ -73,7 +75,8 @@ Verification verify(const Scene& s,
   for (std::size_t m = 0; m < s.materials.size(); ++m) {
     if (!planned.by_material[m]) continue;
     const auto& look = lit.looks[m];
-    VerifiedMaterial one{s.materials[m].name, {}, false};
+    VerifiedMaterial one{
+        s.materials[m].name, std::string(look.exact().name(Effect::compensation)), {}, false};
     one.found = judge_fresh(s, lit.drawer(m, PlanOptions{}.directions), verifying + seed,
                             samples.value_or(samples_of_verification(s)),
                             look.surface(look.exact()), look.surface(*planned.by_material[m]));

@@ -14,6 +14,7 @@ namespace gonio::scene {
 
 struct VerifiedMaterial {
   std::string name;
+  std::string reference;  ///< as of MaterialPlan
   Judgement found;
   bool holds = false;
 };

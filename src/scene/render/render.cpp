@@ -25,7 +25,9 @@ class Gathered {
  public:
   explicit Gathered(const Surface& s)
       : evaluate_(s),
-        angles_(most, s.base.model.anisotropic || (s.coat && s.coat->model.anisotropic)),
+        angles_(most,
+                s.base.model.anisotropic || (s.coat && s.coat->model.anisotropic) ||
+                    (s.multiple.lobe && s.multiple.lobe->anisotropic())),
         f_{Column<F>(most), Column<F>(most), Column<F>(most)} {
     for (std::size_t i = 0; i < most; ++i)  // so that whatever follows the last is harmless
       angles_.set(i, frame_angles({{0, 0, 1}, {0, 0, 1}}));

@@ -54,6 +54,8 @@ SurfaceEvaluator<F>::SurfaceEvaluator(const Surface& s, const SurfaceKernels<F>&
   if (!under.diffuse.empty() || !under.lobes.empty())
     base_.emplace(evaluator<F>(s.base, under, kernels_.terms));
   albedo_ = s.multiple.albedo.template in<F>();
+  tabulated_ = s.multiple.lobe;
+  errors_ = s.multiple.errors;
   std::ranges::transform(s.multiple.strength, strength_.begin(),
                          [](double x) { return static_cast<F>(x); });
   if (!s.coat) return;
@@ -125,6 +127,7 @@ void SurfaceEvaluator<F>::operator()(const Block<F>& x, std::span<F* const> out)
     if (base_) (*base_)(part, here);
     if (spectral_) add_spectral(part, here);
     if (multiple_) add_multiple(part, here);
+    if (tabulated_) tabulated_->add(part, errors_, here);
     if (coat_) add_coat(part, here);
   }
 }

@@ -67,6 +67,8 @@ class SurfaceEvaluator {
   MultipleKernel<F> multiple_ = nullptr;
   AlbedoCurve<F> albedo_{};
   std::array<F, max_channels> strength_{};
+  std::shared_ptr<const TabulatedLobe> tabulated_;
+  double errors_ = 0;  ///< that are added to it
   struct Coat {
     Shape shape;
     std::size_t fresnel;                                  ///< term

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numeric>
 
 #include "brdf/catalogue/registry.h"
@@ -17,6 +19,7 @@
 #include "optics/spectrum.h"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 
 namespace gonio::scene {
 namespace {
@@ -25,6 +28,8 @@ constexpr std::size_t channels = 3;
 /// Largest F0 that is taken for a dielectric's: eta = 3.
 constexpr double most_dielectric_f0 = 0.25;
 constexpr double f82_cosine = 1.0 / 7;
+/// The dearest compensation that renderers ship.
+constexpr std::size_t kulla_conty = 3;
 
 std::string_view name_of_term(const TermUse& t) {
   return short_id(catalogue()[t.term].id());
@@ -133,6 +138,25 @@ bool stands_for_smith(std::string_view masking) {
          masking.starts_with("ue_joint") || masking == "hammon" || masking == "disney_remap";
 }
 
+/// Table of a lobe, made once: scenes, plans and maps ask for the same again.
+std::shared_ptr<const TabulatedLobe> tabulated_lobe(const BoundModel& lobe,
+                                                    std::span<const ColourOfChannel> colours) {
+  constexpr std::size_t most = 64;
+  static std::mutex making;
+  static std::map<std::pair<std::string, std::vector<double>>, std::shared_ptr<const TabulatedLobe>>
+      all;
+  std::pair key{lobe.model.spec, lobe.values};
+  for (const auto& c : colours) key.second.insert(key.second.end(), c.begin(), c.end());
+  const std::scoped_lock lock(making);
+  if (const auto known = all.find(key); known != all.end()) return known->second;
+  if (all.size() == most) all.clear();
+  auto& made = all[std::move(key)];
+  // Isolated, as ImageLight is: a waiting thread must not take up a task that asks for this lock.
+  tbb::this_task_arena::isolate(
+      [&] { made = std::make_shared<const TabulatedLobe>(lobe, colours); });
+  return made;
+}
+
 }  // namespace
 
 std::string Surface::spec() const {
@@ -167,7 +191,7 @@ Look::Look(const Material& m, std::shared_ptr<const ImageLight> sky) : sky_(std:
   if (!first_.known) return;
   const auto base = surface(structural()).base;
   fresnel_.average = fresnel_average(base, base.model.lobes[0].fresnel, {1e-9, 100'000}).value;
-  albedo_ = lobe_albedo(surface(exact()).base);
+  albedo_ = lobe_albedo(surface(everything()).base);
 }
 
 void Look::read_spectrum(const Material& m) {
@@ -326,7 +350,9 @@ void Look::offer_forms() {
     offer(Effect::tail, {"ggx"}, false, first_.known ? "its tail is its distribution's" : as_given);
   if (first_.known) {
     offer(Effect::masking, {"schlick_k", "separable", "correlated"});
-    offer(Effect::compensation, {"none", "turquin", "fdez_aguera", "kulla_conty"});
+    std::vector<std::string_view> kinds{"none", "turquin", "fdez_aguera", "kulla_conty"};
+    if (!gtr) kinds.emplace_back("tabulated");
+    offer(Effect::compensation, kinds);
   } else {
     offer(Effect::masking, {first_.any ? "correlated" : "schlick_k"}, false, as_given);
     offer(Effect::compensation, {"none"}, false, as_given);
@@ -359,6 +385,15 @@ Forms Look::exact() const {
   Forms f;
   for (std::size_t e = 0; e < effect_count; ++e) f.form[e] = offers_[e].forms.back();
   return f;
+}
+Forms Look::everything() const {
+  Forms f = exact();
+  auto& form = f[Effect::compensation];
+  form = std::min(form, kulla_conty);
+  return f;
+}
+bool Look::is_bounded() const {
+  return !first_.any || exact().name(Effect::compensation) == "tabulated";
 }
 Forms Look::structural() const {
   Forms f;
@@ -441,6 +476,10 @@ Surface Look::surface(const Forms& forms) const {
   m.albedo = albedo_.curve;
   const auto how = forms.name(Effect::compensation);
   if (how == "none") return s;
+  if (how == "tabulated") {
+    m.lobe = tabulated();
+    return s;
+  }
   const bool by_channel = equations && !s.spectrum;
   if (how == "kulla_conty") {
     const bool by_band = fresnel_.spectrum && !by_channel;
@@ -457,6 +496,24 @@ Surface Look::surface(const Forms& forms) const {
   for (std::size_t c = 0; c < channels; ++c)
     m.strength[c] = how == "turquin" ? f0[c] : schlick_average<double>(f0[c]);
   return s;
+}
+
+std::shared_ptr<const TabulatedLobe> Look::tabulated() const {
+  Forms forms = structural();
+  forms[Effect::compensation] = 0;
+  BoundModel lobe = surface(forms).base;
+  lobe.model.diffuse.clear();
+  lobe.model.lobes.resize(1);
+  if (!fresnel_.spectrum) return tabulated_lobe(lobe, red_green_blue);
+  const auto& metal = *fresnel_.spectrum;
+  std::vector<ColourOfChannel> colours;
+  for (std::size_t b = 0; b < SpectralMetal<double>::bands; ++b)
+    colours.push_back({metal.weight[0][b], metal.weight[1][b], metal.weight[2][b]});
+  auto settings = settings_of(lobe, {&lobe.model.lobes[0].ndf});
+  settings.push_back({"eta", {metal.eta.begin(), metal.eta.end()}});
+  settings.push_back({"k", {metal.k.begin(), metal.k.end()}});
+  return tabulated_lobe(bind_model(spec_of(lobe.model.lobes[0]), settings, colours.size()),
+                        colours);
 }
 
 std::shared_ptr<const ImageLit> Look::image_lit(const Surface& s, const Forms& forms) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "brdf/model/model.h"
+#include "integrate/scattering/tabulated_lobe.h"
 #include "scene/description/scene.h"
 #include "scene/kernel/spectral.h"
 #include "scene/surface/effect.h"
@@ -26,6 +27,8 @@ struct MultipleScattering {
   /// By channel: of turquin F0; of fdez_aguera F_avg; of kulla_conty f of two directions from which
   /// nothing comes out at once [1/sr].
   std::array<double, 3> strength{};
+  std::shared_ptr<const TabulatedLobe> lobe;  ///< of tabulated
+  double errors = 0;                          ///< standard errors that are added to that lobe
 };
 
 /// Surface, as it is evaluated: three channels.
@@ -57,7 +60,8 @@ struct Offer {
 /// Material, as its effects see it.
 ///
 /// Exact is what the material stands for: GGX and Beckmann under Smith's correlated masking, a conductor or dielectric under
-/// Fresnel's equations, with all that its facets reflect after several bounces.  A grey F0 of at most a quarter is a
+/// Fresnel's equations, with all that the first lobe's facets reflect after several bounces, tabulated from random walks.  No walk on
+/// GTR is known: Kulla and Conty's lobe stands there.  A grey F0 of at most a quarter is a
 /// dielectric's; a coloured F0 says nothing of other angles, so that Schlick's form is then all there is.  Of a metal that is
 /// named, Fresnel's equations hold for every wavelength, under light of D65's spectrum that a light's colour filters.  Effects
 /// that a material does not show, an absent coat or a diffuse albedo of 0, stand in the exact form all the
@@ -70,12 +74,17 @@ class Look {
   const Offer& offer(Effect e) const { return offers_[static_cast<std::size_t>(e)]; }
   /// Every effect in its exact form.
   Forms exact() const;
+  /// The same, but with the dearest compensation that renderers ship: what a shader for every material computes, which
+  /// times are compared with.
+  Forms everything() const;
   /// Every effect in the cheapest form that is the same.
   Forms structural() const;
   /// Forms without what the others leave nothing of: the coupling of no diffuse, the spectrum of a form that has none.
   Forms plain(Forms) const;
   /// \param forms  each one that is offered
   Surface surface(const Forms& forms) const;
+  /// True where the exact form is known with its error: a walk, or no facets.
+  bool is_bounded() const;
   /// Turn of the tangent about the normal [rad].
   double turn() const { return turn_; }
   /// Widths of the lobes, the coat's too: what directions are drawn from.
@@ -88,6 +97,7 @@ class Look {
   void read(const GltfMaterial&);
   void read_fresnel(std::string_view id, const BoundModel&, const TermUse&);
   void offer_forms();
+  std::shared_ptr<const TabulatedLobe> tabulated() const;
   std::shared_ptr<const ImageLit> image_lit(const Surface&, const Forms&) const;
 
   std::array<Offer, effect_count> offers_;

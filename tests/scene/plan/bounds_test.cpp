@@ -65,7 +65,7 @@ TEST(ChangeBound, IsNeverExceeded) {
     double worst = 0;
     constexpr std::size_t part = 50'000;
     for (std::size_t at = 0; at < gonio::test::few(20, 1) * part; at += part) {
-      const Reference reference(lit.drawer(0, 1).draw(9, at, gonio::test::few(part, 1000)),
+      const Reference reference(s, lit.drawer(0, 1).draw(9, at, gonio::test::few(part, 1000)),
                                 look.surface(look.exact()));
       for (const double d : reference.differences_of(s, surface)) worst = std::max(worst, d);
     }
@@ -87,7 +87,7 @@ TEST(ChangeBound, IsNearlyMetByAMetal) {
   forms[Effect::fresnel] = 0;
   const auto bound = change_bound(look, Effect::fresnel, 0, reached_angles(s, s.objects[0]));
   ASSERT_TRUE(bound);
-  const Reference reference(lit.drawer(0, 1).draw(9, 0, 500), look.surface(exact));
+  const Reference reference(s, lit.drawer(0, 1).draw(9, 0, 500), look.surface(exact));
   double worst = 0;
   for (const double d : reference.differences_of(s, look.surface(forms)))
     worst = std::max(worst, d);

@@ -46,7 +46,8 @@ TEST(PlanDocument, GivesItsFormsBack) {
 
 TEST(PlanDocument, HasTheKeysOfTheContract) {
   const auto document = Json::parse(to_json(plan()));
-  EXPECT_EQ(document["schema"], "gonio.plan/1");
+  EXPECT_EQ(document["schema"], "gonio.plan/2");
+  EXPECT_EQ(document["holds"], true);
   EXPECT_EQ(document["scene_sha256"], scene().sha256);
   const auto& m = document["materials"]["it"];
   for (const char* key : {"effects", "spec", "speedup", "error_quantile", "error_upper", "samples"})
@@ -122,8 +123,38 @@ TEST(PlanDocument, IsRefusedWithoutAMaterialOrWithOneTooMany) {
 }
 
 TEST(PlanDocument, IsRefusedOfALaterVersion) {
-  EXPECT_HAS(refusal([] { read_forms(changed([](Json& d) { d["schema"] = "gonio.plan/2"; })); }),
-             "gonio.plan/1");
+  EXPECT_HAS(refusal([] { read_forms(changed([](Json& d) { d["schema"] = "gonio.plan/3"; })); }),
+             "gonio.plan/2");
+}
+
+TEST(PlanDocument, OfTheVersionBeforeIsRefusedWithTheCommandThatMakesANewOne) {
+  const auto said = refusal([] {
+    read_forms(changed([](Json& d) {
+      d["schema"] = "gonio.plan/1";
+      d.erase("holds");
+    }));
+  });
+  EXPECT_HAS(said, "/schema");
+  EXPECT_HAS(said, "gonio plan SCENE -o PLAN");
+}
+
+TEST(PlanDocument, NamesItsReferenceAndClaimsABoundOnlyOfWalks) {
+  const Json made = Json::parse(to_json(plan()));
+  const auto& m = made["materials"]["it"];
+  EXPECT_EQ(m["reference"], "tabulated");
+  EXPECT_TRUE(m.contains("error_upper") && m.contains("exceeding_bound"));
+  const Scene s = test::sphere(
+      test::material("gtr/smith_gtr.correlated/schlick", {"gamma=1.5", "alpha=0.3", "f0=0.9"}),
+      test::front());
+  const auto gtr =
+      plan_scene(s, {.samples = 512, .fresh = 1024, .directions = 1, .cost = Cost::operations});
+  const auto text = to_json(gtr);
+  const Json document = Json::parse(text);
+  const auto& other = document["materials"]["it"];
+  EXPECT_EQ(other["reference"], "kulla_conty");
+  EXPECT_FALSE(other.contains("error_upper") || other.contains("exceeding_bound"));
+  for (const auto& set : other["front"]) EXPECT_FALSE(set.contains("error_upper"));
+  EXPECT_EQ(read_forms(text, s).by_material[0], gtr.materials[0].forms);
 }
 
 }  // namespace

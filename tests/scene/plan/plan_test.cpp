@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "integrate/albedo/ggx_albedo.h"
+#include "integrate/scattering/walk.h"
 #include "many_fits.h"
 #include "refusal.h"
 #include "scene/plan/document.h"
@@ -51,18 +52,14 @@ TEST(Plan, TurnsExactFresnelOnWithARimLight) {
 }
 
 TEST(Plan, KeepsWhatAMaterialNeeds) {
-  Tolerance tight, loose;  // no F0 within the gamut is nearer to gold's than 0.75
-  tight.limit = 0.5;
-  loose.limit = 1.5;
-  EXPECT_EQ(kept(planned(test::satin_gold(), test::front(), tight)),
-            (Names{"fresnel", "compensation", "masking", "spectrum"}));
-  EXPECT_EQ(kept(planned(test::satin_gold(), test::front(), loose)),
-            (Names{"compensation", "masking"}));
+  const auto gold = planned(test::satin_gold(), test::front());
+  EXPECT_TRUE(gold.holds);
+  EXPECT_EQ(gold.effects[1].form, "tabulated") << "Kulla and Conty's lobe is 5.5 off";
+  EXPECT_FALSE(keeps(gold, "precision"));
   EXPECT_EQ(kept(planned(test::chalk(), test::front())), (Names{"diffuse", "coupling"}));
   EXPECT_EQ(kept(planned(test::car_paint(), test::front())), (Names{"coat", "diffuse"}));
   const auto metal = planned(test::brushed_aluminium(), test::front());
   EXPECT_TRUE(keeps(metal, "anisotropy"));
-  EXPECT_FALSE(keeps(metal, "fresnel"));
   const auto all = kept(planned(test::everything(), test::rim()));
   EXPECT_EQ(all, (Names{"fresnel", "compensation", "masking", "anisotropy", "coat", "diffuse",
                         "coupling"}));
@@ -79,25 +76,69 @@ TEST(Plan, CostsLessThanAllEffectsAndKeepsTheTolerance) {
   double most_saved = 0;
   for (const auto& m : some()) {
     const auto p = planned(m, test::front());
-    EXPECT_GE(p.ops_saved, 0) << "a material may need all that it has";
+    EXPECT_GE(p.ops_saved, -0.05) << "the table costs little more than the lobe that shaders have";
     most_saved = std::max(most_saved, p.ops_saved);
-    EXPECT_LE(p.checked.upper, 1);
-    EXPECT_LE(p.checked.worst, 4);
+    EXPECT_EQ(p.holds, p.checked.upper <= 1 && p.checked.worst <= 4) << p.spec;
     EXPECT_EQ(p.checked.samples, quick().fresh);
   }
   EXPECT_GT(most_saved, 0.1);
 }
 
-TEST(Plan, KeepsEverythingWhereNothingMayChange) {
+TEST(Plan, IsTheNearestWhereNoneHoldsAndSaysSo) {
   for (const auto& m : {test::red_plastic(), test::everything()}) {
     const auto p = planned(m, test::front(), {.limit = 0, .max = 0});
+    EXPECT_FALSE(p.holds) << "the reference itself is not known so well";
+    EXPECT_GT(p.reference_error, 0);
     const Look look(m);
     EXPECT_EQ(p.forms, look.structural());
     for (const auto& e : p.effects)
       if (e.why == Why::structural) {
         EXPECT_EQ(e.error_if_dropped, 0);
       }
-    EXPECT_EQ(p.checked.worst, 0);
+  }
+}
+
+TEST(Plan, HoldsToTheLastWhereAllIsKnown) {
+  const auto p =
+      planned(test::material("lambert", {"kd=0.5"}), test::front(), {.limit = 0, .max = 0});
+  EXPECT_TRUE(p.holds);
+  EXPECT_EQ(p.checked.worst, 0);
+}
+
+/// f of several bounces by a walk of its own, at each row.
+std::vector<Rgb> shaded_by_walks(const Look& look, const LitPoints& p) {
+  Forms single = look.exact();
+  single[Effect::compensation] = 0;
+  const Surface s = look.surface(single);
+  auto sum = radiance(s, p, LitColumns(p.angles));
+  const WalkGoal goal{99, 1 << 14};
+  for (std::size_t i = 0; i < p.angles.size(); ++i) {
+    const auto& a = p.angles[i];
+    const auto w = walk_value(s.base, {a.xol, a.yol, a.nol}, {a.xov, a.yov, a.nov}, goal);
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[p.point[i]][c] += (w.value[c] - w.order[c][0]) * p.weight[i][c];
+  }
+  return sum;
+}
+
+TEST(Plan, ItsQuantileHoldsOfPointsThatAreShadedByWalks) {
+  constexpr std::size_t points = 200;
+  for (const char* roughness : {"roughness=0.5", "roughness=0.8"}) {
+    const auto rough = test::material("ggx/smith_ggx.correlated/conductor",
+                                      {roughness, "eta=0.2,0.4,1.4", "k=3.9,2.4,1.8"});
+    Scene s = test::sphere(rough, test::front());
+    s.tolerance = {.quantile = 0.9, .limit = 2};
+    const auto plan = plan_scene(s, quick()).materials[0];
+    EXPECT_TRUE(plan.holds);
+    const Lit lit(s);
+    const auto fresh = lit.drawer(0, 1).draw(77, 0, points);
+    const auto truth = shaded_by_walks(lit.looks[0], fresh);
+    const auto shipped =
+        radiance(lit.looks[0].surface(plan.forms), fresh, LitColumns(fresh.angles));
+    const auto off = differences(s.tolerance.metric, s.exposure, truth, shipped);
+    const auto beyond =
+        std::ranges::count_if(off, [&](double d) { return d > plan.checked.upper; });
+    EXPECT_LE(beyond, 33) << "of 200 with 10 %, more in 1 of 500 cases: " << roughness;
   }
 }
 
@@ -162,7 +203,7 @@ TEST(Plan, SharesABudgetOut) {
   const auto rich = plan_scene(s, options);
   ASSERT_TRUE(rich.budget);
   EXPECT_TRUE(rich.budget->fits);
-  EXPECT_LT(rich.budget->error, 1e-9);
+  EXPECT_LT(rich.budget->error, 1) << "with what the reference of gold may be off by";
   s.budget_ns = 1e-9;
   const auto poor = plan_scene(s, options);
   EXPECT_FALSE(poor.budget->fits);
@@ -209,14 +250,17 @@ TEST(Plan, DrawsAsManyPointsAsItsToleranceNeeds) {
 TEST(Verify, FailsNoMoreOftenThanTheConfidenceAllows) {
   GONIO_MANY_FITS();
   // 6 materials, 3 lights' sides of which two, 20 seeds: of 240 at 5 % at most 21 in 99 % of cases.
-  std::size_t failed = 0;
+  std::size_t failed = 0, held = 0;
   for (const auto& m : test::six())
     for (const auto& lights : {test::front(), test::rim()}) {
       const Scene s = test::sphere(m, lights);
       const auto plan = plan_scene(s, {.cost = Cost::operations});
+      if (!plan.holds) continue;
+      ++held;
       const PlannedForms forms{{plan.materials[0].forms}};
       for (std::uint64_t seed = 1; seed <= 20; ++seed) failed += !verify(s, forms, seed).holds();
     }
+  EXPECT_GE(held, 10U) << "all but brushed aluminium";
   EXPECT_LE(failed, 21U);
 }
 

@@ -7,6 +7,7 @@
 #include "brdf/formula/scattering.h"
 #include "geometry/half_vector.h"
 #include "integrate/rule/quadrature.h"
+#include "integrate/scattering/walk.h"
 #include "optics/fresnel_approximate.h"
 #include "optics/spectrum.h"
 #include "scene/plan/scenes.h"
@@ -66,6 +67,40 @@ TEST(SurfaceEvaluator, AddsKullaAndContysLobe) {
                           (1 - value_at(all.multiple.albedo, angles[i].nov));
       EXPECT_NEAR(g[c][i], f[c][i] + lobe, 1e-14 + 1e-14 * f[c][i]);
     }
+}
+
+/// f of two bounces and more by walks from v, in red, green and blue of a metal's bands.
+Rgb walked(const BoundModel& bands,
+           std::span<const ColourOfChannel> colour,
+           const FrameAngles<double>& a) {
+  const auto w = walk_value(bands, {a.xol, a.yol, a.nol}, {a.xov, a.yov, a.nov}, {3, 1 << 18});
+  Rgb sum{};
+  for (std::size_t b = 0; b < colour.size(); ++b)
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[b][c] * (w.value[b] - w.order[b][0]);
+  return sum;
+}
+
+TEST(SurfaceEvaluator, AddsTheLobeOfWalksInTheColoursOfAMetal) {
+  const auto none = with(test::satin_gold(), Effect::compensation, "none");
+  auto all = with(test::satin_gold(), Effect::compensation, "tabulated");
+  const auto angles = some_angles();
+  const auto f = values<double>(none, angles), g = values<double>(all, angles);
+  all.multiple.errors = 1;
+  const auto off = values<double>(all, angles);
+  const auto& metal = *all.spectrum;
+  const auto bands = bind_model("ggx/smith_ggx.correlated/conductor",
+                                {{"roughness", {0.45}},
+                                 {"eta", {metal.eta.begin(), metal.eta.end()}},
+                                 {"k", {metal.k.begin(), metal.k.end()}}},
+                                metal.bands);
+  std::vector<ColourOfChannel> colour;
+  for (std::size_t b = 0; b < metal.bands; ++b)
+    colour.push_back({metal.weight[0][b], metal.weight[1][b], metal.weight[2][b]});
+  for (std::size_t i = 0; i < 10; ++i) {
+    const auto lobe = walked(bands, colour, angles[i]);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(g[c][i] - f[c][i], lobe[c], 3 * (off[c][i] - g[c][i]) + 0.04 * lobe[c]);
+  }
 }
 
 TEST(SurfaceEvaluator, BrightensTheLobeAloneByTurquin) {
@@ -251,6 +286,7 @@ TEST(SurfaceEvaluator, NeverCallsTheKernelOfADroppedEffect) {
   const auto angles = some_angles();
   const Look look(test::car_paint());
   Forms forms = look.structural();
+  forms[Effect::compensation] = 3;  // Kulla and Conty
   values<double>(look.surface(forms), angles, k);
   EXPECT_EQ(called, 2 * n / Evaluator<double>::Between::block);  // several bounces, and the coat
   called = 0;

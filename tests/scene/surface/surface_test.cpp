@@ -39,7 +39,19 @@ Rgb value(const Surface& s, const FrameAngles<double>& a) {
 TEST(Look, TakesAMetalForFresnelsEquationsUnderCorrelatedSmith) {
   const Look look(test::satin_gold());
   EXPECT_EQ(look.surface(look.structural()).spec(), "ggx/smith_ggx.correlated/conductor");
-  EXPECT_EQ(look.exact().name(Effect::compensation), "kulla_conty");
+  EXPECT_EQ(look.exact().name(Effect::compensation), "tabulated");
+  EXPECT_TRUE(look.is_bounded());
+  EXPECT_EQ(look.everything().name(Effect::compensation), "kulla_conty");
+}
+
+TEST(Look, KnowsNoBoundWhereItKnowsNoWalk) {
+  const Look gtr(test::material("gtr/smith_gtr.correlated/schlick", {"gamma=1.5"}));
+  EXPECT_EQ(gtr.exact().name(Effect::compensation), "kulla_conty");
+  EXPECT_FALSE(gtr.is_bounded());
+  EXPECT_FALSE(gtr.surface(gtr.exact()).multiple.lobe);
+  EXPECT_FALSE(
+      Look(test::material("student_t/smith_student_t.correlated/schlick", {})).is_bounded());
+  EXPECT_TRUE(Look(test::material("lambert", {"kd=0.5"})).is_bounded()) << "nothing bounces there";
 }
 
 TEST(Look, LiftsWhatAModelApproximates) {
