@@ -104,7 +104,7 @@ std::optional<Trend> trend_of(const Table& t, const Cosines& c) {
   const SampleAngles at(t);
   const double off_specular = std::sin(25 * degree);
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
-  const std::size_t step = t.size() / 100'000 + 1;
+  const std::size_t step = t.size() / 30'000 + 1;
   for (std::size_t i = 0; i < t.size(); i += step) {
     const auto a = at(i);
     if (!(std::min(a.nol, a.nov) > 0.17) || a.sin2_theta_h < off_specular * off_specular) continue;
@@ -179,7 +179,7 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
   const FileRounding rounding = rounding_of(t);
   const double one_digit = 20 * rounding.absolute;  // six steps
   std::size_t zeros = 0, coarse = 0, values = 0, negative = 0;
-  const std::size_t step = t.size() / 200'000 + 1;
+  const std::size_t step = t.size() / 60'000 + 1;
   for (const auto& plane : t.values) {
     std::size_t none = 0, some = 0;
     for (std::size_t i = 0; i < t.size(); i += step) {
