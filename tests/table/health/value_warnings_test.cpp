@@ -140,10 +140,11 @@ TEST(ValueWarnings, TellAChannelThatIsNegativeByItselfFromANoiseFloor) {
   EXPECT_TRUE(std::ranges::any_of(value_warnings(facts), [](const ValueWarning& w) {
     return w.text.starts_with("all negative values are of channel r");
   }));
-  EXPECT_EQ(negative_channel(table(true, 0)), std::size_t{0});
-  EXPECT_EQ(noise_floor(table(true, 0)), 0);
-  EXPECT_FALSE(negative_channel(table(false, 0.004)));
-  EXPECT_GT(noise_floor(table(false, 0.004)), 0);
+  EXPECT_EQ(facts.negative_channel(), std::size_t{0});
+  EXPECT_EQ(facts.noise_floor(), 0);
+  const Table dark = table(false, 0.004);
+  EXPECT_FALSE(TableFacts(dark).negative_channel());
+  EXPECT_GT(noise_floor(dark), 0);
 }
 
 TEST(Reciprocity, KnowsNoAzimuthAtTheNormal) {
