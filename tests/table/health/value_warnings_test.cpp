@@ -7,6 +7,7 @@
 
 #include "brdf/model/evaluate.h"
 #include "table/example.h"
+#include "tables.h"
 
 #include <gtest/gtest.h>
 
@@ -35,12 +36,7 @@ Table painted(double turn, double kd = 0.3, double alpha = 0.3) {
   t.where = std::move(l);
   const auto model = bind_model("lambert+ggx/smith_ggx.correlated/schlick",
                                 {{"alpha", {alpha}}, {"f0", {0.05}}, {"kd", {kd}}}, 1);
-  const std::size_t n = t.list()->theta_i_deg.size();
-  t.values.emplace_back(n);
-  const SampleAngles at(t);
-  std::vector<Angles<double>> x;
-  for (std::size_t i = 0; i < n; ++i) x.push_back(at(i));
-  std::ranges::copy(evaluate(model, x)[0], t.values[0].begin());
+  test::put_values(t, model);
   return t;
 }
 
