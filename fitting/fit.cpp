@@ -51,8 +51,8 @@ void forget_unknown(BinSensitivity& s, const FitDocument& d) {
   }
 }
 
-/// Takes the diffuse terms' values from a fit of these alone: beside lobes of which nothing is known they are
-/// what these left over.
+/// Takes a fit of the diffuse terms alone, and what it leaves: beside lobes of which nothing is known they are
+/// what these left over, and what is said of such lobes' highlights is said of nothing.
 void take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColumns& columns) {
   const auto diffuse = parse_spec(d.model)[0];
   if (diffuse.size() != 1 || catalogue()[find_term("diffuse." + diffuse[0])].coupled ||
@@ -61,11 +61,16 @@ void take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColu
   o = options_for(std::move(o), diffuse[0]);
   o.bin_sensitivity = false;
   o.certificate = Certify::none;
-  for (auto& p : fit(t, o, columns).document.parameters) {
+  FitDocument alone = fit(t, o, columns).document;
+  for (auto& p : alone.parameters) {
     for (auto& reason : p.reason)
       if (reason.empty()) reason = "of a fit without the lobe";
     *std::ranges::find(d.parameters, p.name, &FittedParameter::name) = std::move(p);
   }
+  d.cost = alone.cost;
+  d.residuals = std::move(alone.residuals);
+  d.misfit = std::move(alone.misfit);
+  d.physics = std::move(alone.physics);
 }
 
 /// Worth of the parameters, by values or by clusters of an incident angle.
@@ -178,7 +183,6 @@ FitResult fit_and_judge(const Table& t,
   d.model = p.start.model.spec;
   d.channels = t.channels;
   describe(d, p, f.model.values, u);
-  if (needless) take_diffuse_alone(d, t, o, columns);
   d.metric = name_of(o.metric);
   d.log_offset = sampling.offset();
   d.robust = o.robust ? "huber" : "none";
@@ -189,6 +193,7 @@ FitResult fit_and_judge(const Table& t,
   d.misfit = lack.misfit;
   d.physics = check_physics(f.model, table, found.scanned);
   watch.lap("physics_ms");
+  if (needless) take_diffuse_alone(d, t, o, columns);
   d.values_used = a.counts.used;
   d.masked = a.counts.by_reason(sampling);
   d.input_path = t.path;
@@ -201,7 +206,7 @@ FitResult fit_and_judge(const Table& t,
     forget_unknown(*sensitivity, d);
     d.sensitivity.push_back(std::move(*sensitivity));
   }
-  if (found.profile) d.certificate = certificate_of(p, *found.profile);
+  if (found.profile && !needless) d.certificate = certificate_of(p, *found.profile);
   d.solver = solver_of(f.solution, std::move(phase_ms));
   for (const auto& w : t.warnings)
     if (!(d.misfit.reproduces() && is_answered_by_a_fit(w))) d.warnings.push_back(w);

@@ -16,17 +16,23 @@ inline BoundModel glossy(double kd = 0.2) {
                     {{"kd", {kd, kd / 2, kd / 4}}, {"alpha", {0.3}}, {"f0", {0.04, 0.05, 0.06}}});
 }
 
+/// Gives a table the values of a model at its directions.
+inline void put_values(Table& t, const BoundModel& m) {
+  const std::size_t n = t.grid() ? t.grid()->size() : t.list()->theta_i_deg.size();
+  const SampleAngles at(t);
+  std::vector<Angles<double>> x;
+  for (std::size_t i = 0; i < n; ++i) x.push_back(at(i));
+  t.values.clear();
+  for (const auto& f : evaluate(m, x)) t.values.emplace_back(f.begin(), f.end());
+}
+
 inline Table filled(std::variant<Grid, DirectionList> where, const BoundModel& m) {
   Table t;
   t.path = "table.csv";
   t.format = "csv";
   t.channels = {"r", "g", "b"};
   t.where = std::move(where);
-  const std::size_t n = t.grid() ? t.grid()->size() : t.list()->theta_i_deg.size();
-  const SampleAngles at(t);
-  std::vector<Angles<double>> x;
-  for (std::size_t i = 0; i < n; ++i) x.push_back(at(i));
-  for (const auto& f : evaluate(m, x)) t.values.emplace_back(f.begin(), f.end());
+  put_values(t, m);
   return t;
 }
 

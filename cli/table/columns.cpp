@@ -26,10 +26,9 @@ struct ColumnsCall : Common {
 
 bool says_anything(const ColumnsCall& o) {
   const ColumnMap usual;
-  return !o.words.empty() || o.map.radians || o.map.cosine || o.map.skip != usual.skip ||
+  return !o.words.empty() || o.map.radians || o.map.cosine ||
          o.map.forward_deg != usual.forward_deg || o.map.scale != usual.scale;
 }
-
 ColumnMap map_of(const ColumnsCall& o) {
   ColumnMap map = o.map;
   for (const auto& word : o.words) {
@@ -53,6 +52,15 @@ void expect_columns(InputFile& in) {
   if (!is_csv(head))
     throw bad_input(in.path(), "the beginning", head.substr(0, 24),
                     "text with a line of at least three numbers");
+}
+
+/// True where lines to pass over are all that is said, and the names below them are not enough.
+bool asks_below(const ColumnsCall& o, const std::string& file) {
+  if (o.map.skip == 0) return true;
+  InputFile in(file);
+  expect_columns(in);
+  const auto p = propose_columns(csv_columns(in, o.map.skip));
+  return !p.map || p.needed;
 }
 
 /// The table as the map makes it, and the text of its side file.
@@ -127,6 +135,7 @@ void print(const ColumnProposal& p, const std::string& file) {
       command += " " + shell_word(role + "=" + column);
   if (p.map && p.map->radians) command += " --radians";
   if (p.map && p.map->cosine) command += " --cosine";
+  if (p.map && p.map->skip) command += fmt::format(" --skip {}", p.map->skip);
   say("no map; {}\n  {}\n", p.map ? "by their names and ranges it would be" : "one is made by",
       command);
 }
@@ -135,9 +144,10 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   progress("reading " + file);
   InputFile in(file);
   expect_columns(in);
-  const std::string side = side_text(file);
+  const std::size_t skip = o.map.skip;
+  const std::string side = skip ? "" : side_text(file);
   const auto map = side.empty() ? std::nullopt : column_map(side_path(file), side);
-  const auto columns = csv_columns(in, map ? map->skip : 0);
+  const auto columns = csv_columns(in, map ? map->skip : skip);
   progress.clear();
   Json all = Json::array();
   if (!o.json)
@@ -166,7 +176,8 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   if (map) {
     if (!o.json) say("{} says {}\n", side_path(file), line_of(said));
   } else {
-    const auto p = propose_columns(columns);
+    auto p = propose_columns(columns);
+    if (p.map) p.map->skip = skip;
     if (!o.json) print(p, file);
     if (p.map)
       proposed = {{"columns", columns_of(file, with_columns(side_path(file), "", *p.map))},
@@ -184,7 +195,8 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
 Exit run(const ColumnsCall& o) {
   Json documents = Json::array();
   Progress progress(o.quiet);
-  if (!says_anything(o)) {
+  if (!says_anything(o) &&
+      std::ranges::any_of(o.files, [&](const auto& file) { return asks_below(o, file); })) {
     for (const auto& file : o.files) documents.push_back(show(o, file, progress));
   } else {
     const ColumnMap map = map_of(o);

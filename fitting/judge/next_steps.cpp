@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -179,25 +180,32 @@ std::vector<std::string> others_of(const Spec& spec) {
   return all;
 }
 
-/// Tries them, and names those that take up most of a misfit.  False where none does.
-/// \param less  the model without a lobe of which nothing is known; if that does as well as the best, no other is named
+/// Tries them, and names those that take up most of a misfit, and so that it shows.  False where none does.
+/// \param less      the model without a lobe of which nothing is known; if that does as well as the best, no other is named
+/// \param needless  whether the fit is that one's
 bool add_models(Steps& steps,
                 const Spec& spec,
                 const FitDocument& d,
                 const TryModel& attempt,
-                const std::string& less) {
+                const std::string& less,
+                bool needless) {
   constexpr double worth = 1 / 3.0;  // of the misfit's square
   constexpr double as_well = 1.02;   // log RMS, of the least
+  constexpr double shows = 0.95;     // log RMS, of what it is
   constexpr std::size_t few = 3;
-  const double here = attempt(d.model), misfit = d.misfit.size * d.misfit.size;
+  const double here = attempt(needless ? less : d.model), misfit = d.misfit.size * d.misfit.size;
   auto others = others_of(spec);
-  if (!less.empty()) others.push_back(less);
+  if (!less.empty()) {
+    std::ranges::copy(others_of(Spec(less)), std::back_inserter(others));
+    others.push_back(less);
+  }
   std::vector<double> left(others.size());
   tbb::parallel_for(std::size_t{0}, left.size(),
                     [&](std::size_t k) { left[k] = attempt(others[k]); });
   std::vector<std::pair<double, std::string>> found;
   for (std::size_t k = 0; k < left.size(); ++k)
-    if (here * here - left[k] * left[k] > worth * misfit) found.emplace_back(left[k], others[k]);
+    if (left[k] < shows * here && here * here - left[k] * left[k] > worth * misfit)
+      found.emplace_back(left[k], others[k]);
   if (found.empty()) return false;
   std::ranges::stable_sort(found, {}, [](const auto& f) { return f.first; });
   const auto simplest = std::ranges::find(found, less, [](const auto& f) { return f.second; });
@@ -227,7 +235,8 @@ std::vector<std::string> next_steps(const FitOptions& o,
     steps.add("fit without --copies keep: angles that only repeat another are no measurements");
   const auto unknown = unknown_lobe(d);
   const std::string less = unknown ? spec.without_lobe(*unknown) : "";
-  const bool mended = d.misfit.told && !f.no_f && add_models(steps, spec, d, attempt, less);
+  const bool mended =
+      d.misfit.told && !f.no_f && add_models(steps, spec, d, attempt, less, f.needless);
   if (f.retro && !mended)
     steps.add("--mask 'retro < 10': no microfacet model has a highlight at wo = wi");
   if (f.cost_of_fewer < d.cost && spec.lobes_alike())

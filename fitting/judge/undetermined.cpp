@@ -171,6 +171,7 @@ bool forget_needless_lobes(const Problem& p,
   if (p.start.model.diffuse.empty() || p.start.model.lobes.empty()) return false;
   const Model diffuse = with_lobes(p.start.model, {});
   const Problem rest = with_free(p, diffuse, slots_read(diffuse));
+  if (rest.free.size() == p.free.size()) return false;  // its lobes are given
   const double without =
       minimise(rest, thin, {rest.start.model, f.model.values, {}}, f.huber).solution.at.cost;
   if (2 * (without - cost) >= luck) return false;

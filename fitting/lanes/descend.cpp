@@ -244,13 +244,19 @@ bool descend(const TexelUnknowns& u,
   const Rows to = room, inner = room.from(n);
   const B will = step_inside(u, x, h, g, damping[0], 3, to, inner);
   const B best = cost[0];
+  // A step cut at the furthest leads elsewhere than its promise was made for: that it promises
+  // little ends nothing.
+  const Rows steps = inner.from(entries(n) + n);
+  B cut = zero;
+  for (std::size_t i = 0; i < n; ++i)
+    cut = max<B>(cut, as_number(!(abs(steps[i]) < B(u.furthest[i]))));
   // Where steps shorten slowly, what the next one promises is not all that is left.
   const auto fast = will < promised / 16;
   const B part = select<B>(fast, constant<B>(1e-11L), constant<B>(1e-13L));
   const auto enough = !(part * best + rounding < will);
   const auto again_hidden = hidden && !begins && !(will < promised * constant<B>(0.95L));
   const auto lost = constant<B>(1e8L) < damping[0] || (begins && !finite);
-  const auto ends = takes && (enough || again_hidden);
+  const auto ends = takes && (enough || again_hidden) && !(zero < cut);
   for (std::size_t i = 0; i < n; ++i)
     tried.put(i, select<B>(moving, select<B>(lost && !ends, x[i], to[i]), tried[i]));
   promise.put(0, select<B>(moving, will, promised));

@@ -158,7 +158,7 @@ TexelUnknowns unknowns_of(const Problem& p, bool tilts) {
   }
   for (const auto& q : m.parameters)
     if (q.count == 1 && p.free.mask()[q.first]) add_slot(q, q.first, 0);
-  constexpr double furthest = 2;  // tangent of the tilt along an axis
+  constexpr double furthest = 12;  // tangent of the tilt along an axis: 85°
   for (std::size_t k = 0; tilts && k < 2; ++k)
     add(m.value_count + k, 0, -furthest, furthest, false);
   u.count = u.slot.size();

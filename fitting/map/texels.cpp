@@ -60,6 +60,7 @@ class LaneFit {
   void take_lowest(std::vector<float>& lowest);
   void finish(std::span<const std::size_t> texels);
   void judge_singular(std::size_t lane);
+  bool leaves_tilt_open(std::size_t lane) const;
   void put_values(const float* unknowns);
   float* row(Column<float>& c, std::size_t r) const { return c.data() + r * padding; }
   std::size_t n() const { return task_.unknowns.count; }
@@ -455,6 +456,15 @@ void LaneFit::take_lowest(std::vector<float>& lowest) {
   }
 }
 
+/// True of a lane whose normal is sought in fewer than three images with light: whatever fits, others fit as well.
+bool LaneFit::leaves_tilt_open(std::size_t lane) const {
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < in_.images; ++i)
+    lit += std::ranges::any_of(std::span(weight_).first(in_.channels),
+                               [&](const auto& w) { return w[i * width_ + lane] > 0; });
+  return task_.asked.refine_normals && lit < 3;
+}
+
 void LaneFit::finish(std::span<const std::size_t> texels) {
   const auto& u = task_.unknowns;
   const std::size_t slots = task_.model().value_count;
@@ -489,7 +499,7 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
   for (std::size_t l = 0; l < texels.size(); ++l) {
     if (state_.done[l] == 0) continue;  // waits
     const std::size_t t = texels[l];
-    const bool none = count_[l] == 0;
+    const bool none = count_[l] == 0, few = none || leaves_tilt_open(l);
     float squares = 0;
     for (std::size_t c = 0; c < in_.channels; ++c) squares += passes_.sums()[c][l];
     out_.rms[t] = none ? nan : std::sqrt(squares / count_[l]);
@@ -519,9 +529,9 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
         if (i < n()) {
           const float left = left_out_[i * padding + l],
                       error = std::sqrt(variance_[i * padding + l]);
-          status = none || left >= 2 || std::isnan(to.value[t]) ? ParameterStatus::not_identifiable
-                   : left == 1                                  ? ParameterStatus::at_bound
-                                                                : ParameterStatus::free;
+          status = few || left >= 2 || std::isnan(to.value[t]) ? ParameterStatus::not_identifiable
+                   : left == 1                                 ? ParameterStatus::at_bound
+                                                               : ParameterStatus::free;
           if (status == ParameterStatus::free && values > taken) {
             const double half = t_[values - taken] * double{error};
             // A tangent is the same half a turn further.
@@ -536,9 +546,12 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
         }
         to.status[t] = static_cast<std::uint8_t>(status);
       }
-    if (task_.asked.refine_normals)
-      for (std::size_t k = 0; k < 3; ++k)
-        out_.normal[k * in_.texels + t] = none ? nan : frame_[(6 + k) * padding + l];
+    if (!task_.asked.refine_normals) continue;
+    const std::size_t tilt = task_.unknown_of[slots];
+    const bool open =
+        few || left_out_[tilt * padding + l] >= 2 || left_out_[(tilt + 1) * padding + l] >= 2;
+    for (std::size_t k = 0; k < 3; ++k)
+      out_.normal[k * in_.texels + t] = open ? nan : frame_[(6 + k) * padding + l];
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "fitting/judge/uncertainty.h"
@@ -19,6 +20,16 @@ Eigen::ArrayXd of_range(const Eigen::VectorXd& range) {
   return 12 / range.array().square();
 }
 
+/// Degrees of freedom of which Student's t is that.
+double freedom_of(double t, double most) {
+  double low = 1, high = std::max(most, 1.0);
+  for (int k = 0; k < 40; ++k) {
+    const double middle = std::sqrt(low * high);
+    (students_t_quantile(0.975, middle) > t ? low : high) = middle;
+  }
+  return low;
+}
+
 }  // namespace
 
 /// Variances with so many samples, and what single values have to do with them.
@@ -28,6 +39,7 @@ struct Forecast::Sums {
   Eigen::ArrayXd fourth, squares;  ///< Σ b⁴, Σ (b²/(1 − h))², of the values followed
   Eigen::ArrayXd from_new;         ///< Σ b² over the new values
   double freedom;
+  double samples = 0;  ///< new ones
 
   /// Degrees of freedom of each unknown.
   double nu(Index k) const {
@@ -46,10 +58,13 @@ Forecast::Forecast(FitSoFar f) : fit_(std::move(f)) {
     for (auto& j : fit_.values) j.col(k).setZero();
   }
   excess_ = Eigen::VectorXd::Ones(fit_.range.size());
+  shared_ = Eigen::VectorXd::Constant(fit_.range.size(), std::numeric_limits<double>::infinity());
   const Sums now = sums({});
   for (Index k = 0; k < excess_.size(); ++k) {
     if (fit_.in_proportion && !std::isnan(fit_.width[k])) {
-      const double alike = 2 * students_t_quantile(0.975, now.freedom) * std::sqrt(now.variance[k]);
+      if (!std::isnan(fit_.std_error[k]))
+        shared_[k] = freedom_of(fit_.width[k] / fit_.std_error[k] / 2, fit_.freedom);
+      const double alike = 2 * t_of(now, k, now.freedom) * std::sqrt(now.variance[k]);
       excess_[k] = std::pow(fit_.width[k] / alike, 2);
     } else if (!std::isnan(fit_.std_error[k]) && !std::isnan(fit_.width[k])) {
       constexpr double as_if = 8;  // values that say that noise is alike
@@ -86,6 +101,7 @@ Forecast::Sums Forecast::sums(SampleList more) const {
   };
   for (const auto& j : fit_.values) add(j, false);
   for (const auto* j : more) add(*j, true);
+  s.samples = static_cast<double>(more.size());
   return s;
 }
 
@@ -95,15 +111,21 @@ Eigen::VectorXd Forecast::factor(const Sums& s) const {
   return (1 + (excess_.array() - 1) * old).sqrt();
 }
 
+double Forecast::t_of(const Sums& s, Index k, double most) const {
+  return students_t_quantile(0.975, std::min(most, shared_[k] + s.samples));
+}
+
 Eigen::VectorXd Forecast::widths(SampleList more) const {
   const Sums s = sums(more);
-  return 2 * students_t_quantile(0.975, s.freedom) * s.variance.sqrt() * factor(s).array();
+  Eigen::ArrayXd t(s.variance.size());
+  for (Index k = 0; k < t.size(); ++k) t[k] = t_of(s, k, s.freedom);
+  return 2 * t * s.variance.sqrt() * factor(s).array();
 }
 
 Eigen::VectorXd Forecast::told_widths(SampleList more) const {
   const Sums s = sums(more);
   Eigen::ArrayXd t(s.variance.size());
-  for (Index k = 0; k < t.size(); ++k) t[k] = students_t_quantile(0.975, s.nu(k));
+  for (Index k = 0; k < t.size(); ++k) t[k] = t_of(s, k, s.nu(k));
   return 2 * t * s.leveraged.sqrt() * factor(s).array();
 }
 

@@ -32,7 +32,8 @@ struct FitSoFar {
 ///
 /// o_k is the table's share in the variance, Σ b² over its values over V_kk, b = (V j)_k; e_k² is what the fit's own variance (of a
 /// sandwich, which knows of noise that is not alike) is of that which noise alike would make, as far as ν values can tell it:
-/// (ν e² + 8)/(ν + 8).  Where there is a misfit, or incident angles share errors, all widths stay in proportion to the fit's.
+/// (ν e² + 8)/(ν + 8).  Where there is a misfit, or incident angles share errors, standard errors stay in proportion to the fit's,
+/// and Student's t, of as few degrees of freedom as the fit's width is of its error, gains one by each sample: a further angle.
 /// The table is taken to say nothing of an unknown without an interval.
 class Forecast {
  public:
@@ -54,9 +55,13 @@ class Forecast {
   struct Sums;
   Sums sums(SampleList more) const;
   Eigen::VectorXd factor(const Sums&) const;
+  /// Student's t of an unknown with these samples, of at most so many degrees of freedom.
+  double t_of(const Sums&, Eigen::Index unknown, double most) const;
 
   FitSoFar fit_;
   Eigen::VectorXd excess_;  ///< e²
+  Eigen::VectorXd
+      shared_;  ///< degrees of freedom of the fit's widths, where they stay in proportion
 };
 
 }  // namespace gonio

@@ -1,5 +1,12 @@
 // gonio columns: what a file's columns are is said once, and every command knows it from then on.
+#include <cmath>
+#include <functional>
+
+#include "brdf/model/evaluate.h"
 #include "cli/program.h"
+#include "geometry/half_difference.h"
+
+#include <fmt/format.h>
 
 namespace gonio::test {
 namespace {
@@ -45,6 +52,65 @@ TEST(Columns, AreProposedAsACommandThatCanBeRun) {
             (nlohmann::json{"500", "600"}));
   f.write("own.csv", "theta_i,theta_o,f\n10,20,1\n");
   EXPECT_NE(gonio(f, "columns own.csv").out.find("none is needed"), std::string::npos);
+}
+
+TEST(Columns, AreProposedBelowTheLinesThatArePassedOver) {
+  const Folder f;
+  f.write("t.csv", "made by\nsomeone\nIncident_angle,Measure_angle,bsdf\n10,20,1\n10,30,2\n");
+  const std::string text = gonio(f, "columns t.csv --skip 2").out;
+  const auto at = text.find("\n  gonio columns ");
+  ASSERT_NE(at, text.npos) << text;
+  const std::string command = text.substr(at + 9, text.find('\n', at + 1) - at - 9);
+  EXPECT_TRUE(command.ends_with("--skip 2")) << command;
+  ASSERT_EQ(gonio(f, command).code, 0) << command;
+  EXPECT_EQ(gonio(f, "inspect t.csv --json").json()["samples"], 2);
+}
+
+/// Values of a paint at ten incident angles, half round, as a file has them that is no f.
+/// \param rest  of a line, by f, cos θ_i and cos θ_o
+std::string paint_as(const std::string& heading,
+                     const std::function<std::string(double, double, double)>& rest) {
+  const BoundModel paint = bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                                      {{"alpha", {0.2}}, {"f0", {0.05}}, {"kd", {0.3}}}, 1);
+  std::string text = "theta_i,phi_i,theta_o,phi_o," + heading + "\n";
+  for (int in = 0; in <= 72; in += 8)
+    for (int out = 0; out <= 72; out += 8)
+      for (int phi = 0; phi <= (out > 0 ? 180 : 0); phi += 15) {
+        const auto a =
+            angles(DirectionPair{direction(in * degree, 0), direction(out * degree, phi * degree)});
+        text += fmt::format("{},0,{},{},{}\n", in, out, phi,
+                            rest(evaluate(paint, std::vector{a})[0][0], a.nol, a.nov));
+      }
+  return text;
+}
+
+TEST(Columns, ThatHoldNoReflectanceAreMendedByTheCommandThatIsGiven) {
+  const auto one = [](auto&& value) {
+    return [value](double f, double i, double o) { return fmt::format("{:.12g}", value(f, i, o)); };
+  };
+  const std::pair<const char*, std::string> cases[] = {
+      {"a radiance factor", paint_as("f", one([](double f, double, double) { return M_PI * f; }))},
+      {"in percent", paint_as("f", one([](double f, double, double) { return 100 * M_PI * f; }))},
+      {"f cos(theta_o)", paint_as("f", one([](double f, double, double o) { return f * o; }))},
+      {"f cos(theta_i)", paint_as("f", one([](double f, double i, double) { return f * i; }))},
+      {"channel r", paint_as("f_r,f_g,f_b", [](double f, double, double) {
+         return fmt::format("{:.9g},{:.9g},{:.9g}", f - 0.11, f + 0.1, f + 0.2);
+       })}};
+  for (const auto& [said, text] : cases) {
+    const Folder f;
+    f.write("t.csv", text);
+    const std::string beware = gonio(f, "inspect t.csv").out;
+    const auto at = beware.find("(gonio columns FILE ");
+    ASSERT_NE(beware.find(said), beware.npos) << said << beware;
+    if (at == beware.npos) {
+      ADD_FAILURE() << said << beware;
+      continue;
+    }
+    auto options = beware.substr(at + 20, beware.find(')', at) - at - 20);
+    if (const auto words = options.find(" leaves"); words != options.npos) options.resize(words);
+    ASSERT_EQ(gonio(f, "columns t.csv " + options).code, 0) << options;
+    EXPECT_EQ(gonio(f, "inspect t.csv").out.find(said), std::string::npos) << options;
+  }
 }
 
 TEST(Columns, InJsonKeepTheirNamesAndHaveNoRangeWhereThereIsNoNumber) {

@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "brdf/model/evaluate.h"
-#include "table/table.h"
+#include "tables.h"
 
 namespace gonio::test {
 
@@ -21,14 +20,8 @@ inline void put_on_goniometer(Table& t, const BoundModel& truth) {
         l.theta_o_deg.push_back(out);
         l.phi_o_deg.push_back(phi);
       }
-  const std::size_t n = l.theta_i_deg.size();
   t.where = std::move(l);
-  t.values.assign(truth.model.channels, Values(n));
-  const SampleAngles at(t);
-  std::vector<Angles<double>> angles;
-  for (std::size_t i = 0; i < n; ++i) angles.push_back(at(i));
-  const auto f = evaluate(truth, angles);
-  for (std::size_t c = 0; c < f.size(); ++c) t.values[c].assign(f[c].begin(), f[c].end());
+  put_values(t, truth);
 }
 
 }  // namespace gonio::test

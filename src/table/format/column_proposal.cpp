@@ -41,21 +41,22 @@ constexpr std::array units{Words("angle"), Words("winkel"),  Words("degrees"), W
                            Words("deg"),   Words("radians"), Words("radian"),  Words("rad")};
 constexpr std::array zeniths{Words("theta"), Words("zenith"), Words("polar")};
 constexpr std::array azimuths{Words("phi"), Words("azimuth"), Words("azimut"), Words("azi")};
-constexpr std::array light{Words("i"),        Words("in"),      Words("inc"),   Words("incident"),
-                           Words("incoming"), Words("source"),  Words("light"), Words("l"),
-                           Words("illum"),    Words("einfalls")};
+constexpr std::array light{Words("i"),        Words("in"),       Words("inc"),   Words("incident"),
+                           Words("incoming"), Words("source"),   Words("light"), Words("l"),
+                           Words("illum"),    Words("einfalls"), Words("ein")};
 constexpr std::array viewer{
-    Words("o"),       Words("out"),         Words("outgoing"),  Words("r"),
-    Words("refl"),    Words("ref"),         Words("reflected"), Words("s"),
-    Words("scatter"), Words("scattered"),   Words("v"),         Words("view"),
-    Words("viewing"), Words("detector"),    Words("det"),       Words("e"),
-    Words("measure"), Words("measurement"), Words("observer"),  Words("ausfalls"),
-    Words("streu"),   Words("beobachtungs")};
+    Words("o"),       Words("out"),          Words("outgoing"),  Words("r"),
+    Words("refl"),    Words("ref"),          Words("reflected"), Words("s"),
+    Words("scatter"), Words("scattered"),    Words("v"),         Words("view"),
+    Words("viewing"), Words("detector"),     Words("det"),       Words("e"),
+    Words("measure"), Words("measurement"),  Words("observer"),  Words("ausfalls"),
+    Words("streu"),   Words("beobachtungs"), Words("aus"),       Words("observation")};
 constexpr std::array incidence{Words("aoi"), Words("incidence"), Words("incidenceangle"),
                                Words("angleofincidence")};
-constexpr std::array values{Words("f"),        Words("brdf"),  Words("bsdf"),      Words("fr"),
-                            Words("fr11"),     Words("f11"),   Words("brdfvalue"), Words("value"),
-                            Words("measured"), Words("ccbrdf")};
+constexpr std::array values{
+    Words("f"),    Words("brdf"),      Words("bsdf"),  Words("fr"),       Words("fr11"),
+    Words("f11"),  Words("brdfvalue"), Words("value"), Words("measured"), Words("ccbrdf"),
+    Words("wert"), Words("messwert"),  Words("valeur")};
 constexpr std::array wavelengths{Words("lambda"),      Words("wavelength"),   Words("wl"),
                                  Words("lambdanm"),    Words("wavelengthnm"), Words("nm"),
                                  Words("wellenlaenge")};

@@ -18,7 +18,8 @@
 namespace gonio {
 namespace {
 
-/// f of each channel at a pair of directions, and as the geometric mean of samples there; NaN where the table does not say.
+/// f of each channel at a pair of directions, and where there is room for it the geometric mean of samples there; NaN
+/// where the table does not say.
 using Between =
     std::function<void(const DirectionPair&, std::span<double> f, std::span<double> geometric)>;
 
@@ -27,16 +28,16 @@ using Between =
 ///
 ///   ∫ f cos θ_o dω_o = ∫ dψ ∫₀^end dθ_h 4 VoH f NoL sin θ_h,   θ_h = end x³
 ///
-/// The error is what two rules of every other node differ by, and what it changes to interpolate logarithms: between samples
-/// on the flank of a highlight the surface lies between the two.
+/// The error is what two rules of every other node differ by, and what it changes to interpolate logarithms, by every
+/// fourth node: between samples on the flank of a highlight the surface lies between the two.
 AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& f) {
-  constexpr std::size_t radii = 128, rays = 96;
+  constexpr std::size_t radii = 96, rays = 64;
   constexpr double pi = std::numbers::pi;
   const Direction wi = direction(theta_i_deg * degree, 0);
   const double slope = wi.x / wi.z;
   struct Sums {
     std::array<double, 2> value{}, weight{};  // of every other node
-    double geometric = 0;
+    double apart = 0, looked_at = 0;          // of the geometric means
   };
   std::vector<Sums> sums(channels);
   std::vector<double> value(channels), geometric(channels);
@@ -52,23 +53,26 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
       const double weight = 12 * voh * std::max(wo.z, 0.0) * std::sin(theta) * end * x * x;
       if (!(weight > 0)) continue;
       whole += weight;
-      f({wi, wo}, value, geometric);
+      const bool both = (i + 2 * j) % 4 == 0;
+      f({wi, wo}, value, both ? geometric : std::span<double>{});
       for (std::size_t c = 0; c < channels; ++c) {
         if (!std::isfinite(value[c])) continue;
         sums[c].value[(i + j) % 2] += weight * value[c];
         sums[c].weight[(i + j) % 2] += weight;
-        sums[c].geometric += weight * geometric[c];
+        if (!both) continue;
+        sums[c].apart += weight * (geometric[c] - value[c]);
+        sums[c].looked_at += weight;
       }
     }
   }
   AlbedoSample a{theta_i_deg, 0, {}, 1, 0};
-  for (const auto& [v, w, other] : sums) {
+  for (const auto& [v, w, apart, looked_at] : sums) {
     const double all = w[0] + w[1], mean = pi * (v[0] + v[1]) / all;
     a.albedo.push_back(all > whole / 2 ? mean : std::nan(""));
     a.coverage = std::min(a.coverage, all / whole);
     if (!(all > whole / 2)) continue;
     const double halves = pi * std::abs(v[0] / w[0] - v[1] / w[1]);
-    a.error = std::max(a.error, halves + std::abs(pi * other / all - mean));
+    a.error = std::max(a.error, halves + pi * std::abs(apart / std::max(looked_at, 1e-300)));
   }
   return a;
 }
@@ -214,6 +218,7 @@ AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
                        const GridCell cell = cell_around(t, at, p);
                        for (std::size_t c = 0; c < channels; ++c) {
                          f[c] = cell.mean_of(t.values[c]);
+                         if (geometric.empty()) continue;
                          double logs = 0, parts = 0;
                          for (std::size_t k = 0; k < cell.count; ++k)
                            if (const double v = t.values[c][cell.sample[k]];
@@ -229,7 +234,8 @@ AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
   return integrate(theta_i_deg, channels,
                    [&](const DirectionPair& p, std::span<double> f, std::span<double> geometric) {
                      for (std::size_t c = 0; c < channels; ++c)
-                       f[c] = geometric[c] = rgl ? rgl(p, c) : between(p, c);
+                       f[c] = rgl ? rgl(p, c) : between(p, c);
+                     if (!geometric.empty()) std::ranges::copy(f, geometric.begin());
                    });
 }
 

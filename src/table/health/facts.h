@@ -38,6 +38,12 @@ class TableFacts {
   const Reciprocity& reciprocity() {
     return once(reciprocity_, [&] { return gonio::reciprocity(table_); });
   }
+  const std::optional<std::size_t>& negative_channel() {
+    return once(negative_channel_, [&] { return gonio::negative_channel(*this); });
+  }
+  double noise_floor() {
+    return once(noise_floor_, [&] { return gonio::noise_floor(*this); });
+  }
   /// See one_value_per_angle().
   bool computed() {
     return once(computed_, [&] { return one_value_per_angle(table_); });
@@ -56,6 +62,8 @@ class TableFacts {
   std::optional<Noise> noise_;
   std::optional<std::vector<AlbedoSample>> albedo_;
   std::optional<Reciprocity> reciprocity_;
+  std::optional<std::optional<std::size_t>> negative_channel_;
+  std::optional<double> noise_floor_;
   std::optional<bool> computed_;
 };
 

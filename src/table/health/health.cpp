@@ -53,6 +53,12 @@ Tally tally(const Table& t) {
 }  // namespace
 
 double noise_floor(const Table& t) {
+  TableFacts facts(t);
+  return facts.noise_floor();
+}
+
+double noise_floor(TableFacts& facts) {
+  const Table& t = facts.table();
   const auto has_negative = [](const Values& plane) {
     return std::ranges::any_of(plane, [](double v) { return v < 0; });
   };
@@ -68,7 +74,7 @@ double noise_floor(const Table& t) {
       if (m == Mask::negative) sizes.push_back(-plane[i]);
     }
   }
-  if (sizes.empty() || sizes.size() * 1000 < above_horizon || negative_channel(t)) return 0;
+  if (sizes.empty() || sizes.size() * 1000 < above_horizon || facts.negative_channel()) return 0;
   const double middle = median(sizes);
   // More than half of them one number: a mark for missing data, as a format would have one.
   const auto same = static_cast<std::size_t>(std::ranges::count(sizes, middle));
@@ -181,7 +187,7 @@ Health inspect(const Table& t) {
   h.valid = h.masked[static_cast<std::size_t>(Mask::valid)];
   h.largest = counts.largest;
   if (std::isfinite(counts.smallest)) h.smallest_positive = counts.smallest;
-  h.noise_floor = noise_floor(t);
+  h.noise_floor = facts.noise_floor();
   h.copied_rows = copied_rows(t, 0);
   h.copied_columns = copied_rows(t, 1);
   h.albedo = facts.albedo();
@@ -203,7 +209,7 @@ Health inspect(const Table& t) {
       p.limit = PeakLimit::bins;
   }
   h.retro = facts.retro();
-  h.prospects = prospects(t, h);
+  h.prospects = prospects(facts, h);
   for (auto& w : value_warnings(facts)) h.warnings.push_back(std::move(w.text));
   return h;
 }

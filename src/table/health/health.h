@@ -15,6 +15,8 @@
 
 namespace gonio {
 
+class TableFacts;
+
 /// ∫ f cos θ_o dω_o at one incident angle, per channel; `coverage` is the share of the
 /// cosine-weighted hemisphere that valid samples speak for in the channel that has the fewest; what
 /// lacks counts as their mean.  NaN for a channel where more than half lacks.
@@ -80,7 +82,10 @@ Health inspect(const Table&);
 /// The noise floor that negative values betray [1/sr]: 1.4826 · median |negative| above the horizon,
 /// where negatives are noise, make up at least 0.1 % of the values there, and are not one number that
 /// marks missing data; else 0.
+double noise_floor(TableFacts&);
 double noise_floor(const Table&);
+/// The channel that holds all the negative values, where a noise floor would show in the others, too.
+std::optional<std::size_t> negative_channel(TableFacts&);
 
 /// For each angle of an in/out grid's axis 0 (incident) or 1 (outgoing) the first of the run of angles
 /// that hold the very same values, bit for bit: itself, unless it was filled in from its neighbour.  A

@@ -52,19 +52,22 @@ std::array<Profile, kProfiles> collect(const Table& t, Bins bins, Around around)
   };
   const Grid* g = t.grid();
   if (g && g->kind == Grid::Kind::half_difference) {
-    const auto [n_h, n_d, n_phi] = std::array{g->axes[0].size, g->axes[1].size, g->axes[2].size};
+    const std::size_t n_d = g->axes[1].size, n_phi = g->axes[2].size;
     // Who asks about the retro direction asks whether, not how wide: some φ_d are enough.
     const std::size_t step = mirror ? 1 : (n_phi + 23) / 24;
-    const Axis& across = g->axes[mirror ? 1 : 0];
+    const Axis &across = g->axes[mirror ? 1 : 0], &along = g->axes[mirror ? 0 : 1];
     for (std::size_t band = 0; band < kProfiles; ++band) {
       const double middle = kFirst + (static_cast<double>(band) + 0.5) * kStep;
       const auto row = static_cast<std::size_t>(std::lround(
           std::clamp(across.index(middle, bins), 0.0, static_cast<double>(across.size - 1))));
-      for (std::size_t j = 0; j < (mirror ? n_h : n_d); ++j)
-        for (std::size_t k = 0; k < n_phi; k += step) {
-          const std::size_t i = (mirror ? j * n_d + row : row * n_d + j) * n_phi + k;
-          add(profiles[band], at(i), i);
-        }
+      for (std::size_t j = 0; j < along.size; ++j) {
+        const auto samples = at.row(mirror ? j * n_d + row : row * n_d + j);
+        double mean = 0, count = 0;
+        for (std::size_t k = 0; k < n_phi; k += step)
+          if (const double v = mean_value(t, samples(k), samples.first() + k); !std::isnan(v))
+            ++count, mean += v / count - mean / count;  // their sum may be infinite
+        if (count > 0) profiles[band].push_back({along.angle(static_cast<double>(j), bins), mean});
+      }
     }
   } else {
     // Those in a band, and few others.

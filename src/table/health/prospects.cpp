@@ -7,7 +7,6 @@
 #include "base/quantile.h"
 #include "base/text.h"
 #include "brdf/model/evaluate.h"
-#include "table/health/computed.h"
 
 #include <fmt/format.h>
 
@@ -37,12 +36,13 @@ double tail_of(double alpha, const std::vector<Angles<double>>& base) {
   return sum / static_cast<double>(base.size()) / evaluate(lobe, top)[0][0];
 }
 
-Survey survey(const Table& t, const Health& h) {
+Survey survey(TableFacts& facts, const Health& h) {
+  const Table& t = facts.table();
   const SampleAngles at(t);
   const std::size_t step = t.size() / 200'000 + 1;
   const double within = h.peak ? std::max(h.peak->half_width_deg, 3.0) : 3.0;
   Survey s;
-  s.computed = one_value_per_angle(t);
+  s.computed = facts.computed();
   std::vector<double> values;
   std::vector<Angles<double>> base;
   std::size_t in_noise = 0;
@@ -209,16 +209,16 @@ Prospect intervals(const Table& t) {
 
 }  // namespace
 
-std::vector<Prospect> prospects(const Table& t, const Health& h) {
+std::vector<Prospect> prospects(TableFacts& facts, const Health& h) {
   if (h.valid == 0) return {{"alpha", no, "no value is valid"}};
-  const Survey s = survey(t, h);
+  const Survey s = survey(facts, h);
   std::vector<Prospect> all{alpha(h, s)};
   const Verdict of_alpha = all[0].verdict;
   all.push_back(f0(h, s, of_alpha));
   all.push_back(fresnel(s, of_alpha, h.peak.has_value()));
   all.push_back(kd(h, s));
   all.push_back(precision(h, s));
-  all.push_back(intervals(t));
+  all.push_back(intervals(facts.table()));
   return all;
 }
 

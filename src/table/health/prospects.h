@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "table/health/health.h"
+#include "table/health/facts.h"
 
 namespace gonio {
 
@@ -25,6 +25,6 @@ namespace gonio {
 /// precision: yes to 5 % relative noise, weakly to 30 %; weakly where more than half of the valid
 ///   values are below three times the noise floor.
 /// intervals, by incident angle: yes from 8 incident angles on, weakly from 2.
-std::vector<Prospect> prospects(const Table&, const Health& health);
+std::vector<Prospect> prospects(TableFacts&, const Health&);
 
 }  // namespace gonio

@@ -72,10 +72,10 @@ void warn_of_light(TableFacts& facts, std::vector<std::string>& all) {
   }
   constexpr double next_to_nothing = 5e-4;
   if (whole > 0 && whole < next_to_nothing)
-    all.push_back(fmt::format(
-        "the table returns {:.2g} of the light: a relative scale? (gonio columns FILE --scale, "
-        "or a model with schlick.weighted)",
-        whole));
+    all.push_back(
+        fmt::format("the table returns {:.2g} of the light: a relative scale? (--model "
+                    "lambert+ggx/smith_ggx.correlated/schlick.weighted fits that, too)",
+                    whole));
   if (const auto bright = bright_everywhere(t))
     all.push_back(fmt::format(
         "values at theta_i {:.3g}° are above 1/pi: probably {:.3g} times the light or more{}",
@@ -90,7 +90,9 @@ struct Cosines {
 };
 constexpr std::array one_cosine{Cosines{0, 1, "f cos(theta_o)", " (gonio columns FILE --cosine)"},
                                 Cosines{-1, 0, "f/cos(theta_i)", ""},
-                                Cosines{1, 0, "f cos(theta_i)", ""},
+                                Cosines{1, 0, "f cos(theta_i)",
+                                        " (gonio columns FILE --map theta_i=theta_o phi_i=phi_o "
+                                        "theta_o=theta_i phi_o=phi_i --cosine)"},
                                 Cosines{0, -1, "f/cos(theta_o)", ""}};
 constexpr std::array two_cosines{Cosines{1, 1, "f cos(theta_i) cos(theta_o)", ""},
                                  Cosines{-1, -1, "f/(cos(theta_i) cos(theta_o))", ""}};
@@ -104,7 +106,7 @@ std::optional<Trend> trend_of(const Table& t, const Cosines& c) {
   const SampleAngles at(t);
   const double off_specular = std::sin(25 * degree);
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
-  const std::size_t step = t.size() / 100'000 + 1;
+  const std::size_t step = t.size() / 30'000 + 1;
   for (std::size_t i = 0; i < t.size(); i += step) {
     const auto a = at(i);
     if (!(std::min(a.nol, a.nov) > 0.17) || a.sin2_theta_h < off_specular * off_specular) continue;
@@ -179,7 +181,7 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
   const FileRounding rounding = rounding_of(t);
   const double one_digit = 20 * rounding.absolute;  // six steps
   std::size_t zeros = 0, coarse = 0, values = 0, negative = 0;
-  const std::size_t step = t.size() / 200'000 + 1;
+  const std::size_t step = t.size() / 60'000 + 1;
   for (const auto& plane : t.values) {
     std::size_t none = 0, some = 0;
     for (std::size_t i = 0; i < t.size(); i += step) {
@@ -209,17 +211,24 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
                     zeros, values));
 }
 
-void warn_of_negative_channel(const Table& t, std::vector<std::string>& all) {
-  if (const auto c = negative_channel(t))
-    all.push_back(fmt::format(
-        "all negative values are of channel {}: a colour outside the gamut, or an offset; noise "
-        "would show in all channels",
-        t.channels[*c]));
+void warn_of_negative_channel(TableFacts& facts, std::vector<std::string>& all) {
+  const auto of = facts.negative_channel();
+  if (!of) return;
+  const Table& t = facts.table();
+  std::string others;
+  for (std::size_t c = 0; c < t.channels.size(); ++c)
+    if (c != *of) others += fmt::format(" f_{0}=f_{0}", t.channels[c]);
+  all.push_back(fmt::format(
+      "all negative values are of channel {}: a colour outside the gamut, or an offset; noise "
+      "would show in all channels{}",
+      t.channels[*of],
+      t.format == "csv" ? fmt::format(" (gonio columns FILE --map{} leaves it out)", others) : ""));
 }
 
 }  // namespace
 
-std::optional<std::size_t> negative_channel(const Table& t) {
+std::optional<std::size_t> negative_channel(TableFacts& facts) {
+  const Table& t = facts.table();
   if (!t.negative_is_noise || t.values.size() < 2) return {};
   std::optional<std::size_t> of;
   std::vector<double> sizes;
@@ -235,7 +244,7 @@ std::optional<std::size_t> negative_channel(const Table& t) {
   if (sizes.size() < few) return {};
   // What neighbours differ by, in the other channels: far less than such a floor.
   std::vector<double> noise;
-  for (const auto& d : noise_samples(t).all)
+  for (const auto& d : facts.noise_samples().all)
     if (d.channel != *of) noise.push_back(std::abs(d.more) * t.values[d.channel][d.sample]);
   if (noise.empty() || 3 * median(noise) > median(sizes)) return {};
   return of;
@@ -247,7 +256,7 @@ std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   warn_of_cosine(facts, texts);
   const std::size_t of_unit = texts.size();
   warn_of_zeros(facts, texts);
-  warn_of_negative_channel(facts.table(), texts);
+  warn_of_negative_channel(facts, texts);
   std::vector<ValueWarning> all;
   for (auto& text : texts) all.push_back({std::move(text), all.size() < of_unit});
   return all;

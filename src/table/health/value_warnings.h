@@ -2,7 +2,6 @@
 /// \file
 /// What a table's values may be other than f in 1/sr.
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,5 @@ std::vector<ValueWarning> value_warnings(TableFacts&);
 inline bool is_answered_by_a_fit(const std::string& warning) {
   return warning.starts_with("values on the light's side reach ");
 }
-
-/// The channel that holds all the negative values, where a noise floor would show in the others, too.
-std::optional<std::size_t> negative_channel(const Table&);
 
 }  // namespace gonio

@@ -15,6 +15,7 @@
 #include "fitting/support.h"
 #include "many_fits.h"
 #include "refusal.h"
+#include "tables.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -299,12 +300,9 @@ TEST(ModelChoice, OfTwoLobesAtFourAnglesDoesNotTakeADiffuseTermAlone) {
       l.phi_o_deg.push_back(out < 0 ? 0 : 180);
     }
   t.where = l;
-  const SampleAngles at(t);
-  std::vector<Angles<double>> angles;
-  for (std::size_t i = 0; i < t.size(); ++i) angles.push_back(at(i));
   const auto truth = test::bind(
       two.c_str(), "kd=0.05,alpha=0.08,f0=0.04,weight=0.5,alpha_2=0.5,f0_2=0.2,weight_2=0.5", 1);
-  std::ranges::copy(evaluate(truth, angles)[0], t.values[0].begin());
+  test::put_values(t, truth);
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   for (double& v : t.values[0]) v *= std::exp(0.01 * normal(random));

@@ -9,6 +9,7 @@
 #include "fitting/choice/choice.h"
 #include "fitting/support.h"
 #include "many_fits.h"
+#include "tables.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -44,11 +45,8 @@ DirectionList goniometer(int angles, double most, int step, int turn) {
 std::vector<double> values_at(const BoundModel& model, const DirectionList& l) {
   Table t = test::list_of(std::vector<double>(l.theta_i_deg.size()));
   t.where = l;
-  const SampleAngles at(t);
-  std::vector<Angles<double>> all;
-  for (std::size_t i = 0; i < t.size(); ++i) all.push_back(at(i));
-  const auto f = evaluate(model, all)[0];
-  return {f.begin(), f.end()};
+  test::put_values(t, model);
+  return {t.values[0].begin(), t.values[0].end()};
 }
 
 /// What the recommended model is off the truth by between the angles that were measured, over what the best is, in log RMS.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <random>
 
@@ -434,6 +435,64 @@ TEST(LackOfFit, OfFewMeasuredAnglesIsToldThoughTheScaleOfEachIsLeftOpen) {
   const auto d = fit_of(t);
   EXPECT_LE(d.clusters, 4U);
   EXPECT_TRUE(d.misfit.told) << d.misfit.note;
+}
+
+/// Measured values in the plane of incidence, every 2°.
+/// \param value  by θ_i and the angle to the side of the mirror direction, in degrees
+Table measured_in_plane(int angles, const std::function<double(double, double)>& value) {
+  Table t = test::list_of({});
+  DirectionList l;
+  for (int k = 0; k < angles; ++k)
+    for (int out = -80; out <= 80; out += 2) {
+      l.theta_i_deg.push_back(10 + 60.0 * k / (angles - 1));
+      l.phi_i_deg.push_back(0);
+      l.theta_o_deg.push_back(std::abs(out));
+      l.phi_o_deg.push_back(out < 0 ? 0 : 180);
+      t.values[0].push_back(value(l.theta_i_deg.back(), out));
+    }
+  t.where = std::move(l);
+  return t;
+}
+
+TEST(LackOfFit, OfAParameterAtItsBoundIsTold) {
+  const auto d =
+      fit_of(measured_in_plane(14, [](double, double) { return 0.6123456789; }), "lambert");
+  EXPECT_EQ(test::parameter(d, "kd").status[0], ParameterStatus::at_bound);
+  EXPECT_TRUE(d.misfit.told) << d.misfit.note;
+  EXPECT_NEAR(d.misfit.size, d.residuals.log_rms, 0.02);
+}
+
+TEST(LackOfFit, OfScalesOfAnglesIsToldWhereNoInstrumentErrsSoMuch) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  const auto told = [&](double gain) {
+    return fit_of(measured_in_plane(6,
+                                    [&](double in, double) {
+                                      const bool up = std::lround(in / 12) % 2 == 0;
+                                      return 0.1 *
+                                             std::exp(0.01 * normal(random) + (up ? gain : -gain));
+                                    }),
+                  "lambert")
+        .misfit.told;
+  };
+  EXPECT_TRUE(told(0.3));
+  EXPECT_FALSE(told(0.03));
+}
+
+TEST(LackOfFit, OfARippleThatNoSmoothFunctionFollowsIsToldBesideTheNoise) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  const auto told = [&](double ripple) {
+    return fit_of(measured_in_plane(10,
+                                    [&](double, double out) {
+                                      return 0.1 * std::exp(0.002 * normal(random) +
+                                                            ripple * std::sin(out * 2 * M_PI / 24));
+                                    }),
+                  "lambert")
+        .misfit.told;
+  };
+  EXPECT_TRUE(told(0.1));
+  EXPECT_FALSE(told(0));
 }
 
 TEST(LackOfFit, WidensTheIntervals) {

@@ -9,6 +9,7 @@
 #include "fitting/fit.h"
 #include "fitting/support.h"
 #include "many_fits.h"
+#include "tables.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -77,13 +78,8 @@ MeasuredTable measured_table(
         for (int phi = 0; phi <= (out > 0 ? 180 : 0); phi += turn) add(in, out, phi);
   }
   t.where = std::move(l);
-  const BoundModel truth = test::bind(pair.truth, pair.settings, 1);
-  const std::size_t n = t.list()->theta_i_deg.size();
-  t.values.emplace_back(n);
-  const SampleAngles at(t);
-  std::vector<Angles<double>> directions;
-  for (std::size_t i = 0; i < n; ++i) directions.push_back(at(i));
-  std::ranges::copy(evaluate(truth, directions)[0], t.values[0].begin());
+  test::put_values(t, test::bind(pair.truth, pair.settings, 1));
+  const std::size_t n = t.size();
   m.table = t;
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -114,10 +110,9 @@ void judge(const TruthAndFit& pair,
   FitOptions o;
   o.model = pair.fitted;
   const auto result = fit(table, o);
-  const SampleAngles at(exact);
-  std::vector<Angles<double>> directions;
-  for (std::size_t i = 0; i < exact.size(); ++i) directions.push_back(at(i));
-  const auto f = evaluate(result.model, directions)[0];
+  Table fitted = exact;
+  test::put_values(fitted, result.model);
+  const auto& f = fitted.values[0];
   double squares = 0;
   for (std::size_t i = 0; i < exact.size(); ++i)
     squares += std::pow(std::log(std::max(f[i], 1e-30) / exact.values[0][i]), 2);

@@ -194,10 +194,27 @@ TEST(NextSteps, OfModelsThatTakeUpLittleOfAMisfitAreNotNamed) {
                       [&](const std::string& spec) { return spec == paint ? 0.31 : other; });
   };
   EXPECT_TRUE(steps(0.28).empty()) << "a fifth of the square";
+  d.misfit.size = 0.1;
+  EXPECT_TRUE(steps(0.302).empty()) << "more than half of the misfit's square, which nobody sees";
+  d.misfit.size = 0.3;
   const auto named = steps(0.2);
   EXPECT_EQ(named.size(), 3U);
   EXPECT_TRUE(named[0].ends_with(" is typically off by a factor of 1.22 instead of 1.36"))
       << named[0];
+}
+
+TEST(NextSteps, OfANeedlessLobeNameDiffuseTermsWithoutIt) {
+  const Table t =
+      synthesize(test::bind("eon", "kd=0.6,r=1", 1), {.layout = Layout::random, .noise = 0.005});
+  const auto d = fit_of(t, paint);
+  ASSERT_EQ(test::parameter(d, "alpha").status[0], ParameterStatus::not_identifiable);
+  const auto alone = quick_fit(t, "lambert");
+  EXPECT_EQ(d.residuals.log_rms, alone.residuals.log_rms);
+  EXPECT_EQ(d.misfit.size, alone.misfit.size);
+  EXPECT_FALSE(d.certificate);
+  const auto models = given(d, "--model");
+  ASSERT_NE(std::ranges::find(models, "eon"), models.end());
+  EXPECT_LT(quick_fit(t, "eon").residuals.log_rms, d.residuals.log_rms / 1.5);
 }
 
 TEST(NextSteps, TakeADiffuseTermForNoPresetOfItsName) {

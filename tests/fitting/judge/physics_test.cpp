@@ -66,7 +66,7 @@ TEST(Physics, IsWarnedOfWhereTheModelRisesAboveTheTable) {
     for (auto& plane : t.values)
       for (double& v : plane) v = std::min(v, most);  // a detector at its limit
     FitOptions o;
-    o.fixed = {{"alpha", {0.05}}};
+    o.fixed = {{"alpha", {0.05}}, {"f0", {0.05}}};
     const auto d = fit(t, o).document;
     EXPECT_EQ(d.physics.peak_ratio[0] > 1.5, most < 1);
     const auto words = physics_in_words(d.physics);

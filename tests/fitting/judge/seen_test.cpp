@@ -12,6 +12,7 @@
 #include "table/health/computed.h"
 #include "table/health/health.h"
 #include "table/health/peak.h"
+#include "tables.h"
 
 #include <gtest/gtest.h>
 
@@ -138,10 +139,7 @@ TEST(Seen, OfTwoHighlightsBothAreToldAndF0IsNotThatOfTheSmaller) {
 TEST(Seen, AMeasuredHighlightThatIsNotResolvedHasAWidthAtMost) {
   const auto truth = test::bind(paint, "alpha=0.01,f0=0.5,kd=0.1", 1);
   Table t = in_plane({10, 30, 50}, 2, [](double, double) { return 0.0; });
-  const SampleAngles at(t);
-  std::vector<Angles<double>> angles;
-  for (std::size_t i = 0; i < t.size(); ++i) angles.push_back(at(i));
-  std::ranges::copy(evaluate(truth, angles)[0], t.values[0].begin());
+  test::put_values(t, truth);
   for (std::size_t i = 0; i < t.size(); ++i)
     t.values[0][i] *= std::exp(0.01 * std::sin(static_cast<double>(7 * i * i)));
   const auto h = inspect(t);
@@ -160,10 +158,7 @@ TEST(Seen, OfUnlikeLobesTheNarrowestIsTheOneThatIsNotResolved) {
   const char* two = "lambert+gtr/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick";
   const auto truth = test::bind(two, "alpha=0.08,gamma=2,f0=0.05,alpha_2=0.01,f0_2=0.3,kd=0.1", 1);
   Table t = in_plane({10, 25, 40, 55, 70}, 2, [](double, double) { return 0.0; });
-  const SampleAngles at(t);
-  std::vector<Angles<double>> angles;
-  for (std::size_t i = 0; i < t.size(); ++i) angles.push_back(at(i));
-  std::ranges::copy(evaluate(truth, angles)[0], t.values[0].begin());
+  test::put_values(t, truth);
   ASSERT_TRUE(inspect(t).peak && !inspect(t).peak->resolved);
   FitOptions o;
   o.model = two;

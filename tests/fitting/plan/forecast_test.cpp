@@ -111,6 +111,7 @@ TEST(Forecast, OfAMisfitStaysInProportionToTheFit) {
   FitSoFar f = three(drawn(20, 1));
   f.width *= 7;
   const Forecast independent(f);
+  f.std_error *= 7;
   f.in_proportion = true;
   const Forecast forecast(f);
   EXPECT_LT((forecast.widths({}) - f.width).norm(), 1e-6 * f.width.norm());
@@ -119,6 +120,20 @@ TEST(Forecast, OfAMisfitStaysInProportionToTheFit) {
   for (const auto& j : further) more.push_back(&j);
   const double ratio = forecast.widths(more)[0] / independent.widths(more)[0];
   EXPECT_NEAR(ratio, forecast.widths({})[0] / independent.widths({})[0], 0.05 * ratio);
+}
+
+TEST(Forecast, OfFewAnglesKnowsThatFurtherOnesAddDegreesOfFreedom) {
+  FitSoFar f = three(drawn(40, 1));
+  f.in_proportion = true;
+  const auto t = [](double freedom) { return students_t_quantile(0.975, freedom); };
+  const auto further = drawn(8, 2);
+  std::vector<const SampleRows*> more;
+  for (const auto& j : further) more.push_back(&j);
+  f.width = 2 * t(1e3) * f.std_error;
+  const double of_many = Forecast(f).widths(more)[0] / f.width[0];
+  f.width = 2 * t(2) * f.std_error;
+  const double of_few = Forecast(f).widths(more)[0] / f.width[0];
+  EXPECT_NEAR(of_few / of_many, t(10) / t(2), 0.02);
 }
 
 TEST(Forecast, CarriesNoiseThatIsNotAlikeAsFarAsTheTableCounts) {

@@ -244,6 +244,9 @@ TEST(PlanNext, RefusesWhatCannotBePlanned) {
   o.fixed.clear();
   EXPECT_HAS(test::refusal([&] { plan_next(measured(material(1, 1), drawn(3, 1), 1), o, 3); }),
              "more than the model's 3");
+  FitOptions matte;
+  matte.model = "lambert";
+  EXPECT_HAS(test::refusal([&] { plan_next(t, matte, 3); }), "no further direction mends that");
 }
 
 /// Forecasts over what repeats of the table and its further directions show, by how much their estimates are spread.

@@ -5,6 +5,7 @@
 
 #include "brdf/model/evaluate.h"
 #include "table/example.h"
+#include "tables.h"
 
 #include <gtest/gtest.h>
 
@@ -19,12 +20,7 @@ Table white_metal(double alpha) {
   t.format = "merl";
   t.channels = {"f"};
   t.where = merl_grid(Bins::centre);
-  const SampleAngles at(t);
-  std::vector<Angles<double>> x;
-  const std::size_t n = t.grid()->size();
-  for (std::size_t i = 0; i < n; ++i) x.push_back(at(i));
-  const auto f = evaluate(metal, x)[0];
-  t.values.emplace_back(f.begin(), f.end());
+  test::put_values(t, metal);
   return t;
 }
 

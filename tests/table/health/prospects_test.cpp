@@ -5,6 +5,7 @@
 #include "brdf/model/evaluate.h"
 #include "support.h"
 #include "table/example.h"
+#include "tables.h"
 
 namespace gonio {
 namespace {
@@ -26,14 +27,9 @@ Verdict verdict(const Table& t, const std::string& of) {
 Table filled(Table t, double alpha, double kd) {
   const auto model = bind_model("lambert+ggx/smith_ggx.correlated/schlick",
                                 {{"alpha", {alpha}}, {"f0", {0.05}}, {"kd", {kd}}}, 1);
-  const SampleAngles at(t);
-  std::vector<Angles<double>> x;
-  const std::size_t n = t.grid() ? t.grid()->size() : t.list()->theta_i_deg.size();
-  for (std::size_t i = 0; i < n; ++i) x.push_back(at(i));
   t.format = "csv";
   t.channels = {"f"};
-  const auto f = evaluate(model, x)[0];
-  t.values.emplace_back(f.begin(), f.end());
+  test::put_values(t, model);
   return t;
 }
 Table in_out(double alpha, double kd) {

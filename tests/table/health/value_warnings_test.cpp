@@ -7,6 +7,7 @@
 
 #include "brdf/model/evaluate.h"
 #include "table/example.h"
+#include "tables.h"
 
 #include <gtest/gtest.h>
 
@@ -35,12 +36,7 @@ Table painted(double turn, double kd = 0.3, double alpha = 0.3) {
   t.where = std::move(l);
   const auto model = bind_model("lambert+ggx/smith_ggx.correlated/schlick",
                                 {{"alpha", {alpha}}, {"f0", {0.05}}, {"kd", {kd}}}, 1);
-  const std::size_t n = t.list()->theta_i_deg.size();
-  t.values.emplace_back(n);
-  const SampleAngles at(t);
-  std::vector<Angles<double>> x;
-  for (std::size_t i = 0; i < n; ++i) x.push_back(at(i));
-  std::ranges::copy(evaluate(model, x)[0], t.values[0].begin());
+  test::put_values(t, model);
   return t;
 }
 
@@ -140,10 +136,11 @@ TEST(ValueWarnings, TellAChannelThatIsNegativeByItselfFromANoiseFloor) {
   EXPECT_TRUE(std::ranges::any_of(value_warnings(facts), [](const ValueWarning& w) {
     return w.text.starts_with("all negative values are of channel r");
   }));
-  EXPECT_EQ(negative_channel(table(true, 0)), std::size_t{0});
-  EXPECT_EQ(noise_floor(table(true, 0)), 0);
-  EXPECT_FALSE(negative_channel(table(false, 0.004)));
-  EXPECT_GT(noise_floor(table(false, 0.004)), 0);
+  EXPECT_EQ(facts.negative_channel(), std::size_t{0});
+  EXPECT_EQ(facts.noise_floor(), 0);
+  const Table dark = table(false, 0.004);
+  EXPECT_FALSE(TableFacts(dark).negative_channel());
+  EXPECT_GT(noise_floor(dark), 0);
 }
 
 TEST(Reciprocity, KnowsNoAzimuthAtTheNormal) {
