@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "base/process.h"
 #include "base/text.h"
 
 #include <dirent.h>
@@ -214,7 +215,7 @@ std::string InputFile::read_rest(std::uint64_t most) {
 
 namespace {
 
-/// Names of the files being made, for the signal handler, which may only read and unlink.
+/// Names of the files being made, for the signal handler, which may only read, unlink and kill.
 std::array<std::atomic<const char*>, 4096> unfinished;
 std::atomic<bool> ending = false;  ///< a signal came: no file is begun any more
 
@@ -233,6 +234,7 @@ void leave(const char* name) {
 void remove_unfinished(int signal) {
   ending = true;
   for (int round = 0; round < 2; ++round) {
+    end_programs();
     for (auto& slot : unfinished)
       if (const char* name = slot.load()) ::unlink(name);
     const timespec for_who_was_opening{0, 10'000'000};

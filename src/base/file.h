@@ -131,7 +131,8 @@ class FolderLock {
   int folder_ = -1;
 };
 
-/// From now on an interrupt, hang-up or termination takes the files being made with it.  One that is ignored, as nohup does, stays so.
+/// From now on an interrupt, hang-up or termination takes the files being made, and the programs run, with it.  One that is ignored, as
+/// nohup does, stays so.
 void remove_unfinished_files_on_signals();
 
 /// All are whole before the first takes its name.

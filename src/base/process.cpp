@@ -1,5 +1,7 @@
 #include "base/process.h"
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -24,7 +26,23 @@ struct Close {
 /// A file that is nobody else's and gone when closed: no pipe, which either side may block on.
 using Temporary = std::unique_ptr<std::FILE, Close>;
 
+/// Numbers of the programs that run, for the signal handler.
+std::array<std::atomic<pid_t>, 64> running;
+
+/// Puts a number in the place of another.
+void swap_running(pid_t from, pid_t to) {
+  for (auto& slot : running) {
+    pid_t there = from;
+    if (slot.compare_exchange_strong(there, to)) return;
+  }
+}
+
 }  // namespace
+
+void end_programs() noexcept {
+  for (const auto& slot : running)
+    if (const pid_t child = slot.load()) ::kill(child, SIGKILL);
+}
 
 std::optional<ProcessResult> run_program(const std::string& name,
                                          std::span<const std::string> arguments,
@@ -51,21 +69,28 @@ std::optional<ProcessResult> run_program(const std::string& name,
       ::posix_spawnp(&child, name.c_str(), &streams, nullptr, argv.data(), environ) == 0;
   posix_spawn_file_actions_destroy(&streams);
   if (!started) return {};
+  swap_running(0, child);
 
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(seconds));
   ProcessResult result{-1, false, {}};
-  int status = 0;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
+  const auto has_ended = [&] {  // its number stays its own until waitpid()
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+           info.si_pid != 0;
+  };
+  while (!has_ended()) {
     if (Clock::now() >= end) {
       result.out_of_time = true;
       ::kill(child, SIGKILL);
-      ::waitpid(child, &status, 0);
       break;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
+  swap_running(child, 0);
+  int status = 0;
+  ::waitpid(child, &status, 0);
   if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
   if (result.status == 127) return {};  // as a shell says that there is no such program
   std::rewind(out.get());

@@ -22,6 +22,9 @@ std::optional<ProcessResult> run_program(const std::string& name,
                                          const std::string& input,
                                          double seconds);
 
+/// Ends the programs that run_program() waits for.  A signal handler may call it.
+void end_programs() noexcept;
+
 /// Path by which the running program starts itself once more; empty where nothing says it.
 std::string this_program();
 

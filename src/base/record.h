@@ -312,7 +312,8 @@ constexpr ValueType make_type() {
   } else if constexpr (Described<V>) {
     t = {.kind = ValueKind::record, .record = &record_of<V>};
   } else if constexpr (Triple<V>) {
-    t = {.kind = ValueKind::list, .size = 3, .of = &type_of<double>};
+    // The type as V has it: clang would look up that of double before this function is whole.
+    t = {.kind = ValueKind::list, .size = 3, .of = &type_of<decltype(V::x)>};
     t.each = [](const void* v, Each take) {
       const V& at = *static_cast<const V*>(v);
       for (const double* x : {&at.x, &at.y, &at.z}) take({}, x);

@@ -1,7 +1,18 @@
 #include "base/process.h"
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
 #include <vector>
+
+#include "base/file.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace gonio {
 namespace {
@@ -48,6 +59,38 @@ TEST(Program, KnowsItself) {
       run_program(this_program(), std::vector<std::string>{"--gtest_list_tests"}, "", 30);
   ASSERT_TRUE(found);
   EXPECT_NE(found->output.find("KnowsItself"), std::string::npos);
+}
+
+TEST(Program, EndsWithTheProgramThatRunsIt) {
+  const test::Folder folder;
+  const std::string number = folder / "number";
+  const pid_t runs = ::fork();
+  if (runs == 0) {
+    remove_unfinished_files_on_signals();
+    run_program("sh", std::vector<std::string>{"-c", "echo $$ >" + number + "; exec sleep 60"}, "",
+                60);
+    ::_exit(0);
+  }
+  std::string text;
+  for (int k = 0; k < 1000 && !text.ends_with('\n'); ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (std::filesystem::exists(number)) text = test::read_bytes(number);
+  }
+  ASSERT_TRUE(text.ends_with('\n'));
+  ::kill(runs, SIGTERM);
+  int status = 0;
+  ASSERT_EQ(::waitpid(runs, &status, 0), runs);
+  EXPECT_EQ(WTERMSIG(status), SIGTERM);
+  // Whoever is no longer there, or waits for nobody to ask, has ended.
+  const auto state = [&] {
+    std::ifstream in("/proc/" + std::to_string(std::stoi(text)) + "/stat");
+    std::string number_of_it, name, letter = "Z";
+    in >> number_of_it >> name >> letter;
+    return letter;
+  };
+  for (int k = 0; k < 1000 && state() != "Z"; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(state(), "Z");
 }
 
 }  // namespace

@@ -104,11 +104,11 @@ class Builder final : public nlohmann::json_sax<Json> {
     return end_array();
   }
   bool parse_error(std::size_t byte,
-                   const std::string&,
+                   const std::string& token,
                    const nlohmann::detail::exception& e) override {
-    if (dynamic_cast<const Json::parse_error*>(&e) == nullptr)
-      throw bad_input(file_, "JSON", e.what(), "values that can be held");
     const auto end = std::min(bytes_.size(), byte > 0 ? byte - 1 : 0);
+    if (dynamic_cast<const Json::parse_error*>(&e) == nullptr)
+      throw bad_input(file_, place_of(bytes_, end), token, "a number that a double holds");
     throw bad_input(file_, place_of(bytes_, end),
                     end < bytes_.size() ? bytes_.substr(end, 12) : "the end of the file", "JSON");
   }

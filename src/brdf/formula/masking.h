@@ -126,7 +126,8 @@ struct SmithGgxAnisoSeparable {
 
   explicit SmithGgxAnisoSeparable(std::span<const T, 2> p) : root(p) {}
 
-  Quotient<T> operator()(const FrameAngles<plain_t<T>, auto>& a) const {
+  template <class C>
+  Quotient<T> operator()(const FrameAngles<plain_t<T>, C>& a) const {
     return smith_separable<T>(a, root(a.xol, a.yol, a.nol), root(a.xov, a.yov, a.nov));
   }
 };
@@ -151,7 +152,8 @@ struct SmithGgxAnisoCorrelated {
 
   explicit SmithGgxAnisoCorrelated(std::span<const T, 2> p) : root(p) {}
 
-  Quotient<T> operator()(const FrameAngles<plain_t<T>, auto>& a) const {
+  template <class C>
+  Quotient<T> operator()(const FrameAngles<plain_t<T>, C>& a) const {
     return smith_correlated<T>(a, root(a.xol, a.yol, a.nol), root(a.xov, a.yov, a.nov));
   }
 };
@@ -244,7 +246,8 @@ struct SmithBeckmannAnisoCorrelated {
   explicit SmithBeckmannAnisoCorrelated(std::span<const T, 2> p)
       : x2(square(p[0] * smith_scale)), y2(square(p[1] * smith_scale)) {}
 
-  Quotient<T> operator()(const FrameAngles<plain_t<T>, auto>& a) const {
+  template <class C>
+  Quotient<T> operator()(const FrameAngles<plain_t<T>, C>& a) const {
     return lambda_correlated<T>(a, beckmann_c_lambda<T>(a.nol, width(a.xol, a.yol)),
                                 beckmann_c_lambda<T>(a.nov, width(a.xov, a.yov)));
   }

@@ -32,7 +32,8 @@ struct GgxAniso {
 
   explicit GgxAniso(std::span<const T, 2> p) : GgxAniso(p, sqrt(p[1] / p[0])) {}
 
-  Quotient<T> operator()(const FrameAngles<plain_t<T>, auto>& a) const {
+  template <class C>
+  Quotient<T> operator()(const FrameAngles<plain_t<T>, C>& a) const {
     return {num, square(square(a.xoh) * of_x + square(a.yoh) * of_y + square(a.noh) * of_z)};
   }
 
@@ -66,7 +67,8 @@ struct BeckmannAniso {
         per_y(constant<plain_t<T>>(0.70710678118654752440L) / p[1]),
         root_norm(constant<plain_t<T>>(0.56418958354775628695L) / (sqrt(p[0]) * sqrt(p[1]))) {}
 
-  T operator()(const FrameAngles<plain_t<T>, auto>& a) const {
+  template <class C>
+  T operator()(const FrameAngles<plain_t<T>, C>& a) const {
     const auto per_cos2 = 1 / max<plain_t<T>>(square(a.noh), small_square<plain_t<T>>());
     const T half_x2 = (square(per_x * a.xoh) + square(per_y * a.yoh)) * per_cos2;
     return square(exp(-half_x2) * per_cos2 * root_norm);
@@ -99,7 +101,8 @@ struct BeckmannAnisoAsWritten {
 
   explicit BeckmannAnisoAsWritten(std::span<const T, 2> p) : ax(p[0]), ay(p[1]) {}
 
-  T operator()(const FrameAngles<plain_t<T>, auto>& a) const {
+  template <class C>
+  T operator()(const FrameAngles<plain_t<T>, C>& a) const {
     const auto xoh2 = a.xoh * a.xoh, yoh2 = a.yoh * a.yoh;
     const T d = -(xoh2 / (ax * ax) + yoh2 / (ay * ay)) / a.noh * a.noh;
     return exp(d) / (pi<plain_t<T>>() * ax * ay * a.noh * a.noh * a.noh * a.noh);
@@ -135,7 +138,8 @@ struct ShapeInvariant {
   T operator()(const Angles<P>& a) const {
     return density(a.sin2_theta_h * per_x * per_x * (1 / cos2(a)), a);
   }
-  T operator()(const FrameAngles<P, auto>& a) const {
+  template <class C>
+  T operator()(const FrameAngles<P, C>& a) const {
     return density((square(a.xoh * per_x) + square(a.yoh * per_y)) * (1 / cos2(a)), a);
   }
 
@@ -181,7 +185,10 @@ struct StudentT {
 
   explicit StudentT(std::span<const T, 3> p) : d(StudentShape<T>(p[2]), p[0], p[1]) {}
 
-  T operator()(const FrameAngles<plain_t<T>, auto>& a) const { return d(a); }
+  template <class C>
+  T operator()(const FrameAngles<plain_t<T>, C>& a) const {
+    return d(a);
+  }
 };
 
 /// g(x) = (1 + τ x²)^−(1 + 1/τ) / π:  Student's t by its tail, 1/τ + 1 = γ.  τ = 0 is Beckmann and τ = 1 GGX, both reached.
