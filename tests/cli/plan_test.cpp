@@ -45,6 +45,16 @@ TEST(PlanCommand, MakesAPlanThatHolds) {
   EXPECT_LE(v.json()["materials"]["plastic"]["upper_bound"], 0.01);
 }
 
+TEST(PlanCommand, OfAMaterialWithoutOperationsIsReadAgain) {
+  const Folder f;
+  json chalk = scene();
+  chalk["materials"]["plastic"] = {{"model", "lambert"}};
+  f.write("scene.json", chalk.dump());
+  ASSERT_EQ(gonio(f, "plan scene.json --samples 512 -o plan.json").code, 0);
+  const auto v = gonio(f, "verify scene.json plan.json --samples 512");
+  EXPECT_EQ(v.code, 0) << v.err;
+}
+
 TEST(PlanCommand, ShowsThePlanAsAPage) {
   const Folder f;
   f.write("scene.json", scene().dump());

@@ -45,7 +45,7 @@ void take(MaterialPlan& p, const Look& look, const Forms& forms, double ns, doub
   p.spec = surface.spec();
   p.parameters = surface.parameters();
   p.speedup = p.ns_exact / p.ns;
-  p.ops_saved = 1 - ops / p.ops_exact;
+  p.ops_saved = p.ops_exact > 0 ? 1 - ops / p.ops_exact : 0;  // a constant has no operations
   for (auto& e : p.effects) {
     e.keep = forms.keeps(e.effect);
     e.form = forms.name(e.effect);
