@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -26,45 +27,62 @@ constexpr std::pair<std::string_view, std::string_view> paper[] = {
     {"low-1", "#8fbfe0"}, {"zero", "#e9e7e0"},   {"high-1", "#f0a868"}, {"high-2", "#b3470b"},
     {"rms-1", "#a98fc4"}, {"rms-2", "#4c1f78"}};
 
-using Names = std::set<std::string, std::less<>>;
-
 const std::string& look_name(const FigureCurve& c) {
   return c.look.empty() ? c.name : c.look;
+}
+
+/// Numbers taken by the curves of a picture, or of a family of pictures.
+struct Taken {
+  std::set<std::size_t> numbers;
+  std::size_t least_free = 0;
+  void take(std::size_t i) {
+    numbers.insert(i);
+    while (numbers.contains(least_free)) ++least_free;
+  }
+};
+
+/// The least number that is free in all of them.
+std::size_t least_free(const std::set<Taken*>& in) {
+  std::size_t i = 0;
+  for (const Taken* t : in) i = std::max(i, t->least_free);
+  while (std::ranges::any_of(in, [&](const Taken* t) { return t->numbers.contains(i); })) ++i;
+  return i;
 }
 
 /// Each takes the least number that none of its neighbours has taken before it.
 /// \param most  numbers beyond go by neighbours in a picture, the others by those in a family of pictures
 CurveStyles::Numbers numbered(std::span<const Figure> figures, bool dashed, std::size_t most) {
+  struct Where {
+    std::set<Taken*> pictures, families;
+  };
+  std::vector<Taken> pictures(figures.size());
+  std::map<std::string, Taken> families;
+  std::map<std::string, Where> where;
   std::vector<std::string> names;  // as they appear
-  std::map<std::string, Names> families, of_picture, of_family;
-  for (const auto& f : figures) {
-    Names own;
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    const Figure& f = figures[k];
     for (const auto& c : f.curves) {
       if (c.dashed != dashed) continue;
-      const auto& name = *own.insert(look_name(c)).first;
-      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      const auto [at, is_new] = where.try_emplace(look_name(c));
+      if (is_new) names.push_back(at->first);
+      at->second.pictures.insert(&pictures[k]);
+      at->second.families.insert(&families[f.family.empty() ? f.id : f.family]);
     }
-    for (const auto& name : own) of_picture[name].insert(own.begin(), own.end());
-    families[f.family.empty() ? f.id : f.family].insert(own.begin(), own.end());
   }
-  for (const auto& [family, own] : families)
-    for (const auto& name : own) of_family[name].insert(own.begin(), own.end());
 
   CurveStyles::Numbers out;
-  const auto least_free = [&](const Names& neighbours) {
-    std::set<std::size_t> taken;
-    for (const auto& name : neighbours)
-      if (const auto at = out.find(name); at != out.end()) taken.insert(at->second);
-    std::size_t i = 0;
-    while (taken.contains(i)) ++i;
-    return i;
+  const auto take = [&](const std::string& name, std::size_t i) {
+    out[name] = i;
+    for (const auto* all : {&where[name].pictures, &where[name].families})
+      for (Taken* t : *all) t->take(i);
   };
-  if (!dashed && of_picture.contains("r") && of_picture.contains("g") && of_picture.contains("b"))
-    out = {{"b", 0}, {"r", 1}, {"g", 2}};  // channels have their own colours
+  if (!dashed && where.contains("r") && where.contains("g") && where.contains("b"))
+    for (const auto& [name, i] : {std::pair{"b", 0U}, {"r", 1U}, {"g", 2U}})
+      take(name, i);  // channels have their own colours
   for (const auto& name : names) {
     if (out.contains(name)) continue;
-    const std::size_t i = least_free(of_family[name]);
-    out[name] = i < most ? i : least_free(of_picture[name]);
+    const std::size_t i = least_free(where[name].families);
+    take(name, i < most ? i : least_free(where[name].pictures));
   }
   return out;
 }

@@ -158,6 +158,15 @@ TEST(CurveStyles, NamesOfAPictureDiffer) {
   EXPECT_EQ(*seen.rbegin(), 35U);
 }
 
+/// A set of neighbours for each would take a hundred gigabytes.
+TEST(CurveStyles, OfManyNamesTakeLinearTimeAndMemory) {
+  Figure f;
+  f.curves.resize(50'000);
+  for (std::size_t i = 0; i < f.curves.size(); ++i) f.curves[i].name = std::to_string(i);
+  const CurveStyles styles({&f, 1});
+  for (const std::size_t i : {0U, 11U, 12U, 49'999U}) EXPECT_EQ(styles.of(f.curves[i]), i);
+}
+
 TEST(FigureSvg, ALineBreaksWhereAPointIsMissing) {
   for (const auto kind : {FigureCurve::Kind::line, FigureCurve::Kind::both}) {
     const Figure f{"gap", "Gap", "",
