@@ -109,10 +109,10 @@ std::string openjd(const Job& j) {
 std::string job_text(Engine engine, const Job& j) {
   for (const auto& words : {fit_words(j, ""), {j.folder}})
     for (const auto& word : words) {
-      const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-      if (std::ranges::any_of(word, control))
-        throw wrong_usage(fmt::format("'{}' cannot stand in a job: it holds a control character",
-                                      printable(word, 100)));
+      if (printable(word) != word)
+        throw wrong_usage(
+            fmt::format("'{}' cannot stand in a job: it holds a control character, or is no UTF-8",
+                        printable(word, 100)));
       if (engine == Engine::openjd && word.find("{{") != word.npos)
         throw wrong_usage(fmt::format(
             "'{}' cannot stand in a template: '{{{{' begins what the engine replaces there",

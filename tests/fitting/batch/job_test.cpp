@@ -67,6 +67,12 @@ TEST(Job, RefusesWordsThatItCannotHold) {
     Job job = small;
     job.inputs = {"a\nrm -r b"};
     EXPECT_HAS(test::refusal([&] { job_text(engine, job); }, Exit::usage), "control character");
+    for (const char* name : {"a\xe2\x80\xae"
+                             "b.csv",
+                             "a\xff.csv"}) {
+      job.inputs = {name};
+      EXPECT_HAS(test::refusal([&] { job_text(engine, job); }, Exit::usage), "control character");
+    }
     job = small;
     job.folder = "/a\nb";
     EXPECT_HAS(test::refusal([&] { job_text(engine, job); }, Exit::usage), "control character");
