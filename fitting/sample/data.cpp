@@ -48,6 +48,12 @@ double fold(const BlockReader<F>& in,
   return std::accumulate(rest.begin(), rest.end(), 0.0);
 }
 
+/// Blocks that so many groups fill.
+template <class F>
+constexpr std::size_t blocks_of(std::size_t groups) {
+  return (groups + BlockReader<F>::block - 1) / BlockReader<F>::block;
+}
+
 /// Picks every `step`-th group that has a value.
 template <class F>
 class Picker {
@@ -88,14 +94,16 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
   all.link = link_of(s.metric());
   all.offset = static_cast<F>(s.link_offset());
   all.angle_columns = s.angle_columns();
-  all.reserve(tasks.count, s.channels());
+  std::size_t blocks = 0;
+  for (std::size_t k = 0; k < tasks.count; ++k) blocks += blocks_of<F>(tasks.groups(k));
+  all.reserve(tasks.count, blocks, s.channels());
   std::vector<Part> parts(tasks.count);
   tbb::parallel_for(std::size_t{0}, tasks.count, [&](std::size_t k) {
     BlockReader<F> in(s, tasks.first(k), tasks.last(k), tasks.step);
     Part& part = parts[k];
     // tasks begin at different places
     for (const std::size_t step : steps)
-      part.levels.emplace_back(step, (7 * k + step - 1) % step, Tasks::blocks * in.block,
+      part.levels.emplace_back(step, (7 * k + step - 1) % step, tasks.groups(k),
                                s.angle_columns() + 2 * s.channels());
     std::array<std::uint32_t, BlockReader<F>::block> with_value;
     std::array<F, BlockReader<F>::block> largest;  // weight of each group over the channels
@@ -151,7 +159,7 @@ FitData<F> picked_from(const FitData<F>& all, std::size_t channels, const std::v
   d.link = all.link;
   d.offset = all.offset;
   d.groups = rows.size() / columns;
-  d.reserve((d.groups + task - 1) / task, channels);
+  d.reserve((d.groups + task - 1) / task, blocks_of<F>(d.groups), channels);
   for (std::size_t at = 0; at < d.groups; at += block) {
     const std::size_t n = std::min(block, d.groups - at);
     const auto& b = d.add_block(at / task, n);
@@ -176,12 +184,12 @@ Block<F> FitBlock<F>::angles() const {
 }
 
 template <class F>
-void FitData<F>::reserve(std::size_t count, std::size_t channels) {
+void FitData<F>::reserve(std::size_t count, std::size_t blocks, std::size_t channels) {
   columns_count_ = angle_columns + 2 * channels;
   used_ = 0;
   tasks.resize(count);
   for (auto& t : tasks) t.reserve(Tasks::blocks);
-  memory = Column<F>::for_overwrite(count * Tasks::blocks * BlockReader<F>::block * columns_count_);
+  memory = Column<F>::for_overwrite(blocks * BlockReader<F>::block * columns_count_);
 }
 
 template <class F>
@@ -215,9 +223,12 @@ FitData<double> in_double(const FitData<F>& from) {
   to.groups = from.groups;
   to.counts = from.counts;
   to.angle_columns = from.angle_columns;
-  to.reserve(from.tasks.size(), from.tasks.empty() || from.tasks[0].empty()
-                                    ? 0
-                                    : (from.tasks[0][0].columns_count - from.angle_columns) / 2);
+  std::size_t blocks = 0;
+  for (const auto& t : from.tasks) blocks += t.size();
+  to.reserve(from.tasks.size(), blocks,
+             from.tasks.empty() || from.tasks[0].empty()
+                 ? 0
+                 : (from.tasks[0][0].columns_count - from.angle_columns) / 2);
   for (std::size_t k = 0; k < from.tasks.size(); ++k)
     for (const auto& b : from.tasks[k])
       std::copy_n(b.columns, b.columns_count * b.n, to.add_block(k, b.n).columns);

@@ -37,8 +37,8 @@ struct FitData {
 
   std::size_t angle_columns = 5;  ///< of a block
 
-  /// Makes room for that many full tasks.
-  void reserve(std::size_t tasks, std::size_t channels);
+  /// Makes room for that many blocks.
+  void reserve(std::size_t tasks, std::size_t blocks, std::size_t channels);
   /// The next block of a task; different tasks may add at the same time.
   FitBlock<F>& add_block(std::size_t task, std::size_t groups);
 

@@ -174,6 +174,10 @@ struct Tasks {
   Tasks(const Sampling&, std::size_t most, std::size_t block);
   std::size_t first(std::size_t task) const { return task * size_; }
   std::size_t last(std::size_t task) const { return std::min(all_, (task + 1) * size_); }
+  /// Groups of a task, at most.
+  std::size_t groups(std::size_t task) const {
+    return (last(task) - first(task) + step - 1) / step;
+  }
 
  private:
   std::size_t all_, size_;
