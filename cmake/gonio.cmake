@@ -67,6 +67,12 @@ endfunction()
 # The same objects make the program and modules that other programs load.
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
+# A defect that a stranger's file reaches ends the program: writes past an array, and, where system and libraries have it, jumps to where none leads.
+set(gonio_hardening -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3 -fstack-protector-strong)
+if("avx2" IN_LIST gonio_known_sets)
+  list(APPEND gonio_hardening -fcf-protection)
+endif()
+
 add_library(gonio_flags INTERFACE)
 target_compile_features(gonio_flags INTERFACE cxx_std_20)
 target_compile_options(gonio_flags INTERFACE
@@ -76,7 +82,8 @@ target_compile_options(gonio_flags INTERFACE
   -fno-math-errno               # nobody asks errno after a square root, and loops with one can be vectors
   # g++ 12 raises the first three for std::string code that is fine, the last for files that are compiled together
   "$<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-subobject-linkage>>"
-  $<BUILD_INTERFACE:$<$<BOOL:${GONIO_WERROR}>:-Werror>>)
+  $<BUILD_INTERFACE:$<$<BOOL:${GONIO_WERROR}>:-Werror>>
+  "$<BUILD_INTERFACE:$<$<CONFIG:Release>:${gonio_hardening}>>")
 install(TARGETS gonio_flags EXPORT gonio)
 set_target_properties(gonio_flags PROPERTIES EXPORT_NAME flags)
 

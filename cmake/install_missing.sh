@@ -59,6 +59,13 @@ install_prover() {
   echo "Without Gappa: no bound of a relative error is proved."
 }
 
+# Valgrind, which counts instructions where work is to grow as its input; without it that is left out.
+install_counter() {
+  command -v valgrind >/dev/null && return 0
+  if command -v apt-get >/dev/null; then (gonio_tools=(valgrind:valgrind) gonio_libraries=(); install_missing) && return 0; fi
+  echo "Without Valgrind: how work grows is not counted."
+}
+
 # glslang, SPIRV-Tools and a software Vulkan, which emitted shaders are compiled, looked at and run with; without them those tests
 # are skipped.
 install_vulkan() {

@@ -84,6 +84,66 @@ TEST(Surroundings, WhatAKillLeavesIsTakenAwayByTheNextRun) {
   EXPECT_EQ(hidden(), 0U);
 }
 
+/// Ends a run by a signal as soon as a file of that kind lies in `out`.  \param kind  words of find
+void end_once_there(const Folder& f,
+                    const std::string& words,
+                    const std::string& signal,
+                    const std::string& kind) {
+  status_of("cd '" + f / "" + "' && mkdir -p out && { " + program() + " " + words +
+            " >/dev/null 2>&1 & p=$!; while kill -0 $p 2>/dev/null && [ -z \"$(find out -type f " +
+            kind + " -print -quit)\" ]; do sleep 0.002; done; kill -s " + signal +
+            " $p 2>/dev/null; wait $p; }");
+}
+
+/// True of a file that ends as its kind does.
+bool ends_whole(const std::filesystem::path& path) {
+  static const std::map<std::string, std::string> ends{
+      {".html", "</html>"}, {".svg", "</svg>"}, {".mtlx", "</materialx>"}, {".json", "}"}};
+  const auto bytes = read_bytes(path.string());
+  const auto end = ends.find(path.extension().string());
+  const auto text = bytes.substr(0, bytes.find_last_not_of('\n') + 1);
+  return end == ends.end() ? !bytes.empty() : text.ends_with(end->second) && text != bytes;
+}
+
+TEST(Surroundings, AKillOfAPlanOrOfReportsLeavesWholeFilesOrNone) {
+  const std::string scene =
+      R"({"schema": "gonio.scene/1", "materials": {"m": {"model": "lambert"}},)"
+      R"( "objects": [{"shape": "sphere", "material": "m"}],)"
+      R"( "lights": [{"type": "directional", "direction": [0, 0, 1], "irradiance": [1, 1, 1]}],)"
+      R"( "view": {"position": [0, 0, 10], "target": [0, 0, 0], "fov_deg": 20},)"
+      R"( "tolerance": {"metric": "delta_e_2000", "quantile": 0.99, "limit": 1, "max": 4}})";
+  const std::string begun = "-name '.gonio.*'", whole = "! -name '.gonio.*'";
+  std::size_t files = 0;
+  for (const auto& [words, when] :
+       {std::pair{"plan s.json --samples 512 --cost operations -o out/p.json "
+                  "--html out/p.html --write mtlx",
+                  begun},
+        {"plan s.json --samples 512 --cost operations -o out/p.json "
+         "--html out/p.html --write mtlx",
+         whole},
+        {"report all -o out", begun},
+        {"report schlick -o out", whole}})
+    for (const char* signal : {"TERM", "KILL"}) {
+      const Folder f;
+      f.write("s.json", scene);
+      end_once_there(f, words, signal, when);
+      std::size_t hidden = 0;
+      for (const auto& e : std::filesystem::recursive_directory_iterator(f / "out")) {
+        if (!e.is_regular_file()) continue;
+        if (e.path().filename().string().starts_with(".gonio.")) {
+          ++hidden;
+          continue;
+        }
+        ++files;
+        EXPECT_TRUE(ends_whole(e.path())) << words << ": " << e.path();
+      }
+      if (std::string(signal) == "TERM") {
+        EXPECT_EQ(hidden, 0U) << words;
+      }
+    }
+  EXPECT_GT(files, 0U);
+}
+
 TEST(Surroundings, NothingThatAFileSaysMovesTheCursorOfATerminal) {
   const Folder f;
   const std::string evil = "\x1b[2J\xe2\x80\xae\xc2\x9b";
@@ -165,6 +225,22 @@ TEST(Surroundings, ALimitOfMemoryIsOneLine) {
     EXPECT_EQ(f.entries(), before);
   }
   EXPECT_GT(refused, 0U);
+}
+
+TEST(Surroundings, AFitOfManyChannelsHasRoomForTheSamplesThatThereAre) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer needs more addresses than any limit leaves";
+#endif
+  const Folder f;
+  std::string csv = "theta_i,theta_o";
+  for (int c = 0; c < 4000; ++c) csv += ",f_" + std::to_string(c);
+  for (int i = 0; i < 6; ++i) {
+    csv += "\n30," + std::to_string(10 * i);
+    for (int c = 0; c < 4000; ++c) csv += ",0.1";
+  }
+  f.write("t.csv", csv + "\n");
+  const auto o = gonio(f, "fit t.csv --model lambert --jobs 1 -o r.json", "ulimit -v 2000000; ");
+  EXPECT_EQ(o.code, 0) << o.err;
 }
 
 TEST(Surroundings, AFileThatChangesWhileItIsReadIsRefused) {
