@@ -53,21 +53,34 @@ std::string kept_words(const scene::Forms& forms) {
 
 std::vector<std::string> verdict(const scene::Plan& p, std::string_view unit) {
   std::vector<std::string> out;
-  const auto [slow, fast] =
-      std::ranges::minmax_element(p.materials, {}, &scene::MaterialPlan::speedup);
-  out.push_back(p.materials.size() == 1
-                    ? fmt::format("Dropping what this scene does not need makes {} {} as fast.",
-                                  fast->name, times(fast->speedup))
-                    : fmt::format("Dropping what this scene does not need makes {} {} as fast, and "
-                                  "{}, which needs the most, {}.",
-                                  fast->name, times(fast->speedup), slow->name,
-                                  times(slow->speedup)));
+  const auto needs_table = [](const scene::MaterialPlan& m) {
+    return std::ranges::any_of(m.effects, [](const auto& e) { return e.form == "tabulated"; });
+  };
+  std::vector<const scene::MaterialPlan*> shippable;
+  for (const auto& m : p.materials)
+    if (!needs_table(m)) shippable.push_back(&m);
+  std::ranges::sort(shippable, {}, &scene::MaterialPlan::speedup);
+  if (shippable.size() == 1)
+    out.push_back(fmt::format("Dropping what this scene does not need makes {} {} as fast.",
+                              shippable[0]->name, times(shippable[0]->speedup)));
+  else if (!shippable.empty())
+    out.push_back(fmt::format(
+        "Dropping what this scene does not need makes {} {} as fast, and {}, which needs the most, "
+        "{}.",
+        shippable.back()->name, times(shippable.back()->speedup), shippable[0]->name,
+        times(shippable[0]->speedup)));
+  for (const auto& m : p.materials)
+    if (needs_table(m))
+      out.push_back(fmt::format(
+          "No shader has the light between facets that {} needs here: what shaders have "
+          "differs by {}{} at best.",
+          m.name, unit, significant(m.shipped_upper, 2)));
   if (!p.holds)
     out.push_back(
         "Some material keeps the tolerance in no form that is offered: its plan is the nearest.");
   else
     out.push_back(fmt::format(
-        "At {} of the points nobody sees more than {}{}, and nowhere more than {}.",
+        "At {} of the points the plan differs by at most {}{}, and nowhere by more than {}.",
         percent(p.tolerance.quantile), unit, plain(p.tolerance.limit), plain(p.tolerance.max)));
   if (p.budget)
     out.push_back(p.budget->fits
@@ -170,10 +183,11 @@ std::string plan_page_html(const scene::Plan& p) {
           names(m, [](const auto& e) { return !e.keep && e.why != scene::Why::structural; }),
           m.bounded ? "≤ " + significant(m.checked.upper, 2) : significant(m.checked.quantile, 2),
           significant(m.checked.worst, 2));
-  out.sections = {{"What to keep, and how much faster that is",
-                   "Times of all effects in double, with Kulla and Conty's compensation, over the "
-                   "plan's; both of composed column kernels on this machine.",
-                   {t}}};
+  out.sections = {
+      {"What to keep, and how much faster that is",
+       "Times of the effects that a material has, in float, with Kulla and Conty's "
+       "compensation, over the plan's; both of composed column kernels on this machine.",
+       {t}}};
   for (const auto& m : p.materials) out.sections.push_back(one(m, p, unit_name));
   out.setting =
       "Points are what viewers see, half of them near highlights. Every figure of this page is in "

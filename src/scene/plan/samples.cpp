@@ -59,6 +59,15 @@ std::size_t with_extent(const Scene& s) {
   return static_cast<std::size_t>(std::ranges::count_if(
       s.lights, [](const Light& l) { return !std::holds_alternative<DirectionalLight>(l); }));
 }
+PicturePart around(std::span<const PicturePart> parts) {
+  if (parts.empty()) return {};
+  double left = 1, right = 0, top = 1, bottom = 0;
+  for (const auto& p : parts) {
+    left = std::min(left, p.x), right = std::max(right, p.x + p.width);
+    top = std::min(top, p.y), bottom = std::max(bottom, p.y + p.height);
+  }
+  return {left, top, right - left, bottom - top};
+}
 const Scene& with_few_lights(const Scene& s) {
   constexpr std::size_t most = most_directions / least_directions;
   if (const auto n = with_extent(s); n > most)
@@ -115,6 +124,12 @@ PointDrawer::PointDrawer(const Scene& s,
       parts_.push_back(part);
       area_before_.push_back(area += part.area());
     }
+  // Parts that overlap as much as that cost more than the rectangle around them all.
+  if (PicturePart all = around(parts_); area > all.area()) {
+    area = all.area();
+    parts_ = {all};
+    area_before_ = {area};
+  }
   constexpr double worth = 0.25;
   if (!(area < worth)) parts_.clear();
   constexpr std::size_t looks = 16'384;

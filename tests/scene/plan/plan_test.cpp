@@ -347,6 +347,15 @@ TEST(PointDrawer, SeesSmallSpheresAsItWouldOverTheWholePicture) {
   EXPECT_NEAR(Lit(s).drawer(0, 1).coverage(), small, 0.02 * small);
 }
 
+/// Where objects lie over each other their points are drawn from around them all: no look is thrown away for each of them.
+TEST(PointDrawer, SeesSpheresThatLieOverEachOtherAsOne) {
+  Scene s = test::sphere(test::chalk(), test::front());
+  s.objects = {{Sphere{{0.3, 0, 0}, 0.2}, 0}};
+  const double one = Lit(s).drawer(0, 1).coverage();
+  for (int i = 0; i < 99; ++i) s.objects.push_back(s.objects[0]);
+  EXPECT_NEAR(Lit(s).drawer(0, 1).coverage(), one, 0.02 * one);
+}
+
 TEST(PointDrawer, TakesFewLooksForAPointOfASmallSphere) {
   Scene s = test::sphere(test::chalk(), test::front());
   s.objects = {{Sphere{{0.3, 0.2, 0}, 0.002}, 0}};
