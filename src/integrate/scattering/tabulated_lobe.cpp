@@ -28,35 +28,21 @@ double azimuth_at(double graded, double width) {
 /// Light along the horizon counts as this much above it.
 constexpr double least_cosine = 1e-4;
 
-/// F of a channel as a polynomial of 2 c − 1, c the cosine: lowest power first.  It meets F at Chebyshev's points; of metals and of
-/// indices up to 3 it is off by at most 1e-3.
-constexpr std::size_t powers = 10;
-using Polynomial = std::array<double, powers>;
+/// F of a channel at even cosines, from 0 to 1, with straight lines between them: of Schlick's they are off by at most 6e-4.
+constexpr std::size_t segments = 64;
+using Curve = std::array<double, segments + 1>;
 
-std::vector<Polynomial> reflectances(const BoundModel& m, std::size_t channels) {
+std::vector<Curve> reflectances(const BoundModel& m, std::size_t channels) {
   AngleBlock angles(true);
-  const auto columns = angles.resize(powers);
-  std::array<double, powers> at;
-  for (std::size_t k = 0; k < powers; ++k) {
-    at[k] = std::cos(half_turn * (static_cast<double>(k) + 0.5) / powers);
-    columns[3][k] = (at[k] + 1) / 2;
-  }
+  const auto columns = angles.resize(segments + 1);
+  for (std::size_t k = 0; k <= segments; ++k)
+    columns[3][k] = static_cast<double>(k) / static_cast<double>(segments);
   double* const value = angles.extra(0);
-  std::vector<Polynomial> all(channels);
+  std::vector<Curve> all(channels);
   const TermUse& f = m.model.lobes[0].fresnel;
   for (std::size_t c = 0; c < channels; ++c) {
     term_values(f.term, term_parameters(m, f, c), angles.block(), value);
-    // Newton's divided differences, then its powers.
-    std::array<double, powers> d;
-    std::copy_n(value, powers, d.begin());
-    for (std::size_t order = 1; order < powers; ++order)
-      for (std::size_t k = powers; k-- > order;) d[k] = (d[k] - d[k - 1]) / (at[k] - at[k - order]);
-    Polynomial& p = all[c];
-    p.fill(0);
-    for (std::size_t k = powers; k-- > 0;) {
-      for (std::size_t i = powers; i-- > 1;) p[i] = p[i - 1] - at[k] * p[i];
-      p[0] = d[k] - at[k] * p[0];
-    }
+    std::copy_n(value, segments + 1, all[c].begin());
   }
   return all;
 }
@@ -83,7 +69,7 @@ class TowardsMany {
   TowardsMany(const Surface& s,
               const Lights& light,
               std::size_t sharing,
-              const std::vector<Polynomial>& f,
+              const std::vector<Curve>& f,
               std::span<const ColourOfChannel> colour)
       : surface_(s),
         light_(light),
@@ -105,11 +91,11 @@ class TowardsMany {
 
  private:
   void gather(Walkers& w, std::size_t walker) {
-    std::array<Polynomial, 3> reflected{};
+    std::array<Curve, 3> reflected{};
     for (std::size_t c = 0; c < f_.size(); ++c)
       for (std::size_t rgb = 0; rgb < 3; ++rgb)
         if (const double weight = w.weight(c, walker) * colour_[c][rgb]; weight != 0)
-          for (std::size_t k = 0; k < powers; ++k) reflected[rgb][k] += weight * f_[c][k];
+          for (std::size_t k = 0; k <= segments; ++k) reflected[rgb][k] += weight * f_[c][k];
     const Direction d = w.flight(walker);
     const double depth = w.depth(walker), per_area = 0.25 / w.area(walker);
     for (std::size_t first = 0; first < light_.size(); first += Walkers::most) {
@@ -130,8 +116,7 @@ class TowardsMany {
     const double *const lx = &light_.x[first], *const ly = &light_.y[first],
                         *const lz = &light_.z[first];
     double *const noh = columns_[2], *const voh = columns_[3], *const sin2 = columns_[4],
-                  *const hx = columns_[5], *const hy = columns_[6], *const share = share_.data(),
-                  *const cosine = cosine_.data();
+                  *const hx = columns_[5], *const hy = columns_[6], *const share = share_.data();
 #pragma GCC ivdep
     for (std::size_t i = 0; i < n; ++i) {
       const double x = lx[i] - d.x, y = ly[i] - d.y, z = lz[i] - d.z;
@@ -140,7 +125,6 @@ class TowardsMany {
       const bool up = z > 0;
       noh[i] = up ? z * per_length : 1;
       voh[i] = std::min(length * 0.5, 1.0);
-      cosine[i] = std::min(length, 2.0) - 1;
       sin2[i] = up ? across * per_length * per_length : 0;
       hx[i] = x * per_length;
       hy[i] = y * per_length;
@@ -153,26 +137,24 @@ class TowardsMany {
     double* const share = share_.data();
 #pragma GCC ivdep
     for (std::size_t i = 0; i < n; ++i)
-      share[i] *= d[i] * from_here * area[i] / (from_here * area[i] + d[i]);
+      share[i] *= d[i] * from_here * area[i] / std::max(from_here * area[i] + d[i], 1e-300);
   }
-  void add(const Polynomial& p, std::size_t n, double* sum) const {
-    const double *const share = share_.data(), *const cosine = cosine_.data();
-#pragma GCC ivdep
+  void add(const Curve& f, std::size_t n, double* sum) const {
     for (std::size_t i = 0; i < n; ++i) {
-      double f = p[powers - 1];
-      for (std::size_t k = powers - 1; k-- > 0;) f = f * cosine[i] + p[k];
-      sum[i] += share[i] * f;
+      const double at = columns_[3][i] * static_cast<double>(segments);
+      const auto k = std::min(static_cast<std::size_t>(at), segments - 1);
+      sum[i] += share_[i] * (f[k] + (at - static_cast<double>(k)) * (f[k + 1] - f[k]));
     }
   }
 
   const Surface& surface_;
   const Lights& light_;
   std::size_t sharing_;  ///< that many in a row have the same Λ
-  const std::vector<Polynomial>& f_;
+  const std::vector<Curve>& f_;
   std::span<const ColourOfChannel> colour_;
   AngleBlock angles_;
   std::span<double* const> columns_;
-  Walkers::Weights share_{}, cosine_{}, density_{};
+  Walkers::Weights share_{}, density_{};
   std::vector<double> sum_;
 };
 
