@@ -58,7 +58,9 @@ void take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColu
   if (diffuse.size() != 1 || catalogue()[find_term("diffuse." + diffuse[0])].coupled ||
       find_preset(diffuse[0]))  // as "disney", which alone is the name of a whole model
     return;
+  const std::size_t fixed = o.fixed.size();
   o = options_for(std::move(o), diffuse[0]);
+  const bool holds_lobe = o.fixed.size() < fixed;
   o.bin_sensitivity = false;
   o.certificate = Certify::none;
   FitDocument alone = fit(t, o, columns).document;
@@ -67,6 +69,7 @@ void take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColu
       if (reason.empty()) reason = "of a fit without the lobe";
     *std::ranges::find(d.parameters, p.name, &FittedParameter::name) = std::move(p);
   }
+  if (holds_lobe) return;  // what it costs to hold it is what was asked
   d.cost = alone.cost;
   d.residuals = std::move(alone.residuals);
   d.misfit = std::move(alone.misfit);

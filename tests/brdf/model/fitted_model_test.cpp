@@ -25,7 +25,7 @@ TEST(FittedModel, SaysWhereItsDocumentIsWrong) {
              "parameters.a.value: found an empty array");
   EXPECT_HAS(complaint(head + R"({"a":{"value":[1,"x"]}}})"),
              R"(parameters.a.value[1]: found "x")");
-  EXPECT_HAS(complaint(head + R"({"a":{"value":1e999}}})"), "JSON");
+  EXPECT_HAS(complaint(head + R"({"a":{"value":1e999}}})"), "found 1e999");
   std::filesystem::resize_file(folder / "fit.json", (1U << 26) + 1);
   EXPECT_HAS(test::refusal([&] { read_fitted_model(folder / "fit.json"); }), "at most 67108864");
 }
