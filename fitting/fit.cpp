@@ -51,13 +51,13 @@ void forget_unknown(BinSensitivity& s, const FitDocument& d) {
   }
 }
 
-/// Takes a fit of the diffuse terms alone, and what it leaves: beside lobes of which nothing is known they are
-/// what these left over, and what is said of such lobes' highlights is said of nothing.
-void take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColumns& columns) {
+/// Takes a fit of the diffuse terms without the lobes, and its residuals: of lobes that are not known neither those beside them nor
+/// their highlights say anything.  False where the cost and the residuals stay those of the model with its lobes.
+bool take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColumns& columns) {
   const auto diffuse = parse_spec(d.model)[0];
   if (diffuse.size() != 1 || catalogue()[find_term("diffuse." + diffuse[0])].coupled ||
       find_preset(diffuse[0]))  // as "disney", which alone is the name of a whole model
-    return;
+    return false;
   const std::size_t fixed = o.fixed.size();
   o = options_for(std::move(o), diffuse[0]);
   const bool holds_lobe = o.fixed.size() < fixed;
@@ -69,11 +69,12 @@ void take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColu
       if (reason.empty()) reason = "of a fit without the lobe";
     *std::ranges::find(d.parameters, p.name, &FittedParameter::name) = std::move(p);
   }
-  if (holds_lobe) return;  // what it costs to hold it is what was asked
+  if (holds_lobe) return false;  // what it costs to hold it is what was asked
   d.cost = alone.cost;
   d.residuals = std::move(alone.residuals);
   d.misfit = std::move(alone.misfit);
   d.physics = std::move(alone.physics);
+  return true;
 }
 
 /// Worth of the parameters, by values or by clusters of an incident angle.
@@ -196,7 +197,7 @@ FitResult fit_and_judge(const Table& t,
   d.misfit = lack.misfit;
   d.physics = check_physics(f.model, table, found.scanned);
   watch.lap("physics_ms");
-  if (needless) take_diffuse_alone(d, t, o, columns);
+  const bool without_lobes = needless && take_diffuse_alone(d, t, o, columns);
   d.values_used = a.counts.used;
   d.masked = a.counts.by_reason(sampling);
   d.input_path = t.path;
@@ -209,7 +210,7 @@ FitResult fit_and_judge(const Table& t,
     forget_unknown(*sensitivity, d);
     d.sensitivity.push_back(std::move(*sensitivity));
   }
-  if (found.profile && !needless) d.certificate = certificate_of(p, *found.profile);
+  if (found.profile && !without_lobes) d.certificate = certificate_of(p, *found.profile);
   d.solver = solver_of(f.solution, std::move(phase_ms));
   for (const auto& w : t.warnings)
     if (!(d.misfit.reproduces() && is_answered_by_a_fit(w))) d.warnings.push_back(w);

@@ -69,7 +69,7 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost) {
         fmt::format("the tolerance is not kept: this is the nearest plan; the reference itself is "
                     "known to {} {:.2g}",
                     unit_of(t), m.reference_error));
-  if (std::ranges::any_of(m.effects, [](const auto& e) { return e.form == "tabulated"; }))
+  if (m.needs_table())
     say_below(
         "  beware  ",
         fmt::format("no shader has this table: what shaders have differs by {} {:.2g} at best",

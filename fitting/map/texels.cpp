@@ -458,11 +458,12 @@ void LaneFit::take_lowest(std::vector<float>& lowest) {
 
 /// True of a lane whose normal is sought in fewer than three images with light: whatever fits, others fit as well.
 bool LaneFit::leaves_tilt_open(std::size_t lane) const {
+  if (!task_.asked.refine_normals) return false;
   std::size_t lit = 0;
   for (std::size_t i = 0; i < in_.images; ++i)
     lit += std::ranges::any_of(std::span(weight_).first(in_.channels),
                                [&](const auto& w) { return w[i * width_ + lane] > 0; });
-  return task_.asked.refine_normals && lit < 3;
+  return lit < 3;
 }
 
 void LaneFit::finish(std::span<const std::size_t> texels) {

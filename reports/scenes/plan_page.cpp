@@ -53,12 +53,9 @@ std::string kept_words(const scene::Forms& forms) {
 
 std::vector<std::string> verdict(const scene::Plan& p, std::string_view unit) {
   std::vector<std::string> out;
-  const auto needs_table = [](const scene::MaterialPlan& m) {
-    return std::ranges::any_of(m.effects, [](const auto& e) { return e.form == "tabulated"; });
-  };
   std::vector<const scene::MaterialPlan*> shippable;
   for (const auto& m : p.materials)
-    if (!needs_table(m)) shippable.push_back(&m);
+    if (!m.needs_table()) shippable.push_back(&m);
   std::ranges::sort(shippable, {}, &scene::MaterialPlan::speedup);
   if (shippable.size() == 1)
     out.push_back(fmt::format("Dropping what this scene does not need makes {} {} as fast.",
@@ -70,7 +67,7 @@ std::vector<std::string> verdict(const scene::Plan& p, std::string_view unit) {
         shippable.back()->name, times(shippable.back()->speedup), shippable[0]->name,
         times(shippable[0]->speedup)));
   for (const auto& m : p.materials)
-    if (needs_table(m))
+    if (m.needs_table())
       out.push_back(fmt::format(
           "No shader has the light between facets that {} needs here: what shaders have "
           "differs by {}{} at best.",

@@ -126,10 +126,8 @@ class SceneMeasurement {
     r.spec = plan_.spec;
     // Shaders ship a compensation, not the reference's table.
     const Forms everything = look_.everything();
-    Forms present = look_.structural();
-    present[Effect::compensation] = everything[Effect::compensation];
     const std::array surfaces{look_.surface(plan_.forms), look_.surface(everything),
-                              single(everything), single(present), single(plan_.forms)};
+                              single(everything), single(look_.shipped()), single(plan_.forms)};
     const auto times = median_times(
         surfaces, lit_.drawer(0, options_.plan.directions).draw(timing, 0, options_.plan.samples));
     r.ns = times[0];

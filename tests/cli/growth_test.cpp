@@ -23,7 +23,7 @@ double instructions(const Folder& f, const std::string& words) {
   return std::stod("0" + digits);
 }
 
-/// What n more cost at n and at 2 n: twice as much where the work is linear, four times where it is quadratic.
+/// The step from 2 n to 4 n costs twice the step from n to 2 n where the work is linear, and four times where it is quadratic.
 void expect_linear(const std::function<void(const Folder&, int)>& write,
                    const std::string& words,
                    int n) {

@@ -169,8 +169,8 @@ TabulatedLobe::Taps TabulatedLobe::taps(double x, std::size_t nodes, Ends ends) 
           (t - 1) * t * t / 2},
          {0, 1 - t, t, 0},
          {}};
-  // What stands beyond an end: the same in a mirror, the other end, or a parabola's next value, 3
-  // f₀ − 3 f₁ + f₂.
+  // A node beyond an end: its mirror image, the node at the other end, or 3 f₀ − 3 f₁ + f₂ of a
+  // parabola.
   const auto beyond = [&](std::size_t tap, std::size_t mirrored, std::size_t around) {
     p.at[tap] = ends == Ends::around ? around : mirrored;
     p.beyond[tap] = ends == Ends::mirrored;

@@ -14,7 +14,7 @@
 
 namespace gonio {
 
-/// What a channel of a lobe adds to red, green and blue.
+/// Red, green and blue of a channel of a lobe.
 using ColourOfChannel = std::array<double, 3>;
 /// Channels that are red, green and blue themselves.
 inline constexpr std::array<ColourOfChannel, 3> red_green_blue{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

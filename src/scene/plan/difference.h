@@ -28,6 +28,9 @@ struct Judgement {
 
   /// True where the bound of the quantile keeps the limit, and none is beyond the greatest.
   bool keeps(const Tolerance& t) const { return upper <= t.limit && worst <= t.max; }
+  /// True where no larger a share is beyond the limit, with the tolerance's confidence, than its quantile leaves, and none is beyond
+  /// the greatest.
+  bool holds(const Tolerance& t) const { return bound <= 1 - t.quantile && worst <= t.max; }
 };
 /// \param values  reordered
 Judgement judge(std::vector<double>& values, const Tolerance&);

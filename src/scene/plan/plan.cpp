@@ -57,14 +57,6 @@ std::size_t fresh_points(const Scene& scene, const PlanOptions& o, const Surface
   return s.image_lit ? std::min(o.fresh, samples_of_verification(scene)) : o.fresh;
 }
 
-/// Forms of the effects that a material has, with the compensation that shaders ship in place of the reference's table.
-Forms as_shipped(const Look& look) {
-  Forms f = look.structural();
-  f[Effect::compensation] =
-      std::min(f[Effect::compensation], look.everything()[Effect::compensation]);
-  return f;
-}
-
 class MaterialPlanner {
  public:
   MaterialPlanner(const Lit& lit, std::size_t material, const PlanOptions& o)
@@ -74,7 +66,7 @@ class MaterialPlanner {
         drawer_(lit.drawer(material, o.directions)),
         exact_(look_.surface(look_.exact())),
         everything_(look_.surface(look_.everything())),
-        shipped_(look_.surface(in_float(as_shipped(look_)))),
+        shipped_(look_.surface(in_float(look_.shipped()))),
         reference_(scene_, seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_) {
     for (const auto& object : scene_.objects)
       if (object.material == material) join(reached_angles(scene_, object));
@@ -361,6 +353,10 @@ class MaterialPlanner {
 
 }  // namespace
 
+bool MaterialPlan::needs_table() const {
+  return std::ranges::find(effects, "tabulated", &PlannedEffect::form) != effects.end();
+}
+
 std::size_t Candidate::kept() const {
   return static_cast<std::size_t>(
       std::ranges::count_if(forms.form, [](std::size_t form) { return form > 0; }));
@@ -389,7 +385,7 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
     const auto drawer = lit.drawer(index, options.directions);
     const Surface exact = look.surface(look.exact()), surface = look.surface(c.forms);
     m.checked = judge_fresh(s, drawer, checking, fresh_points(s, options, surface), exact, surface);
-    m.holds = m.checked.bound <= 1 - s.tolerance.quantile && m.checked.worst <= s.tolerance.max;
+    m.holds = m.checked.holds(s.tolerance);
   }
 }
 

@@ -66,6 +66,9 @@ struct MaterialPlan {
   double directions = 0;         ///< of light that come to a point, on average
   std::vector<Candidate> front;  ///< none of the others is cheaper and errs less
   Forms forms;
+
+  /// True where it keeps light between facets as a table, which no shader has.
+  bool needs_table() const;
 };
 
 /// A time for all materials, and what came of it.

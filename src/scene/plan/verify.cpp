@@ -80,7 +80,7 @@ Verification verify(const Scene& s,
     one.found = judge_fresh(s, lit.drawer(m, PlanOptions{}.directions), verifying + seed,
                             samples.value_or(samples_of_verification(s)),
                             look.surface(look.exact()), look.surface(*planned.by_material[m]));
-    one.holds = one.found.bound <= 1 - s.tolerance.quantile && one.found.worst <= s.tolerance.max;
+    one.holds = one.found.holds(s.tolerance);
     v.materials.push_back(std::move(one));
     if (done) done(static_cast<double>(m + 1) / static_cast<double>(s.materials.size()));
   }

@@ -392,6 +392,12 @@ Forms Look::everything() const {
   form = std::min(form, kulla_conty);
   return f;
 }
+Forms Look::shipped() const {
+  Forms f = structural();
+  auto& form = f[Effect::compensation];
+  form = std::min(form, kulla_conty);
+  return f;
+}
 bool Look::is_bounded() const {
   return !first_.any || exact().name(Effect::compensation) == "tabulated";
 }

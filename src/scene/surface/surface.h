@@ -79,6 +79,8 @@ class Look {
   Forms everything() const;
   /// Every effect in the cheapest form that is the same.
   Forms structural() const;
+  /// The effects that the material has, with the compensation of everything() in place of the reference's table.
+  Forms shipped() const;
   /// Forms without what the others leave nothing of: the coupling of no diffuse, the spectrum of a form that has none.
   Forms plain(Forms) const;
   /// \param forms  each one that is offered
