@@ -56,6 +56,7 @@ std::string signed_percent(double share) {
   return (share > 0 ? "+" : "") + percent(share);
 }
 std::string times(double x) {
+  if (x < 0.1) return significant(x, 2) + "\u202f×";
   return fmt::format("{:.{}f}\u202f×", x, x < 9.95 ? 1 : 0);
 }
 std::string ratio_text(double ln) {

@@ -34,6 +34,8 @@ TEST(PageNumbers, SayRatiosAsFactors) {
   EXPECT_EQ(ratio_text(0.5), "×1.65");
   EXPECT_EQ(ratio_text(-0.05), "÷1.051");
   EXPECT_EQ(ratio_text(1e-5), "×1");
+  EXPECT_EQ(times(7.04), "7.0\u202f×");
+  EXPECT_EQ(times(0.0292), "0.029\u202f×") << "not 0.0";
   EXPECT_EQ(factor_text(0.6), "×/÷\u202f1.82");
 }
 
