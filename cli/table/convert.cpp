@@ -35,7 +35,7 @@ std::string format_of(const ConvertCall& o) {
   if (extension == ".mbsdf" || extension == ".csv" || extension == ".exr")
     return extension.substr(1);
   throw wrong_usage(fmt::format(
-      "what {} is to be is not clear: --to merl, mbsdf, utia, csv, exr or rgl", o.output));
+      "what {} is to be is not clear: --to merl, mbsdf, utia, csv, exr, rgl or zemax", o.output));
 }
 
 std::string layout(const Table& t) {
@@ -190,9 +190,10 @@ void add_convert(CommandLine& line) {
   c.option("IN", o->input, "Table").required();
   c.option("OUT", o->output, "File to write").required();
   c.option("--to", o->convert.format,
-           "merl, mbsdf, utia, csv, exr (a slice) or rgl; default: by OUT's ending, .binary being "
+           "merl, mbsdf, utia, csv, exr (a slice), rgl or zemax; default: by OUT's ending, .binary "
+           "being "
            "merl, .bin utia and .bsdf rgl")
-      .one_of({"merl", "mbsdf", "utia", "csv", "exr", "rgl"});
+      .one_of({"merl", "mbsdf", "utia", "csv", "exr", "rgl", "zemax"});
   c.option("--channels", o->channels, "Which, in this order: NAME,NAME,…");
   add_bins(c, o->bins);
   add_mask(c, o->mask);

@@ -96,8 +96,8 @@ inline constexpr double least_cosine = 0.01;
 struct Table {
   std::string path;
   std::string sha256;  ///< of the file, where reading it had a reason to know
-  std::string format;  ///< "csv", "merl", "mbsdf", "exr", "rgl", "klems", "alta", "utia",
-                       ///< "ngan", "astm", "ssdd"
+  std::string format;  ///< "csv", "merl", "mbsdf", "exr", "rgl", "klems", "alta", "utia", "ngan",
+                       ///< "astm", "ssdd", "zemax", "tensor_tree", "brdf_json", "xompt"
   std::vector<std::string> channels;  ///< "r", "g", "b"; "f" if there is one
   std::variant<Grid, DirectionList> where;
   std::vector<Values> values;     ///< [channel][sample]

@@ -24,6 +24,12 @@ Table read(InputFile& in) {
   return read_rgl(in);
 #elif defined(GONIO_FUZZ_klems)
   return read_klems(in);
+#elif defined(GONIO_FUZZ_zemax)
+  return read_zemax(in);
+#elif defined(GONIO_FUZZ_brdf_json)
+  return read_brdf_json(in);
+#elif defined(GONIO_FUZZ_xompt)
+  return read_xompt(in);
 #elif defined(GONIO_FUZZ_alta)
   return read_alta(in);
 #elif defined(GONIO_FUZZ_utia)

@@ -65,6 +65,23 @@ int main(int argc, char** argv) {
   save("klems", "rows",
        KlemsFile{.rings = {{0, 90, 1}}, .columns = false, .directions = {"Reflection Back"}, .f = f}
            .bytes());
+  save("klems", "tree", tensor_tree_file(3, "{{1}{2}{3}{4}{5}{6}{7}{1 2 3 4 5 6 7 8}}"));
+  save("zemax", "xyz",
+       ZemaxFile{.symmetry = "ASymmetrical4D",
+                 .rotation = {0, 90, 180},
+                 .azimuth = {0, 90, 180, 270},
+                 .xyz = true,
+                 .f = f}
+           .bytes());
+  save(
+      "brdf_json", "old",
+      R"({"head": {"date": "x"}, "data": {"wavelengths": [500, 600], "theta_i": [0, 9, 9], "phi_i": [0, 9, 9], "theta_v": [-1, 2, 2], "phi_v": [0, 9, 8], "pol": "spu", "data": [[500, 1, 2, 3], [600, 4, 5, 6]]}})");
+  save(
+      "brdf_json", "new",
+      R"({"metadata": {"id": "7"}, "data": {"variables": [{"name": "theta_i", "unit": "rad"}, {"name": "phi_i", "unit": "deg"}, {"name": "theta_r", "unit": "deg"}, {"name": "phi_r", "unit": "deg"}, {"name": "wavelength_i", "unit": "nm"}, {"name": "pol_i"}, {"name": "BRDF", "unit": "sr-1"}], "values": [[0.5, 0, 20, 180, 650, "s", 0.3]]}})");
+  save(
+      "xompt", "rows",
+      R"({"metadata": {"name": "x"}, "brdf": {"lookupTable": [[5e-7, 0.1, 0.2, 3, 0.04], [6e-7, 0.1, 0.2, 3, 0.05]]}})");
   for (const auto& [name, size] :
        std::initializer_list<std::pair<const char*, std::size_t>>{{"ISOTROPIC_TL_TV_PROJ_DPHI", 3},
                                                                   {"SPHERICAL_TL_PL_TV_PV", 4},

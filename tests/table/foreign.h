@@ -12,6 +12,7 @@
 #include "geometry/direction.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio::test {
 
@@ -206,6 +207,72 @@ std::string ngan_file(const std::array<std::int32_t, 4>& bins, bool half, Value 
     for (std::size_t k = 0; k < 3 * std::size_t(bins[0] * bins[1] * bins[2] * bins[3]); ++k)
       bytes += bytes_of(static_cast<float>(value(k)));
   return bytes;
+}
+
+/// A tabulated BSDF of Zemax, its directions computed by rotating the mirror direction and not as the reader does.
+struct ZemaxFile {
+  std::string symmetry = "PlaneSymmetrical";
+  std::vector<double> rotation{0}, incident{0, 30, 75}, azimuth{0, 60, 120, 180},
+      radius{0, 10, 40, 80};
+  bool xyz = false;
+  Brdf f{};
+
+  /// Radius towards the normal within the plane of incidence, then a turn about the mirror direction (Rodrigues).
+  static Direction outgoing(double incident, double azimuth, double radius) {
+    const Direction k = direction(incident * degree, std::numbers::pi);
+    const double zenith = (incident - radius) * degree;
+    const Direction v{-std::sin(zenith), 0, std::cos(zenith)};
+    const double c = std::cos(azimuth * degree), s = std::sin(azimuth * degree),
+                 along = dot(k, v) * (1 - c);
+    return {v.x * c + (k.y * v.z - k.z * v.y) * s + k.x * along,
+            v.y * c + (k.z * v.x - k.x * v.z) * s + k.y * along,
+            v.z * c + (k.x * v.y - k.y * v.x) * s + k.z * along};
+  }
+  std::string bytes() const {
+    std::string text = fmt::format(
+        "# made by a test\r\nSource\tMeasured\nsymmetry {}\nSpectralContent {}\nScatterType BRDF\n"
+        "SampleRotation {}\n{}\nAngleOfIncidence {}\n{}\nScatterAzimuth {}\n{}\nScatterRadial "
+        "{}\n{}\n",
+        symmetry, xyz ? "XYZ" : "Monochrome", rotation.size(), fmt::join(rotation, " "),
+        incident.size(), fmt::join(incident, " "), azimuth.size(), fmt::join(azimuth, "\t"),
+        radius.size(), fmt::join(radius, " "));
+    for (std::size_t c = 0; c < (xyz ? 3 : 1); ++c) {
+      text += fmt::format("\n{}\nDataBegin\n",
+                          xyz ? fmt::format("Tristimulus{}", "XYZ"[c]) : "Monochrome");
+      for (const double turn : rotation)
+        for (const double theta : incident) {
+          text += "TIS 0.5\n";
+          for (const double a : azimuth) {
+            for (const double r : radius) {
+              const auto wo = outgoing(theta, a, r);
+              const auto turned = [&](const Direction& d) {
+                return direction(theta_of(d), phi_of(d) - turn * degree);
+              };
+              text += fmt::format(
+                  "{:.9g} ",
+                  wo.z > 0 ? f({turned(direction(theta * degree, 0)), turned(wo)}, c) : 0);
+            }
+            text += "\n";
+          }
+        }
+      text += "DataEnd\n";
+    }
+    return text;
+  }
+};
+
+/// A tensor tree in LBNL's XML.
+inline std::string tensor_tree_file(std::size_t axes,
+                                    const std::string& braces,
+                                    const std::string& side = "Reflection Front") {
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n<WindowElement><Optical><Layer><DataDefinition>"
+      "<IncidentDataStructure>TensorTree{}</IncidentDataStructure></DataDefinition><WavelengthData>"
+      "<Wavelength>Visible</Wavelength><WavelengthDataBlock><WavelengthDataDirection>{}"
+      "</WavelengthDataDirection><AngleBasis>LBNL/Shirley-Chiu</AngleBasis><ScatteringData>\n{}\n"
+      "</ScatteringData></WavelengthDataBlock></WavelengthData></Layer></Optical></"
+      "WindowElement>\n",
+      axes, side, braces);
 }
 
 /// \param rows  the numbers of each sample

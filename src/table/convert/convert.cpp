@@ -88,6 +88,13 @@ Table with_channels(const Table& t, const ConvertOptions& o, Loss& loss) {
     if (std::ranges::find(out.channels, name) == out.channels.end()) loss.dropped.push_back(name);
   if (o.format == "csv" || o.format == "exr" || spectrum) return out;
   const std::size_t n = out.channels.size();
+  if (o.format == "zemax") {
+    if (n != 1 && out.channels != std::vector<std::string>{"X", "Y", "Z"})
+      throw wrong_usage(
+          fmt::format("zemax holds one channel, or X, Y and Z: --channels takes one of {}",
+                      fmt::join(t.channels, ", ")));
+    return out;
+  }
   if (n != 1 && n != 3)
     throw wrong_usage(fmt::format("{} holds one channel or three{}: --channels takes them of {}",
                                   o.format, o.format == "rgl" ? ", or wavelengths" : "",
@@ -184,10 +191,11 @@ class Resampling {
   std::vector<double> reciprocity_, mirror_;
 };
 
-void resample(const Table& from, Table& to, Loss& loss) {
-  loss.method = Loss::Method::interpolated;
+/// \param joins  a grid that has one value for what the target has one for; none of a list
+void resample(const Table& from, Table& to, const std::optional<Grid>& joins, Loss& loss) {
+  if (loss.method == Loss::Method::copied) loss.method = Loss::Method::interpolated;
   loss.one_phi_d = from.grid() && is_slice(*from.grid());
-  Resampling f(from, to.grid());
+  Resampling f(from, joins ? &*joins : nullptr);
   const SampleAngles at(to);
   const std::size_t every = 1 + to.size() / 20'000;
   for_each_chunk(to.size(), [&](std::size_t first, std::size_t last) {
@@ -356,15 +364,30 @@ RglFunction turned_mean(const Table& from) {
   };
 }
 
-/// \param from  with the channels wanted
-Conversion to_rgl(const Table& from, const ConvertOptions& o, Loss loss) {
+/// Refuses a table that changes as its surface is turned, for a file that has one azimuth of light.
+void expect_isotropic(const Table& from, const char* file, Loss& loss) {
   loss.azimuth = change_with_azimuth(from);
   if (loss.azimuth && *loss.azimuth > most_change)
     throw bad_input(
         from.path, "converting",
         fmt::format("f that changes by {:.3g} % as the surface is turned", 100 * *loss.azimuth),
-        fmt::format("{:g} % at most: an isotropic RGL file has one azimuth of light",
-                    100 * most_change));
+        fmt::format("{:g} % at most: {} has one azimuth of light", 100 * most_change, file));
+}
+
+/// A list whose format says nothing of what lies between its samples, on a grid.
+Table on_a_grid(const Table& from, double reach_deg, Loss& loss) {
+  Table grid;
+  grid.format = "mbsdf";
+  grid.channels = from.channels;
+  grid.where = mbsdf_grid(45, 90, from.bins());
+  grid.values.assign(from.values.size(), Values(grid.grid()->size(), kNone));
+  gather(from, grid, reach_deg, loss);
+  return grid;
+}
+
+/// \param from  with the channels wanted
+Conversion to_rgl(const Table& from, const ConvertOptions& o, Loss loss) {
+  expect_isotropic(from, "an isotropic RGL file", loss);
   const RglSizes sizes{o.n_theta.value_or(RglSizes{}.n_theta), o.n_grid.value_or(RglSizes{}.n)};
   if (sizes.n_theta < 2)
     throw wrong_usage("an RGL file has two incident angles or more: --theta 2");
@@ -382,12 +405,7 @@ Conversion to_rgl(const Table& from, const ConvertOptions& o, Loss loss) {
                     sizes.n_theta, sizes.n, sizes.n, channels, numbers, most_values));
   RglTable made;
   if (!from.grid() && !from.between) {
-    Table grid;
-    grid.format = "mbsdf";
-    grid.channels = from.channels;
-    grid.where = mbsdf_grid(45, 90, from.bins());
-    grid.values.assign(from.values.size(), Values(grid.grid()->size(), kNone));
-    gather(from, grid, o.reach_deg, loss);
+    const Table grid = on_a_grid(from, o.reach_deg, loss);
     count_bins(grid, loss);
     made = rgl_table(Interpolator(grid), from.channels, sizes);
   } else {
@@ -449,13 +467,19 @@ Conversion convert(const Table& source, const ConvertOptions& o) {
     return to_rgl(from, o, std::move(loss));
   }
   loss.rounded = o.format == "mbsdf" || o.format == "exr";
-  const bool to_list = o.format == "csv", to_utia = o.format == "utia";
+  const bool to_list = o.format == "csv", to_utia = o.format == "utia",
+             to_zemax = o.format == "zemax";
+  if (to_zemax) {
+    expect_isotropic(from, "a PlaneSymmetrical file", loss);
+    if (!from.grid() && !from.between) from = on_a_grid(from, o.reach_deg, loss);
+  }
   const std::optional<Grid> grid =
-      to_list || to_utia ? std::nullopt : std::optional(target_grid(source, o));
+      to_list || to_utia || to_zemax ? std::nullopt : std::optional(target_grid(source, o));
   Table& to = result.table;
-  if (grid      ? source.grid() && *source.grid() == *grid
-      : to_utia ? has_utia_directions(source)
-                : !source.grid()) {
+  if (grid       ? source.grid() && *source.grid() == *grid
+      : to_utia  ? has_utia_directions(source)
+      : to_zemax ? false
+                 : !source.grid()) {
     to = from;
     to.between = {};
   } else if (to_list) {
@@ -464,12 +488,12 @@ Conversion convert(const Table& source, const ConvertOptions& o) {
     if (grid)
       to.where = *grid;
     else
-      to.where = utia_directions();
+      to.where = to_zemax ? zemax_directions(zemax_axes(source)) : utia_directions();
     to.channels = from.channels;
     to.values.assign(from.values.size(),
                      Values(grid ? grid->size() : to.list()->theta_i_deg.size(), kNone));
     if (from.grid() || from.between)
-      resample(from, to, loss);
+      resample(from, to, to_zemax ? std::optional(mbsdf_grid(2, 2, Bins::centre)) : grid, loss);
     else if (grid)
       gather(from, to, o.reach_deg, loss);
     else
@@ -478,6 +502,7 @@ Conversion convert(const Table& source, const ConvertOptions& o) {
   }
   to.format = o.format;
   if (to_utia) interpolate_utia(to);
+  if (to_zemax) interpolate_zemax(to);
   if (loss.method == Loss::Method::copied || loss.method == Loss::Method::listed)
     to.truth = source.truth;
   settle_values(to, loss);

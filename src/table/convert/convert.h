@@ -12,7 +12,7 @@
 namespace gonio {
 
 struct ConvertOptions {
-  std::string format;                 ///< merl, mbsdf, utia, csv, exr or rgl
+  std::string format;                 ///< merl, mbsdf, utia, csv, exr, rgl or zemax
   std::vector<std::string> channels;  ///< which, in this order; empty: all
   /// Bin convention of the result; else the source's.  The result's sizes where the layout leaves them open: the
   /// source's if that is of the format, else 45 × 45 × 90 (MBSDF) or 90 × 90 (slice).
@@ -74,6 +74,8 @@ struct Conversion {
 /// rgl_table() chooses, turned eight times where the table has several azimuths of light.  There and back is by what renderers
 /// evaluate (table/format/rgl/function.h), but for least_cosine above the horizon, where the format's values say nothing.  bad_input where f changes as the surface is turned
 /// (most_change).
+///
+/// To Zemax: light from azimuth 0, φ and −φ averaged; lists and the change with azimuth as to RGL.
 ///
 /// Masked values stay without data: −1 in MERL, else NaN.  The truth stays where values do.  Wrong
 /// usage where the format cannot hold the channels; bad_input where a list's samples reach less than

@@ -43,8 +43,11 @@ constexpr Format formats[]{
      [](InputFile& in) { return read_exr_slice(in.path()); }},  // written by write_table
     {"mbsdf", "MBSDF", by_head<is_mbsdf>, read_mbsdf, write_mbsdf},
     {"rgl", "RGL", by_head<is_rgl>, read_rgl, write_rgl},
-    {"klems", "Klems XML", by_head<is_klems>, read_klems},
+    {"klems", "Klems or tensor tree XML", by_head<is_klems>, read_klems},
     {"alta", "ALTA", by_head<is_alta>, read_alta, nullptr, true},
+    {"zemax", "Zemax BSDF", by_head<is_zemax>, read_zemax, write_zemax},
+    {"brdf_json", "BRDF-JSON", by_head<is_brdf_json>, read_brdf_json},
+    {"xompt", "OpenMATERIAL", by_head<is_xompt>, read_xompt},
     {"astm", "ASTM E1392", by_head<is_astm>, read_astm, nullptr, true},
     {"ssdd", "SSDD", by_head<is_ssdd>, read_ssdd, nullptr, true},
     {"merl", "MERL", is_merl, read_merl, write_merl},
@@ -72,9 +75,8 @@ constexpr std::pair<std::string_view, std::string_view> foreign_beginnings[]{
     {"[", "JSON"},
     {"PK\x03\x04", "a spreadsheet, or another ZIP archive"},
     {"\xd0\xcf\x11\xe0", "a spreadsheet of old Excel"},
-    {"<", "XML that is no Klems matrix"},
+    {"<", "XML that is no BSDF of a WindowElement"},
     {"OPTIS -", "a BSDF of Speos"},
-    {"Source Measured", "a BSDF of Zemax"},
     {"DataType:", "a BSDF file that begins with DataType:"}};
 
 void expect_no_foreign_format(const std::string& path, std::string_view head) {
@@ -213,8 +215,12 @@ std::string side_text_of(InputFile& in) {
 double memory_needed(const std::string& path) {
   try {
     InputFile in(path);
-    constexpr double times_the_file = 8, of_image = 3e8;  // an image may be packed to nothing
-    return times_the_file * static_cast<double>(in.size()) + (is_exr(in.peek(4)) ? of_image : 0);
+    constexpr double times_the_file = 8, of_json = 40,
+                     of_image = 3e8;  // an image may be packed to nothing
+    const std::string head = in.peek(1 << 16);
+    return (is_brdf_json(head) || is_xompt(head) ? of_json : times_the_file) *
+               static_cast<double>(in.size()) +
+           (is_exr(head) ? of_image : 0);
   } catch (const Error&) {
     return 0;  // it will not be read either
   }

@@ -8,6 +8,7 @@
 
 #include "table/format/alta.h"
 #include "table/format/astm.h"
+#include "table/format/brdf_json.h"
 #include "table/format/csv.h"
 #include "table/format/exr_slice.h"
 #include "table/format/klems.h"
@@ -17,6 +18,7 @@
 #include "table/format/rgl/rgl.h"
 #include "table/format/ssdd.h"
 #include "table/format/utia.h"
+#include "table/format/zemax.h"
 #include "table/table.h"
 
 namespace gonio {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "table/format/tensor_tree.h"
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
@@ -81,10 +82,17 @@ class KlemsReader {
     const auto layer = child(child(child(document_, "WindowElement"), "Optical"), "Layer");
     const auto definition = child(layer, "DataDefinition");
     const std::string structure = text(child(definition, "IncidentDataStructure"));
-    if (structure != "Columns" && structure != "Rows")
-      fail("IncidentDataStructure", structure, "Columns or Rows: a matrix over Klems' patches");
-    const bool columns = structure == "Columns";
     const auto [block, band, direction] = choose(layer);
+    if (structure == "TensorTree3" || structure == "TensorTree4") {
+      Table t = tensor_tree_table(path_, child(block, "ScatteringData").text().get(),
+                                  structure.back() == '3' ? 3 : 4, direction == kBack);
+      t.notes = {{"wavelength", band}, {"direction", direction}};
+      return t;
+    }
+    if (structure != "Columns" && structure != "Rows")
+      fail("IncidentDataStructure", structure,
+           "Columns or Rows: a matrix over Klems' patches; or TensorTree3 or 4");
+    const bool columns = structure == "Columns";
     const Basis of_columns = basis(definition, text(child(block, "ColumnAngleBasis"))),
                 of_rows = basis(definition, text(child(block, "RowAngleBasis")));
     const auto matrix = numbers(child(block, "ScatteringData"), of_rows.size() * of_columns.size());

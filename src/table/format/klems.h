@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// BSDF of windows and shades in LBNL's XML, on Klems' patches.
+/// BSDF of windows and shades in LBNL's XML, on Klems' patches or as a tensor tree.
 
 #include <string_view>
 
@@ -17,6 +17,8 @@ bool is_klems(std::string_view head);
 /// outgoing patch [1/sr, without the cosine]; a sample sits in its patches' centres, the polar patch's
 /// being the pole.  IncidentDataStructure Columns: rows of the matrix are outgoing, Rows: incident.
 /// Incident azimuths count along the light, so wi is at φ + 180° and patch k mirrors into patch k.
+///
+/// IncidentDataStructure TensorTree3 or TensorTree4: see table/format/tensor_tree.h.
 ///
 /// A table holds reflection of one side: front, or back where the front is missing, turned about x so
 /// that its normal is +z; transmission has no place in it.  Of several wavelength bands it takes

@@ -77,10 +77,12 @@ Pairs of_list(const DirectionList& l) {
 
 Partners for_each_reciprocal(const Table& t, const ReciprocalVisitor& visit) {
   const Grid* g = t.grid();
-  const Pairs pairs = !g                                       ? of_list(*t.list())
-                      : g->kind == Grid::Kind::half_difference ? of_half_difference(*g)
-                                                               : of_in_out(*g);
+  Pairs pairs = !g                                       ? of_list(*t.list())
+                : g->kind == Grid::Kind::half_difference ? of_half_difference(*g)
+                                                         : of_in_out(*g);
   const SampleAngles at(t);
+  // Of leaves of unlike sizes only a few find a partner, at equal zenith angles.
+  if (t.between && 2 * pairs.size() < t.size()) pairs.clear();
   for (const auto& [i, j] : pairs) {
     const auto here = at(i), there = at(j);
     for (std::size_t c = 0; c < t.values.size(); ++c) {
