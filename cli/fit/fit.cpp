@@ -16,6 +16,7 @@
 #include "reports/pages/batch_page.h"
 #include "reports/pages/fit_page.h"
 #include "reports/pages/models_page.h"
+#include "table/format/as_one.h"
 #include "table/format/formats.h"
 #include "table/health/health.h"
 
@@ -29,7 +30,7 @@ struct FitCall : Common {
   HowFitted how;
   std::string output, html;
   std::optional<std::string> part;
-  bool pages = false;
+  bool pages = false, as_one = false;
 };
 
 /// Name of a reason or an end as people write it.
@@ -202,32 +203,36 @@ void print(const ModelChoice& choice, const Advice& advice) {
 
 /// Models compared on one table.
 Exit run_models(const FitCall& o) {
-  if (is_batch(o.files))
+  if (is_batch(o.files) && !o.as_one)
     throw wrong_usage(
         "--models compares on one table: run it for each, with -o and --html of its own");
   if (o.pages)
     throw wrong_usage("--pages is of many tables; the page of --models is --html PAGE.html");
   if (o.part) throw wrong_usage("--part is of the fits of many tables, not of --models");
   const auto models = models_asked(o.models);
-  OutputFiles out(o.files, o.output, o.html);
+  const auto files = o.as_one ? tables_of(o.files) : o.files;
+  OutputFiles out(files, o.output, o.html);
   Progress progress(o.quiet);
   progress("reading " + o.files[0]);
-  TableAndDigest in(o.files[0], o.how.bins);
-  if (o.how.mask) leave_out(in.table, *o.how.mask);
+  std::optional<TableAndDigest> in;
+  Table all;
+  Table& table =
+      o.as_one ? all = read_as_one(files, o.how.bins) : in.emplace(o.files[0], o.how.bins).table;
+  if (o.how.mask) leave_out(table, *o.how.mask);
   ModelChoice choice =
-      compare_models(in.table, o.how.options, models, [&](const std::string& what, double part) {
+      compare_models(table, o.how.options, models, [&](const std::string& what, double part) {
         progress(fmt::format("{} ({:.0f} %)", what, 100 * part));
       });
-  Spheres spheres = add_spheres(in.table, choice);
-  in.finish();
+  Spheres spheres = add_spheres(table, choice);
+  if (in) in->finish();
   const Advice advice = advise(choice);
-  const ComparedTable compared{o.files[0], in.table.sha256, in.table.format,
+  const ComparedTable compared{table.path, table.sha256, table.format,
                                std::string(name_of(o.how.options.metric))};
   const std::string json = to_json(choice, advice, compared);
   out.write_document(json);
   if (out.has_page()) {
     progress("making the page");
-    const auto page = make_models_page(in.table, choice, advice, std::move(spheres));
+    const auto page = make_models_page(table, choice, advice, std::move(spheres));
     out.write_page(models_page_html(choice, advice, compared, page), to_json(page, json));
   }
   out.commit();
@@ -242,13 +247,14 @@ Exit run_models(const FitCall& o) {
 Exit run(const FitCall& o) {
   use(o);
   if (!o.models.empty()) return run_models(o);
-  if (is_batch(o.files)) return run_batch(o);
+  if (is_batch(o.files) && !o.as_one) return run_batch(o);
   if (o.pages) throw wrong_usage("--pages is of many tables; the page of one is --html PAGE.html");
   if (o.part) throw wrong_usage("--part is of many tables: a folder, several files, or @LIST");
-  const std::string& file = o.files[0];
-  OutputFiles out({file}, o.output, o.html);
+  const auto files = o.as_one ? tables_of(o.files) : o.files;
+  OutputFiles out(files, o.output, o.html);
   Progress progress(o.quiet);
-  const auto [t, result] = fit_file(file, o.how, std::ref(progress));
+  const auto [t, result] = o.as_one ? fit_as_one(files, o.how, std::ref(progress))
+                                    : fit_file(files[0], o.how, std::ref(progress));
   const FitDocument& d = result.document;
 
   const std::string json = to_json(d);
@@ -277,6 +283,7 @@ void add_fit(CommandLine& line) {
       "-o paint.json --html paint.html\n  gonio fit tables/ --jobs 2 -o results/",
       run);
   add_tables(c, o->files);
+  c.flag("--as-one", o->as_one, "Several files are one sample's table: one fit of all");
   c.options(o->how);
   c.option("--models", o->models,
            "Models to compare in place of one fit: A,B,C, or all for the usual ones. Says which to "

@@ -7,6 +7,7 @@
 #include "cli/line/terminal.h"
 #include "fitting/plan/plan_next.h"
 #include "reports/pages/inspect_page.h"
+#include "table/format/as_one.h"
 #include "table/format/formats.h"
 #include "table/health/health.h"
 #include "table/sample_mask.h"
@@ -17,7 +18,8 @@ namespace gonio::cli {
 namespace {
 
 struct InspectCall : Common {
-  std::string file, html;
+  std::vector<std::string> files;
+  std::string html;
   std::optional<Bins> bins;
   std::optional<std::string> mask;
   std::optional<std::string> model;
@@ -45,7 +47,10 @@ void print(const Table& t, const Health& h) {
       line("masked", fmt::format("{} {} ({})", h.masked[m], names_of<Mask>[m],
                                  percent(h.masked[m], h.values)));
   for (const auto& [key, text] : t.notes)
-    if (key == "mask") line("left out", text);
+    if (key == "mask")
+      line("left out", text);
+    else if (key == "agreement" || key.starts_with("TIS"))
+      line(key.c_str(), text);
   line("range", fmt::format("{:.4g} to {:.4g} 1/sr", h.smallest_positive, h.largest));
   if (h.noise_floor > 0)
     line("noise floor", fmt::format("{:.3g} 1/sr, from the negative values", h.noise_floor));
@@ -116,10 +121,10 @@ void print(const std::vector<NextDirection>& next, const std::string& model) {
 Exit run(const InspectCall& o) {
   if (o.model && !o.plan_next) throw wrong_usage("--model goes with --plan-next");
   use(o);
-  OutputFiles out({o.file}, "", o.html);
+  OutputFiles out(o.files, "", o.html);
   Progress progress(o.quiet);
-  progress("reading " + o.file);
-  Table t = read_table(o.file, o.bins);
+  progress("reading " + o.files[0]);
+  Table t = o.files.size() > 1 ? read_as_one(o.files, o.bins) : read_table(o.files[0], o.bins);
   if (o.mask) leave_out(t, *o.mask);
   progress("inspecting");
   const Health h = inspect(t);
@@ -151,7 +156,9 @@ void add_inspect(CommandLine& line) {
   auto [c, o] =
       line.command<InspectCall>("inspect", "What a table holds and what it can be trusted for",
                                 "gonio inspect paint.binary --html paint.html", run);
-  c.option("FILE", o->file, "A table, its format found from the bytes").required();
+  c.option("FILE", o->files,
+           "A table, its format found from the bytes; several are one sample's, taken as one")
+      .required();
   c.option("--html", o->html,
            "A page of the table, NAME.html, and its data beside it, NAME.page.json");
   c.option("--plan-next", o->plan_next,

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/describe.h"
 #include "fitting/fit.h"
@@ -36,5 +37,9 @@ struct FittedFile {
 FittedFile fit_file(const std::string& path,
                     const HowFitted&,
                     const std::function<void(const std::string&)>& phase = {});
+/// The same of several files of one sample (table/format/as_one.h).
+FittedFile fit_as_one(const std::vector<std::string>& paths,
+                      const HowFitted&,
+                      const std::function<void(const std::string&)>& phase = {});
 
 }  // namespace gonio

@@ -16,7 +16,7 @@ namespace {
 using namespace test;
 using std::numbers::pi;
 
-Table read(const KlemsFile& file) {
+Table klems_table(const KlemsFile& file) {
   const Folder folder;
   return read_table(folder.write("a.xml", file.bytes()));
 }
@@ -34,7 +34,7 @@ void expect_klems_values(const Table& t, const Brdf& f) {
 
 TEST(KlemsFile, GivesBackTheFunctionAtItsPatches) {
   for (const bool columns : {true, false}) {
-    const Table t = read({.columns = columns, .f = uneven});
+    const Table t = klems_table({.columns = columns, .f = uneven});
     EXPECT_EQ(t.format, "klems");
     EXPECT_EQ(t.channels, std::vector<std::string>{"f"});
     EXPECT_EQ(t.size(), 73U * 73U);
@@ -44,7 +44,7 @@ TEST(KlemsFile, GivesBackTheFunctionAtItsPatches) {
 }
 
 TEST(KlemsFile, IsConstantOverAPatch) {
-  const Table t = read({.f = uneven});
+  const Table t = klems_table({.f = uneven});
   const SampleAngles at(t);
   for (std::size_t i = 0; i < t.size(); i += 13) {
     const auto [wi, wo] = at.directions(i);
@@ -54,7 +54,8 @@ TEST(KlemsFile, IsConstantOverAPatch) {
     for (const double step : {-0.1, 0.0, 0.1})
       ASSERT_EQ(t.between({near(wi, step), near(wo, -step)}, 0), t.values[0][i]) << i;
   }
-  for (const auto& a : directional_albedo(read({.f = [](const auto&, auto) { return 1 / pi; }})))
+  for (const auto& a :
+       directional_albedo(klems_table({.f = [](const auto&, auto) { return 1 / pi; }})))
     EXPECT_NEAR(a.albedo[0], 1, 1e-6) << a.theta_i_deg;
 }
 
@@ -63,7 +64,7 @@ TEST(KlemsFile, HasTheAlbedoOfItsPatchesHoweverNarrowTheHighlight) {
   const auto lobe = [](const DirectionPair& p, std::size_t) {
     return dot({-p.wi.x, -p.wi.y, p.wi.z}, p.wo) > std::cos(6 * degree) ? 1.0 : 0.0;
   };
-  Table t = read({.f = lobe});
+  Table t = klems_table({.f = lobe});
   ASSERT_EQ(t.patches.size(), t.size());
   EXPECT_NEAR(std::accumulate(t.patches.begin(), t.patches.begin() + 73, 0.0), pi, 1e-3);
   for (std::size_t i = 0; i < t.size(); ++i) t.values[0][i] *= 0.08 / t.patches[i];
@@ -74,7 +75,7 @@ TEST(KlemsFile, TakesVisibleReflectionFromTheFrontWhereItCan) {
   const auto block = [](const auto&, std::size_t k) { return static_cast<double>(k); };
   const auto chosen = [&](std::vector<std::string> bands, std::vector<std::string> directions) {
     const Table t =
-        read({.bands = std::move(bands), .directions = std::move(directions), .f = block});
+        klems_table({.bands = std::move(bands), .directions = std::move(directions), .f = block});
     return fmt::format("{} {} {}", t.values[0][0], t.notes[0].second, t.notes[1].second);
   };
   EXPECT_EQ(
@@ -87,7 +88,7 @@ TEST(KlemsFile, TakesVisibleReflectionFromTheFrontWhereItCan) {
 }
 
 TEST(KlemsFile, SeenFromTheBackIsTurnedAboutX) {
-  const Table t = read({.directions = {"Reflection Back"}, .f = uneven});
+  const Table t = klems_table({.directions = {"Reflection Back"}, .f = uneven});
   expect_klems_values(t, [](DirectionPair p, std::size_t) {
     p.wi.y = -p.wi.y;
     p.wo.y = -p.wo.y;
@@ -125,8 +126,8 @@ KlemsFile averaged_lobe(double alpha) {
 }
 
 TEST(KlemsFile, ResolvesNoPeakNarrowerThanItsPatches) {
-  const Health narrow = inspect(read(averaged_lobe(0.02))),
-               wide = inspect(read(averaged_lobe(0.6)));
+  const Health narrow = inspect(klems_table(averaged_lobe(0.02))),
+               wide = inspect(klems_table(averaged_lobe(0.6)));
   ASSERT_TRUE(narrow.peak && wide.peak);
   EXPECT_FALSE(narrow.peak->resolved) << narrow.peak->half_width_deg;
   EXPECT_TRUE(wide.peak->resolved) << wide.peak->half_width_deg;

@@ -16,34 +16,34 @@ namespace {
 
 using namespace test;
 
-Table read(const ZemaxFile& file) {
+Table zemax_table(const ZemaxFile& file) {
   const Folder folder;
   return read_table(folder.write("a.bsdf", file.bytes()));
 }
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
+std::string zemax_replaced(std::string text, const std::string& what, const std::string& by) {
   const auto at = text.find(what);
   EXPECT_NE(at, text.npos) << what;
   return text.replace(at, what.size(), by);
 }
 std::string zemax_complaint(const std::string& what, const std::string& by) {
   const ZemaxFile file{.f = [](const auto&, auto) { return 0.1; }};
-  return complaint_about(replaced(file.bytes(), what, by));
+  return complaint_about(zemax_replaced(file.bytes(), what, by));
 }
 
 /// Without symmetry but for the plane of incidence's.
-double tilted(const DirectionPair& p, std::size_t c) {
+double zemax_tilted(const DirectionPair& p, std::size_t c) {
   return 1 + 0.3 * p.wi.x + 0.4 * p.wo.x - 0.2 * p.wo.z + 0.1 * p.wo.y * p.wo.y +
          static_cast<double>(c);
 }
 
 TEST(ZemaxFile, HasItsValuesAtTheMirrorFramesDirections) {
-  const Table t = read({.f = tilted});
+  const Table t = zemax_table({.f = zemax_tilted});
   EXPECT_EQ(t.format, "zemax");
   const SampleAngles at(t);
   std::size_t mirror = 0;
   for (std::size_t i = 0; i < t.size(); ++i) {
     const auto p = at.directions(i);
-    ASSERT_NEAR(t.values[0][i], tilted(p, 0), 1e-8) << i;
+    ASSERT_NEAR(t.values[0][i], zemax_tilted(p, 0), 1e-8) << i;
     ASSERT_GT(p.wo.z, 0);
     mirror += std::abs(p.wo.x + p.wi.x) + std::abs(p.wo.y) < 1e-12;
   }
@@ -56,10 +56,10 @@ TEST(ZemaxFile, TurnsTheSampleAndCountsAzimuthsCounterClockwise) {
   const auto f = [](const DirectionPair& p, std::size_t) {
     return 1 + 0.3 * p.wi.x + 0.2 * p.wi.y + 0.4 * p.wo.x - 0.25 * p.wo.y;
   };
-  const Table t = read({.symmetry = "ASymmetrical4D",
-                        .rotation = {0, 90, 180},
-                        .azimuth = {0, 90, 180, 270, 360},
-                        .f = f});
+  const Table t = zemax_table({.symmetry = "ASymmetrical4D",
+                               .rotation = {0, 90, 180},
+                               .azimuth = {0, 90, 180, 270, 360},
+                               .f = f});
   const SampleAngles at(t);
   for (std::size_t i = 0; i < t.size(); ++i)
     ASSERT_NEAR(t.values[0][i], f(at.directions(i), 0), 1e-8) << i;
@@ -69,7 +69,7 @@ TEST(ZemaxFile, TurnsTheSampleAndCountsAzimuthsCounterClockwise) {
 }
 
 TEST(ZemaxFile, IsLinearBetweenItsAxesAndNothingBeyondThem) {
-  const Table t = read({.f = [](const auto&, auto) { return 0.25; }});
+  const Table t = zemax_table({.f = [](const auto&, auto) { return 0.25; }});
   const auto f = [&](double theta_i, double azimuth, double radius) {
     return t.between({direction(theta_i * degree, 0.7),
                       [&] {
@@ -85,11 +85,11 @@ TEST(ZemaxFile, IsLinearBetweenItsAxesAndNothingBeyondThem) {
 }
 
 TEST(ZemaxFile, SaysThatItsChannelsAreTristimulusValues) {
-  const Table t = read({.xyz = true, .f = tilted});
+  const Table t = zemax_table({.xyz = true, .f = zemax_tilted});
   EXPECT_EQ(t.channels, (std::vector<std::string>{"X", "Y", "Z"}));
   const SampleAngles at(t);
   for (std::size_t c = 0; c < 3; ++c)
-    EXPECT_NEAR(t.values[c][5], tilted(at.directions(5), c), 1e-8);
+    EXPECT_NEAR(t.values[c][5], zemax_tilted(at.directions(5), c), 1e-8);
 }
 
 TEST(ZemaxFile, IsSaidToContradictItsOwnIntegral) {
@@ -97,11 +97,12 @@ TEST(ZemaxFile, IsSaidToContradictItsOwnIntegral) {
                         .azimuth = {0, 15, 30, 45, 60, 75, 90, 105, 120, 135, 150, 165, 180},
                         .radius = {0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 120, 130},
                         .f = [](const auto&, auto) { return 0.5 / std::numbers::pi; }};
-  EXPECT_TRUE(read(dense).warnings.empty()) << "a Lambertian half";
+  EXPECT_TRUE(zemax_table(dense).warnings.empty()) << "a Lambertian half";
   const auto other = complaint_about(dense.bytes());
   EXPECT_EQ(other, "");
   const Folder folder;
-  const Table t = read_table(folder.write("a.bsdf", replaced(dense.bytes(), "TIS 0.5", "TIS 0.3")));
+  const Table t =
+      read_table(folder.write("a.bsdf", zemax_replaced(dense.bytes(), "TIS 0.5", "TIS 0.3")));
   ASSERT_EQ(t.warnings.size(), 1U);
   EXPECT_HAS(t.warnings[0], "0.3 ");
 }
