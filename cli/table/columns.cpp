@@ -10,6 +10,7 @@
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "table/format/column_proposal.h"
+#include "table/format/delimited.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
 
@@ -47,18 +48,20 @@ ColumnMap map_of(const ColumnsCall& o) {
   return map;
 }
 
-void expect_columns(InputFile& in) {
+/// \param named  each column that counts is named: constants may stand for the others
+void expect_columns(InputFile& in, bool named) {
   const std::string head = in.peek(1 << 16);
-  if (!is_csv(head))
+  if (!is_csv(head) && !(named && looks_delimited(head, 2)))
     throw bad_input(in.path(), "the beginning", head.substr(0, 24),
-                    "text with a line of at least three numbers");
+                    named ? "text with a line of at least two numbers"
+                          : "text with a line of at least three numbers, or --map");
 }
 
 /// True where lines to pass over are all that is said, and the names below them are not enough.
 bool asks_below(const ColumnsCall& o, const std::string& file) {
   if (o.map.skip == 0) return true;
   InputFile in(file);
-  expect_columns(in);
+  expect_columns(in, false);
   const auto p = propose_columns(csv_columns(in, o.map.skip));
   return !p.map || p.needed;
 }
@@ -67,7 +70,7 @@ bool asks_below(const ColumnsCall& o, const std::string& file) {
 std::pair<Table, std::string> read_with(const std::string& file, const ColumnMap& map) {
   may_replace(side_path(file));
   InputFile in(file);
-  expect_columns(in);
+  expect_columns(in, !map.columns.empty());
   Table t = read_csv(in, &map);
   t.path = file;
   t.sha256 = sha256_of_file(file);
@@ -143,7 +146,7 @@ void print(const ColumnProposal& p, const std::string& file) {
 Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   progress("reading " + file);
   InputFile in(file);
-  expect_columns(in);
+  expect_columns(in, false);
   const std::size_t skip = o.map.skip;
   const std::string side = skip ? "" : side_text(file);
   const auto map = side.empty() ? std::nullopt : column_map(side_path(file), side);

@@ -34,6 +34,21 @@ TEST(Columns, AreShownUntilAMapIsGivenAndReadByItAfterwards) {
   EXPECT_EQ(gonio(f, "fit t.csv --model lambert").code, 0);
 }
 
+TEST(Columns, MayBeTwoWhereConstantsStandForTheOthers) {
+  const Folder f;
+  f.write("run30.txt", "angle brdf\n10 0.4\n20 0.6\n");
+  expect_one_line(gonio(f, "columns run30.txt"), 3, "or --map");
+  ASSERT_EQ(gonio(f, "columns run30.txt --map theta_i=30 theta_o=angle phi_o=180 f=brdf").code, 0);
+  f.write("run40.txt", "angle brdf\n10 0.5\n20 0.7\n");
+  ASSERT_EQ(gonio(f, "columns run40.txt --map theta_i=40 theta_o=angle phi_o=180 f=brdf").code, 0);
+  const auto set = gonio(f, "inspect run30.txt run40.txt --json").json();
+  EXPECT_EQ(set["values"], 4);
+  EXPECT_EQ(
+      gonio(f, "fit run30.txt run40.txt --as-one --model lambert --json").json()["input"]["path"],
+      "run30.txt, run40.txt");
+  expect_one_line(gonio(f, "fit run30.txt run40.txt --model lambert"), 2, "-o DIR");
+}
+
 TEST(Columns, AreProposedAsACommandThatCanBeRun) {
   const Folder f;
   f.write("my table.csv",

@@ -169,6 +169,19 @@ void bring(const Folder& f, const std::string& name) {
     f.write(name, klems.bytes());
   } else if (name == "velvet.dat") {
     f.write(name, velvet());
+  } else if (name == "vinyl.bsdf") {
+    f.write(name, ZemaxFile{.incident = {0, 15, 30, 45, 60},
+                            .azimuth = {0, 30, 60, 90, 120, 150, 180},
+                            .radius = {0, 5, 10, 15, 20, 30, 40, 50, 60, 70},
+                            .f = satin}
+                      .bytes());
+  } else if (name == "tile.json") {
+    f.write(
+        name,
+        R"({"head": {"date": "3.4.2025"}, "data": {"wavelengths": [650, 450], "theta_i": [0, 45],
+      "phi_i": [0, 0], "theta_v": [45, 0], "phi_v": [0, 0], "data": [[0.31, 0.32], [0.28, 0.29]]}})");
+  } else if (name == "run30.txt") {
+    f.write(name, "angle brdf\n10 0.4\n20 0.6\n30 0.8\n40 0.6\n");
   } else {
     ADD_FAILURE() << "no test knows how to bring " << name;
   }

@@ -191,7 +191,7 @@ bool is_gap(std::string_view field) {
   return std::ranges::find(gaps, field) != gaps.end();
 }
 
-bool looks_delimited(std::string_view head) {
+bool looks_delimited(std::string_view head, int least) {
   std::vector<std::string_view> fields;
   std::deque<std::string> unescaped;
   head = without_mark(head);
@@ -201,7 +201,7 @@ bool looks_delimited(std::string_view head) {
     if (line.empty() || line[0] == '#') continue;
     for (const char separator : {';', '\t', ',', kAnyBlank}) {
       split_into(fields, unescaped, line, separator);
-      if (std::ranges::count_if(fields, is_number) >= 3) return true;
+      if (std::ranges::count_if(fields, is_number) >= least) return true;
     }
   }
   return false;

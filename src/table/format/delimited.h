@@ -23,8 +23,8 @@ std::optional<double> number_in(std::string_view field);
 /// Mark of a spreadsheet or an instrument that there is no value: an empty field, n/a, NA or -.
 bool is_gap(std::string_view field);
 
-/// True where the beginning of a file looks like such text: a line with three numbers or more soon.
-bool looks_delimited(std::string_view head);
+/// True where the beginning of a file looks like such text: a line with so many numbers or more soon.
+bool looks_delimited(std::string_view head, int least = 3);
 /// The fields of the first line that says something: its names, if it has any.
 std::vector<std::string> first_fields(std::string_view head);
 
