@@ -157,6 +157,11 @@ void expect_entries(const JsonReader& j, const Entries& n, const char* of) {
     j.fail(fmt::format("{} {}", of, j.size()), fmt::format("{} {}", of, words_of(n)));
 }
 
+void expect_array(const JsonReader& j, const Entries& n) {
+  if (!j.is_array()) j.fail("an array of " + words_of(n));
+  expect_entries(j, n, "an array of");
+}
+
 /// Object whose keys are read one after the other.
 class ObjectReader {
  public:
@@ -289,8 +294,8 @@ void read_list(const JsonReader& j, const ValueType& t, void* v, const Within& i
     });
   }
   t.clear(v);
-  for (const auto& entry : entries_in(j, in.rules.entries))
-    read_at(entry, *t.of, t.append(v, {}), inner);
+  expect_array(j, in.rules.entries);
+  for (std::size_t i = 0; i < j.size(); ++i) read_at(j.at(i), *t.of, t.append(v, {}), inner);
 }
 
 void ObjectReader::read(const RecordField& f, void* record) {
@@ -550,8 +555,7 @@ double number_in(const JsonReader& j, const Numbers& n) {
 }
 
 std::vector<JsonReader> entries_in(const JsonReader& j, const Entries& n) {
-  if (!j.is_array()) j.fail("an array of " + words_of(n));
-  expect_entries(j, n, "an array of");
+  expect_array(j, n);
   return j.elements();
 }
 

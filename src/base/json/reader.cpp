@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json/memory.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -17,6 +19,9 @@ namespace {
 constexpr int kDeepest = 64;  ///< nested brackets; the contract's documents need 5
 /// Bytes that the values of a document take: brackets alone take 33 times their text.
 constexpr std::size_t most_memory = std::size_t{1} << 29;
+
+/// What the values count to that this thread parses; nullptr: to nothing beside their own document.
+thread_local std::size_t* counted_to = nullptr;
 
 /// Byte where brackets nest deeper than that, or npos.
 std::size_t too_deep(std::string_view bytes) {
@@ -166,10 +171,15 @@ class Builder final : public nlohmann::json_sax<Json> {
   Json root_;
   std::vector<Json*> open_;  ///< the innermost last
   std::vector<std::size_t> order_;
-  std::size_t memory_ = 0;
+  std::size_t own_memory_ = 0, &memory_ = counted_to ? *counted_to : own_memory_;
 };
 
 }  // namespace
+
+CountedJson::CountedJson(std::size_t& bytes) : before_(std::exchange(counted_to, &bytes)) {}
+CountedJson::~CountedJson() {
+  counted_to = before_;
+}
 
 std::string text_of(const Json& j) {
   return printable_json(j.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
@@ -304,8 +314,9 @@ std::int64_t JsonReader::negative_number() const {
 }
 
 std::vector<double> JsonReader::numbers() const {
-  std::vector<double> out;
-  for (const auto& e : elements()) out.push_back(e.number());
+  if (!is_array()) return {number()};
+  std::vector<double> out(size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = at(i).number();
   if (out.empty()) fail("at least one number");
   return out;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 
 #include "base/base64.h"
 #include "base/error.h"
@@ -71,9 +72,8 @@ std::uint64_t whole_or(const JsonReader& object, const char* key, std::uint64_t 
   return object.has(key) ? object.at(key).whole_number() : otherwise;
 }
 
-/// Path of a URI: %20 and the like are bytes.
-std::string path_of(const JsonReader& uri) {
-  const std::string text = uri.string();
+/// Bytes of a URI: those of %20 and the like, too.
+std::string unescaped(const std::string& text) {
   std::string path;
   const auto digit = [](char c) {
     constexpr std::string_view digits = "0123456789abcdef";
@@ -89,11 +89,29 @@ std::string path_of(const JsonReader& uri) {
       path += text[i];
     }
   }
+  return path;
+}
+
+/// Path of a URI.
+std::string path_of(const JsonReader& uri) {
+  std::string path = unescaped(uri.string());
   // A scheme, such as https:, ends before the first slash.
   if (path.empty() || path.find('\0') != path.npos || path.starts_with('/') ||
       path.find(':') < path.find('/'))
     uri.fail("a path relative to the file, or data:…;base64,…");
   return path;
+}
+
+/// Files that a list names are no outputs, though none of them be read.
+void keep_from_writing(const std::string& document, const JsonReader& list) {
+  constexpr std::size_t most = 4096;
+  const auto folder = std::filesystem::path(document).parent_path();
+  for (std::size_t i = 0; i < std::min(list.size(), most); ++i) {
+    const JsonReader entry = list.at(i);
+    if (!entry.has("uri") || !entry.at("uri").is_string()) continue;
+    const std::string uri = entry.at("uri").string();
+    if (!uri.starts_with("data:")) will_read((folder / unescaped(uri)).string());
+  }
 }
 
 }  // namespace
@@ -151,6 +169,8 @@ GltfFile::GltfFile(const std::string& path) : path_(path) {
     of_that_name = root().at(name);
     if (!of_that_name->is_array()) of_that_name->fail("an array");
   }
+  for (const char* name : {"buffers", "images"})
+    if (root().has(name) && root().at(name).is_array()) keep_from_writing(path_, root().at(name));
 }
 
 GltfFile::~GltfFile() = default;

@@ -191,15 +191,17 @@ void expect_apart(const Mesh& m, const JsonReader& mesh) {
       mesh.fail(fmt::format("more than {} triangles on the same points", most), "fewer");
 }
 
+[[noreturn]] void refuse_more(const JsonReader& at) {
+  at.fail("more triangles", fmt::format("at most {} vertices and {} triangles in a scene",
+                                        MeshBudget{}.vertices, MeshBudget{}.triangles));
+}
+
 Mesh read(const GltfFile& file, const JsonReader& mesh, MeshBudget& budget) {
   const JsonReader primitives = mesh.at("primitives");
   if (!primitives.is_array()) primitives.fail("an array");
   Mesh all;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
-    if (budget.vertices < 3 || budget.triangles < 1)
-      primitives.at(i).fail("more triangles",
-                            fmt::format("at most {} vertices and {} triangles in a scene",
-                                        MeshBudget{}.vertices, MeshBudget{}.triangles));
+    if (budget.vertices < 3 || budget.triangles < 1) refuse_more(primitives.at(i));
     append(all, read_primitive(file, primitives.at(i), budget));
   }
   if (all.triangles.empty()) mesh.fail("no triangle that has an area", "one at least");
@@ -230,6 +232,12 @@ void move(Mesh& m, const Affine& to, const JsonReader& node) {
 }
 
 }  // namespace
+
+void MeshBudget::take(const Mesh& m, const JsonReader& at) {
+  if (m.positions.size() > vertices || m.triangles.size() > triangles) refuse_more(at);
+  vertices -= m.positions.size();
+  triangles -= m.triangles.size();
+}
 
 Mesh read_mesh(const GltfFile& file, const std::string& name, MeshBudget& budget) {
   const auto index = file.named("meshes", "mesh", name);

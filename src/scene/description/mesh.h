@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+namespace gonio {
+class JsonReader;
+}
+
 namespace gonio::scene {
 
 class GltfFile;
@@ -20,9 +24,12 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise from outside
 };
 
-/// Vertices and triangles that may still be read: those of one mesh after the other.
+/// Vertices and triangles that a scene's objects may still have: rays are traced through each object's own.
 struct MeshBudget {
   std::size_t vertices = std::size_t{1} << 22, triangles = std::size_t{1} << 23;
+
+  /// Those of an object that has the mesh of another.  \param at  named where there are too few
+  void take(const Mesh&, const JsonReader& at);
 };
 
 /// All primitives of a mesh, in its own coordinates.  Where they have no normals, each triangle has its own.

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json/memory.h"
 #include "base/nearest.h"
 #include "base/sha256.h"
 #include "brdf/model/fitted_model.h"
@@ -29,23 +32,32 @@ class Files {
 
   BoundModel fit(const std::string& name) {
     const std::string path = path_of(name);
-    const std::string bytes = InputFile(path).read_rest(most_document_bytes);
-    digests_.push_back(sha256(bytes));
-    return bind_fitted(path, parse_fitted_model(path, bytes), kChannels);
+    auto& known = fits_[place_of(path)];
+    if (!known) {
+      const std::string bytes = InputFile(path).read_rest(most_document_bytes);
+      known = {bind_fitted(path, parse_fitted_model(path, bytes), kChannels), sha256(bytes)};
+    }
+    digests_.push_back(known->second);
+    return known->first;
   }
   const GltfFile& gltf(const std::string& name) {
-    const auto [at, is_new] = gltf_.try_emplace(name);
-    if (is_new) {
-      at->second = std::make_unique<GltfFile>(path_of(name));
-      gltf_order_.push_back(at->second.get());
+    const std::string path = path_of(name);
+    auto& known = gltf_[place_of(path)];
+    if (!known) {
+      const CountedJson all(gltf_memory_);
+      known = std::make_unique<GltfFile>(path);
+      gltf_order_.push_back(known.get());
     }
-    return *at->second;
+    return *known;
   }
-  std::shared_ptr<const Mesh> mesh(const MeshShape& shape) {
+  /// \param at  the object
+  std::shared_ptr<const Mesh> mesh(const MeshShape& shape, const JsonReader& at) {
     const auto* node = std::get_if<MeshShape::Node>(&shape.part);
     const std::string& name = node ? node->name : std::get<MeshShape::OfName>(shape.part).name;
     auto& known = meshes_[{shape.path, node != nullptr, name}];
-    if (!known)
+    if (known)
+      budget_.take(*known, at);
+    else
       known = std::make_shared<const Mesh>(
           (node ? read_mesh_of_node : read_mesh)(gltf(shape.path), name, budget_));
     return known;
@@ -69,10 +81,17 @@ class Files {
 
  private:
   std::string path_of(const std::string& name) const { return path_beside(scene_, name); }
+  /// A file that is named in several ways is one.
+  static std::string place_of(const std::string& path) {
+    std::error_code unknown;
+    return std::filesystem::weakly_canonical(path, unknown).string();
+  }
 
   std::string scene_;
   std::vector<std::string> digests_;
+  std::map<std::string, std::optional<std::pair<BoundModel, std::string>>> fits_;  ///< and digests
   std::map<std::string, std::unique_ptr<GltfFile>> gltf_;
+  std::size_t gltf_memory_ = 0;  ///< of all their values, which stay
   std::vector<const GltfFile*> gltf_order_;
   std::map<std::tuple<std::string, bool, std::string>, std::shared_ptr<const Mesh>> meshes_;
   MeshBudget budget_;
@@ -139,7 +158,8 @@ std::vector<Object> objects_of(std::vector<NamedObject>& named,
           .fail(fmt::format("one of the materials; nearest: {}",
                             fmt::join(nearest(material, names), ", ")));
     }
-    if (auto* mesh = std::get_if<MeshShape>(&shape)) mesh->mesh = files.mesh(*mesh);
+    if (auto* mesh = std::get_if<MeshShape>(&shape))
+      mesh->mesh = files.mesh(*mesh, at.at(all.size()));
     all.push_back({std::move(shape), found->second});
   }
   return all;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/json/memory.h"
 #include "refusal.h"
 #include "support.h"
 
@@ -101,6 +102,23 @@ TEST(ParseJson, RefusesValuesThatTakeManyTimesTheirText) {
     EXPECT_HAS(complaint(many(one, (most_document_bytes - 8) / (std::string(one).size() + 1))),
                "more values than");
   EXPECT_EQ(complaint(many("0.12345678901234567", most_document_bytes / 20)), "");
+}
+
+TEST(CountedJson, OfSeveralDocumentsMayTakeWhatOneMay) {
+  std::string text = "[[]";
+  for (int i = 0; i < 2'000'000; ++i) text += ",[]";
+  text += "]";
+  std::size_t bytes = 0;
+  const auto parsed = [&] { parse_json("file", text); };
+  {
+    const CountedJson all(bytes);
+    EXPECT_EQ(test::refusal(parsed), "");
+    EXPECT_GT(bytes, std::size_t{1} << 27);
+  }
+  EXPECT_EQ(test::refusal(parsed), "") << "counts to nothing";
+  const CountedJson all(bytes);
+  for (int k = 0; k < 3; ++k) test::refusal(parsed);
+  EXPECT_HAS(test::refusal(parsed), "file: JSON: found more values than 536870912 bytes hold");
 }
 
 }  // namespace

@@ -215,6 +215,19 @@ TEST(GltfFile, FindsEntriesByTheirNames) {
              "a.gltf: /nodes: found 2 times 'placed', expected one node of that name");
 }
 
+TEST(GltfFile, KeepsWhatItNamesFromBeingWritten) {
+  const Folder folder;
+  Json named = square_gltf();
+  named["buffers"].push_back({{"byteLength", 4}, {"uri", "not%20read.bin"}});
+  named["images"] = {{{"uri", "../picture.png"}}, {{"bufferView", 0}}};
+  std::filesystem::create_directory(folder / "d");
+  const FileGuard guard;
+  const GltfFile file(folder.write("d/a.gltf", named.dump()));
+  for (const char* name : {"d/not read.bin", "picture.png"})
+    EXPECT_HAS(refusal([&] { OutputFile(folder / name); }, Exit::usage), "is an input");
+  EXPECT_EQ(refusal([&] { OutputFile(folder / "d/other.png"); }), "");
+}
+
 TEST(GltfFile, RefusesADamagedBinaryFile) {
   const std::string whole = glb(square_gltf(), square_bytes());
   EXPECT_EQ(complaint_of_file(whole), "");

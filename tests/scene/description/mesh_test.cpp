@@ -219,5 +219,18 @@ TEST(Mesh, IsRefusedWhereManyTrianglesLieOnOneAnother) {
   EXPECT_HAS(complaint_of_mesh(document), "more than 64 triangles on the same points");
 }
 
+TEST(MeshBudget, GivesEachObjectThatHasAMeshItsOwn) {
+  const Mesh square = read_mesh_of(square_gltf());
+  const Json object;
+  const std::string file = "s.json";
+  const JsonReader at(file, object, "/objects/1", Places::pointer);
+  MeshBudget budget{8, 5};
+  EXPECT_EQ(refusal([&] { budget.take(square, at); }), "");
+  EXPECT_EQ(budget.vertices, 4U);
+  EXPECT_EQ(budget.triangles, 3U);
+  budget.take(square, at);
+  EXPECT_HAS(refusal([&] { budget.take(square, at); }), "s.json: /objects/1: found more triangles");
+}
+
 }  // namespace
 }  // namespace gonio::scene

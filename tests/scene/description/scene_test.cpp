@@ -386,5 +386,53 @@ TEST(Scene, OfTheClearCoatTestHasItsSpheres) {
   EXPECT_EQ(std::get<MeshShape>(s.objects[1].shape).mesh->triangles.size(), 2060U);
 }
 
+/// The tracer has the triangles of each object: without a limit a small file has a thousand million.
+TEST(SceneErrors, RefuseAMeshThatIsNamedTooOften) {
+  const Folder folder;
+  std::string corners;
+  for (int z = 0; z < 150; ++z) {
+    const auto h = static_cast<float>(z);
+    corners += bytes_of(std::array<float, 9>{0, 0, h, 1, 0, h, 0, 1, h});
+  }
+  Json mesh = square_gltf();
+  mesh["buffers"][0] = {{"byteLength", corners.size()},
+                        {"uri", "data:;base64," + gonio::base64(corners)}};
+  mesh["bufferViews"][0] = {{"buffer", 0}, {"byteLength", corners.size()}};
+  mesh["accessors"][0]["count"] = 450;
+  mesh["meshes"][0]["primitives"] = {{{"attributes", {{"POSITION", 0}}}}};
+  folder.write("a.gltf", mesh.dump());
+  Json d = example();
+  d["objects"] = Json::array();
+  const auto name_it = [&](std::size_t times) {
+    while (d["objects"].size() < times)
+      d["objects"].push_back(
+          {{"shape", "mesh"}, {"gltf", "a.gltf"}, {"mesh", "square"}, {"material", "chalk"}});
+    return line_of(folder, d.dump());
+  };
+  EXPECT_EQ(name_it(9320), "") << "4,194,000 vertices";
+  EXPECT_EQ(name_it(9321),
+            "s.json: /objects/9320: found more triangles, expected at most 4194304 vertices and "
+            "8388608 triangles in a scene");
+}
+
+TEST(SceneErrors, RefuseGltfFilesWhoseValuesTakeTooMuchTogether) {
+  const Folder folder;
+  std::string extras = "[[]";
+  for (int i = 0; i < 3'000'000; ++i) extras += ",[]";
+  std::string text = square_gltf().dump();
+  text.pop_back();
+  text += ", \"extras\": " + extras + "]}";
+  Json d = example();
+  for (int k = 0; k < 2; ++k) {
+    const std::string name = std::to_string(k) + ".gltf";
+    folder.write(name, text);
+    d["materials"][name] = {{"gltf", name}, {"material", "plain"}};
+    d["materials"]["again " + name] = {{"gltf", "./" + name}, {"material", "plain"}};
+    EXPECT_EQ(
+        line_of(folder, d.dump()),
+        k == 0 ? "" : "1.gltf: JSON: found more values than 536870912 bytes hold, expected fewer");
+  }
+}
+
 }  // namespace
 }  // namespace gonio::scene
