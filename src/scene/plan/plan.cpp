@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "scene/plan/bounds.h"
@@ -69,7 +70,7 @@ class MaterialPlanner {
         shipped_(look_.surface(in_float(look_.shipped()))),
         reference_(scene_, seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_) {
     for (const auto& object : scene_.objects)
-      if (object.material == material) join(reached_angles(scene_, object));
+      if (lit.same_as[object.material] == material) join(reached_angles(scene_, object));
   }
 
   MaterialPlan plan() {
@@ -389,6 +390,19 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
   }
 }
 
+/// Gives each material that an object has the plan of the first that is the same.
+void name_all(Plan& plan, const Lit& lit) {
+  const auto planned = std::exchange(plan.materials, {});
+  const auto& all = lit.scene.materials;
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    if (std::ranges::find(lit.scene.objects, m, &Object::material) == lit.scene.objects.end())
+      continue;
+    plan.materials.push_back(
+        *std::ranges::find(planned, all[lit.same_as[m]].name, &MaterialPlan::name));
+    plan.materials.back().name = all[m].name;
+  }
+}
+
 /// Nothing is claimed beyond what was compared: nobody knows how far that is off.
 void claim_no_bound(MaterialPlan& m) {
   constexpr double none = std::numeric_limits<double>::infinity();
@@ -409,17 +423,20 @@ std::size_t samples_of_verification(const Scene& s) {
   return std::max(verified_samples, 4 * needed);
 }
 
+std::size_t points_of_plan(const Scene& s, std::size_t samples) {
+  const std::size_t verified = samples_of_verification(s);
+  return verified > verified_samples ? std::max(samples, verified / 2) : samples;
+}
+
 Plan plan_scene(const Scene& s, const PlanOptions& asked, const std::function<void(double)>& done) {
   PlanOptions options = asked;
-  const std::size_t verified = samples_of_verification(s);
-  if (verified > verified_samples) {
-    options.samples = std::max(asked.samples, verified / 2);
+  options.samples = points_of_plan(s, asked.samples);
+  if (const std::size_t verified = samples_of_verification(s); verified > verified_samples)
     options.fresh = std::max(asked.fresh, 4 * verified);
-  }
   const Lit lit(s);
   Plan plan{s.sha256, s.tolerance, {}, {}, false};
   for (std::size_t m = 0; m < s.materials.size(); ++m) {
-    if (std::ranges::find(s.objects, m, &Object::material) == s.objects.end()) continue;
+    if (lit.same_as[m] != m || !lit.is_seen(m)) continue;
     plan.materials.push_back(MaterialPlanner(lit, m, options).plan());
     plan.materials.back().name = s.materials[m].name;
     if (done) done(static_cast<double>(m + 1) / static_cast<double>(s.materials.size()));
@@ -427,6 +444,7 @@ Plan plan_scene(const Scene& s, const PlanOptions& asked, const std::function<vo
   if (s.budget_ns) share(plan, lit, options);
   for (auto& m : plan.materials)
     if (!m.bounded) claim_no_bound(m);
+  name_all(plan, lit);
   plan.holds = std::ranges::all_of(plan.materials, &MaterialPlan::holds);
   return plan;
 }

@@ -101,6 +101,8 @@ inline constexpr std::size_t verified_samples = 16'384;
 /// Points that show that a tolerance is kept: these, or four times as many as its quantile and confidence need.  Bad input of the
 /// scene where that is more than 65 536.  \see verify
 std::size_t samples_of_verification(const Scene&);
+/// Points that sets are compared on, where a tolerance asks for no more: these, or half of those of a verification.
+std::size_t points_of_plan(const Scene&, std::size_t samples);
 
 /// Plan of a scene.  A material that no view shows is wrong: bad_input.
 ///

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <unordered_map>
 
 #include "base/error.h"
+#include "base/json/describe.h"
 #include "geometry/half_difference.h"
+#include "scene/description/scene_keys.h"
+#include "scene/plan/plan.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -52,8 +56,11 @@ std::vector<double> turns_of(const std::vector<Look>& looks) {
   return turns;
 }
 
-/// Rows of a point's light are kept: of more lights each has fewer.
-constexpr std::size_t most_directions = 512, least_directions = 4;
+/// Rows of a point's light are kept, of all the points that sets are compared on: of more lights each has fewer.
+constexpr std::size_t least_directions = 4;
+std::size_t most_directions(const Scene& s) {
+  return (std::size_t{1} << 21) / points_of_plan(s, PlanOptions{}.samples);
+}
 
 std::size_t with_extent(const Scene& s) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -68,11 +75,29 @@ PicturePart around(std::span<const PicturePart> parts) {
   }
   return {left, top, right - left, bottom - top};
 }
+/// By material the first that is the same but for its name.
+std::vector<std::size_t> first_of_each(const Scene& s) {
+  std::vector<std::size_t> all;
+  std::unordered_map<std::string, std::size_t> known;
+  for (const auto& m : s.materials) {
+    std::string what = json_line(m);
+    if (const auto* b = std::get_if<BoundModel>(&m.is)) what += json_line(b->values);
+    all.push_back(known.try_emplace(std::move(what), all.size()).first->second);
+  }
+  return all;
+}
+/// Rows of a point that one direction of each light takes, those with an extent apart.
+std::size_t without_extent(const Scene& s) {
+  return s.lights.size() - with_extent(s);
+}
 const Scene& with_few_lights(const Scene& s) {
-  constexpr std::size_t most = most_directions / least_directions;
-  if (const auto n = with_extent(s); n > most)
-    throw bad_input(s.path, "/lights", fmt::format("{} that have an extent", n),
-                    fmt::format("at most {} in a plan", most));
+  const std::size_t most = most_directions(s);
+  if (least_directions * with_extent(s) + without_extent(s) > most)
+    throw bad_input(
+        s.path, "/lights",
+        fmt::format("{} with an extent, {} without", with_extent(s), without_extent(s)),
+        fmt::format("at most {} in a plan of this tolerance, those with an extent as {} each", most,
+                    least_directions));
   return s;
 }
 
@@ -80,13 +105,28 @@ const Scene& with_few_lights(const Scene& s) {
 
 Lit::Lit(const Scene& s)
     : scene(with_few_lights(s)),
+      same_as(first_of_each(s)),
       looks(looks_of(s)),
       tracer(s, turns_of(looks)),
       lighting(s, &tracer) {}
 
+void Lit::tell_apart(const std::vector<std::optional<Forms>>& by_material) {
+  const auto before = same_as;
+  for (std::size_t m = 0; m < before.size(); ++m)
+    for (same_as[m] = before[m]; same_as[m] < m; ++same_as[m])
+      if (before[same_as[m]] == before[m] && by_material[same_as[m]] == by_material[m]) break;
+}
+
+bool Lit::is_seen(std::size_t material) const {
+  return std::ranges::any_of(
+      scene.objects, [&](const Object& o) { return same_as[o.material] == same_as[material]; });
+}
+
 PointDrawer Lit::drawer(std::size_t material, std::size_t directions) const {
-  const std::size_t each = most_directions / std::max<std::size_t>(with_extent(scene), 1);
-  return {scene, material, looks[material].widths(), tracer, lighting, std::min(directions, each)};
+  const std::size_t each = (most_directions(scene) - without_extent(scene)) /
+                           std::max<std::size_t>(with_extent(scene), 1);
+  return {scene,    same_as[material],         same_as, looks[material].widths(), tracer,
+          lighting, std::min(directions, each)};
 }
 
 LitColumns::LitColumns(std::span<const FrameAngles<double>> rows)
@@ -104,6 +144,7 @@ std::vector<Rgb> radiance(const Surface& s, const LitPoints& p, const LitColumns
 
 PointDrawer::PointDrawer(const Scene& s,
                          std::size_t material,
+                         const std::vector<std::size_t>& same_as,
                          std::vector<double> widths,
                          const Tracer& tracer,
                          const Lighting& lighting,
@@ -111,11 +152,12 @@ PointDrawer::PointDrawer(const Scene& s,
     : scene_(s),
       material_(material),
       directions_(directions),
+      same_as_(same_as),
       widths_(std::move(widths)),
       tracer_(tracer),
       lighting_(lighting) {
   for (const auto& object : s.objects)
-    if (object.material == material) bounds_.push_back(bounding_sphere(object));
+    if (same_as_[object.material] == material) bounds_.push_back(bounding_sphere(object));
   double area = 0;
   if (const auto* camera = std::get_if<Camera>(&s.view))
     for (const auto& b : bounds_) {
@@ -163,7 +205,7 @@ std::optional<PointDrawer::Seen> PointDrawer::look_once(Draws& draw) const {
   if (std::ranges::none_of(bounds_, [&](const auto& b) { return passes_through(seen, b); }))
     return {};
   const auto hit = tracer_.closest(seen.origin, seen.direction);
-  if (!hit || hit->material != material_) return {};
+  if (!hit || same_as_[hit->material] != material_) return {};
   const Direction to_viewer{-seen.direction.x, -seen.direction.y, -seen.direction.z};
   if (!(dot(hit->frame.z, to_viewer) > 0)) return {};
   return Seen{*hit, to_viewer};

@@ -39,17 +39,19 @@ struct LitColumns {
 /// Radiance of every point.  Where the surface looks an environment up, the rows of that are left out.
 std::vector<Rgb> radiance(const Surface&, const LitPoints&, const LitColumns&);
 
-/// Drawer of points of one material.
+/// Drawer of points of one material, and of those that are the same.
 ///
 /// A point is seen through a place drawn evenly over the picture of a camera that is drawn from those of the scene.  For half of the
 /// points four are drawn, and one of them taken by how near to a lobe's peak its normal is: highlights, where materials differ
 /// most, are small.
 class PointDrawer {
  public:
+  /// \param same_as     by material, as Lit has it
   /// \param widths      of the material's lobes
   /// \param directions  of each light that has an extent
   PointDrawer(const Scene&,
               std::size_t material,
+              const std::vector<std::size_t>& same_as,
               std::vector<double> widths,
               const Tracer&,
               const Lighting&,
@@ -79,6 +81,7 @@ class PointDrawer {
 
   const Scene& scene_;
   std::size_t material_, directions_;
+  const std::vector<std::size_t>& same_as_;
   std::vector<double> widths_;
   std::vector<BoundingSphere>
       bounds_;  ///< of the material's objects: rays past all of them are not traced
@@ -91,13 +94,19 @@ class PointDrawer {
 };
 
 /// Scene with the looks of its materials, and what rays and light need of it.
+///
+/// Materials that are the same but for their names are one: its points are those of all their objects.
 struct Lit {
   const Scene& scene;
-  std::vector<Look> looks;  ///< by material, under the scene's environment
+  std::vector<std::size_t> same_as;  ///< by material: the first that is the same
+  std::vector<Look> looks;           ///< by material, under the scene's environment
   Tracer tracer;
   Lighting lighting;
 
   explicit Lit(const Scene&);
+  /// Materials are the same where they have the same forms, too.
+  void tell_apart(const std::vector<std::optional<Forms>>& by_material);
+  bool is_seen(std::size_t material) const;  ///< an object has it, or one that is the same
   /// \param directions  of each light that has an extent; fewer where these are many
   PointDrawer drawer(std::size_t material, std::size_t directions) const;
 };

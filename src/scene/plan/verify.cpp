@@ -70,16 +70,21 @@ Verification verify(const Scene& s,
                     std::optional<std::size_t> samples,
                     const std::function<void(double)>& done) {
   constexpr std::uint64_t verifying = 1'000;  // after the planner's streams
-  const Lit lit(s);
+  Lit lit(s);
+  lit.tell_apart(planned.by_material);
   Verification v{s.tolerance, {}};
+  std::vector<std::optional<Judgement>> found(s.materials.size());
   for (std::size_t m = 0; m < s.materials.size(); ++m) {
     if (!planned.by_material[m]) continue;
     const auto& look = lit.looks[m];
     VerifiedMaterial one{
         s.materials[m].name, std::string(look.exact().name(Effect::compensation)), {}, false};
-    one.found = judge_fresh(s, lit.drawer(m, PlanOptions{}.directions), verifying + seed,
-                            samples.value_or(samples_of_verification(s)),
-                            look.surface(look.exact()), look.surface(*planned.by_material[m]));
+    auto& of_all = found[lit.same_as[m]];
+    if (!of_all)
+      of_all = judge_fresh(s, lit.drawer(m, PlanOptions{}.directions), verifying + seed,
+                           samples.value_or(samples_of_verification(s)), look.surface(look.exact()),
+                           look.surface(*planned.by_material[m]));
+    one.found = *of_all;
     one.holds = one.found.holds(s.tolerance);
     v.materials.push_back(std::move(one));
     if (done) done(static_cast<double>(m + 1) / static_cast<double>(s.materials.size()));

@@ -247,6 +247,50 @@ TEST(Plan, DrawsAsManyPointsAsItsToleranceNeeds) {
   EXPECT_HAS(gonio::test::refusal([&] { plan_scene(s, quick()); }), "/tolerance");
 }
 
+/// Two spheres beside each other, of red plastic by two names.
+Scene two_names() {
+  Scene s = test::sphere(test::red_plastic(), test::front());
+  s.materials.push_back(s.materials[0]);
+  s.materials[1].name = "the same";
+  s.objects = {{Sphere{{-0.6, 0, 0}, 0.5}, 0}, {Sphere{{0.6, 0, 0}, 0.5}, 1}};
+  return s;
+}
+
+TEST(Plan, OfMaterialsThatAreTheSameButForTheirNamesIsOne) {
+  Scene s = two_names();
+  const auto plan = plan_scene(s, quick());
+  ASSERT_EQ(plan.materials.size(), 2U);
+  EXPECT_EQ(plan.materials[1].name, "the same");
+  s.objects[1].material = 0;
+  const auto one = plan_scene(s, quick());
+  ASSERT_EQ(one.materials.size(), 1U);
+  for (const auto& m : plan.materials) {
+    EXPECT_EQ(m.checked.upper, one.materials[0].checked.upper);
+    EXPECT_EQ(m.coverage, one.materials[0].coverage);
+    EXPECT_EQ(m.forms, one.materials[0].forms);
+  }
+  s = two_names();
+  std::get<BoundModel>(s.materials[1].is).values.back() += 0.01;
+  const auto apart = plan_scene(s, quick());
+  EXPECT_NE(apart.materials[1].checked.upper, apart.materials[0].checked.upper);
+}
+
+TEST(Verify, TakesMaterialsForOneWhereTheirFormsAreTheSame) {
+  const Scene s = two_names();
+  const Look look(s.materials[0]);
+  const Forms same = look.structural();
+  Forms other = same;
+  other[Effect::fresnel] = 0;
+  const auto worst = [&](const Forms& a, const Forms& b) {
+    const auto v = verify(s, {{a, b}}, 1, 512);
+    return std::array{v.materials.at(0).found.worst, v.materials.at(1).found.worst};
+  };
+  const auto both = worst(other, other);
+  EXPECT_EQ(both[0], both[1]);
+  const auto apart = worst(same, other);
+  EXPECT_LT(apart[0], apart[1]);
+}
+
 TEST(Verify, FailsNoMoreOftenThanTheConfidenceAllows) {
   GONIO_MANY_FITS();
   // 6 materials, 3 lights' sides of which two, 20 seeds: of 240 at 5 % at most 21 in 99 % of cases.
@@ -373,7 +417,17 @@ TEST(Plan, GivesManyLightsFewerDirectionsAndRefusesMore) {
   EXPECT_EQ(directions(1), 64U);
   EXPECT_EQ(directions(8), 64U);
   EXPECT_EQ(directions(128), 4U);
-  EXPECT_HAS(gonio::test::refusal([&] { directions(129); }), "at most 128 in a plan");
+  EXPECT_HAS(gonio::test::refusal([&] { directions(129); }),
+             "129 with an extent, 0 without, expected at most 512 in a plan");
+  // Points of a stricter tolerance are more, and their rows are kept, too.
+  s.tolerance.quantile = 0.9998;
+  EXPECT_EQ(directions(8), 8U);
+  EXPECT_HAS(gonio::test::refusal([&] { directions(18); }), "at most 70 in a plan");
+  s.tolerance = {};
+  s.lights.assign(512, test::light({0, 0, 1}));
+  EXPECT_EQ(Lit(s).drawer(0, 64).directions(), 0U);
+  s.lights.push_back(test::light({0, 0, 1}));
+  EXPECT_HAS(gonio::test::refusal([&] { Lit{s}; }), "0 with an extent, 513 without");
 }
 
 }  // namespace
