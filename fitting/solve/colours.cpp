@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -315,26 +318,44 @@ Start Colours<F>::from_every_valley(std::vector<double> values, const DescentOpt
 template <class F>
 std::vector<Start> Colours<F>::other_valleys(const Start& place,
                                              const DescentOptions& o,
-                                             double worth) const {
-  std::vector<Start> others;
-  const std::size_t channels = held_.start.model.channels;
+                                             double worth,
+                                             std::size_t most) const {
+  struct Bottom {
+    double cost;
+    const Start* end;
+    std::optional<std::size_t> channel;  // that alone goes there
+  };
+  std::vector<Bottom> bottoms;
+  std::deque<Start> ends;
   for (const Lobe& lobe : lobes_) {
     if (!lobe.has_valleys) continue;
+    const auto stay = lobe.apart ? channel_costs(lobe, place.values) : std::vector<double>();
+    const double whole = std::accumulate(stay.begin(), stay.end(), 0.0);
     for (const Look& look : lobe.looks) {
-      Start end = in_valley(look, place.values, o);
+      Start& end = ends.emplace_back(in_valley(look, place.values, o));
       if (!lobe.apart) {
-        others.push_back(std::move(end));
+        bottoms.push_back({end.cost, &end, {}});
         continue;
       }
-      for (std::size_t c = 0; c < channels; ++c) {
-        Start one = place;
-        take(c, end.values, one.values);
-        one.cost = finite(accumulate_.normal_equations(one.values).cost);
-        others.push_back(std::move(one));
-      }
+      // Channels share no colour that is taken: what one costs there does not depend on the others.
+      auto all = place.values;
+      for (std::size_t c = 0; c < stay.size(); ++c) take(c, end.values, all);
+      const auto go = channel_costs(lobe, all);
+      for (std::size_t c = 0; c < stay.size(); ++c)
+        bottoms.push_back({finite(whole - stay[c] + go[c]), &end, c});
     }
   }
-  std::erase_if(others, [&](const Start& s) { return !(s.cost <= place.cost * (1 + worth)); });
+  std::erase_if(bottoms, [&](const Bottom& b) { return !(b.cost <= place.cost * (1 + worth)); });
+  if (bottoms.size() > most) {
+    std::ranges::stable_sort(bottoms, {}, &Bottom::cost);
+    bottoms.resize(most);
+  }
+  std::vector<Start> others;
+  for (const auto& [cost, end, channel] : bottoms) {
+    Start& one = others.emplace_back(channel ? place : *end);
+    if (channel) take(*channel, end->values, one.values);
+    one.cost = cost;
+  }
   return others;
 }
 

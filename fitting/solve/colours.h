@@ -57,8 +57,11 @@ class Colours {
   /// From where they are and, of a lobe with an index or an extinction, from every valley of it.
   Start from_every_valley(std::vector<double> values, const DescentOptions&) const;
   /// Bottoms of all valleys, each of one channel where these are apart, that are not above the place's
-  /// cost by more than `worth` of it.
-  std::vector<Start> other_valleys(const Start& place, const DescentOptions&, double worth) const;
+  /// cost by more than `worth` of it; where these are more than `most`, the lowest.
+  std::vector<Start> other_valleys(const Start& place,
+                                   const DescentOptions&,
+                                   double worth,
+                                   std::size_t most = 64) const;
   /// True where some lobe has an index or an extinction that is free.
   bool has_valleys() const;
   /// From where they are.

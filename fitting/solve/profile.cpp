@@ -85,13 +85,16 @@ class Profiler {
   /// eta and 1/eta say, differ by so little that no start tells them apart.
   std::vector<Start> twins(const std::vector<double>& values) const {
     constexpr double nearly = 1e-3, near_one = 1e-2;
+    constexpr std::size_t most = 24;  // each is a fit
     if (!indices_.has_valleys()) return {};
     const double cost = whole_.normal_equations(values).cost;
-    auto others = indices_.other_valleys({cost, values}, {40, 1e-7}, nearly);
+    auto others = indices_.other_valleys({cost, values}, {40, 1e-7}, nearly, most);
+    if (others.size() == most) others.push_back(indices_.from_every_valley(values, {40, 1e-7}));
     // Next to eta = 1, where F all but vanishes, the other valley has no bottom to descend to.
     for (const auto& q : p_.start.model.parameters)
       for (std::size_t k = q.first; k < q.first + q.count; ++k)
-        if (q.about->name == "eta" && p_.free.mask()[k] && std::abs(values[k] - 1) < near_one) {
+        if (q.about->name == "eta" && p_.free.mask()[k] && std::abs(values[k] - 1) < near_one &&
+            others.size() < 2 * most) {
           others.push_back({cost, values});
           others.back().values[k] = 1 / values[k];
         }
