@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "base/csv_describe.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/json/describe.h"
 #include "fitting/batch/preview_json.h"
@@ -313,14 +314,26 @@ std::string batch_csv(const std::vector<BatchRow>& rows) {
           "warnings", [](const BatchFit& f) { return f.warnings.size(); }, "")};
   const std::string none(std::tuple_size_v<decltype(last)> - 1, ',');
 
+  // A document of many channels with names of its own gives all other tables their columns, too.
+  constexpr std::size_t most_cells = std::size_t{1} << 26, each = 4;
   std::vector<std::string> columns;  // those of all tables, as they are first seen
   std::unordered_set<std::string> seen;
+  std::size_t letters = 0;
   for (const auto& r : rows)
     if (r.fit)
       for (const auto& p : r.fit->parameters)
         for (std::size_t c = 0; c < p.value.size(); ++c)
-          if (auto name = column(*r.fit, p, c); seen.insert(name).second)
+          if (auto name = column(*r.fit, p, c); seen.insert(name).second) {
+            letters += name.size();
             columns.push_back(std::move(name));
+            if (each * columns.size() > most_cells / rows.size() || letters > most_cells)
+              throw bad_input(
+                  "summary.csv", "writing",
+                  fmt::format("{} or more columns of parameters in {} tables, whose names have {} "
+                              "bytes",
+                              each * columns.size(), rows.size(), letters),
+                  fmt::format("at most {} cells and bytes", most_cells));
+          }
 
   std::string csv = csv_columns(first) + ",model";
   for (const auto& name : columns)

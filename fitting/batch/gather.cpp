@@ -220,7 +220,8 @@ std::string with_side_file(const std::string& made_with, const std::string& tabl
   std::error_code unknown;
   const auto side = side_path(table);
   if (!fs::exists(side, unknown)) return made_with;
-  return fmt::format("{}{}{}", made_with, side_part, sha256_of_file(side));
+  constexpr std::uint64_t most = std::uint64_t{1} << 24;  // as it is read
+  return fmt::format("{}{}{}", made_with, side_part, sha256_of_file(InputFile(side), most));
 }
 
 BatchSummary gather(const std::string& folder,

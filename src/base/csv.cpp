@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 
 namespace gonio {
@@ -15,11 +17,12 @@ std::string csv_quoted(std::string_view text) {
   return cell + '"';
 }
 
-std::string csv_text(std::string_view text) {
-  constexpr std::string_view quoted = ",\"\r\n", formula = "=+-@\t\r\n";
+std::string csv_text(std::string_view raw) {
+  constexpr std::string_view quoted = ",\"", formula = "=+-@";
+  const std::string text = printable(raw);
   const bool guarded = !text.empty() && formula.find(text.front()) != formula.npos;
-  if (!guarded && text.find_first_of(quoted) == text.npos) return std::string(text);
-  return csv_quoted(guarded ? "'" + std::string(text) : text);
+  if (!guarded && text.find_first_of(quoted) == text.npos) return text;
+  return csv_quoted(guarded ? "'" + text : text);
 }
 
 std::string csv_number(double v) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/file.h"
+#include "refusal.h"
 #include "support.h"
 
 #include <gtest/gtest.h>
@@ -83,6 +84,24 @@ TEST(BatchDocument, CsvHasALinePerTableAndAColumnPerChannel) {
       "data\"\n"
       "\"in/a, \"\"b\"\".csv\",a.json,ok,0,lambert,0.1,,fixed,,0.3,0.01,free,,,,upper_limit,0.07,"
       "0.1,0.02,at_bound,,0.25,0.5,0.3333333333333333,12,7,0.125,true,2,fine\n");
+}
+
+/// Each table has the columns of all, and each name stands four times.
+TEST(BatchDocument, OfMoreColumnsThanTablesHaveRoomForThereIsNoCsv) {
+  BatchRow wide = a_row();
+  auto& kd = wide.fit->parameters[1];
+  constexpr std::size_t channels = 20'000;
+  kd.value.assign(channels, 0.1), kd.std_error.assign(channels, nan);
+  kd.status.assign(channels, ParameterStatus::free), kd.limit.assign(channels, nan);
+  wide.fit->channels.clear();
+  for (std::size_t c = 0; c < channels; ++c) wide.fit->channels.push_back(std::to_string(c));
+  std::vector<BatchRow> rows(1000, a_failure());
+  rows[0] = wide;
+  EXPECT_HAS(test::refusal([&] { batch_csv(rows); }), "summary.csv: writing: found 67112 or more");
+  rows.resize(10);
+  EXPECT_EQ(test::refusal([&] { batch_csv(rows); }), "");
+  rows[0].fit->parameters[1].name = std::string(10'000, 'k');
+  EXPECT_HAS(test::refusal([&] { batch_csv(rows); }), "at most 67108864 cells and bytes");
 }
 
 TEST(BatchDocument, NoCellOfTextIsAFormula) {

@@ -163,6 +163,13 @@ TEST(Gather, ASideFileIsNoOtherWayOfMakingIt) {
   EXPECT_TRUE(s.left_out.empty());
 }
 
+/// Of what is refused unread no digest is made.
+TEST(Gather, ASideFileThatIsTooLongHasNoName) {
+  const Tables t;
+  fs::resize_file(t.f.write("b.csv.gonio.json", "{}"), (std::size_t{1} << 24) + 1);
+  EXPECT_HAS(test::refusal([&] { with_side_file("made", t.f / "b.csv"); }), "expected at most 16777216");
+}
+
 TEST(Gather, APathThatIsNoTextIsFoundAgain) {
   const Tables t;
   const auto odd = t.f.write("odd \xff.csv", table(0.1));
