@@ -67,6 +67,36 @@ TEST(Growth, OfTheColumnsOfAnAstmFileIsLinear) {
       "inspect t", 500);
 }
 
+TEST(Growth, OfTheColumnsOfACsvFileIsLinear) {
+  expect_linear(
+      [](const Folder& f, int n) {
+        f.write("t.csv", "theta_i,theta_o" +
+                             repeated(n, [](int i) { return ",f_" + std::to_string(i); }) +
+                             "\n30,20" + repeated(n, [](int) { return ",0.1"; }) + "\n");
+      },
+      "columns t.csv", 1000);
+}
+
+/// Where each channel has an index of its own, each has valleys of its own.
+TEST(Growth, OfIndicesWithTheChannelsOfATableIsLinear) {
+  expect_linear(
+      [](const Folder& f, int n) {
+        f.write("t.csv",
+                "theta_i,theta_o" + repeated(n, [](int i) { return ",f_" + std::to_string(i); }) +
+                    "\n" + repeated(6, [n](int row) {
+                      return "30," + std::to_string(15 * row) +
+                             repeated(n,
+                                      [row](int i) {
+                                        return "," + std::to_string(0.1 + 0.01 * row + 1e-4 * i);
+                                      }) +
+                             "\n";
+                    }));
+      },
+      "fit t.csv --model ggx/smith_ggx.correlated/dielectric --fix alpha=0.5 --certificate none"
+      " --jobs 1 -o fit.json",
+      8);
+}
+
 TEST(Growth, OfAFitWithTheChannelsOfATableIsLinear) {
   expect_linear(
       [](const Folder& f, int n) {

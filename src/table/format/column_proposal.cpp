@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -139,12 +140,22 @@ double largest(const ColumnSummary& c) {
   return std::max(std::abs(c.lowest), std::abs(c.highest));
 }
 
-/// Column as --map names it: by its name if no other has that, else by its number.
-std::string reference(std::span<const ColumnSummary> columns, std::size_t k) {
-  const auto& name = columns[k].name;
-  const bool alone = std::ranges::count(columns, name, &ColumnSummary::name) == 1;
-  return alone && !name.empty() && name[0] != '#' ? name : fmt::format("#{}", k + 1);
-}
+/// Columns as --map names them: by a name if no other has that, else by a number.
+class References {
+ public:
+  explicit References(std::span<const ColumnSummary> columns) : columns_(columns) {
+    for (const auto& c : columns) ++times_[c.name];
+  }
+  std::string operator()(std::size_t k) const {
+    const auto& name = columns_[k].name;
+    const bool alone = times_.at(name) == 1;
+    return alone && !name.empty() && name[0] != '#' ? name : fmt::format("#{}", k + 1);
+  }
+
+ private:
+  std::span<const ColumnSummary> columns_;
+  std::unordered_map<std::string_view, std::size_t> times_;
+};
 
 }  // namespace
 
@@ -167,13 +178,13 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns) {
       std::swap(found.angle[zenith], found.angle[azimuth]);
     }
 
+  const References reference(columns);
   ColumnMap map;
   for (const auto a : {theta_i, phi_i, theta_o, phi_o})
-    if (const auto k = found.angle[a])
-      map.columns.emplace_back(angle_names[a], reference(columns, *k));
+    if (const auto k = found.angle[a]) map.columns.emplace_back(angle_names[a], reference(*k));
   for (std::size_t k = 0; k < columns.size(); ++k)
     if (columns[k].name.starts_with("f_") && is_role(columns[k].name) && !found.channel)
-      map.columns.emplace_back(columns[k].name, reference(columns, k));
+      map.columns.emplace_back(columns[k].name, reference(k));
   const bool by_channel =
       std::ranges::any_of(map.columns, [](const auto& c) { return c.first.starts_with("f_"); });
   const auto bands = by_channel || found.channel ? std::nullopt : wavelength_pattern(columns);
@@ -181,8 +192,8 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns) {
     map.columns.emplace_back("f_*", *bands);
     found.value.reset();
   }
-  if (found.value && !by_channel) map.columns.emplace_back("f", reference(columns, *found.value));
-  if (found.channel) map.columns.emplace_back("channel", reference(columns, *found.channel));
+  if (found.value && !by_channel) map.columns.emplace_back("f", reference(*found.value));
+  if (found.channel) map.columns.emplace_back("channel", reference(*found.channel));
 
   for (const auto a : {theta_i, theta_o})
     if (!found.angle[a])

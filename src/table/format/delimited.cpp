@@ -349,7 +349,9 @@ std::vector<Delimited> Delimited::parts() const {
   constexpr std::size_t least = std::size_t{1} << 20;
   std::vector<Delimited> all;
   if (pending_ || rest_.size() < 2 * least || rest_.find('"') != rest_.npos) return all;
-  const std::size_t size = std::max(least, 1000 * names_.size());  // each has the names, too
+  std::size_t size = comment_.size();  // each has the names, too
+  for (const auto& name : names_) size += sizeof name + name.size();
+  size = std::max(least, 32 * size);
   for (auto rest = rest_; !rest.empty();) {
     const auto end = rest.find(line_end_, std::min(size, rest.size()));
     all.push_back(*this);

@@ -124,13 +124,12 @@ class SsddReader {
         fail(block_.colour, fmt::format("{}", fmt::join(known, ", ")));
     } else if (key == "WAVELENGTH_LIST") {
       block_.wavelengths.clear();
-      for (const double nm : numbers(value, 0, 1e9))
+      for (const double nm : numbers(value, 0, 1e9, most_channels))
         block_.wavelengths.push_back(fmt::format("{:.6g}", nm));
       auto sorted = block_.wavelengths;
       std::ranges::sort(sorted);
-      if (sorted.size() > most_channels || std::ranges::adjacent_find(sorted) != sorted.end())
-        fail(fmt::format("{} wavelengths", sorted.size()),
-             fmt::format("at most {}, each once", most_channels));
+      if (std::ranges::adjacent_find(sorted) != sorted.end())
+        fail("a wavelength twice", "each once");
     } else if (key == "PARAM_TYPE") {
       block_.parametrization = next_word(value);
     } else if (key == "REDUCTION_TYPE") {
@@ -139,7 +138,7 @@ class SsddReader {
       const auto k = static_cast<std::size_t>(list - kLists.begin());
       constexpr std::array<double, kLists.size()> least{0, 0, 0, 0, -90},
           most{90, 360, 180, 360, 90};
-      block_.lists[k] = numbers(value, least[k], most[k]);
+      block_.lists[k] = numbers(value, least[k], most[k], std::size_t{1} << 20);
       if (k < 4 && !std::ranges::is_sorted(block_.lists[k], std::less_equal<>{}))
         fail("angles out of order", "ascending ones");
     } else if (std::ranges::find(kNotes, key) != kNotes.end()) {
@@ -156,11 +155,15 @@ class SsddReader {
     block_.notes.emplace_back(key, trimmed(value));
   }
 
-  std::vector<double> numbers(std::string_view value, double least, double most) const {
+  std::vector<double> numbers(std::string_view value,
+                              double least,
+                              double most,
+                              std::size_t most_numbers) const {
     std::vector<double> all;
     value = without_comment(value);
     for (auto field = next_word(value); !field.empty(); field = next_word(value)) {
       const auto v = number_from<double>(field);
+      if (all.size() == most_numbers) fail("more numbers", fmt::format("at most {}", most_numbers));
       if (!v || !(*v >= least && *v <= most))
         fail(fmt::format("'{}'", field), fmt::format("a number from {} to {}", least, most));
       all.push_back(*v);

@@ -112,12 +112,10 @@ std::vector<AlbedoSample> of_function(const Table& t, double step_deg) {
 
 /// True where all azimuths between the two directions are from 0 to 180°, as goniometers write them.
 bool one_half_turn(const DirectionList& l, const std::vector<std::size_t>& samples) {
-  const double phi_i = l.phi_i_deg[samples[0]];
-  return std::ranges::all_of(l.phi_i_deg, [&](double phi) { return phi == phi_i; }) &&
-         std::ranges::all_of(samples, [&](std::size_t i) {
-           const double phi = l.phi_o_deg[i] - phi_i;
-           return phi >= 0 && phi <= 180;
-         });
+  return std::ranges::all_of(samples, [&](std::size_t i) {
+    const double phi = l.phi_o_deg[i] - l.phi_i_deg[i];
+    return phi >= 0 && phi <= 180;
+  });
 }
 
 std::vector<AlbedoSample> samples_of_list(const Table& t) {
@@ -135,6 +133,8 @@ std::vector<AlbedoSample> samples_of_list(const Table& t) {
     if (l.theta_i_deg[i] < 90 && l.theta_o_deg[i] < 90)
       groups[{l.theta_i_deg[i], l.phi_i_deg[i]}].push_back(i);
   const SampleAngles at(t);
+  const bool one_azimuth =
+      std::ranges::all_of(l.phi_i_deg, [&](double phi) { return phi == l.phi_i_deg[0]; });
   std::vector<AlbedoSample> all;
   for (const auto& [incident, group] : groups) {
     const auto& samples = group;  // clang 14 lets no lambda have a structured binding
@@ -142,7 +142,8 @@ std::vector<AlbedoSample> samples_of_list(const Table& t) {
     // In the order of their cosines: a node looks at those no farther from it in zenith angle than
     // it may be at all.
     std::vector<std::pair<Direction, std::size_t>> by_height;
-    const bool half = one_half_turn(l, samples);  // the other half is its mirror image
+    const bool half =
+        one_azimuth && one_half_turn(l, samples);  // the other half is its mirror image
     for (const auto i : samples) {
       const auto p = at.directions(i);
       by_height.emplace_back(p.wo, i);

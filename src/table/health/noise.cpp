@@ -298,9 +298,10 @@ Noise estimate_noise(const Table& t, const NoiseSamples& samples) {
   noise.sigma = spread(best, [](const auto& d) { return d.more; });
   const double fewer = spread(best, [](const auto& d) { return d.fewer; });
   noise.bound = *noise.sigma < 0.8 * fewer || *noise.sigma < 1e-4;
-  for (std::size_t c = 0; c < t.values.size(); ++c)
-    noise.channels.push_back(
-        spread(best, [&](const auto& d) { return d.channel == c ? d.more : nan; }));
+  std::vector<std::vector<double>> of_channel(t.values.size());
+  for (const NoiseSample& d : best)
+    if (!std::isnan(d.more)) of_channel[d.channel].push_back(d.more);
+  for (auto& here : of_channel) noise.channels.push_back(spread(std::move(here)));
   if (noise.bound) return noise;
   noise.over_angle = bands(best, {0, 15, 30, 45, 60, 75, 90}, [&](const NoiseSample& d) {
     const auto a = at(d.sample);

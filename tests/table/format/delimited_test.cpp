@@ -96,5 +96,14 @@ TEST(CommaField, IsQuotedWhereItMustBeAndReadsBack) {
   EXPECT_EQ(comma_fields(line), names);
 }
 
+/// Each part has the names: of long ones there are few parts.
+TEST(Delimited, OfALongNameIsNotCutIntoManyParts) {
+  std::string rows;
+  while (rows.size() < 9'000'000) rows += "1,2\n";
+  EXPECT_EQ(Delimited("file", "a,b\n" + rows).parts().size(), 9U);
+  const std::string long_name = std::string(1'000'000, 'a') + ",b\n" + rows;
+  EXPECT_LE(Delimited("file", long_name).parts().size(), 1U);
+}
+
 }  // namespace
 }  // namespace gonio

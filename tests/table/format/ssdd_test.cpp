@@ -131,6 +131,9 @@ TEST(SsddFile, NamesTheLineThatIsWrong) {
                    "line 13: found lab, expected monochrome, rgb");
   EXPECT_COMPLAINT(with("WAVELENGTH_LIST 450 650.5", "NAME x"), "no WAVELENGTH_LIST");
   EXPECT_COMPLAINT(with("450 650.5", "450 450"), "each once");
+  std::string many;
+  for (int nm = 0; nm < 4097; ++nm) many += std::to_string(nm) + " ";
+  EXPECT_COMPLAINT(with("450 650.5", many), "found more numbers, expected at most 4096");
   EXPECT_COMPLAINT(
       with("PARAM_TYPE spherical", "PARAM_TYPE distorted_spherical"),
       "found PARAM_TYPE distorted_spherical_coordinate_system, expected spherical_coo");
