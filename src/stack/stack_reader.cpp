@@ -75,8 +75,8 @@ std::unique_ptr<ImageFile> StackReader::open(const std::string& path) {
 
 std::size_t StackReader::vectors(const std::string& name) {
   const std::string path = stack_.path_of(name);
-  const auto known = std::ranges::find(maps_, path, &Source::path);
-  if (known != maps_.end()) return static_cast<std::size_t>(known - maps_.begin());
+  const auto [number, is_new] = map_number_.try_emplace(path, maps_.size());
+  if (!is_new) return number->second;
   const auto stamp = InputFile(path).stamp();
   auto file = open(path);
   auto channels = channels_among(*file, xyz);
@@ -116,6 +116,7 @@ StackReader::StackReader(Stack stack) : stack_(std::move(stack)) {
   }
   if (channels_.size() == 1) channels_ = {""};
   if (stack_.normals) normals_ = vectors(*stack_.normals);
+  if (stack_.truth) will_read(stack_.path_of(stack_.truth->parameters));  // it is no output either
   make_digest();
 }
 

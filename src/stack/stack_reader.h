@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "base/file.h"
@@ -93,7 +94,8 @@ class StackReader {
   std::size_t width_ = 0, height_ = 0, block_width_ = 1, block_height_ = 1;
   std::vector<std::string> channels_;
   bool shared_ = true;
-  std::vector<Source> images_, maps_;                ///< maps_: images of vectors, each once
+  std::vector<Source> images_, maps_;  ///< maps_: images of vectors, each once
+  std::unordered_map<std::string, std::size_t> map_number_;  ///< by path
   std::vector<std::size_t> light_maps_, view_maps_;  ///< of each image: index into maps_, or none
   std::size_t normals_ = none;
 };

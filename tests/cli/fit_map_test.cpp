@@ -150,6 +150,7 @@ TEST(FitMapCommand, OverwritesNothingThatItReads) {
   expect_one_line_each(f, 2,
                        {{"fit_map s/stack.json -o s/stack.json", "is an input"},
                         {"fit_map s/stack.json -o ./s/../s/image_000.exr", "is an input"},
+                        {"fit_map s/stack.json -o s/parameters.exr", "is an input"},
                         {"gather t -o t/../t/tile_0_0.exr", "is an input"}});
   EXPECT_EQ(read_bytes(f / "s/image_000.exr"), image);
   EXPECT_EQ(read_bytes(f / "t/tile_0_0.exr"), tile);
