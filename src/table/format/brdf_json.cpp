@@ -45,8 +45,15 @@ class Geometries {
     }
     values_.push_back({at->second, channel, f});
   }
-  std::size_t numbers() const {
-    return list_.theta_i_deg.size() * (4 + std::max<std::size_t>(1, channels_.size()));
+  /// False where that is more than a table holds.
+  bool has_room(std::size_t channels) const {
+    const std::size_t samples = list_.theta_i_deg.size(),
+                      all = std::max(channels, channels_.size());
+    return all <= most_channels && samples * (4 + std::max<std::size_t>(1, all)) <= most_values;
+  }
+  /// Else a small file asks for much memory: each sample has room for every channel.
+  bool is_mostly_filled() const {
+    return list_.theta_i_deg.size() * channels_.size() <= 8 * values_.size() + 64;
   }
   Table table(const std::string& format) {
     Table t;
@@ -91,8 +98,12 @@ double value_in(const JsonReader& j) {
 }
 
 void expect_room(const JsonReader& j, const Geometries& all, std::size_t channels) {
-  if (all.numbers() > most_values || channels > most_channels)
+  if (!all.has_room(channels))
     j.fail(fmt::format("at most {} numbers and {} wavelengths", most_values, most_channels));
+}
+void expect_filled(const JsonReader& j, const Geometries& all) {
+  if (!all.is_mostly_filled())
+    j.fail("other wavelengths at most directions", "all wavelengths at most of them");
 }
 
 /// What head or metadata says in words and numbers.
@@ -154,7 +165,10 @@ Table new_form(const JsonReader& data) {
   const auto wavelength = columns.find("wavelength_i");
   Geometries all;
   std::map<std::string, std::size_t> polarised;
-  for (const auto& row : data.at("values").elements()) {
+  const JsonReader rows = data.at("values");
+  if (!rows.is_array()) rows.fail("an array");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const JsonReader row = rows.at(i);
     if (!row.is_array() || row.size() != variables.size())
       row.fail(fmt::format("a row of {} entries, one a variable", variables.size()));
     std::array<double, 4> deg{};
@@ -172,6 +186,7 @@ Table new_form(const JsonReader& data) {
             value_in(row.at(f.index)));
     expect_room(row, all, 0);
   }
+  expect_filled(rows, all);
   Table t = all.table("brdf_json");
   tell_polarisation(polarised, t);
   return t;
@@ -260,7 +275,9 @@ Table read_xompt(InputFile& in) {
   const auto rows = document.root().at("brdf").at("lookupTable");
   constexpr double right = std::numbers::pi / 2 * (1 + 1e-6), round = 4 * std::numbers::pi;
   Geometries all;
-  for (const auto& row : rows.elements()) {
+  if (!rows.is_array()) rows.fail("an array");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const JsonReader row = rows.at(i);
     if (!row.is_array() || row.size() != 5)
       row.fail("wavelength, theta_i, theta_o, delta phi and f");
     const auto angle = [&](std::size_t k, double most) {
@@ -274,6 +291,7 @@ Table read_xompt(InputFile& in) {
     all.add({angle(1, right), 0, angle(2, right), angle(3, round)}, "", nm, value_in(row.at(4)));
     expect_room(row, all, 0);
   }
+  expect_filled(rows, all);
   Table t = all.table("xompt");
   if (t.size() == 0) rows.fail("no samples", "one at least");
   double largest = 0;

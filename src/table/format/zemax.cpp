@@ -271,6 +271,9 @@ class ZemaxReader {
       const auto line = line_;
       const auto key = next_word(line_);
       const auto is = [&](const auto& known) { return same_word(key, known.key); };
+      const auto once = [&](std::string_view known) {
+        if (!seen.insert(known).second) fail(key, "each keyword once");
+      };
       if (const auto word = std::ranges::find_if(kWords, is); word != kWords.end()) {
         const auto said = trimmed(line_);
         const auto chosen = std::ranges::find_if(
@@ -280,11 +283,11 @@ class ZemaxReader {
         if (*chosen == "BTDF") fail(said, "BRDF: gonio fits reflection");
         xyz_ |= *chosen == "XYZ";
         f_.mirrored |= *chosen == "PlaneSymmetrical";
+        once(word->key);
         notes_.emplace_back(word->key, *chosen);
-        seen.insert(word->key);
       } else if (const auto axis = std::ranges::find_if(kAxes, is); axis != kAxes.end()) {
+        once(axis->key);
         read_axis(*axis);
-        seen.insert(axis->key);
       } else {
         const std::string_view first = xyz_ ? kTristimulus[0] : "Monochrome";
         if (!same_word(line, first))

@@ -6,6 +6,8 @@
 
 #include "table/complaint.h"
 
+#include <fmt/format.h>
+
 namespace gonio {
 namespace {
 
@@ -108,6 +110,19 @@ TEST(OpenMaterial, HasAnglesInRadiansAndWavelengthsInMetres) {
              "a wavelength in metres");
   EXPECT_HAS(complaint_about(R"({"brdf": {"lookupTable": [[5.5e-07, 45, 0.25, 3.1, 1]]}})"),
              "an angle in radians");
+}
+
+/// Each direction has room for each wavelength: 9,000 rows asked for half a gigabyte.
+TEST(BrdfJson, OfOtherWavelengthsAtEachDirectionIsRefused) {
+  const auto rows = [](int n, int step) {
+    std::string all;
+    for (int i = 0; i < n; ++i)
+      all += fmt::format("{}[{}e-9, 0.1, {}, 0, 0.3]", i ? "," : "", 400 + i * step, 1e-4 * i);
+    return R"({"brdf": {"lookupTable": [)" + all + "]}}";
+  };
+  EXPECT_EQ(complaint_about(rows(200, 0)), "");
+  EXPECT_HAS(complaint_about(rows(200, 1)), "expected all wavelengths at most of them");
+  EXPECT_HAS(complaint_about(rows(4097, 1)), "4096 wavelengths");
 }
 
 TEST(BrdfJson, OfASharedFileHasItsGeometriesAndBands) {

@@ -119,6 +119,8 @@ TEST(ZemaxFile, ThatLiesIsRefusedByItsLine) {
   EXPECT_HAS(zemax_complaint("0.1 0.1", "0.1"), "found 'TIS', expected a value");
   EXPECT_HAS(zemax_complaint("DataEnd", ""), "expected DataEnd");
   EXPECT_HAS(zemax_complaint("BRDF", "BTDF"), "gonio fits reflection");
+  EXPECT_HAS(zemax_complaint("Monochrome\nScatter", "Monochrome\nSource Measured\nScatter"),
+             "found 'Source', expected each keyword once");
   EXPECT_HAS(zemax_complaint("Monochrome\nScatter", "XYZ\nScatter"), "TristimulusX");
   EXPECT_HAS(zemax_complaint("ScatterRadial 4\n0 10 40 80\n", ""), "no ScatterRadial");
   EXPECT_HAS(zemax_complaint("60\t120\t180", "60\t120\t190"), "0 to 180");
