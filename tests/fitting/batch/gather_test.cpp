@@ -167,7 +167,8 @@ TEST(Gather, ASideFileIsNoOtherWayOfMakingIt) {
 TEST(Gather, ASideFileThatIsTooLongHasNoName) {
   const Tables t;
   fs::resize_file(t.f.write("b.csv.gonio.json", "{}"), (std::size_t{1} << 24) + 1);
-  EXPECT_HAS(test::refusal([&] { with_side_file("made", t.f / "b.csv"); }), "expected at most 16777216");
+  EXPECT_HAS(test::refusal([&] { with_side_file("made", t.f / "b.csv"); }),
+             "expected at most 16777216");
 }
 
 TEST(Gather, APathThatIsNoTextIsFoundAgain) {
