@@ -31,11 +31,15 @@ std::string unit_of(const Tolerance& t) {
 }
 
 void print(const MaterialPlan& m, const Tolerance& t, Cost cost) {
-  const bool looked_up = std::ranges::any_of(m.effects, [](const auto& e) {
-    return e.effect == Effect::environment && e.form == "split_sum" && e.why == Why::measured;
-  });
-  const auto operations = fmt::format("{:.0f} % fewer operations{}", 100 * m.ops_saved,
-                                      looked_up ? ", lookups not counted" : "");
+  const bool looked_up =
+      m.needs_table() || std::ranges::any_of(m.effects, [](const auto& e) {
+        return e.effect == Effect::environment && e.form == "split_sum" && e.why == Why::measured;
+      });
+  const auto operations =
+      fmt::format("{}{}",
+                  m.ops_saved < 0 ? fmt::format("{:.2g} × the operations", 1 - m.ops_saved)
+                                  : fmt::format("{:.0f} % fewer operations", 100 * m.ops_saved),
+                  looked_up ? ", lookups not counted" : "");
   const auto time = fmt::format("{:.3g} × as fast", m.speedup);
   const bool by_time = cost == Cost::time;
   say("{}: {}, {}\n", m.name, by_time ? time : operations, by_time ? operations : time);
@@ -60,9 +64,8 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost) {
         "  check   ",
         fmt::format("{:.3g} % of {} fresh points differ from {} by {} {:.2g}; no walk is known of "
                     "this lobe, so that is no bound",
-                    100 * t.quantile, m.checked.samples,
-                    m.reference == "none" ? "single scattering" : m.reference, unit_of(t),
-                    m.checked.quantile));
+                    100 * t.quantile, m.checked.samples, reference_in_words(m.reference),
+                    unit_of(t), m.checked.quantile));
   if (!m.holds)
     say_below(
         "  beware  ",

@@ -19,12 +19,17 @@ struct VerifyCall : Common {
 };
 
 void print(const VerifiedMaterial& m, const Tolerance& t) {
-  say_below(
-      fmt::format("{}: {}  ", m.name, m.holds ? "holds" : "is broken"),
-      fmt::format("{} of {} points differ by more than {:.3g}, which is less than {:.2g} % of all "
-                  "with {:.3g} % confidence; the worst by {:.3g}",
-                  m.found.exceeding, m.found.samples, t.limit, 100 * m.found.bound,
-                  100 * t.confidence, m.found.worst));
+  const auto what = m.bounded
+                        ? fmt::format(
+                              "by more than {:.3g}, which is less than {:.2g} % of all with {:.3g} "
+                              "% confidence; the worst by {:.3g}",
+                              t.limit, 100 * m.found.bound, 100 * t.confidence, m.found.worst)
+                        : fmt::format(
+                              "from {} by more than {:.3g}, the worst by {:.3g}; no walk is known "
+                              "of this lobe, so that is no bound",
+                              reference_in_words(m.reference), t.limit, m.found.worst);
+  say_below(fmt::format("{}: {}  ", m.name, m.holds ? "holds" : "is broken"),
+            fmt::format("{} of {} points differ {}", m.found.exceeding, m.found.samples, what));
 }
 
 Exit run(const VerifyCall& o) {

@@ -134,8 +134,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
                         failed)
           : fmt::format("Checked on {} fresh points beside {}. No walk is known of this lobe, so "
                         "nothing is claimed beyond these points.{}",
-                        count_text(c.samples),
-                        m.reference == "none" ? "single scattering" : spaced(m.reference), failed),
+                        count_text(c.samples), scene::reference_in_words(m.reference), failed),
       "small"});
   s.parts.emplace_back(Prose{fmt::format("The model: `{}`", m.spec), "small"});
   if (m.front.size() > 1) {
@@ -175,7 +174,7 @@ std::string plan_page_html(const scene::Plan& p) {
           {},
           "told-by-cell"};
   for (const auto& m : p.materials)
-    t.add(m.name, times(m.speedup), m.ops_saved > 0 ? "−" + page::percent(m.ops_saved) : "0",
+    t.add(m.name, times(m.speedup), signed_percent(0 - m.ops_saved),
           names(m, [](const auto& e) { return e.keep; }),
           names(m, [](const auto& e) { return !e.keep && e.why != scene::Why::structural; }),
           m.bounded ? "≤ " + significant(m.checked.upper, 2) : significant(m.checked.quantile, 2),
@@ -183,7 +182,8 @@ std::string plan_page_html(const scene::Plan& p) {
   out.sections = {
       {"What to keep, and how much faster that is",
        "Times of the effects that a material has, in float, with Kulla and Conty's "
-       "compensation, over the plan's; both of composed column kernels on this machine.",
+       "compensation, over the plan's; both of composed column kernels on this machine. "
+       "Operations count no look-ups.",
        {t}}};
   for (const auto& m : p.materials) out.sections.push_back(one(m, p, unit_name));
   out.setting =

@@ -388,7 +388,10 @@ TabulatedLobe::Value TabulatedLobe::at(const FrameAngles<double>& a) const {
 }
 
 template <class F>
-void TabulatedLobe::add(const Block<F>& x, double errors, const std::array<F*, 3>& f) const {
+void TabulatedLobe::add(const Block<F>& x,
+                        const std::array<F*, 3>& f,
+                        double errors,
+                        const std::array<F*, 3>& off) const {
   const auto in = [](const F* column, std::size_t i) { return static_cast<double>(column[i]); };
   for (std::size_t i = 0; i < x.n; ++i) {
     FrameAngles<double> a{};
@@ -399,11 +402,19 @@ void TabulatedLobe::add(const Block<F>& x, double errors, const std::array<F*, 3
       a.xov = in(x.frame[4], i), a.yov = in(x.frame[5], i);
     }
     const Value value = at(a);
-    for (std::size_t c = 0; c < 3; ++c)
-      f[c][i] += static_cast<F>(value.f[c] + errors * value.error[c]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      f[c][i] += static_cast<F>(value.f[c]);
+      if (off[c]) off[c][i] += static_cast<F>(value.f[c] + errors * value.error[c]);
+    }
   }
 }
-template void TabulatedLobe::add(const Block<float>&, double, const std::array<float*, 3>&) const;
-template void TabulatedLobe::add(const Block<double>&, double, const std::array<double*, 3>&) const;
+template void TabulatedLobe::add(const Block<float>&,
+                                 const std::array<float*, 3>&,
+                                 double,
+                                 const std::array<float*, 3>&) const;
+template void TabulatedLobe::add(const Block<double>&,
+                                 const std::array<double*, 3>&,
+                                 double,
+                                 const std::array<double*, 3>&) const;
 
 }  // namespace gonio

@@ -63,9 +63,12 @@ class TabulatedLobe {
   };
   /// At two directions; the frame is read of an anisotropic lobe.
   Value at(const FrameAngles<double>&) const;
-  /// f += value + errors · standard error.  An anisotropic lobe reads the frame.
+  /// f += value, and off += value + errors · standard error where there is such.  An anisotropic lobe reads the frame.
   template <class F>
-  void add(const Block<F>& x, double errors, const std::array<F*, 3>& f) const;
+  void add(const Block<F>& x,
+           const std::array<F*, 3>& f,
+           double errors = 0,
+           const std::array<F*, 3>& off = {}) const;
 
  private:
   /// Four nodes, their shares in a cubic and in a straight line, and whether they stand in a mirror.

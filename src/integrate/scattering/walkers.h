@@ -222,17 +222,19 @@ class Walkers {
 
   /// D of the facets of those that met their first.
   void keep_first() {
+    std::size_t n = 0;
     for (std::size_t i = 0; i < n_; ++i) {
+      if (bounces_[i] > 0) continue;
       const auto& m = facet_[i];
-      columns_[2][i] = m.z;
-      columns_[4][i] = m.x * m.x + m.y * m.y;
-      columns_[5][i] = m.x;
-      columns_[6][i] = m.y;
+      columns_[2][n] = m.z;
+      columns_[4][n] = m.x * m.x + m.y * m.y;
+      columns_[5][n] = m.x;
+      columns_[6][n++] = m.y;
     }
-    double* const d = scratch_[Scratch<double>::first_free];
-    surface_.ndf(block(n_), scratch_, scratch_.ones(), d);
+    double* d = scratch_[Scratch<double>::first_free];
+    surface_.ndf(block(n), scratch_, scratch_.ones(), d);
     for (std::size_t i = 0; i < n_; ++i)
-      if (bounces_[i] == 0) first_[i] = d[i];
+      if (bounces_[i] == 0) first_[i] = *d++;
   }
 
   /// σ(−w) of the first n.

@@ -22,16 +22,19 @@ Operations of_multiple(const MultipleScattering& m) {
   return count_operations([&] {
     if (how == "none") return;
     if (how == "tabulated") {
-      // Three coordinates or four, two of them by logarithms, and what lies between their nodes;
-      // the table itself counts nothing.
-      const bool turned = m.lobe->anisotropic();
-      for (int k = 0; k < 2; ++k) {
+      // Three coordinates or four by logarithms, four nodes along each, and at each of these places
+      // the product of their shares, times three channels.  What is fetched counts nothing.
+      const std::size_t axes = m.lobe->anisotropic() ? 4 : 3;
+      for (std::size_t k = 0; k < axes; ++k) {
         static_cast<void>(log(half + sqrt(half * half + one)) / one);
-        static_cast<void>(sqrt(nol * half / (nov + half)));
         static_cast<void>(sqrt((one - nol * nol) * (one - nov * nov)) / one);
+        for (int node = 0; node < 4; ++node)
+          static_cast<void>(((half * nol + one) * nol + half) * nol);
       }
-      for (std::size_t k = 0; k < max_channels * (turned ? 16 : 8); ++k)
-        static_cast<void>(one + half * half);
+      for (std::size_t place = 0; place < std::size_t{1} << (2 * axes); ++place) {
+        for (std::size_t k = 1; k < axes; ++k) static_cast<void>(half * nol);
+        for (std::size_t c = 0; c < max_channels; ++c) static_cast<void>(one + half * nol);
+      }
       return;
     }
     if (how == "kulla_conty") {

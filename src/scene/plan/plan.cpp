@@ -358,6 +358,12 @@ bool MaterialPlan::needs_table() const {
   return std::ranges::find(effects, "tabulated", &PlannedEffect::form) != effects.end();
 }
 
+std::string reference_in_words(std::string_view form) {
+  return form == "none"          ? "single scattering"
+         : form == "kulla_conty" ? "Kulla and Conty's lobe"
+                                 : "walks between facets";
+}
+
 std::size_t Candidate::kept() const {
   return static_cast<std::size_t>(
       std::ranges::count_if(forms.form, [](std::size_t form) { return form > 0; }));

@@ -70,6 +70,8 @@ struct MaterialPlan {
   /// True where it keeps light between facets as a table, which no shader has.
   bool needs_table() const;
 };
+/// "Kulla and Conty's lobe", by the form's name: what a plan without bound is compared with.
+std::string reference_in_words(std::string_view form);
 
 /// A time for all materials, and what came of it.
 struct Budget {

@@ -6,14 +6,10 @@
 namespace gonio::scene {
 
 Reference::Reference(const Scene& s, LitPoints p, const Surface& surface)
-    : points(std::move(p)),
-      columns(points.angles),
-      exact(radiance(surface, points, columns)),
-      own_error(exact.size()) {
-  if (!surface.multiple.lobe) return;
-  Surface off = surface;
-  off.multiple.errors = 2;
-  own_error = differences_of(s, off);
+    : points(std::move(p)), columns(points.angles), own_error(points.count) {
+  std::vector<Rgb> off;
+  exact = radiance(surface, points, columns, surface.multiple.lobe ? &off : nullptr);
+  if (surface.multiple.lobe) own_error = differences(s.tolerance.metric, s.exposure, exact, off);
 }
 
 std::vector<double> Reference::bounds_of(const Scene& s, const Surface& surface) const {

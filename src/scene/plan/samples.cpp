@@ -35,19 +35,26 @@ bool passes_through(const Ray& ray, const BoundingSphere& sphere) {
 }
 
 template <class F>
-std::vector<Rgb> radiance_in(const Surface& s, const LitPoints& p, const Block<F>& all) {
+std::vector<Rgb> radiance_in(const Surface& s,
+                             const LitPoints& p,
+                             const Block<F>& all,
+                             std::vector<Rgb>* off) {
   const std::size_t rows = s.image_lit ? p.sky : p.point.size();
   const auto x = all.part(0, (rows + padding - 1) / padding * padding);
-  std::array<Column<F>, 3> f{Column<F>(x.n), Column<F>(x.n), Column<F>(x.n)};
-  const std::array out{f[0].data(), f[1].data(), f[2].data()};
-  SurfaceEvaluator<F> evaluate(s);
-  evaluate(x, out);
-  std::vector<Rgb> sum(p.count, Rgb{});
-  if (s.image_lit) std::ranges::transform(p.view, sum.begin(), std::cref(*s.image_lit));
-  for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      sum[p.point[i]][c] += static_cast<double>(f[c][i]) * p.weight[i][c];
-  return sum;
+  std::vector<Column<F>> f;
+  std::vector<F*> out;
+  for (std::size_t c = 0; c < (off ? 6 : 3); ++c) out.push_back(f.emplace_back(x.n).data());
+  SurfaceEvaluator<F>{s}(x, std::span(out).first(3), std::span(out).subspan(3));
+  const auto sum_of = [&](std::span<const Column<F>> columns) {
+    std::vector<Rgb> sum(p.count, Rgb{});
+    if (s.image_lit) std::ranges::transform(p.view, sum.begin(), std::cref(*s.image_lit));
+    for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        sum[p.point[i]][c] += static_cast<double>(columns[c].data()[i]) * p.weight[i][c];
+    return sum;
+  };
+  if (off) *off = sum_of(std::span(f).subspan(3));
+  return sum_of(std::span(f).first(3));
 }
 
 std::vector<double> turns_of(const std::vector<Look>& looks) {
@@ -137,9 +144,12 @@ LitColumns::LitColumns(std::span<const FrameAngles<double>> rows)
   }
 }
 
-std::vector<Rgb> radiance(const Surface& s, const LitPoints& p, const LitColumns& columns) {
-  return s.single ? radiance_in<float>(s, p, columns.narrow.block())
-                  : radiance_in<double>(s, p, columns.wide.block());
+std::vector<Rgb> radiance(const Surface& s,
+                          const LitPoints& p,
+                          const LitColumns& columns,
+                          std::vector<Rgb>* off) {
+  return s.single ? radiance_in<float>(s, p, columns.narrow.block(), off)
+                  : radiance_in<double>(s, p, columns.wide.block(), off);
 }
 
 PointDrawer::PointDrawer(const Scene& s,

@@ -37,7 +37,11 @@ struct LitColumns {
 };
 
 /// Radiance of every point.  Where the surface looks an environment up, the rows of that are left out.
-std::vector<Rgb> radiance(const Surface&, const LitPoints&, const LitColumns&);
+/// \param off  gets what it is with two standard errors more of the light between facets, at each point
+std::vector<Rgb> radiance(const Surface&,
+                          const LitPoints&,
+                          const LitColumns&,
+                          std::vector<Rgb>* off = nullptr);
 
 /// Drawer of points of one material, and of those that are the same.
 ///

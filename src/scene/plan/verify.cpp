@@ -17,12 +17,14 @@ namespace {
 struct VerifiedRow {
   VerifiedMaterial material;
   double confidence;
+  std::optional<double> upper_bound;
 };
 
 std::vector<std::pair<std::string, VerifiedRow>> rows_of(const Verification& v) {
   std::vector<std::pair<std::string, VerifiedRow>> rows;
   for (const auto& m : v.materials)
-    rows.emplace_back(m.name, VerifiedRow{m, v.tolerance.confidence});
+    rows.emplace_back(m.name, VerifiedRow{m, v.tolerance.confidence,
+                                          m.bounded ? std::optional(m.found.bound) : std::nullopt});
   return rows;
 }
 
@@ -43,7 +45,9 @@ struct Description<VerifiedRow> {
         field("exceeding", found(&Judgement::exceeding),
               "points that differ by more than the limit"),
         field("samples", found(&Judgement::samples), "points"),
-        field("upper_bound", found(&Judgement::bound), "of the share of all points that do", share),
+        field("upper_bound", if_there(&VerifiedRow::upper_bound),
+              "of the share of all points that do; null: the reference's error is not known",
+              share),
         field("confidence", &VerifiedRow::confidence, "of the bound", share),
         field("worst", found(&Judgement::worst), "greatest difference", amount),
         field("error_quantile", found(&Judgement::quantile), "quantile of the differences",
@@ -77,8 +81,11 @@ Verification verify(const Scene& s,
   for (std::size_t m = 0; m < s.materials.size(); ++m) {
     if (!planned.by_material[m]) continue;
     const auto& look = lit.looks[m];
-    VerifiedMaterial one{
-        s.materials[m].name, std::string(look.exact().name(Effect::compensation)), {}, false};
+    VerifiedMaterial one{s.materials[m].name,
+                         std::string(look.exact().name(Effect::compensation)),
+                         look.is_bounded(),
+                         {},
+                         false};
     auto& of_all = found[lit.same_as[m]];
     if (!of_all)
       of_all = judge_fresh(s, lit.drawer(m, PlanOptions{}.directions), verifying + seed,

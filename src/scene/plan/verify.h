@@ -15,6 +15,7 @@ namespace gonio::scene {
 struct VerifiedMaterial {
   std::string name;
   std::string reference;  ///< as of MaterialPlan
+  bool bounded = false;   ///< its error is known; else nothing is claimed beyond these points
   Judgement found;
   bool holds = false;
 };

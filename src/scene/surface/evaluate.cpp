@@ -55,7 +55,6 @@ SurfaceEvaluator<F>::SurfaceEvaluator(const Surface& s, const SurfaceKernels<F>&
     base_.emplace(evaluator<F>(s.base, under, kernels_.terms));
   albedo_ = s.multiple.albedo.template in<F>();
   tabulated_ = s.multiple.lobe;
-  errors_ = s.multiple.errors;
   std::ranges::transform(s.multiple.strength, strength_.begin(),
                          [](double x) { return static_cast<F>(x); });
   if (!s.coat) return;
@@ -120,15 +119,22 @@ void SurfaceEvaluator<F>::add_coat(const Block<F>& x, const Columns& out) {
 }
 
 template <class F>
-void SurfaceEvaluator<F>::operator()(const Block<F>& x, std::span<F* const> out) {
+void SurfaceEvaluator<F>::operator()(const Block<F>& x,
+                                     std::span<F* const> out,
+                                     std::span<F* const> off) {
   for (std::size_t at = 0; at < x.n; at += Between::block) {
     const auto part = x.part(at, std::min(Between::block, x.n - at));
-    const std::array here{out[0] + at, out[1] + at, out[2] + at};
+    const Columns here{out[0] + at, out[1] + at, out[2] + at};
+    Columns there{};
     if (base_) (*base_)(part, here);
     if (spectral_) add_spectral(part, here);
     if (multiple_) add_multiple(part, here);
-    if (tabulated_) tabulated_->add(part, errors_, here);
-    if (coat_) add_coat(part, here);
+    for (std::size_t c = 0; c < off.size(); ++c)
+      there[c] = std::copy_n(here[c], part.n, off[c] + at) - part.n;
+    if (tabulated_) tabulated_->add(part, here, 2, there);
+    if (!coat_) continue;
+    add_coat(part, here);
+    if (!off.empty()) add_coat(part, there);
   }
 }
 

@@ -33,7 +33,8 @@ class SurfaceEvaluator {
  public:
   explicit SurfaceEvaluator(const Surface&, const SurfaceKernels<F>& = {});
   /// f of three channels, each as long as x.  Below the horizon the terms are not defined.
-  void operator()(const Block<F>& x, std::span<F* const> out);
+  /// \param off  gets f with two standard errors more of the tabulated light between facets; or nothing
+  void operator()(const Block<F>& x, std::span<F* const> out, std::span<F* const> off = {});
   /// True of a base that one fused loop computes.
   bool is_fused() const { return base_ && base_->is_fused(); }
 
@@ -68,7 +69,6 @@ class SurfaceEvaluator {
   AlbedoCurve<F> albedo_{};
   std::array<F, max_channels> strength_{};
   std::shared_ptr<const TabulatedLobe> tabulated_;
-  double errors_ = 0;  ///< that are added to it
   struct Coat {
     Shape shape;
     std::size_t fresnel;                                  ///< term

@@ -28,7 +28,6 @@ struct MultipleScattering {
   /// nothing comes out at once [1/sr].
   std::array<double, 3> strength{};
   std::shared_ptr<const TabulatedLobe> lobe;  ///< of tabulated
-  double errors = 0;                          ///< standard errors that are added to that lobe
 };
 
 /// Surface, as it is evaluated: three channels.
