@@ -580,8 +580,9 @@ std::ptrdiff_t beyond(const std::vector<double>& angles, double limit) {
 /// The mirror direction taken for the light's is the commonest slip, and fits nothing.
 void warn_of_backward_peak(Table& t, double forward_deg) {
   const DirectionList& l = *t.list();
+  constexpr double none = -HUGE_VAL;
   struct Largest {
-    double forward = 0, backward = 0;
+    double forward = none, backward = none;
   };
   using Range = tbb::blocked_range<std::size_t>;
   const auto [forward, backward] = tbb::parallel_reduce(
@@ -601,11 +602,14 @@ void warn_of_backward_peak(Table& t, double forward_deg) {
         return Largest{std::max(x.forward, y.forward), std::max(x.backward, y.backward)};
       });
   if (backward > 3 * forward && backward > 0)
-    t.warnings.push_back(
-        fmt::format("values on the light's side reach {:.3g}, on the mirror's side {:.3g}: a "
-                    "retro-reflector, "
-                    "or azimuths are counted otherwise (gonio columns FILE --forward {:g})",
-                    backward, forward, std::remainder(forward_deg + 180, 360)));
+    t.warnings.push_back(fmt::format(
+        "{} counted otherwise (gonio columns FILE --forward {:g})",
+        forward == none
+            ? "no value is on the mirror's side, all are on the light's: perhaps azimuths are"
+            : fmt::format("values on the light's side reach {:.3g}, on the mirror's side {:.3g}: a "
+                          "retro-reflector, or azimuths are",
+                          backward, forward),
+        std::remainder(forward_deg + 180, 360)));
 }
 
 void append(std::string& text, double v) {

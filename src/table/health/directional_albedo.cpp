@@ -10,6 +10,7 @@
 
 #include "integrate/rule/quadrature.h"
 #include "table/format/rgl/function.h"
+#include "table/format/utia.h"
 #include "table/grid_cell.h"
 #include "table/health/key_counts.h"
 
@@ -232,11 +233,24 @@ AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
   const Interpolator between(t);
   // The cosine of the integral takes back what RGL divides by.
   const RglFunction rgl = rgl_function(t);
+  Table logs;  // of f over `least`: what lies between samples, by logarithms
+  double least = HUGE_VAL;
+  if (has_utia_directions(t)) {
+    for (const auto& plane : t.values)
+      for (const double v : plane)
+        if (v > 0) least = std::min(least, v);
+    logs.values = t.values;
+    for (auto& plane : logs.values)
+      for (double& v : plane) v = std::log(v / least);
+    interpolate_utia(logs);
+  }
   return integrate(theta_i_deg, channels,
                    [&](const DirectionPair& p, std::span<double> f, std::span<double> geometric) {
-                     for (std::size_t c = 0; c < channels; ++c)
+                     for (std::size_t c = 0; c < channels; ++c) {
                        f[c] = rgl ? rgl(p, c) : between(p, c);
-                     if (!geometric.empty()) std::ranges::copy(f, geometric.begin());
+                       if (!geometric.empty())
+                         geometric[c] = logs.between ? least * std::exp(logs.between(p, c)) : f[c];
+                     }
                    });
 }
 

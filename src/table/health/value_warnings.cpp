@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "base/quantile.h"
@@ -55,8 +56,10 @@ std::optional<std::pair<double, double>> bright_everywhere(const Table& t) {
   return most;
 }
 
-void warn_of_light(TableFacts& facts, std::vector<std::string>& all) {
+/// \param divided  by a cosine: a scale says nothing then
+void warn_of_light(TableFacts& facts, bool divided, std::vector<std::string>& all) {
   const Table& t = facts.table();
+  const auto unit = [&](double light) { return divided ? "" : unit_of(t, light); };
   double most = 0, at = 0, whole = 0, shown = 0;
   for (const auto& a : facts.albedo())
     for (const double v : a.albedo) {
@@ -67,7 +70,7 @@ void warn_of_light(TableFacts& facts, std::vector<std::string>& all) {
     }
   if (most > too_much) {
     all.push_back(fmt::format("the table returns {:.3g} times the light at theta_i {:.3g}°{}",
-                              shown, at, unit_of(t, shown)));
+                              shown, at, unit(shown)));
     return;
   }
   constexpr double next_to_nothing = 5e-4;
@@ -79,7 +82,7 @@ void warn_of_light(TableFacts& facts, std::vector<std::string>& all) {
   if (const auto bright = bright_everywhere(t))
     all.push_back(fmt::format(
         "values at theta_i {:.3g}° are above 1/pi: probably {:.3g} times the light or more{}",
-        bright->second, bright->first, unit_of(t, bright->first)));
+        bright->second, bright->first, unit(bright->first)));
 }
 
 /// Cosines that values may be multiplied by: of θ_i and of θ_o, to these powers.
@@ -88,45 +91,73 @@ struct Cosines {
   const char* in_words;
   const char* cure;
 };
-constexpr std::array one_cosine{Cosines{0, 1, "f cos(theta_o)", " (gonio columns FILE --cosine)"},
-                                Cosines{-1, 0, "f/cos(theta_i)", ""},
-                                Cosines{1, 0, "f cos(theta_i)",
-                                        " (gonio columns FILE --map theta_i=theta_o phi_i=phi_o "
-                                        "theta_o=theta_i phi_o=phi_i --cosine)"},
-                                Cosines{0, -1, "f/cos(theta_o)", ""}};
-constexpr std::array two_cosines{Cosines{1, 1, "f cos(theta_i) cos(theta_o)", ""},
-                                 Cosines{-1, -1, "f/(cos(theta_i) cos(theta_o))", ""}};
+/// The first two, and the next two, keep what exchanging the directions changes; the last two change nothing by it.
+constexpr std::array cosines{Cosines{0, 1, "f cos(theta_o)", " (gonio columns FILE --cosine)"},
+                             Cosines{-1, 0, "f/cos(theta_i)", ""},
+                             Cosines{1, 0, "f cos(theta_i)",
+                                     " (gonio columns FILE --map theta_i=theta_o phi_i=phi_o "
+                                     "theta_o=theta_i phi_o=phi_i --cosine)"},
+                             Cosines{0, -1, "f/cos(theta_o)", ""},
+                             Cosines{1, 1, "f cos(theta_i) cos(theta_o)", ""},
+                             Cosines{-1, -1, "f/(cos(theta_i) cos(theta_o))", ""}};
 
-/// Slope of ln f over the logarithm of both cosines, away from the highlight, and the spread of ln f before and
-/// after that line is taken out.
+/// Slopes of ln f over the logarithms of both cosines, away from the highlight, and the spread of ln f before and
+/// after they are taken out.  Of a cosine that hardly changes the slope is 0.
 struct Trend {
-  double slope = 0, before = 0, after = 0;
+  double incident = 0, outgoing = 0, before = 0, after = 0;
+
+  double distance(const Cosines& c) const {
+    return std::max(std::abs(incident - c.incident), std::abs(outgoing - c.outgoing));
+  }
 };
-std::optional<Trend> trend_of(const Table& t, const Cosines& c) {
+std::optional<Trend> trend_of(const Table& t) {
   const SampleAngles at(t);
   const double off_specular = std::sin(25 * degree);
-  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+  double n = 0;
+  std::array<double, 3> sum{};                    // of the logarithms: both cosines, and f
+  std::array<std::array<double, 3>, 3> square{};  // of their products
   const std::size_t step = t.size() / 30'000 + 1;
   for (std::size_t i = 0; i < t.size(); i += step) {
     const auto a = at(i);
     if (!(std::min(a.nol, a.nov) > 0.17) || a.sin2_theta_h < off_specular * off_specular) continue;
-    const double x = std::log(a.nol * a.nov);
-    for (const auto& plane : t.values) {
-      if (!(plane[i] > 0) || mask(a, plane[i]) != Mask::valid) continue;
-      const double y =
-          std::log(plane[i]) - c.incident * std::log(a.nol) - c.outgoing * std::log(a.nov);
-      ++n, sx += x, sy += y, sxx += x * x, sxy += x * y, syy += y * y;
+    double f = 0;  // of all channels, whose colours are no trend
+    for (const auto& plane : t.values)
+      if (mask(a, plane[i]) == Mask::valid) f += plane[i];
+    if (!(f > 0)) continue;
+    const std::array x{std::log(a.nol), std::log(a.nov), std::log(f)};
+    ++n;
+    for (std::size_t p = 0; p < 3; ++p) {
+      sum[p] += x[p];
+      for (std::size_t q = 0; q < 3; ++q) square[p][q] += x[p] * x[q];
     }
   }
-  const double vx = sxx - sx * sx / n, vxy = sxy - sx * sy / n, vy = syy - sy * sy / n;
-  if (n < 30 || !(vx / n > 0.05)) return {};
-  return Trend{vxy / vx, std::sqrt(std::max(vy, 0.0) / n),
-               std::sqrt(std::max(vy - vxy * vxy / vx, 0.0) / n)};
+  constexpr double few = 30, changes = 0.03, tied = 0.7;  // squared correlation
+  if (n < few) return {};
+  const auto v = [&](std::size_t p, std::size_t q) {
+    return square[p][q] / n - sum[p] / n * (sum[q] / n);
+  };
+  const bool in = v(0, 0) > changes, out = v(1, 1) > changes;
+  if ((!in && !out) || (in && out && v(0, 1) * v(0, 1) > tied * v(0, 0) * v(1, 1))) return {};
+  Trend trend{0, 0, std::sqrt(std::max(v(2, 2), 0.0)), 0};
+  if (in && out) {
+    const double det = v(0, 0) * v(1, 1) - v(0, 1) * v(0, 1);
+    trend.incident = (v(0, 2) * v(1, 1) - v(1, 2) * v(0, 1)) / det;
+    trend.outgoing = (v(1, 2) * v(0, 0) - v(0, 2) * v(0, 1)) / det;
+  } else if (in) {
+    trend.incident = v(0, 2) / v(0, 0);
+  } else {
+    trend.outgoing = v(1, 2) / v(1, 1);
+  }
+  trend.after =
+      std::sqrt(std::max(v(2, 2) - trend.incident * v(0, 2) - trend.outgoing * v(1, 2), 0.0));
+  return trend;
 }
 
-/// A cosine breaks reciprocity, and what is reciprocal without it had it; of the two that do so the one whose
-/// values are flatter away from the highlight.  Both cosines keep it: only that they fall by them tells.
-void warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) {
+/// A cosine breaks reciprocity, and what is reciprocal without it had it; of the two that do so the one that values follow
+/// more nearly away from the highlight.  Both cosines keep it, and a table may hold no reciprocal pairs: only that values
+/// fall by them tells.
+/// \return  the cosines, where there are any
+const Cosines* warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) {
   const Table& t = facts.table();
   const auto sigma = [&] { return facts.noise().sigma.value_or(0); };
   std::vector<double> raw;
@@ -145,34 +176,40 @@ void warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) {
   }
   const auto cure = [&](const Cosines& c) { return t.format == "csv" ? c.cure : ""; };
   constexpr std::size_t few = 8;
+  const auto trend = trend_of(t);
+  std::size_t first = 0;  // of those that the trend decides between
   if (raw.size() >= few) {
     const double with = median(raw);
     for (std::size_t k = 0; k < 2; ++k) {
       const double rest = median(without[k]);
       if (!(with > 0.1 && 3 * rest < with && rest < 0.05 + 2 * sigma())) continue;
-      const Cosines *first = &one_cosine[2 * k], *second = &one_cosine[2 * k + 1];
-      const auto a = trend_of(t, *first), b = trend_of(t, *second);
-      if (a && b && std::abs(b->slope) < std::abs(a->slope)) first = second;
+      const Cosines *one = &cosines[2 * k], *other = one + 1;
+      if (trend && trend->distance(*other) < trend->distance(*one)) one = other;
       all.push_back(fmt::format(
           "exchanging the directions changes values by {:.2g} %, without a cosine by {:.2g} %: "
           "they look like {}{}",
-          100 * with, 100 * rest, first->in_words, cure(*first)));
-      return;
+          100 * with, 100 * rest, one->in_words, cure(*one)));
+      return one;
     }
     if (with > std::max(0.1, 5 * sigma())) {
       all.push_back(fmt::format(
           "exchanging the directions changes values by {:.2g} %: they are no f, or the directions "
           "are not what they seem",
           100 * with));
-      return;
+      return nullptr;
     }
+    first = 4;
   }
-  const auto trend = trend_of(t, {0, 0, "", ""});
-  if (!trend || !(3 * trend->after < trend->before && trend->after < 0.1 + 2 * sigma())) return;
-  for (const auto& c : two_cosines)
-    if (std::abs(trend->slope - c.incident) < 0.15)
-      all.push_back(fmt::format(
-          "away from the highlight values follow both cosines: probably they are {}", c.in_words));
+  if (!trend || !(3 * trend->after < trend->before && trend->after < 0.1 + 2 * sigma()))
+    return nullptr;
+  for (const auto& c : std::span(cosines).subspan(first))
+    if (trend->distance(c) < 0.15) {
+      all.push_back(
+          fmt::format("away from the highlight values change like a cosine: probably they are {}{}",
+                      c.in_words, cure(c)));
+      return &c;
+    }
+  return nullptr;
 }
 
 void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
@@ -209,6 +246,33 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
         fmt::format("{} of {} values are 0, clipped noise or shadow: logarithms leave them out "
                     "(--metric l2_cosine counts them)",
                     zeros, values));
+}
+
+/// A greatest value that many samples share, as they share no other, is where a detector was full.
+void warn_of_full_detector(const Table& t, std::vector<std::string>& all) {
+  const SampleAngles at(t);
+  const std::size_t step = t.size() / 60'000 + 1;
+  for (std::size_t c = 0; c < t.values.size(); ++c) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < t.size(); i += step)
+      if (const double v = t.values[c][i]; v > 0 && mask(at(i), v) == Mask::valid)
+        values.push_back(v);
+    std::ranges::sort(values);
+    std::size_t run = 0,
+                longest = 0;  // of the same value, before the last run and up to half of it
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      run = k > 0 && values[k] == values[k - 1] ? run + 1 : 1;
+      if (values[k] > values.back() / 2 && values[k] < values.back())
+        longest = std::max(longest, run);
+    }
+    constexpr std::size_t few = 8, others = 4;
+    if (run < few || longest == 0 || run < others * longest || 500 * run < values.size()) continue;
+    all.push_back(fmt::format(
+        "{} of {} values of channel {} are {}, and none is more: a full detector? (--mask '{} >= "
+        "{}' leaves them out)",
+        run, values.size(), t.channels[c], values.back(), t.channels[c], values.back()));
+    return;
+  }
 }
 
 void warn_of_negative_channel(TableFacts& facts, std::vector<std::string>& all) {
@@ -251,12 +315,14 @@ std::optional<std::size_t> negative_channel(TableFacts& facts) {
 }
 
 std::vector<ValueWarning> value_warnings(TableFacts& facts) {
-  std::vector<std::string> texts;
-  warn_of_light(facts, texts);
-  warn_of_cosine(facts, texts);
+  std::vector<std::string> texts, cosine;
+  const auto* c = warn_of_cosine(facts, cosine);
+  warn_of_light(facts, c && c->incident + c->outgoing < 0, texts);
+  texts.insert(texts.end(), cosine.begin(), cosine.end());
   const std::size_t of_unit = texts.size();
   warn_of_zeros(facts, texts);
   warn_of_negative_channel(facts, texts);
+  warn_of_full_detector(facts.table(), texts);
   std::vector<ValueWarning> all;
   for (auto& text : texts) all.push_back({std::move(text), all.size() < of_unit});
   return all;

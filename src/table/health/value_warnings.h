@@ -19,7 +19,7 @@ std::vector<ValueWarning> value_warnings(TableFacts&);
 
 /// True of a reader's warning that a model answers which reproduces the table: of light that comes back the way it came.
 inline bool is_answered_by_a_fit(const std::string& warning) {
-  return warning.starts_with("values on the light's side reach ");
+  return warning.find("azimuths are counted otherwise") != warning.npos;
 }
 
 }  // namespace gonio

@@ -5,6 +5,7 @@
 
 #include "brdf/model/evaluate.h"
 #include "table/example.h"
+#include "table/format/utia.h"
 #include "tables.h"
 
 #include <gtest/gtest.h>
@@ -32,6 +33,22 @@ TEST(AlbedoOfATable, IsThatOfTheSurfaceHoweverNarrowItsHighlight) {
       EXPECT_NEAR(a.albedo[0], 1, 0.02) << alpha << " " << theta_i;
       EXPECT_LT(a.error, 0.02) << alpha << " " << theta_i;
     }
+  }
+}
+
+TEST(AlbedoOfATable, IsWithinItsErrorWhereSamplesAreFurtherApartThanTheHighlightIsWide) {
+  Table t;
+  t.format = "utia";
+  t.channels = {"f"};
+  t.where = utia_directions();
+  test::put_values(t, bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                                 {{"alpha", {0.05}}, {"f0", {0.04}}, {"kd", {0.3}}}, 1));
+  interpolate_utia(t);
+  // by `gonio albedo`
+  for (const auto& [theta_i, truth] : {std::pair(0.0, 0.3399), {45.0, 0.3425}, {75.0, 0.5342}}) {
+    const auto a = directional_albedo(t, theta_i);
+    EXPECT_NEAR(a.albedo[0], truth, a.error) << theta_i;
+    EXPECT_LT(a.error, 1) << theta_i;
   }
 }
 

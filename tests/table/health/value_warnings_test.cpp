@@ -15,7 +15,8 @@ namespace gonio {
 namespace {
 
 /// Paint on ten incident angles × ten zenith angles × azimuths to `turn`, or in the plane of incidence.
-Table painted(double turn, double kd = 0.3, double alpha = 0.3) {
+/// \param first  incident angle: from 4° on no sample has a reciprocal partner
+Table painted(double turn, double kd = 0.3, double alpha = 0.3, double first = 0) {
   DirectionList l;
   const auto add = [&](double in, double out, double phi) {
     l.theta_i_deg.push_back(in);
@@ -23,7 +24,7 @@ Table painted(double turn, double kd = 0.3, double alpha = 0.3) {
     l.theta_o_deg.push_back(out);
     l.phi_o_deg.push_back(phi);
   };
-  for (double in = 0; in < 80; in += 8)
+  for (double in = first; in < 80; in += 8)
     for (double out = 0; out < 88; out += 8)
       for (double phi = 0; phi <= turn; phi += turn < 360 ? 180 / 12 : 15)
         if ((out > 0 || phi == 0) && (turn > 0 ? phi < 360 : true)) add(in, out, phi);
@@ -95,6 +96,29 @@ TEST(ValueWarnings, SayWhichCosineIsLeftIn) {
   EXPECT_TRUE(says(said(1, 1), "probably they are f cos(theta_i) cos(theta_o)"));
 }
 
+TEST(ValueWarnings, SayWhichCosineIsLeftInWhereNoSampleHasAPartner) {
+  const auto said = [](double incident, double outgoing) {
+    const auto change = [=](const auto& a, double f) {
+      return f * std::pow(a.nol, incident) * std::pow(a.nov, outgoing);
+    };
+    return said_of(painted(180, 0.3, 0.3, 4), change);
+  };
+  EXPECT_TRUE(said(0, 0).empty());
+  EXPECT_TRUE(says(said(0, 1), "probably they are f cos(theta_o) (gonio columns FILE --cosine)"));
+  EXPECT_TRUE(says(said(1, 0), "probably they are f cos(theta_i)"));
+  EXPECT_TRUE(says(said(-1, 0), "probably they are f/cos(theta_i)"));
+  EXPECT_TRUE(says(said(0, -1), "probably they are f/cos(theta_o)"));
+  EXPECT_FALSE(says(said(-1, -1), "radiance factor")) << "the cosines make the light";
+  // At one incident angle only the other cosine can be told.
+  const Table one = painted(180, 0.3, 0.3, 76);
+  EXPECT_TRUE(said_of(one, as_it_is).empty());
+  EXPECT_TRUE(says(said_of(one, [](const auto& a, double f) { return f * a.nov; }),
+                   "probably they are f cos(theta_o)"));
+  // A metal's tail falls, too.
+  for (const double alpha : {0.2, 0.5, 0.9})
+    EXPECT_TRUE(said_of(painted(180, 0, alpha, 4), as_it_is).empty()) << alpha;
+}
+
 TEST(ValueWarnings, SayThatExchangedDirectionsChangeValuesByFarMoreThanNoise) {
   EXPECT_TRUE(says(
       said_of(painted(180), [](const auto& a, double f) { return a.nol > a.nov ? 1.5 * f : f; }),
@@ -114,6 +138,18 @@ TEST(ValueWarnings, SayThatZerosAreLeftOut) {
   const auto rounded = said_of(painted(180, 0.005, 0.15),
                                [](const auto&, double f) { return std::round(f * 1000) / 1000; });
   EXPECT_TRUE(says(rounded, "values are rounded to one digit or to 0"));
+}
+
+TEST(ValueWarnings, SayThatADetectorWasFull) {
+  const auto said = said_of(painted(180), [](const auto&, double f) { return std::min(f, 0.2); });
+  EXPECT_TRUE(says(said,
+                   "values of channel f are 0.2, and none is more: a full detector? (--mask "
+                   "'f >= 0.2' leaves them out)"));
+  // Short numbers are shared by many samples, the greatest by no more than others.
+  EXPECT_FALSE(
+      says(said_of(painted(180), [](const auto&, double f) { return std::round(f * 100) / 100; }),
+           "full detector"));
+  EXPECT_FALSE(says(said_of(painted(180), [](const auto&, double) { return 0.2; }), "detector"));
 }
 
 TEST(ValueWarnings, TellAChannelThatIsNegativeByItselfFromANoiseFloor) {
