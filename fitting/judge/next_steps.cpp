@@ -165,6 +165,11 @@ std::vector<std::string> others_of(const Spec& spec) {
   if (ndf != "gtr") all.push_back(spec.with_ndf("gtr"));
   const auto dot = std::min(masking.find('.'), masking.size());
   const std::string shape = masking.substr(0, dot), form = masking.substr(dot);
+  if (shape == "smith_ggx") {
+    all.push_back(spec.with_ndf("gtr", "smith_gtr" + form));
+    all.push_back(spec.with_ndf("charlie", "smith_charlie" + form));
+    if (ndf == "ggx") all.push_back(spec.with_ndf("ggx_aniso", "smith_ggx_aniso" + form));
+  }
   if (ndf == "beckmann" && shape == "smith_beckmann")
     all.push_back(spec.with_ndf("ggx", "smith_ggx" + form));
   if (ndf == "ggx" && shape == "smith_ggx")
