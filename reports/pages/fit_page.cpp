@@ -254,7 +254,8 @@ std::string fit_page_html(const FitDocument& d,
                            : d.misfit.too_few ? "may fit (too few to tell)"
                                               : "reproduces";
   Pictures pictures;
-  Page out{"", "fit", d.input_path, fmt::format("{} fitted to {}", d.model, file)};
+  Page out{"", "fit", d.input_path,
+           fmt::format("{} {} {}", d.model, d.misfit.told ? "does not fit" : "fitted to", file)};
   out.first.emplace_back(
       Prose{fmt::format("`{}` {} the {} values used of `{}` {} a typical factor of **{}** (log RMS "
                         "{}); the fit {}.",

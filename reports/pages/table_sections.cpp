@@ -189,13 +189,6 @@ std::vector<std::string> table_warnings(const gonio::Table& t,
                          ? fmt::format(", where noise would change it by {}",
                                        percent(noise_alone * *h.noise.sigma))
                          : ""));
-  std::vector<std::string> bright;
-  for (const auto& a : h.albedo)
-    if (std::ranges::any_of(a.albedo, [](double x) { return x > 1; }))
-      bright.push_back(degrees_text(a.theta_i_deg));
-  if (!bright.empty())
-    warn("Albedo above 1",
-         fmt::format("at θ_i = {}: more light leaves than arrives.", fmt::join(bright, ", ")));
   return out;
 }
 

@@ -68,6 +68,18 @@ TEST(FitPage, ShowsAParameterWithItsIntervalLimitOrReason) {
     EXPECT_NE(html.find(std::string("<section id=\"") + id), html.npos) << id;
 }
 
+TEST(FitPage, SaysInItsHeadingThatAModelDoesNotFit) {
+  FitDocument d;
+  d.model = "lambert";
+  d.input_path = "a.csv";
+  EXPECT_NE(html_of(d).find("<h1>lambert fitted to a.csv</h1>"), std::string::npos);
+  d.misfit.told = true;
+  const auto html = html_of(d);
+  EXPECT_NE(html.find("<h1>lambert does not fit a.csv</h1>"), html.npos);
+  EXPECT_EQ(html.find("fitted to"), html.npos);
+  EXPECT_EQ(html.find("reproduces"), html.npos);
+}
+
 TEST(FitPage, AFitDocumentOfANastyFileMakesAPage) {
   FitDocument d;
   d.model = "lambert";
