@@ -55,7 +55,7 @@ void phong_is_beckmann(Findings& to, const EnergyRows& r) {
   const auto &smooth = all.front(), &rough = all.back();
   to.judge(
       "Phong and Beckmann are equivalent by the exponent 2α⁻² − 2",
-      "Walter et al. 2007, Microfacet Models for Refraction",
+      "the exponent that Walter et al. 2007 recommend",
       verdict(rough.share < 0.01, smooth.share < 0.01),
       fmt::format("{} of the facets lie elsewhere at roughness {:g}", percent(rough.share, 2),
                   rough.roughness),

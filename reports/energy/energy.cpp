@@ -19,7 +19,7 @@ EnergyOptions energy_options(bool full) {
   EnergyOptions o{full, steps(0.05, step), steps(step, step), full ? 262'144U : 65'536U};
   o.mu.insert(o.mu.begin(), 0.01);
   o.views = full ? 128 : 16;
-  if (full) o.lit_points = 96, o.lit_walks = 200'000;
+  if (full) o.lit_points = 1024;
   return o;
 }
 

@@ -122,7 +122,7 @@ struct SingleLight {
   double f0, roughness;
   /// ΔE2000 over points with NoL and NoV of 0.1 or more, a white diffuser that faces the light being white: most, and mean
   double delta_e, delta_e_mean;
-  double error;  ///< most ΔE2000 that the walks' standard error is worth
+  double error;  ///< most ΔE2000 that the standard error of the table of walks is worth
 };
 
 /// E(α, NoV) at F = 1 as a shader has it, against quadrature, from roughness 0.05 on.
@@ -237,9 +237,8 @@ struct EnergyOptions {
   std::vector<std::string> forms{};   ///< names; empty: all
   bool gold = true;                   ///< among the materials
   std::vector<ReportOptions::Light> environments{};
-  std::size_t views = 16;  ///< in each light
-  std::size_t lit_points = 24,
-              lit_walks = 20'000;  ///< of a ball under a single light, and of each point
+  std::size_t views = 16;        ///< in each light
+  std::size_t lit_points = 256;  ///< of a ball under a single light
 };
 /// Quick: by 0.05 in roughness and mu; full: by 0.025.
 EnergyOptions energy_options(bool full);

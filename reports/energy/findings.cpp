@@ -230,7 +230,7 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
   }
   const auto& row = coat->rows[at];
   to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat",
-           "Burley 2012, Physically Based Shading at Disney", verdict_on_small(most),
+           "Burley 2012, Physically-Based Shading at Disney", verdict_on_small(most),
            fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
            fmt::format("as it ships it is furthest from its own Smith masking at {}. Before "
                        "Fresnel the coat there reflects {} instead of {}.",
@@ -245,7 +245,7 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
   const auto& most = *std::ranges::max_element(r.claims.clamped, {}, &ClaimRows::Clamped::lost);
   to.judge("the clamp at 2048 hardly shows", "", verdict_on_small(most.lost),
            fmt::format("up to {} of the highlight is lost", percent(most.lost)),
-           fmt::format("it is reached below roughness {:.3f} alone. Seen head on, it there takes "
+           fmt::format("it is reached only below roughness {:.3f}. Seen head on, it there takes "
                        "up to {} of the highlight's light, at roughness {:g}.",
                        reached, percent(most.lost), most.roughness));
 }
@@ -279,8 +279,7 @@ void deviation_of_slopes(Findings& to, const EnergyRows& r) {
 void solid_angle_of_half(Findings& to, const EnergyRows& r) {
   if (!r.claims.half_angle) return;
   const auto& [pairs, step, off] = *r.claims.half_angle;
-  to.judge("dωₕ = dωₗ/(4 VoH)", "Walter et al. 2007, Microfacet Models for Refraction",
-           verdict(off < 1e-5),
+  to.judge("dωₕ = dωₗ/(4 VoH)", "", verdict(off < 1e-5),
            fmt::format("equal to {:.0f} digits", -std::log10(std::max(off, 1e-15))),
            fmt::format("for {} pairs of directions, by small differences, the solid angle of the "
                        "half vector is that{}.",

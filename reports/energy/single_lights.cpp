@@ -10,7 +10,7 @@
 #include "geometry/half_difference.h"
 #include "image/display.h"
 #include "integrate/albedo/ggx_albedo.h"
-#include "integrate/scattering/walk.h"
+#include "integrate/scattering/tabulated_lobe.h"
 #include "reports/energy/energy.h"
 
 namespace gonio {
@@ -55,38 +55,38 @@ double difference(double f, double truth, double nol) {
   return displayed_difference(seen(f), seen(truth), 1);
 }
 
-/// Rows of one roughness under one light: [f0][way].
-std::vector<SingleLight> rows_of(double roughness, const Light& light, const EnergyOptions& o) {
+/// Rows of one roughness: [light][f0][way].
+std::vector<SingleLight> rows_of(double roughness, const EnergyOptions& o) {
   const double alpha = roughness * roughness;
   const auto model = bind_model("ggx/smith_ggx.correlated/schlick",
                                 {{"alpha", {alpha}}, {"f0", {f0s.begin(), f0s.end()}}}, f0s.size());
+  const TabulatedLobe later(model);  // of all bounces but the first, which is known
   const double average = ggx_average_albedo(alpha).value;
   std::vector<SingleLight> rows;
-  for (const double f0 : f0s)
-    for (const auto way : ways) rows.push_back({way, light.name, f0, roughness, 0, 0, 0});
-  const auto points = lit_points(light.from_viewer_deg, o.lit_points);
-  for (const auto& at : points) {
-    const double nol = at.wi.z, nov = at.wo.z;
-    const auto single = evaluate(model, std::vector{frame_angles(at)});
-    const auto walks = walk_value(model, at.wi, at.wo, {.walks = o.lit_walks});
-    const double e_light = ggx_albedo(alpha, nol).value, e_view = ggx_albedo(alpha, nov).value;
-    for (std::size_t c = 0; c < f0s.size(); ++c) {
-      // The first bounce is known: walks are drawn for the others.
-      double truth = single[c][0], error = 0;
-      for (std::size_t n = 1; n < walks.order[c].size(); ++n) {
-        truth += walks.order[c][n];
-        error += walks.order_error[c][n];
-      }
-      const std::array shaded{
-          single[c][0], Turquin<double>::apply(std::array{single[c][0], e_view, f0s[c]})[0],
-          single[c][0] + KullaContyLobe<double>::apply(
-                             std::array{e_light, e_view, average, schlick_average(f0s[c])})[0]};
-      for (std::size_t w = 0; w < ways.size(); ++w) {
-        auto& row = rows[c * ways.size() + w];
-        const double off = difference(shaded[w], truth, nol);
-        row.delta_e = std::max(row.delta_e, off);
-        row.delta_e_mean += off / static_cast<double>(points.size());
-        row.error = std::max(row.error, difference(truth + error, truth, nol));
+  for (const auto& light : lights) {
+    const std::size_t first = rows.size();
+    for (const double f0 : f0s)
+      for (const auto way : ways) rows.push_back({way, light.name, f0, roughness, 0, 0, 0});
+    const auto points = lit_points(light.from_viewer_deg, o.lit_points);
+    for (const auto& at : points) {
+      const double nol = at.wi.z, nov = at.wo.z;
+      const auto angles = frame_angles(at);
+      const auto single = evaluate(model, std::vector{angles});
+      const auto more = later.at(angles);
+      const double e_light = ggx_albedo(alpha, nol).value, e_view = ggx_albedo(alpha, nov).value;
+      for (std::size_t c = 0; c < f0s.size(); ++c) {
+        const double truth = single[c][0] + more.f[c];
+        const std::array shaded{
+            single[c][0], Turquin<double>::apply(std::array{single[c][0], e_view, f0s[c]})[0],
+            single[c][0] + KullaContyLobe<double>::apply(
+                               std::array{e_light, e_view, average, schlick_average(f0s[c])})[0]};
+        for (std::size_t w = 0; w < ways.size(); ++w) {
+          auto& row = rows[first + c * ways.size() + w];
+          const double off = difference(shaded[w], truth, nol);
+          row.delta_e = std::max(row.delta_e, off);
+          row.delta_e_mean += off / static_cast<double>(points.size());
+          row.error = std::max(row.error, difference(truth + more.error[c], truth, nol));
+        }
       }
     }
   }
@@ -100,11 +100,8 @@ std::vector<SingleLight> single_lights(const EnergyOptions& o,
   std::vector<double> roughness;
   for (const double r : o.roughness)
     if (std::abs(r * 20 - std::round(r * 20)) < 1e-9 && r >= 0.1 - 1e-9) roughness.push_back(r);
-  const std::size_t n = roughness.size() * lights.size();
-  std::vector<std::vector<SingleLight>> parts(n);
-  for_each_whole(n, [&](std::size_t i) {
-    parts[i] = rows_of(roughness[i / lights.size()], lights[i % lights.size()], o);
-  });
+  std::vector<std::vector<SingleLight>> parts(roughness.size());
+  for_each_whole(parts.size(), [&](std::size_t i) { parts[i] = rows_of(roughness[i], o); });
   if (done) done(1);
   std::vector<SingleLight> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());

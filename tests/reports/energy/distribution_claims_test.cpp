@@ -23,7 +23,7 @@ TEST(DistributionClaims, PhongLeavesBeckmannAsSurfacesGetRough) {
   EXPECT_LT(all.front().share, 0.02);
   EXPECT_GT(all.back().share, 0.1);
   EXPECT_TRUE(std::ranges::is_sorted(all, {}, &ClaimRows::Apart::share));
-  // Both by Simpson's rule over θ, as they are written in seed 002.
+  // Both by Simpson's rule over θ, as they are printed.
   const double alpha = all.back().roughness * all.back().roughness, p = 2 / (alpha * alpha) - 2;
   const auto integrand = [&](double theta) {
     const double c = std::cos(theta), t = std::tan(theta);

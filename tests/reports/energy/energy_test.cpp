@@ -270,6 +270,23 @@ TEST(EnergyReport, CompensationsOfRoughMetalsAreNearerToTheTruthThanNone) {
     }
 }
 
+TEST(EnergyReport, KnowsWhatASingleLightShowsFarBetterThanWaysDiffer) {
+  auto o = few;
+  o.roughness = {0.25, 1};
+  o.lit_points = 32;
+  const auto rows = single_lights(o, unwatched);
+  ASSERT_EQ(rows.size(), 2U * 2 * 3 * 3) << "roughness, light, F0, way";
+  const auto of = [&](std::string_view id, double roughness) {
+    double most = 0;
+    for (const auto& r : rows)
+      if (r.id == id && r.roughness == roughness && r.f0 == 0.9) most = std::max(most, r.delta_e);
+    return most;
+  };
+  for (const auto& r : rows) EXPECT_LT(r.error, 0.3) << r.id << " " << r.roughness;
+  EXPECT_GT(of("kulla_conty", 0.25), 2 * of("single", 0.25));
+  EXPECT_LT(of("kulla_conty", 1), of("single", 1) / 5);
+}
+
 TEST(EnergyReport, EveryEstimatorComesNearer) {
   std::map<std::string, std::vector<EstimatorPoint>> by_name;
   for (const auto& e : estimator_points(few, unwatched))
