@@ -57,7 +57,6 @@ struct Description<EntryAudit> {
         field("title", "", about(&About::title), ""),
         field("formula", "", about(&About::formula), ""),
         field("source", "", about(&About::source), ""),
-        field("seed", "", about(&About::seed), ""),
         field("ships", "", about(&About::ships), "where"),
         field("mistake", "", &E::mistake, "it differs from the form that it is named for"),
         field("violates", "", &E::violates, "normalisation, reciprocity, energy, range, finite"),

@@ -128,8 +128,7 @@ Pairs details(const EntryAudit& e) {
   const auto& d = e.distance;
   return {
       {{"formula", code(a.formula)},
-       {"source", std::string(a.source) +
-                      (std::string_view(a.seed).empty() ? "" : fmt::format(" · seed {}", a.seed))},
+       {"source", std::string(a.source)},
        {"shipped by", std::string(a.ships)},
        {"∫ D cos θ dω", e.normalisation && !std::isfinite(e.normalisation->value)
                             ? "diverges"

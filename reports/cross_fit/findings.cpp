@@ -252,8 +252,7 @@ void published(Findings& to, const CrossFitRows& r) {
       static_cast<std::size_t>(std::ranges::count_if(tails, [](double c) { return c < 2; }));
   const double ggx = median(each(r, &PublishedFit::ggx_log_rms)),
                gtr = median(each(r, &PublishedFit::gtr_log_rms));
-  to.judge("for many materials even GGX's tail is not long enough",
-           "Burley 2012, Physically Based Shading at Disney",
+  to.judge("for many materials even GGX's tail is not long enough", "",
            verdict(2 * longer > tails.size(), longer > 0),
            fmt::format("{} measured materials", of_all(longer, tails.size())),
            fmt::format("{} materials measured for MERL have a longer tail. Löw and others "

@@ -59,7 +59,8 @@ void smaller_than_others(Findings& to, const SchlickRows& r) {
   }
   if (!glass || !worst) return;
   to.judge(
-      "Schlick's error is clearly smaller than that of other factors", "",
+      "Schlick's error is significantly less than that of other factors",
+      "Burley 2012, Physically-Based Shading at Disney",
       verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
       fmt::format("glass ΔE2000 {:.2g} against {:.2g} of masking", shown_by_schlick(r, "IOR 1.5"),
                   glass->delta_e),

@@ -63,8 +63,7 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
   const std::size_t some = how_many(outside, within) + how_many(metals, within),
                     all = outside.size() + metals.size();
   to.judge(
-      "Schlick's error is below 1 %", "Schlick 1994, An Inexpensive BRDF Model",
-      verdict(some == all, 2 * some > all),
+      "Schlick's error is below 1 %", "", verdict(some == all, 2 * some > all),
       fmt::format("glass: up to {:.2g} of full light, {} of F", g->max_abs, percent(g->max_rel, 2)),
       fmt::format("of glass (IOR 1.5) F is off by up to {:.2g} of full light, towards grazing "
                   "angles. At all angles it stays within 0.01 of exact Fresnel for {} dielectrics "
@@ -81,7 +80,7 @@ void only_near_one(Findings& to, const SchlickRows& r) {
   const auto &low = *outside.front(), &high = *outside.back();
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
   to.judge("Schlick is accurate enough; near a relative IOR of 1 its error is larger",
-           "Burley 2015, Extending the Disney BRDF to a BSDF", verdict(only, near),
+           "Disney, SIGGRAPH 2015", verdict(only, near),
            fmt::format("up to {:.2g} for {}", metal->max_abs, metal->material),
            fmt::format("its greatest error is least at IOR {:g}, {:.2g}. It grows to {:.2g} at IOR "
                        "{:g}, and for {} to {:.2g}.",

@@ -40,7 +40,6 @@ Json describe(const About& about, std::span<const Parameter> parameters) {
           {"title", about.title},
           {"formula", about.formula},
           {"source", about.source},
-          {"seed", about.seed},
           {"ships", about.ships},
           {"approximates", about.approximates},
           {"named_for", about.named_for},
