@@ -145,7 +145,8 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "Disney's is nearer, and makes more light than any";
   EXPECT_EQ(below.error, up_to(5.2) + "; gives back 140\u00a0% at most (Lambert: 191\u00a0%)");
-  EXPECT_EQ(below.unless, "more light may be made: Disney's diffuse, ΔE ≤ 1") << "the nearest of them";
+  EXPECT_EQ(below.unless, "more light may be made: Disney's diffuse, ΔE ≤ 1")
+      << "the nearest of them";
 }
 
 TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
