@@ -51,6 +51,7 @@ struct Inverse {
 /// Probability of so large an F by luck.
 double luck(double f, double of, double freedom) {
   if (!(f > 0)) return 1;
+  if (std::isinf(f)) return 0;  // beside values without any noise
   return fisher_f_tail(f, of, freedom);
 }
 /// That of W = Uᵀ(Σ z zᵀ)⁻¹U over `units` independent scores z with the sum U (Hotelling), which is at

@@ -35,6 +35,13 @@ std::vector<double> of_right_models(std::size_t tables, std::size_t samples) {
   return p;
 }
 
+TEST(Regression, IsSureOfScalesThatLeaveNothing) {
+  misfit::Regression alone, open;
+  alone.squares = 2, alone.freedom = 20, open.freedom = 10;
+  EXPECT_EQ(misfit::luck_of_scales(alone, open), 0) << "an infinite F";
+  EXPECT_EQ(misfit::luck_of_scales(open, open), 1);
+}
+
 TEST(Regression, TakesTheRightModelForWrongAboutAsOftenAsItsProbabilitySays) {
   constexpr double tables = test::few(600, 20);
   const auto p = of_right_models(static_cast<std::size_t>(tables), 500);
