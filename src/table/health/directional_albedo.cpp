@@ -248,8 +248,11 @@ AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
                    [&](const DirectionPair& p, std::span<double> f, std::span<double> geometric) {
                      for (std::size_t c = 0; c < channels; ++c) {
                        f[c] = rgl ? rgl(p, c) : between(p, c);
-                       if (!geometric.empty())
-                         geometric[c] = logs.between ? least * std::exp(logs.between(p, c)) : f[c];
+                       if (geometric.empty()) continue;
+                       // Between samples that far apart a highlight may lie as far below that mean
+                       // again.
+                       geometric[c] =
+                           logs.between ? 2 * least * std::exp(logs.between(p, c)) - f[c] : f[c];
                      }
                    });
 }
