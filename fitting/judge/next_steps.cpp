@@ -194,9 +194,10 @@ bool add_models(Steps& steps,
                 const TryModel& attempt,
                 const std::string& less,
                 bool needless) {
-  constexpr double worth = 1 / 3.0;  // of the misfit's square
-  constexpr double as_well = 1.02;   // log RMS, of the least
-  constexpr double shows = 0.95;     // log RMS, of what it is
+  constexpr double worth = 1 / 3.0;   // of the misfit's square
+  constexpr double as_well = 1.02;    // log RMS, of the least
+  constexpr double shows = 0.95;      // log RMS, of what it is
+  constexpr double near_best = 1.25;  // log RMS, of the least: what leaves more mends less
   constexpr std::size_t few = 3;
   const double here = attempt(needless ? less : d.model), misfit = d.misfit.size * d.misfit.size;
   auto others = others_of(spec);
@@ -213,6 +214,9 @@ bool add_models(Steps& steps,
       found.emplace_back(left[k], others[k]);
   if (found.empty()) return false;
   std::ranges::stable_sort(found, {}, [](const auto& f) { return f.first; });
+  std::erase_if(found, [most = std::max(near_best * found[0].first, 1e-6)](const auto& f) {
+    return f.first > most;
+  });
   const auto simplest = std::ranges::find(found, less, [](const auto& f) { return f.second; });
   if (simplest != found.end() && simplest->first <= as_well * found[0].first) found = {*simplest};
   for (std::size_t k = 0; k < std::min(few, found.size()); ++k)
