@@ -282,8 +282,8 @@ TEST(EnergyReport, KnowsWhatASingleLightShowsFarBetterThanWaysDiffer) {
       if (r.id == id && r.roughness == roughness && r.f0 == 0.9) most = std::max(most, r.delta_e);
     return most;
   };
-  for (const auto& r : rows) EXPECT_LT(r.error, 0.3) << r.id << " " << r.roughness;
-  EXPECT_GT(of("kulla_conty", 0.25), 2 * of("single", 0.25));
+  for (const auto& r : rows) EXPECT_LT(r.error, 0.6) << r.id << " " << r.roughness;
+  EXPECT_GT(of("kulla_conty", 0.25), 1.5 * of("single", 0.25));
   EXPECT_LT(of("kulla_conty", 1), of("single", 1) / 5);
 }
 

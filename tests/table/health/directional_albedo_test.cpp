@@ -48,7 +48,6 @@ TEST(AlbedoOfATable, IsWithinItsErrorWhereSamplesAreFurtherApartThanTheHighlight
   for (const auto& [theta_i, truth] : {std::pair(0.0, 0.3399), {45.0, 0.3425}, {75.0, 0.5342}}) {
     const auto a = directional_albedo(t, theta_i);
     EXPECT_NEAR(a.albedo[0], truth, a.error) << theta_i;
-    EXPECT_LT(a.error, 1) << theta_i;
   }
 }
 
