@@ -158,7 +158,7 @@ void verdict_on_vf(Findings& to, const RemapRows& r) {
   }
   if (most == 0) return;
   to.judge(
-      "F V ≈ 1/(LoH²(r+0.5)), with V = G/(4 NoL NoV)", "", verdict(most < 1.1),
+      "F V ≈ 1/(LoH²(r+0.5))", "", verdict(most < 1.1),
       fmt::format("off by a factor of {:.2g} to {:.2g}; with a ¼ by up to {:.2g}", least, most,
                   with_it),
       fmt::format("as printed it lacks a factor of ¼, and on glass it is off by a factor of up "

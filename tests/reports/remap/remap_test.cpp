@@ -202,7 +202,7 @@ TEST(RemapReport, FindingsJudgeTheClaimsFromTheFigures) {
   EXPECT_EQ(all.claims[1].figure, "G1 0.471, exact 0.543 at NoV 0.1");
   EXPECT_EQ(all.claims[2].figure, "G1 0.283, exact 0.543 at NoV 0.1");
   EXPECT_TRUE(
-      said("“F V ≈ 1/(LoH²(r+0.5)), with V = G/(4 NoL NoV)” does not hold: as printed it lacks a "
+      said("“F V ≈ 1/(LoH²(r+0.5))” does not hold: as printed it lacks a "
            "factor of ¼"));
   for (auto& row : r.rows)  // were it the other way round
     if (row.form == direct) row.rms = 0;
