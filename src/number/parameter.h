@@ -27,7 +27,6 @@ struct About {
   std::string_view title;
   std::string_view formula;
   std::string_view source;      ///< paper and equation
-  std::string_view seed = {};   ///< numbers of the seed documents that show it
   std::string_view ships = {};  ///< who ships it
   std::string_view approximates =
       {};                           ///< id of the form that it stands for; empty: it is that form

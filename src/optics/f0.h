@@ -22,12 +22,9 @@ T sqrt_from_0(const T& x) {
 /// F0 = ((n1 − n2)/(n1 + n2))²
 template <Real T>
 struct F0FromIor {
-  static constexpr About about{"f0.from_ior",
-                               "F0 of an interface between two dielectrics",
-                               "f0 = ((n1 − n2)/(n1 + n2))²",
-                               "Born & Wolf, Principles of Optics, 1.5.3",
-                               "000",
-                               "pbrt; glTF 2.0 (KHR_materials_ior)"};
+  static constexpr About about{
+      "f0.from_ior", "F0 of an interface between two dielectrics", "f0 = ((n1 − n2)/(n1 + n2))²",
+      "Born & Wolf, Principles of Optics, 1.5.3", "pbrt; glTF 2.0 (KHR_materials_ior)"};
   static constexpr std::array parameters{
       Parameter{"n1", {0.2, 10}, {1, 4}, 1.5, true, "refractive index of the surface"},
       Parameter{"n2", {0.2, 10}, {1, 4}, 1, false, "refractive index of what lies around it"}};
@@ -38,15 +35,14 @@ struct F0FromIor {
   }
 };
 
-/// F0 as printed in seed 001: the square is missing, so that glass has F0 = 0.2 for 0.04, and an
+/// F0 as notes in circulation print it: the square is missing, so that glass has F0 = 0.2 for 0.04, and an
 /// index below that of the surroundings a negative F0.
 template <Real T>
 struct F0FromIorAsWritten {
   static constexpr About about{"f0.from_ior.as_written",
                                "F0 of an interface, its square missing",
                                "f0 = (n1 − n2)/(n1 + n2)",
-                               "as printed, seed 001",
-                               "001",
+                               "as printed in notes in circulation",
                                "",
                                "",
                                "f0.from_ior"};
@@ -61,7 +57,7 @@ template <Real T>
 struct IorFromF0 {
   static constexpr About about{"f0.to_ior", "Refractive index of a dielectric with this F0",
                                "eta = (1 + √f0)/(1 − √f0)",
-                               "Born & Wolf, Principles of Optics, 1.5.3, solved for n", "000"};
+                               "Born & Wolf, Principles of Optics, 1.5.3, solved for n"};
   static constexpr std::array parameters{
       Parameter{"f0", {0, 0.9999}, {0, 0.36}, 0.04, true, "reflectance at normal incidence"}};
   static constexpr std::array<std::string_view, 1> outputs{"eta"};
@@ -76,12 +72,10 @@ struct IorFromF0 {
 /// metallic), of which a coupled diffuse takes 1 − F.  The map's dielectric is 0.04.
 template <Real T>
 struct F0Metallic {
-  static constexpr About about{"f0.metallic",
-                               "Metallic workflow",
+  static constexpr About about{"f0.metallic", "Metallic workflow",
                                "f0 = lerp(0.04, base_color, metallic), kd = base_color "
                                "(1 − metallic), to be coupled: Kd = (1 − F)(1 − metallic)",
                                "Burley 2012; glTF 2.0, Appendix B",
-                               "000, 003",
                                "glTF 2.0, Unreal Engine, Unity"};
   static constexpr std::array parameters{
       Parameter{"base_color", {0, 1}, {0, 1}, 0.5, true, "colour of diffuse or metal"},
@@ -126,12 +120,9 @@ TintedIndex<T> tinted_index(const T& r, const T& g) {
 template <Real T>
 struct IndexFromEdgeTint {
   static constexpr About about{
-      "f0.to_index",
-      "Index of a conductor from reflectance and edge tint",
+      "f0.to_index", "Index of a conductor from reflectance and edge tint",
       "eta = g (1−f0)/(1+f0) + (1−g) (1+√f0)/(1−√f0), k² = (f0 (eta+1)² − (eta−1)²)/(1−f0)",
-      "Gulbrandsen 2014, Artist Friendly Metallic Fresnel",
-      "",
-      "MaterialX (artistic_ior)"};
+      "Gulbrandsen 2014, Artist Friendly Metallic Fresnel", "MaterialX (artistic_ior)"};
   static constexpr std::array parameters{
       Parameter{"f0", {1e-6, 0.9999}, {0.01, 0.99}, 0.8, true, "reflectance at normal incidence"},
       Parameter{"g", {0, 1}, {0, 1}, 0.5, true, "edge tint: 0 no absorption, 1 the most"}};

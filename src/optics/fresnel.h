@@ -72,12 +72,9 @@ struct NearCritical {
 template <Real T>
 struct Dielectric {
   static constexpr About about{
-      "fresnel.dielectric",
-      "Dielectric, exact",
+      "fresnel.dielectric", "Dielectric, exact",
       "F = ½ ((g−c)/(g+c))² (1 + ((c(g+c)−1)/(c(g−c)+1))²), g² = η²−1+c², c = VoH",
-      "Walter et al. 2007, Eq. 22",
-      "000, 001",
-      "pbrt, Mitsuba"};
+      "Walter et al. 2007, Eq. 22", "pbrt, Mitsuba"};
   static constexpr std::array parameters{
       Parameter{"eta", {0.2, 10}, {1, 4}, 1.5, true, "refractive index, transmitted / incident"}};
 
@@ -156,13 +153,10 @@ Quotient<T> reflectance_of_root(
 template <Real T>
 struct Conductor {
   static constexpr About about{
-      "fresnel.conductor",
-      "Conductor, exact",
+      "fresnel.conductor", "Conductor, exact",
       "F = (R_s + R_p)/2 for N = η + i k: (a+ib)² = N² − sin²θ, R_s = |(a+ib−c)/(a+ib+c)|², "
       "R_p = R_s |(c(a+ib)−s²)/(c(a+ib)+s²)|², c = VoH",
-      "Born & Wolf, Principles of Optics, 14.2",
-      "000",
-      "pbrt, Mitsuba"};
+      "Born & Wolf, Principles of Optics, 14.2", "pbrt, Mitsuba"};
   static constexpr std::array parameters{
       Parameter{"eta", {0.001, 20}, {0.01, 10}, 1.5, true, "refractive index, real part"},
       Parameter{"k", {0, 1000}, {0, 20}, 3, true, "extinction coefficient"}};
@@ -214,13 +208,11 @@ struct Conductor {
 /// \param g   edge tint: 0 the index that is real, 1 the lowest real part that the paper allows
 template <Real T>
 struct Gulbrandsen {
-  static constexpr About about{"fresnel.gulbrandsen",
-                               "Conductor, exact, by reflectance and edge tint",
-                               "F of a conductor with n = g (1−f0)/(1+f0) + (1−g) (1+√f0)/(1−√f0), "
-                               "k² = (f0 (n+1)² − (n−1)²)/(1−f0)",
-                               "Gulbrandsen 2014, Artist Friendly Metallic Fresnel",
-                               "",
-                               "MaterialX (artistic_ior)"};
+  static constexpr About about{
+      "fresnel.gulbrandsen", "Conductor, exact, by reflectance and edge tint",
+      "F of a conductor with n = g (1−f0)/(1+f0) + (1−g) (1+√f0)/(1−√f0), "
+      "k² = (f0 (n+1)² − (n−1)²)/(1−f0)",
+      "Gulbrandsen 2014, Artist Friendly Metallic Fresnel", "MaterialX (artistic_ior)"};
   static constexpr std::array parameters{
       Parameter{"f0", {0, 1}, {0.01, 0.99}, 0.8, true, "reflectance at normal incidence"},
       Parameter{"g", {0, 1}, {0, 1}, 0.5, true, "edge tint"}};

@@ -39,8 +39,7 @@ struct ConstantReflectance {
   static constexpr About about{"fresnel.constant",
                                "The same at every angle",
                                "F = f0",
-                               "as shipped, seeds 000 and 004",
-                               "000, 004",
+                               "as shipped in mobile shaders",
                                "Unreal Engine 4's and Unity's mobile renderers, with the rest of F "
                                "in their visibility",
                                "fresnel.schlick"};
@@ -64,7 +63,6 @@ struct Schlick {
                                "Schlick's approximation",
                                "F = f0 + (1 − f0)(1 − VoH)⁵",
                                "Schlick 1994, Eq. 15",
-                               "000, 001, 004",
                                "glTF 2.0, Disney's principled BRDF, LearnOpenGL",
                                "fresnel.dielectric"};
   static constexpr std::array parameters{f0_parameter};
@@ -87,7 +85,6 @@ struct SchlickF90 {
                                "Schlick's approximation with F90",
                                "F = f0 + (f90 − f0)(1 − VoH)⁵",
                                "Lagarde, de Rousiers 2014, course notes on Frostbite, section 3.1",
-                               "000, 001",
                                "Frostbite, Filament, glTF 2.0 (KHR_materials_specular)",
                                "fresnel.dielectric"};
   static constexpr std::array parameters{
@@ -144,7 +141,6 @@ struct SchlickWeighted : WeightedLayer<Schlick, T> {
                                "Schlick's approximation, of a partial layer",
                                "F = weight (f0 + (1 − f0)(1 − VoH)⁵)",
                                "Burley 2012, Appendix B",
-                               "001",
                                "Disney's principled BRDF, its coat",
                                "fresnel.schlick"};
   using WeightedLayer<Schlick, T>::WeightedLayer;
@@ -162,7 +158,6 @@ struct SchlickF90Weighted : WeightedLayer<SchlickF90, T> {
                                "F = weight (f0 + (f90 − f0)(1 − VoH)⁵)",
                                "fresnel.schlick.f90; the weight as of fresnel.schlick.weighted",
                                "",
-                               "",
                                "fresnel.schlick.f90"};
   using WeightedLayer<SchlickF90, T>::WeightedLayer;
 };
@@ -177,7 +172,6 @@ struct DielectricWeighted : WeightedLayer<Dielectric, T> {
                                "F = weight F_dielectric(eta, VoH)",
                                "fresnel.dielectric; the weight as of fresnel.schlick.weighted",
                                "",
-                               "",
                                "fresnel.dielectric"};
   using WeightedLayer<Dielectric, T>::WeightedLayer;
 };
@@ -191,7 +185,6 @@ struct ConductorWeighted : WeightedLayer<Conductor, T> {
                                "Conductor, of a partial layer",
                                "F = weight F_conductor(eta, k, VoH)",
                                "fresnel.conductor; the weight as of fresnel.schlick.weighted",
-                               "",
                                "",
                                "fresnel.conductor"};
   using WeightedLayer<Conductor, T>::WeightedLayer;
@@ -208,7 +201,6 @@ struct SchlickMetallic : Schlick<T> {
                                "Schlick's approximation, F0 by the metallic workflow",
                                "F = f0 + (1 − f0)(1 − VoH)⁵, f0 = lerp(0.04, base_color, metallic)",
                                "glTF 2.0, Appendix B",
-                               "",
                                "glTF 2.0",
                                "fresnel.schlick"};
   static constexpr std::array parameters = F0Metallic<T>::parameters;
@@ -230,7 +222,6 @@ struct SchlickReflectance : Schlick<T> {
       "Schlick's approximation, F0 by Filament's parameters",
       "F = f0 + (1 − f0)(1 − VoH)⁵, f0 = lerp(0.16 reflectance², base_color, metallic)",
       "Guy, Agopian, Physically Based Rendering in Filament, section 4",
-      "",
       "Filament",
       "fresnel.schlick"};
   static constexpr std::array parameters{
@@ -256,8 +247,7 @@ struct SchlickUe {
   static constexpr About about{"fresnel.schlick.ue",
                                "Schlick's approximation, Unreal Engine's",
                                "F = saturate(50 f0_green)(1 − VoH)⁵ + (1 − (1 − VoH)⁵) f0",
-                               "as shipped, seed 004",
-                               "004",
+                               "Unreal Engine 4, F_Schlick",
                                "Unreal Engine 4",
                                "fresnel.schlick"};
   static constexpr std::array parameters{
@@ -287,7 +277,6 @@ struct SchlickSphericalGaussian {
                                "Schlick's approximation, its power a spherical Gaussian",
                                "F = f0 + (1 − f0) 2^((−5.55473 VoH − 6.98316) VoH)",
                                "Lagarde 2012; Karis 2013, Real Shading in Unreal Engine 4",
-                               "",
                                "Unreal Engine 4 (2013), three.js",
                                "fresnel.schlick"};
   static constexpr std::array parameters{f0_parameter};
@@ -305,7 +294,7 @@ struct SchlickSphericalGaussian {
   }
 };
 
-/// Schlick's approximation as seed 003 prints it, its power lost.
+/// Schlick's approximation as notes in circulation print it, its power lost.
 ///
 ///   F = f0 + (1 − f0)(1 − c)
 template <Real T>
@@ -313,8 +302,7 @@ struct LinearAsWritten {
   static constexpr About about{"fresnel.linear.as_written",
                                "Schlick's approximation, its power missing",
                                "F = f0 + (1 − f0)(1 − VoH)",
-                               "as printed, seed 003",
-                               "003",
+                               "as printed in notes in circulation",
                                "",
                                "",
                                "fresnel.schlick"};
@@ -344,7 +332,6 @@ struct Disney2015 {
       "f0 = ((eta−1)/(eta+1))²",
       "Burley 2015, Extending the Disney BRDF to a BSDF, course notes; the "
       "bound 1.3 is ours",
-      "001",
       "",
       "fresnel.dielectric"};
   static constexpr std::array parameters = Dielectric<T>::parameters;
@@ -385,7 +372,6 @@ struct F82Tint {
       "VoH (1−VoH)⁶/(1/7 (6/7)⁶), 0), F_s Schlick's",
       "Hoffman 2019, Fresnel Equations Considered Harmful; Kutz et al. 2021, "
       "Novel Aspects of the Adobe Standard Material",
-      "",
       "OpenPBR, Blender",
       "fresnel.conductor"};
   static constexpr std::array parameters{
@@ -422,7 +408,6 @@ struct Lazanyi {
       "F = max(((n−1)² + 4n(1−VoH)⁵ + k²)/((n+1)² + k²) − a VoH (1−VoH)^alpha, 0), n = eta, "
       "a = correction, alpha = correction_exponent",
       "Lazányi, Szirmay-Kalos 2005, Fresnel Term Approximations for Metals",
-      "",
       "",
       "fresnel.conductor"};
   static constexpr std::array parameters{

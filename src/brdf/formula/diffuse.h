@@ -42,7 +42,6 @@ struct LambertMetallic : Lambert<T> {
                                "Lambert, kd by the metallic workflow",
                                "f = base_color (1 − metallic)/π",
                                "Guy, Agopian, Physically Based Rendering in Filament, section 4",
-                               "",
                                "Filament",
                                "diffuse.lambert"};
   static constexpr std::array parameters = F0Metallic<T>::parameters;
@@ -59,7 +58,6 @@ struct LambertMetallicCoupled : LambertMetallic<T> {
       "Lambert, kd by the metallic workflow, under the first lobe's interface",
       "f = (1 − F(VoH)) base_color (1 − metallic)/π",
       "glTF 2.0, Appendix B",
-      "",
       "glTF 2.0",
       "diffuse.lambert.coupled"};
   static constexpr bool coupled = true;
@@ -80,7 +78,6 @@ struct DisneyDiffuse {
       "Disney's diffuse",
       "f = kd/π (1 + (F_D90−1)(1−NoL)⁵)(1 + (F_D90−1)(1−NoV)⁵), F_D90 = 0.5 + 2 r VoH², r = √alpha",
       "Burley 2012, section 5.3",
-      "001",
       "Disney's principled BRDF; Unreal Engine and Frostbite offer it, Frostbite renormalised",
       "diffuse.lambert"};
   static constexpr std::array parameters{Lambert<T>::parameters[0], any_alpha_parameter};
@@ -106,7 +103,6 @@ struct DisneyDiffuseCoupled : DisneyDiffuse<T> {
       "Disney's diffuse under the first lobe's interface",
       "f = (1 − F(VoH)) f of diffuse.disney",
       "Burley 2012, section 5.3; the interface as of diffuse.lambert.coupled",
-      "",
       "",
       "diffuse.lambert.coupled"};
   static constexpr bool coupled = true;
@@ -134,7 +130,6 @@ struct FrostbiteDiffuse {
       "f = kd/π E (1 + (F_D90−1)(1−NoL)⁵)(1 + (F_D90−1)(1−NoV)⁵), F_D90 = r/2 + 2 r VoH², "
       "E = lerp(1, 1/1.51, r), r = √alpha",
       "Lagarde, de Rousiers 2014, course notes on Frostbite, listing 1",
-      "",
       "Frostbite",
       "diffuse.lambert"};
   static constexpr std::array parameters{Lambert<T>::parameters[0], any_alpha_parameter};
@@ -169,13 +164,10 @@ struct FrostbiteDiffuse {
 template <Real T>
 struct HammonDiffuse {
   static constexpr About about{
-      "diffuse.hammon",
-      "Hammon's diffuse for GGX and Smith",
+      "diffuse.hammon", "Hammon's diffuse for GGX and Smith",
       "f = kd (lerp(smooth, rough, α)/π + 0.1159 α kd), smooth = 1.05 (1−(1−NoL)⁵)(1−(1−NoV)⁵), "
       "rough = VoH² (0.9 − 0.4 VoH²)(0.5 + NoH)/NoH",
-      "Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces",
-      "",
-      "Respawn (Titanfall 2)"};
+      "Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces", "Respawn (Titanfall 2)"};
   static constexpr std::array parameters{Lambert<T>::parameters[0], alpha_parameter};
   static constexpr bool coupled = false;
 
@@ -220,12 +212,10 @@ B oren_nayar_ratio(const Angles<B>& a, const B& s, const B& otherwise) {
 template <Real T>
 struct OrenNayar {
   static constexpr About about{
-      "diffuse.oren_nayar",
-      "Oren–Nayar, qualitative",
+      "diffuse.oren_nayar", "Oren–Nayar, qualitative",
       "f = kd/π (A + B max(0, cos φ) sin max(θi, θo) tan min(θi, θo)), A = 1 − σ²/(2(σ² + 0.33)), "
       "B = 0.45 σ²/(σ² + 0.09)",
       "Oren, Nayar 1994, Generalization of Lambert's Reflectance Model, Eq. 30",
-      "",
       "Mitsuba, pbrt-v3, OSL"};
   static constexpr std::array parameters{Lambert<T>::parameters[0],
                                          Parameter{"sigma",
@@ -270,13 +260,10 @@ T fujii_a(const T& r) {
 template <Real T>
 struct OrenNayarFujii {
   static constexpr About about{
-      "diffuse.oren_nayar.fujii",
-      "Oren–Nayar, improved by Fujii",
+      "diffuse.oren_nayar.fujii", "Oren–Nayar, improved by Fujii",
       "f = kd/π A (1 + r s/t), s = l·v − NoL NoV, t = max(NoL, NoV) for s > 0, "
       "else 1, A = 1/(1 + (1/2 − 2/(3π)) r)",
-      "Fujii, A tiny improvement of Oren-Nayar reflectance model",
-      "",
-      "Blender's Cycles"};
+      "Fujii, A tiny improvement of Oren-Nayar reflectance model", "Blender's Cycles"};
   static constexpr std::array parameters{Lambert<T>::parameters[0], oren_nayar_r_parameter};
   static constexpr bool coupled = false;
 
@@ -310,13 +297,11 @@ struct OrenNayarFujii {
 /// where ρ is 0 or 1; between, the surface's is less.
 template <Real T>
 struct Eon {
-  static constexpr About about{"diffuse.eon",
-                               "Energy-preserving Oren–Nayar (EON)",
+  static constexpr About about{"diffuse.eon", "Energy-preserving Oren–Nayar (EON)",
                                "f = kd/π A (1 + r s/t) + ρ_ms/π (1−E(NoL))(1−E(NoV))/(1−E_avg), "
                                "ρ_ms = kd² E_avg/(1 − kd (1 − E_avg))",
                                "Portsmouth, Kutz, Hill 2025, EON: A Practical Energy-Preserving "
                                "Rough Diffuse BRDF, JCGT 14(1)",
-                               "",
                                "OpenPBR, MaterialX, Babylon.js"};
   static constexpr std::array parameters{Lambert<T>::parameters[0], oren_nayar_r_parameter};
   static constexpr bool coupled = false;

@@ -52,11 +52,9 @@ struct SmithRoot {
 ///   V = 1 / ((NoL + r(NoL)) (NoV + r(NoV))),   G₁(c) = 2c / (c + r(c))  [Walter 2007, Eq. 34]
 template <Real T>
 struct SmithGgxSeparable {
-  static constexpr About about{"masking.smith_ggx.separable",
-                               "Smith for GGX, separable",
+  static constexpr About about{"masking.smith_ggx.separable", "Smith for GGX, separable",
                                "G2 = G1(NoL) G1(NoV), G1(c) = 2c / (c + √(α² + (1 − α²) c²))",
                                "Walter et al. 2007, Eq. 34",
-                               "000 001",
                                "glTF 2.0, Mitsuba, Unreal Engine 4 (Vis_Smith)"};
   static constexpr std::array parameters{alpha_parameter};
 
@@ -75,11 +73,8 @@ struct SmithGgxSeparable {
 template <Real T>
 struct SmithGgxCorrelated {
   static constexpr About about{
-      "masking.smith_ggx.correlated",
-      "Smith for GGX, height-correlated",
-      "G2 = 2 NoL NoV / (NoL √(α² + (1−α²) NoV²) + NoV √(α² + (1−α²) NoL²))",
-      "Heitz 2014, Eq. 99",
-      "002",
+      "masking.smith_ggx.correlated", "Smith for GGX, height-correlated",
+      "G2 = 2 NoL NoV / (NoL √(α² + (1−α²) NoV²) + NoV √(α² + (1−α²) NoL²))", "Heitz 2014, Eq. 99",
       "Filament, Unity HDRP, Frostbite, pbrt, Unreal Engine 4 (Vis_SmithJoint)"};
   static constexpr std::array parameters{alpha_parameter};
 
@@ -113,12 +108,10 @@ struct SmithAnisoRoot {
 ///                                                     [Heitz 2014, section 5.4; Walter 2007, Eq. 34]
 template <Real T>
 struct SmithGgxAnisoSeparable {
-  static constexpr About about{"masking.smith_ggx_aniso.separable",
-                               "Smith for anisotropic GGX, separable",
-                               "G2 = G1(l) G1(v), G1(v) = 2 NoV / (NoV + |(αx XoV, αy YoV, NoV)|)",
-                               "Walter et al. 2007, Eq. 34; Heitz 2014, section 5.4",
-                               "",
-                               "Disney (since 2017), Mitsuba"};
+  static constexpr About about{
+      "masking.smith_ggx_aniso.separable", "Smith for anisotropic GGX, separable",
+      "G2 = G1(l) G1(v), G1(v) = 2 NoV / (NoV + |(αx XoV, αy YoV, NoV)|)",
+      "Walter et al. 2007, Eq. 34; Heitz 2014, section 5.4", "Disney (since 2017), Mitsuba"};
   static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
   static constexpr bool anisotropic = true;
 
@@ -139,12 +132,9 @@ struct SmithGgxAnisoSeparable {
 template <Real T>
 struct SmithGgxAnisoCorrelated {
   static constexpr About about{
-      "masking.smith_ggx_aniso.correlated",
-      "Smith for anisotropic GGX, height-correlated",
+      "masking.smith_ggx_aniso.correlated", "Smith for anisotropic GGX, height-correlated",
       "G2 = 2 NoL NoV / (NoL |(αx XoV, αy YoV, NoV)| + NoV |(αx XoL, αy YoL, NoL)|)",
-      "Heitz 2014, section 5.4 and Eq. 99",
-      "",
-      "Filament, Unity HDRP, pbrt"};
+      "Heitz 2014, section 5.4 and Eq. 99", "Filament, Unity HDRP, pbrt"};
   static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
   static constexpr bool anisotropic = true;
 
@@ -196,7 +186,7 @@ struct SmithBeckmannSeparable {
   static constexpr About about{"masking.smith_beckmann.separable", "Smith for Beckmann, separable",
                                "G2 = G1(NoL) G1(NoV), G1 = 2/(1 + erf(a) + exp(−a²)/(a √π)), "
                                "a = 1/(α tan θ)",
-                               "Smith 1967; Walter et al. 2007, Eq. 26", "002"};
+                               "Smith 1967; Walter et al. 2007, Eq. 26"};
   static constexpr std::array parameters{alpha_parameter};
 
   T alpha;
@@ -217,7 +207,7 @@ struct SmithBeckmannCorrelated {
                                "Smith for Beckmann, height-correlated",
                                "G2 = 1/(1 + Λ(l) + Λ(v)), Λ = (erf(a) − 1)/2 + exp(−a²)/(2a √π), "
                                "a = 1/(α tan θ)",
-                               "Smith 1967; Heitz 2014, section 5.3 and Eq. 99", "002"};
+                               "Smith 1967; Heitz 2014, section 5.3 and Eq. 99"};
   static constexpr std::array parameters{alpha_parameter};
 
   T alpha;

@@ -15,7 +15,7 @@ template <Real T>
 struct CookTorrance {
   static constexpr About about{"masking.cook_torrance", "Cook–Torrance, V-shaped grooves",
                                "G2 = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)",
-                               "Torrance & Sparrow 1967; Cook & Torrance 1982", "002"};
+                               "Torrance & Sparrow 1967; Cook & Torrance 1982"};
   static constexpr std::array<Parameter, 0> parameters{};
 
   explicit CookTorrance(std::span<const T, 0>) {}
@@ -30,11 +30,8 @@ struct CookTorrance {
 /// G = NoL NoV / max(NoL, NoV),   V = 1 / (4 max(NoL, NoV))
 template <Real T>
 struct Neumann {
-  static constexpr About about{"masking.neumann",
-                               "Neumann–Neumann",
-                               "G2 = NoL NoV / max(NoL, NoV)",
+  static constexpr About about{"masking.neumann", "Neumann–Neumann", "G2 = NoL NoV / max(NoL, NoV)",
                                "Neumann & Neumann 1999; Neumann, Neumann & Szirmay-Kalos 1999",
-                               "002",
                                "Unreal Engine 4 (Vis_Neumann)"};
   static constexpr std::array<Parameter, 0> parameters{};
 
@@ -52,7 +49,6 @@ struct Kelemen {
                                "Kelemen–Szirmay-Kalos",
                                "G2 = NoL NoV / VoH²",
                                "Kelemen & Szirmay-Kalos 2001",
-                               "002",
                                "Filament (clear coat), Unreal Engine 4 (Vis_Kelemen)",
                                "masking.cook_torrance"};
   static constexpr std::array<Parameter, 0> parameters{};
@@ -67,11 +63,8 @@ struct Kelemen {
 /// G = NoL NoV, which costs nothing:  V = 1/4
 template <Real T>
 struct Implicit {
-  static constexpr About about{"masking.implicit",
-                               "Implicit",
-                               "G2 = NoL NoV",
+  static constexpr About about{"masking.implicit", "Implicit", "G2 = NoL NoV",
                                "Hoffman 2013, Background: Physics and Math of Shading",
-                               "002",
                                "Unreal Engine 4 (Vis_Implicit)"};
   static constexpr std::array<Parameter, 0> parameters{};
 

@@ -33,7 +33,6 @@ struct SchlickGgxHalfAlpha : SchlickMasking<T> {
                                "Schlick's fit to Smith for GGX, k = α/2",
                                "G1 = c / (c (1 − k) + k), k = α/2",
                                "Schlick 1994; Karis 2013",
-                               "000",
                                "Unreal Engine 4 (image-based light, 2013)",
                                "masking.smith_ggx.separable"};
   explicit SchlickGgxHalfAlpha(std::span<const T, 1> p) : SchlickMasking<T>(p[0] / 2) {}
@@ -46,7 +45,6 @@ struct SchlickGgxDirect : SchlickMasking<T> {
                                "Schlick's fit with Disney's remapping, k = (r + 1)²/8",
                                "G1 = c / (c (1 − k) + k), k = (√α + 1)²/8",
                                "Karis 2013",
-                               "000",
                                "Unreal Engine 4 (analytic lights, 2013)",
                                "masking.smith_ggx.separable"};
   explicit SchlickGgxDirect(std::span<const T, 1> p)
@@ -59,8 +57,7 @@ struct SchlickGgxHalfRoughness : SchlickMasking<T> {
   static constexpr About about{"masking.schlick_ggx.half_roughness",
                                "Schlick's fit with roughness for α, k = r/2",
                                "G1 = c / (c (1 − k) + k), k = √α/2",
-                               "seed 002, SchlickGGXGeometricShadowingFunction",
-                               "002",
+                               "SchlickGGXGeometricShadowingFunction, in shaders for Unity",
                                "",
                                "masking.smith_ggx.separable"};
   explicit SchlickGgxHalfRoughness(std::span<const T, 1> p) : SchlickMasking<T>(sqrt(p[0]) / 2) {}
@@ -73,7 +70,6 @@ struct SchlickBeckmann : SchlickMasking<T> {
                                "Schlick's fit to Smith for Beckmann, k = α √(2/π)",
                                "G1 = c / (c (1 − k) + k), k = α √(2/π)",
                                "Schlick 1994, Eq. 19",
-                               "002",
                                "Unity (SmithBeckmannVisibilityTerm)",
                                "masking.smith_beckmann.separable"};
   explicit SchlickBeckmann(std::span<const T, 1> p)
@@ -90,8 +86,7 @@ struct UeJoint {
   static constexpr About about{"masking.ue_joint",
                                "Unreal Engine's joint Smith approximation",
                                "V = 0.5 / (NoL (NoV (1−α) + α) + NoV (NoL (1−α) + α))",
-                               "Vis_SmithJointApprox; seeds 002, 004",
-                               "002 004",
+                               "Vis_SmithJointApprox",
                                "Unreal Engine 4 and 5 (Vis_SmithJointApprox)",
                                "masking.smith_ggx.correlated"};
   static constexpr std::array parameters{alpha_parameter};
@@ -117,8 +112,7 @@ struct UeJointClamped {
       "masking.ue_joint.clamped",
       "Unreal Engine's joint Smith approximation with a mobile port's clamps",
       "V = 0.5 / max(NoL (NoV (1−α) + α) + NoV (NoL (1−α) + α), 0.001), NoV ← min(NoV + 1e-5, 1)",
-      "seed 004, Vis_SmithJointApprox",
-      "004",
+      "Vis_SmithJointApprox, as shipped",
       "a mobile game on Unreal Engine 4.27",
       "",
       "masking.ue_joint"};
@@ -151,7 +145,6 @@ struct Hammon {
                                "Hammon's linear Smith approximation",
                                "G2 = 2 NoL NoV / lerp(2 NoL NoV, NoL + NoV, α)",
                                "Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces",
-                               "",
                                "Respawn (Titanfall 2)",
                                "masking.smith_ggx.correlated"};
   static constexpr std::array parameters{alpha_parameter};
@@ -175,7 +168,6 @@ struct DisneyRemap {
                                "Smith for GGX with Disney's remapped roughness",
                                "G2 = G1(NoL) G1(NoV) of GGX with α_g = (0.5 + √α/2)²",
                                "Burley 2012, Appendix B",
-                               "001",
                                "Disney (2012)",
                                "masking.smith_ggx.separable"};
   static constexpr std::array parameters{any_alpha_parameter};
@@ -196,7 +188,6 @@ struct DisneyCoat {
                                "Smith for GGX of width 0.25, for clear coats",
                                "G2 = G1(NoL) G1(NoV) of GGX with α_g = 0.25",
                                "Burley 2012, Appendix B",
-                               "001",
                                "Disney",
                                "masking.smith_ggx.separable"};
   static constexpr std::array<Parameter, 0> parameters{};
@@ -227,7 +218,6 @@ struct SmithBeckmannRational {
       "Walter's rational fit to Smith for Beckmann",
       "G1 = (3.535a + 2.181a²)/(1 + 2.276a + 2.577a²) for a < 1.6, else 1, a = 1/(α tan θ)",
       "Walter et al. 2007, Eq. 27",
-      "002",
       "Mitsuba, many shaders",
       "masking.smith_beckmann.separable"};
   static constexpr std::array parameters{alpha_parameter};
@@ -269,8 +259,7 @@ struct UnityMobile {
   static constexpr About about{"masking.unity_mobile",
                                "In place of V·F on phones, as published",
                                "V = 1 / (4 LoH² (√α + 0.5))",
-                               "Zioma 2015, Optimizing PBR for Mobile (SIGGRAPH course)",
-                               "000",
+                               "Optimizing PBR for Mobile, SIGGRAPH 2015 course",
                                "",
                                "masking.smith_ggx.correlated"};
   static constexpr std::array parameters{alpha_parameter};
@@ -295,7 +284,6 @@ struct UnityMobileUrp {
                                "In place of V·F on phones, as Unity ships it",
                                "V = 1 / (max(LoH², 0.1) (4 α + 2))",
                                "DirectBRDFSpecular in Unity's Lighting.hlsl; BRDF2_Unity_PBS",
-                               "",
                                "Unity (Universal Render Pipeline; built-in pipeline on phones)",
                                "masking.smith_ggx.correlated"};
   static constexpr std::array parameters{alpha_parameter};
@@ -316,8 +304,7 @@ struct UeMobileSimple {
   static constexpr About about{"masking.ue_mobile_simple",
                                "In place of V·F at the lowest quality, without angles",
                                "V = 0.25 √α + 0.25",
-                               "seed 004, SpecularGGXSimple",
-                               "004",
+                               "SpecularGGXSimple, as shipped",
                                "Unreal Engine 4 (mobile renderer)",
                                "masking.smith_ggx.correlated"};
   static constexpr std::array parameters{alpha_parameter};
@@ -343,12 +330,10 @@ struct UeMobileSimple {
 template <Real T>
 struct SmithCharlie {
   static constexpr About about{
-      "masking.smith_charlie.correlated",
-      "Smith for Charlie, fitted, height-correlated",
+      "masking.smith_charlie.correlated", "Smith for Charlie, fitted, height-correlated",
       "G2 = 1/(1 + Λ(l) + Λ(v)), Λ(c) = exp(L(c)) for c < 1/2, else exp(2L(1/2) − L(1−c)), "
       "L(x) = a/(1 + b x^k) + d x + e",
       "Estevez, Kulla 2017, Production Friendly Microfacet Sheen BRDF, Eq. 3 and Table 1",
-      "",
       "Sony Imageworks' Arnold, glTF 2.0 (KHR_materials_sheen)"};
   static constexpr std::array parameters{alpha_parameter};
 

@@ -26,12 +26,9 @@ B log_cos2_theta_h(const Angles<B>& a) {
 ///   D = (p + 2)/(2π) NoH^p = NoH^p / (π α²),   p = 2/α² − 2                [Walter 2007, Eq. 30]
 template <Real T>
 struct BlinnPhong {
-  static constexpr About about{"ndf.blinn_phong",
-                               "Blinn–Phong",
-                               "D = (p + 2)/(2π) NoH^p, p = 2/α² − 2",
-                               "Blinn 1977; Walter et al. 2007, Eq. 30 and after",
-                               "002",
-                               "Unreal Engine 4 (D_Blinn)"};
+  static constexpr About about{
+      "ndf.blinn_phong", "Blinn–Phong", "D = (p + 2)/(2π) NoH^p, p = 2/α² − 2",
+      "Blinn 1977; Walter et al. 2007, Eq. 30 and after", "Unreal Engine 4 (D_Blinn)"};
   static constexpr std::array parameters{alpha_parameter};
 
   T per_alpha, quarter_p_alpha, root_peak;
@@ -51,11 +48,9 @@ struct BlinnPhong {
 ///   D = e^(−tan²θ_h/α²) / (π α² NoH⁴)                                  [Walter 2007, Eq. 25]
 template <Real T>
 struct Beckmann {
-  static constexpr About about{"ndf.beckmann",
-                               "Beckmann",
+  static constexpr About about{"ndf.beckmann", "Beckmann",
                                "D = exp((NoH² − 1) / (α² NoH²)) / (π α² NoH⁴)",
                                "Beckmann & Spizzichino 1963; Walter et al. 2007, Eq. 25",
-                               "002",
                                "Unreal Engine 4 (D_Beckmann), Mitsuba, pbrt-v3"};
   static constexpr std::array parameters{alpha_parameter};
 
@@ -89,12 +84,9 @@ struct Beckmann {
 template <Real T>
 struct Gtr {
   static constexpr About about{
-      "ndf.gtr",
-      "Generalised Trowbridge–Reitz, exact normalisation",
+      "ndf.gtr", "Generalised Trowbridge–Reitz, exact normalisation",
       "D = N / (NoH² (α² − 1) + 1)^γ, N = (γ−1)(α²−1) / (π (1 − α^(2(1−γ)))), limits continued",
-      "Burley 2012, Appendix B",
-      "001 002",
-      ""};
+      "Burley 2012, Appendix B", ""};
   static constexpr std::array parameters{alpha_parameter, gamma_parameter};
 
   T of_cos2, of_sin2;  // t or u
@@ -125,12 +117,9 @@ struct Gtr {
 ///   D = (α² − 1)/(π ln α² t)                                           [Burley 2012, App. B]
 template <Real T>
 struct Gtr1 {
-  static constexpr About about{"ndf.gtr1",
-                               "Berry (generalised Trowbridge–Reitz, γ = 1)",
+  static constexpr About about{"ndf.gtr1", "Berry (generalised Trowbridge–Reitz, γ = 1)",
                                "D = (α² − 1) / (π ln α² (NoH² (α² − 1) + 1))",
-                               "Berry 1923; Burley 2012, Appendix B",
-                               "001",
-                               "Disney (clear coat)"};
+                               "Berry 1923; Burley 2012, Appendix B", "Disney (clear coat)"};
   static constexpr std::array parameters{alpha_parameter};
 
   T alpha, per_alpha, num;
@@ -153,11 +142,8 @@ struct Gtr1 {
 template <Real T>
 struct Charlie {
   static constexpr About about{
-      "ndf.charlie",
-      "Charlie, for sheen",
-      "D = (2 + 1/α)/(2π) sin^(1/α) θ_h",
+      "ndf.charlie", "Charlie, for sheen", "D = (2 + 1/α)/(2π) sin^(1/α) θ_h",
       "Estevez, Kulla 2017, Production Friendly Microfacet Sheen BRDF, Eq. 2",
-      "",
       "Sony Imageworks' Arnold, glTF 2.0 (KHR_materials_sheen), Filament"};
   static constexpr std::array parameters{alpha_parameter};
 

@@ -18,11 +18,9 @@ namespace gonio::inline GONIO_ARCH {
 /// of which the first two factors alone leave half, where one width is below a thousandth of the other.
 template <Real T>
 struct GgxAniso {
-  static constexpr About about{"ndf.ggx_aniso",
-                               "Anisotropic GGX",
+  static constexpr About about{"ndf.ggx_aniso", "Anisotropic GGX",
                                "D = 1 / (π αx αy (XoH²/αx² + YoH²/αy² + NoH²)²)",
                                "Burley 2012, Appendix B; Heitz 2014, section 5.4",
-                               "001 002",
                                "Disney (GTR2 aniso), Unreal Engine 4, Unity HDRP, Filament, "
                                "Mitsuba, pbrt"};
   static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
@@ -50,12 +48,9 @@ struct GgxAniso {
 ///   D = e^(−(XoH²/α_x² + YoH²/α_y²)/NoH²) / (π α_x α_y NoH⁴)
 template <Real T>
 struct BeckmannAniso {
-  static constexpr About about{"ndf.beckmann_aniso",
-                               "Anisotropic Beckmann",
+  static constexpr About about{"ndf.beckmann_aniso", "Anisotropic Beckmann",
                                "D = exp(−(XoH²/αx² + YoH²/αy²)/NoH²) / (π αx αy NoH⁴)",
-                               "Ward 1992; Heitz 2014, section 5.4",
-                               "002",
-                               "Mitsuba, pbrt-v3"};
+                               "Ward 1992; Heitz 2014, section 5.4", "Mitsuba, pbrt-v3"};
   static constexpr std::array parameters{alpha_x_parameter, alpha_y_parameter};
   static constexpr bool anisotropic = true;
 
@@ -88,8 +83,7 @@ struct BeckmannAnisoAsWritten {
   static constexpr About about{"ndf.beckmann_aniso.as_written",
                                "Anisotropic Beckmann without its division by NoH²",
                                "D = exp(−(XoH²/αx² + YoH²/αy²)/NoH*NoH) / (π αx αy NoH⁴)",
-                               "seed 002, D_Beckmann_aniso",
-                               "002",
+                               "D_Beckmann_aniso, as printed in notes in circulation",
                                "",
                                "",
                                "ndf.beckmann_aniso"};
@@ -175,7 +169,7 @@ struct StudentT {
   static constexpr About about{
       "ndf.shape_invariant", "Shape-invariant with Student's t for its shape",
       "D = g(x)/(αx αy NoH⁴), x² = (XoH²/αx² + YoH²/αy²)/NoH², g = (1 + x²/(γ−1))^−γ / π",
-      "Heitz 2014, section 5.4; Ribardière et al. 2017 (STD)", "001"};
+      "Heitz 2014, section 5.4; Ribardière et al. 2017 (STD)"};
   static constexpr std::array parameters{
       alpha_x_parameter, alpha_y_parameter,
       Parameter{"gamma", {1.5, 100}, {1.5, 40}, 2, false, "tail exponent; 2 GGX, ∞ Beckmann"}};

@@ -37,11 +37,8 @@ namespace gonio::inline GONIO_ARCH {
 template <Real T>
 struct Ggx {
   static constexpr About about{
-      "ndf.ggx",
-      "GGX (Trowbridge–Reitz)",
-      "D = α² / (π (NoH² (α² − 1) + 1)²)",
+      "ndf.ggx", "GGX (Trowbridge–Reitz)", "D = α² / (π (NoH² (α² − 1) + 1)²)",
       "Trowbridge & Reitz 1975; Walter et al. 2007, Eq. 33",
-      "000 001 002",
       "Disney, Unreal Engine 4 (D_GGX), Unity, Filament, glTF 2.0, Mitsuba, pbrt"};
   static constexpr std::array parameters{alpha_parameter};
 

@@ -20,8 +20,7 @@ struct GtrAsWritten {
   static constexpr About about{"ndf.gtr.as_written",
                                "Generalised Trowbridge–Reitz, normalised as if γ were 2",
                                "D = α² / (π (NoH² (α² − 1) + 1)^γ)",
-                               "seed 002, D_GTR2",
-                               "002",
+                               "D_GTR2, as printed in notes in circulation",
                                "",
                                "",
                                "ndf.gtr"};
@@ -51,8 +50,7 @@ struct GgxUeMobile {
   static constexpr About about{"ndf.ggx.ue_mobile",
                                "GGX without 1/π, clamped (D_GGX_R2)",
                                "D = min(α² / ((NoH α² − NoH) NoH + 1)², 2048)",
-                               "seed 004, D_GGX_R2",
-                               "004",
+                               "D_GGX_R2, as shipped",
                                "a mobile game on Unreal Engine 4.27",
                                "",
                                "ndf.ggx"};
@@ -98,8 +96,7 @@ struct GgxMobile : GgxMobileBase<T> {
   static constexpr About about{"ndf.ggx.mobile",
                                "GGX without 1/π, clamped (GGX_Mobile)",
                                "D = min((α / (1 − NoH² + (NoH α)²))², 2048)",
-                               "seed 004, GGX_Mobile, after Romain Guy",
-                               "004",
+                               "GGX_Mobile, as shipped, after Romain Guy",
                                "Unreal Engine 4 (mobile renderer)",
                                "",
                                "ndf.ggx"};
@@ -117,8 +114,7 @@ struct GgxMobileCross : GgxMobileBase<T> {
   static constexpr About about{"ndf.ggx.mobile.cross",
                                "GGX without 1/π, clamped, by the cross product",
                                "D = min((α / (|n×h|² + (NoH α)²))², 2048)",
-                               "Guy & Agopian 2018 (Filament), specular D; seed 004",
-                               "004",
+                               "Guy & Agopian 2018 (Filament), specular D",
                                "Unreal Engine 4 (mobile renderer, MOBILE_GGX_USE_FP16)",
                                "",
                                "ndf.ggx"};

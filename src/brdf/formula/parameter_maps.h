@@ -20,7 +20,7 @@ inline constexpr Parameter anisotropy_parameter{
 template <Real T>
 struct ClampAlpha {
   static constexpr About about{"clamp.alpha", "Width kept above 0", "alpha = max(r², 0.001)",
-                               "common shader practice", "000"};
+                               "common shader practice"};
   static constexpr std::array parameters{roughness_parameter};
   static constexpr std::array<std::string_view, 1> outputs{"alpha"};
 
@@ -33,11 +33,8 @@ struct ClampAlpha {
 /// were turned back.
 template <Real T>
 struct ClampNov {
-  static constexpr About about{"clamp.nov",
-                               "NoV kept above 0",
-                               "NoV = saturate(|n·v| + 1e-5)",
+  static constexpr About about{"clamp.nov", "NoV kept above 0", "NoV = saturate(|n·v| + 1e-5)",
                                "Lagarde, de Rousiers 2014, course notes on Frostbite, section 3.2",
-                               "004",
                                "Frostbite; Unreal Engine's mobile path"};
   static constexpr std::array parameters{
       Parameter{"nov", {-1, 1}, {-1, 1}, 0.5, false, "n·v, negative seen from behind"}};
@@ -51,11 +48,8 @@ struct ClampNov {
 /// A visibility's denominator kept off 0: max(d, 0.001).  With V = 0.5/d it caps V at 500.
 template <Real T>
 struct ClampVis {
-  static constexpr About about{"clamp.vis",
-                               "Visibility's denominator kept above 0",
-                               "d = max(d, 0.001)",
-                               "as shipped, seed 004",
-                               "004",
+  static constexpr About about{"clamp.vis", "Visibility's denominator kept above 0",
+                               "d = max(d, 0.001)", "as shipped",
                                "a mobile variant of Unreal Engine's SmithJointApprox"};
   static constexpr std::array parameters{
       Parameter{"d", {0, 2}, {0, 2}, 0.5, false, "sum of the two masking terms"}};
@@ -70,11 +64,9 @@ struct ClampVis {
 /// both above 0.001.  Where aspect² < r⁴, alpha_x is above 1.
 template <Real T>
 struct AnisoDisney {
-  static constexpr About about{"aniso.disney",
-                               "Widths along tangent and bitangent, Disney",
+  static constexpr About about{"aniso.disney", "Widths along tangent and bitangent, Disney",
                                "aspect = √(1 − 0.9 k), alpha_x = r²/aspect, alpha_y = r² aspect",
                                "Burley 2012, section 5.4, and Appendix B",
-                               "002",
                                "Disney's principled BRDF"};
   static constexpr std::array parameters{roughness_parameter, anisotropy_parameter};
   static constexpr std::array<std::string_view, 2> outputs{"alpha_x", "alpha_y"};
@@ -89,11 +81,9 @@ struct AnisoDisney {
 template <Real T>
 struct AnisoImageworks {
   static constexpr About about{
-      "aniso.imageworks",
-      "Widths along tangent and bitangent, Imageworks",
+      "aniso.imageworks", "Widths along tangent and bitangent, Imageworks",
       "alpha_x = r² (1 + k), alpha_y = r² (1 − k)",
       "Kulla, Conty 2017, Revisiting Physically Based Shading at Imageworks",
-      "002",
       "Sony Imageworks' Arnold"};
   static constexpr std::array parameters{roughness_parameter, anisotropy_parameter};
   static constexpr std::array<std::string_view, 2> outputs{"alpha_x", "alpha_y"};
@@ -108,11 +98,9 @@ struct AnisoImageworks {
 /// distribution beside it has alpha² = 2/(p + 2).
 template <Real T>
 struct BlinnPhongExponent {
-  static constexpr About about{"exponent.artist",
-                               "Blinn–Phong exponent from a slider",
+  static constexpr About about{"exponent.artist", "Blinn–Phong exponent from a slider",
                                "p = 8192^s, alpha = √(2/(p + 2))",
                                "Lazarov 2011, Physically Based Lighting in Call of Duty: Black Ops",
-                               "002",
                                "Call of Duty: Black Ops"};
   static constexpr std::array parameters{
       Parameter{"s", {0, 1}, {0, 1}, 0.5, false, "the slider: 0 roughest, 1 smoothest"}};
@@ -134,11 +122,9 @@ struct BlinnPhongExponent {
 template <Real T>
 struct FilterNormalVariance {
   static constexpr About about{
-      "filter.normal_variance",
-      "Width raised against specular aliasing",
+      "filter.normal_variance", "Width raised against specular aliasing",
       "alpha² ← min(1, alpha² + min(2 v, 0.18)), v = σ² (|∂n/∂x|² + |∂n/∂y|²)",
       "Tokuyoshi, Kaplanyan 2019, Improved Geometric Specular Antialiasing",
-      "001",
       "Filament and Unity's HDRP, with other caps"};
   static constexpr std::array parameters{
       Parameter{"alpha", {0, 1}, {0, 1}, 0.1, false, "width, roughness²"},

@@ -59,12 +59,10 @@ T multiple_bounces(const T& f_average, const T& e_average) {
 template <Real T>
 struct KullaConty {
   static constexpr About about{
-      "scattering.kulla_conty",
-      "Multiple scattering as a diffuse-like lobe",
+      "scattering.kulla_conty", "Multiple scattering as a diffuse-like lobe",
       "albedo = e_single + F_ms (1 − e), F_ms = F_avg² E_avg/(1 − F_avg (1 − E_avg))",
       "Kulla, Conty 2017, Revisiting Physically Based Shading at Imageworks; F_avg² Hill 2018, A "
       "Multi-Faceted Exploration (Part 3)",
-      "",
       "Sony Imageworks' Arnold"};
   static constexpr std::array parameters{e_single_parameter, e_parameter, e_average_parameter,
                                          f_average_parameter};
@@ -85,7 +83,6 @@ struct KullaContyLinear {
       "albedo = e_single + F_ms (1 − e), F_ms = F_avg E_avg/(1 − F_avg (1 − E_avg))",
       "Kulla, Conty 2017, Revisiting Physically Based Shading at Imageworks",
       "",
-      "",
       "scattering.kulla_conty"};
   static constexpr std::array parameters = KullaConty<T>::parameters;
   static constexpr std::array<std::string_view, 1> outputs{"albedo"};
@@ -100,12 +97,9 @@ struct KullaContyLinear {
 template <Real T>
 struct KullaContyLobe {
   static constexpr About about{
-      "scattering.kulla_conty.lobe",
-      "The lobe of multiple scattering",
+      "scattering.kulla_conty.lobe", "The lobe of multiple scattering",
       "f = F_ms (1 − e_light)(1 − e_view)/(π (1 − E_avg)), F_ms as scattering.kulla_conty",
-      "Kelemen, Szirmay-Kalos 2001; Kulla, Conty 2017",
-      "",
-      "Sony Imageworks' Arnold"};
+      "Kelemen, Szirmay-Kalos 2001; Kulla, Conty 2017", "Sony Imageworks' Arnold"};
   static constexpr std::array parameters{
       albedo_parameter("e_light", 0.01, 0.7, false, "albedo at F = 1 of the light's direction"),
       albedo_parameter("e_view", 0.01, 0.7, false, "albedo at F = 1 of the viewer's direction"),
@@ -125,12 +119,9 @@ struct KullaContyLobe {
 template <Real T>
 struct Turquin {
   static constexpr About about{
-      "scattering.turquin",
-      "Single scattering made brighter by what it lost",
+      "scattering.turquin", "Single scattering made brighter by what it lost",
       "albedo = e_single (1 + f0 (1/e − 1))",
-      "Turquin 2019, Practical Multiple Scattering Compensation for Microfacet Models",
-      "",
-      "Filament"};
+      "Turquin 2019, Practical Multiple Scattering Compensation for Microfacet Models", "Filament"};
   static constexpr std::array parameters{fitted_e_single_parameter, fitted_e_parameter,
                                          f0_parameter};
   static constexpr std::array<std::string_view, 1> outputs{"albedo"};
@@ -149,7 +140,6 @@ struct TurquinAverage {
       "Single scattering made brighter by what it lost, with the average Fresnel reflectance",
       "albedo = e_single (1 + F_avg (1/e − 1)), F_avg = f0 + (f90 − f0)/21",
       "MaterialX, mx_microfacet_specular.glsl, mx_ggx_energy_compensation, since June 2026",
-      "",
       "MaterialX",
       "scattering.turquin"};
   static constexpr std::array parameters{fitted_e_single_parameter, fitted_e_parameter,
@@ -169,13 +159,11 @@ struct TurquinAverage {
 template <Real T>
 struct FdezAguera {
   static constexpr About about{
-      "scattering.fdez_aguera",
-      "Multiple scattering of image-based light, from the split sum",
+      "scattering.fdez_aguera", "Multiple scattering of image-based light, from the split sum",
       "albedo = s + m s F_avg/(1 − F_avg m), s = f0 a + b, m = 1 − (a + b), "
       "F_avg = f0 + (1 − f0)/21",
       "Fdez-Agüera 2019, A Multiple-Scattering Microfacet Model for Real-Time Image-based "
       "Lighting, JCGT 8(1)",
-      "",
       "three.js"};
   static constexpr std::array parameters{
       albedo_parameter("a", 1e-6, 0.6, false, "split sum's factor of F0"),
@@ -225,12 +213,9 @@ struct AlbedoFit {
 template <Real T>
 struct AlbedoFitMaterialx {
   static constexpr About about{
-      "scattering.albedo_fit.materialx",
-      "The split sum's A and B, and their sum, MaterialX's fit",
+      "scattering.albedo_fit.materialx", "The split sum's A and B, and their sum, MaterialX's fit",
       "a, b = clamp(num/den, 0, 1), each biquadratic in NoV and alpha; e = a + b",
-      "MaterialX, mx_microfacet_specular.glsl, mx_ggx_dir_albedo_analytic",
-      "",
-      "MaterialX"};
+      "MaterialX, mx_microfacet_specular.glsl, mx_ggx_dir_albedo_analytic", "MaterialX"};
   static constexpr std::array parameters = AlbedoFit<T>::parameters;
   static constexpr std::array<std::string_view, 3> outputs{"e", "a", "b"};
 

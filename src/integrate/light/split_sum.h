@@ -15,11 +15,9 @@ namespace gonio {
 
 /// Entry of the catalogue, but no composition of terms: `gonio split_sum` evaluates it.
 inline constexpr About split_sum_about{
-    "model.split_sum",
-    "Image-based light by two sums",
+    "model.split_sum", "Image-based light by two sums",
     "L = prefiltered(r) (F0 A + B) + kd (1 − F0) diffuse · irradiance/π",
     "Karis 2013, Real Shading in Unreal Engine 4 (SIGGRAPH course)",
-    "003",
     "Unreal Engine 4, Filament, glTF viewers"};
 
 /// Sums of GGX under Schlick's Fresnel, with (1 − VoH)⁵ as c:
