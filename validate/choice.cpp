@@ -10,6 +10,7 @@
 #include "base/json/describe.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/fitted_model.h"
+#include "brdf/model/own_files.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/settings_form.h"
 #include "brdf/model/takes_parameter.h"
@@ -354,6 +355,8 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
       const auto at = root.at("domain").at("metal");
       (at.is_array() ? at.at(i) : at).fail("a metal that is known");
     }
+  for (const auto* s : {&c.shipped, &c.reference})
+    if (!s->model.empty()) expect_own_files_below(path, s->spec());
   share_parameters(root, c);
   check_coat(root, c.shipped, "model", "coating", "scattering");
   if (c.has_reference)

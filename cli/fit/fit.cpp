@@ -9,6 +9,7 @@
 #include "cli/fit/fit_options.h"
 #include "cli/line/command.h"
 #include "cli/line/output_files.h"
+#include "cli/line/reading.h"
 #include "cli/line/terminal.h"
 #include "fitting/batch/batch.h"
 #include "fitting/batch/fit_file.h"
@@ -27,6 +28,7 @@ namespace {
 
 struct FitCall : Common {
   std::vector<std::string> files, models;
+  ReadingWords reading;
   HowFitted how;
   std::string output, html;
   std::optional<std::string> part;
@@ -244,8 +246,13 @@ Exit run_models(const FitCall& o) {
   return std::ranges::any_of(choice.rows, &ModelRow::converged) ? Exit::done : Exit::not_converged;
 }
 
-Exit run(const FitCall& o) {
+Exit run(const FitCall& call) {
+  FitCall o = call;
   use(o);
+  if (o.models.empty())
+    o.how.options.model = read_as(o.how.options.model, o.reading);
+  else
+    for (auto& m : o.models) m = m == "all" ? m : read_as(m, o.reading);
   if (!o.models.empty()) return run_models(o);
   if (is_batch(o.files) && !o.as_one) return run_batch(o);
   if (o.pages) throw wrong_usage("--pages is of many tables; the page of one is --html PAGE.html");
@@ -295,6 +302,7 @@ void add_fit(CommandLine& line) {
            "What is there already, of the same bytes and options, is kept");
   c.option("--html", o->html,
            "A page of the result, NAME.html, and its data beside it, NAME.page.json");
+  add_reading(c, o->reading, false);
   add_pages(c, o->pages);
   c.option(
       "--part", o->part,

@@ -5,6 +5,7 @@
 
 #include "answer/model_argument.h"
 #include "cli/line/command.h"
+#include "cli/line/reading.h"
 #include "cli/line/terminal.h"
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@ namespace gonio::cli {
 namespace {
 
 struct AlbedoCall : Common {
+  ReadingWords reading;
   std::string spec;
   std::vector<std::string> set;
   AlbedoQuestion question;
@@ -48,7 +50,7 @@ void print(const AlbedoAnswer& r, const AlbedoQuestion& q) {
 }
 
 AlbedoAnswer answer(const AlbedoCall& o) {
-  const auto model = model_argument(o.spec, parse_settings(o.set)).model;
+  const auto model = model_argument(read_as(o.spec, o.reading), parse_settings(o.set)).model;
   Step step(o.quiet);
   return albedo_of(model, o.spec, o.question, std::ref(step));
 }
@@ -75,6 +77,7 @@ void add_albedo(CommandLine& line) {
       run);
   c.option("MODEL", o->spec, spec_or_fit).required();
   add_set(c, o->set);
+  add_reading(c, o->reading);
   c.options(o->question);
   add_jobs(c, *o);
   add_output(c, *o);

@@ -7,7 +7,9 @@
 
 #include "cli/line/command.h"
 #include "cli/line/output_files.h"
+#include "cli/line/reading.h"
 #include "cli/line/terminal.h"
+#include "reports/own/audit_file.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +17,7 @@ namespace gonio::cli {
 namespace {
 
 struct AuditCall : Common {
+  ReadingWords reading;
   std::vector<std::string> ids;
   bool all = false;
   std::string html;
@@ -82,8 +85,25 @@ void print_one(const EntryAudit& e) {
   line("verdict", verdict(e));
 }
 
+/// A file's functions have nothing in common with the catalogue's entries but the laws.
+Exit run_file(const AuditCall& o) {
+  if (o.ids.size() != 1 || o.all || !o.html.empty())
+    throw wrong_usage("a shader is audited by itself: gonio audit FILE[:FUNCTION] [--json]");
+  Progress progress(o.quiet);
+  progress("auditing " + o.ids[0]);
+  const auto all = audit_file(read_as(o.ids[0], o.reading));
+  progress.clear();
+  if (o.json) {
+    fmt::print("{}", to_json(all));
+  } else {
+    for (const auto& a : all) fmt::print("{}", text_of(a));
+  }
+  return Exit::done;
+}
+
 Exit run(const AuditCall& o) {
   use(o);
+  if (!o.ids.empty() && foreign::is_name(o.ids[0])) return run_file(o);
   if (o.all == !o.ids.empty()) throw wrong_usage("audit takes ids, or --all");
   std::vector<std::string> ids = o.ids;
   if (o.all)
@@ -112,7 +132,9 @@ void add_audit(CommandLine& line) {
       "Measures what entries of the catalogue keep and break: normalisation, "
       "reciprocity, energy, range, and the distance to the form they stand for",
       "gonio audit masking.schlick_ggx.direct\n  gonio audit --all --html audit.html", run);
-  c.option("ID", o->ids, "Terms, maps or models, as `gonio models` lists them");
+  c.option("ID", o->ids,
+           "Terms, maps or models, as `gonio models` lists them; or a shader, FILE[:FUNCTION]");
+  add_reading(c, o->reading);
   c.flag("--all", o->all, "The whole catalogue");
   c.option("--html", o->html, "A page, NAME.html, and its data beside it, NAME.page.json");
   add_jobs(c, *o);

@@ -5,7 +5,9 @@
 #include "answer/values.h"
 #include "base/file.h"
 #include "cli/line/command.h"
+#include "cli/line/reading.h"
 #include "cli/line/terminal.h"
+#include "foreign/function.h"
 #include "table/format/csv.h"
 #include "table/format/formats.h"
 
@@ -16,6 +18,7 @@ namespace gonio::cli {
 namespace {
 
 struct EvalCall : Common {
+  ReadingWords reading;
   std::string what, directions, output;
   std::vector<std::string> set;
   std::optional<Bins> bins;
@@ -23,7 +26,8 @@ struct EvalCall : Common {
 
 /// The document of a fit or a batch begins as JSON or says that it holds a fit; a table does not.
 bool is_table(const std::string& path) {
-  if (path.ends_with(".json") || !std::filesystem::exists(path)) return false;
+  if (foreign::is_name(path) || path.ends_with(".json") || !std::filesystem::exists(path))
+    return false;
   InputFile in(path);
   return !begins_as_fit(in.peek(256));
 }
@@ -56,7 +60,7 @@ Exit run(const EvalCall& o) {
     document["table"] = o.what;
   } else {
     if (o.bins) throw wrong_usage("--bins goes with a table, not with a model");
-    const auto model = model_argument(o.what, parse_settings(o.set));
+    const auto model = model_argument(read_as(o.what, o.reading), parse_settings(o.set));
     evaluate_at(model.model, at, columns_for(t, model.channels));
     document["model"] = model.model.model.spec;
   }
@@ -95,6 +99,7 @@ void add_eval(CommandLine& line) {
       run);
   c.option("MODEL", o->what, "Model, the fit.json of a fit, or a table").required();
   add_set(c, o->set);
+  add_reading(c, o->reading);
   add_bins(c, o->bins);
   c.option("--directions", o->directions, "CSV with theta_i,phi_i,theta_o,phi_o in degrees")
       .required();

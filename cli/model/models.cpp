@@ -1,8 +1,10 @@
 // gonio models: what there is.
 #include "answer/models.h"
 
+#include "answer/file_functions.h"
 #include "brdf/formula/widths.h"
 #include "cli/line/command.h"
+#include "cli/line/reading.h"
 #include "cli/line/terminal.h"
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@ namespace {
 
 struct ModelsCall : Common {
   std::string word;
+  ReadingWords reading;
 };
 
 /// Where the texts begin, right of the ids.
@@ -64,6 +67,11 @@ void print_all() {
 }
 
 Exit run(const ModelsCall& o) {
+  if (foreign::is_name(o.word)) {
+    const auto all = file_functions(read_as(o.word, o.reading));
+    fmt::print("{}", o.json ? to_json(all) : text_of(all));
+    return Exit::done;
+  }
   const CatalogueEntries found = entries_with(o.word);
   if (o.json) {
     fmt::print("{}", to_json(found));
@@ -90,7 +98,9 @@ void add_models(CommandLine& line) {
       "gonio models ggx --json", run);
   c.option(
       "WORD", o->word,
-      "Only those that hold it in their id, title or source, or have a parameter of that name");
+      "Only those that hold it in their id, title or source, or have a parameter of that name; or "
+      "a shader, FILE[:FUNCTION], whose functions are listed");
+  add_reading(c, o->reading);
   add_output(c, *o);
 }
 

@@ -4,6 +4,7 @@
 
 #include "brdf/model/roughness.h"
 #include "cli/line/command.h"
+#include "cli/line/reading.h"
 #include "cli/line/terminal.h"
 #include "stability/answer.h"
 
@@ -15,6 +16,7 @@ namespace {
 using namespace stability;
 
 struct StabilityCall : Common {
+  ReadingWords reading;
   std::string subject, number = "half", require = "finite";
   std::optional<std::string> form;
   std::vector<std::string> domain;
@@ -25,8 +27,9 @@ struct StabilityCall : Common {
 
 /// The subject in the form that was asked for, or in the one that has the inputs of the domain, or in the first.
 Subject chosen(const StabilityCall& o, const std::vector<Setting>& domain) {
-  if (o.form) return subject_of(o.subject, *o.form);
-  const auto all = subjects_of(o.subject);
+  const auto name = read_as(o.subject, o.reading);
+  if (o.form) return subject_of(name, *o.form);
+  const auto all = subjects_of(name);
   const auto has_all = [&](const Subject& s) {
     return std::ranges::all_of(domain, [&](const Setting& d) {
       return std::ranges::find(s.inputs, d.name, &Input::name) != s.inputs.end();
@@ -130,6 +133,7 @@ Exit run(const StabilityCall& o) {
       throw wrong_usage(fmt::format("domain {}: expected LOW,HIGH", d.name));
     set_domain(q.subject, d.name, {d.values[0], d.values[1]});
   }
+  expect_bounded(q.subject);
   Progress progress(o.quiet);
   progress("looking");
   auto a = answer(q);
@@ -152,6 +156,7 @@ void add_stability(CommandLine& line) {
       "counterexample where it does not, or where that stays open",
       "gonio stability ndf.ggx --number half --domain alpha=0.05,1 --require relative=0.02", run);
   c.option("ID", o->subject, "Term, as `gonio models` lists it, or a model's spec").required();
+  add_reading(c, o->reading);
   c.option("--number", o->number,
            "Number type: half, rounded after every operation; mixed, half parameters and float "
            "angles; float; double")

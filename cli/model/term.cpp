@@ -3,6 +3,7 @@
 
 #include "brdf/model/spec.h"
 #include "cli/line/command.h"
+#include "cli/line/reading.h"
 #include "cli/line/terminal.h"
 
 #include <fmt/format.h>
@@ -11,12 +12,13 @@ namespace gonio::cli {
 namespace {
 
 struct TermCall : Common {
+  ReadingWords reading;
   std::string id, number = "double";
   std::vector<std::string> set, at;
 };
 
 Exit run(const TermCall& o) {
-  TermQuestion question{o.id, o.number, {}, {}};
+  TermQuestion question{read_as(o.id, o.reading), o.number, {}, {}};
   for (auto& s : parse_settings(o.set)) {
     if (s.values.size() != 1)
       throw wrong_usage(fmt::format("{}: one number, a term has no channels", s.name));
@@ -39,6 +41,7 @@ void add_term(CommandLine& line) {
       "gonio term ndf.ggx --set alpha=0.25 --at noh=1,0.9 --json", run);
   c.option("ID", o->id, "Term or map, as `gonio models` lists it").required();
   add_set(c, o->set);
+  add_reading(c, o->reading);
   c.option("--at", o->at,
            "Cosines: noh, nol, nov, voh or cos; of the tangent frame xoh, yoh, xol, yol, xov, yov; "
            "and sin2_theta_h = values")

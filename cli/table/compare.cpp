@@ -1,10 +1,12 @@
 // gonio compare: how far a model is from a table.
 #include "answer/model_argument.h"
 #include "cli/line/command.h"
+#include "cli/line/reading.h"
 #include "cli/line/terminal.h"
 #include "fitting/judge/assess.h"
 #include "fitting/result/document.h"
 #include "fitting/solve/problem.h"
+#include "reports/own/audit_file.h"
 #include "table/format/formats.h"
 #include "table/sample_mask.h"
 
@@ -15,7 +17,8 @@ namespace {
 
 struct CompareCall : Common {
   std::string file, model;
-  std::vector<std::string> set;
+  std::vector<std::string> set, domain;
+  ReadingWords reading;
   std::optional<Bins> bins;
   std::optional<std::string> mask;
 };
@@ -29,13 +32,36 @@ void print(std::size_t values, const FitResiduals& r) {
           fmt::format("{} {}° to {}°", b.angle, b.from_deg, b.to_deg), b.values, b.rms, b.log_rms);
 }
 
+Exit run_terms(const CompareCall& o) {
+  if (!o.set.empty() || o.bins || o.mask)
+    throw wrong_usage("--set, --bins and --mask go with a table, not with two terms");
+  std::vector<std::pair<std::string, Range>> domain;
+  for (const auto& s : parse_settings(o.domain)) {
+    if (s.values.size() != 2)
+      throw wrong_usage(fmt::format("domain {}: expected LOW,HIGH", s.name));
+    domain.emplace_back(s.name, Range{s.values[0], s.values[1]});
+  }
+  Progress progress(o.quiet);
+  progress("comparing");
+  const auto with = [&](const std::string& name) {
+    return foreign::is_name(name) ? read_as(name, o.reading) : name;
+  };
+  const auto c = compare_terms(with(o.file), with(o.model), domain);
+  progress.clear();
+  fmt::print("{}", o.json ? to_json(c) : text_of(c));
+  return Exit::done;
+}
+
 Exit run(const CompareCall& o) {
   use(o);
+  if (is_term_name(o.file) && is_term_name(o.model)) return run_terms(o);
+  if (!o.domain.empty()) throw wrong_usage("--domain goes with two terms, not with a table");
   Progress progress(o.quiet);
   progress("reading " + o.file);
   Table t = read_table(o.file, o.bins);
   if (o.mask) leave_out(t, *o.mask);
-  const BoundModel m = model_argument(o.model, parse_settings(o.set), t.channels.size()).model;
+  const BoundModel m =
+      model_argument(read_as(o.model, o.reading), parse_settings(o.set), t.channels.size()).model;
   check_azimuths(t, m.model);
   progress("comparing");
   const Sampling sampling(t, t.bins(), Metric::l2_cosine, 0, false, false, m.model.anisotropic);
@@ -55,9 +81,13 @@ void add_compare(CommandLine& line) {
   auto [c, o] =
       line.command<CompareCall>("compare", "How far a fitted or given model is from a table",
                                 "gonio compare paint.binary paint.json", run);
-  c.option("FILE", o->file, "Table").required();
-  c.option("MODEL", o->model, spec_or_fit).required();
+  c.option("FILE", o->file, "Table; or a term, of the catalogue or FILE:FUNCTION of a shader")
+      .required();
+  c.option("MODEL", o->model, "Model, or the fit.json of a fit; beside a term another one")
+      .required();
   add_set(c, o->set);
+  add_reading(c, o->reading);
+  c.option("--domain", o->domain, "Of two terms: NAME=LOW,HIGH of their parameters").at_most(64);
   add_bins(c, o->bins);
   add_mask(c, o->mask);
   add_jobs(c, *o);

@@ -5,6 +5,7 @@
 
 #include "answer/model_argument.h"
 #include "cli/line/command.h"
+#include "cli/line/reading.h"
 #include "cli/line/terminal.h"
 #include "data_synth/stack_synth.h"
 #include "image/image_file.h"
@@ -20,6 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct SynthCall : Common {
+  ReadingWords reading;
   std::string spec, layout, output;
   std::vector<std::string> set;
   SynthOptions synth;
@@ -91,7 +93,7 @@ Exit run_map(const SynthCall& o) {
     InputFile in(*o.directions);
     s.directions = *read_directions_csv(in).list();
   }
-  const auto model = model_argument(o.spec, parse_settings(o.set)).model;
+  const auto model = model_argument(read_as(o.spec, o.reading), parse_settings(o.set)).model;
   Progress progress(o.quiet);
   progress("sampling");
   const Stack stack = synthesize_stack(model, s, o.output);
@@ -113,7 +115,7 @@ Exit run(const SynthCall& o) {
   check_outputs(file_in(o.spec), {o.output});
   SynthOptions s = o.synth;
   s.layout = value_of<Layout>(o.layout, "layout");
-  const auto model = model_argument(o.spec, parse_settings(o.set)).model;
+  const auto model = model_argument(read_as(o.spec, o.reading), parse_settings(o.set)).model;
   Progress progress(o.quiet);
   progress("sampling");
   const Table t = synthesize(model, s);
@@ -139,6 +141,7 @@ void add_synth(CommandLine& line) {
       run);
   c.option("MODEL", o->spec, spec_or_fit).required();
   add_set(c, o->set);
+  add_reading(c, o->reading);
   std::vector<std::string> layouts(names_of<Layout>.begin(), names_of<Layout>.end());
   layouts.emplace_back(map_layout);
   c.option("--layout", o->layout,

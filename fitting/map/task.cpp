@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/roughness.h"
@@ -178,6 +179,8 @@ TexelTask::TexelTask(const TexelOptions& o, std::size_t channels)
   if (o.refine_normals && turns())
     throw wrong_usage(fmt::format(
         "normals are refined of isotropic models alone: '{}' is anisotropic", model().spec));
+  for (const auto* t : terms_of(model()))
+    expect_catalogue_term(t->term, "maps are fitted by the catalogue's own terms");
   unknowns = unknowns_of(problem, o.refine_normals);
   is_shape = shapes_of(model());
   unknown_of.assign(model().value_count + 2, unknowns.count);

@@ -158,6 +158,15 @@ Problem pose(std::size_t channels, double offset, const FitOptions& o) {
     const auto mine = std::ranges::find(own, p.name, &Setting::name);
     const bool user = mine != own.end();
     const Range range = user ? Range{mine->values[0], mine->values[1]} : p.about->fit;
+    if (!fixed && std::isnan(p.about->start)) {  // of a person's file, which says nothing of it
+      if (!user)
+        throw wrong_usage(fmt::format(
+            "{} is free and has no bounds: give them by --bounds {}=LOW,HIGH, by a comment "
+            "\"// {} LOW HIGH\" in the file, or fix it by --fix {}=VALUE",
+            p.name, p.name, p.name, p.name));
+      for (std::size_t c = 0; c < p.count; ++c)
+        b.values[p.first + c] = (range.low + range.high) / 2;
+    }
     for (std::size_t c = 0; c < p.count; ++c) {
       free[p.first + c] = !fixed;
       if (fixed) continue;

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/quantile.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/roughness.h"
 
@@ -209,6 +210,35 @@ std::vector<Start> join(const Problem& p,
   return starts;
 }
 
+/// A person's own function says nothing of its parameters: starts all over their bounds, by ratio where these span decades; of
+/// the catalogue's diffuse terms the one given.
+std::vector<std::vector<double>> spread_starts(const Problem& p, std::vector<double> first) {
+  std::vector<std::vector<double>> all{first};
+  const Model& m = p.start.model;
+  if (m.diffuse.empty() || !foreign_term(m.diffuse[0].term)) return all;
+  constexpr std::size_t starts = 24, primes[] = {2,  3,  5,  7,  11, 13, 17, 19,
+                                                 23, 29, 31, 37, 41, 43, 47, 53, 59};
+  for (std::size_t k = 1; k < starts; ++k) {
+    auto values = first;
+    for (std::size_t q = 0; q < m.parameters.size(); ++q) {
+      const auto& parameter = m.parameters[q];
+      if (!is_free(p, parameter)) continue;
+      double part = 0, digit = 1;
+      for (std::size_t n = k, base = primes[q % std::size(primes)]; n > 0; n /= base) {
+        digit /= static_cast<double>(base);
+        part += digit * static_cast<double>(n % base);  // Halton's sequence
+      }
+      const auto [low, high] = bounds_of(p, parameter);
+      const double v = low > 0 && high > 20 * low ? low * std::pow(high / low, part)
+                                                  : low + part * (high - low);
+      for (std::size_t c = 0; c < parameter.count; ++c)
+        if (p.free.mask()[parameter.first + c]) values[parameter.first + c] = v;
+    }
+    all.push_back(std::move(values));
+  }
+  return all;
+}
+
 /// Orders in which the lobes join: each may be the last one, where it is not like the others.
 std::vector<std::vector<std::size_t>> orders_of(const Model& m) {
   std::vector<std::size_t> in_order(m.lobes.size());
@@ -235,7 +265,13 @@ std::vector<Start> find_starts(const Problem& p, const FitData<F>& thin, double 
           first[q.first + c] = std::clamp(std::numbers::pi * dim(thin, c), 1e-3, 0.95);
   if (m.lobes.empty()) {
     const Accumulator<F> accumulate(m, thin, p.free, huber);
-    return {descended(accumulate, p, std::move(first), {40, 1e-5})};
+    auto from = spread_starts(p, std::move(first));
+    std::vector<Start> ends(from.size());
+    tbb::parallel_for(std::size_t{0}, from.size(), [&](std::size_t k) {
+      ends[k] = descended(accumulate, p, std::move(from[k]), {40, 1e-5});
+    });
+    keep_best(ends, kept);
+    return ends;
   }
   std::vector<Start> starts;
   for (const auto& order : orders_of(m)) {

@@ -1,14 +1,29 @@
 #include "answer/model_argument.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
+#include "foreign/function.h"
 #include "table/format/in_memory.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
 
+/// A parameter of a person's file that nobody gave a value, and that has no default.
+void expect_values(const BoundModel& b) {
+  for (const auto& p : b.model.parameters)
+    if (std::isnan(b.values[p.first]))
+      throw wrong_usage(fmt::format(
+          "{} of {} has no value: give it by --set {}=VALUE, or a default by a comment "
+          "\"// {} LOW HIGH DEFAULT\" in the file",
+          p.name, b.model.spec, p.name, p.name));
+}
+
 ModelArgument named(BoundModel b, std::vector<std::string> names) {
+  expect_values(b);
   if (names.size() != b.model.channels) names = usual_channels(b.model.channels);
   return {std::move(b), std::move(names)};
 }
@@ -20,6 +35,7 @@ void expect_no_settings(const std::vector<Setting>& set) {
 }  // namespace
 
 std::vector<std::string> file_in(const std::string& model) {
+  if (foreign::is_name(model)) return {};
   if (model.ends_with(".json") || std::filesystem::exists(model)) return {model};
   return {};
 }

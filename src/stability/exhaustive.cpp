@@ -89,8 +89,8 @@ class Rows {
 
   /// Values of row r, in halves and in double; beyond the column's end 0 and NaN, of which nothing is asked.
   void evaluate(std::size_t r) {
-    std::array<float, max_parameters> half_parameters{};
-    std::array<double, max_parameters> double_parameters{};
+    std::array<float, most_parameters> half_parameters{};
+    std::array<double, most_parameters> double_parameters{};
     const auto at = inputs(r, 0);
     for (std::size_t k = 0; k < s_.parameters; ++k) {
       half_parameters[k] = static_cast<float>(at[k]);

@@ -5,8 +5,10 @@
 
 #include "base/error.h"
 #include "base/nearest_names.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/one_term.h"
+#include "brdf/model/evaluate.h"
 #include "brdf/model/presets.h"
 
 #include <fmt/format.h>
@@ -22,6 +24,8 @@ constexpr double least_width = 1e-6, least_cosine = 1e-8;
 
 std::vector<Given> given_to(std::size_t term) {
   const auto& entry = catalogue()[term];
+  if (const auto* f = foreign_term(term); f && f->function->reads_frame)
+    return {entry.role() == Role::ndf ? Given::frame : Given::turned};
   const bool half = reads_angle(term, &Row::noh) || reads_angle(term, &Row::voh);
   switch (entry.role()) {
     case Role::ndf:
@@ -84,6 +88,14 @@ Subject subject(std::string id, Given given, std::vector<Input> inputs) {
   return s;
 }
 
+/// True where a function of a file reads directions: they are given as a shader has them.
+bool reads_foreign_frame(const Model& m) {
+  return std::ranges::any_of(terms_of(m), [](const TermUse* t) {
+    const auto* f = foreign_term(t->term);
+    return f && f->function->reads_frame;
+  });
+}
+
 Subject subject_of_model(std::string_view spec) {
   Model m = compose(spec, 1);
   std::vector<Input> inputs;
@@ -92,7 +104,8 @@ Subject subject_of_model(std::string_view spec) {
     inputs.push_back(input_of(*p.about));
     inputs.back().name = p.name;
   }
-  auto s = subject(m.spec, m.anisotropic ? Given::turned : Given::directions, std::move(inputs));
+  const bool turned = m.anisotropic || reads_foreign_frame(m);
+  auto s = subject(m.spec, turned ? Given::turned : Given::directions, std::move(inputs));
   s.model = std::move(m);
   return s;
 }
@@ -101,6 +114,20 @@ Subject subject_of_model(std::string_view spec) {
 
 std::size_t angle_count(Given given) {
   return angles_given(given).size();
+}
+
+bool is_of_a_file(const Subject& s) {
+  if (s.term) return foreign_term(*s.term);
+  return std::ranges::any_of(terms_of(*s.model),
+                             [](const TermUse* t) { return foreign_term(t->term); });
+}
+
+void expect_bounded(const Subject& s) {
+  constexpr double unbounded = 1e29;
+  for (const auto& i : s.inputs)
+    if (i.domain.high > unbounded || i.domain.low < -unbounded)
+      throw wrong_usage(fmt::format("{} of {} has no bounds: give them by --domain {}=LOW,HIGH",
+                                    i.name, s.id, i.name));
 }
 
 std::vector<Subject> subjects_of_term(std::size_t term) {
@@ -116,6 +143,7 @@ std::vector<Subject> subjects_of_term(std::size_t term) {
 }
 
 std::vector<Subject> subjects_of(std::string_view id_or_spec) {
+  if (is_foreign(id_or_spec)) return subjects_of_term(find_term(id_or_spec));
   const bool is_id = std::ranges::any_of(
       names_of<Role>, [&](auto role) { return id_or_spec.starts_with(std::string(role) + "."); });
   if (is_id) return subjects_of_term(find_term(id_or_spec));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "brdf/catalogue/registry.h"
-#include "brdf/function/functions.h"
+#include "brdf/function/any_function.h"
 #include "brdf/term/product.h"
 #include "stability/subject.h"
 
@@ -43,7 +43,7 @@ T value_over(const Model& model, std::span<const T> parameters, const FrameAngle
   return value_of_terms<T>(model, [&](const TermUse& use) {
     std::vector<T> own;
     for (const auto k : use.parameters) own.push_back(parameters[model.parameters[k].first]);
-    return term_function<T>(use.term)(own, angles);
+    return any_function<T>(use.term)(own, angles);
   });
 }
 
@@ -52,7 +52,7 @@ template <class T>
 T value_over(const Subject& s, std::span<const T> inputs) {
   const auto parameters = inputs.first(s.parameters);
   const auto angles = angles_of<T>(s.given, inputs.subspan(s.parameters));
-  return s.term ? term_function<T>(*s.term)(parameters, angles).value()
+  return s.term ? any_function<T>(*s.term)(parameters, angles).value()
                 : value_over<T>(*s.model, parameters, angles);
 }
 

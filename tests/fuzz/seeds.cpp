@@ -5,6 +5,9 @@
 #include <fstream>
 #include <iterator>
 
+#ifdef GONIO_SHADERS
+#include "foreign/compile.h"
+#endif
 #include "image/exr.h"
 #include "image/npy.h"
 #include "scene/description/gltf_example.h"
@@ -136,6 +139,17 @@ int main(int argc, char** argv) {
       R"({"schema": "gonio.choice/1", "model": "lambert+coat:ggx/smith_ggx.correlated/schlick",)"
       R"( "coating": "view", "reference": "lambert", "domain": {"roughness": [0.1, 1], "metal": "Au",)"
       R"( "fits": ["f"]}, "budgets": {"albedo_error": 0.1, "delta_e_2000": {"limit": 1}}})");
+#ifdef GONIO_SHADERS
+  const std::string body =
+      "float f(vec3 L, vec3 V, vec3 N, float a) { float s = 0.0; for (int i = 0; i < 3; ++i) { if "
+      "(dot(L, N) < a) break; s += a * L[i]; } return s > 0.5 ? s : sqrt(s); }\n";
+  const auto words = foreign::compile(foreign::source_of("my.glsl", body));
+  save("spirv", "loop", {reinterpret_cast<const char*>(words.data()), words.size() * 4});
+  save("brdf", "whole",
+       "analytic\n::begin parameters\nfloat a 0 1 0.5\nbool b 1\ncolor c 1 1 1\n::end "
+       "parameters\n::begin shader\n" +
+           body + "::end shader\n");
+#endif
   const auto lit = scene::test::sphere(scene::test::car_paint(), scene::test::front());
   save(
       "plan", "whole",

@@ -1,6 +1,8 @@
 #include "brdf/catalogue/registry.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -8,7 +10,9 @@
 #include "base/error.h"
 #include "base/nearest_names.h"
 #include "brdf/catalogue/catalogue.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/maps.h"
+#include "brdf/catalogue/registry_parts.h"
 
 #include <fmt/format.h>
 
@@ -38,12 +42,34 @@ template <template <class> class... Terms>
 constexpr auto term_table(TermList<Terms...>) {
   return std::array{term_entry<Terms>()...};
 }
-constexpr auto term_entries = term_table(Catalogue{});
+constexpr auto own_entries = term_table(Catalogue{});
+
+/// The catalogue's own entries, then foreign ones; there is room for all of these, so that nothing moves.
+struct Entries {
+  std::array<TermEntry, own_entries.size() + most_foreign_terms> all{};
+  std::atomic<std::size_t> count = own_entries.size();
+  Entries() { std::ranges::copy(own_entries, all.begin()); }
+};
+Entries& entries() {
+  static Entries e;
+  return e;
+}
 
 }  // namespace
 
 std::span<const TermEntry> catalogue() {
-  return term_entries;
+  const auto& e = entries();
+  return std::span(e.all).first(e.count);
+}
+
+std::size_t catalogue_size() {
+  return own_entries.size();
+}
+
+void append_term(const TermEntry& entry) {
+  auto& e = entries();
+  e.all.at(e.count) = entry;
+  ++e.count;
 }
 
 std::span<const MapEntry> maps() {
@@ -51,6 +77,8 @@ std::span<const MapEntry> maps() {
 }
 
 std::size_t find_term(std::string_view id) {
+  if (is_foreign(id)) return foreign_term_named(id);
+  const auto& term_entries = own_entries;
   if (const auto it = std::ranges::find(term_entries, id, &TermEntry::id); it != term_entries.end())
     return static_cast<std::size_t>(it - term_entries.begin());
   std::vector<std::string_view> ids;
@@ -62,6 +90,8 @@ std::size_t find_term(std::string_view id) {
 std::size_t find_term(std::string_view id, Role role) {
   static constexpr std::string_view names[] = {"normal distribution", "masking", "Fresnel term",
                                                "diffuse term"};
+  if (is_foreign(id)) return foreign_term_named(id, role);
+  const auto& term_entries = own_entries;
   std::vector<std::string_view> ids;
   for (std::size_t t = 0; t < term_entries.size(); ++t) {
     const TermEntry& entry = term_entries[t];

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "brdf/catalogue/registry.h"
-#include "brdf/function/functions.h"
+#include "brdf/function/any_function.h"
 #include "brdf/function/map_functions.h"
 #include "number/half.h"
 #include "number/mixed.h"
@@ -56,7 +56,7 @@ std::vector<double> values_over(std::size_t term,
   std::vector<FrameAngles<T>> angles;
   for (const auto& row : rows) angles.push_back(angles_in<T>(row));
   std::vector<Quotient<T>> found(rows.size());
-  term_function<T>(term).rows(numbers_in<T>(parameters), angles, found.data());
+  any_function<T>(term).rows(numbers_in<T>(parameters), angles, found.data());
   std::vector<double> out;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const T v = found[i].value(), cosines = 4 * angles[i].nol * angles[i].nov;

@@ -61,7 +61,7 @@ TermOperations operations_of(std::size_t term) {
   for (const auto& q : catalogue()[term].parameters) p.push_back(C(q.start));
   const C c(0.5);
   const FrameAngles<C> angles{{c, c, c, c, c}, c, c, c, c, c, c};
-  const auto f = term_function<C>(term);
+  const auto f = any_function<C>(term);
   TermOperations cost;
   cost.parameters = count_operations([&] { f.rows(p, {}, nullptr); });
   Quotient<C> q;

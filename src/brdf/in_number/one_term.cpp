@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
+#include "geometry/frame_of_angles.h"
 
 #include <fmt/format.h>
 
@@ -137,6 +139,10 @@ TermValues evaluate_term(std::size_t term,
     if (!given("xol", "yol")) a.xol = sine(a.nol);
     if (!given("xov", "yov")) a.xov = sine(a.nov);
   }
+  const auto* const file = foreign_term(term);
+  if (file && file->function->reads_frame && !file->function->anisotropic && !given("xol", "yol") &&
+      !given("xov", "yov"))
+    for (auto& a : angles) a = with_frame<double>(a);
   result.values = shown_in(number, term, p, angles);
   return result;
 }

@@ -32,7 +32,7 @@ WideValue wide_value(std::size_t term,
   using Row = FrameAngles<Wide>;
   auto p = numbers_in<Wide>(parameters);
   Row row = angles_in<Wide>(angles);
-  const auto value = [&] { return term_function<Wide>(term)(p, row).value(); };
+  const auto value = [&] { return any_function<Wide>(term)(p, row).value(); };
   const Wide f = value(), step = 1e-20;
   Wide sum = 0;
   const auto move = [&](Wide& x) {

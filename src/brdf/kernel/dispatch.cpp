@@ -18,13 +18,15 @@ namespace gonio {
   FusedModels<F> fused_models();                                         \
   template <class F>                                                     \
   std::span<const typename TermKernels<F>::WithGgx> maskings_with_ggx(); \
+  template <class F>                                                     \
+  std::span<const TermKernels<F>> foreign_terms();                       \
   }
 #include "instruction_sets.inc"
 #undef GONIO_SET
 
 namespace {
 
-/// A set's kernels with the terms of all roles in one array, and the fused models of all groups.
+/// A set's kernels with the terms of all roles in one array, room for foreign ones behind them, and the fused models of all groups.
 template <class F>
 struct Assembled {
   std::vector<TermKernels<F>> terms;
@@ -63,7 +65,8 @@ const std::vector<Set>& sets() {
   {                                                                                           \
     set::table_##F,                                                                           \
         {set::terms_of<Role::ndf, F>(), set::terms_of<Role::masking, F>(),                    \
-         set::terms_of<Role::fresnel, F>(), set::terms_of<Role::diffuse, F>()},               \
+         set::terms_of<Role::fresnel, F>(), set::terms_of<Role::diffuse, F>(),                \
+         set::foreign_terms<F>()},                                                            \
         set::maskings_with_ggx<F>(), {                                                        \
       set::fused_models<FusedGroup::ggx, F>(), set::fused_models<FusedGroup::isotropic, F>(), \
           set::fused_models<FusedGroup::anisotropic, F>(),                                    \

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/term/product.h"
 
 namespace gonio {
@@ -88,8 +89,8 @@ void ModelDerivatives<F>::set(std::span<const F> values) {
 template <class F>
 DualColumn<F> ModelDerivatives<F>::term(const TermUse& t, std::size_t c) {
   Gathered& gathered = parameters_.emplace_back();
-  gathered.p = Column<F>(max_parameters * (texels_ ? padding : 1));
-  std::array<F*, max_parameters + 2> d{};
+  gathered.p = Column<F>(most_parameters * (texels_ ? padding : 1));
+  std::array<F*, most_parameters + 2> d{};
   F* const value = fresh();
   DualColumn<F> r{value, {}};
   for (std::size_t i = 0; i < t.parameters.size(); ++i) {
@@ -106,7 +107,8 @@ DualColumn<F> ModelDerivatives<F>::term(const TermUse& t, std::size_t c) {
   if (texels_ && texels_->cosine)
     for (std::size_t k = 0; k < 2; ++k)
       r.d.emplace_back(model_.value_count + k, d[t.parameters.size() + k] = fresh());
-  const auto kernel = texels_ ? texels_->derivatives[t.term] : k_.terms[t.term].derivatives;
+  const auto kernel =
+      texels_ ? texels_->derivatives[t.term] : k_.terms[term_of_channel(t.term, c)].derivatives;
   into_->push_back(
       [=, p = gathered.p.data()](const Block<F>& b) { kernel(b, p, value, d.data()); });
   return r;

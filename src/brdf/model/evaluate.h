@@ -17,6 +17,9 @@
 
 namespace gonio {
 
+/// The most parameters of a term, people's own functions included.
+inline constexpr std::size_t most_parameters = 16;
+
 /// A 64-byte aligned array.
 template <class F>
 class Column {
@@ -138,8 +141,8 @@ class Evaluator {
   struct Term {
     const TermEntry* entry;
     const TermKernels<F>* kernels;
-    std::vector<std::array<std::size_t, max_parameters>> slots;
-    std::vector<std::array<F, max_parameters>> parameters;
+    std::vector<std::array<std::size_t, most_parameters>> slots;
+    std::vector<std::array<F, most_parameters>> parameters;
     std::size_t count = 0;
     bool is_ggx = false;
   };

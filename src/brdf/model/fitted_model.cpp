@@ -8,6 +8,7 @@
 #include "base/json/reader.h"
 #include "base/text.h"
 #include "brdf/model/fit_misfit.h"
+#include "brdf/model/own_files.h"
 #include "brdf/model/roughness.h"
 
 #include <fmt/format.h>
@@ -91,9 +92,12 @@ std::optional<double> typical_misfit(const std::string& path, const std::string&
 BoundModel bind_fitted(const std::string& path,
                        const FittedModel& fitted,
                        std::optional<std::size_t> channels) {
+  expect_own_files_below(path, fitted.model);
   std::vector<Setting> settings;
   for (const auto& [name, values] : fitted.parameters) {
-    if (is_roughness(name)) continue;  // alpha says the same
+    const auto alpha = std::ranges::find(fitted.parameters, alpha_name(name),
+                                         [](const auto& p) { return p.first; });
+    if (is_roughness(name) && alpha != fitted.parameters.end()) continue;  // alpha says the same
     for (const double v : values)
       if (std::isnan(v))
         throw bad_input(path, "parameters." + name, "null (not identifiable)",

@@ -5,8 +5,10 @@
 #include "base/error.h"
 #include "base/numbers.h"
 #include "base/text.h"
+#include "foreign/function.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -15,10 +17,51 @@ namespace {
 /// them.
 constexpr std::size_t most_parts = 1 + 16;
 
+std::vector<std::string> split_outside_braces(std::string_view text, char at) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  for (const char c : text) {
+    depth += c == '{' ? 1 : c == '}' ? -1 : 0;
+    if (c == at && depth <= 0)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// Names between slashes; the path of a person's file is one of them, from where there is such a file.
+std::vector<std::string> names_of_part(std::string_view part) {
+  const auto raw = split_outside_braces(part, '/');
+  std::vector<std::string> names;
+  std::size_t first = 0;  // of the pieces that no name has
+  for (std::size_t e = 0; e < raw.size(); ++e) {
+    if (!foreign::is_name(raw[e])) continue;
+    std::size_t from = e;
+    for (std::size_t s = first; s < e; ++s) {
+      const auto path =
+          fmt::format("{}", fmt::join(raw.begin() + static_cast<std::ptrdiff_t>(s),
+                                      raw.begin() + static_cast<std::ptrdiff_t>(e) + 1, "/"));
+      if (foreign::is_there(path)) {
+        from = s;
+        break;
+      }
+    }
+    names.insert(names.end(), raw.begin() + static_cast<std::ptrdiff_t>(first),
+                 raw.begin() + static_cast<std::ptrdiff_t>(from));
+    names.push_back(
+        fmt::format("{}", fmt::join(raw.begin() + static_cast<std::ptrdiff_t>(from),
+                                    raw.begin() + static_cast<std::ptrdiff_t>(e) + 1, "/")));
+    first = e + 1;
+  }
+  names.insert(names.end(), raw.begin() + static_cast<std::ptrdiff_t>(first), raw.end());
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::vector<std::string>> parse_spec(std::string_view spec) {
-  const auto written = split(spec, '+');
+  const auto written = split_outside_braces(spec, '+');
   if (written.size() > most_parts)
     throw wrong_usage(
         fmt::format("model '{}': {} parts, where {} lobes and a diffuse term are most",
@@ -26,7 +69,7 @@ std::vector<std::vector<std::string>> parse_spec(std::string_view spec) {
   std::vector<std::vector<std::string>> parts;
   bool lobe_seen = false;
   for (const auto& part : written) {
-    auto names = split(part, '/');
+    auto names = names_of_part(part);
     if (names.size() != 1 && names.size() != 3)
       throw wrong_usage(fmt::format(
           "model '{}': '{}' is neither a diffuse term nor NDF/MASKING/FRESNEL", spec, part));

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/whole_loop.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "integrate/rule/slopes.h"
 
@@ -279,10 +280,12 @@ Integral diffuse_part(const Part& part, const View& v, const Goal& goal) {
           m.diffuse, [](const TermUse& t) { return catalogue()[t.term].coupled; });
       if (coupled) {
         const auto& t = m.lobes.front().fresnel;
-        term_values(t.term, term_parameters(part.model, t, channel), b, fresnel);
+        term_values(term_of_channel(t.term, channel), term_parameters(part.model, t, channel), b,
+                    fresnel);
       }
       for (const auto& t : m.diffuse) {
-        term_values(t.term, term_parameters(part.model, t, channel), b, value);
+        term_values(term_of_channel(t.term, channel), term_parameters(part.model, t, channel), b,
+                    value);
         for (std::size_t i = 0; i < weight.size(); ++i)
           out[channel][i] +=
               weight[i] * value[i] * (catalogue()[t.term].coupled ? 1 - fresnel[i] : 1);

@@ -59,7 +59,7 @@ void term_values(std::size_t term,
                  const Block<double>& x,
                  double* out) {
   Scratch<double> scratch;
-  std::array<double, max_parameters> p{};
+  std::array<double, most_parameters> p{};
   std::ranges::copy(parameters, p.begin());
   const auto& t = kernels<double>(instruction_sets().front()).terms[term];
   for (std::size_t at = 0; at < x.n; at += scratch.block)

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/whole_loop.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/formula/scattering.h"
 #include "integrate/albedo/ggx_albedo.h"
@@ -27,7 +28,7 @@ void fresnel_values(const BoundModel& model,
   const auto columns = block.resize(cosines.size());
   for (auto* column : columns) std::ranges::copy(cosines, column);
   double* const values = block.extra(0);
-  term_values(fresnel.term, term_parameters(model, fresnel, channel), block.block(), values);
+  term_values(term_of_channel(fresnel.term, channel), term_parameters(model, fresnel, channel), block.block(), values);
   std::copy_n(values, cosines.size(), out);
 }
 

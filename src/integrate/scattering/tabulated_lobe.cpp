@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/whole_loop.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "geometry/half_vector.h"
 #include "geometry/sampling.h"
 #include "integrate/scattering/walk.h"
@@ -41,7 +42,7 @@ std::vector<Curve> reflectances(const BoundModel& m, std::size_t channels) {
   std::vector<Curve> all(channels);
   const TermUse& f = m.model.lobes[0].fresnel;
   for (std::size_t c = 0; c < channels; ++c) {
-    term_values(f.term, term_parameters(m, f, c), angles.block(), value);
+    term_values(term_of_channel(f.term, c), term_parameters(m, f, c), angles.block(), value);
     std::copy_n(value, segments + 1, all[c].begin());
   }
   return all;

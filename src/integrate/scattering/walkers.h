@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "geometry/sampling.h"
 #include "integrate/rule/slopes.h"
 #include "integrate/scattering/microsurface.h"
@@ -23,7 +24,7 @@ namespace gonio::walking {
 class Term {
  public:
   Term(const BoundModel& m, const TermUse& t, std::size_t channel = 0)
-      : add_(kernels<double>().terms[t.term].add_product) {
+      : add_(kernels<double>().terms[term_of_channel(t.term, channel)].add_product) {
     std::ranges::copy(term_parameters(m, t, channel), parameters_.begin());
   }
   /// out = factor · term
@@ -37,7 +38,7 @@ class Term {
 
  private:
   TermKernels<double>::Value add_;
-  std::array<double, max_parameters> parameters_{};
+  std::array<double, most_parameters> parameters_{};
 };
 
 /// A lobe as a surface with its terms.

@@ -14,6 +14,7 @@
 #include "base/nearest.h"
 #include "base/sha256.h"
 #include "brdf/model/fitted_model.h"
+#include "brdf/model/own_files.h"
 #include "scene/description/gltf_file.h"
 #include "scene/description/scene_keys.h"
 
@@ -112,6 +113,8 @@ BoundModel model_of(const FromSpec& from, const JsonReader& at) {
   if (!from.parameters.empty()) settings = settings_of(from.parameters, at.at("parameters"));
   const auto bound = [&](const char* key, const char* expected, std::vector<Setting> with) {
     try {
+      if (names_own_file(without_coat(from.model).first))
+        throw wrong_usage("scenes take the catalogue's own terms, not a shader's function");
       auto model = bind_model(without_coat(from.model).first, std::move(with), kChannels);
       if (without_coat(from.model).second && model.model.lobes.empty())
         throw wrong_usage("a coat is a lobe");
@@ -128,7 +131,12 @@ std::variant<BoundModel, GltfMaterial> resolved(const Material& m,
                                                 const JsonReader& at,
                                                 Files& files) {
   if (const auto* spec = std::get_if<FromSpec>(&m.from)) return model_of(*spec, at);
-  if (const auto* fit = std::get_if<FromFit>(&m.from)) return files.fit(fit->path);
+  if (const auto* fit = std::get_if<FromFit>(&m.from)) {
+    const BoundModel model = files.fit(fit->path);
+    if (names_own_file(model.model.spec))
+      at.fail("the catalogue's own terms, not a shader's function");
+    return model;
+  }
   const auto& gltf = std::get<FromGltf>(m.from);
   return read_material(files.gltf(gltf.path), gltf.material);
 }

@@ -71,7 +71,7 @@ Reflectance fresnel_of(const Surface& s) {
   std::array<std::vector<Interval>, max_channels> parameters;
   for (std::size_t k = 0; k < max_channels; ++k)
     for (const double p : term_parameters(s.base, term, k)) parameters[k].emplace_back(p);
-  return [parameters, f = term_function<Interval>(term.term)](const Interval& c) {
+  return [parameters, f = any_function<Interval>(term.term)](const Interval& c) {
     const FrameAngles<Interval> all{{c, c, c, c, c}, c, c, c, c, c, c};  // it reads VoH alone
     std::array<Interval, max_channels> values;
     for (std::size_t k = 0; k < max_channels; ++k) values[k] = f(parameters[k], all).value();

@@ -7,11 +7,12 @@
 
 namespace gonio::stability {
 
-#define GONIO_SET(set)                          \
-  namespace set {                               \
-  extern const HalfKernels half_columns;        \
-  template <Role role>                          \
-  std::span<const HalfByRules> half_terms_of(); \
+#define GONIO_SET(set)                               \
+  namespace set {                                    \
+  extern const HalfKernels half_columns;             \
+  template <Role role>                               \
+  std::span<const HalfByRules> half_terms_of();      \
+  std::span<const HalfByRules> foreign_half_terms(); \
   }
 #include "instruction_sets.inc"
 #undef GONIO_SET
@@ -33,10 +34,11 @@ struct Assembled {
 const std::vector<Assembled>& sets() {
   static const std::vector<Assembled> all = [] {
     std::vector<Assembled> v;
-#define GONIO_SET(set)                                                                \
-  v.push_back({set::half_columns,                                                     \
-               {set::half_terms_of<Role::ndf>(), set::half_terms_of<Role::masking>(), \
-                set::half_terms_of<Role::fresnel>(), set::half_terms_of<Role::diffuse>()}});
+#define GONIO_SET(set)                                                                    \
+  v.push_back({set::half_columns,                                                         \
+               {set::half_terms_of<Role::ndf>(), set::half_terms_of<Role::masking>(),     \
+                set::half_terms_of<Role::fresnel>(), set::half_terms_of<Role::diffuse>(), \
+                set::foreign_half_terms()}});
 #include "instruction_sets.inc"
 #undef GONIO_SET
     return v;

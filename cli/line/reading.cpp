@@ -1,0 +1,53 @@
+#include "cli/line/reading.h"
+
+#include "base/error.h"
+#include "brdf/model/spec.h"
+#include "foreign/function.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio::cli {
+
+void add_reading(Command& c, ReadingWords& words, bool bounds) {
+  c.option("--argument", words.arguments,
+           "Of a shader's function: what an argument stands for, x=noh; n=parameter")
+      .at_most(64);
+  c.option("--includes", words.includes,
+           "Of a shader's function: what its value has beside f: nothing, cosine (times NoL), pi "
+           "(times π), cosine,pi; of a masking function g or v");
+  if (bounds)
+    c.option("--bounds", words.bounds,
+             "Of a shader's function: NAME=LOW,HIGH[,DEFAULT] of a parameter, or NAME=VALUE")
+        .at_most(64);
+}
+
+std::string read_as(const std::string& spec, const ReadingWords& words) {
+  if (words.arguments.empty() && words.bounds.empty() && !words.includes) return spec;
+  std::string all;
+  bool any = false;
+  for (const auto& part : parse_spec(spec)) {
+    std::vector<std::string> names;
+    for (const auto& name : part) {
+      names.push_back(name);
+      if (!foreign::is_name(name)) continue;
+      any = true;
+      std::string options;
+      const auto add = [&](const std::string& o) { options += (options.empty() ? "" : ";") + o; };
+      for (const auto& a : words.arguments) add("argument." + a);
+      for (const auto& b : words.bounds) add(b);
+      if (words.includes) add("includes=" + *words.includes);
+      const auto close = name.rfind('}');
+      names.back() = close == name.npos ? fmt::format("{}{{{}}}", name, options)
+                                        : fmt::format("{};{}}}", name.substr(0, close), options);
+      names.back() = foreign::text_of(foreign::parse_name(names.back()));
+    }
+    all += fmt::format("{}{}", all.empty() ? "" : "+", fmt::join(names, "/"));
+  }
+  if (!any)
+    throw wrong_usage(
+        fmt::format("--argument, --includes and --bounds go with a shader's function, not with {}", spec));
+  return all;
+}
+
+}  // namespace gonio::cli

@@ -1,0 +1,387 @@
+#include "reports/own/audit_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/json/reader.h"
+#include "brdf/in_number/number.h"
+#include "brdf/model/evaluate.h"
+#include "integrate/albedo/directional_albedo.h"
+#include "integrate/albedo/normalisation.h"
+#include "reports/measure/samples.h"
+#include "stability/answer.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace gonio {
+namespace {
+
+using auditing::Row;
+
+void take_largest(std::optional<FoundAt>& w, double v, const std::string& at) {
+  if (!w || v > w->value || std::isnan(v)) w = FoundAt{v, at};
+}
+void take_smallest(std::optional<FoundAt>& w, double v, const std::string& at) {
+  if (!w || v < w->value) w = FoundAt{v, at};
+}
+
+/// Values of parameters that a function is looked at with: of the width five, of others their ends; colours at their upper end.
+std::vector<std::vector<double>> looked_at(std::span<const Parameter> parameters) {
+  const auto width = width_of(parameters);
+  std::vector<std::vector<double>> all{{}};
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto& p = parameters[k];
+    const bool bounded = !std::isnan(p.start);
+    std::vector<double> at = width == k         ? values_between(p, 5)
+                             : p.per_channel    ? std::vector{bounded ? p.legal.high : 1.0}
+                             : !bounded         ? std::vector{0.5}
+                             : all.size() > 200 ? std::vector{p.start}
+                                                : std::vector{p.legal.low, p.start, p.legal.high};
+    std::vector<std::vector<double>> more;
+    for (const auto& row : all)
+      for (const double v : at) {
+        more.push_back(row);
+        more.back().push_back(v);
+      }
+    all = std::move(more);
+  }
+  return all;
+}
+
+std::string half_text(const stability::Answer& a) {
+  if (a.holds) return "finite for every input of its domain";
+  std::string s = "not finite";
+  if (a.counterexample) {
+    std::vector<std::string> in;
+    for (const auto& [n, v] : a.counterexample->inputs)
+      in.push_back(fmt::format("{} {:.4g}", n, v));
+    s += fmt::format(" at {}", fmt::join(in, ", "));
+  } else {
+    s = "open: a search found nothing, and there is no proof";
+  }
+  if (a.safe_from && a.safe_from->value)
+    s += fmt::format("; from {} {:.4g} on it is ({})", a.domain.empty() ? "" : a.domain[0].first,
+                     *a.safe_from->value, name_of(a.safe_from->evidence));
+  return s;
+}
+
+std::string in_half(std::size_t term, const std::vector<std::pair<std::string, Range>>& domain) {
+  stability::Question q;
+  q.subject = stability::subjects_of_term(term)
+                  .back();  // of a distribution by NoH alone, as shaders have it
+  for (const auto& [name, range] : domain)
+    for (const auto& i : q.subject.inputs)
+      if (i.name == name) stability::set_domain(q.subject, name, range);
+  for (auto& i : q.subject.inputs)
+    if (i.domain.high > 1e29) return fmt::format("not looked at: {} has no bounds", i.name);
+  q.boxes = 2000;
+  return half_text(stability::answer(q));
+}
+
+void laws_of_lobe(FunctionAudit& a,
+                  const std::string& token,
+                  std::span<const Parameter> parameters,
+                  const std::vector<std::vector<double>>& settings) {
+  constexpr std::array mu{0.1, 0.5, 1.0};
+  constexpr Goal goal{1e-3, 200'000};
+  const std::size_t every = std::max<std::size_t>(1, settings.size() / 60);
+  for (std::size_t s = 0; s < settings.size(); s += every) {
+    std::vector<Setting> set;
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      set.push_back({std::string(parameters[k].name), {settings[s][k]}});
+    const auto b = bind_model(token, set);
+    const auto albedo = directional_albedo(b, mu, 0, goal);
+    for (std::size_t i = 0; i < mu.size(); ++i)
+      for (const double v : albedo[i].value) {
+        const auto at =
+            auditing::joined(auditing::text(parameters, settings[s]), fmt::format("NoV {}", mu[i]));
+        take_largest(a.albedo, v, at);
+        take_smallest(a.darkest, v, at);
+      }
+  }
+}
+
+FunctionAudit audit_function(FileFunction f) {
+  FunctionAudit a;
+  const auto token = foreign::text_of(f.function->name);
+  const std::size_t term = foreign_term_named(token);
+  const auto& entry = catalogue()[term];
+  const auto parameters = entry.parameters;
+  const auto settings = looked_at(parameters);
+  const Role role = entry.role();
+  const auto& rows = role == Role::ndf       ? auditing::half_vectors()
+                     : role == Role::fresnel ? auditing::cosines()
+                                             : auditing::pairs();
+  std::vector<Row> other;
+  for (const auto& r : rows) other.push_back(auditing::exchanged(r));
+  for (const auto& p : settings)
+    for (std::size_t c = 0; c < f.function->programs.size(); ++c) {
+      const auto v = values_in(Number::double_, term + c, p, rows);
+      const auto w = values_in(Number::double_, term + c, p, other);
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        if (!std::isfinite(v[i])) {
+          ++a.not_finite;
+          continue;
+        }
+        const auto at = [&] {
+          return auditing::joined(auditing::text(parameters, p), auditing::text(rows[i]));
+        };
+        if (v[i] < 0) take_smallest(a.lowest, v[i], at());
+        const double size = std::max(std::abs(v[i]), std::abs(w[i]));
+        const double off = std::abs(v[i] - w[i]);
+        if ((role == Role::diffuse || role == Role::masking) && size > 0 &&
+            (!a.reciprocity || off / size > a.reciprocity->value))
+          a.reciprocity = FoundAt{off / size, at()};
+      }
+    }
+  if (role == Role::ndf)
+    for (const auto& p : settings)
+      if (const double v = normalisation(term, p).value;
+          !a.normalisation || std::abs(v - 1) > std::abs(a.normalisation->value - 1))
+        a.normalisation = FoundAt{v, auditing::text(parameters, p)};
+  if (role == Role::diffuse) laws_of_lobe(a, token, parameters, settings);
+  a.half = in_half(term, {});
+  if (role != Role::diffuse || !f.function->reads_frame) {
+    a.nearest = nearest_form(term);
+    if (a.nearest) a.slips = likely_slips(term, *a.nearest);
+  }
+  for (const auto& p : f.function->parameters)
+    if (!p.bounded)
+      a.not_looked_at.push_back(fmt::format("{} beyond 0.05 to 1: no bounds were given", p.name));
+  a.of = std::move(f);
+  return a;
+}
+
+std::string nearest_text(const FunctionAudit& a) {
+  const auto& n = *a.nearest;
+  const auto id = catalogue()[n.term].id();
+  std::string map;
+  if (!n.width.empty())
+    map = fmt::format(", alpha = {}{}", n.power == 0.5 ? "√" : "", n.width) + (n.power == 2   ? "²"
+                                                                               : n.power == 4 ? "⁴"
+                                                                                              : "");
+  if (!is_same(n)) return fmt::format("{}{}: up to {:.2g} apart", id, map, n.difference);
+  return fmt::format("{}{}", id, map);
+}
+
+std::string lowered(std::string s) {
+  for (char& c : s) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return s;
+}
+
+}  // namespace
+
+std::vector<FunctionAudit> audit_file(const std::string& name) {
+  std::vector<FunctionAudit> all;
+  for (auto& f : file_functions(name).functions) {
+    if (f.function) {
+      all.push_back(audit_function(std::move(f)));
+    } else {
+      all.emplace_back();
+      all.back().of = std::move(f);
+    }
+  }
+  return all;
+}
+
+std::string to_json(const std::vector<FunctionAudit>& all) {
+  Json rows = Json::array();
+  const auto found = [](const std::optional<FoundAt>& w) {
+    return w ? Json{{"value", w->value}, {"at", w->at}} : Json();
+  };
+  for (const auto& a : all) {
+    Json j{{"function", a.of.entry.function}, {"line", a.of.entry.line}};
+    if (!a.of.function) {
+      j["refused"] = a.of.entry.refused;
+      rows.push_back(j);
+      continue;
+    }
+    j["stands_for"] = name_of(a.of.function->stands);
+    j["includes"] = a.of.function->includes;
+    j["operations"] = a.of.operations.total();
+    j["normalisation"] = found(a.normalisation);
+    j["reciprocity"] = found(a.reciprocity);
+    j["albedo"] = found(a.albedo);
+    j["darkest"] = found(a.darkest);
+    j["lowest"] = found(a.lowest);
+    j["not_finite"] = a.not_finite;
+    j["half"] = a.half;
+    j["nearest"] = Json();
+    if (a.nearest)
+      j["nearest"] = {{"id", catalogue()[a.nearest->term].id()},
+                      {"same", is_same(*a.nearest)},
+                      {"width", a.nearest->width},
+                      {"power", a.nearest->power},
+                      {"factor", a.nearest->factor},
+                      {"difference", a.nearest->difference},
+                      {"operations", operations_of(a.nearest->term).sample.total()}};
+    j["slips"] = a.slips;
+    j["not_looked_at"] = a.not_looked_at;
+    rows.push_back(j);
+  }
+  return text_of(Json{{"rows", rows}});
+}
+
+std::string text_of(const FunctionAudit& a) {
+  if (!a.of.function) return fmt::format("{}: {}\n", a.of.entry.function, a.of.entry.refused);
+  const auto& f = *a.of.function;
+  std::string s = fmt::format("{}, line {}: {} operations a sample\n", foreign::text_of(f.name),
+                              f.line, a.of.operations.total());
+  const auto line = [&](const char* name, const std::string& text) {
+    if (!text.empty()) s += fmt::format("  {:<16}{}\n", name, text);
+  };
+  if (f.stands == foreign::Stands::lobe)
+    line("includes", f.includes + (f.guessed ? " (guessed; --includes says it)" : ""));
+  if (const auto& n = a.normalisation)
+    line("∫ D cos θ", std::abs(n->value - 1) < 1e-4 ? "1: normalised"
+                                                    : fmt::format("{:.5g} at {}", n->value, n->at));
+  if (const auto& e = a.albedo) {
+    line("energy", e->value > 1 + 1e-3
+                       ? fmt::format("gains: albedo {:.4g} at {}", e->value, e->at)
+                       : fmt::format("gains none: albedo at most {:.4g}", e->value));
+    line("", fmt::format("least albedo {:.4g} at {}", a.darkest->value, a.darkest->at));
+  }
+  if (const auto& r = a.reciprocity)
+    line("reciprocity",
+         r->value < 1e-6 ? "kept" : fmt::format("off by {:.2g} at {}", r->value, r->at));
+  if (a.lowest) line("negative", fmt::format("{:.3g} at {}", a.lowest->value, a.lowest->at));
+  if (a.not_finite) line("without a value", fmt::format("{} inputs, in double", a.not_finite));
+  line("in half", a.half);
+  if (a.nearest) {
+    line(is_same(*a.nearest) ? "it is" : "nearest", nearest_text(a));
+    line("beside ours", fmt::format("{} operations, ours {}", a.of.operations.total(),
+                                    operations_of(a.nearest->term).sample.total()));
+  }
+  for (const auto& slip : a.slips) line("likely slip", slip);
+  for (const auto& n : f.notes) line("note", fmt::format("line {}: {}", n.line, n.text));
+  for (const auto& n : a.not_looked_at) line("not looked at", n);
+  return s;
+}
+
+bool is_term_name(const std::string& name) {
+  return foreign::is_name(name) || std::ranges::any_of(names_of<Role>, [&](auto role) {
+           return name.starts_with(std::string(role) + ".");
+         });
+}
+
+TermComparison compare_terms(const std::string& a,
+                             const std::string& b,
+                             const std::vector<std::pair<std::string, Range>>& domain) {
+  const bool a_is_own = foreign::is_name(a), b_is_own = foreign::is_name(b);
+  const std::size_t first = a_is_own ? 0 : find_term(a), second = b_is_own ? 0 : find_term(b);
+  std::optional<Role> role;
+  if (!a_is_own) role = catalogue()[first].role();
+  if (!b_is_own) role = catalogue()[second].role();
+  if (!role) role = catalogue()[foreign_term_named(a)].role();
+  std::vector<std::string> tries{a};
+  if (*role == Role::masking && a_is_own && a.find("includes=") == a.npos) {
+    const auto close = a.rfind('}');
+    const auto with = [&](const std::string& what) {
+      return close == a.npos ? a + "{includes=" + what + "}"
+                             : a.substr(0, close) + ";includes=" + what + "}";
+    };
+    tries = {with("v"), with("g")};
+  }
+  std::optional<TermComparison> best;
+  for (const auto& name : tries) {
+    const std::size_t x = a_is_own ? foreign_term_named(name, role) : first;
+    const std::size_t y = b_is_own ? foreign_term_named(b, role) : second;
+    const auto &own = catalogue()[x], &other = catalogue()[y];
+    if (own.role() != other.role())
+      throw wrong_usage(fmt::format("{} is of {}, {} of {}: terms of one role are compared", a,
+                                    name_of(own.role()), b, name_of(other.role())));
+    TermComparison c{a, b, {}};
+    if (tries.size() > 1) c.read_as = name.find("includes=v") != name.npos ? "V" : "G";
+    // The parameters of both by name; a width by another name, or as roughness, is the other's.
+    const auto domain_of = [&](const Parameter& p) {
+      for (const auto& [n, r] : domain)
+        if (lowered(n) == lowered(std::string(p.name))) return r;
+      if (std::isnan(p.start))
+        throw wrong_usage(fmt::format("{} of {} has no bounds: give them by --domain {}=LOW,HIGH",
+                                      p.name, a, p.name));
+      return p.fit;
+    };
+    constexpr std::size_t places = 9;
+    const auto& rows = *role == Role::ndf       ? auditing::half_vectors()
+                       : *role == Role::fresnel ? auditing::cosines()
+                                                : auditing::pairs();
+    const auto width_a = width_of(own.parameters), width_b = width_of(other.parameters);
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < places; ++k) {
+      std::vector<double> p, q;
+      for (const auto& w : own.parameters) {
+        Parameter at = w;
+        at.legal = domain_of(w);
+        at.start = at.legal.low;
+        p.push_back(values_between(at, places)[k]);
+      }
+      for (std::size_t j = 0; j < other.parameters.size(); ++j) {
+        const auto& w = other.parameters[j];
+        const auto same = std::ranges::find(own.parameters, w.name, &Parameter::name);
+        double v = std::isnan(w.start) ? 0.5 : w.start;
+        if (same != own.parameters.end()) {
+          v = p[static_cast<std::size_t>(same - own.parameters.begin())];
+        } else if (width_b == j && width_a) {
+          const bool rough_a = own.parameters[*width_a].name.find("ough") != std::string_view::npos;
+          const bool rough_b = w.name.find("ough") != std::string_view::npos;
+          v = p[*width_a];
+          v = rough_a && !rough_b ? v * v : rough_b && !rough_a ? std::sqrt(v) : v;
+        }
+        q.push_back(std::clamp(v, w.legal.low, w.legal.high));
+      }
+      const auto f = shown_in(Number::double_, x, p, rows),
+                 g = shown_in(Number::double_, y, q, rows);
+      const double scale = *role == Role::ndf ? *std::ranges::max_element(g) : 1;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double d = std::abs(f[i] - g[i]) / scale;
+        if (!std::isfinite(d)) continue;
+        sum += d * d;
+        ++count;
+        if (d > c.largest)
+          c.largest = d,
+          c.at = auditing::joined(auditing::text(own.parameters, p), auditing::text(rows[i]));
+      }
+    }
+    static constexpr std::string_view measures[] = {"D over the peak", "G2", "F", "f"};
+    c.measure = measures[static_cast<std::size_t>(*role)];
+    c.rms = count ? std::sqrt(sum / static_cast<double>(count)) : 0;
+    c.operations_a = operations_of(x).sample.total();
+    c.operations_b = operations_of(y).sample.total();
+    if (!best || c.largest < best->largest) {
+      best = c;
+      best->half_a = in_half(x, domain);
+      best->half_b = in_half(y, domain);
+    }
+  }
+  return *best;
+}
+
+std::string to_json(const TermComparison& c) {
+  return text_of(Json{{"a", c.a},
+                      {"b", c.b},
+                      {"read_as", c.read_as.empty() ? Json() : Json(c.read_as)},
+                      {"measure", c.measure},
+                      {"largest", c.largest},
+                      {"at", c.at},
+                      {"rms", c.rms},
+                      {"operations", {c.operations_a, c.operations_b}},
+                      {"half", {c.half_a, c.half_b}}});
+}
+
+std::string text_of(const TermComparison& c) {
+  std::string s = fmt::format("{} beside {}{}\n", c.a, c.b,
+                              c.read_as.empty() ? "" : fmt::format(", read as {}", c.read_as));
+  s += c.largest < 1e-12 ? fmt::format("  {:<14}none, in {}\n", "difference", c.measure)
+                         : fmt::format("  {:<14}{:.4g} at most, RMS {:.3g}, in {}; at {}\n",
+                                       "difference", c.largest, c.rms, c.measure, c.at);
+  s += fmt::format("  {:<14}{} and {} operations\n", "cost", c.operations_a, c.operations_b);
+  s += fmt::format("  {:<14}{}\n  {:<14}{}\n", "in half", c.half_a, "", c.half_b);
+  return s;
+}
+
+}  // namespace gonio

@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// The audit of a person's file: which laws each function keeps, where it fails in half, what it costs, which form it is.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answer/file_functions.h"
+#include "reports/own/nearest.h"
+
+namespace gonio {
+
+/// A largest or smallest value and where it is.
+struct FoundAt {
+  double value = 0;
+  std::string at;
+};
+
+struct FunctionAudit {
+  FileFunction of;
+  std::optional<FoundAt> normalisation;  ///< ∫ D cos θ dω, furthest from 1
+  std::optional<FoundAt>
+      reciprocity;                 ///< largest relative difference with light and view exchanged
+  std::optional<FoundAt> albedo;   ///< the largest, colours at their upper bounds
+  std::optional<FoundAt> darkest;  ///< the smallest at the same colours
+  std::optional<FoundAt> lowest;   ///< below 0, else none
+  std::size_t not_finite = 0;      ///< of the inputs looked at, in double
+  std::string half;                ///< what it keeps in half, in a sentence
+  std::optional<NearestForm> nearest;
+  std::vector<std::string> slips;
+  std::vector<std::string> not_looked_at;  ///< what could not be, and why
+};
+
+/// Every function of a file, or the one that is named.
+std::vector<FunctionAudit> audit_file(const std::string& name);
+std::string to_json(const std::vector<FunctionAudit>&);
+std::string text_of(const FunctionAudit&);
+
+/// A file's function beside a form of the catalogue, or beside another file's.
+struct TermComparison {
+  std::string a, b, read_as;  ///< read_as: what was tried and taken, of a masking term G or V
+  double largest = 0, rms = 0;
+  std::string measure, at;
+  std::size_t operations_a = 0, operations_b = 0;
+  std::string half_a, half_b;
+};
+/// \param domain  ends of parameters, by name whatever its case
+TermComparison compare_terms(const std::string& a,
+                             const std::string& b,
+                             const std::vector<std::pair<std::string, Range>>& domain);
+std::string to_json(const TermComparison&);
+std::string text_of(const TermComparison&);
+/// True of an id of a term, with its role, or a file's function.
+bool is_term_name(const std::string&);
+
+}  // namespace gonio

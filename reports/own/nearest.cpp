@@ -1,0 +1,214 @@
+#include "reports/own/nearest.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+
+#include "brdf/in_number/number.h"
+#include "reports/measure/samples.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+using auditing::Row;
+using auditing::Values;
+
+constexpr double same_within = 1e-3;
+constexpr std::array powers{1.0, 2.0, 0.5, 4.0};
+
+std::string plain_name(std::string_view name) {
+  std::string s;
+  for (const char c : name)
+    if (c != '_') s += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return s;
+}
+bool is_rough(std::string_view name) {
+  return plain_name(name).find("rough") != std::string::npos;
+}
+
+const std::vector<Row>& rows_of(Role role) {
+  return role == Role::ndf       ? auditing::half_vectors()
+         : role == Role::fresnel ? auditing::cosines()
+                                 : auditing::pairs();
+}
+
+/// Of how the file's parameters stand for the form's: [form's parameter] → the file's, or none.
+struct Pairing {
+  std::vector<std::optional<std::size_t>> of;
+  std::optional<std::size_t> width;  ///< the file's, where the form has an alpha
+};
+Pairing pair_up(const TermEntry& own, const TermEntry& form) {
+  Pairing p;
+  const auto width = width_of(own.parameters);
+  for (const auto& q : form.parameters) {
+    const auto same = std::ranges::find(own.parameters, q.name, &Parameter::name);
+    std::optional<std::size_t> k;
+    if (q.name == "alpha")
+      k = p.width = width;
+    else if (same != own.parameters.end())
+      k = static_cast<std::size_t>(same - own.parameters.begin());
+    else if ((q.name == "f0" || q.name == "kd") && own.parameters.size() - width.has_value() == 1)
+      k = width == 0 ? 1 : 0;
+    p.of.push_back(k);
+  }
+  return p;
+}
+
+/// One form, by one power of the width, against the file's function.
+NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing, double power) {
+  const auto &own = catalogue()[term], &other = catalogue()[form];
+  const auto& rows = rows_of(own.role());
+  NearestForm n{form, pairing.width ? std::string(own.parameters[*pairing.width].name) : "", power};
+  std::vector<Values> f, g;
+  constexpr std::size_t places = 5;
+  for (std::size_t k = 0; k < places; ++k) {
+    Values p, q;
+    for (const auto& a : own.parameters) p.push_back(values_between(a, places)[k]);
+    for (std::size_t j = 0; j < other.parameters.size(); ++j) {
+      const auto from = pairing.of[j];
+      double v = from ? p[*from] : other.parameters[j].start;
+      if (from && from == pairing.width) v = std::pow(v, power);
+      q.push_back(std::clamp(v, other.parameters[j].legal.low, other.parameters[j].legal.high));
+    }
+    f.push_back(shown_in(Number::double_, term, p, rows));
+    g.push_back(shown_in(Number::double_, form, q, rows));
+  }
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < places; ++k)
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (const double r = f[k][i] / g[k][i]; std::isfinite(r) && r > 0) ratios.push_back(r);
+  n.difference = std::numeric_limits<double>::infinity();
+  if (ratios.empty()) return n;
+  std::ranges::nth_element(ratios, ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2));
+  const bool scales = own.role() == Role::ndf || own.role() == Role::diffuse;
+  n.factor = scales ? ratios[ratios.size() / 2] : 1;
+  double highest = 0, wanted = 0;
+  for (std::size_t k = 0; k < places; ++k) {
+    highest = std::max(highest, *std::ranges::max_element(f[k]));
+    wanted = std::max(wanted, n.factor * *std::ranges::max_element(g[k]));
+  }
+  if (own.role() == Role::ndf && highest < wanted * (1 - same_within)) n.cap = highest;
+  n.difference = 0;
+  for (std::size_t k = 0; k < places; ++k) {
+    const double peak = own.role() == Role::ndf ? *std::ranges::max_element(g[k]) : 1;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (n.cap && n.factor * g[k][i] >= *n.cap * (1 - same_within) &&
+          f[k][i] >= *n.cap * (1 - 1e-9))
+        continue;
+      const double d = std::abs(f[k][i] / n.factor - g[k][i]) / std::max(peak, 1e-300);
+      n.difference = std::max(n.difference, std::isfinite(d) ? d : 1e9);
+    }
+  }
+  return n;
+}
+
+std::string factor_text(double factor) {
+  constexpr double pi = std::numbers::pi;
+  for (const auto& [value, text] : std::initializer_list<std::pair<double, const char*>>{
+           {pi, "π times too large: 1/π is missing"},
+           {1 / pi, "π times too small: it is divided by π once too often"},
+           {4, "4 times too large: a 4 is missing below"},
+           {0.25, "4 times too small: a 4 too many below"},
+           {4 * pi, "4π times too large: 1/(4π) is missing"},
+           {2, "twice too large"},
+           {0.5, "half of what it should be"}})
+    if (std::abs(factor / value - 1) < same_within) return text;
+  return fmt::format("{:.4g} times that form", factor);
+}
+
+}  // namespace
+
+std::vector<double> values_between(const Parameter& p, std::size_t count) {
+  Range r = p.legal;
+  if (std::isnan(p.start)) r = {0.05, 1};
+  const bool by_ratio = r.low > 0 && r.high > 10 * r.low;
+  std::vector<double> v;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+    v.push_back(by_ratio ? r.low * std::pow(r.high / r.low, part)
+                         : r.low + part * (r.high - r.low));
+  }
+  return v;
+}
+
+std::optional<std::size_t> width_of(std::span<const Parameter> parameters) {
+  for (const auto* name : {"alpha", "rough", "gloss", "sigma", "width"})
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      if (plain_name(parameters[k].name).starts_with(name)) return k;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto n = plain_name(parameters[k].name);
+    if (n == "a" || n == "m" || n == "r" || n.find("rough") != n.npos) return k;
+  }
+  return {};
+}
+
+bool is_same(const NearestForm& n) {
+  return n.difference < same_within;
+}
+
+std::optional<NearestForm> nearest_form(std::size_t term) {
+  const auto& own = catalogue()[term];
+  std::optional<NearestForm> best;
+  for (std::size_t form = 0; form < catalogue_size(); ++form) {
+    const auto& entry = catalogue()[form];
+    if (entry.role() != own.role() || entry.anisotropic || entry.coupled) continue;
+    const Pairing pairing = pair_up(own, entry);
+    for (const double power : powers) {
+      if (power != 1 && !pairing.width) continue;
+      const auto n = compared(term, form, pairing, power);
+      if (!std::isfinite(n.difference)) continue;
+      // Of forms that are the same by rounding the first, and the plainest map.
+      if (!best || n.difference < std::min(0.5 * best->difference, best->difference - 1e-9))
+        best = n;
+    }
+  }
+  return best;
+}
+
+std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
+  std::vector<std::string> all;
+  if (!is_same(n)) return all;
+  const auto& own = catalogue()[term];
+  const auto& f = *foreign_term(term)->function;
+  const auto id = catalogue()[n.term].id();
+  if (!n.width.empty()) {
+    const auto& w = n.width;
+    if (is_rough(w) && n.power == 1)
+      all.push_back(
+          fmt::format("{} is taken for alpha: alpha is {}², so highlights are too wide", w, w));
+    if (is_rough(w) && n.power == 4)
+      all.push_back(
+          fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²", w, w, w));
+    if (!is_rough(w) && n.power == 2)
+      all.push_back(
+          fmt::format("{} is squared once too often: the form's alpha is {}² here", w, w));
+    if (!is_rough(w) && n.power == 0.5)
+      all.push_back(
+          fmt::format("{} stands where {}² belongs: the form's alpha is √{} here", w, w, w));
+  }
+  if (std::abs(n.factor - 1) > same_within && (own.role() == Role::ndf))
+    all.push_back(factor_text(n.factor));
+  if (n.cap && n.width.size()) {
+    const double alpha = 1 / std::sqrt(std::numbers::pi * *n.cap / n.factor);  // of a GGX peak
+    const double w = std::pow(alpha, 1 / n.power);
+    all.push_back(
+        fmt::format("a clamp at {:.5g} cuts the peak below {} {:.3g}", *n.cap, n.width, w));
+  }
+  if (own.role() == Role::masking) {
+    const auto name = plain_name(f.name.function);
+    if (f.is_g && (name.starts_with("v") && !name.starts_with("vg")))
+      all.push_back(
+          "it gives G although it is called V: the division by 4 NoL NoV is missing, or stands "
+          "elsewhere");
+    if (id == "masking.schlick_ggx.direct")
+      all.push_back(
+          "its k is that of direct light, (roughness + 1)²/8; under an environment k = alpha/2");
+  }
+  return all;
+}
+
+}  // namespace gonio

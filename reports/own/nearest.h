@@ -1,0 +1,44 @@
+#pragma once
+/// \file
+/// Which form of the catalogue a function of a person's file is, and by which slip it differs.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "brdf/catalogue/foreign_terms.h"
+#include "number/parameter.h"
+
+namespace gonio {
+
+/// A way from a file's parameter to the catalogue's alpha.
+struct WidthMap {
+  std::string_view text;  ///< "alpha = roughness²", of the name put in for w
+  double power;           ///< alpha = w^power
+};
+
+struct NearestForm {
+  std::size_t term;   ///< of the catalogue
+  std::string width;  ///< the file's parameter that stands for alpha; empty: none
+  double power = 1;   ///< alpha = width^power
+  double factor = 1;  ///< the file's value over the form's
+  double difference =
+      0;  ///< largest, of a distribution over its peak; where it is capped, elsewhere
+  std::optional<double> cap;  ///< the file's largest value, where it is less than the form's
+};
+
+/// The nearest form of the same role; none where nothing has a value that can be compared.
+std::optional<NearestForm> nearest_form(std::size_t foreign_term);
+/// What is likely wrong, a sentence each; empty where the function is the form that its names promise, or is like none.
+std::vector<std::string> likely_slips(std::size_t foreign_term, const NearestForm&);
+/// True where the file's function is that form, by these maps.
+bool is_same(const NearestForm&);
+
+/// Parameters of a file at which it is looked: within its bounds, of a width without bounds in [0.05, 1].
+std::vector<double> values_between(const Parameter&, std::size_t count);
+/// The parameter that is a width by its name: alpha, roughness, m …; none where no name says it.
+std::optional<std::size_t> width_of(std::span<const Parameter>);
+
+}  // namespace gonio

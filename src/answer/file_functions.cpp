@@ -1,0 +1,135 @@
+#include "answer/file_functions.h"
+
+#include "base/error.h"
+#include "base/json/reader.h"
+#include "base/text.h"
+#include "foreign/interpret.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace gonio {
+namespace {
+
+std::string_view what_it_gives(const foreign::Function& f) {
+  switch (f.stands) {
+    case foreign::Stands::distribution: return "a distribution D";
+    case foreign::Stands::masking: return f.is_g ? "masking as G; V = G/(4 NoL NoV)" : "masking as V";
+    case foreign::Stands::fresnel: return "a Fresnel term";
+    case foreign::Stands::lobe: break;
+  }
+  return "a whole model";
+}
+
+std::string includes_text(const foreign::Function& f) {
+  if (f.stands != foreign::Stands::lobe) return "";
+  const std::string what = f.includes == "nothing"     ? "no cosine and no factor of π"
+                           : f.includes == "cosine"    ? "the cosine NoL, which is taken out"
+                           : f.includes == "pi"        ? "a factor of π, which is taken out"
+                                                       : "NoL and a factor of π, which are taken out";
+  return fmt::format("{}{}", what,
+                     f.guessed ? " (guessed from reciprocity and albedo; --includes says it)" : "");
+}
+
+Json json_of(const FileFunction& of) {
+  Json j{{"function", of.entry.function}, {"line", of.entry.line}};
+  if (!of.function) {
+    j["refused"] = of.entry.refused;
+    return j;
+  }
+  const auto& f = *of.function;
+  j["stands_for"] = name_of(f.stands);
+  j["includes"] = f.includes;
+  j["guessed"] = f.guessed;
+  j["anisotropic"] = f.anisotropic;
+  j["operations"] = of.operations.total();
+  Json arguments = Json::array(), parameters = Json::array(), notes = Json::array();
+  for (const auto& a : f.arguments) arguments.push_back({{"name", a.name}, {"stands_for", a.stands_for}});
+  for (const auto& p : f.parameters) {
+    Json q{{"name", p.name}, {"per_channel", p.per_channel}};
+    if (p.bounded) q["low"] = p.range.low, q["high"] = p.range.high, q["default"] = p.start;
+    parameters.push_back(q);
+  }
+  for (const auto& n : f.notes) notes.push_back({{"line", n.line}, {"note", n.text}});
+  j["arguments"] = arguments;
+  j["parameters"] = parameters;
+  j["notes"] = notes;
+  return j;
+}
+
+}  // namespace
+
+Operations operations_of(const foreign::Program& p) {
+  using C = Counted<double>;
+  foreign::Interpreter<C> run(p);
+  std::size_t count = 0;
+  for (const auto& i : p.inputs)
+    if (!i.of_sample) count = std::max(count, i.index + 1);
+  run.set(std::vector<C>(count, C(0.5)));
+  return count_operations([&] {
+    run.run(
+        1, [](std::size_t, std::size_t) { return C(0.5); }, [](std::size_t, std::size_t, const C&) {});
+  });
+}
+
+FileFunctions file_functions(const std::string& token) {
+  const auto name = foreign::parse_name(token);
+  FileFunctions all{name.file, {}, {}};
+  auto entries = foreign::list_functions(name.file);
+  if (!name.function.empty())
+    std::erase_if(entries, [&](const auto& e) { return e.function != name.function; });
+  if (entries.empty()) foreign::read_function(name);  // says what is wrong
+  for (auto& e : entries) {
+    FileFunction f{std::move(e), {}, {}};
+    if (f.entry.refused.empty() || !name.function.empty()) {
+      auto one = name;
+      if (name.function.empty()) one.reading = {};
+      one.function = f.entry.function;
+      f.function = foreign::read_function(one);
+      for (const auto& p : f.function->programs) f.operations += operations_of(p);
+      all.sha256 = f.function->sha256;
+    }
+    all.functions.push_back(std::move(f));
+  }
+  return all;
+}
+
+std::string to_json(const FileFunctions& all) {
+  Json functions = Json::array();
+  for (const auto& f : all.functions) functions.push_back(json_of(f));
+  return text_of(Json{{"file", all.file}, {"sha256", all.sha256}, {"functions", functions}});
+}
+
+std::string text_of(const FileFunctions& all) {
+  std::string s;
+  const auto line = [&](const char* name, const std::string& text) {
+    if (!text.empty()) s += fmt::format("  {:<12}{}\n", name, text);
+  };
+  for (const auto& of : all.functions) {
+    s += fmt::format("{}:{}", all.file, of.entry.function);
+    s += of.entry.line > 0 ? fmt::format(", line {}\n", of.entry.line) : "\n";
+    if (!of.function) {
+      line("refused", printable(of.entry.refused, 400));
+      continue;
+    }
+    const auto& f = *of.function;
+    line("gives", fmt::format("{}, {} operations a sample", what_it_gives(f), of.operations.total()));
+    line("includes", includes_text(f));
+    std::vector<std::string> directions;
+    for (const auto& a : f.arguments)
+      if (a.stands_for != "parameter") directions.push_back(fmt::format("{} = {}", a.name, a.stands_for));
+    line("arguments", fmt::format("{}", fmt::join(directions, ", ")));
+    for (const auto& p : f.parameters)
+      line(&p == f.parameters.data() ? "parameters" : "",
+           p.bounded ? fmt::format("{}{} in [{:g}, {:g}], default {:g}", p.name,
+                                   p.per_channel ? " (a colour)" : "", p.range.low, p.range.high, p.start)
+                     : fmt::format("{}{}: no bounds; a comment \"// {} LOW HIGH DEFAULT\" gives them",
+                                   p.name, p.per_channel ? " (a colour)" : "", p.name));
+    if (f.float_constants) line("constants", "in float: HLSL and SPIR-V hold no more digits");
+    for (const auto& n : f.notes) line("note", fmt::format("line {}: {}", n.line, n.text));
+  }
+  return s;
+}
+
+}  // namespace gonio

@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// What a person's file has, as `gonio models FILE` lists it, and its document.
+
+#include <string>
+#include <vector>
+
+#include "foreign/function.h"
+#include "number/counted.h"
+
+namespace gonio {
+
+struct FileFunction {
+  foreign::Entry entry;
+  std::optional<foreign::Function> function;  ///< none: refused
+  Operations operations;                      ///< of one sample, all channels
+};
+
+struct FileFunctions {
+  std::string file, sha256;
+  std::vector<FileFunction> functions;
+};
+
+/// The functions of a file that give a number or a colour, or the one that is named.
+FileFunctions file_functions(const std::string& name);
+std::string to_json(const FileFunctions&);
+/// As a person reads it, a paragraph for each function.
+std::string text_of(const FileFunctions&);
+
+/// Operations of a program, those that are done once for given parameters left out.
+Operations operations_of(const foreign::Program&);
+
+}  // namespace gonio

@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// Functions of people's own files as further terms of the catalogue.
+///
+/// They stand behind the catalogue's own, in the order in which they are named first.  A function whose channels differ by more than
+/// their parameters has three terms, one a channel; a model names the first of them.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "brdf/catalogue/registry.h"
+#include "foreign/function.h"
+
+namespace gonio {
+
+/// The most of them in one run of a program.
+inline constexpr std::size_t most_foreign_terms = 48;
+
+struct ForeignTerm {
+  const foreign::Function* function;
+  std::size_t channel;  ///< of the function's programs
+  foreign::Program
+      derivatives;  ///< value, by each parameter, and by the frame's turn where it is anisotropic
+  /// Three channels in one: of a colour's parameter k the channel c is parameter k + 16 c.
+  foreign::Program channels;
+  std::size_t value_count;  ///< of parameters
+
+  const foreign::Program& program() const { return function->programs[channel]; }
+};
+
+/// Number of the catalogue's own terms: what comes behind them is foreign.
+std::size_t catalogue_size();
+/// nullptr of a term of the catalogue
+const ForeignTerm* foreign_term(std::size_t term);
+/// The term of channel c of a model.
+std::size_t term_of_channel(std::size_t term, std::size_t channel);
+/// A function as a term in a role, read where it was not yet.  \throws Error  as read_function(), or wrong usage of more than 48
+std::size_t foreign_term_named(std::string_view name, std::optional<Role> role = {});
+/// True where an id or a part of a spec names a function of a file.
+bool is_foreign(std::string_view name);
+/// Wrong usage where it is foreign: "FILE:F: WHAT".
+void expect_catalogue_term(std::size_t term, std::string_view what);
+
+inline constexpr std::size_t foreign_stride = 16;  ///< as ForeignTerm::channels
+
+}  // namespace gonio

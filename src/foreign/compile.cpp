@@ -1,0 +1,223 @@
+#include "foreign/compile.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "base/error.h"
+#include "base/numbers.h"
+
+#include <fmt/format.h>
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+#include <spirv-tools/libspirv.hpp>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace gonio::foreign {
+namespace {
+
+constexpr rlim_t most_seconds = 10, most_memory = rlim_t{1} << 30;
+/// The validator's time grows with the square of a module's blocks.
+constexpr std::size_t most_words = 400'000;
+constexpr std::uint16_t op_source_continued = 2, op_source = 3, op_source_extension = 4;
+
+/// GLSL's own functions that take no doubles, declared so that they do: a name of ours, and a macro.
+std::string functions_of_doubles() {
+  std::string s;
+  const auto declare = [&](const std::string& f, int arguments) {
+    const std::string name = "gonio_" + f;
+    s += arguments == 1 ? fmt::format("double {}(double x){{return x;}}\n", name)
+                        : fmt::format("double {}(double x,double y){{return x+y;}}\n", name);
+    for (int n = 2; n <= 4; ++n) {
+      std::string parts;
+      for (const char c : std::string_view("xyzw").substr(0, static_cast<std::size_t>(n)))
+        parts += fmt::format("{}{}(x.{}{})", parts.empty() ? "" : ",", name, c,
+                             arguments == 2 ? fmt::format(",y.{}", c) : "");
+      s += fmt::format("dvec{0} {1}(dvec{0} x{2}){{return dvec{0}({3});}}\n", n, name,
+                       arguments == 2 ? fmt::format(",dvec{} y", n) : "", parts);
+    }
+    if (f != "atan" || arguments == 2) s += fmt::format("#define {} {}\n", f, name);
+  };
+  for (const char* f : {"exp", "log", "exp2", "log2", "sin", "cos", "tan", "asin", "acos", "atan"})
+    declare(f, 1);
+  for (const char* f : {"pow", "atan"}) declare(f, 2);
+  return s;
+}
+
+std::string head_of(Language language) {
+  if (language == Language::hlsl) return "#define main person_main\n";
+  std::string s = "#version 450\n" + functions_of_doubles();
+  s += "#define radians(x) ((x)*(3.14159265358979323846lf/180.0lf))\n"
+       "#define degrees(x) ((x)*(180.0lf/3.14159265358979323846lf))\n"
+       "#define float double\n#define main person_main\n";
+  for (int n = 2; n <= 4; ++n)
+    s += fmt::format("#define vec{0} dvec{0}\n#define mat{0} dmat{0}\n", n);
+  return s;
+}
+
+/// Without what names the source's language, which an older validator may not know.
+std::vector<std::uint32_t> without_language(const std::vector<std::uint32_t>& words) {
+  if (words.size() < 5) return words;
+  std::vector<std::uint32_t> out(words.begin(), words.begin() + 5);
+  for (std::size_t at = 5; at < words.size();) {
+    const std::uint32_t length = std::max(words[at] >> 16, 1U), op = words[at] & 0xffff;
+    const auto end = std::min(words.size(), at + length);
+    if (op != op_source_continued && op != op_source && op != op_source_extension)
+      out.insert(out.end(), words.begin() + static_cast<std::ptrdiff_t>(at),
+                 words.begin() + static_cast<std::ptrdiff_t>(end));
+    at = end;
+  }
+  return out;
+}
+
+void expect_valid(const std::vector<std::uint32_t>& words) {
+  if (words.size() > most_words)
+    throw std::runtime_error(
+        "more than 400000 words of SPIR-V, expected a function of a few pages");
+  spvtools::SpirvTools tools(SPV_ENV_UNIVERSAL_1_6);
+  std::string said;
+  tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
+                               const char* message) { said = message; });
+  if (!tools.Validate(words))
+    throw std::runtime_error("SPIR-V that its validator refuses: " + said);
+}
+
+/// "ERROR: shader:12: 'x' : undeclared identifier" → "line 12: 'x' : undeclared identifier"
+std::string first_error(const char* log) {
+  const std::string_view all(log);
+  auto from = all.find("ERROR: shader:");
+  if (from == all.npos) return std::string(all.substr(0, all.find('\n')));
+  from += std::strlen("ERROR: shader:");
+  return "line " + std::string(all.substr(from, all.find('\n', from) - from));
+}
+
+std::vector<std::uint32_t> compiled_here(const Source& s) {
+  std::vector<std::uint32_t> words;
+  if (s.language == Language::spirv) {
+    words.resize(s.text.size() / 4);
+    std::memcpy(words.data(), s.text.data(), words.size() * 4);
+    words = without_language(words);
+    expect_valid(words);
+    return words;
+  }
+  glslang::InitializeProcess();
+  const bool hlsl = s.language == Language::hlsl;
+  const std::string head = head_of(s.language);
+  const std::string tail = hlsl ? "\n#undef main\n[numthreads(1,1,1)] void gonio_main() {}\n"
+                                : "\n#undef main\nvoid main() {}\n";
+  const std::array texts{head.c_str(), s.text.c_str(), tail.c_str()};
+  const std::array names{"head", "shader", "tail"};
+  glslang::TShader shader(EShLangCompute);
+  shader.setStringsWithLengthsAndNames(texts.data(), nullptr, names.data(), 3);
+  if (hlsl) {
+    shader.setEntryPoint("gonio_main");
+    shader.setSourceEntryPoint("gonio_main");
+  }
+  const auto client = hlsl ? glslang::EShClientVulkan : glslang::EShClientOpenGL;
+  shader.setEnvInput(hlsl ? glslang::EShSourceHlsl : glslang::EShSourceGlsl, EShLangCompute, client,
+                     100);
+  shader.setEnvClient(client, hlsl ? glslang::EShTargetVulkan_1_0 : glslang::EShTargetOpenGL_450);
+  shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
+  shader.setAutoMapLocations(true);
+  shader.setAutoMapBindings(true);
+  const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgKeepUncalled |
+                                                 (hlsl ? EShMsgReadHlsl | EShMsgVulkanRules : 0));
+  if (!shader.parse(GetDefaultResources(), 450, false, messages))
+    throw std::runtime_error(first_error(shader.getInfoLog()));
+  glslang::TProgram program;
+  program.addShader(&shader);
+  if (!program.link(messages)) throw std::runtime_error(first_error(program.getInfoLog()));
+  glslang::SpvOptions options;
+  options.disableOptimizer = true;
+  options.generateDebugInfo = true;  // lines
+  glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words, &options);
+  words = without_language(words);
+  expect_valid(words);
+  return words;
+}
+
+/// Limits of the child: it is killed by the system beyond them.
+void take_limits() {
+  const auto bound = [](auto what, rlim_t most) {
+    const rlimit limit{most, most};
+    ::setrlimit(what, &limit);
+  };
+  rlim_t pages = 0;  // what it shares with its parent, a great table maybe, is not the text's
+  std::ifstream("/proc/self/statm") >> pages;
+  bound(RLIMIT_AS, pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + most_memory);
+  bound(RLIMIT_CPU, most_seconds);
+  bound(RLIMIT_CORE, 0);
+  bound(RLIMIT_FSIZE, 0);
+  bound(RLIMIT_NOFILE, 0);  // opens nothing from here on
+}
+
+[[noreturn]] void run_child(const Source& s, int to) {
+  take_limits();
+  std::string out(1, '+');
+  try {
+    const auto words = compiled_here(s);
+    out.append(reinterpret_cast<const char*>(words.data()), words.size() * 4);
+  } catch (const std::exception& e) {
+    out = std::string("-") + e.what();
+  }
+  for (std::size_t at = 0; at < out.size();) {
+    const auto n = ::write(to, out.data() + at, out.size() - at);
+    if (n <= 0) break;
+    at += static_cast<std::size_t>(n);
+  }
+  ::_exit(0);
+}
+
+/// What the child wrote; empty where it was killed.
+std::string answer_of_child(const Source& s) {
+  std::array<int, 2> ends{};
+  if (::pipe(ends.data()) != 0) throw bad_input(s.path, "compiling", "no pipe", "one");
+  const pid_t child = ::fork();
+  if (child < 0) throw bad_input(s.path, "compiling", "no process", "one");
+  if (child == 0) {
+    ::close(ends[0]);
+    run_child(s, ends[1]);
+  }
+  ::close(ends[1]);
+  std::string all;
+  std::array<char, 65536> piece{};
+  for (ssize_t n = 0; (n = ::read(ends[0], piece.data(), piece.size())) > 0;)
+    if (all.size() <= most_words * 4) all.append(piece.data(), static_cast<std::size_t>(n));
+  ::close(ends[0]);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? all : std::string();
+}
+
+}  // namespace
+
+bool can_compile() {
+  return true;
+}
+
+std::vector<std::uint32_t> compile(const Source& s) {
+  const std::string answer = answer_of_child(s);
+  if (answer.empty())
+    throw bad_input(s.path, "compiling",
+                    "a text that takes the compiler too deep, too far or too long",
+                    "10 s and 1 GB to suffice");
+  if (answer[0] == '+') {
+    std::vector<std::uint32_t> words((answer.size() - 1) / 4);
+    std::memcpy(words.data(), answer.data() + 1, words.size() * 4);
+    return words;
+  }
+  std::string place = "compiling", found = answer.substr(1);
+  if (const auto colon = found.find(": "); found.starts_with("line ") && colon != found.npos) {
+    place = found.substr(0, colon);
+    found.erase(0, colon + 2);
+  }
+  throw bad_input(s.path, place, found, "a text that compiles");
+}
+
+}  // namespace gonio::foreign

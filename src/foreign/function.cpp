@@ -1,0 +1,564 @@
+#include "foreign/function.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <set>
+
+#include "base/error.h"
+#include "base/nearest_names.h"
+#include "base/numbers.h"
+#include "base/text.h"
+#include "foreign/compile.h"
+#include "foreign/interpret.h"
+#include "foreign/spirv_module.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio::foreign {
+namespace {
+
+constexpr std::size_t most_read = 16;        ///< parameters of a function
+constexpr std::uint32_t spirv_pointer = 32;  ///< OpTypePointer
+
+// ---- names of arguments
+// ---------------------------------------------------------------------------
+
+/// "n_dot_l", "NdotL" and "NoL" are one: "nol" and its like, without what does not tell.
+std::string plain(std::string_view name) {
+  std::string s;
+  for (const char c : name)
+    if (c != '_') s += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return s;
+}
+
+const std::map<std::string, std::string_view>& vectors() {
+  static const std::map<std::string, std::string_view> all{{"n", "N"},
+                                                           {"normal", "N"},
+                                                           {"nrm", "N"},
+                                                           {"worldnormal", "N"},
+                                                           {"l", "L"},
+                                                           {"light", "L"},
+                                                           {"lightdir", "L"},
+                                                           {"lightdirection", "L"},
+                                                           {"tolight", "L"},
+                                                           {"wi", "L"},
+                                                           {"v", "V"},
+                                                           {"view", "V"},
+                                                           {"viewdir", "V"},
+                                                           {"eye", "V"},
+                                                           {"viewdirection", "V"},
+                                                           {"toeye", "V"},
+                                                           {"toview", "V"},
+                                                           {"wo", "V"},
+                                                           {"h", "H"},
+                                                           {"half", "H"},
+                                                           {"halfvector", "H"},
+                                                           {"halfway", "H"},
+                                                           {"halfdir", "H"},
+                                                           {"x", "X"},
+                                                           {"t", "X"},
+                                                           {"tangent", "X"},
+                                                           {"y", "Y"},
+                                                           {"b", "Y"},
+                                                           {"bitangent", "Y"},
+                                                           {"binormal", "Y"}};
+  return all;
+}
+
+/// The name of a cosine between two of n l v h t b, whichever way it is written; empty: none.
+std::string cosine_of(const std::string& s) {
+  if (s == "costheta" || s == "cosine" || s == "costhetad") return "voh";
+  if (s == "costhetai" || s == "costhetal") return "nol";
+  if (s == "costhetao" || s == "costhetav") return "nov";
+  if (s == "costhetah") return "noh";
+  if (s == "sin2thetah" || s == "sinthetah2") return "sin2_theta_h";
+  std::string pair = s;
+  for (const char* between : {"dot", "o"})
+    if (const auto at = s.find(between);
+        at == 1 && s.size() == std::string_view(between).size() + 2)
+      pair = {s.front(), s.back()};
+  if (s.size() == 5 && s.starts_with("dot")) pair = s.substr(3);
+  if (pair.size() != 2 ||
+      (s.size() == 2 && s != "nl" && s != "nv" && s != "nh" && s != "vh" && s != "lh" && s != "lv"))
+    return "";
+  for (char& c : pair) c = c == 't' ? 'x' : c == 'b' ? 'y' : c;
+  static const std::map<std::string, std::string> known{
+      {"nl", "nol"}, {"nv", "nov"}, {"nh", "noh"}, {"vh", "voh"}, {"lh", "voh"}, {"lv", "lov"},
+      {"xh", "xoh"}, {"yh", "yoh"}, {"xl", "xol"}, {"yl", "yol"}, {"xv", "xov"}, {"yv", "yov"}};
+  for (const auto& p : {pair, std::string(pair.rbegin(), pair.rend())})
+    if (const auto k = known.find(p); k != known.end()) return k->second;
+  return "";
+}
+
+/// What an argument of that name and size stands for: N L V H X Y, a cosine, or nothing: a parameter.
+std::string direction_of(const std::string& name, std::size_t size, const Reading& reading) {
+  const auto given = reading.arguments.find(name);
+  const std::string s = plain(given == reading.arguments.end() ? name : given->second);
+  std::string found;
+  if (size == 3) {
+    if (const auto v = vectors().find(s); v != vectors().end()) found = v->second;
+  } else if (size == 1) {
+    found = cosine_of(s);
+  }
+  if (given != reading.arguments.end() && found.empty() && s != "parameter")
+    throw wrong_usage(fmt::format(
+        "argument {}={}: expected {} of {}", name, given->second,
+        size == 3 ? "N, L, V, H, X or Y" : "nol, nov, noh, voh, lov, sin2_theta_h, xoh …", name));
+  return found;
+}
+
+std::size_t angle(std::string_view name) {
+  return static_cast<std::size_t>(std::ranges::find(angle_names, name) - angle_names.begin());
+}
+
+/// Scalars of a direction, in the frame N = z.
+std::vector<Ref> coordinates(Program& p, char direction) {
+  const auto in = [&](std::string_view n) { return p.input(true, angle(n)); };
+  switch (direction) {
+    case 'N':
+      return {p.frame_zero(), p.frame_zero(), p.constant(1)};
+    case 'X':
+      return {p.constant(1), p.frame_zero(), p.frame_zero()};
+    case 'Y':
+      return {p.frame_zero(), p.constant(1), p.frame_zero()};
+    case 'L':
+      return {in("xol"), in("yol"), in("nol")};
+    case 'V':
+      return {in("xov"), in("yov"), in("nov")};
+    default:
+      return {in("xoh"), in("yoh"), in("noh")};
+  }
+}
+
+Ref cosine(Program& p, const std::string& name) {
+  if (name != "lov") return p.input(true, angle(name));
+  const auto l = coordinates(p, 'L'), v = coordinates(p, 'V');
+  Ref s = p(Op::mul, l[0], v[0]);
+  for (std::size_t k = 1; k < 3; ++k) s = p(Op::add, s, p(Op::mul, l[k], v[k]));
+  return s;
+}
+
+// ---- files
+// ------------------------------------------------------------------------------------------
+
+struct Compiled {
+  Source source;
+  std::unique_ptr<const SpirvModule> module;
+};
+
+std::mutex files_mutex;
+std::map<std::string, std::shared_ptr<const Compiled>>& files() {
+  static std::map<std::string, std::shared_ptr<const Compiled>> all;
+  return all;
+}
+
+[[noreturn]] void refuse(const std::string& file, const Refused& r) {
+  throw bad_input(file, r.line > 0 ? fmt::format("line {}", r.line) : "the whole file", r.what(),
+                  "a function of numbers that ends");
+}
+
+std::shared_ptr<const Compiled> compiled(Source source) {
+  auto c = std::make_shared<Compiled>(Compiled{std::move(source), nullptr});
+  try {
+    c->module = std::make_unique<SpirvModule>(compile(c->source));
+  } catch (const Refused& r) {
+    refuse(c->source.path, r);
+  } catch (const std::out_of_range&) {
+    throw bad_input(c->source.path, "the whole file", "SPIR-V that refers to what it has not",
+                    "a module of functions");
+  }
+  return c;
+}
+
+/// The file, compiled once in a run.
+std::shared_ptr<const Compiled> file_of(const std::string& path) {
+  const std::lock_guard lock(files_mutex);
+  auto& known = files()[path];
+  if (!known) known = compiled(read_source(path));
+  return known;
+}
+
+/// Functions that give a number or a colour, by name; of one that is overloaded the last.
+std::map<std::string, Id> functions_of(const SpirvModule& m) {
+  std::map<std::string, Id> all;
+  for (const auto& [id, f] : m.functions()) {
+    const auto name = m.short_name(id);
+    if (name.starts_with("gonio_") || name.empty() || name == "main") continue;
+    const auto op_size = m.is_of_numbers(f.result) ? m.size(f.result) : 0;
+    if (op_size == 1 || op_size == 3 || op_size == 4) all[name] = id;
+  }
+  return all;
+}
+
+/// The function that a file is about: a .brdf's BRDF, one that is called so, or the last that takes two directions.
+std::string main_function(const Compiled& c, const std::string& path) {
+  const SpirvModule& m = *c.module;
+  const auto all = functions_of(m);
+  std::vector<std::string> names;
+  std::optional<std::string> last;
+  int line = -1;
+  for (const auto& [name, id] : all) {
+    names.push_back(name);
+    if (plain(name) == "brdf") return name;
+    const auto& f = m.functions().at(id);
+    std::set<std::string> taken;
+    for (const auto& [argument, type] : f.parameters) {
+      const Id held = m.type(type).op == spirv_pointer ? m.type(type).element : type;
+      if (m.is_of_numbers(held)) taken.insert(direction_of(m.name(argument), m.size(held), {}));
+    }
+    const bool of_two = (taken.contains("L") && taken.contains("V")) ||
+                        (taken.contains("nol") && taken.contains("nov") && taken.contains("noh"));
+    if ((of_two && f.line > line) || all.size() == 1) last = name, line = f.line;
+  }
+  if (last) return *last;
+  if (names.empty())
+    throw bad_input(path, "the whole file", "no function that gives a number or a colour", "one");
+  throw wrong_usage(fmt::format("{}: which function? it has: {}", path, fmt::join(names, ", ")));
+}
+
+// ---- from a function of a file to a term
+// -----------------------------------------------------------
+
+/// A parameter as the text has it: so many numbers with a name.
+struct Raw {
+  std::string name;
+  std::size_t size, first;  ///< its numbers among all
+};
+
+class Builder {
+ public:
+  Builder(const Name& name, const Compiled& c, std::optional<Stands> as) : c_(c), m_(*c.module) {
+    f_.name = name;
+    if (f_.name.function.empty()) f_.name.function = main_function(c, name.file);
+    f_.sha256 = c.source.sha256;
+    f_.float_constants = c.source.language != Language::glsl;
+    as_ = as;
+  }
+
+  Function built() {
+    const auto all = functions_of(m_);
+    const auto id = all.find(f_.name.function);
+    if (id == all.end()) {
+      std::vector<std::string_view> names;
+      for (const auto& [n, i] : all) names.push_back(n);
+      refuse_name(f_.name.function, names, fmt::format("function of {}", f_.name.file));
+    }
+    f_.line = m_.functions().at(id->second).line;
+    Translation t;
+    try {
+      t = translate(m_, id->second,
+                    [&](Program& p, const std::string& n, std::size_t size, Kind k) {
+                      return bind(p, n, size, k);
+                    });
+    } catch (const Refused& r) {
+      refuse(f_.name.file, r);
+    } catch (const std::out_of_range&) {
+      throw bad_input(f_.name.file, fmt::format("line {}", f_.line),
+                      "SPIR-V that refers to what it has not", "a function of numbers");
+    }
+    f_.notes = std::move(t.notes);
+    if (t.program.outputs.size() == 4) t.program.outputs.pop_back();
+    if (c_.source.explorer)
+      std::ranges::stable_sort(raw_, {}, [&](const Raw& r) {
+        return std::ranges::find(c_.source.declared, r.name, &Declared::name) -
+               c_.source.declared.begin();
+      });
+    divide_into_channels(t.program);
+    expect_known_names();
+    std::erase_if(f_.arguments, [&](const Argument& a) {  // a global that has a value of its own
+      return a.stands_for == "parameter" &&
+             std::ranges::none_of(f_.parameters, [&](const FunctionParameter& p) {
+               return p.name.starts_with(a.name);
+             });
+    });
+    f_.stands = as_.value_or(stands());
+    finish();
+    return std::move(f_);
+  }
+
+ private:
+  std::vector<Ref> bind(Program& p, const std::string& name, std::size_t size, Kind kind) {
+    const Reading& reading = f_.name.reading;
+    const Declared* const declared = c_.source.find(name);
+    const auto fixed = reading.values.find(name);
+    const bool is_fixed = fixed != reading.values.end() && fixed->second.size() == 1;
+    if (kind != Kind::number || is_fixed) {
+      if (!is_fixed && !(declared && !declared->start.empty()))
+        throw wrong_usage(
+            fmt::format("{}: {} is no number that varies: give its value, as in --bounds {}=1",
+                        f_.name.file, name, name));
+      const double v = is_fixed ? fixed->second[0] : declared->start[0];
+      note(name, fmt::format("{:g}", v));
+      return std::vector<Ref>(size, p.constant(kind == Kind::truth ? (v != 0) : v, kind));
+    }
+    const std::string stands_for =
+        c_.source.explorer && declared ? std::string() : direction_of(name, size, reading);
+    note(name, stands_for.empty() ? "parameter" : stands_for);
+    if (!stands_for.empty())
+      return size == 3 ? coordinates(p, stands_for[0]) : std::vector{cosine(p, stands_for)};
+    auto known = std::ranges::find(raw_, name, &Raw::name);
+    if (known == raw_.end()) {
+      known = raw_.insert(known, {name, size, numbers_});
+      numbers_ += size;
+    }
+    const Raw& raw = *known;
+    std::vector<Ref> r;
+    for (std::size_t k = 0; k < size; ++k) r.push_back(p.input(false, raw.first + k));
+    return r;
+  }
+  void note(const std::string& name, const std::string& stands_for) {
+    if (std::ranges::find(f_.arguments, name, &Argument::name) == f_.arguments.end())
+      f_.arguments.push_back({name, stands_for});
+  }
+
+  void expect_known_names() const {
+    const auto known = [&](const std::string& n) {
+      return std::ranges::find(f_.arguments, n, &Argument::name) != f_.arguments.end() ||
+             std::ranges::find(f_.parameters, n, &FunctionParameter::name) != f_.parameters.end();
+    };
+    for (const auto& [n, v] : f_.name.reading.arguments)
+      if (!known(n)) throw wrong_usage(fmt::format("{} has no argument '{}'", text_of(f_.name), n));
+    for (const auto& [n, v] : f_.name.reading.values)
+      if (!known(n))
+        throw wrong_usage(fmt::format("{} has no parameter '{}'", text_of(f_.name), n));
+  }
+
+  /// One program a channel, each of the parameters that it reads; colours are one a channel where each channel reads its own.
+  void divide_into_channels(const Program& whole) {
+    std::vector<Program> one;
+    for (const Ref o : whole.outputs) {
+      Program p = whole;
+      p.outputs = {o};
+      one.push_back(trimmed(p));
+    }
+    bool own = one.size() == 3;
+    for (std::size_t c = 0; c < one.size(); ++c)
+      for (const auto& r : raw_)
+        if (r.size == 3)
+          for (std::size_t k = 0; k < 3; ++k)
+            own = own && (k == c || !reads(one[c], false, r.first + k));
+    for (const auto& r : raw_)
+      for (std::size_t k = 0; k < r.size; ++k) {
+        const bool is_read = std::ranges::any_of(
+            one, [&](const Program& p) { return reads(p, false, r.first + k); });
+        const bool colour = own && r.size == 3;
+        if (colour && k > 0) {
+          place_[r.first + k] = place_[r.first];
+          continue;
+        }
+        const bool any = colour ? std::ranges::any_of(one,
+                                                      [&](const Program& p) {
+                                                        return reads(p, false, r.first) ||
+                                                               reads(p, false, r.first + 1) ||
+                                                               reads(p, false, r.first + 2);
+                                                      })
+                                : is_read;
+        if (!any) continue;
+        place_[r.first + k] = f_.parameters.size();
+        add_parameter(r, k, colour);
+      }
+    if (f_.parameters.size() > most_read)
+      throw bad_input(f_.name.file, fmt::format("line {}", f_.line),
+                      fmt::format("{} parameters", f_.parameters.size()),
+                      fmt::format("at most {}: fix some, as in --bounds NAME=0.5", most_read));
+    for (auto& p : one) renumber(p);
+    if (std::ranges::all_of(one, [&](const Program& p) { return is_same(p, one[0]); }))
+      one.resize(1);
+    f_.programs = std::move(one);
+  }
+  void add_parameter(const Raw& r, std::size_t k, bool colour) {
+    const Declared* const d = c_.source.find(r.name);
+    FunctionParameter p{r.name};
+    if (r.size > 1 && !colour) p.name += fmt::format("_{}", (r.size == 3 ? "rgb" : "xyzw")[k % 4]);
+    p.per_channel = colour;
+    const auto given = f_.name.reading.values.find(r.name);
+    const bool is_given = given != f_.name.reading.values.end();
+    p.bounded = d || is_given;
+    if (d) p.range = d->range;
+    if (is_given) p.range = {given->second[0], given->second[1]};
+    if (d && !d->start.empty())
+      p.start = d->start[d->start.size() == 3 ? k : 0];
+    else
+      p.start = p.range.low > 0 && p.range.high > 100 * p.range.low
+                    ? std::sqrt(p.range.low * p.range.high)
+                    : (p.range.low + p.range.high) / 2;
+    if (is_given && given->second.size() > 2) p.start = given->second[2];
+    if (colour && d && d->start.size() == 3)
+      p.start = (d->start[0] + d->start[1] + d->start[2]) / 3;
+    p.start = std::clamp(p.start, p.range.low, p.range.high);
+    f_.parameters.push_back(std::move(p));
+  }
+  void renumber(Program& p) {
+    for (auto& i : p.inputs)
+      if (!i.of_sample) i.index = place_.at(i.index);
+  }
+  static bool is_same(const Program& a, const Program& b) {
+    const auto same_node = [](const Node& x, const Node& y) {
+      return x.op == y.op && x.kind == y.kind && x.a == y.a && x.b == y.b && x.c == y.c &&
+             (x.op != Op::constant || x.value == y.value);
+    };
+    const auto same_input = [](const Input& x, const Input& y) {
+      return x.of_sample == y.of_sample && x.index == y.index && x.node == y.node;
+    };
+    return a.outputs == b.outputs && std::ranges::equal(a.nodes, b.nodes, same_node) &&
+           std::ranges::equal(a.inputs, b.inputs, same_input);
+  }
+
+  bool reads_angle(std::string_view name) const {
+    return std::ranges::any_of(f_.programs,
+                               [&](const Program& p) { return reads(p, true, angle(name)); });
+  }
+  /// What its arguments say; of one that takes both cosines, its name.
+  Stands stands() const {
+    const bool l = reads_angle("nol"), v = reads_angle("nov"), facing = reads_angle("voh");
+    bool frame = false;
+    for (std::size_t k = angle("xol"); k < angle_names.size(); ++k)
+      frame |= reads_angle(angle_names[k]);
+    const bool half = reads_angle("noh") || reads_angle("sin2_theta_h") || reads_angle("xoh") ||
+                      reads_angle("yoh");
+    if (half && !l && !v && !facing && !frame) return Stands::distribution;
+    if (facing && !l && !v && !half && !frame) return Stands::fresnel;
+    const std::string n = plain(f_.name.function);
+    const bool named = n.starts_with("v") || n.starts_with("g") || n.find("smith") != n.npos ||
+                       n.find("visib") != n.npos || n.find("geom") != n.npos ||
+                       n.find("mask") != n.npos || n.find("shadow") != n.npos;
+    return (l || v) && !frame && f_.programs.size() == 1 && named && n.find("diffuse") == n.npos
+               ? Stands::masking
+               : Stands::lobe;
+  }
+
+  // ---- what a value includes
+  // ------------------------------------------------------------------------
+
+  std::vector<double> starts() const {
+    std::vector<double> v;
+    for (const auto& p : f_.parameters) v.push_back(p.start);
+    return v;
+  }
+  static std::array<double, 11> between(double theta_l, double phi, double theta_v, double turn) {
+    const std::array l{std::sin(theta_l) * std::cos(phi + turn),
+                       std::sin(theta_l) * std::sin(phi + turn), std::cos(theta_l)};
+    const std::array v{std::sin(theta_v) * std::cos(turn), std::sin(theta_v) * std::sin(turn),
+                       std::cos(theta_v)};
+    std::array<double, 3> h{l[0] + v[0], l[1] + v[1], l[2] + v[2]};
+    const double size = std::hypot(h[0], h[1], h[2]);
+    for (double& x : h) x /= size;
+    return {l[2], v[2], h[2], size / 2, h[0] * h[0] + h[1] * h[1], h[0], h[1],
+            l[0], l[1], v[0], v[1]};
+  }
+  static bool differ(double a, double b) {
+    return std::abs(a - b) > 1e-6 * std::max(std::abs(a), std::abs(b));
+  }
+  void finish() {
+    for (std::size_t k = first_of_frame; k < angle_names.size(); ++k)
+      f_.reads_frame = f_.reads_frame || reads_angle(angle_names[k]);
+    const auto p = starts();
+    for (int k = 0; f_.reads_frame && k < 12; ++k) {
+      const double t = 0.11 + 0.11 * k, u = 1.4 - 0.1 * k, phi = 0.3 + 0.5 * k;
+      const auto a = value_of(f_, p, between(t, phi, u, 0));
+      const auto b = value_of(f_, p, between(t, phi, u, 0.7 + 0.3 * k));
+      for (std::size_t c = 0; c < a.size(); ++c) f_.anisotropic |= differ(a[c], b[c]);
+    }
+    if (f_.stands == Stands::masking) {
+      const double at_normal = value_of(f_, p, between(0, 0, 0, 0))[0];
+      const auto& said = f_.name.reading.includes;
+      f_.is_g = said ? *said == "g" : at_normal > 0.6;
+      f_.includes = f_.is_g ? "g" : "v";
+      f_.guessed = !said;
+    }
+    if (f_.stands == Stands::lobe) includes_of_lobe(p);
+    for (auto& program : f_.programs) scale(program);
+  }
+  void includes_of_lobe(const std::vector<double>& p) {
+    if (const auto& said = f_.name.reading.includes) {
+      static constexpr std::string_view known[] = {"nothing", "cosine", "pi", "cosine,pi"};
+      if (std::ranges::find(known, *said) == std::end(known))
+        refuse_name(*said, known, "thing that a value includes");
+      f_.includes = *said;
+      return;
+    }
+    // Reciprocity: f(l, v) = f(v, l) with the cosine taken out, not with it in.
+    int plain_differs = 0, without_differs = 0;
+    double sum = 0, most = 0;
+    for (int k = 0; k < 24; ++k) {
+      const double t = 0.15 + 0.05 * k, u = 1.3 - 0.045 * k, phi = 0.4 * k;
+      const auto x = between(t, phi, u, 0), y = between(u, -phi, t, 0);
+      const double a = value_of(f_, p, x)[0], b = value_of(f_, p, y)[0];
+      if (a == 0 && b == 0) continue;
+      plain_differs += differ(a, b);
+      without_differs += differ(a / x[0], b / y[0]);
+    }
+    constexpr int rows = 24, columns = 32;
+    for (int i = 0; i < rows; ++i)
+      for (int j = 0; j < columns; ++j) {  // uniform in cos²θ: the cosine is in the weight
+        const double mu = std::sqrt((i + 0.5) / rows);
+        const auto f = value_of(
+            f_, p, between(std::acos(mu), 2 * std::numbers::pi * (j + 0.5) / columns, 0.5, 0));
+        for (const double v : f) most = std::max(most, v);
+        sum += f[0] / (rows * columns);
+      }
+    const bool cosine = plain_differs > 3 && without_differs == 0;
+    const double albedo = std::numbers::pi * sum * (cosine ? 1.3 : 1);
+    const bool pi = albedo > 1.2 && albedo / std::numbers::pi <= 1;
+    f_.includes = cosine && pi ? "cosine,pi" : cosine ? "cosine" : pi ? "pi" : "nothing";
+    f_.guessed = true;
+  }
+  /// The program's value as gonio has it: f in 1/sr, V without its G.
+  void scale(Program& p) {
+    Ref r = p.outputs[0];
+    const auto has = [&](std::string_view what) {
+      return f_.includes.find(what) != std::string::npos;
+    };
+    if (f_.is_g)
+      r = p(Op::div, r, p(Op::mul, p.constant(4), p(Op::mul, cosine(p, "nol"), cosine(p, "nov"))));
+    if (f_.stands == Stands::lobe && has("cosine")) r = p(Op::div, r, cosine(p, "nol"));
+    if (f_.stands == Stands::lobe && has("pi")) r = p(Op::div, r, p.constant(std::numbers::pi));
+    p.outputs[0] = r;
+  }
+
+  const Compiled& c_;
+  const SpirvModule& m_;
+  Function f_;
+  std::optional<Stands> as_;
+  std::vector<Raw> raw_;
+  std::size_t numbers_ = 0;
+  std::map<std::size_t, std::size_t> place_;  ///< number of a parameter as written → parameter
+};
+
+}  // namespace
+
+void provide(const std::string& file, const std::string& content) {
+  auto made = compiled(source_of(file, content));
+  const std::lock_guard lock(files_mutex);
+  files()[file] = std::move(made);
+}
+
+Function read_function(const Name& name, std::optional<Stands> as) {
+  const auto c = file_of(name.file);
+  return Builder(name, *c, as).built();
+}
+
+std::vector<Entry> list_functions(const std::string& file) {
+  const auto c = file_of(file);
+  std::vector<Entry> all;
+  for (const auto& [name, id] : functions_of(*c->module)) {
+    Entry e{name, c->module->functions().at(id).line};
+    try {
+      read_function({file, name});
+    } catch (const Error& error) {
+      e.refused = error.what();
+    }
+    all.push_back(std::move(e));
+  }
+  std::ranges::sort(all, {}, [](const Entry& e) { return std::pair(e.line, e.function); });
+  if (all.empty())
+    throw bad_input(file, "the whole file", "no function that gives a number or a colour", "one");
+  return all;
+}
+
+}  // namespace gonio::foreign

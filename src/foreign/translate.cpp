@@ -1,0 +1,820 @@
+#include "foreign/translate.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "foreign/spirv_words.h"
+
+namespace gonio::foreign {
+namespace {
+
+constexpr int most_turns = 4096, deepest_calls = 64, deepest_logic = 64;
+constexpr std::size_t most_variables = 100'000, most_steps = 4'000'000, most_looks = 4000;
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+using Parts = std::vector<Ref>;
+
+/// A variable's scalars: what all lanes hold, and what was stored last, which the lanes of `where` see without a select.
+struct Variable {
+  Parts parts, latest;
+  std::vector<Ref> where, written;  ///< masks; `written`: lanes that ever stored
+  int depth;                        ///< of the call that it belongs to
+};
+
+/// A value, or a pointer to `offset` of a variable.
+struct Value {
+  Id type = 0;
+  Parts parts{};
+  int variable = -1;
+  std::size_t offset = 0;
+  Ref guard = nothing;  ///< lanes that these parts belong to; none: all
+  Parts others{};       ///< for lanes beside those: they left a loop before
+};
+
+struct Edge {
+  Id from;
+  Ref mask;
+  std::map<Id, Parts> phi;
+};
+
+/// A call of a function that is being run.
+struct Frame {
+  const SpirvFunction& f;
+  std::map<Id, Value> values;
+  Ref outer;  ///< mask of the call
+  int depth;
+  Ref now = nothing;  ///< mask of the block
+  std::map<std::size_t, std::vector<Edge>> pending{};
+  std::vector<std::pair<Ref, Parts>> returned{};
+};
+
+/// Functions of doubles, which GLSL has not: declared before the person's text, known by name.
+const std::map<std::string, Op>& declared_functions() {
+  static const std::map<std::string, Op> all{
+      {"gonio_exp", Op::exp},   {"gonio_log", Op::log},   {"gonio_exp2", Op::exp2},
+      {"gonio_log2", Op::log2}, {"gonio_sin", Op::sin},   {"gonio_cos", Op::cos},
+      {"gonio_asin", Op::asin}, {"gonio_acos", Op::acos}, {"gonio_atan", Op::atan}};
+  return all;
+}
+
+class Translator {
+ public:
+  Translator(const SpirvModule& module, const Binding& binding) : m(module), bind_(binding) {}
+
+  Translation run(Id function) {
+    for (const auto& g : m.globals()) {
+      p.line = g.line;
+      if (g.op == spv::OpVariable && !m.is_of_numbers(m.type(g.type).element)) continue;
+      global(g);
+    }
+    // Globals that are no constants, but have a value, get it where main begins.
+    for (const auto& [id, main] : m.functions())
+      if (m.short_name(id) == "main" && id != function && main.parameters.empty())
+        call(main, {}, p.truth(true), 1);
+    const auto& f = m.functions().at(function);
+    p.line = f.line;
+    std::vector<Value> arguments;
+    for (const auto& [id, type] : f.parameters) {
+      const bool by_pointer = m.type(type).op == spv::OpTypePointer;
+      const Id held = by_pointer ? m.type(type).element : type;
+      Value v{held, bound(m.name(id), held)};
+      if (by_pointer) v = {held, {}, new_variable(held, v.parts, 0)};
+      arguments.push_back(std::move(v));
+    }
+    p.outputs = call(f, arguments, p.truth(true), 1).parts;
+    for (const Ref r : p.outputs)
+      if (r == nothing) p.refuse("a result that was never written");
+    return {trimmed(p), std::move(notes_)};
+  }
+
+ private:
+  const SpirvModule& m;
+  const Binding& bind_;
+  Program p;
+  std::map<Id, Value> globals_;
+  std::vector<Variable> variables_;
+  std::vector<Note> notes_;
+  std::size_t steps_ = 0, looks_ = 0;
+
+  // ---- values and variables
+  // -----------------------------------------------------------------------
+
+  Kind kind(Id type) const {
+    const auto op = m.leaf(type).op;
+    return op == spv::OpTypeBool  ? Kind::truth
+           : op == spv::OpTypeInt ? Kind::integer
+                                  : Kind::number;
+  }
+  Kind kind_of(Ref r) const { return r < 0 ? Kind::number : p[r].kind; }
+  int new_variable(Id type, Parts parts, int depth) {
+    if (variables_.size() >= most_variables) p.refuse("more than 100000 variables");
+    const Ref stored = parts.empty() ? p.truth(false) : p.truth(true);
+    if (parts.empty()) parts.assign(m.size(type), nothing);
+    const std::size_t n = parts.size();
+    variables_.push_back(
+        {parts, parts, std::vector<Ref>(n, p.truth(true)), std::vector<Ref>(n, stored), depth});
+    return static_cast<int>(variables_.size() - 1);
+  }
+  Variable& variable(const Value& v) {
+    if (v.variable < 0) p.refuse("a pointer to no variable");
+    return variables_[static_cast<std::size_t>(v.variable)];
+  }
+  Parts bound(const std::string& name, Id type) {
+    const SpirvType& t = m.type(type);
+    if (t.op != spv::OpTypeStruct) return bind_(p, name, m.size(type), kind(type));
+    Parts all;
+    for (std::size_t k = 0; k < t.members.size(); ++k) {
+      const Parts part = bound(m.member_name(type, k), t.members[k]);
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }
+  void global(const Instruction& i) {
+    switch (i.op) {
+      case spv::OpConstantTrue:
+      case spv::OpConstantFalse:
+        globals_[i.id] = {i.type, {p.truth(i.op == spv::OpConstantTrue)}};
+        return;
+      case spv::OpConstant: {
+        const SpirvType& t = m.type(i.type);
+        if (t.width != 32 && (t.width != 64 || t.op == spv::OpTypeInt))
+          p.refuse("a constant of neither 32 nor 64 bits");
+        const double v =
+            t.op == spv::OpTypeInt ? static_cast<std::int32_t>(i.in[0])
+            : t.width == 64
+                ? std::bit_cast<double>(i.in[0] | static_cast<std::uint64_t>(i.in[1]) << 32)
+                : static_cast<double>(std::bit_cast<float>(i.in[0]));
+        globals_[i.id] = {i.type, {p.constant(v, kind(i.type))}};
+        return;
+      }
+      case spv::OpConstantComposite: {
+        Value v{i.type};
+        for (const Id c : i.in) {
+          const Parts& part = globals_.at(c).parts;
+          v.parts.insert(v.parts.end(), part.begin(), part.end());
+        }
+        globals_[i.id] = v;
+        return;
+      }
+      case spv::OpConstantNull:
+      case spv::OpUndef:
+        globals_[i.id] = {i.type, Parts(m.size(i.type), p.constant(0, kind(i.type)))};
+        return;
+      case spv::OpVariable:
+        globals_[i.id] = global_variable(i);
+        return;
+      default:
+        p.refuse("a specialisation constant");
+    }
+  }
+  Value global_variable(const Instruction& i) {
+    const Id held = m.type(i.type).element;
+    Parts parts;
+    const bool is_block =
+        i.in[0] == spv::StorageClassUniform || i.in[0] == spv::StorageClassPushConstant;
+    if (i.in.size() > 1 && i.in[0] != spv::StorageClassUniformConstant)
+      parts = globals_.at(i.in[1]).parts;
+    else if (i.in[0] != spv::StorageClassOutput && i.in[0] != spv::StorageClassWorkgroup &&
+             !m.name(i.id).starts_with("gl_") &&
+             (!is_block || m.type(held).op == spv::OpTypeStruct))
+      parts = bound(m.name(i.id), held);
+    else
+      parts.assign(m.size(held), nothing);
+    return {held, {}, new_variable(held, parts, 0)};
+  }
+  int whole(Ref r) const {
+    if (r < 0 || !p[r].known) p.refuse("an integer or an index that depends on the sample");
+    if (!(std::abs(p[r].value) < 0x1p31)) p.refuse("an integer beyond 32 bits");
+    return static_cast<int>(p[r].value);
+  }
+  Value step(Value q, int k) {
+    const SpirvType& t = m.type(q.type);
+    const auto count = static_cast<int>(t.op == spv::OpTypeStruct ? t.members.size() : t.count);
+    if (k < 0 || k >= count) p.refuse("an index out of bounds");
+    if (t.op == spv::OpTypeStruct) {
+      for (int j = 0; j < k; ++j) q.offset += m.size(t.members[static_cast<std::size_t>(j)]);
+      q.type = t.members[static_cast<std::size_t>(k)];
+    } else {
+      q.offset += static_cast<std::size_t>(k) * m.size(t.element);
+      q.type = t.element;
+    }
+    return q;
+  }
+
+  // ---- masks
+  // ---------------------------------------------------------------------------------------
+
+  /// True where lanes of a are among those of b, as far as the masks' formulas say.
+  bool implies(Ref a, Ref b, int depth = 0) {
+    if (a == b || p.is(b, 1) || p.is(a, 0)) return true;
+    if (depth == 0) looks_ = 0;
+    if (depth > deepest_logic || ++looks_ > most_looks) return false;
+    const Node &x = p[a], &y = p[b];
+    if (x.op == Op::either) return implies(x.a, b, depth + 1) && implies(x.b, b, depth + 1);
+    if (y.op == Op::both) return implies(a, y.a, depth + 1) && implies(a, y.b, depth + 1);
+    if (x.op == Op::both && (implies(x.a, b, depth + 1) || implies(x.b, b, depth + 1))) return true;
+    return y.op == Op::either && (implies(a, y.a, depth + 1) || implies(a, y.b, depth + 1));
+  }
+  Ref lanes_here(const Frame& fr, const Variable& v) {
+    return v.depth == fr.depth ? fr.now : p(Op::both, fr.outer, fr.now);
+  }
+  Ref choose(Ref mask, Ref a, Ref b, Kind k) {
+    if (a == b || b == nothing || p.is(mask, 1)) return a;
+    if (a == nothing || p.is(mask, 0)) return b;
+    if (k == Kind::integer) p.refuse("an integer that depends on the sample");
+    if (k == Kind::truth)
+      return p(Op::either, p(Op::both, mask, a), p(Op::both, p(Op::inverse, mask), b));
+    return p(Op::select, mask, a, b);
+  }
+  Ref load(const Frame& fr, Variable& v, std::size_t k) {
+    const Ref here = lanes_here(fr, v);
+    if (v.latest.at(k) >= 0 && implies(here, v.where[k])) return v.latest[k];
+    const Ref all = v.parts[k];
+    if (all < 0 && v.latest[k] >= 0 && kind_of(v.latest[k]) == Kind::integer)
+      p.refuse("an integer that depends on the sample");
+    if (all < 0 || implies(here, v.written[k]) || kind_of(all) != Kind::number) return all;
+    const Note note{p.line,
+                    "a variable is read that not every branch wrote: no number where none did"};
+    if (std::ranges::find(notes_, note.line, &Note::line) == notes_.end()) notes_.push_back(note);
+    return p(Op::select, v.written[k], all, p.constant(not_a_number));
+  }
+  void store(const Frame& fr, const Value& to, const Parts& parts) {
+    Variable& v = variable(to);
+    const Ref here = lanes_here(fr, v);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const std::size_t at = to.offset + k;
+      Ref& held = v.parts.at(at);
+      const bool is_integer = parts[k] >= 0 && kind_of(parts[k]) == Kind::integer;
+      if (is_integer && held != parts[k] && !p.is(here, 1))
+        held = nothing;  // in each lane another: none can be read
+      else
+        held = held < 0 ? parts[k] : choose(here, parts[k], held, kind_of(parts[k]));
+      v.latest[at] = parts[k];
+      v.where[at] = here;
+      if (parts[k] >= 0) v.written[at] = p(Op::either, v.written[at], here);
+    }
+  }
+
+  // ---- control flow
+  // --------------------------------------------------------------------------------
+
+  Value call(const SpirvFunction& f, const std::vector<Value>& arguments, Ref outer, int depth) {
+    if (depth > deepest_calls) p.refuse("calls nested deeper than 64: a recursion?");
+    if (f.blocks.empty()) p.refuse("a function without code");
+    Frame fr{f, {}, outer, depth};
+    for (std::size_t k = 0; k < arguments.size(); ++k)
+      fr.values[f.parameters.at(k).first] = arguments[k];
+    std::map<std::size_t, int> turns;
+    fr.pending[0] = {{0, p.truth(true), {}}};
+    while (!fr.pending.empty()) {  // the first in order: loops before what follows them
+      const std::size_t rank = fr.pending.begin()->first;
+      const auto edges = std::move(fr.pending.begin()->second);
+      fr.pending.erase(fr.pending.begin());
+      const int turn = ++turns[rank];
+      if (turn > most_turns)
+        p.refuse(
+            "a loop whose end is not known, or beyond 4096 turns: it depends on the sample or a "
+            "parameter");
+      run_block(fr, f.blocks[f.order[rank]], edges, turn > 1);
+    }
+    Value r{f.result};
+    if (m.type(f.result).op == spv::OpTypeVoid) return r;
+    if (fr.returned.empty()) p.refuse("a function that returns nothing");
+    r.parts = fr.returned.back().second;
+    for (std::size_t k = fr.returned.size() - 1; k-- > 0;)
+      for (std::size_t j = 0; j < r.parts.size(); ++j)
+        r.parts[j] =
+            choose(fr.returned[k].first, fr.returned[k].second[j], r.parts[j], kind_of(r.parts[j]));
+    return r;
+  }
+
+  Value& get(Frame& fr, Id id) {
+    if (const auto v = fr.values.find(id); v != fr.values.end()) {
+      Value& x = v->second;
+      if (x.guard >= 0 && !implies(fr.now, x.guard)) {  // past the loop
+        for (const Ref r : x.others)
+          if (r < 0) p.refuse("an integer that depends on the sample");
+        x.parts = x.others;
+        x.guard = nothing;
+      }
+      return x;
+    }
+    if (const auto g = globals_.find(id); g != globals_.end()) return g->second;
+    p.refuse("a texture or a buffer, or a value that was not computed");
+  }
+  const Parts& parts(Frame& fr, Id id) { return get(fr, id).parts; }
+
+  void set(Frame& fr, Id id, Value v, bool again) {
+    if (const auto old = fr.values.find(id);
+        again && !p.is(fr.now, 1) && v.variable < 0 && old != fr.values.end()) {
+      v.guard = fr.now;  // lanes that left the loop keep what they had
+      const Parts& before = old->second.guard >= 0 ? old->second.others : old->second.parts;
+      for (std::size_t k = 0; k < v.parts.size(); ++k) {
+        const bool differs = kind_of(v.parts[k]) == Kind::integer && v.parts[k] != before.at(k);
+        v.others.push_back(differs ? nothing
+                                   : choose(fr.now, v.parts[k], before.at(k), kind_of(v.parts[k])));
+      }
+    }
+    fr.values[id] = std::move(v);
+  }
+
+  void go(Frame& fr, Id from, Id to, Ref mask) {
+    if (p.is(mask, 0)) return;
+    Edge e{from, mask, {}};
+    const std::size_t rank = fr.f.rank.at(to);
+    for (const auto& i : fr.f.blocks[fr.f.order[rank]].code)
+      if (i.op == spv::OpPhi)
+        for (std::size_t k = 0; k + 1 < i.in.size(); k += 2)
+          if (i.in[k + 1] == from) e.phi[i.id] = parts(fr, i.in[k]);
+    fr.pending[rank].push_back(std::move(e));
+  }
+
+  void run_block(Frame& fr, const SpirvBlock& b, const std::vector<Edge>& edges, bool again) {
+    Ref mask = edges[0].mask;
+    for (std::size_t k = 1; k < edges.size(); ++k) mask = p(Op::either, mask, edges[k].mask);
+    if (p.is(mask, 0)) return;
+    fr.now = mask;
+    for (const auto& i : b.code) {
+      if (i.line) p.line = i.line;
+      if (++steps_ > most_steps) p.refuse("more than four million steps");
+      const auto in = i.in;
+      switch (i.op) {
+        case spv::OpSelectionMerge:
+        case spv::OpLoopMerge:
+        case spv::OpUnreachable:
+          break;
+        case spv::OpPhi: {
+          Parts r = edges.back().phi.at(i.id);
+          for (std::size_t k = edges.size() - 1; k-- > 0;)
+            for (std::size_t j = 0; j < r.size(); ++j)
+              r[j] = choose(edges[k].mask, edges[k].phi.at(i.id).at(j), r[j], kind(i.type));
+          set(fr, i.id, {i.type, r}, again);
+          break;
+        }
+        case spv::OpBranch:
+          go(fr, b.id, in[0], mask);
+          break;
+        case spv::OpBranchConditional: {
+          const Ref c = parts(fr, in[0]).at(0);
+          go(fr, b.id, in[1], p(Op::both, mask, c));
+          go(fr, b.id, in[2], p(Op::both, mask, p(Op::inverse, c)));
+          break;
+        }
+        case spv::OpSwitch: {
+          const int on = whole(parts(fr, in[0]).at(0));
+          Id to = in[1];
+          for (std::size_t k = 2; k + 1 < in.size(); k += 2)
+            if (static_cast<int>(in[k]) == on) to = in[k + 1];
+          go(fr, b.id, to, mask);
+          break;
+        }
+        case spv::OpReturn:
+          fr.returned.push_back({mask, {}});
+          break;
+        case spv::OpReturnValue:
+          fr.returned.push_back({mask, parts(fr, in[0])});
+          break;
+        case spv::OpKill:
+          p.refuse("discard");
+        case spv::OpVariable: {
+          const Id held = m.type(i.type).element;
+          const Parts start = in.size() > 1 ? parts(fr, in[1]) : Parts{};
+          fr.values[i.id] = {held, {}, new_variable(held, start, fr.depth)};
+          break;
+        }
+        case spv::OpLoad: {
+          const Value q = get(fr, in[0]);
+          Parts r;
+          for (std::size_t k = 0; k < m.size(i.type); ++k)
+            r.push_back(load(fr, variable(q), q.offset + k));
+          set(fr, i.id, {i.type, r}, again);
+          break;
+        }
+        case spv::OpStore:
+          store(fr, get(fr, in[0]), Parts(parts(fr, in[1])));
+          break;
+        case spv::OpAccessChain:
+        case spv::OpInBoundsAccessChain: {
+          Value q = get(fr, in[0]);
+          for (std::size_t k = 1; k < in.size(); ++k) q = step(q, whole(parts(fr, in[k]).at(0)));
+          fr.values[i.id] = q;
+          break;
+        }
+        case spv::OpFunctionCall: {
+          std::vector<Value> arguments;
+          for (std::size_t k = 1; k < in.size(); ++k) arguments.push_back(get(fr, in[k]));
+          const auto& callee = m.functions().at(in[0]);
+          const int line = p.line;
+          auto v = declared(fr, callee, arguments, i.type);
+          set(fr, i.id, v ? *v : call(callee, arguments, p(Op::both, fr.outer, mask), fr.depth + 1),
+              again);
+          p.line = line;
+          break;
+        }
+        default:
+          set(fr, i.id, compute(fr, i), again);
+      }
+    }
+  }
+
+  // ---- arithmetic
+  // ----------------------------------------------------------------------------------
+
+  Ref num(double v) { return p.constant(v); }
+  /// Whole exponents from 2 to 16 as products: closer, and what a compiler makes of them.
+  Ref power(Ref x, Ref y) {
+    if (y >= 0 && p[y].op == Op::constant)
+      if (const double n = p[y].value; n >= 1 && n <= 16 && n == std::floor(n)) {
+        Ref r = nothing, q = x;
+        for (int k = static_cast<int>(n); k; k >>= 1) {
+          if (k & 1) r = r < 0 ? q : p(Op::mul, r, q);
+          if (k > 1) q = p(Op::mul, q, q);
+        }
+        return r;
+      }
+    return p(Op::pow, x, y);
+  }
+  Ref clamp(Ref x, Ref low, Ref high) { return p(Op::min, p(Op::max, x, low), high); }
+  Ref dot(const Parts& a,
+          const Parts& b,
+          std::size_t from_a,
+          std::size_t from_b,
+          std::size_t n,
+          std::size_t step_a = 1) {
+    Ref s = p(Op::mul, a.at(from_a), b.at(from_b));
+    for (std::size_t k = 1; k < n; ++k)
+      s = p(Op::add, s, p(Op::mul, a.at(from_a + k * step_a), b.at(from_b + k)));
+    return s;
+  }
+  Ref dot(const Parts& a, const Parts& b) { return dot(a, b, 0, 0, a.size()); }
+  Ref length(const Parts& a) { return p(Op::sqrt, dot(a, a)); }
+
+  std::optional<Value> declared(const Frame& fr,
+                                const SpirvFunction& f,
+                                const std::vector<Value>& arguments,
+                                Id type) {
+    const std::string n = m.short_name(f.id);
+    if (!n.starts_with("gonio_") || m.size(type) != 1) return {};
+    const auto argument = [&](std::size_t k) {
+      const Value& v = arguments.at(k);
+      return v.variable < 0 ? v.parts.at(0) : load(fr, variable(v), v.offset);
+    };
+    const auto value = [&](Ref r) { return Value{type, {r}}; };
+    if (n == "gonio_atan" && arguments.size() == 2)
+      return value(p(Op::atan2, argument(0), argument(1)));
+    if (const auto o = declared_functions().find(n); o != declared_functions().end())
+      return value(p(o->second, argument(0)));
+    if (n == "gonio_tan") {
+      const Ref x = argument(0);
+      return value(p(Op::div, p(Op::sin, x), p(Op::cos, x)));
+    }
+    if (n == "gonio_pow") return value(power(argument(0), argument(1)));
+    return {};
+  }
+
+  Value compute(Frame& fr, const Instruction& i) {
+    const auto in = i.in;
+    Value r{i.type};
+    const auto at = [&](std::size_t k) -> const Parts& { return parts(fr, in[k]); };
+    const auto each = [&](auto f) {
+      const Parts a = at(0);
+      for (const Ref x : a) r.parts.push_back(f(x));
+      return r;
+    };
+    const auto pairs = [&](auto f) {
+      const Parts a = at(0), b = at(1);
+      for (std::size_t k = 0; k < a.size(); ++k) r.parts.push_back(f(a[k], b.at(k)));
+      return r;
+    };
+    const auto by = [&](Op op) { return pairs([&](Ref a, Ref b) { return p(op, a, b); }); };
+    const auto turned = [&](Op op) { return pairs([&](Ref a, Ref b) { return p(op, b, a); }); };
+    const auto integers = [&](auto f) {
+      return pairs([&](Ref a, Ref b) {
+        const auto v = f(static_cast<std::int64_t>(whole(a)), static_cast<std::int64_t>(whole(b)));
+        return p.constant(static_cast<double>(static_cast<std::int32_t>(v)), kind(i.type));
+      });
+    };
+    switch (i.op) {
+      case spv::OpFAdd:
+        return by(Op::add);
+      case spv::OpFSub:
+        return by(Op::sub);
+      case spv::OpFMul:
+        return by(Op::mul);
+      case spv::OpFDiv:
+        return by(Op::div);
+      case spv::OpFMod:
+        return pairs([&](Ref a, Ref b) {
+          return p(Op::sub, a, p(Op::mul, b, p(Op::floor, p(Op::div, a, b))));
+        });
+      case spv::OpFNegate:
+        return each([&](Ref a) { return p(Op::neg, a); });
+      case spv::OpVectorTimesScalar:
+      case spv::OpMatrixTimesScalar: {
+        const Ref s = at(1).at(0);
+        return each([&](Ref a) { return p(Op::mul, a, s); });
+      }
+      case spv::OpDot:
+        r.parts = {dot(Parts(at(0)), Parts(at(1)))};
+        return r;
+      case spv::OpMatrixTimesVector: {
+        const Parts a = at(0), v = at(1);
+        const std::size_t rows = m.size(i.type);
+        for (std::size_t k = 0; k < rows; ++k) r.parts.push_back(dot(a, v, k, 0, v.size(), rows));
+        return r;
+      }
+      case spv::OpVectorTimesMatrix: {
+        const Parts v = at(0), a = at(1);
+        for (std::size_t k = 0; k < m.size(i.type); ++k)
+          r.parts.push_back(dot(v, a, 0, k * v.size(), v.size()));
+        return r;
+      }
+      case spv::OpMatrixTimesMatrix: {
+        const Parts a = at(0), b = at(1);
+        const std::size_t rows = m.size(m.type(i.type).element), inner = a.size() / rows;
+        for (std::size_t c = 0; c < m.type(i.type).count; ++c)
+          for (std::size_t k = 0; k < rows; ++k)
+            r.parts.push_back(dot(a, b, k, c * inner, inner, rows));
+        return r;
+      }
+      case spv::OpTranspose: {
+        const Parts a = at(0);
+        const std::size_t columns = m.size(m.type(i.type).element), rows = a.size() / columns;
+        for (std::size_t c = 0; c < rows; ++c)
+          for (std::size_t k = 0; k < columns; ++k) r.parts.push_back(a.at(k * rows + c));
+        return r;
+      }
+      case spv::OpFOrdLessThan:
+      case spv::OpFUnordLessThan:
+        return by(Op::less);
+      case spv::OpFOrdGreaterThan:
+      case spv::OpFUnordGreaterThan:
+        return turned(Op::less);
+      case spv::OpFOrdLessThanEqual:
+      case spv::OpFUnordLessThanEqual:
+        return by(Op::less_equal);
+      case spv::OpFOrdGreaterThanEqual:
+      case spv::OpFUnordGreaterThanEqual:
+        return turned(Op::less_equal);
+      case spv::OpFOrdEqual:
+      case spv::OpFUnordEqual:
+        return by(Op::equal);
+      case spv::OpFOrdNotEqual:
+      case spv::OpFUnordNotEqual:
+        return pairs([&](Ref a, Ref b) { return p(Op::inverse, p(Op::equal, a, b)); });
+      case spv::OpIsNan:
+        return each([&](Ref a) { return p(Op::inverse, p(Op::equal, a, a)); });
+      case spv::OpIsInf:
+        return each([&](Ref a) {
+          return p(Op::either, p(Op::equal, a, num(INFINITY)), p(Op::equal, a, num(-INFINITY)));
+        });
+      case spv::OpLogicalAnd:
+        return by(Op::both);
+      case spv::OpLogicalOr:
+        return by(Op::either);
+      case spv::OpLogicalNot:
+        return each([&](Ref a) { return p(Op::inverse, a); });
+      case spv::OpLogicalEqual:
+        return pairs([&](Ref a, Ref b) { return choose(a, b, p(Op::inverse, b), Kind::truth); });
+      case spv::OpLogicalNotEqual:
+        return pairs([&](Ref a, Ref b) { return choose(a, p(Op::inverse, b), b, Kind::truth); });
+      case spv::OpAny:
+      case spv::OpAll: {
+        const Parts a = at(0);
+        Ref s = a.at(0);
+        for (const Ref x : a) s = p(i.op == spv::OpAny ? Op::either : Op::both, s, x);
+        r.parts = {s};
+        return r;
+      }
+      case spv::OpSelect: {
+        const Parts c = at(0), a = at(1), b = at(2);
+        for (std::size_t k = 0; k < a.size(); ++k)
+          r.parts.push_back(choose(c.at(c.size() == 1 ? 0 : k), a[k], b.at(k), kind(i.type)));
+        return r;
+      }
+      case spv::OpCompositeConstruct:
+        for (std::size_t k = 0; k < in.size(); ++k)
+          r.parts.insert(r.parts.end(), at(k).begin(), at(k).end());
+        return r;
+      case spv::OpCompositeExtract: {
+        Value q{get(fr, in[0]).type};
+        for (std::size_t k = 1; k < in.size(); ++k) q = step(q, static_cast<int>(in[k]));
+        for (std::size_t k = 0; k < m.size(i.type); ++k) r.parts.push_back(at(0).at(q.offset + k));
+        return r;
+      }
+      case spv::OpCompositeInsert: {
+        Value q{i.type};
+        for (std::size_t k = 2; k < in.size(); ++k) q = step(q, static_cast<int>(in[k]));
+        r.parts = at(1);
+        for (std::size_t k = 0; k < at(0).size(); ++k) r.parts.at(q.offset + k) = at(0)[k];
+        return r;
+      }
+      case spv::OpVectorShuffle:
+        for (std::size_t k = 2; k < in.size(); ++k)
+          r.parts.push_back(in[k] < at(0).size() ? at(0)[in[k]] : at(1).at(in[k] - at(0).size()));
+        return r;
+      case spv::OpVectorExtractDynamic: {
+        const int k = whole(at(1).at(0));
+        if (k < 0 || k >= static_cast<int>(at(0).size())) p.refuse("an index out of bounds");
+        r.parts = {at(0)[static_cast<std::size_t>(k)]};
+        return r;
+      }
+      case spv::OpCopyObject:
+      case spv::OpFConvert:
+      case spv::OpUConvert:
+      case spv::OpSConvert:
+        r.parts = at(0);
+        return r;
+      case spv::OpConvertSToF:
+      case spv::OpConvertUToF:
+        return each([&](Ref a) { return num(whole(a)); });
+      case spv::OpConvertFToS:
+      case spv::OpConvertFToU:
+      case spv::OpBitcast:
+        return each([&](Ref a) { return p.constant(whole(a), kind(i.type)); });
+      case spv::OpIAdd:
+        return integers([](auto a, auto b) { return a + b; });
+      case spv::OpISub:
+        return integers([](auto a, auto b) { return a - b; });
+      case spv::OpIMul:
+        return integers([](auto a, auto b) { return a * b; });
+      case spv::OpSDiv:
+      case spv::OpUDiv:
+        return integers([](auto a, auto b) { return b ? a / b : 0; });
+      case spv::OpSMod:
+      case spv::OpUMod:
+      case spv::OpSRem:
+        return integers([](auto a, auto b) { return b ? a % b : 0; });
+      case spv::OpSNegate:
+        return each(
+            [&](Ref a) { return p.constant(-static_cast<double>(whole(a)), Kind::integer); });
+      case spv::OpSLessThan:
+      case spv::OpULessThan:
+        return integers([](auto a, auto b) { return a < b; });
+      case spv::OpSLessThanEqual:
+      case spv::OpULessThanEqual:
+        return integers([](auto a, auto b) { return a <= b; });
+      case spv::OpSGreaterThan:
+      case spv::OpUGreaterThan:
+        return integers([](auto a, auto b) { return a > b; });
+      case spv::OpSGreaterThanEqual:
+      case spv::OpUGreaterThanEqual:
+        return integers([](auto a, auto b) { return a >= b; });
+      case spv::OpIEqual:
+        return integers([](auto a, auto b) { return a == b; });
+      case spv::OpINotEqual:
+        return integers([](auto a, auto b) { return a != b; });
+      case spv::OpUndef:
+        r.parts.assign(m.size(i.type), nothing);
+        return r;
+      case spv::OpExtInst:
+        return extended(fr, i);
+      case spv::OpDPdx:
+      case spv::OpDPdy:
+      case spv::OpFwidth:
+        p.refuse("a derivative by pixels (dFdx, dFdy or fwidth)");
+      default:
+        if (i.op >= spv::OpSampledImage && i.op <= spv::OpImageQuerySamples)
+          p.refuse("a texture is read");
+        p.refuse("instruction " + std::to_string(i.op) + ", which no function of numbers needs");
+    }
+  }
+
+  Value extended(Frame& fr, const Instruction& i) {
+    if (!m.is_glsl450(i.in[0])) p.refuse("functions of another set than GLSL.std.450");
+    std::vector<Parts> arguments;
+    for (std::size_t k = 2; k < i.in.size(); ++k) arguments.push_back(parts(fr, i.in[k]));
+    const auto at = [&](std::size_t n, std::size_t k) { return arguments.at(n).at(k); };
+    Value r{i.type};
+    const auto each = [&](auto f) {
+      for (std::size_t k = 0; k < arguments.at(0).size(); ++k) r.parts.push_back(f(k));
+      return r;
+    };
+    const auto one = [&](Op op) { return each([&](std::size_t k) { return p(op, at(0, k)); }); };
+    const auto two = [&](Op op) {
+      return each([&](std::size_t k) { return p(op, at(0, k), at(1, k)); });
+    };
+    const auto scaled = [&](double s) {
+      return each([&](std::size_t k) { return p(Op::mul, at(0, k), num(s)); });
+    };
+    switch (i.in[1]) {
+      case GLSLstd450FAbs:
+        return each([&](std::size_t k) { return p(Op::max, at(0, k), p(Op::neg, at(0, k))); });
+      case GLSLstd450FSign:
+        return each([&](std::size_t k) {
+          const Ref x = at(0, k), zero = num(0);
+          return p(Op::select, p(Op::less, zero, x), num(1),
+                   p(Op::select, p(Op::less, x, zero), num(-1), zero));
+        });
+      case GLSLstd450Floor:
+        return one(Op::floor);
+      case GLSLstd450Ceil:
+        return each([&](std::size_t k) { return p(Op::neg, p(Op::floor, p(Op::neg, at(0, k)))); });
+      case GLSLstd450Fract:
+        return each([&](std::size_t k) { return p(Op::sub, at(0, k), p(Op::floor, at(0, k))); });
+      case GLSLstd450Round:
+      case GLSLstd450RoundEven:
+        return each([&](std::size_t k) { return p(Op::floor, p(Op::add, at(0, k), num(0.5))); });
+      case GLSLstd450Radians:
+        return scaled(std::numbers::pi / 180);
+      case GLSLstd450Degrees:
+        return scaled(180 / std::numbers::pi);
+      case GLSLstd450Sin:
+        return one(Op::sin);
+      case GLSLstd450Cos:
+        return one(Op::cos);
+      case GLSLstd450Tan:
+        return each(
+            [&](std::size_t k) { return p(Op::div, p(Op::sin, at(0, k)), p(Op::cos, at(0, k))); });
+      case GLSLstd450Asin:
+        return one(Op::asin);
+      case GLSLstd450Acos:
+        return one(Op::acos);
+      case GLSLstd450Atan:
+        return one(Op::atan);
+      case GLSLstd450Atan2:
+        return two(Op::atan2);
+      case GLSLstd450Pow:
+        return each([&](std::size_t k) { return power(at(0, k), at(1, k)); });
+      case GLSLstd450Exp:
+        return one(Op::exp);
+      case GLSLstd450Log:
+        return one(Op::log);
+      case GLSLstd450Exp2:
+        return one(Op::exp2);
+      case GLSLstd450Log2:
+        return one(Op::log2);
+      case GLSLstd450Sqrt:
+        return one(Op::sqrt);
+      case GLSLstd450InverseSqrt:
+        return each([&](std::size_t k) { return p(Op::div, num(1), p(Op::sqrt, at(0, k))); });
+      case GLSLstd450FMin:
+      case GLSLstd450NMin:
+        return two(Op::min);
+      case GLSLstd450FMax:
+      case GLSLstd450NMax:
+        return two(Op::max);
+      case GLSLstd450FClamp:
+      case GLSLstd450NClamp:
+        return each([&](std::size_t k) { return clamp(at(0, k), at(1, k), at(2, k)); });
+      case GLSLstd450FMix:  // x (1 − a) + y a
+        return each([&](std::size_t k) {
+          return p(Op::add, p(Op::mul, at(0, k), p(Op::sub, num(1), at(2, k))),
+                   p(Op::mul, at(1, k), at(2, k)));
+        });
+      case GLSLstd450Step:
+        return each([&](std::size_t k) {
+          return p(Op::select, p(Op::less, at(1, k), at(0, k)), num(0), num(1));
+        });
+      case GLSLstd450SmoothStep:
+        return each([&](std::size_t k) {
+          const Ref a = at(0, k);
+          const Ref t =
+              clamp(p(Op::div, p(Op::sub, at(2, k), a), p(Op::sub, at(1, k), a)), num(0), num(1));
+          return p(Op::mul, p(Op::mul, t, t), p(Op::sub, num(3), p(Op::mul, num(2), t)));
+        });
+      case GLSLstd450Fma:
+        return each(
+            [&](std::size_t k) { return p(Op::add, p(Op::mul, at(0, k), at(1, k)), at(2, k)); });
+      case GLSLstd450Length:
+        r.parts = {length(arguments.at(0))};
+        return r;
+      case GLSLstd450Distance: {
+        Parts d;
+        for (std::size_t k = 0; k < arguments.at(0).size(); ++k)
+          d.push_back(p(Op::sub, at(0, k), at(1, k)));
+        r.parts = {length(d)};
+        return r;
+      }
+      case GLSLstd450Normalize: {
+        const Ref l = length(arguments.at(0));
+        return each([&](std::size_t k) { return p(Op::div, at(0, k), l); });
+      }
+      case GLSLstd450Cross:
+        return each([&](std::size_t k) {
+          const std::size_t j = (k + 1) % 3, l = (k + 2) % 3;
+          return p(Op::sub, p(Op::mul, at(0, j), at(1, l)), p(Op::mul, at(1, j), at(0, l)));
+        });
+      case GLSLstd450Reflect: {
+        const Ref d = p(Op::mul, num(2), dot(arguments.at(1), arguments.at(0)));
+        return each([&](std::size_t k) { return p(Op::sub, at(0, k), p(Op::mul, d, at(1, k))); });
+      }
+      default:
+        p.refuse("function " + std::to_string(i.in[1]) + " of GLSL.std.450");
+    }
+  }
+};
+
+}  // namespace
+
+Translation translate(const SpirvModule& m, Id function, const Binding& bind) {
+  return Translator(m, bind).run(function);
+}
+
+}  // namespace gonio::foreign

@@ -1,0 +1,235 @@
+// Functions of people's files: which arguments are directions, what is guessed, what is refused and
+// at which line.
+#include "foreign/function.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/sha256.h"
+#include "foreign/compile.h"
+#include "refusal.h"
+#include "support.h"
+
+namespace gonio::foreign {
+namespace {
+
+using test::Folder;
+using test::refusal;
+
+#define SKIP_WITHOUT_SHADERS \
+  if (!can_compile()) GTEST_SKIP() << "this build reads no shaders"
+
+/// The function of a text that is written to a file first.
+struct Written {
+  Folder folder;
+  std::string path;
+  explicit Written(const std::string& text, const std::string& name = "my.glsl")
+      : path(folder.write(name, text)) {}
+  Function function(const std::string& rest = "") const {
+    return read_function(parse_name(path + rest));
+  }
+  std::string refused(const std::string& rest = "", Exit code = Exit::bad_input) const {
+    return refusal([&] { function(rest); }, code);
+  }
+};
+
+TEST(Function, CosinesAreKnownByTheirUsualNames) {
+  SKIP_WITHOUT_SHADERS;
+  for (const std::string noh : {"NoH", "NdotH", "dotNH", "n_dot_h", "NH", "HdotN", "costhetah"}) {
+    const Written w("// alpha 0.01 1 0.2\nfloat D(float " + noh + ", float alpha) { return " + noh +
+                    " * alpha; }\n");
+    const auto f = w.function();
+    EXPECT_EQ(f.stands, Stands::distribution) << noh;
+    ASSERT_EQ(f.parameters.size(), 1U) << noh;
+    EXPECT_EQ(f.parameters[0].name, "alpha");
+    EXPECT_EQ(f.parameters[0].start, 0.2);
+    EXPECT_EQ(f.line, 2);
+  }
+}
+
+TEST(Function, AnArgumentIsWhatItsReaderSays) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w("// k 0 1\nfloat D(float c, float k) { return c * k; }\n");
+  EXPECT_EQ(w.function().parameters.size(), 2U);  // c is one, too
+  const auto f = w.function("{argument.c=noh}");
+  EXPECT_EQ(f.parameters.size(), 1U);
+  EXPECT_EQ(f.stands, Stands::distribution);
+  EXPECT_HAS(w.refused("{argument.d=noh}", Exit::usage), "no argument 'd'");
+  EXPECT_HAS(w.refused("{argument.c=up}", Exit::usage), "expected nol, nov");
+}
+
+TEST(Function, AColourThatEachChannelReadsForItselfIsOneParameter) {
+  SKIP_WITHOUT_SHADERS;
+  const Written own("vec3 f(vec3 L, vec3 V, vec3 kd, vec3 N) { return kd / 3.14159265358979; }\n");
+  const auto f = own.function();
+  ASSERT_EQ(f.parameters.size(), 1U);
+  EXPECT_TRUE(f.parameters[0].per_channel);
+  EXPECT_EQ(f.programs.size(), 1U);
+  const Written mixed(
+      "vec3 f(vec3 L, vec3 V, vec3 kd) { return kd / 3.0 + vec3(dot(kd, vec3(0.1))); }\n");
+  const auto g = mixed.function();
+  ASSERT_EQ(g.parameters.size(), 3U);
+  EXPECT_EQ(g.parameters[1].name, "kd_g");
+  EXPECT_EQ(g.programs.size(), 3U);
+  const auto v = value_of(g, {0.3, 0.6, 0.9}, {});
+  EXPECT_NEAR(v[2], 0.3 + 0.18, 1e-15);
+}
+
+TEST(Function, ConstantsOfGlslKeepTheirDigitsAndThoseOfHlslAreFloats) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string body = "float f(float NoH) { return NoH * 0.1; }\n";
+  const auto a = Written(body).function(), b = Written(body, "my.hlsl").function();
+  const std::array<double, 11> one{1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(value_of(a, {}, one)[0], 0.1);
+  EXPECT_EQ(value_of(b, {}, one)[0], static_cast<double>(0.1F));
+  EXPECT_TRUE(b.float_constants);
+}
+
+TEST(Function, AnExplorersFileHasItsBoundsAndItsBoolsAreKnown) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w(
+      "analytic\n::begin parameters\ncolor tint 0.2 0.4 0.6\nfloat n 1 100 20\nbool halved "
+      "1\n::end "
+      "parameters\n::begin shader\nvec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y) {\n  float s "
+      "= "
+      "pow(max(0.0, dot(N, normalize(L + V))), n);\n  return tint * (halved ? s / 2.0 : "
+      "s);\n}\n::end "
+      "shader\n",
+      "my.brdf");
+  const auto f = w.function();
+  ASSERT_EQ(f.parameters.size(), 2U);
+  EXPECT_EQ(f.parameters[0].name, "tint");
+  EXPECT_EQ(f.parameters[1].range.high, 100);
+  EXPECT_EQ(f.line, 8);
+  const auto at = [&](const std::string& rest) {
+    return value_of(w.function(rest), {1, 2},
+                    {0.8, 0.8, 0.9, 0.8, 0.19, 0, 0.435889894354067, 0, 0, 0, 0})[0];
+  };
+  EXPECT_NEAR(2 * at(""), at("{halved=0}"), 1e-15);
+  EXPECT_HAS(Written("::begin parameters\nfloat n 1\n::end parameters\n", "a.brdf").refused(),
+             "line 2");
+  EXPECT_HAS(Written("::begin parameters\n::end parameters\n", "a.brdf").refused(), "no shader");
+}
+
+TEST(Function, WhatAValueIncludesIsGuessedAndSaid) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string head = "// kd 0 1 0.5\nfloat f(vec3 L, vec3 V, vec3 N, float kd) { return ";
+  const auto includes = [&](const std::string& body, const std::string& rest = "") {
+    return Written(head + body + "; }\n").function(rest).includes;
+  };
+  EXPECT_EQ(includes("kd / 3.14159265358979"), "nothing");
+  EXPECT_EQ(includes("kd / 3.14159265358979 * dot(N, L)"), "cosine");
+  EXPECT_EQ(includes("kd"), "pi");
+  EXPECT_EQ(includes("kd * dot(N, L)"), "cosine,pi");
+  EXPECT_EQ(includes("kd", "{includes=nothing}"), "nothing");
+  const auto f = Written(head + "kd * dot(N, L); }\n").function();
+  const std::array<double, 11> angles{0.5, 0.7, 0.8, 0.8, 0.36, 0, 0.6, 0.2, 0.3, 0.1, 0.4};
+  EXPECT_NEAR(value_of(f, {0.6}, angles)[0], 0.6 / std::numbers::pi, 1e-15);
+}
+
+TEST(Function, MaskingIsGOrVByItsValueAlongTheNormal) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w(
+      "// k 0 1 0.2\nfloat G1(float c, float k) { return c / (c * (1.0 - k) + k); }\nfloat "
+      "G_Smith(float NoL, float NoV, float k) { return G1(NoL, k) * G1(NoV, k); }\nfloat "
+      "V_Smith(float "
+      "NoL, float NoV, float k) { return G_Smith(NoL, NoV, k) / (4.0 * NoL * NoV); }\n");
+  const std::array<double, 11> angles{0.5, 0.7, 0.8, 0.8, 0.36, 0, 0.6, 0.2, 0.3, 0.1, 0.4};
+  const auto g = w.function(":G_Smith"), v = w.function(":V_Smith");
+  EXPECT_TRUE(g.is_g);
+  EXPECT_FALSE(v.is_g);
+  EXPECT_NEAR(value_of(g, {0.2}, angles)[0], value_of(v, {0.2}, angles)[0], 1e-15);
+}
+
+TEST(Function, TurningTheSurfaceIsNoticed) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string head = "float f(vec3 L, vec3 V, vec3 N, vec3 X) { return ";
+  EXPECT_TRUE(Written(head + "0.1 + 0.1 * dot(X, L) * dot(X, V); }\n").function().anisotropic);
+  EXPECT_FALSE(Written(head + "0.1 + 0.1 * dot(L, V); }\n").function().anisotropic);
+}
+
+TEST(Function, AVariableThatOneBranchWroteHasNoValueElsewhere) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w("float f(float NoL) {\n  float x;\n  if (NoL > 0.5) x = NoL;\n  return x;\n}\n");
+  const auto f = w.function("{includes=nothing}");
+  ASSERT_EQ(f.notes.size(), 1U);
+  EXPECT_EQ(f.notes[0].line, 4);
+  std::array<double, 11> angles{0.75};
+  EXPECT_EQ(value_of(f, {}, angles)[0], 0.75);
+  angles[0] = 0.25;
+  EXPECT_TRUE(std::isnan(value_of(f, {}, angles)[0]));
+  const Written both(
+      "float f(float NoL) {\n  float x;\n  if (NoL > 0.5) x = NoL; else x = 1.0;\n  return "
+      "x;\n}\n");
+  EXPECT_TRUE(both.function("{includes=nothing}").notes.empty());
+}
+
+TEST(Function, RefusalsNameThePersonsLine) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& body, const std::string& before = "") {
+    return Written(before + "float f(float NoL, float a) {\n" + body + "}\n").refused(":f");
+  };
+  EXPECT_HAS(of("  return b;\n"), "line 2");
+  EXPECT_HAS(of("  return f(NoL, a);\n"), "ecursi");
+  EXPECT_HAS(of("  float x = a;\n  while (x > 0.1) x *= 0.5;\n  return x;\n"),
+             "line 3: found a loop");
+  EXPECT_HAS(of("  return texture(t, vec2(NoL)).x;\n", "uniform sampler2D t;\n"), "line");
+  EXPECT_HAS(of("  discard;\n"), "line 2");
+  EXPECT_HAS(of("  int i = int(NoL * 3.0);\n  return float(i);\n"), "line 2: found an integer");
+  EXPECT_HAS(of("  float x[3];\n  x[5] = a;\n  return x[0];\n"), "line 3");
+  EXPECT_HAS(of("  return a;\n", "#include \"other.glsl\"\n"), "line 1");
+  EXPECT_HAS(of("  float x;\n  return x;\n"), "never written");
+  EXPECT_HAS(Written("void f() {}\n").refused(), "no function");
+  EXPECT_HAS(Written("float f(float NoL) { return NoL; }\n").refused(":g", Exit::usage), "f");
+  EXPECT_HAS(Written("float g(float n) { return n; }\nfloat f(float n) { return n; }\n")
+                 .refused("", Exit::usage),
+             "which function? it has: f, g");
+  EXPECT_HAS(Written(std::string("float f\0", 8)).refused(), "no text");
+  EXPECT_HAS(Written("not words", "my.spv").refused(), "SPIR-V");
+  EXPECT_HAS(refusal([] { read_function(parse_name("nowhere.glsl")); }), "nowhere.glsl");
+  EXPECT_HAS(
+      Written("float f(float NoL, int n) { return NoL * float(n); }\n").refused("", Exit::usage),
+      "n=1");
+}
+
+TEST(Function, WhatIsTooMuchForTheCompilerIsOneLine) {
+  SKIP_WITHOUT_SHADERS;
+  std::string sum = "float f(float NoL) { return NoL";
+  for (int k = 0; k < 1 << 17; ++k) sum += "+NoL";
+  EXPECT_NE(Written(sum + "; }\n").refused(), "");
+  std::string branches = "float f(float NoL, float a) {\n  float x = 0.0;\n";
+  for (int k = 0; k < 20000; ++k) branches += "  if (NoL > a) x += a;\n";
+  EXPECT_NE(Written(branches + "  return x;\n}\n").refused(), "");
+  EXPECT_HAS(Written(std::string((1 << 20) + 1, ' ')).refused(), "");
+}
+
+TEST(Function, MoreThanSixteenParametersAreRefusedAndCanBeFixed) {
+  SKIP_WITHOUT_SHADERS;
+  std::string head = "float f(float NoL", body = "0.0", fixed;
+  for (int k = 0; k < 17; ++k) {
+    head += ", float p" + std::to_string(k);
+    body += " + p" + std::to_string(k);
+  }
+  const Written w(head + ") { return NoL * (" + body + "); }\n");
+  EXPECT_HAS(w.refused(), "17 parameters");
+  EXPECT_EQ(w.function("{p3=0.5}").parameters.size(), 16U);
+}
+
+TEST(FunctionName, IsReadAndWritten) {
+  const auto n = parse_name("a/b.glsl:f{argument.x=noh;includes=pi;alpha=0.1,1,0.5}");
+  EXPECT_EQ(n.file, "a/b.glsl");
+  EXPECT_EQ(n.function, "f");
+  EXPECT_EQ(n.reading.arguments.at("x"), "noh");
+  EXPECT_EQ(text_of(n), "a/b.glsl:f{argument.x=noh;includes=pi;alpha=0.1,1,0.5}");
+  EXPECT_EQ(parse_name(text_of(n)).reading, n.reading);
+  EXPECT_TRUE(is_name("my.brdf"));
+  EXPECT_TRUE(is_name("C:/my.hlsl:f"));
+  EXPECT_FALSE(is_name("my.glsl:D/smith_ggx.correlated/schlick"));
+  EXPECT_FALSE(is_name("fit.json"));
+  for (const auto* bad :
+       {"a.txt", "a.glsl:f{x}", "a.glsl:f{x=1,0}", "a.glsl:f{x=1", "a.glsl:f{x=q}"})
+    EXPECT_NE(refusal([&] { parse_name(bad); }, Exit::usage), "") << bad;
+}
+
+}  // namespace
+}  // namespace gonio::foreign

@@ -1,0 +1,201 @@
+// A person's function as a term and as a whole model: values, derivatives, albedo, fits.
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "brdf/catalogue/foreign_terms.h"
+#include "brdf/in_number/one_term.h"
+#include "brdf/model/derivatives.h"
+#include "brdf/model/evaluate.h"
+#include "data_synth/synth.h"
+#include "fitting/fit.h"
+#include "foreign/compile.h"
+#include "geometry/half_difference.h"
+#include "integrate/albedo/directional_albedo.h"
+#include "refusal.h"
+#include "stability/answer.h"
+#include "support.h"
+
+namespace gonio {
+namespace {
+
+using test::Folder;
+using test::refusal;
+
+#define SKIP_WITHOUT_SHADERS \
+  if (!foreign::can_compile()) GTEST_SKIP() << "this build reads no shaders"
+
+constexpr const char* usual =
+    "// alpha 0.001 1 0.2\n// f0 0 1 0.04\n// kd 0 1 0.5\n"
+    "const float PI = 3.14159265358979323846;\n"
+    "float D_GGX(float NoH, float alpha) {\n  float a2 = alpha * alpha;\n"
+    "  float d = NoH * NoH * (a2 - 1.0) + 1.0;\n  return a2 / (PI * d * d);\n}\n"
+    "float V_Smith(float NoL, float NoV, float alpha) {\n  float a2 = alpha * alpha;\n"
+    "  return 0.5 / (NoV * sqrt(NoL * NoL * (1.0 - a2) + a2) + NoL * sqrt(NoV * NoV * (1.0 - a2) + "
+    "a2));\n}\n"
+    "vec3 F_Schlick(vec3 f0, float VoH) { return f0 + (1.0 - f0) * pow(1.0 - VoH, 5.0); }\n"
+    "vec3 brdf(vec3 l, vec3 v, vec3 n, float alpha, vec3 f0, vec3 kd) {\n"
+    "  float NoL = dot(n, l), NoV = dot(n, v);\n"
+    "  if (NoL <= 0.0 || NoV <= 0.0) return vec3(0.0);\n  vec3 h = normalize(l + v);\n"
+    "  float NoH = clamp(dot(n, h), 0.0, 1.0), VoH = clamp(dot(v, h), 0.0, 1.0);\n"
+    "  return kd / PI + D_GGX(NoH, alpha) * V_Smith(NoL, NoV, alpha) * F_Schlick(f0, VoH);\n}\n";
+constexpr const char* ours = "lambert+ggx/smith_ggx.correlated/schlick";
+
+/// One file for all tests: each of its functions is a term once in a run.
+const std::string& file() {
+  static const Folder folder;
+  static const std::string path = folder.write("usual.glsl", usual);
+  return path;
+}
+
+std::vector<FrameAngles<double>> drawn(std::size_t n) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> mu(0.05, 0.999), phi(0, 2 * std::numbers::pi);
+  std::vector<FrameAngles<double>> all;
+  for (std::size_t i = 0; i < n; ++i)
+    all.push_back(frame_angles({direction(std::acos(mu(random)), phi(random)),
+                                direction(std::acos(mu(random)), phi(random))}));
+  return all;
+}
+std::vector<Setting> settings(double alpha) {
+  return {{"alpha", {alpha}}, {"f0", {0.6, 0.5, 0.4}}, {"kd", {0.1, 0.2, 0.3}}};
+}
+
+void expect_close(const std::vector<std::vector<double>>& f,
+                  const std::vector<std::vector<double>>& g,
+                  double within) {
+  ASSERT_EQ(f.size(), g.size());
+  for (std::size_t c = 0; c < f.size(); ++c)
+    for (std::size_t i = 0; i < f[c].size(); ++i)
+      EXPECT_NEAR(f[c][i] / g[c][i], 1, within) << c << ' ' << i;
+}
+
+TEST(OwnModel, IsTheModelThatItsTextSays) {
+  SKIP_WITHOUT_SHADERS;
+  const auto at = drawn(300);
+  const auto own = evaluate(bind_model(file() + ":brdf", settings(0.3)), at);
+  expect_close(own, evaluate(bind_model(ours, settings(0.3)), at), 1e-11);
+}
+
+TEST(OwnModel, NeedsNoFrameWhereItDoesNotCareHowTheSurfaceIsTurned) {
+  SKIP_WITHOUT_SHADERS;
+  const auto at = drawn(300);
+  const std::vector<Angles<double>> angles(at.begin(), at.end());
+  const auto m = bind_model(file() + ":brdf", settings(0.05));
+  expect_close(evaluate(m, angles), evaluate(m, at), 1e-9);
+}
+
+TEST(OwnModel, ATermOfOnesOwnStandsInASpec) {
+  SKIP_WITHOUT_SHADERS;
+  const auto at = drawn(300);
+  const auto wanted = evaluate(
+      bind_model("ggx/smith_ggx.correlated/schlick", {{"alpha", {0.3}}, {"f0", {0.6, 0.5, 0.4}}}),
+      at);
+  for (const auto& spec :
+       {file() + ":D_GGX/smith_ggx.correlated/schlick", "ggx/" + file() + ":V_Smith/schlick",
+        "ggx/smith_ggx.correlated/" + file() + ":F_Schlick",
+        file() + ":D_GGX/" + file() + ":V_Smith/" + file() + ":F_Schlick"}) {
+    const auto m = bind_model(spec, {{"alpha", {0.3}}, {"f0", {0.6, 0.5, 0.4}}});
+    expect_close(evaluate(m, at), wanted, 1e-11);
+  }
+}
+
+TEST(OwnModel, DerivativesAreThoseOfOurs) {
+  SKIP_WITHOUT_SHADERS;
+  const auto at = drawn(64);
+  const auto derivatives = [&](const std::string& spec) {
+    const auto b = bind_model(spec, settings(0.3));
+    AngleColumns<double> x(at.size());
+    for (std::size_t i = 0; i < at.size(); ++i) x.set(i, at[i]);
+    const std::vector<bool> free(b.model.value_count, true);
+    ModelDerivatives<double> d(b.model, free, kernels<double>());
+    d.set(b.values);
+    std::map<std::pair<std::string, std::size_t>, std::vector<double>> all;
+    d.run(x.block(), [&](std::size_t c) {
+      for (const auto& [slot, column] : d.channel(c).d)
+        for (const auto& p : b.model.parameters)
+          if (p.slot(c) == slot) all[{p.name, c}].assign(column, column + at.size());
+    });
+    return all;
+  };
+  const auto own = derivatives(file() + ":brdf"), wanted = derivatives(ours);
+  ASSERT_EQ(own.size(), wanted.size());
+  for (const auto& [of, column] : wanted)
+    for (std::size_t i = 0; i < column.size(); ++i)
+      EXPECT_NEAR(own.at(of)[i], column[i], 1e-8 * (1 + std::abs(column[i]))) << of.first;
+}
+
+TEST(OwnModel, AlbedoIsThatOfOurs) {
+  SKIP_WITHOUT_SHADERS;
+  constexpr std::array mu{0.2, 0.9};
+  const auto own = directional_albedo(bind_model(file() + ":brdf", settings(0.3)), mu);
+  const auto wanted = directional_albedo(bind_model(ours, settings(0.3)), mu);
+  for (std::size_t i = 0; i < mu.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(own[i].value[c], wanted[i].value[c], 1e-4);
+}
+
+TEST(OwnModel, AFitFindsItsParametersAgain) {
+  SKIP_WITHOUT_SHADERS;
+  for (const double alpha : {0.05, 0.5}) {
+    SynthOptions s;
+    s.layout = Layout::random;
+    s.samples = 3000;
+    const Table t = synthesize(bind_model(ours, settings(alpha)), s);
+    FitOptions o;
+    o.model = file() + ":brdf";
+    const auto r = fit(t, o);
+    const auto named = named_values(r.model);
+    for (const auto& [name, values] : named) {
+      if (name == "alpha") EXPECT_NEAR(values[0], alpha, 1e-5);
+      if (name == "f0") EXPECT_NEAR(values[2], 0.4, 1e-4);
+      if (name == "kd") EXPECT_NEAR(values[0], 0.1, 1e-4);
+    }
+  }
+}
+
+TEST(OwnModel, AFreeParameterWithoutBoundsIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto path = folder.write(
+      "bare.glsl", "float f(float NoL, float NoV, float width) { return width / (NoL + NoV); }\n");
+  SynthOptions s;
+  s.layout = Layout::random;
+  s.samples = 200;
+  const Table t = synthesize(bind_model("lambert", {{"kd", {0.5}}}), s);
+  FitOptions o;
+  o.model = path;
+  EXPECT_HAS(refusal([&] { fit(t, o); }, Exit::usage), "width is free and has no bounds");
+  o.bounds = {{"width", {0.1, 2}}};
+  EXPECT_GT(named_values(fit(t, o).model)[0].second[0], 0.1);
+}
+
+TEST(OwnModel, IsLookedAtInHalfAndInFiftyDigits) {
+  SKIP_WITHOUT_SHADERS;
+  const auto term = file() + ":D_GGX";
+  const auto at = [&](const char* number, double noh) {
+    return evaluate_term(find_term(term), value_of<Number>(number, "number"), {{"alpha", 0.01}},
+                         {{"noh", {noh}}})
+        .values[0];
+  };
+  EXPECT_TRUE(std::isinf(at("half", 1)));  // α² − 1 rounds to −1
+  EXPECT_NEAR(at("wide", 1), 1 / (std::numbers::pi * 1e-4), 1e-10);
+  stability::Question q;
+  q.subject = stability::subjects_of(term).front();
+  stability::set_domain(q.subject, "alpha", {0.005, 0.1});
+  const auto a = stability::answer(q);
+  EXPECT_FALSE(a.holds);
+  ASSERT_TRUE(a.safe_from && a.safe_from->value);
+  EXPECT_NEAR(*a.safe_from->value, 0.0156, 0.002);
+}
+
+TEST(OwnModel, AWholeModelIsNoDistribution) {
+  SKIP_WITHOUT_SHADERS;
+  EXPECT_HAS(refusal([] { bind_model(file() + ":D_GGX", {}); }, Exit::usage),
+             "smith_ggx.correlated");
+  EXPECT_HAS(
+      refusal([] { bind_model(file() + ":brdf/smith_ggx.correlated/schlick", {}); }, Exit::usage),
+      "one number");
+}
+
+}  // namespace
+}  // namespace gonio
