@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/random.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/cost/model_operations.h"
 #include "brdf/in_number/number.h"
@@ -166,7 +167,7 @@ void add_subjects(std::vector<Subject>& to, const CostOptions& o, std::string_vi
       CostRow row{std::string(id), kind, number, set, memory, way, channels, {}, {}, 0, {}};
       to.push_back({std::move(row), std::move(timed)});
     };
-    for (std::size_t t = 0; t < k.terms.size(); ++t) {
+    for (std::size_t t = 0; t < catalogue_size(); ++t) {
       const auto id = catalogue()[t].id();
       if (wanted(id)) add(id, name_of(role_of(id)), "", 1, timed_term<F>(t, k, field));
     }

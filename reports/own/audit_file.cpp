@@ -88,6 +88,10 @@ void laws_of_lobe(FunctionAudit& a,
                   const std::vector<std::vector<double>>& settings) {
   constexpr std::array mu{0.1, 0.5, 1.0};
   constexpr Goal goal{1e-3, 200'000};
+  if (std::ranges::none_of(parameters, [](const Parameter& p) { return std::isnan(p.start); })) {
+    const auto usual = directional_albedo(bind_model(token, {}), std::array{0.5}, 0, goal)[0];
+    a.usual = FoundAt{*std::ranges::max_element(usual.value), "defaults, NoV 0.5"};
+  }
   const std::size_t every = std::max<std::size_t>(1, settings.size() / 60);
   for (std::size_t s = 0; s < settings.size(); s += every) {
     std::vector<Setting> set;
@@ -206,6 +210,7 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
     j["normalisation"] = found(a.normalisation);
     j["reciprocity"] = found(a.reciprocity);
     j["albedo"] = found(a.albedo);
+    j["usual"] = found(a.usual);
     j["darkest"] = found(a.darkest);
     j["lowest"] = found(a.lowest);
     j["not_finite"] = a.not_finite;
@@ -243,6 +248,7 @@ std::string text_of(const FunctionAudit& a) {
     line("energy", e->value > 1 + 1e-3
                        ? fmt::format("gains: albedo {:.4g} at {}", e->value, e->at)
                        : fmt::format("gains none: albedo at most {:.4g}", e->value));
+    if (a.usual) line("", fmt::format("albedo {:.4g} at {}", a.usual->value, a.usual->at));
     line("", fmt::format("least albedo {:.4g} at {}", a.darkest->value, a.darkest->at));
   }
   if (const auto& r = a.reciprocity)

@@ -24,9 +24,11 @@ struct FunctionAudit {
       reciprocity;                 ///< largest relative difference with light and view exchanged
   std::optional<FoundAt> albedo;   ///< the largest, colours at their upper bounds
   std::optional<FoundAt> darkest;  ///< the smallest at the same colours
-  std::optional<FoundAt> lowest;   ///< below 0, else none
-  std::size_t not_finite = 0;      ///< of the inputs looked at, in double
-  std::string half;                ///< what it keeps in half, in a sentence
+  std::optional<FoundAt>
+      usual;  ///< the albedo with defaults, at NoV 0.5, the largest of its channels
+  std::optional<FoundAt> lowest;  ///< below 0, else none
+  std::size_t not_finite = 0;     ///< of the inputs looked at, in double
+  std::string half;               ///< what it keeps in half, in a sentence
   std::optional<NearestForm> nearest;
   std::vector<std::string> slips;
   std::vector<std::string> not_looked_at;  ///< what could not be, and why

@@ -141,7 +141,7 @@ std::optional<std::size_t> width_of(std::span<const Parameter> parameters) {
       if (plain_name(parameters[k].name).starts_with(name)) return k;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto n = plain_name(parameters[k].name);
-    if (n == "a" || n == "m" || n == "r" || n.find("rough") != n.npos) return k;
+    if (n == "a" || n == "a2" || n == "m" || n == "r" || n.find("rough") != n.npos) return k;
   }
   return {};
 }
@@ -183,10 +183,13 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
     if (is_rough(w) && n.power == 4)
       all.push_back(
           fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²", w, w, w));
-    if (!is_rough(w) && n.power == 2)
+    const bool is_squared = w.ends_with('2') || w.ends_with("sq");
+    if (is_squared && n.power == 1)
+      all.push_back(fmt::format("{} is taken for alpha: it has not been squared", w));
+    if (!is_rough(w) && !is_squared && n.power == 2)
       all.push_back(
           fmt::format("{} is squared once too often: the form's alpha is {}² here", w, w));
-    if (!is_rough(w) && n.power == 0.5)
+    if (!is_rough(w) && !is_squared && n.power == 0.5)
       all.push_back(
           fmt::format("{} stands where {}² belongs: the form's alpha is √{} here", w, w, w));
   }

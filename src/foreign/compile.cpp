@@ -50,9 +50,23 @@ std::string functions_of_doubles() {
   return s;
 }
 
+/// Textures at coordinates of doubles: they compile, so that what does not read one can be used, and are refused when they are read.
+std::string textures_of_doubles() {
+  std::string s;
+  for (const auto& [sampler, n] : {std::pair{"sampler2D", 2}, {"samplerCube", 3}, {"sampler3D", 3}})
+    for (const auto& [f, more] : {std::pair{"texture", ""}, {"textureLod", ",double l"}})
+      s += fmt::format(
+          "dvec4 gonio_{0}({1} s,dvec{2} p{3}){{return dvec4(textureLod(s,vec{2}(p),0.0));}}\n", f,
+          sampler, n, more);
+  return s +
+         "#define texture gonio_texture\n#define texture2D gonio_texture\n#define textureCube "
+         "gonio_texture\n"
+         "#define textureLod gonio_textureLod\n";
+}
+
 std::string head_of(Language language) {
   if (language == Language::hlsl) return "#define main person_main\n";
-  std::string s = "#version 450\n" + functions_of_doubles();
+  std::string s = "#version 450\n" + functions_of_doubles() + textures_of_doubles();
   s += "#define radians(x) ((x)*(3.14159265358979323846lf/180.0lf))\n"
        "#define degrees(x) ((x)*(180.0lf/3.14159265358979323846lf))\n"
        "#define float double\n#define main person_main\n";
@@ -91,10 +105,14 @@ void expect_valid(const std::vector<std::uint32_t>& words) {
 /// "ERROR: shader:12: 'x' : undeclared identifier" → "line 12: 'x' : undeclared identifier"
 std::string first_error(const char* log) {
   const std::string_view all(log);
-  auto from = all.find("ERROR: shader:");
-  if (from == all.npos) return std::string(all.substr(0, all.find('\n')));
-  from += std::strlen("ERROR: shader:");
-  return "line " + std::string(all.substr(from, all.find('\n', from) - from));
+  for (const auto& [before, place] :
+       {std::pair<std::string_view, std::string_view>{"ERROR: shader:", "line "},
+        {"ERROR: tail:", "the end of the text, after it line "}})
+    if (const auto at = all.find(before); at != all.npos) {
+      const auto from = at + before.size();
+      return std::string(place) + std::string(all.substr(from, all.find('\n', from) - from));
+    }
+  return std::string(all.substr(0, all.find('\n')));
 }
 
 std::vector<std::uint32_t> compiled_here(const Source& s) {
@@ -213,7 +231,8 @@ std::vector<std::uint32_t> compile(const Source& s) {
     return words;
   }
   std::string place = "compiling", found = answer.substr(1);
-  if (const auto colon = found.find(": "); found.starts_with("line ") && colon != found.npos) {
+  if (const auto colon = found.find(": ");
+      (found.starts_with("line ") || found.starts_with("the end")) && colon != found.npos) {
     place = found.substr(0, colon);
     found.erase(0, colon + 2);
   }

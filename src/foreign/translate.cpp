@@ -278,9 +278,7 @@ class Translator {
       fr.pending.erase(fr.pending.begin());
       const int turn = ++turns[rank];
       if (turn > most_turns)
-        p.refuse(
-            "a loop whose end is not known, or beyond 4096 turns: it depends on the sample or a "
-            "parameter");
+        p.refuse("a loop that 4096 turns do not end, or whose end depends on the sample");
       run_block(fr, f.blocks[f.order[rank]], edges, turn > 1);
     }
     Value r{f.result};
@@ -407,6 +405,7 @@ class Translator {
           break;
         }
         case spv::OpFunctionCall: {
+          if (m.short_name(in[0]).starts_with("gonio_texture")) p.refuse("a texture is read");
           std::vector<Value> arguments;
           for (std::size_t k = 1; k < in.size(); ++k) arguments.push_back(get(fr, in[k]));
           const auto& callee = m.functions().at(in[0]);

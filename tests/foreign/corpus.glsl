@@ -113,5 +113,5 @@ vec3 parts_of_vectors(vec3 L, vec3 V, vec3 N, float a) {
   c.x = V.y;
   c.z += a;
   vec3 d = max(c, vec3(float(0.1))) * min(V, vec3(a));
-  return mix(c.zxy, d, a) + vec3(dot(c, d), c.y, a);
+  return mix(c.zxy, d, a) + vec3(dot(c, d), c.y, dot(N, d));
 }

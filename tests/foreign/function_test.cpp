@@ -172,8 +172,15 @@ TEST(Function, RefusalsNameThePersonsLine) {
   EXPECT_HAS(of("  return b;\n"), "line 2");
   EXPECT_HAS(of("  return f(NoL, a);\n"), "ecursi");
   EXPECT_HAS(of("  float x = a;\n  while (x > 0.1) x *= 0.5;\n  return x;\n"),
-             "line 3: found a loop");
-  EXPECT_HAS(of("  return texture(t, vec2(NoL)).x;\n", "uniform sampler2D t;\n"), "line");
+             "line 3: found a loop that");
+  EXPECT_HAS(of("  return texture(t, vec2(NoL)).x;\n", "uniform sampler2D t;\n"),
+             "a texture is read");
+  EXPECT_EQ(Written("uniform sampler2D t;\nfloat g() { return texture(t, vec2(0.5)).x; }\nfloat "
+                    "f(float NoL) { return NoL; }\n")
+                .function(":f")
+                .line,
+            3);
+  EXPECT_HAS(Written("float f(float NoL) { return NoL").refused(), "the end of the text");
   EXPECT_HAS(of("  discard;\n"), "line 2");
   EXPECT_HAS(of("  int i = int(NoL * 3.0);\n  return float(i);\n"), "line 2: found an integer");
   EXPECT_HAS(of("  float x[3];\n  x[5] = a;\n  return x[0];\n"), "line 3");
@@ -213,6 +220,26 @@ TEST(Function, MoreThanSixteenParametersAreRefusedAndCanBeFixed) {
   const Written w(head + ") { return NoL * (" + body + "); }\n");
   EXPECT_HAS(w.refused(), "17 parameters");
   EXPECT_EQ(w.function("{p3=0.5}").parameters.size(), 16U);
+}
+
+TEST(Function, SpirvIsReadAsItIs) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string text =
+      "float f(float NoH, float a) { float s = 0.0; for (int i = 0; i < 4; ++i) { if (s > a) "
+      "break; s += NoH; } return s; }\n";
+  const auto words = compile(source_of("my.glsl", text));
+  const Written spv({reinterpret_cast<const char*>(words.data()), words.size() * 4}, "my.spv");
+  const auto f = spv.function(":f{a=0.9}"), g = Written(text).function(":f{a=0.9}");
+  for (const double noh : {0.2, 0.25, 0.5, 0.95}) {
+    std::array<double, 11> angles{};
+    angles[2] = noh;
+    EXPECT_EQ(value_of(f, {}, angles), value_of(g, {}, angles));
+  }
+  auto damaged = words;
+  damaged[7] ^= 0x30000U;
+  EXPECT_NE(Written({reinterpret_cast<const char*>(damaged.data()), damaged.size() * 4}, "bad.spv")
+                .refused(),
+            "");
 }
 
 TEST(FunctionName, IsReadAndWritten) {
