@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "brdf/catalogue/registry.h"
-#include "brdf/function/functions.h"
+#include "brdf/function/any_function.h"
 #include "integrate/rule/slopes.h"
 #include "number/enclosure.h"
 
