@@ -45,8 +45,8 @@ std::string read_as(const std::string& spec, const ReadingWords& words) {
     all += fmt::format("{}{}", all.empty() ? "" : "+", fmt::join(names, "/"));
   }
   if (!any)
-    throw wrong_usage(
-        fmt::format("--argument, --includes and --bounds go with a shader's function, not with {}", spec));
+    throw wrong_usage(fmt::format(
+        "--argument, --includes and --bounds go with a shader's function, not with {}", spec));
   return all;
 }
 

@@ -216,8 +216,8 @@ std::vector<std::vector<double>> spread_starts(const Problem& p, std::vector<dou
   std::vector<std::vector<double>> all{first};
   const Model& m = p.start.model;
   if (m.diffuse.empty() || !foreign_term(m.diffuse[0].term)) return all;
-  constexpr std::size_t starts = 24, primes[] = {2,  3,  5,  7,  11, 13, 17, 19,
-                                                 23, 29, 31, 37, 41, 43, 47, 53, 59};
+  constexpr std::size_t starts = 24,
+                        primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59};
   for (std::size_t k = 1; k < starts; ++k) {
     auto values = first;
     for (std::size_t q = 0; q < m.parameters.size(); ++q) {
@@ -229,8 +229,8 @@ std::vector<std::vector<double>> spread_starts(const Problem& p, std::vector<dou
         part += digit * static_cast<double>(n % base);  // Halton's sequence
       }
       const auto [low, high] = bounds_of(p, parameter);
-      const double v = low > 0 && high > 20 * low ? low * std::pow(high / low, part)
-                                                  : low + part * (high - low);
+      const double v =
+          low > 0 && high > 20 * low ? low * std::pow(high / low, part) : low + part * (high - low);
       for (std::size_t c = 0; c < parameter.count; ++c)
         if (p.free.mask()[parameter.first + c]) values[parameter.first + c] = v;
     }

@@ -68,32 +68,35 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
   for (std::size_t k = 0; k < places; ++k) {
     Values p, q;
     for (const auto& a : own.parameters) p.push_back(values_between(a, places)[k]);
+    bool is_legal = true;
     for (std::size_t j = 0; j < other.parameters.size(); ++j) {
       const auto from = pairing.of[j];
       double v = from ? p[*from] : other.parameters[j].start;
       if (from && from == pairing.width) v = std::pow(v, power);
-      q.push_back(std::clamp(v, other.parameters[j].legal.low, other.parameters[j].legal.high));
+      is_legal = is_legal && other.parameters[j].legal.holds(v);
+      q.push_back(v);
     }
+    if (!is_legal) continue;
     f.push_back(shown_in(Number::double_, term, p, rows));
     g.push_back(shown_in(Number::double_, form, q, rows));
   }
   std::vector<double> ratios;
-  for (std::size_t k = 0; k < places; ++k)
+  for (std::size_t k = 0; k < f.size(); ++k)
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (const double r = f[k][i] / g[k][i]; std::isfinite(r) && r > 0) ratios.push_back(r);
   n.difference = std::numeric_limits<double>::infinity();
-  if (ratios.empty()) return n;
+  if (ratios.empty() || f.size() < 2) return n;
   std::ranges::nth_element(ratios, ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2));
   const bool scales = own.role() == Role::ndf || own.role() == Role::diffuse;
   n.factor = scales ? ratios[ratios.size() / 2] : 1;
   double highest = 0, wanted = 0;
-  for (std::size_t k = 0; k < places; ++k) {
+  for (std::size_t k = 0; k < f.size(); ++k) {
     highest = std::max(highest, *std::ranges::max_element(f[k]));
     wanted = std::max(wanted, n.factor * *std::ranges::max_element(g[k]));
   }
   if (own.role() == Role::ndf && highest < wanted * (1 - same_within)) n.cap = highest;
   n.difference = 0;
-  for (std::size_t k = 0; k < places; ++k) {
+  for (std::size_t k = 0; k < f.size(); ++k) {
     const double peak = own.role() == Role::ndf ? *std::ranges::max_element(g[k]) : 1;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (n.cap && n.factor * g[k][i] >= *n.cap * (1 - same_within) &&

@@ -14,20 +14,24 @@ namespace {
 
 std::string_view what_it_gives(const foreign::Function& f) {
   switch (f.stands) {
-    case foreign::Stands::distribution: return "a distribution D";
-    case foreign::Stands::masking: return f.is_g ? "masking as G; V = G/(4 NoL NoV)" : "masking as V";
-    case foreign::Stands::fresnel: return "a Fresnel term";
-    case foreign::Stands::lobe: break;
+    case foreign::Stands::distribution:
+      return "a distribution D";
+    case foreign::Stands::masking:
+      return f.is_g ? "masking as G; V = G/(4 NoL NoV)" : "masking as V";
+    case foreign::Stands::fresnel:
+      return "a Fresnel term";
+    case foreign::Stands::lobe:
+      break;
   }
   return "a whole model";
 }
 
 std::string includes_text(const foreign::Function& f) {
   if (f.stands != foreign::Stands::lobe) return "";
-  const std::string what = f.includes == "nothing"     ? "no cosine and no factor of π"
-                           : f.includes == "cosine"    ? "the cosine NoL, which is taken out"
-                           : f.includes == "pi"        ? "a factor of π, which is taken out"
-                                                       : "NoL and a factor of π, which are taken out";
+  const std::string what = f.includes == "nothing"  ? "no cosine and no factor of π"
+                           : f.includes == "cosine" ? "the cosine NoL, which is taken out"
+                           : f.includes == "pi"     ? "a factor of π, which is taken out"
+                                                    : "NoL and a factor of π, which are taken out";
   return fmt::format("{}{}", what,
                      f.guessed ? " (guessed from reciprocity and albedo; --includes says it)" : "");
 }
@@ -45,7 +49,8 @@ Json json_of(const FileFunction& of) {
   j["anisotropic"] = f.anisotropic;
   j["operations"] = of.operations.total();
   Json arguments = Json::array(), parameters = Json::array(), notes = Json::array();
-  for (const auto& a : f.arguments) arguments.push_back({{"name", a.name}, {"stands_for", a.stands_for}});
+  for (const auto& a : f.arguments)
+    arguments.push_back({{"name", a.name}, {"stands_for", a.stands_for}});
   for (const auto& p : f.parameters) {
     Json q{{"name", p.name}, {"per_channel", p.per_channel}};
     if (p.bounded) q["low"] = p.range.low, q["high"] = p.range.high, q["default"] = p.start;
@@ -69,7 +74,8 @@ Operations operations_of(const foreign::Program& p) {
   run.set(std::vector<C>(count, C(0.5)));
   return count_operations([&] {
     run.run(
-        1, [](std::size_t, std::size_t) { return C(0.5); }, [](std::size_t, std::size_t, const C&) {});
+        1, [](std::size_t, std::size_t) { return C(0.5); },
+        [](std::size_t, std::size_t, const C&) {});
   });
 }
 
@@ -114,18 +120,21 @@ std::string text_of(const FileFunctions& all) {
       continue;
     }
     const auto& f = *of.function;
-    line("gives", fmt::format("{}, {} operations a sample", what_it_gives(f), of.operations.total()));
+    line("gives",
+         fmt::format("{}, {} operations a sample", what_it_gives(f), of.operations.total()));
     line("includes", includes_text(f));
     std::vector<std::string> directions;
     for (const auto& a : f.arguments)
-      if (a.stands_for != "parameter") directions.push_back(fmt::format("{} = {}", a.name, a.stands_for));
+      if (a.stands_for != "parameter")
+        directions.push_back(fmt::format("{} = {}", a.name, a.stands_for));
     line("arguments", fmt::format("{}", fmt::join(directions, ", ")));
     for (const auto& p : f.parameters)
       line(&p == f.parameters.data() ? "parameters" : "",
-           p.bounded ? fmt::format("{}{} in [{:g}, {:g}], default {:g}", p.name,
-                                   p.per_channel ? " (a colour)" : "", p.range.low, p.range.high, p.start)
-                     : fmt::format("{}{}: no bounds; a comment \"// {} LOW HIGH DEFAULT\" gives them",
-                                   p.name, p.per_channel ? " (a colour)" : "", p.name));
+           p.bounded
+               ? fmt::format("{}{} in [{:g}, {:g}], default {:g}", p.name,
+                             p.per_channel ? " (a colour)" : "", p.range.low, p.range.high, p.start)
+               : fmt::format("{}{}: no bounds; a comment \"// {} LOW HIGH DEFAULT\" gives them",
+                             p.name, p.per_channel ? " (a colour)" : "", p.name));
     if (f.float_constants) line("constants", "in float: HLSL and SPIR-V hold no more digits");
     for (const auto& n : f.notes) line("note", fmt::format("line {}: {}", n.line, n.text));
   }

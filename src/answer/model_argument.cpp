@@ -16,10 +16,10 @@ namespace {
 void expect_values(const BoundModel& b) {
   for (const auto& p : b.model.parameters)
     if (std::isnan(b.values[p.first]))
-      throw wrong_usage(fmt::format(
-          "{} of {} has no value: give it by --set {}=VALUE, or a default by a comment "
-          "\"// {} LOW HIGH DEFAULT\" in the file",
-          p.name, b.model.spec, p.name, p.name));
+      throw wrong_usage(
+          fmt::format("{} of {} has no value: give it by --set {}=VALUE, or a default by a comment "
+                      "\"// {} LOW HIGH DEFAULT\" in the file",
+                      p.name, b.model.spec, p.name, p.name));
 }
 
 ModelArgument named(BoundModel b, std::vector<std::string> names) {

@@ -74,12 +74,12 @@ struct Corpus : Words<real> {
   using typename Words<real>::vec3;
 #define GONIO_WORD(w) using Words<real>::w;
   GONIO_WORD(min)
-  GONIO_WORD(max) GONIO_WORD(clamp) GONIO_WORD(mix) GONIO_WORD(step) GONIO_WORD(smoothstep)
-      GONIO_WORD(sign) GONIO_WORD(abs) GONIO_WORD(fract) GONIO_WORD(mod) GONIO_WORD(inversesqrt)
-          GONIO_WORD(dot) GONIO_WORD(length) GONIO_WORD(normalize) GONIO_WORD(cross)
-              GONIO_WORD(reflect) GONIO_WORD(atan) GONIO_WORD(sqrt) GONIO_WORD(floor)
-                  GONIO_WORD(exp) GONIO_WORD(log) GONIO_WORD(sin) GONIO_WORD(cos) GONIO_WORD(asin)
-                      GONIO_WORD(acos)
+  GONIO_WORD(max)
+  GONIO_WORD(clamp) GONIO_WORD(mix) GONIO_WORD(step) GONIO_WORD(smoothstep) GONIO_WORD(sign)
+      GONIO_WORD(abs) GONIO_WORD(fract) GONIO_WORD(mod) GONIO_WORD(inversesqrt) GONIO_WORD(dot)
+          GONIO_WORD(length) GONIO_WORD(normalize) GONIO_WORD(cross) GONIO_WORD(reflect)
+              GONIO_WORD(atan) GONIO_WORD(sqrt) GONIO_WORD(floor) GONIO_WORD(exp) GONIO_WORD(log)
+                  GONIO_WORD(sin) GONIO_WORD(cos) GONIO_WORD(asin) GONIO_WORD(acos)
 #undef GONIO_WORD
 #define float real
 #define zxy zxy_()
@@ -93,10 +93,11 @@ const std::string& corpus_file() {
   return path;
 }
 
-#define GONIO_CORPUS(X)                                                                            \
-  X(sums)                                                                                          \
-  X(a_constant) X(a_branch) X(both_sides) X(a_choice) X(logic) X(a_loop) X(a_way_out) X(left_over) \
-      X(a_float_counter) X(a_table) X(roots) X(steps) X(bounds) X(remainders) X(curves)            \
+#define GONIO_CORPUS(X)                                                                 \
+  X(sums)                                                                               \
+  X(a_constant)                                                                         \
+  X(a_branch) X(both_sides) X(a_choice) X(logic) X(a_loop) X(a_way_out) X(left_over)    \
+      X(a_float_counter) X(a_table) X(roots) X(steps) X(bounds) X(remainders) X(curves) \
           X(angles_of) X(calls) X(by_reference)
 
 template <class F>

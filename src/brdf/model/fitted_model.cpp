@@ -95,9 +95,9 @@ BoundModel bind_fitted(const std::string& path,
   expect_own_files_below(path, fitted.model);
   std::vector<Setting> settings;
   for (const auto& [name, values] : fitted.parameters) {
-    const auto alpha = std::ranges::find(fitted.parameters, alpha_name(name),
-                                         [](const auto& p) { return p.first; });
-    if (is_roughness(name) && alpha != fitted.parameters.end()) continue;  // alpha says the same
+    const auto is_of = [n = name](const auto& p) { return p.first == alpha_name(n); };
+    if (is_roughness(name) && std::ranges::any_of(fitted.parameters, is_of))
+      continue;  // alpha says the same
     for (const double v : values)
       if (std::isnan(v))
         throw bad_input(path, "parameters." + name, "null (not identifiable)",

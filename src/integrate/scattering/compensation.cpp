@@ -28,7 +28,8 @@ void fresnel_values(const BoundModel& model,
   const auto columns = block.resize(cosines.size());
   for (auto* column : columns) std::ranges::copy(cosines, column);
   double* const values = block.extra(0);
-  term_values(term_of_channel(fresnel.term, channel), term_parameters(model, fresnel, channel), block.block(), values);
+  term_values(term_of_channel(fresnel.term, channel), term_parameters(model, fresnel, channel),
+              block.block(), values);
   std::copy_n(values, cosines.size(), out);
 }
 
