@@ -72,15 +72,31 @@ struct Words {
 template <class real>
 struct Corpus : Words<real> {
   using typename Words<real>::vec3;
-#define GONIO_WORD(w) using Words<real>::w;
-  GONIO_WORD(min)
-  GONIO_WORD(max)
-  GONIO_WORD(clamp) GONIO_WORD(mix) GONIO_WORD(step) GONIO_WORD(smoothstep) GONIO_WORD(sign)
-      GONIO_WORD(abs) GONIO_WORD(fract) GONIO_WORD(mod) GONIO_WORD(inversesqrt) GONIO_WORD(dot)
-          GONIO_WORD(length) GONIO_WORD(normalize) GONIO_WORD(cross) GONIO_WORD(reflect)
-              GONIO_WORD(atan) GONIO_WORD(sqrt) GONIO_WORD(floor) GONIO_WORD(exp) GONIO_WORD(log)
-                  GONIO_WORD(sin) GONIO_WORD(cos) GONIO_WORD(asin) GONIO_WORD(acos)
-#undef GONIO_WORD
+  using Words<real>::min;
+  using Words<real>::max;
+  using Words<real>::clamp;
+  using Words<real>::mix;
+  using Words<real>::step;
+  using Words<real>::smoothstep;
+  using Words<real>::sign;
+  using Words<real>::abs;
+  using Words<real>::fract;
+  using Words<real>::mod;
+  using Words<real>::inversesqrt;
+  using Words<real>::dot;
+  using Words<real>::length;
+  using Words<real>::normalize;
+  using Words<real>::cross;
+  using Words<real>::reflect;
+  using Words<real>::atan;
+  using Words<real>::sqrt;
+  using Words<real>::floor;
+  using Words<real>::exp;
+  using Words<real>::log;
+  using Words<real>::sin;
+  using Words<real>::cos;
+  using Words<real>::asin;
+  using Words<real>::acos;
 #define float real
 #define zxy zxy_()
 #include "foreign/corpus.glsl"
@@ -92,13 +108,6 @@ const std::string& corpus_file() {
   static const std::string path = test::project_folder() + "/tests/foreign/corpus.glsl";
   return path;
 }
-
-#define GONIO_CORPUS(X)                                                                 \
-  X(sums)                                                                               \
-  X(a_constant)                                                                         \
-  X(a_branch) X(both_sides) X(a_choice) X(logic) X(a_loop) X(a_way_out) X(left_over)    \
-      X(a_float_counter) X(a_table) X(roots) X(steps) X(bounds) X(remainders) X(curves) \
-          X(angles_of) X(calls) X(by_reference)
 
 template <class F>
 std::vector<std::vector<F>> run_function(const std::string& name,
@@ -135,9 +144,25 @@ void expect_bits_of_compiler() {
   }
   Corpus<F> c;
   const std::map<std::string, F (Corpus<F>::*)(F, F)> compiled{
-#define GONIO_ENTRY(f) {#f, &Corpus<F>::f},
-      GONIO_CORPUS(GONIO_ENTRY)
-#undef GONIO_ENTRY
+      {"sums", &Corpus<F>::sums},
+      {"a_constant", &Corpus<F>::a_constant},
+      {"a_branch", &Corpus<F>::a_branch},
+      {"both_sides", &Corpus<F>::both_sides},
+      {"a_choice", &Corpus<F>::a_choice},
+      {"logic", &Corpus<F>::logic},
+      {"a_loop", &Corpus<F>::a_loop},
+      {"a_way_out", &Corpus<F>::a_way_out},
+      {"left_over", &Corpus<F>::left_over},
+      {"a_float_counter", &Corpus<F>::a_float_counter},
+      {"a_table", &Corpus<F>::a_table},
+      {"roots", &Corpus<F>::roots},
+      {"steps", &Corpus<F>::steps},
+      {"bounds", &Corpus<F>::bounds},
+      {"remainders", &Corpus<F>::remainders},
+      {"curves", &Corpus<F>::curves},
+      {"angles_of", &Corpus<F>::angles_of},
+      {"calls", &Corpus<F>::calls},
+      {"by_reference", &Corpus<F>::by_reference},
   };
   for (const auto& [name, f] : compiled) {
     const auto rows = run_function<F>(name, p, angles);
