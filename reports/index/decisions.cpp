@@ -364,7 +364,7 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
 /// Diffuse terms by how they look at equal albedo: matte surfaces beside EON, and what lies below a lobe beside EON coupled by albedos.
 void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   constexpr std::string_view cheap_id = "diffuse.lambert";
-  Candidates all, bright;  // bright: that make more light than the others
+  Candidates all, brighter;  // brighter: that make more light than the others
   const auto form_of = [&](std::string_view id) {
     return std::ranges::find(f.diffuse, id, &Facts::Diffuse::id);
   };
@@ -380,7 +380,7 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
     const bool is_reference = !below_lobe && d.id == "diffuse.eon";
     const auto& off = below_lobe ? d.below_lobe : d.matte;
     if (t && (off || is_reference))
-      (most_light(d) <= std::max(no_light_made, least) ? all : bright)
+      (most_light(d) <= std::max(no_light_made, least) ? all : brighter)
           .push_back(candidate(d.id, is_reference ? 0 : *off, *t));
   }
   const auto* taken = choose(all, cheap_id, side_by_side);
@@ -400,8 +400,8 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
     d.error += below_lobe ? fmt::format("; gives back {} at most (Lambert: {})",
                                         made(*form_of(taken->form)), made(*lambert))
                           : fmt::format(" (Lambert: ΔE {})", short_number(*own));
-  const auto nearer = std::ranges::min_element(bright, {}, &Candidate::error);
-  if (below_lobe && nearer != bright.end() && nearer->error < taken->error)
+  const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
+  if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
     d.unless = fmt::format("more light may be made: {}, ΔE ≤ {}", in_text(nearer->form),
                            short_number(nearer->error));
   else if (!below_lobe && taken->form != cheap_id)

@@ -300,7 +300,8 @@ TermComparison compare_terms(const std::string& a,
     if (own.role() != other.role())
       throw wrong_usage(fmt::format("{} is of {}, {} of {}: terms of one role are compared", a,
                                     name_of(own.role()), b, name_of(other.role())));
-    TermComparison c{a, b, {}};
+    TermComparison c;
+    c.a = a, c.b = b;
     if (tries.size() > 1) c.read_as = name.find("includes=v") != name.npos ? "V" : "G";
     // The parameters of both by name; a width by another name, or as roughness, is the other's.
     const auto domain_of = [&](const Parameter& p) {

@@ -62,7 +62,10 @@ Pairing pair_up(const TermEntry& own, const TermEntry& form) {
 NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing, double power) {
   const auto &own = catalogue()[term], &other = catalogue()[form];
   const auto& rows = rows_of(own.role());
-  NearestForm n{form, pairing.width ? std::string(own.parameters[*pairing.width].name) : "", power};
+  NearestForm n;
+  n.term = form;
+  if (pairing.width) n.width = own.parameters[*pairing.width].name;
+  n.power = power;
   std::vector<Values> f, g;
   constexpr std::size_t places = 5;
   for (std::size_t k = 0; k < places; ++k) {

@@ -20,10 +20,10 @@ struct WidthMap {
 };
 
 struct NearestForm {
-  std::size_t term;   ///< of the catalogue
-  std::string width;  ///< the file's parameter that stands for alpha; empty: none
-  double power = 1;   ///< alpha = width^power
-  double factor = 1;  ///< the file's value over the form's
+  std::size_t term = 0;  ///< of the catalogue
+  std::string width;     ///< the file's parameter that stands for alpha; empty: none
+  double power = 1;      ///< alpha = width^power
+  double factor = 1;     ///< the file's value over the form's
   double difference =
       0;  ///< largest, of a distribution over its peak; where it is capped, elsewhere
   std::optional<double> cap;  ///< the file's largest value, where it is less than the form's

@@ -48,7 +48,13 @@ TEST(Fit, LinesAreWrappedBelowTheirTextOnATerminalAndWholeInAPipe) {
 
 TEST(Fit, SaysInTwoLinesWhatToTryNext) {
   const Folder f;
-  make_misfit(f);
+  // Several models mend this about as well.
+  ASSERT_EQ(
+      gonio(
+          f,
+          "synth disney --set roughness=0.5 base_color=0.5 --layout in_plane --noise 0.03 -o t.csv")
+          .code,
+      0);
   const auto next = gonio(f, "fit t.csv --json").json()["next"];
   ASSERT_GT(next.size(), 2U);
   const auto said = gonio(f, "fit t.csv").out;

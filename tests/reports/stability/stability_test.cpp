@@ -232,7 +232,9 @@ TEST(StabilityReport, OfOrdersHasARowForEachFormThatTheNumberHolds) {
   for (const auto& r : rows) {
     seen.push_back(r.id + " " + r.form + " " + r.number);
     EXPECT_GE(r.inputs, 128U);
-    if (r.id == "fresnel.constant") EXPECT_EQ(r.written, r.regrouped);
+    if (r.id == "fresnel.constant") {
+      EXPECT_EQ(r.written, r.regrouped);
+    }
     if (r.id == "ndf.ggx" && r.form == "cross") {
       EXPECT_GT(r.regrouped, 0);
       EXPECT_FALSE(r.needs_precise()) << r.number << " " << r.regrouped;

@@ -30,6 +30,12 @@ std::string zemax_complaint(const std::string& what, const std::string& by) {
   return complaint_about(zemax_replaced(file.bytes(), what, by));
 }
 
+ConvertOptions to_zemax() {
+  ConvertOptions o;
+  o.format = "zemax";
+  return o;
+}
+
 /// Without symmetry but for the plane of incidence's.
 double zemax_tilted(const DirectionPair& p, std::size_t c) {
   return 1 + 0.3 * p.wi.x + 0.4 * p.wo.x - 0.2 * p.wo.z + 0.1 * p.wo.y * p.wo.y +
@@ -132,7 +138,7 @@ TEST(ZemaxFile, IsWrittenFromAGridAndReadBack) {
   const Folder folder;
   const Table grid = on_grid(mbsdf_grid(45, 90, Bins::centre), "mbsdf", {"f"},
                              [](const auto& a, std::size_t) { return lobe(a, 0.5, 0.3); });
-  const auto made = convert(grid, {.format = "zemax", .channels = {}});
+  const auto made = convert(grid, to_zemax());
   EXPECT_EQ(made.loss.without_data, 0U);
   EXPECT_GT(made.loss.compared, 100'000U);
   EXPECT_LT(made.loss.rms, 0.05);
@@ -149,7 +155,7 @@ TEST(ZemaxFile, KeepsWhatIsWithoutDataWithout) {
   Table grid = on_grid(mbsdf_grid(20, 31, Bins::centre), "mbsdf", {"f"},
                        [](const auto& a, std::size_t) { return lobe(a, 0.5, 0.3); });
   for (std::size_t i = 0; i < grid.size() / 2; ++i) grid.values[0][i] = std::nan("");
-  const auto made = convert(grid, {.format = "zemax", .channels = {}});
+  const auto made = convert(grid, to_zemax());
   EXPECT_GT(made.loss.without_data, 100U);
   write_table(made.table, folder / "g.bsdf");
   const Table back = read_table(folder / "g.bsdf");

@@ -112,7 +112,8 @@ TEST(ValueWarnings, SayWhichCosineIsLeftInWhereNoSampleHasAPartner) {
   // At one incident angle only the other cosine can be told.
   const auto of_one = [](double cosine) {
     return said_of(painted(180, 0.3, 0.3, 4), [cosine](const auto& a, double f) {
-      return std::abs(a.nol - std::cos(44 * degree)) < 1e-9 ? f * std::pow(a.nov, cosine) : NAN;
+      return std::abs(a.nol - std::cos(44 * degree)) < 1e-9 ? f * std::pow(a.nov, cosine)
+                                                            : std::nan("");
     });
   };
   EXPECT_TRUE(of_one(0).empty());
