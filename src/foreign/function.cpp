@@ -344,11 +344,12 @@ class Builder {
             own = own && (k == c || !reads(one[c], false, r.first + k));
     for (const auto& r : raw_)
       for (std::size_t k = 0; k < r.size; ++k) {
-        const bool is_read = std::ranges::any_of(
-            one, [&](const Program& p) { return reads(p, false, r.first + k); });
+        const std::size_t at = r.first + k;
+        const bool is_read =
+            std::ranges::any_of(one, [&](const Program& p) { return reads(p, false, at); });
         const bool colour = own && r.size == 3;
         if (colour && k > 0) {
-          place_[r.first + k] = place_[r.first];
+          place_[at] = place_[r.first];
           continue;
         }
         const bool any = colour ? std::ranges::any_of(one,
@@ -359,7 +360,7 @@ class Builder {
                                                       })
                                 : is_read;
         if (!any) continue;
-        place_[r.first + k] = f_.parameters.size();
+        place_[at] = f_.parameters.size();
         add_parameter(r, k, colour);
       }
     if (f_.parameters.size() > most_read)
@@ -374,7 +375,10 @@ class Builder {
   void add_parameter(const Raw& r, std::size_t k, bool colour) {
     const Declared* const d = c_.source.find(r.name);
     FunctionParameter p{r.name};
-    if (r.size > 1 && !colour) p.name += fmt::format("_{}", (r.size == 3 ? "rgb" : "xyzw")[k % 4]);
+    if (r.size > 1 && !colour) {
+      p.name += '_';
+      p.name += std::string_view(r.size == 3 ? "rgb" : "xyzw").substr(k, 1);
+    }
     p.per_channel = colour;
     const auto given = f_.name.reading.values.find(r.name);
     const bool is_given = given != f_.name.reading.values.end();
